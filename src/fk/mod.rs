@@ -1,0 +1,77 @@
+//! Forward kinematics: all finite complex poses for given leg lengths.
+//!
+//! Nothing in here knows leg maps: `fk` and `synthesis` never import each other, so that agreement of
+//! the root sets of two platforms is evidence for the map between them.
+
+mod solutions;
+
+pub use solutions::{
+    Completeness, FkRoot, FkSolutions, Method, PathEnd, PathReport, Reality, Rejected, RejectionReason,
+};
+
+use crate::manipulator::{Manipulator, SquaredLegLengths};
+use thiserror::Error;
+
+/// Options every method takes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FkOptions {
+    /// Seed of the generic constants (gamma, patches). Same seed, same output.
+    pub seed: u64,
+    /// Limits relative to the design that decide what counts as one root, a real root, a root at all.
+    pub tolerances: FkTolerances,
+}
+
+/// Dimensionless limits; positions are divided by the size of the design before they are compared.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FkTolerances {
+    /// Largest accepted residual of a root (leg equations over size squared, `R^T R = I`).
+    pub residual: f64,
+    /// Two poses closer than this are one root.
+    pub distinct: f64,
+    /// A pose with imaginary parts below this is real, above ten thousand times this non-real, between undecided.
+    pub reality: f64,
+}
+
+impl Default for FkTolerances {
+    fn default() -> Self {
+        Self { residual: 1e-9, distinct: 1e-7, reality: 1e-10 }
+    }
+}
+
+impl Default for FkOptions {
+    fn default() -> Self {
+        Self { seed: 1, tolerances: FkTolerances::default() }
+    }
+}
+
+/// A question a method could not take or an answer it could not compute.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum FkError {
+    /// The method does not apply to this manipulator.
+    #[error("the {method} method does not apply: {reason}")]
+    NotApplicable {
+        /// The method asked for.
+        method: Method,
+        /// Why it does not apply.
+        reason: String,
+    },
+    /// The numbers left the range in which the computation makes sense.
+    #[error("the computation broke down: {what}")]
+    Breakdown {
+        /// What went wrong.
+        what: String,
+    },
+}
+
+/// A forward-kinematics method.
+pub trait ForwardKinematics: Send + Sync {
+    /// Which method this is.
+    fn method(&self) -> Method;
+
+    /// All finite complex poses of `m` with the squared leg lengths `s`.
+    ///
+    /// # Errors
+    /// [`FkError`] when the method does not apply or breaks down; "no pose" is a value, not an error.
+    fn solve(&self, m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError>;
+}

@@ -1,0 +1,183 @@
+//! Records of forward-kinematics results, with their evidence.
+
+use crate::geom::ComplexPose;
+
+/// A forward-kinematics method.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Method {
+    /// Octic in one unknown squared distance; octahedral platforms only (Rojas, Borras, Thomas).
+    Octic,
+    /// Parameter homotopy in dual quaternions; any six legs.
+    Homotopy,
+}
+
+impl Method {
+    /// The name on the command line and in JSON.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Octic => "octic",
+            Self::Homotopy => "homotopy",
+        }
+    }
+}
+
+impl std::fmt::Display for Method {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// Whether a root is a real pose (an assembly mode).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reality {
+    /// Imaginary parts vanish to rounding.
+    Real,
+    /// Imaginary parts are far above rounding.
+    NonReal,
+    /// Between: not decided.
+    Undecided,
+}
+
+/// Whether the set of roots is known to be all of them.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Completeness {
+    /// The number of distinct certified roots equals a proved upper bound.
+    Proved {
+        /// The bound and where its proof stands.
+        argument: String,
+    },
+    /// No proof; the text says what is known and what gives rise to doubt.
+    Unproved {
+        /// What is known.
+        reason: String,
+        /// `true` when nothing speaks against completeness: every path ended where theory lets it end.
+        /// `false` when something failed, so that roots may be missing.
+        all_paths_accounted: bool,
+    },
+}
+
+/// One root with its evidence.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FkRoot {
+    /// The pose.
+    pub pose: ComplexPose,
+    /// Whether it is real.
+    pub reality: Reality,
+    /// Whether an interval certificate of existence and uniqueness is attached.
+    pub certified: bool,
+    /// Number of start paths (or polynomial roots) that end here.
+    pub multiplicity: u32,
+    /// Largest error of the leg equations over size squared and of `R^T R = I`.
+    pub residual: f64,
+    /// Estimate of the condition number of the root (dimensionless, Newton matrix of the method).
+    pub condition: f64,
+}
+
+/// Where a homotopy path ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum PathEnd {
+    /// A finite pose.
+    Finite,
+    /// `e -> 0`: the position grows without bound.
+    AtInfinity,
+    /// `e.e -> 0` with `e != 0`: no rotation.
+    IsotropicRotation,
+    /// Not tracked to an end; roots may be missing.
+    Failed,
+}
+
+impl PathEnd {
+    /// The name used in JSON.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Finite => "finite",
+            Self::AtInfinity => "at_infinity",
+            Self::IsotropicRotation => "isotropic",
+            Self::Failed => "failed",
+        }
+    }
+}
+
+/// What one homotopy path did.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PathReport {
+    /// Index of the start solution.
+    pub start: usize,
+    /// Where it ended.
+    pub end: PathEnd,
+    /// Index into [`FkSolutions::roots`] when the end is finite.
+    pub root: Option<usize>,
+    /// Accepted steps.
+    pub steps: u32,
+    /// Rejected steps.
+    pub rejections: u32,
+    /// Winding number found by the endgame, 1 for a regular end, 0 when not determined.
+    pub winding: u32,
+    /// `|e.e| / |e|^2` at the end.
+    pub isotropy: f64,
+    /// How often the path had to be tracked again with tighter steps.
+    pub retracked: u32,
+}
+
+/// Why a candidate is no root.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum RejectionReason {
+    /// It does not satisfy all leg equations.
+    ResidualTooLarge,
+    /// It is a root found already.
+    Duplicate,
+    /// The position is at infinity or the rotation does not exist.
+    NotFinite,
+}
+
+/// A candidate that was not accepted, with the reason.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rejected {
+    /// Why.
+    pub reason: RejectionReason,
+    /// The candidate's residual.
+    pub residual: f64,
+}
+
+/// All roots of one problem.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FkSolutions {
+    /// The method that found them.
+    pub method: Method,
+    /// Distinct finite roots, real ones first, in a reproducible order.
+    pub roots: Vec<FkRoot>,
+    /// Whether these are all.
+    pub completeness: Completeness,
+    /// What each homotopy path did; empty for other methods.
+    pub paths: Vec<PathReport>,
+    /// Candidates that are no roots.
+    pub rejected: Vec<Rejected>,
+    /// Seed of the generic constants.
+    pub seed: u64,
+}
+
+impl FkSolutions {
+    /// Roots that are real.
+    pub fn assembly_modes(&self) -> impl Iterator<Item = &FkRoot> {
+        self.roots.iter().filter(|r| r.reality == Reality::Real)
+    }
+
+    /// Finite roots counted with multiplicity.
+    #[must_use]
+    pub fn count_with_multiplicity(&self) -> u32 {
+        self.roots.iter().map(|r| r.multiplicity).sum()
+    }
+
+    /// `false` when something failed and roots may be missing.
+    #[must_use]
+    pub fn all_accounted(&self) -> bool {
+        match &self.completeness {
+            Completeness::Proved { .. } => true,
+            Completeness::Unproved { all_paths_accounted, .. } => *all_paths_accounted,
+        }
+    }
+}

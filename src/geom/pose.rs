@@ -1,0 +1,103 @@
+//! Real and complex poses `(R, p)`: `x_base = R x_platform + p`.
+
+use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
+use num_complex::Complex64;
+
+use crate::manipulator::{Leg, LegLengths, Manipulator, SquaredLegLengths};
+
+/// A real pose of the platform in the base frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pose {
+    /// Rotation `R`, platform frame to base frame.
+    pub rotation: Rotation3<f64>,
+    /// Position `p` of the platform origin, base frame, design units.
+    pub position: Vector3<f64>,
+}
+
+impl Pose {
+    /// The base-frame position of a point given in the platform frame.
+    #[must_use]
+    pub fn transform(&self, point: &Point3<f64>) -> Point3<f64> {
+        self.rotation * point + self.position
+    }
+
+    /// `s = |R b + p - a|^2` of one leg.
+    #[must_use]
+    pub fn squared_length(&self, leg: &Leg) -> f64 {
+        (self.transform(&leg.platform) - leg.base).norm_squared()
+    }
+
+    /// Inverse kinematics: the six squared leg lengths of `m` at this pose, `None` where they overflow.
+    #[must_use]
+    pub fn squared_lengths(&self, m: &Manipulator) -> Option<SquaredLegLengths> {
+        SquaredLegLengths::try_new(m.legs().map(|leg| self.squared_length(&leg))).ok()
+    }
+
+    /// Inverse kinematics: the six leg lengths of `m` at this pose, `None` where they overflow.
+    #[must_use]
+    pub fn lengths(&self, m: &Manipulator) -> Option<LegLengths> {
+        self.squared_lengths(m).map(|s| s.lengths())
+    }
+}
+
+/// A complex pose: `R^T R = I`, `det R = 1` over the complex numbers, `p` in `C^3`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ComplexPose {
+    /// Complex rotation matrix.
+    pub rotation: Matrix3<Complex64>,
+    /// Complex position, design units.
+    pub position: Vector3<Complex64>,
+}
+
+impl ComplexPose {
+    /// Left side of the leg equation, `(R b + p - a)^T (R b + p - a)` (no conjugation).
+    #[must_use]
+    pub fn squared_length(&self, leg: &Leg) -> Complex64 {
+        let lift = |v: &Vector3<f64>| v.map(|x| Complex64::new(x, 0.0));
+        let d = self.rotation * lift(&leg.platform.coords) + self.position - lift(&leg.base.coords);
+        d.dot(&d)
+    }
+
+    /// The largest error of the leg equations and of `R^T R = I`, the former relative to the squared
+    /// size of the design.
+    #[must_use]
+    pub fn residual(&self, m: &Manipulator, s: &SquaredLegLengths) -> f64 {
+        let scale = m.size() * m.size();
+        let legs = m.legs();
+        let leg_error =
+            legs.iter().zip(s.get()).map(|(leg, s)| (self.squared_length(leg) - s).norm() / scale);
+        let gram = self.rotation.transpose() * self.rotation - Matrix3::identity();
+        leg_error.chain(gram.iter().map(|z| z.norm())).fold(0.0, f64::max)
+    }
+
+    /// Largest modulus of an imaginary part: of `R` as it is, of `p` relative to `size`.
+    #[must_use]
+    pub fn imaginary_size(&self, size: f64) -> f64 {
+        let r = self.rotation.iter().map(|z| z.im.abs());
+        r.chain(self.position.iter().map(|z| z.im.abs() / size)).fold(0.0, f64::max)
+    }
+
+    /// The real part as a real pose (rotation re-orthonormalised).
+    #[must_use]
+    pub fn real_part(&self) -> Pose {
+        let r = self.rotation.map(|z| z.re);
+        Pose { rotation: Rotation3::from_matrix(&r), position: self.position.map(|z| z.re) }
+    }
+
+    /// Distance of two poses: the largest entry difference, positions divided by `size`.
+    #[must_use]
+    pub fn distance(&self, other: &Self, size: f64) -> f64 {
+        let r = (self.rotation - other.rotation).iter().map(|z| z.norm()).fold(0.0, f64::max);
+        let p = (self.position - other.position).iter().map(|z| z.norm()).fold(0.0, f64::max);
+        r.max(p / size)
+    }
+}
+
+impl From<Pose> for ComplexPose {
+    fn from(pose: Pose) -> Self {
+        Self {
+            rotation: pose.rotation.matrix().map(|x| Complex64::new(x, 0.0)),
+            position: pose.position.map(|x| Complex64::new(x, 0.0)),
+        }
+    }
+}

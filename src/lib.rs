@@ -1,0 +1,14 @@
+//! Design synthesis and kinematic equivalence of Gough-Stewart platforms.
+//!
+//! Leg `i` joins the base joint `a_i` to the platform joint `b_i`; at the pose `(R, p)` its squared length is
+//!
+//! ```text
+//! s_i = |R b_i + p - a_i|^2.
+//! ```
+//!
+//! Two platforms are *kinematically equivalent* when `s' = A s + c` with `det A != 0` holds at every pose.
+
+pub mod fk;
+pub mod geom;
+pub mod manipulator;
+pub mod num;

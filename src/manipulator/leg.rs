@@ -1,0 +1,285 @@
+//! Joints, legs and the six-legged manipulator.
+
+use nalgebra::{Point3, Vector3};
+use thiserror::Error;
+
+/// A leg number, 0-based in code and printed 1-based ("leg 3") as the papers count.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct LegIndex(u8);
+
+impl LegIndex {
+    /// The leg with the 0-based index `i`, or `None` unless `i < 6`.
+    #[must_use]
+    pub fn new(i: usize) -> Option<Self> {
+        (i < 6).then_some(Self(i as u8))
+    }
+
+    /// 0-based index.
+    #[must_use]
+    pub fn get(self) -> usize {
+        usize::from(self.0)
+    }
+
+    /// All six legs in order.
+    pub fn all() -> impl Iterator<Item = Self> {
+        (0..6).map(Self)
+    }
+}
+
+impl std::fmt::Display for LegIndex {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "leg {}", self.0 + 1)
+    }
+}
+
+/// Index of a base joint of a [`Manipulator`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct BaseJoint(pub usize);
+
+/// Index of a platform joint of a [`Manipulator`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct PlatformJoint(pub usize);
+
+/// The two ends of a leg: `a` in the base frame and `b` in the platform frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Leg {
+    /// Joint centre on the base, base frame.
+    pub base: Point3<f64>,
+    /// Joint centre on the platform, platform frame.
+    pub platform: Point3<f64>,
+}
+
+/// Six legs between the joints of a base and the joints of a platform.
+///
+/// Joints are kept apart from legs so that a *shared* joint (one ball joint that carries two or more
+/// legs) is told from two joints that happen to lie at the same place.
+///
+/// ```
+/// use equipod::manipulator::{Leg, Manipulator};
+/// use nalgebra::Point3;
+/// let legs = std::array::from_fn(|i| {
+///     let (s, c) = (f64::from(i as u8)).sin_cos();
+///     Leg { base: Point3::new(2.0 * c, 2.0 * s, 0.0), platform: Point3::new(c, -s, 0.1) }
+/// });
+/// let hexapod = Manipulator::from_legs(legs)?;
+/// assert_eq!(hexapod.base_joints().len(), 6);
+/// # Ok::<(), equipod::manipulator::InvalidManipulator>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Manipulator {
+    base: Vec<Point3<f64>>,
+    platform: Vec<Point3<f64>>,
+    legs: [(usize, usize); 6],
+    size: f64,
+}
+
+/// Why joints and legs do not make a manipulator.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum InvalidManipulator {
+    /// A coordinate is NaN or infinite.
+    #[error("{body} joint {index} has a coordinate that is not a finite number")]
+    NonFinite {
+        /// `"base"` or `"platform"`.
+        body: &'static str,
+        /// 0-based index of the joint.
+        index: usize,
+    },
+    /// A leg names a joint that does not exist.
+    #[error("{leg} names {body} joint {index}, but there are only {count}")]
+    MissingJoint {
+        /// The leg.
+        leg: LegIndex,
+        /// `"base"` or `"platform"`.
+        body: &'static str,
+        /// The index asked for.
+        index: usize,
+        /// How many joints the body has.
+        count: usize,
+    },
+    /// Two legs join the same pair of joints.
+    #[error("{first} and {second} join the same two joints")]
+    IdenticalLegs {
+        /// The earlier leg.
+        first: LegIndex,
+        /// The later leg.
+        second: LegIndex,
+    },
+    /// All joints of both bodies lie in one point each, so that the design has no size.
+    #[error("all joints of each body coincide: the design has no size")]
+    NoSize,
+}
+
+impl Manipulator {
+    /// Builds a manipulator from joints and six pairs (base joint, platform joint) in leg order.
+    ///
+    /// # Errors
+    /// The first violation found; see [`InvalidManipulator`].
+    pub fn try_new(
+        base: Vec<Point3<f64>>,
+        platform: Vec<Point3<f64>>,
+        legs: [(usize, usize); 6],
+    ) -> Result<Self, InvalidManipulator> {
+        for (body, joints) in [("base", &base), ("platform", &platform)] {
+            let bad = joints.iter().position(|p| p.iter().any(|x| !x.is_finite()));
+            if let Some(index) = bad {
+                return Err(InvalidManipulator::NonFinite { body, index });
+            }
+        }
+        for (leg, &(a, b)) in LegIndex::all().zip(&legs) {
+            let ends = [("base", a, base.len()), ("platform", b, platform.len())];
+            for (body, index, count) in ends {
+                if index >= count {
+                    return Err(InvalidManipulator::MissingJoint { leg, body, index, count });
+                }
+            }
+        }
+        for (first, j) in LegIndex::all().flat_map(|i| (0..i.get()).map(move |j| (i, j))) {
+            if let (Some(earlier), true) = (LegIndex::new(j), legs[first.get()] == legs[j]) {
+                return Err(InvalidManipulator::IdenticalLegs { first: earlier, second: first });
+            }
+        }
+        let a: Vec<_> = legs.iter().map(|l| base[l.0]).collect();
+        let b: Vec<_> = legs.iter().map(|l| platform[l.1]).collect();
+        let size = spread(&a).max(spread(&b));
+        if size == 0.0 {
+            return Err(InvalidManipulator::NoSize);
+        }
+        Ok(Self { base, platform, legs, size })
+    }
+
+    /// Builds a manipulator from six legs; joints with exactly equal coordinates become one shared joint.
+    ///
+    /// # Errors
+    /// As [`Manipulator::try_new`].
+    pub fn from_legs(legs: [Leg; 6]) -> Result<Self, InvalidManipulator> {
+        let mut base: Vec<Point3<f64>> = Vec::new();
+        let mut platform: Vec<Point3<f64>> = Vec::new();
+        let index_of = |list: &mut Vec<Point3<f64>>, p: Point3<f64>| {
+            list.iter().position(|q| *q == p).unwrap_or_else(|| {
+                list.push(p);
+                list.len() - 1
+            })
+        };
+        let pairs = legs.map(|l| (index_of(&mut base, l.base), index_of(&mut platform, l.platform)));
+        Self::try_new(base, platform, pairs)
+    }
+
+    /// The six legs with their coordinates.
+    #[must_use]
+    pub fn legs(&self) -> [Leg; 6] {
+        self.legs.map(|(a, b)| Leg { base: self.base[a], platform: self.platform[b] })
+    }
+
+    /// The joints of leg `i`.
+    #[must_use]
+    pub fn joints_of(&self, i: LegIndex) -> (BaseJoint, PlatformJoint) {
+        let (a, b) = self.legs[i.get()];
+        (BaseJoint(a), PlatformJoint(b))
+    }
+
+    /// Base and platform joint index of every leg, in leg order.
+    #[must_use]
+    pub fn pairs(&self) -> [(usize, usize); 6] {
+        self.legs
+    }
+
+    /// Base joints, base frame.
+    #[must_use]
+    pub fn base_joints(&self) -> &[Point3<f64>] {
+        &self.base
+    }
+
+    /// Platform joints, platform frame.
+    #[must_use]
+    pub fn platform_joints(&self) -> &[Point3<f64>] {
+        &self.platform
+    }
+
+    /// The length every tolerance is relative to: the larger of the two bodies' greatest distance of a
+    /// leg end from the centroid of the leg ends of its body. Always positive, in design units.
+    #[must_use]
+    pub fn size(&self) -> f64 {
+        self.size
+    }
+
+    /// RMS distance of the platform leg ends from their centroid, design units: the default
+    /// characteristic length of [`jacobian`](super::jacobian). Falls back to [`size`](Self::size) when
+    /// all platform joints coincide.
+    #[must_use]
+    pub fn platform_rms_radius(&self) -> f64 {
+        let b: Vec<_> = self.legs.iter().map(|l| self.platform[l.1]).collect();
+        let c = centroid(&b);
+        let r = (b.iter().map(|p| (p.coords - c).norm_squared()).sum::<f64>() / 6.0).sqrt();
+        if r > 0.0 { r } else { self.size }
+    }
+
+    /// The same manipulator with the legs in another order: new leg `i` is old leg `order[i]`.
+    ///
+    /// # Errors
+    /// `order` must be a permutation of `0..6`; otherwise the duplicate shows as `IdenticalLegs` or
+    /// the excess index as `MissingJoint`.
+    pub fn reordered(&self, order: [usize; 6]) -> Result<Self, InvalidManipulator> {
+        if let Some(leg) = LegIndex::all().find(|i| order[i.get()] >= 6) {
+            let index = order[leg.get()];
+            return Err(InvalidManipulator::MissingJoint { leg, body: "base", index, count: 6 });
+        }
+        Self::try_new(self.base.clone(), self.platform.clone(), order.map(|i| self.legs[i]))
+    }
+}
+
+fn centroid(points: &[Point3<f64>]) -> Vector3<f64> {
+    points.iter().map(|p| p.coords).sum::<Vector3<f64>>() / points.len() as f64
+}
+
+fn spread(points: &[Point3<f64>]) -> f64 {
+    let c = centroid(points);
+    points.iter().map(|p| (p.coords - c).norm()).fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn triangle(r: f64) -> Vec<Point3<f64>> {
+        vec![Point3::new(r, 0.0, 0.0), Point3::new(-r, r, 0.0), Point3::new(-r, -r, 0.0)]
+    }
+
+    #[test]
+    fn refuses_missing_joint_identical_legs_nan_and_zero_size() {
+        let hexagon = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
+        let ok = Manipulator::try_new(triangle(2.0), triangle(1.0), hexagon);
+        assert!(ok.is_ok());
+        let mut missing = hexagon;
+        missing[3].1 = 3;
+        assert!(matches!(
+            Manipulator::try_new(triangle(2.0), triangle(1.0), missing),
+            Err(InvalidManipulator::MissingJoint { index: 3, count: 3, .. })
+        ));
+        let mut twice = hexagon;
+        twice[5] = twice[0];
+        let err = Manipulator::try_new(triangle(2.0), triangle(1.0), twice).unwrap_err();
+        assert_eq!(err.to_string(), "leg 1 and leg 6 join the same two joints");
+        let mut nan = triangle(1.0);
+        nan[1].y = f64::NAN;
+        assert!(matches!(
+            Manipulator::try_new(triangle(2.0), nan, hexagon),
+            Err(InvalidManipulator::NonFinite { body: "platform", index: 1 })
+        ));
+        assert_eq!(
+            Manipulator::try_new(triangle(0.0), triangle(0.0), hexagon),
+            Err(InvalidManipulator::NoSize)
+        );
+    }
+
+    #[test]
+    fn legs_with_equal_coordinates_share_a_joint() {
+        let b = triangle(2.0);
+        let p = triangle(1.0);
+        let legs =
+            [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)].map(|(i, j)| Leg { base: b[i], platform: p[j] });
+        let m = Manipulator::from_legs(legs).unwrap();
+        assert_eq!((m.base_joints().len(), m.platform_joints().len()), (3, 3));
+        assert_eq!(m.legs(), legs);
+    }
+}

@@ -1,0 +1,15 @@
+//! The device itself: joints, legs, lengths, inverse kinematics, Jacobian.
+//!
+//! A Gough-Stewart manipulator has six legs. Leg `i` joins the base joint `a_i` (coordinates in the base
+//! frame) to the platform joint `b_i` (coordinates in the platform frame). At the pose `(R, p)` with
+//! `x_base = R x_platform + p` its length is `l_i = |R b_i + p - a_i|`.
+
+mod jacobian;
+mod leg;
+mod lengths;
+mod octahedral;
+
+pub use jacobian::{inverse_condition, jacobian, plucker_matrix};
+pub use leg::{BaseJoint, InvalidManipulator, Leg, LegIndex, Manipulator, PlatformJoint};
+pub use lengths::{InvalidLengths, LegLengths, SquaredLegLengths};
+pub use octahedral::{NotOctahedral, Octahedral};
