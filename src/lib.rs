@@ -12,3 +12,4 @@ pub mod fk;
 pub mod geom;
 pub mod manipulator;
 pub mod num;
+pub mod synthesis;

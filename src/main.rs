@@ -1,1 +1,3 @@
+//! The `equipod` program: see `equipod --help` and `docs/cli.md`.
+
 fn main() {}

@@ -1,0 +1,301 @@
+//! Affine maps between the squared leg lengths of two platforms: `s(TO) = A s(FROM) + c`.
+
+use nalgebra::{Matrix6, Vector6};
+use thiserror::Error;
+
+use super::{LegSpan, Normalisation};
+use crate::manipulator::{Leg, LegIndex, Manipulator, SquaredLegLengths, inverse_condition};
+use crate::num::linalg::LinalgError;
+
+/// The map `s' = A s + c` on squared leg lengths.
+///
+/// `A` has no unit, `c` is in squared design units. Leg maps are affine in squared lengths, never in lengths.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AffineLegMap {
+    /// `A`; row `i` belongs to leg `i` of the new platform, column `j` to leg `j` of the old one.
+    pub a: Matrix6<f64>,
+    /// `c`, squared design units.
+    pub c: Vector6<f64>,
+}
+
+/// A squared length that no leg can have.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[error("{leg} would need the squared length {value}: no pose of the platform has these leg lengths")]
+pub struct NotRealizable {
+    /// The leg of the new platform.
+    pub leg: LegIndex,
+    /// The value of `A s + c`, negative or not finite.
+    pub value: f64,
+}
+
+/// A map that cannot be inverted to working precision.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[error(
+    "the leg map is singular: the smallest singular value of A is {inverse_condition:e} of the largest, \
+     the limit is {limit:e}"
+)]
+pub struct SingularMap {
+    /// Smallest over largest singular value of `A`.
+    pub inverse_condition: f64,
+    /// What it had to exceed.
+    pub limit: f64,
+}
+
+impl AffineLegMap {
+    /// Below this `sigma_min / sigma_max` the inverse has no correct digit left worth returning.
+    const INVERSE_LIMIT: f64 = 1e-13;
+
+    /// The map of a platform to itself.
+    #[must_use]
+    pub fn identity() -> Self {
+        Self { a: Matrix6::identity(), c: Vector6::zeros() }
+    }
+
+    /// `A s + c`.
+    ///
+    /// # Errors
+    /// The first leg whose value is negative or not finite; nothing is clamped.
+    pub fn apply(&self, s: &SquaredLegLengths) -> Result<SquaredLegLengths, NotRealizable> {
+        let image = self.a * Vector6::from(s.get()) + self.c;
+        for leg in LegIndex::all() {
+            let value = image[leg.get()];
+            if !value.is_finite() || value < 0.0 {
+                return Err(NotRealizable { leg, value });
+            }
+        }
+        SquaredLegLengths::try_new(image.into()).map_err(|_| unreachable!("all six were checked"))
+    }
+
+    /// First `self`, then `next`: `s'' = A2 (A1 s + c1) + c2`.
+    #[must_use]
+    pub fn then(&self, next: &Self) -> Self {
+        Self { a: next.a * self.a, c: next.a * self.c + next.c }
+    }
+
+    /// `det A`; zero for a map onto an architecturally singular platform.
+    #[must_use]
+    pub fn determinant(&self) -> f64 {
+        self.a.determinant()
+    }
+
+    /// Smallest over largest singular value of `A`, in `[0, 1]`.
+    #[must_use]
+    pub fn inverse_condition(&self) -> f64 {
+        inverse_condition(&self.a)
+    }
+
+    /// The map back: `s = A^-1 (s' - c)`.
+    ///
+    /// # Errors
+    /// When `sigma_min / sigma_max` of `A` is below `1e-13`: then `A` cannot be told from a singular matrix.
+    pub fn invert(&self) -> Result<Self, SingularMap> {
+        let singular =
+            SingularMap { inverse_condition: self.inverse_condition(), limit: Self::INVERSE_LIMIT };
+        if singular.inverse_condition <= singular.limit {
+            return Err(singular);
+        }
+        let a = self.a.try_inverse().ok_or(singular)?;
+        Ok(Self { a, c: -(a * self.c) })
+    }
+}
+
+/// What two platforms have to do with each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Relation {
+    /// `s(TO) = A s(FROM) + c` at every pose with `det A != 0`: same poses, same singularities.
+    Equivalent,
+    /// The relation holds, but not backwards: the legs of TO are dependent (`det A = 0`), or those of FROM
+    /// are (`leg_rank < 6`) and `A` is not unique.
+    Singular,
+    /// Some leg of TO is no affine function of the legs of FROM.
+    Unrelated,
+}
+
+impl Relation {
+    /// `"equivalent"`, `"singular"` or `"unrelated"`.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Equivalent => "equivalent",
+            Self::Singular => "singular",
+            Self::Unrelated => "unrelated",
+        }
+    }
+}
+
+/// Dimensionless limits of [`leg_map`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LegMapTolerances {
+    /// A leg of TO farther than this from the span of FROM, relative to its vector, is not in it.
+    pub residual: f64,
+    /// Singular values of the leg vectors below this times the largest count as zero.
+    pub rank: f64,
+    /// `A` with `sigma_min / sigma_max` below this is singular.
+    pub singular: f64,
+}
+
+impl Default for LegMapTolerances {
+    /// `1e-9` for all three: a joint `1e-6` of the size off its line is seen, rounding of the data is not.
+    fn default() -> Self {
+        Self { residual: 1e-9, rank: 1e-9, singular: 1e-9 }
+    }
+}
+
+/// The answer of [`leg_map`] with the numbers that decided it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LegMapOutcome {
+    /// The verdict.
+    pub relation: Relation,
+    /// The least-squares map. It is *the* map unless `relation` is [`Relation::Unrelated`]; then only the
+    /// rows with a small residual mean anything.
+    pub closest: AffineLegMap,
+    /// `det A`.
+    pub determinant: f64,
+    /// Relative distance of each leg vector of TO from the span of FROM, in `[0, 1]`.
+    pub residuals: [f64; 6],
+    /// The largest of `residuals`.
+    pub residual: f64,
+    /// Dimension of the span of the legs of FROM.
+    pub leg_rank: usize,
+    /// Singular values of the normalised leg vectors of FROM, largest first.
+    pub singular_values: [f64; 6],
+    /// `sigma_min / sigma_max` of `A`.
+    pub inverse_condition: f64,
+    /// What `inverse_condition` had to exceed: the tolerance asked for, or the rounding to expect in `A`
+    /// from the condition of FROM, whichever is larger.
+    pub singular_limit: f64,
+    /// The tolerances asked for.
+    pub tolerances: LegMapTolerances,
+}
+
+impl LegMapOutcome {
+    /// The map, `None` for unrelated platforms.
+    #[must_use]
+    pub fn map(&self) -> Option<&AffineLegMap> {
+        (self.relation != Relation::Unrelated).then_some(&self.closest)
+    }
+
+    /// Legs of TO that are not affine functions of the legs of FROM.
+    pub fn legs_off(&self) -> impl Iterator<Item = LegIndex> + '_ {
+        LegIndex::all().filter(|i| self.residuals[i.get()] > self.tolerances.residual)
+    }
+}
+
+/// The affine map from the squared leg lengths of `from` to those of `to`, leg by leg in leg order.
+///
+/// Row `i` of `A` are the coefficients of `v(a'_i, b'_i)` in the leg vectors of `from`, and
+///
+/// ```text
+/// c_i = |a'_i|^2 + |b'_i|^2 - sum_j A_ij (|a_j|^2 + |b_j|^2).
+/// ```
+///
+/// Both platforms are described in the same two frames; the unit must be the same. Moving a frame or changing
+/// the unit does not change `A` (see [`Normalisation`]). Since `sum_j A_ij = 1`, `sum_j A_ij a_j = a'_i` and
+/// likewise for `b`, a shift by `u` changes `c_i` by `2 u (a'_i - sum A_ij a_j) + |u|^2 (1 - sum A_ij) = 0`,
+/// so `c` is formed from the centred joints, where nothing large cancels.
+///
+/// Degenerate cases: dependent legs of `from` (`leg_rank < 6`) leave the coefficients undetermined; the
+/// shortest ones are returned and the relation is `Singular` when all legs of `to` are in the span.
+///
+/// ```
+/// use equipod::manipulator::{Leg, Manipulator};
+/// use equipod::synthesis::{LegMapTolerances, Relation, leg_map};
+/// use nalgebra::Point3;
+/// let joint = |r: f64, k: u32| {
+///     let (s, c) = (std::f64::consts::TAU * f64::from(k) / 3.0).sin_cos();
+///     Point3::new(r * c, r * s, 0.0)
+/// };
+/// let hexagon = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
+/// let mut legs = hexagon.map(|(i, j)| Leg { base: joint(2.0, i), platform: joint(1.0, j) });
+/// let octahedral = Manipulator::from_legs(legs)?;
+/// legs[0].base += (legs[1].base - legs[0].base) * 0.25; // slide along the edge to the next joint
+/// let moved = Manipulator::from_legs(legs)?;
+/// let outcome = leg_map(&octahedral, &moved, LegMapTolerances::default())?;
+/// assert_eq!(outcome.relation, Relation::Equivalent);
+/// assert!((outcome.determinant - 0.75).abs() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// Source: Rojas, Borras, Thomas, paper on the octahedral manipulator, eq. (4)-(7), for
+/// one offset; the general statement is derived in `docs/theory/leg-maps.md`.
+///
+/// # Errors
+/// When a singular value decomposition does not converge.
+pub fn leg_map(
+    from: &Manipulator,
+    to: &Manipulator,
+    tolerances: LegMapTolerances,
+) -> Result<LegMapOutcome, LinalgError> {
+    let span = LegSpan::of(from, tolerances.rank)?;
+    let legs = to.legs();
+    let residuals = legs.map(|leg| span.distance(&leg));
+    let residual = residuals.iter().copied().fold(0.0, f64::max);
+    let rows = legs.map(|leg| span.coefficients(&leg));
+    let a = Matrix6::from_fn(|i, j| rows[i][j]);
+    let closest = AffineLegMap { a, c: constants(&span.normalisation(), &a, &from.legs(), &legs) };
+    let smallest = span.inverse_condition();
+    let singular_limit = tolerances.singular.max(64.0 * f64::EPSILON / smallest.max(tolerances.rank));
+    let inverse_condition = closest.inverse_condition();
+    let relation = if residual > tolerances.residual || residual.is_nan() {
+        Relation::Unrelated
+    } else if span.rank() < 6 || inverse_condition <= singular_limit {
+        Relation::Singular
+    } else {
+        Relation::Equivalent
+    };
+    Ok(LegMapOutcome {
+        relation,
+        determinant: closest.determinant(),
+        closest,
+        residuals,
+        residual,
+        leg_rank: span.rank(),
+        singular_values: span.singular_values(),
+        inverse_condition,
+        singular_limit,
+        tolerances,
+    })
+}
+
+/// `c` in squared design units from the centred joints.
+fn constants(n: &Normalisation, a: &Matrix6<f64>, from: &[Leg; 6], to: &[Leg; 6]) -> Vector6<f64> {
+    let squares = |leg: &Leg| {
+        let x = n.apply(leg);
+        (x.base.coords.norm_squared(), x.platform.coords.norm_squared())
+    };
+    let (old, new) = (from.map(|l| squares(&l)), to.map(|l| squares(&l)));
+    Vector6::from_fn(|i, _| {
+        let base: f64 = new[i].0 - (0..6).map(|j| a[(i, j)] * old[j].0).sum::<f64>();
+        let platform: f64 = new[i].1 - (0..6).map(|j| a[(i, j)] * old[j].1).sum::<f64>();
+        base * n.base_unit * n.base_unit + platform * n.platform_unit * n.platform_unit
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn negative_squares_are_refused_not_clamped() {
+        let mut map = AffineLegMap::identity();
+        map.c[3] = -5.0;
+        let s = SquaredLegLengths::try_new([4.0; 6]).unwrap();
+        let err = map.apply(&s).unwrap_err();
+        assert_eq!((err.leg.get(), err.value), (3, -1.0));
+        assert!(err.to_string().starts_with("leg 4 would need the squared length -1"));
+        map.c[3] = f64::INFINITY;
+        assert!(map.apply(&s).is_err());
+    }
+
+    #[test]
+    fn singular_maps_have_no_inverse() {
+        let mut map = AffineLegMap::identity();
+        map.a[(5, 5)] = 1e-15;
+        let err = map.invert().unwrap_err();
+        assert!(err.inverse_condition < 1e-14);
+        map.a[(5, 5)] = 0.25;
+        map.c[5] = 3.0;
+        let both = map.then(&map.invert().unwrap());
+        assert_eq!(both, AffineLegMap::identity());
+    }
+}

@@ -1,0 +1,211 @@
+//! A leg as a vector of `R^16`, and the span of six of them.
+//!
+//! With `v(a, b) = (1, a) (x) (1, b)` (Kronecker product) the squared length of a leg at the pose `(R, p)` is
+//!
+//! ```text
+//! s(a, b) = <v(a, b), W(R, p)> + |a|^2 + |b|^2,
+//! ```
+//!
+//! where `W` has the entries `|p|^2`, `-2p`, `2 R^T p`, `-2R` and depends on the pose only. The sixteen
+//! entries of `W`, together with 1, are linearly independent functions of the pose as far as combinations
+//! with coefficient sum 1 are concerned, so a leg is an affine function of six others exactly when its
+//! vector lies in their span.
+
+use nalgebra::{Point3, Vector3};
+
+use crate::manipulator::{Leg, Manipulator};
+use crate::num::linalg::{LinalgError, svd};
+
+/// `v(a, b) = (1, a) (x) (1, b)`: entry `4 i + j` is `(1, a)_i (1, b)_j`.
+#[must_use]
+pub fn leg_vector(leg: &Leg) -> [f64; 16] {
+    let a = [1.0, leg.base.x, leg.base.y, leg.base.z];
+    let b = [1.0, leg.platform.x, leg.platform.y, leg.platform.z];
+    std::array::from_fn(|k| a[k / 4] * b[k % 4])
+}
+
+/// The shift and the unit in which the joints of each body are written before ranks are decided.
+///
+/// Writing `a = o + L x` turns `(1, a)` into `M (1, x)` with an invertible `M`, so every leg vector is
+/// multiplied on the right by one invertible 16 x 16 matrix: spans, ranks and the coefficients `A` of a leg
+/// map do not change. With the centroid of the leg ends as `o` and their greatest distance from it as `L`,
+/// separately for the two bodies, the entries of `v` are of order one for micrometres and metres, for a
+/// small platform over a large base, and for frames whose origin is far from the joints.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Normalisation {
+    /// Centroid of the base ends of the legs, base frame.
+    pub base_centre: Point3<f64>,
+    /// Centroid of the platform ends of the legs, platform frame.
+    pub platform_centre: Point3<f64>,
+    /// Unit of the base, design units; positive.
+    pub base_unit: f64,
+    /// Unit of the platform, design units; positive.
+    pub platform_unit: f64,
+}
+
+impl Normalisation {
+    /// Centre and unit of the two bodies of `m`. A body whose leg ends coincide takes the unit of the other.
+    #[must_use]
+    pub fn of(m: &Manipulator) -> Self {
+        let legs = m.legs();
+        let (base_centre, base) = centre_and_reach(&legs.map(|l| l.base));
+        let (platform_centre, platform) = centre_and_reach(&legs.map(|l| l.platform));
+        let positive = |unit: f64, other: f64| if unit > 0.0 { unit } else { other };
+        Self {
+            base_centre,
+            platform_centre,
+            base_unit: positive(base, platform),
+            platform_unit: positive(platform, base),
+        }
+    }
+
+    /// The leg in the normalised, dimensionless coordinates.
+    #[must_use]
+    pub fn apply(&self, leg: &Leg) -> Leg {
+        Leg {
+            base: Point3::from((leg.base - self.base_centre) / self.base_unit),
+            platform: Point3::from((leg.platform - self.platform_centre) / self.platform_unit),
+        }
+    }
+}
+
+fn centre_and_reach(points: &[Point3<f64>; 6]) -> (Point3<f64>, f64) {
+    // differences from the first point first: no digits are lost when the origin is far away
+    let mean = points.iter().map(|p| p - points[0]).sum::<Vector3<f64>>() / 6.0;
+    let centre = points[0] + mean;
+    (centre, points.iter().map(|p| (p - centre).norm()).fold(0.0, f64::max))
+}
+
+/// The span of the six leg vectors of a manipulator, by a singular value decomposition.
+#[derive(Debug, Clone)]
+pub struct LegSpan {
+    normalisation: Normalisation,
+    rank: usize,
+    singular_values: [f64; 6],
+    u: Vec<Vec<f64>>,
+    v: Vec<Vec<f64>>,
+}
+
+impl LegSpan {
+    /// Decomposes the normalised leg vectors; singular values not above `rank_tolerance` times the largest
+    /// count as zero.
+    ///
+    /// # Errors
+    /// When the decomposition does not converge.
+    pub fn of(m: &Manipulator, rank_tolerance: f64) -> Result<Self, LinalgError> {
+        let normalisation = Normalisation::of(m);
+        let rows: Vec<Vec<f64>> =
+            m.legs().iter().map(|leg| leg_vector(&normalisation.apply(leg)).to_vec()).collect();
+        let d = svd(&rows)?;
+        let singular_values: [f64; 6] = std::array::from_fn(|k| d.s[k]);
+        let rank = singular_values.iter().filter(|s| **s > rank_tolerance * singular_values[0]).count();
+        Ok(Self { normalisation, rank, singular_values, u: d.u, v: d.v })
+    }
+
+    /// Dimension of the span, 6 for independent legs.
+    #[must_use]
+    pub fn rank(&self) -> usize {
+        self.rank
+    }
+
+    /// Singular values of the six normalised leg vectors, largest first.
+    #[must_use]
+    pub fn singular_values(&self) -> [f64; 6] {
+        self.singular_values
+    }
+
+    /// The smallest singular value over the largest, in `[0, 1]`.
+    #[must_use]
+    pub fn inverse_condition(&self) -> f64 {
+        self.singular_values[5] / self.singular_values[0]
+    }
+
+    /// The coordinates in which the legs were compared.
+    #[must_use]
+    pub fn normalisation(&self) -> Normalisation {
+        self.normalisation
+    }
+
+    /// Distance of the vector of `leg` from the span over its length, in `[0, 1]`, in normalised coordinates.
+    ///
+    /// The squared length of `leg` is an affine function of the six exactly when this is zero.
+    #[must_use]
+    pub fn distance(&self, leg: &Leg) -> f64 {
+        let w = leg_vector(&self.normalisation.apply(leg));
+        let norm = w.iter().map(|x| x * x).sum::<f64>().sqrt();
+        // the part along the orthogonal complement: no difference of nearly equal numbers is formed
+        let across: f64 = (self.rank..16).map(|k| self.along(k, &w).powi(2)).sum();
+        across.sqrt() / norm
+    }
+
+    /// Coefficients of the projection of the vector of `leg` on the span; the shortest ones when the rank
+    /// is below six.
+    #[must_use]
+    pub fn coefficients(&self, leg: &Leg) -> [f64; 6] {
+        let w = leg_vector(&self.normalisation.apply(leg));
+        let scaled: Vec<f64> = (0..self.rank).map(|k| self.along(k, &w) / self.singular_values[k]).collect();
+        std::array::from_fn(|i| scaled.iter().enumerate().map(|(k, x)| self.u[i][k] * x).sum())
+    }
+
+    /// A unit vector `n` with `sum n_i v_i = 0` for each dimension the span lacks (normalised coordinates;
+    /// the dependency itself does not depend on them). Empty for independent legs.
+    #[must_use]
+    pub fn dependencies(&self) -> Vec<[f64; 6]> {
+        (self.rank..6).map(|k| std::array::from_fn(|i| self.u[i][k])).collect()
+    }
+
+    fn along(&self, k: usize, w: &[f64; 16]) -> f64 {
+        (0..16).map(|i| self.v[i][k] * w[i]).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::{Pose, random_rotation};
+    use crate::num::Rng;
+
+    fn point(rng: &mut Rng) -> Point3<f64> {
+        Point3::new(rng.normal(), rng.normal(), rng.normal())
+    }
+
+    #[test]
+    fn squared_length_is_linear_in_the_leg_vector() {
+        let mut rng = Rng::new(11);
+        for _ in 0..20 {
+            let leg = Leg { base: point(&mut rng), platform: point(&mut rng) };
+            let pose = Pose { rotation: random_rotation(&mut rng), position: point(&mut rng).coords };
+            let (r, p) = (pose.rotation.matrix(), pose.position);
+            let rp = r.transpose() * p;
+            let w: [f64; 16] = std::array::from_fn(|k| match (k / 4, k % 4) {
+                (0, 0) => p.norm_squared(),
+                (i, 0) => -2.0 * p[i - 1],
+                (0, j) => 2.0 * rp[j - 1],
+                (i, j) => -2.0 * r[(i - 1, j - 1)],
+            });
+            let v = leg_vector(&leg);
+            let linear: f64 = v.iter().zip(w).map(|(x, y)| x * y).sum();
+            let s = linear + leg.base.coords.norm_squared() + leg.platform.coords.norm_squared();
+            assert!((s - pose.squared_length(&leg)).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn four_legs_on_a_line_of_legs_lower_the_rank_to_the_right_number() {
+        // two legs span a line, all further legs from the same platform joint to that line are on it
+        let mut rng = Rng::new(3);
+        let (a, b, p) = (point(&mut rng), point(&mut rng), point(&mut rng));
+        let mut legs: [Leg; 6] =
+            std::array::from_fn(|_| Leg { base: point(&mut rng), platform: point(&mut rng) });
+        for (leg, t) in legs.iter_mut().zip([0.0, 0.4, 1.0]) {
+            *leg = Leg { base: a + (b - a) * t, platform: p };
+        }
+        let m = Manipulator::from_legs(legs).unwrap();
+        let span = LegSpan::of(&m, 1e-9).unwrap();
+        assert_eq!(span.rank(), 5);
+        let n = span.dependencies();
+        assert_eq!(n.len(), 1);
+        // the dependency holds between the first three legs: 0.6 v1 - v2 + 0.4 v3 = 0
+        assert!((n[0][0] / n[0][1] + 0.6).abs() < 1e-12 && n[0][4].abs() < 1e-12);
+    }
+}
