@@ -8,6 +8,9 @@
 //!
 //! Two platforms are *kinematically equivalent* when `s' = A s + c` with `det A != 0` holds at every pose.
 
+#[cfg(feature = "cli")]
+pub mod cli;
+pub mod design;
 pub mod fk;
 pub mod geom;
 pub mod manipulator;

@@ -1,3 +1,7 @@
 //! The `equipod` program: see `equipod --help` and `docs/cli.md`.
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    equipod::cli::main(std::env::args_os())
+}

@@ -3,8 +3,10 @@
 //! Nothing in here knows leg maps: `fk` and `synthesis` never import each other, so that agreement of
 //! the root sets of two platforms is evidence for the map between them.
 
+mod choose;
 mod solutions;
 
+pub use choose::solver;
 pub use solutions::{
     Completeness, FkRoot, FkSolutions, Method, PathEnd, PathReport, Reality, Rejected, RejectionReason,
 };

@@ -12,4 +12,5 @@ mod octahedral;
 pub use jacobian::{inverse_condition, jacobian, plucker_matrix};
 pub use leg::{BaseJoint, InvalidManipulator, Leg, LegIndex, Manipulator, PlatformJoint};
 pub use lengths::{InvalidLengths, LegLengths, SquaredLegLengths};
+pub(crate) use octahedral::is_collinear;
 pub use octahedral::{NotOctahedral, Octahedral};

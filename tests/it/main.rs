@@ -1,4 +1,5 @@
 //! Integration tests, one binary.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a failing test panics")]
 
+mod cli_fk;
 mod leg_maps;

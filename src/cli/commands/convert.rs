@@ -1,0 +1,46 @@
+//! `equipod convert`: a design in the other notation.
+
+use std::path::PathBuf;
+
+use serde_json::{Map, json};
+
+use crate::cli::context::Context;
+use crate::cli::exit::Exit;
+use crate::cli::failure::Failure;
+use crate::cli::files;
+use crate::cli::output::Answer;
+use crate::design::Format;
+
+/// Arguments of `convert`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Design file (.toml or .json)
+    design: PathBuf,
+    /// File to write; .json gives JSON, .toml gives TOML
+    #[arg(short, long, value_name = "OUT")]
+    output: PathBuf,
+}
+
+/// Reads, checks and writes the design. Comments of the input are not kept.
+pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+    let known = ["toml", "json"];
+    let extension = args.output.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
+    let Some(extension) = extension.filter(|e| known.contains(&e.as_str())) else {
+        let message = format!("{}: the extension does not tell the format", args.output.display());
+        return Err(
+            Failure::refused("convert::unknown_format", message).with_help("end the name in .toml or .json")
+        );
+    };
+    let design = context.load(&args.design)?;
+    let text = match Format::of_path(&args.output) {
+        Format::Toml => design.to_toml(),
+        Format::Json => design.to_json(),
+    };
+    files::write_text(&args.output, &text)?;
+    let output = args.output.display().to_string();
+    let mut json = Map::new();
+    json.insert("name".into(), json!(design.name));
+    json.insert("output".into(), json!(output));
+    json.insert("format".into(), json!(extension));
+    Ok(Answer { exit: Exit::Yes, json, text: format!("wrote {output}\n") })
+}

@@ -1,0 +1,111 @@
+//! Leg lengths from the command line, a CSV file or the design.
+
+use std::path::Path;
+
+use crate::cli::failure::Failure;
+use crate::cli::files;
+use crate::manipulator::LegLengths;
+
+/// Lengths of one line of a CSV file.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Row {
+    /// Line in the file, 1-based.
+    pub(super) line: usize,
+    pub(super) lengths: LegLengths,
+}
+
+/// One problem or many.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Given {
+    One(LegLengths),
+    Rows(Vec<Row>),
+}
+
+/// `--lengths`, else the lengths of the design.
+pub(super) fn given(option: Option<&str>, of_design: Option<LegLengths>) -> Result<Given, Failure> {
+    let Some(text) = option else {
+        return of_design.map(Given::One).ok_or_else(|| {
+            Failure::refused("fk::no_lengths", "the design has no `lengths` and --lengths was not given")
+                .with_help("give --lengths l1,l2,l3,l4,l5,l6 or --lengths FILE.csv")
+        });
+    };
+    if text.contains(',') || text.parse::<f64>().is_ok() {
+        return six(text).map(Given::One).map_err(|message| {
+            Failure::refused("fk::bad_lengths", format!("--lengths: {message}"))
+                .with_help("give six lengths separated by commas, or a CSV file")
+        });
+    }
+    rows(&files::read_text(Path::new(text))?, text).map(Given::Rows)
+}
+
+/// Six comma-separated lengths.
+fn six(text: &str) -> Result<LegLengths, String> {
+    let fields: Vec<&str> = text.split(',').map(str::trim).collect();
+    let fields: [&str; 6] =
+        fields.try_into().map_err(|f: Vec<_>| format!("{} values instead of six", f.len()))?;
+    let mut values = [0.0; 6];
+    for (i, field) in fields.iter().enumerate() {
+        values[i] = field.parse().map_err(|_| format!("value {}, `{field}`, is not a number", i + 1))?;
+    }
+    LegLengths::try_new(values).map_err(|e| e.to_string())
+}
+
+/// A CSV file: six numbers a line; a first line without any number is a header; blank lines and lines that
+/// begin with `#` are passed over. All bad lines are named.
+fn rows(text: &str, path: &str) -> Result<Vec<Row>, Failure> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let mut rows = Vec::new();
+    let mut bad = Vec::new();
+    let content = text.lines().enumerate().filter(|(_, l)| !l.trim().is_empty() && !l.starts_with('#'));
+    for (position, (i, line)) in content.enumerate() {
+        let is_header = position == 0 && line.split(',').all(|f| f.trim().parse::<f64>().is_err());
+        if is_header {
+            continue;
+        }
+        match six(line) {
+            Ok(lengths) => rows.push(Row { line: i + 1, lengths }),
+            Err(message) => bad.push(format!("line {}: {message}", i + 1)),
+        }
+    }
+    let refused = |message: String| {
+        Err(Failure::refused("fk::bad_lengths", message)
+            .with_help("write six lengths a line: l1,l2,l3,l4,l5,l6"))
+    };
+    if !bad.is_empty() {
+        let shown = bad.iter().take(20).cloned().collect::<Vec<_>>().join("; ");
+        let more = if bad.len() > 20 { format!("; and {} more", bad.len() - 20) } else { String::new() };
+        return refused(format!("{path}: {shown}{more}"));
+    }
+    if rows.is_empty() {
+        return refused(format!("{path} has no row of leg lengths"));
+    }
+    Ok(rows)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn csv_takes_a_header_comments_and_names_all_bad_lines() {
+        let good = "l1,l2,l3,l4,l5,l6\n\n# note\n1,2,3,4,5,6\n 6, 5,4,3,2,1.5 \r\n";
+        let found = rows(good, "x.csv").unwrap();
+        assert_eq!(found.iter().map(|r| r.line).collect::<Vec<_>>(), [4, 5]);
+        assert!((found[1].lengths.get()[5] - 1.5).abs() < 1e-15);
+        let bad = "1,2,3,4,5,6\n1,2,3\n1,2,x,4,5,6\n1,2,3,4,5,-6\n1,2,3,4,5,inf\n";
+        let failure = rows(bad, "x.csv").unwrap_err();
+        for line in ["line 2: 3 values", "line 3: value 3, `x`", "line 4: ", "line 5: "] {
+            assert!(failure.message.contains(line), "{}", failure.message);
+        }
+        assert!(rows("a,b\n", "x.csv").is_err(), "a header alone is no data");
+    }
+
+    #[test]
+    fn the_design_provides_lengths_when_the_option_is_absent() {
+        let l = LegLengths::try_new([1.0; 6]).unwrap();
+        assert_eq!(given(None, Some(l)).unwrap(), Given::One(l));
+        assert_eq!(given(None, None).unwrap_err().code, "fk::no_lengths");
+        assert_eq!(given(Some("1,2,3"), Some(l)).unwrap_err().code, "fk::bad_lengths");
+        assert_eq!(given(Some("no-such-file.csv"), Some(l)).unwrap_err().code, "file::not_readable");
+    }
+}

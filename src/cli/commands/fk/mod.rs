@@ -1,0 +1,130 @@
+//! `equipod fk`: all poses for given leg lengths.
+
+mod lengths;
+mod render;
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use clap::ValueEnum;
+use serde_json::{Map, Value, json};
+
+use crate::cli::context::Context;
+use crate::cli::exit::Exit;
+use crate::cli::failure::Failure;
+use crate::cli::output::Answer;
+use crate::fk::{self, FkError, FkOptions, FkSolutions, Method};
+use crate::manipulator::{LegLengths, Manipulator};
+
+use self::lengths::Given;
+
+/// Arguments of `fk`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Design file (.toml or .json)
+    design: PathBuf,
+    /// Six lengths l1,..,l6, or a CSV file with six columns; the design's own lengths when absent
+    #[arg(long, value_name = "L1,..,L6|FILE", allow_hyphen_values = true)]
+    lengths: Option<String>,
+    /// Method; auto takes the best one for the design
+    #[arg(long, value_enum, default_value_t = MethodArg::Auto)]
+    method: MethodArg,
+}
+
+/// `--method`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum MethodArg {
+    Auto,
+    Octic,
+    Homotopy,
+    Trilateration,
+    Sylvester,
+    Template,
+}
+
+impl MethodArg {
+    /// The method of the library, `None` for its own choice.
+    fn method(self) -> Result<Option<Method>, Failure> {
+        match self {
+            Self::Auto => Ok(None),
+            Self::Octic => Ok(Some(Method::Octic)),
+            Self::Homotopy => Ok(Some(Method::Homotopy)),
+            Self::Trilateration | Self::Sylvester | Self::Template => {
+                let name = self.to_possible_value().map(|v| v.get_name().to_string()).unwrap_or_default();
+                let message = format!("the method `{name}` is not part of this version");
+                Err(Failure::refused("fk::method_not_available", message).with_help("take --method auto"))
+            }
+        }
+    }
+}
+
+/// Solves one problem or one for each row.
+pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+    let method = args.method.method()?;
+    let design = context.load(&args.design)?;
+    let given = lengths::given(args.lengths.as_deref(), design.lengths)?;
+    let m = design.manipulator();
+    let options = FkOptions { seed: context.seed(), ..FkOptions::default() };
+    match given {
+        Given::One(l) => {
+            let solutions = solve(method, m, &l, &options)?;
+            let exit = exit_of(&solutions);
+            let json = render::json(&solutions);
+            Ok(Answer { exit, json, text: render::text(&design.name, &solutions) })
+        }
+        Given::Rows(rows) => Ok(many(method, m, &rows, &options)),
+    }
+}
+
+/// Every row for itself: one that cannot be solved carries an `"error"` and does not stop the others.
+fn many(method: Option<Method>, m: &Manipulator, rows: &[lengths::Row], options: &FkOptions) -> Answer {
+    let mut exit = Exit::Yes;
+    let mut records = Vec::with_capacity(rows.len());
+    let mut text = String::from("line  method         finite  real  complete\n");
+    for row in rows {
+        let mut record = Map::new();
+        record.insert("line".into(), json!(row.line));
+        record.insert("lengths".into(), json!(row.lengths.get()));
+        match solve(method, m, &row.lengths, options) {
+            Ok(solutions) => {
+                exit = exit.max(exit_of(&solutions));
+                text.push_str(&render::table_row(row.line, &solutions));
+                record.extend(render::json(&solutions));
+            }
+            Err(failure) => {
+                exit = exit.max(failure.exit);
+                let _ = writeln!(text, "{:>4}  {}", row.line, failure.message);
+                record.insert("error".into(), failure.to_json());
+            }
+        }
+        records.push(Value::Object(record));
+    }
+    let mut json = Map::new();
+    json.insert("rows".into(), Value::Array(records));
+    Answer { exit, json, text }
+}
+
+fn solve(
+    method: Option<Method>,
+    m: &Manipulator,
+    lengths: &LegLengths,
+    options: &FkOptions,
+) -> Result<FkSolutions, Failure> {
+    let solver = fk::solver(method, m).map_err(|e| failure_of(&e))?;
+    solver.solve(m, &lengths.squared(), options).map_err(|e| failure_of(&e))
+}
+
+fn failure_of(error: &FkError) -> Failure {
+    match error {
+        FkError::NotApplicable { .. } => {
+            Failure::refused("fk::not_applicable", error.to_string()).with_help("take --method auto")
+        }
+        FkError::Breakdown { .. } => Failure::new(Exit::Inconclusive, "fk::breakdown", error.to_string())
+            .with_help("try another --method or --seed"),
+    }
+}
+
+/// 0 when every path is accounted for, 3 when roots may be missing.
+fn exit_of(solutions: &FkSolutions) -> Exit {
+    if solutions.all_accounted() { Exit::Yes } else { Exit::Inconclusive }
+}

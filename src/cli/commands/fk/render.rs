@@ -1,0 +1,150 @@
+//! Records of roots as JSON and as text.
+
+use std::fmt::Write as _;
+
+use num_complex::Complex64;
+use serde_json::{Map, Value, json};
+
+use crate::cli::output::number;
+use crate::fk::{Completeness, FkRoot, FkSolutions, PathReport, Reality, Rejected, RejectionReason};
+
+/// The fields of the document.
+pub(super) fn json(s: &FkSolutions) -> Map<String, Value> {
+    let (completeness, reason) = match &s.completeness {
+        Completeness::Proved { argument } => ("proved", argument),
+        Completeness::Unproved { reason, .. } => ("unproved", reason),
+    };
+    let undecided = s.roots.iter().filter(|r| r.reality == Reality::Undecided).count();
+    let mut fields = Map::new();
+    let mut put = |key: &str, value: Value| fields.insert(key.into(), value);
+    put("method", json!(s.method.name()));
+    put("completeness", json!(completeness));
+    put("completeness_reason", json!(reason));
+    put("all_paths_accounted", json!(s.all_accounted()));
+    put("finite_count", json!(s.roots.len()));
+    put("finite_count_with_multiplicity", json!(s.count_with_multiplicity()));
+    put("real_count", json!(s.assembly_modes().count()));
+    put("undecided_count", json!(undecided));
+    put("solutions", s.roots.iter().map(root).collect());
+    put("paths", s.paths.iter().map(path).collect());
+    put("rejected", s.rejected.iter().map(rejected).collect());
+    put("seed", json!(s.seed));
+    if !all_finite(s) {
+        put("notes", json!(["null stands for a number that is infinite or not a number"]));
+    }
+    fields
+}
+
+fn root(r: &FkRoot) -> Value {
+    let rotation = |part: fn(&Complex64) -> f64| -> Value {
+        (0..3).map(|i| (0..3).map(|j| number(part(&r.pose.rotation[(i, j)]))).collect::<Value>()).collect()
+    };
+    let position =
+        |part: fn(&Complex64) -> f64| -> Value { r.pose.position.iter().map(|z| number(part(z))).collect() };
+    let real = match r.reality {
+        Reality::Real => Value::Bool(true),
+        Reality::NonReal => Value::Bool(false),
+        Reality::Undecided => Value::Null,
+    };
+    json!({
+        "R": { "re": rotation(|z| z.re), "im": rotation(|z| z.im) },
+        "p": { "re": position(|z| z.re), "im": position(|z| z.im) },
+        "real": real,
+        "certified": r.certified,
+        "multiplicity": r.multiplicity,
+        "residual": number(r.residual),
+        "condition": number(r.condition),
+    })
+}
+
+fn path(p: &PathReport) -> Value {
+    json!({
+        "start": p.start, "end": p.end.name(), "root": p.root, "steps": p.steps,
+        "rejections": p.rejections, "winding": p.winding, "isotropy": number(p.isotropy),
+        "retracked": p.retracked,
+    })
+}
+
+fn rejected(r: &Rejected) -> Value {
+    let reason = match r.reason {
+        RejectionReason::ResidualTooLarge => "residual_too_large",
+        RejectionReason::Duplicate => "duplicate",
+        RejectionReason::NotFinite => "not_finite",
+    };
+    json!({ "reason": reason, "residual": number(r.residual) })
+}
+
+fn all_finite(s: &FkSolutions) -> bool {
+    let roots = s.roots.iter().all(|r| {
+        let pose = r.pose.rotation.iter().chain(r.pose.position.iter()).all(|z| z.is_finite());
+        pose && r.residual.is_finite() && r.condition.is_finite()
+    });
+    let paths = s.paths.iter().all(|p| p.isotropy.is_finite());
+    roots && paths && s.rejected.iter().all(|r| r.residual.is_finite())
+}
+
+/// What people read.
+pub(super) fn text(name: &str, s: &FkSolutions) -> String {
+    let mut out = String::new();
+    let real = s.assembly_modes().count();
+    let undecided = s.roots.iter().filter(|r| r.reality == Reality::Undecided).count();
+    let _ = write!(out, "{name}: {} finite poses, {real} of them real", s.roots.len());
+    if undecided > 0 {
+        let _ = write!(out, ", {undecided} undecided");
+    }
+    let _ = writeln!(out, " (method {})", s.method);
+    match &s.completeness {
+        Completeness::Proved { argument } => {
+            let _ = writeln!(out, "complete: proved, {argument}");
+        }
+        Completeness::Unproved { reason, all_paths_accounted } => {
+            let head = if *all_paths_accounted {
+                "complete: not proved"
+            } else {
+                "INCOMPLETE: roots may be missing"
+            };
+            let _ = writeln!(out, "{head}, {reason}");
+        }
+    }
+    for (i, r) in s.roots.iter().enumerate().filter(|(_, r)| r.reality != Reality::NonReal) {
+        real_pose(&mut out, i + 1, r);
+    }
+    let complex = s.roots.iter().filter(|r| r.reality == Reality::NonReal).count();
+    if complex > 0 {
+        let _ = writeln!(out, "{complex} complex poses: see --json");
+    }
+    out
+}
+
+fn real_pose(out: &mut String, number: usize, r: &FkRoot) {
+    let pose = r.pose.real_part();
+    let (roll, pitch, yaw) = pose.rotation.euler_angles();
+    let undecided = if r.reality == Reality::Undecided { "  reality undecided" } else { "" };
+    let certified = if r.certified { "  certified" } else { "" };
+    let _ = writeln!(
+        out,
+        "{number:>3}  p = [{:.6}, {:.6}, {:.6}]  rpy_deg = [{:.4}, {:.4}, {:.4}]  residual {:.1e}{certified}{undecided}",
+        pose.position.x,
+        pose.position.y,
+        pose.position.z,
+        roll.to_degrees(),
+        pitch.to_degrees(),
+        yaw.to_degrees(),
+        r.residual,
+    );
+}
+
+/// One line of the table for many rows.
+pub(super) fn table_row(line: usize, s: &FkSolutions) -> String {
+    let complete = match &s.completeness {
+        Completeness::Proved { .. } => "proved",
+        Completeness::Unproved { all_paths_accounted: true, .. } => "all paths accounted",
+        Completeness::Unproved { .. } => "ROOTS MAY BE MISSING",
+    };
+    format!(
+        "{line:>4}  {:<13}  {:>6}  {:>4}  {complete}\n",
+        s.method.name(),
+        s.roots.len(),
+        s.assembly_modes().count()
+    )
+}

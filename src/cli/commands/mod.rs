@@ -1,0 +1,41 @@
+//! One file per command.
+//!
+//! To add the command `foo`:
+//! 1. write `commands/foo.rs` with `#[derive(Debug, clap::Args)] pub(crate) struct Args` (doc comments are
+//!    the help texts) and `pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>`;
+//!    `convert.rs` is the smallest example;
+//! 2. add `mod foo;`, one line to [`Command`] and one to [`Command::run`] below;
+//! 3. describe it in `docs/cli.md` and test the process in `tests/it/cli_foo.rs`.
+//!
+//! Load designs with [`Context::load`], take the seed from [`Context::seed`], write files with
+//! `files::write_text`, put numbers into JSON with `output::number` (NaN becomes null, which then needs a
+//! word of explanation in the document). Print nothing: what the command found is the [`Answer`], why it
+//! has no answer is the [`Failure`].
+
+mod convert;
+mod fk;
+
+use clap::Subcommand;
+
+use super::context::Context;
+use super::failure::Failure;
+use super::output::Answer;
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Write a design in the other notation (TOML or JSON)
+    Convert(convert::Args),
+    /// All poses, real and complex, for given leg lengths
+    Fk(fk::Args),
+}
+
+impl Command {
+    /// Runs the command.
+    pub(crate) fn run(&self, context: &mut Context) -> Result<Answer, Failure> {
+        match self {
+            Self::Convert(args) => convert::run(args, context),
+            Self::Fk(args) => fk::run(args, context),
+        }
+    }
+}

@@ -1,0 +1,72 @@
+//! What a command is given besides its own arguments.
+
+use std::path::Path;
+
+use super::args::Global;
+use super::diagnostic;
+use super::failure::Failure;
+use super::files;
+use crate::design::{Design, Format, Warning, parse};
+
+/// A warning and the file it is about.
+#[derive(Debug)]
+pub(crate) struct FileWarning {
+    pub(crate) path: String,
+    pub(crate) warning: Warning,
+}
+
+/// Global options and the warnings gathered on the way.
+#[derive(Debug)]
+pub(crate) struct Context {
+    seed: u64,
+    json: bool,
+    quiet: bool,
+    warnings: Vec<FileWarning>,
+}
+
+#[allow(dead_code, reason = "offered to every command; not every command asks")]
+impl Context {
+    pub(crate) fn new(global: &Global) -> Self {
+        Self { seed: global.seed, json: global.json, quiet: global.quiet, warnings: Vec::new() }
+    }
+
+    /// `--seed`: the only source of randomness.
+    pub(crate) fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    /// `--json`: for commands that would do needless work to render what is not shown.
+    pub(crate) fn json(&self) -> bool {
+        self.json
+    }
+
+    /// `--quiet`: no progress on standard error.
+    pub(crate) fn quiet(&self) -> bool {
+        self.quiet
+    }
+
+    pub(crate) fn warnings(&self) -> &[FileWarning] {
+        &self.warnings
+    }
+
+    /// Reads and checks a design file; its warnings are shown and kept for the JSON document.
+    ///
+    /// # Errors
+    /// Exit 2 with all violations, or because the file cannot be read.
+    pub(crate) fn load(&mut self, path: &Path) -> Result<Design, Failure> {
+        let text = files::read_text(path)?;
+        let shown = path.display().to_string();
+        match parse(&text, Format::of_path(path)) {
+            Ok((design, warnings)) => {
+                for warning in warnings {
+                    if !self.quiet {
+                        diagnostic::print_warning(&shown, &text, &warning);
+                    }
+                    self.warnings.push(FileWarning { path: shown.clone(), warning });
+                }
+                Ok(design)
+            }
+            Err(violations) => Err(Failure::bad_design(shown, text, violations)),
+        }
+    }
+}

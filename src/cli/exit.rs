@@ -1,0 +1,38 @@
+//! Exit codes.
+
+use std::process::ExitCode;
+
+/// What the exit code tells; the order is that of the codes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[allow(dead_code, reason = "not every command can answer everything")]
+pub(crate) enum Exit {
+    /// 0: yes, solved, done.
+    Yes,
+    /// 1: it ran and the answer is no (not equivalent, singular, infeasible).
+    No,
+    /// 2: bad usage or bad design.
+    Refused,
+    /// 3: not proved either way; roots may be missing.
+    Inconclusive,
+    /// 4: the program failed.
+    Internal,
+}
+
+impl Exit {
+    /// The number.
+    pub(crate) fn code(self) -> u8 {
+        match self {
+            Self::Yes => 0,
+            Self::No => 1,
+            Self::Refused => 2,
+            Self::Inconclusive => 3,
+            Self::Internal => 4,
+        }
+    }
+}
+
+impl From<Exit> for ExitCode {
+    fn from(exit: Exit) -> Self {
+        Self::from(exit.code())
+    }
+}

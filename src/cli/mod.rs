@@ -1,0 +1,53 @@
+//! The command line: the only place that reads files, prints and exits.
+//!
+//! Data goes to standard output, everything else to standard error. With `--json` standard output holds
+//! exactly one JSON document, for refusals and failures too. See `docs/cli.md`.
+
+mod args;
+mod commands;
+mod context;
+mod diagnostic;
+mod exit;
+mod failure;
+mod files;
+mod output;
+
+use std::ffi::OsString;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use self::args::Cli;
+use self::context::Context;
+use self::exit::Exit;
+use self::failure::Failure;
+use self::output::Output;
+
+/// Runs the program on its arguments and returns its exit code. Panics inside are caught and reported.
+pub fn main(args: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let args: Vec<OsString> = args.into_iter().collect();
+    // clap knows about --json only when it understood everything, but its refusals must obey it too
+    let json = args.iter().skip(1).take_while(|a| *a != "--").any(|a| a == "--json");
+    std::panic::set_hook(Box::new(|_| {})); // the report below takes the place of the default message
+    let exit = catch_unwind(AssertUnwindSafe(|| run(args, json))).unwrap_or_else(|payload| {
+        let text = payload.downcast_ref::<&str>().map(ToString::to_string);
+        let text = text.or_else(|| payload.downcast_ref::<String>().cloned()).unwrap_or_default();
+        Output::new(json).failure(&Failure::internal(format!("the program broke down: {text}")), &[])
+    });
+    exit.into()
+}
+
+fn run(args: Vec<OsString>, json: bool) -> Exit {
+    let cli = match Cli::try_parse_from(args) {
+        Ok(cli) => cli,
+        Err(error) => return Output::new(json).usage(&error),
+    };
+    let output = Output::new(cli.global.json);
+    let mut context = Context::new(&cli.global);
+    let result = cli.command.run(&mut context);
+    match result {
+        Ok(answer) => output.answer(&answer, context.warnings()),
+        Err(failure) => output.failure(&failure, context.warnings()),
+    }
+}

@@ -1,0 +1,71 @@
+//! Design files: a manipulator with its joint names, home pose, workspace and options, as TOML or JSON.
+//!
+//! Everything here is pure: text in, [`Design`] or a list of [`Violation`]s out, and back to text. The
+//! format is described key by key in `docs/design-files.md`.
+
+mod json_text;
+mod model;
+mod report;
+mod save;
+#[cfg(test)]
+mod tests;
+mod toml_text;
+mod tree;
+mod validate;
+mod violation;
+mod workspace;
+
+pub use model::{Design, HardwareTable, NameCount, OptimizeTable};
+pub use violation::{Code, Violation, Warning};
+pub use workspace::Workspace;
+
+/// The two notations of the same structure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// TOML 1.
+    Toml,
+    /// JSON as in RFC 8259: no comments, no trailing commas.
+    Json,
+}
+
+impl Format {
+    /// The format a file name announces: `.json` in any case is JSON, everything else TOML.
+    #[must_use]
+    pub fn of_path(path: &std::path::Path) -> Self {
+        match path.extension() {
+            Some(ext) if ext.eq_ignore_ascii_case("json") => Self::Json,
+            _ => Self::Toml,
+        }
+    }
+}
+
+/// Reads a design from text.
+///
+/// ```
+/// use equipod::design::{parse, Code, Format};
+/// let violations = parse("name = 'x'\nunit = 'mm'\n", Format::Toml).unwrap_err();
+/// assert_eq!(violations[0].code, Code::MissingKey);
+/// let slip = violations.iter().find(|v| v.code == Code::UnknownKey).unwrap();
+/// assert_eq!((slip.line, slip.help.contains("`units`")), (2, true));
+/// ```
+///
+/// # Errors
+/// All violations found, in the order of the text: a text with syntax errors is not examined further.
+pub fn parse(text: &str, format: Format) -> Result<(Design, Vec<Warning>), Vec<Violation>> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let mut report = report::Report::new(text);
+    if text.trim().is_empty() {
+        let help = "a design needs name, units, legs, [base] and [platform]; `designs/` has examples";
+        report.refuse(Code::Empty, &(0..0), "the file is empty", help);
+        return Err(report.into_violations());
+    }
+    let root = match format {
+        Format::Toml => toml_text::read(text, &mut report),
+        Format::Json => json_text::read(text, &mut report),
+    };
+    let design = root.and_then(|root| validate::design(&root, &mut report));
+    match design {
+        Some(design) if report.is_clean() => Ok((design, report.into_warnings())),
+        _ => Err(report.into_violations()),
+    }
+}

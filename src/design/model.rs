@@ -1,0 +1,131 @@
+//! The design: what a file holds once it is valid.
+
+use thiserror::Error;
+
+use super::Workspace;
+use crate::geom::Pose;
+use crate::manipulator::{LegLengths, Manipulator};
+
+/// A manipulator with names and everything else a design file may carry.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Design {
+    /// Name of the design.
+    pub name: String,
+    /// Label of the length unit; all lengths are in it.
+    pub units: String,
+    /// Where the numbers come from (paper, year, table).
+    pub source: Option<String>,
+    /// Free text.
+    pub description: Option<String>,
+    /// Leg lengths that belong to the design, those of a published example for instance.
+    pub lengths: Option<LegLengths>,
+    /// The pose the platform is built for.
+    pub home: Option<Pose>,
+    /// The poses the platform has to reach.
+    pub workspace: Workspace,
+    /// Limits for the optimisation of joint offsets.
+    pub optimize: OptimizeTable,
+    /// Sizes of joints and legs.
+    pub hardware: HardwareTable,
+    manipulator: Manipulator,
+    base_names: Vec<String>,
+    platform_names: Vec<String>,
+}
+
+/// Limits for the optimisation of joint offsets; what is absent is left to the optimiser.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct OptimizeTable {
+    /// Smallest distance between two joints of one body, design units, positive.
+    pub min_joint_distance: Option<f64>,
+    /// Smallest `|det A|` of the leg map, dimensionless, positive.
+    pub min_abs_det: Option<f64>,
+    /// Length that turns angles into lengths, design units, positive.
+    pub characteristic_length: Option<f64>,
+}
+
+/// Sizes of joints and legs, design units, positive.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct HardwareTable {
+    /// Diameter of the sphere a joint occupies.
+    pub joint_diameter: Option<f64>,
+    /// Diameter of the cylinder a leg occupies.
+    pub leg_diameter: Option<f64>,
+}
+
+/// There are not as many names as joints.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{names} names for the {joints} joints of the {body}")]
+pub struct NameCount {
+    /// `"base"` or `"platform"`.
+    pub body: &'static str,
+    /// Names given.
+    pub names: usize,
+    /// Joints there are.
+    pub joints: usize,
+}
+
+impl Design {
+    /// A design with the joint names `A1, A2, ...` on the base and `B1, B2, ...` on the platform and
+    /// nothing optional.
+    #[must_use]
+    pub fn new(name: impl Into<String>, units: impl Into<String>, manipulator: Manipulator) -> Self {
+        let names = |letter: char, n: usize| (1..=n).map(|i| format!("{letter}{i}")).collect();
+        Self {
+            name: name.into(),
+            units: units.into(),
+            source: None,
+            description: None,
+            lengths: None,
+            home: None,
+            workspace: Workspace::default(),
+            optimize: OptimizeTable::default(),
+            hardware: HardwareTable::default(),
+            base_names: names('A', manipulator.base_joints().len()),
+            platform_names: names('B', manipulator.platform_joints().len()),
+            manipulator,
+        }
+    }
+
+    /// The same design with other joint names, in joint order.
+    ///
+    /// # Errors
+    /// [`NameCount`] unless there is one name for every joint. Names are not compared with each other
+    /// here; a file with the same name twice in a body is refused when it is read.
+    pub fn with_joint_names(mut self, base: Vec<String>, platform: Vec<String>) -> Result<Self, NameCount> {
+        let bodies = [
+            ("base", base.len(), self.manipulator.base_joints().len()),
+            ("platform", platform.len(), self.manipulator.platform_joints().len()),
+        ];
+        for (body, names, joints) in bodies {
+            if names != joints {
+                return Err(NameCount { body, names, joints });
+            }
+        }
+        (self.base_names, self.platform_names) = (base, platform);
+        Ok(self)
+    }
+
+    /// Joints and legs.
+    #[must_use]
+    pub fn manipulator(&self) -> &Manipulator {
+        &self.manipulator
+    }
+
+    /// Names of [`Manipulator::base_joints`], in the same order.
+    #[must_use]
+    pub fn base_names(&self) -> &[String] {
+        &self.base_names
+    }
+
+    /// Names of [`Manipulator::platform_joints`], in the same order.
+    #[must_use]
+    pub fn platform_names(&self) -> &[String] {
+        &self.platform_names
+    }
+
+    /// Base and platform joint name of every leg, in leg order.
+    #[must_use]
+    pub fn leg_names(&self) -> [(&str, &str); 6] {
+        self.manipulator.pairs().map(|(a, b)| (self.base_names[a].as_str(), self.platform_names[b].as_str()))
+    }
+}

@@ -1,0 +1,73 @@
+//! TOML text to the spanned tree.
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::Code;
+use super::report::Report;
+use super::tree::{Entry, MAX_DEPTH, Node, Value};
+
+/// Reads the text; all syntax errors go to the report and make this `None`.
+pub(super) fn read(text: &str, report: &mut Report<'_>) -> Option<Node> {
+    let (document, errors) = DeTable::parse_recoverable(text);
+    for error in &errors {
+        let span = error.span().unwrap_or(0..0);
+        let message = error.message();
+        if message.contains("duplicate key") {
+            report.refuse(Code::DuplicateKey, &span, "this key stands twice", "keep one of the two");
+        } else if message.contains("recursion limit") {
+            too_deep(report, &span);
+        } else {
+            let help = "mend the TOML; strings need quotes, tables [brackets], see https://toml.io";
+            report.refuse(Code::Syntax, &span, message, help);
+        }
+    }
+    if !errors.is_empty() {
+        return None;
+    }
+    let span = document.span();
+    let value = table(document.get_ref(), report, 0)?;
+    Some(Node { span: span.start..span.start, value })
+}
+
+fn too_deep(report: &mut Report<'_>, span: &std::ops::Range<usize>) {
+    let help = "a design has tables of arrays of numbers, nothing deeper";
+    report.refuse(Code::NestingTooDeep, span, format!("nested deeper than {MAX_DEPTH} levels"), help);
+}
+
+fn table(table: &DeTable<'_>, report: &mut Report<'_>, depth: usize) -> Option<Value> {
+    let mut entries = Vec::with_capacity(table.len());
+    for (key, value) in table {
+        let node = node(value, report, depth + 1)?;
+        entries.push(Entry { key: key.get_ref().to_string(), key_span: key.span(), node });
+    }
+    // the parser sorts keys by name; joints keep the order of the file
+    entries.sort_by_key(|e: &Entry| e.key_span.start);
+    Some(Value::Table(entries))
+}
+
+fn node(value: &Spanned<DeValue<'_>>, report: &mut Report<'_>, depth: usize) -> Option<Node> {
+    let span = value.span();
+    if depth > MAX_DEPTH {
+        too_deep(report, &span);
+        return None;
+    }
+    let value = match value.get_ref() {
+        DeValue::String(s) => Value::Text(s.to_string()),
+        DeValue::Integer(i) if i.radix() == 10 => number(i.as_str()),
+        DeValue::Integer(_) => Value::Other("an integer that is not decimal"),
+        DeValue::Float(f) => number(f.as_str()),
+        DeValue::Boolean(_) => Value::Other("a boolean"),
+        DeValue::Datetime(_) => Value::Other("a date"),
+        DeValue::Array(a) => {
+            Value::Array(a.iter().map(|v| node(v, report, depth + 1)).collect::<Option<_>>()?)
+        }
+        DeValue::Table(t) => table(t, report, depth)?,
+    };
+    Some(Node { span, value })
+}
+
+/// Rust rounds decimal text to the nearest double, and reads `inf` and `nan` as TOML writes them.
+fn number(text: &str) -> Value {
+    text.parse().map_or(Value::Other("a number that cannot be read"), Value::Number)
+}

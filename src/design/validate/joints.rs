@@ -1,0 +1,201 @@
+//! Joints of a body and the legs between them.
+
+use std::collections::BTreeMap;
+
+use nalgebra::Point3;
+
+use super::fields::{self, nearest, numbers, shown};
+use crate::design::report::Report;
+use crate::design::tree::{Entry, Node, Span, Value};
+use crate::design::{Code, Warning};
+use crate::manipulator::is_collinear;
+
+/// A joint of the file. One with bad coordinates is kept so that legs still find its name.
+#[derive(Debug)]
+pub(super) struct Joint {
+    pub(super) name: String,
+    pub(super) point: [f64; 3],
+    intact: bool,
+    span: Span,
+}
+
+/// The joints of the base or of the platform.
+#[derive(Debug)]
+pub(super) struct Body {
+    label: &'static str,
+    span: Span,
+    pub(super) joints: Vec<Joint>,
+    index: BTreeMap<String, usize>,
+}
+
+/// Six legs as pairs of joint indices.
+#[derive(Debug)]
+pub(super) struct Legs {
+    pub(super) pairs: [(usize, usize); 6],
+}
+
+impl Body {
+    pub(super) fn names(&self) -> Vec<String> {
+        self.joints.iter().map(|j| j.name.clone()).collect()
+    }
+}
+
+/// `legs` of a file looks like `[["P1", "P4"], ...]`.
+pub(super) fn is_list_of_pairs(node: &Node) -> bool {
+    matches!(&node.value, Value::Array(list) if list.iter().any(|e| matches!(e.value, Value::Array(_))))
+}
+
+/// Reads `[base]` or `[platform]`.
+pub(super) fn body(report: &mut Report<'_>, label: &'static str, entry: &Entry) -> Option<Body> {
+    let entries = fields::table(report, &entry.node, &format!("[{label}]"))?;
+    let mut body = Body { label, span: entry.key_span.clone(), joints: Vec::new(), index: BTreeMap::new() };
+    for e in entries.iter().filter(|e| e.key != "legs" || !is_list_of_pairs(&e.node)) {
+        if e.key.trim().is_empty() {
+            let message = format!("a joint of the {label} has an empty name");
+            report.refuse(Code::EmptyName, &e.key_span, message, "give the joint a name");
+        }
+        let what = format!("{label} joint {}", shown(&e.key));
+        let point = numbers::<3>(report, &e.node, &what, Code::CoordinateCount, "coordinates x, y, z");
+        body.index.insert(e.key.clone(), body.joints.len());
+        body.joints.push(Joint {
+            name: e.key.clone(),
+            point: point.unwrap_or_default(),
+            intact: point.is_some(),
+            span: e.key_span.clone(),
+        });
+    }
+    warn_coincident(report, &body);
+    Some(body)
+}
+
+fn warn_coincident(report: &mut Report<'_>, body: &Body) {
+    let mut seen: BTreeMap<[u64; 3], &str> = BTreeMap::new();
+    for joint in body.joints.iter().filter(|j| j.intact) {
+        let key = joint.point.map(|x| (x + 0.0).to_bits()); // -0 + 0 = 0: one place, one key
+        if let Some(first) = seen.get(&key) {
+            let (first, second) = ((*first).to_string(), joint.name.clone());
+            let line = report.line(joint.span.start);
+            report.warn(Warning::CoincidentJoints { body: body.label, first, second, line });
+        } else {
+            seen.insert(key, &joint.name);
+        }
+    }
+}
+
+/// Reads `legs`, checks the pairs and what they make of the joints.
+pub(super) fn legs(report: &mut Report<'_>, entry: &Entry, base: &Body, platform: &Body) -> Option<Legs> {
+    let help = "write six pairs: legs = [[\"A1\", \"B1\"], [\"A2\", \"B2\"], ...]";
+    let Value::Array(list) = &entry.node.value else {
+        let message = format!("`legs` is {}, not an array of pairs", entry.node.value.kind());
+        report.refuse(Code::WrongType, &entry.node.span, message, help);
+        return None;
+    };
+    if list.len() != 6 {
+        let message = format!("there are {} legs instead of six", list.len());
+        report.refuse(Code::LegCount, &entry.key_span, message, help);
+    }
+    let pairs: Vec<Option<(usize, usize)>> =
+        list.iter().enumerate().map(|(i, node)| pair(report, i, node, base, platform)).collect();
+    refuse_identical(report, list, &pairs, base, platform);
+    let pairs: Vec<(usize, usize)> = pairs.into_iter().collect::<Option<_>>()?;
+    let pairs: [(usize, usize); 6] = pairs.try_into().ok()?;
+    for (body, used) in [(base, pairs.map(|p| p.0)), (platform, pairs.map(|p| p.1))] {
+        check_use(report, body, used);
+    }
+    Some(Legs { pairs })
+}
+
+/// One leg.
+fn pair(
+    report: &mut Report<'_>,
+    i: usize,
+    node: &Node,
+    base: &Body,
+    platform: &Body,
+) -> Option<(usize, usize)> {
+    let leg = i + 1;
+    let ends: Vec<Option<(&str, &Span)>> = match &node.value {
+        Value::Array(ends) => ends
+            .iter()
+            .map(|e| if let Value::Text(name) = &e.value { Some((name.as_str(), &e.span)) } else { None })
+            .collect(),
+        _ => Vec::new(),
+    };
+    let [Some(a), Some(b)] = ends.as_slice() else {
+        let message = format!("leg {leg} is not a pair of joint names");
+        report.refuse(Code::LegShape, &node.span, message, "write [\"base joint\", \"platform joint\"]");
+        return None;
+    };
+    let a = lookup(report, leg, *a, base, platform);
+    let b = lookup(report, leg, *b, platform, base);
+    Some((a?, b?))
+}
+
+fn lookup(
+    report: &mut Report<'_>,
+    leg: usize,
+    (name, span): (&str, &Span),
+    body: &Body,
+    other: &Body,
+) -> Option<usize> {
+    if let Some(index) = body.index.get(name) {
+        return Some(*index);
+    }
+    let label = body.label;
+    let names: Vec<&str> = body.joints.iter().map(|j| j.name.as_str()).take(200).collect();
+    let help = if other.index.contains_key(name) {
+        format!("`{}` is a joint of the {}; a leg names the base joint first", shown(name), other.label)
+    } else if let Some(near) = nearest(name, &names) {
+        format!("did you mean `{}`?", shown(near))
+    } else {
+        format!("add `{} = [x, y, z]` to [{label}]", shown(name))
+    };
+    let message = format!("leg {leg} names `{}`, which is no joint of the {label}", shown(name));
+    report.refuse(Code::MissingJoint, span, message, help);
+    None
+}
+
+fn refuse_identical(
+    report: &mut Report<'_>,
+    list: &[Node],
+    pairs: &[Option<(usize, usize)>],
+    base: &Body,
+    platform: &Body,
+) {
+    let mut seen: BTreeMap<(usize, usize), usize> = BTreeMap::new();
+    for (i, pair) in pairs.iter().enumerate() {
+        let Some(pair) = pair else { continue };
+        if let Some(first) = seen.get(pair) {
+            let (a, b) = (shown(&base.joints[pair.0].name), shown(&platform.joints[pair.1].name));
+            let message = format!("legs {} and {} both join {a} to {b}", first + 1, i + 1);
+            let help =
+                "each leg needs its own pair of joints; with two equal legs the platform is never rigid";
+            report.refuse(Code::IdenticalLegs, &list[i].span, message, help);
+        } else {
+            seen.insert(*pair, i);
+        }
+    }
+}
+
+/// Unused joints, and triangles that are none.
+fn check_use(report: &mut Report<'_>, body: &Body, used: [usize; 6]) {
+    for (i, joint) in body.joints.iter().enumerate() {
+        if !used.contains(&i) {
+            let line = report.line(joint.span.start);
+            report.warn(Warning::UnusedJoint { body: body.label, name: joint.name.clone(), line });
+        }
+    }
+    let mut distinct = used.to_vec();
+    distinct.sort_unstable();
+    distinct.dedup();
+    if let [i, j, k] = distinct.as_slice() {
+        let triangle = [*i, *j, *k].map(|n| &body.joints[n]);
+        let points = triangle.map(|joint| Point3::from(joint.point));
+        if triangle.iter().all(|joint| joint.intact) && is_collinear(&points) {
+            let names = triangle.map(|joint| shown(&joint.name)).join(", ");
+            let message = format!("the {} joints {names} are on one line", body.label);
+            let help = "move one of them: a body held in three points on a line can turn about it";
+            report.refuse(Code::CollinearTriangle, &body.span, message, help);
+        }
+    }
+}
