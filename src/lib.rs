@@ -15,4 +15,5 @@ pub mod fk;
 pub mod geom;
 pub mod manipulator;
 pub mod num;
+pub mod solve;
 pub mod synthesis;

@@ -1,5 +1,6 @@
 //! Integration tests, one binary.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a failing test panics")]
 
+mod certify;
 mod cli_fk;
 mod leg_maps;

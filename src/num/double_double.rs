@@ -1,0 +1,242 @@
+//! Double-double arithmetic: a real number as the unevaluated sum `hi + lo` of two doubles, about 32 digits.
+//!
+//! Dekker (1971), Knuth (TAOCP 2, 4.2.2) for the error-free transforms; algorithms and bounds for the
+//! operations from Joldes, Muller, Popescu (ACM TOMS 44, 2017). With `u = 2^-53` their relative errors are
+//!
+//! | operation | algorithm | bound |
+//! |---|---|---|
+//! | `+`, `-` | accurate sum of two double-doubles | `3 u^2 + 13 u^3` |
+//! | `*` | product with the low parts' cross terms | `7 u^2` |
+//! | `/` | two quotient digits | `15 u^2 + 56 u^3` |
+//!
+//! all below [`DoubleDouble::UNIT`] `= 2^-102 = 16 u^2`, barring overflow and underflow: operands and
+//! results between `2^-400` and `2^400` in modulus, or zero, are safe (low parts of products then stay
+//! normal). Nothing depends on a fused multiply-add: the exact product is Dekker's unless the target has one.
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use num_complex::Complex64;
+
+/// An unevaluated sum `hi + lo` with `hi = fl(hi + lo)`.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct DoubleDouble {
+    hi: f64,
+    lo: f64,
+}
+
+/// `a + b = s + t` exactly, `s = fl(a + b)` (Knuth; any order of magnitudes, no overflow).
+#[must_use]
+pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
+    let s = a + b;
+    let bb = s - a;
+    (s, (a - (s - bb)) + (b - bb))
+}
+
+/// `a + b = s + t` exactly provided `|a| >= |b|` or `a = 0` (Dekker).
+fn fast_two_sum(a: f64, b: f64) -> (f64, f64) {
+    let s = a + b;
+    (s, b - (s - a))
+}
+
+/// Veltkamp's split into two halves of at most 26 bits each; exact for `|a| < 2^996`.
+fn split(a: f64) -> (f64, f64) {
+    const FACTOR: f64 = 134_217_729.0; // 2^27 + 1
+    let t = FACTOR * a;
+    let high = t - (t - a);
+    (high, a - high)
+}
+
+/// `a b = p + e` exactly, `p = fl(a b)`; needs `|a|, |b| < 2^996` and `|a b|` zero or in `[2^-960, 2^1020]`.
+#[must_use]
+pub fn two_product(a: f64, b: f64) -> (f64, f64) {
+    let p = a * b;
+    if cfg!(target_feature = "fma") {
+        return (p, a.mul_add(b, -p)); // the error is representable, so the fused operation returns it
+    }
+    let ((ah, al), (bh, bl)) = (split(a), split(b));
+    (p, al * bl - (((p - ah * bh) - al * bh) - ah * bl))
+}
+
+impl DoubleDouble {
+    /// Zero.
+    pub const ZERO: Self = Self { hi: 0.0, lo: 0.0 };
+    /// One.
+    pub const ONE: Self = Self { hi: 1.0, lo: 0.0 };
+    /// Relative error bound of every operation, see the module's table.
+    pub const UNIT: f64 = 16.0 * f64::EPSILON * f64::EPSILON / 4.0;
+
+    /// The exact sum of two doubles.
+    #[must_use]
+    pub fn from_sum(a: f64, b: f64) -> Self {
+        let (hi, lo) = two_sum(a, b);
+        Self { hi, lo }
+    }
+
+    /// The exact product of two doubles (in the range of [`two_product`]).
+    #[must_use]
+    pub fn from_product(a: f64, b: f64) -> Self {
+        let (hi, lo) = two_product(a, b);
+        Self { hi, lo }
+    }
+
+    /// The nearest double.
+    #[must_use]
+    pub fn hi(self) -> f64 {
+        self.hi
+    }
+
+    /// What the nearest double leaves, at most half a unit in its last place.
+    #[must_use]
+    pub fn lo(self) -> f64 {
+        self.lo
+    }
+
+    /// Product with a power of two: exact barring overflow and underflow.
+    #[must_use]
+    pub fn scaled(self, power_of_two: f64) -> Self {
+        Self { hi: self.hi * power_of_two, lo: self.lo * power_of_two }
+    }
+
+    /// Absolute value, exact.
+    #[must_use]
+    pub fn abs(self) -> Self {
+        if self.hi < 0.0 { -self } else { self }
+    }
+}
+
+impl From<f64> for DoubleDouble {
+    fn from(x: f64) -> Self {
+        Self { hi: x, lo: 0.0 }
+    }
+}
+
+impl Neg for DoubleDouble {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self { hi: -self.hi, lo: -self.lo }
+    }
+}
+
+impl Add for DoubleDouble {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        let (sh, sl) = two_sum(self.hi, other.hi);
+        let (th, tl) = two_sum(self.lo, other.lo);
+        let (vh, vl) = fast_two_sum(sh, sl + th);
+        let (hi, lo) = fast_two_sum(vh, tl + vl);
+        Self { hi, lo }
+    }
+}
+
+impl Sub for DoubleDouble {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}
+
+impl Mul for DoubleDouble {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        let (ch, cl) = two_product(self.hi, other.hi);
+        let cross = self.hi * other.lo + self.lo * other.hi;
+        let (hi, lo) = fast_two_sum(ch, cl + cross);
+        Self { hi, lo }
+    }
+}
+
+impl Div for DoubleDouble {
+    type Output = Self;
+    fn div(self, other: Self) -> Self {
+        // q1 = first quotient digit, remainder computed with an exact product, q2 = second digit
+        let q1 = self.hi / other.hi;
+        let (ph, pl) = two_product(other.hi, q1);
+        let product_low = pl + other.lo * q1;
+        let (rh, rl) = fast_two_sum(ph, product_low);
+        let (dh, dl) = ((self.hi - rh), (self.lo - rl));
+        let (hi, lo) = fast_two_sum(q1, (dh + dl) / other.hi);
+        Self { hi, lo }
+    }
+}
+
+/// A complex number with double-double parts.
+///
+/// Sums have relative error [`DoubleDouble::UNIT`] in each part; a product has error at most
+/// `3 UNIT |z| |w|` in each part (two products and one sum).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ComplexDoubleDouble {
+    /// Real part.
+    pub re: DoubleDouble,
+    /// Imaginary part.
+    pub im: DoubleDouble,
+}
+
+impl ComplexDoubleDouble {
+    /// Zero.
+    pub const ZERO: Self = Self { re: DoubleDouble::ZERO, im: DoubleDouble::ZERO };
+
+    /// The nearest double in each part.
+    #[must_use]
+    pub fn hi(self) -> Complex64 {
+        Complex64::new(self.re.hi, self.im.hi)
+    }
+
+    /// What [`hi`](Self::hi) leaves.
+    #[must_use]
+    pub fn lo(self) -> Complex64 {
+        Complex64::new(self.re.lo, self.im.lo)
+    }
+
+    /// Product with a power of two: exact barring overflow and underflow.
+    #[must_use]
+    pub fn scaled(self, power_of_two: f64) -> Self {
+        Self { re: self.re.scaled(power_of_two), im: self.im.scaled(power_of_two) }
+    }
+}
+
+impl From<Complex64> for ComplexDoubleDouble {
+    fn from(z: Complex64) -> Self {
+        Self { re: z.re.into(), im: z.im.into() }
+    }
+}
+
+impl Neg for ComplexDoubleDouble {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self { re: -self.re, im: -self.im }
+    }
+}
+
+impl Add for ComplexDoubleDouble {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self { re: self.re + other.re, im: self.im + other.im }
+    }
+}
+
+impl Sub for ComplexDoubleDouble {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}
+
+impl Mul for ComplexDoubleDouble {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        Self { re: self.re * other.re - self.im * other.im, im: self.re * other.im + self.im * other.re }
+    }
+}
+
+impl Div for ComplexDoubleDouble {
+    type Output = Self;
+    /// `z conj(w) / |w|^2`: accurate relative to `|z / w|`, not in each part by itself.
+    fn div(self, other: Self) -> Self {
+        let n = other.re * other.re + other.im * other.im;
+        let z = self * Self { re: other.re, im: -other.im };
+        Self { re: z.re / n, im: z.im / n }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,280 @@
+//! Intervals of reals with outward-rounded double ends, and rectangles of complex numbers.
+//!
+//! Every operation encloses the exact result for all choices of the operands within their intervals
+//! (Moore 1966). IEEE 754 rounds `+ - * /` and `sqrt` to nearest, so the exact value lies between the
+//! neighbours of the rounded one: each end is moved one double outward. That holds at the edges too: a
+//! sum that overflows to `+inf` has its lower end at the largest double, a product that underflows to
+//! zero its ends at the smallest subnormals. Results that are known exactly (an operand is the point
+//! zero) are not widened, so that real data keep imaginary part zero.
+//!
+//! There is no empty interval: operations that could yield one return `Option`.
+
+use std::ops::{Add, Mul, Neg, Sub};
+
+use num_complex::Complex64;
+
+/// The closed interval `[lo, hi]` of reals, `lo <= hi`; an infinite end means unbounded on that side.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Interval {
+    lo: f64,
+    hi: f64,
+}
+
+impl Interval {
+    /// The point zero.
+    pub const ZERO: Self = Self { lo: 0.0, hi: 0.0 };
+    /// All reals.
+    pub const WHOLE: Self = Self { lo: f64::NEG_INFINITY, hi: f64::INFINITY };
+
+    /// `[lo, hi]`, or `None` unless `lo <= hi`, `lo < +inf` and `hi > -inf` (NaN is refused too).
+    #[must_use]
+    pub fn new(lo: f64, hi: f64) -> Option<Self> {
+        (lo <= hi && lo < f64::INFINITY && hi > f64::NEG_INFINITY).then_some(Self { lo, hi })
+    }
+
+    /// The point `x`, or `None` when `x` is not finite.
+    #[must_use]
+    pub fn point(x: f64) -> Option<Self> {
+        Self::new(x, x)
+    }
+
+    /// Lower end.
+    #[must_use]
+    pub fn lo(self) -> f64 {
+        self.lo
+    }
+
+    /// Upper end.
+    #[must_use]
+    pub fn hi(self) -> f64 {
+        self.hi
+    }
+
+    /// `true` when `x` is a real number in the interval.
+    #[must_use]
+    pub fn contains(self, x: f64) -> bool {
+        x.is_finite() && self.lo <= x && x <= self.hi
+    }
+
+    /// `true` when every number of `other` is in `self`.
+    #[must_use]
+    pub fn encloses(self, other: Self) -> bool {
+        self.lo <= other.lo && other.hi <= self.hi
+    }
+
+    /// Common numbers, `None` when there are none.
+    #[must_use]
+    pub fn intersection(self, other: Self) -> Option<Self> {
+        Self::new(self.lo.max(other.lo), self.hi.min(other.hi))
+    }
+
+    /// A double `m` and a radius `r >= 0` with `[lo, hi]` inside `[m - r, m + r]`; `r` is infinite for unbounded intervals.
+    #[must_use]
+    pub fn centre_and_radius(self) -> (f64, f64) {
+        if !(self.lo.is_finite() && self.hi.is_finite()) {
+            return (0.0, f64::INFINITY);
+        }
+        let m = (0.5 * self.lo + 0.5 * self.hi).clamp(self.lo, self.hi);
+        let (below, above) = (Self::raw(m, m) - Self::raw(self.lo, self.lo), Self::raw(self.hi, self.hi));
+        (m, below.hi.max((above - Self::raw(m, m)).hi))
+    }
+
+    /// Largest modulus of its numbers.
+    #[must_use]
+    pub fn magnitude(self) -> f64 {
+        self.lo.abs().max(self.hi.abs())
+    }
+
+    /// Encloses `x^2`, never below zero.
+    #[must_use]
+    pub fn square(self) -> Self {
+        let square = self * self;
+        if self.lo > 0.0 || self.hi < 0.0 || self == Self::ZERO {
+            let (small, large) = (self.lo.abs().min(self.hi.abs()), self.magnitude());
+            return Self::raw(mul_down(small, small).max(0.0), mul_up(large, large));
+        }
+        Self::raw(0.0, square.hi)
+    }
+
+    /// Encloses the square roots of the non-negative numbers in it; `None` when it holds none.
+    #[must_use]
+    pub fn sqrt(self) -> Option<Self> {
+        if self.hi < 0.0 {
+            return None;
+        }
+        let root = |x: f64, widened: fn(f64) -> f64| if x > 0.0 { widened(x.sqrt()) } else { 0.0 };
+        Some(Self::raw(root(self.lo, f64::next_down).max(0.0), root(self.hi, f64::next_up)))
+    }
+
+    /// Encloses `x / y`; `None` when the divisor holds zero.
+    #[must_use]
+    pub fn checked_div(self, divisor: Self) -> Option<Self> {
+        if divisor.lo <= 0.0 && divisor.hi >= 0.0 {
+            return None;
+        }
+        if self == Self::ZERO {
+            return Some(self);
+        }
+        let ends =
+            [(self.lo, divisor.lo), (self.lo, divisor.hi), (self.hi, divisor.lo), (self.hi, divisor.hi)];
+        let quotient = |(x, y): (f64, f64)| if x == 0.0 { 0.0 } else { x / y };
+        // inf / inf: both operands unbounded there, quotients near that corner reach down to zero and up to inf
+        let lo = ends
+            .map(|e| if quotient(e).is_nan() { corner(e, true) } else { down_unless_zero(quotient(e), e.0) });
+        let hi = ends
+            .map(|e| if quotient(e).is_nan() { corner(e, false) } else { up_unless_zero(quotient(e), e.0) });
+        Some(Self::raw(
+            lo.into_iter().fold(f64::INFINITY, f64::min),
+            hi.into_iter().fold(f64::NEG_INFINITY, f64::max),
+        ))
+    }
+
+    fn raw(lo: f64, hi: f64) -> Self {
+        Self { lo, hi }
+    }
+}
+
+/// Bounds of `x / y` near the corner where both are infinite: between 0 and an infinity of the quotient's sign.
+fn corner((x, y): (f64, f64), lower: bool) -> f64 {
+    let positive = (x > 0.0) == (y > 0.0);
+    match (positive, lower) {
+        (true, true) | (false, false) => 0.0,
+        (true, false) => f64::INFINITY,
+        (false, true) => f64::NEG_INFINITY,
+    }
+}
+
+fn down_unless_zero(x: f64, numerator: f64) -> f64 {
+    if numerator == 0.0 { 0.0 } else { x.next_down() }
+}
+
+fn up_unless_zero(x: f64, numerator: f64) -> f64 {
+    if numerator == 0.0 { 0.0 } else { x.next_up() }
+}
+
+/// Lower bound of `x y`; zero times infinity is zero because the infinite end is not attained.
+fn mul_down(x: f64, y: f64) -> f64 {
+    if x == 0.0 || y == 0.0 { 0.0 } else { (x * y).next_down() }
+}
+
+fn mul_up(x: f64, y: f64) -> f64 {
+    if x == 0.0 || y == 0.0 { 0.0 } else { (x * y).next_up() }
+}
+
+impl From<f64> for Interval {
+    /// The point `x`; a value that is not finite gives [`Interval::WHOLE`], about which nothing can be proved.
+    fn from(x: f64) -> Self {
+        Self::point(x).unwrap_or(Self::WHOLE)
+    }
+}
+
+impl Neg for Interval {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self::raw(-self.hi, -self.lo)
+    }
+}
+
+impl Add for Interval {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        if self == Self::ZERO {
+            return other;
+        }
+        if other == Self::ZERO {
+            return self;
+        }
+        Self::raw((self.lo + other.lo).next_down(), (self.hi + other.hi).next_up())
+    }
+}
+
+impl Sub for Interval {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}
+
+impl Mul for Interval {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        let pairs = [(self.lo, other.lo), (self.lo, other.hi), (self.hi, other.lo), (self.hi, other.hi)];
+        let lo = pairs.map(|(x, y)| mul_down(x, y));
+        let hi = pairs.map(|(x, y)| mul_up(x, y));
+        Self::raw(
+            lo.into_iter().fold(f64::INFINITY, f64::min),
+            hi.into_iter().fold(f64::NEG_INFINITY, f64::max),
+        )
+    }
+}
+
+/// A rectangle of complex numbers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ComplexInterval {
+    /// Real parts.
+    pub re: Interval,
+    /// Imaginary parts.
+    pub im: Interval,
+}
+
+impl ComplexInterval {
+    /// The point zero.
+    pub const ZERO: Self = Self { re: Interval::ZERO, im: Interval::ZERO };
+
+    /// `true` when `z` is a finite number in the rectangle.
+    #[must_use]
+    pub fn contains(self, z: Complex64) -> bool {
+        self.re.contains(z.re) && self.im.contains(z.im)
+    }
+
+    /// `|z|^2` over the rectangle.
+    #[must_use]
+    pub fn norm_squared(self) -> Interval {
+        self.re.square() + self.im.square()
+    }
+
+    /// Encloses `z / w`; `None` when the divisor may be zero.
+    #[must_use]
+    pub fn checked_div(self, divisor: Self) -> Option<Self> {
+        let n = divisor.norm_squared();
+        let z = self * Self { re: divisor.re, im: -divisor.im };
+        Some(Self { re: z.re.checked_div(n)?, im: z.im.checked_div(n)? })
+    }
+}
+
+impl From<Complex64> for ComplexInterval {
+    fn from(z: Complex64) -> Self {
+        Self { re: z.re.into(), im: z.im.into() }
+    }
+}
+
+impl Neg for ComplexInterval {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self { re: -self.re, im: -self.im }
+    }
+}
+
+impl Add for ComplexInterval {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self { re: self.re + other.re, im: self.im + other.im }
+    }
+}
+
+impl Sub for ComplexInterval {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}
+
+impl Mul for ComplexInterval {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        Self { re: self.re * other.re - self.im * other.im, im: self.re * other.im + self.im * other.re }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,127 @@
+//! From a pose to Study coordinates, and from a ball of these back to enclosures of `R` and `p`.
+
+use num_complex::Complex64;
+
+use super::certificate::{PoseEnclosure, WhyUncertified};
+use super::system::Study;
+use crate::geom::ComplexPose;
+use crate::num::disc::Disc;
+use crate::num::double_double::{ComplexDoubleDouble, DoubleDouble};
+
+/// `4 e e^T / N` of a rotation matrix, column `k` (Shepperd 1978).
+fn quaternion_column(r: &nalgebra::Matrix3<Complex64>, k: usize) -> [Complex64; 4] {
+    let one = Complex64::new(1.0, 0.0);
+    let (w, x) = (one + r[(0, 0)], one - r[(0, 0)]);
+    let (sum, gap) = (r[(1, 1)] + r[(2, 2)], r[(1, 1)] - r[(2, 2)]);
+    let (wx, wy, wz) = (r[(2, 1)] - r[(1, 2)], r[(0, 2)] - r[(2, 0)], r[(1, 0)] - r[(0, 1)]);
+    let (xy, xz, yz) = (r[(0, 1)] + r[(1, 0)], r[(0, 2)] + r[(2, 0)], r[(1, 2)] + r[(2, 1)]);
+    match k {
+        0 => [w + sum, wx, wy, wz],
+        1 => [wx, w - sum, xy, xz],
+        2 => [wy, xy, x + gap, yz],
+        _ => [wz, xz, yz, x - gap],
+    }
+}
+
+/// Study coordinates of a pose on the patch of its largest `|e_k|` (the first of equals), lengths divided by `unit`.
+///
+/// Real poses have real coordinates. Nothing here needs error bounds: the result is the point the proof is about.
+pub(super) fn study_of(pose: &ComplexPose, unit: f64) -> Result<Study<f64>, WhyUncertified> {
+    let (r, p) = (&pose.rotation, pose.position / Complex64::new(unit, 0.0));
+    if !r.iter().chain(p.iter()).all(|z| z.is_finite()) {
+        return Err(WhyUncertified::NotFinite);
+    }
+    let diagonal: [f64; 4] = std::array::from_fn(|k| quaternion_column(r, k)[k].norm_sqr());
+    let patch = (1..4).fold(0, |best, k| if diagonal[k] > diagonal[best] { k } else { best });
+    let column = quaternion_column(r, patch);
+    let mut e: [Complex64; 4] = column.map(|z| z / column[patch]);
+    e[patch] = Complex64::new(1.0, 0.0);
+    let g = [
+        -(p.x * e[1] + p.y * e[2] + p.z * e[3]),
+        p.x * e[0] + p.y * e[3] - p.z * e[2],
+        p.y * e[0] + p.z * e[1] - p.x * e[3],
+        p.z * e[0] + p.x * e[2] - p.y * e[1],
+    ];
+    if !e.iter().all(|z| z.norm_sqr() < 2f64.powi(60)) {
+        return Err(WhyUncertified::NotARotation { distance: f64::INFINITY });
+    }
+    // moduli below 2^30 keep every product of the evaluation far below 2^100
+    if !g.iter().all(|z| z.norm_sqr() < 2f64.powi(60)) {
+        return Err(WhyUncertified::OutOfRange);
+    }
+    let z: [Complex64; 8] = std::array::from_fn(|j| if j < 4 { e[j] } else { g[j - 4] });
+    Ok(Study { re: z.map(|z| z.re), im: z.map(|z| z.im), patch })
+}
+
+/// Numerators of `R` (row by row) and `p` over `N = e.e`, and `N`, for anything with ring operations.
+fn pose_numerators<T>(x: &[T; 8]) -> ([T; 9], [T; 3], T)
+where
+    T: Copy
+        + std::ops::Add<Output = T>
+        + std::ops::Sub<Output = T>
+        + std::ops::Mul<Output = T>
+        + std::ops::Neg<Output = T>,
+{
+    let [w, x1, x2, x3, g0, g1, g2, g3] = *x;
+    let (ww, xx, yy, zz) = (w * w, x1 * x1, x2 * x2, x3 * x3);
+    let twice = |a: T| a + a;
+    let (wx, wy, wz) = (w * x1, w * x2, w * x3);
+    let (xy, xz, yz) = (x1 * x2, x1 * x3, x2 * x3);
+    let r = [
+        (ww + xx) - (yy + zz),
+        twice(xy - wz),
+        twice(xz + wy),
+        twice(xy + wz),
+        (ww - xx) + (yy - zz),
+        twice(yz - wx),
+        twice(xz - wy),
+        twice(yz + wx),
+        (ww - xx) - (yy - zz),
+    ];
+    let p = [
+        (w * g1 - g0 * x1) + (x2 * g3 - x3 * g2),
+        (w * g2 - g0 * x2) + (x3 * g1 - x1 * g3),
+        (w * g3 - g0 * x3) + (x1 * g2 - x2 * g1),
+    ];
+    (r, p, (ww + xx) + (yy + zz))
+}
+
+/// Encloses `R` and `p` (times `unit`) over the ball of `radius` about `centre`; `None` when `e.e` may vanish.
+pub(super) fn enclose_pose(
+    centre: &[Complex64; 8],
+    patch: usize,
+    radius: f64,
+    unit: f64,
+) -> Option<PoseEnclosure> {
+    let x: [Disc; 8] =
+        std::array::from_fn(|j| Disc { centre: centre[j], radius: if j == patch { 0.0 } else { radius } });
+    let (r, p, n) = pose_numerators(&x);
+    let inverse = n.reciprocal()?;
+    let rotation = std::array::from_fn(|i| std::array::from_fn(|j| r[3 * i + j] * inverse));
+    Some(PoseEnclosure { rotation, position: p.map(|z| (z * inverse).scaled(unit)) })
+}
+
+/// `R` and `p` in double-double.
+pub(super) fn pose_of(
+    x: &Study<DoubleDouble>,
+    unit: f64,
+) -> ([[ComplexDoubleDouble; 3]; 3], [ComplexDoubleDouble; 3]) {
+    let z: [ComplexDoubleDouble; 8] =
+        std::array::from_fn(|j| ComplexDoubleDouble { re: x.re[j], im: x.im[j] });
+    let (r, p, n) = pose_numerators(&z);
+    (std::array::from_fn(|i| std::array::from_fn(|j| r[3 * i + j] / n)), p.map(|z| (z / n).scaled(unit)))
+}
+
+/// Largest distance of a rotation entry of the pose from the enclosure's centre, relative to the larger of 1 and
+/// the largest entry.
+pub(super) fn rotation_distance(pose: &ComplexPose, enclosure: &PoseEnclosure) -> f64 {
+    let (mut gap, mut scale) = (0.0_f64, 1.0_f64);
+    for i in 0..3 {
+        for j in 0..3 {
+            let z = enclosure.rotation[i][j].centre;
+            gap = gap.max((z - pose.rotation[(i, j)]).norm());
+            scale = scale.max(z.norm());
+        }
+    }
+    gap / scale
+}

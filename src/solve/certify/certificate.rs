@@ -1,0 +1,181 @@
+//! What a certificate says, and why there is none.
+
+use num_complex::Complex64;
+use thiserror::Error;
+
+use crate::num::disc::Disc;
+
+/// What is proved about a root being a real pose.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ProvedReality {
+    /// The root equals its complex conjugate, for every choice of the data in their intervals.
+    Real,
+    /// Some ratio of Study coordinates is not real.
+    NonReal,
+    /// Neither could be shown.
+    Undecided,
+}
+
+/// Precision in which the equations had to be evaluated at the centre.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CentrePrecision {
+    /// Doubles sufficed.
+    Double,
+    /// The centre was refined, within [`NEAR`](super::NEAR), and evaluated in double-double.
+    DoubleDouble,
+}
+
+/// Discs that hold the entries of `R` (row by row) and `p` (design units) of the certified root.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PoseEnclosure {
+    /// `rotation[i][j]` holds `R_ij`.
+    pub rotation: [[Disc; 3]; 3],
+    /// `position[i]` holds `p_i`, design units.
+    pub position: [Disc; 3],
+}
+
+impl PoseEnclosure {
+    /// The twelve discs, `R` row by row, then `p`.
+    pub fn discs(&self) -> impl Iterator<Item = &Disc> {
+        self.rotation.iter().flatten().chain(&self.position)
+    }
+}
+
+/// Proof that exactly one root lies near a point; made by [`certify`](super::certify) only.
+///
+/// Coordinates are `x = (e_0..e_3, g_0..g_3 / unit)` with `e_patch = 1`, distances the largest modulus of a
+/// coordinate difference. For every choice of the squared lengths in their intervals there is exactly one root within
+/// [`uniqueness_radius`](Self::uniqueness_radius) of the centre; it is regular and lies within [`radius`](Self::radius).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Certificate {
+    pub(super) centre: [Complex64; 8],
+    pub(super) patch: usize,
+    pub(super) unit: f64,
+    pub(super) radius: f64,
+    pub(super) uniqueness_radius: f64,
+    pub(super) contraction: f64,
+    pub(super) reality: ProvedReality,
+    pub(super) precision: CentrePrecision,
+    pub(super) enclosure: PoseEnclosure,
+}
+
+impl Certificate {
+    /// The centre, `g` divided by [`unit`](Self::unit).
+    #[must_use]
+    pub fn centre(&self) -> &[Complex64; 8] {
+        &self.centre
+    }
+
+    /// Index of the coordinate that is 1.
+    #[must_use]
+    pub fn patch(&self) -> usize {
+        self.patch
+    }
+
+    /// The power of two, in design units, that lengths are divided by.
+    #[must_use]
+    pub fn unit(&self) -> f64 {
+        self.unit
+    }
+
+    /// The root is at most this far from the centre.
+    #[must_use]
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// There is no other root at most this far from the centre.
+    #[must_use]
+    pub fn uniqueness_radius(&self) -> f64 {
+        self.uniqueness_radius
+    }
+
+    /// Lipschitz constant, below 1, of the simplified Newton map on the ball of [`radius`](Self::radius).
+    #[must_use]
+    pub fn contraction(&self) -> f64 {
+        self.contraction
+    }
+
+    /// What is proved about reality.
+    #[must_use]
+    pub fn reality(&self) -> ProvedReality {
+        self.reality
+    }
+
+    /// The precision needed.
+    #[must_use]
+    pub fn precision(&self) -> CentrePrecision {
+        self.precision
+    }
+
+    /// Where `R` and `p` of the root are.
+    #[must_use]
+    pub fn enclosure(&self) -> &PoseEnclosure {
+        &self.enclosure
+    }
+}
+
+/// Why a pose has no certificate. None of these says that there is no root.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum WhyUncertified {
+    /// An entry of the pose is NaN or infinite.
+    #[error("the pose has an entry that is not a finite number")]
+    NotFinite,
+    /// The data cannot be scaled exactly to order one, or a squared length is unbounded.
+    #[error("the data span a range in which scaling by a power of two is not exact")]
+    OutOfRange,
+    /// The matrix is not, up to `NEAR`, the rotation of any quaternion.
+    #[error("the matrix is no rotation: it is {distance:e} away from that of its quaternion")]
+    NotARotation {
+        /// Largest entry difference, relative to the larger of 1 and the largest entry; infinite when there is no quaternion.
+        distance: f64,
+    },
+    /// The Jacobian at the centre has no approximate inverse.
+    #[error("the Jacobian is singular to working precision")]
+    SingularJacobian,
+    /// The approximate inverse is not accurate enough to prove the Jacobian regular.
+    #[error("the Jacobian is too ill-conditioned: |I - Y J| is only known to be below {defect:e}")]
+    IllConditioned {
+        /// Bound of `|I - Y J|`, not below 1.
+        defect: f64,
+    },
+    /// The Newton step at the centre is longer than `NEAR`: the pose is not accurate to half the digits of a double.
+    #[error("the pose is no accurate approximation: the Newton step is {step:e}")]
+    Inaccurate {
+        /// Length of the step, or the bound of it.
+        step: f64,
+    },
+    /// No ball about the centre is mapped into itself: no root here, another one too close, or data too uncertain.
+    #[error("the Newton map contracts no ball: step {step:e} against an admissible {admissible:e}")]
+    NoContraction {
+        /// Bound of the Newton step, width of the data included.
+        step: f64,
+        /// The step up to which a ball would contract, `(1 - |I - Y J|)^2 / (4 |Y Q|)`.
+        admissible: f64,
+    },
+    /// `e.e` may be zero in the ball, where there is no pose.
+    #[error("e.e may vanish in the enclosure, which is no finite pose")]
+    RotationUndefined,
+}
+
+/// A certificate, or why there is none.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[allow(clippy::large_enum_variant)] // both are plain values on the stack, made by the dozen
+pub enum CertificateOutcome {
+    /// The proof.
+    Certified(Certificate),
+    /// No proof.
+    Absent(WhyUncertified),
+}
+
+impl CertificateOutcome {
+    /// The certificate, if there is one.
+    #[must_use]
+    pub fn certificate(&self) -> Option<&Certificate> {
+        match self {
+            Self::Certified(c) => Some(c),
+            Self::Absent(_) => None,
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! Approximate inverse of the complex 7 x 7 Jacobian.
+
+use super::system::N;
+
+/// Rows of a 7 x 7 matrix padded to eight lanes, parts apart.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Matrix {
+    pub(super) re: [[f64; 8]; N],
+    pub(super) im: [[f64; 8]; N],
+}
+
+/// Inverse by Gauss-Jordan elimination in place with row pivoting, `None` at a pivot that is zero or not finite.
+///
+/// No accuracy is claimed: what is made of the result bounds `I - Y J` afterwards.
+pub(super) fn approximate_inverse(re: &[[f64; 8]; N], im: &[[f64; 8]; N]) -> Option<Matrix> {
+    let mut m = Matrix { re: *re, im: *im };
+    let mut swapped = [0; N];
+    for p in 0..N {
+        let size = |r: usize| m.re[r][p] * m.re[r][p] + m.im[r][p] * m.im[r][p];
+        let mut best = p;
+        for r in p + 1..N {
+            if size(r) > size(best) {
+                best = r;
+            }
+        }
+        let norm = size(best);
+        if !norm.is_normal() {
+            return None;
+        }
+        m.re.swap(p, best);
+        m.im.swap(p, best);
+        swapped[p] = best;
+        let (pr, pi) = (m.re[p][p] / norm, -m.im[p][p] / norm);
+        (m.re[p][p], m.im[p][p]) = (1.0, 0.0);
+        let (row_re, row_im) = multiply(&m.re[p], &m.im[p], pr, pi);
+        (m.re[p], m.im[p]) = (row_re, row_im);
+        for r in 0..N {
+            if r != p {
+                let (fr, fi) = (m.re[r][p], m.im[r][p]);
+                (m.re[r][p], m.im[r][p]) = (0.0, 0.0);
+                subtract(&mut m.re[r], &mut m.im[r], &row_re, &row_im, fr, fi);
+            }
+        }
+    }
+    for p in (0..N).rev() {
+        for row in m.re.iter_mut().chain(&mut m.im) {
+            row.swap(p, swapped[p]);
+        }
+    }
+    Some(m)
+}
+
+fn multiply(re: &[f64; 8], im: &[f64; 8], fr: f64, fi: f64) -> ([f64; 8], [f64; 8]) {
+    (std::array::from_fn(|j| re[j] * fr - im[j] * fi), std::array::from_fn(|j| re[j] * fi + im[j] * fr))
+}
+
+/// `row -= f * other`.
+pub(super) fn subtract(
+    re: &mut [f64; 8],
+    im: &mut [f64; 8],
+    other_re: &[f64; 8],
+    other_im: &[f64; 8],
+    fr: f64,
+    fi: f64,
+) {
+    for j in 0..8 {
+        re[j] -= other_re[j] * fr - other_im[j] * fi;
+        im[j] -= other_re[j] * fi + other_im[j] * fr;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::Rng;
+
+    #[test]
+    fn the_product_with_the_matrix_is_the_identity() {
+        let mut rng = Rng::new(41);
+        let mut draw =
+            || std::array::from_fn(|_| std::array::from_fn(|j| if j < 7 { rng.normal() } else { 0.0 }));
+        let (re, mut im): ([[f64; 8]; N], [[f64; 8]; N]) = (draw(), draw());
+        let y = approximate_inverse(&re, &im).unwrap();
+        for k in 0..N {
+            let (mut row_re, mut row_im) = ([0.0; 8], [0.0; 8]);
+            row_re[k] = 1.0;
+            for i in 0..N {
+                subtract(&mut row_re, &mut row_im, &re[i], &im[i], y.re[k][i], y.im[k][i]);
+            }
+            assert!(row_re.iter().chain(&row_im).all(|x| x.abs() < 1e-12), "{row_re:?} {row_im:?}");
+        }
+        let mut singular = re;
+        (singular[2], im[2]) = ([0.0; 8], [0.0; 8]);
+        assert!(approximate_inverse(&singular, &im).is_none());
+    }
+}

@@ -1,0 +1,145 @@
+//! The contraction test.
+//!
+//! `F(c + h) = F(c) + J h + Q(h, h)` exactly, so `G(h) = h - Y F(c + h)` satisfies, with
+//! `eta >= |Y F(c)|`, `kappa >= |I - Y J|`, `beta >= sup |Y Q(h, k)|` over unit `h`, `k` (max norm),
+//!
+//! ```text
+//! |G(h)| <= eta + kappa r + beta r^2              for |h| <= r,
+//! |G(h) - G(k)| <= (kappa + beta |h + k|) |h - k|  because Q(h,h) - Q(k,k) = Q(h + k, h - k).
+//! ```
+//!
+//! 1. If `eta + kappa r + beta r^2 <= r` and `kappa + 2 beta r < 1`, `G` maps the ball of radius `r` into itself and
+//!    contracts it: one fixed point `h*`. `kappa < 1` makes `Y` regular, so fixed points are the zeros of `F`.
+//! 2. A zero with `|h| <= rho` satisfies `|h - h*| <= (kappa + beta (rho + r)) |h - h*|`, hence equals `h*` as soon
+//!    as `kappa + beta (rho + r) < 1`.
+//! 3. The Jacobian at `h*` is regular: `|I - Y (J + 2 Q(h*, .))| <= kappa + 2 beta r < 1`.
+//!
+//! **Rounding.** Moduli are bounded by `|z|_1 = |re| + |im|`. A row of `Y J` or `Y F` is in each part a sum of 14 products;
+//! with the subtraction from the identity the `|.|_1` of its error is at most `gamma_15 sum |Y|_1 |J|_1 < 16 u sum`.
+//! `J` and `F` themselves carry the bounds of the `system` module.
+
+use super::certificate::WhyUncertified;
+use super::inverse::{Matrix, approximate_inverse, subtract};
+use super::system::{Jacobian, LegSystem, N, Scalar, Study, U, Values};
+use crate::num::disc::{TINY, UP};
+use crate::num::double_double::DoubleDouble;
+
+/// Radii with the proof's numbers.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Contraction {
+    pub(super) radius: f64,
+    pub(super) uniqueness_radius: f64,
+    pub(super) lipschitz: f64,
+}
+
+/// The three bounds; `eta` is split into the part of the centre and the whole with the width of the data.
+#[derive(Debug, Clone, Copy)]
+struct Bounds {
+    eta_centre: f64,
+    eta: f64,
+    kappa: f64,
+    beta: f64,
+}
+
+/// Bounds of a row of `Y` times the parts of the data.
+fn row_sum(weights: &[f64; N], terms: &[f64; N]) -> f64 {
+    weights.iter().zip(terms).map(|(w, t)| w * t).sum()
+}
+
+/// The centre: its nearest doubles, and itself when it has digits beyond these.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Centre<'a> {
+    pub(super) hi: &'a Study<f64>,
+    pub(super) full: Option<&'a Study<DoubleDouble>>,
+}
+
+impl Centre<'_> {
+    /// Largest modulus of what the nearest doubles leave.
+    pub(super) fn tail(&self) -> f64 {
+        self.full
+            .map_or(0.0, |x| (0..8).map(|k| x.re[k].lo().abs() + x.im[k].lo().abs()).fold(0.0, f64::max) * UP)
+    }
+}
+
+fn bounds(system: &LegSystem, x: &Centre<'_>, values: &Values<f64>, j: &Jacobian, y: &Matrix) -> Bounds {
+    let (f_re, f_im, unit) = match x.full {
+        None => (values.f_re, values.f_im, U),
+        Some(full) => {
+            let f = system.values(full);
+            (f.f_re.map(Scalar::rounded), f.f_im.map(Scalar::rounded), DoubleDouble::UNIT)
+        }
+    };
+    let (rounding, width) = system.value_bounds(x.hi, values, unit);
+    let tail = x.tail(); // J was evaluated that far from the centre
+    let f_error: [f64; N] = std::array::from_fn(|i| rounding[i] + 17.0 * U * (f_re[i].abs() + f_im[i].abs()));
+    let j_error: [f64; N] = std::array::from_fn(|i| {
+        let row: f64 = (0..8).map(|k| j.re[i][k].abs() + j.im[i][k].abs()).sum();
+        j.error[i] + 16.0 * U * row
+    });
+    let mut out = Bounds { eta_centre: 0.0, eta: 0.0, kappa: 0.0, beta: 0.0 };
+    for k in 0..N {
+        let (y_re, y_im) = (&y.re[k], &y.im[k]);
+        let weights: [f64; N] = std::array::from_fn(|i| y_re[i].abs() + y_im[i].abs());
+        let (mut d_re, mut d_im) = ([0.0; 8], [0.0; 8]);
+        d_re[k] = 1.0;
+        let (mut step_re, mut step_im) = (0.0, 0.0);
+        for i in 0..N {
+            subtract(&mut d_re, &mut d_im, &j.re[i], &j.im[i], y_re[i], y_im[i]);
+            step_re += y_re[i] * f_re[i] - y_im[i] * f_im[i];
+            step_im += y_re[i] * f_im[i] + y_im[i] * f_re[i];
+        }
+        let defect: f64 = (0..8).map(|l| d_re[l].abs() + d_im[l].abs()).sum();
+        let centre = step_re.abs() + step_im.abs() + row_sum(&weights, &f_error);
+        let beta = row_sum(&weights, &system.q);
+        out.eta_centre = largest(out.eta_centre, centre);
+        out.eta = largest(out.eta, centre + row_sum(&weights, &width));
+        out.kappa = largest(out.kappa, defect + row_sum(&weights, &j_error) + 2.0 * beta * tail);
+        out.beta = largest(out.beta, beta);
+    }
+    let up = |bound: f64| (bound + TINY) * UP;
+    Bounds { eta_centre: up(out.eta_centre), eta: up(out.eta), kappa: up(out.kappa), beta: up(out.beta) }
+}
+
+/// The larger, or NaN when one is NaN.
+fn largest(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
+}
+
+fn radii(b: &Bounds) -> Result<Contraction, WhyUncertified> {
+    let room = 1.0 - b.kappa;
+    let admissible = room * room / (4.0 * b.beta);
+    let failure = WhyUncertified::NoContraction { step: b.eta, admissible };
+    // the smaller root of beta r^2 - room r + eta, a little enlarged; the proof is the check below
+    let root = (room * room - 4.0 * b.beta * b.eta).sqrt();
+    let radius = 2.0 * b.eta / (room + root) * (1.0 + 1e-3);
+    let lipschitz = (b.kappa + 2.0 * b.beta * radius) * UP;
+    let inside = (b.eta + b.kappa * radius + b.beta * radius * radius) * UP <= radius;
+    let contracts = inside && lipschitz < 1.0;
+    if !contracts {
+        return Err(failure);
+    }
+    // any radius below room / beta - radius will do; it exceeds the radius because lipschitz < 1
+    let uniqueness_radius = room / b.beta * (1.0 - 1e-9) - radius;
+    let unique = uniqueness_radius > radius * (1.0 + 1e-9)
+        && (b.kappa + b.beta * (radius + uniqueness_radius)) * UP < 1.0;
+    if unique { Ok(Contraction { radius, uniqueness_radius, lipschitz }) } else { Err(failure) }
+}
+
+/// Tries to prove one root in a ball about `x`; `near` limits the Newton step at `x` itself.
+pub(super) fn contract(system: &LegSystem, x: &Centre<'_>, near: f64) -> Result<Contraction, WhyUncertified> {
+    let values = system.values(x.hi);
+    let jacobian = system.jacobian(x.hi, &values);
+    let y = approximate_inverse(&jacobian.re, &jacobian.im).ok_or(WhyUncertified::SingularJacobian)?;
+    let b = bounds(system, x, &values, &jacobian, &y);
+    // a NaN fails every one of these; 2^200 keeps products of bounds in range
+    let regular = b.kappa < 1.0 && b.beta < 2f64.powi(200);
+    let accurate = b.eta_centre <= near;
+    match (regular, accurate) {
+        (true, true) => radii(&b),
+        (true, false) => Err(WhyUncertified::Inaccurate { step: b.eta_centre }),
+        (false, _) => Err(WhyUncertified::IllConditioned { defect: b.kappa }),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,186 @@
+//! Certificates of forward-kinematics roots: interval proofs that share no code with any solver.
+//!
+//! A pose is a point `x = (e, g)` of dual quaternions with `g = p e`; six leg equations
+//! `|g + e b_i - a_i e|^2 = s_i e.e`, the Study quadric `e.g = 0` and the patch `e_k = 1` (largest coordinate) make seven
+//! quadrics in seven unknowns. The simplified Newton map with an approximate inverse `Y` of the Jacobian is shown to contract a ball
+//! (Krawczyk 1969 in the norm-wise form of Kantorovich; Breiding, Rose, Timme 2020 for certifying solutions of
+//! polynomial systems). Statement, proof and all rounding bounds: `docs/theory/certificates.md` and the sources of
+//! the submodules. Joints enter as the exact doubles they are, squared lengths as intervals.
+//!
+//! ```
+//! use equipod::geom::{ComplexPose, Pose};
+//! use equipod::manipulator::{Leg, Manipulator};
+//! use equipod::num::interval::Interval;
+//! use equipod::solve::certify::{ProvedReality, certify};
+//! use nalgebra::{Point3, Rotation3, Vector3};
+//! let legs = std::array::from_fn(|i| {
+//!     let t = f64::from(i as u8);
+//!     let base = Point3::new(2.0 * t.cos(), 2.0 * t.sin(), 0.3 * t);
+//!     Leg { base, platform: Point3::new((2.0 * t).cos(), (1.3 * t).sin(), 0.1 * t * t) }
+//! });
+//! let m = Manipulator::from_legs(legs)?;
+//! let rotation = Rotation3::from_euler_angles(0.3, -0.2, 0.7);
+//! let pose = Pose { rotation, position: Vector3::new(0.1, 0.4, 1.5) };
+//! let s = pose.squared_lengths(&m).ok_or("overflow")?.get().map(Interval::from);
+//! let outcome = certify(&m, &s, &ComplexPose::from(pose));
+//! let certificate = outcome.certificate().ok_or("no certificate")?;
+//! assert_eq!(certificate.reality(), ProvedReality::Real);
+//! assert!(certificate.radius() < 1e-12);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod centre;
+mod certificate;
+mod distinct;
+mod inverse;
+mod krawczyk;
+mod refine;
+mod system;
+
+pub use certificate::{
+    CentrePrecision, Certificate, CertificateOutcome, PoseEnclosure, ProvedReality, WhyUncertified,
+};
+pub use distinct::{Distinctness, RootRelation, distinct, relation};
+pub use refine::RefinedPose;
+
+use num_complex::Complex64;
+
+use crate::geom::ComplexPose;
+use crate::manipulator::{LegLengths, Manipulator, SquaredLegLengths};
+use crate::num::disc::UP;
+use crate::num::interval::Interval;
+use centre::{enclose_pose, pose_of, rotation_distance, study_of};
+use krawczyk::{Centre, Contraction, contract};
+use refine::refine_study;
+use system::{LegSystem, Study};
+
+/// How accurate a pose must be to be certified: `2^-26`, half of the digits of a double.
+///
+/// The Newton map contracts on balls far wider than that, so that a proof alone would also go to poses which are wrong in the
+/// sixth digit. A certificate shall say that the pose *is* the root to the accuracy of its digits, give or take its conditioning.
+/// Measured in Study coordinates with `e_k = 1` and lengths divided by [`Certificate::unit`].
+pub const NEAR: f64 = 1.0 / (1u32 << 26) as f64;
+
+/// Squared lengths as points: the doubles are the data.
+#[must_use]
+pub fn exact_squares(s: &SquaredLegLengths) -> [Interval; 6] {
+    s.get().map(Interval::from)
+}
+
+/// Enclosures of the squares of lengths that are exact doubles.
+#[must_use]
+pub fn squares_of_lengths(l: &LegLengths) -> [Interval; 6] {
+    l.get().map(|l| Interval::from(l).square())
+}
+
+/// One problem, scaled once and ready to certify any number of roots.
+#[derive(Debug, Clone)]
+pub struct Certifier(LegSystem);
+
+impl Certifier {
+    /// Prepares `m` with squared leg lengths in the intervals `s` (design units squared).
+    ///
+    /// # Errors
+    /// [`WhyUncertified::OutOfRange`] when the data cannot be scaled exactly.
+    pub fn new(m: &Manipulator, s: &[Interval; 6]) -> Result<Self, WhyUncertified> {
+        LegSystem::new(m, s).map(Self)
+    }
+
+    /// Proves that the pose approximates exactly one root, see [`Certificate`]; the centre is the pose as
+    /// given. Only when doubles do not suffice is it refined in double-double, by no more than [`NEAR`].
+    #[must_use]
+    pub fn certify(&self, pose: &ComplexPose) -> CertificateOutcome {
+        match self.try_certify(pose) {
+            Ok(certificate) => CertificateOutcome::Certified(certificate),
+            Err(why) => CertificateOutcome::Absent(why),
+        }
+    }
+
+    fn try_certify(&self, pose: &ComplexPose) -> Result<Certificate, WhyUncertified> {
+        let x = study_of(pose, self.0.unit())?;
+        let double = Centre { hi: &x, full: None };
+        let certificate = match contract(&self.0, &double, NEAR) {
+            Ok(c) => self.build(&double, &c)?,
+            Err(why) => {
+                let refined = refine_study(&self.0, &x, NEAR).map_err(|_| why)?;
+                let hi = refined.x.rounded();
+                let centre = Centre { hi: &hi, full: Some(&refined.x) };
+                self.build(&centre, &contract(&self.0, &centre, NEAR)?)?
+            }
+        };
+        let distance = rotation_distance(pose, &certificate.enclosure);
+        let near = distance <= NEAR;
+        if near { Ok(certificate) } else { Err(WhyUncertified::NotARotation { distance }) }
+    }
+
+    /// The certificate about the nearest doubles of the centre, whose distance enters the radii.
+    fn build(&self, x: &Centre<'_>, c: &Contraction) -> Result<Certificate, WhyUncertified> {
+        let tail = x.tail();
+        let centre: [Complex64; 8] = std::array::from_fn(|j| Complex64::new(x.hi.re[j], x.hi.im[j]));
+        let radius = (c.radius + tail) * UP;
+        let unit = self.0.unit();
+        let enclosure =
+            enclose_pose(&centre, x.hi.patch, radius, unit).ok_or(WhyUncertified::RotationUndefined)?;
+        let uniqueness_radius = (c.uniqueness_radius - tail) * (2.0 - UP);
+        // moving the centre costs the tail on both sides; without room for it another root may be in the ball
+        if uniqueness_radius < radius {
+            return Err(WhyUncertified::NoContraction { step: radius, admissible: c.uniqueness_radius });
+        }
+        let precision =
+            if x.full.is_some() { CentrePrecision::DoubleDouble } else { CentrePrecision::Double };
+        Ok(Certificate {
+            centre,
+            patch: x.hi.patch,
+            unit,
+            radius,
+            uniqueness_radius,
+            contraction: c.lipschitz,
+            reality: reality(x, c),
+            precision,
+            enclosure,
+        })
+    }
+
+    /// Newton in double-double from the pose, as far as it leads: about `2^-102` times the condition of the root.
+    ///
+    /// # Errors
+    /// When the iteration meets a singular Jacobian or does not settle.
+    pub fn refine(&self, pose: &ComplexPose) -> Result<RefinedPose, WhyUncertified> {
+        let start = study_of(pose, self.0.unit())?;
+        let end = refine_study(&self.0, &start, f64::INFINITY)?;
+        let (rotation, position) = pose_of(&end.x, self.0.unit());
+        Ok(RefinedPose { rotation, position, moved: end.moved, last_step: end.last_step, steps: end.steps })
+    }
+}
+
+/// The system and the patch are real, so the conjugate of a root is one. It is at most `radius + 2 |im c|` from the
+/// centre; within the uniqueness ball it is the root itself. A coordinate whose disc holds no real number proves the contrary.
+fn reality(x: &Centre<'_>, c: &Contraction) -> ProvedReality {
+    let tail = x.tail();
+    let centre: &Study<f64> = x.hi;
+    let largest = centre.im.iter().fold(0.0_f64, |m, y| m.max(y.abs()));
+    if (c.radius + 2.0 * (largest + tail)) * UP <= c.uniqueness_radius {
+        ProvedReality::Real
+    } else if largest > (c.radius + tail) * UP {
+        ProvedReality::NonReal
+    } else {
+        ProvedReality::Undecided
+    }
+}
+
+/// [`Certifier::certify`] for a single pose.
+#[must_use]
+pub fn certify(m: &Manipulator, s: &[Interval; 6], pose: &ComplexPose) -> CertificateOutcome {
+    match Certifier::new(m, s) {
+        Ok(certifier) => certifier.certify(pose),
+        Err(why) => CertificateOutcome::Absent(why),
+    }
+}
+
+/// [`Certifier::refine`] for a single pose.
+///
+/// # Errors
+/// As [`Certifier::new`] and [`Certifier::refine`].
+pub fn refine(m: &Manipulator, s: &[Interval; 6], pose: &ComplexPose) -> Result<RefinedPose, WhyUncertified> {
+    Certifier::new(m, s)?.refine(pose)
+}

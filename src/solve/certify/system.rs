@@ -1,0 +1,306 @@
+//! The leg equations in dual quaternions, evaluated with error bounds.
+//!
+//! With `x = (e, g)`, `g = p e`, and lengths divided by a power of two,
+//!
+//! ```text
+//! F_i(x) = ( |v_i|^2 - s_i e.e ) / 2,   v_i = g + e b_i - a_i e = g + T_i e,     i = 1..6,
+//! F_7(x) = e.g,
+//! T = [ 0  -d^T ; d  -[c]x ],   d = b - a,   c = a + b.
+//! ```
+//!
+//! `T` is skew, so the gradient of `F_i` is `v_i` by `g` and `-T_i v_i - s_i e` by `e`.
+//!
+//! **Error bounds.** `U` is the unit of the arithmetic at hand, `2^-53` or [`DoubleDouble::UNIT`], and `u = 2^-53`. A sum of products
+//! in which every term passes through at most `n` roundings is computed with error at most `gamma_n = nU/(1-nU)`
+//! times the sum of the terms' moduli (Higham 2002, lemma 3.1). Real coefficients act on real and
+//! imaginary parts alike, so that bounds by moduli hold for the moduli of the complex errors. `E >= |e_j|`, `G >= |g_j|`,
+//! `P >= sum |e_j|^2`, `t_i` >= the absolute row sums of `T_i`, `W_i` = sum of the `|v|^2` of the four computed components.
+//!
+//! * `v`: four terms with at most five roundings (entry of `T`, product, three sums): `delta_i = 5U (G + t_i E)`.
+//! * `F_i`: from `v`, `(1/2) sum |dv| (2|v| + |dv|) <= 2 delta sqrt W + 2 delta^2`; its own at most seven roundings in each part, factor
+//!   `sqrt 2` for two parts: `(sqrt 2 / 2) 7 U (W + s P) < 5U (W + s P)`.
+//! * `F_7`: five roundings, two parts: `sqrt 2 * 5 U * 4 E G < 32 U E G`.
+//! * gradient (always in double): `delta_i` by each `g_j`; `t_i delta_i + 5u (t_i sqrt W + s E)` by each `e_j`.
+//!
+//! `gamma_n < nU (1 + 2^-44)` and the rounding of the bounds themselves are covered by the factor [`UP`], underflow by [`TINY`].
+
+use std::ops::{Add, Mul, Neg, Sub};
+
+use super::certificate::WhyUncertified;
+use crate::manipulator::Manipulator;
+use crate::num::disc::{TINY, UP};
+use crate::num::double_double::DoubleDouble;
+use crate::num::interval::Interval;
+
+/// Unknowns on an affine patch, and equations.
+pub(super) const N: usize = 7;
+/// Unit roundoff of double.
+pub(super) const U: f64 = f64::EPSILON / 2.0;
+
+/// A real number type: `f64` with unit `2^-53` or [`DoubleDouble`] with [`DoubleDouble::UNIT`].
+pub(super) trait Scalar:
+    Copy + From<f64> + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
+{
+    /// `a + b`, with the relative error of the type.
+    fn sum(a: f64, b: f64) -> Self;
+    /// The nearest double.
+    fn rounded(self) -> f64;
+}
+
+impl Scalar for f64 {
+    fn sum(a: f64, b: f64) -> Self {
+        a + b
+    }
+    fn rounded(self) -> f64 {
+        self
+    }
+}
+
+impl Scalar for DoubleDouble {
+    fn sum(a: f64, b: f64) -> Self {
+        Self::from_sum(a, b)
+    }
+    fn rounded(self) -> f64 {
+        self.hi()
+    }
+}
+
+/// Study coordinates `e_0..e_3, g_0..g_3` with `e_patch = 1`, lengths in units of [`LegSystem::unit`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Study<S> {
+    pub(super) re: [S; 8],
+    pub(super) im: [S; 8],
+    pub(super) patch: usize,
+}
+
+impl<S: Scalar> Study<S> {
+    /// The nearest doubles.
+    pub(super) fn rounded(&self) -> Study<f64> {
+        Study { re: self.re.map(S::rounded), im: self.im.map(S::rounded), patch: self.patch }
+    }
+}
+
+impl Study<f64> {
+    /// The same point as double-doubles.
+    pub(super) fn lifted(&self) -> Study<DoubleDouble> {
+        Study { re: self.re.map(Into::into), im: self.im.map(Into::into), patch: self.patch }
+    }
+
+    /// Upper bounds `(E, G, P)` of the module's text.
+    fn magnitudes(&self) -> (f64, f64, f64) {
+        let size = |j: usize| self.re[j].abs() + self.im[j].abs();
+        let e = (0..4).map(size).fold(0.0, f64::max);
+        let g = (4..8).map(size).fold(0.0, f64::max);
+        let p: f64 = (0..4).map(|j| self.re[j] * self.re[j] + self.im[j] * self.im[j]).sum();
+        (e * UP, g * UP, p * UP)
+    }
+}
+
+/// Values `F` in the scalar type with the vectors `v` they are made of.
+pub(super) struct Values<S> {
+    pub(super) f_re: [S; N],
+    pub(super) f_im: [S; N],
+    v_re: [[S; 4]; 6],
+    v_im: [[S; 4]; 6],
+}
+
+/// Gradients at a point, with what the bounds need. Column `patch` holds the gradient by `g_3`, lane 7 is zero.
+pub(super) struct Jacobian {
+    pub(super) re: [[f64; 8]; N],
+    pub(super) im: [[f64; 8]; N],
+    /// Bound of a row's sum of error moduli, width of the `s` interval included.
+    pub(super) error: [f64; N],
+}
+
+/// The equations of one problem; see the module's text.
+#[derive(Debug, Clone)]
+pub(super) struct LegSystem {
+    unit: f64,
+    a: [[f64; 3]; 6],
+    b: [[f64; 3]; 6],
+    d: [[f64; 3]; 6],
+    c: [[f64; 3]; 6],
+    s: [f64; 6],
+    s_radius: [f64; 6],
+    t: [f64; 6],
+    /// `|Q_i(h, k)| <= q_i` for all `h`, `k` with coordinates of modulus at most 1 and `h_patch = k_patch = 0`.
+    pub(super) q: [f64; N],
+}
+
+/// `2^k <= x < 2^(k+1)` for a positive normal `x`.
+fn power_of_two_below(x: f64) -> f64 {
+    f64::from_bits(x.to_bits() & 0x7ff0_0000_0000_0000)
+}
+
+/// `x * factor` for a power of two, `None` when that is not exact.
+fn exact_product(x: f64, factor: f64) -> Option<f64> {
+    let y = x * factor;
+    (y.is_finite() && (y / factor).to_bits() == x.to_bits()).then_some(y)
+}
+
+fn scale_point(p: [f64; 3], factor: f64) -> Option<[f64; 3]> {
+    Some([exact_product(p[0], factor)?, exact_product(p[1], factor)?, exact_product(p[2], factor)?])
+}
+
+/// Sums of absolute values in the four rows of `T`.
+fn row_sums(d: &[f64; 3], c: &[f64; 3]) -> [f64; 4] {
+    let ([dx, dy, dz], [cx, cy, cz]) = (d.map(f64::abs), c.map(f64::abs));
+    [dx + dy + dz, dx + cy + cz, dy + cx + cz, dz + cx + cy]
+}
+
+/// `v = g + T e`, real coefficients on one part of the coordinates.
+fn leg_vector<S: Scalar>(d: &[S; 3], c: &[S; 3], x: &[S; 8]) -> [S; 4] {
+    [
+        x[4] - (d[0] * x[1] + d[1] * x[2] + d[2] * x[3]),
+        (x[5] + d[0] * x[0]) + (x[2] * c[2] - x[3] * c[1]),
+        (x[6] + d[1] * x[0]) + (x[3] * c[0] - x[1] * c[2]),
+        (x[7] + d[2] * x[0]) + (x[1] * c[1] - x[2] * c[0]),
+    ]
+}
+
+/// `-T v - s e = T^T v - s e`.
+fn rotation_gradient(d: &[f64; 3], c: &[f64; 3], s: f64, v: &[f64; 4], e: &[f64]) -> [f64; 4] {
+    [
+        (d[0] * v[1] + d[1] * v[2] + d[2] * v[3]) - s * e[0],
+        ((c[1] * v[3] - c[2] * v[2]) - d[0] * v[0]) - s * e[1],
+        ((c[2] * v[1] - c[0] * v[3]) - d[1] * v[0]) - s * e[2],
+        ((c[0] * v[2] - c[1] * v[1]) - d[2] * v[0]) - s * e[3],
+    ]
+}
+
+impl LegSystem {
+    /// Scales the data by a power of two, exactly, so that they are of order one.
+    pub(super) fn new(m: &Manipulator, s: &[Interval; 6]) -> Result<Self, WhyUncertified> {
+        let legs = m.legs();
+        let largest = |p: &nalgebra::Point3<f64>| p.iter().fold(0.0_f64, |x, y| x.max(y.abs()));
+        let joints = legs.iter().map(|l| largest(&l.base).max(largest(&l.platform))).fold(0.0, f64::max);
+        let size = s.iter().map(|s| s.magnitude().sqrt()).fold(joints, f64::max);
+        // outside these limits squares of the unit, or of scaled data, may leave the range of doubles
+        if size > 1e-120 && size < 1e120 {
+            Self::scaled(&legs, s, power_of_two_below(size)).ok_or(WhyUncertified::OutOfRange)
+        } else {
+            Err(WhyUncertified::OutOfRange)
+        }
+    }
+
+    fn scaled(legs: &[crate::manipulator::Leg; 6], s: &[Interval; 6], unit: f64) -> Option<Self> {
+        let (inverse, mut system) = (unit.recip(), Self::empty(unit));
+        for (i, leg) in legs.iter().enumerate() {
+            system.a[i] = scale_point(leg.base.coords.into(), inverse)?;
+            system.b[i] = scale_point(leg.platform.coords.into(), inverse)?;
+            let (a, b) = (system.a[i], system.b[i]);
+            system.d[i] = std::array::from_fn(|j| b[j] - a[j]);
+            system.c[i] = std::array::from_fn(|j| b[j] + a[j]);
+            let (low, high) =
+                (exact_product(s[i].lo(), inverse * inverse)?, exact_product(s[i].hi(), inverse * inverse)?);
+            (system.s[i], system.s_radius[i]) = Interval::new(low, high)?.centre_and_radius();
+            let rows = row_sums(&system.d[i], &system.c[i]);
+            system.t[i] = rows.into_iter().fold(0.0, f64::max) * UP;
+            let squares: f64 = rows.iter().map(|r| (1.0 + r) * (1.0 + r)).sum();
+            system.q[i] = 0.5 * (squares + 3.0 * (system.s[i].abs() + system.s_radius[i])) * UP;
+        }
+        Some(system)
+    }
+
+    fn empty(unit: f64) -> Self {
+        let (points, six) = ([[0.0; 3]; 6], [0.0; 6]);
+        let (a, b, d, c) = (points, points, points, points);
+        // F_7 = e.g: the three e_j other than the patch, each at most 1
+        Self { unit, a, b, d, c, s: six, s_radius: six, t: six, q: [3.0; N] }
+    }
+
+    /// The power of two all lengths are divided by.
+    pub(super) fn unit(&self) -> f64 {
+        self.unit
+    }
+
+    /// `F` at the centres of the intervals for `s`.
+    pub(super) fn values<S: Scalar>(&self, x: &Study<S>) -> Values<S> {
+        let zero = S::from(0.0);
+        let half = S::from(0.5);
+        let mut out = Values { f_re: [zero; N], f_im: [zero; N], v_re: [[zero; 4]; 6], v_im: [[zero; 4]; 6] };
+        let square = |re: &[S], im: &[S]| {
+            let term = |j: usize| re[j] * re[j] - im[j] * im[j];
+            let twin = |j: usize| re[j] * im[j];
+            ((term(0) + term(1)) + (term(2) + term(3)), (twin(0) + twin(1)) + (twin(2) + twin(3)))
+        };
+        let (n_re, n_half_im) = square(&x.re[..4], &x.im[..4]);
+        for i in 0..6 {
+            let d: [S; 3] = std::array::from_fn(|j| S::sum(self.b[i][j], -self.a[i][j]));
+            let c: [S; 3] = std::array::from_fn(|j| S::sum(self.b[i][j], self.a[i][j]));
+            let (v_re, v_im) = (leg_vector(&d, &c, &x.re), leg_vector(&d, &c, &x.im));
+            let (w_re, w_half_im) = square(&v_re, &v_im);
+            let s = S::from(self.s[i]);
+            out.f_re[i] = half * (w_re - s * n_re);
+            out.f_im[i] = w_half_im - s * n_half_im;
+            (out.v_re[i], out.v_im[i]) = (v_re, v_im);
+        }
+        let dot = |a: &[S; 8], b: &[S; 8]| (a[0] * b[4] + a[1] * b[5]) + (a[2] * b[6] + a[3] * b[7]);
+        out.f_re[6] = dot(&x.re, &x.re) - dot(&x.im, &x.im);
+        out.f_im[6] = dot(&x.re, &x.im) + dot(&x.im, &x.re);
+        out
+    }
+
+    /// Bounds of the error of `F` computed in the arithmetic with unit `unit`, and of the change of `F` over
+    /// the intervals for `s`.
+    pub(super) fn value_bounds(
+        &self,
+        x: &Study<f64>,
+        values: &Values<f64>,
+        unit: f64,
+    ) -> ([f64; N], [f64; N]) {
+        let (e, g, p) = x.magnitudes();
+        let (mut rounding, mut width) = ([0.0; N], [0.0; N]);
+        for i in 0..6 {
+            let w = square_sum(&values.v_re[i], &values.v_im[i]);
+            // |v| of the centre itself: off by delta through rounding and by less than delta through the
+            // centre's digits below double, in each of four components
+            let slack = w.sqrt() + 6.0 * self.delta(i, e, g, U);
+            let delta = self.delta(i, e, g, unit);
+            let own = 5.0 * unit * (slack * slack + self.s[i].abs() * p);
+            rounding[i] = (2.0 * delta * slack + 2.0 * delta * delta + own + TINY) * UP;
+            width[i] = 0.5 * self.s_radius[i] * p * UP;
+        }
+        rounding[6] = (32.0 * unit * e * g + TINY) * UP;
+        (rounding, width)
+    }
+
+    fn delta(&self, i: usize, e: f64, g: f64, unit: f64) -> f64 {
+        5.0 * unit * (g + self.t[i] * e) + TINY
+    }
+
+    /// Gradients at `x`, from the vectors `v` computed there.
+    pub(super) fn jacobian(&self, x: &Study<f64>, values: &Values<f64>) -> Jacobian {
+        let (e, g, _) = x.magnitudes();
+        let mut out = Jacobian { re: [[0.0; 8]; N], im: [[0.0; 8]; N], error: [0.0; N] };
+        for i in 0..6 {
+            for (row, v, x) in
+                [(&mut out.re[i], &values.v_re[i], &x.re), (&mut out.im[i], &values.v_im[i], &x.im)]
+            {
+                row[..4].copy_from_slice(&rotation_gradient(&self.d[i], &self.c[i], self.s[i], v, &x[..4]));
+                row[4..].copy_from_slice(v);
+            }
+            let w = square_sum(&values.v_re[i], &values.v_im[i]);
+            let (delta, s) = (self.delta(i, e, g, U), self.s[i].abs());
+            let by_e = self.t[i] * delta + 5.0 * U * (self.t[i] * w.sqrt() + s * e) + self.s_radius[i] * e;
+            out.error[i] = (4.0 * delta + 3.0 * by_e + TINY) * UP;
+        }
+        for (row, x) in [(&mut out.re[6], &x.re), (&mut out.im[6], &x.im)] {
+            row[..4].copy_from_slice(&x[4..]); // exact
+            row[4..].copy_from_slice(&x[..4]);
+        }
+        for row in out.re.iter_mut().chain(&mut out.im) {
+            row[x.patch] = row[7];
+            row[7] = 0.0;
+        }
+        out
+    }
+}
+
+fn square_sum(re: &[f64; 4], im: &[f64; 4]) -> f64 {
+    let part = |v: &[f64; 4]| (v[0] * v[0] + v[1] * v[1]) + (v[2] * v[2] + v[3] * v[3]);
+    (part(re) + part(im)) * UP
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,166 @@
+//! Values, gradients and the second-order part against exact rationals, the equations written with quaternion products.
+
+use num_rational::BigRational;
+
+use super::*;
+use crate::manipulator::Leg;
+use crate::num::Rng;
+use nalgebra::Point3;
+
+type Complex = (BigRational, BigRational);
+type Quaternion = [Complex; 4];
+
+fn exact(x: f64) -> BigRational {
+    BigRational::from_float(x).unwrap()
+}
+
+fn zero() -> Complex {
+    (exact(0.0), exact(0.0))
+}
+
+fn add(a: &Complex, b: &Complex, sign: f64) -> Complex {
+    (&a.0 + exact(sign) * &b.0, &a.1 + exact(sign) * &b.1)
+}
+
+fn mul(a: &Complex, b: &Complex) -> Complex {
+    (&a.0 * &b.0 - &a.1 * &b.1, &a.0 * &b.1 + &a.1 * &b.0)
+}
+
+fn norm_squared(a: &Complex) -> BigRational {
+    &a.0 * &a.0 + &a.1 * &a.1
+}
+
+fn product(a: &Quaternion, b: &Quaternion) -> Quaternion {
+    // (row, column, sign) of Hamilton's table
+    const TABLE: [[(usize, usize, f64); 4]; 4] = [
+        [(0, 0, 1.0), (1, 1, -1.0), (2, 2, -1.0), (3, 3, -1.0)],
+        [(0, 1, 1.0), (1, 0, 1.0), (2, 3, 1.0), (3, 2, -1.0)],
+        [(0, 2, 1.0), (2, 0, 1.0), (3, 1, 1.0), (1, 3, -1.0)],
+        [(0, 3, 1.0), (3, 0, 1.0), (1, 2, 1.0), (2, 1, -1.0)],
+    ];
+    TABLE.map(|terms| terms.iter().fold(zero(), |sum, &(i, j, sign)| add(&sum, &mul(&a[i], &b[j]), sign)))
+}
+
+fn dot(a: &[Complex], b: &[Complex]) -> Complex {
+    a.iter().zip(b).fold(zero(), |sum, (x, y)| add(&sum, &mul(x, y), 1.0))
+}
+
+fn pure(p: &[f64; 3]) -> Quaternion {
+    let lift = |x: f64| (exact(x), exact(0.0));
+    [zero(), lift(p[0]), lift(p[1]), lift(p[2])]
+}
+
+/// `F(x)` from the definition.
+fn truth(system: &LegSystem, x: &[Complex; 8]) -> [Complex; N] {
+    let (e, g): (Quaternion, Quaternion) =
+        (std::array::from_fn(|j| x[j].clone()), std::array::from_fn(|j| x[j + 4].clone()));
+    std::array::from_fn(|i| {
+        if i == 6 {
+            return dot(&e, &g);
+        }
+        let (eb, ae) = (product(&e, &pure(&system.b[i])), product(&pure(&system.a[i]), &e));
+        let v: Quaternion = std::array::from_fn(|j| add(&add(&g[j], &eb[j], 1.0), &ae[j], -1.0));
+        let n = dot(&e, &e);
+        let sn = (exact(system.s[i]) * &n.0, exact(system.s[i]) * &n.1);
+        mul(&add(&dot(&v, &v), &sn, -1.0), &(exact(0.5), exact(0.0)))
+    })
+}
+
+fn random_system(rng: &mut Rng) -> LegSystem {
+    let mut point = || Point3::new(rng.normal(), rng.normal(), rng.normal()) * 3.0;
+    let legs = std::array::from_fn(|_| Leg { base: point(), platform: point() });
+    let s = std::array::from_fn(|_| Interval::from(rng.uniform(0.5, 9.0)));
+    LegSystem::new(&Manipulator::from_legs(legs).unwrap(), &s).unwrap()
+}
+
+fn random_point(rng: &mut Rng) -> Study<DoubleDouble> {
+    let mut part = |patch: usize, one: f64| -> [DoubleDouble; 8] {
+        std::array::from_fn(|j| {
+            if j == patch {
+                return one.into();
+            }
+            let x = rng.uniform(-1.0, 1.0);
+            DoubleDouble::from_sum(x, x * rng.uniform(-0.5, 0.5) * U)
+        })
+    };
+    let (re, im) = (part(2, 1.0), part(2, 0.0));
+    Study { re, im, patch: 2 }
+}
+
+fn lift(x: &Study<DoubleDouble>) -> [Complex; 8] {
+    let value = |d: DoubleDouble| exact(d.hi()) + exact(d.lo());
+    std::array::from_fn(|j| (value(x.re[j]), value(x.im[j])))
+}
+
+fn assert_within(computed: &Complex, truth: &Complex, bound: f64, what: &str) {
+    let error = norm_squared(&add(computed, truth, -1.0));
+    assert!(error <= exact(bound) * exact(bound), "{what}: {bound:e}");
+}
+
+#[test]
+fn computed_values_stay_within_their_bounds_in_both_precisions() {
+    let mut rng = Rng::new(81);
+    for _ in 0..20 {
+        let (system, x) = (random_system(&mut rng), random_point(&mut rng));
+        let hi = x.rounded();
+        let values = system.values(&hi);
+        let (bounds, _) = system.value_bounds(&hi, &values, U);
+        let at_hi = truth(&system, &lift(&hi.lifted()));
+        let fine = system.values(&x);
+        let (fine_bounds, _) = system.value_bounds(&hi, &values, DoubleDouble::UNIT);
+        let at_x = truth(&system, &lift(&x));
+        let value = |d: DoubleDouble| exact(d.hi()) + exact(d.lo());
+        for i in 0..N {
+            assert_within(&(exact(values.f_re[i]), exact(values.f_im[i])), &at_hi[i], bounds[i], "double");
+            let computed = (value(fine.f_re[i]), value(fine.f_im[i]));
+            assert_within(&computed, &at_x[i], fine_bounds[i], "double-double");
+            assert!(bounds[i] < 1e-12 && fine_bounds[i] < 1e-26, "the bounds are of use: {bounds:?}");
+        }
+    }
+}
+
+#[test]
+fn gradients_and_second_order_part_stay_within_their_bounds() {
+    let mut rng = Rng::new(82);
+    for _ in 0..6 {
+        let (system, point) = (random_system(&mut rng), random_point(&mut rng));
+        let x = point.rounded();
+        let j = system.jacobian(&x, &system.values(&x));
+        let centre = lift(&x.lifted());
+        for column in 0..N {
+            // a quadric's central difference is its derivative, and half the second difference its Q(h, h)
+            let coordinate = if column == x.patch { 7 } else { column };
+            let mut ends = [centre.clone(), centre.clone()];
+            ends[0][coordinate].0 += exact(1.0);
+            ends[1][coordinate].0 -= exact(1.0);
+            let (plus, minus) = (truth(&system, &ends[0]), truth(&system, &ends[1]));
+            for i in 0..N {
+                let twice = (exact(2.0 * j.re[i][column]), exact(2.0 * j.im[i][column]));
+                assert_within(&twice, &add(&plus[i], &minus[i], -1.0), 2.0 * j.error[i], "gradient");
+            }
+        }
+        assert!(j.error.iter().all(|e| *e < 1e-12) && j.re.iter().chain(&j.im).all(|row| row[7] == 0.0));
+        let mut h = lift(&random_point(&mut rng));
+        h[x.patch] = zero();
+        let q = truth(&system, &h); // F is homogeneous: Q(h, h) = F(h)
+        for i in 0..N {
+            // coordinates of h have moduli up to sqrt 2
+            assert_within(&zero(), &q[i], 2.0 * system.q[i], "second order");
+        }
+    }
+}
+
+#[test]
+fn scaling_that_is_not_exact_is_refused() {
+    let leg = |i: usize, x: f64| Leg {
+        base: Point3::new(x, i as f64, 1.0),
+        platform: Point3::new(1.0, 0.5, i as f64),
+    };
+    let system = |x: f64, s: f64| {
+        let legs = std::array::from_fn(|i| leg(i, x));
+        LegSystem::new(&Manipulator::from_legs(legs).unwrap(), &[Interval::from(s); 6])
+    };
+    assert!(system(3.0, 4.0).is_ok());
+    assert!(system(5e-324, 4.0).is_err(), "a subnormal coordinate loses its bits");
+    assert!(system(1e200, 4.0).is_err() && system(3.0, 1e300).is_err());
+}

@@ -1,0 +1,3 @@
+//! Tools for systems of equations.
+
+pub mod certify;

@@ -1,0 +1,155 @@
+//! Multiple roots have no certificate, separate ones do, however close.
+
+use equipod::geom::{ComplexPose, Pose, random_rotation};
+use equipod::manipulator::Manipulator;
+use equipod::num::Rng;
+use equipod::num::double_double::DoubleDouble;
+use equipod::num::interval::Interval;
+use equipod::solve::certify::{
+    Certificate, CertificateOutcome, Certifier, ProvedReality, RootRelation, relation,
+};
+use nalgebra::{Rotation3, Vector3};
+
+use super::support::manipulator;
+
+/// Innocenti's 6-4 platform as in Porta and Thomas, example 2 (with `p_l = (-3, 5, -1)`), all squares integers.
+fn innocenti() -> Certifier {
+    let base = [
+        [0.0, 0.0, 0.0],
+        [5.0, 0.0, 1.0],
+        [-2.0, 4.0, -1.0],
+        [3.0, -1.0, 1.0],
+        [6.0, -2.0, 2.0],
+        [-3.0, 5.0, -1.0],
+    ];
+    let platform = [
+        [4.0, 1.0, 4.0],
+        [4.0, 1.0, 4.0],
+        [0.0, 3.0, 3.0],
+        [0.0, 3.0, 3.0],
+        [4.0, 1.0, 5.0],
+        [-4.0, 3.0, 3.0],
+    ];
+    let s = [33.0, 11.0, 21.0, 29.0, 22.0, 21.0].map(Interval::from);
+    Certifier::new(&manipulator(&base, &platform), &s).unwrap()
+}
+
+/// Six legs that meet the z axis at the pose `R = I`, `p = 0`: a singular pose with integer data.
+fn singular_platform() -> (Manipulator, [f64; 6]) {
+    let base = [
+        [5.0, 1.0, 0.0],
+        [3.0, 4.0, 1.0],
+        [-4.0, 3.0, 0.0],
+        [-5.0, -2.0, -1.0],
+        [-1.0, -5.0, 0.0],
+        [4.0, -4.0, 2.0],
+    ];
+    let height = [6.0, 9.0, 4.0, 7.0, 3.0, 8.0];
+    // b_i = 2 (0, 0, z_i) - a_i, so that the axis halves every leg
+    let platform = std::array::from_fn(|i| [-base[i][0], -base[i][1], 2.0 * height[i] - base[i][2]]);
+    let square = |i: usize| {
+        let d = height[i] - base[i][2];
+        4.0 * (base[i][0] * base[i][0] + base[i][1] * base[i][1] + d * d)
+    };
+    (manipulator(&base, &platform), std::array::from_fn(square))
+}
+
+/// Distinct certified roots among the ends of Newton's method from the starts.
+fn distinct_ends(certifier: &Certifier, starts: impl Iterator<Item = ComplexPose>) -> Vec<Certificate> {
+    let mut found: Vec<Certificate> = Vec::new();
+    for start in starts {
+        let Ok(end) = certifier.refine(&start) else { continue };
+        let CertificateOutcome::Certified(c) = certifier.certify(&end.pose()) else { continue };
+        let known = found.iter().any(|f| match relation(f, &c) {
+            RootRelation::Same => true,
+            RootRelation::Distinct => false,
+            RootRelation::Undecided => panic!("undecided: {f:?} {c:?}"),
+        });
+        if !known {
+            found.push(c);
+        }
+    }
+    found
+}
+
+fn random_poses(seed: u64, count: usize, spread: f64) -> impl Iterator<Item = ComplexPose> {
+    let mut rng = Rng::new(seed);
+    (0..count).map(move |_| {
+        let position = Vector3::from_fn(|_, _| spread * rng.normal());
+        ComplexPose::from(Pose { rotation: random_rotation(&mut rng), position })
+    })
+}
+
+#[test]
+fn the_nearly_double_roots_of_innocentis_platform_are_told_apart() {
+    let certifier = innocenti();
+    let found = distinct_ends(&certifier, random_poses(71, 3000, 3.0));
+    assert!(found.iter().all(|c| c.reality() == ProvedReality::Real), "real starts lead to real roots");
+    assert_eq!(found.len(), 8);
+}
+
+#[test]
+fn an_exactly_double_root_has_no_certificate() {
+    let (m, s) = singular_platform();
+    let identity = ComplexPose::from(Pose { rotation: Rotation3::identity(), position: Vector3::zeros() });
+    let certifier = Certifier::new(&m, &s.map(Interval::from)).unwrap();
+    assert!(m.legs().iter().zip(s).all(|(leg, s)| (identity.squared_length(leg) - s).norm() < 1e-300));
+    assert!(certifier.certify(&identity).certificate().is_none());
+    for size in [1e-15, 1e-12, 1e-9, 1e-7] {
+        let mut rng = Rng::new(72);
+        for _ in 0..200 {
+            let axis = Vector3::from_fn(|_, _| size * rng.normal());
+            let position = Vector3::from_fn(|_, _| size * rng.normal());
+            let near = Pose { rotation: Rotation3::new(axis), position };
+            assert!(certifier.certify(&ComplexPose::from(near)).certificate().is_none());
+        }
+    }
+}
+
+#[test]
+fn a_double_root_split_by_a_small_change_of_one_length_gives_two_certificates() {
+    let (m, s) = singular_platform();
+    for change in [1e-4, 1e-8, 1e-10] {
+        let mut pairs = 0;
+        for sign in [1.0, -1.0] {
+            let mut moved = s;
+            moved[5] += sign * change;
+            let certifier = Certifier::new(&m, &moved.map(Interval::from)).unwrap();
+            let mut rng = Rng::new(73);
+            let starts = (0..200).map(|_| {
+                let size = f64::sqrt(change);
+                let rotation = Rotation3::new(Vector3::from_fn(|_, _| size * rng.normal()));
+                ComplexPose::from(Pose { rotation, position: Vector3::from_fn(|_, _| size * rng.normal()) })
+            });
+            let near = |c: &Certificate| c.enclosure().rotation[0][0].centre.re > 1.0 - 1e-3;
+            let close: Vec<_> = distinct_ends(&certifier, starts).into_iter().filter(near).collect();
+            pairs += usize::from(close.len() == 2);
+            assert!(close.len() == 2 || close.is_empty(), "{change} {}", close.len());
+        }
+        assert_eq!(pairs, 1, "one sign makes the pair real, the other complex: {change}");
+    }
+}
+
+#[test]
+fn refinement_satisfies_integer_leg_equations_to_27_digits() {
+    let certifier = innocenti();
+    let (base, platform) = ([5.0, 0.0, 1.0], [4.0, 1.0, 4.0]);
+    let mut checked = 0;
+    for start in random_poses(74, 200, 3.0) {
+        let Ok(end) = certifier.refine(&start) else { continue };
+        if end.last_step > 1e-28 {
+            continue; // one of the nearly double roots
+        }
+        let mut total = DoubleDouble::from(-11.0);
+        for i in 0..3 {
+            let mut x = end.position[i].re + DoubleDouble::from(-base[i]);
+            for j in 0..3 {
+                x = x + end.rotation[i][j].re * DoubleDouble::from(platform[j]);
+            }
+            total = total + x * x;
+        }
+        assert!(total.hi().abs() < 1e-26, "{total:?}");
+        checked += 1;
+    }
+    assert!(checked > 20, "{checked}");
+}

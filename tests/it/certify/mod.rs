@@ -1,0 +1,8 @@
+//! Certificates: every reference root has one, nothing else does.
+
+mod close_roots;
+mod false_roots;
+mod laws;
+mod reference_roots;
+mod support;
+mod timing;
