@@ -3,10 +3,26 @@
 //! Nothing in here solves forward kinematics: `synthesis` and `fk` never import each other, so that
 //! agreement of the root sets of two platforms is evidence for the map between them.
 
+mod determinant;
+mod enumerate;
+mod family;
+mod hexagon;
 mod leg_map;
 mod leg_vector;
+mod moves;
+mod pattern;
+mod topology;
 
+pub use determinant::Factor;
+pub use enumerate::{Symmetry, enumerate, representative};
+pub use family::{Family, FamilyCounts, FamilyMember, FamilyTopology};
+pub use hexagon::{
+    Body, HexagonPoint, JointLabel, Offset, edge_lengths, offsets_from_distances, sliding_body,
+};
 pub use leg_map::{
     AffineLegMap, LegMapOutcome, LegMapTolerances, NotRealizable, Relation, SingularMap, leg_map,
 };
 pub use leg_vector::{LegSpan, Normalisation, leg_vector};
+pub use moves::{Move, moves, reachable};
+pub use pattern::{InstantiateError, ParsePatternError, Pattern, joint_free};
+pub use topology::Topology;

@@ -4,3 +4,4 @@
 mod certify;
 mod cli_fk;
 mod leg_maps;
+mod octahedral_class;
