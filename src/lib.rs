@@ -15,5 +15,6 @@ pub mod fk;
 pub mod geom;
 pub mod manipulator;
 pub mod num;
+pub mod poly;
 pub mod solve;
 pub mod synthesis;

@@ -1,13 +1,33 @@
-//! Choice of a method for a manipulator.
+//! Which method solves a problem.
 
-use super::{FkError, ForwardKinematics, Method};
-use crate::manipulator::Manipulator;
+use super::{FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, Method, Octic};
+use crate::manipulator::{Manipulator, SquaredLegLengths};
 
-/// The solver for `method`, or the best one for `m` when `method` is `None`.
+/// The solver for a method by name, or for `None` the automatic choice.
+#[must_use]
+pub fn solver(method: Option<Method>) -> Box<dyn ForwardKinematics> {
+    match method {
+        None => Box::new(Automatic),
+        Some(Method::Octic) => Box::new(Octic),
+        Some(Method::Homotopy) => Box::new(Homotopy),
+    }
+}
+
+/// The octic where it applies and accounts for all sixteen poses, otherwise the homotopy.
 ///
-/// # Errors
-/// [`FkError::NotApplicable`] when the method cannot take this manipulator.
-pub fn solver(method: Option<Method>, _m: &Manipulator) -> Result<Box<dyn ForwardKinematics>, FkError> {
-    let method = method.unwrap_or(Method::Homotopy);
-    Err(FkError::NotApplicable { method, reason: "it is not part of this version".into() })
+/// The result names the method that was used.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Automatic;
+
+impl ForwardKinematics for Automatic {
+    fn method(&self) -> Method {
+        Method::Homotopy
+    }
+
+    fn solve(&self, m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
+        match Octic.solve(m, s, o) {
+            Ok(found) if found.all_accounted() => Ok(found),
+            _ => Homotopy.solve(m, s, o),
+        }
+    }
 }

@@ -4,9 +4,14 @@
 //! the root sets of two platforms is evidence for the map between them.
 
 mod choose;
+mod collect;
+mod homotopy;
+mod octic;
 mod solutions;
 
-pub use choose::solver;
+pub use choose::{Automatic, solver};
+pub use homotopy::Homotopy;
+pub use octic::{Octic, octic};
 pub use solutions::{
     Completeness, FkRoot, FkSolutions, Method, PathEnd, PathReport, Reality, Rejected, RejectionReason,
 };

@@ -2,6 +2,8 @@
 
 mod pose;
 mod quaternion;
+mod trilateration;
 
 pub use pose::{ComplexPose, Pose};
 pub use quaternion::{random_rotation, rotation_from_quaternion};
+pub use trilateration::trilaterate;

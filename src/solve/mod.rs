@@ -1,3 +1,8 @@
-//! Tools for systems of equations.
+//! Solving six leg equations for all complex poses, without knowing where the equations come from, and
+//! certifying the roots by code that shares nothing with the solver.
 
 pub mod certify;
+pub mod homotopy;
+mod sections;
+
+pub(crate) use sections::{Frame, quaternion_product, split};

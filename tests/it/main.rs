@@ -1,7 +1,8 @@
-//! Integration tests, one binary.
+//! Integration tests: one binary, one module a topic.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a failing test panics")]
 
 mod certify;
 mod cli_fk;
 mod leg_maps;
 mod octahedral_class;
+mod reference;

@@ -110,7 +110,7 @@ fn solve(
     lengths: &LegLengths,
     options: &FkOptions,
 ) -> Result<FkSolutions, Failure> {
-    let solver = fk::solver(method, m).map_err(|e| failure_of(&e))?;
+    let solver = fk::solver(method);
     solver.solve(m, &lengths.squared(), options).map_err(|e| failure_of(&e))
 }
 

@@ -1,0 +1,136 @@
+//! The general method: parameter homotopy for any six legs, knowing nothing of leg maps.
+
+use num_complex::Complex64;
+
+use super::collect::{Candidate, collect};
+use super::{Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, PathEnd, PathReport};
+use crate::geom::{ComplexPose, rotation_from_quaternion};
+use crate::manipulator::{Manipulator, SquaredLegLengths};
+use crate::solve::homotopy::{EndKind, GENERIC_COUNT, Path, solve_sections};
+use crate::solve::{Frame, quaternion_product, split};
+
+/// Times the whole problem is tracked again with another gamma when paths fail.
+const ATTEMPTS: u64 = 3;
+
+/// Forward kinematics of any six legs by 40 homotopy paths from a generic start system.
+///
+/// Unknowns are the dual quaternion `(e, g)`, `g = p e`; a pose is finite when `e.e != 0` (source: Husty 1996
+/// for the coordinates, Gallet, Nawratil, Schicho 2014 for the degree 40). Each path is reported with its
+/// end: a finite pose, `e.e = 0`, infinity, or failed.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Homotopy;
+
+impl ForwardKinematics for Homotopy {
+    fn method(&self) -> Method {
+        Method::Homotopy
+    }
+
+    fn solve(&self, m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
+        let frame = Frame::of(m, s);
+        let Some(sections) = frame.sections(m, s) else {
+            return Ok(FkSolutions {
+                method: Method::Homotopy,
+                roots: Vec::new(),
+                completeness: Completeness::Unproved {
+                    reason: "the six leg equations are linearly dependent: every pose found would belong \
+                             to a continuum of poses (architecturally singular platform, compatible lengths)"
+                        .to_owned(),
+                    all_paths_accounted: false,
+                },
+                paths: Vec::new(),
+                rejected: Vec::new(),
+                seed: o.seed,
+            });
+        };
+        let mut best: Option<FkSolutions> = None;
+        for attempt in 0..ATTEMPTS {
+            let seed = o.seed.wrapping_add(attempt.wrapping_mul(0x9e37_79b9));
+            let paths =
+                solve_sections(&sections, seed).map_err(|e| FkError::Breakdown { what: e.to_string() })?;
+            let found = assemble(m, s, o, &frame, &paths);
+            if found.all_accounted() {
+                return Ok(found);
+            }
+            let failures = |f: &FkSolutions| f.paths.iter().filter(|p| p.end == PathEnd::Failed).count();
+            if best.as_ref().is_none_or(|b| failures(&found) < failures(b)) {
+                best = Some(found);
+            }
+        }
+        best.ok_or_else(|| FkError::Breakdown { what: "no attempt was made".to_owned() })
+    }
+}
+
+/// The pose of homogeneous coordinates `(e, g)` in the design's frames: `R = R(e)`, `p = g e~ / (e.e)`.
+fn pose_of(x: [Complex64; 8]) -> ComplexPose {
+    let (e, g) = split(x);
+    let n: Complex64 = e.iter().map(|z| z * z).sum();
+    let conjugate = [e[0], -e[1], -e[2], -e[3]];
+    let p = quaternion_product(g, conjugate);
+    let position = nalgebra::Vector3::new(p[1] / n, p[2] / n, p[3] / n);
+    ComplexPose { rotation: rotation_from_quaternion(e), position }
+}
+
+fn assemble(
+    m: &Manipulator,
+    s: &SquaredLegLengths,
+    o: &FkOptions,
+    frame: &Frame,
+    paths: &[Path],
+) -> FkSolutions {
+    let mut candidates = Vec::new();
+    let mut reports = Vec::new();
+    for (start, path) in paths.iter().enumerate() {
+        let end = match path.kind {
+            EndKind::Regular | EndKind::Singular => PathEnd::Finite,
+            EndKind::Isotropic => PathEnd::IsotropicRotation,
+            EndKind::Infinite => PathEnd::AtInfinity,
+            EndKind::Failed => PathEnd::Failed,
+        };
+        if end == PathEnd::Finite {
+            candidates.push(Candidate {
+                pose: pose_of(frame.to_design(path.x)),
+                singular: path.kind == EndKind::Singular,
+                condition: 1.0 / path.pivot_ratio,
+                source: start,
+            });
+        }
+        let e = &path.x[..4];
+        let n: Complex64 = e.iter().map(|z| z * z).sum();
+        let size: f64 = e.iter().map(num_complex::Complex::norm_sqr).sum();
+        reports.push(PathReport {
+            start,
+            end,
+            root: None,
+            steps: path.steps,
+            rejections: path.rejections,
+            winding: path.winding,
+            isotropy: n.norm() / size,
+            retracked: path.retracked,
+        });
+    }
+    let collected = collect(m, s, &o.tolerances, &candidates);
+    for (root, sources) in collected.sources.iter().enumerate() {
+        for &start in sources {
+            reports[start].root = Some(root);
+        }
+    }
+    let count = |end| reports.iter().filter(|p| p.end == end).count();
+    let failed = count(PathEnd::Failed);
+    let all_paths_accounted =
+        failed == 0 && collected.rejected.is_empty() && !collected.doubtful && reports.len() == GENERIC_COUNT;
+    let reason = format!(
+        "of {GENERIC_COUNT} paths {} ended in finite poses, {} at e.e = 0, {} at infinity, {failed} failed; {}",
+        count(PathEnd::Finite),
+        count(PathEnd::IsotropicRotation),
+        count(PathEnd::AtInfinity),
+        if all_paths_accounted { "every path is accounted for" } else { "poses may be missing" },
+    );
+    FkSolutions {
+        method: Method::Homotopy,
+        roots: collected.roots,
+        completeness: Completeness::Unproved { reason, all_paths_accounted },
+        paths: reports,
+        rejected: collected.rejected,
+        seed: o.seed,
+    }
+}

@@ -1,0 +1,393 @@
+//! Octahedral platforms by an octic in one unknown squared distance.
+//!
+//! Among `P1..P6` only `s15, s34, s26` are unknown. Any five points in space have a vanishing Cayley-Menger
+//! determinant; `D(1,2,3,4,5) = 0` and `D(1,3,4,5,6) = 0` contain `x = s15` and `y = s34` only, each of degree
+//! two. Eliminating `y` leaves an octic in `x` (Rojas, Borras, Thomas, sec. 3). Each root belongs to one
+//! `y` and to two poses, mirror images in the base plane: 16 poses.
+
+use nalgebra::{Matrix3, Vector3};
+use num_complex::Complex64;
+
+use super::collect::{Candidate, collect};
+use super::{Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method};
+use crate::geom::{ComplexPose, trilaterate};
+use crate::manipulator::{Leg, Manipulator, Octahedral, SquaredLegLengths};
+use crate::poly::roots;
+
+/// Forward kinematics of octahedral platforms (also of those whose joints coincide without being named as
+/// shared: only coordinates count).
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Octic;
+
+/// A polynomial of degree two in `x` and in `y`: `c[i][j] x^i y^j`.
+type Biquadratic = [[f64; 3]; 3];
+
+/// The numbers of one problem, in units of the design's size, in cyclic order.
+struct Problem {
+    base: [Vector3<f64>; 3],
+    platform: [Vector3<f64>; 3],
+    s: [f64; 6],
+}
+
+impl ForwardKinematics for Octic {
+    fn method(&self) -> Method {
+        Method::Octic
+    }
+
+    fn solve(&self, m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
+        let refuse = |reason: String| FkError::NotApplicable { method: Method::Octic, reason };
+        let merged = Manipulator::from_legs(m.legs()).map_err(|e| refuse(e.to_string()))?;
+        let octahedral = Octahedral::recognise(&merged).map_err(|e| refuse(e.to_string()))?;
+        let size = m.size();
+        let problem = Problem {
+            base: octahedral.base().map(|p| p.coords / size),
+            platform: octahedral.platform().map(|p| p.coords / size),
+            s: octahedral.order().map(|i| s.get()[i.get()] / (size * size)),
+        };
+        let pairs = problem.distance_pairs().map_err(|what| FkError::Breakdown { what })?;
+        let mut candidates = Vec::new();
+        let mut unplaced = 0;
+        for (source, pair) in pairs.iter().enumerate() {
+            match problem.poses(*pair) {
+                Some(two) => candidates.extend(two.map(|pose| Candidate {
+                    pose: ComplexPose { position: pose.position * Complex64::from(size), ..pose },
+                    singular: false,
+                    condition: 1.0,
+                    source,
+                })),
+                None => unplaced += 1,
+            }
+        }
+        let collected = collect(m, s, &o.tolerances, &candidates);
+        let found = collected.roots.len();
+        let all_paths_accounted = found == 16 && unplaced == 0;
+        let reason = format!(
+            "the octic gave {} pairs (s15, s34), {found} distinct poses of at most 16 were found{}",
+            pairs.len(),
+            if all_paths_accounted { "" } else { "; poses may be missing or multiple" },
+        );
+        Ok(FkSolutions {
+            method: Method::Octic,
+            roots: collected.roots,
+            completeness: Completeness::Unproved { reason, all_paths_accounted },
+            paths: Vec::new(),
+            rejected: collected.rejected,
+            seed: o.seed,
+        })
+    }
+}
+
+/// Squared distances of an apex to the corners `A, B, C` of a triangle, each `k[0] + k[1] x`.
+type Apex = [[f64; 2]; 3];
+
+/// `(U.V - q_U.q_V)^2 - h_U h_V` as a polynomial in the unknown `x` of apex `U` and `y` of apex `V`.
+///
+/// Origin in corner `A`; `q` is the projection into the plane of the triangle, `h` the squared height. It
+/// vanishes when `U` and `V` can be placed at squared distance `d`: the Cayley-Menger determinant of the
+/// five points up to a constant.
+fn closure(triangle: [&Vector3<f64>; 3], u: Apex, v: Apex, d: f64) -> Biquadratic {
+    let (b, c) = (triangle[1] - triangle[0], triangle[2] - triangle[0]);
+    let (bb, bc, cc) = (b.norm_squared(), b.dot(&c), c.norm_squared());
+    let area = bb * cc - bc * bc;
+    // products of an apex with the sides: affine in its unknown
+    let sides = |w: &Apex| -> [[f64; 2]; 2] {
+        let along = |k: usize, corner: usize, square: f64| {
+            let constant = if k == 0 { square } else { 0.0 };
+            (w[0][k] + constant - w[corner][k]) / 2.0
+        };
+        [[along(0, 1, bb), along(1, 1, bb)], [along(0, 2, cc), along(1, 2, cc)]]
+    };
+    let (su, sv) = (sides(&u), sides(&v));
+    let gram = |p: &[[f64; 2]; 2], i: usize, q: &[[f64; 2]; 2], j: usize| {
+        (cc * p[0][i] * q[0][j] - bc * (p[0][i] * q[1][j] + p[1][i] * q[0][j]) + bb * p[1][i] * q[1][j])
+            / area
+    };
+    // U.V - q_U.q_V, bilinear
+    let mut mixed = [[0.0; 2]; 2];
+    for (i, row) in mixed.iter_mut().enumerate() {
+        for (j, z) in row.iter_mut().enumerate() {
+            *z = -gram(&su, i, &sv, j);
+        }
+    }
+    mixed[0][0] += (u[0][0] + v[0][0] - d) / 2.0;
+    mixed[1][0] += u[0][1] / 2.0;
+    mixed[0][1] += v[0][1] / 2.0;
+    let height = |w: &Apex, s: &[[f64; 2]; 2]| {
+        let square = [gram(s, 0, s, 0), gram(s, 0, s, 1) + gram(s, 1, s, 0), gram(s, 1, s, 1)];
+        [w[0][0] - square[0], w[0][1] - square[1], -square[2]]
+    };
+    let (hu, hv) = (height(&u, &su), height(&v, &sv));
+    let mut out = [[0.0; 3]; 3];
+    for i in 0..3 {
+        for j in 0..3 {
+            out[i][j] = -hu[i] * hv[j];
+        }
+    }
+    for (i, j, k, l) in (0..16).map(|n| (n & 1, n >> 1 & 1, n >> 2 & 1, n >> 3 & 1)) {
+        out[i + k][j + l] += mixed[i][j] * mixed[k][l];
+    }
+    out
+}
+
+fn product(p: &[f64], q: &[f64]) -> Vec<f64> {
+    let mut out = vec![0.0; p.len() + q.len() - 1];
+    for (i, a) in p.iter().enumerate() {
+        for (j, b) in q.iter().enumerate() {
+            out[i + j] += a * b;
+        }
+    }
+    out
+}
+
+fn difference(p: &[f64], q: &[f64]) -> Vec<f64> {
+    p.iter().zip(q).map(|(a, b)| a - b).collect()
+}
+
+/// Resultant with respect to `y`: `(a2 b0 - a0 b2)^2 - (a2 b1 - a1 b2)(a1 b0 - a0 b1)`.
+fn resultant(a: &Biquadratic, b: &Biquadratic) -> Vec<f64> {
+    let column = |p: &Biquadratic, j: usize| [p[0][j], p[1][j], p[2][j]];
+    let minor = |i: usize, j: usize| {
+        difference(&product(&column(a, i), &column(b, j)), &product(&column(a, j), &column(b, i)))
+    };
+    let (outer, high, low) = (minor(2, 0), minor(2, 1), minor(1, 0));
+    difference(&product(&outer, &outer), &product(&high, &low))
+}
+
+/// Value and derivatives by `x` and `y`.
+fn evaluate(p: &Biquadratic, x: Complex64, y: Complex64) -> [Complex64; 3] {
+    let (px, py) = ([Complex64::ONE, x, x * x], [Complex64::ONE, y, y * y]);
+    let (dx, dy) = ([Complex64::ZERO, Complex64::ONE, x * 2.0], [Complex64::ZERO, Complex64::ONE, y * 2.0]);
+    let mut out = [Complex64::ZERO; 3];
+    for i in 0..3 {
+        for j in 0..3 {
+            out[0] += px[i] * py[j] * p[i][j];
+            out[1] += dx[i] * py[j] * p[i][j];
+            out[2] += px[i] * dy[j] * p[i][j];
+        }
+    }
+    out
+}
+
+/// Newton's method on both closures; `None` when it leaves the neighbourhood of its start.
+fn polish(a: &Biquadratic, b: &Biquadratic, start: [Complex64; 2]) -> Option<[Complex64; 2]> {
+    let [mut x, mut y] = start;
+    let scale = x.norm() + y.norm();
+    let mut step = f64::INFINITY;
+    for _ in 0..12 {
+        let (f, g) = (evaluate(a, x, y), evaluate(b, x, y));
+        let det = f[1] * g[2] - f[2] * g[1];
+        let dx = (f[0] * g[2] - f[2] * g[0]) / det;
+        let dy = (f[1] * g[0] - f[0] * g[1]) / det;
+        let next = dx.norm() + dy.norm();
+        if !next.is_finite() || next > 0.05 * scale {
+            return None;
+        }
+        if next >= step && step < 1e-12 * scale {
+            break;
+        }
+        x -= dx;
+        y -= dy;
+        step = next;
+    }
+    (step < 1e-8 * scale).then_some([x, y])
+}
+
+impl Problem {
+    fn closures(&self) -> (Biquadratic, Biquadratic) {
+        let s = self.s.map(|k| [k, 0.0]);
+        let unknown = [0.0, 1.0];
+        let [p1, p2, p3] = &self.base;
+        let [p4, p5, p6] = &self.platform;
+        // legs: s14 s24 s25 s35 s36 s16
+        let first =
+            closure([p1, p2, p3], [unknown, s[2], s[3]], [s[0], s[1], unknown], (p4 - p5).norm_squared());
+        let second =
+            closure([p4, p5, p6], [s[0], unknown, s[5]], [unknown, s[3], s[4]], (p1 - p3).norm_squared());
+        (first, second)
+    }
+
+    /// The pairs `(s15, s34)` that satisfy both closures, eight in general.
+    fn distance_pairs(&self) -> Result<Vec<[Complex64; 2]>, String> {
+        let (a, b) = self.closures();
+        let octic: Vec<Complex64> = resultant(&a, &b).into_iter().map(Complex64::from).collect();
+        let mut pairs: Vec<[Complex64; 2]> = Vec::new();
+        for x in roots(&octic).map_err(|e| e.to_string())? {
+            let column = |j: usize| a[0][j] + x * (a[1][j] + x * a[2][j]);
+            let quadratic = [column(0), column(1), column(2)];
+            for y in roots(&quadratic).map_err(|e| e.to_string())? {
+                let Some(pair) = polish(&a, &b, [x, y]) else { continue };
+                let far = |q: &[Complex64; 2]| {
+                    let distance = (q[0] - pair[0]).norm() + (q[1] - pair[1]).norm();
+                    distance > 1e-9 * (pair[0].norm() + pair[1].norm())
+                };
+                if pairs.iter().all(far) {
+                    pairs.push(pair);
+                }
+            }
+        }
+        Ok(pairs)
+    }
+
+    /// The two poses of a pair, by trilateration: `P4`, `P5` from the base, then `P6`, then `(R, p)`.
+    fn poses(&self, [s15, s34]: [Complex64; 2]) -> Option<[ComplexPose; 2]> {
+        let lift = |v: &Vector3<f64>| v.map(Complex64::from);
+        let base = [0, 1, 2].map(|k| lift(&self.base[k]));
+        let s = self.s.map(Complex64::from);
+        let side = |i: usize, j: usize| Complex64::from((self.platform[i] - self.platform[j]).norm_squared());
+        let square = |v: Vector3<Complex64>| v.dot(&v);
+        let nearest = |pair: [Vector3<Complex64>; 2], error: &dyn Fn(&Vector3<Complex64>) -> f64| {
+            if error(&pair[0]) <= error(&pair[1]) { pair[0] } else { pair[1] }
+        };
+        let p4 = trilaterate(&base, [s[0], s[1], s34])?[0];
+        let p5 = nearest(trilaterate(&base, [s15, s[2], s[3]])?, &|p| (square(p - p4) - side(0, 1)).norm());
+        let p6 = self.third_corner(&base, p4, p5)?;
+        let frame = |p: [Vector3<Complex64>; 3]| {
+            let (u, v) = (p[1] - p[0], p[2] - p[0]);
+            Matrix3::from_columns(&[u, v, u.cross(&v)])
+        };
+        let local = [0, 1, 2].map(|k| lift(&self.platform[k]));
+        let inverse = frame(local).try_inverse()?;
+        let n = (base[1] - base[0]).cross(&(base[2] - base[0]));
+        let mirror = |p: Vector3<Complex64>| p - n * ((p - base[0]).dot(&n) / square(n) * 2.0);
+        let pose = |p: [Vector3<Complex64>; 3]| {
+            let rotation = frame(p) * inverse;
+            ComplexPose { rotation, position: p[0] - rotation * local[0] }
+        };
+        Some([pose([p4, p5, p6]), pose([p4, p5, p6].map(mirror))])
+    }
+
+    /// `P6` from three of `P1, P3, P4, P5` (the triangle with the largest area), the sign from the fourth.
+    fn third_corner(
+        &self,
+        base: &[Vector3<Complex64>; 3],
+        p4: Vector3<Complex64>,
+        p5: Vector3<Complex64>,
+    ) -> Option<Vector3<Complex64>> {
+        let side = |i: usize, j: usize| (self.platform[i] - self.platform[j]).norm_squared();
+        let known = [
+            (base[0], Complex64::from(self.s[5])),
+            (base[2], Complex64::from(self.s[4])),
+            (p4, Complex64::from(side(0, 2))),
+            (p5, Complex64::from(side(1, 2))),
+        ];
+        let area = |skip: usize| {
+            let [a, b, c] = others(skip).map(|k| known[k].0);
+            let n = (b - a).cross(&(c - a));
+            n.dot(&n).norm()
+        };
+        let skip = (0..4).max_by(|&i, &j| area(i).total_cmp(&area(j)))?;
+        let corners = others(skip);
+        let pair = trilaterate(&corners.map(|k| known[k].0), corners.map(|k| known[k].1))?;
+        let error = |p: &Vector3<Complex64>| {
+            let d = p - known[skip].0;
+            (d.dot(&d) - known[skip].1).norm()
+        };
+        Some(if error(&pair[0]) <= error(&pair[1]) { pair[0] } else { pair[1] })
+    }
+}
+
+fn others(skip: usize) -> [usize; 3] {
+    [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]][skip]
+}
+
+/// The octic of an octahedral manipulator in `s15`, coefficients from the constant term up, in units of
+/// the design (not scaled to size one), up to a common factor.
+///
+/// # Errors
+/// [`FkError::NotApplicable`] when the manipulator is not octahedral.
+pub fn octic(m: &Manipulator, s: &SquaredLegLengths) -> Result<[f64; 9], FkError> {
+    let refuse = |reason: String| FkError::NotApplicable { method: Method::Octic, reason };
+    let legs: [Leg; 6] = m.legs();
+    let merged = Manipulator::from_legs(legs).map_err(|e| refuse(e.to_string()))?;
+    let octahedral = Octahedral::recognise(&merged).map_err(|e| refuse(e.to_string()))?;
+    let problem = Problem {
+        base: octahedral.base().map(|p| p.coords),
+        platform: octahedral.platform().map(|p| p.coords),
+        s: octahedral.order().map(|i| s.get()[i.get()]),
+    };
+    let (a, b) = problem.closures();
+    let mut out = [0.0; 9];
+    out.copy_from_slice(&resultant(&a, &b));
+    Ok(out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fk::Homotopy;
+    use crate::geom::{Pose, random_rotation};
+    use crate::manipulator::LegLengths;
+    use crate::num::Rng;
+    use nalgebra::Point3;
+
+    /// Rojas, Borras, Thomas, sec. 6.
+    fn published() -> (Manipulator, SquaredLegLengths) {
+        let base = vec![Point3::origin(), Point3::new(6.0, 108f64.sqrt(), 0.0), Point3::new(12.0, 0.0, 0.0)];
+        let platform =
+            vec![Point3::origin(), Point3::new(3.0, 27f64.sqrt(), 0.0), Point3::new(6.0, 0.0, 0.0)];
+        let legs = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
+        let lengths = LegLengths::try_new([19.8, 18.0, 18.0, 17.0, 14.9, 17.8]).unwrap();
+        (Manipulator::try_new(base, platform, legs).unwrap(), lengths.squared())
+    }
+
+    #[test]
+    fn the_published_octic_roots() {
+        let (m, s) = published();
+        let c = octic(&m, &s).unwrap().map(Complex64::from);
+        let found = roots(&c).unwrap();
+        let expected = [269.2450856, 328.7364309, 359.5275017, 463.5657697, 497.902151, 513.0332445];
+        for x in expected.map(Complex64::from).into_iter().chain([Complex64::new(284.616753, 116.2085133)]) {
+            let near = found.iter().map(|z| (z - x).norm()).fold(f64::MAX, f64::min);
+            assert!(near < 1e-5, "{x}: {near}");
+        }
+    }
+
+    #[test]
+    fn sixteen_published_poses_of_which_twelve_are_real() {
+        let (m, s) = published();
+        let found = Octic.solve(&m, &s, &FkOptions::default()).unwrap();
+        assert_eq!(found.roots.len(), 16);
+        assert_eq!(found.assembly_modes().count(), 12);
+        assert!(found.all_accounted());
+        assert!(found.roots.iter().all(|r| r.residual < 1e-12));
+    }
+
+    #[test]
+    fn random_octahedral_platforms_agree_with_the_general_solver() {
+        for k in 0..15 {
+            let mut rng = Rng::stream(21, k);
+            let mut triangle =
+                || (0..3).map(|_| Point3::from(Vector3::from_fn(|_, _| rng.uniform(-1.0, 1.0)))).collect();
+            let (base, platform) = (triangle(), triangle());
+            let m = Manipulator::try_new(base, platform, [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)])
+                .unwrap();
+            let m = m.reordered([3, 5, 0, 1, 4, 2]).unwrap();
+            let position = Vector3::from_fn(|_, _| rng.normal());
+            let pose = Pose { rotation: random_rotation(&mut rng), position };
+            let s = pose.squared_lengths(&m).unwrap();
+            let a = Octic.solve(&m, &s, &FkOptions::default()).unwrap();
+            let b = Homotopy.solve(&m, &s, &FkOptions::default()).unwrap();
+            assert_eq!((a.roots.len(), b.roots.len()), (16, 16), "case {k}: {:?}", a.completeness);
+            for r in &a.roots {
+                let near =
+                    b.roots.iter().map(|q| q.pose.distance(&r.pose, m.size())).fold(f64::MAX, f64::min);
+                assert!(near < 1e-8, "case {k}: {near}");
+            }
+            let truth = ComplexPose::from(pose);
+            assert!(a.roots.iter().any(|r| r.pose.distance(&truth, m.size()) < 1e-9));
+        }
+    }
+
+    #[test]
+    fn refuses_platforms_that_are_not_octahedral() {
+        let mut rng = Rng::new(4);
+        let legs = std::array::from_fn(|_| {
+            let mut p = || Point3::from(Vector3::from_fn(|_, _| rng.normal()));
+            Leg { base: p(), platform: p() }
+        });
+        let m = Manipulator::from_legs(legs).unwrap();
+        let s = SquaredLegLengths::try_new([1.0; 6]).unwrap();
+        let error = Octic.solve(&m, &s, &FkOptions::default()).unwrap_err();
+        assert!(matches!(error, FkError::NotApplicable { method: Method::Octic, .. }));
+    }
+}

@@ -1,0 +1,5 @@
+//! Polynomials in one unknown.
+
+mod roots;
+
+pub use roots::{RootsError, roots};

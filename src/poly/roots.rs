@@ -1,0 +1,162 @@
+//! All complex roots of one polynomial by simultaneous iteration.
+
+use num_complex::Complex64;
+use thiserror::Error;
+
+/// Roots that could not be computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum RootsError {
+    /// A coefficient is not finite, or all of them are zero.
+    #[error("the polynomial has no finite nonzero coefficients")]
+    NoPolynomial,
+}
+
+/// Sweeps after which the iterates are returned as they are.
+const SWEEPS: usize = 120;
+
+/// The roots of `c[0] + c[1] x + .. + c[n] x^n`, with multiplicity, in no particular order.
+///
+/// Method: Ehrlich (1967) and Aberth (1973): Newton corrections with every other iterate's repulsion, from
+/// starting points on circles whose radii are read off the Newton polygon of the moduli (Bini 1996). Leading
+/// coefficients that are exactly zero lower the degree. Simple roots come out to a few units of rounding
+/// times their condition, an `m`-fold root to about the `m`-th root of rounding.
+///
+/// # Errors
+/// [`RootsError::NoPolynomial`] for non-finite or all-zero coefficients.
+///
+/// ```
+/// use equipod::poly::roots;
+/// use num_complex::Complex64;
+/// // (x - 1)(x - 2)(x + 3) = 6 - 7x + x^3
+/// let c = [6.0, -7.0, 0.0, 1.0].map(|r| Complex64::new(r, 0.0));
+/// let mut x: Vec<f64> = roots(&c)?.iter().map(|z| z.re).collect();
+/// x.sort_by(f64::total_cmp);
+/// assert!((x[0] + 3.0).abs() + (x[1] - 1.0).abs() + (x[2] - 2.0).abs() < 1e-12);
+/// # Ok::<(), equipod::poly::RootsError>(())
+/// ```
+pub fn roots(coefficients: &[Complex64]) -> Result<Vec<Complex64>, RootsError> {
+    if coefficients.iter().any(|c| !c.re.is_finite() || !c.im.is_finite()) {
+        return Err(RootsError::NoPolynomial);
+    }
+    let zero = |c: &Complex64| *c == Complex64::ZERO;
+    let top = coefficients.iter().rposition(|c| !zero(c)).ok_or(RootsError::NoPolynomial)?;
+    let low = coefficients.iter().position(|c| !zero(c)).ok_or(RootsError::NoPolynomial)?;
+    let c = &coefficients[low..=top];
+    let mut z = starting_points(c);
+    for _ in 0..SWEEPS {
+        let mut largest = 0.0f64;
+        for k in 0..z.len() {
+            let newton = newton_correction(c, z[k]);
+            let others = (0..z.len()).filter(|&j| j != k);
+            let repulsion: Complex64 = others.map(|j| (z[k] - z[j]).inv()).filter(|w| w.is_finite()).sum();
+            let step = newton / (1.0 - newton * repulsion);
+            if step.is_finite() {
+                z[k] -= step;
+                largest = largest.max(step.norm() / z[k].norm().max(f64::MIN_POSITIVE));
+            }
+        }
+        if largest < 4.0 * f64::EPSILON {
+            break;
+        }
+    }
+    z.extend(std::iter::repeat_n(Complex64::ZERO, low));
+    Ok(z)
+}
+
+/// `p(x) / p'(x)`, from the reversed polynomial where `|x| > 1` so that powers do not overflow.
+fn newton_correction(c: &[Complex64], x: Complex64) -> Complex64 {
+    let n = c.len() - 1;
+    let horner = |coefficient: &dyn Fn(usize) -> Complex64, y: Complex64| {
+        let (mut p, mut d) = (coefficient(n), Complex64::ZERO);
+        for k in (0..n).rev() {
+            d = d * y + p;
+            p = p * y + coefficient(k);
+        }
+        (p, d)
+    };
+    if x.norm_sqr() <= 1.0 {
+        let (p, d) = horner(&|k| c[k], x);
+        if p == Complex64::ZERO { Complex64::ZERO } else { p / d }
+    } else {
+        // p(x) = x^n q(1/x):  p/p' = x q / (n q - q'/x)
+        let y = x.inv();
+        let (q, d) = horner(&|k| c[n - k], y);
+        if q == Complex64::ZERO { Complex64::ZERO } else { x * q / (q * n as f64 - d * y) }
+    }
+}
+
+/// Points on circles whose radii are the slopes of the upper convex hull of `(k, ln |c_k|)`.
+fn starting_points(c: &[Complex64]) -> Vec<Complex64> {
+    let logs: Vec<f64> = c.iter().map(|z| z.norm().ln()).collect();
+    let mut hull: Vec<usize> = Vec::new();
+    for k in (0..c.len()).filter(|&k| logs[k].is_finite()) {
+        while let [.., a, b] = hull[..] {
+            let cross = (logs[b] - logs[a]) * (k - a) as f64 - (logs[k] - logs[a]) * (b - a) as f64;
+            if cross > 0.0 {
+                break;
+            }
+            hull.pop();
+        }
+        hull.push(k);
+    }
+    let mut points = Vec::with_capacity(c.len() - 1);
+    for (edge, pair) in hull.windows(2).enumerate() {
+        let count = pair[1] - pair[0];
+        let radius = ((logs[pair[0]] - logs[pair[1]]) / count as f64).exp();
+        for k in 0..count {
+            let angle = std::f64::consts::TAU * (k as f64 + 0.37) / count as f64 + 0.7 * (edge as f64 + 1.0);
+            points.push(Complex64::from_polar(radius, angle));
+        }
+    }
+    points
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::Rng;
+
+    fn expand(roots: &[Complex64]) -> Vec<Complex64> {
+        let mut c = vec![Complex64::ONE];
+        for r in roots {
+            let mut next = vec![Complex64::ZERO; c.len() + 1];
+            for (k, a) in c.iter().enumerate() {
+                next[k + 1] += a;
+                next[k] -= a * r;
+            }
+            c = next;
+        }
+        c
+    }
+
+    #[test]
+    fn finds_random_roots_of_very_different_size() {
+        let mut rng = Rng::new(9);
+        for _ in 0..200 {
+            let size = |rng: &mut Rng| 10f64.powf(rng.uniform(-3.0, 3.0));
+            let known: Vec<Complex64> =
+                (0..8).map(|_| Complex64::from_polar(size(&mut rng), rng.uniform(0.0, 6.3))).collect();
+            let found = roots(&expand(&known)).unwrap();
+            assert_eq!(found.len(), 8);
+            for r in &known {
+                let gap = known.iter().filter(|q| *q != r).map(|q| (q - r).norm()).fold(f64::MAX, f64::min);
+                let near = found.iter().map(|z| (z - r).norm()).fold(f64::MAX, f64::min);
+                assert!(near / r.norm() < 1e-8 || gap / r.norm() < 1e-2, "{r} missed by {near}");
+            }
+        }
+    }
+
+    #[test]
+    fn multiple_roots_zero_roots_and_lower_degree() {
+        let one = Complex64::ONE;
+        let found = roots(&expand(&[one, one, one * 3.0])).unwrap();
+        assert_eq!(found.iter().filter(|z| (*z - one).norm() < 1e-6).count(), 2);
+        let zero = Complex64::ZERO;
+        let found = roots(&[zero, zero, one, one, zero]).unwrap();
+        assert_eq!(found.iter().filter(|z| **z == zero).count(), 2);
+        assert_eq!(found.len(), 3);
+        assert_eq!(roots(&[zero; 3]), Err(RootsError::NoPolynomial));
+        assert_eq!(roots(&[one, Complex64::new(f64::NAN, 0.0)]), Err(RootsError::NoPolynomial));
+    }
+}

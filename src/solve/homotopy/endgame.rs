@@ -1,0 +1,135 @@
+//! Where a path goes as `t -> 0` when Newton's method cannot tell: the Cauchy endgame.
+//!
+//! Near `t = 0` a path is a convergent power series in `t^(1/w)`, `w` its winding number. Going round the
+//! circle `|t| = r` until the path closes gives `w`, and the mean over the `w` turns is the end point
+//! (Morgan, Sommese, Wampler 1991), exponentially accurate in the number of sample points once no other
+//! branch point is inside the circle. The circle is shrunk until two means agree.
+
+use num_complex::Complex64;
+
+use super::system::SectionHomotopy;
+use super::tracker::{TrackerSettings, track_one};
+
+/// Samples a turn.
+const SAMPLES: usize = 16;
+/// Most turns tried.
+const MOST_TURNS: u32 = 12;
+/// Two means closer than this have converged.
+const AGREEMENT: f64 = 1e-7;
+/// Two means closer than this are accepted when rounding stops them from getting closer.
+const LOOSE_AGREEMENT: f64 = 1e-4;
+
+/// Smallest circle: rounding in `C(t)` is `1e-16`.
+const SMALLEST: f64 = 1e-14;
+
+/// Limits for the short arcs of the endgame.
+const ARC: TrackerSettings = TrackerSettings {
+    prediction: 1e-4,
+    radius_fraction: 0.5,
+    capture: 1e-2,
+    // at ends with e -> 0 the Newton matrix loses two ranks and rounding stops corrections near 1e-8
+    accuracy: 1e-7,
+    corrections: 4,
+    most_steps: 40,
+};
+
+/// The end of a path.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct EndPoint {
+    /// Homogeneous solution at `t = 0`, norm one.
+    pub(crate) x: [Complex64; 8],
+    /// Winding number.
+    pub(crate) winding: u32,
+    /// Distance of the last two means: the accuracy of `x`.
+    pub(crate) accuracy: f64,
+    /// Whether Newton's method reached `t = 0` along the real line.
+    pub(crate) regular: bool,
+}
+
+/// Ends the path that stands at `x`, real `t > 0` small. `None` when nothing converges.
+pub(crate) fn end_path(homotopy: &SectionHomotopy, x: &[Complex64; 8], t: f64) -> Option<EndPoint> {
+    let mut x = *x;
+    let mut t = t;
+    let mut best: Option<EndPoint> = None;
+    let mut previous: Option<[Complex64; 8]> = None;
+    for _ in 0..28 {
+        let straight = TrackerSettings { most_steps: 12, ..ARC };
+        if let Some(end) = track_one(homotopy, &x, t.into(), Complex64::ZERO, &straight) {
+            return Some(EndPoint { x: end, winding: 1, accuracy: ARC.accuracy, regular: true });
+        }
+        if let Some((mean, winding)) = go_round(homotopy, &x, t) {
+            if let Some(earlier) = previous {
+                let accuracy = projective_distance(&earlier, &mean);
+                if best.is_none_or(|b| accuracy < b.accuracy) {
+                    best = Some(EndPoint { x: mean, winding, accuracy, regular: false });
+                }
+                // The mean of two roots still apart converges just as that of a double root does, as long as
+                // the branch point between them is inside the circle: finite ends go on to the smallest
+                // circle, where Newton's method from t tells two roots from one.
+                if accuracy < AGREEMENT && (winding == 1 || !looks_finite(&mean) || t < SMALLEST * 8.0) {
+                    return best;
+                }
+            }
+            previous = Some(mean);
+        } else {
+            previous = None;
+        }
+        let closer = t / 8.0;
+        let Some(y) = track_one(homotopy, &x, t.into(), closer.into(), &ARC) else { break };
+        x = y;
+        t = closer;
+        if t < SMALLEST {
+            break;
+        }
+    }
+    best.filter(|b| b.accuracy < LOOSE_AGREEMENT)
+}
+
+/// Mean over the closed loop at radius `t` and the winding number.
+fn go_round(homotopy: &SectionHomotopy, x: &[Complex64; 8], t: f64) -> Option<([Complex64; 8], u32)> {
+    let patch = x.map(|z| z.conj());
+    let mut sum = [Complex64::ZERO; 8];
+    let mut here = *x;
+    let mut spread = 0.0f64;
+    let mut parameter = Complex64::new(t, 0.0);
+    for turn in 1..=MOST_TURNS {
+        for k in 1..=SAMPLES {
+            let on_patch = patched(&here, &patch)?;
+            for p in 0..8 {
+                sum[p] += on_patch[p];
+            }
+            let angle = std::f64::consts::TAU * (k as f64) / (SAMPLES as f64);
+            let goal = if k == SAMPLES { t.into() } else { Complex64::from_polar(t, angle) };
+            here = track_one(homotopy, &here, parameter, goal, &ARC)?;
+            spread = spread.max(projective_distance(&here, x));
+            parameter = goal;
+        }
+        // a closed loop returns to rounding, another sheet is about as far away as the loop is wide
+        if projective_distance(&here, x) < 1e-3 * spread {
+            let count = (SAMPLES as f64) * f64::from(turn);
+            let norm = sum.iter().map(num_complex::Complex::norm_sqr).sum::<f64>().sqrt();
+            return (norm > 1e-3 * count).then(|| (sum.map(|z| z / norm), turn));
+        }
+    }
+    None
+}
+
+/// Whether neither `e` nor `e.e` vanishes to the accuracy of a mean.
+fn looks_finite(x: &[Complex64; 8]) -> bool {
+    let e = &x[..4];
+    let size: f64 = e.iter().map(num_complex::Complex::norm_sqr).sum();
+    let n: Complex64 = e.iter().map(|z| z * z).sum();
+    size > 1e-8 && n.norm() > 1e-4 * size
+}
+
+fn patched(x: &[Complex64; 8], patch: &[Complex64; 8]) -> Option<[Complex64; 8]> {
+    let scale: Complex64 = x.iter().zip(patch).map(|(a, b)| a * b).sum();
+    (scale.norm() > 1e-6).then(|| x.map(|z| z / scale))
+}
+
+/// Sine of the angle between two complex lines (vectors of norm one).
+pub(crate) fn projective_distance(x: &[Complex64; 8], y: &[Complex64; 8]) -> f64 {
+    let overlap: Complex64 = x.iter().zip(y).map(|(a, b)| a.conj() * b).sum();
+    let rest = x.iter().zip(y).map(|(a, b)| (b - a * overlap).norm_sqr()).sum::<f64>();
+    rest.sqrt()
+}

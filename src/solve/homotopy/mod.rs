@@ -1,0 +1,18 @@
+//! Parameter homotopy over linear sections of `SE(3)`: from 40 known solutions of six general sections to
+//! the solutions of six leg equations.
+
+// One step of the tracker has to compile to one function, or the lanes do not stay in registers.
+#![allow(clippy::inline_always)]
+
+mod endgame;
+mod lanes;
+mod monodromy;
+mod paths;
+mod start;
+mod system;
+mod tracker;
+
+pub use monodromy::GENERIC_COUNT;
+pub use start::{SHIPPED_SEED, StartError, start_system_text};
+
+pub(crate) use paths::{EndKind, Path, solve_sections};

@@ -1,0 +1,213 @@
+//! Six leg equations as six linear sections of the group variety, in dual-quaternion coordinates.
+//!
+//! With the rotation quaternion `e` and `g = p e` (quaternion product, `p` the position as a pure
+//! quaternion, `e.g = 0`) every leg equation, multiplied by `N = e.e`, is one quadratic form
+//!
+//! ```text
+//! q(e, g) = e^T E e + g^T T e + c g.g,      T e = (-m.ev, m e0 + n x ev),
+//! ```
+//!
+//! `E` symmetric 4 x 4, `T` skew 4 x 4 given by the two vectors `m, n`, `c` a number: 17 coefficients.
+//! For the leg `(a, b, s)`: `m = 2 (b - a)`, `n = -2 (a + b)`, `c = 1` and
+//! `e^T E e = (|a|^2 + |b|^2 - s) N - 2 a^T R b N`. The 17 forms are the coordinates of the compactified
+//! group `SE(3)` in `P^16`, a sixfold of degree 40 (Gallet, Nawratil, Schicho 2014), so that six general
+//! linear equations in them have 40 solutions, whatever the legs. Only the span of the six coefficient
+//! vectors matters: they are made orthonormal, which removes the scale of each equation and the
+//! dependence on the leg order up to rounding.
+
+use nalgebra::{Matrix3, Point3, SVector, Vector3};
+use num_complex::Complex64;
+
+use crate::manipulator::{Leg, Manipulator, SquaredLegLengths};
+
+/// Number of quadratic forms.
+pub(crate) const FORMS: usize = 17;
+
+/// Coefficients of one quadratic form, in the order `E00 E01 E02 E03 E11 E12 E13 E22 E23 E33`
+/// (diagonal entries as they stand, off-diagonal entries of the symmetric matrix), `m`, `n`, `c`.
+pub(crate) type Row = [Complex64; FORMS];
+
+/// Six linear sections.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Sections {
+    pub(crate) rows: [Row; 6],
+}
+
+/// Centred and scaled frames in which a problem is solved: `a = origin_a + scale a'`, likewise `b`.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Frame {
+    base_origin: Vector3<f64>,
+    platform_origin: Vector3<f64>,
+    scale: f64,
+}
+
+impl Frame {
+    /// Centroids as origins; the scale is the larger of the design's size and its RMS leg length.
+    pub(crate) fn of(m: &Manipulator, s: &SquaredLegLengths) -> Self {
+        let legs = m.legs();
+        let mean =
+            |pick: fn(&Leg) -> Point3<f64>| legs.iter().map(|l| pick(l).coords).sum::<Vector3<f64>>() / 6.0;
+        let rms = (s.get().iter().sum::<f64>() / 6.0).sqrt();
+        Self {
+            base_origin: mean(|l| l.base),
+            platform_origin: mean(|l| l.platform),
+            scale: m.size().max(rms),
+        }
+    }
+
+    /// The orthonormalised sections of the legs, in this frame. `None` when the six leg equations are
+    /// linearly dependent to rounding (relative `1e-13`), so that they do not span six dimensions.
+    pub(crate) fn sections(&self, m: &Manipulator, s: &SquaredLegLengths) -> Option<Sections> {
+        let mut rows = [[Complex64::ZERO; FORMS]; 6];
+        for ((row, leg), s) in rows.iter_mut().zip(m.legs()).zip(s.get()) {
+            let a = (leg.base.coords - self.base_origin) / self.scale;
+            let b = (leg.platform.coords - self.platform_origin) / self.scale;
+            *row = leg_row(&a, &b, s / (self.scale * self.scale));
+        }
+        Sections { rows }.orthonormalised()
+    }
+
+    /// Homogeneous coordinates `(e, g)` in the design's own frames from those in this frame.
+    ///
+    /// `p = scale p' + o_a - R o_b`, hence `g = scale g' + o_a e - e o_b`.
+    pub(crate) fn to_design(self, x: [Complex64; 8]) -> [Complex64; 8] {
+        let (e, g) = split(x);
+        let left = quaternion_product(pure(&self.base_origin), e);
+        let right = quaternion_product(e, pure(&self.platform_origin));
+        let mut out = x;
+        for k in 0..4 {
+            out[4 + k] = g[k] * self.scale + left[k] - right[k];
+        }
+        out
+    }
+}
+
+fn pure(v: &Vector3<f64>) -> [Complex64; 4] {
+    [Complex64::ZERO, v.x.into(), v.y.into(), v.z.into()]
+}
+
+/// `(e, g)` from `x`.
+pub(crate) fn split(x: [Complex64; 8]) -> ([Complex64; 4], [Complex64; 4]) {
+    ([x[0], x[1], x[2], x[3]], [x[4], x[5], x[6], x[7]])
+}
+
+/// Quaternion product, scalar part first.
+pub(crate) fn quaternion_product(p: [Complex64; 4], q: [Complex64; 4]) -> [Complex64; 4] {
+    [
+        p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3],
+        p[0] * q[1] + p[1] * q[0] + p[2] * q[3] - p[3] * q[2],
+        p[0] * q[2] - p[1] * q[3] + p[2] * q[0] + p[3] * q[1],
+        p[0] * q[3] + p[1] * q[2] - p[2] * q[1] + p[3] * q[0],
+    ]
+}
+
+/// The coefficient vector of one leg equation.
+pub(crate) fn leg_row(a: &Vector3<f64>, b: &Vector3<f64>, s: f64) -> Row {
+    let gamma: Matrix3<f64> = a * b.transpose() * -2.0;
+    let delta = a.norm_squared() + b.norm_squared() - s;
+    let trace = gamma.trace();
+    let g = |i: usize, j: usize| gamma[(i, j)];
+    let m = (b - a) * 2.0;
+    let n = (a + b) * -2.0;
+    [
+        trace + delta,
+        g(2, 1) - g(1, 2),
+        g(0, 2) - g(2, 0),
+        g(1, 0) - g(0, 1),
+        2.0 * g(0, 0) - trace + delta,
+        g(0, 1) + g(1, 0),
+        g(0, 2) + g(2, 0),
+        2.0 * g(1, 1) - trace + delta,
+        g(1, 2) + g(2, 1),
+        2.0 * g(2, 2) - trace + delta,
+        m.x,
+        m.y,
+        m.z,
+        n.x,
+        n.y,
+        n.z,
+        1.0,
+    ]
+    .map(|x| Complex64::new(x, 0.0))
+}
+
+impl Sections {
+    /// Modified Gram-Schmidt with re-orthogonalisation; `None` when a row depends on the earlier ones.
+    pub(crate) fn orthonormalised(&self) -> Option<Self> {
+        let mut rows: [SVector<Complex64, FORMS>; 6] = self.rows.map(SVector::from);
+        for i in 0..6 {
+            let before = rows[i].norm();
+            for _ in 0..2 {
+                for j in 0..i {
+                    let overlap = rows[j].dotc(&rows[i]);
+                    let parallel = rows[j] * overlap;
+                    rows[i] -= parallel;
+                }
+            }
+            let after = rows[i].norm();
+            if !(after > 1e-13 * before) {
+                return None;
+            }
+            rows[i] /= Complex64::new(after, 0.0);
+        }
+        Some(Self { rows: rows.map(Into::into) })
+    }
+}
+
+/// The 17 forms at `x`, such that `q(x) = sum_k row_k forms_k`.
+pub(crate) fn forms(x: [Complex64; 8]) -> Row {
+    let (e, g) = split(x);
+    let ev = Vector3::new(e[1], e[2], e[3]);
+    let gv = Vector3::new(g[1], g[2], g[3]);
+    let dm = gv * e[0] - ev * g[0];
+    let dn = ev.cross(&gv);
+    let two = 2.0;
+    [
+        e[0] * e[0],
+        e[0] * e[1] * two,
+        e[0] * e[2] * two,
+        e[0] * e[3] * two,
+        e[1] * e[1],
+        e[1] * e[2] * two,
+        e[1] * e[3] * two,
+        e[2] * e[2],
+        e[2] * e[3] * two,
+        e[3] * e[3],
+        dm.x,
+        dm.y,
+        dm.z,
+        dn.x,
+        dn.y,
+        dn.z,
+        g.iter().map(|z| z * z).sum(),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::{Pose, random_rotation};
+    use crate::num::Rng;
+    use nalgebra::UnitQuaternion;
+
+    #[test]
+    fn a_leg_row_vanishes_exactly_at_poses_with_its_length() {
+        let mut rng = Rng::new(3);
+        for _ in 0..20 {
+            let mut vector = || Vector3::from_fn(|_, _| rng.uniform(-2.0, 2.0));
+            let (a, b, p) = (vector(), vector(), vector());
+            let rotation = random_rotation(&mut rng);
+            let pose = Pose { rotation, position: p };
+            let s = pose.squared_length(&Leg { base: a.into(), platform: b.into() });
+            let q = UnitQuaternion::from_rotation_matrix(&rotation);
+            let e = [q.w, q.i, q.j, q.k].map(|x| Complex64::new(1.3 * x, 0.0));
+            let g = quaternion_product(pure(&p), e);
+            let x = [e[0], e[1], e[2], e[3], g[0], g[1], g[2], g[3]];
+            let value =
+                |s: f64| -> Complex64 { leg_row(&a, &b, s).iter().zip(forms(x)).map(|(c, f)| c * f).sum() };
+            assert!(value(s).norm() < 1e-12);
+            // the form is N (|R b + p - a|^2 - s), N = 1.69
+            assert!((value(s - 1.0) - 1.69).norm() < 1e-12);
+        }
+    }
+}
