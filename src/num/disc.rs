@@ -5,7 +5,7 @@
 //! each part of a product `ac - bd` error `2u(1+u)(|ac| + |bd|)`, so that the modulus of the product's error is at most
 //! `2u(1+u) (|z|_1 |w|_1)`. The radii are sums and products of non-negative numbers in fewer than 60 operations,
 //! hence computed with relative error below `61 u < 2^-40`; the factor `1 + 2^-40` makes them upper bounds again.
-//! Underflow adds at most `2^-1074` an operation, which [`TINY`] covers as long as moduli stay below `2^100`.
+//! Underflow adds at most `2^-1074` an operation, which the `2^-900` added to radii covers as long as moduli stay below `2^100`.
 //! A radius that is infinite or NaN says nothing and makes every test that would prove something fail.
 
 use std::ops::{Add, Mul, Neg, Sub};
@@ -65,10 +65,10 @@ impl Disc {
         self.centre.im.abs() > self.radius
     }
 
-    /// Proves that `z` lies in the disc up to the rounding of the test itself (relative `2^-40` of the radius).
+    /// Proves that `z` lies in the disc.
     #[must_use]
     pub fn contains(&self, z: Complex64) -> bool {
-        size(z - self.centre) <= self.radius || (z - self.centre).norm() * UP <= self.radius
+        size(z - self.centre) * UP <= self.radius || (z - self.centre).norm() * UP <= self.radius
     }
 
     /// Encloses `1 / z`, `None` when the disc may hold zero.

@@ -90,7 +90,7 @@ fn bounds(system: &LegSystem, x: &Centre<'_>, values: &Values<f64>, j: &Jacobian
         }
         let defect: f64 = (0..8).map(|l| d_re[l].abs() + d_im[l].abs()).sum();
         let centre = step_re.abs() + step_im.abs() + row_sum(&weights, &f_error);
-        let beta = row_sum(&weights, &system.q);
+        let beta = system.second_order_bound(y_re, y_im, &weights, x.hi.patch);
         out.eta_centre = largest(out.eta_centre, centre);
         out.eta = largest(out.eta, centre + row_sum(&weights, &width));
         out.kappa = largest(out.kappa, defect + row_sum(&weights, &j_error) + 2.0 * beta * tail);

@@ -35,6 +35,7 @@ mod distinct;
 mod inverse;
 mod krawczyk;
 mod refine;
+mod second_order;
 mod system;
 
 pub use certificate::{

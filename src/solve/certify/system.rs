@@ -27,6 +27,7 @@
 use std::ops::{Add, Mul, Neg, Sub};
 
 use super::certificate::WhyUncertified;
+use super::second_order::SecondOrder;
 use crate::manipulator::Manipulator;
 use crate::num::disc::{TINY, UP};
 use crate::num::double_double::DoubleDouble;
@@ -125,6 +126,7 @@ pub(super) struct LegSystem {
     t: [f64; 6],
     /// `|Q_i(h, k)| <= q_i` for all `h`, `k` with coordinates of modulus at most 1 and `h_patch = k_patch = 0`.
     pub(super) q: [f64; N],
+    second_order: SecondOrder,
 }
 
 /// `2^k <= x < 2^(k+1)` for a positive normal `x`.
@@ -194,6 +196,7 @@ impl LegSystem {
             let (low, high) =
                 (exact_product(s[i].lo(), inverse * inverse)?, exact_product(s[i].hi(), inverse * inverse)?);
             (system.s[i], system.s_radius[i]) = Interval::new(low, high)?.centre_and_radius();
+            system.second_order.set_leg(i, &system.d[i], &system.c[i], system.s[i]);
             let rows = row_sums(&system.d[i], &system.c[i]);
             system.t[i] = rows.into_iter().fold(0.0, f64::max) * UP;
             let squares: f64 = rows.iter().map(|r| (1.0 + r) * (1.0 + r)).sum();
@@ -206,7 +209,7 @@ impl LegSystem {
         let (points, six) = ([[0.0; 3]; 6], [0.0; 6]);
         let (a, b, d, c) = (points, points, points, points);
         // F_7 = e.g: the three e_j other than the patch, each at most 1
-        Self { unit, a, b, d, c, s: six, s_radius: six, t: six, q: [3.0; N] }
+        Self { unit, a, b, d, c, s: six, s_radius: six, t: six, q: [3.0; N], second_order: SecondOrder::ZERO }
     }
 
     /// The power of two all lengths are divided by.
@@ -263,6 +266,22 @@ impl LegSystem {
         }
         rounding[6] = (32.0 * unit * e * g + TINY) * UP;
         (rounding, width)
+    }
+
+    /// Bounds `|sum_i y_i Q_i(h, k)|` on the unit polydisc, `weights` being the `|y_i|_1`; see the `second_order` module.
+    pub(super) fn second_order_bound(
+        &self,
+        y_re: &[f64; 8],
+        y_im: &[f64; 8],
+        weights: &[f64; N],
+        patch: usize,
+    ) -> f64 {
+        let (mut coarse, mut width) = (0.0, 0.0);
+        for i in 0..N {
+            coarse += weights[i] * self.q[i];
+            width += if i < 6 { weights[i] * 1.5 * self.s_radius[i] } else { 0.0 };
+        }
+        (self.second_order.bound(y_re, y_im, patch) + width + 32.0 * U * coarse + TINY) * UP
     }
 
     fn delta(&self, i: usize, e: f64, g: f64, unit: f64) -> f64 {

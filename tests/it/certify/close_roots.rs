@@ -6,7 +6,7 @@ use equipod::num::Rng;
 use equipod::num::double_double::DoubleDouble;
 use equipod::num::interval::Interval;
 use equipod::solve::certify::{
-    Certificate, CertificateOutcome, Certifier, ProvedReality, RootRelation, relation,
+    CentrePrecision, Certificate, CertificateOutcome, Certifier, ProvedReality, RootRelation, relation,
 };
 use nalgebra::{Rotation3, Vector3};
 
@@ -106,27 +106,36 @@ fn an_exactly_double_root_has_no_certificate() {
     }
 }
 
+/// The two roots into which the double root splits when the last squared length changes; none when they are complex.
+fn split_pair(change: f64) -> Vec<Certificate> {
+    let (m, mut s) = singular_platform();
+    s[5] += change;
+    let certifier = Certifier::new(&m, &s.map(Interval::from)).unwrap();
+    let mut rng = Rng::new(73);
+    let size = change.abs().sqrt();
+    let starts = (0..100).map(|_| {
+        let rotation = Rotation3::new(Vector3::from_fn(|_, _| size * rng.normal()));
+        ComplexPose::from(Pose { rotation, position: Vector3::from_fn(|_, _| size * rng.normal()) })
+    });
+    let near = |c: &Certificate| c.enclosure().rotation[0][0].centre.re > 1.0 - 1e-3;
+    distinct_ends(&certifier, starts).into_iter().filter(near).collect()
+}
+
 #[test]
 fn a_double_root_split_by_a_small_change_of_one_length_gives_two_certificates() {
-    let (m, s) = singular_platform();
-    for change in [1e-4, 1e-8, 1e-10] {
-        let mut pairs = 0;
-        for sign in [1.0, -1.0] {
-            let mut moved = s;
-            moved[5] += sign * change;
-            let certifier = Certifier::new(&m, &moved.map(Interval::from)).unwrap();
-            let mut rng = Rng::new(73);
-            let starts = (0..200).map(|_| {
-                let size = f64::sqrt(change);
-                let rotation = Rotation3::new(Vector3::from_fn(|_, _| size * rng.normal()));
-                ComplexPose::from(Pose { rotation, position: Vector3::from_fn(|_, _| size * rng.normal()) })
-            });
-            let near = |c: &Certificate| c.enclosure().rotation[0][0].centre.re > 1.0 - 1e-3;
-            let close: Vec<_> = distinct_ends(&certifier, starts).into_iter().filter(near).collect();
-            pairs += usize::from(close.len() == 2);
-            assert!(close.len() == 2 || close.is_empty(), "{change} {}", close.len());
+    for change in [1e-4, 1e-8, 1e-10, 1e-12] {
+        let pairs = [split_pair(change), split_pair(-change)];
+        let counts = [pairs[0].len(), pairs[1].len()];
+        assert!(
+            counts == [2, 0] || counts == [0, 2],
+            "one sign gives a real pair, the other a complex one: {counts:?}"
+        );
+        for c in pairs.iter().flatten() {
+            assert_eq!(c.reality(), ProvedReality::Real);
+            let expected =
+                if change < 1e-9 { CentrePrecision::DoubleDouble } else { CentrePrecision::Double };
+            assert_eq!(c.precision(), expected, "{change:e}");
         }
-        assert_eq!(pairs, 1, "one sign makes the pair real, the other complex: {change}");
     }
 }
 

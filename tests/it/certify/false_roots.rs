@@ -40,6 +40,28 @@ fn roots_wrong_in_the_sixth_digit_lose_their_certificate_and_refinement_brings_t
 }
 
 #[test]
+fn a_certificate_for_a_slightly_wrong_pose_still_encloses_the_true_root() {
+    let mut rng = Rng::new(63);
+    let (mut certified, mut refused) = (0, 0);
+    for p in problems() {
+        let certifier = p.certifier();
+        for (i, root) in p.roots.iter().enumerate() {
+            for digits in 7..16 {
+                let wrong = perturbed(&pose(root), 10f64.powi(-digits), &mut rng);
+                match certifier.certify(&wrong) {
+                    CertificateOutcome::Certified(c) => {
+                        certified += 1;
+                        assert!(encloses(&c, root), "{} root {i}, digit {digits}: {c:?}", p.name);
+                    }
+                    CertificateOutcome::Absent(_) => refused += 1,
+                }
+            }
+        }
+    }
+    assert!(certified > 600 && refused > 100, "{certified} {refused}");
+}
+
+#[test]
 fn random_poses_never_get_a_certificate() {
     let mut rng = Rng::new(62);
     for p in problems() {

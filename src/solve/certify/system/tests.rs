@@ -151,6 +151,38 @@ fn gradients_and_second_order_part_stay_within_their_bounds() {
 }
 
 #[test]
+fn the_combined_second_order_bound_holds_and_is_nearly_attained() {
+    let mut rng = Rng::new(83);
+    let mut closest = 0.0_f64;
+    for round in 0..300 {
+        let (system, patch) = (random_system(&mut rng), round % 4);
+        let mut row = || std::array::from_fn(|i| if i < N { rng.normal() } else { 0.0 });
+        let (y_re, y_im): ([f64; 8], [f64; 8]) = (row(), if round % 2 == 0 { [0.0; 8] } else { row() });
+        let weights: [f64; N] = std::array::from_fn(|i| y_re[i].abs() + y_im[i].abs());
+        let bound = system.second_order_bound(&y_re, &y_im, &weights, patch);
+        let coarse: f64 = (0..N).map(|i| weights[i] * system.q[i]).sum();
+        assert!(bound < coarse);
+        // corners of the polydisc: F is homogeneous, so F(h) = Q(h, h)
+        for _ in 0..200 {
+            let angle: [f64; 8] = std::array::from_fn(|_| match round % 3 {
+                0 => rng.uniform(0.0, 7.0),
+                _ => [0.0, std::f64::consts::PI][(rng.next_u64() % 2) as usize],
+            });
+            let (mut re, mut im) = (angle.map(f64::cos), angle.map(f64::sin));
+            (re[patch], im[patch]) = (0.0, 0.0);
+            let q = system.values(&Study { re, im, patch });
+            let sum = |f: &[f64; N], g: &[f64; N], sign: f64| -> f64 {
+                (0..N).map(|i| y_re[i] * f[i] + sign * y_im[i] * g[i]).sum()
+            };
+            let value = sum(&q.f_re, &q.f_im, -1.0).hypot(sum(&q.f_im, &q.f_re, 1.0));
+            assert!(value <= bound * (1.0 + 1e-12), "{value} {bound}");
+            closest = closest.max(value / bound);
+        }
+    }
+    assert!(closest > 0.5, "{closest}");
+}
+
+#[test]
 fn scaling_that_is_not_exact_is_refused() {
     let leg = |i: usize, x: f64| Leg {
         base: Point3::new(x, i as f64, 1.0),
