@@ -28,6 +28,11 @@ pub(crate) fn print_warning(path: &str, text: &str, warning: &Warning) {
     print(&render_warning(path, text, warning));
 }
 
+/// Shows a line as it is.
+pub(crate) fn print_note(text: &str) {
+    print(&format!("{}\n", printable_lines(text)));
+}
+
 fn print(text: &str) {
     // standard error may be closed: there is nobody left to tell
     let _ = anstream::stderr().lock().write_all(text.as_bytes());
@@ -81,7 +86,7 @@ fn excerpt(out: &mut String, path: &str, text: &str, line: usize, place: Option<
     let _ = writeln!(out, "  {QUIET}-->{QUIET:#} {path}:{line}{column}");
     let Some(source) = text.lines().nth(line - 1).filter(|l| !l.trim().is_empty()) else { return };
     let number = line.to_string();
-    let shown: String = printable(source).chars().take(MAX_SHOWN).collect();
+    let shown: String = source.chars().take(MAX_SHOWN).map(printable_char).collect();
     let gutter = " ".repeat(number.len());
     let _ = writeln!(out, "{QUIET}{gutter} |{QUIET:#}\n{QUIET}{number} |{QUIET:#} {shown}");
     if let Some((column, width)) = place.filter(|(column, _)| *column <= MAX_SHOWN) {
@@ -93,17 +98,19 @@ fn excerpt(out: &mut String, path: &str, text: &str, line: usize, place: Option<
 
 /// Control characters replaced one for one, so that a file cannot steer the terminal and columns stay.
 fn printable(text: &str) -> String {
-    text.chars()
-        .map(|c| {
-            if c == '\t' {
-                ' '
-            } else if c.is_control() {
-                '\u{fffd}'
-            } else {
-                c
-            }
-        })
-        .collect()
+    text.chars().map(printable_char).collect()
+}
+
+fn printable_lines(text: &str) -> String {
+    text.lines().map(printable).collect::<Vec<_>>().join("\n")
+}
+
+fn printable_char(c: char) -> char {
+    match c {
+        '\t' => ' ',
+        c if c.is_control() => '\u{fffd}',
+        c => c,
+    }
 }
 
 #[cfg(test)]

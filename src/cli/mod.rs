@@ -29,13 +29,17 @@ pub fn main(args: impl IntoIterator<Item = OsString>) -> ExitCode {
     let args: Vec<OsString> = args.into_iter().collect();
     // clap knows about --json only when it understood everything, but its refusals must obey it too
     let json = args.iter().skip(1).take_while(|a| *a != "--").any(|a| a == "--json");
-    std::panic::set_hook(Box::new(|_| {})); // the report below takes the place of the default message
-    let exit = catch_unwind(AssertUnwindSafe(|| run(args, json))).unwrap_or_else(|payload| {
+    guarded(json, || run(args, json)).into()
+}
+
+/// Runs `body`; a panic in it becomes a failure with exit 4, in JSON when asked.
+fn guarded(json: bool, body: impl FnOnce() -> Exit) -> Exit {
+    std::panic::set_hook(Box::new(|info| diagnostic::print_note(&format!("internal: {info}"))));
+    catch_unwind(AssertUnwindSafe(body)).unwrap_or_else(|payload| {
         let text = payload.downcast_ref::<&str>().map(ToString::to_string);
         let text = text.or_else(|| payload.downcast_ref::<String>().cloned()).unwrap_or_default();
         Output::new(json).failure(&Failure::internal(format!("the program broke down: {text}")), &[])
-    });
-    exit.into()
+    })
 }
 
 fn run(args: Vec<OsString>, json: bool) -> Exit {
@@ -49,5 +53,17 @@ fn run(args: Vec<OsString>, json: bool) -> Exit {
     match result {
         Ok(answer) => output.answer(&answer, context.warnings()),
         Err(failure) => output.failure(&failure, context.warnings()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_is_an_internal_failure() {
+        assert_eq!(guarded(true, || panic!("boom {}", 1)), Exit::Internal);
+        assert_eq!(guarded(false, || Exit::No), Exit::No);
+        let _ = std::panic::take_hook();
     }
 }

@@ -53,8 +53,10 @@ impl Output {
             if !self.json {
                 return Exit::Refused;
             }
-            let message = error.to_string();
-            let message = message.lines().next().unwrap_or_default().trim_start_matches("error: ");
+            let text = error.to_string();
+            let lines = text.lines().take_while(|l| !l.starts_with("Usage:")).map(str::trim);
+            let message = lines.filter(|l| !l.is_empty()).collect::<Vec<_>>().join(" ");
+            let message = message.trim_start_matches("error: ");
             let failure = Failure::refused("usage", message).with_help("see equipod --help");
             let mut fields = Map::new();
             fields.insert("error".into(), failure.to_json());

@@ -1,1 +1,268 @@
-//! Reading, refusing and writing designs.
+//! Every violation with its line and help; reading back what was written; nothing panics.
+#![allow(clippy::format_collect, clippy::float_cmp, reason = "short texts; exact values are read")]
+
+use super::*;
+
+const GOOD: &str = r#"name = "octahedral"
+units = "mm"
+lengths = [9, 9, 9.0, 9, 9, 9]
+legs = [["P1", "P4"], ["P2", "P4"], ["P2", "P5"], ["P3", "P5"], ["P3", "P6"], ["P1", "P6"]]
+[base]
+P1 = [0, 0, 0]
+P2 = [6.0, 10.392304845413264, 0.0]
+P3 = [12.0, 0.0, 0.0]
+[platform]
+P4 = [0.0, 0.0, 0.0]
+P5 = [6.0, 0.0, 0.0]
+P6 = [3.0, -5.196152422706632, 0.0]
+[home]
+position = [3.0, 5.0, 8.0]
+rpy_deg = [0.0, 0.0, 90.0]
+[workspace]
+translation = [1, 1, 1]
+[optimize]
+min_abs_det = 0.1
+[hardware]
+joint_diameter = 0.5
+"#;
+
+/// One line per violation.
+fn refusals(text: &str, format: Format) -> String {
+    match parse(text, format) {
+        Ok((_, warnings)) => {
+            warnings.iter().map(|w| format!("{} {}: {w} | {}\n", w.line(), w.code(), w.advice())).collect()
+        }
+        Err(violations) => violations
+            .iter()
+            .map(|v| format!("{}:{} {}: {} | {}\n", v.line, v.column, v.code, v.message, v.help))
+            .collect(),
+    }
+}
+
+/// What the good design says after one replacement.
+fn after(from: &str, to: &str) -> String {
+    assert!(GOOD.contains(from), "{from}");
+    refusals(&GOOD.replacen(from, to, 1), Format::Toml)
+}
+
+#[test]
+fn a_good_design_is_read_whole() {
+    let (design, warnings) = parse(GOOD, Format::Toml).unwrap();
+    assert_eq!(warnings, []);
+    assert_eq!((design.name.as_str(), design.units.as_str()), ("octahedral", "mm"));
+    assert_eq!(design.base_names(), ["P1", "P2", "P3"]);
+    assert_eq!(design.leg_names()[3], ("P3", "P5"));
+    assert_eq!(design.lengths.unwrap().get(), [9.0; 6]);
+    let home = design.home.unwrap();
+    assert!((home.rotation * nalgebra::Vector3::x() - nalgebra::Vector3::y()).norm() < 1e-15);
+    assert_eq!(design.workspace.sample(Some(&home)).len(), 9);
+    assert_eq!(design.optimize.min_abs_det, Some(0.1));
+    assert_eq!(design.hardware.joint_diameter, Some(0.5));
+}
+
+#[test]
+fn keys_texts_and_numbers() {
+    let mut all = String::new();
+    for (from, to) in [
+        ("units = \"mm\"", "unit = \"mm\""),
+        ("name = \"octahedral\"", "name = 5"),
+        ("name = \"octahedral\"", "name = \" \""),
+        ("P1 = [0, 0, 0]", "P1 = [0, nan, -inf]"),
+        ("P1 = [0, 0, 0]", "P1 = [0, 0]"),
+        ("P1 = [0, 0, 0]", "P1 = [0, 0, 0, 1]"),
+        ("P1 = [0, 0, 0]", "P1 = [0, \"1\", true]"),
+        ("P1 = [0, 0, 0]", "P1 = [0, 1e300, 1e999]"),
+        ("P1 = [0, 0, 0]", "P1 = 7"),
+        ("P1 = [0, 0, 0]", "\"\" = [0, 0, 1]\nP1 = [0, 0, 0]"),
+        ("P1 = [0, 0, 0]", "P1 = [0, 0, 0]\nP1 = [0, 0, 1]"),
+        ("9.0, 9, 9, 9]", "-9.0, 9, 9, nan]"),
+        ("9.0, 9, 9, 9]", "-9.0, 9, 9, 9]"),
+        ("9.0, 9, 9, 9]", "9.0, 9, 9, 9, 9]"),
+    ] {
+        all.push_str(&after(from, to));
+    }
+    insta::assert_snapshot!(all, @r#"
+        1:1 design::missing_key: `units` is missing | add `units = "mm"` (a label; all lengths are in it) at the top
+        2:1 design::unknown_key: `unit` is not a key of a design | did you mean `units`?
+        1:8 design::wrong_type: `name` is a number, not a string | write `name = "..."`
+        1:8 design::empty_name: `name` is empty | write something between the quotes of `name`
+        6:10 design::non_finite: number 2 of base joint P1 is NaN, not a finite number | write a finite number
+        6:15 design::non_finite: number 3 of base joint P1 is -inf, not a finite number | write a finite number
+        6:6 design::coordinate_count: base joint P1 has 2 numbers instead of 3 | give 3 coordinates x, y, z
+        6:6 design::coordinate_count: base joint P1 has 4 numbers instead of 3 | give 3 coordinates x, y, z
+        6:10 design::wrong_type: number 2 of base joint P1 is a string, not a number | write a number without quotes
+        6:15 design::wrong_type: number 3 of base joint P1 is a boolean, not a number | write a number without quotes
+        6:10 design::out_of_range: number 2 of base joint P1 is 1e300, which is too large to compute with | stay below 1e60; use a larger unit
+        6:17 design::non_finite: number 3 of base joint P1 is inf, not a finite number | write a finite number
+        6:6 design::wrong_type: base joint P1 is a number, not an array | write an array of 3 coordinates x, y, z
+        6:1 design::empty_name: a joint of the base has an empty name | give the joint a name
+        7:1 design::duplicate_key: this key stands twice | keep one of the two
+        3:18 design::negative_length: the length of leg 3 is -9 | leg lengths are not negative
+        3:30 design::non_finite: number 6 of `lengths` is NaN, not a finite number | write a finite number
+        3:18 design::negative_length: the length of leg 3 is -9 | leg lengths are not negative
+        3:11 design::length_count: `lengths` has 7 numbers instead of 6 | give 6 leg lengths, one for each leg
+    "#);
+}
+
+#[test]
+fn legs_and_triangles() {
+    let mut all = String::new();
+    for (from, to) in [
+        (", [\"P1\", \"P6\"]]", "]"),
+        ("[\"P1\", \"P6\"]]", "[\"P1\", \"P4\"]]"),
+        ("[\"P1\", \"P6\"]]", "[\"P9\", \"X\"]]"),
+        ("[\"P1\", \"P6\"]]", "[\"P6\", \"P1\"]]"),
+        ("[\"P1\", \"P6\"]]", "[\"P1\"]]"),
+        ("[\"P1\", \"P6\"]]", "5]"),
+        ("P3 = [12.0, 0.0, 0.0]", "P3 = [12.0, 20.784609690826528, 0.0]"),
+        ("P3 = [12.0, 0.0, 0.0]", "P3 = [12.0, 0.0, 0.0]\nP7 = [-0.0, 0.0, 0.0]"),
+        ("[base]", "[bse]"),
+        ("legs = [", "leg = ["),
+    ] {
+        all.push_str(&after(from, to));
+    }
+    let one_point: String = (1..=6).map(|i| format!("J{i} = [1, 1, 1]\n")).collect();
+    let pairs: Vec<String> = (1..=6).map(|i| format!("[\"J{i}\", \"J{i}\"]")).collect();
+    let pairs = pairs.join(", ");
+    let text =
+        format!("name = 'a'\nunits = 'm'\nlegs = [{pairs}]\n[base]\n{one_point}[platform]\n{one_point}");
+    all.push_str(&refusals(&text, Format::Toml));
+    insta::assert_snapshot!(all, @r#"
+        4:1 design::leg_count: there are 5 legs instead of six | write six pairs: legs = [["A1", "B1"], ["A2", "B2"], ...]
+        4:79 design::identical_legs: legs 1 and 6 both join P1 to P4 | each leg needs its own pair of joints; with two equal legs the platform is never rigid
+        4:80 design::missing_joint: leg 6 names `P9`, which is no joint of the base | add `P9 = [x, y, z]` to [base]
+        4:86 design::missing_joint: leg 6 names `X`, which is no joint of the platform | add `X = [x, y, z]` to [platform]
+        4:80 design::missing_joint: leg 6 names `P6`, which is no joint of the base | `P6` is a joint of the platform; a leg names the base joint first
+        4:86 design::missing_joint: leg 6 names `P1`, which is no joint of the platform | `P1` is a joint of the base; a leg names the base joint first
+        4:79 design::leg_shape: leg 6 is not a pair of joint names | write ["base joint", "platform joint"]
+        4:79 design::leg_shape: leg 6 is not a pair of joint names | write ["base joint", "platform joint"]
+        5:2 design::collinear_triangle: the base joints P1, P2, P3 are on one line | move one of them: a body held in three points on a line can turn about it
+        9 design::coincident_joints: base joints P1 and P7 have the same coordinates | if the legs share one joint there, name P1 in all of them; P1 and P7 count as two joints
+        9 design::unused_joint: base joint P7 carries no leg | attach a leg to P7 or remove it
+        1:1 design::missing_key: `base` is missing | add [base] with joints such as `A1 = [0.0, 0.0, 0.0]`
+        5:2 design::unknown_key: `bse` is not a key of a design | did you mean `base`?
+        1:1 design::missing_key: `legs` is missing | add `legs = [["A1", "B1"], ...]` with six pairs base-platform above the first [table]
+        4:1 design::unknown_key: `leg` is not a key of a design | did you mean `legs`?
+        1:1 design::no_size: all joints in use of the base coincide, and so do those of the platform | give the joints different coordinates
+    "#);
+}
+
+#[test]
+fn optional_tables() {
+    let mut all = String::new();
+    for (from, to) in [
+        ("rpy_deg = [0.0, 0.0, 90.0]", "quat_wxyz = [1, 0, 0, 1]"),
+        ("rpy_deg = [0.0, 0.0, 90.0]", "rpy_deg = [0, 0, 0]\nquat_wxyz = [1, 0, 0, 0]"),
+        ("rpy_deg = [0.0, 0.0, 90.0]", "rotation = [[1, 0, 0], [0, 1, 0], [0, 0, -1]]"),
+        ("rpy_deg = [0.0, 0.0, 90.0]", "rpy = [0, 0, 0]"),
+        ("position = [3.0, 5.0, 8.0]\n", ""),
+        ("[home]\nposition = [3.0, 5.0, 8.0]\nrpy_deg = [0.0, 0.0, 90.0]\n", ""),
+        ("translation = [1, 1, 1]", "translation = [1, -1, 1]\nrotation_deg = [0, 0, 200]\ngrid = 2.5"),
+        ("translation = [1, 1, 1]", "poses = [{ position = [0, 0, 1] }, 3]"),
+        ("min_abs_det = 0.1", "min_abs_det = 0\nmin_joint_distnce = 1"),
+        ("joint_diameter = 0.5", "joint_diameter = -0.5"),
+        ("[hardware]\njoint_diameter = 0.5", "hardware = 3"),
+        ("[optimize]", "[optimise]"),
+    ] {
+        all.push_str(&after(from, to));
+    }
+    insta::assert_snapshot!(all, @r#"
+        15:13 design::rotation: `quat_wxyz` of [home] has norm 1.4142135623730951, not 1 | divide the quaternion by its norm
+        16:1 design::rotation: [home] gives its rotation more than once | give one of rpy_deg = [roll, pitch, yaw], quat_wxyz = [w, x, y, z], rotation = [[..], [..], [..]]
+        15:12 design::rotation: `rotation` of [home] is no rotation: R^T R differs from I by 0e0, det R = -1 | give all digits and a right-handed frame, or use quat_wxyz, which is normalised
+        13:1 design::rotation: [home] has no rotation | give one of rpy_deg = [roll, pitch, yaw], quat_wxyz = [w, x, y, z], rotation = [[..], [..], [..]]
+        15:1 design::unknown_key: `rpy` is not a key of [home] | did you mean `rpy_deg`?
+        13:1 design::missing_key: `position` of [home] is missing | add position = [x, y, z]
+        13:2 design::missing_home: the box lies around [home], which is missing | add [home] with position and rpy_deg, or list single poses
+        17:19 design::not_positive: a half width of -1 | half widths are not negative
+        18:23 design::out_of_range: a half width of 200 degrees | stay within 180 degrees
+        19:8 design::grid: a grid of 2.5 points per axis | give 1 (centre), 2 (centre and corners), 3, 4 or 5 points per axis
+        17:10 design::rotation: pose 1 of [workspace] has no rotation | give one of rpy_deg = [roll, pitch, yaw], quat_wxyz = [w, x, y, z], rotation = [[..], [..], [..]]
+        17:36 design::wrong_type: pose 2 of [workspace] is a number, not a table | write pose 2 of [workspace] as a table
+        19:15 design::not_positive: `min_abs_det` is 0 | give a positive number
+        20:1 design::unknown_key: `min_joint_distnce` is not a key of [optimize] | did you mean `min_joint_distance`?
+        21:18 design::not_positive: `joint_diameter` is -0.5 | give a positive number
+        20:1 design::unknown_key: `hardware` is not a key of [optimize] | known keys: min_joint_distance, min_abs_det, characteristic_length
+        18:2 design::unknown_key: `optimise` is not a key of a design | did you mean `optimize`?
+    "#);
+}
+
+#[test]
+fn texts_that_are_no_design() {
+    let mut all = String::new();
+    for (text, format) in [
+        ("", Format::Toml),
+        (" \n", Format::Json),
+        ("name = ", Format::Toml),
+        ("[1, 2]", Format::Json),
+        ("{\"name\": \"a\", // note\n}", Format::Json),
+        ("{\"name\": \"a\", \"name\": \"b\", \"units\": NaN}", Format::Json),
+        ("{\"name\": \"a\", \"name\": \"b\", \"units\": null}", Format::Json),
+        ("{\"lengths\": [1,]}", Format::Json),
+    ] {
+        all.push_str(&refusals(text, format));
+        all.push('\n');
+    }
+    insta::assert_snapshot!(all, @r#"
+        1:1 design::empty: the file is empty | a design needs name, units, legs, [base] and [platform]; `designs/` has examples
+
+        1:1 design::empty: the file is empty | a design needs name, units, legs, [base] and [platform]; `designs/` has examples
+
+        1:8 design::syntax: string values must be quoted, expected literal string | mend the TOML; strings need quotes, tables [brackets], see https://toml.io
+
+        1:1 design::wrong_type: a design is a table, not an array | write { "name": ..., "units": ..., "base": { ... }, "platform": { ... }, "legs": [ ... ] }
+
+        1:15 design::syntax: Comments are not allowed | mend the JSON: double quotes, no comments, no trailing commas, no NaN or Infinity
+
+        1:37 design::syntax: Unexpected token | mend the JSON: double quotes, no comments, no trailing commas, no NaN or Infinity
+
+        1:1 design::missing_key: `legs` is missing | add `legs = [["A1", "B1"], ...]` with six pairs base-platform above the first [table]
+        1:1 design::missing_key: `base` is missing | add [base] with joints such as `A1 = [0.0, 0.0, 0.0]`
+        1:1 design::missing_key: `platform` is missing | add [platform] with joints such as `B1 = [0.0, 0.0, 0.0]`
+        1:15 design::duplicate_key: this key stands twice | keep one of the two
+        1:37 design::wrong_type: `units` is null, not a string | write `units = "..."`
+
+        1:15 design::syntax: Trailing commas are not allowed | mend the JSON: double quotes, no comments, no trailing commas, no NaN or Infinity
+    "#);
+}
+
+#[test]
+fn legs_below_a_table_header_are_taken_with_a_warning() {
+    let legs = GOOD.lines().find(|l| l.starts_with("legs")).unwrap();
+    let moved = GOOD.replace(&format!("{legs}\n"), "").replace("[home]", &format!("{legs}\n[home]"));
+    let (design, warnings) = parse(&moved, Format::Toml).unwrap();
+    assert_eq!(design.platform_names(), ["P4", "P5", "P6"]);
+    assert_eq!(warnings, [Warning::LegsInsideTable { table: "platform", line: 12 }]);
+    // a joint may be named "legs", and then it is one
+    let joint = GOOD.replace("P6", "legs");
+    let (design, warnings) = parse(&joint, Format::Toml).unwrap();
+    assert_eq!((design.platform_names()[2].as_str(), warnings.len()), ("legs", 0));
+}
+
+#[test]
+fn deep_nesting_and_floods_end_soon() {
+    let n = 1 << 20;
+    for (text, format) in [
+        (format!("a = {}", "[".repeat(n)), Format::Toml),
+        (format!("a = {}1{}", "[".repeat(60), "]".repeat(60)), Format::Toml),
+        (format!("a = {}", "{a=".repeat(n)), Format::Toml),
+        (format!("{} = 1", vec!["a"; n].join(".")), Format::Toml),
+        ("[".repeat(n), Format::Json),
+        (format!("{}1{}", "[".repeat(400), "]".repeat(400)), Format::Json),
+        ("{\"a\":".repeat(n), Format::Json),
+    ] {
+        let violations = parse(&text, format).unwrap_err();
+        assert!(!violations.is_empty() && violations.len() <= 101);
+    }
+    let flood: String = (0..50_000).map(|i| format!("k{i} = 1\n")).collect();
+    let violations = parse(&flood, Format::Toml).unwrap_err();
+    assert_eq!(violations.last().unwrap().code, Code::TooMany);
+}
+
+#[test]
+fn bom_and_windows_line_ends_are_read() {
+    let text = format!("\u{feff}{}", GOOD.replace('\n', "\r\n"));
+    assert!(parse(&text, Format::Toml).is_ok());
+    let slip = parse(&text.replace("units", "unit"), Format::Toml).unwrap_err();
+    assert!(slip.iter().any(|v| v.code == Code::UnknownKey && (v.line, v.column) == (2, 1)));
+}

@@ -1,20 +1,43 @@
-//! The process `equipod fk`: exit codes, one JSON document, the separation of the streams.
+//! `equipod fk`: where the lengths come from, what is refused, and the fields of the document.
 
-use std::process::{Command, Output};
+use crate::cli_frame::{document, equipod};
 
-fn equipod(args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_equipod"))
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .args(args)
-        .output()
-        .unwrap()
+const DESIGN: &str = "designs/rbt-octahedral.toml";
+
+fn refusal(args: &[&str]) -> String {
+    let out = equipod(&[&["fk", DESIGN, "--json"], args].concat());
+    assert_eq!(out.status.code(), Some(2), "{args:?}");
+    document(&out)["error"]["code"].as_str().unwrap().to_string()
 }
 
 #[test]
-fn a_missing_design_is_one_json_document_and_exit_2() {
-    let out = equipod(&["fk", "no-such.toml", "--json"]);
-    assert_eq!(out.status.code(), Some(2));
-    let document: serde_json::Value = serde_json::from_slice(&out.stdout).unwrap();
-    assert_eq!(document["schema_version"], 1);
-    assert_eq!(document["error"]["code"], "file::not_readable");
+fn lengths_that_are_none_are_refused() {
+    for lengths in
+        ["1,2,3", "1,2,3,4,5,6,7", "1,2,3,4,5,x", "1,2,3,4,5,inf", "1,2,3,4,5,-6", "7", "1,2,3,4,5,1e200"]
+    {
+        assert_eq!(refusal(&["--lengths", lengths]), "fk::bad_lengths", "{lengths}");
+    }
+    assert_eq!(refusal(&["--lengths=-1,2,3,4,5,6"]), "fk::bad_lengths");
+    assert_eq!(refusal(&["--lengths", "no-such.csv"]), "file::not_readable");
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("lengths.csv");
+    std::fs::write(&path, "l1,l2,l3,l4,l5,l6\n1,2,3,4,5,6\n1,2,3,4,5\n").unwrap();
+    let out = equipod(&["fk", DESIGN, "--lengths", path.to_str().unwrap(), "--json"]);
+    assert!(document(&out)["error"]["message"].as_str().unwrap().contains("line 3: 5 values instead of six"));
+}
+
+#[test]
+fn a_design_without_lengths_needs_the_option() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("bare.toml");
+    let text = std::fs::read_to_string(DESIGN).unwrap();
+    let bare: Vec<&str> = text.lines().filter(|l| !l.starts_with("lengths")).collect();
+    std::fs::write(&path, bare.join("\n")).unwrap();
+    let out = equipod(&["fk", path.to_str().unwrap(), "--json"]);
+    assert_eq!(document(&out)["error"]["code"], "fk::no_lengths");
+}
+
+#[test]
+fn unknown_methods_are_usage_errors() {
+    assert_eq!(refusal(&["--method", "guess"]), "usage");
 }

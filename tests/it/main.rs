@@ -3,6 +3,8 @@
 
 mod certify;
 mod cli_fk;
+mod cli_frame;
+mod design_files;
 mod leg_maps;
 mod octahedral_class;
 mod reference;

@@ -117,6 +117,12 @@ pub(super) fn numbers<const N: usize>(
     values.try_into().ok()
 }
 
+/// The elements of an array that are numbers; the others as NaN, so that positions stay.
+pub(super) fn elements(node: &Node) -> impl Iterator<Item = f64> {
+    let list = if let Value::Array(list) = &node.value { list.as_slice() } else { &[] };
+    list.iter().map(|e| if let Value::Number(x) = e.value { x } else { f64::NAN })
+}
+
 /// Span of element `i` of an array, the whole node if there is none.
 pub(super) fn element_span(node: &Node, i: usize) -> Span {
     match &node.value {

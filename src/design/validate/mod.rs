@@ -120,13 +120,13 @@ fn legs_entry<'a>(report: &mut Report<'_>, root: &Node, entries: &'a [Entry]) ->
 
 fn lengths(report: &mut Report<'_>, entries: &[Entry]) -> Option<LegLengths> {
     let node = &find(entries, "lengths")?.node;
-    let l = numbers::<6>(report, node, "`lengths`", Code::LengthCount, "leg lengths, one for each leg")?;
-    for (i, x) in l.iter().enumerate().filter(|(_, x)| **x < 0.0) {
+    let l = numbers::<6>(report, node, "`lengths`", Code::LengthCount, "leg lengths, one for each leg");
+    for (i, x) in fields::elements(node).enumerate().filter(|(_, x)| *x < 0.0 && x.is_finite()) {
         let span = fields::element_span(node, i);
         let message = format!("the length of leg {} is {x}", i + 1);
         report.refuse(Code::NegativeLength, &span, message, "leg lengths are not negative");
     }
-    LegLengths::try_new(l).ok()
+    LegLengths::try_new(l?).ok()
 }
 
 fn manipulator(

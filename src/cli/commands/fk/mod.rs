@@ -24,7 +24,7 @@ pub(crate) struct Args {
     /// Design file (.toml or .json)
     design: PathBuf,
     /// Six lengths l1,..,l6, or a CSV file with six columns; the design's own lengths when absent
-    #[arg(long, value_name = "L1,..,L6|FILE", allow_hyphen_values = true)]
+    #[arg(long, value_name = "L1,..,L6|FILE")]
     lengths: Option<String>,
     /// Method; auto takes the best one for the design
     #[arg(long, value_enum, default_value_t = MethodArg::Auto)]
@@ -127,4 +127,17 @@ fn failure_of(error: &FkError) -> Failure {
 /// 0 when every path is accounted for, 3 when roots may be missing.
 fn exit_of(solutions: &FkSolutions) -> Exit {
     if solutions.all_accounted() { Exit::Yes } else { Exit::Inconclusive }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_method_that_is_not_built_is_refused_by_name() {
+        let failure = MethodArg::Sylvester.method().unwrap_err();
+        assert_eq!((failure.exit, failure.code.as_str()), (Exit::Refused, "fk::method_not_available"));
+        assert!(failure.message.contains("`sylvester`"));
+        assert_eq!(MethodArg::Auto.method().unwrap(), None);
+    }
 }

@@ -148,3 +148,72 @@ pub(super) fn table_row(line: usize, s: &FkSolutions) -> String {
         s.assembly_modes().count()
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fk::{Method, PathEnd};
+    use crate::geom::{ComplexPose, Pose};
+    use nalgebra::{Rotation3, Vector3};
+
+    fn solutions(condition: f64) -> FkSolutions {
+        let pose = Pose { rotation: Rotation3::identity(), position: Vector3::new(1.0, 2.0, 0.1 + 0.2) };
+        let root = |reality| FkRoot {
+            pose: ComplexPose::from(pose),
+            reality,
+            certified: false,
+            multiplicity: 2,
+            residual: 1e-15,
+            condition,
+        };
+        FkSolutions {
+            method: Method::Homotopy,
+            roots: [Reality::Real, Reality::Undecided, Reality::NonReal].map(root).to_vec(),
+            completeness: Completeness::Unproved { reason: "paths".into(), all_paths_accounted: false },
+            paths: vec![PathReport {
+                start: 3,
+                end: PathEnd::AtInfinity,
+                root: None,
+                steps: 9,
+                rejections: 1,
+                winding: 0,
+                isotropy: 0.5,
+                retracked: 0,
+            }],
+            rejected: vec![Rejected { reason: RejectionReason::Duplicate, residual: 0.0 }],
+            seed: 7,
+        }
+    }
+
+    #[test]
+    fn the_document_has_the_fields_of_the_contract() {
+        let fields = Value::Object(json(&solutions(10.0)));
+        assert_eq!(fields["completeness"], "unproved");
+        assert_eq!((&fields["finite_count"], &fields["real_count"]), (&json!(3), &json!(1)));
+        assert_eq!(fields["finite_count_with_multiplicity"], 6);
+        let real: Vec<&Value> = fields["solutions"].as_array().unwrap().iter().map(|s| &s["real"]).collect();
+        assert_eq!(real, [&json!(true), &Value::Null, &json!(false)]);
+        let first = &fields["solutions"][0];
+        assert_eq!(first["R"]["re"], json!([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]));
+        assert_eq!(first["p"], json!({ "re": [1.0, 2.0, 0.1 + 0.2], "im": [0.0, 0.0, 0.0] }));
+        assert!(fields.to_string().contains("0.30000000000000004"), "all digits");
+        assert_eq!(fields["paths"][0]["end"], "at_infinity");
+        assert_eq!(fields["rejected"][0]["reason"], "duplicate");
+        assert!(fields.get("notes").is_none());
+    }
+
+    #[test]
+    fn what_is_not_finite_is_null_with_a_word_of_explanation() {
+        let fields = Value::Object(json(&solutions(f64::INFINITY)));
+        assert!(fields["solutions"][0]["condition"].is_null());
+        assert!(fields["notes"][0].as_str().unwrap().contains("null stands for"));
+    }
+
+    #[test]
+    fn people_are_told_when_roots_may_be_missing() {
+        let shown = text("x", &solutions(10.0));
+        assert!(
+            shown.starts_with("x: 3 finite poses, 1 of them real, 1 undecided (method homotopy)\nINCOMPLETE")
+        );
+    }
+}
