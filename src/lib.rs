@@ -11,11 +11,11 @@
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod design;
-pub mod equivalence;
 pub mod fk;
 pub mod geom;
 pub mod manipulator;
 pub mod num;
+pub mod offsets;
 pub mod poly;
 pub mod solve;
 pub mod synthesis;

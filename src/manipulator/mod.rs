@@ -4,11 +4,13 @@
 //! frame) to the platform joint `b_i` (coordinates in the platform frame). At the pose `(R, p)` with
 //! `x_base = R x_platform + p` its length is `l_i = |R b_i + p - a_i|`.
 
+mod home;
 mod jacobian;
 mod leg;
 mod lengths;
 mod octahedral;
 
+pub use home::default_home;
 pub use jacobian::{inverse_condition, jacobian, plucker_matrix};
 pub use leg::{BaseJoint, InvalidManipulator, Leg, LegIndex, Manipulator, PlatformJoint};
 pub use lengths::{InvalidLengths, LegLengths, SquaredLegLengths};

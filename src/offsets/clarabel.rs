@@ -1,0 +1,279 @@
+//! The one door to the conic solver clarabel (Goulart, Chen 2024); no other file names it.
+//!
+//! A program is `minimise 1/2 x^T P x + q^T x` subject to `b - A x in K`, given row by row. Its status is
+//! translated, and never believed alone: every point is re-checked here by plain arithmetic on the rows, every
+//! infeasibility certificate by [`ConicProgram::farkas_strength`].
+
+use clarabel::algebra::CscMatrix;
+use clarabel::solver::{
+    DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SecondOrderConeT, SolverStatus,
+    SupportedConeT,
+};
+
+/// `rhs - sum coefficients x`, which must be in the cone of its block.
+#[derive(Debug, Clone)]
+pub(crate) struct Row {
+    pub(crate) coefficients: Vec<(usize, f64)>,
+    pub(crate) rhs: f64,
+}
+
+/// A block of consecutive rows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Cone {
+    /// Every entry at least 0.
+    NonNegative(usize),
+    /// First entry at least the norm of the others.
+    SecondOrder(usize),
+}
+
+/// A conic program with a convex quadratic objective.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct ConicProgram {
+    pub(crate) variables: usize,
+    /// Upper triangle of `P`: (row, column, value), row at most column.
+    pub(crate) quadratic: Vec<(usize, usize, f64)>,
+    pub(crate) linear: Vec<f64>,
+    pub(crate) rows: Vec<Row>,
+    pub(crate) cones: Vec<Cone>,
+}
+
+/// A point with its multipliers; `residual` is the largest violation found by plain arithmetic.
+#[derive(Debug, Clone)]
+pub(crate) struct ConicPoint {
+    pub(crate) x: Vec<f64>,
+    /// One multiplier a row, in the dual cone.
+    pub(crate) dual: Vec<f64>,
+    pub(crate) residual: f64,
+}
+
+/// Answer of the conic solver.
+#[derive(Debug, Clone)]
+pub(crate) enum ConicAnswer {
+    /// A point; accept it by its residual.
+    Point(ConicPoint),
+    /// Claimed infeasible, with a dual ray that is still to be checked.
+    Infeasible(Vec<f64>),
+    /// Neither.
+    Failed(SolverFailure),
+}
+
+/// Why the conic solver gave no answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum SolverFailure {
+    /// The data were refused.
+    Data,
+    /// Claimed unbounded.
+    Unbounded,
+    /// Iteration or time limit.
+    Limit,
+    /// Numerical trouble or no progress.
+    Numerical,
+    /// The point returned violates the constraints more than the accepted residual.
+    Residual,
+}
+
+impl std::fmt::Display for SolverFailure {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Data => "the conic solver refused the data",
+            Self::Unbounded => "the conic solver called the subproblem unbounded",
+            Self::Limit => "the conic solver reached its iteration limit",
+            Self::Numerical => "the conic solver met numerical trouble",
+            Self::Residual => "the conic solver's point does not satisfy the constraints",
+        })
+    }
+}
+
+impl ConicProgram {
+    /// Appends one linear inequality `rhs - coefficients . x >= 0`.
+    pub(crate) fn at_least_zero(&mut self, coefficients: Vec<(usize, f64)>, rhs: f64) {
+        self.rows.push(Row { coefficients, rhs });
+        match self.cones.last_mut() {
+            Some(Cone::NonNegative(n)) => *n += 1,
+            _ => self.cones.push(Cone::NonNegative(1)),
+        }
+    }
+
+    /// Appends `rows[0] >= |rows[1..]|`.
+    pub(crate) fn second_order(&mut self, rows: Vec<Row>) {
+        self.cones.push(Cone::SecondOrder(rows.len()));
+        self.rows.extend(rows);
+    }
+
+    fn slacks(&self, x: &[f64]) -> Vec<f64> {
+        let value = |r: &Row| r.rhs - r.coefficients.iter().map(|&(j, a)| a * x[j]).sum::<f64>();
+        self.rows.iter().map(value).collect()
+    }
+
+    /// Largest cone violation of `b - A x` (0 when inside all cones).
+    pub(crate) fn violation(&self, x: &[f64]) -> f64 {
+        cone_violation(&self.cones, &self.slacks(x))
+    }
+
+    /// `-b.y` of a ray scaled to `|y|_1 = 1`, when it proves infeasibility: `y` in the dual cone, and
+    /// `|A^T y|` so small that no `x` with entries within `radius` could outweigh `b.y < 0`. `None` otherwise.
+    pub(crate) fn farkas_strength(&self, ray: &[f64], radius: f64) -> Option<f64> {
+        let norm: f64 = ray.iter().map(|y| y.abs()).sum();
+        if ray.len() != self.rows.len() || !(norm > 0.0 && norm.is_finite()) {
+            return None;
+        }
+        let y: Vec<f64> = ray.iter().map(|y| y / norm).collect();
+        let mut pull = vec![0.0; self.variables];
+        for (row, y) in self.rows.iter().zip(&y) {
+            for &(j, a) in &row.coefficients {
+                pull[j] += a * y;
+            }
+        }
+        let strength = -self.rows.iter().zip(&y).map(|(r, y)| r.rhs * y).sum::<f64>();
+        // 0 <= y.(b - A x) = b.y - (A^T y).x; contradiction when b.y + |A^T y|_1 radius + slips < 0
+        let slip = cone_violation(&self.cones, &y)
+            * self
+                .rows
+                .iter()
+                .map(|r| r.rhs.abs() + r.coefficients.iter().map(|c| c.1.abs() * radius).sum::<f64>())
+                .sum::<f64>();
+        let loss = pull.iter().map(|p| p.abs()).sum::<f64>() * radius + slip;
+        (strength > 2.0 * loss && strength > 1e-9).then_some(strength)
+    }
+
+    fn matrix(&self) -> CscMatrix<f64> {
+        let mut columns: Vec<Vec<(usize, f64)>> = vec![Vec::new(); self.variables];
+        for (i, row) in self.rows.iter().enumerate() {
+            for &(j, a) in &row.coefficients {
+                columns[j].push((i, a));
+            }
+        }
+        csc(self.rows.len(), &columns)
+    }
+
+    fn objective_matrix(&self) -> CscMatrix<f64> {
+        let mut columns: Vec<Vec<(usize, f64)>> = vec![Vec::new(); self.variables];
+        for &(i, j, v) in &self.quadratic {
+            columns[j].push((i, v));
+        }
+        csc(self.variables, &columns)
+    }
+
+    /// Solves the program, sequentially and without output.
+    pub(crate) fn solve(&self) -> ConicAnswer {
+        let settings =
+            DefaultSettings::<f64> { verbose: false, max_iter: 80, max_threads: 1, ..Default::default() };
+        let cones: Vec<SupportedConeT<f64>> = self
+            .cones
+            .iter()
+            .map(|c| match *c {
+                Cone::NonNegative(n) => NonnegativeConeT(n),
+                Cone::SecondOrder(n) => SecondOrderConeT(n),
+            })
+            .collect();
+        let rhs: Vec<f64> = self.rows.iter().map(|r| r.rhs).collect();
+        let (p, a) = (self.objective_matrix(), self.matrix());
+        let Ok(mut solver) = DefaultSolver::new(&p, &self.linear, &a, &rhs, &cones, settings) else {
+            return ConicAnswer::Failed(SolverFailure::Data);
+        };
+        solver.solve();
+        let found = &solver.solution;
+        match found.status {
+            SolverStatus::PrimalInfeasible | SolverStatus::AlmostPrimalInfeasible => {
+                ConicAnswer::Infeasible(found.z.clone())
+            }
+            SolverStatus::DualInfeasible | SolverStatus::AlmostDualInfeasible => {
+                ConicAnswer::Failed(SolverFailure::Unbounded)
+            }
+            SolverStatus::MaxIterations | SolverStatus::MaxTime => ConicAnswer::Failed(SolverFailure::Limit),
+            // a stalled solver often stands at a good point: its residual decides
+            SolverStatus::Solved | SolverStatus::AlmostSolved | SolverStatus::InsufficientProgress => {
+                let residual = self.violation(&found.x);
+                ConicAnswer::Point(ConicPoint { x: found.x.clone(), dual: found.z.clone(), residual })
+            }
+            SolverStatus::NumericalError | SolverStatus::CallbackTerminated | SolverStatus::Unsolved => {
+                ConicAnswer::Failed(SolverFailure::Numerical)
+            }
+        }
+    }
+}
+
+fn csc(rows: usize, columns: &[Vec<(usize, f64)>]) -> CscMatrix<f64> {
+    let mut starts = vec![0];
+    let (mut indices, mut values) = (Vec::new(), Vec::new());
+    for column in columns {
+        indices.extend(column.iter().map(|c| c.0));
+        values.extend(column.iter().map(|c| c.1));
+        starts.push(indices.len());
+    }
+    CscMatrix::new(rows, columns.len(), starts, indices, values)
+}
+
+/// NaN counts as an infinite violation.
+fn cone_violation(cones: &[Cone], s: &[f64]) -> f64 {
+    let mut at = 0;
+    let mut worst = 0f64;
+    for cone in cones {
+        let n = match *cone {
+            Cone::NonNegative(n) | Cone::SecondOrder(n) => n,
+        };
+        let block = &s[at..at + n];
+        let miss = match cone {
+            Cone::NonNegative(_) => {
+                block.iter().fold(0.0, |m: f64, v| if v.is_nan() { f64::INFINITY } else { m.max(-v) })
+            }
+            Cone::SecondOrder(_) => block[1..].iter().map(|v| v * v).sum::<f64>().sqrt() - block[0],
+        };
+        worst = if miss.is_nan() { f64::INFINITY } else { worst.max(miss) };
+        at += n;
+    }
+    worst
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn disc() -> ConicProgram {
+        // |(x, y)| <= 1
+        let mut p = ConicProgram { variables: 2, linear: vec![-1.0, -1.0], ..Default::default() };
+        let row =
+            |j: Option<usize>, rhs| Row { coefficients: j.map(|j| (j, -1.0)).into_iter().collect(), rhs };
+        p.second_order(vec![row(None, 1.0), row(Some(0), 0.0), row(Some(1), 0.0)]);
+        p
+    }
+
+    #[test]
+    fn maximises_a_linear_function_on_the_disc() {
+        let ConicAnswer::Point(p) = disc().solve() else { panic!("no point") };
+        let s = 0.5f64.sqrt();
+        assert!((p.x[0] - s).abs() < 1e-6 && (p.x[1] - s).abs() < 1e-6 && p.residual < 1e-7);
+        // negative control: a point outside is told by plain arithmetic
+        assert!((disc().violation(&[1.0, 1.0]) - (2f64.sqrt() - 1.0)).abs() < 1e-12);
+        assert!(disc().violation(&[f64::NAN, 0.0]).is_infinite());
+    }
+
+    #[test]
+    fn infeasibility_is_accepted_only_with_a_certificate_that_checks() {
+        let mut p = disc();
+        p.at_least_zero(vec![(0, -1.0)], -2.0); // x >= 2
+        let ConicAnswer::Infeasible(ray) = p.solve() else { panic!("not infeasible") };
+        assert!(p.farkas_strength(&ray, 10.0).is_some_and(|s| s > 0.1));
+        let mut wrong = ray.clone();
+        wrong[3] = -wrong[3];
+        assert_eq!(p.farkas_strength(&wrong, 10.0), None);
+        // the same ray proves nothing about the feasible neighbour x >= 0.5
+        p.rows[3].rhs = -0.5;
+        assert_eq!(p.farkas_strength(&ray, 10.0), None);
+    }
+
+    #[test]
+    fn rescaled_rows_give_the_same_point() {
+        for k in [-3, 0, 3] {
+            let mut p = disc();
+            let scale = 10f64.powi(k);
+            p.rows.iter_mut().for_each(|r| {
+                r.rhs *= scale;
+                r.coefficients.iter_mut().for_each(|c| c.1 *= scale);
+            });
+            let ConicAnswer::Point(found) = p.solve() else { panic!("no point at {k}") };
+            assert!((found.x[0] - 0.5f64.sqrt()).abs() < 1e-5);
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! Optimised offsets: the best joint-free 6-6 platform equivalent to an octahedral one.
+//!
+//! Leg `i` of the new platform lies on the line through the cyclic legs `i` and `i + 1`, at offset `t_i`; the
+//! worst case over given poses of the inverse condition number is maximised over the six offsets, by
+//! sequential convex programming in each of the `3^6` branches (joint before, inside or beyond its edge).
+//! Derivation and limits: `docs/theory/offset-optimisation.md`.
+
+mod branch;
+mod clarabel;
+mod conditioning;
+mod hexagon;
+mod outcome;
+mod polish;
+mod problem;
+mod relaxation;
+mod sampling;
+mod scp;
+mod search;
+mod spacing;
+mod subproblem;
+#[cfg(test)]
+mod tests;
+mod verdict;
+
+pub use branch::{Branch, Conflict, Zone};
+pub use clarabel::SolverFailure;
+pub use hexagon::{Body, offset_determinant, sliding_joint_body};
+pub use outcome::{
+    BranchCounts, BranchReport, BranchVerdict, LocalEvidence, Margins, OffsetOutcome, OffsetReport,
+    OffsetSolution, Recheck,
+};
+pub use problem::{
+    DEFAULT_BOUNDS, DEFAULT_MIN_ABS_DET, DEFAULT_SPACING_SHARE, InvalidProblem, OffsetProblem,
+};
+pub use scp::HistoryStep;
+pub use search::{OptimizeOptions, Progress, optimize};

@@ -1,0 +1,143 @@
+//! From the results of the cells to the verdicts on the branches and the answer.
+
+use super::branch::{Cell, Conflict, Division};
+use super::outcome::{
+    BranchReport, BranchVerdict, LocalEvidence, OffsetOutcome, OffsetReport, OffsetSolution,
+};
+use super::polish::pattern_search;
+use super::problem::{Model, OffsetProblem};
+use super::scp::LocalResult;
+use super::search::{CellResult, OptimizeOptions, better};
+use crate::num::Rng;
+use crate::synthesis::joint_free;
+
+/// A pattern search may gain this much (relative) before the solution counts as not converged.
+const PATTERN_LIMIT: f64 = 1e-6;
+
+pub(crate) fn vertices_too_close(m: &Model, scale: f64) -> Option<Conflict> {
+    let side = (0..6).find(|&i| m.sides[i].edge_length() < m.spacing)?;
+    Some(Conflict::VerticesTooClose { distance: m.sides[side].edge_length() * scale, side })
+}
+
+pub(crate) fn nothing_fits(divisions: Vec<Division>, conflict: &Conflict, seed: u64) -> OffsetReport {
+    let report = |d: Division| BranchReport {
+        branch: d.branch,
+        cells: 0,
+        conflicts: std::iter::once(conflict.clone()).chain(d.conflicts).collect(),
+        verdict: BranchVerdict::Infeasible,
+    };
+    let branches = divisions.into_iter().map(report).collect();
+    OffsetReport { outcome: OffsetOutcome::Infeasible, branches, runners_up: Vec::new(), seed }
+}
+
+/// The verdict on one branch from the results of its cells.
+fn judge(d: &Division, results: Vec<(CellResult, Option<&LocalResult>)>) -> BranchReport {
+    let mut report = BranchReport {
+        branch: d.branch,
+        cells: results.len(),
+        conflicts: d.conflicts.clone(),
+        verdict: BranchVerdict::Infeasible,
+    };
+    let mut best: Option<LocalResult> = None;
+    let (mut unknown, mut failure) = (d.unproved > 0, None);
+    for (result, polished) in results {
+        let mut consider = |r: &LocalResult| {
+            if best.as_ref().is_none_or(|b| better(r, b)) {
+                best = Some(r.clone());
+            }
+        };
+        match result {
+            CellResult::Feasible(r) => {
+                consider(&r);
+                polished.into_iter().for_each(consider);
+            }
+            CellResult::Empty(conflict) => report.conflicts.push(conflict),
+            CellResult::Unknown(why) => {
+                unknown = true;
+                failure = failure.or(why);
+            }
+        }
+    }
+    report.verdict = match (best, unknown, failure) {
+        (Some(r), ..) => BranchVerdict::Dominated { value: r.value, offsets: r.t, settled: r.converged },
+        (None, true, Some(why)) => BranchVerdict::SolverFailure(why),
+        (None, true, None) => BranchVerdict::Unproved,
+        (None, false, _) => BranchVerdict::Infeasible,
+    };
+    report
+}
+
+pub(crate) fn assemble(
+    problem: &OffsetProblem,
+    m: &Model,
+    divisions: &[Division],
+    cells: &[&Cell],
+    ranked: Vec<CellResult>,
+    polished: Vec<(usize, LocalResult)>,
+    o: &OptimizeOptions,
+) -> OffsetReport {
+    let mut results = ranked.into_iter().enumerate();
+    let mut branches = Vec::with_capacity(divisions.len());
+    for d in divisions {
+        let own = results.by_ref().take(d.cells.len());
+        let with_polish = own.map(|(k, r)| (r, polished.iter().find(|p| p.0 == k).map(|p| &p.1))).collect();
+        branches.push(judge(d, with_polish));
+    }
+    let value = |b: &BranchReport| match b.verdict {
+        BranchVerdict::Dominated { value, .. } => Some(value),
+        _ => None,
+    };
+    let mut order: Vec<(f64, usize)> =
+        branches.iter().enumerate().filter_map(|(k, b)| Some((value(b)?, k))).collect();
+    order.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    let solution = polished
+        .into_iter()
+        .find(|p| p.1.is_feasible())
+        .and_then(|(k, run)| solution(problem, m, cells[k], divisions, run, o).map(|s| (cells[k].branch, s)));
+    let unproved = branches.iter().filter(|b| !matches!(b.verdict, BranchVerdict::Infeasible)).count();
+    let outcome = match solution {
+        None if unproved == 0 => OffsetOutcome::Infeasible,
+        None => OffsetOutcome::Undecided { unproved },
+        Some((branch, (solution, sound))) => {
+            branches[branch].verdict = BranchVerdict::Best;
+            order.retain(|x| x.1 != branch);
+            let boxed = Box::new(solution);
+            if sound { OffsetOutcome::Optimal(boxed) } else { OffsetOutcome::NotConverged(boxed) }
+        }
+    };
+    OffsetReport { outcome, branches, runners_up: order.into_iter().map(|x| x.1).collect(), seed: o.seed }
+}
+
+/// Pattern search, then the re-check on the original problem. `None` when the re-check finds a violation.
+fn solution(
+    problem: &OffsetProblem,
+    m: &Model,
+    cell: &Cell,
+    divisions: &[Division],
+    run: LocalResult,
+    o: &OptimizeOptions,
+) -> Option<(OffsetSolution, bool)> {
+    let mut rng = Rng::stream(o.seed, u64::MAX);
+    let found = pattern_search(m, cell, run.t, run.value, &mut rng);
+    let recheck = problem.recheck(&found.t).filter(|r| r.margins.all_met())?;
+    let pattern_gain = if run.value > 0.0 { found.value / run.value - 1.0 } else { 0.0 };
+    let evidence = LocalEvidence {
+        converged: run.converged,
+        stationarity: run.stationarity,
+        pattern_gain,
+        pattern_trials: found.trials,
+    };
+    let edges = problem.edge_lengths();
+    let (manipulator, map) = joint_free(&problem.octahedral, found.t).ok()?;
+    let solution = OffsetSolution {
+        offsets: found.t,
+        shifts: std::array::from_fn(|i| found.t[i] * edges[i]),
+        branch: divisions[cell.branch].branch,
+        recheck,
+        evidence,
+        history: run.history,
+        manipulator,
+        map,
+    };
+    Some((solution, run.converged && pattern_gain <= PATTERN_LIMIT))
+}
