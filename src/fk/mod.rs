@@ -5,7 +5,6 @@
 
 mod choose;
 mod collect;
-mod evidence;
 mod homotopy;
 mod octic;
 mod solutions;

@@ -4,6 +4,7 @@
 mod certify;
 mod cli_fk;
 mod cli_frame;
+mod cli_optimize;
 mod design_files;
 mod leg_maps;
 mod octahedral_class;

@@ -14,6 +14,7 @@
 
 mod convert;
 mod fk;
+mod optimize;
 
 use clap::Subcommand;
 
@@ -28,6 +29,8 @@ pub(crate) enum Command {
     Convert(convert::Args),
     /// All poses, real and complex, for given leg lengths
     Fk(fk::Args),
+    /// The best joint-free platform equivalent to an octahedral design
+    Optimize(optimize::Args),
 }
 
 impl Command {
@@ -36,6 +39,7 @@ impl Command {
         match self {
             Self::Convert(args) => convert::run(args, context),
             Self::Fk(args) => fk::run(args, context),
+            Self::Optimize(args) => optimize::run(args, context),
         }
     }
 }

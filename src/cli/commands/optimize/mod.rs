@@ -1,0 +1,150 @@
+//! `equipod optimize`: the best joint-free platform equivalent to an octahedral design.
+
+mod render;
+
+use std::path::PathBuf;
+
+use nalgebra::Vector3;
+
+use crate::cli::context::Context;
+use crate::cli::exit::Exit;
+use crate::cli::failure::Failure;
+use crate::cli::files;
+use crate::cli::output::Answer;
+use crate::design::{Design, Format, Workspace};
+use crate::geom::Pose;
+use crate::manipulator::{LegIndex, Octahedral, default_home};
+use crate::offsets::{
+    Body, OffsetOutcome, OffsetProblem, OffsetSolution, OptimizeOptions, optimize, sliding_joint_body,
+};
+
+/// Arguments of `optimize`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Octahedral design (.toml or .json); [home], [workspace] and [optimize] set poses and limits
+    design: PathBuf,
+    /// Write the optimised design; .json gives JSON, anything else TOML
+    #[arg(short, long, value_name = "OUT")]
+    output: Option<PathBuf>,
+    /// How far a joint may sit out on the extension of its edge, in edge lengths
+    #[arg(long, value_name = "X", default_value_t = 1.0)]
+    extension: f64,
+    /// Worker threads; the answer does not depend on it (default: one for each processor)
+    #[arg(long, value_name = "N")]
+    threads: Option<usize>,
+}
+
+/// Half width of the default box of translations, as a share of the design's size.
+const DEFAULT_TRANSLATION_SHARE: f64 = 0.15;
+/// Half width of the default box of rotations, degrees.
+const DEFAULT_ROTATION_DEG: f64 = 10.0;
+
+/// The poses the worst case is taken over, and where they come from.
+#[derive(Debug)]
+pub(crate) struct PoseSet {
+    pub(crate) poses: Vec<Pose>,
+    pub(crate) home: Pose,
+    pub(crate) home_given: bool,
+    pub(crate) workspace_given: bool,
+}
+
+fn pose_set(design: &Design) -> PoseSet {
+    let home = design.home.unwrap_or_else(|| default_home(design.manipulator()));
+    let workspace_given = design.workspace.has_box() || !design.workspace.poses.is_empty();
+    let poses = if workspace_given {
+        design.workspace.sample(Some(&home))
+    } else {
+        let share = DEFAULT_TRANSLATION_SHARE * design.manipulator().size();
+        let workspace = Workspace {
+            translation: Vector3::repeat(share),
+            rotation_deg: Vector3::repeat(DEFAULT_ROTATION_DEG),
+            ..Workspace::default()
+        };
+        workspace.sample(Some(&home))
+    };
+    PoseSet { poses, home, home_given: design.home.is_some(), workspace_given }
+}
+
+fn problem(design: &Design, octahedral: Octahedral, poses: Vec<Pose>, extension: f64) -> OffsetProblem {
+    let default = OffsetProblem::with_defaults(octahedral, poses);
+    let table = &design.optimize;
+    OffsetProblem {
+        characteristic_length: table.characteristic_length.unwrap_or(default.characteristic_length),
+        min_joint_distance: table.min_joint_distance.unwrap_or(default.min_joint_distance),
+        min_abs_det: table.min_abs_det.unwrap_or(default.min_abs_det),
+        bounds: [(-extension, 1.0 + extension); 6],
+        ..default
+    }
+}
+
+/// Optimises, and writes the design when asked to.
+pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+    if !(args.extension >= 0.0 && args.extension.is_finite()) {
+        let message = format!("--extension is {}, not a length of 0 or more", args.extension);
+        return Err(Failure::refused("optimize::bad_extension", message));
+    }
+    let design = context.load(&args.design)?;
+    let octahedral = Octahedral::recognise(design.manipulator()).map_err(|why| {
+        Failure::refused("optimize::not_octahedral", format!("not an octahedral platform: {why}"))
+            .with_help("optimize spreads the shared joints of a 3-3 octahedral design")
+    })?;
+    let set = pose_set(&design);
+    let problem = problem(&design, octahedral, set.poses.clone(), args.extension);
+    let processors = || std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = args.threads.unwrap_or_else(processors).clamp(1, 256);
+    let options = OptimizeOptions { seed: context.seed(), threads, ..OptimizeOptions::default() };
+    let report = optimize(&problem, &options, &mut |_| ())
+        .map_err(|why| Failure::refused("optimize::invalid_problem", why.to_string()))?;
+    let exit = match report.outcome {
+        OffsetOutcome::Optimal(_) => Exit::Yes,
+        OffsetOutcome::Infeasible => Exit::No,
+        OffsetOutcome::NotConverged(_) | OffsetOutcome::Undecided { .. } => Exit::Inconclusive,
+    };
+    let optimised = report.solution().map(|s| optimised_design(&design, &problem, s, report.seed));
+    let mut written = None;
+    if let (Some(path), Some(d)) = (&args.output, &optimised) {
+        let text = match Format::of_path(path) {
+            Format::Toml => d.to_toml(),
+            Format::Json => d.to_json(),
+        };
+        files::write_text(path, &text)?;
+        written = Some(path.display().to_string());
+    }
+    let found = render::Found { design: &design, problem: &problem, set: &set, report: &report };
+    let json = render::json(&found, optimised.as_ref(), written.as_deref());
+    let text = if context.json() { String::new() } else { render::text(&found, written.as_deref()) };
+    Ok(Answer { exit, json, text })
+}
+
+/// The optimised platform as a design: vertices keep their names, an edge joint is named after its edge.
+fn optimised_design(design: &Design, problem: &OffsetProblem, s: &OffsetSolution, seed: u64) -> Design {
+    let o = &problem.octahedral;
+    let (base, platform) = (design.base_names(), design.platform_names());
+    let base_name = |k: usize| base[o.base_indices()[k % 3]].clone();
+    let platform_name = |k: usize| platform[o.platform_indices()[k % 3]].clone();
+    let mut names: [(String, String); 6] = Default::default();
+    for (i, leg) in o.order().into_iter().map(LegIndex::get).enumerate() {
+        let k = i / 2;
+        names[leg] = match sliding_joint_body(i) {
+            Body::Base => (format!("{}_{}", base_name(k), base_name(k + 1)), platform_name(k)),
+            Body::Platform => (base_name(k + 1), format!("{}_{}", platform_name(k), platform_name(k + 1))),
+        };
+    }
+    let (a, b): (Vec<String>, Vec<String>) = names.into_iter().unzip();
+    let plain =
+        Design::new(format!("{}, joint-free", design.name), design.units.clone(), s.manipulator.clone());
+    let distinct = |v: &[String]| v.iter().enumerate().all(|(i, x)| !v[..i].contains(x));
+    let named =
+        if distinct(&a) && distinct(&b) { plain.clone().with_joint_names(a, b) } else { Ok(plain.clone()) };
+    let mut out = named.unwrap_or(plain);
+    out.source.clone_from(&design.source);
+    out.description = Some(format!(
+        "Offsets optimised by equipod {} (seed {seed}) from the design \"{}\": worst inverse condition number {}",
+        env!("CARGO_PKG_VERSION"),
+        design.name,
+        s.recheck.objective
+    ));
+    (out.home, out.workspace) = (design.home, design.workspace.clone());
+    (out.optimize, out.hardware) = (design.optimize, design.hardware);
+    out
+}

@@ -1,0 +1,83 @@
+//! The process `equipod optimize`: exit codes, the JSON record, the design it writes.
+
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+const DESIGN: &str = r#"
+name = "octahedral 12-6"
+units = "mm"
+legs = [["P1","P4"], ["P2","P4"], ["P2","P5"], ["P3","P5"], ["P3","P6"], ["P1","P6"]]
+[base]
+P1 = [0.0, 0.0, 0.0]
+P2 = [6.0, 10.392304845413264, 0.0]
+P3 = [12.0, 0.0, 0.0]
+[platform]
+P4 = [0.0, 0.0, 0.0]
+P5 = [6.0, 0.0, 0.0]
+P6 = [3.0, -5.196152422706632, 0.0]
+"#;
+
+fn optimize(design: &str, more: &[&str]) -> (Output, tempfile::TempDir) {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("in.toml"), design).unwrap();
+    let out = Command::new(env!("CARGO_BIN_EXE_equipod"))
+        .current_dir(folder.path())
+        .args(["optimize", "in.toml", "--json"])
+        .args(more)
+        .output()
+        .unwrap();
+    (out, folder)
+}
+
+fn document(out: &Output) -> Value {
+    serde_json::from_slice(&out.stdout).unwrap()
+}
+
+#[test]
+fn inside_the_edges_the_optimum_is_written_as_a_design_that_reads_back() {
+    let (out, folder) = optimize(DESIGN, &["--extension", "0", "-o", "out.toml"]);
+    assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stderr));
+    let d = document(&out);
+    assert_eq!(d["status"], "optimal");
+    assert_eq!(d["branch_counts"]["total"], 729);
+    assert_eq!(d["branch_counts"]["feasible"], 1);
+    assert_eq!(d["branches"].as_array().unwrap().len(), 729);
+    for margin in ["base_spacing", "platform_spacing", "abs_det", "bounds"] {
+        assert!(d["constraint_margins"][margin].as_f64().unwrap() >= 0.0, "{margin}");
+    }
+    let text = std::fs::read_to_string(folder.path().join("out.toml")).unwrap();
+    let (design, warnings) = equipod::design::parse(&text, equipod::design::Format::Toml).unwrap();
+    assert!(warnings.is_empty());
+    assert_eq!(design.manipulator().base_joints().len(), 6);
+    // s' = A s + c at a pose, on the design as written
+    let (source, _) = equipod::design::parse(DESIGN, equipod::design::Format::Toml).unwrap();
+    let pose = equipod::manipulator::default_home(source.manipulator());
+    let (s, new) = (pose.squared_lengths(source.manipulator()), pose.squared_lengths(design.manipulator()));
+    let (s, new) = (s.unwrap().get(), new.unwrap().get());
+    for i in 0..6 {
+        let row = d["A"][i].as_array().unwrap();
+        let mapped: f64 = (0..6).map(|j| row[j].as_f64().unwrap() * s[j]).sum();
+        assert!((mapped + d["c"][i].as_f64().unwrap() - new[i]).abs() < 1e-9, "leg {i}");
+    }
+}
+
+#[test]
+fn an_impossible_joint_distance_is_infeasible_with_the_reason() {
+    let design = format!("{DESIGN}\n[optimize]\nmin_joint_distance = 6.5\n");
+    let (out, folder) = optimize(&design, &["-o", "out.toml"]);
+    assert_eq!(out.status.code(), Some(1));
+    let d = document(&out);
+    assert_eq!(d["status"], "infeasible");
+    assert_eq!(d["branch_counts"]["infeasible_spacing"], 729);
+    assert_eq!(d["branches"][0]["conflicts"][0]["code"], "vertices_too_close");
+    assert!(!folder.path().join("out.toml").exists());
+}
+
+#[test]
+fn a_design_that_is_not_octahedral_is_refused() {
+    let design = DESIGN.replace(r#"["P1","P6"]"#, r#"["P2","P6"]"#);
+    let (out, _folder) = optimize(&design, &[]);
+    assert_eq!(out.status.code(), Some(2));
+    assert_eq!(document(&out)["error"]["code"], "optimize::not_octahedral");
+}
