@@ -41,3 +41,80 @@ fn a_design_without_lengths_needs_the_option() {
 fn unknown_methods_are_usage_errors() {
     assert_eq!(refusal(&["--method", "guess"]), "usage");
 }
+
+#[test]
+fn every_shipped_design_has_the_poses_its_readme_claims() {
+    let table = include_str!("../../designs/README.md");
+    let mut checked = 0;
+    for row in table.lines().filter(|l| l.starts_with("| `")) {
+        let cells: Vec<&str> = row.trim_matches('|').split('|').map(str::trim).collect();
+        let file = format!("designs/{}", cells[0].trim_matches('`'));
+        let out = equipod(&["fk", &file, "--json"]);
+        assert_eq!(out.status.code(), Some(0), "{file}");
+        let answer = document(&out);
+        let counts = (answer["finite_count"].to_string(), answer["real_count"].to_string());
+        assert_eq!(counts, (cells[3].to_string(), cells[4].to_string()), "{file}");
+        let solutions = answer["solutions"].as_array().unwrap();
+        assert_eq!(solutions.len().to_string(), cells[3]);
+        for s in solutions {
+            assert!(s["residual"].as_f64().unwrap() < 1e-9, "{file}");
+            for key in ["R", "p", "real", "certified", "multiplicity", "condition"] {
+                assert!(s.get(key).is_some(), "{file}: {key}");
+            }
+        }
+        checked += 1;
+    }
+    assert!(checked >= 7);
+}
+
+/// The leg equations from the document alone: numbers, frames and leg order mean what the contract says.
+#[test]
+fn real_poses_of_the_document_satisfy_the_leg_equations() {
+    let lengths = [19.8, 18.0, 18.0, 17.0, 14.9, 17.8];
+    let h = 108_f64.sqrt();
+    let base = [[0.0, 0.0], [6.0, h], [6.0, h], [12.0, 0.0], [12.0, 0.0], [0.0, 0.0]];
+    let platform = [[0.0, 0.0], [0.0, 0.0], [6.0, 0.0], [6.0, 0.0], [3.0, -h / 2.0], [3.0, -h / 2.0]];
+    let answer = document(&equipod(&["fk", DESIGN, "--json", "--lengths", "19.8, 18,18,17,14.9,17.8"]));
+    let mut real = 0;
+    for s in answer["solutions"].as_array().unwrap().iter().filter(|s| s["real"] == true) {
+        for i in 0..6 {
+            let mut squared = 0.0;
+            for k in 0..3 {
+                let r = |j: usize| s["R"]["re"][k][j].as_f64().unwrap();
+                let a = if k < 2 { base[i][k] } else { 0.0 };
+                let x = r(0) * platform[i][0] + r(1) * platform[i][1] + s["p"]["re"][k].as_f64().unwrap() - a;
+                squared += x * x;
+            }
+            assert!((squared.sqrt() - lengths[i]).abs() < 1e-9, "leg {}", i + 1);
+        }
+        real += 1;
+    }
+    assert_eq!(real, 12);
+}
+
+#[test]
+fn a_csv_file_gives_one_record_a_row_and_the_same_bytes_every_time() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("lengths.csv");
+    std::fs::write(&path, "l1,l2,l3,l4,l5,l6\n19.8,18,18,17,14.9,17.8\n\n16,16,16,16,16,17\n").unwrap();
+    let args =
+        ["fk", DESIGN, "--lengths", path.to_str().unwrap(), "--json", "--method", "homotopy", "--seed", "5"];
+    let (first, second) = (equipod(&args), equipod(&args));
+    assert_eq!(first.stdout, second.stdout);
+    let answer = document(&first);
+    let rows = answer["rows"].as_array().unwrap();
+    assert_eq!((rows.len(), &rows[0]["line"], &rows[1]["line"]), (2, &2.into(), &4.into()));
+    assert_eq!((&rows[0]["finite_count"], &rows[0]["method"]), (&16.into(), &"homotopy".into()));
+    assert_eq!((&rows[0]["seed"], rows[0]["paths"].as_array().unwrap().len()), (&5.into(), 40));
+    let text = equipod(&args[..4]);
+    assert_eq!(String::from_utf8(text.stdout).unwrap().lines().count(), 3);
+}
+
+#[test]
+fn the_octic_refuses_a_general_design() {
+    let out = equipod(&["fk", "designs/dietmaier.toml", "--method", "octic", "--json"]);
+    assert_eq!(
+        (out.status.code(), &document(&out)["error"]["code"]),
+        (Some(2), &"fk::not_applicable".into())
+    );
+}
