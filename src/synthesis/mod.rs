@@ -4,6 +4,8 @@
 //! agreement of the root sets of two platforms is evidence for the map between them.
 
 mod determinant;
+mod dot;
+mod drawing;
 mod enumerate;
 mod family;
 mod hexagon;

@@ -13,7 +13,9 @@
 //! has no answer is the [`Failure`].
 
 mod convert;
+mod family;
 mod fk;
+mod map;
 mod optimize;
 
 use clap::Subcommand;
@@ -27,8 +29,12 @@ use super::output::Answer;
 pub(crate) enum Command {
     /// Write a design in the other notation (TOML or JSON)
     Convert(convert::Args),
+    /// Every platform equivalent to an octahedral design
+    Family(family::Args),
     /// All poses, real and complex, for given leg lengths
     Fk(fk::Args),
+    /// The affine map between the squared leg lengths of two designs
+    Map(map::Args),
     /// The best joint-free platform equivalent to an octahedral design
     Optimize(optimize::Args),
 }
@@ -38,7 +44,9 @@ impl Command {
     pub(crate) fn run(&self, context: &mut Context) -> Result<Answer, Failure> {
         match self {
             Self::Convert(args) => convert::run(args, context),
+            Self::Family(args) => family::run(args, context),
             Self::Fk(args) => fk::run(args, context),
+            Self::Map(args) => map::run(args, context),
             Self::Optimize(args) => optimize::run(args, context),
         }
     }

@@ -1,0 +1,280 @@
+//! `equipod family`: every platform equivalent to an octahedral design.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use serde_json::{Map, Value, json};
+
+use crate::cli::context::Context;
+use crate::cli::exit::Exit;
+use crate::cli::failure::Failure;
+use crate::cli::files;
+use crate::cli::output::{Answer, number};
+use crate::design::{Design, Format};
+use crate::manipulator::Octahedral;
+use crate::synthesis::{
+    Body, Factor, Family, FamilyCounts, FamilyMember, HexagonPoint, JointLabel, Pattern, edge_lengths,
+};
+
+/// Arguments of `family`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Octahedral design file (.toml or .json)
+    design: PathBuf,
+    /// Write the graph of topologies for Graphviz
+    #[arg(long, value_name = "FILE")]
+    dot: Option<PathBuf>,
+    /// Write a drawing of the topologies
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// Only this pattern, for instance S123456 (no shared joint) or V23456S1
+    #[arg(long, value_name = "ID")]
+    pattern: Option<String>,
+    /// Fractions of the edges at which the moved joints sit, one for each inner point
+    #[arg(
+        long,
+        value_name = "T1,..",
+        value_delimiter = ',',
+        allow_hyphen_values = true,
+        requires = "pattern"
+    )]
+    offsets: Option<Vec<f64>>,
+    /// Write the platform of the pattern as a design
+    #[arg(short, long, value_name = "FILE", requires = "offsets")]
+    output: Option<PathBuf>,
+}
+
+/// Lists the class, or one pattern of it.
+pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+    let design = context.load(&args.design)?;
+    let o = Octahedral::recognise(design.manipulator()).map_err(|e| {
+        Failure::refused("family::not_octahedral", format!("{} is not octahedral: {e}", design.name))
+            .with_help("three joints on each body, two legs at each, in one closed zigzag")
+    })?;
+    let family = Family::octahedral();
+    if let Some(path) = &args.dot {
+        files::write_text(path, &family.to_dot())?;
+    }
+    if let Some(path) = &args.svg {
+        files::write_text(path, &family.to_svg())?;
+    }
+    let wanted = args.pattern.as_deref().map(parse_pattern).transpose()?;
+    let members: Vec<&FamilyMember> =
+        family.members().iter().filter(|m| wanted.as_ref().is_none_or(|p| m.pattern == *p)).collect();
+    let c = family.counts();
+    let mut json = Map::new();
+    json.insert("name".into(), json!(design.name));
+    json.insert("cyclic_order".into(), o.order().iter().map(|i| json!(i.get() + 1)).collect());
+    json.insert("edges".into(), edge_lengths(&o).into_iter().map(number).collect());
+    json.insert("counts".into(), counts_record(c));
+    json.insert("patterns".into(), members.iter().map(|m| pattern_record(m, &o, &design)).collect());
+    json.insert("topologies".into(), topology_records(&family));
+    let mut text = summary(&design, c);
+    match wanted {
+        Some(pattern) => {
+            describe(&mut text, &pattern, &o, &design);
+            if let Some(offsets) = &args.offsets {
+                realise(args, &pattern, &o, &design, offsets, &mut json, &mut text)?;
+            }
+        }
+        None => list_topologies(&mut text, &family),
+    }
+    Ok(Answer { exit: Exit::Yes, json, text })
+}
+
+fn parse_pattern(text: &str) -> Result<Pattern, Failure> {
+    text.parse().map_err(|e| {
+        Failure::refused("family::bad_pattern", format!("`{text}`: {e}"))
+            .with_help("take an \"id\" from the patterns of `equipod family DESIGN --json`")
+    })
+}
+
+/// Builds the platform and writes it where asked.
+fn realise(
+    args: &Args,
+    pattern: &Pattern,
+    o: &Octahedral,
+    design: &Design,
+    offsets: &[f64],
+    json: &mut Map<String, Value>,
+    text: &mut String,
+) -> Result<(), Failure> {
+    let refused = |e: &dyn std::fmt::Display| Failure::refused("family::bad_offsets", e.to_string());
+    let m = pattern.instantiate(o, offsets).map_err(|e| refused(&e))?;
+    let map = pattern.leg_map(o, offsets).map_err(|e| refused(&e))?;
+    let det = pattern.determinant(offsets).map_err(|e| refused(&e))?;
+    json.insert(
+        "instance".into(),
+        json!({
+            "pattern": pattern.to_string(),
+            "offsets": offsets.iter().copied().map(number).collect::<Value>(),
+            "A": (0..6).map(|i| (0..6).map(|j| number(map.a[(i, j)])).collect()).collect::<Vec<Value>>(),
+            "c": map.c.iter().copied().map(number).collect::<Value>(),
+            "det": number(det),
+            "base_joints": m.base_joints().len(),
+            "platform_joints": m.platform_joints().len(),
+        }),
+    );
+    let _ = writeln!(text, "\nat these offsets det A = {det}");
+    if let Some(path) = &args.output {
+        let [base, platform] =
+            pattern.joints().map(|list| list.iter().map(|j| joint_name(*j, o, design)).collect());
+        let mut built = Design::new(format!("{} {pattern}", design.name), &design.units, m)
+            .with_joint_names(base, platform)
+            .map_err(|e| Failure::internal(e.to_string()))?;
+        built.source.clone_from(&design.source);
+        built.description = Some(format!("{pattern} of {}, offsets {offsets:?}", design.name));
+        // the same pose, seen by the new legs
+        built.lengths = design.lengths.and_then(|l| map.apply(&l.squared()).ok()).map(|s| s.lengths());
+        built.home = design.home;
+        built.workspace = design.workspace.clone();
+        built.optimize = design.optimize;
+        built.hardware = design.hardware;
+        let written = match Format::of_path(path) {
+            Format::Toml => built.to_toml(),
+            Format::Json => built.to_json(),
+        };
+        files::write_text(path, &written)?;
+        let _ = writeln!(text, "wrote {}", path.display());
+    }
+    Ok(())
+}
+
+/// Corners keep the names of the design; new joints are `Q1` .. `Q6`, avoiding names that exist.
+fn joint_name(joint: JointLabel, o: &Octahedral, design: &Design) -> String {
+    match joint {
+        JointLabel::Corner(i) if i < 3 => design.base_names()[o.base_indices()[i]].clone(),
+        JointLabel::Corner(i) => design.platform_names()[o.platform_indices()[i - 3]].clone(),
+        JointLabel::OnEdge(_) => {
+            let taken = |n: &String| design.base_names().contains(n) || design.platform_names().contains(n);
+            let mut name = joint.to_string();
+            while taken(&name) {
+                name.insert(0, 'N');
+            }
+            name
+        }
+    }
+}
+
+fn counts_record(c: FamilyCounts) -> Value {
+    json!({
+        "patterns": c.patterns, "classes": c.classes, "classes_exchange": c.classes_exchange,
+        "topologies": c.topologies, "topologies_exchange": c.topologies_exchange,
+        "sequential_topologies": c.sequential_topologies,
+        "sequential_topologies_exchange": c.sequential_topologies_exchange,
+        "sequential_patterns": c.sequential_patterns, "splitting_patterns": c.splitting_patterns,
+    })
+}
+
+fn pattern_record(member: &FamilyMember, o: &Octahedral, design: &Design) -> Value {
+    let p = &member.pattern;
+    let order = o.order();
+    let name = |j: JointLabel| joint_name(j, o, design);
+    let mut legs = vec![Value::Null; 6];
+    for (slot, point) in order.iter().zip(p.legs()) {
+        let [base, platform] = point.joints().map(name);
+        legs[slot.get()] = match point {
+            HexagonPoint::Vertex(_) => json!({"base": base, "platform": platform, "kind": "vertex"}),
+            HexagonPoint::Inner(t) => json!({
+                "base": base, "platform": platform, "kind": "inner", "side": t.side + 1, "offset": t.to_string(),
+                "between": [order[t.side].get() + 1, order[(t.side + 1) % 6].get() + 1],
+            }),
+        };
+    }
+    let shared = p.shared_joints().into_iter().map(|(body, joint, legs)| {
+        let mut legs: Vec<usize> = legs.iter().map(|i| order[*i].get() + 1).collect();
+        legs.sort_unstable();
+        json!({"body": body.to_string(), "joint": name(joint), "legs": legs})
+    });
+    let aligned = p.alignments();
+    json!({
+        "id": p.to_string(),
+        "class": member.class + 1,
+        "class_exchange": member.class_exchange + 1,
+        "topology": member.topology + 1,
+        "sequential": member.sequential,
+        "legs": legs,
+        "offsets": p.offsets().iter().map(ToString::to_string).collect::<Vec<_>>(),
+        "shared_joints": shared.collect::<Value>(),
+        "alignments": aligned.iter().map(|l| l.iter().map(|j| name(*j)).collect::<Vec<_>>()).collect::<Vec<_>>(),
+        "A": p.matrix_formulas(o),
+        "det": p.determinant_formula(),
+        "det_zero": p.factors().iter().map(|f| f.zero()).collect::<Vec<_>>(),
+    })
+}
+
+fn topology_records(family: &Family) -> Value {
+    let records = family.topologies().iter().enumerate().map(|(k, t)| {
+        json!({
+            "topology": k + 1,
+            "base_joints": t.topology.base_joints(), "platform_joints": t.topology.platform_joints(),
+            "shared_joints": t.topology.shared_joints(), "sequential": t.sequential,
+            "example": t.example.to_string(), "next": t.next.iter().map(|n| n + 1).collect::<Vec<_>>(),
+        })
+    });
+    records.collect()
+}
+
+fn summary(design: &Design, c: FamilyCounts) -> String {
+    let mut text = format!("platforms equivalent to {}\n\n", design.name);
+    let lines = [
+        ("patterns", c.patterns, None),
+        ("patterns up to symmetry", c.classes, Some(c.classes_exchange)),
+        ("topologies", c.topologies, Some(c.topologies_exchange)),
+        ("topologies, one offset at a time", c.sequential_topologies, Some(c.sequential_topologies_exchange)),
+    ];
+    for (what, count, exchange) in lines {
+        let _ = write!(text, "{count:>5}  {what}");
+        let _ = match exchange {
+            Some(n) => writeln!(text, " ({n} when base and platform may be exchanged)"),
+            None => writeln!(text),
+        };
+    }
+    text
+}
+
+fn list_topologies(text: &mut String, family: &Family) {
+    text.push_str("\ntopology  base  platform  shared  patterns  sequential  example\n");
+    for (k, t) in family.topologies().iter().enumerate() {
+        let patterns = family.members().iter().filter(|m| m.topology == k).count();
+        let _ = writeln!(
+            text,
+            "{:>8}  {:>4}  {:>8}  {:>6}  {patterns:>8}  {:<10}  {}",
+            k + 1,
+            t.topology.base_joints(),
+            t.topology.platform_joints(),
+            t.topology.shared_joints(),
+            if t.sequential { "yes" } else { "no" },
+            t.example
+        );
+    }
+}
+
+fn describe(text: &mut String, pattern: &Pattern, o: &Octahedral, design: &Design) {
+    let _ = writeln!(text, "\npattern {pattern}");
+    let mut lines: Vec<(usize, String)> = Vec::new();
+    for (slot, point) in o.order().iter().zip(pattern.legs()) {
+        let [a, b] = point.joints().map(|j| joint_name(j, o, design));
+        let formula = match point {
+            HexagonPoint::Vertex(_) => format!("s{}", slot.get() + 1),
+            HexagonPoint::Inner(t) => {
+                let (k, n) = (o.order()[t.side].get() + 1, o.order()[(t.side + 1) % 6].get() + 1);
+                format!("(1 - {t}) s{k} + {t} s{n} - {t} (1 - {t}) d{}^2", t.side + 1)
+            }
+        };
+        lines.push((slot.get(), format!("  {slot}  {a:<4} {b:<4}  s' = {formula}\n")));
+    }
+    lines.sort_unstable();
+    text.extend(lines.into_iter().map(|l| l.1));
+    for (k, d) in edge_lengths(o).iter().enumerate() {
+        let body = if k % 2 == 0 { Body::Base } else { Body::Platform };
+        let _ = writeln!(text, "  d{} = {d} ({body})", k + 1);
+    }
+    let zeros: Vec<String> = pattern.factors().iter().map(|f| Factor::zero(*f)).collect();
+    let _ = writeln!(text, "  det A = {}", pattern.determinant_formula());
+    let _ = writeln!(
+        text,
+        "  singular where {}",
+        if zeros.is_empty() { "never".into() } else { zeros.join(" or ") }
+    );
+}
