@@ -1,0 +1,123 @@
+//! The processes `equipod map` and `equipod family`.
+
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+fn equipod(args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_equipod"))
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .args(args)
+        .output()
+        .unwrap()
+}
+
+fn json(args: &[&str]) -> (Option<i32>, Value) {
+    let out = equipod(&[args, &["--json"]].concat());
+    (out.status.code(), serde_json::from_slice(&out.stdout).unwrap())
+}
+
+const OCTAHEDRAL: &str = "designs/rbt-octahedral.toml";
+
+#[test]
+fn map_tells_equivalent_singular_and_unrelated_apart() {
+    let (code, doc) = json(&["map", OCTAHEDRAL, "designs/rbt-griffis-duffy.toml"]);
+    assert_eq!((code, doc["relation"].as_str()), (Some(0), Some("equivalent")));
+    assert!((doc["det"].as_f64().unwrap() - 0.26208).abs() < 1e-12);
+    assert!((doc["A"][5][0].as_f64().unwrap() - 0.2).abs() < 1e-12);
+    assert!((doc["c"][0].as_f64().unwrap() + 23.04).abs() < 1e-11);
+    assert!(doc["residual"].as_f64().unwrap() < 1e-14);
+    let (code, doc) = json(&["map", OCTAHEDRAL, "designs/rbt-midline.toml"]);
+    assert_eq!((code, doc["relation"].as_str()), (Some(1), Some("singular")));
+    let (code, doc) = json(&["map", "designs/rbt-midline.toml", OCTAHEDRAL]);
+    assert_eq!((code, doc["relation"].as_str()), (Some(1), Some("unrelated")));
+    assert_eq!(doc["leg_rank"], 5);
+}
+
+#[test]
+fn the_published_designs_carry_lengths_of_one_pose() {
+    // s(TO) = A s(FROM) + c holds between the lengths written in the two files
+    let read = |path: &str| -> Vec<f64> {
+        let text = std::fs::read_to_string(path).unwrap();
+        let line = text.lines().find_map(|l| l.strip_prefix("lengths = [")).unwrap().trim_end_matches(']');
+        line.split(", ").map(|x| x.parse().unwrap()).collect()
+    };
+    for to in ["designs/rbt-griffis-duffy.toml", "designs/rbt-midline.toml"] {
+        let (_, doc) = json(&["map", OCTAHEDRAL, to]);
+        let (l, m) = (read(OCTAHEDRAL), read(to));
+        for i in 0..6 {
+            let a = |j: usize| doc["A"][i][j].as_f64().unwrap();
+            let s: f64 = (0..6).map(|j| a(j) * l[j] * l[j]).sum::<f64>() + doc["c"][i].as_f64().unwrap();
+            assert!((s.sqrt() - m[i]).abs() < 1e-12 * m[i], "{to} leg {}", i + 1);
+        }
+    }
+}
+
+#[test]
+fn different_units_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("metres.toml");
+    let text = std::fs::read_to_string(OCTAHEDRAL).unwrap().replace("\"mm\"", "\"m\"");
+    std::fs::write(&path, text).unwrap();
+    let (code, doc) = json(&["map", OCTAHEDRAL, path.to_str().unwrap()]);
+    assert_eq!((code, doc["error"]["code"].as_str()), (Some(2), Some("map::different_units")));
+}
+
+#[test]
+fn family_lists_every_pattern_with_its_counts() {
+    let (code, doc) = json(&["family", OCTAHEDRAL]);
+    assert_eq!(code, Some(0));
+    let count = |key: &str| doc["counts"][key].as_u64().unwrap();
+    assert_eq!(doc["patterns"].as_array().unwrap().len() as u64, count("patterns"));
+    assert_eq!(doc["topologies"].as_array().unwrap().len() as u64, count("topologies"));
+    for (key, topology) in [("class", "classes"), ("class_exchange", "classes_exchange"), ("topology", "topologies")] {
+        let most = doc["patterns"].as_array().unwrap().iter().map(|p| p[key].as_u64().unwrap()).max();
+        assert_eq!(most, Some(count(topology)));
+    }
+    let free = doc["patterns"].as_array().unwrap().iter().find(|p| p["id"] == "S123456").unwrap();
+    assert_eq!(free["shared_joints"], serde_json::json!([]));
+    assert_eq!(free["A"][5], serde_json::json!(["t6", "0", "0", "0", "0", "1 - t6"]));
+    assert_eq!((free["sequential"].as_bool(), free["alignments"].as_array().unwrap().len()), (Some(false), 6));
+}
+
+#[test]
+fn a_pattern_is_written_as_a_design_that_maps_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("moved.toml");
+    let file = path.to_str().unwrap();
+    let offsets = "--offsets=0.25,-0.1,0.4";
+    let (code, doc) = json(&["family", OCTAHEDRAL, "--pattern", "V346S112", offsets, "-o", file]);
+    assert_eq!(code, Some(0), "{doc}");
+    let (code, map) = json(&["map", OCTAHEDRAL, file]);
+    assert_eq!(code, Some(0));
+    let (x, y) = (map["det"].as_f64().unwrap(), doc["instance"]["det"].as_f64().unwrap());
+    assert!((x - y).abs() < 1e-12, "{x} {y}");
+    for (args, error) in [
+        (["--pattern", "V346S111", "--offsets", "0.1,0.2,0.3"], "family::bad_pattern"),
+        (["--pattern", "V346S112", "--offsets", "0.1,0.2"], "family::bad_offsets"),
+    ] {
+        let (code, doc) = json(&[&["family", OCTAHEDRAL], args.as_slice()].concat());
+        assert_eq!((code, doc["error"]["code"].as_str()), (Some(2), Some(error)));
+    }
+}
+
+#[test]
+fn other_designs_are_refused_with_the_reason() {
+    let (code, doc) = json(&["family", "designs/rbt-griffis-duffy.toml"]);
+    assert_eq!((code, doc["error"]["code"].as_str()), (Some(2), Some("family::not_octahedral")));
+    assert!(doc["error"]["message"].as_str().unwrap().contains("6 joints in use"));
+}
+
+#[test]
+fn graph_and_drawing_hold_every_topology() {
+    let folder = tempfile::tempdir().unwrap();
+    let (dot, svg) = (folder.path().join("a.dot"), folder.path().join("a.svg"));
+    let out =
+        equipod(&["family", OCTAHEDRAL, "--dot", dot.to_str().unwrap(), "--svg", svg.to_str().unwrap()]);
+    assert_eq!(out.status.code(), Some(0));
+    let dot = std::fs::read_to_string(dot).unwrap();
+    assert_eq!((dot.matches("[label=\"").count(), dot.matches("style=dashed").count()), (20, 1));
+    let svg = std::fs::read_to_string(svg).unwrap();
+    assert_eq!((svg.matches("class=\"card\"").count(), svg.matches("class=\"leg\"").count()), (20, 120));
+    assert!(svg.ends_with("</svg>\n") && !svg.contains("NaN"));
+}
