@@ -1,7 +1,7 @@
 //! The topologies of the class as a drawing: one small platform for each, in levels by number of joints.
 //!
-//! In the spirit of Rojas, Borras, Thomas, Fig. 6. Seen from above: base triangle outside, platform triangle
-//! inside, legs between them; big dots are shared joints, dotted red lines joints that must be on one line.
+//! In the spirit of Rojas, Borras, Thomas, Fig. 6. Seen from above: grey base triangle, green platform triangle turned
+//! by 180 degrees, legs between them; big dots are shared joints, dotted red lines joints that must be on one line.
 
 use std::fmt::Write as _;
 
@@ -13,7 +13,7 @@ use super::pattern::Pattern;
 const CELL: (f64, f64) = (150.0, 190.0);
 const MARGIN: f64 = 30.0;
 /// Circumradius of the base and of the platform triangle.
-const RADIUS: (f64, f64) = (56.0, 30.0);
+const RADIUS: (f64, f64) = (56.0, 47.0);
 /// Height of the drawing inside its cell; edges run in what is left below.
 const DRAWN: f64 = 138.0;
 

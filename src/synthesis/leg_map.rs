@@ -216,7 +216,7 @@ impl LegMapOutcome {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// Source: Rojas, Borras, Thomas, paper on the octahedral manipulator, eq. (4)-(7), for
+/// Source: Rojas, Borras, Thomas, *A distance-based formulation of the octahedral manipulator kinematics*, eq. (4)-(7), for
 /// one offset; the general statement is derived in `docs/theory/leg-maps.md`.
 ///
 /// # Errors

@@ -70,14 +70,19 @@ fn family_lists_every_pattern_with_its_counts() {
     let count = |key: &str| doc["counts"][key].as_u64().unwrap();
     assert_eq!(doc["patterns"].as_array().unwrap().len() as u64, count("patterns"));
     assert_eq!(doc["topologies"].as_array().unwrap().len() as u64, count("topologies"));
-    for (key, topology) in [("class", "classes"), ("class_exchange", "classes_exchange"), ("topology", "topologies")] {
+    for (key, topology) in
+        [("class", "classes"), ("class_exchange", "classes_exchange"), ("topology", "topologies")]
+    {
         let most = doc["patterns"].as_array().unwrap().iter().map(|p| p[key].as_u64().unwrap()).max();
         assert_eq!(most, Some(count(topology)));
     }
     let free = doc["patterns"].as_array().unwrap().iter().find(|p| p["id"] == "S123456").unwrap();
     assert_eq!(free["shared_joints"], serde_json::json!([]));
     assert_eq!(free["A"][5], serde_json::json!(["t6", "0", "0", "0", "0", "1 - t6"]));
-    assert_eq!((free["sequential"].as_bool(), free["alignments"].as_array().unwrap().len()), (Some(false), 6));
+    assert_eq!(
+        (free["sequential"].as_bool(), free["alignments"].as_array().unwrap().len()),
+        (Some(false), 6)
+    );
 }
 
 #[test]
@@ -86,15 +91,15 @@ fn a_pattern_is_written_as_a_design_that_maps_back() {
     let path = folder.path().join("moved.toml");
     let file = path.to_str().unwrap();
     let offsets = "--offsets=0.25,-0.1,0.4";
-    let (code, doc) = json(&["family", OCTAHEDRAL, "--pattern", "V346S112", offsets, "-o", file]);
+    let (code, doc) = json(&["family", OCTAHEDRAL, "--pattern", "V456S112", offsets, "-o", file]);
     assert_eq!(code, Some(0), "{doc}");
     let (code, map) = json(&["map", OCTAHEDRAL, file]);
     assert_eq!(code, Some(0));
     let (x, y) = (map["det"].as_f64().unwrap(), doc["instance"]["det"].as_f64().unwrap());
     assert!((x - y).abs() < 1e-12, "{x} {y}");
     for (args, error) in [
-        (["--pattern", "V346S111", "--offsets", "0.1,0.2,0.3"], "family::bad_pattern"),
-        (["--pattern", "V346S112", "--offsets", "0.1,0.2"], "family::bad_offsets"),
+        (["--pattern", "V346S112", "--offsets", "0.1,0.2,0.3"], "family::bad_pattern"),
+        (["--pattern", "V456S112", "--offsets", "0.1,0.2"], "family::bad_offsets"),
     ] {
         let (code, doc) = json(&[&["family", OCTAHEDRAL], args.as_slice()].concat());
         assert_eq!((code, doc["error"]["code"].as_str()), (Some(2), Some(error)));

@@ -5,6 +5,7 @@ mod certify;
 mod cli_fk;
 mod cli_frame;
 mod cli_optimize;
+mod cli_synthesis;
 mod design_files;
 mod leg_maps;
 mod octahedral_class;

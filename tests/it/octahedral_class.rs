@@ -57,6 +57,10 @@ fn counts_of_the_class() {
     assert_eq!((c.topologies, c.topologies_exchange), (20, 13));
     assert_eq!((c.sequential_topologies, c.sequential_topologies_exchange), (19, 12));
     assert_eq!((c.sequential_patterns, c.splitting_patterns), (727, 320));
+    for (exchange, classes) in [(false, 59), (true, 33)] {
+        let orbits: BTreeSet<Pattern> = reachable(true).iter().map(|p| representative(p, exchange)).collect();
+        assert_eq!(orbits.len(), classes);
+    }
 }
 
 #[test]
