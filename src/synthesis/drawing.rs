@@ -45,13 +45,13 @@ fn corner_at(i: usize) -> (f64, f64) {
     (radius * cos, -radius * sin)
 }
 
-/// A moved leg is drawn three tenths of the edge away from where it was.
+/// A moved leg is drawn four tenths of the edge away from where it was.
 fn joint_at(pattern: &Pattern, joint: JointLabel) -> (f64, f64) {
     match joint {
         JointLabel::Corner(i) => corner_at(i),
         JointLabel::OnEdge(o) => {
             let stays_at_start = pattern.legs()[o.side] == HexagonPoint::Inner(o);
-            let t = if stays_at_start { 0.3 } else { 0.7 };
+            let t = if stays_at_start { 0.4 } else { 0.6 };
             let [x, y] = edge(o.side).map(corner_at);
             (x.0 + (y.0 - x.0) * t, x.1 + (y.1 - x.1) * t)
         }
