@@ -50,6 +50,10 @@ fn every_shipped_design_has_the_poses_its_readme_claims() {
         let cells: Vec<&str> = row.trim_matches('|').split('|').map(str::trim).collect();
         let file = format!("designs/{}", cells[0].trim_matches('`'));
         let out = equipod(&["fk", &file, "--json"]);
+        if cells[3] == "continuum" {
+            assert_eq!(out.status.code(), Some(3), "{file}: no list of poses is complete");
+            continue;
+        }
         assert_eq!(out.status.code(), Some(0), "{file}");
         let answer = document(&out);
         let counts = (answer["finite_count"].to_string(), answer["real_count"].to_string());
