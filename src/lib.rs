@@ -11,6 +11,7 @@
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod design;
+pub mod equivalence;
 pub mod fk;
 pub mod geom;
 pub mod manipulator;

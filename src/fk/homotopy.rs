@@ -3,6 +3,7 @@
 use num_complex::Complex64;
 
 use super::collect::{Candidate, collect};
+use super::evidence::{GENERAL, attach};
 use super::{Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, PathEnd, PathReport};
 use crate::geom::{ComplexPose, rotation_from_quaternion};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
@@ -47,7 +48,8 @@ impl ForwardKinematics for Homotopy {
             let seed = o.seed.wrapping_add(attempt.wrapping_mul(0x9e37_79b9));
             let paths =
                 solve_sections(&sections, seed).map_err(|e| FkError::Breakdown { what: e.to_string() })?;
-            let found = assemble(m, s, o, &frame, &paths);
+            let mut found = assemble(m, s, o, &frame, &paths);
+            attach(&mut found, m, s, GENERAL);
             if found.all_accounted() {
                 return Ok(found);
             }

@@ -5,6 +5,7 @@
 
 mod choose;
 mod collect;
+mod evidence;
 mod homotopy;
 mod octic;
 mod solutions;

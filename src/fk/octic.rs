@@ -9,6 +9,7 @@ use nalgebra::{Matrix3, Vector3};
 use num_complex::Complex64;
 
 use super::collect::{Candidate, collect};
+use super::evidence::{OCTAHEDRAL, attach};
 use super::{Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method};
 use crate::geom::{ComplexPose, trilaterate};
 use crate::manipulator::{Leg, Manipulator, Octahedral, SquaredLegLengths};
@@ -66,14 +67,16 @@ impl ForwardKinematics for Octic {
             pairs.len(),
             if all_paths_accounted { "" } else { "; poses may be missing or multiple" },
         );
-        Ok(FkSolutions {
+        let mut solutions = FkSolutions {
             method: Method::Octic,
             roots: collected.roots,
             completeness: Completeness::Unproved { reason, all_paths_accounted },
             paths: Vec::new(),
             rejected: collected.rejected,
             seed: o.seed,
-        })
+        };
+        attach(&mut solutions, m, s, OCTAHEDRAL);
+        Ok(solutions)
     }
 }
 

@@ -1,0 +1,293 @@
+//! The verdict on two platforms.
+
+use thiserror::Error;
+
+use super::matching::match_poses;
+use super::sample::{Sample, SamplePlan};
+use crate::fk::{FkError, FkOptions, FkRoot, ForwardKinematics, Homotopy, solver};
+use crate::geom::ComplexPose;
+use crate::manipulator::{LegIndex, Manipulator};
+use crate::num::linalg::LinalgError;
+use crate::synthesis::{LegMapOutcome, LegMapTolerances, NotRealizable, Relation, leg_map};
+
+/// Two poses are the same when they are closer than this (relative to the size and to their own numbers).
+///
+/// Roots come out at `1e-12` or better unless they are nearly double; a joint `1e-6` of the size off its
+/// place moves poses by about `1e-6`.
+const SAME_POSE: f64 = 1e-8;
+/// A counterexample must miss the lengths of the other platform by this many times the rounding to expect.
+const CLEAR_MISS: f64 = 1e3;
+
+/// Why platforms could not be compared at all.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum VerifyError {
+    /// The leg map could not be computed.
+    #[error("the leg map could not be computed: {0}")]
+    LegMap(#[from] LinalgError),
+    /// A forward-kinematics method broke down.
+    #[error("forward kinematics of {platform} failed: {error}")]
+    ForwardKinematics {
+        /// `"A"` or `"B"`.
+        platform: &'static str,
+        /// What happened.
+        error: FkError,
+    },
+    /// A sample pose gives lengths that overflow or that the map sends to a negative square.
+    #[error("sample {sample} has no usable leg lengths{}", .why.map(|w| format!(": {w}")).unwrap_or_default())]
+    Lengths {
+        /// Index of the sample.
+        sample: usize,
+        /// The leg whose square came out negative.
+        why: Option<NotRealizable>,
+    },
+}
+
+/// A pose that belongs to the lengths of one platform and not to those of the other.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Counterexample {
+    /// Index of the sample.
+    pub sample: usize,
+    /// `"A"` when the pose solves A and not B, `"B"` the other way round.
+    pub solves: &'static str,
+    /// The pose.
+    pub pose: ComplexPose,
+    /// Whether an interval certificate proves the pose a solution of the one.
+    pub certified: bool,
+    /// The leg of the other platform that is missed most.
+    pub leg: LegIndex,
+    /// By how much its squared length is missed, relative to the squared size.
+    pub miss: f64,
+    /// Rounding to expect in this number.
+    pub rounding: f64,
+}
+
+/// Why no verdict was reached.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum InconclusiveReason {
+    /// The map is regular, but some sample could not be solved completely.
+    SolverIncomplete,
+    /// The map is regular and forward kinematics disagrees with it: one of the two is wrong.
+    Contradiction,
+    /// There is no map, but no pose was found that tells the platforms apart either.
+    NoCounterexample,
+}
+
+impl InconclusiveReason {
+    /// One sentence.
+    #[must_use]
+    pub fn sentence(self) -> &'static str {
+        match self {
+            Self::SolverIncomplete => {
+                "the leg map is regular, but forward kinematics may have missed poses of a sample"
+            }
+            Self::Contradiction => {
+                "the leg map is regular, but the poses of a sample disagree: please report this"
+            }
+            Self::NoCounterexample => {
+                "no leg map within the tolerance, but no sampled pose tells the platforms apart clearly"
+            }
+        }
+    }
+}
+
+/// The verdict on two platforms.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Verdict {
+    /// The leg map is regular, which proves it up to the rounding of the designs' own coordinates, and
+    /// independent forward kinematics agrees at every sample.
+    Equivalent,
+    /// There is no leg map, and a pose shows it.
+    NotEquivalent(Box<Counterexample>),
+    /// There is a leg map, but `det A = 0` (or the legs of A are dependent): one platform is
+    /// architecturally singular.
+    Singular,
+    /// Not decided.
+    Inconclusive(InconclusiveReason),
+}
+
+impl Verdict {
+    /// The word of the command line.
+    #[must_use]
+    pub fn as_str(&self) -> &'static str {
+        match self {
+            Self::Equivalent => "equivalent",
+            Self::NotEquivalent(_) => "not_equivalent",
+            Self::Singular => "singular",
+            Self::Inconclusive(_) => "inconclusive",
+        }
+    }
+}
+
+/// The verdict with all its evidence.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Verification {
+    /// The verdict.
+    pub verdict: Verdict,
+    /// The algebraic side.
+    pub map: LegMapOutcome,
+    /// The numerical side; empty for a singular map, where forward kinematics has nothing to compare.
+    pub samples: Vec<Sample>,
+}
+
+impl Verification {
+    /// The largest distance of matched poses over all samples.
+    #[must_use]
+    pub fn worst_distance(&self) -> f64 {
+        self.samples.iter().map(|s| s.matching.worst_distance()).fold(0.0, f64::max)
+    }
+}
+
+/// Compares platforms A and B, described in the same two frames and units.
+///
+/// The leg map `s' = A s + c` is derived from the leg vectors alone. Then for each sample pose the forward
+/// kinematics of A is solved by its best method and that of B by the general one, which knows nothing of
+/// the map, and the complex poses are matched. A regular map and perfect matchings give `Equivalent`.
+///
+/// # Errors
+/// [`VerifyError`] when a part could not be computed.
+pub fn verify(
+    a: &Manipulator,
+    b: &Manipulator,
+    plan: &SamplePlan,
+    options: &FkOptions,
+) -> Result<Verification, VerifyError> {
+    let map = leg_map(a, b, LegMapTolerances::default())?;
+    if map.relation == Relation::Singular {
+        return Ok(Verification { verdict: Verdict::Singular, map, samples: Vec::new() });
+    }
+    let mut samples = Vec::with_capacity(plan.count);
+    for k in 0..plan.count {
+        samples.push(take_sample(a, b, plan, options, &map, k)?);
+    }
+    let verdict = if map.relation == Relation::Equivalent {
+        if samples.iter().all(Sample::agrees) {
+            Verdict::Equivalent
+        } else if samples.iter().all(Sample::is_conclusive) {
+            Verdict::Inconclusive(InconclusiveReason::Contradiction)
+        } else {
+            Verdict::Inconclusive(InconclusiveReason::SolverIncomplete)
+        }
+    } else {
+        let found = samples.iter().enumerate().find_map(|(k, s)| counterexample(a, b, k, s));
+        found.map_or(Verdict::Inconclusive(InconclusiveReason::NoCounterexample), |c| {
+            Verdict::NotEquivalent(Box::new(c))
+        })
+    };
+    Ok(Verification { verdict, map, samples })
+}
+
+fn take_sample(
+    a: &Manipulator,
+    b: &Manipulator,
+    plan: &SamplePlan,
+    options: &FkOptions,
+    map: &LegMapOutcome,
+    k: usize,
+) -> Result<Sample, VerifyError> {
+    let pose = plan.pose(k);
+    let none = VerifyError::Lengths { sample: k, why: None };
+    let squares_a = pose.squared_lengths(a).ok_or_else(|| none.clone())?;
+    let squares_b = match map.map() {
+        Some(map) => map.apply(&squares_a).map_err(|w| VerifyError::Lengths { sample: k, why: Some(w) })?,
+        None => pose.squared_lengths(b).ok_or(none)?,
+    };
+    let failed = |platform| move |error| VerifyError::ForwardKinematics { platform, error };
+    let solutions_a = solver(None).solve(a, &squares_a, options).map_err(failed("A"))?;
+    let solutions_b = Homotopy.solve(b, &squares_b, options).map_err(failed("B"))?;
+    let poses = |roots: &[FkRoot]| -> Vec<ComplexPose> { roots.iter().map(|r| r.pose).collect() };
+    let size = a.size().max(b.size());
+    let matching = match_poses(&poses(&solutions_a.roots), &poses(&solutions_b.roots), size, SAME_POSE);
+    Ok(Sample { pose, squares_a, squares_b, solutions_a, solutions_b, matching })
+}
+
+/// The pose of the sample that misses the other platform's lengths most clearly.
+fn counterexample(a: &Manipulator, b: &Manipulator, sample: usize, s: &Sample) -> Option<Counterexample> {
+    let sides = [("A", &s.solutions_a, b, &s.squares_b), ("B", &s.solutions_b, a, &s.squares_a)];
+    let mut best: Option<Counterexample> = None;
+    for (solves, solutions, other, squares) in sides {
+        for root in &solutions.roots {
+            let scale = other.size() * other.size();
+            let misses =
+                other.legs().map(|leg| root.pose.squared_length(&leg)).into_iter().zip(squares.get());
+            for (leg, (found, wanted)) in LegIndex::all().zip(misses) {
+                let miss = (found - wanted).norm() / scale;
+                let rounding =
+                    root.residual.max(1e-15 * (1.0 + found.norm() / scale)) * root.condition.max(1.0);
+                let clearer = best.as_ref().is_none_or(|b| miss / rounding > b.miss / b.rounding);
+                if miss > CLEAR_MISS * rounding && clearer {
+                    let certified = root.certified;
+                    best = Some(Counterexample {
+                        sample,
+                        solves,
+                        pose: root.pose,
+                        certified,
+                        leg,
+                        miss,
+                        rounding,
+                    });
+                }
+            }
+        }
+    }
+    best
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::Pose;
+    use crate::manipulator::{Leg, Octahedral};
+    use crate::synthesis::joint_free;
+    use nalgebra::{Point3, Rotation3, Vector3};
+
+    fn octahedral() -> Manipulator {
+        let joint = |r: f64, turn: f64, k: u32| {
+            let (s, c) = (std::f64::consts::TAU * (f64::from(k) / 3.0 + turn)).sin_cos();
+            Point3::new(r * c, r * s, 0.0)
+        };
+        let base = (0..3).map(|k| joint(2.0, 0.0, k)).collect();
+        let platform = (0..3).map(|k| joint(1.1, 0.17, k)).collect();
+        Manipulator::try_new(base, platform, [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)]).unwrap()
+    }
+
+    fn plan() -> SamplePlan {
+        SamplePlan {
+            home: Pose { rotation: Rotation3::identity(), position: Vector3::new(0.0, 0.0, 2.0) },
+            translation: Vector3::repeat(0.4),
+            rotation: Vector3::repeat(0.4),
+            count: 3,
+            seed: 5,
+        }
+    }
+
+    #[test]
+    fn the_joint_free_platform_is_equivalent() {
+        let a = octahedral();
+        let (b, _) = joint_free(&Octahedral::recognise(&a).unwrap(), [0.2, 0.25, 0.2, 0.3, 0.2, 0.25]).unwrap();
+        let v = verify(&a, &b, &plan(), &FkOptions::default()).unwrap();
+        assert_eq!(v.verdict, Verdict::Equivalent);
+        assert!(v.worst_distance() < 1e-9);
+        assert!(v.samples.iter().all(|s| s.matching.pairs.len() == 16));
+    }
+
+    #[test]
+    fn a_joint_off_its_line_by_a_millionth_is_not_equivalent() {
+        let a = octahedral();
+        let (b, _) = joint_free(&Octahedral::recognise(&a).unwrap(), [0.2; 6]).unwrap();
+        let mut legs: [Leg; 6] = b.legs();
+        legs[2].platform.z += 1e-6 * a.size();
+        let moved = Manipulator::from_legs(legs).unwrap();
+        let v = verify(&a, &moved, &plan(), &FkOptions::default()).unwrap();
+        let Verdict::NotEquivalent(c) = v.verdict else { panic!("{:?}", v.verdict) };
+        assert!(c.miss > 1e-9 && c.certified);
+    }
+
+    #[test]
+    fn midpoints_are_singular() {
+        let a = octahedral();
+        let (b, _) = joint_free(&Octahedral::recognise(&a).unwrap(), [0.5; 6]).unwrap();
+        let v = verify(&a, &b, &plan(), &FkOptions::default()).unwrap();
+        assert_eq!(v.verdict, Verdict::Singular);
+    }
+}
