@@ -1,151 +1,185 @@
-//! `L` complex numbers side by side, one per path, so that the compiler fills SIMD registers.
+//! Complex numbers side by side, one per path, in SIMD registers.
 //!
-//! Plain loops over arrays of constant length: no intrinsics, no `unsafe`; with `L = 1` the same code is the
-//! scalar tracker.
+//! `S` is the vector unit found at run time (`pulp`): eight lanes with AVX-512, four with AVX2, one for the
+//! scalar tracker of the endgame. Real and imaginary parts are kept apart, so that a complex product is four
+//! fused multiply-adds for all lanes.
 
 use num_complex::Complex64;
+use pulp::Simd;
+use pulp::bytemuck::{cast_slice, cast_slice_mut};
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
-/// `L` real numbers, one per lane.
-pub(super) type Real<const L: usize> = [f64; L];
+/// Most lanes of any unit; per-lane bookkeeping is kept in arrays of this length.
+pub(super) const MOST_LANES: usize = 8;
 
-/// `L` complex numbers, one per lane.
+/// One real number per lane, `[x; MOST_LANES]` with the tail unused.
+pub(super) type PerLane = [f64; MOST_LANES];
+
+/// One complex number per lane.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Lanes<const L: usize> {
-    pub(super) re: Real<L>,
-    pub(super) im: Real<L>,
+pub(super) struct Lanes<S: Simd> {
+    pub(super) re: S::f64s,
+    pub(super) im: S::f64s,
+    pub(super) simd: S,
 }
 
-impl<const L: usize> Lanes<L> {
-    pub(super) const ZERO: Self = Self { re: [0.0; L], im: [0.0; L] };
+/// The first lanes of `x` in a register.
+#[inline(always)]
+pub(super) fn load<S: Simd>(simd: S, x: &PerLane) -> S::f64s {
+    let mut v = simd.splat_f64s(0.0);
+    cast_slice_mut::<S::f64s, f64>(std::slice::from_mut(&mut v)).copy_from_slice(&x[..S::F64_LANES]);
+    v
+}
+
+/// The lanes of a register, padded with zeros.
+#[inline(always)]
+pub(super) fn store<S: Simd>(v: S::f64s) -> PerLane {
+    let mut x = [0.0; MOST_LANES];
+    x[..S::F64_LANES].copy_from_slice(cast_slice::<S::f64s, f64>(std::slice::from_ref(&v)));
+    x
+}
+
+impl<S: Simd> Lanes<S> {
+    #[inline(always)]
+    pub(super) fn zero(simd: S) -> Self {
+        let zero = simd.splat_f64s(0.0);
+        Self { re: zero, im: zero, simd }
+    }
 
     #[inline(always)]
-    pub(super) fn splat(z: Complex64) -> Self {
-        Self { re: [z.re; L], im: [z.im; L] }
+    pub(super) fn splat(simd: S, z: Complex64) -> Self {
+        Self { re: simd.splat_f64s(z.re), im: simd.splat_f64s(z.im), simd }
     }
 
     #[inline(always)]
     pub(super) fn lane(&self, l: usize) -> Complex64 {
-        Complex64::new(self.re[l], self.im[l])
+        let part = |v: &S::f64s| cast_slice::<S::f64s, f64>(std::slice::from_ref(v))[l];
+        Complex64::new(part(&self.re), part(&self.im))
     }
 
     #[inline(always)]
     pub(super) fn set_lane(&mut self, l: usize, z: Complex64) {
-        self.re[l] = z.re;
-        self.im[l] = z.im;
+        cast_slice_mut::<S::f64s, f64>(std::slice::from_mut(&mut self.re))[l] = z.re;
+        cast_slice_mut::<S::f64s, f64>(std::slice::from_mut(&mut self.im))[l] = z.im;
     }
 
     #[inline(always)]
     pub(super) fn conj(self) -> Self {
-        Self { re: self.re, im: self.im.map(|x| -x) }
+        Self { im: self.simd.neg_f64s(self.im), ..self }
     }
 
     #[inline(always)]
-    pub(super) fn norm_sqr(self) -> Real<L> {
-        std::array::from_fn(|l| self.re[l] * self.re[l] + self.im[l] * self.im[l])
+    pub(super) fn norm_sqr(self) -> S::f64s {
+        let s = self.simd;
+        s.mul_add_e_f64s(self.re, self.re, s.mul_f64s(self.im, self.im))
     }
 
     #[inline(always)]
-    pub(super) fn scale(self, k: Real<L>) -> Self {
-        Self {
-            re: std::array::from_fn(|l| self.re[l] * k[l]),
-            im: std::array::from_fn(|l| self.im[l] * k[l]),
-        }
+    pub(super) fn scale(self, k: S::f64s) -> Self {
+        let s = self.simd;
+        Self { re: s.mul_f64s(self.re, k), im: s.mul_f64s(self.im, k), simd: s }
     }
 
     #[inline(always)]
     pub(super) fn times(self, k: f64) -> Self {
-        Self { re: self.re.map(|x| x * k), im: self.im.map(|x| x * k) }
+        self.scale(self.simd.splat_f64s(k))
     }
 
     /// `1 / z`; infinite or NaN where `z` is zero.
     #[inline(always)]
     pub(super) fn recip(self) -> Self {
-        let n = self.norm_sqr();
-        self.conj().scale(n.map(|x| 1.0 / x))
+        let s = self.simd;
+        self.conj().scale(s.div_f64s(s.splat_f64s(1.0), self.norm_sqr()))
     }
 
     /// `self + a b`.
     #[inline(always)]
     pub(super) fn mul_add(self, a: Self, b: Self) -> Self {
-        let mut out = self;
-        for l in 0..L {
-            out.re[l] += a.re[l] * b.re[l] - a.im[l] * b.im[l];
-            out.im[l] += a.re[l] * b.im[l] + a.im[l] * b.re[l];
+        let s = self.simd;
+        Self {
+            re: s.negate_mul_add_e_f64s(a.im, b.im, s.mul_add_e_f64s(a.re, b.re, self.re)),
+            im: s.mul_add_e_f64s(a.im, b.re, s.mul_add_e_f64s(a.re, b.im, self.im)),
+            simd: s,
         }
-        out
     }
 
     /// `self - a b`.
     #[inline(always)]
     pub(super) fn mul_sub(self, a: Self, b: Self) -> Self {
-        let mut out = self;
-        for l in 0..L {
-            out.re[l] -= a.re[l] * b.re[l] - a.im[l] * b.im[l];
-            out.im[l] -= a.re[l] * b.im[l] + a.im[l] * b.re[l];
+        let s = self.simd;
+        Self {
+            re: s.mul_add_e_f64s(a.im, b.im, s.negate_mul_add_e_f64s(a.re, b.re, self.re)),
+            im: s.negate_mul_add_e_f64s(a.im, b.re, s.negate_mul_add_e_f64s(a.re, b.im, self.im)),
+            simd: s,
         }
-        out
+    }
+
+    /// `self + k a` with one complex number `k` for all lanes.
+    #[inline(always)]
+    pub(super) fn mul_add_scalar(self, k: Complex64, a: Self) -> Self {
+        self.mul_add(Self::splat(self.simd, k), a)
     }
 
     /// Lane by lane `if mask { other } else { self }`.
     #[inline(always)]
-    pub(super) fn select(self, mask: [bool; L], other: Self) -> Self {
+    pub(super) fn select(self, mask: S::m64s, other: Self) -> Self {
+        let s = self.simd;
         Self {
-            re: std::array::from_fn(|l| if mask[l] { other.re[l] } else { self.re[l] }),
-            im: std::array::from_fn(|l| if mask[l] { other.im[l] } else { self.im[l] }),
+            re: s.select_f64s(mask, other.re, self.re),
+            im: s.select_f64s(mask, other.im, self.im),
+            simd: s,
         }
     }
 }
 
-impl<const L: usize> Add for Lanes<L> {
+impl<S: Simd> Add for Lanes<S> {
     type Output = Self;
     #[inline(always)]
     fn add(self, o: Self) -> Self {
-        Self {
-            re: std::array::from_fn(|l| self.re[l] + o.re[l]),
-            im: std::array::from_fn(|l| self.im[l] + o.im[l]),
-        }
+        let s = self.simd;
+        Self { re: s.add_f64s(self.re, o.re), im: s.add_f64s(self.im, o.im), simd: s }
     }
 }
 
-impl<const L: usize> Sub for Lanes<L> {
+impl<S: Simd> Sub for Lanes<S> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, o: Self) -> Self {
-        Self {
-            re: std::array::from_fn(|l| self.re[l] - o.re[l]),
-            im: std::array::from_fn(|l| self.im[l] - o.im[l]),
-        }
+        let s = self.simd;
+        Self { re: s.sub_f64s(self.re, o.re), im: s.sub_f64s(self.im, o.im), simd: s }
     }
 }
 
-impl<const L: usize> Mul for Lanes<L> {
+impl<S: Simd> Mul for Lanes<S> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, o: Self) -> Self {
+        let s = self.simd;
         Self {
-            re: std::array::from_fn(|l| self.re[l] * o.re[l] - self.im[l] * o.im[l]),
-            im: std::array::from_fn(|l| self.re[l] * o.im[l] + self.im[l] * o.re[l]),
+            re: s.negate_mul_add_e_f64s(self.im, o.im, s.mul_f64s(self.re, o.re)),
+            im: s.mul_add_e_f64s(self.re, o.im, s.mul_f64s(self.im, o.re)),
+            simd: s,
         }
     }
 }
 
-impl<const L: usize> Neg for Lanes<L> {
+impl<S: Simd> Neg for Lanes<S> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Self { re: self.re.map(|x| -x), im: self.im.map(|x| -x) }
+        let s = self.simd;
+        Self { re: s.neg_f64s(self.re), im: s.neg_f64s(self.im), simd: s }
     }
 }
 
-impl<const L: usize> AddAssign for Lanes<L> {
+impl<S: Simd> AddAssign for Lanes<S> {
     #[inline(always)]
     fn add_assign(&mut self, o: Self) {
         *self = *self + o;
     }
 }
 
-impl<const L: usize> SubAssign for Lanes<L> {
+impl<S: Simd> SubAssign for Lanes<S> {
     #[inline(always)]
     fn sub_assign(&mut self, o: Self) {
         *self = *self - o;
@@ -153,132 +187,15 @@ impl<const L: usize> SubAssign for Lanes<L> {
 }
 
 /// A vector of eight unknowns per lane.
-pub(super) type Vec8<const L: usize> = [Lanes<L>; 8];
+pub(super) type Vec8<S> = [Lanes<S>; 8];
 
 /// Squared Euclidean norm, lane by lane.
 #[inline(always)]
-pub(super) fn norm_sqr<const L: usize>(x: &Vec8<L>) -> Real<L> {
-    let mut sum = [0.0; L];
-    for z in x {
-        let n = z.norm_sqr();
-        for l in 0..L {
-            sum[l] += n[l];
-        }
+pub(super) fn norm_sqr<S: Simd>(x: &Vec8<S>) -> S::f64s {
+    let s = x[0].simd;
+    let mut sum = x[0].norm_sqr();
+    for z in &x[1..] {
+        sum = s.mul_add_e_f64s(z.re, z.re, s.mul_add_e_f64s(z.im, z.im, sum));
     }
     sum
-}
-
-/// An 8 x 8 LU factorisation with partial pivoting, every lane its own row exchanges.
-#[derive(Debug, Clone)]
-pub(super) struct Lu<const L: usize> {
-    factors: [[Lanes<L>; 8]; 8],
-    inverse_pivots: [Lanes<L>; 8],
-    pivot_rows: [[usize; L]; 8],
-    /// Smallest over largest pivot modulus squared, a crude measure of singularity.
-    pub(super) pivot_ratio: Real<L>,
-}
-
-impl<const L: usize> Lu<L> {
-    /// Factorises `a` in place.
-    #[inline(always)]
-    pub(super) fn factorise(mut a: [[Lanes<L>; 8]; 8]) -> Self {
-        let mut inverse_pivots = [Lanes::ZERO; 8];
-        let mut pivot_rows = [[0; L]; 8];
-        let (mut least, mut greatest) = ([f64::INFINITY; L], [0.0f64; L]);
-        for k in 0..8 {
-            let mut best = a[k][k].norm_sqr();
-            let mut row = [k; L];
-            for i in k + 1..8 {
-                let n = a[i][k].norm_sqr();
-                for l in 0..L {
-                    let larger = n[l] > best[l];
-                    best[l] = if larger { n[l] } else { best[l] };
-                    row[l] = if larger { i } else { row[l] };
-                }
-            }
-            pivot_rows[k] = row;
-            for i in k + 1..8 {
-                let mask: [bool; L] = row.map(|r| r == i);
-                if mask.iter().any(|&m| m) {
-                    for j in 0..8 {
-                        let (top, here) = (a[k][j], a[i][j]);
-                        a[k][j] = top.select(mask, here);
-                        a[i][j] = here.select(mask, top);
-                    }
-                }
-            }
-            for l in 0..L {
-                least[l] = least[l].min(best[l]);
-                greatest[l] = greatest[l].max(best[l]);
-            }
-            let inverse = a[k][k].recip();
-            inverse_pivots[k] = inverse;
-            let pivot_row = a[k];
-            for i in k + 1..8 {
-                let factor = a[i][k] * inverse;
-                a[i][k] = factor;
-                for j in k + 1..8 {
-                    a[i][j] = a[i][j].mul_sub(factor, pivot_row[j]);
-                }
-            }
-        }
-        let pivot_ratio = std::array::from_fn(|l| least[l] / greatest[l]);
-        Self { factors: a, inverse_pivots, pivot_rows, pivot_ratio }
-    }
-
-    /// Solves `A x = b`.
-    #[inline(always)]
-    pub(super) fn solve(&self, mut b: Vec8<L>) -> Vec8<L> {
-        for k in 0..8 {
-            let row = self.pivot_rows[k];
-            for i in k + 1..8 {
-                let mask: [bool; L] = row.map(|r| r == i);
-                if mask.iter().any(|&m| m) {
-                    let (top, here) = (b[k], b[i]);
-                    b[k] = top.select(mask, here);
-                    b[i] = here.select(mask, top);
-                }
-            }
-        }
-        for i in 1..8 {
-            for j in 0..i {
-                b[i] = b[i].mul_sub(self.factors[i][j], b[j]);
-            }
-        }
-        for i in (0..8).rev() {
-            for j in i + 1..8 {
-                b[i] = b[i].mul_sub(self.factors[i][j], b[j]);
-            }
-            b[i] = b[i] * self.inverse_pivots[i];
-        }
-        b
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::num::Rng;
-
-    #[test]
-    fn lu_solves_random_systems_in_every_lane() {
-        let mut rng = Rng::new(5);
-        let mut random = || {
-            let mut z = Lanes::<4>::ZERO;
-            for l in 0..4 {
-                z.set_lane(l, Complex64::new(rng.normal(), rng.normal()));
-            }
-            z
-        };
-        for _ in 0..50 {
-            let mut a: [[Lanes<4>; 8]; 8] = std::array::from_fn(|_| std::array::from_fn(|_| random()));
-            a[0][0] = Lanes::ZERO; // forces an exchange
-            let x: Vec8<4> = std::array::from_fn(|_| random());
-            let b = a.map(|row| row.iter().zip(&x).fold(Lanes::ZERO, |s, (p, q)| s.mul_add(*p, *q)));
-            let y = Lu::factorise(a).solve(b);
-            for (p, q) in x.iter().zip(&y) {
-                assert!((*p - *q).norm_sqr().iter().all(|n| n.sqrt() < 1e-10));
-            }
-        }
-    }
 }

@@ -4,8 +4,10 @@
 // One step of the tracker has to compile to one function, or the lanes do not stay in registers.
 #![allow(clippy::inline_always)]
 
+mod dispatch;
 mod endgame;
 mod lanes;
+mod lu;
 mod monodromy;
 mod paths;
 mod start;

@@ -6,9 +6,10 @@
 
 use num_complex::Complex64;
 
+use super::dispatch::track_all;
 use super::endgame::projective_distance;
 use super::system::SectionHomotopy;
-use super::tracker::{TrackerSettings, track_all};
+use super::tracker::TrackerSettings;
 use crate::num::Rng;
 use crate::solve::sections::{FORMS, Row, Sections, forms};
 
@@ -68,7 +69,7 @@ pub(crate) fn generate(seed: u64, loops: usize) -> Option<StartSystem> {
         for (from, to) in way {
             let phase = Complex64::from_polar(1.0, rng.uniform(0.0, std::f64::consts::TAU));
             let homotopy = SectionHomotopy::new(from, phase, to);
-            let tracked = track_all::<8>(&homotopy, &points, &TrackerSettings::CAREFUL, 0.0);
+            let tracked = track_all(&homotopy, &points, &TrackerSettings::CAREFUL, 0.0);
             points = tracked.into_iter().filter(|p| p.arrived).map(|p| p.x).collect();
         }
         for point in points {
@@ -79,7 +80,7 @@ pub(crate) fn generate(seed: u64, loops: usize) -> Option<StartSystem> {
     }
     // once more round nothing: polishes every solution to rounding
     let polish = SectionHomotopy::new(&sections, one, &sections);
-    let tracked = track_all::<8>(&polish, &solutions, &TrackerSettings::CAREFUL, 0.0);
+    let tracked = track_all(&polish, &solutions, &TrackerSettings::CAREFUL, 0.0);
     let complete = tracked.len() == GENERIC_COUNT && tracked.iter().all(|p| p.arrived);
     complete.then(|| StartSystem { sections, solutions: tracked.into_iter().map(|p| p.x).collect() })
 }

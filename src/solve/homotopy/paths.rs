@@ -1,12 +1,15 @@
 //! All paths of one problem: tracked, ended, classified, repaired.
 
 use num_complex::Complex64;
+use pulp::Scalar;
 
+use super::dispatch::track_all;
 use super::endgame::{end_path, projective_distance};
-use super::lanes::{Lanes, Lu, Vec8, norm_sqr};
+use super::lanes::{Lanes, Vec8, norm_sqr};
+use super::lu::Lu;
 use super::start::{StartError, shipped};
 use super::system::{SectionHomotopy, derivative_matrix, values};
-use super::tracker::{TrackerSettings, track_all, track_one};
+use super::tracker::{TrackerSettings, track_one};
 use crate::num::Rng;
 use crate::solve::sections::Sections;
 
@@ -58,18 +61,19 @@ struct Polished {
 
 fn polish(homotopy: &SectionHomotopy, x: &[Complex64; 8]) -> Polished {
     let norm = x.iter().map(num_complex::Complex::norm_sqr).sum::<f64>().sqrt();
-    let mut y: Vec8<1> = x.map(|z| Lanes::splat(z / norm));
+    let simd = Scalar::new();
+    let mut y: Vec8<Scalar> = x.map(|z| Lanes::splat(simd, z / norm));
     let patch = y.map(Lanes::conj);
-    let rows = homotopy.rows_at(Lanes::<1>::ZERO);
+    let rows = homotopy.rows_at(Lanes::zero(simd));
     let mut last = f64::INFINITY;
     let mut pivot_ratio = 0.0;
     for _ in 0..8 {
         let j = derivative_matrix(&rows, &y, &patch);
         let f = values(&j, &y);
         let lu = Lu::factorise(j);
-        pivot_ratio = lu.pivot_ratio[0].sqrt();
+        pivot_ratio = lu.pivot_ratio()[0];
         let delta = lu.solve(f);
-        let size = norm_sqr(&delta)[0].sqrt();
+        let size = norm_sqr(&delta).sqrt();
         if !(size < 0.1 * last) {
             // no longer contracting: at rounding level that is the end of it, above it is failure
             let x = y.map(|z| z.lane(0));
@@ -102,7 +106,7 @@ pub(crate) fn solve_sections(target: &Sections, seed: u64) -> Result<Vec<Path>, 
     let start = shipped()?;
     let gamma = Complex64::from_polar(1.0, Rng::stream(seed, 0).uniform(0.0, std::f64::consts::TAU));
     let homotopy = SectionHomotopy::new(&start.sections, gamma, target);
-    let tracked = track_all::<8>(&homotopy, &start.solutions, &TrackerSettings::FAST, ENDGAME_AT);
+    let tracked = track_all(&homotopy, &start.solutions, &TrackerSettings::FAST, ENDGAME_AT);
     let mut paths: Vec<Path> = tracked
         .iter()
         .map(|p| {

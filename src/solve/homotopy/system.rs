@@ -5,7 +5,10 @@
 
 use num_complex::Complex64;
 
-use super::lanes::{Lanes, Lu, Vec8};
+use pulp::Simd;
+
+use super::lanes::{Lanes, Vec8};
+use super::lu::Lu;
 use crate::solve::sections::{FORMS, Row, Sections};
 
 /// Order of the Taylor predictor.
@@ -19,7 +22,7 @@ pub(crate) struct SectionHomotopy {
 }
 
 /// The rows at one parameter value per lane.
-pub(super) type Rows<const L: usize> = [[Lanes<L>; FORMS]; 6];
+pub(super) type Rows<S> = [[Lanes<S>; FORMS]; 6];
 
 impl SectionHomotopy {
     /// From `start` (times the unit number `gamma`, against accidental degeneracy of the line) at `t = 1`
@@ -31,12 +34,11 @@ impl SectionHomotopy {
     }
 
     #[inline(always)]
-    pub(super) fn rows_at<const L: usize>(&self, t: Lanes<L>) -> Rows<L> {
-        let mut rows = [[Lanes::ZERO; FORMS]; 6];
+    pub(super) fn rows_at<S: Simd>(&self, t: Lanes<S>) -> Rows<S> {
+        let mut rows = [[t; FORMS]; 6];
         for i in 0..6 {
             for k in 0..FORMS {
-                let base = Lanes::splat(self.target[i][k]);
-                rows[i][k] = base.mul_add(t, Lanes::splat(self.slope[i][k]));
+                rows[i][k] = Lanes::splat(t.simd, self.target[i][k]).mul_add_scalar(self.slope[i][k], t);
             }
         }
         rows
@@ -44,11 +46,11 @@ impl SectionHomotopy {
 
     /// `(C_1 - C_0) forms`, one value a row.
     #[inline(always)]
-    pub(super) fn slope_times<const L: usize>(&self, forms: &[Lanes<L>; FORMS]) -> [Lanes<L>; 6] {
-        let mut out = [Lanes::ZERO; 6];
+    pub(super) fn slope_times<S: Simd>(&self, forms: &[Lanes<S>; FORMS]) -> [Lanes<S>; 6] {
+        let mut out = [Lanes::zero(forms[0].simd); 6];
         for i in 0..6 {
             for k in 0..FORMS {
-                out[i] = out[i].mul_add(Lanes::splat(self.slope[i][k]), forms[k]);
+                out[i] = out[i].mul_add_scalar(self.slope[i][k], forms[k]);
             }
         }
         out
@@ -57,8 +59,8 @@ impl SectionHomotopy {
 
 /// `rows . forms`, one value a row.
 #[inline(always)]
-pub(super) fn rows_times<const L: usize>(rows: &Rows<L>, forms: &[Lanes<L>; FORMS]) -> [Lanes<L>; 6] {
-    let mut out = [Lanes::ZERO; 6];
+pub(super) fn rows_times<S: Simd>(rows: &Rows<S>, forms: &[Lanes<S>; FORMS]) -> [Lanes<S>; 6] {
+    let mut out = [Lanes::zero(forms[0].simd); 6];
     for i in 0..6 {
         for k in 0..FORMS {
             out[i] = out[i].mul_add(rows[i][k], forms[k]);
@@ -69,8 +71,9 @@ pub(super) fn rows_times<const L: usize>(rows: &Rows<L>, forms: &[Lanes<L>; FORM
 
 /// Symmetrised forms of two vectors: `forms(x + y) - forms(x) - forms(y)`, and last `e.g' + e'.g`.
 #[inline(always)]
-pub(super) fn polar_forms<const L: usize>(x: &Vec8<L>, y: &Vec8<L>) -> ([Lanes<L>; FORMS], Lanes<L>) {
-    let mut f = [Lanes::ZERO; FORMS];
+pub(super) fn polar_forms<S: Simd>(x: &Vec8<S>, y: &Vec8<S>) -> ([Lanes<S>; FORMS], Lanes<S>) {
+    let zero = Lanes::zero(x[0].simd);
+    let mut f = [zero; FORMS];
     let mut k = 0;
     for i in 0..4 {
         f[k] = (x[i] * y[i]).times(2.0);
@@ -88,8 +91,8 @@ pub(super) fn polar_forms<const L: usize>(x: &Vec8<L>, y: &Vec8<L>) -> ([Lanes<L
         let (p, q) = (i % 3 + 1, (i + 1) % 3 + 1);
         f[12 + i] = (x[p] * y[4 + q]).mul_sub(x[q], y[4 + p]).mul_add(y[p], x[4 + q]).mul_sub(y[q], x[4 + p]);
     }
-    let mut gg = Lanes::ZERO;
-    let mut eg = Lanes::ZERO;
+    let mut gg = zero;
+    let mut eg = zero;
     for i in 0..4 {
         gg = gg.mul_add(x[4 + i], y[4 + i]);
         eg = eg.mul_add(x[i], y[4 + i]).mul_add(y[i], x[4 + i]);
@@ -100,12 +103,9 @@ pub(super) fn polar_forms<const L: usize>(x: &Vec8<L>, y: &Vec8<L>) -> ([Lanes<L
 
 /// The 8 x 8 matrix of derivatives: six sections, `e.g`, patch `v`.
 #[inline(always)]
-pub(super) fn derivative_matrix<const L: usize>(
-    rows: &Rows<L>,
-    x: &Vec8<L>,
-    patch: &Vec8<L>,
-) -> [[Lanes<L>; 8]; 8] {
-    let mut j = [[Lanes::ZERO; 8]; 8];
+pub(super) fn derivative_matrix<S: Simd>(rows: &Rows<S>, x: &Vec8<S>, patch: &Vec8<S>) -> [[Lanes<S>; 8]; 8] {
+    let zero = Lanes::zero(x[0].simd);
+    let mut j = [[zero; 8]; 8];
     for i in 0..6 {
         let r = &rows[i];
         let sym = [
@@ -118,7 +118,7 @@ pub(super) fn derivative_matrix<const L: usize>(
         let te = skew_times(m, n, [x[0], x[1], x[2], x[3]]);
         let tg = skew_times(m, n, [x[4], x[5], x[6], x[7]]);
         for p in 0..4 {
-            let mut ee = Lanes::ZERO;
+            let mut ee = zero;
             for q in 0..4 {
                 ee = ee.mul_add(sym[p][q], x[q]);
             }
@@ -134,7 +134,7 @@ pub(super) fn derivative_matrix<const L: usize>(
 
 /// `T y = (-m.yv, m y0 + n x yv)`.
 #[inline(always)]
-fn skew_times<const L: usize>(m: [Lanes<L>; 3], n: [Lanes<L>; 3], y: [Lanes<L>; 4]) -> [Lanes<L>; 4] {
+fn skew_times<S: Simd>(m: [Lanes<S>; 3], n: [Lanes<S>; 3], y: [Lanes<S>; 4]) -> [Lanes<S>; 4] {
     let scalar = (m[0] * y[1]).mul_add(m[1], y[2]).mul_add(m[2], y[3]);
     [
         -scalar,
@@ -146,8 +146,9 @@ fn skew_times<const L: usize>(m: [Lanes<L>; 3], n: [Lanes<L>; 3], y: [Lanes<L>; 
 
 /// Values of the eight equations from the derivative matrix at `x`: `q = 1/2 x . grad q` for quadrics.
 #[inline(always)]
-pub(super) fn values<const L: usize>(j: &[[Lanes<L>; 8]; 8], x: &Vec8<L>) -> Vec8<L> {
-    let mut f = [Lanes::ZERO; 8];
+pub(super) fn values<S: Simd>(j: &[[Lanes<S>; 8]; 8], x: &Vec8<S>) -> Vec8<S> {
+    let simd = x[0].simd;
+    let mut f = [Lanes::zero(simd); 8];
     for i in 0..8 {
         for p in 0..8 {
             f[i] = f[i].mul_add(j[i][p], x[p]);
@@ -156,7 +157,7 @@ pub(super) fn values<const L: usize>(j: &[[Lanes<L>; 8]; 8], x: &Vec8<L>) -> Vec
     for i in 0..7 {
         f[i] = f[i].times(0.5);
     }
-    f[7] -= Lanes::splat(Complex64::new(1.0, 0.0));
+    f[7] -= Lanes::splat(simd, Complex64::ONE);
     f
 }
 
@@ -166,19 +167,20 @@ pub(super) fn values<const L: usize>(j: &[[Lanes<L>; 8]; 8], x: &Vec8<L>) -> Vec
 /// `J x_k = -(C sum_{0<i<=j, i+j=k} F(x_i, x_j) + C' sum_{i+j=k-1} F(x_i, x_j))` with the polar forms
 /// `F` (halved where `i = j`): one LU factorisation serves all orders.
 #[inline(always)]
-pub(super) fn taylor<const L: usize>(
+pub(super) fn taylor<S: Simd>(
     homotopy: &SectionHomotopy,
-    rows: &Rows<L>,
-    lu: &Lu<L>,
-    x: &Vec8<L>,
-) -> [Vec8<L>; ORDER] {
-    let mut series = [[Lanes::ZERO; 8]; ORDER];
+    rows: &Rows<S>,
+    lu: &Lu<S>,
+    x: &Vec8<S>,
+) -> [Vec8<S>; ORDER] {
+    let zero = Lanes::zero(x[0].simd);
+    let mut series = [[zero; 8]; ORDER];
     // full convolution of order k - 1, needed with C'
     let (mut full, _) = polar_forms(x, x);
     full = full.map(|z| z.times(0.5));
     for k in 1..=ORDER {
-        let mut inner = [Lanes::ZERO; FORMS];
-        let mut study = Lanes::ZERO;
+        let mut inner = [zero; FORMS];
+        let mut study = zero;
         for i in 1..=k / 2 {
             let j = k - i;
             let (f, s) = polar_forms(&series[i - 1], &series[j - 1]);
@@ -188,9 +190,9 @@ pub(super) fn taylor<const L: usize>(
             }
             study += s.times(weight);
         }
-        let sections = if k == 1 { [Lanes::ZERO; 6] } else { rows_times(rows, &inner) };
+        let sections = if k == 1 { [zero; 6] } else { rows_times(rows, &inner) };
         let moved = homotopy.slope_times(&full);
-        let mut rhs = [Lanes::ZERO; 8];
+        let mut rhs = [zero; 8];
         for i in 0..6 {
             rhs[i] = -(sections[i] + moved[i]);
         }
@@ -211,13 +213,14 @@ mod tests {
     use super::*;
     use crate::num::Rng;
     use crate::solve::sections::forms;
+    use pulp::Scalar;
 
     fn random_vector(rng: &mut Rng) -> [Complex64; 8] {
         std::array::from_fn(|_| Complex64::new(rng.normal(), rng.normal()))
     }
 
-    fn lanes(x: [Complex64; 8]) -> Vec8<1> {
-        x.map(Lanes::splat)
+    fn lanes(x: [Complex64; 8]) -> Vec8<Scalar> {
+        x.map(|z| Lanes::splat(Scalar::new(), z))
     }
 
     #[test]
@@ -230,7 +233,7 @@ mod tests {
         };
         let homotopy = SectionHomotopy::new(&section(), Complex64::new(0.6, 0.8), &section());
         let (x, y) = (random_vector(&mut rng), random_vector(&mut rng));
-        let rows = homotopy.rows_at(Lanes::<1>::splat(Complex64::new(0.3, 0.2)));
+        let rows = homotopy.rows_at(Lanes::splat(Scalar::new(), Complex64::new(0.3, 0.2)));
         let v = lanes(random_vector(&mut rng));
         let j = derivative_matrix(&rows, &lanes(x), &v);
         let f = values(&j, &lanes(x));
@@ -276,10 +279,10 @@ mod tests {
             Complex64::new(-1.0, 0.0),
             &Sections { rows: target },
         );
-        let t0 = Lanes::<1>::splat(Complex64::new(0.5, 0.0));
+        let t0 = Lanes::splat(Scalar::new(), Complex64::new(0.5, 0.0));
         let rows = homotopy.rows_at(t0);
         let norm: f64 = x.iter().map(num_complex::Complex::norm_sqr).sum();
-        let patch: Vec8<1> = x.map(|z| Lanes::splat(z.conj() / norm));
+        let patch: Vec8<Scalar> = x.map(|z| Lanes::splat(Scalar::new(), z.conj() / norm));
         let lu = Lu::factorise(derivative_matrix(&rows, &lanes(x), &patch));
         let series = taylor(&homotopy, &rows, &lu, &lanes(x));
         let defect = |h: f64| {
@@ -289,7 +292,7 @@ mod tests {
                     y[p] += c[p].times(h.powf(k as f64 + 1.0));
                 }
             }
-            let rows = homotopy.rows_at(Lanes::<1>::splat(Complex64::new(0.5 + h, 0.0)));
+            let rows = homotopy.rows_at(Lanes::splat(Scalar::new(), Complex64::new(0.5 + h, 0.0)));
             let j = derivative_matrix(&rows, &y, &patch);
             values(&j, &y).iter().map(|z| z.lane(0).norm()).fold(0.0, f64::max)
         };

@@ -1,4 +1,4 @@
-//! Predictor-corrector tracking of `L` paths at a time.
+//! Predictor-corrector tracking of as many paths at a time as the vector unit has lanes.
 //!
 //! Predictor: Taylor series of order [`ORDER`](super::system::ORDER) in the (complex) parameter. Its last term
 //! sets the step, the ratio of its last two terms bounds it by the estimated radius of convergence
@@ -7,7 +7,10 @@
 
 use num_complex::Complex64;
 
-use super::lanes::{Lanes, Lu, Real, Vec8, norm_sqr};
+use pulp::{Scalar, Simd};
+
+use super::lanes::{Lanes, MOST_LANES, PerLane, Vec8, load, norm_sqr, store};
+use super::lu::Lu;
 use super::system::{ORDER, SectionHomotopy, derivative_matrix, taylor, values};
 
 /// Limits of the tracker; dimensionless, since solutions are kept at norm one.
@@ -48,28 +51,29 @@ impl TrackerSettings {
     };
 }
 
-/// `L` paths under way.
+/// Paths under way, one per lane.
 #[derive(Debug, Clone)]
-pub(super) struct Front<const L: usize> {
-    pub(super) x: Vec8<L>,
-    pub(super) t: Lanes<L>,
-    pub(super) goal: Lanes<L>,
+pub(super) struct Front<S: Simd> {
+    pub(super) x: Vec8<S>,
+    pub(super) t: Lanes<S>,
+    pub(super) goal: Lanes<S>,
     /// Factor on the next step, below one after a rejection.
-    pub(super) caution: Real<L>,
+    pub(super) caution: PerLane,
 }
 
 /// What one step did in each lane.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct StepReport<const L: usize> {
-    pub(super) accepted: [bool; L],
-    pub(super) arrived: [bool; L],
+pub(super) struct StepReport {
+    pub(super) accepted: [bool; MOST_LANES],
+    pub(super) arrived: [bool; MOST_LANES],
 }
 
-impl<const L: usize> Front<L> {
-    pub(super) fn new() -> Self {
-        let mut x = [Lanes::ZERO; 8];
-        x[0] = Lanes::splat(Complex64::ONE);
-        Self { x, t: Lanes::ZERO, goal: Lanes::ZERO, caution: [1.0; L] }
+impl<S: Simd> Front<S> {
+    pub(super) fn new(simd: S) -> Self {
+        let zero = Lanes::zero(simd);
+        let mut x = [zero; 8];
+        x[0] = Lanes::splat(simd, Complex64::ONE);
+        Self { x, t: zero, goal: zero, caution: [1.0; MOST_LANES] }
     }
 
     pub(super) fn set_lane(&mut self, l: usize, x: &[Complex64; 8], t: Complex64, goal: Complex64) {
@@ -91,15 +95,17 @@ impl<const L: usize> Front<L> {
 
     /// The patch that keeps `x` at norm one: `v = conj(x) / |x|^2`, after normalising `x`.
     #[inline(always)]
-    fn normalise(&mut self) -> Vec8<L> {
-        let inverse = norm_sqr(&self.x).map(|n| 1.0 / n.sqrt());
+    fn normalise(&mut self) -> Vec8<S> {
+        let s = self.t.simd;
+        let inverse = s.div_f64s(s.splat_f64s(1.0), s.sqrt_f64s(norm_sqr(&self.x)));
         self.x = self.x.map(|z| z.scale(inverse));
         self.x.map(Lanes::conj)
     }
 
     /// One step of every lane towards its goal.
     #[inline(always)]
-    pub(super) fn step(&mut self, homotopy: &SectionHomotopy, settings: &TrackerSettings) -> StepReport<L> {
+    pub(super) fn step(&mut self, homotopy: &SectionHomotopy, settings: &TrackerSettings) -> StepReport {
+        let s = self.t.simd;
         let patch = self.normalise();
         let rows = homotopy.rows_at(self.t);
         let lu = Lu::factorise(derivative_matrix(&rows, &self.x, &patch));
@@ -114,13 +120,14 @@ impl<const L: usize> Front<L> {
             y[p] = y[p].mul_add(sum, dt);
         }
         let accepted = correct(homotopy, settings, next_t, &patch, &mut y);
+        let mask = s.greater_than_f64s(load(s, &accepted.map(f64::from)), s.splat_f64s(0.5));
         for p in 0..8 {
-            self.x[p] = self.x[p].select(accepted, y[p]);
+            self.x[p] = self.x[p].select(mask, y[p]);
         }
-        self.t = self.t.select(accepted, next_t);
-        for l in 0..L {
-            self.caution[l] =
-                if accepted[l] { (2.0 * self.caution[l]).min(1.0) } else { self.caution[l] * 0.35 };
+        self.t = self.t.select(mask, next_t);
+        for l in 0..S::F64_LANES {
+            let grown = (2.0 * self.caution[l]).min(1.0);
+            self.caution[l] = if accepted[l] { grown } else { 0.35 * self.caution[l] };
         }
         let arrived = std::array::from_fn(|l| accepted[l] && reaches[l]);
         StepReport { accepted, arrived }
@@ -130,41 +137,53 @@ impl<const L: usize> Front<L> {
     #[inline(always)]
     fn choose_step(
         &self,
-        series: &[Vec8<L>; ORDER],
+        series: &[Vec8<S>; ORDER],
         settings: &TrackerSettings,
-    ) -> (Lanes<L>, Lanes<L>, [bool; L]) {
-        let last = norm_sqr(&series[ORDER - 1]);
-        let earlier = norm_sqr(&series[ORDER - 2]);
+    ) -> (Lanes<S>, Lanes<S>, [bool; MOST_LANES]) {
+        let s = self.t.simd;
+        let last = store::<S>(norm_sqr(&series[ORDER - 1]));
+        let earlier = store::<S>(norm_sqr(&series[ORDER - 2]));
         let way = self.goal - self.t;
-        let distance = way.norm_sqr().map(f64::sqrt);
-        let mut fraction = [1.0; L];
-        let mut reaches = [false; L];
-        for l in 0..L {
+        let distance = store::<S>(s.sqrt_f64s(way.norm_sqr()));
+        let mut fraction = [1.0; MOST_LANES];
+        let mut reaches = [false; MOST_LANES];
+        for l in 0..S::F64_LANES {
             let radius = (earlier[l] / last[l]).sqrt();
-            let by_error = (settings.prediction / last[l].sqrt()).powf(1.0 / ORDER as f64);
+            let by_error = rough_root(settings.prediction * settings.prediction / last[l]);
             let step = by_error.min(settings.radius_fraction * radius) * self.caution[l];
             reaches[l] = !(step < distance[l]);
             fraction[l] = if reaches[l] { 1.0 } else { step / distance[l] };
         }
-        let dt = way.scale(fraction);
-        let next = (self.t + dt).select(reaches, self.goal);
+        let dt = way.scale(load(s, &fraction));
+        let mask = s.greater_than_f64s(load(s, &reaches.map(f64::from)), s.splat_f64s(0.5));
+        let next = (self.t + dt).select(mask, self.goal);
         (next, dt, reaches)
     }
 }
 
+/// `x^(1 / (2 ORDER))` to six percent: the exponent field of a double is its logarithm, near enough for a
+/// step size and far faster than `powf` in every lane.
+#[inline(always)]
+fn rough_root(x: f64) -> f64 {
+    const ONE: i64 = 0x3ff0_0000_0000_0000;
+    const DEGREE: i64 = 2 * ORDER.cast_signed() as i64;
+    let bits = x.to_bits().cast_signed() - ONE;
+    f64::from_bits((bits / DEGREE + ONE).cast_unsigned())
+}
+
 /// Newton's method at `t` on the patch; which lanes converged.
 #[inline(always)]
-fn correct<const L: usize>(
+fn correct<S: Simd>(
     homotopy: &SectionHomotopy,
     settings: &TrackerSettings,
-    t: Lanes<L>,
-    patch: &Vec8<L>,
-    y: &mut Vec8<L>,
-) -> [bool; L] {
+    t: Lanes<S>,
+    patch: &Vec8<S>,
+    y: &mut Vec8<S>,
+) -> [bool; MOST_LANES] {
     let rows = homotopy.rows_at(t);
-    let mut good = [false; L];
-    let mut bad = [false; L];
-    let mut previous = [settings.capture; L];
+    let mut good = [false; MOST_LANES];
+    let mut bad = [false; MOST_LANES];
+    let mut previous = [settings.capture; MOST_LANES];
     for _ in 0..settings.corrections {
         let j = derivative_matrix(&rows, y, patch);
         let f = values(&j, y);
@@ -172,14 +191,14 @@ fn correct<const L: usize>(
         for p in 0..8 {
             y[p] -= delta[p];
         }
-        let size = norm_sqr(&delta).map(f64::sqrt);
-        for l in 0..L {
+        let size = store::<S>(norm_sqr(&delta)).map(f64::sqrt);
+        for l in 0..S::F64_LANES {
             // NaN counts as bad
             bad[l] |= !good[l] && !(size[l] <= previous[l]);
             good[l] |= !bad[l] && size[l] <= settings.accuracy;
             previous[l] = 0.3 * size[l];
         }
-        if (0..L).all(|l| good[l] || bad[l]) {
+        if (0..S::F64_LANES).all(|l| good[l] || bad[l]) {
             break;
         }
     }
@@ -201,9 +220,11 @@ pub(crate) struct Tracked {
     pub(crate) rejections: u32,
 }
 
-/// Tracks every start from `t = 1` to 0, `L` at a time; a path that has not arrived when `|t|` falls
+/// Tracks every start from `t = 1` to 0, a lane each; a path that has not arrived when `|t|` falls
 /// below `endgame_at` is left there for the endgame, as is one that runs out of steps.
-pub(crate) fn track_all<const L: usize>(
+#[inline(always)]
+pub(super) fn track_lanes<S: Simd>(
+    simd: S,
     homotopy: &SectionHomotopy,
     starts: &[[Complex64; 8]],
     settings: &TrackerSettings,
@@ -212,15 +233,15 @@ pub(crate) fn track_all<const L: usize>(
     let blank =
         |x: &[Complex64; 8]| Tracked { x: *x, t: Complex64::ONE, arrived: false, steps: 0, rejections: 0 };
     let mut out: Vec<Tracked> = starts.iter().map(blank).collect();
-    let mut front = Front::<L>::new();
-    let mut occupant: [Option<usize>; L] = [None; L];
+    let mut front = Front::new(simd);
+    let mut occupant: [Option<usize>; MOST_LANES] = [None; MOST_LANES];
     let mut next = 0;
-    for l in 0..L {
+    for l in 0..S::F64_LANES {
         refill(&mut front, &mut occupant, l, &mut next, starts);
     }
     while occupant.iter().any(Option::is_some) {
         let report = front.step(homotopy, settings);
-        for l in 0..L {
+        for l in 0..S::F64_LANES {
             let Some(index) = occupant[l] else { continue };
             let path = &mut out[index];
             if report.accepted[l] {
@@ -241,9 +262,9 @@ pub(crate) fn track_all<const L: usize>(
     out
 }
 
-fn refill<const L: usize>(
-    front: &mut Front<L>,
-    occupant: &mut [Option<usize>; L],
+fn refill<S: Simd>(
+    front: &mut Front<S>,
+    occupant: &mut [Option<usize>; MOST_LANES],
     l: usize,
     next: &mut usize,
     starts: &[[Complex64; 8]],
@@ -264,7 +285,7 @@ pub(crate) fn track_one(
     goal: Complex64,
     settings: &TrackerSettings,
 ) -> Option<[Complex64; 8]> {
-    let mut front = Front::<1>::new();
+    let mut front = Front::new(Scalar::new());
     front.set_lane(0, x, t, goal);
     for _ in 0..settings.most_steps {
         if front.step(homotopy, settings).arrived[0] {
