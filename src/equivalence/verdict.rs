@@ -264,7 +264,8 @@ mod tests {
     #[test]
     fn the_joint_free_platform_is_equivalent() {
         let a = octahedral();
-        let (b, _) = joint_free(&Octahedral::recognise(&a).unwrap(), [0.2, 0.25, 0.2, 0.3, 0.2, 0.25]).unwrap();
+        let (b, _) =
+            joint_free(&Octahedral::recognise(&a).unwrap(), [0.2, 0.25, 0.2, 0.3, 0.2, 0.25]).unwrap();
         let v = verify(&a, &b, &plan(), &FkOptions::default()).unwrap();
         assert_eq!(v.verdict, Verdict::Equivalent);
         assert!(v.worst_distance() < 1e-9);

@@ -6,6 +6,7 @@ mod cli_fk;
 mod cli_frame;
 mod cli_optimize;
 mod cli_synthesis;
+mod cli_verify;
 mod design_files;
 mod leg_maps;
 mod octahedral_class;

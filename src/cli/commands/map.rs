@@ -36,7 +36,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
 }
 
 /// One sentence: what was decided and by which number.
-fn explanation(o: &LegMapOutcome) -> String {
+pub(super) fn explanation(o: &LegMapOutcome) -> String {
     let t = o.tolerances;
     match o.relation {
         Relation::Unrelated => {
@@ -67,7 +67,7 @@ fn explanation(o: &LegMapOutcome) -> String {
     }
 }
 
-fn record(o: &LegMapOutcome) -> Map<String, Value> {
+pub(super) fn record(o: &LegMapOutcome) -> Map<String, Value> {
     let numbers = |x: &mut dyn Iterator<Item = f64>| x.map(number).collect::<Value>();
     let a: Value = (0..6).map(|i| numbers(&mut (0..6).map(|j| o.closest.a[(i, j)]))).collect();
     let mut json = Map::new();

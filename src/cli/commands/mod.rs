@@ -17,6 +17,7 @@ mod family;
 mod fk;
 mod map;
 mod optimize;
+mod verify;
 
 use clap::Subcommand;
 
@@ -37,6 +38,8 @@ pub(crate) enum Command {
     Map(map::Args),
     /// The best joint-free platform equivalent to an octahedral design
     Optimize(optimize::Args),
+    /// Whether two designs are kinematically equivalent, with evidence
+    Verify(verify::Args),
 }
 
 impl Command {
@@ -48,6 +51,7 @@ impl Command {
             Self::Fk(args) => fk::run(args, context),
             Self::Map(args) => map::run(args, context),
             Self::Optimize(args) => optimize::run(args, context),
+            Self::Verify(args) => verify::run(args, context),
         }
     }
 }
