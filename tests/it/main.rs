@@ -1,6 +1,7 @@
 //! Integration tests: one binary, one module a topic.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a failing test panics")]
 
+mod architecture;
 mod certify;
 mod cli_fk;
 mod cli_frame;
@@ -8,6 +9,7 @@ mod cli_optimize;
 mod cli_synthesis;
 mod cli_verify;
 mod design_files;
+mod fk_laws;
 mod leg_maps;
 mod octahedral_class;
 mod reference;

@@ -1,0 +1,111 @@
+//! The layering: who may name whom, which crates are named where, nothing prints or reads below `cli`.
+
+mod rules;
+mod scan;
+mod snippets;
+mod table;
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use rules::violations;
+use table::{APART, in_page, reach, table};
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn read(path: &Path) -> String {
+    std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+}
+
+/// The Rust files below a folder, as paths relative to it with `/`.
+fn rust_files(folder: &Path) -> Vec<String> {
+    let mut out = Vec::new();
+    let mut open = vec![folder.to_path_buf()];
+    while let Some(next) = open.pop() {
+        for entry in std::fs::read_dir(&next).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                open.push(path);
+            } else if path.extension().is_some_and(|e| e == "rs") {
+                let parts = path.strip_prefix(folder).unwrap().iter();
+                out.push(parts.map(|p| p.to_string_lossy()).collect::<Vec<_>>().join("/"));
+            }
+        }
+    }
+    out.sort();
+    out
+}
+
+/// Names of the dependencies as they are written in code.
+fn dependencies() -> BTreeSet<String> {
+    let manifest: toml::Table = read(&root().join("Cargo.toml")).parse().unwrap();
+    manifest["dependencies"].as_table().unwrap().keys().map(|k| k.replace('-', "_")).collect()
+}
+
+#[test]
+fn no_source_file_breaks_the_layering() {
+    let (table, crates) = (table(), dependencies());
+    let src = root().join("src");
+    let files = rust_files(&src);
+    assert!(files.len() > 50, "only {} files were looked at", files.len());
+    let found: Vec<String> =
+        files.iter().flat_map(|f| violations(&table, &crates, f, &read(&src.join(f)))).collect();
+    assert!(found.is_empty(), "\n{}", found.join("\n"));
+}
+
+#[test]
+fn the_table_in_the_documentation_is_the_one_tested() {
+    let page = read(&root().join("docs/architecture.md"));
+    let (documented, tested) = (in_page(&page), table());
+    for (d, t) in documented.iter().zip(&tested) {
+        assert_eq!(d, t);
+    }
+    assert_eq!(documented.len(), tested.len());
+}
+
+#[test]
+fn modules_that_check_each_other_do_not_reach_each_other() {
+    let table = table();
+    let mut through = 0;
+    for (left, right) in APART {
+        for (from, to) in left.iter().map(|l| (l, right)).chain(right.iter().map(|r| (r, left))) {
+            let known = reach(&table, from);
+            through += known.len();
+            // the part below a module it may use is not what keeps the groups apart
+            assert!(to.iter().all(|t| !known.contains(t)) || from_may_use(from, to), "{from} reaches {to:?}");
+        }
+    }
+    assert!(through > 20);
+    assert!(reach(&table, "cli").contains(&"num") && reach(&table, "offsets").contains(&"geom"));
+}
+
+/// `fk` attaches certificates: that direction alone is allowed.
+fn from_may_use(from: &str, to: &[&str]) -> bool {
+    from == "fk" && to == ["solve::certify"]
+}
+
+#[test]
+fn every_dependency_is_used_and_every_crate_of_the_table_is_one() {
+    let named: BTreeSet<String> =
+        table().iter().flat_map(|r| r.external.clone()).map(|e| e.0.to_string()).collect();
+    assert_eq!(named, dependencies());
+    let src = root().join("src");
+    let sources: Vec<String> = rust_files(&src).iter().map(|f| read(&src.join(f))).collect();
+    for name in named {
+        let path = format!("{name}::");
+        assert!(sources.iter().any(|s| scan::blank(s).contains(&path)), "{name} is not used");
+    }
+}
+
+#[test]
+fn no_file_has_more_than_400_lines() {
+    for folder in ["src", "tests", "examples"] {
+        let folder = root().join(folder);
+        for file in rust_files(&folder) {
+            let lines = read(&folder.join(&file)).lines().count();
+            assert!(lines <= 400, "{file} has {lines} lines");
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! Which module may name which: the table of `docs/architecture.md` as data.
+
+/// One row.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Row<'a> {
+    /// Module; files of submodules without a row of their own belong to it.
+    pub(crate) module: &'a str,
+    /// Modules it may name, besides itself.
+    pub(crate) imports: Vec<&'a str>,
+    /// External crates and, where only one file may name them, that file.
+    pub(crate) external: Vec<(&'a str, Option<&'a str>)>,
+}
+
+type Line = (&'static str, &'static [&'static str], &'static [(&'static str, Option<&'static str>)]);
+
+const COMPLEX: (&str, Option<&str>) = ("num_complex", None);
+const MATRICES: (&str, Option<&str>) = ("nalgebra", None);
+const ERRORS: (&str, Option<&str>) = ("thiserror", None);
+
+const LINES: &[Line] = &[
+    ("num", &[], &[("faer", Some("linalg.rs")), COMPLEX, ERRORS]),
+    ("geom", &["num", "manipulator"], &[MATRICES, COMPLEX]),
+    ("poly", &["num"], &[COMPLEX, ERRORS]),
+    ("manipulator", &["num", "geom"], &[MATRICES, ERRORS]),
+    ("solve", &["num", "geom", "poly", "manipulator"], &[MATRICES, COMPLEX, ERRORS]),
+    ("solve::certify", &["num", "geom", "manipulator"], &[MATRICES, COMPLEX, ERRORS]),
+    ("solve::homotopy", &["num", "geom", "manipulator", "solve"], &[MATRICES, COMPLEX, ERRORS]),
+    (
+        "fk",
+        &["num", "geom", "poly", "manipulator", "solve", "solve::certify", "solve::homotopy"],
+        &[MATRICES, COMPLEX, ERRORS],
+    ),
+    ("synthesis", &["num", "geom", "manipulator"], &[MATRICES, ERRORS]),
+    (
+        "offsets",
+        &["num", "geom", "manipulator", "synthesis"],
+        &[MATRICES, ("clarabel", Some("clarabel.rs")), ERRORS],
+    ),
+    (
+        "equivalence",
+        &["num", "geom", "manipulator", "synthesis", "fk", "solve::certify"],
+        &[MATRICES, COMPLEX, ERRORS],
+    ),
+    (
+        "design",
+        &["geom", "manipulator"],
+        &[
+            MATRICES,
+            ("serde", None),
+            ("serde_json", None),
+            ("toml", None),
+            ("jsonc_parser", None),
+            ("strsim", None),
+            ERRORS,
+        ],
+    ),
+    (
+        "cli",
+        &[
+            "num",
+            "geom",
+            "poly",
+            "manipulator",
+            "solve",
+            "solve::certify",
+            "solve::homotopy",
+            "fk",
+            "synthesis",
+            "offsets",
+            "equivalence",
+            "design",
+        ],
+        &[
+            MATRICES,
+            COMPLEX,
+            ("serde", None),
+            ("serde_json", None),
+            ("toml", None),
+            ("clap", None),
+            ("anstream", None),
+            ("anstyle", None),
+            ERRORS,
+        ],
+    ),
+    ("main", &["cli"], &[]),
+];
+
+/// Two groups of modules that must not reach each other, not even through others.
+pub(crate) const APART: [(&[&str], &[&str]); 2] = [
+    (&["fk", "solve", "solve::certify", "solve::homotopy"], &["synthesis", "offsets"]),
+    (&["solve::certify"], &["solve::homotopy", "fk"]),
+];
+
+/// The table.
+pub(crate) fn table() -> Vec<Row<'static>> {
+    let row = |&(module, imports, external): &Line| Row {
+        module,
+        imports: imports.to_vec(),
+        external: external.to_vec(),
+    };
+    LINES.iter().map(row).collect()
+}
+
+/// The table in a Markdown page: lines that begin with ``| ` ``, three cells, names in backticks.
+pub(crate) fn in_page(page: &str) -> Vec<Row<'_>> {
+    page.lines().filter(|l| l.starts_with("| `")).filter_map(row_of).collect()
+}
+
+fn row_of(line: &str) -> Option<Row<'_>> {
+    let cells: Vec<&str> = line.split('|').map(str::trim).collect();
+    let [_, module, imports, external, _] = cells[..] else { return None };
+    Some(Row {
+        module: quoted(module).next()?,
+        imports: quoted(imports).collect(),
+        external: external
+            .split(',')
+            .filter_map(|item| {
+                let mut names = quoted(item);
+                Some((names.next()?, names.next()))
+            })
+            .collect(),
+    })
+}
+
+fn quoted(cell: &str) -> impl Iterator<Item = &str> {
+    cell.split('`').skip(1).step_by(2)
+}
+
+/// The row of a module path: the longest that is a prefix of it.
+pub(crate) fn row_for<'t, 'a>(table: &'t [Row<'a>], path: &str) -> Option<&'t Row<'a>> {
+    let holds =
+        |r: &&Row| path == r.module || path.strip_prefix(r.module).is_some_and(|p| p.starts_with("::"));
+    table.iter().filter(holds).max_by_key(|r| r.module.len())
+}
+
+/// Everything `module` reaches through the table.
+pub(crate) fn reach<'a>(table: &[Row<'a>], module: &'a str) -> Vec<&'a str> {
+    let mut known = vec![module];
+    let mut next = 0;
+    while next < known.len() {
+        let imports = table.iter().filter(|r| r.module == known[next]).flat_map(|r| r.imports.clone());
+        for m in imports.collect::<Vec<_>>() {
+            if !known.contains(&m) {
+                known.push(m);
+            }
+        }
+        next += 1;
+    }
+    known
+}
