@@ -107,7 +107,7 @@ fn both_frames_moved(method: &dyn ForwardKinematics, p: &Problem, rng: &mut Rng)
     let v = Vector3::from_fn(|_, _| size * rng.normal());
     let legs = p.manipulator.legs();
     let legs = legs.map(|l| Leg { base: turn * l.base + u, platform: twist * l.platform + v });
-    let m = moved(&p.manipulator, legs);
+    let m = moved(&p.manipulator, &legs);
     poses_follow(method, p, (&m, &p.s), &|pose| {
         let rotation = complex(turn.matrix()) * pose.rotation * complex(twist.inverse().matrix());
         let position = complex(turn.matrix()) * pose.position + u.map(Complex64::from)
@@ -120,7 +120,7 @@ fn another_unit(method: &dyn ForwardKinematics, p: &Problem, _: &mut Rng) -> Res
     for k in [1e-6, 1e-3, 1e6] {
         let legs = p.manipulator.legs().map(|l| Leg { base: l.base * k, platform: l.platform * k });
         let s = SquaredLegLengths::try_new(p.s.get().map(|s| s * k * k)).unwrap();
-        poses_follow(method, p, (&moved(&p.manipulator, legs), &s), &|pose| ComplexPose {
+        poses_follow(method, p, (&moved(&p.manipulator, &legs), &s), &|pose| ComplexPose {
             position: pose.position * Complex64::from(k),
             ..*pose
         })?;
@@ -134,14 +134,14 @@ fn reflected(method: &dyn ForwardKinematics, p: &Problem, _: &mut Rng) -> Result
     let image = |x: Point3<f64>| Point3::from(mirror * x.coords);
     let legs = p.manipulator.legs().map(|l| Leg { base: image(l.base), platform: image(l.platform) });
     let s = complex(&mirror);
-    poses_follow(method, p, (&moved(&p.manipulator, legs), &p.s), &|pose| ComplexPose {
+    poses_follow(method, p, (&moved(&p.manipulator, &legs), &p.s), &|pose| ComplexPose {
         rotation: s * pose.rotation * s,
         position: s * pose.position,
     })
 }
 
 /// The same joints and pairs with other coordinates.
-fn moved(m: &Manipulator, legs: [Leg; 6]) -> Manipulator {
+fn moved(m: &Manipulator, legs: &[Leg; 6]) -> Manipulator {
     let (mut base, mut platform) = (m.base_joints().to_vec(), m.platform_joints().to_vec());
     for ((i, j), leg) in m.pairs().into_iter().zip(legs) {
         base[i] = leg.base;

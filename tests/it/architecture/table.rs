@@ -24,7 +24,11 @@ const LINES: &[Line] = &[
     ("manipulator", &["num", "geom"], &[MATRICES, ERRORS]),
     ("solve", &["num", "geom", "poly", "manipulator"], &[MATRICES, COMPLEX, ERRORS]),
     ("solve::certify", &["num", "geom", "manipulator"], &[MATRICES, COMPLEX, ERRORS]),
-    ("solve::homotopy", &["num", "geom", "manipulator", "solve"], &[MATRICES, COMPLEX, ERRORS]),
+    (
+        "solve::homotopy",
+        &["num", "geom", "manipulator", "solve"],
+        &[MATRICES, COMPLEX, ("pulp", None), ERRORS],
+    ),
     (
         "fk",
         &["num", "geom", "poly", "manipulator", "solve", "solve::certify", "solve::homotopy"],
