@@ -9,6 +9,7 @@ mod evidence;
 mod homotopy;
 mod octic;
 mod solutions;
+mod template;
 
 pub use choose::{Automatic, solver};
 pub use homotopy::Homotopy;
@@ -16,6 +17,7 @@ pub use octic::{Octic, octic};
 pub use solutions::{
     Completeness, FkRoot, FkSolutions, Method, PathEnd, PathReport, Reality, Rejected, RejectionReason,
 };
+pub use template::Template;
 
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use thiserror::Error;

@@ -10,6 +10,8 @@ pub enum Method {
     Octic,
     /// Parameter homotopy in dual quaternions; any six legs.
     Homotopy,
+    /// Elimination template and generalized eigenvectors (Martyushev); general six legs.
+    Template,
 }
 
 impl Method {
@@ -19,6 +21,7 @@ impl Method {
         match self {
             Self::Octic => "octic",
             Self::Homotopy => "homotopy",
+            Self::Template => "template",
         }
     }
 }

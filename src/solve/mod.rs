@@ -2,7 +2,9 @@
 //! certifying the roots by code that shares nothing with the solver.
 
 pub mod certify;
+mod generic_frame;
 pub mod homotopy;
 mod sections;
+pub mod template;
 
 pub(crate) use sections::{Frame, quaternion_product, split};

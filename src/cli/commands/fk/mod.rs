@@ -49,7 +49,8 @@ impl MethodArg {
             Self::Auto => Ok(None),
             Self::Octic => Ok(Some(Method::Octic)),
             Self::Homotopy => Ok(Some(Method::Homotopy)),
-            Self::Trilateration | Self::Sylvester | Self::Template => {
+            Self::Template => Ok(Some(Method::Template)),
+            Self::Trilateration | Self::Sylvester => {
                 let name = self.to_possible_value().map(|v| v.get_name().to_string()).unwrap_or_default();
                 let message = format!("the method `{name}` is not part of this version");
                 Err(Failure::refused("fk::method_not_available", message).with_help("take --method auto"))
