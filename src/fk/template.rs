@@ -69,7 +69,7 @@ fn solve_with(
     if candidates.is_empty() {
         let reason = format!(
             "the elimination template loses rank on this platform (pivot ratio {best:.1e}), as it does when base \
-             and platform are planar"
+             and platform are planar or share joints as in a 6-4"
         );
         return Err(FkError::NotApplicable { method: Method::Template, reason });
     }
@@ -104,4 +104,53 @@ fn assemble(
     };
     attach(&mut solutions, m, s, GENERAL);
     solutions
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::manipulator::Leg;
+    use nalgebra::{Point3, Vector3};
+
+    #[test]
+    fn a_corrupted_entry_gives_no_complete_set_and_no_false_root() {
+        let mut rng = Rng::new(5);
+        let legs = std::array::from_fn(|_| {
+            let mut p = || Point3::from(Vector3::from_fn(|_, _| rng.uniform(-2.0, 2.0)));
+            Leg { base: p(), platform: p() }
+        });
+        let m = Manipulator::from_legs(legs).unwrap();
+        let s = SquaredLegLengths::try_new([0.7, 1.1, 2.0, 0.9, 2.9, 1.5]).unwrap();
+        let o = FkOptions::default();
+        let right = Template.solve(&m, &s, &o).unwrap();
+        assert!(matches!(right.completeness, Completeness::Proved { .. }));
+        assert_eq!(right.rejected.len(), 29, "69 candidates, 40 poses, the others with a reason");
+        let shipped = Layout::shipped().unwrap();
+        let problem = GenericProblem::draw(&m, &s, &mut Rng::stream(o.seed, 0));
+        let good = |layout: &Layout| {
+            let pairs = layout.fill(&problem).eliminate().eigenpairs().unwrap();
+            let residual = |found: Found| match found {
+                Found::Pose(pose) => pose.residual(&m, &s),
+                Found::Infinite => f64::INFINITY,
+            };
+            pairs.iter().filter(|p| residual(layout.candidate(&problem, p)) < 1e-4).count()
+        };
+        assert_eq!(good(shipped), 40);
+        // not every entry matters to the result, but most do
+        let mut spoilt = 0;
+        for k in 0..8 {
+            let index = k * shipped.contributions() / 8;
+            let corrupted = shipped.corrupted(index);
+            let wrong = solve_with(&corrupted, &m, &s, &o).unwrap();
+            if good(&corrupted) < 40 {
+                spoilt += 1;
+                assert!(!wrong.all_accounted() && wrong.roots.len() < 40, "{}", wrong.roots.len());
+            }
+            for r in &wrong.roots {
+                let near = right.roots.iter().map(|q| q.pose.distance(&r.pose, m.size()));
+                assert!(near.fold(f64::MAX, f64::min) < 1e-8);
+            }
+        }
+        assert!(spoilt >= 5, "{spoilt} of 8");
+    }
 }

@@ -154,7 +154,8 @@ mod tests {
         for p in &pairs {
             let size: f64 = p.vector.iter().map(|z| z.norm()).sum();
             for (ra, rb) in a.iter().zip(&b) {
-                let defect: Complex64 = ra.iter().zip(rb).zip(&p.vector).map(|((x, y), v)| v * (p.beta * x - p.alpha * y)).sum();
+                let defect: Complex64 =
+                    ra.iter().zip(rb).zip(&p.vector).map(|((x, y), v)| v * (p.beta * x - p.alpha * y)).sum();
                 assert!(defect.norm() < 1e-12 * size * (p.alpha.norm() + p.beta.norm()));
             }
         }

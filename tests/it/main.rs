@@ -9,6 +9,7 @@ mod cli_optimize;
 mod cli_synthesis;
 mod cli_verify;
 mod design_files;
+mod eliminations;
 mod fk_laws;
 mod leg_maps;
 mod octahedral_class;

@@ -1,0 +1,97 @@
+//! The published eliminations against reference roots and against the homotopy.
+
+use std::fmt::Write as _;
+
+use equipod::fk::{Completeness, FkError, FkOptions, ForwardKinematics, Homotopy, Template};
+
+use crate::reference::{Reference, load};
+
+/// Designs with forty poses.
+const FORTY: [&str; 10] = [
+    "lee_shim",
+    "dietmaier40",
+    "general66_00",
+    "general66_01",
+    "general66_02",
+    "general65_00",
+    "realpose66_00",
+    "realpose66_01",
+    "nearsing_00",
+    "semiplanar6P6_00",
+];
+
+/// Designs outside the eliminations: planar bodies, or fewer than forty poses.
+const SPECIAL: [&str; 8] = [
+    "octahedral33_00",
+    "hexapod_00",
+    "hexapod_01",
+    "planar6P6P_00",
+    "planar6P6P_01",
+    "geom64_00",
+    "geom63_00",
+    "geom55_00",
+];
+
+fn finds_forty(method: &dyn ForwardKinematics, names: &[&str]) {
+    let mut report = String::new();
+    let mut good = true;
+    for name in names {
+        let r = load(&format!("{name}.json"));
+        let (m, s) = (&r.manipulator, r.lengths.squared());
+        match method.solve(m, &s, &FkOptions::default()) {
+            Ok(found) => {
+                let proved = matches!(found.completeness, Completeness::Proved { .. });
+                let other = Homotopy.solve(m, &s, &FkOptions::default()).unwrap();
+                let mut worst = 0.0f64;
+                for h in &other.roots {
+                    let near = found.roots.iter().map(|q| q.pose.distance(&h.pose, m.size()));
+                    worst = worst.max(near.fold(f64::INFINITY, f64::min));
+                }
+                good &= proved && found.roots.len() == 40 && other.roots.len() == 40 && worst < 1e-7;
+                let _ = writeln!(
+                    report,
+                    "{name:17} {:2} roots, proved {proved}, worst {worst:.1e}",
+                    found.roots.len()
+                );
+            }
+            Err(e) => {
+                good = false;
+                let _ = writeln!(report, "{name:17} {e}");
+            }
+        }
+    }
+    assert!(good, "\n{report}");
+}
+
+/// Whether the method answers; then it must say that roots may be missing and report no pose that is none.
+fn answers_honestly(method: &dyn ForwardKinematics, r: &Reference) -> bool {
+    let (m, s) = (&r.manipulator, r.lengths.squared());
+    match method.solve(m, &s, &FkOptions::default()) {
+        Ok(found) => {
+            assert!(!found.all_accounted(), "{}: {:?}", r.name, found.completeness);
+            for q in &found.roots {
+                let near = r.solutions.iter().map(|(pose, _)| q.pose.distance(pose, m.size()));
+                let near = near.fold(f64::INFINITY, f64::min);
+                assert!(near < 1e-6 || !q.certified, "{}: false root, {near:.1e}, {}", r.name, q.residual);
+            }
+            true
+        }
+        Err(FkError::NotApplicable { method: named, .. }) => {
+            assert_eq!(named, method.method());
+            false
+        }
+        Err(e) => panic!("{}: {e}", r.name),
+    }
+}
+
+#[test]
+fn the_template_finds_forty_certified_poses_equal_to_those_of_the_homotopy() {
+    finds_forty(&Template, &FORTY);
+}
+
+#[test]
+fn the_template_is_honest_about_special_platforms() {
+    let refused =
+        SPECIAL.iter().filter(|name| !answers_honestly(&Template, &load(&format!("{name}.json")))).count();
+    assert!(refused >= 7, "{refused}: the template keeps its rank on 5-5 platforms only");
+}
