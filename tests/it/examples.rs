@@ -1,0 +1,44 @@
+//! What the examples print is what their headers quote.
+
+macro_rules! examples {
+    ($($name:ident = $path:literal),* $(,)?) => {
+        $(
+            #[path = $path]
+            #[allow(dead_code, reason = "the example's main is not called here")]
+            mod $name;
+
+            #[test]
+            fn $name() {
+                assert_eq!($name::report().unwrap(), quoted(include_str!($path)), "run the example and quote it");
+            }
+        )*
+    };
+}
+
+examples! {
+    forward_kinematics = "../../examples/01_forward_kinematics.rs",
+    enumerate_family = "../../examples/02_enumerate_family.rs",
+    check_leg_map = "../../examples/03_check_leg_map.rs",
+    optimise_offsets = "../../examples/04_optimise_offsets.rs",
+    verify_equivalence = "../../examples/05_verify_equivalence.rs",
+}
+
+/// The block marked `text` in the header of an example.
+fn quoted(source: &str) -> String {
+    let header = source.lines().map_while(|l| l.strip_prefix("//!"));
+    let block = header.skip_while(|l| *l != " ```text").skip(1).take_while(|l| *l != " ```");
+    let lines: Vec<&str> = block.map(|l| l.strip_prefix(' ').unwrap_or(l)).collect();
+    lines.join("\n") + "\n"
+}
+
+#[test]
+fn examples_are_short() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
+    let mut count = 0;
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let text = std::fs::read_to_string(entry.unwrap().path()).unwrap();
+        assert!(text.lines().count() <= 60, "{text}");
+        count += 1;
+    }
+    assert_eq!(count, 6);
+}
