@@ -20,3 +20,8 @@ pub mod offsets;
 pub mod poly;
 pub mod solve;
 pub mod synthesis;
+
+/// The code of the README is compiled and run as a documentation test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeExamples;

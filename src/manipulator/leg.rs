@@ -204,7 +204,7 @@ impl Manipulator {
     }
 
     /// RMS distance of the platform leg ends from their centroid, design units: the default
-    /// characteristic length of [`jacobian`](super::jacobian). Falls back to [`size`](Self::size) when
+    /// characteristic length of [`jacobian`](super::jacobian()). Falls back to [`size`](Self::size) when
     /// all platform joints coincide.
     #[must_use]
     pub fn platform_rms_radius(&self) -> f64 {

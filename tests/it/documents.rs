@@ -73,7 +73,8 @@ fn links_between_pages_lead_somewhere() {
 fn source_files_named_in_the_documents_exist() {
     for page in pages() {
         for quoted in read(&page).split('`').skip(1).step_by(2) {
-            let is_path = ["src/", "tests/", "docs/", "designs/", "examples/"].iter().any(|p| quoted.starts_with(p));
+            let is_path =
+                ["src/", "tests/", "docs/", "designs/", "examples/"].iter().any(|p| quoted.starts_with(p));
             let plain = quoted.chars().all(|c| c.is_alphanumeric() || "/._-".contains(c));
             if is_path && plain && !page.ends_with("CONTRIBUTING.md") {
                 assert!(root().join(quoted).exists(), "{}: {quoted}", page.display());
@@ -101,7 +102,10 @@ fn every_command_is_in_the_readme_and_in_its_manual() {
             continue;
         }
         for page in ["README.md", "docs/cli.md"] {
-            assert!(read(&root().join(page)).contains(&format!("`equipod {command}")), "{page} lacks {command}");
+            assert!(
+                read(&root().join(page)).contains(&format!("`equipod {command}")),
+                "{page} lacks {command}"
+            );
         }
     }
 }

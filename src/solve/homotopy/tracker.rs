@@ -1,6 +1,6 @@
 //! Predictor-corrector tracking of as many paths at a time as the vector unit has lanes.
 //!
-//! Predictor: Taylor series of order [`ORDER`](super::system::ORDER) in the (complex) parameter. Its last term
+//! Predictor: Taylor series of order [`ORDER`] in the (complex) parameter. Its last term
 //! sets the step, the ratio of its last two terms bounds it by the estimated radius of convergence
 //! (Timme 2021 uses the same two limits with a Pade predictor). Corrector: Newton. Every lane has its own
 //! parameter, goal and step; a lane whose corrector does not contract repeats the step at a fraction.

@@ -21,7 +21,7 @@ use crate::offsets::{
 /// Arguments of `optimize`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// Octahedral design (.toml or .json); [home], [workspace] and [optimize] set poses and limits
+    /// Octahedral design (.toml or .json); its tables home, workspace and optimize set poses and limits
     design: PathBuf,
     /// Write the optimised design; .json gives JSON, anything else TOML
     #[arg(short, long, value_name = "OUT")]
