@@ -1,6 +1,8 @@
 //! Which method solves a problem.
 
-use super::{FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, Method, Octic, Template};
+use super::{
+    FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, Method, Octic, Sylvester, Template,
+};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 
 /// The solver for a method by name, or for `None` the automatic choice.
@@ -10,6 +12,7 @@ pub fn solver(method: Option<Method>) -> Box<dyn ForwardKinematics> {
         None => Box::new(Automatic),
         Some(Method::Octic) => Box::new(Octic),
         Some(Method::Homotopy) => Box::new(Homotopy),
+        Some(Method::Sylvester) => Box::new(Sylvester),
         Some(Method::Template) => Box::new(Template),
     }
 }

@@ -5,10 +5,12 @@
 
 mod choose;
 mod collect;
+mod elimination;
 mod evidence;
 mod homotopy;
 mod octic;
 mod solutions;
+mod sylvester;
 mod template;
 
 pub use choose::{Automatic, solver};
@@ -17,6 +19,7 @@ pub use octic::{Octic, octic};
 pub use solutions::{
     Completeness, FkRoot, FkSolutions, Method, PathEnd, PathReport, Reality, Rejected, RejectionReason,
 };
+pub use sylvester::Sylvester;
 pub use template::Template;
 
 use crate::manipulator::{Manipulator, SquaredLegLengths};

@@ -10,6 +10,8 @@ pub enum Method {
     Octic,
     /// Parameter homotopy in dual quaternions; any six legs.
     Homotopy,
+    /// Sylvester matrix, polynomial of degree 40 (Lee, Shim); general six legs.
+    Sylvester,
     /// Elimination template and generalized eigenvectors (Martyushev); general six legs.
     Template,
 }
@@ -21,6 +23,7 @@ impl Method {
         match self {
             Self::Octic => "octic",
             Self::Homotopy => "homotopy",
+            Self::Sylvester => "sylvester",
             Self::Template => "template",
         }
     }
@@ -133,6 +136,8 @@ pub enum RejectionReason {
     ResidualTooLarge,
     /// It is a root found already.
     Duplicate,
+    /// It is near a solution to rounding but no proof of one succeeded (a multiple root, a pose near infinity).
+    NotCertified,
     /// The position is at infinity or the rotation does not exist.
     NotFinite,
 }

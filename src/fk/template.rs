@@ -1,13 +1,11 @@
 //! Forward kinematics by the elimination template.
 
-use super::collect::{Candidate, collect};
-use super::evidence::{GENERAL, attach};
-use super::{
-    Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, Rejected, RejectionReason,
-};
+use super::elimination::Candidates;
+use super::{Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::num::Rng;
-use crate::solve::template::{Candidate as Found, GenericProblem, Layout};
+use crate::solve::generic_frame::GenericProblem;
+use crate::solve::template::Layout;
 
 /// Times the elimination is made anew, in other frames, while fewer than 40 poses are proved.
 const ATTEMPTS: u64 = 3;
@@ -41,8 +39,7 @@ fn solve_with(
     s: &SquaredLegLengths,
     o: &FkOptions,
 ) -> Result<FkSolutions, FkError> {
-    let mut candidates: Vec<Candidate> = Vec::new();
-    let mut infinite = 0;
+    let mut candidates = Candidates::default();
     let mut best = 0.0f64;
     for attempt in 0..ATTEMPTS {
         let problem = GenericProblem::draw(m, s, &mut Rng::stream(o.seed, attempt));
@@ -52,16 +49,8 @@ fn solve_with(
             continue;
         }
         let pairs = eliminated.eigenpairs().map_err(|e| FkError::Breakdown { what: e.to_string() })?;
-        for (k, pair) in pairs.iter().enumerate() {
-            match layout.candidate(&problem, pair) {
-                Found::Pose(pose) => {
-                    let source = attempt as usize * pairs.len() + k;
-                    candidates.push(Candidate { pose, singular: false, condition: 1.0, source });
-                }
-                Found::Infinite => infinite += 1,
-            }
-        }
-        let found = assemble(m, s, o, &candidates, infinite, attempt + 1);
+        candidates.add(pairs.iter().map(|pair| layout.pose(&problem, pair)));
+        let found = candidates.solutions(Method::Template, m, s, o);
         if attempt + 1 == ATTEMPTS || matches!(found.completeness, Completeness::Proved { .. }) {
             return Ok(found);
         }
@@ -73,37 +62,7 @@ fn solve_with(
         );
         return Err(FkError::NotApplicable { method: Method::Template, reason });
     }
-    Ok(assemble(m, s, o, &candidates, infinite, ATTEMPTS))
-}
-
-fn assemble(
-    m: &Manipulator,
-    s: &SquaredLegLengths,
-    o: &FkOptions,
-    candidates: &[Candidate],
-    infinite: usize,
-    attempts: u64,
-) -> FkSolutions {
-    let collected = collect(m, s, &o.tolerances, candidates);
-    let mut rejected = collected.rejected;
-    let at_infinity = Rejected { reason: RejectionReason::NotFinite, residual: f64::INFINITY };
-    rejected.extend(std::iter::repeat_n(at_infinity, infinite));
-    let reason = format!(
-        "{} eigenvectors of {attempts} elimination(s) gave {} distinct poses, fewer than the 40 of a general \
-         platform or not all of them certified; roots may be missing",
-        candidates.len() + infinite,
-        collected.roots.len(),
-    );
-    let mut solutions = FkSolutions {
-        method: Method::Template,
-        roots: collected.roots,
-        completeness: Completeness::Unproved { reason, all_paths_accounted: false },
-        paths: Vec::new(),
-        rejected,
-        seed: o.seed,
-    };
-    attach(&mut solutions, m, s, GENERAL);
-    solutions
+    Ok(candidates.solutions(Method::Template, m, s, o))
 }
 
 #[cfg(test)]
@@ -129,11 +88,8 @@ mod tests {
         let problem = GenericProblem::draw(&m, &s, &mut Rng::stream(o.seed, 0));
         let good = |layout: &Layout| {
             let pairs = layout.fill(&problem).eliminate().eigenpairs().unwrap();
-            let residual = |found: Found| match found {
-                Found::Pose(pose) => pose.residual(&m, &s),
-                Found::Infinite => f64::INFINITY,
-            };
-            pairs.iter().filter(|p| residual(layout.candidate(&problem, p)) < 1e-4).count()
+            let poses = pairs.iter().filter_map(|p| layout.pose(&problem, p));
+            poses.filter(|pose| pose.residual(&m, &s) < 1e-4).count()
         };
         assert_eq!(good(shipped), 40);
         // not every entry matters to the result, but most do

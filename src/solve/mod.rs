@@ -2,9 +2,10 @@
 //! certifying the roots by code that shares nothing with the solver.
 
 pub mod certify;
-mod generic_frame;
+pub mod generic_frame;
 pub mod homotopy;
 mod sections;
+pub mod sylvester;
 pub mod template;
 
 pub(crate) use sections::{Frame, quaternion_product, split};

@@ -19,10 +19,8 @@ mod layout;
 pub use layout::{Layout, LayoutError};
 
 use nalgebra::Vector3;
-use num_complex::Complex64;
 
-pub use super::generic_frame::GenericProblem;
-use super::generic_frame::{norm_form, rotation_forms};
+use super::generic_frame::{GenericProblem, norm_form, rotation_forms};
 use crate::geom::ComplexPose;
 use crate::num::linalg::{GeneralizedEigenpair, LinalgError, generalized_eigenpairs, upper_factor};
 use layout::Quotient;
@@ -42,15 +40,6 @@ pub struct Eliminated<'a> {
     rows: Vec<Vec<f64>>,
     /// Smallest pivot over largest, a rough measure of how near the template is to losing rank.
     pub pivot_ratio: f64,
-}
-
-/// Where an eigenvector of the pencil points to.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Candidate {
-    /// A pose in the design's frames, not checked against any equation.
-    Pose(ComplexPose),
-    /// Eigenvalue or coordinates at infinity, or `e.e = 0`.
-    Infinite,
 }
 
 /// Coefficients of `f_2..f_6`, each equation scaled to norm one.
@@ -126,18 +115,16 @@ impl Eliminated<'_> {
 }
 
 impl Layout {
-    /// The candidate of an eigenpair, read from `w (1, u, v, w, x, y, z)` in the eigenvector.
+    /// The pose an eigenvector points to, in the design's frames, not checked against any equation. It is read
+    /// from `w (1, u, v, w, x, y, z)`; `None` when the eigenvalue or the coordinates are at infinity or `e.e = 0`.
     #[must_use]
-    pub fn candidate(&self, problem: &GenericProblem, pair: &GeneralizedEigenpair) -> Candidate {
+    pub fn pose(&self, problem: &GenericProblem, pair: &GeneralizedEigenpair) -> Option<ComplexPose> {
         // an eigenvalue 1/w = alpha/beta at infinity is w = 0, which no pose has in random frames
         if !(pair.beta.norm() > f64::EPSILON * pair.alpha.norm()) {
-            return Candidate::Infinite;
+            return None;
         }
         let [w, uw, vw, ww, xw, yw, zw] = self.coordinates.map(|k| pair.vector[k]);
-        let e = [w, uw, vw, ww];
-        let square: Complex64 = e.iter().map(|z| z * z).sum();
-        let pose = problem.to_design(e, Vector3::new(xw / w, yw / w, zw / w));
-        let finite = pose.rotation.iter().chain(pose.position.iter()).all(|z| z.is_finite());
-        if finite && square.norm() > 0.0 { Candidate::Pose(pose) } else { Candidate::Infinite }
+        let pose = problem.to_design([w, uw, vw, ww], Vector3::new(xw / w, yw / w, zw / w));
+        pose.rotation.iter().chain(pose.position.iter()).all(|z| z.is_finite()).then_some(pose)
     }
 }

@@ -49,8 +49,9 @@ impl MethodArg {
             Self::Auto => Ok(None),
             Self::Octic => Ok(Some(Method::Octic)),
             Self::Homotopy => Ok(Some(Method::Homotopy)),
+            Self::Sylvester => Ok(Some(Method::Sylvester)),
             Self::Template => Ok(Some(Method::Template)),
-            Self::Trilateration | Self::Sylvester => {
+            Self::Trilateration => {
                 let name = self.to_possible_value().map(|v| v.get_name().to_string()).unwrap_or_default();
                 let message = format!("the method `{name}` is not part of this version");
                 Err(Failure::refused("fk::method_not_available", message).with_help("take --method auto"))
@@ -136,9 +137,9 @@ mod tests {
 
     #[test]
     fn a_method_that_is_not_built_is_refused_by_name() {
-        let failure = MethodArg::Sylvester.method().unwrap_err();
+        let failure = MethodArg::Trilateration.method().unwrap_err();
         assert_eq!((failure.exit, failure.code.as_str()), (Exit::Refused, "fk::method_not_available"));
-        assert!(failure.message.contains("`sylvester`"));
+        assert!(failure.message.contains("`trilateration`"));
         assert_eq!(MethodArg::Auto.method().unwrap(), None);
     }
 }

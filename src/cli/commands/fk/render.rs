@@ -69,6 +69,7 @@ fn rejected(r: &Rejected) -> Value {
     let reason = match r.reason {
         RejectionReason::ResidualTooLarge => "residual_too_large",
         RejectionReason::Duplicate => "duplicate",
+        RejectionReason::NotCertified => "not_certified",
         RejectionReason::NotFinite => "not_finite",
     };
     json!({ "reason": reason, "residual": number(r.residual) })
