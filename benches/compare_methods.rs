@@ -1,6 +1,6 @@
 //! Times and completeness of the forward-kinematics methods on random problems, drawn as in Martyushev, sec. 5.
 //!
-//! `cargo run --release --example compare_methods [COUNT] [SEED]` prints one Markdown table for each class:
+//! `cargo bench --bench compare_methods -- [COUNT] [SEED]` prints one Markdown table for each class:
 //! first joints at the origins, the other coordinates uniform in [-2, 2], squared lengths uniform in [0.5, 3].
 #![allow(clippy::print_stdout, reason = "a program that prints tables")]
 
@@ -121,7 +121,7 @@ fn homotopy(p: &Problem, o: &FkOptions, tally: &mut Tally) -> Result<(), Box<dyn
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let mut numbers = std::env::args().skip(1).map(|a| a.parse::<u64>());
+    let mut numbers = std::env::args().skip(1).filter(|a| !a.starts_with("--")).map(|a| a.parse::<u64>());
     let count = numbers.next().transpose()?.unwrap_or(50);
     let seed = numbers.next().transpose()?.unwrap_or(1);
     let o = FkOptions::default();
