@@ -94,8 +94,8 @@ pub(super) fn collect(
 }
 
 fn pose_scale(p: &ComplexPose, length: f64) -> f64 {
-    let r = p.rotation.iter().map(|z| z.norm()).fold(1.0, f64::max);
-    p.position.iter().map(|z| z.norm() / length).fold(r, f64::max)
+    let r = p.rotation.iter().map(Complex64::norm_sqr).fold(1.0, f64::max);
+    p.position.iter().map(|z| z.norm_sqr() / (length * length)).fold(r, f64::max).sqrt()
 }
 
 fn reality_of(c: &Candidate, length: f64, tolerances: &FkTolerances) -> Reality {

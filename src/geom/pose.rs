@@ -64,10 +64,10 @@ impl ComplexPose {
     pub fn residual(&self, m: &Manipulator, s: &SquaredLegLengths) -> f64 {
         let scale = m.size() * m.size();
         let legs = m.legs();
-        let leg_error =
-            legs.iter().zip(s.get()).map(|(leg, s)| (self.squared_length(leg) - s).norm() / scale);
+        let errors =
+            legs.iter().zip(s.get()).map(|(leg, s)| ((self.squared_length(leg) - s) / scale).norm_sqr());
         let gram = self.rotation.transpose() * self.rotation - Matrix3::identity();
-        leg_error.chain(gram.iter().map(|z| z.norm())).fold(0.0, f64::max)
+        errors.chain(gram.iter().map(num_complex::Complex::norm_sqr)).fold(0.0, f64::max).sqrt()
     }
 
     /// Largest modulus of an imaginary part: of `R` as it is, of `p` relative to `size`.
@@ -87,9 +87,11 @@ impl ComplexPose {
     /// Distance of two poses: the largest entry difference, positions divided by `size`.
     #[must_use]
     pub fn distance(&self, other: &Self, size: f64) -> f64 {
-        let r = (self.rotation - other.rotation).iter().map(|z| z.norm()).fold(0.0, f64::max);
-        let p = (self.position - other.position).iter().map(|z| z.norm()).fold(0.0, f64::max);
-        r.max(p / size)
+        let r =
+            (self.rotation - other.rotation).iter().map(num_complex::Complex::norm_sqr).fold(0.0, f64::max);
+        let p =
+            (self.position - other.position).iter().map(num_complex::Complex::norm_sqr).fold(0.0, f64::max);
+        r.max(p / (size * size)).sqrt()
     }
 }
 

@@ -114,12 +114,6 @@ impl<S: Simd> Lanes<S> {
         }
     }
 
-    /// `self + k a` with one complex number `k` for all lanes.
-    #[inline(always)]
-    pub(super) fn mul_add_scalar(self, k: Complex64, a: Self) -> Self {
-        self.mul_add(Self::splat(self.simd, k), a)
-    }
-
     /// Lane by lane `if mask { other } else { self }`.
     #[inline(always)]
     pub(super) fn select(self, mask: S::m64s, other: Self) -> Self {
@@ -188,6 +182,9 @@ impl<S: Simd> SubAssign for Lanes<S> {
 
 /// A vector of eight unknowns per lane.
 pub(super) type Vec8<S> = [Lanes<S>; 8];
+
+/// An 8 x 8 matrix per lane, by rows.
+pub(super) type Matrix8<S> = [[Lanes<S>; 8]; 8];
 
 /// Squared Euclidean norm, lane by lane.
 #[inline(always)]

@@ -2,12 +2,12 @@
 
 use pulp::Simd;
 
-use super::lanes::{Lanes, PerLane, Vec8, store};
+use super::lanes::{Lanes, Matrix8, PerLane, Vec8, store};
 
 /// Factors with partial pivoting, every lane its own row exchanges.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Lu<S: Simd> {
-    factors: [[Lanes<S>; 8]; 8],
+    factors: Matrix8<S>,
     inverse_pivots: [Lanes<S>; 8],
     /// Row exchanged with row `k` in step `k`, as a number per lane.
     pivot_rows: [S::f64s; 8],
@@ -16,7 +16,7 @@ pub(super) struct Lu<S: Simd> {
 impl<S: Simd> Lu<S> {
     /// Factorises `a`.
     #[inline(always)]
-    pub(super) fn factorise(mut a: [[Lanes<S>; 8]; 8]) -> Self {
+    pub(super) fn factorise(mut a: Matrix8<S>) -> Self {
         let s = a[0][0].simd;
         let mut inverse_pivots = [Lanes::zero(s); 8];
         let mut pivot_rows = [s.splat_f64s(0.0); 8];
@@ -91,6 +91,42 @@ impl<S: Simd> Lu<S> {
             let greatest = pivots.iter().map(|p| p[l]).fold(0.0, f64::max);
             (least / greatest).sqrt()
         })
+    }
+}
+
+/// Factorises `a` in place without exchanging rows; `inverse` receives the inverse pivots.
+///
+/// Exchanges that differ from lane to lane cost more than the elimination itself. Without them a small pivot
+/// makes the factors inaccurate once in a while: the tracker that uses this sees it as a Newton correction
+/// that does not fit, and what it cannot finish is tracked again with pivoting.
+#[inline(always)]
+pub(super) fn eliminate<S: Simd>(a: &mut Matrix8<S>, inverse: &mut Vec8<S>) {
+    for k in 0..8 {
+        inverse[k] = a[k][k].recip();
+        let pivot_row = a[k];
+        for i in k + 1..8 {
+            let factor = a[i][k] * inverse[k];
+            a[i][k] = factor;
+            for j in k + 1..8 {
+                a[i][j] = a[i][j].mul_sub(factor, pivot_row[j]);
+            }
+        }
+    }
+}
+
+/// Solves with the factors of [`eliminate`], in place.
+#[inline(always)]
+pub(super) fn substitute<S: Simd>(a: &Matrix8<S>, inverse: &Vec8<S>, b: &mut Vec8<S>) {
+    for i in 1..8 {
+        for j in 0..i {
+            b[i] = b[i].mul_sub(a[i][j], b[j]);
+        }
+    }
+    for i in (0..8).rev() {
+        for j in i + 1..8 {
+            b[i] = b[i].mul_sub(a[i][j], b[j]);
+        }
+        b[i] = b[i] * inverse[i];
     }
 }
 

@@ -58,7 +58,6 @@ pub(crate) fn generate(seed: u64, loops: usize) -> Option<StartSystem> {
     let first = random_point(&mut rng);
     let sections = sections_through(&first, &mut rng)?;
     let mut solutions = vec![first];
-    let one = Complex64::ONE;
     for _ in 0..loops {
         if solutions.len() >= GENERIC_COUNT {
             break;
@@ -78,11 +77,23 @@ pub(crate) fn generate(seed: u64, loops: usize) -> Option<StartSystem> {
             }
         }
     }
+    to_real_sections(&sections, &solutions, &mut rng)
+}
+
+/// Carries the solutions over to random real sections: general real sections are as good a start as
+/// complex ones, as long as the path from them to the target is complex, and cheaper.
+fn to_real_sections(sections: &Sections, solutions: &[[Complex64; 8]], rng: &mut Rng) -> Option<StartSystem> {
+    let rows = std::array::from_fn(|_| std::array::from_fn(|_| Complex64::new(rng.normal(), 0.0)));
+    let real = Sections { rows }.orthonormalised()?;
+    let phase = Complex64::from_polar(1.0, rng.uniform(0.0, std::f64::consts::TAU));
+    let carry = SectionHomotopy::new(sections, phase, &real);
+    let carried = track_all(&carry, solutions, &TrackerSettings::CAREFUL, 0.0);
     // once more round nothing: polishes every solution to rounding
-    let polish = SectionHomotopy::new(&sections, one, &sections);
-    let tracked = track_all(&polish, &solutions, &TrackerSettings::CAREFUL, 0.0);
+    let polish = SectionHomotopy::new(&real, Complex64::ONE, &real);
+    let points: Vec<[Complex64; 8]> = carried.iter().filter(|p| p.arrived).map(|p| p.x).collect();
+    let tracked = track_all(&polish, &points, &TrackerSettings::CAREFUL, 0.0);
     let complete = tracked.len() == GENERIC_COUNT && tracked.iter().all(|p| p.arrived);
-    complete.then(|| StartSystem { sections, solutions: tracked.into_iter().map(|p| p.x).collect() })
+    complete.then(|| StartSystem { sections: real, solutions: tracked.into_iter().map(|p| p.x).collect() })
 }
 
 #[cfg(test)]

@@ -3,18 +3,18 @@
 use num_complex::Complex64;
 use pulp::Scalar;
 
-use super::dispatch::track_all;
 use super::endgame::{end_path, projective_distance};
 use super::lanes::{Lanes, Vec8, norm_sqr};
 use super::lu::Lu;
+use super::sprint::{Pace, Sprint};
 use super::start::{StartError, shipped};
 use super::system::{SectionHomotopy, derivative_matrix, values};
 use super::tracker::{TrackerSettings, track_one};
 use crate::num::Rng;
 use crate::solve::sections::Sections;
 
-/// Below this `|t|` a path that has not arrived is handed to the endgame.
-const ENDGAME_AT: f64 = 1e-4;
+/// A last Newton correction below this needs no further polishing.
+const SETTLED: f64 = 1e-13;
 /// Paths to be tracked again are stopped here and always go through the endgame.
 const CAREFUL_ENDGAME_AT: f64 = 1e-2;
 /// A point with `|e.e| / |e|^2` below this at a converged end has no rotation.
@@ -104,10 +104,14 @@ fn isotropy(x: &[Complex64; 8]) -> (f64, f64) {
 /// what fails then is left as [`EndKind::Failed`].
 pub(crate) fn solve_sections(target: &Sections, seed: u64) -> Result<Vec<Path>, StartError> {
     let start = shipped()?;
-    let gamma = Complex64::from_polar(1.0, Rng::stream(seed, 0).uniform(0.0, std::f64::consts::TAU));
-    let homotopy = SectionHomotopy::new(&start.sections, gamma, target);
-    let tracked = track_all(&homotopy, &start.solutions, &TrackerSettings::FAST, ENDGAME_AT);
-    let mut paths: Vec<Path> = tracked
+    let mut rng = Rng::stream(seed, 0);
+    let corner = Complex64::new(0.5, 0.0) + Complex64::from_polar(0.25, rng.uniform(0.6, 2.5));
+    let real = SectionHomotopy::real(&start.sections, target).ok_or(StartError::NotReal)?;
+    let sprint = Sprint { homotopy: &real, starts: &start.solutions, corner, pace: Pace::DEFAULT };
+    let sprinted = sprint.run();
+    // the second leg, from the corner to the target, as a homotopy of its own
+    let homotopy = SectionHomotopy::through(&real, corner);
+    let mut paths: Vec<Path> = sprinted
         .iter()
         .map(|p| {
             let blank = Path {
@@ -117,36 +121,44 @@ pub(crate) fn solve_sections(target: &Sections, seed: u64) -> Result<Vec<Path>, 
                 rejections: p.rejections,
                 winding: 0,
                 retracked: 0,
-                pivot_ratio: 0.0,
+                pivot_ratio: 1.0 / p.condition,
             };
-            if p.arrived {
-                settle_arrived(&homotopy, blank)
-            } else {
-                settle_by_endgame(&homotopy, blank, p.t)
+            match p.remaining {
+                None => blank,
+                Some(t) if t > 0.0 => settle_by_endgame(&homotopy, blank, t.into()),
+                Some(_) if p.correction < SETTLED => settle(blank, &p.x),
+                Some(_) => settle_arrived(&homotopy, blank),
             }
         })
         .collect();
     for again in suspects(&paths, target) {
-        paths[again] = retrack(&homotopy, &start.solutions[again], &paths[again]);
+        let first = SectionHomotopy::through(&real, Complex64::ONE);
+        let settings = &TrackerSettings::CAREFUL;
+        if let Some(x) = track_one(&first, &start.solutions[again], Complex64::ONE, corner, settings) {
+            paths[again] = retrack(&homotopy, &x, &paths[again]);
+        }
     }
     Ok(paths)
 }
 
 fn settle_arrived(homotopy: &SectionHomotopy, mut path: Path) -> Path {
     let end = polish(homotopy, &path.x);
-    let (iso, finite) = isotropy(&end.x);
     path.pivot_ratio = end.pivot_ratio;
-    if end.converged {
-        path.x = end.x;
-        path.winding = 1;
-        path.kind = if finite < ISOTROPIC {
-            EndKind::Infinite
-        } else if iso < ISOTROPIC {
-            EndKind::Isotropic
-        } else {
-            EndKind::Regular
-        };
-    }
+    if end.converged { settle(path, &end.x) } else { path }
+}
+
+/// A path whose end point Newton's method has settled.
+fn settle(mut path: Path, x: &[Complex64; 8]) -> Path {
+    let (iso, finite) = isotropy(x);
+    path.x = *x;
+    path.winding = 1;
+    path.kind = if finite < ISOTROPIC {
+        EndKind::Infinite
+    } else if iso < ISOTROPIC {
+        EndKind::Isotropic
+    } else {
+        EndKind::Regular
+    };
     path
 }
 
@@ -186,18 +198,21 @@ fn retrack(homotopy: &SectionHomotopy, start: &[Complex64; 8], before: &Path) ->
 /// complex conjugate although the target is real.
 pub(crate) fn suspects(paths: &[Path], target: &Sections) -> Vec<usize> {
     let real = target.rows.iter().flatten().all(|z| z.im == 0.0);
-    let regular = |p: &Path| p.kind == EndKind::Regular;
+    let ends: Vec<([Complex64; 8], bool)> =
+        paths.iter().map(|p| (unit(&p.x), p.kind == EndKind::Regular)).collect();
+    let same = |x: &[Complex64; 8], y: &[Complex64; 8]| {
+        nearly_parallel(x, y) && projective_distance(x, y) < SAME_END
+    };
     let mut doubtful = Vec::new();
     for (i, p) in paths.iter().enumerate() {
-        let twin =
-            |q: &Path, x: &[Complex64; 8]| regular(q) && projective_distance(&unit(&q.x), x) < SAME_END;
+        let x = &ends[i].0;
+        let mirrored = x.map(|z| z.conj());
         let doubt = match p.kind {
             EndKind::Failed => true,
             EndKind::Regular => {
-                let x = unit(&p.x);
-                let jumped = paths.iter().enumerate().any(|(k, q)| k != i && twin(q, &x));
-                let mirrored = x.map(|z| z.conj());
-                jumped || (real && !paths.iter().any(|q| twin(q, &mirrored)))
+                let jumped =
+                    ends.iter().enumerate().any(|(k, (y, regular))| *regular && k != i && same(y, x));
+                jumped || (real && !ends.iter().any(|(y, regular)| *regular && same(y, &mirrored)))
             }
             _ => false,
         };
@@ -206,6 +221,12 @@ pub(crate) fn suspects(paths: &[Path], target: &Sections) -> Vec<usize> {
         }
     }
     doubtful
+}
+
+/// A quick look before the accurate distance: the cosine of the angle is above 0.999.
+fn nearly_parallel(x: &[Complex64; 8], y: &[Complex64; 8]) -> bool {
+    let overlap: Complex64 = x.iter().zip(y).map(|(a, b)| a.conj() * b).sum();
+    overlap.norm_sqr() > 0.998
 }
 
 fn unit(x: &[Complex64; 8]) -> [Complex64; 8] {

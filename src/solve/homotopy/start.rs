@@ -25,6 +25,9 @@ pub enum StartError {
         /// 0-based index of the number in the file.
         index: usize,
     },
+    /// The target sections are not real.
+    #[error("the target sections are not real")]
+    NotReal,
     /// Monodromy did not find all solutions.
     #[error("monodromy from seed {seed} did not reach {GENERIC_COUNT} solutions")]
     Incomplete {

@@ -7,66 +7,105 @@ use num_complex::Complex64;
 
 use pulp::Simd;
 
-use super::lanes::{Lanes, Vec8};
-use super::lu::Lu;
-use crate::solve::sections::{FORMS, Row, Sections};
+use super::lanes::{Lanes, Matrix8, Vec8};
+use crate::solve::sections::{FORMS, Sections};
 
 /// Order of the Taylor predictor.
 pub(super) const ORDER: usize = 5;
 
-/// A straight line of linear sections.
+/// A coefficient of a section: real where start and target are real, which halves the work, or complex.
+pub(super) trait Coefficient: Copy {
+    /// `sum + k x`.
+    fn add_times<S: Simd>(self, sum: Lanes<S>, x: Lanes<S>) -> Lanes<S>;
+}
+
+impl Coefficient for f64 {
+    #[inline(always)]
+    fn add_times<S: Simd>(self, sum: Lanes<S>, x: Lanes<S>) -> Lanes<S> {
+        let s = sum.simd;
+        let k = s.splat_f64s(self);
+        Lanes { re: s.mul_add_e_f64s(k, x.re, sum.re), im: s.mul_add_e_f64s(k, x.im, sum.im), simd: s }
+    }
+}
+
+impl Coefficient for Complex64 {
+    #[inline(always)]
+    fn add_times<S: Simd>(self, sum: Lanes<S>, x: Lanes<S>) -> Lanes<S> {
+        sum.mul_add(Lanes::splat(sum.simd, self), x)
+    }
+}
+
+/// A straight line of linear sections, `target + t slope`.
 #[derive(Debug, Clone)]
-pub(crate) struct SectionHomotopy {
-    target: [Row; 6],
-    slope: [Row; 6],
+pub(crate) struct SectionHomotopy<K = Complex64> {
+    target: [[K; FORMS]; 6],
+    slope: [[K; FORMS]; 6],
 }
 
 /// The rows at one parameter value per lane.
 pub(super) type Rows<S> = [[Lanes<S>; FORMS]; 6];
 
 impl SectionHomotopy {
-    /// From `start` (times the unit number `gamma`, against accidental degeneracy of the line) at `t = 1`
-    /// to `target` at `t = 0`.
+    /// From `start` (times the number `gamma`, against accidental degeneracy of the line) at `t = 1` to
+    /// `target` at `t = 0`.
     pub(crate) fn new(start: &Sections, gamma: Complex64, target: &Sections) -> Self {
         let slope =
             std::array::from_fn(|i| std::array::from_fn(|k| gamma * start.rows[i][k] - target.rows[i][k]));
         Self { target: target.rows, slope }
     }
 
+    /// The line of the real homotopy seen from `t = corner`: `t` of this one is `corner` times `t` of the new.
+    pub(super) fn through(real: &SectionHomotopy<f64>, corner: Complex64) -> Self {
+        let lift = |rows: &[[f64; FORMS]; 6], k: Complex64| rows.map(|row| row.map(|x| k * x));
+        Self { target: lift(&real.target, Complex64::ONE), slope: lift(&real.slope, corner) }
+    }
+}
+
+impl SectionHomotopy<f64> {
+    /// From `start` at `t = 1` to `target` at `t = 0`, both real; to be followed along complex `t`. `None`
+    /// when a coefficient is not real.
+    pub(super) fn real(start: &Sections, target: &Sections) -> Option<Self> {
+        let real = start.rows.iter().chain(&target.rows).flatten().all(|z| z.im == 0.0);
+        let slope = |i: usize, k: usize| start.rows[i][k].re - target.rows[i][k].re;
+        let slope = std::array::from_fn(|i| std::array::from_fn(|k| slope(i, k)));
+        real.then(|| Self { target: target.rows.map(|row| row.map(|z| z.re)), slope })
+    }
+}
+
+impl<K: Coefficient> SectionHomotopy<K> {
     #[inline(always)]
     pub(super) fn rows_at<S: Simd>(&self, t: Lanes<S>) -> Rows<S> {
-        let mut rows = [[t; FORMS]; 6];
+        let one = Lanes::splat(t.simd, Complex64::ONE);
+        let zero = Lanes::zero(t.simd);
+        let mut rows = [[zero; FORMS]; 6];
         for i in 0..6 {
             for k in 0..FORMS {
-                rows[i][k] = Lanes::splat(t.simd, self.target[i][k]).mul_add_scalar(self.slope[i][k], t);
+                rows[i][k] = self.slope[i][k].add_times(self.target[i][k].add_times(zero, one), t);
             }
         }
         rows
     }
 
-    /// `(C_1 - C_0) forms`, one value a row.
+    /// `target forms + slope moved`, one value a row.
     #[inline(always)]
-    pub(super) fn slope_times<S: Simd>(&self, forms: &[Lanes<S>; FORMS]) -> [Lanes<S>; 6] {
-        let mut out = [Lanes::zero(forms[0].simd); 6];
+    fn combine<S: Simd>(
+        &self,
+        forms: Option<&[Lanes<S>; FORMS]>,
+        moved: &[Lanes<S>; FORMS],
+    ) -> [Lanes<S>; 6] {
+        let mut out = [Lanes::zero(moved[0].simd); 6];
         for i in 0..6 {
             for k in 0..FORMS {
-                out[i] = out[i].mul_add_scalar(self.slope[i][k], forms[k]);
+                out[i] = self.slope[i][k].add_times(out[i], moved[k]);
+            }
+            if let Some(forms) = forms {
+                for k in 0..FORMS {
+                    out[i] = self.target[i][k].add_times(out[i], forms[k]);
+                }
             }
         }
         out
     }
-}
-
-/// `rows . forms`, one value a row.
-#[inline(always)]
-pub(super) fn rows_times<S: Simd>(rows: &Rows<S>, forms: &[Lanes<S>; FORMS]) -> [Lanes<S>; 6] {
-    let mut out = [Lanes::zero(forms[0].simd); 6];
-    for i in 0..6 {
-        for k in 0..FORMS {
-            out[i] = out[i].mul_add(rows[i][k], forms[k]);
-        }
-    }
-    out
 }
 
 /// Symmetrised forms of two vectors: `forms(x + y) - forms(x) - forms(y)`, and last `e.g' + e'.g`.
@@ -146,7 +185,7 @@ fn skew_times<S: Simd>(m: [Lanes<S>; 3], n: [Lanes<S>; 3], y: [Lanes<S>; 4]) -> 
 
 /// Values of the eight equations from the derivative matrix at `x`: `q = 1/2 x . grad q` for quadrics.
 #[inline(always)]
-pub(super) fn values<S: Simd>(j: &[[Lanes<S>; 8]; 8], x: &Vec8<S>) -> Vec8<S> {
+pub(super) fn values<S: Simd>(j: &Matrix8<S>, x: &Vec8<S>) -> Vec8<S> {
     let simd = x[0].simd;
     let mut f = [Lanes::zero(simd); 8];
     for i in 0..8 {
@@ -161,23 +200,26 @@ pub(super) fn values<S: Simd>(j: &[[Lanes<S>; 8]; 8], x: &Vec8<S>) -> Vec8<S> {
     f
 }
 
-/// Taylor coefficients `x_1 .. x_ORDER` of the path through `x` at `t`, given the factorised derivative.
+/// Taylor coefficients `x_1 .. x_ORDER` of the path through `x` at `t`; `solve` applies the inverse of the
+/// derivative matrix there.
 ///
 /// Order `k` of `C(t) forms(x(t)) = 0` reads
-/// `J x_k = -(C sum_{0<i<=j, i+j=k} F(x_i, x_j) + C' sum_{i+j=k-1} F(x_i, x_j))` with the polar forms
-/// `F` (halved where `i = j`): one LU factorisation serves all orders.
+/// `J x_k = -(C(t) u_k + C' w_{k-1})`, `u_k = sum_{0<i<=j, i+j=k} F(x_i, x_j)`, `w_k = sum_{i+j=k} F(x_i, x_j)` with the
+/// polar forms `F` (halved where `i = j`): one factorisation serves all orders. With `C(t) = C_0 + t C'` the
+/// right-hand side is `C_0 u_k + C' (t u_k + w_{k-1})`, products with constant matrices only.
 #[inline(always)]
-pub(super) fn taylor<S: Simd>(
-    homotopy: &SectionHomotopy,
-    rows: &Rows<S>,
-    lu: &Lu<S>,
+pub(super) fn taylor<S: Simd, K: Coefficient>(
+    homotopy: &SectionHomotopy<K>,
+    t: Lanes<S>,
     x: &Vec8<S>,
+    solve: impl Fn(&mut Vec8<S>),
 ) -> [Vec8<S>; ORDER] {
-    let zero = Lanes::zero(x[0].simd);
+    let zero = Lanes::zero(t.simd);
     let mut series = [[zero; 8]; ORDER];
-    // full convolution of order k - 1, needed with C'
     let (mut full, _) = polar_forms(x, x);
-    full = full.map(|z| z.times(0.5));
+    for z in &mut full {
+        *z = z.times(0.5);
+    }
     for k in 1..=ORDER {
         let mut inner = [zero; FORMS];
         let mut study = zero;
@@ -185,23 +227,29 @@ pub(super) fn taylor<S: Simd>(
             let j = k - i;
             let (f, s) = polar_forms(&series[i - 1], &series[j - 1]);
             let weight = if i == j { 0.5 } else { 1.0 };
-            for (sum, z) in inner.iter_mut().zip(f) {
-                *sum += z.times(weight);
+            for n in 0..FORMS {
+                inner[n] += f[n].times(weight);
             }
             study += s.times(weight);
         }
-        let sections = if k == 1 { [zero; 6] } else { rows_times(rows, &inner) };
-        let moved = homotopy.slope_times(&full);
-        let mut rhs = [zero; 8];
+        let sections = if k == 1 {
+            homotopy.combine(None, &full)
+        } else {
+            for n in 0..FORMS {
+                full[n] = full[n].mul_add(t, inner[n]);
+            }
+            homotopy.combine(Some(&inner), &full)
+        };
+        let rhs = &mut series[k - 1];
         for i in 0..6 {
-            rhs[i] = -(sections[i] + moved[i]);
+            rhs[i] = -sections[i];
         }
         rhs[6] = -study;
-        series[k - 1] = lu.solve(rhs);
+        solve(rhs);
         if k < ORDER {
             let (f, _) = polar_forms(x, &series[k - 1]);
-            for i in 0..FORMS {
-                full[i] = inner[i] + f[i];
+            for n in 0..FORMS {
+                full[n] = inner[n] + f[n];
             }
         }
     }
@@ -212,7 +260,8 @@ pub(super) fn taylor<S: Simd>(
 mod tests {
     use super::*;
     use crate::num::Rng;
-    use crate::solve::sections::forms;
+    use crate::solve::homotopy::lu::Lu;
+    use crate::solve::sections::{Row, forms};
     use pulp::Scalar;
 
     fn random_vector(rng: &mut Rng) -> [Complex64; 8] {
@@ -284,7 +333,7 @@ mod tests {
         let norm: f64 = x.iter().map(num_complex::Complex::norm_sqr).sum();
         let patch: Vec8<Scalar> = x.map(|z| Lanes::splat(Scalar::new(), z.conj() / norm));
         let lu = Lu::factorise(derivative_matrix(&rows, &lanes(x), &patch));
-        let series = taylor(&homotopy, &rows, &lu, &lanes(x));
+        let series = taylor(&homotopy, t0, &lanes(x), |b| *b = lu.solve(*b));
         let defect = |h: f64| {
             let mut y = lanes(x);
             for (k, c) in series.iter().enumerate() {

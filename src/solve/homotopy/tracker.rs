@@ -31,16 +31,7 @@ pub(crate) struct TrackerSettings {
 }
 
 impl TrackerSettings {
-    /// For generic problems: long steps, checked afterwards.
-    pub(crate) const FAST: Self = Self {
-        prediction: 1e-2,
-        radius_fraction: 0.8,
-        capture: 5e-2,
-        accuracy: 1e-5,
-        corrections: 3,
-        most_steps: 400,
-    };
-    /// For paths that have to be tracked again: an order of magnitude more careful.
+    /// For paths that the fast tracker could not finish, and for making start systems.
     pub(crate) const CAREFUL: Self = Self {
         prediction: 2e-5,
         radius_fraction: 0.4,
@@ -109,7 +100,7 @@ impl<S: Simd> Front<S> {
         let patch = self.normalise();
         let rows = homotopy.rows_at(self.t);
         let lu = Lu::factorise(derivative_matrix(&rows, &self.x, &patch));
-        let series = taylor(homotopy, &rows, &lu, &self.x);
+        let series = taylor(homotopy, self.t, &self.x, |b| *b = lu.solve(*b));
         let (next_t, dt, reaches) = self.choose_step(&series, settings);
         let mut y = self.x;
         for p in 0..8 {
@@ -164,7 +155,7 @@ impl<S: Simd> Front<S> {
 /// `x^(1 / (2 ORDER))` to six percent: the exponent field of a double is its logarithm, near enough for a
 /// step size and far faster than `powf` in every lane.
 #[inline(always)]
-fn rough_root(x: f64) -> f64 {
+pub(super) fn rough_root(x: f64) -> f64 {
     const ONE: i64 = 0x3ff0_0000_0000_0000;
     const DEGREE: i64 = 2 * ORDER.cast_signed() as i64;
     let bits = x.to_bits().cast_signed() - ONE;
