@@ -17,6 +17,7 @@ pub mod geom;
 pub mod manipulator;
 pub mod num;
 pub mod offsets;
+pub mod plot;
 pub mod poly;
 pub mod solve;
 pub mod synthesis;

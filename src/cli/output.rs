@@ -77,7 +77,8 @@ pub(crate) fn number(x: f64) -> Value {
     serde_json::Number::from_f64(x).map_or(Value::Null, Value::Number)
 }
 
-fn document(fields: Map<String, Value>, warnings: &[FileWarning]) -> String {
+/// The text of a document: `fields` between `schema_version` and `warnings`.
+pub(crate) fn document(fields: Map<String, Value>, warnings: &[FileWarning]) -> String {
     let mut document = Map::new();
     document.insert("schema_version".into(), json!(1));
     document.extend(fields);

@@ -9,4 +9,6 @@ mod verdict;
 
 pub use matching::{PoseMatching, match_poses};
 pub use sample::{Sample, SamplePlan};
-pub use verdict::{Counterexample, InconclusiveReason, Verdict, Verification, VerifyError, verify};
+pub use verdict::{
+    Counterexample, InconclusiveReason, SAME_POSE, Verdict, Verification, VerifyError, verify,
+};

@@ -14,7 +14,7 @@ use crate::synthesis::{LegMapOutcome, LegMapTolerances, NotRealizable, Relation,
 ///
 /// Roots come out at `1e-12` or better unless they are nearly double; a joint `1e-6` of the size off its
 /// place moves poses by about `1e-6`.
-const SAME_POSE: f64 = 1e-8;
+pub const SAME_POSE: f64 = 1e-8;
 /// A counterexample must miss the lengths of the other platform by this many times the rounding to expect.
 const CLEAR_MISS: f64 = 1e3;
 

@@ -3,6 +3,7 @@
 
 mod architecture;
 mod certify;
+mod cli_explore;
 mod cli_fk;
 mod cli_frame;
 mod cli_optimize;

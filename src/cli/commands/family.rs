@@ -62,13 +62,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let members: Vec<&FamilyMember> =
         family.members().iter().filter(|m| wanted.as_ref().is_none_or(|p| m.pattern == *p)).collect();
     let c = family.counts();
-    let mut json = Map::new();
-    json.insert("name".into(), json!(design.name));
-    json.insert("cyclic_order".into(), o.order().iter().map(|i| json!(i.get() + 1)).collect());
-    json.insert("edges".into(), edge_lengths(&o).into_iter().map(number).collect());
-    json.insert("counts".into(), counts_record(c));
-    json.insert("patterns".into(), members.iter().map(|m| pattern_record(m, &o, &design)).collect());
-    json.insert("topologies".into(), topology_records(&family));
+    let mut json = record(&design, &o, &family, &members);
     let mut text = summary(&design, c);
     match wanted {
         Some(pattern) => {
@@ -80,6 +74,23 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         None => list_topologies(&mut text, &family),
     }
     Ok(Answer { exit: Exit::Yes, json, text })
+}
+
+/// The fields of the document.
+pub(super) fn record(
+    design: &Design,
+    o: &Octahedral,
+    family: &Family,
+    members: &[&FamilyMember],
+) -> Map<String, Value> {
+    let mut json = Map::new();
+    json.insert("name".into(), json!(design.name));
+    json.insert("cyclic_order".into(), o.order().iter().map(|i| json!(i.get() + 1)).collect());
+    json.insert("edges".into(), edge_lengths(o).into_iter().map(number).collect());
+    json.insert("counts".into(), counts_record(family.counts()));
+    json.insert("patterns".into(), members.iter().map(|m| pattern_record(m, o, design)).collect());
+    json.insert("topologies".into(), topology_records(family));
+    json
 }
 
 fn parse_pattern(text: &str) -> Result<Pattern, Failure> {

@@ -13,6 +13,7 @@
 //! has no answer is the [`Failure`].
 
 mod convert;
+mod explore;
 mod family;
 mod fk;
 mod map;
@@ -30,6 +31,8 @@ use super::output::Answer;
 pub(crate) enum Command {
     /// Write a design in the other notation (TOML or JSON)
     Convert(convert::Args),
+    /// Everything about an octahedral design: class, best joint-free platform, verdict, poses, pictures, report
+    Explore(explore::Args),
     /// Every platform equivalent to an octahedral design
     Family(family::Args),
     /// All poses, real and complex, for given leg lengths
@@ -47,6 +50,7 @@ impl Command {
     pub(crate) fn run(&self, context: &mut Context) -> Result<Answer, Failure> {
         match self {
             Self::Convert(args) => convert::run(args, context),
+            Self::Explore(args) => explore::run(args, context),
             Self::Family(args) => family::run(args, context),
             Self::Fk(args) => fk::run(args, context),
             Self::Map(args) => map::run(args, context),

@@ -58,6 +58,7 @@ const LINES: &[Line] = &[
             ERRORS,
         ],
     ),
+    ("plot", &["geom", "manipulator"], &[MATRICES]),
     (
         "cli",
         &[
@@ -73,6 +74,7 @@ const LINES: &[Line] = &[
             "offsets",
             "equivalence",
             "design",
+            "plot",
         ],
         &[
             MATRICES,

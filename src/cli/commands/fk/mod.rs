@@ -17,6 +17,7 @@ use crate::fk::{self, FkError, FkOptions, FkSolutions, Method};
 use crate::manipulator::{LegLengths, Manipulator};
 
 use self::lengths::Given;
+pub(super) use self::render::json as record;
 
 /// Arguments of `fk`.
 #[derive(Debug, clap::Args)]
@@ -116,7 +117,7 @@ fn solve(
     solver.solve(m, &lengths.squared(), options).map_err(|e| failure_of(&e))
 }
 
-fn failure_of(error: &FkError) -> Failure {
+pub(super) fn failure_of(error: &FkError) -> Failure {
     match error {
         FkError::NotApplicable { .. } => {
             Failure::refused("fk::not_applicable", error.to_string()).with_help("take --method auto")

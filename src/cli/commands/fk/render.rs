@@ -9,7 +9,7 @@ use crate::cli::output::number;
 use crate::fk::{Completeness, FkRoot, FkSolutions, PathReport, Reality, Rejected, RejectionReason};
 
 /// The fields of the document.
-pub(super) fn json(s: &FkSolutions) -> Map<String, Value> {
+pub(in crate::cli::commands) fn json(s: &FkSolutions) -> Map<String, Value> {
     let (completeness, reason) = match &s.completeness {
         Completeness::Proved { argument } => ("proved", argument),
         Completeness::Unproved { reason, .. } => ("unproved", reason),

@@ -5,6 +5,7 @@ mod render;
 use std::path::PathBuf;
 
 use nalgebra::Vector3;
+use serde_json::{Map, Value};
 
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
@@ -15,7 +16,8 @@ use crate::design::{Design, Format, Workspace};
 use crate::geom::Pose;
 use crate::manipulator::{LegIndex, Octahedral, default_home};
 use crate::offsets::{
-    Body, OffsetOutcome, OffsetProblem, OffsetSolution, OptimizeOptions, optimize, sliding_joint_body,
+    Body, OffsetOutcome, OffsetProblem, OffsetReport, OffsetSolution, OptimizeOptions, Progress, optimize,
+    sliding_joint_body,
 };
 
 /// Arguments of `optimize`.
@@ -27,13 +29,15 @@ pub(crate) struct Args {
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
     /// How far a joint may sit out on the extension of its edge, in edge lengths
-    #[arg(long, value_name = "X", default_value_t = 1.0)]
+    #[arg(long, value_name = "X", default_value_t = EXTENSION)]
     extension: f64,
     /// Worker threads; the answer does not depend on it (default: one for each processor)
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
 }
 
+/// Default of `--extension`, edge lengths.
+pub(super) const EXTENSION: f64 = 1.0;
 /// Half width of the default box of translations, as a share of the design's size.
 const DEFAULT_TRANSLATION_SHARE: f64 = 0.15;
 /// Half width of the default box of rotations, degrees.
@@ -79,30 +83,15 @@ fn problem(design: &Design, octahedral: Octahedral, poses: Vec<Pose>, extension:
 
 /// Optimises, and writes the design when asked to.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
-    if !(args.extension >= 0.0 && args.extension.is_finite()) {
-        let message = format!("--extension is {}, not a length of 0 or more", args.extension);
-        return Err(Failure::refused("optimize::bad_extension", message));
-    }
+    check_extension(args.extension)?;
     let design = context.load(&args.design)?;
     let octahedral = Octahedral::recognise(design.manipulator()).map_err(|why| {
         Failure::refused("optimize::not_octahedral", format!("not an octahedral platform: {why}"))
             .with_help("optimize spreads the shared joints of a 3-3 octahedral design")
     })?;
-    let set = pose_set(&design);
-    let problem = problem(&design, octahedral, set.poses.clone(), args.extension);
-    let processors = || std::thread::available_parallelism().map_or(1, usize::from);
-    let threads = args.threads.unwrap_or_else(processors).clamp(1, 256);
-    let options = OptimizeOptions { seed: context.seed(), threads, ..OptimizeOptions::default() };
-    let report = optimize(&problem, &options, &mut |_| ())
-        .map_err(|why| Failure::refused("optimize::invalid_problem", why.to_string()))?;
-    let exit = match report.outcome {
-        OffsetOutcome::Optimal(_) => Exit::Yes,
-        OffsetOutcome::Infeasible => Exit::No,
-        OffsetOutcome::NotConverged(_) | OffsetOutcome::Undecided { .. } => Exit::Inconclusive,
-    };
-    let optimised = report.solution().map(|s| optimised_design(&design, &problem, s, report.seed));
+    let done = search(&design, octahedral, args.extension, args.threads, context.seed(), &mut |_| ())?;
     let mut written = None;
-    if let (Some(path), Some(d)) = (&args.output, &optimised) {
+    if let (Some(path), Some(d)) = (&args.output, &done.optimised) {
         let text = match Format::of_path(path) {
             Format::Toml => d.to_toml(),
             Format::Json => d.to_json(),
@@ -110,10 +99,68 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         files::write_text(path, &text)?;
         written = Some(path.display().to_string());
     }
-    let found = render::Found { design: &design, problem: &problem, set: &set, report: &report };
-    let json = render::json(&found, optimised.as_ref(), written.as_deref());
-    let text = if context.json() { String::new() } else { render::text(&found, written.as_deref()) };
-    Ok(Answer { exit, json, text })
+    let json = done.record(&design, written.as_deref());
+    let text =
+        if context.json() { String::new() } else { render::text(&done.found(&design), written.as_deref()) };
+    Ok(Answer { exit: done.exit(), json, text })
+}
+
+/// Refuses an `--extension` that is no length.
+pub(super) fn check_extension(extension: f64) -> Result<(), Failure> {
+    if extension >= 0.0 && extension.is_finite() {
+        return Ok(());
+    }
+    let message = format!("--extension is {extension}, not a length of 0 or more");
+    Err(Failure::refused("optimize::bad_extension", message))
+}
+
+/// A search with everything it was asked and what came out.
+#[derive(Debug)]
+pub(super) struct Done {
+    pub(super) problem: OffsetProblem,
+    pub(super) set: PoseSet,
+    pub(super) report: OffsetReport,
+    /// The optimised platform, when there is one.
+    pub(super) optimised: Option<Design>,
+}
+
+impl Done {
+    fn found<'a>(&'a self, design: &'a Design) -> render::Found<'a> {
+        render::Found { design, problem: &self.problem, set: &self.set, report: &self.report }
+    }
+
+    /// The fields of the document.
+    pub(super) fn record(&self, design: &Design, written: Option<&str>) -> Map<String, Value> {
+        render::json(&self.found(design), self.optimised.as_ref(), written)
+    }
+
+    pub(super) fn exit(&self) -> Exit {
+        match self.report.outcome {
+            OffsetOutcome::Optimal(_) => Exit::Yes,
+            OffsetOutcome::Infeasible => Exit::No,
+            OffsetOutcome::NotConverged(_) | OffsetOutcome::Undecided { .. } => Exit::Inconclusive,
+        }
+    }
+}
+
+/// Optimises the offsets of a design; `progress` is told how far the search is.
+pub(super) fn search(
+    design: &Design,
+    octahedral: Octahedral,
+    extension: f64,
+    threads: Option<usize>,
+    seed: u64,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<Done, Failure> {
+    let set = pose_set(design);
+    let problem = problem(design, octahedral, set.poses.clone(), extension);
+    let processors = || std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = threads.unwrap_or_else(processors).clamp(1, 256);
+    let options = OptimizeOptions { seed, threads, ..OptimizeOptions::default() };
+    let report = optimize(&problem, &options, progress)
+        .map_err(|why| Failure::refused("optimize::invalid_problem", why.to_string()))?;
+    let optimised = report.solution().map(|s| optimised_design(design, &problem, s, report.seed));
+    Ok(Done { problem, set, report, optimised })
 }
 
 /// The optimised platform as a design: vertices keep their names, an edge joint is named after its edge.

@@ -30,7 +30,7 @@ pub(crate) struct Args {
     samples: usize,
 }
 
-fn at_least_one(text: &str) -> Result<usize, String> {
+pub(super) fn at_least_one(text: &str) -> Result<usize, String> {
     match text.parse() {
         Ok(n) if (1..=100_000).contains(&n) => Ok(n),
         _ => Err("a whole number from 1 to 100000".to_owned()),

@@ -1,0 +1,275 @@
+//! `equipod explore`: everything about an octahedral design in one folder.
+
+mod figures;
+mod folder;
+mod progress;
+mod report;
+
+use std::fmt::Write as _;
+use std::io::IsTerminal;
+use std::path::PathBuf;
+
+use serde_json::{Map, Value, json};
+
+use self::folder::Folder;
+use self::progress::Progress;
+use super::optimize::Done;
+use super::{family, fk as fk_command, optimize, verify as verify_command};
+use crate::cli::context::Context;
+use crate::cli::exit::Exit;
+use crate::cli::failure::Failure;
+use crate::cli::output::{Answer, document, number};
+use crate::design::Design;
+use crate::equivalence::{SamplePlan, Verification, verify};
+use crate::fk::{self, FkOptions, FkSolutions};
+use crate::manipulator::{LegLengths, Octahedral, default_home};
+use crate::offsets;
+use crate::synthesis::{Family, FamilyMember};
+
+/// Arguments of `explore`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Octahedral design (.toml or .json)
+    design: PathBuf,
+    /// Folder for the results; made when absent, the files of an earlier run are replaced
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    /// Sets of leg lengths at which the design and the optimised one are solved and compared
+    #[arg(long, default_value_t = verify_command::SAMPLES, value_name = "N", value_parser = verify_command::at_least_one)]
+    samples: usize,
+    /// How far a joint may sit out on the extension of its edge, in edge lengths
+    #[arg(long, value_name = "X", default_value_t = optimize::EXTENSION)]
+    extension: f64,
+}
+
+/// Whose leg lengths the poses belong to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum LengthsFrom {
+    Design,
+    Home,
+}
+
+impl LengthsFrom {
+    fn as_str(self) -> &'static str {
+        match self {
+            Self::Design => "design",
+            Self::Home => "home",
+        }
+    }
+}
+
+/// The verification with its plan.
+#[derive(Debug)]
+struct Verified {
+    found: Verification,
+    plan: SamplePlan,
+    explanation: String,
+}
+
+/// Poses for one set of leg lengths.
+#[derive(Debug)]
+struct Poses {
+    lengths: LegLengths,
+    from: LengthsFrom,
+    solutions: FkSolutions,
+}
+
+/// All results.
+#[derive(Debug)]
+struct Results {
+    design: Design,
+    octahedral: Octahedral,
+    family: Family,
+    done: Done,
+    /// Absent when no offsets were found.
+    verified: Option<Verified>,
+    poses: Poses,
+    options: FkOptions,
+    extension: f64,
+}
+
+impl Results {
+    /// The word for the whole run.
+    fn verdict(&self) -> &'static str {
+        match (&self.verified, self.done.exit()) {
+            (Some(v), _) => v.found.verdict.as_str(),
+            (None, Exit::No) => "infeasible",
+            (None, _) => "inconclusive",
+        }
+    }
+
+    fn exit(&self) -> Exit {
+        match &self.verified {
+            Some(v) => verify_command::exit_of(&v.found.verdict),
+            None => self.done.exit(),
+        }
+    }
+
+    /// One sentence with the numbers that decided.
+    fn explanation(&self) -> &str {
+        match (&self.verified, self.done.exit()) {
+            (Some(v), _) => &v.explanation,
+            (None, Exit::No) => "every branch of offsets is proved to violate the limits",
+            (None, _) => "no offsets were found that keep the limits, but some branches are not proved empty",
+        }
+    }
+}
+
+/// Runs all stages; each file is written when its stage is finished.
+pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+    optimize::check_extension(args.extension)?;
+    let design = context.load(&args.design)?;
+    let octahedral = Octahedral::recognise(design.manipulator()).map_err(|why| {
+        Failure::refused("explore::not_octahedral", format!("not an octahedral platform: {why}"))
+            .with_help("explore starts from a 3-3 octahedral design; verify compares any two designs")
+    })?;
+    let mut folder = Folder::prepare(&args.output, &args.design)?;
+    let mut progress = Progress::new(context.quiet());
+    let seed = context.seed();
+    let options = FkOptions { seed, ..FkOptions::default() };
+    folder.write(folder::ORIGINAL, &original(&design, seed).to_toml())?;
+
+    progress.stage(1, "equivalence class");
+    let family = Family::octahedral();
+    let members: Vec<&FamilyMember> = family.members().iter().collect();
+    folder.write(folder::FAMILY, &framed(family::record(&design, &octahedral, &family, &members), seed))?;
+
+    progress.stage(2, "offsets");
+    let mut done =
+        optimize::search(&design, octahedral.clone(), args.extension, None, seed, &mut |p| match p {
+            offsets::Progress::Ranking { done, total } => progress.part("ranking", done, total),
+            offsets::Progress::Polishing { done, total } => progress.part("polishing", done, total),
+        })?;
+    if let (Some(new), Some(s)) = (&mut done.optimised, done.report.solution()) {
+        // the same pose, seen by the new legs
+        new.lengths = design.lengths.and_then(|l| s.map.apply(&l.squared()).ok()).map(|s| s.lengths());
+    }
+    folder.write(folder::OPTIMIZE, &framed(done.record(&design, None), seed))?;
+    if let Some(new) = &done.optimised {
+        folder.write(folder::OPTIMISED, &new.to_toml())?;
+    }
+    folder.write(folder::DETERMINANT, &figures::determinant(&design, &octahedral, &done))?;
+
+    progress.stage(3, "verification");
+    let verified = done
+        .optimised
+        .as_ref()
+        .map(|new| verification(&design, new, args.samples, &options, &mut folder))
+        .transpose()?;
+
+    progress.stage(4, "forward kinematics");
+    let poses = solve(&design, &options)?;
+    folder.write(folder::FK, &framed(fk_record(&poses), seed))?;
+    folder.write(folder::MODES, &figures::modes(&design, &octahedral, &poses))?;
+
+    progress.stage(5, "report");
+    let results =
+        Results { design, octahedral, family, done, verified, poses, options, extension: args.extension };
+    folder.write(folder::REPORT, &report::markdown(&results))?;
+    Ok(Answer { exit: results.exit(), json: record(&results, &folder), text: text(&results, &folder) })
+}
+
+/// The design as it was read, with a word on where the copy comes from.
+fn original(design: &Design, seed: u64) -> Design {
+    let mut copy = design.clone();
+    let note = format!("Input of equipod {} explore (seed {seed})", env!("CARGO_PKG_VERSION"));
+    copy.description = Some(match &design.description {
+        Some(text) => format!("{text}. {note}"),
+        None => note,
+    });
+    copy
+}
+
+/// A record as a document of its own.
+fn framed(record: Map<String, Value>, seed: u64) -> String {
+    let mut fields = Map::new();
+    fields.insert("version".into(), json!(env!("CARGO_PKG_VERSION")));
+    fields.insert("seed".into(), json!(seed));
+    fields.extend(record);
+    document(fields, &[])
+}
+
+fn verification(
+    design: &Design,
+    new: &Design,
+    samples: usize,
+    options: &FkOptions,
+    folder: &mut Folder,
+) -> Result<Verified, Failure> {
+    let plan = verify_command::sample_plan(design, samples, options.seed);
+    let found = verify(design.manipulator(), new.manipulator(), &plan, options)
+        .map_err(|e| verify_command::failure_of(&e))?;
+    let record = verify_command::record(&found, &plan);
+    let explanation = record.get("explanation").and_then(Value::as_str).unwrap_or_default().to_owned();
+    folder.write(folder::VERIFY, &framed(record, options.seed))?;
+    Ok(Verified { found, plan, explanation })
+}
+
+/// The poses at the design's own lengths, or at those of its home pose.
+fn solve(design: &Design, options: &FkOptions) -> Result<Poses, Failure> {
+    let m = design.manipulator();
+    let home = || design.home.unwrap_or_else(|| default_home(m)).lengths(m);
+    let (lengths, from) = if let Some(lengths) = design.lengths {
+        (lengths, LengthsFrom::Design)
+    } else {
+        let none = || Failure::refused("explore::no_lengths", "the home pose has no finite leg lengths");
+        (home().ok_or_else(none)?, LengthsFrom::Home)
+    };
+    let solutions =
+        fk::solver(None).solve(m, &lengths.squared(), options).map_err(|e| fk_command::failure_of(&e))?;
+    Ok(Poses { lengths, from, solutions })
+}
+
+fn fk_record(poses: &Poses) -> Map<String, Value> {
+    let mut fields = Map::new();
+    fields.insert("lengths".into(), json!(poses.lengths.get()));
+    fields.insert("lengths_from".into(), json!(poses.from.as_str()));
+    fields.extend(fk_command::record(&poses.solutions));
+    fields
+}
+
+/// What `--json` writes to standard output.
+fn record(r: &Results, folder: &Folder) -> Map<String, Value> {
+    let c = r.family.counts();
+    let s = r.done.report.solution();
+    let v = r.verified.as_ref();
+    let value = json!({
+        "verdict": r.verdict(),
+        "explanation": r.explanation(),
+        "name": r.design.name,
+        "paths": folder.written().map(|(_, path)| path).collect::<Vec<_>>(),
+        "family": { "patterns": c.patterns, "topologies": c.topologies },
+        "optimize": s.map(|s| json!({
+            "converged": matches!(r.done.exit(), Exit::Yes), "objective": number(s.recheck.objective),
+            "offsets": s.offsets.map(number), "shifts": s.shifts.map(number), "det": number(s.recheck.det),
+        })),
+        "verify": v.map(|v| json!({
+            "samples": v.found.samples.len(), "worst_distance": number(v.found.worst_distance()),
+            "residual": number(v.found.map.residual), "det": number(v.found.map.determinant),
+        })),
+        "fk": {
+            "lengths_from": r.poses.from.as_str(), "finite_count": r.poses.solutions.roots.len(),
+            "real_count": r.poses.solutions.assembly_modes().count(),
+            "certified_count": r.poses.solutions.roots.iter().filter(|x| x.certified).count(),
+            "all_paths_accounted": r.poses.solutions.all_accounted(),
+        },
+        "version": env!("CARGO_PKG_VERSION"),
+        "seed": r.options.seed,
+    });
+    match value {
+        Value::Object(fields) => fields,
+        _ => Map::new(),
+    }
+}
+
+/// The paths, for programs; before them the verdict, for people.
+fn text(r: &Results, folder: &Folder) -> String {
+    let mut out = String::new();
+    if std::io::stdout().is_terminal() {
+        let _ = writeln!(out, "{}: {}\n{}", r.design.name, r.verdict(), r.explanation());
+    }
+    for (_, path) in folder.written() {
+        let _ = writeln!(out, "{path}");
+    }
+    out
+}

@@ -1,0 +1,276 @@
+//! The report in Markdown.
+
+use std::fmt::Write as _;
+
+use super::{LengthsFrom, Results, Verified, folder};
+use crate::equivalence::SAME_POSE;
+use crate::fk::{Completeness, FkSolutions};
+use crate::manipulator::LegIndex;
+use crate::offsets::OffsetSolution;
+use crate::synthesis::AffineLegMap;
+
+/// The whole report. Writing to a string cannot fail, so the results of `write!` are dropped.
+pub(super) fn markdown(r: &Results) -> String {
+    let mut out = String::new();
+    let _ = writeln!(
+        out,
+        "# {}: {}\n\nEvidence: {}.\n",
+        plain(&r.design.name),
+        r.verdict().replace('_', " "),
+        plain(r.explanation())
+    );
+    inputs(&mut out, r);
+    class(&mut out, r);
+    offsets(&mut out, r);
+    if let Some(v) = &r.verified {
+        verification(&mut out, v);
+    }
+    poses(&mut out, r);
+    reproduction(&mut out, r);
+    out
+}
+
+/// Text of a design cannot become markup.
+fn plain(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '\\' | '`' | '*' | '_' | '[' | ']' | '<' | '>' | '#' | '|' => out.extend(['\\', c]),
+            c if c.is_control() => out.push(' '),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+fn inputs(out: &mut String, r: &Results) {
+    let (d, p) = (&r.design, &r.done.problem);
+    let _ = writeln!(out, "## Input\n");
+    let _ = writeln!(out, "Design: [{0}]({0}), lengths in {1}.", folder::ORIGINAL, plain(&d.units));
+    if let Some(source) = &d.source {
+        let _ = writeln!(out, "Source: {}.", plain(source));
+    }
+    let _ = writeln!(out, "\n| leg | base joint | platform joint |\n|---|---|---|");
+    for (leg, (a, b)) in LegIndex::all().zip(d.leg_names()) {
+        let _ = writeln!(out, "| {} | {} | {} |", leg.get() + 1, plain(a), plain(b));
+    }
+    let given = |yes: bool| if yes { "of the design" } else { "default" };
+    let _ = writeln!(
+        out,
+        "\nHome pose: {}. Worst case over {} poses, workspace: {}. Joints of one body at least {} {} apart, \
+         |det A| at least {}, characteristic length {} {}.\n",
+        given(r.done.set.home_given),
+        p.poses.len(),
+        given(r.done.set.workspace_given),
+        p.min_joint_distance,
+        plain(&d.units),
+        p.min_abs_det,
+        p.characteristic_length,
+        plain(&d.units)
+    );
+}
+
+fn class(out: &mut String, r: &Results) {
+    let c = r.family.counts();
+    let _ = writeln!(
+        out,
+        "## Equivalence class\n\n{} patterns of legs equivalent to the octahedral one, {} up to symmetry ({} when base \
+         and platform may be exchanged); {} topologies ({}), {} of them ({}) reached by one offset at a time. \
+         All patterns: [{7}]({7}).\n",
+        c.patterns,
+        c.classes,
+        c.classes_exchange,
+        c.topologies,
+        c.topologies_exchange,
+        c.sequential_topologies,
+        c.sequential_topologies_exchange,
+        folder::FAMILY,
+    );
+}
+
+fn offsets(out: &mut String, r: &Results) {
+    let n = r.done.report.counts();
+    let _ = writeln!(out, "## Offsets of the joint-free platform\n");
+    if let Some(s) = r.done.report.solution() {
+        let _ = writeln!(out, "Optimised design: [{0}]({0}).\n", folder::OPTIMISED);
+        solution(out, r, s);
+        map(out, &s.map, &r.design.units);
+    } else {
+        let _ = writeln!(out, "No offsets were found.\n");
+    }
+    let _ = writeln!(
+        out,
+        "Branches (each joint before, inside or beyond its edge): {} feasible, {} outside the bounds, {} without room, \
+         {} with |det A| too small, {} unproved, {} failed. Details: [{6}]({6}).\n\n\
+         ![det A over the two offsets]({7})\n",
+        n.feasible,
+        n.outside_bounds,
+        n.spacing,
+        n.det,
+        n.unproved,
+        n.failed,
+        folder::OPTIMIZE,
+        folder::DETERMINANT
+    );
+}
+
+fn solution(out: &mut String, r: &Results, s: &OffsetSolution) {
+    let (units, p) = (plain(&r.design.units), &r.done.problem);
+    let (order, edges, bodies) = (r.octahedral.order(), p.edge_lengths(), p.sliding_bodies());
+    let _ = writeln!(
+        out,
+        "| leg | joint moves on | edge [{units}] | t | offset [{units}] | zone |\n|---|---|---|---|---|---|"
+    );
+    for i in 0..6 {
+        let _ = writeln!(
+            out,
+            "| {} | {} | {:.6} | {:.6} | {:.6} | {} |",
+            order[i].get() + 1,
+            bodies[i],
+            edges[i],
+            s.offsets[i],
+            s.shifts[i],
+            s.branch.0[i].words()
+        );
+    }
+    let (c, m) = (&s.recheck, &s.recheck.margins);
+    let _ = writeln!(
+        out,
+        "\nWorst inverse condition number {:.9} (pose {} of {}); {}.\n\n| quantity | value | margin |\n|---|---|---|\n\
+         | det A | {:.9} | {:.3e} |\n| spacing on the base | | {:.3e} {units} |\n\
+         | spacing on the platform | | {:.3e} {units} |\n| bounds of the offsets | | {:.3e} |\n",
+        c.objective,
+        c.worst_pose + 1,
+        c.per_pose.len(),
+        if s.evidence.converged {
+            "the local search has settled"
+        } else {
+            "the local search has NOT settled"
+        },
+        c.det,
+        m.det,
+        m.base_spacing,
+        m.platform_spacing,
+        m.bounds
+    );
+}
+
+fn map(out: &mut String, map: &AffineLegMap, units: &str) {
+    let _ = writeln!(
+        out,
+        "Leg map s' = A s + c on squared leg lengths:\n\n| leg | A 1 | A 2 | A 3 | A 4 | A 5 | A 6 | c [{}^2] |\n\
+         |---|---|---|---|---|---|---|---|",
+        plain(units)
+    );
+    for i in 0..6 {
+        let row: Vec<String> = (0..6).map(|j| format!("{:.9}", map.a[(i, j)] + 0.0)).collect();
+        let _ = writeln!(out, "| {} | {} | {:.9} |", i + 1, row.join(" | "), map.c[i] + 0.0);
+    }
+    out.push('\n');
+}
+
+fn verification(out: &mut String, v: &Verified) {
+    let (map, samples) = (&v.found.map, &v.found.samples);
+    let _ = writeln!(
+        out,
+        "## Verdict: {}\n\nEvidence: {}.\n\nThe map was derived from the leg vectors alone: residual {:.3e} (tolerance {:.0e}), \
+         smallest singular value of A {:.3e} of the largest (limit {:.1e}). Sampling supports the claim, the map proves \
+         it up to the rounding of the coordinates.\n",
+        v.found.verdict.as_str().replace('_', " "),
+        plain(&v.explanation),
+        map.residual,
+        map.tolerances.residual,
+        map.inverse_condition,
+        map.singular_limit
+    );
+    if samples.is_empty() {
+        return;
+    }
+    let _ = writeln!(
+        out,
+        "| sample | poses, design | poses, optimised | matched | certified | proved complete | worst pose distance |\n\
+         |---|---|---|---|---|---|---|"
+    );
+    for (k, s) in samples.iter().enumerate() {
+        let (a, b) = (&s.solutions_a, &s.solutions_b);
+        let _ = writeln!(
+            out,
+            "| {} | {} | {} | {} | {} + {} | {} + {} | {:.1e} |",
+            k + 1,
+            a.roots.len(),
+            b.roots.len(),
+            s.matching.pairs.len(),
+            certified(a),
+            certified(b),
+            proved(a),
+            proved(b),
+            s.matching.worst_distance()
+        );
+    }
+    let _ = writeln!(
+        out,
+        "\nWorst pose distance over all samples: {:.3e} (relative to the size; poses farther apart than {SAME_POSE:.0e} \
+         are different). {} random poses about the home pose. Details: [{2}]({2}).\n",
+        v.found.worst_distance(),
+        v.plan.count,
+        folder::VERIFY
+    );
+}
+
+fn certified(s: &FkSolutions) -> usize {
+    s.roots.iter().filter(|r| r.certified).count()
+}
+
+fn proved(s: &FkSolutions) -> &'static str {
+    match s.completeness {
+        Completeness::Proved { .. } => "yes",
+        Completeness::Unproved { all_paths_accounted: true, .. } => "no (all paths accounted for)",
+        Completeness::Unproved { .. } => "NO, poses may be missing",
+    }
+}
+
+fn poses(out: &mut String, r: &Results) {
+    let s = &r.poses.solutions;
+    let lengths: Vec<String> = r.poses.lengths.get().iter().map(ToString::to_string).collect();
+    let whose = match r.poses.from {
+        LengthsFrom::Design => "its own leg lengths",
+        LengthsFrom::Home => "the leg lengths of its home pose (the design gives none)",
+    };
+    let (complete, reason) = match &s.completeness {
+        Completeness::Proved { argument } => ("proved", argument),
+        Completeness::Unproved { all_paths_accounted: true, reason } => ("not proved", reason),
+        Completeness::Unproved { reason, .. } => ("NOT proved, poses may be missing", reason),
+    };
+    let _ = writeln!(
+        out,
+        "## Assembly modes\n\nThe design at {whose}, ({}) {}: {} finite poses, {} real, {} certified (method {}). \
+         Completeness: {complete}, {}. Details: [{}]({}).\n\n![Assembly modes]({})\n",
+        lengths.join(", "),
+        plain(&r.design.units),
+        s.roots.len(),
+        s.assembly_modes().count(),
+        certified(s),
+        s.method,
+        plain(reason),
+        folder::FK,
+        folder::FK,
+        folder::MODES
+    );
+}
+
+fn reproduction(out: &mut String, r: &Results) {
+    let (t, samples) = (r.options.tolerances, r.verified.as_ref().map_or(0, |v| v.plan.count));
+    let _ = writeln!(
+        out,
+        "## To repeat this\n\n    equipod explore {} -o DIR --seed {} --samples {} --extension {}\n\nequipod {}. Tolerances of forward \
+         kinematics, dimensionless: residual {:.0e}, distinct poses {:.0e}, reality {:.0e}.",
+        folder::ORIGINAL,
+        r.options.seed,
+        samples.max(1),
+        r.extension,
+        env!("CARGO_PKG_VERSION"),
+        t.residual,
+        t.distinct,
+        t.reality
+    );
+}

@@ -1,0 +1,54 @@
+//! Axes with round numbers.
+
+/// A linear axis: values `low..high` on pixels `from..to`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Axis {
+    pub(super) low: f64,
+    pub(super) high: f64,
+    pub(super) from: f64,
+    pub(super) to: f64,
+}
+
+impl Axis {
+    /// Where `value` is on the page.
+    pub(super) fn at(&self, value: f64) -> f64 {
+        self.from + (value - self.low) / (self.high - self.low) * (self.to - self.from)
+    }
+
+    /// Distance of ticks: 1, 2 or 5 times a power of ten, at most `count` of them.
+    pub(super) fn step(&self, count: usize) -> f64 {
+        let rough = (self.high - self.low) / count.max(1) as f64;
+        let power = 10f64.powf(rough.log10().floor());
+        [1.0, 2.0, 5.0].into_iter().map(|m| m * power).find(|s| *s >= rough).unwrap_or(10.0 * power)
+    }
+
+    /// Tick values and labels, about `count` of them.
+    pub(super) fn ticks(&self, count: usize) -> Vec<(f64, String)> {
+        let step = self.step(count);
+        let decimals = (0..12usize).find(|k| step * 10f64.powf(*k as f64) > 0.999).unwrap_or(12);
+        // a hair beyond the ends, so that rounding loses no tick at an end
+        let (first, last) =
+            ((self.low / step - 1e-9).ceil() as i64, (self.high / step + 1e-9).floor() as i64);
+        (first..=last)
+            .map(|k| {
+                let value = k as f64 * step;
+                (value, format!("{value:.decimals$}").replace('-', "\u{2212}"))
+            })
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_round_and_reach_the_ends() {
+        let axis = Axis { low: -0.3, high: 1.2, from: 0.0, to: 150.0 };
+        let labels: Vec<String> = axis.ticks(8).into_iter().map(|t| t.1).collect();
+        assert_eq!(labels, ["\u{2212}0.2", "0.0", "0.2", "0.4", "0.6", "0.8", "1.0", "1.2"]);
+        assert!((axis.at(0.0) - 30.0).abs() < 1e-12);
+        let axis = Axis { low: 0.0, high: 12.0, from: 0.0, to: 1.0 };
+        assert_eq!(axis.ticks(6).last().map(|t| t.1.clone()), Some("12".into()));
+    }
+}

@@ -1,0 +1,13 @@
+//! Pictures as SVG text: pure functions, the same bytes for the same input.
+//!
+//! Line widths, fonts and colours are in one place (`style`); what is told by colour is told by line pattern,
+//! shape or text as well.
+
+mod axis;
+mod contour;
+mod determinant;
+mod modes;
+mod style;
+
+pub use determinant::{OffsetPlane, PlaneAxis, PlanePoint, determinant_plane};
+pub use modes::{ModesFigure, assembly_modes};

@@ -1,0 +1,235 @@
+//! Assembly modes as small multiples: base triangle, platform triangle, six legs, one oblique projection.
+
+use nalgebra::{Point3, Vector3};
+
+use super::style::Svg;
+use crate::geom::Pose;
+use crate::manipulator::Octahedral;
+
+/// What the picture shows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModesFigure {
+    /// Title.
+    pub title: String,
+    /// A line of text below the panels.
+    pub note: String,
+    /// Poses with the number each is known by.
+    pub poses: Vec<(usize, Pose)>,
+    /// Two poses are mirror images when their joints agree within this, design units.
+    pub tolerance: f64,
+}
+
+/// Depth is drawn along this direction (right, up): half size at about 35 degrees.
+const DEPTH: (f64, f64) = (0.41, 0.29);
+/// Greatest width and height of what is drawn in a panel, pixels.
+const PANEL: (f64, f64) = (112.0, 250.0);
+const GAP: f64 = 10.0;
+const MARGIN: f64 = 24.0;
+const TOP: f64 = 66.0;
+const CAPTION: f64 = 22.0;
+/// Mirror pairs in a row.
+const PAIRS: usize = 3;
+
+/// Joints of one pose on the page, relative to the centre of the base: `P1..P3`, `P4..P6`.
+#[derive(Debug, Clone)]
+struct Drawn {
+    number: usize,
+    base: [(f64, f64); 3],
+    platform: [(f64, f64); 3],
+}
+
+/// The frame of the base triangle: origin in its centroid, `w` its normal.
+#[derive(Debug)]
+struct BaseFrame {
+    centre: Vector3<f64>,
+    u: Vector3<f64>,
+    v: Vector3<f64>,
+    w: Vector3<f64>,
+}
+
+impl BaseFrame {
+    /// `w` on the side of positive z (then y, then x) of the design, `u` along the edge `P1 P3`.
+    fn new(base: &[Point3<f64>; 3]) -> Self {
+        let centre = (base[0].coords + base[1].coords + base[2].coords) / 3.0;
+        let u = (base[2] - base[0]).normalize();
+        let normal = (base[1] - base[0]).cross(&(base[2] - base[0])).normalize();
+        let leading = [normal.z, normal.y, normal.x].into_iter().find(|x| x.abs() > 1e-9);
+        let w = if leading.is_some_and(|x| x < 0.0) { -normal } else { normal };
+        Self { centre, u, v: w.cross(&u), w }
+    }
+
+    fn coordinates(&self, p: &Point3<f64>) -> Vector3<f64> {
+        let d = p.coords - self.centre;
+        Vector3::new(self.u.dot(&d), self.v.dot(&d), self.w.dot(&d))
+    }
+}
+
+/// Right and up, design units.
+fn oblique(c: &Vector3<f64>) -> (f64, f64) {
+    (c.x + DEPTH.0 * c.y, c.z + DEPTH.1 * c.y)
+}
+
+/// Panels in pairs: a pose and its mirror image in the base plane, the one above the base first; a pose without
+/// partner alone.
+fn pairs(joints: &[[Vector3<f64>; 3]], tolerance: f64) -> Vec<Vec<usize>> {
+    let gap = |a: usize, b: usize| {
+        let difference = |k: usize| {
+            let (p, q) = (joints[a][k], joints[b][k]);
+            Vector3::new(p.x - q.x, p.y - q.y, p.z + q.z).norm()
+        };
+        (0..3).map(difference).fold(0.0, f64::max)
+    };
+    let height = |k: usize| joints[k].iter().map(|p| p.z).sum::<f64>();
+    let mut free: Vec<usize> = (0..joints.len()).collect();
+    let mut out = Vec::new();
+    while !free.is_empty() {
+        let first = free.remove(0);
+        let partner = (0..free.len()).min_by(|a, b| gap(first, free[*a]).total_cmp(&gap(first, free[*b])));
+        match partner.filter(|k| gap(first, free[*k]) <= tolerance) {
+            Some(k) => {
+                let second = free.remove(k);
+                let upper_first = height(first) >= height(second);
+                out.push(if upper_first { vec![first, second] } else { vec![second, first] });
+            }
+            None => out.push(vec![first]),
+        }
+    }
+    out
+}
+
+/// All given poses as panels of the same scale, mirror images side by side.
+///
+/// The projection is oblique: the base plane runs to the right and, foreshortened by one half, into the depth; its
+/// normal points up.
+#[must_use]
+pub fn assembly_modes(octahedral: &Octahedral, figure: &ModesFigure) -> String {
+    let frame = BaseFrame::new(&octahedral.base());
+    let base = octahedral.base().map(|p| oblique(&frame.coordinates(&p)));
+    let joints: Vec<[Vector3<f64>; 3]> = figure
+        .poses
+        .iter()
+        .map(|(_, pose)| octahedral.platform().map(|p| frame.coordinates(&pose.transform(&p))))
+        .collect();
+    let drawn: Vec<Drawn> = joints
+        .iter()
+        .zip(&figure.poses)
+        .map(|(j, (number, _))| Drawn { number: *number, base, platform: j.map(|p| oblique(&p)) })
+        .collect();
+    layout(figure, &drawn, &pairs(&joints, figure.tolerance))
+}
+
+fn layout(figure: &ModesFigure, drawn: &[Drawn], pairs: &[Vec<usize>]) -> String {
+    let all = || drawn.iter().flat_map(|d| d.base.iter().chain(&d.platform));
+    let span = |pick: fn(&(f64, f64)) -> f64| {
+        all().map(pick).fold((f64::INFINITY, f64::NEG_INFINITY), |r, v| (r.0.min(v), r.1.max(v)))
+    };
+    let (across, up) = (span(|p| p.0), span(|p| p.1));
+    let room = |r: (f64, f64), pixels: f64| pixels / (r.1 - r.0).max(f64::MIN_POSITIVE);
+    let scale = room(across, PANEL.0).min(room(up, PANEL.1));
+    let (panel_width, panel_height) =
+        if drawn.is_empty() { (PANEL.0, 40.0) } else { (PANEL.0, (up.1 - up.0) * scale + CAPTION) };
+    let cell = 2.0 * panel_width + 3.0 * GAP;
+    let rows = pairs.len().div_ceil(PAIRS).max(1);
+    let width = 2.0 * MARGIN + PAIRS as f64 * cell + (PAIRS as f64 - 1.0) * GAP;
+    let row_height = panel_height + 3.0 * GAP;
+    let height = TOP + rows as f64 * row_height + 62.0;
+    let description = format!(
+        "{} real poses in oblique projection, mirror images in the base plane side by side. {}",
+        drawn.len(),
+        figure.note
+    );
+    let mut svg = Svg::new(width, height, &figure.title, &description);
+    svg.text("title", (MARGIN, 30.0), &figure.title);
+    if drawn.is_empty() {
+        svg.text("", (MARGIN, TOP + 20.0), "no real pose has these leg lengths");
+    }
+    for (k, pair) in pairs.iter().enumerate() {
+        let (column, row) = ((k % PAIRS) as f64, (k / PAIRS) as f64);
+        let corner = (MARGIN + column * (cell + GAP), TOP - 16.0 + row * row_height);
+        svg.rect("pair", corner, (cell, panel_height + 2.0 * GAP));
+        for (j, &index) in pair.iter().enumerate() {
+            let left = corner.0 + GAP + j as f64 * (panel_width + GAP);
+            let middle = f64::midpoint(across.0, across.1);
+            let at = |p: (f64, f64)| {
+                (
+                    left + panel_width / 2.0 + (p.0 - middle) * scale,
+                    corner.1 + CAPTION + GAP + (up.1 - p.1) * scale,
+                )
+            };
+            panel(&mut svg, &drawn[index], at);
+            let caption = format!("pose {}", drawn[index].number);
+            svg.text("mid", (left + panel_width / 2.0, corner.1 + 17.0), &caption);
+        }
+    }
+    legend(&mut svg, height - 44.0);
+    svg.text("note", (MARGIN, height - 16.0), &figure.note);
+    svg.finish()
+}
+
+/// Base first, then what is farther below it: the platform is drawn last, so that it never hides behind a leg.
+fn panel(svg: &mut Svg, d: &Drawn, at: impl Fn((f64, f64)) -> (f64, f64)) {
+    svg.polygon("base", &d.base.map(&at));
+    // cyclic legs: P1P4, P2P4, P2P5, P3P5, P3P6, P1P6
+    for (k, (a, b)) in [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)].into_iter().enumerate() {
+        svg.line(if k == 0 { "first" } else { "leg" }, at(d.base[a]), at(d.platform[b]));
+    }
+    svg.polygon("platform", &d.platform.map(&at));
+    for p in d.base.iter().chain(&d.platform) {
+        svg.circle("hollow", at(*p), 2.2);
+    }
+}
+
+fn legend(svg: &mut Svg, y: f64) {
+    let swatch = |x: f64| [(x, y), (x + 22.0, y), (x + 11.0, y - 12.0)];
+    let mut x = MARGIN;
+    svg.polygon("base", &swatch(x));
+    svg.text("", (x + 30.0, y), "base");
+    x += 90.0;
+    svg.polygon("platform", &swatch(x));
+    svg.text("", (x + 30.0, y), "platform");
+    x += 112.0;
+    svg.line("leg", (x, y - 4.0), (x + 26.0, y - 4.0));
+    svg.text("", (x + 34.0, y), "leg");
+    x += 82.0;
+    svg.line("first", (x, y - 4.0), (x + 26.0, y - 4.0));
+    svg.text("", (x + 34.0, y), "first leg");
+    x += 116.0;
+    svg.rect("pair", (x, y - 13.0), (26.0, 14.0));
+    svg.text("", (x + 34.0, y), "mirror images in the base plane share a box");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::manipulator::Manipulator;
+    use nalgebra::Rotation3;
+
+    fn octahedral() -> Octahedral {
+        let t = |r: f64| vec![Point3::new(r, 0.0, 0.0), Point3::new(-r, r, 0.0), Point3::new(-r, -r, 0.0)];
+        let m = Manipulator::try_new(t(2.0), t(1.0), [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)]);
+        Octahedral::recognise(&m.unwrap()).unwrap()
+    }
+
+    fn figure(heights: &[f64]) -> ModesFigure {
+        let pose = |z: f64| Pose { rotation: Rotation3::identity(), position: Vector3::new(0.0, 0.0, z) };
+        let poses = heights.iter().enumerate().map(|(k, z)| (k + 1, pose(*z))).collect();
+        ModesFigure { title: "modes".into(), note: "note".into(), poses, tolerance: 1e-6 }
+    }
+
+    #[test]
+    fn mirror_images_share_a_box_and_the_upper_one_comes_first() {
+        let text = assembly_modes(&octahedral(), &figure(&[-3.0, 1.0, 3.0]));
+        let order: Vec<usize> =
+            [3, 1, 2].iter().map(|k| text.find(&format!(">pose {k}<")).unwrap()).collect();
+        assert!(order.is_sorted());
+        // one box in the legend
+        assert_eq!(text.matches("class=\"pair\"").count(), 2 + 1);
+        assert_eq!(text.matches("class=\"platform\"").count(), 3 + 1);
+    }
+
+    #[test]
+    fn without_a_real_pose_the_picture_says_so() {
+        let text = assembly_modes(&octahedral(), &figure(&[]));
+        assert!(text.contains("no real pose") && !text.contains("NaN") && !text.contains("inf"));
+    }
+}

@@ -1,0 +1,161 @@
+//! The style all pictures share.
+
+use std::fmt::Write as _;
+
+/// Classes used by the pictures. The palette is safe for colour-blind readers and differs in lightness.
+const CSS: &str = "\
+text{font-family:Helvetica,Arial,'Liberation Sans','DejaVu Sans',sans-serif;font-size:12px;fill:#1a1a1a}\
+.title{font-size:15px;font-weight:bold}\
+.note{font-size:11px;fill:#444}\
+.mid{text-anchor:middle}\
+.end{text-anchor:end}\
+.halo{stroke:#fff;stroke-width:4px;paint-order:stroke;stroke-linejoin:round}\
+.frame{fill:none;stroke:#1a1a1a;stroke-width:1}\
+.tick{stroke:#1a1a1a;stroke-width:1}\
+.edge{stroke:#8a8a8a;stroke-width:0.8;stroke-dasharray:1 3;fill:none}\
+.positive{fill:#e3eef9}\
+.negative{fill:#fbeadb}\
+.level{fill:none;stroke:#2b5c94;stroke-width:1.1}\
+.below{fill:none;stroke:#a85a16;stroke-width:1.1;stroke-dasharray:6 3}\
+.singular{fill:none;stroke:#b00020;stroke-width:2.6}\
+.mark{fill:#1a1a1a;stroke:#fff;stroke-width:1.2}\
+.hollow{fill:#fff;stroke:#1a1a1a;stroke-width:1.5}\
+.base{fill:#d5d5d5;fill-opacity:.75;stroke:#555;stroke-width:1.1;stroke-linejoin:round}\
+.platform{fill:#8fb8de;fill-opacity:.75;stroke:#1d4f82;stroke-width:1.3;stroke-linejoin:round}\
+.leg{stroke:#1a1a1a;stroke-width:1;stroke-linecap:round}\
+.first{stroke:#b00020;stroke-width:2.4;stroke-linecap:round}\
+.plate{fill:#fff;fill-opacity:.9}\
+.pair{fill:none;stroke:#c4c4c4;stroke-width:1}";
+
+/// Text of an XML node or attribute.
+pub(super) fn escape(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            // XML 1.0 knows no other control characters
+            c if c.is_control() && !matches!(c, '\t' | '\n' | '\r') => out.push('\u{fffd}'),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+/// A coordinate with two decimals, never `-0.00`.
+pub(super) fn px(x: f64) -> String {
+    format!("{:.2}", (x * 100.0).round() / 100.0 + 0.0)
+}
+
+/// A document under construction.
+#[derive(Debug)]
+pub(super) struct Svg {
+    out: String,
+}
+
+impl Svg {
+    /// Opens a document of the given size with the title and description that screen readers use.
+    pub(super) fn new(width: f64, height: f64, title: &str, description: &str) -> Self {
+        let (w, h) = (px(width), px(height));
+        let mut out = String::new();
+        let _ = writeln!(
+            out,
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {w} {h}\" width=\"{w}\" height=\"{h}\" \
+             role=\"img\" aria-labelledby=\"title desc\">\n<title id=\"title\">{}</title>\n\
+             <desc id=\"desc\">{}</desc>\n<style>{CSS}</style>\n<rect width=\"{w}\" height=\"{h}\" fill=\"#fff\"/>",
+            escape(title),
+            escape(description)
+        );
+        Self { out }
+    }
+
+    pub(super) fn text(&mut self, class: &str, at: (f64, f64), text: &str) {
+        let _ = writeln!(
+            self.out,
+            "<text class=\"{class}\" x=\"{}\" y=\"{}\">{}</text>",
+            px(at.0),
+            px(at.1),
+            escape(text)
+        );
+    }
+
+    /// Text turned by `degrees` about its anchor, clockwise on the page.
+    pub(super) fn turned_text(&mut self, class: &str, at: (f64, f64), degrees: f64, text: &str) {
+        let (x, y) = (px(at.0), px(at.1));
+        let _ = writeln!(
+            self.out,
+            "<text class=\"{class}\" x=\"{x}\" y=\"{y}\" transform=\"rotate({} {x} {y})\">{}</text>",
+            px(degrees),
+            escape(text)
+        );
+    }
+
+    pub(super) fn line(&mut self, class: &str, a: (f64, f64), b: (f64, f64)) {
+        let _ = writeln!(
+            self.out,
+            "<line class=\"{class}\" x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"/>",
+            px(a.0),
+            px(a.1),
+            px(b.0),
+            px(b.1)
+        );
+    }
+
+    pub(super) fn circle(&mut self, class: &str, at: (f64, f64), r: f64) {
+        let (x, y) = (px(at.0), px(at.1));
+        let _ = writeln!(self.out, "<circle class=\"{class}\" cx=\"{x}\" cy=\"{y}\" r=\"{}\"/>", px(r));
+    }
+
+    pub(super) fn rect(&mut self, class: &str, at: (f64, f64), size: (f64, f64)) {
+        let _ = writeln!(
+            self.out,
+            "<rect class=\"{class}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>",
+            px(at.0),
+            px(at.1),
+            px(size.0),
+            px(size.1)
+        );
+    }
+
+    pub(super) fn polygon(&mut self, class: &str, points: &[(f64, f64)]) {
+        let _ = writeln!(self.out, "<polygon class=\"{class}\" points=\"{}\"/>", list(points));
+    }
+
+    pub(super) fn polyline(&mut self, class: &str, points: &[(f64, f64)]) {
+        let _ = writeln!(self.out, "<polyline class=\"{class}\" points=\"{}\"/>", list(points));
+    }
+
+    /// A line with an id, by which programs find it.
+    pub(super) fn named_line(&mut self, id: &str, class: &str, a: (f64, f64), b: (f64, f64)) {
+        let _ = writeln!(
+            self.out,
+            "<line id=\"{id}\" class=\"{class}\" x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"/>",
+            px(a.0),
+            px(a.1),
+            px(b.0),
+            px(b.1)
+        );
+    }
+
+    pub(super) fn finish(mut self) -> String {
+        self.out.push_str("</svg>\n");
+        self.out
+    }
+}
+
+fn list(points: &[(f64, f64)]) -> String {
+    points.iter().map(|p| format!("{},{}", px(p.0), px(p.1))).collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_cannot_break_out_of_the_document() {
+        assert_eq!(escape("a<b> & \"c\"\u{1}"), "a&lt;b&gt; &amp; &quot;c&quot;\u{fffd}");
+        assert_eq!((px(-0.001), px(1.005)), ("0.00".into(), "1.00".into()));
+    }
+}

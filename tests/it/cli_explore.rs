@@ -1,0 +1,205 @@
+//! The process `equipod explore`: the folder it fills, exit codes, reproducible bytes, interruption.
+
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+
+const FILES: [&str; 9] = [
+    "original.toml",
+    "family.json",
+    "optimize.json",
+    "optimised.toml",
+    "determinant.svg",
+    "verify.json",
+    "fk.json",
+    "assembly-modes.svg",
+    "report.md",
+];
+
+fn shipped(name: &str) -> String {
+    format!("{}/designs/{name}.toml", env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The command on a shipped design, with joints inside their edges: one branch in place of 729.
+fn command(design: &str, folder: &Path, more: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_equipod"));
+    command.args(["explore", design, "--samples", "2", "--extension", "0", "-o"]).arg(folder).args(more);
+    command
+}
+
+fn explore(design: &str, folder: &Path, more: &[&str]) -> Output {
+    command(design, folder, more).output().unwrap()
+}
+
+fn read(folder: &Path, name: &str) -> String {
+    std::fs::read_to_string(folder.join(name)).unwrap_or_else(|e| panic!("{name}: {e}"))
+}
+
+/// Element names open and close in order, text and attributes hold no raw markup: enough to catch a broken writer.
+fn assert_well_formed(xml: &str) {
+    let mut open: Vec<&str> = Vec::new();
+    for piece in xml.split('<').skip(1) {
+        let (tag, text) = piece.split_once('>').expect("every tag ends");
+        assert!(!text.contains('>'), "raw > in `{text}`");
+        assert_eq!(tag.matches('"').count() % 2, 0, "quotes in `{tag}`");
+        for entity in tag.split('&').skip(1).chain(text.split('&').skip(1)) {
+            let known = ["amp;", "lt;", "gt;", "quot;"].iter().any(|e| entity.starts_with(e));
+            assert!(known, "entity in `{piece}`");
+        }
+        if let Some(name) = tag.strip_prefix('/') {
+            assert_eq!(open.pop(), Some(name));
+        } else if !tag.ends_with('/') {
+            open.push(tag.split_whitespace().next().unwrap());
+        }
+    }
+    assert!(open.is_empty());
+    assert!(!xml.contains("NaN") && !xml.contains("inf\""));
+}
+
+#[test]
+fn the_folder_holds_designs_records_pictures_and_report_and_the_same_bytes_again() {
+    let temp = tempfile::tempdir().unwrap();
+    let (first, second) = (temp.path().join("a/b"), temp.path().join("c"));
+    let out = explore(&shipped("rbt-octahedral"), &first, &[]);
+    assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stderr));
+    assert!(out.stderr.is_empty(), "no progress when nobody watches");
+    let paths: Vec<String> = String::from_utf8(out.stdout).unwrap().lines().map(str::to_owned).collect();
+    let expected: Vec<String> = FILES.iter().map(|f| first.join(f).display().to_string()).collect();
+    assert_eq!(paths, expected, "just the paths when piped");
+
+    // again: one JSON document, the same bytes in the files
+    let out = explore(&shipped("rbt-octahedral"), &second, &["--json"]);
+    let d: Value = serde_json::from_slice(&out.stdout).unwrap();
+    assert_eq!((&d["verdict"], &d["schema_version"]), (&Value::from("equivalent"), &Value::from(1)));
+    assert_eq!(d["paths"].as_array().unwrap().len(), FILES.len());
+    assert_eq!((&d["fk"]["finite_count"], &d["fk"]["real_count"]), (&Value::from(16), &Value::from(12)));
+    assert_eq!(d["verify"]["samples"], 2);
+    for file in FILES {
+        assert_eq!(read(&first, file), read(&second, file), "{file}");
+    }
+
+    for (file, field) in
+        [("family.json", "counts"), ("optimize.json", "A"), ("verify.json", "map"), ("fk.json", "solutions")]
+    {
+        let d: Value = serde_json::from_str(&read(&first, file)).unwrap();
+        assert_eq!((&d["schema_version"], &d["seed"]), (&Value::from(1), &Value::from(1)), "{file}");
+        assert!(!d[field].is_null(), "{file}: {field}");
+    }
+    assert_eq!(serde_json::from_str::<Value>(&read(&first, "fk.json")).unwrap()["lengths_from"], "design");
+
+    let determinant = read(&first, "determinant.svg");
+    assert_well_formed(&determinant);
+    assert!(
+        determinant.contains("id=\"singular-line\"") && determinant.contains("\u{394}1/12 + \u{394}2/6 = 1")
+    );
+    assert!(determinant.contains(">chosen, legs "));
+    let modes = read(&first, "assembly-modes.svg");
+    assert_well_formed(&modes);
+    assert_eq!(modes.matches(">pose ").count(), 12);
+
+    let report = read(&first, "report.md");
+    for needle in ["12-6: equivalent", "Leg map s'", "det A", "728 patterns", "16 finite poses, 12 real"] {
+        assert!(report.contains(needle), "{needle}");
+    }
+    optimised_design_has_the_lengths_of_the_same_poses(&first);
+}
+
+/// The lengths of the optimised design are those of a real pose of the original at its own lengths.
+fn optimised_design_has_the_lengths_of_the_same_poses(folder: &Path) {
+    let parse = |name: &str| {
+        let (design, warnings) =
+            equipod::design::parse(&read(folder, name), equipod::design::Format::Toml).unwrap();
+        assert!(warnings.is_empty() && design.description.as_ref().is_some_and(|d| d.contains("equipod")));
+        design
+    };
+    let (_, new) = (parse("original.toml"), parse("optimised.toml"));
+    let fk: Value = serde_json::from_str(&read(folder, "fk.json")).unwrap();
+    let root = &fk["solutions"][0];
+    assert_eq!(root["real"], true);
+    let x = |v: &Value| v.as_f64().unwrap();
+    let pose = equipod::geom::Pose {
+        rotation: nalgebra::Rotation3::from_matrix_unchecked(nalgebra::Matrix3::from_fn(|i, j| {
+            x(&root["R"]["re"][i][j])
+        })),
+        position: nalgebra::Vector3::from_fn(|i, _| x(&root["p"]["re"][i])),
+    };
+    let (found, wanted) = (pose.lengths(new.manipulator()).unwrap().get(), new.lengths.unwrap().get());
+    for i in 0..6 {
+        assert!((found[i] - wanted[i]).abs() < 1e-8, "leg {}", i + 1);
+    }
+}
+
+#[test]
+fn what_is_not_octahedral_is_refused_before_anything_is_written() {
+    let temp = tempfile::tempdir().unwrap();
+    let folder = temp.path().join("out");
+    let out = explore(&shipped("lee-shim"), &folder, &["--json"]);
+    assert_eq!(out.status.code(), Some(2));
+    let d: Value = serde_json::from_slice(&out.stdout).unwrap();
+    assert_eq!(d["error"]["code"], "explore::not_octahedral");
+    assert!(!folder.exists());
+}
+
+#[test]
+fn limits_that_leave_no_room_are_infeasible_with_a_report() {
+    let temp = tempfile::tempdir().unwrap();
+    let text = std::fs::read_to_string(shipped("rbt-octahedral")).unwrap();
+    let tight = text.replace("min_joint_distance = 1.2", "min_joint_distance = 5.0");
+    assert_ne!(text, tight);
+    let design = temp.path().join("tight.toml");
+    std::fs::write(&design, tight).unwrap();
+    let out = explore(design.to_str().unwrap(), &temp.path().join("out"), &["--json"]);
+    let d: Value = serde_json::from_slice(&out.stdout).unwrap();
+    assert_eq!((out.status.code(), &d["verdict"]), (Some(1), &Value::from("infeasible")));
+    assert!(!temp.path().join("out/optimised.toml").exists());
+    assert!(read(&temp.path().join("out"), "report.md").contains("No offsets were found"));
+}
+
+#[test]
+fn the_design_is_not_overwritten() {
+    let temp = tempfile::tempdir().unwrap();
+    let design = temp.path().join("original.toml");
+    std::fs::copy(shipped("rbt-octahedral"), &design).unwrap();
+    let out = explore(design.to_str().unwrap(), temp.path(), &["--json"]);
+    let d: Value = serde_json::from_slice(&out.stdout).unwrap();
+    assert_eq!(
+        (out.status.code(), &d["error"]["code"]),
+        (Some(2), &Value::from("explore::overwrites_design"))
+    );
+    assert_eq!(
+        std::fs::read(&design).unwrap(),
+        std::fs::read(shipped("rbt-octahedral")).unwrap(),
+        "untouched"
+    );
+}
+
+#[test]
+fn an_interrupted_run_leaves_finished_files_only_and_does_not_disturb_the_next() {
+    let temp = tempfile::tempdir().unwrap();
+    let folder = temp.path();
+    // what a kill between writing and renaming leaves, and a file of an older run
+    std::fs::write(folder.join("fk.json.part"), "{\"schema").unwrap();
+    std::fs::write(folder.join("report.md"), "of an older run").unwrap();
+    let mut child = command(&shipped("rbt-octahedral"), folder, &[]).stdout(Stdio::null()).spawn().unwrap();
+    let start = Instant::now();
+    while !folder.join("family.json").exists() && start.elapsed() < Duration::from_secs(60) {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert!(!folder.join("fk.json.part").exists(), "removed by the run that was interrupted");
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        if Path::new(&name).extension().is_some_and(|e| e == "json") {
+            let whole: Value = serde_json::from_str(&read(folder, &name)).unwrap();
+            assert_eq!(whole["schema_version"], 1, "{name}");
+        }
+        assert!(name != "report.md" || read(folder, &name) != "of an older run");
+    }
+    let out = explore(&shipped("rbt-octahedral"), folder, &[]);
+    assert_eq!(out.status.code(), Some(0));
+    let left = std::fs::read_dir(folder).unwrap().count();
+    assert_eq!(left, FILES.len(), "nothing besides the results");
+}
