@@ -182,6 +182,13 @@ fn the_homotopy_obeys_the_laws() {
 }
 
 #[test]
+fn the_eliminations_obey_the_laws() {
+    for method in [Method::Template, Method::Sylvester] {
+        laws_hold(&*solver(Some(method)), &[Kind::General]);
+    }
+}
+
+#[test]
 fn the_octic_obeys_the_laws() {
     laws_hold(&*solver(Some(Method::Octic)), &[Kind::Octahedral]);
 }
