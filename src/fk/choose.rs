@@ -1,7 +1,8 @@
 //! Which method solves a problem.
 
 use super::{
-    FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, Method, Octic, Sylvester, Template,
+    FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, Method, NeedsStart, Octic, Sylvester,
+    Template,
 };
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 
@@ -12,6 +13,7 @@ pub fn solver(method: Option<Method>) -> Box<dyn ForwardKinematics> {
         None => Box::new(Automatic),
         Some(Method::Octic) => Box::new(Octic),
         Some(Method::Homotopy) => Box::new(Homotopy),
+        Some(Method::Near) => Box::new(NeedsStart),
         Some(Method::Sylvester) => Box::new(Sylvester),
         Some(Method::Template) => Box::new(Template),
     }

@@ -8,6 +8,7 @@ mod collect;
 mod elimination;
 mod evidence;
 mod homotopy;
+mod near;
 mod octic;
 mod solutions;
 mod sylvester;
@@ -15,7 +16,9 @@ mod template;
 
 pub use choose::{Automatic, solver};
 pub use homotopy::Homotopy;
-pub use octic::{Octic, octic};
+use near::NeedsStart;
+pub use near::{NearEvidence, NearOptions, NearOutcome, NearSolver, WhyLost};
+pub use octic::{Octic, OcticPoses, OcticSolver, octic};
 pub use solutions::{
     Completeness, FkRoot, FkSolutions, Method, PathEnd, PathReport, Reality, Rejected, RejectionReason,
 };

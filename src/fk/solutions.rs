@@ -10,6 +10,8 @@ pub enum Method {
     Octic,
     /// Parameter homotopy in dual quaternions; any six legs.
     Homotopy,
+    /// Continuation of one real pose from a known one ([`NearSolver`](super::NearSolver)); not complete.
+    Near,
     /// Sylvester matrix, polynomial of degree 40 (Lee, Shim); general six legs.
     Sylvester,
     /// Elimination template and generalized eigenvectors (Martyushev); general six legs.
@@ -23,6 +25,7 @@ impl Method {
         match self {
             Self::Octic => "octic",
             Self::Homotopy => "homotopy",
+            Self::Near => "near",
             Self::Sylvester => "sylvester",
             Self::Template => "template",
         }

@@ -6,6 +6,7 @@ mod certify;
 mod cli_explore;
 mod cli_fk;
 mod cli_frame;
+mod cli_near;
 mod cli_optimize;
 mod cli_synthesis;
 mod cli_verify;

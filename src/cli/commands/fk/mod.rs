@@ -1,6 +1,7 @@
 //! `equipod fk`: all poses for given leg lengths.
 
 mod lengths;
+mod near;
 mod render;
 
 use std::fmt::Write as _;
@@ -30,6 +31,9 @@ pub(crate) struct Args {
     /// Method; auto takes the best one for the design
     #[arg(long, value_enum, default_value_t = MethodArg::Auto)]
     method: MethodArg,
+    /// Follow one real pose from POSE: x,y,z,roll_deg,pitch_deg,yaw_deg or x,y,z,qw,qx,qy,qz or home; a CSV file row by row
+    #[arg(long, value_name = "POSE", allow_hyphen_values = true, conflicts_with = "method")]
+    near: Option<String>,
 }
 
 /// `--method`.
@@ -66,6 +70,10 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let method = args.method.method()?;
     let design = context.load(&args.design)?;
     let given = lengths::given(args.lengths.as_deref(), design.lengths)?;
+    if let Some(text) = &args.near {
+        let start = near::parse(text, &design)?;
+        return Ok(near::run(&design, &given, start, context.seed()));
+    }
     let m = design.manipulator();
     let options = FkOptions { seed: context.seed(), ..FkOptions::default() };
     match given {

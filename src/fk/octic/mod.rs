@@ -5,6 +5,10 @@
 //! two. Eliminating `y` leaves an octic in `x` (Rojas, Borras, Thomas, sec. 3). Each root belongs to one
 //! `y` and to two poses, mirror images in the base plane: 16 poses.
 
+mod solver;
+
+pub use solver::{OcticPoses, OcticSolver};
+
 use nalgebra::{Matrix3, Vector3};
 use num_complex::Complex64;
 
@@ -13,7 +17,7 @@ use super::evidence::{OCTAHEDRAL, attach};
 use super::{Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method};
 use crate::geom::{ComplexPose, trilaterate};
 use crate::manipulator::{Leg, Manipulator, Octahedral, SquaredLegLengths};
-use crate::poly::roots;
+use crate::poly::{LANES, roots};
 
 /// Forward kinematics of octahedral platforms (also of those whose joints coincide without being named as
 /// shared: only coordinates count).
@@ -28,6 +32,8 @@ struct Problem {
     base: [Vector3<f64>; 3],
     platform: [Vector3<f64>; 3],
     s: [f64; 6],
+    /// Design units a unit.
+    size: f64,
 }
 
 impl ForwardKinematics for Octic {
@@ -36,35 +42,16 @@ impl ForwardKinematics for Octic {
     }
 
     fn solve(&self, m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
-        let refuse = |reason: String| FkError::NotApplicable { method: Method::Octic, reason };
-        let merged = Manipulator::from_legs(m.legs()).map_err(|e| refuse(e.to_string()))?;
-        let octahedral = Octahedral::recognise(&merged).map_err(|e| refuse(e.to_string()))?;
-        let size = m.size();
-        let problem = Problem {
-            base: octahedral.base().map(|p| p.coords / size),
-            platform: octahedral.platform().map(|p| p.coords / size),
-            s: octahedral.order().map(|i| s.get()[i.get()] / (size * size)),
+        let solver = OcticSolver::new(m)?;
+        let (candidates, pairs, unplaced) = match solver.solve(s) {
+            Some(found) => (regular(&found), LANES, 0),
+            None => solver.problem(s).candidates()?,
         };
-        let pairs = problem.distance_pairs().map_err(|what| FkError::Breakdown { what })?;
-        let mut candidates = Vec::new();
-        let mut unplaced = 0;
-        for (source, pair) in pairs.iter().enumerate() {
-            match problem.poses(*pair) {
-                Some(two) => candidates.extend(two.map(|pose| Candidate {
-                    pose: ComplexPose { position: pose.position * Complex64::from(size), ..pose },
-                    singular: false,
-                    condition: 1.0,
-                    source,
-                })),
-                None => unplaced += 1,
-            }
-        }
         let collected = collect(m, s, &o.tolerances, &candidates);
         let found = collected.roots.len();
         let all_paths_accounted = found == 16 && unplaced == 0;
         let reason = format!(
-            "the octic gave {} pairs (s15, s34), {found} distinct poses of at most 16 were found{}",
-            pairs.len(),
+            "the octic gave {pairs} pairs (s15, s34), {found} distinct poses of at most 16 were found{}",
             if all_paths_accounted { "" } else { "; poses may be missing or multiple" },
         );
         let mut solutions = FkSolutions {
@@ -80,6 +67,17 @@ impl ForwardKinematics for Octic {
     }
 }
 
+/// Sixteen poses of eight well separated pairs.
+fn regular(found: &OcticPoses) -> Vec<Candidate> {
+    let candidate = |(i, pose): (usize, &ComplexPose)| Candidate {
+        pose: *pose,
+        singular: false,
+        condition: 1.0,
+        source: i / 2,
+    };
+    found.poses.iter().enumerate().map(candidate).collect()
+}
+
 /// Squared distances of an apex to the corners `A, B, C` of a triangle, each `k[0] + k[1] x`.
 type Apex = [[f64; 2]; 3];
 
@@ -88,6 +86,7 @@ type Apex = [[f64; 2]; 3];
 /// Origin in corner `A`; `q` is the projection into the plane of the triangle, `h` the squared height. It
 /// vanishes when `U` and `V` can be placed at squared distance `d`: the Cayley-Menger determinant of the
 /// five points up to a constant.
+#[inline(always)]
 fn closure(triangle: [&Vector3<f64>; 3], u: Apex, v: Apex, d: f64) -> Biquadratic {
     let (b, c) = (triangle[1] - triangle[0], triangle[2] - triangle[0]);
     let (bb, bc, cc) = (b.norm_squared(), b.dot(&c), c.norm_squared());
@@ -132,28 +131,29 @@ fn closure(triangle: [&Vector3<f64>; 3], u: Apex, v: Apex, d: f64) -> Biquadrati
     out
 }
 
-fn product(p: &[f64], q: &[f64]) -> Vec<f64> {
-    let mut out = vec![0.0; p.len() + q.len() - 1];
-    for (i, a) in p.iter().enumerate() {
-        for (j, b) in q.iter().enumerate() {
-            out[i + j] += a * b;
+/// `a_i b_j - a_j b_i` for the coefficients of `y^i`, `y^j`: a polynomial of degree four in `x`.
+#[inline(always)]
+fn minor(a: &Biquadratic, b: &Biquadratic, i: usize, j: usize) -> [f64; 5] {
+    let mut out = [0.0; 5];
+    for k in 0..3 {
+        for l in 0..3 {
+            out[k + l] += a[k][i] * b[l][j] - a[k][j] * b[l][i];
         }
     }
     out
 }
 
-fn difference(p: &[f64], q: &[f64]) -> Vec<f64> {
-    p.iter().zip(q).map(|(a, b)| a - b).collect()
-}
-
 /// Resultant with respect to `y`: `(a2 b0 - a0 b2)^2 - (a2 b1 - a1 b2)(a1 b0 - a0 b1)`.
-fn resultant(a: &Biquadratic, b: &Biquadratic) -> Vec<f64> {
-    let column = |p: &Biquadratic, j: usize| [p[0][j], p[1][j], p[2][j]];
-    let minor = |i: usize, j: usize| {
-        difference(&product(&column(a, i), &column(b, j)), &product(&column(a, j), &column(b, i)))
-    };
-    let (outer, high, low) = (minor(2, 0), minor(2, 1), minor(1, 0));
-    difference(&product(&outer, &outer), &product(&high, &low))
+#[inline(always)]
+fn resultant(a: &Biquadratic, b: &Biquadratic) -> [f64; 9] {
+    let (outer, high, low) = (minor(a, b, 2, 0), minor(a, b, 2, 1), minor(a, b, 1, 0));
+    let mut out = [0.0; 9];
+    for k in 0..5 {
+        for l in 0..5 {
+            out[k + l] += outer[k] * outer[l] - high[k] * low[l];
+        }
+    }
+    out
 }
 
 /// Value and derivatives by `x` and `y`.
@@ -207,6 +207,25 @@ impl Problem {
         let second =
             closure([p4, p5, p6], [s[0], unknown, s[5]], [unknown, s[3], s[4]], (p1 - p3).norm_squared());
         (first, second)
+    }
+
+    /// Root by root, for coinciding pairs and flat corners too: candidates, pairs, pairs without a pose.
+    fn candidates(&self) -> Result<(Vec<Candidate>, usize, usize), FkError> {
+        let pairs = self.distance_pairs().map_err(|what| FkError::Breakdown { what })?;
+        let mut candidates = Vec::new();
+        let mut unplaced = 0;
+        for (source, pair) in pairs.iter().enumerate() {
+            match self.poses(*pair) {
+                Some(two) => candidates.extend(two.map(|pose| Candidate {
+                    pose: ComplexPose { position: pose.position * Complex64::from(self.size), ..pose },
+                    singular: false,
+                    condition: 1.0,
+                    source,
+                })),
+                None => unplaced += 1,
+            }
+        }
+        Ok((candidates, pairs.len(), unplaced))
     }
 
     /// The pairs `(s15, s34)` that satisfy both closures, eight in general.
@@ -307,90 +326,11 @@ pub fn octic(m: &Manipulator, s: &SquaredLegLengths) -> Result<[f64; 9], FkError
         base: octahedral.base().map(|p| p.coords),
         platform: octahedral.platform().map(|p| p.coords),
         s: octahedral.order().map(|i| s.get()[i.get()]),
+        size: 1.0,
     };
     let (a, b) = problem.closures();
-    let mut out = [0.0; 9];
-    out.copy_from_slice(&resultant(&a, &b));
-    Ok(out)
+    Ok(resultant(&a, &b))
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::fk::Homotopy;
-    use crate::geom::{Pose, random_rotation};
-    use crate::manipulator::LegLengths;
-    use crate::num::Rng;
-    use nalgebra::Point3;
-
-    /// Rojas, Borras, Thomas, sec. 6.
-    fn published() -> (Manipulator, SquaredLegLengths) {
-        let base = vec![Point3::origin(), Point3::new(6.0, 108f64.sqrt(), 0.0), Point3::new(12.0, 0.0, 0.0)];
-        let platform =
-            vec![Point3::origin(), Point3::new(3.0, 27f64.sqrt(), 0.0), Point3::new(6.0, 0.0, 0.0)];
-        let legs = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
-        let lengths = LegLengths::try_new([19.8, 18.0, 18.0, 17.0, 14.9, 17.8]).unwrap();
-        (Manipulator::try_new(base, platform, legs).unwrap(), lengths.squared())
-    }
-
-    #[test]
-    fn the_published_octic_roots() {
-        let (m, s) = published();
-        let c = octic(&m, &s).unwrap().map(Complex64::from);
-        let found = roots(&c).unwrap();
-        let expected = [269.2450856, 328.7364309, 359.5275017, 463.5657697, 497.902151, 513.0332445];
-        for x in expected.map(Complex64::from).into_iter().chain([Complex64::new(284.616753, 116.2085133)]) {
-            let near = found.iter().map(|z| (z - x).norm()).fold(f64::MAX, f64::min);
-            assert!(near < 1e-5, "{x}: {near}");
-        }
-    }
-
-    #[test]
-    fn sixteen_published_poses_of_which_twelve_are_real() {
-        let (m, s) = published();
-        let found = Octic.solve(&m, &s, &FkOptions::default()).unwrap();
-        assert_eq!(found.roots.len(), 16);
-        assert_eq!(found.assembly_modes().count(), 12);
-        assert!(found.all_accounted());
-        assert!(found.roots.iter().all(|r| r.residual < 1e-12));
-    }
-
-    #[test]
-    fn random_octahedral_platforms_agree_with_the_general_solver() {
-        for k in 0..15 {
-            let mut rng = Rng::stream(21, k);
-            let mut triangle =
-                || (0..3).map(|_| Point3::from(Vector3::from_fn(|_, _| rng.uniform(-1.0, 1.0)))).collect();
-            let (base, platform) = (triangle(), triangle());
-            let m = Manipulator::try_new(base, platform, [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)])
-                .unwrap();
-            let m = m.reordered([3, 5, 0, 1, 4, 2]).unwrap();
-            let position = Vector3::from_fn(|_, _| rng.normal());
-            let pose = Pose { rotation: random_rotation(&mut rng), position };
-            let s = pose.squared_lengths(&m).unwrap();
-            let a = Octic.solve(&m, &s, &FkOptions::default()).unwrap();
-            let b = Homotopy.solve(&m, &s, &FkOptions::default()).unwrap();
-            assert_eq!((a.roots.len(), b.roots.len()), (16, 16), "case {k}: {:?}", a.completeness);
-            for r in &a.roots {
-                let near =
-                    b.roots.iter().map(|q| q.pose.distance(&r.pose, m.size())).fold(f64::MAX, f64::min);
-                assert!(near < 1e-8, "case {k}: {near}");
-            }
-            let truth = ComplexPose::from(pose);
-            assert!(a.roots.iter().any(|r| r.pose.distance(&truth, m.size()) < 1e-9));
-        }
-    }
-
-    #[test]
-    fn refuses_platforms_that_are_not_octahedral() {
-        let mut rng = Rng::new(4);
-        let legs = std::array::from_fn(|_| {
-            let mut p = || Point3::from(Vector3::from_fn(|_, _| rng.normal()));
-            Leg { base: p(), platform: p() }
-        });
-        let m = Manipulator::from_legs(legs).unwrap();
-        let s = SquaredLegLengths::try_new([1.0; 6]).unwrap();
-        let error = Octic.solve(&m, &s, &FkOptions::default()).unwrap_err();
-        assert!(matches!(error, FkError::NotApplicable { method: Method::Octic, .. }));
-    }
-}
+mod tests;

@@ -1,0 +1,102 @@
+//! Medians of the two methods made for control loops. Run with `cargo run --release --example fast_methods`.
+//!
+//! Each problem is solved in batches; a batch's mean is one sample, the best of its samples is the problem's time,
+//! and the median over the problems is printed. One thread.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use equipod::fk::{FkOptions, ForwardKinematics, NearSolver, Octic, OcticSolver};
+use equipod::geom::{ComplexPose, Pose, random_rotation};
+use equipod::manipulator::{Leg, Manipulator, default_home};
+use equipod::num::Rng;
+use equipod::solve::certify::{Certifier, exact_squares};
+use nalgebra::{Point3, Rotation3, Vector3};
+
+const PROBLEMS: u64 = 300;
+const SAMPLES: u32 = 15;
+
+fn nanoseconds(runs: u32, mut work: impl FnMut()) -> f64 {
+    let sample = |_| {
+        let start = Instant::now();
+        (0..runs).for_each(|_| work());
+        start.elapsed().as_nanos() as f64 / f64::from(runs)
+    };
+    (0..SAMPLES).map(sample).fold(f64::MAX, f64::min)
+}
+
+#[allow(clippy::print_stdout, reason = "a table for people")]
+fn report(what: &str, mut times: Vec<f64>) {
+    times.sort_by(f64::total_cmp);
+    let at = |q: usize| times[(times.len() * q / 100).min(times.len() - 1)];
+    println!("{what:<58} {:>8.0} ns   90 %: {:>8.0} ns   n = {}", at(50), at(90), times.len());
+}
+
+fn octahedral(k: u64) -> Result<(Manipulator, Pose), Box<dyn std::error::Error>> {
+    let mut rng = Rng::stream(21, k);
+    let mut triangle =
+        || (0..3).map(|_| Point3::from(Vector3::from_fn(|_, _| rng.uniform(-1.0, 1.0)))).collect();
+    let legs = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
+    let m = Manipulator::try_new(triangle(), triangle(), legs)?;
+    let position = Vector3::from_fn(|_, _| rng.normal());
+    Ok((m, Pose { rotation: random_rotation(&mut rng), position }))
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let (mut fast, mut certificates, mut whole) = (Vec::new(), Vec::new(), Vec::new());
+    for k in 0..PROBLEMS {
+        let (m, pose) = octahedral(k)?;
+        let s = pose.squared_lengths(&m).ok_or("overflow")?;
+        let solver = OcticSolver::new(&m)?;
+        if let Some(found) = solver.solve(&s) {
+            fast.push(nanoseconds(20, || {
+                black_box(solver.solve(black_box(&s)));
+            }));
+            let certifier = Certifier::new(&m, &exact_squares(&s)).map_err(|e| e.to_string())?;
+            certificates.push(nanoseconds(5, || {
+                for p in &found.poses {
+                    black_box(certifier.certify(black_box(p)));
+                }
+            }));
+        }
+        whole.push(nanoseconds(2, || {
+            let _ = black_box(Octic.solve(&m, black_box(&s), &FkOptions::default()));
+        }));
+    }
+    report("octic, 16 poses (OcticSolver)", fast);
+    report("certificates of these 16 poses", certificates);
+    report("octic with records and certificates (Octic)", whole);
+
+    for step in [1e-5, 1e-4, 1e-3, 1e-2] {
+        let (mut times, mut segments, mut certified) = (Vec::new(), 0.0, Vec::new());
+        for k in 0..PROBLEMS {
+            let mut rng = Rng::stream(22, k);
+            let mut point = |r: f64| Point3::new(r * rng.normal(), r * rng.normal(), 0.3 * rng.normal());
+            let legs = std::array::from_fn(|_| Leg { base: point(2.0), platform: point(1.0) });
+            let m = Manipulator::from_legs(legs)?;
+            let home = default_home(&m);
+            let turn = Vector3::from_fn(|_, _| step * rng.normal());
+            let position = home.position + Vector3::from_fn(|_, _| step * rng.normal());
+            let goal = Pose { rotation: Rotation3::new(turn) * home.rotation, position };
+            let s = goal.squared_lengths(&m).ok_or("overflow")?;
+            let solver = NearSolver::new(&m);
+            let outcome = solver.solve(&s, &home);
+            let Some(found) = outcome.tracked() else { continue };
+            segments += f64::from(outcome.evidence().segments);
+            times.push(nanoseconds(50, || {
+                black_box(solver.solve(black_box(&s), &home));
+            }));
+            let found = ComplexPose::from(*found);
+            certified.push(nanoseconds(20, || {
+                let certifier = Certifier::new(&m, &exact_squares(black_box(&s)));
+                let _ = black_box(certifier.map(|c| c.certify(&found)));
+            }));
+        }
+        let mean = segments / times.len() as f64;
+        report(&format!("near, move of {step:e}, {mean:.2} segments in the mean"), times);
+        if step < 2e-5 {
+            report("certificate of the tracked pose", certified);
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,192 @@
+//! `equipod fk --near POSE`: one pose followed, or a trajectory row by row.
+
+use std::fmt::Write as _;
+
+use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
+use serde_json::{Map, Value, json};
+
+use super::lengths::{Given, Row};
+use super::render;
+use crate::cli::exit::Exit;
+use crate::cli::failure::Failure;
+use crate::cli::output::{Answer, number};
+use crate::design::Design;
+use crate::fk::{Completeness, FkRoot, FkSolutions, Method, NearOutcome, NearSolver, Reality};
+use crate::geom::{ComplexPose, Pose};
+use crate::manipulator::{LegLengths, Manipulator, default_home};
+use crate::solve::certify::{Certifier, exact_squares};
+
+const FORM: &str = "give `home`, x,y,z,roll_deg,pitch_deg,yaw_deg or x,y,z,qw,qx,qy,qz";
+
+/// The pose of `--near`: `home`, six or seven numbers.
+pub(super) fn parse(text: &str, design: &Design) -> Result<Pose, Failure> {
+    if text == "home" {
+        return Ok(design.home.unwrap_or_else(|| default_home(design.manipulator())));
+    }
+    let refuse =
+        |message: String| Failure::refused("fk::bad_pose", format!("--near: {message}")).with_help(FORM);
+    let mut values = Vec::with_capacity(7);
+    for (i, field) in text.split(',').map(str::trim).enumerate() {
+        match field.parse::<f64>() {
+            Ok(x) if x.is_finite() => values.push(x),
+            _ => return Err(refuse(format!("value {}, `{field}`, is not a finite number", i + 1))),
+        }
+    }
+    let rotation = match values[..] {
+        [_, _, _, roll, pitch, yaw] => {
+            Rotation3::from_euler_angles(roll.to_radians(), pitch.to_radians(), yaw.to_radians())
+        }
+        [_, _, _, w, x, y, z] => {
+            let q = Quaternion::new(w, x, y, z);
+            if !((q.norm() - 1.0).abs() <= 1e-3) {
+                return Err(refuse(format!("the quaternion has norm {}, not 1", q.norm())));
+            }
+            UnitQuaternion::from_quaternion(q).to_rotation_matrix()
+        }
+        _ => return Err(refuse(format!("{} values instead of six or seven", values.len()))),
+    };
+    Ok(Pose { rotation, position: Vector3::new(values[0], values[1], values[2]) })
+}
+
+/// Follows one pose. A row that is not tracked leaves the next to start from the last tracked pose.
+pub(super) fn run(design: &Design, given: &Given, start: Pose, seed: u64) -> Answer {
+    let m = design.manipulator();
+    let solver = NearSolver::new(m);
+    match given {
+        Given::One(l) => {
+            let outcome = solver.solve(&l.squared(), &start);
+            let (record, solutions) = record(m, l, &start, &outcome, seed);
+            let text = format!("{}{}", sentence(&outcome), render::text(&design.name, &solutions));
+            Answer { exit: exit_of(&outcome), json: record, text }
+        }
+        Given::Rows(rows) => trajectory(m, &solver, rows, start, seed),
+    }
+}
+
+fn trajectory(m: &Manipulator, solver: &NearSolver, rows: &[Row], start: Pose, seed: u64) -> Answer {
+    let (mut exit, mut from) = (Exit::Yes, start);
+    let mut text = String::from("line  outcome           segments  inverse condition  position\n");
+    let mut records = Vec::with_capacity(rows.len());
+    for row in rows {
+        let outcome = solver.solve(&row.lengths.squared(), &from);
+        exit = exit.max(exit_of(&outcome));
+        let mut fields = Map::new();
+        fields.insert("line".into(), json!(row.line));
+        fields.insert("lengths".into(), json!(row.lengths.get()));
+        fields.extend(record(m, &row.lengths, &from, &outcome, seed).0);
+        records.push(Value::Object(fields));
+        let (e, p) = (outcome.evidence(), outcome.pose().position);
+        let _ = writeln!(
+            text,
+            "{:>4}  {:<16}  {:>8}  {:>17.3e}  [{:.6}, {:.6}, {:.6}]",
+            row.line,
+            outcome.name(),
+            e.segments,
+            e.inverse_condition,
+            p.x,
+            p.y,
+            p.z
+        );
+        from = outcome.tracked().copied().unwrap_or(from);
+    }
+    let mut json = Map::new();
+    json.insert("rows".into(), Value::Array(records));
+    Answer { exit, json, text }
+}
+
+fn exit_of(outcome: &NearOutcome) -> Exit {
+    if outcome.tracked().is_some() { Exit::Yes } else { Exit::Inconclusive }
+}
+
+/// The record of `fk` with at most one solution, and `near` with the evidence.
+fn record(
+    m: &Manipulator,
+    lengths: &LegLengths,
+    start: &Pose,
+    outcome: &NearOutcome,
+    seed: u64,
+) -> (Map<String, Value>, FkSolutions) {
+    let s = lengths.squared();
+    let certified = |pose: &ComplexPose| {
+        Certifier::new(m, &exact_squares(&s)).is_ok_and(|c| c.certify(pose).certificate().is_some())
+    };
+    let root = outcome.tracked().map(|pose| {
+        let pose = ComplexPose::from(*pose);
+        let condition = 1.0 / outcome.evidence().inverse_condition;
+        FkRoot {
+            pose,
+            reality: Reality::Real,
+            certified: certified(&pose),
+            multiplicity: 1,
+            residual: pose.residual(m, &s),
+            condition,
+        }
+    });
+    let tracked = root.is_some();
+    let solutions = FkSolutions {
+        method: Method::Near,
+        roots: root.into_iter().collect(),
+        completeness: Completeness::Unproved {
+            reason: "one pose was followed from the pose given; others were not looked for".to_owned(),
+            all_paths_accounted: tracked,
+        },
+        paths: Vec::new(),
+        rejected: Vec::new(),
+        seed,
+    };
+    let mut fields = render::json(&solutions);
+    fields.insert("near".into(), evidence(start, outcome));
+    (fields, solutions)
+}
+
+fn evidence(start: &Pose, outcome: &NearOutcome) -> Value {
+    let e = outcome.evidence();
+    let (fraction, reason) = match outcome {
+        NearOutcome::Tracked { .. } => (1.0, Value::Null),
+        NearOutcome::NearSingularity { fraction, .. } => (*fraction, Value::Null),
+        NearOutcome::Lost { fraction, reason, .. } => (*fraction, json!(reason.to_string())),
+    };
+    json!({
+        "outcome": outcome.name(),
+        "reason": reason,
+        "start": pose(start),
+        "reached": pose(outcome.pose()),
+        "fraction": number(fraction),
+        "residual": number(e.residual),
+        "inverse_condition": number(e.inverse_condition),
+        "segments": e.segments,
+        "newton_steps": e.newton_steps,
+        "kantorovich": number(e.kantorovich),
+        "distance": number(e.distance),
+        "angle_deg": number(e.angle.to_degrees()),
+    })
+}
+
+fn pose(p: &Pose) -> Value {
+    let r = p.rotation.matrix();
+    let rows: Value = (0..3).map(|i| (0..3).map(|j| number(r[(i, j)])).collect::<Value>()).collect();
+    json!({ "R": rows, "p": p.position.iter().map(|x| number(*x)).collect::<Value>() })
+}
+
+/// One line for people, before the list of poses.
+fn sentence(outcome: &NearOutcome) -> String {
+    let e = outcome.evidence();
+    match outcome {
+        NearOutcome::Tracked { .. } => format!(
+            "tracked in {} segment(s), {} Newton steps; moved by {:.6} and {:.4} degrees; inverse condition {:.2e}\n",
+            e.segments,
+            e.newton_steps,
+            e.distance,
+            e.angle.to_degrees(),
+            e.inverse_condition
+        ),
+        NearOutcome::NearSingularity { fraction, .. } => format!(
+            "NEAR A SINGULARITY: stopped after {:.4} % of the way, inverse condition {:.2e}\n",
+            100.0 * fraction,
+            e.inverse_condition
+        ),
+        NearOutcome::Lost { fraction, reason, .. } => {
+            format!("LOST after {:.4} % of the way: {reason}\n", 100.0 * fraction)
+        }
+    }
+}

@@ -1,0 +1,259 @@
+//! One real pose followed from a known one, for control loops.
+//!
+//! The known pose `P0` is an exact solution for its own squared lengths `s(P0)`. The solver moves the squared lengths
+//! along the straight line from `s(P0)` to those asked for and follows the pose, in segments so short that a Kantorovich
+//! test shows each of them free of singularities: the answer is the continuous continuation of `P0`, never
+//! another assembly mode. Theory: `docs/theory/near-pose.md`.
+
+mod local;
+mod outcome;
+
+pub use outcome::{NearEvidence, NearOutcome, WhyLost};
+
+use nalgebra::{Matrix3, Rotation3, Vector3};
+
+use super::{FkError, FkOptions, FkSolutions, ForwardKinematics, Method};
+use crate::geom::Pose;
+use crate::manipulator::{Manipulator, SquaredLegLengths};
+use local::{Local, Newton, Start};
+
+/// `4 (beta + eta) eta` of every accepted segment is at most this; the theorem needs 1.
+const KANTOROVICH: f64 = 0.88;
+/// Newton corrections within a segment; in a Kantorovich ball five reach rounding.
+const CORRECTIONS: u32 = 12;
+
+/// Limits of a [`NearSolver`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NearOptions {
+    /// Below this [`NearEvidence::inverse_condition`] the pose counts as singular.
+    pub singular: f64,
+    /// Most segments the way to the new lengths is divided into. With 1 only starts in the Kantorovich ball of the new
+    /// lengths are accepted.
+    pub segments: u32,
+}
+
+impl Default for NearOptions {
+    fn default() -> Self {
+        Self { singular: 1e-6, segments: 1000 }
+    }
+}
+
+/// Follows one real pose of a manipulator. Made once a design; a solve allocates nothing.
+///
+/// ```
+/// use equipod::fk::{NearOutcome, NearSolver};
+/// use equipod::manipulator::{Leg, Manipulator, default_home};
+/// use nalgebra::Point3;
+/// let legs = std::array::from_fn(|i| {
+///     let t = f64::from(i as u8);
+///     let base = Point3::new(2.0 * t.cos(), 2.0 * t.sin(), 0.0);
+///     Leg { base, platform: Point3::new((2.0 * t).cos(), (1.3 * t).sin(), 0.1 * t) }
+/// });
+/// let m = Manipulator::from_legs(legs)?;
+/// let home = default_home(&m);
+/// let mut moved = home;
+/// moved.position.x += 0.01;
+/// let s = moved.squared_lengths(&m).ok_or("overflow")?;
+/// let outcome = NearSolver::new(&m).solve(&s, &home);
+/// let NearOutcome::Tracked { pose, evidence } = outcome else { return Err("lost".into()) };
+/// assert!((pose.position - moved.position).norm() < 1e-12);
+/// assert!(evidence.residual < 1e-13);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct NearSolver {
+    /// Base joints relative to `origin` and platform joints relative to `centre`, in units of `unit`.
+    base: [[f64; 3]; 6],
+    platform: [[f64; 3]; 6],
+    origin: Vector3<f64>,
+    centre: Vector3<f64>,
+    /// Twice the RMS radius of the platform, design units.
+    unit: f64,
+    /// Squared unit over squared size.
+    residual_scale: f64,
+    options: NearOptions,
+}
+
+/// A pose in the solver's units: rotation, and position of the platform centroid relative to the base centroid.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    rotation: [[f64; 3]; 3],
+    position: [f64; 3],
+}
+
+/// What one segment came to.
+enum Segment {
+    /// At the end of the way.
+    Arrived(Place),
+    /// Part of the way: the fraction of what was left.
+    Advanced(Place, f64),
+    Singular,
+    Stuck,
+}
+
+impl NearSolver {
+    /// Prepares a design with default options.
+    #[must_use]
+    pub fn new(m: &Manipulator) -> Self {
+        Self::with_options(m, NearOptions::default())
+    }
+
+    /// Prepares a design.
+    #[must_use]
+    pub fn with_options(m: &Manipulator, options: NearOptions) -> Self {
+        let legs = m.legs();
+        let unit = 2.0 * m.platform_rms_radius();
+        let mean = |points: [Vector3<f64>; 6]| points.iter().sum::<Vector3<f64>>() / 6.0;
+        let origin = mean(legs.map(|l| l.base.coords));
+        let centre = mean(legs.map(|l| l.platform.coords));
+        Self {
+            base: legs.map(|l| ((l.base.coords - origin) / unit).into()),
+            platform: legs.map(|l| ((l.platform.coords - centre) / unit).into()),
+            origin,
+            centre,
+            unit,
+            residual_scale: (unit / m.size()).powi(2),
+            options,
+        }
+    }
+
+    /// Continues the pose `start` to the squared leg lengths `s`.
+    #[must_use]
+    pub fn solve(&self, s: &SquaredLegLengths, start: &Pose) -> NearOutcome {
+        let scale = (self.unit * self.unit).recip();
+        let target = s.get().map(|s| s * scale);
+        let from = self.place_of(start);
+        let mut evidence = NearEvidence::default();
+        let Some(mut place) = local::orthonormal(&from) else {
+            return NearOutcome::Lost {
+                pose: *start,
+                reason: WhyLost::StartIsNoPose,
+                fraction: 0.0,
+                evidence,
+            };
+        };
+        let mut left = 1.0;
+        let (fraction, reason) = loop {
+            if evidence.segments >= self.options.segments {
+                break (1.0 - left, Some(WhyLost::SegmentsExhausted));
+            }
+            match self.segment(&target, &place, &mut evidence) {
+                Segment::Arrived(end) => {
+                    place = end;
+                    break (1.0, None);
+                }
+                Segment::Advanced(next, part) => {
+                    left *= 1.0 - part;
+                    place = next;
+                }
+                Segment::Singular => break (1.0 - left, None),
+                Segment::Stuck => break (1.0 - left, Some(WhyLost::NoConvergence)),
+            }
+        };
+        self.measure(&target, &from, &place, &mut evidence);
+        let pose = self.pose_of(&place);
+        let singular = !(evidence.inverse_condition >= self.options.singular);
+        match reason {
+            Some(reason) if !singular => NearOutcome::Lost { pose, reason, fraction, evidence },
+            None if !singular => NearOutcome::Tracked { pose, evidence },
+            _ => NearOutcome::NearSingularity { pose, fraction, evidence },
+        }
+    }
+
+    /// One certified segment from `place` towards `target`, as far as the Kantorovich test allows.
+    fn segment(&self, target: &[f64; 6], place: &Place, evidence: &mut NearEvidence) -> Segment {
+        let here = Local::at(self, place, target);
+        let Some(start) = Start::of(&here) else { return Segment::Singular };
+        if !(start.inverse_condition >= self.options.singular) {
+            return Segment::Singular;
+        }
+        let number = 4.0 * (start.beta + start.eta) * start.eta;
+        if number <= KANTOROVICH {
+            evidence.accept(number);
+            return self
+                .correct(target, place, &start, 1.0, evidence)
+                .map_or(Segment::Stuck, Segment::Arrived);
+        }
+        // eta scales with the part taken; 4 (beta + x) x <= 0.88 for x = 0.22 / (beta + 0.22), as beta >= 1
+        let part = 0.22 / ((start.beta + 0.22) * start.eta);
+        if !(part > 0.0) {
+            return Segment::Stuck;
+        }
+        let part = part.min(1.0);
+        let between = here.squares_after(part);
+        evidence.accept(4.0 * (start.beta + part * start.eta) * part * start.eta);
+        self.correct(&between, place, &start, part, evidence)
+            .map_or(Segment::Stuck, |next| Segment::Advanced(next, part))
+    }
+
+    /// Newton's method to the root for `target` in the Kantorovich ball about `from`; `None` when it ends elsewhere.
+    fn correct(
+        &self,
+        target: &[f64; 6],
+        from: &Place,
+        start: &Start,
+        part: f64,
+        evidence: &mut NearEvidence,
+    ) -> Option<Place> {
+        let beta = start.beta + part * start.eta;
+        let mut newton = Newton { step: start.step.map(|x| part * x) };
+        let mut place = *from;
+        for _ in 0..CORRECTIONS {
+            let size = newton.size();
+            if !(size > 0.0) {
+                break;
+            }
+            place = newton.applied_to(&place);
+            evidence.newton_steps += 1;
+            // the error left is at most 2 beta size^2 (with the Jacobian of the start: of this order)
+            if 4.0 * beta * size * size < 1e-18 {
+                break;
+            }
+            newton = Local::at(self, &place, target).newton()?;
+        }
+        let radius = local::distance(from, &place, start.epsilon);
+        (2.0 * beta * radius <= 1.0).then_some(place)
+    }
+
+    /// Residual, condition and distance at the end.
+    fn measure(&self, target: &[f64; 6], from: &Place, place: &Place, evidence: &mut NearEvidence) {
+        let here = Local::at(self, place, target);
+        evidence.residual = here.largest_defect() * self.residual_scale;
+        evidence.inverse_condition = Start::of(&here).map_or(0.0, |s| s.inverse_condition);
+        let (angle, shift) = local::motion(from, place);
+        evidence.angle = angle;
+        evidence.distance = shift * self.unit;
+    }
+
+    fn place_of(&self, pose: &Pose) -> Place {
+        let r = pose.rotation.matrix();
+        let rotation = [0, 1, 2].map(|i| [r[(i, 0)], r[(i, 1)], r[(i, 2)]]);
+        let position = (r * self.centre + pose.position - self.origin) / self.unit;
+        Place { rotation, position: position.into() }
+    }
+
+    fn pose_of(&self, place: &Place) -> Pose {
+        let r = &place.rotation;
+        let matrix = Matrix3::from_fn(|i, j| r[i][j]);
+        let position = Vector3::from(place.position) * self.unit + self.origin - matrix * self.centre;
+        Pose { rotation: Rotation3::from_matrix_unchecked(matrix), position }
+    }
+}
+
+/// [`Method::Near`] as a solver of the general kind: it cannot be one, since it needs a pose to start from.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct NeedsStart;
+
+impl ForwardKinematics for NeedsStart {
+    fn method(&self) -> Method {
+        Method::Near
+    }
+
+    fn solve(&self, _: &Manipulator, _: &SquaredLegLengths, _: &FkOptions) -> Result<FkSolutions, FkError> {
+        let reason = "it follows one pose from a known one; see NearSolver".to_owned();
+        Err(FkError::NotApplicable { method: Method::Near, reason })
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,119 @@
+//! What following a pose came to.
+
+use thiserror::Error;
+
+use crate::geom::Pose;
+
+/// Numbers that go with every outcome.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct NearEvidence {
+    /// Largest error of the leg equations at the pose, over the squared size of the design.
+    pub residual: f64,
+    /// `6 / (|J|_F |J^-1|_F)` at the pose, `J` the matrix of unnormalised leg lines
+    /// ([`plucker_matrix`](crate::manipulator::plucker_matrix)) with the RMS radius of the platform as
+    /// characteristic length: 1 at best, 0 at a singularity. At least the 2-norm's inverse condition number.
+    pub inverse_condition: f64,
+    /// Segments the straight line of squared lengths was divided into; 1: the start lies in the Kantorovich ball.
+    pub segments: u32,
+    /// Newton steps in all.
+    pub newton_steps: u32,
+    /// Largest Kantorovich number `4 (beta + eta) eta` of the segments; below 1 each is free of singularities.
+    pub kantorovich: f64,
+    /// How far the platform's centroid moved, design units.
+    pub distance: f64,
+    /// Angle the platform turned by, radians in `[0, pi]`.
+    pub angle: f64,
+}
+
+impl NearEvidence {
+    pub(super) fn accept(&mut self, number: f64) {
+        self.segments += 1;
+        self.kantorovich = self.kantorovich.max(number);
+    }
+}
+
+/// Why a pose was lost although no singularity is near.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum WhyLost {
+    /// The start has an entry that is not finite, or its matrix is no rotation (by more than `1e-6`).
+    #[error("the start is no pose: its matrix is not a rotation, or a number is not finite")]
+    StartIsNoPose,
+    /// [`NearOptions::segments`](super::NearOptions::segments) were not enough.
+    #[error("the lengths are too far from those of the start for the number of segments allowed")]
+    SegmentsExhausted,
+    /// Newton's method did not end in the ball in which it must; rounding is the only cause known.
+    #[error("Newton's method did not converge to the accuracy that the proof needs")]
+    NoConvergence,
+}
+
+/// The outcome of [`NearSolver::solve`](super::NearSolver::solve).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum NearOutcome {
+    /// The pose for the lengths asked for, joined to the start by a way free of singularities.
+    Tracked {
+        /// The pose.
+        pose: Pose,
+        /// Its evidence.
+        evidence: NearEvidence,
+    },
+    /// A singularity lies on the way or at its end.
+    NearSingularity {
+        /// The last pose before it; its own leg lengths lie on the way.
+        pose: Pose,
+        /// How far on the straight line of squared lengths, from 0 to 1.
+        fraction: f64,
+        /// Evidence at that pose.
+        evidence: NearEvidence,
+    },
+    /// Given up.
+    Lost {
+        /// The last pose reached.
+        pose: Pose,
+        /// Why.
+        reason: WhyLost,
+        /// How far on the straight line of squared lengths, from 0 to 1.
+        fraction: f64,
+        /// Evidence at that pose (all zero when the start is no pose).
+        evidence: NearEvidence,
+    },
+}
+
+impl NearOutcome {
+    /// The pose for the lengths asked for, when it was reached.
+    #[must_use]
+    pub fn tracked(&self) -> Option<&Pose> {
+        match self {
+            Self::Tracked { pose, .. } => Some(pose),
+            Self::NearSingularity { .. } | Self::Lost { .. } => None,
+        }
+    }
+
+    /// The pose reached, whatever the outcome.
+    #[must_use]
+    pub fn pose(&self) -> &Pose {
+        match self {
+            Self::Tracked { pose, .. } | Self::NearSingularity { pose, .. } | Self::Lost { pose, .. } => pose,
+        }
+    }
+
+    /// The evidence.
+    #[must_use]
+    pub fn evidence(&self) -> &NearEvidence {
+        match self {
+            Self::Tracked { evidence, .. }
+            | Self::NearSingularity { evidence, .. }
+            | Self::Lost { evidence, .. } => evidence,
+        }
+    }
+
+    /// The name used in JSON.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Tracked { .. } => "tracked",
+            Self::NearSingularity { .. } => "near_singularity",
+            Self::Lost { .. } => "lost",
+        }
+    }
+}
