@@ -1,5 +1,7 @@
 //! Eight complex numbers side by side, so that the compiler can fill vector units.
 
+#![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
+
 use num_complex::Complex64;
 
 /// Lanes.

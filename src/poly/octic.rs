@@ -1,5 +1,7 @@
 //! All eight roots of a real polynomial of degree eight at once, without allocation.
 
+#![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
+
 use super::batch::{Batch, LANES};
 
 /// Sweeps before giving up; well separated roots take about ten.

@@ -14,17 +14,17 @@ use super::{NearSolver, Place};
 type Vector = [f64; 3];
 type Matrix6 = [[f64; 6]; 6];
 
-#[inline(always)]
+#[inline]
 fn dot(a: &Vector, b: &Vector) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-#[inline(always)]
+#[inline]
 fn cross(a: &Vector, b: &Vector) -> Vector {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-#[inline(always)]
+#[inline]
 fn norm(a: &Vector) -> f64 {
     dot(a, a).sqrt()
 }
@@ -273,7 +273,7 @@ fn second_order(here: &Local, y: &Matrix6) -> (f64, f64) {
 }
 
 /// Index of the largest entry of a column at or below the diagonal, `None` when it is zero or not a number.
-#[inline(always)]
+#[inline]
 fn pivot(j: &Matrix6, k: usize) -> Option<usize> {
     let mut best = k;
     for i in k + 1..6 {

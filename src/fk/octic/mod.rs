@@ -86,7 +86,7 @@ type Apex = [[f64; 2]; 3];
 /// Origin in corner `A`; `q` is the projection into the plane of the triangle, `h` the squared height. It
 /// vanishes when `U` and `V` can be placed at squared distance `d`: the Cayley-Menger determinant of the
 /// five points up to a constant.
-#[inline(always)]
+#[inline]
 fn closure(triangle: [&Vector3<f64>; 3], u: Apex, v: Apex, d: f64) -> Biquadratic {
     let (b, c) = (triangle[1] - triangle[0], triangle[2] - triangle[0]);
     let (bb, bc, cc) = (b.norm_squared(), b.dot(&c), c.norm_squared());
@@ -132,7 +132,7 @@ fn closure(triangle: [&Vector3<f64>; 3], u: Apex, v: Apex, d: f64) -> Biquadrati
 }
 
 /// `a_i b_j - a_j b_i` for the coefficients of `y^i`, `y^j`: a polynomial of degree four in `x`.
-#[inline(always)]
+#[inline]
 fn minor(a: &Biquadratic, b: &Biquadratic, i: usize, j: usize) -> [f64; 5] {
     let mut out = [0.0; 5];
     for k in 0..3 {
@@ -144,7 +144,7 @@ fn minor(a: &Biquadratic, b: &Biquadratic, i: usize, j: usize) -> [f64; 5] {
 }
 
 /// Resultant with respect to `y`: `(a2 b0 - a0 b2)^2 - (a2 b1 - a1 b2)(a1 b0 - a0 b1)`.
-#[inline(always)]
+#[inline]
 fn resultant(a: &Biquadratic, b: &Biquadratic) -> [f64; 9] {
     let (outer, high, low) = (minor(a, b, 2, 0), minor(a, b, 2, 1), minor(a, b, 1, 0));
     let mut out = [0.0; 9];

@@ -1,5 +1,7 @@
 //! The octic for control loops: all sixteen poses side by side, without allocation.
 
+#![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
+
 use nalgebra::{Matrix3, Vector3};
 use num_complex::Complex64;
 

@@ -31,7 +31,7 @@ pub(crate) struct Args {
     /// Method; auto takes the best one for the design
     #[arg(long, value_enum, default_value_t = MethodArg::Auto)]
     method: MethodArg,
-    /// Follow one real pose from POSE: x,y,z,roll_deg,pitch_deg,yaw_deg or x,y,z,qw,qx,qy,qz or home; a CSV file row by row
+    /// Follow one real pose from this one: `x,y,z,roll_deg,pitch_deg,yaw_deg`, `x,y,z,qw,qx,qy,qz` or `home`; a CSV file row by row
     #[arg(long, value_name = "POSE", allow_hyphen_values = true, conflicts_with = "method")]
     near: Option<String>,
 }
