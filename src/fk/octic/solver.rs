@@ -184,7 +184,9 @@ impl OcticSolver {
         let mut worst = 0.0_f64;
         for pose in poses {
             let scale = pose_scale(pose, self.size);
-            let next = refine(&self.manipulator, s, pose);
+            // Newton's method keeps R^T R as it is, so that is put right first
+            let rotation = orthogonalised(&pose.rotation);
+            let next = refine(&self.manipulator, s, &ComplexPose { rotation, ..*pose });
             let residual = next.residual(&self.manipulator, s) / (scale * scale);
             let near = next.distance(pose, self.size) <= SEPARATE * scale;
             if !(near && residual <= RESIDUAL) {
@@ -336,6 +338,12 @@ impl OcticSolver {
         }
         out
     }
+}
+
+/// `R (3 I - R^T R) / 2`, which squares the defect of `R^T R = I`.
+fn orthogonalised(r: &Matrix3<Complex64>) -> Matrix3<Complex64> {
+    let three = Matrix3::identity() * Complex64::from(3.0);
+    r * (three - r.transpose() * r) * Complex64::from(0.5)
 }
 
 /// The largest of 1 and the moduli of `R` and of `p` over the size.
