@@ -8,6 +8,7 @@
 //!
 //! Two platforms are *kinematically equivalent* when `s' = A s + c` with `det A != 0` holds at every pose.
 
+pub mod bench;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod design;

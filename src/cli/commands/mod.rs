@@ -12,6 +12,7 @@
 //! word of explanation in the document). Print nothing: what the command found is the [`Answer`], why it
 //! has no answer is the [`Failure`].
 
+mod bench;
 mod convert;
 mod explore;
 mod family;
@@ -29,6 +30,8 @@ use super::output::Answer;
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
+    /// Random problems of a class: solved, validated by independent code, counted, timed
+    Bench(bench::Args),
     /// Write a design in the other notation (TOML or JSON)
     Convert(convert::Args),
     /// Everything about an octahedral design: class, best joint-free platform, verdict, poses, pictures, report
@@ -49,6 +52,7 @@ impl Command {
     /// Runs the command.
     pub(crate) fn run(&self, context: &mut Context) -> Result<Answer, Failure> {
         match self {
+            Self::Bench(args) => bench::run(args, context),
             Self::Convert(args) => convert::run(args, context),
             Self::Explore(args) => explore::run(args, context),
             Self::Family(args) => family::run(args, context),

@@ -1,0 +1,39 @@
+//! How many finite poses a class has: computed, not written down.
+
+use std::collections::BTreeMap;
+
+use super::generator::{LengthsFrom, problem};
+use super::run::claims_of;
+use super::validator::validate;
+use super::Class;
+use crate::fk::{FkOptions, ForwardKinematics};
+
+/// Members solved to learn the count.
+const MEMBERS: u64 = 7;
+/// Members are drawn with another seed than the problems.
+const APART: u64 = 0x5eed_0fc0;
+
+/// The mode, over several members, of the validated number of roots (the better of two starts each). `None` when
+/// nothing could be solved.
+pub(super) fn expected_count(
+    class: Class,
+    lengths: LengthsFrom,
+    seed: u64,
+    reference: &dyn ForwardKinematics,
+) -> Option<usize> {
+    let mut votes: BTreeMap<usize, u32> = BTreeMap::new();
+    for k in 0..MEMBERS {
+        let Ok(member) = problem(class, lengths, seed ^ APART, k) else { continue };
+        let counts = [1, 2].map(|start| {
+            let options = FkOptions { seed: seed.wrapping_add(1_000 + start), ..FkOptions::default() };
+            let found = reference.solve(&member.manipulator, &member.squares, &options).ok()?;
+            let claims = claims_of(&member, &found).0;
+            Some(validate(&member, &claims, &[]).counted)
+        });
+        if let Some(count) = counts.into_iter().flatten().max() {
+            *votes.entry(count).or_default() += 1;
+        }
+    }
+    // of equally frequent counts the larger: what fails loses roots
+    votes.into_iter().max_by_key(|(count, votes)| (*votes, *count)).map(|(count, _)| count)
+}

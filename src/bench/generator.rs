@@ -1,0 +1,223 @@
+//! Problem `k` of a class: joints, lengths and, where the lengths come from one, a pose.
+
+use nalgebra::{Matrix2, Point3, Rotation3, Vector3};
+use thiserror::Error;
+
+use super::Class;
+use crate::geom::{Pose, random_rotation};
+use crate::manipulator::{InvalidManipulator, Leg, Manipulator, SquaredLegLengths};
+use crate::num::Rng;
+
+/// Where leg lengths come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LengthsFrom {
+    /// A random real pose: rotation uniform, position standard normal.
+    Pose,
+    /// Squared lengths uniform in `[0.5, 3]` (Martyushev, sec. 5.1).
+    Uniform,
+}
+
+/// One problem.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Problem {
+    /// The platform.
+    pub manipulator: Manipulator,
+    /// Squared leg lengths.
+    pub squares: SquaredLegLengths,
+    /// The pose the lengths come from; it solves the problem up to the rounding of the lengths.
+    pub pose: Option<Pose>,
+}
+
+/// Why a problem could not be drawn.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum NotDrawn {
+    /// The joints make no manipulator.
+    #[error(transparent)]
+    Joints(#[from] InvalidManipulator),
+    /// The lengths of the pose are not finite.
+    #[error("the leg lengths of the pose are not finite")]
+    Lengths,
+    /// The class is about real poses.
+    #[error("the class {0} takes its lengths from real poses")]
+    NeedsPose(Class),
+}
+
+/// Draws problem `k` of `class`; it depends on `seed`, `class`, `lengths` and `k` only.
+///
+/// Joints lie in `[-2, 2]^3`, planar bodies in `z = 0`; the first joint of each body is at the origin for the classes
+/// of Martyushev. [`Class::Hexapod`] is drawn about its home pose, [`Class::ClosePair`] from a singular pose with squared lengths
+/// `1e-12` off it, [`Class::Spread`] from leg lengths spaced evenly by ratio between `10^-1.5` and `10^1.5`.
+///
+/// # Errors
+/// [`NotDrawn`]; with continuous distributions only [`NotDrawn::NeedsPose`] ever happens.
+pub fn problem(class: Class, lengths: LengthsFrom, seed: u64, k: u64) -> Result<Problem, NotDrawn> {
+    if lengths == LengthsFrom::Uniform && !class.allows_uniform_lengths() {
+        return Err(NotDrawn::NeedsPose(class));
+    }
+    let mut rng = Rng::stream(seed ^ class.stream(), k);
+    let rng = &mut rng;
+    match class {
+        Class::ClosePair => return close_pair(rng),
+        Class::Spread => return spread(rng),
+        Class::Hexapod => return hexapod(rng),
+        _ => {}
+    }
+    let manipulator = Manipulator::from_legs(joints(class, rng))?;
+    match lengths {
+        LengthsFrom::Pose => at_pose(manipulator, any_pose(rng)),
+        LengthsFrom::Uniform => {
+            let squares = std::array::from_fn(|_| rng.uniform(0.5, 3.0));
+            let squares = SquaredLegLengths::try_new(squares).map_err(|_| NotDrawn::Lengths)?;
+            Ok(Problem { manipulator, squares, pose: None })
+        }
+    }
+}
+
+fn any_pose(rng: &mut Rng) -> Pose {
+    let rotation = random_rotation(rng);
+    Pose { rotation, position: Vector3::from_fn(|_, _| rng.normal()) }
+}
+
+fn at_pose(manipulator: Manipulator, pose: Pose) -> Result<Problem, NotDrawn> {
+    let squares = pose.squared_lengths(&manipulator).ok_or(NotDrawn::Lengths)?;
+    Ok(Problem { manipulator, squares, pose: Some(pose) })
+}
+
+/// A point of `[-2, 2]^3`, or of the same square in `z = 0`.
+fn point(rng: &mut Rng, planar: bool) -> Point3<f64> {
+    let (x, y) = (rng.uniform(-2.0, 2.0), rng.uniform(-2.0, 2.0));
+    Point3::new(x, y, if planar { 0.0 } else { rng.uniform(-2.0, 2.0) })
+}
+
+/// Six joints, the first at the origin.
+fn body(rng: &mut Rng, planar: bool) -> [Point3<f64>; 6] {
+    std::array::from_fn(|i| if i == 0 { Point3::origin() } else { point(rng, planar) })
+}
+
+fn legs(base: [Point3<f64>; 6], platform: [Point3<f64>; 6]) -> [Leg; 6] {
+    std::array::from_fn(|i| Leg { base: base[i], platform: platform[i] })
+}
+
+fn joints(class: Class, rng: &mut Rng) -> [Leg; 6] {
+    match class {
+        Class::General | Class::ClosePair | Class::Spread | Class::Hexapod => {
+            legs(body(rng, false), body(rng, false))
+        }
+        Class::SharedPlatformJoint => {
+            let (base, mut platform) = (body(rng, false), body(rng, false));
+            platform[5] = platform[4];
+            legs(base, platform)
+        }
+        Class::PlanarBase => legs(body(rng, true), body(rng, false)),
+        Class::BothPlanar => legs(body(rng, true), body(rng, true)),
+        Class::TiltedPlanes => {
+            let (base, platform) = (body(rng, true), body(rng, true));
+            let mut tilt = |joints: [Point3<f64>; 6]| {
+                let motion = any_pose(rng);
+                joints.map(|p| motion.transform(&p))
+            };
+            legs(tilt(base), tilt(platform))
+        }
+        Class::Octahedral => zigzag(rng, [0.0; 6]),
+        Class::GriffisDuffy => {
+            let parts = std::array::from_fn(|_| rng.uniform(0.1, 0.45));
+            zigzag(rng, parts)
+        }
+        Class::Similar => images(rng, |rng| Matrix2::identity() * rng.uniform(0.4, 0.8)),
+        Class::Congruent => images(rng, |_| Matrix2::identity()),
+        Class::Affine => images(rng, |rng| Matrix2::from_fn(|_, _| rng.uniform(-1.0, 1.0))),
+        Class::Collinear => {
+            let (mut base, mut platform) = (body(rng, false), body(rng, false));
+            base[2] = base[0] + (base[1] - base[0]) * rng.uniform(-1.0, 2.0);
+            platform[5] = platform[3] + (platform[4] - platform[3]) * rng.uniform(-1.0, 2.0);
+            legs(base, platform)
+        }
+    }
+}
+
+/// Octahedral legs `P1P4, P2P4, P2P5, P3P5, P3P6, P1P6`; the end of leg `i` that differs from leg `i + 1` is moved towards the
+/// latter's by `parts[i]` of the edge.
+fn zigzag(rng: &mut Rng, parts: [f64; 6]) -> [Leg; 6] {
+    let mut triangle = || [(); 3].map(|()| point(rng, false));
+    let (b, p) = (triangle(), triangle());
+    let pairs = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
+    std::array::from_fn(|i| {
+        let ((a, c), (a2, c2)) = (pairs[i], pairs[(i + 1) % 6]);
+        let between = |from: Point3<f64>, to: Point3<f64>, t: f64| if t == 0.0 { from } else { from + (to - from) * t };
+        Leg { base: between(b[a], b[a2], parts[i]), platform: between(p[c], p[c2], parts[i]) }
+    })
+}
+
+/// A planar hexagon as base and its image under a linear map of the plane, turned in the plane, as platform.
+fn images(rng: &mut Rng, map: impl Fn(&mut Rng) -> Matrix2<f64>) -> [Leg; 6] {
+    let base = [(); 6].map(|()| point(rng, true));
+    let map = map(rng);
+    let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), rng.uniform(0.0, std::f64::consts::TAU));
+    let image = |p: Point3<f64>| {
+        let q = map * p.coords.xy();
+        turn * Point3::new(q.x, q.y, 0.0)
+    };
+    legs(base, base.map(image))
+}
+
+/// Pairs of joints on circles, threefold symmetric, base pairs between platform pairs; at most 20 degrees and a fifth of
+/// the base radius off home.
+fn hexapod(rng: &mut Rng) -> Result<Problem, NotDrawn> {
+    let (radius, half) = (rng.uniform(0.4, 0.9), [rng.uniform(5.0, 25.0), rng.uniform(5.0, 25.0)]);
+    let on_circle = |r: f64, degrees: f64| {
+        let (sine, cosine) = degrees.to_radians().sin_cos();
+        Point3::new(r * cosine, r * sine, 0.0)
+    };
+    let legs = std::array::from_fn(|i| {
+        let (third, side) = (120.0 * (i / 2) as f64, if i % 2 == 0 { -1.0 } else { 1.0 });
+        // the platform pairs sit between the base pairs, so that legs zigzag
+        let platform = on_circle(radius, third + side * (60.0 - half[1]));
+        Leg { base: on_circle(1.0, third + side * half[0]), platform }
+    });
+    let axis = nalgebra::Unit::new_normalize(Vector3::from_fn(|_, _| rng.normal()));
+    let rotation = Rotation3::from_axis_angle(&axis, rng.uniform(0.0, 20.0).to_radians());
+    let height = Vector3::new(0.0, 0.0, rng.uniform(0.8, 1.4));
+    let position = height + Vector3::from_fn(|_, _| rng.uniform(-0.2, 0.2));
+    at_pose(Manipulator::from_legs(legs)?, Pose { rotation, position })
+}
+
+/// At a random pose the last base joint is moved so that the six leg lines belong to one linear complex (the leg's
+/// vector `d` normal to `v + w x R b` for the twist `(v, w)` reciprocal to the other five): two poses meet there, and
+/// squared lengths about `1e-12` off part them by about `1e-6`.
+fn close_pair(rng: &mut Rng) -> Result<Problem, NotDrawn> {
+    let mut joints = joints(Class::ClosePair, rng);
+    let pose = any_pose(rng);
+    let arm = |leg: &Leg| pose.rotation * leg.platform.coords;
+    let mut lines = nalgebra::Matrix6::zeros();
+    for (i, leg) in joints.iter().take(5).enumerate() {
+        let d = arm(leg) + pose.position - leg.base.coords;
+        let moment = arm(leg).cross(&d);
+        lines.fixed_view_mut::<1, 3>(i, 0).copy_from(&d.transpose());
+        lines.fixed_view_mut::<1, 3>(i, 3).copy_from(&moment.transpose());
+    }
+    let gram = (lines.transpose() * lines).symmetric_eigen();
+    let twist = gram.eigenvectors.column(gram.eigenvalues.imin()).into_owned();
+    let (v, w) = (Vector3::new(twist[0], twist[1], twist[2]), Vector3::new(twist[3], twist[4], twist[5]));
+    let last = arm(&joints[5]);
+    let velocity = (v + w.cross(&last)).normalize();
+    let tip = last + pose.position;
+    let d = tip - joints[5].base.coords;
+    joints[5].base = Point3::from(tip - (d - velocity * d.dot(&velocity)));
+    let manipulator = Manipulator::from_legs(joints)?;
+    let mut squares = pose.squared_lengths(&manipulator).ok_or(NotDrawn::Lengths)?.get();
+    squares[5] += 1e-12 * rng.uniform(0.5, 2.0) * if rng.unit() < 0.5 { -1.0 } else { 1.0 };
+    let squares = SquaredLegLengths::try_new(squares).map_err(|_| NotDrawn::Lengths)?;
+    Ok(Problem { manipulator, squares, pose: None })
+}
+
+fn spread(rng: &mut Rng) -> Result<Problem, NotDrawn> {
+    let platform = body(rng, false);
+    let pose = any_pose(rng);
+    let legs = std::array::from_fn(|i| {
+        let direction = Vector3::from_fn(|_, _| rng.normal()).normalize();
+        let length = 10f64.powf(-1.5 + 0.6 * i as f64);
+        Leg { base: pose.transform(&platform[i]) - direction * length, platform: platform[i] }
+    });
+    at_pose(Manipulator::from_legs(legs)?, pose)
+}

@@ -1,0 +1,27 @@
+//! The proof by harness: draw problems of a class, solve them, validate the answers with code that shares nothing with
+//! the solver, count.
+//!
+//! Generator ([`Class`], [`problem`]) -> any [`ForwardKinematics`](crate::fk::ForwardKinematics) -> [`validate`]
+//! (double-double Newton in the twelve entries of `R` and `p`, on the data as given) -> [`Report`]. Problem `k` of a class
+//! depends on the seed, the class and `k` only, so that a failure is named by three values.
+//!
+//! This module measures time; nothing else below `cli` does.
+
+mod classes;
+mod error_metric;
+mod expectation;
+mod generator;
+mod newton;
+mod reference_time;
+mod run;
+mod statistics;
+mod symmetry;
+mod validator;
+
+pub use classes::Class;
+pub use error_metric::error_metric;
+pub use generator::{LengthsFrom, NotDrawn, Problem, problem};
+pub use reference_time::{ReferenceTimes, reference_times};
+pub use run::{Failure, Plan, RunError, run};
+pub use statistics::{ErrorStatistics, Report, TimeSplit};
+pub use validator::{Claim, Verdict, validate};

@@ -1,0 +1,201 @@
+//! Newton's method in double-double on the twelve numbers `R`, `p`: the validator's own idea of a root.
+//!
+//! Equations: the six leg equations and the six of `R^T R = I`, twelve in twelve unknowns, on the data as given
+//! (divided by a power of two, which is exact). No parameters, no elimination, nothing a solver here uses.
+
+use num_complex::Complex64;
+
+use crate::geom::ComplexPose;
+use crate::manipulator::{Manipulator, SquaredLegLengths};
+use crate::num::double_double::{ComplexDoubleDouble as Z, DoubleDouble};
+
+const N: usize = 12;
+
+/// A pose in double-double: rows of `R`, then `p` in units of [`LegEquations`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Point(pub(super) [Z; N]);
+
+impl Point {
+    pub(super) fn conjugate(&self) -> Self {
+        Self(self.0.map(|z| Z { re: z.re, im: -z.im }))
+    }
+
+    /// Largest modulus of an entry, at least one.
+    pub(super) fn scale(&self) -> f64 {
+        self.0.iter().map(|z| z.hi().norm()).fold(1.0, f64::max)
+    }
+
+    pub(super) fn distance(&self, other: &Self) -> f64 {
+        self.0.iter().zip(&other.0).map(|(a, b)| (*a - *b).hi().norm()).fold(0.0, f64::max)
+    }
+
+    pub(super) fn imaginary(&self) -> f64 {
+        self.0.iter().map(|z| z.im.hi().abs()).fold(0.0, f64::max)
+    }
+
+    /// Real part of `det R`: 1 for a rotation, -1 for a reflection, for complex `R` too.
+    pub(super) fn determinant(&self) -> f64 {
+        let r = self.0.map(Z::hi);
+        let minor = |i: usize, j: usize| r[3 + i] * r[6 + j] - r[3 + j] * r[6 + i];
+        (r[0] * minor(1, 2) - r[1] * minor(0, 2) + r[2] * minor(0, 1)).re
+    }
+}
+
+/// The equations of one problem.
+#[derive(Debug, Clone)]
+pub(super) struct LegEquations {
+    base: [[f64; 3]; 6],
+    platform: [[f64; 3]; 6],
+    squares: [f64; 6],
+    unit: f64,
+}
+
+/// What an iteration led to.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Refined {
+    pub(super) point: Point,
+    /// Largest entry of the first point's residual, over the squared scale of the point.
+    pub(super) residual: f64,
+    /// Length of the last correction over the scale: the error, when it converged.
+    pub(super) error: f64,
+    /// Corrections fell below `1e-20` and stopped there.
+    pub(super) converged: bool,
+}
+
+impl LegEquations {
+    pub(super) fn new(m: &Manipulator, s: &SquaredLegLengths) -> Self {
+        let unit = 2f64.powi(m.size().log2().floor() as i32);
+        let scaled = |p: nalgebra::Point3<f64>| [p.x / unit, p.y / unit, p.z / unit];
+        let legs = m.legs();
+        Self {
+            base: legs.map(|l| scaled(l.base)),
+            platform: legs.map(|l| scaled(l.platform)),
+            squares: s.get().map(|s| s / (unit * unit)),
+            unit,
+        }
+    }
+
+    /// The length positions are divided by.
+    pub(super) fn unit(&self) -> f64 {
+        self.unit
+    }
+
+    pub(super) fn point(&self, pose: &ComplexPose) -> Point {
+        Point(std::array::from_fn(|k| {
+            let z = if k < 9 { pose.rotation[(k / 3, k % 3)] } else { pose.position[k - 9] / self.unit };
+            Z::from(z)
+        }))
+    }
+
+    /// `R b_i + p - a_i`.
+    fn difference(&self, x: &Point, i: usize) -> [Z; 3] {
+        let (a, b) = (self.base[i], self.platform[i]);
+        std::array::from_fn(|k| {
+            let turned = (0..3).map(|j| times(x.0[3 * k + j], b[j])).fold(x.0[9 + k], |s, z| s + z);
+            Z { re: turned.re - DoubleDouble::from(a[k]), im: turned.im }
+        })
+    }
+
+    fn values(&self, x: &Point) -> [Z; N] {
+        let mut out = [Z::ZERO; N];
+        for i in 0..6 {
+            let d = self.difference(x, i);
+            let square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+            out[i] = Z { re: square.re - DoubleDouble::from(self.squares[i]), im: square.im };
+        }
+        for (row, (i, j)) in PAIRS.into_iter().enumerate() {
+            let dot = (0..3).map(|k| x.0[3 * k + i] * x.0[3 * k + j]).fold(Z::ZERO, |s, z| s + z);
+            let target = if i == j { DoubleDouble::ONE } else { DoubleDouble::ZERO };
+            out[6 + row] = Z { re: dot.re - target, im: dot.im };
+        }
+        out
+    }
+
+    fn jacobian(&self, x: &Point) -> [[Complex64; N]; N] {
+        let mut out = [[Complex64::ZERO; N]; N];
+        for i in 0..6 {
+            let d = self.difference(x, i).map(|z| z.hi() * 2.0);
+            for k in 0..3 {
+                for j in 0..3 {
+                    out[i][3 * k + j] = d[k] * self.platform[i][j];
+                }
+                out[i][9 + k] = d[k];
+            }
+        }
+        for (row, (i, j)) in PAIRS.into_iter().enumerate() {
+            for k in 0..3 {
+                out[6 + row][3 * k + i] += x.0[3 * k + j].hi();
+                out[6 + row][3 * k + j] += x.0[3 * k + i].hi();
+            }
+        }
+        out
+    }
+
+    /// Largest equation error over the square of the point's scale.
+    pub(super) fn residual(&self, x: &Point) -> f64 {
+        let reach = self.base.iter().flatten().fold(1.0f64, |m, v| m.max(v.abs()));
+        let scale = x.scale().max(reach).powi(2);
+        self.values(x).iter().map(|z| z.hi().norm() / scale).fold(0.0, f64::max)
+    }
+
+    /// Newton from `start` until corrections stop shrinking.
+    pub(super) fn refine(&self, start: &Point) -> Refined {
+        let mut x = *start;
+        let mut error = f64::INFINITY;
+        let residual = self.residual(start);
+        for _ in 0..20 {
+            let Some(step) = solve(self.jacobian(&x), self.values(&x).map(Z::hi)) else { break };
+            let next = Point(std::array::from_fn(|k| x.0[k] - Z::from(step[k])));
+            let length = step.iter().map(|z| z.norm()).fold(0.0, f64::max) / next.scale();
+            if !(length < 0.5) || (error < 1e-20 && length >= error) {
+                break;
+            }
+            (x, error) = (next, length);
+            if error < 1e-29 {
+                break;
+            }
+        }
+        Refined { point: x, residual, error, converged: error < 1e-20 }
+    }
+}
+
+const PAIRS: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
+
+fn times(z: Z, x: f64) -> Z {
+    let x = DoubleDouble::from(x);
+    Z { re: z.re * x, im: z.im * x }
+}
+
+/// Gaussian elimination with partial pivoting, rows scaled to largest entry one.
+fn solve(mut m: [[Complex64; N]; N], mut y: [Complex64; N]) -> Option<[Complex64; N]> {
+    for i in 0..N {
+        let largest = m[i].iter().map(|z| z.norm()).fold(0.0, f64::max);
+        if !(largest > 0.0) {
+            return None;
+        }
+        m[i].iter_mut().for_each(|z| *z /= largest);
+        y[i] /= largest;
+    }
+    for c in 0..N {
+        let pivot = (c..N).max_by(|&i, &j| m[i][c].norm_sqr().total_cmp(&m[j][c].norm_sqr()))?;
+        m.swap(c, pivot);
+        y.swap(c, pivot);
+        if !(m[c][c].norm() > 0.0) {
+            return None;
+        }
+        let (row, value) = (m[c], y[c]);
+        for i in c + 1..N {
+            let factor = m[i][c] / row[c];
+            for j in c..N {
+                m[i][j] -= factor * row[j];
+            }
+            y[i] -= factor * value;
+        }
+    }
+    let mut x = [Complex64::ZERO; N];
+    for i in (0..N).rev() {
+        let known: Complex64 = (i + 1..N).map(|j| m[i][j] * x[j]).sum();
+        x[i] = (y[i] - known) / m[i][i];
+    }
+    Some(x)
+}

@@ -1,0 +1,164 @@
+//! From single outcomes to the row of a table.
+
+use std::collections::BTreeMap;
+
+use super::run::{Failure, Outcome, Plan};
+
+/// Statistics of Martyushev's error metric over the problems, as in the paper's Table 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ErrorStatistics {
+    /// Median.
+    pub median: f64,
+    /// Mean.
+    pub mean: f64,
+    /// Largest.
+    pub max: f64,
+    /// Share of problems above -5.
+    pub above_minus_5: f64,
+    /// Share of problems above -6.
+    pub above_minus_6: f64,
+}
+
+/// Medians of the parts, microseconds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TimeSplit {
+    /// The solver call without certification.
+    pub solve: f64,
+    /// Certification of the roots, made once more on its own.
+    pub certify: f64,
+    /// Validation by the harness; not part of the solver's time.
+    pub validate: f64,
+}
+
+/// The result of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Report {
+    /// What was run.
+    pub plan: Plan,
+    /// Finite poses a member of the class has, as computed.
+    pub expected: usize,
+    /// Problems whose set of roots is right and complete.
+    pub complete: u64,
+    /// Problems in which every root has a certificate.
+    pub certified: u64,
+    /// Problems with a proof of completeness.
+    pub proved: u64,
+    /// Problems for which the solver itself says that roots may be missing.
+    pub doubted: u64,
+    /// Problems that look complete to the solver but are not: the worst kind.
+    pub silent_failures: u64,
+    /// Problems solved again from two other starts.
+    pub rechecked: u64,
+    /// Claimed roots.
+    pub roots: u64,
+    /// Claimed roots with a certificate.
+    pub certified_roots: u64,
+    /// True roots not found.
+    pub missed_roots: u64,
+    /// Claims that are no root, or a second time the same.
+    pub spurious_roots: u64,
+    /// Certificates, of roots or of completeness, that are wrong.
+    pub false_certificates: u64,
+    /// Median time of a solver call, microseconds.
+    pub median_us: f64,
+    /// 99th percentile of the same.
+    pub p99_us: f64,
+    /// Mean of the same.
+    pub mean_us: f64,
+    /// Largest residual of a claim in double-double, relative to the square of the pose's own numbers.
+    pub worst_residual: f64,
+    /// How the time splits.
+    pub split: TimeSplit,
+    /// Wall-clock seconds of the whole run.
+    pub seconds: f64,
+    /// Number of problems by number of right finite roots.
+    pub finite_counts: BTreeMap<usize, u64>,
+    /// Number of problems by number of real ones.
+    pub real_counts: BTreeMap<usize, u64>,
+    /// Accuracy in Martyushev's measure.
+    pub epsilon: ErrorStatistics,
+    /// Problems whose answer is not right.
+    pub failures: Vec<Failure>,
+}
+
+impl Report {
+    /// Nothing missed, nothing spurious, no false certificate.
+    #[must_use]
+    pub fn passed(&self) -> bool {
+        self.missed_roots == 0 && self.spurious_roots == 0 && self.false_certificates == 0
+    }
+}
+
+/// Value below which the part `q` of the values lies (nearest rank); 0 for no values.
+fn quantile(values: impl Iterator<Item = f64>, q: f64) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    let rank = (q * values.len() as f64).ceil().max(1.0) as usize - 1;
+    values.get(rank).copied().unwrap_or(0.0)
+}
+
+fn epsilon(outcomes: &[Outcome]) -> ErrorStatistics {
+    // no roots, or residuals that are all zero: nothing to take the logarithm of
+    let values: Vec<f64> = outcomes.iter().map(|o| o.metric).filter(|e| e.is_finite()).collect();
+    let n = (values.len() as f64).max(1.0);
+    let above = |limit: f64| values.iter().filter(|e| **e > limit).count() as f64 / n;
+    ErrorStatistics {
+        median: quantile(values.iter().copied(), 0.5),
+        mean: values.iter().sum::<f64>() / n,
+        max: values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+        above_minus_5: above(-5.0),
+        above_minus_6: above(-6.0),
+    }
+}
+
+fn is_wrong(o: &Outcome) -> bool {
+    o.verdict.missed + o.verdict.spurious + o.verdict.false_certificates > 0
+}
+
+pub(super) fn summarise(plan: &Plan, expected: usize, seconds: f64, outcomes: &[Outcome]) -> Report {
+    let count = |test: &dyn Fn(&Outcome) -> bool| outcomes.iter().filter(|o| test(o)).count() as u64;
+    let sum = |of: &dyn Fn(&Outcome) -> usize| outcomes.iter().map(|o| of(o) as u64).sum();
+    let median = |of: &dyn Fn(&Outcome) -> f64| quantile(outcomes.iter().map(of), 0.5);
+    let histogram = |of: &dyn Fn(&Outcome) -> usize| {
+        let mut counts = BTreeMap::new();
+        outcomes.iter().for_each(|o| *counts.entry(of(o)).or_default() += 1);
+        counts
+    };
+    let failures = outcomes.iter().filter(|o| is_wrong(o)).map(|o| Failure {
+        k: o.k,
+        missed: o.verdict.missed,
+        spurious: o.verdict.spurious,
+        false_certificates: o.verdict.false_certificates,
+        found: o.verdict.distinct,
+        solver: o.solver.clone(),
+    });
+    Report {
+        plan: *plan,
+        expected,
+        complete: count(&|o| o.verdict.missed + o.verdict.spurious == 0),
+        certified: count(&|o| o.claimed > 0 && o.certified_roots == o.claimed),
+        proved: count(&|o| o.proved),
+        doubted: count(&|o| !o.accounted),
+        silent_failures: count(&|o| o.accounted && is_wrong(o)),
+        rechecked: count(&|o| o.rechecked),
+        roots: sum(&|o| o.claimed),
+        certified_roots: sum(&|o| o.certified_roots),
+        missed_roots: sum(&|o| o.verdict.missed),
+        spurious_roots: sum(&|o| o.verdict.spurious),
+        false_certificates: sum(&|o| o.verdict.false_certificates),
+        median_us: median(&|o| o.solve_us),
+        p99_us: quantile(outcomes.iter().map(|o| o.solve_us), 0.99),
+        mean_us: outcomes.iter().map(|o| o.solve_us).sum::<f64>() / (outcomes.len() as f64).max(1.0),
+        worst_residual: outcomes.iter().map(|o| o.verdict.worst_residual).fold(0.0, f64::max),
+        split: TimeSplit {
+            solve: median(&|o| (o.solve_us - o.certify_us).max(0.0)),
+            certify: median(&|o| o.certify_us),
+            validate: median(&|o| o.validate_us),
+        },
+        seconds,
+        finite_counts: histogram(&|o| o.verdict.distinct),
+        real_counts: histogram(&|o| o.verdict.real),
+        epsilon: epsilon(outcomes),
+        failures: failures.collect(),
+    }
+}

@@ -1,0 +1,186 @@
+//! Whether a claimed set of roots is right: by refinement in double-double, symmetry and roots from elsewhere.
+
+use crate::fk::Reality;
+use crate::geom::ComplexPose;
+use crate::num::disc::Disc;
+
+use super::generator::Problem;
+use super::newton::{LegEquations, Point, Refined};
+use super::symmetry::Mirror;
+
+/// Largest residual of a root, relative to the square of the pose's own numbers.
+const RESIDUAL: f64 = 1e-9;
+/// A root that Newton moves farther than this, relative to the pose's own numbers, was none.
+const MOVED: f64 = 1e-6;
+/// Singular roots are known to this accuracy only.
+const SINGULAR_RADIUS: f64 = 1e-3;
+/// Two refined roots closer than this are one.
+const SAME: f64 = 1e-14;
+/// What a certificate without an enclosure claims: half of the digits of a double.
+const CLAIMED: f64 = 4e-8;
+
+/// What is claimed about one root.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Claim {
+    /// The pose.
+    pub pose: ComplexPose,
+    /// Whether existence is claimed to be proved.
+    pub certified: bool,
+    /// Discs said to hold `R` (row by row) and `p` (design units) of the root.
+    pub enclosure: Option<Vec<Disc>>,
+    /// Claimed reality.
+    pub reality: Reality,
+    /// Claimed multiplicity.
+    pub multiplicity: u32,
+}
+
+/// What validation found.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Verdict {
+    /// Distinct roots that are right.
+    pub distinct: usize,
+    /// The same, singular ones counted with their claimed multiplicity.
+    pub counted: usize,
+    /// Real ones among them.
+    pub real: usize,
+    /// Claims that are no root or repeat one.
+    pub spurious: usize,
+    /// True roots that are not among the claims.
+    pub missed: usize,
+    /// Certificates whose root is not where they say, or not as real as they say.
+    pub false_certificates: usize,
+    /// Largest residual of the claims as given, in double-double, relative to the square of the pose's own numbers.
+    pub worst_residual: f64,
+}
+
+/// A claim that is right.
+struct Root {
+    point: Point,
+    radius: f64,
+}
+
+/// Validates `claims` for `problem`. `others` are poses believed to be roots (the generating pose, roots found from another
+/// start): each that refines to a regular root must be among the claims, as must conjugates and, for two
+/// planar bodies, mirror images.
+#[must_use]
+pub fn validate(problem: &Problem, claims: &[Claim], others: &[ComplexPose]) -> Verdict {
+    let equations = LegEquations::new(&problem.manipulator, &problem.squares);
+    let mut verdict = Verdict::default();
+    let mut roots: Vec<Root> = Vec::new();
+    for claim in claims {
+        let start = equations.point(&claim.pose);
+        let refined = equations.refine(&start);
+        verdict.worst_residual = verdict.worst_residual.max(refined.residual);
+        let regular = is_regular(&start, &refined);
+        if claim.certified && !(regular && is_as_claimed(claim, &refined, equations.unit())) {
+            verdict.false_certificates += 1;
+        }
+        // a double root is found to about the root of rounding: its residual is small all the same
+        let singular = !regular && refined.residual <= RESIDUAL && claim.multiplicity > 1;
+        let root = if singular {
+            Root { point: start, radius: SINGULAR_RADIUS * start.scale() }
+        } else {
+            Root { point: refined.point, radius: radius(&refined) }
+        };
+        let wrong = !(regular && refined.residual <= RESIDUAL || singular) || !is_rotation(&root.point);
+        if wrong || holds(&roots, &root.point) {
+            verdict.spurious += 1;
+            continue;
+        }
+        verdict.counted += if singular { claim.multiplicity as usize } else { 1 };
+        verdict.real += usize::from(root.point.imaginary() <= 1e-18 * root.point.scale());
+        roots.push(root);
+    }
+    verdict.distinct = roots.len();
+    verdict.missed = missed(problem, &equations, &roots, claims, others);
+    verdict
+}
+
+/// The iteration converged near where it started.
+fn is_regular(start: &Point, refined: &Refined) -> bool {
+    refined.converged && start.distance(&refined.point) <= MOVED * start.scale()
+}
+
+fn is_rotation(x: &Point) -> bool {
+    (x.determinant() - 1.0).abs() < 0.1
+}
+
+fn radius(refined: &Refined) -> f64 {
+    (SAME + 100.0 * refined.error) * refined.point.scale()
+}
+
+fn holds(roots: &[Root], x: &Point) -> bool {
+    roots.iter().any(|r| r.point.distance(x) <= r.radius)
+}
+
+/// The refined root lies in the claimed discs and is as real as claimed.
+fn is_as_claimed(claim: &Claim, refined: &Refined, unit: f64) -> bool {
+    let x = &refined.point;
+    let scale = x.scale();
+    let in_place = match &claim.enclosure {
+        Some(discs) => discs.len() == 12 && discs.iter().enumerate().all(|(k, disc)| {
+            let length = if k < 9 { 1.0 } else { unit };
+            let centre = disc.centre / length; // exact: the unit is a power of two
+            let gap = x.0[k] - crate::num::double_double::ComplexDoubleDouble::from(centre);
+            gap.hi().norm() <= disc.radius / length + (1e-28 + 10.0 * refined.error) * scale
+        }),
+        None => {
+            let pose = &claim.pose;
+            let entry = |k: usize| {
+                if k < 9 { pose.rotation[(k / 3, k % 3)] } else { pose.position[k - 9] / unit }
+            };
+            (0..12).all(|k| (x.0[k].hi() - entry(k)).norm() <= CLAIMED * scale)
+        }
+    };
+    let imaginary = x.imaginary() / scale;
+    let real = match claim.reality {
+        Reality::Real => imaginary <= 1e-18 + 100.0 * refined.error,
+        Reality::NonReal => imaginary > 1e-26,
+        Reality::Undecided => true,
+    };
+    in_place && real
+}
+
+/// Counts regular roots known from symmetry or from elsewhere that no claim accounts for.
+fn missed(
+    problem: &Problem,
+    equations: &LegEquations,
+    roots: &[Root],
+    claims: &[Claim],
+    others: &[ComplexPose],
+) -> usize {
+    let mut absent: Vec<Root> = Vec::new();
+    let mut look = |refined: Refined, near: bool| {
+        let known = holds(roots, &refined.point) || holds(&absent, &refined.point);
+        if near && refined.converged && is_rotation(&refined.point) && !known {
+            let (point, radius) = (refined.point, radius(&refined));
+            absent.push(Root { point, radius });
+            let conjugate = point.conjugate();
+            if !holds(roots, &conjugate) && !holds(&absent, &conjugate) {
+                absent.push(Root { point: conjugate, radius });
+            }
+        }
+    };
+    for root in roots {
+        let conjugate = root.point.conjugate();
+        if !holds(roots, &conjugate) {
+            look(equations.refine(&conjugate), true);
+        }
+    }
+    let mirror = Mirror::of(&problem.manipulator);
+    let images = claims.iter().filter_map(|c| mirror.map(|m| m.image(&c.pose)));
+    for pose in images.chain(others.iter().copied()) {
+        let start = equations.point(&pose);
+        if equations.residual(&start) <= RESIDUAL && !holds_nearly(roots, &start) {
+            let refined = equations.refine(&start);
+            look(refined, is_regular(&start, &refined));
+        }
+    }
+    absent.len()
+}
+
+/// Close enough to a known root, and alone there, to need no refinement.
+fn holds_nearly(roots: &[Root], x: &Point) -> bool {
+    let near = |limit: f64| roots.iter().filter(|r| r.point.distance(x) <= limit * x.scale()).count();
+    near(1e-9) == 1 && near(1e-5) == 1
+}

@@ -1,0 +1,139 @@
+//! `equipod bench`: random problems of a class, solved, validated by independent code, counted and timed.
+
+mod render;
+
+use clap::ValueEnum;
+
+use crate::bench::{Class, LengthsFrom, Plan, Report, reference_times, run as run_plan};
+use crate::cli::context::Context;
+use crate::cli::exit::Exit;
+use crate::cli::failure::Failure;
+use crate::cli::output::Answer;
+use crate::fk::{self, Homotopy, Method};
+
+/// Arguments of `bench`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// 6-6, 6-5, 6P-6, 6P-6P, tilted-planes, octahedral, griffis-duffy, hexapod, similar, affine, congruent, collinear,
+    /// close-pair, spread, or all
+    #[arg(long, value_name = "CLASS", default_value = "6-6")]
+    class: String,
+    /// Number of problems (of each class)
+    #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u64).range(1..=10_000_000))]
+    count: u64,
+    /// Index of the first problem: to repeat one that failed, with --count 1
+    #[arg(long, value_name = "K", default_value_t = 0)]
+    first: u64,
+    /// Threads; each problem is solved and timed on one
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1024))]
+    threads: u64,
+    /// Method; auto takes the best one for the design
+    #[arg(long, value_enum, default_value_t = MethodArg::Auto)]
+    method: MethodArg,
+    /// Squared lengths uniform in [0.5, 3], or those of a random real pose; the former where the class allows it when absent
+    #[arg(long, value_enum, value_name = "SOURCE")]
+    lengths_from: Option<Source>,
+    /// Every so many problems, look for missed roots from two other starts; 0 for never
+    #[arg(long, value_name = "N", default_value_t = 10)]
+    recheck_every: u64,
+}
+
+/// `--method`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum MethodArg {
+    Auto,
+    Octic,
+    Homotopy,
+    Template,
+}
+
+/// `--lengths-from`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Source {
+    Pose,
+    Uniform,
+}
+
+/// Runs the harness on one class or all.
+pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+    let classes = classes(&args.class)?;
+    let method = match args.method {
+        MethodArg::Auto => None,
+        MethodArg::Octic => Some(Method::Octic),
+        MethodArg::Homotopy => Some(Method::Homotopy),
+        MethodArg::Template => Some(Method::Template),
+    };
+    let solver = fk::solver(method);
+    let references = reference_times(context.seed()).map_err(|e| Failure::internal(e.to_string()))?;
+    let mut reports: Vec<Report> = Vec::new();
+    for class in classes {
+        let lengths = lengths(args.lengths_from, class)?;
+        let plan = Plan {
+            class,
+            lengths,
+            count: args.count,
+            first: args.first,
+            seed: context.seed(),
+            threads: usize::try_from(args.threads).unwrap_or(1),
+            recheck_every: args.recheck_every,
+        };
+        let report = run_plan(&plan, solver.as_ref(), &Homotopy);
+        reports.push(report.map_err(|e| Failure::new(Exit::Inconclusive, "bench::not_run", e.to_string()))?);
+    }
+    let exit = if reports.iter().all(Report::passed) { Exit::Yes } else { Exit::No };
+    let name = args.method.to_possible_value().map(|v| v.get_name().to_string()).unwrap_or_default();
+    let (json, text) = (render::json(&args.class, &name, &reports, &references), render::text(&reports, &references));
+    Ok(Answer { exit, json, text })
+}
+
+fn classes(name: &str) -> Result<Vec<Class>, Failure> {
+    if name == "all" {
+        return Ok(Class::ALL.to_vec());
+    }
+    if let Some(class) = Class::from_name(name) {
+        return Ok(vec![class]);
+    }
+    let known: Vec<&str> = Class::ALL.iter().map(|c| c.name()).collect();
+    let topology = name.strip_prefix('T').is_some_and(|n| n.parse::<u8>().is_ok_and(|n| (1..=34).contains(&n)));
+    if topology {
+        let message = format!("the joint-sharing topologies ({name}) are not part of the bench of this version");
+        return Err(Failure::refused("bench::class_not_available", message)
+            .with_help(format!("the classes are {}, all", known.join(", "))));
+    }
+    Err(Failure::refused("bench::unknown_class", format!("`{name}` is no class of problems"))
+        .with_help(format!("the classes are {}, all", known.join(", "))))
+}
+
+fn lengths(asked: Option<Source>, class: Class) -> Result<LengthsFrom, Failure> {
+    match asked {
+        Some(Source::Uniform) if !class.allows_uniform_lengths() => {
+            let message = format!("the class {class} takes its lengths from real poses");
+            Err(Failure::refused("bench::needs_pose", message).with_help("take --lengths-from pose"))
+        }
+        Some(Source::Pose) => Ok(LengthsFrom::Pose),
+        None if !class.allows_uniform_lengths() => Ok(LengthsFrom::Pose),
+        Some(Source::Uniform) | None => Ok(LengthsFrom::Uniform),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn topologies_and_unknown_classes_are_refused_with_the_list() {
+        for (name, code) in [("T07", "bench::class_not_available"), ("T35", "bench::unknown_class"), ("x", "bench::unknown_class")] {
+            let failure = classes(name).unwrap_err();
+            assert_eq!((failure.exit, failure.code.as_str()), (Exit::Refused, code));
+            assert!(failure.help.unwrap().contains("griffis-duffy"));
+        }
+        assert_eq!(classes("all").unwrap().len(), Class::ALL.len());
+    }
+
+    #[test]
+    fn uniform_lengths_are_for_the_classes_of_martyushev() {
+        assert_eq!(lengths(None, Class::General).unwrap(), LengthsFrom::Uniform);
+        assert_eq!(lengths(None, Class::Octahedral).unwrap(), LengthsFrom::Pose);
+        assert_eq!(lengths(Some(Source::Uniform), Class::Hexapod).unwrap_err().code, "bench::needs_pose");
+    }
+}
