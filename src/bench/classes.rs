@@ -82,15 +82,22 @@ impl Class {
     /// Whether the leg lengths may be drawn without a pose, as Martyushev does; the others are about real poses.
     #[must_use]
     pub fn allows_uniform_lengths(self) -> bool {
-        let by_martyushev =
-            [Self::General, Self::SharedPlatformJoint, Self::PlanarBase, Self::BothPlanar, Self::TiltedPlanes];
+        let by_martyushev = [
+            Self::General,
+            Self::SharedPlatformJoint,
+            Self::PlanarBase,
+            Self::BothPlanar,
+            Self::TiltedPlanes,
+        ];
         by_martyushev.contains(&self)
     }
 
     /// A number that sets the class's random streams apart: its place in [`Class::ALL`] never enters.
     pub(super) fn stream(self) -> u64 {
         // FNV-1a of the name
-        self.name().bytes().fold(0xcbf2_9ce4_8422_2325, |h, b| (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3))
+        self.name()
+            .bytes()
+            .fold(0xcbf2_9ce4_8422_2325, |h, b| (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3))
     }
 }
 

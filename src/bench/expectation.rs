@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use super::Class;
 use super::generator::{LengthsFrom, problem};
 use super::run::claims_of;
 use super::validator::validate;
-use super::Class;
 use crate::fk::{FkOptions, ForwardKinematics};
 
 /// Members solved to learn the count.

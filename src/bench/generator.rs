@@ -144,7 +144,8 @@ fn zigzag(rng: &mut Rng, parts: [f64; 6]) -> [Leg; 6] {
     let pairs = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
     std::array::from_fn(|i| {
         let ((a, c), (a2, c2)) = (pairs[i], pairs[(i + 1) % 6]);
-        let between = |from: Point3<f64>, to: Point3<f64>, t: f64| if t == 0.0 { from } else { from + (to - from) * t };
+        let between =
+            |from: Point3<f64>, to: Point3<f64>, t: f64| if t == 0.0 { from } else { from + (to - from) * t };
         Leg { base: between(b[a], b[a2], parts[i]), platform: between(p[c], p[c2], parts[i]) }
     })
 }

@@ -5,12 +5,12 @@ use std::time::Instant;
 
 use thiserror::Error;
 
+use super::Class;
 use super::error_metric::error_metric;
 use super::expectation::expected_count;
 use super::generator::{LengthsFrom, NotDrawn, Problem, problem};
 use super::statistics::{Report, summarise};
 use super::validator::{Claim, Verdict, validate};
-use super::Class;
 use crate::fk::{Completeness, FkOptions, FkSolutions, ForwardKinematics};
 use crate::geom::ComplexPose;
 use crate::solve::certify::{Certifier, exact_squares};
@@ -202,7 +202,8 @@ pub fn run(
         parts
     });
     let seconds = start.elapsed().as_secs_f64();
-    let mut outcomes: Vec<Outcome> = parts.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect();
+    let mut outcomes: Vec<Outcome> =
+        parts.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect();
     outcomes.sort_by_key(|o| o.k);
     Ok(summarise(plan, expected, seconds, &outcomes))
 }

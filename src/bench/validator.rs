@@ -118,12 +118,15 @@ fn is_as_claimed(claim: &Claim, refined: &Refined, unit: f64) -> bool {
     let x = &refined.point;
     let scale = x.scale();
     let in_place = match &claim.enclosure {
-        Some(discs) => discs.len() == 12 && discs.iter().enumerate().all(|(k, disc)| {
-            let length = if k < 9 { 1.0 } else { unit };
-            let centre = disc.centre / length; // exact: the unit is a power of two
-            let gap = x.0[k] - crate::num::double_double::ComplexDoubleDouble::from(centre);
-            gap.hi().norm() <= disc.radius / length + (1e-28 + 10.0 * refined.error) * scale
-        }),
+        Some(discs) => {
+            discs.len() == 12
+                && discs.iter().enumerate().all(|(k, disc)| {
+                    let length = if k < 9 { 1.0 } else { unit };
+                    let centre = disc.centre / length; // exact: the unit is a power of two
+                    let gap = x.0[k] - crate::num::double_double::ComplexDoubleDouble::from(centre);
+                    gap.hi().norm() <= disc.radius / length + (1e-28 + 10.0 * refined.error) * scale
+                })
+        }
         None => {
             let pose = &claim.pose;
             let entry = |k: usize| {

@@ -59,6 +59,7 @@ const LINES: &[Line] = &[
         ],
     ),
     ("plot", &["geom", "manipulator"], &[MATRICES]),
+    ("bench", &["num", "geom", "manipulator", "fk", "solve::certify"], &[MATRICES, COMPLEX, ERRORS]),
     (
         "cli",
         &[
@@ -75,6 +76,7 @@ const LINES: &[Line] = &[
             "equivalence",
             "design",
             "plot",
+            "bench",
         ],
         &[
             MATRICES,

@@ -82,7 +82,8 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     }
     let exit = if reports.iter().all(Report::passed) { Exit::Yes } else { Exit::No };
     let name = args.method.to_possible_value().map(|v| v.get_name().to_string()).unwrap_or_default();
-    let (json, text) = (render::json(&args.class, &name, &reports, &references), render::text(&reports, &references));
+    let (json, text) =
+        (render::json(&args.class, &name, &reports, &references), render::text(&reports, &references));
     Ok(Answer { exit, json, text })
 }
 
@@ -94,9 +95,11 @@ fn classes(name: &str) -> Result<Vec<Class>, Failure> {
         return Ok(vec![class]);
     }
     let known: Vec<&str> = Class::ALL.iter().map(|c| c.name()).collect();
-    let topology = name.strip_prefix('T').is_some_and(|n| n.parse::<u8>().is_ok_and(|n| (1..=34).contains(&n)));
+    let topology =
+        name.strip_prefix('T').is_some_and(|n| n.parse::<u8>().is_ok_and(|n| (1..=34).contains(&n)));
     if topology {
-        let message = format!("the joint-sharing topologies ({name}) are not part of the bench of this version");
+        let message =
+            format!("the joint-sharing topologies ({name}) are not part of the bench of this version");
         return Err(Failure::refused("bench::class_not_available", message)
             .with_help(format!("the classes are {}, all", known.join(", "))));
     }
@@ -122,7 +125,11 @@ mod tests {
 
     #[test]
     fn topologies_and_unknown_classes_are_refused_with_the_list() {
-        for (name, code) in [("T07", "bench::class_not_available"), ("T35", "bench::unknown_class"), ("x", "bench::unknown_class")] {
+        for (name, code) in [
+            ("T07", "bench::class_not_available"),
+            ("T35", "bench::unknown_class"),
+            ("x", "bench::unknown_class"),
+        ] {
             let failure = classes(name).unwrap_err();
             assert_eq!((failure.exit, failure.code.as_str()), (Exit::Refused, code));
             assert!(failure.help.unwrap().contains("griffis-duffy"));

@@ -37,16 +37,22 @@ fn record(r: &Report, references: &ReferenceTimes) -> Map<String, Value> {
     put("p99_us", number(r.p99_us));
     put("worst_residual", number(r.worst_residual));
     put("reference_us", json!({ "qz69": number(references.qz69), "eig40": number(references.eig40) }));
-    put("ratio_to_reference", json!({
-        "qz69": number(r.median_us / references.qz69), "eig40": number(r.median_us / references.eig40),
-    }));
+    put(
+        "ratio_to_reference",
+        json!({
+            "qz69": number(r.median_us / references.qz69), "eig40": number(r.median_us / references.eig40),
+        }),
+    );
     put("first", json!(r.plan.first));
     put("seed", json!(r.plan.seed));
     put("threads", json!(r.plan.threads));
-    put("lengths_from", json!(match r.plan.lengths {
-        LengthsFrom::Pose => "pose",
-        LengthsFrom::Uniform => "uniform",
-    }));
+    put(
+        "lengths_from",
+        json!(match r.plan.lengths {
+            LengthsFrom::Pose => "pose",
+            LengthsFrom::Uniform => "uniform",
+        }),
+    );
     put("expected_count", json!(r.expected));
     put("finite_counts", histogram(&r.finite_counts));
     put("real_counts", histogram(&r.real_counts));
@@ -57,20 +63,31 @@ fn record(r: &Report, references: &ReferenceTimes) -> Map<String, Value> {
     put("silent_failures", json!(r.silent_failures));
     put("rechecked", json!(r.rechecked));
     put("mean_us", number(r.mean_us));
-    put("split_us", json!({
-        "solve": number(r.split.solve), "certify": number(r.split.certify), "validate": number(r.split.validate),
-    }));
+    put(
+        "split_us",
+        json!({
+            "solve": number(r.split.solve), "certify": number(r.split.certify), "validate": number(r.split.validate),
+        }),
+    );
     put("seconds", number(r.seconds));
-    put("epsilon", json!({
-        "median": number(r.epsilon.median), "mean": number(r.epsilon.mean), "max": number(r.epsilon.max),
-        "above_minus_5": number(r.epsilon.above_minus_5), "above_minus_6": number(r.epsilon.above_minus_6),
-    }));
+    put(
+        "epsilon",
+        json!({
+            "median": number(r.epsilon.median), "mean": number(r.epsilon.mean), "max": number(r.epsilon.max),
+            "above_minus_5": number(r.epsilon.above_minus_5), "above_minus_6": number(r.epsilon.above_minus_6),
+        }),
+    );
     put("failures", r.failures.iter().map(failure).collect());
     out
 }
 
 /// One record; for several classes their sums, and `"rows"` with one record a class.
-pub(super) fn json(asked: &str, method: &str, reports: &[Report], references: &ReferenceTimes) -> Map<String, Value> {
+pub(super) fn json(
+    asked: &str,
+    method: &str,
+    reports: &[Report],
+    references: &ReferenceTimes,
+) -> Map<String, Value> {
     let mut out = match reports {
         [one] => record(one, references),
         _ => {
@@ -88,7 +105,10 @@ pub(super) fn json(asked: &str, method: &str, reports: &[Report], references: &R
             put("median_us", worst(|r| r.median_us));
             put("p99_us", worst(|r| r.p99_us));
             put("worst_residual", worst(|r| r.worst_residual));
-            put("reference_us", json!({ "qz69": number(references.qz69), "eig40": number(references.eig40) }));
+            put(
+                "reference_us",
+                json!({ "qz69": number(references.qz69), "eig40": number(references.eig40) }),
+            );
             put("rows", reports.iter().map(|r| Value::Object(record(r, references))).collect());
             out
         }
@@ -101,15 +121,35 @@ pub(super) fn json(asked: &str, method: &str, reports: &[Report], references: &R
 pub(super) fn text(reports: &[Report], references: &ReferenceTimes) -> String {
     let mut out = format!(
         "{:<14} {:>7} {:>5} {:>8} {:>9} {:>7} {:>6} {:>8} {:>5} {:>10} {:>10} {:>8}\n",
-        "class", "count", "poses", "complete", "certified", "proved", "missed", "spurious", "false", "median us", "p99 us",
+        "class",
+        "count",
+        "poses",
+        "complete",
+        "certified",
+        "proved",
+        "missed",
+        "spurious",
+        "false",
+        "median us",
+        "p99 us",
         "residual"
     );
     for r in reports {
         let _ = writeln!(
             out,
             "{:<14} {:>7} {:>5} {:>8} {:>9} {:>7} {:>6} {:>8} {:>5} {:>10.1} {:>10.1} {:>8.1e}",
-            r.plan.class.name(), r.plan.count, r.expected, r.complete, r.certified, r.proved, r.missed_roots,
-            r.spurious_roots, r.false_certificates, r.median_us, r.p99_us, r.worst_residual
+            r.plan.class.name(),
+            r.plan.count,
+            r.expected,
+            r.complete,
+            r.certified,
+            r.proved,
+            r.missed_roots,
+            r.spurious_roots,
+            r.false_certificates,
+            r.median_us,
+            r.p99_us,
+            r.worst_residual
         );
     }
     let _ = writeln!(
@@ -123,15 +163,31 @@ pub(super) fn text(reports: &[Report], references: &ReferenceTimes) -> String {
             out,
             "{}: error metric median {:.2} mean {:.2} max {:.2}, above -5 {:.2} %, above -6 {:.2} %; \
              solve {:.0} us, certify {:.0} us, validate {:.0} us; {:.1} s",
-            r.plan.class, e.median, e.mean, e.max, 100.0 * e.above_minus_5, 100.0 * e.above_minus_6,
-            r.split.solve, r.split.certify, r.split.validate, r.seconds
+            r.plan.class,
+            e.median,
+            e.mean,
+            e.max,
+            100.0 * e.above_minus_5,
+            100.0 * e.above_minus_6,
+            r.split.solve,
+            r.split.certify,
+            r.split.validate,
+            r.seconds
         );
         let _ = writeln!(out, "  finite: {}  real: {}", line(&r.finite_counts), line(&r.real_counts));
         for f in r.failures.iter().take(LISTED) {
             let _ = writeln!(
                 out,
                 "  WRONG --class {} --seed {} --first {}: missed {}, spurious {}, false certificates {}, found {} of {}; {}",
-                r.plan.class, r.plan.seed, f.k, f.missed, f.spurious, f.false_certificates, f.found, r.expected, f.solver
+                r.plan.class,
+                r.plan.seed,
+                f.k,
+                f.missed,
+                f.spurious,
+                f.false_certificates,
+                f.found,
+                r.expected,
+                f.solver
             );
         }
         if r.failures.len() > LISTED {

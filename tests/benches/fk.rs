@@ -1,0 +1,84 @@
+//! `cargo bench`: the rows the figures of `docs/benchmarks.md` are compared by, with two eigenvalue problems as units.
+
+use divan::Bencher;
+use equipod::bench::{Class, LengthsFrom, Problem, problem};
+use equipod::fk::{FkOptions, ForwardKinematics, Homotopy, Octic};
+use equipod::num::Rng;
+use equipod::num::linalg::{eigenvalues, generalized_eigenpairs};
+use equipod::solve::certify::{Certifier, exact_squares};
+
+fn main() {
+    divan::main();
+}
+
+/// Different problems in turn, so that no one lucky path is measured.
+const PROBLEMS: u64 = 16;
+
+fn problems(class: Class) -> Vec<Problem> {
+    let lengths = if class.allows_uniform_lengths() { LengthsFrom::Uniform } else { LengthsFrom::Pose };
+    (0..PROBLEMS).filter_map(|k| problem(class, lengths, 1, k).ok()).collect()
+}
+
+fn solving(bencher: Bencher, class: Class, method: &dyn ForwardKinematics) {
+    let problems = problems(class);
+    let mut next = problems.iter().cycle();
+    bencher.bench_local(|| {
+        next.next().map(|p| method.solve(&p.manipulator, &p.squares, &FkOptions::default()))
+    });
+}
+
+#[divan::bench]
+fn general_6_6(bencher: Bencher) {
+    solving(bencher, Class::General, &Homotopy);
+}
+
+#[divan::bench]
+fn doubly_planar(bencher: Bencher) {
+    solving(bencher, Class::BothPlanar, &Homotopy);
+}
+
+#[divan::bench]
+fn octahedral_by_octic(bencher: Bencher) {
+    solving(bencher, Class::Octahedral, &Octic);
+}
+
+#[divan::bench]
+fn griffis_duffy_by_homotopy(bencher: Bencher) {
+    solving(bencher, Class::GriffisDuffy, &Homotopy);
+}
+
+#[divan::bench]
+fn certify_40_roots(bencher: Bencher) {
+    let all = problems(Class::General);
+    let solved: Vec<_> = all
+        .iter()
+        .filter_map(|p| {
+            let found = Homotopy.solve(&p.manipulator, &p.squares, &FkOptions::default()).ok()?;
+            let certifier = Certifier::new(&p.manipulator, &exact_squares(&p.squares)).ok()?;
+            (found.roots.len() == 40).then_some((certifier, found.roots))
+        })
+        .collect();
+    let mut next = solved.iter().cycle();
+    bencher.bench_local(|| {
+        next.next().map(|(certifier, roots)| {
+            roots.iter().filter(|r| certifier.certify(&r.pose).certificate().is_some()).count()
+        })
+    });
+}
+
+fn random_matrix(n: usize, rng: &mut Rng) -> Vec<Vec<f64>> {
+    (0..n).map(|_| (0..n).map(|_| rng.normal()).collect()).collect()
+}
+
+#[divan::bench]
+fn reference_qz_69(bencher: Bencher) {
+    let mut rng = Rng::new(69);
+    let (a, b) = (random_matrix(69, &mut rng), random_matrix(69, &mut rng));
+    bencher.bench_local(|| generalized_eigenpairs(&a, &b));
+}
+
+#[divan::bench]
+fn reference_eigenvalues_40(bencher: Bencher) {
+    let a = random_matrix(40, &mut Rng::new(40));
+    bencher.bench_local(|| eigenvalues(&a));
+}

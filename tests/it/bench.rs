@@ -1,0 +1,141 @@
+//! The harness: short runs of every class, and solvers that cheat, each of which it must catch.
+
+use equipod::bench::{Class, LengthsFrom, Plan, Report, run};
+use equipod::fk::{FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, Method, Reality, solver};
+use equipod::manipulator::{Manipulator, SquaredLegLengths};
+
+fn plan(class: Class, count: u64) -> Plan {
+    let lengths = if class.allows_uniform_lengths() { LengthsFrom::Uniform } else { LengthsFrom::Pose };
+    Plan { class, lengths, count, first: 0, seed: 1, threads: 2, recheck_every: 10 }
+}
+
+fn short(class: Class, count: u64) -> Report {
+    run(&plan(class, count), solver(None).as_ref(), &Homotopy).unwrap()
+}
+
+/// Changes what an honest solver found.
+struct Cheat(fn(&mut FkSolutions));
+
+impl ForwardKinematics for Cheat {
+    fn method(&self) -> Method {
+        Method::Homotopy
+    }
+
+    fn solve(&self, m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
+        let mut found = Homotopy.solve(m, s, o)?;
+        (self.0)(&mut found);
+        Ok(found)
+    }
+}
+
+fn cheated(cheat: fn(&mut FkSolutions)) -> Report {
+    let report = run(&plan(Class::General, 3), &Cheat(cheat), &Homotopy).unwrap();
+    assert_eq!(report.expected, 40);
+    report
+}
+
+#[test]
+fn the_classes_of_martyushev_are_complete() {
+    for (class, poses) in [
+        (Class::General, 40),
+        (Class::SharedPlatformJoint, 40),
+        (Class::PlanarBase, 40),
+        (Class::BothPlanar, 40),
+    ] {
+        let report = short(class, 30);
+        assert_eq!(report.expected, poses, "{class}");
+        assert!(report.passed(), "{class}: {:?}", report.failures);
+        assert_eq!((report.complete, report.rechecked), (30, 3), "{class}");
+        assert!(report.worst_residual < 1e-12 && report.epsilon.max < -9.0, "{class}");
+    }
+}
+
+#[test]
+fn octahedral_platforms_are_complete() {
+    let report = short(Class::Octahedral, 60);
+    assert_eq!((report.expected, report.complete), (16, 60));
+    assert!(report.passed(), "{:?}", report.failures);
+}
+
+#[test]
+fn problems_depend_on_their_index_only() {
+    let all = short(Class::General, 4);
+    let later =
+        run(&Plan { first: 3, count: 1, threads: 1, ..plan(Class::General, 4) }, &Homotopy, &Homotopy);
+    let later = later.unwrap();
+    assert_eq!(later.plan.first, 3);
+    let reals = later.real_counts.keys().next().unwrap();
+    assert!(all.real_counts.contains_key(reals));
+    let draw = |k| equipod::bench::problem(Class::General, LengthsFrom::Uniform, 1, k).unwrap();
+    assert_eq!(draw(3), draw(3));
+    assert_ne!(draw(3).squares, draw(2).squares);
+}
+
+#[test]
+fn an_honest_solver_passes_the_same_plan_as_the_cheats() {
+    assert!(cheated(|_| {}).passed());
+}
+
+#[test]
+fn a_dropped_root_is_missed() {
+    let report = cheated(|found| {
+        found.roots.pop();
+    });
+    assert!(!report.passed());
+    // its conjugate is still there, so it is missed in every problem; the claim of completeness is false where made
+    assert_eq!((report.missed_roots, report.spurious_roots, report.complete), (3, 0, 0));
+    assert_eq!(report.false_certificates, report.proved);
+}
+
+#[test]
+fn a_dropped_pair_is_missed() {
+    let report = cheated(|found| {
+        found.roots.truncate(38);
+    });
+    assert_eq!((report.missed_roots, report.spurious_roots), (6, 0));
+}
+
+#[test]
+fn a_perturbed_root_is_spurious_and_its_certificate_false() {
+    let report = cheated(|found| {
+        found.roots[0].pose.position.x += 1e-5;
+        found.roots[0].certified = true;
+    });
+    assert_eq!((report.spurious_roots, report.missed_roots), (3, 3));
+    assert!(report.false_certificates >= 3);
+}
+
+#[test]
+fn a_root_given_twice_is_spurious() {
+    let report = cheated(|found| {
+        let again = found.roots[1].clone();
+        found.roots.push(again);
+    });
+    assert_eq!((report.spurious_roots, report.missed_roots), (3, 0));
+}
+
+#[test]
+fn a_reflection_is_no_root() {
+    // base reflected in no plane of its own: the residual of the leg equations is large, and det R = -1
+    let report = cheated(|found| {
+        found.roots[0].pose.rotation = -found.roots[0].pose.rotation;
+    });
+    assert_eq!((report.spurious_roots, report.missed_roots), (3, 3));
+}
+
+#[test]
+fn false_claims_of_certificates_and_reality_are_caught() {
+    let moved = cheated(|found| {
+        // off by less than counts as another root, by more than a certificate allows
+        found.roots[2].pose.position.z += 1e-7;
+        found.roots[2].certified = true;
+    });
+    assert!(moved.false_certificates >= 3, "{moved:?}");
+    let real = cheated(|found| {
+        for root in &mut found.roots {
+            root.certified = true;
+            root.reality = Reality::Real;
+        }
+    });
+    assert!(real.false_certificates > 60, "most roots of random problems are not real");
+}
