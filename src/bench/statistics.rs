@@ -93,8 +93,9 @@ impl Report {
 fn quantile(values: impl Iterator<Item = f64>, q: f64) -> f64 {
     let mut values: Vec<f64> = values.collect();
     values.sort_by(f64::total_cmp);
-    let rank = (q * values.len() as f64).ceil().max(1.0) as usize - 1;
-    values.get(rank).copied().unwrap_or(0.0)
+    let n = values.len() as f64;
+    // the first value with at least the part q of the values up to and including it
+    values.iter().enumerate().find(|(i, _)| (*i + 1) as f64 >= q * n).map_or(0.0, |(_, value)| *value)
 }
 
 fn epsilon(outcomes: &[Outcome]) -> ErrorStatistics {
@@ -121,7 +122,9 @@ pub(super) fn summarise(plan: &Plan, expected: usize, seconds: f64, outcomes: &[
     let median = |of: &dyn Fn(&Outcome) -> f64| quantile(outcomes.iter().map(of), 0.5);
     let histogram = |of: &dyn Fn(&Outcome) -> usize| {
         let mut counts = BTreeMap::new();
-        outcomes.iter().for_each(|o| *counts.entry(of(o)).or_default() += 1);
+        for outcome in outcomes {
+            *counts.entry(of(outcome)).or_default() += 1;
+        }
         counts
     };
     let failures = outcomes.iter().filter(|o| is_wrong(o)).map(|o| Failure {

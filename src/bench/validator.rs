@@ -3,6 +3,7 @@
 use crate::fk::Reality;
 use crate::geom::ComplexPose;
 use crate::num::disc::Disc;
+use crate::num::double_double::ComplexDoubleDouble;
 
 use super::generator::Problem;
 use super::newton::{LegEquations, Point, Refined};
@@ -117,23 +118,18 @@ fn holds(roots: &[Root], x: &Point) -> bool {
 fn is_as_claimed(claim: &Claim, refined: &Refined, unit: f64) -> bool {
     let x = &refined.point;
     let scale = x.scale();
-    let in_place = match &claim.enclosure {
-        Some(discs) => {
-            discs.len() == 12
-                && discs.iter().enumerate().all(|(k, disc)| {
-                    let length = if k < 9 { 1.0 } else { unit };
-                    let centre = disc.centre / length; // exact: the unit is a power of two
-                    let gap = x.0[k] - crate::num::double_double::ComplexDoubleDouble::from(centre);
-                    gap.hi().norm() <= disc.radius / length + (1e-28 + 10.0 * refined.error) * scale
-                })
-        }
-        None => {
-            let pose = &claim.pose;
-            let entry = |k: usize| {
-                if k < 9 { pose.rotation[(k / 3, k % 3)] } else { pose.position[k - 9] / unit }
-            };
-            (0..12).all(|k| (x.0[k].hi() - entry(k)).norm() <= CLAIMED * scale)
-        }
+    let in_place = if let Some(discs) = &claim.enclosure {
+        let holds = |(k, disc): (usize, &Disc)| {
+            let length = if k < 9 { 1.0 } else { unit };
+            let gap = x.0[k] - ComplexDoubleDouble::from(disc.centre / length); // exact: a power of two
+            gap.hi().norm() <= disc.radius / length + (1e-28 + 10.0 * refined.error) * scale
+        };
+        discs.len() == 12 && discs.iter().enumerate().all(holds)
+    } else {
+        let pose = &claim.pose;
+        let entry =
+            |k: usize| if k < 9 { pose.rotation[(k / 3, k % 3)] } else { pose.position[k - 9] / unit };
+        (0..12).all(|k| (x.0[k].hi() - entry(k)).norm() <= CLAIMED * scale)
     };
     let imaginary = x.imaginary() / scale;
     let real = match claim.reality {

@@ -22,9 +22,8 @@ fn problems(class: Class) -> Vec<Problem> {
 fn solving(bencher: Bencher, class: Class, method: &dyn ForwardKinematics) {
     let problems = problems(class);
     let mut next = problems.iter().cycle();
-    bencher.bench_local(|| {
-        next.next().map(|p| method.solve(&p.manipulator, &p.squares, &FkOptions::default()))
-    });
+    bencher
+        .bench_local(|| next.next().map(|p| method.solve(&p.manipulator, &p.squares, &FkOptions::default())));
 }
 
 #[divan::bench]

@@ -81,38 +81,36 @@ fn record(r: &Report, references: &ReferenceTimes) -> Map<String, Value> {
     out
 }
 
-/// One record; for several classes their sums, and `"rows"` with one record a class.
+/// Sums over several classes (times and residual: the worst), and `"rows"` with one record a class.
+fn sums(asked: &str, reports: &[Report], references: &ReferenceTimes) -> Map<String, Value> {
+    let sum = |of: fn(&Report) -> u64| json!(reports.iter().map(of).sum::<u64>());
+    let worst = |of: fn(&Report) -> f64| number(reports.iter().map(of).fold(0.0, f64::max));
+    let mut out = Map::new();
+    let mut put = |key: &str, value: Value| out.insert(key.into(), value);
+    put("class", json!(asked));
+    put("count", sum(|r| r.plan.count));
+    put("complete", sum(|r| r.complete));
+    put("certified", sum(|r| r.certified));
+    put("missed_roots", sum(|r| r.missed_roots));
+    put("spurious_roots", sum(|r| r.spurious_roots));
+    put("false_certificates", sum(|r| r.false_certificates));
+    put("median_us", worst(|r| r.median_us));
+    put("p99_us", worst(|r| r.p99_us));
+    put("worst_residual", worst(|r| r.worst_residual));
+    put("reference_us", json!({ "qz69": number(references.qz69), "eig40": number(references.eig40) }));
+    put("rows", reports.iter().map(|r| Value::Object(record(r, references))).collect());
+    out
+}
+
+/// The record of one class, or the sums over several.
 pub(super) fn json(
     asked: &str,
     method: &str,
     reports: &[Report],
     references: &ReferenceTimes,
 ) -> Map<String, Value> {
-    let mut out = match reports {
-        [one] => record(one, references),
-        _ => {
-            let sum = |of: fn(&Report) -> u64| json!(reports.iter().map(of).sum::<u64>());
-            let worst = |of: fn(&Report) -> f64| number(reports.iter().map(of).fold(0.0, f64::max));
-            let mut out = Map::new();
-            let mut put = |key: &str, value: Value| out.insert(key.into(), value);
-            put("class", json!(asked));
-            put("count", sum(|r| r.plan.count));
-            put("complete", sum(|r| r.complete));
-            put("certified", sum(|r| r.certified));
-            put("missed_roots", sum(|r| r.missed_roots));
-            put("spurious_roots", sum(|r| r.spurious_roots));
-            put("false_certificates", sum(|r| r.false_certificates));
-            put("median_us", worst(|r| r.median_us));
-            put("p99_us", worst(|r| r.p99_us));
-            put("worst_residual", worst(|r| r.worst_residual));
-            put(
-                "reference_us",
-                json!({ "qz69": number(references.qz69), "eig40": number(references.eig40) }),
-            );
-            put("rows", reports.iter().map(|r| Value::Object(record(r, references))).collect());
-            out
-        }
-    };
+    let mut out =
+        if let [one] = reports { record(one, references) } else { sums(asked, reports, references) };
     out.insert("method".into(), json!(method));
     out
 }
