@@ -4,6 +4,7 @@
 mod architecture;
 mod bench;
 mod certify;
+mod cli_bench;
 mod cli_explore;
 mod cli_fk;
 mod cli_frame;

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use serde_json::{Map, Value, json};
 
-use crate::bench::{Failure, LengthsFrom, ReferenceTimes, Report};
+use crate::bench::{Failure, LengthsFrom, Plan, ReferenceTimes, Report, problem};
 use crate::cli::output::number;
 
 /// Most failures listed for people; JSON has them all.
@@ -15,11 +15,20 @@ fn histogram(counts: &BTreeMap<usize, u64>) -> Value {
     Value::Object(counts.iter().map(|(n, problems)| (n.to_string(), json!(problems))).collect())
 }
 
-fn failure(f: &Failure) -> Value {
-    json!({
+/// A failure with the problem written out, so that it can be solved elsewhere.
+fn failure(plan: &Plan, f: &Failure) -> Value {
+    let mut out = json!({
         "k": f.k, "missed": f.missed, "spurious": f.spurious, "false_certificates": f.false_certificates,
         "found": f.found, "solver": f.solver,
-    })
+    });
+    if let Ok(drawn) = problem(plan.class, plan.lengths, plan.seed, f.k) {
+        let point = |p: nalgebra::Point3<f64>| p.iter().map(|x| number(*x)).collect::<Value>();
+        let legs = drawn.manipulator.legs();
+        out["base"] = legs.iter().map(|l| point(l.base)).collect();
+        out["platform"] = legs.iter().map(|l| point(l.platform)).collect();
+        out["squared_lengths"] = drawn.squares.get().map(number).into_iter().collect();
+    }
+    out
 }
 
 /// The record of one class.
@@ -77,7 +86,7 @@ fn record(r: &Report, references: &ReferenceTimes) -> Map<String, Value> {
             "above_minus_5": number(r.epsilon.above_minus_5), "above_minus_6": number(r.epsilon.above_minus_6),
         }),
     );
-    put("failures", r.failures.iter().map(failure).collect());
+    put("failures", r.failures.iter().map(|f| failure(&r.plan, f)).collect());
     out
 }
 
