@@ -3,6 +3,8 @@
 //! Equations: the six leg equations and the six of `R^T R = I`, twelve in twelve unknowns, on the data as given
 //! (divided by a power of two, which is exact). No parameters, no elimination, nothing a solver here uses.
 
+use std::ops::{Div, Mul, Sub};
+
 use num_complex::Complex64;
 
 use crate::geom::ComplexPose;
@@ -111,21 +113,21 @@ impl LegEquations {
         out
     }
 
-    fn jacobian(&self, x: &Point) -> [[Complex64; N]; N] {
-        let mut out = [[Complex64::ZERO; N]; N];
+    fn jacobian(&self, x: &Point) -> [[Z; N]; N] {
+        let mut out = [[Z::ZERO; N]; N];
         for i in 0..6 {
-            let d = self.difference(x, i).map(|z| z.hi() * 2.0);
+            let d = self.difference(x, i).map(|z| z.scaled(2.0));
             for k in 0..3 {
                 for j in 0..3 {
-                    out[i][3 * k + j] = d[k] * self.platform[i][j];
+                    out[i][3 * k + j] = times(d[k], self.platform[i][j]);
                 }
                 out[i][9 + k] = d[k];
             }
         }
         for (row, (i, j)) in PAIRS.into_iter().enumerate() {
             for k in 0..3 {
-                out[6 + row][3 * k + i] += x.0[3 * k + j].hi();
-                out[6 + row][3 * k + j] += x.0[3 * k + i].hi();
+                out[6 + row][3 * k + i] = out[6 + row][3 * k + i] + x.0[3 * k + j];
+                out[6 + row][3 * k + j] = out[6 + row][3 * k + j] + x.0[3 * k + i];
             }
         }
         out
@@ -138,25 +140,42 @@ impl LegEquations {
         self.values(x).iter().map(|z| z.hi().norm() / scale).fold(0.0, f64::max)
     }
 
-    /// Newton from `start` until corrections stop shrinking.
+    /// Newton from `start` until corrections stop shrinking. Corrections are solved for in double; where that does not
+    /// converge (far out, near `e.e = 0`, the Jacobian's condition grows with a power of the pose) in double-double.
     pub(super) fn refine(&self, start: &Point) -> Refined {
-        let mut x = *start;
-        let mut error = f64::INFINITY;
         let residual = self.residual(start);
-        for _ in 0..20 {
-            let Some(step) = solve(self.jacobian(&x), self.values(&x).map(Z::hi)) else { break };
-            let next = Point(std::array::from_fn(|k| x.0[k] - Z::from(step[k])));
-            let length = step.iter().map(|z| z.norm()).fold(0.0, f64::max) / next.scale();
-            if !(length < 0.5) || (error < 1e-20 && length >= error) {
-                break;
-            }
-            (x, error) = (next, length);
-            if error < 1e-29 {
-                break;
-            }
-        }
-        Refined { point: x, residual, error, converged: error < 1e-20 }
+        let (point, error) = iterate(start, |x| {
+            solve(self.jacobian(x).map(|row| row.map(Z::hi)), self.values(x).map(Z::hi))
+                .map(|s| s.map(Z::from))
+        });
+        let (point, error) = if error < CONVERGED {
+            (point, error)
+        } else {
+            iterate(start, |x| solve(self.jacobian(x), self.values(x)))
+        };
+        Refined { point, residual, error, converged: error < CONVERGED }
     }
+}
+
+/// Relative length of the last correction of an iteration that has converged.
+const CONVERGED: f64 = 1e-20;
+
+/// Where the iteration leads and the relative length of its last correction.
+fn iterate(start: &Point, step: impl Fn(&Point) -> Option<[Z; N]>) -> (Point, f64) {
+    let (mut x, mut error) = (*start, f64::INFINITY);
+    for _ in 0..20 {
+        let Some(step) = step(&x) else { break };
+        let next = Point(std::array::from_fn(|k| x.0[k] - step[k]));
+        let length = step.iter().map(|z| z.hi().norm()).fold(0.0, f64::max) / next.scale();
+        if !(length < 0.5) || (error < CONVERGED && length >= error) {
+            break;
+        }
+        (x, error) = (next, length);
+        if error < 1e-29 {
+            break;
+        }
+    }
+    (x, error)
 }
 
 const PAIRS: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
@@ -166,36 +185,64 @@ fn times(z: Z, x: f64) -> Z {
     Z { re: z.re * x, im: z.im * x }
 }
 
-/// Gaussian elimination with partial pivoting, rows scaled to largest entry one.
-fn solve(mut m: [[Complex64; N]; N], mut y: [Complex64; N]) -> Option<[Complex64; N]> {
+/// What Gaussian elimination needs of a number.
+trait Number: Copy + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> {
+    const ZERO: Self;
+    fn modulus(self) -> f64;
+    fn reduced(self, power_of_two: f64) -> Self;
+}
+
+impl Number for Complex64 {
+    const ZERO: Self = Self::ZERO;
+    fn modulus(self) -> f64 {
+        self.norm()
+    }
+    fn reduced(self, power_of_two: f64) -> Self {
+        self / power_of_two
+    }
+}
+
+impl Number for Z {
+    const ZERO: Self = Z::ZERO;
+    fn modulus(self) -> f64 {
+        self.hi().norm()
+    }
+    fn reduced(self, power_of_two: f64) -> Self {
+        self.scaled(power_of_two.recip())
+    }
+}
+
+/// Gaussian elimination with partial pivoting, rows scaled to largest entry about one.
+fn solve<T: Number>(mut m: [[T; N]; N], mut y: [T; N]) -> Option<[T; N]> {
     for i in 0..N {
-        let largest = m[i].iter().map(|z| z.norm()).fold(0.0, f64::max);
-        if !(largest > 0.0) {
+        let largest = m[i].iter().map(|z| z.modulus()).fold(0.0, f64::max);
+        if !(largest > 0.0 && largest.is_finite()) {
             return None;
         }
-        m[i].iter_mut().for_each(|z| *z /= largest);
-        y[i] /= largest;
+        let unit = 2f64.powi(largest.log2().floor() as i32);
+        m[i] = m[i].map(|z| z.reduced(unit));
+        y[i] = y[i].reduced(unit);
     }
     for c in 0..N {
-        let pivot = (c..N).max_by(|&i, &j| m[i][c].norm_sqr().total_cmp(&m[j][c].norm_sqr()))?;
+        let pivot = (c..N).max_by(|&i, &j| m[i][c].modulus().total_cmp(&m[j][c].modulus()))?;
         m.swap(c, pivot);
         y.swap(c, pivot);
-        if !(m[c][c].norm() > 0.0) {
+        if !(m[c][c].modulus() > 0.0) {
             return None;
         }
         let (row, value) = (m[c], y[c]);
         for i in c + 1..N {
             let factor = m[i][c] / row[c];
             for j in c..N {
-                m[i][j] -= factor * row[j];
+                m[i][j] = m[i][j] - factor * row[j];
             }
-            y[i] -= factor * value;
+            y[i] = y[i] - factor * value;
         }
     }
-    let mut x = [Complex64::ZERO; N];
+    let mut x = [T::ZERO; N];
     for i in (0..N).rev() {
-        let known: Complex64 = (i + 1..N).map(|j| m[i][j] * x[j]).sum();
-        x[i] = (y[i] - known) / m[i][i];
+        let rest = (i + 1..N).fold(y[i], |rest, j| rest - m[i][j] * x[j]);
+        x[i] = rest / m[i][i];
     }
     Some(x)
 }
