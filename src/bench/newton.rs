@@ -35,11 +35,12 @@ impl Point {
         self.0.iter().map(|z| z.im.hi().abs()).fold(0.0, f64::max)
     }
 
-    /// Real part of `det R`: 1 for a rotation, -1 for a reflection, for complex `R` too.
+    /// Real part of `det R`: 1 for a rotation, -1 for a reflection, for complex `R` too. In double-double: far out the
+    /// products are larger than `10^16`.
     pub(super) fn determinant(&self) -> f64 {
-        let r = self.0.map(Z::hi);
+        let r = &self.0;
         let minor = |i: usize, j: usize| r[3 + i] * r[6 + j] - r[3 + j] * r[6 + i];
-        (r[0] * minor(1, 2) - r[1] * minor(0, 2) + r[2] * minor(0, 1)).re
+        (r[0] * minor(1, 2) - r[1] * minor(0, 2) + r[2] * minor(0, 1)).hi().re
     }
 }
 
