@@ -7,6 +7,7 @@
 
 use num_complex::Complex64;
 
+use super::polish::{Polished, polish};
 use super::system::SectionHomotopy;
 use super::tracker::{TrackerSettings, track_one};
 
@@ -42,8 +43,8 @@ pub(crate) struct EndPoint {
     pub(crate) winding: u32,
     /// Distance of the last two means: the accuracy of `x`.
     pub(crate) accuracy: f64,
-    /// Whether Newton's method reached `t = 0` along the real line.
-    pub(crate) regular: bool,
+    /// Newton's method at the target, where the path was followed to it along the real line.
+    pub(crate) regular: Option<Polished>,
 }
 
 /// Ends the path that stands at `x`, real `t > 0` small. `None` when nothing converges.
@@ -55,13 +56,17 @@ pub(crate) fn end_path(homotopy: &SectionHomotopy, x: &[Complex64; 8], t: f64) -
     for _ in 0..28 {
         let straight = TrackerSettings { most_steps: 12, ..ARC };
         if let Some(end) = track_one(homotopy, &x, t.into(), Complex64::ZERO, &straight) {
-            return Some(EndPoint { x: end, winding: 1, accuracy: ARC.accuracy, regular: true });
+            // arriving at a singular end is easy with a loose corrector: only Newton's convergence counts
+            let end = polish(homotopy, &end);
+            if end.converged {
+                return Some(EndPoint { x: end.x, winding: 1, accuracy: 0.0, regular: Some(end) });
+            }
         }
         if let Some((mean, winding)) = go_round(homotopy, &x, t) {
             if let Some(earlier) = previous {
                 let accuracy = projective_distance(&earlier, &mean);
                 if best.is_none_or(|b| accuracy < b.accuracy) {
-                    best = Some(EndPoint { x: mean, winding, accuracy, regular: false });
+                    best = Some(EndPoint { x: mean, winding, accuracy, regular: None });
                 }
                 // The mean of two roots still apart converges just as that of a double root does, as long as
                 // the branch point between them is inside the circle: finite ends go on to the smallest

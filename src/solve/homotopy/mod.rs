@@ -10,6 +10,7 @@ mod lanes;
 mod lu;
 mod monodromy;
 mod paths;
+mod polish;
 mod sprint;
 mod start;
 mod system;

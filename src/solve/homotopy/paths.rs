@@ -1,15 +1,14 @@
 //! All paths of one problem: tracked, ended, classified, repaired.
 
 use num_complex::Complex64;
-use pulp::Scalar;
 
+use super::dispatch::track_all;
 use super::endgame::{end_path, projective_distance};
-use super::lanes::{Lanes, Vec8, norm_sqr};
-use super::lu::Lu;
+use super::polish::{Polished, polish};
 use super::sprint::{Pace, Sprint};
 use super::start::{StartError, shipped};
-use super::system::{SectionHomotopy, derivative_matrix, values};
-use super::tracker::{TrackerSettings, track_one};
+use super::system::SectionHomotopy;
+use super::tracker::TrackerSettings;
 use crate::num::Rng;
 use crate::solve::sections::Sections;
 
@@ -23,6 +22,27 @@ const ISOTROPIC: f64 = 1e-9;
 const ISOTROPIC_MEAN: f64 = 1e-4;
 /// Two regular ends closer than this are one root reached twice.
 const SAME_END: f64 = 1e-7;
+
+/// A regular end with a smaller pivot ratio may be one of two roots that coincide nearly.
+const NEARLY_SINGULAR: f64 = 1e-5;
+/// For paths that the fast tracker left without an end.
+const BRISK: TrackerSettings = TrackerSettings {
+    prediction: 1e-2,
+    radius_fraction: 0.8,
+    capture: 5e-2,
+    accuracy: 1e-5,
+    corrections: 3,
+    most_steps: 400,
+};
+/// The last resort for paths that jump or get lost.
+const VERY_CAREFUL: TrackerSettings = TrackerSettings {
+    prediction: 1e-7,
+    radius_fraction: 0.15,
+    capture: 1e-5,
+    accuracy: 1e-10,
+    corrections: 4,
+    most_steps: 20_000,
+};
 
 /// Where a path ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,44 +70,6 @@ pub(crate) struct Path {
     pub(crate) retracked: u32,
     /// Smallest over largest pivot modulus of the Newton matrix at the end.
     pub(crate) pivot_ratio: f64,
-}
-
-/// Newton's method at the target.
-struct Polished {
-    x: [Complex64; 8],
-    converged: bool,
-    pivot_ratio: f64,
-}
-
-fn polish(homotopy: &SectionHomotopy, x: &[Complex64; 8]) -> Polished {
-    let norm = x.iter().map(num_complex::Complex::norm_sqr).sum::<f64>().sqrt();
-    let simd = Scalar::new();
-    let mut y: Vec8<Scalar> = x.map(|z| Lanes::splat(simd, z / norm));
-    let patch = y.map(Lanes::conj);
-    let rows = homotopy.rows_at(Lanes::zero(simd));
-    let mut last = f64::INFINITY;
-    let mut pivot_ratio = 0.0;
-    for _ in 0..8 {
-        let j = derivative_matrix(&rows, &y, &patch);
-        let f = values(&j, &y);
-        let lu = Lu::factorise(j);
-        pivot_ratio = lu.pivot_ratio()[0];
-        let delta = lu.solve(f);
-        let size = norm_sqr(&delta).sqrt();
-        if !(size < 0.1 * last) {
-            // no longer contracting: at rounding level that is the end of it, above it is failure
-            let x = y.map(|z| z.lane(0));
-            return Polished { x, converged: last < 1e-8 && size < 1e-8, pivot_ratio };
-        }
-        for p in 0..8 {
-            y[p] -= delta[p];
-        }
-        last = size;
-        if size < 1e-15 {
-            break;
-        }
-    }
-    Polished { x: y.map(|z| z.lane(0)), converged: last < 1e-8, pivot_ratio }
 }
 
 fn isotropy(x: &[Complex64; 8]) -> (f64, f64) {
@@ -125,24 +107,30 @@ pub(crate) fn solve_sections(target: &Sections, seed: u64) -> Result<Vec<Path>, 
             };
             match p.remaining {
                 None => blank,
-                Some(t) if t > 0.0 => settle_by_endgame(&homotopy, blank, t.into()),
+                Some(t) if t > 0.0 => settle_by_endgame(&homotopy, blank, t),
                 Some(_) if p.correction < SETTLED => settle(blank, &p.x),
                 Some(_) => settle_arrived(&homotopy, blank),
             }
         })
         .collect();
-    for again in suspects(&paths, target) {
-        let first = SectionHomotopy::through(&real, Complex64::ONE);
-        let settings = &TrackerSettings::CAREFUL;
-        if let Some(x) = track_one(&first, &start.solutions[again], Complex64::ONE, corner, settings) {
-            paths[again] = retrack(&homotopy, &x, &paths[again]);
+    let retracker = Retracker { homotopy: &homotopy, real: &real, corner, starts: &start.solutions };
+    // A long last step may arrive at a singular end without passing through the endgame: those paths are
+    // stopped before it. The later rounds are for lost and crossed paths.
+    for settings in [BRISK, TrackerSettings::CAREFUL, VERY_CAREFUL] {
+        let again = suspects(&paths, target);
+        if again.is_empty() {
+            break;
         }
+        retracker.run(&mut paths, &again, &settings);
     }
     Ok(paths)
 }
 
-fn settle_arrived(homotopy: &SectionHomotopy, mut path: Path) -> Path {
-    let end = polish(homotopy, &path.x);
+fn settle_arrived(homotopy: &SectionHomotopy, path: Path) -> Path {
+    settle_polished(path, &polish(homotopy, &path.x))
+}
+
+fn settle_polished(mut path: Path, end: &Polished) -> Path {
     path.pivot_ratio = end.pivot_ratio;
     if end.converged { settle(path, &end.x) } else { path }
 }
@@ -162,36 +150,60 @@ fn settle(mut path: Path, x: &[Complex64; 8]) -> Path {
     path
 }
 
-fn settle_by_endgame(homotopy: &SectionHomotopy, mut path: Path, t: Complex64) -> Path {
-    if t.im != 0.0 || !(t.re > 0.0) {
-        return path;
+fn settle_by_endgame(homotopy: &SectionHomotopy, mut path: Path, t: f64) -> Path {
+    let Some(end) = end_path(homotopy, &path.x, t) else { return path };
+    if let Some(polished) = &end.regular {
+        return settle_polished(path, polished);
     }
-    let Some(end) = end_path(homotopy, &path.x, t.re) else { return path };
     path.x = end.x;
     path.winding = end.winding;
     let (iso, finite) = isotropy(&end.x);
     let blur = end.accuracy.max(1e-12).sqrt().max(ISOTROPIC_MEAN);
-    if finite < blur {
-        path.kind = EndKind::Infinite;
+    path.kind = if finite < blur {
+        EndKind::Infinite
     } else if iso < blur {
-        path.kind = EndKind::Isotropic;
-    } else if end.regular {
-        path = settle_arrived(homotopy, path);
+        EndKind::Isotropic
     } else {
-        path.kind = EndKind::Singular;
-        path.pivot_ratio = polish(homotopy, &path.x).pivot_ratio;
-    }
+        EndKind::Singular
+    };
+    path.pivot_ratio = polish(homotopy, &path.x).pivot_ratio;
     path
 }
 
-fn retrack(homotopy: &SectionHomotopy, start: &[Complex64; 8], before: &Path) -> Path {
-    let goal = Complex64::from(CAREFUL_ENDGAME_AT);
-    let mut path = Path { kind: EndKind::Failed, retracked: before.retracked + 1, ..*before };
-    if let Some(x) = track_one(homotopy, start, Complex64::ONE, goal, &TrackerSettings::CAREFUL) {
-        path.x = x;
-        path = settle_by_endgame(homotopy, path, goal);
+/// Tracks paths again from the start by the trusted tracker, stops them before the target and ends them in
+/// the endgame.
+struct Retracker<'a> {
+    /// From the corner to the target.
+    homotopy: &'a SectionHomotopy,
+    real: &'a SectionHomotopy<f64>,
+    corner: Complex64,
+    starts: &'a [[Complex64; 8]],
+}
+
+impl Retracker<'_> {
+    fn run(&self, paths: &mut [Path], again: &[usize], settings: &TrackerSettings) {
+        let first = SectionHomotopy::through(self.real, Complex64::ONE).shortened(self.corner);
+        let second = self.homotopy.shortened(CAREFUL_ENDGAME_AT.into());
+        let from: Vec<[Complex64; 8]> = again.iter().map(|i| self.starts[*i]).collect();
+        let at_corner = track_all(&first, &from, settings, 0.0);
+        let middle: Vec<[Complex64; 8]> = at_corner.iter().map(|p| p.x).collect();
+        let near_end = track_all(&second, &middle, settings, 0.0);
+        for ((index, p), q) in again.iter().zip(at_corner).zip(near_end) {
+            let before = &paths[*index];
+            let path = Path {
+                x: q.x,
+                kind: EndKind::Failed,
+                steps: before.steps + p.steps + q.steps,
+                rejections: before.rejections + p.rejections + q.rejections,
+                winding: 0,
+                retracked: before.retracked + 1,
+                pivot_ratio: 0.0,
+            };
+            let arrived = p.arrived && q.arrived;
+            paths[*index] =
+                if arrived { settle_by_endgame(self.homotopy, path, CAREFUL_ENDGAME_AT) } else { path };
+        }
     }
-    path
 }
 
 /// Indices of paths whose end is missing, coincides with that of another regular path, or lacks its
@@ -209,6 +221,8 @@ pub(crate) fn suspects(paths: &[Path], target: &Sections) -> Vec<usize> {
         let mirrored = x.map(|z| z.conj());
         let doubt = match p.kind {
             EndKind::Failed => true,
+            // close to a multiple root Newton's method may take two ends to one root: not for this test to tell
+            EndKind::Regular if p.pivot_ratio < NEARLY_SINGULAR => false,
             EndKind::Regular => {
                 let jumped =
                     ends.iter().enumerate().any(|(k, (y, regular))| *regular && k != i && same(y, x));

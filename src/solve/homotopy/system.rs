@@ -59,6 +59,16 @@ impl SectionHomotopy {
         let lift = |rows: &[[f64; FORMS]; 6], k: Complex64| rows.map(|row| row.map(|x| k * x));
         Self { target: lift(&real.target, Complex64::ONE), slope: lift(&real.slope, corner) }
     }
+
+    /// The part of the line from `t = 1` to `end`, which becomes `t = 0`.
+    pub(super) fn shortened(&self, end: Complex64) -> Self {
+        let (mut target, mut slope) = (self.target, self.slope);
+        for (z, d) in target.iter_mut().flatten().zip(slope.iter_mut().flatten()) {
+            *z += *d * end;
+            *d *= Complex64::ONE - end;
+        }
+        Self { target, slope }
+    }
 }
 
 impl SectionHomotopy<f64> {
