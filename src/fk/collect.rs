@@ -1,8 +1,8 @@
 //! From candidate poses to distinct roots with evidence: nothing is dropped without a record.
 
-use nalgebra::{SMatrix, SVector};
 use num_complex::Complex64;
 
+use super::newton::refine;
 use super::{FkRoot, FkTolerances, Reality, Rejected, RejectionReason};
 use crate::geom::ComplexPose;
 use crate::manipulator::{Manipulator, SquaredLegLengths};
@@ -39,6 +39,17 @@ pub(super) fn collect(
     tolerances: &FkTolerances,
     candidates: &[Candidate],
 ) -> Collected {
+    collect_with(m, s, tolerances, candidates, &[])
+}
+
+/// [`collect`] with further candidates that are proved to be distinct roots, however close together.
+pub(super) fn collect_with(
+    m: &Manipulator,
+    s: &SquaredLegLengths,
+    tolerances: &FkTolerances,
+    candidates: &[Candidate],
+    proved: &[Candidate],
+) -> Collected {
     let length = m.size();
     let mut groups: Vec<(Candidate, f64, Vec<usize>)> = Vec::new();
     let mut rejected = Vec::new();
@@ -72,6 +83,7 @@ pub(super) fn collect(
             None => groups.push((c, residual, vec![c.source])),
         }
     }
+    groups.extend(proved.iter().map(|c| (*c, c.pose.residual(m, s), vec![c.source])));
     let mut order: Vec<(FkRoot, Vec<usize>)> = groups
         .into_iter()
         .map(|(c, residual, sources)| {
@@ -140,60 +152,4 @@ fn sort_key(root: &FkRoot, length: f64) -> SortKey {
         grid(p.z.im),
         grid(p.x.im),
     ])
-}
-
-/// Newton's method on the leg equations in the pose itself: `R <- R exp([w]x)`, `p <- p + d`, over `C`.
-///
-/// Keeps the better of each step's two poses, so it never makes a residual worse.
-pub(super) fn refine(m: &Manipulator, s: &SquaredLegLengths, pose: &ComplexPose) -> ComplexPose {
-    let mut best = *pose;
-    let mut residual = best.residual(m, s);
-    for _ in 0..4 {
-        let Some(next) = newton_step(m, s, &best) else { break };
-        let r = next.residual(m, s);
-        if !(r < residual) {
-            break;
-        }
-        best = next;
-        residual = r;
-    }
-    best
-}
-
-fn newton_step(m: &Manipulator, s: &SquaredLegLengths, pose: &ComplexPose) -> Option<ComplexPose> {
-    let size = m.size();
-    let mut jacobian = SMatrix::<Complex64, 6, 6>::zeros();
-    let mut defect = SVector::<Complex64, 6>::zeros();
-    for (i, (leg, target)) in m.legs().iter().zip(s.get()).enumerate() {
-        let lift = |v: nalgebra::Vector3<f64>| v.map(|x| Complex64::new(x, 0.0));
-        let arm = pose.rotation * lift(leg.platform.coords);
-        let d = arm + pose.position - lift(leg.base.coords);
-        let moment = arm.cross(&d);
-        for k in 0..3 {
-            jacobian[(i, k)] = d[k] * 2.0 / size;
-            jacobian[(i, 3 + k)] = moment[k] * 2.0 / (size * size);
-        }
-        defect[i] = (d.dot(&d) - target) / (size * size);
-    }
-    let twist = jacobian.lu().solve(&defect)?;
-    // Cayley transform of the rotation vector: exactly orthogonal over C
-    let w = nalgebra::Vector3::new(twist[3], twist[4], twist[5]) * Complex64::new(-0.5, 0.0);
-    let n = Complex64::ONE + w.dot(&w);
-    if !(n.norm() > 0.1) {
-        return None;
-    }
-    let (two, one) = (Complex64::new(2.0, 0.0), Complex64::ONE);
-    let cross = w.cross_matrix();
-    let turn =
-        (nalgebra::Matrix3::identity() * (one - w.dot(&w)) + (w * w.transpose()) * two + cross * two) / n;
-    let shift = nalgebra::Vector3::new(twist[0], twist[1], twist[2]) * Complex64::new(size, 0.0);
-    let rotation = reorthogonalised(&(turn * pose.rotation));
-    Some(ComplexPose { rotation, position: pose.position - shift })
-}
-
-/// One step of `R <- R (3 I - R^T R) / 2`, which squares the defect of `R^T R = I` (over `C` as well).
-fn reorthogonalised(r: &nalgebra::Matrix3<Complex64>) -> nalgebra::Matrix3<Complex64> {
-    let gram = r.transpose() * r;
-    let three = nalgebra::Matrix3::identity() * Complex64::new(3.0, 0.0);
-    r * (three - gram) * Complex64::new(0.5, 0.0)
 }

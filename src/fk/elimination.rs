@@ -2,7 +2,7 @@
 
 use super::collect::{Candidate, collect};
 use super::evidence::{GENERAL, attach};
-use super::{Completeness, FkOptions, FkSolutions, Method, Rejected, RejectionReason};
+use super::{Completeness, FkOptions, FkSolutions, Method, Rejected, RejectionReason, SolutionSet};
 use crate::geom::ComplexPose;
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 
@@ -48,6 +48,7 @@ impl Candidates {
         let mut solutions = FkSolutions {
             method,
             roots: collected.roots,
+            solution_set: SolutionSet::Isolated,
             completeness: Completeness::Unproved { reason: String::new(), all_paths_accounted: false },
             paths: Vec::new(),
             rejected,

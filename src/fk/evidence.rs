@@ -1,5 +1,6 @@
 //! Certificates for the roots of a method, and completeness when they reach a proved bound.
 
+use super::bounds::class_bound;
 use super::{Completeness, FkSolutions, Reality};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::solve::certify::{
@@ -29,7 +30,7 @@ pub(super) const OCTAHEDRAL: Bound = Bound {
 };
 
 /// Tries to certify every root; a certified root takes its reality from the proof. When the certified roots
-/// are pairwise distinct and as many as the bound, completeness is proved.
+/// are pairwise distinct and as many as the bound, or as that of the platform's class, completeness is proved.
 pub(super) fn attach(solutions: &mut FkSolutions, m: &Manipulator, s: &SquaredLegLengths, bound: Bound) {
     let Ok(certifier) = Certifier::new(m, &exact_squares(s)) else { return };
     let mut certificates: Vec<Certificate> = Vec::new();
@@ -44,7 +45,17 @@ pub(super) fn attach(solutions: &mut FkSolutions, m: &Manipulator, s: &SquaredLe
             certificates.push(certificate);
         }
     }
-    if certificates.len() == bound.count && distinct(&certificates) == Distinctness::AllDistinct {
+    if distinct(&certificates) != Distinctness::AllDistinct {
+        return;
+    }
+    let count = certificates.len();
+    if count == bound.count {
         solutions.completeness = Completeness::Proved { argument: bound.argument.to_owned() };
+    } else if let Some(class) = class_bound(m).filter(|b| b.count == count) {
+        let argument = format!(
+            "{count} certified distinct poses, and no more than {count} are possible: {}",
+            class.reason
+        );
+        solutions.completeness = Completeness::Proved { argument };
     }
 }

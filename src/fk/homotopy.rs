@@ -2,13 +2,18 @@
 
 use num_complex::Complex64;
 
-use super::collect::{Candidate, collect};
+use super::cluster::separate;
+use super::collect::{Candidate, collect_with};
+use super::dependent::{curves, detect_curves, incompatible};
 use super::evidence::{GENERAL, attach};
-use super::{Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, PathEnd, PathReport};
+use super::{
+    Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, PathEnd, PathReport,
+    SolutionSet,
+};
 use crate::geom::{ComplexPose, rotation_from_quaternion};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::solve::homotopy::{EndKind, GENERIC_COUNT, Path, solve_sections};
-use crate::solve::{Frame, quaternion_product, split};
+use crate::solve::{Dependence, Frame, dependence, quaternion_product, split};
 
 /// Times the whole problem is tracked again with another gamma when paths fail.
 const ATTEMPTS: u64 = 3;
@@ -28,21 +33,13 @@ impl ForwardKinematics for Homotopy {
 
     fn solve(&self, m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
         let frame = Frame::of(m, s);
-        let Some(sections) = frame.sections(m, s) else {
-            return Ok(FkSolutions {
-                method: Method::Homotopy,
-                roots: Vec::new(),
-                completeness: Completeness::Unproved {
-                    reason: "the six leg equations are linearly dependent: every pose found would belong \
-                             to a continuum of poses (architecturally singular platform, compatible lengths)"
-                        .to_owned(),
-                    all_paths_accounted: false,
-                },
-                paths: Vec::new(),
-                rejected: Vec::new(),
-                seed: o.seed,
-            });
+        let nearly = match dependence(m, s) {
+            Dependence::Independent => false,
+            Dependence::Nearly => true,
+            Dependence::Incompatible => return Ok(incompatible(o)),
+            Dependence::Compatible { relations } => return curves(m, s, o, &frame, relations),
         };
+        let Some(sections) = frame.sections(m, s) else { return curves(m, s, o, &frame, 0) };
         let mut best: Option<FkSolutions> = None;
         for attempt in 0..ATTEMPTS {
             let seed = o.seed.wrapping_add(attempt.wrapping_mul(0x9e37_79b9));
@@ -50,7 +47,12 @@ impl ForwardKinematics for Homotopy {
                 solve_sections(&sections, seed).map_err(|e| FkError::Breakdown { what: e.to_string() })?;
             let mut found = assemble(m, s, o, &frame, &paths);
             attach(&mut found, m, s, GENERAL);
-            if found.all_accounted() {
+            detect_curves(&mut found, m, s);
+            if nearly {
+                doubt_near_relation(&mut found);
+            }
+            let settled = nearly || found.solution_set != SolutionSet::Isolated;
+            if settled || found.all_accounted() {
                 return Ok(found);
             }
             let failures = |f: &FkSolutions| f.paths.iter().filter(|p| p.end == PathEnd::Failed).count();
@@ -62,8 +64,16 @@ impl ForwardKinematics for Homotopy {
     }
 }
 
+/// A relation that holds to rounding only: the answer depends on digits that nobody knows.
+fn doubt_near_relation(found: &mut FkSolutions) {
+    if let Completeness::Unproved { reason, all_paths_accounted } = &mut found.completeness {
+        reason.push_str("; the leg vectors are linearly dependent to within 1e-9 but not exactly (nearly architecturally singular)");
+        *all_paths_accounted = false;
+    }
+}
+
 /// The pose of homogeneous coordinates `(e, g)` in the design's frames: `R = R(e)`, `p = g e~ / (e.e)`.
-fn pose_of(x: [Complex64; 8]) -> ComplexPose {
+pub(super) fn pose_of(x: [Complex64; 8]) -> ComplexPose {
     let (e, g) = split(x);
     let n: Complex64 = e.iter().map(|z| z * z).sum();
     let conjugate = [e[0], -e[1], -e[2], -e[3]];
@@ -110,10 +120,13 @@ fn assemble(
             retracked: path.retracked,
         });
     }
-    let collected = collect(m, s, &o.tolerances, &candidates);
+    let ends = separate(m, s, candidates);
+    let mut collected = collect_with(m, s, &o.tolerances, &ends.plain, &ends.proved);
     for (root, sources) in collected.sources.iter().enumerate() {
         for &start in sources {
             reports[start].root = Some(root);
+            // a path with winding number w shares its end with w - 1 others
+            collected.doubtful |= reports[start].winding > collected.roots[root].multiplicity;
         }
     }
     let count = |end| reports.iter().filter(|p| p.end == end).count();
@@ -130,6 +143,7 @@ fn assemble(
     FkSolutions {
         method: Method::Homotopy,
         roots: collected.roots,
+        solution_set: SolutionSet::Isolated,
         completeness: Completeness::Unproved { reason, all_paths_accounted },
         paths: reports,
         rejected: collected.rejected,

@@ -3,12 +3,16 @@
 //! Nothing in here knows leg maps: `fk` and `synthesis` never import each other, so that agreement of
 //! the root sets of two platforms is evidence for the map between them.
 
+mod bounds;
 mod choose;
+mod cluster;
 mod collect;
+mod dependent;
 mod elimination;
 mod evidence;
 mod homotopy;
 mod near;
+mod newton;
 mod octic;
 mod solutions;
 mod sylvester;
@@ -21,6 +25,7 @@ pub use near::{NearEvidence, NearOptions, NearOutcome, NearSolver, WhyLost};
 pub use octic::{Octic, OcticPoses, OcticSolver, octic};
 pub use solutions::{
     Completeness, FkRoot, FkSolutions, Method, PathEnd, PathReport, Reality, Rejected, RejectionReason,
+    SolutionSet,
 };
 pub use sylvester::Sylvester;
 pub use template::Template;

@@ -67,6 +67,48 @@ pub enum Completeness {
     },
 }
 
+/// What the finite complex poses form.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SolutionSet {
+    /// Nothing speaks against isolated poses: those of [`FkSolutions::roots`].
+    Isolated,
+    /// Proved: there is no finite pose, real or complex.
+    Empty,
+    /// Poses form curves or surfaces (self-motions).
+    PositiveDimensional {
+        /// Dimension, at least.
+        dimension: usize,
+        /// One pose for each point in which general linear sections (of the seventeen quadratic forms of the dual quaternion, as
+        /// many as the dimension) meet the set, so at least one on each component of that dimension. Their number is the degree
+        /// of the set in that embedding when `established`.
+        witnesses: Vec<FkRoot>,
+        /// `true` when a relation between the legs is proved on the joints as given, the lengths satisfy it within rounding and
+        /// all witnesses are regular; `false` when the motion was only seen numerically.
+        established: bool,
+    },
+}
+
+impl SolutionSet {
+    /// The name used in JSON.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Isolated => "isolated",
+            Self::Empty => "empty",
+            Self::PositiveDimensional { .. } => "positive_dimensional",
+        }
+    }
+
+    /// Poses on the components of positive dimension.
+    #[must_use]
+    pub fn witnesses(&self) -> &[FkRoot] {
+        match self {
+            Self::PositiveDimensional { witnesses, .. } => witnesses,
+            _ => &[],
+        }
+    }
+}
+
 /// One root with its evidence.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FkRoot {
@@ -161,6 +203,8 @@ pub struct FkSolutions {
     pub method: Method,
     /// Distinct finite roots, real ones first, in a reproducible order.
     pub roots: Vec<FkRoot>,
+    /// Whether the poses are isolated at all.
+    pub solution_set: SolutionSet,
     /// Whether these are all.
     pub completeness: Completeness,
     /// What each homotopy path did; empty for other methods.

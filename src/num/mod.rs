@@ -1,7 +1,8 @@
-//! Seeded random numbers, double-double and interval arithmetic, and the one door to faer.
+//! Seeded random numbers, double-double, interval and exact rational arithmetic, and the one door to faer.
 
 pub mod disc;
 pub mod double_double;
+pub(crate) mod exact;
 pub mod interval;
 pub mod linalg;
 mod seed;

@@ -2,10 +2,12 @@
 //! certifying the roots by code that shares nothing with the solver.
 
 pub mod certify;
+mod dependence;
 pub mod generic_frame;
 pub mod homotopy;
 mod sections;
 pub mod sylvester;
 pub mod template;
 
+pub(crate) use dependence::{Dependence, dependence};
 pub(crate) use sections::{Frame, quaternion_product, split};

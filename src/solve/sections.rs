@@ -19,6 +19,7 @@ use nalgebra::{Matrix3, Point3, SVector, Vector3};
 use num_complex::Complex64;
 
 use crate::manipulator::{Leg, Manipulator, SquaredLegLengths};
+use crate::num::Rng;
 
 /// Number of quadratic forms.
 pub(crate) const FORMS: usize = 17;
@@ -58,13 +59,52 @@ impl Frame {
     /// The orthonormalised sections of the legs, in this frame. `None` when the six leg equations are
     /// linearly dependent to rounding (relative `1e-13`), so that they do not span six dimensions.
     pub(crate) fn sections(&self, m: &Manipulator, s: &SquaredLegLengths) -> Option<Sections> {
+        Sections { rows: self.leg_rows(m, s) }.orthonormalised()
+    }
+
+    fn leg_rows(&self, m: &Manipulator, s: &SquaredLegLengths) -> [Row; 6] {
         let mut rows = [[Complex64::ZERO; FORMS]; 6];
         for ((row, leg), s) in rows.iter_mut().zip(m.legs()).zip(s.get()) {
             let a = (leg.base.coords - self.base_origin) / self.scale;
             let b = (leg.platform.coords - self.platform_origin) / self.scale;
             *row = leg_row(&a, &b, s / (self.scale * self.scale));
         }
-        Sections { rows }.orthonormalised()
+        rows
+    }
+
+    /// The span of the leg equations as far as they are independent (sines above `tolerance`), filled up to
+    /// six dimensions by random real sections, and how many these are.
+    pub(crate) fn sliced_sections(
+        &self,
+        m: &Manipulator,
+        s: &SquaredLegLengths,
+        tolerance: f64,
+        rng: &mut Rng,
+    ) -> Option<(Sections, usize)> {
+        let mut rest: Vec<SVector<Complex64, FORMS>> = self.leg_rows(m, s).map(SVector::from).to_vec();
+        let norms: Vec<f64> = rest.iter().map(|r| r.norm()).collect();
+        for (row, norm) in rest.iter_mut().zip(&norms) {
+            *row /= Complex64::new(*norm, 0.0);
+        }
+        let mut basis: Vec<SVector<Complex64, FORMS>> = Vec::new();
+        while let Some((at, size)) =
+            rest.iter().map(|r| r.norm()).enumerate().max_by(|x, y| x.1.total_cmp(&y.1))
+        {
+            if !(size > tolerance) {
+                break;
+            }
+            let row = rest.swap_remove(at) / Complex64::new(size, 0.0);
+            for other in &mut rest {
+                let parallel = row * row.dotc(other);
+                *other -= parallel;
+            }
+            basis.push(row);
+        }
+        let missing = 6 - basis.len();
+        let mut random = || SVector::from_fn(|_, _| Complex64::new(rng.normal(), 0.0));
+        basis.extend((0..missing).map(|_| random()));
+        let rows: [SVector<Complex64, FORMS>; 6] = basis.try_into().ok()?;
+        Some((Sections { rows: rows.map(Into::into) }.orthonormalised()?, missing))
     }
 
     /// Homogeneous coordinates `(e, g)` in the design's own frames from those in this frame.
@@ -187,7 +227,6 @@ pub(crate) fn forms(x: [Complex64; 8]) -> Row {
 mod tests {
     use super::*;
     use crate::geom::{Pose, random_rotation};
-    use crate::num::Rng;
     use nalgebra::UnitQuaternion;
 
     #[test]

@@ -14,7 +14,7 @@ use num_complex::Complex64;
 
 use super::collect::{Candidate, collect};
 use super::evidence::{OCTAHEDRAL, attach};
-use super::{Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method};
+use super::{Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, SolutionSet};
 use crate::geom::{ComplexPose, trilaterate};
 use crate::manipulator::{Leg, Manipulator, Octahedral, SquaredLegLengths};
 use crate::poly::{LANES, roots};
@@ -57,6 +57,7 @@ impl ForwardKinematics for Octic {
         let mut solutions = FkSolutions {
             method: Method::Octic,
             roots: collected.roots,
+            solution_set: SolutionSet::Isolated,
             completeness: Completeness::Unproved { reason, all_paths_accounted },
             paths: Vec::new(),
             rejected: collected.rejected,

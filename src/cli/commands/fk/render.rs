@@ -6,7 +6,9 @@ use num_complex::Complex64;
 use serde_json::{Map, Value, json};
 
 use crate::cli::output::number;
-use crate::fk::{Completeness, FkRoot, FkSolutions, PathReport, Reality, Rejected, RejectionReason};
+use crate::fk::{
+    Completeness, FkRoot, FkSolutions, PathReport, Reality, Rejected, RejectionReason, SolutionSet,
+};
 
 /// The fields of the document.
 pub(in crate::cli::commands) fn json(s: &FkSolutions) -> Map<String, Value> {
@@ -26,6 +28,13 @@ pub(in crate::cli::commands) fn json(s: &FkSolutions) -> Map<String, Value> {
     put("real_count", json!(s.assembly_modes().count()));
     put("undecided_count", json!(undecided));
     put("solutions", s.roots.iter().map(root).collect());
+    put("solution_set", json!(s.solution_set.name()));
+    if let SolutionSet::PositiveDimensional { dimension, witnesses, established } = &s.solution_set {
+        put("dimension_at_least", json!(dimension));
+        put("dimension_established", json!(established));
+        put("degree", if *established { json!(witnesses.len()) } else { Value::Null });
+        put("witness_points", witnesses.iter().map(root).collect());
+    }
     put("paths", s.paths.iter().map(path).collect());
     put("rejected", s.rejected.iter().map(rejected).collect());
     put("seed", json!(s.seed));
@@ -87,27 +96,21 @@ fn all_finite(s: &FkSolutions) -> bool {
 /// What people read.
 pub(super) fn text(name: &str, s: &FkSolutions) -> String {
     let mut out = String::new();
-    let real = s.assembly_modes().count();
-    let undecided = s.roots.iter().filter(|r| r.reality == Reality::Undecided).count();
-    let _ = write!(out, "{name}: {} finite poses, {real} of them real", s.roots.len());
-    if undecided > 0 {
-        let _ = write!(out, ", {undecided} undecided");
+    if let SolutionSet::PositiveDimensional { dimension, witnesses, .. } = &s.solution_set {
+        let what = if *dimension == 1 { "curve" } else { "set" };
+        let _ = writeln!(
+            out,
+            "{name}: self-motion, a {what} of poses of dimension {dimension} at least, {} points on it and {} isolated poses (method {})",
+            witnesses.len(),
+            s.roots.len(),
+            s.method
+        );
+    } else {
+        count_line(&mut out, name, s);
     }
-    let _ = writeln!(out, " (method {})", s.method);
-    match &s.completeness {
-        Completeness::Proved { argument } => {
-            let _ = writeln!(out, "complete: proved, {argument}");
-        }
-        Completeness::Unproved { reason, all_paths_accounted } => {
-            let head = if *all_paths_accounted {
-                "complete: not proved"
-            } else {
-                "INCOMPLETE: roots may be missing"
-            };
-            let _ = writeln!(out, "{head}, {reason}");
-        }
-    }
-    for (i, r) in s.roots.iter().enumerate().filter(|(_, r)| r.reality != Reality::NonReal) {
+    completeness_line(&mut out, s);
+    let points = s.solution_set.witnesses().iter().chain(&s.roots).enumerate();
+    for (i, r) in points.filter(|(_, r)| r.reality != Reality::NonReal) {
         real_pose(&mut out, i + 1, r);
     }
     let complex = s.roots.iter().filter(|r| r.reality == Reality::NonReal).count();
@@ -115,6 +118,34 @@ pub(super) fn text(name: &str, s: &FkSolutions) -> String {
         let _ = writeln!(out, "{complex} complex poses: see --json");
     }
     out
+}
+
+fn count_line(out: &mut String, name: &str, s: &FkSolutions) {
+    let real = s.assembly_modes().count();
+    let undecided = s.roots.iter().filter(|r| r.reality == Reality::Undecided).count();
+    let _ = write!(out, "{name}: {} finite poses, {real} of them real", s.roots.len());
+    if undecided > 0 {
+        let _ = write!(out, ", {undecided} undecided");
+    }
+    let _ = writeln!(out, " (method {})", s.method);
+}
+
+fn completeness_line(out: &mut String, s: &FkSolutions) {
+    match &s.completeness {
+        Completeness::Proved { argument } => {
+            let _ = writeln!(out, "complete: proved, {argument}");
+        }
+        Completeness::Unproved { reason, all_paths_accounted } => {
+            let head = if matches!(s.solution_set, SolutionSet::PositiveDimensional { .. }) {
+                if *all_paths_accounted { "self-motion: established" } else { "UNDECIDED: self-motion" }
+            } else if *all_paths_accounted {
+                "complete: not proved"
+            } else {
+                "INCOMPLETE: roots may be missing"
+            };
+            let _ = writeln!(out, "{head}, {reason}");
+        }
+    }
 }
 
 fn real_pose(out: &mut String, number: usize, r: &FkRoot) {
@@ -138,6 +169,7 @@ fn real_pose(out: &mut String, number: usize, r: &FkRoot) {
 /// One line of the table for many rows.
 pub(super) fn table_row(line: usize, s: &FkSolutions) -> String {
     let complete = match &s.completeness {
+        _ if !s.solution_set.witnesses().is_empty() => "SELF-MOTION",
         Completeness::Proved { .. } => "proved",
         Completeness::Unproved { all_paths_accounted: true, .. } => "all paths accounted",
         Completeness::Unproved { .. } => "ROOTS MAY BE MISSING",
@@ -170,6 +202,7 @@ mod tests {
         FkSolutions {
             method: Method::Homotopy,
             roots: [Reality::Real, Reality::Undecided, Reality::NonReal].map(root).to_vec(),
+            solution_set: SolutionSet::Isolated,
             completeness: Completeness::Unproved { reason: "paths".into(), all_paths_accounted: false },
             paths: vec![PathReport {
                 start: 3,

@@ -1,0 +1,96 @@
+//! Exact rational arithmetic on doubles, for decisions that rounding must not take: ranks and coplanarity.
+//!
+//! Every finite double is a rational number, so that linear relations between joints given as doubles are
+//! true or false without any tolerance.
+
+use num_rational::BigRational;
+
+/// A rational number of any size.
+pub(crate) type Rational = BigRational;
+
+/// The value of a double; `None` for NaN and infinities.
+pub(crate) fn rational(x: f64) -> Option<Rational> {
+    Rational::from_float(x)
+}
+
+fn zero() -> Rational {
+    Rational::from_integer(0.into())
+}
+
+/// A basis of the linear relations between the rows: vectors `c` with `sum_i c_i row_i = 0`, exactly.
+///
+/// Gauss elimination of the rows beside an identity; row `i` of the result has `rows.len()` entries. The
+/// rank is the number of rows less the number of relations.
+pub(crate) fn relations(rows: &[Vec<Rational>]) -> Vec<Vec<Rational>> {
+    let count = rows.len();
+    let width = rows.first().map_or(0, Vec::len);
+    let one = Rational::from_integer(1.into());
+    let mut work: Vec<Vec<Rational>> = rows.to_vec();
+    for (i, row) in work.iter_mut().enumerate() {
+        row.extend((0..count).map(|j| if i == j { one.clone() } else { zero() }));
+    }
+    let mut rank = 0;
+    for column in 0..width {
+        let Some(pivot) = (rank..count).find(|i| work[*i][column] != zero()) else { continue };
+        work.swap(rank, pivot);
+        let (top, below) = work.split_at_mut(rank + 1);
+        let head = &top[rank];
+        for row in below.iter_mut().filter(|r| r[column] != zero()) {
+            let factor = &row[column] / &head[column];
+            for (x, h) in row.iter_mut().zip(head).skip(column) {
+                *x -= &factor * h;
+            }
+        }
+        rank += 1;
+        if rank == count {
+            break;
+        }
+    }
+    work.into_iter().skip(rank).map(|row| row[width..].to_vec()).collect()
+}
+
+/// Rank of the differences `p_i - p_0`: 0 one point, 1 a line, 2 a plane, 3 space. `None` when a coordinate is
+/// not finite.
+pub(crate) fn affine_rank(points: &[[f64; 3]]) -> Option<usize> {
+    let exact: Option<Vec<Vec<Rational>>> =
+        points.iter().map(|p| p.iter().map(|x| rational(*x)).collect::<Option<Vec<_>>>()).collect();
+    let exact = exact?;
+    let first = exact.first()?.clone();
+    let differences: Vec<Vec<Rational>> =
+        exact.iter().skip(1).map(|p| p.iter().zip(&first).map(|(x, o)| x - o).collect()).collect();
+    Some(differences.len() - relations(&differences).len())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(x: &[f64]) -> Vec<Rational> {
+        x.iter().map(|x| rational(*x).unwrap()).collect()
+    }
+
+    #[test]
+    fn a_relation_between_doubles_is_found_exactly_and_a_spoilt_one_is_not() {
+        // the third row is the sum of the others, decimals as they are rounded
+        let (a, b) = ([0.1, 0.2, 0.3, 1e-30], [1e20, 3.0, -0.7, 0.5]);
+        let exact: Vec<Rational> = row(&a).iter().zip(row(&b)).map(|(x, y)| x + y).collect();
+        let found = relations(&[row(&a), row(&b), exact.clone()]);
+        assert_eq!(found.len(), 1);
+        let c = &found[0];
+        assert!(c[0] == c[1] && &c[0] + &c[2] == zero() && c[2] != zero());
+        let rounded = row(&[0.1 + 1e20, 0.2 + 3.0, 0.3 - 0.7, 0.5]);
+        assert!(rounded != exact && relations(&[row(&a), row(&b), rounded]).is_empty());
+    }
+
+    #[test]
+    fn affine_ranks_of_a_point_a_line_a_plane_and_space() {
+        let plane = [[0.1, 0.2, 0.0], [1.0, 0.3, 0.0], [0.7, -2.0, 0.0], [5.0, 5.0, 0.0]];
+        assert_eq!(affine_rank(&plane), Some(2));
+        assert_eq!(affine_rank(&[[0.0; 3], [0.1, 0.1, 0.1], [0.3, 0.3, 0.3]]), Some(1));
+        assert_eq!(affine_rank(&[[0.3; 3]; 3]), Some(0));
+        let mut lifted = plane;
+        lifted[3][2] = f64::MIN_POSITIVE;
+        assert_eq!(affine_rank(&lifted), Some(3));
+        assert_eq!(affine_rank(&[[0.0; 3], [f64::NAN; 3]]), None);
+    }
+}

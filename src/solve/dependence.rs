@@ -1,0 +1,160 @@
+//! Linear dependence of the six leg vectors, decided exactly where that is possible.
+//!
+//! The leg `(a, b)` is the vector `v = (1, a) (x) (1, b)` of `R^16`, its equation is
+//! `<v, W(pose)> + |a|^2 + |b|^2 - s = 0` (multiplied by `e.e`). A relation `sum c_i v_i = 0` leaves
+//! `e.e sum c_i (|a_i|^2 + |b_i|^2 - s_i) = 0`: either the lengths satisfy the relation as well, and one
+//! equation says nothing, or `e.e = 0` and there is no finite pose.
+
+use crate::manipulator::{Manipulator, SquaredLegLengths};
+use crate::num::exact::{Rational, rational, relations};
+
+/// Below this (sine of the angle to the span of the others) exact arithmetic is asked.
+const SUSPECT: f64 = 1e-9;
+/// Lengths count as compatible within this times `s + |a|^2 + |b|^2` for each leg: rounding of a length, its
+/// square and the pose it was computed from.
+const ROUNDING: f64 = 1.0 / (1u64 << 49) as f64;
+
+/// What is known of the six leg vectors and lengths.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Dependence {
+    /// Independent, far from any relation.
+    Independent,
+    /// Independent as the doubles are, but a relation holds nearly.
+    Nearly,
+    /// Proved: a relation holds exactly and the lengths contradict it by more than rounding.
+    Incompatible,
+    /// Proved: this many relations hold exactly; the lengths satisfy them within rounding.
+    Compatible {
+        /// Six less the rank.
+        relations: usize,
+    },
+}
+
+/// Decides the dependence of the legs of `m` with squared lengths `s`.
+pub(crate) fn dependence(m: &Manipulator, s: &SquaredLegLengths) -> Dependence {
+    if least_sine(m) > SUSPECT {
+        return Dependence::Independent;
+    }
+    let Some(rows) = exact_rows(m, s) else { return Dependence::Nearly };
+    let vectors: Vec<Vec<Rational>> = rows.iter().map(|r| r.vector.clone()).collect();
+    let found = relations(&vectors);
+    if found.is_empty() {
+        return Dependence::Nearly;
+    }
+    let zero = Rational::from_integer(0.into());
+    let modulus = |x: &Rational| if *x < zero { -x } else { x.clone() };
+    let contradicted = found.iter().any(|c| {
+        let defect: Rational = c.iter().zip(&rows).map(|(c, r)| c * &r.constant).sum();
+        let slack: Rational = c.iter().zip(&rows).map(|(c, r)| modulus(c) * &r.slack).sum();
+        modulus(&defect) > slack
+    });
+    if contradicted { Dependence::Incompatible } else { Dependence::Compatible { relations: found.len() } }
+}
+
+struct ExactRow {
+    vector: Vec<Rational>,
+    /// `|a|^2 + |b|^2 - s`.
+    constant: Rational,
+    slack: Rational,
+}
+
+fn exact_rows(m: &Manipulator, s: &SquaredLegLengths) -> Option<Vec<ExactRow>> {
+    let one = Rational::from_integer(1.into());
+    let rounding = rational(ROUNDING)?;
+    let mut rows = Vec::new();
+    for (leg, s) in m.legs().iter().zip(s.get()) {
+        let lift = |p: &nalgebra::Point3<f64>| -> Option<[Rational; 4]> {
+            Some([one.clone(), rational(p.x)?, rational(p.y)?, rational(p.z)?])
+        };
+        let (a, b, s) = (lift(&leg.base)?, lift(&leg.platform)?, rational(s)?);
+        let vector = a.iter().flat_map(|x| b.iter().map(move |y| x * y)).collect();
+        let squares: Rational = a[1..].iter().chain(&b[1..]).map(|x| x * x).sum();
+        rows.push(ExactRow { vector, constant: &squares - &s, slack: (squares + s) * &rounding });
+    }
+    Some(rows)
+}
+
+/// Smallest sine of the angle of a leg vector to the span of the earlier ones, frames at the centroids and
+/// scaled to the size.
+fn least_sine(m: &Manipulator) -> f64 {
+    let legs = m.legs();
+    let mean = |pick: fn(&crate::manipulator::Leg) -> nalgebra::Vector3<f64>| {
+        legs.iter().map(pick).sum::<nalgebra::Vector3<f64>>() / 6.0
+    };
+    let (base, platform) = (mean(|l| l.base.coords), mean(|l| l.platform.coords));
+    let size = m.size();
+    let mut rows: [nalgebra::SVector<f64, 16>; 6] = legs.map(|l| {
+        let (a, b) = ((l.base.coords - base) / size, (l.platform.coords - platform) / size);
+        let (a, b) = ([1.0, a.x, a.y, a.z], [1.0, b.x, b.y, b.z]);
+        nalgebra::SVector::from_fn(|k, _| a[k / 4] * b[k % 4])
+    });
+    let mut least = f64::INFINITY;
+    for i in 0..6 {
+        let before = rows[i].norm();
+        for _ in 0..2 {
+            for j in 0..i {
+                let parallel = rows[j] * rows[j].dot(&rows[i]);
+                rows[i] -= parallel;
+            }
+        }
+        let after = rows[i].norm();
+        // NaN is passed on as suspect
+        if !(after > SUSPECT * before) {
+            return 0.0;
+        }
+        least = least.min(after / before);
+        rows[i] /= after;
+    }
+    least
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::{Pose, random_rotation};
+    use crate::manipulator::Leg;
+    use crate::num::Rng;
+    use nalgebra::{Point3, Rotation3, Vector3};
+
+    /// Midpoints of the edges of two triangles (Rojas, Borras, Thomas 2010, sec. 6); all halves are exact.
+    fn midline() -> Manipulator {
+        let (a, h, k) = (10.392_304_845_413_264, 5.196_152_422_706_632, 2.598_076_211_353_316);
+        let base = [[3.0, h], [6.0, a], [9.0, h], [12.0, 0.0], [6.0, 0.0], [0.0, 0.0]];
+        let platform = [[0.0, 0.0], [3.0, 0.0], [6.0, 0.0], [4.5, -k], [3.0, -h], [1.5, -k]];
+        let point = |p: [f64; 2]| Point3::new(p[0], p[1], 0.0);
+        Manipulator::from_legs(std::array::from_fn(|i| Leg {
+            base: point(base[i]),
+            platform: point(platform[i]),
+        }))
+        .unwrap()
+    }
+
+    #[test]
+    fn lengths_of_poses_are_compatible_and_others_are_not() {
+        let m = midline();
+        let mut rng = Rng::new(4);
+        for _ in 0..20 {
+            let position = Vector3::from_fn(|_, _| rng.uniform(-9.0, 9.0));
+            let pose = Pose { rotation: random_rotation(&mut rng), position };
+            let s = pose.squared_lengths(&m).unwrap();
+            assert_eq!(dependence(&m, &s), Dependence::Compatible { relations: 1 });
+            let mut longer = s.get();
+            longer[2] *= 1.0 + 1e-12;
+            let longer = SquaredLegLengths::try_new(longer).unwrap();
+            assert_eq!(dependence(&m, &longer), Dependence::Incompatible);
+        }
+    }
+
+    #[test]
+    fn a_turned_frame_makes_the_relation_approximate() {
+        let turn = Rotation3::from_euler_angles(0.3, 0.2, 0.1);
+        let legs = midline().legs().map(|l| Leg { base: turn * l.base, platform: l.platform });
+        let m = Manipulator::from_legs(legs).unwrap();
+        let s = SquaredLegLengths::try_new([200.0; 6]).unwrap();
+        assert_eq!(dependence(&m, &s), Dependence::Nearly);
+        let mut moved = midline().legs();
+        moved[0].base.x += 1e-3;
+        let m = Manipulator::from_legs(moved).unwrap();
+        assert_eq!(dependence(&m, &s), Dependence::Independent);
+    }
+}
