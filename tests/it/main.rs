@@ -12,6 +12,7 @@ mod cli_near;
 mod cli_optimize;
 mod cli_synthesis;
 mod cli_verify;
+mod completeness;
 mod design_files;
 mod documents;
 mod eliminations;

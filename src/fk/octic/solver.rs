@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 use num_complex::Complex64;
 
 use super::{Biquadratic, Problem, closure, minor, resultant};
-use crate::fk::collect::refine;
+use crate::fk::newton::refine;
 use crate::fk::{FkError, Method};
 use crate::geom::ComplexPose;
 use crate::manipulator::{Manipulator, Octahedral, SquaredLegLengths};

@@ -18,7 +18,7 @@ const MATRICES: (&str, Option<&str>) = ("nalgebra", None);
 const ERRORS: (&str, Option<&str>) = ("thiserror", None);
 
 const LINES: &[Line] = &[
-    ("num", &[], &[("faer", Some("linalg.rs")), COMPLEX, ERRORS]),
+    ("num", &[], &[("faer", Some("linalg.rs")), ("num_rational", Some("exact.rs")), COMPLEX, ERRORS]),
     ("geom", &["num", "manipulator"], &[MATRICES, COMPLEX]),
     ("poly", &["num"], &[COMPLEX, ERRORS]),
     ("manipulator", &["num", "geom"], &[MATRICES, ERRORS]),

@@ -11,7 +11,7 @@ use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::output::{Answer, number};
 use crate::design::Design;
-use crate::fk::{Completeness, FkRoot, FkSolutions, Method, NearOutcome, NearSolver, Reality};
+use crate::fk::{Completeness, FkRoot, FkSolutions, Method, NearOutcome, NearSolver, Reality, SolutionSet};
 use crate::geom::{ComplexPose, Pose};
 use crate::manipulator::{LegLengths, Manipulator, default_home};
 use crate::solve::certify::{Certifier, exact_squares};
@@ -126,6 +126,7 @@ fn record(
     let solutions = FkSolutions {
         method: Method::Near,
         roots: root.into_iter().collect(),
+        solution_set: SolutionSet::Isolated,
         completeness: Completeness::Unproved {
             reason: "one pose was followed from the pose given; others were not looked for".to_owned(),
             all_paths_accounted: tracked,
