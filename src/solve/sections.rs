@@ -82,13 +82,13 @@ impl Frame {
         rng: &mut Rng,
     ) -> Option<(Sections, usize)> {
         let mut rest: Vec<SVector<Complex64, FORMS>> = self.leg_rows(m, s).map(SVector::from).to_vec();
-        let norms: Vec<f64> = rest.iter().map(|r| r.norm()).collect();
+        let norms: Vec<f64> = rest.iter().map(nalgebra::Matrix::norm).collect();
         for (row, norm) in rest.iter_mut().zip(&norms) {
             *row /= Complex64::new(*norm, 0.0);
         }
         let mut basis: Vec<SVector<Complex64, FORMS>> = Vec::new();
         while let Some((at, size)) =
-            rest.iter().map(|r| r.norm()).enumerate().max_by(|x, y| x.1.total_cmp(&y.1))
+            rest.iter().map(nalgebra::Matrix::norm).enumerate().max_by(|x, y| x.1.total_cmp(&y.1))
         {
             if !(size > tolerance) {
                 break;
