@@ -20,6 +20,8 @@ const CAREFUL_ENDGAME_AT: f64 = 1e-2;
 const ISOTROPIC: f64 = 1e-9;
 /// The same for an end known only as the mean of an endgame loop, whose square root counts.
 const ISOTROPIC_MEAN: f64 = 1e-4;
+/// Newton's method confirms the mean of an endgame loop when it moves it by less than this.
+const SAME_MEAN: f64 = 1e-3;
 /// Two regular ends closer than this are one root reached twice.
 const SAME_END: f64 = 1e-7;
 
@@ -154,6 +156,15 @@ fn settle_by_endgame(homotopy: &SectionHomotopy, mut path: Path, t: f64) -> Path
     let Some(end) = end_path(homotopy, &path.x, t) else { return path };
     if let Some(polished) = &end.regular {
         return settle_polished(path, polished);
+    }
+    // A mean with winding number 1 is a single point: where Newton's method confirms it as a regular root, its own
+    // digits say whether e.e vanishes. The blur below is for ends that can only be looked at from a distance;
+    // finite poses far out have |e.e| / |e|^2 down to 1e-6 and must not be taken for ends at e.e = 0.
+    if end.winding == 1 {
+        let polished = polish(homotopy, &end.x);
+        if polished.converged && projective_distance(&unit(&polished.x), &unit(&end.x)) < SAME_MEAN {
+            return settle_polished(path, &polished);
+        }
     }
     path.x = end.x;
     path.winding = end.winding;
