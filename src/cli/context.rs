@@ -24,7 +24,6 @@ pub(crate) struct Context {
     warnings: Vec<FileWarning>,
 }
 
-#[allow(dead_code, reason = "offered to every command; not every command asks")]
 impl Context {
     pub(crate) fn new(global: &Global) -> Self {
         Self { seed: global.seed, json: global.json, quiet: global.quiet, warnings: Vec::new() }

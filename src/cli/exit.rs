@@ -4,7 +4,6 @@ use std::process::ExitCode;
 
 /// What the exit code tells; the order is that of the codes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-#[allow(dead_code, reason = "not every command can answer everything")]
 pub(crate) enum Exit {
     /// 0: yes, solved, done.
     Yes,
