@@ -22,6 +22,7 @@ pub mod plot;
 pub mod poly;
 pub mod solve;
 pub mod synthesis;
+pub mod topology;
 
 /// The code of the README is compiled and run as a documentation test.
 #[cfg(doctest)]

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::enumerate::{enumerate, representative};
 use super::moves::{moves, reachable};
 use super::pattern::Pattern;
-use super::topology::Topology;
+use crate::topology::Topology;
 
 /// A pattern and where it stands.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -15,6 +15,7 @@ mod moves;
 mod pattern;
 mod topology;
 
+pub use crate::topology::Topology;
 pub use determinant::Factor;
 pub use enumerate::{Symmetry, enumerate, representative};
 pub use family::{Family, FamilyCounts, FamilyMember, FamilyTopology};
@@ -27,4 +28,3 @@ pub use leg_map::{
 pub use leg_vector::{LegSpan, Normalisation, leg_vector};
 pub use moves::{Move, moves, reachable};
 pub use pattern::{InstantiateError, ParsePatternError, Pattern, joint_free};
-pub use topology::Topology;

@@ -31,10 +31,11 @@ const LINES: &[Line] = &[
     ),
     (
         "fk",
-        &["num", "geom", "poly", "manipulator", "solve", "solve::certify", "solve::homotopy"],
+        &["num", "geom", "poly", "manipulator", "topology", "solve", "solve::certify", "solve::homotopy"],
         &[MATRICES, COMPLEX, ERRORS],
     ),
-    ("synthesis", &["num", "geom", "manipulator"], &[MATRICES, ERRORS]),
+    ("topology", &["num", "manipulator"], &[]),
+    ("synthesis", &["num", "geom", "manipulator", "topology"], &[MATRICES, ERRORS]),
     (
         "offsets",
         &["num", "geom", "manipulator", "synthesis"],
@@ -58,8 +59,12 @@ const LINES: &[Line] = &[
             ERRORS,
         ],
     ),
-    ("plot", &["geom", "manipulator"], &[MATRICES]),
-    ("bench", &["num", "geom", "manipulator", "fk", "solve::certify"], &[MATRICES, COMPLEX, ERRORS]),
+    ("plot", &["geom", "manipulator", "topology"], &[MATRICES]),
+    (
+        "bench",
+        &["num", "geom", "manipulator", "topology", "fk", "solve::certify"],
+        &[MATRICES, COMPLEX, ERRORS],
+    ),
     (
         "cli",
         &[
@@ -67,6 +72,7 @@ const LINES: &[Line] = &[
             "geom",
             "poly",
             "manipulator",
+            "topology",
             "solve",
             "solve::certify",
             "solve::homotopy",

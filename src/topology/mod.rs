@@ -1,0 +1,10 @@
+//! Which legs share which joints: the graph of a platform, and the catalogue of all graphs that can hold one.
+//!
+//! Theory, the conditions and the list: `docs/theory/topologies.md`. Source: Porta, Thomas (34 topologies);
+//! here they are enumerated.
+
+mod catalogue;
+mod graph;
+
+pub use catalogue::{NamedTopology, Recognised, catalogue, recognise};
+pub use graph::{AlwaysSingular, Topology};
