@@ -1,5 +1,32 @@
 //! The classes of problems the harness draws.
 
+use std::borrow::Cow;
+
+use crate::topology::{NamedTopology, catalogue};
+
+/// Which bodies have their joints in a plane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Planar {
+    /// Neither.
+    Neither,
+    /// The base.
+    Base,
+    /// The platform.
+    Platform,
+    /// Both.
+    Both,
+}
+
+impl Planar {
+    /// What follows the name of a topology.
+    const SUFFIXES: [(Self, &'static str); 4] = [
+        (Self::Neither, ""),
+        (Self::Base, "-planar-base"),
+        (Self::Platform, "-planar-platform"),
+        (Self::Both, "-both-planar"),
+    ];
+}
+
 /// A class of platforms; see [`problem`](super::problem) for how each is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Class {
@@ -31,11 +58,22 @@ pub enum Class {
     ClosePair,
     /// Leg lengths spread over `1e3`.
     Spread,
+    /// A double root, exactly: joints and squared lengths are the doubles they should be.
+    DoubleRoot,
+    /// [`Class::Hexapod`] at its home pose.
+    HexapodHome,
+    /// Joints shared as in a topology of the catalogue.
+    Topology {
+        /// Which.
+        topology: NamedTopology,
+        /// Planes that the joints lie in beside those that three joints span anyway.
+        planar: Planar,
+    },
 }
 
 impl Class {
-    /// All classes, in the order of the tables.
-    pub const ALL: [Self; 14] = [
+    /// All classes but those of the topologies, in the order of the tables.
+    pub const ALL: [Self; 16] = [
         Self::General,
         Self::SharedPlatformJoint,
         Self::PlanarBase,
@@ -50,12 +88,25 @@ impl Class {
         Self::Collinear,
         Self::ClosePair,
         Self::Spread,
+        Self::DoubleRoot,
+        Self::HexapodHome,
     ];
+
+    /// The classes `T01`, ... of joints in space.
+    #[must_use]
+    pub fn topologies() -> Vec<Self> {
+        let class = |topology| Self::Topology { topology, planar: Planar::Neither };
+        catalogue().into_iter().map(class).collect()
+    }
 
     /// The name on the command line and in JSON.
     #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
+    pub fn name(self) -> Cow<'static, str> {
+        let fixed = match self {
+            Self::Topology { topology, planar } => {
+                let suffix = Planar::SUFFIXES.iter().find(|s| s.0 == planar).map_or("", |s| s.1);
+                return (topology.id() + suffix).into();
+            }
             Self::General => "6-6",
             Self::SharedPlatformJoint => "6-5",
             Self::PlanarBase => "6P-6",
@@ -70,13 +121,23 @@ impl Class {
             Self::Collinear => "collinear",
             Self::ClosePair => "close-pair",
             Self::Spread => "spread",
-        }
+            Self::DoubleRoot => "double-root",
+            Self::HexapodHome => "hexapod-home",
+        };
+        fixed.into()
     }
 
     /// The class with a name.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|c| c.name() == name)
+        let (id, suffix) = name.split_at_checked(3).unwrap_or((name, ""));
+        let planar = Planar::SUFFIXES.into_iter().find(|s| s.1 == suffix);
+        let topology = |planar| {
+            let found = catalogue().into_iter().find(|t| t.id() == id)?;
+            Some(Self::Topology { topology: found, planar })
+        };
+        let fixed = Self::ALL.into_iter().find(|c| c.name() == name);
+        fixed.or_else(|| topology(planar?.0))
     }
 
     /// Whether the leg lengths may be drawn without a pose, as Martyushev does; the others are about real poses.
@@ -103,7 +164,7 @@ impl Class {
 
 impl std::fmt::Display for Class {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.name())
+        f.pad(&self.name())
     }
 }
 
@@ -114,9 +175,21 @@ mod tests {
     #[test]
     fn names_read_back_and_streams_differ() {
         for (i, c) in Class::ALL.into_iter().enumerate() {
-            assert_eq!(Class::from_name(c.name()), Some(c));
+            assert_eq!(Class::from_name(&c.name()), Some(c));
             assert!(Class::ALL[..i].iter().all(|d| d.stream() != c.stream()));
         }
-        assert_eq!(Class::from_name("7-7"), None);
+        let topologies = Class::topologies();
+        assert_eq!(topologies.len(), 34);
+        for (i, c) in topologies.iter().enumerate() {
+            assert_eq!(Class::from_name(&c.name()), Some(*c));
+            assert!(topologies[..i].iter().all(|d| d.stream() != c.stream()));
+        }
+        for suffix in ["-planar-base", "-planar-platform", "-both-planar"] {
+            let name = format!("T04{suffix}");
+            assert_eq!(Class::from_name(&name).unwrap().name(), name);
+        }
+        for none in ["7-7", "T35", "T00", "T4", "T04P", "", "T04-planar"] {
+            assert_eq!(Class::from_name(none), None);
+        }
     }
 }

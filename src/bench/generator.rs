@@ -3,10 +3,12 @@
 use nalgebra::{Matrix2, Point3, Rotation3, Vector3};
 use thiserror::Error;
 
-use super::Class;
+use super::singular::{close_pair, double_root};
+use super::{Class, Planar};
 use crate::geom::{Pose, random_rotation};
 use crate::manipulator::{InvalidManipulator, Leg, Manipulator, SquaredLegLengths};
 use crate::num::Rng;
+use crate::topology::NamedTopology;
 
 /// Where leg lengths come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,6 +40,9 @@ pub enum NotDrawn {
     /// The lengths of the pose are not finite.
     #[error("the leg lengths of the pose are not finite")]
     Lengths,
+    /// No leg of the drawn direction has a length.
+    #[error("the drawn legs have no length")]
+    NoLeg,
     /// The class is about real poses.
     #[error("the class {0} takes its lengths from real poses")]
     NeedsPose(Class),
@@ -47,10 +52,10 @@ pub enum NotDrawn {
 ///
 /// Joints lie in `[-2, 2]^3`, planar bodies in `z = 0`; the first joint of each body is at the origin for the classes
 /// of Martyushev. [`Class::Hexapod`] is drawn about its home pose, [`Class::ClosePair`] from a singular pose with squared lengths
-/// `1e-12` off it, [`Class::Spread`] from leg lengths spaced evenly by ratio between `10^-1.5` and `10^1.5`.
+/// `1e-12` off it, [`Class::DoubleRoot`] exactly at one, [`Class::Spread`] from leg lengths spaced evenly by ratio between `10^-1.5` and `10^1.5`.
 ///
 /// # Errors
-/// [`NotDrawn`]; with continuous distributions only [`NotDrawn::NeedsPose`] ever happens.
+/// [`NotDrawn`]; only [`NotDrawn::NeedsPose`] ever happened.
 pub fn problem(class: Class, lengths: LengthsFrom, seed: u64, k: u64) -> Result<Problem, NotDrawn> {
     if lengths == LengthsFrom::Uniform && !class.allows_uniform_lengths() {
         return Err(NotDrawn::NeedsPose(class));
@@ -60,10 +65,15 @@ pub fn problem(class: Class, lengths: LengthsFrom, seed: u64, k: u64) -> Result<
     match class {
         Class::ClosePair => return close_pair(rng),
         Class::Spread => return spread(rng),
-        Class::Hexapod => return hexapod(rng),
+        Class::DoubleRoot => return double_root(rng),
+        Class::Hexapod => return hexapod(rng, 1.0),
+        Class::HexapodHome => return hexapod(rng, 0.0),
         _ => {}
     }
-    let manipulator = Manipulator::from_legs(joints(class, rng))?;
+    let manipulator = match class {
+        Class::Topology { topology, planar } => sharing(topology, planar, rng)?,
+        _ => Manipulator::from_legs(joints(class, rng))?,
+    };
     match lengths {
         LengthsFrom::Pose => at_pose(manipulator, any_pose(rng)),
         LengthsFrom::Uniform => {
@@ -74,7 +84,16 @@ pub fn problem(class: Class, lengths: LengthsFrom, seed: u64, k: u64) -> Result<
     }
 }
 
-fn any_pose(rng: &mut Rng) -> Pose {
+/// A random member of a topology; its joints are all in use.
+fn sharing(t: NamedTopology, planar: Planar, rng: &mut Rng) -> Result<Manipulator, InvalidManipulator> {
+    let t = t.topology();
+    let mut points = |n: usize, flat: bool| (0..n).map(|_| point(rng, flat)).collect::<Vec<_>>();
+    let base = points(t.base_joints(), matches!(planar, Planar::Base | Planar::Both));
+    let platform = points(t.platform_joints(), matches!(planar, Planar::Platform | Planar::Both));
+    Manipulator::try_new(base, platform, t.legs())
+}
+
+pub(super) fn any_pose(rng: &mut Rng) -> Pose {
     let rotation = random_rotation(rng);
     Pose { rotation, position: Vector3::from_fn(|_, _| rng.normal()) }
 }
@@ -91,19 +110,24 @@ fn point(rng: &mut Rng, planar: bool) -> Point3<f64> {
 }
 
 /// Six joints, the first at the origin.
-fn body(rng: &mut Rng, planar: bool) -> [Point3<f64>; 6] {
+pub(super) fn body(rng: &mut Rng, planar: bool) -> [Point3<f64>; 6] {
     std::array::from_fn(|i| if i == 0 { Point3::origin() } else { point(rng, planar) })
 }
 
-fn legs(base: [Point3<f64>; 6], platform: [Point3<f64>; 6]) -> [Leg; 6] {
+pub(super) fn legs(base: [Point3<f64>; 6], platform: [Point3<f64>; 6]) -> [Leg; 6] {
     std::array::from_fn(|i| Leg { base: base[i], platform: platform[i] })
 }
 
 fn joints(class: Class, rng: &mut Rng) -> [Leg; 6] {
     match class {
-        Class::General | Class::ClosePair | Class::Spread | Class::Hexapod => {
-            legs(body(rng, false), body(rng, false))
-        }
+        // those with a generator of their own do not come here
+        Class::General
+        | Class::ClosePair
+        | Class::Spread
+        | Class::DoubleRoot
+        | Class::Hexapod
+        | Class::HexapodHome
+        | Class::Topology { .. } => legs(body(rng, false), body(rng, false)),
         Class::SharedPlatformJoint => {
             let (base, mut platform) = (body(rng, false), body(rng, false));
             platform[5] = platform[4];
@@ -162,9 +186,9 @@ fn images(rng: &mut Rng, map: impl Fn(&mut Rng) -> Matrix2<f64>) -> [Leg; 6] {
     legs(base, base.map(image))
 }
 
-/// Pairs of joints on circles, threefold symmetric, base pairs between platform pairs; at most 20 degrees and a fifth of
-/// the base radius off home.
-fn hexapod(rng: &mut Rng) -> Result<Problem, NotDrawn> {
+/// Pairs of joints on circles, threefold symmetric, base pairs between platform pairs; at most `off` times 20 degrees and
+/// a fifth of the base radius off home.
+fn hexapod(rng: &mut Rng, off: f64) -> Result<Problem, NotDrawn> {
     let (radius, half) = (rng.uniform(0.4, 0.9), [rng.uniform(5.0, 25.0), rng.uniform(5.0, 25.0)]);
     let on_circle = |r: f64, degrees: f64| {
         let (sine, cosine) = degrees.to_radians().sin_cos();
@@ -177,39 +201,10 @@ fn hexapod(rng: &mut Rng) -> Result<Problem, NotDrawn> {
         Leg { base: on_circle(1.0, third + side * half[0]), platform }
     });
     let axis = nalgebra::Unit::new_normalize(Vector3::from_fn(|_, _| rng.normal()));
-    let rotation = Rotation3::from_axis_angle(&axis, rng.uniform(0.0, 20.0).to_radians());
+    let rotation = Rotation3::from_axis_angle(&axis, off * rng.uniform(0.0, 20.0).to_radians());
     let height = Vector3::new(0.0, 0.0, rng.uniform(0.8, 1.4));
-    let position = height + Vector3::from_fn(|_, _| rng.uniform(-0.2, 0.2));
+    let position = height + Vector3::from_fn(|_, _| off * rng.uniform(-0.2, 0.2));
     at_pose(Manipulator::from_legs(legs)?, Pose { rotation, position })
-}
-
-/// At a random pose the last base joint is moved so that the six leg lines belong to one linear complex (the leg's
-/// vector `d` normal to `v + w x R b` for the twist `(v, w)` reciprocal to the other five): two poses meet there, and
-/// squared lengths about `1e-12` off part them by about `1e-6`.
-fn close_pair(rng: &mut Rng) -> Result<Problem, NotDrawn> {
-    let mut joints = joints(Class::ClosePair, rng);
-    let pose = any_pose(rng);
-    let arm = |leg: &Leg| pose.rotation * leg.platform.coords;
-    let mut lines = nalgebra::Matrix6::zeros();
-    for (i, leg) in joints.iter().take(5).enumerate() {
-        let d = arm(leg) + pose.position - leg.base.coords;
-        let moment = arm(leg).cross(&d);
-        lines.fixed_view_mut::<1, 3>(i, 0).copy_from(&d.transpose());
-        lines.fixed_view_mut::<1, 3>(i, 3).copy_from(&moment.transpose());
-    }
-    let gram = (lines.transpose() * lines).symmetric_eigen();
-    let twist = gram.eigenvectors.column(gram.eigenvalues.imin()).into_owned();
-    let (v, w) = (Vector3::new(twist[0], twist[1], twist[2]), Vector3::new(twist[3], twist[4], twist[5]));
-    let last = arm(&joints[5]);
-    let velocity = (v + w.cross(&last)).normalize();
-    let tip = last + pose.position;
-    let d = tip - joints[5].base.coords;
-    joints[5].base = Point3::from(tip - (d - velocity * d.dot(&velocity)));
-    let manipulator = Manipulator::from_legs(joints)?;
-    let mut squares = pose.squared_lengths(&manipulator).ok_or(NotDrawn::Lengths)?.get();
-    squares[5] += 1e-12 * rng.uniform(0.5, 2.0) * if rng.unit() < 0.5 { -1.0 } else { 1.0 };
-    let squares = SquaredLegLengths::try_new(squares).map_err(|_| NotDrawn::Lengths)?;
-    Ok(Problem { manipulator, squares, pose: None })
 }
 
 fn spread(rng: &mut Rng) -> Result<Problem, NotDrawn> {

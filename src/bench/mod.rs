@@ -14,11 +14,12 @@ mod generator;
 mod newton;
 mod reference_time;
 mod run;
+mod singular;
 mod statistics;
 mod symmetry;
 mod validator;
 
-pub use classes::Class;
+pub use classes::{Class, Planar};
 pub use error_metric::error_metric;
 pub use generator::{LengthsFrom, NotDrawn, Problem, problem};
 pub use reference_time::{ReferenceTimes, reference_times};

@@ -1,6 +1,6 @@
-//! Exact rational arithmetic on doubles, for decisions that rounding must not take: ranks and coplanarity.
+//! Exact rational arithmetic on doubles, for decisions that rounding must not take.
 //!
-//! Every finite double is a rational number, so that linear relations between joints given as doubles are
+//! Every finite double is a rational number, so that linear relations between data given as doubles are
 //! true or false without any tolerance.
 
 use num_rational::BigRational;
@@ -49,18 +49,6 @@ pub(crate) fn relations(rows: &[Vec<Rational>]) -> Vec<Vec<Rational>> {
     work.into_iter().skip(rank).map(|row| row[width..].to_vec()).collect()
 }
 
-/// Rank of the differences `p_i - p_0`: 0 one point, 1 a line, 2 a plane, 3 space. `None` when a coordinate is
-/// not finite.
-pub(crate) fn affine_rank(points: &[[f64; 3]]) -> Option<usize> {
-    let exact: Option<Vec<Vec<Rational>>> =
-        points.iter().map(|p| p.iter().map(|x| rational(*x)).collect::<Option<Vec<_>>>()).collect();
-    let exact = exact?;
-    let first = exact.first()?.clone();
-    let differences: Vec<Vec<Rational>> =
-        exact.iter().skip(1).map(|p| p.iter().zip(&first).map(|(x, o)| x - o).collect()).collect();
-    Some(differences.len() - relations(&differences).len())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -80,17 +68,5 @@ mod tests {
         assert!(c[0] == c[1] && &c[0] + &c[2] == zero() && c[2] != zero());
         let rounded = row(&[0.1 + 1e20, 0.2 + 3.0, 0.3 - 0.7, 0.5]);
         assert!(rounded != exact && relations(&[row(&a), row(&b), rounded]).is_empty());
-    }
-
-    #[test]
-    fn affine_ranks_of_a_point_a_line_a_plane_and_space() {
-        let plane = [[0.1, 0.2, 0.0], [1.0, 0.3, 0.0], [0.7, -2.0, 0.0], [5.0, 5.0, 0.0]];
-        assert_eq!(affine_rank(&plane), Some(2));
-        assert_eq!(affine_rank(&[[0.0; 3], [0.1, 0.1, 0.1], [0.3, 0.3, 0.3]]), Some(1));
-        assert_eq!(affine_rank(&[[0.3; 3]; 3]), Some(0));
-        let mut lifted = plane;
-        lifted[3][2] = f64::MIN_POSITIVE;
-        assert_eq!(affine_rank(&lifted), Some(3));
-        assert_eq!(affine_rank(&[[0.0; 3], [f64::NAN; 3]]), None);
     }
 }

@@ -37,7 +37,7 @@ impl Topology {
     pub fn of_legs(base: [usize; 6], platform: [usize; 6]) -> Self {
         let mut least = None;
         each_order(&mut [0, 1, 2, 3, 4, 5], 0, &mut |order| {
-            let here = Self::as_given(order.map(|i| base[i]), order.map(|i| platform[i]));
+            let here = Self::unordered(order.map(|i| base[i]), order.map(|i| platform[i]));
             if least.is_none_or(|l| here < l) {
                 least = Some(here);
             }
@@ -45,8 +45,9 @@ impl Topology {
         least.unwrap_or_else(|| unreachable!("there are orders"))
     }
 
-    /// The graph with the legs in the order given: enough where the least form does not matter.
-    pub(super) fn as_given(base: [usize; 6], platform: [usize; 6]) -> Self {
+    /// The graph with the legs in the order given: for [`is_merger_of`](Self::is_merger_of) and
+    /// [`always_singular`](Self::always_singular), which need no least form, and take less time than finding it.
+    pub(crate) fn unordered(base: [usize; 6], platform: [usize; 6]) -> Self {
         Self { base: by_appearance(base), platform: by_appearance(platform) }
     }
 

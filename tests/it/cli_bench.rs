@@ -34,8 +34,9 @@ fn the_document_has_the_fields_of_the_contract() {
 #[test]
 fn what_cannot_be_run_is_refused() {
     for (args, code) in [
-        (["bench", "--class", "T04"].as_slice(), "bench::class_not_available"),
+        (["bench", "--class", "T35"].as_slice(), "bench::unknown_class"),
         (&["bench", "--class", "7-7"], "bench::unknown_class"),
+        (&["bench", "--class", "T04", "--lengths-from", "uniform"], "bench::needs_pose"),
         (&["bench", "--class", "hexapod", "--lengths-from", "uniform"], "bench::needs_pose"),
         (&["bench", "--count", "0"], "usage"),
     ] {

@@ -30,27 +30,27 @@ fn solve(m: &Manipulator, s: &SquaredLegLengths) -> FkSolutions {
 
 const ALL: [usize; 6] = [0, 1, 2, 3, 4, 5];
 
-/// Name, joints of the base, of the platform, their heights, finite poses, whether their number has a proof.
-type Class = (&'static str, [usize; 6], [usize; 6], f64, f64, usize, bool);
+/// Name, joints of the base, of the platform, their heights, finite poses.
+type Class = (&'static str, [usize; 6], [usize; 6], f64, f64, usize);
 
 const CLASSES: [Class; 12] = [
-    ("6-6", ALL, ALL, 1.0, 1.0, 40, true),
-    ("6-5", ALL, [0, 0, 1, 2, 3, 4], 1.0, 1.0, 40, true),
-    ("planar base", ALL, ALL, 0.0, 1.0, 40, true),
-    ("planar platform", ALL, ALL, 1.0, 0.0, 40, true),
-    ("both planar", ALL, ALL, 0.0, 0.0, 40, true),
-    ("6-4", ALL, [0, 0, 1, 1, 2, 3], 1.0, 1.0, 32, false),
-    ("6-4, planar platform", ALL, [0, 0, 1, 1, 2, 3], 1.0, 0.0, 32, true),
-    ("4-4", [0, 0, 1, 1, 2, 3], [0, 1, 1, 2, 2, 3], 1.0, 1.0, 24, false),
-    ("6-3", ALL, [0, 0, 1, 1, 2, 2], 1.0, 1.0, 16, true),
-    ("triple joint", ALL, [0, 0, 0, 1, 2, 3], 1.0, 1.0, 16, true),
-    ("octahedral", [0, 1, 1, 2, 2, 0], [0, 0, 1, 1, 2, 2], 1.0, 1.0, 16, true),
-    ("trilaterable", [0, 1, 2, 0, 1, 0], [0, 0, 0, 1, 1, 2], 1.0, 1.0, 8, true),
+    ("6-6", ALL, ALL, 1.0, 1.0, 40),
+    ("6-5", ALL, [0, 0, 1, 2, 3, 4], 1.0, 1.0, 40),
+    ("planar base", ALL, ALL, 0.0, 1.0, 40),
+    ("planar platform", ALL, ALL, 1.0, 0.0, 40),
+    ("both planar", ALL, ALL, 0.0, 0.0, 40),
+    ("6-4", ALL, [0, 0, 1, 1, 2, 3], 1.0, 1.0, 32),
+    ("6-4, planar platform", ALL, [0, 0, 1, 1, 2, 3], 1.0, 0.0, 32),
+    ("4-4", [0, 0, 1, 1, 2, 3], [0, 1, 1, 2, 2, 3], 1.0, 1.0, 24),
+    ("6-3", ALL, [0, 0, 1, 1, 2, 2], 1.0, 1.0, 16),
+    ("triple joint", ALL, [0, 0, 0, 1, 2, 3], 1.0, 1.0, 16),
+    ("octahedral", [0, 1, 1, 2, 2, 0], [0, 0, 1, 1, 2, 2], 1.0, 1.0, 16),
+    ("trilaterable", [0, 1, 2, 0, 1, 0], [0, 0, 0, 1, 1, 2], 1.0, 1.0, 8),
 ];
 
 #[test]
 fn generic_members_of_every_class_have_their_number_of_poses_certified() {
-    for (name, base, feet, low, high, count, proved) in CLASSES {
+    for (name, base, feet, low, high, count) in CLASSES {
         for seed in 0..4 {
             let rng = &mut Rng::stream(0x00c1_a55e, seed);
             let m = platform(chosen(&points(rng, low), base), chosen(&points(rng, high), feet));
@@ -62,7 +62,7 @@ fn generic_members_of_every_class_have_their_number_of_poses_certified() {
                 "{name}, seed {seed}"
             );
             let is_proved = matches!(found.completeness, Completeness::Proved { .. });
-            assert_eq!(is_proved, proved, "{name}, seed {seed}: {:?}", found.completeness);
+            assert!(is_proved, "{name}, seed {seed}: {:?}", found.completeness);
         }
     }
 }

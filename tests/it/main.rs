@@ -21,3 +21,4 @@ mod fk_laws;
 mod leg_maps;
 mod octahedral_class;
 mod reference;
+mod topologies;

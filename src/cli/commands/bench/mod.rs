@@ -15,7 +15,8 @@ use crate::fk::{self, Homotopy, Method};
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// 6-6, 6-5, 6P-6, 6P-6P, tilted-planes, octahedral, griffis-duffy, hexapod, similar, affine, congruent, collinear,
-    /// close-pair, spread, or all
+    /// close-pair, spread, double-root, hexapod-home, or all of these; T01 to T34 (also T04-planar-base, -planar-platform,
+    /// -both-planar), or topologies for the 34
     #[arg(long, value_name = "CLASS", default_value = "6-6")]
     class: String,
     /// Number of problems (of each class)
@@ -91,20 +92,15 @@ fn classes(name: &str) -> Result<Vec<Class>, Failure> {
     if name == "all" {
         return Ok(Class::ALL.to_vec());
     }
+    if name == "topologies" {
+        return Ok(Class::topologies());
+    }
     if let Some(class) = Class::from_name(name) {
         return Ok(vec![class]);
     }
-    let known: Vec<&str> = Class::ALL.iter().map(|c| c.name()).collect();
-    let topology =
-        name.strip_prefix('T').is_some_and(|n| n.parse::<u8>().is_ok_and(|n| (1..=34).contains(&n)));
-    if topology {
-        let message =
-            format!("the joint-sharing topologies ({name}) are not part of the bench of this version");
-        return Err(Failure::refused("bench::class_not_available", message)
-            .with_help(format!("the classes are {}, all", known.join(", "))));
-    }
+    let known: Vec<_> = Class::ALL.iter().map(|c| c.name()).collect();
     Err(Failure::refused("bench::unknown_class", format!("`{name}` is no class of problems"))
-        .with_help(format!("the classes are {}, all", known.join(", "))))
+        .with_help(format!("the classes are {}, all, T01 to T34, topologies", known.join(", "))))
 }
 
 fn lengths(asked: Option<Source>, class: Class) -> Result<LengthsFrom, Failure> {
@@ -124,17 +120,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn topologies_and_unknown_classes_are_refused_with_the_list() {
-        for (name, code) in [
-            ("T07", "bench::class_not_available"),
-            ("T35", "bench::unknown_class"),
-            ("x", "bench::unknown_class"),
-        ] {
+    fn unknown_classes_are_refused_with_the_list() {
+        for name in ["T35", "x"] {
             let failure = classes(name).unwrap_err();
-            assert_eq!((failure.exit, failure.code.as_str()), (Exit::Refused, code));
+            assert_eq!((failure.exit, failure.code.as_str()), (Exit::Refused, "bench::unknown_class"));
             assert!(failure.help.unwrap().contains("griffis-duffy"));
         }
         assert_eq!(classes("all").unwrap().len(), Class::ALL.len());
+        assert_eq!(classes("topologies").unwrap().len(), 34);
+        assert_eq!(classes("T07").unwrap().len(), 1);
     }
 
     #[test]
