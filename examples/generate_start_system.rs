@@ -1,9 +1,11 @@
-//! Makes `src/solve/homotopy/data/generic40.txt`: run from the project's top folder.
+//! Makes `src/solve/homotopy/data/generic40.txt` and `planar20.txt`: run from the project's top folder.
 
-use equipod::solve::homotopy::{SHIPPED_SEED, start_system_text};
+use equipod::solve::homotopy::{SHIPPED_SEED, StartKind, start_system_text};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let text = start_system_text(SHIPPED_SEED)?;
-    std::fs::write("src/solve/homotopy/data/generic40.txt", &text)?;
+    for (name, kind) in [("generic40", StartKind::Generic), ("planar20", StartKind::Planar)] {
+        let text = start_system_text(kind, SHIPPED_SEED)?;
+        std::fs::write(format!("src/solve/homotopy/data/{name}.txt"), &text)?;
+    }
     Ok(())
 }

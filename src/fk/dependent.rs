@@ -6,7 +6,7 @@ use super::{Completeness, FkError, FkOptions, FkRoot, FkSolutions, Method, Reali
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::num::Rng;
 use crate::solve::Frame;
-use crate::solve::homotopy::{EndKind, Path, solve_sections};
+use crate::solve::homotopy::{EndKind, Path, StartKind, solve_sections};
 
 /// Leg equations count as dependent below this sine when curves are looked for.
 const RANK: f64 = 1e-9;
@@ -51,7 +51,8 @@ pub(super) fn curves(
         let (sections, dimension) = frame
             .sliced_sections(m, s, RANK, &mut rng)
             .ok_or_else(|| breakdown("the leg equations have no rank"))?;
-        let paths = solve_sections(&sections, o.seed).map_err(|e| breakdown(&e.to_string()))?;
+        let paths =
+            solve_sections(StartKind::Generic, &sections, o.seed).map_err(|e| breakdown(&e.to_string()))?;
         let points = witnesses(m, s, o, frame, &paths);
         let clean = paths.iter().all(|p| !matches!(p.kind, EndKind::Failed | EndKind::Singular));
         let finite = paths.iter().filter(|p| p.kind == EndKind::Regular).count();
@@ -134,6 +135,7 @@ pub(super) fn detect_curves(found: &mut FkSolutions, m: &Manipulator, s: &Square
     for path in &mut found.paths {
         // the numbering of the roots has changed
         path.root = None;
+        path.mirror_root = None;
     }
     let reason = format!(
         "{} paths end on curves of poses (self-motions), found numerically; further curves and isolated poses may be missing",

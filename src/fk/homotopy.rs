@@ -12,17 +12,19 @@ use super::{
 };
 use crate::geom::{ComplexPose, rotation_from_quaternion};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
-use crate::solve::homotopy::{EndKind, GENERIC_COUNT, Path, solve_sections};
-use crate::solve::{Dependence, Frame, dependence, quaternion_product, split};
+use crate::solve::homotopy::{EndKind, GENERIC_COUNT, Path, StartKind, solve_sections};
+use crate::solve::{Dependence, Frame, Sections, dependence, mirror, quaternion_product, split};
 
 /// Times the whole problem is tracked again with another gamma when paths fail.
 const ATTEMPTS: u64 = 3;
 
-/// Forward kinematics of any six legs by 40 homotopy paths from a generic start system.
+/// Forward kinematics of any six legs by 40 homotopy paths from a generic start system, or, where base and platform are planar,
+/// by 20 paths to one pose of each mirror pair.
 ///
 /// Unknowns are the dual quaternion `(e, g)`, `g = p e`; a pose is finite when `e.e != 0` (source: Husty 1996
 /// for the coordinates, Gallet, Nawratil, Schicho 2014 for the degree 40). Each path is reported with its
-/// end: a finite pose, `e.e = 0`, infinity, or failed.
+/// end: a finite pose, `e.e = 0`, infinity, or failed. Both poses of a mirror pair are refined and certified on the
+/// legs as they are; when anything does not fit, all 40 paths are tracked.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Homotopy;
 
@@ -41,11 +43,11 @@ impl ForwardKinematics for Homotopy {
         };
         let Some(sections) = frame.sections(m, s) else { return curves(m, s, o, &frame, 0) };
         let mut best: Option<FkSolutions> = None;
-        for attempt in 0..ATTEMPTS {
+        let generic = (0..ATTEMPTS).map(|k| (Problem { frame, sections, kind: StartKind::Generic }, k));
+        let planar = Problem::planar(m, s).map(|p| (p, 0));
+        for (problem, attempt) in planar.into_iter().chain(generic) {
             let seed = o.seed.wrapping_add(attempt.wrapping_mul(0x9e37_79b9));
-            let paths =
-                solve_sections(&sections, seed).map_err(|e| FkError::Breakdown { what: e.to_string() })?;
-            let mut found = assemble(m, s, o, &frame, &paths);
+            let mut found = problem.solve(m, s, o, seed)?;
             attach(&mut found, m, s, GENERAL);
             detect_curves(&mut found, m, s);
             if nearly {
@@ -55,12 +57,44 @@ impl ForwardKinematics for Homotopy {
             if settled || found.all_accounted() {
                 return Ok(found);
             }
-            let failures = |f: &FkSolutions| f.paths.iter().filter(|p| p.end == PathEnd::Failed).count();
             if best.as_ref().is_none_or(|b| failures(&found) < failures(b)) {
                 best = Some(found);
             }
         }
         best.ok_or_else(|| FkError::Breakdown { what: "no attempt was made".to_owned() })
+    }
+}
+
+/// Failed paths, each counted once for every pose it stands for.
+fn failures(found: &FkSolutions) -> usize {
+    let failed = found.paths.iter().filter(|p| p.end == PathEnd::Failed).count();
+    if found.paths.len() < GENERIC_COUNT { 2 * failed } else { failed }
+}
+
+/// The sections to be solved and the frame they belong to.
+struct Problem {
+    frame: Frame,
+    sections: Sections,
+    kind: StartKind,
+}
+
+impl Problem {
+    /// The problem in the planes of base and platform, if there are such planes.
+    fn planar(m: &Manipulator, s: &SquaredLegLengths) -> Option<Self> {
+        let frame = Frame::planar(m, s)?;
+        Some(Self { sections: frame.sections(m, s)?, frame, kind: StartKind::Planar })
+    }
+
+    fn solve(
+        &self,
+        m: &Manipulator,
+        s: &SquaredLegLengths,
+        o: &FkOptions,
+        seed: u64,
+    ) -> Result<FkSolutions, FkError> {
+        let paths = solve_sections(self.kind, &self.sections, seed)
+            .map_err(|e| FkError::Breakdown { what: e.to_string() })?;
+        Ok(assemble(m, s, o, self, &paths))
     }
 }
 
@@ -82,59 +116,82 @@ pub(super) fn pose_of(x: [Complex64; 8]) -> ComplexPose {
     ComplexPose { rotation: rotation_from_quaternion(e), position }
 }
 
+/// The finite ends as candidates; where paths stand for two, the mirror images follow with sources counted on.
+fn candidates_of(problem: &Problem, paths: &[Path]) -> Vec<Candidate> {
+    let mut out = Vec::new();
+    for (start, path) in paths.iter().enumerate() {
+        if !matches!(path.kind, EndKind::Regular | EndKind::Singular) {
+            continue;
+        }
+        let image = (problem.kind == StartKind::Planar).then(|| (mirror(path.x), paths.len() + start));
+        for (x, source) in std::iter::once((path.x, start)).chain(image) {
+            out.push(Candidate {
+                pose: pose_of(problem.frame.to_design(x)),
+                singular: path.kind == EndKind::Singular,
+                condition: 1.0 / path.pivot_ratio,
+                source,
+            });
+        }
+    }
+    out
+}
+
+fn report_of(start: usize, path: &Path) -> PathReport {
+    let end = match path.kind {
+        EndKind::Regular | EndKind::Singular => PathEnd::Finite,
+        EndKind::Isotropic => PathEnd::IsotropicRotation,
+        EndKind::Infinite => PathEnd::AtInfinity,
+        EndKind::Failed => PathEnd::Failed,
+    };
+    let e = &path.x[..4];
+    let n: Complex64 = e.iter().map(|z| z * z).sum();
+    let size: f64 = e.iter().map(num_complex::Complex::norm_sqr).sum();
+    PathReport {
+        start,
+        end,
+        root: None,
+        mirror_root: None,
+        steps: path.steps,
+        rejections: path.rejections,
+        winding: path.winding,
+        isotropy: n.norm() / size,
+        retracked: path.retracked,
+    }
+}
+
 fn assemble(
     m: &Manipulator,
     s: &SquaredLegLengths,
     o: &FkOptions,
-    frame: &Frame,
+    problem: &Problem,
     paths: &[Path],
 ) -> FkSolutions {
-    let mut candidates = Vec::new();
-    let mut reports = Vec::new();
-    for (start, path) in paths.iter().enumerate() {
-        let end = match path.kind {
-            EndKind::Regular | EndKind::Singular => PathEnd::Finite,
-            EndKind::Isotropic => PathEnd::IsotropicRotation,
-            EndKind::Infinite => PathEnd::AtInfinity,
-            EndKind::Failed => PathEnd::Failed,
-        };
-        if end == PathEnd::Finite {
-            candidates.push(Candidate {
-                pose: pose_of(frame.to_design(path.x)),
-                singular: path.kind == EndKind::Singular,
-                condition: 1.0 / path.pivot_ratio,
-                source: start,
-            });
-        }
-        let e = &path.x[..4];
-        let n: Complex64 = e.iter().map(|z| z * z).sum();
-        let size: f64 = e.iter().map(num_complex::Complex::norm_sqr).sum();
-        reports.push(PathReport {
-            start,
-            end,
-            root: None,
-            steps: path.steps,
-            rejections: path.rejections,
-            winding: path.winding,
-            isotropy: n.norm() / size,
-            retracked: path.retracked,
-        });
-    }
-    let ends = separate(m, s, candidates);
+    let mut reports: Vec<PathReport> =
+        paths.iter().enumerate().map(|(start, path)| report_of(start, path)).collect();
+    let ends = separate(m, s, candidates_of(problem, paths));
     let mut collected = collect_with(m, s, &o.tolerances, &ends.plain, &ends.proved);
     for (root, sources) in collected.sources.iter().enumerate() {
-        for &start in sources {
-            reports[start].root = Some(root);
+        for &source in sources {
+            let report = &mut reports[source % paths.len()];
+            let place = if source < paths.len() { &mut report.root } else { &mut report.mirror_root };
+            *place = Some(root);
             // a path with winding number w shares its end with w - 1 others
-            collected.doubtful |= reports[start].winding > collected.roots[root].multiplicity;
+            collected.doubtful |= report.winding > collected.roots[root].multiplicity;
         }
     }
     let count = |end| reports.iter().filter(|p| p.end == end).count();
     let failed = count(PathEnd::Failed);
-    let all_paths_accounted =
-        failed == 0 && collected.rejected.is_empty() && !collected.doubtful && reports.len() == GENERIC_COUNT;
+    let all_paths_accounted = failed == 0
+        && collected.rejected.is_empty()
+        && !collected.doubtful
+        && reports.len() == problem.kind.count();
+    let both = match problem.kind {
+        StartKind::Generic => "",
+        StartKind::Planar => ", each standing for its mirror image as well,",
+    };
     let reason = format!(
-        "of {GENERIC_COUNT} paths {} ended in finite poses, {} at e.e = 0, {} at infinity, {failed} failed; {}",
+        "of {} paths{both} {} ended in finite poses, {} at e.e = 0, {} at infinity, {failed} failed; {}",
+        problem.kind.count(),
         count(PathEnd::Finite),
         count(PathEnd::IsotropicRotation),
         count(PathEnd::AtInfinity),
@@ -150,3 +207,6 @@ fn assemble(
         seed: o.seed,
     }
 }
+
+#[cfg(test)]
+mod tests;

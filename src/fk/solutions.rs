@@ -118,7 +118,7 @@ pub struct FkRoot {
     pub reality: Reality,
     /// Whether an interval certificate of existence and uniqueness is attached.
     pub certified: bool,
-    /// Number of start paths (or polynomial roots) that end here.
+    /// Number of start paths (or polynomial roots) that end here, mirror images of paths included.
     pub multiplicity: u32,
     /// Largest error of the leg equations over size squared and of `R^T R = I`.
     pub residual: f64,
@@ -161,6 +161,9 @@ pub struct PathReport {
     pub end: PathEnd,
     /// Index into [`FkSolutions::roots`] when the end is finite.
     pub root: Option<usize>,
+    /// Index of the mirror image of that root where base and platform are planar and one path of each pair of mirror images was
+    /// tracked, 20 of 40; `None` where the paths were all tracked. The same as `root` when the pose is its own image.
+    pub mirror_root: Option<usize>,
     /// Accepted steps.
     pub steps: u32,
     /// Rejected steps.
@@ -207,7 +210,7 @@ pub struct FkSolutions {
     pub solution_set: SolutionSet,
     /// Whether these are all.
     pub completeness: Completeness,
-    /// What each homotopy path did; empty for other methods.
+    /// What each homotopy path did, 40 or, where each stands for itself and its mirror image, 20; empty for other methods.
     pub paths: Vec<PathReport>,
     /// Candidates that are no roots.
     pub rejected: Vec<Rejected>,

@@ -5,9 +5,11 @@ pub mod certify;
 mod dependence;
 pub mod generic_frame;
 pub mod homotopy;
+mod planar;
 mod sections;
 pub mod sylvester;
 pub mod template;
 
 pub(crate) use dependence::{Dependence, dependence};
-pub(crate) use sections::{Frame, quaternion_product, split};
+pub(crate) use planar::mirror;
+pub(crate) use sections::{Frame, Sections, quaternion_product, split};

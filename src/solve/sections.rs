@@ -15,11 +15,12 @@
 //! vectors matters: they are made orthonormal, which removes the scale of each equation and the
 //! dependence on the leg order up to rounding.
 
-use nalgebra::{Matrix3, Point3, SVector, Vector3};
+use nalgebra::{Matrix3, Point3, Rotation3, SVector, UnitQuaternion, Vector3};
 use num_complex::Complex64;
 
 use crate::manipulator::{Leg, Manipulator, SquaredLegLengths};
 use crate::num::Rng;
+use crate::solve::planar::Planes;
 
 /// Number of quadratic forms.
 pub(crate) const FORMS: usize = 17;
@@ -34,12 +35,14 @@ pub(crate) struct Sections {
     pub(crate) rows: [Row; 6],
 }
 
-/// Centred and scaled frames in which a problem is solved: `a = origin_a + scale a'`, likewise `b`.
+/// Centred and scaled frames in which a problem is solved: `turn (a - origin_a) = scale a'`, likewise `b`.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Frame {
     base_origin: Vector3<f64>,
     platform_origin: Vector3<f64>,
     scale: f64,
+    /// For doubly planar platforms: both frames turned so that the planes of the joints are `z = 0`.
+    planes: Option<Planes>,
 }
 
 impl Frame {
@@ -53,7 +56,13 @@ impl Frame {
             base_origin: mean(|l| l.base),
             platform_origin: mean(|l| l.platform),
             scale: m.size().max(rms),
+            planes: None,
         }
+    }
+
+    /// [`Frame::of`] with the joints of base and platform in `z = 0`; `None` unless both are coplanar to rounding.
+    pub(crate) fn planar(m: &Manipulator, s: &SquaredLegLengths) -> Option<Self> {
+        Some(Self { planes: Some(Planes::of(m)?), ..Self::of(m, s) })
     }
 
     /// The orthonormalised sections of the legs, in this frame. `None` when the six leg equations are
@@ -65,8 +74,13 @@ impl Frame {
     fn leg_rows(&self, m: &Manipulator, s: &SquaredLegLengths) -> [Row; 6] {
         let mut rows = [[Complex64::ZERO; FORMS]; 6];
         for ((row, leg), s) in rows.iter_mut().zip(m.legs()).zip(s.get()) {
-            let a = (leg.base.coords - self.base_origin) / self.scale;
-            let b = (leg.platform.coords - self.platform_origin) / self.scale;
+            let mut a = (leg.base.coords - self.base_origin) / self.scale;
+            let mut b = (leg.platform.coords - self.platform_origin) / self.scale;
+            if let Some(planes) = &self.planes {
+                (a, b) = (planes.base * a, planes.platform * b);
+                // zero up to rounding, or there were no planes
+                (a.z, b.z) = (0.0, 0.0);
+            }
             *row = leg_row(&a, &b, s / (self.scale * self.scale));
         }
         rows
@@ -109,13 +123,25 @@ impl Frame {
 
     /// Homogeneous coordinates `(e, g)` in the design's own frames from those in this frame.
     ///
+    /// Turning: `R = T_a~ R' T_b`, hence `e = t_a~ e' t_b` with the quaternions of the turns, likewise `g`. Moving:
     /// `p = scale p' + o_a - R o_b`, hence `g = scale g' + o_a e - e o_b`.
     pub(crate) fn to_design(self, x: [Complex64; 8]) -> [Complex64; 8] {
-        let (e, g) = split(x);
+        let (mut e, mut g) = split(x);
+        if let Some(planes) = &self.planes {
+            let quaternion = |turn: &Rotation3<f64>| {
+                let q = UnitQuaternion::from_rotation_matrix(turn);
+                [q.w, q.i, q.j, q.k].map(Complex64::from)
+            };
+            let [w, i, j, k] = quaternion(&planes.base);
+            let right = quaternion(&planes.platform);
+            let turned = |y| quaternion_product(quaternion_product([w, -i, -j, -k], y), right);
+            (e, g) = (turned(e), turned(g));
+        }
         let left = quaternion_product(pure(&self.base_origin), e);
         let right = quaternion_product(e, pure(&self.platform_origin));
         let mut out = x;
         for k in 0..4 {
+            out[k] = e[k];
             out[4 + k] = g[k] * self.scale + left[k] - right[k];
         }
         out
@@ -227,7 +253,6 @@ pub(crate) fn forms(x: [Complex64; 8]) -> Row {
 mod tests {
     use super::*;
     use crate::geom::{Pose, random_rotation};
-    use nalgebra::UnitQuaternion;
 
     #[test]
     fn a_leg_row_vanishes_exactly_at_poses_with_its_length() {

@@ -79,7 +79,7 @@ pub(crate) fn end_path(homotopy: &SectionHomotopy, x: &[Complex64; 8], t: f64) -
         } else {
             previous = None;
         }
-        let closer = t / 8.0;
+        let closer = if nearly_infinite(&x) { t / 2.0 } else { t / 8.0 };
         let Some(y) = track_one(homotopy, &x, t.into(), closer.into(), &ARC) else { break };
         x = y;
         t = closer;
@@ -117,6 +117,12 @@ fn go_round(homotopy: &SectionHomotopy, x: &[Complex64; 8], t: f64) -> Option<([
         }
     }
     None
+}
+
+/// Whether `e` is so small that circles an eighth as wide may be out of reach: the condition of the Newton matrix grows
+/// with `|e|^-2`.
+fn nearly_infinite(x: &[Complex64; 8]) -> bool {
+    x[..4].iter().map(num_complex::Complex::norm_sqr).sum::<f64>() < 1e-6
 }
 
 /// Whether neither `e` nor `e.e` vanishes to the accuracy of a mean.

@@ -1,5 +1,5 @@
 //! Parameter homotopy over linear sections of `SE(3)`: from 40 known solutions of six general sections to
-//! the solutions of six leg equations.
+//! the solutions of six leg equations; for doubly planar platforms from 20, one of each mirror pair.
 
 // One step of the tracker has to compile to one function, or the lanes do not stay in registers.
 #![allow(clippy::inline_always)]
@@ -11,12 +11,13 @@ mod lu;
 mod monodromy;
 mod paths;
 mod polish;
+mod quadrics;
 mod sprint;
 mod start;
 mod system;
 mod tracker;
 
-pub use monodromy::GENERIC_COUNT;
+pub use monodromy::{GENERIC_COUNT, StartKind};
 pub use start::{SHIPPED_SEED, StartError, start_system_text};
 
 pub(crate) use paths::{EndKind, Path, solve_sections};

@@ -4,12 +4,14 @@ use num_complex::Complex64;
 
 use super::dispatch::track_all;
 use super::endgame::{end_path, projective_distance};
+use super::monodromy::StartKind;
 use super::polish::{Polished, polish};
 use super::sprint::{Pace, Sprint};
 use super::start::{StartError, shipped};
 use super::system::SectionHomotopy;
 use super::tracker::TrackerSettings;
 use crate::num::Rng;
+use crate::solve::planar::mirror;
 use crate::solve::sections::Sections;
 
 /// A last Newton correction below this needs no further polishing.
@@ -82,17 +84,21 @@ fn isotropy(x: &[Complex64; 8]) -> (f64, f64) {
     (n.norm() / size, (size / all).sqrt())
 }
 
-/// Tracks all generic paths to `target`. The seed sets gamma.
+/// Tracks all paths from the start system of a kind to `target`, which must be of that kind: for [`StartKind::Planar`] the
+/// mirror images of the ends are the ends of the other paths. The seed sets gamma.
 ///
 /// Ends that look alike although regular, and paths without an end, are tracked again with smaller steps;
 /// what fails then is left as [`EndKind::Failed`].
-pub(crate) fn solve_sections(target: &Sections, seed: u64) -> Result<Vec<Path>, StartError> {
-    let start = shipped()?;
+pub(crate) fn solve_sections(kind: StartKind, target: &Sections, seed: u64) -> Result<Vec<Path>, StartError> {
+    let start = shipped(kind)?;
     let mut rng = Rng::stream(seed, 0);
     let corner = Complex64::new(0.5, 0.0) + Complex64::from_polar(0.25, rng.uniform(0.6, 2.5));
     let real = SectionHomotopy::real(&start.sections, target).ok_or(StartError::NotReal)?;
-    let sprint = Sprint { homotopy: &real, starts: &start.solutions, corner, pace: Pace::DEFAULT };
-    let sprinted = sprint.run();
+    let (starts, pace) = (&start.solutions, Pace::DEFAULT);
+    let sprinted = match kind {
+        StartKind::Generic => Sprint { homotopy: &real, starts, corner, pace }.run(),
+        StartKind::Planar => Sprint { homotopy: &real.planar(), starts, corner, pace }.run(),
+    };
     // the second leg, from the corner to the target, as a homotopy of its own
     let homotopy = SectionHomotopy::through(&real, corner);
     let mut paths: Vec<Path> = sprinted
@@ -115,11 +121,11 @@ pub(crate) fn solve_sections(target: &Sections, seed: u64) -> Result<Vec<Path>, 
             }
         })
         .collect();
-    let retracker = Retracker { homotopy: &homotopy, real: &real, corner, starts: &start.solutions };
+    let retracker = Retracker { homotopy: &homotopy, real: &real, corner, starts };
     // A long last step may arrive at a singular end without passing through the endgame: those paths are
     // stopped before it. The later rounds are for lost and crossed paths.
     for settings in [BRISK, TrackerSettings::CAREFUL, VERY_CAREFUL] {
-        let again = suspects(&paths, target);
+        let again = suspects(kind, &paths, target);
         if again.is_empty() {
             break;
         }
@@ -218,11 +224,16 @@ impl Retracker<'_> {
 }
 
 /// Indices of paths whose end is missing, coincides with that of another regular path, or lacks its
-/// complex conjugate although the target is real.
-pub(crate) fn suspects(paths: &[Path], target: &Sections) -> Vec<usize> {
+/// complex conjugate although the target is real. Mirror images of ends are ends, too, for a planar start.
+pub(crate) fn suspects(kind: StartKind, paths: &[Path], target: &Sections) -> Vec<usize> {
     let real = target.rows.iter().flatten().all(|z| z.im == 0.0);
-    let ends: Vec<([Complex64; 8], bool)> =
+    let mut ends: Vec<([Complex64; 8], bool)> =
         paths.iter().map(|p| (unit(&p.x), p.kind == EndKind::Regular)).collect();
+    if kind == StartKind::Planar {
+        for i in 0..paths.len() {
+            ends.push((mirror(ends[i].0), ends[i].1));
+        }
+    }
     let same = |x: &[Complex64; 8], y: &[Complex64; 8]| {
         nearly_parallel(x, y) && projective_distance(x, y) < SAME_END
     };
@@ -248,10 +259,10 @@ pub(crate) fn suspects(paths: &[Path], target: &Sections) -> Vec<usize> {
     doubtful
 }
 
-/// A quick look before the accurate distance: the cosine of the angle is above 0.999.
+/// A quick look before the accurate distance: moduli of two coordinates, whatever the phases.
 fn nearly_parallel(x: &[Complex64; 8], y: &[Complex64; 8]) -> bool {
-    let overlap: Complex64 = x.iter().zip(y).map(|(a, b)| a.conj() * b).sum();
-    overlap.norm_sqr() > 0.998
+    let close = |k: usize| (x[k].norm_sqr() - y[k].norm_sqr()).abs() < 10.0 * SAME_END;
+    close(0) && close(1)
 }
 
 fn unit(x: &[Complex64; 8]) -> [Complex64; 8] {

@@ -12,6 +12,7 @@ use pulp::{Arch, Simd, WithSimd};
 
 use super::lanes::{Lanes, MOST_LANES, Matrix8, PerLane, Vec8, load, norm_sqr, store};
 use super::lu::{eliminate, substitute};
+use super::quadrics::{Forms, Quadrics};
 use super::system::{ORDER, SectionHomotopy, derivative_matrix, taylor, values};
 use super::tracker::rough_root;
 
@@ -32,6 +33,11 @@ pub(super) struct Pace {
     pub(super) most_ticks: u32,
     /// Below this `|t|` relative to the corner a path is left to the endgame.
     pub(super) endgame_at: f64,
+    /// Below this relative `|t|` a path whose `|e|^2` is less than `small_rotation` is left to the endgame, too: the
+    /// condition of the equations grows with `|e|^-2`.
+    pub(super) infinity_at: f64,
+    /// See `infinity_at`.
+    pub(super) small_rotation: f64,
 }
 
 impl Pace {
@@ -43,6 +49,8 @@ impl Pace {
         contraction: 0.02,
         most_ticks: 200,
         endgame_at: 1e-4,
+        infinity_at: 3e-2,
+        small_rotation: 1e-5,
     };
 }
 
@@ -66,21 +74,27 @@ pub(super) struct Sprinted {
 }
 
 /// One problem for the fast tracker.
-pub(super) struct Sprint<'a> {
-    pub(super) homotopy: &'a SectionHomotopy<f64>,
+pub(super) struct Sprint<'a, const F: usize> {
+    pub(super) homotopy: &'a SectionHomotopy<f64, F>,
     pub(super) starts: &'a [[Complex64; 8]],
     pub(super) corner: Complex64,
     pub(super) pace: Pace,
 }
 
-impl Sprint<'_> {
+impl<const F: usize> Sprint<'_, F>
+where
+    Forms<F>: Quadrics<F>,
+{
     /// Runs on the widest vector unit of this machine.
     pub(super) fn run(self) -> Vec<Sprinted> {
         Arch::new().dispatch(self)
     }
 }
 
-impl WithSimd for Sprint<'_> {
+impl<const F: usize> WithSimd for Sprint<'_, F>
+where
+    Forms<F>: Quadrics<F>,
+{
     type Output = Vec<Sprinted>;
 
     #[inline(always)]
@@ -129,7 +143,7 @@ fn lane_of<S: Simd>(x: &Vec8<S>, l: usize) -> [Complex64; 8] {
 
 impl<S: Simd> Field<S> {
     #[inline(always)]
-    fn new(simd: S, sprint: &Sprint<'_>) -> Self {
+    fn new<const F: usize>(simd: S, sprint: &Sprint<'_, F>) -> Self {
         let zero = Lanes::zero(simd);
         let mut x = [zero; 8];
         x[0] = Lanes::splat(simd, Complex64::ONE);
@@ -162,7 +176,7 @@ impl<S: Simd> Field<S> {
     }
 
     #[inline(always)]
-    fn refill(&mut self, l: usize, sprint: &Sprint<'_>) {
+    fn refill<const F: usize>(&mut self, l: usize, sprint: &Sprint<'_, F>) {
         self.occupant[l] = (self.next < sprint.starts.len()).then_some(self.next);
         self.next += 1;
         if let Some(index) = self.occupant[l] {
@@ -179,7 +193,10 @@ impl<S: Simd> Field<S> {
 
     /// One correction of every lane, then a step from those that are accurate enough.
     #[inline(always)]
-    fn tick(&mut self, sprint: &Sprint<'_>) {
+    fn tick<const F: usize>(&mut self, sprint: &Sprint<'_, F>)
+    where
+        Forms<F>: Quadrics<F>,
+    {
         let s = self.t.simd;
         let inverse_norm = s.div_f64s(s.splat_f64s(1.0), s.sqrt_f64s(norm_sqr(&self.x)));
         let mut patch = self.x;
@@ -208,7 +225,12 @@ impl<S: Simd> Field<S> {
 
     /// Accepts, repeats or rejects every lane by its correction; which lanes go on.
     #[inline(always)]
-    fn judge(&mut self, size: &PerLane, curvature: &PerLane, sprint: &Sprint<'_>) -> [bool; MOST_LANES] {
+    fn judge<const F: usize>(
+        &mut self,
+        size: &PerLane,
+        curvature: &PerLane,
+        sprint: &Sprint<'_, F>,
+    ) -> [bool; MOST_LANES] {
         let pace = &sprint.pace;
         let mut advance = [false; MOST_LANES];
         for l in 0..S::F64_LANES {
@@ -250,8 +272,10 @@ impl<S: Simd> Field<S> {
                 self.safe_x[p].set_lane(l, z);
             }
             self.safe_t.set_lane(l, t);
-            let low = self.out[index].corner.is_some() && t.norm() < pace.endgame_at * sprint.corner.norm();
-            if low {
+            let remaining = t.norm() / sprint.corner.norm();
+            let towards_infinity =
+                remaining < pace.infinity_at && self.rotation_size(l) < pace.small_rotation;
+            if self.out[index].corner.is_some() && (remaining < pace.endgame_at || towards_infinity) {
                 self.leave(l, index, sprint);
                 self.refill(l, sprint);
             } else {
@@ -261,9 +285,15 @@ impl<S: Simd> Field<S> {
         advance
     }
 
+    /// `|e|^2` of the present point, which has norm one nearly.
+    #[inline(always)]
+    fn rotation_size(&self, l: usize) -> f64 {
+        self.x[..4].iter().map(|z| z.lane(l).norm_sqr()).sum()
+    }
+
     /// Records the last good point of a path that goes no further.
     #[inline(always)]
-    fn leave(&mut self, l: usize, index: usize, sprint: &Sprint<'_>) {
+    fn leave<const F: usize>(&mut self, l: usize, index: usize, sprint: &Sprint<'_, F>) {
         let path = &mut self.out[index];
         if path.steps > 0 {
             path.x = lane_of(&self.safe_x, l);
@@ -312,7 +342,10 @@ impl<S: Simd> Field<S> {
 
 /// Newton's method at the target for all paths that arrived there, and a condition estimate.
 #[inline(always)]
-fn polish<S: Simd>(simd: S, homotopy: &SectionHomotopy<f64>, paths: &mut [Sprinted]) {
+fn polish<S: Simd, const F: usize>(simd: S, homotopy: &SectionHomotopy<f64, F>, paths: &mut [Sprinted])
+where
+    Forms<F>: Quadrics<F>,
+{
     let arrived: Vec<usize> = (0..paths.len()).filter(|&i| paths[i].remaining == Some(0.0)).collect();
     let rows = homotopy.rows_at(Lanes::zero(simd));
     for batch in arrived.chunks(S::F64_LANES) {

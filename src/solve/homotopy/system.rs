@@ -8,6 +8,8 @@ use num_complex::Complex64;
 use pulp::Simd;
 
 use super::lanes::{Lanes, Matrix8, Vec8};
+use super::quadrics::{Forms, Quadrics};
+use crate::solve::planar::{PLANAR_FORMS, planar_row};
 use crate::solve::sections::{FORMS, Sections};
 
 /// Order of the Taylor predictor.
@@ -35,15 +37,15 @@ impl Coefficient for Complex64 {
     }
 }
 
-/// A straight line of linear sections, `target + t slope`.
+/// A straight line of linear sections, `target + t slope`, in the `F` forms of [`Quadrics`].
 #[derive(Debug, Clone)]
-pub(crate) struct SectionHomotopy<K = Complex64> {
-    target: [[K; FORMS]; 6],
-    slope: [[K; FORMS]; 6],
+pub(crate) struct SectionHomotopy<K = Complex64, const F: usize = FORMS> {
+    target: [[K; F]; 6],
+    slope: [[K; F]; 6],
 }
 
 /// The rows at one parameter value per lane.
-pub(super) type Rows<S> = [[Lanes<S>; FORMS]; 6];
+pub(super) type Rows<S, const F: usize = FORMS> = [[Lanes<S>; F]; 6];
 
 impl SectionHomotopy {
     /// From `start` (times the number `gamma`, against accidental degeneracy of the line) at `t = 1` to
@@ -80,16 +82,21 @@ impl SectionHomotopy<f64> {
         let slope = std::array::from_fn(|i| std::array::from_fn(|k| slope(i, k)));
         real.then(|| Self { target: target.rows.map(|row| row.map(|z| z.re)), slope })
     }
+
+    /// The same line in the ten forms of planar sections, which its rows must be.
+    pub(super) fn planar(&self) -> SectionHomotopy<f64, PLANAR_FORMS> {
+        SectionHomotopy { target: self.target.map(planar_row), slope: self.slope.map(planar_row) }
+    }
 }
 
-impl<K: Coefficient> SectionHomotopy<K> {
+impl<K: Coefficient, const F: usize> SectionHomotopy<K, F> {
     #[inline(always)]
-    pub(super) fn rows_at<S: Simd>(&self, t: Lanes<S>) -> Rows<S> {
+    pub(super) fn rows_at<S: Simd>(&self, t: Lanes<S>) -> Rows<S, F> {
         let one = Lanes::splat(t.simd, Complex64::ONE);
         let zero = Lanes::zero(t.simd);
-        let mut rows = [[zero; FORMS]; 6];
+        let mut rows = [[zero; F]; 6];
         for i in 0..6 {
-            for k in 0..FORMS {
+            for k in 0..F {
                 rows[i][k] = self.slope[i][k].add_times(self.target[i][k].add_times(zero, one), t);
             }
         }
@@ -98,18 +105,14 @@ impl<K: Coefficient> SectionHomotopy<K> {
 
     /// `target forms + slope moved`, one value a row.
     #[inline(always)]
-    fn combine<S: Simd>(
-        &self,
-        forms: Option<&[Lanes<S>; FORMS]>,
-        moved: &[Lanes<S>; FORMS],
-    ) -> [Lanes<S>; 6] {
+    fn combine<S: Simd>(&self, forms: Option<&[Lanes<S>; F]>, moved: &[Lanes<S>; F]) -> [Lanes<S>; 6] {
         let mut out = [Lanes::zero(moved[0].simd); 6];
         for i in 0..6 {
-            for k in 0..FORMS {
+            for k in 0..F {
                 out[i] = self.slope[i][k].add_times(out[i], moved[k]);
             }
             if let Some(forms) = forms {
-                for k in 0..FORMS {
+                for k in 0..F {
                     out[i] = self.target[i][k].add_times(out[i], forms[k]);
                 }
             }
@@ -118,79 +121,25 @@ impl<K: Coefficient> SectionHomotopy<K> {
     }
 }
 
-/// Symmetrised forms of two vectors: `forms(x + y) - forms(x) - forms(y)`, and last `e.g' + e'.g`.
-#[inline(always)]
-pub(super) fn polar_forms<S: Simd>(x: &Vec8<S>, y: &Vec8<S>) -> ([Lanes<S>; FORMS], Lanes<S>) {
-    let zero = Lanes::zero(x[0].simd);
-    let mut f = [zero; FORMS];
-    let mut k = 0;
-    for i in 0..4 {
-        f[k] = (x[i] * y[i]).times(2.0);
-        k += 1;
-        for j in i + 1..4 {
-            // an off-diagonal coefficient stands for both entries of the symmetric matrix
-            f[k] = (x[i] * y[j]).mul_add(x[j], y[i]).times(2.0);
-            k += 1;
-        }
-    }
-    for i in 1..4 {
-        f[9 + i] = (x[0] * y[4 + i]).mul_add(y[0], x[4 + i]).mul_sub(x[4], y[i]).mul_sub(y[4], x[i]);
-    }
-    for i in 1..4 {
-        let (p, q) = (i % 3 + 1, (i + 1) % 3 + 1);
-        f[12 + i] = (x[p] * y[4 + q]).mul_sub(x[q], y[4 + p]).mul_add(y[p], x[4 + q]).mul_sub(y[q], x[4 + p]);
-    }
-    let mut gg = zero;
-    let mut eg = zero;
-    for i in 0..4 {
-        gg = gg.mul_add(x[4 + i], y[4 + i]);
-        eg = eg.mul_add(x[i], y[4 + i]).mul_add(y[i], x[4 + i]);
-    }
-    f[16] = gg.times(2.0);
-    (f, eg)
-}
-
 /// The 8 x 8 matrix of derivatives: six sections, `e.g`, patch `v`.
 #[inline(always)]
-pub(super) fn derivative_matrix<S: Simd>(rows: &Rows<S>, x: &Vec8<S>, patch: &Vec8<S>) -> [[Lanes<S>; 8]; 8] {
+pub(super) fn derivative_matrix<S: Simd, const F: usize>(
+    rows: &Rows<S, F>,
+    x: &Vec8<S>,
+    patch: &Vec8<S>,
+) -> Matrix8<S>
+where
+    Forms<F>: Quadrics<F>,
+{
     let zero = Lanes::zero(x[0].simd);
     let mut j = [[zero; 8]; 8];
     for i in 0..6 {
-        let r = &rows[i];
-        let sym = [
-            [r[0], r[1], r[2], r[3]],
-            [r[1], r[4], r[5], r[6]],
-            [r[2], r[5], r[7], r[8]],
-            [r[3], r[6], r[8], r[9]],
-        ];
-        let (m, n, c) = ([r[10], r[11], r[12]], [r[13], r[14], r[15]], r[16]);
-        let te = skew_times(m, n, [x[0], x[1], x[2], x[3]]);
-        let tg = skew_times(m, n, [x[4], x[5], x[6], x[7]]);
-        for p in 0..4 {
-            let mut ee = zero;
-            for q in 0..4 {
-                ee = ee.mul_add(sym[p][q], x[q]);
-            }
-            j[i][p] = ee.times(2.0) - tg[p];
-            j[i][4 + p] = te[p] + (c * x[4 + p]).times(2.0);
-        }
+        j[i] = Forms::gradient(&rows[i], x);
     }
     j[6][..4].copy_from_slice(&x[4..]);
     j[6][4..].copy_from_slice(&x[..4]);
     j[7] = *patch;
     j
-}
-
-/// `T y = (-m.yv, m y0 + n x yv)`.
-#[inline(always)]
-fn skew_times<S: Simd>(m: [Lanes<S>; 3], n: [Lanes<S>; 3], y: [Lanes<S>; 4]) -> [Lanes<S>; 4] {
-    let scalar = (m[0] * y[1]).mul_add(m[1], y[2]).mul_add(m[2], y[3]);
-    [
-        -scalar,
-        (m[0] * y[0]).mul_add(n[1], y[3]).mul_sub(n[2], y[2]),
-        (m[1] * y[0]).mul_add(n[2], y[1]).mul_sub(n[0], y[3]),
-        (m[2] * y[0]).mul_add(n[0], y[2]).mul_sub(n[1], y[1]),
-    ]
 }
 
 /// Values of the eight equations from the derivative matrix at `x`: `q = 1/2 x . grad q` for quadrics.
@@ -218,26 +167,29 @@ pub(super) fn values<S: Simd>(j: &Matrix8<S>, x: &Vec8<S>) -> Vec8<S> {
 /// polar forms `F` (halved where `i = j`): one factorisation serves all orders. With `C(t) = C_0 + t C'` the
 /// right-hand side is `C_0 u_k + C' (t u_k + w_{k-1})`, products with constant matrices only.
 #[inline(always)]
-pub(super) fn taylor<S: Simd, K: Coefficient>(
-    homotopy: &SectionHomotopy<K>,
+pub(super) fn taylor<S: Simd, K: Coefficient, const F: usize>(
+    homotopy: &SectionHomotopy<K, F>,
     t: Lanes<S>,
     x: &Vec8<S>,
     solve: impl Fn(&mut Vec8<S>),
-) -> [Vec8<S>; ORDER] {
+) -> [Vec8<S>; ORDER]
+where
+    Forms<F>: Quadrics<F>,
+{
     let zero = Lanes::zero(t.simd);
     let mut series = [[zero; 8]; ORDER];
-    let (mut full, _) = polar_forms(x, x);
+    let (mut full, _) = Forms::polar(x, x);
     for z in &mut full {
         *z = z.times(0.5);
     }
     for k in 1..=ORDER {
-        let mut inner = [zero; FORMS];
+        let mut inner = [zero; F];
         let mut study = zero;
         for i in 1..=k / 2 {
             let j = k - i;
-            let (f, s) = polar_forms(&series[i - 1], &series[j - 1]);
+            let (f, s) = Forms::polar(&series[i - 1], &series[j - 1]);
             let weight = if i == j { 0.5 } else { 1.0 };
-            for n in 0..FORMS {
+            for n in 0..F {
                 inner[n] += f[n].times(weight);
             }
             study += s.times(weight);
@@ -245,7 +197,7 @@ pub(super) fn taylor<S: Simd, K: Coefficient>(
         let sections = if k == 1 {
             homotopy.combine(None, &full)
         } else {
-            for n in 0..FORMS {
+            for n in 0..F {
                 full[n] = full[n].mul_add(t, inner[n]);
             }
             homotopy.combine(Some(&inner), &full)
@@ -257,8 +209,8 @@ pub(super) fn taylor<S: Simd, K: Coefficient>(
         rhs[6] = -study;
         solve(rhs);
         if k < ORDER {
-            let (f, _) = polar_forms(x, &series[k - 1]);
-            for n in 0..FORMS {
+            let (f, _) = Forms::polar(x, &series[k - 1]);
+            for n in 0..F {
                 full[n] = inner[n] + f[n];
             }
         }
@@ -303,7 +255,7 @@ mod tests {
             assert!((direct(x)[i] - f[i].lane(0)).norm() < 1e-12);
         }
         let sum: [Complex64; 8] = std::array::from_fn(|k| x[k] + y[k]);
-        let (polar, study) = polar_forms(&lanes(x), &lanes(y));
+        let (polar, study) = Forms::<FORMS>::polar(&lanes(x), &lanes(y));
         for k in 0..FORMS {
             let expected = forms(sum)[k] - forms(x)[k] - forms(y)[k];
             assert!((polar[k].lane(0) - expected).norm() < 1e-12, "form {k}");

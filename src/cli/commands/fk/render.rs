@@ -68,8 +68,8 @@ fn root(r: &FkRoot) -> Value {
 
 fn path(p: &PathReport) -> Value {
     json!({
-        "start": p.start, "end": p.end.name(), "root": p.root, "steps": p.steps,
-        "rejections": p.rejections, "winding": p.winding, "isotropy": number(p.isotropy),
+        "start": p.start, "end": p.end.name(), "root": p.root, "mirror_root": p.mirror_root,
+        "steps": p.steps, "rejections": p.rejections, "winding": p.winding, "isotropy": number(p.isotropy),
         "retracked": p.retracked,
     })
 }
@@ -208,6 +208,7 @@ mod tests {
                 start: 3,
                 end: PathEnd::AtInfinity,
                 root: None,
+                mirror_root: None,
                 steps: 9,
                 rejections: 1,
                 winding: 0,
