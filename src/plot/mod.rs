@@ -8,6 +8,8 @@ mod contour;
 mod determinant;
 mod modes;
 mod style;
+mod topologies;
 
 pub use determinant::{OffsetPlane, PlaneAxis, PlanePoint, determinant_plane};
 pub use modes::{ModesFigure, assembly_modes};
+pub use topologies::{TopologyFigure, topology_diagram, topology_sheet};

@@ -23,6 +23,8 @@ text{font-family:Helvetica,Arial,'Liberation Sans','DejaVu Sans',sans-serif;font
 .base{fill:#d5d5d5;fill-opacity:.75;stroke:#555;stroke-width:1.1;stroke-linejoin:round}\
 .platform{fill:#8fb8de;fill-opacity:.75;stroke:#1d4f82;stroke-width:1.3;stroke-linejoin:round}\
 .leg{stroke:#1a1a1a;stroke-width:1;stroke-linecap:round}\
+.virtual{stroke:#b00020;stroke-width:1.4;stroke-dasharray:5 3}\
+.small{font-size:9px;fill:#444}\
 .first{stroke:#b00020;stroke-width:2.4;stroke-linecap:round}\
 .plate{fill:#fff;fill-opacity:.9}\
 .pair{fill:none;stroke:#c4c4c4;stroke-width:1}";

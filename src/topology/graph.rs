@@ -31,6 +31,16 @@ pub enum AlwaysSingular {
     TwoJointsHoldAllLegs,
 }
 
+impl std::fmt::Display for AlwaysSingular {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::CoincidentLegs => "two legs join the same two joints",
+            Self::FourLegsAtOneJoint => "four or more legs meet in one joint",
+            Self::TwoJointsHoldAllLegs => "two joints hold all six legs",
+        })
+    }
+}
+
 impl Topology {
     /// The topology of six legs given by joint indices.
     #[must_use]

@@ -5,6 +5,10 @@
 
 mod catalogue;
 mod graph;
+mod layout;
+mod sequence;
 
 pub use catalogue::{NamedTopology, Recognised, catalogue, recognise};
 pub use graph::{AlwaysSingular, Topology};
+pub use layout::Layout;
+pub use sequence::{Joint, Sequence, Step};

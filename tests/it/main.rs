@@ -11,6 +11,7 @@ mod cli_frame;
 mod cli_near;
 mod cli_optimize;
 mod cli_synthesis;
+mod cli_topologies;
 mod cli_verify;
 mod completeness;
 mod design_files;

@@ -19,6 +19,7 @@ mod family;
 mod fk;
 mod map;
 mod optimize;
+mod topologies;
 mod verify;
 
 use clap::Subcommand;
@@ -44,6 +45,8 @@ pub(crate) enum Command {
     Map(map::Args),
     /// The best joint-free platform equivalent to an octahedral design
     Optimize(optimize::Args),
+    /// The ways to share joints that can hold a platform, and which one a design has
+    Topologies(topologies::Args),
     /// Whether two designs are kinematically equivalent, with evidence
     Verify(verify::Args),
 }
@@ -59,6 +62,7 @@ impl Command {
             Self::Fk(args) => fk::run(args, context),
             Self::Map(args) => map::run(args, context),
             Self::Optimize(args) => optimize::run(args, context),
+            Self::Topologies(args) => topologies::run(args, context),
             Self::Verify(args) => verify::run(args, context),
         }
     }

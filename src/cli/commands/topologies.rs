@@ -1,0 +1,220 @@
+//! `equipod topologies`: the joint-sharing topologies, their numbers of poses, pictures and designs.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use nalgebra::Point3;
+use serde_json::{Map, Value, json};
+
+use crate::bench::{Class, LengthsFrom, Planar, problem};
+use crate::cli::context::Context;
+use crate::cli::exit::Exit;
+use crate::cli::failure::Failure;
+use crate::cli::files;
+use crate::cli::output::Answer;
+use crate::design::Design;
+use crate::fk::{Completeness, FkOptions, ForwardKinematics, Homotopy};
+use crate::manipulator::{Manipulator, default_home};
+use crate::num::Rng;
+use crate::plot::{TopologyFigure, topology_diagram, topology_sheet};
+use crate::topology::{Joint, NamedTopology, Sequence, catalogue, recognise};
+
+/// Arguments of `topologies`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Only the topology of this design (.toml or .json)
+    design: Option<PathBuf>,
+    /// Random members of each topology solved to count its poses
+    #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u64).range(1..=1000))]
+    members: u64,
+    /// Write a picture of all that are listed
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// Write a representative design (T01.toml, ...) and a picture (T01.svg, ...) of each into this folder
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+}
+
+/// A topology with what was computed.
+struct Entry {
+    named: NamedTopology,
+    sequence: Sequence,
+    decoupled: bool,
+    poses: u32,
+    proved: bool,
+}
+
+/// Lists the catalogue, or the topology of one design.
+pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+    let mut json = Map::new();
+    let mut text = String::new();
+    let mut wanted = catalogue();
+    json.insert("count".into(), json!(wanted.len()));
+    if let Some(path) = &args.design {
+        let design = context.load(path)?;
+        let found = recognise(design.manipulator()).map_err(|why| {
+            let message = format!("{} has none of the {} topologies: {why}", design.name, wanted.len());
+            Failure::new(Exit::No, "topologies::always_singular", message)
+        })?;
+        let turned = if found.exchanged { ", base and platform exchanged" } else { "" };
+        let _ =
+            writeln!(text, "{}: {} {}{turned}\n", design.name, found.topology.id(), found.topology.name());
+        let record = json!({
+            "name": design.name, "id": found.topology.id(), "topology": found.topology.name(), "exchanged": found.exchanged,
+        });
+        json.insert("design".into(), record);
+        wanted = vec![found.topology];
+    } else {
+        json.insert("by_virtual_legs".into(), classes(&wanted));
+    }
+    let entries = wanted.into_iter().map(|t| entry(t, args.members, context.seed()));
+    let entries = entries.collect::<Result<Vec<Entry>, Failure>>()?;
+    json.insert("members".into(), json!(args.members));
+    json.insert("topologies".into(), entries.iter().map(record).collect());
+    table(&mut text, &entries);
+    write_files(args, &entries)?;
+    let exit = if entries.iter().all(|e| e.proved) { Exit::Yes } else { Exit::Inconclusive };
+    Ok(Answer { exit, json, text })
+}
+
+fn entry(named: NamedTopology, members: u64, seed: u64) -> Result<Entry, Failure> {
+    let t = named.topology();
+    let mut votes: BTreeMap<u32, (u64, bool)> = BTreeMap::new();
+    for k in 0..members {
+        let class = Class::Topology { topology: named, planar: Planar::Neither };
+        let internal =
+            |e: &dyn std::fmt::Display| Failure::internal(format!("{}, member {k}: {e}", named.id()));
+        let member = problem(class, LengthsFrom::Pose, seed, k).map_err(|e| internal(&e))?;
+        let options = FkOptions { seed, ..FkOptions::default() };
+        let found =
+            Homotopy.solve(&member.manipulator, &member.squares, &options).map_err(|e| internal(&e))?;
+        let vote = votes.entry(found.count_with_multiplicity()).or_default();
+        vote.0 += 1;
+        vote.1 |= matches!(found.completeness, Completeness::Proved { .. });
+    }
+    // a proved count is that of all generic members; without one, what was found most often
+    let best = votes.into_iter().max_by_key(|(count, (times, proved))| (*proved, *times, *count));
+    let (poses, (_, proved)) = best.unwrap_or_default();
+    Ok(Entry { named, sequence: t.trilateration(), decoupled: t.is_decoupled(), poses, proved })
+}
+
+/// Numbers of topologies by virtual legs needed.
+fn classes(list: &[NamedTopology]) -> Value {
+    let count = |legs: usize, decoupled: bool| {
+        let of = |t: &&NamedTopology| {
+            let t = t.topology();
+            t.trilateration().virtual_legs.len() == legs && t.is_decoupled() == decoupled
+        };
+        list.iter().filter(of).count()
+    };
+    json!({
+        "0": count(0, false), "1_decoupled": count(1, true), "1_coupled": count(1, false),
+        "2": count(2, false), "3": count(3, false),
+    })
+}
+
+fn joint_name(joint: Joint) -> String {
+    match joint {
+        Joint::Base(k) => format!("A{}", k + 1),
+        Joint::Platform(k) => format!("B{}", k + 1),
+    }
+}
+
+fn pairs(legs: &[(usize, usize)]) -> Value {
+    legs.iter().map(|(a, b)| json!([joint_name(Joint::Base(*a)), joint_name(Joint::Platform(*b))])).collect()
+}
+
+fn record(e: &Entry) -> Value {
+    let t = e.named.topology();
+    let steps =
+        e.sequence.steps.iter().map(
+            |s| json!({ "from": s.from.map(joint_name), "place": joint_name(s.place), "rigid": s.rigid }),
+        );
+    json!({
+        "id": e.named.id(), "name": e.named.name(),
+        "base_joints": t.base_joints(), "platform_joints": t.platform_joints(), "shared_joints": t.shared_joints(),
+        "legs": pairs(&t.legs()),
+        "virtual_legs": e.sequence.virtual_legs.len(), "virtual_leg_joints": pairs(&e.sequence.virtual_legs),
+        "decoupled": e.decoupled, "start": e.sequence.start.map(joint_name), "sequence": steps.collect::<Value>(),
+        "finite_roots": e.poses, "finite_roots_proved": e.proved,
+    })
+}
+
+fn table(text: &mut String, entries: &[Entry]) {
+    text.push_str("id   name  legs                                    poses  proved  virtual legs\n");
+    for e in entries {
+        let name = |(a, b): &(usize, usize)| format!("A{}B{}", a + 1, b + 1);
+        let legs: Vec<String> = e.named.topology().legs().iter().map(name).collect();
+        let chosen: Vec<String> = e.sequence.virtual_legs.iter().map(name).collect();
+        let kind = if e.decoupled { " (decoupled)" } else { "" };
+        let _ = writeln!(
+            text,
+            "{:<4} {:<5} {:<39} {:>5}  {:<6}  {}{}{kind}",
+            e.named.id(),
+            e.named.name(),
+            legs.join(" "),
+            e.poses,
+            if e.proved { "yes" } else { "no" },
+            chosen.len(),
+            if chosen.is_empty() { String::new() } else { format!(": {}", chosen.join(" ")) }
+        );
+    }
+}
+
+fn figure(e: &Entry) -> TopologyFigure {
+    let legs = match e.sequence.virtual_legs.len() {
+        0 => "trilaterable".to_string(),
+        1 if e.decoupled => "1 virtual leg, decoupled".to_string(),
+        1 => "1 virtual leg".to_string(),
+        n => format!("{n} virtual legs"),
+    };
+    TopologyFigure { topology: e.named, caption: format!("{} poses, {legs}", e.poses) }
+}
+
+fn write_files(args: &Args, entries: &[Entry]) -> Result<(), Failure> {
+    if let Some(path) = &args.svg {
+        let figures: Vec<TopologyFigure> = entries.iter().map(figure).collect();
+        files::write_text(
+            path,
+            &topology_sheet("Joint-sharing topologies of six-legged platforms", &figures),
+        )?;
+    }
+    let Some(folder) = &args.output else { return Ok(()) };
+    std::fs::create_dir_all(folder).map_err(|e| {
+        Failure::refused("file::not_writable", format!("{} cannot be made: {e}", folder.display()))
+    })?;
+    for e in entries {
+        let file = |ending: &str| Path::new(folder).join(format!("{}.{ending}", e.named.id()));
+        files::write_text(&file("svg"), &topology_diagram(&figure(e)))?;
+        files::write_text(&file("toml"), &representative(e)?.to_toml())?;
+    }
+    Ok(())
+}
+
+/// A member with its joints near two circles, thousandths of the base radius, at its default home pose.
+fn representative(e: &Entry) -> Result<Design, Failure> {
+    let t = e.named.topology();
+    let layout = t.layout();
+    // the same for every seed: the file belongs to the topology
+    let mut rng = Rng::stream(0x34, e.named.number() as u64);
+    let mut ring = |angles: &[f64], radius: f64| -> Vec<Point3<f64>> {
+        let mut off = || rng.uniform(-0.12, 0.12);
+        let joint = |angle: &f64| {
+            let (sine, cosine) = (angle + off()).sin_cos();
+            let (r, z) = (radius * (1.0 + off()), off());
+            Point3::new(r * cosine, r * sine, z).map(|x| (1000.0 * x).round() / 1000.0)
+        };
+        angles.iter().map(joint).collect()
+    };
+    let (base, platform) = (ring(&layout.base, 1.0), ring(&layout.platform, 0.6));
+    let internal = |error: &dyn std::fmt::Display| Failure::internal(format!("{}: {error}", e.named.id()));
+    let m = Manipulator::try_new(base, platform, t.legs()).map_err(|e| internal(&e))?;
+    let home = default_home(&m);
+    let squares = home.squared_lengths(&m).ok_or_else(|| internal(&"the home pose has no leg lengths"))?;
+    let mut design = Design::new(format!("{} ({})", e.named.id(), e.named.name()), "1", m);
+    design.source = Some("made by equipod topologies".to_string());
+    design.description = Some(format!("representative of a joint-sharing topology with {} poses", e.poses));
+    design.lengths = Some(squares.lengths());
+    Ok(design)
+}

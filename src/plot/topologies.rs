@@ -1,0 +1,137 @@
+//! Joint-sharing topologies as diagrams: base polygon below, platform polygon above, legs, virtual legs dashed.
+//!
+//! In the spirit of the tables of Porta and Thomas. Joints stand evenly on two circles seen at a slant, in the order of
+//! [`Topology::layout`]; nothing but the graph is shown.
+
+use super::style::Svg;
+use crate::topology::{NamedTopology, Topology};
+
+/// A topology and what to write below it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TopologyFigure {
+    /// The topology.
+    pub topology: NamedTopology,
+    /// One line.
+    pub caption: String,
+}
+
+const CELL: (f64, f64) = (168.0, 186.0);
+const COLUMNS: usize = 6;
+const MARGIN: f64 = 20.0;
+const TOP: f64 = 70.0;
+/// Half axes of the circles as drawn, and how far their centres are above and below the middle.
+const BASE: (f64, f64) = (62.0, 20.0);
+const PLATFORM: (f64, f64) = (46.0, 15.0);
+const RISE: f64 = 40.0;
+
+/// Places of the joints of one body, and of their labels outside the polygon.
+struct Drawn {
+    joints: Vec<(f64, f64)>,
+    labels: Vec<(f64, f64)>,
+}
+
+fn drawn(angles: &[f64], centre: (f64, f64), axes: (f64, f64)) -> Drawn {
+    // a slight turn keeps joints of both bodies from standing exactly one above the other
+    let at = |angle: &f64, out: f64| {
+        let (sine, cosine) = (angle - 0.3).sin_cos();
+        (centre.0 + (axes.0 + out) * sine, centre.1 + (axes.1 + out) * cosine)
+    };
+    Drawn {
+        joints: angles.iter().map(|a| at(a, 0.0)).collect(),
+        labels: angles.iter().map(|a| at(a, 11.0)).map(|(x, y)| (x, y + 3.5)).collect(),
+    }
+}
+
+/// The corners in the order in which they stand on the circle.
+fn outline(d: &Drawn, angles: &[f64]) -> Vec<(f64, f64)> {
+    let turn = |i: &usize| angles[*i].rem_euclid(std::f64::consts::TAU);
+    let mut order: Vec<usize> = (0..angles.len()).collect();
+    order.sort_by(|i, j| turn(i).total_cmp(&turn(j)));
+    order.into_iter().map(|i| d.joints[i]).collect()
+}
+
+fn diagram(svg: &mut Svg, t: Topology, centre: (f64, f64)) {
+    let layout = t.layout();
+    let base = drawn(&layout.base, (centre.0, centre.1 + RISE), BASE);
+    let platform = drawn(&layout.platform, (centre.0, centre.1 - RISE), PLATFORM);
+    svg.polygon("base", &outline(&base, &layout.base));
+    for (a, b) in t.trilateration().virtual_legs {
+        svg.line("virtual", base.joints[a], platform.joints[b]);
+    }
+    for (a, b) in t.legs() {
+        svg.line("leg", base.joints[a], platform.joints[b]);
+    }
+    svg.polygon("platform", &outline(&platform, &layout.platform));
+    joints(svg, &base, 'A', t.legs().map(|l| l.0));
+    joints(svg, &platform, 'B', t.legs().map(|l| l.1));
+}
+
+/// Dots and labels of one body; `ends` holds the joint of each leg.
+fn joints(svg: &mut Svg, body: &Drawn, letter: char, ends: [usize; 6]) {
+    for (k, (joint, label)) in body.joints.iter().zip(&body.labels).enumerate() {
+        let shared = ends.iter().filter(|end| **end == k).count() > 1;
+        let (class, radius) = if shared { ("mark", 4.6) } else { ("hollow", 2.6) };
+        svg.circle(class, *joint, radius);
+        svg.text("small mid halo", *label, &format!("{letter}{}", k + 1));
+    }
+}
+
+fn cell(svg: &mut Svg, figure: &TopologyFigure, corner: (f64, f64)) {
+    let middle = corner.0 + CELL.0 / 2.0;
+    svg.rect("pair", (corner.0 + 4.0, corner.1 + 4.0), (CELL.0 - 8.0, CELL.1 - 8.0));
+    let name = format!("{}  {}", figure.topology.id(), figure.topology.name());
+    svg.text("mid", (middle, corner.1 + 21.0), &name);
+    diagram(svg, figure.topology.topology(), (middle, corner.1 + 91.0));
+    svg.text("note mid", (middle, corner.1 + CELL.1 - 13.0), &figure.caption);
+}
+
+/// One topology.
+#[must_use]
+pub fn topology_diagram(figure: &TopologyFigure) -> String {
+    let title = format!("Topology {}", figure.topology.id());
+    let mut svg = Svg::new(
+        CELL.0,
+        CELL.1,
+        &title,
+        "platform above base; dots are shared joints, dashed lines virtual legs",
+    );
+    cell(&mut svg, figure, (0.0, 0.0));
+    svg.finish()
+}
+
+/// Several topologies on one page.
+#[must_use]
+pub fn topology_sheet(title: &str, figures: &[TopologyFigure]) -> String {
+    let note = "platform above base; dots are shared joints, dashed red lines the virtual legs of one trilateration sequence";
+    let rows = figures.len().div_ceil(COLUMNS);
+    let (width, height) = (COLUMNS as f64 * CELL.0 + 2.0 * MARGIN, TOP + rows as f64 * CELL.1 + MARGIN);
+    let mut svg = Svg::new(width, height, title, note);
+    svg.text("title mid", (width / 2.0, 30.0), title);
+    svg.text("note mid", (width / 2.0, 52.0), note);
+    for (k, figure) in figures.iter().enumerate() {
+        let (column, row) = (k % COLUMNS, k / COLUMNS);
+        cell(&mut svg, figure, (MARGIN + column as f64 * CELL.0, TOP + row as f64 * CELL.1));
+    }
+    svg.finish()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::topology::catalogue;
+
+    #[test]
+    fn a_sheet_has_six_legs_and_every_joint_of_every_topology() {
+        let list = catalogue();
+        let figure = |t: &NamedTopology| TopologyFigure { topology: *t, caption: "a < b".into() };
+        let figures: Vec<_> = list.iter().map(figure).collect();
+        let sheet = topology_sheet("all", &figures);
+        let joints: usize =
+            list.iter().map(|t| t.topology().base_joints() + t.topology().platform_joints()).sum();
+        assert_eq!(sheet.matches("class=\"leg\"").count(), 6 * 34);
+        assert_eq!(sheet.matches("<circle").count(), joints);
+        // 20 topologies with one virtual leg, three with two, one with three
+        assert_eq!(sheet.matches("class=\"virtual\"").count(), 20 + 6 + 3);
+        assert!(sheet.contains("a &lt; b") && topology_diagram(&figures[3]).contains("T04"));
+    }
+}
