@@ -61,7 +61,7 @@ pub(super) struct Refined {
     pub(super) residual: f64,
     /// Length of the last correction over the scale: the error, when it converged.
     pub(super) error: f64,
-    /// Corrections fell below `1e-20` and stopped there.
+    /// Corrections fell below `1e-17` and stopped there.
     pub(super) converged: bool,
 }
 
@@ -158,8 +158,9 @@ impl LegEquations {
     }
 }
 
-/// Relative length of the last correction of an iteration that has converged.
-const CONVERGED: f64 = 1e-20;
+/// Relative length of the last correction of an iteration that has converged: poses of size `1e5` have it at `1e-19`, because the
+/// Jacobian's condition grows with a power of the pose.
+const CONVERGED: f64 = 1e-17;
 
 /// Where the iteration leads and the relative length of its last correction.
 fn iterate(start: &Point, step: impl Fn(&Point) -> Option<[Z; N]>) -> (Point, f64) {

@@ -15,7 +15,7 @@ pub struct TopologyFigure {
     pub caption: String,
 }
 
-const CELL: (f64, f64) = (168.0, 186.0);
+const CELL: (f64, f64) = (168.0, 200.0);
 const COLUMNS: usize = 6;
 const MARGIN: f64 = 20.0;
 const TOP: f64 = 70.0;
@@ -23,6 +23,8 @@ const TOP: f64 = 70.0;
 const BASE: (f64, f64) = (62.0, 20.0);
 const PLATFORM: (f64, f64) = (46.0, 15.0);
 const RISE: f64 = 40.0;
+/// Turns of the whole about the vertical among which the clearest is taken.
+const TURNS: u32 = 72;
 
 /// Places of the joints of one body, and of their labels outside the polygon.
 struct Drawn {
@@ -30,10 +32,9 @@ struct Drawn {
     labels: Vec<(f64, f64)>,
 }
 
-fn drawn(angles: &[f64], centre: (f64, f64), axes: (f64, f64)) -> Drawn {
-    // a slight turn keeps joints of both bodies from standing exactly one above the other
+fn drawn(angles: &[f64], centre: (f64, f64), axes: (f64, f64), turn: f64) -> Drawn {
     let at = |angle: &f64, out: f64| {
-        let (sine, cosine) = (angle - 0.3).sin_cos();
+        let (sine, cosine) = (angle + turn).sin_cos();
         (centre.0 + (axes.0 + out) * sine, centre.1 + (axes.1 + out) * cosine)
     };
     Drawn {
@@ -50,12 +51,44 @@ fn outline(d: &Drawn, angles: &[f64]) -> Vec<(f64, f64)> {
     order.into_iter().map(|i| d.joints[i]).collect()
 }
 
+/// The least of the sines of the angles between lines that share a joint, and of the distances of joints of one body.
+fn clearness(base: &Drawn, platform: &Drawn, lines: &[(usize, usize)]) -> f64 {
+    let mut least = f64::INFINITY;
+    let direction = |(a, b): (usize, usize)| {
+        let (from, to) = (base.joints[a], platform.joints[b]);
+        let (x, y) = (to.0 - from.0, to.1 - from.1);
+        (x / x.hypot(y), y / x.hypot(y))
+    };
+    for (i, one) in lines.iter().enumerate() {
+        for other in lines[..i].iter().filter(|l| l.0 == one.0 || l.1 == one.1) {
+            let (d, e) = (direction(*one), direction(*other));
+            least = least.min((d.0 * e.1 - d.1 * e.0).abs());
+        }
+    }
+    for body in [base, platform] {
+        for (i, p) in body.joints.iter().enumerate() {
+            for q in &body.joints[..i] {
+                least = least.min((p.0 - q.0).hypot(p.1 - q.1) / 60.0);
+            }
+        }
+    }
+    least
+}
+
 fn diagram(svg: &mut Svg, t: Topology, centre: (f64, f64)) {
-    let layout = t.layout();
-    let base = drawn(&layout.base, (centre.0, centre.1 + RISE), BASE);
-    let platform = drawn(&layout.platform, (centre.0, centre.1 - RISE), PLATFORM);
+    let (layout, virtual_legs) = (t.layout(), t.trilateration().virtual_legs);
+    let at = |turn: f64| {
+        let base = drawn(&layout.base, (centre.0, centre.1 + RISE), BASE, turn);
+        (base, drawn(&layout.platform, (centre.0, centre.1 - RISE), PLATFORM, turn))
+    };
+    let lines: Vec<(usize, usize)> = t.legs().into_iter().chain(virtual_legs.iter().copied()).collect();
+    let turns = (0..TURNS).map(|k| std::f64::consts::TAU * f64::from(k) / f64::from(TURNS));
+    let clearest = turns.map(at).map(|(b, p)| (clearness(&b, &p, &lines), b, p));
+    // of equally clear ones the first, whatever the rounding
+    let best = clearest.reduce(|x, y| if y.0 > x.0 + 1e-9 { y } else { x });
+    let (base, platform) = best.map_or_else(|| at(0.0), |(_, b, p)| (b, p));
     svg.polygon("base", &outline(&base, &layout.base));
-    for (a, b) in t.trilateration().virtual_legs {
+    for (a, b) in virtual_legs {
         svg.line("virtual", base.joints[a], platform.joints[b]);
     }
     for (a, b) in t.legs() {
@@ -81,8 +114,8 @@ fn cell(svg: &mut Svg, figure: &TopologyFigure, corner: (f64, f64)) {
     svg.rect("pair", (corner.0 + 4.0, corner.1 + 4.0), (CELL.0 - 8.0, CELL.1 - 8.0));
     let name = format!("{}  {}", figure.topology.id(), figure.topology.name());
     svg.text("mid", (middle, corner.1 + 21.0), &name);
-    diagram(svg, figure.topology.topology(), (middle, corner.1 + 91.0));
-    svg.text("note mid", (middle, corner.1 + CELL.1 - 13.0), &figure.caption);
+    diagram(svg, figure.topology.topology(), (middle, corner.1 + 101.0));
+    svg.text("note mid", (middle, corner.1 + CELL.1 - 14.0), &figure.caption);
 }
 
 /// One topology.

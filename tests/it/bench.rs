@@ -105,6 +105,15 @@ fn a_perturbed_root_is_spurious_and_its_certificate_false() {
     assert!(report.false_certificates >= 3);
 }
 
+/// A pose `1e5` times as large as a rotation, in doubles about `1e-6` off the root; its enclosure is wider and true (checked with 60 digits).
+#[test]
+fn a_certificate_far_out_is_not_called_false() {
+    let class = Class::from_name("T31").unwrap();
+    let one = Plan { first: 82, count: 1, threads: 1, ..plan(class, 1) };
+    let report = run(&one, solver(None).as_ref(), &Homotopy).unwrap();
+    assert_eq!((report.expected, report.false_certificates, report.missed_roots), (16, 0, 0));
+}
+
 #[test]
 fn a_root_given_twice_is_spurious() {
     let report = cheated(|found| {

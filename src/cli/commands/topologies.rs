@@ -165,7 +165,7 @@ fn table(text: &mut String, entries: &[Entry]) {
 fn figure(e: &Entry) -> TopologyFigure {
     let legs = match e.sequence.virtual_legs.len() {
         0 => "trilaterable".to_string(),
-        1 if e.decoupled => "1 virtual leg, decoupled".to_string(),
+        1 if e.decoupled => "decoupled".to_string(),
         1 => "1 virtual leg".to_string(),
         n => format!("{n} virtual legs"),
     };
