@@ -100,7 +100,7 @@ pub(super) fn collect_with(
             (root, sources)
         })
         .collect();
-    order.sort_by(|a, b| sort_key(&a.0, length).total_cmp_with(&sort_key(&b.0, length)));
+    order.sort_by_cached_key(|root| sort_key(&root.0, length));
     let (roots, sources) = order.into_iter().unzip();
     Collected { roots, sources, rejected, doubtful }
 }
@@ -123,17 +123,18 @@ fn reality_of(c: &Candidate, length: f64, tolerances: &FkTolerances) -> Reality 
     }
 }
 
-struct SortKey([f64; 8]);
+/// Numbers compared one after the other, mapped to integers of the same order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct SortKey([i64; 8]);
 
-impl SortKey {
-    fn total_cmp_with(&self, other: &Self) -> std::cmp::Ordering {
-        let pairs = self.0.iter().zip(&other.0);
-        pairs.map(|(a, b)| a.total_cmp(b)).find(|o| o.is_ne()).unwrap_or(std::cmp::Ordering::Equal)
-    }
+/// Order of [`f64::total_cmp`] as that of integers.
+fn ordered(x: f64) -> i64 {
+    let bits = x.to_bits() as i64;
+    bits ^ (((bits >> 63) as u64) >> 1) as i64
 }
 
 /// Real roots first, then by position and rotation, rounded so that rounding errors do not reorder.
-fn sort_key(root: &FkRoot, length: f64) -> SortKey {
+pub(super) fn sort_key(root: &FkRoot, length: f64) -> SortKey {
     let rank = match root.reality {
         Reality::Real => 0.0,
         Reality::Undecided => 1.0,
@@ -142,7 +143,7 @@ fn sort_key(root: &FkRoot, length: f64) -> SortKey {
     let grid = |x: f64| (x * 1e6).round() + 0.0;
     let p = root.pose.position.map(|z| z / length);
     let r = &root.pose.rotation;
-    SortKey([
+    let numbers = [
         rank,
         grid(p.z.re),
         grid(p.x.re),
@@ -151,5 +152,6 @@ fn sort_key(root: &FkRoot, length: f64) -> SortKey {
         grid(r[(1, 0)].re),
         grid(p.z.im),
         grid(p.x.im),
-    ])
+    ];
+    SortKey(numbers.map(ordered))
 }

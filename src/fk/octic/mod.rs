@@ -5,6 +5,7 @@
 //! two. Eliminating `y` leaves an octic in `x` (Rojas, Borras, Thomas, sec. 3). Each root belongs to one
 //! `y` and to two poses, mirror images in the base plane: 16 poses.
 
+mod records;
 mod solver;
 
 pub use solver::{OcticPoses, OcticSolver};
@@ -43,7 +44,14 @@ impl ForwardKinematics for Octic {
 
     fn solve(&self, m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
         let solver = OcticSolver::new(m)?;
-        let (candidates, pairs, unplaced) = match solver.solve(s) {
+        let quick = solver.solve(s);
+        if let Some(found) = &quick {
+            let certificates = solver.certify(s, found);
+            if certificates.complete {
+                return Ok(records::proved(&solver, s, found, &certificates, o.seed));
+            }
+        }
+        let (candidates, pairs, unplaced) = match quick {
             Some(found) => (regular(&found), LANES, 0),
             None => solver.problem(s).candidates()?,
         };

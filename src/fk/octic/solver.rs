@@ -11,6 +11,8 @@ use crate::fk::{FkError, Method};
 use crate::geom::ComplexPose;
 use crate::manipulator::{Manipulator, Octahedral, SquaredLegLengths};
 use crate::poly::{Batch, LANES, octic_roots};
+use crate::solve::certify::exact_squares;
+use crate::solve::certify::octahedral::{OctahedralCertificates, OctahedralCertifier};
 
 /// Relative accuracy asked of the octic's roots before both closures take over.
 const COARSE: f64 = 1e-6;
@@ -50,6 +52,8 @@ pub struct OcticSolver {
     /// Corners in the design's frames over its size.
     base_corners: [Vector3<f64>; 3],
     platform_corners: [Vector3<f64>; 3],
+    /// Absent where the joints cannot be scaled exactly.
+    certifier: Option<OctahedralCertifier>,
 }
 
 /// A triangle in a frame of its own: corners `(0, 0)`, `(b, 0)`, `(u, v)`; rows of `axes` are the frame.
@@ -150,7 +154,17 @@ impl OcticSolver {
             platform: Triangle::of(&platform_corners),
             base_corners,
             platform_corners,
+            certifier: OctahedralCertifier::new(&octahedral).ok(),
         })
+    }
+
+    /// Proofs for the poses that [`solve`](Self::solve) gave for the same lengths: existence, uniqueness, reality of each pair, and
+    /// that all sixteen are distinct. Allocates nothing. Squared lengths are taken as exact.
+    #[must_use]
+    pub fn certify(&self, s: &SquaredLegLengths, found: &OcticPoses) -> OctahedralCertificates {
+        let none = OctahedralCertificates { pairs: [None; LANES], complete: false };
+        let Some(certifier) = &self.certifier else { return none };
+        certifier.certify(&exact_squares(s), &found.pairs, &found.poses)
     }
 
     /// All sixteen finite complex poses, or `None` where these lengths need the general treatment of
@@ -158,6 +172,14 @@ impl OcticSolver {
     /// plane, or a residual above `1e-12`.
     #[must_use]
     pub fn solve(&self, s: &SquaredLegLengths) -> Option<OcticPoses> {
+        pulp::Arch::new().dispatch(
+            #[inline(always)]
+            || self.solve_lanes(s),
+        )
+    }
+
+    #[inline(always)]
+    fn solve_lanes(&self, s: &SquaredLegLengths) -> Option<OcticPoses> {
         let scale = (self.size * self.size).recip();
         let given = s.get();
         let scaled = self.order.map(|i| given[i] * scale);
@@ -196,6 +218,10 @@ impl OcticSolver {
             *pose = next;
         }
         Some(worst)
+    }
+
+    pub(super) fn manipulator(&self) -> &Manipulator {
+        &self.manipulator
     }
 
     /// The same numbers for the general treatment.
@@ -305,6 +331,7 @@ impl OcticSolver {
     /// `R = E^T F G` with the rows of `E` and `G` the axes of the triangles, `F` the frame. Mirrored in the plane of the base the
     /// corners change the sign of their third coordinate, so that the first two axes do and the third, their cross product, changes its
     /// others.
+    #[inline(always)]
     fn poses(&self, p4: &Points, frame: &[Points; 3]) -> [ComplexPose; 2 * LANES] {
         let (e, g) = (&self.base.axes, &self.platform.axes);
         let (p1, b4) = (self.base_corners[0], self.platform_corners[0]);

@@ -34,6 +34,7 @@ mod certificate;
 mod distinct;
 mod inverse;
 mod krawczyk;
+pub mod octahedral;
 mod refine;
 mod second_order;
 mod system;

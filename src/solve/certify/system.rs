@@ -130,17 +130,17 @@ pub(super) struct LegSystem {
 }
 
 /// `2^k <= x < 2^(k+1)` for a positive normal `x`.
-fn power_of_two_below(x: f64) -> f64 {
+pub(super) fn power_of_two_below(x: f64) -> f64 {
     f64::from_bits(x.to_bits() & 0x7ff0_0000_0000_0000)
 }
 
 /// `x * factor` for a power of two, `None` when that is not exact.
-fn exact_product(x: f64, factor: f64) -> Option<f64> {
+pub(super) fn exact_product(x: f64, factor: f64) -> Option<f64> {
     let y = x * factor;
     (y.is_finite() && (y / factor).to_bits() == x.to_bits()).then_some(y)
 }
 
-fn scale_point(p: [f64; 3], factor: f64) -> Option<[f64; 3]> {
+pub(super) fn scale_point(p: [f64; 3], factor: f64) -> Option<[f64; 3]> {
     Some([exact_product(p[0], factor)?, exact_product(p[1], factor)?, exact_product(p[2], factor)?])
 }
 

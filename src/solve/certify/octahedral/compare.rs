@@ -1,0 +1,152 @@
+//! How far given poses are from the certified ones.
+//!
+//! `R = E^T F G`: rows of `E`, `G` are the frames of base and platform triangle, `F` is enclosed. Mirrored in the base plane the third
+//! coordinates of the corners change sign; the third axis is a cross product, so that `F` becomes `D F D`, `D = diag(1, 1, -1)`. With
+//! `F = F_e + F_o`, the part that keeps its signs and the part that changes them, `R = E^T F_e G +- E^T F_o G`. And `p = P1 + E^T c4 - R b4`.
+//!
+//! **Bounds.** `E`, `G` are orthogonal and known up to `r_E`, `r_G <= 2^-10` an entry; entries of `F` up to `rho`, their moduli at most `M`.
+//! Entries are at most the spectral norm, and that is at most three times the largest entry:
+//!
+//! * `|E'^T F' G' - E^T F G| <= 3 rho + 9 M (r_E + r_G) (1 + 3 r_G)`;
+//! * rounding: each term passes 7 roundings, column sums of `|E|`, `|G|` are at most `sqrt 3 (1 + 2^-8)`, two parts: below `40 u M`;
+//! * `p`: `2 rho_4 + 3 r_E M_4 + (bound of R) |b4|_1`, rounding `12 u (|a1| + 2 M_4 + M_R |b4|_1)`.
+
+#![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
+
+use super::corners::{Placed, extremes};
+use super::lanes::{Reals, sizes};
+use super::{OctahedralCertifier, PAIRS, U};
+use crate::geom::ComplexPose;
+use crate::poly::{Batch, LANES};
+
+/// Largest radius of a frame's entry for which the bounds hold.
+const FRAME: f64 = 1.0 / 1024.0;
+
+/// Of both poses of each lane, relative to the largest of 1 and the entries; NaN or infinite where nothing is known.
+#[inline(always)]
+pub(super) fn deviation(
+    design: &OctahedralCertifier,
+    placed: &Placed,
+    poses: &[ComplexPose; 2 * PAIRS],
+) -> Reals {
+    let (re, rg) = (design.base.axes_radius(), design.platform.axes_radius());
+    let (rho, m) = extremes(placed.frame.iter().flatten());
+    let (rho4, m4) = extremes(placed.p4.iter());
+    let turn = (rho.times(3.0) + m.times(10.0 * (re + rg) + 40.0 * U)).up();
+    let [a1, b4] = design.origins;
+    let arm: f64 = b4.iter().map(|b| b.abs()).sum();
+    let far = a1.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
+    let nominal = Nominal::of(design, placed);
+    let first = first_image(design, placed, poses);
+    let (mut worst, mut scale) = (Reals::ZERO, Reals::all(1.0));
+    let mut largest_entry = Reals::ZERO;
+    for mirrored in [false, true] {
+        let sign = first.times(if mirrored { -1.0 } else { 1.0 });
+        for i in 0..3 {
+            let mut p = nominal.corner[0][i] + signed(&nominal.corner[1][i], sign);
+            for j in 0..3 {
+                let r = nominal.even[i][j] + signed(&nominal.odd[i][j], sign);
+                let given = gather(poses, mirrored, |pose| pose.rotation[(i, j)]);
+                worst = worst.largest(sizes(&(given - r)));
+                (scale, largest_entry) = (raised(scale, &r), largest_entry.largest(sizes(&r)));
+                p = p - r.times(b4[j]);
+            }
+            p = p.plus(a1[i]);
+            let unit = design.unit.recip();
+            let given = gather(poses, mirrored, |pose| pose.position[i] * unit);
+            worst = worst.largest(sizes(&(given - p)));
+            scale = raised(scale, &p);
+        }
+    }
+    let shift = rho4.times(2.0) + m4.times(3.0 * re) + turn.times(arm);
+    let rounding = (m4.times(2.0) + largest_entry.times(arm)).plus(far).times(12.0 * U);
+    let bound = (worst + turn.largest((shift + rounding).up())).up();
+    let usable = re <= FRAME && rg <= FRAME;
+    bound.zip(scale, |b, s| if usable { b / s } else { f64::NAN })
+}
+
+/// 1 where pose `2k` is the image with `P4` on the side where it was placed, -1 where it is the other.
+#[inline(always)]
+fn first_image(design: &OctahedralCertifier, placed: &Placed, poses: &[ComplexPose; 2 * PAIRS]) -> Reals {
+    let ([a1, b4], normal) = (design.origins, design.base.axes[2]);
+    let mut height = Batch::ZERO;
+    let unit = design.unit.recip();
+    for i in 0..3 {
+        let mut corner = gather(poses, false, |pose| pose.position[i] * unit).plus(-a1[i]);
+        for j in 0..3 {
+            corner = corner + gather(poses, false, |pose| pose.rotation[(i, j)]).times(b4[j]);
+        }
+        height = height + corner.times(normal[i].c);
+    }
+    let z = &placed.p4[2].c;
+    let (near, far) = ((height - *z).norm_sqr(), (height + *z).norm_sqr());
+    Reals(near).zip(Reals(far), |n, f| if n <= f { 1.0 } else { -1.0 })
+}
+
+#[inline(always)]
+fn signed(z: &Batch, sign: Reals) -> Batch {
+    let mut out = *z;
+    for k in 0..LANES {
+        (out.re[k], out.im[k]) = (sign.0[k] * z.re[k], sign.0[k] * z.im[k]);
+    }
+    out
+}
+
+/// The larger of the scale and the parts of `z`: a scale needs no bound.
+#[inline(always)]
+fn raised(scale: Reals, z: &Batch) -> Reals {
+    let mut out = scale;
+    for k in 0..LANES {
+        let part = if z.re[k].abs() > z.im[k].abs() { z.re[k].abs() } else { z.im[k].abs() };
+        out.0[k] = if part > out.0[k] { part } else { out.0[k] };
+    }
+    out
+}
+
+#[inline(always)]
+fn gather(
+    poses: &[ComplexPose; 2 * PAIRS],
+    mirrored: bool,
+    entry: impl Fn(&ComplexPose) -> num_complex::Complex64,
+) -> Batch {
+    let mut out = Batch::ZERO;
+    for k in 0..LANES {
+        let z = entry(&poses[2 * k + usize::from(mirrored)]);
+        (out.re[k], out.im[k]) = (z.re, z.im);
+    }
+    out
+}
+
+/// Midpoints of `E^T F_e G`, `E^T F_o G` and of both parts of `E^T c4`.
+struct Nominal {
+    even: [[Batch; 3]; 3],
+    odd: [[Batch; 3]; 3],
+    corner: [[Batch; 3]; 2],
+}
+
+impl Nominal {
+    #[inline(always)]
+    fn of(design: &OctahedralCertifier, placed: &Placed) -> Self {
+        let (e, g) = (&design.base.axes, &design.platform.axes);
+        let f = &placed.frame;
+        let zero = [[Batch::ZERO; 3]; 3];
+        let mut out = Self { even: zero, odd: zero, corner: [[Batch::ZERO; 3]; 2] };
+        for i in 0..3 {
+            // column j of E^T F, split: rows 0 and 1 of F, row 2 of F
+            let plane = |j: usize| f[j][0].c.times(e[0][i].c) + f[j][1].c.times(e[1][i].c);
+            let normal = |j: usize| f[j][2].c.times(e[2][i].c);
+            let even = [plane(0), plane(1), normal(2)];
+            let odd = [normal(0), normal(1), plane(2)];
+            for j in 0..3 {
+                let turned =
+                    |t: &[Batch; 3]| t[0].times(g[0][j].c) + t[1].times(g[1][j].c) + t[2].times(g[2][j].c);
+                out.even[i][j] = turned(&even);
+                out.odd[i][j] = turned(&odd);
+            }
+            let p4 = &placed.p4;
+            out.corner[0][i] = p4[0].c.times(e[0][i].c) + p4[1].c.times(e[1][i].c);
+            out.corner[1][i] = p4[2].c.times(e[2][i].c);
+        }
+        out
+    }
+}

@@ -1,0 +1,231 @@
+//! Eight discs of complex numbers side by side; the error analysis is that of `num::disc`, lane by lane.
+
+#![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
+
+use std::ops::{Add, Mul, Neg, Sub};
+
+use super::ball::Ball;
+use crate::num::disc::{TINY, UP};
+use crate::poly::{Batch, LANES};
+
+const U: f64 = f64::EPSILON / 2.0;
+
+/// Eight reals.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Reals(pub(super) [f64; LANES]);
+
+impl Reals {
+    pub(super) const ZERO: Self = Self([0.0; LANES]);
+
+    #[inline(always)]
+    pub(super) fn all(x: f64) -> Self {
+        Self([x; LANES])
+    }
+
+    #[inline(always)]
+    pub(super) fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        let mut out = Self::ZERO;
+        for k in 0..LANES {
+            out.0[k] = f(self.0[k], other.0[k]);
+        }
+        out
+    }
+
+    #[inline(always)]
+    pub(super) fn map(self, f: impl Fn(f64) -> f64) -> Self {
+        let mut out = Self::ZERO;
+        for k in 0..LANES {
+            out.0[k] = f(self.0[k]);
+        }
+        out
+    }
+
+    /// The larger, or NaN where one is NaN.
+    #[inline(always)]
+    pub(super) fn largest(self, other: Self) -> Self {
+        self.zip(other, |a, b| if a >= b { a } else { b + 0.0 * a })
+    }
+
+    #[inline(always)]
+    pub(super) fn times(self, c: f64) -> Self {
+        self.map(|x| x * c)
+    }
+
+    #[inline(always)]
+    pub(super) fn plus(self, c: f64) -> Self {
+        self.map(|x| x + c)
+    }
+
+    /// Makes a bound computed in fewer than a thousand operations on non-negative numbers an upper bound.
+    #[inline(always)]
+    pub(super) fn up(self) -> Self {
+        self.map(|x| (x + TINY) * UP)
+    }
+}
+
+impl Add for Reals {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        self.zip(other, |a, b| a + b)
+    }
+}
+
+impl Mul for Reals {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        self.zip(other, |a, b| a * b)
+    }
+}
+
+/// `|re| + |im|`, at least the modulus.
+#[inline(always)]
+pub(super) fn sizes(z: &Batch) -> Reals {
+    let mut out = Reals::ZERO;
+    for k in 0..LANES {
+        out.0[k] = z.re[k].abs() + z.im[k].abs();
+    }
+    out
+}
+
+/// Eight discs; an infinite or NaN radius says nothing.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Discs {
+    pub(super) c: Batch,
+    pub(super) r: Reals,
+}
+
+impl Discs {
+    #[inline(always)]
+    pub(super) fn point(c: Batch) -> Self {
+        Self { c, r: Reals::ZERO }
+    }
+
+    #[inline(always)]
+    pub(super) fn real(x: Ball) -> Self {
+        Self { c: Batch::real(x.c), r: Reals::all(x.r) }
+    }
+
+    /// Upper bounds of the moduli.
+    #[inline(always)]
+    pub(super) fn magnitude(&self) -> Reals {
+        (sizes(&self.c) + self.r).up()
+    }
+
+    #[inline(always)]
+    pub(super) fn plus(self, x: Ball) -> Self {
+        let c = self.c.plus(x.c);
+        Self { c, r: (self.r.plus(x.r) + sizes(&c).times(U)).up() }
+    }
+
+    /// Product with a real ball: two roundings less than a complex product.
+    #[inline(always)]
+    pub(super) fn times(self, x: Ball) -> Self {
+        let z = sizes(&self.c);
+        let (size, rest) = (x.c.abs(), x.r);
+        let r = z.times(rest + 2.0 * U * size) + self.r.times(size + rest);
+        Self { c: self.c.times(x.c), r: r.up() }
+    }
+
+    /// Product with a power of two, exact barring underflow.
+    #[inline(always)]
+    pub(super) fn halved(self) -> Self {
+        Self { c: self.c.times(0.5), r: self.r.times(0.5) }
+    }
+
+    /// Encloses `1 / z`; infinite or NaN radius where the disc may hold zero. See `Disc::reciprocal`.
+    #[inline(always)]
+    pub(super) fn reciprocal(self) -> Self {
+        let c = self.c.reciprocal();
+        let mut r = Reals::ZERO;
+        for k in 0..LANES {
+            let square = self.c.re[k] * self.c.re[k] + self.c.im[k] * self.c.im[k];
+            let modulus = square.sqrt() * (2.0 - UP);
+            let low = (modulus - self.r.0[k] * UP) * (2.0 - UP);
+            let size = c.re[k].abs() + c.im[k].abs();
+            let radius = (self.r.0[k] / (modulus * low) + 10.0 * U * size + TINY) * UP;
+            // squares that may have underflown, or a disc about zero, prove nothing
+            r.0[k] = if low > TINY && square > TINY { radius } else { f64::INFINITY };
+        }
+        Self { c, r }
+    }
+
+    /// Encloses one square root of every number of the disc, continuously; infinite or NaN radius where the disc may hold zero.
+    ///
+    /// Of the roots `t` of `z` take the one with `Re(t conj q) >= 0`, `q` the computed root of the centre: then
+    /// `|t + q| >= |q|`, so that `|t - q| = |z - q^2| / |t + q| <= (r + |c - q^2|) / |q|`.
+    #[inline(always)]
+    pub(super) fn sqrt(self) -> Self {
+        let q = self.c.sqrt();
+        let error = (Self::point(self.c) - Self::point(q) * Self::point(q)).magnitude();
+        let mut r = Reals::ZERO;
+        for k in 0..LANES {
+            let square = q.re[k] * q.re[k] + q.im[k] * q.im[k];
+            let modulus = square.sqrt() * (2.0 - UP);
+            let radius = ((self.r.0[k] + error.0[k]) / modulus + TINY) * UP;
+            // the disc excludes zero when |q|^2 > r + |c - q^2|
+            let low = modulus * modulus * (2.0 - UP) - (self.r.0[k] + error.0[k]) * UP;
+            r.0[k] = if low > TINY && square > TINY { radius } else { f64::INFINITY };
+        }
+        Self { c: q, r }
+    }
+
+    /// `self` or its negative, whichever times `other` can be `product`; infinite radius where both can or neither.
+    #[inline(always)]
+    pub(super) fn with_product(self, other: Self, product: Self) -> Self {
+        let both = self * other;
+        let (same, opposite) = (product - both, product + both);
+        let mut out = self;
+        for k in 0..LANES {
+            let modulus = |d: &Self| (d.c.re[k] * d.c.re[k] + d.c.im[k] * d.c.im[k]).sqrt();
+            let excluded = |d: &Self| modulus(d) * (2.0 - UP) > d.r.0[k] * UP + TINY;
+            let sign = if modulus(&same) <= modulus(&opposite) { 1.0 } else { -1.0 };
+            (out.c.re[k], out.c.im[k]) = (sign * self.c.re[k], sign * self.c.im[k]);
+            let other_sign = if sign > 0.0 { excluded(&opposite) } else { excluded(&same) };
+            out.r.0[k] = if other_sign { self.r.0[k] } else { f64::INFINITY };
+        }
+        out
+    }
+
+    #[inline(always)]
+    pub(super) fn widen(&mut self, by: Reals) {
+        self.r = (self.r + by).up();
+    }
+}
+
+impl Neg for Discs {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self { c: self.c.times(-1.0), r: self.r }
+    }
+}
+
+impl Add for Discs {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        let c = self.c + other.c;
+        Self { c, r: (self.r + other.r + sizes(&c).times(U)).up() }
+    }
+}
+
+impl Sub for Discs {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        let c = self.c - other.c;
+        Self { c, r: (self.r + other.r + sizes(&c).times(U)).up() }
+    }
+}
+
+impl Mul for Discs {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        let (z, w) = (sizes(&self.c), sizes(&other.c));
+        let r = z * other.r + self.r * (w + other.r) + (z * w).times(3.0 * U);
+        Self { c: self.c * other.c, r: r.up() }
+    }
+}

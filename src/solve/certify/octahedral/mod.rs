@@ -1,0 +1,221 @@
+//! Certificates for octahedral platforms, all sixteen poses at once.
+//!
+//! With base triangle `P1 P2 P3`, platform triangle `P4 P5 P6` and legs `14 24 25 35 36 16`, a pose gives two unknown squared distances
+//! `x = s15`, `y = s34` that satisfy two closures (`closure`): Cayley-Menger determinants of the points 1 2 3 4 5 and 1 3 4 5 6. A regular zero
+//! of both at which `P4` (or `P5`) is off the base plane and 1 3 4 5 is no flat tetrahedron belongs to exactly two poses, regular and mirror
+//! images in the base plane; theorem and proof: `docs/theory/certificates.md`. So a test in two unknowns (`contraction`) certifies two poses, and their
+//! places follow by disc arithmetic (`corners`). Coefficients are enclosed from the joints as the exact doubles they are and from squared
+//! lengths as intervals. Nothing is shared with the solver but the order of the legs.
+
+#![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
+
+mod ball;
+mod closure;
+mod compare;
+mod contraction;
+mod corners;
+mod lanes;
+
+use num_complex::Complex64;
+
+use super::certificate::{ProvedReality, WhyUncertified};
+use super::system::{exact_product, power_of_two_below, scale_point};
+use crate::geom::ComplexPose;
+use crate::manipulator::{LegIndex, Octahedral};
+use crate::num::disc::{Disc, UP};
+use crate::num::interval::Interval;
+use crate::poly::{Batch, LANES};
+use ball::{Ball, Triangle};
+use closure::Closure;
+use contraction::{Contraction, contract};
+use corners::Data;
+use lanes::Discs;
+
+/// Pairs of poses of an octahedral platform.
+pub const PAIRS: usize = LANES;
+
+/// One octahedral design, ready to certify the poses for any leg lengths without allocation.
+#[derive(Debug, Clone)]
+pub struct OctahedralCertifier {
+    unit: f64,
+    order: [usize; 6],
+    base: Triangle,
+    platform: Triangle,
+    /// The platform triangle as `P5 P6 P4`.
+    turned: Triangle,
+    /// `P1` in the base frame and `P4` in the platform frame, over the unit.
+    origins: [[f64; 3]; 2],
+}
+
+/// Proof that exactly one pair `(s15, s34)` lies near a point, and that two given poses approximate its two poses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PairCertificate {
+    /// Discs that hold `s15` and `s34`, design units squared.
+    pub squared_distances: [Disc; 2],
+    /// No other pair lies in the discs about the same centres with these radii.
+    pub alone_within: [f64; 2],
+    /// What is proved about the two poses: both are real, or neither is.
+    pub reality: ProvedReality,
+    /// The entries of `R` and `p / unit` of the given poses are at most this far from those of the certified ones, relative to the largest
+    /// of them and 1.
+    pub deviation: f64,
+    /// `|J| |J^-1|` of the closures with rows scaled to one: an estimate, not a bound.
+    pub condition: f64,
+}
+
+/// What could be proved about eight pairs of poses.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OctahedralCertificates {
+    /// Pair by pair, `None` where there is no proof.
+    pub pairs: [Option<PairCertificate>; PAIRS],
+    /// Proved: all sixteen poses are certified and pairwise distinct.
+    pub complete: bool,
+}
+
+impl OctahedralCertifier {
+    /// Prepares a design.
+    ///
+    /// # Errors
+    /// [`WhyUncertified::OutOfRange`] when coordinates cannot be scaled exactly.
+    pub fn new(design: &Octahedral) -> Result<Self, WhyUncertified> {
+        let (base, platform) = (design.base(), design.platform());
+        let sides = |t: &[nalgebra::Point3<f64>; 3]| (t[1] - t[0]).norm().max((t[2] - t[0]).norm());
+        let size = sides(&base).max(sides(&platform));
+        if !(size > 1e-120 && size < 1e120) {
+            return Err(WhyUncertified::OutOfRange);
+        }
+        let unit = power_of_two_below(size);
+        let scaled = |p: nalgebra::Point3<f64>| {
+            scale_point(p.coords.into(), unit.recip())
+                .filter(|p| p.iter().all(|x| x.abs() < LARGEST))
+                .ok_or(WhyUncertified::OutOfRange)
+        };
+        let corners = |t: [nalgebra::Point3<f64>; 3]| -> Result<[[f64; 3]; 3], WhyUncertified> {
+            Ok([scaled(t[0])?, scaled(t[1])?, scaled(t[2])?])
+        };
+        let (p, q) = (corners(base)?, corners(platform)?);
+        Ok(Self {
+            unit,
+            order: design.order().map(LegIndex::get),
+            base: Triangle::of(p),
+            platform: Triangle::of(q),
+            turned: Triangle::of([q[1], q[2], q[0]]),
+            origins: [p[0], q[0]],
+        })
+    }
+
+    /// Tries to prove that near each of the `pairs` (approximations of `s15`, `s34`, design units squared) there is exactly one, and that poses
+    /// `2k`, `2k + 1` approximate the two poses of pair `k`, `2k + 1` being the mirror image of `2k`.
+    ///
+    /// `s` are the squared leg lengths in the design's order.
+    #[must_use]
+    pub fn certify(
+        &self,
+        s: &[Interval; 6],
+        pairs: &[[Complex64; 2]; PAIRS],
+        poses: &[ComplexPose; 2 * PAIRS],
+    ) -> OctahedralCertificates {
+        let none = OctahedralCertificates { pairs: [None; PAIRS], complete: false };
+        let scale = (self.unit * self.unit).recip();
+        let mut squares = [Ball::ZERO; 6];
+        for (square, i) in squares.iter_mut().zip(self.order) {
+            let ends = exact_product(s[i].lo(), scale).zip(exact_product(s[i].hi(), scale));
+            let Some(interval) = ends.and_then(|(lo, hi)| Interval::new(lo, hi)) else { return none };
+            *square = Ball::of(interval);
+        }
+        let (mut x, mut y) = (Batch::ZERO, Batch::ZERO);
+        for (k, pair) in pairs.iter().enumerate() {
+            (x.re[k], x.im[k]) = (pair[0].re * scale, pair[0].im * scale);
+            (y.re[k], y.im[k]) = (pair[1].re * scale, pair[1].im * scale);
+        }
+        let in_range = |z: &Batch| z.re.iter().chain(&z.im).all(|v| v.abs() < LARGEST);
+        if !(in_range(&x) && in_range(&y) && squares.iter().all(|s| s.magnitude() < LARGEST)) {
+            return none;
+        }
+        pulp::Arch::new().dispatch(
+            #[inline(always)]
+            || self.prove(&squares, &x, &y, poses),
+        )
+    }
+
+    #[inline(always)]
+    fn prove(
+        &self,
+        s: &[Ball; 6],
+        x: &Batch,
+        y: &Batch,
+        poses: &[ComplexPose; 2 * PAIRS],
+    ) -> OctahedralCertificates {
+        let closures = [
+            Closure::new(&self.base, [s[2], s[3]], [s[0], s[1]], self.platform.bb),
+            Closure::new(&self.turned, [s[5], s[0]], [s[3], s[4]], self.base.cc),
+        ];
+        let found = contract(&closures, x, y);
+        let radii = found.weights.map(|w| (w * found.radius).up());
+        let discs = [Discs { c: *x, r: radii[0] }, Discs { c: *y, r: radii[1] }];
+        let data = Data { base: &self.base, platform: &self.platform, s };
+        let placed = data.place(discs[0], discs[1]);
+        let deviation = compare::deviation(self, &placed, poses);
+        let positive = placed.squared_height.c.re;
+        let unit = self.unit * self.unit;
+        let mut out = OctahedralCertificates { pairs: [None; PAIRS], complete: false };
+        for k in 0..PAIRS {
+            if !(found.step.0[k] <= super::NEAR && deviation.0[k] <= super::NEAR) {
+                continue;
+            }
+            let disc = |d: &Discs| Disc { centre: d.c.lane(k) * unit, radius: d.r.0[k] * unit };
+            out.pairs[k] = Some(PairCertificate {
+                squared_distances: [disc(&discs[0]), disc(&discs[1])],
+                alone_within: found.weights.map(|w| w.0[k] * found.uniqueness.0[k] * (2.0 - UP) * unit),
+                reality: reality(&found, x, y, positive[k], k),
+                deviation: deviation.0[k],
+                condition: found.condition.0[k],
+            });
+        }
+        let certified = out.pairs.iter().all(Option::is_some);
+        out.complete = certified && are_disjoint(&discs);
+        out
+    }
+}
+
+/// Coordinates and squared distances in units of the design stay below this, and products of eight of them in range.
+const LARGEST: f64 = (1u64 << 50) as f64;
+
+/// The system is real, so that the conjugate of a pair is one; within the uniqueness ball it is the pair itself. The poses of a real pair
+/// are real when the squared height, which is real and not zero, is positive, and neither is when it is negative.
+#[inline(always)]
+fn reality(found: &Contraction, x: &Batch, y: &Batch, height: f64, k: usize) -> ProvedReality {
+    let imaginary = (x.im[k].abs() / found.weights[0].0[k]).max(y.im[k].abs() / found.weights[1].0[k]);
+    let (radius, alone) = (found.radius.0[k], found.uniqueness.0[k]);
+    if (radius + 2.0 * imaginary) * UP <= alone {
+        if height > 0.0 { ProvedReality::Real } else { ProvedReality::NonReal }
+    } else if imaginary > radius * UP {
+        ProvedReality::NonReal
+    } else {
+        ProvedReality::Undecided
+    }
+}
+
+/// Every two lanes have disjoint discs in one of the unknowns.
+#[inline(always)]
+fn are_disjoint(discs: &[Discs; 2]) -> bool {
+    let mut all = true;
+    for shift in 1..=LANES / 2 {
+        for k in 0..LANES {
+            let l = (k + shift) % LANES;
+            let apart = |d: &Discs| {
+                let (re, im) = ((d.c.re[k] - d.c.re[l]).abs(), (d.c.im[k] - d.c.im[l]).abs());
+                let sum: f64 = (d.r.0[k] + d.r.0[l]) * UP;
+                (re > sum) | (im > sum)
+            };
+            all &= apart(&discs[0]) | apart(&discs[1]);
+        }
+    }
+    all
+}
+
+/// Unit roundoff.
+const U: f64 = f64::EPSILON / 2.0;
+
+#[cfg(test)]
+mod tests;
