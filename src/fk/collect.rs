@@ -129,8 +129,8 @@ pub(super) struct SortKey([i64; 8]);
 
 /// Order of [`f64::total_cmp`] as that of integers.
 fn ordered(x: f64) -> i64 {
-    let bits = x.to_bits() as i64;
-    bits ^ (((bits >> 63) as u64) >> 1) as i64
+    let bits = x.to_bits().cast_signed();
+    bits ^ ((bits >> 63).cast_unsigned() >> 1).cast_signed()
 }
 
 /// Real roots first, then by position and rotation, rounded so that rounding errors do not reorder.

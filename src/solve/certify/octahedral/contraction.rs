@@ -104,7 +104,7 @@ fn radii(eta: Reals, kappa: Reals, beta: Reals) -> (Reals, Reals) {
         let wide = room / beta * (1.0 - 1e-9) - r;
         let wide = if wide < REACH { wide } else { REACH };
         let alone = wide > r * (1.0 + 1e-9) && (kappa + beta * (r + wide)) * UP < 1.0;
-        let proved = inside & contracts & alone & (kappa < 1.0) & (r < REACH);
+        let proved = inside && contracts && alone && kappa < 1.0 && r < REACH;
         radius.0[k] = if proved { r } else { f64::NAN };
         uniqueness.0[k] = if proved { wide } else { f64::NAN };
     }

@@ -206,7 +206,7 @@ fn are_disjoint(discs: &[Discs; 2]) -> bool {
             let apart = |d: &Discs| {
                 let (re, im) = ((d.c.re[k] - d.c.re[l]).abs(), (d.c.im[k] - d.c.im[l]).abs());
                 let sum: f64 = (d.r.0[k] + d.r.0[l]) * UP;
-                (re > sum) | (im > sum)
+                re > sum || im > sum
             };
             all &= apart(&discs[0]) | apart(&discs[1]);
         }
