@@ -105,7 +105,8 @@ pub(super) fn collect_with(
     Collected { roots, sources, rejected, doubtful }
 }
 
-fn pose_scale(p: &ComplexPose, length: f64) -> f64 {
+/// The largest of 1 and the moduli of `R` and of `p` over the size.
+pub(super) fn pose_scale(p: &ComplexPose, length: f64) -> f64 {
     let r = p.rotation.iter().map(Complex64::norm_sqr).fold(1.0, f64::max);
     p.position.iter().map(|z| z.norm_sqr() / (length * length)).fold(r, f64::max).sqrt()
 }

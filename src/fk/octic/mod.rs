@@ -5,6 +5,8 @@
 //! two. Eliminating `y` leaves an octic in `x` (Rojas, Borras, Thomas, sec. 3). Each root belongs to one
 //! `y` and to two poses, mirror images in the base plane: 16 poses.
 
+mod factors;
+mod lanes;
 mod records;
 mod solver;
 
@@ -13,12 +15,13 @@ pub use solver::{OcticPoses, OcticSolver};
 use nalgebra::{Matrix3, Vector3};
 use num_complex::Complex64;
 
-use super::collect::{Candidate, collect};
+use super::collect::{Candidate, collect, pose_scale};
 use super::evidence::{OCTAHEDRAL, attach};
 use super::{Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, SolutionSet};
 use crate::geom::{ComplexPose, trilaterate};
 use crate::manipulator::{Leg, Manipulator, Octahedral, SquaredLegLengths};
 use crate::poly::{LANES, roots};
+use crate::solve::certify::{Certifier, exact_squares};
 
 /// Forward kinematics of octahedral platforms (also of those whose joints coincide without being named as
 /// shared: only coordinates count).
@@ -48,13 +51,14 @@ impl ForwardKinematics for Octic {
         if let Some(found) = &quick {
             let certificates = solver.certify(s, found);
             if certificates.complete {
-                return Ok(records::proved(&solver, s, found, &certificates, o.seed));
+                return Ok(records::proved(&solver, found, &certificates, o.seed));
             }
         }
         let (candidates, pairs, unplaced) = match quick {
             Some(found) => (regular(&found), LANES, 0),
             None => solver.problem(s).candidates()?,
         };
+        let candidates = sharpened(m, s, candidates);
         let collected = collect(m, s, &o.tolerances, &candidates);
         let found = collected.roots.len();
         let all_paths_accounted = found == 16 && unplaced == 0;
@@ -87,6 +91,28 @@ fn regular(found: &OcticPoses) -> Vec<Candidate> {
     found.poses.iter().enumerate().map(candidate).collect()
 }
 
+/// Poses with entries above this, positions over the size, are refined beyond doubles before they are given.
+const FAR: f64 = 30.0;
+/// Farthest that refinement may lead, relative to the pose's own numbers.
+const REFINED: f64 = 1e-2;
+
+/// Poses far out, which the trilateration gives with few digits, in all digits of a double.
+fn sharpened(m: &Manipulator, s: &SquaredLegLengths, mut candidates: Vec<Candidate>) -> Vec<Candidate> {
+    let far = |c: &Candidate| pose_scale(&c.pose, m.size()) > FAR;
+    if !candidates.iter().any(far) {
+        return candidates;
+    }
+    let Ok(certifier) = Certifier::new(m, &exact_squares(s)) else { return candidates };
+    for c in candidates.iter_mut().filter(|c| pose_scale(&c.pose, m.size()) > FAR) {
+        let Ok(refined) = certifier.refine(&c.pose) else { continue };
+        let pose = refined.pose();
+        if pose.distance(&c.pose, m.size()) <= REFINED * pose_scale(&c.pose, m.size()) {
+            c.pose = pose;
+        }
+    }
+    candidates
+}
+
 /// Squared distances of an apex to the corners `A, B, C` of a triangle, each `k[0] + k[1] x`.
 type Apex = [[f64; 2]; 3];
 
@@ -95,7 +121,7 @@ type Apex = [[f64; 2]; 3];
 /// Origin in corner `A`; `q` is the projection into the plane of the triangle, `h` the squared height. It
 /// vanishes when `U` and `V` can be placed at squared distance `d`: the Cayley-Menger determinant of the
 /// five points up to a constant.
-#[inline]
+#[inline(always)]
 fn closure(triangle: [&Vector3<f64>; 3], u: Apex, v: Apex, d: f64) -> Biquadratic {
     let (b, c) = (triangle[1] - triangle[0], triangle[2] - triangle[0]);
     let (bb, bc, cc) = (b.norm_squared(), b.dot(&c), c.norm_squared());
@@ -141,7 +167,7 @@ fn closure(triangle: [&Vector3<f64>; 3], u: Apex, v: Apex, d: f64) -> Biquadrati
 }
 
 /// `a_i b_j - a_j b_i` for the coefficients of `y^i`, `y^j`: a polynomial of degree four in `x`.
-#[inline]
+#[inline(always)]
 fn minor(a: &Biquadratic, b: &Biquadratic, i: usize, j: usize) -> [f64; 5] {
     let mut out = [0.0; 5];
     for k in 0..3 {
@@ -153,7 +179,7 @@ fn minor(a: &Biquadratic, b: &Biquadratic, i: usize, j: usize) -> [f64; 5] {
 }
 
 /// Resultant with respect to `y`: `(a2 b0 - a0 b2)^2 - (a2 b1 - a1 b2)(a1 b0 - a0 b1)`.
-#[inline]
+#[inline(always)]
 fn resultant(a: &Biquadratic, b: &Biquadratic) -> [f64; 9] {
     let (outer, high, low) = (minor(a, b, 2, 0), minor(a, b, 2, 1), minor(a, b, 1, 0));
     let mut out = [0.0; 9];

@@ -4,7 +4,6 @@ use super::{OcticPoses, OcticSolver};
 use crate::fk::collect::sort_key;
 use crate::fk::evidence::OCTAHEDRAL;
 use crate::fk::{Completeness, FkRoot, FkSolutions, Method, Reality, SolutionSet};
-use crate::manipulator::SquaredLegLengths;
 use crate::poly::LANES;
 use crate::solve::certify::ProvedReality;
 use crate::solve::certify::octahedral::OctahedralCertificates;
@@ -12,25 +11,25 @@ use crate::solve::certify::octahedral::OctahedralCertificates;
 /// The answer for poses all of which are certified and distinct.
 pub(super) fn proved(
     solver: &OcticSolver,
-    s: &SquaredLegLengths,
     found: &OcticPoses,
     certificates: &OctahedralCertificates,
     seed: u64,
 ) -> FkSolutions {
-    let (m, size) = (solver.manipulator(), solver.manipulator().size());
+    let size = solver.manipulator().size();
     let mut roots: Vec<FkRoot> = Vec::with_capacity(2 * LANES);
-    for (pair, poses) in certificates.pairs.iter().flatten().zip(found.poses.chunks(2)) {
+    let pairs = certificates.pairs.iter().flatten();
+    for ((pair, poses), residuals) in pairs.zip(found.poses.chunks(2)).zip(found.residuals.chunks(2)) {
         let reality = match pair.reality {
             ProvedReality::Real => Reality::Real,
             ProvedReality::NonReal => Reality::NonReal,
             ProvedReality::Undecided => Reality::Undecided,
         };
-        roots.extend(poses.iter().map(|pose| FkRoot {
+        roots.extend(poses.iter().zip(residuals).map(|(pose, residual)| FkRoot {
             pose: *pose,
             reality,
             certified: true,
             multiplicity: 1,
-            residual: pose.residual(m, s),
+            residual: *residual,
             condition: pair.condition,
         }));
     }

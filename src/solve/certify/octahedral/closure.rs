@@ -39,6 +39,7 @@ pub(super) struct Curvature {
 
 impl Closure {
     /// `u = [u_B, u_C]`, `v = [v_A, v_B]`.
+    #[inline(always)]
     pub(super) fn new(t: &Triangle, u: [Ball; 2], v: [Ball; 2], d: Ball) -> Self {
         let (bb, bc, cc, area) = (t.bb, t.bc, t.cc, t.area);
         let half = |z: Ball| z.scaled(0.5);
@@ -66,11 +67,6 @@ impl Closure {
         let wx = y.times(w11).plus(w10);
         let w = wx * x + y.times(w01).plus(w00);
         let wy = x.times(w11).plus(w01);
-        let quadratic = |c: &[Ball; 3], z: Discs| {
-            let slope = z.times(c[2]).plus(c[1]);
-            (slope * z).plus(c[0])
-        };
-        let derivative = |c: &[Ball; 3], z: Discs| z.times(c[2].scaled(2.0)).plus(c[1]);
         let (hu, hv) = (quadratic(&self.hu, x), quadratic(&self.hv, y));
         let twice = w + w;
         Values {
@@ -88,13 +84,27 @@ impl Closure {
         let wx = y.times(w[1][1]).plus(w[1][0]);
         let wy = x.times(w[1][1]).plus(w[0][1]);
         let value = wx * x + y.times(w[0][1]).plus(w[0][0]);
-        let quadratic = |c: &[f64; 3], z: Reals| (z.times(c[2]).plus(c[1]) * z).plus(c[0]);
-        let slope = |c: &[f64; 3], z: Reals| z.times(2.0 * c[2]).plus(c[1]);
-        let (hu, hv, du, dv) = (quadratic(&u, x), quadratic(&v, y), slope(&u, x), slope(&v, y));
+        let (hu, hv) = (bound(&u, x), bound(&v, y));
+        let (du, dv) = (x.times(2.0 * u[2]).plus(u[1]), y.times(2.0 * v[2]).plus(v[1]));
         Curvature {
             xx: ((wx * wx).times(2.0) + hv.times(2.0 * u[2])).up(),
             xy: ((wx * wy + value.times(w[1][1])).times(2.0) + du * dv).up(),
             yy: ((wy * wy).times(2.0) + hu.times(2.0 * v[2])).up(),
         }
     }
+}
+
+#[inline(always)]
+fn quadratic(c: &[Ball; 3], z: Discs) -> Discs {
+    (z.times(c[2]).plus(c[1]) * z).plus(c[0])
+}
+
+#[inline(always)]
+fn derivative(c: &[Ball; 3], z: Discs) -> Discs {
+    z.times(c[2].scaled(2.0)).plus(c[1])
+}
+
+#[inline(always)]
+fn bound(c: &[f64; 3], z: Reals) -> Reals {
+    (z.times(c[2]).plus(c[1]) * z).plus(c[0])
 }

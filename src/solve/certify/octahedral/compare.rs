@@ -14,7 +14,7 @@
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
 use super::corners::{Placed, extremes};
-use super::lanes::{Reals, sizes};
+use super::lanes::{Reals, parts, sizes};
 use super::{OctahedralCertifier, PAIRS, U};
 use crate::geom::ComplexPose;
 use crate::poly::{Batch, LANES};
@@ -30,8 +30,8 @@ pub(super) fn deviation(
     poses: &[ComplexPose; 2 * PAIRS],
 ) -> Reals {
     let (re, rg) = (design.base.axes_radius(), design.platform.axes_radius());
-    let (rho, m) = extremes(placed.frame.iter().flatten());
-    let (rho4, m4) = extremes(placed.p4.iter());
+    let (rho, m) = extremes(&placed.frame);
+    let (rho4, m4) = extremes(&[placed.p4]);
     let turn = (rho.times(3.0) + m.times(10.0 * (re + rg) + 40.0 * U)).up();
     let [a1, b4] = design.origins;
     let arm: f64 = b4.iter().map(|b| b.abs()).sum();
@@ -48,14 +48,14 @@ pub(super) fn deviation(
                 let r = nominal.even[i][j] + signed(&nominal.odd[i][j], sign);
                 let given = gather(poses, mirrored, |pose| pose.rotation[(i, j)]);
                 worst = worst.largest(sizes(&(given - r)));
-                (scale, largest_entry) = (raised(scale, &r), largest_entry.largest(sizes(&r)));
+                (scale, largest_entry) = (scale.largest(parts(&r)), largest_entry.largest(sizes(&r)));
                 p = p - r.times(b4[j]);
             }
             p = p.plus(a1[i]);
             let unit = design.unit.recip();
             let given = gather(poses, mirrored, |pose| pose.position[i] * unit);
             worst = worst.largest(sizes(&(given - p)));
-            scale = raised(scale, &p);
+            scale = scale.largest(parts(&p));
         }
     }
     let shift = rho4.times(2.0) + m4.times(3.0 * re) + turn.times(arm);
@@ -92,17 +92,6 @@ fn signed(z: &Batch, sign: Reals) -> Batch {
     out
 }
 
-/// The larger of the scale and the parts of `z`: a scale needs no bound.
-#[inline(always)]
-fn raised(scale: Reals, z: &Batch) -> Reals {
-    let mut out = scale;
-    for k in 0..LANES {
-        let part = if z.re[k].abs() > z.im[k].abs() { z.re[k].abs() } else { z.im[k].abs() };
-        out.0[k] = if part > out.0[k] { part } else { out.0[k] };
-    }
-    out
-}
-
 #[inline(always)]
 fn gather(
     poses: &[ComplexPose; 2 * PAIRS],
@@ -132,16 +121,17 @@ impl Nominal {
         let zero = [[Batch::ZERO; 3]; 3];
         let mut out = Self { even: zero, odd: zero, corner: [[Batch::ZERO; 3]; 2] };
         for i in 0..3 {
-            // column j of E^T F, split: rows 0 and 1 of F, row 2 of F
-            let plane = |j: usize| f[j][0].c.times(e[0][i].c) + f[j][1].c.times(e[1][i].c);
-            let normal = |j: usize| f[j][2].c.times(e[2][i].c);
-            let even = [plane(0), plane(1), normal(2)];
-            let odd = [normal(0), normal(1), plane(2)];
+            // row i of E^T F, split: rows 0 and 1 of F, row 2 of F
+            let (mut even, mut odd) = ([Batch::ZERO; 3], [Batch::ZERO; 3]);
             for j in 0..3 {
-                let turned =
-                    |t: &[Batch; 3]| t[0].times(g[0][j].c) + t[1].times(g[1][j].c) + t[2].times(g[2][j].c);
-                out.even[i][j] = turned(&even);
-                out.odd[i][j] = turned(&odd);
+                let plane = f[j][0].c.times(e[0][i].c) + f[j][1].c.times(e[1][i].c);
+                let normal = f[j][2].c.times(e[2][i].c);
+                (even[j], odd[j]) = if j < 2 { (plane, normal) } else { (normal, plane) };
+            }
+            for j in 0..3 {
+                let g = [g[0][j].c, g[1][j].c, g[2][j].c];
+                out.even[i][j] = even[0].times(g[0]) + even[1].times(g[1]) + even[2].times(g[2]);
+                out.odd[i][j] = odd[0].times(g[0]) + odd[1].times(g[1]) + odd[2].times(g[2]);
             }
             let p4 = &placed.p4;
             out.corner[0][i] = p4[0].c.times(e[0][i].c) + p4[1].c.times(e[1][i].c);

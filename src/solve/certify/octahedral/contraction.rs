@@ -55,13 +55,13 @@ pub(super) fn contract(closures: &[Closure; 2], x: &Batch, y: &Batch) -> Contrac
     let det = (j[0][0].c * j[1][1].c - j[0][1].c * j[1][0].c).reciprocal();
     let y_matrix =
         [[j[1][1].c * det, (j[0][1].c * det).times(-1.0)], [(j[1][0].c * det).times(-1.0), j[0][0].c * det]];
-    let reach = |z: &Batch, w: Reals| (sizes(z) + w.times(REACH)).up();
-    let (big_x, big_y) = (reach(x, weights[0]), reach(y, weights[1]));
-    let second = [closures[0].curvature(big_x, big_y), closures[1].curvature(big_x, big_y)];
-    let q = second.map(|c: Curvature| {
-        let [sx, sy] = weights;
-        ((c.xx * sx * sx + c.yy * sy * sy).times(0.5) + c.xy * sx * sy).up()
-    });
+    let [sx, sy] = weights;
+    let (big_x, big_y) = ((sizes(x) + sx.times(REACH)).up(), (sizes(y) + sy.times(REACH)).up());
+    let mut q = [Reals::ZERO; 2];
+    for (q, closure) in q.iter_mut().zip(closures) {
+        let Curvature { xx, xy, yy } = closure.curvature(big_x, big_y);
+        *q = ((xx * sx * sx + yy * sy * sy).times(0.5) + xy * sx * sy).up();
+    }
     let mut bounds = [Reals::ZERO; 3];
     let mut norms = [[Reals::ZERO; 2]; 2];
     for k in 0..2 {
@@ -81,11 +81,16 @@ pub(super) fn contract(closures: &[Closure; 2], x: &Batch, y: &Batch) -> Contrac
             *bound = bound.largest(new);
         }
     }
-    let gradient = |i: usize| sizes(&j[i][0].c) * weights[0] + sizes(&j[i][1].c) * weights[1];
-    let row = |k: usize| norms[k][0] * gradient(0) + norms[k][1] * gradient(1);
-    let [eta, kappa, beta] = bounds.map(Reals::up);
+    let mut gradient = [Reals::ZERO; 2];
+    for i in 0..2 {
+        gradient[i] = sizes(&j[i][0].c) * sx + sizes(&j[i][1].c) * sy;
+    }
+    let condition = (norms[0][0] * gradient[0] + norms[0][1] * gradient[1])
+        .largest(norms[1][0] * gradient[0] + norms[1][1] * gradient[1]);
+    let [eta, kappa, beta] = bounds;
+    let (eta, kappa, beta) = (eta.up(), kappa.up(), beta.up());
     let (radius, uniqueness) = radii(eta, kappa, beta);
-    Contraction { weights, radius, uniqueness, step: eta, condition: row(0).largest(row(1)) }
+    Contraction { weights, radius, uniqueness, step: eta, condition }
 }
 
 /// Radii of the ball that holds the root and of that in which it is alone, NaN where there is no proof.

@@ -30,11 +30,6 @@ fn dot(a: &Points, b: &Points) -> Discs {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-#[inline(always)]
-fn minus(a: &Points, b: &Points) -> Points {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
 /// Design and lengths, in cyclic order `s14 s24 s25 s35 s36 s16`; the platform triangle is `P4 P5 P6`.
 pub(super) struct Data<'a> {
     pub(super) base: &'a Triangle,
@@ -82,7 +77,10 @@ impl Data<'_> {
         let from5 = [-p5[2].times(v), p5[2].times(u), p5[0].times(v) - p5[1].times(u)];
         let from4 = [p4[2].times(v), -p4[2].times(u), p4[1].times(u) - p4[0].times(v)];
         let inverse = (normal[0].times(u) + normal[1].times(v)).reciprocal();
-        let p6 = [0, 1, 2].map(|k| (normal[k].times(k3) + from5[k].times(k4) + from4[k] * k5) * inverse);
+        let mut p6 = [Discs::ZERO; 3];
+        for k in 0..3 {
+            p6[k] = (normal[k].times(k3) + from5[k].times(k4) + from4[k] * k5) * inverse;
+        }
         Corners { p4, p5, p6, squared_height, from5, from4, inverse }
     }
 
@@ -116,9 +114,11 @@ impl Data<'_> {
         }
         let Corners { p4, p5, p6, .. } = tight;
         let (side, height) = (t.len.reciprocal(), t.v.reciprocal());
-        let ax = minus(&p5, &p4).map(|z| z.times(side));
-        let w = minus(&p6, &p4);
-        let ay = [0, 1, 2].map(|k| (w[k] - ax[k].times(t.u)).times(height));
+        let (mut ax, mut ay) = ([Discs::ZERO; 3], [Discs::ZERO; 3]);
+        for k in 0..3 {
+            ax[k] = (p5[k] - p4[k]).times(side);
+            ay[k] = (p6[k] - p4[k] - ax[k].times(t.u)).times(height);
+        }
         let az = cross(&ax, &ay);
         Placed { p4, frame: [ax, ay, az], squared_height: wide.squared_height }
     }
@@ -126,6 +126,11 @@ impl Data<'_> {
 
 /// The larger of both radii and moduli over some discs.
 #[inline(always)]
-pub(super) fn extremes<'a>(discs: impl Iterator<Item = &'a Discs>) -> (Reals, Reals) {
-    discs.fold((Reals::ZERO, Reals::ZERO), |(r, m), d| (r.largest(d.r), m.largest(d.magnitude())))
+pub(super) fn extremes(points: &[Points]) -> (Reals, Reals) {
+    let (mut radius, mut modulus) = (Reals::ZERO, Reals::ZERO);
+    for d in points.iter().flatten() {
+        radius = radius.largest(d.r);
+        modulus = modulus.largest(d.magnitude());
+    }
+    (radius, modulus)
 }

@@ -89,6 +89,17 @@ pub(super) fn sizes(z: &Batch) -> Reals {
     out
 }
 
+/// The larger of `|re|` and `|im|`, at most the modulus.
+#[inline(always)]
+pub(super) fn parts(z: &Batch) -> Reals {
+    let mut out = Reals::ZERO;
+    for k in 0..LANES {
+        let (re, im) = (z.re[k].abs(), z.im[k].abs());
+        out.0[k] = if re > im { re } else { im };
+    }
+    out
+}
+
 /// Eight discs; an infinite or NaN radius says nothing.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Discs {
@@ -97,6 +108,8 @@ pub(super) struct Discs {
 }
 
 impl Discs {
+    pub(super) const ZERO: Self = Self { c: Batch::ZERO, r: Reals::ZERO };
+
     #[inline(always)]
     pub(super) fn point(c: Batch) -> Self {
         Self { c, r: Reals::ZERO }
@@ -176,14 +189,15 @@ impl Discs {
     pub(super) fn with_product(self, other: Self, product: Self) -> Self {
         let both = self * other;
         let (same, opposite) = (product - both, product + both);
+        let (near, far) = (parts(&same.c), parts(&opposite.c));
         let mut out = self;
         for k in 0..LANES {
-            let modulus = |d: &Self| (d.c.re[k] * d.c.re[k] + d.c.im[k] * d.c.im[k]).sqrt();
-            let excluded = |d: &Self| modulus(d) * (2.0 - UP) > d.r.0[k] * UP + TINY;
-            let sign = if modulus(&same) <= modulus(&opposite) { 1.0 } else { -1.0 };
+            let (near, far) = (near.0[k], far.0[k]);
+            let sign = if near <= far { 1.0 } else { -1.0 };
             (out.c.re[k], out.c.im[k]) = (sign * self.c.re[k], sign * self.c.im[k]);
-            let other_sign = if sign > 0.0 { excluded(&opposite) } else { excluded(&same) };
-            out.r.0[k] = if other_sign { self.r.0[k] } else { f64::INFINITY };
+            let (modulus, radius) = if sign > 0.0 { (far, opposite.r.0[k]) } else { (near, same.r.0[k]) };
+            // the largest part of the centre is a lower bound of its modulus
+            out.r.0[k] = if modulus > radius * UP + TINY { self.r.0[k] } else { f64::INFINITY };
         }
         out
     }

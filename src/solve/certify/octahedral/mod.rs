@@ -132,10 +132,7 @@ impl OctahedralCertifier {
         if !(in_range(&x) && in_range(&y) && squares.iter().all(|s| s.magnitude() < LARGEST)) {
             return none;
         }
-        pulp::Arch::new().dispatch(
-            #[inline(always)]
-            || self.prove(&squares, &x, &y, poses),
-        )
+        pulp::Arch::new().dispatch(Proof { certifier: self, squares: &squares, pairs: [&x, &y], poses })
     }
 
     #[inline(always)]
@@ -175,6 +172,23 @@ impl OctahedralCertifier {
         let certified = out.pairs.iter().all(Option::is_some);
         out.complete = certified && are_disjoint(&discs);
         out
+    }
+}
+
+/// A proof to be made with the vector units that the machine turns out to have; the results are the same on all.
+struct Proof<'a> {
+    certifier: &'a OctahedralCertifier,
+    squares: &'a [Ball; 6],
+    pairs: [&'a Batch; 2],
+    poses: &'a [ComplexPose; 2 * PAIRS],
+}
+
+impl pulp::WithSimd for Proof<'_> {
+    type Output = OctahedralCertificates;
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) -> OctahedralCertificates {
+        self.certifier.prove(self.squares, self.pairs[0], self.pairs[1], self.poses)
     }
 }
 

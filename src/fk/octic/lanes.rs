@@ -1,0 +1,245 @@
+//! All eight pairs side by side: the roots of the octic, the corners, the poses and their residuals.
+
+#![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::factors::Factors;
+use super::solver::{OcticSolver, Triangle};
+use super::{minor, resultant};
+use crate::geom::ComplexPose;
+use crate::poly::{Batch, LANES, octic_roots};
+
+/// Relative accuracy asked of the octic's roots before both closures take over.
+const COARSE: f64 = 1e-6;
+/// Newton steps on both closures; from `COARSE` two reach rounding.
+const POLISHES: usize = 3;
+/// Pairs closer than this, relative to their size, are left to the general treatment.
+pub(super) const SEPARATE: f64 = 1e-5;
+
+/// Three complex coordinates in eight lanes.
+pub(super) type Points = [Batch; 3];
+const ORIGIN: Points = [Batch::ZERO; 3];
+
+#[inline(always)]
+fn dot(a: &Points, b: &Points) -> Batch {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+#[inline(always)]
+fn cross(a: &Points, b: &Points) -> Points {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+#[inline(always)]
+fn horner(c: &[f64; 5], x: Batch) -> Batch {
+    let mut out = Batch::real(c[4]);
+    for k in (0..4).rev() {
+        out = (out * x).plus(c[k]);
+    }
+    out
+}
+
+/// The eight pairs `(s15, s34)`, `None` when they are not eight well separated ones.
+#[inline(always)]
+pub(super) fn pairs(first: &Factors, second: &Factors) -> Option<(Batch, Batch)> {
+    let (a, b) = (first.expanded(), second.expanded());
+    let mut x = octic_roots(&resultant(&a, &b), COARSE)?;
+    // the common root of both quadratics in y: y = -(a2 b0 - a0 b2) / (a2 b1 - a1 b2)
+    let denominator = horner(&minor(&a, &b, 2, 1), x);
+    let mut y = (horner(&minor(&a, &b, 2, 0), x) * denominator.reciprocal()).times(-1.0);
+    let mut moved = [0.0; LANES];
+    for _ in 0..POLISHES {
+        let (f, g) = (first.values(x, y), second.values(x, y));
+        let inverse = (f[1] * g[2] - f[2] * g[1]).reciprocal();
+        let dx = (f[0] * g[2] - f[2] * g[0]) * inverse;
+        let dy = (f[1] * g[0] - f[0] * g[1]) * inverse;
+        (x, y) = (x - dx, y - dy);
+        let (mx, my) = (dx.norm_sqr(), dy.norm_sqr());
+        for k in 0..LANES {
+            moved[k] = mx[k] + my[k];
+        }
+    }
+    let (nx, ny) = (x.norm_sqr(), y.norm_sqr());
+    let mut settled = true;
+    for k in 0..LANES {
+        settled &= moved[k] <= 1e-20 * (nx[k] + ny[k]);
+    }
+    (settled && separate(&x, &y)).then_some((x, y))
+}
+
+#[inline(always)]
+fn separate(x: &Batch, y: &Batch) -> bool {
+    let mut nearest = f64::INFINITY;
+    for shift in 1..=LANES / 2 {
+        for k in 0..LANES {
+            let l = (k + shift) % LANES;
+            let (xr, xi) = (x.re[k] - x.re[l], x.im[k] - x.im[l]);
+            let (yr, yi) = (y.re[k] - y.re[l], y.im[k] - y.im[l]);
+            let size = x.re[k] * x.re[k] + x.im[k] * x.im[k] + y.re[k] * y.re[k] + y.im[k] * y.im[k];
+            let ratio = (xr * xr + xi * xi + yr * yr + yi * yi) / size;
+            nearest = if ratio < nearest || ratio.is_nan() { ratio } else { nearest };
+        }
+    }
+    nearest > SEPARATE * SEPARATE
+}
+
+/// Poses in units of the design, with what is known of their accuracy.
+pub(super) struct Placed {
+    pub(super) poses: [ComplexPose; 2 * LANES],
+    /// As [`ComplexPose::residual`].
+    pub(super) residuals: [f64; 2 * LANES],
+    /// The largest of 1 and the parts of the entries of `R` and `p` over the size.
+    pub(super) scales: [f64; 2 * LANES],
+}
+
+impl OcticSolver {
+    /// `P4, P5, P6` in the frame of the base triangle, one of the two mirror images.
+    #[inline(always)]
+    pub(super) fn corners(&self, s: &[f64; 6], x: Batch, y: Batch) -> [Points; 3] {
+        let Triangle { b, u, v, .. } = self.base;
+        let far = u * u + v * v;
+        let p4x = 0.5 * (s[0] + b * b - s[1]) / b;
+        let p4y = y.times(-0.5 / v).plus((0.5 * (s[0] + far) - u * p4x) / v);
+        let p5x = x.times(0.5 / b).plus(0.5 * (b * b - s[2]) / b);
+        let p5y = (x.times(0.5).plus(0.5 * (far - s[3])) - p5x.times(u)).times(1.0 / v);
+        let (z4, z5) = (Batch::real(s[0] - p4x * p4x) - p4y * p4y, x - p5x * p5x - p5y * p5y);
+        // the closure: product of both heights
+        let side = self.platform.b * self.platform.b;
+        let product = x.times(0.5).plus(0.5 * (s[0] - side)) - p5x.times(p4x) - p4y * p5y;
+        let (n4, n5) = (z4.norm_sqr(), z5.norm_sqr());
+        let mut first = [false; LANES];
+        for k in 0..LANES {
+            first[k] = n4[k] >= n5[k];
+        }
+        let root = z4.select(z5, first).sqrt();
+        let other = product * root.reciprocal();
+        let p4 = [Batch::real(p4x), p4y, root.select(other, first)];
+        let p5 = [p5x, p5y, other.select(root, first)];
+        // P6 from its distances to P1 (origin), P3, P4, P5: three linear equations
+        let (t, d) = (&self.platform, self.platform.u - self.platform.b);
+        let k3 = 0.5 * (s[5] + far - s[4]);
+        let k4 = 0.5 * (s[5] + s[0] - (t.u * t.u + t.v * t.v));
+        let k5 = x.times(0.5).plus(0.5 * (s[5] - (d * d + t.v * t.v)));
+        let normal = cross(&p4, &p5);
+        let p3 = [Batch::real(u), Batch::real(v), Batch::ZERO];
+        let (from5, from4) = (cross(&p5, &p3), cross(&p3, &p4));
+        let inverse = (normal[0].times(u) + normal[1].times(v)).reciprocal();
+        let mut p6 = ORIGIN;
+        for k in 0..3 {
+            p6[k] = (normal[k].times(k3) + from5[k].times(k4) + from4[k] * k5) * inverse;
+        }
+        [p4, p5, p6]
+    }
+
+    /// Axes of the platform triangle's frame in that of the base triangle.
+    #[inline(always)]
+    pub(super) fn frame(&self, p: &[Points; 3]) -> [Points; 3] {
+        let (t, mut x, mut y) = (&self.platform, ORIGIN, ORIGIN);
+        let (side, height) = (1.0 / t.b, 1.0 / t.v);
+        for k in 0..3 {
+            x[k] = (p[1][k] - p[0][k]).times(side);
+            y[k] = (p[2][k] - p[0][k] - x[k].times(t.u)).times(height);
+        }
+        [x, y, cross(&x, &y)]
+    }
+
+    /// Both mirror images of every lane in the frames of the design.
+    ///
+    /// `R = E^T F G` with the rows of `E` and `G` the axes of the triangles, `F` the frame. Mirrored in the plane of the base the
+    /// corners change the sign of their third coordinate, so that the first two axes do and the third, their cross product, changes its
+    /// others: the entries of `F` fall into those that keep their signs and those that change them, and `R` into an even and an odd part.
+    #[inline(always)]
+    pub(super) fn place(&self, s: &[f64; 6], p4: &Points, f: &[Points; 3]) -> Placed {
+        let (e, g) = (&self.base.axes, &self.platform.axes);
+        let (mut even, mut odd) = ([ORIGIN; 3], [ORIGIN; 3]);
+        let (mut flat, mut high) = (ORIGIN, ORIGIN);
+        for i in 0..3 {
+            let (mut keeps, mut changes) = (ORIGIN, ORIGIN);
+            for j in 0..3 {
+                let plane = f[j][0].times(e[0][i]) + f[j][1].times(e[1][i]);
+                let normal = f[j][2].times(e[2][i]);
+                (keeps[j], changes[j]) = if j < 2 { (plane, normal) } else { (normal, plane) };
+            }
+            for j in 0..3 {
+                even[i][j] = keeps[0].times(g[0][j]) + keeps[1].times(g[1][j]) + keeps[2].times(g[2][j]);
+                odd[i][j] = changes[0].times(g[0][j]) + changes[1].times(g[1][j]) + changes[2].times(g[2][j]);
+            }
+            flat[i] = p4[0].times(e[0][i]) + p4[1].times(e[1][i]);
+            high[i] = p4[2].times(e[2][i]);
+        }
+        let zero = ComplexPose { rotation: Matrix3::zeros(), position: Vector3::zeros() };
+        let mut out =
+            Placed { poses: [zero; 2 * LANES], residuals: [0.0; 2 * LANES], scales: [0.0; 2 * LANES] };
+        let (p1, b4) = (self.base_corners[0], self.platform_corners[0]);
+        for mirrored in 0..2 {
+            let (mut r, mut p) = ([ORIGIN; 3], ORIGIN);
+            for i in 0..3 {
+                for j in 0..3 {
+                    r[i][j] = if mirrored == 0 { even[i][j] + odd[i][j] } else { even[i][j] - odd[i][j] };
+                }
+                let shift = r[i][0].times(b4.x) + r[i][1].times(b4.y) + r[i][2].times(b4.z);
+                let corner = if mirrored == 0 { flat[i] + high[i] } else { flat[i] - high[i] };
+                p[i] = corner.plus(p1[i]) - shift;
+            }
+            let (residuals, scales) = self.residuals(s, &r, &p);
+            for k in 0..LANES {
+                let n = 2 * k + mirrored;
+                let pose = &mut out.poses[n];
+                for i in 0..3 {
+                    for j in 0..3 {
+                        pose.rotation[(i, j)] = r[i][j].lane(k);
+                    }
+                    pose.position[i] = p[i].lane(k) * self.size;
+                }
+                (out.residuals[n], out.scales[n]) = (residuals[k], scales[k]);
+            }
+        }
+        out
+    }
+
+    /// Largest errors of the leg equations and of `R^T R = I`, and the largest of 1 and the parts of the entries.
+    #[inline(always)]
+    fn residuals(&self, s: &[f64; 6], r: &[Points; 3], p: &Points) -> ([f64; LANES], [f64; LANES]) {
+        const LEGS: [(usize, usize); 6] = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
+        let mut worst = [0.0_f64; LANES];
+        let mut corners = [ORIGIN; 3];
+        for (corner, b) in corners.iter_mut().zip(&self.platform_corners) {
+            for i in 0..3 {
+                corner[i] = r[i][0].times(b.x) + r[i][1].times(b.y) + r[i][2].times(b.z) + p[i];
+            }
+        }
+        for (leg, (foot, head)) in LEGS.into_iter().enumerate() {
+            let (a, c) = (&self.base_corners[foot], &corners[head]);
+            let d = [c[0].plus(-a.x), c[1].plus(-a.y), c[2].plus(-a.z)];
+            raise(&mut worst, dot(&d, &d).plus(-s[leg]));
+        }
+        for i in 0..3 {
+            for j in i..3 {
+                let product = r[0][i] * r[0][j] + r[1][i] * r[1][j] + r[2][i] * r[2][j];
+                raise(&mut worst, if i == j { product.plus(-1.0) } else { product });
+            }
+        }
+        let mut scale = [1.0_f64; LANES];
+        for z in r.iter().flatten().chain(p) {
+            for k in 0..LANES {
+                let (re, im) = (z.re[k].abs(), z.im[k].abs());
+                let part = if re > im { re } else { im };
+                scale[k] = if part > scale[k] { part } else { scale[k] };
+            }
+        }
+        for w in &mut worst {
+            *w = w.sqrt();
+        }
+        (worst, scale)
+    }
+}
+
+/// The larger of `worst` and the squared modulus of the error, NaN when that is.
+#[inline(always)]
+fn raise(worst: &mut [f64; LANES], error: Batch) {
+    let e = error.norm_sqr();
+    for k in 0..LANES {
+        worst[k] = if e[k] <= worst[k] { worst[k] } else { e[k] };
+    }
+}
