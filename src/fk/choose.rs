@@ -1,8 +1,8 @@
 //! Which method solves a problem.
 
 use super::{
-    FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, Method, NeedsStart, Octic, Sylvester,
-    Template,
+    FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, Method, NeedsStart, Octic, PreparedDesign,
+    Sylvester, Template,
 };
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 
@@ -34,6 +34,26 @@ impl ForwardKinematics for Automatic {
         match Octic.solve(m, s, o) {
             Ok(found) if found.all_accounted() => Ok(found),
             _ => Homotopy.solve(m, s, o),
+        }
+    }
+
+    fn prepare<'a>(&'a self, m: &'a Manipulator) -> Option<Box<dyn PreparedDesign + 'a>> {
+        let octic = Octic.prepare(m)?;
+        Some(Box::new(PreparedAutomatic { octic, manipulator: m }))
+    }
+}
+
+/// [`Automatic`] for an octahedral design.
+struct PreparedAutomatic<'a> {
+    octic: Box<dyn PreparedDesign + 'a>,
+    manipulator: &'a Manipulator,
+}
+
+impl PreparedDesign for PreparedAutomatic<'_> {
+    fn solve(&self, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
+        match self.octic.solve(s, o) {
+            Ok(found) if found.all_accounted() => Ok(found),
+            _ => Homotopy.solve(self.manipulator, s, o),
         }
     }
 }

@@ -3,6 +3,7 @@
 //! Nothing in here knows leg maps: `fk` and `synthesis` never import each other, so that agreement of
 //! the root sets of two platforms is evidence for the map between them.
 
+mod batch;
 mod bounds;
 mod choose;
 mod cluster;
@@ -18,6 +19,7 @@ mod solutions;
 mod sylvester;
 mod template;
 
+pub use batch::{BatchProblem, BatchResult, Threads, solve_batch, solve_problems};
 pub use choose::{Automatic, solver};
 pub use homotopy::Homotopy;
 use near::NeedsStart;
@@ -95,4 +97,20 @@ pub trait ForwardKinematics: Send + Sync {
     /// # Errors
     /// [`FkError`] when the method does not apply or breaks down; "no pose" is a value, not an error.
     fn solve(&self, m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError>;
+
+    /// The method with what depends on the design alone done, for many lengths of one design. Results are those of [`solve`](Self::solve).
+    /// `None` when there is nothing to prepare, or when the method does not apply: then [`solve`](Self::solve) says so.
+    fn prepare<'a>(&'a self, m: &'a Manipulator) -> Option<Box<dyn PreparedDesign + 'a>> {
+        let _ = m;
+        None
+    }
+}
+
+/// A method prepared for one design: many lengths, from any number of threads.
+pub trait PreparedDesign: Send + Sync {
+    /// As [`ForwardKinematics::solve`].
+    ///
+    /// # Errors
+    /// As [`ForwardKinematics::solve`].
+    fn solve(&self, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError>;
 }

@@ -2,7 +2,7 @@
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
-use super::batch::{Batch, LANES};
+use crate::num::batch::{Batch, LANES};
 
 /// Sweeps before giving up; well separated roots take about ten.
 const SWEEPS: usize = 40;

@@ -137,3 +137,45 @@ fn the_octic_refuses_a_general_design() {
         (Some(2), &"fk::not_applicable".into())
     );
 }
+
+#[test]
+fn rows_of_a_file_give_the_same_bytes_for_any_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("lengths.csv");
+    let row = |k: u32| {
+        let d = 0.03 * f64::from(k);
+        format!("{},{},18,17,{},17.8\n", 19.8 - d, 18.0 + d, 14.9 + 0.5 * d)
+    };
+    let text: String = (0..30).map(row).collect();
+    std::fs::write(&path, text).unwrap();
+    let answer = |threads: &str, format: &[&str]| {
+        let file = path.to_str().unwrap();
+        equipod(&[&["fk", DESIGN, "--lengths", file, "--threads", threads], format].concat()).stdout
+    };
+    for format in [&["--json"][..], &[]] {
+        let one = answer("1", format);
+        assert!(!one.is_empty());
+        assert_eq!(one, answer("2", format));
+        assert_eq!(one, answer("5", format));
+    }
+    let out = equipod(&["fk", DESIGN, "--lengths", path.to_str().unwrap(), "--json"]);
+    assert_eq!(document(&out)["rows"].as_array().unwrap().len(), 30);
+    std::fs::write(&path, "").unwrap();
+    assert_eq!(refusal(&["--lengths", path.to_str().unwrap()]), "fk::bad_lengths");
+    assert_eq!(refusal(&["--threads", "0"]), "usage");
+}
+
+#[test]
+fn a_row_that_cannot_be_solved_leaves_the_others_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("lengths.csv");
+    std::fs::write(&path, "18,18,17,16,15,19\n18,18.1,17,16,15,19\n").unwrap();
+    let general = "designs/general-6-6.toml";
+    let args =
+        ["fk", general, "--lengths", path.to_str().unwrap(), "--method", "octic", "--threads", "2", "--json"];
+    let out = equipod(&args);
+    let answer = document(&out);
+    let rows = answer["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 2);
+    assert!(rows.iter().all(|r| r["error"]["code"] == "fk::not_applicable"), "every row says so itself");
+}

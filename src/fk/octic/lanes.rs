@@ -8,7 +8,8 @@ use super::factors::Factors;
 use super::solver::{OcticSolver, Triangle};
 use super::{minor, resultant};
 use crate::geom::ComplexPose;
-use crate::poly::{Batch, LANES, octic_roots};
+use crate::num::batch::{Batch, LANES};
+use crate::poly::octic_roots;
 
 /// Relative accuracy asked of the octic's roots before both closures take over.
 const COARSE: f64 = 1e-6;

@@ -5,6 +5,8 @@
 //! two. Eliminating `y` leaves an octic in `x` (Rojas, Borras, Thomas, sec. 3). Each root belongs to one
 //! `y` and to two poses, mirror images in the base plane: 16 poses.
 
+#![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
+
 mod factors;
 mod lanes;
 mod records;
@@ -17,10 +19,13 @@ use num_complex::Complex64;
 
 use super::collect::{Candidate, collect, pose_scale};
 use super::evidence::{OCTAHEDRAL, attach};
-use super::{Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, SolutionSet};
+use super::{
+    Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, PreparedDesign, SolutionSet,
+};
 use crate::geom::{ComplexPose, trilaterate};
 use crate::manipulator::{Leg, Manipulator, Octahedral, SquaredLegLengths};
-use crate::poly::{LANES, roots};
+use crate::num::batch::LANES;
+use crate::poly::roots;
 use crate::solve::certify::{Certifier, exact_squares};
 
 /// Forward kinematics of octahedral platforms (also of those whose joints coincide without being named as
@@ -46,12 +51,30 @@ impl ForwardKinematics for Octic {
     }
 
     fn solve(&self, m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
-        let solver = OcticSolver::new(m)?;
+        OcticSolver::new(m)?.records(s, o)
+    }
+
+    fn prepare<'a>(&'a self, m: &'a Manipulator) -> Option<Box<dyn PreparedDesign + 'a>> {
+        let solver = OcticSolver::new(m).ok()?;
+        Some(Box::new(solver))
+    }
+}
+
+impl PreparedDesign for OcticSolver {
+    fn solve(&self, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
+        self.records(s, o)
+    }
+}
+
+impl OcticSolver {
+    /// The poses with their evidence, as [`Octic`] gives them.
+    fn records(&self, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
+        let (solver, m) = (self, self.manipulator());
         let quick = solver.solve(s);
         if let Some(found) = &quick {
             let certificates = solver.certify(s, found);
             if certificates.complete {
-                return Ok(records::proved(&solver, found, &certificates, o.seed));
+                return Ok(records::proved(solver, found, &certificates, o.seed));
             }
         }
         let (candidates, pairs, unplaced) = match quick {
@@ -121,7 +144,7 @@ type Apex = [[f64; 2]; 3];
 /// Origin in corner `A`; `q` is the projection into the plane of the triangle, `h` the squared height. It
 /// vanishes when `U` and `V` can be placed at squared distance `d`: the Cayley-Menger determinant of the
 /// five points up to a constant.
-#[inline(always)]
+#[inline]
 fn closure(triangle: [&Vector3<f64>; 3], u: Apex, v: Apex, d: f64) -> Biquadratic {
     let (b, c) = (triangle[1] - triangle[0], triangle[2] - triangle[0]);
     let (bb, bc, cc) = (b.norm_squared(), b.dot(&c), c.norm_squared());

@@ -4,7 +4,7 @@ use super::{OcticPoses, OcticSolver};
 use crate::fk::collect::sort_key;
 use crate::fk::evidence::OCTAHEDRAL;
 use crate::fk::{Completeness, FkRoot, FkSolutions, Method, Reality, SolutionSet};
-use crate::poly::LANES;
+use crate::num::batch::LANES;
 use crate::solve::certify::ProvedReality;
 use crate::solve::certify::octahedral::OctahedralCertificates;
 

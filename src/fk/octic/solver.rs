@@ -13,7 +13,7 @@ use crate::fk::newton::refine;
 use crate::fk::{FkError, Method};
 use crate::geom::ComplexPose;
 use crate::manipulator::{Manipulator, Octahedral, SquaredLegLengths};
-use crate::poly::LANES;
+use crate::num::batch::LANES;
 use crate::solve::certify::exact_squares;
 use crate::solve::certify::octahedral::{OctahedralCertificates, OctahedralCertifier};
 

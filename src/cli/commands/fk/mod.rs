@@ -5,6 +5,7 @@ mod near;
 mod render;
 
 use std::fmt::Write as _;
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::ValueEnum;
@@ -14,7 +15,7 @@ use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::output::Answer;
-use crate::fk::{self, FkError, FkOptions, FkSolutions, Method};
+use crate::fk::{self, FkError, FkOptions, FkSolutions, Method, Threads};
 use crate::manipulator::{LegLengths, Manipulator};
 
 use self::lengths::Given;
@@ -31,6 +32,9 @@ pub(crate) struct Args {
     /// Method; auto takes the best one for the design
     #[arg(long, value_enum, default_value_t = MethodArg::Auto)]
     method: MethodArg,
+    /// Threads for the rows of a CSV file; all cores when absent. The answer does not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
     /// Follow one real pose from this one: `x,y,z,roll_deg,pitch_deg,yaw_deg`, `x,y,z,qw,qx,qy,qz` or `home`; a CSV file row by row
     #[arg(long, value_name = "POSE", allow_hyphen_values = true, conflicts_with = "method")]
     near: Option<String>,
@@ -83,20 +87,33 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
             let json = render::json(&solutions);
             Ok(Answer { exit, json, text: render::text(&design.name, &solutions) })
         }
-        Given::Rows(rows) => Ok(many(method, m, &rows, &options)),
+        Given::Rows(rows) => Ok(many(method, m, &rows, &options, threads(args.threads))),
     }
 }
 
+fn threads(asked: Option<u16>) -> Threads {
+    asked.and_then(|n| NonZeroUsize::new(n.into())).map_or(Threads::All, Threads::Count)
+}
+
 /// Every row for itself: one that cannot be solved carries an `"error"` and does not stop the others.
-fn many(method: Option<Method>, m: &Manipulator, rows: &[lengths::Row], options: &FkOptions) -> Answer {
+fn many(
+    method: Option<Method>,
+    m: &Manipulator,
+    rows: &[lengths::Row],
+    options: &FkOptions,
+    threads: Threads,
+) -> Answer {
+    let squares: Vec<_> = rows.iter().map(|row| row.lengths.squared()).collect();
+    let solver = fk::solver(method);
+    let results = fk::solve_batch(solver.as_ref(), m, &squares, options, threads);
     let mut exit = Exit::Yes;
     let mut records = Vec::with_capacity(rows.len());
     let mut text = String::from("line  method         finite  real  complete\n");
-    for row in rows {
+    for (row, result) in rows.iter().zip(results) {
         let mut record = Map::new();
         record.insert("line".into(), json!(row.line));
         record.insert("lengths".into(), json!(row.lengths.get()));
-        match solve(method, m, &row.lengths, options) {
+        match result.map_err(|e| failure_of(&e)) {
             Ok(solutions) => {
                 exit = exit.max(exit_of(&solutions));
                 text.push_str(&render::table_row(row.line, &solutions));

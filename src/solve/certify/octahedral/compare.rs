@@ -17,7 +17,7 @@ use super::corners::{Placed, extremes};
 use super::lanes::{Reals, parts, sizes};
 use super::{OctahedralCertifier, PAIRS, U};
 use crate::geom::ComplexPose;
-use crate::poly::{Batch, LANES};
+use crate::num::batch::{Batch, LANES};
 
 /// Largest radius of a frame's entry for which the bounds hold.
 const FRAME: f64 = 1.0 / 1024.0;

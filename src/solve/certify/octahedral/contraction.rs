@@ -14,8 +14,8 @@
 
 use super::closure::{Closure, Curvature};
 use super::lanes::{Discs, Reals, sizes};
+use crate::num::batch::{Batch, LANES};
 use crate::num::disc::UP;
-use crate::poly::{Batch, LANES};
 
 /// Radius, in the weighted norm, of the ball over which second derivatives are bounded.
 const REACH: f64 = 1.0 / 256.0;

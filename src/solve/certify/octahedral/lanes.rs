@@ -5,8 +5,8 @@
 use std::ops::{Add, Mul, Neg, Sub};
 
 use super::ball::Ball;
+use crate::num::batch::{Batch, LANES};
 use crate::num::disc::{TINY, UP};
-use crate::poly::{Batch, LANES};
 
 const U: f64 = f64::EPSILON / 2.0;
 

@@ -1,0 +1,201 @@
+//! Many problems on all cores.
+//!
+//! Problems are handed out one by one; each result goes to the place of its problem, and each is computed on one thread from its own data and
+//! the options alone. So results do not depend on the number of threads, nor on which thread took which problem.
+
+use std::num::NonZeroUsize;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use super::{FkError, FkOptions, FkSolutions, ForwardKinematics};
+use crate::manipulator::{Manipulator, SquaredLegLengths};
+
+/// How many threads a batch may use.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Threads {
+    /// As many as the process may run at the same time; one where that is not known.
+    #[default]
+    All,
+    /// This many.
+    Count(NonZeroUsize),
+}
+
+impl Threads {
+    /// The number of threads for `jobs` jobs: never more than there are jobs, never none.
+    #[must_use]
+    pub fn count(self, jobs: usize) -> usize {
+        let most = match self {
+            Self::All => std::thread::available_parallelism().map_or(1, NonZeroUsize::get),
+            Self::Count(n) => n.get(),
+        };
+        most.min(jobs).max(1)
+    }
+}
+
+/// One problem of a batch.
+#[derive(Debug, Clone, Copy)]
+pub struct BatchProblem<'a> {
+    /// The design.
+    pub manipulator: &'a Manipulator,
+    /// Squared leg lengths, design units squared.
+    pub squares: &'a SquaredLegLengths,
+}
+
+/// Result of one problem.
+pub type BatchResult = Result<FkSolutions, FkError>;
+
+/// Solves one design for many leg lengths; result `i` belongs to `lengths[i]`. A problem that fails leaves the others as they are.
+///
+/// ```
+/// use equipod::fk::{Automatic, FkOptions, Threads, solve_batch};
+/// use equipod::manipulator::{LegLengths, Manipulator};
+/// use nalgebra::Point3;
+/// let triangle = |r: f64| vec![Point3::origin(), Point3::new(r / 2.0, r, 0.0), Point3::new(r, 0.0, 0.0)];
+/// let legs = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
+/// let m = Manipulator::try_new(triangle(12.0), triangle(6.0), legs)?;
+/// let rows: Result<Vec<_>, _> =
+///     [17.0, 17.5, 18.0].map(|l| LegLengths::try_new([l, 18.0, 18.0, 17.0, 15.0, 17.8])).into_iter().collect();
+/// let squares: Vec<_> = rows?.iter().map(|l| l.squared()).collect();
+/// let found = solve_batch(&Automatic, &m, &squares, &FkOptions::default(), Threads::All);
+/// assert_eq!(found.len(), 3);
+/// assert!(found.iter().all(|f| f.as_ref().is_ok_and(|f| f.roots.len() == 16)));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn solve_batch(
+    solver: &dyn ForwardKinematics,
+    m: &Manipulator,
+    lengths: &[SquaredLegLengths],
+    options: &FkOptions,
+    threads: Threads,
+) -> Vec<BatchResult> {
+    let prepared = solver.prepare(m);
+    in_order(lengths.len(), threads, &|i| match &prepared {
+        Some(design) => design.solve(&lengths[i], options),
+        None => solver.solve(m, &lengths[i], options),
+    })
+}
+
+/// Solves many problems, each of its own design; result `i` belongs to `problems[i]`.
+#[must_use]
+pub fn solve_problems(
+    solver: &dyn ForwardKinematics,
+    problems: &[BatchProblem<'_>],
+    options: &FkOptions,
+    threads: Threads,
+) -> Vec<BatchResult> {
+    in_order(problems.len(), threads, &|i| {
+        solver.solve(problems[i].manipulator, problems[i].squares, options)
+    })
+}
+
+/// `job(0), .., job(count - 1)`, in this order whatever the threads.
+fn in_order<T: Send>(count: usize, threads: Threads, job: &(dyn Fn(usize) -> T + Sync)) -> Vec<T> {
+    let workers = threads.count(count);
+    if workers == 1 {
+        return (0..count).map(job).collect();
+    }
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut done = Vec::with_capacity(count / workers + 1);
+        loop {
+            let i = next.fetch_add(1, Ordering::Relaxed);
+            if i >= count {
+                return done;
+            }
+            done.push((i, job(i)));
+        }
+    };
+    let mut all: Vec<(usize, T)> = std::thread::scope(|scope| {
+        let others: Vec<_> = (1..workers).map(|_| scope.spawn(work)).collect();
+        let mut all = work();
+        for other in others {
+            // a panic in a worker goes on in the caller
+            all.extend(other.join().unwrap_or_else(|payload| std::panic::resume_unwind(payload)));
+        }
+        all
+    });
+    all.sort_unstable_by_key(|(i, _)| *i);
+    all.into_iter().map(|(_, result)| result).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fk::{Automatic, Homotopy, Method, NearSolver, Octic, OcticSolver, Sylvester, Template};
+    use crate::geom::{Pose, random_rotation};
+    use crate::manipulator::Leg;
+    use crate::num::Rng;
+    use nalgebra::{Point3, Vector3};
+
+    fn threads(n: usize) -> Threads {
+        Threads::Count(NonZeroUsize::new(n).unwrap())
+    }
+
+    fn octahedral(count: usize) -> (Manipulator, Vec<SquaredLegLengths>) {
+        let mut rng = Rng::new(11);
+        let mut triangle =
+            || (0..3).map(|_| Point3::from(Vector3::from_fn(|_, _| rng.uniform(-2.0, 2.0)))).collect();
+        let legs = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
+        let m = Manipulator::try_new(triangle(), triangle(), legs).unwrap();
+        let mut draw = || {
+            let position = Vector3::from_fn(|_, _| rng.normal());
+            Pose { rotation: random_rotation(&mut rng), position }.squared_lengths(&m).unwrap()
+        };
+        let squares = (0..count).map(|_| draw()).collect();
+        (m, squares)
+    }
+
+    #[test]
+    fn solvers_may_be_shared_between_threads() {
+        fn shared<T: Send + Sync>() {}
+        shared::<Automatic>();
+        shared::<Homotopy>();
+        shared::<Octic>();
+        shared::<Sylvester>();
+        shared::<Template>();
+        shared::<OcticSolver>();
+        shared::<NearSolver>();
+        shared::<Box<dyn ForwardKinematics>>();
+        shared::<Box<dyn crate::fk::PreparedDesign + '_>>();
+    }
+
+    #[test]
+    fn the_results_are_the_same_for_any_number_of_threads() {
+        let (m, squares) = octahedral(40);
+        let options = FkOptions::default();
+        let text = |n: usize| format!("{:?}", solve_batch(&Automatic, &m, &squares, &options, threads(n)));
+        let one = text(1);
+        assert_eq!(one, text(2));
+        assert_eq!(one, text(5));
+        let single: Vec<BatchResult> = squares.iter().map(|s| Automatic.solve(&m, s, &options)).collect();
+        assert_eq!(one, format!("{single:?}"), "prepared or not");
+    }
+
+    #[test]
+    fn an_empty_batch_has_no_results_and_more_threads_than_jobs_are_no_harm() {
+        let (m, squares) = octahedral(2);
+        let options = FkOptions::default();
+        assert!(solve_batch(&Octic, &m, &[], &options, threads(3)).is_empty());
+        assert!(solve_problems(&Octic, &[], &options, Threads::All).is_empty());
+        assert_eq!(solve_batch(&Octic, &m, &squares, &options, threads(9)).len(), 2);
+        assert_eq!((threads(9).count(2), threads(9).count(0)), (2, 1));
+    }
+
+    #[test]
+    fn a_problem_that_fails_leaves_the_others_alone() {
+        let (m, squares) = octahedral(3);
+        let mut rng = Rng::new(4);
+        let mut point = || Point3::from(Vector3::from_fn(|_, _| rng.normal()));
+        let legs: [Leg; 6] = std::array::from_fn(|_| Leg { base: point(), platform: point() });
+        let general = Manipulator::from_legs(legs).unwrap();
+        let problems = [(&m, &squares[0]), (&general, &squares[1]), (&m, &squares[2])]
+            .map(|(manipulator, squares)| BatchProblem { manipulator, squares });
+        let found = solve_problems(&Octic, &problems, &FkOptions::default(), threads(2));
+        assert!(matches!(found[1], Err(FkError::NotApplicable { method: Method::Octic, .. })));
+        for i in [0, 2] {
+            assert_eq!(found[i].as_ref().unwrap().roots.len(), 16);
+        }
+        let refused = solve_batch(&Octic, &general, &squares, &FkOptions::default(), threads(2));
+        assert!(refused.iter().all(Result::is_err) && refused.len() == 3);
+    }
+}
