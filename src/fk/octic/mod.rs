@@ -391,4 +391,6 @@ pub fn octic(m: &Manipulator, s: &SquaredLegLengths) -> Result<[f64; 9], FkError
 }
 
 #[cfg(test)]
+mod certificate_tests;
+#[cfg(test)]
 mod tests;

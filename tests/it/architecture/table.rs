@@ -23,7 +23,7 @@ const LINES: &[Line] = &[
     ("poly", &["num"], &[COMPLEX, ERRORS]),
     ("manipulator", &["num", "geom"], &[MATRICES, ERRORS]),
     ("solve", &["num", "geom", "poly", "manipulator"], &[MATRICES, COMPLEX, ERRORS]),
-    ("solve::certify", &["num", "geom", "manipulator"], &[MATRICES, COMPLEX, ERRORS]),
+    ("solve::certify", &["num", "geom", "manipulator"], &[MATRICES, COMPLEX, ("pulp", None), ERRORS]),
     (
         "solve::homotopy",
         &["num", "geom", "manipulator", "solve"],
@@ -32,7 +32,7 @@ const LINES: &[Line] = &[
     (
         "fk",
         &["num", "geom", "poly", "manipulator", "topology", "solve", "solve::certify", "solve::homotopy"],
-        &[MATRICES, COMPLEX, ERRORS],
+        &[MATRICES, COMPLEX, ("pulp", None), ERRORS],
     ),
     ("topology", &["num", "manipulator"], &[]),
     ("synthesis", &["num", "geom", "manipulator", "topology"], &[MATRICES, ERRORS]),

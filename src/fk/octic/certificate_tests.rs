@@ -1,0 +1,161 @@
+//! The certificates of octahedral platforms on what the solver finds.
+
+use super::{OcticPoses, OcticSolver};
+use crate::geom::{Pose, random_rotation};
+use crate::manipulator::{Manipulator, Octahedral, SquaredLegLengths};
+use crate::num::Rng;
+use crate::num::interval::Interval;
+use crate::solve::certify::octahedral::{OctahedralCertificates, OctahedralCertifier, PairCertificate};
+use crate::solve::certify::{Certifier, ProvedReality, exact_squares};
+use nalgebra::{Point3, Vector3};
+use num_complex::Complex64;
+
+const LEGS: [(usize, usize); 6] = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
+
+struct Case {
+    m: Manipulator,
+    s: SquaredLegLengths,
+    certifier: OctahedralCertifier,
+    found: OcticPoses,
+}
+
+/// Random design in another leg order, with the lengths of a random pose; `None` where the fast solver gives up.
+fn case(k: u64) -> Option<Case> {
+    let mut rng = Rng::stream(77, k);
+    let mut triangle =
+        || (0..3).map(|_| Point3::from(Vector3::from_fn(|_, _| rng.uniform(-2.0, 2.0)))).collect();
+    let m = Manipulator::try_new(triangle(), triangle(), LEGS).unwrap();
+    let m = m.reordered([3, 5, 0, 1, 4, 2]).unwrap();
+    let pose = Pose { rotation: random_rotation(&mut rng), position: Vector3::from_fn(|_, _| rng.normal()) };
+    let s = pose.squared_lengths(&m).unwrap();
+    let certifier = OctahedralCertifier::new(&Octahedral::recognise(&m).unwrap()).unwrap();
+    let found = OcticSolver::new(&m).unwrap().solve(&s)?;
+    Some(Case { m, s, certifier, found })
+}
+
+fn certify(c: &Case) -> OctahedralCertificates {
+    c.certifier.certify(&exact_squares(&c.s), &c.found.pairs, &c.found.poses)
+}
+
+#[test]
+fn agrees_with_the_general_certificates() {
+    let (mut complete, mut pairs, mut both) = (0, 0, 0);
+    for k in 0..300 {
+        let Some(c) = case(k) else { continue };
+        let found = certify(&c);
+        complete += usize::from(found.complete);
+        let general = Certifier::new(&c.m, &exact_squares(&c.s)).unwrap();
+        for (pair, poses) in found.pairs.iter().zip(c.found.poses.chunks(2)) {
+            let Some(pair) = pair else { continue };
+            pairs += 1;
+            for pose in poses {
+                let outcome = general.certify(pose);
+                let Some(other) = outcome.certificate() else { continue };
+                both += 1;
+                let (a, b) = (pair.reality, other.reality());
+                assert!(a == b || a == ProvedReality::Undecided || b == ProvedReality::Undecided, "{k}");
+                // both proofs are about the same root
+                let scale = pose.rotation.iter().map(|z| z.norm()).fold(1.0, f64::max);
+                for (i, disc) in other.enclosure().discs().take(9).enumerate() {
+                    let gap = (disc.centre - pose.rotation[(i / 3, i % 3)]).norm();
+                    assert!(gap <= disc.radius + 1.5 * pair.deviation * scale.max(1.0) * 10.0, "{k}: {gap}");
+                }
+            }
+        }
+    }
+    assert!(complete >= 240 && pairs >= 2250 && both >= 4500, "{complete} {pairs} {both}");
+}
+
+#[test]
+fn corrupted_roots_lose_their_certificate() {
+    let mut tried = 0;
+    for k in 0..20 {
+        let Some(mut c) = case(k) else { continue };
+        if !certify(&c).complete {
+            continue;
+        }
+        tried += 1;
+        let whole = c.found.clone();
+        // a pose wrong in the seventh digit
+        c.found.poses[5].rotation[(1, 2)] *= Complex64::from(1.0 + 1e-6);
+        let scale = c.found.poses[5].rotation[(1, 2)].norm() * 1e-6;
+        if scale > 1e-7 {
+            assert!(certify(&c).pairs[2].is_none() && !certify(&c).complete, "{k}");
+        }
+        c.found = whole.clone();
+        c.found.poses[8].position.y += Complex64::new(0.0, 1e-6 * c.m.size());
+        let loose = whole.poses[8].position.norm() > 5.0 * c.m.size();
+        assert!(loose || certify(&c).pairs[4].is_none(), "{k}");
+        // mirror images exchanged for another pair's
+        c.found = whole.clone();
+        c.found.poses.swap(0, 2);
+        let swapped = certify(&c);
+        assert!(swapped.pairs[0].is_none() && swapped.pairs[1].is_none(), "{k}");
+        // the pair itself
+        c.found = whole.clone();
+        c.found.pairs[3][0] *= 1.0 + 1e-5;
+        assert!(certify(&c).pairs[3].is_none(), "{k}");
+        // one pair twice: every pair is certified, the set is not
+        c.found = whole.clone();
+        c.found.pairs[1] = whole.pairs[0];
+        (c.found.poses[2], c.found.poses[3]) = (whole.poses[0], whole.poses[1]);
+        let twice = certify(&c);
+        assert!(twice.pairs.iter().all(Option::is_some) && !twice.complete, "{k}");
+    }
+    assert!(tried >= 15);
+}
+
+#[test]
+fn a_wrong_length_loses_the_certificates_and_an_uncertain_one_widens_them() {
+    let c = (0..).find_map(case).unwrap();
+    let mut s = exact_squares(&c.s);
+    s[2] = Interval::from(c.s.get()[2] * (1.0 + 1e-6));
+    let wrong = c.certifier.certify(&s, &c.found.pairs, &c.found.poses);
+    assert!(wrong.pairs.iter().all(Option::is_none));
+    let exact = certify(&c);
+    let middle = c.s.get()[2];
+    s[2] = Interval::new(middle * (1.0 - 1e-12), middle * (1.0 + 1e-12)).unwrap();
+    let wide = c.certifier.certify(&s, &c.found.pairs, &c.found.poses);
+    let radius = |c: &OctahedralCertificates| c.pairs[0].map(|p| p.squared_distances[0].radius);
+    assert!(radius(&wide).unwrap() > radius(&exact).unwrap());
+}
+
+#[test]
+fn what_is_not_finite_or_out_of_range_has_no_certificate() {
+    let mut c = (0..).find_map(case).unwrap();
+    c.found.poses[7].position.x = Complex64::new(f64::NAN, 0.0);
+    assert!(certify(&c).pairs[3].is_none());
+    c.found.pairs[0][0] = Complex64::new(1e60, 0.0);
+    assert!(certify(&c).pairs.iter().all(Option::is_none));
+    let s = [Interval::WHOLE; 6];
+    assert!(c.certifier.certify(&s, &c.found.pairs, &c.found.poses).pairs.iter().all(Option::is_none));
+}
+
+/// The root that the lengths were made from, known exactly, lies in its discs.
+#[test]
+fn the_discs_hold_the_pair_of_the_generating_pose() {
+    for k in 0..100 {
+        let mut rng = Rng::stream(78, k);
+        // dyadic data: squared distances of a translated platform are exact
+        let mut grid = || (rng.uniform(-1.0, 1.0) * 256.0).round() / 256.0;
+        let mut triangle =
+            || -> Vec<Point3<f64>> { (0..3).map(|_| Point3::new(grid(), grid(), grid())).collect() };
+        let (base, platform) = (triangle(), triangle());
+        let shift = Vector3::new(grid(), grid(), 2.0 + grid());
+        let Ok(m) = Manipulator::try_new(base.clone(), platform.clone(), LEGS) else { continue };
+        let Ok(design) = Octahedral::recognise(&m) else { continue };
+        let pose = Pose { rotation: nalgebra::Rotation3::identity(), position: shift };
+        let s = pose.squared_lengths(&m).unwrap();
+        let Some(found) = OcticSolver::new(&m).unwrap().solve(&s) else { continue };
+        let certifier = OctahedralCertifier::new(&design).unwrap();
+        let certificates = certifier.certify(&exact_squares(&s), &found.pairs, &found.poses);
+        if !certificates.complete {
+            continue;
+        }
+        let squared = |i: usize, j: usize| (platform[i].coords + shift - base[j].coords).norm_squared();
+        let truth = [squared(1, 0), squared(0, 2)].map(Complex64::from);
+        let holds = |p: &PairCertificate| (0..2).all(|i| p.squared_distances[i].contains(truth[i]));
+        let holding = certificates.pairs.iter().flatten().filter(|p| holds(p)).count();
+        assert_eq!(holding, 1, "case {k}");
+    }
+}
