@@ -4,8 +4,16 @@ use super::cli_frame::{document, equipod};
 
 #[test]
 fn the_document_has_the_fields_of_the_contract() {
-    let out = equipod(&["topologies", "--members", "1", "--json"]);
+    let folder = tempfile::tempdir().unwrap();
+    let svg = folder.path().join("all.svg");
+    let out = equipod(&["topologies", "--members", "1", "--json", "--svg", svg.to_str().unwrap()]);
     assert_eq!(out.status.code(), Some(0));
+    let shown = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/theory/topologies.svg");
+    let [new, shown] = [svg.as_path(), shown.as_ref()].map(|p| std::fs::read_to_string(p).unwrap());
+    assert!(
+        new == shown,
+        "write the picture of the documentation again: equipod topologies --svg docs/theory/topologies.svg"
+    );
     let doc = document(&out);
     assert_eq!(doc["count"], 34);
     let by = &doc["by_virtual_legs"];
