@@ -61,7 +61,7 @@ pub(super) struct Refined {
     pub(super) residual: f64,
     /// Length of the last correction over the scale: the error, when it converged.
     pub(super) error: f64,
-    /// Corrections fell below `1e-17` and stopped there.
+    /// Corrections fell below `1e-20`, far out below what rounding leaves of them.
     pub(super) converged: bool,
 }
 
@@ -149,18 +149,22 @@ impl LegEquations {
             solve(self.jacobian(x).map(|row| row.map(Z::hi)), self.values(x).map(Z::hi))
                 .map(|s| s.map(Z::from))
         });
-        let (point, error) = if error < CONVERGED {
+        let (point, error) = if error < converged_below(point.scale()) {
             (point, error)
         } else {
             iterate(start, |x| solve(self.jacobian(x), self.values(x)))
         };
-        Refined { point, residual, error, converged: error < CONVERGED }
+        Refined { point, residual, error, converged: error < converged_below(point.scale()) }
     }
 }
 
-/// Relative length of the last correction of an iteration that has converged: poses of size `1e5` have it at `1e-19`, because the
-/// Jacobian's condition grows with a power of the pose.
-const CONVERGED: f64 = 1e-17;
+/// Relative length below which the last correction of an iteration that has converged lies.
+///
+/// Far out the condition of the Jacobian, and with it the rounding of a correction, grows like the power 2.5 of the pose (measured: `1e-19` at
+/// `1e5`). Near by the limit must be small: from close to a double root even halving gets below `1e-17`.
+fn converged_below(scale: f64) -> f64 {
+    (1e-30 * scale * scale * scale.sqrt()).max(1e-20)
+}
 
 /// Where the iteration leads and the relative length of its last correction.
 fn iterate(start: &Point, step: impl Fn(&Point) -> Option<[Z; N]>) -> (Point, f64) {
@@ -169,7 +173,7 @@ fn iterate(start: &Point, step: impl Fn(&Point) -> Option<[Z; N]>) -> (Point, f6
         let Some(step) = step(&x) else { break };
         let next = Point(std::array::from_fn(|k| x.0[k] - step[k]));
         let length = step.iter().map(|z| z.hi().norm()).fold(0.0, f64::max) / next.scale();
-        if !(length < 0.5) || (error < CONVERGED && length >= error) {
+        if !(length < 0.5) || (error < converged_below(x.scale()) && length >= error) {
             break;
         }
         (x, error) = (next, length);
