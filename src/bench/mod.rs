@@ -8,6 +8,7 @@
 //! This module measures time; nothing else below `cli` does.
 
 mod classes;
+mod dual;
 mod error_metric;
 mod expectation;
 mod generator;

@@ -7,6 +7,7 @@ use std::ops::{Div, Mul, Sub};
 
 use num_complex::Complex64;
 
+use super::dual::refine_dual;
 use crate::geom::ComplexPose;
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::num::double_double::{ComplexDoubleDouble as Z, DoubleDouble};
@@ -47,9 +48,9 @@ impl Point {
 /// The equations of one problem.
 #[derive(Debug, Clone)]
 pub(super) struct LegEquations {
-    base: [[f64; 3]; 6],
-    platform: [[f64; 3]; 6],
-    squares: [f64; 6],
+    pub(super) base: [[f64; 3]; 6],
+    pub(super) platform: [[f64; 3]; 6],
+    pub(super) squares: [f64; 6],
     unit: f64,
 }
 
@@ -61,7 +62,7 @@ pub(super) struct Refined {
     pub(super) residual: f64,
     /// Length of the last correction over the scale: the error, when it converged.
     pub(super) error: f64,
-    /// Corrections fell below `1e-20`, far out below what rounding leaves of them.
+    /// Corrections fell to rounding level and stopped there.
     pub(super) converged: bool,
 }
 
@@ -142,7 +143,8 @@ impl LegEquations {
     }
 
     /// Newton from `start` until corrections stop shrinking. Corrections are solved for in double; where that does not
-    /// converge (far out, near `e.e = 0`, the Jacobian's condition grows with a power of the pose) in double-double.
+    /// converge (far out, near `e.e = 0`, the Jacobian's condition grows with a power of the pose) in double-double, and where
+    /// even that does not in dual quaternions.
     pub(super) fn refine(&self, start: &Point) -> Refined {
         let residual = self.residual(start);
         let (point, error) = iterate(start, |x| {
@@ -154,7 +156,13 @@ impl LegEquations {
         } else {
             iterate(start, |x| solve(self.jacobian(x), self.values(x)))
         };
-        Refined { point, residual, error, converged: error < converged_below(point.scale()) }
+        if !(error < converged_below(point.scale())) {
+            return match refine_dual(self, start) {
+                Some((point, error)) => Refined { point, residual, error, converged: true },
+                None => Refined { point, residual, error, converged: false },
+            };
+        }
+        Refined { point, residual, error, converged: true }
     }
 }
 
@@ -192,7 +200,7 @@ fn times(z: Z, x: f64) -> Z {
 }
 
 /// What Gaussian elimination needs of a number.
-trait Number: Copy + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> {
+pub(super) trait Number: Copy + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> {
     const ZERO: Self;
     fn modulus(self) -> f64;
     fn reduced(self, power_of_two: f64) -> Self;
@@ -219,8 +227,8 @@ impl Number for Z {
 }
 
 /// Gaussian elimination with partial pivoting, rows scaled to largest entry about one.
-fn solve<T: Number>(mut m: [[T; N]; N], mut y: [T; N]) -> Option<[T; N]> {
-    for i in 0..N {
+pub(super) fn solve<T: Number, const K: usize>(mut m: [[T; K]; K], mut y: [T; K]) -> Option<[T; K]> {
+    for i in 0..K {
         let largest = m[i].iter().map(|z| z.modulus()).fold(0.0, f64::max);
         if !(largest > 0.0 && largest.is_finite()) {
             return None;
@@ -229,25 +237,25 @@ fn solve<T: Number>(mut m: [[T; N]; N], mut y: [T; N]) -> Option<[T; N]> {
         m[i] = m[i].map(|z| z.reduced(unit));
         y[i] = y[i].reduced(unit);
     }
-    for c in 0..N {
-        let pivot = (c..N).max_by(|&i, &j| m[i][c].modulus().total_cmp(&m[j][c].modulus()))?;
+    for c in 0..K {
+        let pivot = (c..K).max_by(|&i, &j| m[i][c].modulus().total_cmp(&m[j][c].modulus()))?;
         m.swap(c, pivot);
         y.swap(c, pivot);
         if !(m[c][c].modulus() > 0.0) {
             return None;
         }
         let (row, value) = (m[c], y[c]);
-        for i in c + 1..N {
+        for i in c + 1..K {
             let factor = m[i][c] / row[c];
-            for j in c..N {
+            for j in c..K {
                 m[i][j] = m[i][j] - factor * row[j];
             }
             y[i] = y[i] - factor * value;
         }
     }
-    let mut x = [T::ZERO; N];
-    for i in (0..N).rev() {
-        let rest = (i + 1..N).fold(y[i], |rest, j| rest - m[i][j] * x[j]);
+    let mut x = [T::ZERO; K];
+    for i in (0..K).rev() {
+        let rest = (i + 1..K).fold(y[i], |rest, j| rest - m[i][j] * x[j]);
         x[i] = rest / m[i][i];
     }
     Some(x)

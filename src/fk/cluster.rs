@@ -18,7 +18,7 @@ const STARTS: [f64; 2] = [1e-6, 1e-4];
 /// Candidates sorted into those that stand alone and those proved to be close but distinct.
 pub(super) struct Separated {
     pub(super) plain: Vec<Candidate>,
-    pub(super) proved: Vec<Candidate>,
+    pub(super) proved: Vec<(Candidate, Certificate)>,
 }
 
 /// Takes clusters of nearly singular candidates apart.
@@ -54,13 +54,13 @@ fn resolve(
     s: &SquaredLegLengths,
     members: Vec<Candidate>,
     plain: &mut Vec<Candidate>,
-    proved: &mut Vec<Candidate>,
+    proved: &mut Vec<(Candidate, Certificate)>,
 ) {
     let centre = mean(&members);
     let found = certified_near(m, s, &members, &centre);
     if found.len() == members.len() {
         let roots = members.iter().zip(found);
-        proved.extend(roots.map(|(c, pose)| Candidate { pose, singular: false, ..*c }));
+        proved.extend(roots.map(|(c, (pose, proof))| (Candidate { pose, singular: false, ..*c }, proof)));
     } else if found.is_empty() {
         plain.extend(members.iter().map(|c| Candidate { pose: centre, singular: true, ..*c }));
     } else {
@@ -83,16 +83,15 @@ fn certified_near(
     s: &SquaredLegLengths,
     members: &[Candidate],
     centre: &ComplexPose,
-) -> Vec<ComplexPose> {
+) -> Vec<(ComplexPose, Certificate)> {
     let Ok(certifier) = Certifier::new(m, &exact_squares(s)) else { return Vec::new() };
-    let mut poses = Vec::new();
-    let mut known: Vec<Certificate> = Vec::new();
+    let mut known: Vec<(ComplexPose, Certificate)> = Vec::new();
     let mut guesses: Vec<ComplexPose> = members.iter().map(|c| c.pose).collect();
     for distance in STARTS {
         guesses.extend(beside(m, s, centre, distance));
     }
     for guess in guesses {
-        if poses.len() == members.len() {
+        if known.len() == members.len() {
             break;
         }
         let Ok(refined) = certifier.refine(&guess) else { continue };
@@ -102,10 +101,9 @@ fn certified_near(
         }
         let outcome = certifier.certify(&pose);
         let Some(certificate) = outcome.certificate() else { continue };
-        if known.iter().all(|k| relation(k, certificate) == RootRelation::Distinct) {
-            known.push(*certificate);
-            poses.push(pose);
+        if known.iter().all(|(_, k)| relation(k, certificate) == RootRelation::Distinct) {
+            known.push((pose, *certificate));
         }
     }
-    poses
+    known
 }

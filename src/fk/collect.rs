@@ -39,16 +39,19 @@ pub(super) fn collect(
     tolerances: &FkTolerances,
     candidates: &[Candidate],
 ) -> Collected {
-    collect_with(m, s, tolerances, candidates, &[])
+    collect_with(m, s, tolerances, candidates, Vec::new())
 }
 
-/// [`collect`] with further candidates that are proved to be distinct roots, however close together.
+/// A root and the indices of the candidates it stands for.
+pub(super) type Sourced = (FkRoot, Vec<usize>);
+
+/// [`collect`] with further roots that are certified and distinct, however close together.
 pub(super) fn collect_with(
     m: &Manipulator,
     s: &SquaredLegLengths,
     tolerances: &FkTolerances,
     candidates: &[Candidate],
-    proved: &[Candidate],
+    certified: Vec<Sourced>,
 ) -> Collected {
     let length = m.size();
     let mut groups: Vec<(Candidate, f64, Vec<usize>)> = Vec::new();
@@ -72,7 +75,13 @@ pub(super) fn collect_with(
         let same = groups.iter_mut().find(|(g, _, _)| {
             g.singular == c.singular && g.pose.distance(&c.pose, length) < radius * spread(&g.pose)
         });
+        let proved =
+            certified.iter().any(|(r, _)| r.pose.distance(&c.pose, length) < radius * spread(&r.pose));
         match same {
+            None if proved && !c.singular => {
+                doubtful = true;
+                rejected.push(Rejected { reason: RejectionReason::Duplicate, residual });
+            }
             Some((_, _, sources)) => {
                 doubtful |= !c.singular;
                 if !c.singular {
@@ -83,9 +92,8 @@ pub(super) fn collect_with(
             None => groups.push((c, residual, vec![c.source])),
         }
     }
-    groups.extend(proved.iter().map(|c| (*c, c.pose.residual(m, s), vec![c.source])));
-    let mut order: Vec<(FkRoot, Vec<usize>)> = groups
-        .into_iter()
+    let plain = groups.into_iter();
+    let mut order: Vec<Sourced> = plain
         .map(|(c, residual, sources)| {
             let reality = reality_of(&c, length, tolerances);
             let multiplicity = if c.singular { sources.len() as u32 } else { 1 };
@@ -99,6 +107,7 @@ pub(super) fn collect_with(
             };
             (root, sources)
         })
+        .chain(certified)
         .collect();
     order.sort_by_cached_key(|root| sort_key(&root.0, length));
     let (roots, sources) = order.into_iter().unzip();

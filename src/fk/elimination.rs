@@ -54,7 +54,7 @@ impl Candidates {
             rejected,
             seed: o.seed,
         };
-        attach(&mut solutions, m, s, GENERAL);
+        attach(&mut solutions, m, s, GENERAL, Vec::new());
         // rounding in the frames makes every problem a general one with 40 roots near by; on a special platform
         // those that are none of its own lie far out or near e.e = 0 and may pass for roots by their residual
         let (certified, others): (Vec<_>, Vec<_>) = solutions.roots.into_iter().partition(|r| r.certified);

@@ -1,10 +1,13 @@
 //! Certificates for the roots of a method, and completeness when they reach a proved bound.
 
+use std::fmt::Write as _;
+
 use super::bounds::class_bound;
 use super::{Completeness, FkSolutions, Reality};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::solve::certify::{
-    Certificate, CertificateOutcome, Certifier, Distinctness, ProvedReality, distinct, exact_squares,
+    Certificate, CertificateOutcome, Certifier, Distinctness, ProvedReality, RootRelation, distinct,
+    exact_squares,
 };
 
 /// A proved upper bound on the number of finite poses, counted with multiplicity.
@@ -29,33 +32,67 @@ pub(super) const OCTAHEDRAL: Bound = Bound {
                (degree of the octic, two mirror poses a root)",
 };
 
-/// Tries to certify every root; a certified root takes its reality from the proof. When the certified roots
-/// are pairwise distinct and as many as the bound, or as that of the platform's class, completeness is proved.
-pub(super) fn attach(solutions: &mut FkSolutions, m: &Manipulator, s: &SquaredLegLengths, bound: Bound) {
+/// Tries to certify every root that is not yet; a certified root takes its reality from the proof. `known` are the
+/// certificates of those that are. Then [`conclude`].
+pub(super) fn attach(
+    solutions: &mut FkSolutions,
+    m: &Manipulator,
+    s: &SquaredLegLengths,
+    bound: Bound,
+    mut known: Vec<Certificate>,
+) {
     let Ok(certifier) = Certifier::new(m, &exact_squares(s)) else { return };
-    let mut certificates: Vec<Certificate> = Vec::new();
-    for root in &mut solutions.roots {
+    for root in solutions.roots.iter_mut().filter(|r| !r.certified) {
         if let CertificateOutcome::Certified(certificate) = certifier.certify(&root.pose) {
             root.certified = true;
-            root.reality = match certificate.reality() {
-                ProvedReality::Real => Reality::Real,
-                ProvedReality::NonReal => Reality::NonReal,
-                ProvedReality::Undecided => Reality::Undecided,
-            };
-            certificates.push(certificate);
+            root.reality = proved(&certificate);
+            known.push(certificate);
         }
     }
-    if distinct(&certificates) != Distinctness::AllDistinct {
-        return;
+    conclude(solutions, m, &known, bound);
+}
+
+/// What a certificate proves about reality.
+pub(super) fn proved(certificate: &Certificate) -> Reality {
+    match certificate.reality() {
+        ProvedReality::Real => Reality::Real,
+        ProvedReality::NonReal => Reality::NonReal,
+        ProvedReality::Undecided => Reality::Undecided,
     }
+}
+
+/// When the certified roots are pairwise distinct and as many as the bound, or as that of the platform's class,
+/// completeness is proved. Otherwise regular roots without a certificate, and certificates that may be of one root, are doubts.
+fn conclude(solutions: &mut FkSolutions, m: &Manipulator, certificates: &[Certificate], bound: Bound) {
+    let distinct = distinct(certificates);
     let count = certificates.len();
-    if count == bound.count {
-        solutions.completeness = Completeness::Proved { argument: bound.argument.to_owned() };
-    } else if let Some(class) = class_bound(m).filter(|b| b.count == count) {
-        let argument = format!(
-            "{count} certified distinct poses, and no more than {count} are possible: {}",
-            class.reason
+    if distinct == Distinctness::AllDistinct {
+        if count == bound.count {
+            solutions.completeness = Completeness::Proved { argument: bound.argument.to_owned() };
+            return;
+        }
+        if let Some(class) = class_bound(m).filter(|b| b.count == count) {
+            let argument = format!(
+                "{count} certified distinct poses, and no more than {count} are possible: {}",
+                class.reason
+            );
+            solutions.completeness = Completeness::Proved { argument };
+            return;
+        }
+    }
+    let unproved = solutions.roots.iter().filter(|r| !r.certified && r.multiplicity == 1).count();
+    let Completeness::Unproved { reason, all_paths_accounted } = &mut solutions.completeness else { return };
+    if unproved > 0 {
+        let _ = write!(reason, "; {unproved} regular poses could not be certified");
+        *all_paths_accounted = false;
+    }
+    if let Distinctness::NotAll(pairs) = distinct {
+        let same = pairs.iter().filter(|p| p.2 == RootRelation::Same).count();
+        let _ = write!(
+            reason,
+            "; {} pairs of certified poses are not proved distinct, {same} of them proved equal",
+            pairs.len()
         );
-        solutions.completeness = Completeness::Proved { argument };
+        *all_paths_accounted = false;
     }
 }

@@ -2,16 +2,16 @@
 
 use num_complex::Complex64;
 
-use super::cluster::separate;
-use super::collect::{Candidate, collect_with};
 use super::dependent::{curves, detect_curves, incompatible};
 use super::evidence::{GENERAL, attach};
+use super::harvest::{End, Harvest, harvest};
 use super::{
     Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, PathEnd, PathReport,
     SolutionSet,
 };
 use crate::geom::{ComplexPose, rotation_from_quaternion};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
+use crate::solve::certify::Certificate;
 use crate::solve::homotopy::{EndKind, GENERIC_COUNT, Path, StartKind, solve_sections};
 use crate::solve::{Dependence, Frame, Sections, dependence, mirror, quaternion_product, split};
 
@@ -47,8 +47,8 @@ impl ForwardKinematics for Homotopy {
         let planar = Problem::planar(m, s).map(|p| (p, 0));
         for (problem, attempt) in planar.into_iter().chain(generic) {
             let seed = o.seed.wrapping_add(attempt.wrapping_mul(0x9e37_79b9));
-            let mut found = problem.solve(m, s, o, seed)?;
-            attach(&mut found, m, s, GENERAL);
+            let (mut found, certificates) = problem.solve(m, s, o, seed)?;
+            attach(&mut found, m, s, GENERAL, certificates);
             detect_curves(&mut found, m, s);
             if nearly {
                 doubt_near_relation(&mut found);
@@ -91,7 +91,7 @@ impl Problem {
         s: &SquaredLegLengths,
         o: &FkOptions,
         seed: u64,
-    ) -> Result<FkSolutions, FkError> {
+    ) -> Result<(FkSolutions, Vec<Certificate>), FkError> {
         let paths = solve_sections(self.kind, &self.sections, seed)
             .map_err(|e| FkError::Breakdown { what: e.to_string() })?;
         Ok(assemble(m, s, o, self, &paths))
@@ -116,21 +116,25 @@ pub(super) fn pose_of(x: [Complex64; 8]) -> ComplexPose {
     ComplexPose { rotation: rotation_from_quaternion(e), position }
 }
 
-/// The finite ends as candidates; where paths stand for two, the mirror images follow with sources counted on.
-fn candidates_of(problem: &Problem, paths: &[Path]) -> Vec<Candidate> {
+/// The ends that are or may be finite; where paths stand for two, the mirror images follow with sources counted on.
+fn ends_of(problem: &Problem, paths: &[Path]) -> Vec<End> {
     let mut out = Vec::new();
     for (start, path) in paths.iter().enumerate() {
-        if !matches!(path.kind, EndKind::Regular | EndKind::Singular) {
+        let finite = matches!(path.kind, EndKind::Regular | EndKind::Singular);
+        if path.kind == EndKind::Failed || !(finite || path.winding <= 2) {
             continue;
         }
-        let image = (problem.kind == StartKind::Planar).then(|| (mirror(path.x), paths.len() + start));
-        for (x, source) in std::iter::once((path.x, start)).chain(image) {
-            out.push(Candidate {
-                pose: pose_of(problem.frame.to_design(x)),
-                singular: path.kind == EndKind::Singular,
-                condition: 1.0 / path.pivot_ratio,
-                source,
-            });
+        let end = |x: [Complex64; 8], split: Option<[Complex64; 8]>, source| End {
+            point: problem.frame.to_design(x),
+            singular: path.kind == EndKind::Singular,
+            doubtful: !finite,
+            split: split.map(|h| problem.frame.to_design(h)),
+            condition: 1.0 / path.pivot_ratio,
+            source,
+        };
+        out.push(end(path.x, path.split, start));
+        if problem.kind == StartKind::Planar {
+            out.push(end(mirror(path.x), path.split.map(mirror), paths.len() + start));
         }
     }
     out
@@ -165,16 +169,16 @@ fn assemble(
     o: &FkOptions,
     problem: &Problem,
     paths: &[Path],
-) -> FkSolutions {
+) -> (FkSolutions, Vec<Certificate>) {
     let mut reports: Vec<PathReport> =
         paths.iter().enumerate().map(|(start, path)| report_of(start, path)).collect();
-    let ends = separate(m, s, candidates_of(problem, paths));
-    let mut collected = collect_with(m, s, &o.tolerances, &ends.plain, &ends.proved);
+    let Harvest { mut collected, certificates } = harvest(m, s, &o.tolerances, &ends_of(problem, paths));
     for (root, sources) in collected.sources.iter().enumerate() {
         for &source in sources {
             let report = &mut reports[source % paths.len()];
             let place = if source < paths.len() { &mut report.root } else { &mut report.mirror_root };
             *place = Some(root);
+            report.end = PathEnd::Finite;
             // a path with winding number w shares its end with w - 1 others
             collected.doubtful |= report.winding > collected.roots[root].multiplicity;
         }
@@ -197,7 +201,7 @@ fn assemble(
         count(PathEnd::AtInfinity),
         if all_paths_accounted { "every path is accounted for" } else { "poses may be missing" },
     );
-    FkSolutions {
+    let solutions = FkSolutions {
         method: Method::Homotopy,
         roots: collected.roots,
         solution_set: SolutionSet::Isolated,
@@ -205,7 +209,8 @@ fn assemble(
         paths: reports,
         rejected: collected.rejected,
         seed: o.seed,
-    }
+    };
+    (solutions, certificates)
 }
 
 #[cfg(test)]

@@ -11,6 +11,7 @@ mod collect;
 mod dependent;
 mod elimination;
 mod evidence;
+mod harvest;
 mod homotopy;
 mod near;
 mod newton;

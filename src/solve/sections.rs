@@ -65,10 +65,14 @@ impl Frame {
         Some(Self { planes: Some(Planes::of(m)?), ..Self::of(m, s) })
     }
 
-    /// The orthonormalised sections of the legs, in this frame. `None` when the six leg equations are
+    /// The orthonormalised sections of the legs, in this frame, `g.g` in the last one only: far out, where `|e|` is small against
+    /// `|g|`, rounding in `g.g` would drown what the others say about `e`. `None` when the six leg equations are
     /// linearly dependent to rounding (relative `1e-13`), so that they do not span six dimensions.
     pub(crate) fn sections(&self, m: &Manipulator, s: &SquaredLegLengths) -> Option<Sections> {
-        Sections { rows: self.leg_rows(m, s) }.orthonormalised()
+        let [first, others @ ..] = self.leg_rows(m, s);
+        let apart = others.map(|row| std::array::from_fn(|k| row[k] - first[k]));
+        let [a, b, c, d, e] = apart;
+        Sections { rows: [a, b, c, d, e, first] }.orthonormalised()
     }
 
     fn leg_rows(&self, m: &Manipulator, s: &SquaredLegLengths) -> [Row; 6] {
@@ -198,6 +202,24 @@ pub(crate) fn leg_row(a: &Vector3<f64>, b: &Vector3<f64>, s: f64) -> Row {
 }
 
 impl Sections {
+    /// An orthonormal basis of the same span with `g.g` in the last row only.
+    pub(crate) fn graded(&self) -> Option<Self> {
+        const LAST: usize = FORMS - 1;
+        let mut rows = self.rows;
+        let pivot =
+            (1..6).fold(0, |best, i| if rows[i][LAST].norm() > rows[best][LAST].norm() { i } else { best });
+        rows.swap(pivot, 5);
+        let [others @ .., last] = &mut rows;
+        for row in others {
+            let factor = row[LAST] / last[LAST];
+            for k in 0..LAST {
+                row[k] -= factor * last[k];
+            }
+            row[LAST] = Complex64::ZERO;
+        }
+        Self { rows }.orthonormalised()
+    }
+
     /// Modified Gram-Schmidt with re-orthogonalisation; `None` when a row depends on the earlier ones.
     pub(crate) fn orthonormalised(&self) -> Option<Self> {
         let mut rows: [SVector<Complex64, FORMS>; 6] = self.rows.map(SVector::from);

@@ -25,7 +25,7 @@ fn lengths(m: &Manipulator, rng: &mut Rng) -> SquaredLegLengths {
 fn generic(m: &Manipulator, s: &SquaredLegLengths) -> FkSolutions {
     let frame = Frame::of(m, s);
     let problem = Problem { sections: frame.sections(m, s).unwrap(), frame, kind: StartKind::Generic };
-    problem.solve(m, s, &FkOptions::default(), 5).unwrap()
+    problem.solve(m, s, &FkOptions::default(), 5).unwrap().0
 }
 
 #[test]

@@ -98,7 +98,7 @@ impl OcticSolver {
             rejected: collected.rejected,
             seed: o.seed,
         };
-        attach(&mut solutions, m, s, OCTAHEDRAL);
+        attach(&mut solutions, m, s, OCTAHEDRAL, Vec::new());
         Ok(solutions)
     }
 }

@@ -54,7 +54,7 @@ pub(super) fn study_of(pose: &ComplexPose, unit: f64) -> Result<Study<f64>, WhyU
 }
 
 /// Numerators of `R` (row by row) and `p` over `N = e.e`, and `N`, for anything with ring operations.
-fn pose_numerators<T>(x: &[T; 8]) -> ([T; 9], [T; 3], T)
+pub(super) fn pose_numerators<T>(x: &[T; 8]) -> ([T; 9], [T; 3], T)
 where
     T: Copy
         + std::ops::Add<Output = T>

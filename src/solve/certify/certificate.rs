@@ -39,6 +39,11 @@ impl PoseEnclosure {
     pub fn discs(&self) -> impl Iterator<Item = &Disc> {
         self.rotation.iter().flatten().chain(&self.position)
     }
+
+    fn conjugate(&self) -> Self {
+        let mirrored = |d: Disc| Disc { centre: d.centre.conj(), radius: d.radius };
+        Self { rotation: self.rotation.map(|row| row.map(mirrored)), position: self.position.map(mirrored) }
+    }
 }
 
 /// Proof that exactly one root lies near a point; made by [`certify`](super::certify) only.
@@ -64,6 +69,23 @@ impl Certificate {
     #[must_use]
     pub fn centre(&self) -> &[Complex64; 8] {
         &self.centre
+    }
+
+    /// The certificate of the complex conjugate root: equations and patch are real, so that conjugation maps balls about a
+    /// centre to balls about its conjugate and zeros to zeros.
+    #[must_use]
+    pub fn conjugate(&self) -> Self {
+        Self { centre: self.centre.map(|z| z.conj()), enclosure: self.enclosure.conjugate(), ..*self }
+    }
+
+    /// Whether the point `(e, g)` (any scale, `g` in design units) lies in the ball in which the root is the only one.
+    pub(crate) fn is_near(&self, x: &[Complex64; 8]) -> bool {
+        let one = x[self.patch];
+        let limit = self.uniqueness_radius * self.uniqueness_radius * one.norm_sqr();
+        (0..8).all(|j| {
+            let scale = if j < 4 { 1.0 } else { self.unit };
+            (x[j] / scale - self.centre[j] * one).norm_sqr() <= limit
+        })
     }
 
     /// Index of the coordinate that is 1.

@@ -50,6 +50,15 @@ pub(super) fn approximate_inverse(re: &[[f64; 8]; N], im: &[[f64; 8]; N]) -> Opt
     Some(m)
 }
 
+/// `Y` for the equations themselves from that for `F_0`, `F_i - F_0`, `F_6`.
+pub(super) fn apart(y: &Matrix) -> Matrix {
+    let mut whole = *y;
+    for row in whole.re.iter_mut().chain(&mut whole.im) {
+        row[0] -= row[1] + row[2] + row[3] + row[4] + row[5];
+    }
+    whole
+}
+
 fn multiply(re: &[f64; 8], im: &[f64; 8], fr: f64, fi: f64) -> ([f64; 8], [f64; 8]) {
     (std::array::from_fn(|j| re[j] * fr - im[j] * fi), std::array::from_fn(|j| re[j] * fi + im[j] * fr))
 }

@@ -18,6 +18,10 @@
 //! with the subtraction from the identity the `|.|_1` of its error is at most `gamma_15 sum |Y|_1 |J|_1 < 16 u sum`.
 //! `J` and `F` themselves carry the bounds of the `system` module.
 
+use num_complex::Complex64;
+
+use super::NEAR;
+use super::apart::contract_apart;
 use super::certificate::WhyUncertified;
 use super::inverse::{Matrix, approximate_inverse, subtract};
 use super::system::{Jacobian, LegSystem, N, Scalar, Study, U, Values};
@@ -30,15 +34,18 @@ pub(super) struct Contraction {
     pub(super) radius: f64,
     pub(super) uniqueness_radius: f64,
     pub(super) lipschitz: f64,
+    /// `Y F(c)`, computed: the centre less this is a better approximation (zero for the patch).
+    pub(super) step: [Complex64; 8],
 }
 
 /// The three bounds; `eta` is split into the part of the centre and the whole with the width of the data.
 #[derive(Debug, Clone, Copy)]
-struct Bounds {
-    eta_centre: f64,
-    eta: f64,
-    kappa: f64,
-    beta: f64,
+pub(super) struct Bounds {
+    pub(super) eta_centre: f64,
+    pub(super) eta: f64,
+    pub(super) kappa: f64,
+    pub(super) beta: f64,
+    pub(super) step: [Complex64; 8],
 }
 
 /// Bounds of a row of `Y` times the parts of the data.
@@ -76,7 +83,8 @@ fn bounds(system: &LegSystem, x: &Centre<'_>, values: &Values<f64>, j: &Jacobian
         let row: f64 = (0..8).map(|k| j.re[i][k].abs() + j.im[i][k].abs()).sum();
         j.error[i] + 16.0 * U * row
     });
-    let mut out = Bounds { eta_centre: 0.0, eta: 0.0, kappa: 0.0, beta: 0.0 };
+    let zero = Complex64::ZERO;
+    let mut out = Bounds { eta_centre: 0.0, eta: 0.0, kappa: 0.0, beta: 0.0, step: [zero; 8] };
     for k in 0..N {
         let (y_re, y_im) = (&y.re[k], &y.im[k]);
         let weights: [f64; N] = std::array::from_fn(|i| y_re[i].abs() + y_im[i].abs());
@@ -88,6 +96,7 @@ fn bounds(system: &LegSystem, x: &Centre<'_>, values: &Values<f64>, j: &Jacobian
             step_re += y_re[i] * f_re[i] - y_im[i] * f_im[i];
             step_im += y_re[i] * f_im[i] + y_im[i] * f_re[i];
         }
+        out.step[if k == x.hi.patch { 7 } else { k }] = Complex64::new(step_re, step_im);
         let defect: f64 = (0..8).map(|l| d_re[l].abs() + d_im[l].abs()).sum();
         let centre = step_re.abs() + step_im.abs() + row_sum(&weights, &f_error);
         let beta = system.second_order_bound(y_re, y_im, &weights, x.hi.patch);
@@ -97,15 +106,21 @@ fn bounds(system: &LegSystem, x: &Centre<'_>, values: &Values<f64>, j: &Jacobian
         out.beta = largest(out.beta, beta);
     }
     let up = |bound: f64| (bound + TINY) * UP;
-    Bounds { eta_centre: up(out.eta_centre), eta: up(out.eta), kappa: up(out.kappa), beta: up(out.beta) }
+    Bounds {
+        eta_centre: up(out.eta_centre),
+        eta: up(out.eta),
+        kappa: up(out.kappa),
+        beta: up(out.beta),
+        ..out
+    }
 }
 
 /// The larger, or NaN when one is NaN.
-fn largest(a: f64, b: f64) -> f64 {
+pub(super) fn largest(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }
 
-fn radii(b: &Bounds) -> Result<Contraction, WhyUncertified> {
+pub(super) fn radii(b: &Bounds) -> Result<Contraction, WhyUncertified> {
     let room = 1.0 - b.kappa;
     let admissible = room * room / (4.0 * b.beta);
     let failure = WhyUncertified::NoContraction { step: b.eta, admissible };
@@ -122,7 +137,7 @@ fn radii(b: &Bounds) -> Result<Contraction, WhyUncertified> {
     let uniqueness_radius = room / b.beta * (1.0 - 1e-9) - radius;
     let unique = uniqueness_radius > radius * (1.0 + 1e-9)
         && (b.kappa + b.beta * (radius + uniqueness_radius)) * UP < 1.0;
-    if unique { Ok(Contraction { radius, uniqueness_radius, lipschitz }) } else { Err(failure) }
+    if unique { Ok(Contraction { radius, uniqueness_radius, lipschitz, step: b.step }) } else { Err(failure) }
 }
 
 /// Tries to prove one root in a ball about `x`; `near` limits the Newton step at `x` itself.
@@ -138,6 +153,15 @@ pub(super) fn contract(system: &LegSystem, x: &Centre<'_>, near: f64) -> Result<
         (true, true) => radii(&b),
         (true, false) => Err(WhyUncertified::Inaccurate { step: b.eta_centre }),
         (false, _) => Err(WhyUncertified::IllConditioned { defect: b.kappa }),
+    }
+}
+
+/// [`contract`] for a centre with digits in double-double; far out on differences of the equations.
+pub(super) fn contract_sharply(system: &LegSystem, x: &Centre<'_>) -> Result<Contraction, WhyUncertified> {
+    let direct = contract(system, x, NEAR);
+    match (&direct, x.full) {
+        (Err(_), Some(full)) => contract_apart(system, full, NEAR).or(direct),
+        _ => direct,
     }
 }
 

@@ -29,12 +29,15 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod apart;
 mod centre;
 mod certificate;
+mod differences;
 mod distinct;
 mod inverse;
 mod krawczyk;
 pub mod octahedral;
+mod point;
 mod refine;
 mod second_order;
 mod system;
@@ -43,6 +46,7 @@ pub use certificate::{
     CentrePrecision, Certificate, CertificateOutcome, PoseEnclosure, ProvedReality, WhyUncertified,
 };
 pub use distinct::{Distinctness, RootRelation, distinct, relation};
+pub(crate) use point::CertifiedPose;
 pub use refine::RefinedPose;
 
 use num_complex::Complex64;
@@ -52,7 +56,7 @@ use crate::manipulator::{LegLengths, Manipulator, SquaredLegLengths};
 use crate::num::disc::UP;
 use crate::num::interval::Interval;
 use centre::{enclose_pose, pose_of, rotation_distance, study_of};
-use krawczyk::{Centre, Contraction, contract};
+use krawczyk::{Centre, Contraction, contract, contract_sharply};
 use refine::refine_study;
 use system::{LegSystem, Study};
 
@@ -102,12 +106,12 @@ impl Certifier {
         let x = study_of(pose, self.0.unit())?;
         let double = Centre { hi: &x, full: None };
         let certificate = match contract(&self.0, &double, NEAR) {
-            Ok(c) => self.build(&double, &c)?,
+            Ok(c) => Self::build(&self.0, &double, &c)?,
             Err(why) => {
                 let refined = refine_study(&self.0, &x, NEAR).map_err(|_| why)?;
                 let hi = refined.x.rounded();
                 let centre = Centre { hi: &hi, full: Some(&refined.x) };
-                self.build(&centre, &contract(&self.0, &centre, NEAR)?)?
+                Self::build(&self.0, &centre, &contract_sharply(&self.0, &centre)?)?
             }
         };
         let distance = rotation_distance(pose, &certificate.enclosure);
@@ -116,11 +120,11 @@ impl Certifier {
     }
 
     /// The certificate about the nearest doubles of the centre, whose distance enters the radii.
-    fn build(&self, x: &Centre<'_>, c: &Contraction) -> Result<Certificate, WhyUncertified> {
+    fn build(system: &LegSystem, x: &Centre<'_>, c: &Contraction) -> Result<Certificate, WhyUncertified> {
         let tail = x.tail();
         let centre: [Complex64; 8] = std::array::from_fn(|j| Complex64::new(x.hi.re[j], x.hi.im[j]));
         let radius = (c.radius + tail) * UP;
-        let unit = self.0.unit();
+        let unit = system.unit();
         let enclosure =
             enclose_pose(&centre, x.hi.patch, radius, unit).ok_or(WhyUncertified::RotationUndefined)?;
         let uniqueness_radius = (c.uniqueness_radius - tail) * (2.0 - UP);

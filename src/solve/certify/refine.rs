@@ -50,12 +50,10 @@ pub(super) struct Refined {
 
 /// `Y F(x)`, coordinate by coordinate (zero for the patch).
 fn newton_step(system: &LegSystem, x: &Study<DoubleDouble>) -> Result<[Complex64; 8], WhyUncertified> {
-    let hi = x.rounded();
-    let j = system.jacobian(&hi, &system.values(&hi));
-    let y = approximate_inverse(&j.re, &j.im).ok_or(WhyUncertified::SingularJacobian)?;
-    let values = system.values(x);
-    let f: [Complex64; N] =
-        std::array::from_fn(|i| Complex64::new(values.f_re[i].rounded(), values.f_im[i].rounded()));
+    let [re, im] = system.jacobian_apart(&x.rounded());
+    let y = approximate_inverse(&re, &im).ok_or(WhyUncertified::SingularJacobian)?;
+    let (f_re, f_im) = system.values_apart(x);
+    let f: [Complex64; N] = std::array::from_fn(|i| Complex64::new(f_re[i].rounded(), f_im[i].rounded()));
     let mut step = [Complex64::ZERO; 8];
     for k in 0..N {
         let coordinate = if k == x.patch { 7 } else { k };

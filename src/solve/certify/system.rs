@@ -88,7 +88,7 @@ impl Study<f64> {
     }
 
     /// Upper bounds `(E, G, P)` of the module's text.
-    fn magnitudes(&self) -> (f64, f64, f64) {
+    pub(super) fn magnitudes(&self) -> (f64, f64, f64) {
         let size = |j: usize| self.re[j].abs() + self.im[j].abs();
         let e = (0..4).map(size).fold(0.0, f64::max);
         let g = (4..8).map(size).fold(0.0, f64::max);
@@ -117,13 +117,13 @@ pub(super) struct Jacobian {
 #[derive(Debug, Clone)]
 pub(super) struct LegSystem {
     unit: f64,
-    a: [[f64; 3]; 6],
-    b: [[f64; 3]; 6],
+    pub(super) a: [[f64; 3]; 6],
+    pub(super) b: [[f64; 3]; 6],
     d: [[f64; 3]; 6],
     c: [[f64; 3]; 6],
-    s: [f64; 6],
-    s_radius: [f64; 6],
-    t: [f64; 6],
+    pub(super) s: [f64; 6],
+    pub(super) s_radius: [f64; 6],
+    pub(super) t: [f64; 6],
     /// `|Q_i(h, k)| <= q_i` for all `h`, `k` with coordinates of modulus at most 1 and `h_patch = k_patch = 0`.
     pub(super) q: [f64; N],
     second_order: SecondOrder,
@@ -145,13 +145,13 @@ pub(super) fn scale_point(p: [f64; 3], factor: f64) -> Option<[f64; 3]> {
 }
 
 /// Sums of absolute values in the four rows of `T`.
-fn row_sums(d: &[f64; 3], c: &[f64; 3]) -> [f64; 4] {
+pub(super) fn row_sums(d: &[f64; 3], c: &[f64; 3]) -> [f64; 4] {
     let ([dx, dy, dz], [cx, cy, cz]) = (d.map(f64::abs), c.map(f64::abs));
     [dx + dy + dz, dx + cy + cz, dy + cx + cz, dz + cx + cy]
 }
 
 /// `v = g + T e`, real coefficients on one part of the coordinates.
-fn leg_vector<S: Scalar>(d: &[S; 3], c: &[S; 3], x: &[S; 8]) -> [S; 4] {
+pub(super) fn leg_vector<S: Scalar>(d: &[S; 3], c: &[S; 3], x: &[S; 8]) -> [S; 4] {
     [
         x[4] - (d[0] * x[1] + d[1] * x[2] + d[2] * x[3]),
         (x[5] + d[0] * x[0]) + (x[2] * c[2] - x[3] * c[1]),
@@ -190,19 +190,38 @@ impl LegSystem {
         for (i, leg) in legs.iter().enumerate() {
             system.a[i] = scale_point(leg.base.coords.into(), inverse)?;
             system.b[i] = scale_point(leg.platform.coords.into(), inverse)?;
-            let (a, b) = (system.a[i], system.b[i]);
-            system.d[i] = std::array::from_fn(|j| b[j] - a[j]);
-            system.c[i] = std::array::from_fn(|j| b[j] + a[j]);
             let (low, high) =
                 (exact_product(s[i].lo(), inverse * inverse)?, exact_product(s[i].hi(), inverse * inverse)?);
             (system.s[i], system.s_radius[i]) = Interval::new(low, high)?.centre_and_radius();
-            system.second_order.set_leg(i, &system.d[i], &system.c[i], system.s[i]);
-            let rows = row_sums(&system.d[i], &system.c[i]);
-            system.t[i] = rows.into_iter().fold(0.0, f64::max) * UP;
-            let squares: f64 = rows.iter().map(|r| (1.0 + r) * (1.0 + r)).sum();
-            system.q[i] = 0.5 * (squares + 3.0 * (system.s[i].abs() + system.s_radius[i])) * UP;
+            system.prepare_leg(i);
         }
         Some(system)
+    }
+
+    /// The same problem with lengths divided by a larger unit: `g` weighs less against `e` in the norm of the proofs. `None` when that is not exact.
+    pub(super) fn coarser(&self, factor: f64) -> Option<Self> {
+        let (inverse, mut system) = (factor.recip(), Self::empty(self.unit * factor));
+        for i in 0..6 {
+            system.a[i] = scale_point(self.a[i], inverse)?;
+            system.b[i] = scale_point(self.b[i], inverse)?;
+            system.s[i] = exact_product(self.s[i], inverse * inverse)?;
+            // only ever too large: it may underflow
+            system.s_radius[i] = (self.s_radius[i] * inverse * inverse).next_up();
+            system.prepare_leg(i);
+        }
+        Some(system)
+    }
+
+    /// What follows from joints and lengths.
+    fn prepare_leg(&mut self, i: usize) {
+        let (a, b) = (self.a[i], self.b[i]);
+        self.d[i] = std::array::from_fn(|j| b[j] - a[j]);
+        self.c[i] = std::array::from_fn(|j| b[j] + a[j]);
+        self.second_order.set_leg(i, &self.d[i], &self.c[i], self.s[i]);
+        let rows = row_sums(&self.d[i], &self.c[i]);
+        self.t[i] = rows.into_iter().fold(0.0, f64::max) * UP;
+        let squares: f64 = rows.iter().map(|r| (1.0 + r) * (1.0 + r)).sum();
+        self.q[i] = 0.5 * (squares + 3.0 * (self.s[i].abs() + self.s_radius[i])) * UP;
     }
 
     fn empty(unit: f64) -> Self {

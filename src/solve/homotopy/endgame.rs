@@ -43,6 +43,9 @@ pub(crate) struct EndPoint {
     pub(crate) winding: u32,
     /// Distance of the last two means: the accuracy of `x`.
     pub(crate) accuracy: f64,
+    /// Half the distance of two roots that a loop of two turns cannot tell from a double one, with its direction: they are at
+    /// `x` plus and minus this. Lost in rounding for a true double root.
+    pub(crate) split: Option<[Complex64; 8]>,
     /// Newton's method at the target, where the path was followed to it along the real line.
     pub(crate) regular: Option<Polished>,
 }
@@ -59,18 +62,24 @@ pub(crate) fn end_path(homotopy: &SectionHomotopy, x: &[Complex64; 8], t: f64) -
             // arriving at a singular end is easy with a loose corrector: only Newton's convergence counts
             let end = polish(homotopy, &end);
             if end.converged {
-                return Some(EndPoint { x: end.x, winding: 1, accuracy: 0.0, regular: Some(end) });
+                return Some(EndPoint {
+                    x: end.x,
+                    winding: 1,
+                    accuracy: 0.0,
+                    split: None,
+                    regular: Some(end),
+                });
             }
         }
-        if let Some((mean, winding)) = go_round(homotopy, &x, t) {
+        if let Some(Loop { mean, winding, split }) = go_round(homotopy, &x, t) {
             if let Some(earlier) = previous {
                 let accuracy = projective_distance(&earlier, &mean);
                 if best.is_none_or(|b| accuracy < b.accuracy) {
-                    best = Some(EndPoint { x: mean, winding, accuracy, regular: None });
+                    best = Some(EndPoint { x: mean, winding, accuracy, split, regular: None });
                 }
                 // The mean of two roots still apart converges just as that of a double root does, as long as
                 // the branch point between them is inside the circle: finite ends go on to the smallest
-                // circle, where Newton's method from t tells two roots from one.
+                // circle, where Newton's method from t tells two roots from one; of others the split tells.
                 if accuracy < AGREEMENT && (winding == 1 || !looks_finite(&mean) || t < SMALLEST * 8.0) {
                     return best;
                 }
@@ -90,19 +99,24 @@ pub(crate) fn end_path(homotopy: &SectionHomotopy, x: &[Complex64; 8], t: f64) -
     best.filter(|b| b.accuracy < LOOSE_AGREEMENT)
 }
 
-/// Mean over the closed loop at radius `t` and the winding number.
-fn go_round(homotopy: &SectionHomotopy, x: &[Complex64; 8], t: f64) -> Option<([Complex64; 8], u32)> {
+/// What a closed loop about `t = 0` tells.
+struct Loop {
+    /// Mean, norm one.
+    mean: [Complex64; 8],
+    winding: u32,
+    split: Option<[Complex64; 8]>,
+}
+
+/// Follows the path at radius `t` until it closes.
+fn go_round(homotopy: &SectionHomotopy, x: &[Complex64; 8], t: f64) -> Option<Loop> {
     let patch = x.map(|z| z.conj());
-    let mut sum = [Complex64::ZERO; 8];
+    let mut samples: Vec<[Complex64; 8]> = Vec::with_capacity(SAMPLES);
     let mut here = *x;
     let mut spread = 0.0f64;
     let mut parameter = Complex64::new(t, 0.0);
     for turn in 1..=MOST_TURNS {
         for k in 1..=SAMPLES {
-            let on_patch = patched(&here, &patch)?;
-            for p in 0..8 {
-                sum[p] += on_patch[p];
-            }
+            samples.push(patched(&here, &patch)?);
             let angle = std::f64::consts::TAU * (k as f64) / (SAMPLES as f64);
             let goal = if k == SAMPLES { t.into() } else { Complex64::from_polar(t, angle) };
             here = track_one(homotopy, &here, parameter, goal, &ARC)?;
@@ -111,9 +125,15 @@ fn go_round(homotopy: &SectionHomotopy, x: &[Complex64; 8], t: f64) -> Option<([
         }
         // a closed loop returns to rounding, another sheet is about as far away as the loop is wide
         if projective_distance(&here, x) < 1e-3 * spread {
-            let count = (SAMPLES as f64) * f64::from(turn);
+            let sum: [Complex64; 8] = std::array::from_fn(|p| samples.iter().map(|y| y[p]).sum());
             let norm = sum.iter().map(num_complex::Complex::norm_sqr).sum::<f64>().sqrt();
-            return (norm > 1e-3 * count).then(|| (sum.map(|z| z / norm), turn));
+            let split = (turn == 2).then(|| split(&samples)).flatten();
+            let scale = samples.len() as f64 / norm; // from points on the patch to norm one
+            return (scale < 1e3).then(|| Loop {
+                mean: sum.map(|z| z / norm),
+                winding: turn,
+                split: split.map(|h| h.map(|z| z * scale)),
+            });
         }
     }
     None
@@ -131,6 +151,18 @@ fn looks_finite(x: &[Complex64; 8]) -> bool {
     let size: f64 = e.iter().map(num_complex::Complex::norm_sqr).sum();
     let n: Complex64 = e.iter().map(|z| z * z).sum();
     size > 1e-8 && n.norm() > 1e-4 * size
+}
+
+/// Half the difference `h` of two sheets changes its sign at branch points only, so that `h h^T` is analytic in `t`: its mean over the
+/// circle is its value at `t = 0`, whether or not the sheets meet there.
+fn split(samples: &[[Complex64; 8]]) -> Option<[Complex64; 8]> {
+    let half: Vec<[Complex64; 8]> = (0..SAMPLES)
+        .map(|k| std::array::from_fn(|p| (samples[k][p] - samples[k + SAMPLES][p]) * 0.5))
+        .collect();
+    let lead = (1..8).fold(0, |best, p| if half[0][p].norm() > half[0][best].norm() { p } else { best });
+    let product = |p: usize| half.iter().map(|h| h[lead] * h[p]).sum::<Complex64>() / SAMPLES as f64;
+    let root = product(lead).sqrt();
+    (root.norm_sqr() > 0.0).then(|| std::array::from_fn(|p| product(p) / root))
 }
 
 fn patched(x: &[Complex64; 8], patch: &[Complex64; 8]) -> Option<[Complex64; 8]> {

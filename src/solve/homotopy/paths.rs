@@ -72,6 +72,8 @@ pub(crate) struct Path {
     pub(crate) rejections: u32,
     pub(crate) winding: u32,
     pub(crate) retracked: u32,
+    /// Of a winding number of two: half the distance of two roots not told apart, see [`EndPoint`](super::endgame::EndPoint).
+    pub(crate) split: Option<[Complex64; 8]>,
     /// Smallest over largest pivot modulus of the Newton matrix at the end.
     pub(crate) pivot_ratio: f64,
 }
@@ -111,6 +113,7 @@ pub(crate) fn solve_sections(kind: StartKind, target: &Sections, seed: u64) -> R
                 rejections: p.rejections,
                 winding: 0,
                 retracked: 0,
+                split: None,
                 pivot_ratio: 1.0 / p.condition,
             };
             match p.remaining {
@@ -174,6 +177,7 @@ fn settle_by_endgame(homotopy: &SectionHomotopy, mut path: Path, t: f64) -> Path
     }
     path.x = end.x;
     path.winding = end.winding;
+    path.split = end.split;
     let (iso, finite) = isotropy(&end.x);
     let blur = end.accuracy.max(1e-12).sqrt().max(ISOTROPIC_MEAN);
     path.kind = if finite < blur {
@@ -214,6 +218,7 @@ impl Retracker<'_> {
                 rejections: before.rejections + p.rejections + q.rejections,
                 winding: 0,
                 retracked: before.retracked + 1,
+                split: None,
                 pivot_ratio: 0.0,
             };
             let arrived = p.arrived && q.arrived;

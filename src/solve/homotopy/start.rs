@@ -26,6 +26,9 @@ pub enum StartError {
         /// 0-based index of the number in the file.
         index: usize,
     },
+    /// The sections are linearly dependent.
+    #[error("the sections of the start data are linearly dependent")]
+    Degenerate,
     /// The target sections are not real.
     #[error("the target sections are not real")]
     NotReal,
@@ -84,6 +87,12 @@ fn parse(text: &str, count: usize) -> Result<StartSystem, StartError> {
     Ok(StartSystem { sections, solutions })
 }
 
+/// The same system in the basis in which targets are given, see [`Frame::sections`](crate::solve::Frame).
+fn graded(system: StartSystem) -> Result<StartSystem, StartError> {
+    let sections = system.sections.graded().ok_or(StartError::Degenerate)?;
+    Ok(StartSystem { sections, ..system })
+}
+
 type Shipped = OnceLock<Result<StartSystem, StartError>>;
 
 /// The shipped start system of a kind.
@@ -94,7 +103,7 @@ pub(crate) fn shipped(kind: StartKind) -> Result<&'static StartSystem, StartErro
         StartKind::Generic => (&GENERIC, include_str!("data/generic40.txt")),
         StartKind::Planar => (&PLANAR, include_str!("data/planar20.txt")),
     };
-    system.get_or_init(|| parse(text, kind.count())).as_ref().map_err(Clone::clone)
+    system.get_or_init(|| graded(parse(text, kind.count())?)).as_ref().map_err(Clone::clone)
 }
 
 #[cfg(test)]
@@ -133,7 +142,7 @@ mod tests {
     fn shipped_data_is_what_the_generator_makes() {
         for kind in KINDS {
             let again = parse(&start_system_text(kind, SHIPPED_SEED).unwrap(), kind.count()).unwrap();
-            let system = shipped(kind).unwrap();
+            let (again, system) = (graded(again).unwrap(), shipped(kind).unwrap());
             for (p, q) in again.sections.rows.iter().flatten().zip(system.sections.rows.iter().flatten()) {
                 assert!((p - q).norm() < 1e-12);
             }

@@ -1,0 +1,185 @@
+//! From ends of homotopy paths to certified roots, without a detour over `R` and `p`.
+
+use num_complex::Complex64;
+
+use super::cluster::separate;
+use super::collect::{Candidate, Collected, Sourced, collect_with};
+use super::evidence::proved;
+use super::homotopy::pose_of;
+use super::{FkRoot, FkTolerances, Rejected, RejectionReason};
+use crate::manipulator::{Manipulator, SquaredLegLengths};
+use crate::solve::certify::{
+    Certificate, CertifiedPose, Certifier, ProvedReality, RootRelation, exact_squares, relation,
+};
+
+/// Regular ends with a larger condition number may belong to a cluster.
+const NEARLY_SINGULAR: f64 = 1e4;
+
+/// How far from the mean of an endgame loop a root is looked for, in the size of the point.
+const MEAN: f64 = 1e-3;
+
+/// An end of a path that is, or may be, finite.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct End {
+    /// `(e, g)` in the design's frames.
+    pub(super) point: [Complex64; 8],
+    pub(super) singular: bool,
+    /// Taken for an end at `e.e = 0` or infinity by the endgame.
+    pub(super) doubtful: bool,
+    /// Two roots at `point` plus and minus this may look like a double one.
+    pub(super) split: Option<[Complex64; 8]>,
+    pub(super) condition: f64,
+    /// Index of the path.
+    pub(super) source: usize,
+}
+
+/// Roots, and the certificates of those that are certified.
+pub(super) struct Harvest {
+    pub(super) collected: Collected,
+    pub(super) certificates: Vec<Certificate>,
+}
+
+/// A certified root and the paths that ended there; none where it is known as the conjugate of another only.
+struct Proof {
+    root: CertifiedPose,
+    condition: f64,
+    sources: Vec<usize>,
+}
+
+/// Certifies regular ends one by one, conjugates together. What has no certificate is refined and merged as the candidates of
+/// any other method are.
+pub(super) fn harvest(m: &Manipulator, s: &SquaredLegLengths, t: &FkTolerances, ends: &[End]) -> Harvest {
+    let (doubtful, ends): (Vec<End>, Vec<End>) = ends.iter().partition(|e| e.doubtful);
+    let (close, mut alone): (Vec<End>, Vec<End>) =
+        ends.into_iter().partition(|e| e.singular || !(e.condition < NEARLY_SINGULAR));
+    let clusters = separate(m, s, close.iter().map(candidate).collect());
+    let (mut open, plain): (Vec<Candidate>, Vec<Candidate>) =
+        clusters.plain.into_iter().partition(|c| c.singular);
+    alone.extend(close.iter().filter(|e| plain.iter().any(|c| c.source == e.source)));
+    let mut proofs: Vec<Proof> = clusters
+        .proved
+        .into_iter()
+        .map(|(c, certificate)| Proof {
+            root: CertifiedPose { pose: c.pose, certificate },
+            condition: c.condition,
+            sources: vec![c.source],
+        })
+        .collect();
+    open.extend(certify_all(m, s, &alone, &mut proofs));
+    proofs.extend(finite_after_all(m, s, &doubtful));
+    let repeated = drop_repeated(&mut proofs);
+    let certificates = proofs.iter().map(|p| p.root.certificate).collect();
+    // a conjugate without a path of its own is a root all the same, but the path that should end there went elsewhere
+    let lost = proofs.iter().any(|p| p.sources.is_empty());
+    let roots: Vec<Sourced> = proofs.into_iter().map(|p| record(m, s, p)).collect();
+    let mut collected = collect_with(m, s, t, &open, roots);
+    collected.doubtful |= lost || repeated > 0;
+    let duplicate = Rejected { reason: RejectionReason::Duplicate, residual: 0.0 };
+    collected.rejected.extend(std::iter::repeat_n(duplicate, repeated));
+    Harvest { collected, certificates }
+}
+
+fn candidate(end: &End) -> Candidate {
+    Candidate {
+        pose: pose_of(end.point),
+        singular: end.singular,
+        condition: end.condition,
+        source: end.source,
+    }
+}
+
+fn record(m: &Manipulator, s: &SquaredLegLengths, p: Proof) -> Sourced {
+    let root = FkRoot {
+        pose: p.root.pose,
+        reality: proved(&p.root.certificate),
+        certified: true,
+        multiplicity: 1,
+        residual: p.root.pose.residual(m, s),
+        condition: p.condition,
+    };
+    (root, p.sources)
+}
+
+/// Certifies what can be; returns the rest.
+fn certify_all(
+    m: &Manipulator,
+    s: &SquaredLegLengths,
+    ends: &[End],
+    proofs: &mut Vec<Proof>,
+) -> Vec<Candidate> {
+    let Ok(certifier) = Certifier::new(m, &exact_squares(s)) else {
+        return ends.iter().map(candidate).collect();
+    };
+    let mut open = Vec::new();
+    let mut done = vec![false; ends.len()];
+    for (i, end) in ends.iter().enumerate() {
+        if std::mem::replace(&mut done[i], true) {
+            continue;
+        }
+        let Ok(root) = certifier.certify_point(&end.point) else {
+            open.push(candidate(end));
+            continue;
+        };
+        proofs.push(Proof { root, condition: end.condition, sources: vec![end.source] });
+        if root.certificate.reality() == ProvedReality::NonReal {
+            let root = root.conjugate();
+            let partner = (i + 1..ends.len()).find(|&j| !done[j] && root.certificate.is_near(&ends[j].point));
+            let sources = partner.map(|j| {
+                done[j] = true;
+                ends[j].source
+            });
+            proofs.push(Proof { root, condition: end.condition, sources: sources.into_iter().collect() });
+        }
+    }
+    open
+}
+
+/// Poses so far out, or so close to an end at `e.e = 0`, that the endgame could not tell: a certificate can, it proves `e.e != 0`.
+fn finite_after_all(m: &Manipulator, s: &SquaredLegLengths, ends: &[End]) -> Vec<Proof> {
+    let Ok(certifier) = Certifier::new(m, &exact_squares(s)) else { return Vec::new() };
+    let mut proofs: Vec<Proof> = Vec::new();
+    for end in ends {
+        let starts = match &end.split {
+            None => vec![end.point],
+            Some(h) => [1.0, -1.0].map(|sign| std::array::from_fn(|k| end.point[k] + h[k] * sign)).to_vec(),
+        };
+        for start in starts {
+            let Ok(root) = certifier.certify_doubtful(&start, MEAN) else { continue };
+            // the two paths of a pair are free to share it out
+            let taken = |p: &Proof| relation(&p.root.certificate, &root.certificate) == RootRelation::Same;
+            if end.split.is_none() || !proofs.iter().any(taken) {
+                proofs.push(Proof { root, condition: end.condition, sources: vec![end.source] });
+                break;
+            }
+        }
+    }
+    // the loops of conjugates are as hard as each other, rounding decides which is followed far enough
+    for k in 0..proofs.len() {
+        if proofs[k].root.certificate.reality() == ProvedReality::NonReal {
+            let (root, condition) = (proofs[k].root.conjugate(), proofs[k].condition);
+            let same = |p: &Proof| relation(&p.root.certificate, &root.certificate) == RootRelation::Same;
+            if !proofs.iter().any(same) {
+                proofs.push(Proof { root, condition, sources: Vec::new() });
+            }
+        }
+    }
+    proofs
+}
+
+/// Merges proofs of one root; their number. A conjugate that has a path after all is no repetition.
+fn drop_repeated(proofs: &mut Vec<Proof>) -> usize {
+    let mut kept: Vec<Proof> = Vec::with_capacity(proofs.len());
+    let mut repeated = 0;
+    for proof in proofs.drain(..) {
+        let same = |k: &Proof| relation(&k.root.certificate, &proof.root.certificate) == RootRelation::Same;
+        match kept.iter_mut().find(|k| same(k)) {
+            Some(known) => {
+                repeated += usize::from(!known.sources.is_empty() && !proof.sources.is_empty());
+                known.sources.extend(proof.sources);
+            }
+            None => kept.push(proof),
+        }
+    }
+    *proofs = kept;
+    repeated
+}

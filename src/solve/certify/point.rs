@@ -1,0 +1,141 @@
+//! Certificates straight from dual quaternions, and poses with all their digits.
+//!
+//! `R = X(e) / (e.e)` loses `log10(|e|^2 / |e.e|)` digits in double, and `p e = g` as many on the way back. Far out, where `e.e`
+//! is small, a pose is therefore made from a point refined in double-double.
+
+use num_complex::Complex64;
+
+use super::centre::{pose_numerators, pose_of};
+use super::krawczyk::{Centre, contract, contract_sharply};
+use super::refine::refine_study;
+use super::system::{LegSystem, Scalar, Study};
+use super::{Certificate, Certifier, NEAR, RefinedPose, WhyUncertified};
+use crate::geom::ComplexPose;
+use crate::num::double_double::DoubleDouble;
+
+/// Below this `|e.e| / |e|^2` a pose is computed in double-double.
+const FAR: f64 = 1.0 / 16.0;
+
+/// Points with smaller `|g|` gain nothing from a larger unit of length.
+const CLOSE: f64 = 64.0;
+/// Powers of two by which the unit is enlarged beyond `|g|`.
+const FLATTER: [i32; 4] = [0, 5, 10, 15];
+
+/// A proved root and its pose, rounded from the best approximation at hand.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct CertifiedPose {
+    pub(crate) pose: ComplexPose,
+    pub(crate) certificate: Certificate,
+}
+
+impl CertifiedPose {
+    /// The complex conjugate root.
+    pub(crate) fn conjugate(&self) -> Self {
+        let pose = ComplexPose {
+            rotation: self.pose.rotation.map(|z| z.conj()),
+            position: self.pose.position.map(|z| z.conj()),
+        };
+        Self { pose, certificate: self.certificate.conjugate() }
+    }
+}
+
+/// `x = (e, g)` on the patch of its largest `|e_k|`, lengths divided by `unit`.
+fn study_at(x: &[Complex64; 8], unit: f64) -> Result<Study<f64>, WhyUncertified> {
+    let size = |k: &usize| x[*k].norm_sqr();
+    let patch = (1..4).fold(0, |best, k| if size(&k) > size(&best) { k } else { best });
+    let inverse = x[patch].inv();
+    let mut z: [Complex64; 8] = std::array::from_fn(|j| x[j] * if j < 4 { inverse } else { inverse / unit });
+    z[patch] = Complex64::ONE;
+    if !z.iter().all(|z| z.is_finite()) {
+        return Err(WhyUncertified::NotFinite);
+    }
+    // as for poses: moduli below 2^30 keep every product of the evaluation far below 2^100
+    if !z.iter().all(|z| z.norm_sqr() < 2f64.powi(60)) {
+        return Err(WhyUncertified::OutOfRange);
+    }
+    Ok(Study { re: z.map(|z| z.re), im: z.map(|z| z.im), patch })
+}
+
+fn prove(system: &LegSystem, x: &Study<DoubleDouble>) -> Result<Certificate, WhyUncertified> {
+    let hi = x.rounded();
+    let centre = Centre { hi: &hi, full: Some(x) };
+    Certifier::build(system, &centre, &contract_sharply(system, &centre)?)
+}
+
+impl Certifier {
+    /// Proves that the point `(e, g)` of the design's frames (any scale) approximates one root, as [`certify`](Self::certify) does
+    /// for poses.
+    pub(crate) fn certify_point(&self, x: &[Complex64; 8]) -> Result<CertifiedPose, WhyUncertified> {
+        let study = study_at(x, self.0.unit())?;
+        let double = Centre { hi: &study, full: None };
+        match contract(&self.0, &double, NEAR) {
+            Ok(c) => {
+                let certificate = Self::build(&self.0, &double, &c)?;
+                let better: [Complex64; 8] =
+                    std::array::from_fn(|j| Complex64::new(study.re[j], study.im[j]) - c.step[j]);
+                let pose = match self.near_pose(&better) {
+                    Some(pose) => pose,
+                    None => self.sharp_pose(&study)?,
+                };
+                Ok(CertifiedPose { pose, certificate })
+            }
+            // how far Newton's method leads does not matter: the proof is about where it ends
+            Err(why) => self.certify_doubtful(x, f64::INFINITY).map_err(|_| why),
+        }
+    }
+
+    /// [`certify_point`](Self::certify_point) for a point that may be no root, or at `e.e = 0`: Newton's method in double-double is given
+    /// `reach`, in the size of the point, to settle.
+    pub(crate) fn certify_doubtful(
+        &self,
+        x: &[Complex64; 8],
+        reach: f64,
+    ) -> Result<CertifiedPose, WhyUncertified> {
+        let study = study_at(x, self.0.unit())?;
+        let size = (0..8).map(|j| study.re[j].hypot(study.im[j])).fold(1.0, f64::max);
+        let refined = refine_study(&self.0, &study, reach * size)?;
+        let certificate = match prove(&self.0, &refined.x) {
+            Ok(certificate) => certificate,
+            Err(why) => self.prove_coarsely(&refined.x).ok_or(why)?,
+        };
+        Ok(CertifiedPose { pose: self.rounded_pose(&refined.x), certificate })
+    }
+
+    /// Near infinity `g` is known less well than `e` by many powers of ten, and the largest ball in which there is one root is as
+    /// flat: a larger unit of length makes it round.
+    fn prove_coarsely(&self, x: &Study<DoubleDouble>) -> Option<Certificate> {
+        let g = (4..8).map(|k| x.re[k].rounded().hypot(x.im[k].rounded())).fold(0.0, f64::max);
+        if !(g > CLOSE) {
+            return None;
+        }
+        FLATTER.iter().find_map(|more| {
+            let factor = 2f64.powi(g.log2() as i32 + more);
+            let system = self.0.coarser(factor)?;
+            let mut y = *x;
+            for k in 4..8 {
+                (y.re[k], y.im[k]) = (x.re[k].scaled(factor.recip()), x.im[k].scaled(factor.recip()));
+            }
+            prove(&system, &y).ok()
+        })
+    }
+
+    /// The pose in double, unless `e.e` is too small for it.
+    fn near_pose(&self, x: &[Complex64; 8]) -> Option<ComplexPose> {
+        let (r, p, n) = pose_numerators(x);
+        let size: f64 = x[..4].iter().map(Complex64::norm_sqr).sum();
+        let inverse = n.inv();
+        (n.norm_sqr() > FAR * FAR * size * size).then(|| ComplexPose {
+            rotation: nalgebra::Matrix3::from_fn(|i, j| r[3 * i + j] * inverse),
+            position: nalgebra::Vector3::from_fn(|i, _| p[i] * inverse * self.0.unit()),
+        })
+    }
+
+    fn sharp_pose(&self, x: &Study<f64>) -> Result<ComplexPose, WhyUncertified> {
+        refine_study(&self.0, x, f64::INFINITY).map(|refined| self.rounded_pose(&refined.x))
+    }
+
+    fn rounded_pose(&self, x: &Study<DoubleDouble>) -> ComplexPose {
+        let (rotation, position) = pose_of(x, self.0.unit());
+        RefinedPose { rotation, position, moved: 0.0, last_step: 0.0, steps: 0 }.pose()
+    }
+}
