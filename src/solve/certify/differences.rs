@@ -129,10 +129,8 @@ impl LegSystem {
                     rows[i][4 + k] = u[k];
                 }
             }
-            for k in 0..4 {
-                rows[6][k] = g[k];
-                rows[6][4 + k] = e[k];
-            }
+            rows[6][..4].copy_from_slice(&g);
+            rows[6][4..].copy_from_slice(&e);
         }
         for row in parts.iter_mut().flatten() {
             row[x.patch] = row[7];

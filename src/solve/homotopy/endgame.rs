@@ -176,3 +176,40 @@ pub(crate) fn projective_distance(x: &[Complex64; 8], y: &[Complex64; 8]) -> f64
     let rest = x.iter().zip(y).map(|(a, b)| (b - a * overlap).norm_sqr()).sum::<f64>();
     rest.sqrt()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two sheets `x = m(t) +- sqrt(t - b) v(t)` that meet at `b` inside the circle.
+    #[test]
+    fn the_split_of_two_sheets_is_found_from_a_circle_round_their_branch_point() {
+        let circle = |turn: usize, k: usize| {
+            let angle = std::f64::consts::TAU * (k as f64 / SAMPLES as f64 + turn as f64);
+            (Complex64::from_polar(1e-3, angle), angle)
+        };
+        let branch = Complex64::new(-2e-7, 1e-7);
+        let mut samples = Vec::new();
+        for turn in 0..2 {
+            for k in 0..SAMPLES {
+                let (t, angle) = circle(turn, k);
+                // the root that is continuous round the circle: sqrt t times the near one of 1 - b/t
+                let root = Complex64::from_polar(1e-3f64.sqrt(), angle / 2.0) * (1.0 - branch / t).sqrt();
+                samples.push(std::array::from_fn(|p| {
+                    let p = p as f64;
+                    Complex64::new(1.0, p) + t * p + root * (Complex64::new(1.0 + p, -0.5) + t * (2.0 - p))
+                }));
+            }
+        }
+        let found = split(&samples).unwrap();
+        let expected = (-branch).sqrt();
+        let sign = (found[0] / (expected * Complex64::new(1.0, -0.5))).re.signum();
+        for (p, z) in found.iter().enumerate() {
+            let truth = expected * Complex64::new(1.0 + p as f64, -0.5) * sign;
+            assert!((z - truth).norm() < 1e-3 * truth.norm(), "{z} {truth}");
+        }
+        // one sheet, followed twice
+        let single: Vec<[Complex64; 8]> = (0..2 * SAMPLES).map(|_| [Complex64::ONE; 8]).collect();
+        assert!(split(&single).is_none());
+    }
+}

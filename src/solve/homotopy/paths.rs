@@ -120,7 +120,7 @@ pub(crate) fn solve_sections(kind: StartKind, target: &Sections, seed: u64) -> R
                 None => blank,
                 Some(t) if t > 0.0 => settle_by_endgame(&homotopy, blank, t),
                 Some(_) if p.correction < SETTLED => settle(blank, &p.x),
-                Some(_) => settle_arrived(&homotopy, blank),
+                Some(_) => settle_arrived(&homotopy, &blank),
             }
         })
         .collect();
@@ -137,8 +137,8 @@ pub(crate) fn solve_sections(kind: StartKind, target: &Sections, seed: u64) -> R
     Ok(paths)
 }
 
-fn settle_arrived(homotopy: &SectionHomotopy, path: Path) -> Path {
-    settle_polished(path, &polish(homotopy, &path.x))
+fn settle_arrived(homotopy: &SectionHomotopy, path: &Path) -> Path {
+    settle_polished(*path, &polish(homotopy, &path.x))
 }
 
 fn settle_polished(mut path: Path, end: &Polished) -> Path {

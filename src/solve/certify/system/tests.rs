@@ -196,3 +196,70 @@ fn scaling_that_is_not_exact_is_refused() {
     assert!(system(5e-324, 4.0).is_err(), "a subnormal coordinate loses its bits");
     assert!(system(1e200, 4.0).is_err() && system(3.0, 1e300).is_err());
 }
+
+/// Points far out: `g` up to `10^5` times `e`.
+fn far_point(rng: &mut Rng) -> Study<DoubleDouble> {
+    let mut x = random_point(rng);
+    let scale = 2f64.powi((rng.next_u64() % 17) as i32);
+    for k in 4..8 {
+        (x.re[k], x.im[k]) = (x.re[k].scaled(scale), x.im[k].scaled(scale));
+    }
+    x
+}
+
+fn apart(f: &[Complex; N]) -> [Complex; N] {
+    std::array::from_fn(|i| if (1..6).contains(&i) { add(&f[i], &f[0], -1.0) } else { f[i].clone() })
+}
+
+#[test]
+fn differences_of_the_equations_stay_within_their_bounds() {
+    let mut rng = Rng::new(84);
+    let value = |d: DoubleDouble| exact(d.hi()) + exact(d.lo());
+    for _ in 0..20 {
+        let (system, x) = (random_system(&mut rng), far_point(&mut rng));
+        let hi = x.rounded();
+        let (re, im) = system.values_apart(&x);
+        let (bounds, _) = system.value_bounds_apart(&hi);
+        let truth_apart = apart(&truth(&system, &lift(&x)));
+        let g = hi.re[4..].iter().chain(&hi.im[4..]).fold(1.0_f64, |m, y| m.max(y.abs()));
+        for i in 0..N {
+            assert_within(&(value(re[i]), value(im[i])), &truth_apart[i], bounds[i], "difference");
+            // linear in g, where the square of a leg itself would not be
+            assert!(!(1..6).contains(&i) || bounds[i] < 1e-25 * g, "{:e}", bounds[i]);
+        }
+        let [j_re, j_im] = system.jacobian_apart(&x);
+        let errors = system.jacobian_bounds_apart(&hi);
+        for column in 0..N {
+            let coordinate = if column == x.patch { 7 } else { column };
+            let mut ends = [lift(&x), lift(&x)];
+            ends[0][coordinate].0 += exact(1.0);
+            ends[1][coordinate].0 -= exact(1.0);
+            let (plus, minus) = (apart(&truth(&system, &ends[0])), apart(&truth(&system, &ends[1])));
+            for i in 0..N {
+                let twice = (value(j_re[i][column]) * exact(2.0), value(j_im[i][column]) * exact(2.0));
+                assert_within(&twice, &add(&plus[i], &minus[i], -1.0), 2.0 * errors[i], "gradient");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_larger_unit_is_the_same_problem() {
+    let mut rng = Rng::new(85);
+    for _ in 0..10 {
+        let (system, x) = (random_system(&mut rng), far_point(&mut rng));
+        let coarse = system.coarser(1024.0).unwrap();
+        let mut y = x;
+        for k in 4..8 {
+            (y.re[k], y.im[k]) = (x.re[k].scaled(1.0 / 1024.0), x.im[k].scaled(1.0 / 1024.0));
+        }
+        let (f, scaled) = (truth(&system, &lift(&x)), truth(&coarse, &lift(&y)));
+        for i in 0..N {
+            let factor = exact(1024.0) * if i == 6 { exact(1.0) } else { exact(1024.0) };
+            assert_eq!(f[i].0, &scaled[i].0 * &factor);
+            assert_eq!(f[i].1, &scaled[i].1 * &factor);
+        }
+        assert!((coarse.unit() - 1024.0 * system.unit()).abs() < 1e-300);
+    }
+    assert!(random_system(&mut rng).coarser(2f64.powi(1070)).is_none());
+}
