@@ -146,7 +146,8 @@ fn finite_after_all(m: &Manipulator, s: &SquaredLegLengths, ends: &[End]) -> Vec
         for start in starts {
             let Ok(root) = certifier.certify_doubtful(&start, MEAN) else { continue };
             // the two paths of a pair are free to share it out
-            let taken = |p: &Proof| relation(&p.root.certificate, &root.certificate) == RootRelation::Same;
+            let taken =
+                |p: &Proof| relation(&p.root.certificate, &root.certificate) != RootRelation::Distinct;
             if end.split.is_none() || !proofs.iter().any(taken) {
                 proofs.push(Proof { root, condition: end.condition, sources: vec![end.source] });
                 break;
@@ -157,8 +158,9 @@ fn finite_after_all(m: &Manipulator, s: &SquaredLegLengths, ends: &[End]) -> Vec
     for k in 0..proofs.len() {
         if proofs[k].root.certificate.reality() == ProvedReality::NonReal {
             let (root, condition) = (proofs[k].root.conjugate(), proofs[k].condition);
-            let same = |p: &Proof| relation(&p.root.certificate, &root.certificate) == RootRelation::Same;
-            if !proofs.iter().any(same) {
+            let apart =
+                |p: &Proof| relation(&p.root.certificate, &root.certificate) == RootRelation::Distinct;
+            if proofs.iter().all(apart) {
                 proofs.push(Proof { root, condition, sources: Vec::new() });
             }
         }

@@ -21,7 +21,7 @@
 use num_complex::Complex64;
 
 use super::certificate::WhyUncertified;
-use super::inverse::{Matrix, apart, approximate_inverse};
+use super::inverse::{Matrix, apart, equilibrated_inverse};
 use super::krawczyk::{Bounds, Contraction, largest, radii};
 use super::system::{LegSystem, N, Scalar, Study, U};
 use crate::num::disc::{TINY, UP};
@@ -37,7 +37,7 @@ pub(super) fn contract_apart(
 ) -> Result<Contraction, WhyUncertified> {
     let hi = x.rounded();
     let [re, im] = system.jacobian_apart(&hi);
-    let y = approximate_inverse(&re, &im).ok_or(WhyUncertified::SingularJacobian)?;
+    let y = equilibrated_inverse(&re, &im).ok_or(WhyUncertified::SingularJacobian)?;
     let b = bounds(system, x, &hi, &y);
     let regular = b.kappa < 1.0 && b.beta < 2f64.powi(200);
     let accurate = b.eta_centre <= near;

@@ -37,11 +37,13 @@ pub fn relation(a: &Certificate, b: &Certificate) -> RootRelation {
 /// Proves that the root of `inner` lies in the uniqueness ball of `outer`: its coordinates, divided by the
 /// one that is 1 on the patch of `outer`.
 fn is_captured(inner: &Certificate, outer: &Certificate) -> bool {
-    let disc = |j: usize| Disc {
-        centre: inner.centre[j],
-        radius: if j == inner.patch { 0.0 } else { inner.radius },
+    // both units are powers of two: products with their ratio are exact
+    let ratio = inner.unit / outer.unit;
+    let disc = |j: usize| {
+        let radius = if j == inner.patch { 0.0 } else { inner.radius };
+        Disc { centre: inner.centre[j], radius }.scaled(if j < 4 { 1.0 } else { ratio })
     };
-    let comparable = inner.unit.to_bits() == outer.unit.to_bits();
+    let comparable = ratio.is_normal();
     let Some(factor) = disc(outer.patch).reciprocal() else { return false };
     comparable
         && (0..8).filter(|j| *j != outer.patch).all(|j| {

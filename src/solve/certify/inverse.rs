@@ -50,6 +50,28 @@ pub(super) fn approximate_inverse(re: &[[f64; 8]; N], im: &[[f64; 8]; N]) -> Opt
     Some(m)
 }
 
+/// [`approximate_inverse`] after scaling rows and columns by powers of two, for matrices with entries of very different size.
+pub(super) fn equilibrated_inverse(re: &[[f64; 8]; N], im: &[[f64; 8]; N]) -> Option<Matrix> {
+    let unit = |x: f64| if x.is_normal() { 2f64.powi(-(x.log2().floor() as i32)) } else { 1.0 };
+    let size = |i: usize, k: usize| re[i][k].abs().max(im[i][k].abs());
+    let rows: [f64; N] = std::array::from_fn(|i| unit((0..N).map(|k| size(i, k)).fold(0.0, f64::max)));
+    let columns: [f64; N] =
+        std::array::from_fn(|k| unit((0..N).map(|i| size(i, k) * rows[i]).fold(0.0, f64::max)));
+    let scaled = |m: &[[f64; 8]; N]| -> [[f64; 8]; N] {
+        std::array::from_fn(|i| {
+            std::array::from_fn(|k| if k < N { m[i][k] * rows[i] * columns[k] } else { 0.0 })
+        })
+    };
+    let mut y = approximate_inverse(&scaled(re), &scaled(im))?;
+    for k in 0..N {
+        for i in 0..N {
+            y.re[k][i] *= columns[k] * rows[i];
+            y.im[k][i] *= columns[k] * rows[i];
+        }
+    }
+    Some(y)
+}
+
 /// `Y` for the equations themselves from that for `F_0`, `F_i - F_0`, `F_6`.
 pub(super) fn apart(y: &Matrix) -> Matrix {
     let mut whole = *y;

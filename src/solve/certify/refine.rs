@@ -6,7 +6,7 @@
 use num_complex::Complex64;
 
 use super::certificate::WhyUncertified;
-use super::inverse::approximate_inverse;
+use super::inverse::equilibrated_inverse;
 use super::system::{LegSystem, N, Scalar, Study};
 use crate::geom::ComplexPose;
 use crate::num::double_double::{ComplexDoubleDouble, DoubleDouble};
@@ -51,7 +51,7 @@ pub(super) struct Refined {
 /// `Y F(x)`, coordinate by coordinate (zero for the patch).
 fn newton_step(system: &LegSystem, x: &Study<DoubleDouble>) -> Result<[Complex64; 8], WhyUncertified> {
     let [re, im] = system.jacobian_apart(&x.rounded());
-    let y = approximate_inverse(&re, &im).ok_or(WhyUncertified::SingularJacobian)?;
+    let y = equilibrated_inverse(&re, &im).ok_or(WhyUncertified::SingularJacobian)?;
     let (f_re, f_im) = system.values_apart(x);
     let f: [Complex64; N] = std::array::from_fn(|i| Complex64::new(f_re[i].rounded(), f_im[i].rounded()));
     let mut step = [Complex64::ZERO; 8];
