@@ -77,7 +77,9 @@ pub(super) fn refine_dual(legs: &LegEquations, start: &Point) -> Option<(Point, 
         }
         let scale = g.iter().map(|z| z.hi().norm()).fold(1.0, f64::max);
         let length = step.iter().map(|z| z.hi().norm()).fold(0.0, f64::max) / scale;
-        if !(length < 1.0) {
+        // halving instead of squaring, from nearby: a multiple root
+        let slow = length >= 0.1 * last && (SETTLED..1e-6).contains(&length);
+        if !(length < 1.0) || slow {
             return None;
         }
         // quadratic convergence down to the rounding of the equations times their condition

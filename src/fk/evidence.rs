@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::bounds::class_bound;
-use super::{Completeness, FkSolutions, Reality};
+use super::{Completeness, FkSolutions, Reality, Rejected, RejectionReason};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::solve::certify::{
     Certificate, CertificateOutcome, Certifier, Distinctness, ProvedReality, RootRelation, distinct,
@@ -69,6 +69,7 @@ fn conclude(solutions: &mut FkSolutions, m: &Manipulator, certificates: &[Certif
     if distinct == Distinctness::AllDistinct {
         if count == bound.count {
             solutions.completeness = Completeness::Proved { argument: bound.argument.to_owned() };
+            reject_others(solutions);
             return;
         }
         if let Some(class) = class_bound(m).filter(|b| b.count == count) {
@@ -77,6 +78,7 @@ fn conclude(solutions: &mut FkSolutions, m: &Manipulator, certificates: &[Certif
                 class.reason
             );
             solutions.completeness = Completeness::Proved { argument };
+            reject_others(solutions);
             return;
         }
     }
@@ -94,5 +96,28 @@ fn conclude(solutions: &mut FkSolutions, m: &Manipulator, certificates: &[Certif
             pairs.len()
         );
         *all_paths_accounted = false;
+    }
+}
+
+/// With as many certified roots as there can be, what has no certificate is no further root.
+fn reject_others(solutions: &mut FkSolutions) {
+    if solutions.roots.iter().all(|r| r.certified) {
+        return;
+    }
+    let mut place = Vec::new();
+    let mut kept = Vec::new();
+    for root in std::mem::take(&mut solutions.roots) {
+        place.push(root.certified.then_some(kept.len()));
+        if root.certified {
+            kept.push(root);
+        } else {
+            let reason = RejectionReason::NotCertified;
+            solutions.rejected.push(Rejected { reason, residual: root.residual });
+        }
+    }
+    solutions.roots = kept;
+    for path in &mut solutions.paths {
+        path.root = path.root.and_then(|r| place[r]);
+        path.mirror_root = path.mirror_root.and_then(|r| place[r]);
     }
 }

@@ -75,7 +75,11 @@ fn every_shipped_design_has_the_poses_its_readme_claims() {
         let solutions = answer["solutions"].as_array().unwrap();
         assert_eq!(solutions.len().to_string(), cells[3]);
         for s in solutions {
-            assert!(s["residual"].as_f64().unwrap() < 1e-9, "{file}");
+            // rounding in R^T R grows with the square of R, far out
+            let numbers = [&s["R"]["re"], &s["R"]["im"]].into_iter().flat_map(|m| m.as_array().unwrap());
+            let entries = numbers.flat_map(|row| row.as_array().unwrap()).map(|x| x.as_f64().unwrap().abs());
+            let scale = entries.fold(1.0, f64::max);
+            assert!(s["residual"].as_f64().unwrap() < 1e-9 * scale * scale, "{file}");
             for key in ["R", "p", "real", "certified", "multiplicity", "condition"] {
                 assert!(s.get(key).is_some(), "{file}: {key}");
             }
