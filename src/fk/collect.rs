@@ -2,7 +2,7 @@
 
 use num_complex::Complex64;
 
-use super::newton::refine;
+use super::newton::refine_to;
 use super::{FkRoot, FkTolerances, Reality, Rejected, RejectionReason};
 use crate::geom::ComplexPose;
 use crate::manipulator::{Manipulator, SquaredLegLengths};
@@ -32,6 +32,21 @@ pub(super) struct Collected {
 /// Singular candidates are known to about the square root of rounding only.
 const SINGULAR_RADIUS: f64 = 1e-3;
 
+/// A residual below this, relative to the square of the pose's numbers, is rounding.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
+/// Poses far out, whose rounding is larger than this times that of a rotation, are refined as far as it goes.
+const FAR: f64 = 100.0;
+
+/// A distinct pose with everything that ended in it.
+struct Group {
+    candidate: Candidate,
+    residual: f64,
+    /// See [`pose_scale`].
+    scale: f64,
+    sources: Vec<usize>,
+}
+
 /// Refines, merges and sorts candidates.
 pub(super) fn collect(
     m: &Manipulator,
@@ -54,47 +69,52 @@ pub(super) fn collect_with(
     certified: Vec<Sourced>,
 ) -> Collected {
     let length = m.size();
-    let mut groups: Vec<(Candidate, f64, Vec<usize>)> = Vec::new();
+    let mut groups: Vec<Group> = Vec::new();
     let mut rejected = Vec::new();
     let mut doubtful = false;
     for candidate in candidates {
         let mut c = *candidate;
-        if !c.singular {
-            c.pose = refine(m, s, &c.pose);
-        }
-        let residual = c.pose.residual(m, s);
         // rounding in |R b + p - a|^2 grows with the square of the pose's own numbers
         let rounding = pose_scale(&c.pose, length).powi(2);
-        let limit = if c.singular { tolerances.residual.sqrt() } else { tolerances.residual } * rounding;
-        if !(residual <= limit) {
+        let residual = if c.singular {
+            c.pose.residual(m, s)
+        } else {
+            let (pose, residual) = refine_to(m, s, &c.pose, ROUNDING * rounding.min(FAR));
+            c.pose = pose;
+            residual
+        };
+        let scale = pose_scale(&c.pose, length);
+        let limit = if c.singular { tolerances.residual.sqrt() } else { tolerances.residual };
+        if !(residual <= limit * scale * scale) {
             rejected.push(Rejected { reason: RejectionReason::ResidualTooLarge, residual });
             continue;
         }
         let radius = if c.singular { SINGULAR_RADIUS } else { tolerances.distinct };
-        let spread = |p: &ComplexPose| pose_scale(p, length);
-        let same = groups.iter_mut().find(|(g, _, _)| {
-            g.singular == c.singular && g.pose.distance(&c.pose, length) < radius * spread(&g.pose)
+        let same = groups.iter_mut().find(|g| {
+            g.candidate.singular == c.singular
+                && g.candidate.pose.is_within(&c.pose, length, radius * g.scale)
         });
-        let proved =
-            certified.iter().any(|(r, _)| r.pose.distance(&c.pose, length) < radius * spread(&r.pose));
+        let proved = certified
+            .iter()
+            .any(|(r, _)| r.pose.is_within(&c.pose, length, radius * pose_scale(&r.pose, length)));
         match same {
             None if proved && !c.singular => {
                 doubtful = true;
                 rejected.push(Rejected { reason: RejectionReason::Duplicate, residual });
             }
-            Some((_, _, sources)) => {
+            Some(g) => {
                 doubtful |= !c.singular;
                 if !c.singular {
                     rejected.push(Rejected { reason: RejectionReason::Duplicate, residual });
                 }
-                sources.push(c.source);
+                g.sources.push(c.source);
             }
-            None => groups.push((c, residual, vec![c.source])),
+            None => groups.push(Group { candidate: c, residual, scale, sources: vec![c.source] }),
         }
     }
     let plain = groups.into_iter();
     let mut order: Vec<Sourced> = plain
-        .map(|(c, residual, sources)| {
+        .map(|Group { candidate: c, residual, sources, .. }| {
             let reality = reality_of(&c, length, tolerances);
             let multiplicity = if c.singular { sources.len() as u32 } else { 1 };
             let root = FkRoot {

@@ -20,10 +20,12 @@ fn linearised(m: &Manipulator, s: &SquaredLegLengths, pose: &ComplexPose) -> (Ja
     let size = m.size();
     let mut jacobian = Jacobian::zeros();
     let mut defect = Twist::zeros();
+    let (r, p) = (&pose.rotation, &pose.position);
     for (i, (leg, target)) in m.legs().iter().zip(s.get()).enumerate() {
-        let lift = |v: Vector3<f64>| v.map(|x| Complex64::new(x, 0.0));
-        let arm = pose.rotation * lift(leg.platform.coords);
-        let d = arm + pose.position - lift(leg.base.coords);
+        let (b, a) = (&leg.platform, &leg.base);
+        let entry = |k: usize| r[(k, 0)] * b.x + r[(k, 1)] * b.y + r[(k, 2)] * b.z;
+        let arm = Vector3::new(entry(0), entry(1), entry(2));
+        let d = Vector3::new(arm.x + p.x - a.x, arm.y + p.y - a.y, arm.z + p.z - a.z);
         let moment = arm.cross(&d);
         for k in 0..3 {
             jacobian[(i, k)] = d[k] * 2.0 / size;
@@ -57,13 +59,61 @@ fn reorthogonalised(r: &Matrix3<Complex64>) -> Matrix3<Complex64> {
     r * (three - gram) * Complex64::new(0.5, 0.0)
 }
 
+/// Solves `A x = b` by elimination with partial pivoting; `None` for a column of zeros or NaN.
+fn solve(mut a: Jacobian, mut b: Twist) -> Option<Twist> {
+    for k in 0..6 {
+        let best = (k..6).max_by(|i, j| a[(*i, k)].norm_sqr().total_cmp(&a[(*j, k)].norm_sqr()))?;
+        a.swap_rows(k, best);
+        b.swap_rows(k, best);
+        let inverse = a[(k, k)].inv();
+        if !inverse.is_finite() {
+            return None;
+        }
+        let mut factors = [Complex64::ZERO; 6];
+        for i in k + 1..6 {
+            factors[i] = a[(i, k)] * inverse;
+            b[i] = b[i] - factors[i] * b[k];
+        }
+        for j in k + 1..6 {
+            let top = a[(k, j)];
+            for i in k + 1..6 {
+                a[(i, j)] -= factors[i] * top;
+            }
+        }
+        b[k] *= inverse;
+        // the pivot row is wanted divided by the pivot
+        for j in k + 1..6 {
+            a[(k, j)] *= inverse;
+        }
+    }
+    for k in (0..5).rev() {
+        for j in k + 1..6 {
+            b[k] = b[k] - a[(k, j)] * b[j];
+        }
+    }
+    Some(b)
+}
+
 /// Newton's method; keeps the better of each step's two poses, so it never makes a residual worse.
 pub(super) fn refine(m: &Manipulator, s: &SquaredLegLengths, pose: &ComplexPose) -> ComplexPose {
+    refine_to(m, s, pose, 0.0).0
+}
+
+/// [`refine`] that ends at a residual of `floor`, which is rounding; the pose and its residual.
+pub(super) fn refine_to(
+    m: &Manipulator,
+    s: &SquaredLegLengths,
+    pose: &ComplexPose,
+    floor: f64,
+) -> (ComplexPose, f64) {
     let mut best = *pose;
     let mut residual = best.residual(m, s);
     for _ in 0..4 {
+        if residual <= floor {
+            break;
+        }
         let (jacobian, defect) = linearised(m, s, &best);
-        let Some(twist) = jacobian.lu().solve(&defect) else { break };
+        let Some(twist) = solve(jacobian, defect) else { break };
         let Some(next) = displaced(&best, &twist, m.size()) else { break };
         let r = next.residual(m, s);
         if !(r < residual) {
@@ -72,7 +122,7 @@ pub(super) fn refine(m: &Manipulator, s: &SquaredLegLengths, pose: &ComplexPose)
         best = next;
         residual = r;
     }
-    best
+    (best, residual)
 }
 
 /// The direction in which the leg equations are flattest, of norm one.

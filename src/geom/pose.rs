@@ -53,9 +53,13 @@ impl ComplexPose {
     /// Left side of the leg equation, `(R b + p - a)^T (R b + p - a)` (no conjugation).
     #[must_use]
     pub fn squared_length(&self, leg: &Leg) -> Complex64 {
-        let lift = |v: &Vector3<f64>| v.map(|x| Complex64::new(x, 0.0));
-        let d = self.rotation * lift(&leg.platform.coords) + self.position - lift(&leg.base.coords);
-        d.dot(&d)
+        let (r, p, b, a) = (&self.rotation, &self.position, &leg.platform, &leg.base);
+        let mut sum = Complex64::ZERO;
+        for k in 0..3 {
+            let d = r[(k, 0)] * b.x + r[(k, 1)] * b.y + r[(k, 2)] * b.z + p[k] - a[k];
+            sum += d * d;
+        }
+        sum
     }
 
     /// The largest error of the leg equations and of `R^T R = I`, the former relative to the squared
@@ -63,11 +67,19 @@ impl ComplexPose {
     #[must_use]
     pub fn residual(&self, m: &Manipulator, s: &SquaredLegLengths) -> f64 {
         let scale = m.size() * m.size();
-        let legs = m.legs();
-        let errors =
-            legs.iter().zip(s.get()).map(|(leg, s)| ((self.squared_length(leg) - s) / scale).norm_sqr());
-        let gram = self.rotation.transpose() * self.rotation - Matrix3::identity();
-        errors.chain(gram.iter().map(num_complex::Complex::norm_sqr)).fold(0.0, f64::max).sqrt()
+        let mut largest = 0.0_f64;
+        for (leg, s) in m.legs().iter().zip(s.get()) {
+            largest = larger(largest, ((self.squared_length(leg) - s) / scale).norm_sqr());
+        }
+        let r = &self.rotation;
+        for i in 0..3 {
+            for j in 0..=i {
+                let one = if i == j { 1.0 } else { 0.0 };
+                let dot = r[(0, i)] * r[(0, j)] + r[(1, i)] * r[(1, j)] + r[(2, i)] * r[(2, j)];
+                largest = larger(largest, (dot - one).norm_sqr());
+            }
+        }
+        largest.sqrt()
     }
 
     /// Largest modulus of an imaginary part: of `R` as it is, of `p` relative to `size`.
@@ -84,6 +96,13 @@ impl ComplexPose {
         Pose { rotation: Rotation3::from_matrix(&r), position: self.position.map(|z| z.re) }
     }
 
+    /// Whether [`distance`](Self::distance) is below `limit`; far poses are told after an entry or two.
+    pub(crate) fn is_within(&self, other: &Self, size: f64, limit: f64) -> bool {
+        let limits = (limit * limit, limit * limit * size * size);
+        let entries = self.rotation.iter().zip(&other.rotation).all(|(x, y)| (x - y).norm_sqr() < limits.0);
+        entries && self.position.iter().zip(&other.position).all(|(x, y)| (x - y).norm_sqr() < limits.1)
+    }
+
     /// Distance of two poses: the largest entry difference, positions divided by `size`.
     #[must_use]
     pub fn distance(&self, other: &Self, size: f64) -> f64 {
@@ -93,6 +112,11 @@ impl ComplexPose {
             (self.position - other.position).iter().map(num_complex::Complex::norm_sqr).fold(0.0, f64::max);
         r.max(p / (size * size)).sqrt()
     }
+}
+
+/// The larger number; NaN when one is, so that no comparison with it succeeds.
+fn larger(x: f64, y: f64) -> f64 {
+    if y <= x || x.is_nan() { x } else { y }
 }
 
 impl From<Pose> for ComplexPose {

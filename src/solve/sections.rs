@@ -15,7 +15,7 @@
 //! vectors matters: they are made orthonormal, which removes the scale of each equation and the
 //! dependence on the leg order up to rounding.
 
-use nalgebra::{Matrix3, Point3, Rotation3, SVector, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Point3, Rotation3, SMatrix, SVector, UnitQuaternion, Vector3};
 use num_complex::Complex64;
 
 use crate::manipulator::{Leg, Manipulator, SquaredLegLengths};
@@ -202,6 +202,22 @@ pub(crate) fn leg_row(a: &Vector3<f64>, b: &Vector3<f64>, s: f64) -> Row {
 }
 
 impl Sections {
+    /// The real rows but the last turned among themselves, `O rows` with `O` orthogonal, and the sign of the last chosen, so as to be
+    /// as close to those of `other` as they can (orthogonal Procrustes problem): the same sections, a shorter way to the others. The
+    /// last row is the one with `g.g` and stays so.
+    pub(crate) fn aligned_with(&self, other: &Self) -> Self {
+        let real = |s: &Self| SMatrix::<f64, 6, FORMS>::from_fn(|i, k| s.rows[i][k].re);
+        let (own, aim) = (real(self), real(other));
+        let (own_first, aim_first) = (own.fixed_rows::<5>(0), aim.fixed_rows::<5>(0));
+        let overlap = (aim_first * own_first.transpose()).try_svd(true, true, f64::EPSILON, 100);
+        // without the decomposition the rows stay as they are: any order of them will do
+        let Some((u, v_t)) = overlap.and_then(|svd| svd.u.zip(svd.v_t)) else { return *self };
+        let turned = u * v_t * own_first;
+        let sign = 1.0_f64.copysign(own.row(5).dot(&aim.row(5)));
+        let entry = |i: usize, k: usize| if i < 5 { turned[(i, k)] } else { sign * own[(5, k)] };
+        Self { rows: std::array::from_fn(|i| std::array::from_fn(|k| entry(i, k).into())) }
+    }
+
     /// An orthonormal basis of the same span with `g.g` in the last row only.
     pub(crate) fn graded(&self) -> Option<Self> {
         const LAST: usize = FORMS - 1;
@@ -275,6 +291,26 @@ pub(crate) fn forms(x: [Complex64; 8]) -> Row {
 mod tests {
     use super::*;
     use crate::geom::{Pose, random_rotation};
+
+    #[test]
+    fn aligned_rows_span_the_same_sections_and_are_nearer() {
+        let mut rng = Rng::new(4);
+        let mut random = || {
+            let mut row = || std::array::from_fn(|_| Complex64::new(rng.normal(), 0.0));
+            Sections { rows: std::array::from_fn(|_| row()) }.graded().unwrap()
+        };
+        let (own, aim) = (random(), random());
+        let turned = own.aligned_with(&aim);
+        let matrix = |s: &Sections| SMatrix::<f64, 6, FORMS>::from_fn(|i, k| s.rows[i][k].re);
+        let (a, b, c) = (matrix(&own), matrix(&aim), matrix(&turned));
+        // orthonormal, with the same projector, and the overlap of the first five with the aim is symmetric: no turn improves it
+        assert!((c * c.transpose() - SMatrix::<f64, 6, 6>::identity()).norm() < 1e-13);
+        assert!((c.transpose() * c - a.transpose() * a).norm() < 1e-13);
+        assert!((0..5).all(|i| c[(i, FORMS - 1)].abs() < 1e-15));
+        let overlap = b.fixed_rows::<5>(0) * c.fixed_rows::<5>(0).transpose();
+        assert!((overlap - overlap.transpose()).norm() < 1e-13);
+        assert!((b - c).norm() < (b - a).norm());
+    }
 
     #[test]
     fn a_leg_row_vanishes_exactly_at_poses_with_its_length() {

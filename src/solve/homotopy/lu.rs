@@ -117,16 +117,19 @@ pub(super) fn eliminate<S: Simd>(a: &mut Matrix8<S>, inverse: &mut Vec8<S>) {
 /// Solves with the factors of [`eliminate`], in place.
 #[inline(always)]
 pub(super) fn substitute<S: Simd>(a: &Matrix8<S>, inverse: &Vec8<S>, b: &mut Vec8<S>) {
-    for i in 1..8 {
-        for j in 0..i {
-            b[i] = b[i].mul_sub(a[i][j], b[j]);
+    // by columns: the updates of one column do not wait for each other
+    for j in 0..7 {
+        let top = b[j];
+        for i in j + 1..8 {
+            b[i] = b[i].mul_sub(a[i][j], top);
         }
     }
-    for i in (0..8).rev() {
-        for j in i + 1..8 {
-            b[i] = b[i].mul_sub(a[i][j], b[j]);
+    for j in (0..8).rev() {
+        b[j] = b[j] * inverse[j];
+        let known = b[j];
+        for i in 0..j {
+            b[i] = b[i].mul_sub(a[i][j], known);
         }
-        b[i] = b[i] * inverse[i];
     }
 }
 

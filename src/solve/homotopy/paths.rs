@@ -95,7 +95,8 @@ pub(crate) fn solve_sections(kind: StartKind, target: &Sections, seed: u64) -> R
     let start = shipped(kind)?;
     let mut rng = Rng::stream(seed, 0);
     let corner = Complex64::new(0.5, 0.0) + Complex64::from_polar(0.25, rng.uniform(0.6, 2.5));
-    let real = SectionHomotopy::real(&start.sections, target).ok_or(StartError::NotReal)?;
+    let aligned = start.sections.aligned_with(target);
+    let real = SectionHomotopy::real(&aligned, target).ok_or(StartError::NotReal)?;
     let (starts, pace) = (&start.solutions, Pace::DEFAULT);
     let sprinted = match kind {
         StartKind::Generic => Sprint { homotopy: &real, starts, corner, pace }.run(),

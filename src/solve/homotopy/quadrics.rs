@@ -106,8 +106,9 @@ impl Quadrics<PLANAR_FORMS> for Forms<PLANAR_FORMS> {
     #[inline(always)]
     fn gradient<S: Simd>(row: &[Lanes<S>; PLANAR_FORMS], x: &Vec8<S>) -> Vec8<S> {
         let [e0, e1, e2, e3, g0, g1, g2, g3] = *x;
-        let double = |z: Lanes<S>| z + z;
-        let [norm, outer, inner, w03, w12, _, _, _, _, c] = row.map(double);
+        // no closures here: they would be compiled for the baseline and be called
+        let (norm, outer, inner) = (row[0] + row[0], row[1] + row[1], row[2] + row[2]);
+        let (w03, w12, c) = (row[3] + row[3], row[4] + row[4], row[9] + row[9]);
         let (mx, my, nx, ny) = (row[5], row[6], row[7], row[8]);
         [
             ((norm + outer) * e0).mul_add(w03, e3).mul_add(mx, g1).mul_add(my, g2),

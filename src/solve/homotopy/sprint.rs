@@ -204,8 +204,7 @@ impl<S: Simd> Field<S> {
             self.x[p] = self.x[p].scale(inverse_norm);
             patch[p] = self.x[p].conj();
         }
-        let rows = sprint.homotopy.rows_at(self.t);
-        let mut matrix: Matrix8<S> = derivative_matrix(&rows, &self.x, &patch);
+        let mut matrix: Matrix8<S> = sprint.homotopy.derivative_at(self.t, &self.x, &patch);
         let mut delta = values(&matrix, &self.x);
         let mut inverse = patch;
         eliminate(&mut matrix, &mut inverse);

@@ -19,6 +19,9 @@ pub(super) const ORDER: usize = 5;
 pub(super) trait Coefficient: Copy {
     /// `sum + k x`.
     fn add_times<S: Simd>(self, sum: Lanes<S>, x: Lanes<S>) -> Lanes<S>;
+
+    /// The same number in every lane.
+    fn lanes<S: Simd>(self, simd: S) -> Lanes<S>;
 }
 
 impl Coefficient for f64 {
@@ -28,12 +31,22 @@ impl Coefficient for f64 {
         let k = s.splat_f64s(self);
         Lanes { re: s.mul_add_e_f64s(k, x.re, sum.re), im: s.mul_add_e_f64s(k, x.im, sum.im), simd: s }
     }
+
+    #[inline(always)]
+    fn lanes<S: Simd>(self, simd: S) -> Lanes<S> {
+        Lanes::splat(simd, self.into())
+    }
 }
 
 impl Coefficient for Complex64 {
     #[inline(always)]
     fn add_times<S: Simd>(self, sum: Lanes<S>, x: Lanes<S>) -> Lanes<S> {
         sum.mul_add(Lanes::splat(sum.simd, self), x)
+    }
+
+    #[inline(always)]
+    fn lanes<S: Simd>(self, simd: S) -> Lanes<S> {
+        Lanes::splat(simd, self)
     }
 }
 
@@ -92,27 +105,48 @@ impl SectionHomotopy<f64> {
 impl<K: Coefficient, const F: usize> SectionHomotopy<K, F> {
     #[inline(always)]
     pub(super) fn rows_at<S: Simd>(&self, t: Lanes<S>) -> Rows<S, F> {
-        let one = Lanes::splat(t.simd, Complex64::ONE);
-        let zero = Lanes::zero(t.simd);
-        let mut rows = [[zero; F]; 6];
+        let mut rows = [[t; F]; 6];
         for i in 0..6 {
-            for k in 0..F {
-                rows[i][k] = self.slope[i][k].add_times(self.target[i][k].add_times(zero, one), t);
-            }
+            rows[i] = self.row_at(i, t);
         }
         rows
+    }
+
+    #[inline(always)]
+    fn row_at<S: Simd>(&self, i: usize, t: Lanes<S>) -> [Lanes<S>; F] {
+        let mut row = [t; F];
+        for k in 0..F {
+            row[k] = self.slope[i][k].add_times(self.target[i][k].lanes(t.simd), t);
+        }
+        row
+    }
+
+    /// [`derivative_matrix`] at one parameter value per lane; the rows, 13 kB of them in the widest unit, are not kept.
+    #[inline(always)]
+    pub(super) fn derivative_at<S: Simd>(&self, t: Lanes<S>, x: &Vec8<S>, patch: &Vec8<S>) -> Matrix8<S>
+    where
+        Forms<F>: Quadrics<F>,
+    {
+        let mut j = bordered(x, patch);
+        for i in 0..6 {
+            j[i] = Forms::gradient(&self.row_at(i, t), x);
+        }
+        j
     }
 
     /// `target forms + slope moved`, one value a row.
     #[inline(always)]
     fn combine<S: Simd>(&self, forms: Option<&[Lanes<S>; F]>, moved: &[Lanes<S>; F]) -> [Lanes<S>; 6] {
         let mut out = [Lanes::zero(moved[0].simd); 6];
-        for i in 0..6 {
-            for k in 0..F {
+        // six independent sums side by side
+        for k in 0..F {
+            for i in 0..6 {
                 out[i] = self.slope[i][k].add_times(out[i], moved[k]);
             }
-            if let Some(forms) = forms {
-                for k in 0..F {
+        }
+        if let Some(forms) = forms {
+            for k in 0..F {
+                for i in 0..6 {
                     out[i] = self.target[i][k].add_times(out[i], forms[k]);
                 }
             }
@@ -131,14 +165,19 @@ pub(super) fn derivative_matrix<S: Simd, const F: usize>(
 where
     Forms<F>: Quadrics<F>,
 {
-    let zero = Lanes::zero(x[0].simd);
-    let mut j = [[zero; 8]; 8];
+    let mut j = bordered(x, patch);
     for i in 0..6 {
         j[i] = Forms::gradient(&rows[i], x);
     }
+    j
+}
+
+/// The last two rows, of `e.g` and the patch.
+#[inline(always)]
+fn bordered<S: Simd>(x: &Vec8<S>, patch: &Vec8<S>) -> Matrix8<S> {
+    let mut j = [*patch; 8];
     j[6][..4].copy_from_slice(&x[4..]);
     j[6][4..].copy_from_slice(&x[..4]);
-    j[7] = *patch;
     j
 }
 
@@ -147,8 +186,8 @@ where
 pub(super) fn values<S: Simd>(j: &Matrix8<S>, x: &Vec8<S>) -> Vec8<S> {
     let simd = x[0].simd;
     let mut f = [Lanes::zero(simd); 8];
-    for i in 0..8 {
-        for p in 0..8 {
+    for p in 0..8 {
+        for i in 0..8 {
             f[i] = f[i].mul_add(j[i][p], x[p]);
         }
     }
@@ -188,11 +227,10 @@ where
         for i in 1..=k / 2 {
             let j = k - i;
             let (f, s) = Forms::polar(&series[i - 1], &series[j - 1]);
-            let weight = if i == j { 0.5 } else { 1.0 };
             for n in 0..F {
-                inner[n] += f[n].times(weight);
+                inner[n] += if i == j { f[n].times(0.5) } else { f[n] };
             }
-            study += s.times(weight);
+            study += if i == j { s.times(0.5) } else { s };
         }
         let sections = if k == 1 {
             homotopy.combine(None, &full)

@@ -98,8 +98,7 @@ impl<S: Simd> Front<S> {
     pub(super) fn step(&mut self, homotopy: &SectionHomotopy, settings: &TrackerSettings) -> StepReport {
         let s = self.t.simd;
         let patch = self.normalise();
-        let rows = homotopy.rows_at(self.t);
-        let lu = Lu::factorise(derivative_matrix(&rows, &self.x, &patch));
+        let lu = Lu::factorise(homotopy.derivative_at(self.t, &self.x, &patch));
         let series = taylor(homotopy, self.t, &self.x, |b| *b = lu.solve(*b));
         let (next_t, dt, reaches) = self.choose_step(&series, settings);
         let mut y = self.x;
