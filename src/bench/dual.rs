@@ -4,6 +4,8 @@
 //! quaternions `(e, g)`, `g = p e`, the same root is an ordinary point: here the claimed pose is carried there, improved on
 //! `|g + e b_i - a_i e|^2 = s_i e.e`, `e.g = 0`, `e_k = 1`, and carried back. All in double-double.
 
+use num_complex::Complex64;
+
 use super::newton::{LegEquations, Point, solve};
 use crate::num::double_double::{ComplexDoubleDouble as Z, DoubleDouble};
 
@@ -64,10 +66,21 @@ fn quaternion(x: &Point) -> (Quaternion, usize) {
 
 /// The root in dual quaternions near `start`, as a pose, and its relative error (the last correction, grown by what the division by
 /// `e.e` loses); `None` when Newton's method fails.
-pub(super) fn refine_dual(legs: &LegEquations, start: &Point) -> Option<(Point, f64)> {
+///
+/// It starts at the claimed dual quaternion, or where there is none at that of the pose.
+pub(super) fn refine_dual(
+    legs: &LegEquations,
+    start: &Point,
+    claimed: Option<&[Complex64; 8]>,
+) -> Option<(Point, f64)> {
     let (mut e, patch) = quaternion(start);
     let mut g = product(&pure([start.0[9], start.0[10], start.0[11]]), &e);
-    let mut last = f64::INFINITY;
+    if let Some(x) = claimed {
+        let one = Z::from(x[patch]);
+        e = std::array::from_fn(|k| Z::from(x[k]) / one);
+        g = std::array::from_fn(|k| Z::from(x[4 + k] / legs.unit()) / one);
+    }
+    let (mut last, mut slow) = (f64::INFINITY, 0);
     for _ in 0..20 {
         let (jacobian, values) = linearised(legs, &e, &g, patch);
         let step = solve(jacobian, values)?;
@@ -78,8 +91,8 @@ pub(super) fn refine_dual(legs: &LegEquations, start: &Point) -> Option<(Point, 
         let scale = g.iter().map(|z| z.hi().norm()).fold(1.0, f64::max);
         let length = step.iter().map(|z| z.hi().norm()).fold(0.0, f64::max) / scale;
         // halving instead of squaring, from nearby: a multiple root
-        let slow = length >= 0.1 * last && (SETTLED..1e-6).contains(&length);
-        if !(length < 1.0) || slow {
+        slow += u32::from(length >= 0.1 * last && (SETTLED..1e-6).contains(&length));
+        if !(length < 1.0) || slow > 3 {
             return None;
         }
         // quadratic convergence down to the rounding of the equations times their condition

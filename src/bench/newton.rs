@@ -36,12 +36,12 @@ impl Point {
         self.0.iter().map(|z| z.im.hi().abs()).fold(0.0, f64::max)
     }
 
-    /// Real part of `det R`: 1 for a rotation, -1 for a reflection, for complex `R` too. In double-double: far out the
-    /// products are larger than `10^16`.
-    pub(super) fn determinant(&self) -> f64 {
+    /// `det R` is 1 and not -1. In double-double: far out the products are larger than `10^16`.
+    pub(super) fn is_rotation(&self) -> bool {
         let r = &self.0;
         let minor = |i: usize, j: usize| r[3 + i] * r[6 + j] - r[3 + j] * r[6 + i];
-        (r[0] * minor(1, 2) - r[1] * minor(0, 2) + r[2] * minor(0, 1)).hi().re
+        let determinant = (r[0] * minor(1, 2) - r[1] * minor(0, 2) + r[2] * minor(0, 1)).hi().re;
+        (determinant - 1.0).abs() < 0.1
     }
 }
 
@@ -64,6 +64,8 @@ pub(super) struct Refined {
     pub(super) error: f64,
     /// Corrections fell to rounding level and stopped there.
     pub(super) converged: bool,
+    /// `R` is a rotation and no reflection.
+    pub(super) proper: bool,
 }
 
 impl LegEquations {
@@ -146,25 +148,33 @@ impl LegEquations {
     /// converge (far out, near `e.e = 0`, the Jacobian's condition grows with a power of the pose) in double-double, and where
     /// even that does not in dual quaternions.
     pub(super) fn refine(&self, start: &Point) -> Refined {
+        self.refine_from(start, None)
+    }
+
+    /// [`refine`](Self::refine), with the digits that a dual quaternion has and the pose has not.
+    pub(super) fn refine_from(&self, start: &Point, dual: Option<&[Complex64; 8]>) -> Refined {
         let residual = self.residual(start);
         let (point, error) = iterate(start, |x| {
             solve(self.jacobian(x).map(|row| row.map(Z::hi)), self.values(x).map(Z::hi))
                 .map(|s| s.map(Z::from))
         });
-        let (point, error) = if error < converged_below(point.scale()) {
-            (point, error)
-        } else {
-            iterate(start, |x| solve(self.jacobian(x), self.values(x)))
-        };
-        if !(error < converged_below(point.scale())) {
-            return match refine_dual(self, start) {
-                Some((point, error)) => Refined { point, residual, error, converged: true },
-                None => Refined { point, residual, error, converged: false },
-            };
+        if error < CLOSE {
+            return Refined { point, residual, error, converged: true, proper: point.is_rotation() };
         }
-        Refined { point, residual, error, converged: true }
+        let (point, error) = iterate(start, |x| solve(self.jacobian(x), self.values(x)));
+        if !(error < CLOSE) {
+            // what comes from a dual quaternion is a rotation
+            if let Some((point, error)) = refine_dual(self, start, dual) {
+                return Refined { point, residual, error, converged: true, proper: true };
+            }
+        }
+        let converged = error < converged_below(point.scale());
+        Refined { point, residual, error, converged, proper: point.is_rotation() }
     }
 }
+
+/// Corrections of this relative length are as good as `R`, `p` ever give.
+const CLOSE: f64 = 1e-20;
 
 /// Relative length below which the last correction of an iteration that has converged lies.
 ///

@@ -96,6 +96,7 @@ pub(super) fn claims_of(problem: &Problem, found: &FkSolutions) -> (Vec<Claim>, 
         let certificate = outcome.as_ref().and_then(|o| o.certificate());
         Claim {
             pose: root.pose,
+            dual_quaternion: root.dual_quaternion,
             certified: root.certified,
             enclosure: certificate.map(|c| c.enclosure().discs().copied().collect()),
             reality: root.reality,

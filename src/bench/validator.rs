@@ -1,5 +1,7 @@
 //! Whether a claimed set of roots is right: by refinement in double-double, symmetry and roots from elsewhere.
 
+use num_complex::Complex64;
+
 use crate::fk::Reality;
 use crate::geom::ComplexPose;
 use crate::num::disc::Disc;
@@ -25,6 +27,8 @@ const CLAIMED: f64 = 4e-8;
 pub struct Claim {
     /// The pose.
     pub pose: ComplexPose,
+    /// The same as a dual quaternion, see [`FkRoot::dual_quaternion`](crate::fk::FkRoot::dual_quaternion).
+    pub dual_quaternion: Option<[Complex64; 8]>,
     /// Whether existence is claimed to be proved.
     pub certified: bool,
     /// Discs said to hold `R` (row by row) and `p` (design units) of the root.
@@ -70,7 +74,7 @@ pub fn validate(problem: &Problem, claims: &[Claim], others: &[ComplexPose]) -> 
     let mut roots: Vec<Root> = Vec::new();
     for claim in claims {
         let start = equations.point(&claim.pose);
-        let refined = equations.refine(&start);
+        let refined = equations.refine_from(&start, claim.dual_quaternion.as_ref());
         verdict.worst_residual = verdict.worst_residual.max(refined.residual);
         let regular = is_regular(&start, &refined) || encloses(claim, &start, &refined, equations.unit());
         if claim.certified && !(regular && is_as_claimed(claim, &refined, equations.unit())) {
@@ -83,7 +87,8 @@ pub fn validate(problem: &Problem, claims: &[Claim], others: &[ComplexPose]) -> 
         } else {
             Root { point: refined.point, radius: radius(&refined) }
         };
-        let wrong = !(regular && refined.residual <= RESIDUAL || singular) || !is_rotation(&root.point);
+        let proper = if singular { root.point.is_rotation() } else { refined.proper };
+        let wrong = !(regular && refined.residual <= RESIDUAL || singular) || !proper;
         if wrong || holds(&roots, &root.point) {
             verdict.spurious += 1;
             continue;
@@ -121,10 +126,6 @@ fn in_discs(discs: &[Disc], x: &Point, slack: f64, unit: f64) -> bool {
         gap.hi().norm() <= disc.radius / length + slack * scale
     };
     discs.len() == 12 && discs.iter().enumerate().all(holds)
-}
-
-fn is_rotation(x: &Point) -> bool {
-    (x.determinant() - 1.0).abs() < 0.1
 }
 
 fn radius(refined: &Refined) -> f64 {
@@ -167,7 +168,7 @@ fn missed(
     let mut absent: Vec<Root> = Vec::new();
     let mut look = |refined: Refined, near: bool| {
         let known = holds(roots, &refined.point) || holds(&absent, &refined.point);
-        if near && refined.converged && is_rotation(&refined.point) && !known {
+        if near && refined.converged && refined.proper && !known {
             let (point, radius) = (refined.point, radius(&refined));
             absent.push(Root { point, radius });
             let conjugate = point.conjugate();

@@ -124,6 +124,7 @@ pub(super) fn collect_with(
                 multiplicity,
                 residual,
                 condition: c.condition,
+                dual_quaternion: None,
             };
             (root, sources)
         })

@@ -114,7 +114,15 @@ fn witnesses(
             Reality::Undecided
         };
         let condition = 1.0 / path.pivot_ratio;
-        out.push(FkRoot { pose, reality, certified: false, multiplicity: 1, residual, condition });
+        out.push(FkRoot {
+            pose,
+            reality,
+            certified: false,
+            multiplicity: 1,
+            residual,
+            condition,
+            dual_quaternion: None,
+        });
     }
     out
 }

@@ -96,8 +96,28 @@ fn record(m: &Manipulator, s: &SquaredLegLengths, p: Proof) -> Sourced {
         multiplicity: 1,
         residual: p.root.pose.residual(m, s),
         condition: p.condition,
+        dual_quaternion: Some(p.root.certificate.point()),
     };
     (root, p.sources)
+}
+
+fn is_zero(x: f64) -> bool {
+    x.to_bits() << 1 == 0 // either sign
+}
+
+/// Roots that are certified with this one: the conjugate, and with both bodies flat the mirror images of both.
+fn images(root: &CertifiedPose, flat: bool) -> Vec<CertifiedPose> {
+    let mut out = Vec::with_capacity(3);
+    if root.certificate.reality() == ProvedReality::NonReal {
+        out.push(root.conjugate());
+    }
+    if flat {
+        out.push(root.mirrored());
+        if out.len() == 2 {
+            out.push(root.conjugate().mirrored());
+        }
+    }
+    out
 }
 
 /// Certifies what can be; returns the rest.
@@ -110,6 +130,8 @@ fn certify_all(
     let Ok(certifier) = Certifier::new(m, &exact_squares(s)) else {
         return ends.iter().map(candidate).collect();
     };
+    // exactly: what the certificate is about is the joints as they are
+    let flat = m.legs().iter().all(|l| is_zero(l.base.z) && is_zero(l.platform.z));
     let mut open = Vec::new();
     let mut done = vec![false; ends.len()];
     for (i, end) in ends.iter().enumerate() {
@@ -120,15 +142,23 @@ fn certify_all(
             open.push(candidate(end));
             continue;
         };
+        let first = proofs.len();
         proofs.push(Proof { root, condition: end.condition, sources: vec![end.source] });
-        if root.certificate.reality() == ProvedReality::NonReal {
-            let root = root.conjugate();
-            let partner = (i + 1..ends.len()).find(|&j| !done[j] && root.certificate.is_near(&ends[j].point));
+        for image in images(&root, flat) {
+            // an image of an image may be known already; the root may be an image of itself
+            let apart =
+                |p: &Proof| relation(&p.root.certificate, &image.certificate) == RootRelation::Distinct;
+            if !proofs[first..].iter().all(apart) {
+                continue;
+            }
+            let near = |j: &usize| !done[*j] && image.certificate.is_near(&ends[*j].point);
+            let partner = (i + 1..ends.len()).find(near);
             let sources = partner.map(|j| {
                 done[j] = true;
                 ends[j].source
             });
-            proofs.push(Proof { root, condition: end.condition, sources: sources.into_iter().collect() });
+            let sources = sources.into_iter().collect();
+            proofs.push(Proof { root: image, condition: end.condition, sources });
         }
     }
     open
@@ -184,4 +214,48 @@ fn drop_repeated(proofs: &mut Vec<Proof>) -> usize {
     }
     *proofs = kept;
     repeated
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fk::{FkOptions, ForwardKinematics, Homotopy};
+    use crate::geom::Pose;
+    use crate::manipulator::Leg;
+    use crate::num::Rng;
+    use nalgebra::{Point3, Rotation3, Vector3};
+
+    /// Certificates taken over from mirror images and conjugates are those that their own poses get.
+    #[test]
+    fn images_of_certified_poses_are_certified_poses() {
+        let mut rng = Rng::new(91);
+        for height in [0.0, 1e-3] {
+            let mut point = |z: f64| Point3::new(rng.uniform(-2.0, 2.0), rng.uniform(-2.0, 2.0), z);
+            let legs = std::array::from_fn(|i| Leg {
+                base: point(if i == 2 { height } else { 0.0 }),
+                platform: point(0.0),
+            });
+            let m = Manipulator::from_legs(legs).unwrap();
+            let rotation = Rotation3::from_euler_angles(0.3, -0.5, 0.2);
+            let pose = Pose { rotation, position: Vector3::new(0.3, 0.2, 1.7) };
+            let s = pose.squared_lengths(&m).unwrap();
+            let certifier = Certifier::new(&m, &exact_squares(&s)).unwrap();
+            let found = Homotopy.solve(&m, &s, &FkOptions::default()).unwrap();
+            assert_eq!(found.roots.iter().filter(|r| r.certified).count(), 40);
+            for root in &found.roots {
+                let own = certifier.certify(&root.pose);
+                let proof = certifier.certify_point(&root.dual_quaternion.unwrap()).unwrap();
+                assert_eq!(relation(own.certificate().unwrap(), &proof.certificate), RootRelation::Same);
+                for image in images(&proof, true) {
+                    let own = certifier.certify(&image.pose);
+                    // the mirror is none of a platform with one joint off the plane
+                    let conjugate = image.pose.distance(&proof.conjugate().pose, 1.0) < 1e-12;
+                    assert_eq!(own.certificate().is_some(), height.abs() < 1e-9 || conjugate);
+                    if let Some(own) = own.certificate() {
+                        assert_eq!(relation(own, &image.certificate), RootRelation::Same);
+                    }
+                }
+            }
+        }
+    }
 }

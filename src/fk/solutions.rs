@@ -1,5 +1,7 @@
 //! Records of forward-kinematics results, with their evidence.
 
+use num_complex::Complex64;
+
 use crate::geom::ComplexPose;
 
 /// A forward-kinematics method.
@@ -124,6 +126,9 @@ pub struct FkRoot {
     pub residual: f64,
     /// Estimate of the condition number of the root (dimensionless, Newton matrix of the method).
     pub condition: f64,
+    /// The pose as a dual quaternion `(e_0..e_3, g_0..g_3)`, `g = p e`, `max |e_k| = 1`, `g` in design units: where `e.e` is small `R` and `p` lose as many digits as it is
+    /// small, and this keeps them. `None` for methods that do not work in dual quaternions and for poses without certificate.
+    pub dual_quaternion: Option<[Complex64; 8]>,
 }
 
 /// Where a homotopy path ended.

@@ -31,6 +31,7 @@ pub(super) fn proved(
             multiplicity: 1,
             residual: *residual,
             condition: pair.condition,
+            dual_quaternion: None,
         }));
     }
     roots.sort_by_cached_key(|root| sort_key(root, size));

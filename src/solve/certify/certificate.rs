@@ -5,6 +5,9 @@ use thiserror::Error;
 
 use crate::num::disc::Disc;
 
+/// Signs of `(e, g)` under the mirror in `z = 0`, up to a common one.
+const MIRROR: [f64; 8] = [1.0, -1.0, -1.0, 1.0, -1.0, 1.0, 1.0, -1.0];
+
 /// What is proved about a root being a real pose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ProvedReality {
@@ -40,6 +43,17 @@ impl PoseEnclosure {
         self.rotation.iter().flatten().chain(&self.position)
     }
 
+    fn mirrored(&self) -> Self {
+        let side = |k: usize| if k == 2 { -1.0 } else { 1.0 };
+        let signed = |d: Disc, s: f64| Disc { centre: d.centre * s, radius: d.radius };
+        Self {
+            rotation: std::array::from_fn(|i| {
+                std::array::from_fn(|j| signed(self.rotation[i][j], side(i) * side(j)))
+            }),
+            position: std::array::from_fn(|i| signed(self.position[i], side(i))),
+        }
+    }
+
     fn conjugate(&self) -> Self {
         let mirrored = |d: Disc| Disc { centre: d.centre.conj(), radius: d.radius };
         Self { rotation: self.rotation.map(|row| row.map(mirrored)), position: self.position.map(mirrored) }
@@ -71,11 +85,24 @@ impl Certificate {
         &self.centre
     }
 
+    /// The centre with `g` in design units.
+    pub(crate) fn point(&self) -> [Complex64; 8] {
+        std::array::from_fn(|k| if k < 4 { self.centre[k] } else { self.centre[k] * self.unit })
+    }
+
     /// The certificate of the complex conjugate root: equations and patch are real, so that conjugation maps balls about a
     /// centre to balls about its conjugate and zeros to zeros.
     #[must_use]
     pub fn conjugate(&self) -> Self {
         Self { centre: self.centre.map(|z| z.conj()), enclosure: self.enclosure.conjugate(), ..*self }
+    }
+
+    /// The certificate of the mirror image `R -> S R S`, `p -> S p`, `S = diag(1, 1, -1)`, for platforms with all joints in `z = 0`: the
+    /// equations are even under `(e, g) -> (e0, -e1, -e2, e3, -g0, g1, g2, -g3)`, changes of sign that no rounding sees.
+    pub(crate) fn mirrored(&self) -> Self {
+        let signs = if self.patch == 0 || self.patch == 3 { MIRROR } else { MIRROR.map(|s| -s) };
+        let centre = std::array::from_fn(|k| self.centre[k] * signs[k]);
+        Self { centre, enclosure: self.enclosure.mirrored(), ..*self }
     }
 
     /// Whether the point `(e, g)` (any scale, `g` in design units) lies in the ball in which the root is the only one.

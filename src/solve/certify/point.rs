@@ -29,6 +29,16 @@ pub(crate) struct CertifiedPose {
 }
 
 impl CertifiedPose {
+    /// The mirror image in `z = 0`, see [`Certificate::mirrored`].
+    pub(crate) fn mirrored(&self) -> Self {
+        let side = |k: usize| if k == 2 { -1.0 } else { 1.0 };
+        let pose = ComplexPose {
+            rotation: nalgebra::Matrix3::from_fn(|i, j| self.pose.rotation[(i, j)] * (side(i) * side(j))),
+            position: nalgebra::Vector3::from_fn(|i, _| self.pose.position[i] * side(i)),
+        };
+        Self { pose, certificate: self.certificate.mirrored() }
+    }
+
     /// The complex conjugate root.
     pub(crate) fn conjugate(&self) -> Self {
         let pose = ComplexPose {

@@ -120,6 +120,7 @@ fn record(
             multiplicity: 1,
             residual: pose.residual(m, &s),
             condition,
+            dual_quaternion: None,
         }
     });
     let tracked = root.is_some();

@@ -63,6 +63,9 @@ fn root(r: &FkRoot) -> Value {
         "multiplicity": r.multiplicity,
         "residual": number(r.residual),
         "condition": number(r.condition),
+        "dual_quaternion": r.dual_quaternion.map(|x| {
+            json!({ "re": x.map(|z| number(z.re)), "im": x.map(|z| number(z.im)) })
+        }),
     })
 }
 
@@ -198,6 +201,7 @@ mod tests {
             multiplicity: 2,
             residual: 1e-15,
             condition,
+            dual_quaternion: None,
         };
         FkSolutions {
             method: Method::Homotopy,
