@@ -90,7 +90,7 @@ impl Report {
 }
 
 /// Value below which the part `q` of the values lies (nearest rank); 0 for no values.
-fn quantile(values: impl Iterator<Item = f64>, q: f64) -> f64 {
+pub(super) fn quantile(values: impl Iterator<Item = f64>, q: f64) -> f64 {
     let mut values: Vec<f64> = values.collect();
     values.sort_by(f64::total_cmp);
     let n = values.len() as f64;

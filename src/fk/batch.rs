@@ -89,7 +89,7 @@ pub fn solve_problems(
 }
 
 /// `job(0), .., job(count - 1)`, in this order whatever the threads.
-fn in_order<T: Send>(count: usize, threads: Threads, job: &(dyn Fn(usize) -> T + Sync)) -> Vec<T> {
+pub(crate) fn in_order<T: Send>(count: usize, threads: Threads, job: &(dyn Fn(usize) -> T + Sync)) -> Vec<T> {
     let workers = threads.count(count);
     if workers == 1 {
         return (0..count).map(job).collect();

@@ -20,6 +20,7 @@ mod solutions;
 mod sylvester;
 mod template;
 
+pub(crate) use batch::in_order;
 pub use batch::{BatchProblem, BatchResult, Threads, solve_batch, solve_problems};
 pub use choose::{Automatic, solver};
 pub use homotopy::Homotopy;

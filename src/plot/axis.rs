@@ -36,11 +36,34 @@ impl Axis {
             })
             .collect()
     }
+
+    /// Ticks of an axis of common logarithms: powers of ten, at most about `count` of them.
+    pub(super) fn decades(&self, count: i64) -> Vec<(f64, String)> {
+        let (first, last) = (self.low.ceil() as i64, self.high.floor() as i64);
+        let stride = (last - first).max(0) / count.max(1) + 1;
+        // multiples of the stride, so that the exponents are the same on neighbouring pictures
+        let on_grid = (first..=last).filter(|k| k.rem_euclid(stride) == 0);
+        on_grid.map(|k| (k as f64, format!("10{}", superscript(k)))).collect()
+    }
+}
+
+fn superscript(k: i64) -> String {
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let digit = |c: char| c.to_digit(10).map_or('⁻', |d| DIGITS[d as usize]);
+    k.to_string().chars().map(digit).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn decades_are_powers_of_ten() {
+        let axis = Axis { low: -12.5, high: 0.5, from: 0.0, to: 1.0 };
+        let labels: Vec<String> = axis.decades(7).into_iter().map(|t| t.1).collect();
+        assert_eq!(labels, ["10⁻¹²", "10⁻¹⁰", "10⁻⁸", "10⁻⁶", "10⁻⁴", "10⁻²", "10⁰"]);
+        assert_eq!(Axis { low: 0.2, high: 0.4, ..axis }.decades(7), []);
+    }
 
     #[test]
     fn ticks_are_round_and_reach_the_ends() {

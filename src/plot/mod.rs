@@ -7,9 +7,11 @@ mod axis;
 mod contour;
 mod determinant;
 mod modes;
+mod noise;
 mod style;
 mod topologies;
 
 pub use determinant::{OffsetPlane, PlaneAxis, PlanePoint, determinant_plane};
 pub use modes::{ModesFigure, assembly_modes};
+pub use noise::{NoiseCurve, NoiseFigure, NoisePoint, noise_chart};
 pub use topologies::{TopologyFigure, topology_diagram, topology_sheet};

@@ -32,6 +32,26 @@ fn the_document_has_the_fields_of_the_contract() {
 }
 
 #[test]
+fn noise_gives_a_table_and_a_picture() {
+    let folder = tempfile::tempdir().unwrap();
+    let svg = folder.path().join("noise.svg");
+    let run =
+        || json(&["bench", "--noise", "--class", "6-6,6P-6", "--count", "3", "--svg", svg.to_str().unwrap()]);
+    let (code, doc) = run();
+    assert_eq!((code, doc["rows"].as_array().unwrap().len()), (Some(0), 2), "{doc}");
+    assert_eq!((doc["count"].as_u64(), doc["rows"][1]["class"].as_str()), (Some(3), Some("6P-6")));
+    let levels = doc["rows"][0]["levels"].as_array().unwrap();
+    assert!(levels.len() > 10 && levels[0]["sigma"] == 0.0);
+    for key in ["lower_quartile", "median", "upper_quartile", "p99", "max"] {
+        assert!(levels[3]["rotation"][key].as_f64().unwrap() > 0.0, "{key}");
+        assert!(levels[3]["position"][key].as_f64().unwrap() > 0.0, "{key}");
+    }
+    let picture = std::fs::read_to_string(&svg).unwrap();
+    assert!(picture.contains("6P-6") && !picture.contains("NaN"));
+    assert_eq!((run().1, std::fs::read_to_string(&svg).unwrap()), (doc, picture));
+}
+
+#[test]
 fn what_cannot_be_run_is_refused() {
     for (args, code) in [
         (["bench", "--class", "T35"].as_slice(), "bench::unknown_class"),
@@ -39,6 +59,9 @@ fn what_cannot_be_run_is_refused() {
         (&["bench", "--class", "T04", "--lengths-from", "uniform"], "bench::needs_pose"),
         (&["bench", "--class", "hexapod", "--lengths-from", "uniform"], "bench::needs_pose"),
         (&["bench", "--count", "0"], "usage"),
+        (&["bench", "--svg", "x.svg"], "usage"),
+        (&["bench", "--noise", "--first", "3"], "usage"),
+        (&["bench", "--noise", "--class", "all", "--svg", "x.svg"], "bench::too_many_classes"),
     ] {
         let (exit, doc) = json(args);
         assert_eq!((exit, doc["error"]["code"].as_str()), (Some(2), Some(code)));

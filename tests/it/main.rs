@@ -1,6 +1,7 @@
 //! Integration tests: one binary, one module a topic.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a failing test panics")]
 
+mod allocations;
 mod architecture;
 mod bench;
 mod certify;

@@ -4,6 +4,8 @@
 // One step of the tracker has to compile to one function, or the lanes do not stay in registers.
 #![allow(clippy::inline_always)]
 
+#[cfg(test)]
+mod allocation_tests;
 mod dispatch;
 mod endgame;
 mod lanes;

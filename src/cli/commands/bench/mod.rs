@@ -1,6 +1,9 @@
 //! `equipod bench`: random problems of a class, solved, validated by independent code, counted and timed.
 
+mod noise;
 mod render;
+
+use std::path::PathBuf;
 
 use clap::ValueEnum;
 
@@ -16,7 +19,7 @@ use crate::fk::{self, Homotopy, Method};
 pub(crate) struct Args {
     /// 6-6, 6-5, 6P-6, 6P-6P, tilted-planes, octahedral, griffis-duffy, hexapod, similar, affine, congruent, collinear,
     /// close-pair, spread, double-root, hexapod-home, or all of these; T01 to T34 (also T04-planar-base, -planar-platform,
-    /// -both-planar), or topologies for the 34
+    /// -both-planar), or topologies for the 34; several with commas between
     #[arg(long, value_name = "CLASS", default_value = "6-6")]
     class: String,
     /// Number of problems (of each class)
@@ -37,6 +40,12 @@ pub(crate) struct Args {
     /// Every so many problems, look for missed roots from two other starts; 0 for never
     #[arg(long, value_name = "N", default_value_t = 10)]
     recheck_every: u64,
+    /// Instead of the proof: disturb the leg lengths of random poses by relative errors from 1e-12 to 1e-1 and measure how far the poses move
+    #[arg(long, conflicts_with_all = ["first", "lengths_from", "recheck_every"])]
+    noise: bool,
+    /// Write a picture of what noise does
+    #[arg(long, value_name = "FILE", requires = "noise")]
+    svg: Option<PathBuf>,
 }
 
 /// `--method`.
@@ -65,6 +74,9 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         MethodArg::Template => Some(Method::Template),
     };
     let solver = fk::solver(method);
+    if args.noise {
+        return noise::run(args, &classes, solver.as_ref(), context.seed());
+    }
     let references = reference_times(context.seed()).map_err(|e| Failure::internal(e.to_string()))?;
     let mut reports: Vec<Report> = Vec::new();
     for class in classes {
@@ -88,7 +100,12 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     Ok(Answer { exit, json, text })
 }
 
-fn classes(name: &str) -> Result<Vec<Class>, Failure> {
+fn classes(names: &str) -> Result<Vec<Class>, Failure> {
+    let parts: Result<Vec<_>, Failure> = names.split(',').map(|name| classes_named(name.trim())).collect();
+    Ok(parts?.concat())
+}
+
+fn classes_named(name: &str) -> Result<Vec<Class>, Failure> {
     if name == "all" {
         return Ok(Class::ALL.to_vec());
     }
@@ -121,7 +138,7 @@ mod tests {
 
     #[test]
     fn unknown_classes_are_refused_with_the_list() {
-        for name in ["T35", "x"] {
+        for name in ["T35", "x", "6-6,", "6-6,x"] {
             let failure = classes(name).unwrap_err();
             assert_eq!((failure.exit, failure.code.as_str()), (Exit::Refused, "bench::unknown_class"));
             assert!(failure.help.unwrap().contains("griffis-duffy"));
@@ -129,6 +146,7 @@ mod tests {
         assert_eq!(classes("all").unwrap().len(), Class::ALL.len());
         assert_eq!(classes("topologies").unwrap().len(), 34);
         assert_eq!(classes("T07").unwrap().len(), 1);
+        assert_eq!(classes("6-5, 6-6").unwrap(), [Class::SharedPlatformJoint, Class::General]);
     }
 
     #[test]

@@ -1,0 +1,76 @@
+//! What is made for control loops allocates nothing; what is not, allocates for its results.
+
+use allocation_counter::measure;
+use equipod::bench::{Class, LengthsFrom, Problem, problem};
+use equipod::fk::{FkOptions, ForwardKinematics, Homotopy, NearSolver, OcticSolver};
+use equipod::geom::Pose;
+use nalgebra::{Rotation3, Vector3};
+
+/// Allocations of one 6-6 problem by the homotopy with certificates, at most.
+const HOMOTOPY: u64 = 400;
+
+fn problems(class: Class, from: LengthsFrom, count: u64) -> impl Iterator<Item = Problem> {
+    (0..count).map(move |k| problem(class, from, 1, k).unwrap())
+}
+
+#[test]
+fn the_octic_and_its_certificates_allocate_nothing() {
+    let mut solved = 0;
+    for p in problems(Class::Octahedral, LengthsFrom::Pose, 60) {
+        let solver = OcticSolver::new(&p.manipulator).unwrap();
+        let counted = measure(|| {
+            if let Some(found) = solver.solve(&p.squares) {
+                solved += 1;
+                std::hint::black_box(solver.certify(&p.squares, &found));
+            }
+        });
+        assert_eq!(counted.count_total, 0);
+    }
+    assert!(solved > 40, "{solved}");
+}
+
+#[test]
+fn following_a_pose_allocates_nothing() {
+    let (mut one, mut many) = (0, 0);
+    for p in problems(Class::General, LengthsFrom::Pose, 60) {
+        let (solver, start) = (NearSolver::new(&p.manipulator), p.pose.unwrap());
+        for step in [1e-5, 0.05] {
+            let rotation = Rotation3::new(Vector3::new(step, -step, step)) * start.rotation;
+            let goal = Pose { rotation, position: start.position + Vector3::new(step, step, -step) };
+            let s = goal.squared_lengths(&p.manipulator).unwrap();
+            let mut segments = 0;
+            let counted = measure(|| segments = solver.solve(&s, &start).evidence().segments);
+            assert_eq!(counted.count_total, 0);
+            one += u32::from(segments == 1);
+            many += u32::from(segments > 5);
+        }
+    }
+    assert!(one > 30 && many > 10, "{one} {many}");
+}
+
+#[test]
+fn the_homotopy_allocates_for_its_results_not_for_its_steps() {
+    // what is read once a process is not counted
+    let first = problems(Class::General, LengthsFrom::Uniform, 1).next().unwrap();
+    Homotopy.solve(&first.manipulator, &first.squares, &FkOptions::default()).unwrap();
+    let mut seen = Vec::new();
+    for p in problems(Class::General, LengthsFrom::Uniform, 30) {
+        let mut found = None;
+        let counted = measure(|| {
+            found = Homotopy.solve(&p.manipulator, &p.squares, &FkOptions::default()).ok();
+        });
+        let paths = found.unwrap().paths;
+        // a path that is ended or repaired with care has lists of its own
+        if paths.iter().all(|p| p.retracked == 0 && p.winding <= 1) {
+            seen.push((paths.iter().map(|p| p.steps).sum::<u32>(), counted.count_total));
+        }
+    }
+    seen.sort_unstable();
+    assert!(seen.len() > 15 && seen.iter().all(|(_, allocations)| *allocations <= HOMOTOPY), "{seen:?}");
+}
+
+/// Negative control: the counter counts.
+#[test]
+fn a_list_is_counted() {
+    assert_eq!(measure(|| drop(std::hint::black_box(vec![1.0]))).count_total, 1);
+}
