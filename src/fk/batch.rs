@@ -155,6 +155,9 @@ mod tests {
         shared::<Template>();
         shared::<OcticSolver>();
         shared::<NearSolver>();
+        shared::<crate::solve::certify::Certifier>();
+        shared::<crate::solve::certify::octahedral::OctahedralCertifier>();
+        shared::<FkSolutions>();
         shared::<Box<dyn ForwardKinematics>>();
         shared::<Box<dyn crate::fk::PreparedDesign + '_>>();
     }
