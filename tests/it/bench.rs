@@ -1,8 +1,9 @@
 //! The harness: short runs of every class, and solvers that cheat, each of which it must catch.
 
-use equipod::bench::{Class, LengthsFrom, Plan, Report, run};
+use equipod::bench::{Class, LengthsFrom, Plan, Planar, Report, run};
 use equipod::fk::{FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, Method, Reality, solver};
 use equipod::manipulator::{Manipulator, SquaredLegLengths};
+use equipod::topology::catalogue;
 
 fn plan(class: Class, count: u64) -> Plan {
     let lengths = if class.allows_uniform_lengths() { LengthsFrom::Uniform } else { LengthsFrom::Pose };
@@ -42,19 +43,42 @@ fn the_classes_of_martyushev_are_complete() {
         (Class::PlanarBase, 40),
         (Class::BothPlanar, 40),
     ] {
-        let report = short(class, 30);
+        let report = short(class, 100);
         assert_eq!(report.expected, poses, "{class}");
         assert!(report.passed(), "{class}: {:?}", report.failures);
-        assert_eq!((report.complete, report.rechecked), (30, 3), "{class}");
+        assert_eq!((report.complete, report.rechecked), (100, 10), "{class}");
         assert!(report.worst_residual < 1e-12 && report.epsilon.max < -9.0, "{class}");
     }
 }
 
 #[test]
-fn octahedral_platforms_are_complete() {
-    let report = short(Class::Octahedral, 60);
-    assert_eq!((report.expected, report.complete), (16, 60));
-    assert!(report.passed(), "{:?}", report.failures);
+fn special_classes_are_complete() {
+    for (class, poses) in [
+        (Class::TiltedPlanes, 40),
+        (Class::Octahedral, 16),
+        (Class::GriffisDuffy, 16),
+        (Class::Hexapod, 28),
+        (Class::HexapodHome, 28),
+        (Class::Similar, 16),
+        (Class::Affine, 16),
+        (Class::Congruent, 16),
+        (Class::Collinear, 32),
+        (Class::ClosePair, 40),
+        (Class::Spread, 40),
+        (Class::DoubleRoot, 40),
+    ] {
+        let report = short(class, 100);
+        assert_eq!((report.expected, report.complete), (poses, 100), "{class}");
+        assert!(report.passed(), "{class}: {:?}", report.failures);
+    }
+}
+
+#[test]
+fn topologies_are_complete() {
+    for named in catalogue() {
+        let report = short(Class::Topology { topology: named, planar: Planar::Neither }, 10);
+        assert!(report.passed() && report.complete == 10, "{:?}", report.failures);
+    }
 }
 
 /// Problems with poses where `|R|` is between `10^5` and `3 . 10^9`, one of them beside an end at infinity: lost or given with too few
