@@ -167,13 +167,14 @@ fn report_of(start: usize, path: &Path) -> PathReport {
 
 /// Whether an end is near infinity or `e.e = 0` but not there to the digits that ends have.
 ///
-/// Ends at infinity have `|e| / |(e, g)|` below `1e-9`, ends at `e.e = 0` have `|e.e| / |e|^2` below `1e-13` and `e` not small (18,000
-/// ends of the special classes of the harness); the limits leave a factor of ten and more. Between are poses far out.
+/// Ends at infinity have `|e| / |(e, g)|` below `1e-9`, or around `1e-8`, the root of rounding, where two paths end in one; ends at
+/// `e.e = 0` have `|e.e| / |e|^2` below `1e-13` and `e` not small (18,000 ends of the special classes of the harness). The limits leave a factor of ten. Between
+/// are poses far out.
 fn is_blurred(path: &Path) -> bool {
     let e: f64 = path.x[..4].iter().map(Complex64::norm_sqr).sum();
     let all: f64 = path.x.iter().map(Complex64::norm_sqr).sum();
     let n: Complex64 = path.x[..4].iter().map(|z| z * z).sum();
-    let at_infinity = e < 1e-16 * all;
+    let at_infinity = e < 1e-14 * all;
     let isotropic = n.norm() < 1e-10 * e && e > 1e-6 * all;
     matches!(path.kind, EndKind::Infinite | EndKind::Isotropic) && !at_infinity && !isotropic
 }

@@ -20,7 +20,9 @@ const SETTLED: f64 = 1e-13;
 const CAREFUL_ENDGAME_AT: f64 = 1e-2;
 /// A point with `|e.e| / |e|^2` below this at a converged end has no rotation.
 const ISOTROPIC: f64 = 1e-9;
-/// The same for an end known only as the mean of an endgame loop, whose square root counts.
+/// A converged end with `|e| / |(e, g)|` below this is at infinity or very far out: for a certificate to decide.
+const INFINITE: f64 = 1e-7;
+/// [`ISOTROPIC`] for an end known only as the mean of an endgame loop, whose square root counts.
 const ISOTROPIC_MEAN: f64 = 1e-4;
 /// Newton's method confirms the mean of an endgame loop when it moves it by less than this.
 const SAME_MEAN: f64 = 1e-3;
@@ -152,7 +154,7 @@ fn settle(mut path: Path, x: &[Complex64; 8]) -> Path {
     let (iso, finite) = isotropy(x);
     path.x = *x;
     path.winding = 1;
-    path.kind = if finite < ISOTROPIC {
+    path.kind = if finite < INFINITE {
         EndKind::Infinite
     } else if iso < ISOTROPIC {
         EndKind::Isotropic
