@@ -258,6 +258,11 @@ pub(crate) fn suspects(kind: StartKind, paths: &[Path], target: &Sections) -> Ve
                     ends.iter().enumerate().any(|(k, (y, regular))| *regular && k != i && same(y, x));
                 jumped || (real && !ends.iter().any(|(y, regular)| *regular && same(y, &mirrored)))
             }
+            // a point where w sheets meet is the end of w paths: with fewer the circle was round several ends
+            EndKind::Singular => {
+                let together = ends.iter().filter(|(y, _)| projective_distance(y, x) < SAME_MEAN).count();
+                together < p.winding as usize
+            }
             _ => false,
         };
         if doubt {
