@@ -31,8 +31,8 @@ impl Output {
         Self { json }
     }
 
-    pub(crate) fn answer(self, answer: &Answer, warnings: &[FileWarning]) -> Exit {
-        let text = if self.json { document(answer.json.clone(), warnings) } else { answer.text.clone() };
+    pub(crate) fn answer(self, answer: Answer, warnings: &[FileWarning]) -> Exit {
+        let text = if self.json { document(answer.json, warnings) } else { answer.text };
         write_out(&text, answer.exit)
     }
 

@@ -4,7 +4,6 @@ mod lengths;
 mod near;
 mod render;
 
-use std::fmt::Write as _;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
@@ -15,7 +14,7 @@ use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::output::Answer;
-use crate::fk::{self, FkError, FkOptions, FkSolutions, Method, Threads};
+use crate::fk::{self, BatchResult, FkError, FkOptions, FkSolutions, Method, Threads};
 use crate::manipulator::{LegLengths, Manipulator};
 
 use self::lengths::Given;
@@ -87,7 +86,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
             let json = render::json(&solutions);
             Ok(Answer { exit, json, text: render::text(&design.name, &solutions) })
         }
-        Given::Rows(rows) => Ok(many(method, m, &rows, &options, threads(args.threads))),
+        Given::Rows(rows) => Ok(many(method, m, &rows, &options, threads(args.threads), context.json())),
     }
 }
 
@@ -102,34 +101,44 @@ fn many(
     rows: &[lengths::Row],
     options: &FkOptions,
     threads: Threads,
+    json: bool,
 ) -> Answer {
     let squares: Vec<_> = rows.iter().map(|row| row.lengths.squared()).collect();
     let solver = fk::solver(method);
     let results = fk::solve_batch(solver.as_ref(), m, &squares, options, threads);
+    // forty poses with all their numbers take as long to write down as to find
+    let written = fk::in_order(rows.len(), threads, &|i| written_row(&rows[i], &results[i], json));
     let mut exit = Exit::Yes;
     let mut records = Vec::with_capacity(rows.len());
     let mut text = String::from("line  method         finite  real  complete\n");
-    for (row, result) in rows.iter().zip(results) {
-        let mut record = Map::new();
-        record.insert("line".into(), json!(row.line));
-        record.insert("lengths".into(), json!(row.lengths.get()));
-        match result.map_err(|e| failure_of(&e)) {
-            Ok(solutions) => {
-                exit = exit.max(exit_of(&solutions));
-                text.push_str(&render::table_row(row.line, &solutions));
-                record.extend(render::json(&solutions));
-            }
-            Err(failure) => {
-                exit = exit.max(failure.exit);
-                let _ = writeln!(text, "{:>4}  {}", row.line, failure.message);
-                record.insert("error".into(), failure.to_json());
-            }
-        }
+    for (row_exit, line, record) in written {
+        exit = exit.max(row_exit);
+        text.push_str(&line);
         records.push(Value::Object(record));
     }
-    let mut json = Map::new();
-    json.insert("rows".into(), Value::Array(records));
-    Answer { exit, json, text }
+    let mut document = Map::new();
+    document.insert("rows".into(), Value::Array(records));
+    Answer { exit, json: document, text }
+}
+
+/// Exit code, line of the table and, for `json`, record of one row.
+fn written_row(row: &lengths::Row, result: &BatchResult, json: bool) -> (Exit, String, Map<String, Value>) {
+    let mut record = Map::new();
+    record.insert("line".into(), json!(row.line));
+    record.insert("lengths".into(), json!(row.lengths.get()));
+    match result {
+        Ok(solutions) => {
+            if json {
+                record.extend(render::json(solutions));
+            }
+            (exit_of(solutions), render::table_row(row.line, solutions), record)
+        }
+        Err(error) => {
+            let failure = failure_of(error);
+            record.insert("error".into(), failure.to_json());
+            (failure.exit, format!("{:>4}  {}\n", row.line, failure.message), record)
+        }
+    }
 }
 
 fn solve(
