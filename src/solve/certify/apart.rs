@@ -22,9 +22,8 @@ use num_complex::Complex64;
 
 use super::certificate::WhyUncertified;
 use super::inverse::{Matrix, apart, equilibrated_inverse};
-use super::krawczyk::{Bounds, Contraction, largest, radii};
+use super::krawczyk::{Bounds, Contraction, decide, largest};
 use super::system::{LegSystem, N, Scalar, Study, U};
-use crate::num::disc::{TINY, UP};
 use crate::num::double_double::DoubleDouble;
 
 const UNIT: f64 = DoubleDouble::UNIT;
@@ -39,13 +38,7 @@ pub(super) fn contract_apart(
     let [re, im] = system.jacobian_apart(&hi);
     let y = equilibrated_inverse(&re, &im).ok_or(WhyUncertified::SingularJacobian)?;
     let b = bounds(system, x, &hi, &y);
-    let regular = b.kappa < 1.0 && b.beta < 2f64.powi(200);
-    let accurate = b.eta_centre <= near;
-    match (regular, accurate) {
-        (true, true) => radii(&b),
-        (true, false) => Err(WhyUncertified::Inaccurate { step: b.eta_centre }),
-        (false, _) => Err(WhyUncertified::IllConditioned { defect: b.kappa }),
-    }
+    decide(&b, near)
 }
 
 fn bounds(system: &LegSystem, x: &Study<DoubleDouble>, hi: &Study<f64>, y: &Matrix) -> Bounds {
@@ -80,14 +73,7 @@ fn bounds(system: &LegSystem, x: &Study<DoubleDouble>, hi: &Study<f64>, y: &Matr
         out.kappa = largest(out.kappa, defect);
         out.beta = largest(out.beta, beta);
     }
-    let up = |bound: f64| (bound + TINY) * UP;
-    Bounds {
-        eta_centre: up(out.eta_centre),
-        eta: up(out.eta),
-        kappa: up(out.kappa),
-        beta: up(out.beta),
-        ..out
-    }
+    out.rounded_up()
 }
 
 /// `|.|_1` of row `k` of `I - Y J`, computed in double-double.

@@ -48,6 +48,20 @@ pub(super) struct Bounds {
     pub(super) step: [Complex64; 8],
 }
 
+impl Bounds {
+    /// Takes up the rounding of the bounds themselves.
+    pub(super) fn rounded_up(self) -> Self {
+        let up = |bound: f64| (bound + TINY) * UP;
+        Self {
+            eta_centre: up(self.eta_centre),
+            eta: up(self.eta),
+            kappa: up(self.kappa),
+            beta: up(self.beta),
+            ..self
+        }
+    }
+}
+
 /// Bounds of a row of `Y` times the parts of the data.
 fn row_sum(weights: &[f64; N], terms: &[f64; N]) -> f64 {
     weights.iter().zip(terms).map(|(w, t)| w * t).sum()
@@ -105,14 +119,7 @@ fn bounds(system: &LegSystem, x: &Centre<'_>, values: &Values<f64>, j: &Jacobian
         out.kappa = largest(out.kappa, defect + row_sum(&weights, &j_error) + 2.0 * beta * tail);
         out.beta = largest(out.beta, beta);
     }
-    let up = |bound: f64| (bound + TINY) * UP;
-    Bounds {
-        eta_centre: up(out.eta_centre),
-        eta: up(out.eta),
-        kappa: up(out.kappa),
-        beta: up(out.beta),
-        ..out
-    }
+    out.rounded_up()
 }
 
 /// The larger, or NaN when one is NaN.
@@ -120,7 +127,7 @@ pub(super) fn largest(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }
 
-pub(super) fn radii(b: &Bounds) -> Result<Contraction, WhyUncertified> {
+fn radii(b: &Bounds) -> Result<Contraction, WhyUncertified> {
     let room = 1.0 - b.kappa;
     let admissible = room * room / (4.0 * b.beta);
     let failure = WhyUncertified::NoContraction { step: b.eta, admissible };
@@ -140,20 +147,25 @@ pub(super) fn radii(b: &Bounds) -> Result<Contraction, WhyUncertified> {
     if unique { Ok(Contraction { radius, uniqueness_radius, lipschitz, step: b.step }) } else { Err(failure) }
 }
 
+/// The radii when the bounds prove something and the Newton step at the centre is at most `near`.
+pub(super) fn decide(b: &Bounds, near: f64) -> Result<Contraction, WhyUncertified> {
+    // a NaN fails every one of these; 2^200 keeps products of bounds in range
+    let regular = b.kappa < 1.0 && b.beta < 2f64.powi(200);
+    let accurate = b.eta_centre <= near;
+    match (regular, accurate) {
+        (true, true) => radii(b),
+        (true, false) => Err(WhyUncertified::Inaccurate { step: b.eta_centre }),
+        (false, _) => Err(WhyUncertified::IllConditioned { defect: b.kappa }),
+    }
+}
+
 /// Tries to prove one root in a ball about `x`; `near` limits the Newton step at `x` itself.
 pub(super) fn contract(system: &LegSystem, x: &Centre<'_>, near: f64) -> Result<Contraction, WhyUncertified> {
     let values = system.values(x.hi);
     let jacobian = system.jacobian(x.hi, &values);
     let y = approximate_inverse(&jacobian.re, &jacobian.im).ok_or(WhyUncertified::SingularJacobian)?;
     let b = bounds(system, x, &values, &jacobian, &y);
-    // a NaN fails every one of these; 2^200 keeps products of bounds in range
-    let regular = b.kappa < 1.0 && b.beta < 2f64.powi(200);
-    let accurate = b.eta_centre <= near;
-    match (regular, accurate) {
-        (true, true) => radii(&b),
-        (true, false) => Err(WhyUncertified::Inaccurate { step: b.eta_centre }),
-        (false, _) => Err(WhyUncertified::IllConditioned { defect: b.kappa }),
-    }
+    decide(&b, near)
 }
 
 /// [`contract`] for a centre with digits in double-double; far out on differences of the equations.
