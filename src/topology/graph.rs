@@ -47,7 +47,8 @@ impl Topology {
     pub fn of_legs(base: [usize; 6], platform: [usize; 6]) -> Self {
         let mut least = None;
         each_order(&mut [0, 1, 2, 3, 4, 5], 0, &mut |order| {
-            let here = Self::unordered(order.map(|i| base[i]), order.map(|i| platform[i]));
+            let along = |joints: [usize; 6]| std::array::from_fn(|leg| joints[order[leg]]);
+            let here = Self::unordered(along(base), along(platform));
             if least.is_none_or(|l| here < l) {
                 least = Some(here);
             }
@@ -169,12 +170,13 @@ fn by_appearance(x: [usize; 6]) -> [u8; 6] {
     })
 }
 
-fn each_order(order: &mut [usize; 6], fixed: usize, visit: &mut impl FnMut([usize; 6])) {
-    if fixed == 6 {
-        visit(*order);
+/// Visits every order of the elements from `fixed` on.
+pub(super) fn each_order(order: &mut [usize], fixed: usize, visit: &mut impl FnMut(&[usize])) {
+    if fixed >= order.len() {
+        visit(order);
         return;
     }
-    for k in fixed..6 {
+    for k in fixed..order.len() {
         order.swap(fixed, k);
         each_order(order, fixed + 1, visit);
         order.swap(fixed, k);

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::graph::Topology;
+use super::graph::{Topology, each_order};
 
 /// Angles of the joints, each body's evenly spaced on its circle, such that legs are steep.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,18 +60,6 @@ impl Topology {
 /// The angle in `(-pi, pi]`, near enough.
 fn wrap(angle: f64) -> f64 {
     angle - TAU * (angle / TAU).round()
-}
-
-fn each_order(order: &mut [usize], fixed: usize, visit: &mut impl FnMut(&[usize])) {
-    if fixed >= order.len() {
-        visit(order);
-        return;
-    }
-    for k in fixed..order.len() {
-        order.swap(fixed, k);
-        each_order(order, fixed + 1, visit);
-        order.swap(fixed, k);
-    }
 }
 
 #[cfg(test)]
