@@ -6,9 +6,13 @@
 mod catalogue;
 mod graph;
 mod layout;
+mod nesting;
+mod search;
 mod sequence;
 
 pub use catalogue::{NamedTopology, Recognised, catalogue, recognise};
 pub use graph::{AlwaysSingular, Topology};
 pub use layout::Layout;
+pub use nesting::{Dependence, Nesting, StepDependence};
+pub use search::sequences;
 pub use sequence::{Joint, Sequence, Step};

@@ -1,18 +1,35 @@
 //! Trilateration sequences and the virtual legs they need.
 //!
 //! A point with known distances to three points that are in place has two places, one when the four are points of one body, whose
-//! orientation is known. Placing points never stops a later one from being placed, so that the closure of a triangle under such steps
-//! is found greedily. Source: Porta, Thomas, sec. II.
+//! orientation is known. Source: Porta, Thomas, sec. II.
 
 use super::graph::Topology;
+use super::search::sequences;
 
-/// A joint of a [`Topology`], numbered as in [`Topology::legs`].
+/// A joint of a [`Topology`], numbered as in [`Topology::legs`], or of a design, numbered as there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Joint {
     /// On the base.
     Base(usize),
     /// On the platform.
     Platform(usize),
+}
+
+impl Joint {
+    /// Whether both are on one body, so that their distance is that of the design.
+    #[must_use]
+    pub fn same_body(self, other: Self) -> bool {
+        matches!(self, Self::Base(_)) == matches!(other, Self::Base(_))
+    }
+
+    /// The two as a pair of a base and a platform joint; `None` when they are on one body.
+    #[must_use]
+    pub fn across(self, other: Self) -> Option<(usize, usize)> {
+        match (self, other) {
+            (Self::Base(a), Self::Platform(b)) | (Self::Platform(b), Self::Base(a)) => Some((a, b)),
+            _ => None,
+        }
+    }
 }
 
 /// One trilateration.
@@ -27,44 +44,36 @@ pub struct Step {
 }
 
 /// How to place all joints from distances.
+///
+/// One body, the *first*, is in place from the start: its start triangle is laid out and its other joints follow by rigid steps. Then
+/// three joints of the other body are placed by unoriented steps, and the rest of it by rigid ones. Of the distances that are known
+/// (legs, and those between the three joints) as many are not used as there are virtual legs: the closures.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Sequence {
-    /// Distances that have to be known beside the legs, as pairs of a base and a platform joint.
+    /// Distances that have to be known beside the legs, as pairs of a base and a platform joint, in the order in which steps need them.
     pub virtual_legs: Vec<(usize, usize)>,
-    /// The triangle that is laid out first.
+    /// The triangle that is laid out first: three joints of one body.
     pub start: [Joint; 3],
     /// One step for each other joint.
     pub steps: Vec<Step>,
+    /// Known distances that no step uses, one for each virtual leg: they have to come out right.
+    pub closures: Vec<[Joint; 2]>,
+}
+
+impl Sequence {
+    /// The unoriented steps: always three, each with two places for its joint.
+    pub fn unoriented(&self) -> impl Iterator<Item = &Step> {
+        self.steps.iter().filter(|s| !s.rigid)
+    }
 }
 
 impl Topology {
-    /// A sequence with the fewest virtual legs; of these the first, virtual legs and triangles in lexicographic order.
+    /// A sequence with the fewest virtual legs, of these the least [`Nesting`](super::Nesting), of these the first.
     #[must_use]
     pub fn trilateration(self) -> Sequence {
-        let joints = self.joints();
-        let (n, m) = (self.base_joints(), self.platform_joints());
-        let legs = self.legs();
-        let free: Vec<(usize, usize)> =
-            (0..n).flat_map(|a| (0..m).map(move |b| (a, b))).filter(|pair| !legs.contains(pair)).collect();
-        for count in 0..=free.len() {
-            let found = first_choice(&free, count, &mut |chosen| {
-                let known = |x: Joint, y: Joint| match (x, y) {
-                    (Joint::Base(a), Joint::Platform(b)) | (Joint::Platform(b), Joint::Base(a)) => {
-                        legs.contains(&(a, b)) || chosen.contains(&(a, b))
-                    }
-                    _ => true,
-                };
-                place_all(&joints, &known).map(|(start, steps)| Sequence {
-                    virtual_legs: chosen.to_vec(),
-                    start,
-                    steps,
-                })
-            });
-            if let Some(sequence) = found {
-                return sequence;
-            }
-        }
-        unreachable!("with all distances known every joint can be placed")
+        let all = (0..=3).map(|count| sequences(&self.legs(), count)).find(|found| !found.is_empty());
+        let best = all.and_then(|all| all.into_iter().next());
+        best.unwrap_or_else(|| unreachable!("three virtual legs are enough for six legs"))
     }
 
     /// Whether one joint holds three legs and one virtual leg is needed: then position and orientation separate (Porta, Thomas,
@@ -77,82 +86,6 @@ impl Topology {
         };
         (three(|l| l.0) || three(|l| l.1)) && self.trilateration().virtual_legs.len() == 1
     }
-
-    /// Base joints, then platform joints.
-    fn joints(self) -> Vec<Joint> {
-        let base = (0..self.base_joints()).map(Joint::Base);
-        base.chain((0..self.platform_joints()).map(Joint::Platform)).collect()
-    }
-}
-
-fn same_body(x: Joint, y: Joint) -> bool {
-    matches!((x, y), (Joint::Base(_), Joint::Base(_)) | (Joint::Platform(_), Joint::Platform(_)))
-}
-
-/// Every triple `i < j < k` below `n`, in lexicographic order.
-fn triples(n: usize) -> impl Iterator<Item = [usize; 3]> {
-    (0..n).flat_map(move |i| (i + 1..n).flat_map(move |j| (j + 1..n).map(move |k| [i, j, k])))
-}
-
-/// The first triangle from which all joints are reached.
-fn place_all(joints: &[Joint], known: &impl Fn(Joint, Joint) -> bool) -> Option<([Joint; 3], Vec<Step>)> {
-    triples(joints.len()).find_map(|t| {
-        let start = t.map(|i| joints[i]);
-        if !(known(start[0], start[1]) && known(start[1], start[2]) && known(start[0], start[2])) {
-            return None;
-        }
-        let mut placed = start.to_vec();
-        let mut steps = Vec::new();
-        while placed.len() < joints.len() {
-            let step = next_step(joints, &placed, known)?;
-            placed.push(step.place);
-            steps.push(step);
-        }
-        Some((start, steps))
-    })
-}
-
-/// A rigid step when there is one, otherwise the first.
-fn next_step(joints: &[Joint], placed: &[Joint], known: &impl Fn(Joint, Joint) -> bool) -> Option<Step> {
-    let mut best: Option<Step> = None;
-    for place in joints.iter().copied().filter(|j| !placed.contains(j)) {
-        for t in triples(placed.len()) {
-            let from = t.map(|i| placed[i]);
-            if from.iter().all(|f| known(*f, place)) {
-                let rigid = from.iter().all(|f| same_body(*f, place));
-                if rigid {
-                    return Some(Step { from, place, rigid });
-                }
-                best = best.or(Some(Step { from, place, rigid }));
-            }
-        }
-    }
-    best
-}
-
-/// Tries the subsets of `count` elements in lexicographic order.
-fn first_choice<T>(
-    free: &[(usize, usize)],
-    count: usize,
-    attempt: &mut impl FnMut(&[(usize, usize)]) -> Option<T>,
-) -> Option<T> {
-    fn choose<T>(
-        free: &[(usize, usize)],
-        count: usize,
-        chosen: &mut Vec<(usize, usize)>,
-        attempt: &mut impl FnMut(&[(usize, usize)]) -> Option<T>,
-    ) -> Option<T> {
-        if count == 0 {
-            return attempt(chosen);
-        }
-        (0..free.len()).find_map(|i| {
-            chosen.push(free[i]);
-            let found = choose(&free[i + 1..], count - 1, chosen, attempt);
-            chosen.pop();
-            found
-        })
-    }
-    choose(free, count, &mut Vec::new(), attempt)
 }
 
 #[cfg(test)]
@@ -178,26 +111,53 @@ mod tests {
         assert_eq!(sizes, [10, 7, 13, 3, 1]);
     }
 
-    #[test]
-    fn sequences_place_every_joint_once_from_known_distances() {
-        for n in catalogue() {
-            let t = n.topology();
-            let s = t.trilateration();
-            let mut placed = s.start.to_vec();
-            for step in &s.steps {
-                assert!(step.from.iter().all(|f| placed.contains(f)) && !placed.contains(&step.place));
-                let pair = |f: &Joint| match (*f, step.place) {
-                    (Joint::Base(a), Joint::Platform(b)) | (Joint::Platform(b), Joint::Base(a)) => {
-                        Some((a, b))
-                    }
-                    _ => None,
-                };
-                let measured = step.from.iter().filter_map(pair).collect::<Vec<_>>();
-                assert!(measured.iter().all(|p| t.legs().contains(p) || s.virtual_legs.contains(p)));
-                assert_eq!(step.rigid, measured.is_empty());
-                placed.push(step.place);
+    /// Whatever the numbers of the joints and the order of the legs, every joint is placed once, from known distances, and every known
+    /// distance is used once: by a step, within a body, or as a closure.
+    fn check(legs: &[(usize, usize); 6], s: &Sequence) {
+        let known = |x: Joint, y: Joint| {
+            x.across(y).is_none_or(|pair| legs.contains(&pair) || s.virtual_legs.contains(&pair))
+        };
+        assert!(s.start[0].same_body(s.start[1]) && s.start[0].same_body(s.start[2]));
+        let mut placed = s.start.to_vec();
+        let mut used = Vec::new();
+        for step in &s.steps {
+            assert!(step.from.iter().all(|f| placed.contains(f)) && !placed.contains(&step.place));
+            assert!(step.from.iter().all(|f| known(*f, step.place)));
+            assert_eq!(step.rigid, step.from.iter().all(|f| f.same_body(step.place)));
+            used.extend(step.from.iter().filter_map(|f| f.across(step.place)));
+            placed.push(step.place);
+        }
+        for [x, y] in &s.closures {
+            assert!(known(*x, *y) && placed.contains(x) && placed.contains(y));
+            match x.across(*y) {
+                Some(pair) => used.push(pair),
+                None => assert!(!s.start[0].same_body(*x)),
             }
-            assert_eq!(placed.len(), t.base_joints() + t.platform_joints(), "{}", n.id());
+        }
+        for pair in legs.iter().chain(&s.virtual_legs) {
+            assert_eq!(used.iter().filter(|u| *u == pair).count(), 1);
+        }
+        for joint in legs.iter().flat_map(|l| [Joint::Base(l.0), Joint::Platform(l.1)]) {
+            assert!(placed.contains(&joint));
+        }
+        assert_eq!((s.unoriented().count(), s.closures.len()), (3, s.virtual_legs.len()));
+    }
+
+    #[test]
+    fn sequences_place_every_joint_once_and_use_every_distance_once() {
+        for n in catalogue() {
+            for t in [n.topology(), n.topology().exchanged()] {
+                let legs = t.legs();
+                let s = t.trilateration();
+                check(&legs, &s);
+                // joints without legs in between, legs in another order
+                let odd = [3, 0, 5, 1, 4, 2].map(|i| (2 * legs[i].0 + 1, 9 - legs[i].1));
+                let count = s.virtual_legs.len();
+                assert!(count == 0 || sequences(&odd, count - 1).is_empty(), "{}", n.id());
+                let all = sequences(&odd, count);
+                assert!(!all.is_empty(), "{}", n.id());
+                all.iter().step_by(1 + all.len() / 50).for_each(|s| check(&odd, s));
+            }
         }
     }
 }

@@ -1,0 +1,13 @@
+//! Poses from distances alone: Cayley-Menger determinants, trilateration, closure conditions.
+//!
+//! Where joints are shared, a few additional distances between the bodies (virtual legs) make every joint reachable by trilateration;
+//! as many known distances remain, and say what the additional ones are: the closures. Theory: `docs/theory/trilateration.md`. Source:
+//! Porta, Thomas, *Yet another approach to the Gough-Stewart platform forward kinematics*.
+
+mod cayley_menger;
+mod plan;
+mod scalar;
+
+pub use cayley_menger::{Base, Tetrahedron, Trilateration, bideterminant, determinant};
+pub use plan::{NoPlan, plans};
+pub use scalar::Scalar;

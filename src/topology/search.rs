@@ -1,0 +1,111 @@
+//! All trilateration sequences that lay out one body first.
+
+use std::collections::BTreeSet;
+
+use super::nesting::Nesting;
+use super::sequence::{Joint, Sequence, Step};
+
+type Legs = [(usize, usize); 6];
+
+/// All sequences for six legs (pairs of a base and a platform joint, any numbers) that need exactly `count` virtual legs and leave no
+/// joint out, least nested first.
+///
+/// The first body's start triangle is that of its first joints, with the other joints of that body placed by rigid steps; the second
+/// body's joints beyond three likewise. Both may be exchanged for others without changing anything else. Joints without a leg are not
+/// placed.
+#[must_use]
+pub fn sequences(legs: &[(usize, usize); 6], count: usize) -> Vec<Sequence> {
+    let base: BTreeSet<Joint> = legs.iter().map(|l| Joint::Base(l.0)).collect();
+    let platform: BTreeSet<Joint> = legs.iter().map(|l| Joint::Platform(l.1)).collect();
+    let mut found = Vec::new();
+    for (first, second) in [(&base, &platform), (&platform, &base)] {
+        if first.len() < 3 || second.len() < 3 {
+            continue;
+        }
+        let first: Vec<Joint> = first.iter().copied().collect();
+        let second: Vec<Joint> = second.iter().copied().collect();
+        let mut search = Search {
+            legs,
+            count,
+            placed: first.clone(),
+            first: &first,
+            second: &second,
+            ..Search::new(legs)
+        };
+        search.extend(&mut found);
+    }
+    found.sort_by_cached_key(|s| Nesting::of(legs, s));
+    found
+}
+
+/// A sequence as far as it has been built.
+struct Search<'a> {
+    legs: &'a Legs,
+    count: usize,
+    first: &'a [Joint],
+    second: &'a [Joint],
+    placed: Vec<Joint>,
+    virtual_legs: Vec<(usize, usize)>,
+    steps: Vec<Step>,
+}
+
+impl<'a> Search<'a> {
+    fn new(legs: &'a Legs) -> Self {
+        let (virtual_legs, steps, placed) = (Vec::new(), Vec::new(), Vec::new());
+        Self { legs, count: 0, first: &[], second: &[], placed, virtual_legs, steps }
+    }
+
+    /// Tries every next unoriented step.
+    fn extend(&mut self, found: &mut Vec<Sequence>) {
+        if self.steps.len() == 3 {
+            if self.virtual_legs.len() == self.count {
+                found.push(self.finished());
+            }
+            return;
+        }
+        for place in self.second.iter().copied().filter(|j| !self.placed.contains(j)).collect::<Vec<_>>() {
+            for from in triples(&self.placed) {
+                let before = self.virtual_legs.len();
+                let missing = from.iter().filter_map(|f| f.across(place));
+                let missing = missing.filter(|p| !self.legs.contains(p)).collect::<Vec<_>>();
+                // a step that uses no leg at all would be one of the second body alone, and rigid
+                if before + missing.len() > self.count || from.iter().all(|f| f.same_body(place)) {
+                    continue;
+                }
+                self.virtual_legs.extend(missing);
+                self.steps.push(Step { from, place, rigid: false });
+                self.placed.push(place);
+                self.extend(found);
+                self.placed.pop();
+                self.steps.pop();
+                self.virtual_legs.truncate(before);
+            }
+        }
+    }
+
+    /// The sequence with its rigid steps and closures.
+    fn finished(&self) -> Sequence {
+        let rigid = |from: [Joint; 3], place: Joint| Step { from, place, rigid: true };
+        let start = [self.first[0], self.first[1], self.first[2]];
+        let three = [0, 1, 2].map(|k: usize| self.steps[k].place);
+        let mut steps: Vec<Step> = self.first[3..].iter().map(|j| rigid(start, *j)).collect();
+        steps.extend(&self.steps);
+        steps.extend(self.second.iter().filter(|j| !three.contains(j)).map(|j| rigid(three, *j)));
+        let used = |x: Joint, y: Joint| {
+            self.steps
+                .iter()
+                .any(|s| (s.place == x && s.from.contains(&y)) || (s.place == y && s.from.contains(&x)))
+        };
+        let within = [[three[0], three[1]], [three[0], three[2]], [three[1], three[2]]];
+        let legs = self.legs.iter().map(|l| [Joint::Base(l.0), Joint::Platform(l.1)]);
+        let closures = within.into_iter().chain(legs).filter(|[x, y]| !used(*x, *y)).collect();
+        Sequence { virtual_legs: self.virtual_legs.clone(), start, steps, closures }
+    }
+}
+
+/// Every three of `list`, in order.
+fn triples(list: &[Joint]) -> Vec<[Joint; 3]> {
+    let n = list.len();
+    let pairs = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j)));
+    pairs.flat_map(|(i, j)| (j + 1..n).map(move |k| [list[i], list[j], list[k]])).collect()
+}
