@@ -50,6 +50,8 @@ impl StepDependence {
 pub struct Nesting {
     /// Square roots that depend on a virtual leg.
     pub varying_radicals: usize,
+    /// Constant ones after a varying one.
+    pub late_constants: usize,
     /// Sides of base triangles that have to be computed from coordinates.
     pub computed_sides: usize,
     /// Numbers under square roots that depend on earlier square roots, counted with those.
@@ -99,7 +101,9 @@ impl Nesting {
         let rigid = |j: &Joint| {
             s.steps.iter().any(|step| step.rigid && step.place == *j && !step.place.same_body(s.start[0]))
         };
+        let first = steps.iter().position(|d| !d.is_constant()).unwrap_or(steps.len());
         Self {
+            late_constants: steps[first..].iter().filter(|d| d.is_constant()).count(),
             varying_radicals: steps.iter().filter(|d| !d.is_constant()).count(),
             computed_sides: steps.iter().map(|d| usize::from(d.computed_sides)).sum(),
             nested_radicals: steps.iter().map(|d| d.radicand.radicals.count_ones() as usize).sum(),
