@@ -6,12 +6,14 @@
 mod axis;
 mod contour;
 mod determinant;
+mod locus;
 mod modes;
 mod noise;
 mod style;
 mod topologies;
 
 pub use determinant::{OffsetPlane, PlaneAxis, PlanePoint, determinant_plane};
+pub use locus::{LocusFigure, LocusMeeting, LocusStep, LocusValue, locus_chart, locus_meetings};
 pub use modes::{ModesFigure, assembly_modes};
 pub use noise::{NoiseCurve, NoiseFigure, NoisePoint, noise_chart};
 pub use topologies::{TopologyFigure, topology_diagram, topology_sheet};

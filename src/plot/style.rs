@@ -73,6 +73,11 @@ impl Svg {
         Self { out }
     }
 
+    /// Classes of one kind of picture.
+    pub(super) fn style(&mut self, css: &str) {
+        let _ = writeln!(self.out, "<style>{css}</style>");
+    }
+
     pub(super) fn text(&mut self, class: &str, at: (f64, f64), text: &str) {
         let _ = writeln!(
             self.out,

@@ -9,6 +9,7 @@ mod cli_bench;
 mod cli_explore;
 mod cli_fk;
 mod cli_frame;
+mod cli_locus;
 mod cli_near;
 mod cli_optimize;
 mod cli_synthesis;

@@ -17,6 +17,7 @@ mod convert;
 mod explore;
 mod family;
 mod fk;
+mod locus;
 mod map;
 mod optimize;
 mod topologies;
@@ -41,6 +42,8 @@ pub(crate) enum Command {
     Family(family::Args),
     /// All poses, real and complex, for given leg lengths
     Fk(fk::Args),
+    /// The squared length of a virtual leg at all poses, in the complex plane, while one leg length varies
+    Locus(locus::Args),
     /// The affine map between the squared leg lengths of two designs
     Map(map::Args),
     /// The best joint-free platform equivalent to an octahedral design
@@ -60,6 +63,7 @@ impl Command {
             Self::Explore(args) => explore::run(args, context),
             Self::Family(args) => family::run(args, context),
             Self::Fk(args) => fk::run(args, context),
+            Self::Locus(args) => locus::run(args, context),
             Self::Map(args) => map::run(args, context),
             Self::Optimize(args) => optimize::run(args, context),
             Self::Topologies(args) => topologies::run(args, context),

@@ -8,21 +8,24 @@ use crate::manipulator::LegLengths;
 
 /// Lengths of one line of a CSV file.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Row {
+pub(in crate::cli::commands) struct Row {
     /// Line in the file, 1-based.
-    pub(super) line: usize,
-    pub(super) lengths: LegLengths,
+    pub(in crate::cli::commands) line: usize,
+    pub(in crate::cli::commands) lengths: LegLengths,
 }
 
 /// One problem or many.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Given {
+pub(in crate::cli::commands) enum Given {
     One(LegLengths),
     Rows(Vec<Row>),
 }
 
 /// `--lengths`, else the lengths of the design.
-pub(super) fn given(option: Option<&str>, of_design: Option<LegLengths>) -> Result<Given, Failure> {
+pub(in crate::cli::commands) fn given(
+    option: Option<&str>,
+    of_design: Option<LegLengths>,
+) -> Result<Given, Failure> {
     let Some(text) = option else {
         return of_design.map(Given::One).ok_or_else(|| {
             Failure::refused("fk::no_lengths", "the design has no `lengths` and --lengths was not given")

@@ -1,6 +1,6 @@
 //! `equipod fk`: all poses for given leg lengths.
 
-mod lengths;
+pub(super) mod lengths;
 mod near;
 mod render;
 
@@ -41,7 +41,7 @@ pub(crate) struct Args {
 
 /// `--method`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum MethodArg {
+pub(super) enum MethodArg {
     Auto,
     Octic,
     Homotopy,
@@ -52,7 +52,7 @@ enum MethodArg {
 
 impl MethodArg {
     /// The method of the library, `None` for its own choice.
-    fn method(self) -> Result<Option<Method>, Failure> {
+    pub(super) fn method(self) -> Result<Option<Method>, Failure> {
         match self {
             Self::Auto => Ok(None),
             Self::Octic => Ok(Some(Method::Octic)),
