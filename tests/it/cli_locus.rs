@@ -16,7 +16,8 @@ fn values(row: &Value) -> Vec<(f64, f64)> {
 fn the_values_of_the_second_example_and_its_two_double_values() {
     let folder = tempfile::tempdir().unwrap();
     let [svg, csv] = ["l.svg", "l.csv"].map(|n| folder.path().join(n));
-    let files = ["--steps", "11", "--svg", svg.to_str().unwrap(), "--csv", csv.to_str().unwrap()];
+    let files =
+        ["--between", "b,e", "--steps", "11", "--svg", svg.to_str().unwrap(), "--csv", csv.to_str().unwrap()];
     let out = equipod(&[&INNOCENTI[..], &files].concat());
     assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stderr));
     let doc = document(&out);
@@ -50,6 +51,13 @@ fn the_values_of_the_second_example_and_its_two_double_values() {
 
 #[test]
 fn the_distance_is_that_of_the_joints_named() {
+    let doc = document(&equipod(&[&INNOCENTI[..], &["--steps", "2"]].concat()));
+    let leg = |b: &str, p: &str| doc["between"] == serde_json::json!([b, p]);
+    assert!(
+        !["ba", "da", "fe", "he", "ji", "lk"].iter().any(|l| leg(&l[..1], &l[1..])),
+        "{}",
+        doc["between"]
+    );
     let doc = document(&equipod(&[&INNOCENTI[..], &["--steps", "2", "--between", "d,k"]].concat()));
     let rows = doc["rows"].as_array().unwrap();
     let lengths = "5.74,3.32,4.58,5.39,4.69,4.3";

@@ -198,7 +198,7 @@ fn legend(svg: &mut Svg, figure: &LocusFigure, ends: [f64; 2]) {
     let y = 56.0;
     svg.text("note", (LEFT, y + 4.0), &format!("{} = {}", figure.parameter, round(ends[0])));
     let mut x =
-        LEFT + 20.0 + 6.2 * (figure.parameter.chars().count() + 3 + round(ends[0]).chars().count()) as f64;
+        LEFT + 14.0 + 5.6 * (figure.parameter.chars().count() + 3 + round(ends[0]).chars().count()) as f64;
     for class in 0..CLASSES {
         svg.polyline(&format!("along on c{class}"), &[(x, y), (x + 18.0, y)]);
         x += 18.0;
