@@ -1,7 +1,12 @@
 //! Polynomials in one unknown.
 
+mod integer;
 mod octic;
 mod roots;
 
+pub use integer::{
+    ComplexRoot, Dyadic, IntPoly, NotSeparated, RealRoot, SquarefreeFactor, complex_roots, gcd, real_roots,
+    squarefree_factors, sturm_count,
+};
 pub(crate) use octic::octic_roots;
 pub use roots::{RootsError, roots};

@@ -1,0 +1,125 @@
+//! Greatest common divisors modulo primes, and square-free factors.
+
+use num_bigint::{BigInt, Sign};
+use num_integer::Integer;
+use num_traits::One;
+
+use super::IntPoly;
+use super::modular::Modulus;
+
+/// A square-free factor with the number of times it divides.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SquarefreeFactor {
+    /// Primitive, without multiple roots.
+    pub factor: IntPoly,
+    /// All its roots have this multiplicity.
+    pub multiplicity: usize,
+}
+
+/// The greatest common divisor, primitive with positive leading coefficient (contents are ignored); zero when both are zero.
+///
+/// Computed modulo primes, combined by the Chinese remainder theorem until the candidate divides both, which proves it (Brown 1971): its degree,
+/// that of a greatest common divisor modulo a prime that divides neither leading coefficient, cannot be too small.
+#[must_use]
+pub fn gcd(a: &IntPoly, b: &IntPoly) -> IntPoly {
+    let (a, b) = (a.primitive(), b.primitive());
+    if a.is_zero() {
+        return b;
+    }
+    if b.is_zero() {
+        return a;
+    }
+    let lead = a.leading().gcd(&b.leading());
+    let mut found = Combined::default();
+    for m in Modulus::primes() {
+        let (ra, rb, l) = (m.reduce(&a), m.reduce(&b), m.residue(&lead));
+        if ra.len() != a.coefficients().len() || rb.len() != b.coefficients().len() {
+            continue;
+        }
+        let image = m.gcd(ra, rb);
+        if image.len() == 1 {
+            break;
+        }
+        if found.add(m, m.scale(&image, l)) {
+            let candidate = found.candidate();
+            if a.exact_div(&candidate).is_some() && b.exact_div(&candidate).is_some() {
+                return candidate;
+            }
+        }
+    }
+    IntPoly::constant(BigInt::one())
+}
+
+/// Coefficients modulo the product of the primes so far, between minus half of it and half of it.
+#[derive(Default)]
+struct Combined {
+    product: BigInt,
+    coefficients: Vec<BigInt>,
+}
+
+impl Combined {
+    /// Takes one more image; `true` when it changed nothing.
+    fn add(&mut self, m: Modulus, image: Vec<u64>) -> bool {
+        let p = BigInt::from(m.value());
+        if self.coefficients.is_empty() || image.len() < self.coefficients.len() {
+            // earlier primes had common roots of their own
+            self.coefficients = image.into_iter().map(|c| centred(BigInt::from(c), &p)).collect();
+            self.product = p;
+            return false;
+        }
+        if image.len() > self.coefficients.len() {
+            return false;
+        }
+        let inverse = m.inverse(m.residue(&self.product));
+        let (mut same, product) = (true, &self.product * p);
+        for (c, r) in self.coefficients.iter_mut().zip(image) {
+            let step = m.difference_times(r, m.residue(c), inverse);
+            if step != 0 {
+                same = false;
+                *c = centred(&*c + &self.product * step, &product);
+            }
+        }
+        self.product = product;
+        same
+    }
+
+    fn candidate(&self) -> IntPoly {
+        IntPoly::new(self.coefficients.clone()).primitive()
+    }
+}
+
+fn centred(c: BigInt, modulus: &BigInt) -> BigInt {
+    let c = c.mod_floor(modulus);
+    if &c + &c > *modulus { c - modulus } else { c }
+}
+
+/// `p = c prod factor^multiplicity`, multiplicities ascending, factors without common roots (Yun 1976). Empty for constants and zero.
+#[must_use]
+pub fn squarefree_factors(p: &IntPoly) -> Vec<SquarefreeFactor> {
+    let p = p.primitive();
+    let mut out = Vec::new();
+    if p.degree().is_none_or(|n| n == 0) {
+        return out;
+    }
+    let derivative = p.derivative();
+    let g = gcd(&p, &derivative);
+    // v = product of the distinct factors, w belongs to it
+    let (mut v, mut w) = (quotient(&p, &g), quotient(&derivative, &g));
+    let mut multiplicity = 1;
+    while v.degree() != Some(0) {
+        let rest = &w - &v.derivative();
+        let factor = if rest.is_zero() { v.primitive() } else { gcd(&v, &rest) };
+        (v, w) = (quotient(&v, &factor), quotient(&rest, &factor));
+        if factor.degree() != Some(0) {
+            out.push(SquarefreeFactor { factor, multiplicity });
+        }
+        multiplicity += 1;
+    }
+    out
+}
+
+/// Division by a primitive divisor.
+fn quotient(p: &IntPoly, divisor: &IntPoly) -> IntPoly {
+    debug_assert!(divisor.leading().sign() == Sign::Plus);
+    p.exact_div(divisor).unwrap_or_else(|| unreachable!("a common divisor divides"))
+}

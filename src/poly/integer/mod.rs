@@ -1,0 +1,288 @@
+//! Polynomials with integer coefficients of any size, exactly.
+
+mod complex_roots;
+mod dyadic;
+mod gcd;
+mod isolate;
+mod kronecker;
+mod modular;
+mod sturm;
+
+use std::ops::{Add, Mul, Neg, Sub};
+
+use num_bigint::{BigInt, Sign};
+use num_integer::Integer;
+use num_traits::{One, Zero};
+
+pub use complex_roots::{ComplexRoot, NotSeparated, complex_roots};
+pub use dyadic::Dyadic;
+pub use gcd::{SquarefreeFactor, gcd, squarefree_factors};
+pub use isolate::{RealRoot, real_roots};
+pub use sturm::sturm_count;
+
+/// `c_0 + c_1 x + .. + c_n x^n` with integer coefficients, `c_n != 0`.
+///
+/// The zero polynomial has no coefficients and no degree. Products use Kronecker substitution, so that they cost one product of large integers.
+///
+/// ```
+/// use equipod::poly::IntPoly;
+/// let p = IntPoly::from_i64(&[-1, 1]); // x - 1
+/// let q = IntPoly::from_i64(&[2, 1]); // x + 2
+/// assert_eq!(&p * &q, IntPoly::from_i64(&[-2, 1, 1]));
+/// assert_eq!((&p * &q).exact_div(&q), Some(p));
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct IntPoly(Vec<BigInt>);
+
+impl IntPoly {
+    /// From coefficients, the constant one first; zeros at the end are dropped.
+    #[must_use]
+    pub fn new(mut coefficients: Vec<BigInt>) -> Self {
+        while coefficients.last().is_some_and(Zero::is_zero) {
+            coefficients.pop();
+        }
+        Self(coefficients)
+    }
+
+    /// From small coefficients, the constant one first.
+    #[must_use]
+    pub fn from_i64(coefficients: &[i64]) -> Self {
+        Self::new(coefficients.iter().map(|c| BigInt::from(*c)).collect())
+    }
+
+    /// A constant.
+    #[must_use]
+    pub fn constant(value: BigInt) -> Self {
+        Self::new(vec![value])
+    }
+
+    /// The unknown.
+    #[must_use]
+    pub fn x() -> Self {
+        Self::from_i64(&[0, 1])
+    }
+
+    /// The coefficients, the constant one first.
+    #[must_use]
+    pub fn coefficients(&self) -> &[BigInt] {
+        &self.0
+    }
+
+    /// The degree, `None` for the zero polynomial.
+    #[must_use]
+    pub fn degree(&self) -> Option<usize> {
+        self.0.len().checked_sub(1)
+    }
+
+    /// Whether this is the zero polynomial.
+    #[must_use]
+    pub fn is_zero(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The coefficient of the highest power, zero for the zero polynomial.
+    #[must_use]
+    pub fn leading(&self) -> BigInt {
+        self.0.last().cloned().unwrap_or_default()
+    }
+
+    /// Bits of the largest coefficient.
+    #[must_use]
+    pub fn bits(&self) -> u64 {
+        self.0.iter().map(BigInt::bits).max().unwrap_or(0)
+    }
+
+    /// The greatest common divisor of the coefficients, not negative.
+    #[must_use]
+    pub fn content(&self) -> BigInt {
+        let mut smallest_first: Vec<&BigInt> = self.0.iter().collect();
+        smallest_first.sort_by_key(|c| c.bits());
+        let mut found = BigInt::zero();
+        for c in smallest_first {
+            if found.is_one() {
+                break;
+            }
+            // the remainder first: the binary algorithm is slow between numbers of very different size
+            found = if found.is_zero() { found.gcd(c) } else { found.gcd(&(c % &found)) };
+        }
+        found
+    }
+
+    /// Divided by its content, with a positive leading coefficient.
+    #[must_use]
+    pub fn primitive(&self) -> Self {
+        let content = self.content();
+        if content.is_zero() {
+            return self.clone();
+        }
+        let divisor = if self.leading().sign() == Sign::Minus { -content } else { content };
+        if divisor.is_one() {
+            return self.clone();
+        }
+        Self(self.0.iter().map(|c| c / &divisor).collect())
+    }
+
+    /// The derivative.
+    #[must_use]
+    pub fn derivative(&self) -> Self {
+        Self::new(self.0.iter().enumerate().skip(1).map(|(k, c)| c * k).collect())
+    }
+
+    /// Every coefficient times `factor`.
+    #[must_use]
+    pub fn scaled(&self, factor: &BigInt) -> Self {
+        Self::new(self.0.iter().map(|c| c * factor).collect())
+    }
+
+    /// `p(-x)`.
+    #[must_use]
+    pub fn reflected(&self) -> Self {
+        let sign = |(k, c): (usize, &BigInt)| if k % 2 == 1 { -c } else { c.clone() };
+        Self(self.0.iter().enumerate().map(sign).collect())
+    }
+
+    /// `self / divisor` when that is a polynomial with integer coefficients, `None` otherwise and for `divisor = 0`.
+    #[must_use]
+    pub fn exact_div(&self, divisor: &Self) -> Option<Self> {
+        let n = divisor.degree()?;
+        if self.is_zero() {
+            return Some(Self::default());
+        }
+        let count = (self.0.len()).checked_sub(n)?;
+        if !modular::may_divide(divisor, self) {
+            return None;
+        }
+        let mut rest = self.0.clone();
+        let mut quotient = vec![BigInt::zero(); count];
+        let lead = divisor.leading();
+        for k in (0..count).rev() {
+            let (q, r) = rest[k + n].div_rem(&lead);
+            if !r.is_zero() {
+                return None;
+            }
+            for (j, d) in divisor.0.iter().enumerate() {
+                rest[k + j] -= &q * d;
+            }
+            quotient[k] = q;
+        }
+        rest.iter().all(Zero::is_zero).then(|| Self::new(quotient))
+    }
+
+    /// Divided by every coefficient of `divisor`'s integer: `None` unless all are divisible.
+    #[must_use]
+    pub fn exact_div_integer(&self, divisor: &BigInt) -> Option<Self> {
+        if divisor.is_zero() {
+            return None;
+        }
+        let mut out = Vec::with_capacity(self.0.len());
+        for c in &self.0 {
+            let (q, r) = c.div_rem(divisor);
+            if !r.is_zero() {
+                return None;
+            }
+            out.push(q);
+        }
+        Some(Self(out))
+    }
+
+    /// The sign of the value at a dyadic number, exactly.
+    #[must_use]
+    pub fn sign_at(&self, x: &Dyadic) -> Sign {
+        self.value_at(x).sign()
+    }
+
+    /// The value at a dyadic number times a positive power of two.
+    fn value_at(&self, x: &Dyadic) -> BigInt {
+        let (m, e) = (x.mantissa(), x.exponent());
+        let mut value = BigInt::zero();
+        if e >= 0 {
+            let x = m << e.unsigned_abs();
+            for c in self.0.iter().rev() {
+                value = value * &x + c;
+            }
+        } else {
+            let e = e.unsigned_abs();
+            for (k, c) in self.0.iter().rev().enumerate() {
+                value = value * m + (c << (e * k as u64));
+            }
+        }
+        value
+    }
+
+    /// `2^(n k) p(x / 2^k)`, for `k < 0` `p(2^-k x)`: roots multiplied by `2^k`.
+    fn stretched(&self, k: i64) -> Self {
+        let n = self.0.len().saturating_sub(1);
+        let shift = |(i, c): (usize, &BigInt)| {
+            let places = if k >= 0 { n - i } else { i };
+            c << (k.unsigned_abs() * places as u64)
+        };
+        Self(self.0.iter().enumerate().map(shift).collect())
+    }
+
+    /// `p(x + 1)`.
+    fn shifted_by_one(&self) -> Self {
+        let mut c = self.0.clone();
+        let n = c.len();
+        for i in 0..n {
+            for j in (i..n.saturating_sub(1)).rev() {
+                let (low, high) = c.split_at_mut(j + 1);
+                low[j] += &high[0];
+            }
+        }
+        Self(c)
+    }
+
+    /// `x^n p(1/x)`.
+    fn reversed(&self) -> Self {
+        Self::new(self.0.iter().rev().cloned().collect())
+    }
+
+    /// The least `k` found with all roots of modulus below `2^k` (Fujiwara 1916, in powers of two).
+    fn root_bound(&self) -> i64 {
+        let n = self.0.len() - 1;
+        let top = self.0[n].bits().cast_signed() - 1;
+        let ratio = |k: usize| {
+            // |c_(n-k) / c_n|^(1/k) < 2^((bits - top) / k)
+            let excess = self.0[n - k].bits().cast_signed() - top;
+            excess.div_euclid(k as i64) + 1
+        };
+        let nonzero = (1..=n).filter(|k| !self.0[n - k].is_zero());
+        nonzero.map(ratio).max().unwrap_or(0) + 1
+    }
+}
+
+impl Add for &IntPoly {
+    type Output = IntPoly;
+    fn add(self, other: &IntPoly) -> IntPoly {
+        let (long, short) = if self.0.len() >= other.0.len() { (self, other) } else { (other, self) };
+        let mut out = long.0.clone();
+        for (o, s) in out.iter_mut().zip(&short.0) {
+            *o += s;
+        }
+        IntPoly::new(out)
+    }
+}
+
+impl Neg for &IntPoly {
+    type Output = IntPoly;
+    fn neg(self) -> IntPoly {
+        IntPoly(self.0.iter().map(|c| -c).collect())
+    }
+}
+
+impl Sub for &IntPoly {
+    type Output = IntPoly;
+    fn sub(self, other: &IntPoly) -> IntPoly {
+        self + &-other
+    }
+}
+
+impl Mul for &IntPoly {
+    type Output = IntPoly;
+    fn mul(self, other: &IntPoly) -> IntPoly {
+        IntPoly::new(kronecker::product(&self.0, &other.0))
+    }
+}
+
+#[cfg(test)]
+mod tests;
