@@ -5,9 +5,14 @@
 //! Porta, Thomas, *Yet another approach to the Gough-Stewart platform forward kinematics*.
 
 mod cayley_menger;
+mod exact;
 mod plan;
 mod scalar;
 
 pub use cayley_menger::{Base, Tetrahedron, Trilateration, bideterminant, determinant};
+pub use exact::{
+    ClosureDegrees, ClosureError, ClosurePolynomial, SingularFactor, closure_degrees, closure_polynomial,
+    generic_degrees,
+};
 pub use plan::{NoPlan, plans};
 pub use scalar::Scalar;

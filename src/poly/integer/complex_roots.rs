@@ -50,7 +50,7 @@ const SWEEPS: usize = 60;
 /// Covers the rounding of logarithms in doubles, many times over.
 const MARGIN: f64 = 0.01;
 
-/// The roots of `p` with radii at most `2^-bits` times the largest modulus, conjugates of each other exactly, in order of real and imaginary part.
+/// The roots of `p` with radii at most `2^-bits` times the largest modulus, in order of real and imaginary part.
 ///
 /// Ehrlich-Aberth iteration on each square-free factor. With `z_1, .., z_n` the iterates and `c` the leading coefficient, the discs of radius
 /// `n |p(z_i) / (c prod (z_i - z_j))|` about `z_i` hold all roots, and one that meets no other holds exactly one (Smith 1970). The values are
@@ -178,9 +178,13 @@ impl Fixed {
         if up { base + 0.5 + MARGIN } else { base - MARGIN }
     }
 
-    /// As a double with a power of two taken out.
-    fn scaled(&self, log: i64) -> Complex64 {
-        let part = |x: &BigInt| Dyadic::new(x.clone(), -log).to_f64();
+    /// Times `2^-places`, in doubles.
+    fn scaled(&self, places: u64) -> Complex64 {
+        // far below the smallest double squared there is nothing to see
+        let (drop, rest) = if places > 600 { (places - 600, 600) } else { (0, places) };
+        let unit = 2f64.powi(-(rest as i32));
+        let part =
+            |x: &BigInt| if drop == 0 { x.to_f64() } else { (x >> drop).to_f64() }.unwrap_or(0.0) * unit;
         Complex64::new(part(&self.re), part(&self.im))
     }
 }
@@ -234,7 +238,7 @@ impl FixedPoly {
                 continue;
             }
             let newton = value.over(&slope, self.precision);
-            let log = self.precision.cast_signed();
+            let log = self.precision;
             // the repulsion need not be accurate: its error only slows the convergence
             let repulsion: Complex64 = (0..z.len())
                 .filter(|j| *j != k)
@@ -247,8 +251,8 @@ impl FixedPoly {
             let length = step.log2(true) - self.precision as f64;
             if length > 0.0 {
                 // no step is longer than the disc of the roots
-                let places = length.ceil() as u64;
-                step = Fixed { re: step.re >> places, im: step.im >> places };
+                let places = length.ceil() as i64;
+                step = Fixed { re: shifted(&step.re, -places), im: shifted(&step.im, -places) };
             }
             settled &= length < -(self.precision as f64) * 0.75;
             z[k] = z[k].minus(&step);
@@ -269,7 +273,7 @@ impl FixedPoly {
             .map(|i| {
                 let value = self.horner(&self.c, &z[i]);
                 // |z| < 2 and each of n steps is wrong by at most two units in each part: below 2^(n+1) 4 units in all
-                let error = 2f64.powi(n as i32 + 3);
+                let error = (n as f64 + 3.0).exp2();
                 let size = log2_sum(value.log2(true), error.log2());
                 let others = (0..n).filter(|j| *j != i);
                 let product: f64 = others.map(|j| z[i].minus(&z[j]).log2(false) - units).sum();

@@ -3,7 +3,6 @@
 use std::cmp::Ordering;
 
 use num_bigint::{BigInt, Sign};
-use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
 
 /// The rational number `mantissa * 2^exponent`, exactly; the mantissa is odd, or zero with exponent zero.
@@ -115,17 +114,6 @@ impl Dyadic {
         if self.sign() == Sign::Minus { -value } else { value }
     }
 
-    /// As a rational number.
-    #[must_use]
-    pub fn to_rational(&self) -> BigRational {
-        let power = BigInt::from(1) << self.exponent.unsigned_abs();
-        if self.exponent >= 0 {
-            BigRational::from_integer(&self.mantissa * power)
-        } else {
-            BigRational::new(self.mantissa.clone(), power)
-        }
-    }
-
     fn aligned(&self, other: &Self) -> (BigInt, BigInt, i64) {
         let e = self.exponent.min(other.exponent);
         let lift = |x: &Self| &x.mantissa << (x.exponent - e).unsigned_abs();
@@ -148,6 +136,8 @@ impl Ord for Dyadic {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::float_cmp, reason = "the values are exact")]
+
     use super::*;
     use crate::num::Rng;
 

@@ -63,7 +63,7 @@ impl Combined {
         let p = BigInt::from(m.value());
         if self.coefficients.is_empty() || image.len() < self.coefficients.len() {
             // earlier primes had common roots of their own
-            self.coefficients = image.into_iter().map(|c| centred(BigInt::from(c), &p)).collect();
+            self.coefficients = image.into_iter().map(|c| centred(&BigInt::from(c), &p)).collect();
             self.product = p;
             return false;
         }
@@ -76,7 +76,7 @@ impl Combined {
             let step = m.difference_times(r, m.residue(c), inverse);
             if step != 0 {
                 same = false;
-                *c = centred(&*c + &self.product * step, &product);
+                *c = centred(&(&*c + &self.product * step), &product);
             }
         }
         self.product = product;
@@ -88,7 +88,7 @@ impl Combined {
     }
 }
 
-fn centred(c: BigInt, modulus: &BigInt) -> BigInt {
+fn centred(c: &BigInt, modulus: &BigInt) -> BigInt {
     let c = c.mod_floor(modulus);
     if &c + &c > *modulus { c - modulus } else { c }
 }

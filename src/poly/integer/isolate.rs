@@ -5,7 +5,7 @@ use std::sync::Arc;
 use num_bigint::{BigInt, Sign};
 use num_traits::{One, Zero};
 
-use super::{Dyadic, IntPoly, squarefree_factors};
+use super::{Dyadic, IntPoly, gcd, squarefree_factors, sturm_count};
 
 /// One real root: it is `low` when `low = high`, otherwise the only root of the polynomial with `low < x < high`, and neither end is a root.
 #[derive(Debug, Clone)]
@@ -91,6 +91,23 @@ impl RealRoot {
         let mut root = self.clone();
         root.refine_relative(60);
         root.low.midpoint(&root.high).to_f64()
+    }
+
+    /// The sign of another polynomial at the root, exactly: zero when they have it in common.
+    #[must_use]
+    pub fn sign_of(&self, q: &IntPoly) -> Sign {
+        let mut root = self.clone();
+        if !root.is_exact() {
+            let common = gcd(q, &root.factor);
+            // a divisor of the factor has no other root here, and that one is simple
+            if common.sign_at(&root.low) != common.sign_at(&root.high) {
+                return Sign::NoSign;
+            }
+        }
+        while !root.is_exact() && sturm_count(q, &root.low, &root.high) > 0 {
+            root.bisect();
+        }
+        q.sign_at(&root.high)
     }
 
     fn width_log2(&self) -> Option<i64> {

@@ -210,7 +210,7 @@ impl IntPoly {
     }
 
     /// `2^(n k) p(x / 2^k)`, for `k < 0` `p(2^-k x)`: roots multiplied by `2^k`.
-    fn stretched(&self, k: i64) -> Self {
+    pub(crate) fn stretched(&self, k: i64) -> Self {
         let n = self.0.len().saturating_sub(1);
         let shift = |(i, c): (usize, &BigInt)| {
             let places = if k >= 0 { n - i } else { i };
@@ -244,7 +244,7 @@ impl IntPoly {
         let ratio = |k: usize| {
             // |c_(n-k) / c_n|^(1/k) < 2^((bits - top) / k)
             let excess = self.0[n - k].bits().cast_signed() - top;
-            excess.div_euclid(k as i64) + 1
+            excess.div_euclid(k.cast_signed() as i64) + 1
         };
         let nonzero = (1..=n).filter(|k| !self.0[n - k].is_zero());
         nonzero.map(ratio).max().unwrap_or(0) + 1

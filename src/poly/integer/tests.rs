@@ -154,6 +154,21 @@ fn random_products_have_the_roots_they_were_made_of() {
 }
 
 #[test]
+fn signs_at_roots_of_another_polynomial() {
+    let p = product([IntPoly::from_i64(&[-2, 0, 1]), IntPoly::from_i64(&[-7, 5])]); // -sqrt 2, 7/5, sqrt 2
+    let signs =
+        |q: &[i64]| real_roots(&p).iter().map(|r| r.sign_of(&IntPoly::from_i64(q))).collect::<Vec<_>>();
+    let (minus, zero, plus) = (Sign::Minus, Sign::NoSign, Sign::Plus);
+    assert_eq!(signs(&[-4, 0, 2]), [zero, minus, zero]);
+    // 141/100 and 1414213/1000000 lie between the last two
+    assert_eq!(signs(&[-141, 100]), [minus, minus, plus]);
+    assert_eq!(signs(&[-1_414_213, 1_000_000]), [minus, minus, plus]);
+    assert_eq!(signs(&[5]), [plus; 3]);
+    assert_eq!(signs(&[]), [zero; 3]);
+    assert_eq!(real_roots(&IntPoly::from_i64(&[-1, 2]))[0].sign_of(&IntPoly::from_i64(&[-1, 2])), zero);
+}
+
+#[test]
 fn roots_at_zero_at_ends_of_intervals_and_none() {
     // dyadic roots are ends of intervals of the bisection
     let p = product([

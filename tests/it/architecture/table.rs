@@ -15,12 +15,13 @@ type Line = (&'static str, &'static [&'static str], &'static [(&'static str, Opt
 
 const COMPLEX: (&str, Option<&str>) = ("num_complex", None);
 const MATRICES: (&str, Option<&str>) = ("nalgebra", None);
+const INTEGERS: (&str, Option<&str>) = ("num_bigint", None);
 const ERRORS: (&str, Option<&str>) = ("thiserror", None);
 
 const LINES: &[Line] = &[
     ("num", &[], &[("faer", Some("linalg.rs")), ("num_rational", Some("exact.rs")), COMPLEX, ERRORS]),
     ("geom", &["num", "manipulator"], &[MATRICES, COMPLEX]),
-    ("poly", &["num"], &[COMPLEX, ERRORS]),
+    ("poly", &["num"], &[INTEGERS, COMPLEX, ("num_integer", None), ("num_traits", None), ERRORS]),
     ("manipulator", &["num", "geom"], &[MATRICES, ERRORS]),
     ("solve", &["num", "geom", "poly", "manipulator"], &[MATRICES, COMPLEX, ERRORS]),
     ("solve::certify", &["num", "geom", "manipulator"], &[MATRICES, COMPLEX, ("pulp", None), ERRORS]),
@@ -29,7 +30,7 @@ const LINES: &[Line] = &[
         &["num", "geom", "manipulator", "solve"],
         &[MATRICES, COMPLEX, ("pulp", None), ERRORS],
     ),
-    ("distance", &["num", "geom", "poly", "manipulator", "topology"], &[MATRICES, COMPLEX, ERRORS]),
+    ("distance", &["num", "geom", "poly", "manipulator", "topology"], &[MATRICES, INTEGERS, COMPLEX, ERRORS]),
     (
         "fk",
         &[

@@ -1,0 +1,345 @@
+//! The unoriented steps of a sequence over the tower, and the closure condition.
+//!
+//! A step places `P` from `o, p, q` in place: with `u = p - o`, `v = q - o`, `n = u x v`, `m = 2 u.v`, `F = 2 u.(P - o)`, `G = 2 v.(P - o)` from distances,
+//!
+//! ```text
+//! A   = 4 (u.u v.v) - m^2                        the singular factor, -D(o, p, q)
+//! K   = v.v F^2 - m F G + u.u G^2
+//! P   = o + [ (2 v.v F - m G) u + (2 u.u G - m F) v + 2 sqrt(s_oP A - K) n ] / A.
+//! ```
+//!
+//! The closure is a condition `2 w.(P - o) = h` on the last of the steps it needs; with the sixteen doubled scalar products of `u, v, P - o, w` known
+//! its norm over the root of that step is a Gram determinant, which vanishes for four vectors in space:
+//!
+//! ```text
+//! A w.w (product over both signs of the closure) = det (2 g_i.g_j),  up to a constant factor.
+//! ```
+//!
+//! So the outermost root and its singular factor never appear.
+
+use num_bigint::BigInt;
+
+use super::ClosureError;
+use super::data::{ExactData, cross, dot, minus};
+use super::fraction::{Fraction, Fractions, STEPS};
+use super::ring::Ring;
+use super::tower::{is_zero, zero};
+use crate::topology::{Joint, Sequence, Step};
+
+/// A closure of a sequence: the squared distance between the two joints, computed, is the known one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Closure {
+    /// The joint placed last.
+    pub(super) last: Joint,
+    pub(super) other: Joint,
+    /// Steps that are needed to place both.
+    pub(super) steps: usize,
+}
+
+/// Joints placed one after the other.
+pub(super) struct Strip<'a, R> {
+    pub(super) data: &'a ExactData,
+    pub(super) fractions: Fractions<R>,
+    pub(super) steps: [Step; STEPS],
+    pub(super) closure: Closure,
+    virtual_leg: Option<(usize, usize)>,
+    /// Coordinates of the joints placed so far.
+    placed: Vec<[Fraction<R>; 3]>,
+    /// `A` of each step so far.
+    pub(super) singular: Vec<Fraction<R>>,
+    /// Whether distances are taken from coordinates as the paper does, in place of shorter ways.
+    pub(super) literal: bool,
+}
+
+impl<'a, R: Ring> Strip<'a, R> {
+    pub(super) fn new(
+        data: &'a ExactData,
+        s: &Sequence,
+        closure: Closure,
+        literal: bool,
+    ) -> Result<Self, ClosureError> {
+        let steps: Vec<Step> = s.unoriented().copied().collect();
+        let steps: [Step; STEPS] = steps.try_into().map_err(|_| ClosureError::Unsupported)?;
+        if s.virtual_legs.len() > 1 {
+            return Err(ClosureError::Unsupported);
+        }
+        Ok(Self {
+            data,
+            fractions: Fractions::new(!literal),
+            steps,
+            closure,
+            virtual_leg: s.virtual_legs.first().copied(),
+            placed: Vec::new(),
+            singular: Vec::new(),
+            literal,
+        })
+    }
+
+    fn index(&self, joint: Joint) -> Option<usize> {
+        self.steps.iter().position(|s| s.place == joint)
+    }
+
+    /// Coordinates in the frame of the first body.
+    pub(super) fn coordinates(&self, joint: Joint) -> [Fraction<R>; 3] {
+        match self.index(joint).and_then(|k| self.placed.get(k)) {
+            Some(p) => p.clone(),
+            None => self.data.point(joint).each_ref().map(|c| self.fractions.integer(c)),
+        }
+    }
+
+    pub(super) fn difference(&self, p: &[Fraction<R>; 3], q: &[Fraction<R>; 3]) -> [Fraction<R>; 3] {
+        std::array::from_fn(|i| self.fractions.minus(&p[i], &q[i]))
+    }
+
+    pub(super) fn product(&self, p: &[Fraction<R>; 3], q: &[Fraction<R>; 3]) -> Fraction<R> {
+        let f = &self.fractions;
+        let terms: Vec<Fraction<R>> = (0..3).map(|i| f.times(&p[i], &q[i])).collect();
+        f.sum(&terms)
+    }
+
+    pub(super) fn cross(&self, p: &[Fraction<R>; 3], q: &[Fraction<R>; 3]) -> [Fraction<R>; 3] {
+        let f = &self.fractions;
+        std::array::from_fn(|i| {
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            f.minus(&f.times(&p[j], &q[k]), &f.times(&p[k], &q[j]))
+        })
+    }
+
+    /// A known squared distance, that of the closure left out.
+    fn known(&self, x: Joint, y: Joint) -> Option<Fraction<R>> {
+        let closing = (x, y) == (self.closure.last, self.closure.other)
+            || (y, x) == (self.closure.last, self.closure.other);
+        match x.across(y) {
+            _ if closing => None,
+            None => Some(self.fractions.integer(&self.data.within(x, y))),
+            pair if pair == self.virtual_leg => Some(self.fractions.unknown()),
+            _ => self.data.leg(x, y).map(|s| self.fractions.integer(s)),
+        }
+    }
+
+    /// The two joints whose squared distance is the unknown.
+    pub(super) fn unknown(&self) -> [Joint; 2] {
+        match self.virtual_leg {
+            Some((a, b)) => [Joint::Base(a), Joint::Platform(b)],
+            None => [self.closure.last, self.closure.other],
+        }
+    }
+
+    /// What the closure says: the known distance, or the unknown when there is no virtual leg.
+    pub(super) fn closing(&self) -> Fraction<R> {
+        let Closure { last, other, .. } = self.closure;
+        match last.across(other) {
+            None => self.fractions.integer(&self.data.within(last, other)),
+            Some(_) => match self.data.leg(last, other) {
+                Some(s) => self.fractions.integer(s),
+                None => self.fractions.unknown(),
+            },
+        }
+    }
+
+    /// The squared distance of two joints in place.
+    pub(super) fn squared(&self, x: Joint, y: Joint) -> Fraction<R> {
+        if let Some(s) = self.known(x, y) {
+            return s;
+        }
+        let (moving, still) = if self.index(x).is_some() { (x, y) } else { (y, x) };
+        let f = &self.fractions;
+        if self.literal || self.index(still).is_some() {
+            let d = self.difference(&self.coordinates(x), &self.coordinates(y));
+            return self.product(&d, &d);
+        }
+        // |P - y|^2 = |P - r|^2 + 2 (P - r).(r - y) + |r - y|^2 with r at a known distance: linear in the coordinates
+        let from = self.index(moving).map_or([still; 3], |k| self.steps[k].from);
+        let reference = from.into_iter().find(|r| !r.same_body(moving)).unwrap_or(still);
+        let Some(s) = self.known(reference, moving) else {
+            let d = self.difference(&self.coordinates(x), &self.coordinates(y));
+            return self.product(&d, &d);
+        };
+        let step = minus(self.data.point(reference), self.data.point(still));
+        let p = self.difference(&self.coordinates(moving), &self.coordinates(reference));
+        let terms: Vec<Fraction<R>> = (0..3).map(|i| f.scaled(&p[i], &(&step[i] * 2))).collect();
+        let linear = f.plus(&f.sum(&terms), &f.integer(&dot(&step, &step)));
+        f.plus(&s, &linear)
+    }
+
+    /// `2 (x - o).(y - o)` from distances.
+    fn doubled(&self, o: Joint, x: Joint, y: Joint) -> Fraction<R> {
+        let f = &self.fractions;
+        let legs = f.plus(&self.squared(o, x), &self.squared(o, y));
+        if x == y { legs } else { f.minus(&legs, &self.squared(x, y)) }
+    }
+
+    /// `A = 4 (u.u v.v) - (2 u.v)^2` of step `t`.
+    pub(super) fn singular_factor(&self, [o, p, q]: [Joint; 3]) -> Fraction<R> {
+        let f = &self.fractions;
+        let m = self.doubled(o, p, q);
+        let product = f.times(&self.squared(o, p), &self.squared(o, q));
+        f.minus(&f.scaled(&product, &4.into()), &f.times(&m, &m))
+    }
+
+    /// The joints of step `t` with the origin first: one of the first body.
+    pub(super) fn base_of(&self, t: usize) -> [Joint; 3] {
+        let mut from = self.steps[t].from;
+        if let Some(k) = from.iter().position(|j| !j.same_body(self.steps[t].place)) {
+            from.swap(0, k);
+        }
+        from
+    }
+
+    /// Places the joint of the next step.
+    pub(super) fn place(&mut self) -> Result<(), ClosureError> {
+        let t = self.placed.len();
+        let (base, new) = (self.base_of(t), self.steps[t].place);
+        let [o, p, q] = base;
+        let a = self.singular_factor(base);
+        if self.fractions.tower.norm(&a.numerator).is_zero() {
+            return Err(ClosureError::Collinear { step: t });
+        }
+        let inverse = self.fractions.adjoin_factor(&a);
+        let f = &self.fractions;
+        let (uu, vv, m) = (self.squared(o, p), self.squared(o, q), self.doubled(o, p, q));
+        let (ff, gg) = (self.doubled(o, p, new), self.doubled(o, q, new));
+        let twice_v = f.minus(&f.twice(&f.times(&vv, &ff)), &f.times(&m, &gg));
+        let twice_u = f.minus(&f.twice(&f.times(&uu, &gg)), &f.times(&m, &ff));
+        // 2 K = F (2 v.v F - m G) + G (2 u.u G - m F)
+        let k = f.plus(&f.times(&ff, &twice_v), &f.times(&gg, &twice_u));
+        let radicand = f.minus(&f.twice(&f.times(&self.squared(o, new), &a)), &k);
+        // 2 sqrt(s A - K) = sqrt(2 (2 s A - 2 K))
+        let radicand = f.twice(&radicand);
+        let origin = self.coordinates(o);
+        let u = self.difference(&self.coordinates(p), &origin);
+        let v = self.difference(&self.coordinates(q), &origin);
+        let root = self.fractions.adjoin_root(&radicand);
+        let n = self.cross(&u, &v);
+        let f = &self.fractions;
+        let place = std::array::from_fn(|i| {
+            let flat = f.plus(&f.times(&twice_v, &u[i]), &f.times(&twice_u, &v[i]));
+            let out = f.plus(&flat, &f.times(&root, &n[i]));
+            f.plus(&origin[i], &f.times(&inverse, &out))
+        });
+        self.singular.push(a);
+        self.placed.push(place);
+        Ok(())
+    }
+
+    /// Before the last step of the closure: a multiple, without the root of that step, of the product of the closure over both signs of it.
+    pub(super) fn gram_determinant(&self) -> Result<Fraction<R>, ClosureError> {
+        let t = self.closure.steps - 1;
+        debug_assert!(self.placed.len() == t);
+        if is_zero(&self.singular_factor(self.base_of(t)).numerator) {
+            return Err(ClosureError::Collinear { step: t });
+        }
+        let direct = self.steps[t].place == self.closure.last;
+        let gram = if direct { self.direct_products(t) } else { self.rigid_products()? };
+        Ok(self.determinant(&gram))
+    }
+
+    /// The closure is a distance of the joint itself: `w` is the other joint.
+    fn direct_products(&self, t: usize) -> [[Fraction<R>; 4]; 4] {
+        let ([o, p, q], new, other) = (self.base_of(t), self.steps[t].place, self.closure.other);
+        let f = &self.fractions;
+        let pair = |x: Joint, y: Joint| {
+            if x == y {
+                return f.twice(&self.squared(o, x));
+            }
+            let closing = x == new && y == other || x == other && y == new;
+            let across = if closing { self.closing() } else { self.squared(x, y) };
+            f.minus(&f.plus(&self.squared(o, x), &self.squared(o, y)), &across)
+        };
+        let list = [p, q, new, other];
+        std::array::from_fn(|i| std::array::from_fn(|j| pair(list[i], list[j])))
+    }
+
+    /// The closure is a distance of a joint `k` rigidly joined to all three that are placed, `P1`, `P2`, `P3`. With `y = P2 - P1`, `z = P3 - P1`, `N = |y x z|^2`:
+    /// `N (k - P1) = n1 y + n2 z + n3 (y x z)`, integers; with `t = P1 - l` the closure is `2 w.z = h`, `w = n2 t + n3 (t x y)`.
+    fn rigid_products(&self) -> Result<[[Fraction<R>; 4]; 4], ClosureError> {
+        let f = &self.fractions;
+        let [p1, p2, p3] = self.steps.map(|s| s.place);
+        let (k, l) = (self.closure.last, self.closure.other);
+        let j = self.steps[2].from.into_iter().find(|j| !j.same_body(p1)).ok_or(ClosureError::Unsupported)?;
+        let moving = self.steps[2].from.iter().filter(|j| j.same_body(p1)).count();
+        if moving != 2 {
+            return Err(ClosureError::Unsupported);
+        }
+        let point = |joint| self.data.point(joint);
+        let (y, z, kk) =
+            (minus(point(p2), point(p1)), minus(point(p3), point(p1)), minus(point(k), point(p1)));
+        let normal = cross(&y, &z);
+        let size = dot(&normal, &normal);
+        let n1 = dot(&cross(&kk, &z), &normal);
+        let n2 = dot(&cross(&y, &kk), &normal);
+        let n3 = dot(&kk, &normal);
+        let scaled = |x: &Fraction<R>, c: &BigInt| f.scaled(x, c);
+        let (uu, tt, vv) = (self.squared(p1, p2), self.squared(p1, l), self.squared(p1, j));
+        let still = f.integer(&self.data.within(j, l));
+        // doubled scalar products; t = P1 - l, v = j - P1
+        let ty = f.minus(&self.squared(p2, l), &f.plus(&tt, &uu));
+        let vt = f.minus(&still, &f.plus(&vv, &tt));
+        let volume = self.volume(p1, p2, j, l);
+        let yw = scaled(&ty, &n2);
+        let vw = f.plus(&scaled(&vt, &n2), &scaled(&f.twice(&volume), &n3));
+        // 4 |t x y|^2; the last vector is 2 w, so that its square needs no half
+        let area = f.minus(&f.scaled(&f.times(&tt, &uu), &4.into()), &f.times(&ty, &ty));
+        let ww = f.plus(&scaled(&tt, &(&n2 * &n2 * 8)), &scaled(&area, &(&n3 * &n3 * 2)));
+        let rigid = f.minus(&self.closing(), &f.plus(&f.integer(&dot(&kk, &kk)), &tt));
+        let h = f.minus(&scaled(&rigid, &size), &scaled(&ty, &n1));
+        let s1 = f.integer(&self.data.within(p1, p3));
+        let (yv, yz, vz) = (self.doubled(p1, p2, j), self.doubled(p1, p2, p3), self.doubled(p1, j, p3));
+        let two = |x: &Fraction<R>| f.twice(x);
+        let (yw, vw, h) = (two(&yw), two(&vw), two(&h));
+        Ok([
+            [two(&uu), yv.clone(), yz.clone(), yw.clone()],
+            [yv, two(&vv), vz.clone(), vw.clone()],
+            [yz, vz, two(&s1), h.clone()],
+            [yw, vw, h, ww],
+        ])
+    }
+
+    /// `(j - P1).[(P1 - l) x (P2 - P1)] = det(j - P1, j - l, P2 - j)`, bilinear in the coordinates.
+    fn volume(&self, p1: Joint, p2: Joint, j: Joint, l: Joint) -> Fraction<R> {
+        let cj = self.coordinates(j);
+        let first = self.difference(&cj, &self.coordinates(p1));
+        let last = self.difference(&self.coordinates(p2), &cj);
+        let fixed = minus(self.data.point(j), self.data.point(l)).map(|c| self.fractions.integer(&c));
+        self.product(&self.cross(&first, &fixed), &last)
+    }
+
+    /// The determinant of a symmetric matrix by products of minors of its upper and lower half.
+    fn determinant(&self, g: &[[Fraction<R>; 4]; 4]) -> Fraction<R> {
+        let f = &self.fractions;
+        let minor = |r: usize, i: usize, j: usize| {
+            f.minus(&f.times(&g[r][i], &g[r + 1][j]), &f.times(&g[r][j], &g[r + 1][i]))
+        };
+        let mut sum = f.whole(vec![zero()]);
+        for (i, j, k, l, positive) in [
+            (0, 1, 2, 3, true),
+            (0, 2, 1, 3, false),
+            (0, 3, 1, 2, true),
+            (1, 2, 0, 3, true),
+            (1, 3, 0, 2, false),
+            (2, 3, 0, 1, true),
+        ] {
+            let term = f.times(&minor(0, i, j), &minor(2, k, l));
+            sum = if positive { f.plus(&sum, &term) } else { f.minus(&sum, &term) };
+        }
+        sum
+    }
+}
+
+/// The closures to choose from: that of the sequence, or without virtual legs every pair of a joint placed by the steps and a joint of the first body
+/// without a leg between them, the joint placed last first.
+pub(super) fn closures(data: &ExactData, s: &Sequence) -> Vec<Closure> {
+    let steps: Vec<Joint> = s.unoriented().map(|t| t.place).collect();
+    let order = |j: Joint| {
+        if j.same_body(s.start[0]) { 0 } else { steps.iter().position(|p| *p == j).map_or(STEPS, |k| k + 1) }
+    };
+    if let Some([x, y]) = s.closures.first() {
+        let (last, other) = if order(*x) >= order(*y) { (*x, *y) } else { (*y, *x) };
+        return vec![Closure { last, other, steps: order(last) }];
+    }
+    let all = s.start.iter().copied().chain(s.steps.iter().map(|t| t.place));
+    let first: Vec<Joint> = all.filter(|j| order(*j) == 0).collect();
+    let pairs = steps.iter().rev().flat_map(|last| first.iter().map(move |other| (*last, *other)));
+    let free = pairs.filter(|(last, other)| data.leg(*last, *other).is_none());
+    free.map(|(last, other)| Closure { last, other, steps: order(last) }).collect()
+}
