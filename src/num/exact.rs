@@ -49,12 +49,37 @@ pub(crate) fn relations(rows: &[Vec<Rational>]) -> Vec<Vec<Rational>> {
     work.into_iter().skip(rank).map(|row| row[width..].to_vec()).collect()
 }
 
+/// The value as a double, within one unit in the last place; overflow gives an infinity, underflow zero.
+pub(crate) fn approximate(x: &Rational) -> f64 {
+    let (n, d) = (x.numer(), x.denom());
+    // 64 or 65 leading bits of the quotient
+    let shift = 64 + d.bits().cast_signed() - n.bits().cast_signed();
+    let quotient = if shift >= 0 { (n << shift) / d } else { n / (d << -shift) };
+    let (_, digits) = quotient.to_u64_digits();
+    let leading = digits.iter().rev().fold(0.0, |sum, digit| sum * 2f64.powi(64) + *digit as f64);
+    let exponent = (-shift).clamp(-4000, 4000) as i32;
+    let half = exponent / 2;
+    let scaled = leading * 2f64.powi(half) * 2f64.powi(exponent - half);
+    if *x < zero() { -scaled } else { scaled }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn row(x: &[f64]) -> Vec<Rational> {
         x.iter().map(|x| rational(*x).unwrap()).collect()
+    }
+
+    #[test]
+    fn approximations_are_the_doubles_themselves_and_nearest_quotients() {
+        for x in [0.0, 1.0, -0.1, 1e300, -1e-300, 5e-324, f64::MAX] {
+            assert!((approximate(&rational(x).unwrap()) - x).abs() <= 0.0, "{x}");
+        }
+        let third = rational(1.0).unwrap() / rational(3.0).unwrap();
+        assert!((approximate(&third) - 1.0 / 3.0).abs() <= f64::EPSILON / 3.0);
+        let huge = rational(1e200).unwrap();
+        assert!(approximate(&(&huge * &huge)).is_infinite());
     }
 
     #[test]

@@ -6,6 +6,7 @@ pub mod double_double;
 pub(crate) mod exact;
 pub mod interval;
 pub mod linalg;
+pub(crate) mod modular;
 mod seed;
 
 pub use seed::Rng;

@@ -13,6 +13,7 @@
 //! has no answer is the [`Failure`].
 
 mod bench;
+mod check;
 mod convert;
 mod explore;
 mod family;
@@ -34,6 +35,8 @@ use super::output::Answer;
 pub(crate) enum Command {
     /// Random problems of a class: solved, validated by independent code, counted, timed
     Bench(bench::Args),
+    /// Whether a design is architecturally singular: decided exactly, explained, how far away
+    Check(check::Args),
     /// Write a design in the other notation (TOML or JSON)
     Convert(convert::Args),
     /// Everything about an octahedral design: class, best joint-free platform, verdict, poses, pictures, report
@@ -59,6 +62,7 @@ impl Command {
     pub(crate) fn run(&self, context: &mut Context) -> Result<Answer, Failure> {
         match self {
             Self::Bench(args) => bench::run(args, context),
+            Self::Check(args) => check::run(args, context),
             Self::Convert(args) => convert::run(args, context),
             Self::Explore(args) => explore::run(args, context),
             Self::Family(args) => family::run(args, context),

@@ -48,6 +48,7 @@ const LINES: &[Line] = &[
     ),
     ("topology", &["num", "manipulator"], &[]),
     ("synthesis", &["num", "geom", "manipulator", "topology"], &[MATRICES, ERRORS]),
+    ("singularity", &["num", "geom", "manipulator", "topology", "synthesis"], &[MATRICES, ERRORS]),
     (
         "offsets",
         &["num", "geom", "manipulator", "synthesis"],
@@ -91,6 +92,7 @@ const LINES: &[Line] = &[
             "solve::homotopy",
             "fk",
             "synthesis",
+            "singularity",
             "offsets",
             "equivalence",
             "design",
@@ -114,7 +116,7 @@ const LINES: &[Line] = &[
 
 /// Two groups of modules that must not reach each other, not even through others.
 pub(crate) const APART: [(&[&str], &[&str]); 2] = [
-    (&["fk", "solve", "solve::certify", "solve::homotopy"], &["synthesis", "offsets"]),
+    (&["fk", "solve", "solve::certify", "solve::homotopy"], &["synthesis", "singularity", "offsets"]),
     (&["solve::certify"], &["solve::homotopy", "fk"]),
 ];
 

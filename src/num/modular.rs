@@ -1,0 +1,192 @@
+//! Ranks modulo primes, for exact decisions about matrices with integer entries of many digits.
+//!
+//! Arithmetic modulo `p` is exact and of fixed size. A minor that is not zero modulo one prime is not zero; a minor
+//! that is zero modulo primes whose product exceeds its absolute value is zero.
+
+/// The field of integers modulo a prime below `2^61`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Field(u64);
+
+/// Bits by which every prime of [`fields`] can be counted: all are above `2^60`.
+pub(crate) const PRIME_BITS: u32 = 60;
+
+/// The `count` largest prime fields below `2^61`, largest first; the first is that of the Mersenne prime `2^61 - 1`.
+pub(crate) fn fields(count: usize) -> Vec<Field> {
+    let odd = (1u64..).map(|k| (1u64 << 61) + 1 - 2 * k);
+    odd.filter(|n| is_prime(*n)).take(count).map(Field).collect()
+}
+
+impl Field {
+    /// The prime.
+    #[cfg(test)]
+    pub(crate) fn prime(self) -> u64 {
+        self.0
+    }
+
+    /// The residue of an integer.
+    pub(crate) fn integer(self, x: i64) -> u64 {
+        let r = x.unsigned_abs() % self.0;
+        if x < 0 { self.sub(0, r) } else { r }
+    }
+
+    /// The residue of `x 2^shift` for a finite double; also where that is no integer (2 has an inverse).
+    pub(crate) fn scaled(self, x: f64, shift: i32) -> u64 {
+        let (mantissa, exponent) = mantissa_and_exponent(x);
+        self.mul(self.integer(mantissa), self.power_of_two(exponent + shift))
+    }
+
+    fn power_of_two(self, exponent: i32) -> u64 {
+        // (p + 1) / 2 is the inverse of 2
+        let base = if exponent < 0 { self.0.div_ceil(2) } else { 2 };
+        self.pow(base, u64::from(exponent.unsigned_abs()))
+    }
+
+    pub(crate) fn add(self, x: u64, y: u64) -> u64 {
+        let sum = x + y;
+        if sum >= self.0 { sum - self.0 } else { sum }
+    }
+
+    pub(crate) fn sub(self, x: u64, y: u64) -> u64 {
+        if x >= y { x - y } else { x + self.0 - y }
+    }
+
+    pub(crate) fn mul(self, x: u64, y: u64) -> u64 {
+        (u128::from(x) * u128::from(y) % u128::from(self.0)) as u64
+    }
+
+    fn pow(self, mut base: u64, mut exponent: u64) -> u64 {
+        let mut result = 1;
+        while exponent > 0 {
+            if exponent & 1 == 1 {
+                result = self.mul(result, base);
+            }
+            base = self.mul(base, base);
+            exponent >>= 1;
+        }
+        result
+    }
+
+    /// The inverse of a number that is not zero.
+    #[cfg(test)]
+    pub(crate) fn inverse(self, x: u64) -> u64 {
+        self.pow(x, self.0 - 2)
+    }
+
+    /// Determinant by expansion along the first row: for tests, nothing in common with [`rank`](Self::rank).
+    #[cfg(test)]
+    pub(crate) fn determinant<const N: usize>(self, rows: &[[u64; N]]) -> u64 {
+        fn expand<const N: usize>(field: Field, rows: &[[u64; N]], columns: &[usize]) -> u64 {
+            let Some((head, rest)) = rows.split_first() else { return 1 };
+            (0..columns.len()).fold(0, |sum, k| {
+                let others: Vec<usize> = columns.iter().copied().filter(|c| *c != columns[k]).collect();
+                let term = field.mul(head[columns[k]], expand(field, rest, &others));
+                if k % 2 == 0 { field.add(sum, term) } else { field.sub(sum, term) }
+            })
+        }
+        expand(self, rows, &(0..N).collect::<Vec<_>>())
+    }
+
+    /// Rank of the rows, by elimination with cross-multiplication (no inverses).
+    pub(crate) fn rank<const N: usize>(self, mut rows: Vec<[u64; N]>) -> usize {
+        let mut rank = 0;
+        for column in 0..N {
+            let Some(pivot) = (rank..rows.len()).find(|r| rows[*r][column] != 0) else { continue };
+            rows.swap(rank, pivot);
+            let head = rows[rank];
+            for row in &mut rows[rank + 1..] {
+                let factor = row[column];
+                if factor == 0 {
+                    continue;
+                }
+                for k in column..N {
+                    row[k] = self.sub(self.mul(row[k], head[column]), self.mul(factor, head[k]));
+                }
+            }
+            rank += 1;
+        }
+        rank
+    }
+}
+
+/// `x = m 2^e` with an odd integer `m`, `|m| < 2^53`; zero is `(0, 0)`.
+pub(crate) fn mantissa_and_exponent(x: f64) -> (i64, i32) {
+    let bits = x.to_bits();
+    let field = ((bits >> 52) & 0x7ff) as i32;
+    let fraction = (bits & ((1 << 52) - 1)).cast_signed();
+    let (mantissa, exponent) =
+        if field == 0 { (fraction, -1074) } else { (fraction | 1 << 52, field - 1075) };
+    if mantissa == 0 {
+        return (0, 0);
+    }
+    let zeros = mantissa.trailing_zeros();
+    let odd = mantissa >> zeros;
+    (if x < 0.0 { -odd } else { odd }, exponent + zeros.cast_signed())
+}
+
+/// Miller-Rabin with the bases that decide every 64-bit number (Sinclair 2011).
+fn is_prime(n: u64) -> bool {
+    if n < 4 {
+        return n > 1;
+    }
+    if n.is_multiple_of(2) {
+        return false;
+    }
+    let field = Field(n);
+    let twos = (n - 1).trailing_zeros();
+    [2, 325, 9375, 28178, 450775, 9780504, 1795265022].into_iter().all(|base| {
+        let base = base % n;
+        let mut x = field.pow(base, (n - 1) >> twos);
+        if base == 0 || x == 1 || x == n - 1 {
+            return true;
+        }
+        (1..twos).any(|_| {
+            x = field.mul(x, x);
+            x == n - 1
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn primes_are_those_known() {
+        let below = |n: u64| (2..n).filter(|k| is_prime(*k)).collect::<Vec<_>>();
+        assert_eq!(below(50), [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47]);
+        // strong pseudoprimes to base 2, a Carmichael number, squares
+        assert!(
+            [2047, 3277, 561, 3_215_031_751, 4_294_967_291 * 4_294_967_291].into_iter().all(|n| !is_prime(n))
+        );
+        let found = fields(3).into_iter().map(|f| (1u64 << 61) - f.prime()).collect::<Vec<_>>();
+        assert_eq!(found, [1, 31, 45]); // 2^61 - 1, - 31, - 45 (Caldwell's list of primes just below powers of two)
+    }
+
+    #[test]
+    fn doubles_are_taken_apart_and_put_together() {
+        for x in [0.0, 1.0, -0.1, 1e300, 5e-324, f64::MIN_POSITIVE, -12.5, 10.392_304_845_413_264] {
+            let (m, e) = mantissa_and_exponent(x);
+            assert!(x == 0.0 || m % 2 != 0);
+            let half = 2f64.powi(e / 2);
+            assert!((m as f64 * half * 2f64.powi(e - e / 2) - x).abs() <= 0.0, "{x}");
+        }
+        let f = fields(2)[1];
+        assert_eq!(f.scaled(-0.75, 2), f.prime() - 3);
+        // 0.1 is m / 2^55: times 2^55 it is m, whichever way the power is split
+        let (m, e) = mantissa_and_exponent(0.1);
+        assert_eq!(f.scaled(0.1, -e), m.cast_unsigned());
+        assert_eq!(f.mul(f.scaled(0.1, 0), f.scaled(1.0, -e)), m.cast_unsigned());
+    }
+
+    #[test]
+    fn rank_of_a_matrix_with_a_relation_is_lower_and_of_one_spoilt_in_one_entry_full() {
+        let f = fields(1)[0];
+        let row = |x: [i64; 4]| x.map(|v| f.integer(v));
+        let rows = vec![row([3, -1, 4, 1]), row([-5, 9, 2, 6]), row([-2, 8, 6, 7])];
+        assert_eq!(f.rank(rows.clone()), 2);
+        let mut spoilt = rows;
+        spoilt[2][3] = f.add(spoilt[2][3], 1);
+        assert_eq!(f.rank(spoilt), 3);
+        assert_eq!(f.rank(vec![[0u64; 4]; 3]), 0);
+    }
+}

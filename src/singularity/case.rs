@@ -1,0 +1,247 @@
+//! Names for architectural singularities, each with an exact test.
+
+use super::dependency::{Dependency, ExactLegs, dimension, kronecker, rank, subsets_by_size};
+use super::griffis_duffy::GriffisDuffy;
+use super::planar_map::{PlanarMap, planar_map};
+use crate::synthesis::Body;
+
+/// A geometric reason for which the leg lines are dependent at every pose.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Case {
+    /// Two legs join the same two points.
+    CoincidentLegs,
+    /// Four or more legs end in one point of `body`: their lines have rank 3.
+    ConcurrentFour {
+        /// The body of the common point.
+        body: Body,
+    },
+    /// Two points hold all six legs: every line meets the line of the two.
+    TwoJointsHoldAllLegs,
+    /// All joints of one body lie on a line, which every leg meets.
+    AllCollinear {
+        /// The body.
+        body: Body,
+    },
+    /// Three legs from one point to three points of a line: three lines of a plane pencil.
+    PointLine {
+        /// The body with the line.
+        line: Body,
+    },
+    /// Four or five legs with ends on two lines: the pairing of four is projective (equal cross-ratios), five are always dependent.
+    LineLine,
+    /// Dependent legs with ends on a line of one body and in a plane or in space on the other.
+    LineOther {
+        /// The body with the line.
+        line: Body,
+    },
+    /// Both bodies planar, corresponding joints under a projectivity of the planes, the joints on a conic (Ma, Angeles 1991).
+    Conic {
+        /// What takes the base joints to the platform joints.
+        map: PlanarMap,
+    },
+    /// Joints on the sides of two triangles with `prod t_i = prod (1 - t_i)` (Griffis, Duffy 1993; Husty, Karger 2000).
+    GriffisDuffy,
+    /// Both bodies planar, dependent leg vectors, no special name.
+    PlanarBodies,
+    /// Dependent leg vectors of other kind.
+    OtherDependency,
+    /// Independent leg vectors, dependent lines at every pose, four joints of `body` on a line (Karger 2008).
+    FourCollinear {
+        /// The body.
+        body: Body,
+    },
+    /// Independent leg vectors, dependent lines at every pose, none of the named cases.
+    Unnamed,
+}
+
+impl Case {
+    /// The code of the command line: one of a few that are stable.
+    #[must_use]
+    pub fn reason(self) -> &'static str {
+        match self {
+            Self::CoincidentLegs => "coincident_legs",
+            Self::ConcurrentFour { .. } => "concurrent_four",
+            Self::TwoJointsHoldAllLegs => "two_joints_hold_all_legs",
+            Self::AllCollinear { .. }
+            | Self::LineLine
+            | Self::LineOther { .. }
+            | Self::FourCollinear { .. } => "four_collinear",
+            Self::PointLine { .. }
+            | Self::Conic { .. }
+            | Self::GriffisDuffy
+            | Self::PlanarBodies
+            | Self::OtherDependency => "leg_vectors_dependent",
+            Self::Unnamed => "jacobian_vanishes",
+        }
+    }
+
+    /// The name of the case.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::CoincidentLegs => "coincident_legs",
+            Self::ConcurrentFour { .. } => "concurrent_four",
+            Self::TwoJointsHoldAllLegs => "two_joints_hold_all_legs",
+            Self::AllCollinear { .. } => "all_collinear",
+            Self::PointLine { .. } => "point_line",
+            Self::LineLine => "line_line",
+            Self::LineOther { .. } => "line_other",
+            Self::Conic { .. } => "conic",
+            Self::GriffisDuffy => "griffis_duffy",
+            Self::PlanarBodies => "planar_bodies",
+            Self::OtherDependency => "other_dependency",
+            Self::FourCollinear { .. } => "four_collinear",
+            Self::Unnamed => "unnamed",
+        }
+    }
+
+    /// One sentence without the legs.
+    #[must_use]
+    pub fn sentence(self) -> String {
+        match self {
+            Self::CoincidentLegs => "two legs join the same two points: their lines are one".into(),
+            Self::ConcurrentFour { body } => {
+                format!("four or more legs end in one point of the {body}: their lines have rank 3")
+            }
+            Self::TwoJointsHoldAllLegs => {
+                "two points hold all six legs: every leg meets the line of the two, about which nothing is held".into()
+            }
+            Self::AllCollinear { body } => {
+                format!("all joints of the {body} lie on a line, which every leg meets: nothing is held about it")
+            }
+            Self::PointLine { line } => {
+                format!("three legs run from one point to three points of a line of the {line}: their lines form a pencil")
+            }
+            Self::LineLine => "the legs end on two lines, and their pairing is projective (equal cross-ratios)".into(),
+            Self::LineOther { line } => {
+                format!("the {line} ends lie on a line, and the leg vectors are dependent")
+            }
+            Self::Conic { map } => format!(
+                "both bodies are planar, the platform joints are {map} of the base joints, and the joints lie on a conic"
+            ),
+            Self::GriffisDuffy => {
+                "the joints lie on the sides of two triangles (Griffis-Duffy type) with prod t_i = prod (1 - t_i)".into()
+            }
+            Self::PlanarBodies => "both bodies are planar, and the leg vectors are dependent".into(),
+            Self::OtherDependency => "the leg vectors are dependent".into(),
+            Self::FourCollinear { body } => format!(
+                "the leg vectors are independent, but their lines are dependent at every pose; four joints of the {body} \
+                 lie on a line"
+            ),
+            Self::Unnamed => "the leg vectors are independent, but their lines are dependent at every pose".into(),
+        }
+    }
+}
+
+/// A case and the legs it is about (0-based).
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Finding {
+    /// The case.
+    pub case: Case,
+    /// Its legs.
+    pub legs: Vec<usize>,
+}
+
+const BODIES: [Body; 2] = [Body::Base, Body::Platform];
+
+impl ExactLegs {
+    fn ends(&self, body: Body) -> &[[crate::num::exact::Rational; 3]] {
+        match body {
+            Body::Base => &self.base,
+            Body::Platform => &self.platform,
+        }
+    }
+
+    fn at_point_of(&self, body: Body, leg: usize) -> Vec<usize> {
+        let ends = self.ends(body);
+        (0..6).filter(|j| ends[*j] == ends[leg]).collect()
+    }
+}
+
+/// The cases that need no more than the positions of the joints, worst first.
+pub(super) fn positional(legs: &ExactLegs) -> Vec<Finding> {
+    let mut found = Vec::new();
+    let same = |i: usize, j: usize| legs.base[i] == legs.base[j] && legs.platform[i] == legs.platform[j];
+    for (i, j) in (0..6).flat_map(|i| (i + 1..6).map(move |j| (i, j))).filter(|(i, j)| same(*i, *j)) {
+        found.push(Finding { case: Case::CoincidentLegs, legs: vec![i, j] });
+    }
+    let groups: Vec<(Body, Vec<usize>)> = BODIES
+        .into_iter()
+        .flat_map(|body| (0..6).map(move |i| (body, i)))
+        .map(|(b, i)| (b, legs.at_point_of(b, i)))
+        .collect();
+    for (k, (body, group)) in groups.iter().enumerate() {
+        let known = groups[..k].iter().any(|g| g.0 == *body && g.1 == *group);
+        if group.len() >= 4 && !known {
+            found.push(Finding { case: Case::ConcurrentFour { body: *body }, legs: group.clone() });
+        }
+    }
+    let covers = |x: &[usize], y: &[usize]| (0..6).all(|i| x.contains(&i) || y.contains(&i));
+    if groups.iter().any(|x| groups.iter().any(|y| covers(&x.1, &y.1))) {
+        found.push(Finding { case: Case::TwoJointsHoldAllLegs, legs: (0..6).collect() });
+    }
+    for body in BODIES {
+        if dimension(legs.ends(body)) <= 1 {
+            found.push(Finding { case: Case::AllCollinear { body }, legs: (0..6).collect() });
+        }
+    }
+    found
+}
+
+/// The case of one dependency of the leg vectors.
+pub(super) fn of_dependency(legs: &ExactLegs, d: &Dependency, hexagon: Option<&GriffisDuffy>) -> Finding {
+    let case = match (d.base_dimension, d.platform_dimension) {
+        (0, 0) => Case::CoincidentLegs,
+        (0, 1) => Case::PointLine { line: Body::Platform },
+        (1, 0) => Case::PointLine { line: Body::Base },
+        (0, _) => Case::ConcurrentFour { body: Body::Base },
+        (_, 0) => Case::ConcurrentFour { body: Body::Platform },
+        (1, 1) => Case::LineLine,
+        (1, _) => Case::LineOther { line: Body::Base },
+        (_, 1) => Case::LineOther { line: Body::Platform },
+        (2, 2) => planar_case(legs, d, hexagon),
+        _ => Case::OtherDependency,
+    };
+    Finding { case, legs: d.legs.clone() }
+}
+
+fn planar_case(legs: &ExactLegs, d: &Dependency, hexagon: Option<&GriffisDuffy>) -> Case {
+    if hexagon.is_some_and(GriffisDuffy::is_exactly_singular) {
+        return Case::GriffisDuffy;
+    }
+    let pick = |list: &[[crate::num::exact::Rational; 3]]| {
+        d.legs.iter().map(|i| list[*i].clone()).collect::<Vec<_>>()
+    };
+    let (a, b) = (pick(&legs.base), pick(&legs.platform));
+    match planar_map(&a, &b) {
+        Some(map) if on_a_conic(&a) => Case::Conic { map },
+        _ => Case::PlanarBodies,
+    }
+}
+
+/// Whether points of a plane satisfy a quadratic equation of the plane that is not zero on all of it.
+fn on_a_conic(points: &[[crate::num::exact::Rational; 3]]) -> bool {
+    let one = crate::num::exact::Rational::from_integer(1.into());
+    let squares: Vec<_> = points
+        .iter()
+        .map(|p| {
+            let x: Vec<_> = [one.clone()].into_iter().chain(p.iter().cloned()).collect();
+            kronecker(&x, &x)
+        })
+        .collect();
+    // six quadratic monomials in the plane
+    rank(&squares) < 6
+}
+
+/// The case of a design with independent leg vectors and dependent lines, and the guilty legs `among`.
+pub(super) fn of_lines(legs: &ExactLegs, among: &[usize]) -> Finding {
+    let four = |body: Body| {
+        subsets_by_size(4).into_iter().filter(|s| s.len() == 4).any(|s| {
+            s.iter().all(|i| among.contains(i)) && dimension(s.iter().map(|i| &legs.ends(body)[*i])) <= 1
+        })
+    };
+    let case =
+        BODIES.into_iter().find(|b| four(*b)).map_or(Case::Unnamed, |body| Case::FourCollinear { body });
+    Finding { case, legs: among.to_vec() }
+}

@@ -1,0 +1,49 @@
+//! Figures that show how near a design is to being singular everywhere.
+
+use nalgebra::Vector3;
+
+use crate::geom::{Pose, random_rotation};
+use crate::manipulator::{Leg, Manipulator, inverse_condition, jacobian};
+use crate::num::Rng;
+use crate::num::linalg::LinalgError;
+use crate::synthesis::LegSpan;
+
+/// Singular values of the leg vectors, and inverse condition numbers of the Jacobian at random poses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Conditioning {
+    /// Singular values of the six normalised leg vectors, largest first.
+    pub leg_vectors: [f64; 6],
+    /// Number of poses: any rotation, middle of the platform within the size of the middle of the base in every coordinate.
+    pub poses: usize,
+    /// Greatest `sigma_min / sigma_max` of the length-normalised Jacobian among the poses: small for a design near singular.
+    pub best: f64,
+    /// Their median.
+    pub median: f64,
+    /// The least; small for every design, because singular poses exist.
+    pub worst: f64,
+}
+
+const POSES: usize = 200;
+
+/// The figures of `m`, poses drawn with `seed`.
+///
+/// # Errors
+/// When the singular value decomposition does not converge.
+pub fn conditioning(m: &Manipulator, seed: u64) -> Result<Conditioning, LinalgError> {
+    let leg_vectors = LegSpan::of(m, 0.0)?.singular_values();
+    let legs = m.legs();
+    let mean = |pick: fn(&Leg) -> Vector3<f64>| legs.iter().map(pick).sum::<Vector3<f64>>() / 6.0;
+    let (base, platform) = (mean(|l| l.base.coords), mean(|l| l.platform.coords));
+    let mut rng = Rng::new(seed);
+    let mut values: Vec<f64> = (0..POSES)
+        .map(|_| {
+            let rotation = random_rotation(&mut rng);
+            let offset = Vector3::from_fn(|_, _| rng.uniform(-m.size(), m.size()));
+            let pose = Pose { rotation, position: base + offset - rotation * platform };
+            inverse_condition(&jacobian(m, &pose, m.platform_rms_radius()))
+        })
+        .collect();
+    values.sort_by(f64::total_cmp);
+    let (worst, median, best) = (values[0], values[POSES / 2], values[POSES - 1]);
+    Ok(Conditioning { leg_vectors, poses: POSES, best, median, worst })
+}

@@ -1,0 +1,336 @@
+//! The generic rank of the Jacobian, decided exactly at finitely many poses.
+//!
+//! Theorem (proof in `docs/theory/architectural-singularity.md`). With the rotation of the Cayley vector `c` every minor of the
+//! matrix of leg lines, times `(1 + c.c)^3`, is a polynomial of degree at most 6 in `c` and at most 3 in `p`. It is zero
+//! at all poses as soon as it is zero at the 84 x 20 poses with `c` in `{i + j + k <= 6}` and `p` in `{i + j + k <= 3}`
+//! (natural numbers; `p` in any unit).
+
+use nalgebra::{Matrix6, UnitQuaternion, Vector3};
+
+use crate::geom::Pose;
+use crate::manipulator::{Leg, Manipulator, inverse_condition, plucker_matrix};
+use crate::num::Rng;
+use crate::num::modular::{Field, PRIME_BITS, fields, mantissa_and_exponent};
+
+/// A pose whose numbers are integers: `R` of the quaternion `(q0, q1, q2, q3)`, `p` in powers of two of the design unit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RationalPose {
+    /// Quaternion, scalar part first, of any norm.
+    pub quaternion: [i64; 4],
+    /// Position in units of `2^unit`.
+    pub steps: [i64; 3],
+    /// Exponent of the unit of position.
+    pub unit: i32,
+}
+
+impl RationalPose {
+    /// The pose in doubles; the position is exact where it has at most 53 bits.
+    #[must_use]
+    pub fn pose(&self) -> Pose {
+        let [w, x, y, z] = self.quaternion.map(|n| n as f64);
+        let q = UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(w, x, y, z));
+        Pose {
+            rotation: q.to_rotation_matrix(),
+            position: Vector3::from(self.steps).map(|n| n as f64 * self.step()),
+        }
+    }
+
+    fn step(&self) -> f64 {
+        2f64.powi(self.unit)
+    }
+}
+
+/// What is known of the rank of the leg lines at almost all poses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GenericRank {
+    /// The rank at all poses but a set of measure zero; no pose has a greater one.
+    pub rank: usize,
+    /// A pose that has it: the rank is not less.
+    pub witness: RationalPose,
+    /// Why it is not greater.
+    pub bound: RankBound,
+}
+
+/// Why the rank is nowhere greater.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RankBound {
+    /// There are no more legs.
+    Legs,
+    /// The lines are linear in the leg vectors, and these have no greater rank.
+    LegVectors,
+    /// All greater minors vanish at all poses of the lattice, exactly.
+    Lattice {
+        /// Poses.
+        poses: usize,
+        /// Primes modulo which the minors were found zero; their product exceeds every minor.
+        primes: usize,
+    },
+}
+
+/// Degree in the Cayley vector and in the position; see the module.
+const DEGREES: [i64; 2] = [6, 3];
+/// Candidates among which the witness is chosen.
+const CANDIDATES: u64 = 96;
+
+/// The generic rank of the lines of some legs of `m`; `leg_rank` is the exact rank of their leg vectors.
+pub(crate) fn generic_rank(m: &Manipulator, chosen: &[usize], leg_rank: usize) -> GenericRank {
+    let legs = m.legs();
+    let legs: Vec<Leg> = chosen.iter().map(|i| legs[*i]).collect();
+    let first = fields(1)[0];
+    let rank_at = |pose: &RationalPose| rank(first, &legs, pose, 0);
+    let (mut best, mut witness) = (0, RationalPose { quaternion: [1, 0, 0, 0], steps: [0; 3], unit: 0 });
+    let unit = unit_of(m);
+    for pose in candidates(m, unit).into_iter().chain(lattice(unit)) {
+        let r = rank_at(&pose);
+        if r > best {
+            (best, witness) = (r, pose);
+        }
+        if best == leg_rank {
+            let bound = if best == legs.len() { RankBound::Legs } else { RankBound::LegVectors };
+            return GenericRank { rank: best, witness, bound };
+        }
+    }
+    let shift = integer_shift(&legs, unit);
+    let primes = fields(primes_needed(&legs, unit, shift));
+    let poses: Vec<RationalPose> = lattice(unit).collect();
+    for field in &primes {
+        let scaled: Vec<_> = legs.iter().map(|l| residues(*field, l, shift)).collect();
+        for pose in &poses {
+            let r = rank_of(*field, &scaled, pose, shift);
+            if r > best {
+                (best, witness) = (r, *pose);
+            }
+        }
+    }
+    GenericRank {
+        rank: best,
+        witness,
+        bound: RankBound::Lattice { poses: poses.len(), primes: primes.len() },
+    }
+}
+
+/// Rank of the lines of `legs` at `pose` modulo the first prime; a lower bound of the true one.
+pub(crate) fn rank_at_least(legs: &[Leg], pose: &RationalPose) -> usize {
+    rank(fields(1)[0], legs, pose, 0)
+}
+
+/// The power of two next below the size of the design.
+fn unit_of(m: &Manipulator) -> i32 {
+    m.size().log2().floor().clamp(-1000.0, 1000.0) as i32
+}
+
+/// All natural `(i, j, k)` with a sum of at most `degree`.
+fn principal_lattice(degree: i64) -> impl Iterator<Item = [i64; 3]> {
+    (0..=degree)
+        .flat_map(move |i| (0..=degree - i).flat_map(move |j| (0..=degree - i - j).map(move |k| [i, j, k])))
+}
+
+pub(crate) fn lattice(unit: i32) -> impl Iterator<Item = RationalPose> {
+    principal_lattice(DEGREES[0]).flat_map(move |[x, y, z]| {
+        let quaternion = [1, x, y, z];
+        principal_lattice(DEGREES[1]).map(move |steps| RationalPose { quaternion, steps, unit })
+    })
+}
+
+/// Poses with small numbers around the middle of the design, best conditioned first.
+fn candidates(m: &Manipulator, unit: i32) -> Vec<RationalPose> {
+    let mut rng = Rng::new(0);
+    let mut digit = |reach: i64| (rng.next_u64() % (2 * reach.cast_unsigned() + 1)).cast_signed() - reach;
+    let legs = m.legs();
+    let mean = |pick: fn(&Leg) -> Vector3<f64>| legs.iter().map(pick).sum::<Vector3<f64>>() / 6.0;
+    let (base, platform) = (mean(|l| l.base.coords), mean(|l| l.platform.coords));
+    let step = 2f64.powi(unit);
+    let mut list = Vec::new();
+    for _ in 0..CANDIDATES {
+        let quaternion = [4, digit(4), digit(4), digit(4)];
+        let offset: [i64; 3] = std::array::from_fn(|_| digit(2));
+        let mut pose = RationalPose { quaternion, steps: offset, unit };
+        let middle = (base - pose.pose().rotation * platform) / step;
+        for (s, c) in pose.steps.iter_mut().zip(middle.iter()) {
+            // frames with a far origin: more steps than an integer holds are left out
+            if c.abs() < 2f64.powi(50) {
+                *s += c.round() as i64;
+            }
+        }
+        let j: Matrix6<f64> = plucker_matrix(m, &pose.pose(), m.platform_rms_radius());
+        list.push((inverse_condition(&j), pose));
+    }
+    list.sort_by(|x, y| y.0.total_cmp(&x.0));
+    list.into_iter().map(|(_, pose)| pose).collect()
+}
+
+fn coordinates(legs: &[Leg]) -> impl Iterator<Item = f64> {
+    legs.iter().flat_map(|l| l.base.iter().chain(l.platform.iter()).copied().collect::<Vec<_>>())
+}
+
+/// The least power of two whose product with every coordinate, and with the unit of position, is an integer.
+fn integer_shift(legs: &[Leg], unit: i32) -> i32 {
+    coordinates(legs).map(|x| -mantissa_and_exponent(x).1).chain([-unit]).fold(0, i32::max)
+}
+
+/// Primes whose product exceeds every minor of the integer matrix at every pose of the lattice.
+///
+/// With `X` a bound of `|a| + |b| + |p|` (scaled, at least 1) and `N = q.q` a row `(N (p - a) + M b, a x (N p + M b))` is shorter than
+/// `N X (1 + X) <= 2 N X^2`, and a minor is less than the product of its rows (Hadamard).
+fn primes_needed(legs: &[Leg], unit: i32, shift: i32) -> usize {
+    let bits_of = |x: f64| {
+        let (m, e) = mantissa_and_exponent(x);
+        (64 - m.unsigned_abs().leading_zeros()).cast_signed() + e
+    };
+    // |x| < 2^bits; lattice positions are shorter than 2^2 units
+    let largest =
+        coordinates(legs).filter(|x| *x != 0.0).map(bits_of).chain([unit + 2]).fold(i32::MIN, i32::max);
+    // three vectors, each at most sqrt 3 times its largest coordinate: below 2^3 times the largest of all
+    let sum = (largest + shift + 3).max(0).cast_unsigned();
+    // N <= 1 + 6^2 < 2^6
+    let row = 6 + 1 + 2 * sum;
+    (legs.len() as u32 * row).div_ceil(PRIME_BITS) as usize
+}
+
+fn residues(field: Field, leg: &Leg, shift: i32) -> [[u64; 3]; 2] {
+    [leg.base, leg.platform].map(|p| [p.x, p.y, p.z].map(|x| field.scaled(x, shift)))
+}
+
+fn rank(field: Field, legs: &[Leg], pose: &RationalPose, shift: i32) -> usize {
+    let scaled: Vec<_> = legs.iter().map(|l| residues(field, l, shift)).collect();
+    rank_of(field, &scaled, pose, shift)
+}
+
+fn rank_of(field: Field, legs: &[[[u64; 3]; 2]], pose: &RationalPose, shift: i32) -> usize {
+    field.rank(rows_at(field, legs, pose, shift))
+}
+
+/// The rows `(N (p - a) + M b, a x (N p + M b))` modulo a prime, `R = M / N`: the line of a leg times `N`.
+fn rows_at(field: Field, legs: &[[[u64; 3]; 2]], pose: &RationalPose, shift: i32) -> Vec<[u64; 6]> {
+    let (add, sub, mul) = (|x, y| field.add(x, y), |x, y| field.sub(x, y), |x, y| field.mul(x, y));
+    let [w, x, y, z] = pose.quaternion;
+    let n = field.integer(w * w + x * x + y * y + z * z);
+    let m = [
+        [w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z],
+    ]
+    .map(|row| row.map(|v| field.integer(v)));
+    let unit = field.scaled(1.0, pose.unit + shift);
+    let p = pose.steps.map(|s| mul(mul(field.integer(s), unit), n));
+    let rows = legs.iter().map(|[a, b]| {
+        let end: [u64; 3] = std::array::from_fn(|i| {
+            let turned = add(add(mul(m[i][0], b[0]), mul(m[i][1], b[1])), mul(m[i][2], b[2]));
+            add(p[i], turned)
+        });
+        let cross = |i: usize, j: usize| sub(mul(a[i], end[j]), mul(a[j], end[i]));
+        let along = |i: usize| sub(end[i], mul(n, a[i]));
+        [along(0), along(1), along(2), cross(1, 2), cross(2, 0), cross(0, 1)]
+    });
+    rows.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Point3;
+
+    fn random(rng: &mut Rng) -> Manipulator {
+        let mut point = || Point3::new(rng.normal(), rng.normal(), rng.normal());
+        Manipulator::from_legs(std::array::from_fn(|_| Leg { base: point(), platform: point() })).unwrap()
+    }
+
+    /// Every monomial of degree at most `degree` at every point of the principal lattice, modulo a prime.
+    fn evaluation<const N: usize>(degree: i64) -> Vec<[u64; N]> {
+        let field = fields(1)[0];
+        let points: Vec<_> = principal_lattice(degree).collect();
+        let power = |x: i64, n: i64| (0..n).fold(1, |y, _| field.mul(y, field.integer(x)));
+        points
+            .iter()
+            .map(|p| std::array::from_fn(|k| (0..3).fold(1, |y, i| field.mul(y, power(p[i], points[k][i])))))
+            .collect()
+    }
+
+    #[test]
+    fn a_polynomial_that_vanishes_on_the_principal_lattice_is_zero() {
+        let field = fields(1)[0];
+        assert_eq!(field.rank(evaluation::<84>(6)), 84);
+        assert_eq!(field.rank(evaluation::<20>(3)), 20);
+        assert_eq!(lattice(0).count(), 84 * 20);
+    }
+
+    /// `(1 + c.c)^3 det J` modulo a prime: the determinant of the rows `N J` over `N^3`.
+    fn polynomial(field: Field, m: &Manipulator, c: [i64; 3], p: [i64; 3]) -> u64 {
+        let pose = RationalPose { quaternion: [1, c[0], c[1], c[2]], steps: p, unit: 0 };
+        let n = field.integer(1 + c.iter().map(|x| x * x).sum::<i64>());
+        let scaled: Vec<_> = m.legs().iter().map(|l| residues(field, l, 0)).collect();
+        let det = field.determinant(&rows_at(field, &scaled, &pose, 0));
+        (0..3).fold(det, |d, _| field.mul(d, field.inverse(n)))
+    }
+
+    /// The difference of order `k` of `f` on `0..=k`.
+    fn difference(field: Field, k: i64, f: impl Fn(i64) -> u64) -> u64 {
+        let mut values: Vec<u64> = (0..=k).map(f).collect();
+        while values.len() > 1 {
+            values = values.windows(2).map(|w| field.sub(w[1], w[0])).collect();
+        }
+        values[0]
+    }
+
+    #[test]
+    fn the_determinant_has_the_degrees_of_the_theorem_and_they_are_reached() {
+        let field = fields(1)[0];
+        let mut rng = Rng::new(12);
+        for _ in 0..5 {
+            let m = random(&mut rng);
+            let mut digits = || [(); 3].map(|()| (rng.next_u64() % 19).cast_signed() - 9);
+            let (c, d, p, q) = (digits(), digits(), digits(), digits());
+            let on = |x: [i64; 3], y: [i64; 3], s: i64| [0, 1, 2].map(|i| x[i] + s * y[i]);
+            let in_c = |k| difference(field, k, |s| polynomial(field, &m, on(c, d, s), p));
+            let in_p = |k| difference(field, k, |s| polynomial(field, &m, c, on(p, q, s)));
+            assert!(in_c(7) == 0 && in_c(6) != 0);
+            assert!(in_p(4) == 0 && in_p(3) != 0);
+        }
+    }
+
+    #[test]
+    fn the_bound_of_the_minors_holds_with_room() {
+        let mut rng = Rng::new(2);
+        let m = random(&mut rng);
+        let legs = m.legs();
+        let shift = integer_shift(&legs, unit_of(&m));
+        let primes = primes_needed(&legs, unit_of(&m), shift);
+        // log2 of the largest determinant of the integer rows, by doubles
+        let scale = 2f64.powi(shift);
+        let largest = lattice(unit_of(&m)).map(|pose| {
+            let n = pose.quaternion.iter().map(|x| (x * x) as f64).sum::<f64>();
+            let j = plucker_matrix(&m, &pose.pose(), 1.0);
+            let rows = j.row_iter().map(|r| (r.norm() * n).log2()).sum::<f64>();
+            // three columns carry one factor of the scale, three two
+            rows + 12.0 * scale.log2()
+        });
+        let largest = largest.fold(0.0, f64::max);
+        let bits = primes as f64 * f64::from(PRIME_BITS);
+        assert!(largest < bits && bits < 2.0 * largest, "{largest} {bits}");
+    }
+
+    #[test]
+    fn a_leg_moved_by_the_last_bit_makes_a_coincident_pair_regular() {
+        let mut rng = Rng::new(6);
+        let mut legs = random(&mut rng).legs();
+        legs[4] = legs[1];
+        legs[4].base.z = f64::from_bits(legs[1].base.z.to_bits() + 1);
+        let m = Manipulator::from_legs(legs).unwrap();
+        let found = generic_rank(&m, &[0, 1, 2, 3, 4, 5], 6);
+        assert_eq!((found.rank, found.bound), (6, RankBound::Legs));
+    }
+
+    #[test]
+    fn four_legs_at_a_point_have_rank_three_by_the_lattice() {
+        let mut rng = Rng::new(7);
+        let mut legs = random(&mut rng).legs();
+        for i in 1..4 {
+            legs[i].base = legs[0].base;
+        }
+        let m = Manipulator::from_legs(legs).unwrap();
+        let found = generic_rank(&m, &[0, 1, 2, 3], 4);
+        assert_eq!(found.rank, 3);
+        assert!(matches!(found.bound, RankBound::Lattice { poses: 1680, primes: 2.. }), "{:?}", found.bound);
+        assert_eq!(generic_rank(&m, &[0, 1, 2, 3, 4, 5], 6).rank, 5);
+    }
+}
