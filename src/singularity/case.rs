@@ -46,6 +46,12 @@ pub enum Case {
     PlanarBodies,
     /// Dependent leg vectors of other kind.
     OtherDependency,
+    /// Three legs from one point `X`, two from one point `Y` of the other body to points on a line through `X`: the plane pencil at `Y` holds
+    /// the line `XY`, and so does the bundle at `X`.
+    StarAndPencil {
+        /// The body of `X`.
+        star: Body,
+    },
     /// Independent leg vectors, dependent lines at every pose, four joints of `body` on a line (Karger 2008).
     FourCollinear {
         /// The body.
@@ -66,6 +72,7 @@ impl Case {
             Self::AllCollinear { .. }
             | Self::LineLine
             | Self::LineOther { .. }
+            | Self::StarAndPencil { .. }
             | Self::FourCollinear { .. } => "four_collinear",
             Self::PointLine { .. }
             | Self::Conic { .. }
@@ -91,6 +98,7 @@ impl Case {
             Self::GriffisDuffy => "griffis_duffy",
             Self::PlanarBodies => "planar_bodies",
             Self::OtherDependency => "other_dependency",
+            Self::StarAndPencil { .. } => "star_and_pencil",
             Self::FourCollinear { .. } => "four_collinear",
             Self::Unnamed => "unnamed",
         }
@@ -113,7 +121,7 @@ impl Case {
             Self::PointLine { line } => {
                 format!("three legs run from one point to three points of a line of the {line}: their lines form a pencil")
             }
-            Self::LineLine => "the legs end on two lines, and their pairing is projective (equal cross-ratios)".into(),
+            Self::LineLine => "the legs end on two lines: four with a projective pairing (equal cross-ratios), or five".into(),
             Self::LineOther { line } => {
                 format!("the {line} ends lie on a line, and the leg vectors are dependent")
             }
@@ -125,6 +133,10 @@ impl Case {
             }
             Self::PlanarBodies => "both bodies are planar, and the leg vectors are dependent".into(),
             Self::OtherDependency => "the leg vectors are dependent".into(),
+            Self::StarAndPencil { star } => format!(
+                "three legs run from one point of the {star}, two more from points on a line through it to one point: the line of the two points \
+                 belongs to both groups"
+            ),
             Self::FourCollinear { body } => format!(
                 "the leg vectors are independent, but their lines are dependent at every pose; four joints of the {body} \
                  lie on a line"
@@ -235,7 +247,10 @@ fn on_a_conic(points: &[[crate::num::exact::Rational; 3]]) -> bool {
 }
 
 /// The case of a design with independent leg vectors and dependent lines, and the guilty legs `among`.
-pub(super) fn of_lines(legs: &ExactLegs, among: &[usize]) -> Finding {
+pub(super) fn of_lines(legs: &ExactLegs, among: Vec<usize>) -> Finding {
+    if let Some(star) = BODIES.into_iter().find(|b| is_star_and_pencil(legs, *b, &among)) {
+        return Finding { case: Case::StarAndPencil { star }, legs: among };
+    }
     let four = |body: Body| {
         subsets_by_size(4).into_iter().filter(|s| s.len() == 4).any(|s| {
             s.iter().all(|i| among.contains(i)) && dimension(s.iter().map(|i| &legs.ends(body)[*i])) <= 1
@@ -243,5 +258,17 @@ pub(super) fn of_lines(legs: &ExactLegs, among: &[usize]) -> Finding {
     };
     let case =
         BODIES.into_iter().find(|b| four(*b)).map_or(Case::Unnamed, |body| Case::FourCollinear { body });
-    Finding { case, legs: among.to_vec() }
+    Finding { case, legs: among }
+}
+
+fn is_star_and_pencil(legs: &ExactLegs, star: Body, among: &[usize]) -> bool {
+    let other = if star == Body::Base { Body::Platform } else { Body::Base };
+    let (ends, far) = (legs.ends(star), legs.ends(other));
+    among.len() == 5
+        && among.iter().any(|i| {
+            let (at, off): (Vec<usize>, Vec<usize>) = among.iter().partition(|j| ends[**j] == ends[*i]);
+            at.len() == 3
+                && far[off[0]] == far[off[1]]
+                && dimension([&ends[*i], &ends[off[0]], &ends[off[1]]]) <= 1
+        })
 }

@@ -114,6 +114,18 @@ impl GriffisDuffy {
         self.exactly_singular
     }
 
+    /// Whether `det A` is zero within `1e-7` of the two products.
+    pub(super) fn is_nearly_singular(&self) -> bool {
+        let products =
+            self.t.iter().map(|t| 1.0 - t).product::<f64>().abs() + self.t.iter().product::<f64>().abs();
+        self.determinant().abs() <= 1e-7 * products
+    }
+
+    /// Whether every joint is at a corner of its triangle, up to rounding.
+    pub(super) fn is_octahedral(&self) -> bool {
+        self.t.iter().all(|t| t.abs() <= ON_SIDE || (1.0 - t).abs() <= ON_SIDE)
+    }
+
     /// The relation `sum c_i v_i = 0` of the legs on the surface `det A = 0`, in leg order, largest modulus 1.
     ///
     /// On side `k` it is `(-1)^k prod_(j < k) t_j prod_(j > k) (1 - t_j)`, a cofactor of the matrix `A`.

@@ -8,6 +8,7 @@ mod conditioning;
 mod dependency;
 mod griffis_duffy;
 mod lattice;
+mod nearby_case;
 mod nearest;
 mod planar_map;
 mod projection;
@@ -48,7 +49,8 @@ impl Architecture {
         let all: Vec<usize> = (0..6).collect();
         let leg_rank = legs.rank_of(&all);
         let jacobian = generic_rank(m, &all, leg_rank);
-        let griffis_duffy = GriffisDuffy::recognise(m);
+        // with all joints at corners it is the octahedral platform itself
+        let griffis_duffy = GriffisDuffy::recognise(m).filter(|g| !g.is_octahedral());
         let dependencies = if leg_rank < 6 { legs.dependencies() } else { Vec::new() };
         let mut findings = Vec::new();
         if jacobian.rank < 6 {
@@ -64,7 +66,7 @@ impl Architecture {
                 }
             }
             if findings.is_empty() {
-                findings.push(case::of_lines(&legs, &guilty_lines(m, &jacobian)));
+                findings.push(case::of_lines(&legs, guilty_lines(m, &jacobian)));
             }
         }
         Self { leg_rank, jacobian, dependencies, findings, griffis_duffy }

@@ -6,7 +6,7 @@
 use nalgebra::{Point3, Vector3};
 
 use super::projection::{Start, project};
-use super::strata;
+use super::{nearby_case, strata};
 use crate::manipulator::{InvalidManipulator, Manipulator};
 use crate::num::linalg::LinalgError;
 use crate::synthesis::LegSpan;
@@ -16,7 +16,7 @@ use crate::synthesis::LegSpan;
 pub struct NearestSingular {
     /// Norm of the change of all joints, design units.
     pub distance: f64,
-    /// What makes it singular: a code of [`Case::name`](super::Case::name), `leg_vectors_dependent` for a relation between leg vectors.
+    /// What makes it singular: a name as in [`Case::name`](super::Case::name).
     pub kind: &'static str,
     /// The legs (0-based) that depend on each other there.
     pub legs: Vec<usize>,
@@ -51,6 +51,8 @@ impl Change {
 
 /// Share of the largest coordinate that counts as rounding: eight half units in its last place.
 const ROUNDING: f64 = 1.0 / (1u64 << 50) as f64;
+/// Two distances that differ by less than this are one.
+const SAME: f64 = 1e-6;
 /// Random starts besides the six singular vectors.
 const STARTS: u64 = 12;
 
@@ -60,9 +62,16 @@ const STARTS: u64 = 12;
 /// # Errors
 /// When a singular value decomposition does not converge.
 pub fn nearest_singular(m: &Manipulator, seed: u64) -> Result<Option<NearestSingular>, LinalgError> {
-    let mut all = strata::changes(m);
-    all.extend(Start::all(m, seed, STARTS).iter().filter_map(|start| project(m, start)));
-    let best = all.into_iter().filter(|c| c.norm().is_finite()).min_by(|x, y| x.norm().total_cmp(&y.norm()));
+    let least = |all: Vec<Change>| {
+        all.into_iter().filter(|c| c.norm().is_finite()).min_by(|x, y| x.norm().total_cmp(&y.norm()))
+    };
+    let closed = least(strata::changes(m));
+    let searched = least(Start::all(m, seed, STARTS).iter().filter_map(|start| project(m, start)).collect());
+    let best = match (closed, searched) {
+        // a design found both ways is the exact one, whatever rounding says
+        (Some(x), Some(y)) => Some(if x.norm() <= y.norm() * (1.0 + SAME) { x } else { y }),
+        (x, y) => x.or(y),
+    };
     best.map(|change| describe(m, change)).transpose()
 }
 
@@ -74,9 +83,11 @@ fn describe(m: &Manipulator, change: Change) -> Result<NearestSingular, LinalgEr
     let platform = moved(m.platform_joints(), &change.platform);
     let rebuilt: Result<Manipulator, InvalidManipulator> =
         Manipulator::try_new(base.clone(), platform.clone(), m.pairs());
-    let residual = match (&change.coefficients, rebuilt) {
-        (Some(_), Ok(there)) => LegSpan::of(&there, 0.0)?.inverse_condition(),
-        _ => 0.0,
+    let (residual, kind) = match (&change.coefficients, rebuilt) {
+        (Some(_), Ok(there)) => {
+            (LegSpan::of(&there, 0.0)?.inverse_condition(), nearby_case::name(&there, &change.legs)?)
+        }
+        _ => (0.0, change.kind),
     };
     let small = |from: &[Point3<f64>], by: &[Vector3<f64>]| {
         let largest = from.iter().flat_map(|p| p.iter().copied()).fold(0.0, |x: f64, y| x.max(y.abs()));
@@ -86,7 +97,7 @@ fn describe(m: &Manipulator, change: Change) -> Result<NearestSingular, LinalgEr
         small(m.base_joints(), &change.base) && small(m.platform_joints(), &change.platform);
     Ok(NearestSingular {
         distance: change.norm(),
-        kind: change.kind,
+        kind,
         legs: change.legs,
         coefficients: change.coefficients,
         base,

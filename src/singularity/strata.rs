@@ -7,7 +7,7 @@ use crate::manipulator::Manipulator;
 use crate::synthesis::Body;
 
 /// The nearest member of each simple family: coincident legs, four legs at one point, two points that hold all legs, a collinear body,
-/// three legs of a pencil.
+/// three legs of a pencil, a bundle and a pencil with a common line.
 ///
 /// Each is the least change within its family: points that have to meet meet in their centroid, points that have to line up go
 /// to the line through their centroid along the principal axis.
@@ -32,8 +32,9 @@ pub(super) fn changes(m: &Manipulator) -> Vec<Change> {
             if set.len() == 3 {
                 let mut change = still(m, "point_line", &set);
                 meet(m, &mut change, body, &set);
-                line_up(m, &mut change, opposite(body), &set);
+                line_up(m, &mut change, opposite(body), &each(m, opposite(body), &set));
                 found.push(change);
+                stars_and_pencils(m, body, &set, &rest, &mut found);
                 for other in bodies {
                     let mut change = still(m, "two_joints_hold_all_legs", &[0, 1, 2, 3, 4, 5]);
                     meet(m, &mut change, body, &set);
@@ -43,7 +44,7 @@ pub(super) fn changes(m: &Manipulator) -> Vec<Change> {
             }
             if set.len() == 6 {
                 let mut change = still(m, "all_collinear", &set);
-                line_up(m, &mut change, body, &set);
+                line_up(m, &mut change, body, &each(m, body, &set));
                 found.push(change);
             }
         }
@@ -104,16 +105,55 @@ fn meet_again(m: &Manipulator, change: &mut Change, body: Body, legs: &[usize]) 
     }
 }
 
-/// Moves the ends of `legs` to the line that fits them best.
-fn line_up(m: &Manipulator, change: &mut Change, body: Body, legs: &[usize]) {
-    let (list, at) = (joints(m, body, legs), places(m, body));
-    let mean = list.iter().map(|j| at[*j].coords).sum::<Vector3<f64>>() / list.len() as f64;
-    let scatter: Matrix3<f64> =
-        list.iter().map(|j| (at[*j].coords - mean) * (at[*j].coords - mean).transpose()).sum();
+/// Moves the ends of each group to one point, and these points to a line: the line through the weighted centroid along the principal axis
+/// leaves the least change.
+fn line_up(m: &Manipulator, change: &mut Change, body: Body, groups: &[Vec<usize>]) {
+    let at = places(m, body);
+    let groups: Vec<Vec<usize>> = groups.iter().map(|g| joints(m, body, g)).collect();
+    let centre =
+        |group: &Vec<usize>| group.iter().map(|j| at[*j].coords).sum::<Vector3<f64>>() / group.len() as f64;
+    let weight: f64 = groups.iter().map(|g| g.len() as f64).sum();
+    let mean = groups.iter().map(|g| centre(g) * g.len() as f64).sum::<Vector3<f64>>() / weight;
+    let term = |g: &Vec<usize>| (centre(g) - mean) * (centre(g) - mean).transpose() * g.len() as f64;
+    let scatter: Matrix3<f64> = groups.iter().map(term).sum();
     let eigen = scatter.symmetric_eigen();
     let axis = eigen.eigenvectors.column(eigen.eigenvalues.imax()).into_owned();
-    for j in list {
-        let from = at[j].coords - mean;
-        displacements(change, body)[j] = axis * axis.dot(&from) - from;
+    for group in &groups {
+        let place = mean + axis * axis.dot(&(centre(group) - mean));
+        for j in group {
+            displacements(change, body)[*j] = place - at[*j].coords;
+        }
+    }
+}
+
+/// One group a joint of `body` at which `legs` end.
+fn each(m: &Manipulator, body: Body, legs: &[usize]) -> Vec<Vec<usize>> {
+    let mut seen = Vec::new();
+    legs.iter()
+        .filter_map(|i| {
+            let joint = joints(m, body, &[*i]);
+            let new = !seen.contains(&joint);
+            seen.push(joint);
+            new.then(|| vec![*i])
+        })
+        .collect()
+}
+
+/// Three legs from one point of `body`, two of the others from one point of the other body to a line through it.
+fn stars_and_pencils(m: &Manipulator, body: Body, star: &[usize], rest: &[usize], found: &mut Vec<Change>) {
+    for skipped in rest {
+        let pair: Vec<usize> = rest.iter().copied().filter(|i| i != skipped).collect();
+        let mut legs: Vec<usize> = star.iter().chain(&pair).copied().collect();
+        legs.sort_unstable();
+        let at_star = joints(m, body, star);
+        if pair.iter().any(|i| at_star.contains(&joints(m, body, &[*i])[0])) {
+            continue; // four legs at one point: another family
+        }
+        let mut change = still(m, "star_and_pencil", &legs);
+        let mut groups = each(m, body, &pair);
+        groups.push(star.to_vec());
+        line_up(m, &mut change, body, &groups);
+        meet(m, &mut change, opposite(body), &pair);
+        found.push(change);
     }
 }

@@ -1,0 +1,105 @@
+//! `equipod check` as a process.
+
+use equipod::design::Design;
+use serde_json::Value;
+
+use super::cli_frame::{document, equipod};
+use super::instances::{griffis_duffy, instances};
+
+fn check(path: &str) -> (Option<i32>, Value) {
+    let out = equipod(&["check", path, "--json"]);
+    (out.status.code(), document(&out))
+}
+
+#[test]
+fn the_shipped_designs_are_regular_with_a_pose_that_proves_it_but_for_the_midline_platform() {
+    for entry in std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/designs")).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|e| e != "toml") || path.ends_with("rbt-midline.toml") {
+            continue;
+        }
+        let path = path.to_str().unwrap();
+        let (code, doc) = check(path);
+        assert_eq!((code, doc["architecturally_singular"].as_bool()), (Some(0), Some(false)), "{path}");
+        assert_eq!((doc["leg_rank"].as_u64(), doc["jacobian_rank"].as_u64()), (Some(6), Some(6)));
+        assert_eq!(doc["proof"], "regular_pose");
+        assert_eq!((&doc["dependency"], &doc["reason"]), (&Value::Null, &Value::Null));
+        assert_eq!(doc["witness"]["quaternion"].as_array().unwrap().len(), 4);
+        assert!(doc["nearest_singular"]["distance"].as_f64().unwrap() > 0.1, "{path}");
+    }
+}
+
+#[test]
+fn the_midline_platform_is_singular_with_its_dependency_and_condition() {
+    let (code, doc) = check("designs/rbt-midline.toml");
+    assert_eq!((code, doc["architecturally_singular"].as_bool()), (Some(1), Some(true)));
+    assert_eq!((&doc["reason"], &doc["proof"]), (&"leg_vectors_dependent".into(), &"leg_vectors".into()));
+    assert_eq!(
+        (&doc["cases"][0]["case"], &doc["griffis_duffy"]["det"]),
+        (&"griffis_duffy".into(), &0.0.into())
+    );
+    let d = &doc["dependency"];
+    assert_eq!(d["coefficients"], serde_json::json!([1.0, -1.0, 1.0, -1.0, 1.0, -1.0]));
+    // - 1/4 sum of (+-) squared sides: 3 (144 - 36) / 4
+    assert!((d["constant"].as_f64().unwrap() + 81.0).abs() < 1e-9);
+    assert!(d["lengths_defect"].as_f64().unwrap().abs() < 1e-14);
+    let g = &doc["griffis_duffy"];
+    assert!((g["constant"].as_f64().unwrap() + 81.0).abs() < 1e-9, "{g}");
+    assert_eq!(g["exactly_singular"], true);
+}
+
+#[test]
+fn people_are_told_the_same_in_words() {
+    let out = equipod(&["check", "designs/rbt-midline.toml"]);
+    let text = String::from_utf8(out.stdout).unwrap();
+    let stable: Vec<&str> = text.lines().take_while(|l| !l.starts_with("singular values")).collect();
+    let wanted = "\
+midline Griffis-Duffy 12-6 (singular): architecturally singular
+the joints lie on the sides of two triangles (Griffis-Duffy type) with prod t_i = prod (1 - t_i) (legs 1, 2, 3, 4, 5, 6)
+
+rank of the leg vectors     5
+generic rank of the lines   5
+proof: the leg vectors have rank 5 exactly, the lines never have more; the pose with quaternion [4, -4, 2, -2] and p = (4, -4, 0) has rank 5
+
+dependency of legs 1, 2, 3, 4, 5, 6: v1 - v2 + v3 - v4 + v5 - v6 = 0
+  base ends span dimension 2, platform ends 2
+  squared lengths of every pose: s1 - s2 + s3 - s4 + s5 - s6 = -81";
+    assert!(stable.join("\n").starts_with(wanted), "{text}");
+}
+
+#[test]
+fn every_case_is_exit_1_with_the_legs_to_blame() {
+    let folder = tempfile::tempdir().unwrap();
+    for (k, case) in instances().into_iter().enumerate() {
+        let path = folder.path().join(format!("{k}.toml"));
+        let design = Design::new(case.name, "mm", case.m);
+        std::fs::write(&path, design.to_toml()).unwrap();
+        let (code, doc) = check(path.to_str().unwrap());
+        assert_eq!((code, doc["architecturally_singular"].as_bool()), (Some(1), Some(true)), "{}", case.name);
+        assert_eq!(doc["reason"], case.reason, "{}", case.name);
+        assert_eq!(doc["cases"][0]["case"], case.name);
+        let legs: Vec<u64> =
+            doc["cases"][0]["legs"].as_array().unwrap().iter().map(|i| i.as_u64().unwrap()).collect();
+        assert_eq!(legs, case.guilty.iter().map(|i| *i as u64 + 1).collect::<Vec<_>>(), "{}", case.name);
+        assert_eq!(doc["dependency"].is_null(), case.leg_rank == 6, "{}", case.name);
+        assert_eq!(doc["proof"], if case.rank < case.leg_rank { "pose_lattice" } else { "leg_vectors" });
+    }
+}
+
+#[test]
+fn a_design_that_rounding_makes_regular_is_exit_3() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("thirds.toml");
+    // offsets a third and two thirds: no joint is on its side exactly
+    let t = 1.0 / 3.0;
+    let design = Design::new("thirds", "mm", griffis_duffy([t, 1.0 - t, t, 1.0 - t, t, 1.0 - t]));
+    std::fs::write(&path, design.to_toml()).unwrap();
+    let (code, doc) = check(path.to_str().unwrap());
+    assert_eq!((code, &doc["architecturally_singular"]), (Some(3), &Value::Null), "{doc}");
+    assert_eq!(
+        (doc["singular_as_written"].as_bool(), doc["reason"].as_str()),
+        (Some(false), Some("singular_within_rounding"))
+    );
+    assert_eq!(doc["nearest_singular"]["kind"], "griffis_duffy");
+    assert!(doc["griffis_duffy"]["det"].as_f64().unwrap().abs() < 1e-15);
+}
