@@ -11,6 +11,7 @@ mod exit;
 mod failure;
 mod files;
 mod output;
+mod poses;
 
 use std::ffi::OsString;
 use std::panic::{AssertUnwindSafe, catch_unwind};

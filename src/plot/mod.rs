@@ -8,12 +8,16 @@ mod contour;
 mod determinant;
 mod locus;
 mod modes;
+mod motion;
 mod noise;
+mod slice;
 mod style;
 mod topologies;
 
 pub use determinant::{OffsetPlane, PlaneAxis, PlanePoint, determinant_plane};
 pub use locus::{LocusFigure, LocusMeeting, LocusStep, LocusValue, locus_chart, locus_meetings};
 pub use modes::{ModesFigure, assembly_modes};
+pub use motion::{MotionFigure, motion};
 pub use noise::{NoiseCurve, NoiseFigure, NoisePoint, noise_chart};
+pub use slice::{SliceAxis, SliceFigure, singular_slice};
 pub use topologies::{TopologyFigure, topology_diagram, topology_sheet};

@@ -146,6 +146,38 @@ impl Svg {
         );
     }
 
+    /// A line whose second end runs through `x` and `y`, lists separated by semicolons.
+    pub(super) fn moving_line(
+        &mut self,
+        class: &str,
+        (a, b): ((f64, f64), (f64, f64)),
+        (x, y): (&str, &str),
+        seconds: usize,
+    ) {
+        let _ = writeln!(
+            self.out,
+            "<line class=\"{class}\" x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\">\
+             <animate attributeName=\"x2\" dur=\"{seconds}s\" repeatCount=\"indefinite\" values=\"{x}\"/>\
+             <animate attributeName=\"y2\" dur=\"{seconds}s\" repeatCount=\"indefinite\" values=\"{y}\"/></line>",
+            px(a.0),
+            px(a.1),
+            px(b.0),
+            px(b.1)
+        );
+    }
+
+    /// A polygon that runs through the given ones, all with the same number of corners.
+    pub(super) fn moving_polygon(&mut self, class: &str, frames: &[Vec<(f64, f64)>], seconds: usize) {
+        let first = frames.first().map_or(String::new(), |f| list(f));
+        let values: Vec<String> = frames.iter().map(|f| list(f)).collect();
+        let _ = writeln!(
+            self.out,
+            "<polygon class=\"{class}\" points=\"{first}\"><animate attributeName=\"points\" dur=\"{seconds}s\" \
+             repeatCount=\"indefinite\" values=\"{}\"/></polygon>",
+            values.join(";")
+        );
+    }
+
     pub(super) fn finish(mut self) -> String {
         self.out.push_str("</svg>\n");
         self.out

@@ -1,4 +1,7 @@
-//! Architectural singularity: platforms that no pose can hold, decided exactly and explained.
+//! Singularities.
+//!
+//! *Architectural singularity*: platforms that no pose can hold, decided exactly and explained. *Parallel singularities*: single poses at which the legs
+//! do not hold the platform, and boxes of poses without any. *Self-motions*: curves of poses with constant leg lengths.
 //!
 //! A design is *architecturally singular* when its six leg lines are dependent at every pose. Coordinates are taken as the binary
 //! numbers they are; the answer for them is proved either way. Theory: `docs/theory/architectural-singularity.md`.
@@ -6,21 +9,29 @@
 mod case;
 mod conditioning;
 mod dependency;
+mod four_planes;
 mod griffis_duffy;
 mod lattice;
 mod nearby_case;
 mod nearest;
 mod planar_map;
 mod projection;
+mod regular_box;
+mod self_motion;
 mod strata;
 
 pub use case::{Case, Finding};
 pub use conditioning::{Conditioning, conditioning};
 pub use dependency::Dependency;
+pub use four_planes::four_planes;
 pub use griffis_duffy::{GriffisDuffy, griffis_duffy_determinant, griffis_duffy_singular_offset};
 pub use lattice::{GenericRank, RankBound, RationalPose};
 pub use nearest::{NearestSingular, nearest_singular};
 pub use planar_map::PlanarMap;
+pub use regular_box::{BoxOptions, RegularBox, SingularSegment, regular_box};
+pub use self_motion::{
+    CurveDegree, CurveEnd, MotionCurve, MotionOptions, MotionPoint, SelfMotion, curve_degree, self_motion,
+};
 
 use self::dependency::{ExactLegs, subsets_by_size};
 use self::lattice::{generic_rank, rank_at_least};

@@ -13,6 +13,7 @@ mod cli_frame;
 mod cli_locus;
 mod cli_near;
 mod cli_optimize;
+mod cli_singularities;
 mod cli_synthesis;
 mod cli_topologies;
 mod cli_verify;

@@ -21,6 +21,8 @@ mod fk;
 mod locus;
 mod map;
 mod optimize;
+mod selfmotion;
+mod singularities;
 mod topologies;
 mod verify;
 
@@ -51,6 +53,10 @@ pub(crate) enum Command {
     Map(map::Args),
     /// The best joint-free platform equivalent to an octahedral design
     Optimize(optimize::Args),
+    /// The curves of poses with constant leg lengths through a pose
+    Selfmotion(selfmotion::Args),
+    /// Sign of det J at a pose, at all assembly modes and over a slice of positions; the largest box of poses without singularity
+    Singularities(singularities::Args),
     /// The ways to share joints that can hold a platform, and which one a design has
     Topologies(topologies::Args),
     /// Whether two designs are kinematically equivalent, with evidence
@@ -70,6 +76,8 @@ impl Command {
             Self::Locus(args) => locus::run(args, context),
             Self::Map(args) => map::run(args, context),
             Self::Optimize(args) => optimize::run(args, context),
+            Self::Selfmotion(args) => selfmotion::run(args, context),
+            Self::Singularities(args) => singularities::run(args, context),
             Self::Topologies(args) => topologies::run(args, context),
             Self::Verify(args) => verify::run(args, context),
         }

@@ -48,7 +48,7 @@ const LINES: &[Line] = &[
     ),
     ("topology", &["num", "manipulator"], &[]),
     ("synthesis", &["num", "geom", "manipulator", "topology"], &[MATRICES, ERRORS]),
-    ("singularity", &["num", "geom", "manipulator", "topology", "synthesis"], &[MATRICES, ERRORS]),
+    ("singularity", &["num", "geom", "manipulator", "topology", "synthesis"], &[MATRICES, COMPLEX, ERRORS]),
     (
         "offsets",
         &["num", "geom", "manipulator", "synthesis"],

@@ -14,6 +14,7 @@ use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::output::Answer;
+use crate::cli::poses;
 use crate::fk::{self, BatchResult, FkError, FkOptions, FkSolutions, Method, Threads};
 use crate::manipulator::{LegLengths, Manipulator};
 
@@ -74,7 +75,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let design = context.load(&args.design)?;
     let given = lengths::given(args.lengths.as_deref(), design.lengths)?;
     if let Some(text) = &args.near {
-        let start = near::parse(text, &design)?;
+        let start = poses::parse(text, &design, "--near", "fk::bad_pose")?;
         return Ok(near::run(&design, &given, start, context.seed()));
     }
     let m = design.manipulator();

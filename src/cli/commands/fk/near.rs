@@ -2,51 +2,17 @@
 
 use std::fmt::Write as _;
 
-use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
 use serde_json::{Map, Value, json};
 
 use super::lengths::{Given, Row};
 use super::render;
 use crate::cli::exit::Exit;
-use crate::cli::failure::Failure;
 use crate::cli::output::{Answer, number};
 use crate::design::Design;
 use crate::fk::{Completeness, FkRoot, FkSolutions, Method, NearOutcome, NearSolver, Reality, SolutionSet};
 use crate::geom::{ComplexPose, Pose};
-use crate::manipulator::{LegLengths, Manipulator, default_home};
+use crate::manipulator::{LegLengths, Manipulator};
 use crate::solve::certify::{Certifier, exact_squares};
-
-const FORM: &str = "give `home`, x,y,z,roll_deg,pitch_deg,yaw_deg or x,y,z,qw,qx,qy,qz";
-
-/// The pose of `--near`: `home`, six or seven numbers.
-pub(super) fn parse(text: &str, design: &Design) -> Result<Pose, Failure> {
-    if text == "home" {
-        return Ok(design.home.unwrap_or_else(|| default_home(design.manipulator())));
-    }
-    let refuse =
-        |message: String| Failure::refused("fk::bad_pose", format!("--near: {message}")).with_help(FORM);
-    let mut values = Vec::with_capacity(7);
-    for (i, field) in text.split(',').map(str::trim).enumerate() {
-        match field.parse::<f64>() {
-            Ok(x) if x.is_finite() => values.push(x),
-            _ => return Err(refuse(format!("value {}, `{field}`, is not a finite number", i + 1))),
-        }
-    }
-    let rotation = match values[..] {
-        [_, _, _, roll, pitch, yaw] => {
-            Rotation3::from_euler_angles(roll.to_radians(), pitch.to_radians(), yaw.to_radians())
-        }
-        [_, _, _, w, x, y, z] => {
-            let q = Quaternion::new(w, x, y, z);
-            if !((q.norm() - 1.0).abs() <= 1e-3) {
-                return Err(refuse(format!("the quaternion has norm {}, not 1", q.norm())));
-            }
-            UnitQuaternion::from_quaternion(q).to_rotation_matrix()
-        }
-        _ => return Err(refuse(format!("{} values instead of six or seven", values.len()))),
-    };
-    Ok(Pose { rotation, position: Vector3::new(values[0], values[1], values[2]) })
-}
 
 /// Follows one pose. A row that is not tracked leaves the next to start from the last tracked pose.
 pub(super) fn run(design: &Design, given: &Given, start: Pose, seed: u64) -> Answer {

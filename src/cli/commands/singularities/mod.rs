@@ -1,0 +1,146 @@
+//! `equipod singularities`: det J at poses, over a slice, and the box of poses in which it is proved not to vanish.
+
+mod render;
+mod slice;
+
+use std::path::PathBuf;
+
+use crate::cli::context::Context;
+use crate::cli::exit::Exit;
+use crate::cli::failure::Failure;
+use crate::cli::files;
+use crate::cli::output::Answer;
+use crate::cli::poses;
+use crate::design::Design;
+use crate::fk::{Automatic, FkOptions, ForwardKinematics};
+use crate::geom::Pose;
+use crate::manipulator::{LegLengths, Manipulator, Octahedral, inverse_condition, jacobian, plucker_matrix};
+use crate::plot::singular_slice;
+use crate::singularity::{BoxOptions, RegularBox, four_planes, regular_box};
+use slice::Slice;
+
+/// Arguments of `singularities`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// The design (.toml or .json)
+    design: PathBuf,
+    /// The pose in the middle: `home`, six numbers (position, then roll, pitch, yaw in degrees) or seven (position,
+    /// then quaternion, scalar first)
+    #[arg(long, value_name = "POSE", allow_hyphen_values = true, default_value = "home")]
+    pose: String,
+    /// Leg lengths of which all assembly modes are judged; without them those of the pose
+    #[arg(long, value_name = "L1,..,L6")]
+    lengths: Option<String>,
+    /// Shape of the box: half widths of translations (design units) and rotations (degrees); without it the workspace of the
+    /// design, else half its size and 30 degrees
+    #[arg(long = "box", value_name = "X,Y,Z,RX,RY,RZ")]
+    shape: Option<String>,
+    /// Most regions tested for the box
+    #[arg(long, value_name = "N", default_value_t = 30_000)]
+    regions: usize,
+    /// Write a picture of the singular poses over two of the six freedoms
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// The two freedoms of that picture: x, y, z (positions), rx, ry, rz (rotation vector in the base frame)
+    #[arg(long, value_name = "A,B", default_value = "rx,rz", value_parser = Slice::parse)]
+    slice: Slice,
+}
+
+/// Figures of one pose.
+struct Judged {
+    pose: Pose,
+    /// `det J` of the leg lines, lengths over the size.
+    determinant: f64,
+    /// Of the Jacobian with unit lines and the size as characteristic length.
+    inverse_condition: f64,
+    four_planes: Option<[f64; 2]>,
+}
+
+/// What was found, for [`render`].
+struct Found {
+    middle: Judged,
+    modes: Vec<Judged>,
+    modes_complete: bool,
+    options: BoxOptions,
+    regular: RegularBox,
+    exit: Exit,
+}
+
+/// Judges the poses, proves the box, draws the slice.
+pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+    let design = context.load(&args.design)?;
+    let m = design.manipulator();
+    let pose = poses::parse(&args.pose, &design, "--pose", "singularities::bad_pose")?;
+    let lengths = match &args.lengths {
+        Some(text) => Some(six(text, "--lengths").and_then(|l| {
+            LegLengths::try_new(l).map_err(|e| Failure::refused("singularities::bad_lengths", e.to_string()))
+        })?),
+        None => pose.lengths(m),
+    };
+    let lengths = lengths.ok_or_else(|| {
+        Failure::refused(
+            "singularities::bad_pose",
+            "the leg lengths at this pose are no finite positive numbers",
+        )
+    })?;
+    let octahedral = Octahedral::recognise(m).ok();
+    let options = FkOptions { seed: context.seed(), ..FkOptions::default() };
+    let solutions = Automatic
+        .solve(m, &lengths.squared(), &options)
+        .map_err(|e| Failure::internal(format!("assembly modes: {e}")))?;
+    let modes =
+        solutions.assembly_modes().map(|r| judged(m, octahedral.as_ref(), r.pose.real_part())).collect();
+    let options = box_options(args, &design, context.seed())?;
+    let regular = regular_box(m, &pose, &options);
+    let exit = match regular.proved {
+        p if p > 0.0 => Exit::Yes,
+        _ => Exit::Inconclusive,
+    };
+    if let Some(path) = &args.svg {
+        files::write_text(path, &singular_slice(&args.slice.figure(&design, &pose, &options)))?;
+    }
+    let middle = judged(m, octahedral.as_ref(), pose);
+    let found = Found { middle, modes, modes_complete: solutions.all_accounted(), options, regular, exit };
+    Ok(render::answer(&design, &lengths, &found))
+}
+
+fn judged(m: &Manipulator, octahedral: Option<&Octahedral>, pose: Pose) -> Judged {
+    let unit = m.size();
+    Judged {
+        pose,
+        determinant: plucker_matrix(m, &pose, unit).determinant() / unit.powi(6),
+        inverse_condition: inverse_condition(&jacobian(m, &pose, unit)),
+        four_planes: octahedral.map(|o| four_planes(o, &pose).map(|d| d / unit.powi(9))),
+    }
+}
+
+fn six(text: &str, option: &str) -> Result<[f64; 6], Failure> {
+    let values: Option<Vec<f64>> =
+        text.split(',').map(|f| f.trim().parse().ok().filter(|x: &f64| x.is_finite())).collect();
+    values.and_then(|v| <[f64; 6]>::try_from(v).ok()).ok_or_else(|| {
+        Failure::refused(
+            "singularities::bad_numbers",
+            format!("{option}: `{text}` is not six finite numbers"),
+        )
+    })
+}
+
+fn box_options(args: &Args, design: &Design, seed: u64) -> Result<BoxOptions, Failure> {
+    let size = design.manipulator().size();
+    let (translation, degrees) = match &args.shape {
+        Some(text) => {
+            let v = six(text, "--box")?;
+            if v.iter().any(|x| *x < 0.0) || v.iter().all(|x| *x == 0.0) {
+                let message = "--box: half widths are not negative, and not all zero";
+                return Err(Failure::refused("singularities::bad_numbers", message));
+            }
+            ([v[0], v[1], v[2]], [v[3], v[4], v[5]])
+        }
+        None if design.workspace.has_box() => {
+            (design.workspace.translation.into(), design.workspace.rotation_deg.into())
+        }
+        None => ([0.5 * size; 3], [30.0; 3]),
+    };
+    let rotation = degrees.map(f64::to_radians);
+    Ok(BoxOptions { translation, rotation, regions: args.regions, enough: 0.9, seed })
+}

@@ -1,0 +1,63 @@
+//! Poses from the command line.
+
+use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
+
+use serde_json::{Value, json};
+
+use super::failure::Failure;
+use super::output::number;
+use crate::design::Design;
+use crate::geom::Pose;
+use crate::manipulator::default_home;
+
+const FORM: &str = "give `home`, x,y,z,roll_deg,pitch_deg,yaw_deg or x,y,z,qw,qx,qy,qz";
+
+/// The home pose of the design, the default one where it gives none.
+pub(crate) fn home(design: &Design) -> Pose {
+    design.home.unwrap_or_else(|| default_home(design.manipulator()))
+}
+
+/// `home`, six or seven numbers, as the value of `option`.
+///
+/// # Errors
+/// Exit 2 with the code given.
+pub(crate) fn parse(text: &str, design: &Design, option: &str, code: &str) -> Result<Pose, Failure> {
+    if text == "home" {
+        return Ok(home(design));
+    }
+    let refuse = |message: String| Failure::refused(code, format!("{option}: {message}")).with_help(FORM);
+    let mut values = Vec::with_capacity(7);
+    for (i, field) in text.split(',').map(str::trim).enumerate() {
+        match field.parse::<f64>() {
+            Ok(x) if x.is_finite() => values.push(x),
+            _ => return Err(refuse(format!("value {}, `{field}`, is not a finite number", i + 1))),
+        }
+    }
+    let rotation = match values[..] {
+        [_, _, _, roll, pitch, yaw] => {
+            Rotation3::from_euler_angles(roll.to_radians(), pitch.to_radians(), yaw.to_radians())
+        }
+        [_, _, _, w, x, y, z] => {
+            let q = Quaternion::new(w, x, y, z);
+            if !((q.norm() - 1.0).abs() <= 1e-3) {
+                return Err(refuse(format!("the quaternion has norm {}, not 1", q.norm())));
+            }
+            UnitQuaternion::from_quaternion(q).to_rotation_matrix()
+        }
+        _ => return Err(refuse(format!("{} values instead of six or seven", values.len()))),
+    };
+    Ok(Pose { rotation, position: Vector3::new(values[0], values[1], values[2]) })
+}
+
+/// Rotation quaternion, scalar first and not negative.
+pub(crate) fn quaternion(pose: &Pose) -> [f64; 4] {
+    let q = UnitQuaternion::from_rotation_matrix(&pose.rotation);
+    let sign = if q.w < 0.0 { -1.0 } else { 1.0 };
+    [q.w, q.i, q.j, q.k].map(|x| sign * x + 0.0)
+}
+
+/// Position `p` and quaternion `q` of a pose.
+pub(crate) fn record(pose: &Pose) -> Value {
+    let p = &pose.position;
+    json!({ "p": [number(p.x), number(p.y), number(p.z)], "q": quaternion(pose).map(number) })
+}

@@ -1,0 +1,153 @@
+//! A moving platform: base, platform and legs in oblique projection, animated along a curve of poses.
+
+use nalgebra::{Point3, Vector3};
+
+use super::style::{Svg, px};
+use crate::geom::Pose;
+use crate::manipulator::Manipulator;
+
+/// What the picture shows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MotionFigure {
+    /// Title.
+    pub title: String,
+    /// A line of text below the picture.
+    pub note: String,
+    /// Poses with the length along the curve at which they stand, not decreasing.
+    pub poses: Vec<(f64, Pose)>,
+    /// The last pose is followed by the first; otherwise the motion goes back and forth.
+    pub closed: bool,
+}
+
+const WIDTH: f64 = 640.0;
+const HEIGHT: f64 = 520.0;
+const MARGIN: f64 = 40.0;
+/// Depth is drawn along this direction (right, up).
+const DEPTH: (f64, f64) = (0.41, 0.29);
+/// Pictures of one run.
+const FRAMES: usize = 120;
+/// Seconds of one run.
+const SECONDS: usize = 12;
+
+fn oblique(p: &Point3<f64>) -> (f64, f64) {
+    (p.x + DEPTH.0 * p.y, p.z + DEPTH.1 * p.y)
+}
+
+/// Joints that carry legs, in the order of their angle about the axis of least spread.
+fn outline(joints: &[Point3<f64>], used: impl Iterator<Item = usize>) -> Vec<usize> {
+    let mut list: Vec<usize> = used.collect();
+    list.sort_unstable();
+    list.dedup();
+    let centre = list.iter().map(|i| joints[*i].coords).sum::<Vector3<f64>>() / list.len() as f64;
+    let normal = list
+        .windows(2)
+        .map(|w| (joints[w[0]].coords - centre).cross(&(joints[w[1]].coords - centre)))
+        .max_by(|x, y| x.norm().total_cmp(&y.norm()))
+        .and_then(|n| n.try_normalize(0.0))
+        .unwrap_or_else(Vector3::z);
+    let u = list.first().and_then(|i| (joints[*i].coords - centre).try_normalize(0.0));
+    let u = u.unwrap_or_else(Vector3::x);
+    let v = normal.cross(&u);
+    let angle = |i: &usize| {
+        let d = joints[*i].coords - centre;
+        d.dot(&v).atan2(d.dot(&u))
+    };
+    list.sort_by(|i, j| angle(i).total_cmp(&angle(j)));
+    list
+}
+
+/// Poses at equal lengths along the curve, the nearest given ones.
+fn frames(figure: &MotionFigure) -> Vec<Pose> {
+    let total = figure.poses.last().map_or(0.0, |p| p.0);
+    let count = FRAMES.min(figure.poses.len());
+    let at = |k: usize| {
+        let arc = total * k as f64 / count.saturating_sub(1).max(1) as f64;
+        let place = figure.poses.partition_point(|p| p.0 < arc).min(figure.poses.len() - 1);
+        figure.poses[place].1
+    };
+    let mut out: Vec<Pose> = (0..count).map(at).collect();
+    if figure.closed {
+        out.extend(out.first().copied());
+    } else {
+        out.extend(out.clone().into_iter().rev());
+    }
+    out
+}
+
+/// An animated picture; viewers without animation, and readers who ask for less motion, see the first pose and faint others.
+#[must_use]
+pub fn motion(m: &Manipulator, figure: &MotionFigure) -> String {
+    let frames = frames(figure);
+    let pairs = m.pairs();
+    let base = outline(m.base_joints(), pairs.iter().map(|p| p.0));
+    let platform = outline(m.platform_joints(), pairs.iter().map(|p| p.1));
+    let tip = |pose: &Pose, j: usize| oblique(&pose.transform(&m.platform_joints()[j]));
+    let foot = |j: usize| oblique(&m.base_joints()[j]);
+    let mut extent = [f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY];
+    let tips = frames.iter().flat_map(|f| platform.iter().map(move |j| tip(f, *j)));
+    for (x, y) in tips.chain(base.iter().map(|j| foot(*j))) {
+        extent = [extent[0].min(x), extent[1].max(x), extent[2].min(y), extent[3].max(y)];
+    }
+    let room = |low: f64, high: f64, pixels: f64| pixels / (high - low).max(f64::MIN_POSITIVE);
+    let scale = room(extent[0], extent[1], WIDTH - 2.0 * MARGIN).min(room(
+        extent[2],
+        extent[3],
+        HEIGHT - 2.0 * MARGIN - 50.0,
+    ));
+    let page = |p: (f64, f64)| {
+        (
+            WIDTH / 2.0 + (p.0 - f64::midpoint(extent[0], extent[1])) * scale,
+            HEIGHT - MARGIN - 20.0 - (p.1 - extent[2]) * scale,
+        )
+    };
+    let description = format!("Base, platform and six legs in oblique projection, moving. {}", figure.note);
+    let mut svg = Svg::new(WIDTH, HEIGHT, &figure.title, &description);
+    svg.text("title", (MARGIN, 30.0), &figure.title);
+    svg.polygon("base", &base.iter().map(|j| page(foot(*j))).collect::<Vec<_>>());
+    // traces of the platform joints
+    for j in &platform {
+        svg.polyline("edge", &frames.iter().map(|f| page(tip(f, *j))).collect::<Vec<_>>());
+    }
+    let Some(first) = frames.first() else {
+        svg.text("", (MARGIN, 60.0), "no pose");
+        return svg.finish();
+    };
+    for (leg, (a, b)) in pairs.iter().enumerate() {
+        let ends: Vec<(f64, f64)> = frames.iter().map(|f| page(tip(f, *b))).collect();
+        let (x, y): (Vec<String>, Vec<String>) = ends.iter().map(|e| (px(e.0), px(e.1))).unzip();
+        let class = if leg == 0 { "first" } else { "leg" };
+        svg.moving_line(class, (page(foot(*a)), page(tip(first, *b))), (&x.join(";"), &y.join(";")), SECONDS);
+    }
+    let corners = |f: &Pose| -> Vec<(f64, f64)> { platform.iter().map(|j| page(tip(f, *j))).collect() };
+    let moving: Vec<Vec<(f64, f64)>> = frames.iter().map(corners).collect();
+    svg.moving_polygon("platform", &moving, SECONDS);
+    svg.text("note", (MARGIN, HEIGHT - 16.0), &figure.note);
+    svg.finish()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::manipulator::Leg;
+    use nalgebra::Rotation3;
+
+    #[test]
+    fn every_leg_and_the_platform_move_through_all_frames() {
+        let ring = |r: f64, k: usize| {
+            let (s, c) = (k as f64).sin_cos();
+            Point3::new(r * c, r * s, 0.0)
+        };
+        let legs = std::array::from_fn(|k| Leg { base: ring(2.0, k), platform: ring(1.0, k) });
+        let m = Manipulator::from_legs(legs).unwrap();
+        let pose = |z: f64| Pose { rotation: Rotation3::identity(), position: Vector3::new(0.0, 0.0, z) };
+        let poses: Vec<(f64, Pose)> = (0..10).map(|k| (f64::from(k), pose(1.0 + f64::from(k)))).collect();
+        let figure = MotionFigure { title: "a <b>".into(), note: "n".into(), poses, closed: true };
+        let text = motion(&m, &figure);
+        assert_eq!(text.matches("<animate ").count(), 2 * 6 + 1);
+        assert!(text.contains("a &lt;b&gt;") && !text.contains("NaN"));
+        let values = text.split("values=\"").nth(1).unwrap().split('"').next().unwrap();
+        assert_eq!(values.split(';').count(), 11);
+        let still = MotionFigure { poses: Vec::new(), ..figure };
+        assert!(motion(&m, &still).contains("no pose"));
+    }
+}

@@ -1,0 +1,97 @@
+use super::*;
+use crate::manipulator::{Leg, default_home};
+use nalgebra::{Point3, Rotation3};
+
+fn p(x: f64, y: f64, z: f64) -> Point3<f64> {
+    Point3::new(x, y, z)
+}
+
+/// All midpoints of two triangles: det A = 0.
+fn midline() -> Manipulator {
+    let (b, t) =
+        ([p(0., 0., 0.), p(12., 0., 0.), p(5., 11., 0.)], [p(0., 0., 0.), p(6., 0., 0.), p(2., 5., 0.)]);
+    let zigzag = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
+    let mid = |x: Point3<f64>, y: Point3<f64>| nalgebra::center(&x, &y);
+    Manipulator::from_legs(std::array::from_fn(|i| {
+        let ((i0, j0), (i1, j1)) = (zigzag[i], zigzag[(i + 1) % 6]);
+        Leg { base: mid(b[i0], b[i1]), platform: mid(t[j0], t[j1]) }
+    }))
+    .unwrap()
+}
+
+fn some_pose() -> Pose {
+    Pose { rotation: Rotation3::from_euler_angles(0.2, -0.1, 0.4), position: Vector3::new(3.0, 2.5, 8.0) }
+}
+
+#[test]
+fn a_griffis_duffy_platform_moves_on_closed_curves_with_constant_lengths() {
+    let m = midline();
+    let pose = some_pose();
+    let s = pose.squared_lengths(&m).unwrap();
+    let found = self_motion(&m, &s, &[pose], &MotionOptions::default());
+    assert_eq!(found.dimension, 1, "{:?}", found.singular_values);
+    assert!(!found.curves.is_empty() && found.worst_length_error < 1e-13, "{:?}", found.worst_length_error);
+    for c in &found.curves {
+        assert!(matches!(c.end, CurveEnd::Closed | CurveEnd::Joined), "{:?}", c.end);
+        assert!(c.points.len() > 50);
+    }
+    assert!(found.curves.iter().any(|c| c.end == CurveEnd::Closed));
+    // from another pose of the curve the same curve
+    let middle = found.curves[0].points[found.curves[0].points.len() / 3].pose;
+    let again = self_motion(&m, &s, &[middle], &MotionOptions::default());
+    let length = |f: &SelfMotion| f.curves[0].points.last().unwrap().arc;
+    assert!((length(&again) - length(&found)).abs() < 0.05 * length(&found));
+    assert_eq!(
+        self_motion(&m, &s, &[pose, middle], &MotionOptions::default()).curves.len(),
+        found.curves.len()
+    );
+}
+
+#[test]
+fn a_regular_platform_does_not_move() {
+    let m = midline();
+    let mut legs = m.legs();
+    legs[2].base.x += 0.3;
+    let m = Manipulator::from_legs(legs).unwrap();
+    let pose = some_pose();
+    let s = pose.squared_lengths(&m).unwrap();
+    let found = self_motion(&m, &s, &[pose], &MotionOptions::default());
+    assert!(found.dimension == 0 && found.curves.is_empty());
+    assert_eq!(curve_degree(&m, &s, &pose, 1), None);
+}
+
+#[test]
+fn five_legs_at_one_joint_leave_two_freedoms() {
+    let base = |i: usize| {
+        let (s, c) = (1.1 * i as f64 + 0.1 * (i * i) as f64).sin_cos();
+        p(2.0 * c + 0.3 * i as f64, s, 0.4 * c)
+    };
+    let tip = |i: usize| if i < 5 { p(0.4, 0.1, 0.2) } else { p(1.0, -0.5, 0.3) };
+    let m = Manipulator::from_legs(std::array::from_fn(|i| Leg { base: base(i), platform: tip(i) })).unwrap();
+    let s = some_pose().squared_lengths(&m).unwrap();
+    let found = self_motion(&m, &s, &[some_pose()], &MotionOptions::default());
+    assert!(found.dimension == 2 && found.curves.is_empty(), "{:?}", found.singular_values);
+}
+
+#[test]
+fn crossing_curves_are_all_followed() {
+    // a planar pose of a platform with a plane of symmetry is often on two curves: the home of the midline platform, all legs alike
+    let m = midline();
+    let home = default_home(&m);
+    let s = home.squared_lengths(&m).unwrap();
+    let found = self_motion(&m, &s, &[home], &MotionOptions::default());
+    assert!(found.dimension >= 1);
+    for c in &found.curves {
+        assert!(c.end != CurveEnd::Unfinished);
+    }
+}
+
+#[test]
+fn degree_of_the_motion_of_a_griffis_duffy_platform() {
+    let m = midline();
+    let pose = some_pose();
+    let s = pose.squared_lengths(&m).unwrap();
+    let (one, two) = (curve_degree(&m, &s, &pose, 1).unwrap(), curve_degree(&m, &s, &pose, 2).unwrap());
+    assert!(one.complete && two.complete && one.degree == two.degree, "{one:?} {two:?}");
+    assert_eq!(one.degree, 28);
+}

@@ -1,0 +1,253 @@
+//! One curve, followed by its tangent.
+
+use nalgebra::{SMatrix, SVector};
+
+use super::equations::{EQUATIONS, LegEquations, Point};
+use super::{CurveEnd, MotionOptions};
+use crate::num::Rng;
+
+type Square = SMatrix<f64, 8, 8>;
+
+/// A singular value below this times the largest counts as zero on a curve.
+const ZERO: f64 = 1e-9;
+
+/// Largest residual of a point on a curve, numbers of order one.
+const RESIDUAL: f64 = 4e-15;
+
+/// Smallest step before a curve counts as stuck.
+const SMALLEST: f64 = 1e-7;
+
+/// A point of a curve.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct OnCurve {
+    pub(super) y: Point<f64>,
+    /// Unit tangent, in the direction of travel.
+    pub(super) tangent: Point<f64>,
+    /// Seventh singular value over the first.
+    pub(super) gap: f64,
+    /// Determinant of seven combinations of the equations and the tangent: changes sign at simple crossings.
+    orientation: f64,
+}
+
+impl OnCurve {
+    /// The same point, travelled through the other way.
+    pub(super) fn reversed(self) -> Self {
+        Self { tangent: -self.tangent, orientation: -self.orientation, ..self }
+    }
+
+    /// The other sign of the same pose: eight rows change sign, the orientation does not.
+    pub(super) fn negated(self) -> Self {
+        Self { y: -self.y, tangent: -self.tangent, ..self }
+    }
+}
+
+/// A curve so far.
+#[derive(Debug, Clone)]
+pub(super) struct Path {
+    pub(super) points: Vec<OnCurve>,
+    pub(super) end: CurveEnd,
+    /// Index of the point before a crossing and, later, of the crossing.
+    pub(super) crossings: Vec<(usize, usize)>,
+}
+
+/// Equations and what following them needs.
+#[derive(Debug)]
+pub(super) struct Tracer<'a> {
+    equations: &'a LegEquations,
+    /// Seven random combinations of the eight equations.
+    mix: SMatrix<f64, 7, 8>,
+    turn: f64,
+}
+
+impl<'a> Tracer<'a> {
+    pub(super) fn new(equations: &'a LegEquations, options: &MotionOptions, rng: &mut Rng) -> Self {
+        Self { equations, mix: SMatrix::from_fn(|_, _| rng.normal()), turn: options.turn }
+    }
+
+    /// Legs, `e.g`, `(e.e - 1) / 2`.
+    fn values(&self, y: &Point<f64>) -> SVector<f64, 8> {
+        let f = self.equations.values(y);
+        let norm = 0.5 * (y.fixed_rows::<4>(0).norm_squared() - 1.0);
+        SVector::from_fn(|i, _| if i < EQUATIONS { f[i] } else { norm })
+    }
+
+    fn jacobian(&self, y: &Point<f64>) -> Square {
+        let mut j = Square::zeros();
+        j.fixed_view_mut::<EQUATIONS, 8>(0, 0).copy_from(&self.equations.jacobian(y));
+        for k in 0..4 {
+            j[(7, k)] = y[k];
+        }
+        j
+    }
+
+    /// The quadratic part `F(v)` of the equations: `F(y + v) = F(y) + F'(y) v + F(v)`.
+    pub(super) fn second_order(&self, v: &Point<f64>) -> SVector<f64, 8> {
+        let f = self.equations.values(v);
+        let norm = 0.5 * v.fixed_rows::<4>(0).norm_squared();
+        SVector::from_fn(|i, _| if i < EQUATIONS { f[i] } else { norm })
+    }
+
+    /// Right singular vectors of the two smallest singular values (largest of the two first), and the left ones.
+    pub(super) fn null_planes(&self, y: &Point<f64>) -> ([Point<f64>; 2], [Point<f64>; 2]) {
+        let d = decomposed(&self.jacobian(y));
+        ([d.right(6), d.right(7)], [d.left(6), d.left(7)])
+    }
+
+    /// Dimension of the solutions near `y`, and the singular values at `y`.
+    ///
+    /// The number of zero singular values at a point of the curve a small step away: at a crossing there are more than the dimension.
+    pub(super) fn dimension(&self, start: &Point<f64>) -> (usize, [f64; 8]) {
+        let y = self.improved(start, 6).unwrap_or(*start);
+        let here = decomposed(&self.jacobian(&y));
+        let zeros = |d: &Decomposed| d.s.iter().filter(|s| **s <= ZERO * d.s[0]).count();
+        let values = here.s;
+        let mut least = zeros(&here);
+        for k in 8 - least..8 {
+            let next = y + here.right(k) * 1e-2;
+            let moved = self.improved(&next, 8 - least.max(1));
+            least = least.min(moved.map_or(0, |z| zeros(&decomposed(&self.jacobian(&z)))));
+        }
+        (least, values)
+    }
+
+    /// Gauss-Newton corrections by the first `rank` singular values; `None` when they do not settle.
+    fn improved(&self, start: &Point<f64>, rank: usize) -> Option<Point<f64>> {
+        let mut y = *start;
+        let mut last = f64::INFINITY;
+        for _ in 0..12 {
+            let f = self.values(&y);
+            let residual = f.norm();
+            if residual <= RESIDUAL && residual >= 0.5 * last || residual <= 0.1 * RESIDUAL {
+                return Some(y);
+            }
+            last = residual;
+            let d = decomposed(&self.jacobian(&y));
+            let usable = d.s.iter().take(rank).filter(|s| **s > ZERO * d.s[0]).count();
+            for k in 0..usable {
+                y -= d.right(k) * (d.left(k).dot(&f) / d.s[k]);
+            }
+        }
+        (self.values(&y).norm() <= RESIDUAL).then_some(y)
+    }
+
+    /// The point of the curve near `start`, its tangent along `direction`.
+    pub(super) fn settle(&self, start: &Point<f64>, direction: &Point<f64>) -> Option<OnCurve> {
+        let y = self.improved(start, 7)?;
+        let d = decomposed(&self.jacobian(&y));
+        let mut tangent = d.right(7);
+        if tangent.dot(direction) < 0.0 {
+            tangent = -tangent;
+        }
+        let mut square = Square::zeros();
+        square.fixed_view_mut::<7, 8>(0, 0).copy_from(&(self.mix * self.jacobian(&y)));
+        square.set_row(7, &tangent.transpose());
+        Some(OnCurve { y, tangent, gap: d.s[6] / d.s[0], orientation: square.determinant() })
+    }
+
+    /// Follows the curve until `stop` says how it ends, or it is closed, stuck, or `most` points long.
+    pub(super) fn follow(
+        &self,
+        start: OnCurve,
+        most: usize,
+        mut stop: impl FnMut(&OnCurve, &OnCurve) -> Option<CurveEnd>,
+    ) -> Path {
+        let mut path = Path { points: vec![start], end: CurveEnd::Unfinished, crossings: Vec::new() };
+        let mut here = start;
+        let mut step = 0.5 * self.turn;
+        while path.points.len() < most {
+            let Some(next) = self.step(&here, &mut step) else {
+                path.end = CurveEnd::Stuck;
+                return path;
+            };
+            let crossed = next.orientation * here.orientation < 0.0;
+            if path.points.len() > 2 && passes(&here, &next, &start) {
+                if crossed {
+                    path.crossings.push((path.points.len() - 1, usize::MAX));
+                }
+                path.end = CurveEnd::Closed;
+                return path;
+            }
+            if crossed {
+                path.crossings.push((path.points.len() - 1, usize::MAX));
+            }
+            if let Some(end) = stop(&here, &next) {
+                path.points.push(next);
+                path.end = end;
+                return path;
+            }
+            path.points.push(next);
+            here = next;
+        }
+        path
+    }
+
+    /// The next point; shortens the step until the tangent turns little.
+    fn step(&self, here: &OnCurve, step: &mut f64) -> Option<OnCurve> {
+        while *step > SMALLEST {
+            let next = self.settle(&(here.y + here.tangent * *step), &here.tangent);
+            let next = next.filter(|n| {
+                let turn = n.tangent.dot(&here.tangent).clamp(-1.0, 1.0).acos();
+                let aside = (n.y - here.y - here.tangent * *step).norm();
+                turn <= self.turn && aside <= 0.5 * *step
+            });
+            if let Some(next) = next {
+                let turn = next.tangent.dot(&here.tangent).clamp(-1.0, 1.0).acos();
+                *step *= (0.7 * self.turn / turn.max(1e-12)).clamp(0.5, 1.5);
+                *step = step.min(2.0 * self.turn);
+                return Some(next);
+            }
+            *step *= 0.5;
+        }
+        None
+    }
+
+    /// The crossing between two points, by halving on the sign of the orientation.
+    pub(super) fn crossing(&self, before: &OnCurve, after: &OnCurve) -> Option<Point<f64>> {
+        let (mut lo, mut hi) = (0.0, 1.0);
+        let chord = after.y - before.y;
+        for _ in 0..40 {
+            let t = 0.5 * (lo + hi);
+            let Some(on) = self.settle(&(before.y + chord * t), &before.tangent) else { break };
+            if on.orientation * before.orientation < 0.0 { hi = t } else { lo = t }
+        }
+        // at the crossing itself the rank is 6
+        self.improved(&(before.y + chord * (0.5 * (lo + hi))), 6)
+    }
+}
+
+/// Whether the step from `here` to `next` passes the point `mark` of the same curve, as `y` or as `-y`.
+pub(super) fn passes(here: &OnCurve, next: &OnCurve, mark: &OnCurve) -> bool {
+    [1.0, -1.0].into_iter().any(|sign| {
+        let (y, t) = (mark.y * sign, mark.tangent * sign);
+        let chord = next.y - here.y;
+        let along = (y - here.y).dot(&chord) / chord.norm_squared();
+        let aside = (y - here.y - chord * along).norm();
+        along > 0.0 && along <= 1.0 && aside < 0.05 * chord.norm() && t.dot(&next.tangent).abs() > 0.99
+    })
+}
+
+/// `J = U diag(s) V^T`, singular values in descending order.
+struct Decomposed {
+    s: [f64; 8],
+    u: Square,
+    v_t: Square,
+}
+
+impl Decomposed {
+    fn left(&self, k: usize) -> Point<f64> {
+        self.u.column(k).into()
+    }
+    fn right(&self, k: usize) -> Point<f64> {
+        self.v_t.row(k).transpose()
+    }
+}
+
+fn decomposed(j: &Square) -> Decomposed {
+    let d = j.svd(true, true);
+    let s = d.singular_values;
+    Decomposed {
+        s: std::array::from_fn(|k| s[k]),
+        u: d.u.unwrap_or_else(Square::identity),
+        v_t: d.v_t.unwrap_or_else(Square::identity),
+    }
+}
