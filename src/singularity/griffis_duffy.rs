@@ -115,7 +115,8 @@ impl GriffisDuffy {
     }
 
     /// Whether `det A` is zero within `1e-7` of the two products.
-    pub(super) fn is_nearly_singular(&self) -> bool {
+    #[must_use]
+    pub fn is_nearly_singular(&self) -> bool {
         let products =
             self.t.iter().map(|t| 1.0 - t).product::<f64>().abs() + self.t.iter().product::<f64>().abs();
         self.determinant().abs() <= 1e-7 * products

@@ -288,6 +288,37 @@ mod tests {
         }
     }
 
+    /// Rank of the determinants of as many random designs (flat bodies on request) at as many poses.
+    fn dimension_of_the_determinants<const N: usize>(flat: bool) -> usize {
+        let (field, mut rng) = (fields(1)[0], Rng::new(4));
+        let designs: Vec<Vec<[[u64; 3]; 2]>> = (0..N)
+            .map(|_| {
+                let mut leg = || {
+                    [(); 2].map(|()| [0, 1, 2].map(|i| if flat && i == 2 { 0 } else { rng.next_u64() >> 4 }))
+                };
+                (0..6).map(|_| leg()).collect()
+            })
+            .collect();
+        let mut digit = || (rng.next_u64() >> 50).cast_signed();
+        let poses: Vec<RationalPose> = (0..N)
+            .map(|_| RationalPose {
+                quaternion: [(); 4].map(|()| digit()),
+                steps: [(); 3].map(|()| digit()),
+                unit: 0,
+            })
+            .collect();
+        let rows: Vec<[u64; N]> = poses
+            .iter()
+            .map(|pose| std::array::from_fn(|k| field.determinant(&rows_at(field, &designs[k], pose, 0))))
+            .collect();
+        field.rank(rows)
+    }
+
+    #[test]
+    fn the_determinants_of_all_planar_designs_span_55_dimensions() {
+        assert_eq!(dimension_of_the_determinants::<80>(true), 55);
+    }
+
     #[test]
     fn the_bound_of_the_minors_holds_with_room() {
         let mut rng = Rng::new(2);

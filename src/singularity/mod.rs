@@ -6,12 +6,14 @@
 //! A design is *architecturally singular* when its six leg lines are dependent at every pose. Coordinates are taken as the binary
 //! numbers they are; the answer for them is proved either way. Theory: `docs/theory/architectural-singularity.md`.
 
+mod assembly;
 mod case;
 mod conditioning;
 mod dependency;
 mod four_planes;
 mod griffis_duffy;
 mod lattice;
+mod lower_bound;
 mod nearby_case;
 mod nearest;
 mod planar_map;
@@ -20,12 +22,14 @@ mod regular_box;
 mod self_motion;
 mod strata;
 
+pub use assembly::{Assembly, CornerLengths, assembly};
 pub use case::{Case, Finding};
 pub use conditioning::{Conditioning, conditioning};
 pub use dependency::Dependency;
 pub use four_planes::four_planes;
 pub use griffis_duffy::{GriffisDuffy, griffis_duffy_determinant, griffis_duffy_singular_offset};
 pub use lattice::{GenericRank, RankBound, RationalPose};
+pub use lower_bound::singular_distance_at_least;
 pub use nearest::{NearestSingular, nearest_singular};
 pub use planar_map::PlanarMap;
 pub use regular_box::{BoxOptions, RegularBox, SingularSegment, regular_box};

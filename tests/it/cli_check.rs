@@ -25,7 +25,9 @@ fn the_shipped_designs_are_regular_with_a_pose_that_proves_it_but_for_the_midlin
         assert_eq!(doc["proof"], "regular_pose");
         assert_eq!((&doc["dependency"], &doc["reason"]), (&Value::Null, &Value::Null));
         assert_eq!(doc["witness"]["quaternion"].as_array().unwrap().len(), 4);
-        assert!(doc["nearest_singular"]["distance"].as_f64().unwrap() > 0.1, "{path}");
+        let near = &doc["nearest_singular"];
+        let [low, high] = ["distance_at_least", "distance"].map(|k| near[k].as_f64().unwrap());
+        assert!(low > 1e-3 && low < high && high > 0.1, "{path}: {low} {high}");
     }
 }
 
@@ -45,7 +47,15 @@ fn the_midline_platform_is_singular_with_its_dependency_and_condition() {
     assert!(d["lengths_defect"].as_f64().unwrap().abs() < 1e-14);
     let g = &doc["griffis_duffy"];
     assert!((g["constant"].as_f64().unwrap() + 81.0).abs() < 1e-9, "{g}");
-    assert_eq!(g["exactly_singular"], true);
+    assert_eq!((&g["exactly_singular"], &g["assembly"]["verdict"]), (&true.into(), &"real".into()));
+    assert!(g["assembly"]["residual"].as_f64().unwrap() < 1e-9);
+    // longer by a thousandth: no pose
+    let text = std::fs::read_to_string("designs/rbt-midline.toml").unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let longer = folder.path().join("longer.toml");
+    std::fs::write(&longer, text.replace("17.944915714485816", "17.945915714485816")).unwrap();
+    let (code, doc) = check(longer.to_str().unwrap());
+    assert_eq!((code, &doc["griffis_duffy"]["assembly"]["verdict"]), (Some(1), &"incompatible".into()));
 }
 
 #[test]

@@ -10,7 +10,10 @@ use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::output::Answer;
 use crate::design::Design;
-use crate::singularity::{Architecture, Conditioning, NearestSingular, conditioning, nearest_singular};
+use crate::singularity::{
+    Architecture, Assembly, Conditioning, NearestSingular, assembly, conditioning, nearest_singular,
+    singular_distance_at_least,
+};
 
 /// Arguments of `check`.
 #[derive(Debug, clap::Args)]
@@ -25,6 +28,10 @@ struct Checked {
     architecture: Architecture,
     /// For a regular design only.
     nearest: Option<NearestSingular>,
+    /// No singular design is nearer; 0 for a singular one.
+    at_least: f64,
+    /// For a (nearly) singular design of Griffis-Duffy type with lengths.
+    assembly: Option<Assembly>,
     conditioning: Conditioning,
 }
 
@@ -54,8 +61,14 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     } else {
         nearest_singular(m, context.seed()).map_err(failed)?
     };
+    let at_least = if nearest.is_some() { singular_distance_at_least(m, context.seed()) } else { 0.0 };
     let conditioning = conditioning(m, context.seed()).map_err(failed)?;
-    let checked = Checked { design, architecture, nearest, conditioning };
+    let singular_hexagon = architecture.griffis_duffy.as_ref().filter(|g| g.is_nearly_singular());
+    let assembly = match (singular_hexagon, design.lengths) {
+        (Some(g), Some(l)) => Some(assembly(g, m, &l.squared()).map_err(failed)?),
+        _ => None,
+    };
+    let checked = Checked { design, architecture, nearest, at_least, assembly, conditioning };
     let exit = match checked.verdict() {
         Some(false) => Exit::Yes,
         Some(true) => Exit::No,

@@ -6,7 +6,10 @@ use serde_json::{Map, Value, json};
 use super::Checked;
 use super::render::{explanation, proof};
 use crate::cli::output::number;
-use crate::singularity::{Dependency, Finding, GriffisDuffy, NearestSingular, RankBound, RationalPose};
+use crate::geom::Pose;
+use crate::singularity::{
+    Assembly, CornerLengths, Dependency, Finding, GriffisDuffy, NearestSingular, RankBound, RationalPose,
+};
 
 pub(super) fn record(c: &Checked) -> Map<String, Value> {
     let a = &c.architecture;
@@ -57,9 +60,14 @@ fn legs(list: &[usize]) -> Value {
 }
 
 fn witness(w: &RationalPose) -> Value {
-    let pose = w.pose();
+    let mut record = rigid(&w.pose());
+    record["quaternion"] = json!(w.quaternion);
+    record
+}
+
+fn rigid(pose: &Pose) -> Value {
     let r: Value = (0..3).map(|i| numbers((0..3).map(|j| pose.rotation[(i, j)]))).collect();
-    json!({"quaternion": w.quaternion, "R": r, "p": numbers(pose.position.iter().copied())})
+    json!({"R": r, "p": numbers(pose.position.iter().copied())})
 }
 
 fn dependency(c: &Checked, d: &Dependency) -> Value {
@@ -83,7 +91,22 @@ fn griffis_duffy(c: &Checked, g: &GriffisDuffy) -> Value {
         "exactly_singular": g.is_exactly_singular(), "deviation": number(g.deviation),
         "deviation_limit": number(GriffisDuffy::limit(c.design.manipulator())),
         "coefficients": numbers(g.coefficients()), "constant": number(g.constant()), "lengths_defect": defect,
+        "assembly": c.assembly.as_ref().map(assembly),
     })
+}
+
+fn assembly(a: &Assembly) -> Value {
+    let corners = |o: &CornerLengths| json!({"origin": numbers(o.origin), "direction": numbers(o.direction), "interval": numbers(o.interval)});
+    match a {
+        Assembly::Incompatible { defect } => json!({"verdict": "incompatible", "defect": number(*defect)}),
+        Assembly::NoTriangles => json!({"verdict": "no_real_pose"}),
+        Assembly::NotFound { corners: o } => {
+            json!({"verdict": "undecided", "octahedral_squared_lengths": corners(o)})
+        }
+        Assembly::Real { pose, residual, corners: o } => json!({
+            "verdict": "real", "pose": rigid(pose), "residual": number(*residual), "octahedral_squared_lengths": corners(o),
+        }),
+    }
 }
 
 fn nearest(c: &Checked, n: &NearestSingular) -> Value {
@@ -92,7 +115,7 @@ fn nearest(c: &Checked, n: &NearestSingular) -> Value {
         Value::Object(names.iter().zip(at).map(entry).collect())
     };
     json!({
-        "distance": number(n.distance), "bound": "upper", "kind": n.kind, "legs": legs(&n.legs),
+        "distance": number(n.distance), "bound": "upper", "distance_at_least": number(c.at_least), "kind": n.kind, "legs": legs(&n.legs),
         "coefficients": n.coefficients.map(numbers), "residual": number(n.residual),
         "within_rounding": n.within_rounding,
         "base": joints(c.design.base_names(), &n.base), "platform": joints(c.design.platform_names(), &n.platform),

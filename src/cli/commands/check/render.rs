@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::Checked;
-use crate::singularity::{Dependency, GriffisDuffy, NearestSingular, RankBound};
+use crate::singularity::{Assembly, Dependency, GriffisDuffy, NearestSingular, RankBound};
 
 /// Which design it is, in one sentence.
 pub(super) fn explanation(c: &Checked) -> String {
@@ -129,15 +129,30 @@ fn griffis_duffy(text: &mut String, c: &Checked, g: &GriffisDuffy) {
         "  joints off their sides by at most {:.1e} (recognised up to {limit:.1e})",
         g.deviation
     );
+    let lengths = match &c.assembly {
+        None => return,
+        Some(Assembly::Incompatible { defect }) => {
+            format!("cannot be assembled: they miss the condition by {defect:.1e} (relative)")
+        }
+        Some(Assembly::NoTriangles) => {
+            "satisfy the condition, but have no real pose: the triangles of the legs do not close".into()
+        }
+        Some(Assembly::NotFound { .. }) => "satisfy the condition; no real pose was found".into(),
+        Some(Assembly::Real { residual, .. }) => {
+            format!("can be assembled, and the platform moves: real pose found, residual {residual:.1e}")
+        }
+    };
+    let _ = writeln!(text, "  the lengths of the design {lengths}");
 }
 
 fn nearest(text: &mut String, c: &Checked, n: &NearestSingular) {
+    let relative = n.distance / c.design.manipulator().size();
     let _ = writeln!(
         text,
-        "\na singular design ({}, {}) is {:.6e} {} away (norm of the change of all joints; an upper bound of the distance)",
+        "\nnearest singular design found ({}, {}): {:.6e} away, {relative:.1e} of the size (norm of the change of all joints)",
         n.kind,
         list(&n.legs),
-        n.distance,
-        c.design.units
+        n.distance
     );
+    let _ = writeln!(text, "  none is nearer than {:.6e} (lengths in {})", c.at_least, c.design.units);
 }
