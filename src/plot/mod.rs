@@ -4,6 +4,7 @@
 //! shape or text as well.
 
 mod axis;
+mod components;
 mod contour;
 mod determinant;
 mod locus;
@@ -14,6 +15,7 @@ mod slice;
 mod style;
 mod topologies;
 
+pub use components::{CurveFigure, CurveMark, CurvePanel, component_curves};
 pub use determinant::{OffsetPlane, PlaneAxis, PlanePoint, determinant_plane};
 pub use locus::{LocusFigure, LocusMeeting, LocusStep, LocusValue, locus_chart, locus_meetings};
 pub use modes::{ModesFigure, assembly_modes};

@@ -3,6 +3,7 @@
 //! Nothing in here solves forward kinematics: `synthesis` and `fk` never import each other, so that
 //! agreement of the root sets of two platforms is evidence for the map between them.
 
+pub mod components;
 mod determinant;
 mod dot;
 mod drawing;

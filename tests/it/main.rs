@@ -7,6 +7,7 @@ mod bench;
 mod certify;
 mod cli_bench;
 mod cli_check;
+mod cli_components;
 mod cli_explore;
 mod cli_fk;
 mod cli_frame;

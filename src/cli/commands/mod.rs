@@ -14,6 +14,7 @@
 
 mod bench;
 mod check;
+mod components;
 mod convert;
 mod explore;
 mod family;
@@ -39,6 +40,8 @@ pub(crate) enum Command {
     Bench(bench::Args),
     /// Whether a design is architecturally singular: decided exactly, explained, how far away
     Check(check::Args),
+    /// The families of legs that can be moved without changing the platform, of any design
+    Components(components::Args),
     /// Write a design in the other notation (TOML or JSON)
     Convert(convert::Args),
     /// Everything about an octahedral design: class, best joint-free platform, verdict, poses, pictures, report
@@ -69,6 +72,7 @@ impl Command {
         match self {
             Self::Bench(args) => bench::run(args, context),
             Self::Check(args) => check::run(args, context),
+            Self::Components(args) => components::run(args, context),
             Self::Convert(args) => convert::run(args, context),
             Self::Explore(args) => explore::run(args, context),
             Self::Family(args) => family::run(args, context),

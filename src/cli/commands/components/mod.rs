@@ -1,0 +1,94 @@
+//! `equipod components`: the families of replaceable legs of a design.
+
+mod figure;
+mod record;
+mod text;
+
+use std::path::PathBuf;
+
+use serde_json::{Map, Value, json};
+
+use crate::cli::context::Context;
+use crate::cli::exit::Exit;
+use crate::cli::failure::Failure;
+use crate::cli::files;
+use crate::cli::output::{Answer, number};
+use crate::num::Rng;
+use crate::synthesis::components::{
+    Component, ComponentOptions, Components, ComponentsError, SampledLeg, components,
+};
+
+/// Arguments of `components`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Design file (.toml or .json)
+    design: PathBuf,
+    /// Only this family, counted from 1
+    #[arg(long, value_name = "K")]
+    component: Option<usize>,
+    /// Random legs drawn from each family
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=10_000))]
+    sample: u64,
+    /// Write a picture of the curves in two planes
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// What counts as zero, relative to the size of the body
+    #[arg(long, value_name = "X", default_value_t = 1e-9)]
+    tolerance: f64,
+}
+
+/// Lists the families.
+pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+    let design = context.load(&args.design)?;
+    let options = ComponentOptions { tolerance: args.tolerance, seed: context.seed() };
+    let found = components(design.manipulator(), options).map_err(|e| match e {
+        ComponentsError::Tolerance(_) => Failure::refused("components::bad_tolerance", e.to_string()),
+        _ => Failure::internal(e.to_string()),
+    })?;
+    let count = found.components.len();
+    if let Some(k) = args.component.filter(|k| *k == 0 || *k > count) {
+        let message = format!("{} has {count} families, there is no number {k}", design.name);
+        return Err(Failure::refused("components::no_such_family", message));
+    }
+    if let Some(path) = &args.svg {
+        let Some(picture) = figure::picture(&design, &found, context.seed()) else {
+            let failure = Failure::refused("components::no_planes", figure::refusal(&found));
+            return Err(failure.with_help("leave out --svg: the picture shows two planes with their curves"));
+        };
+        files::write_text(path, &picture)?;
+    }
+    let wanted: Vec<usize> =
+        (0..count).filter(|k| args.component.is_none_or(|wanted| wanted == k + 1)).collect();
+    let mut samples = Vec::new();
+    for k in &wanted {
+        samples.push(draw(&found, &found.components[*k], args.sample, context.seed(), *k)?);
+    }
+    let mut json = Map::new();
+    json.insert("name".into(), json!(design.name));
+    json.insert("tolerance".into(), number(options.tolerance));
+    json.insert("seed".into(), json!(options.seed));
+    record::summary(&mut json, &found);
+    let list: Vec<Value> =
+        wanted.iter().zip(&samples).map(|(k, s)| record::component(*k, &found.components[*k], s)).collect();
+    json.insert("components".into(), list.into());
+    let exit = if found.doubts.is_empty() { Exit::Yes } else { Exit::Inconclusive };
+    let text = text::table(&design, &found, &wanted, &samples);
+    Ok(Answer { exit, json, text })
+}
+
+/// Family `k` draws from a stream of its own: `--component` does not change what is drawn.
+fn draw(
+    found: &Components,
+    component: &Component,
+    count: u64,
+    seed: u64,
+    k: usize,
+) -> Result<Vec<SampledLeg>, Failure> {
+    let mut rng = Rng::stream(seed, k as u64);
+    let mut out = Vec::new();
+    for _ in 0..count {
+        let leg = component.sample(&found.span, &mut rng);
+        out.extend(leg.map_err(|e| Failure::internal(e.to_string()))?);
+    }
+    Ok(out)
+}

@@ -1,0 +1,134 @@
+//! A family of replaceable legs as it is handed out.
+
+use super::decision::Decision;
+use super::parametrisation::Parametrisation;
+use super::spectrum::real_roots;
+use crate::manipulator::{Leg, LegIndex};
+use crate::num::Rng;
+use crate::num::linalg::LinalgError;
+use crate::synthesis::leg_vector::LegSpan;
+
+/// The name of a flat by its dimension.
+#[must_use]
+pub fn flat_name(dimension: usize) -> &'static str {
+    match dimension {
+        0 => "point",
+        1 => "line",
+        2 => "plane",
+        _ => "space",
+    }
+}
+
+/// What kind of curve or surface of legs a family is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum FamilyKind {
+    /// Every leg between two flats.
+    AllPairs,
+    /// For every point of a line of one body a flat of points of the other; polynomials of these degrees.
+    OverLine,
+    /// As `OverLine` for the points of a conic.
+    OverConic,
+    /// One partner for every point of a plane.
+    OverPlane,
+    /// A plane cubic that does not split, and its partner.
+    OverCubic,
+}
+
+impl FamilyKind {
+    /// The name used in JSON.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::AllPairs => "all_pairs",
+            Self::OverLine => "over_line",
+            Self::OverConic => "over_conic",
+            Self::OverPlane => "over_plane",
+            Self::OverCubic => "over_cubic",
+        }
+    }
+}
+
+/// One irreducible family of replaceable legs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Component {
+    /// How the ends are paired.
+    pub kind: FamilyKind,
+    /// Dimension of the flat that its base ends span.
+    pub base_span: usize,
+    /// Dimension of the flat that its platform ends span.
+    pub platform_span: usize,
+    /// Dimension.
+    pub dimension: usize,
+    /// Legs of the manipulator that belong to the family.
+    pub legs: Vec<LegIndex>,
+    /// Legs whose squared lengths its legs are combinations of.
+    pub support: Vec<LegIndex>,
+    /// Formulas.
+    pub parametrisation: Parametrisation,
+    /// `Some(true)`: the doubles of the design, taken as rational numbers, have this family; `Some(false)`: it exists
+    /// within the tolerance only; `None`: found in floating point and not decided exactly.
+    pub exact: Option<bool>,
+    /// The numbers that decided.
+    pub decisions: Vec<Decision>,
+    /// Indices of the larger families that contain it.
+    pub contained_in: Vec<usize>,
+    /// Parameters at which an end is at infinity, for rational families with one parameter.
+    pub at_infinity: Vec<f64>,
+}
+
+/// A leg drawn from a family, with its check.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SampledLeg {
+    /// The leg.
+    pub leg: Leg,
+    /// Its parameters.
+    pub parameters: Vec<f64>,
+    /// Coefficients of its vector in those of the six legs (the shortest ones when these are dependent).
+    pub coefficients: [f64; 6],
+    /// Distance of its vector from the span of the six over its length.
+    pub residual: f64,
+}
+
+impl Component {
+    /// `"point-line"` and the like: the smaller flat first.
+    #[must_use]
+    pub fn type_name(&self) -> String {
+        let (low, high) = (self.base_span.min(self.platform_span), self.base_span.max(self.platform_span));
+        format!("{}-{}", flat_name(low), flat_name(high))
+    }
+
+    /// A random leg at moderate parameters with both ends within a few sizes of the joints; `None` when none was found
+    /// in 200 attempts, because the family has no real leg there.
+    ///
+    /// # Errors
+    /// When a singular value decomposition does not converge.
+    pub fn sample(&self, span: &LegSpan, rng: &mut Rng) -> Result<Option<SampledLeg>, LinalgError> {
+        for _ in 0..200 {
+            let parameters: Vec<f64> = (0..self.parametrisation.parameters())
+                .map(|_| match self.kind {
+                    FamilyKind::OverCubic => rng.uniform(0.0, 2.0),
+                    FamilyKind::OverConic => (rng.uniform(-1.45, 1.45)).tan(),
+                    _ => rng.uniform(-0.75, 1.75),
+                })
+                .collect();
+            let Some(leg) = self.parametrisation.leg_at(&parameters)? else { continue };
+            let n = span.normalisation();
+            let reach = n.apply(&leg);
+            if reach.base.coords.norm().max(reach.platform.coords.norm()) < 6.0 {
+                let (coefficients, residual) = (span.coefficients(&leg), span.distance(&leg));
+                return Ok(Some(SampledLeg { leg, parameters, coefficients, residual }));
+            }
+        }
+        Ok(None)
+    }
+}
+
+/// Parameters at which a rational family with one parameter leaves for infinity.
+pub(super) fn infinite_parameters(p: &Parametrisation) -> Result<Vec<f64>, LinalgError> {
+    let Parametrisation::Rational { parameters: 1, base, platform } = p else { return Ok(Vec::new()) };
+    let mut out = real_roots(&base.denominator())?;
+    out.extend(real_roots(&platform.denominator())?);
+    out.sort_by(f64::total_cmp);
+    Ok(out)
+}

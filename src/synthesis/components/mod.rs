@@ -1,0 +1,254 @@
+//! All families of replaceable legs of a design.
+//!
+//! The squared length of a leg `(a, b)` is an affine function of those of the six legs exactly when
+//! `(1, a) (x) (1, b)` lies in the span of `v_1, .., v_6` (see [`leg_vector`](super::leg_vector())); then the leg may replace
+//! one of those it is a combination of. These legs are a variety, and this module lists its components of positive
+//! dimension with formulas, together with what they are contained in.
+//!
+//! A combination of `k'` independent legs, all of them used, that is a leg between flats of dimensions `i` and `j` spanned
+//! by these legs needs `k' >= i + j + 1` (Sylvester's inequality for the rank of `sum c_l (1, a_l) (1, b_l)^T`). So for six
+//! legs only these pairs of flats have to be looked at: a point and any flat; two lines (`k' = 3, 4`); line and plane
+//! (4, 5, 6); line and space (5, 6); two planes (5, 6); plane and space (6). Proofs and formulas: `docs/theory/components.md`.
+
+mod collect;
+mod component;
+mod curves;
+mod decision;
+mod exact;
+mod flat;
+mod form;
+mod found;
+mod isolated;
+mod kernel;
+mod modular;
+mod pairs;
+mod parametrisation;
+mod plane_pair;
+mod planes;
+mod product;
+mod search;
+mod shape;
+mod spectrum;
+#[cfg(test)]
+mod tests;
+
+use thiserror::Error;
+
+pub use component::{Component, FamilyKind, SampledLeg, flat_name};
+pub use curves::{PartKind, SingularKind};
+pub use decision::{Decision, Question};
+pub use pairs::Reading;
+pub use parametrisation::{CubicPencil, MovingPoint, Parametrisation};
+pub use plane_pair::{CurvePart, Partners, PlaneCurve, PlanePair, SingularPoint, curve_value};
+
+use self::exact::ExactLegs;
+use self::pairs::{ClosedPair, Ends, closed_pairs};
+use self::search::Search;
+use super::leg_vector::{LegSpan, Normalisation};
+use crate::manipulator::{LegIndex, Manipulator};
+use crate::num::Rng;
+use crate::num::linalg::LinalgError;
+
+/// Limits of [`components`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ComponentOptions {
+    /// Singular values, distances and residuals below this, relative to the size of the body, the largest singular value or
+    /// the norm of the equation, count as zero in the numerical reading.
+    pub tolerance: f64,
+    /// Seed of the generic points.
+    pub seed: u64,
+}
+
+impl Default for ComponentOptions {
+    /// `1e-9`, seed 1.
+    fn default() -> Self {
+        Self { tolerance: 1e-9, seed: 1 }
+    }
+}
+
+/// Why there is no answer.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ComponentsError {
+    /// The tolerance is not between 0 and 1/10.
+    #[error("the tolerance {0} is not between 1e-14 and 0.1")]
+    Tolerance(f64),
+    /// A decomposition failed.
+    #[error(transparent)]
+    Linalg(#[from] LinalgError),
+    /// A coordinate is not finite.
+    #[error("a joint has a coordinate that is not a finite number")]
+    NonFinite,
+}
+
+/// A pair of flats that its legs span, and what was decided about it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FlatPair {
+    /// The legs between the two flats.
+    pub legs: Vec<LegIndex>,
+    /// Dimension of the base flat.
+    pub base: usize,
+    /// Dimension of the platform flat.
+    pub platform: usize,
+    /// Rank of the leg vectors.
+    pub rank: usize,
+    /// `k' - 1 - i j`, or `i + j` where every pair of points is replaceable.
+    pub expected_dimension: isize,
+    /// Largest dimension of a family found between the flats.
+    pub dimension: usize,
+    /// Which reading of the joints has it.
+    pub reading: Reading,
+    /// Dimensions and rank with their gaps.
+    pub decisions: Vec<Decision>,
+}
+
+/// All families of a design.
+#[derive(Debug, Clone)]
+pub struct Components {
+    /// Irreducible families of dimension 1 or more, with those that are contained in others.
+    pub components: Vec<Component>,
+    /// The pairs of flats that were looked at.
+    pub pairs: Vec<FlatPair>,
+    /// Pairs of planes with their curves.
+    pub planes: Vec<PlanePair>,
+    /// Rank of the six leg vectors.
+    pub leg_rank: Decision,
+    /// Whether the list is known to be complete (in the numerical reading), and if not why.
+    pub doubts: Vec<String>,
+    /// The span of the six legs, for sampling.
+    pub span: LegSpan,
+    /// The limits used.
+    pub options: ComponentOptions,
+}
+
+/// All families of replaceable legs of `m`.
+///
+/// Every rank is decided twice: exactly, on the doubles as rational numbers, and within the tolerance; the families of both
+/// readings are listed, and each says which it belongs to ([`Component::exact`]).
+///
+/// # Errors
+/// [`ComponentsError`].
+///
+/// ```
+/// use equipod::manipulator::{Leg, Manipulator};
+/// use equipod::synthesis::components::{ComponentOptions, components};
+/// use nalgebra::Point3;
+/// let joint = |r: f64, k: u32| {
+///     let (s, c) = (std::f64::consts::TAU * f64::from(k) / 3.0).sin_cos();
+///     Point3::new(r * c, r * s, 0.0)
+/// };
+/// let hexagon = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
+/// let legs = hexagon.map(|(i, j)| Leg { base: joint(2.0, i), platform: joint(1.0, j) });
+/// let found = components(&Manipulator::from_legs(legs)?, ComponentOptions::default())?;
+/// let lines = found.components.iter().filter(|c| c.type_name() == "point-line").count();
+/// assert_eq!((found.components.len(), lines), (6, 6)); // the sides of the hexagon, and nothing else
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn components(m: &Manipulator, options: ComponentOptions) -> Result<Components, ComponentsError> {
+    if !(1e-14..=0.1).contains(&options.tolerance) {
+        return Err(ComponentsError::Tolerance(options.tolerance));
+    }
+    let n = Normalisation::of(m);
+    let legs = m.legs();
+    let scaled = legs.map(|l| n.apply(&l));
+    let ends = Ends {
+        base: scaled.map(|l| l.base.coords),
+        platform: scaled.map(|l| l.platform.coords),
+        exact: ExactLegs::of(&legs).ok_or(ComponentsError::NonFinite)?,
+        design: legs,
+        tolerance: options.tolerance,
+    };
+    let span = LegSpan::of(m, options.tolerance)?;
+    let mut pairs = closed_pairs(&ends)?;
+    // families of the exact data first: what exists within the tolerance only is compared with them
+    pairs.sort_by_key(|p| (p.reading == Reading::ToleranceOnly, p.base.min(p.platform), p.base + p.platform));
+    let mut search = Search {
+        ends: &ends,
+        span: &span,
+        rng: Rng::new(options.seed),
+        found: Vec::new(),
+        planes: Vec::new(),
+        doubts: Vec::new(),
+    };
+    for (index, pair) in pairs.iter().enumerate() {
+        search.pair(index, pair)?;
+    }
+    let all: Vec<usize> = (0..6).collect();
+    let whole = pairs::whole(&ends)?;
+    search.joints(&whole)?;
+    let mut planes = Vec::new();
+    for (index, base, platform) in std::mem::take(&mut search.planes) {
+        let pair = &pairs[index];
+        let (sides, rng) = ((&base, &platform), &mut search.rng);
+        let mut record = plane_pair::plane_pair(index, pair, sides, &n, options.tolerance, rng)?;
+        let exact = pair.reading != Reading::ToleranceOnly && pair.legs.len() == 6 && pair.rank == 6;
+        record.smooth = (exact && modular::proved_smooth(&legs)).then_some(true);
+        planes.push(record);
+    }
+    let components = ordered(&mut search)?;
+    let leg_rank = Decision::rank(
+        Question::LegRank,
+        &span.singular_values(),
+        span.singular_values()[0],
+        options.tolerance,
+    )
+    .beside(Some(ends.exact.leg_rank(&all)));
+    let doubts = search.doubts;
+    let pairs = pairs.iter().map(|p| record(p, &components)).collect();
+    Ok(Components { components, pairs, planes, leg_rank, doubts, span, options })
+}
+
+fn record(p: &ClosedPair, components: &[Component]) -> FlatPair {
+    let (i, j) = (p.base, p.platform);
+    let full = p.rank == (i + 1) * (j + 1);
+    let legs: Vec<LegIndex> = p.legs.iter().filter_map(|k| LegIndex::new(*k)).collect();
+    let inside = |c: &&Component| {
+        c.base_span <= i && c.platform_span <= j && c.support.iter().all(|l| legs.contains(l))
+    };
+    FlatPair {
+        dimension: components.iter().filter(inside).map(|c| c.dimension).max().unwrap_or(0),
+        legs,
+        base: i,
+        platform: j,
+        rank: p.rank,
+        expected_dimension: if full {
+            (i + j).cast_signed()
+        } else {
+            p.rank.cast_signed() - 1 - (i * j).cast_signed()
+        },
+        reading: p.reading,
+        decisions: p.decisions.clone(),
+    }
+}
+
+/// The families in a fixed order, with what contains them.
+fn ordered(search: &mut Search<'_>) -> Result<Vec<Component>, LinalgError> {
+    search.found.sort_by(|(_, a), (_, b)| {
+        let key = |c: &Component| {
+            let (low, high) = (c.base_span.min(c.platform_span), c.base_span.max(c.platform_span));
+            (low, high, c.dimension, c.exact == Some(false), c.base_span, c.legs.clone(), c.support.clone())
+        };
+        key(a).cmp(&key(b))
+    });
+    let limit = (10.0 * search.ends.tolerance).max(1e-8);
+    let count = search.found.len();
+    for k in 0..count {
+        let component = search.found[k].1.clone();
+        let samples = search.samples(&component, 4)?;
+        let mut inside = Vec::new();
+        for (l, (found, other)) in search.found.iter().enumerate() {
+            if other.dimension <= component.dimension || samples.is_empty() {
+                continue;
+            }
+            let mut all = true;
+            for (a, b) in &samples {
+                all &= found.shape.distance(a, b) <= limit;
+            }
+            if all {
+                inside.push(l);
+            }
+        }
+        search.found[k].1.contained_in = inside;
+    }
+    Ok(search.found.iter().map(|(_, c)| c.clone()).collect())
+}

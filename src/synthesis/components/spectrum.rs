@@ -1,0 +1,122 @@
+//! Ranks, kernels and least squares by singular values.
+
+use crate::num::linalg::{LinalgError, svd};
+
+/// Singular values and right singular vectors of a matrix with `n` columns.
+#[derive(Debug, Clone)]
+pub(super) struct Spectrum {
+    /// Singular values, largest first, padded with zeros to `n` entries.
+    pub(super) values: Vec<f64>,
+    /// Right singular vectors, one an entry, in the order of `values`: an orthonormal basis of `R^n`.
+    pub(super) vectors: Vec<Vec<f64>>,
+}
+
+impl Spectrum {
+    /// Of the matrix with these rows; none at all is the zero matrix.
+    pub(super) fn of(rows: &[Vec<f64>], n: usize) -> Result<Self, LinalgError> {
+        if rows.is_empty() || n == 0 {
+            let unit = |k: usize| (0..n).map(|i| if i == k { 1.0 } else { 0.0 }).collect();
+            return Ok(Self { values: vec![0.0; n], vectors: (0..n).map(unit).collect() });
+        }
+        let d = svd(rows)?;
+        let mut values = d.s;
+        values.resize(n, 0.0);
+        let vectors = (0..n).map(|k| d.v.iter().map(|row| row[k]).collect()).collect();
+        Ok(Self { values, vectors })
+    }
+
+    /// Number of singular values above `limit`.
+    pub(super) fn rank(&self, limit: f64) -> usize {
+        self.values.iter().filter(|s| **s > limit).count()
+    }
+
+    /// Vectors that belong to all but the first `rank` singular values.
+    pub(super) fn kernel(&self, rank: usize) -> &[Vec<f64>] {
+        &self.vectors[rank.min(self.vectors.len())..]
+    }
+
+    /// Vectors that belong to the first `rank` singular values.
+    pub(super) fn image(&self, rank: usize) -> &[Vec<f64>] {
+        &self.vectors[..rank.min(self.vectors.len())]
+    }
+}
+
+/// Inner product.
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
+
+/// Euclidean norm.
+pub(super) fn norm(a: &[f64]) -> f64 {
+    dot(a, a).sqrt()
+}
+
+/// `a` over its norm; zero stays zero.
+pub(super) fn unit(a: &[f64]) -> Vec<f64> {
+    let n = norm(a);
+    if n > 0.0 { a.iter().map(|x| x / n).collect() } else { a.to_vec() }
+}
+
+/// What is left of `a` without its parts along an orthonormal system.
+pub(super) fn without(a: &[f64], system: &[Vec<f64>]) -> Vec<f64> {
+    let mut rest = a.to_vec();
+    for _ in 0..2 {
+        for e in system {
+            let along = dot(&rest, e);
+            rest.iter_mut().zip(e).for_each(|(x, y)| *x -= along * y);
+        }
+    }
+    rest
+}
+
+/// An orthonormal basis of the span of `vectors`, leaving out what is shorter than `limit` of its vector.
+pub(super) fn orthonormal(vectors: &[Vec<f64>], limit: f64) -> Vec<Vec<f64>> {
+    let mut basis: Vec<Vec<f64>> = Vec::new();
+    for v in vectors {
+        let rest = without(&unit(v), &basis);
+        if norm(&rest) > limit {
+            basis.push(unit(&rest));
+        }
+    }
+    basis
+}
+
+/// The shortest `x` that minimises `|sum_k x_k columns_k - target|`, and that distance over `|target|`.
+pub(super) fn least_squares(columns: &[Vec<f64>], target: &[f64]) -> Result<(Vec<f64>, f64), LinalgError> {
+    // rows of the transposed system: left singular vectors of it are the coefficients
+    let d = svd(columns)?;
+    let top = d.s.first().copied().unwrap_or(0.0);
+    let mut x = vec![0.0; columns.len()];
+    for (k, s) in d.s.iter().enumerate().filter(|(_, s)| **s > 1e-14 * top) {
+        let along: f64 = target.iter().zip(&d.v).map(|(t, row)| t * row[k]).sum::<f64>() / s;
+        x.iter_mut().zip(&d.u).for_each(|(c, row)| *c += along * row[k]);
+    }
+    let mut rest = target.to_vec();
+    for (c, column) in x.iter().zip(columns) {
+        rest.iter_mut().zip(column).for_each(|(r, y)| *r -= c * y);
+    }
+    let size = norm(target);
+    Ok((x, if size > 0.0 { norm(&rest) / size } else { 0.0 }))
+}
+
+/// Real roots of `c[0] + c[1] x + ..`, those of a leading coefficient below `1e-13` of the largest left out.
+pub(super) fn real_roots(c: &[f64]) -> Result<Vec<f64>, LinalgError> {
+    let size = c.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+    let Some(degree) = c.iter().rposition(|x| x.abs() > 1e-13 * size) else { return Ok(Vec::new()) };
+    if degree == 0 || size <= 0.0 {
+        return Ok(Vec::new());
+    }
+    let companion: Vec<Vec<f64>> = (0..degree)
+        .map(|i| {
+            let mut row: Vec<f64> = (0..degree).map(|j| if j + 1 == i { 1.0 } else { 0.0 }).collect();
+            row[degree - 1] -= c[i] / c[degree];
+            row
+        })
+        .collect();
+    let roots = crate::num::linalg::eigenvalues(&companion)?;
+    // a double root comes out as a pair with imaginary parts of the square root of rounding
+    let near = |z: &f64, im: f64| im.abs() <= 1e-6 * (1.0 + z.abs());
+    let mut real: Vec<f64> = roots.iter().filter(|z| near(&z.re, z.im)).map(|z| z.re).collect();
+    real.sort_by(f64::total_cmp);
+    Ok(real)
+}

@@ -1,0 +1,98 @@
+//! The process `equipod components`.
+
+use serde_json::Value;
+
+use super::cli_frame::{document, equipod};
+
+fn of(design: &str, more: &[&str]) -> Value {
+    let path = format!("designs/{design}.toml");
+    let mut args = vec!["components", path.as_str(), "--json"];
+    args.extend(more);
+    let out = equipod(&args);
+    assert_eq!(out.status.code(), Some(0), "{design}: {}", String::from_utf8_lossy(&out.stderr));
+    document(&out)
+}
+
+fn types(doc: &Value) -> Vec<&str> {
+    doc["components"].as_array().unwrap().iter().map(|c| c["type"].as_str().unwrap()).collect()
+}
+
+#[test]
+fn the_octahedral_platform_has_the_six_sides_of_the_hexagon() {
+    let doc = of("rbt-octahedral", &["--sample", "3"]);
+    assert_eq!(types(&doc), ["point-line"; 6]);
+    assert_eq!(
+        (doc["count"].as_u64(), doc["complete"].as_bool(), doc["leg_rank"].as_u64()),
+        (Some(6), Some(true), Some(6))
+    );
+    for family in doc["components"].as_array().unwrap() {
+        assert_eq!(family["exact"], true);
+        assert_eq!(family["legs"], family["support"]);
+        for s in family["samples"].as_array().unwrap() {
+            let used =
+                s["coefficients"].as_array().unwrap().iter().filter(|c| c.as_f64().unwrap().abs() > 1e-9);
+            assert!(used.count() <= 2 && s["residual"].as_f64().unwrap() < 1e-14, "{s}");
+        }
+    }
+    // both cubics are the product of the three edges, and at the corners a whole line corresponds
+    for body in ["base", "platform"] {
+        let curve = &doc["planes"][0][body];
+        let kinds: Vec<&str> =
+            curve["parts"].as_array().unwrap().iter().map(|p| p["kind"].as_str().unwrap()).collect();
+        assert_eq!(kinds, ["line"; 3]);
+        let corners = curve["singular_points"].as_array().unwrap();
+        assert_eq!(corners.len(), 3);
+        assert!(corners.iter().all(|s| s["kind"] == "crossing" && s["line_of_partners"] == true));
+    }
+    // a family is the move of the paper: t = 0 and t = 1 are its two legs, 0.2 a fifth of the edge
+    let slide = &doc["components"][3]["parametrisation"]["base"];
+    assert_eq!(slide[0]["coefficient"], serde_json::json!([1.0, 0.0, 0.0, 0.0]));
+    assert_eq!(slide[1]["coefficient"], serde_json::json!([0.0, 6.0, 10.392304845413264, 0.0]));
+}
+
+#[test]
+fn every_shipped_design() {
+    for (design, wanted) in [
+        ("general-6-6", vec![]),
+        ("dietmaier", vec![]),
+        ("lee-shim", vec![]),
+        ("innocenti-6-4", vec!["point-line"; 2]),
+        ("symmetric-hexapod", vec!["plane-plane"]),
+    ] {
+        let doc = of(design, &["--sample", "2"]);
+        assert_eq!(types(&doc), wanted, "{design}");
+    }
+    // rounded to a micrometre the hexapod's cubic is smooth, which is proved
+    let doc = of("symmetric-hexapod", &[]);
+    assert_eq!(doc["planes"][0]["smooth"], true);
+    assert_eq!(doc["planes"][0]["base"]["parts"][0]["kind"], "cubic");
+    // the joint-free platform has the six sides again, over corners that are no joints of it, within the tolerance
+    let doc = of("rbt-griffis-duffy", &[]);
+    let lines = doc["components"].as_array().unwrap().iter().filter(|c| c["type"] == "point-line");
+    assert_eq!(lines.count(), 6);
+}
+
+#[test]
+fn one_family_and_a_picture() {
+    let folder = tempfile::tempdir().unwrap();
+    let svg = folder.path().join("curves.svg");
+    let more = ["--component", "1", "--sample", "2", "--svg", svg.to_str().unwrap()];
+    let doc = of("symmetric-hexapod", &more);
+    assert_eq!(
+        (doc["components"].as_array().unwrap().len(), doc["components"][0]["component"].as_u64()),
+        (1, Some(1))
+    );
+    assert_eq!(doc, of("symmetric-hexapod", &more), "the same seed, the same legs");
+    let picture = std::fs::read_to_string(svg).unwrap();
+    assert!(picture.starts_with("<svg") && picture.matches("class=\"mark\"").count() == 12);
+    assert_eq!(picture.matches("class=\"hollow\"").count(), 16);
+    let out = equipod(&["components", "designs/dietmaier.toml", "--json", "--svg", "x.svg"]);
+    assert_eq!(document(&out)["error"]["code"], "components::no_planes");
+    let out = equipod(&["components", "designs/dietmaier.toml", "--json", "--component", "1"]);
+    assert_eq!(document(&out)["error"]["code"], "components::no_such_family");
+    let out = equipod(&["components", "designs/dietmaier.toml", "--json", "--tolerance", "0.5"]);
+    assert_eq!(
+        (out.status.code(), document(&out)["error"]["code"].as_str()),
+        (Some(2), Some("components::bad_tolerance"))
+    );
+}
