@@ -6,6 +6,7 @@
 mod batch;
 mod bounds;
 mod choose;
+mod closure;
 mod cluster;
 mod collect;
 mod dependent;
@@ -23,6 +24,7 @@ mod template;
 pub(crate) use batch::in_order;
 pub use batch::{BatchProblem, BatchResult, Threads, solve_batch, solve_problems};
 pub use choose::{Automatic, solver};
+pub use closure::{Closure, NoClosure, closure};
 pub use homotopy::Homotopy;
 use near::NeedsStart;
 pub use near::{NearEvidence, NearOptions, NearOutcome, NearSolver, WhyLost};

@@ -28,6 +28,10 @@ fn the_document_has_the_fields_of_the_contract() {
         assert_eq!(t["sequence"].as_array().unwrap().len() as u64 + 3, joints);
         assert!(matches!(t["finite_roots"].as_u64(), Some(8 | 16 | 24 | 32 | 40)), "{t}");
         assert_eq!(t["finite_roots_proved"], true, "{t}");
+        // thirty topologies have a closure polynomial, whose degree says the same
+        let closure =
+            if t["virtual_legs"].as_u64() < Some(2) { &t["finite_roots"] } else { &serde_json::Value::Null };
+        assert_eq!(&t["closure_degree"], closure, "{t}");
     }
     assert_eq!((list[0]["virtual_legs"].as_u64(), list[2]["decoupled"].as_bool()), (Some(3), Some(true)));
 }

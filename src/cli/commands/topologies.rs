@@ -14,6 +14,7 @@ use crate::cli::failure::Failure;
 use crate::cli::files;
 use crate::cli::output::Answer;
 use crate::design::Design;
+use crate::distance::{ClosureDegrees, generic_degrees};
 use crate::fk::{Completeness, FkOptions, ForwardKinematics, Homotopy};
 use crate::manipulator::{Manipulator, default_home};
 use crate::num::Rng;
@@ -43,6 +44,8 @@ struct Entry {
     decoupled: bool,
     poses: u32,
     proved: bool,
+    /// Of the closure polynomial of a random member, where at most one virtual leg is needed.
+    closure: Option<ClosureDegrees>,
 }
 
 /// Lists the catalogue, or the topology of one design.
@@ -96,7 +99,9 @@ fn entry(named: NamedTopology, members: u64, seed: u64) -> Result<Entry, Failure
     // a proved count is that of all generic members; without one, what was found most often
     let best = votes.into_iter().max_by_key(|(count, (times, proved))| (*proved, *times, *count));
     let (poses, (_, proved)) = best.unwrap_or_default();
-    Ok(Entry { named, sequence: t.trilateration(), decoupled: t.is_decoupled(), poses, proved })
+    let sequence = t.trilateration();
+    let closure = generic_degrees(&t.legs(), &sequence, seed).ok();
+    Ok(Entry { named, sequence, decoupled: t.is_decoupled(), poses, proved, closure })
 }
 
 /// Numbers of topologies by virtual legs needed.
@@ -138,11 +143,16 @@ fn record(e: &Entry) -> Value {
         "virtual_legs": e.sequence.virtual_legs.len(), "virtual_leg_joints": pairs(&e.sequence.virtual_legs),
         "decoupled": e.decoupled, "start": e.sequence.start.map(joint_name), "sequence": steps.collect::<Value>(),
         "finite_roots": e.poses, "finite_roots_proved": e.proved,
+        "closure_degree": e.closure.as_ref().map(|c| c.after),
+        "closure_degree_before": e.closure.as_ref().map(|c| c.before),
+        "closure_distinct_roots": e.closure.as_ref().map(|c| c.distinct),
     })
 }
 
 fn table(text: &mut String, entries: &[Entry]) {
-    text.push_str("id   name  legs                                    poses  proved  virtual legs\n");
+    text.push_str(
+        "id   name  legs                                    poses  proved  closure degree  virtual legs\n",
+    );
     for e in entries {
         let name = |(a, b): &(usize, usize)| format!("A{}B{}", a + 1, b + 1);
         let legs: Vec<String> = e.named.topology().legs().iter().map(name).collect();
@@ -150,12 +160,13 @@ fn table(text: &mut String, entries: &[Entry]) {
         let kind = if e.decoupled { " (decoupled)" } else { "" };
         let _ = writeln!(
             text,
-            "{:<4} {:<5} {:<39} {:>5}  {:<6}  {}{}{kind}",
+            "{:<4} {:<5} {:<39} {:>5}  {:<6}  {:<14}  {}{}{kind}",
             e.named.id(),
             e.named.name(),
             legs.join(" "),
             e.poses,
             if e.proved { "yes" } else { "no" },
+            e.closure.as_ref().map_or("-".to_string(), |c| format!("{} from {}", c.after, c.before)),
             chosen.len(),
             if chosen.is_empty() { String::new() } else { format!(": {}", chosen.join(" ")) }
         );

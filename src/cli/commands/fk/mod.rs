@@ -1,5 +1,6 @@
 //! `equipod fk`: all poses for given leg lengths.
 
+mod closure;
 pub(super) mod lengths;
 mod near;
 mod render;
@@ -84,8 +85,14 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         Given::One(l) => {
             let solutions = solve(method, m, &l, &options)?;
             let exit = exit_of(&solutions);
-            let json = render::json(&solutions);
-            Ok(Answer { exit, json, text: render::text(&design.name, &solutions) })
+            let mut json = render::json(&solutions);
+            let mut text = render::text(&design.name, &solutions);
+            if args.method == MethodArg::Trilateration {
+                let found = fk::closure(m, &l.squared(), &solutions);
+                json.insert("closure".into(), closure::json(&design, &found));
+                text.push_str(&closure::text(&design, &found));
+            }
+            Ok(Answer { exit, json, text })
         }
         Given::Rows(rows) => Ok(many(method, m, &rows, &options, threads(args.threads), context.json())),
     }
