@@ -7,6 +7,7 @@ mod batch;
 mod bounds;
 mod choose;
 mod closure;
+mod closure_poses;
 mod cluster;
 mod collect;
 mod dependent;

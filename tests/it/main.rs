@@ -18,6 +18,7 @@ mod cli_singularities;
 mod cli_synthesis;
 mod cli_topologies;
 mod cli_verify;
+mod closure;
 mod completeness;
 mod design_files;
 mod documents;

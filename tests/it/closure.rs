@@ -1,0 +1,83 @@
+//! The two examples of Porta and Thomas by their exact closure polynomials, against the certified poses.
+
+use equipod::design::{Design, Format, parse};
+use equipod::distance::{closure_degrees, closure_polynomial, plans};
+use equipod::fk::{Closure, Completeness, FkOptions, FkSolutions, ForwardKinematics, Homotopy, closure};
+use equipod::manipulator::{Leg, Manipulator, SquaredLegLengths};
+use equipod::poly::{RealRoot, complex_roots};
+
+fn design(name: &str) -> Design {
+    let path = format!("{}/designs/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    parse(&std::fs::read_to_string(path).unwrap(), Format::Toml).unwrap().0
+}
+
+fn solve(m: &Manipulator, s: &SquaredLegLengths) -> (FkSolutions, Closure) {
+    let found = Homotopy.solve(m, s, &FkOptions::default()).unwrap();
+    assert!(
+        matches!(found.completeness, Completeness::Proved { .. }) && found.roots.iter().all(|r| r.certified)
+    );
+    let closure = closure(m, s, &found).unwrap();
+    (found, closure)
+}
+
+/// Finite and real poses of both, and the real poses proved by the polynomial.
+fn counts(m: &Manipulator, s: &SquaredLegLengths) -> (usize, usize, Option<usize>) {
+    let (found, closure) = solve(m, s);
+    assert_eq!(closure.degrees.after, found.roots.len());
+    (found.roots.len(), found.assembly_modes().count(), closure.real_count())
+}
+
+#[test]
+fn the_decoupled_example_has_ten_real_poses_of_sixteen() {
+    let d = design("porta-thomas-1");
+    let (m, s) = (d.manipulator(), d.lengths.unwrap().squared());
+    assert_eq!(counts(m, &s), (16, 10, Some(10)));
+    // the polynomial in s_bg of the paper, from degree 40
+    let (b, g) = (joint(d.base_names(), "b"), joint(d.platform_names(), "g"));
+    let plan = plans(m, 1).unwrap().into_iter().find(|p| p.virtual_legs == [(b, g)]).unwrap();
+    let c = closure_polynomial(m, &s, &plan).unwrap();
+    let degrees = closure_degrees(m, &s, &plan).unwrap();
+    assert_eq!((degrees.before, degrees.after, c.real_roots.len()), (40, 16, 10));
+    let sum: f64 = complex_roots(&c.polynomial, 60).unwrap().iter().map(|z| z.to_complex64().re).sum();
+    assert!((sum - 1827.466).abs() < 5e-4, "{sum}");
+}
+
+#[test]
+fn the_coupled_example_has_ten_real_poses_as_printed_and_eight_with_exact_squares() {
+    let d = design("innocenti-6-4");
+    let m = d.manipulator();
+    assert_eq!(counts(m, &d.lengths.unwrap().squared()), (32, 10, Some(10)));
+    let exact = SquaredLegLengths::try_new([33.0, 11.0, 21.0, 29.0, 22.0, 21.0]).unwrap();
+    assert_eq!(counts(m, &exact), (32, 8, Some(8)));
+    // two of the eight are nearly one, in s_be
+    let (b, e) = (joint(d.base_names(), "b"), joint(d.platform_names(), "e"));
+    let plan = plans(m, 1).unwrap().into_iter().find(|p| p.virtual_legs == [(b, e)]).unwrap();
+    let roots: Vec<f64> =
+        closure_polynomial(m, &exact, &plan).unwrap().real_roots.iter().map(RealRoot::to_f64).collect();
+    assert_eq!(roots[2].to_bits(), 18f64.to_bits(), "the home pose");
+    assert!((roots[6] - 24.267_296).abs() < 1e-6 && (roots[7] - 24.290_641).abs() < 1e-6, "{roots:?}");
+    // every real pose is over its own root
+    let leg = Leg { base: m.base_joints()[b], platform: m.platform_joints()[e] };
+    let (found, _) = solve(m, &exact);
+    let mut values: Vec<f64> =
+        found.assembly_modes().map(|r| r.pose.real_part().squared_length(&leg)).collect();
+    values.sort_by(f64::total_cmp);
+    assert!(values.iter().zip(&roots).all(|(v, r)| (v - r).abs() < 1e-9));
+}
+
+#[test]
+fn nothing_is_claimed_without_the_number_of_all_poses() {
+    let d = design("innocenti-6-4");
+    let (m, s) = (d.manipulator(), d.lengths.unwrap().squared());
+    let mut found = Homotopy.solve(m, &s, &FkOptions::default()).unwrap();
+    found.completeness = Completeness::Unproved { reason: String::new(), all_paths_accounted: true };
+    assert_eq!(closure(m, &s, &found).unwrap().real_count(), None);
+    // nor with a wrong number
+    let mut found = Homotopy.solve(m, &s, &FkOptions::default()).unwrap();
+    found.roots.pop();
+    assert_eq!(closure(m, &s, &found).unwrap().real_count(), None);
+}
+
+fn joint(names: &[String], name: &str) -> usize {
+    names.iter().position(|n| n == name).unwrap()
+}
