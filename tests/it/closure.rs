@@ -52,6 +52,8 @@ fn the_coupled_example_has_ten_real_poses_as_printed_and_eight_with_exact_square
     // two of the eight are nearly one, in s_be
     let (b, e) = (joint(d.base_names(), "b"), joint(d.platform_names(), "e"));
     let plan = plans(m, 1).unwrap().into_iter().find(|p| p.virtual_legs == [(b, e)]).unwrap();
+    let degrees = closure_degrees(m, &exact, &plan).unwrap();
+    assert_eq!((degrees.before, degrees.after), (200, 32));
     let roots: Vec<f64> =
         closure_polynomial(m, &exact, &plan).unwrap().real_roots.iter().map(RealRoot::to_f64).collect();
     assert_eq!(roots[2].to_bits(), 18f64.to_bits(), "the home pose");
