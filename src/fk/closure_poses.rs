@@ -14,11 +14,13 @@ const BITS: u64 = 60;
 /// Residual below which an orientation is taken besides the best one.
 const CLOSE: f64 = 1e-6;
 
-/// Candidates for all poses: for each root of the exact closure polynomial of the first sequence that has one, the positions of its joints with that length, for
-/// the orientation of the steps that closes best, and for all others that close as well (mirror images). Not refined. Empty when there is no such sequence.
+/// Candidates for all finite poses: for each root of the exact closure polynomial of the first sequence that has one, the places of the joints with that length, in
+/// the orientation of the steps that closes best and in all others that close to a millionth (mirror images). Not refined, nothing is proved of them.
+/// Empty when more than one virtual leg is needed, or no sequence has a polynomial.
 ///
 /// Takes milliseconds to tenths of a second: for problems on which floating point fails because roots are close together or coefficients range widely.
-pub(super) fn exact_candidates(m: &Manipulator, s: &SquaredLegLengths) -> Vec<ComplexPose> {
+#[must_use]
+pub fn closure_candidates(m: &Manipulator, s: &SquaredLegLengths) -> Vec<ComplexPose> {
     let list = plans(m, 1).unwrap_or_default();
     let first = list.iter().find_map(|plan| closure_polynomial(m, s, plan).ok());
     let Some(closure) = first else { return Vec::new() };
@@ -90,7 +92,6 @@ mod tests {
     use crate::fk::{FkOptions, ForwardKinematics, Homotopy};
     use crate::topology::catalogue;
 
-    /// Distances between the bodies at which some roots are close: those of a pose, exactly.
     #[test]
     fn candidates_from_exact_roots_are_the_poses() {
         // trilaterable, decoupled, coupled, both bodies planar
@@ -107,7 +108,7 @@ mod tests {
             let m = Manipulator::try_new(base, platform, t.legs()).unwrap();
             let s = SquaredLegLengths::try_new([3.1, 2.9, 3.3, 2.7, 3.0, 3.2]).unwrap();
             let found = Homotopy.solve(&m, &s, &FkOptions::default()).unwrap();
-            let candidates = exact_candidates(&m, &s);
+            let candidates = closure_candidates(&m, &s);
             assert!(candidates.len() >= found.roots.len(), "T{number:02}: {}", candidates.len());
             let apart = |p: &ComplexPose, q: &ComplexPose| {
                 (p.rotation - q.rotation).map(Complex64::norm).amax()
@@ -128,6 +129,6 @@ mod tests {
         let (base, platform) = ((0..6).map(joint).collect(), (7..13).map(joint).collect());
         let m = Manipulator::try_new(base, platform, std::array::from_fn(|i| (i, i))).unwrap();
         let s = SquaredLegLengths::try_new([2.0; 6]).unwrap();
-        assert!(exact_candidates(&m, &s).is_empty());
+        assert!(closure_candidates(&m, &s).is_empty());
     }
 }

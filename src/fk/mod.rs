@@ -26,6 +26,7 @@ pub(crate) use batch::in_order;
 pub use batch::{BatchProblem, BatchResult, Threads, solve_batch, solve_problems};
 pub use choose::{Automatic, solver};
 pub use closure::{Closure, NoClosure, closure};
+pub use closure_poses::closure_candidates;
 pub use homotopy::Homotopy;
 use near::NeedsStart;
 pub use near::{NearEvidence, NearOptions, NearOutcome, NearSolver, WhyLost};
