@@ -10,7 +10,7 @@ use crate::design::Violation;
 pub(crate) struct Failure {
     /// The exit code.
     pub(crate) exit: Exit,
-    /// Stable code, `fk::method_not_available` for example.
+    /// Stable code, `fk::not_applicable` for example.
     pub(crate) code: String,
     /// One sentence.
     pub(crate) message: String,

@@ -6,6 +6,7 @@
 
 mod cayley_menger;
 mod exact;
+mod numeric;
 mod plan;
 mod scalar;
 
@@ -14,5 +15,6 @@ pub use exact::{
     ClosureDegrees, ClosureError, ClosurePolynomial, SingularFactor, closure_degrees, closure_polynomial,
     generic_degrees,
 };
-pub use plan::{NoPlan, plans};
+pub use numeric::{Configuration, Configurations, Evaluator, Shape};
+pub use plan::{NoPlan, fit, plans};
 pub use scalar::Scalar;

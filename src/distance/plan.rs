@@ -48,6 +48,13 @@ pub fn plans(m: &Manipulator, allowed: usize) -> Result<Vec<Sequence>, NoPlan> {
     Ok(ranked.into_iter().map(|r| r.2).collect())
 }
 
+/// A sequence of the legs of `m` with the fattest start triangle of this design, and the fatness of the leanest triangle that it needs;
+/// `None` when that is collinear.
+#[must_use]
+pub fn fit(m: &Manipulator, s: &Sequence) -> Option<(f64, Sequence)> {
+    fitted(m, s.clone())
+}
+
 /// Coordinates of a joint in the frame of its body.
 pub(crate) fn coordinates(m: &Manipulator, joint: Joint) -> Point3<f64> {
     match joint {

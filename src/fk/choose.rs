@@ -2,7 +2,7 @@
 
 use super::{
     FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, Method, NeedsStart, Octic, PreparedDesign,
-    Sylvester, Template,
+    Sylvester, Template, Trilateration,
 };
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 
@@ -16,6 +16,7 @@ pub fn solver(method: Option<Method>) -> Box<dyn ForwardKinematics> {
         Some(Method::Near) => Box::new(NeedsStart),
         Some(Method::Sylvester) => Box::new(Sylvester),
         Some(Method::Template) => Box::new(Template),
+        Some(Method::Trilateration) => Box::new(Trilateration::default()),
     }
 }
 

@@ -21,6 +21,7 @@ mod octic;
 mod solutions;
 mod sylvester;
 mod template;
+mod trilateration;
 
 pub(crate) use batch::in_order;
 pub use batch::{BatchProblem, BatchResult, Threads, solve_batch, solve_problems};
@@ -37,6 +38,7 @@ pub use solutions::{
 };
 pub use sylvester::Sylvester;
 pub use template::Template;
+pub use trilateration::Trilateration;
 
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use thiserror::Error;

@@ -18,6 +18,8 @@ pub enum Method {
     Sylvester,
     /// Elimination template and generalized eigenvectors (Martyushev); general six legs.
     Template,
+    /// Trilateration with no or one virtual leg (Porta, Thomas); 30 of the 34 joint-sharing topologies.
+    Trilateration,
 }
 
 impl Method {
@@ -30,6 +32,7 @@ impl Method {
             Self::Near => "near",
             Self::Sylvester => "sylvester",
             Self::Template => "template",
+            Self::Trilateration => "trilateration",
         }
     }
 }

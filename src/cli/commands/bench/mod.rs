@@ -55,6 +55,7 @@ enum MethodArg {
     Octic,
     Homotopy,
     Template,
+    Trilateration,
 }
 
 /// `--lengths-from`.
@@ -72,6 +73,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         MethodArg::Octic => Some(Method::Octic),
         MethodArg::Homotopy => Some(Method::Homotopy),
         MethodArg::Template => Some(Method::Template),
+        MethodArg::Trilateration => Some(Method::Trilateration),
     };
     let solver = fk::solver(method);
     if args.noise {

@@ -54,25 +54,21 @@ pub(super) enum MethodArg {
 
 impl MethodArg {
     /// The method of the library, `None` for its own choice.
-    pub(super) fn method(self) -> Result<Option<Method>, Failure> {
+    pub(super) fn method(self) -> Option<Method> {
         match self {
-            Self::Auto => Ok(None),
-            Self::Octic => Ok(Some(Method::Octic)),
-            Self::Homotopy => Ok(Some(Method::Homotopy)),
-            Self::Sylvester => Ok(Some(Method::Sylvester)),
-            Self::Template => Ok(Some(Method::Template)),
-            Self::Trilateration => {
-                let name = self.to_possible_value().map(|v| v.get_name().to_string()).unwrap_or_default();
-                let message = format!("the method `{name}` is not part of this version");
-                Err(Failure::refused("fk::method_not_available", message).with_help("take --method auto"))
-            }
+            Self::Auto => None,
+            Self::Octic => Some(Method::Octic),
+            Self::Homotopy => Some(Method::Homotopy),
+            Self::Trilateration => Some(Method::Trilateration),
+            Self::Sylvester => Some(Method::Sylvester),
+            Self::Template => Some(Method::Template),
         }
     }
 }
 
 /// Solves one problem or one for each row.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
-    let method = args.method.method()?;
+    let method = args.method.method();
     let design = context.load(&args.design)?;
     let given = lengths::given(args.lengths.as_deref(), design.lengths)?;
     if let Some(text) = &args.near {
@@ -172,17 +168,4 @@ pub(super) fn failure_of(error: &FkError) -> Failure {
 /// 0 when every path is accounted for, 3 when roots may be missing.
 fn exit_of(solutions: &FkSolutions) -> Exit {
     if solutions.all_accounted() { Exit::Yes } else { Exit::Inconclusive }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_method_that_is_not_built_is_refused_by_name() {
-        let failure = MethodArg::Trilateration.method().unwrap_err();
-        assert_eq!((failure.exit, failure.code.as_str()), (Exit::Refused, "fk::method_not_available"));
-        assert!(failure.message.contains("`trilateration`"));
-        assert_eq!(MethodArg::Auto.method().unwrap(), None);
-    }
 }

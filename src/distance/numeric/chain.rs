@@ -1,0 +1,280 @@
+//! A sequence as indices and numbers, and its evaluation.
+
+#![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
+
+use nalgebra::{Matrix3, Vector3};
+use num_complex::Complex64;
+
+use super::number::{Number, Places, Vector, along, cross, dot, minus, squared_distance};
+use crate::distance::plan::coordinates;
+use crate::geom::ComplexPose;
+use crate::manipulator::Manipulator;
+use crate::topology::{Joint, Sequence, Step};
+
+/// Places for six joints of the first body and three of the second.
+pub(super) const SLOTS: usize = 9;
+/// Where the three joints stand.
+pub(super) const THREE: usize = 6;
+
+/// Positions of joints, in the frame of the first body over the size.
+pub(super) type Positions<T> = [Vector<T>; SLOTS];
+
+/// A known squared distance.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Measured {
+    /// That of a leg, or with numbers from 6 on of a virtual leg whose length is given.
+    Leg(usize),
+    /// Within a body.
+    Fixed(f64),
+}
+
+impl Measured {
+    #[inline(always)]
+    pub(super) fn value(self, lengths: &[Complex64]) -> Complex64 {
+        match self {
+            Self::Leg(k) => lengths[k],
+            Self::Fixed(s) => Complex64::from(s),
+        }
+    }
+}
+
+/// An unoriented step with three known distances.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Placement {
+    pub(super) from: [usize; 3],
+    pub(super) distances: [Measured; 3],
+    pub(super) place: usize,
+}
+
+/// A step with a virtual leg whose length is unknown: the joint is on a circle about the line of two others.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Turn {
+    pub(super) axis: [usize; 2],
+    pub(super) distances: [Measured; 2],
+    pub(super) place: usize,
+    /// The other end of the virtual leg.
+    pub(super) virtual_end: usize,
+}
+
+/// The known distance that no step uses.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Closure {
+    /// Of two joints in place.
+    Pair([usize; 2], Measured),
+    /// Of a joint of the first body and one that is `y1 + a (y2 - y1) + b (y3 - y1) + c (y2 - y1) x (y3 - y1)`.
+    Rigid { at: usize, omega: [f64; 3], distance: Measured },
+}
+
+/// A sequence for one design.
+#[derive(Debug, Clone)]
+pub(super) struct Chain {
+    /// Joints of the first body over the size.
+    pub(super) first: Positions<Complex64>,
+    /// Steps that do not depend on the virtual leg.
+    pub(super) before: Vec<Placement>,
+    pub(super) turn: Option<Turn>,
+    pub(super) after: Vec<Placement>,
+    pub(super) closure: Option<Closure>,
+    /// Frame of the three joints in their body, inverted, and the first of them, over the size.
+    inverse: Matrix3<f64>,
+    origin: Vector3<f64>,
+    base_is_first: bool,
+    pub(super) size: f64,
+}
+
+/// Joints in their slots.
+struct Slots {
+    first: Vec<Joint>,
+    three: Vec<Joint>,
+}
+
+impl Slots {
+    fn of(&self, joint: Joint) -> Option<usize> {
+        let on_first = self.first.iter().position(|j| *j == joint);
+        on_first.or_else(|| self.three.iter().position(|j| *j == joint).map(|k| THREE + k))
+    }
+}
+
+impl Chain {
+    /// The sequence for `m`, with the lengths of the virtual legs `given` known and, when there is one more, that one to be found
+    /// from `closure`. `None` when the sequence is not of this kind.
+    pub(super) fn new(
+        m: &Manipulator,
+        s: &Sequence,
+        given: &[(usize, usize)],
+        closure: Option<[Joint; 2]>,
+    ) -> Option<Self> {
+        let size = m.size();
+        let local = |j: Joint| coordinates(m, j).coords / size;
+        let on_first = |j: &Joint| j.same_body(s.start[0]);
+        let placed = s.steps.iter().map(|t| t.place);
+        let first: Vec<Joint> = s.start.iter().copied().chain(placed.filter(on_first)).collect();
+        let three: Vec<Joint> = s.unoriented().map(|t| t.place).collect();
+        if first.len() > THREE || three.len() != 3 {
+            return None;
+        }
+        let slots = Slots { first, three };
+        let measured = |x: Joint, y: Joint| match x.across(y) {
+            None => Some(Measured::Fixed((local(x) - local(y)).norm_squared())),
+            Some(pair) => {
+                let leg = m.pairs().iter().position(|l| *l == pair);
+                leg.or_else(|| given.iter().position(|v| *v == pair).map(|k| 6 + k)).map(Measured::Leg)
+            }
+        };
+        let mut positions = [[Complex64::ZERO; 3]; SLOTS];
+        for (k, joint) in slots.first.iter().enumerate() {
+            positions[k] = std::array::from_fn(|i| Complex64::from(local(*joint)[i]));
+        }
+        let [a, b, c] = [0, 1, 2].map(|k| local(slots.three[k]));
+        let (u, v) = (b - a, c - a);
+        let inverse = Matrix3::from_columns(&[u, v, u.cross(&v)]).try_inverse()?;
+        let closure = match closure {
+            None => None,
+            Some([x, y]) => Some(closure_of(&slots, x, y, measured(x, y)?, &|j| inverse * (local(j) - a))?),
+        };
+        let mut chain = Self {
+            first: positions,
+            before: Vec::new(),
+            turn: None,
+            after: Vec::new(),
+            closure,
+            inverse,
+            origin: a,
+            base_is_first: matches!(s.start[0], Joint::Base(_)),
+            size,
+        };
+        for step in s.unoriented() {
+            chain.add(step, &slots, &measured)?;
+        }
+        (chain.turn.is_some() == chain.closure.is_some()).then_some(chain)
+    }
+
+    fn add(
+        &mut self,
+        step: &Step,
+        slots: &Slots,
+        measured: &impl Fn(Joint, Joint) -> Option<Measured>,
+    ) -> Option<()> {
+        let place = slots.of(step.place)?;
+        let mut known = Vec::new();
+        let mut open = Vec::new();
+        for f in step.from {
+            match measured(f, step.place) {
+                Some(d) => known.push((slots.of(f)?, d)),
+                None => open.push(slots.of(f)?),
+            }
+        }
+        match (known[..].as_ref(), open[..].as_ref()) {
+            ([x, y, z], []) => {
+                let placement = Placement { from: [x.0, y.0, z.0], distances: [x.1, y.1, z.1], place };
+                if self.turn.is_some() { self.after.push(placement) } else { self.before.push(placement) }
+            }
+            ([x, y], [virtual_end]) if self.turn.is_none() => {
+                let (axis, distances) = ([x.0, y.0], [x.1, y.1]);
+                self.turn = Some(Turn { axis, distances, place, virtual_end: *virtual_end });
+            }
+            _ => return None,
+        }
+        Some(())
+    }
+
+    /// The two places of a step.
+    #[inline(always)]
+    pub(super) fn places<T: Number>(step: &Placement, at: &Positions<T>, lengths: &[Complex64]) -> Places<T> {
+        let distances = step.distances.map(|d| T::constant(d.value(lengths)));
+        Places::of(step.from.map(|k| &at[k]), distances)
+    }
+
+    /// Computed less known squared distance of the closure.
+    #[inline(always)]
+    pub(super) fn defect<T: Number>(&self, at: &Positions<T>, lengths: &[Complex64]) -> Option<T> {
+        let (square, distance) = match self.closure? {
+            Closure::Pair([x, y], d) => (squared_distance(&at[x], &at[y]), d),
+            Closure::Rigid { at: x, omega, distance } => {
+                let (u, v) = (minus(&at[THREE + 1], &at[THREE]), minus(&at[THREE + 2], &at[THREE]));
+                let real = |c: f64| T::constant(Complex64::from(c));
+                let n = cross(&u, &v);
+                let here = along(&along(&at[THREE], real(omega[0]), &u), real(omega[1]), &v);
+                (squared_distance(&along(&here, real(omega[2]), &n), &at[x]), distance)
+            }
+        };
+        Some(square - T::constant(distance.value(lengths)))
+    }
+
+    /// The pose with the three joints in place, in design units.
+    pub(super) fn pose(&self, at: &Positions<Complex64>) -> ComplexPose {
+        let vector = |k: usize| Vector3::from(at[THREE + k]);
+        let (u, v) = (vector(1) - vector(0), vector(2) - vector(0));
+        let frame = Matrix3::from_columns(&[u, v, u.cross(&v)]);
+        let rotation = Matrix3::from_fn(|i, j| {
+            (0..3).map(|k| frame[(i, k)] * self.inverse[(k, j)]).fold(Complex64::ZERO, |x, y| x + y)
+        });
+        let o = &self.origin;
+        let turned =
+            Vector3::from_fn(|i, _| rotation[(i, 0)] * o.x + rotation[(i, 1)] * o.y + rotation[(i, 2)] * o.z);
+        let position = (vector(0) - turned) * Complex64::from(self.size);
+        if self.base_is_first {
+            return ComplexPose { rotation, position };
+        }
+        let rotation = rotation.transpose();
+        ComplexPose { rotation, position: -(rotation * position) }
+    }
+}
+
+/// The closure between `x` and `y` at a known distance; `omega` gives the place of a joint in the frame of the three.
+fn closure_of(
+    slots: &Slots,
+    x: Joint,
+    y: Joint,
+    distance: Measured,
+    omega: &impl Fn(Joint) -> Vector3<f64>,
+) -> Option<Closure> {
+    match (slots.of(x), slots.of(y)) {
+        (Some(i), Some(j)) => Some(Closure::Pair([i, j], distance)),
+        (Some(at), None) => Some(Closure::Rigid { at, omega: omega(y).into(), distance }),
+        (None, Some(at)) => Some(Closure::Rigid { at, omega: omega(x).into(), distance }),
+        (None, None) => None,
+    }
+}
+
+/// A circle `centre + w u + z / u`; real points for `|u| = 1` when everything is real.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Circle {
+    centre: Vector<Complex64>,
+    forth: Vector<Complex64>,
+    back: Vector<Complex64>,
+}
+
+impl Circle {
+    /// Points with squared distances `s` to two points; `None` when these are one or on an isotropic line.
+    pub(super) fn of(p: [&Vector<Complex64>; 2], s: [Complex64; 2]) -> Option<Self> {
+        let axis = minus(p[1], p[0]);
+        let square = dot(&axis, &axis);
+        let length: f64 = axis.iter().map(Complex64::norm_sqr).sum();
+        if !(square.norm() > 1e-12 * length) {
+            return None;
+        }
+        let t = (s[0] + square - s[1]).times(0.5) / square;
+        let radius = (s[0] - t * t * square).root();
+        // the coordinate direction farthest from the axis, made orthogonal to it
+        let k = (0..3).min_by(|i, j| axis[*i].norm_sqr().total_cmp(&axis[*j].norm_sqr()))?;
+        let mut e = [Complex64::ZERO; 3];
+        e[k] = Complex64::ONE;
+        let e = along(&e, Complex64::ZERO - axis[k] / square, &axis);
+        let e = e.map(|z| z / dot(&e, &e).sqrt());
+        let f = cross(&axis, &e).map(|z| z / square.sqrt());
+        let half = radius.times(0.5);
+        // cos = (u + 1/u) / 2, sin = (u - 1/u) / 2i
+        let forth = std::array::from_fn(|i| half * (e[i] - Complex64::I * f[i]));
+        let back = std::array::from_fn(|i| half * (e[i] + Complex64::I * f[i]));
+        Some(Self { centre: along(p[0], t, &axis), forth, back })
+    }
+
+    #[inline(always)]
+    pub(super) fn point<T: Number>(&self, u: T) -> Vector<T> {
+        let inverse = u.reciprocal();
+        std::array::from_fn(|i| {
+            T::constant(self.centre[i]) + T::constant(self.forth[i]) * u + T::constant(self.back[i]) * inverse
+        })
+    }
+}

@@ -1,0 +1,161 @@
+//! Trilateration sequences with no or one unknown virtual leg in floating point: all configurations.
+//!
+//! The joint at the end of the virtual leg has two other known distances, so that it turns on a circle. Its angle is a better unknown than
+//! the length of the virtual leg: `u = exp(i angle)` is a rational parameter of the first square root, and real configurations
+//! have `|u| = 1`. The closures of all orientations of the later steps multiplied together are a polynomial in `u` and `1/u` over powers
+//! of the Gram determinants of the steps' bases; values on `|u| = 1` give its coefficients, its zeros give one configuration each,
+//! made accurate by Newton's method on the closure itself. Theory: `docs/theory/trilateration.md`.
+
+mod branch;
+mod chain;
+mod number;
+mod shape;
+mod trigonometric;
+
+pub use shape::Shape;
+
+use num_complex::Complex64;
+
+use crate::geom::ComplexPose;
+use crate::manipulator::Manipulator;
+use crate::topology::{Joint, Sequence};
+use branch::{Branch, Leaf};
+use chain::{Chain, Positions};
+use number::squared_distance;
+
+/// A sequence prepared for a design, for any lengths.
+#[derive(Debug, Clone)]
+pub struct Evaluator {
+    chain: Chain,
+    shape: Shape,
+}
+
+/// A pose that satisfies the distances used.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Configuration {
+    /// The pose of the platform, design units.
+    pub pose: ComplexPose,
+    /// Squared length of the unknown virtual leg, design units squared; `None` when there is none.
+    pub virtual_square: Option<Complex64>,
+    /// The last step of Newton's method on the closure, relative to `u`; zero without a closure.
+    pub step: f64,
+}
+
+/// All configurations found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Configurations {
+    /// One for each zero of the closure polynomial: some may coincide where zeros are close together.
+    pub found: Vec<Configuration>,
+    /// As many as almost all designs of the topology have.
+    pub expected: usize,
+    /// Zeros at infinity within rounding, or too far out for the samples.
+    pub lost: usize,
+}
+
+impl Evaluator {
+    /// Prepares a sequence for a design. The lengths of the virtual legs `given` are known in [`configurations`](Self::configurations); when
+    /// the sequence has one more it is found from `closure`. `None` when the sequence does not fit, or its shape cannot be measured.
+    #[must_use]
+    pub fn new(
+        m: &Manipulator,
+        s: &Sequence,
+        given: &[(usize, usize)],
+        closure: Option<[Joint; 2]>,
+    ) -> Option<Self> {
+        let shape = Shape::measure(m, s, given, closure)?;
+        Self::with_shape(m, s, given, closure, shape)
+    }
+
+    /// [`new`](Self::new) with the shape known from another design with the same legs.
+    #[must_use]
+    pub fn with_shape(
+        m: &Manipulator,
+        s: &Sequence,
+        given: &[(usize, usize)],
+        closure: Option<[Joint; 2]>,
+        shape: Shape,
+    ) -> Option<Self> {
+        Some(Self { chain: Chain::new(m, s, given, closure)?, shape })
+    }
+
+    /// What is known of all designs of the topology.
+    #[must_use]
+    pub fn shape(&self) -> Shape {
+        self.shape
+    }
+
+    /// All configurations for squared lengths of the six legs, then of the virtual legs given, in design units squared; complex ones are
+    /// as good as real ones. The polynomial is sampled on `|u| = radius`: zeros far from there lose digits.
+    #[must_use]
+    pub fn configurations(&self, squares: &[Complex64], radius: f64) -> Configurations {
+        let unit = self.chain.size * self.chain.size;
+        let lengths: Vec<Complex64> = squares.iter().map(|s| s / unit).collect();
+        let mut out = Configurations { found: Vec::new(), expected: self.shape.expected(), lost: 0 };
+        each_start(&self.chain, &lengths, &mut |at| self.solve(&lengths, at, radius, &mut out));
+        if self.chain.turn.is_none() {
+            out.expected = self.shape.starts;
+        }
+        out
+    }
+
+    /// All zeros with the joints before the turn in place.
+    fn solve(&self, lengths: &[Complex64], at: &Positions<Complex64>, radius: f64, out: &mut Configurations) {
+        if self.chain.turn.is_none() {
+            out.found.push(Configuration { pose: self.chain.pose(at), virtual_square: None, step: 0.0 });
+            return;
+        }
+        let Some(branch) = Branch::new(&self.chain, lengths, *at) else {
+            out.lost += 2 * self.shape.degree;
+            return;
+        };
+        let count = (2 * self.shape.degree + 1).next_multiple_of(8);
+        let points: Vec<Complex64> =
+            trigonometric::unit_circle(count).into_iter().map(|v| v * radius).collect();
+        let values = branch.products(&points, self.shape.exponents);
+        let coefficients = trigonometric::coefficients(&values, self.shape.degree);
+        let (zeros, lost) = trigonometric::zeros(&coefficients);
+        out.lost += lost;
+        for v in zeros {
+            match self.configuration(&branch, v * radius) {
+                Some(found) => out.found.push(found),
+                None => out.lost += 1,
+            }
+        }
+    }
+
+    /// The configuration near a zero of the product: that of the orientations whose closure is least.
+    fn configuration(&self, branch: &Branch<'_>, u: Complex64) -> Option<Configuration> {
+        let least = |x: &Leaf, y: &Leaf| x.defect.norm_sqr().total_cmp(&y.defect.norm_sqr());
+        let leaf = branch.leaves(u).into_iter().min_by(least)?;
+        let (_, leaf, step) = branch.polished(u, leaf);
+        let turn = self.chain.turn?;
+        let unit = self.chain.size * self.chain.size;
+        let square = squared_distance(&leaf.at[turn.place], &leaf.at[turn.virtual_end]) * unit;
+        Some(Configuration { pose: self.chain.pose(&leaf.at), virtual_square: Some(square), step })
+    }
+}
+
+/// All places of the joints before the turn.
+fn each_start(chain: &Chain, lengths: &[Complex64], visit: &mut impl FnMut(&Positions<Complex64>)) {
+    fn next(
+        chain: &Chain,
+        lengths: &[Complex64],
+        t: usize,
+        at: &mut Positions<Complex64>,
+        visit: &mut impl FnMut(&Positions<Complex64>),
+    ) {
+        let Some(step) = chain.before.get(t) else {
+            visit(at);
+            return;
+        };
+        for q in Chain::places(step, at, lengths).both() {
+            at[step.place] = q;
+            next(chain, lengths, t + 1, at, visit);
+        }
+    }
+    let mut at = chain.first;
+    next(chain, lengths, 0, &mut at, visit);
+}
+
+#[cfg(test)]
+mod tests;

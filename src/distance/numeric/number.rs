@@ -1,0 +1,167 @@
+//! Complex numbers one at a time or side by side, and vectors of them.
+
+#![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
+
+use std::ops::{Add, Mul, Sub};
+
+use num_complex::Complex64;
+
+use crate::num::batch::{Batch, LANES};
+
+/// One complex number, or [`LANES`] of them.
+pub(super) trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
+    /// The same number everywhere.
+    fn constant(z: Complex64) -> Self;
+    /// Not a number where it is zero.
+    fn reciprocal(self) -> Self;
+    /// A square root.
+    fn root(self) -> Self;
+    /// `c z` for a real `c`.
+    fn times(self, c: f64) -> Self;
+}
+
+impl Number for Complex64 {
+    #[inline(always)]
+    fn constant(z: Complex64) -> Self {
+        z
+    }
+
+    #[inline(always)]
+    fn reciprocal(self) -> Self {
+        let n = 1.0 / self.norm_sqr();
+        Self::new(self.re * n, -self.im * n)
+    }
+
+    #[inline(always)]
+    fn root(self) -> Self {
+        // without the care for overflow of the library, and several times as fast
+        let modulus = self.norm_sqr().sqrt();
+        let large = (0.5 * (modulus + self.re.abs())).sqrt();
+        let small = 0.5 * self.im / large.max(f64::MIN_POSITIVE);
+        if self.re >= 0.0 { Self::new(large, small) } else { Self::new(small.abs(), large.copysign(self.im)) }
+    }
+
+    #[inline(always)]
+    fn times(self, c: f64) -> Self {
+        self * c
+    }
+}
+
+impl Number for Batch {
+    #[inline(always)]
+    fn constant(z: Complex64) -> Self {
+        Self { re: [z.re; LANES], im: [z.im; LANES] }
+    }
+
+    #[inline(always)]
+    fn reciprocal(self) -> Self {
+        Self::reciprocal(self)
+    }
+
+    #[inline(always)]
+    fn root(self) -> Self {
+        self.sqrt()
+    }
+
+    #[inline(always)]
+    fn times(self, c: f64) -> Self {
+        Self::times(self, c)
+    }
+}
+
+/// A point or vector.
+pub(super) type Vector<T> = [T; 3];
+
+#[inline(always)]
+pub(super) fn minus<T: Number>(x: &Vector<T>, y: &Vector<T>) -> Vector<T> {
+    [x[0] - y[0], x[1] - y[1], x[2] - y[2]]
+}
+
+#[inline(always)]
+pub(super) fn dot<T: Number>(x: &Vector<T>, y: &Vector<T>) -> T {
+    x[0] * y[0] + x[1] * y[1] + x[2] * y[2]
+}
+
+#[inline(always)]
+pub(super) fn cross<T: Number>(x: &Vector<T>, y: &Vector<T>) -> Vector<T> {
+    [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]]
+}
+
+/// `x + c y`.
+#[inline(always)]
+pub(super) fn along<T: Number>(x: &Vector<T>, c: T, y: &Vector<T>) -> Vector<T> {
+    [x[0] + c * y[0], x[1] + c * y[1], x[2] + c * y[2]]
+}
+
+/// `|x - y|^2`, bilinear.
+#[inline(always)]
+pub(super) fn squared_distance<T: Number>(x: &Vector<T>, y: &Vector<T>) -> T {
+    let d = minus(x, y);
+    dot(&d, &d)
+}
+
+/// The two places of a point with squared distances `s` to three points, and `|u x v|^2 = A / 4` of their triangle.
+pub(super) struct Places<T> {
+    pub(super) gram: T,
+    /// Foot on the plane of the triangle.
+    foot: Vector<T>,
+    normal: Vector<T>,
+    /// Height over the plane in normals: its sign is the orientation.
+    pub(super) height: T,
+}
+
+impl<T: Number> Places<T> {
+    /// Trilateration in matrix form with the coordinates of the triangle at hand.
+    #[inline(always)]
+    pub(super) fn of(p: [&Vector<T>; 3], s: [T; 3]) -> Self {
+        let (u, v) = (minus(p[1], p[0]), minus(p[2], p[0]));
+        let normal = cross(&u, &v);
+        let (uu, uv, vv) = (dot(&u, &u), dot(&u, &v), dot(&v, &v));
+        let gram = dot(&normal, &normal);
+        let inverse = gram.reciprocal();
+        let (f, g) = ((s[0] + uu - s[1]).times(0.5), (s[0] + vv - s[2]).times(0.5));
+        let beta = (vv * f - uv * g) * inverse;
+        let gamma = (uu * g - uv * f) * inverse;
+        // the squared length of the foot is beta f + gamma g
+        let height = ((s[0] - (beta * f + gamma * g)) * inverse).root();
+        let foot = along(&along(p[0], beta, &u), gamma, &v);
+        Self { gram, foot, normal, height }
+    }
+
+    /// The two places: with and against the normal.
+    #[inline(always)]
+    pub(super) fn both(&self) -> [Vector<T>; 2] {
+        let zero = self.height - self.height;
+        [along(&self.foot, self.height, &self.normal), along(&self.foot, zero - self.height, &self.normal)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::Rng;
+
+    #[test]
+    fn both_places_have_the_distances() {
+        let rng = &mut Rng::new(5);
+        let mut number = || Complex64::new(rng.uniform(-1.0, 1.0), rng.uniform(-1.0, 1.0));
+        for _ in 0..50 {
+            let p: [Vector<Complex64>; 3] = std::array::from_fn(|_| std::array::from_fn(|_| number()));
+            let s = [number(), number(), number()];
+            let places = Places::of([&p[0], &p[1], &p[2]], s);
+            for q in places.both() {
+                for k in 0..3 {
+                    assert!(
+                        (squared_distance(&q, &p[k]) - s[k]).norm()
+                            < 1e-9 / places.gram.norm().powi(2).min(1.0)
+                    );
+                }
+            }
+        }
+        for z in
+            [Complex64::new(-4.0, 0.0), Complex64::new(-3.0, -4.0), Complex64::new(3.0, 4.0), Complex64::ZERO]
+        {
+            assert!((z.root() * z.root() - z).norm() < 1e-14);
+        }
+    }
+}

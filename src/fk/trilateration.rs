@@ -1,0 +1,189 @@
+//! Forward kinematics by trilateration.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use num_complex::Complex64;
+
+use super::collect::{Candidate, collect};
+use super::evidence::{GENERAL, attach};
+use super::{
+    Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, PreparedDesign, SolutionSet,
+};
+use crate::distance::{Evaluator, NoPlan, Shape, fit};
+use crate::manipulator::{Manipulator, SquaredLegLengths};
+use crate::topology::{Joint, Nesting, Sequence, sequences};
+
+/// Sequences kept for the legs of a design.
+const KEPT: usize = 6;
+/// Radii of the circles on which closure polynomials are sampled, in the order in which they are tried.
+const RADII: [f64; 3] = [1.0, 16.0, 1.0 / 16.0];
+
+/// Forward kinematics of platforms that need no or one virtual leg (30 of the 34 joint-sharing topologies), by trilateration in floating
+/// point: all finite poses, refined on the leg equations and certified.
+///
+/// Which sequence to use depends on which joints are shared; that is worked out once for the legs of a design and kept in the value.
+/// Complete when as many distinct poses are certified as the topology can have; other sequences are tried before it gives up.
+/// [`FkError::NotApplicable`] when more virtual legs are needed, or triangles that have to be proper are collinear.
+#[derive(Debug, Default)]
+pub struct Trilateration {
+    known: Mutex<BTreeMap<[(usize, usize); 6], Arc<Ranked>>>,
+}
+
+/// Sequences for six legs with what is known of them, or the number of virtual legs when that is too large.
+type Ranked = Result<Vec<(Sequence, Shape)>, NoPlan>;
+
+/// [`Trilateration`] for one design.
+#[derive(Debug)]
+struct Prepared<'a> {
+    manipulator: &'a Manipulator,
+    evaluators: Vec<Evaluator>,
+}
+
+impl Trilateration {
+    fn ranked(&self, m: &Manipulator) -> Arc<Ranked> {
+        let key = m.pairs();
+        let known = self.known.lock().unwrap_or_else(PoisonError::into_inner).get(&key).cloned();
+        known.unwrap_or_else(|| {
+            // outside the lock: two threads may do it twice, with one result
+            let ranked = Arc::new(rank(m));
+            let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+            known.insert(key, Arc::clone(&ranked));
+            ranked
+        })
+    }
+
+    fn prepared<'a>(&self, m: &'a Manipulator) -> Result<Prepared<'a>, FkError> {
+        let refuse =
+            |why: NoPlan| FkError::NotApplicable { method: Method::Trilateration, reason: why.to_string() };
+        let ranked = self.ranked(m);
+        let ranked = ranked.as_ref().as_ref().map_err(|why| refuse(*why))?;
+        let fitted =
+            ranked.iter().filter_map(|(s, shape)| fit(m, s).map(|(fatness, s)| (fatness, s, *shape)));
+        let mut fitted: Vec<(Nesting, f64, Sequence, Shape)> =
+            fitted.map(|(f, s, shape)| (Nesting::of(&m.pairs(), &s), f, s, shape)).collect();
+        fitted.sort_by(|x, y| x.0.cmp(&y.0).then(y.1.total_cmp(&x.1)));
+        let evaluator = |(_, _, s, shape): &(Nesting, f64, Sequence, Shape)| {
+            Evaluator::with_shape(m, s, &[], s.closures.first().copied(), *shape)
+        };
+        let evaluators: Vec<Evaluator> = fitted.iter().filter_map(evaluator).collect();
+        if evaluators.is_empty() {
+            return Err(refuse(NoPlan::Collinear));
+        }
+        Ok(Prepared { manipulator: m, evaluators })
+    }
+}
+
+/// The best sequences for the legs of a design, those with simple zeros first.
+fn rank(m: &Manipulator) -> Ranked {
+    let legs = m.pairs();
+    let found = (0..=3).map(|count| (count, sequences(&legs, count))).find(|(_, list)| !list.is_empty());
+    let (needed, list) = found.unwrap_or((4, Vec::new()));
+    if needed > 1 {
+        return Err(NoPlan::TooManyVirtualLegs { needed, allowed: 1 });
+    }
+    let mut seen = Vec::new();
+    let mut ranked: Vec<(Sequence, Shape)> = Vec::new();
+    for s in list {
+        let key = essence(&s);
+        if seen.contains(&key) {
+            continue;
+        }
+        seen.push(key);
+        let Some(shape) = Shape::measure(m, &s, &[], s.closures.first().copied()) else { continue };
+        ranked.push((s, shape));
+        if ranked.iter().filter(|r| r.1.is_simple()).count() == KEPT {
+            break;
+        }
+    }
+    if ranked.iter().any(|r| r.1.is_simple()) {
+        ranked.retain(|r| r.1.is_simple());
+    }
+    // a sequence that generically loses poses is none
+    let most = ranked.iter().map(|r| r.1.expected()).max();
+    ranked.retain(|r| Some(r.1.expected()) == most);
+    Ok(ranked)
+}
+
+/// What the numerical evaluation depends on: where the virtual leg ends on the first body does not matter.
+fn essence(s: &Sequence) -> Vec<Vec<Joint>> {
+    let known = |x: Joint, y: Joint| x.across(y).is_none_or(|p| !s.virtual_legs.contains(&p));
+    let step = |place: Joint, from: [Joint; 3]| {
+        std::iter::once(place).chain(from.into_iter().filter(|f| known(*f, place))).collect::<Vec<_>>()
+    };
+    let steps = s.unoriented().map(|t| step(t.place, t.from));
+    steps.chain(s.closures.iter().map(|c| c.to_vec())).collect()
+}
+
+impl ForwardKinematics for Trilateration {
+    fn method(&self) -> Method {
+        Method::Trilateration
+    }
+
+    fn solve(&self, m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
+        self.prepared(m)?.solve(s, o)
+    }
+
+    fn prepare<'a>(&'a self, m: &'a Manipulator) -> Option<Box<dyn PreparedDesign + 'a>> {
+        Some(Box::new(self.prepared(m).ok()?))
+    }
+}
+
+impl PreparedDesign for Prepared<'_> {
+    fn solve(&self, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
+        let squares = s.get().map(Complex64::from);
+        let mut candidates: Vec<Candidate> = Vec::new();
+        let mut answer: Option<FkSolutions> = None;
+        let first = self.evaluators.first().map(|e| RADII.map(|r| (e, r)));
+        let others = self.evaluators.iter().skip(1).flat_map(|e| RADII.map(|r| (e, r)));
+        for (attempt, (evaluator, radius)) in first.into_iter().flatten().chain(others).enumerate() {
+            let configurations = evaluator.configurations(&squares, radius);
+            candidates.extend(configurations.found.iter().enumerate().map(|(source, c)| Candidate {
+                pose: c.pose,
+                singular: false,
+                condition: 1.0,
+                source,
+            }));
+            let found = self.judged(s, o, &candidates, configurations.expected, attempt + 1);
+            let proved = matches!(found.completeness, Completeness::Proved { .. });
+            answer = Some(found);
+            if proved {
+                break;
+            }
+        }
+        answer.ok_or_else(|| FkError::Breakdown { what: "no sequence could be evaluated".to_owned() })
+    }
+}
+
+impl Prepared<'_> {
+    /// Refines, merges and certifies the candidates of all attempts so far.
+    fn judged(
+        &self,
+        s: &SquaredLegLengths,
+        o: &FkOptions,
+        candidates: &[Candidate],
+        expected: usize,
+        attempts: usize,
+    ) -> FkSolutions {
+        let m = self.manipulator;
+        let collected = collect(m, s, &o.tolerances, candidates);
+        let distinct = collected.roots.len();
+        let all_paths_accounted = distinct == expected;
+        let reason = format!(
+            "{distinct} distinct poses from {} configurations of {attempts} evaluations, {expected} are usual for the topology{}",
+            candidates.len(),
+            if all_paths_accounted { "" } else { "; poses may be missing or multiple" },
+        );
+        let mut solutions = FkSolutions {
+            method: Method::Trilateration,
+            roots: collected.roots,
+            solution_set: SolutionSet::Isolated,
+            completeness: Completeness::Unproved { reason, all_paths_accounted },
+            paths: Vec::new(),
+            rejected: collected.rejected,
+            seed: o.seed,
+        };
+        attach(&mut solutions, m, s, GENERAL, Vec::new());
+        solutions
+    }
+}
