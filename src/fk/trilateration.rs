@@ -5,17 +5,21 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use num_complex::Complex64;
 
-use super::collect::{Candidate, collect};
 use super::evidence::{GENERAL, attach};
+use super::harvest::{End, Harvest, harvest};
 use super::{
-    Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, PreparedDesign, SolutionSet,
+    Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, PreparedDesign, Rejected,
+    RejectionReason, SolutionSet,
 };
 use crate::distance::{Evaluator, NoPlan, Shape, fit};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
+use crate::solve::certify::dual_quaternion;
 use crate::topology::{Joint, Nesting, Sequence, sequences};
 
 /// Sequences kept for the legs of a design.
 const KEPT: usize = 6;
+/// Evaluations after which poses are taken for missing.
+const ATTEMPTS: usize = 9;
 /// Radii of the circles on which closure polynomials are sampled, in the order in which they are tried.
 const RADII: [f64; 3] = [1.0, 16.0, 1.0 / 16.0];
 
@@ -132,19 +136,25 @@ impl ForwardKinematics for Trilateration {
 impl PreparedDesign for Prepared<'_> {
     fn solve(&self, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
         let squares = s.get().map(Complex64::from);
-        let mut candidates: Vec<Candidate> = Vec::new();
+        let mut ends: Vec<End> = Vec::new();
         let mut answer: Option<FkSolutions> = None;
-        let first = self.evaluators.first().map(|e| RADII.map(|r| (e, r)));
-        let others = self.evaluators.iter().skip(1).flat_map(|e| RADII.map(|r| (e, r)));
-        for (attempt, (evaluator, radius)) in first.into_iter().flatten().chain(others).enumerate() {
+        let attempts = self.evaluators.iter().flat_map(|e| RADII.map(|r| (e, r)));
+        for (attempt, (evaluator, radius)) in attempts.take(ATTEMPTS).enumerate() {
+            // without a closure there is no circle
+            if attempt > 0 && !evaluator.has_closure() && radius.to_bits() != RADII[0].to_bits() {
+                continue;
+            }
             let configurations = evaluator.configurations(&squares, radius);
-            candidates.extend(configurations.found.iter().enumerate().map(|(source, c)| Candidate {
-                pose: c.pose,
+            let points = configurations.found.iter().filter_map(|c| dual_quaternion(&c.pose));
+            ends.extend(points.enumerate().map(|(source, point)| End {
+                point,
                 singular: false,
+                doubtful: false,
+                split: None,
                 condition: 1.0,
                 source,
             }));
-            let found = self.judged(s, o, &candidates, configurations.expected, attempt + 1);
+            let found = self.judged(s, o, &ends, configurations.expected, attempt + 1);
             let proved = matches!(found.completeness, Completeness::Proved { .. });
             answer = Some(found);
             if proved {
@@ -156,34 +166,39 @@ impl PreparedDesign for Prepared<'_> {
 }
 
 impl Prepared<'_> {
-    /// Refines, merges and certifies the candidates of all attempts so far.
+    /// Refines, merges and certifies the ends of all attempts so far. What cannot be certified is no root: with other distances
+    /// the same lengths give other poses of rounding far out.
     fn judged(
         &self,
         s: &SquaredLegLengths,
         o: &FkOptions,
-        candidates: &[Candidate],
+        ends: &[End],
         expected: usize,
         attempts: usize,
     ) -> FkSolutions {
         let m = self.manipulator;
-        let collected = collect(m, s, &o.tolerances, candidates);
-        let distinct = collected.roots.len();
+        let Harvest { collected, certificates } = harvest(m, s, &o.tolerances, ends);
+        let (roots, others): (Vec<_>, Vec<_>) = collected.roots.into_iter().partition(|r| r.certified);
+        let mut rejected = collected.rejected;
+        let reason = RejectionReason::NotCertified;
+        rejected.extend(others.iter().map(|r| Rejected { reason, residual: r.residual }));
+        let distinct = roots.len();
         let all_paths_accounted = distinct == expected;
         let reason = format!(
-            "{distinct} distinct poses from {} configurations of {attempts} evaluations, {expected} are usual for the topology{}",
-            candidates.len(),
+            "{distinct} certified poses from {} configurations of {attempts} evaluations, {expected} are usual for the topology{}",
+            ends.len(),
             if all_paths_accounted { "" } else { "; poses may be missing or multiple" },
         );
         let mut solutions = FkSolutions {
             method: Method::Trilateration,
-            roots: collected.roots,
+            roots,
             solution_set: SolutionSet::Isolated,
             completeness: Completeness::Unproved { reason, all_paths_accounted },
             paths: Vec::new(),
-            rejected: collected.rejected,
+            rejected,
             seed: o.seed,
         };
-        attach(&mut solutions, m, s, GENERAL, Vec::new());
+        attach(&mut solutions, m, s, GENERAL, certificates);
         solutions
     }
 }

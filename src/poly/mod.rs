@@ -9,4 +9,5 @@ pub use integer::{
     squarefree_factors, sturm_count,
 };
 pub(crate) use octic::octic_roots;
+pub(crate) use roots::approximate_roots;
 pub use roots::{RootsError, roots};

@@ -64,6 +64,47 @@ pub fn roots(coefficients: &[Complex64]) -> Result<Vec<Complex64>, RootsError> {
     Ok(z)
 }
 
+/// [`roots`] as far as relative steps of `tolerance`, at most `sweeps` of them: start values for methods that know the function better than by
+/// its coefficients. Each root rests once its step is that small.
+pub(crate) fn approximate_roots(
+    coefficients: &[Complex64],
+    tolerance: f64,
+    sweeps: usize,
+) -> Result<Vec<Complex64>, RootsError> {
+    let finite = coefficients.iter().all(|c| c.is_finite());
+    let ends = coefficients.first().zip(coefficients.last());
+    if !finite || ends.is_none_or(|(a, b)| *a == Complex64::ZERO || *b == Complex64::ZERO) {
+        return Err(RootsError::NoPolynomial);
+    }
+    let mut z = starting_points(coefficients);
+    let mut moving = vec![true; z.len()];
+    for _ in 0..sweeps {
+        for k in 0..z.len() {
+            if !moving[k] {
+                continue;
+            }
+            let newton = newton_correction(coefficients, z[k]);
+            let mut repulsion = Complex64::ZERO;
+            for (j, other) in z.iter().enumerate() {
+                let d = z[k] - other;
+                let n = d.norm_sqr();
+                if j != k && n > 0.0 {
+                    repulsion += d.conj() * n.recip();
+                }
+            }
+            let step = newton / (1.0 - newton * repulsion);
+            if step.is_finite() {
+                z[k] -= step;
+                moving[k] = !(step.norm_sqr() <= tolerance * tolerance * z[k].norm_sqr());
+            }
+        }
+        if !moving.contains(&true) {
+            break;
+        }
+    }
+    Ok(z)
+}
+
 /// `p(x) / p'(x)`, from the reversed polynomial where `|x| > 1` so that powers do not overflow.
 fn newton_correction(c: &[Complex64], x: Complex64) -> Complex64 {
     let n = c.len() - 1;

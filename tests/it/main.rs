@@ -31,3 +31,4 @@ mod octahedral_class;
 mod reference;
 mod singularity;
 mod topologies;
+mod trilateration;

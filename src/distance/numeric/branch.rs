@@ -8,6 +8,11 @@ use super::chain::{Chain, Circle, Positions};
 use super::number::{Number, Places};
 use crate::num::batch::{Batch, LANES};
 
+/// Relative displacement for differences in place of derivatives.
+const NUDGE: f64 = 1e-7;
+/// Most sweeps of the simultaneous iteration.
+const SWEEPS: usize = 12;
+
 /// How often the Gram determinants of the two steps after the turn divide the product of the closures over all orientations.
 pub(super) type Exponents = [u32; 2];
 
@@ -111,6 +116,31 @@ impl<'a> Branch<'a> {
         out
     }
 
+    /// Ehrlich-Aberth sweeps on the product itself, of degree `2 degree` in `u` after multiplication by `u^degree`: coefficients lose what is
+    /// small beside the largest value on the circle, the product does not.
+    pub(super) fn separate(&self, zeros: &mut [Complex64], e: Exponents, degree: usize) {
+        for _ in 0..SWEEPS {
+            let nudged = zeros.iter().map(|u| u * (1.0 + NUDGE));
+            let points: Vec<Complex64> = zeros.iter().copied().chain(nudged).collect();
+            let values = self.products(&points, e);
+            let mut largest = 0.0_f64;
+            for k in 0..zeros.len() {
+                let u = zeros[k];
+                let growth = (values[zeros.len() + k] / values[k] - 1.0) / NUDGE + degree as f64;
+                let others = zeros.iter().enumerate().filter(|(j, _)| *j != k);
+                let repulsion: Complex64 = others.map(|(_, v)| (u - v).inv()).filter(|w| w.is_finite()).sum();
+                let step = (growth / u - repulsion).inv();
+                if step.is_finite() && step.norm_sqr() < 0.25 * u.norm_sqr() {
+                    zeros[k] -= step;
+                    largest = largest.max(step.norm_sqr() / u.norm_sqr());
+                }
+            }
+            if largest < 1e-16 {
+                break;
+            }
+        }
+    }
+
     /// All choices of orientations at `u`.
     pub(super) fn leaves(&self, u: Complex64) -> Vec<Leaf> {
         let count = 1 << self.chain.after.len();
@@ -141,7 +171,7 @@ impl<'a> Branch<'a> {
     pub(super) fn polished(&self, mut u: Complex64, mut leaf: Leaf) -> (Complex64, Leaf, f64) {
         let mut step = f64::INFINITY;
         for _ in 0..6 {
-            let nudged = u * (1.0 + 1e-7);
+            let nudged = u * (1.0 + NUDGE);
             let Some(other) = self.follow(nudged, &leaf) else { break };
             let slope = (other.defect - leaf.defect) / (nudged - u);
             let change = leaf.defect / slope;

@@ -84,6 +84,12 @@ impl Evaluator {
         self.shape
     }
 
+    /// Whether the sequence has a virtual leg that is found from a closure.
+    #[must_use]
+    pub fn has_closure(&self) -> bool {
+        self.chain.closure.is_some()
+    }
+
     /// All configurations for squared lengths of the six legs, then of the virtual legs given, in design units squared; complex ones are
     /// as good as real ones. The polynomial is sampled on `|u| = radius`: zeros far from there lose digits.
     #[must_use]
@@ -115,24 +121,38 @@ impl Evaluator {
         let coefficients = trigonometric::coefficients(&values, self.shape.degree);
         let (zeros, lost) = trigonometric::zeros(&coefficients);
         out.lost += lost;
-        for v in zeros {
-            match self.configuration(&branch, v * radius) {
-                Some(found) => out.found.push(found),
-                None => out.lost += 1,
-            }
+        let mut zeros: Vec<Complex64> = zeros.into_iter().map(|v| v * radius).collect();
+        let mut found = self.polished(&branch, &zeros);
+        if !settled(&found, zeros.len()) {
+            branch.separate(&mut zeros, self.shape.exponents, self.shape.degree);
+            found = self.polished(&branch, &zeros);
         }
+        out.lost += zeros.len() - found.len();
+        out.found.extend(found.into_iter().map(|f| f.1));
     }
 
-    /// The configuration near a zero of the product: that of the orientations whose closure is least.
-    fn configuration(&self, branch: &Branch<'_>, u: Complex64) -> Option<Configuration> {
+    /// The configuration at each zero.
+    fn polished(&self, branch: &Branch<'_>, zeros: &[Complex64]) -> Vec<(Complex64, Configuration)> {
+        zeros.iter().filter_map(|u| self.configuration(branch, *u)).collect()
+    }
+
+    /// The configuration near a zero of the product, that of the orientations whose closure is least, and its `u`.
+    fn configuration(&self, branch: &Branch<'_>, u: Complex64) -> Option<(Complex64, Configuration)> {
         let least = |x: &Leaf, y: &Leaf| x.defect.norm_sqr().total_cmp(&y.defect.norm_sqr());
         let leaf = branch.leaves(u).into_iter().min_by(least)?;
-        let (_, leaf, step) = branch.polished(u, leaf);
+        let (u, leaf, step) = branch.polished(u, leaf);
         let turn = self.chain.turn?;
         let unit = self.chain.size * self.chain.size;
         let square = squared_distance(&leaf.at[turn.place], &leaf.at[turn.virtual_end]) * unit;
-        Some(Configuration { pose: self.chain.pose(&leaf.at), virtual_square: Some(square), step })
+        Some((u, Configuration { pose: self.chain.pose(&leaf.at), virtual_square: Some(square), step }))
     }
+}
+
+/// Whether every zero led to a configuration of its own.
+fn settled(found: &[(Complex64, Configuration)], zeros: usize) -> bool {
+    let near = |x: Complex64, y: Complex64| (x - y).norm_sqr() < 1e-14 * x.norm_sqr();
+    let apart = |i: usize| found[..i].iter().all(|f| !near(f.0, found[i].0));
+    found.len() == zeros && found.iter().all(|f| f.1.step < 1e-8) && (0..zeros).all(apart)
 }
 
 /// All places of the joints before the turn.

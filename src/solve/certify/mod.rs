@@ -46,7 +46,7 @@ pub use certificate::{
     CentrePrecision, Certificate, CertificateOutcome, PoseEnclosure, ProvedReality, WhyUncertified,
 };
 pub use distinct::{Distinctness, RootRelation, distinct, relation};
-pub(crate) use point::CertifiedPose;
+pub(crate) use point::{CertifiedPose, dual_quaternion};
 pub use refine::RefinedPose;
 
 use num_complex::Complex64;

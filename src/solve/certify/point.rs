@@ -5,7 +5,7 @@
 
 use num_complex::Complex64;
 
-use super::centre::{pose_numerators, pose_of};
+use super::centre::{pose_numerators, pose_of, study_of};
 use super::krawczyk::{Centre, contract, contract_sharply};
 use super::refine::refine_study;
 use super::system::{LegSystem, Scalar, Study};
@@ -47,6 +47,12 @@ impl CertifiedPose {
         };
         Self { pose, certificate: self.certificate.conjugate() }
     }
+}
+
+/// `(e, g)` of a pose, any scale; `None` for numbers out of range.
+pub(crate) fn dual_quaternion(pose: &ComplexPose) -> Option<[Complex64; 8]> {
+    let x = study_of(pose, 1.0).ok()?;
+    Some(std::array::from_fn(|k| Complex64::new(x.re[k], x.im[k])))
 }
 
 /// `x = (e, g)` on the patch of its largest `|e_k|`, lengths divided by `unit`.

@@ -30,7 +30,11 @@ const LINES: &[Line] = &[
         &["num", "geom", "manipulator", "solve"],
         &[MATRICES, COMPLEX, ("pulp", None), ERRORS],
     ),
-    ("distance", &["num", "geom", "poly", "manipulator", "topology"], &[MATRICES, INTEGERS, COMPLEX, ERRORS]),
+    (
+        "distance",
+        &["num", "geom", "poly", "manipulator", "topology"],
+        &[MATRICES, INTEGERS, COMPLEX, ("pulp", None), ERRORS],
+    ),
     (
         "fk",
         &[
