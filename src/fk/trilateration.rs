@@ -31,8 +31,11 @@ const RADII: [f64; 3] = [1.0, 16.0, 1.0 / 16.0];
 /// [`FkError::NotApplicable`] when more virtual legs are needed, or triangles that have to be proper are collinear.
 #[derive(Debug, Default)]
 pub struct Trilateration {
-    known: Mutex<BTreeMap<[(usize, usize); 6], Arc<Ranked>>>,
+    known: Mutex<BTreeMap<Legs, Arc<Ranked>>>,
 }
+
+/// Base and platform joint of each leg.
+type Legs = [(usize, usize); 6];
 
 /// Sequences for six legs with what is known of them, or the number of virtual legs when that is too large.
 type Ranked = Result<Vec<(Sequence, Shape)>, NoPlan>;

@@ -40,12 +40,12 @@ impl<'a> Branch<'a> {
     pub(super) fn new(
         chain: &'a Chain,
         lengths: &'a [Complex64],
-        fixed: Positions<Complex64>,
+        fixed: &Positions<Complex64>,
     ) -> Option<Self> {
         let turn = chain.turn?;
         let s = turn.distances.map(|d| d.value(lengths));
         let circle = Circle::of(turn.axis.map(|k| &fixed[k]), s)?;
-        Some(Self { chain, lengths, fixed, circle, place: turn.place })
+        Some(Self { chain, lengths, fixed: *fixed, circle, place: turn.place })
     }
 
     #[inline(always)]

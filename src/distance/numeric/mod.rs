@@ -110,7 +110,7 @@ impl Evaluator {
             out.found.push(Configuration { pose: self.chain.pose(at), virtual_square: None, step: 0.0 });
             return;
         }
-        let Some(branch) = Branch::new(&self.chain, lengths, *at) else {
+        let Some(branch) = Branch::new(&self.chain, lengths, at) else {
             out.lost += 2 * self.shape.degree;
             return;
         };

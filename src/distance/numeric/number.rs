@@ -131,8 +131,10 @@ impl<T: Number> Places<T> {
     /// The two places: with and against the normal.
     #[inline(always)]
     pub(super) fn both(&self) -> [Vector<T>; 2] {
-        let zero = self.height - self.height;
-        [along(&self.foot, self.height, &self.normal), along(&self.foot, zero - self.height, &self.normal)]
+        [
+            along(&self.foot, self.height, &self.normal),
+            along(&self.foot, self.height.times(-1.0), &self.normal),
+        ]
     }
 }
 

@@ -91,7 +91,7 @@ fn of_instance(chain: &Chain, lengths: &[Complex64], rng: &mut Rng) -> Option<(S
         // half a zero for each place
         return Some((Shape { exponents: [0, 0], degree: 0, starts: starts.len(), simple: true }, true));
     }
-    let branch = Branch::new(chain, lengths, *starts.first()?)?;
+    let branch = Branch::new(chain, lengths, starts.first()?)?;
     let exponents = exponents(&branch, rng)?;
     let values = branch.products(&unit_circle(SAMPLES), exponents);
     let most = SAMPLES / 2 - 1;
@@ -127,7 +127,7 @@ fn exponents(branch: &Branch<'_>, rng: &mut Rng) -> Option<Exponents> {
     }
     let fits = |a: i32, b: i32| seen.iter().all(|s| s[0] + a * s[1] + b * s[2] == 0);
     let pairs = (0..=16).flat_map(|sum| (0..=sum.min(8)).map(move |b| (sum - b, b)));
-    pairs.into_iter().find(|(a, b)| fits(*a, *b)).map(|(a, b)| [a as u32, b as u32])
+    pairs.into_iter().find(|(a, b)| fits(*a, *b)).map(|(a, b)| [a.unsigned_abs(), b.unsigned_abs()])
 }
 
 /// A zero of a Gram determinant by the secant method from a random point.

@@ -87,7 +87,7 @@ impl Row {
 
 /// Solves at each length and evaluates the distance.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
-    let method = args.method.method()?;
+    let method = args.method.method();
     let design = context.load(&args.design)?;
     let lengths::Given::One(given) = lengths::given(args.lengths.as_deref(), design.lengths)? else {
         return Err(Failure::refused("locus::one_row", "--lengths is a table")
