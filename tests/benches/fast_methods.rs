@@ -6,12 +6,15 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use equipod::fk::{FkOptions, ForwardKinematics, NearSolver, Octic, OcticSolver};
+use equipod::bench::{Class, LengthsFrom, problem};
+use equipod::distance::{Evaluator, plans};
+use equipod::fk::{FkOptions, ForwardKinematics, NearSolver, Octic, OcticSolver, Trilateration};
 use equipod::geom::{ComplexPose, Pose, random_rotation};
 use equipod::manipulator::{Leg, Manipulator, default_home};
 use equipod::num::Rng;
 use equipod::solve::certify::{Certifier, exact_squares};
 use nalgebra::{Point3, Rotation3, Vector3};
+use num_complex::Complex64;
 
 const PROBLEMS: u64 = 300;
 const SAMPLES: u32 = 15;
@@ -42,7 +45,46 @@ fn octahedral(k: u64) -> Result<(Manipulator, Pose), Box<dyn std::error::Error>>
     Ok((m, Pose { rotation: random_rotation(&mut rng), position }))
 }
 
+/// Trilateration of each topology that needs at most one virtual leg, for a prepared design.
+fn trilateration() -> Result<(), Box<dyn std::error::Error>> {
+    let method = Trilateration::default();
+    for class in Class::topologies() {
+        let [mut bare, mut checked, mut certified] = [const { Vec::new() }; 3];
+        for k in 0..PROBLEMS / 10 {
+            let p = problem(class, LengthsFrom::Pose, 4, k)?;
+            let Some(prepared) = method.prepare(&p.manipulator) else { continue };
+            let list = plans(&p.manipulator, 1)?;
+            let evaluator = list.iter().find_map(|s| {
+                let e = Evaluator::new(&p.manipulator, s, &[], s.closures.first().copied())?;
+                e.shape().is_simple().then_some(e)
+            });
+            let evaluator = evaluator.ok_or("no sequence")?;
+            let squares = p.squares.get().map(Complex64::from);
+            bare.push(nanoseconds(10, || {
+                black_box(evaluator.configurations(black_box(&squares), 1.0));
+            }));
+            checked.push(nanoseconds(10, || {
+                let found = evaluator.configurations(black_box(&squares), 1.0).found;
+                black_box(
+                    found.iter().map(|c| c.pose.residual(&p.manipulator, &p.squares)).fold(0.0, f64::max),
+                );
+            }));
+            certified.push(nanoseconds(10, || {
+                let _ = black_box(prepared.solve(black_box(&p.squares), &FkOptions::default()));
+            }));
+        }
+        if !bare.is_empty() {
+            let name = class.name();
+            report(&format!("{name}: trilateration, all poses"), bare);
+            report(&format!("{name}: with the residuals of all six legs"), checked);
+            report(&format!("{name}: refined, certified, with records"), certified);
+        }
+    }
+    Ok(())
+}
+
 fn main() -> Result<(), Box<dyn std::error::Error>> {
+    trilateration()?;
     let [mut prepared, mut fast, mut pairs, mut certificates, mut whole] = [const { Vec::new() }; 5];
     let mut complete = 0;
     for k in 0..PROBLEMS {
