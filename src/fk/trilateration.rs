@@ -5,6 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use num_complex::Complex64;
 
+use super::closure_candidates;
 use super::evidence::{GENERAL, attach};
 use super::harvest::{End, Harvest, harvest};
 use super::{
@@ -12,6 +13,7 @@ use super::{
     RejectionReason, SolutionSet,
 };
 use crate::distance::{Evaluator, NoPlan, Shape, fit};
+use crate::geom::ComplexPose;
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::solve::certify::dual_quaternion;
 use crate::topology::{Joint, Nesting, Sequence, sequences};
@@ -27,7 +29,8 @@ const RADII: [f64; 3] = [1.0, 16.0, 1.0 / 16.0];
 /// point: all finite poses, refined on the leg equations and certified.
 ///
 /// Which sequence to use depends on which joints are shared; that is worked out once for the legs of a design and kept in the value.
-/// Complete when as many distinct poses are certified as the topology can have; other sequences are tried before it gives up.
+/// Complete when as many distinct poses are certified as the topology can have; other sequences are tried before it gives up, and at
+/// last the exact closure polynomial ([`closure_candidates`]), which takes milliseconds and more.
 /// [`FkError::NotApplicable`] when more virtual legs are needed, or triangles that have to be proper are collinear.
 #[derive(Debug, Default)]
 pub struct Trilateration {
@@ -140,7 +143,7 @@ impl PreparedDesign for Prepared<'_> {
     fn solve(&self, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
         let squares = s.get().map(Complex64::from);
         let mut ends: Vec<End> = Vec::new();
-        let mut answer: Option<FkSolutions> = None;
+        let mut answer = None;
         let attempts = self.evaluators.iter().flat_map(|e| RADII.map(|r| (e, r)));
         for (attempt, (evaluator, radius)) in attempts.take(ATTEMPTS).enumerate() {
             // without a closure there is no circle
@@ -148,24 +151,38 @@ impl PreparedDesign for Prepared<'_> {
                 continue;
             }
             let configurations = evaluator.configurations(&squares, radius);
-            let points = configurations.found.iter().filter_map(|c| dual_quaternion(&c.pose));
-            ends.extend(points.enumerate().map(|(source, point)| End {
-                point,
-                singular: false,
-                doubtful: false,
-                split: None,
-                condition: 1.0,
-                source,
-            }));
+            ends.extend(ends_at(configurations.found.iter().map(|c| c.pose)));
             let found = self.judged(s, o, &ends, configurations.expected, attempt + 1);
-            let proved = matches!(found.completeness, Completeness::Proved { .. });
-            answer = Some(found);
-            if proved {
-                break;
+            if matches!(found.completeness, Completeness::Proved { .. }) {
+                return Ok(found);
+            }
+            answer = Some((found, configurations.expected, attempt + 2));
+        }
+        if let Some((found, expected, attempts)) = &mut answer {
+            // doubles did not find them all: the exact polynomial, where there is one
+            let exact = closure_candidates(self.manipulator, s);
+            if !exact.is_empty() {
+                ends.extend(ends_at(exact));
+                *found = self.judged(s, o, &ends, *expected, *attempts);
             }
         }
-        answer.ok_or_else(|| FkError::Breakdown { what: "no sequence could be evaluated".to_owned() })
+        answer
+            .map(|a| a.0)
+            .ok_or_else(|| FkError::Breakdown { what: "no sequence could be evaluated".to_owned() })
     }
+}
+
+/// Poses as points to be refined; those without a dual quaternion (`R^T R` far from one) are left out.
+fn ends_at(poses: impl IntoIterator<Item = ComplexPose>) -> impl Iterator<Item = End> {
+    let points = poses.into_iter().enumerate().filter_map(|(source, p)| Some((source, dual_quaternion(&p)?)));
+    points.map(|(source, point)| End {
+        point,
+        singular: false,
+        doubtful: false,
+        split: None,
+        condition: 1.0,
+        source,
+    })
 }
 
 impl Prepared<'_> {

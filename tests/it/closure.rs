@@ -1,5 +1,6 @@
 //! The two examples of Porta and Thomas by their exact closure polynomials, against the certified poses.
 
+use super::cli_frame::{document, equipod};
 use equipod::design::{Design, Format, parse};
 use equipod::distance::{closure_degrees, closure_polynomial, plans};
 use equipod::fk::{Closure, Completeness, FkOptions, FkSolutions, ForwardKinematics, Homotopy, closure};
@@ -78,6 +79,37 @@ fn nothing_is_claimed_without_the_number_of_all_poses() {
     let mut found = Homotopy.solve(m, &s, &FkOptions::default()).unwrap();
     found.roots.pop();
     assert_eq!(closure(m, &s, &found).unwrap().real_count(), None);
+}
+
+#[test]
+fn the_command_shows_the_closure_polynomial() {
+    let doc =
+        document(&equipod(&["fk", "designs/innocenti-6-4.toml", "--method", "trilateration", "--json"]));
+    let c = &doc["closure"];
+    assert_eq!((doc["method"].as_str(), doc["real_count"].as_u64()), (Some("trilateration"), Some(10)));
+    let numbers =
+        ["degree_before", "degree", "distinct_roots", "poses_real_proved"].map(|k| c[k].as_u64().unwrap());
+    assert_eq!(numbers, [200, 32, 32, 10]);
+    assert_eq!(c["coefficients"].as_array().unwrap().len(), 33);
+    assert_eq!((c["virtual_leg"].as_array().unwrap().len(), c["sequence"].as_array().unwrap().len()), (2, 7));
+    let roots = c["real_roots"].as_array().unwrap();
+    assert_eq!(roots.len(), 10);
+    for r in roots {
+        let (low, high) = (r[0].as_f64().unwrap(), r[1].as_f64().unwrap());
+        assert!(low < high && high - low < 1e-13 * high);
+    }
+    // both bodies planar: mirror pairs, told apart by the height
+    let out = equipod(&["fk", "designs/rbt-octahedral.toml", "--method", "trilateration", "--json"]);
+    let doc = document(&out);
+    assert_eq!(
+        (doc["finite_count"].as_u64(), doc["closure"]["poses_real_proved"].as_u64()),
+        (Some(16), Some(12))
+    );
+    let text = equipod(&["fk", "designs/porta-thomas-1.toml", "--method", "trilateration"]);
+    assert!(String::from_utf8_lossy(&text.stdout).contains("real poses: 10, proved by its real roots"));
+    // other methods say nothing of it
+    let doc = document(&equipod(&["fk", "designs/innocenti-6-4.toml", "--json"]));
+    assert!(doc.get("closure").is_none());
 }
 
 fn joint(names: &[String], name: &str) -> usize {

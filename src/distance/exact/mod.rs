@@ -2,7 +2,7 @@
 //!
 //! Doubles are rational numbers: scaled by a power of two, joints and squared leg lengths are integers, and the closure condition of a
 //! trilateration sequence is an element of a tower of square roots over `Q(x)`, `x` the squared length of the virtual leg. Its norm to `Q(x)`,
-//! without the singular factors, is the closure polynomial: every pose has its `x` among the roots. Theory and figures:
+//! without the singular factors, is the closure polynomial: every pose at which no base of a step is singular has its `x` among the roots. Theory and figures:
 //! `docs/theory/closure-polynomials.md`. Source: Porta, Thomas, sec. III.
 
 mod data;
