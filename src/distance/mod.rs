@@ -6,6 +6,7 @@
 
 mod cayley_menger;
 mod exact;
+mod hidden;
 mod numeric;
 mod plan;
 mod scalar;
@@ -15,6 +16,7 @@ pub use exact::{
     ClosureDegrees, ClosureError, ClosurePolynomial, SingularFactor, closure_degrees, closure_polynomial,
     generic_degrees,
 };
+pub use hidden::{HiddenLengths, HiddenPoses};
 pub use numeric::{Configuration, Configurations, Evaluator, Shape};
 pub use plan::{NoPlan, fit, plans};
 pub use scalar::Scalar;

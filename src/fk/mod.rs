@@ -14,6 +14,7 @@ mod dependent;
 mod elimination;
 mod evidence;
 mod harvest;
+mod hidden;
 mod homotopy;
 mod near;
 mod newton;

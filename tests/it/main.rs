@@ -25,6 +25,7 @@ mod documents;
 mod eliminations;
 mod examples;
 mod fk_laws;
+mod hidden_lengths;
 mod instances;
 mod leg_maps;
 mod octahedral_class;

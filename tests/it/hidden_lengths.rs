@@ -1,0 +1,60 @@
+//! Two and three virtual legs: the distance method and the homotopy find the same poses.
+
+use equipod::bench::{Class, LengthsFrom, Planar, problem};
+use equipod::fk::{
+    Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, Method, Trilateration,
+};
+use equipod::topology::catalogue;
+
+fn proved(f: &FkSolutions) -> bool {
+    matches!(f.completeness, Completeness::Proved { .. })
+}
+
+#[test]
+fn the_distance_method_and_the_homotopy_certify_the_same_poses() {
+    for (id, members) in [("T01", 1), ("T02", 6), ("T05", 6), ("T06", 6)] {
+        let topology = catalogue().into_iter().find(|t| t.id() == id).unwrap();
+        for k in 0..members {
+            let class = Class::Topology { topology, planar: Planar::Neither };
+            let member = problem(class, LengthsFrom::Pose, 3, k).unwrap();
+            let (m, s, o) = (&member.manipulator, &member.squares, FkOptions::default());
+            let (a, b) = (Trilateration.solve(m, s, &o).unwrap(), Homotopy.solve(m, s, &o).unwrap());
+            assert_eq!(
+                (a.method, proved(&a), proved(&b)),
+                (Method::Trilateration, true, true),
+                "{id} {k} {:?}",
+                a.completeness
+            );
+            assert_eq!(a.roots.len(), b.roots.len(), "{id} {k}");
+            for x in &a.roots {
+                let near =
+                    |y: &equipod::fk::FkRoot| x.pose.distance(&y.pose, m.size()) < 1e-6 * (1.0 + x.condition);
+                assert!(x.certified && b.roots.iter().filter(|y| near(y)).count() >= 1, "{id} {k}");
+            }
+            assert_eq!(a, Trilateration.solve(m, s, &o).unwrap(), "same input, same output");
+        }
+    }
+}
+
+#[test]
+fn designs_with_fewer_poses_are_not_called_complete_without_proof() {
+    // lengths that no generic argument covers: base and platform in planes, all joints of the base on a line with two exceptions
+    let topology = catalogue().into_iter().find(|t| t.id() == "T02").unwrap();
+    let class = Class::Topology { topology, planar: Planar::Both };
+    let member = problem(class, LengthsFrom::Pose, 3, 0).unwrap();
+    let (m, s, o) = (&member.manipulator, &member.squares, FkOptions::default());
+    let (a, b) = (Trilateration.solve(m, s, &o).unwrap(), Homotopy.solve(m, s, &o).unwrap());
+    assert!(a.roots.len() <= b.roots.len() && a.roots.iter().all(|r| r.certified));
+    assert!(proved(&a) == (a.roots.len() == 40) && a.all_accounted() == proved(&a));
+}
+
+#[test]
+fn a_design_that_needs_none_is_refused_or_solved_otherwise() {
+    let topology = catalogue().into_iter().find(|t| t.id() == "T34").unwrap();
+    let class = Class::Topology { topology, planar: Planar::Neither };
+    let member = problem(class, LengthsFrom::Pose, 3, 0).unwrap();
+    match Trilateration.solve(&member.manipulator, &member.squares, &FkOptions::default()) {
+        Ok(found) => assert_eq!(found.method, Method::Trilateration),
+        Err(e) => assert!(matches!(e, FkError::NotApplicable { method: Method::Trilateration, .. })),
+    }
+}
