@@ -6,16 +6,24 @@ use num_complex::Complex64;
 
 use super::aberth::{Condition, zeros};
 
-/// A polynomial `sum c_m T_m(t)`.
+/// A polynomial `sum over -n..=n of b_m v^m`, `t = (v + 1/v) / 2`, `b_-m = b_m` real: a sum of Chebyshev polynomials `T_m(t)`.
 #[derive(Debug, Clone)]
-pub(super) struct Chebyshev(Vec<f64>);
+pub(super) struct Chebyshev {
+    /// `b_0, .., b_n`.
+    coefficients: Vec<f64>,
+    /// Term over the largest on the ellipse each was found on: about rounding over its relative error.
+    weight: Vec<f64>,
+    /// The term beyond the degree over the largest.
+    pub(super) excess: f64,
+}
 
-/// Larger than 1: sum of the half axes of the ellipse about the interval `[-1, 1]` on which values are taken.
-const ELLIPSE: f64 = 2.0;
+/// Terms below this part of the largest on their ellipse say little.
+const TRUSTED: f64 = 1e-9;
 
-/// The points with positive imaginary part that a polynomial with real coefficients of this degree is known by: equidistant for `v` on a circle, `t = (v + 1/v) / 2`.
-pub(super) fn nodes(degree: usize) -> Vec<Complex64> {
-    (0..count(degree)).map(|k| of_circle(place(degree, k))).collect()
+/// The points with positive imaginary part that a polynomial of this degree with real coefficients is known by: equidistant for `v` on a circle,
+/// on an ellipse about the interval `[-1, 1]` for `t`.
+pub(super) fn nodes(degree: usize, radius: f64) -> Vec<Complex64> {
+    (0..count(degree)).map(|k| of_circle(Complex64::from_polar(radius, angle(degree, k)))).collect()
 }
 
 /// Half of what the Laurent polynomial in `v` has coefficients, and one more.
@@ -23,15 +31,15 @@ fn count(degree: usize) -> usize {
     degree + 2
 }
 
-fn place(degree: usize, k: usize) -> Complex64 {
-    Complex64::from_polar(ELLIPSE, PI * (k as f64 + 0.5) / count(degree) as f64)
+fn angle(degree: usize, k: usize) -> f64 {
+    PI * (k as f64 + 0.5) / count(degree) as f64
 }
 
 fn of_circle(v: Complex64) -> Complex64 {
     (v + v.inv()) * 0.5
 }
 
-/// Points of a narrower ellipse, to start from.
+/// Points of a narrow ellipse, to start from.
 pub(super) fn around(degree: usize) -> Vec<Complex64> {
     (0..degree)
         .map(|k| of_circle(Complex64::from_polar(1.3, TAU * (k as f64 + 0.3) / degree as f64)))
@@ -39,27 +47,55 @@ pub(super) fn around(degree: usize) -> Vec<Complex64> {
 }
 
 impl Chebyshev {
-    /// The polynomial from values at the [`nodes`], and the coefficient beyond its degree over the largest, both as on the ellipse.
-    pub(super) fn through(values: &[Complex64], degree: usize) -> (Self, f64) {
-        // F = sum over m of b_m v^m, b_-m = b_m real, c_0 = b_0, c_m = 2 b_m
-        let coefficient = |m: usize| {
-            let term = |(k, value): (usize, &Complex64)| {
-                (value * Complex64::from_polar(1.0, -(m as f64) * place(degree, k).arg())).re
-            };
-            values.iter().enumerate().map(term).sum::<f64>() / values.len() as f64
+    /// The polynomial from values at the [`nodes`].
+    pub(super) fn through(values: &[Complex64], degree: usize, radius: f64) -> Self {
+        let term = |m: usize| {
+            let terms = values.iter().enumerate();
+            let sum: f64 =
+                terms.map(|(k, v)| (v * Complex64::from_polar(1.0, -(m as f64) * angle(degree, k))).re).sum();
+            sum / values.len() as f64
         };
-        let on_ellipse: Vec<f64> = (0..=degree + 1).map(coefficient).collect();
-        let scale = on_ellipse.iter().fold(0.0f64, |m, x| m.max(x.abs()));
-        let excess = on_ellipse[degree + 1].abs() / scale;
-        let factor = |m: usize| if m == 0 { 1.0 } else { 2.0 * ELLIPSE.powf(-(m as f64)) };
-        (Self((0..=degree).map(|m| on_ellipse[m] / scale * factor(m)).collect()), excess)
+        let mut terms: Vec<f64> = (0..=degree + 1).map(term).collect();
+        let beyond = terms.pop().map_or(0.0, f64::abs);
+        let scale = terms.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+        Self {
+            coefficients: terms.iter().enumerate().map(|(m, t)| t * radius.powf(-(m as f64))).collect(),
+            weight: terms.iter().map(|t| t.abs() / scale).collect(),
+            excess: beyond / scale,
+        }
+    }
+
+    /// Where to look again: a wider ellipse when the last coefficients are small there, a narrower one when the first are.
+    pub(super) fn doubtful(&self, radius: f64) -> Option<f64> {
+        let small = |list: &[f64]| list.iter().all(|w| *w < TRUSTED);
+        let n = self.weight.len();
+        if small(&self.weight[n - 2..]) {
+            Some(radius * radius)
+        } else if small(&self.weight[..4]) {
+            Some(radius.sqrt())
+        } else {
+            None
+        }
+    }
+
+    /// Takes the coefficients that stand out more in another.
+    pub(super) fn improve(&mut self, other: &Self) {
+        for m in 0..self.weight.len() {
+            if other.weight[m] > self.weight[m] {
+                self.weight[m] = other.weight[m];
+                self.coefficients[m] = other.coefficients[m];
+            }
+        }
     }
 
     /// All zeros, from points around the interval.
     pub(super) fn zeros(&self) -> Vec<Complex64> {
-        let degree = self.0.len() - 1;
-        let start = around(degree);
-        zeros(&mut Series(&self.0), &start).0.into_iter().map(|z| z.at).collect()
+        let start = around(self.coefficients.len() - 1);
+        // the sum by T_m has c_0 = b_0, c_m = 2 b_m
+        let scale = self.coefficients.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+        let factor = |m: usize| if m == 0 { 1.0 / scale } else { 2.0 / scale };
+        let series: Vec<f64> = self.coefficients.iter().enumerate().map(|(m, b)| b * factor(m)).collect();
+        zeros(&mut Series(&series), &start).0.into_iter().map(|z| z.at).collect()
     }
 }
 
@@ -95,14 +131,15 @@ mod tests {
     #[test]
     fn a_polynomial_is_found_again_by_its_zeros() {
         let known = [-0.9, -0.2, 0.1, 0.55, 1.4];
-        let values: Vec<Complex64> = nodes(5).iter().map(|t| known.iter().map(|z| t - z).product()).collect();
-        let (p, excess) = Chebyshev::through(&values, 5);
-        assert!(excess < 1e-14);
+        let values: Vec<Complex64> =
+            nodes(5, 1.5).iter().map(|t| known.iter().map(|z| t - z).product()).collect();
+        let p = Chebyshev::through(&values, 5, 1.5);
+        assert!(p.excess < 1e-14 && p.doubtful(1.5).is_none());
         let found = p.zeros();
         for z in known {
             assert_eq!(found.iter().filter(|f| (*f - z).norm() < 1e-9).count(), 1, "{found:?}");
         }
-        let cubic: Vec<Complex64> = nodes(3).iter().map(|t| t * t * t * t).collect();
-        assert!(Chebyshev::through(&cubic, 3).1 > 1e-3, "a degree too low shows");
+        let cubic: Vec<Complex64> = nodes(3, 2.0).iter().map(|t| t * t * t * t).collect();
+        assert!(Chebyshev::through(&cubic, 3, 2.0).excess > 1e-3, "a degree too low shows");
     }
 }

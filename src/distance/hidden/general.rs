@@ -2,8 +2,6 @@
 
 use num_complex::Complex64;
 
-use super::HiddenPoses;
-use super::chebyshev::{Chebyshev, around, nodes};
 use super::circle::complex;
 use super::legs::{HiddenLeg, Roles};
 use super::newton::refined;
@@ -11,11 +9,7 @@ use super::roots::closure_zeros;
 use crate::geom::ComplexPose;
 
 /// Poses of a 6-6.
-const DEGREE: usize = 40;
-/// Rounds over the zeros that have no pose yet.
-const SWEEPS: usize = 12;
-/// Starts for Newton's method from one platform.
-const STARTS: usize = 8;
+pub(super) const DEGREE: usize = 40;
 /// Poses closer than this, relative to their numbers in units of the size, are one.
 const SAME: f64 = 1e-6;
 
@@ -54,33 +48,33 @@ impl GeneralRoles {
 
 /// An inner pose: what the last leg lacks, and how that changes with `t`.
 #[derive(Debug, Clone, Copy)]
-struct Inner {
-    pose: ComplexPose,
-    gap: Complex64,
-    slope: Complex64,
+pub(super) struct Inner {
+    pub(super) pose: ComplexPose,
+    pub(super) gap: Complex64,
+    pub(super) slope: Complex64,
 }
 
 /// The platform with the virtual leg, `x = centre + half t`: real poses have `t` in `[-1, 1]`.
-struct Platform<'a> {
-    legs: &'a [HiddenLeg; 6],
+pub(super) struct Platform<'a> {
+    pub(super) legs: &'a [HiddenLeg; 6],
     roles: GeneralRoles,
     centre: f64,
     half: f64,
     /// Evaluations of inner conditions.
-    evaluations: usize,
+    pub(super) evaluations: usize,
     /// Platforms asked for.
-    solved: usize,
+    pub(super) solved: usize,
 }
 
 impl<'a> Platform<'a> {
-    fn new(legs: &'a [HiddenLeg; 6], roles: GeneralRoles) -> Self {
+    pub(super) fn new(legs: &'a [HiddenLeg; 6], roles: GeneralRoles) -> Self {
         let d = (legs[roles.foot].base - legs[roles.joint].base).norm();
         let s = legs[roles.joint].s.re;
         Self { legs, roles, centre: s + d * d, half: 2.0 * s.sqrt() * d, evaluations: 0, solved: 0 }
     }
 
     /// `t` of a pose.
-    fn place(&self, pose: &ComplexPose) -> Complex64 {
+    pub(super) fn place(&self, pose: &ComplexPose) -> Complex64 {
         let x =
             HiddenLeg { s: Complex64::ZERO, ..self.roles.inner(self.legs, Complex64::ZERO)[self.roles.last] };
         let d = pose.rotation * complex(&x.platform) + pose.position - complex(&x.base);
@@ -88,7 +82,7 @@ impl<'a> Platform<'a> {
     }
 
     /// The poses, with whether they are all 40.
-    fn poses(&mut self, t: Complex64) -> (Vec<Inner>, bool) {
+    pub(super) fn poses(&mut self, t: Complex64) -> (Vec<Inner>, bool) {
         self.solved += 1;
         let inner = self.roles.inner(self.legs, t * self.half + self.centre);
         let last = &self.legs[self.roles.last];
@@ -113,138 +107,9 @@ impl<'a> Platform<'a> {
     }
 }
 
-/// All poses of a 6-6 by one way, as far as they are found.
-pub(super) fn general_poses(legs: &[HiddenLeg; 6], roles: &GeneralRoles) -> HiddenPoses {
-    let mut platform = Platform::new(legs, *roles);
-    let mut search =
-        Search { zeros: vec![Complex64::ZERO; DEGREE], settled: [false; DEGREE], poses: Vec::new() };
-    let (zeros, excess) = search.interpolate(&mut platform);
-    search.begin(&platform, zeros);
-    for _ in 0..SWEEPS {
-        for k in 0..DEGREE {
-            if !search.settled[k] && search.poses.len() < DEGREE {
-                search.visit(&mut platform, k);
-            }
-        }
-    }
-    HiddenPoses {
-        settled: search.poses.len(),
-        poses: search.poses.into_iter().map(Some).collect(),
-        evaluations: platform.evaluations,
-        platforms: platform.solved,
-        excess,
-    }
-}
-
 /// One pose found twice, relative to its own numbers.
-fn same(known: &ComplexPose, pose: &ComplexPose) -> bool {
+pub(super) fn same(known: &ComplexPose, pose: &ComplexPose) -> bool {
     let numbers = known.rotation.iter().chain(&known.position);
     let scale = numbers.map(Complex64::norm_sqr).fold(1.0, f64::max).sqrt();
     known.is_within(pose, 1.0, SAME * scale)
-}
-
-/// Zeros of the polynomial, from its coefficients at first, and the poses found at them.
-struct Search {
-    zeros: Vec<Complex64>,
-    settled: [bool; DEGREE],
-    poses: Vec<ComplexPose>,
-}
-
-impl Search {
-    /// Zeros by interpolation, and the excess; points of an ellipse when some platform cannot be solved or all poses are found on the way.
-    fn interpolate(&mut self, platform: &mut Platform<'_>) -> (Vec<Complex64>, f64) {
-        let mut values: Vec<Complex64> = Vec::with_capacity(DEGREE + 2);
-        for t in nodes(DEGREE) {
-            let (poses, complete) = platform.poses(t);
-            self.starts(platform, &poses);
-            if complete {
-                values.push(poses.iter().map(|p| p.gap).product());
-            }
-            if self.poses.len() >= DEGREE {
-                break;
-            }
-        }
-        if values.len() == nodes(DEGREE).len() {
-            let (polynomial, excess) = Chebyshev::through(&values, DEGREE);
-            (polynomial.zeros(), excess)
-        } else {
-            (around(DEGREE), f64::NAN)
-        }
-    }
-
-    /// Gives the poses known already the nearest zeros.
-    fn begin(&mut self, platform: &Platform<'_>, zeros: Vec<Complex64>) {
-        self.zeros = zeros;
-        self.settled = [false; DEGREE];
-        for pose in std::mem::take(&mut self.poses) {
-            self.assign(platform, pose);
-        }
-    }
-
-    fn assign(&mut self, platform: &Platform<'_>, pose: ComplexPose) {
-        self.poses.push(pose);
-        let t = platform.place(&pose);
-        let open = (0..DEGREE).filter(|j| !self.settled[*j]);
-        let off = |j: &usize| (self.zeros[*j] - t).norm();
-        if let Some(j) = open.min_by(|i, j| off(i).total_cmp(&off(j))) {
-            self.zeros[j] = t;
-            self.settled[j] = true;
-        }
-    }
-
-    /// The poses nearest to closing at a zero are starts for Newton's method; unless they lead to a solution for it, the zero takes an Ehrlich-Aberth
-    /// step on the polynomial itself, `F'/F = sum (ds_m/dt) / (s_m - s)`.
-    fn visit(&mut self, platform: &mut Platform<'_>, k: usize) {
-        let t = self.zeros[k];
-        let size = t.norm().max(1.0);
-        let (poses, complete) = platform.poses(t);
-        if self.starts(platform, &poses) > 0 && self.settled[k] {
-            return;
-        }
-        if !complete {
-            // the polynomial has no value here; a little further it may have
-            self.zeros[k] = t + Complex64::new(1e-2, 7e-3) * size;
-            return;
-        }
-        let rate: Complex64 = poses.iter().map(|p| p.slope / p.gap).sum();
-        let others = (0..DEGREE).filter(|j| *j != k).map(|j| (t - self.zeros[j]).inv());
-        let step = (rate - others.filter(|q| q.is_finite()).sum::<Complex64>()).inv();
-        if step.is_finite() && step.norm() < 10.0 * size {
-            self.zeros[k] = t - step;
-        }
-    }
-
-    /// Newton's method on the legs as they are from the poses nearest to closing; the number of new solutions.
-    fn starts(&mut self, platform: &Platform<'_>, poses: &[Inner]) -> usize {
-        let step = |p: &Inner| (p.gap / p.slope).norm();
-        let mut nearest: Vec<&Inner> = poses.iter().collect();
-        nearest.sort_by(|a, b| step(a).total_cmp(&step(b)));
-        let mut new = 0;
-        for start in nearest.into_iter().take(STARTS) {
-            if let Some(found) = refined(platform.legs, start.pose, 0)
-                && self.is_new(&found.pose)
-            {
-                self.settle(platform, found.pose);
-                new += 1;
-            }
-        }
-        new
-    }
-
-    fn is_new(&self, pose: &ComplexPose) -> bool {
-        self.poses.iter().all(|known| !same(known, pose))
-    }
-
-    /// Takes a pose, and its conjugate, for the nearest zeros that have none.
-    fn settle(&mut self, platform: &Platform<'_>, pose: ComplexPose) {
-        let conjugate = ComplexPose {
-            rotation: pose.rotation.map(|z| z.conj()),
-            position: pose.position.map(|z| z.conj()),
-        };
-        for pose in [pose, conjugate] {
-            if self.is_new(&pose) {
-                self.assign(platform, pose);
-            }
-        }
-    }
 }

@@ -16,10 +16,12 @@ mod octic;
 mod product;
 mod roots;
 mod rotations;
+mod search;
 
-use self::general::{GeneralRoles, general_poses};
+use self::general::GeneralRoles;
 use self::legs::{HiddenLeg, Roles, scaled, unscaled};
 use self::roots::closure_zeros;
+use self::search::general_poses;
 use crate::geom::ComplexPose;
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 

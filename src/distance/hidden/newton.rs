@@ -12,6 +12,9 @@ const STEPS: usize = 8;
 /// After a step below this, of the rotation and relative to the position, the next would be rounding.
 const SMALL: f64 = 1e-8;
 
+/// Steps below this that do not become smaller are rounding.
+const ROUNDED: f64 = 1e-4;
+
 /// Rotation about three axes, shift, by unit changes: the columns are right-hand sides.
 type Columns = SMatrix<Complex64, 6, 2>;
 type Jacobian = SMatrix<Complex64, 6, 6>;
@@ -35,6 +38,7 @@ impl Moving {
 /// The solution near a pose; `None` where the Jacobian is singular or the steps do not become small.
 pub(super) fn refined(legs: &[HiddenLeg; 6], pose: ComplexPose, grows: usize) -> Option<Moving> {
     let mut pose = pose;
+    let mut before = f64::INFINITY;
     for _ in 0..STEPS {
         let mut jacobian = Jacobian::zeros();
         let mut right = Columns::zeros();
@@ -54,9 +58,11 @@ pub(super) fn refined(legs: &[HiddenLeg; 6], pose: ComplexPose, grows: usize) ->
         let norm = |v: &Vector3<Complex64>| v.iter().map(Complex64::norm_sqr).sum::<f64>().sqrt();
         let size = norm(&step[0]).max(norm(&step[1]) / (1.0 + norm(&pose.position)));
         pose = moved(&pose, &step)?;
-        if size < SMALL {
+        // the numbers of poses far out cancel: their steps end at the rounding of those
+        if size < SMALL || (size < ROUNDED && size > 0.3 * before) {
             return Some(Moving { pose, rate: column(1) });
         }
+        before = size;
     }
     None
 }

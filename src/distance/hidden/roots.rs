@@ -6,11 +6,16 @@ use num_complex::Complex64;
 
 use super::aberth::{Condition, Zero, zeros};
 use super::product::{Closure, Poses, Scratch};
+use crate::poly::approximate_roots;
 
 /// Further circles on either side.
 const CIRCLES: usize = 4;
 /// Terms below this part of the largest on their circle say little about the zeros beyond.
 const TRUSTED: f64 = 1e-10;
+/// Accuracy of start values.
+const ROUGH: f64 = 1e-4;
+/// Sweeps for them.
+const ROUGH_SWEEPS: usize = 60;
 /// More points on the circle than coefficients: those beyond the degree are rounding.
 const SPARE: usize = 7;
 /// The first point on the circle, so that none is at a symmetry of the design.
@@ -42,7 +47,7 @@ pub(super) fn closure_zeros(closure: &Closure) -> Option<Zeros> {
             laurent.improve(&further);
         }
     }
-    let mut start = crate::poly::roots(&laurent.coefficients).ok().filter(|r| r.len() == 2 * half)?;
+    let mut start = approximate_roots(&laurent.coefficients, ROUGH, ROUGH_SWEEPS).ok()?;
     // neighbours on the circle have neighbouring poses
     start.sort_by(|a, b| a.arg().total_cmp(&b.arg()));
     let (found, evaluations) = zeros(&mut OnCircle { closure, half, scratch }, &start);

@@ -100,18 +100,16 @@ fn poles_are_where_triangles_degenerate() {
                 terms.sum::<Complex64>().norm()
             };
             let largest = (0..=count / 2).map(coefficient).fold(0.0, f64::max);
-            let last = coefficient(count / 2) / largest;
-            ((count / 2 + 1..count / 2 + 8).map(coefficient).fold(0.0, f64::max) / largest, last)
+            (count / 2 + 1..count / 2 + 8).map(coefficient).fold(0.0, f64::max) / largest
         };
         let mut scratch = Scratch::default();
         let values: Vec<Complex64> = (0..n).map(|k| closure.value(point(k), &mut scratch).unwrap()).collect();
-        let (excess, last) = beyond(&values);
-        assert!(excess < 1e-12 && last > 10.0 * excess, "{legs:?}: {excess:e} {last:e}");
+        assert!(beyond(&values) < 1e-12, "{legs:?}: {:e}", beyond(&values));
         let gaps = |k: usize| -> Complex64 {
             closure.poses(point(k), &mut Scratch::default()).unwrap().placed.iter().map(|p| p.gap).product()
         };
         let bare: Vec<Complex64> = (0..n).map(gaps).collect();
-        assert!(beyond(&bare).0 > 1e-6, "{legs:?}: the product alone has poles");
+        assert!(beyond(&bare) > 1e-6, "{legs:?}: the product alone has poles");
     }
 }
 
