@@ -18,7 +18,8 @@ fn the_distance_method_and_the_homotopy_certify_the_same_poses() {
             let class = Class::Topology { topology, planar: Planar::Neither };
             let member = problem(class, LengthsFrom::Pose, 3, k).unwrap();
             let (m, s, o) = (&member.manipulator, &member.squares, FkOptions::default());
-            let (a, b) = (Trilateration.solve(m, s, &o).unwrap(), Homotopy.solve(m, s, &o).unwrap());
+            let (a, b) =
+                (Trilateration::default().solve(m, s, &o).unwrap(), Homotopy.solve(m, s, &o).unwrap());
             assert_eq!(
                 (a.method, proved(&a), proved(&b)),
                 (Method::Trilateration, true, true),
@@ -31,7 +32,7 @@ fn the_distance_method_and_the_homotopy_certify_the_same_poses() {
                     |y: &equipod::fk::FkRoot| x.pose.distance(&y.pose, m.size()) < 1e-6 * (1.0 + x.condition);
                 assert!(x.certified && b.roots.iter().filter(|y| near(y)).count() >= 1, "{id} {k}");
             }
-            assert_eq!(a, Trilateration.solve(m, s, &o).unwrap(), "same input, same output");
+            assert_eq!(a, Trilateration::default().solve(m, s, &o).unwrap(), "same input, same output");
         }
     }
 }
@@ -43,7 +44,7 @@ fn designs_with_fewer_poses_are_not_called_complete_without_proof() {
     let class = Class::Topology { topology, planar: Planar::Both };
     let member = problem(class, LengthsFrom::Pose, 3, 0).unwrap();
     let (m, s, o) = (&member.manipulator, &member.squares, FkOptions::default());
-    let (a, b) = (Trilateration.solve(m, s, &o).unwrap(), Homotopy.solve(m, s, &o).unwrap());
+    let (a, b) = (Trilateration::default().solve(m, s, &o).unwrap(), Homotopy.solve(m, s, &o).unwrap());
     assert!(a.roots.len() <= b.roots.len() && a.roots.iter().all(|r| r.certified));
     assert!(proved(&a) == (a.roots.len() == 40) && a.all_accounted() == proved(&a));
 }
@@ -53,7 +54,7 @@ fn a_design_that_needs_none_is_refused_or_solved_otherwise() {
     let topology = catalogue().into_iter().find(|t| t.id() == "T34").unwrap();
     let class = Class::Topology { topology, planar: Planar::Neither };
     let member = problem(class, LengthsFrom::Pose, 3, 0).unwrap();
-    match Trilateration.solve(&member.manipulator, &member.squares, &FkOptions::default()) {
+    match Trilateration::default().solve(&member.manipulator, &member.squares, &FkOptions::default()) {
         Ok(found) => assert_eq!(found.method, Method::Trilateration),
         Err(e) => assert!(matches!(e, FkError::NotApplicable { method: Method::Trilateration, .. })),
     }
