@@ -18,7 +18,7 @@ pub enum Method {
     Sylvester,
     /// Elimination template and generalized eigenvectors (Martyushev); general six legs.
     Template,
-    /// Trilateration with no or one virtual leg (Porta, Thomas); 30 of the 34 joint-sharing topologies.
+    /// Trilateration with virtual legs (Porta, Thomas).
     Trilateration,
 }
 

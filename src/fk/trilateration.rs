@@ -10,7 +10,7 @@ use super::evidence::{GENERAL, attach};
 use super::harvest::{End, Harvest, harvest};
 use super::{
     Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, PreparedDesign, Rejected,
-    RejectionReason, SolutionSet,
+    RejectionReason, SolutionSet, hidden,
 };
 use crate::distance::{Evaluator, NoPlan, Shape, fit};
 use crate::geom::ComplexPose;
@@ -25,13 +25,13 @@ const ATTEMPTS: usize = 9;
 /// Radii of the circles on which closure polynomials are sampled, in the order in which they are tried.
 const RADII: [f64; 3] = [1.0, 16.0, 1.0 / 16.0];
 
-/// Forward kinematics of platforms that need no or one virtual leg (30 of the 34 joint-sharing topologies), by trilateration in floating
-/// point: all finite poses, refined on the leg equations and certified.
+/// Forward kinematics by trilateration in floating point: all finite poses, refined on the leg equations and certified.
 ///
-/// Which sequence to use depends on which joints are shared; that is worked out once for the legs of a design and kept in the value.
+/// Platforms that need two or three virtual legs have one length hidden, see `docs/theory/hidden-lengths.md`; the others (30 of the 34
+/// joint-sharing topologies) follow a trilateration sequence. Which sequence to use depends on which joints are shared; that is worked out once for the legs of a design and kept in the value.
 /// Complete when as many distinct poses are certified as the topology can have; other sequences are tried before it gives up, and at
 /// last the exact closure polynomial ([`closure_candidates`]), which takes milliseconds and more.
-/// [`FkError::NotApplicable`] when more virtual legs are needed, or triangles that have to be proper are collinear.
+/// [`FkError::NotApplicable`] when legs are shared otherwise than in these topologies, or triangles that have to be proper are collinear.
 #[derive(Debug, Default)]
 pub struct Trilateration {
     known: Mutex<BTreeMap<Legs, Arc<Ranked>>>,
@@ -131,7 +131,10 @@ impl ForwardKinematics for Trilateration {
     }
 
     fn solve(&self, m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
-        self.prepared(m)?.solve(s, o)
+        match hidden::solve(m, s, o) {
+            Some(found) => Ok(found),
+            None => self.prepared(m)?.solve(s, o),
+        }
     }
 
     fn prepare<'a>(&'a self, m: &'a Manipulator) -> Option<Box<dyn PreparedDesign + 'a>> {
@@ -152,7 +155,8 @@ impl PreparedDesign for Prepared<'_> {
             }
             let configurations = evaluator.configurations(&squares, radius);
             ends.extend(ends_at(configurations.found.iter().map(|c| c.pose)));
-            let found = self.judged(s, o, &ends, configurations.expected, attempt + 1);
+            let tried = format!("{} evaluations", attempt + 1);
+            let found = judged(self.manipulator, s, o, &ends, configurations.expected, &tried);
             if matches!(found.completeness, Completeness::Proved { .. }) {
                 return Ok(found);
             }
@@ -163,7 +167,8 @@ impl PreparedDesign for Prepared<'_> {
             let exact = closure_candidates(self.manipulator, s);
             if !exact.is_empty() {
                 ends.extend(ends_at(exact));
-                *found = self.judged(s, o, &ends, *expected, *attempts);
+                let tried = format!("{attempts} evaluations");
+                *found = judged(self.manipulator, s, o, &ends, *expected, &tried);
             }
         }
         answer
@@ -173,7 +178,7 @@ impl PreparedDesign for Prepared<'_> {
 }
 
 /// Poses as points to be refined; those without a dual quaternion (`R^T R` far from one) are left out.
-fn ends_at(poses: impl IntoIterator<Item = ComplexPose>) -> impl Iterator<Item = End> {
+pub(super) fn ends_at(poses: impl IntoIterator<Item = ComplexPose>) -> impl Iterator<Item = End> {
     let points = poses.into_iter().enumerate().filter_map(|(source, p)| Some((source, dual_quaternion(&p)?)));
     points.map(|(source, point)| End {
         point,
@@ -185,40 +190,37 @@ fn ends_at(poses: impl IntoIterator<Item = ComplexPose>) -> impl Iterator<Item =
     })
 }
 
-impl Prepared<'_> {
-    /// Refines, merges and certifies the ends of all attempts so far. What cannot be certified is no root: with other distances
-    /// the same lengths give other poses of rounding far out.
-    fn judged(
-        &self,
-        s: &SquaredLegLengths,
-        o: &FkOptions,
-        ends: &[End],
-        expected: usize,
-        attempts: usize,
-    ) -> FkSolutions {
-        let m = self.manipulator;
-        let Harvest { collected, certificates } = harvest(m, s, &o.tolerances, ends);
-        let (roots, others): (Vec<_>, Vec<_>) = collected.roots.into_iter().partition(|r| r.certified);
-        let mut rejected = collected.rejected;
-        let reason = RejectionReason::NotCertified;
-        rejected.extend(others.iter().map(|r| Rejected { reason, residual: r.residual }));
-        let distinct = roots.len();
-        let all_paths_accounted = distinct == expected;
-        let reason = format!(
-            "{distinct} certified poses from {} configurations of {attempts} evaluations, {expected} are usual for the topology{}",
-            ends.len(),
-            if all_paths_accounted { "" } else { "; poses may be missing or multiple" },
-        );
-        let mut solutions = FkSolutions {
-            method: Method::Trilateration,
-            roots,
-            solution_set: SolutionSet::Isolated,
-            completeness: Completeness::Unproved { reason, all_paths_accounted },
-            paths: Vec::new(),
-            rejected,
-            seed: o.seed,
-        };
-        attach(&mut solutions, m, s, GENERAL, certificates);
-        solutions
-    }
+/// Refines, merges and certifies the ends of all that was `tried`. What cannot be certified is no root: with other distances
+/// the same lengths give other poses of rounding far out.
+pub(super) fn judged(
+    m: &Manipulator,
+    s: &SquaredLegLengths,
+    o: &FkOptions,
+    ends: &[End],
+    expected: usize,
+    tried: &str,
+) -> FkSolutions {
+    let Harvest { collected, certificates } = harvest(m, s, &o.tolerances, ends);
+    let (roots, others): (Vec<_>, Vec<_>) = collected.roots.into_iter().partition(|r| r.certified);
+    let mut rejected = collected.rejected;
+    let reason = RejectionReason::NotCertified;
+    rejected.extend(others.iter().map(|r| Rejected { reason, residual: r.residual }));
+    let distinct = roots.len();
+    let all_paths_accounted = distinct == expected;
+    let reason = format!(
+        "{distinct} certified poses from {} configurations of {tried}, {expected} are usual for the topology{}",
+        ends.len(),
+        if all_paths_accounted { "" } else { "; poses may be missing or multiple" },
+    );
+    let mut solutions = FkSolutions {
+        method: Method::Trilateration,
+        roots,
+        solution_set: SolutionSet::Isolated,
+        completeness: Completeness::Unproved { reason, all_paths_accounted },
+        paths: Vec::new(),
+        rejected,
+        seed: o.seed,
+    };
+    attach(&mut solutions, m, s, GENERAL, certificates);
+    solutions
 }

@@ -1,10 +1,10 @@
 //! Two and three virtual legs: the distance method and the homotopy find the same poses.
 
 use equipod::bench::{Class, LengthsFrom, Planar, problem};
-use equipod::fk::{
-    Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, Method, Trilateration,
-};
+use equipod::fk::{Completeness, FkOptions, FkSolutions, ForwardKinematics, Homotopy, Method, Trilateration};
 use equipod::topology::catalogue;
+
+use super::cli_frame::{document, equipod};
 
 fn proved(f: &FkSolutions) -> bool {
     matches!(f.completeness, Completeness::Proved { .. })
@@ -49,13 +49,10 @@ fn designs_with_fewer_poses_are_not_called_complete_without_proof() {
     assert!(proved(&a) == (a.roots.len() == 40) && a.all_accounted() == proved(&a));
 }
 
+/// Dietmaier's platform: forty real poses, by distances alone.
 #[test]
-fn a_design_that_needs_none_is_refused_or_solved_otherwise() {
-    let topology = catalogue().into_iter().find(|t| t.id() == "T34").unwrap();
-    let class = Class::Topology { topology, planar: Planar::Neither };
-    let member = problem(class, LengthsFrom::Pose, 3, 0).unwrap();
-    match Trilateration::default().solve(&member.manipulator, &member.squares, &FkOptions::default()) {
-        Ok(found) => assert_eq!(found.method, Method::Trilateration),
-        Err(e) => assert!(matches!(e, FkError::NotApplicable { method: Method::Trilateration, .. })),
-    }
+fn all_forty_poses_of_dietmaiers_platform_are_real() {
+    let doc = document(&equipod(&["fk", "designs/dietmaier.toml", "--method", "trilateration", "--json"]));
+    assert_eq!(doc["completeness"], "proved", "{}", doc["completeness_reason"]);
+    assert_eq!((doc["finite_count"].as_u64(), doc["real_count"].as_u64()), (Some(40), Some(40)));
 }

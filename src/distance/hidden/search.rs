@@ -13,6 +13,8 @@ use crate::geom::ComplexPose;
 const ELLIPSE: f64 = 1.8;
 /// Ellipses at most.
 const ELLIPSES: usize = 3;
+/// Evaluations of inner conditions after which a way is given up; it takes 5,000 to 20,000 unless poses are missing.
+const BUDGET: usize = 40_000;
 /// Rounds over the zeros that have no pose yet.
 const SWEEPS: usize = 12;
 /// Starts for Newton's method from one platform.
@@ -27,7 +29,7 @@ pub(super) fn general_poses(legs: &[HiddenLeg; 6], roles: &GeneralRoles) -> Hidd
     search.begin(&platform, zeros);
     for _ in 0..SWEEPS {
         for k in 0..DEGREE {
-            if !search.settled[k] && search.poses.len() < DEGREE {
+            if !search.settled[k] && search.poses.len() < DEGREE && platform.evaluations < BUDGET {
                 search.visit(&mut platform, k);
             }
         }
@@ -70,7 +72,7 @@ impl Search {
         for t in nodes(DEGREE, radius) {
             let (poses, complete) = platform.poses(t);
             self.starts(platform, &poses);
-            if self.poses.len() >= DEGREE || !complete {
+            if self.poses.len() >= DEGREE || !complete || platform.evaluations > BUDGET {
                 return None;
             }
             values.push(poses.iter().map(|p| p.gap).product());
