@@ -8,6 +8,9 @@ use nalgebra::{Matrix6, Point3, Rotation3, Vector3};
 
 use super::instances::{Instance, apart, instances};
 
+/// Designs of the crowded kind.
+const GRIDS: u64 = 240;
+
 /// One coordinate of leg `leg` changed.
 fn nudged(m: &Manipulator, leg: usize, platform: bool, by: [f64; 3]) -> Manipulator {
     let mut legs = m.legs();
@@ -193,4 +196,45 @@ fn extreme_units_and_far_origins_are_decided_the_same() {
             assert_eq!((found.leg_rank, found.jacobian.rank), (leg_rank, rank), "{name}, {factor} {shift}");
         }
     }
+}
+
+/// Joints on a small grid make every kind of coincidence; one pose in doubles knows nothing of the exact decision.
+#[test]
+fn crowded_designs_are_decided_as_doubles_see_them_and_get_a_name() {
+    let mut rng = Rng::new(77);
+    let (mut singular, mut by_lattice) = (0, 0);
+    let mut names = std::collections::BTreeMap::new();
+    for k in 0..GRIDS {
+        // few places for many joints, on every fourth design in a line
+        let mut palette = || -> Vec<Point3<f64>> {
+            let line = rng.next_u64().is_multiple_of(4);
+            (0..3 + k % 3)
+                .map(|_| {
+                    let mut digit = || (rng.next_u64() % 4) as f64;
+                    if line { Point3::new(digit(), 1.0, 2.0) } else { Point3::new(digit(), digit(), digit()) }
+                })
+                .collect()
+        };
+        let (base, platform) = (palette(), palette());
+        let mut pick = |from: &[Point3<f64>]| from[(rng.next_u64() % from.len() as u64) as usize];
+        let legs: [Leg; 6] = std::array::from_fn(|_| Leg { base: pick(&base), platform: pick(&platform) });
+        let Ok(m) = apart(&legs) else { continue };
+        let found = Architecture::of(&m);
+        let numeric = (0..3).map(|_| {
+            let position = Vector3::from_fn(|_, _| rng.uniform(-2.0, 2.0));
+            let pose = Pose { rotation: random_rotation(&mut rng), position };
+            let s = equipod::manipulator::plucker_matrix(&m, &pose, 1.0).singular_values();
+            s.iter().filter(|x| **x > 1e-11 * s.max()).count()
+        });
+        assert_eq!(numeric.max(), Some(found.jacobian.rank), "{legs:?}");
+        assert!(found.jacobian.rank <= found.leg_rank);
+        assert_eq!(found.is_singular(), !found.findings.is_empty());
+        singular += usize::from(found.is_singular());
+        by_lattice += usize::from(found.is_singular() && found.leg_rank == 6);
+        for f in found.findings.iter().take(1) {
+            assert!(!matches!(f.case, Case::Unnamed), "{legs:?}");
+            *names.entry(f.case.name()).or_insert(0) += 1;
+        }
+    }
+    assert!(singular > 20 && by_lattice > 0 && names.len() > 2, "{singular} {by_lattice} {names:?}");
 }

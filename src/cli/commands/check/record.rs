@@ -29,6 +29,7 @@ pub(super) fn record(c: &Checked) -> Map<String, Value> {
     put("witness", witness(&a.jacobian.witness));
     put("dependency", a.dependencies.first().map_or(Value::Null, |d| dependency(c, d)));
     put("dependencies", a.dependencies.iter().map(|d| dependency(c, d)).collect());
+    put("guilty_legs", a.findings.first().map_or(Value::Null, |f| legs(&f.legs)));
     put("cases", a.findings.iter().map(finding).collect());
     put("griffis_duffy", a.griffis_duffy.as_ref().map_or(Value::Null, |g| griffis_duffy(c, g)));
     put("nearest_singular", c.nearest.as_ref().map_or(Value::Null, |n| nearest(c, n)));
