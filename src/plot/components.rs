@@ -21,10 +21,10 @@ pub struct CurvePanel {
     pub title: String,
     /// Degree of the curve, 0 for none.
     pub degree: usize,
-    /// Coefficients of `1, x, y, x^2, x y, y^2, ..` in the coordinates of the marks divided by `unit`.
+    /// Coefficients of `1, x, y, x^2, x y, y^2, ..` in the coordinates of the marks divided by `units`.
     pub coefficients: Vec<f64>,
-    /// Unit of the coefficients' coordinates, design units.
-    pub unit: f64,
+    /// Units of the two coordinates of the coefficients, design units.
+    pub units: [f64; 2],
     /// Joints and corresponding points.
     pub marks: Vec<CurveMark>,
     /// A line of text below.
@@ -123,7 +123,7 @@ fn draw(svg: &mut Svg, panel: &CurvePanel, left: f64) {
         let step = window.size / (GRID - 1) as f64;
         let at = |k: usize| {
             let (x, y) = (window.left + step * (k % GRID) as f64, window.low + step * (k / GRID) as f64);
-            value(panel, x / panel.unit, y / panel.unit)
+            value(panel, x / panel.units[0], y / panel.units[1])
         };
         let grid = Grid { columns: GRID, rows: GRID, values: (0..GRID * GRID).map(at).collect() };
         for line in grid.contour(0.0) {
@@ -158,7 +158,7 @@ mod tests {
             title: "base".into(),
             degree: 2,
             coefficients: vec![-1.0, 0.0, 0.0, 1.0, 0.0, 1.0],
-            unit: 10.0,
+            units: [10.0, 10.0],
             marks: vec![
                 mark(10.0, 0.0, "1", true),
                 mark(0.0, 10.0, "2", true),

@@ -5,13 +5,15 @@ use nalgebra::Vector3;
 use super::spectrum::Spectrum;
 use crate::num::linalg::LinalgError;
 
-/// A flat `origin + unit * sum_k xi_k axes_k` with orthonormal axes.
+/// Below this ratio of the spreads of the joints the axes follow the joints, with a unit for each.
+const NARROW: f64 = 1e-2;
+
+/// A flat `origin + sum_k xi_k axes_k` with orthogonal axes, as long as the joints reach: local coordinates are of order one,
+/// also for joints nearly on a line or nearly in a plane.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Flat {
     pub(super) origin: Vector3<f64>,
     pub(super) axes: Vec<Vector3<f64>>,
-    /// Reach of the joints that span it: local coordinates are of order one.
-    pub(super) unit: f64,
 }
 
 fn rows(points: &[Vector3<f64>]) -> (Vector3<f64>, Vec<Vec<f64>>) {
@@ -31,14 +33,21 @@ impl Flat {
         let (origin, centred) = rows(points);
         let s = Spectrum::of(&centred, 3)?;
         let axis = |v: &Vec<f64>| Vector3::new(v[0], v[1], v[2]);
-        let axes = match dimension {
-            1 => vec![forward(axis(&s.vectors[0]))],
-            2 => plane_axes(forward(axis(&s.vectors[2]))),
-            3 => vec![Vector3::x(), Vector3::y(), Vector3::z()],
-            _ => Vec::new(),
+        let narrow = dimension > 0 && s.values[dimension - 1] < NARROW * s.values[0];
+        let mut axes = match dimension {
+            2 if !narrow => plane_axes(forward(axis(&s.vectors[2]))),
+            3 if !narrow => vec![Vector3::x(), Vector3::y(), Vector3::z()],
+            _ => s.vectors[..dimension].iter().map(|v| forward(axis(v))).collect(),
         };
         let reach = points.iter().map(|p| (p - origin).norm()).fold(0.0, f64::max);
-        Ok(Self { origin, axes, unit: if reach > 0.0 && dimension > 0 { reach } else { 1.0 } })
+        for e in &mut axes {
+            let along = points.iter().map(|p| e.dot(&(p - origin)).abs()).fold(0.0, f64::max);
+            let length = if narrow { along } else { reach };
+            if length > 0.0 {
+                *e *= length;
+            }
+        }
+        Ok(Self { origin, axes })
     }
 
     /// A point and directions, made orthonormal.
@@ -53,7 +62,7 @@ impl Flat {
             }
             axes.push(rest.normalize());
         }
-        Self { origin, axes, unit: 1.0 }
+        Self { origin, axes }
     }
 
     pub(super) fn dimension(&self) -> usize {
@@ -62,15 +71,15 @@ impl Flat {
 
     /// Homogeneous local coordinates `(1, xi)` of a point's nearest point in the flat.
     pub(super) fn local(&self, p: &Vector3<f64>) -> Vec<f64> {
-        let d = (p - self.origin) / self.unit;
-        std::iter::once(1.0).chain(self.axes.iter().map(|e| e.dot(&d))).collect()
+        let d = p - self.origin;
+        std::iter::once(1.0).chain(self.axes.iter().map(|e| e.dot(&d) / e.norm_squared())).collect()
     }
 
     /// Distance of a point from the flat.
     pub(super) fn distance(&self, p: &Vector3<f64>) -> f64 {
         let mut d = p - self.origin;
         for e in &self.axes {
-            d -= e * e.dot(&d);
+            d -= e * (e.dot(&d) / e.norm_squared());
         }
         d.norm()
     }
@@ -79,7 +88,7 @@ impl Flat {
     pub(super) fn place(&self, local: &[f64]) -> [f64; 4] {
         let mut x = self.origin * local[0];
         for (e, c) in self.axes.iter().zip(&local[1..]) {
-            x += e * (c * self.unit);
+            x += e * *c;
         }
         [local[0], x.x, x.y, x.z]
     }

@@ -102,7 +102,7 @@ impl View<'_> {
             return Ok(None);
         }
         let other = flat_of(&self.product.platform, s.kernel(decision.value), self.tolerance);
-        let carrier = Flat { origin: *point, axes: Vec::new(), unit: 1.0 };
+        let carrier = Flat { origin: *point, axes: Vec::new() };
         Ok(other.map(|other| self.all_pairs(carrier, other, vec![decision])))
     }
 
@@ -260,7 +260,7 @@ pub(super) fn spanning_points(flat: &Flat, points: &[Vector3<f64>], tolerance: f
     if out.len() == flat.dimension() + 1 {
         return out;
     }
-    std::iter::once(flat.origin).chain(flat.axes.iter().map(|e| flat.origin + e * flat.unit)).collect()
+    std::iter::once(flat.origin).chain(flat.axes.iter().map(|e| flat.origin + e)).collect()
 }
 
 /// The vector with the largest first coordinate first among those of least degree: `u = 0` then gives finite legs.

@@ -73,8 +73,8 @@ impl Search<'_> {
     fn line(&mut self, view: &View<'_>, pair: &ClosedPair) -> Result<(), LinalgError> {
         let flat = &view.product.base;
         let first = view.near[0];
-        let far = view.near.iter().find(|p| (*p - first).norm() > 1e-3 * flat.unit);
-        let second = far.copied().unwrap_or(first + flat.axes[0] * flat.unit);
+        let far = view.near.iter().find(|p| (*p - first).norm() > 1e-3 * flat.axes[0].norm());
+        let second = far.copied().unwrap_or(first + flat.axes[0]);
         let (p, q) = (flat.local(&first), flat.local(&second));
         if let Some(found) = view.over_line(&p, &q, None, &mut self.rng)? {
             let exact = self.exact_over(view, pair, &[0, 1, 2, 3, 4]);

@@ -230,7 +230,7 @@ fn affine(points: &[Vector3<f64>], first: usize) -> MovingPoint {
 
 /// Origin and axes of a plane in design units.
 pub(super) fn frame(flat: &Flat, centre: Vector3<f64>, scale: f64) -> [Vector3<f64>; 3] {
-    let axis = |k: usize| flat.axes.get(k).copied().unwrap_or_default() * (scale * flat.unit);
+    let axis = |k: usize| flat.axes.get(k).copied().unwrap_or_default() * scale;
     [centre + flat.origin * scale, axis(0), axis(1)]
 }
 

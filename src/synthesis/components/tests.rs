@@ -330,3 +330,47 @@ fn frames_order_unit_and_exchange_of_the_bodies_do_not_matter() {
         assert_eq!((key(&plain), spans), (key(&turned), exchanged));
     }
 }
+
+#[test]
+fn joints_nearly_on_a_line_and_nearly_in_a_plane_are_told_from_those_that_are() {
+    let mut rng = Rng::new(14);
+    // a plane 2^-20 wide: as good as any other plane, exactly and in numbers
+    let mut legs = design(2, 2, 6, &mut rng);
+    for leg in &mut legs {
+        leg.base = Point3::new(leg.base.x, leg.base.y / 1_048_576.0, 0.0);
+    }
+    let c = found(&legs);
+    one_exactly(&c, "over_cubic", "plane-plane", 1, &[1, 2, 3, 4, 5, 6]);
+    assert_eq!(c.planes[0].smooth, Some(true));
+    // within 1e-4 the base is a line, and then every pair of points is replaceable
+    let c = within(&legs, 1e-4);
+    let kinds: Vec<_> = c.components.iter().map(|x| (x.type_name(), x.dimension, x.exact)).collect();
+    let line = ("line-plane".to_string(), 3, Some(false));
+    assert!(
+        kinds.contains(&line) && kinds.contains(&("plane-plane".to_string(), 1, Some(true))),
+        "{kinds:?}"
+    );
+    let pair = c.pairs.iter().find(|p| p.base == 1).unwrap();
+    assert_eq!((pair.reading, pair.rank), (Reading::ToleranceOnly, 6));
+    let d = pair.decisions.iter().find(|d| d.question == Question::BaseDimension).unwrap();
+    assert!(d.agrees() == Some(false) && d.below.unwrap() < 1e-5 && d.above.unwrap() > 0.1);
+}
+
+#[test]
+fn dependent_legs_are_said_to_be_dependent() {
+    let mut rng = Rng::new(15);
+    let mut legs = design(3, 3, 6, &mut rng);
+    (legs[1].base, legs[2].base) = (legs[0].base, legs[0].base);
+    legs[2].platform = nalgebra::center(&legs[0].platform, &legs[1].platform);
+    let c = found(&legs);
+    assert_eq!((c.leg_rank.value, c.leg_rank.exact), (5, Some(5)));
+    one(&c, "all_pairs", "point-line", 1, &[1, 2, 3]);
+    assert_eq!(c.components[0].exact, Some(true));
+    // off by rounding the three are independent as doubles, and a plane of legs is exact
+    legs[2].platform.x += 1e-15;
+    let c = found(&legs);
+    assert_eq!((c.leg_rank.value, c.leg_rank.exact), (5, Some(6)));
+    let kinds: Vec<_> = c.components.iter().map(|x| (x.type_name(), x.exact)).collect();
+    assert!(kinds.contains(&("point-plane".to_string(), Some(true))), "{kinds:?}");
+    assert!(kinds.contains(&("point-line".to_string(), Some(false))), "{kinds:?}");
+}

@@ -24,7 +24,7 @@ pub(super) fn picture(design: &Design, found: &Components, seed: u64) -> Option<
             let at = coordinates(curve, &end(l));
             let number = (l.get() + 1).to_string();
             // shared joints carry all their leg numbers
-            let limit = 1e-9 * curve.axes[0].norm();
+            let limit = 1e-9 * curve.axes[0].norm().max(curve.axes[1].norm());
             match marks.iter_mut().find(|m| (m.at[0] - at[0]).hypot(m.at[1] - at[1]) <= limit) {
                 Some(mark) => {
                     mark.label.push(' ');
@@ -42,7 +42,7 @@ pub(super) fn picture(design: &Design, found: &Components, seed: u64) -> Option<
             title: format!("{} plane, {}", curve.body, design.units),
             degree: if curve.generic_rank < 3 { 0 } else { curve.degree },
             coefficients: curve.coefficients.clone(),
-            unit: curve.axes[0].norm(),
+            units: curve.axes.map(|a| a.norm()),
             marks,
             note: note(curve),
         }
