@@ -48,14 +48,14 @@ const GRID: usize = 181;
 
 /// The curves of replaceable joints in two planes.
 ///
-/// A point of the curve on the left (base) and the point of the curve on the right (platform) with the same number are the
+/// A point of the curve on the left (base) and the point of the curve on the right (platform) with the same letter are the
 /// ends of a leg that may replace one of the design's. Joints are filled and carry their leg numbers, corresponding points
 /// are hollow. Seen from the positive side of each plane's axes; one scale for both directions of a panel.
 #[must_use]
 pub fn component_curves(figure: &CurveFigure) -> String {
     let width = 2.0 * SIDE + 3.0 * MARGIN;
     let description = format!(
-        "Left: {}. Right: {}. Equal numbers belong to one leg.",
+        "Left: {}. Right: {}. Equal letters belong to one leg.",
         figure.panels[0].note, figure.panels[1].note
     );
     let mut svg = Svg::new(width, TOP + SIDE + 58.0, &figure.title, &description);
@@ -63,7 +63,7 @@ pub fn component_curves(figure: &CurveFigure) -> String {
     svg.text(
         "note",
         (MARGIN, 50.0),
-        "filled: joints of the design; hollow: ends of replaceable legs, equal numbers one leg",
+        "filled: joints of the design; hollow: ends of replaceable legs, equal letters one leg",
     );
     for (k, panel) in figure.panels.iter().enumerate() {
         draw(&mut svg, panel, MARGIN + k as f64 * (SIDE + MARGIN));
@@ -134,13 +134,15 @@ fn draw(svg: &mut Svg, panel: &CurvePanel, left: f64) {
         }
     }
     svg.rect("frame", (left, TOP), (SIDE, SIDE));
-    for mark in &panel.marks {
+    // joints last: a replaceable leg often ends in one
+    let (joints, others): (Vec<&CurveMark>, Vec<&CurveMark>) = panel.marks.iter().partition(|m| m.joint);
+    for mark in others.into_iter().chain(joints) {
         let at = window.at(left, mark.at);
         if mark.joint {
             svg.circle("mark", at, 4.5);
             svg.text("halo mid", (at.0, at.1 - 9.0), &mark.label);
         } else {
-            svg.circle("hollow", at, 3.5);
+            svg.circle("hollow", at, 6.0);
             svg.text("note halo mid", (at.0, at.1 + 16.0), &mark.label);
         }
     }

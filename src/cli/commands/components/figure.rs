@@ -20,11 +20,11 @@ pub(super) fn picture(design: &Design, found: &Components, seed: u64) -> Option<
     let panel = |curve: &PlaneCurve, platform: bool| {
         let end = |l: &LegIndex| if platform { ends[l.get()].platform } else { ends[l.get()].base };
         let mut marks: Vec<CurveMark> = Vec::new();
+        let limit = 1e-9 * curve.axes[0].norm().max(curve.axes[1].norm());
         for l in legs {
             let at = coordinates(curve, &end(l));
             let number = (l.get() + 1).to_string();
             // shared joints carry all their leg numbers
-            let limit = 1e-9 * curve.axes[0].norm().max(curve.axes[1].norm());
             match marks.iter_mut().find(|m| (m.at[0] - at[0]).hypot(m.at[1] - at[1]) <= limit) {
                 Some(mark) => {
                     mark.label.push(' ');
@@ -33,11 +33,17 @@ pub(super) fn picture(design: &Design, found: &Components, seed: u64) -> Option<
                 None => marks.push(CurveMark { at, label: number, joint: true }),
             }
         }
-        marks.extend(extra.iter().enumerate().map(|(k, (a, b))| CurveMark {
-            at: coordinates(curve, if platform { b } else { a }),
-            label: letter(k),
-            joint: false,
-        }));
+        for (k, (a, b)) in extra.iter().enumerate() {
+            let at = coordinates(curve, if platform { b } else { a });
+            let near = |m: &&mut CurveMark| !m.joint && (m.at[0] - at[0]).hypot(m.at[1] - at[1]) <= limit;
+            match marks.iter_mut().find(near) {
+                Some(mark) => {
+                    mark.label.push(' ');
+                    mark.label.push_str(&letter(k));
+                }
+                None => marks.push(CurveMark { at, label: letter(k), joint: false }),
+            }
+        }
         CurvePanel {
             title: format!("{} plane, {}", curve.body, design.units),
             degree: if curve.generic_rank < 3 { 0 } else { curve.degree },
