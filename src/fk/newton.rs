@@ -1,6 +1,6 @@
 //! Newton's method on the leg equations in the pose itself: `R <- R exp([w]x)`, `p <- p + d`, over `C`.
 
-use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
+use nalgebra::{SMatrix, SVector, Vector3};
 use num_complex::Complex64;
 
 use crate::geom::ComplexPose;
@@ -38,25 +38,9 @@ fn linearised(m: &Manipulator, s: &SquaredLegLengths, pose: &ComplexPose) -> (Ja
 
 /// The pose displaced by `-twist`; `None` when the rotation is too large for its Cayley transform.
 fn displaced(pose: &ComplexPose, twist: &Twist, size: f64) -> Option<ComplexPose> {
-    // Cayley transform of the rotation vector: exactly orthogonal over C
-    let w = Vector3::new(twist[3], twist[4], twist[5]) * Complex64::new(-0.5, 0.0);
-    let n = Complex64::ONE + w.dot(&w);
-    if !(n.norm() > 0.1) {
-        return None;
-    }
-    let (two, one) = (Complex64::new(2.0, 0.0), Complex64::ONE);
-    let cross = w.cross_matrix();
-    let turn = (Matrix3::identity() * (one - w.dot(&w)) + (w * w.transpose()) * two + cross * two) / n;
+    let turn = Vector3::new(twist[3], twist[4], twist[5]);
     let shift = Vector3::new(twist[0], twist[1], twist[2]) * Complex64::new(size, 0.0);
-    let rotation = reorthogonalised(&(turn * pose.rotation));
-    Some(ComplexPose { rotation, position: pose.position - shift })
-}
-
-/// One step of `R <- R (3 I - R^T R) / 2`, which squares the defect of `R^T R = I` (over `C` as well).
-fn reorthogonalised(r: &Matrix3<Complex64>) -> Matrix3<Complex64> {
-    let gram = r.transpose() * r;
-    let three = Matrix3::identity() * Complex64::new(3.0, 0.0);
-    r * (three - gram) * Complex64::new(0.5, 0.0)
+    pose.less_step(&turn, &shift)
 }
 
 /// Solves `A x = b` by elimination with partial pivoting; `None` for a column of zeros or NaN.

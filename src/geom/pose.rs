@@ -96,6 +96,20 @@ impl ComplexPose {
         Pose { rotation: Rotation3::from_matrix(&r), position: self.position.map(|z| z.re) }
     }
 
+    /// The pose less a step of Newton's method: rotation vector `turn` by its Cayley transform, exactly orthogonal over `C`, and `shift`; `None` when
+    /// the rotation is too large for that.
+    pub(crate) fn less_step(&self, turn: &Vector3<Complex64>, shift: &Vector3<Complex64>) -> Option<Self> {
+        let w = turn * Complex64::new(-0.5, 0.0);
+        let n = Complex64::ONE + w.dot(&w);
+        if !(n.norm() > 0.1) {
+            return None;
+        }
+        let (two, one) = (Complex64::new(2.0, 0.0), Complex64::ONE);
+        let cross = w.cross_matrix();
+        let turn = (Matrix3::identity() * (one - w.dot(&w)) + (w * w.transpose()) * two + cross * two) / n;
+        Some(Self { rotation: reorthogonalised(&(turn * self.rotation)), position: self.position - shift })
+    }
+
     /// Whether [`distance`](Self::distance) is below `limit`; far poses are told after an entry or two.
     pub(crate) fn is_within(&self, other: &Self, size: f64, limit: f64) -> bool {
         let limits = (limit * limit, limit * limit * size * size);
@@ -112,6 +126,13 @@ impl ComplexPose {
             (self.position - other.position).iter().map(num_complex::Complex::norm_sqr).fold(0.0, f64::max);
         r.max(p / (size * size)).sqrt()
     }
+}
+
+/// One step of `R <- R (3 I - R^T R) / 2`, which squares the defect of `R^T R = I` (over `C` as well).
+pub(crate) fn reorthogonalised(r: &Matrix3<Complex64>) -> Matrix3<Complex64> {
+    let gram = r.transpose() * r;
+    let three = Matrix3::identity() * Complex64::new(3.0, 0.0);
+    r * (three - gram) * Complex64::new(0.5, 0.0)
 }
 
 /// The larger number; NaN when one is, so that no comparison with it succeeds.

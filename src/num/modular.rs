@@ -10,15 +10,27 @@ pub(crate) struct Field(u64);
 /// Bits by which every prime of [`fields`] can be counted: all are above `2^60`.
 pub(crate) const PRIME_BITS: u32 = 60;
 
-/// The `count` largest prime fields below `2^61`, largest first; the first is that of the Mersenne prime `2^61 - 1`.
+/// Prime fields below `2^61`, largest first, without end for all practical purposes; the first is [`Field::MERSENNE`].
+pub(crate) fn all_fields() -> impl Iterator<Item = Field> {
+    (1u64..).map(|k| (1u64 << 61) + 1 - 2 * k).filter(|n| is_prime(*n)).map(Field)
+}
+
+/// The `count` first of [`all_fields`].
 pub(crate) fn fields(count: usize) -> Vec<Field> {
-    let odd = (1u64..).map(|k| (1u64 << 61) + 1 - 2 * k);
-    odd.filter(|n| is_prime(*n)).take(count).map(Field).collect()
+    all_fields().take(count).collect()
 }
 
 impl Field {
-    /// The prime.
+    /// The field of the Mersenne prime `2^61 - 1`.
+    pub(crate) const MERSENNE: Self = Self((1 << 61) - 1);
+
+    /// The field of another prime.
     #[cfg(test)]
+    pub(crate) fn of_prime(p: u64) -> Self {
+        Self(p)
+    }
+
+    /// The prime.
     pub(crate) fn prime(self) -> u64 {
         self.0
     }
@@ -67,7 +79,6 @@ impl Field {
     }
 
     /// The inverse of a number that is not zero.
-    #[cfg(test)]
     pub(crate) fn inverse(self, x: u64) -> u64 {
         self.pow(x, self.0 - 2)
     }
@@ -124,7 +135,7 @@ pub(crate) fn mantissa_and_exponent(x: f64) -> (i64, i32) {
 }
 
 /// Miller-Rabin with the bases that decide every 64-bit number (Sinclair 2011).
-fn is_prime(n: u64) -> bool {
+pub(crate) fn is_prime(n: u64) -> bool {
     if n < 4 {
         return n > 1;
     }

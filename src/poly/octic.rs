@@ -46,16 +46,22 @@ fn corrections(c: &[f64; LANES + 1], z: &Batch) -> Batch {
         d = d * *z + p;
         p = (p * *z).plus(c[k]);
     }
-    let mut repulsion = Batch::ZERO;
+    p * (d - p * repulsion(z)).reciprocal()
+}
+
+/// `sum 1 / (z_k - z_j)` over the other lanes `j`, for every lane `k`.
+#[inline(always)]
+pub(crate) fn repulsion(z: &Batch) -> Batch {
+    let mut sum = Batch::ZERO;
     // lane k against lane k + shift, every pair from both sides
     for shift in 1..LANES {
         let mut other = Batch::ZERO;
         for k in 0..LANES {
             (other.re[k], other.im[k]) = (z.re[(k + shift) % LANES], z.im[(k + shift) % LANES]);
         }
-        repulsion = repulsion + (*z - other).reciprocal();
+        sum = sum + (*z - other).reciprocal();
     }
-    p * (d - p * repulsion).reciprocal()
+    sum
 }
 
 /// Points on circles whose radii are the slopes of the upper convex hull of `(k, ln |c_k|)`.

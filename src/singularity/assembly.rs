@@ -244,8 +244,8 @@ impl Frame {
 mod tests {
     use super::*;
     use crate::geom::random_rotation;
-    use crate::manipulator::Leg;
     use crate::num::Rng;
+    use crate::singularity::griffis_duffy::tests::on_sides;
     use crate::singularity::griffis_duffy_singular_offset;
 
     fn platform(rng: &mut Rng) -> Manipulator {
@@ -254,15 +254,7 @@ mod tests {
         let (base, top) = ([point(), point(), point()], [point(), point(), point()]);
         let mut t = [(); 6].map(|()| rng.uniform(0.2, 0.8));
         t[2] = griffis_duffy_singular_offset(&t, 2).unwrap();
-        Manipulator::from_legs(std::array::from_fn(|k| {
-            let on = |p: &[Point3<f64>; 3]| p[k / 2] + (p[(k / 2 + 1) % 3] - p[k / 2]) * t[k];
-            if k % 2 == 0 {
-                Leg { base: on(&base), platform: top[k / 2] }
-            } else {
-                Leg { base: base[k.div_ceil(2) % 3], platform: on(&top) }
-            }
-        }))
-        .unwrap()
+        on_sides(&base, &top, &t)
     }
 
     #[test]

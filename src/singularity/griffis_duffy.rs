@@ -197,7 +197,7 @@ fn exactly_singular(legs: &ExactLegs, order: [usize; 6]) -> bool {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::geom::{Pose, random_rotation};
     use crate::manipulator::Leg;
@@ -207,18 +207,27 @@ mod tests {
         Point3::new(rng.normal(), rng.normal(), rng.normal())
     }
 
-    /// Any two triangles in space, offsets `t`.
-    fn platform(rng: &mut Rng, t: &[f64; 6]) -> Manipulator {
-        let (base, top) = ([(); 3].map(|()| point(rng)), [(); 3].map(|()| point(rng)));
+    /// Six legs on the sides of two triangles.
+    pub(in crate::singularity) fn on_sides(
+        base: &[Point3<f64>; 3],
+        top: &[Point3<f64>; 3],
+        t: &[f64; 6],
+    ) -> Manipulator {
         Manipulator::from_legs(std::array::from_fn(|k| {
             let on = |p: &[Point3<f64>; 3]| p[k / 2] + (p[(k / 2 + 1) % 3] - p[k / 2]) * t[k];
             if k % 2 == 0 {
-                Leg { base: on(&base), platform: top[k / 2] }
+                Leg { base: on(base), platform: top[k / 2] }
             } else {
-                Leg { base: base[k.div_ceil(2) % 3], platform: on(&top) }
+                Leg { base: base[k.div_ceil(2) % 3], platform: on(top) }
             }
         }))
         .unwrap()
+    }
+
+    /// Any two triangles in space, offsets `t`.
+    fn platform(rng: &mut Rng, t: &[f64; 6]) -> Manipulator {
+        let (base, top) = ([(); 3].map(|()| point(rng)), [(); 3].map(|()| point(rng)));
+        on_sides(&base, &top, t)
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use num_bigint::{BigInt, Sign};
 
+use crate::num::modular::Field;
 use crate::poly::IntPoly;
 
 /// `Z[x]` or a quotient of it.
@@ -61,10 +62,13 @@ impl Ring for IntPoly {
 /// The modulus `2^61 - 1`.
 const P: u64 = (1 << 61) - 1;
 
+const FIELD: Field = Field::MERSENNE;
+
 /// A polynomial over the field with `2^61 - 1` elements, the constant coefficient first, the last one not zero.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct FieldPoly(Vec<u64>);
 
+/// The residue by folding, quicker than the division that serves every prime.
 fn reduced(x: u128) -> u64 {
     let folded = (x & u128::from(P)) as u64 + (x >> 61) as u64;
     if folded >= P { folded - P } else { folded }
@@ -72,22 +76,6 @@ fn reduced(x: u128) -> u64 {
 
 fn product(a: u64, b: u64) -> u64 {
     reduced(u128::from(a) * u128::from(b))
-}
-
-fn difference(a: u64, b: u64) -> u64 {
-    if a >= b { a - b } else { a + P - b }
-}
-
-fn inverse(a: u64) -> u64 {
-    let (mut power, mut square, mut exponent) = (1, a, P - 2);
-    while exponent > 0 {
-        if exponent & 1 == 1 {
-            power = product(power, square);
-        }
-        square = product(square, square);
-        exponent >>= 1;
-    }
-    power
 }
 
 impl FieldPoly {
@@ -105,14 +93,14 @@ impl FieldPoly {
     /// Quotient and remainder by a divisor that is not zero.
     fn divided(&self, divisor: &Self) -> (Self, Self) {
         let n = divisor.0.len();
-        let scale = inverse(divisor.0[n - 1]);
+        let scale = FIELD.inverse(divisor.0[n - 1]);
         let mut rest = self.0.clone();
         let count = (rest.len() + 1).saturating_sub(n);
         let mut quotient = vec![0; count];
         for k in (0..count).rev() {
             quotient[k] = product(rest[k + n - 1], scale);
             for (r, d) in rest[k..].iter_mut().zip(&divisor.0) {
-                *r = difference(*r, product(quotient[k], *d));
+                *r = FIELD.sub(*r, product(quotient[k], *d));
             }
         }
         (Self::new(quotient), Self::new(rest))
@@ -123,7 +111,7 @@ impl Ring for FieldPoly {
     fn constant(value: &BigInt) -> Self {
         let residue = value.magnitude() % P;
         let r = residue.iter_u64_digits().next().unwrap_or(0);
-        Self::new(vec![if value.sign() == Sign::Minus { difference(0, r) } else { r }])
+        Self::new(vec![if value.sign() == Sign::Minus { FIELD.sub(0, r) } else { r }])
     }
 
     fn unknown() -> Self {
@@ -137,7 +125,7 @@ impl Ring for FieldPoly {
 
     fn minus(&self, other: &Self) -> Self {
         let n = self.0.len().max(other.0.len());
-        Self::new((0..n).map(|k| difference(self.entry(k), other.entry(k))).collect())
+        Self::new((0..n).map(|k| FIELD.sub(self.entry(k), other.entry(k))).collect())
     }
 
     fn times(&self, other: &Self) -> Self {

@@ -1,6 +1,6 @@
 //! Newton's method on six legs, and how the pose changes with one of the lengths.
 
-use nalgebra::{Matrix3, SMatrix, Vector3};
+use nalgebra::{SMatrix, Vector3};
 use num_complex::Complex64;
 
 use super::circle::complex;
@@ -57,7 +57,7 @@ pub(super) fn refined(legs: &[HiddenLeg; 6], pose: ComplexPose, grows: usize) ->
         let step = column(0);
         let norm = |v: &Vector3<Complex64>| v.iter().map(Complex64::norm_sqr).sum::<f64>().sqrt();
         let size = norm(&step[0]).max(norm(&step[1]) / (1.0 + norm(&pose.position)));
-        pose = moved(&pose, &step)?;
+        pose = pose.less_step(&step[0], &step[1])?;
         // the numbers of poses far out cancel: their steps end at the rounding of those
         if size < SMALL || (size < ROUNDED && size > 0.3 * before) {
             return Some(Moving { pose, rate: column(1) });
@@ -70,22 +70,6 @@ pub(super) fn refined(legs: &[HiddenLeg; 6], pose: ComplexPose, grows: usize) ->
 fn arm_and_leg(pose: &ComplexPose, leg: &HiddenLeg) -> (Vector3<Complex64>, Vector3<Complex64>) {
     let arm = pose.rotation * complex(&leg.platform);
     (arm, arm + pose.position - complex(&leg.base))
-}
-
-/// The pose less a step; the rotation by its Cayley transform, exactly orthogonal over `C`.
-fn moved(pose: &ComplexPose, [turn, shift]: &[Vector3<Complex64>; 2]) -> Option<ComplexPose> {
-    let v = turn * Complex64::from(-0.5);
-    let n = Complex64::ONE + v.dot(&v);
-    if !(n.norm() > 0.1) {
-        return None;
-    }
-    let (one, two) = (Complex64::ONE, Complex64::from(2.0));
-    let r = (Matrix3::identity() * (one - v.dot(&v)) + (v * v.transpose() + v.cross_matrix()) * two) / n;
-    let rotation = r * pose.rotation;
-    // one step towards R^T R = I, against rounding
-    let gram = rotation.tr_mul(&rotation);
-    let rotation = rotation * (Matrix3::identity() * Complex64::from(3.0) - gram) * Complex64::from(0.5);
-    Some(ComplexPose { rotation, position: pose.position - shift })
 }
 
 /// Elimination with partial pivoting; `None` for a singular matrix.

@@ -5,6 +5,7 @@
 use num_complex::Complex64;
 
 use crate::num::batch::{Batch, LANES};
+use crate::poly::repulsion;
 
 /// Sweeps before giving up; from the roots of a neighbour three or four do.
 const SWEEPS: usize = 40;
@@ -59,15 +60,7 @@ fn corrections(c: &[Complex64; LANES + 1], z: &Batch) -> Batch {
     // p/p' = z q / (8 q - q'/z) for the reversed polynomial q at 1/z
     let reversed = p.times(LANES as f64) - d * inverse;
     let (top, bottom) = ((p * *z).select(p, outside), reversed.select(d, outside));
-    let mut repulsion = Batch::ZERO;
-    for shift in 1..LANES {
-        let mut other = Batch::ZERO;
-        for k in 0..LANES {
-            (other.re[k], other.im[k]) = (z.re[(k + shift) % LANES], z.im[(k + shift) % LANES]);
-        }
-        repulsion = repulsion + (*z - other).reciprocal();
-    }
-    top * (bottom - top * repulsion).reciprocal()
+    top * (bottom - top * repulsion(z)).reciprocal()
 }
 
 #[inline(always)]

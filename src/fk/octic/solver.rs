@@ -2,7 +2,7 @@
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use num_complex::Complex64;
 
 use super::Problem;
@@ -11,7 +11,7 @@ use super::lanes::{Placed, SEPARATE, pairs};
 use crate::fk::collect::pose_scale;
 use crate::fk::newton::refine;
 use crate::fk::{FkError, Method};
-use crate::geom::ComplexPose;
+use crate::geom::{ComplexPose, reorthogonalised};
 use crate::manipulator::{Manipulator, Octahedral, SquaredLegLengths};
 use crate::num::batch::LANES;
 use crate::solve::certify::exact_squares;
@@ -182,7 +182,7 @@ impl OcticSolver {
     fn improve(&self, s: &SquaredLegLengths, pose: &mut ComplexPose) -> Option<f64> {
         let scale = pose_scale(pose, self.size);
         // Newton's method keeps R^T R as it is, so that is put right first
-        let rotation = orthogonalised(&pose.rotation);
+        let rotation = reorthogonalised(&pose.rotation);
         let next = refine(&self.manipulator, s, &ComplexPose { rotation, ..*pose });
         let residual = next.residual(&self.manipulator, s);
         let near = next.distance(pose, self.size) <= SEPARATE * scale;
@@ -203,10 +203,4 @@ impl OcticSolver {
         let scale = (self.size * self.size).recip();
         Problem { base, platform, s: self.order.map(|i| given[i] * scale), size: self.size }
     }
-}
-
-/// `R (3 I - R^T R) / 2`, which squares the defect of `R^T R = I`.
-fn orthogonalised(r: &Matrix3<Complex64>) -> Matrix3<Complex64> {
-    let three = Matrix3::identity() * Complex64::from(3.0);
-    r * (three - r.transpose() * r) * Complex64::from(0.5)
 }

@@ -161,6 +161,10 @@ fn of_squarefree(factor: &Arc<IntPoly>, multiplicity: usize) -> Vec<RealRoot> {
 }
 
 impl RealRoot {
+    fn is_root(&self, x: &Dyadic) -> bool {
+        self.factor.sign_at(x) == Sign::NoSign
+    }
+
     /// Shrinks an open interval with one simple root until no end is a root.
     fn clear_ends(&mut self) {
         if self.is_exact() {
@@ -169,17 +173,8 @@ impl RealRoot {
         // the sign just above the lower end
         let at_low = self.factor.sign_at(&self.low);
         self.sign = if at_low == Sign::NoSign { self.factor.derivative().sign_at(&self.low) } else { at_low };
-        let is_root = |x: &Dyadic| self.factor.sign_at(x) == Sign::NoSign;
-        while !self.is_exact() && (is_root(&self.low) || is_root(&self.high)) {
-            let middle = self.low.midpoint(&self.high);
-            let sign = self.factor.sign_at(&middle);
-            if sign == Sign::NoSign {
-                (self.low, self.high) = (middle.clone(), middle);
-            } else if sign == self.sign {
-                self.low = middle;
-            } else {
-                self.high = middle;
-            }
+        while !self.is_exact() && (self.is_root(&self.low) || self.is_root(&self.high)) {
+            self.bisect();
         }
     }
 }

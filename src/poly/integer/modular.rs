@@ -1,69 +1,42 @@
-//! Polynomials modulo a prime below `2^62`.
+//! Polynomials modulo a prime below `2^61`.
 
 use num_bigint::{BigInt, Sign};
 
 use super::IntPoly;
+use crate::num::modular::{Field, all_fields};
 
-/// A prime modulus below `2^62`.
+/// A prime modulus below `2^61`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Modulus(u64);
+pub(super) struct Modulus(Field);
 
-/// `2^61 - 1`.
-const MERSENNE: Modulus = Modulus((1 << 61) - 1);
+const MERSENNE: Modulus = Modulus(Field::MERSENNE);
 
 impl Modulus {
     /// Primes below `2^61`, the largest first, without end for all practical purposes.
     pub(super) fn primes() -> impl Iterator<Item = Self> {
-        (0..).map(|k| Self((1 << 61) - 1 - 2 * k)).filter(|m| m.is_prime())
+        all_fields().map(Self)
     }
 
     pub(super) fn value(self) -> u64 {
-        self.0
+        self.0.prime()
     }
 
     fn mul(self, a: u64, b: u64) -> u64 {
-        (u128::from(a) * u128::from(b) % u128::from(self.0)) as u64
+        self.0.mul(a, b)
     }
 
     fn sub(self, a: u64, b: u64) -> u64 {
-        if a >= b { a - b } else { a + self.0 - b }
-    }
-
-    fn pow(self, base: u64, mut exponent: u64) -> u64 {
-        let (mut power, mut square) = (1, base % self.0);
-        while exponent > 0 {
-            if exponent & 1 == 1 {
-                power = self.mul(power, square);
-            }
-            square = self.mul(square, square);
-            exponent >>= 1;
-        }
-        power
+        self.0.sub(a, b)
     }
 
     /// The inverse of a nonzero element.
     pub(super) fn inverse(self, a: u64) -> u64 {
-        self.pow(a, self.0 - 2)
-    }
-
-    /// Miller-Rabin with the first twelve primes, which decides below `3.3e24` (Sorenson, Webster 2017).
-    fn is_prime(self) -> bool {
-        let n = self.0;
-        let places = (n - 1).trailing_zeros();
-        let odd = (n - 1) >> places;
-        [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37].into_iter().all(|base| {
-            let mut x = self.pow(base, odd);
-            (x == 1 || x == n - 1)
-                || (1..places).any(|_| {
-                    x = self.mul(x, x);
-                    x == n - 1
-                })
-        })
+        self.0.inverse(a)
     }
 
     /// The residue of an integer, between `0` and `p - 1`.
     pub(super) fn residue(self, x: &BigInt) -> u64 {
-        let p = u128::from(self.0);
+        let p = u128::from(self.value());
         let digits = x.magnitude().iter_u64_digits().rev();
         let r = digits.fold(0u128, |r, d| ((r << 64) | u128::from(d)) % p) as u64;
         if x.sign() == Sign::Minus { self.sub(0, r) } else { r }
@@ -127,15 +100,16 @@ pub(super) fn may_divide(divisor: &IntPoly, p: &IntPoly) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::num::modular::is_prime;
 
     #[test]
     fn primes_and_residues() {
         let primes: Vec<u64> = Modulus::primes().take(3).map(Modulus::value).collect();
         // 2^61 - 1, 2^61 - 31, 2^61 - 45
         assert_eq!(primes, [1, 31, 45].map(|k| (1u64 << 61) - k));
-        let m = Modulus(97);
+        let m = Modulus(Field::of_prime(97));
         assert_eq!(m.mul(m.inverse(35), 35), 1);
         assert_eq!(m.residue(&BigInt::from(-1)), 96);
-        assert!(!Modulus(91).is_prime() && !Modulus(3_215_031_751).is_prime());
+        assert!(!is_prime(91) && !is_prime(3_215_031_751));
     }
 }

@@ -218,6 +218,24 @@ pub(super) fn common_factor(
     Ok((Form::constant(1.0), above, None))
 }
 
+/// The determinant of `order` random combinations of rows and columns of a matrix of linear forms: a general combination of its minors of that order.
+pub(super) fn random_minor(m: &[Vec<Form>], order: usize, rng: &mut Rng) -> Form {
+    let (height, width) = (m.len(), m.first().map_or(0, Vec::len));
+    let left: Vec<Vec<f64>> = (0..order).map(|_| random_vector(rng, height)).collect();
+    let right: Vec<Vec<f64>> = (0..order).map(|_| random_vector(rng, width)).collect();
+    let entry = |l: &Vec<f64>, r: &Vec<f64>| {
+        let mut sum = Form::zero(1);
+        for (row, x) in m.iter().zip(l) {
+            for (f, y) in row.iter().zip(r) {
+                sum.add_scaled(f, x * y);
+            }
+        }
+        sum
+    };
+    let rows: Vec<Vec<Form>> = left.iter().map(|l| right.iter().map(|r| entry(l, r)).collect()).collect();
+    determinant(&rows)
+}
+
 /// A form with random coefficients for tests and generic combinations.
 pub(super) fn random_vector(rng: &mut Rng, n: usize) -> Vec<f64> {
     let v: Vec<f64> = (0..n).map(|_| rng.normal()).collect();

@@ -1,6 +1,6 @@
 //! Points of a plane over which the rank of `M` falls by two.
 
-use super::form::{Form, cross, determinant, exponents, power, random_vector};
+use super::form::{cross, exponents, power, random_minor};
 use super::found::View;
 use super::spectrum::{Spectrum, norm, unit};
 use crate::num::Rng;
@@ -10,25 +10,11 @@ use crate::num::linalg::LinalgError;
 /// the minors of order `j`, cubics for a space over a plane. Zero shows that there is no such point.
 pub(super) fn conditions(view: &View<'_>, rng: &mut Rng) -> Result<usize, LinalgError> {
     let m = view.product.forms();
-    let (height, width) = (m.len(), view.product.platform.dimension() + 1);
-    let order = width - 1;
+    let order = view.product.platform.dimension();
     let all = (order + 1) * (order + 2) / 2;
     let mut rows = Vec::new();
     for _ in 0..2 * all {
-        let left: Vec<Vec<f64>> = (0..order).map(|_| random_vector(rng, height)).collect();
-        let right: Vec<Vec<f64>> = (0..order).map(|_| random_vector(rng, width)).collect();
-        let entry = |l: &Vec<f64>, r: &Vec<f64>| {
-            let mut sum = Form::zero(1);
-            for (row, x) in m.iter().zip(l) {
-                for (f, y) in row.iter().zip(r) {
-                    sum.add_scaled(f, x * y);
-                }
-            }
-            sum
-        };
-        let matrix: Vec<Vec<Form>> =
-            left.iter().map(|l| right.iter().map(|r| entry(l, r)).collect()).collect();
-        rows.push(unit(&determinant(&matrix).coefficients));
+        rows.push(unit(&random_minor(&m, order, rng).coefficients));
     }
     let s = Spectrum::of(&rows, all)?;
     Ok(all - s.rank(10.0 * view.tolerance * s.values[0]))

@@ -3,49 +3,16 @@
 //! Doubles are rational numbers with powers of two as denominators, so everything can be reduced modulo a prime. A rank
 //! modulo a prime is never larger than the rank over the rationals: a full rank modulo a prime proves a full rank.
 
+use super::form::{exponents, index};
 use crate::manipulator::Leg;
+use crate::num::modular::Field;
 
-/// The Mersenne prime `2^61 - 1`.
-const P: u64 = (1 << 61) - 1;
-
-fn mul(a: u64, b: u64) -> u64 {
-    (u128::from(a) * u128::from(b) % u128::from(P)) as u64
-}
-
-fn add(a: u64, b: u64) -> u64 {
-    (a + b) % P
-}
-
-fn neg(a: u64) -> u64 {
-    if a == 0 { 0 } else { P - a }
-}
-
-fn power(mut a: u64, mut n: u64) -> u64 {
-    let mut out = 1;
-    while n > 0 {
-        if n & 1 == 1 {
-            out = mul(out, a);
-        }
-        a = mul(a, a);
-        n >>= 1;
-    }
-    out
-}
-
-fn inverse(a: u64) -> u64 {
-    power(a, P - 2)
-}
+/// Integers modulo `2^61 - 1`.
+const FIELD: Field = Field::MERSENNE;
 
 /// The residue of a finite double.
 fn residue(x: f64) -> u64 {
-    let bits = x.to_bits();
-    let field = (bits >> 52 & 0x7ff).cast_signed();
-    let fraction = bits & ((1 << 52) - 1);
-    let (mantissa, exponent) =
-        if field == 0 { (fraction, -1074) } else { (fraction | 1 << 52, field - 1075) };
-    let two = power(2, exponent.unsigned_abs());
-    let size = mul(mantissa % P, if exponent < 0 { inverse(two) } else { two });
-    if x < 0.0 { neg(size) } else { size }
+    FIELD.scaled(x, 0)
 }
 
 /// Reduced row echelon form; the pivot columns.
@@ -56,13 +23,13 @@ fn reduce(rows: &mut [Vec<u64>]) -> Vec<usize> {
         let rank = pivots.len();
         let Some(found) = (rank..rows.len()).find(|i| rows[*i][column] != 0) else { continue };
         rows.swap(rank, found);
-        let scale = inverse(rows[rank][column]);
-        rows[rank].iter_mut().for_each(|x| *x = mul(*x, scale));
+        let scale = FIELD.inverse(rows[rank][column]);
+        rows[rank].iter_mut().for_each(|x| *x = FIELD.mul(*x, scale));
         let head = rows[rank].clone();
         for (i, row) in rows.iter_mut().enumerate().filter(|(i, r)| *i != rank && r[column] != 0) {
             debug_assert!(i != rank);
-            let factor = neg(row[column]);
-            row.iter_mut().zip(&head).for_each(|(x, h)| *x = add(*x, mul(factor, *h)));
+            let factor = FIELD.sub(0, row[column]);
+            row.iter_mut().zip(&head).for_each(|(x, h)| *x = FIELD.add(*x, FIELD.mul(factor, *h)));
         }
         pivots.push(column);
     }
@@ -77,7 +44,7 @@ fn kernel(mut rows: Vec<Vec<u64>>, width: usize) -> Vec<Vec<u64>> {
         let mut v = vec![0; width];
         v[c] = 1;
         for (row, p) in rows.iter().zip(&pivots) {
-            v[*p] = neg(row[c]);
+            v[*p] = FIELD.sub(0, row[c]);
         }
         v
     })
@@ -93,22 +60,16 @@ fn plane_coordinates(points: &[[u64; 4]]) -> Option<Vec<[u64; 3]>> {
     })
 }
 
-/// Place of `x0^i x1^j x2^k` in the list of its degree.
-fn place(e: [usize; 3]) -> usize {
-    let rest = e[1] + e[2];
-    rest * (rest + 1) / 2 + e[2]
-}
-
 fn monomials(degree: usize) -> Vec<[usize; 3]> {
-    super::form::exponents(degree).collect()
+    exponents(degree).collect()
 }
 
 fn times(a: &[u64], m: usize, b: &[u64], n: usize) -> Vec<u64> {
     let mut out = vec![0; (m + n + 1) * (m + n + 2) / 2];
     for (e, x) in monomials(m).iter().zip(a) {
         for (f, y) in monomials(n).iter().zip(b) {
-            let at = place([e[0] + f[0], e[1] + f[1], e[2] + f[2]]);
-            out[at] = add(out[at], mul(*x, *y));
+            let at = index([e[0] + f[0], e[1] + f[1], e[2] + f[2]]);
+            out[at] = FIELD.add(out[at], FIELD.mul(*x, *y));
         }
     }
     out
@@ -126,7 +87,7 @@ pub(super) fn proved_smooth(legs: &[Leg]) -> bool {
     let platform: Vec<[u64; 4]> = legs.iter().map(|l| point(&l.platform)).collect();
     let Some((a, b)) = plane_coordinates(&base).zip(plane_coordinates(&platform)) else { return false };
     let product = |(a, b): (&[u64; 3], &[u64; 3])| -> Vec<u64> {
-        a.iter().flat_map(|x| b.iter().map(move |y| mul(*x, *y))).collect()
+        a.iter().flat_map(|x| b.iter().map(move |y| FIELD.mul(*x, *y))).collect()
     };
     let equations = kernel(a.iter().zip(&b).map(product).collect(), 9);
     if equations.len() != 3 {
@@ -145,7 +106,7 @@ pub(super) fn proved_smooth(legs: &[Leg]) -> bool {
         let two = times(&entry(0, order[0]), 1, &entry(1, order[1]), 1);
         let three = times(&two, 2, &entry(2, order[2]), 1);
         for (c, t) in cubic.iter_mut().zip(three) {
-            *c = add(*c, if odd { neg(t) } else { t });
+            *c = FIELD.add(*c, if odd { FIELD.sub(0, t) } else { t });
         }
     }
     let mut rows = Vec::new();
@@ -155,7 +116,7 @@ pub(super) fn proved_smooth(legs: &[Leg]) -> bool {
             if e[variable] > 0 {
                 let factor = e[variable] as u64;
                 e[variable] -= 1;
-                derivative[place(e)] = mul(*c, factor);
+                derivative[index(e)] = FIELD.mul(*c, factor);
             }
         }
         for k in 0..6 {
@@ -176,11 +137,11 @@ mod tests {
     #[test]
     fn residues_respect_sums_and_products_that_are_exact() {
         for (x, y) in [(0.5, 3.0), (-1.25, 1e10), (1e-300, 2.0), (-0.1, -0.0)] {
-            assert_eq!(residue(x + x), add(residue(x), residue(x)));
-            assert_eq!(residue(2.0 * y), mul(2, residue(y)));
+            assert_eq!(residue(x + x), FIELD.add(residue(x), residue(x)));
+            assert_eq!(residue(2.0 * y), FIELD.mul(2, residue(y)));
         }
-        assert_eq!(mul(residue(0.1), residue(1024.0)), residue(102.4));
-        assert_eq!(add(residue(-7.5), residue(7.5)), 0);
+        assert_eq!(FIELD.mul(residue(0.1), residue(1024.0)), residue(102.4));
+        assert_eq!(FIELD.add(residue(-7.5), residue(7.5)), 0);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::curves::{Part, PartKind, Split, split};
 use super::decision::{Decision, Question};
-use super::form::{Form, common_factor, determinant, incidence, line_basis, random_vector};
+use super::form::{Form, common_factor, determinant, incidence, line_basis, random_minor, random_vector};
 use super::found::{Found, View};
 use super::spectrum::{norm, unit};
 use crate::num::Rng;
@@ -30,21 +30,7 @@ fn minors(view: &View<'_>, rank: usize, rng: &mut Rng) -> Vec<Form> {
     if height == rank && width == rank {
         return vec![determinant(&m)];
     }
-    let mut one = || {
-        let left: Vec<Vec<f64>> = (0..rank).map(|_| random_vector(rng, height)).collect();
-        let right: Vec<Vec<f64>> = (0..rank).map(|_| random_vector(rng, width)).collect();
-        let entry = |l: &Vec<f64>, r: &Vec<f64>| {
-            let mut sum = Form::zero(1);
-            for (row, x) in m.iter().zip(l) {
-                for (f, y) in row.iter().zip(r) {
-                    sum.add_scaled(f, x * y);
-                }
-            }
-            sum
-        };
-        let rows: Vec<Vec<Form>> = left.iter().map(|l| right.iter().map(|r| entry(l, r)).collect()).collect();
-        determinant(&rows)
-    };
+    let mut one = || random_minor(&m, rank, rng);
     vec![one(), one()]
 }
 

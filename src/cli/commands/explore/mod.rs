@@ -19,10 +19,11 @@ use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::output::{Answer, document, number};
+use crate::cli::poses;
 use crate::design::Design;
 use crate::equivalence::{SamplePlan, Verification, verify};
 use crate::fk::{self, FkOptions, FkSolutions};
-use crate::manipulator::{LegLengths, Octahedral, default_home};
+use crate::manipulator::{LegLengths, Octahedral};
 use crate::offsets;
 use crate::synthesis::{Family, FamilyMember};
 
@@ -208,7 +209,7 @@ fn verification(
 /// The poses at the design's own lengths, or at those of its home pose.
 fn solve(design: &Design, options: &FkOptions) -> Result<Poses, Failure> {
     let m = design.manipulator();
-    let home = || design.home.unwrap_or_else(|| default_home(m)).lengths(m);
+    let home = || poses::home(design).lengths(m);
     let (lengths, from) = if let Some(lengths) = design.lengths {
         (lengths, LengthsFrom::Design)
     } else {

@@ -12,9 +12,10 @@ use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::files;
 use crate::cli::output::Answer;
+use crate::cli::poses;
 use crate::design::{Design, Format, Workspace};
 use crate::geom::Pose;
-use crate::manipulator::{LegIndex, Octahedral, default_home};
+use crate::manipulator::{LegIndex, Octahedral};
 use crate::offsets::{
     Body, OffsetOutcome, OffsetProblem, OffsetReport, OffsetSolution, OptimizeOptions, Progress, optimize,
     sliding_joint_body,
@@ -53,7 +54,7 @@ pub(crate) struct PoseSet {
 }
 
 fn pose_set(design: &Design) -> PoseSet {
-    let home = design.home.unwrap_or_else(|| default_home(design.manipulator()));
+    let home = poses::home(design);
     let workspace_given = design.workspace.has_box() || !design.workspace.poses.is_empty();
     let poses = if workspace_given {
         design.workspace.sample(Some(&home))

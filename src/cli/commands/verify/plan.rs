@@ -2,9 +2,9 @@
 
 use nalgebra::Vector3;
 
+use crate::cli::poses;
 use crate::design::Design;
 use crate::equivalence::SamplePlan;
-use crate::manipulator::default_home;
 
 /// Half width of the box of positions where the design has no workspace box, in sizes of the design.
 const TRANSLATION: f64 = 0.25;
@@ -15,7 +15,7 @@ const ROTATION_DEG: f64 = 20.0;
 /// default home pose, a quarter of the size and 20 degrees each way.
 pub(crate) fn sample_plan(design: &Design, count: usize, seed: u64) -> SamplePlan {
     let m = design.manipulator();
-    let home = design.home.unwrap_or_else(|| default_home(m));
+    let home = poses::home(design);
     let (translation, rotation) = if design.workspace.has_box() {
         (design.workspace.translation, design.workspace.rotation_deg.map(f64::to_radians))
     } else {
