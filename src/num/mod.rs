@@ -1,12 +1,14 @@
-//! Seeded random numbers, double-double, interval and exact rational arithmetic, and the one door to faer.
+//! Seeded random numbers, double-double, interval and exact rational arithmetic, and the doors to faer and clarabel.
 
 pub(crate) mod batch;
+pub(crate) mod conic;
 pub mod disc;
 pub mod double_double;
 pub(crate) mod exact;
 pub mod interval;
 pub mod linalg;
 pub(crate) mod modular;
+pub(crate) mod parallel;
 mod seed;
 
 pub use seed::Rng;

@@ -6,7 +6,6 @@
 //! Derivation and limits: `docs/theory/offset-optimisation.md`.
 
 mod branch;
-mod clarabel;
 mod conditioning;
 mod hexagon;
 mod outcome;
@@ -22,8 +21,8 @@ mod subproblem;
 mod tests;
 mod verdict;
 
+pub use crate::num::conic::SolverFailure;
 pub use branch::{Branch, Conflict, Zone};
-pub use clarabel::SolverFailure;
 pub use hexagon::{Body, offset_determinant, sliding_joint_body};
 pub use outcome::{
     BranchCounts, BranchReport, BranchVerdict, LocalEvidence, Margins, OffsetOutcome, OffsetReport,

@@ -3,11 +3,11 @@
 use nalgebra::Matrix6;
 
 use super::branch::{Branch, Conflict};
-use super::clarabel::SolverFailure;
 use super::hexagon::offset_determinant;
 use super::problem::OffsetProblem;
 use super::scp::HistoryStep;
 use crate::manipulator::{Manipulator, jacobian};
+use crate::num::conic::SolverFailure;
 use crate::num::linalg::svd;
 use crate::synthesis::{AffineLegMap, joint_free};
 

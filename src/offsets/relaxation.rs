@@ -1,9 +1,9 @@
 //! Proof that a cell is empty: a linear relaxation with a re-checked Farkas certificate.
 
 use super::branch::{Cell, Conflict};
-use super::clarabel::{ConicAnswer, ConicProgram};
 use super::problem::Model;
 use super::spacing::Pair;
+use crate::num::conic::{ConicAnswer, ConicProgram};
 
 /// The linear relaxation of box, order and spacing on a cell: every spacing quadratic is replaced by affine
 /// functions that are nowhere below it on the box, so that an infeasible relaxation proves the cell empty.

@@ -4,10 +4,10 @@
 //! constraints (merit `value / reference - penalty * violation`).
 
 use super::branch::Cell;
-use super::clarabel::SolverFailure;
 use super::conditioning::{worst_case, worst_case_above};
 use super::problem::{BACKOFF, Model};
 use super::subproblem::{ActivePose, Multipliers, Subproblem, lagrangian_curvature, violation};
+use crate::num::conic::SolverFailure;
 
 /// How hard to try.
 #[derive(Debug, Clone, Copy)]

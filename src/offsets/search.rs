@@ -1,10 +1,6 @@
 //! The search over all branches: divide, sample, rank every cell, polish the best ones.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc;
-
 use super::branch::{Cell, Conflict, divide};
-use super::clarabel::SolverFailure;
 use super::conditioning::worst_case;
 use super::outcome::OffsetReport;
 use super::problem::{InvalidProblem, Model, OffsetProblem};
@@ -13,6 +9,8 @@ use super::sampling::{best_sample, feasible_points, hopeful_point};
 use super::scp::{Effort, LocalResult, climb};
 use super::verdict::{assemble, nothing_fits, vertices_too_close};
 use crate::num::Rng;
+use crate::num::conic::SolverFailure;
+use crate::num::parallel::parallel;
 
 /// Options of the search; none of them changes what is feasible.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -71,38 +69,6 @@ const DRAWS_PER_SAMPLE: usize = 30;
 const RANKING_POSES: usize = 80;
 /// Feasible samples whose worst poses make up that selection.
 const CRITICAL_SAMPLES: usize = 160;
-
-/// `f` on every index below `total`, on `threads` threads; the results are in index order, so they do not
-/// depend on the number of threads.
-fn parallel<T: Send>(
-    total: usize,
-    threads: usize,
-    f: impl Fn(usize) -> T + Sync,
-    tick: &mut dyn FnMut(usize),
-) -> Vec<T> {
-    let next = AtomicUsize::new(0);
-    let (send, receive) = mpsc::channel();
-    let mut slots: Vec<Option<T>> = (0..total).map(|_| None).collect();
-    std::thread::scope(|scope| {
-        for _ in 0..threads.clamp(1, total.max(1)) {
-            let (send, next, f) = (send.clone(), &next, &f);
-            scope.spawn(move || {
-                loop {
-                    let k = next.fetch_add(1, Ordering::Relaxed);
-                    if k >= total || send.send((k, f(k))).is_err() {
-                        break;
-                    }
-                }
-            });
-        }
-        drop(send);
-        for (done, (k, value)) in receive.iter().enumerate() {
-            slots[k] = Some(value);
-            tick(done + 1);
-        }
-    });
-    slots.into_iter().flatten().collect()
-}
 
 /// Best feasible run of a few short climbs from sampled starts; without one, restoration, then a proof.
 fn rank_cell(m: &Model, cell: &Cell, index: usize, o: &OptimizeOptions) -> CellResult {

@@ -3,10 +3,10 @@
 use nalgebra::Matrix6;
 
 use super::branch::Cell;
-use super::clarabel::{ConicAnswer, ConicPoint, ConicProgram, Row, SolverFailure};
 use super::conditioning::Spectrum;
 use super::hexagon::{determinant_gradient, determinant_hessian, offset_determinant};
 use super::problem::Model;
+use crate::num::conic::{ConicAnswer, ConicPoint, ConicProgram, Row, SolverFailure};
 
 /// Singular values within this factor of the extreme one are modelled together, by a cone, so that a
 /// crossing is no kink of the model.

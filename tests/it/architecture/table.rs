@@ -19,7 +19,17 @@ const INTEGERS: (&str, Option<&str>) = ("num_bigint", None);
 const ERRORS: (&str, Option<&str>) = ("thiserror", None);
 
 const LINES: &[Line] = &[
-    ("num", &[], &[("faer", Some("linalg.rs")), ("num_rational", Some("exact.rs")), COMPLEX, ERRORS]),
+    (
+        "num",
+        &[],
+        &[
+            ("faer", Some("linalg.rs")),
+            ("clarabel", Some("conic.rs")),
+            ("num_rational", Some("exact.rs")),
+            COMPLEX,
+            ERRORS,
+        ],
+    ),
     ("geom", &["num", "manipulator"], &[MATRICES, COMPLEX]),
     ("poly", &["num"], &[INTEGERS, COMPLEX, ("num_integer", None), ("num_traits", None), ERRORS]),
     ("manipulator", &["num", "geom"], &[MATRICES, ERRORS]),
@@ -53,11 +63,7 @@ const LINES: &[Line] = &[
     ("topology", &["num", "manipulator"], &[]),
     ("synthesis", &["num", "geom", "manipulator", "topology"], &[MATRICES, ERRORS]),
     ("singularity", &["num", "geom", "manipulator", "topology", "synthesis"], &[MATRICES, COMPLEX, ERRORS]),
-    (
-        "offsets",
-        &["num", "geom", "manipulator", "synthesis"],
-        &[MATRICES, ("clarabel", Some("clarabel.rs")), ERRORS],
-    ),
+    ("offsets", &["num", "geom", "manipulator", "synthesis"], &[MATRICES, ERRORS]),
     (
         "equivalence",
         &["num", "geom", "manipulator", "synthesis", "fk", "solve::certify"],

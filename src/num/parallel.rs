@@ -1,0 +1,36 @@
+//! Independent tasks on threads, with results that do not depend on how many there are.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc;
+
+/// `f` on every index below `total`, on `threads` threads; the results are in index order, so they do not
+/// depend on the number of threads.
+pub(crate) fn parallel<T: Send>(
+    total: usize,
+    threads: usize,
+    f: impl Fn(usize) -> T + Sync,
+    tick: &mut dyn FnMut(usize),
+) -> Vec<T> {
+    let next = AtomicUsize::new(0);
+    let (send, receive) = mpsc::channel();
+    let mut slots: Vec<Option<T>> = (0..total).map(|_| None).collect();
+    std::thread::scope(|scope| {
+        for _ in 0..threads.clamp(1, total.max(1)) {
+            let (send, next, f) = (send.clone(), &next, &f);
+            scope.spawn(move || {
+                loop {
+                    let k = next.fetch_add(1, Ordering::Relaxed);
+                    if k >= total || send.send((k, f(k))).is_err() {
+                        break;
+                    }
+                }
+            });
+        }
+        drop(send);
+        for (done, (k, value)) in receive.iter().enumerate() {
+            slots[k] = Some(value);
+            tick(done + 1);
+        }
+    });
+    slots.into_iter().flatten().collect()
+}
