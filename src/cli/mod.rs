@@ -3,6 +3,7 @@
 //! Data goes to standard output, everything else to standard error. With `--json` standard output holds
 //! exactly one JSON document, for refusals and failures too. See `docs/cli.md`.
 
+mod alignment;
 mod args;
 mod commands;
 mod context;

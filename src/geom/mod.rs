@@ -4,7 +4,7 @@ mod pose;
 mod quaternion;
 mod trilateration;
 
-pub(crate) use pose::reorthogonalised;
 pub use pose::{ComplexPose, Pose};
+pub(crate) use pose::{nearest_rotation, reorthogonalised};
 pub use quaternion::{random_rotation, rotation_from_quaternion};
 pub use trilateration::trilaterate;

@@ -1,6 +1,6 @@
 //! Real and complex poses `(R, p)`: `x_base = R x_platform + p`.
 
-use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
+use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
 use num_complex::Complex64;
 
 use crate::manipulator::{Leg, LegLengths, Manipulator, SquaredLegLengths};
@@ -93,7 +93,7 @@ impl ComplexPose {
     #[must_use]
     pub fn real_part(&self) -> Pose {
         let r = self.rotation.map(|z| z.re);
-        Pose { rotation: Rotation3::from_matrix(&r), position: self.position.map(|z| z.re) }
+        Pose { rotation: nearest_rotation(&r), position: self.position.map(|z| z.re) }
     }
 
     /// The pose less a step of Newton's method: rotation vector `turn` by its Cayley transform, exactly orthogonal over `C`, and `shift`; `None` when
@@ -128,6 +128,16 @@ impl ComplexPose {
     }
 }
 
+/// The rotation nearest to a matrix that is nearly one.
+///
+/// The iteration starts from the rotation of the matrix's quaternion: started from the identity, as by default, it can end at a wrong rotation
+/// when the wanted one is a half turn.
+pub(crate) fn nearest_rotation(m: &Matrix3<f64>) -> Rotation3<f64> {
+    let guess =
+        UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*m)).to_rotation_matrix();
+    Rotation3::from_matrix_eps(m, f64::EPSILON, 0, guess)
+}
+
 /// One step of `R <- R (3 I - R^T R) / 2`, which squares the defect of `R^T R = I` (over `C` as well).
 pub(crate) fn reorthogonalised(r: &Matrix3<Complex64>) -> Matrix3<Complex64> {
     let gram = r.transpose() * r;
@@ -145,6 +155,22 @@ impl From<Pose> for ComplexPose {
         Self {
             rotation: pose.rotation.matrix().map(|x| Complex64::new(x, 0.0)),
             position: pose.position.map(|x| Complex64::new(x, 0.0)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn half_turns_are_their_own_nearest_rotations() {
+        for d in [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]] {
+            for noise in [0.0, 1e-13] {
+                let mut m = Matrix3::from_diagonal(&Vector3::from(d));
+                m[(0, 1)] += noise;
+                assert!((nearest_rotation(&m).matrix() - m).amax() < 1e-12, "{d:?}");
+            }
         }
     }
 }

@@ -3,7 +3,9 @@
 //! Nothing in here solves forward kinematics: `synthesis` and `fk` never import each other, so that
 //! agreement of the root sets of two platforms is evidence for the map between them.
 
+pub mod alignment;
 pub mod components;
+mod correspondence;
 mod determinant;
 mod dot;
 mod drawing;
@@ -17,6 +19,7 @@ mod pattern;
 mod topology;
 
 pub use crate::topology::Topology;
+pub use correspondence::LegCorrespondence;
 pub use determinant::Factor;
 pub use enumerate::{Symmetry, enumerate, representative};
 pub use family::{Family, FamilyCounts, FamilyMember, FamilyTopology};

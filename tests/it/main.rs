@@ -5,6 +5,7 @@ mod allocations;
 mod architecture;
 mod bench;
 mod certify;
+mod cli_align;
 mod cli_bench;
 mod cli_check;
 mod cli_components;

@@ -5,20 +5,23 @@ use std::path::PathBuf;
 
 use serde_json::{Map, Value, json};
 
+use crate::cli::alignment::FrameArgs;
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::output::{Answer, number};
 use crate::manipulator::LegIndex;
-use crate::synthesis::{LegMapOutcome, LegMapTolerances, Relation, leg_map};
+use crate::synthesis::{LegCorrespondence, LegMapOutcome, LegMapTolerances, Relation, leg_map};
 
 /// Arguments of `map`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// Design whose squared lengths are given (.toml or .json)
     from: PathBuf,
-    /// Design whose squared lengths are wanted, in the same two frames and units
+    /// Design whose squared lengths are wanted, in the same units and, without --align, the same two frames
     to: PathBuf,
+    #[command(flatten)]
+    frames: FrameArgs,
 }
 
 /// Decides whether s(TO) = A s(FROM) + c holds at every pose.
@@ -29,10 +32,45 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         return Err(Failure::refused("map::different_units", message)
             .with_help("write both designs in the same unit: c has the unit squared"));
     }
-    let outcome = leg_map(from.manipulator(), to.manipulator(), LegMapTolerances::default())
+    let second = args.frames.apply(&from, &to, context.seed())?;
+    let outcome = leg_map(from.manipulator(), &second.manipulator, LegMapTolerances::default())
         .map_err(|e| Failure::internal(e.to_string()))?;
-    let exit = if outcome.relation == Relation::Equivalent { Exit::Yes } else { Exit::No };
-    Ok(Answer { exit, json: record(&outcome), text: table(&outcome, &from.name, &to.name) })
+    let exit = match (outcome.relation, second.refuted()) {
+        (Relation::Equivalent, _) => Exit::Yes,
+        (Relation::Unrelated, Some(false)) => Exit::Inconclusive,
+        _ => Exit::No,
+    };
+    let legs = LegCorrespondence::between(from.manipulator(), &second.manipulator);
+    let mut json = record(&outcome);
+    json.insert("correspondence".into(), correspondence(&legs));
+    second.put(&mut json);
+    let mut text = second.text();
+    text.push_str(&table(&outcome, &from.name, &to.name));
+    text.push_str(&same_legs(&legs));
+    Ok(Answer { exit, json, text })
+}
+
+/// Which leg of FROM each leg of TO is, from 1.
+fn correspondence(c: &LegCorrespondence) -> Value {
+    json!({
+        "legs": c.legs.map(|leg| leg.map(|i| i.get() + 1)),
+        "distances": c.distances.map(number),
+        "permutation": c.is_permutation(),
+        "exact": c.is_exact(),
+    })
+}
+
+fn same_legs(c: &LegCorrespondence) -> String {
+    let named: Vec<(LegIndex, LegIndex)> =
+        LegIndex::all().filter_map(|i| c.legs[i.get()].map(|old| (i, old))).collect();
+    let worst = named.iter().map(|(i, _)| c.distances[i.get()]).fold(0.0, f64::max);
+    let nearly = if c.is_exact() { String::new() } else { format!(", up to {worst:.1e} of the size") };
+    if c.is_permutation() {
+        let order: Vec<String> = named.iter().map(|(_, old)| (old.get() + 1).to_string()).collect();
+        return format!("the legs of TO are legs {} of FROM{nearly}\n", order.join(", "));
+    }
+    let list: Vec<String> = named.iter().map(|(i, old)| format!("{i} of TO is {old} of FROM")).collect();
+    if list.is_empty() { String::new() } else { format!("{}{nearly}\n", list.join(", ")) }
 }
 
 /// One sentence: what was decided and by which number.

@@ -28,7 +28,7 @@ mod planes;
 mod product;
 mod search;
 mod shape;
-mod spectrum;
+pub(super) mod spectrum;
 #[cfg(test)]
 mod tests;
 

@@ -4,16 +4,16 @@ use crate::num::linalg::{LinalgError, svd};
 
 /// Singular values and right singular vectors of a matrix with `n` columns.
 #[derive(Debug, Clone)]
-pub(super) struct Spectrum {
+pub(in crate::synthesis) struct Spectrum {
     /// Singular values, largest first, padded with zeros to `n` entries.
-    pub(super) values: Vec<f64>,
+    pub(in crate::synthesis) values: Vec<f64>,
     /// Right singular vectors, one an entry, in the order of `values`: an orthonormal basis of `R^n`.
-    pub(super) vectors: Vec<Vec<f64>>,
+    pub(in crate::synthesis) vectors: Vec<Vec<f64>>,
 }
 
 impl Spectrum {
     /// Of the matrix with these rows; none at all is the zero matrix.
-    pub(super) fn of(rows: &[Vec<f64>], n: usize) -> Result<Self, LinalgError> {
+    pub(in crate::synthesis) fn of(rows: &[Vec<f64>], n: usize) -> Result<Self, LinalgError> {
         if rows.is_empty() || n == 0 {
             let unit = |k: usize| (0..n).map(|i| if i == k { 1.0 } else { 0.0 }).collect();
             return Ok(Self { values: vec![0.0; n], vectors: (0..n).map(unit).collect() });
@@ -26,39 +26,39 @@ impl Spectrum {
     }
 
     /// Number of singular values above `limit`.
-    pub(super) fn rank(&self, limit: f64) -> usize {
+    pub(in crate::synthesis) fn rank(&self, limit: f64) -> usize {
         self.values.iter().filter(|s| **s > limit).count()
     }
 
     /// Vectors that belong to all but the first `rank` singular values.
-    pub(super) fn kernel(&self, rank: usize) -> &[Vec<f64>] {
+    pub(in crate::synthesis) fn kernel(&self, rank: usize) -> &[Vec<f64>] {
         &self.vectors[rank.min(self.vectors.len())..]
     }
 
     /// Vectors that belong to the first `rank` singular values.
-    pub(super) fn image(&self, rank: usize) -> &[Vec<f64>] {
+    pub(in crate::synthesis) fn image(&self, rank: usize) -> &[Vec<f64>] {
         &self.vectors[..rank.min(self.vectors.len())]
     }
 }
 
 /// Inner product.
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub(in crate::synthesis) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
 /// Euclidean norm.
-pub(super) fn norm(a: &[f64]) -> f64 {
+pub(in crate::synthesis) fn norm(a: &[f64]) -> f64 {
     dot(a, a).sqrt()
 }
 
 /// `a` over its norm; zero stays zero.
-pub(super) fn unit(a: &[f64]) -> Vec<f64> {
+pub(in crate::synthesis) fn unit(a: &[f64]) -> Vec<f64> {
     let n = norm(a);
     if n > 0.0 { a.iter().map(|x| x / n).collect() } else { a.to_vec() }
 }
 
 /// What is left of `a` without its parts along an orthonormal system.
-pub(super) fn without(a: &[f64], system: &[Vec<f64>]) -> Vec<f64> {
+pub(in crate::synthesis) fn without(a: &[f64], system: &[Vec<f64>]) -> Vec<f64> {
     let mut rest = a.to_vec();
     for _ in 0..2 {
         for e in system {
@@ -70,7 +70,7 @@ pub(super) fn without(a: &[f64], system: &[Vec<f64>]) -> Vec<f64> {
 }
 
 /// An orthonormal basis of the span of `vectors`, leaving out what is shorter than `limit` of its vector.
-pub(super) fn orthonormal(vectors: &[Vec<f64>], limit: f64) -> Vec<Vec<f64>> {
+pub(in crate::synthesis) fn orthonormal(vectors: &[Vec<f64>], limit: f64) -> Vec<Vec<f64>> {
     let mut basis: Vec<Vec<f64>> = Vec::new();
     for v in vectors {
         let rest = without(&unit(v), &basis);
@@ -82,7 +82,10 @@ pub(super) fn orthonormal(vectors: &[Vec<f64>], limit: f64) -> Vec<Vec<f64>> {
 }
 
 /// The shortest `x` that minimises `|sum_k x_k columns_k - target|`, and that distance over `|target|`.
-pub(super) fn least_squares(columns: &[Vec<f64>], target: &[f64]) -> Result<(Vec<f64>, f64), LinalgError> {
+pub(in crate::synthesis) fn least_squares(
+    columns: &[Vec<f64>],
+    target: &[f64],
+) -> Result<(Vec<f64>, f64), LinalgError> {
     // rows of the transposed system: left singular vectors of it are the coefficients
     let d = svd(columns)?;
     let top = d.s.first().copied().unwrap_or(0.0);
@@ -100,7 +103,7 @@ pub(super) fn least_squares(columns: &[Vec<f64>], target: &[f64]) -> Result<(Vec
 }
 
 /// Real roots of `c[0] + c[1] x + ..`, those of a leading coefficient below `1e-13` of the largest left out.
-pub(super) fn real_roots(c: &[f64]) -> Result<Vec<f64>, LinalgError> {
+pub(in crate::synthesis) fn real_roots(c: &[f64]) -> Result<Vec<f64>, LinalgError> {
     let size = c.iter().fold(0.0f64, |m, x| m.max(x.abs()));
     let Some(degree) = c.iter().rposition(|x| x.abs() > 1e-13 * size) else { return Ok(Vec::new()) };
     if degree == 0 || size <= 0.0 {

@@ -8,6 +8,7 @@ use crate::cli::commands::map;
 use crate::cli::output::number;
 use crate::equivalence::{Counterexample, Sample, SamplePlan, Verdict, Verification};
 use crate::fk::{Completeness, FkSolutions};
+use crate::synthesis::LegMapOutcome;
 
 /// The fields of the document.
 pub(crate) fn record(v: &Verification, plan: &SamplePlan) -> Map<String, Value> {
@@ -31,6 +32,22 @@ pub(crate) fn record(v: &Verification, plan: &SamplePlan) -> Map<String, Value> 
             "rotation_half_widths_rad": plan.rotation.as_slice(),
         }),
     );
+    fields
+}
+
+/// The word for designs that no rigid motions, or none that were found, make equivalent.
+pub(super) fn unaligned_verdict(none: bool) -> &'static str {
+    if none { "not_equivalent" } else { "inconclusive" }
+}
+
+/// The fields of the document where an alignment was asked for and not found; `map` is that of the designs as they are given.
+pub(super) fn unaligned(map: &LegMapOutcome, none: bool, explanation: &str) -> Map<String, Value> {
+    let mut fields = Map::new();
+    fields.insert("verdict".into(), json!(unaligned_verdict(none)));
+    fields.insert("explanation".into(), json!(explanation));
+    fields.insert("map".into(), Value::Object(map::record(map)));
+    fields.insert("worst_distance".into(), Value::Null);
+    fields.insert("samples".into(), json!([]));
     fields
 }
 

@@ -1,0 +1,188 @@
+//! Answers of [`align`](super::align), and the reasons for them.
+
+use super::canonical::Canonical;
+use super::{Bounds, CLEAR, SAME};
+use crate::geom::Pose;
+use crate::synthesis::leg_map::LegMapOutcome;
+
+/// A pair of rigid motions that makes B equivalent to A.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Motion {
+    /// `x -> R x + p` for base joints of B, to the base frame of A.
+    pub base: Pose,
+    /// The same for platform joints.
+    pub platform: Pose,
+    /// The leg map from A to the moved B.
+    pub map: LegMapOutcome,
+}
+
+impl Motion {
+    pub(super) fn is_near(&self, base: &Pose, platform: &Pose) -> bool {
+        let apart = |x: &Pose, y: &Pose| (x.rotation.matrix() - y.rotation.matrix()).amax();
+        apart(&self.base, base) < SAME && apart(&self.platform, platform) < SAME
+    }
+
+    /// Angles of rotation and translations over `size`, added up.
+    pub(super) fn extent(&self, size: f64) -> f64 {
+        [&self.base, &self.platform].iter().map(|m| m.rotation.angle() + m.position.norm() / size).sum()
+    }
+}
+
+/// The pair of motions that brings the legs of B nearest to the span of A.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NearestMotion {
+    /// For base joints of B.
+    pub base: Pose,
+    /// For platform joints of B.
+    pub platform: Pose,
+    /// The largest relative distance of a leg from the span.
+    pub residual: f64,
+}
+
+/// A number that no rigid motion changes and that equivalent designs share.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Invariant {
+    /// Dimension of the span `L` of the leg vectors.
+    LegRank,
+    /// Dimension of the entries `(1, a, b)` of the elements of `L`.
+    JointRank,
+    /// Dimension of the translations left open by a step towards the canonical origins.
+    OpenTranslations,
+    /// A principal value of the base.
+    BasePrincipalValue,
+    /// A principal value of the platform.
+    PlatformPrincipalValue,
+    /// Distance of the canonical forms, zero for equivalent designs.
+    CanonicalDistance,
+}
+
+impl Invariant {
+    /// The name used in JSON.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::LegRank => "leg_rank",
+            Self::JointRank => "joint_rank",
+            Self::OpenTranslations => "open_translations",
+            Self::BasePrincipalValue => "base_principal_value",
+            Self::PlatformPrincipalValue => "platform_principal_value",
+            Self::CanonicalDistance => "canonical_distance",
+        }
+    }
+}
+
+/// An invariant that tells two designs apart.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Difference {
+    /// Which.
+    pub invariant: Invariant,
+    /// Its value for A; zero for the distance of canonical forms.
+    pub in_a: f64,
+    /// Its value for B; the distance itself for the distance of canonical forms.
+    pub in_b: f64,
+    /// What a difference must exceed. For dimensions the largest singular value that counted as zero.
+    pub bound: f64,
+    /// By how much the values differ. For dimensions the smallest singular value that did not count as zero.
+    pub gap: f64,
+}
+
+/// Why nothing was decided.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Undecided {
+    /// A dimension is not clear: singular values too near to the tolerance.
+    UnclearDimension,
+    /// A body has no axes of its own, or nearly so; a search found no motion, which proves nothing.
+    NoAxes,
+    /// No invariant differs by more than the error it may have, and no motion reaches the tolerance.
+    WithinErrors,
+}
+
+impl Undecided {
+    /// The name used in JSON.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::UnclearDimension => "unclear_dimension",
+            Self::NoAxes => "no_axes",
+            Self::WithinErrors => "within_errors",
+        }
+    }
+}
+
+/// Which motions make B equivalent to A.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Alignment {
+    /// These do.
+    Found {
+        /// Nearest to no motion first. Their number is that of the pairs of motions that keep the span of A, one of every family.
+        motions: Vec<Motion>,
+        /// There are no others, up to the families they lie in.
+        all: bool,
+        /// Dimension of the families the motions lie in; zero for finitely many motions.
+        freedom: usize,
+    },
+    /// None does.
+    None {
+        /// The number that shows it.
+        difference: Difference,
+        /// How near a motion comes.
+        nearest: Option<NearestMotion>,
+    },
+    /// Not decided.
+    Undecided {
+        /// Why.
+        reason: Undecided,
+        /// How near a motion comes.
+        nearest: Option<NearestMotion>,
+    },
+}
+
+/// The answer for spans of different dimensions.
+pub(super) fn dimensions_differ(a: &Canonical, b: &Canonical) -> Alignment {
+    let (x, y) = (a.span.dimensions, b.span.dimensions);
+    let at = (0..5).find(|k| x[*k] != y[*k]).unwrap_or(0);
+    let invariant = match at {
+        0 => Invariant::LegRank,
+        1 => Invariant::JointRank,
+        _ => Invariant::OpenTranslations,
+    };
+    let gap = a.span.gap.0.min(b.span.gap.0);
+    let bound = a.span.gap.1.max(b.span.gap.1);
+    if gap < CLEAR.0 || bound > CLEAR.1 {
+        return Alignment::Undecided { reason: Undecided::UnclearDimension, nearest: None };
+    }
+    let difference = Difference { invariant, in_a: x[at] as f64, in_b: y[at] as f64, bound, gap };
+    Alignment::None { difference, nearest: None }
+}
+
+/// The answer when no candidate makes the designs equivalent. `distance` is that of the canonical forms, where all candidates are known.
+pub(super) fn none_found(
+    a: &Canonical,
+    b: &Canonical,
+    distance: Option<f64>,
+    bounds: &Bounds,
+    nearest: Option<NearestMotion>,
+) -> Alignment {
+    let values = (0..6).map(|k| Difference {
+        invariant: if k < 3 { Invariant::BasePrincipalValue } else { Invariant::PlatformPrincipalValue },
+        in_a: a.values[k],
+        in_b: b.values[k],
+        bound: bounds.values[k],
+        gap: (a.values[k] - b.values[k]).abs(),
+    });
+    let forms = distance.map(|d| Difference {
+        invariant: Invariant::CanonicalDistance,
+        in_a: 0.0,
+        in_b: d,
+        bound: bounds.distance,
+        gap: d,
+    });
+    let clear = values.chain(forms).filter(|d| d.gap > d.bound);
+    match clear.max_by(|x, y| (x.gap / x.bound).total_cmp(&(y.gap / y.bound))) {
+        Some(difference) => Alignment::None { difference, nearest },
+        None if distance.is_none() => Alignment::Undecided { reason: Undecided::NoAxes, nearest },
+        None => Alignment::Undecided { reason: Undecided::WithinErrors, nearest },
+    }
+}
