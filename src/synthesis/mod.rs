@@ -16,6 +16,7 @@ mod leg_map;
 mod leg_vector;
 mod moves;
 mod pattern;
+pub mod rearrangement;
 mod topology;
 
 pub use crate::topology::Topology;

@@ -75,3 +75,25 @@ fn a_design_that_is_always_singular_has_no_topology() {
     assert_eq!(out.status.code(), Some(1), "{doc}");
     assert_eq!(doc["error"]["code"], "topologies::always_singular");
 }
+
+#[test]
+fn rearrangements_come_with_designs_that_the_map_confirms() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().to_str().unwrap();
+    let design = "designs/rbt-octahedral.toml";
+    let common = ["topologies", design, "--members", "1", "--json"];
+    let plain = document(&equipod(&common));
+    let doc = document(&equipod(&[&common[..], &["--rearrangements", "-o", path]].concat()));
+    assert_eq!((plain.get("rearrangements"), &plain["topologies"]), (None, &doc["topologies"]));
+    let list = doc["rearrangements"].as_array().unwrap();
+    assert_eq!(list.len(), 1);
+    let line = &list[0];
+    assert_eq!((line["id"].as_str(), line["octahedral"].as_bool()), (Some("T34"), Some(true)));
+    assert_eq!((line["shared_joints"].as_u64(), line["fewest_shared_joints"].as_u64()), (Some(6), Some(0)));
+    assert_eq!(line["fewest"]["legs"].as_array().unwrap().len(), 6);
+    assert_eq!(line["families"].as_array().unwrap().len(), 6);
+    let file = |name: &str| format!("{path}/T34-plane-plane-{name}.toml");
+    for to in ["fewest", "octahedral"] {
+        assert_eq!(equipod(&["map", &file("member"), &file(to)]).status.code(), Some(0), "{to}");
+    }
+}

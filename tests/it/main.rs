@@ -30,6 +30,7 @@ mod hidden_lengths;
 mod instances;
 mod leg_maps;
 mod octahedral_class;
+mod rearrangements;
 mod reference;
 mod singularity;
 mod topologies;

@@ -1,6 +1,6 @@
 //! Families gathered: each is kept once, with what belongs to it.
 
-use super::component::{Component, infinite_parameters};
+use super::component::{Component, SampledLeg, infinite_parameters};
 use super::flat::Flat;
 use super::found::Found;
 use super::pairs::ClosedPair;
@@ -83,7 +83,7 @@ impl Search<'_> {
         let n = self.normalisation();
         let mut out = Vec::new();
         for _ in 0..count {
-            if let Some(s) = component.sample(self.span, &mut self.rng)? {
+            if let Some(s) = self.sample(component)? {
                 let leg = n.apply(&s.leg);
                 out.push((leg.base.coords, leg.platform.coords));
             }
@@ -91,10 +91,16 @@ impl Search<'_> {
         Ok(out)
     }
 
+    /// A random leg, near the joints where there is one: a family whose fixed end is far out has none.
+    fn sample(&mut self, component: &Component) -> Result<Option<SampledLeg>, LinalgError> {
+        let near = component.sample(self.span, &mut self.rng)?;
+        if near.is_some() { Ok(near) } else { component.sample_within(1e4, self.span, &mut self.rng) }
+    }
+
     fn support(&mut self, component: &Component) -> Result<Vec<LegIndex>, LinalgError> {
         let mut used = [false; 6];
         for _ in 0..3 {
-            if let Some(s) = component.sample(self.span, &mut self.rng)? {
+            if let Some(s) = self.sample(component)? {
                 let largest = s.coefficients.iter().fold(0.0f64, |m, c| m.max(c.abs()));
                 for (u, c) in used.iter_mut().zip(s.coefficients) {
                     *u |= c.abs() > 1e-7 * largest;

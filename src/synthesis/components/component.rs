@@ -104,6 +104,16 @@ impl Component {
     /// # Errors
     /// When a singular value decomposition does not converge.
     pub fn sample(&self, span: &LegSpan, rng: &mut Rng) -> Result<Option<SampledLeg>, LinalgError> {
+        self.sample_within(6.0, span, rng)
+    }
+
+    /// The same with both ends within `limit` sizes.
+    pub(super) fn sample_within(
+        &self,
+        limit: f64,
+        span: &LegSpan,
+        rng: &mut Rng,
+    ) -> Result<Option<SampledLeg>, LinalgError> {
         for _ in 0..200 {
             let parameters: Vec<f64> = (0..self.parametrisation.parameters())
                 .map(|_| match self.kind {
@@ -115,7 +125,7 @@ impl Component {
             let Some(leg) = self.parametrisation.leg_at(&parameters)? else { continue };
             let n = span.normalisation();
             let reach = n.apply(&leg);
-            if reach.base.coords.norm().max(reach.platform.coords.norm()) < 6.0 {
+            if reach.base.coords.norm().max(reach.platform.coords.norm()) < limit {
                 let (coefficients, residual) = (span.coefficients(&leg), span.distance(&leg));
                 return Ok(Some(SampledLeg { leg, parameters, coefficients, residual }));
             }

@@ -4,7 +4,7 @@ use crate::manipulator::Leg;
 use crate::num::exact::{Rational, rational, relations};
 
 /// A vector of rational numbers.
-pub(super) type Exact = Vec<Rational>;
+pub(in crate::synthesis) type Exact = Vec<Rational>;
 
 /// The six legs in exact homogeneous coordinates.
 #[derive(Debug, Clone)]
@@ -18,7 +18,7 @@ pub(super) struct ExactLegs {
 }
 
 /// Rank of a list of rows, exactly.
-pub(super) fn rank(rows: &[Exact]) -> usize {
+pub(in crate::synthesis) fn rank(rows: &[Exact]) -> usize {
     rows.len() - relations(rows).len()
 }
 
@@ -33,7 +33,8 @@ pub(super) fn combination(rows: &[&Exact], c: &[i32]) -> Exact {
     out
 }
 
-fn product(a: &Exact, b: &Exact) -> Exact {
+/// `a (x) b`.
+pub(in crate::synthesis) fn product(a: &Exact, b: &Exact) -> Exact {
     a.iter().flat_map(|x| b.iter().map(move |y| x * y)).collect()
 }
 

@@ -14,7 +14,7 @@ mod collect;
 mod component;
 mod curves;
 mod decision;
-mod exact;
+pub(super) mod exact;
 mod flat;
 mod form;
 mod found;

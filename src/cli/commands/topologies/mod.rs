@@ -1,5 +1,7 @@
 //! `equipod topologies`: the joint-sharing topologies, their numbers of poses, pictures and designs.
 
+mod rearrangements;
+
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -35,6 +37,9 @@ pub(crate) struct Args {
     /// Write a representative design (T01.toml, ...) and a picture (T01.svg, ...) of each into this folder
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
+    /// Also what equivalent rearrangement can do for each, bodies in space or in a plane: fewest shared joints, octahedral or not; with -o the designs that show it
+    #[arg(long)]
+    rearrangements: bool,
 }
 
 /// A topology with what was computed.
@@ -71,12 +76,18 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     } else {
         json.insert("by_virtual_legs".into(), classes(&wanted));
     }
+    let moved = if args.rearrangements { Some(rearrangements::cases(&wanted)?) } else { None };
     let entries = wanted.into_iter().map(|t| entry(t, args.members, context.seed()));
     let entries = entries.collect::<Result<Vec<Entry>, Failure>>()?;
     json.insert("members".into(), json!(args.members));
     json.insert("topologies".into(), entries.iter().map(record).collect());
     table(&mut text, &entries);
     write_files(args, &entries)?;
+    if let Some(list) = &moved {
+        json.insert("rearrangements".into(), list.iter().map(rearrangements::record).collect());
+        rearrangements::table(&mut text, list);
+        args.output.iter().try_for_each(|folder| rearrangements::write(folder, list))?;
+    }
     let exit = if entries.iter().all(|e| e.proved) { Exit::Yes } else { Exit::Inconclusive };
     Ok(Answer { exit, json, text })
 }

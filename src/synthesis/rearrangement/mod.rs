@@ -1,0 +1,24 @@
+//! What equivalent rearrangement can do for each of the topologies: fewest shared joints, the octahedral graph.
+//!
+//! The replaceable legs of a design are the points of its leg span `L` on the Segre variety; an equivalent rearrangement is a choice of six of
+//! them that span `L`. For general members of a topology, bodies in space or in a plane, the families of replaceable legs are found in exact
+//! arithmetic; how few joints six legs can share follows from ranks of unions of families (Rado's theorem on independent
+//! transversals). Theorems and proofs: `docs/theory/rearrangements.md`.
+
+mod arrangement;
+mod choice;
+mod joints;
+mod octahedral;
+mod piece;
+mod planes;
+mod sample;
+mod split;
+mod table;
+#[cfg(test)]
+mod tests;
+
+pub use arrangement::Arrangement;
+pub use choice::Obstruction;
+pub use octahedral::{NotOctahedral, Reduction};
+pub use piece::{Piece, PieceKind};
+pub use table::{Argument, NotDecided, PlanarBodies, Rearrangement, rearrangement, rearrangements};

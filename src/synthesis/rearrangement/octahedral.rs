@@ -1,0 +1,99 @@
+//! Whether a design is equivalent to an octahedral one.
+//!
+//! The replaceable legs of an octahedral design are the six sides of a hexagon of lines between two planes, and nothing else
+//! (`docs/theory/octahedral-class.md`). They are those of every equivalent design, so that anything else among them is a proof that there is no octahedral one.
+
+use super::arrangement::Arrangement;
+use super::piece::Piece;
+use super::planes::{Planes, scroll};
+use super::sample::{ExactLeg, Sample};
+use crate::synthesis::components::exact::{Exact, rank};
+use crate::synthesis::hexagon::Body;
+use crate::topology::Topology;
+
+/// The answer.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Reduction {
+    /// This octahedral design is equivalent.
+    Octahedral(Arrangement),
+    /// None is.
+    Not(NotOctahedral),
+}
+
+/// Why no octahedral design is equivalent.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum NotOctahedral {
+    /// The joints of a body span space; those of equivalent designs do too.
+    BodyInSpace(Body),
+    /// There is a family of dimension two or three.
+    Surface,
+    /// There is a replaceable leg whose ends have no further partners: it lies on no line of legs.
+    LegOnNoLine,
+}
+
+impl NotOctahedral {
+    /// The name used in JSON and in the documentation.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::BodyInSpace(Body::Base) => "base_in_space",
+            Self::BodyInSpace(Body::Platform) => "platform_in_space",
+            Self::Surface => "surface",
+            Self::LegOnNoLine => "leg_on_no_line",
+        }
+    }
+}
+
+/// Decides from all families.
+pub(super) fn from_families(sample: &Sample, pieces: &[Piece]) -> Option<Reduction> {
+    if let Some(body) = in_space(sample) {
+        return Some(Reduction::Not(NotOctahedral::BodyInSpace(body)));
+    }
+    if pieces.iter().any(|p| p.dimension() > 1) {
+        return Some(Reduction::Not(NotOctahedral::Surface));
+    }
+    if pieces.iter().any(|p| !p.has_common_joint()) {
+        return Some(Reduction::Not(NotOctahedral::LegOnNoLine));
+    }
+    corners(sample, pieces).map(Reduction::Octahedral)
+}
+
+/// Decides from the cubics of two planes.
+pub(super) fn from_cubics(sample: &Sample, planes: &Planes, legs: &[ExactLeg]) -> Option<Reduction> {
+    let reason = if legs.iter().any(|l| planes.alone(l)) {
+        NotOctahedral::LegOnNoLine
+    } else if scroll(sample) {
+        NotOctahedral::Surface
+    } else {
+        return None;
+    };
+    Some(Reduction::Not(reason))
+}
+
+pub(super) fn in_space(sample: &Sample) -> Option<Body> {
+    [Body::Base, Body::Platform].into_iter().find(|b| sample.dimension(*b) == 3)
+}
+
+/// The legs between the fixed joints of the six lines.
+fn corners(sample: &Sample, pieces: &[Piece]) -> Option<Arrangement> {
+    let own: Vec<Exact> = sample.legs().iter().map(ExactLeg::vector).collect();
+    let fixed = |base: bool| {
+        let side = move |p: &&Piece| if base { p.base.len() == 1 } else { p.platform.len() == 1 };
+        pieces.iter().filter(side).map(move |p| if base { &p.base[0] } else { &p.platform[0] })
+    };
+    let mut legs = Vec::new();
+    for a in fixed(true) {
+        for b in fixed(false) {
+            let leg = ExactLeg::through(a, b)?;
+            if rank(&[own.clone(), vec![leg.vector()]].concat()) == 6 {
+                legs.push(leg);
+            }
+        }
+    }
+    let found = Arrangement::of_legs(&legs)?;
+    let of = |end: fn(&(usize, usize)) -> usize| found.legs().map(|l| end(&l));
+    let zigzag = Topology::of_legs([0, 1, 1, 2, 2, 0], [0, 0, 1, 1, 2, 2]);
+    let is_zigzag = Topology::of_legs(of(|l| l.0), of(|l| l.1)) == zigzag;
+    (is_zigzag && found.is_equivalent_to(&Arrangement::of_sample(sample)?)).then_some(found)
+}

@@ -1,0 +1,143 @@
+//! A member of a topology with small integer coordinates, in exact arithmetic.
+
+use nalgebra::Point3;
+
+use crate::num::Rng;
+use crate::num::exact::{Rational, relations};
+use crate::synthesis::components::exact::{Exact, product, rank};
+use crate::synthesis::hexagon::Body;
+
+/// Joints and legs of one design. Joints are homogeneous: `(1, x, y, z)`.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Sample {
+    base: Vec<Exact>,
+    platform: Vec<Exact>,
+    legs: [(usize, usize); 6],
+}
+
+/// A leg between two points in exact homogeneous coordinates, first coordinates 1.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct ExactLeg {
+    pub(super) base: Exact,
+    pub(super) platform: Exact,
+}
+
+/// The body that is not this one.
+pub(super) fn other(body: Body) -> Body {
+    match body {
+        Body::Base => Body::Platform,
+        Body::Platform => Body::Base,
+    }
+}
+
+pub(super) fn integer(x: i64) -> Rational {
+    Rational::from_integer(x.into())
+}
+
+/// The same point with the first coordinate 1; `None` at infinity.
+pub(super) fn finite(x: &Exact) -> Option<Exact> {
+    let first = x.first().filter(|f| **f != integer(0))?;
+    Some(x.iter().map(|c| c / first).collect())
+}
+
+/// A basis of the intersection of the spans of two lists of independent vectors.
+pub(super) fn meet(u: &[Exact], v: &[Exact]) -> Vec<Exact> {
+    let rows: Vec<Exact> = u.iter().chain(v).cloned().collect();
+    relations(&rows).iter().map(|c| weighted(u, c)).collect()
+}
+
+/// `sum_k c_k rows_k`; further coefficients are ignored.
+pub(super) fn weighted(rows: &[Exact], c: &[Rational]) -> Exact {
+    let mut out = vec![integer(0); rows.first().map_or(0, Vec::len)];
+    for (row, c) in rows.iter().zip(c) {
+        out.iter_mut().zip(row).for_each(|(o, x)| *o += c * x);
+    }
+    out
+}
+
+impl ExactLeg {
+    /// `(1, a) (x) (1, b)`.
+    pub(super) fn vector(&self) -> Exact {
+        product(&self.base, &self.platform)
+    }
+
+    /// Both ends normalised; `None` when one is at infinity.
+    pub(super) fn through(base: &Exact, platform: &Exact) -> Option<Self> {
+        Some(Self { base: finite(base)?, platform: finite(platform)? })
+    }
+}
+
+impl Sample {
+    /// Joints drawn from the integers `-9..=9`, planar bodies in `z = 0`.
+    pub(super) fn draw(legs: [(usize, usize); 6], planar: (bool, bool), rng: &mut Rng) -> Self {
+        let mut joints = |count: usize, planar: bool| -> Vec<Exact> {
+            let mut coordinate = || (rng.next_u64() % 19).cast_signed() - 9;
+            let mut point = || {
+                let (x, y, z) = (coordinate(), coordinate(), coordinate());
+                [1, x, y, if planar { 0 } else { z }].map(integer).to_vec()
+            };
+            (0..count).map(|_| point()).collect()
+        };
+        let count = |of: fn(&(usize, usize)) -> usize| 1 + legs.iter().map(of).max().unwrap_or(0);
+        let base = joints(count(|l| l.0), planar.0);
+        let platform = joints(count(|l| l.1), planar.1);
+        Self { base, platform, legs }
+    }
+
+    /// All joints of a body.
+    pub(super) fn joints(&self, body: Body) -> &[Exact] {
+        match body {
+            Body::Base => &self.base,
+            Body::Platform => &self.platform,
+        }
+    }
+
+    /// Some joints of a body.
+    pub(super) fn points(&self, body: Body, which: &[usize]) -> Vec<Exact> {
+        which.iter().map(|k| self.joints(body)[*k].clone()).collect()
+    }
+
+    /// Joints of the other body to which a joint has a leg, ascending.
+    pub(super) fn neighbours(&self, body: Body, joint: usize) -> Vec<usize> {
+        let ends = self.legs.iter().map(|l| if body == Body::Base { *l } else { (l.1, l.0) });
+        let mut out: Vec<usize> = ends.filter(|l| l.0 == joint).map(|l| l.1).collect();
+        out.sort_unstable();
+        out
+    }
+
+    /// Dimension of the flat of all joints of a body.
+    pub(super) fn dimension(&self, body: Body) -> usize {
+        rank(self.joints(body)).saturating_sub(1)
+    }
+
+    /// The six legs.
+    pub(super) fn legs(&self) -> Vec<ExactLeg> {
+        let leg = |l: &(usize, usize)| ExactLeg {
+            base: self.base[l.0].clone(),
+            platform: self.platform[l.1].clone(),
+        };
+        self.legs.iter().map(leg).collect()
+    }
+
+    /// Whether no joints coincide, any joints of a body as many as its flat allows are independent, and so are the six leg vectors.
+    pub(super) fn is_general(&self, planar: (bool, bool)) -> bool {
+        let vectors: Vec<Exact> = self.legs().iter().map(ExactLeg::vector).collect();
+        let general = |body: Body, planar: bool| {
+            let joints = self.joints(body);
+            let size = joints.len().min(if planar { 3 } else { 4 });
+            subsets(joints.len()).filter(|s| s.len() == size).all(|s| rank(&self.points(body, &s)) == size)
+        };
+        rank(&vectors) == 6 && general(Body::Base, planar.0) && general(Body::Platform, planar.1)
+    }
+}
+
+/// The nearest doubles of a finite point.
+pub(super) fn rounded(x: &Exact) -> Point3<f64> {
+    let near = crate::num::exact::approximate;
+    Point3::new(near(&x[1]), near(&x[2]), near(&x[3]))
+}
+
+/// All subsets of `0..count` without the empty one.
+pub(super) fn subsets(count: usize) -> impl Iterator<Item = Vec<usize>> {
+    (1..1usize << count).map(move |set| (0..count).filter(|k| set >> k & 1 == 1).collect())
+}

@@ -1,0 +1,271 @@
+//! The answer for one topology, and for all of them.
+
+use thiserror::Error;
+
+use super::arrangement::Arrangement;
+use super::choice::{Obstruction, Spread, obstructions, spreads};
+use super::joints::at_joints;
+use super::octahedral::{Reduction, from_cubics, from_families, in_space};
+use super::piece::{Piece, PieceKind};
+use super::planes::Planes;
+use super::sample::{ExactLeg, Sample};
+use super::split::{Outcome, Split, split};
+use crate::num::Rng;
+use crate::synthesis::components::exact::{Exact, rank};
+use crate::synthesis::components::flat_name;
+use crate::synthesis::hexagon::Body;
+use crate::topology::{NamedTopology, catalogue};
+
+/// Which bodies have all their joints in a plane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct PlanarBodies {
+    /// The base joints lie in a plane.
+    pub base: bool,
+    /// The platform joints lie in a plane.
+    pub platform: bool,
+}
+
+/// How the families were found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Argument {
+    /// The span of the legs is a sum of stars at independent points of a body: all families are in the list.
+    Stars(Body),
+    /// The lemma on supports leaves the joints and at most one pairing: all families are in the list.
+    Supports,
+    /// Two planes with a pair of curves: families are not listed. That joints can be free is shown by the design.
+    Curves,
+}
+
+/// What equivalent rearrangement can do for the general members of a topology.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rearrangement {
+    /// The topology.
+    pub topology: NamedTopology,
+    /// Bodies in a plane.
+    pub planar: PlanarBodies,
+    /// A member with small integer coordinates.
+    pub member: Arrangement,
+    /// How the families were found.
+    pub argument: Argument,
+    /// All families of replaceable legs of the member; empty for [`Argument::Curves`].
+    pub families: Vec<Piece>,
+    /// Dimensions of the summands of the span of the legs that [`Piece::parts`] refers to.
+    pub summands: Vec<usize>,
+    /// The least number of joints that carry two or more legs.
+    pub fewest_shared: usize,
+    /// The least value of twelve less the number of joints.
+    pub fewest_merged: usize,
+    /// An equivalent design with [`fewest_shared`](Self::fewest_shared) such joints and [`fewest_merged`](Self::fewest_merged).
+    pub fewest: Arrangement,
+    /// Why there cannot be fewer shared joints.
+    pub obstructions: Vec<Obstruction>,
+    /// Whether an octahedral design is equivalent.
+    pub octahedral: Reduction,
+}
+
+/// The argument did not come to an end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[error("no proof was found for {topology} (plane base: {}, plane platform: {})", planar.base, planar.platform, topology = topology.id())]
+pub struct NotDecided {
+    /// The topology.
+    pub topology: NamedTopology,
+    /// Bodies in a plane.
+    pub planar: PlanarBodies,
+}
+
+/// Every topology of the catalogue with its bodies in space or in a plane; bodies with three joints are in a plane anyway.
+///
+/// # Errors
+/// [`NotDecided`], which does not happen.
+pub fn rearrangements() -> Result<Vec<Rearrangement>, NotDecided> {
+    let mut out = Vec::new();
+    for topology in catalogue() {
+        for planar in PlanarBodies::of(topology) {
+            out.push(rearrangement(topology, planar)?);
+        }
+    }
+    Ok(out)
+}
+
+impl Rearrangement {
+    /// The families in words, base first: `2 x line-point, pairing, 3 legs`; `curves` where they are not listed.
+    #[must_use]
+    pub fn family_names(&self) -> String {
+        if self.argument == Argument::Curves {
+            return "curves".to_string();
+        }
+        let mut counted: Vec<(String, usize)> = Vec::new();
+        let mut sorted: Vec<&Piece> = self.families.iter().collect();
+        sorted.sort_by_key(|p| {
+            (
+                p.kind == PieceKind::Pairing,
+                std::cmp::Reverse(p.dimension()),
+                std::cmp::Reverse(p.base_dimension()),
+            )
+        });
+        for piece in sorted.into_iter().filter(|p| p.dimension() > 0) {
+            let name = match piece.kind {
+                PieceKind::AllPairs => {
+                    format!("{}-{}", flat_name(piece.base_dimension()), flat_name(piece.platform_dimension()))
+                }
+                PieceKind::Pairing => "pairing".to_string(),
+            };
+            match counted.last_mut().filter(|(last, _)| *last == name) {
+                Some((_, count)) => *count += 1,
+                None => counted.push((name, 1)),
+            }
+        }
+        let mut out: Vec<String> = counted
+            .into_iter()
+            .map(|(name, count)| if count > 1 { format!("{count} x {name}") } else { name })
+            .collect();
+        match self.families.iter().filter(|p| p.dimension() == 0).count() {
+            0 => {}
+            1 => out.push("1 leg".to_string()),
+            n => out.push(format!("{n} legs")),
+        }
+        out.join(", ")
+    }
+}
+
+impl PlanarBodies {
+    /// `plane` or `space`: base, platform.
+    #[must_use]
+    pub fn names(self) -> [&'static str; 2] {
+        [self.base, self.platform].map(|flat| if flat { "plane" } else { "space" })
+    }
+
+    /// The cases to tell apart for a topology.
+    #[must_use]
+    pub fn of(topology: NamedTopology) -> Vec<Self> {
+        let choice = |joints: usize| if joints > 3 { vec![false, true] } else { vec![true] };
+        let t = topology.topology();
+        let platform = choice(t.platform_joints());
+        let cases = choice(t.base_joints()).into_iter();
+        cases.flat_map(|base| platform.iter().map(move |p| Self { base, platform: *p })).collect()
+    }
+}
+
+/// One topology with its bodies in space or in a plane.
+///
+/// # Errors
+/// [`NotDecided`] when no proof was found.
+pub fn rearrangement(topology: NamedTopology, planar: PlanarBodies) -> Result<Rearrangement, NotDecided> {
+    from_seed(topology, planar, 0x5eed)
+}
+
+/// The same from another member.
+pub(super) fn from_seed(
+    topology: NamedTopology,
+    planar: PlanarBodies,
+    seed: u64,
+) -> Result<Rearrangement, NotDecided> {
+    let stream = 4 * topology.number() as u64 + 2 * u64::from(planar.base) + u64::from(planar.platform);
+    let mut rng = Rng::stream(seed, stream);
+    let flat = (planar.base, planar.platform);
+    for _ in 0..60 {
+        let sample = Sample::draw(topology.topology().legs(), flat, &mut rng);
+        let found =
+            if sample.is_general(flat) { of_sample(topology, planar, &sample, &mut rng) } else { None };
+        if let Some(found) = found {
+            return Ok(found);
+        }
+    }
+    Err(NotDecided { topology, planar })
+}
+
+fn of_sample(
+    topology: NamedTopology,
+    planar: PlanarBodies,
+    sample: &Sample,
+    rng: &mut Rng,
+) -> Option<Rearrangement> {
+    let (argument, found) = families(sample, topology)?;
+    let member = Arrangement::of_sample(sample)?;
+    let Some(Split { pieces, summands }) = found else {
+        let planes = Planes::of(sample);
+        let legs = planes.legs(sample);
+        let fewest = joint_free(&legs, &mut Vec::new(), 0)?;
+        let octahedral = from_cubics(sample, &planes, &legs)?;
+        return fewest.is_equivalent_to(&member).then_some(Rearrangement {
+            topology,
+            planar,
+            member,
+            argument,
+            families: Vec::new(),
+            summands: Vec::new(),
+            fewest_shared: 0,
+            fewest_merged: 0,
+            fewest,
+            obstructions: Vec::new(),
+            octahedral,
+        });
+    };
+    let spreads = spreads(&pieces, &summands);
+    let best = spreads.first()?;
+    // one design has the least of both numbers; a topology where that is not so would be left undecided
+    let fewest_merged = spreads.iter().map(|s| s.merged).min().filter(|m| *m == best.merged)?;
+    let fewest = realise(&pieces, best, &member, rng)?;
+    Some(Rearrangement {
+        topology,
+        planar,
+        member,
+        argument,
+        fewest_shared: best.shared,
+        fewest_merged,
+        fewest,
+        obstructions: obstructions(&pieces, &summands, best.shared)?,
+        octahedral: from_families(sample, &pieces)?,
+        families: pieces,
+        summands,
+    })
+}
+
+/// All families, `None` inside for a pair of curves; `None` for a special sample.
+fn families(sample: &Sample, topology: NamedTopology) -> Option<(Argument, Option<Split>)> {
+    for body in [Body::Base, Body::Platform] {
+        match split(sample, body) {
+            Outcome::Found(found) => return Some((Argument::Stars(body), Some(found))),
+            Outcome::Special => return None,
+            Outcome::None => {}
+        }
+    }
+    if in_space(sample).is_some() {
+        return Some((Argument::Supports, Some(at_joints(sample, &topology.topology().legs())?)));
+    }
+    Some((Argument::Curves, None))
+}
+
+/// Six legs spread as told, equivalent to the member, with no more shared joints than the spread asks for.
+fn realise(pieces: &[Piece], spread: &Spread, member: &Arrangement, rng: &mut Rng) -> Option<Arrangement> {
+    for _ in 0..40 {
+        let taken = pieces.iter().zip(&spread.counts).flat_map(|(p, n)| std::iter::repeat_n(p, *n));
+        let Some(legs) = taken.map(|p| p.draw(rng)).collect::<Option<Vec<ExactLeg>>>() else { continue };
+        let found = Arrangement::of_legs(&legs)?;
+        let sharing = (found.shared_joints(), found.merged_ends());
+        if sharing == (spread.shared, spread.merged) && found.is_equivalent_to(member) {
+            return Some(found);
+        }
+    }
+    None
+}
+
+/// Six independent legs of the list without common joints, the earlier ones preferred.
+fn joint_free(legs: &[ExactLeg], taken: &mut Vec<ExactLeg>, from: usize) -> Option<Arrangement> {
+    if taken.len() == 6 {
+        return Arrangement::of_legs(taken);
+    }
+    for (k, leg) in legs.iter().enumerate().skip(from) {
+        if taken.iter().any(|l| l.base == leg.base || l.platform == leg.platform) {
+            continue;
+        }
+        taken.push(leg.clone());
+        let vectors: Vec<Exact> = taken.iter().map(ExactLeg::vector).collect();
+        let found = if rank(&vectors) == taken.len() { joint_free(legs, taken, k + 1) } else { None };
+        if found.is_some() {
+            return found;
+        }
+        taken.pop();
+    }
+    None
+}

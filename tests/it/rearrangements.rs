@@ -1,0 +1,187 @@
+//! The table of equivalent rearrangements: every design it names by the leg map, by poses, and against the documentation.
+
+use equipod::equivalence::{SamplePlan, Verdict, verify};
+use equipod::fk::FkOptions;
+use equipod::geom::{Pose, random_rotation};
+use equipod::manipulator::{Manipulator, default_home};
+use equipod::num::Rng;
+use equipod::synthesis::rearrangement::{
+    Argument, Arrangement, NotOctahedral, PlanarBodies, Rearrangement, Reduction, rearrangement,
+    rearrangements,
+};
+use equipod::synthesis::{Family, LegMapTolerances, Relation, leg_map};
+use equipod::topology::{Topology, catalogue};
+use nalgebra::{Vector3, Vector6};
+
+fn name(r: &Rearrangement) -> String {
+    format!("{} {:?}", r.topology.id(), r.planar.names())
+}
+
+fn octahedral(r: &Rearrangement) -> Option<&Arrangement> {
+    match &r.octahedral {
+        Reduction::Octahedral(design) => Some(design),
+        Reduction::Not(_) => None,
+    }
+}
+
+/// `s' = A s + c` at random poses, `det A` not zero: nothing here knows how the design was found.
+fn assert_equivalent(from: &Manipulator, to: &Manipulator, rng: &mut Rng, what: &str) {
+    let outcome = leg_map(from, to, LegMapTolerances::default()).unwrap();
+    assert_eq!(outcome.relation, Relation::Equivalent, "{what}: {outcome:?}");
+    let map = outcome.map().unwrap();
+    assert!(map.determinant().abs() > 1e-12, "{what}");
+    for _ in 0..3 {
+        let position = Vector3::from_fn(|_, _| 10.0 * rng.normal());
+        let pose = Pose { rotation: random_rotation(rng), position };
+        let [s, expected] = [from, to].map(|m| Vector6::from(pose.squared_lengths(m).unwrap().get()));
+        let error = (map.a * s + map.c - expected).amax() / expected.amax();
+        assert!(error < 1e-7, "{what}: {error}");
+    }
+}
+
+#[test]
+fn every_design_of_the_table_is_equivalent_by_the_leg_map() {
+    let mut rng = Rng::new(0x34);
+    let all = rearrangements().unwrap();
+    assert_eq!(all.len(), 101);
+    for r in &all {
+        let member = r.member.manipulator().unwrap();
+        assert_eq!(Topology::of_manipulator(&member), r.topology.topology(), "{}", name(r));
+        let flat = |joints: &[nalgebra::Point3<f64>]| joints.iter().all(|p| p.z.abs() <= 0.0);
+        assert_eq!(flat(member.base_joints()), r.planar.base, "{}", name(r));
+        assert_eq!(flat(member.platform_joints()), r.planar.platform, "{}", name(r));
+        let fewest = r.fewest.manipulator().unwrap();
+        assert_equivalent(&member, &fewest, &mut rng, &name(r));
+        assert_eq!(Topology::of_manipulator(&fewest).shared_joints(), r.fewest_shared, "{}", name(r));
+        let joints = fewest.base_joints().len() + fewest.platform_joints().len();
+        assert_eq!((12 - joints, r.fewest.merged_ends()), (r.fewest_merged, r.fewest_merged), "{}", name(r));
+        if let Some(design) = octahedral(r) {
+            let design = design.manipulator().unwrap();
+            assert_equivalent(&member, &design, &mut rng, &name(r));
+            assert_eq!(Topology::of_manipulator(&design), catalogue()[33].topology());
+        }
+    }
+}
+
+#[test]
+fn poses_of_some_of_the_designs_agree() {
+    let cases = [(34, true, true), (21, false, false), (12, false, true), (24, true, true), (33, true, true)];
+    for (number, base, platform) in cases {
+        let r = rearrangement(catalogue()[number - 1], PlanarBodies { base, platform }).unwrap();
+        let (member, fewest) = (r.member.manipulator().unwrap(), r.fewest.manipulator().unwrap());
+        let (translation, rotation) = (Vector3::repeat(member.size()), Vector3::repeat(0.5));
+        let plan = SamplePlan { home: default_home(&member), translation, rotation, count: 1, seed: 9 };
+        let verdict = verify(&member, &fewest, &plan, &FkOptions::default()).unwrap().verdict;
+        assert!(matches!(verdict, Verdict::Equivalent), "{}: {verdict:?}", name(&r));
+    }
+}
+
+#[test]
+fn exchange_of_the_bodies_changes_nothing() {
+    let mut self_dual = 0;
+    for t in catalogue().into_iter().filter(|t| t.topology().exchanged() == t.topology()) {
+        let fewest = |base: bool, platform: bool| {
+            rearrangement(t, PlanarBodies { base, platform }).map(|r| (r.fewest_shared, r.fewest_merged))
+        };
+        if t.topology().base_joints() > 3 {
+            assert_eq!(fewest(true, false).unwrap(), fewest(false, true).unwrap(), "{}", t.id());
+            self_dual += 1;
+        }
+    }
+    assert!(self_dual > 3, "{self_dual}");
+}
+
+#[test]
+fn the_octahedral_lines_agree_with_the_octahedral_class() {
+    let family = Family::octahedral();
+    let known =
+        |t: Topology| family.topologies().iter().any(|f| f.topology.up_to_exchange() == t.up_to_exchange());
+    let all = rearrangements().unwrap();
+    let reducible: Vec<&Rearrangement> = all.iter().filter(|r| octahedral(r).is_some()).collect();
+    let ids: Vec<String> = reducible.iter().map(|r| r.topology.id()).collect();
+    assert_eq!(ids, ["T08", "T16", "T24", "T31", "T34"]);
+    for r in reducible {
+        assert!(known(r.topology.topology()), "{}", name(r));
+        assert_eq!((r.planar.base, r.planar.platform, r.fewest_shared), (true, true, 0), "{}", name(r));
+    }
+    // a topology with three legs at a joint is not in the class: every line of legs of it has two independent ones
+    for r in all.iter().filter(|r| !known(r.topology.topology())) {
+        assert!(octahedral(r).is_none(), "{}", name(r));
+    }
+}
+
+#[test]
+fn all_three_topologies_with_three_joints_a_body_can_be_freed() {
+    let all = rearrangements().unwrap();
+    let three: Vec<&Rearrangement> =
+        all.iter().filter(|r| r.topology.topology().base_joints() == 3).collect();
+    assert_eq!(three.iter().map(|r| r.topology.name()).collect::<Vec<_>>(), ["3-3a", "3-3b", "3-3c"]);
+    assert!(three.iter().all(|r| r.fewest_shared == 0));
+    let surface = Reduction::Not(NotOctahedral::Surface);
+    assert!(
+        three[0].octahedral == surface && three[1].octahedral == surface && octahedral(three[2]).is_some()
+    );
+}
+
+fn page() -> String {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/theory/rearrangements.md");
+    std::fs::read_to_string(path).unwrap()
+}
+
+fn reason(r: &Rearrangement) -> String {
+    match &r.octahedral {
+        Reduction::Octahedral(_) => "**yes**".to_string(),
+        Reduction::Not(why) => why.as_str().replace('_', " "),
+    }
+}
+
+/// `0`, `1`, `1 (2)`: shared joints, and merged ends where they are not the same.
+fn sharing(r: &Rearrangement) -> String {
+    let merged =
+        if r.fewest_merged == r.fewest_shared { String::new() } else { format!(" ({})", r.fewest_merged) };
+    format!("{}{merged}", r.fewest_shared)
+}
+
+fn argument(r: &Rearrangement) -> &'static str {
+    match r.argument {
+        Argument::Stars(_) => "stars",
+        Argument::Supports => "supports",
+        Argument::Curves => "curves",
+    }
+}
+
+#[test]
+fn the_tables_of_the_documentation_are_those_computed() {
+    let text = page();
+    let all = rearrangements().unwrap();
+    let mut expected = Vec::new();
+    for t in catalogue() {
+        let at = |base: bool, platform: bool| {
+            let r = all.iter().find(|r| r.topology == t && r.planar == PlanarBodies { base, platform });
+            r.map_or("-".to_string(), sharing)
+        };
+        let both = all.iter().find(|r| r.topology == t && octahedral(r).is_some());
+        let columns = [at(false, false), at(true, false), at(false, true), at(true, true)].join(" | ");
+        expected.push(format!(
+            "| {} | {} | {} | {columns} | {} |",
+            t.id(),
+            t.name(),
+            t.topology().shared_joints(),
+            if both.is_some() { "planes" } else { "no" }
+        ));
+    }
+    for r in &all {
+        let [base, platform] = r.planar.names();
+        expected.push(format!(
+            "| {} | {base} | {platform} | {} | {} | {} | {} |",
+            r.topology.id(),
+            r.family_names(),
+            argument(r),
+            sharing(r),
+            reason(r)
+        ));
+    }
+    let lines: Vec<&str> = text.lines().filter(|l| l.starts_with("| T")).collect();
+    let first = lines.iter().zip(&expected).find(|(l, e)| l != e);
+    assert!(lines == expected, "the tables should be:\n{}\nfirst difference: {first:?}", expected.join("\n"));
+}
