@@ -3,6 +3,7 @@
 //! Line widths, fonts and colours are in one place (`style`); what is told by colour is told by line pattern,
 //! shape or text as well.
 
+mod along;
 mod axis;
 mod components;
 mod contour;
@@ -15,6 +16,7 @@ mod slice;
 mod style;
 mod topologies;
 
+pub use along::{AlongFigure, AlongPart, sign_along};
 pub use components::{CurveFigure, CurveMark, CurvePanel, component_curves};
 pub use determinant::{OffsetPlane, PlaneAxis, PlanePoint, determinant_plane};
 pub use locus::{LocusFigure, LocusMeeting, LocusStep, LocusValue, locus_chart, locus_meetings};

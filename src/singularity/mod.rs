@@ -16,6 +16,7 @@ mod lattice;
 mod lower_bound;
 mod nearby_case;
 mod nearest;
+mod path;
 mod planar_map;
 mod projection;
 mod regular_box;
@@ -31,6 +32,7 @@ pub use griffis_duffy::{GriffisDuffy, griffis_duffy_determinant, griffis_duffy_s
 pub use lattice::{GenericRank, RankBound, RationalPose};
 pub use lower_bound::singular_distance_at_least;
 pub use nearest::{NearestSingular, nearest_singular};
+pub use path::{JoinOptions, Joined, Piece, Sign, SignsAlong, Way, between, join, signs_along};
 pub use planar_map::PlanarMap;
 pub use regular_box::{BoxOptions, RegularBox, SingularSegment, regular_box};
 pub use self_motion::{

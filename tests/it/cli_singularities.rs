@@ -62,3 +62,74 @@ fn equivalent_platforms_have_the_same_regular_box() {
     }
     assert!(std::fs::read_to_string(svg).unwrap().contains("<svg"));
 }
+
+#[test]
+fn assembly_modes_of_one_sign_are_joined_and_equivalent_platforms_agree() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (csv, svg) = (file("p.csv"), file("p.svg"));
+    let pose = "0,0,9,0,0,25";
+    let base = ["--pose", pose, "--regions", "1", "--box", "0.1,0.1,0.1,1,1,1", "--json"];
+    let run = |design: &str, more: &[&str]| {
+        let out = equipod(&[&["singularities", design][..], &base, more].concat());
+        document(&out)
+    };
+    let one = run("designs/rbt-octahedral.toml", &["--between", "--samples", "300"]);
+    let signs: Vec<i64> =
+        one["between"]["signs"].as_array().unwrap().iter().map(|s| s.as_i64().unwrap()).collect();
+    let modes = one["assembly_modes"].as_array().unwrap();
+    assert_eq!(signs.len(), modes.len());
+    for (sign, mode) in signs.iter().zip(modes) {
+        assert!(*sign as f64 * mode["determinant"].as_f64().unwrap() > 0.0);
+    }
+    let place = |k: &serde_json::Value| k.as_u64().unwrap() as usize - 1;
+    for pair in one["between"]["pairs"].as_array().unwrap() {
+        let (i, j) = (place(&pair["modes"][0]), place(&pair["modes"][1]));
+        if signs[i] != signs[j] {
+            assert_eq!((pair["straight"].as_str(), &pair["joined"]), (Some("crosses"), &false.into()));
+            assert!(pair["changes"].as_u64().unwrap() % 2 == 1);
+        } else if pair["straight"] == "keeps_sign" {
+            assert_eq!(pair["joined"], true);
+        }
+    }
+    // an equivalent platform: the same path has the same sign changes
+    let (i, j) = (1, modes.len());
+    let numbers = format!("{i},{j}");
+    let end = |k: usize| {
+        let v = |key: &str| {
+            modes[k - 1][key].as_array().unwrap().iter().map(ToString::to_string).collect::<Vec<_>>()
+        };
+        [v("p"), v("q")].concat().join(",")
+    };
+    let path = run("designs/rbt-octahedral.toml", &["--path", &numbers, "--csv", &csv, "--path-svg", &svg]);
+    let through = |design: &str| {
+        run(design, &["--path", "0,0", "--via", &end(i), "--via", &end(j)])["path"]["parts"][1].clone()
+    };
+    let (here, there) = (through("designs/rbt-octahedral.toml"), through("designs/rbt-griffis-duffy.toml"));
+    assert_eq!(path["path"]["parts"][0]["changes"], here["changes"]);
+    for key in ["outcome", "changes", "doubtful"] {
+        assert_eq!(here[key], there[key]);
+    }
+    assert_eq!(std::fs::read_to_string(csv).unwrap().lines().count(), 102);
+    assert!(std::fs::read_to_string(svg).unwrap().contains("</svg>"));
+    let bad = run("designs/rbt-octahedral.toml", &["--path", "1,99"]);
+    assert_eq!(bad["error"]["code"], "singularities::bad_path");
+}
+
+#[test]
+fn the_forty_modes_of_dietmaiers_platform_are_two_groups_of_twenty() {
+    let text = std::fs::read_to_string("designs/dietmaier.toml").unwrap();
+    let line = text.lines().find(|l| l.starts_with("lengths = [")).unwrap();
+    let lengths = line.trim_start_matches("lengths = [").trim_end_matches(']').replace(' ', "");
+    let more = ["--regions", "1", "--box", "0.1,0.1,0.1,1,1,1", "--between", "--json"];
+    let out =
+        equipod(&[&["singularities", "designs/dietmaier.toml", "--lengths", &lengths], &more[..]].concat());
+    let between = &document(&out)["between"];
+    let groups: Vec<usize> =
+        between["groups"].as_array().unwrap().iter().map(|g| g.as_array().unwrap().len()).collect();
+    assert_eq!(groups, [20, 20]);
+    // 19 ways reach the others of a group from its first
+    assert_eq!(between["ways"].as_array().unwrap().len(), 38);
+    let crossing = between["pairs"].as_array().unwrap().iter().filter(|p| p["straight"] == "crosses").count();
+    assert!(crossing > 600 && crossing < 780, "{crossing}");
+}

@@ -31,7 +31,7 @@ const TOLERANCE: f64 = 1e-9;
 /// Differences of invariants must exceed first-order error bounds by this factor.
 const SAFETY: f64 = 1e3;
 /// Decisions on dimensions are clear when the singular values stay this far from the tolerance.
-const CLEAR: (f64, f64) = (1e-8, 1e-11);
+const CLEAR: (f64, f64) = (1e-7, 1e-11);
 /// Two motions closer than this are one.
 const SAME: f64 = 1e-6;
 
@@ -87,16 +87,19 @@ struct Bounds {
 
 impl Bounds {
     fn of(a: &Canonical, b: &Canonical, designs: [&Manipulator; 2], seed: u64) -> Result<Self, LinalgError> {
-        let one = |c: &Canonical, m: &Manipulator| -> Result<(Sensitivity, f64), LinalgError> {
+        let one = |c: &Canonical, m: &Manipulator| -> Result<(Sensitivity, f64, f64), LinalgError> {
             let far = |points: &[Point3<f64>], unit: f64| {
                 points.iter().map(|p| p.coords.amax()).fold(0.0, f64::max) / unit
             };
             let n = c.normalisation;
             let reach = far(m.base_joints(), n.base_unit).max(far(m.platform_joints(), n.platform_unit));
-            Ok((c.sensitivity(seed)?, f64::EPSILON * (8.0 + reach) * SAFETY))
+            // about distant origins the entries of a leg vector are as large as the square of the distance
+            let origins = 1.0 + c.span.shift.0.norm() + c.span.shift.1.norm();
+            let rounding = SAFETY * f64::EPSILON;
+            Ok((c.sensitivity(seed)?, rounding * (8.0 + reach), rounding * origins * origins))
         };
-        let ((x, dx), (y, dy)) = (one(a, designs[0])?, one(b, designs[1])?);
-        let bound = |x: f64, y: f64| (1.0 + x) * dx + (1.0 + y) * dy;
+        let ((x, dx, ox), (y, dy, oy)) = (one(a, designs[0])?, one(b, designs[1])?);
+        let bound = |x: f64, y: f64| (1.0 + x) * dx + (1.0 + y) * dy + ox + oy;
         let values = std::array::from_fn(|k| bound(x.values[k], y.values[k]));
         Ok(Self { values, distance: bound(x.distance, y.distance) })
     }

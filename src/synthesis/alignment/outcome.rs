@@ -139,6 +139,16 @@ pub enum Alignment {
     },
 }
 
+/// Smallest singular value that counts and largest that does not, over both designs.
+fn gaps(a: &Canonical, b: &Canonical) -> (f64, f64) {
+    (a.span.gap.0.min(b.span.gap.0), a.span.gap.1.max(b.span.gap.1))
+}
+
+fn is_clear(a: &Canonical, b: &Canonical) -> bool {
+    let (counts, does_not) = gaps(a, b);
+    counts >= CLEAR.0 && does_not <= CLEAR.1
+}
+
 /// The answer for spans of different dimensions.
 pub(super) fn dimensions_differ(a: &Canonical, b: &Canonical) -> Alignment {
     let (x, y) = (a.span.dimensions, b.span.dimensions);
@@ -148,9 +158,8 @@ pub(super) fn dimensions_differ(a: &Canonical, b: &Canonical) -> Alignment {
         1 => Invariant::JointRank,
         _ => Invariant::OpenTranslations,
     };
-    let gap = a.span.gap.0.min(b.span.gap.0);
-    let bound = a.span.gap.1.max(b.span.gap.1);
-    if gap < CLEAR.0 || bound > CLEAR.1 {
+    let (gap, bound) = gaps(a, b);
+    if !is_clear(a, b) {
         return Alignment::Undecided { reason: Undecided::UnclearDimension, nearest: None };
     }
     let difference = Difference { invariant, in_a: x[at] as f64, in_b: y[at] as f64, bound, gap };
@@ -165,6 +174,9 @@ pub(super) fn none_found(
     bounds: &Bounds,
     nearest: Option<NearestMotion>,
 ) -> Alignment {
+    if !is_clear(a, b) {
+        return Alignment::Undecided { reason: Undecided::UnclearDimension, nearest };
+    }
     let values = (0..6).map(|k| Difference {
         invariant: if k < 3 { Invariant::BasePrincipalValue } else { Invariant::PlatformPrincipalValue },
         in_a: a.values[k],

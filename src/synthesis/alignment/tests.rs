@@ -234,3 +234,25 @@ fn symmetric_hexapods_have_as_many_motions_as_symmetries() {
         other => panic!("{other:?}"),
     }
 }
+
+#[test]
+fn nearly_degenerate_designs_are_never_told_apart_from_themselves() {
+    let mut found = 0;
+    for seed in 0..3 {
+        let mut rng = Rng::new(seed);
+        let a = general(&mut rng);
+        for size in [1e-2, 1e-4, 1e-6, 1e-8, 1e-9, 1e-10, 1e-12] {
+            let nearly = |p: Point3<f64>| Point3::new(p.x, p.y, 0.3 + size * p.z);
+            let planes = changed(&a, |l| Leg { base: nearly(l.base), platform: nearly(l.platform) });
+            let affine = changed(&a, |l| Leg { platform: l.base + l.platform.coords * size, ..l });
+            for a in [planes, affine] {
+                match align(&a, &moved(&a, &mut rng), 1).unwrap() {
+                    Alignment::Found { .. } => found += 1,
+                    Alignment::Undecided { .. } => {}
+                    none @ Alignment::None { .. } => panic!("{size} {none:?}"),
+                }
+            }
+        }
+    }
+    assert!(found > 25, "{found}");
+}

@@ -1,5 +1,6 @@
 //! `equipod singularities`: det J at poses, over a slice, and the box of poses in which it is proved not to vanish.
 
+mod paths;
 mod render;
 mod slice;
 
@@ -44,6 +45,24 @@ pub(crate) struct Args {
     /// The two freedoms of that picture: x, y, z (positions), rx, ry, rz (rotation vector in the base frame)
     #[arg(long, value_name = "A,B", default_value = "rx,rz", value_parser = Slice::parse)]
     slice: Slice,
+    /// det J along the straight path between two assembly modes, by their numbers in the list; 0 is POSE
+    #[arg(long, value_name = "I,J")]
+    path: Option<String>,
+    /// A pose that path passes; may be repeated, in order
+    #[arg(long, value_name = "POSE", allow_hyphen_values = true, requires = "path")]
+    via: Vec<String>,
+    /// Write det J along that path, as a table
+    #[arg(long, value_name = "FILE", requires = "path")]
+    csv: Option<PathBuf>,
+    /// Write a picture of det J along that path
+    #[arg(long, value_name = "FILE", requires = "path")]
+    path_svg: Option<PathBuf>,
+    /// det J along the straight paths between all assembly modes, and which modes other paths join without a singular pose
+    #[arg(long)]
+    between: bool,
+    /// Random poses drawn in the search for such paths, for each sign of det J
+    #[arg(long, value_name = "N", default_value_t = 1000, requires = "between")]
+    samples: usize,
 }
 
 /// Figures of one pose.
@@ -63,6 +82,8 @@ struct Found {
     modes_complete: bool,
     options: BoxOptions,
     regular: RegularBox,
+    path: Option<paths::Path>,
+    between: Option<paths::Between>,
     exit: Exit,
 }
 
@@ -88,7 +109,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let solutions = Automatic
         .solve(m, &lengths.squared(), &options)
         .map_err(|e| Failure::internal(format!("assembly modes: {e}")))?;
-    let modes =
+    let modes: Vec<Judged> =
         solutions.assembly_modes().map(|r| judged(m, octahedral.as_ref(), r.pose.real_part())).collect();
     let options = box_options(args, &design, context.seed())?;
     let regular = regular_box(m, &pose, &options);
@@ -100,7 +121,10 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         files::write_text(path, &singular_slice(&args.slice.figure(&design, &pose, &options)))?;
     }
     let middle = judged(m, octahedral.as_ref(), pose);
-    let found = Found { middle, modes, modes_complete: solutions.all_accounted(), options, regular, exit };
+    let path = paths::path(args, &design, &pose, &modes)?;
+    let between = paths::all_pairs(args, &design, &modes, context.seed());
+    let modes_complete = solutions.all_accounted();
+    let found = Found { middle, modes, modes_complete, options, regular, path, between, exit };
     Ok(render::answer(&design, &lengths, &found))
 }
 
@@ -108,10 +132,16 @@ fn judged(m: &Manipulator, octahedral: Option<&Octahedral>, pose: Pose) -> Judge
     let unit = m.size();
     Judged {
         pose,
-        determinant: plucker_matrix(m, &pose, unit).determinant() / unit.powi(6),
+        determinant: determinant(m, &pose),
         inverse_condition: inverse_condition(&jacobian(m, &pose, unit)),
         four_planes: octahedral.map(|o| four_planes(o, &pose).map(|d| d / unit.powi(9))),
     }
+}
+
+/// `det J` of the leg lines, lengths over the size.
+fn determinant(m: &Manipulator, pose: &Pose) -> f64 {
+    let unit = m.size();
+    plucker_matrix(m, pose, unit).determinant() / unit.powi(6)
 }
 
 fn six(text: &str, option: &str) -> Result<[f64; 6], Failure> {

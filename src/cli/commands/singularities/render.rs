@@ -43,6 +43,12 @@ pub(super) fn answer(design: &Design, lengths: &LegLengths, found: &Found) -> An
             "regions": regular.regions,
         }),
     );
+    if let Some(path) = &found.path {
+        json.insert("path".into(), path.record());
+    }
+    if let Some(between) = &found.between {
+        json.insert("between".into(), between.record());
+    }
     Answer { exit: found.exit, json, text: text(design, found) }
 }
 
@@ -68,6 +74,8 @@ fn text(design: &Design, found: &Found) -> String {
         found.modes.len() - negative,
         if found.modes_complete { "" } else { "; some may be missing" }
     );
+    out.extend(found.path.iter().map(super::paths::Path::text));
+    out.extend(found.between.iter().map(super::paths::Between::text));
     let o = &found.options;
     let degrees = o.rotation.map(f64::to_degrees);
     let _ = writeln!(
