@@ -5,6 +5,7 @@ use std::io::Read;
 use std::path::Path;
 
 use super::failure::Failure;
+use crate::design::{Design, Format};
 
 /// Nothing this program reads is larger; a design has some kilobytes.
 const MAX_BYTES: u64 = 4 << 20;
@@ -65,4 +66,16 @@ pub(crate) fn write_text(path: &Path, text: &str) -> Result<(), Failure> {
         Failure::refused("file::not_writable", format!("{} cannot be written: {error}", path.display()))
             .with_help("check the folder and its permissions")
     })
+}
+
+/// Writes a design in the notation of the file name.
+///
+/// # Errors
+/// As [`write_text`].
+pub(crate) fn write_design(path: &Path, design: &Design) -> Result<(), Failure> {
+    let text = match Format::of_path(path) {
+        Format::Toml => design.to_toml(),
+        Format::Json => design.to_json(),
+    };
+    write_text(path, &text)
 }

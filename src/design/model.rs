@@ -105,6 +105,15 @@ impl Design {
         Ok(self)
     }
 
+    /// The same with the source, home pose, workspace, limits and sizes of another design: what a rearrangement of its legs does not change.
+    #[must_use]
+    pub fn with_tables_of(mut self, other: &Self) -> Self {
+        self.source.clone_from(&other.source);
+        (self.home, self.workspace) = (other.home, other.workspace.clone());
+        (self.optimize, self.hardware) = (other.optimize, other.hardware);
+        self
+    }
+
     /// Joints and legs.
     #[must_use]
     pub fn manipulator(&self) -> &Manipulator {

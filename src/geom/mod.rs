@@ -2,9 +2,11 @@
 
 mod pose;
 mod quaternion;
+mod segment;
 mod trilateration;
 
 pub use pose::{ComplexPose, Pose};
 pub(crate) use pose::{nearest_rotation, reorthogonalised};
 pub use quaternion::{random_rotation, rotation_from_quaternion};
+pub use segment::segment_distance;
 pub use trilateration::trilaterate;

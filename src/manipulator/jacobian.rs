@@ -2,7 +2,7 @@
 
 use nalgebra::Matrix6;
 
-use super::Manipulator;
+use super::{Leg, Manipulator};
 use crate::geom::Pose;
 
 /// The matrix of normalised leg lines at a pose: row `i` is `[u_i, ((R b_i) x u_i) / L]`.
@@ -13,8 +13,13 @@ use crate::geom::Pose;
 /// Source: Merlet, *Parallel Robots* (2006), sec. 5.3, with the moment column scaled by `L`.
 #[must_use]
 pub fn jacobian(m: &Manipulator, pose: &Pose, characteristic_length: f64) -> Matrix6<f64> {
+    jacobian_of_legs(&m.legs(), pose, characteristic_length)
+}
+
+/// As [`jacobian()`], for legs that are not put together.
+pub(crate) fn jacobian_of_legs(legs: &[Leg; 6], pose: &Pose, characteristic_length: f64) -> Matrix6<f64> {
     let mut j = Matrix6::zeros();
-    for (i, leg) in m.legs().iter().enumerate() {
+    for (i, leg) in legs.iter().enumerate() {
         let arm = pose.rotation * leg.platform.coords;
         let line = arm + pose.position - leg.base.coords;
         let u = line / line.norm();

@@ -11,6 +11,7 @@ mod lengths;
 mod octahedral;
 
 pub use home::default_home;
+pub(crate) use jacobian::jacobian_of_legs;
 pub use jacobian::{inverse_condition, jacobian, plucker_matrix};
 pub use leg::{BaseJoint, InvalidManipulator, Leg, LegIndex, Manipulator, PlatformJoint};
 pub use lengths::{InvalidLengths, LegLengths, SquaredLegLengths};

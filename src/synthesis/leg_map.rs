@@ -226,13 +226,21 @@ pub fn leg_map(
     to: &Manipulator,
     tolerances: LegMapTolerances,
 ) -> Result<LegMapOutcome, LinalgError> {
+    leg_map_to_legs(from, &to.legs(), tolerances)
+}
+
+/// As [`leg_map()`], for six legs of which two may be the same one, which no [`Manipulator`] has.
+pub(super) fn leg_map_to_legs(
+    from: &Manipulator,
+    legs: &[Leg; 6],
+    tolerances: LegMapTolerances,
+) -> Result<LegMapOutcome, LinalgError> {
     let span = LegSpan::of(from, tolerances.rank)?;
-    let legs = to.legs();
     let residuals = legs.map(|leg| span.distance(&leg));
     let residual = residuals.iter().copied().fold(0.0, f64::max);
     let rows = legs.map(|leg| span.coefficients(&leg));
     let a = Matrix6::from_fn(|i, j| rows[i][j]);
-    let closest = AffineLegMap { a, c: constants(&span.normalisation(), &a, &from.legs(), &legs) };
+    let closest = AffineLegMap { a, c: constants(&span.normalisation(), &a, &from.legs(), legs) };
     let smallest = span.inverse_condition();
     let singular_limit = tolerances.singular.max(64.0 * f64::EPSILON / smallest.max(tolerances.rank));
     let inverse_condition = closest.inverse_condition();

@@ -154,6 +154,11 @@ impl LegSpan {
         (self.rank..6).map(|k| std::array::from_fn(|i| self.u[i][k])).collect()
     }
 
+    /// An orthonormal basis of the complement of the span in `R^16`, normalised coordinates.
+    pub(super) fn complement(&self) -> Vec<[f64; 16]> {
+        (self.rank..16).map(|k| std::array::from_fn(|i| self.v[i][k])).collect()
+    }
+
     fn along(&self, k: usize, w: &[f64; 16]) -> f64 {
         (0..16).map(|i| self.v[i][k] * w[i]).sum()
     }

@@ -17,6 +17,7 @@ mod leg_vector;
 mod moves;
 mod pattern;
 pub mod rearrangement;
+pub mod relocate;
 mod topology;
 
 pub use crate::topology::Topology;

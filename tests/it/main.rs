@@ -13,6 +13,7 @@ mod cli_explore;
 mod cli_fk;
 mod cli_frame;
 mod cli_locus;
+mod cli_move;
 mod cli_near;
 mod cli_optimize;
 mod cli_singularities;

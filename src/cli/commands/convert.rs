@@ -9,7 +9,6 @@ use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::files;
 use crate::cli::output::Answer;
-use crate::design::Format;
 
 /// Arguments of `convert`.
 #[derive(Debug, clap::Args)]
@@ -32,11 +31,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         );
     };
     let design = context.load(&args.design)?;
-    let text = match Format::of_path(&args.output) {
-        Format::Toml => design.to_toml(),
-        Format::Json => design.to_json(),
-    };
-    files::write_text(&args.output, &text)?;
+    files::write_design(&args.output, &design)?;
     let output = args.output.display().to_string();
     let mut json = Map::new();
     json.insert("name".into(), json!(design.name));

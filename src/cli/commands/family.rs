@@ -10,7 +10,7 @@ use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::files;
 use crate::cli::output::{Answer, number};
-use crate::design::{Design, Format};
+use crate::design::Design;
 use crate::manipulator::Octahedral;
 use crate::synthesis::{
     Body, Factor, Family, FamilyCounts, FamilyMember, HexagonPoint, JointLabel, Pattern, edge_lengths,
@@ -132,20 +132,12 @@ fn realise(
             pattern.joints().map(|list| list.iter().map(|j| joint_name(*j, o, design)).collect());
         let mut built = Design::new(format!("{} {pattern}", design.name), &design.units, m)
             .with_joint_names(base, platform)
-            .map_err(|e| Failure::internal(e.to_string()))?;
-        built.source.clone_from(&design.source);
+            .map_err(|e| Failure::internal(e.to_string()))?
+            .with_tables_of(design);
         built.description = Some(format!("{pattern} of {}, offsets {offsets:?}", design.name));
         // the same pose, seen by the new legs
         built.lengths = design.lengths.and_then(|l| map.apply(&l.squared()).ok()).map(|s| s.lengths());
-        built.home = design.home;
-        built.workspace = design.workspace.clone();
-        built.optimize = design.optimize;
-        built.hardware = design.hardware;
-        let written = match Format::of_path(path) {
-            Format::Toml => built.to_toml(),
-            Format::Json => built.to_json(),
-        };
-        files::write_text(path, &written)?;
+        files::write_design(path, &built)?;
         let _ = writeln!(text, "wrote {}", path.display());
     }
     Ok(())

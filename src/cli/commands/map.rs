@@ -128,7 +128,7 @@ pub(super) fn record(o: &LegMapOutcome) -> Map<String, Value> {
     json
 }
 
-fn table(o: &LegMapOutcome, from: &str, to: &str) -> String {
+pub(super) fn table(o: &LegMapOutcome, from: &str, to: &str) -> String {
     let mut text = format!("{from} -> {to}: {}\n{}\n\n", o.relation.as_str(), explanation(o));
     text.push_str("s(TO) = A s(FROM) + c\n        A");
     text.push_str(&" ".repeat(60));

@@ -21,6 +21,7 @@ mod family;
 mod fk;
 mod locus;
 mod map;
+mod r#move;
 mod optimize;
 mod selfmotion;
 mod singularities;
@@ -54,6 +55,8 @@ pub(crate) enum Command {
     Locus(locus::Args),
     /// The affine map between the squared leg lengths of two designs
     Map(map::Args),
+    /// Move legs without changing the platform, or search an equivalent one that fulfils wishes
+    Move(r#move::Args),
     /// The best joint-free platform equivalent to an octahedral design
     Optimize(optimize::Args),
     /// The curves of poses with constant leg lengths through a pose
@@ -79,6 +82,7 @@ impl Command {
             Self::Fk(args) => fk::run(args, context),
             Self::Locus(args) => locus::run(args, context),
             Self::Map(args) => map::run(args, context),
+            Self::Move(args) => r#move::run(args, context),
             Self::Optimize(args) => optimize::run(args, context),
             Self::Selfmotion(args) => selfmotion::run(args, context),
             Self::Singularities(args) => singularities::run(args, context),

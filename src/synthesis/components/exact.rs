@@ -1,5 +1,7 @@
 //! Ranks of the joints and legs as the rational numbers that their doubles are.
 
+use nalgebra::Point3;
+
 use crate::manipulator::Leg;
 use crate::num::exact::{Rational, rational, relations};
 
@@ -38,13 +40,16 @@ pub(in crate::synthesis) fn product(a: &Exact, b: &Exact) -> Exact {
     a.iter().flat_map(|x| b.iter().map(move |y| x * y)).collect()
 }
 
+/// `(1, x)`; `None` when a coordinate is not finite.
+pub(super) fn homogeneous(p: &Point3<f64>) -> Option<Exact> {
+    [1.0, p.x, p.y, p.z].iter().map(|x| rational(*x)).collect()
+}
+
 impl ExactLegs {
     /// `None` when a coordinate is not finite, which no manipulator has.
     pub(super) fn of(legs: &[Leg; 6]) -> Option<Self> {
-        let point =
-            |x: [f64; 3]| -> Option<Exact> { [1.0, x[0], x[1], x[2]].iter().map(|x| rational(*x)).collect() };
-        let base: Option<Vec<Exact>> = legs.iter().map(|l| point(l.base.coords.into())).collect();
-        let platform: Option<Vec<Exact>> = legs.iter().map(|l| point(l.platform.coords.into())).collect();
+        let base: Option<Vec<Exact>> = legs.iter().map(|l| homogeneous(&l.base)).collect();
+        let platform: Option<Vec<Exact>> = legs.iter().map(|l| homogeneous(&l.platform)).collect();
         let (base, platform) = (base?, platform?);
         let vectors = base.iter().zip(&platform).map(|(a, b)| product(a, b)).collect();
         Some(Self { base, platform, vectors })
@@ -61,6 +66,19 @@ impl ExactLegs {
     pub(super) fn leg_rank(&self, legs: &[usize]) -> usize {
         let rows: Vec<Exact> = legs.iter().map(|i| self.vectors[*i].clone()).collect();
         rank(&rows)
+    }
+
+    /// Whether a leg's vector is a combination of those of the six, as rational numbers.
+    pub(super) fn contains(&self, leg: &Leg) -> bool {
+        let Some(vector) =
+            homogeneous(&leg.base).zip(homogeneous(&leg.platform)).map(|(a, b)| product(&a, &b))
+        else {
+            return false;
+        };
+        let mut rows = self.vectors.clone();
+        rows.push(vector);
+        let zero = Rational::from_integer(0.into());
+        relations(&rows).iter().any(|c| c[self.vectors.len()] != zero)
     }
 
     /// Dimension of the space of `y` in the span of the other ends of `legs` for which `x (x) y` lies in the span of
@@ -94,7 +112,6 @@ fn independent(rows: &[Exact]) -> Vec<Exact> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::Point3;
 
     #[test]
     fn three_decimal_points_on_a_line_are_not_collinear_as_doubles_unless_they_are() {

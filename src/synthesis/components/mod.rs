@@ -32,6 +32,7 @@ pub(super) mod spectrum;
 #[cfg(test)]
 mod tests;
 
+use nalgebra::Point3;
 use thiserror::Error;
 
 pub use component::{Component, FamilyKind, SampledLeg, flat_name};
@@ -44,8 +45,9 @@ pub use plane_pair::{CurvePart, Partners, PlaneCurve, PlanePair, SingularPoint, 
 use self::exact::ExactLegs;
 use self::pairs::{ClosedPair, Ends, closed_pairs};
 use self::search::Search;
+use super::hexagon::Body;
 use super::leg_vector::{LegSpan, Normalisation};
-use crate::manipulator::{LegIndex, Manipulator};
+use crate::manipulator::{Leg, LegIndex, Manipulator};
 use crate::num::Rng;
 use crate::num::linalg::LinalgError;
 
@@ -196,6 +198,19 @@ pub fn components(m: &Manipulator, options: ComponentOptions) -> Result<Componen
     let doubts = search.doubts;
     let pairs = pairs.iter().map(|p| record(p, &components)).collect();
     Ok(Components { components, pairs, planes, leg_rank, doubts, span, options })
+}
+
+/// Whether the vector of a leg is a combination of those of six, all coordinates taken as the rational numbers they are.
+#[must_use]
+pub fn exactly_replaceable(legs: &[Leg; 6], leg: &Leg) -> bool {
+    ExactLegs::of(legs).is_some_and(|e| e.contains(leg))
+}
+
+/// Dimension of the space of homogeneous partners of a point of one body: of the `y` for which point and `y` are a leg that is a
+/// combination of the six. Exact; zero is a proof that no replaceable leg ends there.
+pub(super) fn exact_partners(legs: &[Leg; 6], body: Body, point: &Point3<f64>) -> Option<usize> {
+    let all: Vec<usize> = (0..6).collect();
+    Some(ExactLegs::of(legs)?.fibre(body == Body::Platform, &exact::homogeneous(point)?, &all))
 }
 
 fn record(p: &ClosedPair, components: &[Component]) -> FlatPair {

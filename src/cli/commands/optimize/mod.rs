@@ -13,7 +13,7 @@ use crate::cli::failure::Failure;
 use crate::cli::files;
 use crate::cli::output::Answer;
 use crate::cli::poses;
-use crate::design::{Design, Format, Workspace};
+use crate::design::{Design, Workspace};
 use crate::geom::Pose;
 use crate::manipulator::{LegIndex, Octahedral};
 use crate::offsets::{
@@ -93,11 +93,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let done = search(&design, octahedral, args.extension, args.threads, context.seed(), &mut |_| ())?;
     let mut written = None;
     if let (Some(path), Some(d)) = (&args.output, &done.optimised) {
-        let text = match Format::of_path(path) {
-            Format::Toml => d.to_toml(),
-            Format::Json => d.to_json(),
-        };
-        files::write_text(path, &text)?;
+        files::write_design(path, d)?;
         written = Some(path.display().to_string());
     }
     let json = done.record(&design, written.as_deref());
@@ -184,15 +180,12 @@ fn optimised_design(design: &Design, problem: &OffsetProblem, s: &OffsetSolution
     let distinct = |v: &[String]| v.iter().enumerate().all(|(i, x)| !v[..i].contains(x));
     let named =
         if distinct(&a) && distinct(&b) { plain.clone().with_joint_names(a, b) } else { Ok(plain.clone()) };
-    let mut out = named.unwrap_or(plain);
-    out.source.clone_from(&design.source);
+    let mut out = named.unwrap_or(plain).with_tables_of(design);
     out.description = Some(format!(
         "Offsets optimised by equipod {} (seed {seed}) from the design \"{}\": worst inverse condition number {}",
         env!("CARGO_PKG_VERSION"),
         design.name,
         s.recheck.objective
     ));
-    (out.home, out.workspace) = (design.home, design.workspace.clone());
-    (out.optimize, out.hardware) = (design.optimize, design.hardware);
     out
 }

@@ -1,0 +1,266 @@
+//! `equipod move --search`: what was found.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use serde_json::{Map, Value, json};
+
+use super::naming::{family_names, moved_design};
+use super::render::{design_value, leg, numbers};
+use super::wishes::WishArgs;
+use crate::cli::exit::Exit;
+use crate::cli::failure::Failure;
+use crate::cli::files;
+use crate::cli::output::{Answer, number};
+use crate::design::Design;
+use crate::synthesis::components::{ComponentOptions, Components};
+use crate::synthesis::relocate::search::{
+    Candidate, HoleAnswer, Impossibility, SearchError, SearchOutcome, SearchVerdict, Source, search,
+};
+
+/// Searches, and writes the designs found.
+pub(super) fn run(
+    output: Option<&Path>,
+    args: &WishArgs,
+    design: &Design,
+    options: ComponentOptions,
+) -> Result<Answer, Failure> {
+    let wishes = args.wishes(design)?;
+    let families = super::families(design, options)?;
+    let outcome = search(design.manipulator(), &families, &wishes, &args.options(options.seed)).map_err(
+        |e| match e {
+            SearchError::Linalg(_) => Failure::internal(e.to_string()),
+            SearchError::Dependent(_) => {
+                Failure::refused("move::singular_design", e.to_string()).with_help("see equipod check DESIGN")
+            }
+            _ => Failure::refused("move::bad_wish", e.to_string()),
+        },
+    )?;
+    let mut designs = Vec::new();
+    for (k, c) in outcome.candidates.iter().enumerate() {
+        designs.push(built(design, c, k + 1));
+    }
+    let mut written = Vec::new();
+    if let Some(folder) = output {
+        std::fs::create_dir_all(folder).map_err(|e| {
+            Failure::refused("file::not_writable", format!("{} cannot be made: {e}", folder.display()))
+        })?;
+        for (k, d) in designs.iter().enumerate() {
+            let path = folder.join(format!("{}.toml", k + 1));
+            if let Some(d) = d {
+                files::write_design(&path, d)?;
+                written.push(path.display().to_string());
+            }
+        }
+    }
+    let exit = match outcome.verdict {
+        SearchVerdict::Found => Exit::Yes,
+        SearchVerdict::Impossible(_) => Exit::No,
+        SearchVerdict::Undecided => Exit::Inconclusive,
+    };
+    let report = Report { design, families: &families, outcome: &outcome };
+    Ok(Answer { exit, json: report.json(&designs, &written)?, text: report.text(&written)? })
+}
+
+/// A platform of the search as a design.
+fn built(design: &Design, c: &Candidate, number: usize) -> Option<Design> {
+    let mut out = moved_design(design, &c.assembled)?;
+    out.name = format!("{}, rearranged {number}", design.name);
+    let wishes = if c.fulfilled { "wishes fulfilled" } else { "not all wishes fulfilled" };
+    out.description = Some(format!(
+        "Equivalent to \"{}\" by equipod {}: det A = {}, {wishes}",
+        design.name,
+        env!("CARGO_PKG_VERSION"),
+        c.map.determinant
+    ));
+    let lengths = design.lengths.and_then(|l| c.map.closest.apply(&l.squared()).ok());
+    out.lengths = lengths.map(|s| s.lengths());
+    Some(out)
+}
+
+struct Report<'a> {
+    design: &'a Design,
+    families: &'a Components,
+    outcome: &'a SearchOutcome,
+}
+
+impl Report<'_> {
+    fn source(&self, source: Source) -> Result<String, Failure> {
+        Ok(match source {
+            Source::Kept(leg) => leg.to_string(),
+            Source::Family(k) => {
+                let name = family_names(self.design, self.families, k)?;
+                name.map_or(format!("family {}", k + 1), |n| format!("family {} {n}", k + 1))
+            }
+            Source::Hole(h) => format!("hole {}", h + 1),
+            Source::Holes(h, l) => format!("holes {} and {}", h + 1, l + 1),
+        })
+    }
+
+    /// The verdict in a sentence.
+    fn explanation(&self) -> String {
+        let o = self.outcome;
+        match o.verdict {
+            SearchVerdict::Found => {
+                let count = o.candidates.iter().filter(|c| c.fulfilled).count();
+                format!("{count} equivalent platform(s) fulfil every wish")
+            }
+            SearchVerdict::Impossible(Impossibility::NoLegAtHole(h)) => format!(
+                "impossible, proved: no leg of any equivalent platform ends at hole {} (exact rank; smallest singular value {:.2e})",
+                h + 1,
+                o.holes[h].singular_value
+            ),
+            SearchVerdict::Impossible(Impossibility::PartnersAtInfinity(h)) => {
+                format!("impossible: the other end of every leg at hole {} is at infinity", h + 1)
+            }
+            SearchVerdict::Impossible(Impossibility::NotByThoseLegs(h)) => {
+                format!("impossible: a leg at hole {} can replace none of the legs of that joint", h + 1)
+            }
+            SearchVerdict::Impossible(Impossibility::SharedJoints(least)) => format!(
+                "impossible: every equivalent platform has at least {least} shared joint(s): all replaceable legs are known, and six independent \
+                 ones always share that many"
+            ),
+            SearchVerdict::Impossible(Impossibility::HolesTogether) => {
+                "impossible: all replaceable legs are known, and no six independent ones have ends at all the holes".to_string()
+            }
+            SearchVerdict::Undecided => {
+                "undecided: no platform with every wish was found, which proves nothing".to_string()
+            }
+        }
+    }
+
+    fn json(&self, designs: &[Option<Design>], written: &[String]) -> Result<Map<String, Value>, Failure> {
+        let (o, w) = (self.outcome, &self.outcome.wishes);
+        let mut json = Map::new();
+        json.insert("name".into(), json!(self.design.name));
+        json.insert("mode".into(), json!("search"));
+        let verdict = match o.verdict {
+            SearchVerdict::Found => "found",
+            SearchVerdict::Impossible(_) => "impossible",
+            SearchVerdict::Undecided => "undecided",
+        };
+        json.insert("outcome".into(), json!(verdict));
+        json.insert("reason".into(), reason(o.verdict));
+        json.insert("explanation".into(), json!(self.explanation()));
+        json.insert("patterns".into(), json!(o.patterns));
+        json.insert("patterns_searched".into(), json!(o.searched));
+        json.insert("least_shared_joints".into(), json!(o.least_shared));
+        json.insert("complete".into(), json!(o.complete));
+        json.insert(
+            "wishes".into(),
+            json!({
+                "no_shared_joints": w.no_shared_joints, "spacing": number(w.spacing), "clearance": w.clearance.map(number),
+                "conditioning": number(w.conditioning), "reach": number(w.reach), "poses": w.poses.len(),
+                "characteristic_length": number(w.characteristic_length),
+            }),
+        );
+        let holes = o.holes.iter().map(|h| {
+            let (answer, dimension) = match &h.answer {
+                HoleAnswer::Legs { dimension, .. } => ("legs", Some(*dimension)),
+                HoleAnswer::AtInfinity => ("at_infinity", None),
+                HoleAnswer::None => ("none", None),
+            };
+            json!({
+                "body": h.hole.body.to_string(), "point": numbers(h.hole.point.iter().copied()), "answer": answer,
+                "legs": h.hole.legs.iter().map(|l| l.get() + 1).collect::<Vec<_>>(), "dimension": dimension,
+                "exact_rank_defect": h.exact, "singular_value": number(h.singular_value), "tolerance": number(h.tolerance),
+            })
+        });
+        json.insert("holes".into(), holes.collect());
+        let mut list = Vec::new();
+        for (c, d) in o.candidates.iter().zip(designs) {
+            list.push(self.candidate(c, d.as_ref())?);
+        }
+        json.insert("designs".into(), list.into());
+        json.insert("output".into(), json!(written));
+        Ok(json)
+    }
+
+    fn candidate(&self, c: &Candidate, design: Option<&Design>) -> Result<Value, Failure> {
+        let mut moves = Vec::new();
+        for p in &c.placements {
+            let k = p.leg.get();
+            moves.push(json!({
+                "leg": k + 1, "from": self.source(p.source)?, "parameters": numbers(p.parameters.iter().copied()),
+                "to": leg(&c.assembled.legs[k]), "coefficient": number(c.map.closest.a[(k, k)]), "residual": number(c.map.residuals[k]),
+            }));
+        }
+        let margins = c.margins.iter().map(|m| {
+            let (value, required, slack) = (number(m.value), number(m.required), number(m.slack));
+            json!({ "wish": m.wish.as_str(), "value": value, "required": required, "slack": slack })
+        });
+        let mut record = json!({
+            "fulfilled": c.fulfilled, "worst": number(c.worst), "shared_joints": c.shared_joints,
+            "margins": margins.collect::<Value>(), "moves": moves,
+        });
+        if let Some(fields) = record.as_object_mut() {
+            fields.extend(crate::cli::commands::map::record(&c.map));
+            fields.insert("design".into(), design.map_or(Value::Null, design_value));
+        }
+        Ok(record)
+    }
+
+    fn text(&self, written: &[String]) -> Result<String, Failure> {
+        let o = self.outcome;
+        let mut text = format!("{}\n", self.explanation());
+        let _ = writeln!(
+            text,
+            "{} patterns of six independent legs, {} searched; fewest shared joints {}{}",
+            o.patterns,
+            o.searched,
+            o.least_shared.map_or("unknown".to_string(), |n| n.to_string()),
+            if o.complete { "" } else { " (the list of replaceable legs is not proved complete)" }
+        );
+        for (k, c) in o.candidates.iter().enumerate() {
+            let _ = writeln!(
+                text,
+                "\n{}. {}, det A = {:.6}, sigma_min/sigma_max of A {:.3e}, shared joints {}",
+                k + 1,
+                if c.fulfilled { "every wish fulfilled" } else { "not every wish fulfilled" },
+                c.map.determinant,
+                c.map.inverse_condition,
+                c.shared_joints
+            );
+            for m in &c.margins {
+                let _ = writeln!(
+                    text,
+                    "   {:<13} {:>12.6}  required {:>12.6}  slack {:>9.5}",
+                    m.wish.as_str(),
+                    m.value,
+                    m.required,
+                    m.slack
+                );
+            }
+            for p in &c.placements {
+                let l = &c.assembled.legs[p.leg.get()];
+                let _ = writeln!(
+                    text,
+                    "   {}  {}  [{:.6}, {:.6}, {:.6}] - [{:.6}, {:.6}, {:.6}]",
+                    p.leg,
+                    self.source(p.source)?,
+                    l.base.x,
+                    l.base.y,
+                    l.base.z,
+                    l.platform.x,
+                    l.platform.y,
+                    l.platform.z
+                );
+            }
+        }
+        for path in written {
+            let _ = writeln!(text, "wrote {path}");
+        }
+        Ok(text)
+    }
+}
+
+fn reason(verdict: SearchVerdict) -> Value {
+    match verdict {
+        SearchVerdict::Impossible(Impossibility::NoLegAtHole(_)) => json!("no_leg_at_hole"),
+        SearchVerdict::Impossible(Impossibility::PartnersAtInfinity(_)) => json!("partners_at_infinity"),
+        SearchVerdict::Impossible(Impossibility::NotByThoseLegs(_)) => json!("not_by_those_legs"),
+        SearchVerdict::Impossible(Impossibility::SharedJoints(_)) => json!("shared_joints"),
+        SearchVerdict::Impossible(Impossibility::HolesTogether) => json!("holes_together"),
+        _ => Value::Null,
+    }
+}

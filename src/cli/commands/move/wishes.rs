@@ -1,0 +1,162 @@
+//! The wishes on the command line.
+
+use nalgebra::Point3;
+
+use crate::cli::failure::Failure;
+use crate::cli::poses;
+use crate::design::Design;
+use crate::manipulator::{LegIndex, inverse_condition, jacobian};
+use crate::synthesis::Body;
+use crate::synthesis::relocate::search::{Hole, SearchOptions, Wishes};
+
+/// What an equivalent platform is to fulfil.
+#[derive(Debug, clap::Args)]
+pub(super) struct WishArgs {
+    /// Search: one leg at every joint
+    #[arg(long)]
+    no_shared_joints: bool,
+    /// Search: no two legs meet, as straight segments at the home pose
+    #[arg(long)]
+    no_crossing: bool,
+    /// Search: least distance of two legs (default: the leg diameter of the design, else 0)
+    #[arg(long, value_name = "D", requires = "no_crossing")]
+    clearance: Option<f64>,
+    /// Search: a joint of this body is here: base:X,Y,Z or platform:X,Y,Z; repeat it
+    #[arg(long, value_name = "BODY:X,Y,Z")]
+    hole: Vec<String>,
+    /// Search: the joint of this name is moved here, with one of its legs; repeat it
+    #[arg(long, value_name = "NAME=X,Y,Z")]
+    joint: Vec<String>,
+    /// Search: least distance of two joints of one body (default: the design's, else a hundredth of the size)
+    #[arg(long, value_name = "D")]
+    spacing: Option<f64>,
+    /// Search: least inverse condition number of the Jacobian (default: a tenth of the design's)
+    #[arg(long, value_name = "X")]
+    conditioning: Option<f64>,
+    /// Search: how far from the centre of its body a joint may be, in sizes of the design (default 1.5)
+    #[arg(long, value_name = "X")]
+    reach: Option<f64>,
+    /// Search: look at all poses of the design's workspace, not only at home
+    #[arg(long)]
+    workspace: bool,
+    /// Search: how many platforms are listed (default 5)
+    #[arg(long, value_name = "N")]
+    count: Option<usize>,
+}
+
+/// Share of the size that two joints keep apart when nothing else is said.
+const SPACING_SHARE: f64 = 0.01;
+/// Share of the design's own inverse condition number that is asked for.
+const CONDITIONING_SHARE: f64 = 0.1;
+/// Default of `--reach`.
+const REACH: f64 = 1.5;
+
+impl WishArgs {
+    /// The first wish that is there.
+    pub(super) fn first_given(&self) -> Option<&'static str> {
+        let given = [
+            (self.no_shared_joints, "--no-shared-joints"),
+            (self.no_crossing, "--no-crossing"),
+            (!self.hole.is_empty(), "--hole"),
+            (!self.joint.is_empty(), "--joint"),
+            (self.spacing.is_some(), "--spacing"),
+            (self.conditioning.is_some(), "--conditioning"),
+            (self.reach.is_some(), "--reach"),
+            (self.workspace, "--workspace"),
+            (self.count.is_some(), "--count"),
+        ];
+        given.into_iter().find(|(is, _)| *is).map(|(_, name)| name)
+    }
+
+    /// The wishes, with defaults from the design.
+    pub(super) fn wishes(&self, design: &Design) -> Result<Wishes, Failure> {
+        let asked =
+            self.no_shared_joints || self.no_crossing || !self.hole.is_empty() || !self.joint.is_empty();
+        if !asked && self.spacing.is_none() && self.conditioning.is_none() && self.reach.is_none() {
+            return Err(Failure::refused("move::no_wish", "a search needs a wish").with_help(
+                "--no-shared-joints, --no-crossing, --hole, --joint, --spacing, --conditioning, --reach",
+            ));
+        }
+        let m = design.manipulator();
+        let (size, hardware) = (m.size(), design.hardware);
+        let home = poses::home(design);
+        let poses = if self.workspace { design.workspace.sample(Some(&home)) } else { vec![home] };
+        let length = design.optimize.characteristic_length.unwrap_or_else(|| m.platform_rms_radius());
+        let own = poses.iter().map(|p| inverse_condition(&jacobian(m, p, length))).fold(f64::MAX, f64::min);
+        let spacing = self.spacing.or(hardware.joint_diameter).or(design.optimize.min_joint_distance);
+        let mut holes = Vec::new();
+        for text in &self.hole {
+            holes.push(hole(text)?);
+        }
+        for text in &self.joint {
+            holes.push(joint(text, design)?);
+        }
+        Ok(Wishes {
+            no_shared_joints: self.no_shared_joints,
+            spacing: spacing.unwrap_or(SPACING_SHARE * size),
+            clearance: self.no_crossing.then(|| self.clearance.or(hardware.leg_diameter).unwrap_or(0.0)),
+            holes,
+            conditioning: self.conditioning.unwrap_or(CONDITIONING_SHARE * own),
+            reach: self.reach.unwrap_or(REACH) * size,
+            poses,
+            characteristic_length: length,
+        })
+    }
+
+    pub(super) fn options(&self, seed: u64) -> SearchOptions {
+        let default = SearchOptions::default();
+        SearchOptions { seed, count: self.count.unwrap_or(default.count), ..default }
+    }
+}
+
+fn point(text: &str, whole: &str) -> Result<Point3<f64>, Failure> {
+    let values: Option<Vec<f64>> =
+        text.split(',').map(|x| x.trim().parse::<f64>().ok().filter(|x| x.is_finite())).collect();
+    match values.as_deref() {
+        Some([x, y, z]) => Ok(Point3::new(*x, *y, *z)),
+        _ => Err(Failure::refused(
+            "move::bad_hole",
+            format!("`{whole}`: `{text}` is not three finite numbers"),
+        )
+        .with_help("--hole base:X,Y,Z or --joint NAME=X,Y,Z, in the frame of the body")),
+    }
+}
+
+fn hole(text: &str) -> Result<Hole, Failure> {
+    let body = match text.split_once(':') {
+        Some(("base", _)) => Body::Base,
+        Some(("platform", _)) => Body::Platform,
+        _ => {
+            return Err(Failure::refused("move::bad_hole", format!("`{text}` names no body"))
+                .with_help("base:X,Y,Z or platform:X,Y,Z"));
+        }
+    };
+    let place = text.split_once(':').map_or("", |x| x.1);
+    Ok(Hole { body, point: point(place, text)?, legs: Vec::new() })
+}
+
+/// `NAME=X,Y,Z`: the legs at the joint NAME are those of which one has to go there.
+fn joint(text: &str, design: &Design) -> Result<Hole, Failure> {
+    let (name, place) = text.rsplit_once('=').unwrap_or((text, ""));
+    let legs = |platform: bool| -> Vec<LegIndex> {
+        let names = design.leg_names();
+        let at = |l: &LegIndex| if platform { names[l.get()].1 == name } else { names[l.get()].0 == name };
+        LegIndex::all().filter(at).collect()
+    };
+    let (base, platform) = (legs(false), legs(true));
+    let (body, legs) = match (base.is_empty(), platform.is_empty()) {
+        (false, true) => (Body::Base, base),
+        (true, false) => (Body::Platform, platform),
+        (false, false) => {
+            let message = format!("`{name}` is a joint of both bodies");
+            return Err(Failure::refused("move::ambiguous_joint", message).with_help("use --hole BODY:X,Y,Z"));
+        }
+        (true, true) => {
+            let known: Vec<&String> = design.base_names().iter().chain(design.platform_names()).collect();
+            let known: Vec<&str> = known.into_iter().map(String::as_str).collect();
+            return Err(Failure::refused("move::no_such_joint", format!("no leg has a joint `{name}`"))
+                .with_help(format!("joints: {}", known.join(", "))));
+        }
+    };
+    Ok(Hole { body, point: point(place, text)?, legs })
+}

@@ -1,0 +1,88 @@
+//! Distance of two straight segments in space.
+
+use nalgebra::{Point3, Vector3};
+
+/// The distance of the segments `p0 p1` and `q0 q1`; a segment may be a point.
+///
+/// `|w + x e - y f|^2` is convex in `(x, y)`, so that its least value on the unit square is at the point where the gradient vanishes, when
+/// that is inside, and on one of the four edges otherwise. All five are tried: for parallel segments, where the first does not exist, the edges decide.
+///
+/// ```
+/// use equipod::geom::segment_distance;
+/// use nalgebra::Point3;
+/// let at = |x: f64, y: f64, z: f64| Point3::new(x, y, z);
+/// let crossing = segment_distance([at(-1.0, 0.0, 0.0), at(1.0, 0.0, 0.0)], [at(0.0, -1.0, 0.5), at(0.0, 1.0, 0.5)]);
+/// assert!((crossing - 0.5).abs() < 1e-15);
+/// ```
+#[must_use]
+pub fn segment_distance([p0, p1]: [Point3<f64>; 2], [q0, q1]: [Point3<f64>; 2]) -> f64 {
+    let (e, f, w) = (p1 - p0, q1 - q0, p0 - q0);
+    let mut best = from_point(&w, &f)
+        .min(from_point(&(p1 - q0), &f))
+        .min(from_point(&(q0 - p0), &e))
+        .min(from_point(&(q1 - p0), &e));
+    let (ee, ff, ef) = (e.norm_squared(), f.norm_squared(), e.dot(&f));
+    let det = ee * ff - ef * ef;
+    if det > 0.0 {
+        let (x, y) = ((ef * f.dot(&w) - ff * e.dot(&w)) / det, (ee * f.dot(&w) - ef * e.dot(&w)) / det);
+        if (0.0..=1.0).contains(&x) && (0.0..=1.0).contains(&y) {
+            best = best.min((w + e * x - f * y).norm());
+        }
+    }
+    best
+}
+
+/// Distance of the point `w` from the segment between the origin and `f`.
+fn from_point(w: &Vector3<f64>, f: &Vector3<f64>) -> f64 {
+    let ff = f.norm_squared();
+    let t = if ff > 0.0 { (w.dot(f) / ff).clamp(0.0, 1.0) } else { 0.0 };
+    (w - f * t).norm()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::Rng;
+
+    fn point(rng: &mut Rng) -> Point3<f64> {
+        Point3::new(rng.normal(), rng.normal(), rng.normal())
+    }
+
+    #[test]
+    fn no_pair_of_points_is_nearer_and_a_fine_grid_comes_close() {
+        let mut rng = Rng::new(5);
+        for k in 0..60 {
+            let p = [point(&mut rng), point(&mut rng)];
+            let mut q = [point(&mut rng), point(&mut rng)];
+            match k % 4 {
+                1 => q[1] = q[0] + (p[1] - p[0]) * 0.7, // parallel
+                2 => q[1] = q[0],                       // a point
+                _ => {}
+            }
+            let found = segment_distance(p, q);
+            assert!((found - segment_distance(q, [p[1], p[0]])).abs() < 1e-12);
+            let (mut least, n) = (f64::MAX, 200);
+            for i in 0..=n {
+                for j in 0..=n {
+                    let (x, y) = (f64::from(i) / f64::from(n), f64::from(j) / f64::from(n));
+                    let d = (p[0] + (p[1] - p[0]) * x - (q[0] + (q[1] - q[0]) * y)).norm();
+                    assert!(d >= found - 1e-12);
+                    least = least.min(d);
+                }
+            }
+            assert!(least < found + 0.05, "{least} {found}");
+        }
+    }
+
+    #[test]
+    fn segments_that_meet_touch_or_overlap_have_distance_zero() {
+        let at = |x: f64, y: f64| Point3::new(x, y, 0.0);
+        let line = [at(-1.0, 0.0), at(1.0, 0.0)];
+        for other in
+            [[at(0.3, -1.0), at(0.3, 2.0)], [at(1.0, 0.0), at(2.0, 5.0)], [at(0.5, 0.0), at(3.0, 0.0)]]
+        {
+            assert!(segment_distance(line, other) < 1e-15);
+        }
+        assert!((segment_distance(line, [at(2.0, 0.0), at(3.0, 0.0)]) - 1.0).abs() < 1e-15);
+    }
+}

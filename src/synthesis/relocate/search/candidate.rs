@@ -1,0 +1,158 @@
+//! A platform the search ends with.
+
+use nalgebra::Matrix6;
+
+use super::patterns::shared;
+use super::score::{Scorer, worst};
+use super::wishes::{Margin, Wishes};
+use crate::geom::Pose;
+use crate::manipulator::{Leg, LegIndex};
+use crate::num::linalg::LinalgError;
+use crate::synthesis::leg_map::{LegMapOutcome, LegMapTolerances, Relation, leg_map_to_legs};
+use crate::synthesis::relocate::joints::{Assembled, assemble};
+
+/// Where a leg comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Source {
+    /// It is a leg of the given platform.
+    Kept(LegIndex),
+    /// It belongs to a family (index).
+    Family(usize),
+    /// One end is in a hole (index).
+    Hole(usize),
+    /// Its base end is in a hole, its platform end in another.
+    Holes(usize, usize),
+}
+
+/// A leg of the new platform.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Placement {
+    /// The leg it replaces, whose number it has.
+    pub leg: LegIndex,
+    /// Where it comes from; never `Kept`.
+    pub source: Source,
+    /// Its parameters there.
+    pub parameters: Vec<f64>,
+}
+
+/// A platform equivalent to the given one.
+#[derive(Debug, Clone)]
+pub struct Candidate {
+    /// Joints and legs.
+    pub assembled: Assembled,
+    /// The map from the given platform.
+    pub map: LegMapOutcome,
+    /// The legs that are not where they were.
+    pub placements: Vec<Placement>,
+    /// Every wish with its number, recomputed on the joints as they are written.
+    pub margins: Vec<Margin>,
+    /// The smallest slack.
+    pub worst: f64,
+    /// Whether every wish is fulfilled.
+    pub fulfilled: bool,
+    /// Joints that carry two legs or more.
+    pub shared_joints: usize,
+}
+
+impl Candidate {
+    /// Whether the other one is not worth a place beside this one: the same legs within a thousandth of the size or, where no hole tells the places of a body
+    /// apart, a platform with the same distances between joints and the same lengths at home (a symmetry of the design takes one to the other).
+    pub(super) fn repeats(&self, other: &Self, wishes: &Wishes, size: f64) -> bool {
+        let limit = 1e-3 * size;
+        let near = |a: &Leg, b: &Leg| (a.base - b.base).norm().max((a.platform - b.platform).norm()) <= limit;
+        let same_legs = self.assembled.legs.iter().all(|a| other.assembled.legs.iter().any(|b| near(a, b)));
+        let distances = |c: &Self| distances(&c.assembled.legs, &wishes.poses[0]);
+        let congruent =
+            || distances(self).into_iter().zip(distances(other)).all(|(x, y)| (x - y).abs() <= limit);
+        same_legs || (wishes.holes.is_empty() && congruent())
+    }
+}
+
+/// Distances of the base joints, of the platform joints, and leg lengths at the pose, each in order of size.
+fn distances(legs: &[Leg; 6], pose: &Pose) -> Vec<f64> {
+    let mut lists = [Vec::new(), Vec::new(), legs.iter().map(|l| pose.squared_length(l).sqrt()).collect()];
+    for (i, a) in legs.iter().enumerate() {
+        for b in &legs[..i] {
+            lists[0].push((a.base - b.base).norm());
+            lists[1].push((a.platform - b.platform).norm());
+        }
+    }
+    for list in &mut lists {
+        list.sort_by(f64::total_cmp);
+    }
+    lists.concat()
+}
+
+/// The platform at the parameters; `None` when it is none, or singular.
+pub(super) fn candidate(scorer: &Scorer, x: &[f64]) -> Result<Option<Candidate>, LinalgError> {
+    let Some(legs) = scorer.pool.legs(scorer.pattern, x)? else { return Ok(None) };
+    let rows = legs.map(|l| scorer.found.span.coefficients(&l));
+    let a = Matrix6::from_fn(|i, j| rows[i][j]);
+    let Some(order) = numbering(scorer, &a) else { return Ok(None) };
+    let (mut new, mut placements) = ([None; 6], Vec::new());
+    let mut at = 0;
+    for (row, k) in scorer.pattern.places.iter().enumerate() {
+        let place = &scorer.pool.places[*k];
+        let n = place.formulas.parameters();
+        if !matches!(place.source, Source::Kept(_)) {
+            new[order[row].get()] = Some(legs[row]);
+            let parameters = x[at..at + n].to_vec();
+            placements.push(Placement { leg: order[row], source: place.source, parameters });
+        }
+        at += n;
+    }
+    placements.sort_by_key(|p| p.leg);
+    let assembled = assemble(scorer.m, &new);
+    let map = leg_map_to_legs(scorer.m, &assembled.legs, LegMapTolerances::default())?;
+    if map.relation != Relation::Equivalent {
+        return Ok(None);
+    }
+    let Ok(platform) = &assembled.platform else { return Ok(None) };
+    let pairs = platform.pairs();
+    let same = |f: &dyn Fn((usize, usize)) -> usize| -> [[bool; 6]; 6] {
+        std::array::from_fn(|i| std::array::from_fn(|j| i != j && f(pairs[i]) == f(pairs[j])))
+    };
+    let shared_joints = shared(&same(&|p| p.0)) + shared(&same(&|p| p.1));
+    let final_legs: [Leg; 6] = std::array::from_fn(|row| assembled.legs[order[row].get()]);
+    let margins = scorer.margins(&final_legs);
+    let least = worst(&margins);
+    let fulfilled = least >= 0.0 && !(scorer.wishes.no_shared_joints && shared_joints > 0);
+    Ok(Some(Candidate { assembled, map, placements, margins, worst: least, fulfilled, shared_joints }))
+}
+
+/// A number for each row: kept legs have theirs, the others those that make the product of `|A_ri|` as large as possible, legs for
+/// named joints among theirs. A regular matrix has a product that is not zero (Leibniz' formula), so that each leg can replace the one whose number it gets.
+fn numbering(scorer: &Scorer, a: &Matrix6<f64>) -> Option<[LegIndex; 6]> {
+    let allowed = |row: usize, leg: LegIndex| match scorer.pool.places[scorer.pattern.places[row]].source {
+        Source::Kept(own) => own == leg,
+        Source::Family(_) => true,
+        Source::Hole(h) => allows(scorer, h, leg),
+        Source::Holes(h, l) => allows(scorer, h, leg) && allows(scorer, l, leg),
+    };
+    let mut best: (f64, Option<[LegIndex; 6]>) = (0.0, None);
+    let all: Vec<LegIndex> = LegIndex::all().collect();
+    let mut stack: Vec<(f64, Vec<LegIndex>)> = vec![(1.0, Vec::new())];
+    while let Some((product, taken)) = stack.pop() {
+        let row = taken.len();
+        if row == 6 {
+            if product > best.0 {
+                best = (product, <[LegIndex; 6]>::try_from(taken).ok());
+            }
+            continue;
+        }
+        for leg in all.iter().filter(|l| !taken.contains(l) && allowed(row, **l)) {
+            let factor = a[(row, leg.get())].abs();
+            if factor > 1e-9 {
+                let mut next = taken.clone();
+                next.push(*leg);
+                stack.push((product * factor, next));
+            }
+        }
+    }
+    best.1
+}
+
+fn allows(scorer: &Scorer, hole: usize, leg: LegIndex) -> bool {
+    let legs = &scorer.wishes.holes[hole].legs;
+    legs.is_empty() || legs.contains(&leg)
+}

@@ -1,0 +1,264 @@
+//! Equivalent platforms that fulfil wishes.
+//!
+//! A platform equivalent to `m` is six independent replaceable legs. Each is a leg of `m` that stays, a leg of a family, or a leg through a hole. Which of
+//! them can stand together is decided once for every *pattern* (how many legs from where) at generic parameters; in the patterns left the parameters are chosen so
+//! that the worst margin of all wishes is as large as possible, from several starts.
+//!
+//! What is proved: that no replaceable leg ends at a hole (exact rank), and, when the list of families is complete, the least number of shared joints (up to the
+//! independence of generic legs, which is decided in floating point). That no platform with a spacing or clearance was found proves nothing.
+
+mod candidate;
+mod climb;
+mod holes;
+mod patterns;
+mod pool;
+mod score;
+#[cfg(test)]
+mod tests;
+mod wishes;
+
+use thiserror::Error;
+
+pub use candidate::{Candidate, Placement, Source};
+pub use holes::{HoleAnswer, HoleRecord};
+pub use wishes::{Hole, Margin, Wish, Wishes};
+
+use super::super::components::{Components, PartKind, Reading, SingularKind};
+use crate::manipulator::Manipulator;
+use crate::num::Rng;
+use crate::num::linalg::LinalgError;
+use patterns::{Pattern, patterns};
+use pool::Pool;
+use score::Scorer;
+
+/// How long to search.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SearchOptions {
+    /// Seed of all random numbers.
+    pub seed: u64,
+    /// Random parameters tried in every pattern.
+    pub samples: usize,
+    /// Starts from which the worst margin is climbed.
+    pub starts: usize,
+    /// Evaluations of the margins in every climb.
+    pub evaluations: usize,
+    /// Platforms listed.
+    pub count: usize,
+}
+
+impl Default for SearchOptions {
+    /// Seed 1, 40 samples, 40 starts of 1500 evaluations, 5 platforms.
+    fn default() -> Self {
+        Self { seed: 1, samples: 40, starts: 40, evaluations: 1500, count: 5 }
+    }
+}
+
+/// Why there is nothing to search.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SearchError {
+    /// The leg vectors are dependent.
+    #[error(
+        "the leg vectors have rank {0}: the platform is architecturally singular, and so is every one made of its legs"
+    )]
+    Dependent(usize),
+    /// No pose to look at.
+    #[error("no pose is given at which the legs are looked at")]
+    NoPoses,
+    /// A limit is negative or not finite.
+    #[error("{what} is {value}, not a number of 0 or more")]
+    Limit {
+        /// `"spacing"` and so on.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A decomposition failed.
+    #[error(transparent)]
+    Linalg(#[from] LinalgError),
+}
+
+/// Why no equivalent platform fulfils the wishes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Impossibility {
+    /// No replaceable leg ends at the hole (index): exactly, and not within the tolerance either.
+    NoLegAtHole(usize),
+    /// The partners of the hole are all at infinity.
+    PartnersAtInfinity(usize),
+    /// The squared length of a leg at the hole (index) does not depend on any of the legs that were named for it.
+    NotByThoseLegs(usize),
+    /// Six independent replaceable legs have at least this many shared joints.
+    SharedJoints(usize),
+    /// No six independent replaceable legs have ends at all the holes.
+    HolesTogether,
+}
+
+/// What the search came to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SearchVerdict {
+    /// At least one platform fulfils every wish.
+    Found,
+    /// None does: proved.
+    Impossible(Impossibility),
+    /// None was found.
+    Undecided,
+}
+
+/// The answer of [`search`].
+#[derive(Debug, Clone)]
+pub struct SearchOutcome {
+    /// The verdict.
+    pub verdict: SearchVerdict,
+    /// The best platforms, best first; with another verdict than `Found` they miss a wish.
+    pub candidates: Vec<Candidate>,
+    /// What can end at each hole.
+    pub holes: Vec<HoleRecord>,
+    /// Patterns that are independent at generic parameters and reach all holes.
+    pub patterns: usize,
+    /// Those among them that were searched.
+    pub searched: usize,
+    /// The fewest shared joints of a pattern; `None` when there is no pattern.
+    pub least_shared: Option<usize>,
+    /// Whether every replaceable leg is known, so that counts over the patterns are proofs.
+    pub complete: bool,
+    /// The wishes with the limits used.
+    pub wishes: Wishes,
+}
+
+/// Looks for platforms equivalent to `m` that fulfil the wishes; `found` are its families.
+///
+/// # Errors
+/// [`SearchError`].
+pub fn search(
+    m: &Manipulator,
+    found: &Components,
+    wishes: &Wishes,
+    options: &SearchOptions,
+) -> Result<SearchOutcome, SearchError> {
+    if found.leg_rank.value < 6 {
+        return Err(SearchError::Dependent(found.leg_rank.value));
+    }
+    wishes.validate()?;
+    let mut outcome = SearchOutcome {
+        verdict: SearchVerdict::Undecided,
+        candidates: Vec::new(),
+        holes: holes::records(m, found, &wishes.holes)?,
+        patterns: 0,
+        searched: 0,
+        least_shared: None,
+        complete: all_legs_known(found),
+        wishes: wishes.clone(),
+    };
+    if let Some(reason) = outcome.holes.iter().enumerate().find_map(|(k, h)| h.impossible(k)) {
+        outcome.verdict = SearchVerdict::Impossible(reason);
+        return Ok(outcome);
+    }
+    let mut rng = Rng::stream(options.seed, 0x5ea);
+    let pool = Pool::new(m, found, wishes, &outcome.holes, &mut rng)?;
+    if let Some(k) = pool.not_by_those_legs(&wishes.holes) {
+        outcome.verdict = SearchVerdict::Impossible(Impossibility::NotByThoseLegs(k));
+        return Ok(outcome);
+    }
+    // a family no leg of which could be drawn, one far out for instance, is missing in the patterns
+    outcome.complete &= pool.drawn;
+    let mut list = patterns(&pool, wishes, m.size());
+    outcome.patterns = list.len();
+    outcome.least_shared = list.iter().map(|p| p.shared).min();
+    let Some(least) = outcome.least_shared else {
+        if outcome.complete && !wishes.holes.is_empty() {
+            outcome.verdict = SearchVerdict::Impossible(Impossibility::HolesTogether);
+        }
+        return Ok(outcome);
+    };
+    if wishes.no_shared_joints {
+        list.retain(|p| p.shared == least);
+    }
+    outcome.searched = list.len();
+    outcome.candidates = climb_all(&pool, found, m, wishes, options, &list, &mut rng)?;
+    if wishes.no_shared_joints && least > 0 {
+        if outcome.complete {
+            outcome.verdict = SearchVerdict::Impossible(Impossibility::SharedJoints(least));
+        }
+    } else if outcome.candidates.iter().any(|c| c.fulfilled) {
+        outcome.verdict = SearchVerdict::Found;
+    }
+    Ok(outcome)
+}
+
+/// Samples every pattern, climbs from the best samples, and ranks what comes out.
+fn climb_all(
+    pool: &Pool,
+    found: &Components,
+    m: &Manipulator,
+    wishes: &Wishes,
+    options: &SearchOptions,
+    list: &[Pattern],
+    rng: &mut Rng,
+) -> Result<Vec<Candidate>, SearchError> {
+    let mut starts: Vec<(f64, usize, Vec<f64>)> = Vec::new();
+    for (k, pattern) in list.iter().enumerate() {
+        let scorer = Scorer { pool, found, m, wishes, pattern };
+        let mut best: Vec<(f64, usize, Vec<f64>)> = Vec::new();
+        for _ in 0..options.samples.max(1) {
+            let x = pool.draw(pattern, rng)?;
+            let score = scorer.worst(&x)?;
+            best.push((score, k, x));
+            if pool.parameters(pattern) == 0 {
+                break;
+            }
+        }
+        best.sort_by(|a, b| b.0.total_cmp(&a.0));
+        // two starts from a pattern, so that one of them may be poor
+        starts.extend(best.into_iter().take(2));
+    }
+    starts.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    starts.truncate(options.starts.max(1));
+    let mut out: Vec<Candidate> = Vec::new();
+    for (_, k, x) in starts {
+        let scorer = Scorer { pool, found, m, wishes, pattern: &list[k] };
+        let (_, x) = climb::climb(&scorer, x, options.evaluations, rng)?;
+        if let Some(candidate) = candidate::candidate(&scorer, &x)? {
+            out.push(candidate);
+        }
+    }
+    out.sort_by(|a, b| {
+        let key = |c: &Candidate| (!c.fulfilled, c.shared_joints * usize::from(wishes.no_shared_joints));
+        key(a)
+            .cmp(&key(b))
+            .then(b.worst.total_cmp(&a.worst))
+            .then(a.placements.len().cmp(&b.placements.len()))
+    });
+    let size = m.size();
+    let mut kept: Vec<Candidate> = Vec::new();
+    for c in out {
+        if kept.len() < options.count && !kept.iter().any(|k| k.repeats(&c, wishes, size)) {
+            kept.push(c);
+        }
+    }
+    Ok(kept)
+}
+
+/// Whether the families and the six legs are all replaceable legs there are.
+///
+/// Between a point or a line and any flat every partner is a leg of `m` or in a family that is listed, for two planes with six legs too, unless the curve has an isolated
+/// real point. Five legs between planes and six between a plane and space can have further single ones.
+fn all_legs_known(found: &Components) -> bool {
+    let pairs = found.pairs.iter().enumerate().all(|(k, p)| {
+        let low = p.base.min(p.platform);
+        let planes = || {
+            found.planes.iter().find(|x| x.pair == k).is_some_and(|x| {
+                p.rank == 6
+                    && p.base == 2
+                    && p.platform == 2
+                    && [&x.base, &x.platform].iter().all(|c| {
+                        c.parts.iter().all(|part| part.kind != PartKind::ComplexLines)
+                            && c.singular_points.iter().all(|s| s.kind != SingularKind::Isolated)
+                    })
+            })
+        };
+        p.reading == Reading::Both && (low <= 1 || planes())
+    });
+    let exact = found.leg_rank.exact == Some(6) && found.components.iter().all(|c| c.exact == Some(true));
+    found.doubts.is_empty() && exact && pairs
+}

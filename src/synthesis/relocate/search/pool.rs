@@ -1,0 +1,162 @@
+//! The places a leg of an equivalent platform can come from.
+
+use super::candidate::Source;
+use super::holes::{HoleAnswer, HoleRecord};
+use super::patterns::Pattern;
+use super::wishes::{Hole, Wishes};
+use crate::manipulator::{Leg, LegIndex, Manipulator};
+use crate::num::Rng;
+use crate::num::linalg::LinalgError;
+use crate::synthesis::components::{Component, Components, MovingPoint, Parametrisation};
+use crate::synthesis::hexagon::Body;
+
+/// A place, with generic legs from it.
+#[derive(Debug)]
+pub(super) struct Place {
+    pub(super) source: Source,
+    pub(super) formulas: Parametrisation,
+    /// Holes its legs have an end in.
+    pub(super) fills: Vec<usize>,
+    /// Generic legs, as many as the pattern may take from here.
+    pub(super) generic: Vec<(Leg, [f64; 6])>,
+}
+
+/// All of them: the six legs, the largest families, the legs through holes.
+#[derive(Debug)]
+pub(super) struct Pool<'a> {
+    pub(super) places: Vec<Place>,
+    /// Whether generic legs of every family were had.
+    pub(super) drawn: bool,
+    found: &'a Components,
+}
+
+fn fixed(leg: &Leg) -> Parametrisation {
+    let at = |p: [f64; 3]| MovingPoint { terms: vec![([0, 0, 0], [1.0, p[0], p[1], p[2]])] };
+    Parametrisation::Rational {
+        parameters: 0,
+        base: at(leg.base.coords.into()),
+        platform: at(leg.platform.coords.into()),
+    }
+}
+
+impl<'a> Pool<'a> {
+    pub(super) fn new(
+        m: &Manipulator,
+        found: &'a Components,
+        wishes: &Wishes,
+        records: &[HoleRecord],
+        rng: &mut Rng,
+    ) -> Result<Self, LinalgError> {
+        let mut pool = Self { places: Vec::new(), drawn: true, found };
+        let limit = found.options.tolerance * m.size();
+        let legs = m.legs();
+        for leg in LegIndex::all() {
+            let ends = legs[leg.get()];
+            let fits = |(_, h): &(usize, &Hole)| {
+                let p = if h.body == Body::Base { ends.base } else { ends.platform };
+                (p - h.point).norm() <= limit && (h.legs.is_empty() || h.legs.contains(&leg))
+            };
+            let fills = wishes.holes.iter().enumerate().filter(fits).map(|(k, _)| k).collect();
+            pool.add(Source::Kept(leg), fixed(&ends), fills, 1, rng)?;
+        }
+        for (k, hole) in records.iter().enumerate() {
+            if let HoleAnswer::Legs { formulas, .. } = &hole.answer {
+                pool.add(Source::Hole(k), formulas.clone(), vec![k], 1, rng)?;
+            }
+        }
+        // one leg in two holes
+        for (k, l) in (0..records.len()).flat_map(|k| (0..records.len()).map(move |l| (k, l))) {
+            let (a, b) = (&wishes.holes[k], &wishes.holes[l]);
+            if a.body != Body::Base || b.body != Body::Platform {
+                continue;
+            }
+            let leg = Leg { base: a.point, platform: b.point };
+            if found.span.distance(&leg) <= found.options.tolerance {
+                pool.add(Source::Holes(k, l), fixed(&leg), vec![k, l], 1, rng)?;
+            }
+        }
+        for (k, family) in found.components.iter().enumerate().filter(|(_, c)| c.contained_in.is_empty()) {
+            pool.add(Source::Family(k), family.parametrisation.clone(), Vec::new(), 6, rng)?;
+        }
+        Ok(pool)
+    }
+
+    fn add(
+        &mut self,
+        source: Source,
+        formulas: Parametrisation,
+        fills: Vec<usize>,
+        copies: usize,
+        rng: &mut Rng,
+    ) -> Result<(), LinalgError> {
+        let mut place = Place { source, formulas, fills, generic: Vec::new() };
+        for _ in 0..copies {
+            let x = self.draw_place(&place, rng)?;
+            if let Some(leg) = place.formulas.leg_at(&x)? {
+                place.generic.push((leg, self.found.span.coefficients(&leg)));
+            }
+        }
+        self.drawn &= place.generic.len() == copies;
+        if !place.generic.is_empty() {
+            self.places.push(place);
+        }
+        Ok(())
+    }
+
+    /// The first hole of which no leg can replace one of those that are named for it.
+    pub(super) fn not_by_those_legs(&self, holes: &[Hole]) -> Option<usize> {
+        let replaces = |place: &Place, hole: &Hole| {
+            let generic = place.generic.iter();
+            hole.legs.is_empty()
+                || generic.flat_map(|(_, c)| hole.legs.iter().map(|l| c[l.get()])).any(|c| c.abs() > 1e-9)
+        };
+        (0..holes.len()).find(|k| !self.places.iter().any(|p| p.fills.contains(k) && replaces(p, &holes[*k])))
+    }
+
+    fn family(&self, source: Source) -> Option<&Component> {
+        match source {
+            Source::Family(k) => self.found.components.get(k),
+            _ => None,
+        }
+    }
+
+    fn draw_place(&self, place: &Place, rng: &mut Rng) -> Result<Vec<f64>, LinalgError> {
+        if let Some(family) = self.family(place.source) {
+            return Ok(family.sample(&self.found.span, rng)?.map_or(Vec::new(), |s| s.parameters));
+        }
+        Ok((0..place.formulas.parameters()).map(|_| rng.uniform(-1.5, 1.5)).collect())
+    }
+
+    /// Random parameters of all legs of a pattern, one after another.
+    pub(super) fn draw(&self, pattern: &Pattern, rng: &mut Rng) -> Result<Vec<f64>, LinalgError> {
+        let mut x = Vec::new();
+        for k in pattern.places {
+            let place = &self.places[k];
+            let mut own = self.draw_place(place, rng)?;
+            own.resize(place.formulas.parameters(), 0.5);
+            x.extend(own);
+        }
+        Ok(x)
+    }
+
+    /// Number of parameters of a pattern.
+    pub(super) fn parameters(&self, pattern: &Pattern) -> usize {
+        pattern.places.iter().map(|k| self.places[*k].formulas.parameters()).sum()
+    }
+
+    /// The six legs at the parameters; `None` where one of them does not exist.
+    pub(super) fn legs(&self, pattern: &Pattern, x: &[f64]) -> Result<Option<[Leg; 6]>, LinalgError> {
+        let mut out = Vec::with_capacity(6);
+        let mut at = 0;
+        for k in pattern.places {
+            let formulas = &self.places[k].formulas;
+            let n = formulas.parameters();
+            match formulas.leg_at(&x[at..at + n])? {
+                Some(leg) => out.push(leg),
+                None => return Ok(None),
+            }
+            at += n;
+        }
+        Ok(<[Leg; 6]>::try_from(out).ok())
+    }
+}

@@ -1,0 +1,171 @@
+//! The process `equipod move`.
+
+use serde_json::Value;
+
+use super::cli_frame::{document, equipod};
+
+fn of(design: &str, more: &[&str], code: i32) -> Value {
+    let path = format!("designs/{design}.toml");
+    let mut args = vec!["move", path.as_str(), "--json"];
+    args.extend(more);
+    let out = equipod(&args);
+    assert_eq!(out.status.code(), Some(code), "{more:?}: {}", String::from_utf8_lossy(&out.stderr));
+    document(&out)
+}
+
+fn number(v: &Value) -> f64 {
+    v.as_f64().unwrap()
+}
+
+/// The six sides of the hexagon of the published design, in cyclic order of its legs, at `t`.
+fn six(t: f64) -> Vec<String> {
+    let sides = ["P1-P2:P4", "P2:P4-P5", "P2-P3:P5", "P3:P5-P6", "P3-P1:P6", "P1:P6-P4"];
+    (0..6).map(|k| format!("{}:{}:{t}", k + 1, sides[k])).collect()
+}
+
+fn with_moves<'a>(list: &'a [String], more: &[&'a str]) -> Vec<&'a str> {
+    list.iter().flat_map(|m| ["--move", m.as_str()]).chain(more.iter().copied()).collect()
+}
+
+#[test]
+fn one_leg_by_number_or_by_the_joints_of_its_family_and_verify_agrees() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("moved.toml");
+    let to = path.to_str().unwrap();
+    let doc = of("rbt-octahedral", &["--leg", "1", "--along", "P1-P2:P4", "--to", "0.2", "-o", to], 0);
+    assert_eq!((doc["outcome"].as_str(), doc["output"].as_str()), (Some("equivalent"), Some(to)));
+    assert!((number(&doc["det"]) - 0.8).abs() < 1e-12);
+    let made = &doc["steps"][0]["moves"][0];
+    assert_eq!(
+        (made["leg"].as_u64(), made["type"].as_str(), made["along"].as_str()),
+        (Some(1), Some("point-line"), Some("P1-P2:P4"))
+    );
+    assert!((number(&made["coefficient"]) - 0.8).abs() < 1e-12 && number(&made["residual"]) < 1e-14);
+    assert!((number(&made["singular_parameters"][0]) - 1.0).abs() < 1e-9);
+    let same =
+        of("rbt-octahedral", &["--leg", "1", "--along", &made["component"].to_string(), "--to", "0.2"], 0);
+    assert_eq!(same["design"]["base"], doc["design"]["base"]);
+    // the joint that came apart has a letter, the other leg keeps the old one; lengths are those of the same pose
+    let names: Vec<&String> = doc["design"]["base"].as_object().unwrap().keys().collect();
+    assert_eq!(names, ["P1", "P2", "P3", "P1a"]);
+    assert_eq!(doc["design"]["legs"][0], serde_json::json!(["P1a", "P4"]));
+    let map = equipod(&["map", "designs/rbt-octahedral.toml", to, "--json"]);
+    assert_eq!(document(&map)["A"], doc["A"]);
+    let verify = equipod(&["verify", "designs/rbt-octahedral.toml", to, "--samples", "1", "--json"]);
+    assert_eq!(document(&verify)["verdict"], "equivalent");
+}
+
+#[test]
+fn together_and_one_after_another_come_to_the_platform_of_the_paper() {
+    let list = six(0.2);
+    let at_once = of("rbt-octahedral", &with_moves(&list, &["--together"]), 0);
+    let in_turn = of("rbt-octahedral", &with_moves(&list, &[]), 0);
+    for doc in [&at_once, &in_turn] {
+        assert!((number(&doc["det"]) - 0.26208).abs() < 1e-12);
+        assert!(number(&doc["composition_difference"]) < 1e-12);
+        let l = doc["design"]["lengths"].as_array().unwrap();
+        let published = [
+            18.851843411189265,
+            17.839282496782207,
+            17.145261736118233,
+            16.426868234694037,
+            14.762655587664439,
+            18.05879287217172,
+        ];
+        assert!(l.iter().zip(published).all(|(x, y)| (number(x) - y).abs() < 1e-9), "{l:?}");
+    }
+    assert_eq!(
+        (at_once["steps"].as_array().unwrap().len(), in_turn["steps"].as_array().unwrap().len()),
+        (1, 6)
+    );
+    // every joint is alone in the end
+    for body in ["base", "platform"] {
+        assert_eq!(in_turn["design"][body].as_object().unwrap().len(), 6);
+    }
+}
+
+#[test]
+fn all_midpoints_are_singular_and_nothing_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("singular.toml");
+    let list = six(0.5);
+    let doc = of("rbt-octahedral", &with_moves(&list, &["--together", "-o", path.to_str().unwrap()]), 1);
+    assert_eq!((doc["outcome"].as_str(), doc["relation"].as_str()), (Some("singular"), Some("singular")));
+    assert!(doc["output"].is_null() && !path.exists());
+    for made in doc["steps"][0]["moves"].as_array().unwrap() {
+        assert!((number(&made["singular_parameters"][0]) - 0.5).abs() < 1e-9);
+    }
+    // in turn the sixth is the singular one; what comes after it is not done
+    let mut list = six(0.5);
+    list.push("1:P1-P2:P4:0.1".into());
+    let doc = of("rbt-octahedral", &with_moves(&list, &[]), 1);
+    assert_eq!((doc["steps"].as_array().unwrap().len(), doc["moves_left_out"].as_u64()), (6, Some(1)));
+    assert_eq!(doc["steps"][4]["outcome"], "equivalent");
+}
+
+#[test]
+fn what_is_refused() {
+    let code = |more: &[&str]| of("rbt-octahedral", more, 2)["error"]["code"].as_str().unwrap().to_string();
+    assert_eq!(code(&[]), "move::nothing_asked");
+    assert_eq!(code(&["--leg", "4", "--along", "P1-P2:P4", "--to", "0.2"]), "move::not_carried");
+    assert_eq!(code(&["--leg", "7", "--along", "1", "--to", "0.2"]), "move::no_such_leg");
+    assert_eq!(code(&["--leg", "1", "--along", "9", "--to", "0.2"]), "move::no_such_family");
+    assert_eq!(code(&["--leg", "1", "--along", "P1:P4-P5", "--to", "0.2"]), "move::no_such_family");
+    assert_eq!(code(&["--leg", "1", "--along", "P1:P9", "--to", "0.2"]), "move::no_such_family");
+    assert_eq!(code(&["--leg", "1", "--along", "4", "--to", "0.2,0.3"]), "move::parameter_count");
+    assert_eq!(code(&["--move", "1:4"]), "move::bad_move");
+    assert_eq!(code(&["--move", "1:4:0.2", "--move", "1:1:0.2", "--together"]), "move::leg_twice");
+    assert_eq!(code(&["--no-shared-joints"]), "move::wish_without_search");
+    assert_eq!(code(&["--search"]), "move::no_wish");
+    assert_eq!(code(&["--search", "--hole", "P1:1,2,3"]), "move::bad_hole");
+    assert_eq!(code(&["--search", "--joint", "P9=1,2,3"]), "move::no_such_joint");
+    assert_eq!(code(&["--search", "--spacing=-1"]), "move::bad_wish");
+    // nothing can be moved
+    let doc = of("general-6-6", &["--leg", "1", "--along", "1", "--to", "0.2"], 2);
+    assert!(doc["error"]["help"].as_str().unwrap().contains("no leg of this platform"));
+}
+
+#[test]
+fn the_search_finds_proves_and_leaves_open() {
+    let folder = tempfile::tempdir().unwrap();
+    let to = folder.path().join("found");
+    let more =
+        ["--search", "--no-shared-joints", "--no-crossing", "--count", "2", "-o", to.to_str().unwrap()];
+    let doc = of("rbt-octahedral", &more, 0);
+    assert_eq!(
+        (doc["outcome"].as_str(), doc["patterns"].as_u64(), doc["least_shared_joints"].as_u64()),
+        (Some("found"), Some(728), Some(0))
+    );
+    let first = &doc["designs"][0];
+    assert_eq!(
+        (first["fulfilled"].as_bool(), first["shared_joints"].as_u64(), first["relation"].as_str()),
+        (Some(true), Some(0), Some("equivalent"))
+    );
+    assert!(first["margins"].as_array().unwrap().iter().all(|m| number(&m["slack"]) >= 0.0));
+    let file = doc["output"][0].as_str().unwrap();
+    let map = equipod(&["map", "designs/rbt-octahedral.toml", file, "--json"]);
+    assert_eq!(document(&map)["relation"], "equivalent");
+    // a joint 3 along the first edge, by name
+    let doc = of("rbt-octahedral", &["--search", "--joint", "P1=1.5,2.598076211353316,0", "--count", "1"], 0);
+    let legs = doc["designs"][0]["design"]["legs"].as_array().unwrap().clone();
+    let base = &doc["designs"][0]["design"]["base"];
+    let at_hole =
+        |l: &Value| base[l[0].as_str().unwrap()] == serde_json::json!([1.5, 2.598076211353316, 0.0]);
+    assert!(legs.iter().any(at_hole));
+    // no leg there, proved; shared joints, proved; more room than there is, left open
+    let doc = of("rbt-octahedral", &["--search", "--hole", "base:3,3,0"], 1);
+    assert_eq!(
+        (doc["reason"].as_str(), doc["holes"][0]["exact_rank_defect"].as_u64()),
+        (Some("no_leg_at_hole"), Some(0))
+    );
+    let doc = of("innocenti-6-4", &["--search", "--no-shared-joints"], 1);
+    assert_eq!(
+        (doc["reason"].as_str(), doc["least_shared_joints"].as_u64()),
+        (Some("shared_joints"), Some(2))
+    );
+    let doc = of("rbt-octahedral", &["--search", "--spacing", "1000"], 3);
+    assert_eq!(
+        (doc["outcome"].as_str(), doc["designs"][0]["fulfilled"].as_bool()),
+        (Some("undecided"), Some(false))
+    );
+}
