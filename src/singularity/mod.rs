@@ -10,6 +10,7 @@ mod assembly;
 mod case;
 mod conditioning;
 mod dependency;
+mod enclosed;
 mod four_planes;
 mod griffis_duffy;
 mod lattice;

@@ -20,12 +20,12 @@ pub(super) fn name(m: &Manipulator, legs: &[usize]) -> Result<&'static str, Lina
         (0, _) | (_, 0) => "concurrent_four",
         (1, 1) => "line_line",
         (1, _) | (_, 1) => "line_other",
-        (2, 2) if legs.len() == 6 && GriffisDuffy::recognise(m).is_some_and(|g| g.is_nearly_singular()) => {
+        // nothing but two planes is left for a relation of six legs or fewer
+        _ if legs.len() == 6 && GriffisDuffy::recognise(m).is_some_and(|g| g.is_nearly_singular()) => {
             "griffis_duffy"
         }
-        (2, 2) if projective(&base.coordinates, &platform.coordinates)? => "conic",
-        (2, 2) => "planar_bodies",
-        _ => "other_dependency",
+        _ if projective(&base.coordinates, &platform.coordinates)? => "conic",
+        _ => "planar_bodies",
     })
 }
 

@@ -70,6 +70,13 @@ pub(crate) fn conics() -> [Manipulator; 3] {
     ]
 }
 
+/// Two planes that no map relates: five legs in general position and the sixth leg that lies in the span of their vectors.
+fn planar() -> Manipulator {
+    let base = [[0., -3.], [-2., 3.], [-6., 1.], [0., 1.], [-2., -3.], [-5., 3.]];
+    let platform = [[-5., 1.], [1., -1.], [2., 4.], [-7., 7.], [-7., -1.], [0., 2.]];
+    manipulator(flat(base), flat(platform))
+}
+
 pub(crate) fn instances() -> Vec<Instance> {
     let all = || (0..6).collect::<Vec<usize>>();
     let case = |name, reason, (leg_rank, rank), guilty: Vec<usize>, m| Instance {
@@ -156,6 +163,20 @@ pub(crate) fn instances() -> Vec<Instance> {
                 }
             }),
         ),
+        case(
+            "line_other",
+            "four_collinear",
+            (5, 5),
+            vec![0, 1, 2, 4, 5],
+            with(|a, b| {
+                // from a line to a parabola with the same parameter: polynomials of degree 3, four independent ones
+                for (i, t) in [(0, 0.), (1, 1.), (2, 3.), (4, -1.), (5, -2.)] {
+                    a[i] = [t, 2.0 * t, 1.0];
+                    b[i] = [t, t * t, 2.0 - t - t * t];
+                }
+            }),
+        ),
+        case("planar_bodies", "leg_vectors_dependent", (5, 5), all(), planar()),
         case(
             "star_and_pencil",
             "four_collinear",

@@ -228,6 +228,9 @@ fn crowded_designs_are_decided_as_doubles_see_them_and_get_a_name() {
         });
         assert_eq!(numeric.max(), Some(found.jacobian.rank), "{legs:?}");
         assert!(found.jacobian.rank <= found.leg_rank);
+        for d in &found.dependencies {
+            assert!(d.base_dimension + d.platform_dimension + 2 <= d.legs.len(), "{legs:?} {d:?}");
+        }
         assert_eq!(found.is_singular(), !found.findings.is_empty());
         singular += usize::from(found.is_singular());
         by_lattice += usize::from(found.is_singular() && found.leg_rank == 6);

@@ -14,10 +14,9 @@ use nalgebra::{Matrix6, UnitQuaternion, Vector3};
 use crate::geom::Pose;
 use crate::manipulator::Manipulator;
 use crate::num::interval::Interval;
-
-type Vector = [Interval; 3];
-type Rotation = [Vector; 3];
-type Matrix = [[Interval; 6]; 6];
+use crate::singularity::enclosed::{
+    Matrix, Rotation, Vector, apply, cross, dot, exact_rotation, matrix, skew, times,
+};
 
 /// A box of `(d / size, c)`.
 #[derive(Debug, Clone, Copy)]
@@ -84,25 +83,6 @@ fn middle(v: &Vector) -> Vector3<f64> {
     Vector3::from_fn(|k, _| v[k].centre_and_radius().0)
 }
 
-fn dot(a: &Vector, b: &Vector) -> Interval {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: &Vector, b: &Vector) -> Vector {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-/// `f(0..3, 0..3)`.
-fn matrix(f: impl Fn(usize, usize) -> Interval) -> Rotation {
-    std::array::from_fn(|i| std::array::from_fn(|j| f(i, j)))
-}
-
-/// `[c]x`.
-fn skew(c: &Vector) -> Rotation {
-    let z = Interval::ZERO;
-    [[z, -c[2], c[1]], [c[2], z, -c[0]], [-c[1], c[0], z]]
-}
-
 /// `[c]x + [c]x^2 = [c]x + c c^T - c.c I` and `2 / (1 + c.c)`.
 fn cayley_parts(c: &Vector) -> (Rotation, Interval) {
     let square = c[0].square() + c[1].square() + c[2].square();
@@ -133,10 +113,6 @@ fn cayley_slope(c: &Vector, k: usize) -> Rotation {
         let diagonal = if i == j { Interval::from(2.0) * c[k] } else { Interval::ZERO };
         factor * (turn[i][j] + unit[i] * c[j] + c[i] * unit[j] - diagonal) - weight * parts[i][j]
     })
-}
-
-fn apply(r: &Rotation, v: &Vector) -> Vector {
-    std::array::from_fn(|i| dot(&r[i], v))
 }
 
 impl Lines {
@@ -251,29 +227,6 @@ impl Lines {
         let d = determinant(&self.at(q));
         if d.lo() > 0.0 { Some(1.0) } else { (d.hi() < 0.0).then_some(-1.0) }
     }
-}
-
-/// The rotation of the pose's quaternion, which is one exactly whatever its norm.
-fn exact_rotation(home: &Pose) -> Rotation {
-    let q = UnitQuaternion::from_rotation_matrix(&home.rotation);
-    let w = Interval::from(q.w);
-    let v: Vector = [q.i, q.j, q.k].map(Interval::from);
-    let norm = w.square() + v[0].square() + v[1].square() + v[2].square();
-    let factor = Interval::from(2.0).checked_div(norm).unwrap_or(Interval::WHOLE);
-    let k = skew(&v);
-    matrix(|i, j| {
-        let identity = if i == j { Interval::from(1.0) } else { Interval::ZERO };
-        let second = if i == j { -(v[(i + 1) % 3].square() + v[(i + 2) % 3].square()) } else { v[i] * v[j] };
-        identity + factor * (w * k[i][j] + second)
-    })
-}
-
-fn times(y: &Matrix6<f64>, j: &Matrix) -> Matrix {
-    std::array::from_fn(|r| {
-        std::array::from_fn(|c| {
-            (0..6).fold(Interval::ZERO, |sum, k| sum + Interval::from(y[(r, k)]) * j[k][c])
-        })
-    })
 }
 
 /// Whether `W u < u` for the positive vector that power iteration gives.
