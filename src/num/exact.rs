@@ -3,6 +3,7 @@
 //! Every finite double is a rational number, so that linear relations between data given as doubles are
 //! true or false without any tolerance.
 
+use num_integer::Integer;
 use num_rational::BigRational;
 
 /// A rational number of any size.
@@ -49,6 +50,17 @@ pub(crate) fn relations(rows: &[Vec<Rational>]) -> Vec<Vec<Rational>> {
     work.into_iter().skip(rank).map(|row| row[width..].to_vec()).collect()
 }
 
+/// The multiple of a list that consists of integers without a common factor, the first that is not zero positive; zeros stay zeros.
+pub(crate) fn primitive(list: &[Rational]) -> Vec<Rational> {
+    let Some(first) = list.iter().find(|x| **x != zero()) else { return list.to_vec() };
+    let denominator =
+        list.iter().fold(Rational::from_integer(1.into()).numer().clone(), |l, x| l.lcm(x.denom()));
+    let divisor =
+        list.iter().fold(zero().numer().clone(), |g, x| g.gcd(&(x.numer() * (&denominator / x.denom()))));
+    let factor = Rational::new(denominator, if *first < zero() { -divisor } else { divisor });
+    list.iter().map(|x| x * &factor).collect()
+}
+
 /// The value as a double, within one unit in the last place; overflow gives an infinity, underflow zero.
 pub(crate) fn approximate(x: &Rational) -> f64 {
     let (n, d) = (x.numer(), x.denom());
@@ -80,6 +92,12 @@ mod tests {
         assert!((approximate(&third) - 1.0 / 3.0).abs() <= f64::EPSILON / 3.0);
         let huge = rational(1e200).unwrap();
         assert!(approximate(&(&huge * &huge)).is_infinite());
+    }
+
+    #[test]
+    fn coprime_multiples() {
+        let x = row(&[0.0, -0.75, 1.5, 4.5]);
+        assert_eq!(primitive(&x), row(&[0.0, 1.0, -2.0, -6.0]));
     }
 
     #[test]

@@ -23,6 +23,11 @@ impl<'a> Web<'a> {
         Self { tracer, left: points, paths: Vec::new(), crossings: Vec::new() }
     }
 
+    /// Number of curves so far.
+    pub(super) fn count(&self) -> usize {
+        self.paths.len()
+    }
+
     /// Curves and crossings.
     pub(super) fn finish(self) -> (Vec<Path>, Vec<Point<f64>>) {
         (self.paths, self.crossings)

@@ -4,18 +4,12 @@
 //! triangles (monodromy). They are all of an irreducible curve when, for parallel hyperplanes `h(y) = tau` in an affine chart, the sum of the points is a linear function
 //! of `tau` (trace test; Sommese, Verschelde, Wampler 2002). Numerical, not a proof.
 
-use nalgebra::{SMatrix, SVector};
-use num_complex::Complex64;
-
-use super::equations::{EQUATIONS, LegEquations, Point};
+use super::equations::LegEquations;
 use super::point;
+use super::slices::{Plane, Slicer, Sweep, Z};
 use crate::geom::Pose;
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::num::Rng;
-
-type Z = Complex64;
-type System = SMatrix<Z, 8, 8>;
-type Plane = SVector<Z, 8>;
 
 /// Loops without a new point and with a linear trace after which the points are called all.
 const PATIENCE: usize = 3;
@@ -46,38 +40,52 @@ pub struct CurveDegree {
 pub fn curve_degree(m: &Manipulator, s: &SquaredLegLengths, pose: &Pose, seed: u64) -> Option<CurveDegree> {
     let mut rng = Rng::new(seed);
     let equations = LegEquations::new(m, s);
-    let real = point(pose, m.size());
-    let singular_values = equations.jacobian(&real).singular_values();
-    if !(singular_values[6] < ON_CURVE * singular_values[0])
-        || singular_values[5] < OFF_CROSSING * singular_values[0]
-    {
+    let start: Plane = point(pose, m.size()).map(Z::from);
+    if !is_regular(&equations, &start) {
         return None;
     }
-    let start: Plane = real.map(Z::from);
-    let mut normal = || Z::new(rng.normal(), rng.normal());
-    let mix = SMatrix::<Z, 6, EQUATIONS>::from_fn(|_, _| normal());
-    let mut draw = || Plane::from_fn(|_, _| normal());
-    let chart = draw();
-    let slicer = Slicer { equations: &equations, mix, chart };
-    let start = start / chart.dot(&start);
+    let slicer = Slicer::new(&equations, &mut rng);
     // a hyperplane through the first point
-    let mut home = draw();
-    home -= chart * home.dot(&start);
-    let first = slicer.newton(start, &home)?;
-    let mut points = vec![first];
+    let start = start / slicer.chart.dot(&start);
+    let mut home = draw(&mut rng);
+    home -= slicer.chart * home.dot(&start);
+    Some(gather(&slicer, start, &home, &mut rng)?.1)
+}
+
+/// Whether the point is on one curve of poses: rank six.
+pub(super) fn is_regular(equations: &LegEquations, y: &Plane) -> bool {
+    let values = equations.jacobian(&(y / Z::from(y.norm()))).singular_values();
+    values[6] < ON_CURVE * values[0] && values[5] >= OFF_CROSSING * values[0]
+}
+
+pub(super) fn draw(rng: &mut Rng) -> Plane {
+    Plane::from_fn(|_, _| Z::new(rng.normal(), rng.normal()))
+}
+
+pub(super) fn same(x: &Plane, y: &Plane) -> bool {
+    (x - y).norm() < 1e-7 * y.norm()
+}
+
+/// The points in which the hyperplane `home` meets the irreducible curve through its point `start`.
+pub(super) fn gather(
+    slicer: &Slicer<'_>,
+    start: Plane,
+    home: &Plane,
+    rng: &mut Rng,
+) -> Option<(Vec<Plane>, CurveDegree)> {
+    let mut points = vec![slicer.newton(start, &Sweep::new(home, home), 0.0)?];
     let mut quiet = 0;
     let mut defect = f64::INFINITY;
     for _ in 0..LOOPS {
-        let (one, two) = (draw(), draw());
-        let mut fresh = Vec::new();
+        let (one, two) = (draw(rng), draw(rng));
+        let mut fresh: Vec<Plane> = Vec::new();
         for y in &points {
             let around = slicer
-                .carry(*y, &home, &one)
-                .and_then(|y| slicer.carry(y, &one, &two))
-                .and_then(|y| slicer.carry(y, &two, &home));
-            if let Some(y) = around {
-                let known = |z: &Point<Z>| (z - y).norm() < 1e-7 * y.norm();
-                if !points.iter().any(known) && !fresh.iter().any(known) {
+                .carry(*y, &Sweep::new(home, &one))
+                .and_then(|y| slicer.carry(y, &Sweep::new(&one, &two)))
+                .and_then(|y| slicer.carry(y, &Sweep::new(&two, home)));
+            if let Ok(y) = around {
+                if !points.iter().chain(&fresh).any(|z| same(z, &y)) {
                     fresh.push(y);
                 }
             }
@@ -85,103 +93,13 @@ pub fn curve_degree(m: &Manipulator, s: &SquaredLegLengths, pose: &Pose, seed: u
         quiet = if fresh.is_empty() { quiet + 1 } else { 0 };
         points.extend(fresh);
         if quiet > 0 {
-            defect = slicer.trace_defect(&points, &home).unwrap_or(f64::INFINITY);
+            defect = slicer.trace_defect(&points, home).unwrap_or(f64::INFINITY);
             if defect < LINEAR && quiet >= PATIENCE {
-                return Some(CurveDegree { degree: points.len(), complete: true, defect });
+                let degree = CurveDegree { degree: points.len(), complete: true, defect };
+                return Some((points, degree));
             }
         }
     }
-    Some(CurveDegree { degree: points.len(), complete: false, defect })
-}
-
-/// The curve in the chart `chart.y = 1`, cut by hyperplanes.
-struct Slicer<'a> {
-    equations: &'a LegEquations,
-    /// Six combinations of the seven equations, which have rank six on the curve.
-    mix: SMatrix<Z, 6, EQUATIONS>,
-    chart: Plane,
-}
-
-impl Slicer<'_> {
-    fn values(&self, y: &Plane, plane: &Plane) -> Plane {
-        let f = self.mix * self.equations.values(y);
-        Plane::from_fn(|i, _| match i {
-            6 => self.chart.dot(y) - 1.0,
-            7 => plane.dot(y),
-            _ => f[i],
-        })
-    }
-
-    fn jacobian(&self, y: &Plane, plane: &Plane) -> System {
-        let mut j = System::zeros();
-        j.fixed_view_mut::<6, 8>(0, 0).copy_from(&(self.mix * self.equations.jacobian(y)));
-        j.set_row(6, &self.chart.transpose());
-        j.set_row(7, &plane.transpose());
-        j
-    }
-
-    /// Newton's method; `None` unless it settles in a few steps.
-    fn newton(&self, start: Plane, plane: &Plane) -> Option<Plane> {
-        let mut y = start;
-        let mut last = f64::INFINITY;
-        for _ in 0..6 {
-            let step = self.jacobian(&y, plane).lu().solve(&self.values(&y, plane))?;
-            y -= step;
-            let size = step.norm() / y.norm();
-            if size < 1e-13 || size < 1e-11 && size > 0.3 * last {
-                return Some(y);
-            }
-            if !(size < 0.5 * last) && last < 1e-2 {
-                return None;
-            }
-            last = size;
-        }
-        None
-    }
-
-    /// From the hyperplane `from` to `to` along the segment between them.
-    fn carry(&self, start: Plane, from: &Plane, to: &Plane) -> Option<Plane> {
-        let change = to - from;
-        let (mut y, mut t, mut step) = (start, 0.0, 0.02);
-        while t < 1.0 {
-            if step < 1e-6 {
-                return None;
-            }
-            let dt = f64::min(step, 1.0 - t);
-            let here = from + change * Z::from(t);
-            let mut right = Plane::zeros();
-            right[7] = -change.dot(&y);
-            let slope = self.jacobian(&y, &here).lu().solve(&right)?;
-            let guess = y + slope * Z::from(dt);
-            let next = self.newton(guess, &(from + change * Z::from(t + dt)));
-            // a corrector that goes far may have left the path
-            match next.filter(|n| (n - guess).norm() < 0.02 * n.norm()) {
-                Some(n) => {
-                    let easy = (n - guess).norm() < 0.002 * n.norm();
-                    (y, t) = (n, t + dt);
-                    if easy {
-                        step *= 1.6;
-                    }
-                }
-                None => step *= 0.4,
-            }
-        }
-        Some(y)
-    }
-
-    /// Second difference of the sum of the points over parallel hyperplanes, relative to the first.
-    fn trace_defect(&self, points: &[Plane], home: &Plane) -> Option<f64> {
-        let shift = self.chart * Z::from(0.1 * home.norm() / self.chart.norm());
-        let mut sums = [Plane::zeros(); 3];
-        let mut moved = 0.0;
-        for y in points {
-            let up = self.carry(*y, home, &(home + shift))?;
-            let down = self.carry(*y, home, &(home - shift))?;
-            sums[0] += up;
-            sums[1] += y;
-            sums[2] += down;
-            moved += (up - down).norm();
-        }
-        Some((sums[0] - sums[1] * Z::from(2.0) + sums[2]).norm() / moved)
-    }
+    let degree = CurveDegree { degree: points.len(), complete: false, defect };
+    Some((points, degree))
 }

@@ -5,11 +5,14 @@
 //! Where it crosses itself or another curve the rank is 6 and the tangents are the real zeros of a quadratic form ([`branches`]); every branch is
 //! followed. Leg lengths bound the position, so that every real curve is a closed loop.
 //!
-//! Real components that meet none of the curves from the poses given are not found from them; poses on them have to be given too.
+//! Real components that meet none of the curves from the poses given are not found from them: [`critical_poses`] gives poses on all real components of the complex
+//! curves through given poses, real or complex.
 
 mod branches;
+mod critical;
 mod degree;
 mod equations;
+mod slices;
 mod trace;
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
@@ -20,6 +23,7 @@ use crate::num::Rng;
 use equations::{LegEquations, Point};
 use trace::Tracer;
 
+pub use critical::{CriticalPoses, critical_poses};
 pub use degree::{CurveDegree, curve_degree};
 
 /// How closely curves are followed.
@@ -87,6 +91,8 @@ pub struct MotionCurve {
     pub end: CurveEnd,
     /// Crossings passed: index of the point before, and of the crossing in [`SelfMotion::crossings`].
     pub crossings: Vec<(usize, usize)>,
+    /// Index of the pose given from which it was reached, directly or through crossings.
+    pub start: usize,
 }
 
 /// All that was reached from the poses given.
@@ -121,13 +127,15 @@ pub fn self_motion(
     let starts: Vec<Point<f64>> = poses.iter().map(|p| point(p, m.size())).collect();
     let (dimension, singular_values) = starts.first().map_or((0, [0.0; 8]), |y| tracer.dimension(y));
     let mut state = branches::Web::new(&tracer, options.points);
+    let mut origins = Vec::new();
     if dimension == 1 {
-        for start in &starts {
+        for (k, start) in starts.iter().enumerate() {
             state.follow(start);
+            origins.resize(state.count(), k);
         }
     }
     let (paths, crossings) = state.finish();
-    let curves: Vec<MotionCurve> = paths.iter().map(|path| curve(path, m, s)).collect();
+    let curves: Vec<MotionCurve> = paths.iter().zip(origins).map(|(path, k)| curve(path, k, m, s)).collect();
     let errors = curves.iter().flat_map(|c| c.points.iter().map(|p| p.length_error));
     SelfMotion {
         dimension,
@@ -155,7 +163,7 @@ fn pose(y: &Point<f64>, size: f64) -> Pose {
     Pose { rotation, position: Vector3::new(p.i, p.j, p.k) * size }
 }
 
-fn curve(path: &trace::Path, m: &Manipulator, s: &SquaredLegLengths) -> MotionCurve {
+fn curve(path: &trace::Path, start: usize, m: &Manipulator, s: &SquaredLegLengths) -> MotionCurve {
     let wanted = s.lengths().get();
     let mut arc = 0.0;
     let mut last: Option<Point<f64>> = None;
@@ -170,7 +178,7 @@ fn curve(path: &trace::Path, m: &Manipulator, s: &SquaredLegLengths) -> MotionCu
         let length_error = m.legs().iter().zip(wanted).map(error).fold(0.0, f64::max);
         MotionPoint { pose, arc, length_error, gap: on.gap }
     });
-    MotionCurve { points: points.collect(), end: path.end, crossings: path.crossings.clone() }
+    MotionCurve { points: points.collect(), end: path.end, crossings: path.crossings.clone(), start }
 }
 
 #[cfg(test)]

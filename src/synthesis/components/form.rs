@@ -170,24 +170,33 @@ pub(super) fn line_basis(line: &[f64]) -> [Vec<f64>; 2] {
 
 /// Determinant of a square matrix of forms of one degree.
 pub(super) fn determinant(matrix: &[Vec<Form>]) -> Form {
-    let n = matrix.len();
-    if n == 0 {
-        return Form::constant(1.0);
+    let add = |out: &mut Form, term: &Form, sign: i32| out.add_scaled(term, f64::from(sign));
+    laplace(matrix, &Form::times, &add).unwrap_or_else(|| Form::constant(1.0))
+}
+
+/// Determinant by expansion along the first row; `add` adds a term or subtracts it. `None` for no rows.
+pub(super) fn laplace<F: Clone>(
+    matrix: &[Vec<F>],
+    times: &impl Fn(&F, &F) -> F,
+    add: &impl Fn(&mut F, &F, i32),
+) -> Option<F> {
+    if matrix.len() == 1 {
+        return Some(matrix[0][0].clone());
     }
-    if n == 1 {
-        return matrix[0][0].clone();
-    }
-    let mut out: Option<Form> = None;
-    for k in 0..n {
-        let minor: Vec<Vec<Form>> = matrix[1..]
+    let mut out: Option<F> = None;
+    for k in 0..matrix.len() {
+        let minor: Vec<Vec<F>> = matrix[1..]
             .iter()
             .map(|row| row.iter().enumerate().filter(|(j, _)| *j != k).map(|(_, f)| f.clone()).collect())
             .collect();
-        let term = matrix[0][k].times(&determinant(&minor));
-        let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
-        out.get_or_insert_with(|| Form::zero(term.degree)).add_scaled(&term, sign);
+        let term = times(&matrix[0][k], &laplace(&minor, times, add)?);
+        match &mut out {
+            // the first term has the sign plus
+            None => out = Some(term),
+            Some(out) => add(out, &term, if k % 2 == 0 { 1 } else { -1 }),
+        }
     }
-    out.unwrap_or_else(|| Form::constant(0.0))
+    out
 }
 
 /// The greatest common divisor of two forms of equal degree, with the singular values on both sides of the decision.

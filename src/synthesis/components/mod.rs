@@ -15,12 +15,14 @@ mod component;
 mod curves;
 mod decision;
 pub(super) mod exact;
+mod exact_curve;
+mod exact_form;
+mod exact_split;
 mod flat;
 mod form;
 mod found;
 mod isolated;
 mod kernel;
-mod modular;
 mod pairs;
 mod parametrisation;
 mod plane_pair;
@@ -38,6 +40,8 @@ use thiserror::Error;
 pub use component::{Component, FamilyKind, SampledLeg, flat_name};
 pub use curves::{PartKind, SingularKind};
 pub use decision::{Decision, Question};
+pub use exact_curve::{ExactCurve, ExactPart, ExactPoint, NoExactCurve};
+pub use exact_split::ExactKind;
 pub use pairs::Reading;
 pub use parametrisation::{CubicPencil, MovingPoint, Parametrisation};
 pub use plane_pair::{CurvePart, Partners, PlaneCurve, PlanePair, SingularPoint, curve_value};
@@ -182,10 +186,7 @@ pub fn components(m: &Manipulator, options: ComponentOptions) -> Result<Componen
     for (index, base, platform) in std::mem::take(&mut search.planes) {
         let pair = &pairs[index];
         let (sides, rng) = ((&base, &platform), &mut search.rng);
-        let mut record = plane_pair::plane_pair(index, pair, sides, &n, options.tolerance, rng)?;
-        let exact = pair.reading != Reading::ToleranceOnly && pair.legs.len() == 6 && pair.rank == 6;
-        record.smooth = (exact && modular::proved_smooth(&legs)).then_some(true);
-        planes.push(record);
+        planes.push(plane_pair::plane_pair(index, pair, sides, &n, options.tolerance, rng)?);
     }
     let components = ordered(&mut search)?;
     let leg_rank = Decision::rank(

@@ -4,6 +4,7 @@ use nalgebra::{Point3, Vector3};
 
 use super::curves::{PartKind, SingularKind, on_line, same_point, singular_kind, singular_point};
 use super::decision::{Decision, Question};
+use super::exact_curve::{ExactCurve, NoExactCurve};
 use super::form::Form;
 use super::pairs::ClosedPair;
 use super::planes::PlaneSide;
@@ -64,6 +65,8 @@ pub struct PlaneCurve {
     pub singular_points: Vec<SingularPoint>,
     /// The numbers that decided.
     pub decisions: Vec<Decision>,
+    /// The same curve for the joints as rational numbers, with its splitting over the complex numbers.
+    pub exact: Result<ExactCurve, NoExactCurve>,
 }
 
 /// Two planes, with the correspondence of their points.
@@ -78,7 +81,7 @@ pub struct PlanePair {
     /// `sum_pq equations[r][p][q] alpha_p beta_q = 0` for the legs, `alpha = (1, x, y)` on the base and `beta` on the platform.
     pub equations: Vec<[[f64; 3]; 3]>,
     /// `Some(true)`: the cubic of the base plane of the exact data is proved to have no singular point, so that it does
-    /// not split; `None`: not proved.
+    /// not split; `Some(false)`: it has one; `None`: there is no exact cubic, or its numbers are too long.
     pub smooth: Option<bool>,
 }
 
@@ -139,7 +142,7 @@ pub(super) fn plane_pair(
         base: curve(Body::Base, frames[0], sides.0, &pair.product, tolerance, rng)?,
         platform: curve(Body::Platform, frames[1], sides.1, &turned, tolerance, rng)?,
         equations: pair.product.equations.iter().map(matrix).collect(),
-        smooth: None,
+        smooth: sides.0.exact.as_ref().ok().and_then(|c| c.smooth),
     })
 }
 
@@ -183,6 +186,7 @@ fn curve(
         parts: side.split.parts.iter().map(part).collect(),
         singular_points: singular,
         decisions,
+        exact: side.exact.clone(),
     })
 }
 

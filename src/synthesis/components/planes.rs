@@ -2,6 +2,7 @@
 
 use super::curves::{Part, PartKind, Split, split};
 use super::decision::{Decision, Question};
+use super::exact_curve::{ExactCurve, NoExactCurve};
 use super::form::{Form, common_factor, determinant, incidence, line_basis, random_minor, random_vector};
 use super::found::{Found, View};
 use super::spectrum::{norm, unit};
@@ -21,6 +22,8 @@ pub(super) struct PlaneSide {
     pub(super) families: Vec<(Option<usize>, Found)>,
     /// Whether every part was understood.
     pub(super) complete: bool,
+    /// The curve of the exact data.
+    pub(super) exact: Result<ExactCurve, NoExactCurve>,
 }
 
 /// Random minors of order `rank`: their common divisor is that of all minors of this order.
@@ -35,7 +38,11 @@ fn minors(view: &View<'_>, rank: usize, rng: &mut Rng) -> Vec<Form> {
 }
 
 /// A common factor of all minors of order `rank` of a matrix of linear forms over a plane.
-pub(super) fn plane_side(view: &View<'_>, rng: &mut Rng) -> Result<PlaneSide, LinalgError> {
+pub(super) fn plane_side(
+    view: &View<'_>,
+    exact: Result<ExactCurve, NoExactCurve>,
+    rng: &mut Rng,
+) -> Result<PlaneSide, LinalgError> {
     let generic = view.generic_rank(|rng| random_vector(rng, 3), rng)?;
     let rank = generic.value;
     let width = view.product.platform.dimension() + 1;
@@ -90,7 +97,7 @@ pub(super) fn plane_side(view: &View<'_>, rng: &mut Rng) -> Result<PlaneSide, Li
             families.push((Some(index), found));
         }
     }
-    Ok(PlaneSide { rank, form, split, decisions, families, complete })
+    Ok(PlaneSide { rank, form, split, decisions, families, complete, exact })
 }
 
 /// The decision that made a part a part.
@@ -114,7 +121,7 @@ pub(super) fn on_line(line: &Form, joints: &[Vec<f64>], tolerance: f64) -> Vec<u
 }
 
 /// Two finite points of a line, first coordinate 1: two joints on it where there are two. `None` for the line at infinity.
-fn line_points(line: &Form, joints: &[Vec<f64>], tolerance: f64) -> Option<[Vec<f64>; 2]> {
+pub(super) fn line_points(line: &Form, joints: &[Vec<f64>], tolerance: f64) -> Option<[Vec<f64>; 2]> {
     let on = on_line(line, joints, tolerance);
     if let Some(first) = on.first() {
         let apart = |k: &&usize| {

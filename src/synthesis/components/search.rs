@@ -6,10 +6,12 @@ use super::component::{Component, FamilyKind};
 use super::curves::PartKind;
 use super::decision::Question;
 use super::exact::{Exact, combination};
+use super::exact_curve::{ExactCurve, NoExactCurve, meeting, place};
+use super::exact_split::ExactKind;
 use super::form::Form;
 use super::found::{Found, View};
 use super::pairs::{ClosedPair, Ends, Reading};
-use super::planes::{PlaneSide, on_line, plane_side, points_of};
+use super::planes::{PlaneSide, line_points, on_line, plane_side, points_of};
 use super::shape::Shape;
 use super::spectrum::unit;
 use crate::num::Rng;
@@ -134,6 +136,47 @@ impl Search<'_> {
         Some(fibres.min()? > generic)
     }
 
+    /// The curve of the exact data over the plane of the carrying body.
+    fn exact_curve(&self, view: &View<'_>, pair: &ClosedPair) -> Result<ExactCurve, NoExactCurve> {
+        if pair.reading == Reading::ToleranceOnly {
+            return Err(NoExactCurve::OtherFlats);
+        }
+        ExactCurve::of(&self.ends.exact, &pair.legs, view.over_platform)
+    }
+
+    /// Whether the exact curve has a line or conic where the one within the tolerance has part `k`.
+    fn exact_part(&self, view: &View<'_>, side: &PlaneSide, k: usize) -> Result<Option<bool>, LinalgError> {
+        let curve = match &side.exact {
+            Ok(curve) => curve,
+            Err(NoExactCurve::OtherFlats) => return Ok(Some(false)),
+            Err(_) => return Ok(None),
+        };
+        let (part, flat) = (&side.split.parts[k], &view.product.base);
+        let joints: Vec<Vec<f64>> = view.near.iter().map(|p| flat.local(p)).collect();
+        let line = part.kind == PartKind::Line;
+        let points = if line {
+            let Some([p, q]) = line_points(&part.form, &joints, self.ends.tolerance) else { return Ok(None) };
+            let along = |t: f64| p.iter().zip(&q).map(|(x, y)| x + t * (y - x)).collect::<Vec<f64>>();
+            [-1.0, 0.0, 0.5, 1.0, 2.0].map(along).to_vec()
+        } else {
+            // a stream of its own: what is found does not depend on how it is checked
+            points_of(&part.form, 8, &mut Rng::new(8))?
+        };
+        let n = self.normalisation();
+        let (centre, unit) = if view.over_platform {
+            (n.platform_centre.coords, n.platform_unit)
+        } else {
+            (n.base_centre.coords, n.base_unit)
+        };
+        let places: Vec<Vector3<f64>> = points
+            .iter()
+            .filter(|p| p[0].abs() > 1e-3)
+            .map(|p| centre + super::found::point(flat, p) * unit)
+            .collect();
+        let lines = |k| matches!(k, ExactKind::Line | ExactKind::RealLines | ExactKind::ThreeLines { .. });
+        Ok(curve.has_part(|k| if line { lines(k) } else { k == ExactKind::Conic }, &places))
+    }
+
     fn two_planes(
         &mut self,
         index: usize,
@@ -141,8 +184,11 @@ impl Search<'_> {
         over_platform: &View<'_>,
         pair: &ClosedPair,
     ) -> Result<(), LinalgError> {
-        let base = plane_side(over_base, &mut self.rng)?;
-        let platform = plane_side(over_platform, &mut self.rng)?;
+        let [base, platform] = [over_base, over_platform].map(|view| {
+            let exact = self.exact_curve(view, pair);
+            plane_side(view, exact, &mut self.rng)
+        });
+        let (base, platform) = (base?, platform?);
         // lines of both bodies, then conics of both: what is rational is described so
         let mut only_nearly = false;
         for kind in [PartKind::Line, PartKind::Conic] {
@@ -157,7 +203,14 @@ impl Search<'_> {
         // lines that the exact data do not have: their curve does not split there
         if only_nearly && pair.rank == 6 && pair.reading != Reading::ToleranceOnly {
             let form = base.form.clone();
-            self.cubic(over_base, pair, &form, None, &base)?;
+            if base.exact.as_ref().is_ok_and(|c| !c.has(ExactKind::Cubic)) {
+                let legs = names(&pair.legs);
+                self.doubts.push(format!(
+                    "as written the curves of legs {legs} split otherwise than within the tolerance"
+                ));
+            } else {
+                self.cubic(over_base, pair, &form, None, &base)?;
+            }
         }
         if !(base.complete && platform.complete) {
             self.doubts
@@ -182,16 +235,25 @@ impl Search<'_> {
             let exact = match part {
                 None if kind == PartKind::Line => generic.map(|d| d == found.shape.dimension() - 1),
                 Some(k) if side.split.parts[*k].kind == kind => match kind {
-                    PartKind::Line => self.exact_line(view, pair, &side.split.parts[*k].form, generic),
-                    _ if pair.reading == Reading::ToleranceOnly => Some(false),
-                    _ => None,
+                    PartKind::Line => {
+                        match self.exact_line(view, pair, &side.split.parts[*k].form, generic) {
+                            None => self.exact_part(view, side, *k)?,
+                            known => known,
+                        }
+                    }
+                    _ => self.exact_part(view, side, *k)?,
                 },
                 _ => continue,
             };
             denied |= exact == Some(false);
             let mut found = found.clone();
-            for d in found.decisions.iter_mut().filter(|d| d.question == Question::LineFactor) {
-                d.exact = exact.map(usize::from);
+            for d in &mut found.decisions {
+                match d.question {
+                    Question::LineFactor => d.exact = exact.map(usize::from),
+                    // of a conic that is none nothing more is known than that it is no part
+                    Question::ConicRank if exact == Some(true) => d.exact = Some(3),
+                    _ => {}
+                }
             }
             self.add(found, pair, exact)?;
         }
@@ -238,11 +300,17 @@ impl Search<'_> {
             exact: None,
             decisions: side.decisions.clone(),
         };
-        self.add(found, pair, Some(pair.reading != Reading::ToleranceOnly))
+        let exact = match &side.exact {
+            Ok(c) if c.has(ExactKind::Undecided) => None,
+            Ok(c) => Some(c.has(ExactKind::Cubic)),
+            Err(NoExactCurve::OtherFlats) => Some(false),
+            Err(_) => None,
+        };
+        self.add(found, pair, exact)
     }
 
     fn plane_space(&mut self, view: &View<'_>, pair: &ClosedPair) -> Result<(), LinalgError> {
-        let side = plane_side(view, &mut self.rng)?;
+        let side = plane_side(view, self.exact_curve(view, pair), &mut self.rng)?;
         for kind in [PartKind::Line, PartKind::Conic] {
             self.parts(view, pair, &side, kind)?;
         }
@@ -250,6 +318,45 @@ impl Search<'_> {
             self.doubts.push(format!("a curve over the plane of legs {} was not split", names(&pair.legs)));
         }
         self.isolated_points(view, pair)
+    }
+
+    /// Whether the exact data have partners of that dimension over the crossing of two lines of joints that is nearest to a point.
+    fn exact_meeting(
+        &self,
+        view: &View<'_>,
+        pair: &ClosedPair,
+        at: &Vector3<f64>,
+        dimension: usize,
+    ) -> Option<bool> {
+        if pair.reading == Reading::ToleranceOnly {
+            return Some(false);
+        }
+        let ends = if view.over_platform { &self.ends.exact.platform } else { &self.ends.exact.base };
+        let n = self.normalisation();
+        let (centre, unit) = if view.over_platform {
+            (n.platform_centre.coords, n.platform_unit)
+        } else {
+            (n.base_centre.coords, n.base_unit)
+        };
+        let distance = |p: &Exact| place(p).map_or(f64::MAX, |x| ((x - centre) / unit - at).norm());
+        let mut best: Option<(f64, Exact)> = None;
+        let lines: Vec<[&Exact; 2]> = (0..pair.legs.len())
+            .flat_map(|k| (0..k).map(move |l| [k, l]))
+            .map(|pair_of| pair_of.map(|k| &ends[pair.legs[k]]))
+            .filter(|[p, q]| p != q)
+            .collect();
+        for (k, l) in lines.iter().enumerate() {
+            for m in &lines[..k] {
+                let Some(point) = meeting([*l, *m]) else { continue };
+                let d = distance(&point);
+                if best.as_ref().is_none_or(|b| d < b.0) {
+                    best = Some((d, point));
+                }
+            }
+        }
+        let (distance, point) = best?;
+        let fibre = self.ends.exact.fibre(view.over_platform, &point, &pair.legs);
+        (distance < 1e-6).then_some(fibre == dimension + 1)
     }
 
     /// Flats of partners over every joint, by all six legs.
@@ -292,7 +399,7 @@ impl Search<'_> {
             if new && candidate[0].abs() > 1e-9 {
                 let place = super::found::point(&view.product.base, &candidate);
                 if let Some(found) = view.over_point(&place, None)?.filter(|f| !self.inside_larger(f)) {
-                    let exact = (pair.reading == Reading::ToleranceOnly).then_some(false);
+                    let exact = self.exact_meeting(view, pair, &place, found.shape.dimension());
                     self.add(found, pair, exact)?;
                 }
             }

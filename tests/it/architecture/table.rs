@@ -25,6 +25,7 @@ const LINES: &[Line] = &[
         &[
             ("faer", Some("linalg.rs")),
             ("clarabel", Some("conic.rs")),
+            ("num_integer", Some("exact.rs")),
             ("num_rational", Some("exact.rs")),
             COMPLEX,
             ERRORS,
@@ -61,7 +62,7 @@ const LINES: &[Line] = &[
         &[MATRICES, COMPLEX, ("pulp", None), ERRORS],
     ),
     ("topology", &["num", "manipulator"], &[]),
-    ("synthesis", &["num", "geom", "manipulator", "topology"], &[MATRICES, ERRORS]),
+    ("synthesis", &["num", "geom", "poly", "manipulator", "topology"], &[MATRICES, INTEGERS, ERRORS]),
     ("singularity", &["num", "geom", "manipulator", "topology", "synthesis"], &[MATRICES, COMPLEX, ERRORS]),
     ("offsets", &["num", "geom", "manipulator", "synthesis"], &[MATRICES, ERRORS]),
     (

@@ -6,7 +6,8 @@ use serde_json::{Map, Value, json};
 use crate::cli::output::number;
 use crate::manipulator::LegIndex;
 use crate::synthesis::components::{
-    Component, Components, Decision, MovingPoint, Parametrisation, PlaneCurve, SampledLeg, flat_name,
+    Component, Components, Decision, ExactCurve, MovingPoint, NoExactCurve, Parametrisation, PlaneCurve,
+    SampledLeg, flat_name,
 };
 
 fn numbers<'a>(x: impl IntoIterator<Item = &'a f64>) -> Value {
@@ -58,6 +59,26 @@ pub(super) fn summary(json: &mut Map<String, Value>, found: &Components) {
     json.insert("planes".into(), planes.collect());
 }
 
+/// The exact curve, or why there is none.
+fn exact(c: &Result<ExactCurve, NoExactCurve>) -> Value {
+    let curve = match c {
+        Ok(curve) => curve,
+        Err(reason) => return json!({ "reason": reason.to_string() }),
+    };
+    let parts = curve.parts.iter().map(|p| {
+        json!({
+            "kind": p.kind.as_str(), "degree": p.degree, "coefficients": p.coefficients, "multiplicity": p.multiplicity,
+        })
+    });
+    json!({
+        "axes": curve.axes.map(|k| ["x", "y", "z"][k]), "generic_rank": curve.generic_rank, "degree": curve.degree,
+        "coefficients": curve.coefficients, "parts": parts.collect::<Value>(), "smooth": curve.smooth,
+        "singular_point": curve.singular_point.as_ref().map(|p| {
+            json!({ "coordinates": p.coordinates, "kind": p.kind.as_str() })
+        }),
+    })
+}
+
 fn curve(c: &PlaneCurve) -> Value {
     let parts = c.parts.iter().map(|p| {
         json!({
@@ -75,7 +96,7 @@ fn curve(c: &PlaneCurve) -> Value {
         "origin": point(&c.origin), "axes": c.axes.iter().map(|a| numbers(a.iter())).collect::<Vec<Value>>(),
         "degree": c.degree, "coefficients": numbers(&c.coefficients), "monomials": monomials(c.degree),
         "generic_rank": c.generic_rank, "parts": parts.collect::<Value>(),
-        "singular_points": singular.collect::<Value>(), "decisions": decisions(&c.decisions),
+        "singular_points": singular.collect::<Value>(), "decisions": decisions(&c.decisions), "exact": exact(&c.exact),
     })
 }
 

@@ -101,6 +101,16 @@ fn curve(text: &mut String, body: &str, c: &PlaneCurve) {
         format!("degree {}: {}", c.degree, parts.join(", "))
     };
     let _ = writeln!(text, "  {body:<9} {what}");
+    match &c.exact {
+        Ok(e) if e.generic_rank == 3 && e.degree > 0 => {
+            let parts: Vec<&str> = e.parts.iter().map(|p| p.kind.as_str()).collect();
+            let _ = writeln!(text, "            as written, over the complex numbers: {}", parts.join(", "));
+        }
+        Ok(_) => {}
+        Err(reason) => {
+            let _ = writeln!(text, "            nothing exact: {reason}");
+        }
+    }
     for s in &c.singular_points {
         let at = s.point.map_or("infinity".to_string(), |p| format!("[{}, {}, {}]", p.x, p.y, p.z));
         let line = if s.line_of_partners { ", a whole line corresponds" } else { "" };
