@@ -31,22 +31,24 @@ pub struct CurvePanel {
     pub note: String,
 }
 
-/// Both planes of a pair.
+/// Pairs of planes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CurveFigure {
     /// Title.
     pub title: String,
-    /// Base and platform.
-    pub panels: [CurvePanel; 2],
+    /// Base and platform of each pair.
+    pub panels: Vec<[CurvePanel; 2]>,
 }
 
 const SIDE: f64 = 400.0;
 const MARGIN: f64 = 30.0;
 const TOP: f64 = 84.0;
+/// From one pair to the next below it.
+const ROW: f64 = SIDE + 64.0;
 /// Grid points a side for the curves.
 const GRID: usize = 181;
 
-/// The curves of replaceable joints in two planes.
+/// The curves of replaceable joints in two planes, one pair below the other.
 ///
 /// A point of the curve on the left (base) and the point of the curve on the right (platform) with the same letter are the
 /// ends of a leg that may replace one of the design's. Joints are filled and carry their leg numbers, corresponding points
@@ -54,19 +56,23 @@ const GRID: usize = 181;
 #[must_use]
 pub fn component_curves(figure: &CurveFigure) -> String {
     let width = 2.0 * SIDE + 3.0 * MARGIN;
-    let description = format!(
-        "Left: {}. Right: {}. Equal letters belong to one leg.",
-        figure.panels[0].note, figure.panels[1].note
-    );
-    let mut svg = Svg::new(width, TOP + SIDE + 58.0, &figure.title, &description);
+    let notes = figure
+        .panels
+        .iter()
+        .map(|[base, platform]| format!("Left: {}. Right: {}. ", base.note, platform.note));
+    let description = notes.collect::<String>() + "Equal letters belong to one leg.";
+    let height = TOP + ROW * figure.panels.len() as f64 - 6.0;
+    let mut svg = Svg::new(width, height, &figure.title, &description);
     svg.text("title", (MARGIN, 30.0), &figure.title);
     svg.text(
         "note",
         (MARGIN, 50.0),
         "filled: joints of the design; hollow: ends of replaceable legs, equal letters one leg",
     );
-    for (k, panel) in figure.panels.iter().enumerate() {
-        draw(&mut svg, panel, MARGIN + k as f64 * (SIDE + MARGIN));
+    for (row, pair) in figure.panels.iter().enumerate() {
+        for (k, panel) in pair.iter().enumerate() {
+            draw(&mut svg, panel, (MARGIN + k as f64 * (SIDE + MARGIN), TOP + row as f64 * ROW));
+        }
     }
     svg.finish()
 }
@@ -94,12 +100,12 @@ impl Window {
     }
 
     /// Fractions of the panel to page coordinates.
-    fn page(left: f64, u: f64, v: f64) -> (f64, f64) {
-        (left + SIDE * u, TOP + SIDE * (1.0 - v))
+    fn page(corner: (f64, f64), u: f64, v: f64) -> (f64, f64) {
+        (corner.0 + SIDE * u, corner.1 + SIDE * (1.0 - v))
     }
 
-    fn at(&self, left: f64, p: [f64; 2]) -> (f64, f64) {
-        Self::page(left, (p[0] - self.left) / self.size, (p[1] - self.low) / self.size)
+    fn at(&self, corner: (f64, f64), p: [f64; 2]) -> (f64, f64) {
+        Self::page(corner, (p[0] - self.left) / self.size, (p[1] - self.low) / self.size)
     }
 }
 
@@ -116,9 +122,10 @@ fn value(panel: &CurvePanel, x: f64, y: f64) -> f64 {
     sum
 }
 
-fn draw(svg: &mut Svg, panel: &CurvePanel, left: f64) {
+/// One plane with its upper left corner.
+fn draw(svg: &mut Svg, panel: &CurvePanel, corner: (f64, f64)) {
     let window = Window::around(&panel.marks);
-    svg.text("mid", (left + SIDE / 2.0, TOP - 10.0), &panel.title);
+    svg.text("mid", (corner.0 + SIDE / 2.0, corner.1 - 10.0), &panel.title);
     if panel.degree > 0 {
         let step = window.size / (GRID - 1) as f64;
         let at = |k: usize| {
@@ -129,15 +136,15 @@ fn draw(svg: &mut Svg, panel: &CurvePanel, left: f64) {
         for line in grid.contour(0.0) {
             let scale = (GRID - 1) as f64;
             let points: Vec<(f64, f64)> =
-                line.iter().map(|(i, j)| Window::page(left, i / scale, j / scale)).collect();
+                line.iter().map(|(i, j)| Window::page(corner, i / scale, j / scale)).collect();
             svg.polyline("level", &points);
         }
     }
-    svg.rect("frame", (left, TOP), (SIDE, SIDE));
+    svg.rect("frame", corner, (SIDE, SIDE));
     // joints last: a replaceable leg often ends in one
     let (joints, others): (Vec<&CurveMark>, Vec<&CurveMark>) = panel.marks.iter().partition(|m| m.joint);
     for mark in others.into_iter().chain(joints) {
-        let at = window.at(left, mark.at);
+        let at = window.at(corner, mark.at);
         if mark.joint {
             svg.circle("mark", at, 4.5);
             svg.text("halo mid", (at.0, at.1 - 9.0), &mark.label);
@@ -146,7 +153,7 @@ fn draw(svg: &mut Svg, panel: &CurvePanel, left: f64) {
             svg.text("note halo mid", (at.0, at.1 + 16.0), &mark.label);
         }
     }
-    svg.text("note", (left, TOP + SIDE + 20.0), &panel.note);
+    svg.text("note", (corner.0, corner.1 + SIDE + 20.0), &panel.note);
 }
 
 #[cfg(test)]
@@ -169,7 +176,10 @@ mod tests {
             note: "a circle".into(),
         };
         let empty = CurvePanel { degree: 0, coefficients: Vec::new(), marks: Vec::new(), ..panel.clone() };
-        let figure = CurveFigure { title: "t".into(), panels: [panel, empty] };
+        let pair = [panel, empty];
+        let figure = CurveFigure { title: "t".into(), panels: vec![pair.clone(), pair.clone()] };
+        assert_eq!(component_curves(&figure).matches("class=\"level\"").count(), 2);
+        let figure = CurveFigure { title: "t".into(), panels: vec![pair] };
         let svg = component_curves(&figure);
         assert_eq!(svg.matches("class=\"level\"").count(), 1);
         assert_eq!((svg.matches("class=\"mark\"").count(), svg.matches("class=\"hollow\"").count()), (2, 1));

@@ -37,7 +37,8 @@ pub use path::{JoinOptions, Joined, Piece, Sign, SignsAlong, Way, between, join,
 pub use planar_map::PlanarMap;
 pub use regular_box::{BoxOptions, RegularBox, SingularSegment, regular_box};
 pub use self_motion::{
-    CriticalPoses, CurveDegree, CurveEnd, MotionCurve, MotionOptions, MotionPoint, SelfMotion, critical_poses, curve_degree, self_motion,
+    CriticalPoses, CurveDegree, CurveEnd, MotionCurve, MotionOptions, MotionPoint, SelfMotion,
+    critical_poses, curve_degree, self_motion,
 };
 
 use self::dependency::{ExactLegs, subsets_by_size};

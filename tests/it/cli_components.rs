@@ -66,10 +66,20 @@ fn every_shipped_design() {
     let doc = of("symmetric-hexapod", &[]);
     assert_eq!(doc["planes"][0]["smooth"], true);
     assert_eq!(doc["planes"][0]["base"]["parts"][0]["kind"], "cubic");
+    // ten integers, in x and y of the body, that vanish at the joints
+    let exact = &doc["planes"][0]["base"]["exact"];
+    assert_eq!((exact["axes"].as_array().unwrap().len(), exact["degree"].as_u64()), (2, Some(3)));
+    let integer = |c: &Value| c.as_str().unwrap().trim_start_matches('-').chars().all(|d| d.is_ascii_digit());
+    assert!(exact["coefficients"].as_array().unwrap().iter().all(integer));
+    assert_eq!(exact["parts"][0]["kind"], "cubic");
     // the joint-free platform has the six sides again, over corners that are no joints of it, within the tolerance
     let doc = of("rbt-griffis-duffy", &[]);
     let lines = doc["components"].as_array().unwrap().iter().filter(|c| c["type"] == "point-line");
     assert_eq!(lines.count(), 6);
+    // exactly, with the edges as rounded numbers, it is a line and a conic
+    let kinds: Vec<&Value> =
+        doc["planes"][0]["base"]["exact"]["parts"].as_array().unwrap().iter().map(|p| &p["kind"]).collect();
+    assert_eq!(kinds, ["line", "conic"]);
 }
 
 #[test]
@@ -86,6 +96,20 @@ fn one_family_and_a_picture() {
     let picture = std::fs::read_to_string(svg).unwrap();
     assert!(picture.starts_with("<svg") && picture.matches("class=\"mark\"").count() == 12);
     assert_eq!(picture.matches("class=\"hollow\"").count(), 16);
+    let pair = doc["planes"][0]["pair"].to_string();
+    let one = folder.path().join("one.svg");
+    of("symmetric-hexapod", &["--svg", one.to_str().unwrap(), "--pair", &pair]);
+    assert!(std::fs::read_to_string(one).unwrap().contains(&format!("base plane of pair {pair}")));
+    let out = equipod(&[
+        "components",
+        "designs/symmetric-hexapod.toml",
+        "--json",
+        "--svg",
+        "x.svg",
+        "--pair",
+        "99",
+    ]);
+    assert_eq!(document(&out)["error"]["code"], "components::no_planes");
     let out = equipod(&["components", "designs/dietmaier.toml", "--json", "--svg", "x.svg"]);
     assert_eq!(document(&out)["error"]["code"], "components::no_planes");
     let out = equipod(&["components", "designs/dietmaier.toml", "--json", "--component", "1"]);

@@ -19,6 +19,40 @@ fn the_midline_platform_moves_on_two_closed_curves() {
     let points: usize = curves.iter().map(|c| c["points"].as_array().unwrap().len()).sum();
     assert_eq!(std::fs::read_to_string(csv).unwrap().lines().count(), points + 1);
     assert!(std::fs::read_to_string(svg).unwrap().contains("<animate "));
+    assert_eq!(
+        (doc["components_accounted"].as_bool(), doc["completeness"].as_str()),
+        (Some(true), Some("unproved"))
+    );
+    assert_eq!(doc["critical_points"]["paths"], 7 * 28);
+}
+
+#[test]
+fn lengths_alone_give_the_curves_that_the_pose_gives() {
+    let start = equipod(&["selfmotion", "designs/rbt-midline.toml", "--searches", "0", "--json"]);
+    let start = document(&start);
+    assert_eq!(
+        (start["curves"].as_array().unwrap().len(), &start["components_accounted"]),
+        (1, &serde_json::Value::Null)
+    );
+    let lengths: Vec<String> = start["lengths"].as_array().unwrap().iter().map(ToString::to_string).collect();
+    let out = equipod(&["selfmotion", "designs/rbt-midline.toml", "--lengths", &lengths.join(","), "--json"]);
+    let doc = document(&out);
+    assert_eq!((out.status.code(), doc["dimension"].as_u64()), (Some(0), Some(1)), "{doc}");
+    assert_eq!(
+        (&doc["start"], doc["components_accounted"].as_bool()),
+        (&serde_json::Value::Null, Some(true))
+    );
+    let mut degrees: Vec<u64> =
+        doc["curves"].as_array().unwrap().iter().map(|c| c["degree"]["degree"].as_u64().unwrap()).collect();
+    degrees.sort_unstable();
+    assert_eq!(degrees, [4, 24]);
+    // lengths that contradict the relation of the legs: proved, no pose at all
+    let out =
+        equipod(&["selfmotion", "designs/rbt-midline.toml", "--lengths", "10,10,10,10,10,11", "--json"]);
+    let doc = document(&out);
+    assert_eq!((out.status.code(), doc["dimension"].as_u64()), (Some(1), Some(0)));
+    let out = equipod(&["selfmotion", "designs/rbt-midline.toml", "--lengths", "1,2", "--json"]);
+    assert_eq!(document(&out)["error"]["code"], "selfmotion::bad_lengths");
 }
 
 #[test]

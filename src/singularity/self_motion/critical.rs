@@ -25,8 +25,10 @@ const FORMS: usize = 7;
 /// Imaginary parts below this, relative, are those of a real point: of one known to rounding, and of one where curves meet.
 const REAL: f64 = 1e-7;
 const NEARLY_REAL: f64 = 1e-2;
-/// `|e.e| / |y|^2` below which an end is no pose.
-const NO_POSE: f64 = 1e-3;
+/// `|e.e| / |y|^2` below which an end is no pose; ends of multiplicity are reached slowly.
+const NO_POSE: f64 = 1e-2;
+/// Parameter beyond which a path that cannot be followed has come to a singular end.
+const NEAR_THE_END: f64 = 0.999;
 
 /// Real poses from the critical points, and what became of all of them.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,13 +55,21 @@ impl CriticalPoses {
     /// Whether, numerically, nothing is missing on the curves of the poses given: all trace tests hold and no path was given up.
     #[must_use]
     pub fn is_accounted(&self) -> bool {
-        !self.components.is_empty() && self.lost == 0 && self.unused == 0 && self.components.iter().all(|c| c.complete)
+        !self.components.is_empty()
+            && self.lost == 0
+            && self.unused == 0
+            && self.components.iter().all(|c| c.complete)
     }
 }
 
 /// Real poses on all real components of the irreducible complex curves of poses that pass through given ones, which may be complex.
 #[must_use]
-pub fn critical_poses(m: &Manipulator, s: &SquaredLegLengths, on: &[ComplexPose], seed: u64) -> CriticalPoses {
+pub fn critical_poses(
+    m: &Manipulator,
+    s: &SquaredLegLengths,
+    on: &[ComplexPose],
+    seed: u64,
+) -> CriticalPoses {
     let mut rng = Rng::stream(seed, 0xc7);
     let equations = LegEquations::new(m, s);
     let slicer = Slicer::new(&equations, &mut rng);
@@ -81,7 +91,8 @@ pub fn critical_poses(m: &Manipulator, s: &SquaredLegLengths, on: &[ComplexPose]
         // a hyperplane through the point, carried to the first form
         let mut own = draw(&mut rng);
         own -= slicer.chart * own.dot(&y);
-        let start = is_regular(&equations, &y).then(|| slicer.newton(y, &Sweep::new(&own, &own), 0.0)).flatten();
+        let start =
+            is_regular(&equations, &y).then(|| slicer.newton(y, &Sweep::new(&own, &own), 0.0)).flatten();
         let start = start.and_then(|y| slicer.carry(y, &Sweep::new(&own, &forms[0])).ok());
         let Some(start) = start else {
             out.unused += 1;
@@ -95,7 +106,7 @@ pub fn critical_poses(m: &Manipulator, s: &SquaredLegLengths, on: &[ComplexPose]
             out.components.push(degree);
         }
     }
-    let critical = Critical::new(&slicer, forms, &points, &mut rng);
+    let critical = Critical::new(&slicer, &forms, &points, &mut rng);
     for y in &points {
         for form in &forms {
             out.paths += 1;
@@ -115,7 +126,7 @@ impl CriticalPoses {
         let (y, limit) = match slicer.carry(start, critical) {
             Ok(y) => (y, REAL),
             // the end is near: a singular one
-            Err(lost) if lost.t > 0.999 => (lost.y, NEARLY_REAL),
+            Err(lost) if lost.t > NEAR_THE_END => (lost.y, NEARLY_REAL),
             Err(_) => {
                 self.lost += 1;
                 return;
@@ -150,7 +161,7 @@ struct Critical {
 }
 
 impl Critical {
-    fn new(slicer: &Slicer<'_>, forms: [Plane; FORMS], points: &[Plane], rng: &mut Rng) -> Self {
+    fn new(slicer: &Slicer<'_>, forms: &[Plane; FORMS], points: &[Plane], rng: &mut Rng) -> Self {
         let linear = std::array::from_fn(|k| {
             let unit = Plane::from_fn(|i, _| Z::from(if i == k { 1.0 } else { 0.0 }));
             let mut n = System::zeros();
@@ -164,7 +175,13 @@ impl Critical {
         for k in 0..8 {
             constant[(7, k)] = Z::from(rng.normal());
         }
-        let mut out = Self { forms, gamma: Z::from_polar(1.0, rng.uniform(0.0, 6.0)), scale: 1.0, linear, constant };
+        let mut out = Self {
+            forms: *forms,
+            gamma: Z::from_polar(1.0, rng.uniform(0.0, 6.0)),
+            scale: 1.0,
+            linear,
+            constant,
+        };
         // both parts of one size where the paths begin
         let ratio = |y: &Plane| {
             let product: f64 = forms[1..].iter().map(|l| l.dot(y).norm()).product();
@@ -185,7 +202,8 @@ impl Condition for Critical {
     fn at(&self, t: f64, y: &Plane) -> (Z, Plane, Z) {
         let values = self.forms.map(|l| l.dot(y));
         let product: Z = values.iter().product();
-        let without = |k: usize| -> Z { values.iter().enumerate().filter(|(i, _)| *i != k).map(|(_, v)| v).product() };
+        let without =
+            |k: usize| -> Z { values.iter().enumerate().filter(|(i, _)| *i != k).map(|(_, v)| v).product() };
         let mut slope = Plane::zeros();
         for (k, l) in self.forms.iter().enumerate() {
             slope += l * without(k);
@@ -202,7 +220,7 @@ impl Condition for Critical {
 }
 
 /// `(e, g)`, a multiple of it: a row of `4 e e^T`, which is linear in `R`, with the largest diagonal entry.
-fn dual_quaternion(pose: &ComplexPose, size: f64) -> Plane {
+pub(super) fn dual_quaternion(pose: &ComplexPose, size: f64) -> Plane {
     let r = &pose.rotation;
     let trace = r.trace();
     let one = Z::from(1.0);

@@ -84,10 +84,10 @@ pub(super) fn gather(
                 .carry(*y, &Sweep::new(home, &one))
                 .and_then(|y| slicer.carry(y, &Sweep::new(&one, &two)))
                 .and_then(|y| slicer.carry(y, &Sweep::new(&two, home)));
-            if let Ok(y) = around {
-                if !points.iter().chain(&fresh).any(|z| same(z, &y)) {
-                    fresh.push(y);
-                }
+            if let Ok(y) = around
+                && !points.iter().chain(&fresh).any(|z| same(z, &y))
+            {
+                fresh.push(y);
             }
         }
         quiet = if fresh.is_empty() { quiet + 1 } else { 0 };

@@ -11,7 +11,7 @@ pub(super) type Plane = SVector<Z, 8>;
 pub(super) type System = SMatrix<Z, 8, 8>;
 
 /// The smallest step.
-const SMALLEST: f64 = 1e-6;
+const SMALLEST: f64 = 1e-9;
 
 /// A condition on points of the curve that depends on a parameter from 0 to 1.
 pub(super) trait Condition {
@@ -88,7 +88,8 @@ impl<'a> Slicer<'a> {
             let step = self.jacobian(&y, &gradient).lu().solve(&values)?;
             y -= step;
             let size = step.norm() / y.norm();
-            if size < 1e-13 || size < 1e-11 && size > 0.3 * last {
+            // near a singular end rounding stops the improvement early
+            if size < 1e-13 || size < 1e-9 && size > 0.3 * last {
                 return Some(y);
             }
             if !(size < 0.5 * last) && last < 1e-2 {
@@ -100,18 +101,18 @@ impl<'a> Slicer<'a> {
     }
 
     /// The point for the parameter 1 that belongs to `start` for the parameter 0.
-    pub(super) fn carry(&self, start: Plane, condition: &impl Condition) -> Result<Plane, Lost> {
+    pub(super) fn carry(&self, start: Plane, condition: &impl Condition) -> Result<Plane, Box<Lost>> {
         let (mut y, mut t, mut step) = (start, 0.0, 0.02);
         while t < 1.0 {
             let lost = Lost { t, y };
             if step < SMALLEST {
-                return Err(lost);
+                return Err(Box::new(lost));
             }
             let dt = f64::min(step, 1.0 - t);
             let (_, gradient, rate) = condition.at(t, &y);
             let mut right = Plane::zeros();
             right[7] = -rate;
-            let slope = self.jacobian(&y, &gradient).lu().solve(&right).ok_or(lost)?;
+            let slope = self.jacobian(&y, &gradient).lu().solve(&right).ok_or_else(|| Box::new(lost))?;
             let guess = y + slope * Z::from(dt);
             let next = self.newton(guess, condition, t + dt);
             // a corrector that goes far may have left the path

@@ -95,3 +95,41 @@ fn degree_of_the_motion_of_a_griffis_duffy_platform() {
     assert!(one.complete && two.complete && one.degree == two.degree, "{one:?} {two:?}");
     assert_eq!(one.degree, 28);
 }
+
+/// A real loop that the given pose does not hang together with is found from its critical points.
+#[test]
+fn every_real_component_is_found_from_one_complex_curve() {
+    let m = midline();
+    let pose = some_pose();
+    let s = pose.squared_lengths(&m).unwrap();
+    let found = critical_poses(&m, &s, &[pose.into()], 1);
+    assert_eq!(found.components.iter().map(|c| c.degree).collect::<Vec<_>>(), [28]);
+    assert_eq!(found.paths, 7 * 28);
+    assert_eq!(found.regular + found.singular + found.no_pose + found.lost, found.paths);
+    assert!(found.lost == 0 && found.is_accounted(), "{found:?}");
+    // planar bodies: the mirror image of a motion in the base plane is another one
+    let curves = |poses: &[Pose]| self_motion(&m, &s, poses, &MotionOptions::default()).curves;
+    let all = curves(&found.poses);
+    assert!(all.len() >= 2 * curves(&[pose]).len(), "{}", all.len());
+    assert!(all.iter().all(|c| c.end == CurveEnd::Closed || c.end == CurveEnd::Joined));
+    // another linear function finds the same loops
+    let other = critical_poses(&m, &s, &[pose.into()], 2);
+    let lengths = |curves: &[MotionCurve]| {
+        let mut l: Vec<f64> = curves.iter().map(|c| c.points.last().unwrap().arc).collect();
+        l.sort_by(f64::total_cmp);
+        l
+    };
+    let (one, two) = (lengths(&all), lengths(&curves(&other.poses)));
+    assert_eq!(one.len(), two.len());
+    assert!(one.iter().zip(&two).all(|(x, y)| (x - y).abs() < 0.1 * x), "{one:?} {two:?}");
+}
+
+#[test]
+fn complex_poses_are_their_dual_quaternions() {
+    let pose = some_pose();
+    let y = critical::dual_quaternion(&pose.into(), 2.0);
+    let wanted = point(&pose, 2.0);
+    let scale = wanted[0] / y[0].re;
+    let error = y.iter().zip(wanted.iter()).map(|(z, x)| (z * scale - x).norm()).fold(0.0, f64::max);
+    assert!(error < 1e-14, "{error}");
+}

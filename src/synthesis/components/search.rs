@@ -202,13 +202,9 @@ impl Search<'_> {
         }
         // lines that the exact data do not have: their curve does not split there
         if only_nearly && pair.rank == 6 && pair.reading != Reading::ToleranceOnly {
-            let form = base.form.clone();
-            if base.exact.as_ref().is_ok_and(|c| !c.has(ExactKind::Cubic)) {
-                let legs = names(&pair.legs);
-                self.doubts.push(format!(
-                    "as written the curves of legs {legs} split otherwise than within the tolerance"
-                ));
-            } else {
+            // one that splits otherwise (a conic for two lines) is told in the record of the planes
+            if !base.exact.as_ref().is_ok_and(|c| !c.has(ExactKind::Cubic)) {
+                let form = base.form.clone();
                 self.cubic(over_base, pair, &form, None, &base)?;
             }
         }

@@ -6,14 +6,28 @@ use crate::design::Design;
 use crate::manipulator::LegIndex;
 use crate::num::Rng;
 use crate::plot::{CurveFigure, CurveMark, CurvePanel, component_curves};
-use crate::synthesis::components::{Components, PlaneCurve, PlanePair, flat_name};
+use crate::synthesis::components::{Components, FlatPair, PlaneCurve, PlanePair, flat_name};
 
 /// Corresponding points that are marked.
 const MARKS: usize = 8;
 
-/// The picture of the first pair of planes, `None` when there is none.
-pub(super) fn picture(design: &Design, found: &Components, seed: u64) -> Option<String> {
-    let planes = found.planes.iter().min_by_key(|p| std::cmp::Reverse(found.pairs[p.pair].legs.len()))?;
+/// The picture of all pairs of planes, those with most legs first, or of one (`wanted`, an index of `pairs`); `None` when there is none.
+pub(super) fn picture(
+    design: &Design,
+    found: &Components,
+    wanted: Option<usize>,
+    seed: u64,
+) -> Option<String> {
+    let mut pairs: Vec<&PlanePair> =
+        found.planes.iter().filter(|p| wanted.is_none_or(|k| k == p.pair)).collect();
+    pairs.sort_by_key(|p| std::cmp::Reverse(found.pairs[p.pair].legs.len()));
+    let title = format!("replaceable legs of {}", design.name);
+    let panels: Vec<[CurvePanel; 2]> = pairs.iter().map(|p| both(design, found, p, seed)).collect();
+    (!panels.is_empty()).then(|| component_curves(&CurveFigure { title, panels }))
+}
+
+/// Base and platform of a pair.
+fn both(design: &Design, found: &Components, planes: &PlanePair, seed: u64) -> [CurvePanel; 2] {
     let legs = &found.pairs[planes.pair].legs;
     let extra = partners(found, planes, seed);
     let ends = design.manipulator().legs();
@@ -45,7 +59,7 @@ pub(super) fn picture(design: &Design, found: &Components, seed: u64) -> Option<
             }
         }
         CurvePanel {
-            title: format!("{} plane, {}", curve.body, design.units),
+            title: format!("{} plane of pair {}, {}", curve.body, planes.pair + 1, design.units),
             degree: if curve.generic_rank < 3 { 0 } else { curve.degree },
             coefficients: curve.coefficients.clone(),
             units: curve.axes.map(|a| a.norm()),
@@ -53,9 +67,7 @@ pub(super) fn picture(design: &Design, found: &Components, seed: u64) -> Option<
             note: note(curve),
         }
     };
-    let title = format!("replaceable legs of {}", design.name);
-    let panels = [panel(&planes.base, false), panel(&planes.platform, true)];
-    Some(component_curves(&CurveFigure { title, panels }))
+    [panel(&planes.base, false), panel(&planes.platform, true)]
 }
 
 fn letter(k: usize) -> String {
@@ -104,7 +116,8 @@ fn partners(found: &Components, planes: &PlanePair, seed: u64) -> Vec<(Point3<f6
 
 /// What a design without such a picture is told.
 pub(super) fn refusal(found: &Components) -> String {
-    let pairs: Vec<String> =
-        found.pairs.iter().map(|p| format!("{}-{}", flat_name(p.base), flat_name(p.platform))).collect();
-    format!("there is no pair of planes with a curve; pairs of flats: {}", pairs.join(", "))
+    let name =
+        |(k, p): (usize, &FlatPair)| format!("{} {}-{}", k + 1, flat_name(p.base), flat_name(p.platform));
+    let pairs: Vec<String> = found.pairs.iter().enumerate().map(name).collect();
+    format!("there is no such pair of planes; pairs of flats: {}", pairs.join(", "))
 }

@@ -29,9 +29,12 @@ pub(crate) struct Args {
     /// Random legs drawn from each family
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=10_000))]
     sample: u64,
-    /// Write a picture of the curves in two planes
+    /// Write a picture of the curves in two planes, of all pairs of planes
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
+    /// Only this pair of planes in the picture: its number in `pairs`, counted from 1
+    #[arg(long, value_name = "K", requires = "svg")]
+    pair: Option<usize>,
     /// What counts as zero, relative to the size of the body
     #[arg(long, value_name = "X", default_value_t = 1e-9)]
     tolerance: f64,
@@ -51,7 +54,9 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         return Err(Failure::refused("components::no_such_family", message));
     }
     if let Some(path) = &args.svg {
-        let Some(picture) = figure::picture(&design, &found, context.seed()) else {
+        let Some(picture) =
+            figure::picture(&design, &found, args.pair.map(|k| k.wrapping_sub(1)), context.seed())
+        else {
             let failure = Failure::refused("components::no_planes", figure::refusal(&found));
             return Err(failure.with_help("leave out --svg: the picture shows two planes with their curves"));
         };

@@ -42,7 +42,7 @@ pub(in crate::cli::commands) fn given(
 }
 
 /// Six comma-separated lengths.
-fn six(text: &str) -> Result<LegLengths, String> {
+pub(in crate::cli::commands) fn six(text: &str) -> Result<LegLengths, String> {
     let fields: Vec<&str> = text.split(',').map(str::trim).collect();
     let fields: [&str; 6] =
         fields.try_into().map_err(|f: Vec<_>| format!("{} values instead of six", f.len()))?;

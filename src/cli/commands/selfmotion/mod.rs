@@ -1,9 +1,10 @@
-//! `equipod selfmotion`: the curves of poses with constant leg lengths through a pose.
+//! `equipod selfmotion`: the curves of poses with constant leg lengths, from a pose or from the lengths.
 
 mod render;
 
 use std::path::PathBuf;
 
+use crate::cli::commands::fk::lengths::six;
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
@@ -12,10 +13,13 @@ use crate::cli::output::Answer;
 use crate::cli::poses;
 use crate::design::Design;
 use crate::fk::{FkOptions, FkRoot, ForwardKinematics, Homotopy, Reality, SolutionSet};
-use crate::geom::Pose;
+use crate::geom::{ComplexPose, Pose};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::plot::{MotionFigure, motion};
-use crate::singularity::{CurveDegree, CurveEnd, MotionOptions, SelfMotion, curve_degree, self_motion};
+use crate::singularity::{
+    CriticalPoses, CurveDegree, CurveEnd, MotionOptions, SelfMotion, critical_poses, curve_degree,
+    self_motion,
+};
 
 /// Arguments of `selfmotion`.
 #[derive(Debug, clap::Args)]
@@ -26,8 +30,11 @@ pub(crate) struct Args {
     /// then quaternion, scalar first)
     #[arg(long, value_name = "POSE", allow_hyphen_values = true, default_value = "home")]
     pose: String,
-    /// Times to look for poses on further curves: forward kinematics with random sections, real ends only
-    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u64).range(0..=100))]
+    /// Six leg lengths, instead of a pose: all real components of the poses with these lengths
+    #[arg(long, value_name = "L1,..,L6", conflicts_with = "pose")]
+    lengths: Option<String>,
+    /// Times to cut all curves over the complex numbers by random sections; 0: only what hangs together with the pose
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(0..=100))]
     searches: u64,
     /// Largest turn of the tangent from point to point, radians
     #[arg(long, value_name = "RAD", default_value_t = 0.05, value_parser = turn)]
@@ -45,15 +52,42 @@ fn turn(text: &str) -> Result<f64, String> {
     if (1e-3..=0.2).contains(&value) { Ok(value) } else { Err("give 0.001 to 0.2".to_string()) }
 }
 
+/// Where a starting pose comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Origin {
+    /// Given on the command line.
+    Pose,
+    /// A random section of the curves.
+    Section,
+    /// A critical point of a linear function.
+    CriticalPoint,
+}
+
+impl Origin {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Pose => "pose",
+            Self::Section => "section",
+            Self::CriticalPoint => "critical_point",
+        }
+    }
+}
+
 /// What was found, for [`render`].
 struct Found {
-    start: Pose,
+    /// The pose given.
+    start: Option<Pose>,
     squares: SquaredLegLengths,
+    /// Of the curves; also where no real pose is on them.
+    dimension: usize,
     motion: SelfMotion,
     /// Of each curve.
     degrees: Vec<Option<CurveDegree>>,
-    /// Real poses found by the searches.
-    further: usize,
+    /// Of every starting pose.
+    origins: Vec<Origin>,
+    critical: Option<CriticalPoses>,
+    /// Whether, numerically, no real component is missing; `None` when no search was made.
+    accounted: Option<bool>,
     exit: Exit,
 }
 
@@ -61,48 +95,90 @@ struct Found {
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
     let m = design.manipulator();
-    let start = poses::parse(&args.pose, &design, "--pose", "selfmotion::bad_pose")?;
-    let squares = start.squared_lengths(m).ok_or_else(|| {
-        Failure::refused(
-            "selfmotion::bad_pose",
-            "the leg lengths at this pose are no finite positive numbers",
-        )
-    })?;
+    let (start, squares) = beginning(args, &design)?;
     let options = MotionOptions { turn: args.turn, seed: context.seed(), ..MotionOptions::default() };
-    let mut motion = self_motion(m, &squares, &[start], &options);
-    let mut further = 0;
-    if motion.dimension == 1 && args.searches > 0 {
-        let mut starts = vec![start];
-        starts.extend(searched(m, &squares, args.searches, context.seed())?);
-        further = starts.len() - 1;
-        motion = self_motion(m, &squares, &starts, &options);
+    let given: Vec<Pose> = start.into_iter().collect();
+    let mut motion = self_motion(m, &squares, &given, &options);
+    let mut starts: Vec<(Pose, Origin)> = given.iter().map(|p| (*p, Origin::Pose)).collect();
+    let mut dimension = motion.dimension;
+    let (mut critical, mut accounted) = (None, None);
+    let searches = if start.is_none() { args.searches.max(1) } else { args.searches };
+    if searches > 0 && (start.is_none() || dimension == 1) {
+        let sections = sections(m, &squares, searches, context.seed())?;
+        dimension = if start.is_none() { sections.dimension } else { dimension };
+        if sections.dimension == 1 {
+            let real = sections.points.iter().filter(|r| r.reality == Reality::Real);
+            starts.extend(real.map(|r| (r.pose.real_part(), Origin::Section)));
+            let mut on: Vec<ComplexPose> = given.iter().map(|p| (*p).into()).collect();
+            on.extend(sections.points.iter().map(|r| r.pose));
+            let found = critical_poses(m, &squares, &on, context.seed());
+            starts.extend(found.poses.iter().map(|p| (*p, Origin::CriticalPoint)));
+            accounted = Some(found.is_accounted() && sections.established);
+            critical = Some(found);
+        } else {
+            accounted = Some(start.is_none() && sections.dimension == 0 && sections.established);
+        }
+        let all: Vec<Pose> = starts.iter().map(|s| s.0).collect();
+        motion = self_motion(m, &squares, &all, &options);
     }
     let degrees = motion.curves.iter().map(|c| {
         let best = c.points.iter().max_by(|x, y| x.gap.total_cmp(&y.gap))?;
         curve_degree(m, &squares, &best.pose, context.seed())
     });
     let degrees = degrees.collect();
-    let whole = |end: CurveEnd| matches!(end, CurveEnd::Closed | CurveEnd::Joined);
-    let exit = match motion.dimension {
-        0 => Exit::No,
-        1 if motion.curves.iter().all(|c| whole(c.end)) && !motion.curves.is_empty() => Exit::Yes,
+    let whole = motion.curves.iter().all(|c| matches!(c.end, CurveEnd::Closed | CurveEnd::Joined));
+    accounted = accounted.map(|a| a && whole);
+    let exit = match dimension {
+        0 if start.is_some() || accounted == Some(true) => Exit::No,
+        1 if whole && !motion.curves.is_empty() => Exit::Yes,
+        1 if accounted == Some(true) => Exit::No,
         _ => Exit::Inconclusive,
     };
-    let found = Found { start, squares, motion, degrees, further, exit };
+    let origins = starts.iter().map(|s| s.1).collect();
+    let found = Found { start, squares, dimension, motion, degrees, origins, critical, accounted, exit };
     write_files(args, &design, &found)?;
     Ok(render::answer(&design, &found))
 }
 
-/// Real poses with these lengths on curves, from random sections.
-fn searched(m: &Manipulator, s: &SquaredLegLengths, searches: u64, seed: u64) -> Result<Vec<Pose>, Failure> {
-    let mut out = Vec::new();
+/// The pose, if it is one, and the leg lengths.
+fn beginning(args: &Args, design: &Design) -> Result<(Option<Pose>, SquaredLegLengths), Failure> {
+    if let Some(text) = &args.lengths {
+        let bad =
+            |message: String| Failure::refused("selfmotion::bad_lengths", format!("--lengths: {message}"));
+        let lengths = six(text).map_err(bad)?;
+        return Ok((None, lengths.squared()));
+    }
+    let start = poses::parse(&args.pose, design, "--pose", "selfmotion::bad_pose")?;
+    let squares = start.squared_lengths(design.manipulator()).ok_or_else(|| {
+        Failure::refused(
+            "selfmotion::bad_pose",
+            "the leg lengths at this pose are no finite positive numbers",
+        )
+    })?;
+    Ok((Some(start), squares))
+}
+
+/// Points on random sections of the poses with these lengths, over the complex numbers.
+struct Sections {
+    /// Of the set: 0 when it is empty or isolated poses only.
+    dimension: usize,
+    points: Vec<FkRoot>,
+    /// The relation between the legs is proved, and all points of every section were found.
+    established: bool,
+}
+
+fn sections(m: &Manipulator, s: &SquaredLegLengths, searches: u64, seed: u64) -> Result<Sections, Failure> {
+    let mut out = Sections { dimension: 0, points: Vec::new(), established: true };
     for k in 0..searches {
         let options = FkOptions { seed: seed.wrapping_add(k), ..FkOptions::default() };
         let found = Homotopy.solve(m, s, &options);
         let found = found.map_err(|e| Failure::internal(format!("looking for further poses: {e}")))?;
-        if let SolutionSet::PositiveDimensional { witnesses, .. } = &found.solution_set {
-            let real = |r: &&FkRoot| r.reality == Reality::Real;
-            out.extend(witnesses.iter().filter(real).map(|r| r.pose.real_part()));
+        if let SolutionSet::PositiveDimensional { witnesses, dimension, established } = &found.solution_set {
+            out.dimension = out.dimension.max(*dimension);
+            out.established &= established;
+            out.points.extend(witnesses.iter().cloned());
+        } else {
+            out.established &= found.all_accounted();
         }
     }
     Ok(out)
