@@ -12,6 +12,7 @@
 
 mod collect;
 mod component;
+mod confirm;
 mod curves;
 mod decision;
 pub(super) mod exact;
