@@ -22,6 +22,8 @@ use crate::num::Rng;
 
 /// Degree of `D`.
 const FORMS: usize = 7;
+/// Homotopies with other random numbers while paths are given up.
+const ATTEMPTS: usize = 4;
 /// Imaginary parts below this, relative, are those of a real point: of one known to rounding, and of one where curves meet.
 const REAL: f64 = 1e-7;
 const NEARLY_REAL: f64 = 1e-2;
@@ -35,9 +37,9 @@ const NEAR_THE_END: f64 = 0.999;
 pub struct CriticalPoses {
     /// Irreducible curves over the complex numbers, as far as the poses given lie on different ones.
     pub components: Vec<CurveDegree>,
-    /// Real poses: first the regular critical points, then ends that are nearly real where curves meet.
+    /// Real critical points, and ends that are nearly real where curves meet.
     pub poses: Vec<Pose>,
-    /// Paths followed: seven times the sum of the degrees.
+    /// Paths followed in the last homotopy: seven times the sum of the degrees. Paths that are given up lead to another homotopy, of four at most.
     pub paths: usize,
     /// Ends that are regular critical points, real or not.
     pub regular: usize,
@@ -106,14 +108,21 @@ pub fn critical_poses(
             out.components.push(degree);
         }
     }
-    let critical = Critical::new(&slicer, &forms, &points, &mut rng);
-    for y in &points {
-        for form in &forms {
-            out.paths += 1;
-            match slicer.carry(*y, &Sweep::new(&forms[0], form)) {
-                Ok(start) => out.end(&slicer, &critical, start, m.size()),
-                Err(_) => out.lost += 1,
+    for _ in 0..ATTEMPTS {
+        // another linear function and another gamma: what is real is kept from all attempts
+        let critical = Critical::new(&slicer, &forms, &points, &mut rng);
+        (out.paths, out.regular, out.singular, out.no_pose, out.lost) = (0, 0, 0, 0, 0);
+        for y in &points {
+            for form in &forms {
+                out.paths += 1;
+                match slicer.carry(*y, &Sweep::new(&forms[0], form)) {
+                    Ok(start) => out.end(&slicer, &critical, start, m.size()),
+                    Err(_) => out.lost += 1,
+                }
             }
+        }
+        if out.lost == 0 {
+            break;
         }
     }
     out.poses.sort_by(|x, y| x.position.norm().total_cmp(&y.position.norm()));
@@ -132,20 +141,21 @@ impl CriticalPoses {
                 return;
             }
         };
-        let e = y.fixed_rows::<4>(0);
-        if e.dot(&e).norm() < NO_POSE * y.norm_squared() {
-            self.no_pose += 1;
-            return;
-        }
-        let regular = limit < NEARLY_REAL;
-        self.regular += usize::from(regular);
-        self.singular += usize::from(!regular);
         // the multiple with a real largest entry
         let turned = y / y[y.icamax()];
         let real = turned.map(|z| z.re);
-        if turned.map(|z| z.im).norm() <= limit * real.norm() {
-            let length = real.fixed_rows::<4>(0).norm();
+        let length = real.fixed_rows::<4>(0).norm();
+        let is_real = turned.map(|z| z.im).norm() <= limit * real.norm() && length > REAL * real.norm();
+        if is_real {
             self.poses.push(real_pose(&(real / length), size));
+        }
+        let e = y.fixed_rows::<4>(0);
+        if !is_real && e.dot(&e).norm() < NO_POSE * y.norm_squared() {
+            self.no_pose += 1;
+        } else if limit < NEARLY_REAL {
+            self.regular += 1;
+        } else {
+            self.singular += 1;
         }
     }
 }
