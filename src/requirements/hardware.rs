@@ -1,0 +1,144 @@
+//! Sizes and limits of joints, legs and drives.
+
+use nalgebra::{Unit, Vector3};
+
+/// The room a joint takes up, centred at the joint.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Housing {
+    /// A sphere of this diameter, design units.
+    Sphere(f64),
+    /// A box with these edge lengths along the axes of the body frame, design units.
+    Box(Vector3<f64>),
+}
+
+impl Housing {
+    /// Gap between two equal housings whose centres differ by `d` (body frame), design units; negative when they overlap.
+    ///
+    /// Spheres: `|d| - diameter`. Boxes: with `g_k = |d_k| - edge_k`, the norm of the positive `g_k` when
+    /// there are any (the distance of the boxes), else the greatest `g_k` (minus the shortest way out).
+    #[must_use]
+    pub fn gap(&self, d: &Vector3<f64>) -> f64 {
+        match self {
+            Self::Sphere(diameter) => d.norm() - diameter,
+            Self::Box(edges) => {
+                let g = d.abs() - edges;
+                if g.max() > 0.0 { g.map(|x| x.max(0.0)).norm() } else { g.max() }
+            }
+        }
+    }
+}
+
+/// The room a leg takes up around the line from its base joint to its platform joint.
+///
+/// A cylinder of `diameter` starts at the base joint; after `cylinder_length` a rod of `rod_diameter` goes on to the
+/// platform joint. Each part is taken with rounded ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LegBody {
+    /// Diameter of the cylinder, of the whole leg when there is no rod, design units.
+    pub diameter: f64,
+    /// Length of the cylinder and diameter of the rod, design units.
+    pub rod: Option<(f64, f64)>,
+}
+
+/// Which lengths a leg can have.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum LengthLimits {
+    /// From the first to the second length, design units.
+    Range(f64, f64),
+    /// A linear drive: its length is `dead + stroke` when it is in and `dead + 2 stroke` when it is out, because
+    /// the rod has to go into the cylinder.
+    Stroke {
+        /// Length that neither extends nor retracts, design units.
+        dead: f64,
+        /// Travel, design units.
+        stroke: f64,
+    },
+}
+
+impl LengthLimits {
+    /// Least and greatest length.
+    #[must_use]
+    pub fn range(&self) -> (f64, f64) {
+        match *self {
+            Self::Range(least, greatest) => (least, greatest),
+            Self::Stroke { dead, stroke } => (dead + stroke, dead + 2.0 * stroke),
+        }
+    }
+}
+
+/// Where the axis of each joint of a body points: the direction from which its swing is measured.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum JointAxes {
+    /// Along the leg at the home pose.
+    #[default]
+    Home,
+    /// To be found by the optimiser; evaluated like [`JointAxes::Home`] until then.
+    Optimize,
+    /// Given, one for each leg in leg order, in the frame of the body, from base to platform.
+    Given([Unit<Vector3<f64>>; 6]),
+}
+
+/// How far the legs may lean from the axes of the joints of a body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Swing {
+    /// Greatest angle between leg and axis, degrees, above 0 and at most 180.
+    pub limit_deg: f64,
+    /// The axes.
+    pub axes: JointAxes,
+}
+
+/// Sizes and limits of joints, legs and drives. What is absent limits nothing.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Hardware {
+    /// Housing of each base joint.
+    pub base_housing: Option<Housing>,
+    /// Housing of each platform joint.
+    pub platform_housing: Option<Housing>,
+    /// Diameter of the joints of both bodies that have no housing of their own, design units.
+    pub joint_diameter: Option<f64>,
+    /// Bodies of the legs.
+    pub leg_body: Option<LegBody>,
+    /// Gap that has to remain between legs, and between legs and keep-outs, design units; none means 0.
+    pub leg_clearance: Option<f64>,
+    /// Lengths of the legs.
+    pub leg_length: Option<LengthLimits>,
+    /// Swing of the base joints.
+    pub base_swing: Option<Swing>,
+    /// Swing of the platform joints.
+    pub platform_swing: Option<Swing>,
+    /// Greatest force along a leg, push or pull, force units.
+    pub max_leg_force: Option<f64>,
+    /// Greatest speed of a leg, design units per second.
+    pub max_leg_speed: Option<f64>,
+    /// Stiffness of a leg along its line, force units per design unit.
+    pub leg_stiffness: Option<f64>,
+}
+
+impl Hardware {
+    /// Housing of the joints of a body, [`Hardware::joint_diameter`] as a sphere when it has none of its own.
+    #[must_use]
+    pub fn housing(&self, platform: bool) -> Option<Housing> {
+        let own = if platform { self.platform_housing } else { self.base_housing };
+        own.or(self.joint_diameter.map(Housing::Sphere))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn gaps_of_spheres_and_boxes() {
+        let d = Vector3::new(3.0, 4.0, 0.0);
+        assert!((Housing::Sphere(2.0).gap(&d) - 3.0).abs() < 1e-15);
+        let block = |x, y, z| Housing::Box(Vector3::new(x, y, z));
+        assert!((block(2.0, 2.0, 9.0).gap(&d) - (1.0f64 + 4.0).sqrt()).abs() < 1e-15, "corner to corner");
+        assert!((block(5.0, 2.0, 9.0).gap(&d) - 2.0).abs() < 1e-15, "face to face");
+        assert!((block(5.0, 4.5, 9.0).gap(&d) + 0.5).abs() < 1e-15, "overlap: the shortest way out is along y");
+    }
+
+    #[test]
+    fn a_drive_is_between_one_and_two_strokes_longer_than_its_dead_length() {
+        assert_eq!(LengthLimits::Stroke { dead: 5.0, stroke: 2.0 }.range(), (7.0, 9.0));
+    }
+}
