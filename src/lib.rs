@@ -21,6 +21,7 @@ pub mod num;
 pub mod offsets;
 pub mod plot;
 pub mod poly;
+pub mod requirements;
 pub mod singularity;
 pub mod solve;
 pub mod synthesis;

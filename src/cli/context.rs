@@ -6,7 +6,10 @@ use super::args::Global;
 use super::diagnostic;
 use super::failure::Failure;
 use super::files;
+use super::poses;
+use super::rows::{self, Table};
 use crate::design::{Design, Format, Warning, parse};
+use crate::geom::Pose;
 
 /// A warning and the file it is about.
 #[derive(Debug)]
@@ -56,16 +59,32 @@ impl Context {
         let text = files::read_text(path)?;
         let shown = path.display().to_string();
         match parse(&text, Format::of_path(path)) {
-            Ok((design, warnings)) => {
+            Ok((mut design, warnings)) => {
                 for warning in warnings {
                     if !self.quiet {
                         diagnostic::print_warning(&shown, &text, &warning);
                     }
                     self.warnings.push(FileWarning { path: shown.clone(), warning });
                 }
+                if let Some(trajectory) = &mut design.workspace.trajectory {
+                    trajectory.poses = poses_beside(path, &trajectory.file)?;
+                }
                 Ok(design)
             }
             Err(violations) => Err(Failure::bad_design(shown, text, violations)),
         }
     }
+}
+
+/// The poses of a table whose name is relative to the folder of the design.
+fn poses_beside(design: &Path, file: &str) -> Result<Vec<Pose>, Failure> {
+    let path = design.parent().unwrap_or(Path::new("")).join(file);
+    let shown = path.display().to_string();
+    let table = Table {
+        path: &shown,
+        code: "design::bad_trajectory",
+        form: "a pose a line: x,y,z,roll_deg,pitch_deg,yaw_deg or x,y,z,qw,qx,qy,qz",
+    };
+    let rows = rows::read(&files::read_text(&path)?, table, poses::numbers)?;
+    Ok(rows.into_iter().map(|(_, pose)| pose).collect())
 }

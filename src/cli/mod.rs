@@ -13,6 +13,7 @@ mod failure;
 mod files;
 mod output;
 mod poses;
+mod rows;
 
 use std::ffi::OsString;
 use std::panic::{AssertUnwindSafe, catch_unwind};

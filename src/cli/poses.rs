@@ -25,12 +25,16 @@ pub(crate) fn parse(text: &str, design: &Design, option: &str, code: &str) -> Re
     if text == "home" {
         return Ok(home(design));
     }
-    let refuse = |message: String| Failure::refused(code, format!("{option}: {message}")).with_help(FORM);
+    numbers(text).map_err(|m| Failure::refused(code, format!("{option}: {m}")).with_help(FORM))
+}
+
+/// A pose from six or seven numbers separated by commas, or what is wrong with them.
+pub(crate) fn numbers(text: &str) -> Result<Pose, String> {
     let mut values = Vec::with_capacity(7);
     for (i, field) in text.split(',').map(str::trim).enumerate() {
         match field.parse::<f64>() {
             Ok(x) if x.is_finite() => values.push(x),
-            _ => return Err(refuse(format!("value {}, `{field}`, is not a finite number", i + 1))),
+            _ => return Err(format!("value {}, `{field}`, is not a finite number", i + 1)),
         }
     }
     let rotation = match values[..] {
@@ -40,11 +44,11 @@ pub(crate) fn parse(text: &str, design: &Design, option: &str, code: &str) -> Re
         [_, _, _, w, x, y, z] => {
             let q = Quaternion::new(w, x, y, z);
             if !((q.norm() - 1.0).abs() <= 1e-3) {
-                return Err(refuse(format!("the quaternion has norm {}, not 1", q.norm())));
+                return Err(format!("the quaternion has norm {}, not 1", q.norm()));
             }
             UnitQuaternion::from_quaternion(q).to_rotation_matrix()
         }
-        _ => return Err(refuse(format!("{} values instead of six or seven", values.len()))),
+        _ => return Err(format!("{} values instead of six or seven", values.len())),
     };
     Ok(Pose { rotation, position: Vector3::new(values[0], values[1], values[2]) })
 }

@@ -6,7 +6,10 @@
 mod json_text;
 mod model;
 mod report;
+#[cfg(test)]
+mod requirements_tests;
 mod save;
+mod save_requirements;
 #[cfg(test)]
 mod tests;
 mod toml_text;
@@ -15,9 +18,9 @@ mod validate;
 mod violation;
 mod workspace;
 
-pub use model::{Design, HardwareTable, NameCount, OptimizeTable};
+pub use model::{Design, NameCount, OptimizeTable};
 pub use violation::{Code, Violation, Warning};
-pub use workspace::Workspace;
+pub use workspace::{Trajectory, Workspace};
 
 /// The two notations of the same structure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -5,6 +5,7 @@ use thiserror::Error;
 use super::Workspace;
 use crate::geom::Pose;
 use crate::manipulator::{LegLengths, Manipulator};
+use crate::requirements::{Hardware, KeepOut, Load, PlatformSpeed, Requirements};
 
 /// A manipulator with names and everything else a design file may carry.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,8 +26,14 @@ pub struct Design {
     pub workspace: Workspace,
     /// Limits for the optimisation of joint offsets.
     pub optimize: OptimizeTable,
-    /// Sizes of joints and legs.
-    pub hardware: HardwareTable,
+    /// Sizes and limits of joints, legs and drives.
+    pub hardware: Hardware,
+    /// How fast the platform has to move.
+    pub speed: Option<PlatformSpeed>,
+    /// Loads on the platform.
+    pub loads: Vec<Load>,
+    /// Bodies that the legs must not touch.
+    pub keep_outs: Vec<KeepOut>,
     manipulator: Manipulator,
     base_names: Vec<String>,
     platform_names: Vec<String>,
@@ -41,15 +48,6 @@ pub struct OptimizeTable {
     pub min_abs_det: Option<f64>,
     /// Length that turns angles into lengths, design units, positive.
     pub characteristic_length: Option<f64>,
-}
-
-/// Sizes of joints and legs, design units, positive.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct HardwareTable {
-    /// Diameter of the sphere a joint occupies.
-    pub joint_diameter: Option<f64>,
-    /// Diameter of the cylinder a leg occupies.
-    pub leg_diameter: Option<f64>,
 }
 
 /// There are not as many names as joints.
@@ -79,7 +77,10 @@ impl Design {
             home: None,
             workspace: Workspace::default(),
             optimize: OptimizeTable::default(),
-            hardware: HardwareTable::default(),
+            hardware: Hardware::default(),
+            speed: None,
+            loads: Vec::new(),
+            keep_outs: Vec::new(),
             base_names: names('A', manipulator.base_joints().len()),
             platform_names: names('B', manipulator.platform_joints().len()),
             manipulator,
@@ -105,12 +106,13 @@ impl Design {
         Ok(self)
     }
 
-    /// The same with the source, home pose, workspace, limits and sizes of another design: what a rearrangement of its legs does not change.
+    /// The same with the source and all tables of another design that say what is required: what a rearrangement of its legs does not change.
     #[must_use]
     pub fn with_tables_of(mut self, other: &Self) -> Self {
         self.source.clone_from(&other.source);
         (self.home, self.workspace) = (other.home, other.workspace.clone());
-        (self.optimize, self.hardware) = (other.optimize, other.hardware);
+        (self.optimize, self.hardware, self.speed) = (other.optimize, other.hardware, other.speed);
+        (self.loads, self.keep_outs) = (other.loads.clone(), other.keep_outs.clone());
         self
     }
 
@@ -136,5 +138,17 @@ impl Design {
     #[must_use]
     pub fn leg_names(&self) -> [(&str, &str); 6] {
         self.manipulator.pairs().map(|(a, b)| (self.base_names[a].as_str(), self.platform_names[b].as_str()))
+    }
+
+    /// What the design has to satisfy, from all its tables.
+    #[must_use]
+    pub fn requirements(&self) -> Requirements {
+        Requirements {
+            hardware: self.hardware,
+            keep_outs: self.keep_outs.clone(),
+            loads: self.loads.clone(),
+            platform_speed: self.speed,
+            min_joint_distance: self.optimize.min_joint_distance,
+        }
     }
 }

@@ -4,7 +4,9 @@ use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 
 use super::Design;
+use super::save_requirements::{HardwareTable, KeepOutTable, LoadTable, SpeedTable};
 use crate::geom::Pose;
+use crate::requirements::Region;
 
 /// The structure of a file, in the order it is written.
 #[derive(Serialize)]
@@ -26,8 +28,14 @@ struct DesignFile<'a> {
     workspace: Option<WorkspaceTable>,
     #[serde(skip_serializing_if = "Positives::is_empty")]
     optimize: Positives,
-    #[serde(skip_serializing_if = "Positives::is_empty")]
-    hardware: Positives,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    hardware: Option<HardwareTable>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    speed: Option<SpeedTable>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    loads: Vec<LoadTable<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    keep_out: Vec<KeepOutTable<'a>>,
 }
 
 struct Joints<'a>(Vec<(&'a str, [f64; 3])>);
@@ -80,6 +88,10 @@ struct WorkspaceTable {
     translation: [f64; 3],
     rotation_deg: [f64; 3],
     grid: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    region: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    trajectory: Option<String>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     poses: Vec<PoseTable>,
 }
@@ -123,10 +135,10 @@ impl Design {
                 ("min_abs_det", self.optimize.min_abs_det),
                 ("characteristic_length", self.optimize.characteristic_length),
             ]),
-            hardware: Positives::of(&[
-                ("joint_diameter", self.hardware.joint_diameter),
-                ("leg_diameter", self.hardware.leg_diameter),
-            ]),
+            hardware: HardwareTable::of(&self.hardware),
+            speed: self.speed.map(|s| SpeedTable { linear: s.linear, angular_deg: s.angular_deg }),
+            loads: self.loads.iter().map(LoadTable::from).collect(),
+            keep_out: self.keep_outs.iter().map(KeepOutTable::from).collect(),
         }
     }
 
@@ -136,6 +148,8 @@ impl Design {
             translation: w.translation.into(),
             rotation_deg: w.rotation_deg.into(),
             grid: w.grid,
+            region: (w.region == Region::Ellipsoid).then_some("ellipsoid"),
+            trajectory: w.trajectory.as_ref().map(|t| t.file.clone()),
             poses: w.poses.iter().map(PoseTable::from).collect(),
         })
     }

@@ -50,6 +50,8 @@ pub enum Code {
     Rotation,
     /// A workspace box without the `[home]` it lies around.
     MissingHome,
+    /// Two keys that say the same thing in different ways.
+    ConflictingKeys,
     /// A grid with other than 1 to 5 points an axis.
     Grid,
     /// More violations than are worth listing.
@@ -83,6 +85,7 @@ impl Code {
             Self::NotPositive => "design::not_positive",
             Self::Rotation => "design::rotation",
             Self::MissingHome => "design::missing_home",
+            Self::ConflictingKeys => "design::conflicting_keys",
             Self::Grid => "design::grid",
             Self::TooMany => "design::too_many",
         }

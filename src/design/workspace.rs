@@ -1,10 +1,11 @@
 //! The poses a design has to reach.
 
-use nalgebra::{Rotation3, Vector3};
+use nalgebra::{Vector3, Vector6};
 
 use crate::geom::Pose;
+use crate::requirements::{PoseSpace, Region};
 
-/// A box of poses around the home pose, sampled on a grid, and single poses.
+/// A region of poses around the home pose, sampled on a grid, single poses, and a trajectory.
 ///
 /// With home `(R0, p0)` the box holds `(exp([w]x) R0, p0 + d)`, `|d_k| <= translation_k` (base frame,
 /// design units), `|w_k| <= rotation_deg_k` (rotation vector, base frame, degrees).
@@ -16,78 +17,109 @@ pub struct Workspace {
     pub rotation_deg: Vector3<f64>,
     /// Points per axis of the grid, 1 to 5. An axis of half width zero has one point.
     pub grid: usize,
+    /// Box or ellipsoids with these half axes.
+    pub region: Region,
     /// Single poses.
+    pub poses: Vec<Pose>,
+    /// Poses passed one after the other.
+    pub trajectory: Option<Trajectory>,
+}
+
+/// A trajectory in a table of its own.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Trajectory {
+    /// The table, as the design names it.
+    pub file: String,
+    /// Its poses. A design that was only parsed has none: reading files is for the program.
     pub poses: Vec<Pose>,
 }
 
 impl Default for Workspace {
     /// No box, no poses, two points per axis (the corners).
     fn default() -> Self {
-        Self { translation: Vector3::zeros(), rotation_deg: Vector3::zeros(), grid: 2, poses: Vec::new() }
+        Self {
+            translation: Vector3::zeros(),
+            rotation_deg: Vector3::zeros(),
+            grid: 2,
+            region: Region::Box,
+            poses: Vec::new(),
+            trajectory: None,
+        }
     }
 }
 
 impl Workspace {
-    /// `true` when some half width of the box is not zero.
+    /// `true` when some half width is not zero.
     #[must_use]
     pub fn has_box(&self) -> bool {
         self.translation.iter().chain(self.rotation_deg.iter()).any(|w| *w > 0.0)
     }
 
-    /// All sampled poses: the home pose (the centre) first, then the grid of the box with the last axis
-    /// fastest, then the single poses. `grid` points are spread evenly from `-h` to `h` on each axis of half
-    /// width `h > 0`; two points are the corners, one point is the centre alone. The centre is not repeated.
-    /// Without `home` only the single poses.
+    /// `true` when nothing is said about poses.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        !self.has_box() && self.poses.is_empty() && self.trajectory.is_none()
+    }
+
+    /// All poses to reach, around `home`.
+    #[must_use]
+    pub fn space(&self, home: &Pose) -> PoseSpace {
+        PoseSpace {
+            home: *home,
+            region: self.region,
+            translation: self.translation,
+            rotation_deg: self.rotation_deg,
+            poses: self.poses.clone(),
+            trajectory: self.trajectory.as_ref().map(|t| t.poses.clone()).unwrap_or_default(),
+        }
+    }
+
+    /// All sampled poses: the home pose (the centre) first, then the grid with the last axis fastest, then the
+    /// single poses, then those of the trajectory. `grid` points are spread evenly from -1 to 1 on each axis of the cube
+    /// ([`PoseSpace::pose`]) that has a half width above 0; two points are the corners, one point is the centre alone. The centre is
+    /// not repeated. Without `home` only the poses listed.
     #[must_use]
     pub fn sample(&self, home: Option<&Pose>) -> Vec<Pose> {
         let mut poses: Vec<Pose> = Vec::new();
         if let Some(home) = home {
             poses.push(*home);
-            if self.has_box() {
-                poses.extend(self.grid_offsets().iter().map(|(d, w)| Pose {
-                    rotation: Rotation3::new(w.map(f64::to_radians)) * home.rotation,
-                    position: home.position + d,
-                }));
-            }
+            let space = self.space(home);
+            poses.extend(self.grid_points(&space.axes()).iter().map(|x| space.pose(x)));
         }
         poses.extend_from_slice(&self.poses);
+        poses.extend(self.trajectory.iter().flat_map(|t| t.poses.iter().copied()));
         poses
     }
 
-    /// Offsets `(d, w)` of the grid points, without the centre.
-    fn grid_offsets(&self) -> Vec<(Vector3<f64>, Vector3<f64>)> {
-        let half_widths: Vec<f64> =
-            self.translation.iter().chain(self.rotation_deg.iter()).copied().collect();
-        let mut points = vec![Vec::new()];
-        for h in half_widths {
-            let steps = self.axis_steps(h);
-            points = points
-                .iter()
-                .flat_map(|p: &Vec<f64>| {
-                    steps.iter().map(move |s| p.iter().copied().chain([*s]).collect::<Vec<f64>>())
-                })
-                .collect();
-        }
-        points
-            .into_iter()
-            .filter(|p| p.iter().any(|x| *x != 0.0))
-            .map(|p| (Vector3::new(p[0], p[1], p[2]), Vector3::new(p[3], p[4], p[5])))
-            .collect()
-    }
-
-    fn axis_steps(&self, half_width: f64) -> Vec<f64> {
-        if self.grid < 2 || half_width <= 0.0 {
-            return vec![0.0];
-        }
+    /// Grid points of the cube, without the centre.
+    fn grid_points(&self, axes: &[usize]) -> Vec<Vector6<f64>> {
         // 2k - (n-1) is exactly zero in the middle, so that the centre can be told
         let last = self.grid as f64 - 1.0;
-        (0..self.grid).map(|k| half_width * ((2.0 * k as f64 - last) / last)).collect()
+        let steps: Vec<f64> = match self.grid {
+            0 | 1 => vec![0.0],
+            n => (0..n).map(|k| (2.0 * k as f64 - last) / last).collect(),
+        };
+        let mut points = vec![Vector6::zeros()];
+        for &k in axes {
+            let extend = |p: &Vector6<f64>| {
+                let p = *p;
+                steps.iter().map(move |s| {
+                    let mut q = p;
+                    q[k] = *s;
+                    q
+                })
+            };
+            points = points.iter().flat_map(extend).collect();
+        }
+        points.retain(|p| p.iter().any(|x| *x != 0.0));
+        points
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nalgebra::Rotation3;
 
     #[test]
     fn samples_centre_corners_and_single_poses_in_order() {
@@ -98,6 +130,7 @@ mod tests {
             rotation_deg: Vector3::new(0.0, 0.0, 90.0),
             grid: 2,
             poses: vec![far],
+            ..Workspace::default()
         };
         let poses = box_.sample(Some(&home));
         assert_eq!(poses.len(), 1 + 8 + 1);

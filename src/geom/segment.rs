@@ -1,4 +1,4 @@
-//! Distance of two straight segments in space.
+//! Distances of straight segments in space: from each other, from boxes.
 
 use nalgebra::{Point3, Vector3};
 
@@ -37,6 +37,34 @@ fn from_point(w: &Vector3<f64>, f: &Vector3<f64>) -> f64 {
     let ff = f.norm_squared();
     let t = if ff > 0.0 { (w.dot(f) / ff).clamp(0.0, 1.0) } else { 0.0 };
     (w - f * t).norm()
+}
+
+/// Distance of a segment from the box `|x_k - center_k| <= half_k`, 0 when they meet.
+///
+/// The squared distance of the point `x + t (y - x)` from the box is convex in `t` and a quadratic between the
+/// parameters where a coordinate crosses a face: the least value of each piece is taken in closed form.
+#[must_use]
+pub fn segment_box_distance([x, y]: [Point3<f64>; 2], center: &Point3<f64>, half: &Vector3<f64>) -> f64 {
+    let (start, d) = (x - center, y - x);
+    let mut cuts = vec![0.0, 1.0];
+    for k in 0..3 {
+        let crossings = [-half[k], half[k]].map(|face| (face - start[k]) / d[k]);
+        cuts.extend(crossings.into_iter().filter(|t| *t > 0.0 && *t < 1.0));
+    }
+    cuts.sort_by(f64::total_cmp);
+    let outside = |t: f64| {
+        let q = start + d * t;
+        Vector3::from_fn(|k, _| q[k] - q[k].clamp(-half[k], half[k]))
+    };
+    let piece = |w: &[f64]| {
+        let middle = outside(f64::midpoint(w[0], w[1]));
+        // coordinates that are outside in the middle of the piece are outside all along it
+        let moving = Vector3::from_fn(|k, _| if middle[k] == 0.0 { 0.0 } else { d[k] });
+        let (rate, square) = (middle.dot(&moving), moving.norm_squared());
+        let t = if square > 0.0 { f64::midpoint(w[0], w[1]) - rate / square } else { w[0] };
+        outside(t.clamp(w[0], w[1])).norm()
+    };
+    cuts.windows(2).map(piece).fold(f64::INFINITY, f64::min)
 }
 
 #[cfg(test)]
@@ -84,5 +112,26 @@ mod tests {
             assert!(segment_distance(line, other) < 1e-15);
         }
         assert!((segment_distance(line, [at(2.0, 0.0), at(3.0, 0.0)]) - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn distance_from_a_box_is_that_of_the_nearest_point_of_a_fine_grid() {
+        let mut rng = Rng::new(7);
+        for _ in 0..100 {
+            let [p, q, center] = std::array::from_fn(|_| point(&mut rng));
+            let half = point(&mut rng).coords.abs() * 0.5;
+            let exact = segment_box_distance([p, q], &center, &half);
+            let at = |t: f64| {
+                let d = p + (q - p) * t - center;
+                Vector3::from_fn(|k, _| (d[k].abs() - half[k]).max(0.0)).norm()
+            };
+            let grid = (0..=2000).map(|k| at(f64::from(k) / 2000.0)).fold(f64::INFINITY, f64::min);
+            assert!(exact <= grid + 1e-14 && exact > grid - 5e-3, "{exact} {grid}");
+        }
+        let at = |x: f64, y: f64| Point3::new(x, y, 0.0);
+        let (center, half) = (Point3::origin(), Vector3::new(1.0, 1.0, 1.0));
+        assert!(segment_box_distance([at(-9.0, 0.1), at(9.0, 0.1)], &center, &half) < 1e-15);
+        assert!((segment_box_distance([at(3.0, 0.0), at(3.0, 5.0)], &center, &half) - 2.0).abs() < 1e-15);
+        assert!((segment_box_distance([at(4.0, 5.0), at(4.0, 5.0)], &center, &half) - 5.0).abs() < 1e-15);
     }
 }

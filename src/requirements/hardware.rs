@@ -134,7 +134,10 @@ mod tests {
         let block = |x, y, z| Housing::Box(Vector3::new(x, y, z));
         assert!((block(2.0, 2.0, 9.0).gap(&d) - (1.0f64 + 4.0).sqrt()).abs() < 1e-15, "corner to corner");
         assert!((block(5.0, 2.0, 9.0).gap(&d) - 2.0).abs() < 1e-15, "face to face");
-        assert!((block(5.0, 4.5, 9.0).gap(&d) + 0.5).abs() < 1e-15, "overlap: the shortest way out is along y");
+        assert!(
+            (block(5.0, 4.5, 9.0).gap(&d) + 0.5).abs() < 1e-15,
+            "overlap: the shortest way out is along y"
+        );
     }
 
     #[test]

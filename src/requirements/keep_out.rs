@@ -58,9 +58,9 @@ impl Shape {
     #[must_use]
     pub fn distance(&self, x: &Point3<f64>, y: &Point3<f64>) -> f64 {
         match self {
-            Self::Box { center, size } => segment_box_distance((x, y), center, &(size / 2.0)),
-            Self::Sphere { center, diameter } => segment_distance((x, y), (center, center)) - diameter / 2.0,
-            Self::Capsule { from, to, diameter } => segment_distance((x, y), (from, to)) - diameter / 2.0,
+            Self::Box { center, size } => segment_box_distance([*x, *y], center, &(size / 2.0)),
+            Self::Sphere { center, diameter } => segment_distance([*x, *y], [*center; 2]) - diameter / 2.0,
+            Self::Capsule { from, to, diameter } => segment_distance([*x, *y], [*from, *to]) - diameter / 2.0,
         }
     }
 }

@@ -1,8 +1,9 @@
 //! Shipped designs, reading back what was written, and inputs that are no designs.
 
-use equipod::design::{Code, Design, Format, HardwareTable, OptimizeTable, Workspace, parse};
+use equipod::design::{Code, Design, Format, OptimizeTable, Workspace, parse};
 use equipod::geom::Pose;
 use equipod::manipulator::{LegLengths, Manipulator};
+use equipod::requirements::{Hardware, JointAxes, LegBody, Region, Swing};
 use nalgebra::{Point3, Rotation3, Vector3};
 use proptest::prelude::*;
 
@@ -101,6 +102,8 @@ prop_compose! {
             rotation_deg: Vector3::new(widths[3], widths[4], widths[5]),
             grid,
             poses,
+            region: if grid > 3 { Region::Ellipsoid } else { Region::Box },
+            trajectory: None,
         };
         (home, workspace, lengths.map(|l| LegLengths::try_new(l).unwrap()), numbers, texts)
     }
@@ -125,7 +128,13 @@ prop_compose! {
         design.optimize = OptimizeTable {
             min_joint_distance: numbers[0], min_abs_det: numbers[1], characteristic_length: numbers[2],
         };
-        design.hardware = HardwareTable { joint_diameter: numbers[3], leg_diameter: numbers[4] };
+        design.hardware = Hardware {
+            joint_diameter: numbers[3],
+            leg_body: numbers[4].map(|diameter| LegBody { diameter, rod: numbers[0].zip(numbers[1]) }),
+            base_swing: numbers[2].map(|x| Swing { limit_deg: x.min(180.0), axes: JointAxes::Home }),
+            max_leg_force: numbers[1],
+            ..Hardware::default()
+        };
         Some(design)
     }
 }

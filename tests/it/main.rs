@@ -6,6 +6,7 @@ mod architecture;
 mod bench;
 mod certify;
 mod cli_align;
+mod cli_assess;
 mod cli_bench;
 mod cli_check;
 mod cli_components;

@@ -12,6 +12,7 @@
 //! word of explanation in the document). Print nothing: what the command found is the [`Answer`], why it
 //! has no answer is the [`Failure`].
 
+mod assess;
 mod bench;
 mod check;
 mod components;
@@ -37,6 +38,8 @@ use super::output::Answer;
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
+    /// Whether a design meets its requirements: lengths, swing, clearances, forces, speeds over all its poses
+    Assess(assess::Args),
     /// Random problems of a class: solved, validated by independent code, counted, timed
     Bench(bench::Args),
     /// Whether a design is architecturally singular: decided exactly, explained, how far away
@@ -73,6 +76,7 @@ impl Command {
     /// Runs the command.
     pub(crate) fn run(&self, context: &mut Context) -> Result<Answer, Failure> {
         match self {
+            Self::Assess(args) => assess::run(args, context),
             Self::Bench(args) => bench::run(args, context),
             Self::Check(args) => check::run(args, context),
             Self::Components(args) => components::run(args, context),

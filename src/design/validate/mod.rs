@@ -2,6 +2,7 @@
 
 mod fields;
 mod joints;
+mod requirements;
 mod tables;
 
 use nalgebra::Point3;
@@ -13,7 +14,7 @@ use super::tree::{Entry, Node, Span, Value, find};
 use super::{Code, Design, Warning};
 use crate::manipulator::{InvalidManipulator, LegLengths, Manipulator};
 
-const TOP_LEVEL: [&str; 11] = [
+const TOP_LEVEL: [&str; 15] = [
     "name",
     "units",
     "source",
@@ -25,8 +26,11 @@ const TOP_LEVEL: [&str; 11] = [
     "home",
     "workspace",
     "optimize",
+    "hardware",
+    "speed",
+    "loads",
+    "keep_out",
 ];
-const RESERVED: [&str; 1] = ["hardware"];
 
 /// The design, or `None` with the reasons in the report. Later checks run on whatever earlier ones left
 /// intact, so that one run shows all violations.
@@ -41,8 +45,7 @@ pub(super) fn design(root: &Node, report: &mut Report<'_>) -> Option<Design> {
         );
         return None;
     };
-    let known: Vec<&str> = TOP_LEVEL.iter().chain(&RESERVED).copied().collect();
-    check_keys(report, entries, &known, "a design");
+    check_keys(report, entries, &TOP_LEVEL, "a design");
     let name = required(report, root, entries, "name").and_then(|e| text(report, e));
     let units = required(report, root, entries, "units").and_then(|e| text(report, e));
     let source = text_or_absent(report, entries, "source");
@@ -59,7 +62,10 @@ pub(super) fn design(root: &Node, report: &mut Report<'_>) -> Option<Design> {
     let home = find(entries, "home").and_then(|e| tables::home(report, &e.node));
     let workspace = tables::workspace(report, entries);
     let optimize = tables::optimize(report, entries);
-    let hardware = tables::hardware(report, entries);
+    let hardware = requirements::hardware(report, entries);
+    let speed = requirements::speed(report, entries);
+    let loads = requirements::loads(report, entries);
+    let keep_outs = requirements::keep_outs(report, entries);
     if !report.is_clean() {
         return None;
     }
@@ -74,6 +80,9 @@ pub(super) fn design(root: &Node, report: &mut Report<'_>) -> Option<Design> {
     design.workspace = workspace;
     design.optimize = optimize;
     design.hardware = hardware;
+    design.speed = speed;
+    design.loads = loads;
+    design.keep_outs = keep_outs;
     Some(design)
 }
 

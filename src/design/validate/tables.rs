@@ -2,13 +2,16 @@
 
 use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 
-use super::fields::{check_keys, element_span, number, numbers, table};
+use super::fields::{check_keys, element_span, number, numbers, table, text};
+use super::requirements::positive;
 use crate::design::report::Report;
 use crate::design::tree::{Entry, Node, Value, find};
-use crate::design::{Code, HardwareTable, OptimizeTable, Workspace};
+use crate::design::{Code, OptimizeTable, Trajectory, Workspace};
 use crate::geom::Pose;
+use crate::requirements::Region;
 
 const POSE_KEYS: [&str; 4] = ["position", "rpy_deg", "quat_wxyz", "rotation"];
+const WORKSPACE_KEYS: [&str; 6] = ["translation", "rotation_deg", "region", "grid", "poses", "trajectory"];
 const ROTATION_HELP: &str =
     "give one of rpy_deg = [roll, pitch, yaw], quat_wxyz = [w, x, y, z], rotation = [[..], [..], [..]]";
 
@@ -110,7 +113,12 @@ pub(super) fn workspace(report: &mut Report<'_>, top: &[Entry]) -> Workspace {
     let mut result = Workspace::default();
     let Some(entry) = find(top, "workspace") else { return result };
     let Some(entries) = table(report, &entry.node, "[workspace]") else { return result };
-    check_keys(report, entries, &["translation", "rotation_deg", "grid", "poses"], "[workspace]");
+    check_keys(report, entries, &WORKSPACE_KEYS, "[workspace]");
+    if let Some(region) = find(entries, "region").and_then(|e| region(report, e)) {
+        result.region = region;
+    }
+    let file = find(entries, "trajectory").and_then(|e| text(report, e));
+    result.trajectory = file.map(|file| Trajectory { file, poses: Vec::new() });
     if let Some(d) = half_widths(report, entries, "translation") {
         result.translation = d;
     }
@@ -138,6 +146,18 @@ pub(super) fn workspace(report: &mut Report<'_>, top: &[Entry]) -> Workspace {
         );
     }
     result
+}
+
+fn region(report: &mut Report<'_>, entry: &Entry) -> Option<Region> {
+    match text(report, entry)?.as_str() {
+        "box" => Some(Region::Box),
+        "ellipsoid" => Some(Region::Ellipsoid),
+        _ => {
+            let help = "write \"box\" or \"ellipsoid\"";
+            report.refuse(Code::WrongType, &entry.node.span, "`region` is neither box nor ellipsoid", help);
+            None
+        }
+    }
 }
 
 fn half_widths(report: &mut Report<'_>, entries: &[Entry], key: &str) -> Option<Vector3<f64>> {
@@ -179,34 +199,11 @@ fn single_poses(report: &mut Report<'_>, node: &Node) -> Vec<Pose> {
 
 /// `[optimize]`.
 pub(super) fn optimize(report: &mut Report<'_>, top: &[Entry]) -> OptimizeTable {
+    let place = "[optimize]";
+    let entries = find(top, "optimize").and_then(|e| table(report, &e.node, place)).unwrap_or_default();
     let keys = ["min_joint_distance", "min_abs_det", "characteristic_length"];
-    let [min_joint_distance, min_abs_det, characteristic_length] = positives(report, top, "optimize", keys);
+    check_keys(report, entries, &keys, place);
+    let [min_joint_distance, min_abs_det, characteristic_length] =
+        keys.map(|key| positive(report, entries, key));
     OptimizeTable { min_joint_distance, min_abs_det, characteristic_length }
-}
-
-/// `[hardware]`.
-pub(super) fn hardware(report: &mut Report<'_>, top: &[Entry]) -> HardwareTable {
-    let [joint_diameter, leg_diameter] =
-        positives(report, top, "hardware", ["joint_diameter", "leg_diameter"]);
-    HardwareTable { joint_diameter, leg_diameter }
-}
-
-/// A table of optional positive numbers.
-fn positives<const N: usize>(
-    report: &mut Report<'_>,
-    top: &[Entry],
-    name: &str,
-    keys: [&str; N],
-) -> [Option<f64>; N] {
-    let place = format!("[{name}]");
-    let entries = find(top, name).and_then(|e| table(report, &e.node, &place)).unwrap_or_default();
-    check_keys(report, entries, &keys, &place);
-    keys.map(|key| {
-        let node = &find(entries, key)?.node;
-        let x = number(report, node, &format!("`{key}`"))?;
-        if x <= 0.0 {
-            report.refuse(Code::NotPositive, &node.span, format!("`{key}` is {x}"), "give a positive number");
-        }
-        Some(x)
-    })
 }

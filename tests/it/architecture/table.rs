@@ -61,6 +61,7 @@ const LINES: &[Line] = &[
         ],
         &[MATRICES, COMPLEX, ("pulp", None), ERRORS],
     ),
+    ("requirements", &["num", "geom", "manipulator"], &[MATRICES]),
     ("topology", &["num", "manipulator"], &[]),
     ("synthesis", &["num", "geom", "poly", "manipulator", "topology"], &[MATRICES, INTEGERS, ERRORS]),
     ("singularity", &["num", "geom", "manipulator", "topology", "synthesis"], &[MATRICES, COMPLEX, ERRORS]),
@@ -72,7 +73,7 @@ const LINES: &[Line] = &[
     ),
     (
         "design",
-        &["geom", "manipulator"],
+        &["geom", "manipulator", "requirements"],
         &[
             MATRICES,
             ("serde", None),
@@ -97,6 +98,7 @@ const LINES: &[Line] = &[
             "poly",
             "manipulator",
             "topology",
+            "requirements",
             "distance",
             "solve",
             "solve::certify",

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use crate::cli::failure::Failure;
 use crate::cli::files;
+use crate::cli::rows::{self, Table};
 use crate::manipulator::LegLengths;
 
 /// Lengths of one line of a CSV file.
@@ -53,36 +54,11 @@ pub(in crate::cli::commands) fn six(text: &str) -> Result<LegLengths, String> {
     LegLengths::try_new(values).map_err(|e| e.to_string())
 }
 
-/// A CSV file: six numbers a line; a first line without any number is a header; blank lines and lines that
-/// begin with `#` are passed over. All bad lines are named.
+/// A CSV file: six numbers a line.
 fn rows(text: &str, path: &str) -> Result<Vec<Row>, Failure> {
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let mut rows = Vec::new();
-    let mut bad = Vec::new();
-    let content = text.lines().enumerate().filter(|(_, l)| !l.trim().is_empty() && !l.starts_with('#'));
-    for (position, (i, line)) in content.enumerate() {
-        let is_header = position == 0 && line.split(',').all(|f| f.trim().parse::<f64>().is_err());
-        if is_header {
-            continue;
-        }
-        match six(line) {
-            Ok(lengths) => rows.push(Row { line: i + 1, lengths }),
-            Err(message) => bad.push(format!("line {}: {message}", i + 1)),
-        }
-    }
-    let refused = |message: String| {
-        Err(Failure::refused("fk::bad_lengths", message)
-            .with_help("write six lengths a line: l1,l2,l3,l4,l5,l6"))
-    };
-    if !bad.is_empty() {
-        let shown = bad.iter().take(20).cloned().collect::<Vec<_>>().join("; ");
-        let more = if bad.len() > 20 { format!("; and {} more", bad.len() - 20) } else { String::new() };
-        return refused(format!("{path}: {shown}{more}"));
-    }
-    if rows.is_empty() {
-        return refused(format!("{path} has no row of leg lengths"));
-    }
-    Ok(rows)
+    let table = Table { path, code: "fk::bad_lengths", form: "six lengths a line: l1,l2,l3,l4,l5,l6" };
+    let rows = rows::read(text, table, six)?;
+    Ok(rows.into_iter().map(|(line, lengths)| Row { line, lengths }).collect())
 }
 
 #[cfg(test)]

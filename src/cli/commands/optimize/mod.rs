@@ -55,7 +55,7 @@ pub(crate) struct PoseSet {
 
 fn pose_set(design: &Design) -> PoseSet {
     let home = poses::home(design);
-    let workspace_given = design.workspace.has_box() || !design.workspace.poses.is_empty();
+    let workspace_given = !design.workspace.is_empty();
     let poses = if workspace_given {
         design.workspace.sample(Some(&home))
     } else {

@@ -1,0 +1,158 @@
+//! Tables of requirements: read whole, written back to the bit, refused with line and help.
+#![allow(clippy::float_cmp, reason = "exact values are read")]
+
+use std::fmt::Write as _;
+
+use super::*;
+use crate::requirements::{FixedTo, Housing, JointAxes, LengthLimits, Region, Shape};
+
+const GOOD: &str = r#"name = "bench"
+units = "mm"
+legs = [["P1", "P4"], ["P2", "P4"], ["P2", "P5"], ["P3", "P5"], ["P3", "P6"], ["P1", "P6"]]
+[base]
+P1 = [0, 0, 0]
+P2 = [6.0, 10.392304845413264, 0.0]
+P3 = [12.0, 0.0, 0.0]
+[platform]
+P4 = [0.0, 0.0, 0.0]
+P5 = [6.0, 0.0, 0.0]
+P6 = [3.0, -5.196152422706632, 0.0]
+[home]
+position = [3.0, 5.0, 8.0]
+rpy_deg = [0.0, 0.0, 90.0]
+[workspace]
+translation = [1, 1, 1]
+region = "ellipsoid"
+trajectory = "path.csv"
+[hardware]
+joint_diameter = 0.5
+base_housing = [1, 2, 3]
+leg_diameter = 0.4
+rod_diameter = 0.2
+cylinder_length = 5
+leg_clearance = 0
+dead_length = 4
+stroke = 3
+base_swing_deg = 45
+base_axes = [[0, 0, 1], [0, 0, 2], [1, 1, 1], [0, 3, 4], [0.1, 0.2, 0.3], [7, 1, 2]]
+platform_swing_deg = 60
+platform_axes = "optimize"
+max_leg_force = 500
+max_leg_speed = 30
+leg_stiffness = 1e5
+[speed]
+linear = 20
+angular_deg = 45
+[[loads]]
+name = "weight"
+force = [0, 0, -100]
+[[loads]]
+torque = [1, 2, 3]
+at = [0, 0, 5]
+fixed_to = "platform"
+[[keep_out]]
+name = "table"
+box = { center = [0, 0, -5], size = [40, 40, 1] }
+[[keep_out]]
+fixed_to = "platform"
+sphere = { center = [0, 0, 2], diameter = 3 }
+[[keep_out]]
+capsule = { from = [0, 0, 0], to = [0, 0, 2], diameter = 3 }
+"#;
+
+#[test]
+fn every_key_is_read_and_written_back_to_the_bit() {
+    let (design, warnings) = parse(GOOD, Format::Toml).unwrap();
+    assert_eq!(warnings, []);
+    let h = design.hardware;
+    assert_eq!(h.housing(false), Some(Housing::Box(nalgebra::Vector3::new(1.0, 2.0, 3.0))));
+    assert_eq!(h.housing(true), Some(Housing::Sphere(0.5)));
+    assert_eq!(h.leg_body.unwrap().rod, Some((5.0, 0.2)));
+    assert_eq!(h.leg_length, Some(LengthLimits::Stroke { dead: 4.0, stroke: 3.0 }));
+    assert_eq!(h.platform_swing.unwrap().axes, JointAxes::Optimize);
+    let JointAxes::Given(axes) = h.base_swing.unwrap().axes else { panic!("six axes") };
+    assert!((axes[3].into_inner() - nalgebra::Vector3::new(0.0, 0.6, 0.8)).norm() < 1e-15);
+    assert_eq!(design.workspace.region, Region::Ellipsoid);
+    assert_eq!(design.workspace.trajectory.as_ref().unwrap().file, "path.csv");
+    assert_eq!((design.loads[1].name.as_str(), design.loads[1].fixed_to), ("load 2", FixedTo::Platform));
+    assert!(matches!(design.keep_outs[2].shape, Shape::Capsule { diameter: 3.0, .. }));
+    let required = design.requirements();
+    assert_eq!(
+        (required.loads.len(), required.keep_outs.len(), required.platform_speed.unwrap().linear),
+        (2, 3, 20.0)
+    );
+    for format in [Format::Toml, Format::Json] {
+        let text = match format {
+            Format::Toml => design.to_toml(),
+            Format::Json => design.to_json(),
+        };
+        assert_eq!(parse(&text, format).unwrap().0, design, "{text}");
+    }
+}
+
+#[test]
+fn what_contradicts_itself_is_refused() {
+    let mut all = String::new();
+    for (from, to) in [
+        ("stroke = 3", "strok = 3"),
+        ("stroke = 3", "stroke = 3\nleg_length = [4, 9]"),
+        ("dead_length = 4\nstroke = 3", "leg_length = [9, 4]"),
+        ("dead_length = 4\nstroke = 3", "leg_length = 9"),
+        ("rod_diameter = 0.2\n", ""),
+        ("leg_diameter = 0.4\n", ""),
+        ("base_swing_deg = 45\n", ""),
+        ("base_swing_deg = 45", "base_swing_deg = 200"),
+        ("platform_axes = \"optimize\"", "platform_axes = \"up\""),
+        ("[0.1, 0.2, 0.3], [7, 1, 2]]", "[0, 0, 0], [7, 1]]"),
+        ("[0.1, 0.2, 0.3], [7, 1, 2]]", "[7, 1, 2]]"),
+        ("base_housing = [1, 2, 3]", "base_housing = [1, -2, 3]"),
+        ("leg_clearance = 0", "leg_clearance = -1"),
+        ("linear = 20", "linear = -20\nturn = 3"),
+        ("[[loads]]\nname = \"weight\"", "[[loads]]\nname = \"\"\nforces = [1, 2, 3]"),
+        ("fixed_to = \"platform\"\nsphere", "fixed_to = \"tool\"\nsphere"),
+        ("sphere = { center = [0, 0, 2], diameter = 3 }", "sphere = { centre = [0, 0, 2], diameter = -3 }"),
+        ("box = { center = [0, 0, -5], size = [40, 40, 1] }", "fixed_to = \"base\""),
+        ("region = \"ellipsoid\"", "region = \"ball\""),
+        ("trajectory = \"path.csv\"", "trajectory = 3"),
+        ("[speed]", "[[speed]]"),
+    ] {
+        assert!(GOOD.contains(from), "{from}");
+        match parse(&GOOD.replacen(from, to, 1), Format::Toml) {
+            Ok(_) => panic!("accepted: {to}"),
+            Err(violations) => {
+                for v in violations {
+                    let _ = writeln!(all, "{}:{} {}: {} | {}", v.line, v.column, v.code, v.message, v.help);
+                }
+            }
+        }
+    }
+    insta::assert_snapshot!(all, @r#"
+        26:1 design::missing_key: `dead_length` without `stroke` | add `stroke`, or remove `dead_length`
+        27:1 design::unknown_key: `strok` is not a key of [hardware] | did you mean `stroke`?
+        28:1 design::conflicting_keys: leg lengths are limited twice | keep `leg_length`, or `dead_length` with `stroke`
+        26:14 design::out_of_range: leg lengths from 9 to 4 | give [least, greatest], the least not negative
+        26:14 design::wrong_type: `leg_length` is a number, not an array | write an array of 2 lengths, least and greatest
+        23:1 design::missing_key: `cylinder_length` without `rod_diameter` | add `rod_diameter`, or remove `cylinder_length`
+        22:1 design::missing_key: `rod_diameter` without `leg_diameter` | add `leg_diameter`, or remove `rod_diameter`
+        24:1 design::missing_key: `leg_clearance` without `leg_diameter` | add `leg_diameter`, or remove `leg_clearance`
+        28:1 design::missing_key: `base_axes` without `base_swing_deg` | add `base_swing_deg`, or remove `base_axes`
+        28:18 design::out_of_range: `base_swing_deg` is 200 | stay within 180 degrees
+        31:17 design::wrong_type: `platform_axes` is not a choice of axes | write "home", "optimize" or six vectors in leg order
+        29:58 design::not_positive: an axis of `base_axes` is zero | give a direction
+        29:69 design::coordinate_count: an axis of `base_axes` has 2 numbers instead of 3 | give 3 components
+        29:13 design::wrong_type: `base_axes` is not a choice of axes | write "home", "optimize" or six vectors in leg order
+        21:20 design::not_positive: an edge length of -2 | give positive edge lengths
+        25:17 design::not_positive: `leg_clearance` is -1 | give 0 or more
+        36:10 design::not_positive: `linear` is -20 | give 0 or more
+        37:1 design::unknown_key: `turn` is not a key of [speed] | known keys: linear, angular_deg
+        39:8 design::empty_name: `name` is empty | write something between the quotes of `name`
+        40:1 design::unknown_key: `forces` is not a key of [[loads]] | did you mean `force`?
+        49:12 design::wrong_type: `fixed_to` is "tool" | write "base" or "platform"
+        50:10 design::missing_key: `center` of `sphere` is missing | `sphere` takes center, diameter
+        50:12 design::unknown_key: `centre` is not a key of `sphere` | did you mean `center`?
+        45:3 design::missing_key: table has 0 shapes | give one of box = { center, size }, sphere = { center, diameter }, capsule = { from, to, diameter }
+        17:10 design::wrong_type: `region` is neither box nor ellipsoid | write "box" or "ellipsoid"
+        18:14 design::wrong_type: `trajectory` is a number, not a string | write `trajectory = "..."`
+        35:1 design::wrong_type: [speed] is an array, not a table | write [speed] as a table
+    "#);
+}

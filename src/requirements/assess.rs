@@ -1,0 +1,158 @@
+//! Margins over all poses, with the poses where they are least.
+
+use std::collections::BTreeMap;
+
+use nalgebra::Vector6;
+
+use super::term::{Term, TermKind, Terms};
+use super::{PoseSpace, Requirements};
+use crate::geom::Pose;
+use crate::manipulator::Manipulator;
+use crate::num::Rng;
+
+/// How densely the poses are looked at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AssessOptions {
+    /// Points of a Halton sequence, and as many random ones, in the region of poses.
+    pub points: usize,
+    /// Steps between two poses of a trajectory.
+    pub steps: usize,
+    /// Local searches for the worst pose of each kind of requirement, from the worst points.
+    pub searches: usize,
+    /// Seed of the random points and of the searches.
+    pub seed: u64,
+}
+
+impl Default for AssessOptions {
+    fn default() -> Self {
+        Self { points: 5000, steps: 10, searches: 3, seed: 0 }
+    }
+}
+
+/// The least margin found of one kind of requirement.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Margin {
+    /// The requirement that is met least (or violated most).
+    pub term: Term,
+    /// Its margin: positive when it is met, in the unit of [`TermKind::quantity`].
+    pub value: f64,
+    /// The pose, `None` for requirements on which the pose has no influence.
+    pub pose: Option<Pose>,
+}
+
+/// What was found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Assessment {
+    /// The least margin of each kind of requirement the design has.
+    pub margins: Vec<Margin>,
+    /// Poses looked at, those of the searches included.
+    pub poses: usize,
+}
+
+impl Assessment {
+    /// `true` when no margin is below zero.
+    ///
+    /// A violation found is one. That none was found at these poses is no proof that there is none between them.
+    #[must_use]
+    pub fn all_met(&self) -> bool {
+        self.margins.iter().all(|m| m.value >= 0.0)
+    }
+}
+
+/// A point of the region with what is known about it.
+type Candidate = (f64, Vector6<f64>);
+
+/// The least margin of a kind at a pose.
+fn least(terms: &Terms<'_>, kind: TermKind, pose: &Pose) -> f64 {
+    let own = terms.at(pose).into_iter().filter(|(t, _)| t.kind == kind);
+    own.map(|(_, x)| x).fold(f64::INFINITY, f64::min)
+}
+
+/// Evaluates every requirement at home, densely over the region, at the listed poses and along the trajectory, then
+/// searches for worse poses near the worst ones found.
+///
+/// The search moves one to all coordinates of the cube by random steps that shrink from a tenth to a millionth of its width; it
+/// needs no derivatives, for margins have kinks. Deterministic for a seed.
+#[must_use]
+pub fn assess(m: &Manipulator, required: &Requirements, space: &PoseSpace, o: &AssessOptions) -> Assessment {
+    let terms = Terms::new(m, required, &space.home);
+    let mut rng = Rng::stream(o.seed, 0x6d61);
+    let mut found: BTreeMap<TermKind, Margin> = BTreeMap::new();
+    let mut keep = |list: Vec<(Term, f64)>, pose: Option<Pose>| {
+        for (term, value) in list {
+            let entry = found.entry(term.kind).or_insert(Margin { term, value, pose });
+            if value < entry.value || value.is_nan() {
+                *entry = Margin { term, value, pose };
+            }
+        }
+    };
+    keep(terms.fixed(), None);
+    let mut poses = 0;
+    for pose in space.listed(o.steps) {
+        keep(terms.at(&pose), Some(pose));
+        poses += 1;
+    }
+    let mut worst: BTreeMap<TermKind, Vec<Candidate>> = BTreeMap::new();
+    for x in space.cube_points(o.points, &mut rng) {
+        let pose = space.pose(&x);
+        let list = terms.at(&pose);
+        let mut here: BTreeMap<TermKind, f64> = BTreeMap::new();
+        for (term, value) in &list {
+            let least = here.entry(term.kind).or_insert(*value);
+            *least = least.min(*value);
+        }
+        for (kind, value) in here {
+            let list = worst.entry(kind).or_default();
+            list.push((value, x));
+            list.sort_by(|a, b| a.0.total_cmp(&b.0));
+            list.truncate(o.searches);
+        }
+        keep(list, Some(pose));
+        poses += 1;
+    }
+    let axes = space.axes();
+    if !axes.is_empty() {
+        for (kind, starts) in worst {
+            for start in starts {
+                let (x, tried) = descend(&terms, kind, space, &axes, start, &mut rng);
+                let pose = space.pose(&x);
+                keep(terms.at(&pose), Some(pose));
+                poses += tried;
+            }
+        }
+    }
+    Assessment { margins: found.into_values().collect(), poses }
+}
+
+/// A worse pose near a bad one, and the number of poses tried.
+fn descend(
+    terms: &Terms<'_>,
+    kind: TermKind,
+    space: &PoseSpace,
+    axes: &[usize],
+    (mut value, mut x): Candidate,
+    rng: &mut Rng,
+) -> (Vector6<f64>, usize) {
+    let (mut step, mut tried) = (0.2, 0);
+    while step > 2e-6 {
+        let mut better = false;
+        for trial in 0..2 * axes.len() {
+            let mut y = x;
+            for (j, k) in axes.iter().enumerate() {
+                // every second trial moves one coordinate only
+                if trial % 2 == 0 || j == trial / 2 {
+                    y[*k] = (y[*k] + step * rng.uniform(-1.0, 1.0)).clamp(-1.0, 1.0);
+                }
+            }
+            tried += 1;
+            let there = least(terms, kind, &space.pose(&y));
+            if there < value {
+                (value, x, better) = (there, y, true);
+            }
+        }
+        if !better {
+            step /= 2.0;
+        }
+    }
+    (x, tried)
+}

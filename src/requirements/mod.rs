@@ -1,0 +1,45 @@
+//! What a platform has to satisfy besides being regular: room, lengths, swing, loads, speed over a set of poses.
+//!
+//! The types say what a design file asks for. [`assess`] evaluates them directly, pose by pose, from the definitions; an
+//! optimiser has formulas of its own, so that its answers can be checked here. `docs/theory/requirements.md` has the
+//! definition and the unit of every term.
+
+mod assess;
+mod hardware;
+mod keep_out;
+mod load;
+mod pose_set;
+mod term;
+#[cfg(test)]
+mod tests;
+
+pub use assess::{AssessOptions, Assessment, Margin, assess};
+pub use hardware::{Hardware, Housing, JointAxes, LegBody, LengthLimits, Swing};
+pub use keep_out::{FixedTo, KeepOut, Shape};
+pub use load::{Load, leg_forces};
+pub use pose_set::{PoseSpace, Region};
+pub use term::{Quantity, Term, TermKind, Terms};
+
+/// Greatest speed of the platform: every direction of motion up to these rates, together.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PlatformSpeed {
+    /// Speed of the platform origin, design units per second.
+    pub linear: f64,
+    /// Angular speed, degrees per second.
+    pub angular_deg: f64,
+}
+
+/// Everything a design has to satisfy. What is absent limits nothing.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Requirements {
+    /// Sizes and limits of joints, legs and drives.
+    pub hardware: Hardware,
+    /// Bodies that the legs must not touch.
+    pub keep_outs: Vec<KeepOut>,
+    /// Loads that the legs have to hold, one at a time.
+    pub loads: Vec<Load>,
+    /// How fast the platform has to move.
+    pub platform_speed: Option<PlatformSpeed>,
+    /// Least distance of two joint centres of a body, design units.
+    pub min_joint_distance: Option<f64>,
+}

@@ -1,0 +1,264 @@
+//! The terms: what is required of a manipulator at a pose, and by how much it is met.
+
+use nalgebra::{Point3, Unit, Vector3};
+
+use super::Requirements;
+use super::hardware::{JointAxes, LegBody, Swing};
+use super::keep_out::{FixedTo, KeepOut};
+use super::load::leg_forces;
+use crate::geom::{Pose, segment_distance};
+use crate::manipulator::{Manipulator, jacobian};
+
+/// The kinds of requirements.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum TermKind {
+    /// Leg length minus the least one.
+    LegTooShort,
+    /// The greatest leg length minus the length.
+    LegTooLong,
+    /// Swing limit minus the angle between leg and axis at the base.
+    BaseSwing,
+    /// Swing limit minus the angle between leg and axis at the platform.
+    PlatformSwing,
+    /// Gap between two legs minus the clearance required.
+    LegClearance,
+    /// Gap between a leg and a keep-out minus the clearance required.
+    KeepOut,
+    /// Greatest leg force minus the force under a load.
+    LegForce,
+    /// Greatest leg speed minus the speed in the worst direction of motion.
+    LegSpeed,
+    /// Gap between two housings of the base, or distance of joint centres minus the least one.
+    BaseSpacing,
+    /// The same on the platform.
+    PlatformSpacing,
+}
+
+/// What a margin is measured in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Quantity {
+    /// Design units.
+    Length,
+    /// Degrees.
+    Angle,
+    /// Force units.
+    Force,
+    /// Design units per second.
+    Speed,
+}
+
+impl TermKind {
+    /// A short stable code.
+    #[must_use]
+    pub fn code(self) -> &'static str {
+        match self {
+            Self::LegTooShort => "leg_too_short",
+            Self::LegTooLong => "leg_too_long",
+            Self::BaseSwing => "base_swing",
+            Self::PlatformSwing => "platform_swing",
+            Self::LegClearance => "leg_clearance",
+            Self::KeepOut => "keep_out",
+            Self::LegForce => "leg_force",
+            Self::LegSpeed => "leg_speed",
+            Self::BaseSpacing => "base_spacing",
+            Self::PlatformSpacing => "platform_spacing",
+        }
+    }
+
+    /// What its margin is measured in.
+    #[must_use]
+    pub fn quantity(self) -> Quantity {
+        match self {
+            Self::BaseSwing | Self::PlatformSwing => Quantity::Angle,
+            Self::LegForce => Quantity::Force,
+            Self::LegSpeed => Quantity::Speed,
+            _ => Quantity::Length,
+        }
+    }
+
+    /// `true` when the pose does not matter.
+    #[must_use]
+    pub fn is_fixed(self) -> bool {
+        matches!(self, Self::BaseSpacing | Self::PlatformSpacing)
+    }
+}
+
+/// One requirement: a kind and what it is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Term {
+    /// The kind.
+    pub kind: TermKind,
+    /// The leg, or the joint of the body, counted from 0.
+    pub first: usize,
+    /// The other leg, joint, keep-out or load, counted from 0; equal to `first` where there is no other.
+    pub second: usize,
+}
+
+/// The requirements made ready for one manipulator.
+#[derive(Debug)]
+pub struct Terms<'a> {
+    manipulator: &'a Manipulator,
+    required: &'a Requirements,
+    /// Axes at the base, base frame, and at the platform, platform frame, in leg order.
+    axes: [[Vector3<f64>; 6]; 2],
+}
+
+/// A part of a leg: a segment and its radius.
+type Part = (Point3<f64>, Point3<f64>, f64);
+
+/// Cylinder and rod of a leg from `a` to `b`.
+fn parts(body: &LegBody, a: Point3<f64>, b: Point3<f64>) -> Vec<Part> {
+    let line = b - a;
+    let length = line.norm();
+    match body.rod {
+        Some((cylinder, _)) if length <= cylinder => vec![(a, b, body.diameter / 2.0)],
+        Some((cylinder, rod)) => {
+            let end = a + line * (cylinder / length);
+            vec![(a, end, body.diameter / 2.0), (end, b, rod / 2.0)]
+        }
+        None => vec![(a, b, body.diameter / 2.0)],
+    }
+}
+
+/// Angle between two vectors, degrees, accurate for small angles too.
+fn angle_deg(u: &Vector3<f64>, v: &Vector3<f64>) -> f64 {
+    u.cross(v).norm().atan2(u.dot(v)).to_degrees()
+}
+
+impl<'a> Terms<'a> {
+    /// Makes the requirements ready: axes that follow the legs at home are found here.
+    #[must_use]
+    pub fn new(manipulator: &'a Manipulator, required: &'a Requirements, home: &Pose) -> Self {
+        let at_home = manipulator.legs().map(|l| (home.transform(&l.platform) - l.base).normalize());
+        let axes = |swing: Option<Swing>, turn: &dyn Fn(&Vector3<f64>) -> Vector3<f64>| match swing
+            .map(|s| s.axes)
+        {
+            Some(JointAxes::Given(axes)) => axes.map(Unit::into_inner),
+            _ => std::array::from_fn(|i| turn(&at_home[i])),
+        };
+        let base = axes(required.hardware.base_swing, &|u| *u);
+        let platform = axes(required.hardware.platform_swing, &|u| home.rotation.inverse() * u);
+        Self { manipulator, required, axes: [base, platform] }
+    }
+
+    /// Margins of the requirements that do not depend on the pose: positive where they are met.
+    #[must_use]
+    pub fn fixed(&self) -> Vec<(Term, f64)> {
+        let m = self.manipulator;
+        let bodies = [
+            (TermKind::BaseSpacing, m.base_joints(), m.pairs().map(|p| p.0)),
+            (TermKind::PlatformSpacing, m.platform_joints(), m.pairs().map(|p| p.1)),
+        ];
+        let mut out = Vec::new();
+        for (kind, joints, used) in bodies {
+            let housing = self.required.hardware.housing(kind == TermKind::PlatformSpacing);
+            let is_used = |i: &usize| used.contains(i);
+            for i in (0..joints.len()).filter(is_used) {
+                for j in (i + 1..joints.len()).filter(is_used) {
+                    let d = joints[j] - joints[i];
+                    let gap = housing.map(|h| h.gap(&d));
+                    let centres = self.required.min_joint_distance.map(|least| d.norm() - least);
+                    if let Some(margin) = [gap, centres].into_iter().flatten().reduce(f64::min) {
+                        out.push((Term { kind, first: i, second: j }, margin));
+                    }
+                }
+            }
+        }
+        out
+    }
+
+    /// Margins of all requirements at a pose: positive where they are met. Forces at a singular pose have the margin minus infinity.
+    #[must_use]
+    pub fn at(&self, pose: &Pose) -> Vec<(Term, f64)> {
+        let mut out = Vec::new();
+        let ends: [(Point3<f64>, Point3<f64>); 6] =
+            self.manipulator.legs().map(|l| (l.base, pose.transform(&l.platform)));
+        self.lengths_and_swing(&ends, pose, &mut out);
+        self.clearances(&ends, pose, &mut out);
+        self.drives(pose, &mut out);
+        out
+    }
+
+    fn lengths_and_swing(
+        &self,
+        ends: &[(Point3<f64>, Point3<f64>); 6],
+        pose: &Pose,
+        out: &mut Vec<(Term, f64)>,
+    ) {
+        let hardware = &self.required.hardware;
+        let back = pose.rotation.inverse();
+        for (i, (a, b)) in ends.iter().enumerate() {
+            let line = b - a;
+            let own = |kind| Term { kind, first: i, second: i };
+            if let Some(limits) = hardware.leg_length {
+                let (least, greatest) = limits.range();
+                out.push((own(TermKind::LegTooShort), line.norm() - least));
+                out.push((own(TermKind::LegTooLong), greatest - line.norm()));
+            }
+            if let Some(swing) = hardware.base_swing {
+                out.push((own(TermKind::BaseSwing), swing.limit_deg - angle_deg(&line, &self.axes[0][i])));
+            }
+            if let Some(swing) = hardware.platform_swing {
+                let angle = angle_deg(&(back * line), &self.axes[1][i]);
+                out.push((own(TermKind::PlatformSwing), swing.limit_deg - angle));
+            }
+        }
+    }
+
+    fn clearances(&self, ends: &[(Point3<f64>, Point3<f64>); 6], pose: &Pose, out: &mut Vec<(Term, f64)>) {
+        let hardware = &self.required.hardware;
+        let Some(body) = hardware.leg_body else { return };
+        let clearance = hardware.leg_clearance.unwrap_or(0.0);
+        let legs = ends.map(|(a, b)| parts(&body, a, b));
+        let pairs = self.manipulator.pairs();
+        for i in 0..6 {
+            // legs at a shared joint meet there by design
+            for j in (i + 1..6).filter(|&j| pairs[i].0 != pairs[j].0 && pairs[i].1 != pairs[j].1) {
+                let gap = |(p, q): (&Part, &Part)| segment_distance([p.0, p.1], [q.0, q.1]) - p.2 - q.2;
+                let all = legs[i].iter().flat_map(|p| legs[j].iter().map(move |q| (p, q)));
+                let least = all.map(gap).fold(f64::INFINITY, f64::min);
+                out.push((Term { kind: TermKind::LegClearance, first: i, second: j }, least - clearance));
+            }
+            for (k, keep_out) in self.required.keep_outs.iter().enumerate() {
+                let least =
+                    legs[i].iter().map(|p| keep_out_gap(keep_out, p, pose)).fold(f64::INFINITY, f64::min);
+                out.push((Term { kind: TermKind::KeepOut, first: i, second: k }, least - clearance));
+            }
+        }
+    }
+
+    fn drives(&self, pose: &Pose, out: &mut Vec<(Term, f64)>) {
+        let (hardware, m) = (&self.required.hardware, self.manipulator);
+        if let Some(greatest) = hardware.max_leg_force {
+            for (k, load) in self.required.loads.iter().enumerate() {
+                let forces = leg_forces(m, pose, &load.wrench(pose), m.size());
+                for i in 0..6 {
+                    let margin = forces.map_or(f64::NEG_INFINITY, |f| greatest - f[i].abs());
+                    out.push((Term { kind: TermKind::LegForce, first: i, second: k }, margin));
+                }
+            }
+        }
+        if let (Some(greatest), Some(speed)) = (hardware.max_leg_speed, self.required.platform_speed) {
+            // u.v + (R b x u).w over all |v| <= linear, |w| <= angular
+            let rows = jacobian(m, pose, 1.0);
+            for i in 0..6 {
+                let moment = rows.fixed_view::<1, 3>(i, 3).norm();
+                let fastest = speed.linear + moment * speed.angular_deg.to_radians();
+                let own = Term { kind: TermKind::LegSpeed, first: i, second: i };
+                out.push((own, greatest - fastest));
+            }
+        }
+    }
+}
+
+fn keep_out_gap(keep_out: &KeepOut, (a, b, radius): &Part, pose: &Pose) -> f64 {
+    let distance = match keep_out.fixed_to {
+        FixedTo::Base => keep_out.shape.distance(a, b),
+        FixedTo::Platform => {
+            let back = |q: &Point3<f64>| pose.rotation.inverse() * (q - pose.position);
+            keep_out.shape.distance(&back(a), &back(b))
+        }
+    };
+    distance - radius
+}

@@ -1,0 +1,72 @@
+//! `equipod assess` as a process: margins, exit codes, a trajectory in a file of its own.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::cli_frame::{document, equipod};
+
+/// The shipped octahedral design with more tables.
+fn design(folder: &Path, tables: &str) -> String {
+    let text = std::fs::read_to_string("designs/rbt-octahedral.toml").unwrap();
+    let path = folder.join("design.toml");
+    std::fs::write(&path, format!("{text}\n{tables}")).unwrap();
+    path.to_str().unwrap().to_string()
+}
+
+fn assess(path: &str) -> (Option<i32>, Value) {
+    let out = equipod(&["assess", path, "--points", "300", "--json"]);
+    (out.status.code(), document(&out))
+}
+
+#[test]
+fn margins_come_with_their_worst_poses_and_a_violation_is_a_no() {
+    let folder = tempfile::tempdir().unwrap();
+    let limits = "[hardware]\nleg_length = [10.0, 25.0]\nplatform_swing_deg = 40.0\n";
+    let (code, doc) = assess(&design(folder.path(), limits));
+    assert_eq!((code, doc["met"].as_bool()), (Some(0), Some(true)), "{doc}");
+    let margins = doc["margins"].as_array().unwrap();
+    // the design asks for a least joint distance too, which needs no pose
+    let codes: Vec<&str> = margins.iter().map(|m| m["requirement"].as_str().unwrap()).collect();
+    assert_eq!(
+        codes,
+        ["leg_too_short", "leg_too_long", "platform_swing", "base_spacing", "platform_spacing"]
+    );
+    assert_eq!((&margins[3]["pose"], margins[2]["unit"].as_str()), (&Value::Null, Some("deg")));
+    let spacing = margins[4]["margin"].as_f64().unwrap();
+    assert!((spacing - 4.8).abs() < 1e-12, "edge 6, least distance 1.2: {spacing}");
+    assert_eq!(margins[1]["pose"]["q"].as_array().unwrap().len(), 4);
+
+    let (code, doc) = assess(&design(folder.path(), &limits.replace("25.0", "18.0")));
+    assert_eq!((code, doc["met"].as_bool()), (Some(1), Some(false)));
+    assert_eq!(
+        (doc["margins"][1]["met"].as_bool(), doc["margins"][0]["met"].as_bool()),
+        (Some(false), Some(true))
+    );
+}
+
+#[test]
+fn a_trajectory_stands_beside_the_design_and_its_bad_lines_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = std::fs::read_to_string("designs/rbt-octahedral.toml").unwrap();
+    let text = text.replace(
+        "translation = [2.0, 2.0, 2.0]\nrotation_deg = [10.0, 10.0, 10.0]",
+        "trajectory = \"path.csv\"",
+    );
+    let path = folder.path().join("moved.toml");
+    std::fs::write(&path, format!("{text}\n[hardware]\nleg_length = [10.0, 25.0]\n")).unwrap();
+    let table = folder.path().join("path.csv");
+    std::fs::write(&table, "x,y,z,roll,pitch,yaw\n3,5.2,15,0,0,0\n3,5.2,24,0,0,0\n").unwrap();
+    let (code, doc) = assess(path.to_str().unwrap());
+    assert_eq!(code, Some(1), "at z = 24 the legs are longer than 25: {doc}");
+    std::fs::write(&table, "3,5.2,15,0,0,0\n3,5.2\n").unwrap();
+    let (code, doc) = assess(path.to_str().unwrap());
+    assert_eq!((code, doc["error"]["code"].as_str()), (Some(2), Some("design::bad_trajectory")));
+    assert!(doc["error"]["message"].as_str().unwrap().contains("line 2"), "{doc}");
+}
+
+#[test]
+fn a_design_that_requires_nothing_is_told_so() {
+    let (code, doc) = assess("designs/dietmaier.toml");
+    assert_eq!((code, doc["error"]["code"].as_str()), (Some(2), Some("assess::nothing_required")));
+}
