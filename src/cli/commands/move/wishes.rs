@@ -94,7 +94,9 @@ impl WishArgs {
         Ok(Wishes {
             no_shared_joints: self.no_shared_joints,
             spacing: spacing.unwrap_or(SPACING_SHARE * size),
-            clearance: self.no_crossing.then(|| self.clearance.or(hardware.leg_diameter).unwrap_or(0.0)),
+            clearance: self
+                .no_crossing
+                .then(|| self.clearance.or(hardware.leg_body.map(|b| b.diameter)).unwrap_or(0.0)),
             holes,
             conditioning: self.conditioning.unwrap_or(CONDITIONING_SHARE * own),
             reach: self.reach.unwrap_or(REACH) * size,
