@@ -13,6 +13,7 @@ mod failure;
 mod files;
 mod output;
 mod poses;
+mod progress;
 mod rows;
 
 use std::ffi::OsString;

@@ -2,11 +2,15 @@
 //!
 //! Leg `i` of the new platform lies on the line through the cyclic legs `i` and `i + 1`, at offset `t_i`; the
 //! worst case over given poses of the inverse condition number is maximised over the six offsets, by
-//! sequential convex programming in each of the `3^6` branches (joint before, inside or beyond its edge).
+//! sequential convex programming in the `3^6` branches (joint before, inside or beyond its edge), and compared with
+//! all other offsets by branch and bound.
 //! Derivation and limits: `docs/theory/offset-optimisation.md`.
 
+mod area;
+mod bound;
 mod branch;
 mod conditioning;
+mod conflict;
 mod hexagon;
 mod outcome;
 mod polish;
@@ -22,7 +26,9 @@ mod tests;
 mod verdict;
 
 pub use crate::num::conic::SolverFailure;
-pub use branch::{Branch, Conflict, Zone};
+pub use bound::GlobalBound;
+pub use branch::{Branch, Zone};
+pub use conflict::Conflict;
 pub use hexagon::{Body, offset_determinant, sliding_joint_body};
 pub use outcome::{
     BranchCounts, BranchReport, BranchVerdict, LocalEvidence, Margins, OffsetOutcome, OffsetReport,

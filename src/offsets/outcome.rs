@@ -2,7 +2,9 @@
 
 use nalgebra::Matrix6;
 
-use super::branch::{Branch, Conflict};
+use super::bound::GlobalBound;
+use super::branch::Branch;
+use super::conflict::Conflict;
 use super::hexagon::offset_determinant;
 use super::problem::OffsetProblem;
 use super::scp::HistoryStep;
@@ -167,6 +169,8 @@ pub enum BranchVerdict {
         /// `true` when the local search of the best cell had settled.
         settled: bool,
     },
+    /// No feasible point was drawn and none was looked for: the bound over all offsets covers it.
+    Bounded,
     /// Proved empty: see the conflicts.
     Infeasible,
     /// No feasible point found, emptiness not proved.
@@ -197,6 +201,10 @@ pub struct OffsetReport {
     pub branches: Vec<BranchReport>,
     /// The best other branches, best first: indices into `branches` with polished values.
     pub runners_up: Vec<usize>,
+    /// What no offsets can exceed; `None` without a solution, or when it could not be proved.
+    pub bound: Option<GlobalBound>,
+    /// `true` when the caller broke the search off: the solution is the best until then.
+    pub interrupted: bool,
     /// Seed of the starting points.
     pub seed: u64,
 }
@@ -212,6 +220,8 @@ pub struct BranchCounts {
     pub spacing: usize,
     /// Proved empty: `|det A|` too small.
     pub det: usize,
+    /// Covered by the bound over all offsets, not searched.
+    pub bounded: usize,
     /// Not decided.
     pub unproved: usize,
     /// Conic solver failed.
@@ -235,6 +245,7 @@ impl OffsetReport {
         for b in &self.branches {
             let slot = match (&b.verdict, b.conflicts.first()) {
                 (BranchVerdict::Best | BranchVerdict::Dominated { .. }, _) => &mut n.feasible,
+                (BranchVerdict::Bounded, _) => &mut n.bounded,
                 (BranchVerdict::Unproved, _) => &mut n.unproved,
                 (BranchVerdict::SolverFailure(_), _) => &mut n.failed,
                 (BranchVerdict::Infeasible, Some(Conflict::OutsideBounds { .. })) => &mut n.outside_bounds,

@@ -1,6 +1,7 @@
 //! Proof that a cell is empty: a linear relaxation with a re-checked Farkas certificate.
 
-use super::branch::{Cell, Conflict};
+use super::branch::Cell;
+use super::conflict::Conflict;
 use super::problem::Model;
 use super::spacing::Pair;
 use crate::num::conic::{ConicAnswer, ConicProgram};

@@ -22,7 +22,8 @@ fn in_order(cell: &Cell, t: &[f64; 6]) -> bool {
     cell.order_rows().iter().all(|&(i, j, [c, x, y])| c + x * t[i] + y * t[j] >= 0.0)
 }
 
-fn is_feasible(m: &Model, cell: &Cell, t: &[f64; 6]) -> bool {
+/// `true` for a point of the cell that meets all limits.
+pub(crate) fn is_feasible(m: &Model, cell: &Cell, t: &[f64; 6]) -> bool {
     in_order(cell, t) && violation(m, cell, t) <= 0.0
 }
 

@@ -62,6 +62,19 @@ pub(crate) struct LocalResult {
 }
 
 impl LocalResult {
+    /// A feasible point that was drawn and not climbed from.
+    pub(crate) fn drawn(t: [f64; 6], value: f64) -> Self {
+        Self {
+            t,
+            value,
+            violation: 0.0,
+            converged: false,
+            stationarity: f64::INFINITY,
+            history: Vec::new(),
+            failure: None,
+        }
+    }
+
     /// Violations below this are inside the back-off from the true limits.
     pub(crate) fn is_feasible(&self) -> bool {
         self.violation <= 0.5 * BACKOFF

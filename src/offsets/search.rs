@@ -1,19 +1,24 @@
 //! The search over all branches: divide, sample, rank every cell, polish the best ones.
 
-use super::branch::{Cell, Conflict, divide};
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use super::area::Area;
+use super::branch::{Cell, divide};
 use super::conditioning::worst_case;
+use super::conflict::Conflict;
 use super::outcome::OffsetReport;
 use super::problem::{InvalidProblem, Model, OffsetProblem};
 use super::relaxation::proved_empty;
 use super::sampling::{best_sample, feasible_points, hopeful_point};
 use super::scp::{Effort, LocalResult, climb};
-use super::verdict::{assemble, nothing_fits, vertices_too_close};
+use super::verdict::{Searched, assemble, nothing_fits, vertices_too_close};
 use crate::num::Rng;
 use crate::num::conic::SolverFailure;
 use crate::num::parallel::parallel;
 
 /// Options of the search; none of them changes what is feasible.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OptimizeOptions {
     /// Seed of starting points. Same seed, same answer, whatever the number of threads.
     pub seed: u64,
@@ -27,16 +32,32 @@ pub struct OptimizeOptions {
     pub polished: usize,
     /// Further starts in each polished cell.
     pub starts: usize,
+    /// Search every branch for its own best, not only for what the whole problem needs.
+    pub survey: bool,
+    /// Relative gap between the solution and the proved upper bound; a proof that takes too many boxes ends with a wider one.
+    pub gap: f64,
+    /// Boxes of offsets after which the gap is widened.
+    pub boxes: usize,
 }
 
 impl Default for OptimizeOptions {
     fn default() -> Self {
-        Self { seed: 1, threads: 1, samples: 12, climbs: 3, polished: 16, starts: 6 }
+        Self {
+            seed: 1,
+            threads: 1,
+            samples: 12,
+            climbs: 3,
+            polished: 16,
+            starts: 6,
+            survey: false,
+            gap: 1e-3,
+            boxes: 20_000,
+        }
     }
 }
 
 /// How far the search is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Progress {
     /// Cells ranked so far.
@@ -45,6 +66,15 @@ pub enum Progress {
         done: usize,
         /// Of how many.
         total: usize,
+    },
+    /// Boxes of offsets compared with the best value.
+    Bounding {
+        /// Looked at.
+        boxes: usize,
+        /// Waiting.
+        open: usize,
+        /// Best worst-case inverse condition number so far.
+        best: f64,
     },
     /// Starts of the best cells polished so far.
     Polishing {
@@ -59,6 +89,8 @@ pub enum Progress {
 #[derive(Debug)]
 pub(crate) enum CellResult {
     Feasible(LocalResult),
+    /// No feasible point was drawn, and none was looked for: the bound over all offsets covers it.
+    Passed,
     Empty(Conflict),
     Unknown(Option<SolverFailure>),
 }
@@ -69,6 +101,11 @@ const DRAWS_PER_SAMPLE: usize = 30;
 const RANKING_POSES: usize = 80;
 /// Feasible samples whose worst poses make up that selection.
 const CRITICAL_SAMPLES: usize = 160;
+/// Poses of the first look when not every branch is searched.
+const SAMPLED_POSES: usize = 24;
+/// Cells climbed after that look, and those polished.
+const CONTENDERS: usize = 12;
+const FINALISTS: usize = 3;
 
 /// Best feasible run of a few short climbs from sampled starts; without one, restoration, then a proof.
 fn rank_cell(m: &Model, cell: &Cell, index: usize, o: &OptimizeOptions) -> CellResult {
@@ -99,15 +136,15 @@ pub(crate) fn better(a: &LocalResult, b: &LocalResult) -> bool {
 
 /// Finds the best joint-free platform; see [`OffsetProblem`] for the problem, the theory page for the method.
 ///
-/// All 729 branches are searched and reported. The result is a local optimum of its branch with evidence, and the
-/// best of all local optima found; a proof of global optimality is not claimed.
+/// The best of several climbs is compared with all offsets there are by branch and bound ([`OffsetReport::bound`]), which also leads to better
+/// starts when there are any. `progress` may break the search off; the best until then is returned. With [`OptimizeOptions::survey`], or when no feasible point is drawn, every branch is searched.
 ///
 /// # Errors
 /// [`InvalidProblem`] when the problem cannot be asked. An infeasible problem is a value.
 pub fn optimize(
     problem: &OffsetProblem,
     options: &OptimizeOptions,
-    progress: &mut dyn FnMut(Progress),
+    progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<OffsetReport, InvalidProblem> {
     problem.validate()?;
     let (m, scale) = (Model::new(problem), problem.size());
@@ -116,73 +153,159 @@ pub fn optimize(
         return Ok(nothing_fits(divisions, &conflict, options.seed));
     }
     let cells: Vec<&Cell> = divisions.iter().flat_map(|d| &d.cells).collect();
-    let total = cells.len();
-    let few = critical_poses(&m, &cells, options.seed);
-    let rank = |k: usize| match rank_cell(few.as_ref().unwrap_or(&m), cells[k], k, options) {
-        CellResult::Feasible(mut run) => {
-            run.value = worst_case(&m.poses, &run.t).0;
-            CellResult::Feasible(run)
+    // once the caller breaks off, what is left is passed over
+    let stopped = AtomicBool::new(false);
+    let progress = &mut |p| {
+        if progress(p).is_break() {
+            stopped.store(true, Ordering::Relaxed);
         }
-        other => other,
     };
-    let tick = &mut |done| progress(Progress::Ranking { done, total });
-    let ranked = parallel(total, options.threads, rank, tick);
-    let mut best_first: Vec<(f64, usize)> = ranked
-        .iter()
-        .enumerate()
-        .filter_map(|(k, r)| if let CellResult::Feasible(r) = r { Some((r.value, k)) } else { None })
-        .collect();
-    best_first.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-    best_first.truncate(options.polished.max(1));
-    let polished = polish(&m, &cells, &ranked, &best_first, options, progress);
-    Ok(assemble(problem, &m, &divisions, &cells, ranked, polished, options))
+    let stopped = &|| stopped.load(Ordering::Relaxed);
+    let sampled = if options.survey { None } else { sample_cells(&m, &cells, options) };
+    let surveyed = sampled.is_none();
+    let ranked = sampled.unwrap_or_else(|| survey(&m, &cells, options, stopped, progress));
+    let chosen = if surveyed { options.polished } else { FINALISTS };
+    let starts = if surveyed { options.starts } else { 0 };
+    let tasks = polish_starts(&m, &cells, &ranked, &best_cells(&ranked, chosen), starts, options.seed);
+    let mut polished = polish(&m, &cells, &tasks, options, stopped, progress);
+    let area = Area { problem, m: &m, divisions: &divisions, cells: &cells };
+    let bound = area.bound(&mut polished, options, stopped, progress);
+    let searched = Searched { ranked, polished, bound, interrupted: stopped() };
+    Ok(assemble(problem, &m, &divisions, &cells, searched, options))
+}
+
+/// Cells in the order of their values, best first.
+fn best_cells(ranked: &[CellResult], count: usize) -> Vec<usize> {
+    let value = |(k, r): (usize, &CellResult)| match r {
+        CellResult::Feasible(r) => Some((r.value, k)),
+        _ => None,
+    };
+    let mut order: Vec<(f64, usize)> = ranked.iter().enumerate().filter_map(value).collect();
+    order.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    order.into_iter().take(count.max(1)).map(|x| x.1).collect()
+}
+
+/// Every cell searched for its own best.
+fn survey(
+    m: &Model,
+    cells: &[&Cell],
+    o: &OptimizeOptions,
+    stopped: &(dyn Fn() -> bool + Sync),
+    progress: &mut dyn FnMut(Progress),
+) -> Vec<CellResult> {
+    let total = cells.len();
+    let few = critical_poses(m, cells, o.seed, RANKING_POSES, CRITICAL_SAMPLES);
+    let rank = |k: usize| {
+        if stopped() {
+            return CellResult::Passed;
+        }
+        match rank_cell(few.as_ref().unwrap_or(m), cells[k], k, o) {
+            CellResult::Feasible(mut run) => {
+                run.value = worst_case(&m.poses, &run.t).0;
+                CellResult::Feasible(run)
+            }
+            other => other,
+        }
+    };
+    parallel(total, o.threads, rank, &mut |done| progress(Progress::Ranking { done, total }))
+}
+
+/// One feasible sample of every cell, and short climbs from the best; `None` when there is no sample.
+fn sample_cells(m: &Model, cells: &[&Cell], o: &OptimizeOptions) -> Option<Vec<CellResult>> {
+    let few = critical_poses(m, cells, o.seed, SAMPLED_POSES, SAMPLED_POSES);
+    let few = few.as_ref().unwrap_or(m);
+    let draw = |k: usize| {
+        let mut rng = Rng::stream(o.seed, k as u64);
+        match best_sample(few, cells[k], &mut rng, 1, DRAWS_PER_SAMPLE) {
+            Some(s) => CellResult::Feasible(LocalResult::drawn(s.t, s.value)),
+            None => CellResult::Passed,
+        }
+    };
+    let mut ranked = parallel(cells.len(), o.threads, draw, &mut |_| ());
+    let best = best_cells(&ranked, CONTENDERS);
+    let start = |k: usize| match &ranked[k] {
+        CellResult::Feasible(r) => Some(r.t),
+        _ => None,
+    };
+    let starts: Vec<(usize, [f64; 6])> = best.into_iter().filter_map(|k| Some((k, start(k)?))).collect();
+    if starts.is_empty() {
+        return None;
+    }
+    let run = |i: usize| climb(few, cells[starts[i].0], starts[i].1, Effort::RANK);
+    for ((k, _), mut run) in starts.iter().zip(parallel(starts.len(), o.threads, run, &mut |_| ())) {
+        if run.is_feasible() {
+            run.value = worst_case(&m.poses, &run.t).0;
+            ranked[*k] = CellResult::Feasible(run);
+        }
+    }
+    Some(ranked)
 }
 
 /// The model with the poses that are worst at feasible samples of many cells, most frequent first, then evenly
 /// strided ones; `None` when there are few poses anyway.
-fn critical_poses(m: &Model, cells: &[&Cell], seed: u64) -> Option<Model> {
+fn critical_poses(m: &Model, cells: &[&Cell], seed: u64, wanted: usize, samples: usize) -> Option<Model> {
     let count = m.poses.len();
-    if count <= RANKING_POSES || cells.is_empty() {
+    if count <= wanted || cells.is_empty() {
         return None;
     }
     let mut rng = Rng::stream(seed, 1 << 40);
     let mut hits = vec![0usize; count];
-    for k in 0..CRITICAL_SAMPLES {
-        let cell = cells[k * cells.len() / CRITICAL_SAMPLES];
+    for k in 0..samples {
+        let cell = cells[k * cells.len() / samples];
         for t in feasible_points(m, cell, &mut rng, 1, DRAWS_PER_SAMPLE) {
             hits[worst_case(&m.poses, &t).1] += 2;
         }
     }
-    for k in 0..RANKING_POSES / 2 {
-        hits[k * count / (RANKING_POSES / 2)] += 1;
+    for k in 0..wanted / 2 {
+        hits[k * count / (wanted / 2)] += 1;
     }
     let mut order: Vec<usize> = (0..count).collect();
     order.sort_by(|&i, &j| hits[j].cmp(&hits[i]).then(i.cmp(&j)));
-    order.truncate(RANKING_POSES);
+    order.truncate(wanted);
     order.sort_unstable();
     Some(Model { poses: order.into_iter().map(|k| m.poses[k].clone()).collect(), ..m.clone() })
 }
 
-/// Climbs again from the ranked point and from further starts; the best feasible run of each cell.
-fn polish(
+/// A cell and offsets to climb from.
+type Start = (usize, [f64; 6]);
+
+/// The points that were ranked and `more` further ones of each of the chosen cells.
+fn polish_starts(
     m: &Model,
     cells: &[&Cell],
     ranked: &[CellResult],
-    chosen: &[(f64, usize)],
-    o: &OptimizeOptions,
-    progress: &mut dyn FnMut(Progress),
-) -> Vec<(usize, LocalResult)> {
-    let mut tasks: Vec<(usize, [f64; 6])> = Vec::new();
-    for &(_, k) in chosen {
+    chosen: &[usize],
+    more: usize,
+    seed: u64,
+) -> Vec<Start> {
+    let mut tasks: Vec<Start> = Vec::new();
+    for &k in chosen {
         if let CellResult::Feasible(r) = &ranked[k] {
             tasks.push((k, r.t));
         }
-        let mut rng = Rng::stream(o.seed ^ 0x5eed, k as u64);
-        let starts = feasible_points(m, cells[k], &mut rng, o.starts, DRAWS_PER_SAMPLE * o.starts);
-        tasks.extend(starts.into_iter().map(|t| (k, t)));
+        let mut rng = Rng::stream(seed ^ 0x5eed, k as u64);
+        let further = feasible_points(m, cells[k], &mut rng, more, DRAWS_PER_SAMPLE * more);
+        tasks.extend(further.into_iter().map(|t| (k, t)));
     }
+    tasks
+}
+
+/// Climbs from every start; the best feasible run of each cell, best first.
+fn polish(
+    m: &Model,
+    cells: &[&Cell],
+    tasks: &[Start],
+    o: &OptimizeOptions,
+    stopped: &(dyn Fn() -> bool + Sync),
+    progress: &mut dyn FnMut(Progress),
+) -> Vec<(usize, LocalResult)> {
     let total = tasks.len();
-    let run = |i: usize| climb(m, cells[tasks[i].0], tasks[i].1, Effort::POLISH);
+    let run = |i: usize| {
+        let (k, start) = tasks[i];
+        // the first start is polished whatever happens: it is the answer of an interrupted search
+        let effort = if i > 0 && stopped() { Effort::RANK } else { Effort::POLISH };
+        climb(m, cells[k], start, effort)
+    };
     let runs = parallel(total, o.threads, run, &mut |done| progress(Progress::Polishing { done, total }));
     let mut best: Vec<(usize, LocalResult)> = Vec::new();
     for ((k, _), run) in tasks.iter().zip(runs) {

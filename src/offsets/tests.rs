@@ -1,5 +1,7 @@
 //! Tests of the whole search on the 12-6 example.
 
+use std::ops::ControlFlow;
+
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::*;
@@ -45,7 +47,7 @@ fn full_size_search_is_not_beaten_by_twenty_thousand_random_designs() {
     for turn in [0.0, std::f64::consts::FRAC_PI_3, std::f64::consts::PI] {
         let p = OffsetProblem::with_defaults(example(), poses_about(turn, 27));
         let started = std::time::Instant::now();
-        let r = optimize(&p, &OptimizeOptions::default(), &mut |_| ()).unwrap();
+        let r = optimize(&p, &OptimizeOptions::default(), &mut |_| ControlFlow::Continue(())).unwrap();
         println!("turn {turn:.3}: {:?}, {:?}", started.elapsed(), r.counts());
         let s = r.solution().unwrap();
         println!("{} {:?} {}", s.branch, s.offsets, s.recheck.objective);
@@ -87,7 +89,7 @@ fn quick() -> OptimizeOptions {
 }
 
 fn optimum(p: &OffsetProblem) -> OffsetSolution {
-    let report = optimize(p, &quick(), &mut |_| ()).unwrap();
+    let report = optimize(p, &quick(), &mut |_| ControlFlow::Continue(())).unwrap();
     match report.outcome {
         OffsetOutcome::Optimal(s) => *s,
         other => panic!("not optimal: {other:?}"),
@@ -126,8 +128,10 @@ fn random_feasible_designs_never_beat_the_optimum() {
 #[test]
 fn same_answer_with_any_number_of_threads_and_other_seeds_find_the_same_optimum() {
     let p = small_problem();
-    let run =
-        |threads, seed| optimize(&p, &OptimizeOptions { seed, threads, ..quick() }, &mut |_| ()).unwrap();
+    let run = |threads, seed| {
+        optimize(&p, &OptimizeOptions { seed, threads, ..quick() }, &mut |_| ControlFlow::Continue(()))
+            .unwrap()
+    };
     let one = run(1, 1);
     assert_eq!(one, run(3, 1));
     let other = run(2, 99).solution().unwrap().recheck.objective;
@@ -176,20 +180,20 @@ fn leg_order_of_the_design_is_kept() {
 fn impossible_requirements_are_proved_infeasible_with_the_reason() {
     let mut p = small_problem();
     p.min_joint_distance = 6.5; // platform edge 6
-    let r = optimize(&p, &quick(), &mut |_| ()).unwrap();
+    let r = optimize(&p, &quick(), &mut |_| ControlFlow::Continue(())).unwrap();
     assert_eq!(r.outcome, OffsetOutcome::Infeasible);
     assert!(r.branches.iter().all(|b| matches!(b.conflicts[0], Conflict::VerticesTooClose { .. })));
 
     let mut p = small_problem();
     p.min_joint_distance = 3.01; // more than half a platform edge, and no extension of platform edge 1 or 5
-    let r = optimize(&p, &quick(), &mut |_| ()).unwrap();
+    let r = optimize(&p, &quick(), &mut |_| ControlFlow::Continue(())).unwrap();
     assert_eq!(r.outcome, OffsetOutcome::Infeasible);
     assert_eq!(r.counts().spacing + r.counts().outside_bounds, 729);
 
     let mut p = small_problem();
     p.bounds = [(0.05, 0.95); 6];
     p.min_abs_det = 0.8; // at most 0.95^6 - 0.05^6 = 0.735
-    let r = optimize(&p, &quick(), &mut |_| ()).unwrap();
+    let r = optimize(&p, &quick(), &mut |_| ControlFlow::Continue(())).unwrap();
     assert_eq!(r.outcome, OffsetOutcome::Infeasible);
     assert_eq!(r.counts().det, 1);
     let inside = r.branches.iter().find(|b| b.branch.to_string() == "000000").unwrap();
@@ -215,7 +219,7 @@ fn spacing_at_an_acute_vertex_is_kept_as_a_curved_constraint() {
     let mut p = OffsetProblem::with_defaults(Octahedral::recognise(&m).unwrap(), poses());
     p.bounds = [(0.0, 1.0); 6];
     p.min_joint_distance = 1.9;
-    let r = optimize(&p, &quick(), &mut |_| ()).unwrap();
+    let r = optimize(&p, &quick(), &mut |_| ControlFlow::Continue(())).unwrap();
     let inside = r.branches.iter().find(|b| b.branch.to_string() == "000000").unwrap();
     assert!(inside.cells > 2, "split by order: {}", inside.cells);
     let s = r.solution().unwrap();

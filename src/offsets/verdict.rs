@@ -1,6 +1,8 @@
 //! From the results of the cells to the verdicts on the branches and the answer.
 
-use super::branch::{Cell, Conflict, Division};
+use super::bound::GlobalBound;
+use super::branch::{Cell, Division};
+use super::conflict::Conflict;
 use super::outcome::{
     BranchReport, BranchVerdict, LocalEvidence, OffsetOutcome, OffsetReport, OffsetSolution,
 };
@@ -27,11 +29,18 @@ pub(crate) fn nothing_fits(divisions: Vec<Division>, conflict: &Conflict, seed: 
         verdict: BranchVerdict::Infeasible,
     };
     let branches = divisions.into_iter().map(report).collect();
-    OffsetReport { outcome: OffsetOutcome::Infeasible, branches, runners_up: Vec::new(), seed }
+    OffsetReport {
+        outcome: OffsetOutcome::Infeasible,
+        branches,
+        runners_up: Vec::new(),
+        bound: None,
+        interrupted: false,
+        seed,
+    }
 }
 
 /// The verdict on one branch from the results of its cells.
-fn judge(d: &Division, results: Vec<(CellResult, Option<&LocalResult>)>) -> BranchReport {
+fn judge(d: &Division, results: Vec<(CellResult, Option<&LocalResult>)>, bounded: bool) -> BranchReport {
     let mut report = BranchReport {
         branch: d.branch,
         cells: results.len(),
@@ -39,7 +48,7 @@ fn judge(d: &Division, results: Vec<(CellResult, Option<&LocalResult>)>) -> Bran
         verdict: BranchVerdict::Infeasible,
     };
     let mut best: Option<LocalResult> = None;
-    let (mut unknown, mut failure) = (d.unproved > 0, None);
+    let (mut unknown, mut failure, mut passed) = (d.unproved > 0, None, false);
     for (result, polished) in results {
         let mut consider = |r: &LocalResult| {
             if best.as_ref().is_none_or(|b| better(r, b)) {
@@ -51,6 +60,7 @@ fn judge(d: &Division, results: Vec<(CellResult, Option<&LocalResult>)>) -> Bran
                 consider(&r);
                 polished.into_iter().for_each(consider);
             }
+            CellResult::Passed => passed = true,
             CellResult::Empty(conflict) => report.conflicts.push(conflict),
             CellResult::Unknown(why) => {
                 unknown = true;
@@ -60,11 +70,24 @@ fn judge(d: &Division, results: Vec<(CellResult, Option<&LocalResult>)>) -> Bran
     }
     report.verdict = match (best, unknown, failure) {
         (Some(r), ..) => BranchVerdict::Dominated { value: r.value, offsets: r.t, settled: r.converged },
+        // the bound holds for all offsets of branches that are not proved empty
+        (None, unknown, None) if bounded && (unknown || passed) => BranchVerdict::Bounded,
         (None, true, Some(why)) => BranchVerdict::SolverFailure(why),
         (None, true, None) => BranchVerdict::Unproved,
+        (None, false, _) if passed => BranchVerdict::Unproved,
         (None, false, _) => BranchVerdict::Infeasible,
     };
     report
+}
+
+/// What the search found.
+pub(crate) struct Searched {
+    /// One result for each cell.
+    pub(crate) ranked: Vec<CellResult>,
+    /// The best runs with their cells, best first.
+    pub(crate) polished: Vec<(usize, LocalResult)>,
+    pub(crate) bound: Option<GlobalBound>,
+    pub(crate) interrupted: bool,
 }
 
 pub(crate) fn assemble(
@@ -72,16 +95,16 @@ pub(crate) fn assemble(
     m: &Model,
     divisions: &[Division],
     cells: &[&Cell],
-    ranked: Vec<CellResult>,
-    polished: Vec<(usize, LocalResult)>,
+    searched: Searched,
     o: &OptimizeOptions,
 ) -> OffsetReport {
+    let Searched { ranked, polished, bound, interrupted } = searched;
     let mut results = ranked.into_iter().enumerate();
     let mut branches = Vec::with_capacity(divisions.len());
     for d in divisions {
         let own = results.by_ref().take(d.cells.len());
         let with_polish = own.map(|(k, r)| (r, polished.iter().find(|p| p.0 == k).map(|p| &p.1))).collect();
-        branches.push(judge(d, with_polish));
+        branches.push(judge(d, with_polish, bound.is_some()));
     }
     let value = |b: &BranchReport| match b.verdict {
         BranchVerdict::Dominated { value, .. } => Some(value),
@@ -105,7 +128,14 @@ pub(crate) fn assemble(
             if sound { OffsetOutcome::Optimal(boxed) } else { OffsetOutcome::NotConverged(boxed) }
         }
     };
-    OffsetReport { outcome, branches, runners_up: order.into_iter().map(|x| x.1).collect(), seed: o.seed }
+    OffsetReport {
+        outcome,
+        branches,
+        runners_up: order.into_iter().map(|x| x.1).collect(),
+        bound,
+        interrupted,
+        seed: o.seed,
+    }
 }
 
 /// Pattern search, then the re-check on the original problem. `None` when the re-check finds a violation.

@@ -119,6 +119,7 @@ const LINES: &[Line] = &[
             ("serde_json", None),
             ("toml", None),
             ("clap", None),
+            ("ctrlc", None),
             ("anstream", None),
             ("anstyle", None),
             ERRORS,

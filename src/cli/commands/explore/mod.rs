@@ -2,7 +2,6 @@
 
 mod figures;
 mod folder;
-mod progress;
 mod report;
 
 use std::fmt::Write as _;
@@ -12,14 +11,14 @@ use std::path::PathBuf;
 use serde_json::{Map, Value, json};
 
 use self::folder::Folder;
-use self::progress::Progress;
-use super::optimize::Done;
+use super::optimize::{Choices, Done};
 use super::{family, fk as fk_command, optimize, verify as verify_command};
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::output::{Answer, document, number};
 use crate::cli::poses;
+use crate::cli::progress::{Interrupt, Progress};
 use crate::design::Design;
 use crate::equivalence::{SamplePlan, Verification, verify};
 use crate::fk::{self, FkOptions, FkSolutions};
@@ -136,10 +135,17 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     folder.write(folder::FAMILY, &framed(family::record(&design, &octahedral, &family, &members), seed))?;
 
     progress.stage(2, "offsets");
+    let interrupt = Interrupt::watch();
     let mut done =
-        optimize::search(&design, octahedral.clone(), args.extension, None, seed, &mut |p| match p {
-            offsets::Progress::Ranking { done, total } => progress.part("ranking", done, total),
-            offsets::Progress::Polishing { done, total } => progress.part("polishing", done, total),
+        optimize::search(&design, octahedral.clone(), &Choices::plain(args.extension), seed, &mut |p| {
+            match p {
+                offsets::Progress::Ranking { done, total } => progress.part("ranking", done, total),
+                offsets::Progress::Polishing { done, total } => progress.part("polishing", done, total),
+                offsets::Progress::Bounding { boxes, open, .. } => {
+                    progress.part("bounding", boxes, boxes + open);
+                }
+            }
+            interrupt.flow()
         })?;
     if let (Some(new), Some(s)) = (&mut done.optimised, done.report.solution()) {
         // the same pose, seen by the new legs

@@ -2,6 +2,7 @@
 
 mod render;
 
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use nalgebra::Vector3;
@@ -13,11 +14,12 @@ use crate::cli::failure::Failure;
 use crate::cli::files;
 use crate::cli::output::Answer;
 use crate::cli::poses;
+use crate::cli::progress::{Interrupt, Progress};
 use crate::design::{Design, Workspace};
 use crate::geom::Pose;
 use crate::manipulator::{LegIndex, Octahedral};
 use crate::offsets::{
-    Body, OffsetOutcome, OffsetProblem, OffsetReport, OffsetSolution, OptimizeOptions, Progress, optimize,
+    self, Body, OffsetOutcome, OffsetProblem, OffsetReport, OffsetSolution, OptimizeOptions, optimize,
     sliding_joint_body,
 };
 
@@ -32,6 +34,12 @@ pub(crate) struct Args {
     /// How far a joint may sit out on the extension of its edge, in edge lengths
     #[arg(long, value_name = "X", default_value_t = EXTENSION)]
     extension: f64,
+    /// Search every branch for its own best, which takes ten times as long
+    #[arg(long)]
+    survey: bool,
+    /// Relative gap between the answer and the proved upper bound over all offsets
+    #[arg(long, value_name = "X", default_value_t = 1e-3)]
+    gap: f64,
     /// Worker threads; the answer does not depend on it (default: one for each processor)
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
@@ -39,6 +47,22 @@ pub(crate) struct Args {
 
 /// Default of `--extension`, edge lengths.
 pub(super) const EXTENSION: f64 = 1.0;
+/// How the search is to go.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Choices {
+    pub(super) extension: f64,
+    pub(super) survey: bool,
+    pub(super) gap: f64,
+    pub(super) threads: Option<usize>,
+}
+
+impl Choices {
+    /// Defaults but for the extension.
+    pub(super) fn plain(extension: f64) -> Self {
+        Self { extension, survey: false, gap: OptimizeOptions::default().gap, threads: None }
+    }
+}
+
 /// Half width of the default box of translations, as a share of the design's size.
 const DEFAULT_TRANSLATION_SHARE: f64 = 0.15;
 /// Half width of the default box of rotations, degrees.
@@ -90,7 +114,20 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         Failure::refused("optimize::not_octahedral", format!("not an octahedral platform: {why}"))
             .with_help("optimize spreads the shared joints of a 3-3 octahedral design")
     })?;
-    let done = search(&design, octahedral, args.extension, args.threads, context.seed(), &mut |_| ())?;
+    if !(args.gap > 0.0 && args.gap.is_finite()) {
+        return Err(Failure::refused(
+            "optimize::bad_gap",
+            format!("--gap is {}, not a positive number", args.gap),
+        ));
+    }
+    let choices =
+        Choices { extension: args.extension, survey: args.survey, gap: args.gap, threads: args.threads };
+    let (mut progress, interrupt) = (Progress::new(context.quiet()), Interrupt::watch());
+    let done = search(&design, octahedral, &choices, context.seed(), &mut |p| {
+        progress.note(&words(p));
+        interrupt.flow()
+    })?;
+    progress.end();
     let mut written = None;
     if let (Some(path), Some(d)) = (&args.output, &done.optimised) {
         files::write_design(path, d)?;
@@ -100,6 +137,17 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let text =
         if context.json() { String::new() } else { render::text(&done.found(&design), written.as_deref()) };
     Ok(Answer { exit: done.exit(), json, text })
+}
+
+/// How far the search is, for people.
+fn words(p: offsets::Progress) -> String {
+    match p {
+        offsets::Progress::Ranking { done, total } => format!("cell {done} of {total}"),
+        offsets::Progress::Polishing { done, total } => format!("climb {done} of {total}"),
+        offsets::Progress::Bounding { boxes, open, best } => {
+            format!("best {best:.6}; {boxes} boxes compared, {open} waiting")
+        }
+    }
 }
 
 /// Refuses an `--extension` that is no length.
@@ -133,6 +181,7 @@ impl Done {
 
     pub(super) fn exit(&self) -> Exit {
         match self.report.outcome {
+            _ if self.report.interrupted => Exit::Inconclusive,
             OffsetOutcome::Optimal(_) => Exit::Yes,
             OffsetOutcome::Infeasible => Exit::No,
             OffsetOutcome::NotConverged(_) | OffsetOutcome::Undecided { .. } => Exit::Inconclusive,
@@ -144,16 +193,21 @@ impl Done {
 pub(super) fn search(
     design: &Design,
     octahedral: Octahedral,
-    extension: f64,
-    threads: Option<usize>,
+    choices: &Choices,
     seed: u64,
-    progress: &mut dyn FnMut(Progress),
+    progress: &mut dyn FnMut(offsets::Progress) -> ControlFlow<()>,
 ) -> Result<Done, Failure> {
     let set = pose_set(design);
-    let problem = problem(design, octahedral, set.poses.clone(), extension);
+    let problem = problem(design, octahedral, set.poses.clone(), choices.extension);
     let processors = || std::thread::available_parallelism().map_or(1, usize::from);
-    let threads = threads.unwrap_or_else(processors).clamp(1, 256);
-    let options = OptimizeOptions { seed, threads, ..OptimizeOptions::default() };
+    let threads = choices.threads.unwrap_or_else(processors).clamp(1, 256);
+    let options = OptimizeOptions {
+        seed,
+        threads,
+        survey: choices.survey,
+        gap: choices.gap,
+        ..OptimizeOptions::default()
+    };
     let report = optimize(&problem, &options, progress)
         .map_err(|why| Failure::refused("optimize::invalid_problem", why.to_string()))?;
     let optimised = report.solution().map(|s| optimised_design(design, &problem, s, report.seed));

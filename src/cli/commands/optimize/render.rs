@@ -26,6 +26,7 @@ pub(super) struct Found<'a> {
 impl Found<'_> {
     fn status(&self) -> &'static str {
         match self.report.outcome {
+            _ if self.report.interrupted => "interrupted",
             OffsetOutcome::Optimal(_) => "optimal",
             OffsetOutcome::NotConverged(_) => "feasible",
             OffsetOutcome::Infeasible => "infeasible",
@@ -56,6 +57,7 @@ fn branch_json(b: &BranchReport) -> Value {
     let (verdict, value, offsets) = match &b.verdict {
         BranchVerdict::Best => ("best", Value::Null, Value::Null),
         BranchVerdict::Dominated { value, offsets, .. } => ("dominated", number(*value), numbers(offsets)),
+        BranchVerdict::Bounded => ("bounded", Value::Null, Value::Null),
         BranchVerdict::Infeasible => ("infeasible", Value::Null, Value::Null),
         BranchVerdict::SolverFailure(_) => ("solver_failure", Value::Null, Value::Null),
         _ => ("unproved", Value::Null, Value::Null),
@@ -142,9 +144,14 @@ pub(super) fn json(
     );
     fields.insert("branch_counts".into(), json!({
         "total": found.report.branches.len(), "feasible": n.feasible, "infeasible_bounds": n.outside_bounds,
-        "infeasible_spacing": n.spacing, "infeasible_det": n.det, "unproved": n.unproved,
+        "infeasible_spacing": n.spacing, "infeasible_det": n.det, "bounded": n.bounded, "unproved": n.unproved,
         "solver_failure": n.failed,
     }));
+    let bound = found
+        .report
+        .bound
+        .map(|b| json!({ "upper": number(b.upper), "gap": number(b.gap), "boxes": b.boxes }));
+    fields.insert("global_bound".into(), json!(bound));
     fields.insert("runners_up".into(), found.runners_up().map(branch_json).collect());
     fields.insert("branches".into(), found.report.branches.iter().map(branch_json).collect());
     fields.insert("seed".into(), json!(found.report.seed));
@@ -172,10 +179,17 @@ pub(super) fn text(found: &Found<'_>, written: Option<&str>) -> String {
     if let Some(s) = found.report.solution() {
         solution_text(&mut out, found, s);
     }
+    if let Some(b) = found.report.bound {
+        let _ = writeln!(
+            out,
+            "proved: no offsets within the limits reach more than {:.9} ({:.2e} above the solution; {} boxes)",
+            b.upper, b.gap, b.boxes
+        );
+    }
     let _ = writeln!(
         out,
-        "branches: {} feasible, {} outside the bounds, {} without room, {} with |det A| too small, {} unproved, {} failed",
-        n.feasible, n.outside_bounds, n.spacing, n.det, n.unproved, n.failed
+        "branches: {} feasible, {} outside the bounds, {} without room, {} with |det A| too small, {} covered by the bound, {} unproved, {} failed",
+        n.feasible, n.outside_bounds, n.spacing, n.det, n.bounded, n.unproved, n.failed
     );
     for (code, (count, example)) in found.conflicts() {
         let _ = writeln!(out, "  {count:>3} {code}, for example: {example}");

@@ -1,0 +1,82 @@
+//! What stage a run is in, on standard error, when a person watches.
+
+use std::io::{IsTerminal, Write};
+use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Writes nothing unless standard error is a terminal.
+#[derive(Debug)]
+pub(crate) struct Progress {
+    on: bool,
+    shown: Option<usize>,
+}
+
+impl Progress {
+    pub(crate) fn new(quiet: bool) -> Self {
+        Self { on: !quiet && std::io::stderr().is_terminal(), shown: None }
+    }
+
+    fn put(&self, text: &str) {
+        if self.on {
+            // the terminal may be gone; the run goes on without a watcher
+            let _ = std::io::stderr().write_all(text.as_bytes());
+        }
+    }
+
+    /// A stage begins.
+    pub(crate) fn stage(&mut self, number: usize, what: &str) {
+        self.shown = None;
+        self.put(&format!("[{number}/5] {what}\n"));
+    }
+
+    /// `done` of `total` within a stage, in whole percents.
+    pub(crate) fn part(&mut self, what: &str, done: usize, total: usize) {
+        let percent = 100 * done / total.max(1);
+        if self.shown == Some(percent) {
+            return;
+        }
+        self.shown = Some(percent);
+        let end = if done >= total { "\n" } else { "" };
+        self.put(&format!("\r      {what}: {percent:>3} %{end}"));
+    }
+
+    /// Some words about an open-ended stage, in the place of the last ones.
+    pub(crate) fn note(&mut self, words: &str) {
+        self.put(&format!("\r      {words}\x1b[K"));
+        self.shown = None;
+    }
+
+    /// Ends the line of [`Progress::note`].
+    pub(crate) fn end(&mut self) {
+        self.put("\n");
+    }
+}
+
+/// Ctrl-C asks a search to stop and to show what it has; the second one ends the process.
+#[derive(Debug, Clone)]
+pub(crate) struct Interrupt(Arc<AtomicBool>);
+
+impl Interrupt {
+    /// Takes over Ctrl-C from now on. Where that is not possible the key ends the process as ever.
+    pub(crate) fn watch() -> Self {
+        let flag = Arc::new(AtomicBool::new(false));
+        let seen = Arc::clone(&flag);
+        let handler = move || {
+            if seen.swap(true, Ordering::Relaxed) {
+                std::process::exit(INTERRUPTED);
+            }
+        };
+        // an error means that somebody else has the key: the search then cannot be interrupted gently
+        let _ = ctrlc::set_handler(handler);
+        Self(flag)
+    }
+
+    /// What a search is told.
+    pub(crate) fn flow(&self) -> ControlFlow<()> {
+        if self.0.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}
+
+/// Exit code of a process ended by Ctrl-C (128 + SIGINT).
+const INTERRUPTED: i32 = 130;

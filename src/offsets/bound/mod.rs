@@ -1,0 +1,188 @@
+//! A proved upper bound of the worst-case inverse condition number over all offsets: branch and bound.
+
+mod exclude;
+mod rows;
+#[cfg(test)]
+mod tests;
+
+use std::ops::ControlFlow;
+
+use exclude::{Bounds, Pose, Test, test};
+use rows::LegRow;
+
+use super::branch::determinant_range;
+use super::conditioning::worst_case_above;
+use super::hexagon::sides;
+use super::problem::{Model, OffsetProblem};
+use super::spacing::Pair;
+use crate::num::parallel::parallel;
+
+/// No offsets within the limits of the problem reach more than `upper`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GlobalBound {
+    /// Upper bound of the worst-case inverse condition number, proved in interval arithmetic.
+    pub upper: f64,
+    /// `upper / value - 1` for the value of the solution.
+    pub gap: f64,
+    /// Boxes of offsets that were looked at.
+    pub boxes: usize,
+}
+
+/// How far the bound is to be driven.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct BoundOptions {
+    /// Relative gap to prove.
+    pub(crate) gap: f64,
+    /// Boxes after which the gap is widened.
+    pub(crate) boxes: usize,
+    pub(crate) threads: usize,
+}
+
+/// A box of offsets that may still hold something better.
+#[derive(Debug, Clone)]
+struct Node {
+    bounds: Bounds,
+    /// Poses to look at, the worst of the parent first.
+    poses: Vec<usize>,
+}
+
+/// Boxes looked at side by side; their results are taken over in order, so that threads change nothing.
+const BATCH: usize = 32;
+/// Poses a part of a box inherits.
+const INHERITED: usize = 40;
+/// Widening of the gap when the boxes are used up.
+const WIDER: f64 = 4.0;
+/// No bound is claimed beyond this gap.
+const WIDEST: f64 = 64.0;
+
+/// Boxes in whose middles all poses are looked at.
+const LOOKS: usize = 24;
+
+fn middle(bounds: &Bounds) -> [f64; 6] {
+    bounds.map(|(low, high)| f64::midpoint(low, high))
+}
+
+/// The search tree with what it needs of the problem.
+pub(crate) struct Bounding<'a> {
+    model: &'a Model,
+    pairs: [Pair; 6],
+    poses: Vec<Pose>,
+}
+
+impl<'a> Bounding<'a> {
+    /// `None` when the data do not make intervals.
+    pub(crate) fn new(problem: &OffsetProblem, model: &'a Model) -> Option<Self> {
+        let plain = sides(&problem.octahedral, 1.0);
+        let rows = |pose: &crate::geom::Pose| -> Option<Pose> {
+            let rows: Option<Vec<LegRow>> =
+                plain.iter().map(|s| LegRow::new(s, pose, problem.characteristic_length)).collect();
+            Some(Pose { rows: rows?.try_into().ok()? })
+        };
+        let poses: Option<Vec<Pose>> = problem.poses.iter().map(rows).collect();
+        Some(Self { model, pairs: Pair::all(&model.sides), poses: poses? })
+    }
+
+    /// `true` when no offsets of the box meet the limits on `det A` and on the distances of sliding joints. The ranges are
+    /// exact but for rounding, which the requirement relaxed by a millionth of the size outweighs.
+    fn is_empty(&self, bounds: &Bounds) -> bool {
+        let slack = 1e-6;
+        let (low, high) = determinant_range(bounds);
+        if high < self.model.min_abs_det - slack && -low < self.model.min_abs_det - slack {
+            return true;
+        }
+        let least = self.model.spacing - slack;
+        least > 0.0 && self.pairs.iter().any(|p| p.greatest(p.box_of(bounds)).sqrt() < least)
+    }
+
+    /// Drives the bound down to `value (1 + gap)` over the boxes given. `improve` is asked with the middle of every box that is kept and
+    /// answers with the best value known from then on. `None` when `tick` breaks off, or when nothing could be proved.
+    pub(crate) fn prove(
+        &self,
+        boxes: Vec<Bounds>,
+        mut value: f64,
+        o: BoundOptions,
+        improve: &mut dyn FnMut(&[[f64; 6]]) -> f64,
+        tick: &mut dyn FnMut(usize, usize, f64) -> ControlFlow<()>,
+    ) -> Option<GlobalBound> {
+        let first = self.telling_poses(&boxes);
+        let mut open: Vec<Node> =
+            boxes.into_iter().map(|bounds| Node { bounds, poses: first.clone() }).collect();
+        let (mut gap, mut done, mut budget) = (o.gap, 0, o.boxes);
+        while !open.is_empty() {
+            if done >= budget {
+                (gap, budget) = (gap * WIDER, budget + o.boxes / 2);
+                if gap > WIDEST {
+                    return None;
+                }
+            }
+            let batch = open.split_off(open.len().saturating_sub(BATCH));
+            let limit = value * (1.0 + gap);
+            let look = |k: usize| self.look(&batch[k], limit);
+            let results = parallel(batch.len(), o.threads, look, &mut |_| ());
+            done += batch.len();
+            let mut middles = Vec::new();
+            for (node, kept) in batch.iter().zip(results) {
+                let Some(poses) = kept else { continue };
+                middles.push(middle(&node.bounds));
+                open.extend(self.halves(node, &poses));
+            }
+            value = value.max(improve(&middles));
+            if tick(done, open.len(), value).is_break() {
+                return None;
+            }
+        }
+        let upper = (value * (1.0 + gap)).next_up();
+        Some(GlobalBound { upper, gap: upper / value - 1.0, boxes: done })
+    }
+
+    /// The poses to go on with, `None` when the box is excluded.
+    fn look(&self, node: &Node, limit: f64) -> Option<Vec<usize>> {
+        if self.is_empty(&node.bounds) {
+            return None;
+        }
+        let jacobian = |k: usize, t: &[f64; 6]| self.model.poses[k].jacobian(t);
+        let Test::Kept(mut order) = test(&self.poses, &node.poses, &node.bounds, limit, &jacobian) else {
+            return None;
+        };
+        // a pose that refutes the middle belongs into the proofs for the parts
+        let hint = order.first().copied().unwrap_or(0);
+        if let Err((_, pose)) = worst_case_above(&self.model.poses, &middle(&node.bounds), limit, hint)
+            && !order.contains(&pose)
+        {
+            order.insert(0, pose);
+        }
+        Some(order)
+    }
+
+    /// Poses that are worst in the middles of some of the boxes, most frequent first: a start for the proofs.
+    fn telling_poses(&self, boxes: &[Bounds]) -> Vec<usize> {
+        let count = self.model.poses.len();
+        let mut hits: Vec<(usize, usize)> = (0..count).map(|k| (0, k)).collect();
+        if count > INHERITED {
+            for bounds in boxes.iter().step_by(boxes.len().div_ceil(LOOKS).max(1)) {
+                let at = middle(bounds);
+                let mut order: Vec<(f64, usize)> =
+                    self.model.poses.iter().map(|p| p.inverse_condition(&at)).zip(0..).collect();
+                order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+                order.iter().take(3).for_each(|(_, k)| hits[*k].0 += 1);
+            }
+            hits.sort_by(|a, b| b.0.cmp(&a.0).then(a.1.cmp(&b.1)));
+            hits.truncate(INHERITED);
+        }
+        hits.into_iter().map(|h| h.1).collect()
+    }
+
+    /// The box cut in the middle of the longest range, as measured along the edge.
+    fn halves(&self, node: &Node, poses: &[usize]) -> [Node; 2] {
+        let reach = |i: usize| (node.bounds[i].1 - node.bounds[i].0) * self.model.sides[i].edge_length();
+        let longest = (1..6).fold(0, |best, i| if reach(i) > reach(best) { i } else { best });
+        let (low, high) = node.bounds[longest];
+        let cut = f64::midpoint(low, high);
+        let poses = &poses[..poses.len().min(INHERITED)];
+        [(low, cut), (cut, high)].map(|range| {
+            let mut bounds = node.bounds;
+            bounds[longest] = range;
+            Node { bounds, poses: poses.to_vec() }
+        })
+    }
+}

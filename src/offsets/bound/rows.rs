@@ -1,0 +1,159 @@
+//! Rows of the Jacobian as functions of one offset each, in intervals.
+
+use nalgebra::{Matrix3, Point3, Vector3};
+
+use crate::geom::Pose;
+use crate::num::interval::Interval;
+use crate::offsets::hexagon::{Body, Side};
+
+/// An enclosure of one double. Infinite data never get here: the problem was validated.
+pub(super) fn point(x: f64) -> Interval {
+    Interval::point(x).unwrap_or(Interval::WHOLE)
+}
+
+type Vector = [Interval; 3];
+
+fn vector(v: &Vector3<f64>) -> Vector {
+    [0, 1, 2].map(|k| point(v[k]))
+}
+
+fn difference(a: &Point3<f64>, b: &Vector) -> Vector {
+    [0, 1, 2].map(|k| point(a[k]) - b[k])
+}
+
+fn sum(a: &Vector, b: &Vector) -> Vector {
+    [0, 1, 2].map(|k| a[k] + b[k])
+}
+
+fn minus(a: &Vector, b: &Vector) -> Vector {
+    [0, 1, 2].map(|k| a[k] - b[k])
+}
+
+fn dot(a: &Vector, b: &Vector) -> Interval {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: &Vector, b: &Vector) -> Vector {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn turned(r: &Matrix3<f64>, v: &Vector) -> Vector {
+    [0, 1, 2].map(|i| point(r[(i, 0)]) * v[0] + point(r[(i, 1)]) * v[1] + point(r[(i, 2)]) * v[2])
+}
+
+/// Row `i` of the Jacobian at a pose: `(constant + t rate) / sqrt(q0 + q1 t + q2 t^2)`.
+///
+/// With `arm = R b` and `line = R b + p - a` affine in `t`, the direction of the row is `line`, its moment
+/// `arm x line / L = arm x (p - a) / L`: one of `arm`, `a` does not depend on `t`, so that the moment is affine too.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct LegRow {
+    constant: [Interval; 6],
+    rate: [Interval; 6],
+    /// `q0, q1, q2` of the squared length.
+    square: [Interval; 3],
+}
+
+impl LegRow {
+    /// Everything in design units; `None` when `L` cannot divide.
+    pub(super) fn new(side: &Side, pose: &Pose, characteristic_length: f64) -> Option<Self> {
+        let r = pose.rotation.matrix();
+        let edge = difference(&side.end, &vector(&side.start.coords));
+        let zero = [Interval::ZERO; 3];
+        let (base, base_rate, end, end_rate) = match side.sliding {
+            Body::Base => (side.start, edge, side.fixed, zero),
+            Body::Platform => (side.fixed, zero, side.start, edge),
+        };
+        let (arm, arm_rate) = (turned(r, &vector(&end.coords)), turned(r, &end_rate));
+        let reach = minus(&vector(&pose.position), &vector(&base.coords));
+        let (line, line_rate) = (sum(&arm, &reach), minus(&arm_rate, &base_rate));
+        let moment = cross(&arm, &reach);
+        let moment_rate = minus(&cross(&arm_rate, &reach), &cross(&arm, &base_rate));
+        let length = point(characteristic_length);
+        let stack = |force: Vector, moment: Vector| -> Option<[Interval; 6]> {
+            let mut out = [Interval::ZERO; 6];
+            for k in 0..3 {
+                out[k] = force[k];
+                out[k + 3] = moment[k].checked_div(length)?;
+            }
+            Some(out)
+        };
+        Some(Self {
+            constant: stack(line, moment)?,
+            rate: stack(line_rate, moment_rate)?,
+            square: [dot(&line, &line), point(2.0) * dot(&line, &line_rate), dot(&line_rate, &line_rate)],
+        })
+    }
+
+    /// `c (row . v)^2` as the numerator `n0 + n1 t + n2 t^2` over the squared length.
+    fn square_of(&self, v: &[f64; 6], c: Interval) -> [Interval; 3] {
+        let along =
+            |row: &[Interval; 6]| (0..6).map(|k| row[k] * point(v[k])).fold(Interval::ZERO, |s, x| s + x);
+        let (a, b) = (along(&self.constant), along(&self.rate));
+        [c * a.square(), c * point(2.0) * a * b, c * b.square()]
+    }
+
+    /// `(row . v)^2 / |v|^2 - limit (row . w)^2 / |w|^2` as a function of `t`; `None` when `v` or `w` is zero.
+    pub(super) fn excess(&self, v: &[f64; 6], w: &[f64; 6], limit: Interval) -> Option<Quotient> {
+        let norm = |v: &[f64; 6]| v.iter().map(|x| point(*x).square()).fold(Interval::ZERO, |s, x| s + x);
+        let one = point(1.0);
+        let low = self.square_of(v, one.checked_div(norm(v))?);
+        let high = self.square_of(w, limit.checked_div(norm(w))?);
+        Some(Quotient { numerator: [0, 1, 2].map(|k| low[k] - high[k]), square: self.square })
+    }
+}
+
+/// `(n0 + n1 t + n2 t^2) / (q0 + q1 t + q2 t^2)`.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Quotient {
+    numerator: [Interval; 3],
+    square: [Interval; 3],
+}
+
+fn quadratic(c: &[Interval; 3], t: Interval) -> Interval {
+    c[0] + t * (c[1] + t * c[2])
+}
+
+fn slope(c: &[Interval; 3], t: Interval) -> Interval {
+    c[1] + point(2.0) * t * c[2]
+}
+
+impl Quotient {
+    /// Its values; `None` where the leg may have length zero.
+    fn value(&self, t: Interval) -> Option<Interval> {
+        quadratic(&self.numerator, t).checked_div(quadratic(&self.square, t))
+    }
+
+    /// Its derivative, `(n' - f q') / q` with the value `f`.
+    fn derivative(&self, t: Interval) -> Option<Interval> {
+        let f = self.value(t)?;
+        (slope(&self.numerator, t) - f * slope(&self.square, t)).checked_div(quadratic(&self.square, t))
+    }
+
+    /// Its value in plain arithmetic, for choices that prove nothing.
+    pub(super) fn estimate(&self, t: f64) -> f64 {
+        let mid = |c: &[Interval; 3]| c.map(|x| x.centre_and_radius().0);
+        let (n, q) = (mid(&self.numerator), mid(&self.square));
+        (n[0] + t * (n[1] + t * n[2])) / (q[0] + t * (q[1] + t * q[2]))
+    }
+}
+
+/// Parts into which a range of an offset is cut.
+const PARTS: u32 = 8;
+
+/// An upper bound of `sum mu f(t)` over `low <= t <= high`: on each part the value in the middle plus the derivative over the
+/// part times half its width (mean value form), in intervals.
+pub(super) fn greatest(terms: &[(f64, &Quotient)], (low, high): (f64, f64)) -> f64 {
+    let cut = |k: u32| if k == PARTS { high } else { low + (high - low) * (f64::from(k) / f64::from(PARTS)) };
+    let part = |k: u32| -> Option<f64> {
+        let range = Interval::new(cut(k), cut(k + 1))?;
+        let middle = range.centre_and_radius().0;
+        let offset = range - point(middle);
+        let (mut value, mut rate) = (Interval::ZERO, Interval::ZERO);
+        for (mu, f) in terms {
+            value = value + point(*mu) * f.value(point(middle))?;
+            rate = rate + point(*mu) * f.derivative(range)?;
+        }
+        Some((value + rate * offset).hi())
+    };
+    (0..PARTS).map(|k| part(k).unwrap_or(f64::INFINITY)).fold(f64::NEG_INFINITY, f64::max)
+}
