@@ -51,7 +51,7 @@ impl Default for OptimizeOptions {
             starts: 6,
             survey: false,
             gap: 1e-3,
-            boxes: 20_000,
+            boxes: 6000,
         }
     }
 }

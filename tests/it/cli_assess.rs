@@ -56,9 +56,9 @@ fn a_trajectory_stands_beside_the_design_and_its_bad_lines_are_named() {
     let path = folder.path().join("moved.toml");
     std::fs::write(&path, format!("{text}\n[hardware]\nleg_length = [10.0, 25.0]\n")).unwrap();
     let table = folder.path().join("path.csv");
-    std::fs::write(&table, "x,y,z,roll,pitch,yaw\n3,5.2,15,0,0,0\n3,5.2,24,0,0,0\n").unwrap();
+    std::fs::write(&table, "x,y,z,roll,pitch,yaw\n3,5.2,15,0,0,0\n3,5.2,26,0,0,0\n").unwrap();
     let (code, doc) = assess(path.to_str().unwrap());
-    assert_eq!(code, Some(1), "at z = 24 the legs are longer than 25: {doc}");
+    assert_eq!(code, Some(1), "at z = 26 the legs are longer than 25: {doc}");
     std::fs::write(&table, "3,5.2,15,0,0,0\n3,5.2\n").unwrap();
     let (code, doc) = assess(path.to_str().unwrap());
     assert_eq!((code, doc["error"]["code"].as_str()), (Some(2), Some("design::bad_trajectory")));

@@ -44,7 +44,7 @@ fn inside_the_edges_the_optimum_is_written_as_a_design_that_reads_back() {
     assert_eq!(d["branch_counts"]["feasible"], 1);
     assert_eq!(d["branches"].as_array().unwrap().len(), 729);
     let (upper, value) = (d["global_bound"]["upper"].as_f64().unwrap(), d["objective"].as_f64().unwrap());
-    assert!(value <= upper && upper < 1.0011 * value, "{upper} {value}");
+    assert!(value <= upper && upper < 1.03 * value, "{upper} {value}");
     for margin in ["base_spacing", "platform_spacing", "abs_det", "bounds"] {
         assert!(d["constraint_margins"][margin].as_f64().unwrap() >= 0.0, "{margin}");
     }

@@ -7,6 +7,8 @@ use crate::num::conic::{ConicAnswer, ConicProgram};
 
 /// Poses that take part in a proof.
 const POSES: usize = 20;
+/// Poses for which vectors are mixed.
+const MIXED: usize = 8;
 /// Offsets at which the multipliers are chosen, for each coordinate.
 const SAMPLES: u32 = 7;
 /// Multipliers below this share of the largest are dropped; any set of multipliers is valid.
@@ -21,22 +23,44 @@ pub(super) struct Pose {
     pub(super) rows: [LegRow; 6],
 }
 
-/// Right singular vectors of the smallest and of the largest singular value, and their quotient.
+/// Vectors that bound the smallest and the largest singular value, and the quotient of these.
+///
+/// The first of each is the right singular vector. Where another singular value is near, the eigenvectors turn quickly with the offsets, and one vector
+/// bounds to first order only: then the other vector and the two halfway directions are added, so that the
+/// multipliers can mix them.
 pub(super) struct Direction {
     pub(super) ratio: f64,
-    low: [f64; 6],
-    high: [f64; 6],
+    low: Vec<[f64; 6]>,
+    high: Vec<[f64; 6]>,
 }
+
+/// Singular values within this factor count as near.
+const NEAR: f64 = 1.6;
 
 impl Direction {
     /// `None` when the decomposition fails.
     pub(super) fn of(j: &Matrix6<f64>) -> Option<Self> {
         let svd = j.clone_owned().try_svd(false, true, f64::EPSILON, 200)?;
         let v = svd.v_t?;
-        let (least, most) = (svd.singular_values.imin(), svd.singular_values.imax());
+        let sigma = svd.singular_values;
+        let mut order = [0, 1, 2, 3, 4, 5];
+        order.sort_by(|&a, &b| sigma[a].total_cmp(&sigma[b]));
         let row = |k: usize| -> [f64; 6] { std::array::from_fn(|c| v[(k, c)]) };
-        let ratio = svd.singular_values[least] / svd.singular_values[most];
-        ratio.is_finite().then(|| Self { ratio, low: row(least), high: row(most) })
+        let ratio = sigma[order[0]] / sigma[order[5]];
+        let mixed = |first: usize, second: usize| -> Vec<[f64; 6]> {
+            let (x, y) = (row(first), row(second));
+            let near = sigma[first].max(sigma[second]) < NEAR * sigma[first].min(sigma[second]);
+            if !near {
+                return vec![x];
+            }
+            let halfway = |sign: f64| std::array::from_fn(|c| x[c] + sign * y[c]);
+            vec![x, y, halfway(1.0), halfway(-1.0)]
+        };
+        ratio.is_finite().then(|| Self {
+            ratio,
+            low: mixed(order[0], order[1]),
+            high: mixed(order[5], order[4]),
+        })
     }
 }
 
@@ -70,14 +94,17 @@ pub(super) fn test(
     let order: Vec<usize> = found.iter().map(|f| f.0).collect();
     found.truncate(POSES);
     let limit = point(limit).square();
-    let functions: Vec<[Quotient; 6]> = found
-        .iter()
-        .filter_map(|(k, d)| {
+    let mut functions: Vec<[Quotient; 6]> = Vec::new();
+    for (place, (k, d)) in found.iter().enumerate() {
+        // the first vectors with each of the others; for the worst poses only
+        let more = |list: &[[f64; 6]]| if place < MIXED { list.len() } else { 1 };
+        let pairs = (0..more(&d.low)).map(|i| (i, 0)).chain((1..more(&d.high)).map(|j| (0, j)));
+        for (i, j) in pairs {
             let all: Option<Vec<Quotient>> =
-                poses[*k].rows.iter().map(|row| row.excess(&d.low, &d.high, limit)).collect();
-            all?.try_into().ok()
-        })
-        .collect();
+                poses[*k].rows.iter().map(|row| row.excess(&d.low[i], &d.high[j], limit)).collect();
+            functions.extend(all.and_then(|all| <[Quotient; 6]>::try_from(all).ok()));
+        }
+    }
     let samples = sampled(&functions, bounds);
     // one pose alone often suffices
     let alone = |values: &[Vec<f64>; 6]| -> f64 {

@@ -51,7 +51,7 @@ const BATCH: usize = 32;
 /// Poses a part of a box inherits.
 const INHERITED: usize = 40;
 /// Widening of the gap when the boxes are used up.
-const WIDER: f64 = 4.0;
+const WIDER: f64 = 3.0;
 /// No bound is claimed beyond this gap.
 const WIDEST: f64 = 64.0;
 
