@@ -2,7 +2,7 @@
 //!
 //! The *straight path* from one pose to another: `p` linear, the quaternion linear (and normalised), that is, the rotation about the fixed axis of
 //! the relative rotation, the short way. On it `det J` is a polynomial of degree 18 over a positive function, so that its sign is proved piece
-//! by piece in interval arithmetic ([`polynomial`]). Poses of the same sign may be joined by other paths ([`join`]).
+//! by piece in interval arithmetic ([`polynomial`]). Poses of the same sign may be joined by other paths ([`join()`]).
 
 mod join;
 mod polynomial;

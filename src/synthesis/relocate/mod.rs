@@ -40,7 +40,7 @@ pub struct LegMove {
     pub family: usize,
     /// Parameters of the new leg, as many as the family has dimensions.
     pub parameters: Vec<f64>,
-    /// Formulas the parameters are meant for, if not those of the family itself (see [`counted_from`]).
+    /// Formulas the parameters are meant for, if not those of the family itself (see [`counted_from()`]).
     pub formulas: Option<Parametrisation>,
 }
 
