@@ -17,6 +17,7 @@ pub mod equivalence;
 pub mod fk;
 pub mod geom;
 pub mod manipulator;
+pub mod manufacture;
 pub mod num;
 pub mod offsets;
 pub mod plot;

@@ -10,9 +10,11 @@ use equipod::bench::{Class, LengthsFrom, problem};
 use equipod::distance::{Evaluator, plans};
 use equipod::fk::{FkOptions, ForwardKinematics, NearSolver, Octic, OcticSolver, Trilateration};
 use equipod::geom::{ComplexPose, Pose, random_rotation};
-use equipod::manipulator::{Leg, Manipulator, default_home};
+use equipod::manipulator::{Leg, Manipulator, Octahedral, default_home};
+use equipod::manufacture::{Controller, displaced, joints};
 use equipod::num::Rng;
 use equipod::solve::certify::{Certifier, exact_squares};
+use equipod::synthesis::joint_free;
 use nalgebra::{Point3, Rotation3, Vector3};
 use num_complex::Complex64;
 
@@ -83,7 +85,36 @@ fn trilateration() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
+/// The pose by the octahedral formula of a joint-free machine, and Newton steps on its calibrated joints.
+fn correction() -> Result<(), Box<dyn std::error::Error>> {
+    let [mut formula, mut one, mut two] = [const { Vec::new() }; 3];
+    for k in 0..PROBLEMS {
+        let (o, truth) = octahedral(k)?;
+        let (m, _) = joint_free(&Octahedral::recognise(&o)?, [-0.2, 0.3, -0.2, 1.2, 0.2, -0.3])?;
+        let mut rng = Rng::stream(23, k);
+        let errors: Vec<_> =
+            joints(&m).iter().map(|_| Vector3::from_fn(|_, _| 1e-4 * rng.normal())).collect();
+        let built = displaced(&m, &errors)?;
+        let controller = Controller::new(&o, &m, &built)?;
+        let s = truth.squared_lengths(&built).ok_or("overflow")?;
+        let Some(pose) = controller.formula(&s, &truth) else { continue };
+        formula.push(nanoseconds(20, || {
+            black_box(controller.formula(black_box(&s), &truth));
+        }));
+        for (times, steps) in [(&mut one, 1), (&mut two, 2)] {
+            times.push(nanoseconds(50, || {
+                black_box(controller.corrected(black_box(&s), &pose, steps));
+            }));
+        }
+    }
+    report("controller: octahedral formula, pose nearest to the last", formula);
+    report("controller: one Newton step on the calibrated joints", one);
+    report("controller: two Newton steps", two);
+    Ok(())
+}
+
 fn main() -> Result<(), Box<dyn std::error::Error>> {
+    correction()?;
     trilateration()?;
     let [mut prepared, mut fast, mut pairs, mut certificates, mut whole] = [const { Vec::new() }; 5];
     let mut complete = 0;

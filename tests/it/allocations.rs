@@ -4,6 +4,7 @@ use allocation_counter::measure;
 use equipod::bench::{Class, LengthsFrom, Problem, problem};
 use equipod::fk::{FkOptions, ForwardKinematics, Homotopy, NearSolver, OcticSolver};
 use equipod::geom::Pose;
+use equipod::manufacture::{Controller, displaced, joints};
 use nalgebra::{Rotation3, Vector3};
 
 /// Allocations of one 6-6 problem by the homotopy with certificates, at most.
@@ -46,6 +47,26 @@ fn following_a_pose_allocates_nothing() {
         }
     }
     assert!(one > 30 && many > 10, "{one} {many}");
+}
+
+#[test]
+fn the_correction_of_a_controller_allocates_nothing() {
+    let mut corrected = 0;
+    for p in problems(Class::Octahedral, LengthsFrom::Pose, 40) {
+        let (m, truth) = (&p.manipulator, p.pose.unwrap());
+        let errors: Vec<_> = joints(m).iter().map(|_| Vector3::new(1e-5, -2e-5, 1e-5)).collect();
+        let built = displaced(m, &errors).unwrap();
+        let controller = Controller::new(m, m, &built).unwrap();
+        let s = truth.squared_lengths(&built).unwrap();
+        let mut found = None;
+        let counted = measure(|| {
+            found = controller.formula(&s, &truth).and_then(|pose| controller.corrected(&s, &pose, 2));
+        });
+        assert_eq!(counted.count_total, 0);
+        let near = |pose: &Pose| (pose.position - truth.position).norm() < 1e-8;
+        corrected += u32::from(found.as_ref().is_some_and(near));
+    }
+    assert!(corrected > 30, "{corrected}");
 }
 
 #[test]

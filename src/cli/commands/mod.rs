@@ -24,8 +24,10 @@ mod locus;
 mod map;
 mod r#move;
 mod optimize;
+mod round;
 mod selfmotion;
 mod singularities;
+mod tolerances;
 mod topologies;
 mod verify;
 
@@ -62,10 +64,14 @@ pub(crate) enum Command {
     Move(r#move::Args),
     /// The best joint-free platform equivalent to an octahedral design
     Optimize(optimize::Args),
+    /// The joints of a design on a grid of holes: exactly equivalent to an octahedral platform, or as near as the grid allows
+    Round(round::Args),
     /// The curves of poses with constant leg lengths through a pose
     Selfmotion(selfmotion::Args),
     /// Sign of det J at a pose, at all assembly modes and over a slice of positions; the largest box of poses without singularity
     Singularities(singularities::Args),
+    /// How far joints may be off for the pose by the nominal formula to stay within a bound
+    Tolerances(tolerances::Args),
     /// The ways to share joints that can hold a platform, and which one a design has
     Topologies(topologies::Args),
     /// Whether two designs are kinematically equivalent, with evidence
@@ -88,8 +94,10 @@ impl Command {
             Self::Map(args) => map::run(args, context),
             Self::Move(args) => r#move::run(args, context),
             Self::Optimize(args) => optimize::run(args, context),
+            Self::Round(args) => round::run(args, context),
             Self::Selfmotion(args) => selfmotion::run(args, context),
             Self::Singularities(args) => singularities::run(args, context),
+            Self::Tolerances(args) => tolerances::run(args, context),
             Self::Topologies(args) => topologies::run(args, context),
             Self::Verify(args) => verify::run(args, context),
         }

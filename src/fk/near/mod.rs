@@ -160,6 +160,19 @@ impl NearSolver {
         }
     }
 
+    /// `steps` plain Newton steps on the leg equations from `start`, without a test of where they lead: for a start so near to the pose that a
+    /// step squares its error. `None` when `start` is no pose or singular.
+    #[must_use]
+    pub fn newton_steps(&self, s: &SquaredLegLengths, start: &Pose, steps: u32) -> Option<Pose> {
+        let scale = (self.unit * self.unit).recip();
+        let target = s.get().map(|s| s * scale);
+        let mut place = local::orthonormal(&self.place_of(start))?;
+        for _ in 0..steps {
+            place = Local::at(self, &place, &target).newton()?.applied_to(&place);
+        }
+        Some(self.pose_of(&place))
+    }
+
     /// One certified segment from `place` towards `target`, as far as the Kantorovich test allows.
     fn segment(&self, target: &[f64; 6], place: &Place, evidence: &mut NearEvidence) -> Segment {
         let here = Local::at(self, place, target);

@@ -72,6 +72,11 @@ const LINES: &[Line] = &[
         &[MATRICES, COMPLEX, ERRORS],
     ),
     (
+        "manufacture",
+        &["num", "geom", "manipulator", "requirements", "synthesis", "singularity", "fk", "equivalence"],
+        &[MATRICES, ERRORS],
+    ),
+    (
         "design",
         &["geom", "manipulator", "requirements"],
         &[
@@ -108,6 +113,7 @@ const LINES: &[Line] = &[
             "singularity",
             "offsets",
             "equivalence",
+            "manufacture",
             "design",
             "plot",
             "bench",

@@ -5,7 +5,6 @@ mod render;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
-use nalgebra::Vector3;
 use serde_json::{Map, Value};
 
 use crate::cli::context::Context;
@@ -15,7 +14,7 @@ use crate::cli::files;
 use crate::cli::output::Answer;
 use crate::cli::poses;
 use crate::cli::progress::{Interrupt, Progress};
-use crate::design::{Design, Workspace};
+use crate::design::Design;
 use crate::geom::Pose;
 use crate::manipulator::{LegIndex, Octahedral};
 use crate::offsets::{
@@ -47,6 +46,7 @@ pub(crate) struct Args {
 
 /// Default of `--extension`, edge lengths.
 pub(super) const EXTENSION: f64 = 1.0;
+
 /// How the search is to go.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Choices {
@@ -63,11 +63,6 @@ impl Choices {
     }
 }
 
-/// Half width of the default box of translations, as a share of the design's size.
-const DEFAULT_TRANSLATION_SHARE: f64 = 0.15;
-/// Half width of the default box of rotations, degrees.
-const DEFAULT_ROTATION_DEG: f64 = 10.0;
-
 /// The poses the worst case is taken over, and where they come from.
 #[derive(Debug)]
 pub(crate) struct PoseSet {
@@ -78,19 +73,8 @@ pub(crate) struct PoseSet {
 }
 
 fn pose_set(design: &Design) -> PoseSet {
-    let home = poses::home(design);
-    let workspace_given = !design.workspace.is_empty();
-    let poses = if workspace_given {
-        design.workspace.sample(Some(&home))
-    } else {
-        let share = DEFAULT_TRANSLATION_SHARE * design.manipulator().size();
-        let workspace = Workspace {
-            translation: Vector3::repeat(share),
-            rotation_deg: Vector3::repeat(DEFAULT_ROTATION_DEG),
-            ..Workspace::default()
-        };
-        workspace.sample(Some(&home))
-    };
+    let (home, (workspace, workspace_given)) = (poses::home(design), poses::workspace(design));
+    let poses = workspace.sample(Some(&home));
     PoseSet { poses, home, home_given: design.home.is_some(), workspace_given }
 }
 

@@ -1,0 +1,31 @@
+//! From a design to a platform that is built: tolerances of the joints, the correction a controller runs, joints on a grid of holes.
+//!
+//! * [`budget()`] and [`trials()`]: how far joints may be off for the pose that the nominal formula gives to stay within a bound, to first order and by
+//!   random errors.
+//! * [`Controller`]: the octahedral formula and Newton steps on calibrated joints.
+//! * [`round_to_grid`]: joints on a grid, exactly equivalent to an octahedral platform or as near to it as the grid allows.
+//!
+//! Theory: `docs/theory/manufacture.md`.
+
+mod budget;
+mod correction;
+mod gauge;
+mod joint;
+mod product;
+mod rounding;
+mod sample;
+mod sensitivity;
+#[cfg(test)]
+mod tests;
+mod trials;
+
+pub use budget::{Budget, JointBudget, Limit, budget};
+pub use correction::{Controller, NoFormula, equivalent_octahedral, octahedral_of};
+pub use joint::{Joint, displaced, joints};
+pub use rounding::{
+    ExactRounding, Grid, Judgement, NearestRounding, NoRounding, RoundedJoint, Rounding, RoundingProblem,
+    round_to_grid,
+};
+pub use sample::{ErrorBound, ErrorKind, PoseSearch, ToleranceError};
+pub use sensitivity::Sensitivity;
+pub use trials::{ErrorSpread, JointErrors, Quantiles, Trials, solved_error, trials};

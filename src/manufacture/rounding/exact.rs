@@ -1,0 +1,247 @@
+//! All joints on the grid and exactly on the lines of two triangles.
+
+use super::grid::{BodyGrid, Cell};
+use super::judge::{Judgement, judge, objective_above};
+use super::pool::{Pool, Triangle, Wanted, pool};
+use super::roles::Roles;
+use super::{NoRounding, RoundedJoint, RoundingProblem, grid_of, on_cells, place, sample_plan};
+use crate::equivalence::{Verification, VerifyError, verify};
+use crate::fk::FkOptions;
+use crate::manipulator::Manipulator;
+use crate::manufacture::correction::octahedral_of;
+use crate::manufacture::joint::{Joint, joints};
+use crate::num::exact::{Rational, rational, relations};
+use crate::synthesis::Body;
+
+/// Joints may be this share of the shortest side off their places.
+const REACH_SHARE: f64 = 0.3;
+/// And this many pitches, at most.
+const REACH: f64 = 12.0;
+
+/// A rounding that is exactly equivalent to an octahedral platform.
+#[derive(Debug, Clone)]
+pub struct ExactRounding {
+    /// The rounded design, joints in the order of the wanted one.
+    pub manipulator: Manipulator,
+    /// The octahedral platform on its triangles.
+    pub octahedral: Manipulator,
+    /// Parts of the sides and where the joints are on them, in the order of the hexagon (base and platform alternately): `t_k = inner / parts`.
+    /// `None` for the octahedral platform itself.
+    pub fractions: Option<[(i64, i64); 6]>,
+    /// Every joint, in the order of [`joints`].
+    pub joints: Vec<RoundedJoint>,
+    /// What it is worth.
+    pub judgement: Judgement,
+    /// Whether exact rational arithmetic on the holes shows: six independent legs in the span of six independent octahedral legs.
+    pub proved: bool,
+    /// Triangles of each body in the search.
+    pub pool: [usize; 2],
+    /// All triangles with joints within this distance of their places were in the search, base and platform, design units.
+    pub complete_to: [f64; 2],
+    /// Replacements of one body's triangle by a better one after the first search.
+    pub replacements: usize,
+    /// Leg map and forward kinematics against `octahedral`.
+    pub verification: Result<Verification, VerifyError>,
+}
+
+/// The search state: a pair of triangles with its worth.
+#[derive(Debug, Clone, Copy)]
+struct Pair {
+    triangles: [Triangle; 2],
+    objective: f64,
+}
+
+struct Search<'a> {
+    problem: &'a RoundingProblem<'a>,
+    grids: [BodyGrid; 2],
+    roles: &'a Roles,
+    list: Vec<Joint>,
+    /// Whether combinations that violate requirements are passed over.
+    strict: bool,
+    hint: usize,
+}
+
+fn cells(roles: &Roles, list: &[Joint], triangles: &[Triangle; 2]) -> Vec<Cell> {
+    let cell = |joint: &Joint| {
+        let body = usize::from(joint.body == Body::Platform);
+        let corner = roles.corners[body].iter().position(|j| j == joint);
+        let inner = roles.inner.and_then(|i| i[body].iter().position(|j| j == joint));
+        match (corner, inner) {
+            (Some(k), _) => triangles[body].corners[k],
+            (None, Some(k)) => triangles[body].joint(k),
+            (None, None) => [0, 0],
+        }
+    };
+    list.iter().map(cell).collect()
+}
+
+impl Search<'_> {
+    fn build(&self, triangles: &[Triangle; 2]) -> Option<Manipulator> {
+        if self.roles.inner.is_some() && determinant_numerator(triangles) == Some(0) {
+            return None;
+        }
+        on_cells(self.problem.manipulator, &self.grids, &cells(self.roles, &self.list, triangles))
+    }
+
+    /// The pair when its objective is above `floor` and, in a strict search, no requirement is violated.
+    fn better(&mut self, triangles: [Triangle; 2], floor: f64) -> Option<Pair> {
+        let m = self.build(&triangles)?;
+        let mut hint = self.hint;
+        let objective = objective_above(&m, self.problem, floor, &mut hint);
+        self.hint = hint;
+        let objective = objective?;
+        let met = !self.strict || judge(&m, self.problem, Some(self.roles.determinant(&m))).met;
+        met.then_some(Pair { triangles, objective })
+    }
+
+    /// The best combination of the first `count` triangles of each body, then replacements of one of them by any of its pool until none is
+    /// better.
+    fn run(&mut self, pools: &[Pool; 2], count: usize) -> Option<(Pair, usize)> {
+        let floor = |best: &Option<Pair>| best.map_or(0.0, |b| b.objective);
+        let mut best: Option<Pair> = None;
+        for a in pools[0].triangles.iter().take(count) {
+            for b in pools[1].triangles.iter().take(count) {
+                best = self.better([*a, *b], floor(&best)).or(best);
+            }
+        }
+        // nothing among the nearest: all of one body with the nearest of the other
+        if best.is_none() {
+            for (body, pool) in pools.iter().enumerate() {
+                for t in &pool.triangles {
+                    let mut triangles = [pools[0].triangles[0], pools[1].triangles[0]];
+                    triangles[body] = *t;
+                    best = self.better(triangles, floor(&best)).or(best);
+                }
+            }
+        }
+        let mut best = best?;
+        let mut replacements = 0;
+        loop {
+            let before = replacements;
+            for (body, pool) in pools.iter().enumerate() {
+                let start = best;
+                for t in &pool.triangles {
+                    let mut triangles = start.triangles;
+                    triangles[body] = *t;
+                    best = self.better(triangles, best.objective).unwrap_or(best);
+                }
+                replacements += usize::from(best.objective > start.objective);
+            }
+            if replacements == before {
+                return Some((best, replacements));
+            }
+        }
+    }
+}
+
+/// `det A` times the product of the parts, exactly; `None` on overflow.
+fn determinant_numerator(triangles: &[Triangle; 2]) -> Option<i128> {
+    let sides = || triangles.iter().flat_map(|t| t.parts.into_iter().zip(t.inner));
+    let product = |factor: fn((i64, i64)) -> i64| {
+        sides().map(factor).try_fold(1i128, |p, x| p.checked_mul(i128::from(x)))
+    };
+    product(|(n, k)| n - k)?.checked_sub(product(|(_, k)| k)?)
+}
+
+/// Exact rank of legs between holes: `(1, i, j) (x) (1, k, l)`.
+pub(super) fn rank(legs: &[(Cell, Cell)]) -> Option<usize> {
+    let number = |x: i64| rational(x as f64);
+    let point = |c: &Cell| -> Option<Vec<Rational>> { [1, c[0], c[1]].into_iter().map(number).collect() };
+    let row = |(a, b): &(Cell, Cell)| -> Option<Vec<Rational>> {
+        let (a, b) = (point(a)?, point(b)?);
+        Some(a.iter().flat_map(|x| b.iter().map(move |y| x * y)).collect())
+    };
+    let rows: Vec<Vec<Rational>> = legs.iter().map(row).collect::<Option<_>>()?;
+    Some(rows.len() - relations(&rows).len())
+}
+
+/// Whether the six legs span the same space as the octahedral legs between the corners, which has dimension six.
+pub(super) fn proved(m: &Manipulator, list: &[Joint], cells: &[Cell], corners: &[[Cell; 3]; 2]) -> bool {
+    let cell = |body, index| list.iter().position(|j| *j == Joint { body, index }).map(|k| cells[k]);
+    let legs: Option<Vec<(Cell, Cell)>> =
+        m.pairs().iter().map(|p| Some((cell(Body::Base, p.0)?, cell(Body::Platform, p.1)?))).collect();
+    let Some(legs) = legs else { return false };
+    let [a, b] = corners;
+    let octahedral: Vec<(Cell, Cell)> =
+        [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)].map(|(i, j)| (a[i], b[j])).to_vec();
+    let both: Vec<_> = legs.iter().chain(&octahedral).copied().collect();
+    [&legs, &octahedral, &both].into_iter().all(|list| rank(list) == Some(6))
+}
+
+/// Where the roles are wanted on a grid.
+fn wanted(m: &Manipulator, roles: &Roles, grid: &BodyGrid, body: usize) -> Wanted {
+    let at = |j: Joint| grid.coordinates(&place(m, j));
+    Wanted { corners: roles.corners[body].map(at), inner: roles.inner.map(|i| i[body].map(at)) }
+}
+
+fn limit(w: &Wanted) -> f64 {
+    let side = |k: usize| {
+        let (p, q) = (w.corners[k], w.corners[(k + 1) % 3]);
+        (p[0] - q[0]).hypot(p[1] - q[1])
+    };
+    (REACH_SHARE * side(0).min(side(1)).min(side(2))).min(REACH)
+}
+
+pub(super) fn round(
+    problem: &RoundingProblem<'_>,
+    grids: [BodyGrid; 2],
+    roles: Option<&Roles>,
+) -> Result<ExactRounding, NoRounding> {
+    let m = problem.manipulator;
+    let roles = roles.ok_or(NoRounding::NoTriangles)?;
+    let pools = [0, 1].map(|body| {
+        let wanted = wanted(m, roles, &grids[body], body);
+        pool(&wanted, problem.candidates.max(1), limit(&wanted))
+    });
+    for (body, pool) in [Body::Base, Body::Platform].into_iter().zip(&pools) {
+        if pool.triangles.is_empty() {
+            return Err(NoRounding::NoTriangleNear(body));
+        }
+    }
+    let list = joints(m);
+    let mut search = Search { problem, grids, roles, list: list.clone(), strict: true, hint: 0 };
+    let mut found = search.run(&pools, problem.candidates.max(1));
+    if found.is_none() {
+        search.strict = false;
+        found = search.run(&pools, problem.candidates.max(1));
+    }
+    let (best, replacements) = found.ok_or(NoRounding::Singular)?;
+    let cells = cells(roles, &list, &best.triangles);
+    let rounded = on_cells(m, &grids, &cells).ok_or(NoRounding::Singular)?;
+    let octahedral = match &roles.found {
+        Some(found) => octahedral_of(&rounded, found).map_err(|_| NoRounding::Singular)?,
+        None => rounded.clone(),
+    };
+    let options = FkOptions { seed: problem.seed, ..FkOptions::default() };
+    let fraction = |k: usize| {
+        let t = &best.triangles[k % 2];
+        (t.inner[k / 2], t.parts[k / 2])
+    };
+    Ok(ExactRounding {
+        fractions: roles.inner.is_some().then(|| std::array::from_fn(fraction)),
+        joints: rounded_joints(m, &rounded, roles, &grids, &cells),
+        judgement: judge(&rounded, problem, Some(roles.determinant(&rounded))),
+        proved: proved(m, &list, &cells, &[best.triangles[0].corners, best.triangles[1].corners]),
+        pool: [0, 1].map(|k| pools[k].triangles.len()),
+        complete_to: [0, 1].map(|k| pools[k].complete_to * grids[k].pitch()),
+        replacements,
+        verification: verify(&octahedral, &rounded, &sample_plan(problem), &options),
+        octahedral,
+        manipulator: rounded,
+    })
+}
+
+fn rounded_joints(
+    m: &Manipulator,
+    rounded: &Manipulator,
+    roles: &Roles,
+    grids: &[BodyGrid; 2],
+    cells: &[Cell],
+) -> Vec<RoundedJoint> {
+    let one = |(joint, cell): (Joint, &Cell)| {
+        let at = grid_of(grids, joint.body).point(*cell);
+        let off_line = roles.off_line(rounded, joint, &at);
+        RoundedJoint { joint, cell: *cell, moved: at - place(m, joint), off_line }
+    };
+    joints(m).into_iter().zip(cells).map(one).collect()
+}

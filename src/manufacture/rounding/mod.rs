@@ -1,0 +1,195 @@
+//! Joints on a grid of holes.
+
+mod exact;
+mod grid;
+mod judge;
+mod nearest;
+mod pool;
+mod roles;
+#[cfg(test)]
+mod tests;
+
+pub use exact::ExactRounding;
+pub use grid::Grid;
+pub use judge::Judgement;
+pub use nearest::NearestRounding;
+
+use nalgebra::{Point3, Vector3};
+use thiserror::Error;
+
+use self::grid::{BodyGrid, Cell};
+use self::roles::Roles;
+use super::joint::{Joint, joints};
+use crate::equivalence::SamplePlan;
+use crate::geom::Pose;
+use crate::manipulator::Manipulator;
+use crate::requirements::{PoseSpace, Requirements};
+use crate::synthesis::Body;
+
+/// Sets of leg lengths at which a rounded design is compared with what it should be equivalent to.
+const SAMPLES: usize = 3;
+
+/// A design to put on a grid, and what it is judged by.
+#[derive(Debug, Clone, Copy)]
+pub struct RoundingProblem<'a> {
+    /// The design as wanted.
+    pub manipulator: &'a Manipulator,
+    /// Grids of base and platform.
+    pub grids: [Grid; 2],
+    /// What it has to satisfy.
+    pub requirements: &'a Requirements,
+    /// The poses it has to reach.
+    pub space: &'a PoseSpace,
+    /// Poses at which it is judged, at least one.
+    pub poses: &'a [Pose],
+    /// Length that turns angles into lengths in the inverse condition number, design units.
+    pub characteristic_length: f64,
+    /// Least `|det A|`, where one is required.
+    pub min_abs_det: Option<f64>,
+    /// Tool point at which errors of the pose are measured, platform frame.
+    pub tool: Point3<f64>,
+    /// Triangles of each body that are combined in the first search.
+    pub candidates: usize,
+    /// The exact rounding is chosen when its objective is at least this share of the wanted design's.
+    pub keep: f64,
+    /// Random poses for the error of the nearest rounding.
+    pub trials: usize,
+    /// Seed.
+    pub seed: u64,
+}
+
+/// Why there is no rounding.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum NoRounding {
+    /// The joints of a body do not lie in a plane.
+    #[error("the joints of the {0} do not lie in a plane: a grid of holes is in one")]
+    NotPlanar(Body),
+    /// A pitch is not a positive number, or another value of a grid is not finite.
+    #[error("the grid of the {0} has no positive finite pitch, or an origin or angle that is not finite")]
+    BadGrid(Body),
+    /// The design is neither octahedral nor has it one joint on each side of two triangles.
+    #[error(
+        "the design is neither octahedral nor has one joint on each side of two triangles: no lines to keep the joints on"
+    )]
+    NoTriangles,
+    /// No triangle on the grid is near enough.
+    #[error(
+        "the grid is too coarse or too fine for the {0}: no triangle near the wanted one has grid points where joints are wanted"
+    )]
+    NoTriangleNear(Body),
+    /// No combination of triangles makes a regular platform.
+    #[error("no combination of triangles on the grid makes a regular platform")]
+    Singular,
+    /// Two joints fall on one hole.
+    #[error("two joints of the {0} fall on one hole")]
+    JointsCoincide(Body),
+    /// A pose at which the design is judged is singular.
+    #[error("the design is singular at one of its poses")]
+    SingularPose,
+}
+
+/// A joint on its hole.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RoundedJoint {
+    /// The joint.
+    pub joint: Joint,
+    /// Hole, counted from the origin of the grid along its axes.
+    pub cell: [i64; 2],
+    /// How far it is from where it was wanted, frame of the body, design units.
+    pub moved: Vector3<f64>,
+    /// Distance from the line of its side: of the new triangle for the exact rounding, of the wanted one for the nearest; `None` for joints
+    /// that are corners or belong to no triangle.
+    pub off_line: Option<f64>,
+}
+
+/// Both roundings of a design.
+#[derive(Debug, Clone)]
+pub struct Rounding {
+    /// The design as wanted, judged in the same way.
+    pub wanted: Judgement,
+    /// All joints on the grid and exactly on the lines of two triangles.
+    pub exact: Result<ExactRounding, NoRounding>,
+    /// All joints on grid points next to where they are wanted.
+    pub nearest: Result<NearestRounding, NoRounding>,
+}
+
+impl Rounding {
+    /// The rounding to build, by rule: the exact one when it meets the requirements and keeps the share `keep` of the objective;
+    /// else the nearest one when it meets the requirements; else the exact one when it meets them; else none.
+    #[must_use]
+    pub fn choice(&self, keep: f64) -> Option<&Manipulator> {
+        let exact = self.exact.as_ref().ok().filter(|e| e.judgement.met);
+        let nearest = self.nearest.as_ref().ok().filter(|n| n.judgement.met);
+        let kept = exact.filter(|e| e.judgement.objective >= keep * self.wanted.objective);
+        kept.map(|e| &e.manipulator).or(nearest.map(|n| &n.manipulator)).or(exact.map(|e| &e.manipulator))
+    }
+}
+
+/// Puts the joints of a design with planar bodies on grids, in two ways.
+///
+/// *Exact*: triangles with corners on grid points whose sides carry grid points where joints are wanted; the result is equivalent to the octahedral platform on these
+/// triangles without any error, decided in exact arithmetic. *Nearest*: every joint on one of the four grid points around it, chosen for the least
+/// error of the pose that the formula of the wanted design gives.
+///
+/// # Errors
+/// [`NoRounding::NotPlanar`], [`NoRounding::BadGrid`]; what stands against one of the ways is in its part of the answer.
+pub fn round_to_grid(problem: &RoundingProblem<'_>) -> Result<Rounding, NoRounding> {
+    let m = problem.manipulator;
+    let list = joints(m);
+    let mut grids = Vec::with_capacity(2);
+    for (body, grid) in [Body::Base, Body::Platform].into_iter().zip(&problem.grids) {
+        let finite = grid.origin.iter().chain([&grid.angle_deg]).all(|x| x.is_finite());
+        if !(grid.pitch > 0.0 && grid.pitch.is_finite() && finite) {
+            return Err(NoRounding::BadGrid(body));
+        }
+        let points: Vec<Point3<f64>> = list.iter().filter(|j| j.body == body).map(|j| place(m, *j)).collect();
+        let laid = BodyGrid::new(&points, grid, m.size()).ok_or(NoRounding::NotPlanar(body))?;
+        if !laid.reaches(&points) {
+            return Err(NoRounding::BadGrid(body));
+        }
+        grids.push(laid);
+    }
+    let [base, platform] = [grids[0], grids[1]];
+    let roles = Roles::of(m);
+    let det = roles.as_ref().map(|r| r.determinant(m));
+    Ok(Rounding {
+        wanted: judge::judge(m, problem, det),
+        exact: exact::round(problem, [base, platform], roles.as_ref()),
+        nearest: nearest::round(problem, [base, platform], roles.as_ref()),
+    })
+}
+
+fn place(m: &Manipulator, joint: Joint) -> Point3<f64> {
+    match joint.body {
+        Body::Base => m.base_joints()[joint.index],
+        Body::Platform => m.platform_joints()[joint.index],
+    }
+}
+
+/// The design with its joints (in the order of [`joints`]) on these holes.
+fn on_cells(m: &Manipulator, grids: &[BodyGrid; 2], cells: &[Cell]) -> Option<Manipulator> {
+    let (mut base, mut platform) = (m.base_joints().to_vec(), m.platform_joints().to_vec());
+    for (joint, cell) in joints(m).into_iter().zip(cells) {
+        match joint.body {
+            Body::Base => base[joint.index] = grids[0].point(*cell),
+            Body::Platform => platform[joint.index] = grids[1].point(*cell),
+        }
+    }
+    Manipulator::try_new(base, platform, m.pairs()).ok()
+}
+
+fn grid_of(grids: &[BodyGrid; 2], body: Body) -> &BodyGrid {
+    &grids[usize::from(body == Body::Platform)]
+}
+
+/// Sample poses in the workspace, or a quarter of the size and 20 degrees about home where it has no width.
+fn sample_plan(problem: &RoundingProblem<'_>) -> SamplePlan {
+    let space = problem.space;
+    let (mut translation, mut rotation) = (space.translation, space.rotation_deg.map(f64::to_radians));
+    if space.axes().is_empty() {
+        translation = Vector3::repeat(0.25 * problem.manipulator.size());
+        rotation = Vector3::repeat(20f64.to_radians());
+    }
+    SamplePlan { home: space.home, translation, rotation, count: SAMPLES, seed: problem.seed }
+}

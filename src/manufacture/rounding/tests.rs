@@ -1,0 +1,233 @@
+//! Roundings: on the grid, on the lines, not beaten by their neighbours, told apart from those that are not exact.
+
+use nalgebra::{Point3, Rotation3, Vector3};
+
+use super::exact::{proved, rank};
+use super::*;
+use crate::equivalence::Verdict;
+use crate::manipulator::{Leg, inverse_condition, jacobian};
+use crate::manufacture::tests::{free, octahedral, space};
+use crate::requirements::TermKind;
+
+const GRID: Grid = Grid { pitch: 0.25, origin: [0.0, 0.0], angle_deg: 0.0 };
+
+fn with<R>(
+    m: &Manipulator,
+    grids: [Grid; 2],
+    required: &Requirements,
+    work: impl Fn(&RoundingProblem<'_>) -> R,
+) -> R {
+    let space = space();
+    let poses: Vec<Pose> = [-1.0, 1.0]
+        .iter()
+        .flat_map(|s| (0..6).map(move |k| nalgebra::Vector6::ith(k, *s)))
+        .map(|x| space.pose(&x))
+        .collect();
+    work(&RoundingProblem {
+        manipulator: m,
+        grids,
+        requirements: required,
+        space: &space,
+        poses: &poses,
+        characteristic_length: 2.5,
+        min_abs_det: None,
+        tool: Point3::origin(),
+        candidates: 30,
+        keep: 0.9,
+        trials: 40,
+        seed: 1,
+    })
+}
+
+fn round(m: &Manipulator, grids: [Grid; 2]) -> Result<Rounding, NoRounding> {
+    with(m, grids, &Requirements::default(), round_to_grid)
+}
+
+#[test]
+fn the_exact_rounding_is_on_the_grid_on_its_lines_and_proved_equivalent() {
+    let found = round(&free(), [GRID; 2]).unwrap();
+    let e = found.exact.unwrap();
+    assert!(e.proved);
+    assert_eq!(e.verification.unwrap().verdict, Verdict::Equivalent);
+    for p in e.manipulator.base_joints().iter().chain(e.manipulator.platform_joints()) {
+        for x in p.iter() {
+            assert!((x / GRID.pitch).fract().abs() <= 0.0, "{x} is no multiple of the pitch");
+        }
+    }
+    for j in &e.joints {
+        assert!(j.moved.norm() < 6.0 * GRID.pitch, "{j:?}");
+        assert!(j.off_line.is_none_or(|x| x < 1e-13));
+    }
+    assert_eq!(e.joints.iter().filter(|j| j.off_line.is_some()).count(), 6);
+    // det A from the fractions
+    let t = e.fractions.unwrap().map(|(k, n)| k as f64 / n as f64);
+    let det = crate::singularity::griffis_duffy_determinant(&t);
+    assert!((det - e.judgement.det.unwrap()).abs() < 1e-12 * det.abs().max(1.0));
+}
+
+#[test]
+fn no_other_triangle_of_one_body_is_better() {
+    let required = Requirements::default();
+    with(&free(), [GRID; 2], &required, |problem| {
+        let found = round_to_grid(problem).unwrap().exact.unwrap();
+        let value = |m: &Manipulator| {
+            let at = |pose| inverse_condition(&jacobian(m, pose, problem.characteristic_length));
+            problem.poses.iter().map(at).fold(f64::INFINITY, f64::min)
+        };
+        assert!((value(&found.manipulator) - found.judgement.objective).abs() < 1e-15);
+        let m = problem.manipulator;
+        let roles = Roles::of(m).unwrap();
+        let list = joints(m);
+        let mut tried = 0;
+        for body in 0..2 {
+            let own = if body == 0 { Body::Base } else { Body::Platform };
+            let points: Vec<_> = list.iter().filter(|j| j.body == own).map(|j| place(m, *j)).collect();
+            let grid = BodyGrid::new(&points, &GRID, m.size()).unwrap();
+            let at = |j: Joint| grid.coordinates(&place(m, j));
+            let wanted = pool::Wanted {
+                corners: roles.corners[body].map(at),
+                inner: roles.inner.map(|i| i[body].map(at)),
+            };
+            for t in pool::pool(&wanted, 30, 16.0).triangles {
+                let mut joints =
+                    [found.manipulator.base_joints().to_vec(), found.manipulator.platform_joints().to_vec()];
+                for k in 0..3 {
+                    joints[body][roles.corners[body][k].index] = grid.point(t.corners[k]);
+                    joints[body][roles.inner.unwrap()[body][k].index] = grid.point(t.joint(k));
+                }
+                let [a, b] = joints;
+                let other = Manipulator::try_new(a, b, m.pairs()).unwrap();
+                assert!(value(&other) <= found.judgement.objective * (1.0 + 1e-12));
+                tried += 1;
+            }
+        }
+        assert!(tried > 60, "{tried}");
+    });
+}
+
+#[test]
+fn a_joint_one_hole_off_its_line_is_not_proved() {
+    let corners = [[[0, 0], [12, 0], [0, 9]], [[0, 0], [6, 3], [-3, 6]]];
+    // legs of the hexagon with t = 1/3 on all sides
+    let third = |p: [i64; 2], q: [i64; 2]| [0, 1].map(|k| p[k] + (q[k] - p[k]) / 3);
+    let mut legs = Vec::new();
+    for k in 0..3 {
+        let [a, b] = corners;
+        legs.push((third(a[k], a[(k + 1) % 3]), b[k]));
+        legs.push((a[(k + 1) % 3], third(b[k], b[(k + 1) % 3])));
+    }
+    assert_eq!(rank(&legs), Some(6));
+    let cells: Vec<[i64; 2]> = legs.iter().map(|l| l.0).chain(legs.iter().map(|l| l.1)).collect();
+    let point = |c: &[i64; 2]| Point3::new(c[0] as f64, c[1] as f64, 0.0);
+    let build = |cells: &[[i64; 2]]| {
+        let (a, b) = (cells[..6].iter().map(point).collect(), cells[6..].iter().map(point).collect());
+        Manipulator::try_new(a, b, std::array::from_fn(|i| (i, i))).unwrap()
+    };
+    let m = build(&cells);
+    let list = joints(&m);
+    assert!(proved(&m, &list, &cells, &corners));
+    let mut off = cells.clone();
+    off[0][1] += 1;
+    assert!(!proved(&build(&off), &list, &off, &corners));
+}
+
+#[test]
+fn a_design_that_is_on_the_grid_stays_where_it_is() {
+    let fine = Grid { pitch: 1.0 / 64.0, ..GRID };
+    let m = round(&free(), [GRID; 2]).unwrap().exact.unwrap().manipulator;
+    let again = round(&m, [fine; 2]).unwrap();
+    let n = again.nearest.as_ref().unwrap();
+    assert!(n.joints.iter().all(|j| j.moved.norm() < 1e-12) && n.not_nearest == 0);
+    assert_eq!(n.verification.as_ref().unwrap().verdict, Verdict::Equivalent);
+    assert!(n.first_order.0 < 1e-12 && n.solved.0.position.max < 1e-9);
+    assert!(again.choice(0.9).is_some());
+}
+
+#[test]
+fn the_nearest_rounding_errs_as_the_first_order_says_and_in_proportion_to_the_pitch() {
+    let at = |pitch: f64| round(&free(), [Grid { pitch, ..GRID }; 2]).unwrap().nearest.unwrap();
+    let (coarse, fine) = (at(0.023), at(0.00023));
+    for n in [&coarse, &fine] {
+        assert!(matches!(n.verification.as_ref().unwrap().verdict, Verdict::NotEquivalent(_)));
+        // the cost that is lowered has both errors
+        let cost = |(p, w): (f64, f64)| p.max(2.5 * w.to_radians());
+        assert!(cost(n.first_order) <= cost(n.first_order_nearest) * (1.0 + 1e-12));
+        let (solved, count) = n.solved;
+        assert_eq!(count, 40);
+        // the first order is that of twelve poses on the faces of the workspace
+        assert!(solved.position.max < 2.0 * n.first_order.0 && solved.position.max > 0.2 * n.first_order.0);
+    }
+    let ratio = coarse.first_order_nearest.0 / fine.first_order_nearest.0;
+    assert!((20.0..500.0).contains(&ratio), "{ratio}");
+}
+
+#[test]
+fn requirements_are_respected_or_the_violation_is_told() {
+    let distance = |d: f64| Requirements { min_joint_distance: Some(d), ..Requirements::default() };
+    let plain = round(&free(), [GRID; 2]).unwrap().exact.unwrap().judgement.least_distances;
+    let apart = plain[0].min(plain[1]) + 0.05;
+    let found = with(&free(), [GRID; 2], &distance(apart), round_to_grid).unwrap();
+    let j = found.exact.unwrap().judgement;
+    assert!(j.met && j.least_distances.iter().all(|d| *d >= apart), "{j:?}");
+    // more than any triangle near the wanted one has room for
+    let found = with(&free(), [GRID; 2], &distance(30.0), round_to_grid).unwrap();
+    assert!(found.choice(0.9).is_none());
+    let j = &found.exact.as_ref().unwrap().judgement;
+    assert!(!j.met && j.margins.iter().any(|(k, m)| *k == TermKind::BaseSpacing && *m < 0.0));
+}
+
+#[test]
+fn grids_may_be_turned_shifted_and_of_two_pitches() {
+    let base = Grid { pitch: 0.3, origin: [0.11, -0.07], angle_deg: 30.0 };
+    let platform = Grid { pitch: 0.2, origin: [0.0, 0.05], angle_deg: -12.0 };
+    let e = round(&free(), [base, platform]).unwrap().exact.unwrap();
+    assert!(e.proved);
+    assert_eq!(e.verification.unwrap().verdict, Verdict::Equivalent);
+    let back = Rotation3::from_axis_angle(&Vector3::z_axis(), -30f64.to_radians());
+    for p in e.manipulator.base_joints() {
+        // the origin is given before the turn
+        let x = back * (p.coords - Vector3::new(0.11, -0.07, 0.0)) / 0.3;
+        assert!((x.x - x.x.round()).abs() < 1e-9 && (x.y - x.y.round()).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn an_octahedral_design_is_rounded_corner_by_corner() {
+    let e = round(&octahedral(), [GRID; 2]).unwrap().exact.unwrap();
+    assert!(e.proved && e.fractions.is_none() && e.joints.len() == 6);
+    assert!(e.joints.iter().all(|j| j.off_line.is_none() && j.moved.norm() < 4.0 * GRID.pitch));
+}
+
+#[test]
+fn bodies_in_space_are_refused_and_designs_without_triangles_have_no_exact_rounding() {
+    let mut legs = free().legs();
+    legs[1].platform.z += 0.5;
+    let bent = Manipulator::from_legs(legs).unwrap();
+    assert_eq!(round(&bent, [GRID; 2]).unwrap_err(), NoRounding::NotPlanar(Body::Platform));
+    let hexapod = Manipulator::from_legs(std::array::from_fn(|i| {
+        let t = i as f64 + 0.2 * (i % 2) as f64;
+        Leg {
+            base: Point3::new(4.0 * t.cos(), 3.0 * t.sin(), 0.0),
+            platform: Point3::new((1.4 * t).sin(), 2.0 * t.cos(), 0.0),
+        }
+    }))
+    .unwrap();
+    let found = round(&hexapod, [GRID; 2]).unwrap();
+    assert_eq!(found.exact.unwrap_err(), NoRounding::NoTriangles);
+    assert!(found.nearest.is_ok());
+    let bad = Grid { pitch: 0.0, ..GRID };
+    assert_eq!(round(&free(), [GRID, bad]).unwrap_err(), NoRounding::BadGrid(Body::Platform));
+    let coarse = Grid { pitch: 50.0, ..GRID };
+    let found = round(&free(), [coarse; 2]).unwrap();
+    assert!(matches!(found.exact, Err(NoRounding::NoTriangleNear(_))));
+    assert!(matches!(found.nearest, Err(NoRounding::JointsCoincide(_))));
+}
+
+#[test]
+fn same_input_same_rounding() {
+    let one = || {
+        let e = round(&free(), [GRID; 2]).unwrap();
+        (e.exact.unwrap().joints, e.nearest.unwrap().joints)
+    };
+    assert_eq!(one(), one());
+}

@@ -1,0 +1,82 @@
+//! What an error of a joint does to the pose, to first order.
+
+use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
+
+use super::joint::joints;
+use crate::geom::Pose;
+use crate::manipulator::{Manipulator, inverse_condition, jacobian};
+use crate::synthesis::Body;
+
+/// Below this inverse condition number (platform radius as characteristic length) a pose counts as singular.
+const SINGULAR: f64 = 1e-10;
+
+/// Error of the pose that a controller computes, per unit of error of each joint.
+///
+/// The controller measures the lengths of the true legs, at `a_i + da_i` and `b_i + db_i`, and solves with the nominal joints. With `u_i` the leg
+/// directions and `J` the rows `[u_i, (R b_i) x u_i]`, the computed pose differs from the true one by the twist
+///
+/// ```text
+/// (v, w) = J^-1 e,     e_i = (R^T u_i) . db_i - u_i . da_i,
+/// ```
+///
+/// and a tool point `q` of the platform by `v + w x (R q)`. Both are sums `sum_j G_j d_j` over the joints, with 3 x 3 matrices `G_j`. A platform
+/// equivalent to another has the same poses at corresponding lengths: it is the same error whether the controller solves for the nominal design or
+/// for its equivalent octahedral one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sensitivity {
+    /// `G_j` of the position of the tool point, base frame, in the order of [`joints`].
+    pub position: Vec<Matrix3<f64>>,
+    /// `G_j` of the rotation vector of the error, base frame, radians per design unit.
+    pub rotation: Vec<Matrix3<f64>>,
+}
+
+impl Sensitivity {
+    /// At a pose, for a tool point in the platform frame; `None` at a singular pose.
+    #[must_use]
+    pub fn at(m: &Manipulator, pose: &Pose, tool: &Point3<f64>) -> Option<Self> {
+        if inverse_condition(&jacobian(m, pose, m.platform_rms_radius())) < SINGULAR {
+            return None;
+        }
+        let inverse = jacobian(m, pose, 1.0).try_inverse()?;
+        let turn: nalgebra::Matrix3x6<f64> = inverse.fixed_rows::<3>(3).into();
+        let arm = (pose.rotation * tool.coords).cross_matrix();
+        let shift = inverse.fixed_rows::<3>(0) - arm * turn;
+        let list = joints(m);
+        let zero = vec![Matrix3::zeros(); list.len()];
+        let mut out = Self { position: zero.clone(), rotation: zero };
+        let back = pose.rotation.inverse();
+        for (i, (leg, pair)) in m.legs().iter().zip(m.pairs()).enumerate() {
+            let u = (pose.transform(&leg.platform) - leg.base).normalize();
+            for (body, index, direction) in [(Body::Base, pair.0, -u), (Body::Platform, pair.1, back * u)] {
+                let own = list.iter().position(|j| (j.body, j.index) == (body, index));
+                let Some(j) = own else { continue };
+                out.position[j] += shift.column(i) * direction.transpose();
+                out.rotation[j] += turn.column(i) * direction.transpose();
+            }
+        }
+        Some(out)
+    }
+
+    /// Error of position (base frame, design units) and rotation vector (base frame, radians) for errors in the order of [`joints`].
+    #[must_use]
+    pub fn error(&self, errors: &[Vector3<f64>]) -> (Vector3<f64>, Vector3<f64>) {
+        let sum = |g: &[Matrix3<f64>]| g.iter().zip(errors).map(|(g, d)| g * d).sum();
+        (sum(&self.position), sum(&self.rotation))
+    }
+}
+
+/// The rotation vector, with all its digits near zero.
+pub(crate) fn rotation_vector(r: &Rotation3<f64>) -> Vector3<f64> {
+    let m = r.matrix();
+    let w = Vector3::new(m[(2, 1)] - m[(1, 2)], m[(0, 2)] - m[(2, 0)], m[(1, 0)] - m[(0, 1)]) * 0.5;
+    let sine = w.norm();
+    if sine > 0.0 { w * (sine.atan2((m.trace() - 1.0) * 0.5) / sine) } else { w }
+}
+
+/// How the pose `found` differs from `truth`: of the tool point, and as rotation vector, both in the base frame.
+pub(crate) fn pose_error(found: &Pose, truth: &Pose, tool: &Point3<f64>) -> (Vector3<f64>, Vector3<f64>) {
+    (
+        found.transform(tool) - truth.transform(tool),
+        rotation_vector(&(found.rotation * truth.rotation.inverse())),
+    )
+}

@@ -1,0 +1,96 @@
+//! `equipod round` as a process: both roundings, the design it writes, refusals.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::cli_frame::{document, equipod};
+
+/// The joint-free platform of the shipped octahedral design with outer offsets, with its workspace.
+fn design(folder: &Path) -> String {
+    let path = folder.join("free.toml");
+    let out = equipod(&[
+        "family",
+        "designs/rbt-octahedral.toml",
+        "--pattern",
+        "S123456",
+        "--offsets=-0.2,0.21,-0.22,0.2,-0.2,0.23",
+        "-o",
+        path.to_str().unwrap(),
+    ]);
+    assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stderr));
+    let tables = "\n[home]\nposition = [3.0, 5.2, 15.0]\nrpy_deg = [0.0, 0.0, 0.0]\n\n[workspace]\ntranslation = [2.0, 2.0, 2.0]\nrotation_deg = [10.0, 10.0, 10.0]\n";
+    let text = std::fs::read_to_string(&path).unwrap();
+    let text = if text.contains("[workspace]") { text } else { text + tables };
+    std::fs::write(&path, text).unwrap();
+    path.to_str().unwrap().to_string()
+}
+
+fn round(args: &[&str]) -> (Option<i32>, Value) {
+    let mut all = vec!["round"];
+    all.extend(args);
+    all.extend(["--json", "--trials", "50"]);
+    let out = equipod(&all);
+    (out.status.code(), document(&out))
+}
+
+#[test]
+fn both_roundings_are_reported_and_the_chosen_one_is_written_and_verified() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = design(folder.path());
+    let out = folder.path().join("rounded.toml");
+    let out = out.to_str().unwrap();
+    let (code, doc) = round(&[&path, "--grid", "0.25", "--grid-platform", "0.125", "-o", out]);
+    assert_eq!(code, Some(0), "{doc}");
+    assert_eq!(
+        (doc["exact"]["proved"].as_bool(), doc["exact"]["verdict"].as_str()),
+        (Some(true), Some("equivalent"))
+    );
+    assert_eq!(doc["nearest"]["verdict"], "not_equivalent");
+    for variant in ["exact", "nearest"] {
+        assert_eq!(doc[variant]["joints"].as_array().unwrap().len(), 12);
+        assert!(doc[variant]["judgement"]["objective"].as_f64().unwrap() > 0.0);
+    }
+    assert!(doc["nearest"]["pose_error"]["first_order"]["position"].as_f64().unwrap() > 0.0);
+    let chosen = doc["chosen"].as_str().unwrap();
+    // the file: every coordinate a multiple of its pitch, and for the exact one verified again by the program
+    let (code, _) =
+        round(&[&path, "--grid", "0.25", "--grid-platform", "0.125", "--variant", "exact", "-o", out]);
+    assert_eq!(code, Some(0), "{chosen}");
+    let text = std::fs::read_to_string(out).unwrap();
+    let (written, _) = equipod::design::parse(&text, equipod::design::Format::Toml).unwrap();
+    let m = written.manipulator();
+    for (joints, pitch) in [(m.base_joints(), 0.25), (m.platform_joints(), 0.125)] {
+        assert!(joints.iter().flat_map(|p| p.iter()).all(|x| (x / pitch).fract().abs() <= 0.0));
+    }
+    let check = equipod(&["check", out, "--json"]);
+    assert_eq!(check.status.code(), Some(0), "the rounded design is regular");
+    let own = document(&check)["griffis_duffy"].clone();
+    assert!(own["deviation"].as_f64().unwrap() < 1e-12, "on the sides of two triangles: {own}");
+    assert!(written.home.is_some() && written.workspace.has_box());
+}
+
+#[test]
+fn a_rounding_that_meets_no_requirement_is_a_no() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = design(folder.path());
+    let text = std::fs::read_to_string(&path).unwrap();
+    std::fs::write(&path, format!("{text}\n[hardware]\njoint_diameter = 30.0\n")).unwrap();
+    let out = folder.path().join("rounded.toml");
+    let (code, doc) = round(&[&path, "--grid", "0.25", "-o", out.to_str().unwrap()]);
+    assert_eq!((code, &doc["chosen"]), (Some(1), &Value::Null));
+    assert!(!out.exists());
+}
+
+#[test]
+fn bodies_in_space_and_bad_grids_are_refused() {
+    let (code, doc) = round(&["designs/dietmaier.toml", "--grid", "0.1"]);
+    assert_eq!((code, doc["error"]["code"].as_str()), (Some(2), Some("round::not_planar")));
+    for grid in ["0", "-1", "nan"] {
+        let (code, _) = round(&["designs/rbt-octahedral.toml", &format!("--grid={grid}")]);
+        assert_eq!(code, Some(2), "{grid}");
+    }
+    let (code, doc) = round(&["designs/symmetric-hexapod.toml", "--grid", "1"]);
+    assert_eq!((code, doc["exact"]["error"]["code"].as_str()), (Some(0), Some("no_triangles")));
+    assert_eq!(doc["chosen"], "nearest");
+}
