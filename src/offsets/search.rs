@@ -103,6 +103,8 @@ const RANKING_POSES: usize = 80;
 const CRITICAL_SAMPLES: usize = 160;
 /// Poses of the first look when not every branch is searched.
 const SAMPLED_POSES: usize = 24;
+/// So few cells are searched one by one in any case.
+const FEW_CELLS: usize = 64;
 /// Cells climbed after that look, and those polished.
 const CONTENDERS: usize = 12;
 const FINALISTS: usize = 3;
@@ -137,7 +139,7 @@ pub(crate) fn better(a: &LocalResult, b: &LocalResult) -> bool {
 /// Finds the best joint-free platform; see [`OffsetProblem`] for the problem, the theory page for the method.
 ///
 /// The best of several climbs is compared with all offsets there are by branch and bound ([`OffsetReport::bound`]), which also leads to better
-/// starts when there are any. `progress` may break the search off; the best until then is returned. With [`OptimizeOptions::survey`], or when no feasible point is drawn, every branch is searched.
+/// starts when there are any. `progress` may break the search off; the best until then is returned. With [`OptimizeOptions::survey`], with few cells, or when no feasible point is drawn, every branch is searched.
 ///
 /// # Errors
 /// [`InvalidProblem`] when the problem cannot be asked. An infeasible problem is a value.
@@ -161,7 +163,8 @@ pub fn optimize(
         }
     };
     let stopped = &|| stopped.load(Ordering::Relaxed);
-    let sampled = if options.survey { None } else { sample_cells(&m, &cells, options) };
+    let sampled =
+        if options.survey || cells.len() <= FEW_CELLS { None } else { sample_cells(&m, &cells, options) };
     let surveyed = sampled.is_none();
     let ranked = sampled.unwrap_or_else(|| survey(&m, &cells, options, stopped, progress));
     let chosen = if surveyed { options.polished } else { FINALISTS };

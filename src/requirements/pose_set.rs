@@ -70,22 +70,22 @@ impl PoseSpace {
         }
     }
 
+    /// Half width along a coordinate of the cube, design units or degrees.
+    fn width(&self, k: usize) -> f64 {
+        if k < 3 { self.translation[k] } else { self.rotation_deg[k - 3] }
+    }
+
     /// The coordinates of the cube along which the pose changes.
     #[must_use]
     pub fn axes(&self) -> Vec<usize> {
-        let widths =
-            Vector6::from_fn(|k, _| if k < 3 { self.translation[k] } else { self.rotation_deg[k - 3] });
-        (0..6).filter(|k| widths[*k] > 0.0).collect()
+        (0..6).filter(|k| self.width(*k) > 0.0).collect()
     }
 
     /// The pose of a point of the cube `[-1, 1]^6`.
     #[must_use]
     pub fn pose(&self, x: &Vector6<f64>) -> Pose {
         // axes of width zero take no part in the norm
-        let used = Vector6::from_fn(|k, _| {
-            let width = if k < 3 { self.translation[k] } else { self.rotation_deg[k - 3] };
-            if width > 0.0 { x[k] } else { 0.0 }
-        });
+        let used = Vector6::from_fn(|k, _| if self.width(k) > 0.0 { x[k] } else { 0.0 });
         let (mut d, mut w): (Vector3<f64>, Vector3<f64>) =
             (used.fixed_rows::<3>(0).into(), used.fixed_rows::<3>(3).into());
         if self.region == Region::Ellipsoid {
