@@ -12,6 +12,7 @@ pub mod bench;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod design;
+pub mod dimensional;
 pub mod distance;
 pub mod equivalence;
 pub mod fk;

@@ -9,7 +9,9 @@ mod report;
 #[cfg(test)]
 mod requirements_tests;
 mod save;
+mod save_optimize;
 mod save_requirements;
+mod search;
 #[cfg(test)]
 mod tests;
 mod toml_text;
@@ -19,6 +21,7 @@ mod violation;
 mod workspace;
 
 pub use model::{Design, NameCount, OptimizeTable};
+pub use search::{Combination, SearchTable};
 pub use violation::{Code, Violation, Warning};
 pub use workspace::{Trajectory, Workspace};
 

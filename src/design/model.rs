@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::Workspace;
+use super::{SearchTable, Workspace};
 use crate::geom::Pose;
 use crate::manipulator::{LegLengths, Manipulator};
 use crate::requirements::{Hardware, KeepOut, Load, PlatformSpeed, Requirements};
@@ -26,6 +26,8 @@ pub struct Design {
     pub workspace: Workspace,
     /// Limits for the optimisation of joint offsets.
     pub optimize: OptimizeTable,
+    /// What the optimiser may choose and what is best; the other keys of `[optimize]`.
+    pub search: SearchTable,
     /// Sizes and limits of joints, legs and drives.
     pub hardware: Hardware,
     /// How fast the platform has to move.
@@ -77,6 +79,7 @@ impl Design {
             home: None,
             workspace: Workspace::default(),
             optimize: OptimizeTable::default(),
+            search: SearchTable::default(),
             hardware: Hardware::default(),
             speed: None,
             loads: Vec::new(),
@@ -110,7 +113,8 @@ impl Design {
     #[must_use]
     pub fn with_tables_of(mut self, other: &Self) -> Self {
         self.source.clone_from(&other.source);
-        (self.home, self.workspace) = (other.home, other.workspace.clone());
+        (self.home, self.workspace, self.search) =
+            (other.home, other.workspace.clone(), other.search.clone());
         (self.optimize, self.hardware, self.speed) = (other.optimize, other.hardware, other.speed);
         (self.loads, self.keep_outs) = (other.loads.clone(), other.keep_outs.clone());
         self

@@ -4,6 +4,7 @@ use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 
 use super::Design;
+use super::save_optimize::OptimizeFile;
 use super::save_requirements::{HardwareTable, KeepOutTable, LoadTable, SpeedTable};
 use crate::geom::Pose;
 use crate::requirements::Region;
@@ -26,8 +27,8 @@ struct DesignFile<'a> {
     home: Option<PoseTable>,
     #[serde(skip_serializing_if = "Option::is_none")]
     workspace: Option<WorkspaceTable>,
-    #[serde(skip_serializing_if = "Positives::is_empty")]
-    optimize: Positives,
+    #[serde(skip_serializing_if = "OptimizeFile::is_empty")]
+    optimize: OptimizeFile,
     #[serde(skip_serializing_if = "Option::is_none")]
     hardware: Option<HardwareTable>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -47,25 +48,6 @@ impl Serialize for Joints<'_> {
             map.serialize_entry(name, point)?;
         }
         map.end()
-    }
-}
-
-/// Optional numbers by key.
-struct Positives(Vec<(&'static str, f64)>);
-
-impl Positives {
-    fn of(entries: &[(&'static str, Option<f64>)]) -> Self {
-        Self(entries.iter().filter_map(|(key, x)| x.map(|x| (*key, x))).collect())
-    }
-
-    fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-}
-
-impl Serialize for Positives {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(self.0.iter().copied())
     }
 }
 
@@ -130,11 +112,7 @@ impl Design {
             platform: Joints(self.platform_names().iter().map(String::as_str).zip(platform).collect()),
             home: self.home.as_ref().map(PoseTable::from),
             workspace: self.workspace_table(),
-            optimize: Positives::of(&[
-                ("min_joint_distance", self.optimize.min_joint_distance),
-                ("min_abs_det", self.optimize.min_abs_det),
-                ("characteristic_length", self.optimize.characteristic_length),
-            ]),
+            optimize: OptimizeFile::of(&self.optimize, &self.search),
             hardware: HardwareTable::of(&self.hardware),
             speed: self.speed.map(|s| SpeedTable { linear: s.linear, angular_deg: s.angular_deg }),
             loads: self.loads.iter().map(LoadTable::from).collect(),

@@ -83,3 +83,69 @@ fn a_design_that_is_not_octahedral_is_refused() {
     assert_eq!(out.status.code(), Some(2));
     assert_eq!(document(&out)["error"]["code"], "optimize::not_octahedral");
 }
+
+/// The octahedral design with requirements; small enough for the test.
+fn required(more: &str) -> String {
+    format!(
+        "{DESIGN}
+[home]
+position = [3.0, 1.7320508075688772, 12.0]
+rpy_deg = [0.0, 0.0, 0.0]
+[workspace]
+translation = [0.5, 0.5, 0.5]
+{more}"
+    )
+}
+
+#[test]
+fn requirements_are_met_by_the_optimised_design_and_assess_agrees() {
+    let more = "[hardware]
+leg_length = [9.0, 18.0]
+base_swing_deg = 60.0
+[optimize]
+variables = [\"symmetric_offsets\", \"home_height\"]
+";
+    let (out, folder) = optimize(&required(more), &["-o", "out.toml"]);
+    assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stdout));
+    let d = document(&out);
+    assert_eq!((d["status"].as_str(), d["requirements_met"].as_bool()), (Some("optimal"), Some(true)));
+    assert_eq!(d["verify"]["verdict"], "equivalent");
+    assert!(d["objective"].as_f64().unwrap() > 0.0);
+    let margins = d["constraint_margins"].as_array().unwrap();
+    assert!(margins.iter().any(|m| m["requirement"] == "leg_too_long"));
+    assert!(margins.iter().all(|m| m["margin"].as_f64().unwrap() >= 0.0));
+    let checked = Command::new(env!("CARGO_BIN_EXE_equipod"))
+        .current_dir(folder.path())
+        .args(["assess", "out.toml", "--points", "200"])
+        .output()
+        .unwrap();
+    assert_eq!(checked.status.code(), Some(0));
+}
+
+#[test]
+fn a_conflict_ends_with_exit_1_and_says_who_would_have_to_give() {
+    let more = "[hardware]
+leg_length = [14.0, 14.1]
+[optimize]
+variables = [\"home_height\"]
+";
+    let (out, _folder) = optimize(&required(more), &[]);
+    assert_eq!(out.status.code(), Some(1), "{}", String::from_utf8_lossy(&out.stdout));
+    let d = document(&out);
+    assert_eq!(d["status"], "infeasible");
+    let codes: Vec<&str> = d["conflict"]["requirements"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|r| r["requirement"].as_str().unwrap())
+        .collect();
+    assert_eq!(codes, ["leg_too_short", "leg_too_long"]);
+    assert!(d["conflict"]["requirements"][1]["alone"].as_f64().unwrap() > 0.0);
+}
+
+#[test]
+fn a_slip_in_the_name_of_a_variable_is_refused_with_the_nearest_one() {
+    let (out, _folder) = optimize(&required("[optimize]\nvariables = [\"ofsets\"]\n"), &[]);
+    assert_eq!(out.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&out.stdout).contains("offsets"));
+}

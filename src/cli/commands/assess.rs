@@ -53,7 +53,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
 }
 
 /// Leg, joint, keep-out and load names of a requirement.
-fn names(design: &Design, margin: &Margin) -> Vec<String> {
+pub(super) fn names(design: &Design, margin: &Margin) -> Vec<String> {
     let term = margin.term;
     let leg = |i: usize| format!("leg {}", i + 1);
     match term.kind {
@@ -70,8 +70,8 @@ fn names(design: &Design, margin: &Margin) -> Vec<String> {
     }
 }
 
-fn unit(design: &Design, margin: &Margin) -> String {
-    match margin.term.kind.quantity() {
+pub(super) fn unit(design: &Design, quantity: Quantity) -> String {
+    match quantity {
         Quantity::Length => design.units.clone(),
         Quantity::Angle => "deg".to_string(),
         Quantity::Force => "force".to_string(),
@@ -79,16 +79,21 @@ fn unit(design: &Design, margin: &Margin) -> String {
     }
 }
 
-fn record(design: &Design, found: &Assessment) -> Map<String, Value> {
+/// The margins as JSON.
+pub(super) fn margins(design: &Design, found: &Assessment) -> Value {
     let margin = |m: &Margin| {
         json!({
             "requirement": m.term.kind.code(), "margin": number(m.value), "met": m.value >= 0.0,
-            "unit": unit(design, m), "between": names(design, m), "pose": m.pose.as_ref().map(poses::record),
+            "unit": unit(design, m.term.kind.quantity()), "between": names(design, m), "pose": m.pose.as_ref().map(poses::record),
         })
     };
+    found.margins.iter().map(margin).collect()
+}
+
+fn record(design: &Design, found: &Assessment) -> Map<String, Value> {
     let mut json = Map::new();
     json.insert("met".into(), json!(found.all_met()));
-    json.insert("margins".into(), found.margins.iter().map(margin).collect());
+    json.insert("margins".into(), margins(design, found));
     json.insert("poses".into(), json!(found.poses));
     json
 }
@@ -116,7 +121,7 @@ fn text(design: &Design, found: &Assessment) -> String {
             "{:<17}{mark}{:>14.6} {:<8} {of:<24} {pose}",
             m.term.kind.code(),
             m.value,
-            unit(design, m)
+            unit(design, m.term.kind.quantity())
         );
     }
     out.push_str("\nA margin below 0 is a violation. No violation found is no proof that there is none between the poses looked at.\n");

@@ -3,6 +3,7 @@
 mod fields;
 mod joints;
 mod requirements;
+mod search;
 mod tables;
 
 use nalgebra::Point3;
@@ -61,7 +62,7 @@ pub(super) fn design(root: &Node, report: &mut Report<'_>) -> Option<Design> {
     let lengths = lengths(report, entries);
     let home = find(entries, "home").and_then(|e| tables::home(report, &e.node));
     let workspace = tables::workspace(report, entries);
-    let optimize = tables::optimize(report, entries);
+    let (optimize, search) = tables::optimize(report, entries);
     let hardware = requirements::hardware(report, entries);
     let speed = requirements::speed(report, entries);
     let loads = requirements::loads(report, entries);
@@ -79,6 +80,7 @@ pub(super) fn design(root: &Node, report: &mut Report<'_>) -> Option<Design> {
     design.home = home;
     design.workspace = workspace;
     design.optimize = optimize;
+    design.search = search;
     design.hardware = hardware;
     design.speed = speed;
     design.loads = loads;

@@ -4,9 +4,10 @@ use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 
 use super::fields::{check_keys, element_span, number, numbers, table, text};
 use super::requirements::positive;
+use super::search::{SEARCH_KEYS, search};
 use crate::design::report::Report;
 use crate::design::tree::{Entry, Node, Value, find};
-use crate::design::{Code, OptimizeTable, Trajectory, Workspace};
+use crate::design::{Code, OptimizeTable, SearchTable, Trajectory, Workspace};
 use crate::geom::Pose;
 use crate::requirements::Region;
 
@@ -198,12 +199,14 @@ fn single_poses(report: &mut Report<'_>, node: &Node) -> Vec<Pose> {
 }
 
 /// `[optimize]`.
-pub(super) fn optimize(report: &mut Report<'_>, top: &[Entry]) -> OptimizeTable {
+pub(super) fn optimize(report: &mut Report<'_>, top: &[Entry]) -> (OptimizeTable, SearchTable) {
     let place = "[optimize]";
     let entries = find(top, "optimize").and_then(|e| table(report, &e.node, place)).unwrap_or_default();
     let keys = ["min_joint_distance", "min_abs_det", "characteristic_length"];
-    check_keys(report, entries, &keys, place);
+    let known: Vec<&str> = keys.into_iter().chain(SEARCH_KEYS).collect();
+    check_keys(report, entries, &known, place);
     let [min_joint_distance, min_abs_det, characteristic_length] =
         keys.map(|key| positive(report, entries, key));
-    OptimizeTable { min_joint_distance, min_abs_det, characteristic_length }
+    let limits = OptimizeTable { min_joint_distance, min_abs_det, characteristic_length };
+    (limits, search(report, entries))
 }

@@ -64,6 +64,7 @@ const LINES: &[Line] = &[
     ("requirements", &["num", "geom", "manipulator"], &[MATRICES]),
     ("topology", &["num", "manipulator"], &[]),
     ("synthesis", &["num", "geom", "poly", "manipulator", "topology"], &[MATRICES, INTEGERS, ERRORS]),
+    ("dimensional", &["num", "geom", "manipulator", "requirements", "synthesis"], &[MATRICES, ERRORS]),
     ("singularity", &["num", "geom", "manipulator", "topology", "synthesis"], &[MATRICES, COMPLEX, ERRORS]),
     ("offsets", &["num", "geom", "manipulator", "synthesis"], &[MATRICES, ERRORS]),
     (
@@ -78,7 +79,7 @@ const LINES: &[Line] = &[
     ),
     (
         "design",
-        &["geom", "manipulator", "requirements"],
+        &["geom", "manipulator", "requirements", "dimensional"],
         &[
             MATRICES,
             ("serde", None),
@@ -112,6 +113,7 @@ const LINES: &[Line] = &[
             "synthesis",
             "singularity",
             "offsets",
+            "dimensional",
             "equivalence",
             "manufacture",
             "design",
@@ -136,7 +138,10 @@ const LINES: &[Line] = &[
 
 /// Two groups of modules that must not reach each other, not even through others.
 pub(crate) const APART: [(&[&str], &[&str]); 2] = [
-    (&["fk", "solve", "solve::certify", "solve::homotopy"], &["synthesis", "singularity", "offsets"]),
+    (
+        &["fk", "solve", "solve::certify", "solve::homotopy"],
+        &["synthesis", "singularity", "offsets", "dimensional"],
+    ),
     (&["solve::certify"], &["solve::homotopy", "fk"]),
 ];
 

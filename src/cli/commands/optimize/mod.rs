@@ -1,5 +1,8 @@
 //! `equipod optimize`: the best joint-free platform equivalent to an octahedral design.
 
+mod dimensional;
+mod dimensional_text;
+mod front;
 mod render;
 
 use std::ops::ControlFlow;
@@ -14,9 +17,9 @@ use crate::cli::files;
 use crate::cli::output::Answer;
 use crate::cli::poses;
 use crate::cli::progress::{Interrupt, Progress};
-use crate::design::Design;
+use crate::design::{Combination, Design};
 use crate::geom::Pose;
-use crate::manipulator::{LegIndex, Octahedral};
+use crate::manipulator::{LegIndex, Manipulator, Octahedral};
 use crate::offsets::{
     self, Body, OffsetOutcome, OffsetProblem, OffsetReport, OffsetSolution, OptimizeOptions, optimize,
     sliding_joint_body,
@@ -94,6 +97,16 @@ fn problem(design: &Design, octahedral: Octahedral, poses: Vec<Pose>, extension:
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     check_extension(args.extension)?;
     let design = context.load(&args.design)?;
+    if dimensional::asks_for_more(&design) {
+        if let Some(Combination::Pareto { points }) = design.search.mode {
+            return front::run(&design, points, args, context);
+        }
+        let done = dimensional::run(&design, args, context)?;
+        let written = write(args.output.as_deref(), done.checked.as_ref().map(|c| &c.design))?;
+        let json = dimensional_text::record(&design, &done, written.as_deref());
+        let text = dimensional_text::text(&design, &done, written.as_deref());
+        return Ok(Answer { exit: done.exit(), json, text });
+    }
     let octahedral = Octahedral::recognise(design.manipulator()).map_err(|why| {
         Failure::refused("optimize::not_octahedral", format!("not an octahedral platform: {why}"))
             .with_help("optimize spreads the shared joints of a 3-3 octahedral design")
@@ -112,11 +125,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         interrupt.flow()
     })?;
     progress.end();
-    let mut written = None;
-    if let (Some(path), Some(d)) = (&args.output, &done.optimised) {
-        files::write_design(path, d)?;
-        written = Some(path.display().to_string());
-    }
+    let written = write(args.output.as_deref(), done.optimised.as_ref())?;
     let json = done.record(&design, written.as_deref());
     let text =
         if context.json() { String::new() } else { render::text(&done.found(&design), written.as_deref()) };
@@ -132,6 +141,13 @@ fn words(p: offsets::Progress) -> String {
             format!("best {best:.6}; {boxes} boxes compared, {open} waiting")
         }
     }
+}
+
+/// Writes the design when a path is given; the path as it is shown.
+fn write(path: Option<&std::path::Path>, design: Option<&Design>) -> Result<Option<String>, Failure> {
+    let (Some(path), Some(design)) = (path, design) else { return Ok(None) };
+    files::write_design(path, design)?;
+    Ok(Some(path.display().to_string()))
 }
 
 /// Refuses an `--extension` that is no length.
@@ -198,9 +214,21 @@ pub(super) fn search(
     Ok(Done { problem, set, report, optimised })
 }
 
-/// The optimised platform as a design: vertices keep their names, an edge joint is named after its edge.
+/// The optimised platform as a design with the tables of the one it comes from.
 fn optimised_design(design: &Design, problem: &OffsetProblem, s: &OffsetSolution, seed: u64) -> Design {
-    let o = &problem.octahedral;
+    let mut out = joint_free_design(design, &problem.octahedral, &s.manipulator);
+    out.source.clone_from(&design.source);
+    out.description = Some(format!(
+        "Offsets optimised by equipod {} (seed {seed}) from the design \"{}\": worst inverse condition number {}",
+        env!("CARGO_PKG_VERSION"),
+        design.name,
+        s.recheck.objective
+    ));
+    out.with_tables_of(design)
+}
+
+/// The platform with names: vertices keep theirs, an edge joint is named after its edge.
+fn joint_free_design(design: &Design, o: &Octahedral, m: &Manipulator) -> Design {
     let (base, platform) = (design.base_names(), design.platform_names());
     let base_name = |k: usize| base[o.base_indices()[k % 3]].clone();
     let platform_name = |k: usize| platform[o.platform_indices()[k % 3]].clone();
@@ -213,17 +241,9 @@ fn optimised_design(design: &Design, problem: &OffsetProblem, s: &OffsetSolution
         };
     }
     let (a, b): (Vec<String>, Vec<String>) = names.into_iter().unzip();
-    let plain =
-        Design::new(format!("{}, joint-free", design.name), design.units.clone(), s.manipulator.clone());
+    let plain = Design::new(format!("{}, joint-free", design.name), design.units.clone(), m.clone());
     let distinct = |v: &[String]| v.iter().enumerate().all(|(i, x)| !v[..i].contains(x));
     let named =
         if distinct(&a) && distinct(&b) { plain.clone().with_joint_names(a, b) } else { Ok(plain.clone()) };
-    let mut out = named.unwrap_or(plain).with_tables_of(design);
-    out.description = Some(format!(
-        "Offsets optimised by equipod {} (seed {seed}) from the design \"{}\": worst inverse condition number {}",
-        env!("CARGO_PKG_VERSION"),
-        design.name,
-        s.recheck.objective
-    ));
-    out
+    named.unwrap_or(plain)
 }

@@ -1,0 +1,109 @@
+//! `equipod optimize` with `mode = "pareto"`.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use serde_json::{Map, Value, json};
+
+use super::dimensional::{Checked, checked, options, problem};
+use super::dimensional_text::{conflict_json, conflict_text, solution_json, unit};
+use crate::cli::context::Context;
+use crate::cli::exit::Exit;
+use crate::cli::failure::Failure;
+use crate::cli::output::{Answer, number};
+use crate::design::Design;
+use crate::dimensional::{DimensionalOutcome, ParetoReport, pareto};
+
+/// `out.toml` as `out-1.toml`, `out-2.toml`, ...
+fn numbered(path: &Path, k: usize) -> PathBuf {
+    let stem = path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
+    let name = match path.extension() {
+        Some(e) => format!("{stem}-{}.{}", k + 1, e.to_string_lossy()),
+        None => format!("{stem}-{}", k + 1),
+    };
+    path.with_file_name(name)
+}
+
+/// The front of a design, every member checked and, with `-o`, written.
+pub(super) fn run(
+    design: &Design,
+    points: usize,
+    args: &super::Args,
+    context: &Context,
+) -> Result<Answer, Failure> {
+    let problem = problem(design, args.extension);
+    let options = options(args, context);
+    let report = pareto(&problem, points, &options, &mut |_| ())
+        .map_err(|why| Failure::refused("optimize::invalid_problem", why.to_string()))?;
+    let mut members = Vec::new();
+    let mut written = Vec::new();
+    for (k, point) in report.front.iter().enumerate() {
+        let member = checked(design, &problem, &point.solution, context.seed())?;
+        let path = args.output.as_deref().map(|p| numbered(p, k));
+        written.push(super::write(path.as_deref(), Some(&member.design))?);
+        members.push(member);
+    }
+    let met = members.iter().all(|c| c.assessment.all_met());
+    let exit = match &report.failure {
+        Some(DimensionalOutcome::Infeasible(_)) => Exit::No,
+        None if met => Exit::Yes,
+        _ => Exit::Inconclusive,
+    };
+    let status = match exit {
+        Exit::Yes => "front",
+        Exit::No => "infeasible",
+        _ => "undecided",
+    };
+    let mut json = Map::new();
+    json.insert("status".into(), json!(status));
+    json.insert("front".into(), front_json(design, &report, &members, &written));
+    json.insert("dominated".into(), json!(report.dominated));
+    json.insert("unmet".into(), json!(report.unmet));
+    if let Some(DimensionalOutcome::Infeasible(c)) = &report.failure {
+        json.insert("conflict".into(), conflict_json(design, c));
+    }
+    json.insert("seed".into(), json!(context.seed()));
+    Ok(Answer { exit, json, text: text(design, status, &report, &members, &written) })
+}
+
+fn front_json(design: &Design, r: &ParetoReport, members: &[Checked], written: &[Option<String>]) -> Value {
+    let member = |(k, c): (usize, &Checked)| {
+        let mut fields = Map::new();
+        solution_json(&mut fields, design, &r.front[k].solution, c);
+        fields.remove("history");
+        let own = serde_json::from_str::<Value>(&c.design.to_json()).unwrap_or(Value::Null);
+        fields.insert("design".into(), own);
+        fields.insert("output".into(), json!(written[k]));
+        fields.insert("non_dominated_at".into(), r.front[k].dense.iter().map(|x| number(*x)).collect());
+        Value::Object(fields)
+    };
+    members.iter().enumerate().map(member).collect()
+}
+
+fn text(
+    design: &Design,
+    status: &str,
+    r: &ParetoReport,
+    members: &[Checked],
+    written: &[Option<String>],
+) -> String {
+    let mut out = format!("{}: {status}\n", design.name);
+    // writing to a string cannot fail
+    let _ = writeln!(
+        out,
+        "{} platforms of which none is better in every objective; {} dominated or equal ones left out, {} bounds not met",
+        r.front.len(),
+        r.dominated,
+        r.unmet
+    );
+    for (k, c) in members.iter().enumerate() {
+        let values = c.objectives.iter().map(|(o, x)| format!("{} {x:.6} {}", o.code(), unit(design, *o)));
+        let met = if c.assessment.all_met() { "" } else { "  (violates requirements)" };
+        let path = written[k].as_ref().map_or_else(String::new, |p| format!("  {p}"));
+        let _ = writeln!(out, "  {:>3}  {}{met}{path}", k + 1, values.collect::<Vec<_>>().join("  "));
+    }
+    if let Some(DimensionalOutcome::Infeasible(c)) = &r.failure {
+        conflict_text(&mut out, design, c);
+    }
+    out
+}

@@ -1,0 +1,72 @@
+//! Legs at a pose, and the gradients of the quantities they are made of.
+
+use nalgebra::{Matrix6, Rotation3, Vector3, Vector6};
+
+use super::pull::Pull;
+use super::shape::Ends;
+use crate::geom::Pose;
+
+/// A pose at which the requirements are held.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct HeldPose {
+    /// As given, before home is lifted.
+    pub(crate) pose: Pose,
+    /// Whether it moves with home.
+    pub(crate) follows: bool,
+}
+
+/// The six legs at a pose.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Lines {
+    pub(crate) rotation: Rotation3<f64>,
+    pub(crate) position: Vector3<f64>,
+    pub(crate) base: [Vector3<f64>; 6],
+    /// `R b`.
+    pub(crate) arm: [Vector3<f64>; 6],
+    /// `R b + p - a`.
+    pub(crate) line: [Vector3<f64>; 6],
+    pub(crate) length: [f64; 6],
+    pub(crate) direction: [Vector3<f64>; 6],
+}
+
+impl Lines {
+    pub(crate) fn new(ends: &Ends, at: &HeldPose) -> Self {
+        let rotation = at.pose.rotation;
+        let position = if at.follows { at.pose.position + ends.lift } else { at.pose.position };
+        let arm = ends.platform.map(|b| rotation * b);
+        let line: [Vector3<f64>; 6] = std::array::from_fn(|i| arm[i] + position - ends.base[i]);
+        let length = line.map(|d| d.norm());
+        let direction = std::array::from_fn(|i| line[i] / length[i]);
+        Self { rotation, position, base: ends.base, arm, line, length, direction }
+    }
+
+    /// A gradient with respect to the unit vector of a leg as one with respect to its line.
+    pub(crate) fn along_line(&self, leg: usize, g: &Vector3<f64>) -> Vector3<f64> {
+        let u = &self.direction[leg];
+        (g - u * u.dot(g)) / self.length[leg]
+    }
+
+    /// Row `[u, (R b x u) / L]` of a leg.
+    pub(crate) fn row(&self, leg: usize, length: f64) -> Vector6<f64> {
+        let (u, m) = (self.direction[leg], self.arm[leg].cross(&self.direction[leg]) / length);
+        Vector6::new(u.x, u.y, u.z, m.x, m.y, m.z)
+    }
+
+    pub(crate) fn jacobian(&self, length: f64) -> Matrix6<f64> {
+        let mut j = Matrix6::zeros();
+        for i in 0..6 {
+            j.set_row(i, &self.row(i, length).transpose());
+        }
+        j
+    }
+
+    /// Adds the gradient of `g . row(leg)`.
+    pub(crate) fn pull_row(&self, pull: &mut Pull, leg: usize, length: f64, g: &Vector6<f64>) {
+        let (force, moment): (Vector3<f64>, Vector3<f64>) =
+            (g.fixed_rows::<3>(0).into(), g.fixed_rows::<3>(3) / length);
+        let (u, arm) = (&self.direction[leg], &self.arm[leg]);
+        // moment . (arm x u): u x moment pulls at the arm, moment x arm at u
+        pull.arm[leg] += u.cross(&moment);
+        pull.line(leg, self.along_line(leg, &(force + moment.cross(arm))));
+    }
+}

@@ -1,0 +1,261 @@
+//! Linear models of the problem near a point.
+
+use nalgebra::{Rotation3, Vector3};
+
+use super::kinematics::{HeldPose, Lines};
+use super::merit::{Cluster, Piece};
+use super::model::{Group, Model, Task};
+use super::problem::Objective;
+use super::pull::{Pull, Rate};
+use super::shape::Ends;
+use super::terms::{Exact, Item, TermId};
+use crate::requirements::TermKind;
+
+/// Stands for the pose of what has none.
+const NO_POSE: usize = usize::MAX;
+
+/// A constraint near a point.
+#[derive(Debug, Clone)]
+pub(crate) struct LinearItem {
+    pub(crate) group: Group,
+    /// Pose and requirement.
+    pub(crate) id: (usize, TermId),
+    pub(crate) value: f64,
+    pub(crate) gradient: Vec<f64>,
+    /// Head and tail of a second-order cone, divided by the size.
+    pub(crate) cone: Option<Cone>,
+}
+
+/// `head >= |tail|`, affine in the step.
+#[derive(Debug, Clone)]
+pub(crate) struct Cone {
+    pub(crate) head: (f64, Vec<f64>),
+    pub(crate) tail: [(f64, Vec<f64>); 3],
+    /// Factor of the slack in the head.
+    pub(crate) slack: f64,
+}
+
+/// A cluster of singular values with gradients instead of pulls.
+#[derive(Debug, Clone)]
+pub(crate) struct LinearCluster {
+    pub(crate) sigma: f64,
+    pub(crate) own: Vec<f64>,
+    pub(crate) others: Vec<(f64, Vec<f64>, Vec<f64>)>,
+}
+
+/// A bound of an objective near a point.
+#[derive(Debug, Clone)]
+pub(crate) enum LinearBound {
+    Plain,
+    Spectral { f: f64, h: f64, low: LinearCluster, high: LinearCluster },
+    Length(Option<Cone>),
+}
+
+/// A piece of an objective near a point.
+#[derive(Debug, Clone)]
+pub(crate) struct LinearPiece {
+    pub(crate) objective: usize,
+    /// Pose and number within the pose.
+    pub(crate) id: (usize, usize),
+    pub(crate) value: f64,
+    pub(crate) gradient: Vec<f64>,
+    pub(crate) bound: LinearBound,
+}
+
+/// Everything the next step has to know.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Linearised {
+    pub(crate) items: Vec<LinearItem>,
+    pub(crate) pieces: Vec<LinearPiece>,
+}
+
+/// Legs at a held pose with the motions of the variables.
+struct Near<'a> {
+    l: Lines,
+    at: &'a HeldPose,
+    rates: &'a [Rate],
+    home: Rotation3<f64>,
+}
+
+impl Near<'_> {
+    fn gradient(&self, pull: &Pull) -> Vec<f64> {
+        pull.gradient(self.rates, &self.l.rotation, self.at.follows, &self.home)
+    }
+}
+
+impl Model<'_> {
+    /// Linear models at a point of what can matter within `radius`.
+    pub(crate) fn linearise(
+        &self,
+        poses: &[HeldPose],
+        x: &[f64],
+        task: &Task,
+        sign: f64,
+        radius: f64,
+    ) -> Option<Linearised> {
+        let (ends, rates) = (self.shape.ends(x), self.shape.rates(x));
+        let home = self.terms.home.rotation;
+        let identity = Rotation3::identity();
+        let mut out = Linearised::default();
+        let near = 4.0 * radius + 0.01;
+        for (k, at) in poses.iter().enumerate() {
+            let n = Near { l: Lines::new(&ends, at), at, rates: &rates, home };
+            self.terms.visit(&n.l, &ends, x, &mut |item| {
+                let group = Group::Term(item.id.0);
+                let steep = matches!(item.id.0, TermKind::LegForce | TermKind::LegSpeed);
+                if (steep || item.value < near) && !task.dropped.contains(&group) {
+                    let gradient = n.gradient(&item.pull);
+                    let cone = item.exact.filter(|_| self.affine).map(|e| self.cone(e, &n));
+                    if let Some(item) = screened(k, &item, group, gradient, cone, radius) {
+                        out.items.push(item);
+                    }
+                }
+            });
+            for (m, o) in self.wanted(task) {
+                let mut number = 0;
+                self.merit.pieces_at(o, &self.terms, &n.l, &mut |piece| {
+                    out.pieces.push(self.piece(m, (k, number), piece, &n));
+                    number += 1;
+                });
+            }
+        }
+        self.terms.fixed(&ends, &mut |item| {
+            let group = Group::Term(item.id.0);
+            if !task.dropped.contains(&group) {
+                let gradient = item.pull.gradient(&rates, &identity, false, &home);
+                out.items.extend(screened(NO_POSE, &item, group, gradient, None, radius));
+            }
+        });
+        if let (Some((value, gradient)), false) =
+            (self.determinant(x, sign), task.dropped.contains(&Group::Determinant))
+        {
+            let id = (NO_POSE, (TermKind::BaseSpacing, NO_POSE, NO_POSE, NO_POSE));
+            out.items.push(LinearItem { group: Group::Determinant, id, value, gradient, cone: None });
+        }
+        for (leg, platform, value, g) in self.shape.rooms(&ends) {
+            let mut pull = Pull::none();
+            if platform {
+                pull.arm[leg] = g;
+            } else {
+                pull.base[leg] = g;
+            }
+            let id = (NO_POSE, (TermKind::PlatformSpacing, leg, NO_POSE, usize::from(platform)));
+            let gradient = pull.gradient(&rates, &identity, false, &home);
+            out.items.push(LinearItem { group: Group::Reach, id, value, gradient, cone: None });
+        }
+        for (m, o) in self.wanted(task) {
+            let mut number = 0;
+            if o == Objective::MeanConditioning {
+                let (value, gradient) = self.mean(&ends, &rates)?;
+                let bound = LinearBound::Plain;
+                out.pieces.push(LinearPiece { objective: m, id: (NO_POSE, 0), value, gradient, bound });
+            }
+            self.merit.pieces_fixed(o, &self.terms, &ends, &mut |piece| {
+                if let Piece::Linear(value, pull) = piece {
+                    let gradient = pull.gradient(&rates, &identity, false, &home);
+                    let bound = LinearBound::Plain;
+                    out.pieces.push(LinearPiece {
+                        objective: m,
+                        id: (NO_POSE, number),
+                        value,
+                        gradient,
+                        bound,
+                    });
+                    number += 1;
+                }
+            });
+        }
+        let finite = |v: &Vec<f64>| v.iter().all(|x| x.is_finite());
+        let good = out.items.iter().all(|i| i.value.is_finite() && finite(&i.gradient))
+            && out.pieces.iter().all(|p| p.value.is_finite() && finite(&p.gradient));
+        good.then_some(out)
+    }
+
+    fn mean(&self, ends: &Ends, rates: &[Rate]) -> Option<(f64, Vec<f64>)> {
+        let count = self.merit.sample.len() as f64;
+        let (mut value, mut gradient) = (0.0, vec![0.0; rates.len()]);
+        for at in &self.merit.sample {
+            let l = Lines::new(ends, at);
+            let (g, pull) = self.merit.conditioning(&l)?;
+            value += g / count;
+            let own = pull.gradient(rates, &l.rotation, at.follows, &self.terms.home.rotation);
+            gradient.iter_mut().zip(own).for_each(|(s, x)| *s += x / count);
+        }
+        Some((value, gradient))
+    }
+
+    fn piece(&self, objective: usize, id: (usize, usize), piece: Piece, n: &Near<'_>) -> LinearPiece {
+        match piece {
+            Piece::Linear(value, pull) => {
+                LinearPiece { objective, id, value, gradient: n.gradient(&pull), bound: LinearBound::Plain }
+            }
+            Piece::Length(leg, value, pull) => {
+                let exact = Exact::Length { leg, greatest: 0.0 };
+                let cone = self.affine.then(|| self.cone(exact, n));
+                LinearPiece {
+                    objective,
+                    id,
+                    value,
+                    gradient: n.gradient(&pull),
+                    bound: LinearBound::Length(cone),
+                }
+            }
+            Piece::Spectral(s) => {
+                let cluster = |c: &Cluster| LinearCluster {
+                    sigma: c.sigma,
+                    own: n.gradient(&c.own),
+                    others: c.others.iter().map(|(v, ko, oo)| (*v, n.gradient(ko), n.gradient(oo))).collect(),
+                };
+                let bound =
+                    LinearBound::Spectral { f: s.f, h: s.h, low: cluster(&s.low), high: cluster(&s.high) };
+                LinearPiece { objective, id, value: s.value, gradient: n.gradient(&s.pull()), bound }
+            }
+        }
+    }
+
+    /// The cone of a convex requirement, the line affine in the step.
+    fn cone(&self, exact: Exact, n: &Near<'_>) -> Cone {
+        let (l, at, rates) = (&n.l, n.at, n.rates);
+        let (Exact::Length { leg, .. } | Exact::Swing { leg, .. }) = exact;
+        let velocity = |rate: &Rate| {
+            let lift = if at.follows { rate.lift } else { Vector3::zeros() };
+            let own = rate.ends.iter().filter(|e| e.0 == leg);
+            own.fold(lift, |sum, (_, a, b)| sum + l.rotation * b - a) / self.terms.size
+        };
+        let velocities: Vec<Vector3<f64>> = rates.iter().map(velocity).collect();
+        let line = l.line[leg] / self.terms.size;
+        let along = |c: Vector3<f64>| velocities.iter().map(|v| v.dot(&c)).collect::<Vec<f64>>();
+        let tail = [0, 1, 2].map(|k| (line[k], velocities.iter().map(|v| v[k]).collect()));
+        match exact {
+            Exact::Length { greatest, .. } => {
+                let head = (greatest / self.terms.size - self.backoff, vec![0.0; rates.len()]);
+                Cone { head, tail, slack: 1.0 }
+            }
+            Exact::Swing { axis, cos, .. } => {
+                let head = ((line.dot(&axis) - self.backoff) / cos, along(axis / cos));
+                Cone { head, tail, slack: 1.0 / cos }
+            }
+        }
+    }
+}
+
+/// The constraint, unless its linear model is met everywhere within the radius.
+fn screened(
+    pose: usize,
+    item: &Item,
+    group: Group,
+    gradient: Vec<f64>,
+    cone: Option<Cone>,
+    radius: f64,
+) -> Option<LinearItem> {
+    let reach: f64 = match &cone {
+        // the norm grows at most as fast as the line moves
+        Some(c) => {
+            let tails = c.tail.iter().map(|t| t.1.iter().map(|v| v.abs()).sum::<f64>());
+            tails.sum::<f64>() + c.head.1.iter().map(|v| v.abs()).sum::<f64>()
+        }
+        None => gradient.iter().map(|g| g.abs()).sum(),
+    };
+    let kept = !(item.value > reach * radius + 1e-4);
+    kept.then_some(LinearItem { group, id: (pose, item.id), value: item.value, gradient, cone })
+}

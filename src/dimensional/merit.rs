@@ -1,0 +1,269 @@
+//! The objectives as gains, to be large, in units of their own, with what the subproblems need of them.
+//!
+//! Units: 1 for condition and singular values, the size of the design for lengths, the stiffness of a leg, the greatest
+//! load for forces.
+
+use nalgebra::{Matrix6, SVD, Vector3, Vector4, Vector6};
+
+use super::kinematics::{HeldPose, Lines};
+use super::problem::{DimensionalProblem, Objective};
+use super::pull::Pull;
+use super::shape::Ends;
+use super::terms::{Terms, joint_pull, leg_forces};
+use crate::num::linalg::svd;
+use crate::requirements::Load;
+use crate::synthesis::Normalisation;
+
+/// Singular values within this factor of the extreme one are modelled together with it.
+const CLUSTER: f64 = 1.6;
+
+/// `y <= value + f (s_6 - sigma_6) - h (s_1 - sigma_1)` with the singular values `s` of the linearised matrix.
+#[derive(Debug, Clone)]
+pub(crate) struct Spectral {
+    pub(crate) value: f64,
+    pub(crate) f: f64,
+    pub(crate) h: f64,
+    pub(crate) low: Cluster,
+    pub(crate) high: Cluster,
+}
+
+/// An extreme singular value with those close to it: their values, and the pulls of the blocks `(kk, ko, oo)`.
+#[derive(Debug, Clone)]
+pub(crate) struct Cluster {
+    pub(crate) sigma: f64,
+    pub(crate) own: Pull,
+    pub(crate) others: Vec<(f64, Pull, Pull)>,
+}
+
+/// What bounds an objective from above.
+#[derive(Debug, Clone)]
+pub(crate) enum Piece {
+    /// `y <= value + gradient`.
+    Linear(f64, Pull),
+    /// By the least and the greatest singular value.
+    Spectral(Box<Spectral>),
+    /// Both: length of a leg, for the stroke.
+    Length(usize, f64, Pull),
+}
+
+/// Everything the objectives are evaluated with.
+#[derive(Debug, Clone)]
+pub(crate) struct Merit<'a> {
+    loads: &'a [Load],
+    leg_body: Option<crate::requirements::LegBody>,
+    length: f64,
+    size: f64,
+    force_unit: f64,
+    normalisation: Normalisation,
+    /// Poses of the mean.
+    pub(crate) sample: Vec<HeldPose>,
+}
+
+impl<'a> Merit<'a> {
+    pub(crate) fn new(p: &'a DimensionalProblem, sample: Vec<HeldPose>) -> Self {
+        let of = |l: &Load| l.force.norm() + l.torque.norm() / p.characteristic_length;
+        let force_unit = p.requirements.loads.iter().map(of).fold(0.0, f64::max);
+        Self {
+            loads: &p.requirements.loads,
+            leg_body: p.requirements.hardware.leg_body,
+            length: p.characteristic_length,
+            size: p.manipulator.size(),
+            force_unit: if force_unit > 0.0 { force_unit } else { 1.0 },
+            normalisation: Normalisation::of(&p.manipulator),
+            sample,
+        }
+    }
+
+    /// Factor that turns a gain into the value of the objective, sign included.
+    pub(crate) fn unit(&self, o: Objective, stiffness: f64) -> f64 {
+        match o {
+            Objective::LegForce => -self.force_unit,
+            Objective::Stroke => -self.size,
+            Objective::JointSpacing | Objective::LegClearance => self.size,
+            Objective::Stiffness => stiffness,
+            _ => 1.0,
+        }
+    }
+
+    /// `true` when the objective is a worst case over the poses.
+    pub(crate) fn is_over_poses(o: Objective) -> bool {
+        !matches!(
+            o,
+            Objective::MeanConditioning
+                | Objective::JointSpacing
+                | Objective::SingularityDistance
+                | Objective::Stroke
+        )
+    }
+
+    /// The least gain at one pose, of the objectives over poses.
+    pub(crate) fn at_pose(&self, o: Objective, terms: &Terms<'_>, l: &Lines) -> f64 {
+        match o {
+            Objective::WorstConditioning => crate::manipulator::inverse_condition(&l.jacobian(self.length)),
+            Objective::SmallestSingularValue | Objective::Stiffness => {
+                let j = l.jacobian(self.length);
+                let s = if j.iter().all(|x| x.is_finite()) { j.singular_values().min() } else { 0.0 };
+                if o == Objective::Stiffness { s * s } else { s }
+            }
+            _ => {
+                let mut least = f64::INFINITY;
+                self.pieces_at(o, terms, l, &mut |p| {
+                    if let Piece::Linear(value, _) = p {
+                        least = least.min(value);
+                    }
+                });
+                least
+            }
+        }
+    }
+
+    /// The pieces of an objective over poses at one pose.
+    pub(crate) fn pieces_at(&self, o: Objective, terms: &Terms<'_>, l: &Lines, see: &mut dyn FnMut(Piece)) {
+        match o {
+            Objective::WorstConditioning | Objective::SmallestSingularValue | Objective::Stiffness => {
+                if let Some(s) = self.spectral(o, l) {
+                    see(Piece::Spectral(Box::new(s)));
+                }
+            }
+            Objective::LegForce => {
+                for forces in self.loads.iter().map(|load| leg_forces(l, load, self.size)) {
+                    for i in 0..6 {
+                        let piece = match &forces {
+                            Some(f) => {
+                                let (value, pull) = f.of(l, i, self.size);
+                                let factor = -value.signum() / self.force_unit;
+                                Piece::Linear(value * factor, pull.scaled(factor))
+                            }
+                            None => Piece::Linear(-1e6, Pull::none()),
+                        };
+                        see(piece);
+                    }
+                }
+            }
+            Objective::LegClearance => {
+                let Some(body) = self.leg_body else { return };
+                for (i, j) in terms.separate_legs() {
+                    for gap in l.leg_gaps(&body, i, j) {
+                        see(Piece::Linear(gap.value / self.size, gap.pull.scaled(1.0 / self.size)));
+                    }
+                }
+            }
+            Objective::Stroke => {
+                for i in 0..6 {
+                    let mut pull = Pull::none();
+                    pull.line(i, l.direction[i] / self.size);
+                    see(Piece::Length(i, l.length[i] / self.size, pull));
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// Pieces without a pose.
+    pub(crate) fn pieces_fixed(
+        &self,
+        o: Objective,
+        terms: &Terms<'_>,
+        ends: &Ends,
+        see: &mut dyn FnMut(Piece),
+    ) {
+        match o {
+            Objective::JointSpacing => {
+                for platform in [false, true] {
+                    for (i, j) in terms.separate_joints(platform) {
+                        let at = if platform { &ends.platform } else { &ends.base };
+                        let d = at[j] - at[i];
+                        let n = d.try_normalize(0.0).unwrap_or_else(Vector3::x) / self.size;
+                        see(Piece::Linear(d.norm() / self.size, joint_pull(platform, i, j, &n)));
+                    }
+                }
+            }
+            Objective::SingularityDistance => {
+                if let Some((value, pull)) = self.leg_vectors(ends) {
+                    see(Piece::Linear(value, pull));
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// Smallest singular value of the six leg vectors and its gradient.
+    fn leg_vectors(&self, ends: &Ends) -> Option<(f64, Pull)> {
+        let n = &self.normalisation;
+        let one = |v: Vector3<f64>| Vector4::new(1.0, v.x, v.y, v.z);
+        let a = ends.base.map(|p| one((p - n.base_centre.coords) / n.base_unit));
+        let b = ends.platform.map(|p| one((p - n.platform_centre.coords) / n.platform_unit));
+        let rows: Vec<Vec<f64>> =
+            (0..6).map(|i| (0..16).map(|k| a[i][k / 4] * b[i][k % 4]).collect()).collect();
+        let d = svd(&rows).ok()?;
+        let w = nalgebra::Matrix4::from_fn(|p, q| d.v[4 * p + q][5]);
+        let mut pull = Pull::none();
+        for i in 0..6 {
+            let (on_a, on_b) = (w * b[i] * d.u[i][5], w.transpose() * a[i] * d.u[i][5]);
+            pull.base[i] += Vector3::new(on_a[1], on_a[2], on_a[3]) / n.base_unit;
+            pull.arm[i] += Vector3::new(on_b[1], on_b[2], on_b[3]) / n.platform_unit;
+        }
+        Some((d.s[5], pull))
+    }
+
+    /// Inverse condition number at a pose and its gradient.
+    pub(crate) fn conditioning(&self, l: &Lines) -> Option<(f64, Pull)> {
+        let (u, s, v) = decomposed(&l.jacobian(self.length))?;
+        let g = s[5] / s[0];
+        let mut pull = Pull::none();
+        for i in 0..6 {
+            let on_row = (v.column(5) * u[(i, 5)] - v.column(0) * (g * u[(i, 0)])) / s[0];
+            l.pull_row(&mut pull, i, self.length, &on_row);
+        }
+        Some((g, pull))
+    }
+
+    fn spectral(&self, o: Objective, l: &Lines) -> Option<Spectral> {
+        let (u, s, v) = decomposed(&l.jacobian(self.length))?;
+        let block = |a: usize, b: usize| {
+            let mut pull = Pull::none();
+            for i in 0..6 {
+                let on_row = (v.column(b) * u[(i, a)] + v.column(a) * u[(i, b)]) * 0.5;
+                l.pull_row(&mut pull, i, self.length, &on_row);
+            }
+            pull
+        };
+        let cluster = |k: usize, others: [usize; 2]| Cluster {
+            sigma: s[k],
+            own: block(k, k),
+            others: others
+                .into_iter()
+                .filter(|&o| s[o].max(s[k]) < CLUSTER * s[o].min(s[k]))
+                .map(|o| (s[o], block(k, o), block(o, o)))
+                .collect(),
+        };
+        let high = if o == Objective::WorstConditioning {
+            cluster(0, [1, 2])
+        } else {
+            Cluster { sigma: s[0], own: Pull::none(), others: Vec::new() }
+        };
+        let (value, f, h) = match o {
+            Objective::WorstConditioning => (s[5] / s[0], 1.0 / s[0], s[5] / (s[0] * s[0])),
+            Objective::Stiffness => (s[5] * s[5], 2.0 * s[5], 0.0),
+            _ => (s[5], 1.0, 0.0),
+        };
+        Some(Spectral { value, f, h, low: cluster(5, [4, 3]), high })
+    }
+}
+
+fn decomposed(j: &Matrix6<f64>) -> Option<(Matrix6<f64>, Vector6<f64>, Matrix6<f64>)> {
+    if j.iter().any(|x| !x.is_finite()) {
+        return None;
+    }
+    let d = SVD::try_new(*j, true, true, f64::EPSILON, 1000)?;
+    Some((d.u?, d.singular_values, d.v_t?.transpose()))
+}
+
+impl Spectral {
+    /// The gradient of the piece, clusters taken apart.
+    pub(crate) fn pull(&self) -> Pull {
+        let mut pull = self.low.own.scaled(self.f);
+        pull.add(&self.high.own, -self.h);
+        pull
+    }
+}

@@ -1,0 +1,37 @@
+//! Dimensional synthesis: the platform that meets its requirements and is best.
+//!
+//! Variables are offsets, triangles, the height of home and joint axes; requirements are those of [`crate::requirements`], in formulas of
+//! this module with derivatives. Sequential convex programming from many starts, over poses that are added where the requirements
+//! are met least. Definitions, method and limits: `docs/theory/dimensional-synthesis.md`.
+
+mod answer;
+mod cap;
+mod certificate;
+mod clearance;
+mod conflict;
+mod evaluate;
+mod families;
+mod kinematics;
+mod linear;
+mod merit;
+mod model;
+mod outcome;
+mod pareto;
+mod problem;
+mod pull;
+mod scp;
+mod search;
+mod shape;
+mod subproblem;
+mod terms;
+#[cfg(test)]
+mod tests;
+mod triangle;
+mod worst_pose;
+
+pub use evaluate::evaluate;
+pub use outcome::{Conflict, Demand, DimensionalOutcome, DimensionalReport, DimensionalSolution, Give};
+pub use pareto::{ParetoPoint, ParetoReport, pareto};
+pub use problem::{DimensionalProblem, InvalidProblem, Mode, Objective, Triangles, VariableKind, Variables};
+pub use scp::HistoryStep;
+pub use search::{Progress, SearchOptions, optimize};

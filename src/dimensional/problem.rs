@@ -1,0 +1,363 @@
+//! What is asked: variables, objectives, requirements, poses.
+
+use thiserror::Error;
+
+use crate::geom::Pose;
+use crate::manipulator::{Manipulator, NotOctahedral};
+use crate::requirements::{JointAxes, PoseSpace, Quantity, Requirements};
+use crate::synthesis::components::ComponentsError;
+
+/// A kind of variable, by its name in design files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum VariableKind {
+    /// The six offsets of an octahedral design.
+    Offsets,
+    /// One offset for the three edges of the base and one for those of the platform.
+    SymmetricOffsets,
+    /// A factor for each triangle.
+    TriangleSizes,
+    /// Shapes and sizes of the triangles.
+    Triangles,
+    /// Height of home.
+    HomeHeight,
+    /// Axes of all joints with a swing limit.
+    JointAxes,
+    /// Parameters of the rational families of replaceable legs of any design.
+    Components,
+}
+
+impl VariableKind {
+    /// Every kind.
+    pub const ALL: [Self; 7] = [
+        Self::Offsets,
+        Self::SymmetricOffsets,
+        Self::TriangleSizes,
+        Self::Triangles,
+        Self::HomeHeight,
+        Self::JointAxes,
+        Self::Components,
+    ];
+
+    /// The name in design files.
+    #[must_use]
+    pub fn code(self) -> &'static str {
+        match self {
+            Self::Offsets => "offsets",
+            Self::SymmetricOffsets => "symmetric_offsets",
+            Self::TriangleSizes => "triangle_sizes",
+            Self::Triangles => "triangles",
+            Self::HomeHeight => "home_height",
+            Self::JointAxes => "joint_axes",
+            Self::Components => "components",
+        }
+    }
+}
+
+/// What may change about the two triangles of an octahedral design; their centroids and planes stay.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Triangles {
+    /// Nothing.
+    #[default]
+    Fixed,
+    /// One factor for each triangle.
+    Sizes,
+    /// A symmetric stretch of the plane for each triangle: every shape and size.
+    Shapes,
+}
+
+/// The quantities that the optimiser chooses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[allow(clippy::struct_excessive_bools, reason = "independent choices")]
+pub struct Variables {
+    /// The six offsets of an octahedral design.
+    pub offsets: bool,
+    /// The triangles of an octahedral design.
+    pub triangles: Triangles,
+    /// The legs on the rational families of replaceable legs they belong to; not with offsets or triangles.
+    pub components: bool,
+    /// Height of home, and of all poses around it, over the base.
+    pub home_height: bool,
+    /// Axes of the base and of the platform joints, from which the swing is measured.
+    pub joint_axes: [bool; 2],
+    /// One offset for the three edges of the base and one for those of the platform.
+    pub symmetric: bool,
+    /// Least and greatest offset of each side, cyclic order.
+    pub offset_bounds: [(f64, f64); 6],
+    /// Least and greatest parameter of a family.
+    pub parameter_bounds: (f64, f64),
+    /// Least and greatest diagonal entry of the stretch less 1; the other entry is at most half of the width.
+    pub stretch_bounds: (f64, f64),
+    /// Least and greatest change of the height, in sizes of the design.
+    pub height_bounds: (f64, f64),
+}
+
+impl Default for Variables {
+    /// Nothing is chosen; bounds -1 to 2 of offsets and parameters, -0.5 to 1 of stretches, -0.5 to 1 of the height.
+    fn default() -> Self {
+        Self {
+            offsets: false,
+            triangles: Triangles::Fixed,
+            components: false,
+            parameter_bounds: (-1.0, 2.0),
+            home_height: false,
+            joint_axes: [false; 2],
+            symmetric: false,
+            offset_bounds: [(-1.0, 2.0); 6],
+            stretch_bounds: (-0.5, 1.0),
+            height_bounds: (-0.5, 1.0),
+        }
+    }
+}
+
+impl Variables {
+    /// These kinds within the default bounds.
+    #[must_use]
+    pub fn of(kinds: &[VariableKind]) -> Self {
+        let has = |kind| kinds.contains(&kind);
+        let triangles = match (has(VariableKind::Triangles), has(VariableKind::TriangleSizes)) {
+            (true, _) => Triangles::Shapes,
+            (false, true) => Triangles::Sizes,
+            (false, false) => Triangles::Fixed,
+        };
+        Self {
+            offsets: has(VariableKind::Offsets) || has(VariableKind::SymmetricOffsets),
+            symmetric: has(VariableKind::SymmetricOffsets),
+            triangles,
+            components: has(VariableKind::Components),
+            home_height: has(VariableKind::HomeHeight),
+            joint_axes: [has(VariableKind::JointAxes); 2],
+            ..Self::default()
+        }
+    }
+}
+
+/// A figure of merit; `docs/theory/dimensional-synthesis.md` has the formulas.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum Objective {
+    /// Least `sigma_6 / sigma_1` over the poses, to be large.
+    WorstConditioning,
+    /// Mean of `sigma_6 / sigma_1` over the sample, to be large.
+    MeanConditioning,
+    /// Least `sigma_6` over the poses, to be large.
+    SmallestSingularValue,
+    /// Greatest push or pull of a leg over poses and loads, to be small.
+    LegForce,
+    /// Least distance of two joint centres of a body, to be large.
+    JointSpacing,
+    /// Least gap of two legs over the poses, to be large.
+    LegClearance,
+    /// Greatest less least leg length over all legs and poses, to be small.
+    Stroke,
+    /// Least eigenvalue of `k J^T J` over the poses, to be large.
+    Stiffness,
+    /// Distance from architectural singularity: smallest singular value of the leg vectors, to be large.
+    SingularityDistance,
+}
+
+impl Objective {
+    /// Every objective.
+    pub const ALL: [Self; 9] = [
+        Self::WorstConditioning,
+        Self::MeanConditioning,
+        Self::SmallestSingularValue,
+        Self::LegForce,
+        Self::JointSpacing,
+        Self::LegClearance,
+        Self::Stroke,
+        Self::Stiffness,
+        Self::SingularityDistance,
+    ];
+
+    /// The name in design files.
+    #[must_use]
+    pub fn code(self) -> &'static str {
+        match self {
+            Self::WorstConditioning => "worst_conditioning",
+            Self::MeanConditioning => "mean_conditioning",
+            Self::SmallestSingularValue => "smallest_singular_value",
+            Self::LegForce => "leg_force",
+            Self::JointSpacing => "joint_spacing",
+            Self::LegClearance => "leg_clearance",
+            Self::Stroke => "stroke",
+            Self::Stiffness => "stiffness",
+            Self::SingularityDistance => "singularity_distance",
+        }
+    }
+
+    /// What the value is measured in; `None` for a pure number.
+    #[must_use]
+    pub fn quantity(self) -> Option<Quantity> {
+        match self {
+            Self::LegForce => Some(Quantity::Force),
+            Self::JointSpacing | Self::LegClearance | Self::Stroke => Some(Quantity::Length),
+            _ => None,
+        }
+    }
+
+    /// `true` when small values are wanted.
+    #[must_use]
+    pub fn is_cost(self) -> bool {
+        matches!(self, Self::LegForce | Self::Stroke)
+    }
+}
+
+/// How several objectives are combined.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Mode {
+    /// The weighted sum of the values, each over its value at the start of the run.
+    Weighted,
+    /// One after the other; each later level may lose this share of the values before.
+    Lexicographic {
+        /// Share, for instance 0.01.
+        slack: f64,
+    },
+}
+
+/// Which platform meets the requirements and is best?
+#[derive(Debug, Clone, PartialEq)]
+pub struct DimensionalProblem {
+    /// The design that the variables start from.
+    pub manipulator: Manipulator,
+    /// What the platform has to satisfy.
+    pub requirements: Requirements,
+    /// The poses over which it has to.
+    pub space: PoseSpace,
+    /// What may be chosen.
+    pub variables: Variables,
+    /// Objectives with weights, or in the order of their levels.
+    pub objectives: Vec<(Objective, f64)>,
+    /// How they are combined.
+    pub mode: Mode,
+    /// `L`, design units.
+    pub characteristic_length: f64,
+    /// Least `|det A|` of the offsets.
+    pub min_abs_det: f64,
+}
+
+/// A problem that cannot be asked.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum InvalidProblem {
+    /// Nothing may be chosen.
+    #[error("no variable is left to be chosen")]
+    NoVariables,
+    /// No objective.
+    #[error("no objective is given")]
+    NoObjective,
+    /// Offsets or triangles of a design that is not octahedral.
+    #[error("offsets and triangles are variables of octahedral designs: {0}")]
+    NotOctahedral(NotOctahedral),
+    /// The families of replaceable legs could not be computed.
+    #[error("the families of replaceable legs could not be computed: {0}")]
+    Components(#[from] ComponentsError),
+    /// No leg belongs to a rational family.
+    #[error("no leg of the design belongs to a rational family of replaceable legs")]
+    NoFamily,
+    /// The leg vectors are dependent: there is no leg map to hold.
+    #[error("the legs of the design are dependent: it is architecturally singular")]
+    DependentLegs,
+    /// Offsets or triangles together with components.
+    #[error("components cannot be chosen together with offsets or triangles")]
+    ComponentsAndOffsets,
+    /// A front of one objective, or of more than three.
+    #[error("a Pareto front has two or three objectives, not {0}")]
+    FrontOf(usize),
+    /// An objective without the data it needs.
+    #[error("the objective {} needs {needs}", objective.code())]
+    Needs {
+        /// The objective.
+        objective: Objective,
+        /// The key of the design file.
+        needs: &'static str,
+    },
+    /// A weight, length or bound that is not positive and finite.
+    #[error("{quantity} is {value}; it must be positive and finite")]
+    NotPositive {
+        /// Its name.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// Bounds that leave nothing.
+    #[error("the bounds of {variable} are {low} and {high}: no interval")]
+    Bounds {
+        /// Name of the variable.
+        variable: String,
+        /// Lower bound.
+        low: f64,
+        /// Upper bound.
+        high: f64,
+    },
+    /// Axes are chosen for swing limits below 90 degrees only.
+    #[error("axes are chosen for swing limits below 90 degrees, and this limit is {0}")]
+    SwingTooWide(f64),
+    /// A leg has no length at home.
+    #[error("a leg has no length at home")]
+    NoLegAtHome,
+}
+
+impl DimensionalProblem {
+    /// Checks everything that makes the problem askable.
+    ///
+    /// # Errors
+    /// The first violation.
+    pub fn validate(&self) -> Result<(), InvalidProblem> {
+        if self.objectives.is_empty() {
+            return Err(InvalidProblem::NoObjective);
+        }
+        let hardware = &self.requirements.hardware;
+        for &(objective, weight) in &self.objectives {
+            let needs = match objective {
+                Objective::LegForce if self.requirements.loads.is_empty() => "[[loads]]",
+                Objective::LegClearance if hardware.leg_body.is_none() => "leg_diameter in [hardware]",
+                Objective::Stiffness if hardware.leg_stiffness.is_none() => "leg_stiffness in [hardware]",
+                _ => "",
+            };
+            if !needs.is_empty() {
+                return Err(InvalidProblem::Needs { objective, needs });
+            }
+            positive("a weight", weight)?;
+        }
+        positive("characteristic_length", self.characteristic_length)?;
+        positive("min_abs_det", self.min_abs_det)?;
+        if let Mode::Lexicographic { slack } = self.mode {
+            positive("the slack of the levels", slack)?;
+        }
+        for (swing, wanted) in [hardware.base_swing, hardware.platform_swing].iter().zip(self.axes_wanted()) {
+            if let (Some(swing), true) = (swing, wanted)
+                && swing.limit_deg >= 90.0
+            {
+                return Err(InvalidProblem::SwingTooWide(swing.limit_deg));
+            }
+        }
+        let home = &self.space.home;
+        if self.manipulator.legs().iter().any(|l| !(home.squared_length(l) > 0.0)) {
+            return Err(InvalidProblem::NoLegAtHome);
+        }
+        Ok(())
+    }
+
+    /// Whether the axes of base and platform joints are chosen: asked for, and limited.
+    pub(crate) fn axes_wanted(&self) -> [bool; 2] {
+        let h = &self.requirements.hardware;
+        let wanted = |k: usize, swing: Option<crate::requirements::Swing>| {
+            swing.is_some_and(|s| s.axes == JointAxes::Optimize || self.variables.joint_axes[k])
+        };
+        [wanted(0, h.base_swing), wanted(1, h.platform_swing)]
+    }
+
+    /// Poses that do not move with home.
+    pub(crate) fn listed(&self) -> Vec<Pose> {
+        self.space.listed(4)
+    }
+}
+
+fn positive(quantity: &'static str, value: f64) -> Result<(), InvalidProblem> {
+    if value > 0.0 && value.is_finite() {
+        Ok(())
+    } else {
+        Err(InvalidProblem::NotPositive { quantity, value })
+    }
+}

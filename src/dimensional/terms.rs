@@ -1,0 +1,296 @@
+//! The requirements as functions of the legs, positive where they are met, with gradients.
+//!
+//! Lengths are in sizes of the design, forces and speeds in their limits, swing as `(d . c - cos(limit) |d|) / size`, which is smooth and,
+//! for a given axis and a limit below 90 degrees, concave in `d`. These are not the formulas of `requirements`, which checks the outcome.
+
+use nalgebra::{Matrix6, Vector3, Vector6};
+
+use super::kinematics::Lines;
+use super::pull::Pull;
+use super::shape::{Ends, Shape};
+use crate::geom::Pose;
+use crate::requirements::{FixedTo, Housing, JointAxes, Load, Requirements, Swing, TermKind};
+
+/// Which requirement: kind, leg (joint), other leg (joint, keep-out, load), part.
+pub(crate) type TermId = (TermKind, usize, usize, usize);
+
+/// A convex form of `value >= 0`: the head at least the norm of the line of the leg, both divided by the size.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Exact {
+    /// `greatest >= |d|`.
+    Length { leg: usize, greatest: f64 },
+    /// `d . c / cos(limit) >= |d|` for a given axis (base frame).
+    Swing { leg: usize, axis: Vector3<f64>, cos: f64 },
+}
+
+/// A requirement at a pose.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Item {
+    pub(crate) id: TermId,
+    pub(crate) value: f64,
+    pub(crate) pull: Pull,
+    pub(crate) exact: Option<Exact>,
+}
+
+/// What the requirements are evaluated with besides the legs.
+#[derive(Debug, Clone)]
+pub(crate) struct Terms<'a> {
+    pub(crate) required: &'a Requirements,
+    pub(crate) size: f64,
+    pub(crate) home: Pose,
+    /// Legs that share a joint: equal numbers.
+    pub(crate) joints: [(usize, usize); 6],
+    /// First variables of chosen axes.
+    pub(crate) axes: [Option<usize>; 2],
+}
+
+/// Value with which a singular pose violates the limits of forces, in limits.
+const SINGULAR_FORCE: f64 = -10.0;
+
+impl<'a> Terms<'a> {
+    pub(crate) fn new(required: &'a Requirements, size: f64, home: Pose, shape: &Shape) -> Self {
+        Self { required, size, home, joints: shape.joints, axes: shape.axes }
+    }
+
+    /// Every requirement at a pose.
+    pub(crate) fn visit(&self, l: &Lines, ends: &Ends, x: &[f64], see: &mut dyn FnMut(Item)) {
+        self.lengths(l, see);
+        self.swing(l, ends, x, see);
+        self.clearances(l, see);
+        self.forces(l, see);
+        self.speeds(l, see);
+    }
+
+    fn lengths(&self, l: &Lines, see: &mut dyn FnMut(Item)) {
+        let Some(limits) = self.required.hardware.leg_length else { return };
+        let (least, greatest) = limits.range();
+        for i in 0..6 {
+            let mut pull = Pull::none();
+            pull.line(i, l.direction[i] / self.size);
+            let short = (l.length[i] - least) / self.size;
+            see(Item { id: (TermKind::LegTooShort, i, i, 0), value: short, pull, exact: None });
+            let exact = Some(Exact::Length { leg: i, greatest });
+            let long = (greatest - l.length[i]) / self.size;
+            see(Item { id: (TermKind::LegTooLong, i, i, 0), value: long, pull: pull.scaled(-1.0), exact });
+        }
+    }
+
+    fn swing(&self, l: &Lines, ends: &Ends, x: &[f64], see: &mut dyn FnMut(Item)) {
+        let h = &self.required.hardware;
+        let bodies = [(TermKind::BaseSwing, h.base_swing), (TermKind::PlatformSwing, h.platform_swing)];
+        for (body, (kind, swing)) in bodies.into_iter().enumerate() {
+            let Some(swing) = swing else { continue };
+            for i in 0..6 {
+                see(self.swing_of(l, ends, x, (body, kind, i), &swing));
+            }
+        }
+    }
+
+    fn swing_of(
+        &self,
+        l: &Lines,
+        ends: &Ends,
+        x: &[f64],
+        (body, kind, i): (usize, TermKind, usize),
+        swing: &Swing,
+    ) -> Item {
+        let cos = swing.limit_deg.to_radians().cos();
+        let here = |c: &Vector3<f64>| if body == 0 { *c } else { l.rotation * c };
+        let back = |g: &Vector3<f64>| if body == 0 { *g } else { l.rotation.inverse() * g };
+        let mut pull = Pull::none();
+        let d = &l.line[i];
+        let (axis, exact) = match (self.axes[body], swing.axes) {
+            (Some(first), _) => {
+                let c = Vector3::from_fn(|k, _| x[first + 3 * i + k]);
+                pull.axis = Some((body, i, back(d) / self.size));
+                (here(&c), None)
+            }
+            (None, JointAxes::Given(axes)) => {
+                let c = here(&axes[i]);
+                (c, (cos > 0.0).then_some(Exact::Swing { leg: i, axis: c, cos }))
+            }
+            (None, _) => {
+                // along the leg at home, which moves with the joints
+                let line =
+                    self.home.rotation * ends.platform[i] + self.home.position + ends.lift - ends.base[i];
+                let turn =
+                    |v: &Vector3<f64>| here(&if body == 0 { *v } else { self.home.rotation.inverse() * v });
+                let unturn = |g: &Vector3<f64>| {
+                    let g = back(g);
+                    if body == 0 { g } else { self.home.rotation * g }
+                };
+                let u = line.normalize();
+                let g = unturn(d);
+                pull.home = Some((i, (g - u * u.dot(&g)) / (line.norm() * self.size)));
+                (turn(&u), None)
+            }
+        };
+        pull.line(i, (axis - l.direction[i] * cos) / self.size);
+        Item { id: (kind, i, i, 0), value: (d.dot(&axis) - cos * l.length[i]) / self.size, pull, exact }
+    }
+
+    fn clearances(&self, l: &Lines, see: &mut dyn FnMut(Item)) {
+        let h = &self.required.hardware;
+        let Some(body) = h.leg_body else { return };
+        let clearance = h.leg_clearance.unwrap_or(0.0);
+        for (i, j) in self.separate_legs() {
+            for gap in l.leg_gaps(&body, i, j) {
+                see(Item {
+                    id: (TermKind::LegClearance, i, j, gap.part),
+                    value: (gap.value - clearance) / self.size,
+                    pull: gap.pull.scaled(1.0 / self.size),
+                    exact: None,
+                });
+            }
+        }
+        for (k, keep_out) in self.required.keep_outs.iter().enumerate() {
+            for i in 0..6 {
+                for gap in l.keep_out_gaps(&body, i, keep_out) {
+                    see(Item {
+                        id: (TermKind::KeepOut, i, k, gap.part),
+                        value: (gap.value - clearance) / self.size,
+                        pull: gap.pull.scaled(1.0 / self.size),
+                        exact: None,
+                    });
+                }
+            }
+        }
+    }
+
+    /// Pairs of legs without a common joint.
+    pub(crate) fn separate_legs(&self) -> impl Iterator<Item = (usize, usize)> {
+        let joints = self.joints;
+        (0..6)
+            .flat_map(|i| (i + 1..6).map(move |j| (i, j)))
+            .filter(move |&(i, j)| joints[i].0 != joints[j].0 && joints[i].1 != joints[j].1)
+    }
+
+    fn forces(&self, l: &Lines, see: &mut dyn FnMut(Item)) {
+        let Some(greatest) = self.required.hardware.max_leg_force else { return };
+        for (k, load) in self.required.loads.iter().enumerate() {
+            let forces = leg_forces(l, load, self.size);
+            for i in 0..6 {
+                let id = (TermKind::LegForce, i, k, 0);
+                let item = match &forces {
+                    Some(f) => {
+                        let (value, pull) = f.of(l, i, self.size);
+                        let factor = -value.signum() / greatest;
+                        Item {
+                            id,
+                            value: 1.0 - value.abs() / greatest,
+                            pull: pull.scaled(factor),
+                            exact: None,
+                        }
+                    }
+                    None => Item { id, value: SINGULAR_FORCE, pull: Pull::none(), exact: None },
+                };
+                see(item);
+            }
+        }
+    }
+
+    fn speeds(&self, l: &Lines, see: &mut dyn FnMut(Item)) {
+        let (Some(greatest), Some(speed)) =
+            (self.required.hardware.max_leg_speed, self.required.platform_speed)
+        else {
+            return;
+        };
+        let rate = speed.angular_deg.to_radians();
+        for i in 0..6 {
+            let moment = l.arm[i].cross(&l.direction[i]);
+            let mut pull = Pull::none();
+            if let Some(n) = moment.try_normalize(0.0) {
+                let g = Vector6::from_fn(|k, _| if k < 3 { 0.0 } else { -rate / greatest * n[k - 3] });
+                l.pull_row(&mut pull, i, 1.0, &g);
+            }
+            let value = 1.0 - (speed.linear + rate * moment.norm()) / greatest;
+            see(Item { id: (TermKind::LegSpeed, i, i, 0), value, pull, exact: None });
+        }
+    }
+
+    /// Requirements without a pose: gaps of housings and distances of joint centres.
+    pub(crate) fn fixed(&self, ends: &Ends, see: &mut dyn FnMut(Item)) {
+        for (kind, platform) in [(TermKind::BaseSpacing, false), (TermKind::PlatformSpacing, true)] {
+            let housing = self.required.hardware.housing(platform);
+            for (i, j) in self.separate_joints(platform) {
+                let d =
+                    if platform { ends.platform[j] - ends.platform[i] } else { ends.base[j] - ends.base[i] };
+                let gaps = [
+                    self.required.min_joint_distance.map(|least| sphere_gap(&d, least)),
+                    housing.map(|h| housing_gap(&h, &d)),
+                ];
+                for (part, (value, g)) in gaps.into_iter().enumerate().filter_map(|(k, g)| Some((k, g?))) {
+                    let pull = joint_pull(platform, i, j, &(g / self.size));
+                    see(Item { id: (kind, i, j, part), value: value / self.size, pull, exact: None });
+                }
+            }
+        }
+    }
+
+    /// Pairs of legs that stand for pairs of different joints of a body, each pair of joints once.
+    pub(crate) fn separate_joints(&self, platform: bool) -> Vec<(usize, usize)> {
+        let joint = self.joints.map(|p| if platform { p.1 } else { p.0 });
+        let firsts: Vec<usize> = (0..6).filter(|&i| !joint[..i].contains(&joint[i])).collect();
+        let pairs = firsts.iter().enumerate();
+        pairs.flat_map(|(n, &i)| firsts[n + 1..].iter().map(move |&j| (i, j))).collect()
+    }
+}
+
+/// Gradient of the difference of joints `j - i` of a body at the identity rotation.
+pub(crate) fn joint_pull(platform: bool, i: usize, j: usize, g: &Vector3<f64>) -> Pull {
+    let mut pull = Pull::none();
+    let side = if platform { &mut pull.arm } else { &mut pull.base };
+    side[j] += g;
+    side[i] -= g;
+    pull
+}
+
+fn sphere_gap(d: &Vector3<f64>, diameter: f64) -> (f64, Vector3<f64>) {
+    (d.norm() - diameter, d.try_normalize(0.0).unwrap_or_else(Vector3::x))
+}
+
+/// Gap of two equal housings and its gradient: outside the distance, inside minus the shortest way out.
+fn housing_gap(h: &Housing, d: &Vector3<f64>) -> (f64, Vector3<f64>) {
+    let edges = match h {
+        Housing::Sphere(diameter) => return sphere_gap(d, *diameter),
+        Housing::Box(edges) => edges,
+    };
+    let g = d.abs() - edges;
+    let out = Vector3::from_fn(|k, _| g[k].max(0.0) * d[k].signum());
+    if g.max() > 0.0 {
+        return (out.norm(), out.normalize());
+    }
+    let k = g.imax();
+    (g[k], Vector3::ith(k, d[k].signum()))
+}
+
+/// Leg forces that hold a load, and what their derivatives need.
+#[derive(Debug, Clone)]
+pub(crate) struct Forces {
+    pub(crate) forces: Vector6<f64>,
+    /// Inverse of the matrix with the columns `[u, (R b x u) / L]`.
+    inverse: Matrix6<f64>,
+}
+
+/// `sum F_i (u_i, R b_i x u_i) = -(f, t)`; `None` at a singular pose.
+pub(crate) fn leg_forces(l: &Lines, load: &Load, length: f64) -> Option<Forces> {
+    let turn = |v: &Vector3<f64>| if load.fixed_to == FixedTo::Platform { l.rotation * v } else { *v };
+    let force = turn(&load.force);
+    let torque = (turn(&load.torque) + (l.rotation * load.at.coords).cross(&force)) / length;
+    let wrench = Vector6::new(force.x, force.y, force.z, torque.x, torque.y, torque.z);
+    let inverse = l.jacobian(length).transpose().try_inverse()?;
+    let forces = -(inverse * wrench);
+    forces.iter().all(|x| x.is_finite()).then_some(Forces { forces, inverse })
+}
+
+impl Forces {
+    /// Force of a leg and its gradient: `dF_i = - sum_j F_j (row i of the inverse) . d(column j)`.
+    pub(crate) fn of(&self, l: &Lines, leg: usize, length: f64) -> (f64, Pull) {
+        let y: Vector6<f64> = self.inverse.row(leg).transpose();
+        let mut pull = Pull::none();
+        for j in 0..6 {
+            l.pull_row(&mut pull, j, length, &(y * -self.forces[j]));
+        }
+        (self.forces[leg], pull)
+    }
+}

@@ -1,0 +1,315 @@
+//! Derivatives, convex forms, optima, conflicts.
+
+mod outcomes;
+
+use nalgebra::{Point3, Rotation3, Unit, Vector3};
+
+use super::cap::smallest_cap;
+use super::kinematics::HeldPose;
+use super::linear::LinearBound;
+use super::model::{Group, Model, Task};
+use super::*;
+use crate::geom::Pose;
+use crate::manipulator::Manipulator;
+use crate::num::Rng;
+use crate::requirements::{
+    AssessOptions, FixedTo, Housing, JointAxes, KeepOut, LegBody, LengthLimits, Load, PlatformSpeed,
+    PoseSpace, Requirements, Shape, Swing, assess,
+};
+
+fn octahedral() -> (Manipulator, Pose) {
+    let joint = |r: f64, k: f64| {
+        let (s, c) = (std::f64::consts::TAU * k / 3.0).sin_cos();
+        Point3::new(r * c, r * s, 0.0)
+    };
+    let base = (0..3).map(|k| joint(200.0, f64::from(k))).collect();
+    let platform = (0..3).map(|k| joint(120.0, f64::from(k) + 0.5)).collect();
+    let m = Manipulator::try_new(base, platform, [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)]).unwrap();
+    (m, Pose { rotation: Rotation3::identity(), position: Vector3::new(0.0, 0.0, 220.0) })
+}
+
+fn problem(kinds: &[VariableKind], objective: Objective) -> DimensionalProblem {
+    let (m, home) = octahedral();
+    let mut requirements = Requirements { min_joint_distance: Some(25.0), ..Requirements::default() };
+    requirements.hardware.leg_length = Some(LengthLimits::Range(180.0, 330.0));
+    let space = PoseSpace {
+        translation: Vector3::new(20.0, 20.0, 20.0),
+        rotation_deg: Vector3::new(0.0, 0.0, 8.0),
+        ..PoseSpace::at(home)
+    };
+    DimensionalProblem {
+        characteristic_length: m.platform_rms_radius(),
+        manipulator: m,
+        requirements,
+        space,
+        variables: Variables::of(kinds),
+        objectives: vec![(objective, 1.0)],
+        mode: Mode::Weighted,
+        min_abs_det: 0.05,
+    }
+}
+
+/// Everything that can be required at once.
+fn crowded(kinds: &[VariableKind], axes: JointAxes) -> DimensionalProblem {
+    let mut p = problem(kinds, Objective::WorstConditioning);
+    let h = &mut p.requirements.hardware;
+    h.joint_diameter = Some(20.0);
+    h.platform_housing = Some(Housing::Box(Vector3::new(30.0, 25.0, 10.0)));
+    h.leg_body = Some(LegBody { diameter: 24.0, rod: Some((150.0, 10.0)) });
+    h.leg_clearance = Some(3.0);
+    h.base_swing = Some(Swing { limit_deg: 25.0, axes });
+    h.platform_swing = Some(Swing { limit_deg: 35.0, axes });
+    h.max_leg_force = Some(90.0);
+    h.max_leg_speed = Some(150.0);
+    h.leg_stiffness = Some(12.0);
+    p.requirements.platform_speed = Some(PlatformSpeed { linear: 100.0, angular_deg: 20.0 });
+    let at = Point3::new(10.0, 0.0, 30.0);
+    let (force, torque) = (Vector3::new(5.0, -3.0, -100.0), Vector3::new(0.0, 200.0, 0.0));
+    for fixed_to in [FixedTo::Base, FixedTo::Platform] {
+        p.requirements.loads.push(Load { name: String::new(), force, torque, at, fixed_to });
+    }
+    let shapes = [
+        Shape::Sphere { center: Point3::new(20.0, 5.0, 90.0), diameter: 60.0 },
+        Shape::Capsule {
+            from: Point3::new(0.0, 0.0, -80.0),
+            to: Point3::new(5.0, 0.0, -10.0),
+            diameter: 20.0,
+        },
+        Shape::Box { center: Point3::new(150.0, 20.0, 60.0), size: Vector3::new(80.0, 90.0, 70.0) },
+    ];
+    for (k, shape) in shapes.into_iter().enumerate() {
+        let fixed_to = if k == 1 { FixedTo::Platform } else { FixedTo::Base };
+        p.requirements.keep_outs.push(KeepOut { name: String::new(), fixed_to, shape });
+    }
+    p
+}
+
+fn everything(n: usize) -> Task {
+    Task { weights: vec![1.0; n], floors: vec![None; n], dropped: Vec::new(), soft: None }
+}
+
+/// A tilted pose, so that nothing is symmetric.
+fn tilted(p: &DimensionalProblem, follows: bool) -> HeldPose {
+    let rotation = Rotation3::from_euler_angles(0.1, -0.07, 0.2);
+    HeldPose {
+        pose: Pose { rotation, position: p.space.home.position + Vector3::new(9.0, -4.0, 6.0) },
+        follows,
+    }
+}
+
+#[test]
+fn gradients_are_those_of_differences() {
+    let all = [VariableKind::Offsets, VariableKind::Triangles, VariableKind::HomeHeight];
+    for (axes, follows) in [(JointAxes::Home, true), (JointAxes::Optimize, false)] {
+        let mut p = crowded(&all, axes);
+        p.objectives = Objective::ALL.map(|o| (o, 1.0)).to_vec();
+        let model = Model::new(&p).unwrap();
+        let mut rng = Rng::new(4);
+        let x: Vec<f64> = model.shape.start.iter().map(|x| x + rng.uniform(0.1, 0.3)).collect();
+        let (poses, task) = ([tilted(&p, follows)], everything(9));
+        let at = |x: &[f64]| model.linearise(&poses, x, &task, 1.0, 100.0).unwrap();
+        let here = at(&x);
+        let kinds: std::collections::BTreeSet<Group> = here.items.iter().map(|i| i.group).collect();
+        assert_eq!(kinds.len(), 11, "every kind of requirement and the determinant: {kinds:?}");
+        let h = 1e-6;
+        for j in 0..x.len() {
+            let moved = |s: f64| {
+                let mut y = x.clone();
+                y[j] += s * h;
+                at(&y)
+            };
+            let (up, down) = (moved(1.0), moved(-1.0));
+            for (k, item) in here.items.iter().enumerate() {
+                let slope = (up.items[k].value - down.items[k].value) / (2.0 * h);
+                let error = (slope - item.gradient[j]).abs();
+                assert!(
+                    error < 2e-6 * (1.0 + slope.abs()),
+                    "{:?} {j}: {slope} {}",
+                    item.id,
+                    item.gradient[j]
+                );
+            }
+            for (k, piece) in here.pieces.iter().enumerate() {
+                let slope = (up.pieces[k].value - down.pieces[k].value) / (2.0 * h);
+                let error = (slope - piece.gradient[j]).abs();
+                let o = p.objectives[piece.objective].0;
+                assert!(error < 2e-6 * (1.0 + slope.abs()), "{o:?} {j}: {slope} {}", piece.gradient[j]);
+            }
+        }
+    }
+}
+
+#[test]
+fn convex_forms_are_exact_far_from_the_point() {
+    let axis = Unit::new_normalize(Vector3::new(0.1, -0.2, 1.0));
+    let p = crowded(&[VariableKind::Offsets], JointAxes::Given([axis; 6]));
+    let model = Model::new(&p).unwrap();
+    let (poses, task) = ([tilted(&p, true)], everything(1));
+    let x = vec![0.2; 6];
+    let here = model.linearise(&poses, &x, &task, 1.0, 100.0).unwrap();
+    let mut rng = Rng::new(9);
+    for _ in 0..20 {
+        let y: Vec<f64> = x.iter().map(|x| x + rng.uniform(-1.0, 1.0)).collect();
+        let there = model.linearise(&poses, &y, &task, 1.0, 100.0).unwrap();
+        let mut seen = 0;
+        for (a, b) in here.items.iter().zip(&there.items) {
+            let Some(cone) = &a.cone else { continue };
+            let along = |(v, g): &(f64, Vec<f64>)| {
+                v + g.iter().zip(&y).zip(&x).map(|((g, y), x)| g * (y - x)).sum::<f64>()
+            };
+            let tail = cone.tail.iter().map(|t| along(t).powi(2)).sum::<f64>().sqrt();
+            let slack = (along(&cone.head) - tail) / cone.slack;
+            assert!((slack - (b.value - model.backoff)).abs() < 1e-12, "{:?}", a.id);
+            seen += 1;
+        }
+        assert_eq!(seen, 18, "greatest lengths and both swings of six legs");
+    }
+}
+
+#[test]
+fn clusters_of_singular_values_bound_the_objective_to_first_order() {
+    // at home of a regular design singular values coincide: the cone has the slope of every direction, a gradient has not
+    let p = problem(&[VariableKind::Offsets], Objective::SmallestSingularValue);
+    let model = Model::new(&p).unwrap();
+    let at_home = [HeldPose { pose: p.space.home, follows: true }];
+    let near = model.linearise(&at_home, &[0.3; 6], &everything(1), 1.0, 1.0).unwrap();
+    let LinearBound::Spectral { low, .. } = &near.pieces[0].bound else { panic!("no spectrum") };
+    assert!(!low.others.is_empty());
+}
+
+#[test]
+fn the_smallest_cap_is_that_of_two_or_three_directions() {
+    let mut rng = Rng::new(12);
+    for n in [1, 2, 3, 40] {
+        let centre = Vector3::new(0.3, 0.2, 1.0).normalize();
+        let directions: Vec<Vector3<f64>> =
+            (0..n).map(|_| (centre + Vector3::from_fn(|_, _| 0.3 * rng.normal())).normalize()).collect();
+        let (axis, cos) = smallest_cap(&directions).unwrap();
+        assert!(directions.iter().all(|u| axis.dot(u) >= cos - 1e-13));
+        // no axis near does better: the least cosine is concave where it is positive
+        for _ in 0..200 {
+            let other = (axis + Vector3::from_fn(|_, _| 0.01 * rng.normal())).normalize();
+            assert!(directions.iter().map(|u| other.dot(u)).fold(f64::INFINITY, f64::min) <= cos + 1e-13);
+        }
+    }
+    assert_eq!(smallest_cap(&[]), None);
+    assert_eq!(smallest_cap(&[Vector3::x(), -Vector3::x()]), None);
+}
+
+fn quick() -> SearchOptions {
+    SearchOptions { samples: 200, starts: 6, polished: 2, ..SearchOptions::default() }
+}
+
+#[test]
+fn height_of_least_stroke_is_the_one_on_paper() {
+    // vertical travel of half width w about a height h over legs of horizontal reach r: the stroke
+    // sqrt(r^2 + (h+w)^2) - sqrt(r^2 + (h-w)^2) grows with h, so that the least length decides
+    let mut p = problem(&[VariableKind::HomeHeight], Objective::Stroke);
+    p.requirements.min_joint_distance = None;
+    p.space.translation = Vector3::new(0.0, 0.0, 20.0);
+    p.space.rotation_deg = Vector3::zeros();
+    p.requirements.hardware.leg_length = Some(LengthLimits::Range(230.0, 400.0));
+    let reach = (200.0f64.powi(2) + 120.0 * 120.0 - 200.0 * 120.0).sqrt();
+    let found = optimize(&p, &[], &quick(), &mut |_| ()).unwrap();
+    let s = found.solution().unwrap();
+    let h = (230.0f64.powi(2) - reach * reach).sqrt() + 20.0;
+    assert!((s.home.position.z - h).abs() < 1e-2, "{} {h}", s.home.position.z);
+    let stroke = (reach * reach + (h + 20.0).powi(2)).sqrt() - 230.0;
+    assert!((s.objectives[0].1 - stroke).abs() < 1e-2);
+}
+
+#[test]
+fn the_optimum_holds_densely_and_random_designs_do_not_beat_it() {
+    let mut p = problem(&[VariableKind::SymmetricOffsets], Objective::WorstConditioning);
+    p.requirements.hardware.leg_body = Some(LegBody { diameter: 20.0, rod: None });
+    p.requirements.hardware.base_swing = Some(Swing { limit_deg: 45.0, axes: JointAxes::Home });
+    let found =
+        optimize(&p, &[], &SearchOptions { samples: 600, starts: 12, ..quick() }, &mut |_| ()).unwrap();
+    assert!(matches!(found.outcome, DimensionalOutcome::Optimal(_)), "{found:?}");
+    let s = found.solution().unwrap();
+    let options = AssessOptions { points: 300, ..AssessOptions::default() };
+    let dense = assess(&s.manipulator, &p.requirements, &p.space, &options);
+    assert!(dense.all_met(), "{dense:?}");
+    let value = evaluate(&p, &s.manipulator, &p.space, 300, 5)[0];
+    assert!((value - s.objectives[0].1).abs() < 1e-5, "{value} {:?}", s.objectives);
+    let model = Model::new(&p).unwrap();
+    let (poses, task, mut rng) = (model.first_poses(), everything(1), Rng::new(3));
+    let mut feasible = 0;
+    for _ in 0..2000 {
+        let x = [rng.uniform(-1.0, 2.0), rng.uniform(-1.0, 2.0)];
+        let judged = model.judge(&poses, &x, &task, model.sign(&x));
+        if judged.violation() <= 0.0 {
+            feasible += 1;
+            assert!(judged.gains[0] <= s.objectives[0].1 + 1e-6, "{x:?}");
+        }
+    }
+    assert!(feasible > 10, "{feasible}");
+    let again = SearchOptions { threads: 3, samples: 600, starts: 12, ..quick() };
+    assert_eq!(optimize(&p, &[], &again, &mut |_| ()).unwrap(), found, "threads do not change the answer");
+}
+
+#[test]
+fn units_and_frames_do_not_change_the_answer() {
+    let p = problem(&[VariableKind::SymmetricOffsets], Objective::WorstConditioning);
+    let value = |p: &DimensionalProblem| {
+        optimize(p, &[], &quick(), &mut |_| ()).unwrap().solution().unwrap().objectives[0].1
+    };
+    let first = value(&p);
+    let mut other = p.clone();
+    let (turn, shift, scale) =
+        (Rotation3::from_euler_angles(0.3, 0.2, 0.7), Vector3::new(5.0, 2.0, -3.0), 1e-3);
+    let base = p.manipulator.base_joints().iter().map(|a| (turn * a + shift) * scale).collect();
+    let platform = p.manipulator.platform_joints().iter().map(|b| b * scale).collect();
+    other.manipulator = Manipulator::try_new(base, platform, p.manipulator.pairs()).unwrap();
+    let home = &mut other.space.home;
+    *home = Pose { rotation: turn * home.rotation, position: (turn * home.position + shift) * scale };
+    other.space.translation *= scale;
+    // the half widths are along axes of the base frame: only the sphere and rotations about z would turn with it
+    other.space.translation = Vector3::repeat(0.02);
+    other.space.rotation_deg = Vector3::zeros();
+    let mut same = p.clone();
+    (same.space.translation, same.space.rotation_deg) = (Vector3::repeat(20.0), Vector3::zeros());
+    for q in [&mut other, &mut same] {
+        q.space.region = crate::requirements::Region::Ellipsoid;
+    }
+    other.characteristic_length *= scale;
+    other.requirements.min_joint_distance = Some(0.025);
+    other.requirements.hardware.leg_length = Some(LengthLimits::Range(0.18, 0.33));
+    let (a, b) = (value(&same), value(&other));
+    assert!((a - b).abs() < 1e-5 && a >= first - 1e-5, "{a} {b} {first}");
+}
+
+#[test]
+fn families_of_an_octahedral_design_are_its_offsets() {
+    let p = problem(&[VariableKind::Components], Objective::SingularityDistance);
+    let model = Model::new(&p).unwrap();
+    assert_eq!(model.shape.start.len(), 6, "a point-line family for every leg");
+    let task = everything(1);
+    let x = [0.31, 0.24, 0.42, 0.35, 0.18, 0.27];
+    let at = |x: &[f64]| model.linearise(&[tilted(&p, true)], x, &task, 1.0, 100.0).unwrap();
+    let here = at(&x);
+    let h = 1e-6;
+    for j in 0..6 {
+        let moved = |s: f64| {
+            let mut y = x;
+            y[j] += s * h;
+            at(&y)
+        };
+        let (up, down) = (moved(1.0), moved(-1.0));
+        for (k, item) in here.items.iter().enumerate() {
+            let slope = (up.items[k].value - down.items[k].value) / (2.0 * h);
+            assert!(
+                (slope - item.gradient[j]).abs() < 1e-6,
+                "{:?} {j}: {slope} {}",
+                item.group,
+                item.gradient[j]
+            );
+        }
+    }
+    // the leg map decides: |det A| by both modules
+    let m = model.shape.manipulator(&x).unwrap();
+    let map =
+        crate::synthesis::leg_map(&p.manipulator, &m, crate::synthesis::LegMapTolerances::default()).unwrap();
+    let (own, det) = (model.shape.determinant(&x).unwrap().0, map.determinant);
+    assert!((own - det).abs() < 1e-9 && det.abs() > 1e-3, "{own} {det}");
+}

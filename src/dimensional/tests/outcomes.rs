@@ -1,0 +1,103 @@
+//! What comes out: conflicts, levels, fronts, refusals.
+
+use nalgebra::{Unit, Vector3};
+
+use super::super::*;
+use super::{Group, Model, everything, problem, quick};
+use crate::requirements::{JointAxes, LengthLimits, Swing, TermKind};
+
+#[test]
+fn a_conflict_is_named_with_what_each_requirement_would_have_to_give() {
+    let mut p = problem(&[VariableKind::HomeHeight], Objective::WorstConditioning);
+    p.requirements.min_joint_distance = None;
+    p.space.translation = Vector3::new(0.0, 0.0, 20.0);
+    p.space.rotation_deg = Vector3::zeros();
+    // a stroke of 10 for a travel of 40; swing takes no part
+    p.requirements.hardware.leg_length = Some(LengthLimits::Range(250.0, 260.0));
+    p.requirements.hardware.base_swing = Some(Swing { limit_deg: 80.0, axes: JointAxes::Home });
+    let found = optimize(&p, &[], &quick(), &mut |_| ()).unwrap();
+    let DimensionalOutcome::Infeasible(conflict) = &found.outcome else { panic!("{found:?}") };
+    let kinds: Vec<Demand> = conflict.demands.iter().map(|g| g.demand).collect();
+    assert_eq!(kinds, [TermKind::LegTooShort, TermKind::LegTooLong].map(Demand::Requirement));
+    // least length 250: the height is fixed, and the greatest length follows
+    let reach = (200.0f64.powi(2) + 120.0 * 120.0 - 200.0 * 120.0).sqrt();
+    let low = (250.0f64.powi(2) - reach * reach).sqrt();
+    let excess = (reach * reach + (low + 40.0).powi(2)).sqrt() - 260.0;
+    let give = conflict.demands[1].alone.unwrap();
+    assert!((give - excess).abs() < 1e-2, "{give} {excess}");
+    // negative control: with that much more room there is no conflict
+    p.requirements.hardware.leg_length = Some(LengthLimits::Range(250.0, 260.0 + excess + 0.01));
+    assert!(optimize(&p, &[], &quick(), &mut |_| ()).unwrap().solution().is_some());
+}
+
+#[test]
+fn a_conflict_of_cones_is_proved_and_one_that_is_none_is_not() {
+    let mut p = problem(&[VariableKind::Offsets], Objective::WorstConditioning);
+    p.requirements.hardware.leg_length = None;
+    // no leg of any offset points along the base axis within a degree at all poses
+    let axis = Unit::new_normalize(Vector3::new(1.0, 0.0, 0.3));
+    p.requirements.hardware.base_swing = Some(Swing { limit_deg: 1.0, axes: JointAxes::Given([axis; 6]) });
+    let proved = |p: &DimensionalProblem, group: Group| {
+        let model = Model::new(p).unwrap();
+        let x = [0.4; 6];
+        crate::dimensional::certificate::proved_empty(
+            &model,
+            &model.first_poses(),
+            &x,
+            &[group],
+            &everything(1),
+        )
+    };
+    assert!(proved(&p, Group::Term(TermKind::BaseSwing)));
+    // spacing is not convex: nothing is proved about it
+    assert!(!proved(&p, Group::Term(TermKind::BaseSpacing)));
+    let found = optimize(&p, &[], &quick(), &mut |_| ()).unwrap();
+    let DimensionalOutcome::Infeasible(conflict) = &found.outcome else { panic!("{found:?}") };
+    assert!(conflict.proved && conflict.demands.len() == 1, "{conflict:?}");
+    // negative control: the legs can be within 70 degrees of the vertical
+    let axes = JointAxes::Given([Vector3::z_axis(); 6]);
+    p.requirements.hardware.base_swing = Some(Swing { limit_deg: 70.0, axes });
+    assert!(!proved(&p, Group::Term(TermKind::BaseSwing)));
+}
+
+#[test]
+fn no_member_of_a_front_is_better_in_every_objective() {
+    let mut p = problem(&[VariableKind::HomeHeight], Objective::WorstConditioning);
+    p.requirements.min_joint_distance = None;
+    p.objectives.push((Objective::Stroke, 1.0));
+    let found = pareto(&p, 4, &quick(), &mut |_| ()).unwrap();
+    assert!(found.front.len() >= 3, "{found:?}");
+    for pair in found.front.windows(2) {
+        assert!(pair[0].dense[0] > pair[1].dense[0] && pair[0].dense[1] > pair[1].dense[1]);
+    }
+    p.objectives.truncate(1);
+    assert_eq!(pareto(&p, 4, &quick(), &mut |_| ()).unwrap_err(), InvalidProblem::FrontOf(1));
+}
+
+#[test]
+fn later_levels_keep_the_earlier_ones() {
+    let mut p = problem(&[VariableKind::HomeHeight], Objective::WorstConditioning);
+    p.requirements.min_joint_distance = None;
+    let alone = optimize(&p, &[], &quick(), &mut |_| ()).unwrap().solution().unwrap().objectives[0].1;
+    p.objectives.push((Objective::Stroke, 1.0));
+    let strokes = [0.01, 0.1].map(|slack| {
+        p.mode = Mode::Lexicographic { slack };
+        let found = optimize(&p, &[], &quick(), &mut |_| ()).unwrap();
+        let s = found.solution().unwrap();
+        assert!((s.objectives[0].1 - alone * (1.0 - slack)).abs() < 1e-4, "{:?} {alone}", s.objectives);
+        s.objectives[1].1
+    });
+    assert!(strokes[1] < strokes[0]);
+}
+
+#[test]
+fn what_cannot_be_asked_is_refused() {
+    let p = problem(&[VariableKind::Offsets], Objective::LegForce);
+    let refused = |p: &DimensionalProblem| optimize(p, &[], &quick(), &mut |_| ()).unwrap_err();
+    assert!(matches!(refused(&p), InvalidProblem::Needs { needs: "[[loads]]", .. }));
+    let p = problem(&[], Objective::WorstConditioning);
+    assert_eq!(refused(&p), InvalidProblem::NoVariables);
+    let mut p = problem(&[VariableKind::JointAxes], Objective::WorstConditioning);
+    p.requirements.hardware.base_swing = Some(Swing { limit_deg: 120.0, axes: JointAxes::Optimize });
+    assert_eq!(refused(&p), InvalidProblem::SwingTooWide(120.0));
+}

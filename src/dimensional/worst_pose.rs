@@ -1,0 +1,148 @@
+//! Poses at which a requirement is met least: they are held from then on.
+
+use std::collections::BTreeMap;
+
+use nalgebra::Vector6;
+
+use super::kinematics::{HeldPose, Lines};
+use super::merit::Merit;
+use super::model::{Group, Model, Task};
+use super::shape::Ends;
+use crate::num::Rng;
+
+/// Points looked at, and local searches from the worst of them, for each quantity.
+const POINTS: usize = 150;
+const SEARCHES: usize = 2;
+/// First step of a search in the cube, and the last.
+const STEPS: (f64, f64) = (0.25, 1e-5);
+
+/// Constraint groups and objectives that depend on the pose.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Quantity {
+    Constraint(Group),
+    Objective(usize),
+}
+
+struct Look<'a> {
+    model: &'a Model<'a>,
+    ends: Ends,
+    x: &'a [f64],
+    task: &'a Task,
+}
+
+impl Look<'_> {
+    fn lines(&self, cube: &Vector6<f64>) -> Lines {
+        let pose = self.model.problem.space.pose(cube);
+        Lines::new(&self.ends, &HeldPose { pose, follows: true })
+    }
+
+    /// Every quantity at a pose, to be small where it matters.
+    fn all(&self, l: &Lines) -> BTreeMap<Quantity, f64> {
+        let mut out = BTreeMap::new();
+        let mut keep = |q, value: f64| {
+            let least = out.entry(q).or_insert(f64::INFINITY);
+            *least = f64::min(*least, value);
+        };
+        self.model.terms.visit(l, &self.ends, self.x, &mut |item| {
+            let group = Group::Term(item.id.0);
+            if !self.task.dropped.contains(&group) {
+                keep(Quantity::Constraint(group), item.value);
+            }
+        });
+        for (m, o) in self.model.objectives.iter().enumerate() {
+            if Merit::is_over_poses(*o) && (self.task.weights[m] > 0.0 || self.task.floors[m].is_some()) {
+                keep(Quantity::Objective(m), self.model.merit.at_pose(*o, &self.model.terms, l));
+            }
+        }
+        out
+    }
+
+    fn one(&self, q: Quantity, cube: &Vector6<f64>) -> f64 {
+        let l = self.lines(cube);
+        match q {
+            Quantity::Objective(m) => {
+                self.model.merit.at_pose(self.model.objectives[m], &self.model.terms, &l)
+            }
+            Quantity::Constraint(group) => {
+                let mut least = f64::INFINITY;
+                self.model.terms.visit(&l, &self.ends, self.x, &mut |item| {
+                    if Group::Term(item.id.0) == group {
+                        least = least.min(item.value);
+                    }
+                });
+                least
+            }
+        }
+    }
+
+    /// Coordinate search with steps that shrink by halves.
+    fn descend(
+        &self,
+        q: Quantity,
+        axes: &[usize],
+        mut value: f64,
+        mut cube: Vector6<f64>,
+    ) -> (f64, Vector6<f64>) {
+        let mut step = STEPS.0;
+        while step > STEPS.1 {
+            let mut better = false;
+            for &k in axes {
+                for sign in [1.0, -1.0] {
+                    let mut next = cube;
+                    next[k] = (next[k] + sign * step).clamp(-1.0, 1.0);
+                    let there = if next[k].total_cmp(&cube[k]).is_ne() { self.one(q, &next) } else { value };
+                    if there < value {
+                        (value, cube, better) = (there, next, true);
+                    }
+                }
+            }
+            if !better {
+                step *= 0.5;
+            }
+        }
+        (value, cube)
+    }
+}
+
+/// Poses at which a constraint is violated, or an objective is worse than at the held poses, by more than a hundredth of the spare.
+pub(crate) fn worse_poses(
+    model: &Model<'_>,
+    x: &[f64],
+    task: &Task,
+    held: &[HeldPose],
+    sign: f64,
+    seed: u64,
+) -> Vec<HeldPose> {
+    let space = &model.problem.space;
+    let axes = space.axes();
+    if axes.is_empty() {
+        return Vec::new();
+    }
+    let look = Look { model, ends: model.shape.ends(x), x, task };
+    let judged = model.judge(held, x, task, sign);
+    let mut starts: BTreeMap<Quantity, Vec<(f64, Vector6<f64>)>> = BTreeMap::new();
+    for cube in space.cube_points(POINTS, &mut Rng::stream(seed, 7)) {
+        for (q, value) in look.all(&look.lines(&cube)) {
+            let list = starts.entry(q).or_default();
+            list.push((value, cube));
+            list.sort_by(|a, b| a.0.total_cmp(&b.0));
+            list.truncate(SEARCHES);
+        }
+    }
+    let mut out: Vec<HeldPose> = Vec::new();
+    for (q, list) in starts {
+        // what the held poses guarantee
+        let known = match q {
+            Quantity::Constraint(_) => 0.5 * model.backoff,
+            Quantity::Objective(m) => judged.gains[m] - model.backoff,
+        };
+        for (value, cube) in list {
+            let (value, cube) = look.descend(q, &axes, value, cube);
+            let pose = HeldPose { pose: space.pose(&cube), follows: true };
+            if value < known && !out.contains(&pose) && !held.contains(&pose) {
+                out.push(pose);
+            }
+        }
+    }
+    out
+}
