@@ -1,7 +1,7 @@
 //! The search over all branches: divide, sample, rank every cell, polish the best ones.
 
 use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use super::area::Area;
 use super::branch::{Cell, divide};
@@ -66,6 +66,8 @@ pub enum Progress {
         done: usize,
         /// Of how many.
         total: usize,
+        /// Best worst-case inverse condition number of feasible offsets so far, 0 before the first.
+        best: f64,
     },
     /// Boxes of offsets compared with the best value.
     Bounding {
@@ -82,7 +84,29 @@ pub enum Progress {
         done: usize,
         /// Of how many.
         total: usize,
+        /// Best worst-case inverse condition number of feasible offsets so far, 0 before the first.
+        best: f64,
     },
+}
+
+/// The best value that any of the threads has come to, for those who watch.
+struct Best(AtomicU64);
+
+impl Best {
+    fn new() -> Self {
+        Self(AtomicU64::new(0))
+    }
+
+    fn offer(&self, run: &LocalResult) {
+        if run.is_feasible() && run.value > 0.0 {
+            // doubles that are not negative are in the order of their bits
+            self.0.fetch_max(run.value.to_bits(), Ordering::Relaxed);
+        }
+    }
+
+    fn value(&self) -> f64 {
+        f64::from_bits(self.0.load(Ordering::Relaxed))
+    }
 }
 
 /// What the first pass found in a cell.
@@ -163,14 +187,18 @@ pub fn optimize(
         }
     };
     let stopped = &|| stopped.load(Ordering::Relaxed);
-    let sampled =
-        if options.survey || cells.len() <= FEW_CELLS { None } else { sample_cells(&m, &cells, options) };
+    let best = &Best::new();
+    let sampled = if options.survey || cells.len() <= FEW_CELLS {
+        None
+    } else {
+        sample_cells(&m, &cells, options, best, progress)
+    };
     let surveyed = sampled.is_none();
-    let ranked = sampled.unwrap_or_else(|| survey(&m, &cells, options, stopped, progress));
+    let ranked = sampled.unwrap_or_else(|| survey(&m, &cells, options, best, stopped, progress));
     let chosen = if surveyed { options.polished } else { FINALISTS };
     let starts = if surveyed { options.starts } else { 0 };
     let tasks = polish_starts(&m, &cells, &ranked, &best_cells(&ranked, chosen), starts, options.seed);
-    let mut polished = polish(&m, &cells, &tasks, options, stopped, progress);
+    let mut polished = polish(&m, &cells, &tasks, options, best, stopped, progress);
     let area = Area { problem, m: &m, divisions: &divisions, cells: &cells };
     let bound = area.bound(&mut polished, options, stopped, progress);
     let searched = Searched { ranked, polished, bound, interrupted: stopped() };
@@ -193,6 +221,7 @@ fn survey(
     m: &Model,
     cells: &[&Cell],
     o: &OptimizeOptions,
+    best: &Best,
     stopped: &(dyn Fn() -> bool + Sync),
     progress: &mut dyn FnMut(Progress),
 ) -> Vec<CellResult> {
@@ -205,16 +234,24 @@ fn survey(
         match rank_cell(few.as_ref().unwrap_or(m), cells[k], k, o) {
             CellResult::Feasible(mut run) => {
                 run.value = worst_case(&m.poses, &run.t).0;
+                best.offer(&run);
                 CellResult::Feasible(run)
             }
             other => other,
         }
     };
-    parallel(total, o.threads, rank, &mut |done| progress(Progress::Ranking { done, total }))
+    let tick = &mut |done| progress(Progress::Ranking { done, total, best: best.value() });
+    parallel(total, o.threads, rank, tick)
 }
 
 /// One feasible sample of every cell, and short climbs from the best; `None` when there is no sample.
-fn sample_cells(m: &Model, cells: &[&Cell], o: &OptimizeOptions) -> Option<Vec<CellResult>> {
+fn sample_cells(
+    m: &Model,
+    cells: &[&Cell],
+    o: &OptimizeOptions,
+    best: &Best,
+    progress: &mut dyn FnMut(Progress),
+) -> Option<Vec<CellResult>> {
     let few = critical_poses(m, cells, o.seed, SAMPLED_POSES, SAMPLED_POSES);
     let few = few.as_ref().unwrap_or(m);
     let draw = |k: usize| {
@@ -225,19 +262,25 @@ fn sample_cells(m: &Model, cells: &[&Cell], o: &OptimizeOptions) -> Option<Vec<C
         }
     };
     let mut ranked = parallel(cells.len(), o.threads, draw, &mut |_| ());
-    let best = best_cells(&ranked, CONTENDERS);
     let start = |k: usize| match &ranked[k] {
         CellResult::Feasible(r) => Some(r.t),
         _ => None,
     };
-    let starts: Vec<(usize, [f64; 6])> = best.into_iter().filter_map(|k| Some((k, start(k)?))).collect();
+    let starts: Vec<Start> =
+        best_cells(&ranked, CONTENDERS).into_iter().filter_map(|k| Some((k, start(k)?))).collect();
     if starts.is_empty() {
         return None;
     }
-    let run = |i: usize| climb(few, cells[starts[i].0], starts[i].1, Effort::RANK);
-    for ((k, _), mut run) in starts.iter().zip(parallel(starts.len(), o.threads, run, &mut |_| ())) {
+    let total = starts.len();
+    let run = |i: usize| {
+        let mut run = climb(few, cells[starts[i].0], starts[i].1, Effort::RANK);
+        run.value = worst_case(&m.poses, &run.t).0;
+        best.offer(&run);
+        run
+    };
+    let tick = &mut |done| progress(Progress::Ranking { done, total, best: best.value() });
+    for ((k, _), run) in starts.iter().zip(parallel(total, o.threads, run, tick)) {
         if run.is_feasible() {
-            run.value = worst_case(&m.poses, &run.t).0;
             ranked[*k] = CellResult::Feasible(run);
         }
     }
@@ -299,6 +342,7 @@ fn polish(
     cells: &[&Cell],
     tasks: &[Start],
     o: &OptimizeOptions,
+    best: &Best,
     stopped: &(dyn Fn() -> bool + Sync),
     progress: &mut dyn FnMut(Progress),
 ) -> Vec<(usize, LocalResult)> {
@@ -307,19 +351,22 @@ fn polish(
         let (k, start) = tasks[i];
         // the first start is polished whatever happens: it is the answer of an interrupted search
         let effort = if i > 0 && stopped() { Effort::RANK } else { Effort::POLISH };
-        climb(m, cells[k], start, effort)
+        let run = climb(m, cells[k], start, effort);
+        best.offer(&run);
+        run
     };
-    let runs = parallel(total, o.threads, run, &mut |done| progress(Progress::Polishing { done, total }));
-    let mut best: Vec<(usize, LocalResult)> = Vec::new();
+    let tick = &mut |done| progress(Progress::Polishing { done, total, best: best.value() });
+    let runs = parallel(total, o.threads, run, tick);
+    let mut kept: Vec<(usize, LocalResult)> = Vec::new();
     for ((k, _), run) in tasks.iter().zip(runs) {
-        match best.iter_mut().find(|b| b.0 == *k) {
+        match kept.iter_mut().find(|b| b.0 == *k) {
             Some(b) if better(&run, &b.1) => b.1 = run,
             Some(_) => {}
-            None => best.push((*k, run)),
+            None => kept.push((*k, run)),
         }
     }
-    best.sort_by(|a, b| {
+    kept.sort_by(|a, b| {
         b.1.is_feasible().cmp(&a.1.is_feasible()).then(b.1.value.total_cmp(&a.1.value)).then(a.0.cmp(&b.0))
     });
-    best
+    kept
 }

@@ -7,6 +7,7 @@ mod along;
 mod axis;
 mod components;
 mod contour;
+mod convergence;
 mod determinant;
 mod locus;
 mod modes;
@@ -18,6 +19,7 @@ mod topologies;
 
 pub use along::{AlongFigure, AlongPart, sign_along};
 pub use components::{CurveFigure, CurveMark, CurvePanel, component_curves};
+pub use convergence::{ConvergenceCurve, ConvergenceFigure, convergence_chart};
 pub use determinant::{OffsetPlane, PlaneAxis, PlanePoint, determinant_plane};
 pub use locus::{LocusFigure, LocusMeeting, LocusStep, LocusValue, locus_chart, locus_meetings};
 pub use modes::{ModesFigure, assembly_modes};

@@ -34,6 +34,7 @@ mod hidden_lengths;
 mod instances;
 mod leg_maps;
 mod octahedral_class;
+mod optimizer_evidence;
 mod rearrangements;
 mod reference;
 mod singularity;

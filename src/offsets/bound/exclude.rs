@@ -2,17 +2,12 @@
 
 use nalgebra::Matrix6;
 
+use super::multipliers::{SAMPLES, Sampled, multipliers};
 use super::rows::{LegRow, Quotient, greatest, point};
-use crate::num::conic::{ConicAnswer, ConicProgram};
 
-/// Poses that take part in a proof.
-const POSES: usize = 20;
-/// Poses for which vectors are mixed.
-const MIXED: usize = 8;
-/// Offsets at which the multipliers are chosen, for each coordinate.
-const SAMPLES: u32 = 7;
-/// Multipliers below this share of the largest are dropped; any set of multipliers is valid.
-const NEGLIGIBLE: f64 = 1e-4;
+/// Attempts at a proof: poses that are looked at, those of them that take part, and those for which vectors are mixed. Most boxes need
+/// the first only, which costs little.
+const ATTEMPTS: [(usize, usize, usize); 2] = [(10, 6, 3), (usize::MAX, 30, 20)];
 
 /// Six ranges of offsets.
 pub(crate) type Bounds = [(f64, f64); 6];
@@ -73,6 +68,13 @@ pub(super) enum Test {
     Kept(Vec<usize>),
 }
 
+/// A function that is not negative at offsets which reach the limit: pose and the two vectors.
+struct Function<'a> {
+    pose: usize,
+    low: &'a [f64; 6],
+    high: &'a [f64; 6],
+}
+
 /// Tries to prove that no offsets in `bounds` have an inverse condition number of `limit` or more at all poses.
 ///
 /// For every pose `k` and all vectors, `sigma_6 <= |J v| / |v|` and `sigma_1 >= |J w| / |w|`. If offsets `t` reached the limit, then
@@ -88,83 +90,76 @@ pub(super) fn test(
     jacobian: &dyn Fn(usize, &[f64; 6]) -> Matrix6<f64>,
 ) -> Test {
     let middle = bounds.map(|(low, high)| f64::midpoint(low, high));
-    let mut found: Vec<(usize, Direction)> =
-        candidates.iter().filter_map(|&k| Some((k, Direction::of(&jacobian(k, &middle))?))).collect();
-    found.sort_by(|a, b| a.1.ratio.total_cmp(&b.1.ratio).then(a.0.cmp(&b.0)));
-    let order: Vec<usize> = found.iter().map(|f| f.0).collect();
-    found.truncate(POSES);
-    let limit = point(limit).square();
-    let mut functions: Vec<[Quotient; 6]> = Vec::new();
-    for (place, (k, d)) in found.iter().enumerate() {
-        // the first vectors with each of the others; for the worst poses only
-        let more = |list: &[[f64; 6]]| if place < MIXED { list.len() } else { 1 };
-        let pairs = (0..more(&d.low)).map(|i| (i, 0)).chain((1..more(&d.high)).map(|j| (0, j)));
-        for (i, j) in pairs {
-            let all: Option<Vec<Quotient>> =
-                poses[*k].rows.iter().map(|row| row.excess(&d.low[i], &d.high[j], limit)).collect();
-            functions.extend(all.and_then(|all| <[Quotient; 6]>::try_from(all).ok()));
-        }
-    }
-    let samples = sampled(&functions, bounds);
-    // one pose alone often suffices
-    let alone = |values: &[Vec<f64>; 6]| -> f64 {
-        values.iter().map(|v| v.iter().copied().fold(f64::MIN, f64::max)).sum()
-    };
-    let single = samples.iter().enumerate().map(|(k, s)| (alone(s), k)).min_by(|a, b| a.0.total_cmp(&b.0));
-    let proved = |mu: &[f64]| -> bool {
-        let sum: f64 = (0..6)
-            .map(|i| {
-                let terms: Vec<(f64, &Quotient)> =
-                    mu.iter().zip(&functions).filter(|(m, _)| **m > 0.0).map(|(m, f)| (*m, &f[i])).collect();
-                greatest(&terms, bounds[i]).next_up()
-            })
-            // each partial sum is rounded upwards
-            .fold(0.0, |s, x| (s + x).next_up());
-        sum < 0.0
-    };
-    if let Some((value, k)) = single {
-        let mut mu = vec![0.0; functions.len()];
-        mu[k] = 1.0;
-        if value < 0.0 && proved(&mu) {
+    let mut found: Vec<(usize, Direction)> = Vec::new();
+    let mut seen = 0;
+    for (looked_at, taking_part, mixed) in ATTEMPTS {
+        let more = &candidates[seen..candidates.len().min(looked_at)];
+        seen += more.len();
+        found.extend(more.iter().filter_map(|&k| Some((k, Direction::of(&jacobian(k, &middle))?))));
+        found.sort_by(|a, b| a.1.ratio.total_cmp(&b.1.ratio).then(a.0.cmp(&b.0)));
+        if excluded(poses, &found[..found.len().min(taking_part)], mixed, bounds, limit) {
             return Test::Excluded;
         }
     }
-    match multipliers(&samples) {
-        Some(mu) if proved(&mu) => Test::Excluded,
-        _ => Test::Kept(order),
-    }
+    Test::Kept(found.into_iter().map(|f| f.0).collect())
 }
 
-/// Values of every function at the samples of its offset.
-fn sampled(functions: &[[Quotient; 6]], bounds: &Bounds) -> Vec<[Vec<f64>; 6]> {
-    let at = |(low, high): (f64, f64), k: u32| low + (high - low) * f64::from(k) / f64::from(SAMPLES - 1);
-    let values = |f: &[Quotient; 6]| {
-        std::array::from_fn(|i| (0..SAMPLES).map(|k| f[i].estimate(at(bounds[i], k))).collect())
+/// One attempt with these poses, worst first.
+fn excluded(poses: &[Pose], found: &[(usize, Direction)], mixed: usize, bounds: &Bounds, limit: f64) -> bool {
+    let mut functions: Vec<Function<'_>> = Vec::new();
+    for (place, (pose, d)) in found.iter().enumerate() {
+        // the first vectors with each of the others; for the worst poses only
+        let more = |list: &[[f64; 6]]| if place < mixed { list.len() } else { 1 };
+        let pairs = (0..more(&d.low)).map(|i| (i, 0)).chain((1..more(&d.high)).map(|j| (0, j)));
+        functions.extend(pairs.map(|(i, j)| Function { pose: *pose, low: &d.low[i], high: &d.high[j] }));
+    }
+    let samples = sampled(poses, &functions, bounds, limit * limit);
+    // one function alone often suffices
+    let alone = |s: &Sampled| -> f64 { s.iter().map(|v| v.iter().copied().fold(f64::MIN, f64::max)).sum() };
+    let single = samples.iter().map(alone).zip(0..).min_by(|a, b| a.0.total_cmp(&b.0));
+    if let Some((value, k)) = single
+        && value < 0.0
+        && proved(poses, &[(1.0, &functions[k])], bounds, limit)
+    {
+        return true;
+    }
+    multipliers(&samples).is_some_and(|mu| {
+        let terms: Vec<(f64, &Function<'_>)> =
+            mu.into_iter().zip(&functions).filter(|(m, _)| *m > 0.0).collect();
+        proved(poses, &terms, bounds, limit)
+    })
+}
+
+/// In intervals: the greatest values of the sum of the functions with their multipliers add up to less than 0.
+fn proved(poses: &[Pose], terms: &[(f64, &Function<'_>)], bounds: &Bounds, limit: f64) -> bool {
+    let limit = point(limit).square();
+    let greatest_of = |i: usize| -> f64 {
+        let quotient = |(mu, f): &(f64, &Function<'_>)| -> Option<(f64, Quotient)> {
+            Some((*mu, poses[f.pose].rows[i].excess(f.low, f.high, limit)?))
+        };
+        let all: Option<Vec<(f64, Quotient)>> = terms.iter().map(quotient).collect();
+        all.map_or(f64::INFINITY, |all| greatest(&all, bounds[i]))
+    };
+    // each partial sum is rounded upwards
+    (0..6).map(greatest_of).fold(0.0, |s, x| (s + x.next_up()).next_up()) < 0.0
+}
+
+/// Values of every function at the samples of its offsets, in plain arithmetic.
+fn sampled(poses: &[Pose], functions: &[Function<'_>], bounds: &Bounds, limit: f64) -> Vec<Sampled> {
+    let norm = |v: &[f64; 6]| v.iter().map(|x| x * x).sum::<f64>();
+    let last = (SAMPLES - 1) as f64;
+    let values = |f: &Function<'_>| -> Sampled {
+        let (low, high) = (1.0 / norm(f.low), limit / norm(f.high));
+        std::array::from_fn(|i| {
+            let row = poses[f.pose].rows[i].plain();
+            let ((a, b), (c, d)) = (row.along(f.low), row.along(f.high));
+            let range = bounds[i];
+            std::array::from_fn(|k| {
+                let t = range.0 + (range.1 - range.0) * (k as f64 / last);
+                let (v, w) = (a + t * b, c + t * d);
+                (low * v * v - high * w * w) / row.square_at(t)
+            })
+        })
     };
     functions.iter().map(values).collect()
-}
-
-/// Multipliers in `[0, 1]` that make the sum of the greatest sampled values least; `None` when it is not negative.
-fn multipliers(samples: &[[Vec<f64>; 6]]) -> Option<Vec<f64>> {
-    let n = samples.len();
-    let mut p = ConicProgram { variables: n + 6, linear: vec![0.0; n + 6], ..Default::default() };
-    for i in 0..6 {
-        p.linear[n + i] = 1.0;
-        for j in 0..SAMPLES as usize {
-            let mut row: Vec<(usize, f64)> = (0..n).map(|k| (k, samples[k][i][j])).collect();
-            row.push((n + i, -1.0));
-            p.at_least_zero(row, 0.0);
-        }
-    }
-    for k in 0..n {
-        p.at_least_zero(vec![(k, 1.0)], 1.0);
-        p.at_least_zero(vec![(k, -1.0)], 0.0);
-    }
-    let ConicAnswer::Point(found) = p.solve() else { return None };
-    let value: f64 = found.x[n..].iter().sum();
-    let largest = found.x[..n].iter().copied().fold(0.0, f64::max);
-    if !(value < 0.0 && largest > 0.0) {
-        return None;
-    }
-    Some(found.x[..n].iter().map(|m| if *m < NEGLIGIBLE * largest { 0.0 } else { *m }).collect())
 }

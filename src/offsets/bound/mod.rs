@@ -1,6 +1,7 @@
 //! A proved upper bound of the worst-case inverse condition number over all offsets: branch and bound.
 
 mod exclude;
+mod multipliers;
 mod rows;
 #[cfg(test)]
 mod tests;
@@ -44,12 +45,16 @@ struct Node {
     bounds: Bounds,
     /// Poses to look at, the worst of the parent first.
     poses: Vec<usize>,
+    /// Halvings it took.
+    depth: usize,
 }
 
 /// Boxes looked at side by side; their results are taken over in order, so that threads change nothing.
 const BATCH: usize = 32;
 /// Poses a part of a box inherits.
-const INHERITED: usize = 40;
+const INHERITED: usize = 80;
+/// Boxes so many halvings down look at all poses once more.
+const REVIEW: usize = 8;
 /// Widening of the gap when the boxes are used up.
 const WIDER: f64 = 3.0;
 /// No bound is claimed beyond this gap.
@@ -106,7 +111,7 @@ impl<'a> Bounding<'a> {
     ) -> Option<GlobalBound> {
         let first = self.telling_poses(&boxes);
         let mut open: Vec<Node> =
-            boxes.into_iter().map(|bounds| Node { bounds, poses: first.clone() }).collect();
+            boxes.into_iter().map(|bounds| Node { bounds, poses: first.clone(), depth: 0 }).collect();
         let (mut gap, mut done, mut budget) = (o.gap, 0, o.boxes);
         while !open.is_empty() {
             if done >= budget {
@@ -144,6 +149,9 @@ impl<'a> Bounding<'a> {
         let Test::Kept(mut order) = test(&self.poses, &node.poses, &node.bounds, limit, &jacobian) else {
             return None;
         };
+        if self.poses.len() > INHERITED && (node.depth + 1).is_multiple_of(REVIEW) {
+            return Some(self.worst_at(&middle(&node.bounds)));
+        }
         // a pose that refutes the middle belongs into the proofs for the parts
         let hint = order.first().copied().unwrap_or(0);
         if let Err((_, pose)) = worst_case_above(&self.model.poses, &middle(&node.bounds), limit, hint)
@@ -154,17 +162,21 @@ impl<'a> Bounding<'a> {
         Some(order)
     }
 
+    /// All poses, the worst at these offsets first.
+    fn worst_at(&self, t: &[f64; 6]) -> Vec<usize> {
+        let mut order: Vec<(f64, usize)> =
+            self.model.poses.iter().map(|p| p.inverse_condition(t)).zip(0..).collect();
+        order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        order.into_iter().map(|x| x.1).collect()
+    }
+
     /// Poses that are worst in the middles of some of the boxes, most frequent first: a start for the proofs.
     fn telling_poses(&self, boxes: &[Bounds]) -> Vec<usize> {
         let count = self.model.poses.len();
         let mut hits: Vec<(usize, usize)> = (0..count).map(|k| (0, k)).collect();
         if count > INHERITED {
             for bounds in boxes.iter().step_by(boxes.len().div_ceil(LOOKS).max(1)) {
-                let at = middle(bounds);
-                let mut order: Vec<(f64, usize)> =
-                    self.model.poses.iter().map(|p| p.inverse_condition(&at)).zip(0..).collect();
-                order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-                order.iter().take(3).for_each(|(_, k)| hits[*k].0 += 1);
+                self.worst_at(&middle(bounds)).into_iter().take(3).for_each(|k| hits[k].0 += 1);
             }
             hits.sort_by(|a, b| b.0.cmp(&a.0).then(a.1.cmp(&b.1)));
             hits.truncate(INHERITED);
@@ -182,7 +194,7 @@ impl<'a> Bounding<'a> {
         [(low, cut), (cut, high)].map(|range| {
             let mut bounds = node.bounds;
             bounds[longest] = range;
-            Node { bounds, poses: poses.to_vec() }
+            Node { bounds, poses: poses.to_vec(), depth: node.depth + 1 }
         })
     }
 }

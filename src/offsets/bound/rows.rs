@@ -51,6 +51,28 @@ pub(super) struct LegRow {
     rate: [Interval; 6],
     /// `q0, q1, q2` of the squared length.
     square: [Interval; 3],
+    plain: PlainRow,
+}
+
+/// The same in plain arithmetic, for choices that prove nothing.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PlainRow {
+    constant: [f64; 6],
+    rate: [f64; 6],
+    square: [f64; 3],
+}
+
+impl PlainRow {
+    /// Squared leg length at `t`.
+    pub(super) fn square_at(&self, t: f64) -> f64 {
+        self.square[0] + t * (self.square[1] + t * self.square[2])
+    }
+
+    /// `constant . v` and `rate . v`.
+    pub(super) fn along(&self, v: &[f64; 6]) -> (f64, f64) {
+        let dot = |row: &[f64; 6]| -> f64 { row.iter().zip(v).map(|(r, v)| r * v).sum() };
+        (dot(&self.constant), dot(&self.rate))
+    }
 }
 
 impl LegRow {
@@ -77,11 +99,16 @@ impl LegRow {
             }
             Some(out)
         };
-        Some(Self {
-            constant: stack(line, moment)?,
-            rate: stack(line_rate, moment_rate)?,
-            square: [dot(&line, &line), point(2.0) * dot(&line, &line_rate), dot(&line_rate, &line_rate)],
-        })
+        let (constant, rate) = (stack(line, moment)?, stack(line_rate, moment_rate)?);
+        let square = [dot(&line, &line), point(2.0) * dot(&line, &line_rate), dot(&line_rate, &line_rate)];
+        let centre = |x: Interval| x.centre_and_radius().0;
+        let plain =
+            PlainRow { constant: constant.map(centre), rate: rate.map(centre), square: square.map(centre) };
+        Some(Self { constant, rate, square, plain })
+    }
+
+    pub(super) fn plain(&self) -> &PlainRow {
+        &self.plain
     }
 
     /// `c (row . v)^2` as the numerator `n0 + n1 t + n2 t^2` over the squared length.
@@ -119,7 +146,7 @@ fn slope(c: &[Interval; 3], t: Interval) -> Interval {
 
 impl Quotient {
     /// Its values; `None` where the leg may have length zero.
-    fn value(&self, t: Interval) -> Option<Interval> {
+    pub(super) fn value(&self, t: Interval) -> Option<Interval> {
         quadratic(&self.numerator, t).checked_div(quadratic(&self.square, t))
     }
 
@@ -128,13 +155,6 @@ impl Quotient {
         let f = self.value(t)?;
         (slope(&self.numerator, t) - f * slope(&self.square, t)).checked_div(quadratic(&self.square, t))
     }
-
-    /// Its value in plain arithmetic, for choices that prove nothing.
-    pub(super) fn estimate(&self, t: f64) -> f64 {
-        let mid = |c: &[Interval; 3]| c.map(|x| x.centre_and_radius().0);
-        let (n, q) = (mid(&self.numerator), mid(&self.square));
-        (n[0] + t * (n[1] + t * n[2])) / (q[0] + t * (q[1] + t * q[2]))
-    }
 }
 
 /// Parts into which a range of an offset is cut.
@@ -142,7 +162,7 @@ const PARTS: u32 = 8;
 
 /// An upper bound of `sum mu f(t)` over `low <= t <= high`: on each part the value in the middle plus the derivative over the
 /// part times half its width (mean value form), in intervals.
-pub(super) fn greatest(terms: &[(f64, &Quotient)], (low, high): (f64, f64)) -> f64 {
+pub(super) fn greatest(terms: &[(f64, Quotient)], (low, high): (f64, f64)) -> f64 {
     let cut = |k: u32| if k == PARTS { high } else { low + (high - low) * (f64::from(k) / f64::from(PARTS)) };
     let part = |k: u32| -> Option<f64> {
         let range = Interval::new(cut(k), cut(k + 1))?;

@@ -44,12 +44,17 @@ fn rows_in_intervals_hold_the_rows_of_the_model() {
                 dot * dot / v.iter().map(|x| x * x).sum::<f64>()
             };
             let expected = along(&v) - 0.25 * along(&w);
-            assert!((f.estimate(t[i]) - expected).abs() < 1e-12, "{} {expected}", f.estimate(t[i]));
+            let centre = |t: f64| f.value(point(t)).unwrap().centre_and_radius().0;
+            assert!((centre(t[i]) - expected).abs() < 1e-12, "{} {expected}", centre(t[i]));
+            let (constant, rate) = row.plain().along(&v);
+            let plain = (constant + t[i] * rate).powi(2) / row.plain().square_at(t[i]);
+            let dot: f64 = (0..6).map(|c| j[(i, c)] * v[c]).sum();
+            assert!((plain - dot * dot).abs() < 1e-12 * (1.0 + plain));
             // the range is bounded by a value that is reached nearly
             let range = (t[i] - 0.05, t[i] + 0.05);
-            let top = greatest(&[(2.0, &f)], range);
+            let top = greatest(&[(2.0, f)], range);
             let seen =
-                (0..=100).map(|n| 2.0 * f.estimate(range.0 + 1e-3 * f64::from(n))).fold(f64::MIN, f64::max);
+                (0..=100).map(|n| 2.0 * centre(range.0 + 1e-3 * f64::from(n))).fold(f64::MIN, f64::max);
             assert!(top >= seen && top < seen + 1e-3 * (1.0 + seen.abs()), "{top} {seen}");
         }
     }

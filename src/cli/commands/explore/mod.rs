@@ -139,8 +139,8 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let mut done =
         optimize::search(&design, octahedral.clone(), &Choices::plain(args.extension), seed, &mut |p| {
             match p {
-                offsets::Progress::Ranking { done, total } => progress.part("ranking", done, total),
-                offsets::Progress::Polishing { done, total } => progress.part("polishing", done, total),
+                offsets::Progress::Ranking { done, total, .. } => progress.part("ranking", done, total),
+                offsets::Progress::Polishing { done, total, .. } => progress.part("polishing", done, total),
                 offsets::Progress::Bounding { boxes, open, .. } => {
                     progress.part("bounding", boxes, boxes + open);
                 }

@@ -135,8 +135,12 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
 /// How far the search is, for people.
 fn words(p: offsets::Progress) -> String {
     match p {
-        offsets::Progress::Ranking { done, total } => format!("cell {done} of {total}"),
-        offsets::Progress::Polishing { done, total } => format!("climb {done} of {total}"),
+        offsets::Progress::Ranking { done, total, best } => {
+            format!("best {best:.6}; cell {done} of {total}")
+        }
+        offsets::Progress::Polishing { done, total, best } => {
+            format!("best {best:.6}; climb {done} of {total}")
+        }
         offsets::Progress::Bounding { boxes, open, best } => {
             format!("best {best:.6}; {boxes} boxes compared, {open} waiting")
         }

@@ -1,0 +1,203 @@
+//! The multipliers that make a sum of greatest values least: a small linear program, by the simplex method on a dense tableau.
+
+/// Offsets at which functions are sampled, for each coordinate.
+pub(super) const SAMPLES: usize = 7;
+/// Values of one function of six offsets, a sum of functions of one offset each, at the samples.
+pub(super) type Sampled = [[f64; SAMPLES]; 6];
+
+/// Multipliers below this share of the largest are dropped; any set of multipliers is valid.
+const NEGLIGIBLE: f64 = 1e-4;
+/// Rows of the tableau: every sample but the first of each coordinate, and the bound on the sum.
+const ROWS: usize = 6 * (SAMPLES - 1) + 1;
+/// Share of the largest entry by which the right-hand sides are set apart, so that the method does not stall.
+const APART: f64 = 1e-9;
+/// Share of the largest entry below which an entry is no pivot and a cost no gain.
+const SMALL: f64 = 1e-12;
+const MOST_PIVOTS: usize = 600;
+
+/// Multipliers `mu >= 0`, `sum mu <= 1`, that minimise `sum_i max_j sum_k mu_k samples[k][i][j]`; `None` when the least value is not below 0.
+///
+/// With `m_i` for the greatest values and slacks `s_ij = m_i - sum_k mu_k S_kij >= 0` the `m_i` are eliminated by the first
+/// sample of each coordinate, `m_i = s_i0 + sum_k mu_k S_ki0`. What is left has the feasible start `mu = 0`, `s = 0`.
+pub(super) fn multipliers(samples: &[Sampled]) -> Option<Vec<f64>> {
+    let n = samples.len();
+    let scale = samples.iter().flatten().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
+    if !(scale > 0.0 && scale.is_finite()) {
+        return None;
+    }
+    let mut tableau = Tableau::new(samples, scale);
+    for _ in 0..MOST_PIVOTS {
+        let Some(column) = tableau.entering() else { break };
+        let row = tableau.leaving(column)?;
+        tableau.pivot(row, column);
+    }
+    let mut mu = vec![0.0; n];
+    for (row, variable) in tableau.basic.iter().enumerate() {
+        if *variable < n {
+            mu[*variable] = tableau.entry(row, tableau.columns).max(0.0);
+        }
+    }
+    let largest = mu.iter().copied().fold(0.0, f64::max);
+    let greatest = |i: usize| {
+        let at = |j: usize| mu.iter().zip(samples).map(|(m, s)| m * s[i][j]).sum::<f64>();
+        (0..SAMPLES).map(at).fold(f64::NEG_INFINITY, f64::max)
+    };
+    let value: f64 = (0..6).map(greatest).sum();
+    if !(value < 0.0 && largest > 0.0) {
+        return None;
+    }
+    Some(mu.into_iter().map(|m| if m < NEGLIGIBLE * largest { 0.0 } else { m }).collect())
+}
+
+/// Basic variables over the others: `basic + sum entry * other = right-hand side`, the costs of the others in the last row.
+struct Tableau {
+    /// Without the right-hand side, which is one more.
+    columns: usize,
+    entries: Vec<f64>,
+    /// Numbers of the variables: multipliers, then the six first slacks, then the other slacks.
+    basic: Vec<usize>,
+    other: Vec<usize>,
+    small: f64,
+}
+
+impl Tableau {
+    fn new(samples: &[Sampled], scale: f64) -> Self {
+        let n = samples.len();
+        let columns = n + 6;
+        let mut entries = vec![0.0; (ROWS + 1) * (columns + 1)];
+        let mut set = |row: usize, column: usize, x: f64| entries[row * (columns + 1) + column] = x;
+        for i in 0..6 {
+            for j in 1..SAMPLES {
+                let row = i * (SAMPLES - 1) + j - 1;
+                for (k, s) in samples.iter().enumerate() {
+                    set(row, k, s[i][j] - s[i][0]);
+                }
+                set(row, n + i, -1.0);
+                // multiples of the golden ratio are spread evenly
+                set(row, columns, APART * scale * (1.0 + (0.618_034 * row as f64).fract()));
+            }
+            set(ROWS, n + i, 1.0);
+        }
+        for (k, s) in samples.iter().enumerate() {
+            set(ROWS - 1, k, 1.0);
+            set(ROWS, k, s.iter().map(|s| s[0]).sum());
+        }
+        set(ROWS - 1, columns, 1.0);
+        let basic = (columns..columns + ROWS).collect();
+        Self { columns, entries, basic, other: (0..columns).collect(), small: SMALL * scale.min(1.0) }
+    }
+
+    fn entry(&self, row: usize, column: usize) -> f64 {
+        self.entries[row * (self.columns + 1) + column]
+    }
+
+    /// The column of the lowest cost; `None` at the optimum.
+    fn entering(&self) -> Option<usize> {
+        let costs = &self.entries[ROWS * (self.columns + 1)..][..self.columns];
+        let lowest = costs.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1));
+        lowest.filter(|(_, cost)| **cost < -self.small).map(|(k, _)| k)
+    }
+
+    /// The row that bounds the entering variable; of equal ones the one with the larger pivot.
+    fn leaving(&self, column: usize) -> Option<usize> {
+        let mut best: Option<(f64, f64, usize)> = None;
+        for row in 0..ROWS {
+            let pivot = self.entry(row, column);
+            if pivot > self.small {
+                let ratio = self.entry(row, self.columns) / pivot;
+                if best.is_none_or(|b| ratio < b.0 || (ratio <= b.0 && pivot > b.1)) {
+                    best = Some((ratio, pivot, row));
+                }
+            }
+        }
+        best.map(|b| b.2)
+    }
+
+    fn pivot(&mut self, row: usize, column: usize) {
+        let width = self.columns + 1;
+        let inverse = 1.0 / self.entry(row, column);
+        let mut line: Vec<f64> = self.entries[row * width..][..width].iter().map(|x| x * inverse).collect();
+        line[column] = inverse;
+        for (r, own) in self.entries.chunks_exact_mut(width).enumerate() {
+            if r == row {
+                own.copy_from_slice(&line);
+                continue;
+            }
+            let factor = own[column];
+            if factor != 0.0 {
+                own[column] = 0.0;
+                for (x, y) in own.iter_mut().zip(&line) {
+                    *x -= factor * y;
+                }
+            }
+        }
+        std::mem::swap(&mut self.basic[row], &mut self.other[column]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::Rng;
+    use crate::num::conic::{ConicAnswer, ConicProgram};
+
+    fn value(samples: &[Sampled], mu: &[f64]) -> f64 {
+        let greatest = |i: usize| {
+            let at = |j: usize| mu.iter().zip(samples).map(|(m, s)| m * s[i][j]).sum::<f64>();
+            (0..SAMPLES).map(at).fold(f64::NEG_INFINITY, f64::max)
+        };
+        (0..6).map(greatest).sum()
+    }
+
+    /// The same program by the conic solver.
+    fn least(samples: &[Sampled]) -> f64 {
+        let n = samples.len();
+        let mut p = ConicProgram { variables: n + 6, linear: vec![0.0; n + 6], ..Default::default() };
+        for i in 0..6 {
+            p.linear[n + i] = 1.0;
+            for j in 0..SAMPLES {
+                let mut row: Vec<(usize, f64)> = (0..n).map(|k| (k, samples[k][i][j])).collect();
+                row.push((n + i, -1.0));
+                p.at_least_zero(row, 0.0);
+            }
+        }
+        (0..n).for_each(|k| p.at_least_zero(vec![(k, -1.0)], 0.0));
+        p.at_least_zero((0..n).map(|k| (k, 1.0)).collect(), 1.0);
+        let ConicAnswer::Point(found) = p.solve() else { panic!("no point") };
+        found.x[n..].iter().sum()
+    }
+
+    #[test]
+    fn the_least_value_is_that_of_the_conic_solver() {
+        let mut rng = Rng::new(5);
+        let (mut below, mut none) = (0, 0);
+        for n in 0..120 {
+            let functions = 1 + n % 70;
+            let lift = rng.uniform(-0.4, 0.8);
+            let samples: Vec<Sampled> = (0..functions)
+                .map(|_| std::array::from_fn(|_| std::array::from_fn(|_| rng.normal() + lift)))
+                .collect();
+            let expected = least(&samples);
+            if let Some(mu) = multipliers(&samples) {
+                below += 1;
+                assert!(mu.iter().all(|m| *m >= 0.0) && mu.iter().sum::<f64>() < 1.0 + 1e-9);
+                let found = value(&samples, &mu);
+                // dropped multipliers and the perturbation cost a little
+                assert!((found - expected).abs() < 2e-3 * expected.abs().max(0.1), "{found} {expected}");
+            } else {
+                none += 1;
+                assert!(expected > -1e-6, "{expected}");
+            }
+        }
+        assert!(below > 20 && none > 20, "{below} {none}");
+    }
+
+    #[test]
+    fn equal_functions_and_bad_numbers_do_no_harm() {
+        let equal = vec![[[-1.0; SAMPLES]; 6]; 30];
+        assert!((value(&equal, &multipliers(&equal).unwrap()) + 6.0).abs() < 1e-6);
+        assert!(multipliers(&[]).is_none());
+        assert!(multipliers(&[[[f64::NAN; SAMPLES]; 6]]).is_none());
+        assert!(multipliers(&[[[f64::INFINITY; SAMPLES]; 6]]).is_none());
+    }
+}

@@ -1,0 +1,165 @@
+//! CMA-ES with restarts: two regimes of population sizes as in BIPOP (Hansen 2009), two ways to treat requirements, and runs that start from the best
+//! answer so far.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use cmaes::{CMAESOptions, DVector, Mode};
+use equipod::num::Rng;
+
+use crate::judge::Judge;
+use crate::record::{Record, Rival};
+
+/// Draws for the start of a run; the first feasible ones count.
+const DRAWS: usize = 2000;
+/// The best of so many feasible draws is the start.
+const CHOSEN_FROM: usize = 20;
+/// Weight of a violation in the runs that may leave the feasible points.
+const PENALTY: f64 = 10.0;
+/// Weight of the squared distance from the box; inside there is none.
+const OUTSIDE: f64 = 1e-3;
+
+/// How a run treats requirements.
+#[derive(Debug, Clone, Copy)]
+enum Handling {
+    /// Every feasible point is before every other one; those are ranked by their violation.
+    FeasibleFirst,
+    /// Value less a multiple of the violation.
+    Penalty,
+}
+
+/// Everything that a run needs.
+struct Arena<'a> {
+    judge: &'a dyn Judge,
+    record: &'a Record,
+    asked: &'a AtomicUsize,
+    /// Seconds of processor time.
+    budget: f64,
+}
+
+impl Arena<'_> {
+    fn is_over(&self) -> bool {
+        self.record.clock.spent().cpu >= self.budget
+    }
+
+    /// Variables of a point of the unit cube; what is outside is put onto its boundary.
+    fn variables(&self, u: &[f64]) -> Vec<f64> {
+        let at = |(u, b): (&f64, &(f64, f64))| b.0 + (b.1 - b.0) * u.clamp(0.0, 1.0);
+        u.iter().zip(self.judge.bounds()).map(at).collect()
+    }
+
+    fn merit(&self, u: &[f64], handling: Handling) -> f64 {
+        self.asked.fetch_add(1, Ordering::Relaxed);
+        if u.iter().any(|u| !u.is_finite()) {
+            return -1e9;
+        }
+        let outside: f64 = u.iter().map(|u| (u - u.clamp(0.0, 1.0)).powi(2)).sum();
+        let x = self.variables(u);
+        let violation = self.judge.violation(&x);
+        let merit = if violation <= 0.0 {
+            self.record.evaluate(self.judge, &x)
+        } else {
+            match handling {
+                Handling::FeasibleFirst => -violation,
+                Handling::Penalty => self.judge.value(&x) - PENALTY * violation,
+            }
+        };
+        merit - OUTSIDE * outside.min(1e6)
+    }
+
+    /// The best of some feasible draws, or the last draw when none is feasible.
+    fn start(&self, rng: &mut Rng) -> Vec<f64> {
+        let n = self.judge.bounds().len();
+        let mut best: Option<(f64, Vec<f64>)> = None;
+        let (mut feasible, mut last) = (0, Vec::new());
+        for _ in 0..DRAWS {
+            last = (0..n).map(|_| rng.unit()).collect();
+            let x = self.variables(&last);
+            if self.judge.violation(&x) > 0.0 {
+                continue;
+            }
+            let value = self.record.evaluate(self.judge, &x);
+            if best.as_ref().is_none_or(|b| value > b.0) {
+                best = Some((value, last.clone()));
+            }
+            feasible += 1;
+            if feasible == CHOSEN_FROM {
+                break;
+            }
+        }
+        best.map_or(last, |b| b.1)
+    }
+
+    /// The best answer so far as a point of the unit cube.
+    fn champion(&self) -> Option<Vec<f64>> {
+        let x = self.record.best();
+        let at = |(x, b): (&f64, &(f64, f64))| if b.1 > b.0 { (x - b.0) / (b.1 - b.0) } else { 0.0 };
+        (!x.is_empty()).then(|| x.iter().zip(self.judge.bounds()).map(at).collect())
+    }
+
+    /// One run, at most `most` evaluations; how many it took.
+    fn run(&self, run: &Run, seed: u64) -> usize {
+        let f = |u: &DVector<f64>| self.merit(u.as_slice(), run.handling);
+        let options = CMAESOptions::new(run.mean.clone(), run.step)
+            .mode(Mode::Maximize)
+            .population_size(run.population)
+            .tol_fun(1e-13)
+            .seed(seed);
+        let Ok(mut state) = options.build(f) else { return 0 };
+        while state.next().is_none() && state.function_evals() < run.most && !self.is_over() {}
+        state.function_evals()
+    }
+}
+
+struct Run {
+    mean: Vec<f64>,
+    step: f64,
+    population: usize,
+    most: usize,
+    handling: Handling,
+}
+
+/// Restarts on every thread until the processor time of all of them together is used up.
+pub(crate) fn evolution(judge: &dyn Judge, budget: f64, threads: usize, seed: u64) -> Rival {
+    let record = Record::new();
+    let asked = AtomicUsize::new(0);
+    let arena = Arena { judge, record: &record, asked: &asked, budget };
+    std::thread::scope(|scope| {
+        for k in 0..threads.max(1) {
+            let arena = &arena;
+            scope.spawn(move || restarts(arena, &mut Rng::stream(seed ^ 0xc3a5, k as u64)));
+        }
+    });
+    Rival { draws: asked.into_inner(), ..record.finish(judge) }
+}
+
+fn restarts(arena: &Arena<'_>, rng: &mut Rng) {
+    let n = arena.judge.bounds().len();
+    let smallest = 4 + (3.0 * (n as f64).ln()).floor() as usize;
+    let (mut large, mut large_total, mut small_total, mut last_large) = (smallest, 0, 0, 0);
+    let mut number = 0usize;
+    while !arena.is_over() {
+        let handling = if number.is_multiple_of(2) { Handling::FeasibleFirst } else { Handling::Penalty };
+        // every fourth run works on the best answer of all runs
+        let champion = (number % 4 == 3).then(|| arena.champion()).flatten();
+        let seed = rng.next_u64();
+        let u = rng.unit();
+        if let Some(mean) = champion {
+            let step = 0.1 * 10f64.powf(-3.0 * u);
+            arena.run(&Run { mean, step, population: 2 * smallest, most: 20_000, handling }, seed);
+        } else if last_large > 0 && small_total < large_total {
+            let between = (0.5 * large as f64 / smallest as f64).max(1.0).powf(u * u);
+            let population = (smallest as f64 * between) as usize;
+            let step = 0.2 * 10f64.powf(-2.0 * rng.unit());
+            let run =
+                Run { mean: arena.start(rng), step, population, most: (last_large / 2).max(500), handling };
+            small_total += arena.run(&run, seed);
+        } else {
+            let run = Run { mean: arena.start(rng), step: 0.25, population: large, most: 400_000, handling };
+            last_large = arena.run(&run, seed);
+            large_total += last_large;
+            // beyond a few thousand points a generation the start matters more than the size
+            large = if large > 2000 { smallest } else { 2 * large };
+        }
+        number += 1;
+    }
+}

@@ -1,0 +1,118 @@
+//! The best feasible answer of several threads, with the curve to it and what it cost.
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+use crate::judge::Judge;
+use crate::verdict::Judged;
+
+/// Processor time of all threads of this process in seconds; `None` where the system does not tell.
+pub(crate) fn cpu_seconds() -> Option<f64> {
+    // Linux: fields 14 and 15 in hundredths of a second; the name before them may hold blanks but ends with the last bracket
+    let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
+    let mut fields = stat.rsplit(')').next()?.split_whitespace().skip(11);
+    let ticks: f64 = fields.next()?.parse::<f64>().ok()? + fields.next()?.parse::<f64>().ok()?;
+    Some(ticks / 100.0)
+}
+
+/// Elapsed and processor time since it was made.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Clock {
+    start: Instant,
+    cpu: Option<f64>,
+}
+
+/// Seconds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Spent {
+    pub(crate) elapsed: f64,
+    /// Elapsed time where the system does not tell.
+    pub(crate) cpu: f64,
+}
+
+impl Clock {
+    pub(crate) fn start() -> Self {
+        Self { start: Instant::now(), cpu: cpu_seconds() }
+    }
+
+    pub(crate) fn spent(&self) -> Spent {
+        let elapsed = self.start.elapsed().as_secs_f64();
+        let cpu = self.cpu.zip(cpu_seconds()).map_or(elapsed, |(from, to)| to - from);
+        Spent { elapsed, cpu }
+    }
+}
+
+/// One improvement.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Point {
+    pub(crate) elapsed: f64,
+    pub(crate) evaluations: usize,
+    pub(crate) value: f64,
+}
+
+#[derive(Debug, Default)]
+struct Best {
+    x: Vec<f64>,
+    value: f64,
+    curve: Vec<Point>,
+}
+
+/// Shared by the threads of one rival.
+#[derive(Debug)]
+pub(crate) struct Record {
+    pub(crate) clock: Clock,
+    evaluations: AtomicUsize,
+    best: Mutex<Best>,
+}
+
+impl Record {
+    pub(crate) fn new() -> Self {
+        Self { clock: Clock::start(), evaluations: AtomicUsize::new(0), best: Mutex::default() }
+    }
+
+    /// The value of a feasible point, counted and kept when it is the best so far.
+    pub(crate) fn evaluate(&self, judge: &dyn Judge, x: &[f64]) -> f64 {
+        let value = judge.value(x);
+        let evaluations = self.evaluations.fetch_add(1, Ordering::Relaxed) + 1;
+        if let Ok(mut best) = self.best.lock()
+            && value > best.value
+        {
+            (best.x, best.value) = (x.to_vec(), value);
+            let elapsed = self.clock.spent().elapsed;
+            best.curve.push(Point { elapsed, evaluations, value });
+        }
+        value
+    }
+
+    pub(crate) fn evaluations(&self) -> usize {
+        self.evaluations.load(Ordering::Relaxed)
+    }
+
+    /// The best point so far; empty before the first.
+    pub(crate) fn best(&self) -> Vec<f64> {
+        self.best.lock().map(|b| b.x.clone()).unwrap_or_default()
+    }
+
+    /// What came out, judged once more.
+    pub(crate) fn finish(self, judge: &dyn Judge) -> Rival {
+        let spent = self.clock.spent();
+        let evaluations = self.evaluations();
+        let best = self.best.into_inner().unwrap_or_default();
+        let judged = (!best.x.is_empty())
+            .then(|| Judged { value: judge.value(&best.x), violation: judge.violation(&best.x) });
+        Rival { judged, curve: best.curve, evaluations, spent, draws: 0 }
+    }
+}
+
+/// A rival's answer.
+#[derive(Debug, Clone)]
+pub(crate) struct Rival {
+    pub(crate) judged: Option<Judged>,
+    pub(crate) curve: Vec<Point>,
+    /// Objectives evaluated, of feasible points only.
+    pub(crate) evaluations: usize,
+    pub(crate) spent: Spent,
+    /// Points drawn or asked for, infeasible ones as well.
+    pub(crate) draws: usize,
+}

@@ -1,0 +1,154 @@
+//! Tables and pictures.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use equipod::plot::{ConvergenceCurve, ConvergenceFigure, convergence_chart};
+
+use crate::record::{Point, Rival, Spent};
+use crate::verdict::{Judged, Verdict};
+use crate::{Answer, Failure};
+
+/// One problem.
+#[derive(Debug)]
+pub(crate) struct Row {
+    pub(crate) name: String,
+    pub(crate) poses: usize,
+    pub(crate) ours: Answer,
+    pub(crate) random: Rival,
+    pub(crate) rival: Rival,
+    /// Against random designs and against CMA-ES.
+    pub(crate) verdicts: [Verdict; 2],
+}
+
+/// All problems.
+#[derive(Debug, Default)]
+pub(crate) struct Report {
+    pub(crate) rows: Vec<Row>,
+}
+
+fn value(j: Option<Judged>) -> String {
+    match j {
+        Some(j) if j.violation <= 0.0 => format!("{:.9}", j.value),
+        Some(j) => format!("violates by {:.1e}", j.violation),
+        None => "none".into(),
+    }
+}
+
+fn seconds(s: Spent) -> String {
+    format!("{:.2} / {:.2}", s.elapsed, s.cpu)
+}
+
+const HEAD: &str = "\
+| problem | poses | optimiser | proved: none above | s elapsed / processor | best of random feasible | feasible of drawn | s | optimiser against random | CMA-ES | points | s | optimiser against CMA-ES |
+|---|--:|--:|--:|--:|--:|--:|--:|---|--:|--:|--:|---|
+";
+
+impl Row {
+    pub(crate) fn has_loss(&self) -> bool {
+        self.verdicts.iter().any(|v| v.is_loss())
+    }
+
+    pub(crate) fn markdown(&self) -> String {
+        format!(
+            "| {} | {} | {} | {} | {} | {} | {} of {} | {} | {} | {} | {} | {} | {} |",
+            self.name,
+            self.poses,
+            value(self.ours.judged),
+            self.ours.bound.map_or("-".into(), |b| format!("{b:.6}")),
+            seconds(self.ours.spent),
+            value(self.random.judged),
+            self.random.evaluations,
+            self.random.draws,
+            seconds(self.random.spent),
+            self.verdicts[0],
+            value(self.rival.judged),
+            self.rival.draws,
+            seconds(self.rival.spent),
+            self.verdicts[1],
+        )
+    }
+
+    fn csv(&self) -> String {
+        let plain = |j: Option<Judged>| {
+            j.map_or(String::from(","), |j| format!("{:.17e},{:.3e}", j.value, j.violation))
+        };
+        format!(
+            "\"{}\",{},{},{},{},{},{},{},{},{},\"{}\",{},{},{},{},\"{}\"",
+            self.name,
+            self.poses,
+            plain(self.ours.judged),
+            self.ours.bound.map_or(String::new(), |b| format!("{b:.17e}")),
+            self.ours.spent.elapsed,
+            self.ours.spent.cpu,
+            plain(self.random.judged),
+            self.random.evaluations,
+            self.random.draws,
+            self.random.spent.cpu,
+            self.verdicts[0],
+            plain(self.rival.judged),
+            self.rival.draws,
+            self.rival.spent.elapsed,
+            self.rival.spent.cpu,
+            self.verdicts[1],
+        )
+    }
+
+    /// The curves, each drawn to the end of its run.
+    fn picture(&self) -> String {
+        let curve = |label: &str, points: &[Point], end: f64| {
+            let mut points: Vec<(f64, f64)> = points.iter().map(|p| (p.elapsed, p.value)).collect();
+            points.extend(points.last().copied().map(|last| (end.max(last.0), last.1)));
+            ConvergenceCurve { label: label.into(), points }
+        };
+        let mut own = self.ours.curve.clone();
+        if let (Some(judged), end) = (self.ours.judged, self.ours.spent.elapsed) {
+            own.push(Point { elapsed: end, evaluations: 0, value: judged.value });
+        }
+        convergence_chart(&ConvergenceFigure {
+            title: format!("Optimised offsets: {}", self.name),
+            quantity: "worst inverse condition number".into(),
+            note: format!(
+                "{} poses. The optimiser's curve ends when its proof of the bound ends; CMA-ES had 100 times that processor time.",
+                self.poses
+            ),
+            curves: vec![
+                curve("optimiser", &own, self.ours.spent.elapsed),
+                curve("CMA-ES", &self.rival.curve, self.rival.spent.elapsed),
+                curve("random feasible designs", &self.random.curve, self.random.spent.elapsed),
+            ],
+        })
+    }
+
+    /// A file name.
+    fn slug(&self) -> String {
+        let plain = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' };
+        self.name.replace(", ", "-").chars().map(plain).collect()
+    }
+}
+
+impl Report {
+    pub(crate) fn markdown(&self) -> String {
+        let mut out = HEAD.to_string();
+        for row in &self.rows {
+            let _ = writeln!(out, "{}", row.markdown());
+        }
+        out
+    }
+
+    /// `optimizer.md`, `optimizer.csv` and one picture for each problem.
+    pub(crate) fn write(&self, folder: &Path) -> Result<(), Failure> {
+        std::fs::create_dir_all(folder)?;
+        std::fs::write(folder.join("optimizer.md"), self.markdown())?;
+        let mut csv = String::from(
+            "problem,poses,value,violation,bound,elapsed,cpu,random_value,random_violation,random_feasible,random_drawn,random_cpu,\
+             against_random,cmaes_value,cmaes_violation,cmaes_points,cmaes_elapsed,cmaes_cpu,against_cmaes\n",
+        );
+        for row in &self.rows {
+            let _ = writeln!(csv, "{}", row.csv());
+            std::fs::write(folder.join(format!("convergence-{}.svg", row.slug())), row.picture())?;
+        }
+        std::fs::write(folder.join("optimizer.csv"), csv)?;
+        Ok(())
+    }
+}
