@@ -26,8 +26,8 @@ fn judged(judge: &OffsetJudge, t: &[f64; 6]) -> Judged {
 }
 
 /// Random offsets within the bounds.
-fn draw(p: &OffsetProblem, rng: &mut Rng) -> [f64; 6] {
-    p.bounds.map(|(low, high)| rng.uniform(low, high))
+fn draw(judge: &OffsetJudge, rng: &mut Rng) -> [f64; 6] {
+    std::array::from_fn(|i| rng.uniform(judge.bounds()[i].0, judge.bounds()[i].1))
 }
 
 #[test]
@@ -37,7 +37,7 @@ fn the_judge_and_the_optimisers_own_check_agree() {
     let mut rng = Rng::new(3);
     let (mut met, mut missed) = (0, 0);
     for _ in 0..200 {
-        let t = draw(&p, &mut rng);
+        let t = draw(&judge, &mut rng);
         let own = p.recheck(&t).unwrap();
         assert!((judge.value(&t) - own.objective).abs() < 1e-12);
         assert_eq!(judge.violation(&t) <= 0.0, own.margins.all_met(), "{t:?}");
@@ -58,7 +58,7 @@ fn a_worse_answer_is_found_out() {
     assert!(best.violation <= 0.0 && best.value > 0.09);
 
     let mut rng = Rng::new(8);
-    let feasible = std::iter::repeat_with(|| draw(&p, &mut rng)).filter(|t| judge.violation(t) <= 0.0);
+    let feasible = std::iter::repeat_with(|| draw(&judge, &mut rng)).filter(|t| judge.violation(t) <= 0.0);
     let random: Vec<Judged> = feasible.take(10).map(|t| judged(&judge, &t)).collect();
     assert!(random.iter().all(|r| matches!(Verdict::of(Some(best), Some(*r)), Verdict::Beats(_))));
     // the roles exchanged: what a single random start would have given
