@@ -134,7 +134,7 @@ pub(crate) fn evolution(judge: &dyn Judge, budget: f64, threads: usize, seed: u6
 
 fn restarts(arena: &Arena<'_>, rng: &mut Rng) {
     let n = arena.judge.bounds().len();
-    let smallest = 4 + (3.0 * (n as f64).ln()).floor() as usize;
+    let smallest = CMAESOptions::new(vec![0.5; n], 0.25).population_size;
     let (mut large, mut large_total, mut small_total, mut last_large) = (smallest, 0, 0, 0);
     let mut number = 0usize;
     while !arena.is_over() {
@@ -148,6 +148,8 @@ fn restarts(arena: &Arena<'_>, rng: &mut Rng) {
             arena.run(&Run { mean, step, population: 2 * smallest, most: 20_000, handling }, seed);
         } else if last_large > 0 && small_total < large_total {
             let between = (0.5 * large as f64 / smallest as f64).max(1.0).powf(u * u);
+            // at least 1
+            #[allow(clippy::cast_sign_loss)]
             let population = (smallest as f64 * between) as usize;
             let step = 0.2 * 10f64.powf(-2.0 * rng.unit());
             let run =

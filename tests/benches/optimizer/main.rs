@@ -146,7 +146,7 @@ fn compare(name: &str, p: &OffsetProblem, a: &Arguments) -> Result<Row, Failure>
     eprintln!("  CMA-ES {:?} in {:.1} s", rival.judged.map(|j| j.value), rival.spent.elapsed);
     let against = |r: &Rival| Verdict::of(ours.judged, r.judged);
     let verdicts = [against(&random), against(&rival)];
-    Ok(Row { name: name.into(), poses: p.poses.len(), ours, random, rival, verdicts })
+    Ok(Row { name: name.into(), poses: p.poses.len(), factor: a.factor, ours, random, rival, verdicts })
 }
 
 fn run(a: &Arguments) -> Result<bool, Failure> {

@@ -14,6 +14,8 @@ use crate::{Answer, Failure};
 pub(crate) struct Row {
     pub(crate) name: String,
     pub(crate) poses: usize,
+    /// Processor time of CMA-ES over that of the optimiser.
+    pub(crate) factor: f64,
     pub(crate) ours: Answer,
     pub(crate) random: Rival,
     pub(crate) rival: Rival,
@@ -109,8 +111,8 @@ impl Row {
             title: format!("Optimised offsets: {}", self.name),
             quantity: "worst inverse condition number".into(),
             note: format!(
-                "{} poses. The optimiser's curve ends when its proof of the bound ends; CMA-ES had 100 times that processor time.",
-                self.poses
+                "{} poses. The optimiser's curve ends when its proof of the bound ends; CMA-ES had {} times its processor time.",
+                self.poses, self.factor
             ),
             curves: vec![
                 curve("optimiser", &own, self.ours.spent.elapsed),
