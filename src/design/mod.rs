@@ -5,6 +5,7 @@
 
 mod json_text;
 mod model;
+mod presets;
 mod report;
 #[cfg(test)]
 mod requirements_tests;
@@ -21,6 +22,7 @@ mod violation;
 mod workspace;
 
 pub use model::{Design, NameCount, OptimizeTable};
+pub use presets::{PRESETS, Preset, PresetClass};
 pub use search::{Combination, SearchTable};
 pub use violation::{Code, Violation, Warning};
 pub use workspace::{Trajectory, Workspace};

@@ -35,6 +35,7 @@ mod instances;
 mod leg_maps;
 mod octahedral_class;
 mod optimizer_evidence;
+mod presets;
 mod rearrangements;
 mod reference;
 mod singularity;

@@ -24,6 +24,7 @@ mod locus;
 mod map;
 mod r#move;
 mod optimize;
+mod presets;
 mod round;
 mod selfmotion;
 mod singularities;
@@ -64,6 +65,8 @@ pub(crate) enum Command {
     Move(r#move::Args),
     /// The best joint-free platform equivalent to an octahedral design
     Optimize(optimize::Args),
+    /// Designs of real hardware with sources, as a start for one's own
+    Presets(presets::Args),
     /// The joints of a design on a grid of holes: exactly equivalent to an octahedral platform, or as near as the grid allows
     Round(round::Args),
     /// The curves of poses with constant leg lengths through a pose
@@ -94,6 +97,7 @@ impl Command {
             Self::Map(args) => map::run(args, context),
             Self::Move(args) => r#move::run(args, context),
             Self::Optimize(args) => optimize::run(args, context),
+            Self::Presets(args) => presets::run(args, context),
             Self::Round(args) => round::run(args, context),
             Self::Selfmotion(args) => selfmotion::run(args, context),
             Self::Singularities(args) => singularities::run(args, context),
