@@ -10,17 +10,27 @@ use super::model::{Group, Model, Task};
 use super::shape::Ends;
 use crate::num::Rng;
 
-/// Points looked at, and local searches from the worst of them, for each quantity.
+/// Points looked at, and local searches from the worst of them for each quantity: two for an objective, one for the requirement of a leg or of two.
 const POINTS: usize = 150;
-const SEARCHES: usize = 2;
+const SEARCHES: [usize; 2] = [2, 1];
+/// A requirement is searched when twice the spread over the points would bring it from the worst of them to its limit.
+const SPREADS: f64 = 2.0;
 /// First step of a search in the cube, and the last.
 const STEPS: (f64, f64) = (0.25, 1e-5);
 
-/// Constraint groups and objectives that depend on the pose.
+/// Requirements of single legs or pairs, and objectives, that depend on the pose. Each leg has worst poses of its own: searches for the
+/// worst of all legs end again and again at the one that is held already.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Quantity {
-    Constraint(Group),
+    Constraint(Group, usize, usize),
     Objective(usize),
+}
+
+/// What was seen of a quantity at the points.
+#[derive(Debug, Clone)]
+struct Seen {
+    greatest: f64,
+    worst: Vec<(f64, Vector6<f64>)>,
 }
 
 struct Look<'a> {
@@ -46,7 +56,7 @@ impl Look<'_> {
         self.model.terms.visit(l, &self.ends, self.x, &mut |item| {
             let group = Group::Term(item.id.0);
             if !self.task.dropped.contains(&group) {
-                keep(Quantity::Constraint(group), item.value);
+                keep(Quantity::Constraint(group, item.id.1, item.id.2), item.value);
             }
         });
         for (m, o) in self.model.objectives.iter().enumerate() {
@@ -63,10 +73,10 @@ impl Look<'_> {
             Quantity::Objective(m) => {
                 self.model.merit.at_pose(self.model.objectives[m], &self.model.terms, &l)
             }
-            Quantity::Constraint(group) => {
+            Quantity::Constraint(group, first, second) => {
                 let mut least = f64::INFINITY;
                 self.model.terms.visit(&l, &self.ends, self.x, &mut |item| {
-                    if Group::Term(item.id.0) == group {
+                    if (Group::Term(item.id.0), item.id.1, item.id.2) == (group, first, second) {
                         least = least.min(item.value);
                     }
                 });
@@ -120,23 +130,28 @@ pub(crate) fn worse_poses(
     }
     let look = Look { model, ends: model.shape.ends(x), x, task };
     let judged = model.judge(held, x, task, sign);
-    let mut starts: BTreeMap<Quantity, Vec<(f64, Vector6<f64>)>> = BTreeMap::new();
+    let mut seen: BTreeMap<Quantity, Seen> = BTreeMap::new();
     for cube in space.cube_points(POINTS, &mut Rng::stream(seed, 7)) {
         for (q, value) in look.all(&look.lines(&cube)) {
-            let list = starts.entry(q).or_default();
-            list.push((value, cube));
-            list.sort_by(|a, b| a.0.total_cmp(&b.0));
-            list.truncate(SEARCHES);
+            let of = seen.entry(q).or_insert(Seen { greatest: value, worst: Vec::new() });
+            of.greatest = of.greatest.max(value);
+            of.worst.push((value, cube));
+            of.worst.sort_by(|a, b| a.0.total_cmp(&b.0));
+            of.worst.truncate(SEARCHES[usize::from(matches!(q, Quantity::Constraint(..)))]);
         }
     }
     let mut out: Vec<HeldPose> = Vec::new();
-    for (q, list) in starts {
+    for (q, Seen { greatest, worst }) in seen {
         // what the held poses guarantee
         let known = match q {
-            Quantity::Constraint(_) => 0.5 * model.backoff,
+            Quantity::Constraint(..) => 0.5 * model.backoff,
             Quantity::Objective(m) => judged.gains[m] - model.backoff,
         };
-        for (value, cube) in list {
+        let far = worst.first().is_some_and(|(least, _)| least - SPREADS * (greatest - least) > known);
+        if far && matches!(q, Quantity::Constraint(..)) {
+            continue;
+        }
+        for (value, cube) in worst {
             let (value, cube) = look.descend(q, &axes, value, cube);
             let pose = HeldPose { pose: space.pose(&cube), follows: true };
             if value < known && !out.contains(&pose) && !held.contains(&pose) {

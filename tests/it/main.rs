@@ -41,3 +41,4 @@ mod reference;
 mod singularity;
 mod topologies;
 mod trilateration;
+mod worked_designs;

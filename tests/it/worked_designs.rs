@@ -1,0 +1,228 @@
+//! Worked designs: what they promise, and that docs/worked-designs.md quotes it.
+
+use std::collections::BTreeMap;
+
+use equipod::design::{Design, Format, parse};
+use equipod::dimensional::{DimensionalProblem, Mode, Objective, Variables, evaluate};
+use equipod::equivalence::{SamplePlan, verify};
+use equipod::fk::FkOptions;
+use equipod::manipulator::Manipulator;
+use equipod::requirements::{AssessOptions, Margin, TermKind, assess};
+
+const FOLDER: &str = "designs/worked";
+
+/// Start, result, whether the result has the kinematics of the start, whether the start meets its requirements.
+const PAIRS: [(&str, &str, bool, bool); 8] = [
+    ("bench-octahedral", "bench-joint-free", true, true),
+    ("linuxcnc-octahedral", "linuxcnc-griffis-duffy", true, false),
+    ("simulator-octahedral", "simulator-joint-free", false, false),
+    ("positioner-octahedral", "positioner-joint-free", true, true),
+    ("isolator-octahedral", "isolator-1", true, true),
+    ("isolator-octahedral", "isolator-3", true, true),
+    ("isolator-octahedral", "isolator-6", true, true),
+    ("chair", "chair-hung", true, false),
+];
+
+fn load(path: &str) -> Design {
+    let text = std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{path}: {e}"));
+    let (design, warnings) = parse(&text, Format::Toml).unwrap_or_else(|v| panic!("{path}: {v:?}"));
+    assert_eq!(warnings, [], "{path}");
+    design
+}
+
+fn worked(name: &str) -> Design {
+    load(&format!("{FOLDER}/{name}.toml"))
+}
+
+fn assessed(design: &Design, options: &AssessOptions) -> Vec<Margin> {
+    let space = design.workspace.space(&design.home.unwrap());
+    assess(design.manipulator(), &design.requirements(), &space, options).margins
+}
+
+fn margins(design: &Design, points: usize) -> Vec<Margin> {
+    assessed(design, &AssessOptions { points, searches: 1, ..AssessOptions::default() })
+}
+
+fn verdict(a: &Design, b: &Design) -> &'static str {
+    let home = a.home.unwrap();
+    let plan = SamplePlan {
+        count: 2,
+        seed: 2,
+        home,
+        translation: nalgebra::Vector3::repeat(0.02 * a.manipulator().size()),
+        rotation: nalgebra::Vector3::repeat(0.05),
+    };
+    verify(a.manipulator(), b.manipulator(), &plan, &FkOptions::default()).unwrap().verdict.as_str()
+}
+
+#[test]
+fn every_file_of_the_folder_is_one_of_a_pair_and_reads_back() {
+    let mut files: Vec<String> = std::fs::read_dir(FOLDER)
+        .unwrap()
+        .map(|e| e.unwrap().path().file_stem().unwrap().to_string_lossy().into_owned())
+        .collect();
+    files.sort();
+    let mut named: Vec<String> = PAIRS.iter().flat_map(|p| [p.0.to_string(), p.1.to_string()]).collect();
+    named.sort();
+    named.dedup();
+    assert_eq!(files, named);
+    for name in files {
+        let design = worked(&name);
+        let (again, _) = parse(&design.to_toml(), Format::Toml).unwrap();
+        assert_eq!(format!("{again:?}"), format!("{design:?}"), "{name}");
+    }
+}
+
+#[test]
+fn results_meet_all_requirements_and_share_no_joint() {
+    for (start, result, _, start_meets) in PAIRS {
+        let design = worked(result);
+        assert!(margins(&design, 400).iter().all(|m| m.value >= 0.0), "{result}");
+        assert_eq!((design.base_names().len(), design.platform_names().len()), (6, 6), "{result}");
+        let met = margins(&worked(start), 400).iter().all(|m| m.value >= 0.0);
+        assert_eq!(met, start_meets, "{start}");
+    }
+}
+
+#[test]
+fn results_have_the_kinematics_of_their_start_where_only_offsets_were_chosen() {
+    for (start, result, same, _) in PAIRS {
+        let expected = if same { "equivalent" } else { "not_equivalent" };
+        assert_eq!(verdict(&worked(start), &worked(result)), expected, "{result}");
+    }
+}
+
+/// Twelve joints of their own at the corners: what an octahedral drawing asks the workshop for.
+fn with_separate_joints(design: &Design) -> Design {
+    let m = design.manipulator();
+    let legs = m.legs();
+    let apart = Manipulator::try_new(
+        legs.iter().map(|l| l.base).collect(),
+        legs.iter().map(|l| l.platform).collect(),
+        std::array::from_fn(|i| (i, i)),
+    );
+    let mut out = Design::new(design.name.clone(), design.units.clone(), apart.unwrap());
+    out.home = design.home;
+    out.workspace = design.workspace.clone();
+    out.hardware = design.hardware;
+    out
+}
+
+#[test]
+fn octahedral_starts_have_no_room_for_twelve_joints() {
+    for (start, result, ..) in PAIRS {
+        let design = worked(start);
+        if design.base_names().len() == 6 {
+            continue;
+        }
+        let housing = |d: &Design| {
+            let found = margins(d, 20);
+            found
+                .iter()
+                .filter(|m| matches!(m.term.kind, TermKind::BaseSpacing | TermKind::PlatformSpacing))
+                .map(|m| m.value)
+                .fold(f64::INFINITY, f64::min)
+        };
+        // two centres at one place: the whole diameter is missing
+        let (there, here) = (housing(&with_separate_joints(&design)), housing(&worked(result)));
+        assert!(there < 0.0 && here >= 0.0, "{start}: {there}, {here}");
+    }
+}
+
+#[test]
+fn the_griffis_duffy_hexapod_has_the_kinematics_of_the_machine_it_replaces() {
+    let machine = load("designs/presets/linuxcnc-hexapod.toml");
+    for name in ["linuxcnc-octahedral", "linuxcnc-griffis-duffy"] {
+        assert_eq!(verdict(&machine, &worked(name)), "equivalent", "{name}");
+    }
+    let found = equipod::singularity::GriffisDuffy::recognise(worked("linuxcnc-griffis-duffy").manipulator());
+    let found = found.expect("joints on the sides of two triangles, alternately at corners");
+    assert!(found.t.iter().all(|t| (0.0..0.5).contains(t)), "{:?}", found.t);
+    // far from the midlines, where the determinant vanishes
+    let determinant = found.t.iter().map(|t| 1.0 - t).product::<f64>() - found.t.iter().product::<f64>();
+    assert!((determinant - 0.512).abs() < 1e-3, "{determinant}");
+    let middle = [0.5_f64; 6];
+    assert!((middle.iter().map(|t| 1.0 - t).product::<f64>() - middle.iter().product::<f64>()).abs() < 1e-15);
+}
+
+/// A row `| code | start | result |`: both values, and half a unit of their last digits.
+type Quoted = (String, [f64; 2], [f64; 2]);
+
+/// The tables of the page by start and result, the files in their first lines.
+fn quoted() -> BTreeMap<(String, String), Vec<Quoted>> {
+    let page = std::fs::read_to_string("docs/worked-designs.md").unwrap();
+    let mut out: BTreeMap<(String, String), Vec<_>> = BTreeMap::new();
+    let mut files = None;
+    for line in page.lines() {
+        if line.starts_with("| requirement | `") {
+            let names: Vec<&str> = line.split('`').skip(1).step_by(2).collect();
+            files = Some((names[0].to_string(), names[1].to_string()));
+        } else if let (Some(rest), Some(key)) = (line.strip_prefix("| `"), &files) {
+            let cells: Vec<&str> = rest.split('|').map(str::trim).collect();
+            let number = |k: usize| {
+                let text = cells[k].split(' ').next().unwrap();
+                let digits = text.split_once('.').map_or(0, |d| d.1.len());
+                (text.parse::<f64>().unwrap(), 0.5 * 10_f64.powi(-i32::try_from(digits).unwrap()))
+            };
+            let (a, b) = (number(1), number(2));
+            let code = cells[0].trim_end_matches('`').to_string();
+            out.entry(key.clone()).or_default().push((code, [a.0, b.0], [a.1, b.1]));
+        } else if line.starts_with('#') {
+            files = None;
+        }
+    }
+    out
+}
+
+fn objective(start: &Design, design: &Design, objective: Objective) -> f64 {
+    let m = start.manipulator();
+    let problem = DimensionalProblem {
+        manipulator: m.clone(),
+        requirements: start.requirements(),
+        space: start.workspace.space(&start.home.unwrap()),
+        variables: Variables::of(&[]),
+        objectives: vec![(objective, 1.0)],
+        mode: Mode::Weighted,
+        characteristic_length: start
+            .optimize
+            .characteristic_length
+            .unwrap_or_else(|| m.platform_rms_radius()),
+        min_abs_det: 0.0,
+    };
+    let space = design.workspace.space(&design.home.unwrap());
+    evaluate(&problem, design.manipulator(), &space, 2000, 1)[0]
+}
+
+#[test]
+fn the_page_quotes_the_margins_and_objectives_of_the_program() {
+    let quoted = quoted();
+    assert_eq!(quoted.len(), 6, "{:?}", quoted.keys());
+    for ((start, result), rows) in quoted {
+        let designs = [worked(&start), worked(&result)];
+        // as the command does
+        let found =
+            designs.each_ref().map(|d| assessed(d, &AssessOptions { seed: 1, ..AssessOptions::default() }));
+        for margin in &found[1] {
+            let code = margin.term.kind.code();
+            assert!(rows.iter().any(|r| r.0 == code), "{result}: {code} is not quoted");
+        }
+        for (code, values, half) in rows {
+            let named = code.strip_prefix("objective ");
+            let named = named.map(|n| Objective::ALL.into_iter().find(|o| o.code() == n).unwrap());
+            for k in 0..2 {
+                let (value, allowed) = if let Some(o) = named {
+                    // sampled without searches: the worst pose is nearly reached
+                    (objective(&designs[0], &designs[k], o), 0.03 * values[k].abs())
+                } else {
+                    let margin = found[k].iter().find(|m| m.term.kind.code() == code);
+                    (margin.unwrap_or_else(|| panic!("{result}: {code}")).value, half[k] + 1e-9)
+                };
+                assert!(
+                    (value - values[k]).abs() <= allowed,
+                    "{start}, {result}, {code}: {value} for {}",
+                    values[k]
+                );
+            }
+        }
+    }
+}
