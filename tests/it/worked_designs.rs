@@ -9,6 +9,8 @@ use equipod::fk::FkOptions;
 use equipod::manipulator::Manipulator;
 use equipod::requirements::{AssessOptions, Margin, TermKind, assess};
 
+use super::cli_frame::{document, equipod};
+
 const FOLDER: &str = "designs/worked";
 
 /// Start, result, whether the result has the kinematics of the start, whether the start meets its requirements.
@@ -143,6 +145,22 @@ fn the_griffis_duffy_hexapod_has_the_kinematics_of_the_machine_it_replaces() {
     assert!((determinant - 0.512).abs() < 1e-3, "{determinant}");
     let middle = [0.5_f64; 6];
     assert!((middle.iter().map(|t| 1.0 - t).product::<f64>() - middle.iter().product::<f64>()).abs() < 1e-15);
+}
+
+#[test]
+fn the_chair_is_hung_again_without_missing_a_worst_pose() {
+    // strut 5 is too long at a pose of its own, while struts 3 and 4 are at the limit elsewhere
+    let out = equipod(&["optimize", "designs/worked/chair.toml", "--json"]);
+    let doc = document(&out);
+    assert_eq!(
+        (out.status.code(), doc["status"].as_str()),
+        (Some(0), Some("optimal")),
+        "{}",
+        doc["constraint_margins"]
+    );
+    let height = doc["home"]["p"][2].as_f64().unwrap();
+    let shipped = worked("chair-hung").home.unwrap().position.z;
+    assert!((height - shipped).abs() < 1e-2, "{height} for {shipped}");
 }
 
 /// A row `| code | start | result |`: both values, and half a unit of their last digits.
