@@ -87,7 +87,7 @@ fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
 }
 
 fn shortfall(value: f64, best: f64) -> f64 {
-    let share = if best > 0.0 { 1.0 - value / best } else { best - value };
+    let share = (best - value) / if best == 0.0 { 1.0 } else { best.abs() };
     share.max(ConvergenceFigure::LEAST_SHORTFALL)
 }
 

@@ -22,7 +22,7 @@ fn problem(extension: f64) -> OffsetProblem {
 }
 
 fn judged(judge: &OffsetJudge, t: &[f64; 6]) -> Judged {
-    Judged { value: judge.value(t), violation: judge.violation(t) }
+    judge.last_word(t)
 }
 
 /// Random offsets within the bounds.
@@ -56,9 +56,10 @@ fn a_worse_answer_is_found_out() {
     let t = report.solution().unwrap().offsets;
     let best = judged(&judge, &t);
     assert!(best.violation <= 0.0 && best.value > 0.09);
+    assert_eq!(judge.confirm(&t), Some(best.value));
 
     let mut rng = Rng::new(8);
-    let feasible = std::iter::repeat_with(|| draw(&judge, &mut rng)).filter(|t| judge.violation(t) <= 0.0);
+    let feasible = std::iter::repeat_with(|| draw(&judge, &mut rng)).filter(|t| judge.is_feasible(t));
     let random: Vec<Judged> = feasible.take(10).map(|t| judged(&judge, &t)).collect();
     assert!(random.iter().all(|r| matches!(Verdict::of(Some(best), Some(*r)), Verdict::Beats(_))));
     // the roles exchanged: what a single random start would have given
@@ -83,7 +84,11 @@ fn values_within_a_millionth_are_equal_and_nothing_is_no_answer() {
     assert!(matches!(Verdict::of(at(1.0), at(1.0 + 9e-7)), Verdict::Equals(_)));
     assert!(matches!(Verdict::of(at(1.0), at(1.0 + 2e-6)), Verdict::Loses(_)));
     assert!(matches!(Verdict::of(at(1.0 + 2e-6), at(1.0)), Verdict::Beats(_)));
-    for none in [None, at(f64::NAN), at(0.0)] {
+    // costs are negative values
+    assert!(matches!(Verdict::of(at(-2.0), at(-1.0)), Verdict::Loses(_)));
+    assert!(matches!(Verdict::of(at(-1.0), at(-1.1)), Verdict::Beats(_)));
+    assert!(Verdict::of(at(0.0), at(0.1)).is_loss());
+    for none in [None, at(f64::NAN), at(f64::INFINITY)] {
         assert_eq!(Verdict::of(none, at(0.1)), Verdict::NoAnswer);
         assert!(Verdict::of(none, at(0.1)).is_loss());
         assert_eq!(Verdict::of(at(0.1), none), Verdict::Unopposed);

@@ -13,8 +13,12 @@ use crate::record::{Record, Rival};
 const DRAWS: usize = 2000;
 /// The best of so many feasible draws is the start.
 const CHOSEN_FROM: usize = 20;
-/// Weight of a violation in the runs that may leave the feasible points.
-const PENALTY: f64 = 10.0;
+/// Draws of which the one with the least violation is the start when none is feasible.
+const LEAST_OF: usize = 100;
+/// Weights of a violation in the runs that may leave the feasible points, in turn; relative to the size of the value.
+const PENALTIES: [f64; 3] = [10.0, 100.0, 1000.0];
+/// Given points that a thread starts from.
+const GIVEN: usize = 4;
 /// Weight of the squared distance from the box; inside there is none.
 const OUTSIDE: f64 = 1e-3;
 
@@ -23,8 +27,8 @@ const OUTSIDE: f64 = 1e-3;
 enum Handling {
     /// Every feasible point is before every other one; those are ranked by their violation.
     FeasibleFirst,
-    /// Value less a multiple of the violation.
-    Penalty,
+    /// Value less this multiple of the violation.
+    Penalty(f64),
 }
 
 /// Everything that a run needs.
@@ -60,40 +64,60 @@ impl Arena<'_> {
         } else {
             match handling {
                 Handling::FeasibleFirst => -violation,
-                Handling::Penalty => self.judge.value(&x) - PENALTY * violation,
+                Handling::Penalty(weight) => {
+                    let value = self.judge.value(&x);
+                    value - weight * value.abs().max(1e-3) * violation
+                }
             }
         };
-        merit - OUTSIDE * outside.min(1e6)
+        merit - OUTSIDE * merit.abs().max(1e-3) * outside.min(1e6)
     }
 
-    /// The best of some feasible draws, or the last draw when none is feasible.
+    /// The best of some feasible draws, or the one of the least violation when none is feasible.
     fn start(&self, rng: &mut Rng) -> Vec<f64> {
         let n = self.judge.bounds().len();
         let mut best: Option<(f64, Vec<f64>)> = None;
-        let (mut feasible, mut last) = (0, Vec::new());
+        let mut feasible = 0;
         for _ in 0..DRAWS {
-            last = (0..n).map(|_| rng.unit()).collect();
-            let x = self.variables(&last);
-            if self.judge.violation(&x) > 0.0 {
+            let u: Vec<f64> = (0..n).map(|_| rng.unit()).collect();
+            let x = self.variables(&u);
+            if !self.judge.is_feasible(&x) {
+                if self.is_over() {
+                    break;
+                }
                 continue;
             }
             let value = self.record.evaluate(self.judge, &x);
             if best.as_ref().is_none_or(|b| value > b.0) {
-                best = Some((value, last.clone()));
+                best = Some((value, u));
             }
             feasible += 1;
             if feasible == CHOSEN_FROM {
                 break;
             }
         }
-        best.map_or(last, |b| b.1)
+        if best.is_none() {
+            for _ in 0..LEAST_OF {
+                let u: Vec<f64> = (0..n).map(|_| rng.unit()).collect();
+                let violation = self.judge.violation(&self.variables(&u));
+                if best.as_ref().is_none_or(|b| -violation > b.0) {
+                    best = Some((-violation, u));
+                }
+            }
+        }
+        best.map_or(vec![0.5; n], |b| b.1)
+    }
+
+    /// Variables as a point of the unit cube.
+    fn cube(&self, x: &[f64]) -> Vec<f64> {
+        let at = |(x, b): (&f64, &(f64, f64))| if b.1 > b.0 { (x - b.0) / (b.1 - b.0) } else { 0.0 };
+        x.iter().zip(self.judge.bounds()).map(at).collect()
     }
 
     /// The best answer so far as a point of the unit cube.
     fn champion(&self) -> Option<Vec<f64>> {
         let x = self.record.best();
-        let at = |(x, b): (&f64, &(f64, f64))| if b.1 > b.0 { (x - b.0) / (b.1 - b.0) } else { 0.0 };
-        (!x.is_empty()).then(|| x.iter().zip(self.judge.bounds()).map(at).collect())
+        (!x.is_empty()).then(|| self.cube(&x))
     }
 
     /// One run, at most `most` evaluations; how many it took.
@@ -118,32 +142,48 @@ struct Run {
     handling: Handling,
 }
 
-/// Restarts on every thread until the processor time of all of them together is used up.
-pub(crate) fn evolution(judge: &dyn Judge, budget: f64, threads: usize, seed: u64) -> Rival {
+/// Restarts on every thread until the processor time of all of them together is used up; the first ones from the points given, best last.
+pub(crate) fn evolution(
+    judge: &dyn Judge,
+    given: &[Vec<f64>],
+    budget: f64,
+    threads: usize,
+    seed: u64,
+) -> Rival {
     let record = Record::new();
     let asked = AtomicUsize::new(0);
     let arena = Arena { judge, record: &record, asked: &asked, budget };
     std::thread::scope(|scope| {
         for k in 0..threads.max(1) {
             let arena = &arena;
-            scope.spawn(move || restarts(arena, &mut Rng::stream(seed ^ 0xc3a5, k as u64)));
+            // every thread takes its share of the points
+            let own: Vec<Vec<f64>> =
+                given.iter().rev().skip(k).step_by(threads.max(1)).take(GIVEN).rev().cloned().collect();
+            scope.spawn(move || restarts(arena, own, &mut Rng::stream(seed ^ 0xc3a5, k as u64)));
         }
     });
     Rival { draws: asked.into_inner(), ..record.finish(judge) }
 }
 
-fn restarts(arena: &Arena<'_>, rng: &mut Rng) {
+fn restarts(arena: &Arena<'_>, mut given: Vec<Vec<f64>>, rng: &mut Rng) {
     let n = arena.judge.bounds().len();
     let smallest = CMAESOptions::new(vec![0.5; n], 0.25).population_size;
     let (mut large, mut large_total, mut small_total, mut last_large) = (smallest, 0, 0, 0);
     let mut number = 0usize;
     while !arena.is_over() {
-        let handling = if number.is_multiple_of(2) { Handling::FeasibleFirst } else { Handling::Penalty };
+        let handling = if number.is_multiple_of(2) {
+            Handling::FeasibleFirst
+        } else {
+            Handling::Penalty(PENALTIES[number / 2 % PENALTIES.len()])
+        };
         // every fourth run works on the best answer of all runs
         let champion = (number % 4 == 3).then(|| arena.champion()).flatten();
         let seed = rng.next_u64();
         let u = rng.unit();
-        if let Some(mean) = champion {
+        if let Some(x) = given.pop() {
+            let mean = arena.cube(&x);
+            arena.run(&Run { mean, step: 0.1, population: 2 * smallest, most: 20_000, handling }, seed);
+        } else if let Some(mean) = champion {
             let step = 0.1 * 10f64.powf(-3.0 * u);
             arena.run(&Run { mean, step, population: 2 * smallest, most: 20_000, handling }, seed);
         } else if last_large > 0 && small_total < large_total {

@@ -6,6 +6,8 @@ use equipod::manipulator::{Leg, Manipulator, Octahedral, default_home, inverse_c
 use equipod::offsets::OffsetProblem;
 use nalgebra::{Point3, Vector3};
 
+use super::verdict::Judged;
+
 /// Values and violations at points of a box of variables; larger values are better.
 pub(crate) trait Judge: Sync {
     /// Least and greatest value of every variable.
@@ -14,6 +16,18 @@ pub(crate) trait Judge: Sync {
     fn violation(&self, x: &[f64]) -> f64;
     /// The objective.
     fn value(&self, x: &[f64]) -> f64;
+    /// Whether nothing is violated.
+    fn is_feasible(&self, x: &[f64]) -> bool {
+        self.violation(x) <= 0.0
+    }
+    /// The value of a feasible point that may be the best so far, looked at more closely; `None` when that finds a violation.
+    fn confirm(&self, x: &[f64]) -> Option<f64> {
+        Some(self.value(x))
+    }
+    /// The last judgement of an answer.
+    fn last_word(&self, x: &[f64]) -> Judged {
+        Judged { value: self.value(x), violation: self.violation(x) }
+    }
 }
 
 /// Offsets of an octahedral platform, from its two triangles and the public Jacobian.

@@ -1,19 +1,23 @@
 //! The optimiser against 100,000 random feasible designs and against CMA-ES with 100 times its processor time.
 //!
 //! ```text
-//! cargo bench --bench optimizer -- [--random 100000] [--factor 100] [--threads 2] [--seed 1] [--out FOLDER] [DESIGN ...]
+//! cargo bench --bench optimizer -- [--random 100000] [--factor 100] [--threads 2] [--seed 1] [--seconds 600] [--out FOLDER] [DESIGN ...]
 //! cargo bench --bench optimizer -- --timing
 //! ```
 //!
-//! Every design is an octahedral design file (default: all of `designs/`); its problem is that of `equipod optimize`, once with the joints up to one edge length out and
-//! once inside the edges. Prints a Markdown table; with `--out` writes it, the rows as CSV and a picture of the convergence for each problem. Exit 1 when
+//! Default: all designs of `designs/`, `designs/worked/` and `designs/presets/`. The problem of a design is that of `equipod optimize`: with requirements and variables where it names
+//! some, else, for octahedral ones, its offsets, once with the joints up to one edge length out and once inside the edges. Random search stops after `--seconds` of processor time. Prints a Markdown table; with `--out` writes it, the rows as CSV and a picture of the convergence for each problem. Exit 1 when
 //! the optimiser loses. `--timing`: the time of problems with 200 poses instead.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program that prints tables")]
 
+mod cap;
+mod dimensional;
 mod evolution;
 mod judge;
+mod question;
 mod random;
 mod record;
+mod region;
 mod report;
 mod timing;
 mod verdict;
@@ -24,8 +28,10 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use equipod::design::{Design, Format, parse};
+use equipod::dimensional::{DimensionalProblem, SearchOptions};
 use equipod::offsets::{OffsetProblem, OptimizeOptions, Progress, optimize};
 
+use dimensional::DimensionalJudge;
 use evolution::evolution;
 use judge::{Judge, OffsetJudge, offset_problem};
 use random::random_search;
@@ -40,6 +46,7 @@ type Failure = Box<dyn Error>;
 struct Arguments {
     random: usize,
     factor: f64,
+    seconds: f64,
     threads: usize,
     seed: u64,
     out: Option<PathBuf>,
@@ -51,6 +58,7 @@ fn arguments() -> Result<Option<Arguments>, Failure> {
     let mut a = Arguments {
         random: 100_000,
         factor: 100.0,
+        seconds: 600.0,
         threads: 2,
         seed: 1,
         out: None,
@@ -66,6 +74,7 @@ fn arguments() -> Result<Option<Arguments>, Failure> {
             "--bench" => measured = true,
             "--random" => a.random = next()?.parse()?,
             "--factor" => a.factor = next()?.parse()?,
+            "--seconds" => a.seconds = next()?.parse()?,
             "--threads" => a.threads = next()?.parse()?,
             "--seed" => a.seed = next()?.parse()?,
             "--out" => a.out = Some(next()?.into()),
@@ -82,12 +91,15 @@ fn arguments() -> Result<Option<Arguments>, Failure> {
 
 /// All designs of the repository.
 fn shipped() -> Result<Vec<PathBuf>, Failure> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("designs");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("designs");
     let mut out = Vec::new();
-    for entry in std::fs::read_dir(folder)? {
-        let path = entry?.path();
-        if path.extension().is_some_and(|e| e == "toml") {
-            out.push(path);
+    for folder in [root.clone(), root.join("worked"), root.join("presets")] {
+        let Ok(entries) = std::fs::read_dir(folder) else { continue };
+        for entry in entries {
+            let path = entry?.path();
+            if path.extension().is_some_and(|e| e == "toml") {
+                out.push(path);
+            }
         }
     }
     out.sort();
@@ -123,7 +135,7 @@ fn optimise(p: &OffsetProblem, judge: &OffsetJudge, a: &Arguments) -> Result<Ans
             _ => 0.0,
         };
         if curve.last().map_or(0.0, |p| p.value) < value {
-            curve.push(Point { elapsed: clock.spent().elapsed, evaluations: 0, value });
+            curve.push(Point { elapsed: clock.spent().elapsed, value });
         }
         ControlFlow::Continue(())
     })?;
@@ -134,38 +146,85 @@ fn optimise(p: &OffsetProblem, judge: &OffsetJudge, a: &Arguments) -> Result<Ans
     Ok(Answer { judged, curve, spent, bound: report.bound.map(|b| b.upper) })
 }
 
+/// The optimiser on a problem with requirements, and its answer as the judge sees it.
+fn optimise_dimensional(
+    p: &DimensionalProblem,
+    judge: &mut DimensionalJudge,
+    a: &Arguments,
+) -> Result<Answer, Failure> {
+    let options = SearchOptions { seed: a.seed, threads: a.threads, ..SearchOptions::default() };
+    let clock = Clock::start();
+    let report = equipod::dimensional::optimize(p, &[], &options, &mut |_| ())?;
+    let spent = clock.spent();
+    let mut judged = None;
+    if let Some(s) = report.solution() {
+        let built = judge.built_of(s)?;
+        judge.hold_earlier(&built);
+        judged = Some(judge.judge(&built));
+    }
+    Ok(Answer { judged, curve: Vec::new(), spent, bound: None })
+}
+
 /// One problem with all three answers.
-fn compare(name: &str, p: &OffsetProblem, a: &Arguments) -> Result<Row, Failure> {
-    let judge = OffsetJudge::new(p);
-    eprintln!("{name}: {} poses", p.poses.len());
-    let ours = optimise(p, &judge, a)?;
-    eprintln!("  optimiser {:?} in {:.2} s", ours.judged.map(|j| j.value), ours.spent.elapsed);
-    let random = random_search(&judge, a.random, a.threads, a.seed);
-    eprintln!("  random {:?} in {:.1} s", random.judged.map(|j| j.value), random.spent.elapsed);
-    let rival = evolution(&judge, a.factor * ours.spent.cpu, a.threads, a.seed);
-    eprintln!("  CMA-ES {:?} in {:.1} s", rival.judged.map(|j| j.value), rival.spent.elapsed);
+fn compare(
+    name: String,
+    (quantity, poses): (String, String),
+    judge: &dyn Judge,
+    ours: Answer,
+    a: &Arguments,
+) -> Row {
+    eprintln!("{name}: {quantity}, {poses}");
+    eprintln!("  optimiser {:?} in {:.2} s ({:.2} s)", ours.judged, ours.spent.elapsed, ours.spent.cpu);
+    let random = random_search(judge, a.random, a.seconds, a.threads, a.seed);
+    eprintln!(
+        "  random {:?} in {:.1} s, {} feasible",
+        random.judged, random.spent.elapsed, random.evaluations
+    );
+    let rival = evolution(judge, &random.path, a.factor * ours.spent.cpu, a.threads, a.seed);
+    eprintln!("  CMA-ES {:?} in {:.1} s", rival.judged, rival.spent.elapsed);
     let against = |r: &Rival| Verdict::of(ours.judged, r.judged);
     let verdicts = [against(&random), against(&rival)];
-    Ok(Row { name: name.into(), poses: p.poses.len(), factor: a.factor, ours, random, rival, verdicts })
+    let row = Row { name, quantity, poses, factor: a.factor, ours, random, rival, verdicts };
+    println!("{}", row.markdown());
+    row
+}
+
+/// The problems of a design.
+fn rows(path: &Path, a: &Arguments) -> Result<Vec<Row>, Failure> {
+    let design = load(path)?;
+    let stem = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+    if let Some(p) = question::problem(&design) {
+        let mut judge = DimensionalJudge::new(&p);
+        let ours = optimise_dimensional(&p, &mut judge, a)?;
+        let objective = p.objectives.last().map_or("", |o| o.0.code());
+        let quantity = objective.replace('_', " ");
+        return Ok(vec![compare(stem, (quantity, "region".into()), &judge, ours, a)]);
+    }
+    let mut out = Vec::new();
+    if !design.search.variables.is_empty() {
+        eprintln!("{stem}: variables that this comparison does not know");
+        return Ok(out);
+    }
+    for extension in [1.0, 0.0] {
+        let Some(p) = offset_problem(&design, extension) else { continue };
+        let judge = OffsetJudge::new(&p);
+        let ours = optimise(&p, &judge, a)?;
+        let about = ("worst conditioning".into(), p.poses.len().to_string());
+        out.push(compare(format!("{stem}, extension {extension}"), about, &judge, ours, a));
+    }
+    Ok(out)
 }
 
 fn run(a: &Arguments) -> Result<bool, Failure> {
     let mut report = Report::default();
     for path in &a.designs {
-        let design = load(path)?;
-        let stem = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
-        for extension in [1.0, 0.0] {
-            let Some(p) = offset_problem(&design, extension) else { continue };
-            let name = format!("{stem}, extension {extension}");
-            let row = compare(&name, &p, a)?;
-            println!("{}", row.markdown());
-            report.rows.push(row);
+        report.rows.extend(rows(path, a)?);
+        if let Some(folder) = &a.out {
+            // after every design: runs are long
+            report.write(folder)?;
         }
     }
     println!("\n{}", report.markdown());
-    if let Some(folder) = &a.out {
-        report.write(folder)?;
-    }
     Ok(report.rows.iter().any(Row::has_loss))
 }
 

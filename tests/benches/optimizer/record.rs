@@ -47,13 +47,14 @@ impl Clock {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Point {
     pub(crate) elapsed: f64,
-    pub(crate) evaluations: usize,
     pub(crate) value: f64,
 }
 
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct Best {
     x: Vec<f64>,
+    /// All that were the best at their time.
+    path: Vec<Vec<f64>>,
     value: f64,
     curve: Vec<Point>,
 }
@@ -68,19 +69,24 @@ pub(crate) struct Record {
 
 impl Record {
     pub(crate) fn new() -> Self {
-        Self { clock: Clock::start(), evaluations: AtomicUsize::new(0), best: Mutex::default() }
+        let best = Best { x: Vec::new(), path: Vec::new(), value: f64::NEG_INFINITY, curve: Vec::new() };
+        Self { clock: Clock::start(), evaluations: AtomicUsize::new(0), best: Mutex::new(best) }
     }
 
     /// The value of a feasible point, counted and kept when it is the best so far.
     pub(crate) fn evaluate(&self, judge: &dyn Judge, x: &[f64]) -> f64 {
         let value = judge.value(x);
-        let evaluations = self.evaluations.fetch_add(1, Ordering::Relaxed) + 1;
-        if let Ok(mut best) = self.best.lock()
-            && value > best.value
+        self.evaluations.fetch_add(1, Ordering::Relaxed);
+        let best_so_far = || self.best.lock().map_or(f64::INFINITY, |b| b.value);
+        if value > best_so_far()
+            && let Some(confirmed) = judge.confirm(x)
+            && let Ok(mut best) = self.best.lock()
+            && confirmed > best.value
         {
-            (best.x, best.value) = (x.to_vec(), value);
+            (best.x, best.value) = (x.to_vec(), confirmed);
+            best.path.push(x.to_vec());
             let elapsed = self.clock.spent().elapsed;
-            best.curve.push(Point { elapsed, evaluations, value });
+            best.curve.push(Point { elapsed, value: confirmed });
         }
         value
     }
@@ -98,10 +104,9 @@ impl Record {
     pub(crate) fn finish(self, judge: &dyn Judge) -> Rival {
         let spent = self.clock.spent();
         let evaluations = self.evaluations();
-        let best = self.best.into_inner().unwrap_or_default();
-        let judged = (!best.x.is_empty())
-            .then(|| Judged { value: judge.value(&best.x), violation: judge.violation(&best.x) });
-        Rival { judged, curve: best.curve, evaluations, spent, draws: 0 }
+        let (x, curve, path) = self.best.into_inner().map(|b| (b.x, b.curve, b.path)).unwrap_or_default();
+        let judged = (!x.is_empty()).then(|| judge.last_word(&x));
+        Rival { judged, curve, path, evaluations, spent, draws: 0 }
     }
 }
 
@@ -110,6 +115,8 @@ impl Record {
 pub(crate) struct Rival {
     pub(crate) judged: Option<Judged>,
     pub(crate) curve: Vec<Point>,
+    /// Points that were the best at their time, best last.
+    pub(crate) path: Vec<Vec<f64>>,
     /// Objectives evaluated, of feasible points only.
     pub(crate) evaluations: usize,
     pub(crate) spent: Spent,

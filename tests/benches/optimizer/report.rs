@@ -13,7 +13,10 @@ use crate::{Answer, Failure};
 #[derive(Debug)]
 pub(crate) struct Row {
     pub(crate) name: String,
-    pub(crate) poses: usize,
+    /// What is made large; costs are negative.
+    pub(crate) quantity: String,
+    /// How many poses, or that they fill a region.
+    pub(crate) poses: String,
     /// Processor time of CMA-ES over that of the optimiser.
     pub(crate) factor: f64,
     pub(crate) ours: Answer,
@@ -31,7 +34,8 @@ pub(crate) struct Report {
 
 fn value(j: Option<Judged>) -> String {
     match j {
-        Some(j) if j.violation <= 0.0 => format!("{:.9}", j.value),
+        Some(j) if j.violation <= 0.0 && j.value.abs() < 10.0 => format!("{:.9}", j.value),
+        Some(j) if j.violation <= 0.0 => format!("{:.4}", j.value),
         Some(j) => format!("violates by {:.1e}", j.violation),
         None => "none".into(),
     }
@@ -42,8 +46,8 @@ fn seconds(s: Spent) -> String {
 }
 
 const HEAD: &str = "\
-| problem | poses | optimiser | proved: none above | s elapsed / processor | best of random feasible | feasible of drawn | s | optimiser against random | CMA-ES | points | s | optimiser against CMA-ES |
-|---|--:|--:|--:|--:|--:|--:|--:|---|--:|--:|--:|---|
+| problem | value | poses | optimiser | proved: none above | s elapsed / processor | best of random feasible | feasible of drawn | s | optimiser against random | CMA-ES | points | s | optimiser against CMA-ES |
+|---|---|--:|--:|--:|--:|--:|--:|--:|---|--:|--:|--:|---|
 ";
 
 impl Row {
@@ -53,8 +57,9 @@ impl Row {
 
     pub(crate) fn markdown(&self) -> String {
         format!(
-            "| {} | {} | {} | {} | {} | {} | {} of {} | {} | {} | {} | {} | {} | {} |",
+            "| {} | {} | {} | {} | {} | {} | {} | {} of {} | {} | {} | {} | {} | {} | {} |",
             self.name,
+            self.quantity,
             self.poses,
             value(self.ours.judged),
             self.ours.bound.map_or("-".into(), |b| format!("{b:.6}")),
@@ -76,8 +81,9 @@ impl Row {
             j.map_or(String::from(","), |j| format!("{:.17e},{:.3e}", j.value, j.violation))
         };
         format!(
-            "\"{}\",{},{},{},{},{},{},{},{},{},\"{}\",{},{},{},{},\"{}\"",
+            "\"{}\",\"{}\",{},{},{},{},{},{},{},{},{},\"{}\",{},{},{},{},\"{}\"",
             self.name,
+            self.quantity,
             self.poses,
             plain(self.ours.judged),
             self.ours.bound.map_or(String::new(), |b| format!("{b:.17e}")),
@@ -105,13 +111,13 @@ impl Row {
         };
         let mut own = self.ours.curve.clone();
         if let (Some(judged), end) = (self.ours.judged, self.ours.spent.elapsed) {
-            own.push(Point { elapsed: end, evaluations: 0, value: judged.value });
+            own.push(Point { elapsed: end, value: judged.value });
         }
         convergence_chart(&ConvergenceFigure {
-            title: format!("Optimised offsets: {}", self.name),
-            quantity: "worst inverse condition number".into(),
+            title: self.name.clone(),
+            quantity: self.quantity.clone(),
             note: format!(
-                "{} poses. The optimiser's curve ends when its proof of the bound ends; CMA-ES had {} times its processor time.",
+                "Poses: {}. The optimiser's curve ends when its run ends, proof of the bound included; CMA-ES had {} times its processor time.",
                 self.poses, self.factor
             ),
             curves: vec![
@@ -143,7 +149,7 @@ impl Report {
         std::fs::create_dir_all(folder)?;
         std::fs::write(folder.join("optimizer.md"), self.markdown())?;
         let mut csv = String::from(
-            "problem,poses,value,violation,bound,elapsed,cpu,random_value,random_violation,random_feasible,random_drawn,random_cpu,\
+            "problem,quantity,poses,value,violation,bound,elapsed,cpu,random_value,random_violation,random_feasible,random_drawn,random_cpu,\
              against_random,cmaes_value,cmaes_violation,cmaes_points,cmaes_elapsed,cmaes_cpu,against_cmaes\n",
         );
         for row in &self.rows {

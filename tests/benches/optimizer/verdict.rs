@@ -31,12 +31,13 @@ pub(crate) enum Verdict {
 impl Verdict {
     /// `ours` and `rival` are `None` where there is no answer; one with a violation is none, and NaN is no value.
     pub(crate) fn of(ours: Option<Judged>, rival: Option<Judged>) -> Self {
-        let accepted = |j: &Judged| j.violation <= 0.0 && j.value > 0.0;
+        let accepted = |j: &Judged| j.violation <= 0.0 && j.value.is_finite();
         let (Some(rival), ours) = (rival.filter(accepted), ours.filter(accepted)) else {
             return Self::Unopposed;
         };
         let Some(ours) = ours else { return Self::NoAnswer };
-        let gain = ours.value / rival.value - 1.0;
+        // costs are negative values
+        let gain = (ours.value - rival.value) / rival.value.abs().max(f64::MIN_POSITIVE);
         if gain > TOLERANCE {
             Self::Beats(gain)
         } else if gain >= -TOLERANCE {

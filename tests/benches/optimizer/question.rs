@@ -1,0 +1,56 @@
+//! What `equipod optimize` is asked by a design with requirements.
+
+use equipod::design::{Combination, Design};
+use equipod::dimensional::{DimensionalProblem, Mode, Objective, VariableKind, Variables};
+use equipod::manipulator::{Octahedral, default_home};
+use equipod::offsets::{DEFAULT_MIN_ABS_DET, OffsetProblem};
+
+use crate::dimensional::components;
+
+/// The problem that `equipod optimize DESIGN` solves; of a Pareto front the first objective alone. `None` where the design asks for the offsets only, or
+/// for variables that this judge does not build.
+pub(crate) fn problem(design: &Design) -> Option<DimensionalProblem> {
+    let (m, search) = (design.manipulator(), &design.search);
+    let kinds = &search.variables;
+    let plain = kinds.is_empty() || design.workspace.is_empty();
+    if plain || kinds.contains(&VariableKind::Components) || kinds.contains(&VariableKind::Triangles) {
+        return None;
+    }
+    let home = design.home.unwrap_or_else(|| default_home(m));
+    let mut variables = Variables::of(kinds);
+    variables.offset_bounds = [search.offset_bounds.unwrap_or((-1.0, 2.0)); 6];
+    variables.stretch_bounds = search.stretch_bounds.unwrap_or(variables.stretch_bounds);
+    variables.height_bounds = search.height_bounds.unwrap_or(variables.height_bounds);
+    let mut requirements = design.requirements();
+    let default = Octahedral::recognise(m).ok().map(|o| OffsetProblem::with_defaults(o, Vec::new()));
+    if let (true, Some(default)) = (variables.offsets, &default) {
+        requirements.min_joint_distance.get_or_insert(default.min_joint_distance);
+    }
+    let mut objectives = search.objectives.clone();
+    if objectives.is_empty() {
+        objectives.push((Objective::WorstConditioning, 1.0));
+    }
+    let mode = match search.mode {
+        Some(Combination::Lexicographic { slack }) => Mode::Lexicographic { slack },
+        Some(Combination::Pareto { .. }) => {
+            objectives.truncate(1);
+            Mode::Weighted
+        }
+        _ => Mode::Weighted,
+    };
+    let one = objectives.len() == 1 || matches!(mode, Mode::Lexicographic { .. });
+    let judged = |o: &(Objective, f64)| components(o.0) > 0;
+    (one && objectives.iter().all(judged)).then(|| DimensionalProblem {
+        characteristic_length: design
+            .optimize
+            .characteristic_length
+            .unwrap_or_else(|| m.platform_rms_radius()),
+        min_abs_det: design.optimize.min_abs_det.unwrap_or(DEFAULT_MIN_ABS_DET),
+        manipulator: m.clone(),
+        requirements,
+        space: design.workspace.space(&home),
+        variables,
+        objectives,
+        mode,
+    })
+}
