@@ -6,7 +6,10 @@ use std::path::Path;
 use equipod::design::{Format, parse};
 use equipod::num::Rng;
 use equipod::offsets::{OffsetProblem, OptimizeOptions, optimize};
+use nalgebra::Vector3;
 
+#[path = "../benches/optimizer/cap.rs"]
+mod cap;
 #[path = "../benches/optimizer/judge.rs"]
 mod judge;
 #[path = "../benches/optimizer/verdict.rs"]
@@ -92,5 +95,24 @@ fn values_within_a_millionth_are_equal_and_nothing_is_no_answer() {
         assert_eq!(Verdict::of(none, at(0.1)), Verdict::NoAnswer);
         assert!(Verdict::of(none, at(0.1)).is_loss());
         assert_eq!(Verdict::of(at(0.1), none), Verdict::Unopposed);
+    }
+}
+
+/// The axes that the judge of problems with requirements chooses: no direction nearby holds all legs in a smaller cap.
+#[test]
+fn the_smallest_cap_cannot_be_made_smaller() {
+    let mut rng = Rng::new(12);
+    for count in [1, 2, 3, 40, 200] {
+        let tilted = |rng: &mut Rng| Vector3::new(0.3 * rng.normal(), 0.2 * rng.normal(), 1.0).normalize();
+        let all: Vec<Vector3<f64>> = (0..count).map(|_| tilted(&mut rng)).collect();
+        let least = |c: &Vector3<f64>| all.iter().map(|u| u.dot(c)).fold(f64::INFINITY, f64::min);
+        let c = cap::centre(&all);
+        assert!((c.norm() - 1.0).abs() < 1e-12);
+        for step in [1e-1, 1e-3, 1e-5] {
+            for _ in 0..200 {
+                let near = (c + Vector3::from_fn(|_, _| step * rng.normal())).normalize();
+                assert!(least(&near) <= least(&c) + 1e-13);
+            }
+        }
     }
 }

@@ -14,7 +14,7 @@ use nalgebra::{Point3, Unit, Vector3, Vector6};
 
 use crate::cap;
 use crate::judge::Judge;
-use crate::region::{cube_point, descend};
+use crate::region::descend;
 use crate::verdict::Judged;
 
 /// Requirements are held with this share of the size or of their limit to spare, as the optimiser does.
@@ -22,8 +22,10 @@ const SPARE: f64 = 1e-6;
 /// Points (and as many random ones) of a check, and of the last judgement.
 const CHECKED: usize = 200;
 const JUDGED: usize = 3000;
-/// Starts of the searches for the worst pose of an objective.
-const SEARCHES: usize = 3;
+/// Margins below this share are searched for worse ones.
+const CLOSE: f64 = 0.03;
+/// Points for each start of a search for the worst pose of an objective.
+const POINTS_A_SEARCH: usize = 60;
 
 /// How many terms an objective is the sum of, each of them the least over the poses; 0: not known to this judge.
 pub(crate) fn components(o: Objective) -> usize {
@@ -270,7 +272,7 @@ impl DimensionalJudge {
             let at = |x: &Vector6<f64>| self.terms(built, o, &space.pose(x))[c];
             let mut rated: Vec<(f64, Vector6<f64>)> = cube.iter().map(|x| (at(x), *x)).collect();
             rated.sort_by(|a, b| a.0.total_cmp(&b.0));
-            rated.truncate(SEARCHES);
+            rated.truncate(3 + points / POINTS_A_SEARCH);
             let mut least =
                 space.listed(10).iter().map(|p| self.terms(built, o, p)[c]).fold(f64::INFINITY, f64::min);
             for (value, x) in rated {
@@ -285,12 +287,48 @@ impl DimensionalJudge {
         (sum, found)
     }
 
+    /// The least margin over all poses in shares, by a search for every leg and pair that comes close to its limit, and the points where something is violated.
+    fn least_margin(&self, built: &Built, points: usize) -> (f64, Vec<Vector6<f64>>) {
+        let space = self.space(built.home);
+        let mut rng = Rng::new(0x6c6d);
+        let terms = Terms::new(&built.manipulator, &built.requirements, &built.home);
+        let mut worst: BTreeMap<Term, (f64, Vector6<f64>)> = BTreeMap::new();
+        let held = self.held.read().map(|h| h.clone()).unwrap_or_default();
+        for x in space.cube_points(points, &mut rng).into_iter().chain(held) {
+            for t in terms.at(&space.pose(&x)) {
+                let own = worst.entry(t.0).or_insert((f64::INFINITY, x));
+                let share = self.share(&t);
+                if !(share >= own.0) {
+                    *own = (share, x);
+                }
+            }
+        }
+        let listed = space.listed(10);
+        let apart = terms.fixed().into_iter().chain(listed.iter().flat_map(|p| terms.at(p)));
+        let mut least = apart.map(|t| self.share(&t)).fold(f64::INFINITY, f64::min);
+        let mut violated = Vec::new();
+        for (term, (share, x)) in worst {
+            let at = |x: &Vector6<f64>| {
+                let own = terms.at(&space.pose(x)).into_iter().find(|t| t.0 == term);
+                own.map_or(f64::INFINITY, |t| self.share(&t))
+            };
+            let (share, x) =
+                if share < CLOSE { descend(&at, share, x, &space.axes(), &mut rng) } else { (share, x) };
+            if share.is_nan() || share < 0.0 {
+                violated.push(x);
+            }
+            least = if share.is_nan() { f64::NEG_INFINITY } else { least.min(share) };
+        }
+        (least, violated)
+    }
+
     /// The last word: densely, from other points than any of the answers was chosen by.
     pub(crate) fn judge(&self, built: &Built) -> Judged {
         let options = AssessOptions { points: JUDGED, seed: 77, ..AssessOptions::default() };
         let found = assess(&built.manipulator, &built.requirements, &self.space(built.home), &options);
-        let missed = found.margins.iter().map(|m| -self.share(&(m.term, m.value))).fold(0.0, f64::max);
-        Judged { value: self.worst(built, self.objective(), JUDGED).0, violation: missed }
+        let shares = found.margins.iter().map(|m| self.share(&(m.term, m.value)));
+        let least = shares.fold(self.least_margin(built, JUDGED).0, f64::min);
+        Judged { value: self.worst(built, self.objective(), JUDGED).0, violation: (-least).max(0.0) }
     }
 
     fn hold(&self, points: impl IntoIterator<Item = Vector6<f64>>) {
@@ -347,17 +385,8 @@ impl Judge for DimensionalJudge {
         if value < self.held_value(&built, self.objective()) {
             self.hold(worst);
         }
-        let options = AssessOptions { points: CHECKED, searches: 2, seed: 5, ..AssessOptions::default() };
-        let space = self.space(built.home);
-        let found = assess(&built.manipulator, &built.requirements, &space, &options);
-        let violated: Vec<Vector6<f64>> = found
-            .margins
-            .iter()
-            .filter(|m| m.value < 0.0)
-            .filter_map(|m| Some(cube_point(&space, &m.pose?)))
-            .collect();
-        let met = found.all_met();
+        let (least, violated) = self.least_margin(&built, CHECKED);
         self.hold(violated);
-        met.then_some(value)
+        (least >= 0.0).then_some(value)
     }
 }

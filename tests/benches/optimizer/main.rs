@@ -31,7 +31,7 @@ use equipod::design::{Design, Format, parse};
 use equipod::dimensional::{DimensionalProblem, SearchOptions};
 use equipod::offsets::{OffsetProblem, OptimizeOptions, Progress, optimize};
 
-use dimensional::DimensionalJudge;
+use dimensional::{Built, DimensionalJudge};
 use evolution::evolution;
 use judge::{Judge, OffsetJudge, offset_problem};
 use random::random_search;
@@ -151,18 +151,17 @@ fn optimise_dimensional(
     p: &DimensionalProblem,
     judge: &mut DimensionalJudge,
     a: &Arguments,
-) -> Result<Answer, Failure> {
+) -> Result<(Answer, Option<Built>), Failure> {
     let options = SearchOptions { seed: a.seed, threads: a.threads, ..SearchOptions::default() };
     let clock = Clock::start();
     let report = equipod::dimensional::optimize(p, &[], &options, &mut |_| ())?;
     let spent = clock.spent();
-    let mut judged = None;
-    if let Some(s) = report.solution() {
-        let built = judge.built_of(s)?;
-        judge.hold_earlier(&built);
-        judged = Some(judge.judge(&built));
+    let built = report.solution().map(|s| judge.built_of(s)).transpose()?;
+    let judged = built.as_ref().map(|built| judge.judge(built));
+    if let Some(built) = &built {
+        judge.hold_earlier(built);
     }
-    Ok(Answer { judged, curve: Vec::new(), spent, bound: None })
+    Ok((Answer { judged, curve: Vec::new(), spent, bound: None }, built))
 }
 
 /// One problem with all three answers.
@@ -170,7 +169,7 @@ fn compare(
     name: String,
     (quantity, poses): (String, String),
     judge: &dyn Judge,
-    ours: Answer,
+    (mut ours, last_word): (Answer, &dyn Fn() -> Option<Judged>),
     a: &Arguments,
 ) -> Row {
     eprintln!("{name}: {quantity}, {poses}");
@@ -182,6 +181,8 @@ fn compare(
     );
     let rival = evolution(judge, &random.path, a.factor * ours.spent.cpu, a.threads, a.seed);
     eprintln!("  CMA-ES {:?} in {:.1} s", rival.judged, rival.spent.elapsed);
+    // with the worst poses that came to light meanwhile
+    ours.judged = last_word();
     let against = |r: &Rival| Verdict::of(ours.judged, r.judged);
     let verdicts = [against(&random), against(&rival)];
     let row = Row { name, quantity, poses, factor: a.factor, ours, random, rival, verdicts };
@@ -195,10 +196,11 @@ fn rows(path: &Path, a: &Arguments) -> Result<Vec<Row>, Failure> {
     let stem = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
     if let Some(p) = question::problem(&design) {
         let mut judge = DimensionalJudge::new(&p);
-        let ours = optimise_dimensional(&p, &mut judge, a)?;
+        let (ours, built) = optimise_dimensional(&p, &mut judge, a)?;
+        let last_word = || built.as_ref().map(|built| judge.judge(built));
         let objective = p.objectives.last().map_or("", |o| o.0.code());
         let quantity = objective.replace('_', " ");
-        return Ok(vec![compare(stem, (quantity, "region".into()), &judge, ours, a)]);
+        return Ok(vec![compare(stem, (quantity, "region".into()), &judge, (ours, &last_word), a)]);
     }
     let mut out = Vec::new();
     if !design.search.variables.is_empty() {
@@ -210,7 +212,8 @@ fn rows(path: &Path, a: &Arguments) -> Result<Vec<Row>, Failure> {
         let judge = OffsetJudge::new(&p);
         let ours = optimise(&p, &judge, a)?;
         let about = ("worst conditioning".into(), p.poses.len().to_string());
-        out.push(compare(format!("{stem}, extension {extension}"), about, &judge, ours, a));
+        let judged = ours.judged;
+        out.push(compare(format!("{stem}, extension {extension}"), about, &judge, (ours, &|| judged), a));
     }
     Ok(out)
 }

@@ -46,8 +46,8 @@ fn seconds(s: Spent) -> String {
 }
 
 const HEAD: &str = "\
-| problem | value | poses | optimiser | proved: none above | s elapsed / processor | best of random feasible | feasible of drawn | s | optimiser against random | CMA-ES | points | s | optimiser against CMA-ES |
-|---|---|--:|--:|--:|--:|--:|--:|--:|---|--:|--:|--:|---|
+| problem | value | poses | optimiser | proved: none above | s elapsed / processor | best of random feasible | feasible of drawn | s | optimiser against random | CMA-ES | points | times processor time | s | optimiser against CMA-ES |
+|---|---|--:|--:|--:|--:|--:|--:|--:|---|--:|--:|--:|--:|---|
 ";
 
 impl Row {
@@ -57,7 +57,7 @@ impl Row {
 
     pub(crate) fn markdown(&self) -> String {
         format!(
-            "| {} | {} | {} | {} | {} | {} | {} | {} of {} | {} | {} | {} | {} | {} | {} |",
+            "| {} | {} | {} | {} | {} | {} | {} | {} of {} | {} | {} | {} | {} | {} | {} | {} |",
             self.name,
             self.quantity,
             self.poses,
@@ -71,6 +71,7 @@ impl Row {
             self.verdicts[0],
             value(self.rival.judged),
             self.rival.draws,
+            self.factor,
             seconds(self.rival.spent),
             self.verdicts[1],
         )
@@ -81,7 +82,7 @@ impl Row {
             j.map_or(String::from(","), |j| format!("{:.17e},{:.3e}", j.value, j.violation))
         };
         format!(
-            "\"{}\",\"{}\",{},{},{},{},{},{},{},{},{},\"{}\",{},{},{},{},\"{}\"",
+            "\"{}\",\"{}\",{},{},{},{},{},{},{},{},{},\"{}\",{},{},{},{},{},\"{}\"",
             self.name,
             self.quantity,
             self.poses,
@@ -96,6 +97,7 @@ impl Row {
             self.verdicts[0],
             plain(self.rival.judged),
             self.rival.draws,
+            self.factor,
             self.rival.spent.elapsed,
             self.rival.spent.cpu,
             self.verdicts[1],
@@ -150,7 +152,7 @@ impl Report {
         std::fs::write(folder.join("optimizer.md"), self.markdown())?;
         let mut csv = String::from(
             "problem,quantity,poses,value,violation,bound,elapsed,cpu,random_value,random_violation,random_feasible,random_drawn,random_cpu,\
-             against_random,cmaes_value,cmaes_violation,cmaes_points,cmaes_elapsed,cmaes_cpu,against_cmaes\n",
+             against_random,cmaes_value,cmaes_violation,cmaes_points,factor,cmaes_elapsed,cmaes_cpu,against_cmaes\n",
         );
         for row in &self.rows {
             let _ = writeln!(csv, "{}", row.csv());
