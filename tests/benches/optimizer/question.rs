@@ -1,19 +1,27 @@
 //! What `equipod optimize` is asked by a design with requirements.
 
-use equipod::design::{Combination, Design};
-use equipod::dimensional::{DimensionalProblem, Mode, Objective, VariableKind, Variables};
+use equipod::design::{Combination, Design, SearchTable};
+use equipod::dimensional::{DimensionalProblem, Mode, Objective, Triangles, VariableKind, Variables};
 use equipod::manipulator::{Octahedral, default_home};
 use equipod::offsets::{DEFAULT_MIN_ABS_DET, OffsetProblem};
+use equipod::requirements::Requirements;
 
 use crate::dimensional::components;
 
-/// The problem that `equipod optimize DESIGN` solves; of a Pareto front the first objective alone. `None` where the design asks for the offsets only, or
-/// for variables that this judge does not build.
+/// Whether a design asks for more than the offsets with the best conditioning.
+fn asks_for_more(design: &Design) -> bool {
+    let min_joint_distance = design.optimize.min_joint_distance;
+    let plain = Requirements { min_joint_distance, ..Requirements::default() };
+    design.search != SearchTable::default() || design.requirements() != plain
+}
+
+/// The problem that `equipod optimize DESIGN` solves; of a Pareto front the first objective alone. `None` where the design asks for the offsets only, where
+/// there is no such problem, or when it has variables that the judge does not build.
 pub(crate) fn problem(design: &Design) -> Option<DimensionalProblem> {
     let (m, search) = (design.manipulator(), &design.search);
-    let kinds = &search.variables;
-    let plain = kinds.is_empty() || design.workspace.is_empty();
-    if plain || kinds.contains(&VariableKind::Components) || kinds.contains(&VariableKind::Triangles) {
+    let kinds = if search.variables.is_empty() { &[VariableKind::Offsets] } else { &search.variables[..] };
+    let not_built = kinds.contains(&VariableKind::Components) || kinds.contains(&VariableKind::Triangles);
+    if not_built || design.workspace.is_empty() || !asks_for_more(design) {
         return None;
     }
     let home = design.home.unwrap_or_else(|| default_home(m));
@@ -23,6 +31,9 @@ pub(crate) fn problem(design: &Design) -> Option<DimensionalProblem> {
     variables.height_bounds = search.height_bounds.unwrap_or(variables.height_bounds);
     let mut requirements = design.requirements();
     let default = Octahedral::recognise(m).ok().map(|o| OffsetProblem::with_defaults(o, Vec::new()));
+    if default.is_none() && (variables.offsets || variables.triangles != Triangles::Fixed) {
+        return None;
+    }
     if let (true, Some(default)) = (variables.offsets, &default) {
         requirements.min_joint_distance.get_or_insert(default.min_joint_distance);
     }
