@@ -28,8 +28,8 @@ fn solution(model: &Model<'_>, task: &Task, refined: &Refined) -> Option<Dimensi
     let manipulator = model.shape.manipulator(x).ok()?;
     let home = model.terms.home;
     let home = Pose { position: home.position + model.shape.ends(x).lift, ..home };
-    let is_axis = |j: usize| model.shape.axes.iter().flatten().any(|f| (*f..f + 18).contains(&j));
-    let named = (0..x.len()).filter(|j| !is_axis(*j)).map(|j| (model.shape.names[j].clone(), x[j]));
+    let named =
+        (0..x.len()).filter(|j| !model.shape.is_axis(*j)).map(|j| (model.shape.names[j].clone(), x[j]));
     // every objective is reported, the ones left out of the last level too
     let all = Task { weights: vec![1.0; task.weights.len()], ..task.clone() };
     let gains = model.judge(&refined.poses, x, &all, model.sign(x)).gains;

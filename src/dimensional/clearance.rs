@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::kinematics::Lines;
-use super::pull::Pull;
+use super::pull::Gradient;
 use crate::requirements::{FixedTo, KeepOut, LegBody, Shape};
 
 /// A part of a leg: from one share of its line to another, with a radius.
@@ -18,24 +18,26 @@ struct Part {
 
 /// A gap with its gradient; `part` tells apart the gaps of a pair of legs.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Gap {
+pub(crate) struct Gap<P> {
     pub(crate) value: f64,
-    pub(crate) pull: Pull,
+    pub(crate) pull: P,
     pub(crate) part: usize,
 }
 
-fn parts(body: &LegBody, length: f64) -> Vec<Part> {
+/// The parts of a leg: cylinder and rod, or one.
+fn parts(body: &LegBody, length: f64) -> impl Iterator<Item = Part> + Clone {
     let radius = body.diameter / 2.0;
-    match body.rod {
+    let (first, second) = match body.rod {
         Some((cylinder, rod)) if length > cylinder => {
             let s = cylinder / length;
-            vec![
+            (
                 Part { from: 0.0, to: s, radius, joint: Some(s) },
-                Part { from: s, to: 1.0, radius: rod / 2.0, joint: Some(s) },
-            ]
+                Some(Part { from: s, to: 1.0, radius: rod / 2.0, joint: Some(s) }),
+            )
         }
-        _ => vec![Part { from: 0.0, to: 1.0, radius, joint: None }],
-    }
+        _ => (Part { from: 0.0, to: 1.0, radius, joint: None }, None),
+    };
+    std::iter::once(first).chain(second)
 }
 
 /// Shares of two segments `p + x e`, `q + y f`, each in `[0, 1]`, at which they are closest.
@@ -59,19 +61,33 @@ impl Lines {
     }
 
     /// Adds the gradient of `g . (a + s d)`, where `s` is constant, or `s |d|` is.
-    fn pull_point(&self, pull: &mut Pull, leg: usize, (share, sliding): (f64, bool), g: &Vector3<f64>) {
-        pull.base[leg] += g;
+    fn pull_point<P: Gradient>(
+        &self,
+        pull: &mut P,
+        leg: usize,
+        (share, sliding): (f64, bool),
+        g: &Vector3<f64>,
+    ) {
+        if !P::KEPT {
+            return;
+        }
+        pull.at_base(leg, g);
         let u = &self.direction[leg];
         let along = if sliding { g - u * u.dot(g) } else { *g };
         pull.line(leg, along * share);
     }
 
     /// Gaps between the parts of two legs.
-    pub(crate) fn leg_gaps(&self, body: &LegBody, i: usize, j: usize) -> Vec<Gap> {
-        let (first, second) = (parts(body, self.length[i]), parts(body, self.length[j]));
-        let mut out = Vec::with_capacity(4);
-        for (k, p) in first.iter().enumerate() {
-            for (l, q) in second.iter().enumerate() {
+    pub(crate) fn leg_gaps<P: Gradient>(
+        &self,
+        body: &LegBody,
+        i: usize,
+        j: usize,
+        see: &mut impl FnMut(Gap<P>),
+    ) {
+        let second = parts(body, self.length[j]);
+        for (k, p) in parts(body, self.length[i]).enumerate() {
+            for (l, q) in second.clone().enumerate() {
                 let (e, f) = (self.line[i] * (p.to - p.from), self.line[j] * (q.to - q.from));
                 let (x, y) = closest(&self.at(i, p.from), &e, &self.at(j, q.from), &f);
                 let (s, t) = (p.from + x * (p.to - p.from), q.from + y * (q.to - q.from));
@@ -83,35 +99,38 @@ impl Lines {
                 } else {
                     self.line[i].cross(&self.line[j]).try_normalize(0.0).unwrap_or_else(Vector3::z)
                 };
-                let mut pull = Pull::none();
+                let mut pull = P::none();
                 let at_joint = |part: &Part, s: f64| part.joint.is_some_and(|j| (s - j).abs() < 1e-12);
-                self.pull_point(&mut pull, i, (s, at_joint(p, s)), &n);
-                self.pull_point(&mut pull, j, (t, at_joint(q, t)), &-n);
-                out.push(Gap { value: distance - p.radius - q.radius, pull, part: 2 * k + l });
+                self.pull_point(&mut pull, i, (s, at_joint(&p, s)), &n);
+                self.pull_point(&mut pull, j, (t, at_joint(&q, t)), &-n);
+                see(Gap { value: distance - p.radius - q.radius, pull, part: 2 * k + l });
             }
         }
-        out
     }
 
     /// Gaps between the parts of a leg and a keep-out; negative inside, also in boxes.
-    pub(crate) fn keep_out_gaps(&self, body: &LegBody, i: usize, keep_out: &KeepOut) -> Vec<Gap> {
+    pub(crate) fn keep_out_gaps<P: Gradient>(
+        &self,
+        body: &LegBody,
+        i: usize,
+        keep_out: &KeepOut,
+        see: &mut impl FnMut(Gap<P>),
+    ) {
         let moving = keep_out.fixed_to == FixedTo::Platform;
         let local = |v: Vector3<f64>| if moving { self.rotation.inverse() * (v - self.position) } else { v };
-        let mut out = Vec::with_capacity(2);
-        for (part, p) in parts(body, self.length[i]).iter().enumerate() {
+        for (part, p) in parts(body, self.length[i]).enumerate() {
             let (a, b) = (local(self.at(i, p.from)), local(self.at(i, p.to)));
             let (x, value, normal) = nearest(&keep_out.shape, &a, &(b - a));
             let s = p.from + x * (p.to - p.from);
             let sliding = p.joint.is_some_and(|j| (s - j).abs() < 1e-12);
-            let mut pull = Pull::none();
+            let mut pull = P::none();
             let n = if moving { self.rotation * normal } else { normal };
             self.pull_point(&mut pull, i, (s, sliding), &n);
             if moving {
-                pull.position -= n;
+                pull.at_position(&-n);
             }
-            out.push(Gap { value: value - p.radius, pull, part });
+            see(Gap { value: value - p.radius, pull, part });
         }
-        out
     }
 }
 

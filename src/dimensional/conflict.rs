@@ -7,6 +7,7 @@ use super::kinematics::{HeldPose, Lines};
 use super::model::{Group, Model, Task};
 use super::outcome::{Conflict, Demand, Give};
 use super::search::{Refined, SearchOptions, refine};
+use super::terms::Item;
 use crate::num::parallel::parallel;
 use crate::requirements::TermKind;
 
@@ -22,7 +23,7 @@ pub(crate) fn elastic(model: &Model<'_>, from: &[Refined], threads: usize) -> Ve
 
 fn settle(model: &Model<'_>, task: &Task, from: &[Refined], threads: usize) -> Vec<Refined> {
     let run = |k: usize| refine(model, task, &from[k].run.x, from[k].poses.clone(), k as u64);
-    let mut out = parallel(from.len(), threads, run, &mut |_| ());
+    let mut out = parallel(from.len(), threads, run, &mut |_, _| ());
     let key = |r: &Refined| r.run.judged.total_violation(task);
     out.sort_by(|a, b| key(a).total_cmp(&key(b)));
     out
@@ -100,7 +101,7 @@ fn amounts(model: &Model<'_>, poses: &[HeldPose], x: &[f64], task: &Task) -> BTr
     let mut out: BTreeMap<Group, f64> = BTreeMap::new();
     for at in poses {
         let l = Lines::new(&ends, at);
-        model.terms.visit(&l, &ends, x, &mut |item| {
+        model.terms.visit(&l, &ends, x, &mut |item: Item<()>| {
             let (kind, leg) = (item.id.0, item.id.1);
             let lean = |limit: f64| {
                 let cos = limit.to_radians().cos() + item.value * model.terms.size / l.length[leg];

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix6, Rotation3, Vector3, Vector6};
 
-use super::pull::Pull;
+use super::pull::Gradient;
 use super::shape::Ends;
 use crate::geom::Pose;
 
@@ -61,12 +61,15 @@ impl Lines {
     }
 
     /// Adds the gradient of `g . row(leg)`.
-    pub(crate) fn pull_row(&self, pull: &mut Pull, leg: usize, length: f64, g: &Vector6<f64>) {
+    pub(crate) fn pull_row<P: Gradient>(&self, pull: &mut P, leg: usize, length: f64, g: &Vector6<f64>) {
+        if !P::KEPT {
+            return;
+        }
         let (force, moment): (Vector3<f64>, Vector3<f64>) =
             (g.fixed_rows::<3>(0).into(), g.fixed_rows::<3>(3) / length);
         let (u, arm) = (&self.direction[leg], &self.arm[leg]);
         // moment . (arm x u): u x moment pulls at the arm, moment x arm at u
-        pull.arm[leg] += u.cross(&moment);
+        pull.at_arm(leg, &u.cross(&moment));
         pull.line(leg, self.along_line(leg, &(force + moment.cross(arm))));
     }
 }

@@ -6,7 +6,7 @@ use super::kinematics::{HeldPose, Lines};
 use super::merit::{Cluster, Piece};
 use super::model::{Group, Model, Task};
 use super::problem::Objective;
-use super::pull::{Pull, Rate};
+use super::pull::{Gradient, Pull, Rate};
 use super::shape::Ends;
 use super::terms::{Exact, Item, TermId};
 use crate::requirements::TermKind;
@@ -62,6 +62,59 @@ pub(crate) struct LinearPiece {
     pub(crate) bound: LinearBound,
 }
 
+fn affine(at: f64, gradient: &[f64], d: &[f64]) -> f64 {
+    at + gradient.iter().zip(d).map(|(g, d)| g * d).sum::<f64>()
+}
+
+impl Cone {
+    fn norm(&self, d: &[f64]) -> f64 {
+        self.tail.iter().map(|(v, g)| affine(*v, g, d).powi(2)).sum::<f64>().sqrt()
+    }
+}
+
+impl LinearItem {
+    /// How far the model is from being violated after a step, with slack.
+    pub(crate) fn room(&self, d: &[f64], slack: f64, spare: f64) -> f64 {
+        match &self.cone {
+            Some(cone) => affine(cone.head.0, &cone.head.1, d) + cone.slack * slack - cone.norm(d),
+            None => affine(self.value - spare + slack, &self.gradient, d),
+        }
+    }
+}
+
+impl LinearCluster {
+    /// Change of the extreme singular value (`sign` 1: the least, -1: the greatest) after a step, pair by pair.
+    fn change(&self, d: &[f64], sign: f64) -> f64 {
+        let own = affine(0.0, &self.own, d);
+        let pairs = self.others.iter().map(|(sigma, across, other)| {
+            let (there, off) = (affine(sigma - self.sigma, other, d), affine(0.0, across, d));
+            0.5 * (own + there - sign * (own - there).hypot(2.0 * off))
+        });
+        pairs.fold(own, |worst, v| if sign * v < sign * worst { v } else { worst })
+    }
+}
+
+impl LinearPiece {
+    /// What the piece allows the objective after a step.
+    pub(crate) fn upper(&self, d: &[f64]) -> f64 {
+        match &self.bound {
+            LinearBound::Spectral { f, h, low, high } => {
+                self.value + f * low.change(d, 1.0) - h * high.change(d, -1.0)
+            }
+            _ => affine(self.value, &self.gradient, d),
+        }
+    }
+
+    /// Lower and upper model of a length after a step.
+    pub(crate) fn lengths(&self, d: &[f64]) -> (f64, f64) {
+        let plain = affine(self.value, &self.gradient, d);
+        match &self.bound {
+            LinearBound::Length(Some(cone)) => (plain, cone.norm(d)),
+            _ => (plain, plain),
+        }
+    }
+}
+
 /// Everything the next step has to know.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Linearised {
@@ -100,7 +153,7 @@ impl Model<'_> {
         let near = 4.0 * radius + 0.01;
         for (k, at) in poses.iter().enumerate() {
             let n = Near { l: Lines::new(&ends, at), at, rates: &rates, home };
-            self.terms.visit(&n.l, &ends, x, &mut |item| {
+            self.terms.visit(&n.l, &ends, x, &mut |item: Item<Pull>| {
                 let group = Group::Term(item.id.0);
                 let steep = matches!(item.id.0, TermKind::LegForce | TermKind::LegSpeed);
                 if (steep || item.value < near) && !task.dropped.contains(&group) {
@@ -119,7 +172,7 @@ impl Model<'_> {
                 });
             }
         }
-        self.terms.fixed(&ends, &mut |item| {
+        self.terms.fixed(&ends, &mut |item: Item<Pull>| {
             let group = Group::Term(item.id.0);
             if !task.dropped.contains(&group) {
                 let gradient = item.pull.gradient(&rates, &identity, false, &home);
@@ -242,7 +295,7 @@ impl Model<'_> {
 /// The constraint, unless its linear model is met everywhere within the radius.
 fn screened(
     pose: usize,
-    item: &Item,
+    item: &Item<Pull>,
     group: Group,
     gradient: Vec<f64>,
     cone: Option<Cone>,

@@ -5,9 +5,10 @@
 
 use nalgebra::{Matrix6, SVD, Vector3, Vector4, Vector6};
 
+use super::clearance::Gap;
 use super::kinematics::{HeldPose, Lines};
 use super::problem::{DimensionalProblem, Objective};
-use super::pull::Pull;
+use super::pull::{Gradient, Pull};
 use super::shape::Ends;
 use super::terms::{Terms, joint_pull, leg_forces};
 use crate::num::linalg::svd;
@@ -16,6 +17,9 @@ use crate::synthesis::Normalisation;
 
 /// Singular values within this factor of the extreme one are modelled together with it.
 const CLUSTER: f64 = 1.6;
+
+/// Gain of the leg force at a singular pose, in units of the loads.
+const SINGULAR_GAIN: f64 = -1e6;
 
 /// `y <= value + f (s_6 - sigma_6) - h (s_1 - sigma_1)` with the singular values `s` of the linearised matrix.
 #[derive(Debug, Clone)]
@@ -105,13 +109,19 @@ impl<'a> Merit<'a> {
                 let s = if j.iter().all(|x| x.is_finite()) { j.singular_values().min() } else { 0.0 };
                 if o == Objective::Stiffness { s * s } else { s }
             }
+            Objective::LegForce => {
+                let worst = |load| match leg_forces(l, load, self.size) {
+                    Some(f) => -f.forces.amax() / self.force_unit,
+                    None => SINGULAR_GAIN,
+                };
+                self.loads.iter().map(worst).fold(f64::INFINITY, f64::min)
+            }
             _ => {
-                let mut least = f64::INFINITY;
-                self.pieces_at(o, terms, l, &mut |p| {
-                    if let Piece::Linear(value, _) = p {
-                        least = least.min(value);
-                    }
-                });
+                let (Some(body), mut least) = (self.leg_body, f64::INFINITY) else { return f64::INFINITY };
+                for (i, j) in terms.separate_legs() {
+                    let see = &mut |gap: Gap<()>| least = f64::min(least, gap.value / self.size);
+                    l.leg_gaps(&body, i, j, see);
+                }
                 least
             }
         }
@@ -130,11 +140,11 @@ impl<'a> Merit<'a> {
                     for i in 0..6 {
                         let piece = match &forces {
                             Some(f) => {
-                                let (value, pull) = f.of(l, i, self.size);
+                                let (value, pull): (f64, Pull) = f.of(l, i, self.size);
                                 let factor = -value.signum() / self.force_unit;
                                 Piece::Linear(value * factor, pull.scaled(factor))
                             }
-                            None => Piece::Linear(-1e6, Pull::none()),
+                            None => Piece::Linear(SINGULAR_GAIN, Pull::none()),
                         };
                         see(piece);
                     }
@@ -143,9 +153,9 @@ impl<'a> Merit<'a> {
             Objective::LegClearance => {
                 let Some(body) = self.leg_body else { return };
                 for (i, j) in terms.separate_legs() {
-                    for gap in l.leg_gaps(&body, i, j) {
+                    l.leg_gaps(&body, i, j, &mut |gap: Gap<Pull>| {
                         see(Piece::Linear(gap.value / self.size, gap.pull.scaled(1.0 / self.size)));
-                    }
+                    });
                 }
             }
             Objective::Stroke => {

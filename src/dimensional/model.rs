@@ -1,11 +1,13 @@
 //! The problem ready to be searched: values and linear models of everything at a point.
 
-use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::kinematics::{HeldPose, Lines};
-use super::merit::{Merit, Piece};
+use super::kinematics::HeldPose;
+use super::merit::Merit;
 use super::problem::{DimensionalProblem, InvalidProblem, Objective, Variables};
-use super::shape::{Ends, Shape};
+use super::shape::Shape;
 use super::terms::Terms;
 use crate::num::Rng;
 use crate::requirements::TermKind;
@@ -43,30 +45,6 @@ impl Task {
     }
 }
 
-/// Values at a point.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Judged {
-    /// Gain of each objective.
-    pub(crate) gains: Vec<f64>,
-    /// Largest violation of each group (0 when met).
-    pub(crate) violations: BTreeMap<Group, f64>,
-}
-
-impl Judged {
-    pub(crate) fn violation(&self) -> f64 {
-        self.violations.values().fold(0.0, |m, v| m.max(*v))
-    }
-
-    /// Sum of the largest violations of the groups; soft ones count a hundredth.
-    pub(crate) fn total_violation(&self, task: &Task) -> f64 {
-        self.violations.iter().map(|(g, v)| task.cost(*g) * v).sum()
-    }
-
-    pub(crate) fn gain(&self, task: &Task) -> f64 {
-        task.weights.iter().zip(&self.gains).filter(|(w, _)| **w > 0.0).map(|(w, g)| w * g).sum()
-    }
-}
-
 /// The problem with its parametrisation.
 #[derive(Debug)]
 pub(crate) struct Model<'a> {
@@ -78,6 +56,8 @@ pub(crate) struct Model<'a> {
     /// Constraints are held with this to spare, so that what lies between the poses meets them too.
     pub(crate) backoff: f64,
     pub(crate) affine: bool,
+    /// Set when the search is to end with what it has.
+    stop: Arc<AtomicBool>,
 }
 
 /// Points of the Halton sequence, and random ones, in the sample of the mean.
@@ -88,7 +68,21 @@ const BACKOFF: (f64, f64) = (1e-6, 2e-8);
 impl<'a> Model<'a> {
     pub(crate) fn new(problem: &'a DimensionalProblem) -> Result<Self, InvalidProblem> {
         problem.validate()?;
-        let variables = Variables { joint_axes: problem.axes_wanted(), ..problem.variables };
+        Self::with_axes(problem, problem.axes_wanted())
+    }
+
+    /// The same with axes along the legs at home instead of chosen ones, which come last among the variables; `None` without chosen ones, or
+    /// when nothing else is chosen. What meets the requirements here does so with axes to choose.
+    pub(crate) fn without_axes(&self) -> Option<Self> {
+        if self.shape.axes == [None; 2] {
+            return None;
+        }
+        let out = Self::with_axes(self.problem, [false; 2]).ok()?;
+        Some(Self { stop: Arc::clone(&self.stop), ..out })
+    }
+
+    fn with_axes(problem: &'a DimensionalProblem, joint_axes: [bool; 2]) -> Result<Self, InvalidProblem> {
+        let variables = Variables { joint_axes, ..problem.variables };
         let (m, home) = (&problem.manipulator, problem.space.home);
         let shape = Shape::new(m, &home, &variables)?;
         for (name, (low, high)) in shape.names.iter().zip(&shape.bounds) {
@@ -108,7 +102,19 @@ impl<'a> Model<'a> {
             backoff: if continuous { BACKOFF.0 } else { BACKOFF.1 },
             affine: shape.is_affine(),
             shape,
+            stop: Arc::default(),
         })
+    }
+
+    /// Ends the search when it is told to.
+    pub(crate) fn heed(&self, flow: ControlFlow<()>) {
+        if flow.is_break() {
+            self.stop.store(true, Ordering::Relaxed);
+        }
+    }
+
+    pub(crate) fn is_stopped(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
     }
 
     /// The poses that every run starts with: home, corners, and those that are listed.
@@ -138,69 +144,6 @@ impl<'a> Model<'a> {
     /// Sign of `det A` at a point.
     pub(crate) fn sign(&self, x: &[f64]) -> f64 {
         self.shape.determinant(x).map_or(1.0, |(det, _)| if det < 0.0 { -1.0 } else { 1.0 })
-    }
-
-    /// Values at a point over the poses.
-    pub(crate) fn judge(&self, poses: &[HeldPose], x: &[f64], task: &Task, sign: f64) -> Judged {
-        let ends = self.shape.ends(x);
-        let mut violations: BTreeMap<Group, f64> = BTreeMap::new();
-        let mut hold = |group: Group, value: f64| {
-            if !task.dropped.contains(&group) {
-                let worst = violations.entry(group).or_insert(0.0);
-                let miss = self.backoff - value;
-                *worst = if miss.is_nan() { f64::INFINITY } else { worst.max(miss) };
-            }
-        };
-        let mut gains = vec![f64::INFINITY; self.objectives.len()];
-        let mut lengths = (f64::INFINITY, f64::NEG_INFINITY);
-        for at in poses {
-            let l = Lines::new(&ends, at);
-            self.terms.visit(&l, &ends, x, &mut |item| hold(Group::Term(item.id.0), item.value));
-            for (m, o) in self.wanted(task).filter(|(_, o)| Merit::is_over_poses(*o)) {
-                gains[m] = gains[m].min(self.merit.at_pose(o, &self.terms, &l));
-            }
-            lengths = l.length.iter().fold(lengths, |r, x| (r.0.min(*x), r.1.max(*x)));
-        }
-        self.terms.fixed(&ends, &mut |item| hold(Group::Term(item.id.0), item.value));
-        if let Some((value, _)) = self.determinant(x, sign) {
-            hold(Group::Determinant, value);
-        }
-        for (_, _, value, _) in self.shape.rooms(&ends) {
-            hold(Group::Reach, value);
-        }
-        for (m, o) in self.wanted(task).filter(|(_, o)| !Merit::is_over_poses(*o)) {
-            gains[m] = self.gain_without_pose(o, &ends, lengths);
-        }
-        for (m, floor) in task.floors.iter().enumerate() {
-            if let Some(floor) = floor {
-                hold(Group::Floor(m), gains[m] - floor + self.backoff);
-            }
-        }
-        Judged { gains, violations }
-    }
-
-    fn gain_without_pose(&self, o: Objective, ends: &Ends, lengths: (f64, f64)) -> f64 {
-        match o {
-            Objective::Stroke => (lengths.0 - lengths.1) / self.terms.size,
-            Objective::MeanConditioning => {
-                let all = self.merit.sample.iter();
-                let sum: f64 = all
-                    .map(|at| {
-                        self.merit.at_pose(Objective::WorstConditioning, &self.terms, &Lines::new(ends, at))
-                    })
-                    .sum();
-                sum / self.merit.sample.len() as f64
-            }
-            _ => {
-                let mut least = f64::INFINITY;
-                self.merit.pieces_fixed(o, &self.terms, ends, &mut |p| {
-                    if let Piece::Linear(value, _) = p {
-                        least = least.min(value);
-                    }
-                });
-                least
-            }
-        }
     }
 }
 

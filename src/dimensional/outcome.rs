@@ -92,8 +92,10 @@ pub struct DimensionalReport {
     pub feasible: usize,
     /// Weighted gains of the polished runs, best first; `None` when infeasible.
     pub polished: Vec<Option<f64>>,
-    /// Seed of the starts.
+    /// Seed of the populations.
     pub seed: u64,
+    /// Whether the search was told to end; the answer is then the best until then.
+    pub interrupted: bool,
 }
 
 impl DimensionalReport {

@@ -1,11 +1,13 @@
 //! Fronts of two or three objectives: platforms of which none is better in every objective.
 
+use std::ops::ControlFlow;
+
 use super::answer::outcome;
 use super::evaluate::evaluate;
 use super::model::{Model, Task};
 use super::outcome::{DimensionalOutcome, DimensionalSolution};
 use super::problem::{DimensionalProblem, InvalidProblem};
-use super::search::{Progress, Refined, SearchOptions, better, refine, search_task};
+use super::search::{Progress, Refined, SearchOptions, Stage, Watch, better, refine, search_task};
 use crate::num::parallel::parallel;
 use crate::requirements::PoseSpace;
 
@@ -49,19 +51,20 @@ pub fn pareto(
     problem: &DimensionalProblem,
     points: usize,
     options: &SearchOptions,
-    progress: &mut dyn FnMut(Progress),
+    progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<ParetoReport, InvalidProblem> {
     let n = problem.objectives.len();
     if !(2..=3).contains(&n) {
         return Err(InvalidProblem::FrontOf(n));
     }
     let model = Model::new(problem)?;
+    let mut watch = Watch::new(&model, progress);
     let mut known: Vec<Refined> = Vec::new();
     for m in 0..n {
         let weights = (0..n).map(|k| if k == m { 1.0 } else { AUGMENTED }).collect();
         let task = Task { weights, floors: vec![None; n], ..Task::default() };
         let given: Vec<Vec<f64>> = known.iter().map(|r| r.run.x.clone()).collect();
-        let found = search_task(&model, &task, &given, options, progress);
+        let found = search_task(&model, &task, &given, options, &mut watch);
         let Some(first) = found.refined.into_iter().next().filter(|r| r.run.is_feasible(&model)) else {
             let one = super::search::optimize(problem, &[], options, progress)?;
             let failure = Some(one.outcome);
@@ -88,6 +91,9 @@ pub fn pareto(
     let mut unmet = 0;
     let mut previous: Option<Refined> = None;
     for (done, cell) in cells.iter().enumerate() {
+        if model.is_stopped() {
+            break;
+        }
         let floors: Vec<Option<f64>> = std::iter::once(None)
             .chain(cell.iter().enumerate().map(|(m, k)| Some(bound(m + 1, *k))))
             .collect();
@@ -95,7 +101,7 @@ pub fn pareto(
         let task = Task { weights, floors, ..Task::default() };
         let from: Vec<&Refined> = known[..extremes].iter().chain(&previous).collect();
         let run = |k: usize| refine(&model, &task, &from[k].run.x, from[k].poses.clone(), options.seed);
-        let mut runs = parallel(from.len(), options.threads, run, &mut |_| ());
+        let mut runs = parallel(from.len(), options.threads, run, &mut |_, _| ());
         runs.sort_by(|a, b| better(&model, &task, &a.run, &b.run));
         let best = runs.swap_remove(0);
         if best.run.is_feasible(&model) {
@@ -104,7 +110,7 @@ pub fn pareto(
         } else {
             unmet += 1;
         }
-        progress(Progress::Polishing { done: done + 1, total: cells.len() });
+        watch.tell(Stage::Polishing, (done + 1, cells.len()), None);
     }
     Ok(front(problem, &model, &known, unmet, options.seed))
 }

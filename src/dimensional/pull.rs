@@ -13,6 +13,42 @@ pub(crate) struct Rate {
     pub(crate) axis: Option<(usize, usize, usize)>,
 }
 
+/// What a formula leaves of its gradient: a [`Pull`], or nothing where the value alone is wanted.
+pub(crate) trait Gradient: Copy {
+    /// Whether anything is kept; formulas skip their derivatives otherwise.
+    const KEPT: bool;
+    fn none() -> Self;
+    /// Adds to the gradient with respect to a base end.
+    fn at_base(&mut self, leg: usize, g: &Vector3<f64>);
+    /// Adds to the gradient with respect to an arm `R b`.
+    fn at_arm(&mut self, leg: usize, g: &Vector3<f64>);
+    /// Adds to the gradient with respect to the position.
+    fn at_position(&mut self, g: &Vector3<f64>);
+    /// Sets the gradient with respect to the line of a leg at home.
+    fn set_home(&mut self, leg: usize, g: Vector3<f64>);
+    /// Sets the gradient with respect to the axis of a joint.
+    fn set_axis(&mut self, body: usize, leg: usize, g: Vector3<f64>);
+    fn scaled(self, factor: f64) -> Self;
+
+    /// Adds a gradient with respect to the line `R b + p - a` of a leg.
+    fn line(&mut self, leg: usize, g: Vector3<f64>) {
+        self.at_base(leg, &-g);
+        self.at_arm(leg, &g);
+        self.at_position(&g);
+    }
+}
+
+impl Gradient for () {
+    const KEPT: bool = false;
+    fn none() -> Self {}
+    fn at_base(&mut self, _: usize, _: &Vector3<f64>) {}
+    fn at_arm(&mut self, _: usize, _: &Vector3<f64>) {}
+    fn at_position(&mut self, _: &Vector3<f64>) {}
+    fn set_home(&mut self, _: usize, _: Vector3<f64>) {}
+    fn set_axis(&mut self, _: usize, _: usize, _: Vector3<f64>) {}
+    fn scaled(self, _: f64) -> Self {}
+}
+
 /// Gradient of a function of the legs at one pose with respect to base ends, arms `R b` and position.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Pull {
@@ -25,27 +61,44 @@ pub(crate) struct Pull {
     pub(crate) axis: Option<(usize, usize, Vector3<f64>)>,
 }
 
-impl Pull {
-    pub(crate) fn none() -> Self {
+impl Gradient for Pull {
+    const KEPT: bool = true;
+
+    fn none() -> Self {
         let zero = Vector3::zeros();
         Self { base: [zero; 6], arm: [zero; 6], position: zero, home: None, axis: None }
     }
 
-    /// Adds a gradient with respect to the line `R b + p - a` of a leg.
-    pub(crate) fn line(&mut self, leg: usize, g: Vector3<f64>) {
-        self.base[leg] -= g;
+    fn at_base(&mut self, leg: usize, g: &Vector3<f64>) {
+        self.base[leg] += g;
+    }
+
+    fn at_arm(&mut self, leg: usize, g: &Vector3<f64>) {
         self.arm[leg] += g;
+    }
+
+    fn at_position(&mut self, g: &Vector3<f64>) {
         self.position += g;
     }
 
-    pub(crate) fn scaled(mut self, factor: f64) -> Self {
+    fn set_home(&mut self, leg: usize, g: Vector3<f64>) {
+        self.home = Some((leg, g));
+    }
+
+    fn set_axis(&mut self, body: usize, leg: usize, g: Vector3<f64>) {
+        self.axis = Some((body, leg, g));
+    }
+
+    fn scaled(mut self, factor: f64) -> Self {
         self.base.iter_mut().chain(&mut self.arm).for_each(|g| *g *= factor);
         self.position *= factor;
         self.home = self.home.map(|(i, g)| (i, g * factor));
         self.axis = self.axis.map(|(b, i, g)| (b, i, g * factor));
         self
     }
+}
 
+impl Pull {
     /// Adds `factor` times another.
     pub(crate) fn add(&mut self, other: &Self, factor: f64) {
         for i in 0..6 {

@@ -8,9 +8,10 @@ use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DVector};
 
+use super::judging::Judged;
 use super::kinematics::HeldPose;
 use super::linear::{LinearBound, Linearised};
-use super::model::{Judged, Model, Task};
+use super::model::{Model, Task};
 use super::subproblem::{Step, Subproblem};
 use crate::num::conic::SolverFailure;
 
@@ -24,7 +25,7 @@ pub(crate) struct Effort {
 
 impl Effort {
     /// Enough to compare starts.
-    pub(crate) const RANK: Self = Self { iterations: 12, tolerance: 1e-3 };
+    pub(crate) const RANK: Self = Self { iterations: 30, tolerance: 1e-5 };
     /// To the accuracy of the conic solver.
     pub(crate) const POLISH: Self = Self { iterations: 80, tolerance: 1e-8 };
 }
@@ -182,6 +183,9 @@ pub(crate) fn climb(
     let mut history = Vec::new();
     let mut near = s.linearised(LARGEST_RADIUS);
     for _ in 0..effort.iterations {
+        if model.is_stopped() {
+            break;
+        }
         let Some(here) = &near else {
             failure = Some(SolverFailure::Data);
             break;

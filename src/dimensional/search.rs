@@ -1,10 +1,13 @@
-//! Many starts, the best of them polished while poses are added until none is worse.
+//! Populations, climbs from their best members, and the best ends polished while poses are added until none is worse.
+
+use std::ops::ControlFlow;
 
 use super::answer::outcome;
 use super::conflict::{conflict, elastic};
 use super::kinematics::HeldPose;
 use super::model::{Model, Task};
 use super::outcome::{DimensionalOutcome, DimensionalReport};
+use super::population::{Judge, evolve};
 use super::problem::{DimensionalProblem, InvalidProblem, Mode};
 use super::scp::{Effort, HistoryStep, Run, climb};
 use super::worst_pose::worse_poses;
@@ -14,13 +17,15 @@ use crate::num::parallel::parallel;
 /// Options of the search; none of them changes what is feasible.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SearchOptions {
-    /// Seed of the starts. Same seed, same answer, whatever the number of threads.
+    /// Seed of the populations. Same seed, same answer, whatever the number of threads.
     pub seed: u64,
     /// Worker threads (0 counts as 1).
     pub threads: usize,
-    /// Random points that are compared before any climb.
-    pub samples: usize,
-    /// Points from which the first pass climbs.
+    /// Populations that evolve apart from each other.
+    pub populations: usize,
+    /// Generations of each.
+    pub generations: usize,
+    /// Members of each population from which the first pass climbs.
     pub starts: usize,
     /// Runs that are polished.
     pub polished: usize,
@@ -28,36 +33,46 @@ pub struct SearchOptions {
 
 impl Default for SearchOptions {
     fn default() -> Self {
-        Self { seed: 1, threads: 1, samples: 2000, starts: 48, polished: 6 }
+        Self { seed: 1, threads: 1, populations: 12, generations: 15, starts: 16, polished: 8 }
     }
 }
 
-/// How far the search is.
+/// A stage of the search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum Progress {
+pub enum Stage {
+    /// Populations that evolve.
+    Populations,
     /// Climbs of the first pass.
-    Ranking {
-        /// Done.
-        done: usize,
-        /// Of how many.
-        total: usize,
-    },
-    /// Polished runs.
-    Polishing {
-        /// Done.
-        done: usize,
-        /// Of how many.
-        total: usize,
-    },
+    Climbs,
+    /// Polished runs, or steps of a front.
+    Polishing,
 }
 
+/// How far the search is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Progress {
+    /// Stage.
+    pub stage: Stage,
+    /// Done in this stage.
+    pub done: usize,
+    /// Of how many.
+    pub total: usize,
+    /// Best value of the first objective so far among runs that meet the requirements, in its unit.
+    pub best: Option<f64>,
+}
+
+/// Every so many populations one evolves so many times as long: young populations have many basins, old ones the deep ones.
+const LONG: (usize, usize) = (3, 4);
 /// Poses of the first pass.
 const FEW_POSES: usize = 16;
 /// Runs that are polished though the first pass left them infeasible.
 const UNMET: usize = 2;
 /// Rounds of adding poses.
 const ROUNDS: usize = 12;
+/// Members that differ by more in some variable are starts of their own; ends whose gains differ by less, relatively, count as one.
+const DISTINCT: (f64, f64) = (0.1, 1e-4);
+
 /// A polished run with the poses it ended with.
 #[derive(Debug, Clone)]
 pub(crate) struct Refined {
@@ -82,6 +97,9 @@ pub(crate) fn refine(
         return Refined { run, poses, complete: false };
     }
     for round in 0..ROUNDS {
+        if model.is_stopped() {
+            break;
+        }
         let sign = model.sign(&run.x);
         let worse = worse_poses(model, &run.x, task, &poses, sign, seed.wrapping_add(round as u64));
         if worse.is_empty() {
@@ -96,56 +114,29 @@ pub(crate) fn refine(
     Refined { run, poses, complete: false }
 }
 
-/// Random points, the most promising first.
-fn starts(
-    model: &Model<'_>,
-    few: &[HeldPose],
-    task: &Task,
-    given: &[Vec<f64>],
-    o: &SearchOptions,
-) -> Vec<Vec<f64>> {
-    let mut rng = Rng::stream(o.seed, 0x5347);
-    let chosen = model.shape.axes.into_iter().flatten();
-    let is_axis: Vec<bool> = {
-        let mut out = vec![false; model.shape.start.len()];
-        chosen.for_each(|first| out[first..first + 18].fill(true));
-        out
-    };
-    let mut draw = || -> Vec<f64> {
-        (0..is_axis.len())
-            .map(|j| {
-                let (low, high) = model.shape.bounds[j];
-                // axes start along the legs at home
-                if is_axis[j] { model.shape.start[j] } else { rng.uniform(low, high) }
-            })
-            .collect()
-    };
-    let mut points: Vec<Vec<f64>> = (0..o.samples.max(1)).map(|_| draw()).collect();
-    if model.shape.offset_variables().is_none() {
-        points.push(model.shape.start.clone());
-    }
-    let rate = |k: usize| {
-        let j = model.judge(few, &points[k], task, model.sign(&points[k]));
-        (j.total_violation(task), j.gain(task))
-    };
-    let rated = parallel(points.len(), o.threads, rate, &mut |_| ());
-    let mut order: Vec<usize> = (0..points.len()).collect();
-    // feasible points by their gain, then the others by their violation
-    order.sort_by(|&i, &j| {
-        let key = |k: usize| (rated[k].0.max(1e-3), -rated[k].1);
-        key(i).0.total_cmp(&key(j).0).then(key(i).1.total_cmp(&key(j).1)).then(i.cmp(&j))
-    });
-    order.truncate(o.starts.max(1));
-    let fits = |x: &&Vec<f64>| x.len() == model.shape.start.len();
-    given.iter().filter(fits).cloned().chain(order.into_iter().map(|k| points[k].clone())).collect()
+/// A point with the poses that matter most near it.
+struct Start {
+    x: Vec<f64>,
+    few: Vec<HeldPose>,
 }
 
-/// Evenly chosen ones.
-fn few_of(poses: &[HeldPose], count: usize) -> Vec<HeldPose> {
-    if poses.len() <= count {
-        return poses.to_vec();
+/// The best distinct members of a population.
+fn population(model: &Model<'_>, task: &Task, given: &[Vec<f64>], k: usize, o: &SearchOptions) -> Vec<Start> {
+    let mut judge = Judge::new(model, task);
+    let generations = if k % LONG.0 == LONG.0 - 1 { LONG.1 * o.generations } else { o.generations };
+    let members = evolve(&mut judge, given, generations, &mut Rng::stream(o.seed, 0x5347 + k as u64));
+    let few: Vec<HeldPose> = judge.poses().iter().take(FEW_POSES).copied().collect();
+    let mut out: Vec<Start> = Vec::new();
+    for m in members {
+        if out.len() < o.starts.max(1) && !out.iter().any(|s| are_near(&s.x, &m.x, DISTINCT.0)) {
+            out.push(Start { x: m.x, few: few.clone() });
+        }
     }
-    (0..count).map(|k| poses[k * poses.len() / count]).collect()
+    out
+}
+
+fn are_near(a: &[f64], b: &[f64], within: f64) -> bool {
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() < within)
 }
 
 pub(crate) fn better(model: &Model<'_>, task: &Task, a: &Run, b: &Run) -> std::cmp::Ordering {
@@ -171,47 +162,103 @@ fn first_task(p: &DimensionalProblem) -> Task {
 pub(crate) struct Searched {
     /// Best first; feasible ones before the others.
     pub(crate) refined: Vec<Refined>,
-    pub(crate) starts: Vec<Vec<f64>>,
+    pub(crate) starts: usize,
     pub(crate) feasible: usize,
 }
 
-/// Two passes over many starts.
+/// Tells how far the search is, and heeds the answer.
+pub(crate) struct Watch<'w, 'm, 'a> {
+    model: &'m Model<'a>,
+    best: Option<f64>,
+    progress: &'w mut dyn FnMut(Progress) -> ControlFlow<()>,
+}
+
+impl<'w, 'm, 'a> Watch<'w, 'm, 'a> {
+    pub(crate) fn new(
+        model: &'m Model<'a>,
+        progress: &'w mut dyn FnMut(Progress) -> ControlFlow<()>,
+    ) -> Self {
+        Self { model, best: None, progress }
+    }
+
+    pub(crate) fn tell(&mut self, stage: Stage, (done, total): (usize, usize), run: Option<&Run>) {
+        if let Some(run) = run.filter(|r| r.is_feasible(self.model))
+            && let (Some(o), Some(gain)) = (self.model.objectives.first(), run.judged.gains.first())
+        {
+            let (value, unit) = (gain * self.model.unit(*o), self.model.unit(*o));
+            self.best = Some(match self.best {
+                Some(best) if best * unit.signum() >= value * unit.signum() => best,
+                _ => value,
+            });
+        }
+        self.model.heed((self.progress)(Progress { stage, done, total, best: self.best }));
+    }
+}
+
+/// Populations, short climbs from their best members, and the best ends polished.
 pub(crate) fn search_task(
     model: &Model<'_>,
     task: &Task,
     given: &[Vec<f64>],
     o: &SearchOptions,
-    progress: &mut dyn FnMut(Progress),
+    watch: &mut Watch<'_, '_, '_>,
 ) -> Searched {
-    let poses = model.first_poses();
-    let few = few_of(&poses, FEW_POSES);
-    let starts = starts(model, &few, task, given, o);
+    let coarse = model.without_axes();
+    let first = coarse.as_ref().unwrap_or(model);
+    let fits = |x: &&Vec<f64>| x.len() == model.shape.start.len();
+    let mut given: Vec<Vec<f64>> = given.iter().filter(fits).cloned().collect();
+    if model.shape.offset_variables().is_none() {
+        given.push(model.shape.start.clone());
+    }
+    for x in &mut given {
+        x.truncate(first.shape.start.len());
+    }
+    let total = o.populations.max(1);
+    // the first population knows what is given
+    let live = |k: usize| population(first, task, if k == 0 { &given } else { &[] }, k, o);
+    let found =
+        parallel(total, o.threads, live, &mut |done, _| watch.tell(Stage::Populations, (done, total), None));
+    let few: Vec<HeldPose> = found.first().and_then(|f| f.first()).map_or(Vec::new(), |s| s.few.clone());
+    let given = given.into_iter().map(|x| Start { x, few: few.clone() });
+    let starts: Vec<Start> = found.into_iter().flatten().chain(given).collect();
     let total = starts.len();
-    let rank = |k: usize| climb(model, &few, task, &starts[k], Effort::RANK);
-    let ranked = parallel(total, o.threads, rank, &mut |done| progress(Progress::Ranking { done, total }));
-    let feasible = ranked.iter().filter(|r| r.is_feasible(model)).count();
+    let climb = |k: usize| climb(first, &starts[k].few, task, &starts[k].x, Effort::RANK);
+    let tick = &mut |done: usize, _: &Run| watch.tell(Stage::Climbs, (done, total), None);
+    let ranked = parallel(total, o.threads, climb, tick);
+    let feasible = ranked.iter().filter(|r| r.is_feasible(first)).count();
     let mut order: Vec<usize> = (0..total).collect();
-    order.sort_by(|&i, &j| better(model, task, &ranked[i], &ranked[j]).then(i.cmp(&j)));
+    order.sort_by(|&i, &j| better(first, task, &ranked[i], &ranked[j]).then(i.cmp(&j)));
     let mut chosen: Vec<usize> = Vec::new();
     for k in order {
-        let near = |j: &usize| ranked[*j].x.iter().zip(&ranked[k].x).all(|(a, b)| (a - b).abs() < 1e-2);
         // where some starts led to feasible points the others are hardly worth the time
-        let hopeful = ranked[k].is_feasible(model) || chosen.len() < UNMET;
-        if hopeful && chosen.len() < o.polished.max(1) && !chosen.iter().any(near) {
+        let hopeful = ranked[k].is_feasible(first) || chosen.len() < UNMET;
+        // symmetric platforms have the same optimum many times
+        let (gain, least) = (ranked[k].judged.gain(task), ranked[k].judged.total_violation(task));
+        let known = chosen.iter().map(|j| &ranked[*j].judged).any(|j| {
+            (j.gain(task) - gain).abs() < DISTINCT.1 * gain.abs()
+                && (j.total_violation(task) - least).abs() < 1e-6
+        });
+        if hopeful && chosen.len() < o.polished.max(1) && !known {
             chosen.push(k);
         }
     }
-    let total = chosen.len();
+    let poses = model.first_poses();
     let polish = |i: usize| {
-        let first = &ranked[chosen[i]];
-        let mut refined = refine(model, task, &first.x, poses.clone(), o.seed);
-        refined.run.history.splice(0..0, first.history.iter().copied());
+        let ranked = &ranked[chosen[i]];
+        let mut x = ranked.x.clone();
+        x.resize(model.shape.start.len(), 0.0);
+        if coarse.is_some() {
+            model.aim(&mut x);
+        }
+        let mut refined = refine(model, task, &x, poses.clone(), o.seed);
+        refined.run.history.splice(0..0, ranked.history.iter().copied());
         refined
     };
-    let mut refined =
-        parallel(total, o.threads, polish, &mut |done| progress(Progress::Polishing { done, total }));
+    let total = chosen.len();
+    let tick = &mut |done: usize, r: &Refined| watch.tell(Stage::Polishing, (done, total), Some(&r.run));
+    let mut refined = parallel(total, o.threads, polish, tick);
     refined.sort_by(|a, b| better(model, task, &a.run, &b.run));
-    Searched { refined, starts, feasible }
+    Searched { refined, starts: starts.len(), feasible }
 }
 
 /// Finds the best platform that meets the requirements; `docs/theory/dimensional-synthesis.md` has the method.
@@ -226,16 +273,23 @@ pub fn optimize(
     problem: &DimensionalProblem,
     given: &[Vec<f64>],
     options: &SearchOptions,
-    progress: &mut dyn FnMut(Progress),
+    progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<DimensionalReport, InvalidProblem> {
     let model = Model::new(problem)?;
     let mut task = first_task(problem);
-    let mut found = search_task(&model, &task, given, options, progress);
-    let (starts, feasible) = (found.starts.len(), found.feasible);
+    let mut watch = Watch::new(&model, progress);
+    let mut found = search_task(&model, &task, given, options, &mut watch);
+    let (starts, feasible) = (found.starts, found.feasible);
     let polished =
         found.refined.iter().map(|r| r.run.is_feasible(&model).then(|| r.run.judged.gain(&task))).collect();
-    let report = |outcome| DimensionalReport { outcome, starts, feasible, polished, seed: options.seed };
+    let report = |outcome| {
+        let interrupted = model.is_stopped();
+        DimensionalReport { outcome, starts, feasible, polished, seed: options.seed, interrupted }
+    };
     let Some(first) = found.refined.first() else { return Ok(report(DimensionalOutcome::Undecided(None))) };
+    if !first.run.is_feasible(&model) && model.is_stopped() {
+        return Ok(report(DimensionalOutcome::Undecided(None)));
+    }
     if !first.run.is_feasible(&model) {
         let settled = elastic(&model, &found.refined, options.threads);
         if let Some(refined) = settled.iter().find(|r| r.run.is_feasible(&model)) {
@@ -262,7 +316,10 @@ pub fn optimize(
                 let from = &found.refined[k];
                 refine(&model, &task, &from.run.x, from.poses.clone(), options.seed)
             };
-            let mut refined = parallel(found.refined.len(), options.threads, again, &mut |_| ());
+            let total = found.refined.len();
+            let tick =
+                &mut |done: usize, r: &Refined| watch.tell(Stage::Polishing, (done, total), Some(&r.run));
+            let mut refined = parallel(total, options.threads, again, tick);
             refined.sort_by(|a, b| better(&model, &task, &a.run, &b.run));
             found.refined = refined;
         }

@@ -238,6 +238,11 @@ impl Shape {
         self.offset_variables().map(|at| at.map(|k| x[k]))
     }
 
+    /// Whether a variable is a component of a joint axis.
+    pub(crate) fn is_axis(&self, j: usize) -> bool {
+        self.axes.iter().flatten().any(|first| (*first..first + 18).contains(&j))
+    }
+
     pub(crate) fn offset_variables(&self) -> Option<[usize; 6]> {
         match &self.skeleton {
             Skeleton::Octahedral { offsets, .. } => *offsets,

@@ -6,10 +6,14 @@ use nalgebra::DMatrix;
 
 use super::linear::{Cone, LinearBound, LinearCluster, LinearItem, LinearPiece, Linearised};
 use super::model::{Group, Model, Task};
-use crate::num::conic::{ConicAnswer, ConicProgram, Row, SolverFailure};
+use crate::num::conic::{ConicAnswer, ConicPoint, ConicProgram, Row, SolverFailure};
 
 /// A subproblem point with a larger violation (data of order one) is refused.
 const ACCEPTED_RESIDUAL: f64 = 1e-6;
+/// Violation at which a row that was left out is added (data of order one).
+const UNSEEN: f64 = 1e-9;
+/// Rows of a group, and pieces of an objective, that the program begins with.
+const FIRST: usize = 6;
 
 /// What a step is computed from.
 #[derive(Debug)]
@@ -32,6 +36,35 @@ pub(crate) struct Step {
     /// Multipliers of the smooth constraints and pieces, by their position.
     pub(crate) items: Vec<f64>,
     pub(crate) pieces: Vec<f64>,
+}
+
+/// Which constraints and pieces are written into the program.
+struct Held {
+    items: Vec<bool>,
+    pieces: Vec<bool>,
+}
+
+impl Held {
+    /// What is violated, and of every group and objective those with the least values.
+    fn first(near: &Linearised, backoff: f64) -> Self {
+        let mut items: Vec<bool> = near.items.iter().map(|i| i.value < backoff).collect();
+        let mut pieces = vec![false; near.pieces.len()];
+        let mut groups: BTreeMap<Group, Vec<usize>> = BTreeMap::new();
+        near.items.iter().enumerate().for_each(|(k, i)| groups.entry(i.group).or_default().push(k));
+        for mut list in groups.into_values() {
+            list.sort_by(|i, j| near.items[*i].value.total_cmp(&near.items[*j].value));
+            list.iter().take(FIRST).for_each(|k| items[*k] = true);
+        }
+        let mut objectives: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        near.pieces.iter().enumerate().for_each(|(k, p)| objectives.entry(p.objective).or_default().push(k));
+        for mut list in objectives.into_values() {
+            list.sort_by(|i, j| near.pieces[*i].value.total_cmp(&near.pieces[*j].value));
+            // the greatest ones too: longest legs
+            let ends = list.iter().take(FIRST).chain(list.iter().rev().take(FIRST));
+            ends.for_each(|k| pieces[*k] = true);
+        }
+        Self { items, pieces }
+    }
 }
 
 /// A program that is being written, with the places of its variables.
@@ -65,7 +98,28 @@ fn add(p: &mut ConicProgram, row: Row) -> usize {
 
 impl Subproblem<'_> {
     /// Solves for the step; refuses a point whose plain residual is too large.
+    ///
+    /// Few rows bind. The program is written with those that are nearest to it, and rows that its point violates are added until there are
+    /// none: the point is then that of the program with all rows.
     pub(crate) fn solve(&self) -> Result<Step, SolverFailure> {
+        let mut held = Held::first(self.near, self.model.backoff);
+        loop {
+            let (draft, rows) = self.write(&held);
+            let point = match draft.p.solve() {
+                ConicAnswer::Point(point) => point,
+                ConicAnswer::Infeasible(_) => return Err(SolverFailure::Numerical), // slacks make it feasible
+                ConicAnswer::Failed(why) => return Err(why),
+            };
+            if point.residual > ACCEPTED_RESIDUAL {
+                return Err(SolverFailure::Residual);
+            }
+            if !self.add_violated(&mut held, &draft, &point.x) {
+                return Ok(self.step(&draft, rows, &point));
+            }
+        }
+    }
+
+    fn write(&self, held: &Held) -> (Draft, [Vec<Option<usize>>; 2]) {
         let n = self.x.len();
         let p = ConicProgram { variables: n, linear: vec![0.0; n], ..Default::default() };
         let mut draft =
@@ -77,9 +131,9 @@ impl Subproblem<'_> {
                 draft.gains.insert(m, y);
             }
         }
-        let groups: Vec<Group> = self.near.items.iter().map(|i| i.group).collect();
+        let used = self.near.items.iter().zip(&held.items).filter(|(_, h)| **h).map(|(i, _)| i.group);
         let floors = (0..self.task.floors.len()).filter(|m| self.task.floors[*m].is_some()).map(Group::Floor);
-        for group in groups.into_iter().chain(floors) {
+        for group in used.chain(floors) {
             if !draft.slacks.contains_key(&group) {
                 let s = draft.variable(self.penalty * self.task.cost(group));
                 draft.p.at_least_zero(vec![(s, -1.0)], 0.0);
@@ -92,21 +146,42 @@ impl Subproblem<'_> {
                 draft.p.at_least_zero(vec![(y, -1.0), (s, -1.0)], -floor);
             }
         }
-        let items: Vec<Option<usize>> = self.near.items.iter().map(|i| self.item(&mut draft, i)).collect();
-        let pieces: Vec<Option<usize>> =
-            self.near.pieces.iter().map(|p| Self::piece(&mut draft, p)).collect();
+        let items = self.near.items.iter().zip(&held.items);
+        let items = items.map(|(i, held)| held.then(|| self.item(&mut draft, i)).flatten()).collect();
+        let pieces = self.near.pieces.iter().zip(&held.pieces);
+        let pieces = pieces.map(|(p, held)| held.then(|| Self::piece(&mut draft, p)).flatten()).collect();
         if let Some(h) = self.curvature {
             let upper = (0..n).flat_map(|j| (0..=j).map(move |i| (i, j)));
             draft.p.quadratic = upper.map(|(i, j)| (i, j, h[(i, j)])).collect();
         }
-        let point = match draft.p.solve() {
-            ConicAnswer::Point(point) => point,
-            ConicAnswer::Infeasible(_) => return Err(SolverFailure::Numerical), // slacks make it feasible
-            ConicAnswer::Failed(why) => return Err(why),
-        };
-        if point.residual > ACCEPTED_RESIDUAL {
-            return Err(SolverFailure::Residual);
+        (draft, [items, pieces])
+    }
+
+    /// Marks the rows that the point violates; `false` when there are none.
+    fn add_violated(&self, held: &mut Held, draft: &Draft, point: &[f64]) -> bool {
+        let d = &point[..self.x.len()];
+        let mut any = false;
+        for (item, held) in self.near.items.iter().zip(&mut held.items).filter(|(_, h)| !**h) {
+            let slack = draft.slacks.get(&item.group).map_or(0.0, |s| point[*s]);
+            *held = item.room(d, slack, self.model.backoff) < -UNSEEN;
+            any |= *held;
         }
+        for (piece, held) in self.near.pieces.iter().zip(&mut held.pieces).filter(|(_, h)| !**h) {
+            *held = match &piece.bound {
+                LinearBound::Length(_) => {
+                    let (low, high) = draft.lengths[&piece.objective];
+                    let (least, greatest) = piece.lengths(d);
+                    point[low] > least + UNSEEN || point[high] < greatest - UNSEEN
+                }
+                _ => point[draft.gains[&piece.objective]] > piece.upper(d) + UNSEEN,
+            };
+            any |= *held;
+        }
+        any
+    }
+
+    fn step(&self, draft: &Draft, rows: [Vec<Option<usize>>; 2], point: &ConicPoint) -> Step {
+        let n = self.x.len();
         let d: Vec<f64> = (0..n)
             .map(|j| {
                 let (low, high) = self.model.shape.bounds[j];
@@ -121,7 +196,8 @@ impl Subproblem<'_> {
         });
         let dual =
             |rows: Vec<Option<usize>>| rows.into_iter().map(|r| r.map_or(0.0, |r| point.dual[r])).collect();
-        Ok(Step { d, merit: gain - self.penalty * slack - bend, items: dual(items), pieces: dual(pieces) })
+        let [items, pieces] = rows.map(dual);
+        Step { d, merit: gain - self.penalty * slack - bend, items, pieces }
     }
 
     fn trust_region(&self, draft: &mut Draft) {

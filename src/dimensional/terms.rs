@@ -5,8 +5,9 @@
 
 use nalgebra::{Matrix6, Vector3, Vector6};
 
+use super::clearance::Gap;
 use super::kinematics::Lines;
-use super::pull::Pull;
+use super::pull::Gradient;
 use super::shape::{Ends, Shape};
 use crate::geom::Pose;
 use crate::requirements::{FixedTo, Housing, JointAxes, Load, Requirements, Swing, TermKind};
@@ -25,10 +26,10 @@ pub(crate) enum Exact {
 
 /// A requirement at a pose.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Item {
+pub(crate) struct Item<P> {
     pub(crate) id: TermId,
     pub(crate) value: f64,
-    pub(crate) pull: Pull,
+    pub(crate) pull: P,
     pub(crate) exact: Option<Exact>,
 }
 
@@ -53,7 +54,13 @@ impl<'a> Terms<'a> {
     }
 
     /// Every requirement at a pose.
-    pub(crate) fn visit(&self, l: &Lines, ends: &Ends, x: &[f64], see: &mut dyn FnMut(Item)) {
+    pub(crate) fn visit<P: Gradient>(
+        &self,
+        l: &Lines,
+        ends: &Ends,
+        x: &[f64],
+        see: &mut impl FnMut(Item<P>),
+    ) {
         self.lengths(l, see);
         self.swing(l, ends, x, see);
         self.clearances(l, see);
@@ -61,11 +68,11 @@ impl<'a> Terms<'a> {
         self.speeds(l, see);
     }
 
-    fn lengths(&self, l: &Lines, see: &mut dyn FnMut(Item)) {
+    fn lengths<P: Gradient>(&self, l: &Lines, see: &mut impl FnMut(Item<P>)) {
         let Some(limits) = self.required.hardware.leg_length else { return };
         let (least, greatest) = limits.range();
         for i in 0..6 {
-            let mut pull = Pull::none();
+            let mut pull = P::none();
             pull.line(i, l.direction[i] / self.size);
             let short = (l.length[i] - least) / self.size;
             see(Item { id: (TermKind::LegTooShort, i, i, 0), value: short, pull, exact: None });
@@ -75,7 +82,7 @@ impl<'a> Terms<'a> {
         }
     }
 
-    fn swing(&self, l: &Lines, ends: &Ends, x: &[f64], see: &mut dyn FnMut(Item)) {
+    fn swing<P: Gradient>(&self, l: &Lines, ends: &Ends, x: &[f64], see: &mut impl FnMut(Item<P>)) {
         let h = &self.required.hardware;
         let bodies = [(TermKind::BaseSwing, h.base_swing), (TermKind::PlatformSwing, h.platform_swing)];
         for (body, (kind, swing)) in bodies.into_iter().enumerate() {
@@ -86,23 +93,23 @@ impl<'a> Terms<'a> {
         }
     }
 
-    fn swing_of(
+    fn swing_of<P: Gradient>(
         &self,
         l: &Lines,
         ends: &Ends,
         x: &[f64],
         (body, kind, i): (usize, TermKind, usize),
         swing: &Swing,
-    ) -> Item {
+    ) -> Item<P> {
         let cos = swing.limit_deg.to_radians().cos();
         let here = |c: &Vector3<f64>| if body == 0 { *c } else { l.rotation * c };
         let back = |g: &Vector3<f64>| if body == 0 { *g } else { l.rotation.inverse() * g };
-        let mut pull = Pull::none();
+        let mut pull = P::none();
         let d = &l.line[i];
         let (axis, exact) = match (self.axes[body], swing.axes) {
             (Some(first), _) => {
                 let c = Vector3::from_fn(|k, _| x[first + 3 * i + k]);
-                pull.axis = Some((body, i, back(d) / self.size));
+                pull.set_axis(body, i, back(d) / self.size);
                 (here(&c), None)
             }
             (None, JointAxes::Given(axes)) => {
@@ -121,7 +128,7 @@ impl<'a> Terms<'a> {
                 };
                 let u = line.normalize();
                 let g = unturn(d);
-                pull.home = Some((i, (g - u * u.dot(&g)) / (line.norm() * self.size)));
+                pull.set_home(i, (g - u * u.dot(&g)) / (line.norm() * self.size));
                 (turn(&u), None)
             }
         };
@@ -129,30 +136,30 @@ impl<'a> Terms<'a> {
         Item { id: (kind, i, i, 0), value: (d.dot(&axis) - cos * l.length[i]) / self.size, pull, exact }
     }
 
-    fn clearances(&self, l: &Lines, see: &mut dyn FnMut(Item)) {
+    fn clearances<P: Gradient>(&self, l: &Lines, see: &mut impl FnMut(Item<P>)) {
         let h = &self.required.hardware;
         let Some(body) = h.leg_body else { return };
         let clearance = h.leg_clearance.unwrap_or(0.0);
         for (i, j) in self.separate_legs() {
-            for gap in l.leg_gaps(&body, i, j) {
+            l.leg_gaps(&body, i, j, &mut |gap: Gap<P>| {
                 see(Item {
                     id: (TermKind::LegClearance, i, j, gap.part),
                     value: (gap.value - clearance) / self.size,
                     pull: gap.pull.scaled(1.0 / self.size),
                     exact: None,
                 });
-            }
+            });
         }
         for (k, keep_out) in self.required.keep_outs.iter().enumerate() {
             for i in 0..6 {
-                for gap in l.keep_out_gaps(&body, i, keep_out) {
+                l.keep_out_gaps(&body, i, keep_out, &mut |gap: Gap<P>| {
                     see(Item {
                         id: (TermKind::KeepOut, i, k, gap.part),
                         value: (gap.value - clearance) / self.size,
                         pull: gap.pull.scaled(1.0 / self.size),
                         exact: None,
                     });
-                }
+                });
             }
         }
     }
@@ -165,7 +172,7 @@ impl<'a> Terms<'a> {
             .filter(move |&(i, j)| joints[i].0 != joints[j].0 && joints[i].1 != joints[j].1)
     }
 
-    fn forces(&self, l: &Lines, see: &mut dyn FnMut(Item)) {
+    fn forces<P: Gradient>(&self, l: &Lines, see: &mut impl FnMut(Item<P>)) {
         let Some(greatest) = self.required.hardware.max_leg_force else { return };
         for (k, load) in self.required.loads.iter().enumerate() {
             let forces = leg_forces(l, load, self.size);
@@ -173,7 +180,7 @@ impl<'a> Terms<'a> {
                 let id = (TermKind::LegForce, i, k, 0);
                 let item = match &forces {
                     Some(f) => {
-                        let (value, pull) = f.of(l, i, self.size);
+                        let (value, pull): (f64, P) = f.of(l, i, self.size);
                         let factor = -value.signum() / greatest;
                         Item {
                             id,
@@ -182,14 +189,14 @@ impl<'a> Terms<'a> {
                             exact: None,
                         }
                     }
-                    None => Item { id, value: SINGULAR_FORCE, pull: Pull::none(), exact: None },
+                    None => Item { id, value: SINGULAR_FORCE, pull: P::none(), exact: None },
                 };
                 see(item);
             }
         }
     }
 
-    fn speeds(&self, l: &Lines, see: &mut dyn FnMut(Item)) {
+    fn speeds<P: Gradient>(&self, l: &Lines, see: &mut impl FnMut(Item<P>)) {
         let (Some(greatest), Some(speed)) =
             (self.required.hardware.max_leg_speed, self.required.platform_speed)
         else {
@@ -198,7 +205,7 @@ impl<'a> Terms<'a> {
         let rate = speed.angular_deg.to_radians();
         for i in 0..6 {
             let moment = l.arm[i].cross(&l.direction[i]);
-            let mut pull = Pull::none();
+            let mut pull = P::none();
             if let Some(n) = moment.try_normalize(0.0) {
                 let g = Vector6::from_fn(|k, _| if k < 3 { 0.0 } else { -rate / greatest * n[k - 3] });
                 l.pull_row(&mut pull, i, 1.0, &g);
@@ -209,7 +216,7 @@ impl<'a> Terms<'a> {
     }
 
     /// Requirements without a pose: gaps of housings and distances of joint centres.
-    pub(crate) fn fixed(&self, ends: &Ends, see: &mut dyn FnMut(Item)) {
+    pub(crate) fn fixed<P: Gradient>(&self, ends: &Ends, see: &mut impl FnMut(Item<P>)) {
         for (kind, platform) in [(TermKind::BaseSpacing, false), (TermKind::PlatformSpacing, true)] {
             let housing = self.required.hardware.housing(platform);
             for (i, j) in self.separate_joints(platform) {
@@ -237,11 +244,11 @@ impl<'a> Terms<'a> {
 }
 
 /// Gradient of the difference of joints `j - i` of a body at the identity rotation.
-pub(crate) fn joint_pull(platform: bool, i: usize, j: usize, g: &Vector3<f64>) -> Pull {
-    let mut pull = Pull::none();
-    let side = if platform { &mut pull.arm } else { &mut pull.base };
-    side[j] += g;
-    side[i] -= g;
+pub(crate) fn joint_pull<P: Gradient>(platform: bool, i: usize, j: usize, g: &Vector3<f64>) -> P {
+    let mut pull = P::none();
+    for (leg, g) in [(i, -g), (j, *g)] {
+        if platform { pull.at_arm(leg, &g) } else { pull.at_base(leg, &g) }
+    }
     pull
 }
 
@@ -285,10 +292,10 @@ pub(crate) fn leg_forces(l: &Lines, load: &Load, length: f64) -> Option<Forces> 
 
 impl Forces {
     /// Force of a leg and its gradient: `dF_i = - sum_j F_j (row i of the inverse) . d(column j)`.
-    pub(crate) fn of(&self, l: &Lines, leg: usize, length: f64) -> (f64, Pull) {
+    pub(crate) fn of<P: Gradient>(&self, l: &Lines, leg: usize, length: f64) -> (f64, P) {
         let y: Vector6<f64> = self.inverse.row(leg).transpose();
-        let mut pull = Pull::none();
-        for j in 0..6 {
+        let mut pull = P::none();
+        for j in (0..6).filter(|_| P::KEPT) {
             l.pull_row(&mut pull, j, length, &(y * -self.forces[j]));
         }
         (self.forces[leg], pull)

@@ -2,6 +2,8 @@
 
 mod outcomes;
 
+use std::ops::ControlFlow;
+
 use nalgebra::{Point3, Rotation3, Unit, Vector3};
 
 use super::cap::smallest_cap;
@@ -197,7 +199,7 @@ fn the_smallest_cap_is_that_of_two_or_three_directions() {
 }
 
 fn quick() -> SearchOptions {
-    SearchOptions { samples: 200, starts: 6, polished: 2, ..SearchOptions::default() }
+    SearchOptions { populations: 2, generations: 20, polished: 2, ..SearchOptions::default() }
 }
 
 #[test]
@@ -210,7 +212,7 @@ fn height_of_least_stroke_is_the_one_on_paper() {
     p.space.rotation_deg = Vector3::zeros();
     p.requirements.hardware.leg_length = Some(LengthLimits::Range(230.0, 400.0));
     let reach = (200.0f64.powi(2) + 120.0 * 120.0 - 200.0 * 120.0).sqrt();
-    let found = optimize(&p, &[], &quick(), &mut |_| ()).unwrap();
+    let found = optimize(&p, &[], &quick(), &mut |_| ControlFlow::Continue(())).unwrap();
     let s = found.solution().unwrap();
     let h = (230.0f64.powi(2) - reach * reach).sqrt() + 20.0;
     assert!((s.home.position.z - h).abs() < 1e-2, "{} {h}", s.home.position.z);
@@ -223,8 +225,10 @@ fn the_optimum_holds_densely_and_random_designs_do_not_beat_it() {
     let mut p = problem(&[VariableKind::SymmetricOffsets], Objective::WorstConditioning);
     p.requirements.hardware.leg_body = Some(LegBody { diameter: 20.0, rod: None });
     p.requirements.hardware.base_swing = Some(Swing { limit_deg: 45.0, axes: JointAxes::Home });
-    let found =
-        optimize(&p, &[], &SearchOptions { samples: 600, starts: 12, ..quick() }, &mut |_| ()).unwrap();
+    let found = optimize(&p, &[], &SearchOptions { populations: 4, generations: 60, ..quick() }, &mut |_| {
+        ControlFlow::Continue(())
+    })
+    .unwrap();
     assert!(matches!(found.outcome, DimensionalOutcome::Optimal(_)), "{found:?}");
     let s = found.solution().unwrap();
     let options = AssessOptions { points: 300, ..AssessOptions::default() };
@@ -244,15 +248,21 @@ fn the_optimum_holds_densely_and_random_designs_do_not_beat_it() {
         }
     }
     assert!(feasible > 10, "{feasible}");
-    let again = SearchOptions { threads: 3, samples: 600, starts: 12, ..quick() };
-    assert_eq!(optimize(&p, &[], &again, &mut |_| ()).unwrap(), found, "threads do not change the answer");
+    let again = SearchOptions { threads: 3, populations: 4, generations: 60, ..quick() };
+    assert_eq!(
+        optimize(&p, &[], &again, &mut |_| ControlFlow::Continue(())).unwrap(),
+        found,
+        "threads do not change the answer"
+    );
 }
 
 #[test]
 fn units_and_frames_do_not_change_the_answer() {
     let p = problem(&[VariableKind::SymmetricOffsets], Objective::WorstConditioning);
     let value = |p: &DimensionalProblem| {
-        optimize(p, &[], &quick(), &mut |_| ()).unwrap().solution().unwrap().objectives[0].1
+        optimize(p, &[], &quick(), &mut |_| ControlFlow::Continue(())).unwrap().solution().unwrap().objectives
+            [0]
+        .1
     };
     let first = value(&p);
     let mut other = p.clone();

@@ -8,6 +8,7 @@ use super::kinematics::{HeldPose, Lines};
 use super::merit::Merit;
 use super::model::{Group, Model, Task};
 use super::shape::Ends;
+use super::terms::Item;
 use crate::num::Rng;
 
 /// Points looked at, and local searches from the worst of them for each quantity: two for an objective, one for the requirement of a leg or of two.
@@ -53,7 +54,7 @@ impl Look<'_> {
             let least = out.entry(q).or_insert(f64::INFINITY);
             *least = f64::min(*least, value);
         };
-        self.model.terms.visit(l, &self.ends, self.x, &mut |item| {
+        self.model.terms.visit(l, &self.ends, self.x, &mut |item: Item<()>| {
             let group = Group::Term(item.id.0);
             if !self.task.dropped.contains(&group) {
                 keep(Quantity::Constraint(group, item.id.1, item.id.2), item.value);
@@ -75,7 +76,7 @@ impl Look<'_> {
             }
             Quantity::Constraint(group, first, second) => {
                 let mut least = f64::INFINITY;
-                self.model.terms.visit(&l, &self.ends, self.x, &mut |item| {
+                self.model.terms.visit(&l, &self.ends, self.x, &mut |item: Item<()>| {
                     if (Group::Term(item.id.0), item.id.1, item.id.2) == (group, first, second) {
                         least = least.min(item.value);
                     }

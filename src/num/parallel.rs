@@ -4,12 +4,12 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 
 /// `f` on every index below `total`, on `threads` threads; the results are in index order, so they do not
-/// depend on the number of threads.
+/// depend on the number of threads. `tick` sees how many are done and the last of them.
 pub(crate) fn parallel<T: Send>(
     total: usize,
     threads: usize,
     f: impl Fn(usize) -> T + Sync,
-    tick: &mut dyn FnMut(usize),
+    tick: &mut dyn FnMut(usize, &T),
 ) -> Vec<T> {
     let next = AtomicUsize::new(0);
     let (send, receive) = mpsc::channel();
@@ -28,8 +28,8 @@ pub(crate) fn parallel<T: Send>(
         }
         drop(send);
         for (done, (k, value)) in receive.iter().enumerate() {
+            tick(done + 1, &value);
             slots[k] = Some(value);
-            tick(done + 1);
         }
     });
     slots.into_iter().flatten().collect()

@@ -240,7 +240,7 @@ fn survey(
             other => other,
         }
     };
-    let tick = &mut |done| progress(Progress::Ranking { done, total, best: best.value() });
+    let tick = &mut |done, _: &_| progress(Progress::Ranking { done, total, best: best.value() });
     parallel(total, o.threads, rank, tick)
 }
 
@@ -261,7 +261,7 @@ fn sample_cells(
             None => CellResult::Passed,
         }
     };
-    let mut ranked = parallel(cells.len(), o.threads, draw, &mut |_| ());
+    let mut ranked = parallel(cells.len(), o.threads, draw, &mut |_, _| ());
     let start = |k: usize| match &ranked[k] {
         CellResult::Feasible(r) => Some(r.t),
         _ => None,
@@ -278,7 +278,7 @@ fn sample_cells(
         best.offer(&run);
         run
     };
-    let tick = &mut |done| progress(Progress::Ranking { done, total, best: best.value() });
+    let tick = &mut |done, _: &_| progress(Progress::Ranking { done, total, best: best.value() });
     for ((k, _), run) in starts.iter().zip(parallel(total, o.threads, run, tick)) {
         if run.is_feasible() {
             ranked[*k] = CellResult::Feasible(run);
@@ -355,7 +355,7 @@ fn polish(
         best.offer(&run);
         run
     };
-    let tick = &mut |done| progress(Progress::Polishing { done, total, best: best.value() });
+    let tick = &mut |done, _: &_| progress(Progress::Polishing { done, total, best: best.value() });
     let runs = parallel(total, o.threads, run, tick);
     let mut kept: Vec<(usize, LocalResult)> = Vec::new();
     for ((k, _), run) in tasks.iter().zip(runs) {

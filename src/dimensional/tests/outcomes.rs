@@ -1,5 +1,7 @@
 //! What comes out: conflicts, levels, fronts, refusals.
 
+use std::ops::ControlFlow;
+
 use nalgebra::{Unit, Vector3};
 
 use super::super::*;
@@ -15,7 +17,7 @@ fn a_conflict_is_named_with_what_each_requirement_would_have_to_give() {
     // a stroke of 10 for a travel of 40; swing takes no part
     p.requirements.hardware.leg_length = Some(LengthLimits::Range(250.0, 260.0));
     p.requirements.hardware.base_swing = Some(Swing { limit_deg: 80.0, axes: JointAxes::Home });
-    let found = optimize(&p, &[], &quick(), &mut |_| ()).unwrap();
+    let found = optimize(&p, &[], &quick(), &mut |_| ControlFlow::Continue(())).unwrap();
     let DimensionalOutcome::Infeasible(conflict) = &found.outcome else { panic!("{found:?}") };
     let kinds: Vec<Demand> = conflict.demands.iter().map(|g| g.demand).collect();
     assert_eq!(kinds, [TermKind::LegTooShort, TermKind::LegTooLong].map(Demand::Requirement));
@@ -27,7 +29,7 @@ fn a_conflict_is_named_with_what_each_requirement_would_have_to_give() {
     assert!((give - excess).abs() < 1e-2, "{give} {excess}");
     // negative control: with that much more room there is no conflict
     p.requirements.hardware.leg_length = Some(LengthLimits::Range(250.0, 260.0 + excess + 0.01));
-    assert!(optimize(&p, &[], &quick(), &mut |_| ()).unwrap().solution().is_some());
+    assert!(optimize(&p, &[], &quick(), &mut |_| ControlFlow::Continue(())).unwrap().solution().is_some());
 }
 
 #[test]
@@ -51,7 +53,7 @@ fn a_conflict_of_cones_is_proved_and_one_that_is_none_is_not() {
     assert!(proved(&p, Group::Term(TermKind::BaseSwing)));
     // spacing is not convex: nothing is proved about it
     assert!(!proved(&p, Group::Term(TermKind::BaseSpacing)));
-    let found = optimize(&p, &[], &quick(), &mut |_| ()).unwrap();
+    let found = optimize(&p, &[], &quick(), &mut |_| ControlFlow::Continue(())).unwrap();
     let DimensionalOutcome::Infeasible(conflict) = &found.outcome else { panic!("{found:?}") };
     assert!(conflict.proved && conflict.demands.len() == 1, "{conflict:?}");
     // negative control: the legs can be within 70 degrees of the vertical
@@ -65,24 +67,32 @@ fn no_member_of_a_front_is_better_in_every_objective() {
     let mut p = problem(&[VariableKind::HomeHeight], Objective::WorstConditioning);
     p.requirements.min_joint_distance = None;
     p.objectives.push((Objective::Stroke, 1.0));
-    let found = pareto(&p, 4, &quick(), &mut |_| ()).unwrap();
+    let found = pareto(&p, 4, &quick(), &mut |_| ControlFlow::Continue(())).unwrap();
     assert!(found.front.len() >= 3, "{found:?}");
     for pair in found.front.windows(2) {
         assert!(pair[0].dense[0] > pair[1].dense[0] && pair[0].dense[1] > pair[1].dense[1]);
     }
     p.objectives.truncate(1);
-    assert_eq!(pareto(&p, 4, &quick(), &mut |_| ()).unwrap_err(), InvalidProblem::FrontOf(1));
+    assert_eq!(
+        pareto(&p, 4, &quick(), &mut |_| ControlFlow::Continue(())).unwrap_err(),
+        InvalidProblem::FrontOf(1)
+    );
 }
 
 #[test]
 fn later_levels_keep_the_earlier_ones() {
     let mut p = problem(&[VariableKind::HomeHeight], Objective::WorstConditioning);
     p.requirements.min_joint_distance = None;
-    let alone = optimize(&p, &[], &quick(), &mut |_| ()).unwrap().solution().unwrap().objectives[0].1;
+    let alone = optimize(&p, &[], &quick(), &mut |_| ControlFlow::Continue(()))
+        .unwrap()
+        .solution()
+        .unwrap()
+        .objectives[0]
+        .1;
     p.objectives.push((Objective::Stroke, 1.0));
     let strokes = [0.01, 0.1].map(|slack| {
         p.mode = Mode::Lexicographic { slack };
-        let found = optimize(&p, &[], &quick(), &mut |_| ()).unwrap();
+        let found = optimize(&p, &[], &quick(), &mut |_| ControlFlow::Continue(())).unwrap();
         let s = found.solution().unwrap();
         assert!((s.objectives[0].1 - alone * (1.0 - slack)).abs() < 1e-4, "{:?} {alone}", s.objectives);
         s.objectives[1].1
@@ -93,7 +103,8 @@ fn later_levels_keep_the_earlier_ones() {
 #[test]
 fn what_cannot_be_asked_is_refused() {
     let p = problem(&[VariableKind::Offsets], Objective::LegForce);
-    let refused = |p: &DimensionalProblem| optimize(p, &[], &quick(), &mut |_| ()).unwrap_err();
+    let refused =
+        |p: &DimensionalProblem| optimize(p, &[], &quick(), &mut |_| ControlFlow::Continue(())).unwrap_err();
     assert!(matches!(refused(&p), InvalidProblem::Needs { needs: "[[loads]]", .. }));
     let p = problem(&[], Objective::WorstConditioning);
     assert_eq!(refused(&p), InvalidProblem::NoVariables);

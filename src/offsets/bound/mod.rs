@@ -123,7 +123,7 @@ impl<'a> Bounding<'a> {
             let batch = open.split_off(open.len().saturating_sub(BATCH));
             let limit = value * (1.0 + gap);
             let look = |k: usize| self.look(&batch[k], limit);
-            let results = parallel(batch.len(), o.threads, look, &mut |_| ());
+            let results = parallel(batch.len(), o.threads, look, &mut |_, _| ());
             done += batch.len();
             let mut middles = Vec::new();
             for (node, kept) in batch.iter().zip(results) {

@@ -4,10 +4,11 @@ use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::poses;
+use crate::cli::progress::{Interrupt, Progress};
 use crate::design::{Combination, Design};
 use crate::dimensional::{
     DimensionalOutcome, DimensionalProblem, DimensionalReport, DimensionalSolution, Mode, Objective,
-    SearchOptions, VariableKind, Variables, evaluate, optimize,
+    SearchOptions, Stage, VariableKind, Variables, evaluate, optimize,
 };
 use crate::equivalence::{Verification, verify};
 use crate::fk::FkOptions;
@@ -49,6 +50,7 @@ pub(super) struct Checked {
 impl Done {
     pub(super) fn exit(&self) -> Exit {
         match (&self.report.outcome, &self.checked) {
+            _ if self.report.interrupted => Exit::Inconclusive,
             (DimensionalOutcome::Infeasible(_), _) => Exit::No,
             (DimensionalOutcome::Optimal(_), Some(c)) if c.assessment.all_met() => Exit::Yes,
             _ => Exit::Inconclusive,
@@ -57,6 +59,7 @@ impl Done {
 
     pub(super) fn status(&self) -> &'static str {
         match (&self.report.outcome, &self.checked) {
+            _ if self.report.interrupted => "interrupted",
             (DimensionalOutcome::Infeasible(_), _) => "infeasible",
             (DimensionalOutcome::Optimal(_), Some(c)) if c.assessment.all_met() => "optimal",
             (_, Some(c)) if c.assessment.all_met() => "feasible",
@@ -109,12 +112,28 @@ pub(super) fn options(args: &super::Args, context: &Context) -> SearchOptions {
     SearchOptions { seed: context.seed(), threads, ..SearchOptions::default() }
 }
 
+/// How far the search is, for people.
+pub(super) fn words(p: &crate::dimensional::Progress) -> String {
+    let stage = match p.stage {
+        Stage::Populations => "population",
+        Stage::Climbs => "climb",
+        _ => "polish",
+    };
+    let best = p.best.map_or_else(String::new, |b| format!("best {b:.6}; "));
+    format!("{best}{stage} {} of {}", p.done, p.total)
+}
+
 /// Optimises and checks.
 pub(super) fn run(design: &Design, args: &super::Args, context: &Context) -> Result<Done, Failure> {
     let problem = problem(design, args.extension);
     let options = options(args, context);
-    let report = optimize(&problem, &[], &options, &mut |_| ())
-        .map_err(|why| Failure::refused("optimize::invalid_problem", why.to_string()))?;
+    let (mut progress, interrupt) = (Progress::new(context.quiet()), Interrupt::watch());
+    let report = optimize(&problem, &[], &options, &mut |p| {
+        progress.note(&words(&p));
+        interrupt.flow()
+    })
+    .map_err(|why| Failure::refused("optimize::invalid_problem", why.to_string()))?;
+    progress.end();
     let checked = match report.solution() {
         Some(s) => Some(checked(design, &problem, s, context.seed())?),
         None => None,

@@ -181,7 +181,7 @@ fn solution_text(out: &mut String, design: &Design, s: &DimensionalSolution, c: 
 
 pub(super) fn conflict_text(out: &mut String, design: &Design, c: &Conflict) {
     let how = if c.proved { "cannot" } else { "could not, from any start," };
-    let _ = writeln!(out, "these requirements {how} be met together:");
+    let _ = writeln!(out, "within the bounds of the variables these requirements {how} be met together:");
     for g in &c.demands {
         let _ = writeln!(out, "  {}", sentence(design, g));
     }

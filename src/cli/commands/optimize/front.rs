@@ -5,12 +5,13 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Map, Value, json};
 
-use super::dimensional::{Checked, checked, options, problem};
+use super::dimensional::{Checked, checked, options, problem, words};
 use super::dimensional_text::{conflict_json, conflict_text, solution_json, unit};
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::output::{Answer, number};
+use crate::cli::progress::{Interrupt, Progress};
 use crate::design::Design;
 use crate::dimensional::{DimensionalOutcome, ParetoReport, pareto};
 
@@ -33,8 +34,13 @@ pub(super) fn run(
 ) -> Result<Answer, Failure> {
     let problem = problem(design, args.extension);
     let options = options(args, context);
-    let report = pareto(&problem, points, &options, &mut |_| ())
-        .map_err(|why| Failure::refused("optimize::invalid_problem", why.to_string()))?;
+    let (mut progress, interrupt) = (Progress::new(context.quiet()), Interrupt::watch());
+    let report = pareto(&problem, points, &options, &mut |p| {
+        progress.note(&words(&p));
+        interrupt.flow()
+    })
+    .map_err(|why| Failure::refused("optimize::invalid_problem", why.to_string()))?;
+    progress.end();
     let mut members = Vec::new();
     let mut written = Vec::new();
     for (k, point) in report.front.iter().enumerate() {

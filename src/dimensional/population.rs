@@ -1,0 +1,219 @@
+//! Differential evolution: populations that find the basins from which the convex steps climb.
+//!
+//! Storn, Price (1997), with steps towards one of the best (Zhang, Sanderson 2009) for half of the trials. Requirements by the rule of Deb (2000):
+//! points that meet them by their gain, all before the others by their violation. A trial is given up at the first pose that shows
+//! that it is no better than its parent.
+
+use super::judging::Judging;
+use super::kinematics::HeldPose;
+use super::model::{Model, Task};
+use crate::num::Rng;
+
+/// What a point is worth.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Worth {
+    /// Sum of the violations, 0 when they are inside the spare.
+    violation: f64,
+    gain: f64,
+}
+
+impl Worth {
+    pub(crate) fn is_better(&self, other: &Self) -> bool {
+        if self.violation.total_cmp(&other.violation).is_eq() {
+            self.gain > other.gain
+        } else {
+            self.violation < other.violation
+        }
+    }
+
+    pub(crate) fn order(&self, other: &Self) -> std::cmp::Ordering {
+        self.violation.total_cmp(&other.violation).then(other.gain.total_cmp(&self.gain))
+    }
+}
+
+/// A member of a population.
+#[derive(Debug, Clone)]
+pub(crate) struct Member {
+    pub(crate) x: Vec<f64>,
+    pub(crate) worth: Worth,
+}
+
+/// Members for each variable, and the least and greatest number of them.
+const MEMBERS: (usize, usize, usize) = (6, 24, 60);
+/// A population whose members differ by less has settled, and further trials are left to the climbs.
+const SETTLED: f64 = 1e-3;
+/// Share of the population whose members count as best.
+const BEST: usize = 8;
+
+/// Judges points, the pose that refused the last one first.
+pub(crate) struct Judge<'m, 'a> {
+    model: &'m Model<'a>,
+    task: &'m Task,
+    poses: Vec<HeldPose>,
+}
+
+/// Poses that judge the trials of most generations.
+const FEW: usize = 24;
+/// Generations after which all poses are looked at again.
+const REVIEW: usize = 10;
+
+impl<'m, 'a> Judge<'m, 'a> {
+    pub(crate) fn new(model: &'m Model<'a>, task: &'m Task) -> Self {
+        Self { model, task, poses: model.first_poses() }
+    }
+
+    /// The poses, those that refused points last first.
+    pub(crate) fn poses(&self) -> &[HeldPose] {
+        &self.poses
+    }
+
+    /// Brings the poses that bind at a point to the front: the worst for every requirement and objective.
+    fn review(&mut self, x: &[f64]) {
+        let sign = self.model.sign(x);
+        let mut worst = Judging::new(self.model, x, self.task, sign);
+        let mut binding: Vec<usize> = Vec::new();
+        for k in 0..self.poses.len() {
+            let before = worst.so_far.clone();
+            worst.pose(&self.poses[k]);
+            if before != worst.so_far {
+                binding.push(k);
+            }
+        }
+        // the last to change a value is the worst of all for it
+        for (done, k) in binding.into_iter().enumerate() {
+            let pose = self.poses.remove(k);
+            self.poses.insert(0, pose);
+            debug_assert!(done <= k, "earlier moves do not touch what follows");
+        }
+    }
+
+    /// The worth of a point over the first `count` poses, `None` as soon as it is no better than `bar`.
+    fn worth(&mut self, x: &[f64], count: usize, bar: Option<&Worth>) -> Option<Worth> {
+        let worth = |judged: &super::judging::Judged| {
+            let within = judged.violation() <= 0.5 * self.model.backoff;
+            let violation = if within { 0.0 } else { judged.total_violation(self.task) };
+            Worth { violation, gain: judged.gain(self.task) }
+        };
+        let mut judging = Judging::new(self.model, x, self.task, self.model.sign(x));
+        let refused = |w: Worth| bar.is_some_and(|bar| !w.is_better(bar));
+        if refused(worth(&judging.so_far)) {
+            return None;
+        }
+        for k in 0..self.poses.len().min(count) {
+            judging.pose(&self.poses[k]);
+            if refused(worth(&judging.so_far)) {
+                self.poses[..=k].rotate_right(1);
+                return None;
+            }
+        }
+        let last = worth(&judging.finish());
+        (!refused(last)).then_some(last)
+    }
+}
+
+/// One population after its generations, best first.
+pub(crate) fn evolve(
+    judge: &mut Judge<'_, '_>,
+    given: &[Vec<f64>],
+    generations: usize,
+    rng: &mut Rng,
+) -> Vec<Member> {
+    let model = judge.model;
+    let shape = &model.shape;
+    let free: Vec<usize> = (0..shape.start.len()).filter(|j| !shape.is_axis(*j)).collect();
+    let size = (MEMBERS.0 * free.len()).clamp(MEMBERS.1, MEMBERS.2);
+    let mut all: Vec<Member> = Vec::with_capacity(size);
+    for k in 0..size {
+        let x = given.get(k).cloned().unwrap_or_else(|| model.random_point(rng));
+        all.extend(judge.worth(&x, usize::MAX, None).map(|worth| Member { x, worth }));
+    }
+    let by_worth = |a: &Member, b: &Member| a.worth.order(&b.worth);
+    all.sort_by(by_worth);
+    for generation in 0..generations {
+        if model.is_stopped() || all.len() < 4 || free.is_empty() || spread(&all, &free) < SETTLED {
+            break;
+        }
+        for i in 0..all.len() {
+            let x = trial(model, &all, i, &free, rng);
+            all[i] = match judge.worth(&x, FEW, Some(&all[i].worth)) {
+                Some(worth) => Member { x, worth },
+                None => continue,
+            };
+        }
+        all.sort_by(by_worth);
+        if generation % REVIEW == REVIEW - 1 || generation + 1 == generations {
+            judge.review(&all[0].x);
+            for m in &mut all {
+                m.worth = judge.worth(&m.x, usize::MAX, None).unwrap_or(m.worth);
+            }
+            all.sort_by(by_worth);
+        }
+    }
+    all
+}
+
+/// Largest difference of two members in a variable.
+fn spread(all: &[Member], free: &[usize]) -> f64 {
+    let range = |j: &usize| {
+        let of = |m: &Member| m.x[*j];
+        all.iter().map(of).fold(f64::NEG_INFINITY, f64::max)
+            - all.iter().map(of).fold(f64::INFINITY, f64::min)
+    };
+    free.iter().map(range).fold(0.0, f64::max)
+}
+
+/// A mixture of a member with the difference of two others.
+fn trial(model: &Model<'_>, all: &[Member], i: usize, free: &[usize], rng: &mut Rng) -> Vec<f64> {
+    let pick = |n: usize, rng: &mut Rng| (rng.next_u64() % n as u64) as usize;
+    let (a, b) = (pick(all.len(), rng), pick(all.len(), rng));
+    let factor = rng.uniform(0.3, 0.9);
+    let share = if rng.unit() < 0.5 { 0.9 } else { 0.3 };
+    let towards_best = rng.unit() < 0.5;
+    let from = if towards_best { pick(all.len().div_ceil(BEST), rng) } else { pick(all.len(), rng) };
+    let always = free[pick(free.len(), rng)];
+    let mut x = all[i].x.clone();
+    for &j in free {
+        if j != always && rng.unit() >= share {
+            continue;
+        }
+        let own = all[i].x[j];
+        let start = if towards_best { own + factor * (all[from].x[j] - own) } else { all[from].x[j] };
+        let (low, high) = model.shape.bounds[j];
+        let value = start + factor * (all[a].x[j] - all[b].x[j]);
+        // half way to the bound that was crossed
+        x[j] = if value < low {
+            f64::midpoint(own, low)
+        } else if value > high {
+            f64::midpoint(own, high)
+        } else {
+            value
+        };
+    }
+    x
+}
+
+impl Model<'_> {
+    /// Uniform within the bounds, axes along the legs at home.
+    pub(crate) fn random_point(&self, rng: &mut Rng) -> Vec<f64> {
+        let mut x: Vec<f64> = self.shape.bounds.iter().map(|b| rng.uniform(b.0, b.1)).collect();
+        self.aim(&mut x);
+        x
+    }
+
+    /// Turns the joint axes along the legs at home.
+    pub(crate) fn aim(&self, x: &mut [f64]) {
+        if self.shape.axes == [None; 2] {
+            return;
+        }
+        let ends = self.shape.ends(x);
+        let home = HeldPose { pose: self.terms.home, follows: true };
+        let l = super::kinematics::Lines::new(&ends, &home);
+        for (body, first) in self.shape.axes.iter().enumerate() {
+            let Some(first) = first else { continue };
+            for leg in 0..6 {
+                let u = if body == 0 { l.direction[leg] } else { l.rotation.inverse() * l.direction[leg] };
+                x[first + 3 * leg..first + 3 * leg + 3].copy_from_slice(u.as_slice());
+            }
+        }
+    }
+}
