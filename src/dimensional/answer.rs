@@ -27,7 +27,9 @@ fn solution(model: &Model<'_>, task: &Task, refined: &Refined) -> Option<Dimensi
     let x = &refined.run.x;
     let manipulator = model.shape.manipulator(x).ok()?;
     let home = model.terms.home;
-    let home = Pose { position: home.position + model.shape.ends(x).lift, ..home };
+    let lift = model.shape.ends(x).lift;
+    let lifted = |pose: &Pose| Pose { position: pose.position + lift, ..*pose };
+    let held = refined.poses.iter().map(|at| if at.follows { lifted(&at.pose) } else { at.pose });
     let named =
         (0..x.len()).filter(|j| !model.shape.is_axis(*j)).map(|j| (model.shape.names[j].clone(), x[j]));
     // every objective is reported, the ones left out of the last level too
@@ -36,14 +38,14 @@ fn solution(model: &Model<'_>, task: &Task, refined: &Refined) -> Option<Dimensi
     let objectives = model.objectives.iter().zip(gains).map(|(o, g)| (*o, g * model.unit(*o))).collect();
     Some(DimensionalSolution {
         manipulator,
-        home,
+        home: lifted(&home),
         axes: axes(model, refined),
         variables: named.collect(),
         point: x.clone(),
         offsets: model.shape.offsets(x),
         objectives,
         stationarity: refined.run.stationarity,
-        poses: refined.poses.len(),
+        poses: held.collect(),
         history: refined.run.history.clone(),
     })
 }

@@ -10,23 +10,26 @@ use crate::synthesis::{Normalisation, leg_vector};
 
 /// Every objective of a platform, in the order of the problem and in its unit (see the theory page).
 ///
-/// `space` has the home of the platform. `points` Halton points and as many random ones are looked at besides home, corners and listed poses. The mean is that over all of
-/// them. NaN where the platform has no value (forces at a singular pose).
+/// `space` has the home of the platform. `points` Halton points and as many random ones are looked at besides home, corners and listed poses; the mean is that over all of
+/// them. `also` are poses of the space at which the worst case is looked for besides, those of a search for instance. NaN where the platform has no value (forces at a singular pose).
 #[must_use]
 pub fn evaluate(
     p: &DimensionalProblem,
     m: &Manipulator,
     space: &PoseSpace,
+    also: &[Pose],
     points: usize,
     seed: u64,
 ) -> Vec<f64> {
-    let mut poses = space.listed(10);
+    let mut poses = also.to_vec();
+    poses.extend(space.listed(10));
     let cube = space.cube_points(points, &mut Rng::stream(seed, 0x6576));
     poses.extend(cube.iter().map(|x| space.pose(x)));
-    p.objectives.iter().map(|(o, _)| value(p, m, &poses, *o)).collect()
+    p.objectives.iter().map(|(o, _)| value(p, m, (&poses, also.len()), *o)).collect()
 }
 
-fn value(p: &DimensionalProblem, m: &Manipulator, poses: &[Pose], o: Objective) -> f64 {
+/// The first poses, as many as told, are not in the mean.
+fn value(p: &DimensionalProblem, m: &Manipulator, (poses, apart): (&[Pose], usize), o: Objective) -> f64 {
     let length = p.characteristic_length;
     let over = |f: &dyn Fn(&Pose) -> f64| poses.iter().map(f).fold(f64::INFINITY, f64::min);
     let conditioning = |pose: &Pose| inverse_condition(&jacobian(m, pose, length));
@@ -37,7 +40,10 @@ fn value(p: &DimensionalProblem, m: &Manipulator, poses: &[Pose], o: Objective) 
     };
     match o {
         Objective::WorstConditioning => over(&conditioning),
-        Objective::MeanConditioning => poses.iter().map(conditioning).sum::<f64>() / poses.len() as f64,
+        Objective::MeanConditioning => {
+            let sample = &poses[apart..];
+            sample.iter().map(conditioning).sum::<f64>() / sample.len() as f64
+        }
         Objective::SmallestSingularValue => over(&least_singular),
         Objective::Stiffness => {
             let k = p.requirements.hardware.leg_stiffness.unwrap_or(f64::NAN);

@@ -28,8 +28,8 @@ pub struct DimensionalSolution {
     pub objectives: Vec<(Objective, f64)>,
     /// First-order gain still promised for a unit of the variables; near 0 at a local optimum.
     pub stationarity: f64,
-    /// Poses at which the requirements were held in the end.
-    pub poses: usize,
+    /// Poses at which the requirements were held in the end, home lifted.
+    pub poses: Vec<Pose>,
     /// Steps of the run that found it.
     pub history: Vec<HistoryStep>,
 }

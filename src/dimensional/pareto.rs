@@ -131,7 +131,7 @@ fn front(
             outcome(model, &task, refined)
         {
             let space = PoseSpace { home: s.home, ..p.space.clone() };
-            let dense = evaluate(p, &s.manipulator, &space, POINTS, seed);
+            let dense = evaluate(p, &s.manipulator, &space, &s.poses, POINTS, seed);
             members.push(ParetoPoint { solution: *s, dense });
         }
     }

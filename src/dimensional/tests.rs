@@ -234,7 +234,7 @@ fn the_optimum_holds_densely_and_random_designs_do_not_beat_it() {
     let options = AssessOptions { points: 300, ..AssessOptions::default() };
     let dense = assess(&s.manipulator, &p.requirements, &p.space, &options);
     assert!(dense.all_met(), "{dense:?}");
-    let value = evaluate(&p, &s.manipulator, &p.space, 300, 5)[0];
+    let value = evaluate(&p, &s.manipulator, &p.space, &[], 300, 5)[0];
     assert!((value - s.objectives[0].1).abs() < 1e-5, "{value} {:?}", s.objectives);
     let model = Model::new(&p).unwrap();
     let (poses, task, mut rng) = (model.first_poses(), everything(1), Rng::new(3));

@@ -14,6 +14,7 @@ mod modes;
 mod motion;
 mod noise;
 mod slice;
+mod steps;
 mod style;
 mod topologies;
 
@@ -26,4 +27,5 @@ pub use modes::{ModesFigure, assembly_modes};
 pub use motion::{MotionFigure, motion};
 pub use noise::{NoiseCurve, NoiseFigure, NoisePoint, noise_chart};
 pub use slice::{SliceAxis, SliceFigure, singular_slice};
+pub use steps::{SearchStep, StepsFigure, steps_chart};
 pub use topologies::{TopologyFigure, topology_diagram, topology_sheet};

@@ -153,7 +153,7 @@ pub(super) fn checked(
     let requirements = Requirements { hardware: out.hardware, ..problem.requirements.clone() };
     let options = AssessOptions { points: POINTS, seed, ..AssessOptions::default() };
     let assessment = assess(&s.manipulator, &requirements, &space, &options);
-    let values = evaluate(problem, &s.manipulator, &space, POINTS, seed);
+    let values = evaluate(problem, &s.manipulator, &space, &s.poses, POINTS, seed);
     let objectives = problem.objectives.iter().map(|o| o.0).zip(values).collect();
     let v = &problem.variables;
     let keeps_class =

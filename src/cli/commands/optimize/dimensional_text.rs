@@ -101,7 +101,7 @@ pub(super) fn solution_json(
     };
     fields.insert("history".into(), s.history.iter().map(step).collect());
     fields.insert("local_optimality".into(), json!({ "stationarity": number(s.stationarity) }));
-    fields.insert("poses".into(), json!({ "held": s.poses, "checked": c.assessment.poses }));
+    fields.insert("poses".into(), json!({ "held": s.poses.len(), "checked": c.assessment.poses }));
 }
 
 /// The document without its frame.
@@ -155,7 +155,8 @@ pub(super) fn text(design: &Design, done: &Done, written: Option<&str>) -> Strin
 fn solution_text(out: &mut String, design: &Design, s: &DimensionalSolution, c: &Checked) {
     for ((o, held), (_, dense)) in s.objectives.iter().zip(&c.objectives) {
         let unit = unit(design, *o);
-        let _ = writeln!(out, "{} {dense:.9} {unit} ({held:.9} over the {} held poses)", o.code(), s.poses);
+        let _ =
+            writeln!(out, "{} {dense:.9} {unit} ({held:.9} over the {} held poses)", o.code(), s.poses.len());
     }
     for (name, x) in &s.variables {
         let _ = writeln!(out, "  {name:<20} {x:>12.6}");

@@ -3,6 +3,7 @@
 mod dimensional;
 mod dimensional_text;
 mod front;
+mod history;
 mod render;
 
 use std::ops::ControlFlow;
@@ -24,6 +25,7 @@ use crate::offsets::{
     self, Body, OffsetOutcome, OffsetProblem, OffsetReport, OffsetSolution, OptimizeOptions, optimize,
     sliding_joint_body,
 };
+use crate::plot::SearchStep;
 
 /// Arguments of `optimize`.
 #[derive(Debug, clap::Args)]
@@ -42,6 +44,9 @@ pub(crate) struct Args {
     /// Relative gap between the answer and the proved upper bound over all offsets
     #[arg(long, value_name = "X", default_value_t = 1e-3)]
     gap: f64,
+    /// Write the steps of the run that found the answer: .svg a picture, anything else CSV
+    #[arg(long, value_name = "FILE")]
+    history: Option<PathBuf>,
     /// Worker threads; the answer does not depend on it (default: one for each processor)
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
@@ -102,6 +107,13 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
             return front::run(&design, points, args, context);
         }
         let done = dimensional::run(&design, args, context)?;
+        if let (Some(path), Some(s)) = (&args.history, done.report.solution()) {
+            let of = |h: &crate::dimensional::HistoryStep| {
+                (SearchStep { value: h.gain, violation: h.violation, accepted: h.accepted }, h.radius)
+            };
+            let rows: Vec<history::Row> = s.history.iter().map(of).collect();
+            history::write(path, &design, "sum of the weighted objectives", &rows)?;
+        }
         let written = write(args.output.as_deref(), done.checked.as_ref().map(|c| &c.design))?;
         let json = dimensional_text::record(&design, &done, written.as_deref());
         let text = dimensional_text::text(&design, &done, written.as_deref());
@@ -126,6 +138,13 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     })?;
     progress.end();
     let written = write(args.output.as_deref(), done.optimised.as_ref())?;
+    if let (Some(path), Some(s)) = (&args.history, done.report.solution()) {
+        let of = |h: &offsets::HistoryStep| {
+            (SearchStep { value: h.value, violation: h.violation, accepted: h.accepted }, h.radius)
+        };
+        let rows: Vec<history::Row> = s.history.iter().map(of).collect();
+        history::write(path, &design, "worst inverse condition number", &rows)?;
+    }
     let json = done.record(&design, written.as_deref());
     let text =
         if context.json() { String::new() } else { render::text(&done.found(&design), written.as_deref()) };
