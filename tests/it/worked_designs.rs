@@ -208,7 +208,7 @@ fn objective(start: &Design, design: &Design, objective: Objective) -> f64 {
         min_abs_det: 0.0,
     };
     let space = design.workspace.space(&design.home.unwrap());
-    evaluate(&problem, design.manipulator(), &space, 2000, 1)[0]
+    evaluate(&problem, design.manipulator(), &space, &[], 2000, 1)[0]
 }
 
 #[test]
