@@ -9,6 +9,7 @@ mod cap;
 mod certificate;
 mod clearance;
 mod conflict;
+mod ends;
 mod evaluate;
 mod families;
 mod judging;

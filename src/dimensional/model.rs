@@ -62,6 +62,8 @@ pub(crate) struct Model<'a> {
 
 /// Points of the Halton sequence, and random ones, in the sample of the mean.
 const SAMPLE: usize = 24;
+/// Points between, of either kind, that every run starts with.
+const BETWEEN: usize = 12;
 /// Spare relative to the size (or the limit) where poses lie between those that are held, and where none do.
 const BACKOFF: (f64, f64) = (1e-6, 2e-8);
 
@@ -117,11 +119,16 @@ impl<'a> Model<'a> {
         self.stop.load(Ordering::Relaxed)
     }
 
-    /// The poses that every run starts with: home, corners, and those that are listed.
+    /// The poses that every run starts with: home, corners, the ends of the axes, a few points between, and those that are listed.
     pub(crate) fn first_poses(&self) -> Vec<HeldPose> {
-        let mut out = listed(self.problem);
-        let points = self.problem.space.cube_points(0, &mut Rng::new(1));
-        out.extend(points.iter().map(|x| HeldPose { pose: self.problem.space.pose(x), follows: true }));
+        let (mut out, space) = (listed(self.problem), &self.problem.space);
+        let mut points = space.cube_points(BETWEEN, &mut Rng::new(2));
+        for (k, sign) in space.axes().into_iter().flat_map(|k| [(k, 1.0), (k, -1.0)]) {
+            let mut x = nalgebra::Vector6::zeros();
+            x[k] = sign;
+            points.push(x);
+        }
+        out.extend(points.iter().map(|x| HeldPose { pose: space.pose(x), follows: true }));
         out
     }
 

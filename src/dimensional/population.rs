@@ -7,6 +7,7 @@
 use super::judging::Judging;
 use super::kinematics::HeldPose;
 use super::model::{Model, Task};
+use super::scp::PENALTY;
 use crate::num::Rng;
 
 /// What a point is worth.
@@ -24,6 +25,16 @@ impl Worth {
         } else {
             self.violation < other.violation
         }
+    }
+
+    pub(crate) fn merit(&self, penalty: f64) -> f64 {
+        self.gain - penalty * self.violation
+    }
+
+    /// Whether values and violations agree, relatively.
+    pub(crate) fn is_close(&self, other: &Self, within: f64) -> bool {
+        let same = |a: f64, b: f64| (a - b).abs() <= within * a.abs().max(b.abs());
+        same(self.gain, other.gain) && same(self.violation, other.violation)
     }
 
     pub(crate) fn order(&self, other: &Self) -> std::cmp::Ordering {
@@ -59,7 +70,11 @@ const REVIEW: usize = 10;
 
 impl<'m, 'a> Judge<'m, 'a> {
     pub(crate) fn new(model: &'m Model<'a>, task: &'m Task) -> Self {
-        Self { model, task, poses: model.first_poses() }
+        Self::over(model, task, model.first_poses())
+    }
+
+    pub(crate) fn over(model: &'m Model<'a>, task: &'m Task, poses: Vec<HeldPose>) -> Self {
+        Self { model, task, poses }
     }
 
     /// The poses, those that refused points last first.
@@ -67,28 +82,35 @@ impl<'m, 'a> Judge<'m, 'a> {
         &self.poses
     }
 
-    /// Brings the poses that bind at a point to the front: the worst for every requirement and objective.
-    fn review(&mut self, x: &[f64]) {
-        let sign = self.model.sign(x);
-        let mut worst = Judging::new(self.model, x, self.task, sign);
+    /// Indices of the poses that bind at a point, the worst of all for some requirement or objective last.
+    fn binding(&self, x: &[f64]) -> Vec<usize> {
+        let mut worst = Judging::new(self.model, x, self.task, self.model.sign(x));
         let mut binding: Vec<usize> = Vec::new();
-        for k in 0..self.poses.len() {
+        for (k, pose) in self.poses.iter().enumerate() {
             let before = worst.so_far.clone();
-            worst.pose(&self.poses[k]);
+            worst.pose(pose);
             if before != worst.so_far {
                 binding.push(k);
             }
         }
-        // the last to change a value is the worst of all for it
-        for (done, k) in binding.into_iter().enumerate() {
-            let pose = self.poses.remove(k);
-            self.poses.insert(0, pose);
-            debug_assert!(done <= k, "earlier moves do not touch what follows");
+        binding
+    }
+
+    /// Up to `count` poses that bind at a point, the worst ones first.
+    pub(crate) fn worst(&self, x: &[f64], count: usize) -> Vec<HeldPose> {
+        self.binding(x).into_iter().rev().take(count).map(|k| self.poses[k]).collect()
+    }
+
+    /// Brings the poses that bind at a point to the front.
+    fn review(&mut self, x: &[f64]) {
+        // a pose that moves to the front leaves the places behind it as they are
+        for k in self.binding(x) {
+            self.poses[..=k].rotate_right(1);
         }
     }
 
     /// The worth of a point over the first `count` poses, `None` as soon as it is no better than `bar`.
-    fn worth(&mut self, x: &[f64], count: usize, bar: Option<&Worth>) -> Option<Worth> {
+    pub(crate) fn worth(&mut self, x: &[f64], count: usize, bar: Option<&Worth>) -> Option<Worth> {
         let worth = |judged: &super::judging::Judged| {
             let within = judged.violation() <= 0.5 * self.model.backoff;
             let violation = if within { 0.0 } else { judged.total_violation(self.task) };
@@ -160,6 +182,26 @@ fn spread(all: &[Member], free: &[usize]) -> f64 {
             - all.iter().map(of).fold(f64::INFINITY, f64::min)
     };
     free.iter().map(range).fold(0.0, f64::max)
+}
+
+/// Mixtures of the ends of climbs, whose places are now known to be good: `count` trials from the best of them.
+pub(crate) fn offspring(
+    judge: &mut Judge<'_, '_>,
+    ends: &[&[f64]],
+    count: usize,
+    rng: &mut Rng,
+) -> Vec<Vec<f64>> {
+    let shape = &judge.model.shape;
+    let free: Vec<usize> = (0..shape.start.len()).filter(|j| !shape.is_axis(*j)).collect();
+    let mut all: Vec<Member> = Vec::with_capacity(ends.len());
+    for x in ends {
+        all.extend(judge.worth(x, usize::MAX, None).map(|worth| Member { x: x.to_vec(), worth }));
+    }
+    if all.is_empty() || free.is_empty() {
+        return Vec::new();
+    }
+    all.sort_by(|a, b| b.worth.merit(PENALTY).total_cmp(&a.worth.merit(PENALTY)));
+    (0..count).map(|i| trial(judge.model, &all, i % all.len(), &free, rng)).collect()
 }
 
 /// A mixture of a member with the difference of two others.

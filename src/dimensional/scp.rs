@@ -57,7 +57,8 @@ pub(crate) struct Run {
     pub(crate) failure: Option<SolverFailure>,
 }
 
-const PENALTY: f64 = 10.0;
+/// Price of a violation that a climb begins with.
+pub(crate) const PENALTY: f64 = 10.0;
 const LARGEST_PENALTY: f64 = 1e6;
 const FIRST_RADIUS: f64 = 0.15;
 const LARGEST_RADIUS: f64 = 0.5;

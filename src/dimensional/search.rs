@@ -4,10 +4,11 @@ use std::ops::ControlFlow;
 
 use super::answer::outcome;
 use super::conflict::{conflict, elastic};
+use super::ends::{End, Ends};
 use super::kinematics::HeldPose;
 use super::model::{Model, Task};
 use super::outcome::{DimensionalOutcome, DimensionalReport};
-use super::population::{Judge, evolve};
+use super::population::{Judge, evolve, offspring};
 use super::problem::{DimensionalProblem, InvalidProblem, Mode};
 use super::scp::{Effort, HistoryStep, Run, climb};
 use super::worst_pose::worse_poses;
@@ -33,7 +34,7 @@ pub struct SearchOptions {
 
 impl Default for SearchOptions {
     fn default() -> Self {
-        Self { seed: 1, threads: 1, populations: 12, generations: 15, starts: 16, polished: 8 }
+        Self { seed: 1, threads: 1, populations: 12, generations: 15, starts: 12, polished: 8 }
     }
 }
 
@@ -66,12 +67,16 @@ pub struct Progress {
 const LONG: (usize, usize) = (3, 4);
 /// Poses of the first pass.
 const FEW_POSES: usize = 16;
-/// Runs that are polished though the first pass left them infeasible.
-const UNMET: usize = 2;
+/// Batches of runs that are polished while others promise more.
+const BATCHES: usize = 6;
+/// Generations of mixtures of the ends, each a quarter as many as the starts.
+const GENERATIONS_OF_ENDS: usize = 2;
+/// Rounds of adding poses in the first pass.
+const SHORT_ROUNDS: usize = 3;
 /// Rounds of adding poses.
 const ROUNDS: usize = 12;
-/// Members that differ by more in some variable are starts of their own; ends whose gains differ by less, relatively, count as one.
-const DISTINCT: (f64, f64) = (0.1, 1e-4);
+/// Members that differ by more in some variable are starts of their own.
+const DISTINCT: f64 = 0.1;
 
 /// A polished run with the poses it ended with.
 #[derive(Debug, Clone)]
@@ -128,7 +133,7 @@ fn population(model: &Model<'_>, task: &Task, given: &[Vec<f64>], k: usize, o: &
     let few: Vec<HeldPose> = judge.poses().iter().take(FEW_POSES).copied().collect();
     let mut out: Vec<Start> = Vec::new();
     for m in members {
-        if out.len() < o.starts.max(1) && !out.iter().any(|s| are_near(&s.x, &m.x, DISTINCT.0)) {
+        if out.len() < o.starts.max(1) && !out.iter().any(|s| are_near(&s.x, &m.x, DISTINCT)) {
             out.push(Start { x: m.x, few: few.clone() });
         }
     }
@@ -164,6 +169,35 @@ pub(crate) struct Searched {
     pub(crate) refined: Vec<Refined>,
     pub(crate) starts: usize,
     pub(crate) feasible: usize,
+}
+
+/// A short climb over few poses, and again with those at which its end is worse.
+fn rank(model: &Model<'_>, task: &Task, start: &Start) -> Run {
+    let mut few = start.few.clone();
+    let mut run = climb(model, &few, task, &start.x, Effort::RANK);
+    let judge = Judge::new(model, task);
+    for _ in 0..SHORT_ROUNDS {
+        let mut more = judge.worst(&run.x, FEW_POSES);
+        more.retain(|at| !few.contains(at));
+        if more.is_empty() {
+            break;
+        }
+        few.extend(more);
+        let mut next = climb(model, &few, task, &run.x, Effort::RANK);
+        next.history.splice(0..0, std::mem::take(&mut run.history));
+        run = next;
+    }
+    run
+}
+
+fn climbs(
+    model: &Model<'_>,
+    task: &Task,
+    starts: &[Start],
+    o: &SearchOptions,
+    tick: &mut dyn FnMut(usize),
+) -> Vec<Run> {
+    parallel(starts.len(), o.threads, |k| rank(model, task, &starts[k]), &mut |done, _| tick(done))
 }
 
 /// Tells how far the search is, and heeds the answer.
@@ -221,44 +255,47 @@ pub(crate) fn search_task(
     let few: Vec<HeldPose> = found.first().and_then(|f| f.first()).map_or(Vec::new(), |s| s.few.clone());
     let given = given.into_iter().map(|x| Start { x, few: few.clone() });
     let starts: Vec<Start> = found.into_iter().flatten().chain(given).collect();
-    let total = starts.len();
-    let climb = |k: usize| climb(first, &starts[k].few, task, &starts[k].x, Effort::RANK);
-    let tick = &mut |done: usize, _: &Run| watch.tell(Stage::Climbs, (done, total), None);
-    let ranked = parallel(total, o.threads, climb, tick);
+    let total = starts.len() + GENERATIONS_OF_ENDS * starts.len().div_ceil(4);
+    let mut ranked =
+        climbs(first, task, &starts, o, &mut |done| watch.tell(Stage::Climbs, (done, total), None));
+    let mut rng = Rng::stream(o.seed, 0x4d65);
+    for _ in 0..GENERATIONS_OF_ENDS {
+        let mut judge = Judge::new(first, task);
+        let ends: Vec<&[f64]> = ranked.iter().map(|r| r.x.as_slice()).collect();
+        let trials = offspring(&mut judge, &ends, starts.len().div_ceil(4), &mut rng);
+        let with_poses = |x: Vec<f64>| Start { few: judge.worst(&x, FEW_POSES), x };
+        let starts: Vec<Start> = trials.into_iter().map(with_poses).collect();
+        let known = ranked.len();
+        let tick = &mut |done| watch.tell(Stage::Climbs, (known + done, total), None);
+        ranked.extend(climbs(first, task, &starts, o, tick));
+    }
+    let total = ranked.len();
     let feasible = ranked.iter().filter(|r| r.is_feasible(first)).count();
-    let mut order: Vec<usize> = (0..total).collect();
-    order.sort_by(|&i, &j| better(first, task, &ranked[i], &ranked[j]).then(i.cmp(&j)));
-    let mut chosen: Vec<usize> = Vec::new();
-    for k in order {
-        // where some starts led to feasible points the others are hardly worth the time
-        let hopeful = ranked[k].is_feasible(first) || chosen.len() < UNMET;
-        // symmetric platforms have the same optimum many times
-        let (gain, least) = (ranked[k].judged.gain(task), ranked[k].judged.total_violation(task));
-        let known = chosen.iter().map(|j| &ranked[*j].judged).any(|j| {
-            (j.gain(task) - gain).abs() < DISTINCT.1 * gain.abs()
-                && (j.total_violation(task) - least).abs() < 1e-6
-        });
-        if hopeful && chosen.len() < o.polished.max(1) && !known {
-            chosen.push(k);
+    let mut ends = Ends { poses: model.first_poses(), points: Vec::new(), tried: Vec::new() };
+    ends.points = ranked.into_iter().map(|run| End::new(model, coarse.is_some(), run)).collect();
+    let mut refined: Vec<Refined> = Vec::new();
+    for _ in 0..BATCHES {
+        let best = refined.iter().filter(|r| r.run.is_feasible(model)).map(|r| r.run.judged.gain(task));
+        let batch = ends.choose(first, task, best.fold(f64::NEG_INFINITY, f64::max), o.polished.max(1));
+        let polish = |i: usize| {
+            let end = &ends.points[batch[i]];
+            let mut refined = refine(model, task, &end.x, ends.poses.clone(), o.seed);
+            refined.run.history.splice(0..0, end.run.history.iter().copied());
+            refined
+        };
+        let total = batch.len();
+        let tick = &mut |done: usize, r: &Refined| watch.tell(Stage::Polishing, (done, total), Some(&r.run));
+        let found = parallel(total, o.threads, polish, tick);
+        ends.tried.extend(batch);
+        let more = found.iter().flat_map(|r| r.poses.iter().copied());
+        ends.learn(more.collect());
+        refined.extend(found);
+        if total == 0 || model.is_stopped() {
+            break;
         }
     }
-    let poses = model.first_poses();
-    let polish = |i: usize| {
-        let ranked = &ranked[chosen[i]];
-        let mut x = ranked.x.clone();
-        x.resize(model.shape.start.len(), 0.0);
-        if coarse.is_some() {
-            model.aim(&mut x);
-        }
-        let mut refined = refine(model, task, &x, poses.clone(), o.seed);
-        refined.run.history.splice(0..0, ranked.history.iter().copied());
-        refined
-    };
-    let total = chosen.len();
-    let tick = &mut |done: usize, r: &Refined| watch.tell(Stage::Polishing, (done, total), Some(&r.run));
-    let mut refined = parallel(total, o.threads, polish, tick);
     refined.sort_by(|a, b| better(model, task, &a.run, &b.run));
-    Searched { refined, starts: starts.len(), feasible }
+    Searched { refined, starts: total, feasible }
 }
 
 /// Finds the best platform that meets the requirements; `docs/theory/dimensional-synthesis.md` has the method.
