@@ -7,13 +7,14 @@ use nalgebra::Vector6;
 use super::kinematics::{HeldPose, Lines};
 use super::merit::Merit;
 use super::model::{Group, Model, Task};
+use super::problem::Objective;
 use super::shape::Ends;
 use super::terms::Item;
 use crate::num::Rng;
 
-/// Points looked at, and local searches from the worst of them for each quantity: two for an objective, one for the requirement of a leg or of two.
+/// Points looked at, and local searches from the worst of them for each quantity: four for an objective, one for what single legs or pairs have.
 const POINTS: usize = 150;
-const SEARCHES: [usize; 2] = [2, 1];
+const SEARCHES: [usize; 2] = [4, 1];
 /// A requirement is searched when twice the spread over the points would bring it from the worst of them to its limit.
 const SPREADS: f64 = 2.0;
 /// First step of a search in the cube, and the last.
@@ -25,6 +26,8 @@ const STEPS: (f64, f64) = (0.25, 1e-5);
 enum Quantity {
     Constraint(Group, usize, usize),
     Objective(usize),
+    /// Length of a leg for the stroke; with `true` the greatest one.
+    Length(usize, bool),
 }
 
 /// What was seen of a quantity at the points.
@@ -65,7 +68,27 @@ impl Look<'_> {
                 keep(Quantity::Objective(m), self.model.merit.at_pose(*o, &self.model.terms, l));
             }
         }
+        if self.model.wanted(self.task).any(|(_, o)| o == Objective::Stroke) {
+            for (leg, longest) in (0..6).flat_map(|leg| [(leg, false), (leg, true)]) {
+                keep(Quantity::Length(leg, longest), self.length(l, leg, longest));
+            }
+        }
         out
+    }
+
+    /// To be small: the length, or the least of its opposite, in sizes.
+    fn length(&self, l: &Lines, leg: usize, longest: bool) -> f64 {
+        let value = l.length[leg] / self.model.terms.size;
+        if longest { -value } else { value }
+    }
+
+    /// The least of [`Look::length`] of all legs over the held poses.
+    fn least_length(&self, held: &[HeldPose], longest: bool) -> f64 {
+        let at = |at: &HeldPose| {
+            let l = Lines::new(&self.ends, at);
+            (0..6).map(|leg| self.length(&l, leg, longest)).fold(f64::INFINITY, f64::min)
+        };
+        held.iter().map(at).fold(f64::INFINITY, f64::min)
     }
 
     fn one(&self, q: Quantity, cube: &Vector6<f64>) -> f64 {
@@ -74,6 +97,7 @@ impl Look<'_> {
             Quantity::Objective(m) => {
                 self.model.merit.at_pose(self.model.objectives[m], &self.model.terms, &l)
             }
+            Quantity::Length(leg, longest) => self.length(&l, leg, longest),
             Quantity::Constraint(group, first, second) => {
                 let mut least = f64::INFINITY;
                 self.model.terms.visit(&l, &self.ends, self.x, &mut |item: Item<()>| {
@@ -86,25 +110,31 @@ impl Look<'_> {
         }
     }
 
-    /// Coordinate search with steps that shrink by halves.
+    /// Search along the axes and, for objectives, along as many random directions (singular values have kinks at which the axes lead nowhere), with
+    /// steps that shrink by halves.
     fn descend(
         &self,
         q: Quantity,
         axes: &[usize],
-        mut value: f64,
-        mut cube: Vector6<f64>,
+        (mut value, mut cube): (f64, Vector6<f64>),
+        rng: &mut Rng,
     ) -> (f64, Vector6<f64>) {
         let mut step = STEPS.0;
         while step > STEPS.1 {
             let mut better = false;
-            for &k in axes {
-                for sign in [1.0, -1.0] {
-                    let mut next = cube;
-                    next[k] = (next[k] + sign * step).clamp(-1.0, 1.0);
-                    let there = if next[k].total_cmp(&cube[k]).is_ne() { self.one(q, &next) } else { value };
-                    if there < value {
-                        (value, cube, better) = (there, next, true);
-                    }
+            let mut directions: Vec<Vector6<f64>> = axes.iter().map(|k| Vector6::ith(*k, 1.0)).collect();
+            if matches!(q, Quantity::Objective(_)) {
+                directions.extend(axes.iter().map(|_| {
+                    let mut d = Vector6::zeros();
+                    axes.iter().for_each(|k| d[*k] = rng.normal());
+                    d.normalize()
+                }));
+            }
+            for d in directions.iter().flat_map(|d| [*d, -d]) {
+                let next = (cube + d * step).map(|c| c.clamp(-1.0, 1.0));
+                let there = if next == cube { value } else { self.one(q, &next) };
+                if there < value {
+                    (value, cube, better) = (there, next, true);
                 }
             }
             if !better {
@@ -138,22 +168,24 @@ pub(crate) fn worse_poses(
             of.greatest = of.greatest.max(value);
             of.worst.push((value, cube));
             of.worst.sort_by(|a, b| a.0.total_cmp(&b.0));
-            of.worst.truncate(SEARCHES[usize::from(matches!(q, Quantity::Constraint(..)))]);
+            of.worst.truncate(SEARCHES[usize::from(!matches!(q, Quantity::Objective(_)))]);
         }
     }
-    let mut out: Vec<HeldPose> = Vec::new();
+    let lengths = [false, true].map(|longest| look.least_length(held, longest));
+    let (mut out, mut rng): (Vec<HeldPose>, Rng) = (Vec::new(), Rng::stream(seed, 8));
     for (q, Seen { greatest, worst }) in seen {
         // what the held poses guarantee
         let known = match q {
             Quantity::Constraint(..) => 0.5 * model.backoff,
             Quantity::Objective(m) => judged.gains[m] - model.backoff,
+            Quantity::Length(_, longest) => lengths[usize::from(longest)] - model.backoff,
         };
         let far = worst.first().is_some_and(|(least, _)| least - SPREADS * (greatest - least) > known);
-        if far && matches!(q, Quantity::Constraint(..)) {
+        if far && !matches!(q, Quantity::Objective(_)) {
             continue;
         }
         for (value, cube) in worst {
-            let (value, cube) = look.descend(q, &axes, value, cube);
+            let (value, cube) = look.descend(q, &axes, (value, cube), &mut rng);
             let pose = HeldPose { pose: space.pose(&cube), follows: true };
             if value < known && !out.contains(&pose) && !held.contains(&pose) {
                 out.push(pose);
