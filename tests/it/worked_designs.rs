@@ -139,10 +139,12 @@ fn the_griffis_duffy_hexapod_has_the_kinematics_of_the_machine_it_replaces() {
     }
     let found = equipod::singularity::GriffisDuffy::recognise(worked("linuxcnc-griffis-duffy").manipulator());
     let found = found.expect("joints on the sides of two triangles, alternately at corners");
-    assert!(found.t.iter().all(|t| (0.0..0.5).contains(t)), "{:?}", found.t);
+    // alternately near one corner or the other: both platforms are equally good
+    let near = |low: f64| found.t.iter().all(|t| (low..low + 0.5).contains(t));
+    assert!(near(0.0) || near(0.5), "{:?}", found.t);
     // far from the midlines, where the determinant vanishes
     let determinant = found.t.iter().map(|t| 1.0 - t).product::<f64>() - found.t.iter().product::<f64>();
-    assert!((determinant - 0.512).abs() < 1e-3, "{determinant}");
+    assert!((determinant.abs() - 0.512).abs() < 1e-3, "{determinant}");
     let middle = [0.5_f64; 6];
     assert!((middle.iter().map(|t| 1.0 - t).product::<f64>() - middle.iter().product::<f64>()).abs() < 1e-15);
 }
