@@ -126,7 +126,9 @@ impl Look<'_> {
             if matches!(q, Quantity::Objective(_)) {
                 directions.extend(axes.iter().map(|_| {
                     let mut d = Vector6::zeros();
-                    axes.iter().for_each(|k| d[*k] = rng.normal());
+                    for k in axes {
+                        d[*k] = rng.normal();
+                    }
                     d.normalize()
                 }));
             }
