@@ -154,14 +154,24 @@ fn optimise_dimensional(
 ) -> Result<(Answer, Option<Built>), Failure> {
     let options = SearchOptions { seed: a.seed, threads: a.threads, ..SearchOptions::default() };
     let clock = Clock::start();
-    let report = equipod::dimensional::optimize(p, &[], &options, &mut |_| ())?;
+    let mut curve: Vec<Point> = Vec::new();
+    let is_cost = p.objectives.first().is_some_and(|o| o.0.is_cost());
+    let report = equipod::dimensional::optimize(p, &[], &options, &mut |progress| {
+        if let Some(best) = progress.best {
+            let value = if is_cost { -best } else { best };
+            if curve.last().is_none_or(|p| p.value < value) {
+                curve.push(Point { elapsed: clock.spent().elapsed, value });
+            }
+        }
+        ControlFlow::Continue(())
+    })?;
     let spent = clock.spent();
     let built = report.solution().map(|s| judge.built_of(s)).transpose()?;
     let judged = built.as_ref().map(|built| judge.judge(built));
     if let Some(built) = &built {
         judge.hold_earlier(built);
     }
-    Ok((Answer { judged, curve: Vec::new(), spent, bound: None }, built))
+    Ok((Answer { judged, curve, spent, bound: None }, built))
 }
 
 /// One problem with all three answers.
