@@ -30,8 +30,7 @@ fn solution(model: &Model<'_>, task: &Task, refined: &Refined) -> Option<Dimensi
     let lift = model.shape.ends(x).lift;
     let lifted = |pose: &Pose| Pose { position: pose.position + lift, ..*pose };
     let held = refined.poses.iter().map(|at| if at.follows { lifted(&at.pose) } else { at.pose });
-    let named =
-        (0..x.len()).filter(|j| !model.shape.is_axis(*j)).map(|j| (model.shape.names[j].clone(), x[j]));
+    let named = model.shape.free().into_iter().map(|j| (model.shape.names[j].clone(), x[j]));
     // every objective is reported, the ones left out of the last level too
     let all = Task { weights: vec![1.0; task.weights.len()], ..task.clone() };
     let gains = model.judge(&refined.poses, x, &all, model.sign(x)).gains;

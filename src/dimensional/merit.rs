@@ -117,7 +117,8 @@ impl<'a> Merit<'a> {
                 self.loads.iter().map(worst).fold(f64::INFINITY, f64::min)
             }
             _ => {
-                let (Some(body), mut least) = (self.leg_body, f64::INFINITY) else { return f64::INFINITY };
+                let mut least = f64::INFINITY;
+                let Some(body) = self.leg_body else { return least };
                 for (i, j) in terms.separate_legs() {
                     let see = &mut |gap: Gap<()>| least = f64::min(least, gap.value / self.size);
                     l.leg_gaps(&body, i, j, see);

@@ -4,8 +4,8 @@
 //! points that meet them by their gain, all before the others by their violation. A trial is given up at the first pose that shows
 //! that it is no better than its parent.
 
-use super::judging::Judging;
-use super::kinematics::HeldPose;
+use super::judging::{Judged, Judging};
+use super::kinematics::{HeldPose, Lines};
 use super::model::{Model, Task};
 use super::scp::PENALTY;
 use crate::num::Rng;
@@ -111,7 +111,7 @@ impl<'m, 'a> Judge<'m, 'a> {
 
     /// The worth of a point over the first `count` poses, `None` as soon as it is no better than `bar`.
     pub(crate) fn worth(&mut self, x: &[f64], count: usize, bar: Option<&Worth>) -> Option<Worth> {
-        let worth = |judged: &super::judging::Judged| {
+        let worth = |judged: &Judged| {
             let within = judged.violation() <= 0.5 * self.model.backoff;
             let violation = if within { 0.0 } else { judged.total_violation(self.task) };
             Worth { violation, gain: judged.gain(self.task) }
@@ -141,8 +141,7 @@ pub(crate) fn evolve(
     rng: &mut Rng,
 ) -> Vec<Member> {
     let model = judge.model;
-    let shape = &model.shape;
-    let free: Vec<usize> = (0..shape.start.len()).filter(|j| !shape.is_axis(*j)).collect();
+    let free = model.shape.free();
     let size = (MEMBERS.0 * free.len()).clamp(MEMBERS.1, MEMBERS.2);
     let mut all: Vec<Member> = Vec::with_capacity(size);
     for k in 0..size {
@@ -191,8 +190,7 @@ pub(crate) fn offspring(
     count: usize,
     rng: &mut Rng,
 ) -> Vec<Vec<f64>> {
-    let shape = &judge.model.shape;
-    let free: Vec<usize> = (0..shape.start.len()).filter(|j| !shape.is_axis(*j)).collect();
+    let free = judge.model.shape.free();
     let mut all: Vec<Member> = Vec::with_capacity(ends.len());
     for x in ends {
         all.extend(judge.worth(x, usize::MAX, None).map(|worth| Member { x: x.to_vec(), worth }));
@@ -249,7 +247,7 @@ impl Model<'_> {
         }
         let ends = self.shape.ends(x);
         let home = HeldPose { pose: self.terms.home, follows: true };
-        let l = super::kinematics::Lines::new(&ends, &home);
+        let l = Lines::new(&ends, &home);
         for (body, first) in self.shape.axes.iter().enumerate() {
             let Some(first) = first else { continue };
             for leg in 0..6 {

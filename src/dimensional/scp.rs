@@ -66,6 +66,12 @@ const SMALLEST_RADIUS: f64 = 1e-9;
 const PROBE_RADIUS: f64 = 1e-3;
 
 impl Run {
+    /// The same with the steps that led to its start.
+    pub(crate) fn after(mut self, mut earlier: Vec<HistoryStep>) -> Self {
+        earlier.append(&mut self.history);
+        Self { history: earlier, ..self }
+    }
+
     /// Violations below half of the spare are inside it.
     pub(crate) fn is_feasible(&self, model: &Model<'_>) -> bool {
         self.judged.violation() <= 0.5 * model.backoff
@@ -126,8 +132,7 @@ impl State<'_> {
         let pieces: BTreeMap<_, _> = new.pieces.iter().map(|p| ((p.objective, p.id), p)).collect();
         for (piece, weight) in old.pieces.iter().zip(&step.pieces).filter(|(_, w)| **w > 1e-9) {
             if let Some(after) = pieces.get(&(piece.objective, piece.id))
-                && (matches!(after.bound, LinearBound::Plain | LinearBound::Length(_))
-                    || !has_cluster(&after.bound))
+                && !has_cluster(&after.bound)
             {
                 add(*weight, &piece.gradient, &after.gradient);
             }

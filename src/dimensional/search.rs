@@ -10,7 +10,7 @@ use super::model::{Model, Task};
 use super::outcome::{DimensionalOutcome, DimensionalReport};
 use super::population::{Judge, evolve, offspring};
 use super::problem::{DimensionalProblem, InvalidProblem, Mode};
-use super::scp::{Effort, HistoryStep, Run, climb};
+use super::scp::{Effort, Run, climb};
 use super::worst_pose::worse_poses;
 use crate::num::Rng;
 use crate::num::parallel::parallel;
@@ -95,28 +95,23 @@ pub(crate) fn refine(
     seed: u64,
 ) -> Refined {
     let mut run = climb(model, &poses, task, start, Effort::POLISH);
-    let mut history: Vec<HistoryStep> = std::mem::take(&mut run.history);
-    if task.weights.iter().any(|w| *w > 0.0) && !run.is_feasible(model) {
-        // more poses only make it worse
-        run.history = history;
-        return Refined { run, poses, complete: false };
-    }
+    // more poses only make worse what misses a requirement already
+    let hopeless = task.weights.iter().any(|w| *w > 0.0) && !run.is_feasible(model);
+    let mut complete = false;
     for round in 0..ROUNDS {
-        if model.is_stopped() {
+        if hopeless || model.is_stopped() {
             break;
         }
         let sign = model.sign(&run.x);
         let worse = worse_poses(model, &run.x, task, &poses, sign, seed.wrapping_add(round as u64));
-        if worse.is_empty() {
-            run.history = history;
-            return Refined { run, poses, complete: true };
+        complete = worse.is_empty();
+        if complete {
+            break;
         }
         poses.extend(worse);
-        run = climb(model, &poses, task, &run.x, Effort::POLISH);
-        history.append(&mut run.history);
+        run = climb(model, &poses, task, &run.x, Effort::POLISH).after(run.history);
     }
-    run.history = history;
-    Refined { run, poses, complete: false }
+    Refined { run, poses, complete }
 }
 
 /// A point with the poses that matter most near it.
@@ -183,9 +178,7 @@ fn rank(model: &Model<'_>, task: &Task, start: &Start) -> Run {
             break;
         }
         few.extend(more);
-        let mut next = climb(model, &few, task, &run.x, Effort::RANK);
-        next.history.splice(0..0, std::mem::take(&mut run.history));
-        run = next;
+        run = climb(model, &few, task, &run.x, Effort::RANK).after(run.history);
     }
     run
 }
@@ -279,9 +272,8 @@ pub(crate) fn search_task(
         let batch = ends.choose(first, task, best.fold(f64::NEG_INFINITY, f64::max), o.polished.max(1));
         let polish = |i: usize| {
             let end = &ends.points[batch[i]];
-            let mut refined = refine(model, task, &end.x, ends.poses.clone(), o.seed);
-            refined.run.history.splice(0..0, end.run.history.iter().copied());
-            refined
+            let refined = refine(model, task, &end.x, ends.poses.clone(), o.seed);
+            Refined { run: refined.run.after(end.run.history.clone()), ..refined }
         };
         let total = batch.len();
         let tick = &mut |done: usize, r: &Refined| watch.tell(Stage::Polishing, (done, total), Some(&r.run));

@@ -239,8 +239,13 @@ impl Shape {
     }
 
     /// Whether a variable is a component of a joint axis.
-    pub(crate) fn is_axis(&self, j: usize) -> bool {
+    fn is_axis(&self, j: usize) -> bool {
         self.axes.iter().flatten().any(|first| (*first..first + 18).contains(&j))
+    }
+
+    /// The variables that are no component of a joint axis.
+    pub(crate) fn free(&self) -> Vec<usize> {
+        (0..self.start.len()).filter(|j| !self.is_axis(*j)).collect()
     }
 
     pub(crate) fn offset_variables(&self) -> Option<[usize; 6]> {
