@@ -1,5 +1,6 @@
 //! Matching two sets of complex poses.
 
+use super::determined::magnitude;
 use crate::geom::ComplexPose;
 
 /// A pairing of two sets of poses.
@@ -12,6 +13,10 @@ pub struct PoseMatching {
     pub only_a: Vec<usize>,
     /// Poses of B with no partner within the tolerance.
     pub only_b: Vec<usize>,
+    /// Poses of A without partner that were set aside.
+    pub beyond_a: Vec<usize>,
+    /// Poses of B without partner that were set aside.
+    pub beyond_b: Vec<usize>,
 }
 
 impl PoseMatching {
@@ -21,16 +26,17 @@ impl PoseMatching {
         self.pairs.iter().map(|p| p.2).fold(0.0, f64::max)
     }
 
-    /// Every pose of either set has its partner.
+    /// Every pose of either set that was not set aside has its partner.
     #[must_use]
     pub fn is_perfect(&self) -> bool {
         self.only_a.is_empty() && self.only_b.is_empty()
     }
-}
 
-fn magnitude(p: &ComplexPose, size: f64) -> f64 {
-    let r = p.rotation.iter().map(|z| z.norm()).fold(1.0, f64::max);
-    p.position.iter().map(|z| z.norm() / size).fold(r, f64::max)
+    /// Sets aside poses without partner of which the first function (for A) and the second (for B) say so.
+    pub(super) fn set_aside(&mut self, of_a: impl Fn(usize) -> bool, of_b: impl Fn(usize) -> bool) {
+        self.beyond_a.extend(self.only_a.extract_if(.., |i| of_a(*i)));
+        self.beyond_b.extend(self.only_b.extract_if(.., |j| of_b(*j)));
+    }
 }
 
 /// Pairs the poses of two sets one to one, nearest pairs first; a pair farther apart than `tolerance`
@@ -56,7 +62,13 @@ pub fn match_poses(a: &[ComplexPose], b: &[ComplexPose], size: f64, tolerance: f
         }
     }
     let left = |free: &[bool]| free.iter().enumerate().filter(|f| *f.1).map(|f| f.0).collect();
-    PoseMatching { pairs, only_a: left(&free_a), only_b: left(&free_b) }
+    PoseMatching {
+        pairs,
+        only_a: left(&free_a),
+        only_b: left(&free_b),
+        beyond_a: Vec::new(),
+        beyond_b: Vec::new(),
+    }
 }
 
 #[cfg(test)]
@@ -85,7 +97,14 @@ mod tests {
         assert!(m.pairs.iter().all(|p| p.0 + p.1 == 5));
         b[2].position.x += 1e-6;
         let m = match_poses(&a, &b, 1.0, 1e-9);
-        assert_eq!((m.only_a, m.only_b), (vec![3], vec![2]));
+        assert_eq!((&m.only_a, &m.only_b), (&vec![3], &vec![2]));
+        // what is set aside on one side spares the other nothing
+        let mut m = m;
+        m.set_aside(|i| i == 3, |j| j == 0);
+        assert_eq!((&m.beyond_a, &m.only_a, &m.only_b), (&vec![3], &vec![], &vec![2]));
+        assert!(!m.is_perfect());
+        m.set_aside(|_| false, |j| j == 2);
+        assert!(m.is_perfect() && m.beyond_a == [3] && m.beyond_b == [2]);
     }
 
     #[test]

@@ -3,6 +3,7 @@
 //!
 //! Only this module sees both `synthesis` (leg maps) and `fk` (poses).
 
+mod determined;
 mod matching;
 mod sample;
 mod verdict;

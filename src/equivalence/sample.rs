@@ -48,7 +48,7 @@ pub struct Sample {
     pub solutions_a: FkSolutions,
     /// Poses of B.
     pub solutions_b: FkSolutions,
-    /// Their matching.
+    /// Their matching; poses without partner that joints in double precision do not determine are set aside.
     pub matching: PoseMatching,
 }
 
@@ -59,7 +59,7 @@ impl Sample {
         self.solutions_a.all_accounted() && self.solutions_b.all_accounted()
     }
 
-    /// Conclusive and matched one to one.
+    /// Conclusive and matched one to one, poses that were set aside left out.
     #[must_use]
     pub fn agrees(&self) -> bool {
         self.is_conclusive() && self.matching.is_perfect() && !self.matching.pairs.is_empty()

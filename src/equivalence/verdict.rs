@@ -2,9 +2,10 @@
 
 use thiserror::Error;
 
-use super::matching::match_poses;
+use super::determined::{ROUNDED, is_beyond_precision};
+use super::matching::{PoseMatching, match_poses};
 use super::sample::{Sample, SamplePlan};
-use crate::fk::{FkError, FkOptions, FkRoot, ForwardKinematics, Homotopy, solver};
+use crate::fk::{FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, solver};
 use crate::geom::ComplexPose;
 use crate::manipulator::{LegIndex, Manipulator};
 use crate::num::linalg::LinalgError;
@@ -69,6 +70,8 @@ pub enum InconclusiveReason {
     SolverIncomplete,
     /// The map is regular and forward kinematics disagrees with it: one of the two is wrong.
     Contradiction,
+    /// The map holds within its tolerance, but not to rounding, and forward kinematics tells the platforms apart.
+    NearlyEquivalent,
     /// There is no map, but no pose was found that tells the platforms apart either.
     NoCounterexample,
 }
@@ -84,6 +87,9 @@ impl InconclusiveReason {
             Self::Contradiction => {
                 "the leg map is regular, but the poses of a sample disagree: please report this"
             }
+            Self::NearlyEquivalent => {
+                "the leg map holds within its tolerance but not to rounding, and the poses of a sample disagree"
+            }
             Self::NoCounterexample => {
                 "no leg map within the tolerance, but no sampled pose tells the platforms apart clearly"
             }
@@ -95,7 +101,8 @@ impl InconclusiveReason {
 #[derive(Debug, Clone, PartialEq)]
 pub enum Verdict {
     /// The leg map is regular, which proves it up to the rounding of the designs' own coordinates, and
-    /// independent forward kinematics agrees at every sample.
+    /// independent forward kinematics agrees at every sample but for poses so far out that this rounding decides whether they exist
+    /// ([`Verification::beyond_precision`]).
     Equivalent,
     /// There is no leg map, and a pose shows it.
     NotEquivalent(Box<Counterexample>),
@@ -136,13 +143,21 @@ impl Verification {
     pub fn worst_distance(&self) -> f64 {
         self.samples.iter().map(|s| s.matching.worst_distance()).fold(0.0, f64::max)
     }
+
+    /// Numbers of poses of A and of B over all samples that have no partner and were set aside: joints within the rounding of the given ones need not have them.
+    #[must_use]
+    pub fn beyond_precision(&self) -> [usize; 2] {
+        let count = |of: fn(&Sample) -> usize| self.samples.iter().map(of).sum();
+        [count(|s| s.matching.beyond_a.len()), count(|s| s.matching.beyond_b.len())]
+    }
 }
 
 /// Compares platforms A and B, described in the same two frames and units.
 ///
 /// The leg map `s' = A s + c` is derived from the leg vectors alone. Then for each sample pose the forward
 /// kinematics of A is solved by its best method and that of B by the general one, which knows nothing of
-/// the map, and the complex poses are matched. A regular map and perfect matchings give `Equivalent`.
+/// the map, and the complex poses are matched. Poses without partner that joints in double precision do not determine are set aside
+/// (`docs/theory/leg-maps.md`). A regular map and perfect matchings of the others give `Equivalent`.
 ///
 /// # Errors
 /// [`VerifyError`] when a part could not be computed.
@@ -163,10 +178,12 @@ pub fn verify(
     let verdict = if map.relation == Relation::Equivalent {
         if samples.iter().all(Sample::agrees) {
             Verdict::Equivalent
-        } else if samples.iter().all(Sample::is_conclusive) {
-            Verdict::Inconclusive(InconclusiveReason::Contradiction)
-        } else {
+        } else if !samples.iter().all(Sample::is_conclusive) {
             Verdict::Inconclusive(InconclusiveReason::SolverIncomplete)
+        } else if map.residual > ROUNDED {
+            Verdict::Inconclusive(InconclusiveReason::NearlyEquivalent)
+        } else {
+            Verdict::Inconclusive(InconclusiveReason::Contradiction)
         }
     } else {
         let found = samples.iter().enumerate().find_map(|(k, s)| counterexample(a, b, k, s));
@@ -195,10 +212,17 @@ fn take_sample(
     let failed = |platform| move |error| VerifyError::ForwardKinematics { platform, error };
     let solutions_a = solver(None).solve(a, &squares_a, options).map_err(failed("A"))?;
     let solutions_b = Homotopy.solve(b, &squares_b, options).map_err(failed("B"))?;
-    let poses = |roots: &[FkRoot]| -> Vec<ComplexPose> { roots.iter().map(|r| r.pose).collect() };
-    let size = a.size().max(b.size());
-    let matching = match_poses(&poses(&solutions_a.roots), &poses(&solutions_b.roots), size, SAME_POSE);
+    let matching = matched(&solutions_a, &solutions_b, a.size().max(b.size()));
     Ok(Sample { pose, squares_a, squares_b, solutions_a, solutions_b, matching })
+}
+
+/// The poses of both, paired; those without partner that joints in double precision do not determine are set aside.
+fn matched(a: &FkSolutions, b: &FkSolutions, size: f64) -> PoseMatching {
+    let poses = |s: &FkSolutions| -> Vec<ComplexPose> { s.roots.iter().map(|r| r.pose).collect() };
+    let mut matching = match_poses(&poses(a), &poses(b), size, SAME_POSE);
+    let beyond = |s: &FkSolutions, k: usize| is_beyond_precision(&s.roots[k], size);
+    matching.set_aside(|i| beyond(a, i), |j| beyond(b, j));
+    matching
 }
 
 /// The pose of the sample that misses the other platform's lengths most clearly.
@@ -206,8 +230,8 @@ fn counterexample(a: &Manipulator, b: &Manipulator, sample: usize, s: &Sample) -
     let sides = [("A", &s.solutions_a, b, &s.squares_b), ("B", &s.solutions_b, a, &s.squares_a)];
     let mut best: Option<Counterexample> = None;
     for (solves, solutions, other, squares) in sides {
-        for root in &solutions.roots {
-            let scale = other.size() * other.size();
+        let scale = other.size() * other.size();
+        for root in solutions.roots.iter().filter(|r| !is_beyond_precision(r, other.size())) {
             let misses =
                 other.legs().map(|leg| root.pose.squared_length(&leg)).into_iter().zip(squares.get());
             for (leg, (found, wanted)) in LegIndex::all().zip(misses) {
@@ -282,6 +306,43 @@ mod tests {
         let v = verify(&a, &moved, &plan(), &FkOptions::default()).unwrap();
         let Verdict::NotEquivalent(c) = v.verdict else { panic!("{:?}", v.verdict) };
         assert!(c.miss > 1e-9 && c.certified);
+    }
+
+    /// What `agrees` makes of a sample of an equivalent pair with one more root in B.
+    fn agreement_with_another_root(stretch: f64, condition: f64) -> (bool, usize) {
+        let a = octahedral();
+        let (b, _) = joint_free(&Octahedral::recognise(&a).unwrap(), [0.2; 6]).unwrap();
+        let mut sample = verify(&a, &b, &plan(), &FkOptions::default()).unwrap().samples.remove(0);
+        let mut root = sample.solutions_b.roots[0].clone();
+        root.pose.rotation *= num_complex::Complex64::new(stretch, stretch);
+        root.condition = condition;
+        sample.solutions_b.roots.push(root);
+        sample.matching = matched(&sample.solutions_a, &sample.solutions_b, a.size());
+        (sample.agrees(), sample.matching.beyond_b.len())
+    }
+
+    #[test]
+    fn a_far_pose_without_partner_spoils_the_agreement_unless_rounding_decides_whether_it_exists() {
+        assert_eq!(agreement_with_another_root(1e13, 1e11), (true, 1));
+        assert_eq!(agreement_with_another_root(1e9, 10.0), (false, 0));
+        assert_eq!(agreement_with_another_root(1.0, 1e15), (false, 0));
+    }
+
+    #[test]
+    fn a_joint_off_its_line_by_less_than_the_map_tells_is_not_called_equivalent() {
+        let a = octahedral();
+        let (b, _) = joint_free(&Octahedral::recognise(&a).unwrap(), [0.2; 6]).unwrap();
+        let mut legs: [Leg; 6] = b.legs();
+        legs[2].platform.z += 3e-10 * a.size();
+        let moved = Manipulator::from_legs(legs).unwrap();
+        let v = verify(&a, &moved, &plan(), &FkOptions::default()).unwrap();
+        assert_eq!(v.map.relation, Relation::Equivalent);
+        assert_ne!(
+            v.verdict,
+            Verdict::Equivalent,
+            "{:?}",
+            v.samples.iter().map(|s| &s.matching).collect::<Vec<_>>()
+        );
     }
 
     #[test]

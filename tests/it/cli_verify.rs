@@ -35,6 +35,26 @@ fn the_published_pair_is_equivalent_at_ten_samples() {
 }
 
 #[test]
+fn poses_that_rounding_of_the_joints_makes_do_not_spoil_the_verdict() {
+    // sample 4: four certified poses of the 6-6 at |R| about 1e13, of which the octahedral platform has none
+    let (a, b) = (design("worked/isolator-octahedral.toml"), design("worked/isolator-1.toml"));
+    let out = verify(&a, &b, &["--json"]);
+    assert_eq!(out.status.code(), Some(0), "{out:?}");
+    let v = document(&out);
+    assert_eq!((v["verdict"].as_str(), &v["beyond_precision"]["a"]), (Some("equivalent"), &0.into()));
+    let samples = v["samples"].as_array().unwrap();
+    let beyond: u64 = samples.iter().map(|s| s["beyond_precision_b"].as_u64().unwrap()).sum();
+    assert!(beyond > 0 && v["beyond_precision"]["b"] == beyond);
+    for s in samples {
+        let counts = ["matched", "only_a", "only_b"].map(|k| s[k].as_u64());
+        assert_eq!((counts, s["agrees"].as_bool()), ([Some(16), Some(0), Some(0)], Some(true)));
+    }
+    let text = String::from_utf8(verify(&a, &b, &[]).stdout).unwrap();
+    let rows = text.lines().filter(|l| l.ends_with("of B beyond double precision")).count();
+    assert!(rows > 0 && text.contains(&format!("; {beyond} further poses so far out")), "{text}");
+}
+
+#[test]
 fn a_joint_moved_by_a_millionth_is_refuted_with_a_certified_pose() {
     let text = std::fs::read_to_string(design("rbt-griffis-duffy.toml")).unwrap();
     let folder = tempfile::tempdir().unwrap();

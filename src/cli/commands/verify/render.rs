@@ -18,6 +18,8 @@ pub(crate) fn record(v: &Verification, plan: &SamplePlan) -> Map<String, Value> 
     put("explanation", json!(explanation(v)));
     put("map", Value::Object(map::record(&v.map)));
     put("worst_distance", number(v.worst_distance()));
+    let [a, b] = v.beyond_precision();
+    put("beyond_precision", json!({ "a": a, "b": b }));
     put("samples", v.samples.iter().map(sample).collect());
     if let Verdict::NotEquivalent(c) = &v.verdict {
         put("counterexample", counterexample(c));
@@ -76,6 +78,8 @@ fn sample(s: &Sample) -> Value {
         "matched": s.matching.pairs.len(),
         "only_a": s.matching.only_a.len(),
         "only_b": s.matching.only_b.len(),
+        "beyond_precision_a": s.matching.beyond_a.len(),
+        "beyond_precision_b": s.matching.beyond_b.len(),
         "worst_distance": number(s.matching.worst_distance()),
         "agrees": s.agrees(),
     })
@@ -105,9 +109,10 @@ fn explanation(v: &Verification) -> String {
     match &v.verdict {
         Verdict::Equivalent => format!(
             "the leg map is regular (det A = {:.6}), and forward kinematics of both, solved independently, agrees \
-             at {n} of {n} sets of lengths; worst distance of matched poses {:.1e}",
+             at {n} of {n} sets of lengths; worst distance of matched poses {:.1e}{}",
             v.map.determinant,
-            v.worst_distance()
+            v.worst_distance(),
+            set_aside(v)
         ),
         Verdict::Singular => map::explanation(&v.map),
         Verdict::NotEquivalent(c) => {
@@ -126,6 +131,32 @@ fn explanation(v: &Verification) -> String {
         }
         Verdict::Inconclusive(reason) => reason.sentence().to_owned(),
     }
+}
+
+/// What is said about poses beyond precision, after the sentence.
+fn set_aside(v: &Verification) -> String {
+    let [a, b] = v.beyond_precision();
+    match a + b {
+        0 => String::new(),
+        count => format!(
+            "; {count} further pose{} so far out that the rounding of the joints decides whether they exist, left out",
+            if count == 1 { "" } else { "s" }
+        ),
+    }
+}
+
+/// The remark behind the row of a sample.
+fn remark(s: &Sample) -> String {
+    let mut out = String::new();
+    for (platform, beyond) in [("A", &s.matching.beyond_a), ("B", &s.matching.beyond_b)] {
+        if !beyond.is_empty() {
+            let _ = write!(out, "  {} of {platform} beyond double precision", beyond.len());
+        }
+    }
+    if !s.is_conclusive() {
+        out.push_str("  poses may be missing");
+    }
+    out
 }
 
 /// What people read.
@@ -147,7 +178,7 @@ pub(super) fn text(v: &Verification, a: &str, b: &str) -> String {
             certified(&s.solutions_a),
             certified(&s.solutions_b),
             s.matching.worst_distance(),
-            if s.is_conclusive() { "" } else { "  poses may be missing" },
+            remark(s),
         );
     }
     out
