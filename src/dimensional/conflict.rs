@@ -6,8 +6,10 @@ use super::certificate::proved_empty;
 use super::kinematics::{HeldPose, Lines};
 use super::model::{Group, Model, Task};
 use super::outcome::{Conflict, Demand, Give};
+use super::population::{Judge, evolve};
 use super::search::{Refined, SearchOptions, refine};
 use super::terms::Item;
+use crate::num::Rng;
 use crate::num::parallel::parallel;
 use crate::requirements::TermKind;
 
@@ -24,19 +26,54 @@ pub(crate) fn elastic(model: &Model<'_>, from: &[Refined], threads: usize) -> Ve
 fn settle(model: &Model<'_>, task: &Task, from: &[Refined], threads: usize) -> Vec<Refined> {
     let run = |k: usize| refine(model, task, &from[k].run.x, from[k].poses.clone(), k as u64);
     let mut out = parallel(from.len(), threads, run, &mut |_, _| ());
-    let key = |r: &Refined| r.run.judged.total_violation(task);
-    out.sort_by(|a, b| key(a).total_cmp(&key(b)));
+    out.sort_by(|a, b| by_violation(task, a, b));
     out
 }
 
-/// An irreducible set of constraints that could not be met together, `None` when the elastic problem did not settle.
+fn by_violation(task: &Task, a: &Refined, b: &Refined) -> std::cmp::Ordering {
+    let of = |r: &Refined| r.run.judged.total_violation(task);
+    of(a).total_cmp(&of(b))
+}
+
+/// Tries to meet what a task does not drop, from where other runs ended and from a population of its own: the ends are where all
+/// requirements together led, which need not be near to where fewer of them can be met.
+fn attempt(
+    model: &Model<'_>,
+    task: &Task,
+    from: &[Refined],
+    o: &SearchOptions,
+    k: u64,
+) -> Result<Refined, Vec<Refined>> {
+    let mut runs = settle(model, task, from, o.threads);
+    if !runs.iter().any(|r| r.run.is_feasible(model)) {
+        let mut rng = Rng::stream(o.seed, 0x436f + k);
+        let members = evolve(&mut Judge::new(model, task), &[], o.generations, &mut rng);
+        let fresh = members.first().map(|m| refine(model, task, &m.x, model.first_poses(), k));
+        runs.extend(fresh);
+        runs.sort_by(|a, b| by_violation(task, a, b));
+        runs.truncate(from.len());
+    }
+    match runs.iter().position(|r| r.run.is_feasible(model)) {
+        Some(met) => Ok(runs.swap_remove(met)),
+        None => Err(runs),
+    }
+}
+
+/// What becomes of requirements that no run met.
+pub(crate) enum Clash {
+    /// An irreducible set of constraints that could not be met together.
+    Conflict(Conflict),
+    /// Looking for one, a point was found that meets all of them.
+    Met(Box<Refined>),
+    /// The elastic problem did not settle, or the set that was left could be met after all.
+    Unsettled,
+}
+
+/// Looks for an irreducible set of constraints that could not be met together.
 ///
 /// Deletion filter (Chinneck, Dravnieks 1991): constraints are left out one kind at a time, and stay out when the others still cannot be met.
-pub(crate) fn conflict(model: &Model<'_>, settled: &[Refined], o: &SearchOptions) -> Option<Conflict> {
-    let best = settled.first()?;
-    if !best.run.converged {
-        return None;
-    }
+pub(crate) fn conflict(model: &Model<'_>, settled: &[Refined], o: &SearchOptions) -> Clash {
+    let Some(best) = settled.first().filter(|best| best.run.converged) else { return Clash::Unsettled };
     let all: Vec<Group> = best.run.judged.violations.keys().copied().collect();
     let mut dropped: Vec<Group> = Vec::new();
     let mut from: Vec<Refined> = settled.to_vec();
@@ -44,35 +81,50 @@ pub(crate) fn conflict(model: &Model<'_>, settled: &[Refined], o: &SearchOptions
     let mut order = all.clone();
     order.sort_by(|a, b| best.run.judged.violations[a].total_cmp(&best.run.judged.violations[b]));
     let mut alone: BTreeMap<Group, Refined> = BTreeMap::new();
-    for group in order {
+    for (k, group) in order.into_iter().enumerate() {
         let mut without = dropped.clone();
         without.push(group);
         if without.len() == all.len() {
             break;
         }
-        let runs = settle(model, &no_objective(model, without.clone()), &from, o.threads);
-        if let Some(met) = runs.iter().find(|r| r.run.is_feasible(model)) {
-            alone.insert(group, met.clone());
-        } else {
-            (dropped, from) = (without, runs);
+        match attempt(model, &no_objective(model, without.clone()), &from, o, k as u64) {
+            Ok(met) => {
+                alone.insert(group, met);
+            }
+            Err(runs) => (dropped, from) = (without, runs),
         }
     }
     let kept: Vec<Group> = all.into_iter().filter(|g| !dropped.contains(g)).collect();
     let task = no_objective(model, dropped);
     let together = settle(model, &task, &from, o.threads);
-    let least = together.first()?;
+    let Some(least) = together.first().filter(|least| !least.run.is_feasible(model)) else {
+        return Clash::Unsettled;
+    };
     let total = amounts(model, &least.poses, &least.run.x, &task);
     let proved = proved_empty(model, &least.poses, &least.run.x, &kept, &task);
-    let give = |group: &Group| Give {
-        demand: demand(model, *group),
-        alone: match alone.get(group) {
-            Some(from) => least_alone(model, from, *group, &task),
-            // nothing else is left to hold
-            None => total.get(group).copied(),
-        },
-        together: total.get(group).copied().unwrap_or(0.0),
-    };
-    Some(Conflict { demands: kept.iter().map(give).collect(), proved })
+    let of = |group: &Group| total.get(group).copied().unwrap_or(0.0);
+    let mut demands = Vec::new();
+    for group in kept {
+        let mut found = None;
+        if let Some(from) = alone.get(&group) {
+            let run = least_alone(model, from, group, &task);
+            if run.run.is_feasible(model) {
+                // nothing has to give after all
+                let whole = refine(model, &no_objective(model, Vec::new()), &run.run.x, run.poses, o.seed);
+                let met = whole.run.is_feasible(model);
+                return if met { Clash::Met(Box::new(whole)) } else { Clash::Unsettled };
+            }
+            if others_hold(model, &run, group) {
+                found = amounts(model, &run.poses, &run.run.x, &task).get(&group).copied();
+            }
+        }
+        // the same where the sum of all violations is least and no other gives, as when nothing else is in conflict
+        if others_hold(model, least, group) {
+            found = Some(found.map_or(of(&group), |x| x.min(of(&group))));
+        }
+        demands.push(Give { demand: demand(model, group), alone: found, together: of(&group) });
+    }
+    Clash::Conflict(Conflict { demands, proved })
 }
 
 fn demand(model: &Model<'_>, group: Group) -> Demand {
@@ -84,14 +136,16 @@ fn demand(model: &Model<'_>, group: Group) -> Demand {
     }
 }
 
-/// The least violation of one group where the others of the conflict hold.
-fn least_alone(model: &Model<'_>, from: &Refined, group: Group, task: &Task) -> Option<f64> {
+/// The run with the least violation of one group while the others of the conflict are to hold.
+fn least_alone(model: &Model<'_>, from: &Refined, group: Group, task: &Task) -> Refined {
     // a group that costs a hundredth of the others gives way first
     let task = Task { soft: Some(group), ..task.clone() };
-    let refined = refine(model, &task, &from.run.x, from.poses.clone(), 1);
+    refine(model, &task, &from.run.x, from.poses.clone(), 1)
+}
+
+fn others_hold(model: &Model<'_>, refined: &Refined, group: Group) -> bool {
     let others = refined.run.judged.violations.iter().filter(|(g, _)| **g != group);
-    let met = others.map(|(_, v)| *v).fold(0.0, f64::max) <= model.backoff;
-    met.then(|| amounts(model, &refined.poses, &refined.run.x, &task).get(&group).copied().unwrap_or(0.0))
+    others.map(|(_, v)| *v).fold(0.0, f64::max) <= model.backoff
 }
 
 /// Violations in the units of the requirements.
@@ -120,11 +174,15 @@ fn amounts(model: &Model<'_>, poses: &[HeldPose], x: &[f64], task: &Task) -> BTr
     }
     for (group, value) in &model.judge(poses, x, task, model.sign(x)).violations {
         match group {
-            Group::Determinant | Group::Reach | Group::Floor(_) => {
+            Group::Floor(_) => {
                 out.insert(*group, *value);
             }
+            // the spare is no part of what is required
+            Group::Determinant | Group::Reach => {
+                out.insert(*group, (*value - model.backoff).max(0.0));
+            }
             Group::Term(kind) if kind.is_fixed() => {
-                out.insert(*group, *value * model.terms.size);
+                out.insert(*group, (*value - model.backoff).max(0.0) * model.terms.size);
             }
             Group::Term(_) => {}
         }

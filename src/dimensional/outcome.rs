@@ -54,7 +54,7 @@ pub struct Give {
     pub demand: Demand,
     /// By how much it would have to give for the others of the conflict to be met, in its own unit; `None` when even that was not found.
     pub alone: Option<f64>,
-    /// Its violation where the sum of all violations (each in its scale) is least.
+    /// Its violation where the sum of all violations (each in its scale) is least; 0 where it holds there because others give.
     pub together: f64,
 }
 

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::answer::outcome;
-use super::conflict::{conflict, elastic};
+use super::conflict::{Clash, conflict, elastic};
 use super::ends::{End, Ends};
 use super::kinematics::HeldPose;
 use super::model::{Model, Task};
@@ -321,19 +321,23 @@ pub fn optimize(
     }
     if !first.run.is_feasible(&model) {
         let settled = elastic(&model, &found.refined, options.threads);
-        if let Some(refined) = settled.iter().find(|r| r.run.is_feasible(&model)) {
-            // restoration without an objective met all requirements: climb again from there
-            let again = refine(&model, &task, &refined.run.x, refined.poses.clone(), options.seed);
+        // a run without an objective that met all requirements is where to climb again
+        let mut met = settled.iter().find(|r| r.run.is_feasible(&model)).cloned();
+        if met.is_none() {
+            match conflict(&model, &settled, options) {
+                Clash::Conflict(conflict) => return Ok(report(DimensionalOutcome::Infeasible(conflict))),
+                Clash::Met(refined) => met = Some(*refined),
+                Clash::Unsettled => {}
+            }
+        }
+        if let Some(met) = met {
+            let again = refine(&model, &task, &met.run.x, met.poses, options.seed);
             found.refined.insert(0, again);
             found.refined.sort_by(|a, b| better(&model, &task, &a.run, &b.run));
         }
         if !found.refined[0].run.is_feasible(&model) {
             let failure = found.refined[0].run.failure;
-            let outcome = match conflict(&model, &settled, options) {
-                Some(conflict) => DimensionalOutcome::Infeasible(conflict),
-                None => DimensionalOutcome::Undecided(failure),
-            };
-            return Ok(report(outcome));
+            return Ok(report(DimensionalOutcome::Undecided(failure)));
         }
     }
     if let Mode::Lexicographic { slack } = problem.mode {

@@ -27,6 +27,15 @@ fn a_conflict_is_named_with_what_each_requirement_would_have_to_give() {
     let excess = (reach * reach + (low + 40.0).powi(2)).sqrt() - 260.0;
     let give = conflict.demands[1].alone.unwrap();
     assert!((give - excess).abs() < 1e-2, "{give} {excess}");
+    // each is in the way of the other, though the least sum lets only some of them give
+    assert!(conflict.demands.iter().all(|g| g.alone.is_some_and(|x| x > 0.0)), "{conflict:?}");
+    assert!(conflict.demands.iter().any(|g| g.together > 0.0), "{conflict:?}");
+    for g in &conflict.demands {
+        let others = conflict.demands.iter().filter(|o| o.demand != g.demand);
+        if others.map(|o| o.together).sum::<f64>() <= 0.0 {
+            assert!(g.alone.unwrap() <= g.together, "the least sum shows a smaller amount: {conflict:?}");
+        }
+    }
     // negative control: with that much more room there is no conflict
     p.requirements.hardware.leg_length = Some(LengthLimits::Range(250.0, 260.0 + excess + 0.01));
     assert!(optimize(&p, &[], &quick(), &mut |_| ControlFlow::Continue(())).unwrap().solution().is_some());

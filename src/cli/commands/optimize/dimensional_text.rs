@@ -45,10 +45,18 @@ fn words(design: &Design, d: Demand) -> (&'static str, String, String) {
     }
 }
 
+/// A positive amount with at least four significant digits.
+fn amount(x: f64) -> String {
+    if x < 1e-3 { format!("{x:.3e}") } else { format!("{x:.6}") }
+}
+
 fn sentence(design: &Design, g: &Give) -> String {
     let (_, what, unit) = words(design, g.demand);
     match g.alone {
-        Some(x) => format!("{what} would have to give by {x:.6} {unit}").trim_end().to_string(),
+        Some(x) if x > 0.0 => {
+            format!("{what} would have to give by {} {unit}", amount(x)).trim_end().to_string()
+        }
+        Some(_) => format!("{what} would have to give by no more than the spare of the search"),
         None => format!("{what} cannot make room alone, whatever it gives"),
     }
 }
@@ -186,9 +194,44 @@ pub(super) fn conflict_text(out: &mut String, design: &Design, c: &Conflict) {
     for g in &c.demands {
         let _ = writeln!(out, "  {}", sentence(design, g));
     }
-    let _ = writeln!(out, "if all give, so that the sum of the violations is least:");
-    for g in &c.demands {
+    let _ = writeln!(
+        out,
+        "the sum of the violations, each in its scale, is least where these give, and the others hold:"
+    );
+    for g in c.demands.iter().filter(|g| g.together > 0.0) {
         let (code, _, unit) = words(design, g.demand);
-        let _ = writeln!(out, "  {code:<17} {:>14.6} {unit}", g.together);
+        let _ = writeln!(out, "  {code:<17} {:>14} {unit}", amount(g.together));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::{Format, parse};
+
+    #[test]
+    fn nobody_has_to_give_by_zero() {
+        let text = std::fs::read_to_string("designs/worked/linuxcnc-octahedral.toml").unwrap();
+        let (design, _) = parse(&text, Format::Toml).unwrap();
+        let give = |kind, alone, together| Give { demand: Demand::Requirement(kind), alone, together };
+        let demands = vec![
+            give(TermKind::LegTooShort, Some(1.5647), 1.5647),
+            give(TermKind::BaseSpacing, Some(3.25e-8), 0.0),
+            give(TermKind::LegForce, Some(0.0), 4.5e-7),
+            give(TermKind::LegSpeed, None, 0.0),
+        ];
+        let mut out = String::new();
+        conflict_text(&mut out, &design, &Conflict { demands, proved: false });
+        insta::assert_snapshot!(out, @r"
+        within the bounds of the variables these requirements could not, from any start, be met together:
+          the least leg length would have to give by 1.564700 in
+          the room between base joints would have to give by 3.250e-8 in
+          the greatest leg force would have to give by no more than the spare of the search
+          the greatest leg speed cannot make room alone, whatever it gives
+        the sum of the violations, each in its scale, is least where these give, and the others hold:
+          leg_too_short           1.564700 in
+          leg_force               4.500e-7 force
+        ");
+        assert!(!out.contains("0.000000"));
     }
 }
