@@ -38,12 +38,15 @@ pub struct ParetoReport {
     pub unmet: usize,
     /// What the search for the first objective alone says where there is no front: infeasible or undecided.
     pub failure: Option<DimensionalOutcome>,
+    /// Whether the search was told to end; the front then consists of what was found until then, possibly nothing.
+    pub interrupted: bool,
 }
 
 /// The front by sweeping bounds of all objectives but the first (epsilon constraints, augmented by small weights).
 ///
 /// First every objective is optimised alone; the extremes span the bounds, `points` steps each. Every run starts from the extremes and from its
-/// neighbours. Members are kept when no other is at least as good in every objective by the dense evaluation.
+/// neighbours. Members are kept when no other is at least as good in every objective by the dense evaluation. When `progress` says to break the
+/// front found until then is returned.
 ///
 /// # Errors
 /// [`InvalidProblem`], also unless there are two or three objectives.
@@ -61,16 +64,22 @@ pub fn pareto(
     let mut watch = Watch::new(&model, progress);
     let mut known: Vec<Refined> = Vec::new();
     for m in 0..n {
+        if model.is_stopped() {
+            break;
+        }
         let weights = (0..n).map(|k| if k == m { 1.0 } else { AUGMENTED }).collect();
         let task = Task { weights, floors: vec![None; n], ..Task::default() };
         let given: Vec<Vec<f64>> = known.iter().map(|r| r.run.x.clone()).collect();
         let found = search_task(&model, &task, &given, options, &mut watch);
-        let Some(first) = found.refined.into_iter().next().filter(|r| r.run.is_feasible(&model)) else {
-            let one = super::search::optimize(problem, &[], options, progress)?;
-            let failure = Some(one.outcome);
-            return Ok(ParetoReport { front: Vec::new(), dominated: 0, unmet: 0, failure });
-        };
-        known.push(first);
+        match found.refined.into_iter().next().filter(|r| r.run.is_feasible(&model)) {
+            Some(first) => known.push(first),
+            None if model.is_stopped() => break,
+            None => {
+                let one = super::search::optimize(problem, &[], options, progress)?;
+                let (failure, interrupted) = (Some(one.outcome), one.interrupted);
+                return Ok(ParetoReport { front: Vec::new(), dominated: 0, unmet: 0, failure, interrupted });
+            }
+        }
     }
     let gains: Vec<Vec<f64>> = known.iter().map(|r| r.run.judged.gains.clone()).collect();
     let range = |m: usize| {
@@ -101,13 +110,14 @@ pub fn pareto(
         let task = Task { weights, floors, ..Task::default() };
         let from: Vec<&Refined> = known[..extremes].iter().chain(&previous).collect();
         let run = |k: usize| refine(&model, &task, &from[k].run.x, from[k].poses.clone(), options.seed);
-        let mut runs = parallel(from.len(), options.threads, run, &mut |_, _| ());
+        let mut tell = |done| watch.tell(Stage::Polishing, (done, cells.len()), None);
+        let mut runs = parallel(from.len(), options.threads, run, &mut |_, _| tell(done));
         runs.sort_by(|a, b| better(&model, &task, &a.run, &b.run));
         let best = runs.swap_remove(0);
         if best.run.is_feasible(&model) {
             known.push(best.clone());
             previous = Some(best);
-        } else {
+        } else if !model.is_stopped() {
             unmet += 1;
         }
         watch.tell(Stage::Polishing, (done + 1, cells.len()), None);
@@ -159,5 +169,5 @@ fn front(
     let dominated = members.len() - kept.len();
     let mut front: Vec<ParetoPoint> = kept.into_iter().map(|k| members[k].clone()).collect();
     front.sort_by(|a, b| gain(b, 0).total_cmp(&gain(a, 0)));
-    ParetoReport { front, dominated, unmet, failure: None }
+    ParetoReport { front, dominated, unmet, failure: None, interrupted: model.is_stopped() }
 }

@@ -89,6 +89,30 @@ fn no_member_of_a_front_is_better_in_every_objective() {
 }
 
 #[test]
+fn an_interrupted_front_says_so_and_has_what_was_found() {
+    let mut p = problem(&[VariableKind::HomeHeight], Objective::WorstConditioning);
+    p.requirements.min_joint_distance = None;
+    p.objectives.push((Objective::Stroke, 1.0));
+    // told to end at the given number of calls, counted among those of the sweep when `sweep` is set
+    let stopped = |after: usize, sweep: bool| {
+        let mut calls = 0;
+        let found = pareto(&p, 4, &quick(), &mut |now| {
+            // the searches before polish batches of fewer runs than the sweep has steps
+            calls += usize::from(!sweep || (now.stage == Stage::Polishing && now.total == 4));
+            if calls > after { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        (found.unwrap(), calls)
+    };
+    let (whole, calls) = stopped(usize::MAX, true);
+    assert!(!whole.interrupted && calls > 4, "{calls}");
+    let (some, _) = stopped(0, true);
+    assert!(some.interrupted && !some.front.is_empty() && some.front.len() < whole.front.len(), "{some:?}");
+    assert_eq!((some.unmet, &some.failure), (0, &None));
+    let (none, _) = stopped(0, false);
+    assert!(none.interrupted && none.failure.is_none(), "{none:?}");
+}
+
+#[test]
 fn later_levels_keep_the_earlier_ones() {
     let mut p = problem(&[VariableKind::HomeHeight], Objective::WorstConditioning);
     p.requirements.min_joint_distance = None;

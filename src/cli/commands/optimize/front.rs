@@ -50,16 +50,7 @@ pub(super) fn run(
         members.push(member);
     }
     let met = members.iter().all(|c| c.assessment.all_met());
-    let exit = match &report.failure {
-        Some(DimensionalOutcome::Infeasible(_)) => Exit::No,
-        None if met => Exit::Yes,
-        _ => Exit::Inconclusive,
-    };
-    let status = match exit {
-        Exit::Yes => "front",
-        Exit::No => "infeasible",
-        _ => "undecided",
-    };
+    let (status, exit) = verdict(&report, met);
     let mut json = Map::new();
     json.insert("status".into(), json!(status));
     json.insert("front".into(), front_json(design, &report, &members, &written));
@@ -70,6 +61,16 @@ pub(super) fn run(
     }
     json.insert("seed".into(), json!(context.seed()));
     Ok(Answer { exit, json, text: text(design, status, &report, &members, &written) })
+}
+
+/// Status and exit code; `met` when all members meet their requirements.
+fn verdict(report: &ParetoReport, met: bool) -> (&'static str, Exit) {
+    match &report.failure {
+        _ if report.interrupted => ("interrupted", Exit::Inconclusive),
+        Some(DimensionalOutcome::Infeasible(_)) => ("infeasible", Exit::No),
+        None if met => ("front", Exit::Yes),
+        _ => ("undecided", Exit::Inconclusive),
+    }
 }
 
 fn front_json(design: &Design, r: &ParetoReport, members: &[Checked], written: &[Option<String>]) -> Value {
@@ -94,6 +95,9 @@ fn text(
     written: &[Option<String>],
 ) -> String {
     let mut out = format!("{}: {status}\n", design.name);
+    if r.interrupted {
+        out.push_str("the front as far as it was found; runs that were not finished may be improved\n");
+    }
     // writing to a string cannot fail
     let _ = writeln!(
         out,
@@ -112,4 +116,29 @@ fn text(
         conflict_text(&mut out, design, c);
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::{Format, parse};
+
+    #[test]
+    fn an_interrupted_front_is_not_called_complete() {
+        let text = std::fs::read_to_string("designs/worked/isolator-octahedral.toml").unwrap();
+        let (design, _) = parse(&text, Format::Toml).unwrap();
+        let mut report =
+            ParetoReport { front: Vec::new(), dominated: 0, unmet: 0, failure: None, interrupted: true };
+        let said = verdict(&report, true);
+        assert_eq!(said, ("interrupted", Exit::Inconclusive));
+        assert!(text_of(&design, said.0, &report).contains("as far as it was found"));
+        report.interrupted = false;
+        assert_eq!(verdict(&report, true), ("front", Exit::Yes));
+        assert_eq!(verdict(&report, false), ("undecided", Exit::Inconclusive));
+        assert!(!text_of(&design, "front", &report).contains("as far as it was found"));
+    }
+
+    fn text_of(design: &Design, status: &str, report: &ParetoReport) -> String {
+        super::text(design, status, report, &[], &[])
+    }
 }
