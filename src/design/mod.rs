@@ -3,6 +3,8 @@
 //! Everything here is pure: text in, [`Design`] or a list of [`Violation`]s out, and back to text. The
 //! format is described key by key in `docs/design-files.md`.
 
+#[cfg(test)]
+mod fixtures;
 mod json_text;
 mod model;
 mod presets;

@@ -3,62 +3,9 @@
 
 use std::fmt::Write as _;
 
+use super::fixtures::REQUIRED as GOOD;
 use super::*;
 use crate::requirements::{FixedTo, Housing, JointAxes, LengthLimits, Region, Shape};
-
-const GOOD: &str = r#"name = "bench"
-units = "mm"
-legs = [["P1", "P4"], ["P2", "P4"], ["P2", "P5"], ["P3", "P5"], ["P3", "P6"], ["P1", "P6"]]
-[base]
-P1 = [0, 0, 0]
-P2 = [6.0, 10.392304845413264, 0.0]
-P3 = [12.0, 0.0, 0.0]
-[platform]
-P4 = [0.0, 0.0, 0.0]
-P5 = [6.0, 0.0, 0.0]
-P6 = [3.0, -5.196152422706632, 0.0]
-[home]
-position = [3.0, 5.0, 8.0]
-rpy_deg = [0.0, 0.0, 90.0]
-[workspace]
-translation = [1, 1, 1]
-region = "ellipsoid"
-trajectory = "path.csv"
-[hardware]
-joint_diameter = 0.5
-base_housing = [1, 2, 3]
-leg_diameter = 0.4
-rod_diameter = 0.2
-cylinder_length = 5
-leg_clearance = 0
-dead_length = 4
-stroke = 3
-base_swing_deg = 45
-base_axes = [[0, 0, 1], [0, 0, 2], [1, 1, 1], [0, 3, 4], [0.1, 0.2, 0.3], [7, 1, 2]]
-platform_swing_deg = 60
-platform_axes = "optimize"
-max_leg_force = 500
-max_leg_speed = 30
-leg_stiffness = 1e5
-[speed]
-linear = 20
-angular_deg = 45
-[[loads]]
-name = "weight"
-force = [0, 0, -100]
-[[loads]]
-torque = [1, 2, 3]
-at = [0, 0, 5]
-fixed_to = "platform"
-[[keep_out]]
-name = "table"
-box = { center = [0, 0, -5], size = [40, 40, 1] }
-[[keep_out]]
-fixed_to = "platform"
-sphere = { center = [0, 0, 2], diameter = 3 }
-[[keep_out]]
-capsule = { from = [0, 0, 0], to = [0, 0, 2], diameter = 3 }
-"#;
 
 #[test]
 fn every_key_is_read_and_written_back_to_the_bit() {

@@ -1,30 +1,8 @@
 //! Every violation with its line and help; reading back what was written; nothing panics.
 #![allow(clippy::format_collect, clippy::float_cmp, reason = "short texts; exact values are read")]
 
+use super::fixtures::PLAIN as GOOD;
 use super::*;
-
-const GOOD: &str = r#"name = "octahedral"
-units = "mm"
-lengths = [9, 9, 9.0, 9, 9, 9]
-legs = [["P1", "P4"], ["P2", "P4"], ["P2", "P5"], ["P3", "P5"], ["P3", "P6"], ["P1", "P6"]]
-[base]
-P1 = [0, 0, 0]
-P2 = [6.0, 10.392304845413264, 0.0]
-P3 = [12.0, 0.0, 0.0]
-[platform]
-P4 = [0.0, 0.0, 0.0]
-P5 = [6.0, 0.0, 0.0]
-P6 = [3.0, -5.196152422706632, 0.0]
-[home]
-position = [3.0, 5.0, 8.0]
-rpy_deg = [0.0, 0.0, 90.0]
-[workspace]
-translation = [1, 1, 1]
-[optimize]
-min_abs_det = 0.1
-[hardware]
-joint_diameter = 0.5
-"#;
 
 /// One line per violation.
 fn refusals(text: &str, format: Format) -> String {
