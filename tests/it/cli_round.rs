@@ -71,6 +71,36 @@ fn both_roundings_are_reported_and_the_chosen_one_is_written_and_verified() {
 }
 
 #[test]
+fn free_grids_are_told_written_and_no_worse() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("rounded.toml");
+    let out = out.to_str().unwrap();
+    let args = ["designs/symmetric-hexapod.toml", "--grid", "1"];
+    let (_, fixed) = round(&args);
+    let (code, doc) = round(&[&args[..], &["--free-grid", "-o", out]].concat());
+    assert_eq!(
+        (code, doc["free_grid"].as_bool(), fixed["free_grid"].as_bool()),
+        (Some(0), Some(true), Some(false))
+    );
+    let error = |d: &Value| d["nearest"]["pose_error"]["first_order"]["position"].as_f64().unwrap();
+    assert!(error(&doc) < error(&fixed), "{} {}", error(&doc), error(&fixed));
+    let grid = &doc["nearest"]["grids"]["platform"];
+    assert_eq!(fixed["nearest"]["grids"]["platform"]["angle_deg"], 0.0);
+    // every joint of the file is on a hole of the grid that is told
+    let text = std::fs::read_to_string(out).unwrap();
+    let (written, _) = equipod::design::parse(&text, equipod::design::Format::Toml).unwrap();
+    let (sin, cos) = grid["angle_deg"].as_f64().unwrap().to_radians().sin_cos();
+    let [x, y] = [0, 1].map(|k| grid["origin"][k].as_f64().unwrap());
+    for p in written.manipulator().platform_joints() {
+        let (dx, dy) = (p.x - x, p.y - y);
+        for c in [cos * dx + sin * dy, cos * dy - sin * dx] {
+            assert!((c - c.round()).abs() < 1e-9, "{p} is on no hole");
+        }
+    }
+    assert!(written.description.unwrap().contains("turned by"));
+}
+
+#[test]
 fn a_rounding_that_meets_no_requirement_is_a_no() {
     let folder = tempfile::tempdir().unwrap();
     let path = design(folder.path());

@@ -4,7 +4,9 @@ use super::grid::{BodyGrid, Cell};
 use super::judge::{Judgement, judge, objective_above};
 use super::pool::{Pool, Triangle, Wanted, pool};
 use super::roles::Roles;
-use super::{NoRounding, RoundedJoint, RoundingProblem, grid_of, on_cells, place, sample_plan};
+use super::{
+    Grid, Laying, NoRounding, RoundedJoint, RoundingProblem, best_of, grid_of, on_cells, place, sample_plan,
+};
 use crate::equivalence::{Verification, VerifyError, verify};
 use crate::fk::FkOptions;
 use crate::manipulator::Manipulator;
@@ -21,6 +23,8 @@ const REACH: f64 = 12.0;
 /// A rounding that is exactly equivalent to an octahedral platform.
 #[derive(Debug, Clone)]
 pub struct ExactRounding {
+    /// The grids of base and platform, as given or chosen.
+    pub grids: [Grid; 2],
     /// The rounded design, joints in the order of the wanted one.
     pub manipulator: Manipulator,
     /// The octahedral platform on its triangles.
@@ -169,12 +173,13 @@ pub(super) fn proved(m: &Manipulator, list: &[Joint], cells: &[Cell], corners: &
 }
 
 /// Where the roles are wanted on a grid.
-fn wanted(m: &Manipulator, roles: &Roles, grid: &BodyGrid, body: usize) -> Wanted {
+pub(super) fn wanted(m: &Manipulator, roles: &Roles, grid: &BodyGrid, body: usize) -> Wanted {
     let at = |j: Joint| grid.coordinates(&place(m, j));
     Wanted { corners: roles.corners[body].map(at), inner: roles.inner.map(|i| i[body].map(at)) }
 }
 
-fn limit(w: &Wanted) -> f64 {
+/// Greatest reach of a pool, pitches.
+pub(super) fn limit(w: &Wanted) -> f64 {
     let side = |k: usize| {
         let (p, q) = (w.corners[k], w.corners[(k + 1) % 3]);
         (p[0] - q[0]).hypot(p[1] - q[1])
@@ -182,32 +187,54 @@ fn limit(w: &Wanted) -> f64 {
     (REACH_SHARE * side(0).min(side(1)).min(side(2))).min(REACH)
 }
 
-pub(super) fn round(
-    problem: &RoundingProblem<'_>,
-    grids: [BodyGrid; 2],
-    roles: Option<&Roles>,
-) -> Result<ExactRounding, NoRounding> {
+/// The best pair of triangles on grids that are laid, and how it was found.
+struct Found {
+    laying: Laying,
+    pools: [Pool; 2],
+    best: Pair,
+    replacements: usize,
+    /// Whether it meets the requirements.
+    met: bool,
+}
+
+fn search(problem: &RoundingProblem<'_>, laying: &Laying, roles: &Roles) -> Result<Found, NoRounding> {
     let m = problem.manipulator;
-    let roles = roles.ok_or(NoRounding::NoTriangles)?;
+    let count = problem.candidates.max(1);
     let pools = [0, 1].map(|body| {
-        let wanted = wanted(m, roles, &grids[body], body);
-        pool(&wanted, problem.candidates.max(1), limit(&wanted))
+        let wanted = wanted(m, roles, &laying.bodies[body], body);
+        pool(&wanted, count, limit(&wanted))
     });
     for (body, pool) in [Body::Base, Body::Platform].into_iter().zip(&pools) {
         if pool.triangles.is_empty() {
             return Err(NoRounding::NoTriangleNear(body));
         }
     }
-    let list = joints(m);
-    let mut search = Search { problem, grids, roles, list: list.clone(), strict: true, hint: 0 };
-    let mut found = search.run(&pools, problem.candidates.max(1));
-    if found.is_none() {
-        search.strict = false;
-        found = search.run(&pools, problem.candidates.max(1));
-    }
+    let mut search = Search { problem, grids: laying.bodies, roles, list: joints(m), strict: true, hint: 0 };
+    let strict = search.run(&pools, count);
+    let met = strict.is_some();
+    search.strict = false;
+    let found = strict.or_else(|| search.run(&pools, count));
     let (best, replacements) = found.ok_or(NoRounding::Singular)?;
+    Ok(Found { laying: *laying, pools, best, replacements, met })
+}
+
+/// The best answer on any of the grids, the first ones where several are equally good; what stands against the first where there is none.
+pub(super) fn round(
+    problem: &RoundingProblem<'_>,
+    layings: &[Laying],
+    roles: Option<&Roles>,
+) -> Result<ExactRounding, NoRounding> {
+    let roles = roles.ok_or(NoRounding::NoTriangles)?;
+    let better = |a: &Found, b: &Found| (a.met, a.best.objective) > (b.met, b.best.objective);
+    let found = best_of(layings.iter().map(|laying| search(problem, laying, roles)), better);
+    finish(problem, roles, &found.unwrap_or(Err(NoRounding::Singular))?)
+}
+
+fn finish(problem: &RoundingProblem<'_>, roles: &Roles, found: &Found) -> Result<ExactRounding, NoRounding> {
+    let (m, best, grids, pools) = (problem.manipulator, &found.best, &found.laying.bodies, &found.pools);
+    let list = joints(m);
     let cells = cells(roles, &list, &best.triangles);
-    let rounded = on_cells(m, &grids, &cells).ok_or(NoRounding::Singular)?;
+    let rounded = on_cells(m, grids, &cells).ok_or(NoRounding::Singular)?;
     let octahedral = match &roles.found {
         Some(found) => octahedral_of(&rounded, found).map_err(|_| NoRounding::Singular)?,
         None => rounded.clone(),
@@ -218,13 +245,14 @@ pub(super) fn round(
         (t.inner[k / 2], t.parts[k / 2])
     };
     Ok(ExactRounding {
+        grids: found.laying.grids,
         fractions: roles.inner.is_some().then(|| std::array::from_fn(fraction)),
-        joints: rounded_joints(m, &rounded, roles, &grids, &cells),
+        joints: rounded_joints(m, &rounded, roles, grids, &cells),
         judgement: judge(&rounded, problem, Some(roles.determinant(&rounded))),
         proved: proved(m, &list, &cells, &[best.triangles[0].corners, best.triangles[1].corners]),
         pool: [0, 1].map(|k| pools[k].triangles.len()),
         complete_to: [0, 1].map(|k| pools[k].complete_to * grids[k].pitch()),
-        replacements,
+        replacements: found.replacements,
         verification: verify(&octahedral, &rounded, &sample_plan(problem), &options),
         octahedral,
         manipulator: rounded,

@@ -1,6 +1,8 @@
 //! Joints on a grid of holes.
 
 mod exact;
+mod fit;
+mod free;
 mod grid;
 mod judge;
 mod nearest;
@@ -36,6 +38,8 @@ pub struct RoundingProblem<'a> {
     pub manipulator: &'a Manipulator,
     /// Grids of base and platform.
     pub grids: [Grid; 2],
+    /// Whether origins and angles are chosen too; the grids as they are given then take part, so that the answer is never worse than theirs.
+    pub free: bool,
     /// What it has to satisfy.
     pub requirements: &'a Requirements,
     /// The poses it has to reach.
@@ -132,32 +136,91 @@ impl Rounding {
 /// triangles without any error, decided in exact arithmetic. *Nearest*: every joint on one of the four grid points around it, chosen for the least
 /// error of the pose that the formula of the wanted design gives.
 ///
+/// With `free` grids their origins and angles are chosen as well (`docs/theory/manufacture.md`): of the grids given and those whose holes come nearest to what is
+/// wanted each way takes the ones that make its own answer best.
+///
 /// # Errors
 /// [`NoRounding::NotPlanar`], [`NoRounding::BadGrid`]; what stands against one of the ways is in its part of the answer.
 pub fn round_to_grid(problem: &RoundingProblem<'_>) -> Result<Rounding, NoRounding> {
     let m = problem.manipulator;
-    let list = joints(m);
     let mut grids = Vec::with_capacity(2);
     for (body, grid) in [Body::Base, Body::Platform].into_iter().zip(&problem.grids) {
         let finite = grid.origin.iter().chain([&grid.angle_deg]).all(|x| x.is_finite());
         if !(grid.pitch > 0.0 && grid.pitch.is_finite() && finite) {
             return Err(NoRounding::BadGrid(body));
         }
-        let points: Vec<Point3<f64>> = list.iter().filter(|j| j.body == body).map(|j| place(m, *j)).collect();
+        let points = places(m, body);
         let laid = BodyGrid::new(&points, grid, m.size()).ok_or(NoRounding::NotPlanar(body))?;
         if !laid.reaches(&points) {
             return Err(NoRounding::BadGrid(body));
         }
         grids.push(laid);
     }
-    let [base, platform] = [grids[0], grids[1]];
+    let given = Laying { grids: problem.grids, bodies: [grids[0], grids[1]] };
     let roles = Roles::of(m);
     let det = roles.as_ref().map(|r| r.determinant(m));
+    let [exact, nearest] = if problem.free {
+        [layings(problem, &given, roles.as_ref()), layings(problem, &given, None)]
+    } else {
+        [vec![given], vec![given]]
+    };
     Ok(Rounding {
         wanted: judge::judge(m, problem, det),
-        exact: exact::round(problem, [base, platform], roles.as_ref()),
-        nearest: nearest::round(problem, [base, platform], roles.as_ref()),
+        exact: exact::round(problem, &exact, roles.as_ref()),
+        nearest: nearest::round(problem, &nearest, roles.as_ref()),
     })
+}
+
+/// Grids of both bodies, laid.
+#[derive(Debug, Clone, Copy)]
+struct Laying {
+    grids: [Grid; 2],
+    bodies: [BodyGrid; 2],
+}
+
+/// The grids as given, and those of the same pitches whose holes come nearest to the joints: to triangles that keep the roles, with the best of each body, or
+/// without roles to the joints as they are, with the best ones of both in every combination.
+fn layings(problem: &RoundingProblem<'_>, given: &Laying, roles: Option<&Roles>) -> Vec<Laying> {
+    let m = problem.manipulator;
+    let found = [Body::Base, Body::Platform].map(|body| {
+        let k = usize::from(body == Body::Platform);
+        let plain = Grid { origin: [0.0; 2], angle_deg: 0.0, ..problem.grids[k] };
+        let points = places(m, body);
+        let lay = |grid: Grid| BodyGrid::new(&points, &grid, m.size()).map(|laid| (grid, laid));
+        let Some((_, plain)) = lay(plain) else { return Vec::new() };
+        let laid = match roles {
+            Some(roles) => {
+                let wanted = exact::wanted(m, roles, &plain, k);
+                let mut best = free::near_triangles(&wanted, exact::limit(&wanted));
+                best.truncate(1);
+                best
+            }
+            None => free::near_holes(&points.iter().map(|p| plain.coordinates(p)).collect::<Vec<_>>()),
+        };
+        laid.iter().filter_map(|l| lay(free::as_grid(l, &plain))).collect()
+    });
+    let [base, platform]: [Vec<(Grid, BodyGrid)>; 2] = found;
+    let pair =
+        |(a, b): (&(Grid, BodyGrid), &(Grid, BodyGrid))| Laying { grids: [a.0, b.0], bodies: [a.1, b.1] };
+    let all = base.iter().flat_map(|a| platform.iter().map(move |b| (a, b)));
+    std::iter::once(*given).chain(all.map(pair)).collect()
+}
+
+/// The best of what was found on several grids, the first where several are equally good; the first error where nothing was found.
+fn best_of<T>(
+    all: impl Iterator<Item = Result<T, NoRounding>>,
+    better: impl Fn(&T, &T) -> bool,
+) -> Option<Result<T, NoRounding>> {
+    all.reduce(|old, new| match (&old, &new) {
+        (Ok(a), Ok(b)) if better(b, a) => new,
+        (Err(_), Ok(_)) => new,
+        _ => old,
+    })
+}
+
+/// The joints of a body that legs use.
+fn places(m: &Manipulator, body: Body) -> Vec<Point3<f64>> {
+    joints(m).into_iter().filter(|j| j.body == body).map(|j| place(m, j)).collect()
 }
 
 fn place(m: &Manipulator, joint: Joint) -> Point3<f64> {

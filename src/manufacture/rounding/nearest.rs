@@ -5,7 +5,9 @@ use nalgebra::{Matrix3, Vector3};
 use super::grid::{BodyGrid, Cell};
 use super::judge::{Judgement, judge};
 use super::roles::Roles;
-use super::{NoRounding, RoundedJoint, RoundingProblem, grid_of, on_cells, place, sample_plan};
+use super::{
+    Grid, Laying, NoRounding, RoundedJoint, RoundingProblem, best_of, grid_of, on_cells, place, sample_plan,
+};
 use crate::equivalence::{Verification, VerifyError, verify};
 use crate::fk::FkOptions;
 use crate::manipulator::Manipulator;
@@ -17,6 +19,8 @@ use crate::num::Rng;
 /// A rounding whose joints are near their lines, not on them.
 #[derive(Debug, Clone)]
 pub struct NearestRounding {
+    /// The grids of base and platform, as given or chosen.
+    pub grids: [Grid; 2],
     /// The rounded design, joints in the order of the wanted one.
     pub manipulator: Manipulator,
     /// Every joint, in the order of [`joints`].
@@ -72,18 +76,36 @@ fn around(grid: &BodyGrid, m: &Manipulator, joint: Joint) -> [Cell; 4] {
     out
 }
 
-pub(super) fn round(
+/// The holes on grids that are laid.
+struct Found {
+    laying: Laying,
+    /// For every joint its hole, and where it is next to the nearest.
+    cells: Vec<Cell>,
+    moved: Vec<Vector3<f64>>,
+    not_nearest: usize,
+    rounded: Manipulator,
+    judgement: Judgement,
+    errors: (f64, f64),
+    nearest_errors: (f64, f64),
+}
+
+impl Found {
+    /// What is lowered.
+    fn cost(&self, length: f64) -> f64 {
+        self.errors.0.max(length * self.errors.1)
+    }
+}
+
+fn search(
     problem: &RoundingProblem<'_>,
-    grids: [BodyGrid; 2],
-    roles: Option<&Roles>,
-) -> Result<NearestRounding, NoRounding> {
+    laying: &Laying,
+    sensitivities: &[Sensitivity],
+) -> Result<Found, NoRounding> {
     let m = problem.manipulator;
     let list = joints(m);
-    let sensitivities: Option<Vec<Sensitivity>> =
-        problem.poses.iter().map(|pose| Sensitivity::at(m, pose, &problem.tool)).collect();
-    let sensitivities = sensitivities.ok_or(NoRounding::SingularPose)?;
-    let choices: Vec<[Cell; 4]> = list.iter().map(|j| around(grid_of(&grids, j.body), m, *j)).collect();
-    let moved = |k: usize, cell: Cell| grid_of(&grids, list[k].body).point(cell) - place(m, list[k]);
+    let grids = &laying.bodies;
+    let choices: Vec<[Cell; 4]> = list.iter().map(|j| around(grid_of(grids, j.body), m, *j)).collect();
+    let moved = |k: usize, cell: Cell| grid_of(grids, list[k].body).point(cell) - place(m, list[k]);
     let cells: Vec<Cell> = choices.iter().map(|c| c[0]).collect();
     let taken = |cells: &[Cell], k: usize, cell: Cell| {
         (0..list.len()).any(|i| i != k && list[i].body == list[k].body && cells[i] == cell)
@@ -93,7 +115,7 @@ pub(super) fn round(
     }
     let start = (0..list.len()).map(|k| moved(k, cells[k])).collect();
     let length = problem.characteristic_length;
-    let mut state = State { sensitivities: &sensitivities, length, cells, moved: start };
+    let mut state = State { sensitivities, length, cells, moved: start };
     let nearest_errors = state.errors();
     // one joint at a time, until no joint can do better
     loop {
@@ -118,22 +140,51 @@ pub(super) fn round(
             break;
         }
     }
-    let rounded = on_cells(m, &grids, &state.cells).ok_or(NoRounding::Singular)?;
+    let rounded = on_cells(m, grids, &state.cells).ok_or(NoRounding::Singular)?;
+    Ok(Found {
+        laying: *laying,
+        not_nearest: state.cells.iter().zip(&choices).filter(|(cell, c)| **cell != c[0]).count(),
+        judgement: judge(&rounded, problem, None),
+        errors: state.errors(),
+        nearest_errors,
+        cells: state.cells,
+        moved: state.moved,
+        rounded,
+    })
+}
+
+/// The best answer on any of the grids, the first ones where several are equally good; what stands against the first where there is none.
+pub(super) fn round(
+    problem: &RoundingProblem<'_>,
+    layings: &[Laying],
+    roles: Option<&Roles>,
+) -> Result<NearestRounding, NoRounding> {
+    let m = problem.manipulator;
+    let sensitivities: Option<Vec<Sensitivity>> =
+        problem.poses.iter().map(|pose| Sensitivity::at(m, pose, &problem.tool)).collect();
+    let sensitivities = sensitivities.ok_or(NoRounding::SingularPose)?;
+    let length = problem.characteristic_length;
+    let better =
+        |a: &Found, b: &Found| (a.judgement.met, -a.cost(length)) > (b.judgement.met, -b.cost(length));
+    let all = layings.iter().map(|laying| search(problem, laying, &sensitivities));
+    let found = best_of(all, better).unwrap_or(Err(NoRounding::Singular))?;
+    let rounded = found.rounded;
     let one = |(k, joint): (usize, &Joint)| RoundedJoint {
         joint: *joint,
-        cell: state.cells[k],
-        moved: state.moved[k],
+        cell: found.cells[k],
+        moved: found.moved[k],
         off_line: roles.and_then(|r| r.off_line(m, *joint, &place(&rounded, *joint))),
     };
     let degrees = |(p, w): (f64, f64)| (p, w.to_degrees());
     let options = FkOptions { seed: problem.seed, ..FkOptions::default() };
     Ok(NearestRounding {
-        joints: list.iter().enumerate().map(one).collect(),
-        judgement: judge(&rounded, problem, None),
-        first_order: degrees(state.errors()),
-        first_order_nearest: degrees(nearest_errors),
-        solved: solved(problem, &state.moved),
-        not_nearest: state.cells.iter().zip(&choices).filter(|(cell, c)| **cell != c[0]).count(),
+        grids: found.laying.grids,
+        joints: joints(m).iter().enumerate().map(one).collect(),
+        judgement: found.judgement,
+        first_order: degrees(found.errors),
+        first_order_nearest: degrees(found.nearest_errors),
+        solved: solved(problem, &found.moved),
+        not_nearest: found.not_nearest,
         verification: verify(m, &rounded, &sample_plan(problem), &options),
         manipulator: rounded,
     })

@@ -26,6 +26,7 @@ fn with<R>(
     work(&RoundingProblem {
         manipulator: m,
         grids,
+        free: false,
         requirements: required,
         space: &space,
         poses: &poses,
@@ -204,15 +205,7 @@ fn bodies_in_space_are_refused_and_designs_without_triangles_have_no_exact_round
     legs[1].platform.z += 0.5;
     let bent = Manipulator::from_legs(legs).unwrap();
     assert_eq!(round(&bent, [GRID; 2]).unwrap_err(), NoRounding::NotPlanar(Body::Platform));
-    let hexapod = Manipulator::from_legs(std::array::from_fn(|i| {
-        let t = i as f64 + 0.2 * (i % 2) as f64;
-        Leg {
-            base: Point3::new(4.0 * t.cos(), 3.0 * t.sin(), 0.0),
-            platform: Point3::new((1.4 * t).sin(), 2.0 * t.cos(), 0.0),
-        }
-    }))
-    .unwrap();
-    let found = round(&hexapod, [GRID; 2]).unwrap();
+    let found = round(&hexapod(), [GRID; 2]).unwrap();
     assert_eq!(found.exact.unwrap_err(), NoRounding::NoTriangles);
     assert!(found.nearest.is_ok());
     let bad = Grid { pitch: 0.0, ..GRID };
@@ -221,6 +214,62 @@ fn bodies_in_space_are_refused_and_designs_without_triangles_have_no_exact_round
     let found = round(&free(), [coarse; 2]).unwrap();
     assert!(matches!(found.exact, Err(NoRounding::NoTriangleNear(_))));
     assert!(matches!(found.nearest, Err(NoRounding::JointsCoincide(_))));
+}
+
+fn round_freely(m: &Manipulator, grids: [Grid; 2]) -> Rounding {
+    with(m, grids, &Requirements::default(), |p| round_to_grid(&RoundingProblem { free: true, ..*p }))
+        .unwrap()
+}
+
+/// Six legs on planar bodies, neither octahedral nor with joints on the sides of triangles.
+fn hexapod() -> Manipulator {
+    Manipulator::from_legs(std::array::from_fn(|i| {
+        let t = i as f64 + 0.2 * (i % 2) as f64;
+        Leg {
+            base: Point3::new(4.0 * t.cos(), 3.0 * t.sin(), 0.0),
+            platform: Point3::new((1.4 * t).sin(), 2.0 * t.cos(), 0.0),
+        }
+    }))
+    .unwrap()
+}
+
+#[test]
+fn free_grids_are_never_worse_than_the_given_ones() {
+    let cost = |n: &NearestRounding| n.first_order.0.max(2.5 * n.first_order.1.to_radians());
+    let grids = [Grid { pitch: 0.4, ..GRID }, Grid { pitch: 0.3, origin: [0.1, 0.05], angle_deg: 20.0 }];
+    for m in [free(), octahedral(), hexapod()] {
+        let (fixed, chosen) = (round(&m, grids).unwrap(), round_freely(&m, grids));
+        let (a, b) = (fixed.nearest.unwrap(), chosen.nearest.unwrap());
+        assert!(cost(&b) <= cost(&a), "{:?}", b.grids);
+        assert!(b.grids.iter().zip(&grids).all(|(found, given)| (found.pitch - given.pitch).abs() <= 0.0));
+        if let (Ok(a), Ok(b)) = (fixed.exact, chosen.exact) {
+            assert!(b.judgement.objective >= a.judgement.objective && b.proved, "{:?}", b.grids);
+            assert_eq!(b.verification.unwrap().verdict, Verdict::Equivalent);
+        }
+    }
+    // and better where there is something to choose
+    let (fixed, chosen) = (round(&hexapod(), grids).unwrap(), round_freely(&hexapod(), grids));
+    assert!(cost(&chosen.nearest.unwrap()) < 0.9 * cost(&fixed.nearest.unwrap()));
+}
+
+#[test]
+fn joints_that_are_on_some_grid_are_found_to_be_on_it() {
+    let grids = [
+        Grid { pitch: 0.4, origin: [0.13, -0.08], angle_deg: 31.0 },
+        Grid { pitch: 0.3, origin: [0.1, 0.05], angle_deg: -17.0 },
+    ];
+    let on = round(&hexapod(), grids).unwrap().nearest.unwrap().manipulator;
+    let plain = grids.map(|g| Grid { origin: [0.0; 2], angle_deg: 0.0, ..g });
+    let n = round_freely(&on, plain).nearest.unwrap();
+    assert!(n.joints.iter().all(|j| j.moved.norm() < 1e-6), "{:?}", n.joints);
+    assert!(
+        n.grids.iter().zip(&grids).all(|(a, b)| (a.angle_deg - b.angle_deg).abs() < 1e-4),
+        "{:?}",
+        n.grids
+    );
+    // negative control: the grid that is given does not have them
+    let n = round(&on, plain).unwrap().nearest.unwrap();
+    assert!(n.joints.iter().any(|j| j.moved.norm() > 0.01));
 }
 
 #[test]

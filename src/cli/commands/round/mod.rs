@@ -41,6 +41,9 @@ pub(crate) struct Args {
     /// Turn of the grid of the platform, degrees
     #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_hyphen_values = true)]
     angle_platform: f64,
+    /// Choose the origins and angles of the grids too; those given take part
+    #[arg(long)]
+    free_grid: bool,
     /// Which rounding is written
     #[arg(long, value_enum, default_value_t = Variant::Rule)]
     variant: Variant,
@@ -77,30 +80,48 @@ pub(super) fn verdict(v: &Result<Verification, VerifyError>) -> &'static str {
     v.as_ref().map_or("not_computed", |v| v.verdict.as_str())
 }
 
-fn chosen(found: &Rounding, variant: Variant, keep: f64) -> Option<(&'static str, &Manipulator)> {
-    let exact = found.exact.as_ref().ok().map(|e| ("exact", &e.manipulator));
-    let nearest = found.nearest.as_ref().ok().map(|n| ("nearest", &n.manipulator));
+/// A rounding that may be written.
+#[derive(Debug, Clone, Copy)]
+struct Choice<'a> {
+    variant: &'static str,
+    manipulator: &'a Manipulator,
+    grids: &'a [Grid; 2],
+}
+
+fn chosen(found: &Rounding, variant: Variant, keep: f64) -> Option<Choice<'_>> {
+    let exact = found.exact.as_ref().ok();
+    let exact = exact.map(|e| Choice { variant: "exact", manipulator: &e.manipulator, grids: &e.grids });
+    let nearest = found.nearest.as_ref().ok();
+    let nearest =
+        nearest.map(|n| Choice { variant: "nearest", manipulator: &n.manipulator, grids: &n.grids });
     match variant {
         Variant::Exact => exact,
         Variant::Nearest => nearest,
         Variant::Rule => {
             let choice = found.choice(keep)?;
-            [exact, nearest].into_iter().flatten().find(|(_, m)| std::ptr::eq(*m, choice))
+            [exact, nearest].into_iter().flatten().find(|c| std::ptr::eq(c.manipulator, choice))
         }
     }
 }
 
-fn rounded_design(design: &Design, m: &Manipulator, variant: &str, pitch: [f64; 2]) -> Design {
+/// A grid in words.
+fn in_words(grid: &Grid) -> String {
+    let Grid { pitch, origin: [x, y], angle_deg } = grid;
+    format!("pitch {pitch}, a hole at ({x}, {y}), turned by {angle_deg} deg")
+}
+
+fn rounded_design(design: &Design, choice: &Choice<'_>) -> Design {
     let name = format!("{}, rounded", design.name);
-    let plain = Design::new(name, design.units.clone(), m.clone());
+    let plain = Design::new(name, design.units.clone(), choice.manipulator.clone());
     let (base, platform) = (design.base_names().to_vec(), design.platform_names().to_vec());
     let mut out = plain.clone().with_joint_names(base, platform).unwrap_or(plain);
     out.description = Some(format!(
-        "Joints of the design \"{}\" on grids of {} (base) and {} (platform) by equipod {}, variant {variant}",
+        "Joints of the design \"{}\" on grids by equipod {}, variant {}; base: {}; platform: {}",
         design.name,
-        pitch[0],
-        pitch[1],
-        env!("CARGO_PKG_VERSION")
+        env!("CARGO_PKG_VERSION"),
+        choice.variant,
+        in_words(&choice.grids[0]),
+        in_words(&choice.grids[1])
     ));
     out.with_tables_of(design)
 }
@@ -132,6 +153,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
             Grid { pitch: pitch[0], origin, angle_deg: args.angle },
             Grid { pitch: pitch[1], origin: origin_platform, angle_deg: args.angle_platform },
         ],
+        free: args.free_grid,
         requirements: &required,
         space: &space,
         poses: &poses,
@@ -149,7 +171,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         Failure::refused(code, why.to_string())
     })?;
     let choice = chosen(&found, args.variant, args.keep);
-    let rounded = choice.map(|(variant, m)| (variant, rounded_design(&design, m, variant, pitch)));
+    let rounded = choice.map(|c| (c.variant, rounded_design(&design, &c)));
     let mut written = None;
     if let (Some(path), Some((_, rounded))) = (&args.output, &rounded) {
         files::write_design(path, rounded)?;

@@ -4,13 +4,13 @@ use std::fmt::Write as _;
 
 use serde_json::{Map, Value, json};
 
-use super::verdict;
+use super::{in_words, verdict};
 use crate::cli::commands::tolerances::{joint_name, spread};
 use crate::cli::output::number;
 use crate::cli::poses;
 use crate::design::Design;
 use crate::manufacture::{
-    ExactRounding, Judgement, NearestRounding, NoRounding, RoundedJoint, Rounding, RoundingProblem,
+    ExactRounding, Grid, Judgement, NearestRounding, NoRounding, RoundedJoint, Rounding, RoundingProblem,
 };
 
 /// Everything there is to tell.
@@ -47,6 +47,11 @@ fn refusal(why: NoRounding) -> Value {
     json!({ "error": { "code": code, "message": why.to_string() } })
 }
 
+fn grids(grids: &[Grid; 2]) -> Value {
+    let one = |g: &Grid| json!({ "pitch": number(g.pitch), "origin": g.origin.map(number), "angle_deg": number(g.angle_deg) });
+    json!({ "base": one(&grids[0]), "platform": one(&grids[1]) })
+}
+
 impl Report<'_> {
     fn joints(&self, joints: &[RoundedJoint]) -> Value {
         let one = |j: &RoundedJoint| {
@@ -61,7 +66,7 @@ impl Report<'_> {
 
     fn exact(&self, e: &ExactRounding) -> Value {
         json!({
-            "proved": e.proved, "verdict": verdict(&e.verification),
+            "grids": grids(&e.grids), "proved": e.proved, "verdict": verdict(&e.verification),
             "fractions": e.fractions.map_or(Value::Null, |f| f.iter().map(|(k, n)| json!([k, n])).collect()),
             "joints": self.joints(&e.joints), "judgement": judgement(&e.judgement),
             "search": { "triangles": e.pool, "complete_to": e.complete_to.map(number), "replacements": e.replacements },
@@ -72,7 +77,7 @@ impl Report<'_> {
         let pair = |(p, w): (f64, f64)| json!({ "position": number(p), "rotation_deg": number(w) });
         let residual = n.verification.as_ref().map_or(Value::Null, |v| number(v.map.residual));
         json!({
-            "verdict": verdict(&n.verification), "map_residual": residual,
+            "grids": grids(&n.grids), "verdict": verdict(&n.verification), "map_residual": residual,
             "joints": self.joints(&n.joints), "judgement": judgement(&n.judgement),
             "pose_error": {
                 "first_order": pair(n.first_order), "first_order_nearest_points": pair(n.first_order_nearest),
@@ -85,11 +90,8 @@ impl Report<'_> {
     pub(super) fn json(&self) -> Map<String, Value> {
         let mut out = Map::new();
         let mut put = |key: &str, value: Value| out.insert(key.into(), value);
-        let grid = |k: usize| {
-            let g = &self.problem.grids[k];
-            json!({ "pitch": number(g.pitch), "origin": g.origin.map(number), "angle_deg": number(g.angle_deg) })
-        };
-        put("grids", json!({ "base": grid(0), "platform": grid(1) }));
+        put("grids", grids(&self.problem.grids));
+        put("free_grid", json!(self.problem.free));
         put("wanted", judgement(&self.found.wanted));
         put("exact", self.found.exact.as_ref().map_or_else(|why| refusal(*why), |e| self.exact(e)));
         put("nearest", self.found.nearest.as_ref().map_or_else(|why| refusal(*why), |n| self.nearest(n)));
@@ -111,6 +113,14 @@ impl Report<'_> {
             self.design.units,
             if j.met { "met" } else { "violated" }
         );
+    }
+
+    fn grids(&self, out: &mut String, grids: &[Grid; 2]) {
+        if self.problem.free {
+            for (body, grid) in ["base", "platform"].iter().zip(grids) {
+                let _ = writeln!(out, "  grid of the {body}: {}", in_words(grid));
+            }
+        }
     }
 
     fn table(&self, out: &mut String, joints: &[RoundedJoint]) {
@@ -146,6 +156,7 @@ impl Report<'_> {
                     "  equivalent to its own octahedral platform: {proof}; leg map and forward kinematics: {}",
                     verdict(&e.verification)
                 );
+                self.grids(&mut out, &e.grids);
                 self.table(&mut out, &e.joints);
             }
             Err(why) => {
@@ -168,6 +179,7 @@ impl Report<'_> {
                     n.solved.0.position.max,
                     n.solved.0.rotation_deg.max
                 );
+                self.grids(&mut out, &n.grids);
                 self.table(&mut out, &n.joints);
             }
             Err(why) => {
