@@ -149,3 +149,13 @@ fn a_slip_in_the_name_of_a_variable_is_refused_with_the_nearest_one() {
     assert_eq!(out.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&out.stdout).contains("offsets"));
 }
+
+#[test]
+fn a_design_that_is_not_octahedral_is_told_what_can_be_chosen() {
+    // [hardware] without variables asks for offsets, which it has not
+    let design = concat!(env!("CARGO_MANIFEST_DIR"), "/designs/symmetric-hexapod.toml");
+    let out = Command::new(env!("CARGO_BIN_EXE_equipod")).args(["optimize", design]).output().unwrap();
+    assert_eq!(out.status.code(), Some(2));
+    let text = String::from_utf8_lossy(&out.stderr);
+    assert!(text.contains("octahedral designs") && text.contains("\"components\""), "{text}");
+}

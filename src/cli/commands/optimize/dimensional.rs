@@ -7,8 +7,8 @@ use crate::cli::poses;
 use crate::cli::progress::{Interrupt, Progress};
 use crate::design::{Combination, Design};
 use crate::dimensional::{
-    DimensionalOutcome, DimensionalProblem, DimensionalReport, DimensionalSolution, Mode, Objective,
-    SearchOptions, Stage, VariableKind, Variables, evaluate, optimize,
+    DimensionalOutcome, DimensionalProblem, DimensionalReport, DimensionalSolution, InvalidProblem, Mode,
+    Objective, SearchOptions, Stage, VariableKind, Variables, evaluate, optimize,
 };
 use crate::equivalence::{Verification, verify};
 use crate::fk::FkOptions;
@@ -105,6 +105,18 @@ pub(super) fn problem(design: &Design, extension: f64) -> DimensionalProblem {
     }
 }
 
+/// A problem that cannot be asked, with what could be asked instead.
+pub(super) fn refusal(why: &InvalidProblem) -> Failure {
+    let failure = Failure::refused("optimize::invalid_problem", why.to_string());
+    match why {
+        InvalidProblem::NotOctahedral(_) => failure.with_help(
+            "for other designs set variables = [\"components\"] in [optimize] (legs move in their families of replaceable legs), \
+             or \"home_height\", \"joint_axes\"",
+        ),
+        _ => failure,
+    }
+}
+
 /// Threads and seed of the command line.
 pub(super) fn options(args: &super::Args, context: &Context) -> SearchOptions {
     let processors = || std::thread::available_parallelism().map_or(1, usize::from);
@@ -132,7 +144,7 @@ pub(super) fn run(design: &Design, args: &super::Args, context: &Context) -> Res
         progress.note(&words(&p));
         interrupt.flow()
     })
-    .map_err(|why| Failure::refused("optimize::invalid_problem", why.to_string()))?;
+    .map_err(|why| refusal(&why))?;
     progress.end();
     let checked = match report.solution() {
         Some(s) => Some(checked(design, &problem, s, context.seed())?),

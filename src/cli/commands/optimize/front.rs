@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Map, Value, json};
 
-use super::dimensional::{Checked, checked, options, problem, words};
+use super::dimensional::{Checked, checked, options, problem, refusal, words};
 use super::dimensional_text::{conflict_json, conflict_text, solution_json, unit};
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
@@ -39,7 +39,7 @@ pub(super) fn run(
         progress.note(&words(&p));
         interrupt.flow()
     })
-    .map_err(|why| Failure::refused("optimize::invalid_problem", why.to_string()))?;
+    .map_err(|why| refusal(&why))?;
     progress.end();
     let mut members = Vec::new();
     let mut written = Vec::new();
