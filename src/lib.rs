@@ -23,6 +23,7 @@ pub mod num;
 pub mod offsets;
 pub mod plot;
 pub mod poly;
+pub mod report;
 pub mod requirements;
 pub mod singularity;
 pub mod solve;

@@ -11,6 +11,7 @@ mod diagnostic;
 mod exit;
 mod failure;
 mod files;
+mod freedoms;
 mod output;
 mod poses;
 mod progress;

@@ -1,10 +1,11 @@
-//! Assembly modes as small multiples: base triangle, platform triangle, six legs, one oblique projection.
+//! Assembly modes as small multiples: base, platform, six legs, one oblique projection.
 
 use nalgebra::{Point3, Vector3};
 
+use super::motion::outline;
 use super::style::Svg;
 use crate::geom::Pose;
-use crate::manipulator::Octahedral;
+use crate::manipulator::{Manipulator, Octahedral};
 
 /// What the picture shows.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,20 +28,22 @@ const GAP: f64 = 10.0;
 const MARGIN: f64 = 24.0;
 const TOP: f64 = 66.0;
 const CAPTION: f64 = 22.0;
-/// Mirror pairs in a row.
+/// Mirror pairs in a row, and poses in a row when none has a mirror image.
 const PAIRS: usize = 3;
+const SINGLES: usize = 6;
 
-/// Joints of one pose on the page, relative to the centre of the base: `P1..P3`, `P4..P6`.
+/// One pose on the page, relative to the centre of the base: outlines of the bodies, and the legs in their order.
 #[derive(Debug, Clone)]
 struct Drawn {
     number: usize,
-    base: [(f64, f64); 3],
-    platform: [(f64, f64); 3],
+    base: Vec<(f64, f64)>,
+    platform: Vec<(f64, f64)>,
+    legs: [[(f64, f64); 2]; 6],
 }
 
-/// The frame of the base triangle: origin in its centroid, `w` its normal.
+/// The frame of a triangle of the base: origin in its centroid, `w` its normal.
 #[derive(Debug)]
-struct BaseFrame {
+pub(super) struct BaseFrame {
     centre: Vector3<f64>,
     u: Vector3<f64>,
     v: Vector3<f64>,
@@ -49,7 +52,7 @@ struct BaseFrame {
 
 impl BaseFrame {
     /// `w` on the side of positive z (then y, then x) of the design, `u` along the edge `P1 P3`.
-    fn new(base: &[Point3<f64>; 3]) -> Self {
+    pub(super) fn new(base: &[Point3<f64>; 3]) -> Self {
         let centre = (base[0].coords + base[1].coords + base[2].coords) / 3.0;
         let u = (base[2] - base[0]).normalize();
         let normal = (base[1] - base[0]).cross(&(base[2] - base[0])).normalize();
@@ -58,26 +61,37 @@ impl BaseFrame {
         Self { centre, u, v: w.cross(&u), w }
     }
 
-    fn coordinates(&self, p: &Point3<f64>) -> Vector3<f64> {
+    pub(super) fn coordinates(&self, p: &Point3<f64>) -> Vector3<f64> {
         let d = p.coords - self.centre;
         Vector3::new(self.u.dot(&d), self.v.dot(&d), self.w.dot(&d))
     }
 }
 
+/// The base triangle of an octahedral platform, else the largest one of base joints.
+pub(super) fn base_triangle(m: &Manipulator) -> [Point3<f64>; 3] {
+    if let Ok(octahedral) = Octahedral::recognise(m) {
+        return octahedral.base();
+    }
+    let p = m.legs().map(|l| l.base);
+    let triples = (0..6).flat_map(|i| (i + 1..6).flat_map(move |j| (j + 1..6).map(move |k| [i, j, k])));
+    let area = |t: &[usize; 3]| (p[t[1]] - p[t[0]]).cross(&(p[t[2]] - p[t[0]])).norm();
+    triples.max_by(|a, b| area(a).total_cmp(&area(b))).unwrap_or([0, 1, 2]).map(|k| p[k])
+}
+
 /// Right and up, design units.
-fn oblique(c: &Vector3<f64>) -> (f64, f64) {
+pub(super) fn oblique(c: &Vector3<f64>) -> (f64, f64) {
     (c.x + DEPTH.0 * c.y, c.z + DEPTH.1 * c.y)
 }
 
 /// Panels in pairs: a pose and its mirror image in the base plane, the one above the base first; a pose without
 /// partner alone.
-fn pairs(joints: &[[Vector3<f64>; 3]], tolerance: f64) -> Vec<Vec<usize>> {
+fn pairs(joints: &[[Vector3<f64>; 6]], tolerance: f64) -> Vec<Vec<usize>> {
     let gap = |a: usize, b: usize| {
         let difference = |k: usize| {
             let (p, q) = (joints[a][k], joints[b][k]);
             Vector3::new(p.x - q.x, p.y - q.y, p.z + q.z).norm()
         };
-        (0..3).map(difference).fold(0.0, f64::max)
+        (0..6).map(difference).fold(0.0, f64::max)
     };
     let height = |k: usize| joints[k].iter().map(|p| p.z).sum::<f64>();
     let mut free: Vec<usize> = (0..joints.len()).collect();
@@ -102,18 +116,23 @@ fn pairs(joints: &[[Vector3<f64>; 3]], tolerance: f64) -> Vec<Vec<usize>> {
 /// The projection is oblique: the base plane runs to the right and, foreshortened by one half, into the depth; its
 /// normal points up.
 #[must_use]
-pub fn assembly_modes(octahedral: &Octahedral, figure: &ModesFigure) -> String {
-    let frame = BaseFrame::new(&octahedral.base());
-    let base = octahedral.base().map(|p| oblique(&frame.coordinates(&p)));
-    let joints: Vec<[Vector3<f64>; 3]> = figure
+pub fn assembly_modes(m: &Manipulator, figure: &ModesFigure) -> String {
+    let frame = BaseFrame::new(&base_triangle(m));
+    let on_page = |p: &Point3<f64>| oblique(&frame.coordinates(p));
+    let pairs_of_joints = m.pairs();
+    let base = outline(m.base_joints(), pairs_of_joints.iter().map(|p| p.0));
+    let platform = outline(m.platform_joints(), pairs_of_joints.iter().map(|p| p.1));
+    let drawn = |(number, pose): &(usize, Pose)| Drawn {
+        number: *number,
+        base: base.iter().map(|k| on_page(&m.base_joints()[*k])).collect(),
+        platform: platform.iter().map(|k| on_page(&pose.transform(&m.platform_joints()[*k]))).collect(),
+        legs: m.legs().map(|l| [on_page(&l.base), on_page(&pose.transform(&l.platform))]),
+    };
+    let drawn: Vec<Drawn> = figure.poses.iter().map(drawn).collect();
+    let joints: Vec<[Vector3<f64>; 6]> = figure
         .poses
         .iter()
-        .map(|(_, pose)| octahedral.platform().map(|p| frame.coordinates(&pose.transform(&p))))
-        .collect();
-    let drawn: Vec<Drawn> = joints
-        .iter()
-        .zip(&figure.poses)
-        .map(|(j, (number, _))| Drawn { number: *number, base, platform: j.map(|p| oblique(&p)) })
+        .map(|(_, pose)| m.legs().map(|l| frame.coordinates(&pose.transform(&l.platform))))
         .collect();
     layout(figure, &drawn, &pairs(&joints, figure.tolerance))
 }
@@ -128,9 +147,11 @@ fn layout(figure: &ModesFigure, drawn: &[Drawn], pairs: &[Vec<usize>]) -> String
     let scale = room(across, PANEL.0).min(room(up, PANEL.1));
     let (panel_width, panel_height) =
         if drawn.is_empty() { (PANEL.0, 40.0) } else { (PANEL.0, (up.1 - up.0) * scale + CAPTION) };
-    let cell = 2.0 * panel_width + 3.0 * GAP;
-    let rows = pairs.len().div_ceil(PAIRS).max(1);
-    let width = 2.0 * MARGIN + PAIRS as f64 * cell + (PAIRS as f64 - 1.0) * GAP;
+    let is_paired = pairs.is_empty() || pairs.iter().any(|p| p.len() > 1);
+    let (columns, in_box) = if is_paired { (PAIRS, 2.0) } else { (SINGLES, 1.0) };
+    let cell = in_box * panel_width + (in_box + 1.0) * GAP;
+    let rows = pairs.len().div_ceil(columns).max(1);
+    let width = 2.0 * MARGIN + columns as f64 * cell + (columns as f64 - 1.0) * GAP;
     let row_height = panel_height + 3.0 * GAP;
     let height = TOP + rows as f64 * row_height + 62.0;
     let description = format!(
@@ -144,7 +165,7 @@ fn layout(figure: &ModesFigure, drawn: &[Drawn], pairs: &[Vec<usize>]) -> String
         svg.text("", (MARGIN, TOP + 20.0), "no real pose has these leg lengths");
     }
     for (k, pair) in pairs.iter().enumerate() {
-        let (column, row) = ((k % PAIRS) as f64, (k / PAIRS) as f64);
+        let (column, row) = ((k % columns) as f64, (k / columns) as f64);
         let corner = (MARGIN + column * (cell + GAP), TOP - 16.0 + row * row_height);
         svg.rect("pair", corner, (cell, panel_height + 2.0 * GAP));
         for (j, &index) in pair.iter().enumerate() {
@@ -168,12 +189,12 @@ fn layout(figure: &ModesFigure, drawn: &[Drawn], pairs: &[Vec<usize>]) -> String
 
 /// Base first, then what is farther below it: the platform is drawn last, so that it never hides behind a leg.
 fn panel(svg: &mut Svg, d: &Drawn, at: impl Fn((f64, f64)) -> (f64, f64)) {
-    svg.polygon("base", &d.base.map(&at));
-    // cyclic legs: P1P4, P2P4, P2P5, P3P5, P3P6, P1P6
-    for (k, (a, b)) in [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)].into_iter().enumerate() {
-        svg.line(if k == 0 { "first" } else { "leg" }, at(d.base[a]), at(d.platform[b]));
+    let place = |points: &[(f64, f64)]| points.iter().map(|p| at(*p)).collect::<Vec<_>>();
+    svg.polygon("base", &place(&d.base));
+    for (k, [a, b]) in d.legs.iter().enumerate() {
+        svg.line(if k == 0 { "first" } else { "leg" }, at(*a), at(*b));
     }
-    svg.polygon("platform", &d.platform.map(&at));
+    svg.polygon("platform", &place(&d.platform));
     for p in d.base.iter().chain(&d.platform) {
         svg.circle("hollow", at(*p), 2.2);
     }
@@ -192,7 +213,7 @@ fn legend(svg: &mut Svg, y: f64) {
     svg.text("", (x + 34.0, y), "leg");
     x += 82.0;
     svg.line("first", (x, y - 4.0), (x + 26.0, y - 4.0));
-    svg.text("", (x + 34.0, y), "first leg");
+    svg.text("", (x + 34.0, y), "leg 1");
     x += 116.0;
     svg.rect("pair", (x, y - 13.0), (26.0, 14.0));
     svg.text("", (x + 34.0, y), "mirror images in the base plane share a box");
@@ -201,13 +222,12 @@ fn legend(svg: &mut Svg, y: f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::manipulator::Manipulator;
     use nalgebra::Rotation3;
 
-    fn octahedral() -> Octahedral {
+    fn octahedral() -> Manipulator {
         let t = |r: f64| vec![Point3::new(r, 0.0, 0.0), Point3::new(-r, r, 0.0), Point3::new(-r, -r, 0.0)];
         let m = Manipulator::try_new(t(2.0), t(1.0), [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)]);
-        Octahedral::recognise(&m.unwrap()).unwrap()
+        m.unwrap()
     }
 
     fn figure(heights: &[f64]) -> ModesFigure {
@@ -225,6 +245,22 @@ mod tests {
         // one box in the legend
         assert_eq!(text.matches("class=\"pair\"").count(), 2 + 1);
         assert_eq!(text.matches("class=\"platform\"").count(), 3 + 1);
+    }
+
+    #[test]
+    fn bodies_without_shared_joints_are_hexagons() {
+        let at = |k: usize, r: f64, off: f64| {
+            let (y, x) = (1.047 * k as f64 + off).sin_cos();
+            Point3::new(r * x, r * y, 0.0)
+        };
+        // platform joints in another order than around the body: the outline does not cross itself
+        let m = Manipulator::from_legs(std::array::from_fn(|k| crate::manipulator::Leg {
+            base: at(k, 2.0, 0.0),
+            platform: at((k + 3) % 6, 1.0, 0.2),
+        }));
+        let text = assembly_modes(&m.unwrap(), &figure(&[1.0]));
+        let outline = text.split("class=\"platform\" points=\"").nth(1).unwrap().split('"').next().unwrap();
+        assert_eq!(outline.split(' ').count(), 6);
     }
 
     #[test]

@@ -34,7 +34,7 @@ fn oblique(p: &Point3<f64>) -> (f64, f64) {
 }
 
 /// Joints that carry legs, in the order of their angle about the axis of least spread.
-fn outline(joints: &[Point3<f64>], used: impl Iterator<Item = usize>) -> Vec<usize> {
+pub(super) fn outline(joints: &[Point3<f64>], used: impl Iterator<Item = usize>) -> Vec<usize> {
     let mut list: Vec<usize> = used.collect();
     list.sort_unstable();
     list.dedup();

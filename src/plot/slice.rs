@@ -1,4 +1,4 @@
-//! The singularity surface over two freedoms.
+//! Where a determinant vanishes over two variables.
 
 use super::axis::Axis;
 use super::contour::Grid;
@@ -20,6 +20,8 @@ pub struct SliceAxis {
 pub struct SliceFigure {
     /// Title.
     pub title: String,
+    /// What is shown, for instance `det J`.
+    pub quantity: String,
     /// A line of text below the plot.
     pub note: String,
     /// To the right.
@@ -28,7 +30,7 @@ pub struct SliceFigure {
     pub up: SliceAxis,
     /// Points of the grid a side, two or more.
     pub side: usize,
-    /// `det J` at the grid points, row by row from the lowest, any positive scale.
+    /// The quantity at the grid points, row by row from the lowest, any positive scale.
     pub values: Vec<f64>,
     /// A pose to mark and its label.
     pub mark: Option<((f64, f64), String)>,
@@ -41,18 +43,19 @@ const RIGHT: f64 = 664.0;
 const TOP: f64 = 66.0;
 const BOTTOM: f64 = 566.0;
 
-/// The zero line of `det J` with the regions of either sign tinted.
+/// The zero line of a determinant with the regions of either sign tinted.
 #[must_use]
 pub fn singular_slice(figure: &SliceFigure) -> String {
     let x = Axis { low: figure.across.low, high: figure.across.high, from: LEFT, to: RIGHT };
     let y = Axis { low: figure.up.low, high: figure.up.high, from: BOTTOM, to: TOP };
     let description = format!(
-        "Where det J vanishes over {} and {}, between regions of either sign. {}",
-        figure.across.label, figure.up.label, figure.note
+        "Where {} vanishes over {} and {}, between regions of either sign. {}",
+        figure.quantity, figure.across.label, figure.up.label, figure.note
     );
     let mut svg = Svg::new(WIDTH, HEIGHT, &figure.title, &description);
     svg.text("title", (LEFT, 30.0), &figure.title);
-    svg.text("note", (LEFT, 50.0), "blue: det J > 0, orange: det J < 0, heavy line: singular");
+    let name = &figure.quantity;
+    svg.text("note", (LEFT, 50.0), &format!("blue: {name} > 0, orange: {name} < 0, heavy line: singular"));
     svg.rect("positive", (LEFT, TOP), (RIGHT - LEFT, BOTTOM - TOP));
     let last = figure.side.saturating_sub(1).max(1) as f64;
     let place = |axis: &Axis, k: f64| axis.at(axis.low + k / last * (axis.high - axis.low));
@@ -120,6 +123,7 @@ mod tests {
         let axis = |label: &str| SliceAxis { label: label.into(), low: -1.0, high: 1.0 };
         let figure = SliceFigure {
             title: "t".into(),
+            quantity: "det J".into(),
             note: "n".into(),
             across: axis("x [mm]"),
             up: axis("y [mm]"),

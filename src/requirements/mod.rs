@@ -7,6 +7,7 @@
 mod assess;
 mod hardware;
 mod keep_out;
+mod limit;
 mod load;
 mod pose_set;
 mod term;
@@ -16,6 +17,7 @@ mod tests;
 pub use assess::{AssessOptions, Assessment, Margin, assess};
 pub use hardware::{Hardware, Housing, JointAxes, LegBody, LengthLimits, Swing};
 pub use keep_out::{FixedTo, KeepOut, Shape};
+pub use limit::{Limit, Limits, PoseLimit};
 pub use load::{Load, leg_forces};
 pub use pose_set::{PoseSpace, Region};
 pub use term::{Quantity, Term, TermKind, Terms};

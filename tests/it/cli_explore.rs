@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
-const FILES: [&str; 9] = [
+const FILES: [&str; 10] = [
     "original.toml",
     "family.json",
     "optimize.json",
@@ -16,6 +16,7 @@ const FILES: [&str; 9] = [
     "fk.json",
     "assembly-modes.svg",
     "report.md",
+    "report.html",
 ];
 
 fn shipped(name: &str) -> String {
@@ -202,4 +203,30 @@ fn an_interrupted_run_leaves_finished_files_only_and_does_not_disturb_the_next()
     assert_eq!(out.status.code(), Some(0));
     let left = std::fs::read_dir(folder).unwrap().count();
     assert_eq!(left, FILES.len(), "nothing besides the results");
+}
+
+#[test]
+fn the_page_of_a_run_is_that_of_the_command_report() {
+    let temp = tempfile::tempdir().unwrap();
+    let out = temp.path().join("out");
+    let folder = out.to_str().unwrap();
+    assert!(explore(&shipped("rbt-octahedral"), &out, &[]).status.success());
+    let first = read(&out, "report.html");
+    let report =
+        |folder: &str| Command::new(env!("CARGO_BIN_EXE_equipod")).args(["report", folder]).output().unwrap();
+    let again = report(folder);
+    assert_eq!(again.status.code(), Some(0), "{}", String::from_utf8_lossy(&again.stderr));
+    assert_eq!(String::from_utf8(again.stdout).unwrap().trim(), out.join("report.html").to_str().unwrap());
+    assert_eq!(first, read(&out, "report.html"));
+    // the verdict, both designs, both pictures, and no reference to anything outside the folder
+    assert!(first.contains("</span> equivalent</strong>: the leg map is regular"));
+    assert_eq!(
+        (first.matches("<section class=\"card\"><h3>").count(), first.matches("<figure").count()),
+        (2, 2)
+    );
+    assert!(!first.replace("http://www.w3.org", "").contains("http://") && !first.contains("https://"));
+    let empty = temp.path().join("empty");
+    std::fs::create_dir(&empty).unwrap();
+    let refused = report(empty.to_str().unwrap());
+    assert_eq!(refused.status.code(), Some(2));
 }

@@ -159,3 +159,36 @@ fn a_design_that_is_not_octahedral_is_told_what_can_be_chosen() {
     let text = String::from_utf8_lossy(&out.stderr);
     assert!(text.contains("octahedral designs") && text.contains("\"components\""), "{text}");
 }
+
+/// The worst-case inverse condition number of a 6-4 platform with legs 1 to 4 moved along their point-line families. Both platform joints that two legs share stay shared: the families of
+/// this platform keep them.
+#[test]
+fn a_shipped_6_4_platform_is_improved_within_its_replaceable_legs() {
+    let file = format!("{}/designs/innocenti-6-4.toml", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(file).unwrap();
+    let asked = "[workspace]\ntranslation = [0.05, 0.05, 0.05]\nrotation_deg = [1.0, 1.0, 1.0]\n";
+    let search = "[optimize]\nvariables = [\"components\"]\nmin_joint_distance = 0.8\n";
+    let (out, folder) = optimize(&format!("{text}\n{asked}{search}"), &["-o", "out.toml"]);
+    assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stderr));
+    let d = document(&out);
+    assert_eq!((&d["status"], &d["verify"]["verdict"]), (&"optimal".into(), &"equivalent".into()));
+    assert_eq!(d["variables"].as_array().unwrap().len(), 4);
+    let read = |text: &str| equipod::design::parse(text, equipod::design::Format::Toml).unwrap().0;
+    let (old, new) = (read(&text), read(&std::fs::read_to_string(folder.path().join("out.toml")).unwrap()));
+    // worst over the corners of the region, from the public Jacobian
+    let worst = |design: &equipod::design::Design| {
+        let m = design.manipulator();
+        let scale = old.manipulator().platform_rms_radius();
+        let at = |c: usize| {
+            let side = |k: usize| if c >> k & 1 == 0 { -1.0 } else { 1.0 };
+            let turn = nalgebra::Vector3::from_fn(|k, _| side(k) * 1f64.to_radians());
+            let position = nalgebra::Vector3::from_fn(|k, _| side(k + 3) * 0.05);
+            let pose = equipod::geom::Pose { rotation: nalgebra::Rotation3::new(turn), position };
+            equipod::manipulator::inverse_condition(&equipod::manipulator::jacobian(m, &pose, scale))
+        };
+        (0..64).map(at).fold(f64::INFINITY, f64::min)
+    };
+    let objective = d["objective"].as_f64().unwrap();
+    assert!(worst(&new) >= objective - 1e-9, "{} {objective}", worst(&new));
+    assert!(worst(&old) < 0.95 * objective, "{} {objective}", worst(&old));
+}

@@ -17,6 +17,7 @@ mod cli_locus;
 mod cli_move;
 mod cli_near;
 mod cli_optimize;
+mod cli_plot;
 mod cli_round;
 mod cli_singularities;
 mod cli_synthesis;

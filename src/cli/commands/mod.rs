@@ -24,7 +24,9 @@ mod locus;
 mod map;
 mod r#move;
 mod optimize;
+mod plot;
 mod presets;
+mod report;
 mod round;
 mod selfmotion;
 mod singularities;
@@ -65,8 +67,12 @@ pub(crate) enum Command {
     Move(r#move::Args),
     /// The best joint-free platform equivalent to an octahedral design
     Optimize(optimize::Args),
+    /// One picture as SVG: assembly modes, det A, replaceable joints, workspace, fronts, singular poses
+    Plot(plot::Args),
     /// Designs of real hardware with sources, as a start for one's own
     Presets(presets::Args),
+    /// A folder of results as one HTML page: designs, verdicts with their evidence, pictures, hashes
+    Report(report::Args),
     /// The joints of a design on a grid of holes: exactly equivalent to an octahedral platform, or as near as the grid allows
     Round(round::Args),
     /// The curves of poses with constant leg lengths through a pose
@@ -97,7 +103,9 @@ impl Command {
             Self::Map(args) => map::run(args, context),
             Self::Move(args) => r#move::run(args, context),
             Self::Optimize(args) => optimize::run(args, context),
+            Self::Plot(args) => plot::run(args, context),
             Self::Presets(args) => presets::run(args, context),
+            Self::Report(args) => report::run(args, context),
             Self::Round(args) => round::run(args, context),
             Self::Selfmotion(args) => selfmotion::run(args, context),
             Self::Singularities(args) => singularities::run(args, context),

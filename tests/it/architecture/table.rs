@@ -92,6 +92,11 @@ const LINES: &[Line] = &[
     ),
     ("plot", &["geom", "manipulator", "topology", "distance"], &[MATRICES]),
     (
+        "report",
+        &["design", "plot"],
+        &[MATRICES, ("percent_encoding", None), ("serde_json", None), ("sha2", None)],
+    ),
+    (
         "bench",
         &["num", "geom", "manipulator", "topology", "distance", "fk", "solve::certify"],
         &[MATRICES, COMPLEX, ERRORS],
@@ -118,6 +123,7 @@ const LINES: &[Line] = &[
             "manufacture",
             "design",
             "plot",
+            "report",
             "bench",
         ],
         &[

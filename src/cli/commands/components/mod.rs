@@ -13,6 +13,7 @@ use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::files;
 use crate::cli::output::{Answer, number};
+use crate::design::Design;
 use crate::num::Rng;
 use crate::synthesis::components::{
     Component, ComponentOptions, Components, ComponentsError, SampledLeg, components,
@@ -40,27 +41,42 @@ pub(crate) struct Args {
     tolerance: f64,
 }
 
+fn search(design: &Design, options: ComponentOptions) -> Result<Components, Failure> {
+    components(design.manipulator(), options).map_err(|e| match e {
+        ComponentsError::Tolerance(_) => Failure::refused("components::bad_tolerance", e.to_string()),
+        _ => Failure::internal(e.to_string()),
+    })
+}
+
+fn picture(design: &Design, found: &Components, pair: Option<usize>, seed: u64) -> Result<String, Failure> {
+    figure::picture(design, found, pair.map(|k| k.wrapping_sub(1)), seed)
+        .ok_or_else(|| Failure::refused("components::no_planes", figure::refusal(found)))
+}
+
+/// The curves of a design, of all pairs of planes or of one, counted from 1.
+pub(super) fn drawing(
+    design: &Design,
+    pair: Option<usize>,
+    tolerance: f64,
+    seed: u64,
+) -> Result<String, Failure> {
+    picture(design, &search(design, ComponentOptions { tolerance, seed })?, pair, seed)
+}
+
 /// Lists the families.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
     let options = ComponentOptions { tolerance: args.tolerance, seed: context.seed() };
-    let found = components(design.manipulator(), options).map_err(|e| match e {
-        ComponentsError::Tolerance(_) => Failure::refused("components::bad_tolerance", e.to_string()),
-        _ => Failure::internal(e.to_string()),
-    })?;
+    let found = search(&design, options)?;
     let count = found.components.len();
     if let Some(k) = args.component.filter(|k| *k == 0 || *k > count) {
         let message = format!("{} has {count} families, there is no number {k}", design.name);
         return Err(Failure::refused("components::no_such_family", message));
     }
     if let Some(path) = &args.svg {
-        let Some(picture) =
-            figure::picture(&design, &found, args.pair.map(|k| k.wrapping_sub(1)), context.seed())
-        else {
-            let failure = Failure::refused("components::no_planes", figure::refusal(&found));
-            return Err(failure.with_help("leave out --svg: the picture shows two planes with their curves"));
-        };
-        files::write_text(path, &picture)?;
+        let failure =
+            |f: Failure| f.with_help("leave out --svg: the picture shows two planes with their curves");
+        files::write_text(path, &picture(&design, &found, args.pair, context.seed()).map_err(failure)?)?;
     }
     let wanted: Vec<usize> =
         (0..count).filter(|k| args.component.is_none_or(|wanted| wanted == k + 1)).collect();

@@ -88,18 +88,19 @@ fn points(octahedral: &Octahedral, done: &Done) -> (Vec<PlanePoint>, String) {
 }
 
 /// The real poses.
-pub(super) fn modes(design: &Design, octahedral: &Octahedral, poses: &Poses) -> String {
+pub(super) fn modes(design: &Design, poses: &Poses) -> String {
     let s = &poses.solutions;
     let real = s.roots.iter().enumerate().filter(|(_, r)| r.reality == Reality::Real);
     let undecided = s.roots.iter().filter(|r| r.reality == Reality::Undecided).count();
     let lengths: Vec<String> = poses.lengths.get().iter().map(|l| short(*l)).collect();
     let whose = if poses.from == LengthsFrom::Design { "" } else { " (home pose)" };
     let mut note = format!(
-        "{} finite poses, {} real; leg lengths {} {}{whose}; numbers as in fk.json",
+        "{} finite poses, {} real; leg lengths {}{}{whose}; numbers as `fk` gives them",
         s.roots.len(),
         s.assembly_modes().count(),
         lengths.join(", "),
-        design.units
+        // "1" is no unit to print
+        if design.units == "1" { String::new() } else { format!(" {}", design.units) }
     );
     if undecided > 0 {
         let _ = write!(note, "; {undecided} not shown, reality undecided");
@@ -110,5 +111,5 @@ pub(super) fn modes(design: &Design, octahedral: &Octahedral, poses: &Poses) -> 
         poses: real.map(|(k, r)| (k + 1, r.pose.real_part())).collect(),
         tolerance: MIRROR * design.manipulator().size(),
     };
-    assembly_modes(octahedral, &figure)
+    assembly_modes(design.manipulator(), &figure)
 }

@@ -2,7 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::cli::commands::report;
 use crate::cli::failure::Failure;
+use crate::report::ReportFile;
 
 /// Files of a finished run, in the order they appear.
 pub(super) const ORIGINAL: &str = "original.toml";
@@ -14,7 +16,8 @@ pub(super) const VERIFY: &str = "verify.json";
 pub(super) const FK: &str = "fk.json";
 pub(super) const MODES: &str = "assembly-modes.svg";
 pub(super) const REPORT: &str = "report.md";
-const ALL: [&str; 9] = [ORIGINAL, FAMILY, OPTIMIZE, OPTIMISED, DETERMINANT, VERIFY, FK, MODES, REPORT];
+pub(super) const PAGE: &str = report::PAGE;
+const ALL: [&str; 10] = [ORIGINAL, FAMILY, OPTIMIZE, OPTIMISED, DETERMINANT, VERIFY, FK, MODES, REPORT, PAGE];
 
 /// The folder and what has been written into it.
 #[derive(Debug)]
@@ -66,6 +69,15 @@ impl Folder {
         })?;
         self.written.push(name);
         Ok(())
+    }
+
+    /// What has been written, for the page: other files in the folder are none of its business.
+    ///
+    /// # Errors
+    /// Exit 2: a file cannot be read again.
+    pub(super) fn results(&self) -> Result<Vec<ReportFile>, Failure> {
+        let all = report::gather(&self.path, &self.path.join(PAGE))?;
+        Ok(all.into_iter().filter(|f| self.written.contains(&f.name.as_str())).collect())
     }
 
     /// What has been written, in order.

@@ -12,6 +12,7 @@ use serde_json::{Map, Value, json};
 
 use self::folder::Folder;
 use super::optimize::{Choices, Done};
+use super::report::page;
 use super::{family, fk as fk_command, optimize, verify as verify_command};
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
@@ -167,12 +168,14 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     progress.stage(4, "forward kinematics");
     let poses = solve(&design, &options)?;
     folder.write(folder::FK, &framed(fk_record(&poses), seed))?;
-    folder.write(folder::MODES, &figures::modes(&design, &octahedral, &poses))?;
+    folder.write(folder::MODES, &figures::modes(&design, &poses))?;
 
     progress.stage(5, "report");
     let results =
         Results { design, octahedral, family, done, verified, poses, options, extension: args.extension };
     folder.write(folder::REPORT, &report::markdown(&results))?;
+    let files = folder.results()?;
+    folder.write(folder::PAGE, &page(files, None))?;
     Ok(Answer { exit: results.exit(), json: record(&results, &folder), text: text(&results, &folder) })
 }
 
@@ -225,6 +228,11 @@ fn solve(design: &Design, options: &FkOptions) -> Result<Poses, Failure> {
     let solutions =
         fk::solver(None).solve(m, &lengths.squared(), options).map_err(|e| fk_command::failure_of(&e))?;
     Ok(Poses { lengths, from, solutions })
+}
+
+/// The real poses of a design at its own lengths, or at those of its home pose.
+pub(super) fn modes_picture(design: &Design, options: &FkOptions) -> Result<String, Failure> {
+    Ok(figures::modes(design, &solve(design, options)?))
 }
 
 fn fk_record(poses: &Poses) -> Map<String, Value> {

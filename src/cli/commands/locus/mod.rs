@@ -21,6 +21,19 @@ use crate::topology::Topology;
 /// Arguments of `locus`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
+    #[command(flatten)]
+    question: Question,
+    /// Write a picture
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// Write the values as a table
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+}
+
+/// What varies, and what is looked at.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Question {
     /// Design file (.toml or .json)
     design: PathBuf,
     /// Six lengths; the design's own when absent. That of the leg that varies is not used
@@ -44,12 +57,6 @@ pub(crate) struct Args {
     /// Method; auto takes the best one for the design
     #[arg(long, value_enum, default_value_t = MethodArg::Auto)]
     method: MethodArg,
-    /// Write a picture
-    #[arg(long, value_name = "FILE")]
-    svg: Option<PathBuf>,
-    /// Write the values as a table
-    #[arg(long, value_name = "FILE")]
-    csv: Option<PathBuf>,
 }
 
 /// The virtual leg with its name.
@@ -85,8 +92,42 @@ impl Row {
     }
 }
 
+/// The answers at all lengths.
+struct Locus {
+    name: String,
+    leg: u8,
+    between: Between,
+    rows: Vec<Row>,
+    steps: Vec<LocusStep>,
+}
+
+impl Locus {
+    fn picture(&self) -> String {
+        render::picture(&self.name, self.leg, &self.between, &self.rows, &self.steps)
+    }
+}
+
 /// Solves at each length and evaluates the distance.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+    let found = solve(&args.question, context)?;
+    if let Some(path) = &args.svg {
+        files::write_text(path, &found.picture())?;
+    }
+    let Locus { name, leg, between, rows, steps } = &found;
+    if let Some(path) = &args.csv {
+        files::write_text(path, &render::csv(rows))?;
+    }
+    let exit = if rows.iter().all(Row::complete) { Exit::Yes } else { Exit::Inconclusive };
+    let text = render::text(name, *leg, between, rows, steps);
+    Ok(Answer { exit, json: render::json(*leg, between, rows, steps), text })
+}
+
+/// The picture alone.
+pub(super) fn drawing(question: &Question, context: &mut Context) -> Result<String, Failure> {
+    Ok(solve(question, context)?.picture())
+}
+
+fn solve(args: &Question, context: &mut Context) -> Result<Locus, Failure> {
     let method = args.method.method();
     let design = context.load(&args.design)?;
     let lengths::Given::One(given) = lengths::given(args.lengths.as_deref(), design.lengths)? else {
@@ -116,16 +157,8 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         };
         rows.push(Row { length: l.get()[usize::from(args.leg - 1)], found });
     }
-    let steps: Vec<LocusStep> = rows.iter().map(step).collect();
-    if let Some(path) = &args.svg {
-        files::write_text(path, &render::picture(&design.name, args.leg, &between, &rows, &steps))?;
-    }
-    if let Some(path) = &args.csv {
-        files::write_text(path, &render::csv(&rows))?;
-    }
-    let exit = if rows.iter().all(Row::complete) { Exit::Yes } else { Exit::Inconclusive };
-    let text = render::text(&design.name, args.leg, &between, &rows, &steps);
-    Ok(Answer { exit, json: render::json(args.leg, &between, &rows, &steps), text })
+    let steps = rows.iter().map(step).collect();
+    Ok(Locus { name: design.name.clone(), leg: args.leg, between, rows, steps })
 }
 
 fn step(row: &Row) -> LocusStep {
@@ -140,7 +173,7 @@ fn step(row: &Row) -> LocusStep {
 }
 
 /// The lengths asked for, ends exactly.
-fn varied(args: &Args, given: &LegLengths) -> Result<Vec<LegLengths>, Failure> {
+fn varied(args: &Question, given: &LegLengths) -> Result<Vec<LegLengths>, Failure> {
     let last = args.steps - 1;
     let at = |k: u32| {
         let t = f64::from(k) / f64::from(last);

@@ -24,6 +24,19 @@ use crate::singularity::{
 /// Arguments of `selfmotion`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
+    #[command(flatten)]
+    question: Question,
+    /// Write the poses as a table
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+    /// Write an animated picture of the longest curve
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+}
+
+/// Which curves.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Question {
     /// The design (.toml or .json)
     design: PathBuf,
     /// The pose to start from: `home`, six numbers (position, then roll, pitch, yaw in degrees) or seven (position,
@@ -39,12 +52,6 @@ pub(crate) struct Args {
     /// Largest turn of the tangent from point to point, radians
     #[arg(long, value_name = "RAD", default_value_t = 0.05, value_parser = turn)]
     turn: f64,
-    /// Write the poses as a table
-    #[arg(long, value_name = "FILE")]
-    csv: Option<PathBuf>,
-    /// Write an animated picture of the longest curve
-    #[arg(long, value_name = "FILE")]
-    svg: Option<PathBuf>,
 }
 
 fn turn(text: &str) -> Result<f64, String> {
@@ -93,6 +100,23 @@ struct Found {
 
 /// Follows the motion.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+    let (design, found) = trace(&args.question, context)?;
+    if let Some(path) = &args.csv {
+        files::write_text(path, &render::csv(&found))?;
+    }
+    if let Some(path) = &args.svg {
+        files::write_text(path, &picture(&design, &found)?)?;
+    }
+    Ok(render::answer(&design, &found))
+}
+
+/// The picture alone.
+pub(super) fn drawing(question: &Question, context: &mut Context) -> Result<String, Failure> {
+    let (design, found) = trace(question, context)?;
+    picture(&design, &found)
+}
+
+fn trace(args: &Question, context: &mut Context) -> Result<(Design, Found), Failure> {
     let design = context.load(&args.design)?;
     let m = design.manipulator();
     let (start, squares) = beginning(args, &design)?;
@@ -136,12 +160,11 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     };
     let origins = starts.iter().map(|s| s.1).collect();
     let found = Found { start, squares, dimension, motion, degrees, origins, critical, accounted, exit };
-    write_files(args, &design, &found)?;
-    Ok(render::answer(&design, &found))
+    Ok((design, found))
 }
 
 /// The pose, if it is one, and the leg lengths.
-fn beginning(args: &Args, design: &Design) -> Result<(Option<Pose>, SquaredLegLengths), Failure> {
+fn beginning(args: &Question, design: &Design) -> Result<(Option<Pose>, SquaredLegLengths), Failure> {
     if let Some(text) = &args.lengths {
         let bad =
             |message: String| Failure::refused("selfmotion::bad_lengths", format!("--lengths: {message}"));
@@ -184,11 +207,8 @@ fn sections(m: &Manipulator, s: &SquaredLegLengths, searches: u64, seed: u64) ->
     Ok(out)
 }
 
-fn write_files(args: &Args, design: &Design, found: &Found) -> Result<(), Failure> {
-    if let Some(path) = &args.csv {
-        files::write_text(path, &render::csv(found))?;
-    }
-    let Some(path) = &args.svg else { return Ok(()) };
+/// The longest curve, animated.
+fn picture(design: &Design, found: &Found) -> Result<String, Failure> {
     let length = |k: &usize| found.motion.curves[*k].points.last().map_or(0.0, |p| p.arc);
     let longest = (0..found.motion.curves.len()).max_by(|x, y| length(x).total_cmp(&length(y)));
     let Some(longest) = longest else {
@@ -208,5 +228,5 @@ fn write_files(args: &Args, design: &Design, found: &Found) -> Result<(), Failur
         poses: curve.points.iter().map(|p| (p.arc, p.pose)).collect(),
         closed: curve.end == CurveEnd::Closed,
     };
-    files::write_text(path, &motion(design.manipulator(), &figure))
+    Ok(motion(design.manipulator(), &figure))
 }

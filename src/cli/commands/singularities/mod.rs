@@ -2,7 +2,7 @@
 
 mod paths;
 mod render;
-mod slice;
+pub(super) mod slice;
 
 use std::path::PathBuf;
 
@@ -10,6 +10,7 @@ use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::files;
+use crate::cli::freedoms::Freedoms;
 use crate::cli::output::Answer;
 use crate::cli::poses;
 use crate::design::Design;
@@ -18,7 +19,6 @@ use crate::geom::Pose;
 use crate::manipulator::{LegLengths, Manipulator, Octahedral, inverse_condition, jacobian, plucker_matrix};
 use crate::plot::singular_slice;
 use crate::singularity::{BoxOptions, RegularBox, four_planes, regular_box};
-use slice::Slice;
 
 /// Arguments of `singularities`.
 #[derive(Debug, clap::Args)]
@@ -43,8 +43,8 @@ pub(crate) struct Args {
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
     /// The two freedoms of that picture: x, y, z (positions), rx, ry, rz (rotation vector in the base frame)
-    #[arg(long, value_name = "A,B", default_value = "rx,rz", value_parser = Slice::parse)]
-    slice: Slice,
+    #[arg(long, value_name = "A,B", default_value = "rx,rz", value_parser = Freedoms::parse)]
+    slice: Freedoms,
     /// det J along the straight path between two assembly modes, by their numbers in the list; 0 is POSE
     #[arg(long, value_name = "I,J")]
     path: Option<String>,
@@ -111,14 +111,14 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         .map_err(|e| Failure::internal(format!("assembly modes: {e}")))?;
     let modes: Vec<Judged> =
         solutions.assembly_modes().map(|r| judged(m, octahedral.as_ref(), r.pose.real_part())).collect();
-    let options = box_options(args, &design, context.seed())?;
+    let options = box_options(args.shape.as_deref(), args.regions, &design, context.seed())?;
     let regular = regular_box(m, &pose, &options);
     let exit = match regular.proved {
         p if p > 0.0 => Exit::Yes,
         _ => Exit::Inconclusive,
     };
     if let Some(path) = &args.svg {
-        files::write_text(path, &singular_slice(&args.slice.figure(&design, &pose, &options)))?;
+        files::write_text(path, &singular_slice(&slice::figure(&design, args.slice, &pose, &options)))?;
     }
     let middle = judged(m, octahedral.as_ref(), pose);
     let path = paths::path(args, &design, &pose, &modes)?;
@@ -155,9 +155,14 @@ fn six(text: &str, option: &str) -> Result<[f64; 6], Failure> {
     })
 }
 
-fn box_options(args: &Args, design: &Design, seed: u64) -> Result<BoxOptions, Failure> {
+pub(super) fn box_options(
+    shape: Option<&str>,
+    regions: usize,
+    design: &Design,
+    seed: u64,
+) -> Result<BoxOptions, Failure> {
     let size = design.manipulator().size();
-    let (translation, degrees) = match &args.shape {
+    let (translation, degrees) = match shape {
         Some(text) => {
             let v = six(text, "--box")?;
             if v.iter().any(|x| *x < 0.0) || v.iter().all(|x| *x == 0.0) {
@@ -172,5 +177,5 @@ fn box_options(args: &Args, design: &Design, seed: u64) -> Result<BoxOptions, Fa
         None => ([0.5 * size; 3], [30.0; 3]),
     };
     let rotation = degrees.map(f64::to_radians);
-    Ok(BoxOptions { translation, rotation, regions: args.regions, enough: 0.9, seed })
+    Ok(BoxOptions { translation, rotation, regions, enough: 0.9, seed })
 }

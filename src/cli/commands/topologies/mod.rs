@@ -21,7 +21,7 @@ use crate::fk::{Completeness, FkOptions, ForwardKinematics, Homotopy};
 use crate::manipulator::{Manipulator, default_home};
 use crate::num::Rng;
 use crate::plot::{TopologyFigure, topology_diagram, topology_sheet};
-use crate::topology::{Joint, NamedTopology, Sequence, catalogue, recognise};
+use crate::topology::{Joint, NamedTopology, Recognised, Sequence, catalogue, recognise};
 
 /// Arguments of `topologies`.
 #[derive(Debug, clap::Args)]
@@ -61,10 +61,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     json.insert("count".into(), json!(wanted.len()));
     if let Some(path) = &args.design {
         let design = context.load(path)?;
-        let found = recognise(design.manipulator()).map_err(|why| {
-            let message = format!("{} has none of the {} topologies: {why}", design.name, wanted.len());
-            Failure::new(Exit::No, "topologies::always_singular", message)
-        })?;
+        let found = recognised(&design)?;
         let turned = if found.exchanged { ", base and platform exchanged" } else { "" };
         let _ =
             writeln!(text, "{}: {} {}{turned}\n", design.name, found.topology.id(), found.topology.name());
@@ -194,13 +191,31 @@ fn figure(e: &Entry) -> TopologyFigure {
     TopologyFigure { topology: e.named, caption: format!("{} poses, {legs}", e.poses) }
 }
 
+fn sheet(entries: &[Entry]) -> String {
+    let figures: Vec<TopologyFigure> = entries.iter().map(figure).collect();
+    topology_sheet("Joint-sharing topologies of six-legged platforms", &figures)
+}
+
+/// The picture alone: of the topology of a design, or of all.
+pub(super) fn drawing(design: Option<&Design>, members: u64, seed: u64) -> Result<String, Failure> {
+    let wanted = match design {
+        Some(design) => vec![recognised(design)?.topology],
+        None => catalogue(),
+    };
+    let entries: Result<Vec<Entry>, Failure> = wanted.into_iter().map(|t| entry(t, members, seed)).collect();
+    Ok(sheet(&entries?))
+}
+
+fn recognised(design: &Design) -> Result<Recognised, Failure> {
+    recognise(design.manipulator()).map_err(|why| {
+        let message = format!("{} has none of the {} topologies: {why}", design.name, catalogue().len());
+        Failure::new(Exit::No, "topologies::always_singular", message)
+    })
+}
+
 fn write_files(args: &Args, entries: &[Entry]) -> Result<(), Failure> {
     if let Some(path) = &args.svg {
-        let figures: Vec<TopologyFigure> = entries.iter().map(figure).collect();
-        files::write_text(
-            path,
-            &topology_sheet("Joint-sharing topologies of six-legged platforms", &figures),
-        )?;
+        files::write_text(path, &sheet(entries))?;
     }
     let Some(folder) = &args.output else { return Ok(()) };
     std::fs::create_dir_all(folder).map_err(|e| {

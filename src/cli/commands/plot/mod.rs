@@ -1,0 +1,140 @@
+//! `equipod plot`: one picture, as SVG.
+
+mod determinant;
+mod front;
+mod modes;
+mod pair;
+mod workspace;
+
+use std::path::PathBuf;
+
+use serde_json::{Map, json};
+
+use super::{components, locus, selfmotion, singularities, topologies};
+use crate::cli::context::Context;
+use crate::cli::exit::Exit;
+use crate::cli::failure::Failure;
+use crate::cli::files;
+use crate::cli::freedoms::Freedoms;
+use crate::cli::output::Answer;
+use crate::cli::poses;
+use crate::plot::singular_slice;
+
+/// Arguments of `plot`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    #[command(subcommand)]
+    figure: Figure,
+    /// Write the picture there; without it it goes to standard output
+    #[arg(short, long, value_name = "FILE", global = true)]
+    output: Option<PathBuf>,
+}
+
+/// What is drawn.
+#[derive(Debug, clap::Subcommand)]
+enum Figure {
+    /// All assembly modes at the design's leg lengths, mirror images side by side
+    Modes(modes::Args),
+    /// The curves of replaceable joints in two planes (conics, cubics, lines)
+    Components {
+        /// Design file (.toml or .json)
+        design: PathBuf,
+        /// Only this pair of planes: its number in the list of `components`, counted from 1
+        #[arg(long, value_name = "K")]
+        pair: Option<usize>,
+        /// What counts as zero, relative to the size of the body
+        #[arg(long, value_name = "X", default_value_t = 1e-9)]
+        tolerance: f64,
+    },
+    /// det A over two of the six offsets, with the line on which it vanishes
+    Det(determinant::Args),
+    /// The squared length of a virtual leg at all poses, in the complex plane, while one leg length varies
+    Locus(locus::Question),
+    /// Two designs at the same pose side by side, with their leg map
+    Pair(pair::Args),
+    /// The front that `optimize` found with `mode = "pareto"`
+    Pareto(front::Args),
+    /// The longest curve of poses with constant leg lengths, animated
+    Selfmotion(selfmotion::Question),
+    /// Where det J vanishes over two freedoms of the platform
+    Singularities {
+        /// Design file (.toml or .json)
+        design: PathBuf,
+        /// The pose in the middle
+        #[arg(long, value_name = "POSE", allow_hyphen_values = true, default_value = "home")]
+        pose: String,
+        /// The two freedoms: x, y, z (positions), rx, ry, rz (rotation vector in the base frame)
+        #[arg(long, value_name = "A,B", default_value = "rx,rz", value_parser = Freedoms::parse)]
+        slice: Freedoms,
+    },
+    /// The ways to share joints: that of a design, or all
+    Topologies {
+        /// Only the topology of this design (.toml or .json)
+        design: Option<PathBuf>,
+        /// Random members of each topology solved to count its poses
+        #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u64).range(1..=1000))]
+        members: u64,
+    },
+    /// Poses within all limits over two freedoms, and the limit that ends them, in colour
+    Workspace(workspace::Args),
+}
+
+impl Figure {
+    fn name(&self) -> &'static str {
+        match self {
+            Self::Modes(_) => "modes",
+            Self::Components { .. } => "components",
+            Self::Det(_) => "det",
+            Self::Locus(_) => "locus",
+            Self::Pair(_) => "pair",
+            Self::Pareto(_) => "pareto",
+            Self::Selfmotion(_) => "selfmotion",
+            Self::Singularities { .. } => "singularities",
+            Self::Topologies { .. } => "topologies",
+            Self::Workspace(_) => "workspace",
+        }
+    }
+
+    fn draw(&self, context: &mut Context) -> Result<String, Failure> {
+        let seed = context.seed();
+        match self {
+            Self::Modes(args) => modes::draw(args, context),
+            Self::Components { design, pair, tolerance } => {
+                components::drawing(&context.load(design)?, *pair, *tolerance, seed)
+            }
+            Self::Det(args) => determinant::draw(args, context),
+            Self::Locus(question) => locus::drawing(question, context),
+            Self::Pair(args) => pair::draw(args, context),
+            Self::Pareto(args) => front::draw(args),
+            Self::Selfmotion(question) => selfmotion::drawing(question, context),
+            Self::Singularities { design, pose, slice } => {
+                let design = context.load(design)?;
+                let pose = poses::parse(pose, &design, "--pose", "plot::bad_pose")?;
+                // the picture needs the shape of the box only
+                let options = singularities::box_options(None, 0, &design, seed)?;
+                Ok(singular_slice(&singularities::slice::figure(&design, *slice, &pose, &options)))
+            }
+            Self::Topologies { design, members } => {
+                let design = design.as_deref().map(|path| context.load(path)).transpose()?;
+                topologies::drawing(design.as_ref(), *members, seed)
+            }
+            Self::Workspace(args) => workspace::draw(args, context),
+        }
+    }
+}
+
+/// Draws, and writes the file or the picture itself.
+pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+    let svg = args.figure.draw(context)?;
+    let mut json = Map::new();
+    json.insert("figure".into(), json!(args.figure.name()));
+    let text = if let Some(path) = &args.output {
+        files::write_text(path, &svg)?;
+        json.insert("output".into(), json!(path.display().to_string()));
+        format!("{}\n", path.display())
+    } else {
+        json.insert("svg".into(), json!(svg));
+        svg
+    };
+    Ok(Answer { exit: Exit::Yes, json, text })
+}

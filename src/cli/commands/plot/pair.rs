@@ -1,0 +1,49 @@
+//! `equipod plot pair`.
+
+use std::path::PathBuf;
+
+use crate::cli::context::Context;
+use crate::cli::failure::Failure;
+use crate::cli::poses;
+use crate::plot::{PairFigure, platform_pair};
+use crate::synthesis::{LegMapTolerances, Relation, leg_map};
+
+/// Arguments of `plot pair`.
+#[derive(Debug, clap::Args)]
+pub(super) struct Args {
+    /// Design file (.toml or .json)
+    first: PathBuf,
+    /// The other design, in the same frames
+    second: PathBuf,
+    /// The pose of both
+    #[arg(long, value_name = "POSE", allow_hyphen_values = true, default_value = "home")]
+    pose: String,
+}
+
+pub(super) fn draw(args: &Args, context: &mut Context) -> Result<String, Failure> {
+    let (a, b) = (context.load(&args.first)?, context.load(&args.second)?);
+    let pose = poses::parse(&args.pose, &a, "--pose", "plot::bad_pose")?;
+    let found = leg_map(a.manipulator(), b.manipulator(), LegMapTolerances::default())
+        .map_err(|e| Failure::internal(e.to_string()))?;
+    let between = match found.relation {
+        Relation::Equivalent => {
+            vec!["s\u{2032} = A s + c".into(), format!("det A = {:.3}", found.determinant)]
+        }
+        Relation::Singular => vec!["s\u{2032} = A s + c".into(), "singular".into()],
+        Relation::Unrelated => vec!["no leg map".into()],
+    };
+    let note = match found.relation {
+        Relation::Equivalent => {
+            "s and s\u{2032} are the squared leg lengths on the left and on the right: the same poses for corresponding lengths, the same singularities"
+        }
+        _ => "s and s\u{2032} are the squared leg lengths on the left and on the right",
+    };
+    let figure = PairFigure {
+        title: "Two platforms at the same pose".into(),
+        names: [a.name.clone(), b.name.clone()],
+        between,
+        note: note.into(),
+        pose,
+    };
+    Ok(platform_pair([a.manipulator(), b.manipulator()], &figure))
+}

@@ -1,0 +1,102 @@
+//! `equipod report`: a folder of results as one HTML page.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::{Map, json};
+
+use crate::cli::context::Context;
+use crate::cli::exit::Exit;
+use crate::cli::failure::Failure;
+use crate::cli::files;
+use crate::cli::output::Answer;
+use crate::design::{Format, parse};
+use crate::report::{Report, ReportFile, html};
+
+/// The page in its folder.
+pub(super) const PAGE: &str = "report.html";
+/// Files larger than this are refused: a result has at most some megabytes.
+const MOST_BYTES: u64 = 64 << 20;
+/// What stands first when it is there: the order in which `explore` works.
+const FIRST: [&str; 8] = [
+    "original.toml",
+    "optimised.toml",
+    "verify.json",
+    "optimize.json",
+    "fk.json",
+    "family.json",
+    "determinant.svg",
+    "assembly-modes.svg",
+];
+
+/// Arguments of `report`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Folder with designs (.toml, .json), results of equipod (.json) and pictures (.svg); folders in it are not read
+    folder: PathBuf,
+    /// The page; report.html in the folder when absent
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Title; the name of the first design when absent
+    #[arg(long, value_name = "TEXT")]
+    title: Option<String>,
+}
+
+/// Writes the page.
+pub(crate) fn run(args: &Args, _: &mut Context) -> Result<Answer, Failure> {
+    let output = args.output.clone().unwrap_or_else(|| args.folder.join(PAGE));
+    let found = gather(&args.folder, &output)?;
+    if found.is_empty() {
+        let message = format!("{} holds no files", args.folder.display());
+        return Err(
+            Failure::refused("report::empty", message).with_help("run `equipod explore DESIGN -o DIR` first")
+        );
+    }
+    let count = found.len();
+    files::write_text(&output, &page(found, args.title.clone()))?;
+    let mut json = Map::new();
+    json.insert("output".into(), json!(output.display().to_string()));
+    json.insert("files".into(), json!(count));
+    Ok(Answer { exit: Exit::Yes, json, text: format!("{}\n", output.display()) })
+}
+
+/// The page about these files.
+pub(super) fn page(files: Vec<ReportFile>, title: Option<String>) -> String {
+    let title = title.or_else(|| files.iter().find_map(design_name)).unwrap_or_else(|| "Results".into());
+    html(&Report { title, files, view: None })
+}
+
+fn design_name(file: &ReportFile) -> Option<String> {
+    let path = Path::new(&file.name);
+    path.extension().filter(|e| *e == "toml" || *e == "json")?;
+    let text = std::str::from_utf8(&file.bytes).ok()?;
+    parse(text, Format::of_path(path)).ok().map(|(design, _)| design.name)
+}
+
+/// All files of a folder but the page itself, known ones first, the others by name.
+pub(super) fn gather(folder: &Path, page: &Path) -> Result<Vec<ReportFile>, Failure> {
+    let unreadable = |path: &Path, error: &std::io::Error| {
+        Failure::refused("report::not_readable", format!("{} cannot be read: {error}", path.display()))
+            .with_help("name a folder with results, for instance that of `explore`")
+    };
+    let entries = std::fs::read_dir(folder).map_err(|e| unreadable(folder, &e))?;
+    let own = page.canonicalize().ok();
+    let mut out = Vec::new();
+    for entry in entries {
+        let path = entry.map_err(|e| unreadable(folder, &e))?.path();
+        if !path.is_file() || (own.is_some() && path.canonicalize().ok() == own) {
+            continue;
+        }
+        let size = path.metadata().map_err(|e| unreadable(&path, &e))?.len();
+        if size > MOST_BYTES {
+            let message = format!("{} is larger than 64 MiB", path.display());
+            return Err(Failure::refused("report::too_large", message)
+                .with_help("a report is made of designs, results and pictures; move other files elsewhere"));
+        }
+        let bytes = std::fs::read(&path).map_err(|e| unreadable(&path, &e))?;
+        let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+        out.push(ReportFile { name, bytes });
+    }
+    let rank = |name: &str| FIRST.iter().position(|known| *known == name).unwrap_or(FIRST.len());
+    out.sort_by(|a, b| (rank(&a.name), &a.name).cmp(&(rank(&b.name), &b.name)));
+    Ok(out)
+}

@@ -1,0 +1,218 @@
+//! A slice of the workspace, coloured by what ends it.
+
+use super::axis::Axis;
+use super::contour::Grid;
+use super::slice::SliceAxis;
+use super::style::Svg;
+
+/// What the picture shows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WorkspaceFigure {
+    /// Title.
+    pub title: String,
+    /// Lines of text below the plot.
+    pub notes: Vec<String>,
+    /// To the right.
+    pub across: SliceAxis,
+    /// Upwards.
+    pub up: SliceAxis,
+    /// Points of the grid a side, two or more.
+    pub side: usize,
+    /// Margins at the grid points, row by row from the lowest: positive inside the workspace.
+    pub margins: Vec<f64>,
+    /// Which of the limits is met worst at the grid points.
+    pub worst: Vec<Option<usize>>,
+    /// Names of the limits; more than nine repeat the colours.
+    pub limits: Vec<String>,
+    /// The pose in the middle of the workspace and its label.
+    pub home: ((f64, f64), String),
+}
+
+const WIDTH: f64 = 860.0;
+const HEIGHT: f64 = 690.0;
+const LEFT: f64 = 84.0;
+const RIGHT: f64 = 604.0;
+const TOP: f64 = 56.0;
+const BOTTOM: f64 = 576.0;
+/// Fills of the limits: pale tones of a palette for colour-blind readers (P. Tol, 2021), dark to light so that neighbours differ in grey print too.
+const FILLS: [&str; 9] =
+    ["#4477aa", "#ee9988", "#228833", "#e8d98a", "#aa3377", "#bfe3ee", "#777777", "#ddaa33", "#d5b8d8"];
+
+/// Regions beyond the workspace in the colour of the limit that is missed most, the workspace white, its boundary a heavy line. What lies inside all limits but
+/// does not hang together with home within the slice is dotted.
+#[must_use]
+pub fn workspace_slice(figure: &WorkspaceFigure) -> String {
+    let x = Axis { low: figure.across.low, high: figure.across.high, from: LEFT, to: RIGHT };
+    let y = Axis { low: figure.up.low, high: figure.up.high, from: BOTTOM, to: TOP };
+    let inside = figure.margins.iter().filter(|m| **m > 0.0).count();
+    let share = 100.0 * inside as f64 / figure.margins.len().max(1) as f64;
+    let description = format!(
+        "Reachable poses over {} and {}: {share:.0} % of the slice. Beyond them the limit that is missed most: {}.",
+        figure.across.label,
+        figure.up.label,
+        figure.limits.join(", ")
+    );
+    let mut svg = Svg::new(WIDTH, HEIGHT, &figure.title, &description);
+    svg.style(&css());
+    svg.text("title", (LEFT, 32.0), &figure.title);
+    let last = figure.side.saturating_sub(1).max(1) as f64;
+    let place = |axis: &Axis, k: f64| axis.at(axis.low + k / last * (axis.high - axis.low));
+    cells(&mut svg, figure, &|k| place(&x, k), &|k| place(&y, k));
+    let margins = figure.margins.iter().map(|m| m.clamp(-1e300, 1e300)).collect();
+    let grid = Grid { columns: figure.side, rows: figure.side, values: margins };
+    for line in grid.contour(0.0) {
+        let points: Vec<(f64, f64)> = line.into_iter().map(|(i, j)| (place(&x, i), place(&y, j))).collect();
+        svg.polyline("boundary", &points);
+    }
+    let (at, label) = &figure.home;
+    let at = (x.at(at.0), y.at(at.1));
+    svg.circle("mark", at, 5.0);
+    svg.text("halo", (at.0 + 9.0, at.1 + 4.0), label);
+    frame(&mut svg, &x, &y, figure);
+    legend(&mut svg, figure);
+    svg.finish()
+}
+
+fn css() -> String {
+    let fills = FILLS
+        .iter()
+        .enumerate()
+        .map(|(k, fill)| format!(".limit{k}{{fill:{fill};fill-opacity:.62;shape-rendering:crispEdges}}"));
+    fills.collect::<String>()
+        + ".boundary{fill:none;stroke:#1a1a1a;stroke-width:2.2;stroke-linejoin:round}.apart{fill:#8a8a8a}.sample{stroke:#555;stroke-width:.6}"
+}
+
+fn class(limit: usize) -> String {
+    format!("limit{}", limit % FILLS.len())
+}
+
+/// Strips of grid points with the same limit, half a cell to either side.
+fn cells(svg: &mut Svg, figure: &WorkspaceFigure, x: &impl Fn(f64) -> f64, y: &impl Fn(f64) -> f64) {
+    let n = figure.side;
+    let within = |k: f64| k.clamp(0.0, n.saturating_sub(1) as f64);
+    let missed = |k: usize| figure.worst[k].filter(|_| !(figure.margins[k] > 0.0));
+    for j in 0..n {
+        let (low, high) = (y(within(j as f64 - 0.5)), y(within(j as f64 + 0.5)));
+        let mut i = 0;
+        while i < n {
+            let own = missed(j * n + i);
+            let run = (i..n).take_while(|i| missed(j * n + i) == own).count();
+            if let Some(limit) = own {
+                let (from, to) = (x(within(i as f64 - 0.5)), x(within((i + run) as f64 - 0.5)));
+                svg.rect(&class(limit), (from, high), (to - from, low - high));
+            }
+            i += run;
+        }
+    }
+    let joined = joined(figure);
+    for j in (0..n).step_by(3) {
+        for i in (0..n).step_by(3).filter(|i| figure.margins[j * n + i] > 0.0 && !joined[j * n + i]) {
+            svg.circle("apart", (x(i as f64), y(j as f64)), 0.9);
+        }
+    }
+}
+
+/// Which grid points inside all limits hang together with the one nearest to home.
+fn joined(figure: &WorkspaceFigure) -> Vec<bool> {
+    let n = figure.side;
+    let nearest = |axis: &SliceAxis, value: f64| {
+        let place = (value - axis.low) / (axis.high - axis.low) * n.saturating_sub(1) as f64;
+        (0..n).min_by(|a, b| (*a as f64 - place).abs().total_cmp(&(*b as f64 - place).abs())).unwrap_or(0)
+    };
+    let mut reached = vec![false; n * n];
+    let mut open = vec![(nearest(&figure.across, figure.home.0.0), nearest(&figure.up, figure.home.0.1))];
+    while let Some((i, j)) = open.pop() {
+        let k = j * n + i;
+        if reached.get(k).is_none_or(|seen| *seen) || !(figure.margins[k] > 0.0) {
+            continue;
+        }
+        reached[k] = true;
+        let neighbours = [(i.wrapping_sub(1), j), (i + 1, j), (i, j.wrapping_sub(1)), (i, j + 1)];
+        open.extend(neighbours.into_iter().filter(|(i, j)| *i < n && *j < n));
+    }
+    reached
+}
+
+fn frame(svg: &mut Svg, x: &Axis, y: &Axis, figure: &WorkspaceFigure) {
+    svg.rect("frame", (LEFT, TOP), (RIGHT - LEFT, BOTTOM - TOP));
+    for (value, label) in x.ticks(8) {
+        svg.line("tick", (x.at(value), BOTTOM), (x.at(value), BOTTOM + 5.0));
+        svg.text("mid", (x.at(value), BOTTOM + 19.0), &label);
+    }
+    for (value, label) in y.ticks(8) {
+        svg.line("tick", (LEFT - 5.0, y.at(value)), (LEFT, y.at(value)));
+        svg.text("end", (LEFT - 9.0, y.at(value) + 4.0), &label);
+    }
+    svg.text("mid", (f64::midpoint(LEFT, RIGHT), BOTTOM + 44.0), &figure.across.label);
+    svg.turned_text("mid", (24.0, f64::midpoint(TOP, BOTTOM)), -90.0, &figure.up.label);
+    for (k, note) in figure.notes.iter().enumerate() {
+        svg.text("note", (LEFT, BOTTOM + 68.0 + 16.0 * k as f64), note);
+    }
+}
+
+/// Right of the plot: the limits that end the workspace somewhere in it.
+fn legend(svg: &mut Svg, figure: &WorkspaceFigure) {
+    let left = RIGHT + 22.0;
+    let mut line = TOP + 12.0;
+    let mut entry = |svg: &mut Svg, class: &str, text: &str| {
+        svg.rect(class, (left, line - 11.0), (18.0, 13.0));
+        svg.rect("frame sample", (left, line - 11.0), (18.0, 13.0));
+        svg.text("", (left + 26.0, line), text);
+        line += 22.0;
+    };
+    entry(svg, "plate", "reachable");
+    for (k, name) in figure.limits.iter().enumerate() {
+        entry(svg, &class(k), name);
+    }
+    let joined = joined(figure);
+    if figure.margins.iter().zip(&joined).any(|(m, joined)| *m > 0.0 && !joined) {
+        svg.circle("apart", (left + 5.0, line - 5.0), 0.9);
+        svg.circle("apart", (left + 9.0, line - 5.0), 0.9);
+        svg.circle("apart", (left + 13.0, line - 5.0), 0.9);
+        svg.text("", (left + 26.0, line), "inside all limits, not");
+        svg.text("", (left + 26.0, line + 15.0), "joined to home in this slice");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A strip around home and a second one apart from it; limit 1 to the left, limit 0 elsewhere.
+    fn figure() -> WorkspaceFigure {
+        let side = 31;
+        let column = |k: usize| k % side;
+        let inside = |i: usize| (10..=18).contains(&i) || i > 26;
+        let axis = |label: &str| SliceAxis { label: label.into(), low: -1.0, high: 1.0 };
+        WorkspaceFigure {
+            title: "t".into(),
+            notes: vec!["n".into()],
+            across: axis("x [mm]"),
+            up: axis("y [mm]"),
+            side,
+            margins: (0..side * side).map(|k| if inside(column(k)) { 0.1 } else { -0.1 }).collect(),
+            worst: (0..side * side).map(|k| Some(usize::from(column(k) < 10))).collect(),
+            limits: vec!["leg too long".into(), "leg <2> too short".into()],
+            home: ((0.0, 0.0), "home".into()),
+        }
+    }
+
+    #[test]
+    fn every_limit_has_its_region_and_its_line_in_the_legend() {
+        let text = workspace_slice(&figure());
+        // a strip a row for each, and one in the legend
+        assert_eq!(text.matches("class=\"limit0\"").count(), 32);
+        assert_eq!(text.matches("class=\"limit1\"").count(), 32);
+        assert_eq!(text.matches("class=\"boundary\"").count(), 3);
+        assert!(text.contains(">leg &lt;2&gt; too short</text>"));
+    }
+
+    #[test]
+    fn what_does_not_hang_together_with_home_is_dotted() {
+        let mut f = figure();
+        assert_eq!(joined(&f).iter().filter(|x| **x).count(), 9 * 31);
+        assert!(workspace_slice(&f).contains("joined to home in this slice"));
+        f.margins.iter_mut().enumerate().for_each(|(k, m)| *m = if k % 31 > 26 { -0.1 } else { *m });
+        assert!(!workspace_slice(&f).contains("joined to home"));
+    }
+}

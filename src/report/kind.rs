@@ -1,0 +1,60 @@
+//! Which command wrote a result, and what it says in a word.
+
+use serde_json::{Map, Value};
+
+/// The answer of a result.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Verdict {
+    /// The word of the result itself, for instance `equivalent`.
+    pub word: String,
+    /// Yes, no, or neither.
+    pub holds: Option<bool>,
+    /// Its sentence with the numbers that decided, where it has one.
+    pub explanation: Option<String>,
+}
+
+/// Words of the commands for yes.
+const YES: [&str; 9] =
+    ["equivalent", "optimal", "feasible", "front", "regular", "proved", "met", "found", "identical"];
+/// Words for no.
+const NO: [&str; 7] =
+    ["not_equivalent", "not equivalent", "infeasible", "singular", "not_realizable", "violated", "none"];
+
+/// A heading for the fields of a result.
+pub(super) fn heading(fields: &Map<String, Value>) -> &'static str {
+    let has = |key: &str| fields.contains_key(key);
+    match () {
+        () if has("samples") && has("map") => "Equivalence",
+        () if has("finite_count") => "Forward kinematics",
+        () if has("front") => "Optimisation: a front",
+        () if has("status") && has("objective") => "Optimisation",
+        () if has("patterns") && has("topologies") => "Equivalence class",
+        () if has("margins") && has("met") => "Requirements",
+        () if has("components") => "Replaceable legs",
+        () if has("curves") => "Self-motions",
+        () if has("topologies") => "Topologies",
+        () if has("relation") && has("A") => "Leg map",
+        () if has("architecturally_singular") => "Architectural singularity",
+        () => "Result",
+    }
+}
+
+/// The answer, where the result has one.
+pub(super) fn verdict(fields: &Map<String, Value>) -> Option<Verdict> {
+    let text = |key: &str| fields.get(key).and_then(Value::as_str).map(str::to_owned);
+    let explanation = text("explanation").or_else(|| text("completeness_reason"));
+    if let Some(met) = fields.get("met").and_then(Value::as_bool) {
+        let word = if met { "met" } else { "violated" };
+        return Some(Verdict { word: word.into(), holds: Some(met), explanation });
+    }
+    let word = ["verdict", "status", "relation"].iter().find_map(|key| text(key)).or_else(|| {
+        let count = |key: &str| fields.get(key).and_then(Value::as_u64);
+        Some(format!("{} finite poses, {} real", count("finite_count")?, count("real_count")?))
+    })?;
+    let holds = match word.as_str() {
+        w if YES.contains(&w) => Some(true),
+        w if NO.contains(&w) => Some(false),
+        _ => fields.get("completeness").and_then(Value::as_str).filter(|c| *c == "proved").map(|_| true),
+    };
+    Some(Verdict { word: word.replace('_', " "), holds, explanation })
+}

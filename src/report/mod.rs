@@ -1,0 +1,35 @@
+//! A folder of results as one HTML page: inputs, verdicts with their evidence, pictures, where every file comes from.
+//!
+//! Pure text in, text out. Nothing is computed anew: every number of the page stands in one of the files, which are named with their SHA-256 so that a reader
+//! can tell whether the page belongs to them.
+
+mod facts;
+mod inputs;
+mod kind;
+mod page;
+
+pub use kind::Verdict;
+pub use page::html;
+
+/// One file of the folder.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ReportFile {
+    /// Name without the folder.
+    pub name: String,
+    /// Contents.
+    pub bytes: Vec<u8>,
+}
+
+/// What goes into the page.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Report {
+    /// Title; the name of the folder says nothing to a reader.
+    pub title: String,
+    /// The files, in the order in which they are to appear.
+    pub files: Vec<ReportFile>,
+    /// A page of its own to embed (the live view of a design), as HTML.
+    pub view: Option<String>,
+}
+
+#[cfg(test)]
+mod tests;
