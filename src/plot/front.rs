@@ -47,7 +47,7 @@ pub fn pareto_front(figure: &FrontFigure) -> String {
         figure.note
     );
     let mut svg = Svg::new(width, height, &figure.title, &description);
-    svg.style(".dominated{fill:none;stroke:#8a8a8a;stroke-width:1.2;stroke-dasharray:4 3}.good{font-size:11px;fill:#2b5c94}");
+    svg.style(".dominated{fill:none;stroke:#8a8a8a;stroke-width:1.2;stroke-dasharray:4 3}");
     svg.text("title", (LEFT, 32.0), &figure.title);
     for (k, pair) in pairs.iter().enumerate() {
         panel(&mut svg, figure, *pair, LEFT + k as f64 * (SIDE + GAP));
@@ -68,6 +68,15 @@ fn range(figure: &FrontFigure, k: usize) -> (f64, f64) {
     (low - room, high + room)
 }
 
+/// The label with an arrow to what is better; turned labels run upwards.
+fn directed(axis: &FrontAxis) -> String {
+    if axis.is_gain {
+        format!("{}, better \u{2192}", axis.label)
+    } else {
+        format!("\u{2190} better, {}", axis.label)
+    }
+}
+
 fn panel(svg: &mut Svg, figure: &FrontFigure, (i, j): (usize, usize), left: f64) {
     let (rx, ry) = (range(figure, i), range(figure, j));
     let x = Axis { low: rx.0, high: rx.1, from: left, to: left + SIDE };
@@ -82,16 +91,8 @@ fn panel(svg: &mut Svg, figure: &FrontFigure, (i, j): (usize, usize), left: f64)
         svg.text("end", (left - 9.0, y.at(value) + 4.0), &label);
     }
     let (ax, ay) = (&figure.axes[i], &figure.axes[j]);
-    svg.text("mid", (left + SIDE / 2.0, TOP + SIDE + 42.0), &ax.label);
-    svg.turned_text("mid", (left - 62.0, TOP + SIDE / 2.0), -90.0, &ay.label);
-    if ax.is_gain {
-        svg.text("good end", (left + SIDE - 6.0, TOP + SIDE - 8.0), "better \u{2192}");
-    } else {
-        svg.text("good", (left + 6.0, TOP + SIDE - 8.0), "\u{2190} better");
-    }
-    let (at, word) =
-        if ay.is_gain { (TOP + 16.0, "better \u{2191}") } else { (TOP + SIDE - 26.0, "better \u{2193}") };
-    svg.text("good", (left + 6.0, at), word);
+    svg.text("mid", (left + SIDE / 2.0, TOP + SIDE + 42.0), &directed(ax));
+    svg.turned_text("mid", (left - 62.0, TOP + SIDE / 2.0), -90.0, &directed(ay));
     if figure.axes.len() == 2 {
         steps(svg, figure, &x, &y);
     }

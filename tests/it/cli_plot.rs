@@ -97,11 +97,8 @@ fn a_front_is_read_from_a_result() {
     let text = svg(&["pareto", path]);
     assert_eq!(text.matches("class=\"mark\"").count(), 3);
     // conditioning is to be large, stroke small
-    assert!(
-        text.contains(">stroke [mm]<")
-            && text.contains(">better \u{2192}<")
-            && text.contains(">better \u{2193}<")
-    );
+    assert!(text.contains(">worst conditioning, better \u{2192}<"));
+    assert!(text.contains(">\u{2190} better, stroke [mm]<"));
     write(&[]);
     assert_eq!(refusal(&["pareto", path]), (2, "plot::not_a_front".into()));
     std::fs::write(&file, "{}").unwrap();
@@ -130,4 +127,10 @@ fn a_pair_shows_the_leg_map() {
     );
     assert!(text.contains("A s + c") && text.contains("det A = "));
     assert!(svg(&["pair", OCTAHEDRAL, "designs/lee-shim.toml"]).contains("no leg map"));
+}
+
+#[test]
+fn the_picture_of_the_readme_is_the_one_the_command_draws() {
+    let drawn = svg(&["pair", OCTAHEDRAL, "designs/rbt-griffis-duffy.toml"]);
+    assert_eq!(drawn, std::fs::read_to_string("docs/figures/equivalence.svg").unwrap());
 }
