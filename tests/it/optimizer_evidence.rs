@@ -12,6 +12,10 @@ use nalgebra::Vector3;
 mod cap;
 #[path = "../benches/optimizer/judge.rs"]
 mod judge;
+#[path = "../benches/optimizer/random.rs"]
+mod random;
+#[path = "../benches/optimizer/record.rs"]
+mod record;
 #[path = "../benches/optimizer/verdict.rs"]
 mod verdict;
 
@@ -115,4 +119,60 @@ fn the_smallest_cap_cannot_be_made_smaller() {
             }
         }
     }
+}
+
+/// The corner `x + y + z < 0.3` of the unit cube, of which 0.0045 of the cube is made; keeps what it is asked to value.
+struct Corner(std::sync::Mutex<Vec<Vec<f64>>>);
+
+impl Judge for Corner {
+    fn bounds(&self) -> &[(f64, f64)] {
+        &[(0.0, 1.0); 3]
+    }
+    fn violation(&self, x: &[f64]) -> f64 {
+        (x.iter().sum::<f64>() - 0.3).max(0.0)
+    }
+    fn value(&self, x: &[f64]) -> f64 {
+        self.0.lock().unwrap().push(x.to_vec());
+        x[0]
+    }
+}
+
+#[test]
+fn walks_stay_feasible_and_are_uniform() {
+    let corner = Corner(std::sync::Mutex::default());
+    let drawn = random::random_search(&corner, 100, 60.0, 1, 5);
+    let starts: Vec<Vec<f64>> = corner.0.lock().unwrap().drain(..).take(3).collect();
+    let walked = random::walks(&corner, &starts, 20_000, 60.0, 1, 5);
+    assert_eq!((drawn.evaluations, walked.evaluations), (100, 20_000));
+    assert!(drawn.draws > 100 * 100 && walked.draws < 20_000 * 8, "{} {}", drawn.draws, walked.draws);
+    let points = corner.0.into_inner().unwrap();
+    assert!(points.iter().all(|x| x.iter().all(|x| (0.0..=1.0).contains(x)) && x.iter().sum::<f64>() < 0.3));
+    // means of a uniform simplex of height 0.3: 0.3 / 4, and of its squares 0.3^2 / 10
+    for k in 0..3 {
+        let mean = |power: i32| points.iter().map(|x| x[k].powi(power)).sum::<f64>() / points.len() as f64;
+        assert!((mean(1) / 0.075 - 1.0).abs() < 0.05, "{}", mean(1));
+        assert!((mean(2) / 0.009 - 1.0).abs() < 0.1, "{}", mean(2));
+    }
+    // both runs together are one rival
+    let both = drawn.then(walked);
+    assert_eq!(both.evaluations, 20_100);
+    assert!(both.judged.unwrap().value > 0.29);
+}
+
+#[test]
+fn without_a_feasible_start_there_is_no_walk() {
+    let corner = Corner(std::sync::Mutex::default());
+    assert_eq!(random::walks(&corner, &[], 10, 60.0, 2, 5).evaluations, 0);
+}
+
+#[test]
+fn a_record_keeps_the_best_point() {
+    let corner = Corner(std::sync::Mutex::default());
+    let record = record::Record::new();
+    for x in [0.1, 0.2, 0.15] {
+        record.evaluate(&corner, &[x, 0.0, 0.0]);
+    }
+    assert_eq!(record.best(), [0.2, 0.0, 0.0]);
+    let rival = record.finish(&corner);
+    assert_eq!((rival.evaluations, rival.path.len(), rival.curve.len()), (3, 2, 2));
 }

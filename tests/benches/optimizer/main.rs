@@ -1,12 +1,13 @@
 //! The optimiser against 100,000 random feasible designs and against CMA-ES with 100 times its processor time.
 //!
 //! ```text
-//! cargo bench --bench optimizer -- [--random 100000] [--factor 100] [--threads 2] [--seed 1] [--seconds 600] [--out FOLDER] [DESIGN ...]
+//! cargo bench --bench optimizer -- [--random 100000] [--factor 100] [--threads 2] [--seed 1] [--seconds 600] [--only offsets|requirements] [--out FOLDER] [DESIGN ...]
 //! cargo bench --bench optimizer -- --timing
 //! ```
 //!
 //! Default: all designs of `designs/`, `designs/worked/` and `designs/presets/`. The problem of a design is that of `equipod optimize`. Octahedral ones are taken without their requirements too: the offsets alone,
-//! once with the joints up to one edge length out and once inside the edges. Random search stops after `--seconds` of processor time. Prints a Markdown table; with `--out` writes it, the rows as CSV and a picture of the convergence for each problem. Exit 1 when
+//! once with the joints up to one edge length out and once inside the edges. Random search draws from the box of the variables for `--seconds` of processor time; where fewer than `--random` feasible
+//! designs come to light, walks inside the feasible set, from the feasible designs that either rival found, take as long again and go on to that number. Prints a Markdown table; with `--out` writes it, the rows as CSV and a picture of the convergence for each problem (rows of other problems that stand there already are kept). Exit 1 when
 //! the optimiser loses. `--timing`: the time of problems with 200 poses instead.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program that prints tables")]
 
@@ -34,7 +35,7 @@ use equipod::offsets::{OffsetProblem, OptimizeOptions, Progress, optimize};
 use dimensional::{Built, DimensionalJudge};
 use evolution::evolution;
 use judge::{Judge, OffsetJudge, offset_problem};
-use random::random_search;
+use random::{random_search, walks};
 use record::{Clock, Point, Rival, Spent};
 use report::{Report, Row};
 use verdict::{Judged, Verdict};
@@ -51,7 +52,16 @@ struct Arguments {
     seed: u64,
     out: Option<PathBuf>,
     designs: Vec<PathBuf>,
+    only: Only,
     timing: bool,
+}
+
+/// Which problems of a design.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Only {
+    All,
+    Offsets,
+    Requirements,
 }
 
 fn arguments() -> Result<Option<Arguments>, Failure> {
@@ -63,6 +73,7 @@ fn arguments() -> Result<Option<Arguments>, Failure> {
         seed: 1,
         out: None,
         designs: Vec::new(),
+        only: Only::All,
         timing: false,
     };
     let mut measured = false;
@@ -78,6 +89,13 @@ fn arguments() -> Result<Option<Arguments>, Failure> {
             "--threads" => a.threads = next()?.parse()?,
             "--seed" => a.seed = next()?.parse()?,
             "--out" => a.out = Some(next()?.into()),
+            "--only" => {
+                a.only = match next()?.as_str() {
+                    "offsets" => Only::Offsets,
+                    "requirements" => Only::Requirements,
+                    other => return Err(format!("--only offsets or requirements, not {other}").into()),
+                }
+            }
             "--timing" => a.timing = true,
             other if other.starts_with('-') => return Err(format!("unknown option {other}").into()),
             file => a.designs.push(file.into()),
@@ -184,13 +202,23 @@ fn compare(
 ) -> Row {
     eprintln!("{name}: {quantity}, {poses}");
     eprintln!("  optimiser {:?} in {:.2} s ({:.2} s)", ours.judged, ours.spent.elapsed, ours.spent.cpu);
-    let random = random_search(judge, a.random, a.seconds, a.threads, a.seed);
+    let mut random = random_search(judge, a.random, a.seconds, a.threads, a.seed);
     eprintln!(
         "  random {:?} in {:.1} s, {} feasible",
         random.judged, random.spent.elapsed, random.evaluations
     );
     let rival = evolution(judge, &random.path, a.factor * ours.spent.cpu, a.threads, a.seed);
     eprintln!("  CMA-ES {:?} in {:.1} s", rival.judged, rival.spent.elapsed);
+    if random.evaluations < a.random {
+        // worst first: walks begin with the last
+        let starts: Vec<Vec<f64>> = random.path.iter().chain(&rival.path).cloned().collect();
+        let missing = a.random - random.evaluations;
+        random = random.then(walks(judge, &starts, missing, a.seconds, a.threads, a.seed));
+        eprintln!(
+            "  walks {:?} in {:.1} s, {} feasible",
+            random.judged, random.spent.elapsed, random.evaluations
+        );
+    }
     // with the worst poses that came to light meanwhile
     ours.judged = last_word();
     let against = |r: &Rival| Verdict::of(ours.judged, r.judged);
@@ -205,7 +233,8 @@ fn rows(path: &Path, a: &Arguments) -> Result<Vec<Row>, Failure> {
     let design = load(path)?;
     let stem = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
     let mut out = Vec::new();
-    if let Some(p) = question::problem(&design) {
+    let question = question::problem(&design).filter(|_| a.only != Only::Offsets);
+    if let Some(p) = question {
         let mut judge = DimensionalJudge::new(&p);
         let (ours, built) = optimise_dimensional(&p, &mut judge, a)?;
         let last_word = || built.as_ref().map(|built| judge.judge(built));
@@ -214,7 +243,8 @@ fn rows(path: &Path, a: &Arguments) -> Result<Vec<Row>, Failure> {
         let about = (quantity, "region".into());
         out.push(compare(format!("{stem}, requirements"), about, &judge, (ours, &last_word), a));
     }
-    for extension in [1.0, 0.0] {
+    let extensions: &[f64] = if a.only == Only::Requirements { &[] } else { &[1.0, 0.0] };
+    for &extension in extensions {
         let Some(p) = offset_problem(&design, extension) else { continue };
         let judge = OffsetJudge::new(&p);
         let ours = optimise(&p, &judge, a)?;

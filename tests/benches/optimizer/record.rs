@@ -4,8 +4,8 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-use crate::judge::Judge;
-use crate::verdict::Judged;
+use super::judge::Judge;
+use super::verdict::Judged;
 
 /// Processor time of all threads of this process in seconds; `None` where the system does not tell.
 pub(crate) fn cpu_seconds() -> Option<f64> {
@@ -122,4 +122,31 @@ pub(crate) struct Rival {
     pub(crate) spent: Spent,
     /// Points drawn or asked for, infeasible ones as well.
     pub(crate) draws: usize,
+}
+
+impl Rival {
+    /// The same rival after another run: the better answer of both, the costs of both.
+    pub(crate) fn then(self, later: Self) -> Self {
+        let accepted = |r: &Self| r.judged.filter(|j| j.violation <= 0.0).map(|j| j.value);
+        let judged = match (accepted(&self), accepted(&later)) {
+            (Some(a), Some(b)) if a > b => self.judged,
+            (Some(_), None) => self.judged,
+            (None, None) => self.judged.or(later.judged),
+            _ => later.judged,
+        };
+        let best = self.curve.last().map_or(f64::NEG_INFINITY, |p| p.value);
+        let after = |p: &Point| Point { elapsed: self.spent.elapsed + p.elapsed, value: p.value };
+        let curve = later.curve.iter().map(after).filter(|p| p.value > best);
+        Self {
+            judged,
+            curve: self.curve.iter().copied().chain(curve).collect(),
+            path: self.path.into_iter().chain(later.path).collect(),
+            evaluations: self.evaluations + later.evaluations,
+            spent: Spent {
+                elapsed: self.spent.elapsed + later.spent.elapsed,
+                cpu: self.spent.cpu + later.spent.cpu,
+            },
+            draws: self.draws + later.draws,
+        }
+    }
 }

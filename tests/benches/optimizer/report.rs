@@ -146,10 +146,10 @@ impl Report {
         out
     }
 
-    /// `optimizer.md`, `optimizer.csv` and one picture for each problem.
+    /// `optimizer.md`, `optimizer.csv` and one picture for each problem. Rows of other problems are kept: a run over everything takes hours and may be made in parts.
     pub(crate) fn write(&self, folder: &Path) -> Result<(), Failure> {
         std::fs::create_dir_all(folder)?;
-        std::fs::write(folder.join("optimizer.md"), self.markdown())?;
+        kept(&folder.join("optimizer.md"), &self.markdown(), |line| line.split('|').nth(1).map(str::trim))?;
         let mut csv = String::from(
             "problem,quantity,poses,value,violation,bound,elapsed,cpu,random_value,random_violation,random_feasible,random_drawn,random_cpu,\
              against_random,cmaes_value,cmaes_violation,cmaes_points,factor,cmaes_elapsed,cmaes_cpu,against_cmaes\n",
@@ -158,7 +158,16 @@ impl Report {
             let _ = writeln!(csv, "{}", row.csv());
             std::fs::write(folder.join(format!("convergence-{}.svg", row.slug())), row.picture())?;
         }
-        std::fs::write(folder.join("optimizer.csv"), csv)?;
-        Ok(())
+        kept(&folder.join("optimizer.csv"), &csv, |line| line.split('"').nth(1))
     }
+}
+
+/// Writes the rows of a table in place of those with the same key that the file has; the others stay.
+fn kept(file: &Path, table: &str, key: fn(&str) -> Option<&str>) -> Result<(), Failure> {
+    let earlier = std::fs::read_to_string(file).unwrap_or_default();
+    let stays = |line: &&str| key(line).is_some_and(|k| table.lines().all(|new| key(new) != Some(k)));
+    // heads have a key of their own in Markdown and none in CSV
+    let rows: Vec<&str> = table.lines().chain(earlier.lines().filter(stays)).collect();
+    std::fs::write(file, rows.join("\n") + "\n")?;
+    Ok(())
 }
