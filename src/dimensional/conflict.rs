@@ -6,10 +6,8 @@ use super::certificate::proved_empty;
 use super::kinematics::{HeldPose, Lines};
 use super::model::{Group, Model, Task};
 use super::outcome::{Conflict, Demand, Give};
-use super::population::{Judge, evolve};
-use super::search::{Refined, SearchOptions, refine};
+use super::search::{Refined, SearchOptions, population, refine};
 use super::terms::Item;
-use crate::num::Rng;
 use crate::num::parallel::parallel;
 use crate::requirements::TermKind;
 
@@ -35,21 +33,27 @@ fn by_violation(task: &Task, a: &Refined, b: &Refined) -> std::cmp::Ordering {
     of(a).total_cmp(&of(b))
 }
 
+/// Number of the first population of an attempt, beyond those of a search.
+const POPULATIONS: usize = 3000;
+/// Starts of an attempt besides the ends of earlier runs, and the generations of the population they come from: few, since the basin that draws
+/// a population together may hold the compromise that is to be left.
+const FRESH: (usize, usize) = (6, 5);
+
 /// Tries to meet what a task does not drop, from where other runs ended and from a population of its own: the ends are where all
 /// requirements together led, which need not be near to where fewer of them can be met.
-fn attempt(
+pub(crate) fn attempt(
     model: &Model<'_>,
     task: &Task,
     from: &[Refined],
     o: &SearchOptions,
-    k: u64,
+    k: usize,
 ) -> Result<Refined, Vec<Refined>> {
     let mut runs = settle(model, task, from, o.threads);
     if !runs.iter().any(|r| r.run.is_feasible(model)) {
-        let mut rng = Rng::stream(o.seed, 0x436f + k);
-        let members = evolve(&mut Judge::new(model, task), &[], o.generations, &mut rng);
-        let fresh = members.first().map(|m| refine(model, task, &m.x, model.first_poses(), k));
-        runs.extend(fresh);
+        let few = SearchOptions { starts: FRESH.0, generations: FRESH.1, ..*o };
+        let starts = population(model, task, &[], POPULATIONS + 3 * k, &few);
+        let run = |i: usize| refine(model, task, &starts[i].x, model.first_poses(), i as u64);
+        runs.extend(parallel(starts.len(), o.threads, run, &mut |_, _| ()));
         runs.sort_by(|a, b| by_violation(task, a, b));
         runs.truncate(from.len());
     }
@@ -87,7 +91,7 @@ pub(crate) fn conflict(model: &Model<'_>, settled: &[Refined], o: &SearchOptions
         if without.len() == all.len() {
             break;
         }
-        match attempt(model, &no_objective(model, without.clone()), &from, o, k as u64) {
+        match attempt(model, &no_objective(model, without.clone()), &from, o, k) {
             Ok(met) => {
                 alone.insert(group, met);
             }

@@ -115,13 +115,19 @@ pub(crate) fn refine(
 }
 
 /// A point with the poses that matter most near it.
-struct Start {
-    x: Vec<f64>,
+pub(crate) struct Start {
+    pub(crate) x: Vec<f64>,
     few: Vec<HeldPose>,
 }
 
 /// The best distinct members of a population.
-fn population(model: &Model<'_>, task: &Task, given: &[Vec<f64>], k: usize, o: &SearchOptions) -> Vec<Start> {
+pub(crate) fn population(
+    model: &Model<'_>,
+    task: &Task,
+    given: &[Vec<f64>],
+    k: usize,
+    o: &SearchOptions,
+) -> Vec<Start> {
     let mut judge = Judge::new(model, task);
     let generations = if k % LONG.0 == LONG.0 - 1 { LONG.1 * o.generations } else { o.generations };
     let members = evolve(&mut judge, given, generations, &mut Rng::stream(o.seed, 0x5347 + k as u64));

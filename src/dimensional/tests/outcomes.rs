@@ -2,10 +2,14 @@
 
 use std::ops::ControlFlow;
 
-use nalgebra::{Unit, Vector3};
+use nalgebra::{Point3, Unit, Vector3};
 
+use super::super::conflict::attempt;
+use super::super::model::Task;
+use super::super::search::refine;
 use super::super::*;
 use super::{Group, Model, everything, problem, quick};
+use crate::manipulator::Manipulator;
 use crate::requirements::{JointAxes, LengthLimits, Swing, TermKind};
 
 #[test]
@@ -144,4 +148,52 @@ fn what_cannot_be_asked_is_refused() {
     let mut p = problem(&[VariableKind::JointAxes], Objective::WorstConditioning);
     p.requirements.hardware.base_swing = Some(Swing { limit_deg: 120.0, axes: JointAxes::Optimize });
     assert_eq!(refused(&p), InvalidProblem::SwingTooWide(120.0));
+}
+
+/// An octahedral hexapod whose struts are longest with the joints near the corners, and must be longer than they are on the way between.
+fn long_struts(limits: LengthLimits) -> DimensionalProblem {
+    let corner = |r: f64, k: f64| {
+        let (s, c) = (std::f64::consts::TAU * k / 3.0).sin_cos();
+        Point3::new(r * c, r * s, 0.0)
+    };
+    let base = (0..3).map(|k| corner(26.5, f64::from(k))).collect();
+    let platform = (0..3).map(|k| corner(13.232, f64::from(k) + 0.5)).collect();
+    let pairs = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
+    let mut p = problem(&[VariableKind::Offsets], Objective::WorstConditioning);
+    p.manipulator = Manipulator::try_new(base, platform, pairs).unwrap();
+    p.characteristic_length = p.manipulator.platform_rms_radius();
+    p.space.home.position.z = 20.0;
+    p.space.region = crate::requirements::Region::Ellipsoid;
+    p.space.translation = Vector3::new(4.0, 4.0, 3.0);
+    p.space.rotation_deg = Vector3::repeat(10.0);
+    p.variables.offset_bounds = [(0.0, 1.0); 6];
+    p.requirements.min_joint_distance = Some(1e-6);
+    p.requirements.hardware.leg_length = Some(limits);
+    p.min_abs_det = 1e-9;
+    p
+}
+
+#[test]
+fn what_other_starts_can_meet_is_no_conflict() {
+    let p = long_struts(LengthLimits::Range(24.0, 33.0));
+    // the compromise of both has joints in the middle of sides, where the least length has a saddle and climbs do not leave
+    let model = Model::new(&p).unwrap();
+    let others = [TermKind::LegTooLong, TermKind::BaseSpacing, TermKind::PlatformSpacing].map(Group::Term);
+    let dropped = others.into_iter().chain([Group::Determinant]).collect();
+    let task = Task { weights: vec![0.0], floors: vec![None], dropped, soft: None };
+    let middle = [0.5, 0.55, 0.6, 0.45, 0.3, 0.6];
+    let stuck = refine(&model, &task, &middle, model.first_poses(), 1);
+    assert!(!stuck.run.is_feasible(&model));
+    let met = attempt(&model, &task, &[stuck], &quick(), 0);
+    assert!(met.is_ok_and(|r| r.run.is_feasible(&model) && r.complete));
+    let found = optimize(&p, &[], &quick(), &mut |_| ControlFlow::Continue(())).unwrap();
+    let DimensionalOutcome::Infeasible(conflict) = &found.outcome else { panic!("{found:?}") };
+    let kinds: Vec<Demand> = conflict.demands.iter().map(|g| g.demand).collect();
+    assert_eq!(kinds, [TermKind::LegTooShort, TermKind::LegTooLong].map(Demand::Requirement));
+    // each of them alone can be met
+    for limits in [LengthLimits::Range(24.0, 100.0), LengthLimits::Range(1.0, 33.0)] {
+        let found =
+            optimize(&long_struts(limits), &[], &quick(), &mut |_| ControlFlow::Continue(())).unwrap();
+        assert!(found.solution().is_some(), "{limits:?}");
+    }
 }

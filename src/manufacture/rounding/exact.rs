@@ -222,9 +222,8 @@ fn search(problem: &RoundingProblem<'_>, laying: &Laying, roles: &Roles) -> Resu
 pub(super) fn round(
     problem: &RoundingProblem<'_>,
     layings: &[Laying],
-    roles: Option<&Roles>,
+    roles: &Roles,
 ) -> Result<ExactRounding, NoRounding> {
-    let roles = roles.ok_or(NoRounding::NoTriangles)?;
     let better = |a: &Found, b: &Found| (a.met, a.best.objective) > (b.met, b.best.objective);
     let found = best_of(layings.iter().map(|laying| search(problem, laying, roles)), better);
     finish(problem, roles, &found.unwrap_or(Err(NoRounding::Singular))?)

@@ -159,15 +159,14 @@ pub fn round_to_grid(problem: &RoundingProblem<'_>) -> Result<Rounding, NoRoundi
     let given = Laying { grids: problem.grids, bodies: [grids[0], grids[1]] };
     let roles = Roles::of(m);
     let det = roles.as_ref().map(|r| r.determinant(m));
-    let [exact, nearest] = if problem.free {
-        [layings(problem, &given, roles.as_ref()), layings(problem, &given, None)]
-    } else {
-        [vec![given], vec![given]]
-    };
+    let free = |roles| if problem.free { layings(problem, &given, roles) } else { vec![given] };
     Ok(Rounding {
         wanted: judge::judge(m, problem, det),
-        exact: exact::round(problem, &exact, roles.as_ref()),
-        nearest: nearest::round(problem, &nearest, roles.as_ref()),
+        exact: match &roles {
+            Some(roles) => exact::round(problem, &free(Some(roles)), roles),
+            None => Err(NoRounding::NoTriangles),
+        },
+        nearest: nearest::round(problem, &free(None), roles.as_ref()),
     })
 }
 
@@ -186,7 +185,10 @@ fn layings(problem: &RoundingProblem<'_>, given: &Laying, roles: Option<&Roles>)
         let k = usize::from(body == Body::Platform);
         let plain = Grid { origin: [0.0; 2], angle_deg: 0.0, ..problem.grids[k] };
         let points = places(m, body);
-        let lay = |grid: Grid| BodyGrid::new(&points, &grid, m.size()).map(|laid| (grid, laid));
+        let lay = |grid: Grid| {
+            let laid = BodyGrid::new(&points, &grid, m.size()).filter(|laid| laid.reaches(&points))?;
+            Some((grid, laid))
+        };
         let Some((_, plain)) = lay(plain) else { return Vec::new() };
         let laid = match roles {
             Some(roles) => {
