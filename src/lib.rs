@@ -15,6 +15,7 @@ pub mod design;
 pub mod dimensional;
 pub mod distance;
 pub mod equivalence;
+pub mod export;
 pub mod fk;
 pub mod geom;
 pub mod manipulator;

@@ -80,15 +80,8 @@ pub(crate) fn numbers(text: &str) -> Result<Pose, String> {
     Ok(Pose { rotation, position: Vector3::new(values[0], values[1], values[2]) })
 }
 
-/// Rotation quaternion, scalar first and not negative.
-pub(crate) fn quaternion(pose: &Pose) -> [f64; 4] {
-    let q = UnitQuaternion::from_rotation_matrix(&pose.rotation);
-    let sign = if q.w < 0.0 { -1.0 } else { 1.0 };
-    [q.w, q.i, q.j, q.k].map(|x| sign * x + 0.0)
-}
-
 /// Position `p` and quaternion `q` of a pose.
 pub(crate) fn record(pose: &Pose) -> Value {
     let p = &pose.position;
-    json!({ "p": [number(p.x), number(p.y), number(p.z)], "q": quaternion(pose).map(number) })
+    json!({ "p": [number(p.x), number(p.y), number(p.z)], "q": pose.quaternion().map(number) })
 }

@@ -21,6 +21,15 @@ impl Pose {
         self.rotation * point + self.position
     }
 
+    /// The unit quaternion of the rotation, scalar first and not negative.
+    #[must_use]
+    pub fn quaternion(&self) -> [f64; 4] {
+        let q = UnitQuaternion::from_rotation_matrix(&self.rotation);
+        let sign = if q.w < 0.0 { -1.0 } else { 1.0 };
+        // + 0.0: no -0.0
+        [q.w, q.i, q.j, q.k].map(|x| sign * x + 0.0)
+    }
+
     /// `s = |R b + p - a|^2` of one leg.
     #[must_use]
     pub fn squared_length(&self, leg: &Leg) -> f64 {

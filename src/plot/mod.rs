@@ -18,6 +18,7 @@ mod pair;
 mod slice;
 mod steps;
 mod style;
+mod three_view;
 mod topologies;
 mod workspace;
 
@@ -35,5 +36,6 @@ pub use noise::{NoiseCurve, NoiseFigure, NoisePoint, noise_chart};
 pub use pair::{PairFigure, platform_pair};
 pub use slice::{SliceAxis, SliceFigure, singular_slice};
 pub use steps::{SearchStep, StepsFigure, steps_chart};
+pub use three_view::{ThreeViewBody, ThreeViewFigure, three_views};
 pub use topologies::{TopologyFigure, topology_diagram, topology_sheet};
 pub use workspace::{WorkspaceFigure, workspace_slice};

@@ -11,6 +11,7 @@ mod cli_bench;
 mod cli_check;
 mod cli_components;
 mod cli_explore;
+mod cli_export;
 mod cli_fk;
 mod cli_frame;
 mod cli_locus;

@@ -110,7 +110,7 @@ fn text(design: &Design, found: &Assessment) -> String {
         let pose = m.pose.as_ref().map_or_else(
             || "any".to_string(),
             |p| {
-                let values = p.position.iter().copied().chain(poses::quaternion(p));
+                let values = p.position.iter().copied().chain(p.quaternion());
                 values.map(|x| format!("{x:.4}")).collect::<Vec<_>>().join(",")
             },
         );

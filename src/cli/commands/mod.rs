@@ -18,6 +18,7 @@ mod check;
 mod components;
 mod convert;
 mod explore;
+mod export;
 mod family;
 mod fk;
 mod locus;
@@ -55,6 +56,8 @@ pub(crate) enum Command {
     Convert(convert::Args),
     /// Everything about an octahedral design: class, best joint-free platform, verdict, poses, pictures, report
     Explore(explore::Args),
+    /// Files for CAD, simulators, machine controls, tables and drawings
+    Export(export::Args),
     /// Every platform equivalent to an octahedral design
     Family(family::Args),
     /// All poses, real and complex, for given leg lengths
@@ -97,6 +100,7 @@ impl Command {
             Self::Components(args) => components::run(args, context),
             Self::Convert(args) => convert::run(args, context),
             Self::Explore(args) => explore::run(args, context),
+            Self::Export(args) => export::run(args, context),
             Self::Family(args) => family::run(args, context),
             Self::Fk(args) => fk::run(args, context),
             Self::Locus(args) => locus::run(args, context),

@@ -90,6 +90,11 @@ const LINES: &[Line] = &[
             ERRORS,
         ],
     ),
+    (
+        "export",
+        &["geom", "requirements", "design", "plot"],
+        &[MATRICES, ("serde_json", Some("json.rs")), ERRORS],
+    ),
     ("plot", &["geom", "manipulator", "topology", "distance"], &[MATRICES]),
     (
         "report",
@@ -122,6 +127,7 @@ const LINES: &[Line] = &[
             "equivalence",
             "manufacture",
             "design",
+            "export",
             "plot",
             "report",
             "bench",

@@ -146,7 +146,7 @@ pub(super) fn csv(found: &Found) -> String {
     let mut out = String::from("curve,point,arc,px,py,pz,qw,qx,qy,qz,length_error,gap\n");
     for (k, curve) in found.motion.curves.iter().enumerate() {
         for (i, point) in curve.points.iter().enumerate() {
-            let (p, q) = (&point.pose.position, poses::quaternion(&point.pose));
+            let (p, q) = (&point.pose.position, point.pose.quaternion());
             let _ = writeln!(
                 out,
                 "{},{},{},{},{},{},{},{},{},{},{},{}",

@@ -112,7 +112,7 @@ impl Path {
     fn csv(&self) -> String {
         let mut out = String::from("part,u,x,y,z,qw,qx,qy,qz,det\n");
         for (part, u, pose, det) in &self.values {
-            let (p, q) = (pose.position, poses::quaternion(pose));
+            let (p, q) = (pose.position, pose.quaternion());
             let _ = writeln!(
                 out,
                 "{},{u},{},{},{},{},{},{},{},{det}",

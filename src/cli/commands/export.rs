@@ -1,0 +1,152 @@
+//! `equipod export`: files for other programs.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use clap::builder::PossibleValuesParser;
+use serde_json::{Map, Value, json};
+
+use crate::cli::context::Context;
+use crate::cli::exit::Exit;
+use crate::cli::failure::Failure;
+use crate::cli::files;
+use crate::cli::output::{Answer, number};
+use crate::cli::poses;
+use crate::design::Design;
+use crate::export::{Export, ExportOptions, File, LengthUnit, NoExport, Writer, writer, writers};
+
+/// Arguments of `export`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Design file (.toml or .json)
+    design: PathBuf,
+    /// Formats, separated by commas, or `all`
+    #[arg(long, value_name = "FORMAT", value_delimiter = ',', required = true, value_parser = PossibleValuesParser::new(names()))]
+    to: Vec<String>,
+    /// Folder to write into; it is made where it does not exist
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    /// What one unit of the design is, where its label is no length unit: um, mm, cm, m, in, ft
+    #[arg(long, value_name = "UNIT")]
+    unit: Option<String>,
+    /// Thickness of the plates, design units
+    #[arg(long, value_name = "LENGTH")]
+    thickness: Option<f64>,
+    /// Distance of the outline of a plate from the hull of its joints, design units
+    #[arg(long, value_name = "LENGTH")]
+    margin: Option<f64>,
+    /// Diameter of the holes under the joints, design units
+    #[arg(long, value_name = "LENGTH")]
+    hole: Option<f64>,
+    /// Diameter of the balls, design units
+    #[arg(long, value_name = "LENGTH")]
+    ball: Option<f64>,
+    /// Mass of the platform with its payload in the simulation, kilograms
+    #[arg(long, value_name = "KG")]
+    mass: Option<f64>,
+    /// Let the simulator carry the weight of all bodies
+    #[arg(long)]
+    gravity_compensation: bool,
+}
+
+/// The names `--to` takes.
+fn names() -> Vec<&'static str> {
+    writers().map(Writer::name).into_iter().chain(["all"]).collect()
+}
+
+/// Steps between two poses of a trajectory in the table of leg lengths.
+const STEPS: usize = 20;
+
+fn model(args: &Args, design: &Design) -> Result<Export, Failure> {
+    let unit = args.unit.as_deref().map(LengthUnit::of).transpose();
+    let unit = unit.map_err(|e| Failure::refused("export::unknown_unit", format!("--unit: {e}")))?;
+    let options = ExportOptions {
+        thickness: args.thickness,
+        margin: args.margin,
+        hole: args.hole,
+        ball: args.ball,
+        mass: args.mass,
+        gravity_compensation: args.gravity_compensation,
+    };
+    let home = poses::home(design);
+    let (mut workspace, _) = poses::workspace(design);
+    let mut path = workspace.space(&home);
+    path.poses.clear();
+    workspace.trajectory = None;
+    let listed = (workspace.sample(Some(&home)), path.listed(STEPS));
+    Export::new(design, unit, home, listed, &options).map_err(|why| match why {
+        NoExport::Unit(e) => Failure::refused("export::unknown_unit", format!("units of the design: {e}"))
+            .with_help("`--unit mm` says what one unit of the design is"),
+        other => Failure::refused("export::bad_size", other.to_string()),
+    })
+}
+
+/// The formats asked for, each once, in the order of the list.
+fn wanted(args: &Args) -> Vec<&'static dyn Writer> {
+    let all = args.to.iter().any(|t| t == "all");
+    let asked = |w: &&'static dyn Writer| {
+        all || args.to.iter().any(|t| writer(t).is_some_and(|x| x.name() == w.name()))
+    };
+    writers().into_iter().filter(asked).collect()
+}
+
+fn write(folder: &Path, file: &File, design: &Path) -> Result<String, Failure> {
+    let path = folder.join(&file.name);
+    let own = design.canonicalize().ok();
+    if own.is_some() && path.canonicalize().ok() == own {
+        let message = format!("{} is the design itself and would be overwritten", path.display());
+        return Err(Failure::refused("export::overwrites_design", message).with_help("name another folder"));
+    }
+    files::write_text(&path, &file.text)?;
+    Ok(path.display().to_string())
+}
+
+/// Writes every format that can hold the design; exit 1 when one cannot.
+pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+    let design = context.load(&args.design)?;
+    let export = model(args, &design)?;
+    std::fs::create_dir_all(&args.output).map_err(|e| {
+        Failure::refused("file::not_writable", format!("{} cannot be made: {e}", args.output.display()))
+            .with_help("check the folder and its permissions")
+    })?;
+    let (mut exit, mut records, mut text) = (Exit::Yes, Vec::new(), String::new());
+    for format in wanted(args) {
+        let mut record = Map::new();
+        record.insert("format".into(), json!(format.name()));
+        record.insert("purpose".into(), json!(format.purpose()));
+        match format.files(&export) {
+            Ok(made) => {
+                let paths = made.iter().map(|f| write(&args.output, f, &args.design));
+                let paths = paths.collect::<Result<Vec<_>, _>>()?;
+                for path in &paths {
+                    let _ = writeln!(text, "wrote {path}");
+                }
+                record.insert("files".into(), json!(paths));
+                record.insert("leaves_out".into(), json!(format.leaves_out()));
+                if !format.leaves_out().is_empty() {
+                    let _ = writeln!(text, "  {} leaves out {}", format.name(), format.leaves_out());
+                }
+            }
+            Err(why) => {
+                exit = Exit::No;
+                let _ = writeln!(text, "{} not written: {why}", format.name());
+                record.insert("files".into(), json!([]));
+                record.insert("refused".into(), json!(why.to_string()));
+            }
+        }
+        records.push(Value::Object(record));
+    }
+    text.push_str("sizes\n");
+    for c in &export.choices {
+        let value = if c.value < 1e-3 { format!("{:.4e}", c.value) } else { format!("{:.6}", c.value) };
+        let _ = writeln!(text, "  {:<36} {value:>12} {:<13} {}", c.what, c.unit, c.from);
+    }
+    let mut json = Map::new();
+    json.insert("name".into(), json!(export.name));
+    json.insert("output".into(), json!(args.output.display().to_string()));
+    json.insert("design_unit".into(), json!({ "label": export.unit.label, "mm": export.unit.millimetres }));
+    json.insert("formats".into(), json!(records));
+    let choice = |c: &crate::export::Choice| json!({ "what": c.what, "value": number(c.value), "unit": c.unit, "from": c.from });
+    json.insert("sizes".into(), export.choices.iter().map(choice).collect());
+    Ok(Answer { exit, json, text })
+}

@@ -1,0 +1,76 @@
+//! Tables: joints, leg lengths over the workspace and along the trajectory.
+
+use std::fmt::Write as _;
+
+use super::text::{commented, csv_field, real, reals, scaled};
+use super::{Export, File, Unsupported, Writer};
+use crate::geom::Pose;
+
+/// The format `csv`.
+#[derive(Debug)]
+pub(super) struct Csv;
+
+impl Writer for Csv {
+    fn name(&self) -> &'static str {
+        "csv"
+    }
+
+    fn purpose(&self) -> &'static str {
+        "tables of joints and leg lengths, for spreadsheets and controllers"
+    }
+
+    fn files(&self, export: &Export) -> Result<Vec<File>, Unsupported> {
+        let mut out = vec![
+            File::new("joints.csv", joints(export)),
+            File::new("legs.csv", legs(export)),
+            File::new("lengths-workspace.csv", lengths(export, &export.workspace)),
+        ];
+        if !export.trajectory.is_empty() {
+            out.push(File::new("lengths-trajectory.csv", lengths(export, &export.trajectory)));
+        }
+        Ok(out)
+    }
+}
+
+/// Comment lines, which most readers skip when told that `#` begins a comment.
+fn comments(export: &Export, more: &str) -> String {
+    commented("#", export.heading("mm").into_iter().chain([more.to_string()]))
+}
+
+fn joints(export: &Export) -> String {
+    let mut out = comments(export, "x, y, z of each joint centre in the frame of its body");
+    out.push_str("body,joint,x_mm,y_mm,z_mm\n");
+    for body in &export.bodies {
+        for joint in &body.joints {
+            let at = scaled(&joint.at.coords, export.unit.millimetres, ",");
+            let _ = writeln!(out, "{},{},{at}", body.name, csv_field(&joint.name));
+        }
+    }
+    out
+}
+
+fn legs(export: &Export) -> String {
+    let mut out = comments(export, "lengths between the joint centres at the home pose");
+    out.push_str("leg,base_joint,platform_joint,home_length_mm\n");
+    for leg in &export.legs {
+        let (a, b) = export.ends_of(leg);
+        let length = real(leg.length() * export.unit.millimetres);
+        let _ = writeln!(out, "{},{},{},{length}", leg.number, csv_field(a), csv_field(b));
+    }
+    out
+}
+
+fn lengths(export: &Export, poses: &[Pose]) -> String {
+    let mut out = comments(
+        export,
+        "quaternion scalar first: the rotation R; position p: platform origin in the base frame",
+    );
+    out.push_str("pose,x_mm,y_mm,z_mm,qw,qx,qy,qz,l1_mm,l2_mm,l3_mm,l4_mm,l5_mm,l6_mm\n");
+    for (k, pose) in poses.iter().enumerate() {
+        let mm = export.unit.millimetres;
+        let lengths = reals(export.lengths_at(pose).map(|l| l * mm), ",");
+        let (p, q) = (scaled(&pose.position, mm, ","), reals(pose.quaternion(), ","));
+        let _ = writeln!(out, "{},{p},{q},{lengths}", k + 1);
+    }
+    out
+}

@@ -1,0 +1,75 @@
+//! Dimensions: from the lowest hole to every other one along both axes, and the edges of the plate.
+
+use nalgebra::{Point2, Vector2};
+
+use super::page::Page;
+
+/// Distance of the first dimension line from the plate and of one line from the next, in text heights.
+const FIRST: f64 = 3.0;
+const NEXT: f64 = 2.5;
+
+/// A direction that is measured along, with the side its dimension lines are on.
+#[derive(Debug, Clone, Copy)]
+struct Axis {
+    along: Vector2<f64>,
+    out: Vector2<f64>,
+    /// Degrees from x.
+    angle: f64,
+}
+
+const AXES: [Axis; 2] = [
+    Axis { along: Vector2::new(1.0, 0.0), out: Vector2::new(0.0, -1.0), angle: 0.0 },
+    Axis { along: Vector2::new(0.0, 1.0), out: Vector2::new(-1.0, 0.0), angle: 90.0 },
+];
+
+/// What is between `from` and `to` along an axis, as a DIMENSION and the block that R12 readers draw; the dimension line is `level` out from the origin.
+fn dimension(page: &mut Page, number: usize, axis: &Axis, level: f64, [from, to]: [Point2<f64>; 2]) {
+    let h = page.text_height;
+    let foot = |p: &Point2<f64>| Point2::from(axis.along * axis.along.dot(&p.coords) + axis.out * level);
+    let (start, end) = (foot(&from), foot(&to));
+    // above the line as the text is read
+    let up = Vector2::new(-axis.along.y, axis.along.x);
+    let middle = nalgebra::center(&start, &end) + up * (0.4 * h);
+    let measured = axis.along.dot(&(to - from));
+    let name = format!("*D{number}");
+    page.block(&name, |block| {
+        for (at, foot) in [(&from, &start), (&to, &end)] {
+            block.line("DIMENSIONS", at + axis.out * (0.5 * h), foot + axis.out * (0.5 * h));
+            let tick = (axis.along - axis.out) * (0.4 * h);
+            block.line("DIMENSIONS", foot - tick, foot + tick);
+        }
+        block.line("DIMENSIONS", start, end);
+        block.text("DIMENSIONS", middle, h, &format!("{measured:.3}"), Some(axis.angle));
+    });
+    page.entities.pairs(&[(0, "DIMENSION"), (8, "DIMENSIONS"), (2, &name)]);
+    page.entities.point(10, end);
+    page.entities.point(11, middle);
+    // rotated: measured along the angle, not from point to point
+    page.entities.pair(70, "0");
+    page.entities.point(13, from);
+    page.entities.point(14, to);
+    page.entities.reals(&[(50, axis.angle)]);
+    page.entities.pair(3, "STANDARD");
+    page.reaches(start + axis.out * h);
+    page.reaches(end + axis.out * h);
+}
+
+/// All dimensions of a plate: `holes` and the corners of its extent.
+pub(super) fn dimensions(page: &mut Page, holes: &[Point2<f64>], extent: [Point2<f64>; 2]) {
+    let tolerance = 1e-9 * (extent[1] - extent[0]).norm();
+    let mut number = 0;
+    for axis in &AXES {
+        let place = |p: &Point2<f64>| axis.along.dot(&p.coords);
+        let mut rest = holes.to_vec();
+        rest.sort_by(|p, q| place(p).total_cmp(&place(q)));
+        rest.dedup_by(|p, q| place(p) - place(q) <= tolerance);
+        let edge = extent.iter().map(|p| axis.out.dot(&p.coords)).fold(f64::NEG_INFINITY, f64::max);
+        let first = rest.first().copied();
+        let spans = rest.iter().skip(1).filter_map(|p| first.map(|f| [f, *p])).chain([extent]);
+        for (row, span) in spans.enumerate() {
+            number += 1;
+            let level = edge + (FIRST + NEXT * row as f64) * page.text_height;
+            dimension(page, number, axis, level, span);
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! Hole plans of the plates as DXF R12 in millimetres.
+
+mod dimension;
+mod page;
+
+use nalgebra::{Point2, Vector2};
+
+use self::dimension::dimensions;
+use self::page::Page;
+use super::outline::OutlinePart;
+use super::{Body, Export, File, Hole, Plate, Unsupported, Writer};
+
+/// The format `dxf`.
+#[derive(Debug)]
+pub(super) struct Dxf;
+
+impl Writer for Dxf {
+    fn name(&self) -> &'static str {
+        "dxf"
+    }
+
+    fn purpose(&self) -> &'static str {
+        "hole plans of both plates with dimensions (DXF R12, millimetres), for laser, plasma, mill and drill"
+    }
+
+    fn leaves_out(&self) -> &'static str {
+        "legs, and heights of joints out of the plane of the plate other than as text"
+    }
+
+    fn files(&self, export: &Export) -> Result<Vec<File>, Unsupported> {
+        let plan = |body: &Body| {
+            Ok(File::new(&format!("{}-plate.dxf", body.name), plan(export, body, body.plate()?)))
+        };
+        export.bodies.iter().map(plan).collect()
+    }
+}
+
+/// Height of text over the greater extent of the plate.
+const TEXT: f64 = 0.018;
+
+/// Least and greatest coordinates of the plate, millimetres.
+fn extent(plate: &Plate, mm: f64) -> [Point2<f64>; 2] {
+    let corners = &plate.outline.hull;
+    let start = corners.first().copied().unwrap_or_else(Point2::origin);
+    let (low, high) = corners.iter().fold((start, start), |(low, high), p| (low.inf(p), high.sup(p)));
+    let margin = Vector2::repeat(plate.outline.margin);
+    [(low - margin) * mm, (high + margin) * mm]
+}
+
+fn plan(export: &Export, body: &Body, plate: &Plate) -> String {
+    let mm = export.unit.millimetres;
+    let extent = extent(plate, mm);
+    let mut page = Page::new(TEXT * (extent[1] - extent[0]).max());
+    for line in export.heading("mm") {
+        page.comment(&line);
+    }
+    let side = if plate.legs_above { "the viewer's" } else { "the far" };
+    let axes: Vec<String> =
+        plate.axes.column_iter().map(|c| format!("({} {} {})", c[0] + 0.0, c[1] + 0.0, c[2] + 0.0)).collect();
+    page.comment(&format!(
+        "Plate of the {}: drawing x, y, z (towards the viewer) are {}, {}, {} in the frame of the {}; the legs are on {side} side",
+        body.name, axes[0], axes[1], axes[2], body.name
+    ));
+    page.comment(&format!("Plate thickness {} mm; cut the layers OUTLINE and HOLES", plate.thickness * mm));
+    for corner in extent {
+        page.reaches(corner);
+    }
+    outline(&mut page, plate, mm);
+    holes(&mut page, plate, mm);
+    origin(&mut page, extent);
+    let centres: Vec<Point2<f64>> = plate.holes.iter().map(|h| h.at * mm).collect();
+    dimensions(&mut page, &centres, extent);
+    table(&mut page, body, plate, extent, mm);
+    page.finish()
+}
+
+fn outline(page: &mut Page, plate: &Plate, mm: f64) {
+    for part in &plate.outline.parts {
+        match *part {
+            OutlinePart::Line { from, to } => page.entities.line("OUTLINE", from * mm, to * mm),
+            OutlinePart::Arc { centre, radius, start, turn } => {
+                page.entities.pairs(&[(0, "ARC"), (8, "OUTLINE")]);
+                page.entities.point(10, centre * mm);
+                let (from, to) = (start.to_degrees(), (start + turn).to_degrees());
+                page.entities.reals(&[(40, radius * mm), (50, from), (51, to)]);
+            }
+        }
+    }
+}
+
+fn holes(page: &mut Page, plate: &Plate, mm: f64) {
+    let radius = 0.5 * plate.hole_diameter * mm;
+    for hole in &plate.holes {
+        let at = hole.at * mm;
+        page.entities.pairs(&[(0, "CIRCLE"), (8, "HOLES")]);
+        page.entities.point(10, at);
+        page.entities.reals(&[(40, radius)]);
+        page.text(
+            "NAMES",
+            at + Vector2::repeat(0.8 * radius + 0.3 * page.text_height),
+            &hole.joints.join("/"),
+        );
+    }
+}
+
+/// A cross in the origin of the drawing, where the plate is near it.
+fn origin(page: &mut Page, [low, high]: [Point2<f64>; 2]) {
+    if low.x <= 0.0 && low.y <= 0.0 && high.x >= 0.0 && high.y >= 0.0 {
+        for arm in [Vector2::x(), Vector2::y()] {
+            let arm = Point2::from(arm * page.text_height);
+            page.entities.line("TABLE", -arm, arm);
+        }
+    }
+}
+
+/// Positions of the holes in the drawing, which are those in the frame of the plate.
+fn table(page: &mut Page, body: &Body, plate: &Plate, extent: [Point2<f64>; 2], mm: f64) {
+    let h = page.text_height;
+    let mut at = Point2::new(page.right() + 3.0 * h, extent[1].y);
+    let mut lines = vec![
+        format!("{} plate, mm, thickness {:.4}", body.name, plate.thickness * mm),
+        format!("{} holes, diameter {:.4}", plate.holes.len(), plate.hole_diameter * mm),
+        format!("corner radius {:.4}", plate.outline.margin * mm),
+        "hole   x   y".to_string(),
+    ];
+    let row = |h: &Hole| {
+        let post = if h.post > 0.0 { format!("   post {:.4}", h.post * mm) } else { String::new() };
+        format!("{}   {:.4}   {:.4}{post}", h.joints.join("/"), h.at.x * mm + 0.0, h.at.y * mm + 0.0)
+    };
+    lines.extend(plate.holes.iter().map(row));
+    for line in lines {
+        page.text("TABLE", at, &line);
+        at.y -= 1.8 * h;
+    }
+}

@@ -1,0 +1,54 @@
+//! `LinuxCNC`: the pins of genhexkins.
+
+use std::fmt::Write as _;
+
+use super::text::{ascii, commented, real};
+use super::{Export, File, Unsupported, Writer};
+
+/// The format `hal`.
+#[derive(Debug)]
+pub(super) struct Hal;
+
+impl Writer for Hal {
+    fn name(&self) -> &'static str {
+        "hal"
+    }
+
+    fn purpose(&self) -> &'static str {
+        "LinuxCNC: settings of the hexapod kinematics genhexkins, millimetres"
+    }
+
+    fn leaves_out(&self) -> &'static str {
+        "joint axes and lead of the screws (genhexkins corrects for both): base-n, platform-n and screw-lead stay as they are"
+    }
+
+    fn files(&self, export: &Export) -> Result<Vec<File>, Unsupported> {
+        Ok(vec![File::new("genhexkins.hal", settings(export))])
+    }
+}
+
+fn settings(export: &Export) -> String {
+    let mm = export.unit.millimetres;
+    let heading = export.heading("mm").into_iter();
+    let mut out = commented("#", heading.map(|l| ascii(&l, |_| "?".to_string())));
+    out.push_str(
+        "# For a machine with LINEAR_UNITS = mm, after `loadrt genhexkins`. Strut N is leg N+1.\n\
+         # The machine position X Y Z A B C is the pose: p = (X, Y, Z), R = Rz(C) Ry(B) Rx(A), degrees.\n",
+    );
+    let lengths: Vec<String> = export.legs.iter().map(|l| real(l.length() * mm)).collect();
+    let (roll, pitch, yaw) = export.home.rotation.euler_angles();
+    let p = export.home.position * mm;
+    let pose = [p.x, p.y, p.z, roll.to_degrees(), pitch.to_degrees(), yaw.to_degrees()].map(real);
+    let _ = writeln!(out, "# Home pose X Y Z A B C: {}", pose.join(" "));
+    let _ = writeln!(out, "# Strut lengths there: {}", lengths.join(" "));
+    for leg in &export.legs {
+        let b = export.bodies[1].joints[leg.platform].at;
+        for (body, point) in [("base", leg.foot), ("platform", b)] {
+            for (axis, value) in ["x", "y", "z"].iter().zip(point.iter()) {
+                let _ =
+                    writeln!(out, "setp genhexkins.{body}.{}.{axis} {}", leg.number - 1, real(value * mm));
+            }
+        }
+    }
+    out
+}

@@ -1,0 +1,268 @@
+//! `MuJoCo` model: six legs of universal joint (two hinges) and slide, the platform on leg 1, loops closed by `connect`.
+
+use std::fmt::Write as _;
+
+use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
+
+use super::plate::any_across;
+use super::text::{one_line, real, reals, scaled, xml_comment};
+use super::{Body, Export, ExportLeg, File, Unsupported, Writer};
+use crate::geom::Pose;
+use crate::plot::escape;
+
+/// The format `mjcf`.
+#[derive(Debug)]
+pub(super) struct Mjcf;
+
+impl Writer for Mjcf {
+    fn name(&self) -> &'static str {
+        "mjcf"
+    }
+
+    fn purpose(&self) -> &'static str {
+        "MuJoCo model in metres and kilograms with six position actuators; Drake and Pinocchio load it too"
+    }
+
+    fn leaves_out(&self) -> &'static str {
+        "contacts, friction, limits of forces, speeds and swing"
+    }
+
+    fn files(&self, export: &Export) -> Result<Vec<File>, Unsupported> {
+        Ok(vec![File::new("platform.xml", model(export)?)])
+    }
+}
+
+/// Natural frequency of the platform on its actuators times the square root of the size, rad/s: a platform of 20 kg and 1 m on six legs of 1e5 N/m.
+const STIFFNESS: f64 = 173.2;
+/// Time step over the square root of the size in metres, seconds.
+const STEP: f64 = 1e-3;
+/// Masses of cylinder and rod over that of the platform.
+const LEG_MASS: f64 = 0.05;
+/// Mass of the yoke of a universal joint over that of the platform. Each hinge has a body of its own: Drake takes the axis of the first of several joints
+/// of a body in the frame of the parent.
+const YOKE_MASS: f64 = 0.005;
+
+/// What all parts are computed from: SI units.
+#[derive(Debug)]
+struct Scale {
+    metres: f64,
+    size: f64,
+    mass: f64,
+    kp: f64,
+    kv: f64,
+    step: f64,
+    gravity: &'static str,
+}
+
+impl Scale {
+    fn of(export: &Export) -> Self {
+        let size = export.size * export.unit.metres;
+        let omega = STIFFNESS / size.sqrt();
+        let kp = export.mass * omega * omega / 6.0;
+        Self {
+            metres: export.unit.metres,
+            size,
+            mass: export.mass,
+            kp,
+            // 1.3 of critical damping; twice as much chatters at this time step
+            kv: 2.6 * kp / omega,
+            step: STEP * size.sqrt(),
+            gravity: if export.gravity_compensation { " gravcomp=\"1\"" } else { "" },
+        }
+    }
+
+    fn at(&self, p: &Vector3<f64>) -> String {
+        scaled(p, self.metres, " ")
+    }
+
+    /// A body that turns like a ball of this mass and radius of gyration.
+    fn inertial(&self, mass: f64, centre: &Vector3<f64>, gyration: f64) -> String {
+        let moment = real(mass * gyration * gyration);
+        format!(
+            "<inertial pos=\"{}\" mass=\"{}\" diaginertia=\"{moment} {moment} {moment}\"/>",
+            self.at(centre),
+            real(mass)
+        )
+    }
+}
+
+/// The frame of a leg at home: third axis along the leg, origin in its base joint.
+fn leg_frame(leg: &ExportLeg) -> Result<Pose, Unsupported> {
+    let d = leg.direction()?;
+    let x = any_across(&d);
+    let axes = Matrix3::from_columns(&[x, d.cross(&x), d]);
+    Ok(Pose { rotation: Rotation3::from_matrix_unchecked(axes), position: leg.foot.coords })
+}
+
+fn quat(pose: &Pose) -> String {
+    reals(pose.quaternion(), " ")
+}
+
+/// Bars along the hull of the joints of a body stand for its plate, balls for its joints.
+fn shape(out: &mut String, scale: &Scale, body: &Body, indent: &str) {
+    let radius = real(0.25 * body.ball_diameter * scale.metres);
+    for joint in &body.joints {
+        let ball = real(0.5 * body.ball_diameter * scale.metres);
+        let _ = writeln!(
+            out,
+            "{indent}<geom type=\"sphere\" size=\"{ball}\" pos=\"{}\"/>",
+            scale.at(&joint.at.coords)
+        );
+    }
+    let Ok(plate) = body.plate() else { return };
+    let corners = &plate.outline.hull;
+    let middle = 0.5 * plate.thickness;
+    for (i, p) in corners.iter().enumerate().take(if corners.len() == 1 { 0 } else { corners.len() }) {
+        let q = &corners[(i + 1) % corners.len()];
+        let [p, q] = [p, q].map(|p| plate.to_body(&Point3::new(p.x, p.y, middle)).coords);
+        let _ = writeln!(
+            out,
+            "{indent}<geom type=\"capsule\" size=\"{radius}\" fromto=\"{} {}\"/>",
+            scale.at(&p),
+            scale.at(&q)
+        );
+    }
+}
+
+fn leg(out: &mut String, scale: &Scale, export: &Export, leg: &ExportLeg) -> Result<(), Unsupported> {
+    let frame = leg_frame(leg)?;
+    let (i, length) = (leg.number, leg.length());
+    let (thick, thin) = leg.diameters;
+    let range = export.leg_range.map_or(String::new(), |(least, greatest)| {
+        let [from, to] = [least, greatest].map(|l| real((l - length) * scale.metres));
+        format!(" range=\"{from} {to}\"")
+    });
+    let tip = Vector3::new(0.0, 0.0, length);
+    let half = 0.5 * length;
+    let mass = LEG_MASS * scale.mass;
+    let gyration = length * scale.metres / 12.0f64.sqrt();
+    let capsule = |from: f64, to: f64, diameter: f64| {
+        let ends = [Vector3::new(0.0, 0.0, from), Vector3::new(0.0, 0.0, to)].map(|p| scale.at(&p));
+        format!(
+            "<geom type=\"capsule\" size=\"{}\" fromto=\"{} {}\"/>",
+            real(0.5 * diameter * scale.metres),
+            ends[0],
+            ends[1]
+        )
+    };
+    let _ = writeln!(
+        out,
+        "      <body name=\"yoke{i}\" pos=\"{}\" quat=\"{}\"{}>\n        \
+         <joint name=\"swing{i}x\" type=\"hinge\" axis=\"1 0 0\"/>\n        {}\n        \
+         <body name=\"cylinder{i}\"{}>\n          \
+         <joint name=\"swing{i}y\" type=\"hinge\" axis=\"0 1 0\"/>\n          {}\n          {}\n          \
+         <body name=\"rod{i}\" pos=\"{}\"{}>\n            \
+         <joint name=\"leg{i}\" type=\"slide\" axis=\"0 0 1\" armature=\"{}\"{range}/>\n            {}\n            {}",
+        scale.at(&frame.position),
+        quat(&frame),
+        scale.gravity,
+        scale.inertial(YOKE_MASS * scale.mass, &Vector3::zeros(), 0.1 * length * scale.metres),
+        scale.gravity,
+        scale.inertial(mass, &Vector3::new(0.0, 0.0, 0.5 * half), gyration),
+        capsule(0.0, leg.cylinder.min(length), thick),
+        scale.at(&tip),
+        scale.gravity,
+        real(0.005 * scale.mass),
+        scale.inertial(mass, &Vector3::new(0.0, 0.0, -0.5 * half), gyration),
+        capsule(-half.min(length - leg.cylinder.min(length)).max(0.1 * length), 0.0, thin),
+    );
+    if i == 1 {
+        platform(out, scale, export, leg, &frame);
+    }
+    out.push_str("          </body>\n        </body>\n      </body>\n");
+    Ok(())
+}
+
+fn platform(out: &mut String, scale: &Scale, export: &Export, leg: &ExportLeg, frame: &Pose) {
+    let body = &export.bodies[1];
+    let joint = body.joints[leg.platform].at.coords;
+    // the platform frame seen from the tip of leg 1
+    let turn = frame.rotation.inverse() * export.home.rotation;
+    let in_tip = Pose { rotation: turn, position: -(turn * joint) };
+    let count = body.joints.len() as f64;
+    let centre: Vector3<f64> = body.joints.iter().map(|j| j.at.coords).sum::<Vector3<f64>>() / count;
+    let _ = writeln!(
+        out,
+        "            <body name=\"platform\" pos=\"{}\" quat=\"{}\"{}>\n              \
+         <joint name=\"ball1\" type=\"ball\" pos=\"{}\"/>\n            {}\n              \
+         <site name=\"platform_frame\" size=\"{}\"/>",
+        scale.at(&in_tip.position),
+        quat(&in_tip),
+        scale.gravity,
+        scale.at(&joint),
+        scale.inertial(scale.mass, &centre, 0.5 * scale.size),
+        real(0.01 * scale.size),
+    );
+    shape(out, scale, body, "              ");
+    out.push_str("            </body>\n");
+}
+
+fn model(export: &Export) -> Result<String, Unsupported> {
+    let scale = Scale::of(export);
+    let mut out = String::from("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<!--\n");
+    for line in export.heading("m") {
+        let _ = writeln!(out, "  {}", xml_comment(&line));
+    }
+    let lengths = reals(export.legs.map(|l| l.length() * scale.metres), " ");
+    let _ = writeln!(
+        out,
+        "  World frame: the base frame, gravity along its negative z. Site platform_frame: the platform frame.\n  \
+         Kilograms and seconds; quaternions scalar first. Slide leg N and its actuator hold the length minus the home length.\n  \
+         Home lengths: {lengths}\n  \
+         Assumed: platform with payload {} kg, each cylinder and rod {} of it, each yoke {} of it; time step and gains follow from mass and size\n  \
+         so that models of all sizes behave alike. Leg 1 carries the platform in the tree; legs 2 to 6 are closed by connect.",
+        real(scale.mass),
+        real(LEG_MASS),
+        real(YOKE_MASS)
+    );
+    if let Some((least, greatest)) = export.leg_range {
+        let [least, greatest] = [least, greatest].map(|l| real(l * scale.metres));
+        let _ = writeln!(
+            out,
+            "  Lengths from {least} to {greatest}, as the design limits them: the range of each slide."
+        );
+    }
+    out.push_str("-->\n");
+    let step = real(scale.step);
+    let _ = writeln!(
+        out,
+        "<mujoco model=\"{}\">\n  <compiler angle=\"radian\" autolimits=\"true\"/>\n  \
+         <option timestep=\"{step}\" gravity=\"0 0 -9.81\" integrator=\"implicitfast\" solver=\"Newton\" tolerance=\"1e-12\" iterations=\"200\"/>\n  \
+         <default>\n    <geom contype=\"0\" conaffinity=\"0\" mass=\"0\"/>\n    \
+         <equality solref=\"{} 1\" solimp=\"0.9999 0.99999 0.0001\"/>\n  </default>\n  \
+         <worldbody>\n    <light pos=\"0 0 {}\" dir=\"0 0 -1\"/>\n    <body name=\"base\">",
+        escape(&one_line(&export.name)),
+        real(2.0 * scale.step),
+        real(10.0 * scale.size),
+    );
+    shape(&mut out, &scale, &export.bodies[0], "      ");
+    for l in &export.legs {
+        leg(&mut out, &scale, export, l)?;
+    }
+    out.push_str("    </body>\n  </worldbody>\n  <equality>\n");
+    for l in &export.legs[1..] {
+        let _ = writeln!(
+            out,
+            "    <connect name=\"loop{0}\" body1=\"rod{0}\" body2=\"platform\" anchor=\"0 0 0\"/>",
+            l.number
+        );
+    }
+    out.push_str("  </equality>\n  <actuator>\n");
+    for l in &export.legs {
+        let _ = writeln!(
+            out,
+            "    <position name=\"actuator{0}\" joint=\"leg{0}\" kp=\"{1}\" kv=\"{2}\"/>",
+            l.number,
+            real(scale.kp),
+            real(scale.kv)
+        );
+    }
+    out.push_str("  </actuator>\n  <keyframe>\n");
+    // x swing, y swing, slide of each leg; the ball joint after the slide of leg 1
+    let qpos = format!("0 0 0 1 0 0 0{}", " 0 0 0".repeat(5));
+    let _ = writeln!(
+        out,
+        "    <key name=\"home\" qpos=\"{qpos}\" ctrl=\"0 0 0 0 0 0\"/>\n  </keyframe>\n</mujoco>"
+    );
+    Ok(out)
+}

@@ -1,0 +1,136 @@
+//! Files for other programs: CAD, simulators, machine controls, tables, drawings.
+//!
+//! [`Export`] holds everything the formats need, worked out once: plates around the joints, legs at home, the length unit.
+//! A [`Writer`] turns it into the text of one or more files; it is pure, and the same input gives the same bytes. Every file states its
+//! frames and its unit.
+//!
+//! Frames, all right-handed. *Base*: the frame of the base joints of the design. *Platform*: that of the platform joints; at the pose `(R, p)`
+//! a point is `x_base = R x_platform + p`. *Plate*: origin on the lower face of the plate, in the foot of the body's origin; third axis along the
+//! normal of the plate, which points to positive z of the body; where the plate is parallel to the x-y plane of the body, plate coordinates
+//! `(u, v)` are the body's `(x, y)`.
+
+mod csv;
+mod drawing;
+mod dxf;
+mod hal;
+mod json;
+mod matlab;
+mod mjcf;
+mod model;
+mod outline;
+mod plate;
+mod sizes;
+mod step;
+mod stl;
+#[cfg(test)]
+mod tests;
+mod text;
+mod triangulate;
+mod units;
+
+use thiserror::Error;
+
+pub use model::{Body, Export, ExportLeg, Joint};
+pub use outline::{Outline, OutlinePart};
+pub use plate::{Hole, Plate};
+pub use sizes::{Choice, ExportOptions, NoExport};
+pub use units::{LengthUnit, UnknownUnit};
+
+/// A file: its name and its text.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct File {
+    /// Name without folder.
+    pub name: String,
+    /// All of it.
+    pub text: String,
+}
+
+impl File {
+    fn new(name: &str, text: String) -> Self {
+        Self { name: name.to_string(), text }
+    }
+}
+
+/// Why a format cannot hold a design.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum Unsupported {
+    /// Two seats of a plate run into each other.
+    #[error(
+        "the {parts} of the joints {first} and {second} of the {body} overlap: their axes are {distance} apart and {parts} are {diameter} wide (design units)"
+    )]
+    SeatsOverlap {
+        /// `"base"` or `"platform"`.
+        body: &'static str,
+        /// `"holes"`, or `"posts"` where a joint stands on one.
+        parts: &'static str,
+        /// Name of a joint.
+        first: String,
+        /// Name of another joint.
+        second: String,
+        /// Distance of the axes, design units.
+        distance: f64,
+        /// What they are wide, design units.
+        diameter: f64,
+    },
+    /// A leg has no room for a body between its joints.
+    #[error(
+        "leg {leg} is {length} long at home and its joints take {taken} (design units): no room for a cylinder and a rod"
+    )]
+    LegTooShort {
+        /// 1-based number.
+        leg: usize,
+        /// Length at home, design units.
+        length: f64,
+        /// What the balls and the cylinder take, design units.
+        taken: f64,
+    },
+    /// A leg has no direction at home.
+    #[error("leg {leg} has length zero at home, and so no direction")]
+    NoDirection {
+        /// 1-based number.
+        leg: usize,
+    },
+}
+
+/// A format.
+pub trait Writer: std::fmt::Debug + Sync {
+    /// Its name on the command line.
+    fn name(&self) -> &'static str;
+
+    /// What it is for, in a few words.
+    fn purpose(&self) -> &'static str;
+
+    /// What of a design the format leaves out; empty when nothing worth a word.
+    fn leaves_out(&self) -> &'static str {
+        ""
+    }
+
+    /// The files.
+    ///
+    /// # Errors
+    /// What the format cannot express.
+    fn files(&self, export: &Export) -> Result<Vec<File>, Unsupported>;
+}
+
+/// All formats, by name.
+#[must_use]
+pub fn writers() -> [&'static dyn Writer; 9] {
+    [
+        &csv::Csv,
+        &dxf::Dxf,
+        &hal::Hal,
+        &json::Json,
+        &matlab::Matlab,
+        &mjcf::Mjcf,
+        &step::Step,
+        &stl::Stl,
+        &drawing::Drawing,
+    ]
+}
+
+/// The format of this name.
+#[must_use]
+pub fn writer(name: &str) -> Option<&'static dyn Writer> {
+    writers().into_iter().find(|w| w.name() == name)
+}

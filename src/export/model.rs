@@ -1,0 +1,211 @@
+//! What all formats need, worked out once.
+
+use nalgebra::{Point3, Vector3};
+
+use super::Unsupported;
+use super::plate::{self, Plate};
+use super::sizes::{Choice, ExportOptions, LegSizes, NoExport, Sizes, least_distance, mass};
+use super::units::LengthUnit;
+use crate::design::Design;
+use crate::geom::Pose;
+
+/// A joint of a body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Joint {
+    /// Its name.
+    pub name: String,
+    /// Its centre in the frame of the body, design units.
+    pub at: Point3<f64>,
+}
+
+/// Base or platform.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Body {
+    /// `"base"` or `"platform"`.
+    pub name: &'static str,
+    /// Its joints in the order of the design; a shared joint once.
+    pub joints: Vec<Joint>,
+    /// Diameter of the balls of its joints, design units.
+    pub ball_diameter: f64,
+    /// Its plate. Formats that draw it ask [`Body::plate`].
+    plate: Plate,
+}
+
+impl Body {
+    /// The plate.
+    ///
+    /// # Errors
+    /// Holes that run into each other.
+    pub fn plate(&self) -> Result<&Plate, Unsupported> {
+        self.plate.made(self.name)
+    }
+}
+
+/// A leg at home.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ExportLeg {
+    /// 1-based number.
+    pub number: usize,
+    /// Index of its base joint.
+    pub base: usize,
+    /// Index of its platform joint.
+    pub platform: usize,
+    /// Centre of the base joint, base frame, design units.
+    pub foot: Point3<f64>,
+    /// Centre of the platform joint at home, base frame, design units.
+    pub head: Point3<f64>,
+    /// Diameter of the cylinder and of the rod, design units.
+    pub diameters: (f64, f64),
+    /// Where the cylinder ends, from the base joint, design units.
+    pub cylinder: f64,
+}
+
+impl ExportLeg {
+    /// Length at home, design units.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        (self.head - self.foot).norm()
+    }
+
+    /// Unit vector from the base joint to the platform joint at home, base frame.
+    ///
+    /// # Errors
+    /// [`Unsupported::NoDirection`] for a leg of length zero.
+    pub fn direction(&self) -> Result<Vector3<f64>, Unsupported> {
+        let d = (self.head - self.foot).try_normalize(0.0);
+        d.ok_or(Unsupported::NoDirection { leg: self.number })
+    }
+}
+
+/// Everything the formats need.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Export {
+    /// Name of the design.
+    pub name: String,
+    /// Where its numbers come from.
+    pub source: Option<String>,
+    /// Program and version.
+    pub program: String,
+    /// What one design unit is.
+    pub unit: LengthUnit,
+    /// Size of the manipulator, design units.
+    pub size: f64,
+    /// Home pose, design units.
+    pub home: Pose,
+    /// Base and platform.
+    pub bodies: [Body; 2],
+    /// Legs in leg order.
+    pub legs: [ExportLeg; 6],
+    /// Least and greatest length of a leg, design units, where the design limits them.
+    pub leg_range: Option<(f64, f64)>,
+    /// Poses of the workspace, home first.
+    pub workspace: Vec<Pose>,
+    /// Poses along the trajectory; empty without one.
+    pub trajectory: Vec<Pose>,
+    /// Mass of the platform with its payload, kilograms.
+    pub mass: f64,
+    /// Whether simulators are told to carry the weight of all bodies.
+    pub gravity_compensation: bool,
+    /// The sizes and where they come from.
+    pub choices: Vec<Choice>,
+}
+
+impl Export {
+    /// Works out plates, legs at home and sizes.
+    ///
+    /// `unit` is what one design unit is, where the label of the design does not say it. `home` is in design units; `workspace` and `trajectory` are the
+    /// poses whose leg lengths are listed.
+    ///
+    /// # Errors
+    /// [`NoExport`]: an unknown unit, a size that is not positive or does not fit the others.
+    pub fn new(
+        design: &Design,
+        unit: Option<LengthUnit>,
+        home: Pose,
+        (workspace, trajectory): (Vec<Pose>, Vec<Pose>),
+        options: &ExportOptions,
+    ) -> Result<Self, NoExport> {
+        let unit = unit.map_or_else(|| LengthUnit::of(&design.units), Ok)?;
+        let m = design.manipulator();
+        let size = m.size();
+        let hardware = &design.hardware;
+        let joints = |names: &[String], points: &[Point3<f64>]| -> Vec<Joint> {
+            names.iter().zip(points).map(|(name, at)| Joint { name: name.clone(), at: *at }).collect()
+        };
+        let base = joints(design.base_names(), m.base_joints());
+        let platform = joints(design.platform_names(), m.platform_joints());
+        let ends = m.pairs().map(|(a, b)| (base[a].at, home.transform(&platform[b].at)));
+        let lengths = ends.map(|(a, b)| (b - a).norm());
+        let shortest = lengths.iter().copied().filter(|l| *l > 1e-9 * size).fold(f64::INFINITY, f64::min);
+        let towards: Vector3<f64> = ends.iter().map(|(a, b)| b - a).sum();
+        let mut choices = Vec::new();
+        let mut seated = |platform: bool, joints: &[Joint], towards: &Vector3<f64>| {
+            let normal = plate::normal(joints, towards, size);
+            let distance = least_distance(joints, &normal, size);
+            let ball = (0.05 * size).min(0.4 * distance).min(0.1 * shortest);
+            let sizes = Sizes::of(platform, hardware, options, ball, &mut choices)?;
+            Ok::<_, NoExport>((sizes.ball, Plate::under(joints, &normal, towards, &sizes, size)))
+        };
+        let (base_ball, base_plate) = seated(false, &base, &towards)?;
+        let (platform_ball, platform_plate) = seated(true, &platform, &-(home.rotation.inverse() * towards))?;
+        let sizes = LegSizes::of(hardware, base_ball.min(platform_ball), shortest, &mut choices);
+        let mass = mass(options.mass, size * unit.metres, &mut choices)?;
+        let bodies = [
+            Body { name: "base", joints: base, ball_diameter: base_ball, plate: base_plate },
+            Body { name: "platform", joints: platform, ball_diameter: platform_ball, plate: platform_plate },
+        ];
+        let pairs = m.pairs();
+        let legs = std::array::from_fn(|i| ExportLeg {
+            number: i + 1,
+            base: pairs[i].0,
+            platform: pairs[i].1,
+            foot: ends[i].0,
+            head: ends[i].1,
+            diameters: (sizes.cylinder_diameter, sizes.rod_diameter),
+            cylinder: sizes.cylinder_length,
+        });
+        Ok(Self {
+            name: design.name.clone(),
+            source: design.source.clone(),
+            program: concat!("equipod ", env!("CARGO_PKG_VERSION")).to_string(),
+            unit,
+            size,
+            home,
+            bodies,
+            legs,
+            leg_range: hardware.leg_length.map(|l| l.range()),
+            workspace,
+            trajectory,
+            mass,
+            gravity_compensation: options.gravity_compensation,
+            choices,
+        })
+    }
+
+    /// Names of base and platform joint of a leg.
+    #[must_use]
+    pub fn ends_of(&self, leg: &ExportLeg) -> (&str, &str) {
+        (&self.bodies[0].joints[leg.base].name, &self.bodies[1].joints[leg.platform].name)
+    }
+
+    /// Leg lengths at a pose, design units.
+    #[must_use]
+    pub fn lengths_at(&self, pose: &Pose) -> [f64; 6] {
+        self.legs.map(|l| (pose.transform(&self.bodies[1].joints[l.platform].at) - l.foot).norm())
+    }
+
+    /// The heading every text file begins with: design, source, program, unit of the file, frames.
+    pub(super) fn heading(&self, file_unit: &str) -> Vec<String> {
+        let mut out = vec![format!("{}: written by {}", super::text::one_line(&self.name), self.program)];
+        out.extend(self.source.iter().map(|s| format!("Source of the design: {}", super::text::one_line(s))));
+        out.push(format!(
+            "Lengths in {file_unit}; one unit of the design is {} {file_unit}",
+            match file_unit {
+                "m" => self.unit.metres,
+                _ => self.unit.millimetres,
+            }
+        ));
+        out.push("Right-handed frames; a pose (R, p) takes platform to base coordinates: x_base = R x_platform + p".to_string());
+        out
+    }
+}

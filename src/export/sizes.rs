@@ -1,0 +1,212 @@
+//! Sizes of plates, joints and legs: chosen, from `[hardware]`, or by rule.
+
+use nalgebra::{Point3, Vector3};
+use thiserror::Error;
+
+use super::model::Joint;
+use super::units::UnknownUnit;
+use crate::requirements::{Hardware, Housing};
+
+/// What the user may choose; lengths in design units. What is absent comes from `[hardware]` or from a rule that [`Export::choices`](super::Export::choices) states.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ExportOptions {
+    /// Thickness of the plates.
+    pub thickness: Option<f64>,
+    /// Distance of the outline of a plate from the hull of its joints.
+    pub margin: Option<f64>,
+    /// Diameter of the holes in the plates.
+    pub hole: Option<f64>,
+    /// Diameter of the balls of the joints.
+    pub ball: Option<f64>,
+    /// Mass of the platform with its payload, kilograms.
+    pub mass: Option<f64>,
+    /// Whether simulators are told to carry the weight of all bodies.
+    pub gravity_compensation: bool,
+}
+
+/// Sizes of the joints and the plate of a body, design units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Sizes {
+    pub(super) ball: f64,
+    pub(super) hole: f64,
+    pub(super) thickness: f64,
+    pub(super) margin: f64,
+}
+
+/// Sizes of the bodies of the legs, design units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct LegSizes {
+    pub(super) cylinder_diameter: f64,
+    pub(super) rod_diameter: f64,
+    pub(super) cylinder_length: f64,
+}
+
+/// A size and where it comes from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Choice {
+    /// What it is the size of.
+    pub what: String,
+    /// Its value in `unit`.
+    pub value: f64,
+    /// `"design units"` or `"kg"`.
+    pub unit: &'static str,
+    /// Option, table of the design, or rule.
+    pub from: &'static str,
+}
+
+/// Why there is nothing to export.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum NoExport {
+    /// The unit of the design is not a length unit.
+    #[error(transparent)]
+    Unit(#[from] UnknownUnit),
+    /// A size that nothing can be made of.
+    #[error("{what} is {value}: {why}")]
+    BadSize {
+        /// What has the size.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+        /// What is wrong with it.
+        why: &'static str,
+    },
+}
+
+const RULE_BALL: &str = "rule: the least of 0.05 of the size, 0.4 of the least distance of seats, 0.1 of the shortest leg at home";
+
+/// Edge of the housing that a ball can have.
+fn housing_width(hardware: &Hardware, platform: bool) -> Option<f64> {
+    hardware.housing(platform).map(|h| match h {
+        Housing::Sphere(diameter) => diameter,
+        Housing::Box(edges) => edges.min(),
+    })
+}
+
+/// Least distance of the axes of two seats, lines along `normal` through the joints, that do not coincide.
+pub(super) fn least_distance(joints: &[Joint], normal: &Vector3<f64>, size: f64) -> f64 {
+    let apart = |a: &Point3<f64>, b: &Point3<f64>| {
+        let d = b - a;
+        (d - normal * normal.dot(&d)).norm()
+    };
+    let pairs = joints.iter().enumerate();
+    let pairs = pairs.flat_map(|(i, a)| joints[i + 1..].iter().map(move |b| apart(&a.at, &b.at)));
+    pairs.filter(|d| *d > 1e-9 * size).fold(f64::INFINITY, f64::min)
+}
+
+/// The first value there is, with its origin, noted in `choices`.
+fn choose<const N: usize>(
+    choices: &mut Vec<Choice>,
+    what: &str,
+    candidates: [(Option<f64>, &'static str); N],
+    rule: (f64, &'static str),
+) -> f64 {
+    let given = candidates.into_iter().find_map(|(value, from)| value.map(|v| (v, from)));
+    let (value, from) = given.unwrap_or(rule);
+    choices.push(Choice { what: what.to_string(), value, unit: "design units", from });
+    value
+}
+
+pub(super) fn positive(what: &'static str, value: f64) -> Result<(), NoExport> {
+    if value > 0.0 && value.is_finite() {
+        return Ok(());
+    }
+    Err(NoExport::BadSize { what, value, why: "it has to be positive and finite" })
+}
+
+impl Sizes {
+    pub(super) fn of(
+        platform: bool,
+        hardware: &Hardware,
+        options: &ExportOptions,
+        rule_ball: f64,
+        choices: &mut Vec<Choice>,
+    ) -> Result<Self, NoExport> {
+        let body = if platform { "platform" } else { "base" };
+        let ball = choose(
+            choices,
+            &format!("ball diameter, {body}"),
+            [(options.ball, "option"), (housing_width(hardware, platform), "[hardware]")],
+            (rule_ball, RULE_BALL),
+        );
+        let hole = choose(
+            choices,
+            &format!("hole diameter, {body}"),
+            [(options.hole, "option")],
+            (0.5 * ball, "rule: half a ball"),
+        );
+        let thickness = choose(
+            choices,
+            &format!("plate thickness, {body}"),
+            [(options.thickness, "option")],
+            (0.5 * ball, "rule: half a ball"),
+        );
+        let margin = choose(
+            choices,
+            &format!("plate margin, {body}"),
+            [(options.margin, "option")],
+            (ball, "rule: one ball"),
+        );
+        for (what, value) in
+            [("the ball", ball), ("the hole", hole), ("the thickness", thickness), ("the margin", margin)]
+        {
+            positive(what, value)?;
+        }
+        if hole >= ball {
+            let why = "a ball has to be wider than the hole it sits on";
+            return Err(NoExport::BadSize { what: "the hole", value: hole, why });
+        }
+        if 2.0 * margin <= hole {
+            let why = "a hole has to end inside the outline: the margin is more than half of it";
+            return Err(NoExport::BadSize { what: "the margin", value: margin, why });
+        }
+        Ok(Self { ball, hole, thickness, margin })
+    }
+}
+
+impl LegSizes {
+    pub(super) fn of(
+        hardware: &Hardware,
+        smaller_ball: f64,
+        shortest: f64,
+        choices: &mut Vec<Choice>,
+    ) -> Self {
+        let body = hardware.leg_body;
+        let cylinder_diameter = choose(
+            choices,
+            "cylinder diameter",
+            [(body.map(|b| b.diameter), "[hardware]")],
+            (0.6 * smaller_ball, "rule: 0.6 of the smaller ball"),
+        );
+        let rod_diameter = choose(
+            choices,
+            "rod diameter",
+            [(body.and_then(|b| b.rod.map(|r| r.1)), "[hardware]")],
+            (0.6 * cylinder_diameter, "rule: 0.6 of the cylinder"),
+        );
+        let cylinder_length = choose(
+            choices,
+            "cylinder length from the base joint",
+            [(body.and_then(|b| b.rod.map(|r| r.0)), "[hardware]")],
+            (0.5 * shortest, "rule: half the shortest leg at home"),
+        );
+        Self { cylinder_diameter, rod_diameter, cylinder_length }
+    }
+}
+
+/// Mass of the platform. Without one, Froude scaling: with masses as lengths cubed and times as their square roots, platforms of all sizes move alike.
+///
+/// # Errors
+/// [`NoExport::BadSize`].
+pub(super) fn mass(given: Option<f64>, metres: f64, choices: &mut Vec<Choice>) -> Result<f64, NoExport> {
+    let value = given.unwrap_or(20.0 * metres.powi(3));
+    positive("the mass", value)?;
+    let rule = "rule: 20 kg times the cube of the size in metres";
+    choices.push(Choice {
+        what: "mass of the platform with payload".to_string(),
+        value,
+        unit: "kg",
+        from: if given.is_some() { "option" } else { rule },
+    });
+    Ok(value)
+}

@@ -1,0 +1,351 @@
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+
+use nalgebra::{Point2, Rotation3, Vector3};
+
+use super::outline::Outline;
+use super::text::real;
+use super::triangulate::triangulate;
+use super::*;
+use crate::design::{Design, Format, parse};
+use crate::geom::Pose;
+
+const OCTAHEDRAL: &str = include_str!("../../designs/rbt-octahedral.toml");
+const GENERAL: &str = include_str!("../../designs/general-6-6.toml");
+const MIDLINE: &str = include_str!("../../designs/rbt-midline.toml");
+
+fn design(text: &str) -> Design {
+    parse(text, Format::Toml).unwrap().0
+}
+
+fn export_with(design: &Design, options: &ExportOptions) -> Export {
+    let home = design.home.unwrap_or_else(above);
+    let poses = vec![home, Pose { position: home.position + Vector3::new(0.5, -0.25, 1.0), ..home }];
+    let unit = LengthUnit::of(&design.units).or_else(|_| LengthUnit::of("m")).unwrap();
+    Export::new(design, Some(unit), home, (poses, Vec::new()), options).unwrap()
+}
+
+fn above() -> Pose {
+    Pose { rotation: Rotation3::identity(), position: Vector3::new(0.1, 0.2, 30.0) }
+}
+
+fn export(text: &str) -> Export {
+    export_with(&design(text), &ExportOptions::default())
+}
+
+fn text_of(export: &Export, format: &str, file: &str) -> String {
+    let files = writer(format).unwrap().files(export).unwrap();
+    files.into_iter().find(|f| f.name == file).unwrap().text
+}
+
+fn polygon_area(points: &[Point2<f64>]) -> f64 {
+    let n = points.len();
+    0.5 * (0..n).map(|i| points[i].coords.perp(&points[(i + 1) % n].coords)).sum::<f64>()
+}
+
+#[test]
+fn outlines_of_a_point_a_line_and_a_square() {
+    let p = Point2::new;
+    let cases = [
+        (vec![p(1.0, 2.0)], 2, PI),
+        (vec![p(0.0, 0.0), p(3.0, 4.0), p(1.5, 2.0)], 4, PI + 10.0),
+        (vec![p(0.0, 0.0), p(2.0, 2.0), p(2.0, 0.0), p(1.0, 1.0), p(0.0, 2.0), p(1.0, 0.0)], 8, PI + 12.0),
+    ];
+    for (points, parts, area) in cases {
+        let outline = Outline::around(&points, 1.0, 1e-9);
+        assert_eq!(outline.parts.len(), parts);
+        assert!((outline.area() - area).abs() < 1e-12, "{}", outline.area());
+        // the polygon is another way to the area
+        let polygon = polygon_area(&outline.polygon(720));
+        assert!(polygon < area && polygon > area * (1.0 - 1e-4), "{polygon} {area}");
+        let turned: f64 = outline
+            .parts
+            .iter()
+            .map(|part| if let OutlinePart::Arc { turn, .. } = part { *turn } else { 0.0 })
+            .sum();
+        assert!((turned - 2.0 * PI).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn triangles_fill_a_polygon_with_holes() {
+    let ring = |x: f64, y: f64, r: f64, n: i32, sign: f64| -> Vec<Point2<f64>> {
+        (0..n)
+            .map(|k| {
+                let (s, c) = (sign * 2.0 * PI * f64::from(k) / f64::from(n)).sin_cos();
+                Point2::new(x + r * c, y + r * s)
+            })
+            .collect()
+    };
+    let outer = ring(0.0, 0.0, 10.0, 40, 1.0);
+    let holes: Vec<_> = [(-5.0, 0.0), (5.0, 0.0), (0.0, 5.0), (0.0, -5.0), (0.0, 0.0)]
+        .map(|(x, y)| ring(x, y, 1.5, 24, -1.0))
+        .into();
+    let points: Vec<Point2<f64>> = outer.iter().chain(holes.iter().flatten()).copied().collect();
+    let triangles = triangulate(&outer, &holes);
+    // a polygon with n corners and h holes has n + 2h - 2 triangles
+    assert_eq!(triangles.len(), points.len() + 2 * holes.len() - 2);
+    let area: f64 = triangles.iter().map(|t| polygon_area(&t.map(|k| points[k]))).sum();
+    let wanted = polygon_area(&outer) + holes.iter().map(|h| polygon_area(h)).sum::<f64>();
+    assert!((area - wanted).abs() < 1e-10);
+    assert!(triangles.iter().all(|t| polygon_area(&t.map(|k| points[k])) > 0.0), "none is turned over");
+}
+
+#[test]
+fn a_unit_that_is_none_is_refused_with_those_that_are() {
+    assert_eq!(real(LengthUnit::of("in").unwrap().millimetres), "25.4");
+    let home = above();
+    let refused = Export::new(&design(GENERAL), None, home, (vec![], vec![]), &ExportOptions::default());
+    let text = refused.unwrap_err().to_string();
+    assert!(text.contains("`1`") && text.contains("um, mm, cm, m, in, ft"), "{text}");
+}
+
+#[test]
+fn balls_sit_on_the_edges_of_their_holes_and_plates_on_the_far_side_of_the_legs() {
+    for text in [OCTAHEDRAL, GENERAL, MIDLINE] {
+        let export = export(text);
+        for (body, sign) in export.bodies.iter().zip([-1.0, 1.0]) {
+            let plate = body.plate().unwrap();
+            assert_eq!(plate.legs_above, sign < 0.0, "{}", body.name);
+            let face = if plate.legs_above { plate.thickness } else { 0.0 };
+            assert_eq!(plate.holes.iter().map(|h| h.joints.len()).sum::<usize>(), body.joints.len());
+            for hole in &plate.holes {
+                let joint = body.joints.iter().find(|j| hole.joints.contains(&j.name)).unwrap();
+                let local = plate.axes.transpose() * (joint.at - plate.origin);
+                assert!((local.xy() - hole.at.coords).norm() < 1e-12 * export.size);
+                let above = -sign * (local.z - face);
+                let edge = above.hypot(0.5 * plate.hole_diameter);
+                if hole.post > 0.0 {
+                    assert!((above - hole.post - 0.5 * body.ball_diameter).abs() < 1e-12 * export.size);
+                } else {
+                    assert!((edge - 0.5 * body.ball_diameter).abs() < 1e-12 * export.size, "{edge}");
+                }
+            }
+        }
+    }
+    let flat = export(OCTAHEDRAL);
+    assert!(flat.bodies.iter().all(|b| b.plate().unwrap().holes.iter().all(|h| h.post <= 0.0)));
+    assert!(export(GENERAL).bodies[0].plate().unwrap().holes.iter().any(|h| h.post > 0.0), "not flat");
+}
+
+#[test]
+fn tables_read_back_to_the_same_numbers() {
+    let export = export(GENERAL);
+    let csv = text_of(&export, "csv", "joints.csv");
+    let rows: Vec<Vec<&str>> =
+        csv.lines().filter(|l| !l.starts_with('#')).skip(1).map(|l| l.split(',').collect()).collect();
+    let joints: Vec<(&str, &Joint)> =
+        export.bodies.iter().flat_map(|b| b.joints.iter().map(move |j| (b.name, j))).collect();
+    assert_eq!(rows.len(), joints.len());
+    for (row, (body, joint)) in rows.iter().zip(joints) {
+        assert_eq!((row[0], row[1]), (body, joint.name.as_str()));
+        for k in 0..3 {
+            assert_eq!(row[2 + k], real(joint.at[k] * 1000.0));
+        }
+    }
+    let lengths = text_of(&export, "csv", "lengths-workspace.csv");
+    let last: Vec<f64> = lengths.lines().last().unwrap().split(',').map(|x| x.parse().unwrap()).collect();
+    let own = export.lengths_at(&export.workspace[1]);
+    assert_eq!(last[8..14], own.map(|l| l * 1000.0), "metres to millimetres");
+    // the JSON document is read back by a parser in tests/it/cli_export.rs
+    assert!(text_of(&export, "json", "platform.json").contains("\"units\":\"mm\""));
+}
+
+#[test]
+fn the_pins_of_genhexkins_are_the_joints_in_millimetres() {
+    let export = export(OCTAHEDRAL);
+    let text = text_of(&export, "hal", "genhexkins.hal");
+    let pins: BTreeMap<&str, f64> = text
+        .lines()
+        .filter_map(|l| l.strip_prefix("setp genhexkins."))
+        .map(|l| l.split_once(' ').unwrap())
+        .map(|(pin, value)| (pin, value.parse().unwrap()))
+        .collect();
+    assert_eq!(pins.len(), 36);
+    assert_eq!((pins["base.1.y"], pins["platform.2.x"]), (10.392304845413264, 6.0), "shared joints by leg");
+}
+
+#[test]
+fn a_script_holds_the_arrays_in_metres() {
+    let export = export(OCTAHEDRAL);
+    let text = text_of(&export, "matlab", "platform.m");
+    let matrix = |name: &str| -> Vec<Vec<f64>> {
+        let body = text.split(&format!("stewart.{name} = [\n")).nth(1).unwrap().split("];").next().unwrap();
+        let row = |l: &str| l.trim().trim_end_matches(';').split(", ").map(|x| x.parse().unwrap()).collect();
+        body.lines().map(row).collect()
+    };
+    let (a, b, l) = (matrix("a"), matrix("b"), matrix("l"));
+    assert_eq!((a.len(), a[0].len(), b[0].len(), l.len()), (3, 6, 6, 6));
+    for (i, leg) in export.legs.iter().enumerate() {
+        assert_eq!((a[1][i], l[i][0]), (leg.foot.y * 1e-3, leg.length() * 1e-3));
+    }
+}
+
+/// Group codes and values of a DXF file.
+fn groups(text: &str) -> Vec<(u32, &str)> {
+    let lines: Vec<&str> = text.lines().collect();
+    lines.chunks(2).map(|c| (c[0].trim().parse().unwrap(), c[1])).collect()
+}
+
+#[test]
+fn hole_plans_have_a_circle_at_every_joint() {
+    let export = export(MIDLINE);
+    let text = text_of(&export, "dxf", "base-plate.dxf");
+    let groups = groups(&text);
+    assert_eq!(groups.last(), Some(&(0, "EOF")));
+    let starts = groups.iter().enumerate().filter(|(_, g)| **g == (0, "CIRCLE")).map(|(i, _)| i);
+    let value = |from: usize, code: u32| -> f64 {
+        groups[from..].iter().find(|g| g.0 == code).unwrap().1.parse().unwrap()
+    };
+    let circles: Vec<[f64; 3]> = starts.map(|i| [10, 20, 40].map(|code| value(i, code))).collect();
+    let body = &export.bodies[0];
+    assert_eq!(circles.len(), body.joints.len());
+    for (circle, joint) in circles.iter().zip(&body.joints) {
+        assert_eq!(circle[..2], [joint.at.x, joint.at.y], "the plate lies in the x-y plane");
+        assert_eq!(circle[2..], [0.5 * body.plate().unwrap().hole_diameter]);
+    }
+}
+
+#[test]
+fn meshes_are_closed_and_hold_the_volume_of_the_plate() {
+    for text in [OCTAHEDRAL, GENERAL] {
+        let export = export(text);
+        let mesh = text_of(&export, "stl", "platform-plate.stl");
+        let corners: Vec<Vector3<f64>> = mesh
+            .lines()
+            .filter_map(|l| l.trim().strip_prefix("vertex "))
+            .map(|l| Vector3::from_iterator(l.split(' ').map(|x| x.parse::<f64>().unwrap())))
+            .collect();
+        let key = |p: &Vector3<f64>| [p.x.to_bits(), p.y.to_bits(), p.z.to_bits()];
+        let mut edges: BTreeMap<_, i32> = BTreeMap::new();
+        for t in corners.chunks(3) {
+            for (p, q) in [(0, 1), (1, 2), (2, 0)] {
+                *edges.entry((key(&t[p]), key(&t[q]))).or_default() += 1;
+            }
+        }
+        assert!(
+            edges.iter().all(|((p, q), n)| edges.get(&(*q, *p)) == Some(n)),
+            "every edge has its other side"
+        );
+        let volume: f64 = corners.chunks(3).map(|t| t[0].dot(&t[1].cross(&t[2])) / 6.0).sum();
+        let plate = export.bodies[1].plate().unwrap();
+        let posts: f64 = plate.holes.iter().map(|h| 0.25 * PI * plate.post_diameter.powi(2) * h.post).sum();
+        let wanted = (plate.volume() + posts) * export.unit.millimetres.powi(3);
+        assert!((volume / wanted - 1.0).abs() < 2e-3, "{volume} {wanted}");
+    }
+}
+
+#[test]
+fn a_simulation_has_six_actuators_and_five_loops() {
+    let text = text_of(&export(OCTAHEDRAL), "mjcf", "platform.xml");
+    let count = |what: &str| text.matches(what).count();
+    assert_eq!((count("<connect "), count("<position "), count("type=\"slide\"")), (5, 6, 6));
+    assert_eq!((count("type=\"hinge\""), count("type=\"ball\""), count("gravcomp")), (12, 1, 0));
+    let options = ExportOptions { gravity_compensation: true, mass: Some(3.0), ..ExportOptions::default() };
+    let carried = text_of(&export_with(&design(OCTAHEDRAL), &options), "mjcf", "platform.xml");
+    assert_eq!(carried.matches("gravcomp=\"1\"").count(), 19);
+    assert!(carried.contains("mass=\"3.0\""));
+    assert_eq!(
+        (count("range="), carried.matches("ctrlrange").count()),
+        (0, 0),
+        "Drake takes a ctrlrange for a limit of force"
+    );
+    let limited = design(include_str!("../../designs/worked/bench-octahedral.toml"));
+    let limited = export_with(&limited, &ExportOptions::default());
+    let text = text_of(&limited, "mjcf", "platform.xml");
+    let home = limited.legs[0].length();
+    let range = format!(" range=\"{} {}\"/>", real((198.0 - home) * 1e-3), real((298.0 - home) * 1e-3));
+    assert_eq!((text.matches(" range=").count(), text.contains(&range)), (6, true));
+}
+
+#[test]
+fn exchange_files_name_only_entities_they_hold() {
+    let text = text_of(&export(GENERAL), "step", "platform.step");
+    let data = text.split("DATA;\n").nth(1).unwrap();
+    let mut defined = 0;
+    for line in data.lines().filter(|l| l.starts_with('#')) {
+        let (id, entity) = line[1..].split_once('=').unwrap();
+        defined += 1;
+        assert_eq!(id.parse::<usize>().unwrap(), defined, "in order");
+        for reference in entity.split('#').skip(1) {
+            let number: String = reference.chars().take_while(char::is_ascii_digit).collect();
+            assert!(number.parse::<usize>().unwrap() < defined, "{line}");
+        }
+    }
+    // two plates, six balls on each, cylinder and rod of six legs, posts
+    let posts: usize = export(GENERAL)
+        .bodies
+        .iter()
+        .map(|b| b.plate().unwrap().holes.iter().filter(|h| h.post > 0.0).count())
+        .sum();
+    assert_eq!(text.matches("NEXT_ASSEMBLY_USAGE_OCCURRENCE").count(), 2 + 12 + 12 + posts);
+    assert!(text.contains("AP242_MANAGED_MODEL_BASED_3D_ENGINEERING_MIM_LF"));
+}
+
+#[test]
+fn what_a_format_cannot_hold_is_said() {
+    let wide =
+        ExportOptions { hole: Some(4.0), ball: Some(5.0), margin: Some(5.0), ..ExportOptions::default() };
+    let tight = export_with(&design(MIDLINE), &wide);
+    for format in ["dxf", "step", "stl", "svg"] {
+        let why = writer(format).unwrap().files(&tight).unwrap_err();
+        assert!(matches!(why, Unsupported::SeatsOverlap { parts: "holes", .. }), "{why}");
+    }
+    for format in ["csv", "hal", "json", "matlab", "mjcf"] {
+        assert!(writer(format).unwrap().files(&tight).is_ok(), "{format} has no plates");
+    }
+    // joints above one another, and a post beside a joint
+    for x in [20.0, 21.0] {
+        let text = format!(
+            "name = 'seats'\nunits = 'mm'\n\
+             legs = [['A', 'G'], ['B', 'G'], ['C', 'H'], ['D', 'H'], ['E', 'I'], ['F', 'I']]\n\
+             [base]\nA = [0, 0, 0]\nB = [50, 0, 0]\nC = [0, 50, 0]\nD = [50, 50, 0]\nE = [20, 20, 4]\nF = [{x}, 20, 0]\n\
+             [platform]\nG = [0, 0, 0]\nH = [30, 0, 0]\nI = [0, 30, 0]\n"
+        );
+        let options = ExportOptions { ball: Some(2.0), hole: Some(0.4), ..ExportOptions::default() };
+        let why = writer("stl").unwrap().files(&export_with(&design(&text), &options)).unwrap_err();
+        assert!(matches!(why, Unsupported::SeatsOverlap { parts: "posts", .. }), "{why}");
+    }
+    let fat = ExportOptions { hole: Some(0.1), ball: Some(17.0), ..ExportOptions::default() };
+    let why = writer("step").unwrap().files(&export_with(&design(OCTAHEDRAL), &fat)).unwrap_err();
+    assert!(matches!(why, Unsupported::LegTooShort { leg: 1, .. }), "{why}");
+    let home = above();
+    let bad = |options| Export::new(&design(OCTAHEDRAL), None, home, (vec![], vec![]), &options).unwrap_err();
+    for options in [
+        ExportOptions { hole: Some(9.0), ball: Some(5.0), ..ExportOptions::default() },
+        ExportOptions { thickness: Some(0.0), ..ExportOptions::default() },
+        ExportOptions { margin: Some(f64::NAN), ..ExportOptions::default() },
+        ExportOptions { mass: Some(-1.0), ..ExportOptions::default() },
+        ExportOptions { hole: Some(1.0), ball: Some(2.0), margin: Some(0.4), ..ExportOptions::default() },
+    ] {
+        assert!(matches!(bad(options), NoExport::BadSize { .. }));
+    }
+}
+
+#[test]
+fn names_cannot_break_out_of_a_file() {
+    use super::text::{csv_field, step_real, xml_comment};
+    assert_eq!(csv_field("a,\"b\"\n"), "\"a,\"\"b\"\" \"");
+    assert_eq!(xml_comment("a--->\u{1}<b>"), "a- - -> <b>");
+    assert_eq!([1e-7, 1.5e300, -0.0, 2.0].map(step_real), ["1.0E-7", "1.5E300", "0.0", "2.0"]);
+    let mut odd = design(OCTAHEDRAL);
+    odd.name = "a'b*/\n-->%\"é".to_string();
+    let odd = export_with(&odd, &ExportOptions::default());
+    assert!(text_of(&odd, "step", "platform.step").contains("'a''b*/ -->%\"\\X2\\00E9\\X0\\'"));
+    let script = text_of(&odd, "matlab", "platform.m");
+    assert!(script.contains("stewart.name = 'a''b*/ -->%\"é';"));
+    let model = text_of(&odd, "mjcf", "platform.xml");
+    assert_eq!(model.matches("-->").count(), 1, "the comment ends where it should");
+}
+
+#[test]
+fn the_same_design_gives_the_same_bytes_and_every_file_says_its_unit() {
+    for format in writers() {
+        let (one, two) = (export(OCTAHEDRAL), export(OCTAHEDRAL));
+        assert_eq!(format.files(&one), format.files(&two), "{}", format.name());
+        for file in format.files(&one).unwrap() {
+            assert!(file.text.contains("mm") || file.text.contains(" m;"), "{}", file.name);
+            assert!(file.text.contains("frame"), "{}", file.name);
+        }
+    }
+}

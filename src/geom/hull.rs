@@ -1,0 +1,55 @@
+//! Convex hulls in the plane.
+
+use nalgebra::Point2;
+
+fn turn_of(a: &Point2<f64>, b: &Point2<f64>, c: &Point2<f64>) -> f64 {
+    (b - a).perp(&(c - a))
+}
+
+/// Corners of the convex hull, counter-clockwise (monotone chain, Andrew 1979). A point nearer than `tolerance` to the line of its neighbours is no corner.
+#[must_use]
+pub(crate) fn convex_hull(points: &[Point2<f64>], tolerance: f64) -> Vec<Point2<f64>> {
+    let mut sorted = points.to_vec();
+    sorted.sort_by(|p, q| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)));
+    let mut apart: Vec<Point2<f64>> = Vec::new();
+    for p in sorted {
+        if apart.iter().all(|q| (p - q).norm() > tolerance) {
+            apart.push(p);
+        }
+    }
+    if apart.len() < 3 {
+        return apart;
+    }
+    let chain = |points: &mut dyn Iterator<Item = Point2<f64>>| {
+        let mut out: Vec<Point2<f64>> = Vec::new();
+        for p in points {
+            while let [.., a, b] = out[..] {
+                if turn_of(&a, &b, &p) > tolerance * (p - a).norm() {
+                    break;
+                }
+                out.pop();
+            }
+            out.push(p);
+        }
+        out.pop();
+        out
+    };
+    let mut corners = chain(&mut apart.iter().copied());
+    corners.extend(chain(&mut apart.iter().rev().copied()));
+    corners
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn corners_of_a_square_a_line_and_a_point() {
+        let p = Point2::new;
+        let square =
+            [p(1.0, 1.0), p(0.0, 0.0), p(2.0, 2.0), p(1.0, 0.0), p(2.0, 0.0), p(0.0, 2.0), p(2.0, 2.0)];
+        assert_eq!(convex_hull(&square, 1e-9), [p(0.0, 0.0), p(2.0, 0.0), p(2.0, 2.0), p(0.0, 2.0)]);
+        assert_eq!(convex_hull(&[p(1.0, 1.0), p(3.0, 3.0), p(2.0, 2.0)], 1e-9), [p(1.0, 1.0), p(3.0, 3.0)]);
+        assert_eq!(convex_hull(&[p(1.0, 1.0), p(1.0, 1.0)], 1e-9), [p(1.0, 1.0)]);
+    }
+}

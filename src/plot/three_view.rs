@@ -1,0 +1,131 @@
+//! Top, front and side of a platform, third angle.
+
+use nalgebra::{Point2, Point3};
+
+use super::style::Svg;
+use crate::geom::convex_hull;
+
+/// Base or platform as it is drawn; points in the base frame, millimetres.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ThreeViewBody {
+    /// Points whose convex hulls are the parts: plate, posts.
+    pub solids: Vec<Vec<Point3<f64>>>,
+    /// Edges of the holes.
+    pub holes: Vec<Vec<Point3<f64>>>,
+    /// Names and centres of the joints.
+    pub joints: Vec<(String, Point3<f64>)>,
+    /// Diameter of the balls of the joints.
+    pub ball: f64,
+}
+
+/// What the drawing shows; points in the base frame, millimetres.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ThreeViewFigure {
+    /// Title.
+    pub title: String,
+    /// A line of text below.
+    pub note: String,
+    /// The base.
+    pub base: ThreeViewBody,
+    /// The platform.
+    pub platform: ThreeViewBody,
+    /// Ends of the legs: base joint, platform joint.
+    pub legs: [[Point3<f64>; 2]; 6],
+    /// Points whose convex hulls are the cylinders and rods.
+    pub leg_bodies: Vec<Vec<Point3<f64>>>,
+    /// Origins of the base and the platform frame.
+    pub origins: [Point3<f64>; 2],
+}
+
+/// Width and height of the largest view, pixels.
+const VIEW: f64 = 320.0;
+const MARGIN: f64 = 60.0;
+const TOP: f64 = 70.0;
+const CSS: &str = "\
+.post{fill:#fff;fill-opacity:.5;stroke:#555;stroke-width:.7}\
+.hole{fill:#fff;stroke:#555;stroke-width:.7}\
+.bar{fill:#e8e4da;fill-opacity:.7;stroke:#6b6350;stroke-width:.7}\
+.ball{fill:#fff;fill-opacity:.6;stroke:#1a1a1a;stroke-width:.8}\
+.axis{stroke:#1a1a1a;stroke-width:.5;stroke-dasharray:7 2 1.5 2}";
+
+/// Axes of the three views: right and up. The top view stands above the front view, the view from the right beside it.
+const VIEWS: [(&str, usize, usize); 3] =
+    [("top (x right, y up)", 0, 1), ("front (x right, z up)", 0, 2), ("right (y right, z up)", 1, 2)];
+
+/// Least and greatest coordinates of all that is drawn.
+fn bounds(figure: &ThreeViewFigure) -> [(f64, f64); 3] {
+    let bodies = [&figure.base, &figure.platform];
+    let solids = bodies.into_iter().flat_map(|b| &b.solids).chain(&figure.leg_bodies).flatten();
+    let joints = bodies.into_iter().flat_map(|b| &b.joints).map(|j| &j.1);
+    let mut out = [(f64::INFINITY, f64::NEG_INFINITY); 3];
+    for p in solids.chain(joints).chain(&figure.origins) {
+        for k in 0..3 {
+            out[k] = (out[k].0.min(p[k]), out[k].1.max(p[k]));
+        }
+    }
+    out
+}
+
+/// The drawing: silhouettes of all parts, one over the other. All views have the same scale; the overall dimensions stand at each view.
+#[must_use]
+pub fn three_views(figure: &ThreeViewFigure) -> String {
+    let bounds = bounds(figure);
+    let extent = bounds.map(|b| b.1 - b.0);
+    let scale = VIEW / extent.iter().fold(f64::MIN_POSITIVE, |m, x| m.max(*x));
+    let [wide, deep, high] = extent.map(|x| x * scale);
+    let (second_column, second_row) = (MARGIN + wide + MARGIN, TOP + deep + MARGIN + 20.0);
+    let (width, height) = (second_column + deep + MARGIN, second_row + high + MARGIN + 20.0);
+    let mut svg = Svg::new(width.max(420.0), height, &figure.title, &figure.note);
+    svg.style(CSS);
+    svg.text("title", (MARGIN, 28.0), &figure.title);
+    let corners = [(MARGIN, TOP), (MARGIN, second_row), (second_column, second_row)];
+    for ((name, across, up), corner) in VIEWS.into_iter().zip(corners) {
+        let place = |p: &Point3<f64>| {
+            let (right, rise) = (p[across] - bounds[across].0, bounds[up].1 - p[up]);
+            (corner.0 + right * scale, corner.1 + rise * scale)
+        };
+        svg.text("note", (corner.0, corner.1 - 10.0), name);
+        let silhouette = |points: &[Point3<f64>]| -> Vec<(f64, f64)> {
+            let on_page: Vec<Point2<f64>> =
+                points.iter().map(|p| Point2::from(<[f64; 2]>::from(place(p)))).collect();
+            convex_hull(&on_page, 1e-3).iter().map(|p| (p.x, p.y)).collect()
+        };
+        for (class, body) in [("base", &figure.base), ("platform", &figure.platform)] {
+            for (k, solid) in body.solids.iter().enumerate() {
+                svg.polygon(if k == 0 { class } else { "post" }, &silhouette(solid));
+            }
+            for hole in &body.holes {
+                svg.polygon("hole", &silhouette(hole));
+            }
+        }
+        for bar in &figure.leg_bodies {
+            svg.polygon("bar", &silhouette(bar));
+        }
+        for [a, b] in &figure.legs {
+            svg.line("axis", place(a), place(b));
+        }
+        for body in [&figure.base, &figure.platform] {
+            for (label, p) in &body.joints {
+                let at = place(p);
+                let radius = 0.5 * body.ball * scale;
+                svg.circle("ball", at, radius);
+                svg.text("small halo", (at.0 + radius + 1.0, at.1 - radius), label);
+            }
+        }
+        for (label, origin) in ["O base", "O platform"].iter().zip(&figure.origins) {
+            let (x, y) = place(origin);
+            svg.line("tick", (x - 6.0, y), (x + 6.0, y));
+            svg.line("tick", (x, y - 6.0), (x, y + 6.0));
+            svg.text("small halo", (x + 5.0, y + 12.0), label);
+        }
+        let (w, h) = (extent[across] * scale, extent[up] * scale);
+        let below = corner.1 + h + 14.0;
+        svg.line("tick", (corner.0, below), (corner.0 + w, below));
+        svg.text("note mid", (corner.0 + 0.5 * w, below + 13.0), &format!("{:.3}", extent[across]));
+        let left = corner.0 - 14.0;
+        svg.line("tick", (left, corner.1), (left, corner.1 + h));
+        svg.turned_text("note mid", (left - 5.0, corner.1 + 0.5 * h), -90.0, &format!("{:.3}", extent[up]));
+    }
+    svg.text("note", (MARGIN, height - 12.0), &figure.note);
+    svg.finish()
+}

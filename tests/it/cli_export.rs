@@ -1,0 +1,138 @@
+//! `equipod export` as a process: files, refusals, what a format cannot hold. Programs that are not ours read the files in `tests/exports`.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::cli_frame::{document, equipod};
+
+const FORMATS: [&str; 9] = ["csv", "dxf", "hal", "json", "matlab", "mjcf", "step", "stl", "svg"];
+
+fn run(args: &[&str]) -> (Option<i32>, Value) {
+    let mut all = vec!["export"];
+    all.extend(args);
+    all.push("--json");
+    let out = equipod(&all);
+    (out.status.code(), document(&out))
+}
+
+fn read(folder: &Path, name: &str) -> String {
+    std::fs::read_to_string(folder.join(name)).unwrap()
+}
+
+#[test]
+fn all_formats_of_shared_joints_and_of_a_joint_free_design() {
+    let folder = tempfile::tempdir().unwrap();
+    let free = folder.path().join("free.toml");
+    let free = free.to_str().unwrap();
+    let offsets = "--offsets=-0.2,0.21,-0.22,0.2,-0.2,0.23";
+    let original = "designs/rbt-octahedral.toml";
+    let made = equipod(&["family", original, "--pattern", "S123456", offsets, "-o", free]);
+    assert_eq!(made.status.code(), Some(0));
+    for (design, joints) in [(original, 3), (free, 6)] {
+        let out = folder.path().join(joints.to_string());
+        let (code, doc) = run(&[design, "--to", "all", "-o", out.to_str().unwrap()]);
+        assert_eq!(code, Some(0), "{doc}");
+        let formats = doc["formats"].as_array().unwrap();
+        let names: Vec<&str> = formats.iter().map(|f| f["format"].as_str().unwrap()).collect();
+        assert_eq!(names, FORMATS);
+        for file in formats.iter().flat_map(|f| f["files"].as_array().unwrap()) {
+            assert!(std::fs::metadata(file.as_str().unwrap()).unwrap().len() > 200, "{file}");
+        }
+        // the document read by a parser: joints are where the design has them
+        let platform: Value = serde_json::from_str(&read(&out, "platform.json")).unwrap();
+        assert_eq!(platform["units"], "mm");
+        for body in ["base", "platform"] {
+            let list = platform[body]["joints"].as_array().unwrap();
+            assert_eq!(
+                (list.len(), platform[body]["plate"]["holes"].as_array().unwrap().len()),
+                (joints, joints)
+            );
+        }
+        assert_eq!(platform["workspace"].as_array().unwrap().len(), 65, "home and the corners of the box");
+        assert!(platform["trajectory"].as_array().unwrap().is_empty());
+        assert_eq!(read(&out, "base-plate.dxf").matches("CIRCLE").count(), joints);
+    }
+    let platform: Value = serde_json::from_str(&read(&folder.path().join("3"), "platform.json")).unwrap();
+    assert_eq!(platform["base"]["joints"][1]["at"][1].as_f64(), Some(10.392304845413264));
+}
+
+#[test]
+fn what_is_written_and_left_out_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = equipod(&[
+        "export",
+        "designs/rbt-octahedral.toml",
+        "--to",
+        "hal,dxf",
+        "-o",
+        folder.path().to_str().unwrap(),
+    ]);
+    assert_eq!(out.status.code(), Some(0));
+    let text = String::from_utf8(out.stdout).unwrap().replace(folder.path().to_str().unwrap(), "DIR");
+    insta::assert_snapshot!(text, @r#"
+    wrote DIR/base-plate.dxf
+    wrote DIR/platform-plate.dxf
+      dxf leaves out legs, and heights of joints out of the plane of the plate other than as text
+    wrote DIR/genhexkins.hal
+      hal leaves out joint axes and lead of the screws (genhexkins corrects for both): base-n, platform-n and screw-lead stay as they are
+    sizes
+      ball diameter, base                      0.346410 design units  rule: the least of 0.05 of the size, 0.4 of the least distance of seats, 0.1 of the shortest leg at home
+      hole diameter, base                      0.173205 design units  rule: half a ball
+      plate thickness, base                    0.173205 design units  rule: half a ball
+      plate margin, base                       0.346410 design units  rule: one ball
+      ball diameter, platform                  0.346410 design units  rule: the least of 0.05 of the size, 0.4 of the least distance of seats, 0.1 of the shortest leg at home
+      hole diameter, platform                  0.173205 design units  rule: half a ball
+      plate thickness, platform                0.173205 design units  rule: half a ball
+      plate margin, platform                   0.346410 design units  rule: one ball
+      cylinder diameter                        0.207846 design units  rule: 0.6 of the smaller ball
+      rod diameter                             0.124708 design units  rule: 0.6 of the cylinder
+      cylinder length from the base joint      8.077747 design units  rule: half the shortest leg at home
+      mass of the platform with payload       6.6511e-6 kg            rule: 20 kg times the cube of the size in metres
+    "#);
+}
+
+#[test]
+fn a_trajectory_gets_a_table_of_its_own_between_its_poses() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = std::fs::read_to_string("designs/rbt-octahedral.toml").unwrap();
+    let text = text.replace("grid = 2\n", "grid = 1\ntrajectory = \"path.csv\"\n");
+    let design = folder.path().join("moving.toml");
+    std::fs::write(&design, text).unwrap();
+    std::fs::write(folder.path().join("path.csv"), "3,5,15,0,0,0\n3,5,16,0,0,10\n4,5,16,0,0,0\n").unwrap();
+    let out = folder.path().join("out");
+    let (code, doc) = run(&[design.to_str().unwrap(), "--to", "csv", "-o", out.to_str().unwrap()]);
+    assert_eq!(code, Some(0), "{doc}");
+    let rows = |name: &str| read(&out, name).lines().filter(|l| !l.starts_with('#')).count() - 1;
+    assert_eq!((rows("lengths-trajectory.csv"), rows("lengths-workspace.csv")), (41, 1));
+}
+
+#[test]
+fn refusals() {
+    let folder = tempfile::tempdir().unwrap();
+    let to = folder.path().to_str().unwrap();
+    let general = "designs/general-6-6.toml";
+    let (code, doc) = run(&[general, "--to", "csv", "-o", to]);
+    assert_eq!((code, doc["error"]["code"].as_str()), (Some(2), Some("export::unknown_unit")));
+    assert!(doc["error"]["message"].as_str().unwrap().contains("um, mm, cm, m, in, ft"));
+    assert_eq!(run(&[general, "--to", "csv", "-o", to, "--unit", "m"]).0, Some(0));
+    let (code, doc) = run(&[general, "--to", "csv", "-o", to, "--unit", "ell"]);
+    assert_eq!((code, doc["error"]["code"].as_str()), (Some(2), Some("export::unknown_unit")));
+    let octahedral = "designs/rbt-octahedral.toml";
+    let (code, doc) = run(&[octahedral, "--to", "csv", "-o", to, "--thickness", "0"]);
+    assert_eq!((code, doc["error"]["code"].as_str()), (Some(2), Some("export::bad_size")));
+    assert_eq!(run(&[octahedral, "--to", "iges", "-o", to]).0, Some(2));
+    // one format cannot, the other can: the answer is no, and what can be written is
+    let wide = ["--hole", "4", "--ball", "5", "--margin", "5"];
+    let (code, doc) = run(&[&["designs/rbt-midline.toml", "--to", "dxf,csv", "-o", to], &wide[..]].concat());
+    assert_eq!(code, Some(1));
+    assert!(doc["formats"][0]["files"].as_array().unwrap().len() == 3, "{doc}");
+    assert!(doc["formats"][1]["refused"].as_str().unwrap().contains("overlap"), "{doc}");
+    // a design that one of the files would replace stays
+    let own = folder.path().join("platform.json");
+    assert_eq!(equipod(&["convert", octahedral, "-o", own.to_str().unwrap()]).status.code(), Some(0));
+    let before = read(folder.path(), "platform.json");
+    let (code, doc) = run(&[own.to_str().unwrap(), "--to", "json", "-o", to]);
+    assert_eq!((code, doc["error"]["code"].as_str()), (Some(2), Some("export::overwrites_design")));
+    assert_eq!(read(folder.path(), "platform.json"), before);
+}
