@@ -48,6 +48,17 @@ pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
     })
 }
 
+/// Makes a folder and those above it, where they do not exist.
+///
+/// # Errors
+/// Exit 2: `file::not_writable`.
+pub(crate) fn make_folder(path: &Path) -> Result<(), Failure> {
+    std::fs::create_dir_all(path).map_err(|error| {
+        Failure::refused("file::not_writable", format!("{} cannot be made: {error}", path.display()))
+            .with_help("check the folder and its permissions")
+    })
+}
+
 /// Writes a file whole: first beside it, then renamed, so that a half-written file never stands there.
 ///
 /// # Errors

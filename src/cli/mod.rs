@@ -15,6 +15,7 @@ mod freedoms;
 mod output;
 mod poses;
 mod progress;
+mod reference;
 mod rows;
 
 use std::ffi::OsString;

@@ -14,6 +14,7 @@ mod requirements_tests;
 mod save;
 mod save_optimize;
 mod save_requirements;
+mod schema;
 mod search;
 #[cfg(test)]
 mod tests;
@@ -25,6 +26,7 @@ mod workspace;
 
 pub use model::{Design, NameCount, OptimizeTable};
 pub use presets::{PRESETS, Preset, PresetClass};
+pub use schema::SCHEMA;
 pub use search::{Combination, SearchTable};
 pub use violation::{Code, Violation, Warning};
 pub use workspace::{Trajectory, Workspace};

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks the files of `equipod export` with programs that are not ours. `tests/exports/run` installs them and calls this.
+"""Checks the files of `equipod export`, and the schemas of `equipod schema`, with programs that are not ours. `tests/exports/run` installs them and calls this.
 
     python tests/exports/check.py target/debug/equipod
 
@@ -18,6 +18,7 @@ from closure import check_drake, check_pinocchio
 from common import failed, missing, passed, run
 from drawings import check_dxf, check_svg, check_xml
 from motion import check_equivalent, check_mujoco, home_lengths, poses_of
+from schemas import check_schemas
 from solids import check_step, check_stl
 from texts import check_csv, check_hal, check_json, check_matlab
 
@@ -66,6 +67,7 @@ def main():
         check_drake(folder, design, home, max(home), moved)
         check_pinocchio(folder, design, home, max(home), moved)
         check_mujoco(folder, design, time, leg_range(ROOT / f"designs/{design}.toml", doc))
+    check_schemas(program, top / "schemas", ROOT)
     check_equivalent(program, top, ROOT / "designs/rbt-octahedral.toml")
     if not args.keep:
         shutil.rmtree(top)

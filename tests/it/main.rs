@@ -14,6 +14,7 @@ mod cli_explore;
 mod cli_export;
 mod cli_fk;
 mod cli_frame;
+mod cli_generated;
 mod cli_locus;
 mod cli_move;
 mod cli_near;

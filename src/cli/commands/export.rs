@@ -105,10 +105,7 @@ fn write(folder: &Path, file: &File, design: &Path) -> Result<String, Failure> {
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
     let export = model(args, &design)?;
-    std::fs::create_dir_all(&args.output).map_err(|e| {
-        Failure::refused("file::not_writable", format!("{} cannot be made: {e}", args.output.display()))
-            .with_help("check the folder and its permissions")
-    })?;
+    files::make_folder(&args.output)?;
     let (mut exit, mut records, mut text) = (Exit::Yes, Vec::new(), String::new());
     for format in wanted(args) {
         let mut record = Map::new();

@@ -15,6 +15,7 @@
 mod assess;
 mod bench;
 mod check;
+mod completions;
 mod components;
 mod convert;
 mod explore;
@@ -22,6 +23,7 @@ mod export;
 mod family;
 mod fk;
 mod locus;
+mod man;
 mod map;
 mod r#move;
 mod optimize;
@@ -29,6 +31,7 @@ mod plot;
 mod presets;
 mod report;
 mod round;
+mod schema;
 mod selfmotion;
 mod singularities;
 mod tolerances;
@@ -40,6 +43,7 @@ use clap::Subcommand;
 use super::context::Context;
 use super::failure::Failure;
 use super::output::Answer;
+use super::reference;
 
 /// The commands.
 #[derive(Debug, Subcommand)]
@@ -50,6 +54,8 @@ pub(crate) enum Command {
     Bench(bench::Args),
     /// Whether a design is architecturally singular: decided exactly, explained, how far away
     Check(check::Args),
+    /// Completion script for a shell
+    Completions(completions::Args),
     /// The families of legs that can be moved without changing the platform, of any design
     Components(components::Args),
     /// Write a design in the other notation (TOML or JSON)
@@ -64,6 +70,8 @@ pub(crate) enum Command {
     Fk(fk::Args),
     /// The squared length of a virtual leg at all poses, in the complex plane, while one leg length varies
     Locus(locus::Args),
+    /// Manual pages of all commands
+    Man(man::Args),
     /// The affine map between the squared leg lengths of two designs
     Map(map::Args),
     /// Move legs without changing the platform, or search an equivalent one that fulfils wishes
@@ -74,10 +82,15 @@ pub(crate) enum Command {
     Plot(plot::Args),
     /// Designs of real hardware with sources, as a start for one's own
     Presets(presets::Args),
+    /// The options of all commands written into the manual
+    #[command(hide = true)]
+    Reference(reference::Args),
     /// A folder of results as one HTML page: designs, verdicts with their evidence, pictures, hashes
     Report(report::Args),
     /// The joints of a design on a grid of holes: exactly equivalent to an octahedral platform, or as near as the grid allows
     Round(round::Args),
+    /// JSON Schema of design files, or of the answers with --json
+    Schema(schema::Args),
     /// The curves of poses with constant leg lengths through a pose
     Selfmotion(selfmotion::Args),
     /// Sign of det J at a pose, at all assembly modes and over a slice of positions; the largest box of poses without singularity
@@ -97,6 +110,7 @@ impl Command {
             Self::Assess(args) => assess::run(args, context),
             Self::Bench(args) => bench::run(args, context),
             Self::Check(args) => check::run(args, context),
+            Self::Completions(args) => Ok(completions::run(args)),
             Self::Components(args) => components::run(args, context),
             Self::Convert(args) => convert::run(args, context),
             Self::Explore(args) => explore::run(args, context),
@@ -104,13 +118,16 @@ impl Command {
             Self::Family(args) => family::run(args, context),
             Self::Fk(args) => fk::run(args, context),
             Self::Locus(args) => locus::run(args, context),
+            Self::Man(args) => man::run(args),
             Self::Map(args) => map::run(args, context),
             Self::Move(args) => r#move::run(args, context),
             Self::Optimize(args) => optimize::run(args, context),
             Self::Plot(args) => plot::run(args, context),
             Self::Presets(args) => presets::run(args, context),
+            Self::Reference(args) => reference::run(args),
             Self::Report(args) => report::run(args, context),
             Self::Round(args) => round::run(args, context),
+            Self::Schema(args) => schema::run(args),
             Self::Selfmotion(args) => selfmotion::run(args, context),
             Self::Singularities(args) => singularities::run(args, context),
             Self::Tolerances(args) => tolerances::run(args, context),

@@ -3,6 +3,8 @@
 mod fields;
 mod joints;
 mod requirements;
+#[cfg(test)]
+mod schema_tests;
 mod search;
 mod tables;
 

@@ -10,7 +10,7 @@ use crate::requirements::{
     FixedTo, Hardware, Housing, JointAxes, KeepOut, LegBody, LengthLimits, Load, PlatformSpeed, Shape, Swing,
 };
 
-const HARDWARE_KEYS: [&str; 17] = [
+pub(super) const HARDWARE_KEYS: [&str; 17] = [
     "joint_diameter",
     "base_housing",
     "platform_housing",

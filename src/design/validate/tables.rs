@@ -11,8 +11,11 @@ use crate::design::{Code, OptimizeTable, SearchTable, Trajectory, Workspace};
 use crate::geom::Pose;
 use crate::requirements::Region;
 
-const POSE_KEYS: [&str; 4] = ["position", "rpy_deg", "quat_wxyz", "rotation"];
-const WORKSPACE_KEYS: [&str; 6] = ["translation", "rotation_deg", "region", "grid", "poses", "trajectory"];
+pub(super) const POSE_KEYS: [&str; 4] = ["position", "rpy_deg", "quat_wxyz", "rotation"];
+pub(super) const WORKSPACE_KEYS: [&str; 6] =
+    ["translation", "rotation_deg", "region", "grid", "poses", "trajectory"];
+/// The keys of `[optimize]` that are no search.
+pub(super) const LIMIT_KEYS: [&str; 3] = ["min_joint_distance", "min_abs_det", "characteristic_length"];
 const ROTATION_HELP: &str =
     "give one of rpy_deg = [roll, pitch, yaw], quat_wxyz = [w, x, y, z], rotation = [[..], [..], [..]]";
 
@@ -202,11 +205,10 @@ fn single_poses(report: &mut Report<'_>, node: &Node) -> Vec<Pose> {
 pub(super) fn optimize(report: &mut Report<'_>, top: &[Entry]) -> (OptimizeTable, SearchTable) {
     let place = "[optimize]";
     let entries = find(top, "optimize").and_then(|e| table(report, &e.node, place)).unwrap_or_default();
-    let keys = ["min_joint_distance", "min_abs_det", "characteristic_length"];
-    let known: Vec<&str> = keys.into_iter().chain(SEARCH_KEYS).collect();
+    let known: Vec<&str> = LIMIT_KEYS.into_iter().chain(SEARCH_KEYS).collect();
     check_keys(report, entries, &known, place);
     let [min_joint_distance, min_abs_det, characteristic_length] =
-        keys.map(|key| positive(report, entries, key));
+        LIMIT_KEYS.map(|key| positive(report, entries, key));
     let limits = OptimizeTable { min_joint_distance, min_abs_det, characteristic_length };
     (limits, search(report, entries))
 }

@@ -139,6 +139,8 @@ const LINES: &[Line] = &[
             ("serde_json", None),
             ("toml", None),
             ("clap", None),
+            ("clap_complete", Some("commands/completions.rs")),
+            ("clap_mangen", Some("commands/man.rs")),
             ("ctrlc", None),
             ("anstream", None),
             ("anstyle", None),

@@ -42,9 +42,7 @@ pub(super) fn run(
     }
     let mut written = Vec::new();
     if let Some(folder) = output {
-        std::fs::create_dir_all(folder).map_err(|e| {
-            Failure::refused("file::not_writable", format!("{} cannot be made: {e}", folder.display()))
-        })?;
+        files::make_folder(folder)?;
         for (k, d) in designs.iter().enumerate() {
             let path = folder.join(format!("{}.toml", k + 1));
             if let Some(d) = d {

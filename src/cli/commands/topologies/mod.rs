@@ -218,9 +218,7 @@ fn write_files(args: &Args, entries: &[Entry]) -> Result<(), Failure> {
         files::write_text(path, &sheet(entries))?;
     }
     let Some(folder) = &args.output else { return Ok(()) };
-    std::fs::create_dir_all(folder).map_err(|e| {
-        Failure::refused("file::not_writable", format!("{} cannot be made: {e}", folder.display()))
-    })?;
+    files::make_folder(folder)?;
     for e in entries {
         let file = |ending: &str| Path::new(folder).join(format!("{}.{ending}", e.named.id()));
         files::write_text(&file("svg"), &topology_diagram(&figure(e)))?;

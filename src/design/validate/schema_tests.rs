@@ -1,0 +1,37 @@
+//! The schema knows the keys and names that the reader knows. Whether documents obey it is asked of a validator in `tests/exports`.
+
+use serde_json::Value;
+
+use super::requirements::HARDWARE_KEYS;
+use super::search::SEARCH_KEYS;
+use super::tables::{LIMIT_KEYS, POSE_KEYS, WORKSPACE_KEYS};
+use crate::design::SCHEMA;
+use crate::dimensional::{Objective, VariableKind};
+
+fn sorted<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
+    let mut names: Vec<&str> = names.into_iter().collect();
+    names.sort_unstable();
+    names
+}
+
+#[test]
+fn the_schema_has_the_keys_of_the_reader() {
+    let schema: Value = serde_json::from_str(SCHEMA).unwrap();
+    let keys = |place: &str| {
+        let table = schema.pointer(place).unwrap();
+        assert_eq!(table["additionalProperties"], false, "{place} refuses what is not known");
+        sorted(table["properties"].as_object().unwrap().keys().map(String::as_str))
+    };
+    assert_eq!(keys(""), sorted(super::TOP_LEVEL));
+    assert_eq!(keys("/properties/workspace"), sorted(WORKSPACE_KEYS));
+    assert_eq!(keys("/properties/hardware"), sorted(HARDWARE_KEYS));
+    assert_eq!(keys("/properties/optimize"), sorted(SEARCH_KEYS.into_iter().chain(LIMIT_KEYS)));
+    assert_eq!(keys("/$defs/pose"), sorted(POSE_KEYS));
+    let names = |place: &str| {
+        let list = schema.pointer(place).unwrap().as_array().unwrap();
+        sorted(list.iter().map(|v| v.as_str().unwrap()))
+    };
+    assert_eq!(names("/$defs/objective/enum"), sorted(Objective::ALL.map(Objective::code)));
+    let variables = names("/properties/optimize/properties/variables/items/enum");
+    assert_eq!(variables, sorted(VariableKind::ALL.map(VariableKind::code)));
+}

@@ -1,0 +1,132 @@
+"""`equipod schema`: shipped designs and answers of commands against the schemas, by a validator that is not ours."""
+
+import json
+import subprocess
+import tomllib
+
+from common import module, report, run
+
+
+def complaints(validator, document):
+    return [f"{'/'.join(map(str, e.path))}: {e.message[:90]}" for e in validator.iter_errors(document)]
+
+
+def without(document, path):
+    copy = json.loads(json.dumps(document))
+    place = copy
+    for key in path[:-1]:
+        place = place[key]
+    del place[path[-1]]
+    return copy
+
+
+def changed(document, path, value):
+    copy = json.loads(json.dumps(document))
+    place = copy
+    for key in path[:-1]:
+        place = place[key]
+    place[path[-1]] = value
+    return copy
+
+
+# changes that neither the schema nor the program takes
+WRONG = [
+    (["legs"], None),
+    (["unit"], "mm"),
+    (["legs"], [["P1", "P4"]] * 5),
+    (["legs", 0], ["P1", "P4", "P5"]),
+    (["base", "P1"], [0.0, 1.0]),
+    (["base", "P1"], "here"),
+    (["name"], " "),
+    (["lengths"], [1.0, 1.0, 1.0, 1.0, 1.0, -1.0]),
+    (["home", "quat_wxyz"], [1.0, 0.0, 0.0, 0.0]),
+    (["home", "position"], None),
+    (["workspace", "grid"], 9),
+    (["workspace", "region"], "ball"),
+    (["optimize", "objective"], "beauty"),
+    (["optimize", "slack"], 0.1),
+    (["optimize", "min_abs_det"], 0.0),
+    (["hardware"], {"stroke": 1.0}),
+    (["hardware"], {"leg_length": [1.0, 2.0], "dead_length": 1.0, "stroke": 1.0}),
+    (["speed"], {"linear": -1.0}),
+    (["loads"], [{"fixed_to": "ground"}]),
+    (["keep_out"], [{"name": "nothing"}]),
+]
+
+
+def check_designs(program, folder, root, validator):
+    for path in sorted((root / "designs").rglob("*.toml")):
+        why = complaints(validator, tomllib.loads(path.read_text()))
+        report(f"schema of designs: {path.relative_to(root)}", not why, "; ".join(why[:2]))
+    as_json = folder / "good.json"
+    run(program, "convert", root / "designs/rbt-octahedral.toml", "-o", as_json)
+    good = json.loads(as_json.read_text())
+    if "rotation" in good["home"]:
+        report("schema of designs: a converted design", not complaints(validator, good))
+    for path, value in WRONG:
+        bad = without(good, path) if value is None else changed(good, path, value)
+        file = folder / "bad.json"
+        file.write_text(json.dumps(bad))
+        ours = subprocess.run([program, "convert", str(file), "-o", str(folder / "out.json")], capture_output=True).returncode
+        report(f"schema of designs: {'.'.join(map(str, path))} = {value} is refused by schema and program", bool(complaints(validator, bad)) and ours == 2)
+
+
+def check_answers(program, folder, root, designs, schema_of):
+    octahedral, general = root / "designs/rbt-octahedral.toml", root / "designs/general-6-6.toml"
+    free = folder / "free.toml"
+    run(program, "family", octahedral, "--pattern", "S123456", "--offsets=0.2,0.21,0.22,0.2,0.2,0.23", "-o", free)
+    asked = [
+        ("assess", root / "designs/worked/bench-octahedral.toml"),
+        ("bench", "--class", "octahedral", "--count", 2),
+        ("check", octahedral),
+        ("check", root / "designs/rbt-midline.toml"),
+        ("components", octahedral),
+        ("convert", octahedral, "-o", folder / "converted.json"),
+        ("explore", octahedral, "--samples", 1, "-o", folder / "explored"),
+        ("export", octahedral, "--to", "csv", "-o", folder / "exported"),
+        ("family", octahedral, "--pattern", "S123456", "--offsets=0.2,0.21,0.22,0.2,0.2,0.23"),
+        ("fk", octahedral),
+        ("fk", octahedral, "--near", "home"),
+        ("fk", root / "designs/innocenti-6-4.toml"),
+        ("locus", root / "designs/innocenti-6-4.toml", "--leg", 6, "--from", 3, "--to", 4, "--steps", 3),
+        ("map", octahedral, free),
+        ("move", octahedral, "--leg", 1, "--along", 1, "--to", 0.1),
+        ("move", octahedral, "--search", "--no-shared-joints"),
+        ("optimize", octahedral),
+        ("plot", "modes", octahedral),
+        ("presets",),
+        ("presets", "bench-l16"),
+        ("report", folder / "explored"),
+        ("round", octahedral, "--grid", 1),
+        ("selfmotion", root / "designs/rbt-midline.toml", "--searches", 0),
+        ("singularities", octahedral),
+        ("tolerances", octahedral, "--bound", "0.1,0.1", "--trials", 10),
+        ("topologies", octahedral),
+        ("verify", octahedral, free, "--samples", 1),
+        ("error", None),
+    ]
+    for name, *args in asked:
+        call = ["fk", "no-such.toml"] if name == "error" else [name, *map(str, args)]
+        out = subprocess.run([program, *call, "--json"], capture_output=True, text=True)
+        document, validator = json.loads(out.stdout), schema_of(name)
+        why = complaints(validator, document)
+        report(f"schema of answers: {' '.join(call[:1] + call[2:])}", not why and (name == "error") == ("error" in document), "; ".join(why[:2]))
+        spoilt = [changed(document, ["schema_version"], 2), without(document, ["warnings"]), {"schema_version": 1, "warnings": []}]
+        spoilt += [changed(document, [k], object_) for k, object_ in ((k, {"no": "such"}) for k in document) if isinstance(document[k], (str, list, bool)) and k in ("name", "A", "rows", "patterns", "samples", "solutions", "verdict", "relation")]
+        report(f"schema of answers: {name}: planted faults are found", all(complaints(validator, d) for d in spoilt))
+        if isinstance(document.get("design"), dict) and name in ("optimize", "round"):
+            report(f"schema of designs: the design {name} answers", not complaints(designs, document["design"]))
+
+
+def check_schemas(program, folder, root):
+    if module("jsonschema") is None:
+        return
+    from jsonschema import Draft202012Validator
+    def schema_of(name):
+        schema = json.loads(run(program, "schema", name))
+        Draft202012Validator.check_schema(schema)
+        return Draft202012Validator(schema)
+    designs = schema_of("design")
+    folder.mkdir(exist_ok=True)
+    check_designs(program, folder, root, designs)
+    check_answers(program, folder, root, designs, schema_of)

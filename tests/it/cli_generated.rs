@@ -1,0 +1,149 @@
+//! What the program writes about itself: completions, manual pages, schemas, the tables of its manual; colours and closed pipes.
+
+use std::process::{Command, Stdio};
+
+use serde_json::Value;
+
+use super::cli_frame::{document, equipod};
+
+/// Commands that are shown in the help.
+fn commands() -> Vec<String> {
+    let help = String::from_utf8(equipod(&["--help"]).stdout).unwrap();
+    let list = help.split("Commands:\n").nth(1).unwrap().split("\n\n").next().unwrap();
+    let names = list.lines().filter_map(|l| l.strip_prefix("  ")).filter(|l| !l.starts_with(' '));
+    let names: Vec<String> = names.map(|l| l.split_whitespace().next().unwrap().to_string()).collect();
+    assert!(
+        names.len() > 20 && names.contains(&"fk".to_string()) && !names.contains(&"reference".to_string())
+    );
+    names.into_iter().filter(|n| n != "help").collect()
+}
+
+#[test]
+fn completions_know_every_command() {
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let out = equipod(&["completions", shell]);
+        assert_eq!(out.status.code(), Some(0));
+        let script = String::from_utf8(out.stdout).unwrap();
+        for command in commands() {
+            assert!(script.contains(&command), "{shell} lacks {command}");
+        }
+        assert!(script.contains("free-grid") || script.contains("grid-platform"), "{shell}: options too");
+        assert_eq!(document(&equipod(&["completions", shell, "--json"]))["script"], script);
+    }
+    assert_eq!(equipod(&["completions", "cobol"]).status.code(), Some(2));
+    // a shell reads it
+    let script = equipod(&["completions", "bash"]).stdout;
+    let check = |text: &[u8]| {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("equipod.bash");
+        std::fs::write(&path, text).unwrap();
+        Command::new("bash").arg("-n").arg(&path).stderr(Stdio::null()).status().map(|s| s.success())
+    };
+    if let Ok(good) = check(&script) {
+        assert!(good);
+        assert!(!check(&script[..script.len() / 2]).unwrap(), "half a script is none");
+    }
+}
+
+#[test]
+fn there_is_a_manual_page_for_every_command() {
+    let folder = tempfile::tempdir().unwrap();
+    let read = |to: &str| {
+        let to = folder.path().join(to);
+        let doc = document(&equipod(&["man", "-o", to.to_str().unwrap(), "--json"]));
+        let paths = doc["paths"].as_array().unwrap();
+        paths.iter().map(|p| std::fs::read_to_string(p.as_str().unwrap()).unwrap()).collect::<Vec<_>>()
+    };
+    let pages = read("one/deep");
+    assert_eq!(pages, read("two"), "no date, no path");
+    assert!(pages.iter().any(|p| p.contains(".TH equipod-plot-modes 1")), "commands of commands too");
+    for command in commands() {
+        let title = format!(".TH equipod-{command} 1");
+        assert!(pages.iter().any(|p| p.contains(&title)), "no page for {command}: {}", &pages[1][..200]);
+    }
+    let file = folder.path().join("file");
+    std::fs::write(&file, "").unwrap();
+    let refused = equipod(&["man", "-o", file.join("under").to_str().unwrap(), "--json"]);
+    assert_eq!(document(&refused)["error"]["code"], "file::not_writable");
+}
+
+#[test]
+fn schemas_are_json_and_every_answer_has_one() {
+    let schema = |of: &str| -> Value {
+        let out = equipod(&["schema", of]).stdout;
+        serde_json::from_slice(&out)
+            .unwrap_or_else(|_| panic!("{of} lacks its schema: src/cli/commands/schema.rs"))
+    };
+    assert_eq!(document(&equipod(&["schema", "--json"]))["schema"], schema("design"));
+    // commands that write about the program itself give no results
+    for command in commands().iter().filter(|c| !["completions", "man", "schema"].contains(&c.as_str())) {
+        let schema = schema(command);
+        assert_eq!(schema["$ref"], format!("#/$defs/{command}"));
+        assert!(
+            schema["$defs"][command].is_object(),
+            "{command} lacks its answer in src/cli/answers.schema.json"
+        );
+    }
+    assert_eq!(equipod(&["schema", "nothing"]).status.code(), Some(2));
+}
+
+#[test]
+fn the_tables_of_options_in_the_manual_are_fresh() {
+    let out = equipod(&["reference", "docs/cli.md"]);
+    let page = std::fs::read_to_string("docs/cli.md").unwrap();
+    assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stderr));
+    assert!(
+        out.stdout == page.as_bytes(),
+        "stale; new: equipod reference docs/cli.md > page && mv page docs/cli.md"
+    );
+    // it finds a stale table, a command without a table and a table without a command
+    let folder = tempfile::tempdir().unwrap();
+    let with = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        equipod(&["reference", path.to_str().unwrap()])
+    };
+    let stale = page.replacen("| `--lengths", "| `--length", 1);
+    assert_ne!(stale, page);
+    assert_eq!(with("stale.md", &stale).stdout, page.as_bytes());
+    assert_eq!(with("lacks.md", &page.replacen("<!-- options of fk -->", "", 1)).status.code(), Some(2));
+    assert_eq!(with("twice.md", &page.replacen("options of fk", "options of map", 1)).status.code(), Some(2));
+}
+
+#[test]
+fn colours_only_where_they_are_wanted() {
+    let coloured = |args: &[&str], set: &[(&str, &str)]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_equipod"));
+        command.args(args).env_remove("NO_COLOR").env_remove("CLICOLOR_FORCE").envs(set.iter().copied());
+        let out = command.output().unwrap();
+        assert_eq!(out.status.code(), Some(2));
+        out.stderr.contains(&0x1b)
+    };
+    // a refusal of the program, and one of its arguments
+    for args in [&["fk", "no-such.toml"][..], &["fk", "--no-such"]] {
+        assert!(!coloured(args, &[]), "not into a pipe");
+        assert!(coloured(args, &[("CLICOLOR_FORCE", "1")]), "unless forced");
+        assert!(!coloured(args, &[("CLICOLOR_FORCE", "1"), ("NO_COLOR", "1")]), "NO_COLOR comes first");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn long_texts_end_quietly_when_nobody_reads() {
+    let design = "designs/rbt-octahedral.toml";
+    for args in [
+        &["completions", "bash"][..],
+        &["schema", "fk"],
+        &["--help"],
+        &["fk", design],
+        &["fk", design, "--json"],
+    ] {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_equipod"));
+        command.current_dir(env!("CARGO_MANIFEST_DIR")).args(args);
+        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        drop(child.stdout.take());
+        let out = child.wait_with_output().unwrap();
+        assert_eq!(out.status.code(), Some(0), "{args:?}: the answer is what it is");
+        assert!(out.stderr.is_empty(), "{args:?}: {}", String::from_utf8_lossy(&out.stderr));
+    }
+}
