@@ -22,6 +22,7 @@ pub mod manipulator;
 pub mod manufacture;
 pub mod num;
 pub mod offsets;
+pub mod page;
 pub mod plot;
 pub mod poly;
 pub mod report;

@@ -59,6 +59,17 @@ pub(crate) fn make_folder(path: &Path) -> Result<(), Failure> {
     })
 }
 
+/// The bytes of a file.
+///
+/// # Errors
+/// Exit 2: `file::not_readable`.
+pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
+    std::fs::read(path).map_err(|error| {
+        Failure::refused("file::not_readable", format!("{} cannot be read: {error}", path.display()))
+            .with_help("check the path and its permissions")
+    })
+}
+
 /// Writes a file whole: first beside it, then renamed, so that a half-written file never stands there.
 ///
 /// # Errors

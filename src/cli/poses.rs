@@ -8,29 +8,18 @@ use super::failure::Failure;
 use super::output::number;
 use crate::design::{Design, Workspace};
 use crate::geom::Pose;
-use crate::manipulator::default_home;
 use crate::requirements::PoseSpace;
-
-/// Half width of the default box of translations, as a share of the design's size.
-const TRANSLATION_SHARE: f64 = 0.15;
-/// Half width of the default box of rotation vectors, degrees.
-const ROTATION_DEG: f64 = 10.0;
 
 const FORM: &str = "give `home`, x,y,z,roll_deg,pitch_deg,yaw_deg or x,y,z,qw,qx,qy,qz";
 
 /// The home pose of the design, the default one where it gives none.
 pub(crate) fn home(design: &Design) -> Pose {
-    design.home.unwrap_or_else(|| default_home(design.manipulator()))
+    design.home_or_default()
 }
 
 /// The workspace of the design, or a box about home where it has none; and whether it is the design's.
 pub(crate) fn workspace(design: &Design) -> (Workspace, bool) {
-    if !design.workspace.is_empty() {
-        return (design.workspace.clone(), true);
-    }
-    let translation = Vector3::repeat(TRANSLATION_SHARE * design.manipulator().size());
-    let rotation_deg = Vector3::repeat(ROTATION_DEG);
-    (Workspace { translation, rotation_deg, ..Workspace::default() }, false)
+    (design.workspace_or_default(), !design.workspace.is_empty())
 }
 
 /// All poses the design has to reach, and whether its file says so.

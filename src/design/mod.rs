@@ -7,6 +7,7 @@
 mod fixtures;
 mod json_text;
 mod model;
+mod naming;
 mod presets;
 mod report;
 #[cfg(test)]

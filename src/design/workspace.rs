@@ -2,8 +2,15 @@
 
 use nalgebra::{Vector3, Vector6};
 
+use super::Design;
 use crate::geom::Pose;
+use crate::manipulator::default_home;
 use crate::requirements::{PoseSpace, Region};
+
+/// Half width of the default box of translations, as a share of the design's size.
+const TRANSLATION_SHARE: f64 = 0.15;
+/// Half width of the default box of rotation vectors, degrees.
+const ROTATION_DEG: f64 = 10.0;
 
 /// A region of poses around the home pose, sampled on a grid, single poses, and a trajectory.
 ///
@@ -113,6 +120,24 @@ impl Workspace {
         }
         points.retain(|p| p.iter().any(|x| *x != 0.0));
         points
+    }
+}
+
+impl Design {
+    /// The home pose of the design, [`default_home`] where it gives none.
+    #[must_use]
+    pub fn home_or_default(&self) -> Pose {
+        self.home.unwrap_or_else(|| default_home(self.manipulator()))
+    }
+
+    /// The workspace of the design; where it has none a box about home, 15 % of the size to each side and 10 degrees about each axis.
+    #[must_use]
+    pub fn workspace_or_default(&self) -> Workspace {
+        if !self.workspace.is_empty() {
+            return self.workspace.clone();
+        }
+        let translation = Vector3::repeat(TRANSLATION_SHARE * self.manipulator().size());
+        Workspace { translation, rotation_deg: Vector3::repeat(ROTATION_DEG), ..Workspace::default() }
     }
 }
 

@@ -8,6 +8,8 @@ use thiserror::Error;
 pub struct LegIndex(u8);
 
 impl LegIndex {
+    pub(crate) const FIRST: Self = Self(0);
+
     /// The leg with the 0-based index `i`, or `None` unless `i < 6`.
     #[must_use]
     pub fn new(i: usize) -> Option<Self> {

@@ -68,6 +68,14 @@ impl Octahedral {
     /// # Errors
     /// The reason why it is not octahedral.
     pub fn recognise(m: &Manipulator) -> Result<Self, NotOctahedral> {
+        Self::recognise_from(m, LegIndex::FIRST)
+    }
+
+    /// As [`recognise`](Self::recognise), with the cycle starting at any leg.
+    ///
+    /// # Errors
+    /// The reason why it is not octahedral.
+    pub fn recognise_from(m: &Manipulator, first: LegIndex) -> Result<Self, NotOctahedral> {
         let pairs = m.pairs();
         for (body, pick) in [("base", 0), ("platform", 1)] {
             let end = |l: &(usize, usize)| if pick == 0 { l.0 } else { l.1 };
@@ -84,7 +92,7 @@ impl Octahedral {
                 }
             }
         }
-        let mut cycle = [0usize; 6];
+        let mut cycle = [first.get(); 6];
         for k in 1..6 {
             let here = cycle[k - 1];
             let next = (0..6).find(|&i| {
@@ -160,6 +168,11 @@ mod tests {
                 assert_eq!(ends[2 * k].platform, o.platform()[k]);
             }
             assert_eq!((ends[0].base, ends[1].base, ends[3].base), o.base().into());
+            for first in LegIndex::all() {
+                let from = Octahedral::recognise_from(&m, first).unwrap().order();
+                let joined = |k: usize| m.joints_of(from[2 * k]).1 == m.joints_of(from[2 * k + 1]).1;
+                assert!(from[0] == first && (0..3).all(joined));
+            }
         }
     }
 

@@ -13,10 +13,10 @@ type Edge = (usize, usize, bool);
 
 /// Values on a grid of `columns` x `rows` points, row by row.
 #[derive(Debug, Clone)]
-pub(super) struct Grid {
-    pub(super) columns: usize,
-    pub(super) rows: usize,
-    pub(super) values: Vec<f64>,
+pub(crate) struct Grid {
+    pub(crate) columns: usize,
+    pub(crate) rows: usize,
+    pub(crate) values: Vec<f64>,
 }
 
 impl Grid {
@@ -56,7 +56,7 @@ impl Grid {
     }
 
     /// The lines `f = level` in grid coordinates; a closed line ends where it starts.
-    pub(super) fn contour(&self, level: f64) -> Vec<Vec<(f64, f64)>> {
+    pub(crate) fn contour(&self, level: f64) -> Vec<Vec<(f64, f64)>> {
         let segments = self.segments(level);
         let mut ends: BTreeMap<Edge, Vec<usize>> = BTreeMap::new();
         for (k, s) in segments.iter().enumerate() {

@@ -25,6 +25,7 @@ pub use correspondence::LegCorrespondence;
 pub use determinant::Factor;
 pub use enumerate::{Symmetry, enumerate, representative};
 pub use family::{Family, FamilyCounts, FamilyMember, FamilyTopology};
+pub(crate) use hexagon::corner;
 pub use hexagon::{
     Body, HexagonPoint, JointLabel, Offset, edge_lengths, offsets_from_distances, sliding_body,
 };

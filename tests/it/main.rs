@@ -26,6 +26,7 @@ mod cli_synthesis;
 mod cli_tolerances;
 mod cli_topologies;
 mod cli_verify;
+mod cli_view;
 mod closure;
 mod completeness;
 mod design_files;

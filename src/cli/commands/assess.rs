@@ -11,7 +11,7 @@ use crate::cli::failure::Failure;
 use crate::cli::output::{Answer, number};
 use crate::cli::poses;
 use crate::design::Design;
-use crate::requirements::{AssessOptions, Assessment, Margin, Quantity, TermKind, assess};
+use crate::requirements::{AssessOptions, Assessment, Margin, assess};
 
 /// Arguments of `assess`.
 #[derive(Debug, clap::Args)]
@@ -52,39 +52,12 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     Ok(Answer { exit, json: record(&design, &found), text: text(&design, &found) })
 }
 
-/// Leg, joint, keep-out and load names of a requirement.
-pub(super) fn names(design: &Design, margin: &Margin) -> Vec<String> {
-    let term = margin.term;
-    let leg = |i: usize| format!("leg {}", i + 1);
-    match term.kind {
-        TermKind::BaseSpacing => {
-            vec![design.base_names()[term.first].clone(), design.base_names()[term.second].clone()]
-        }
-        TermKind::PlatformSpacing => {
-            vec![design.platform_names()[term.first].clone(), design.platform_names()[term.second].clone()]
-        }
-        TermKind::LegClearance => vec![leg(term.first), leg(term.second)],
-        TermKind::KeepOut => vec![leg(term.first), design.keep_outs[term.second].name.clone()],
-        TermKind::LegForce => vec![leg(term.first), design.loads[term.second].name.clone()],
-        _ => vec![leg(term.first)],
-    }
-}
-
-pub(super) fn unit(design: &Design, quantity: Quantity) -> String {
-    match quantity {
-        Quantity::Length => design.units.clone(),
-        Quantity::Angle => "deg".to_string(),
-        Quantity::Force => "force".to_string(),
-        Quantity::Speed => format!("{}/s", design.units),
-    }
-}
-
 /// The margins as JSON.
 pub(super) fn margins(design: &Design, found: &Assessment) -> Value {
     let margin = |m: &Margin| {
         json!({
             "requirement": m.term.kind.code(), "margin": number(m.value), "met": m.value >= 0.0,
-            "unit": unit(design, m.term.kind.quantity()), "between": names(design, m), "pose": m.pose.as_ref().map(poses::record),
+            "unit": design.unit_of(m.term.kind.quantity()), "between": design.names_of(m.term), "pose": m.pose.as_ref().map(poses::record),
         })
     };
     found.margins.iter().map(margin).collect()
@@ -115,13 +88,13 @@ fn text(design: &Design, found: &Assessment) -> String {
             },
         );
         let mark = if m.value >= 0.0 { ' ' } else { '!' };
-        let of = names(design, m).join(", ");
+        let of = design.names_of(m.term).join(", ");
         let _ = writeln!(
             out,
             "{:<17}{mark}{:>14.6} {:<8} {of:<24} {pose}",
             m.term.kind.code(),
             m.value,
-            unit(design, m.term.kind.quantity())
+            design.unit_of(m.term.kind.quantity())
         );
     }
     out.push_str("\nA margin below 0 is a violation. No violation found is no proof that there is none between the poses looked at.\n");

@@ -12,6 +12,7 @@ use crate::cli::files;
 use crate::cli::output::{Answer, number};
 use crate::design::Design;
 use crate::manipulator::Octahedral;
+use crate::page::Original;
 use crate::synthesis::{
     Body, Factor, Family, FamilyCounts, FamilyMember, HexagonPoint, JointLabel, Pattern, edge_lengths,
 };
@@ -66,9 +67,10 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let mut text = summary(&design, c);
     match wanted {
         Some(pattern) => {
-            describe(&mut text, &pattern, &o, &design);
+            let original = Original::octahedral(&design, o);
+            describe(&mut text, &pattern, &original);
             if let Some(offsets) = &args.offsets {
-                realise(args, &pattern, &o, &design, offsets, &mut json, &mut text)?;
+                realise(args, &pattern, &original, offsets, &mut json, &mut text)?;
             }
         }
         None => list_topologies(&mut text, &family),
@@ -88,7 +90,8 @@ pub(super) fn record(
     json.insert("cyclic_order".into(), o.order().iter().map(|i| json!(i.get() + 1)).collect());
     json.insert("edges".into(), edge_lengths(o).into_iter().map(number).collect());
     json.insert("counts".into(), counts_record(family.counts()));
-    json.insert("patterns".into(), members.iter().map(|m| pattern_record(m, o, design)).collect());
+    let original = Original::octahedral(design, o.clone());
+    json.insert("patterns".into(), members.iter().map(|m| pattern_record(m, &original)).collect());
     json.insert("topologies".into(), topology_records(family));
     json
 }
@@ -104,15 +107,14 @@ fn parse_pattern(text: &str) -> Result<Pattern, Failure> {
 fn realise(
     args: &Args,
     pattern: &Pattern,
-    o: &Octahedral,
-    design: &Design,
+    original: &Original,
     offsets: &[f64],
     json: &mut Map<String, Value>,
     text: &mut String,
 ) -> Result<(), Failure> {
     let refused = |e: &dyn std::fmt::Display| Failure::refused("family::bad_offsets", e.to_string());
-    let m = pattern.instantiate(o, offsets).map_err(|e| refused(&e))?;
-    let map = pattern.leg_map(o, offsets).map_err(|e| refused(&e))?;
+    let (built, map) = original.equivalent(pattern, offsets).map_err(|e| refused(&e))?;
+    let m = built.manipulator();
     let det = pattern.determinant(offsets).map_err(|e| refused(&e))?;
     json.insert(
         "instance".into(),
@@ -128,35 +130,10 @@ fn realise(
     );
     let _ = writeln!(text, "\nat these offsets det A = {det}");
     if let Some(path) = &args.output {
-        let [base, platform] =
-            pattern.joints().map(|list| list.iter().map(|j| joint_name(*j, o, design)).collect());
-        let mut built = Design::new(format!("{} {pattern}", design.name), &design.units, m)
-            .with_joint_names(base, platform)
-            .map_err(|e| Failure::internal(e.to_string()))?
-            .with_tables_of(design);
-        built.description = Some(format!("{pattern} of {}, offsets {offsets:?}", design.name));
-        // the same pose, seen by the new legs
-        built.lengths = design.lengths.and_then(|l| map.apply(&l.squared()).ok()).map(|s| s.lengths());
         files::write_design(path, &built)?;
         let _ = writeln!(text, "wrote {}", path.display());
     }
     Ok(())
-}
-
-/// Corners keep the names of the design; new joints are `Q1` .. `Q6`, avoiding names that exist.
-fn joint_name(joint: JointLabel, o: &Octahedral, design: &Design) -> String {
-    match joint {
-        JointLabel::Corner(i) if i < 3 => design.base_names()[o.base_indices()[i]].clone(),
-        JointLabel::Corner(i) => design.platform_names()[o.platform_indices()[i - 3]].clone(),
-        JointLabel::OnEdge(_) => {
-            let taken = |n: &String| design.base_names().contains(n) || design.platform_names().contains(n);
-            let mut name = joint.to_string();
-            while taken(&name) {
-                name.insert(0, 'N');
-            }
-            name
-        }
-    }
 }
 
 fn counts_record(c: FamilyCounts) -> Value {
@@ -169,10 +146,10 @@ fn counts_record(c: FamilyCounts) -> Value {
     })
 }
 
-fn pattern_record(member: &FamilyMember, o: &Octahedral, design: &Design) -> Value {
-    let p = &member.pattern;
+fn pattern_record(member: &FamilyMember, original: &Original) -> Value {
+    let (p, o) = (&member.pattern, &original.octahedral);
     let order = o.order();
-    let name = |j: JointLabel| joint_name(j, o, design);
+    let name = |j: JointLabel| original.joint_name(j);
     let mut legs = vec![Value::Null; 6];
     for (slot, point) in order.iter().zip(p.legs()) {
         let [base, platform] = point.joints().map(name);
@@ -253,11 +230,12 @@ fn list_topologies(text: &mut String, family: &Family) {
     }
 }
 
-fn describe(text: &mut String, pattern: &Pattern, o: &Octahedral, design: &Design) {
+fn describe(text: &mut String, pattern: &Pattern, original: &Original) {
+    let o = &original.octahedral;
     let _ = writeln!(text, "\npattern {pattern}");
     let mut lines: Vec<(usize, String)> = Vec::new();
     for (slot, point) in o.order().iter().zip(pattern.legs()) {
-        let [a, b] = point.joints().map(|j| joint_name(j, o, design));
+        let [a, b] = original.leg_names(point);
         let formula = match point {
             HexagonPoint::Vertex(_) => format!("s{}", slot.get() + 1),
             HexagonPoint::Inner(t) => {

@@ -37,6 +37,7 @@ mod singularities;
 mod tolerances;
 mod topologies;
 mod verify;
+mod view;
 
 use clap::Subcommand;
 
@@ -101,6 +102,8 @@ pub(crate) enum Command {
     Topologies(topologies::Args),
     /// Whether two designs are kinematically equivalent, with evidence
     Verify(verify::Args),
+    /// A design as one HTML page: 3D, assembly modes, equivalents side by side, live offsets
+    View(view::Args),
 }
 
 impl Command {
@@ -133,6 +136,7 @@ impl Command {
             Self::Tolerances(args) => tolerances::run(args, context),
             Self::Topologies(args) => topologies::run(args, context),
             Self::Verify(args) => verify::run(args, context),
+            Self::View(args) => view::run(args, context),
         }
     }
 }

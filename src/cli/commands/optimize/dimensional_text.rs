@@ -17,12 +17,12 @@ fn numbers(values: &[f64]) -> Value {
 }
 
 pub(super) fn unit(design: &Design, o: Objective) -> String {
-    o.quantity().map_or_else(String::new, |q| assess::unit(design, q))
+    o.quantity().map_or_else(String::new, |q| design.unit_of(q))
 }
 
 /// A constraint in words, and the unit in which it gives.
 fn words(design: &Design, d: Demand) -> (&'static str, String, String) {
-    let unit = |q| assess::unit(design, q);
+    let unit = |q| design.unit_of(q);
     match d {
         Demand::Requirement(kind) => {
             let sentence = match kind {
@@ -182,8 +182,7 @@ fn solution_text(out: &mut String, design: &Design, s: &DimensionalSolution, c: 
     let _ = writeln!(out, "margins over {} poses, by other code:", c.assessment.poses);
     for m in &c.assessment.margins {
         let mark = if m.value >= 0.0 { ' ' } else { '!' };
-        let (of, unit) =
-            (assess::names(&c.design, m).join(", "), assess::unit(design, m.term.kind.quantity()));
+        let (of, unit) = (c.design.names_of(m.term).join(", "), design.unit_of(m.term.kind.quantity()));
         let _ = writeln!(out, "  {:<17}{mark}{:>14.6} {unit:<8} {of}", m.term.kind.code(), m.value);
     }
 }

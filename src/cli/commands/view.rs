@@ -1,0 +1,79 @@
+//! `equipod view`: a design as one HTML page.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::{Map, Value, json};
+
+use crate::cli::context::Context;
+use crate::cli::exit::Exit;
+use crate::cli::failure::Failure;
+use crate::cli::files;
+use crate::cli::output::Answer;
+use crate::page::{CORE, Session, page};
+
+/// Arguments of `view`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Design file (.toml or .json)
+    design: PathBuf,
+    /// The page; the name of the design file with .html when absent
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// The equivalent platform shown first, for instance S123456 (no shared joint) or V23456S1
+    #[arg(long, value_name = "ID", requires = "offsets")]
+    pattern: Option<String>,
+    /// Its offsets, fractions of the edges; without --pattern those of S123456
+    #[arg(long, value_name = "T1,..", value_delimiter = ',', allow_hyphen_values = true)]
+    offsets: Option<Vec<f64>>,
+    /// Another core in WebAssembly, plain or compressed by gzip, instead of the one in this program; `none`: recorded data only
+    #[arg(long, value_name = "FILE|none")]
+    core: Option<PathBuf>,
+}
+
+/// Writes the page.
+pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+    let mut session = Session::new(context.load(&args.design)?);
+    if let Some(offsets) = &args.offsets {
+        let id = args.pattern.as_deref().unwrap_or("S123456");
+        let pattern = id.parse().map_err(|e| {
+            Failure::refused("view::bad_pattern", format!("`{id}`: {e}"))
+                .with_help("take an \"id\" from the patterns of `equipod family DESIGN --json`")
+        })?;
+        session = session
+            .starting_with(pattern, offsets.clone())
+            .map_err(|e| Failure::refused("view::bad_offsets", e.to_string()))?;
+    }
+    let core = core(args.core.as_deref())?;
+    let html = page(&session, core.as_deref());
+    let output = args.output.clone().unwrap_or_else(|| beside(&args.design));
+    files::write_text(&output, &html)?;
+    let shown = output.display().to_string();
+    let mut json: Map<String, Value> = Map::new();
+    json.insert("name".into(), json!(session.design().name));
+    json.insert("output".into(), json!(shown));
+    json.insert("bytes".into(), json!(html.len()));
+    json.insert("live".into(), json!(core.is_some()));
+    let how = if core.is_some() { "" } else { ", with recorded data only" };
+    Ok(Answer { exit: Exit::Yes, json, text: format!("wrote {shown}{how}\n") })
+}
+
+/// `designs/a.toml` gives `a.html`.
+fn beside(design: &Path) -> PathBuf {
+    PathBuf::from(design.file_name().unwrap_or_default()).with_extension("html")
+}
+
+/// The module to put into the page.
+fn core(wanted: Option<&Path>) -> Result<Option<Vec<u8>>, Failure> {
+    let Some(path) = wanted else { return Ok(Some(CORE.to_vec())) };
+    if path == Path::new("none") {
+        return Ok(None);
+    }
+    let bytes = files::read_bytes(path)?;
+    let known: [&[u8]; 2] = [b"\0asm", &[0x1f, 0x8b]];
+    if !known.iter().any(|k| bytes.starts_with(k)) {
+        let message = format!("{} is neither WebAssembly nor compressed by gzip", path.display());
+        return Err(Failure::refused("view::bad_core", message)
+            .with_help("tests/page/build-core makes one from the sources"));
+    }
+    Ok(Some(bytes))
+}

@@ -1,0 +1,30 @@
+//! One HTML page that shows a design at work, and the questions it asks the core.
+//!
+//! The page computes nothing by itself: every number it shows is the answer of [`Session::answer`] to a request in JSON. In the
+//! browser that function runs as WebAssembly; where there is none, the page replays answers that were recorded when it was written.
+//! Text in, text out: nothing here reads or writes files.
+
+mod base64;
+#[cfg(all(target_arch = "wasm32", feature = "page-core"))]
+mod exports;
+mod html;
+mod modes;
+mod motion;
+mod opening;
+mod original;
+mod path;
+mod plane;
+mod request;
+mod scene;
+mod session;
+#[cfg(test)]
+mod tests;
+mod wire;
+mod worst;
+
+#[cfg(not(target_arch = "wasm32"))]
+pub use html::CORE;
+pub use html::page;
+#[cfg_attr(not(feature = "cli"), allow(unused_imports, reason = "the command line alone uses it"))]
+pub(crate) use original::Original;
+pub use session::{InvalidStart, Session};

@@ -1,0 +1,74 @@
+//! Assembly modes: all real poses with given leg lengths.
+
+use serde_json::{Value, json};
+
+use super::request::Refusal;
+use super::scene::sign;
+use super::wire::{number, pose};
+use crate::fk::{Completeness, FkOptions, FkRoot, FkSolutions, Reality, SolutionSet, solver};
+use crate::geom::{ComplexPose, Pose};
+use crate::manipulator::{LegLengths, Manipulator, SquaredLegLengths, inverse_condition, jacobian};
+
+fn at_pose(m: &Manipulator, at: &Pose) -> Result<SquaredLegLengths, Refusal> {
+    at.squared_lengths(m).ok_or_else(|| Refusal::new("pose", "a leg has no length at this pose"))
+}
+
+fn solve(m: &Manipulator, s: SquaredLegLengths) -> Result<FkSolutions, Refusal> {
+    solver(None).solve(m, &s, &FkOptions::default()).map_err(|e| Refusal::new("fk", e))
+}
+
+/// All poses of two platforms, real and complex, with their own leg lengths at a pose; `distance` is the largest from a pose of the first to the
+/// nearest of the second, `null` unless each has one of its own.
+pub(super) fn confirm(first: &Manipulator, second: &Manipulator, at: &Pose) -> Result<Value, Refusal> {
+    let (a, b) = (solve(first, at_pose(first, at)?)?, solve(second, at_pose(second, at)?)?);
+    let mut free: Vec<&FkRoot> = b.roots.iter().collect();
+    let mut worst = Some(0.0_f64);
+    for root in &a.roots {
+        let distance = |k: &usize| free[*k].pose.distance(&root.pose, first.size());
+        let nearest = (0..free.len()).min_by(|x, y| distance(x).total_cmp(&distance(y)));
+        worst = worst.zip(nearest).map(|(w, k)| w.max(distance(&k)));
+        if let Some(k) = nearest {
+            free.swap_remove(k);
+        }
+    }
+    let distance = worst.filter(|_| a.roots.len() == b.roots.len());
+    let side = |s: &FkSolutions| json!({"method": s.method.name(), "finite": s.roots.len(), "set": s.solution_set.name()});
+    Ok(json!({"first": side(&a), "second": side(&b), "distance": distance.map_or(Value::Null, number)}))
+}
+
+/// All poses with the lengths given, or with those at a pose; `here` is then the index of the one nearest to that pose.
+pub(super) fn record(m: &Manipulator, at: &Pose, lengths: Option<[f64; 6]>) -> Result<Value, Refusal> {
+    let found = match lengths {
+        Some(l) => solve(m, LegLengths::try_new(l).map_err(|e| Refusal::new("lengths", e))?.squared())?,
+        None => solve(m, at_pose(m, at)?)?,
+    };
+    let roots: Vec<&FkRoot> = match &found.solution_set {
+        SolutionSet::PositiveDimensional { witnesses, .. } => witnesses.iter().collect(),
+        _ => found.roots.iter().collect(),
+    };
+    let real: Vec<&FkRoot> = roots.iter().copied().filter(|r| r.reality == Reality::Real).collect();
+    let from = ComplexPose::from(*at);
+    let distance = |r: &FkRoot| r.pose.distance(&from, m.size());
+    let here = (0..real.len())
+        .filter(|_| lengths.is_none())
+        .min_by(|a, b| distance(real[*a]).total_cmp(&distance(real[*b])));
+    let (proved, reason) = match &found.completeness {
+        Completeness::Proved { argument } => (true, argument),
+        Completeness::Unproved { reason, .. } => (false, reason),
+    };
+    Ok(json!({
+        "method": found.method.name(), "solution_set": found.solution_set.name(),
+        "finite": found.roots.len(), "proved": proved, "reason": reason, "here": here,
+        "modes": real.iter().map(|r| mode(m, r)).collect::<Value>(),
+        "complex": roots.iter().filter(|r| r.reality != Reality::Real).count(),
+    }))
+}
+
+fn mode(m: &Manipulator, root: &FkRoot) -> Value {
+    let real = root.pose.real_part();
+    let j = jacobian(m, &real, m.platform_rms_radius());
+    json!({
+        "pose": pose(&real), "sign": sign(&j), "inverse_condition": number(inverse_condition(&j)),
+        "certified": root.certified, "multiplicity": root.multiplicity, "residual": number(root.residual),
+    })
+}

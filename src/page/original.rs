@@ -1,0 +1,132 @@
+//! The octahedral platform behind a design, and its equivalents as designs with names.
+
+use crate::design::Design;
+use crate::manipulator::{LegIndex, Manipulator, Octahedral};
+use crate::singularity::GriffisDuffy;
+use crate::synthesis::{
+    AffineLegMap, Body, HexagonPoint, InstantiateError, JointLabel, Offset, Pattern, corner,
+};
+
+/// An octahedral platform with the names of its corners and of the joints on its edges.
+#[derive(Debug, Clone)]
+pub(crate) struct Original {
+    pub(crate) octahedral: Octahedral,
+    /// The octahedral platform as a design.
+    pub(crate) design: Design,
+    /// What the names of the equivalents begin with.
+    name: String,
+    /// `P1` .. `P6` in the words of the design.
+    corners: [String; 6],
+    /// `Q1`, `Q1b` .. `Q6`, `Q6b`: the joints on the sides of the hexagon.
+    on_edges: [[String; 2]; 6],
+    /// The design seen as one of its equivalents, when it is not octahedral itself.
+    pub(crate) seen: Option<(Pattern, Vec<f64>)>,
+}
+
+impl Original {
+    /// The octahedral platform a design is or, without shared joints, is made of by offsets along the sides of two triangles; `None` for
+    /// other designs.
+    pub(crate) fn of(design: &Design) -> Option<Self> {
+        match Octahedral::recognise(design.manipulator()) {
+            Ok(octahedral) => Some(Self::octahedral(design, octahedral)),
+            Err(_) => Self::griffis_duffy(design),
+        }
+    }
+
+    /// An octahedral design; new joints on its edges are named so that they differ from its own.
+    pub(crate) fn octahedral(design: &Design, octahedral: Octahedral) -> Self {
+        let (base, platform) = (octahedral.base_indices(), octahedral.platform_indices());
+        let corners = std::array::from_fn(|i| match i {
+            0..3 => design.base_names()[base[i]].clone(),
+            _ => design.platform_names()[platform[i - 3]].clone(),
+        });
+        let on_edges =
+            std::array::from_fn(|side| [false, true].map(|second| free_name(design, side, second)));
+        Self { octahedral, design: design.clone(), name: design.name.clone(), corners, on_edges, seen: None }
+    }
+
+    /// A design of Griffis-Duffy type: its joints at the corners are those of the original, leg on side `k` becomes leg `k` of the cycle.
+    fn griffis_duffy(design: &Design) -> Option<Self> {
+        let m = design.manipulator();
+        let found = GriffisDuffy::recognise(m)?;
+        let ends = found.order.map(|leg| m.pairs()[leg]);
+        let (base, platform) = ([5, 1, 3].map(|k| ends[k].0), [0, 2, 4].map(|k| ends[k].1));
+        let mut pairs = [(0, 0); 6];
+        for (k, leg) in found.order.into_iter().enumerate() {
+            pairs[leg] = (corner(Body::Base, k), corner(Body::Platform, k) - 3);
+        }
+        let points = |all: &[nalgebra::Point3<f64>], used: [usize; 3]| used.map(|i| all[i]).to_vec();
+        let original =
+            Manipulator::try_new(points(m.base_joints(), base), points(m.platform_joints(), platform), pairs)
+                .ok()?;
+        let octahedral = Octahedral::recognise_from(&original, LegIndex::new(found.order[0])?).ok()?;
+        let (of_base, of_platform) = (design.base_names(), design.platform_names());
+        let names = [base.map(|i| of_base[i].clone()), platform.map(|i| of_platform[i].clone())];
+        let on_edges = std::array::from_fn(|k| {
+            let (a, b) = ends[k];
+            let own = if k % 2 == 0 { &of_base[a] } else { &of_platform[b] };
+            [own.clone(), free_name(design, k, true)]
+        });
+        let [first, second] = names.clone().map(Vec::from);
+        let named = Design::new(format!("{}, octahedral original", design.name), &design.units, original);
+        let mut named = named.with_joint_names(first, second).ok()?.with_tables_of(design);
+        let [[p1, p2, p3], [p4, p5, p6]] = names;
+        let pattern = Pattern::new([false; 6], [1; 6])?;
+        let back = pattern.leg_map(&octahedral, &found.t).ok()?.invert().ok();
+        let squares = design.lengths.zip(back).and_then(|(l, back)| back.apply(&l.squared()).ok());
+        named.lengths = squares.map(|s| s.lengths());
+        Some(Self {
+            octahedral,
+            design: named,
+            name: design.name.clone(),
+            corners: [p1, p2, p3, p4, p5, p6],
+            on_edges,
+            seen: Some((pattern, found.t.to_vec())),
+        })
+    }
+
+    /// The name of a joint: that of the design where it has one.
+    pub(crate) fn joint_name(&self, joint: JointLabel) -> String {
+        match joint {
+            JointLabel::Corner(i) => self.corners[i].clone(),
+            JointLabel::OnEdge(o) => self.on_edges[o.side][usize::from(o.second)].clone(),
+        }
+    }
+
+    /// Names of the two joints of a leg, base first.
+    pub(crate) fn leg_names(&self, point: HexagonPoint) -> [String; 2] {
+        point.joints().map(|j| self.joint_name(j))
+    }
+
+    /// The equivalent platform of a pattern as a design, with the tables of the original, and its leg map.
+    ///
+    /// Leg lengths of the original become those of the same pose.
+    ///
+    /// # Errors
+    /// Offsets that are too few or too many, not finite, or make no platform.
+    pub(crate) fn equivalent(
+        &self,
+        pattern: &Pattern,
+        offsets: &[f64],
+    ) -> Result<(Design, AffineLegMap), InstantiateError> {
+        let m = pattern.instantiate(&self.octahedral, offsets)?;
+        let map = pattern.leg_map(&self.octahedral, offsets)?;
+        let [base, platform] = pattern.joints().map(|l| l.iter().map(|j| self.joint_name(*j)).collect());
+        let own = &self.design;
+        let plain = Design::new(format!("{} {pattern}", self.name), &own.units, m);
+        // a pattern has a name for each joint it has
+        let mut built = plain.clone().with_joint_names(base, platform).unwrap_or(plain).with_tables_of(own);
+        built.description = Some(format!("{pattern} of {}, offsets {offsets:?}", own.name));
+        built.lengths = own.lengths.and_then(|l| map.apply(&l.squared()).ok()).map(|s| s.lengths());
+        Ok((built, map))
+    }
+}
+
+/// The name of a joint on an edge, with an `N` before it as often as the design has it already.
+fn free_name(design: &Design, side: usize, second: bool) -> String {
+    let mut name = JointLabel::OnEdge(Offset { side, second }).to_string();
+    while design.base_names().contains(&name) || design.platform_names().contains(&name) {
+        name.insert(0, 'N');
+    }
+    name
+}

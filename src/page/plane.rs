@@ -1,0 +1,66 @@
+//! `det A` over two offsets of an equivalent platform.
+
+use serde_json::{Value, json};
+
+use super::request::Refusal;
+use super::session::Equivalent;
+use super::wire::{number, numbers};
+use crate::plot::Grid;
+
+/// Most points a side.
+const MOST: usize = 201;
+
+impl Equivalent {
+    /// `det A` with the offset `k` at `value`.
+    fn with(&self, changes: &[(usize, f64)]) -> Result<f64, Refusal> {
+        let mut offsets = self.offsets.clone();
+        for (k, value) in changes {
+            match offsets.get_mut(*k) {
+                Some(place) => *place = *value,
+                None => return Err(Refusal::new("offsets", format!("there is no offset {}", k + 1))),
+            }
+        }
+        self.pattern.determinant(&offsets).map_err(|e| Refusal::new("offsets", e))
+    }
+
+    /// For each offset where `det A` vanishes when the others stay: `det A` is affine in every single one. `None` where it does not depend on it.
+    pub(super) fn zeros(&self) -> Result<Vec<Option<f64>>, Refusal> {
+        (0..self.offsets.len())
+            .map(|k| {
+                let (at_0, at_1) = (self.with(&[(k, 0.0)])?, self.with(&[(k, 1.0)])?);
+                let zero = at_0 / (at_0 - at_1);
+                Ok(zero.is_finite().then_some(zero))
+            })
+            .collect()
+    }
+}
+
+/// Values on a square of two offsets, row by row with the first offset to the right, and the lines on which they vanish.
+pub(super) fn record(
+    e: &Equivalent,
+    [i, j]: [usize; 2],
+    [low, high]: [f64; 2],
+    points: usize,
+) -> Result<Value, Refusal> {
+    if i == j || !(2..=MOST).contains(&points) || !(low < high && high - low < f64::INFINITY) {
+        return Err(Refusal::new(
+            "request",
+            "two different offsets, low < high and 2 to 201 points are needed",
+        ));
+    }
+    let place = |k: f64| low + k / (points as f64 - 1.0) * (high - low);
+    let mut values = Vec::with_capacity(points * points);
+    for row in 0..points {
+        for column in 0..points {
+            values.push(e.with(&[(i, place(column as f64)), (j, place(row as f64))])?);
+        }
+    }
+    let grid = Grid { columns: points, rows: points, values };
+    let lines: Value = grid
+        .contour(0.0)
+        .into_iter()
+        .map(|line| line.into_iter().map(|(x, y)| json!([number(place(x)), number(place(y))])).collect())
+        .collect::<Vec<Value>>()
+        .into();
+    Ok(json!({"points": points, "low": low, "high": high, "values": numbers(grid.values), "zero": lines}))
+}

@@ -1,0 +1,122 @@
+//! A design opened for a page.
+
+use thiserror::Error;
+
+use super::original::Original;
+use crate::design::Design;
+use crate::geom::Pose;
+use crate::manipulator::Manipulator;
+use crate::offsets::OffsetProblem;
+use crate::synthesis::{AffineLegMap, InstantiateError, Pattern};
+
+/// Offset on every edge that a page starts from when nothing else is asked.
+const FIRST_OFFSET: f64 = 0.2;
+
+/// A design with what its page needs to know: the octahedral platform behind it, home, and where the offsets begin.
+#[derive(Debug, Clone)]
+pub struct Session {
+    pub(super) design: Design,
+    pub(super) original: Option<Original>,
+    pub(super) start: Option<Equivalent>,
+    pub(super) home: Pose,
+    /// `L` of the conditioning, design units; the same for the original and its equivalents.
+    pub(super) characteristic_length: f64,
+    /// Least distance of joint centres and least `|det A|` asked for.
+    pub(super) limits: (f64, f64),
+}
+
+/// One of the equivalent platforms.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Equivalent {
+    pub(super) pattern: Pattern,
+    pub(super) offsets: Vec<f64>,
+}
+
+/// A platform that cannot be shown first.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum InvalidStart {
+    /// The design has no equivalents to choose from.
+    #[error(
+        "the design is neither octahedral nor made from an octahedral platform by offsets on the sides of two triangles"
+    )]
+    NoOriginal,
+    /// The offsets do not fit the pattern.
+    #[error(transparent)]
+    Offsets(#[from] InstantiateError),
+}
+
+impl Session {
+    /// Opens a design. The page of an octahedral design starts with its equivalent without shared joints at `t = 0.2` on all edges, that of an
+    /// equivalent one with the design itself.
+    #[must_use]
+    pub fn new(design: Design) -> Self {
+        let original = Original::of(&design);
+        let start = original.as_ref().and_then(|o| {
+            let first = || Some((Pattern::new([false; 6], [1; 6])?, vec![FIRST_OFFSET; 6]));
+            o.seen.clone().or_else(first).map(|(pattern, offsets)| Equivalent { pattern, offsets })
+        });
+        let (table, m) = (&design.optimize, design.manipulator());
+        let defaults =
+            original.as_ref().map(|o| OffsetProblem::with_defaults(o.octahedral.clone(), Vec::new()));
+        let radius = defaults.as_ref().map_or(m.platform_rms_radius(), |d| d.characteristic_length);
+        let spacing = defaults.as_ref().map_or(0.0, |d| d.min_joint_distance);
+        let least = defaults.as_ref().map_or(0.0, |d| d.min_abs_det);
+        Self {
+            start,
+            home: design.home_or_default(),
+            characteristic_length: table.characteristic_length.unwrap_or(radius),
+            limits: (table.min_joint_distance.unwrap_or(spacing), table.min_abs_det.unwrap_or(least)),
+            original,
+            design,
+        }
+    }
+
+    /// The same with another equivalent platform to begin with.
+    ///
+    /// # Errors
+    /// [`InvalidStart`] when there are no equivalents, or the offsets do not fit.
+    pub fn starting_with(mut self, pattern: Pattern, offsets: Vec<f64>) -> Result<Self, InvalidStart> {
+        let original = self.original.as_ref().ok_or(InvalidStart::NoOriginal)?;
+        pattern.instantiate(&original.octahedral, &offsets)?;
+        self.start = Some(Equivalent { pattern, offsets });
+        Ok(self)
+    }
+
+    /// The design.
+    #[must_use]
+    pub fn design(&self) -> &Design {
+        &self.design
+    }
+
+    /// The octahedral original, or the design itself where there is none.
+    pub(super) fn first(&self) -> &Design {
+        self.original.as_ref().map_or(&self.design, |o| &o.design)
+    }
+
+    /// Whether the requirements of the file are about [`first`](Self::first): those of a platform without shared joints are not about its original.
+    pub(super) fn first_is_given(&self) -> bool {
+        self.original.as_ref().is_none_or(|o| o.seen.is_none())
+    }
+
+    /// The equivalent platform as a design with its leg map from the original.
+    pub(super) fn second(&self, e: &Equivalent) -> Result<(Design, AffineLegMap), InvalidStart> {
+        let original = self.original.as_ref().ok_or(InvalidStart::NoOriginal)?;
+        Ok(original.equivalent(&e.pattern, &e.offsets)?)
+    }
+
+    /// The poses by which conditioning is judged: those of the workspace, home first.
+    pub(super) fn judged(&self) -> Vec<Pose> {
+        self.design.workspace_or_default().sample(Some(&self.home))
+    }
+
+    /// Size of both bodies at home: what a picture has to hold.
+    pub(super) fn reach(&self) -> (nalgebra::Point3<f64>, f64) {
+        let m: &Manipulator = self.first().manipulator();
+        let ends: Vec<_> = m.legs().iter().flat_map(|l| [l.base, self.home.transform(&l.platform)]).collect();
+        let centre = nalgebra::Point3::from(
+            ends.iter().map(|p| p.coords).sum::<nalgebra::Vector3<f64>>() / ends.len() as f64,
+        );
+        (centre, ends.iter().map(|p| (p - centre).norm()).fold(0.0, f64::max))
+    }
+}

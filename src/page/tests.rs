@@ -1,0 +1,190 @@
+//! The answers of the core to a page.
+
+use serde_json::{Value, json};
+
+use super::{Session, page};
+use crate::design::{Design, Format, parse};
+use crate::synthesis::{LegMapTolerances, leg_map};
+
+const OCTAHEDRAL: &str = include_str!("../../designs/rbt-octahedral.toml");
+const EQUIVALENT: &str = include_str!("../../designs/rbt-griffis-duffy.toml");
+const MIDLINE: &str = include_str!("../../designs/rbt-midline.toml");
+const GENERAL: &str = include_str!("../../designs/general-6-6.toml");
+
+fn design(text: &str) -> Design {
+    parse(text, Format::Toml).unwrap().0
+}
+
+fn session(text: &str) -> Session {
+    Session::new(design(text))
+}
+
+fn ask(session: &Session, request: &Value) -> Value {
+    serde_json::from_str(&session.answer(&request.to_string())).unwrap()
+}
+
+fn numbers(v: &Value) -> Vec<f64> {
+    v.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()
+}
+
+fn built(answer: &Value) -> Design {
+    design(answer["toml"].as_str().unwrap())
+}
+
+/// The designs the page offers have the leg map it shows, by the leg vectors of their joints.
+#[test]
+fn the_original_of_a_design_without_shared_joints_is_found_with_its_offsets() {
+    for text in [EQUIVALENT, MIDLINE] {
+        for order in [[0, 1, 2, 3, 4, 5], [3, 0, 5, 2, 4, 1]] {
+            let given = design(text);
+            let turned = given.manipulator().reordered(order).unwrap();
+            let given = Design::new("turned", "mm", turned);
+            let session = Session::new(given.clone());
+            let start = ask(&session, &json!({"op": "open"}))["start"].clone();
+            let original = built(&ask(&session, &json!({"op": "design", "which": "first"})));
+            let again = built(&ask(&session, &json!({"op": "design", "which": "second", "chosen": start})));
+            let m = |d: &Design| d.manipulator().clone();
+            for (a, b) in m(&given).legs().iter().zip(m(&again).legs()) {
+                assert!(
+                    (a.base - b.base).norm() + (a.platform - b.platform).norm() < 1e-9,
+                    "same legs, same order"
+                );
+            }
+            let pose = ask(&session, &json!({"op": "path", "at": 0.3}))["pose"].clone();
+            let state = ask(&session, &json!({"op": "state", "pose": pose, "chosen": start}));
+            let found = leg_map(&m(&original), &m(&again), LegMapTolerances::default());
+            let outcome = found.unwrap();
+            assert!((outcome.determinant - state["map"]["det"].as_f64().unwrap()).abs() < 1e-9);
+            assert!(state["map"]["error"].as_f64().unwrap() < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn lengths_are_those_of_the_pose_and_the_map_holds_on_the_whole_way() {
+    let session = session(OCTAHEDRAL);
+    let chosen = json!({"pattern": "S123456", "offsets": [0.1, -0.3, 0.45, 1.2, 0.2, 0.7]});
+    for k in 0..8 {
+        let pose = ask(&session, &json!({"op": "path", "at": f64::from(k) / 8.0}))["pose"].clone();
+        let state = ask(&session, &json!({"op": "state", "pose": pose, "chosen": chosen}));
+        assert!(state["map"]["error"].as_f64().unwrap() < 1e-12);
+        for p in state["platforms"].as_array().unwrap() {
+            for (leg, length) in p["legs"].as_array().unwrap().iter().zip(numbers(&p["lengths"])) {
+                let end = |body: &str, k: usize| numbers(&p[body][leg[k].as_u64().unwrap() as usize]["at"]);
+                let (a, b) = (end("base", 0), end("platform", 1));
+                let distance = a.iter().zip(&b).map(|(x, y)| (x - y).powi(2)).sum::<f64>().sqrt();
+                assert!((distance - length).abs() < 1e-12 * length);
+            }
+        }
+    }
+}
+
+#[test]
+fn det_a_vanishes_at_the_marks_and_on_the_line_of_the_plane() {
+    let session = session(OCTAHEDRAL);
+    let pose = ask(&session, &json!({"op": "open"}))["home"].clone();
+    let mut offsets = vec![0.1, 0.3, 0.45, 0.6, 0.2, 0.7];
+    let det = |offsets: &[f64]| {
+        let chosen = json!({"pattern": "S123456", "offsets": offsets});
+        let map = ask(&session, &json!({"op": "state", "pose": pose, "chosen": chosen}))["map"].clone();
+        (map["det"].as_f64().unwrap(), map["zeros"].clone())
+    };
+    let (_, zeros) = det(&offsets);
+    offsets[3] = zeros[3].as_f64().unwrap();
+    assert!(det(&offsets).0.abs() < 1e-15);
+    let chosen = json!({"pattern": "S123456", "offsets": offsets});
+    let request =
+        json!({"op": "plane", "chosen": chosen, "axes": [1, 4], "range": [-0.5, 1.5], "points": 81});
+    let plane = ask(&session, &request);
+    let line: Vec<&Value> =
+        plane["zero"].as_array().unwrap().iter().flat_map(|l| l.as_array().unwrap()).collect();
+    assert!(line.len() > 20, "{line:?}");
+    for point in line {
+        let at = numbers(point);
+        (offsets[1], offsets[4]) = (at[0], at[1]);
+        assert!(det(&offsets).0.abs() < 1e-3, "linear interpolation on a grid of 81 points");
+    }
+}
+
+#[test]
+fn modes_of_both_platforms_are_the_same_poses() {
+    let session = session(OCTAHEDRAL);
+    let start = ask(&session, &json!({"op": "open"}));
+    let request = json!({"op": "confirm", "pose": start["home"], "chosen": start["start"]});
+    let found = ask(&session, &request);
+    assert_eq!((&found["first"]["finite"], &found["second"]["finite"]), (&json!(16), &json!(16)));
+    assert!(found["distance"].as_f64().unwrap() < 1e-8);
+    let modes = ask(&session, &json!({"op": "modes", "pose": start["home"], "which": "first"}));
+    let here = modes["here"].as_u64().unwrap() as usize;
+    let shown = numbers(&modes["modes"][here]["pose"]["p"]);
+    assert!(shown.iter().zip(numbers(&start["home"]["p"])).all(|(a, b)| (a - b).abs() < 1e-6));
+    assert_eq!(modes["proved"], json!(true));
+}
+
+#[test]
+fn a_singular_platform_moves_and_a_regular_one_does_not() {
+    let moving = |text: &str| {
+        let session = session(text);
+        let start = ask(&session, &json!({"op": "open"}));
+        ask(
+            &session,
+            &json!({"op": "motion", "pose": start["home"], "which": "second", "chosen": start["start"]}),
+        )
+    };
+    let found = moving(MIDLINE);
+    assert!(found["dimension"] == json!(1) && found["poses"].as_array().unwrap().len() > 50);
+    assert!(found["length_error"].as_f64().unwrap() < 1e-9);
+    assert_eq!(moving(EQUIVALENT)["dimension"], json!(0));
+}
+
+#[test]
+fn a_general_design_has_no_offsets() {
+    let session = session(GENERAL);
+    let open = ask(&session, &json!({"op": "open"}));
+    assert!(open["kind"] == json!("general") && open["patterns"].is_null() && open["hexagon"].is_null());
+    let state = ask(&session, &json!({"op": "state", "pose": open["home"]}));
+    assert!(state["platforms"].as_array().unwrap().len() == 1 && state["map"].is_null());
+    let chosen = json!({"pattern": "S123456", "offsets": [0.2, 0.2, 0.2, 0.2, 0.2, 0.2]});
+    let refused = ask(&session, &json!({"op": "state", "pose": open["home"], "chosen": chosen}));
+    assert_eq!(refused["error"]["code"], json!("offsets"));
+}
+
+#[test]
+fn what_cannot_be_answered_is_said() {
+    let session = session(OCTAHEDRAL);
+    let code = |request: &Value| ask(&session, request)["error"]["code"].clone();
+    assert_eq!(code(&json!({"op": "nothing"})), json!("request"));
+    let chosen = |pattern: &str, n: usize| json!({"pattern": pattern, "offsets": vec![0.2; n]});
+    assert_eq!(code(&json!({"op": "worst", "chosen": chosen("S123456", 5)})), json!("offsets"));
+    assert_eq!(code(&json!({"op": "worst", "chosen": chosen("V1", 0)})), json!("pattern"));
+    let plane = |axes: [usize; 2]| json!({"op": "plane", "chosen": chosen("S123456", 6), "axes": axes, "range": [0.0, 1.0], "points": 3});
+    assert_eq!(code(&plane([2, 2])), json!("request"));
+    assert_eq!(code(&plane([0, 6])), json!("offsets"));
+    assert!(Session::open(r#"{"design": "name = 3"}"#).unwrap_err().contains("\"code\":\"design\""));
+}
+
+#[test]
+fn the_page_opens_the_same_session_and_holds_no_address() {
+    let session = session(EQUIVALENT);
+    let html = page(&session, Some(b"\0asm"));
+    // the name of the language of pictures is the only address, and nobody follows it
+    let html = html.replace("http://www.w3.org/2000/svg", "");
+    assert!(!html.contains("{{") && !html.contains("http:") && !html.contains("https:"));
+    let data = html.split("id=\"data\">").nth(1).unwrap().split("</script>").next().unwrap();
+    let data: Value = serde_json::from_str(data).unwrap();
+    let again = Session::open(&data["opening"].to_string()).unwrap();
+    let open = json!({"op": "open"}).to_string();
+    assert_eq!(again.answer(&open), session.answer(&open));
+    assert_eq!(data["recorded"]["open"], ask(&session, &json!({"op": "open"})));
+    assert!(data["recorded"]["frames"].as_array().unwrap().iter().all(|f| f["error"].is_null()));
+}
+
+#[test]
+fn a_name_is_text_and_not_markup() {
+    let mut evil = design(OCTAHEDRAL);
+    evil.name = "</title></script><script>x</script>&".into();
+    let html = page(&Session::new(evil), None);
+    assert!(
+        !html.contains("<script>x") && html.contains("&lt;/title&gt;") && html.contains("\\u003c/script>")
+    );
+}

@@ -1,0 +1,227 @@
+// The page: what is shown, and who is told when it changes.
+
+class App {
+  constructor(core) {
+    this.core = core;
+    this.camera = new Camera(() => this.soon());
+    this.begin();
+    this.player = new Player((at) => this.move(at));
+    this.sliders = new Sliders($("sliders"), (changes) => this.change(changes));
+    this.hexagon = new Hexagon($("hexagon"), (k, t) => this.change([[k, t]]));
+    this.plane = new Plane($("plane"), $("plane-words"), (changes) => this.change(changes));
+    this.views = ["first", "second"].map((name) => new View($(`view-${name}`), this.camera, this.scene));
+    this.settle = later(160, () => this.slow());
+    this.listen();
+    this.rebuild();
+  }
+
+  /** Everything from a new design. */
+  begin() {
+    const open = this.core.ask({ op: "open" });
+    this.open = open;
+    this.scene = { centre: open.centre, radius: open.radius };
+    this.pose = open.home;
+    this.path = "workspace";
+    this.motion = null;
+    this.compared = -1;
+    this.pattern = open.patterns ? open.patterns.find((p) => p.id === open.start.pattern) : null;
+    this.offsets = open.start ? [...open.start.offsets] : [];
+    this.remembered = { [open.start ? open.start.pattern : ""]: this.offsets };
+  }
+
+  get chosen() {
+    return this.pattern ? { pattern: this.pattern.id, offsets: this.offsets } : null;
+  }
+
+  listen() {
+    $("home").addEventListener("click", () => this.goHome());
+    $("names").addEventListener("change", () => this.soon());
+    $("path").addEventListener("change", () => this.choosePath($("path").value));
+    $("pattern").addEventListener("change", () => this.choosePattern($("pattern").value));
+    $("restart").addEventListener("click", () => this.change(this.first().map((t, k) => [k, t])));
+    for (const [id, axis] of [["axis-x", 0], ["axis-y", 1]]) {
+      $(id).addEventListener("change", () => this.chooseAxis(axis, Number($(id).value)));
+    }
+    $("find").addEventListener("click", () => this.findModes());
+    $("by-lengths").addEventListener("submit", (e) => {
+      e.preventDefault();
+      this.findFor($("six").value);
+    });
+    $("confirm").addEventListener("click", () => this.confirm());
+    $("open").addEventListener("change", (e) => e.target.files[0] && this.replace(e.target.files[0]));
+    window.addEventListener("resize", () => this.soon());
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.soon());
+  }
+
+  /** Builds what depends on the design and the pattern. */
+  rebuild() {
+    const { open, pattern } = this;
+    const enabled = this.core.live;
+    $("name").textContent = open.name;
+    document.title = `${open.name} · equipod`;
+    const kinds = {
+      octahedral: "Octahedral platform and its kinematic equivalents: the same poses, squared leg lengths related by s′ = A s + c",
+      equivalent: "Platform without shared joints and its octahedral original",
+      general: "Six legs without octahedral original",
+    };
+    $("kind").textContent = kinds[open.kind];
+    $("badge").textContent = open.singular ? "architecturally singular" : "architecturally regular";
+    $("badge").className = `badge ${open.singular ? "bad" : "good"}`;
+    $("badge").title = open.reason || "some pose holds the platform: proved in exact arithmetic";
+    $("caption-first").replaceChildren(el("b", {}, pattern ? "Original" : "Platform"), ` ${pattern ? "octahedral" : open.name}`);
+    $("figure-second").hidden = !pattern;
+    document.querySelector(".views").classList.toggle("one", !pattern);
+    document.querySelector("main").classList.toggle("plain", !pattern);
+    for (const id of ["offsets", "hexagon-card", "plane-card"]) $(id).hidden = !pattern;
+    $("confirm").hidden = !pattern;
+    $("by-lengths-label").textContent = `Six leg lengths${pattern ? " of the original" : ""} [${open.units}]`;
+    $("six").value = open.lengths ? open.lengths.join(", ") : "";
+    for (const id of ["find", "confirm", "six", "solve", "pattern", "restart", "linked", "open", "axis-x", "axis-y"]) $(id).disabled = !enabled;
+    const paths = [["workspace", open.trajectory ? "trajectory of the design" : "through the workspace"], ["motion", "self-motion"]];
+    $("path").replaceChildren(...paths.map(([value, words]) => el("option", { value, selected: value === this.path }, words)));
+    if (pattern) this.rebuildPattern();
+    this.downloads();
+    this.modes = this.core.ask({ op: "modes", pose: this.pose, which: "first" });
+    this.listModes();
+    this.slow();
+    this.soon();
+  }
+
+  rebuildPattern() {
+    const words = (p) => `${p.id}: ${p.base_joints}-${p.platform_joints}, ${p.shared_joints ? `${p.shared_joints} shared` : "none shared"}`;
+    $("pattern").replaceChildren(...this.open.patterns.map((p) => el("option", { value: p.id, selected: p === this.pattern }, words(p))));
+    $("caption-second").replaceChildren(el("b", {}, "Equivalent"), ` ${this.pattern.id}, ${this.pattern.base_joints}-${this.pattern.platform_joints}`);
+    $("formula").textContent = `det A = ${this.pattern.det}`;
+    this.sliders.build(this.open.hexagon, this.pattern, this.core.live);
+    this.hexagon.build(this.open.hexagon, this.pattern, this.core.live);
+    this.plane.axes = [0, Math.min(1, this.pattern.offsets.length - 1)];
+    this.plane.enabled = this.core.live;
+    $("plane-card").hidden = this.pattern.offsets.length < 2;
+    this.axes();
+  }
+
+  axes() {
+    [["axis-x", 0], ["axis-y", 1]].forEach(([id, axis]) => {
+      const options = this.pattern.offsets.map((o, k) => el("option", { value: k, selected: k === this.plane.axes[axis] }, `${o.name} (${o.joint})`));
+      $(id).replaceChildren(...options);
+    });
+  }
+
+  chooseAxis(axis, k) {
+    const other = this.plane.axes[1 - axis];
+    if (k === other) this.plane.axes[1 - axis] = this.plane.axes[axis];
+    this.plane.axes[axis] = k;
+    this.axes();
+    this.slow();
+  }
+
+  first() {
+    const { start } = this.open;
+    return start.pattern === this.pattern.id ? start.offsets : this.pattern.offsets.map((o) => (o.name.startsWith("u") ? 0.7 : 0.2));
+  }
+
+  choosePattern(id) {
+    this.remembered[this.pattern.id] = this.offsets;
+    this.pattern = this.open.patterns.find((p) => p.id === id);
+    this.offsets = this.remembered[id] || this.first();
+    this.leaveMotion();
+    this.rebuildPattern();
+    this.slow();
+    this.soon();
+  }
+
+  /** New values of some offsets. */
+  change(changes) {
+    if (!this.core.live) return;
+    this.offsets = [...this.offsets];
+    for (const [k, t] of changes) {
+      if (!$("linked").checked) this.offsets[k] = t;
+      else this.pattern.offsets.forEach((o, i) => {
+        if (o.side % 2 === this.pattern.offsets[k].side % 2) this.offsets[i] = t;
+      });
+    }
+    this.leaveMotion();
+    this.settle();
+    this.soon();
+  }
+
+  soon() {
+    if (this.waiting) return;
+    this.waiting = requestAnimationFrame(() => {
+      this.waiting = 0;
+      this.show();
+    });
+  }
+
+  /** Everything that changes with the pose or an offset. */
+  show() {
+    const state = this.core.ask({ op: "state", pose: this.pose, chosen: this.chosen });
+    if (state.error) {
+      $("motion-words").textContent = state.error.message;
+      return;
+    }
+    this.state = state;
+    const [first, second] = state.platforms;
+    const names = $("names").checked;
+    const ghosts = this.ghosts();
+    this.frame([...state.platforms, ...ghosts].filter(Boolean));
+    this.views[0].draw(first, { ghost: ghosts[0], names });
+    if (second) this.views[1].draw(second, { original: first, ghost: ghosts[1], names });
+    const place = (p) => `3D view of ${p.name}: leg lengths ${p.lengths.map((x) => show(x, 4)).join(", ")} ${this.open.units}. Arrow keys turn it.`;
+    this.views.forEach((v, k) => state.platforms[k] && v.canvas.setAttribute("aria-label", place(state.platforms[k])));
+    if (this.pattern) {
+      this.sliders.update(this.offsets, state.map.zeros);
+      this.hexagon.update(this.offsets, state.map.zeros);
+      this.plane.draw(this.planeAnswer, this.pattern, this.offsets, state.map.det);
+    }
+    Tables.lengths(state, this.open.units);
+    Tables.margins(state);
+    this.tiles();
+    const p = state.pose.p.map((x) => fixed(x, 3)).join(", ");
+    $("pose-words").textContent = `p = (${p}) ${this.open.units}, R = [${state.pose.R.map((r) => r.map((x) => fixed(x, 3)).join(" ")).join("; ")}]`;
+    document.documentElement.dataset.shown = JSON.stringify(this.offsets);
+  }
+
+  /** What both pictures hold: the platform at home, and more when something is far from it. */
+  frame(platforms) {
+    const { centre, radius } = this.open;
+    const points = platforms.flatMap((p) => [...p.base, ...p.platform]).map((j) => j.at);
+    const far = (c) => Math.max(...points.map((p) => Math.hypot(...p.map((x, k) => x - c[k]))));
+    this.scene.centre = centre;
+    this.scene.radius = radius;
+    if (far(centre) <= 1.3 * radius) return;
+    const ends = [0, 1, 2].map((k) => points.map((p) => p[k]));
+    this.scene.centre = ends.map((x) => (Math.min(...x) + Math.max(...x)) / 2);
+    this.scene.radius = far(this.scene.centre);
+  }
+
+  ghosts() {
+    const mode = this.compared >= 0 && this.modes.modes ? this.modes.modes[this.compared] : null;
+    if (!mode) return [null, null];
+    const state = this.core.live ? this.core.ask({ op: "state", pose: mode.pose, chosen: this.chosen }) : null;
+    return state && !state.error ? state.platforms : [null, null];
+  }
+
+  tiles() {
+    const { state, open, worst } = this;
+    const [first, second] = state.platforms;
+    const list = [];
+    const near = (s) => (s ? show(s.distance, 4) : "–");
+    if (state.map) {
+      const singular = Math.abs(state.map.det) < open.limits.det;
+      list.push({ name: "det A of the leg map", id: "det", exact: state.map.det, wide: true, value: show(state.map.det), tone: singular ? "bad" : "good",
+        unit: Math.abs(state.map.det) < 1e-12 ? "singular: this platform cannot be held at any pose" : singular ? `below ${show(open.limits.det)}: too close to a singular platform` : "regular: same poses as the original" });
+    }
+    const both = (a, b) => (second ? `${a} · ${b}` : a);
+    const pair = second ? "original · equivalent" : "";
+    list.push({ name: "conditioning σ₆/σ₁ here", id: "condition", value: both(show(first.inverse_condition, 3), second && show(second.inverse_condition, 3)), unit: pair });
+    if (worst) {
+      const value = (w) => (w ? show(w.inverse_condition, 3) : "–");
+      list.push({ name: `worst of ${worst.poses} poses`, id: "worst", value: both(value(worst.first), value(worst.second)), unit: pair });
+    }
+    list.push({ name: `closest base joints [${open.units}]`, id: "spacing-base", value: both(near(first.spacing.base), second && near(second.spacing.base)), unit: second ? second.spacing.base.joints.join(", ") : null });
+    list.push({ name: `closest platform joints [${open.units}]`, id: "spacing-platform", value: both(near(first.spacing.platform), second && near(second.spacing.platform)), unit: second ? second.spacing.platform.joints.join(", ") : null });
+    list.push({ name: "sign of det J here", id: "sign", value: both(show(first.sign), second && show(second.sign)), unit: pair });
+    Tables.tiles(list);
+  }
+}

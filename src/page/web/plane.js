@@ -1,0 +1,151 @@
+// det A over two offsets: signs as tints, the line on which it vanishes, the current point.
+
+const PLANE = { low: -0.5, high: 1.5, points: 61, left: 52, right: 10, top: 10, bottom: 36 };
+
+class Plane {
+  constructor(canvas, words, set) {
+    Object.assign(this, { canvas, words, set, axes: [0, 1] });
+    const drag = (e) => {
+      if (!this.enabled || !(e.buttons & 1)) return;
+      const box = canvas.getBoundingClientRect();
+      this.move([this.value(e.clientX - box.left, 0), this.value(e.clientY - box.top, 1)].map((t) => Number(t.toFixed(3))));
+    };
+    canvas.addEventListener("pointerdown", (e) => {
+      canvas.setPointerCapture(e.pointerId);
+      drag(e);
+    });
+    canvas.addEventListener("pointermove", drag);
+    canvas.addEventListener("keydown", (e) => this.key(e));
+  }
+
+  key(e) {
+    const step = e.shiftKey ? 0.1 : 0.01;
+    const moves = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, step], ArrowDown: [0, -step] };
+    if (!this.enabled || !moves[e.key]) return;
+    e.preventDefault();
+    this.move(this.axes.map((k, i) => Number((this.offsets[k] + moves[e.key][i]).toFixed(6))));
+  }
+
+  move(values) {
+    this.set(this.axes.map((k, i) => [k, Math.max(PLANE.low, Math.min(PLANE.high, values[i]))]));
+  }
+
+  scaleOf(axis) {
+    const { left, right, top, bottom } = PLANE;
+    return axis === 0 ? [left, this.width - right] : [this.height - bottom, top];
+  }
+
+  place(t, axis) {
+    const [from, to] = this.scaleOf(axis);
+    return from + ((t - PLANE.low) / (PLANE.high - PLANE.low)) * (to - from);
+  }
+
+  value(pixels, axis) {
+    const [from, to] = this.scaleOf(axis);
+    const t = PLANE.low + ((pixels - from) / (to - from)) * (PLANE.high - PLANE.low);
+    return Math.max(PLANE.low, Math.min(PLANE.high, t));
+  }
+
+  /** Shows an answer of the core. */
+  draw(plane, pattern, offsets, det) {
+    Object.assign(this, { plane, pattern, offsets });
+    const { context: c, width, height } = fitted(this.canvas);
+    Object.assign(this, { width, height });
+    if (!width || !plane || plane.error) return;
+    c.clearRect(0, 0, width, height);
+    this.tint(c);
+    this.frame(c);
+    c.lineWidth = 2.6;
+    c.strokeStyle = style("--bad");
+    for (const line of plane.zero) {
+      c.beginPath();
+      line.forEach(([x, y], k) => (k ? c.lineTo(this.place(x, 0), this.place(y, 1)) : c.moveTo(this.place(x, 0), this.place(y, 1))));
+      c.stroke();
+    }
+    this.mark(c);
+    const [i, j] = this.axes.map((k) => pattern.offsets[k].name);
+    const [x, y] = this.axes.map((k) => show(offsets[k]));
+    this.words.textContent = `Mark: ${i} = ${x}, ${j} = ${y}, det A = ${show(det)}. Heavy line: det A = 0; plus and minus: its sign. `
+      + (plane.zero.length ? "" : "It does not vanish in this square.");
+  }
+
+  tint(c) {
+    const n = this.plane.points;
+    const step = (this.scaleOf(0)[1] - this.scaleOf(0)[0]) / (n - 1);
+    const rise = (this.scaleOf(1)[0] - this.scaleOf(1)[1]) / (n - 1);
+    // one pixel a value, drawn larger; the middle of a pixel is its place
+    c.drawImage(this.pixels(n), 0.5, 0.5, n - 1, n - 1, this.scaleOf(0)[0], this.scaleOf(1)[1], step * (n - 1), rise * (n - 1));
+    c.globalAlpha = 0.75;
+    c.fillStyle = style("--ink");
+    c.font = "13px system-ui,sans-serif";
+    c.textAlign = "center";
+    c.textBaseline = "middle";
+    const every = Math.round((n - 1) / 6);
+    for (let row = every; row + 1 < n; row += every) {
+      for (let column = every; column + 1 < n; column += every) {
+        const value = this.plane.values[row * n + column];
+        if (value !== 0) c.fillText(value > 0 ? "+" : "−", this.scaleOf(0)[0] + column * step, this.scaleOf(1)[0] - row * rise);
+      }
+    }
+    c.globalAlpha = 1;
+  }
+
+  pixels(n) {
+    const small = Object.assign(document.createElement("canvas"), { width: n, height: n });
+    const c = small.getContext("2d");
+    const top = Math.max(...this.plane.values.map(Math.abs)) || 1;
+    const tints = [style("--positive"), style("--negative")];
+    this.plane.values.forEach((value, k) => {
+      c.globalAlpha = 0.08 + 0.5 * Math.pow(Math.abs(value) / top, 0.25);
+      c.fillStyle = tints[value > 0 ? 0 : 1];
+      c.fillRect(k % n, n - 1 - Math.floor(k / n), 1, 1);
+    });
+    return small;
+  }
+
+  frame(c) {
+    const [[x0, x1], [y0, y1]] = [this.scaleOf(0), this.scaleOf(1)];
+    c.strokeStyle = style("--soft");
+    c.lineWidth = 1;
+    c.strokeRect(x0, y1, x1 - x0, y0 - y1);
+    c.fillStyle = style("--ink");
+    c.font = "12px system-ui,sans-serif";
+    for (const t of [-0.5, 0, 0.5, 1, 1.5]) {
+      const [x, y] = [this.place(t, 0), this.place(t, 1)];
+      c.textAlign = "center";
+      c.textBaseline = "top";
+      c.fillText(String(t).replace("-", "−"), x, y0 + 5);
+      c.textAlign = "right";
+      c.textBaseline = "middle";
+      c.fillText(String(t).replace("-", "−"), x0 - 6, y);
+      if (t !== 0 && t !== 1) continue;
+      c.setLineDash([2, 4]);
+      c.beginPath();
+      c.moveTo(x, y0);
+      c.lineTo(x, y1);
+      c.moveTo(x0, y);
+      c.lineTo(x1, y);
+      c.stroke();
+      c.setLineDash([]);
+    }
+    const [i, j] = this.axes.map((k) => this.pattern.offsets[k].name);
+    c.font = "italic 600 13px system-ui,sans-serif";
+    c.textAlign = "center";
+    c.textBaseline = "bottom";
+    c.fillText(i, (x0 + x1) / 2, this.height);
+    c.textAlign = "left";
+    c.textBaseline = "middle";
+    c.fillText(j, 2, (y0 + y1) / 2);
+  }
+
+  mark(c) {
+    const [x, y] = this.axes.map((k, axis) => this.place(this.offsets[k], axis));
+    c.beginPath();
+    c.arc(x, y, 6, 0, 2 * Math.PI);
+    c.fillStyle = style("--ink");
+    c.fill();
+    c.lineWidth = 2.5;
+    c.strokeStyle = style("--card");
+    c.stroke();
+  }
+}

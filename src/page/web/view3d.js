@@ -1,0 +1,165 @@
+// A platform on a canvas: plates, legs and joints, far parts first.
+
+/** The corners of the smallest convex outline of points on the page (Andrew's chain). */
+function outline(points) {
+  const sorted = [...points].sort((a, b) => a.x - b.x || a.y - b.y);
+  const turn = (o, a, b) => (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
+  const chain = (list) => {
+    const out = [];
+    for (const p of list) {
+      while (out.length > 1 && turn(out[out.length - 2], out[out.length - 1], p) <= 0) out.pop();
+      out.push(p);
+    }
+    return out.slice(0, -1);
+  };
+  return [...chain(sorted), ...chain(sorted.reverse())];
+}
+
+class View {
+  constructor(canvas, camera, scene) {
+    Object.assign(this, { canvas, camera, scene });
+    camera.attach(canvas);
+  }
+
+  /** Draws a platform of the core, thin lines of the original's triangles, and a ghost to compare with. */
+  draw(platform, { original, ghost, names } = {}) {
+    const { context, width, height } = fitted(this.canvas);
+    if (!width || !platform) return;
+    this.c = context;
+    this.project = this.camera.projection(this.scene.centre, this.scene.radius, width, height);
+    this.unit = this.scene.radius / 100;
+    context.clearRect(0, 0, width, height);
+    this.floor(platform);
+    if (ghost) {
+      context.globalAlpha = 0.38;
+      this.body(ghost, { plain: true });
+      context.globalAlpha = 1;
+    }
+    this.body(platform, { original });
+    if (names) this.names(platform);
+  }
+
+  line(a, b, colour, thickness, dash = []) {
+    const c = this.c;
+    c.beginPath();
+    c.setLineDash(dash);
+    c.moveTo(a.x, a.y);
+    c.lineTo(b.x, b.y);
+    c.strokeStyle = colour;
+    c.lineWidth = thickness;
+    c.lineCap = dash.length ? "butt" : "round";
+    c.stroke();
+    c.setLineDash([]);
+  }
+
+  /** A grid in the plane of the lowest base joint, for the sense of space. */
+  floor(platform) {
+    const [x0, y0] = this.scene.centre;
+    const z = Math.min(...platform.base.map((j) => j.at[2])) - 2 * this.unit;
+    const half = this.scene.radius * 1.15;
+    for (let k = -4; k <= 4; k += 1) {
+      const d = (k / 4) * half;
+      const ends = [[[x0 + d, y0 - half, z], [x0 + d, y0 + half, z]], [[x0 - half, y0 + d, z], [x0 + half, y0 + d, z]]];
+      for (const [a, b] of ends) this.line(this.project(a), this.project(b), style("--grid"), 1);
+    }
+  }
+
+  body(platform, { original, plain }) {
+    const at = (joint) => this.project(joint.at);
+    const used = (k) => [...new Set(platform.legs.map((l) => l[k]))];
+    const plates = [[used(0).map((i) => at(platform.base[i])), "--base"], [used(1).map((i) => at(platform.platform[i])), "--platform"]];
+    const mean = (list) => list.reduce((sum, p) => sum + p.depth, 0) / list.length;
+    const parts = plates.map(([list, colour]) => ({ depth: mean(list), draw: () => this.plate(list, style(colour), plain) }));
+    if (original) parts.push({ depth: Infinity, draw: () => this.triangles(original) });
+    platform.legs.forEach(([a, b], k) => {
+      const ends = [platform.base[a].at, platform.platform[b].at];
+      parts.push({ depth: mean(ends.map(this.project)), draw: () => this.leg(ends, k + 1, plain) });
+    });
+    for (const [list, colour] of plates) {
+      for (const p of list) parts.push({ depth: p.depth - 4 * this.unit, draw: () => this.ball(p, style(colour), plain) });
+    }
+    parts.sort((p, q) => q.depth - p.depth).forEach((p) => p.draw());
+  }
+
+  plate(points, colour, plain) {
+    const c = this.c;
+    c.beginPath();
+    outline(points).forEach((p, k) => (k ? c.lineTo(p.x, p.y) : c.moveTo(p.x, p.y)));
+    c.closePath();
+    c.globalAlpha *= plain ? 0.25 : 0.42;
+    c.fillStyle = colour;
+    c.fill();
+    c.globalAlpha /= plain ? 0.25 : 0.42;
+    c.strokeStyle = colour;
+    c.lineJoin = "round";
+    c.lineWidth = plain ? 1 : 2.2;
+    c.setLineDash(plain ? [4, 4] : []);
+    c.stroke();
+    c.setLineDash([]);
+  }
+
+  /** The sides along which joints slide. */
+  triangles(original) {
+    for (const [part, k] of [["base", 0], ["platform", 1]]) {
+      const joints = [...new Set(original.legs.map((l) => l[k]))].map((i) => this.project(original[part][i].at));
+      joints.forEach((p, i) => this.line(p, joints[(i + 1) % joints.length], style("--ghost"), 1.1, [3, 4]));
+    }
+  }
+
+  /** Cylinder and rod. */
+  leg([a, b], leg, plain) {
+    const mid = a.map((x, k) => x + 0.52 * (b[k] - x));
+    const [p, m, q] = [a, mid, b].map(this.project);
+    if (plain) {
+      this.line(p, q, style("--ghost"), 1.4, [5, 4]);
+      return;
+    }
+    const colour = style(`--leg-${leg}`);
+    const thick = Math.max(2.5, 4.6 * this.unit * m.pixels);
+    this.line(m, q, style("--halo"), 0.55 * thick + 2);
+    this.line(p, m, style("--halo"), thick + 2);
+    this.line(m, q, colour, 0.5 * thick);
+    this.line(p, m, colour, thick);
+    this.number(leg, { x: p.x + 0.62 * (m.x - p.x), y: p.y + 0.62 * (m.y - p.y) }, Math.max(9, 0.95 * thick + 4));
+  }
+
+  number(leg, p, size) {
+    const c = this.c;
+    c.font = `600 ${size}px system-ui,sans-serif`;
+    c.textAlign = "center";
+    c.textBaseline = "middle";
+    c.lineWidth = 3;
+    c.strokeStyle = style("--halo");
+    c.strokeText(leg, p.x, p.y);
+    c.fillStyle = style("--ink");
+    c.fillText(leg, p.x, p.y);
+  }
+
+  ball(p, colour, plain) {
+    if (plain) return;
+    const r = Math.max(2.6, 3.4 * this.unit * p.pixels);
+    const shade = this.c.createRadialGradient(p.x - r / 3, p.y - r / 3, r / 6, p.x, p.y, r);
+    shade.addColorStop(0, "#ffffff");
+    shade.addColorStop(0.45, colour);
+    shade.addColorStop(1, "#20262d");
+    this.c.beginPath();
+    this.c.arc(p.x, p.y, r, 0, 2 * Math.PI);
+    this.c.fillStyle = shade;
+    this.c.fill();
+  }
+
+  names(platform) {
+    const c = this.c;
+    c.font = "600 12px system-ui,sans-serif";
+    c.textAlign = "left";
+    c.textBaseline = "bottom";
+    for (const joint of [...platform.base, ...platform.platform]) {
+      const p = this.project(joint.at);
+      c.lineWidth = 3.5;
+      c.strokeStyle = style("--halo");
+      c.strokeText(joint.name, p.x + 6, p.y - 4);
+      c.fillStyle = style("--ink");
+      c.fillText(joint.name, p.x + 6, p.y - 4);
+    }
+  }
+}

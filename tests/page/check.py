@@ -1,0 +1,176 @@
+#!/usr/bin/env python3
+"""Pages of several designs in headless Chromium: no errors, no network, the numbers of the command line, accessible.
+
+    python tests/page/check.py target/release/equipod [--pictures FOLDER]
+"""
+
+import argparse
+import sys
+import tempfile
+from pathlib import Path
+
+from playwright.sync_api import sync_playwright
+
+import access
+import behaviour
+import fresh
+from program import DESIGNS, Opened, Program, browser
+
+NO_WASM = "delete window.WebAssembly;"
+
+
+def octahedral(chromium, program, folder, pictures):
+    path = program.page(DESIGNS / "rbt-octahedral.toml", folder / "octahedral.html")
+    with Opened(chromium, path) as shown:
+        assert shown.ready == "live"
+        fresh.same_answers(shown)
+        picture(shown, pictures, "octahedral")
+        access.names(shown)
+        access.tab_order(shown)
+        access.contrast(shown)
+        access.spoken(shown)
+        behaviour.slider_moves_det(shown, program, folder)
+        behaviour.pointer_drags_a_leg(shown)
+        behaviour.no_motion_when_regular(shown)
+        behaviour.confirmed_by_the_equivalent(shown)
+        behaviour.modes_are_all(shown, program, folder)
+        picture(shown, pictures, "octahedral-modes")
+        behaviour.singular_at_the_mark(shown, program, folder)
+        behaviour.another_design_opens(shown)
+        shown.quiet()
+
+
+def equivalent(chromium, program, folder, pictures):
+    path = program.page(DESIGNS / "rbt-griffis-duffy.toml", folder / "equivalent.html")
+    with Opened(chromium, path, dark=True) as shown:
+        fresh.same_answers(shown)
+        det = shown.det()
+        assert behaviour.close(det, 0.26208), det
+        access.contrast(shown)
+        picture(shown, pictures, "equivalent-dark")
+        behaviour.slider_moves_det(shown, program, folder)
+        for pattern in shown.page.eval_on_selector_all("#pattern option", "list => list.map((o) => o.value)"):
+            shown.page.select_option("#pattern", pattern)
+        shown.settle()
+        access.names(shown)
+        shown.quiet()
+
+
+def singular(chromium, program, folder, pictures):
+    path = program.page(DESIGNS / "rbt-midline.toml", folder / "midline.html")
+    with Opened(chromium, path) as shown:
+        assert abs(shown.det()) < 1e-12
+        behaviour.self_motion_keeps_the_lengths(shown)
+        picture(shown, pictures, "self-motion")
+        shown.quiet()
+
+
+def general(chromium, program, folder, pictures):
+    for name in ("general-6-6", "dietmaier"):
+        path = program.page(DESIGNS / f"{name}.toml", folder / f"{name}.html")
+        with Opened(chromium, path) as shown:
+            assert not shown.page.is_visible("#offsets")
+            fresh.same_answers(shown)
+            behaviour.modes_are_all(shown, program, folder, "design")
+            behaviour.modes_for_the_lengths_of_the_file(shown, program, DESIGNS / f"{name}.toml")
+            access.names(shown)
+            picture(shown, pictures, name)
+            shown.quiet()
+
+
+def required(chromium, program, folder, pictures):
+    """A worked design: requirements with margins, a workspace of its own."""
+    path = program.page(DESIGNS / "worked" / "positioner-joint-free.toml", folder / "worked.html")
+    with Opened(chromium, path) as shown:
+        assert shown.page.locator("#margins tbody tr").count() > 0
+        picture(shown, pictures, "worked")
+        shown.quiet()
+
+
+def phone(chromium, program, folder, pictures):
+    path = folder / "octahedral.html"
+    for width, dark in ((360, False), (390, True)):
+        with Opened(chromium, path, width=width, height=780, dark=dark, touch=True) as shown:
+            access.narrow(shown)
+            access.contrast(shown)
+            shown.page.locator("#offset-t1").tap()
+            shown.settle()
+            shown.quiet()
+            picture(shown, pictures, f"phone-{'dark' if dark else 'light'}")
+
+
+def recorded(chromium, program, folder, pictures):
+    """Without WebAssembly, in the program or in the browser, the page still shows what was recorded, and says so."""
+    bare = program.page(DESIGNS / "rbt-midline.toml", folder / "recorded.html", "--core", "none")
+    for path, script in ((bare, None), (folder / "octahedral.html", NO_WASM)):
+        with Opened(chromium, path, script=script) as shown:
+            assert shown.ready == "recorded" and shown.page.is_visible("#note")
+            assert shown.page.locator("#modes input[name=mode]").count() > 0
+            before = shown.page.text_content("#pose-words")
+            shown.page.focus("#way")
+            shown.page.keyboard.press("PageUp")
+            shown.settle()
+            assert shown.page.text_content("#pose-words") != before
+            assert shown.page.locator("#offset-t1").is_disabled()
+            access.names(shown)
+            picture(shown, pictures, f"recorded-{Path(path).stem}")
+            shown.quiet()
+
+
+def faults(chromium, program, folder, pictures):
+    """Negative controls: a page with a planted fault fails the check made for it."""
+    whole = (folder / "octahedral.html").read_text()
+    planted = {
+        "an error": ("new App(core);", "new App(core); setTimeout(() => { throw new Error('planted'); });", lambda s: s.quiet()),
+        "a request": ("</main>", "</main><script>fetch('http://example.invalid/x').catch(() => 0)</script>", lambda s: s.quiet()),
+        "a wrong det A": ("exact: state.map.det", "exact: state.map.det * (1 + 1e-9)", lambda s: behaviour.slider_moves_det(s, program, folder)),
+        "a wrong mode list": ("...rows, ...(rows.length", "...rows.slice(1), ...(rows.length", lambda s: behaviour.modes_are_all(s, program, folder)),
+        "a control without name": ('<label>Speed', '<label hidden></label><label><select><option>x</option></select></label><label>Speed', access.names),
+        "a core of other sources": ('"inverse_condition":', '"inverse_condition":1', fresh.same_answers),
+        "pale text": ("--soft:#555c66", "--soft:#b5bcc6", access.contrast),
+    }
+    for name, (good, bad, check) in planted.items():
+        assert good in whole, f"{name}: the place to plant it is gone"
+        path = folder / "fault.html"
+        path.write_text(whole.replace(good, bad, 1))
+        try:
+            with Opened(chromium, path) as shown:
+                check(shown)
+        except AssertionError:
+            continue
+        raise AssertionError(f"{name} was not noticed")
+
+
+def picture(shown, folder, name):
+    if folder:
+        shown.page.evaluate("document.activeElement.blur()")
+        shown.page.screenshot(path=folder / f"{name}.png", full_page=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("program")
+    parser.add_argument("--pictures", type=Path)
+    parser.add_argument("--only", help="one check by name")
+    args = parser.parse_args()
+    if args.pictures:
+        args.pictures.mkdir(parents=True, exist_ok=True)
+    program, failed = Program(args.program), 0
+    checks = [octahedral, equivalent, singular, general, required, phone, recorded, faults]
+    with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright, browser(playwright) as chromium:
+        folder = Path(folder)
+        program.page(DESIGNS / "rbt-octahedral.toml", folder / "octahedral.html")
+        for check in checks:
+            if args.only and check.__name__ != args.only:
+                continue
+            try:
+                check(chromium, program, folder, args.pictures)
+                print(f"ok      {check.__name__}")
+            except Exception as error:  # every check is reported
+                failed += 1
+                print(f"FAILED  {check.__name__}: {type(error).__name__}: {error}")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

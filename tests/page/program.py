@@ -1,0 +1,94 @@
+"""The program under test and the browser."""
+
+import json
+import shutil
+import subprocess
+from contextlib import contextmanager
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+DESIGNS = ROOT / "designs"
+
+
+class Program:
+    """`equipod`, whose answers on the command line the page has to agree with."""
+
+    def __init__(self, binary):
+        self.binary = str(Path(binary).resolve())
+
+    def run(self, *args, exits=(0,)):
+        done = subprocess.run([self.binary, *map(str, args)], capture_output=True, text=True)
+        if done.returncode not in exits:
+            raise AssertionError(f"{args}: exit {done.returncode}: {done.stderr}")
+        return done.stdout
+
+    def json(self, *args, exits=(0, 1)):
+        return json.loads(self.run(*args, "--json", exits=exits))
+
+    def page(self, design, out, *options):
+        self.run("view", design, "-o", out, "--quiet", *options)
+        return out
+
+
+@contextmanager
+def browser(playwright):
+    """Chromium of the system where there is one, else the one of playwright."""
+    path = shutil.which("chromium") or shutil.which("google-chrome")
+    opened = playwright.chromium.launch(executable_path=path, args=["--no-sandbox"])
+    try:
+        yield opened
+    finally:
+        opened.close()
+
+
+class Opened:
+    """A page in the browser with everything it complained about."""
+
+    def __init__(self, chromium, path, width=1360, height=900, dark=False, script=None, touch=False):
+        self.context = chromium.new_context(
+            viewport={"width": width, "height": height}, color_scheme="dark" if dark else "light",
+            has_touch=touch, accept_downloads=True, reduced_motion="reduce",
+        )
+        self.page = self.context.new_page()
+        self.complaints, self.requests = [], []
+        self.page.on("console", lambda m: m.type in ("error", "warning") and self.complaints.append(m.text))
+        self.page.on("pageerror", lambda e: self.complaints.append(str(e)))
+        self.page.on("request", lambda r: self.requests.append(r.url))
+        if script:
+            self.page.add_init_script(script)
+        self.url = Path(path).resolve().as_uri()
+        self.page.goto(self.url)
+        self.page.wait_for_selector("html[data-ready]", timeout=30000)
+        self.settle()
+
+    def settle(self):
+        """Waits until bursts of changes are answered and drawn."""
+        self.page.wait_for_timeout(350)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.context.close()
+
+    @property
+    def ready(self):
+        return self.page.get_attribute("html", "data-ready")
+
+    def quiet(self):
+        """No error, and nothing asked from anywhere."""
+        assert not self.complaints, self.complaints
+        others = [u for u in self.requests if u != self.url and not u.startswith(("blob:", "data:"))]
+        assert not others, others
+
+    def det(self):
+        return float(self.page.get_attribute("#det", "data-value"))
+
+    def offsets(self):
+        return json.loads(self.page.get_attribute("html", "data-shown"))
+
+    def download(self, name, to):
+        with self.page.expect_download() as waiting:
+            self.page.get_by_role("button", name=name, exact=True).click()
+        waiting.value.save_as(to)
+        return to
