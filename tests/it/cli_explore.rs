@@ -225,6 +225,11 @@ fn the_page_of_a_run_is_that_of_the_command_report() {
         (2, 2)
     );
     assert!(!first.replace("http://www.w3.org", "").contains("http://") && !first.contains("https://"));
+    // the live page begins with the offsets that were found
+    let optimum: Value = serde_json::from_str(&read(&out, "optimize.json")).unwrap();
+    let first_offset = optimum["offsets"][0].to_string();
+    let view = first.split("<iframe title=\"Live view of the design\"").nth(1).unwrap();
+    assert!(view.contains(&format!("&quot;offsets&quot;:[{first_offset},")));
     let empty = temp.path().join("empty");
     std::fs::create_dir(&empty).unwrap();
     let refused = report(empty.to_str().unwrap());

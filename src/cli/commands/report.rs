@@ -2,15 +2,17 @@
 
 use std::path::{Path, PathBuf};
 
-use serde_json::{Map, json};
+use serde_json::{Map, Value, json};
 
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::files;
 use crate::cli::output::Answer;
-use crate::design::{Format, parse};
+use crate::design::{Design, Format, parse};
+use crate::page::{CORE, Session, page as view};
 use crate::report::{Report, ReportFile, html};
+use crate::synthesis::Pattern;
 
 /// The page in its folder.
 pub(super) const PAGE: &str = "report.html";
@@ -61,15 +63,33 @@ pub(crate) fn run(args: &Args, _: &mut Context) -> Result<Answer, Failure> {
 
 /// The page about these files.
 pub(super) fn page(files: Vec<ReportFile>, title: Option<String>) -> String {
-    let title = title.or_else(|| files.iter().find_map(design_name)).unwrap_or_else(|| "Results".into());
-    html(&Report { title, files, view: None })
+    let first = files.iter().find_map(design_of);
+    let title = title.or_else(|| first.as_ref().map(|d| d.name.clone())).unwrap_or_else(|| "Results".into());
+    let view = first.map(|design| live(design, &files));
+    html(&Report { title, files, view })
 }
 
-fn design_name(file: &ReportFile) -> Option<String> {
+/// The live page of a design; it begins with the offsets that a result among the files found.
+fn live(design: Design, files: &[ReportFile]) -> String {
+    let session = Session::new(design);
+    let chosen = files.iter().find_map(offsets_of).zip(Pattern::new([false; 6], [1; 6]));
+    // offsets of another design than the first do not fit: then the page begins with its own
+    let started = chosen.and_then(|(t, pattern)| session.clone().starting_with(pattern, t).ok());
+    view(&started.unwrap_or(session), Some(CORE))
+}
+
+/// The offsets in the answer of `optimize`.
+fn offsets_of(file: &ReportFile) -> Option<Vec<f64>> {
+    Path::new(&file.name).extension().filter(|e| *e == "json")?;
+    let document: Value = serde_json::from_slice(&file.bytes).ok()?;
+    document.get("offsets")?.as_array()?.iter().map(Value::as_f64).collect()
+}
+
+fn design_of(file: &ReportFile) -> Option<Design> {
     let path = Path::new(&file.name);
     path.extension().filter(|e| *e == "toml" || *e == "json")?;
     let text = std::str::from_utf8(&file.bytes).ok()?;
-    parse(text, Format::of_path(path)).ok().map(|(design, _)| design.name)
+    parse(text, Format::of_path(path)).ok().map(|(design, _)| design)
 }
 
 /// All files of a folder but the page itself, known ones first, the others by name.
