@@ -12,7 +12,7 @@ use crate::design::SCHEMA;
 const ANSWERS: &str = include_str!("../answers.schema.json");
 
 /// What has a schema: design files, and the answers of the commands that give results.
-const NAMES: [&str; 24] = [
+const NAMES: [&str; 25] = [
     "design",
     "assess",
     "bench",
@@ -37,6 +37,7 @@ const NAMES: [&str; 24] = [
     "tolerances",
     "topologies",
     "verify",
+    "view",
 ];
 
 /// Arguments of `schema`.
