@@ -45,6 +45,9 @@ fn scalar(v: &Value) -> Option<String> {
 
 /// Numbers side by side, where all entries are scalars.
 fn row(list: &[Value]) -> Option<String> {
+    if list.is_empty() {
+        return Some("none".into());
+    }
     let cells: Option<Vec<String>> = list.iter().map(scalar).collect();
     cells.map(|c| c.join(", "))
 }

@@ -69,4 +69,6 @@ fn long_lists_say_how_much_is_left_out() {
     let text =
         report(vec![file("r.json", &format!(r#"{{"schema_version":1,"list":[{}]}}"#, list.join(",")))]);
     assert!(text.contains("list (30 entries)") && text.contains("6 more in the file"));
+    let empty = report(vec![file("r.json", r#"{"schema_version":1,"rejected":[]}"#)]);
+    assert!(empty.contains("<th scope=\"row\">rejected</th><td>none</td>"));
 }

@@ -95,7 +95,7 @@ pub(super) fn modes(design: &Design, poses: &Poses) -> String {
     let lengths: Vec<String> = poses.lengths.get().iter().map(|l| short(*l)).collect();
     let whose = if poses.from == LengthsFrom::Design { "" } else { " (home pose)" };
     let mut note = format!(
-        "{} finite poses, {} real; leg lengths {}{}{whose}; numbers as `fk` gives them",
+        "{} finite poses, {} real; leg lengths {}{}{whose}; numbers as in the list of fk",
         s.roots.len(),
         s.assembly_modes().count(),
         lengths.join(", "),
