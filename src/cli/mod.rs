@@ -12,6 +12,7 @@ mod exit;
 mod failure;
 mod files;
 mod freedoms;
+mod numbers;
 mod output;
 mod poses;
 mod progress;

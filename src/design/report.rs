@@ -28,6 +28,13 @@ impl<'t> Report<'t> {
         self.line_starts.partition_point(|&start| start <= offset).max(1)
     }
 
+    /// Text of a line, 1-based, with its end of line.
+    pub(super) fn line_text(&self, line: usize) -> &'t str {
+        let start = self.line_starts.get(line - 1).copied().unwrap_or(self.text.len());
+        let end = self.line_starts.get(line).copied().unwrap_or(self.text.len());
+        &self.text[start..end]
+    }
+
     pub(super) fn refuse(
         &mut self,
         code: Code,

@@ -238,6 +238,21 @@ fn deep_nesting_and_floods_end_soon() {
 }
 
 #[test]
+fn one_open_bracket_is_one_fault_and_a_second_fault_is_told() {
+    let faults = |text: &str| parse(text, Format::Toml).unwrap_err();
+    for (at, _) in GOOD.match_indices('\n') {
+        let found = faults(&format!("{}=[{}", &GOOD[..at], &GOOD[at..]));
+        assert!(found.len() <= 4, "{at}: {found:?}");
+        let line = GOOD[..at].lines().count();
+        assert!(found[0].code == Code::Syntax && found[0].line.abs_diff(line) <= 1, "{at}: {found:?}");
+    }
+    let found = faults(&GOOD.replacen("units =", "units", 1).replacen("translation =", "translation", 1));
+    let places: Vec<_> = found.iter().map(|v| (v.line, v.column)).collect();
+    let second = GOOD.lines().position(|l| l.starts_with("translation")).unwrap() + 1;
+    assert_eq!(places, [(2, 7), (second, 13)]);
+}
+
+#[test]
 fn bom_and_windows_line_ends_are_read() {
     let text = format!("\u{feff}{}", GOOD.replace('\n', "\r\n"));
     assert!(parse(&text, Format::Toml).is_ok());

@@ -7,9 +7,13 @@ use super::Code;
 use super::report::Report;
 use super::tree::{Entry, MAX_DEPTH, Node, Value};
 
-/// Reads the text; all syntax errors go to the report and make this `None`.
+/// Reads the text; syntax errors go to the report and make this `None`.
+///
+/// After a fault the parser goes on where it can, and an open bracket then makes every later line wrong. Of neighbouring
+/// faulty lines only the first is therefore reported; a fault after good lines is reported again.
 pub(super) fn read(text: &str, report: &mut Report<'_>) -> Option<Node> {
     let (document, errors) = DeTable::parse_recoverable(text);
+    let mut faults = Vec::new();
     for error in &errors {
         let span = error.span().unwrap_or(0..0);
         let message = error.message();
@@ -18,9 +22,18 @@ pub(super) fn read(text: &str, report: &mut Report<'_>) -> Option<Node> {
         } else if message.contains("recursion limit") {
             too_deep(report, &span);
         } else {
+            faults.push((span, message));
+        }
+    }
+    faults.sort_by_key(|(span, _)| span.start);
+    let mut faulty_to = None;
+    for (span, message) in faults {
+        let line = report.line(span.start);
+        if faulty_to.is_none_or(|last| (last + 1..line).any(|k| holds_toml(report.line_text(k)))) {
             let help = "mend the TOML; strings need quotes, tables [brackets], see https://toml.io";
             report.refuse(Code::Syntax, &span, message, help);
         }
+        faulty_to = Some(line);
     }
     if !errors.is_empty() {
         return None;
@@ -28,6 +41,11 @@ pub(super) fn read(text: &str, report: &mut Report<'_>) -> Option<Node> {
     let span = document.span();
     let value = table(document.get_ref(), report, 0)?;
     Some(Node { span: span.start..span.start, value })
+}
+
+/// Whether a line is more than blank or a comment.
+fn holds_toml(line: &str) -> bool {
+    !line.trim().is_empty() && !line.trim_start().starts_with('#')
 }
 
 fn too_deep(report: &mut Report<'_>, span: &std::ops::Range<usize>) {

@@ -46,6 +46,12 @@ pub fn plucker_matrix(m: &Manipulator, pose: &Pose, characteristic_length: f64) 
     j
 }
 
+/// `det J` of the leg lines with all lengths over the size, without unit: its zeros are the singular poses.
+pub(crate) fn leg_determinant(m: &Manipulator, pose: &Pose) -> f64 {
+    let unit = m.size();
+    plucker_matrix(m, pose, unit).determinant() / unit.powi(6)
+}
+
 /// `sigma_min / sigma_max` of a 6 x 6 matrix, in `[0, 1]`; 0 for a matrix with entries that are not finite.
 #[must_use]
 pub fn inverse_condition(j: &Matrix6<f64>) -> f64 {

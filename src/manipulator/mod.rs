@@ -12,6 +12,7 @@ mod octahedral;
 
 pub use home::default_home;
 pub(crate) use jacobian::jacobian_of_legs;
+pub(crate) use jacobian::leg_determinant;
 pub use jacobian::{inverse_condition, jacobian, plucker_matrix};
 pub use leg::{BaseJoint, InvalidManipulator, Leg, LegIndex, Manipulator, PlatformJoint};
 pub use lengths::{InvalidLengths, LegLengths, SquaredLegLengths};

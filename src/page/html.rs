@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 use super::base64;
 use super::session::Session;
 use super::wire::pose;
+use crate::plot::escape;
 
 /// The core compiled to WebAssembly, compressed by gzip; `tests/page/README.md` says how it is made and compared with its sources.
 #[cfg(not(target_arch = "wasm32"))]
@@ -38,7 +39,7 @@ const PLANE: usize = 41;
 #[must_use]
 pub fn page(session: &Session, core: Option<&[u8]>) -> String {
     let data = json!({"opening": opening(session), "recorded": recorded(session), "version": env!("CARGO_PKG_VERSION")});
-    let title = text_of(&session.design.name);
+    let title = escape(&session.design.name);
     let core = core.map(base64::encode).unwrap_or_default();
     let parts = [
         ("{{title}}", title),
@@ -56,11 +57,6 @@ pub fn page(session: &Session, core: Option<&[u8]>) -> String {
         rest = after;
     }
     out + rest
-}
-
-/// Text of an HTML element.
-fn text_of(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 /// What [`Session::open`] needs to open the same session.

@@ -1,5 +1,7 @@
 //! Axes with round numbers.
 
+use super::style::Svg;
+
 /// A linear axis: values `low..high` on pixels `from..to`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Axis {
@@ -44,6 +46,19 @@ impl Axis {
         // multiples of the stride, so that the exponents are the same on neighbouring pictures
         let on_grid = (first..=last).filter(|k| k.rem_euclid(stride) == 0);
         on_grid.map(|k| (k as f64, format!("10{}", superscript(k)))).collect()
+    }
+}
+
+/// The frame of a plot with about so many ticks on either axis; `x` runs to the right, `y` upwards.
+pub(super) fn frame(svg: &mut Svg, x: &Axis, y: &Axis, (across, up): (usize, usize)) {
+    svg.rect("frame", (x.from, y.to), (x.to - x.from, y.from - y.to));
+    for (value, label) in x.ticks(across) {
+        svg.line("tick", (x.at(value), y.from), (x.at(value), y.from + 5.0));
+        svg.text("mid", (x.at(value), y.from + 19.0), &label);
+    }
+    for (value, label) in y.ticks(up) {
+        svg.line("tick", (x.from - 5.0, y.at(value)), (x.from, y.at(value)));
+        svg.text("end", (x.from - 9.0, y.at(value) + 4.0), &label);
     }
 }
 

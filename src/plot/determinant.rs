@@ -1,6 +1,6 @@
 //! `det A` of the joint-free platform over the two offsets of equal-offset platforms.
 
-use super::axis::Axis;
+use super::axis::{self, Axis};
 use super::contour::Grid;
 use super::style::Svg;
 
@@ -215,17 +215,9 @@ fn marks(svg: &mut Svg, points: &[PlanePoint], places: &[(f64, f64)]) {
 }
 
 fn frame(svg: &mut Svg, x: &Axis, y: &Axis, plane: &OffsetPlane) {
-    svg.rect("frame", (LEFT, TOP), (RIGHT - LEFT, BOTTOM - TOP));
     let shown = |axis: &Axis, scale: f64| Axis { low: axis.low * scale, high: axis.high * scale, ..*axis };
     let (sx, sy) = (shown(x, plane.base.scale), shown(y, plane.platform.scale));
-    for (value, label) in sx.ticks(8) {
-        svg.line("tick", (sx.at(value), BOTTOM), (sx.at(value), BOTTOM + 5.0));
-        svg.text("mid", (sx.at(value), BOTTOM + 19.0), &label);
-    }
-    for (value, label) in sy.ticks(8) {
-        svg.line("tick", (LEFT - 5.0, sy.at(value)), (LEFT, sy.at(value)));
-        svg.text("end", (LEFT - 9.0, sy.at(value) + 4.0), &label);
-    }
+    axis::frame(svg, &sx, &sy, (8, 8));
     svg.text("mid", (f64::midpoint(LEFT, RIGHT), BOTTOM + 44.0), &plane.base.label);
     svg.turned_text("mid", (26.0, f64::midpoint(TOP, BOTTOM)), -90.0, &plane.platform.label);
 }

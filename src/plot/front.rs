@@ -1,6 +1,6 @@
 //! Platforms of which none is better in every objective.
 
-use super::axis::Axis;
+use super::axis::{Axis, frame};
 use super::style::Svg;
 
 /// One objective.
@@ -81,15 +81,7 @@ fn panel(svg: &mut Svg, figure: &FrontFigure, (i, j): (usize, usize), left: f64)
     let (rx, ry) = (range(figure, i), range(figure, j));
     let x = Axis { low: rx.0, high: rx.1, from: left, to: left + SIDE };
     let y = Axis { low: ry.0, high: ry.1, from: TOP + SIDE, to: TOP };
-    svg.rect("frame", (left, TOP), (SIDE, SIDE));
-    for (value, label) in x.ticks(5) {
-        svg.line("tick", (x.at(value), TOP + SIDE), (x.at(value), TOP + SIDE + 5.0));
-        svg.text("mid", (x.at(value), TOP + SIDE + 19.0), &label);
-    }
-    for (value, label) in y.ticks(6) {
-        svg.line("tick", (left - 5.0, y.at(value)), (left, y.at(value)));
-        svg.text("end", (left - 9.0, y.at(value) + 4.0), &label);
-    }
+    frame(svg, &x, &y, (5, 6));
     let (ax, ay) = (&figure.axes[i], &figure.axes[j]);
     svg.text("mid", (left + SIDE / 2.0, TOP + SIDE + 42.0), &directed(ax));
     svg.turned_text("mid", (left - 62.0, TOP + SIDE / 2.0), -90.0, &directed(ay));

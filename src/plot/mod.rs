@@ -14,6 +14,7 @@ mod locus;
 mod modes;
 mod motion;
 mod noise;
+mod oblique;
 mod pair;
 mod slice;
 mod steps;

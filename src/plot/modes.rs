@@ -1,11 +1,11 @@
 //! Assembly modes as small multiples: base, platform, six legs, one oblique projection.
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::Vector3;
 
-use super::motion::outline;
+use super::oblique::{BaseFrame, Bodies, Extent};
 use super::style::Svg;
 use crate::geom::Pose;
-use crate::manipulator::{Manipulator, Octahedral};
+use crate::manipulator::Manipulator;
 
 /// What the picture shows.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,8 +20,6 @@ pub struct ModesFigure {
     pub tolerance: f64,
 }
 
-/// Depth is drawn along this direction (right, up): half size at about 35 degrees.
-const DEPTH: (f64, f64) = (0.41, 0.29);
 /// Greatest width and height of what is drawn in a panel, pixels.
 const PANEL: (f64, f64) = (112.0, 250.0);
 const GAP: f64 = 10.0;
@@ -32,55 +30,11 @@ const CAPTION: f64 = 22.0;
 const PAIRS: usize = 3;
 const SINGLES: usize = 6;
 
-/// One pose on the page, relative to the centre of the base: outlines of the bodies, and the legs in their order.
+/// One pose on the page, relative to the centre of the base.
 #[derive(Debug, Clone)]
 struct Drawn {
     number: usize,
-    base: Vec<(f64, f64)>,
-    platform: Vec<(f64, f64)>,
-    legs: [[(f64, f64); 2]; 6],
-}
-
-/// The frame of a triangle of the base: origin in its centroid, `w` its normal.
-#[derive(Debug)]
-pub(super) struct BaseFrame {
-    centre: Vector3<f64>,
-    u: Vector3<f64>,
-    v: Vector3<f64>,
-    w: Vector3<f64>,
-}
-
-impl BaseFrame {
-    /// `w` on the side of positive z (then y, then x) of the design, `u` along the edge `P1 P3`.
-    pub(super) fn new(base: &[Point3<f64>; 3]) -> Self {
-        let centre = (base[0].coords + base[1].coords + base[2].coords) / 3.0;
-        let u = (base[2] - base[0]).normalize();
-        let normal = (base[1] - base[0]).cross(&(base[2] - base[0])).normalize();
-        let leading = [normal.z, normal.y, normal.x].into_iter().find(|x| x.abs() > 1e-9);
-        let w = if leading.is_some_and(|x| x < 0.0) { -normal } else { normal };
-        Self { centre, u, v: w.cross(&u), w }
-    }
-
-    pub(super) fn coordinates(&self, p: &Point3<f64>) -> Vector3<f64> {
-        let d = p.coords - self.centre;
-        Vector3::new(self.u.dot(&d), self.v.dot(&d), self.w.dot(&d))
-    }
-}
-
-/// The base triangle of an octahedral platform, else the largest one of base joints.
-pub(super) fn base_triangle(m: &Manipulator) -> [Point3<f64>; 3] {
-    if let Ok(octahedral) = Octahedral::recognise(m) {
-        return octahedral.base();
-    }
-    let p = m.legs().map(|l| l.base);
-    let triples = (0..6).flat_map(|i| (i + 1..6).flat_map(move |j| (j + 1..6).map(move |k| [i, j, k])));
-    let area = |t: &[usize; 3]| (p[t[1]] - p[t[0]]).cross(&(p[t[2]] - p[t[0]])).norm();
-    triples.max_by(|a, b| area(a).total_cmp(&area(b))).unwrap_or([0, 1, 2]).map(|k| p[k])
-}
-
-/// Right and up, design units.
-pub(super) fn oblique(c: &Vector3<f64>) -> (f64, f64) {
-    (c.x + DEPTH.0 * c.y, c.z + DEPTH.1 * c.y)
+    bodies: Bodies,
 }
 
 /// Panels in pairs: a pose and its mirror image in the base plane, the one above the base first; a pose without
@@ -117,17 +71,9 @@ fn pairs(joints: &[[Vector3<f64>; 6]], tolerance: f64) -> Vec<Vec<usize>> {
 /// normal points up.
 #[must_use]
 pub fn assembly_modes(m: &Manipulator, figure: &ModesFigure) -> String {
-    let frame = BaseFrame::new(&base_triangle(m));
-    let on_page = |p: &Point3<f64>| oblique(&frame.coordinates(p));
-    let pairs_of_joints = m.pairs();
-    let base = outline(m.base_joints(), pairs_of_joints.iter().map(|p| p.0));
-    let platform = outline(m.platform_joints(), pairs_of_joints.iter().map(|p| p.1));
-    let drawn = |(number, pose): &(usize, Pose)| Drawn {
-        number: *number,
-        base: base.iter().map(|k| on_page(&m.base_joints()[*k])).collect(),
-        platform: platform.iter().map(|k| on_page(&pose.transform(&m.platform_joints()[*k]))).collect(),
-        legs: m.legs().map(|l| [on_page(&l.base), on_page(&pose.transform(&l.platform))]),
-    };
+    let frame = BaseFrame::of(m);
+    let drawn =
+        |(number, pose): &(usize, Pose)| Drawn { number: *number, bodies: Bodies::new(m, pose, &frame) };
     let drawn: Vec<Drawn> = figure.poses.iter().map(drawn).collect();
     let joints: Vec<[Vector3<f64>; 6]> = figure
         .poses
@@ -138,13 +84,8 @@ pub fn assembly_modes(m: &Manipulator, figure: &ModesFigure) -> String {
 }
 
 fn layout(figure: &ModesFigure, drawn: &[Drawn], pairs: &[Vec<usize>]) -> String {
-    let all = || drawn.iter().flat_map(|d| d.base.iter().chain(&d.platform));
-    let span = |pick: fn(&(f64, f64)) -> f64| {
-        all().map(pick).fold((f64::INFINITY, f64::NEG_INFINITY), |r, v| (r.0.min(v), r.1.max(v)))
-    };
-    let (across, up) = (span(|p| p.0), span(|p| p.1));
-    let room = |r: (f64, f64), pixels: f64| pixels / (r.1 - r.0).max(f64::MIN_POSITIVE);
-    let scale = room(across, PANEL.0).min(room(up, PANEL.1));
+    let extent = Extent::of(drawn.iter().flat_map(|d| d.bodies.corners()));
+    let (across, up, scale) = (extent.across, extent.up, extent.scale(PANEL));
     let (panel_width, panel_height) =
         if drawn.is_empty() { (PANEL.0, 40.0) } else { (PANEL.0, (up.1 - up.0) * scale + CAPTION) };
     let is_paired = pairs.is_empty() || pairs.iter().any(|p| p.len() > 1);
@@ -177,7 +118,7 @@ fn layout(figure: &ModesFigure, drawn: &[Drawn], pairs: &[Vec<usize>]) -> String
                     corner.1 + CAPTION + GAP + (up.1 - p.1) * scale,
                 )
             };
-            panel(&mut svg, &drawn[index], at);
+            panel(&mut svg, &drawn[index].bodies, at);
             let caption = format!("pose {}", drawn[index].number);
             svg.text("mid", (left + panel_width / 2.0, corner.1 + 17.0), &caption);
         }
@@ -187,16 +128,10 @@ fn layout(figure: &ModesFigure, drawn: &[Drawn], pairs: &[Vec<usize>]) -> String
     svg.finish()
 }
 
-/// Base first, then what is farther below it: the platform is drawn last, so that it never hides behind a leg.
-fn panel(svg: &mut Svg, d: &Drawn, at: impl Fn((f64, f64)) -> (f64, f64)) {
-    let place = |points: &[(f64, f64)]| points.iter().map(|p| at(*p)).collect::<Vec<_>>();
-    svg.polygon("base", &place(&d.base));
-    for (k, [a, b]) in d.legs.iter().enumerate() {
-        svg.line(if k == 0 { "first" } else { "leg" }, at(*a), at(*b));
-    }
-    svg.polygon("platform", &place(&d.platform));
-    for p in d.base.iter().chain(&d.platform) {
-        svg.circle("hollow", at(*p), 2.2);
+fn panel(svg: &mut Svg, bodies: &Bodies, at: impl Fn((f64, f64)) -> (f64, f64)) {
+    bodies.draw(svg, "first", &at);
+    for p in bodies.corners() {
+        svg.circle("hollow", at(p), 2.2);
     }
 }
 
@@ -222,7 +157,7 @@ fn legend(svg: &mut Svg, y: f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::Rotation3;
+    use nalgebra::{Point3, Rotation3};
 
     fn octahedral() -> Manipulator {
         let t = |r: f64| vec![Point3::new(r, 0.0, 0.0), Point3::new(-r, r, 0.0), Point3::new(-r, -r, 0.0)];

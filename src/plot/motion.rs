@@ -1,7 +1,6 @@
 //! A moving platform: base, platform and legs in oblique projection, animated along a curve of poses.
 
-use nalgebra::{Point3, Vector3};
-
+use super::oblique::{Extent, oblique, outlines};
 use super::style::{Svg, px};
 use crate::geom::Pose;
 use crate::manipulator::Manipulator;
@@ -22,39 +21,10 @@ pub struct MotionFigure {
 const WIDTH: f64 = 640.0;
 const HEIGHT: f64 = 520.0;
 const MARGIN: f64 = 40.0;
-/// Depth is drawn along this direction (right, up).
-const DEPTH: (f64, f64) = (0.41, 0.29);
 /// Pictures of one run.
 const FRAMES: usize = 120;
 /// Seconds of one run.
 const SECONDS: usize = 12;
-
-fn oblique(p: &Point3<f64>) -> (f64, f64) {
-    (p.x + DEPTH.0 * p.y, p.z + DEPTH.1 * p.y)
-}
-
-/// Joints that carry legs, in the order of their angle about the axis of least spread.
-pub(super) fn outline(joints: &[Point3<f64>], used: impl Iterator<Item = usize>) -> Vec<usize> {
-    let mut list: Vec<usize> = used.collect();
-    list.sort_unstable();
-    list.dedup();
-    let centre = list.iter().map(|i| joints[*i].coords).sum::<Vector3<f64>>() / list.len() as f64;
-    let normal = list
-        .windows(2)
-        .map(|w| (joints[w[0]].coords - centre).cross(&(joints[w[1]].coords - centre)))
-        .max_by(|x, y| x.norm().total_cmp(&y.norm()))
-        .and_then(|n| n.try_normalize(0.0))
-        .unwrap_or_else(Vector3::z);
-    let u = list.first().and_then(|i| (joints[*i].coords - centre).try_normalize(0.0));
-    let u = u.unwrap_or_else(Vector3::x);
-    let v = normal.cross(&u);
-    let angle = |i: &usize| {
-        let d = joints[*i].coords - centre;
-        d.dot(&v).atan2(d.dot(&u))
-    };
-    list.sort_by(|i, j| angle(i).total_cmp(&angle(j)));
-    list
-}
 
 /// Poses at equal lengths along the curve, the nearest given ones.
 fn frames(figure: &MotionFigure) -> Vec<Pose> {
@@ -79,25 +49,16 @@ fn frames(figure: &MotionFigure) -> Vec<Pose> {
 pub fn motion(m: &Manipulator, figure: &MotionFigure) -> String {
     let frames = frames(figure);
     let pairs = m.pairs();
-    let base = outline(m.base_joints(), pairs.iter().map(|p| p.0));
-    let platform = outline(m.platform_joints(), pairs.iter().map(|p| p.1));
-    let tip = |pose: &Pose, j: usize| oblique(&pose.transform(&m.platform_joints()[j]));
-    let foot = |j: usize| oblique(&m.base_joints()[j]);
-    let mut extent = [f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY];
+    let [base, platform] = outlines(m);
+    let tip = |pose: &Pose, j: usize| oblique(&pose.transform(&m.platform_joints()[j]).coords);
+    let foot = |j: usize| oblique(&m.base_joints()[j].coords);
     let tips = frames.iter().flat_map(|f| platform.iter().map(move |j| tip(f, *j)));
-    for (x, y) in tips.chain(base.iter().map(|j| foot(*j))) {
-        extent = [extent[0].min(x), extent[1].max(x), extent[2].min(y), extent[3].max(y)];
-    }
-    let room = |low: f64, high: f64, pixels: f64| pixels / (high - low).max(f64::MIN_POSITIVE);
-    let scale = room(extent[0], extent[1], WIDTH - 2.0 * MARGIN).min(room(
-        extent[2],
-        extent[3],
-        HEIGHT - 2.0 * MARGIN - 50.0,
-    ));
+    let extent = Extent::of(tips.chain(base.iter().map(|j| foot(*j))));
+    let scale = extent.scale((WIDTH - 2.0 * MARGIN, HEIGHT - 2.0 * MARGIN - 50.0));
     let page = |p: (f64, f64)| {
         (
-            WIDTH / 2.0 + (p.0 - f64::midpoint(extent[0], extent[1])) * scale,
-            HEIGHT - MARGIN - 20.0 - (p.1 - extent[2]) * scale,
+            WIDTH / 2.0 + (p.0 - f64::midpoint(extent.across.0, extent.across.1)) * scale,
+            HEIGHT - MARGIN - 20.0 - (p.1 - extent.up.0) * scale,
         )
     };
     let description = format!("Base, platform and six legs in oblique projection, moving. {}", figure.note);
@@ -129,7 +90,7 @@ pub fn motion(m: &Manipulator, figure: &MotionFigure) -> String {
 mod tests {
     use super::*;
     use crate::manipulator::Leg;
-    use nalgebra::Rotation3;
+    use nalgebra::{Point3, Rotation3, Vector3};
 
     #[test]
     fn every_leg_and_the_platform_move_through_all_frames() {

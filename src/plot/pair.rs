@@ -2,8 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::modes::{BaseFrame, base_triangle, oblique};
-use super::motion::outline;
+use super::oblique::{BaseFrame, Bodies, Extent};
 use super::style::Svg;
 use crate::geom::Pose;
 use crate::manipulator::Manipulator;
@@ -30,18 +29,13 @@ const MARGIN: f64 = 28.0;
 const MIDDLE: f64 = 190.0;
 const TOP: f64 = 92.0;
 
-/// Both platforms in oblique projection in the base frame of the first, to the same scale. Joints that legs share are rings; the legs are numbered at their base.
+/// Both platforms in oblique projection in the base frame of the first, to the same scale. Joints that legs share are rings.
 #[must_use]
 pub fn platform_pair(platforms: [&Manipulator; 2], figure: &PairFigure) -> String {
-    let frame = BaseFrame::new(&base_triangle(platforms[0]));
+    let frame = BaseFrame::of(platforms[0]);
     let drawn = platforms.map(|m| Drawn::new(m, &figure.pose, &frame));
-    let all = || drawn.iter().flat_map(|d| d.base.iter().chain(&d.platform));
-    let span = |pick: fn(&(f64, f64)) -> f64| {
-        all().map(pick).fold((f64::INFINITY, f64::NEG_INFINITY), |r, v| (r.0.min(v), r.1.max(v)))
-    };
-    let (across, up) = (span(|p| p.0), span(|p| p.1));
-    let room = |r: (f64, f64), pixels: f64| pixels / (r.1 - r.0).max(f64::MIN_POSITIVE);
-    let scale = room(across, PANEL.0).min(room(up, PANEL.1));
+    let extent = Extent::of(drawn.iter().flat_map(|d| d.bodies.corners()));
+    let (across, up, scale) = (extent.across, extent.up, extent.scale(PANEL));
     let (wide, high) = ((across.1 - across.0) * scale, (up.1 - up.0) * scale);
     let width = 2.0 * MARGIN + 2.0 * wide + MIDDLE;
     let height = TOP + high + 74.0;
@@ -80,16 +74,12 @@ type Joint = ((f64, f64), usize);
 /// A platform on the page, right and up, design units.
 #[derive(Debug)]
 struct Drawn {
-    base: Vec<(f64, f64)>,
-    platform: Vec<(f64, f64)>,
-    legs: [[(f64, f64); 2]; 6],
+    bodies: Bodies,
     joints: Vec<Joint>,
 }
 
 impl Drawn {
     fn new(m: &Manipulator, pose: &Pose, frame: &BaseFrame) -> Self {
-        let base_at = |k: usize| oblique(&frame.coordinates(&m.base_joints()[k]));
-        let platform_at = |k: usize| oblique(&frame.coordinates(&pose.transform(&m.platform_joints()[k])));
         let pairs = m.pairs();
         let count = |joints: [usize; 6]| {
             let mut count = BTreeMap::new();
@@ -98,28 +88,15 @@ impl Drawn {
             }
             count
         };
-        let (below, above) = (count(pairs.map(|p| p.0)), count(pairs.map(|p| p.1)));
-        let base = outline(m.base_joints(), pairs.iter().map(|p| p.0));
-        let platform = outline(m.platform_joints(), pairs.iter().map(|p| p.1));
-        Self {
-            base: base.into_iter().map(base_at).collect(),
-            platform: platform.into_iter().map(platform_at).collect(),
-            legs: pairs.map(|(a, b)| [base_at(a), platform_at(b)]),
-            joints: below
-                .into_iter()
-                .map(|(k, legs)| (base_at(k), legs))
-                .chain(above.into_iter().map(|(k, legs)| (platform_at(k), legs)))
-                .collect(),
-        }
+        let below = count(pairs.map(|p| p.0)).into_iter();
+        let below = below.map(|(k, legs)| (frame.on_page(&m.base_joints()[k]), legs));
+        let above = count(pairs.map(|p| p.1)).into_iter();
+        let above = above.map(|(k, legs)| (frame.on_page(&pose.transform(&m.platform_joints()[k])), legs));
+        Self { bodies: Bodies::new(m, pose, frame), joints: below.chain(above).collect() }
     }
 
     fn draw(&self, svg: &mut Svg, at: impl Fn((f64, f64)) -> (f64, f64)) {
-        let place = |points: &[(f64, f64)]| points.iter().map(|p| at(*p)).collect::<Vec<_>>();
-        svg.polygon("base", &place(&self.base));
-        for [a, b] in &self.legs {
-            svg.line("leg", at(*a), at(*b));
-        }
-        svg.polygon("platform", &place(&self.platform));
+        self.bodies.draw(svg, "leg", &at);
         for (p, legs) in &self.joints {
             if *legs > 1 {
                 svg.circle("shared", at(*p), 6.0);

@@ -1,6 +1,6 @@
 //! Where a determinant vanishes over two variables.
 
-use super::axis::Axis;
+use super::axis::{Axis, frame};
 use super::contour::Grid;
 use super::style::Svg;
 
@@ -70,15 +70,7 @@ pub fn singular_slice(figure: &SliceFigure) -> String {
         svg.circle("mark", at, 5.0);
         svg.text("halo", (at.0 + 9.0, at.1 + 4.0), label);
     }
-    svg.rect("frame", (LEFT, TOP), (RIGHT - LEFT, BOTTOM - TOP));
-    for (value, label) in x.ticks(8) {
-        svg.line("tick", (x.at(value), BOTTOM), (x.at(value), BOTTOM + 5.0));
-        svg.text("mid", (x.at(value), BOTTOM + 19.0), &label);
-    }
-    for (value, label) in y.ticks(8) {
-        svg.line("tick", (LEFT - 5.0, y.at(value)), (LEFT, y.at(value)));
-        svg.text("end", (LEFT - 9.0, y.at(value) + 4.0), &label);
-    }
+    frame(&mut svg, &x, &y, (8, 8));
     svg.text("mid", (f64::midpoint(LEFT, RIGHT), BOTTOM + 44.0), &figure.across.label);
     svg.turned_text("mid", (24.0, f64::midpoint(TOP, BOTTOM)), -90.0, &figure.up.label);
     svg.text("note", (LEFT, HEIGHT - 18.0), &figure.note);

@@ -1,6 +1,6 @@
 //! A slice of the workspace, coloured by what ends it.
 
-use super::axis::Axis;
+use super::axis::{self, Axis};
 use super::contour::Grid;
 use super::slice::SliceAxis;
 use super::style::Svg;
@@ -57,7 +57,8 @@ pub fn workspace_slice(figure: &WorkspaceFigure) -> String {
     svg.text("title", (LEFT, 32.0), &figure.title);
     let last = figure.side.saturating_sub(1).max(1) as f64;
     let place = |axis: &Axis, k: f64| axis.at(axis.low + k / last * (axis.high - axis.low));
-    cells(&mut svg, figure, &|k| place(&x, k), &|k| place(&y, k));
+    let joined = joined(figure);
+    cells(&mut svg, figure, &joined, &|k| place(&x, k), &|k| place(&y, k));
     let margins = figure.margins.iter().map(|m| m.clamp(-1e300, 1e300)).collect();
     let grid = Grid { columns: figure.side, rows: figure.side, values: margins };
     for line in grid.contour(0.0) {
@@ -69,7 +70,7 @@ pub fn workspace_slice(figure: &WorkspaceFigure) -> String {
     svg.circle("mark", at, 5.0);
     svg.text("halo", (at.0 + 9.0, at.1 + 4.0), label);
     frame(&mut svg, &x, &y, figure);
-    legend(&mut svg, figure);
+    legend(&mut svg, figure, &joined);
     svg.finish()
 }
 
@@ -87,7 +88,13 @@ fn class(limit: usize) -> String {
 }
 
 /// Strips of grid points with the same limit, half a cell to either side.
-fn cells(svg: &mut Svg, figure: &WorkspaceFigure, x: &impl Fn(f64) -> f64, y: &impl Fn(f64) -> f64) {
+fn cells(
+    svg: &mut Svg,
+    figure: &WorkspaceFigure,
+    joined: &[bool],
+    x: &impl Fn(f64) -> f64,
+    y: &impl Fn(f64) -> f64,
+) {
     let n = figure.side;
     let within = |k: f64| k.clamp(0.0, n.saturating_sub(1) as f64);
     let missed = |k: usize| figure.worst[k].filter(|_| !(figure.margins[k] > 0.0));
@@ -104,7 +111,6 @@ fn cells(svg: &mut Svg, figure: &WorkspaceFigure, x: &impl Fn(f64) -> f64, y: &i
             i += run;
         }
     }
-    let joined = joined(figure);
     for j in (0..n).step_by(3) {
         for i in (0..n).step_by(3).filter(|i| figure.margins[j * n + i] > 0.0 && !joined[j * n + i]) {
             svg.circle("apart", (x(i as f64), y(j as f64)), 0.9);
@@ -134,15 +140,7 @@ fn joined(figure: &WorkspaceFigure) -> Vec<bool> {
 }
 
 fn frame(svg: &mut Svg, x: &Axis, y: &Axis, figure: &WorkspaceFigure) {
-    svg.rect("frame", (LEFT, TOP), (RIGHT - LEFT, BOTTOM - TOP));
-    for (value, label) in x.ticks(8) {
-        svg.line("tick", (x.at(value), BOTTOM), (x.at(value), BOTTOM + 5.0));
-        svg.text("mid", (x.at(value), BOTTOM + 19.0), &label);
-    }
-    for (value, label) in y.ticks(8) {
-        svg.line("tick", (LEFT - 5.0, y.at(value)), (LEFT, y.at(value)));
-        svg.text("end", (LEFT - 9.0, y.at(value) + 4.0), &label);
-    }
+    axis::frame(svg, x, y, (8, 8));
     svg.text("mid", (f64::midpoint(LEFT, RIGHT), BOTTOM + 44.0), &figure.across.label);
     svg.turned_text("mid", (24.0, f64::midpoint(TOP, BOTTOM)), -90.0, &figure.up.label);
     for (k, note) in figure.notes.iter().enumerate() {
@@ -151,7 +149,7 @@ fn frame(svg: &mut Svg, x: &Axis, y: &Axis, figure: &WorkspaceFigure) {
 }
 
 /// Right of the plot: the limits that end the workspace somewhere in it.
-fn legend(svg: &mut Svg, figure: &WorkspaceFigure) {
+fn legend(svg: &mut Svg, figure: &WorkspaceFigure, joined: &[bool]) {
     let left = RIGHT + 22.0;
     let mut line = TOP + 12.0;
     let mut entry = |svg: &mut Svg, class: &str, text: &str| {
@@ -164,8 +162,7 @@ fn legend(svg: &mut Svg, figure: &WorkspaceFigure) {
     for (k, name) in figure.limits.iter().enumerate() {
         entry(svg, &class(k), name);
     }
-    let joined = joined(figure);
-    if figure.margins.iter().zip(&joined).any(|(m, joined)| *m > 0.0 && !joined) {
+    if figure.margins.iter().zip(joined).any(|(m, joined)| *m > 0.0 && !joined) {
         svg.circle("apart", (left + 5.0, line - 5.0), 0.9);
         svg.circle("apart", (left + 9.0, line - 5.0), 0.9);
         svg.circle("apart", (left + 13.0, line - 5.0), 0.9);

@@ -3,7 +3,7 @@
 use super::Requirements;
 use super::term::{Quantity, Term, Terms};
 use crate::geom::Pose;
-use crate::manipulator::{Manipulator, plucker_matrix};
+use crate::manipulator::{Manipulator, leg_determinant};
 
 /// What ends the workspace.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -47,21 +47,14 @@ impl<'a> Limits<'a> {
     pub fn new(manipulator: &'a Manipulator, required: &'a Requirements, home: &Pose) -> Self {
         let terms = Terms::new(manipulator, required, home);
         let size = manipulator.size();
-        let mut limits = Self { manipulator, required, terms, size, at_home: None };
-        let det = limits.determinant(home);
-        limits.at_home = (det.abs() > SINGULAR).then_some(det);
-        limits
+        let at_home = Some(leg_determinant(manipulator, home)).filter(|det| det.abs() > SINGULAR);
+        Self { manipulator, required, terms, size, at_home }
     }
 
     /// Whether `det J` limits the workspace; not when it vanishes at home.
     #[must_use]
     pub fn judges_singularity(&self) -> bool {
         self.at_home.is_some()
-    }
-
-    /// `det J` of the leg lines, without unit.
-    fn determinant(&self, pose: &Pose) -> f64 {
-        plucker_matrix(self.manipulator, pose, self.size).determinant() / self.size.powi(6)
     }
 
     fn share(&self, (term, margin): &(Term, f64)) -> f64 {
@@ -82,7 +75,7 @@ impl<'a> Limits<'a> {
         let shares = terms.iter().map(|t| PoseLimit { share: self.share(t), limit: Some(Limit::Term(t.0)) });
         let none = PoseLimit { share: f64::INFINITY, limit: None };
         let worst = shares.fold(none, |worst, t| if t.share < worst.share { t } else { worst });
-        let ratio = self.at_home.map_or(f64::INFINITY, |home| self.determinant(pose) / home);
+        let ratio = self.at_home.map_or(f64::INFINITY, |home| leg_determinant(self.manipulator, pose) / home);
         if worst.share > 0.0 && ratio < worst.share {
             PoseLimit { share: ratio, limit: Some(Limit::Singular) }
         } else {

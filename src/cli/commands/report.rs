@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Map, Value, json};
 
+use super::explore::folder::FIRST;
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
@@ -18,18 +19,6 @@ use crate::synthesis::Pattern;
 pub(super) const PAGE: &str = "report.html";
 /// Files larger than this are refused: a result has at most some megabytes.
 const MOST_BYTES: u64 = 64 << 20;
-/// What stands first when it is there: the order in which `explore` works.
-const FIRST: [&str; 8] = [
-    "original.toml",
-    "optimised.toml",
-    "verify.json",
-    "optimize.json",
-    "fk.json",
-    "family.json",
-    "determinant.svg",
-    "assembly-modes.svg",
-];
-
 /// Arguments of `report`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -92,20 +81,29 @@ fn design_of(file: &ReportFile) -> Option<Design> {
     parse(text, Format::of_path(path)).ok().map(|(design, _)| design)
 }
 
-/// All files of a folder but the page itself, known ones first, the others by name.
-pub(super) fn gather(folder: &Path, page: &Path) -> Result<Vec<ReportFile>, Failure> {
-    let unreadable = |path: &Path, error: &std::io::Error| {
-        Failure::refused("report::not_readable", format!("{} cannot be read: {error}", path.display()))
-            .with_help("name a folder with results, for instance that of `explore`")
-    };
+fn unreadable(path: &Path, error: &std::io::Error) -> Failure {
+    Failure::refused("report::not_readable", format!("{} cannot be read: {error}", path.display()))
+        .with_help("name a folder with results, for instance that of `explore`")
+}
+
+/// All files of a folder but the page itself.
+fn gather(folder: &Path, page: &Path) -> Result<Vec<ReportFile>, Failure> {
     let entries = std::fs::read_dir(folder).map_err(|e| unreadable(folder, &e))?;
     let own = page.canonicalize().ok();
-    let mut out = Vec::new();
+    let mut paths = Vec::new();
     for entry in entries {
         let path = entry.map_err(|e| unreadable(folder, &e))?.path();
-        if !path.is_file() || (own.is_some() && path.canonicalize().ok() == own) {
-            continue;
+        if path.is_file() && (own.is_none() || path.canonicalize().ok() != own) {
+            paths.push(path);
         }
+    }
+    read(paths)
+}
+
+/// Files for the page: those of `explore` first, the others by name.
+pub(super) fn read(paths: impl IntoIterator<Item = PathBuf>) -> Result<Vec<ReportFile>, Failure> {
+    let mut out = Vec::new();
+    for path in paths {
         let size = path.metadata().map_err(|e| unreadable(&path, &e))?.len();
         if size > MOST_BYTES {
             let message = format!("{} is larger than 64 MiB", path.display());

@@ -15,28 +15,38 @@ pub(crate) fn random_search(
     threads: usize,
     seed: u64,
 ) -> Rival {
+    shared(judge, wanted, threads, |k, share, record| {
+        let mut rng = Rng::stream(seed, k as u64);
+        let (mut found, mut drawn) = (0, 0);
+        while found < share {
+            if drawn % 1000 == 0 && record.clock.spent().cpu > seconds {
+                break;
+            }
+            let x: Vec<f64> = judge.bounds().iter().map(|b| rng.uniform(b.0, b.1)).collect();
+            drawn += 1;
+            if judge.is_feasible(&x) {
+                record.evaluate(judge, &x);
+                found += 1;
+            }
+        }
+        drawn
+    })
+}
+
+/// Threads that evaluate their share of the wanted designs each and tell how many points they asked for; they are given their number, their share and the record.
+fn shared(
+    judge: &dyn Judge,
+    wanted: usize,
+    threads: usize,
+    work: impl Fn(usize, usize, &Record) -> usize + Sync,
+) -> Rival {
     let record = Record::new();
     let draws = AtomicUsize::new(0);
     let share = wanted.div_ceil(threads.max(1));
     std::thread::scope(|scope| {
         for k in 0..threads.max(1) {
-            let (record, draws) = (&record, &draws);
-            scope.spawn(move || {
-                let mut rng = Rng::stream(seed, k as u64);
-                let (mut found, mut drawn) = (0, 0);
-                while found < share {
-                    if drawn % 1000 == 0 && record.clock.spent().cpu > seconds {
-                        break;
-                    }
-                    let x: Vec<f64> = judge.bounds().iter().map(|b| rng.uniform(b.0, b.1)).collect();
-                    drawn += 1;
-                    if judge.is_feasible(&x) {
-                        record.evaluate(judge, &x);
-                        found += 1;
-                    }
-                }
-                draws.fetch_add(drawn, Ordering::Relaxed);
-            });
+            let (record, draws, work) = (&record, &draws, &work);
+            scope.spawn(move || draws.fetch_add(work(k, share, record), Ordering::Relaxed));
         }
     });
     Rival { draws: draws.into_inner(), ..record.finish(judge) }
@@ -58,39 +68,31 @@ pub(crate) fn walks(
     threads: usize,
     seed: u64,
 ) -> Rival {
-    let record = Record::new();
-    let asked = AtomicUsize::new(0);
-    let share = wanted.div_ceil(threads.max(1));
-    std::thread::scope(|scope| {
-        for k in 0..threads.max(1) {
-            let (record, asked) = (&record, &asked);
-            scope.spawn(move || {
-                let mut rng = Rng::stream(seed ^ 0x6872, k as u64);
-                let (mut found, mut idle) = (0, 0);
-                let is_over = || record.clock.spent().cpu > seconds;
-                for start in starts.iter().rev().cycle().skip(k) {
-                    let before = found;
-                    let mut x = start.clone();
-                    while found < share && found - before < STEPS && !is_over() {
-                        let Some(next) = step(judge, &x, asked, &mut rng) else { break };
-                        record.evaluate(judge, &next);
-                        x = next;
-                        found += 1;
-                    }
-                    // starts that poses found later refute lead nowhere
-                    idle = if found > before { 0 } else { idle + 1 };
-                    if found >= share || idle > starts.len() || is_over() {
-                        break;
-                    }
-                }
-            });
+    shared(judge, wanted, threads, |k, share, record| {
+        let mut rng = Rng::stream(seed ^ 0x6872, k as u64);
+        let (mut found, mut idle, mut asked) = (0, 0, 0);
+        let is_over = || record.clock.spent().cpu > seconds;
+        for start in starts.iter().rev().cycle().skip(k) {
+            let before = found;
+            let mut x = start.clone();
+            while found < share && found - before < STEPS && !is_over() {
+                let Some(next) = step(judge, &x, &mut asked, &mut rng) else { break };
+                record.evaluate(judge, &next);
+                x = next;
+                found += 1;
+            }
+            // starts that poses found later refute lead nowhere
+            idle = if found > before { 0 } else { idle + 1 };
+            if found >= share || idle > starts.len() || is_over() {
+                break;
+            }
         }
-    });
-    Rival { draws: asked.into_inner(), ..record.finish(judge) }
+        asked
+    })
 }
 
 /// A uniform point of the feasible part, near `x`, of a chord of random direction through it; `None` where none is found.
-fn step(judge: &dyn Judge, x: &[f64], asked: &AtomicUsize, rng: &mut Rng) -> Option<Vec<f64>> {
+fn step(judge: &dyn Judge, x: &[f64], asked: &mut usize, rng: &mut Rng) -> Option<Vec<f64>> {
     let bounds = judge.bounds();
     // directions in the unit cube of the variables
     let d: Vec<f64> = bounds.iter().map(|b| (b.1 - b.0) * rng.normal()).collect();
@@ -104,7 +106,7 @@ fn step(judge: &dyn Judge, x: &[f64], asked: &AtomicUsize, rng: &mut Rng) -> Opt
     while whole.is_finite() && high - low > SHORTEST * whole {
         let t = rng.uniform(low, high);
         let there: Vec<f64> = x.iter().zip(&d).map(|(x, d)| x + t * d).collect();
-        asked.fetch_add(1, Ordering::Relaxed);
+        *asked += 1;
         if judge.is_feasible(&there) {
             return Some(there);
         }

@@ -19,6 +19,10 @@ pub(super) const REPORT: &str = "report.md";
 pub(super) const PAGE: &str = report::PAGE;
 const ALL: [&str; 10] = [ORIGINAL, FAMILY, OPTIMIZE, OPTIMISED, DETERMINANT, VERIFY, FK, MODES, REPORT, PAGE];
 
+/// What stands first in a report of the folder.
+pub(in crate::cli::commands) const FIRST: [&str; 8] =
+    [ORIGINAL, OPTIMISED, VERIFY, OPTIMIZE, FK, FAMILY, DETERMINANT, MODES];
+
 /// The folder and what has been written into it.
 #[derive(Debug)]
 pub(super) struct Folder {
@@ -76,8 +80,7 @@ impl Folder {
     /// # Errors
     /// Exit 2: a file cannot be read again.
     pub(super) fn results(&self) -> Result<Vec<ReportFile>, Failure> {
-        let all = report::gather(&self.path, &self.path.join(PAGE))?;
-        Ok(all.into_iter().filter(|f| self.written.contains(&f.name.as_str())).collect())
+        report::read(self.written.iter().map(|name| self.path.join(name)))
     }
 
     /// What has been written, in order.

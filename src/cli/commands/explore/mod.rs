@@ -1,7 +1,7 @@
 //! `equipod explore`: everything about an octahedral design in one folder.
 
 mod figures;
-mod folder;
+pub(super) mod folder;
 mod report;
 
 use std::fmt::Write as _;

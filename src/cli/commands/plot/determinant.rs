@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use crate::cli::context::Context;
 use crate::cli::failure::Failure;
+use crate::cli::numbers;
 use crate::manipulator::Octahedral;
 use crate::offsets::offset_determinant;
 use crate::plot::{SliceAxis, SliceFigure, singular_slice};
@@ -76,18 +77,12 @@ impl Plane {
     }
 }
 
-fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
-    let all: Option<Vec<f64>> =
-        text.split(',').map(|f| f.trim().parse().ok().filter(|x: &f64| x.is_finite())).collect();
-    all.and_then(|v| v.try_into().ok())
-}
-
 fn six(text: &str) -> Result<Offsets, String> {
-    numbers(text).map(Offsets).ok_or_else(|| "give six numbers separated by commas".into())
+    numbers::parse(text).map(Offsets).ok_or_else(|| "give six numbers separated by commas".into())
 }
 
 fn range(text: &str) -> Result<(f64, f64), String> {
-    let ends = numbers(text).filter(|[a, b]| a < b).map(|[a, b]| (a, b));
+    let ends = numbers::parse(text).filter(|[a, b]| a < b).map(|[a, b]| (a, b));
     ends.ok_or_else(|| "give two numbers, the smaller one first".into())
 }
 

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use crate::cli::context::Context;
 use crate::cli::failure::Failure;
 use crate::cli::freedoms::{Freedoms, PoseGrid};
+use crate::cli::numbers;
 use crate::cli::poses;
 use crate::design::Design;
 use crate::plot::{WorkspaceFigure, workspace_slice};
@@ -34,8 +35,7 @@ pub(super) struct Args {
 }
 
 fn half_widths(text: &str) -> Result<[f64; 2], String> {
-    let number = |t: &str| t.trim().parse().ok().filter(|x: &f64| x.is_finite() && *x > 0.0);
-    let both = text.split_once(',').and_then(|(a, b)| Some([number(a)?, number(b)?]));
+    let both = numbers::parse(text).filter(|half: &[f64; 2]| half.iter().all(|x| *x > 0.0));
     both.ok_or_else(|| "give two positive numbers separated by a comma".into())
 }
 

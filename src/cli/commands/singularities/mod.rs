@@ -16,7 +16,7 @@ use crate::cli::poses;
 use crate::design::Design;
 use crate::fk::{Automatic, FkOptions, ForwardKinematics};
 use crate::geom::Pose;
-use crate::manipulator::{LegLengths, Manipulator, Octahedral, inverse_condition, jacobian, plucker_matrix};
+use crate::manipulator::{LegLengths, Manipulator, Octahedral, inverse_condition, jacobian, leg_determinant};
 use crate::plot::singular_slice;
 use crate::singularity::{BoxOptions, RegularBox, four_planes, regular_box};
 
@@ -132,22 +132,14 @@ fn judged(m: &Manipulator, octahedral: Option<&Octahedral>, pose: Pose) -> Judge
     let unit = m.size();
     Judged {
         pose,
-        determinant: determinant(m, &pose),
+        determinant: leg_determinant(m, &pose),
         inverse_condition: inverse_condition(&jacobian(m, &pose, unit)),
         four_planes: octahedral.map(|o| four_planes(o, &pose).map(|d| d / unit.powi(9))),
     }
 }
 
-/// `det J` of the leg lines, lengths over the size.
-fn determinant(m: &Manipulator, pose: &Pose) -> f64 {
-    let unit = m.size();
-    plucker_matrix(m, pose, unit).determinant() / unit.powi(6)
-}
-
 fn six(text: &str, option: &str) -> Result<[f64; 6], Failure> {
-    let values: Option<Vec<f64>> =
-        text.split(',').map(|f| f.trim().parse().ok().filter(|x: &f64| x.is_finite())).collect();
-    values.and_then(|v| <[f64; 6]>::try_from(v).ok()).ok_or_else(|| {
+    crate::cli::numbers::parse(text).ok_or_else(|| {
         Failure::refused(
             "singularities::bad_numbers",
             format!("{option}: `{text}` is not six finite numbers"),

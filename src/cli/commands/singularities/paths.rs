@@ -4,13 +4,14 @@ use std::fmt::Write as _;
 
 use serde_json::{Map, Value, json};
 
-use super::{Args, Judged, determinant};
+use super::{Args, Judged};
 use crate::cli::failure::Failure;
 use crate::cli::files;
 use crate::cli::output::number;
 use crate::cli::poses;
 use crate::design::Design;
 use crate::geom::Pose;
+use crate::manipulator::leg_determinant;
 use crate::plot::{AlongFigure, AlongPart, sign_along};
 use crate::singularity::{JoinOptions, Joined, Piece, Sign, SignsAlong, between, join, signs_along};
 
@@ -68,7 +69,7 @@ pub(super) fn path(
         for k in 0..=STEPS {
             let u = k as f64 / STEPS as f64;
             let pose = between(&w[0], &w[1], u);
-            values.push((part, u, pose, determinant(m, &pose)));
+            values.push((part, u, pose, leg_determinant(m, &pose)));
         }
     }
     let path = Path { ends: [from, to], poses: chain, parts, values };

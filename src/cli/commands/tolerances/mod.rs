@@ -54,9 +54,7 @@ pub(super) struct Found {
 
 /// Numbers separated by commas.
 pub(crate) fn numbers<const N: usize>(text: &str, option: &str, code: &str) -> Result<[f64; N], Failure> {
-    let fields: Option<Vec<f64>> =
-        text.split(',').map(|f| f.trim().parse::<f64>().ok().filter(|x| x.is_finite())).collect();
-    fields.and_then(|f| f.try_into().ok()).ok_or_else(|| {
+    crate::cli::numbers::parse(text).ok_or_else(|| {
         let message = format!("{option}: `{text}` is not {N} numbers separated by commas");
         Failure::refused(code, message).with_help("write finite numbers, for instance 0.1,0.05")
     })
