@@ -52,6 +52,8 @@ fn poses_that_rounding_of_the_joints_makes_do_not_spoil_the_verdict() {
     let text = String::from_utf8(verify(&a, &b, &[]).stdout).unwrap();
     let rows = text.lines().filter(|l| l.ends_with("of B beyond double precision")).count();
     assert!(rows > 0 && text.contains(&format!("; {beyond} further poses so far out")), "{text}");
+    let more = verify(&a, &b, &["--seed", "3", "--samples", "30"]);
+    assert_eq!(more.status.code(), Some(0), "{more:?}");
 }
 
 #[test]

@@ -6,7 +6,7 @@ use crate::num::disc::{Disc, UP};
 /// How two certified roots of the same problem relate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RootRelation {
-    /// Proved different: some entry of `R` or `p` is.
+    /// Proved different: some entry of `R` or `p`, or some ratio of Study coordinates, is.
     Distinct,
     /// Proved to be one root: one lies where the other is the only one.
     Same,
@@ -25,32 +25,57 @@ pub enum Distinctness {
 
 /// Relation of the roots of two certificates; both must come from the same manipulator and the same squared lengths.
 ///
-/// Roots are compared by the enclosures of `R` and `p`, which do not depend on the patch.
+/// Roots are compared by the enclosures of `R` and `p`, which do not depend on the patch, and by those of their Study coordinates: far out
+/// (`e.e` near 0) two poses may agree in all the leading digits of `R` and `p` and still have quite different `g`.
 #[must_use]
 pub fn relation(a: &Certificate, b: &Certificate) -> RootRelation {
     if a.enclosure.discs().zip(b.enclosure.discs()).any(|(x, y)| x.is_disjoint(y)) {
         return RootRelation::Distinct;
     }
-    if is_captured(a, b) || is_captured(b, a) { RootRelation::Same } else { RootRelation::Undecided }
+    let seen = [(a, b), (b, a)].map(|(inner, outer)| (on_patch_of(inner, outer), outer));
+    let any = |holds: &dyn Fn(&[Disc; 8], &Certificate) -> bool| {
+        seen.iter().any(|(x, outer)| x.is_some_and(|x| holds(&x, outer)))
+    };
+    if any(&is_apart) {
+        RootRelation::Distinct
+    } else if any(&is_captured) {
+        RootRelation::Same
+    } else {
+        RootRelation::Undecided
+    }
 }
 
-/// Proves that the root of `inner` lies in the uniqueness ball of `outer`: its coordinates, divided by the
-/// one that is 1 on the patch of `outer`.
-fn is_captured(inner: &Certificate, outer: &Certificate) -> bool {
+/// Coordinate `j` of the root, where that of its patch is 1.
+fn coordinate(c: &Certificate, j: usize) -> Disc {
+    Disc { centre: c.centre[j], radius: if j == c.patch { 0.0 } else { c.radius } }
+}
+
+/// The coordinates of the root of `inner` in the unit of `outer`, divided by the one that is 1 on its patch. `None` when that one may vanish.
+fn on_patch_of(inner: &Certificate, outer: &Certificate) -> Option<[Disc; 8]> {
     // both units are powers of two: products with their ratio are exact
     let ratio = inner.unit / outer.unit;
-    let disc = |j: usize| {
-        let radius = if j == inner.patch { 0.0 } else { inner.radius };
-        Disc { centre: inner.centre[j], radius }.scaled(if j < 4 { 1.0 } else { ratio })
-    };
-    let comparable = ratio.is_normal();
-    let Some(factor) = disc(outer.patch).reciprocal() else { return false };
-    comparable
-        && (0..8).filter(|j| *j != outer.patch).all(|j| {
-            let x = if inner.patch == outer.patch { disc(j) } else { disc(j) * factor };
-            let gap = x - Disc::point(outer.centre[j]);
-            (gap.centre.norm() + gap.radius) * UP <= outer.uniqueness_radius
-        })
+    let disc = |j: usize| coordinate(inner, j).scaled(if j < 4 { 1.0 } else { ratio });
+    if !ratio.is_normal() {
+        return None;
+    }
+    if inner.patch == outer.patch {
+        return Some(std::array::from_fn(disc));
+    }
+    let factor = disc(outer.patch).reciprocal()?;
+    Some(std::array::from_fn(|j| disc(j) * factor))
+}
+
+/// Proves that `x` is not the root of `outer`.
+fn is_apart(x: &[Disc; 8], outer: &Certificate) -> bool {
+    (0..8).filter(|j| *j != outer.patch).any(|j| x[j].is_disjoint(&coordinate(outer, j)))
+}
+
+/// Proves that `x` lies in the uniqueness ball of `outer`.
+fn is_captured(x: &[Disc; 8], outer: &Certificate) -> bool {
+    (0..8).filter(|j| *j != outer.patch).all(|j| {
+        let gap = x[j] - Disc::point(outer.centre[j]);
+        (gap.centre.norm() + gap.radius) * UP <= outer.uniqueness_radius
+    })
 }
 
 /// Proves the roots of certificates of one problem pairwise distinct, or lists the pairs for which it cannot.

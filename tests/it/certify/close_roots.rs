@@ -1,7 +1,9 @@
 //! Multiple roots have no certificate, separate ones do, however close.
 
+use equipod::design::{Format, parse};
+use equipod::fk::{FkOptions, ForwardKinematics, Homotopy};
 use equipod::geom::{ComplexPose, Pose, random_rotation};
-use equipod::manipulator::Manipulator;
+use equipod::manipulator::{LegLengths, Manipulator};
 use equipod::num::Rng;
 use equipod::num::double_double::DoubleDouble;
 use equipod::num::interval::Interval;
@@ -161,4 +163,24 @@ fn refinement_satisfies_integer_leg_equations_to_27_digits() {
         checked += 1;
     }
     assert!(checked > 20, "{checked}");
+}
+
+#[test]
+fn far_poses_with_equal_leading_digits_are_told_apart_by_their_study_coordinates() {
+    // |R| about 8e12: entries of R and p agree to eleven digits, g differs in the first
+    let text = include_str!("../../../designs/worked/isolator-1.toml");
+    let (design, _) = parse(text, Format::Toml).unwrap();
+    let lengths = [
+        86.68843075813669,
+        86.76033025299336,
+        85.19895772995153,
+        86.7325332351761,
+        87.25193376190299,
+        86.03835420494654,
+    ];
+    let s = LegLengths::try_new(lengths).unwrap().squared();
+    let found = Homotopy.solve(design.manipulator(), &s, &FkOptions::default()).unwrap();
+    assert!(found.roots.iter().all(|r| r.certified) && found.all_accounted(), "{:?}", found.completeness);
+    let far = found.roots.iter().filter(|r| r.pose.position.norm() > 1e12).count();
+    assert_eq!((found.roots.len(), far), (20, 4));
 }
