@@ -235,3 +235,16 @@ fn the_page_of_a_run_is_that_of_the_command_report() {
     let refused = report(empty.to_str().unwrap());
     assert_eq!(refused.status.code(), Some(2));
 }
+
+#[test]
+fn the_report_of_a_run_is_about_what_the_run_wrote() {
+    let temp = tempfile::tempdir().unwrap();
+    let out = temp.path().join("out");
+    std::fs::create_dir(&out).unwrap();
+    std::fs::copy(shipped("dietmaier"), out.join("foreign.toml")).unwrap();
+    std::fs::File::create(out.join("huge.json")).unwrap().set_len(1 << 30).unwrap();
+    let run = explore(&shipped("rbt-octahedral"), &out, &[]);
+    assert_eq!(run.status.code(), Some(0), "{run:?}");
+    let page = read(&out, "report.html");
+    assert!(!page.contains("foreign.toml") && !page.contains("huge.json") && page.contains("fk.json"));
+}
