@@ -14,10 +14,9 @@ import sys
 import tempfile
 import tomllib
 
-from closure import check_drake, check_pinocchio
 from common import failed, missing, passed, run
 from drawings import check_dxf, check_svg, check_xml
-from motion import check_equivalent, check_mujoco, home_lengths, poses_of
+from motion import check_equivalent, check_poses
 from schemas import check_schemas
 from solids import check_step, check_stl
 from texts import check_csv, check_hal, check_json, check_matlab
@@ -62,11 +61,7 @@ def main():
         check_dxf(folder, design, doc)
         check_stl(folder, design, doc)
         check_step(folder, design, doc)
-        home = home_lengths(folder)
-        moved = list(poses_of(folder / "lengths-workspace.csv", 4))[1:] if time else []
-        check_drake(folder, design, home, max(home), moved)
-        check_pinocchio(folder, design, home, max(home), moved)
-        check_mujoco(folder, design, time, leg_range(ROOT / f"designs/{design}.toml", doc))
+        check_poses(folder, design, time, leg_range(ROOT / f"designs/{design}.toml", doc))
     check_schemas(program, top / "schemas", ROOT)
     check_equivalent(program, top, ROOT / "designs/rbt-octahedral.toml")
     if not args.keep:

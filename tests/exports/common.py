@@ -28,9 +28,14 @@ def module(name, label=None):
 
 
 def compare(name, good, path, wrong, fault):
-    """`good(path)` returns "" for the file and has to return a complaint, or to break down, for its text with a planted fault."""
+    """`good(path)` returns "" for the file, else a complaint, which it has to do for its text with a planted fault."""
     why = good(path)
     report(name, why == "", why)
+    planted(name, good, path, wrong, fault)
+
+
+def planted(name, good, path, wrong, fault):
+    """`good` has to return a complaint, or to break down, for the text of the file with a planted fault."""
     text = path.read_text()
     spoilt = fault(text)
     if spoilt == text:
