@@ -4,7 +4,7 @@
     python tests/exports/check.py target/debug/equipod
 
 Every check is run on the file as it is written and on one with a planted fault, which it has to find.
-A program that is not installed is named and counts as a failure unless --allow-missing is given.
+A program that is not installed is named and counts as a failure unless --allow-missing is given; LinuxCNC, which few systems can have, is only named.
 """
 
 import argparse
@@ -14,8 +14,9 @@ import sys
 import tempfile
 import tomllib
 
-from common import failed, missing, passed, run
+from common import failed, missing, optional, passed, run
 from drawings import check_dxf, check_svg, check_xml
+from linuxcnc import check_linuxcnc, check_preset
 from motion import check_equivalent, check_poses
 from schemas import check_schemas
 from solids import check_step, check_stl
@@ -55,6 +56,7 @@ def main():
         check_csv(folder, design)
         doc = check_json(folder, design)
         check_hal(folder, design)
+        check_linuxcnc(folder, design, time is not None)
         check_matlab(folder, design)
         check_svg(folder, design, doc)
         check_xml(folder, design)
@@ -62,11 +64,12 @@ def main():
         check_stl(folder, design, doc)
         check_step(folder, design, doc)
         check_poses(folder, design, time, leg_range(ROOT / f"designs/{design}.toml", doc))
+    check_preset(program, top / "preset")
     check_schemas(program, top / "schemas", ROOT)
     check_equivalent(program, top, ROOT / "designs/rbt-octahedral.toml")
     if not args.keep:
         shutil.rmtree(top)
-    print(f"{len(passed)} passed, {len(failed)} failed" + (f", not installed: {', '.join(missing)}" if missing else ""))
+    print(f"{len(passed)} passed, {len(failed)} failed" + (f", not installed: {', '.join(missing + optional)}" if missing + optional else ""))
     sys.exit(1 if failed or (missing and not args.allow_missing) else 0)
 
 

@@ -4,7 +4,7 @@ import csv
 import math
 import subprocess
 
-passed, failed, missing = [], [], []
+passed, failed, missing, optional = [], [], [], []
 
 
 def report(name, ok, detail=""):
@@ -12,10 +12,11 @@ def report(name, ok, detail=""):
     print(f"{'ok  ' if ok else 'FAIL'} {name} {detail}", flush=True)
 
 
-def absent(name):
-    """Notes a program that is not installed."""
-    if name not in missing:
-        missing.append(name)
+def absent(name, required=True):
+    """Notes a program that is not installed; one that is not required is named only, whatever the caller asked for."""
+    names = missing if required else optional
+    if name not in names:
+        names.append(name)
 
 
 def module(name, label=None):

@@ -215,4 +215,4 @@ class Pinocchio(Mechanism):
 
 def installed():
     """Those whose program is there; the others are noted."""
-    return [kind for kind in (MuJoCo, Drake, Pinocchio) if module(kind.PACKAGE)]
+    return [kind for kind in (MuJoCo, Drake, Pinocchio) if module(kind.PACKAGE, kind.__name__)]
