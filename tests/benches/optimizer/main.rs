@@ -1,13 +1,13 @@
 //! The optimiser against 100,000 random feasible designs and against CMA-ES with 100 times its processor time.
 //!
 //! ```text
-//! cargo bench --bench optimizer -- [--random 100000] [--factor 100] [--threads 2] [--seed 1] [--seconds 600] [--only offsets|requirements] [--out FOLDER] [DESIGN ...]
+//! cargo bench --bench optimizer -- [--random 100000] [--factor 100] [--threads 2] [--seed 1] [--seconds 600] [--walk-seconds 1800] [--only offsets|requirements] [--out FOLDER] [DESIGN ...]
 //! cargo bench --bench optimizer -- --timing
 //! ```
 //!
 //! Default: all designs of `designs/`, `designs/worked/` and `designs/presets/`. The problem of a design is that of `equipod optimize`. Octahedral ones are taken without their requirements too: the offsets alone,
 //! once with the joints up to one edge length out and once inside the edges. Random search draws from the box of the variables for `--seconds` of processor time; where fewer than `--random` feasible
-//! designs come to light, walks inside the feasible set, from the feasible designs that either rival found, take as long again and go on to that number. Prints a Markdown table; with `--out` writes it, the rows as CSV and a picture of the convergence for each problem (rows of other problems that stand there already are kept). Exit 1 when
+//! designs come to light, walks inside the feasible set, from the feasible designs that either rival found, go on to that number or for `--walk-seconds`. Prints a Markdown table; with `--out` writes it, the rows as CSV and a picture of the convergence for each problem (rows of other problems that stand there already are kept). Exit 1 when
 //! the optimiser loses. `--timing`: the time of problems with 200 poses instead.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program that prints tables")]
 
@@ -48,6 +48,7 @@ struct Arguments {
     random: usize,
     factor: f64,
     seconds: f64,
+    walk_seconds: f64,
     threads: usize,
     seed: u64,
     out: Option<PathBuf>,
@@ -69,6 +70,7 @@ fn arguments() -> Result<Option<Arguments>, Failure> {
         random: 100_000,
         factor: 100.0,
         seconds: 600.0,
+        walk_seconds: 1800.0,
         threads: 2,
         seed: 1,
         out: None,
@@ -86,6 +88,7 @@ fn arguments() -> Result<Option<Arguments>, Failure> {
             "--random" => a.random = next()?.parse()?,
             "--factor" => a.factor = next()?.parse()?,
             "--seconds" => a.seconds = next()?.parse()?,
+            "--walk-seconds" => a.walk_seconds = next()?.parse()?,
             "--threads" => a.threads = next()?.parse()?,
             "--seed" => a.seed = next()?.parse()?,
             "--out" => a.out = Some(next()?.into()),
@@ -213,7 +216,7 @@ fn compare(
         // worst first: walks begin with the last
         let starts: Vec<Vec<f64>> = random.path.iter().chain(&rival.path).cloned().collect();
         let missing = a.random - random.evaluations;
-        random = random.then(walks(judge, &starts, missing, a.seconds, a.threads, a.seed));
+        random = random.then(walks(judge, &starts, missing, a.walk_seconds, a.threads, a.seed));
         eprintln!(
             "  walks {:?} in {:.1} s, {} feasible",
             random.judged, random.spent.elapsed, random.evaluations
