@@ -33,7 +33,8 @@ fn settings(export: &Export) -> String {
     let mut out = commented("#", heading.map(|l| ascii(&l, |_| "?".to_string())));
     out.push_str(
         "# For a machine with LINEAR_UNITS = mm, after `loadrt genhexkins`. Strut N is leg N+1.\n\
-         # The machine position X Y Z A B C is the pose: p = (X, Y, Z), R = Rz(C) Ry(B) Rx(A), degrees.\n",
+         # The machine position X Y Z A B C is the pose: p = (X, Y, Z), R = Rz(C) Ry(B) Rx(A), degrees.\n\
+         # genhexkins finds it from the struts only where the platform is turned little: B up to 75 with C = 0, C up to 45 with B = 0.\n",
     );
     let lengths: Vec<String> = export.legs.iter().map(|l| real(l.length() * mm)).collect();
     let (roll, pitch, yaw) = export.home.rotation.euler_angles();
