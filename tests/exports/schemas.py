@@ -4,6 +4,7 @@ import json
 import subprocess
 import tomllib
 
+from answers import check_answers
 from common import module, report, run
 
 
@@ -71,61 +72,14 @@ def check_designs(program, folder, root, validator):
         report(f"schema of designs: {'.'.join(map(str, path))} = {value} is refused by schema and program", bool(complaints(validator, bad)) and ours == 2)
 
 
-def check_answers(program, folder, root, designs, schema_of):
-    octahedral, general = root / "designs/rbt-octahedral.toml", root / "designs/general-6-6.toml"
-    free = folder / "free.toml"
-    run(program, "family", octahedral, "--pattern", "S123456", "--offsets=0.2,0.21,0.22,0.2,0.2,0.23", "-o", free)
-    asked = [
-        ("assess", root / "designs/worked/bench-octahedral.toml"),
-        ("bench", "--class", "octahedral", "--count", 2),
-        ("check", octahedral),
-        ("check", root / "designs/rbt-midline.toml"),
-        ("components", octahedral),
-        ("convert", octahedral, "-o", folder / "converted.json"),
-        ("explore", octahedral, "--samples", 1, "-o", folder / "explored"),
-        ("export", octahedral, "--to", "csv", "-o", folder / "exported"),
-        ("family", octahedral, "--pattern", "S123456", "--offsets=0.2,0.21,0.22,0.2,0.2,0.23"),
-        ("fk", octahedral),
-        ("fk", octahedral, "--near", "home"),
-        ("fk", root / "designs/innocenti-6-4.toml"),
-        ("locus", root / "designs/innocenti-6-4.toml", "--leg", 6, "--from", 3, "--to", 4, "--steps", 3),
-        ("map", octahedral, free),
-        ("move", octahedral, "--leg", 1, "--along", 1, "--to", 0.1),
-        ("move", octahedral, "--search", "--no-shared-joints"),
-        ("optimize", octahedral),
-        ("plot", "modes", octahedral),
-        ("presets",),
-        ("presets", "bench-l16"),
-        ("report", folder / "explored"),
-        ("round", octahedral, "--grid", 1),
-        ("selfmotion", root / "designs/rbt-midline.toml", "--searches", 0),
-        ("singularities", octahedral),
-        ("tolerances", octahedral, "--bound", "0.1,0.1", "--trials", 10),
-        ("topologies", octahedral),
-        ("verify", octahedral, free, "--samples", 1),
-        ("error", None),
-    ]
-    for name, *args in asked:
-        call = ["fk", "no-such.toml"] if name == "error" else [name, *map(str, args)]
-        out = subprocess.run([program, *call, "--json"], capture_output=True, text=True)
-        document, validator = json.loads(out.stdout), schema_of(name)
-        why = complaints(validator, document)
-        report(f"schema of answers: {' '.join(call[:1] + call[2:])}", not why and (name == "error") == ("error" in document), "; ".join(why[:2]))
-        spoilt = [changed(document, ["schema_version"], 2), without(document, ["warnings"]), {"schema_version": 1, "warnings": []}]
-        spoilt += [changed(document, [k], object_) for k, object_ in ((k, {"no": "such"}) for k in document) if isinstance(document[k], (str, list, bool)) and k in ("name", "A", "rows", "patterns", "samples", "solutions", "verdict", "relation")]
-        report(f"schema of answers: {name}: planted faults are found", all(complaints(validator, d) for d in spoilt))
-        if isinstance(document.get("design"), dict) and name in ("optimize", "round"):
-            report(f"schema of designs: the design {name} answers", not complaints(designs, document["design"]))
-
-
 def check_schemas(program, folder, root):
     if module("jsonschema") is None:
         return
     from jsonschema import Draft202012Validator
-    def schema_of(name):
+    def schema_of(name, change=lambda schema: schema):
         schema = json.loads(run(program, "schema", name))
         Draft202012Validator.check_schema(schema)
-        return Draft202012Validator(schema)
+        return Draft202012Validator(change(schema))
     designs = schema_of("design")
     folder.mkdir(exist_ok=True)
     check_designs(program, folder, root, designs)
