@@ -17,6 +17,7 @@ mod plane;
 mod request;
 mod scene;
 mod session;
+mod start;
 #[cfg(test)]
 mod tests;
 mod wire;

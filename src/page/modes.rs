@@ -1,5 +1,6 @@
 //! Assembly modes: all real poses with given leg lengths.
 
+use nalgebra::UnitQuaternion;
 use serde_json::{Value, json};
 
 use super::request::Refusal;
@@ -36,8 +37,14 @@ pub(super) fn confirm(first: &Manipulator, second: &Manipulator, at: &Pose) -> R
     Ok(json!({"first": side(&a), "second": side(&b), "distance": distance.map_or(Value::Null, number)}))
 }
 
-/// All poses with the lengths given, or with those at a pose; `here` is then the index of the one nearest to that pose.
-pub(super) fn record(m: &Manipulator, at: &Pose, lengths: Option<[f64; 6]>) -> Result<Value, Refusal> {
+/// All poses with the lengths given, or with those at a pose; `here` is then the index of the one nearest to that pose, where poses are isolated.
+/// `turn_deg`: by how much the platform is turned from home.
+pub(super) fn record(
+    m: &Manipulator,
+    home: &Pose,
+    at: &Pose,
+    lengths: Option<[f64; 6]>,
+) -> Result<Value, Refusal> {
     let found = match lengths {
         Some(l) => solve(m, LegLengths::try_new(l).map_err(|e| Refusal::new("lengths", e))?.squared())?,
         None => solve(m, at_pose(m, at)?)?,
@@ -49,9 +56,10 @@ pub(super) fn record(m: &Manipulator, at: &Pose, lengths: Option<[f64; 6]>) -> R
     let real: Vec<&FkRoot> = roots.iter().copied().filter(|r| r.reality == Reality::Real).collect();
     let from = ComplexPose::from(*at);
     let distance = |r: &FkRoot| r.pose.distance(&from, m.size());
-    let here = (0..real.len())
-        .filter(|_| lengths.is_none())
-        .min_by(|a, b| distance(real[*a]).total_cmp(&distance(real[*b])));
+    // poses of a curve are samples of it: the nearest one is another pose
+    let listed = lengths.is_none() && !matches!(found.solution_set, SolutionSet::PositiveDimensional { .. });
+    let here =
+        (0..real.len()).filter(|_| listed).min_by(|a, b| distance(real[*a]).total_cmp(&distance(real[*b])));
     let (proved, reason) = match &found.completeness {
         Completeness::Proved { argument } => (true, argument),
         Completeness::Unproved { reason, .. } => (false, reason),
@@ -59,16 +67,19 @@ pub(super) fn record(m: &Manipulator, at: &Pose, lengths: Option<[f64; 6]>) -> R
     Ok(json!({
         "method": found.method.name(), "solution_set": found.solution_set.name(),
         "finite": found.roots.len(), "proved": proved, "reason": reason, "here": here,
-        "modes": real.iter().map(|r| mode(m, r)).collect::<Value>(),
+        "modes": real.iter().map(|r| mode(m, home, r)).collect::<Value>(),
         "complex": roots.iter().filter(|r| r.reality != Reality::Real).count(),
     }))
 }
 
-fn mode(m: &Manipulator, root: &FkRoot) -> Value {
+fn mode(m: &Manipulator, home: &Pose, root: &FkRoot) -> Value {
     let real = root.pose.real_part();
     let j = jacobian(m, &real, m.platform_rms_radius());
+    // by the quaternion: the arc cosine of the trace loses half of the digits at 0 and may be of more than 1
+    let turn = UnitQuaternion::from_rotation_matrix(&(home.rotation.inverse() * real.rotation)).angle();
     json!({
-        "pose": pose(&real), "sign": sign(&j), "inverse_condition": number(inverse_condition(&j)),
+        "pose": pose(&real), "turn_deg": number(turn.to_degrees()),
+        "sign": sign(&j), "inverse_condition": number(inverse_condition(&j)),
         "certified": root.certified, "multiplicity": root.multiplicity, "residual": number(root.residual),
     })
 }

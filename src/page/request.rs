@@ -4,7 +4,7 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 
 use super::session::{Equivalent, InvalidStart, Session};
-use super::wire::PoseRecord;
+use super::wire::{PoseRecord, numbers};
 use super::{modes, motion, opening, path, plane, scene, worst};
 use crate::design::{Format, parse};
 use crate::geom::Pose;
@@ -32,6 +32,8 @@ struct Chosen {
 enum Request {
     /// What there is to show.
     Open,
+    /// Offsets to begin with.
+    Start { pattern: String },
     /// The pose at a share of the way round.
     Path { at: f64 },
     /// Everything about both platforms at a pose.
@@ -101,6 +103,10 @@ impl Session {
         let equivalent = |c: Option<Chosen>| c.map(Chosen::equivalent).transpose();
         match request {
             Request::Open => Ok(opening::record(self)),
+            Request::Start { pattern } => {
+                let pattern: Pattern = pattern.parse().map_err(|e| Refusal::new("pattern", e))?;
+                Ok(json!({"offsets": numbers(self.first_offsets(&pattern)?)}))
+            }
             Request::Path { at } => Ok(path::record(self, at)),
             Request::State { pose, chosen } => {
                 scene::record(self, &Pose::from(&pose), equivalent(chosen)?.as_ref())
@@ -108,7 +114,7 @@ impl Session {
             Request::Worst { chosen } => worst::record(self, equivalent(chosen)?.as_ref()),
             Request::Modes { pose, lengths, which, chosen } => {
                 let design = self.platform(which, equivalent(chosen)?)?;
-                modes::record(design.manipulator(), &Pose::from(&pose), lengths)
+                modes::record(design.manipulator(), &self.home, &Pose::from(&pose), lengths)
             }
             Request::Confirm { pose, chosen } => {
                 let second = self.second(&chosen.equivalent()?)?.0;

@@ -11,7 +11,7 @@ use super::wire::{self, number, numbers};
 use crate::design::Design;
 use crate::geom::Pose;
 use crate::manipulator::{SquaredLegLengths, inverse_condition, jacobian};
-use crate::requirements::{Term, TermKind, Terms};
+use crate::requirements::{Standing, Term, TermKind, Terms};
 use crate::synthesis::AffineLegMap;
 
 /// Below this a singular value is not told from zero.
@@ -93,8 +93,11 @@ fn margins(session: &Session, design: &Design, at: &Pose) -> Value {
         }
     }
     let row = |(term, value): (Term, f64)| {
+        let pose = (!term.kind.is_fixed()).then_some(at);
+        let standing = terms.standing(term.kind, value, pose);
         json!({
-            "requirement": term.kind.code(), "margin": number(value), "met": value >= 0.0,
+            "requirement": term.kind.code(), "margin": number(value),
+            "met": standing.is_met(), "at_limit": standing == Standing::AtLimit,
             "unit": design.unit_of(term.kind.quantity()), "between": design.names_of(term),
         })
     };

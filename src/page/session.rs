@@ -9,9 +9,6 @@ use crate::manipulator::Manipulator;
 use crate::offsets::OffsetProblem;
 use crate::synthesis::{AffineLegMap, InstantiateError, Pattern};
 
-/// Offset on every edge that a page starts from when nothing else is asked.
-const FIRST_OFFSET: f64 = 0.2;
-
 /// A design with what its page needs to know: the octahedral platform behind it, home, and where the offsets begin.
 #[derive(Debug, Clone)]
 pub struct Session {
@@ -47,29 +44,39 @@ pub enum InvalidStart {
 }
 
 impl Session {
-    /// Opens a design. The page of an octahedral design starts with its equivalent without shared joints at `t = 0.2` on all edges, that of an
-    /// equivalent one with the design itself.
+    /// Opens a design. The page of an octahedral design starts with an equivalent without shared joints that meets the requirements of the design where
+    /// a regular one does, that of an equivalent one with the design itself.
     #[must_use]
     pub fn new(design: Design) -> Self {
         let original = Original::of(&design);
-        let start = original.as_ref().and_then(|o| {
-            let first = || Some((Pattern::new([false; 6], [1; 6])?, vec![FIRST_OFFSET; 6]));
-            o.seen.clone().or_else(first).map(|(pattern, offsets)| Equivalent { pattern, offsets })
-        });
         let (table, m) = (&design.optimize, design.manipulator());
         let defaults =
             original.as_ref().map(|o| OffsetProblem::with_defaults(o.octahedral.clone(), Vec::new()));
         let radius = defaults.as_ref().map_or(m.platform_rms_radius(), |d| d.characteristic_length);
         let spacing = defaults.as_ref().map_or(0.0, |d| d.min_joint_distance);
         let least = defaults.as_ref().map_or(0.0, |d| d.min_abs_det);
-        Self {
-            start,
+        let mut session = Self {
+            start: None,
             home: design.home_or_default(),
             characteristic_length: table.characteristic_length.unwrap_or(radius),
             limits: (table.min_joint_distance.unwrap_or(spacing), table.min_abs_det.unwrap_or(least)),
             original,
             design,
-        }
+        };
+        session.start = session.first_equivalent();
+        session
+    }
+
+    /// The design itself as an equivalent, else the platform without shared joints with regular offsets.
+    fn first_equivalent(&self) -> Option<Equivalent> {
+        let (pattern, offsets) = if let Some(seen) = self.original.as_ref()?.seen.clone() {
+            seen
+        } else {
+            let pattern = Pattern::new([false; 6], [1; 6])?;
+            let offsets = self.first_offsets(&pattern).ok()?;
+            (pattern, offsets)
+        };
+        Some(Equivalent { pattern, offsets })
     }
 
     /// The same with another equivalent platform to begin with.

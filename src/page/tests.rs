@@ -137,6 +137,51 @@ fn a_singular_platform_moves_and_a_regular_one_does_not() {
     assert_eq!(moving(EQUIVALENT)["dimension"], json!(0));
 }
 
+/// Every class begins with a regular platform that meets the requirements of the file, where one of the regular ones does.
+#[test]
+fn the_first_offsets_meet_the_requirements_at_home() {
+    let required = "[hardware]\njoint_diameter = 1.4\nbase_swing_deg = 30.0\n";
+    for text in [OCTAHEDRAL.to_string(), format!("{OCTAHEDRAL}\n{required}")] {
+        let session = session(&text);
+        let open = ask(&session, &json!({"op": "open"}));
+        for pattern in open["patterns"].as_array().unwrap() {
+            let first = ask(&session, &json!({"op": "start", "pattern": pattern["id"]}));
+            let chosen = json!({"pattern": pattern["id"], "offsets": first["offsets"]});
+            let state = ask(&session, &json!({"op": "state", "pose": open["home"], "chosen": chosen}));
+            assert!(state["map"]["det"].as_f64().unwrap().abs() >= 0.1, "{pattern}: {first}");
+            let margins = state["platforms"][1]["margins"].as_array().unwrap();
+            assert!(
+                margins.len() >= 2 && margins.iter().all(|m| m["met"] == json!(true)),
+                "{first}: {margins:?}"
+            );
+        }
+        assert_eq!(
+            open["start"]["offsets"],
+            ask(&session, &json!({"op": "start", "pattern": "S123456"}))["offsets"]
+        );
+    }
+    // more room than any platform on these edges has: the least bad one, and the page says what is violated
+    let session = session(&OCTAHEDRAL.replace("min_joint_distance = 1.2", "min_joint_distance = 7.0"));
+    let open = ask(&session, &json!({"op": "open"}));
+    let state = ask(&session, &json!({"op": "state", "pose": open["home"], "chosen": open["start"]}));
+    assert!(state["platforms"][1]["margins"].as_array().unwrap().iter().any(|m| m["met"] == json!(false)));
+}
+
+#[test]
+fn joints_exactly_as_far_apart_as_required_are_at_the_limit() {
+    let session = session(OCTAHEDRAL);
+    let home = ask(&session, &json!({"op": "open"}))["home"].clone();
+    let platform = |t: f64| {
+        let chosen = json!({"pattern": "S123456", "offsets": [0.3, t, 0.3, t, 0.3, t]});
+        let state = ask(&session, &json!({"op": "state", "pose": home, "chosen": chosen}));
+        let margin = &state["platforms"][1]["margins"][1];
+        (margin["met"].as_bool().unwrap(), margin["at_limit"].as_bool().unwrap())
+    };
+    assert_eq!(platform(0.2), (true, true), "0.2 of an edge of 6 is 1.2");
+    assert_eq!(platform(0.2 - 1e-9), (false, false));
+    assert_eq!(platform(0.2 + 1e-9), (true, false));
+}
+
 #[test]
 fn a_general_design_has_no_offsets() {
     let session = session(GENERAL);

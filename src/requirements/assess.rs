@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::Vector6;
 
+use super::standing::Standing;
 use super::term::{Term, TermKind, Terms};
 use super::{PoseSpace, Requirements};
 use crate::geom::Pose;
@@ -38,6 +39,8 @@ pub struct Margin {
     pub value: f64,
     /// The pose, `None` for requirements on which the pose has no influence.
     pub pose: Option<Pose>,
+    /// What the margin says, rounding kept in mind.
+    pub standing: Standing,
 }
 
 /// What was found.
@@ -50,14 +53,17 @@ pub struct Assessment {
 }
 
 impl Assessment {
-    /// `true` when no margin is below zero.
+    /// `true` when nothing is violated; a margin that rounding does not tell from zero is none ([`Standing::AtLimit`]).
     ///
     /// A violation found is one. That none was found at these poses is no proof that there is none between them.
     #[must_use]
     pub fn all_met(&self) -> bool {
-        self.margins.iter().all(|m| m.value >= 0.0)
+        self.margins.iter().all(|m| m.standing.is_met())
     }
 }
+
+/// The least margin of a kind so far and where.
+type Least = (Term, f64, Option<Pose>);
 
 /// A point of the region with what is known about it.
 type Candidate = (f64, Vector6<f64>);
@@ -77,12 +83,12 @@ fn least(terms: &Terms<'_>, kind: TermKind, pose: &Pose) -> f64 {
 pub fn assess(m: &Manipulator, required: &Requirements, space: &PoseSpace, o: &AssessOptions) -> Assessment {
     let terms = Terms::new(m, required, &space.home);
     let mut rng = Rng::stream(o.seed, 0x6d61);
-    let mut found: BTreeMap<TermKind, Margin> = BTreeMap::new();
+    let mut found: BTreeMap<TermKind, Least> = BTreeMap::new();
     let mut keep = |list: Vec<(Term, f64)>, pose: Option<Pose>| {
         for (term, value) in list {
-            let entry = found.entry(term.kind).or_insert(Margin { term, value, pose });
-            if value < entry.value || value.is_nan() {
-                *entry = Margin { term, value, pose };
+            let entry = found.entry(term.kind).or_insert((term, value, pose));
+            if value < entry.1 || value.is_nan() {
+                *entry = (term, value, pose);
             }
         }
     };
@@ -121,7 +127,11 @@ pub fn assess(m: &Manipulator, required: &Requirements, space: &PoseSpace, o: &A
             }
         }
     }
-    Assessment { margins: found.into_values().collect(), poses }
+    let margin = |(term, value, pose): Least| {
+        let standing = terms.standing(term.kind, value, pose.as_ref());
+        Margin { term, value, pose, standing }
+    };
+    Assessment { margins: found.into_values().map(margin).collect(), poses }
 }
 
 /// A worse pose near a bad one, and the number of poses tried.

@@ -10,6 +10,7 @@ mod keep_out;
 mod limit;
 mod load;
 mod pose_set;
+mod standing;
 mod term;
 #[cfg(test)]
 mod tests;
@@ -20,6 +21,7 @@ pub use keep_out::{FixedTo, KeepOut, Shape};
 pub use limit::{Limit, Limits, PoseLimit};
 pub use load::{Load, leg_forces};
 pub use pose_set::{PoseSpace, Region};
+pub use standing::Standing;
 pub use term::{Quantity, Term, TermKind, Terms};
 
 /// Greatest speed of the platform: every direction of motion up to these rates, together.

@@ -98,8 +98,8 @@ pub struct Term {
 /// The requirements made ready for one manipulator.
 #[derive(Debug)]
 pub struct Terms<'a> {
-    manipulator: &'a Manipulator,
-    required: &'a Requirements,
+    pub(super) manipulator: &'a Manipulator,
+    pub(super) required: &'a Requirements,
     /// Axes at the base, base frame, and at the platform, platform frame, in leg order.
     axes: [[Vector3<f64>; 6]; 2],
 }

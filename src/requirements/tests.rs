@@ -189,3 +189,75 @@ fn weight_is_shared_by_the_legs_and_forces_at_a_singular_pose_are_violations() {
     let values = Terms::new(&singular, &r, &home).at(&home);
     assert!(values.iter().all(|(_, x)| *x < -1e6), "{values:?}");
 }
+
+/// Two base joints 0.3 - 0.2 apart, where 0.1 is required: not the same number, but the same distance.
+#[test]
+fn a_margin_that_rounding_makes_is_at_the_limit_and_the_next_one_is_not() {
+    let standing = |shift: f64, scale: f64, least: f64| {
+        let at = |x: f64, y: f64| Point3::new(scale * (x + shift), scale * y, 0.0);
+        let base = vec![at(0.2, 0.0), at(0.3, 0.0), at(0.0, 1.0), at(1.0, 1.0), at(1.0, -1.0), at(0.0, -1.0)];
+        let m = Manipulator::try_new(base.clone(), base, std::array::from_fn(|i| (i, (i + 1) % 6))).unwrap();
+        let required = Requirements { min_joint_distance: Some(scale * least), ..Requirements::default() };
+        let home = Pose { rotation: Rotation3::identity(), position: Vector3::new(0.0, 0.0, scale) };
+        let found = assess(&m, &required, &PoseSpace::at(home), &quick());
+        let margin = margin(&found, TermKind::BaseSpacing);
+        (margin.value, margin.standing, found.all_met())
+    };
+    for scale in [1.0, 1e-3, 1e6] {
+        let (value, ..) = standing(0.0, scale, 0.1);
+        assert!(value.abs() < 1e-15 * scale, "{value}");
+        assert!(matches!(standing(0.0, scale, 0.1), (_, Standing::AtLimit, true)));
+        assert!(matches!(standing(0.0, scale, 0.1 + 1e-12), (_, Standing::Violated, false)));
+        assert!(matches!(standing(0.0, scale, 0.1 - 1e-12), (_, Standing::Met, true)));
+    }
+    // far from the origin coordinates have fewer digits left for the same distance
+    assert!(standing(1e4, 1.0, 0.1).0 < -1e-13);
+    assert!(matches!(standing(1e4, 1.0, 0.1), (_, Standing::AtLimit, true)));
+    assert!(matches!(standing(1e4, 1.0, 0.1 + 1e-6), (_, Standing::Violated, false)));
+}
+
+/// Each kind of limit set to what is measured at home is reached there, whatever the last digit says; a little more is a violation.
+#[test]
+fn limits_set_to_the_values_at_home_are_reached_and_not_violated() {
+    let (m, home) = slanted();
+    let base_axes = JointAxes::Given([Unit::new_normalize(Vector3::new(0.3, 0.1, 1.0)); 6]);
+    let weight = Load {
+        name: "weight".into(),
+        force: Vector3::new(0.0, 20.0, -100.0),
+        torque: Vector3::zeros(),
+        at: Point3::new(1.0, 2.0, 3.0),
+        fixed_to: FixedTo::Base,
+    };
+    let with = |length: f64, swing: f64, force: f64, speed: f64| {
+        let mut r = Requirements {
+            loads: vec![weight.clone()],
+            platform_speed: Some(PlatformSpeed { linear: 1.0, angular_deg: 10.0 }),
+            ..Requirements::default()
+        };
+        r.hardware.leg_length = Some(LengthLimits::Range(0.1, length));
+        r.hardware.base_swing = Some(Swing { limit_deg: swing, axes: base_axes });
+        r.hardware.max_leg_force = Some(force);
+        r.hardware.max_leg_speed = Some(speed);
+        r
+    };
+    let least = |r: &Requirements| {
+        let found = assess(&m, r, &PoseSpace::at(home), &quick());
+        [TermKind::LegTooLong, TermKind::BaseSwing, TermKind::LegForce, TermKind::LegSpeed]
+            .map(|kind| (margin(&found, kind).value, margin(&found, kind).standing))
+    };
+    let wide = [100.0, 90.0, 1e4, 100.0];
+    let room = least(&with(wide[0], wide[1], wide[2], wide[3]));
+    let [a, b, c, d]: [f64; 4] = std::array::from_fn(|k| wide[k] - room[k].0);
+    for share in [1.0 - 1e-16, 1.0, 1.0 + 2e-16] {
+        for (_, standing) in least(&with(a * share, b * share, c * share, d * share)) {
+            assert_eq!(standing, Standing::AtLimit);
+        }
+    }
+    let (low, high) = (1.0 - 1e-10, 1.0 + 1e-10);
+    for (_, standing) in least(&with(a * low, b * low, c * low, d * low)) {
+        assert_eq!(standing, Standing::Violated);
+    }
+    for (_, standing) in least(&with(a * high, b * high, c * high, d * high)) {
+        assert_eq!(standing, Standing::Met);
+    }
+}

@@ -45,6 +45,34 @@ fn margins_come_with_their_worst_poses_and_a_violation_is_a_no() {
     );
 }
 
+/// The platform triangle has edges of 6, one of them to the last digit only.
+#[test]
+fn a_distance_equal_to_the_least_one_is_at_its_limit() {
+    let folder = tempfile::tempdir().unwrap();
+    let with = |least: &str| {
+        let path = design(folder.path(), "");
+        let text = std::fs::read_to_string(&path).unwrap();
+        std::fs::write(
+            &path,
+            text.replace("min_joint_distance = 1.2", &format!("min_joint_distance = {least}")),
+        )
+        .unwrap();
+        path
+    };
+    let platform = |doc: &Value| {
+        let margin = doc["margins"].as_array().unwrap().last().unwrap().clone();
+        (margin["met"].as_bool(), margin["at_limit"].as_bool())
+    };
+    let (code, doc) = assess(&with("6.0"));
+    assert_eq!((code, platform(&doc)), (Some(0), (Some(true), Some(true))), "{doc}");
+    let text = String::from_utf8(equipod(&["assess", &with("6.0")]).stdout).unwrap();
+    assert!(text.contains("platform_spacing =") && !text.contains("-0.0"), "{text}");
+    let (code, doc) = assess(&with("6.000000001"));
+    assert_eq!((code, platform(&doc)), (Some(1), (Some(false), Some(false))), "{doc}");
+    let (code, doc) = assess(&with("5.999999999"));
+    assert_eq!((code, platform(&doc)), (Some(0), (Some(true), Some(false))), "{doc}");
+}
+
 #[test]
 fn a_trajectory_stands_beside_the_design_and_its_bad_lines_are_named() {
     let folder = tempfile::tempdir().unwrap();

@@ -102,6 +102,21 @@ def self_motion_keeps_the_lengths(shown):
     assert any(not close(float(a[0]), float(b[0]), 1e-3) for a, b in pairs), pairs
 
 
+def at_the_limit(shown):
+    """Joints exactly as far apart as they have to be are at their limit, and not violated by rounding."""
+    for k in range(1, 7):
+        shown.page.fill(f"input[aria-label='t{k} as a number']", "0.2")
+        shown.page.keyboard.press("Enter")
+    shown.settle()
+    margin = shown.page.text_content("#margins tbody tr:last-child td:nth-child(4)")
+    assert margin == "0, at the limit", margin
+    shown.page.fill("input[aria-label='t4 as a number']", "0.199999")
+    shown.page.keyboard.press("Enter")
+    shown.settle()
+    margin = shown.page.text_content("#margins tbody tr:last-child td:nth-child(4)")
+    assert "violated" in margin, margin
+
+
 def no_motion_when_regular(shown):
     shown.page.select_option("#path", "motion")
     shown.settle()

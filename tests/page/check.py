@@ -14,6 +14,7 @@ from playwright.sync_api import sync_playwright
 import access
 import behaviour
 import fresh
+import working
 from program import DESIGNS, Opened, Program, browser
 
 NO_WASM = "delete window.WebAssembly;"
@@ -87,6 +88,54 @@ def required(chromium, program, folder, pictures):
         shown.quiet()
 
 
+def first(chromium, program, folder, pictures):
+    """What is seen first is a platform without shared joints that meets the requirements of the file."""
+    for name in ("rbt-octahedral", "worked/linuxcnc-octahedral"):
+        path = program.page(DESIGNS / f"{name}.toml", folder / "first.html")
+        with Opened(chromium, path) as shown:
+            assert shown.page.input_value("#pattern") == "S123456"
+            assert shown.page.locator("#margins tbody tr").count() > 0
+            assert shown.page.locator("#margins .bad").count() == 0, shown.page.text_content("#margins")
+            # every class offers offsets of its own
+            options = shown.page.eval_on_selector_all("#pattern option", "list => list.map((o) => o.value)")
+            shown.page.select_option("#pattern", options[-1])
+            shown.settle()
+            assert abs(shown.det()) > 0.05, (options[-1], shown.det())
+            shown.quiet()
+    path = folder / "octahedral.html"
+    with Opened(chromium, path) as shown:
+        behaviour.at_the_limit(shown)
+
+
+def slow(chromium, program, folder, pictures):
+    """While the core computes for seconds the page answers keys and draws; nothing else than the newest answer is shown."""
+    whole = program.page(DESIGNS / "dietmaier.toml", folder / "dietmaier.html").read_text()
+    path = folder / "slow.html"
+    path.write_text(working.slowed(whole))
+    with Opened(chromium, path) as shown:
+        busy = working.stays_usable(shown)
+        working.newest_answer_only(shown)
+        shown.quiet()
+    # without workers the same answers, and the measure of frames notices that the page stands still
+    for what, page, script in (("no workers", path, working.NO_WORKERS), ("a policy without workers", folder / "policy.html", None)):
+        (folder / "policy.html").write_text(path.read_text().replace(" worker-src blob:;", ""))
+        with Opened(chromium, page, script=script) as shown:
+            again = working.stands_still(shown)
+            assert again == busy, f"{what}: {again} is not {busy}"
+            assert not [r for r in shown.requests if r.startswith("http")]
+
+
+def printed(chromium, program, folder, pictures):
+    """Printed from a dark screen the page is dark on white, with all its tables."""
+    with Opened(chromium, folder / "octahedral.html", dark=True) as shown:
+        shown.page.emulate_media(media="print")
+        shown.settle()
+        access.contrast(shown)
+        ink = shown.page.evaluate("getComputedStyle(document.body).color")
+        assert ink == "rgb(23, 25, 28)", ink
+        picture(shown, pictures, "printed")
+
+
 def phone(chromium, program, folder, pictures):
     path = folder / "octahedral.html"
     for width, dark in ((360, False), (390, True)):
@@ -124,7 +173,7 @@ def faults(chromium, program, folder, pictures):
         "an error": ("new App(core);", "new App(core); setTimeout(() => { throw new Error('planted'); });", lambda s: s.quiet()),
         "a request": ("</main>", "</main><script>fetch('http://example.invalid/x').catch(() => 0)</script>", lambda s: s.quiet()),
         "a wrong det A": ("exact: state.map.det", "exact: state.map.det * (1 + 1e-9)", lambda s: behaviour.slider_moves_det(s, program, folder)),
-        "a wrong mode list": ("...rows, ...(rows.length", "...rows.slice(1), ...(rows.length", lambda s: behaviour.modes_are_all(s, program, folder)),
+        "a wrong mode list": ("...rows, last)", "...rows.slice(1), last)", lambda s: behaviour.modes_are_all(s, program, folder)),
         "a control without name": ('<label>Speed', '<label hidden></label><label><select><option>x</option></select></label><label>Speed', access.names),
         "a core of other sources": ('"inverse_condition":', '"inverse_condition":1', fresh.same_answers),
         "pale text": ("--soft:#555c66", "--soft:#b5bcc6", access.contrast),
@@ -156,7 +205,7 @@ def main():
     if args.pictures:
         args.pictures.mkdir(parents=True, exist_ok=True)
     program, failed = Program(args.program), 0
-    checks = [octahedral, equivalent, singular, general, required, phone, recorded, faults]
+    checks = [octahedral, equivalent, singular, general, required, first, slow, phone, recorded, printed, faults]
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright, browser(playwright) as chromium:
         folder = Path(folder)
         program.page(DESIGNS / "rbt-octahedral.toml", folder / "octahedral.html")

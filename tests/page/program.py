@@ -64,6 +64,8 @@ class Opened:
     def settle(self):
         """Waits until bursts of changes are answered and drawn."""
         self.page.wait_for_timeout(350)
+        self.page.wait_for_selector("html:not([data-busy])", state="attached", timeout=120000)
+        self.page.evaluate("() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
 
     def __enter__(self):
         return self

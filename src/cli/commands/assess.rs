@@ -11,7 +11,7 @@ use crate::cli::failure::Failure;
 use crate::cli::output::{Answer, number};
 use crate::cli::poses;
 use crate::design::Design;
-use crate::requirements::{AssessOptions, Assessment, Margin, assess};
+use crate::requirements::{AssessOptions, Assessment, Margin, Standing, assess};
 
 /// Arguments of `assess`.
 #[derive(Debug, clap::Args)]
@@ -56,7 +56,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
 pub(super) fn margins(design: &Design, found: &Assessment) -> Value {
     let margin = |m: &Margin| {
         json!({
-            "requirement": m.term.kind.code(), "margin": number(m.value), "met": m.value >= 0.0,
+            "requirement": m.term.kind.code(), "margin": number(m.value), "met": m.standing.is_met(), "at_limit": m.standing == Standing::AtLimit,
             "unit": design.unit_of(m.term.kind.quantity()), "between": design.names_of(m.term), "pose": m.pose.as_ref().map(poses::record),
         })
     };
@@ -87,16 +87,20 @@ fn text(design: &Design, found: &Assessment) -> String {
                 values.map(|x| format!("{x:.4}")).collect::<Vec<_>>().join(",")
             },
         );
-        let mark = if m.value >= 0.0 { ' ' } else { '!' };
+        let (mark, shown) = match m.standing {
+            Standing::Met => (' ', m.value),
+            Standing::AtLimit => ('=', 0.0),
+            Standing::Violated => ('!', m.value),
+        };
         let of = design.names_of(m.term).join(", ");
         let _ = writeln!(
             out,
             "{:<17}{mark}{:>14.6} {:<8} {of:<24} {pose}",
             m.term.kind.code(),
-            m.value,
+            shown,
             design.unit_of(m.term.kind.quantity())
         );
     }
-    out.push_str("\nA margin below 0 is a violation. No violation found is no proof that there is none between the poses looked at.\n");
+    out.push_str("\nA margin below 0 is a violation (!); = at the limit, as far as rounding can tell, which is none. No violation found is no proof that there is none between the poses looked at.\n");
     out
 }

@@ -22,7 +22,7 @@ pub struct Judgement {
     pub det: Option<f64>,
     /// Least margin of each kind of requirement at the poses.
     pub margins: Vec<(TermKind, f64)>,
-    /// No margin is below 0 and `|det A|` is as large as required.
+    /// No margin is below 0 by more than rounding and `|det A|` is as large as required.
     pub met: bool,
 }
 
@@ -57,23 +57,27 @@ pub(super) fn objective_above(
     Some(worst)
 }
 
-/// Least margins at the poses.
-fn margins(m: &Manipulator, problem: &RoundingProblem<'_>) -> Vec<(TermKind, f64)> {
+/// Least margins at the poses, and whether none is violated.
+fn margins(m: &Manipulator, problem: &RoundingProblem<'_>) -> (Vec<(TermKind, f64)>, bool) {
     let terms = Terms::new(m, problem.requirements, &problem.space.home);
-    let mut least: BTreeMap<TermKind, f64> = BTreeMap::new();
-    let at_poses = problem.poses.iter().flat_map(|pose| terms.at(pose));
-    for (term, margin) in terms.fixed().into_iter().chain(at_poses) {
-        let entry = least.entry(term.kind).or_insert(margin);
-        *entry = entry.min(margin);
+    let mut least: BTreeMap<TermKind, (f64, Option<&Pose>)> = BTreeMap::new();
+    let at = |pose| terms.at(pose).into_iter().map(move |(term, margin)| (term, margin, Some(pose)));
+    let fixed = terms.fixed().into_iter().map(|(term, margin)| (term, margin, None));
+    for (term, margin, pose) in fixed.chain(problem.poses.iter().flat_map(at)) {
+        let entry = least.entry(term.kind).or_insert((margin, pose));
+        if margin < entry.0 {
+            *entry = (margin, pose);
+        }
     }
-    least.into_iter().collect()
+    let met = least.iter().all(|(kind, (margin, pose))| terms.standing(*kind, *margin, *pose).is_met());
+    (least.into_iter().map(|(kind, (margin, _))| (kind, margin)).collect(), met)
 }
 
 /// Everything about a design.
 pub(super) fn judge(m: &Manipulator, problem: &RoundingProblem<'_>, det: Option<f64>) -> Judgement {
     let mut hint = 0;
     let objective = objective_above(m, problem, -1.0, &mut hint).unwrap_or(0.0);
-    let (margins, pairs) = (margins(m, problem), m.pairs());
+    let ((margins, requirements_met), pairs) = (margins(m, problem), m.pairs());
     let det_met = problem.min_abs_det.is_none_or(|least| det.is_none_or(|det| det.abs() >= least));
     Judgement {
         objective,
@@ -83,7 +87,7 @@ pub(super) fn judge(m: &Manipulator, problem: &RoundingProblem<'_>, det: Option<
             least_distance(m.platform_joints(), &pairs.map(|p| p.1)),
         ],
         det,
-        met: det_met && margins.iter().all(|(_, margin)| *margin >= 0.0),
+        met: det_met && requirements_met,
         margins,
     }
 }

@@ -37,13 +37,19 @@ Object.assign(App.prototype, {
     this.path = path;
     this.player.rest(0);
     if (path === "motion") this.followMotion();
-    else $("motion-words").textContent = "";
+    else {
+      this.tasks.motion.drop();
+      $("motion-words").textContent = "";
+    }
   },
 
   /** The curve of poses with the present leg lengths. */
   followMotion() {
     const which = this.pattern ? "second" : "first";
-    const found = this.core.ask({ op: "motion", pose: this.pose, which, chosen: this.chosen });
+    this.tasks.motion.ask(this.core, { op: "motion", pose: this.pose, which, chosen: this.chosen }, (found) => this.showMotion(found));
+  },
+
+  showMotion(found) {
     const whose = this.pattern ? "the equivalent platform" : "the platform";
     if (found.error || !found.poses.length) {
       const why = found.error ? found.error.message
@@ -60,7 +66,14 @@ Object.assign(App.prototype, {
     this.move(0);
   },
 
+  /** Answers about other offsets are not waited for. */
+  left() {
+    if (this.tasks.confirm.drop()) this.listModes();
+    this.leaveMotion();
+  },
+
   leaveMotion() {
+    this.tasks.motion.drop();
     if (this.path !== "motion") return;
     this.player.rest(0);
     this.path = "workspace";
@@ -69,26 +82,38 @@ Object.assign(App.prototype, {
     $("motion-words").textContent = "";
   },
 
-  /** What takes longer, when the sliders rest. */
-  slow() {
-    this.worst = this.core.ask({ op: "worst", chosen: this.chosen });
+  /** What takes longer, when the sliders rest; said when somebody has changed an offset. */
+  slow(said = false) {
+    this.tasks.worst.ask(this.core, { op: "worst", chosen: this.chosen }, (worst) => {
+      this.worst = worst;
+      this.soon();
+      if (said) this.speak();
+    });
     if (this.pattern && this.pattern.offsets.length > 1) {
       const { low, high, points } = PLANE;
       const plane = this.core.ask({ op: "plane", chosen: this.chosen, axes: this.plane.axes, range: [low, high], points });
       this.planeAnswer = plane;
     }
     this.soon();
+  },
+
+  /** The numbers after a change, for those who do not see them. */
+  speak() {
     if (!this.state || !this.pattern) return;
     const state = this.core.ask({ op: "state", pose: this.pose, chosen: this.chosen });
     if (!state.error) $("live").textContent = `det A ${show(state.map.det, 4)}, worst conditioning of the equivalent ${show(this.worst.second ? this.worst.second.inverse_condition : null, 3)}`;
   },
 
   findModes() {
-    this.modes = this.core.ask({ op: "modes", pose: this.pose, which: "first" });
-    this.compared = -1;
-    this.listed = "here";
-    this.listModes();
-    this.soon();
+    const { pose } = this;
+    this.tasks.modes.ask(this.core, { op: "modes", pose, which: "first" }, (found) => {
+      this.modes = found;
+      this.compared = -1;
+      this.shown = -1;
+      this.listed = this.pose === pose ? "here" : "stale";
+      this.listModes();
+      this.soon();
+    });
   },
 
   /** All poses for lengths that somebody typed; the first real one is shown. */
@@ -100,39 +125,57 @@ Object.assign(App.prototype, {
     }
     this.player.rest(0);
     this.leaveMotion();
-    this.modes = this.core.ask({ op: "modes", pose: this.pose, lengths, which: "first" });
-    this.compared = -1;
-    this.shown = -1;
-    this.listed = "stale";
-    if (!this.modes.error && this.modes.modes.length) {
-      this.shown = 0;
-      this.listed = "here";
-      this.pose = this.modes.modes[this.shown].pose;
-    }
-    this.listModes();
-    this.soon();
+    const { pose } = this;
+    this.tasks.modes.ask(this.core, { op: "modes", pose, lengths, which: "first" }, (found) => {
+      this.modes = found;
+      this.compared = -1;
+      this.shown = -1;
+      this.listed = "stale";
+      // who has moved the platform meanwhile is not taken from there
+      if (!found.error && found.modes.length && this.pose === pose) {
+        this.shown = 0;
+        this.listed = "here";
+        this.pose = found.modes[0].pose;
+      }
+      this.listModes();
+      this.soon();
+    });
   },
 
   listModes() {
     const { modes } = this;
-    if (this.listed === undefined) this.listed = "here";
-    if (modes.error) {
-      $("modes-words").textContent = modes.error.message;
-      $("modes").replaceChildren();
-      return;
-    }
-    const here = this.listed === "here" ? (this.shown >= 0 ? this.shown : modes.here) : -1;
+    if (!modes || modes.error || !modes.modes.length) $("modes").replaceChildren();
+    else Tables.modes(this.open, modes, this.here(), this.compared, (name, k) => this.chooseMode(name, k));
+    // while others are looked for, that is said
+    this.captionGhost();
+    if (!this.tasks.modes.job) $("modes-words").textContent = this.modesInWords();
+  },
+
+  /** Which mode of the list is shown; -1 for none. */
+  here() {
+    if (this.listed !== "here") return -1;
+    return this.shown >= 0 ? this.shown : (this.modes.here ?? -1);
+  },
+
+  modesInWords() {
+    const { modes } = this;
+    if (!modes) return "";
+    if (modes.error) return modes.error.message;
     const of = this.pattern ? "the original" : "the platform";
     const count = modes.solution_set === "positive_dimensional"
-      ? `With exactly these lengths ${of} moves: the poses form a complex curve, of which ${modes.modes.length || "no"} real points are listed. Isolated poses beside it are not looked for; move the platform a little and ask again.`
+      ? `For exactly these lengths ${of} has a whole curve of complex poses; ${modes.modes.length ? `${modes.modes.length} real ones on it are listed` : "no real one was found on it"}. Isolated poses beside the curve (the one shown may be one) are not listed: move the platform a little and ask again.`
       : `${modes.modes.length} real of ${modes.finite} finite complex poses of ${of}, by the ${modes.method} method; the list is ${modes.proved ? "proved complete" : "not proved complete"}, ${modes.modes.filter((m) => m.certified).length} real ones are certified.`;
-    $("modes-words").textContent = this.listed === "stale" ? `${count} For the lengths at which they were found: the platform has moved since.` : count;
-    Tables.modes(modes, here, this.compared, (name, k) => this.chooseMode(name, k));
+    return this.listed === "stale" ? `${count} For the lengths at which they were found: the platform has moved since.` : count;
+  },
+
+  captionGhost() {
+    $("ghost-words").textContent = this.compared < 0 ? "" : ` Dashed: mode ${this.compared + 1}.`;
   },
 
   chooseMode(name, k) {
     if (name === "ghost") {
       this.compared = k;
+      this.captionGhost();
     } else {
       this.player.rest(0);
       this.leaveMotion();
@@ -147,7 +190,10 @@ Object.assign(App.prototype, {
 
   /** The other platform's own forward kinematics, for the same pose. */
   confirm() {
-    const found = this.core.ask({ op: "confirm", pose: this.pose, chosen: this.chosen });
+    this.tasks.confirm.ask(this.core, { op: "confirm", pose: this.pose, chosen: this.chosen }, (found) => this.showConfirmed(found));
+  },
+
+  showConfirmed(found) {
     $("modes-words").textContent = found.error ? found.error.message
       : `Solved for each platform from its own leg lengths: ${found.first.finite} finite poses of the original (${found.first.method}), ${found.second.finite} of the equivalent (${found.second.method}); `
         + (found.distance === null ? "they cannot be paired." : `paired, they are at most ${show(found.distance, 2)} of the size apart.`);
@@ -169,7 +215,7 @@ Object.assign(App.prototype, {
     const name = `${design.name.toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "")}.${format}`;
     const link = el("a", { href: URL.createObjectURL(new Blob([design[format]], { type: "text/plain" })), download: name });
     link.click();
-    URL.revokeObjectURL(link.href);
+    setTimeout(() => URL.revokeObjectURL(link.href), 60000);
     $("files-words").textContent = `${name} is in your downloads.`;
   },
 
@@ -181,9 +227,8 @@ Object.assign(App.prototype, {
       return;
     }
     this.player.rest(0);
+    Object.values(this.tasks).forEach((task) => task.drop());
     this.begin();
-    this.listed = "here";
-    this.shown = -1;
     this.views.forEach((v) => { v.scene = this.scene; });
     this.rebuild();
     $("files-words").textContent = `${file.name} is open.`;

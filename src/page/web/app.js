@@ -10,7 +10,14 @@ class App {
     this.hexagon = new Hexagon($("hexagon"), (k, t) => this.change([[k, t]]));
     this.plane = new Plane($("plane"), $("plane-words"), (changes) => this.change(changes));
     this.views = ["first", "second"].map((name) => new View($(`view-${name}`), this.camera, this.scene));
-    this.settle = later(160, () => this.slow());
+    this.settle = later(160, () => this.slow(true));
+    const say = (id, words) => () => { $(id).textContent = words; };
+    this.tasks = {
+      modes: new Task(say("modes-words", "Looking for all poses with these leg lengths …")),
+      confirm: new Task(say("modes-words", "Solving for both platforms …")),
+      motion: new Task(say("motion-words", "Looking for a self-motion through this pose …")),
+      worst: new Task(() => { this.worst = null; this.soon(); }),
+    };
     this.listen();
     this.rebuild();
   }
@@ -24,6 +31,10 @@ class App {
     this.path = "workspace";
     this.motion = null;
     this.compared = -1;
+    this.shown = -1;
+    this.listed = "here";
+    this.modes = null;
+    this.worst = null;
     this.pattern = open.patterns ? open.patterns.find((p) => p.id === open.start.pattern) : null;
     this.offsets = open.start ? [...open.start.offsets] : [];
     this.remembered = { [open.start ? open.start.pattern : ""]: this.offsets };
@@ -49,6 +60,8 @@ class App {
     });
     $("confirm").addEventListener("click", () => this.confirm());
     $("open").addEventListener("change", (e) => e.target.files[0] && this.replace(e.target.files[0]));
+    // what is printed has the light colours
+    matchMedia("print").addEventListener("change", () => this.show());
     window.addEventListener("resize", () => this.soon());
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.soon());
   }
@@ -74,15 +87,18 @@ class App {
     document.querySelector("main").classList.toggle("plain", !pattern);
     for (const id of ["offsets", "hexagon-card", "plane-card"]) $(id).hidden = !pattern;
     $("confirm").hidden = !pattern;
-    $("by-lengths-label").textContent = `Six leg lengths${pattern ? " of the original" : ""} [${open.units}]`;
+    const [skip] = document.getElementsByClassName("skip");
+    skip.href = pattern ? "#offsets" : "#modes-card";
+    skip.textContent = `Skip to the ${pattern ? "offsets" : "assembly modes"}`;
+    $("by-lengths-label").textContent = `Six leg lengths${pattern ? " of the original" : ""}${inUnits(open.units)}`;
     $("six").value = open.lengths ? open.lengths.join(", ") : "";
     for (const id of ["find", "confirm", "six", "solve", "pattern", "restart", "linked", "open", "axis-x", "axis-y"]) $(id).disabled = !enabled;
     const paths = [["workspace", open.trajectory ? "trajectory of the design" : "through the workspace"], ["motion", "self-motion"]];
     $("path").replaceChildren(...paths.map(([value, words]) => el("option", { value, selected: value === this.path }, words)));
     if (pattern) this.rebuildPattern();
     this.downloads();
-    this.modes = this.core.ask({ op: "modes", pose: this.pose, which: "first" });
     this.listModes();
+    this.findModes();
     this.slow();
     this.soon();
   }
@@ -90,9 +106,9 @@ class App {
   rebuildPattern() {
     const words = (p) => `${p.id}: ${p.base_joints}-${p.platform_joints}, ${p.shared_joints ? `${p.shared_joints} shared` : "none shared"}`;
     $("pattern").replaceChildren(...this.open.patterns.map((p) => el("option", { value: p.id, selected: p === this.pattern }, words(p))));
-    $("caption-second").replaceChildren(el("b", {}, "Equivalent"), ` ${this.pattern.id}, ${this.pattern.base_joints}-${this.pattern.platform_joints}`);
+    $("caption-second").replaceChildren(el("b", {}, "Equivalent"), ` ${this.pattern.id}, ${this.pattern.base_joints}-${this.pattern.platform_joints}; dotted: triangles of the original`);
     $("formula").textContent = `det A = ${this.pattern.det}`;
-    this.sliders.build(this.open.hexagon, this.pattern, this.core.live);
+    this.sliders.build(this.open, this.pattern, this.core.live);
     this.hexagon.build(this.open.hexagon, this.pattern, this.core.live);
     this.plane.axes = [0, Math.min(1, this.pattern.offsets.length - 1)];
     this.plane.enabled = this.core.live;
@@ -117,16 +133,16 @@ class App {
 
   first() {
     const { start } = this.open;
-    return start.pattern === this.pattern.id ? start.offsets : this.pattern.offsets.map((o) => (o.name.startsWith("u") ? 0.7 : 0.2));
+    return start.pattern === this.pattern.id ? start.offsets : this.core.ask({ op: "start", pattern: this.pattern.id }).offsets;
   }
 
   choosePattern(id) {
     this.remembered[this.pattern.id] = this.offsets;
     this.pattern = this.open.patterns.find((p) => p.id === id);
     this.offsets = this.remembered[id] || this.first();
-    this.leaveMotion();
+    this.left();
     this.rebuildPattern();
-    this.slow();
+    this.slow(true);
     this.soon();
   }
 
@@ -140,7 +156,7 @@ class App {
         if (o.side % 2 === this.pattern.offsets[k].side % 2) this.offsets[i] = t;
       });
     }
-    this.leaveMotion();
+    this.left();
     this.settle();
     this.soon();
   }
@@ -167,7 +183,7 @@ class App {
     this.frame([...state.platforms, ...ghosts].filter(Boolean));
     this.views[0].draw(first, { ghost: ghosts[0], names });
     if (second) this.views[1].draw(second, { original: first, ghost: ghosts[1], names });
-    const place = (p) => `3D view of ${p.name}: leg lengths ${p.lengths.map((x) => show(x, 4)).join(", ")} ${this.open.units}. Arrow keys turn it.`;
+    const place = (p) => `3D view of ${p.name}: leg lengths ${p.lengths.map((x) => show(x, 4)).join(", ")}${unit(this.open.units)}. Arrow keys turn it.`;
     this.views.forEach((v, k) => state.platforms[k] && v.canvas.setAttribute("aria-label", place(state.platforms[k])));
     if (this.pattern) {
       this.sliders.update(this.offsets, state.map.zeros);
@@ -178,7 +194,7 @@ class App {
     Tables.margins(state);
     this.tiles();
     const p = state.pose.p.map((x) => fixed(x, 3)).join(", ");
-    $("pose-words").textContent = `p = (${p}) ${this.open.units}, R = [${state.pose.R.map((r) => r.map((x) => fixed(x, 3)).join(" ")).join("; ")}]`;
+    $("pose-words").textContent = `p = (${p})${unit(this.open.units)}, R = [${state.pose.R.map((r) => r.map((x) => fixed(x, 3)).join(" ")).join("; ")}]`;
     document.documentElement.dataset.shown = JSON.stringify(this.offsets);
   }
 
@@ -196,7 +212,7 @@ class App {
   }
 
   ghosts() {
-    const mode = this.compared >= 0 && this.modes.modes ? this.modes.modes[this.compared] : null;
+    const mode = this.compared >= 0 && this.modes?.modes ? this.modes.modes[this.compared] : null;
     if (!mode) return [null, null];
     const state = this.core.live ? this.core.ask({ op: "state", pose: mode.pose, chosen: this.chosen }) : null;
     return state && !state.error ? state.platforms : [null, null];
@@ -207,6 +223,7 @@ class App {
     const [first, second] = state.platforms;
     const list = [];
     const near = (s) => (s ? show(s.distance, 4) : "–");
+    const sign = (s) => ({ 1: "+", 0: "0", "-1": "−" })[s];
     if (state.map) {
       const singular = Math.abs(state.map.det) < open.limits.det;
       list.push({ name: "det A of the leg map", id: "det", exact: state.map.det, wide: true, value: show(state.map.det), tone: singular ? "bad" : "good",
@@ -214,14 +231,13 @@ class App {
     }
     const both = (a, b) => (second ? `${a} · ${b}` : a);
     const pair = second ? "original · equivalent" : "";
-    list.push({ name: "conditioning σ₆/σ₁ here", id: "condition", value: both(show(first.inverse_condition, 3), second && show(second.inverse_condition, 3)), unit: pair });
-    if (worst) {
-      const value = (w) => (w ? show(w.inverse_condition, 3) : "–");
-      list.push({ name: `worst of ${worst.poses} poses`, id: "worst", value: both(value(worst.first), value(worst.second)), unit: pair });
-    }
-    list.push({ name: `closest base joints [${open.units}]`, id: "spacing-base", value: both(near(first.spacing.base), second && near(second.spacing.base)), unit: second ? second.spacing.base.joints.join(", ") : null });
-    list.push({ name: `closest platform joints [${open.units}]`, id: "spacing-platform", value: both(near(first.spacing.platform), second && near(second.spacing.platform)), unit: second ? second.spacing.platform.joints.join(", ") : null });
-    list.push({ name: "sign of det J here", id: "sign", value: both(show(first.sign), second && show(second.sign)), unit: pair });
+    list.push({ name: "conditioning σ₆/σ₁ here", id: "condition", value: both(show(first.inverse_condition, 3), second && show(second.inverse_condition, 3)), unit: second ? `${pair}; 1 is best` : "1 is best, 0 singular" });
+    const value = (w) => (w ? show(w.inverse_condition, 3) : "…");
+    list.push({ name: worst ? `worst σ₆/σ₁ of ${worst.poses} poses` : "worst σ₆/σ₁", id: "worst", value: both(value(worst?.first), value(worst?.second)), unit: pair });
+    const closest = (body) => (second ? `${pair}: ${second.spacing[body]?.joints.join(", ")}` : first.spacing[body]?.joints.join(", "));
+    list.push({ name: `closest base joints${inUnits(open.units)}`, id: "spacing-base", value: both(near(first.spacing.base), second && near(second.spacing.base)), unit: closest("base") });
+    list.push({ name: `closest platform joints${inUnits(open.units)}`, id: "spacing-platform", value: both(near(first.spacing.platform), second && near(second.spacing.platform)), unit: closest("platform") });
+    list.push({ name: "sign of det J here", id: "sign", value: both(sign(first.sign), second && sign(second.sign)), unit: pair });
     Tables.tiles(list);
   }
 }

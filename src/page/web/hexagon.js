@@ -108,6 +108,7 @@ class Hexagon {
       const shown = Math.max(HEX.low, Math.min(HEX.high, offsets[k]));
       handle.node.setAttribute("transform", `translate(${this.at(handle.side, shown).join(" ")})`);
       handle.node.setAttribute("aria-valuenow", offsets[k]);
+      handle.node.setAttribute("aria-valuetext", show(offsets[k]));
       const zero = zeros ? zeros[k] : null;
       const visible = zero !== null && zero >= HEX.low && zero <= HEX.high;
       handle.zero.setAttribute("visibility", visible ? "visible" : "hidden");

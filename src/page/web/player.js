@@ -18,7 +18,6 @@ class Player {
   toggle(on = !this.running) {
     this.running = on;
     $("play").textContent = on ? "Pause" : "Play";
-    $("play").setAttribute("aria-pressed", String(on));
     this.last = performance.now();
     if (on) requestAnimationFrame((now) => this.frame(now));
   }
@@ -27,15 +26,14 @@ class Player {
     if (!this.running) return;
     this.at = (this.at + ((now - this.last) / 1000 / ROUND_SECONDS) * this.speed) % 1;
     this.last = now;
-    $("way").value = this.at;
+    this.place(this.at);
     this.moved(this.at);
     requestAnimationFrame((next) => this.frame(next));
   }
 
   jump(at) {
     this.at = Math.min(at, 0.999999);
-    $("way").value = at;
-    $("way").setAttribute("aria-valuetext", `${Math.round(100 * at)} percent of the way`);
+    this.place(at);
     this.moved(this.at);
   }
 
@@ -43,6 +41,11 @@ class Player {
   rest(at) {
     this.toggle(false);
     this.at = at;
+    this.place(at);
+  }
+
+  place(at) {
     $("way").value = at;
+    $("way").setAttribute("aria-valuetext", `${Math.round(100 * at)} percent of the way`);
   }
 }

@@ -9,15 +9,16 @@ class Sliders {
     this.set = set;
   }
 
-  build(hexagon, pattern, enabled) {
-    this.rows = pattern.offsets.map((offset, k) => this.row(offset, k, pattern, hexagon.sides[offset.side], enabled));
+  build(open, pattern, enabled) {
+    this.units = open.units;
+    this.rows = pattern.offsets.map((offset, k) => this.row(offset, k, pattern, open.hexagon.sides[offset.side], enabled));
     this.box.replaceChildren(...this.rows.map((r) => r.node));
   }
 
   row(offset, k, pattern, side, enabled) {
     const leg = pattern.legs.find((l) => l.offset === k);
     const id = `offset-${offset.name}`;
-    const words = `${offset.joint} on ${side.from}${side.to} (${side.body}), ${show(side.length)} long`;
+    const words = `${offset.joint} from ${side.from} to ${side.to} (${side.body}), ${show(side.length, 4)}${unit(this.units)}`;
     const range = el("input", {
       type: "range", id, min: SLIDE.low, max: SLIDE.high, step: SLIDE.step, disabled: !enabled, "aria-describedby": `${id}-what`,
       input: () => this.set([[k, Number(range.value)]]),
@@ -31,7 +32,7 @@ class Sliders {
     const node = el("div", { class: "slider" },
       el("div", { class: "what" }, el("label", { for: id }, ...this.title(offset, leg)), el("span", { id: `${id}-what` }, words)),
       el("div", { class: "track" }, mark, range), field, zero);
-    return { node, range, field, mark, zero, name: offset.name };
+    return { node, range, field, mark, zero, name: offset.name, side };
   }
 
   title(offset, leg) {
@@ -43,7 +44,7 @@ class Sliders {
     this.rows.forEach((r, k) => {
       if (Number(r.range.value) !== offsets[k]) r.range.value = offsets[k];
       if (document.activeElement !== r.field) r.field.value = String(Number(offsets[k].toPrecision(7)));
-      r.range.setAttribute("aria-valuetext", show(offsets[k]));
+      r.range.setAttribute("aria-valuetext", `${show(offsets[k])} of the edge from ${r.side.from} to ${r.side.to}`);
       const zero = this.zeros[k];
       const there = zero !== null && zero !== undefined;
       const share = (zero - SLIDE.low) / (SLIDE.high - SLIDE.low);
@@ -51,6 +52,7 @@ class Sliders {
       // the middle of the thumb, half a thumb from the ends
       r.mark.style.left = `calc(${share} * (100% - 16px) + 8px)`;
       r.zero.textContent = there ? `→ ${fixed(zero, 3)}` : "no zero";
+      r.zero.title = there ? `to ${fixed(zero, 3)}, where det A is 0` : "";
       r.zero.setAttribute("aria-label", there ? `set ${r.name} to ${fixed(zero, 3)}, where det A is 0` : "det A does not depend on it");
       r.zero.disabled = !there || r.range.disabled;
     });

@@ -1,5 +1,13 @@
 // Numbers in tables: the text alternative of every picture.
 
+/** What a margin is the room of, in words. */
+const REQUIREMENTS = {
+  leg_too_short: "legs, above the least length", leg_too_long: "legs, below the greatest length",
+  base_swing: "swing of the base joints", platform_swing: "swing of the platform joints",
+  leg_clearance: "gap between legs", keep_out: "gap to the keep-outs", leg_force: "leg force", leg_speed: "leg speed",
+  base_spacing: "gap between base joints", platform_spacing: "gap between platform joints",
+};
+
 const Tables = {
   /** Leg lengths of both platforms, with what the leg map makes of the first ones. */
   lengths(state, units) {
@@ -12,8 +20,8 @@ const Tables = {
       return row(cells);
     });
     const heads = map
-      ? ["", "original", `length [${units}]`, "equivalent", `length [${units}]`, "√(A s + c)"]
-      : ["", "joints", `length [${units}]`];
+      ? ["", "original", `length${inUnits(units)}`, "equivalent", `length${inUnits(units)}`, "√(A s + c)"]
+      : ["", "joints", `length${inUnits(units)}`];
     $("lengths").replaceChildren(heading(heads), el("tbody", {}, ...rows));
     $("lengths-words").textContent = map
       ? `At every pose the squared lengths of the equivalent are s′ = A s + c. The last column is computed from the original's lengths; it differs from the geometry by ${show(map.error, 2)} of the largest squared length.`
@@ -34,12 +42,15 @@ const Tables = {
     const all = [...first.margins, ...(second ? second.margins.filter((m) => !find(first, m)) : [])];
     $("margins-card").hidden = false;
     $("margins-words").textContent = all.length
-      ? "Least margin of each kind at the pose shown; below zero the requirement is violated."
+      ? "Room that is left at the pose shown, least of each kind; below zero the requirement is violated."
       : "The design requires nothing: it has no [hardware], loads or keep-outs.";
-    const cell = (m) => (m ? [el("span", { class: m.met ? "good" : "bad" }, `${show(m.margin, 4)}${m.met ? "" : " violated"}`)] : "–");
+    // what rounding does not tell from zero is not written as a number
+    const words = (m) => (m.at_limit ? "0, at the limit" : `${show(m.margin, 4)}${m.met ? "" : " violated"}`);
+    const cell = (m) => (m ? [el("span", { class: m.met ? "good" : "bad" }, words(m))] : "–");
+    const units = (r) => (r.unit === "force" ? " [force units]" : inUnits(r.unit));
     const rows = all.map((r) => {
       const [a, b] = [find(first, r), find(second, r)];
-      const cells = [`${r.requirement.replaceAll("_", " ")} [${r.unit}]`, cell(a), a ? a.between.join(", ") : "–"];
+      const cells = [`${REQUIREMENTS[r.requirement] || r.requirement.replaceAll("_", " ")}${units(r)}`, cell(a), a ? a.between.join(", ") : "–"];
       const other = [cell(b), b ? b.between.join(", ") : "–"];
       return row(!second ? cells : own ? [...cells, ...other] : [cells[0], ...other]);
     });
@@ -48,19 +59,20 @@ const Tables = {
   },
 
   /** One row a mode: which is shown, which is the ghost. */
-  modes(found, shown, compared, choose) {
+  modes(open, found, shown, compared, choose) {
     const radio = (name, k, on, words) =>
       el("input", { type: "radio", name, checked: on, "aria-label": `${words} mode ${k + 1}`, change: () => choose(name, k) });
     const rows = found.modes.map((mode, k) => {
-      const p = mode.pose.p.map((x) => show(x, 3)).join(", ");
+      // what rounding leaves of a zero is one
+      const p = mode.pose.p.map((x) => show(Math.abs(x) < 1e-9 * open.size ? 0 : x, 3)).join(", ");
       const cells = [[radio("mode", k, k === shown, "show"), `${k + 1}`], [radio("ghost", k, k === compared, "compare with")],
-        { 1: "+", 0: "0", "-1": "−" }[mode.sign], show(mode.inverse_condition, 3), `(${p})`];
+        { 1: "+", 0: "0", "-1": "−" }[mode.sign], show(mode.inverse_condition, 3), `${fixed(mode.turn_deg, 0)}°`, `(${p})`];
       return row(cells, { class: k === shown ? "on" : null });
     });
     const none = radio("ghost", -1, compared < 0, "compare with no");
     none.setAttribute("aria-label", "compare with none");
-    const last = row(["", [none, " none"], "", "", ""]);
-    $("modes").replaceChildren(heading(["show", "ghost", "det J", "σ₆/σ₁", "position p"]), el("tbody", {}, ...rows, ...(rows.length ? [last] : [])));
+    const last = row(["", [none, " none"], "", "", "", ""]);
+    $("modes").replaceChildren(heading(["show", "ghost", "det\u00a0J", "σ₆/σ₁", "turned", `position p${inUnits(open.units)}`]), el("tbody", {}, ...rows, last));
   },
 
   /** The live numbers. */

@@ -21,11 +21,17 @@ function show(x, digits = 6) {
   if (x === 0) return "0";
   const size = Math.abs(x);
   const text = size >= 1e6 || size < 1e-4 ? x.toExponential(Math.max(1, digits - 3)) : String(Number(x.toPrecision(digits)));
-  return text.replace("-", "−");
+  return text.replaceAll("-", "−");
 }
 
 /** A number with so many decimals; no minus before a zero. */
 const fixed = (x, digits) => (x === null ? "–" : (Number(x.toFixed(digits)) + 0 || 0).toFixed(digits).replace("-", "−"));
+
+/** The unit behind a heading; a design in pure numbers has none. */
+const inUnits = (units) => (units === "1" ? "" : ` [${units}]`);
+
+/** The unit behind a number. */
+const unit = (units) => (units === "1" ? "" : ` ${units}`);
 
 const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
@@ -33,7 +39,7 @@ const legColour = (leg) => `var(--leg-${leg})`;
 
 /** A coloured dot with the number of a leg. */
 function legName(leg) {
-  return [el("span", { class: "dot", style: `background:${legColour(leg)}`, "aria-hidden": "true" }), `leg ${leg}`];
+  return [el("span", { class: "dot", style: `background:${legColour(leg)}`, "aria-hidden": "true" }), `leg\u00a0${leg}`];
 }
 
 /** A table row; the first cell is the heading of the row. */

@@ -1,0 +1,70 @@
+//! What a margin says when the rounding of its own evaluation is kept in mind.
+
+use super::term::{Quantity, TermKind, Terms};
+use crate::geom::Pose;
+use crate::manipulator::{inverse_condition, jacobian};
+
+/// Rounding of a length over the sum of the lengths it is computed from: some ten operations on coordinates that are rounded themselves, each
+/// good to half of `eps`, and room to spare.
+const SHARE: f64 = 64.0 * f64::EPSILON;
+
+/// What a margin says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Standing {
+    /// Below zero by more than rounding: the requirement is violated.
+    Violated,
+    /// Not told from zero by the arithmetic: the design is at its limit, as it is when a distance was chosen equal to the least one. It counts as met.
+    AtLimit,
+    /// Above zero by more than rounding.
+    Met,
+}
+
+impl Standing {
+    /// `true` unless the requirement is violated.
+    #[must_use]
+    pub fn is_met(self) -> bool {
+        self != Self::Violated
+    }
+}
+
+impl Terms<'_> {
+    /// What a margin of this kind says at the pose where it was found (`None` for kinds on which the pose has no influence).
+    #[must_use]
+    pub fn standing(&self, kind: TermKind, margin: f64, pose: Option<&Pose>) -> Standing {
+        if margin.is_finite() && margin.abs() <= self.rounding(kind, pose) {
+            Standing::AtLimit
+        } else if margin > 0.0 {
+            Standing::Met
+        } else {
+            Standing::Violated
+        }
+    }
+
+    /// Bound of the rounding of a margin, in its unit.
+    ///
+    /// Lengths: `64 eps` (1.4e-14) times `r`, the sum of the greatest distances of a joint from the origin of its body and of the distance of the
+    /// platform from the base origin. Angles: the same over the shortest leg. Speeds: `64 eps` times the greatest speed times `r` over the shortest leg.
+    /// Forces: `64 eps` times the greatest force over the inverse condition number of the Jacobian.
+    #[must_use]
+    pub fn rounding(&self, kind: TermKind, pose: Option<&Pose>) -> f64 {
+        let m = self.manipulator;
+        let farthest =
+            |joints: &[nalgebra::Point3<f64>]| joints.iter().map(|p| p.coords.norm()).fold(0.0, f64::max);
+        let away = pose.map_or(0.0, |p| p.position.norm());
+        let reach = farthest(m.base_joints()) + farthest(m.platform_joints()) + away;
+        let turn = || {
+            let lengths = pose.map(|p| m.legs().map(|l| (p.transform(&l.platform) - l.base).norm()));
+            SHARE * reach / lengths.into_iter().flatten().fold(f64::INFINITY, f64::min)
+        };
+        let hardware = &self.required.hardware;
+        match kind.quantity() {
+            Quantity::Length => SHARE * reach,
+            Quantity::Angle => turn().to_degrees(),
+            Quantity::Speed => turn() * hardware.max_leg_speed.unwrap_or(0.0),
+            Quantity::Force => {
+                let conditioning = pose.map_or(1.0, |p| inverse_condition(&jacobian(m, p, m.size())));
+                SHARE * hardware.max_leg_force.unwrap_or(0.0) / conditioning
+            }
+        }
+    }
+}
