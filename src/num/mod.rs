@@ -4,6 +4,7 @@ pub(crate) mod batch;
 pub(crate) mod conic;
 pub mod disc;
 pub mod double_double;
+pub(crate) mod echelon;
 pub(crate) mod exact;
 pub mod interval;
 pub mod linalg;

@@ -3,6 +3,8 @@
 //! Arithmetic modulo `p` is exact and of fixed size. A minor that is not zero modulo one prime is not zero; a minor
 //! that is zero modulo primes whose product exceeds its absolute value is zero.
 
+use super::Rng;
+
 /// The field of integers modulo a prime below `2^61`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Field(u64);
@@ -28,6 +30,16 @@ impl Field {
     #[cfg(test)]
     pub(crate) fn of_prime(p: u64) -> Self {
         Self(p)
+    }
+
+    /// The field of a prime drawn uniformly from those between `2^60` and `2^61`.
+    pub(crate) fn drawn(rng: &mut Rng) -> Self {
+        loop {
+            let n = (1 << 60) | (rng.next_u64() >> 4) | 1;
+            if is_prime(n) {
+                return Self(n);
+            }
+        }
     }
 
     /// The prime.
@@ -187,6 +199,14 @@ mod tests {
         let (m, e) = mantissa_and_exponent(0.1);
         assert_eq!(f.scaled(0.1, -e), m.cast_unsigned());
         assert_eq!(f.mul(f.scaled(0.1, 0), f.scaled(1.0, -e)), m.cast_unsigned());
+    }
+
+    #[test]
+    fn drawn_primes_are_primes_of_61_bits_and_differ() {
+        let mut rng = Rng::new(5);
+        let drawn: Vec<u64> = (0..20).map(|_| Field::drawn(&mut rng).prime()).collect();
+        assert!(drawn.iter().all(|p| is_prime(*p) && p >> 60 == 1));
+        assert!((1..20).all(|k| !drawn[..k].contains(&drawn[k])));
     }
 
     #[test]

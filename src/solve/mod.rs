@@ -6,6 +6,7 @@ mod dependence;
 pub mod generic_frame;
 pub mod homotopy;
 mod planar;
+pub mod pose_count;
 mod sections;
 pub mod sylvester;
 pub mod template;

@@ -1,0 +1,193 @@
+//! Row echelon forms modulo a prime of 61 bits.
+//!
+//! A row is reduced in accumulators of 128 bits: products are added without division, and each column is reduced once, when the elimination comes to it
+//! (delayed reduction; Dumas, Giorgi, Pernet 2008).
+
+use super::modular::Field;
+
+/// Remainders of numbers of up to 124 bits by a prime between `2^60` and `2^61` (Barrett 1986).
+#[derive(Debug, Clone, Copy)]
+struct Wide {
+    p: u64,
+    /// `floor(2^124 / p)`, below `2^64`.
+    reciprocal: u64,
+    /// `2^62 p`: accumulators are kept below it.
+    ceiling: u128,
+}
+
+impl Wide {
+    fn new(field: Field) -> Self {
+        let p = field.prime();
+        Self { p, reciprocal: ((1u128 << 124) / u128::from(p)) as u64, ceiling: u128::from(p) << 62 }
+    }
+
+    /// `sum + x y`, below the ceiling; the products are below `2^122`, the ceiling is at least that.
+    #[inline]
+    fn add_product(self, sum: u128, x: u64, y: u64) -> u128 {
+        let next = sum + u128::from(x) * u128::from(y);
+        if next >= self.ceiling { next - self.ceiling } else { next }
+    }
+
+    #[inline]
+    fn reduced(self, x: u128) -> u64 {
+        let quotient = (((x >> 60) * u128::from(self.reciprocal)) >> 64) as u64;
+        // the quotient is too small by two at most
+        let mut rest = (x - u128::from(quotient) * u128::from(self.p)) as u64;
+        while rest >= self.p {
+            rest -= self.p;
+        }
+        rest
+    }
+}
+
+/// The span of rows, in echelon form: leading entries are one, in different columns.
+#[derive(Debug, Clone)]
+pub(crate) struct Echelon {
+    field: Field,
+    wide: Wide,
+    /// Row with its leading entry in a column.
+    of_column: Vec<Option<usize>>,
+    rows: Vec<Vec<u64>>,
+    work: Vec<u128>,
+}
+
+impl Echelon {
+    /// No rows yet, `width` columns; the prime is between `2^60` and `2^61`.
+    pub(crate) fn new(field: Field, width: usize) -> Self {
+        Self {
+            field,
+            wide: Wide::new(field),
+            of_column: vec![None; width],
+            rows: Vec::new(),
+            work: vec![0; width],
+        }
+    }
+
+    /// Number of independent rows.
+    #[cfg(test)]
+    pub(crate) fn rank(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Adds a row of residues; the column of its leading entry after elimination, `None` when it depends on the rows before.
+    pub(crate) fn insert(&mut self, row: &[u64]) -> Option<usize> {
+        let Self { wide, work, .. } = self;
+        for (w, x) in work.iter_mut().zip(row) {
+            *w = u128::from(*x);
+        }
+        for column in 0..work.len() {
+            let x = wide.reduced(work[column]);
+            if x == 0 {
+                continue;
+            }
+            let Some(known) = self.of_column[column] else {
+                let inverse = self.field.inverse(x);
+                let mut own = vec![0; work.len()];
+                own[column] = 1;
+                for k in column + 1..work.len() {
+                    own[k] = wide.reduced(wide.add_product(0, wide.reduced(work[k]), inverse));
+                }
+                self.of_column[column] = Some(self.rows.len());
+                self.rows.push(own);
+                return Some(column);
+            };
+            let negative = wide.p - x;
+            for (w, y) in work[column..].iter_mut().zip(&self.rows[known][column..]) {
+                *w = wide.add_product(*w, negative, *y);
+            }
+        }
+        None
+    }
+
+    /// Clears the leading columns in all other rows.
+    pub(crate) fn reduce_fully(&mut self) {
+        let width = self.of_column.len();
+        let leading: Vec<usize> = (0..width).filter(|c| self.of_column[*c].is_some()).collect();
+        let free: Vec<usize> = (0..width).filter(|c| self.of_column[*c].is_none()).collect();
+        let Self { wide, work, .. } = self;
+        for (place, &column) in leading.iter().enumerate().rev() {
+            let Some(own) = self.of_column[column] else { continue };
+            for &k in &free {
+                work[k] = u128::from(self.rows[own][k]);
+            }
+            for &later in &leading[place + 1..] {
+                let x = self.rows[own][later];
+                let Some(other) = self.of_column[later].filter(|_| x != 0) else { continue };
+                // the other row has no entries left in leading columns but its own
+                for &k in &free {
+                    work[k] = wide.add_product(work[k], wide.p - x, self.rows[other][k]);
+                }
+                self.rows[own][later] = 0;
+            }
+            for &k in &free {
+                self.rows[own][k] = wide.reduced(work[k]);
+            }
+        }
+    }
+
+    /// The row that leads in a column.
+    pub(crate) fn leading_in(&self, column: usize) -> Option<&[u64]> {
+        self.of_column[column].map(|r| self.rows[r].as_slice())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::Rng;
+
+    #[test]
+    fn remainders_are_those_of_division() {
+        let mut rng = Rng::new(8);
+        for _ in 0..200 {
+            let field = Field::drawn(&mut rng);
+            let wide = Wide::new(field);
+            let p = u128::from(wide.p);
+            let random = (u128::from(rng.next_u64()) << 64 | u128::from(rng.next_u64())) % wide.ceiling;
+            for x in [0, 1, p - 1, p, p + 1, 2 * p, p * p, wide.ceiling - 1, random] {
+                assert_eq!(u128::from(wide.reduced(x)), x % p);
+            }
+            let (x, y) = (rng.next_u64() % wide.p, rng.next_u64() % wide.p);
+            let sum = wide.add_product(wide.ceiling - 1, x, y);
+            assert!(sum < wide.ceiling);
+            assert_eq!(sum % p, ((wide.ceiling - 1) % p + u128::from(x) * u128::from(y)) % p);
+        }
+    }
+
+    #[test]
+    fn rank_and_reduced_rows_agree_with_elimination_by_cross_multiplication() {
+        let mut rng = Rng::new(9);
+        let field = Field::drawn(&mut rng);
+        for rank in 0..6 {
+            // eight rows of seven entries, combinations of `rank` of them
+            let seeds: Vec<[u64; 7]> =
+                (0..rank).map(|_| std::array::from_fn(|_| rng.next_u64() % field.prime())).collect();
+            let rows: Vec<[u64; 7]> = (0..8)
+                .map(|_| {
+                    let mut row = [0; 7];
+                    for seed in &seeds {
+                        let c = rng.next_u64() % field.prime();
+                        for k in 0..7 {
+                            row[k] = field.add(row[k], field.mul(c, seed[k]));
+                        }
+                    }
+                    row
+                })
+                .collect();
+            let mut echelon = Echelon::new(field, 7);
+            for row in &rows {
+                echelon.insert(row);
+            }
+            echelon.reduce_fully();
+            assert_eq!((echelon.rank(), field.rank(rows.clone())), (rank, rank));
+            let leading: Vec<usize> = (0..7).filter(|c| echelon.leading_in(*c).is_some()).collect();
+            for &c in &leading {
+                let row = echelon.leading_in(c).unwrap();
+                assert!(leading.iter().all(|k| row[*k] == u64::from(*k == c)));
+                let mut more = rows.clone();
+                more.push(std::array::from_fn(|k| row[k]));
+                assert_eq!(field.rank(more), rank);
+            }
+        }
+    }
+}

@@ -1,0 +1,262 @@
+//! The number of finite poses of a design and lengths exactly as written, by linear algebra modulo a prime.
+//!
+//! In the sixteen coordinates of the group a leg is a linear equation (see [`quadrics`]), so that the finite poses are the zeros of quadrics in ten unknowns. Their
+//! algebra is built degree by degree (see [`quotient`]) from the joints and squared lengths as the dyadic numbers they are, modulo a random prime of 61 bits. The method shares nothing with
+//! those that find poses, nor with their certificates. Theorem, bound on the probability of error and sources: `docs/theory/completeness.md`.
+
+mod quadrics;
+mod quotient;
+
+use crate::manipulator::{Leg, Manipulator};
+use crate::num::Rng;
+use crate::num::modular::{Field, mantissa_and_exponent};
+use quadrics::{COORDINATES, Cut, Linear, cut};
+use quotient::{Outcome, close};
+
+/// Squared lengths, each the exact sum of two doubles.
+pub type ExactSquares = [[f64; 2]; 6];
+
+/// Highest degree of the spaces. Four is enough for sets of poses whose closure is finite (see the documentation); more costs little where few
+/// monomials are left over.
+const DEGREE: usize = 6;
+
+/// Bits of random coefficients of linear sections.
+const SECTION_BITS: f64 = 64.0;
+
+/// How the poses are counted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct CountOptions {
+    /// Seed of the primes and of the random linear sections.
+    pub seed: u64,
+    /// Number of primes that have to agree.
+    pub primes: usize,
+}
+
+impl Default for CountOptions {
+    fn default() -> Self {
+        Self { seed: 1, primes: 2 }
+    }
+}
+
+/// The finite poses, real and complex, as a set.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum PoseSet {
+    /// Isolated poses only.
+    Finite {
+        /// Their number, each counted with its multiplicity.
+        count: usize,
+        /// Standard monomials by degree, from 0 on; their sum is the number.
+        by_degree: Vec<usize>,
+    },
+    /// Curves, surfaces or more; isolated poses beside them are not counted.
+    PositiveDimensional {
+        /// Dimension of the components of highest dimension.
+        dimension: usize,
+        /// Their degree in the sixteen coordinates: points on as many random linear sections as the dimension, with multiplicity.
+        degree: usize,
+    },
+    /// The computation does not tell.
+    Undecided {
+        /// Why.
+        why: Undecided,
+    },
+}
+
+/// Why the poses were not counted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Undecided {
+    /// Neither the set nor random linear sections of it close at the highest degree computed.
+    DegreeTooLow,
+    /// The primes disagree: one of them at least divides a number it should not.
+    PrimesDisagree,
+}
+
+/// The set and what speaks for it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PoseCount {
+    /// The set.
+    pub set: PoseSet,
+    /// The primes, drawn uniformly from those between `2^60` and `2^61`.
+    pub primes: Vec<u64>,
+    /// Bound on the probability that primes drawn so lead to another set than exact arithmetic does; zero when the set is undecided.
+    pub error_probability: f64,
+}
+
+impl PoseCount {
+    /// The number of finite poses with multiplicity, where there are finitely many.
+    #[must_use]
+    pub fn finite(&self) -> Option<usize> {
+        match &self.set {
+            PoseSet::Finite { count, .. } => Some(*count),
+            _ => None,
+        }
+    }
+}
+
+/// Counts the finite poses of `m` with the squared lengths given, both exactly as they stand.
+#[must_use]
+pub fn count_poses(m: &Manipulator, squares: &ExactSquares, options: &CountOptions) -> PoseCount {
+    counted(m, Lengths::Given(squares), options)
+}
+
+/// Counts the finite poses of `m` for generic squared lengths: no lengths have more isolated poses, counted with multiplicity (Sommese, Wampler 2005, theorem 7.1.1).
+#[must_use]
+pub fn count_generic_poses(m: &Manipulator, options: &CountOptions) -> PoseCount {
+    counted(m, Lengths::Generic, options)
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Lengths<'a> {
+    Given(&'a ExactSquares),
+    Generic,
+}
+
+/// Random coefficients, the same for all primes: squared lengths of generic legs, linear sections.
+struct Draws {
+    squares: [i64; 6],
+    sections: [[i64; COORDINATES + 1]; 6],
+}
+
+fn counted(m: &Manipulator, lengths: Lengths<'_>, options: &CountOptions) -> PoseCount {
+    let mut rng = Rng::stream(options.seed, 0x9c);
+    let mut integer = || (rng.next_u64() >> 4).cast_signed();
+    let draws = Draws {
+        squares: std::array::from_fn(|_| integer()),
+        sections: std::array::from_fn(|_| std::array::from_fn(|_| integer())),
+    };
+    let mut out: Option<PoseCount> = None;
+    for _ in 0..options.primes.max(1) {
+        let field = Field::drawn(&mut rng);
+        let (set, depth) = set_modulo(field, m, lengths, &draws);
+        let error = error_probability(m, lengths, depth);
+        let count = out.get_or_insert_with(|| PoseCount {
+            set: set.clone(),
+            primes: Vec::new(),
+            error_probability: 1.0,
+        });
+        count.primes.push(field.prime());
+        count.error_probability *= error;
+        if count.set != set {
+            count.set = PoseSet::Undecided { why: Undecided::PrimesDisagree };
+        }
+        if matches!(count.set, PoseSet::Undecided { .. }) {
+            count.error_probability = 0.0;
+            break;
+        }
+    }
+    out.unwrap_or(PoseCount {
+        set: PoseSet::Undecided { why: Undecided::DegreeTooLow },
+        primes: Vec::new(),
+        error_probability: 0.0,
+    })
+}
+
+/// The set modulo one prime, and the degree of the multiples used.
+fn set_modulo(field: Field, m: &Manipulator, lengths: Lengths<'_>, draws: &Draws) -> (PoseSet, usize) {
+    let legs = m.legs();
+    let mut equations: Vec<Linear> = (0..6)
+        .map(|i| {
+            let square = match lengths {
+                Lengths::Given(squares) => {
+                    squares[i].iter().fold(0, |sum, x| field.add(sum, field.scaled(*x, 0)))
+                }
+                Lengths::Generic => field.integer(draws.squares[i]),
+            };
+            leg_equation(field, &legs[i], square)
+        })
+        .collect();
+    let relations = 6 - field
+        .rank(equations.iter().map(|e| std::array::from_fn::<_, COORDINATES, _>(|k| e[k])).collect());
+    let section = |k: usize| draws.sections[k].map(|x| field.integer(x));
+    equations.extend((0..relations).map(section));
+    let mut deepest = 2;
+    // every component has at least the dimension of the relations
+    for dimension in relations..=6 {
+        if dimension > relations {
+            equations.push(section(dimension - 1));
+        }
+        let (unknowns, polynomials) = match cut(field, &equations) {
+            Cut::Empty => return (PoseSet::Finite { count: 0, by_degree: Vec::new() }, deepest),
+            Cut::Quadrics { unknowns, polynomials } => (unknowns, polynomials),
+        };
+        if let Outcome::Closed { by_degree, depth } = close(field, unknowns, polynomials, DEGREE) {
+            deepest = deepest.max(depth);
+            let count = by_degree.iter().sum();
+            let set = if dimension == 0 || (count == 0 && dimension == relations) {
+                PoseSet::Finite { count, by_degree }
+            } else if count == 0 {
+                PoseSet::Undecided { why: Undecided::DegreeTooLow }
+            } else {
+                PoseSet::PositiveDimensional { dimension, degree: count }
+            };
+            return (set, deepest);
+        }
+    }
+    (PoseSet::Undecided { why: Undecided::DegreeTooLow }, deepest)
+}
+
+/// `r - 2 a.y - 2 b.x - 2 a.(M b) + |a|^2 + |b|^2 - s = 0`.
+fn leg_equation(field: Field, leg: &Leg, square: u64) -> Linear {
+    let residues = |p: &nalgebra::Point3<f64>| [p.x, p.y, p.z].map(|x| field.scaled(x, 0));
+    let (a, b) = (residues(&leg.base), residues(&leg.platform));
+    let minus_two = field.integer(-2);
+    let mut row = [0; COORDINATES + 1];
+    for i in 0..3 {
+        let doubled = field.mul(minus_two, a[i]);
+        for j in 0..3 {
+            row[3 * i + j] = field.mul(doubled, b[j]);
+        }
+        row[9 + i] = doubled;
+        row[12 + i] = field.mul(minus_two, b[i]);
+    }
+    row[15] = 1;
+    let squares = a.iter().chain(&b).fold(0, |sum, x| field.add(sum, field.mul(*x, *x)));
+    row[16] = field.sub(squares, square);
+    row
+}
+
+/// Bound on the probability that a prime is bad: see "The probability of error" in `docs/theory/completeness.md`.
+///
+/// A bad prime divides a minor, not zero, of the integer matrix of all multiples of some degree `<= depth + 1` of the quadrics and linear equations in sixteen unknowns, or of its columns above one of the
+/// degrees `0..=DEGREE`. Hadamard: a minor is at most
+/// the product of the norms of its rows. It has as many prime factors above `2^60` as sixty goes into its bits, of more than `3 2^60 / (5 ln 2^60)` primes between `2^60` and
+/// `2^61` (Rosser, Schoenfeld 1962, (3.9)).
+fn error_probability(m: &Manipulator, lengths: Lengths<'_>, depth: usize) -> f64 {
+    let bits = leg_bits(m, lengths).max(SECTION_BITS);
+    // all depths up to the one that was needed, which is not known before the prime is drawn
+    let minors: f64 = (1..=depth + 1).map(|t| (DEGREE + 2) as f64 * monomials(t) * bits).sum();
+    let primes = 3.0 * 2f64.powi(60) / (5.0 * 60.0 * std::f64::consts::LN_2);
+    (minors / 60.0 / primes).min(1.0)
+}
+
+/// Number of monomials of degree `t` or less in sixteen unknowns.
+fn monomials(t: usize) -> f64 {
+    (1..=t).map(|k| (COORDINATES + k) as f64 / k as f64).product()
+}
+
+/// Bits of the norm of a leg equation with integer coefficients: numbers below `2^high` that are multiples of `2^low`, in products of two.
+fn leg_bits(m: &Manipulator, lengths: Lengths<'_>) -> f64 {
+    let (mut high, mut low) = (1, 0);
+    let mut take = |x: f64, halves: i32| {
+        let (mantissa, exponent) = mantissa_and_exponent(x);
+        if mantissa != 0 {
+            let length = 64 - mantissa.unsigned_abs().leading_zeros().cast_signed();
+            // a squared length counts as a product of two numbers
+            high = high.max((exponent + length + halves - 1).div_euclid(halves));
+            low = low.min(exponent.div_euclid(halves));
+        }
+    };
+    for leg in m.legs() {
+        leg.base.iter().chain(leg.platform.iter()).for_each(|x| take(*x, 1));
+    }
+    match lengths {
+        Lengths::Given(squares) => squares.iter().flatten().for_each(|x| take(*x, 2)),
+        Lengths::Generic => take(2f64.powi(60), 2),
+    }
+    // seventeen coefficients, of which the largest is a sum of six squares and two parts of a length
+    2.0 * f64::from(high - low) + 6.0
+}
+
+#[cfg(test)]
+mod tests;
