@@ -13,7 +13,7 @@ use super::statistics::{Report, summarise};
 use super::validator::{Claim, Verdict, validate};
 use crate::fk::{Completeness, FkOptions, FkSolutions, ForwardKinematics};
 use crate::geom::ComplexPose;
-use crate::solve::certify::{Certifier, exact_squares};
+use crate::solve::certify::{Certifier};
 
 /// What to run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -88,7 +88,7 @@ pub(super) struct Outcome {
 /// The claims of a set of solutions, with enclosures where a certificate can be made again, and the time that took.
 pub(super) fn claims_of(problem: &Problem, found: &FkSolutions) -> (Vec<Claim>, f64) {
     let start = Instant::now();
-    let certifier = Certifier::new(&problem.manipulator, &exact_squares(&problem.squares)).ok();
+    let certifier = Certifier::new(&problem.manipulator, &problem.squares).ok();
     let outcomes: Vec<_> =
         found.roots.iter().map(|root| certifier.as_ref().map(|c| c.certify(&root.pose))).collect();
     let time = start.elapsed().as_secs_f64() * 1e6;

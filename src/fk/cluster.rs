@@ -6,7 +6,7 @@ use super::collect::Candidate;
 use super::newton::beside;
 use crate::geom::ComplexPose;
 use crate::manipulator::{Manipulator, SquaredLegLengths};
-use crate::solve::certify::{Certificate, Certifier, RootRelation, exact_squares, relation};
+use crate::solve::certify::{Certificate, Certifier, RootRelation, relation};
 
 /// Ends as singular as this may belong to a cluster.
 const SINGULAR: f64 = 1e4;
@@ -84,7 +84,7 @@ fn certified_near(
     members: &[Candidate],
     centre: &ComplexPose,
 ) -> Vec<(ComplexPose, Certificate)> {
-    let Ok(certifier) = Certifier::new(m, &exact_squares(s)) else { return Vec::new() };
+    let Ok(certifier) = Certifier::new(m, s) else { return Vec::new() };
     let mut known: Vec<(ComplexPose, Certificate)> = Vec::new();
     let mut guesses: Vec<ComplexPose> = members.iter().map(|c| c.pose).collect();
     for distance in STARTS {

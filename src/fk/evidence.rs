@@ -7,7 +7,6 @@ use super::{Completeness, FkSolutions, Reality, Rejected, RejectionReason};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::solve::certify::{
     Certificate, CertificateOutcome, Certifier, Distinctness, ProvedReality, RootRelation, distinct,
-    exact_squares,
 };
 
 /// A proved upper bound on the number of finite poses, counted with multiplicity.
@@ -41,7 +40,7 @@ pub(super) fn attach(
     bound: Bound,
     mut known: Vec<Certificate>,
 ) {
-    let Ok(certifier) = Certifier::new(m, &exact_squares(s)) else { return };
+    let Ok(certifier) = Certifier::new(m, s) else { return };
     for root in solutions.roots.iter_mut().filter(|r| !r.certified) {
         if let CertificateOutcome::Certified(certificate) = certifier.certify(&root.pose) {
             root.certified = true;

@@ -9,7 +9,7 @@ use super::homotopy::pose_of;
 use super::{FkRoot, FkTolerances, Rejected, RejectionReason};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::solve::certify::{
-    Certificate, CertifiedPose, Certifier, ProvedReality, RootRelation, exact_squares, relation,
+    Certificate, CertifiedPose, Certifier, ProvedReality, RootRelation, relation,
 };
 
 /// Regular ends with a larger condition number may belong to a cluster.
@@ -127,7 +127,7 @@ fn certify_all(
     ends: &[End],
     proofs: &mut Vec<Proof>,
 ) -> Vec<Candidate> {
-    let Ok(certifier) = Certifier::new(m, &exact_squares(s)) else {
+    let Ok(certifier) = Certifier::new(m, s) else {
         return ends.iter().map(candidate).collect();
     };
     // exactly: what the certificate is about is the joints as they are
@@ -166,7 +166,7 @@ fn certify_all(
 
 /// Poses so far out, or so close to an end at `e.e = 0`, that the endgame could not tell: a certificate can, it proves `e.e != 0`.
 fn finite_after_all(m: &Manipulator, s: &SquaredLegLengths, ends: &[End]) -> Vec<Proof> {
-    let Ok(certifier) = Certifier::new(m, &exact_squares(s)) else { return Vec::new() };
+    let Ok(certifier) = Certifier::new(m, s) else { return Vec::new() };
     let mut proofs: Vec<Proof> = Vec::new();
     for end in ends {
         let starts = match &end.split {
@@ -239,7 +239,7 @@ mod tests {
             let rotation = Rotation3::from_euler_angles(0.3, -0.5, 0.2);
             let pose = Pose { rotation, position: Vector3::new(0.3, 0.2, 1.7) };
             let s = pose.squared_lengths(&m).unwrap();
-            let certifier = Certifier::new(&m, &exact_squares(&s)).unwrap();
+            let certifier = Certifier::new(&m, &s).unwrap();
             let found = Homotopy.solve(&m, &s, &FkOptions::default()).unwrap();
             assert_eq!(found.roots.iter().filter(|r| r.certified).count(), 40);
             for root in &found.roots {

@@ -1,15 +1,23 @@
 //! Leg lengths and squared leg lengths are different types: leg maps are affine in the squares only.
 
 use super::LegIndex;
+use crate::num::double_double::DoubleDouble;
+use crate::num::interval::Interval;
 use thiserror::Error;
 
 /// Leg lengths `l_1..l_6`, design units, finite and not negative.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LegLengths([f64; 6]);
 
-/// Squared leg lengths `s_i = l_i^2`, design units squared, finite and not negative.
+/// Squared leg lengths `s_i = l_i^2`, design units squared: each any number within a radius of a middle of two doubles.
+///
+/// Squares of lengths are exact (the square of a double is the sum of two), and so are squares given as doubles; images under leg maps have the radius of
+/// their rounding. What is proved is proved for every choice within the radii. Solvers take the nearest doubles, [`get`](Self::get).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SquaredLegLengths([f64; 6]);
+pub struct SquaredLegLengths {
+    middle: [DoubleDouble; 6],
+    radius: [f64; 6],
+}
 
 /// A value that is no leg length.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
@@ -62,10 +70,20 @@ impl LegLengths {
         self.0
     }
 
-    /// `s_i = l_i^2`.
+    /// `s_i = l_i^2`, exactly unless a square leaves the range in which two doubles hold it.
     #[must_use]
     pub fn squared(&self) -> SquaredLegLengths {
-        SquaredLegLengths(self.0.map(|l| l * l))
+        let mut out = SquaredLegLengths { middle: [DoubleDouble::ZERO; 6], radius: [0.0; 6] };
+        for (i, l) in self.0.into_iter().enumerate() {
+            let square = l * l;
+            // the limits of `two_product`
+            if l > 0.0 && !(square >= 2f64.powi(-960) && square <= 2f64.powi(1020)) {
+                (out.middle[i], out.radius[i]) = (square.into(), square * f64::EPSILON + f64::MIN_POSITIVE);
+            } else {
+                out.middle[i] = DoubleDouble::from_product(l, l);
+            }
+        }
+        out
     }
 }
 
@@ -75,25 +93,68 @@ impl SquaredLegLengths {
     /// # Errors
     /// The first value that is negative or not finite: it is refused, never clamped to zero.
     pub fn try_new(squares: [f64; 6]) -> Result<Self, InvalidLengths> {
-        Ok(Self(validated(squares)?))
+        Self::try_within(validated(squares)?.map(DoubleDouble::from), [0.0; 6])
     }
 
-    /// The six squares.
+    /// Squares that are known to lie within `radius` of `middle`, leg by leg.
+    ///
+    /// # Errors
+    /// The first middle that is negative or not finite, or radius that is negative or not a number. An infinite radius says that nothing is known.
+    pub fn try_within(middle: [DoubleDouble; 6], radius: [f64; 6]) -> Result<Self, InvalidLengths> {
+        validated(middle.map(DoubleDouble::hi))?;
+        for (leg, value) in LegIndex::all().zip(radius) {
+            if value.is_nan() {
+                return Err(InvalidLengths::NotFinite { leg, value });
+            }
+            if value < 0.0 {
+                return Err(InvalidLengths::Negative { leg, value });
+            }
+        }
+        Ok(Self { middle, radius })
+    }
+
+    /// The doubles nearest to the middles.
     #[must_use]
     pub fn get(&self) -> [f64; 6] {
-        self.0
+        self.middle.map(DoubleDouble::hi)
     }
 
-    /// `l_i = sqrt(s_i)`.
+    /// The middles, with all their digits.
+    #[must_use]
+    pub fn middle(&self) -> [DoubleDouble; 6] {
+        self.middle
+    }
+
+    /// How far from the middles the squares may be; zero for exact ones.
+    #[must_use]
+    pub fn radius(&self) -> [f64; 6] {
+        self.radius
+    }
+
+    /// The smallest intervals of doubles found that hold the squares.
+    #[must_use]
+    pub fn intervals(&self) -> [Interval; 6] {
+        std::array::from_fn(|i| {
+            let (hi, blur) = (self.middle[i].hi(), (self.middle[i].lo().abs() + self.radius[i]).next_up());
+            if self.radius[i] > 0.0 || self.middle[i].lo().abs() > 0.0 {
+                Interval::new((hi - blur).next_down(), (hi + blur).next_up()).unwrap_or(Interval::WHOLE)
+            } else {
+                Interval::from(hi)
+            }
+        })
+    }
+
+    /// `l_i = sqrt(s_i)`, rounded.
     #[must_use]
     pub fn lengths(&self) -> LegLengths {
-        LegLengths(self.0.map(f64::sqrt))
+        LegLengths(self.get().map(f64::sqrt))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use num_rational::BigRational;
 
     #[test]
     fn refuses_negative_and_non_finite_values() {
@@ -105,5 +166,28 @@ mod tests {
         l[2] = 1e200;
         assert!(LegLengths::try_new(l).is_err(), "its square is infinite");
         assert!(SquaredLegLengths::try_new([-1e-300, 1.0, 1.0, 1.0, 1.0, 1.0]).is_err());
+        let middle = [DoubleDouble::ONE; 6];
+        assert!(SquaredLegLengths::try_within(middle, [0.0, 0.0, f64::NAN, 0.0, 0.0, 0.0]).is_err());
+        assert!(SquaredLegLengths::try_within(middle, [0.0, 0.0, -1.0, 0.0, 0.0, 0.0]).is_err());
+    }
+
+    #[test]
+    fn squares_of_lengths_are_exact() {
+        let exact = |x: f64| BigRational::from_float(x).unwrap();
+        let lengths = [0.1, 1.0 / 3.0, 0.0, 1e150, 1e-140, 17.3];
+        let s = LegLengths::try_new(lengths).unwrap().squared();
+        for (i, l) in lengths.into_iter().enumerate() {
+            let middle = s.middle()[i];
+            assert_eq!(exact(middle.hi()) + exact(middle.lo()), exact(l) * exact(l));
+            assert_eq!(s.radius()[i].to_bits(), 0, "{l}");
+            let interval = s.intervals()[i];
+            assert!(exact(interval.lo()) <= exact(l) * exact(l) && exact(interval.hi()) >= exact(l) * exact(l));
+        }
+        // beyond the range of two doubles the radius takes up what is lost
+        let s = LegLengths::try_new([1e-170, 1e-160, 1.2e154, 1.0, 1.0, 1.0]).unwrap().squared();
+        for (i, l) in [1e-170, 1e-160, 1.2e154].into_iter().enumerate() {
+            let gap = exact(s.get()[i]) - exact(l) * exact(l);
+            assert!(&gap <= &exact(s.radius()[i]) && -&gap <= exact(s.radius()[i]) && s.radius()[i] > 0.0);
+        }
     }
 }

@@ -5,6 +5,7 @@ use thiserror::Error;
 
 use super::{LegSpan, Normalisation};
 use crate::manipulator::{Leg, LegIndex, Manipulator, SquaredLegLengths, inverse_condition};
+use crate::num::double_double::DoubleDouble;
 use crate::num::linalg::LinalgError;
 
 /// The map `s' = A s + c` on squared leg lengths.
@@ -51,19 +52,30 @@ impl AffineLegMap {
         Self { a: Matrix6::identity(), c: Vector6::zeros() }
     }
 
-    /// `A s + c`.
+    /// `A s + c` for `A` and `c` as they are, in double-double; the radii hold those of `s` and the rounding of the sums.
     ///
     /// # Errors
     /// The first leg whose value is negative or not finite; nothing is clamped.
     pub fn apply(&self, s: &SquaredLegLengths) -> Result<SquaredLegLengths, NotRealizable> {
-        let image = self.a * Vector6::from(s.get()) + self.c;
+        let (middle, width) = (s.middle(), s.radius());
+        let (mut image, mut radius) = ([DoubleDouble::ZERO; 6], [0.0; 6]);
         for leg in LegIndex::all() {
-            let value = image[leg.get()];
-            if !value.is_finite() || value < 0.0 {
+            let i = leg.get();
+            let (mut sum, mut size) = (DoubleDouble::from(self.c[i]), self.c[i].abs());
+            for j in 0..6 {
+                sum = sum + DoubleDouble::from(self.a[(i, j)]) * middle[j];
+                size += (self.a[(i, j)] * middle[j].hi()).abs();
+                radius[i] += self.a[(i, j)].abs() * width[j];
+            }
+            // each term passes at most seven operations; the rest is for the rounding of the bound and for underflow
+            radius[i] = radius[i] * (1.0 + 1e-12) + 8.0 * DoubleDouble::UNIT * size + f64::MIN_POSITIVE;
+            let value = sum.hi();
+            if !value.is_finite() || value < 0.0 || !radius[i].is_finite() {
                 return Err(NotRealizable { leg, value });
             }
+            image[i] = sum;
         }
-        SquaredLegLengths::try_new(image.into()).map_err(|_| unreachable!("all six were checked"))
+        SquaredLegLengths::try_within(image, radius).map_err(|_| unreachable!("all six were checked"))
     }
 
     /// First `self`, then `next`: `s'' = A2 (A1 s + c1) + c2`.

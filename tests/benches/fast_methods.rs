@@ -13,7 +13,7 @@ use equipod::geom::{ComplexPose, Pose, random_rotation};
 use equipod::manipulator::{Leg, Manipulator, Octahedral, default_home};
 use equipod::manufacture::{Controller, displaced, joints};
 use equipod::num::Rng;
-use equipod::solve::certify::{Certifier, exact_squares};
+use equipod::solve::certify::{Certifier};
 use equipod::synthesis::joint_free;
 use nalgebra::{Point3, Rotation3, Vector3};
 use num_complex::Complex64;
@@ -133,7 +133,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             pairs.push(nanoseconds(20, || {
                 black_box(solver.certify(black_box(&s), black_box(&found)));
             }));
-            let certifier = Certifier::new(&m, &exact_squares(&s)).map_err(|e| e.to_string())?;
+            let certifier = Certifier::new(&m, &s).map_err(|e| e.to_string())?;
             certificates.push(nanoseconds(5, || {
                 for p in &found.poses {
                     black_box(certifier.certify(black_box(p)));
@@ -171,7 +171,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             }));
             let found = ComplexPose::from(*found);
             certified.push(nanoseconds(20, || {
-                let certifier = Certifier::new(&m, &exact_squares(black_box(&s)));
+                let certifier = Certifier::new(&m, black_box(&s));
                 let _ = black_box(certifier.map(|c| c.certify(&found)));
             }));
         }

@@ -6,7 +6,7 @@ use crate::manipulator::{Manipulator, Octahedral, SquaredLegLengths};
 use crate::num::Rng;
 use crate::num::interval::Interval;
 use crate::solve::certify::octahedral::{OctahedralCertificates, OctahedralCertifier, PairCertificate};
-use crate::solve::certify::{Certifier, ProvedReality, exact_squares};
+use crate::solve::certify::{Certifier, ProvedReality};
 use nalgebra::{Point3, Vector3};
 use num_complex::Complex64;
 
@@ -34,7 +34,7 @@ fn case(k: u64) -> Option<Case> {
 }
 
 fn certify(c: &Case) -> OctahedralCertificates {
-    c.certifier.certify(&exact_squares(&c.s), &c.found.pairs, &c.found.poses)
+    c.certifier.certify(&c.s, &c.found.pairs, &c.found.poses)
 }
 
 #[test]
@@ -44,7 +44,7 @@ fn agrees_with_the_general_certificates() {
         let Some(c) = case(k) else { continue };
         let found = certify(&c);
         complete += usize::from(found.complete);
-        let general = Certifier::new(&c.m, &exact_squares(&c.s)).unwrap();
+        let general = Certifier::new(&c.m, &c.s).unwrap();
         for (pair, poses) in found.pairs.iter().zip(c.found.poses.chunks(2)) {
             let Some(pair) = pair else { continue };
             pairs += 1;
@@ -108,7 +108,7 @@ fn corrupted_roots_lose_their_certificate() {
 #[test]
 fn a_wrong_length_loses_the_certificates_and_an_uncertain_one_widens_them() {
     let c = (0..).find_map(case).unwrap();
-    let mut s = exact_squares(&c.s);
+    let mut s = c.s.intervals();
     s[2] = Interval::from(c.s.get()[2] * (1.0 + 1e-6));
     let wrong = c.certifier.certify(&s, &c.found.pairs, &c.found.poses);
     assert!(wrong.pairs.iter().all(Option::is_none));
@@ -148,7 +148,7 @@ fn the_discs_hold_the_pair_of_the_generating_pose() {
         let s = pose.squared_lengths(&m).unwrap();
         let Some(found) = OcticSolver::new(&m).unwrap().solve(&s) else { continue };
         let certifier = OctahedralCertifier::new(&design).unwrap();
-        let certificates = certifier.certify(&exact_squares(&s), &found.pairs, &found.poses);
+        let certificates = certifier.certify(&s, &found.pairs, &found.poses);
         if !certificates.complete {
             continue;
         }

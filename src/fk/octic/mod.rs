@@ -26,7 +26,7 @@ use crate::geom::{ComplexPose, trilaterate};
 use crate::manipulator::{Leg, Manipulator, Octahedral, SquaredLegLengths};
 use crate::num::batch::LANES;
 use crate::poly::roots;
-use crate::solve::certify::{Certifier, exact_squares};
+use crate::solve::certify::{Certifier};
 
 /// Forward kinematics of octahedral platforms (also of those whose joints coincide without being named as
 /// shared: only coordinates count).
@@ -125,7 +125,7 @@ fn sharpened(m: &Manipulator, s: &SquaredLegLengths, mut candidates: Vec<Candida
     if !candidates.iter().any(far) {
         return candidates;
     }
-    let Ok(certifier) = Certifier::new(m, &exact_squares(s)) else { return candidates };
+    let Ok(certifier) = Certifier::new(m, s) else { return candidates };
     for c in candidates.iter_mut().filter(|c| pose_scale(&c.pose, m.size()) > FAR) {
         let Ok(refined) = certifier.refine(&c.pose) else { continue };
         let pose = refined.pose();

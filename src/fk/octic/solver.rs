@@ -14,7 +14,6 @@ use crate::fk::{FkError, Method};
 use crate::geom::{ComplexPose, reorthogonalised};
 use crate::manipulator::{Manipulator, Octahedral, SquaredLegLengths};
 use crate::num::batch::LANES;
-use crate::solve::certify::exact_squares;
 use crate::solve::certify::octahedral::{OctahedralCertificates, OctahedralCertifier};
 
 /// Largest residual of a pose that is returned.
@@ -138,7 +137,7 @@ impl OcticSolver {
     pub fn certify(&self, s: &SquaredLegLengths, found: &OcticPoses) -> OctahedralCertificates {
         let none = OctahedralCertificates { pairs: [None; LANES], complete: false };
         let Some(certifier) = &self.certifier else { return none };
-        certifier.certify(&exact_squares(s), &found.pairs, &found.poses)
+        certifier.certify(s, &found.pairs, &found.poses)
     }
 
     /// All sixteen finite complex poses, or `None` where these lengths need the general treatment of

@@ -37,6 +37,11 @@ impl LegSystem {
         )
     }
 
+    /// The middle of the squared length, rounded in double.
+    fn square<S: Scalar>(&self, i: usize) -> S {
+        S::sum(self.s[i], self.s_low[i])
+    }
+
     /// `T_i - T_0`.
     fn gap<S: Scalar>(&self, i: usize) -> Turn<S> {
         let (leg, first) = (self.turn::<S>(i), self.turn::<S>(0));
@@ -64,12 +69,12 @@ impl LegSystem {
         let mut out = [[DoubleDouble::ZERO; N]; 2];
         for i in 0..6 {
             let (square, s) = if i == 0 {
-                (dot(&v, &v), DoubleDouble::from(self.s[0]))
+                (dot(&v, &v), self.square(0))
             } else {
                 let gap = self.gap(i);
                 let u = [apply(&gap, &e[0]), apply(&gap, &e[1])];
                 let w = [0, 1].map(|k| plus(&plus(&v[k], &v[k]), &u[k]));
-                (dot(&u, &w), DoubleDouble::from_sum(self.s[i], -self.s[0]))
+                (dot(&u, &w), self.square::<DoubleDouble>(i) - self.square(0))
             };
             for k in 0..2 {
                 out[k][i] = half * (square[k] - s * norm[k]);
@@ -114,7 +119,7 @@ impl LegSystem {
             let turned = apply(&first, &e);
             let v = plus(&g, &turned);
             let by_e = apply(&first, &v);
-            let s = S::from(self.s[0]);
+            let s = self.square::<S>(0);
             for k in 0..4 {
                 rows[0][k] = -by_e[k] - s * e[k];
                 rows[0][4 + k] = v[k];
@@ -123,7 +128,7 @@ impl LegSystem {
                 let gap = self.gap::<S>(i);
                 let u = apply(&gap, &e);
                 let by_e = plus(&plus(&apply(&gap, &g), &apply(&self.turn(i), &u)), &apply(&gap, &turned));
-                let s = S::sum(self.s[i], -self.s[0]);
+                let s = self.square::<S>(i) - self.square(0);
                 for k in 0..4 {
                     rows[i][k] = -by_e[k] - s * e[k];
                     rows[i][4 + k] = u[k];

@@ -5,12 +5,11 @@
 //! quadrics in seven unknowns. The simplified Newton map with an approximate inverse `Y` of the Jacobian is shown to contract a ball
 //! (Krawczyk 1969 in the norm-wise form of Kantorovich; Breiding, Rose, Timme 2020 for certifying solutions of
 //! polynomial systems). Statement, proof and all rounding bounds: `docs/theory/certificates.md` and the sources of
-//! the submodules. Joints enter as the exact doubles they are, squared lengths as intervals.
+//! the submodules. Joints enter as the exact doubles they are, squared lengths with all their digits and a radius ([`SquareData`]).
 //!
 //! ```
 //! use equipod::geom::{ComplexPose, Pose};
 //! use equipod::manipulator::{Leg, Manipulator};
-//! use equipod::num::interval::Interval;
 //! use equipod::solve::certify::{ProvedReality, certify};
 //! use nalgebra::{Point3, Rotation3, Vector3};
 //! let legs = std::array::from_fn(|i| {
@@ -21,7 +20,7 @@
 //! let m = Manipulator::from_legs(legs)?;
 //! let rotation = Rotation3::from_euler_angles(0.3, -0.2, 0.7);
 //! let pose = Pose { rotation, position: Vector3::new(0.1, 0.4, 1.5) };
-//! let s = pose.squared_lengths(&m).ok_or("overflow")?.get().map(Interval::from);
+//! let s = pose.squared_lengths(&m).ok_or("overflow")?;
 //! let outcome = certify(&m, &s, &ComplexPose::from(pose));
 //! let certificate = outcome.certificate().ok_or("no certificate")?;
 //! assert_eq!(certificate.reality(), ProvedReality::Real);
@@ -32,6 +31,7 @@
 mod apart;
 mod centre;
 mod certificate;
+mod data;
 mod differences;
 mod distinct;
 mod inverse;
@@ -45,6 +45,7 @@ mod system;
 pub use certificate::{
     CentrePrecision, Certificate, CertificateOutcome, PoseEnclosure, ProvedReality, WhyUncertified,
 };
+pub use data::SquareData;
 pub use distinct::{Distinctness, RootRelation, distinct, relation};
 pub(crate) use point::{CertifiedPose, dual_quaternion};
 pub use refine::RefinedPose;
@@ -52,9 +53,8 @@ pub use refine::RefinedPose;
 use num_complex::Complex64;
 
 use crate::geom::ComplexPose;
-use crate::manipulator::{LegLengths, Manipulator, SquaredLegLengths};
+use crate::manipulator::Manipulator;
 use crate::num::disc::UP;
-use crate::num::interval::Interval;
 use centre::{enclose_pose, pose_of, rotation_distance, study_of};
 use krawczyk::{Centre, Contraction, contract, contract_sharply};
 use refine::refine_study;
@@ -67,29 +67,17 @@ use system::{LegSystem, Study};
 /// Measured in Study coordinates with `e_k = 1` and lengths divided by [`Certificate::unit`].
 pub const NEAR: f64 = 1.0 / (1u32 << 26) as f64;
 
-/// Squared lengths as points: the doubles are the data.
-#[must_use]
-pub fn exact_squares(s: &SquaredLegLengths) -> [Interval; 6] {
-    s.get().map(Interval::from)
-}
-
-/// Enclosures of the squares of lengths that are exact doubles.
-#[must_use]
-pub fn squares_of_lengths(l: &LegLengths) -> [Interval; 6] {
-    l.get().map(|l| Interval::from(l).square())
-}
-
 /// One problem, scaled once and ready to certify any number of roots.
 #[derive(Debug, Clone)]
 pub struct Certifier(LegSystem);
 
 impl Certifier {
-    /// Prepares `m` with squared leg lengths in the intervals `s` (design units squared).
+    /// Prepares `m` with the squared leg lengths `s`: [`SquaredLegLengths`](crate::manipulator::SquaredLegLengths) or intervals (design units squared).
     ///
     /// # Errors
     /// [`WhyUncertified::OutOfRange`] when the data cannot be scaled exactly.
-    pub fn new(m: &Manipulator, s: &[Interval; 6]) -> Result<Self, WhyUncertified> {
-        LegSystem::new(m, s).map(Self)
+    pub fn new(m: &Manipulator, s: impl Into<SquareData>) -> Result<Self, WhyUncertified> {
+        LegSystem::new(m, &s.into()).map(Self)
     }
 
     /// Proves that the pose approximates exactly one root, see [`Certificate`]; the centre is the pose as
@@ -176,7 +164,7 @@ fn reality(x: &Centre<'_>, c: &Contraction) -> ProvedReality {
 
 /// [`Certifier::certify`] for a single pose.
 #[must_use]
-pub fn certify(m: &Manipulator, s: &[Interval; 6], pose: &ComplexPose) -> CertificateOutcome {
+pub fn certify(m: &Manipulator, s: impl Into<SquareData>, pose: &ComplexPose) -> CertificateOutcome {
     match Certifier::new(m, s) {
         Ok(certifier) => certifier.certify(pose),
         Err(why) => CertificateOutcome::Absent(why),
@@ -187,6 +175,10 @@ pub fn certify(m: &Manipulator, s: &[Interval; 6], pose: &ComplexPose) -> Certif
 ///
 /// # Errors
 /// As [`Certifier::new`] and [`Certifier::refine`].
-pub fn refine(m: &Manipulator, s: &[Interval; 6], pose: &ComplexPose) -> Result<RefinedPose, WhyUncertified> {
+pub fn refine(
+    m: &Manipulator,
+    s: impl Into<SquareData>,
+    pose: &ComplexPose,
+) -> Result<RefinedPose, WhyUncertified> {
     Certifier::new(m, s)?.refine(pose)
 }

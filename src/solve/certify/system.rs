@@ -19,6 +19,8 @@
 //! * `v`: four terms with at most five roundings (entry of `T`, product, three sums): `delta_i = 5U (G + t_i E)`.
 //! * `F_i`: from `v`, `(1/2) sum |dv| (2|v| + |dv|) <= 2 delta sqrt W + 2 delta^2`; its own at most seven roundings in each part, factor
 //!   `sqrt 2` for two parts: `(sqrt 2 / 2) 7 U (W + s P) < 5U (W + s P)`.
+//! * data: in double the squared length is the double nearest to its middle; what that leaves, `|s_low| P / 2` in `F_i` and `|s_low| e` in its
+//!   gradient, counts as rounding. In double-double it is part of the data.
 //! * `F_7`: five roundings, two parts: `sqrt 2 * 5 U * 4 E G < 32 U E G`.
 //! * gradient (always in double): `delta_i` by each `g_j`; `t_i delta_i + 5u (t_i sqrt W + s E)` by each `e_j`.
 //!
@@ -27,11 +29,11 @@
 use std::ops::{Add, Mul, Neg, Sub};
 
 use super::certificate::WhyUncertified;
+use super::data::SquareData;
 use super::second_order::SecondOrder;
 use crate::manipulator::Manipulator;
 use crate::num::disc::{TINY, UP};
 use crate::num::double_double::DoubleDouble;
-use crate::num::interval::Interval;
 
 /// Unknowns on an affine patch, and equations.
 pub(super) const N: usize = 7;
@@ -121,7 +123,11 @@ pub(super) struct LegSystem {
     pub(super) b: [[f64; 3]; 6],
     d: [[f64; 3]; 6],
     c: [[f64; 3]; 6],
+    /// Doubles nearest to the middles of the squared lengths.
     pub(super) s: [f64; 6],
+    /// What these leave of the middles: part of the data in double-double, an error of evaluations in double.
+    pub(super) s_low: [f64; 6],
+    /// How far from the middles the data may be.
     pub(super) s_radius: [f64; 6],
     pub(super) t: [f64; 6],
     /// `|Q_i(h, k)| <= q_i` for all `h`, `k` with coordinates of modulus at most 1 and `h_patch = k_patch = 0`.
@@ -172,11 +178,12 @@ fn rotation_gradient(d: &[f64; 3], c: &[f64; 3], s: f64, v: &[f64; 4], e: &[f64]
 
 impl LegSystem {
     /// Scales the data by a power of two, exactly, so that they are of order one.
-    pub(super) fn new(m: &Manipulator, s: &[Interval; 6]) -> Result<Self, WhyUncertified> {
+    pub(super) fn new(m: &Manipulator, s: &SquareData) -> Result<Self, WhyUncertified> {
         let legs = m.legs();
         let largest = |p: &nalgebra::Point3<f64>| p.iter().fold(0.0_f64, |x, y| x.max(y.abs()));
         let joints = legs.iter().map(|l| largest(&l.base).max(largest(&l.platform))).fold(0.0, f64::max);
-        let size = s.iter().map(|s| s.magnitude().sqrt()).fold(joints, f64::max);
+        let largest = |i: usize| (s.middle[i].hi().abs() + s.radius[i]).sqrt();
+        let size = (0..6).map(largest).fold(joints, f64::max);
         // outside these limits squares of the unit, or of scaled data, may leave the range of doubles
         if size > 1e-120 && size < 1e120 {
             Self::scaled(&legs, s, power_of_two_below(size)).ok_or(WhyUncertified::OutOfRange)
@@ -185,14 +192,12 @@ impl LegSystem {
         }
     }
 
-    fn scaled(legs: &[crate::manipulator::Leg; 6], s: &[Interval; 6], unit: f64) -> Option<Self> {
+    fn scaled(legs: &[crate::manipulator::Leg; 6], s: &SquareData, unit: f64) -> Option<Self> {
         let (inverse, mut system) = (unit.recip(), Self::empty(unit));
         for (i, leg) in legs.iter().enumerate() {
             system.a[i] = scale_point(leg.base.coords.into(), inverse)?;
             system.b[i] = scale_point(leg.platform.coords.into(), inverse)?;
-            let (low, high) =
-                (exact_product(s[i].lo(), inverse * inverse)?, exact_product(s[i].hi(), inverse * inverse)?);
-            (system.s[i], system.s_radius[i]) = Interval::new(low, high)?.centre_and_radius();
+            system.set_square(i, s.middle[i], s.radius[i], inverse * inverse)?;
             system.prepare_leg(i);
         }
         Some(system)
@@ -204,12 +209,28 @@ impl LegSystem {
         for i in 0..6 {
             system.a[i] = scale_point(self.a[i], inverse)?;
             system.b[i] = scale_point(self.b[i], inverse)?;
-            system.s[i] = exact_product(self.s[i], inverse * inverse)?;
-            // only ever too large: it may underflow
-            system.s_radius[i] = (self.s_radius[i] * inverse * inverse).next_up();
+            let middle = DoubleDouble::from_sum(self.s[i], self.s_low[i]);
+            system.set_square(i, middle, self.s_radius[i], inverse * inverse)?;
             system.prepare_leg(i);
         }
         Some(system)
+    }
+
+    /// The squared length of leg `i` times a power of two, `None` when that is not exact.
+    fn set_square(&mut self, i: usize, middle: DoubleDouble, radius: f64, factor: f64) -> Option<()> {
+        self.s[i] = exact_product(middle.hi(), factor)?;
+        // a low part so small that it underflows joins the radius, which is only ever too large
+        let low = exact_product(middle.lo(), factor);
+        self.s_low[i] = low.unwrap_or(0.0);
+        let lost = if low.is_some() { 0.0 } else { (middle.lo().abs() * factor).next_up() };
+        let scaled = if radius <= 0.0 { 0.0 } else { (radius * factor).next_up() };
+        self.s_radius[i] = (scaled + lost) * UP;
+        self.s_radius[i].is_finite().then_some(())
+    }
+
+    /// How far the squared length of leg `i` may be from the double that stands for it.
+    fn s_blur(&self, i: usize) -> f64 {
+        (self.s_low[i].abs() + self.s_radius[i]) * UP
     }
 
     /// What follows from joints and lengths.
@@ -221,14 +242,26 @@ impl LegSystem {
         let rows = row_sums(&self.d[i], &self.c[i]);
         self.t[i] = rows.into_iter().fold(0.0, f64::max) * UP;
         let squares: f64 = rows.iter().map(|r| (1.0 + r) * (1.0 + r)).sum();
-        self.q[i] = 0.5 * (squares + 3.0 * (self.s[i].abs() + self.s_radius[i])) * UP;
+        self.q[i] = 0.5 * (squares + 3.0 * (self.s[i].abs() + self.s_blur(i))) * UP;
     }
 
     fn empty(unit: f64) -> Self {
         let (points, six) = ([[0.0; 3]; 6], [0.0; 6]);
         let (a, b, d, c) = (points, points, points, points);
         // F_7 = e.g: the three e_j other than the patch, each at most 1
-        Self { unit, a, b, d, c, s: six, s_radius: six, t: six, q: [3.0; N], second_order: SecondOrder::ZERO }
+        Self {
+            unit,
+            a,
+            b,
+            d,
+            c,
+            s: six,
+            s_low: six,
+            s_radius: six,
+            t: six,
+            q: [3.0; N],
+            second_order: SecondOrder::ZERO,
+        }
     }
 
     /// The power of two all lengths are divided by.
@@ -236,7 +269,7 @@ impl LegSystem {
         self.unit
     }
 
-    /// `F` at the centres of the intervals for `s`.
+    /// `F` for the middles of the `s`; in double for the doubles nearest to these.
     pub(super) fn values<S: Scalar>(&self, x: &Study<S>) -> Values<S> {
         let zero = S::from(0.0);
         let half = S::from(0.5);
@@ -252,7 +285,7 @@ impl LegSystem {
             let c: [S; 3] = std::array::from_fn(|j| S::sum(self.b[i][j], self.a[i][j]));
             let (v_re, v_im) = (leg_vector(&d, &c, &x.re), leg_vector(&d, &c, &x.im));
             let (w_re, w_half_im) = square(&v_re, &v_im);
-            let s = S::from(self.s[i]);
+            let s = S::sum(self.s[i], self.s_low[i]);
             out.f_re[i] = half * (w_re - s * n_re);
             out.f_im[i] = w_half_im - s * n_half_im;
             (out.v_re[i], out.v_im[i]) = (v_re, v_im);
@@ -280,7 +313,8 @@ impl LegSystem {
             let slack = w.sqrt() + 6.0 * self.delta(i, e, g, U);
             let delta = self.delta(i, e, g, unit);
             let own = 5.0 * unit * (slack * slack + self.s[i].abs() * p);
-            rounding[i] = (2.0 * delta * slack + 2.0 * delta * delta + own + TINY) * UP;
+            let low = if unit < U { 0.0 } else { 0.5 * self.s_low[i].abs() * p };
+            rounding[i] = (2.0 * delta * slack + 2.0 * delta * delta + own + low + TINY) * UP;
             width[i] = 0.5 * self.s_radius[i] * p * UP;
         }
         rounding[6] = (32.0 * unit * e * g + TINY) * UP;
@@ -298,7 +332,7 @@ impl LegSystem {
         let (mut coarse, mut width) = (0.0, 0.0);
         for i in 0..N {
             coarse += weights[i] * self.q[i];
-            width += if i < 6 { weights[i] * 1.5 * self.s_radius[i] } else { 0.0 };
+            width += if i < 6 { weights[i] * 1.5 * self.s_blur(i) } else { 0.0 };
         }
         (self.second_order.bound(y_re, y_im, patch) + width + 32.0 * U * coarse + TINY) * UP
     }
@@ -320,7 +354,7 @@ impl LegSystem {
             }
             let w = square_sum(&values.v_re[i], &values.v_im[i]);
             let (delta, s) = (self.delta(i, e, g, U), self.s[i].abs());
-            let by_e = self.t[i] * delta + 5.0 * U * (self.t[i] * w.sqrt() + s * e) + self.s_radius[i] * e;
+            let by_e = self.t[i] * delta + 5.0 * U * (self.t[i] * w.sqrt() + s * e) + self.s_blur(i) * e;
             out.error[i] = (4.0 * delta + 3.0 * by_e + TINY) * UP;
         }
         for (row, x) in [(&mut out.re[6], &x.re), (&mut out.im[6], &x.im)] {

@@ -4,7 +4,7 @@ use equipod::geom::ComplexPose;
 use equipod::manipulator::{Leg, LegLengths, Manipulator};
 use equipod::num::double_double::{ComplexDoubleDouble, DoubleDouble};
 use equipod::num::interval::Interval;
-use equipod::solve::certify::{Certificate, CertificateOutcome, Certifier, squares_of_lengths};
+use equipod::solve::certify::{Certificate, CertificateOutcome, Certifier};
 use nalgebra::{Matrix3, Point3, Vector3};
 
 /// `R` row by row, then `p`.
@@ -58,7 +58,7 @@ pub(crate) fn problem(name: &str) -> Problem {
     Problem {
         name,
         manipulator: manipulator(&file.base, &file.platform),
-        s: squares_of_lengths(&LegLengths::try_new(file.leg_lengths).unwrap()),
+        s: LegLengths::try_new(file.leg_lengths).unwrap().squared().intervals(),
         roots: file.solutions.iter().map(|v| root(v)).collect(),
         real: file.real,
     }

@@ -12,7 +12,7 @@ use crate::design::Design;
 use crate::fk::{Completeness, FkRoot, FkSolutions, Method, NearOutcome, NearSolver, Reality, SolutionSet};
 use crate::geom::{ComplexPose, Pose};
 use crate::manipulator::{LegLengths, Manipulator};
-use crate::solve::certify::{Certifier, exact_squares};
+use crate::solve::certify::{Certifier};
 
 /// Follows one pose. A row that is not tracked leaves the next to start from the last tracked pose.
 pub(super) fn run(design: &Design, given: &Given, start: Pose, seed: u64) -> Answer {
@@ -74,7 +74,7 @@ fn record(
 ) -> (Map<String, Value>, FkSolutions) {
     let s = lengths.squared();
     let certified = |pose: &ComplexPose| {
-        Certifier::new(m, &exact_squares(&s)).is_ok_and(|c| c.certify(pose).certificate().is_some())
+        Certifier::new(m, &s).is_ok_and(|c| c.certify(pose).certificate().is_some())
     };
     let root = outcome.tracked().map(|pose| {
         let pose = ComplexPose::from(*pose);

@@ -6,7 +6,6 @@
 use std::ops::{Add, Mul, Neg, Sub};
 
 use crate::num::disc::{TINY, UP};
-use crate::num::interval::Interval;
 
 const U: f64 = f64::EPSILON / 2.0;
 
@@ -23,11 +22,6 @@ impl Ball {
     /// The number itself.
     pub(super) fn exact(c: f64) -> Self {
         Self { c, r: 0.0 }
-    }
-
-    pub(super) fn of(interval: Interval) -> Self {
-        let (c, r) = interval.centre_and_radius();
-        Self { c, r }
     }
 
     /// The difference of two doubles.

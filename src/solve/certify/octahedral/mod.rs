@@ -19,12 +19,12 @@ mod lanes;
 use num_complex::Complex64;
 
 use super::certificate::{ProvedReality, WhyUncertified};
+use super::data::SquareData;
 use super::system::{exact_product, power_of_two_below, scale_point};
 use crate::geom::ComplexPose;
 use crate::manipulator::{LegIndex, Octahedral};
 use crate::num::batch::{Batch, LANES};
 use crate::num::disc::{Disc, UP};
-use crate::num::interval::Interval;
 use ball::{Ball, Triangle};
 use closure::Closure;
 use contraction::{Contraction, contract};
@@ -111,17 +111,19 @@ impl OctahedralCertifier {
     #[must_use]
     pub fn certify(
         &self,
-        s: &[Interval; 6],
+        s: impl Into<SquareData>,
         pairs: &[[Complex64; 2]; PAIRS],
         poses: &[ComplexPose; 2 * PAIRS],
     ) -> OctahedralCertificates {
         let none = OctahedralCertificates { pairs: [None; PAIRS], complete: false };
+        let s: SquareData = s.into();
         let scale = (self.unit * self.unit).recip();
         let mut squares = [Ball::ZERO; 6];
         for (square, i) in squares.iter_mut().zip(self.order) {
-            let ends = exact_product(s[i].lo(), scale).zip(exact_product(s[i].hi(), scale));
-            let Some(interval) = ends.and_then(|(lo, hi)| Interval::new(lo, hi)) else { return none };
-            *square = Ball::of(interval);
+            let Some(c) = exact_product(s.middle[i].hi(), scale) else { return none };
+            // the radius is only ever too large: it may underflow
+            let blur = (s.middle[i].lo().abs() + s.radius[i]) * UP * scale;
+            *square = Ball { c, r: if blur <= 0.0 { 0.0 } else { blur.next_up() } };
         }
         let (mut x, mut y) = (Batch::ZERO, Batch::ZERO);
         for (k, pair) in pairs.iter().enumerate() {
