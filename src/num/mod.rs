@@ -11,5 +11,6 @@ pub mod linalg;
 pub(crate) mod modular;
 pub(crate) mod parallel;
 mod seed;
+pub(crate) mod wide_disc;
 
 pub use seed::Rng;

@@ -3,10 +3,12 @@
 use num_complex::Complex64;
 
 use super::certificate::{PoseEnclosure, WhyUncertified};
+use super::krawczyk::largest;
 use super::system::Study;
 use crate::geom::ComplexPose;
-use crate::num::disc::Disc;
+use crate::num::disc::{Disc, UP};
 use crate::num::double_double::{ComplexDoubleDouble, DoubleDouble};
+use crate::num::wide_disc::WideDisc;
 
 /// `4 e e^T / N` of a rotation matrix, column `k` (Shepperd 1978).
 fn quaternion_column(r: &nalgebra::Matrix3<Complex64>, k: usize) -> [Complex64; 4] {
@@ -101,6 +103,23 @@ pub(super) fn enclose_pose(
     Some(PoseEnclosure { rotation, position: p.map(|z| (z * inverse).scaled(unit)) })
 }
 
+/// [`enclose_pose`] over the ball about `centre + low`, in double-double: where `e.e` is small or `g` large, rounding in double would cost all digits.
+pub(super) fn enclose_pose_widely(
+    centre: &[Complex64; 8],
+    low: &[Complex64; 8],
+    patch: usize,
+    radius: f64,
+    unit: f64,
+) -> Option<PoseEnclosure> {
+    let x: [WideDisc; 8] =
+        std::array::from_fn(|j| WideDisc::about(centre[j], low[j], if j == patch { 0.0 } else { radius }));
+    let (r, p, n) = pose_numerators(&x);
+    let inverse = n.reciprocal()?;
+    let entry = |z: WideDisc| (z * inverse).rounded();
+    let rotation = std::array::from_fn(|i| std::array::from_fn(|j| entry(r[3 * i + j])));
+    Some(PoseEnclosure { rotation, position: p.map(|z| entry(z).scaled(unit)) })
+}
+
 /// `R` and `p` in double-double.
 pub(super) fn pose_of(
     x: &Study<DoubleDouble>,
@@ -115,13 +134,23 @@ pub(super) fn pose_of(
 /// Largest distance of a rotation entry of the pose from the enclosure's centre, relative to the larger of 1 and
 /// the largest entry.
 pub(super) fn rotation_distance(pose: &ComplexPose, enclosure: &PoseEnclosure) -> f64 {
-    let (mut gap, mut scale) = (0.0_f64, 1.0_f64);
-    for i in 0..3 {
-        for j in 0..3 {
-            let z = enclosure.rotation[i][j].centre;
-            gap = gap.max((z - pose.rotation[(i, j)]).norm());
-            scale = scale.max(z.norm());
+    let discs = enclosure.rotation.as_flattened();
+    let gap = |k: usize| (discs[k].centre - pose.rotation[(k / 3, k % 3)]).norm();
+    (0..9).map(gap).fold(0.0, f64::max) / discs.iter().map(|d| d.centre.norm()).fold(1.0, f64::max)
+}
+
+/// How far the pose may be from the root: the largest distance of an entry from a point of its disc, for `R` relative to the larger of 1 and the largest
+/// entry, for `p` relative to the larger of `unit` and the largest entry. NaN where nothing is known.
+pub(super) fn deviation(pose: &ComplexPose, enclosure: &PoseEnclosure, unit: f64) -> f64 {
+    let part = |entries: &[Complex64], discs: &[Disc], least: f64| {
+        let (mut gap, mut scale) = (0.0, least);
+        for (z, d) in entries.iter().zip(discs) {
+            gap = largest(gap, ((d.centre - z).norm() + d.radius) * UP);
+            scale = largest(scale, z.norm());
         }
-    }
-    gap / scale
+        gap / (scale * (2.0 - UP))
+    };
+    let rows: [Complex64; 9] = std::array::from_fn(|k| pose.rotation[(k / 3, k % 3)]);
+    let rotation = part(&rows, enclosure.rotation.as_flattened(), 1.0);
+    largest(rotation, part(pose.position.as_slice(), &enclosure.position, unit)) * UP
 }

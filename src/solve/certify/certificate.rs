@@ -63,11 +63,13 @@ impl PoseEnclosure {
 /// Proof that exactly one root lies near a point; made by [`certify`](super::certify) only.
 ///
 /// Coordinates are `x = (e_0..e_3, g_0..g_3 / unit)` with `e_patch = 1`, distances the largest modulus of a
-/// coordinate difference. For every choice of the squared lengths in their intervals there is exactly one root within
-/// [`uniqueness_radius`](Self::uniqueness_radius) of the centre; it is regular and lies within [`radius`](Self::radius).
+/// coordinate difference. For every choice of the squared lengths within their radii there is exactly one root within
+/// [`uniqueness_radius`](Self::uniqueness_radius) of the centre [`centre`](Self::centre) `+` [`low`](Self::low); it is regular and lies within
+/// [`radius`](Self::radius).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Certificate {
     pub(super) centre: [Complex64; 8],
+    pub(super) low: [Complex64; 8],
     pub(super) patch: usize,
     pub(super) unit: f64,
     pub(super) radius: f64,
@@ -79,13 +81,19 @@ pub struct Certificate {
 }
 
 impl Certificate {
-    /// The centre, `g` divided by [`unit`](Self::unit).
+    /// The doubles nearest to the centre, `g` divided by [`unit`](Self::unit).
     #[must_use]
     pub fn centre(&self) -> &[Complex64; 8] {
         &self.centre
     }
 
-    /// The centre with `g` in design units.
+    /// What these leave of the centre: its digits beyond double, zero where doubles sufficed.
+    #[must_use]
+    pub fn low(&self) -> &[Complex64; 8] {
+        &self.low
+    }
+
+    /// The nearest doubles of the centre with `g` in design units.
     pub(crate) fn point(&self) -> [Complex64; 8] {
         std::array::from_fn(|k| if k < 4 { self.centre[k] } else { self.centre[k] * self.unit })
     }
@@ -94,15 +102,16 @@ impl Certificate {
     /// centre to balls about its conjugate and zeros to zeros.
     #[must_use]
     pub fn conjugate(&self) -> Self {
-        Self { centre: self.centre.map(|z| z.conj()), enclosure: self.enclosure.conjugate(), ..*self }
+        let (centre, low) = (self.centre.map(|z| z.conj()), self.low.map(|z| z.conj()));
+        Self { centre, low, enclosure: self.enclosure.conjugate(), ..*self }
     }
 
     /// The certificate of the mirror image `R -> S R S`, `p -> S p`, `S = diag(1, 1, -1)`, for platforms with all joints in `z = 0`: the
     /// equations are even under `(e, g) -> (e0, -e1, -e2, e3, -g0, g1, g2, -g3)`, changes of sign that no rounding sees.
     pub(crate) fn mirrored(&self) -> Self {
         let signs = if self.patch == 0 || self.patch == 3 { MIRROR } else { MIRROR.map(|s| -s) };
-        let centre = std::array::from_fn(|k| self.centre[k] * signs[k]);
-        Self { centre, enclosure: self.enclosure.mirrored(), ..*self }
+        let [centre, low] = [self.centre, self.low].map(|x| std::array::from_fn(|k| x[k] * signs[k]));
+        Self { centre, low, enclosure: self.enclosure.mirrored(), ..*self }
     }
 
     /// Whether the point `(e, g)` (any scale, `g` in design units) lies in the ball in which the root is the only one.
@@ -202,6 +211,12 @@ pub enum WhyUncertified {
         step: f64,
         /// The step up to which a ball would contract, `(1 - |I - Y J|)^2 / (4 |Y Q|)`.
         admissible: f64,
+    },
+    /// The root is proved, but its `R` or `p` need not be that of the pose to half the digits of a double.
+    #[error("R or p of the root may be {distance:e} away from those of the pose")]
+    Deviation {
+        /// Bound of the distance, for `R` relative to the larger of 1 and the largest entry, for `p` to the larger of the design's size and the largest entry.
+        distance: f64,
     },
     /// `e.e` may be zero in the ball, where there is no pose.
     #[error("e.e may vanish in the enclosure, which is no finite pose")]

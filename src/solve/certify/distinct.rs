@@ -1,7 +1,8 @@
 //! Telling certified roots of one problem apart, whatever patches they were certified on.
 
 use super::certificate::Certificate;
-use crate::num::disc::{Disc, UP};
+use crate::num::disc::UP;
+use crate::num::wide_disc::WideDisc;
 
 /// How two certified roots of the same problem relate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,7 +34,7 @@ pub fn relation(a: &Certificate, b: &Certificate) -> RootRelation {
         return RootRelation::Distinct;
     }
     let seen = [(a, b), (b, a)].map(|(inner, outer)| (on_patch_of(inner, outer), outer));
-    let any = |holds: &dyn Fn(&[Disc; 8], &Certificate) -> bool| {
+    let any = |holds: &dyn Fn(&[WideDisc; 8], &Certificate) -> bool| {
         seen.iter().any(|(x, outer)| x.is_some_and(|x| holds(&x, outer)))
     };
     if any(&is_apart) {
@@ -46,12 +47,12 @@ pub fn relation(a: &Certificate, b: &Certificate) -> RootRelation {
 }
 
 /// Coordinate `j` of the root, where that of its patch is 1.
-fn coordinate(c: &Certificate, j: usize) -> Disc {
-    Disc { centre: c.centre[j], radius: if j == c.patch { 0.0 } else { c.radius } }
+fn coordinate(c: &Certificate, j: usize) -> WideDisc {
+    WideDisc::about(c.centre[j], c.low[j], if j == c.patch { 0.0 } else { c.radius })
 }
 
 /// The coordinates of the root of `inner` in the unit of `outer`, divided by the one that is 1 on its patch. `None` when that one may vanish.
-fn on_patch_of(inner: &Certificate, outer: &Certificate) -> Option<[Disc; 8]> {
+fn on_patch_of(inner: &Certificate, outer: &Certificate) -> Option<[WideDisc; 8]> {
     // both units are powers of two: products with their ratio are exact
     let ratio = inner.unit / outer.unit;
     let disc = |j: usize| coordinate(inner, j).scaled(if j < 4 { 1.0 } else { ratio });
@@ -66,14 +67,14 @@ fn on_patch_of(inner: &Certificate, outer: &Certificate) -> Option<[Disc; 8]> {
 }
 
 /// Proves that `x` is not the root of `outer`.
-fn is_apart(x: &[Disc; 8], outer: &Certificate) -> bool {
+fn is_apart(x: &[WideDisc; 8], outer: &Certificate) -> bool {
     (0..8).filter(|j| *j != outer.patch).any(|j| x[j].is_disjoint(&coordinate(outer, j)))
 }
 
 /// Proves that `x` lies in the uniqueness ball of `outer`.
-fn is_captured(x: &[Disc; 8], outer: &Certificate) -> bool {
+fn is_captured(x: &[WideDisc; 8], outer: &Certificate) -> bool {
     (0..8).filter(|j| *j != outer.patch).all(|j| {
-        let gap = x[j] - Disc::point(outer.centre[j]);
+        let gap = (x[j] - WideDisc::about(outer.centre[j], outer.low[j], 0.0)).rounded();
         (gap.centre.norm() + gap.radius) * UP <= outer.uniqueness_radius
     })
 }

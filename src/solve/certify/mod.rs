@@ -55,7 +55,8 @@ use num_complex::Complex64;
 use crate::geom::ComplexPose;
 use crate::manipulator::Manipulator;
 use crate::num::disc::UP;
-use centre::{enclose_pose, pose_of, rotation_distance, study_of};
+use crate::num::double_double::DoubleDouble;
+use centre::{deviation, enclose_pose, enclose_pose_widely, pose_of, rotation_distance, study_of};
 use krawczyk::{Centre, Contraction, contract, contract_sharply};
 use refine::refine_study;
 use system::{LegSystem, Study};
@@ -63,8 +64,9 @@ use system::{LegSystem, Study};
 /// How accurate a pose must be to be certified: `2^-26`, half of the digits of a double.
 ///
 /// The Newton map contracts on balls far wider than that, so that a proof alone would also go to poses which are wrong in the
-/// sixth digit. A certificate shall say that the pose *is* the root to the accuracy of its digits, give or take its conditioning.
-/// Measured in Study coordinates with `e_k = 1` and lengths divided by [`Certificate::unit`].
+/// sixth digit. A certificate shall say that the pose *is* the root to the accuracy of its digits. Measured twice: the Newton step in Study coordinates with
+/// `e_k = 1` and lengths divided by [`Certificate::unit`]; and the distance of the entries of the pose from all points of the enclosure, for `R` relative to the
+/// larger of 1 and the largest entry, for `p` relative to the larger of the unit and the largest entry.
 pub const NEAR: f64 = 1.0 / (1u32 << 26) as f64;
 
 /// One problem, scaled once and ready to certify any number of roots.
@@ -93,38 +95,47 @@ impl Certifier {
     fn try_certify(&self, pose: &ComplexPose) -> Result<Certificate, WhyUncertified> {
         let x = study_of(pose, self.0.unit())?;
         let double = Centre { hi: &x, full: None };
-        let certificate = match contract(&self.0, &double, NEAR) {
-            Ok(c) => Self::build(&self.0, &double, &c)?,
-            Err(why) => {
-                let refined = refine_study(&self.0, &x, NEAR).map_err(|_| why)?;
-                let hi = refined.x.rounded();
-                let centre = Centre { hi: &hi, full: Some(&refined.x) };
-                Self::build(&self.0, &centre, &contract_sharply(&self.0, &centre)?)?
-            }
+        let quick = contract(&self.0, &double, NEAR)
+            .and_then(|c| Self::build(&self.0, &double, &c))
+            .and_then(|c| self.accurate(pose, c));
+        let why = match quick {
+            Ok(certificate) => return Ok(certificate),
+            Err(why) => why,
         };
-        let distance = rotation_distance(pose, &certificate.enclosure);
-        let near = distance <= NEAR;
-        if near { Ok(certificate) } else { Err(WhyUncertified::NotARotation { distance }) }
+        let refined = refine_study(&self.0, &x, NEAR).map_err(|_| why)?;
+        let hi = refined.x.rounded();
+        let centre = Centre { hi: &hi, full: Some(&refined.x) };
+        let certificate = Self::build(&self.0, &centre, &contract_sharply(&self.0, &centre)?)?;
+        self.accurate(pose, certificate)
     }
 
-    /// The certificate about the nearest doubles of the centre, whose distance enters the radii.
-    fn build(system: &LegSystem, x: &Centre<'_>, c: &Contraction) -> Result<Certificate, WhyUncertified> {
-        let tail = x.tail();
-        let centre: [Complex64; 8] = std::array::from_fn(|j| Complex64::new(x.hi.re[j], x.hi.im[j]));
-        let radius = (c.radius + tail) * UP;
-        let unit = system.unit();
-        let enclosure =
-            enclose_pose(&centre, x.hi.patch, radius, unit).ok_or(WhyUncertified::RotationUndefined)?;
-        let uniqueness_radius = (c.uniqueness_radius - tail) * (2.0 - UP);
-        // moving the centre costs the tail on both sides; without room for it another root may be in the ball
-        if uniqueness_radius < radius {
-            return Err(WhyUncertified::NoContraction { step: radius, admissible: c.uniqueness_radius });
+    /// The certificate when the pose is its root to within [`NEAR`] in `R` and `p`.
+    fn accurate(&self, pose: &ComplexPose, c: Certificate) -> Result<Certificate, WhyUncertified> {
+        let distance = rotation_distance(pose, &c.enclosure);
+        if !(distance <= NEAR) {
+            return Err(WhyUncertified::NotARotation { distance });
         }
+        let distance = deviation(pose, &c.enclosure, self.0.unit());
+        if distance <= NEAR { Ok(c) } else { Err(WhyUncertified::Deviation { distance }) }
+    }
+
+    fn build(system: &LegSystem, x: &Centre<'_>, c: &Contraction) -> Result<Certificate, WhyUncertified> {
+        let centre: [Complex64; 8] = std::array::from_fn(|j| Complex64::new(x.hi.re[j], x.hi.im[j]));
+        let tail = |f: &Study<DoubleDouble>| std::array::from_fn(|j| Complex64::new(f.re[j].lo(), f.im[j].lo()));
+        let low: [Complex64; 8] = x.full.map_or([Complex64::ZERO; 8], tail);
+        let (patch, radius, uniqueness_radius) = (x.hi.patch, c.radius, c.uniqueness_radius);
+        let unit = system.unit();
+        let enclosure = match x.full {
+            None => enclose_pose(&centre, patch, radius, unit),
+            Some(_) => enclose_pose_widely(&centre, &low, patch, radius, unit),
+        };
+        let enclosure = enclosure.ok_or(WhyUncertified::RotationUndefined)?;
         let precision =
             if x.full.is_some() { CentrePrecision::DoubleDouble } else { CentrePrecision::Double };
         Ok(Certificate {
             centre,
-            patch: x.hi.patch,
+            low,
+            patch,
             unit,
             radius,
             uniqueness_radius,
@@ -150,12 +161,11 @@ impl Certifier {
 /// The system and the patch are real, so the conjugate of a root is one. It is at most `radius + 2 |im c|` from the
 /// centre; within the uniqueness ball it is the root itself. A coordinate whose disc holds no real number proves the contrary.
 fn reality(x: &Centre<'_>, c: &Contraction) -> ProvedReality {
-    let tail = x.tail();
-    let centre: &Study<f64> = x.hi;
-    let largest = centre.im.iter().fold(0.0_f64, |m, y| m.max(y.abs()));
-    if (c.radius + 2.0 * (largest + tail)) * UP <= c.uniqueness_radius {
+    // the digits beyond double change a coordinate by less than 2^-53 of itself
+    let largest = x.hi.im.iter().fold(0.0_f64, |m, y| m.max(y.abs()));
+    if (c.radius + 2.0 * largest) * UP <= c.uniqueness_radius {
         ProvedReality::Real
-    } else if largest > (c.radius + tail) * UP {
+    } else if largest * (2.0 - UP) > c.radius {
         ProvedReality::NonReal
     } else {
         ProvedReality::Undecided

@@ -6,7 +6,7 @@
 use num_complex::Complex64;
 
 use super::centre::{pose_numerators, pose_of, study_of};
-use super::krawczyk::{Centre, contract, contract_sharply};
+use super::krawczyk::{Centre, Contraction, contract, contract_sharply};
 use super::refine::refine_study;
 use super::system::{LegSystem, Scalar, Study};
 use super::{Certificate, Certifier, NEAR, RefinedPose, WhyUncertified};
@@ -85,19 +85,19 @@ impl Certifier {
         let study = study_at(x, self.0.unit())?;
         let double = Centre { hi: &study, full: None };
         match contract(&self.0, &double, NEAR) {
-            Ok(c) => {
-                let certificate = Self::build(&self.0, &double, &c)?;
-                let better: [Complex64; 8] =
-                    std::array::from_fn(|j| Complex64::new(study.re[j], study.im[j]) - c.step[j]);
-                let pose = match self.near_pose(&better) {
-                    Some(pose) => pose,
-                    None => self.sharp_pose(&study)?,
-                };
-                Ok(CertifiedPose { pose, certificate })
-            }
+            Ok(c) => self.certify_plainly(&double, &c).or_else(|_| self.certify_doubtful(x, f64::INFINITY)),
             // how far Newton's method leads does not matter: the proof is about where it ends
             Err(why) => self.certify_doubtful(x, f64::INFINITY).map_err(|_| why),
         }
+    }
+
+    /// The certificate about a double, with the pose one Newton step on, where doubles are enough for `R` and `p`.
+    fn certify_plainly(&self, x: &Centre<'_>, c: &Contraction) -> Result<CertifiedPose, WhyUncertified> {
+        let certificate = Self::build(&self.0, x, c)?;
+        let better: [Complex64; 8] =
+            std::array::from_fn(|j| Complex64::new(x.hi.re[j], x.hi.im[j]) - c.step[j]);
+        let pose = self.near_pose(&better).ok_or(WhyUncertified::RotationUndefined)?;
+        Ok(CertifiedPose { pose, certificate: self.accurate(&pose, certificate)? })
     }
 
     /// [`certify_point`](Self::certify_point) for a point that may be no root, or at `e.e = 0`: Newton's method in double-double is given
@@ -114,7 +114,8 @@ impl Certifier {
             Ok(certificate) => certificate,
             Err(why) => self.prove_coarsely(&refined.x).ok_or(why)?,
         };
-        Ok(CertifiedPose { pose: self.rounded_pose(&refined.x), certificate })
+        let pose = self.rounded_pose(&refined.x);
+        Ok(CertifiedPose { pose, certificate: self.accurate(&pose, certificate)? })
     }
 
     /// Near infinity `g` is known less well than `e` by many powers of ten, and the largest ball in which there is one root is as
@@ -144,10 +145,6 @@ impl Certifier {
             rotation: nalgebra::Matrix3::from_fn(|i, j| r[3 * i + j] * inverse),
             position: nalgebra::Vector3::from_fn(|i, _| p[i] * inverse * self.0.unit()),
         })
-    }
-
-    fn sharp_pose(&self, x: &Study<f64>) -> Result<ComplexPose, WhyUncertified> {
-        refine_study(&self.0, x, f64::INFINITY).map(|refined| self.rounded_pose(&refined.x))
     }
 
     fn rounded_pose(&self, x: &Study<DoubleDouble>) -> ComplexPose {
