@@ -37,7 +37,7 @@ pub(crate) fn report() -> Result<String, Box<dyn Error>> {
     writeln!(out, "{}: {} finite poses by the {} method", design.name, found.roots.len(), found.method)?;
     writeln!(out, "{} finite poses by the {} method", general.roots.len(), general.method)?;
     writeln!(out, "real, certified, platform origin above the base at x, y, z:")?;
-    for root in found.assembly_modes().filter(|r| r.certified && r.pose.position.z.re > 0.0) {
+    for root in found.assembly_modes().filter(|r| r.certified() && r.pose.position.z.re > 0.0) {
         let p = root.pose.position.map(|z| z.re);
         writeln!(out, "{:9.4} {:9.4} {:9.4}", p.x, p.y, p.z)?;
     }

@@ -13,7 +13,7 @@ use super::statistics::{Report, summarise};
 use super::validator::{Claim, Verdict, validate};
 use crate::fk::{Completeness, FkOptions, FkSolutions, ForwardKinematics};
 use crate::geom::ComplexPose;
-use crate::solve::certify::{Certifier};
+use crate::solve::certify::Certifier;
 
 /// What to run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -85,23 +85,21 @@ pub(super) struct Outcome {
     pub(super) solver: String,
 }
 
-/// The claims of a set of solutions, with enclosures where a certificate can be made again, and the time that took.
+/// The claims of a set of solutions, with the enclosures of their certificates, and the time that making certificates again takes.
 pub(super) fn claims_of(problem: &Problem, found: &FkSolutions) -> (Vec<Claim>, f64) {
     let start = Instant::now();
     let certifier = Certifier::new(&problem.manipulator, &problem.squares).ok();
     let outcomes: Vec<_> =
         found.roots.iter().map(|root| certifier.as_ref().map(|c| c.certify(&root.pose))).collect();
     let time = start.elapsed().as_secs_f64() * 1e6;
-    let claims = found.roots.iter().zip(outcomes).map(|(root, outcome)| {
-        let certificate = outcome.as_ref().and_then(|o| o.certificate());
-        Claim {
-            pose: root.pose,
-            dual_quaternion: root.dual_quaternion,
-            certified: root.certified,
-            enclosure: certificate.map(|c| c.enclosure().discs().copied().collect()),
-            reality: root.reality,
-            multiplicity: root.multiplicity,
-        }
+    std::hint::black_box(outcomes);
+    let claims = found.roots.iter().map(|root| Claim {
+        pose: root.pose,
+        dual_quaternion: root.dual_quaternion,
+        certified: root.certified(),
+        enclosure: root.certificate.map(|c| c.enclosure().discs().copied().collect()),
+        reality: root.reality,
+        multiplicity: root.multiplicity,
     });
     (claims.collect(), time)
 }

@@ -37,7 +37,7 @@ mod tests {
                 position: Vector3::repeat(Complex64::new(p, 0.0)),
             },
             reality: Reality::NonReal,
-            certified: true,
+            certificate: None,
             multiplicity: 1,
             residual: 1e-15,
             condition,

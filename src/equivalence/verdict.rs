@@ -240,7 +240,7 @@ fn counterexample(a: &Manipulator, b: &Manipulator, sample: usize, s: &Sample) -
                     root.residual.max(1e-15 * (1.0 + found.norm() / scale)) * root.condition.max(1.0);
                 let clearer = best.as_ref().is_none_or(|b| miss / rounding > b.miss / b.rounding);
                 if miss > CLEAR_MISS * rounding && clearer {
-                    let certified = root.certified;
+                    let certified = root.certified();
                     best = Some(Counterexample {
                         sample,
                         solves,

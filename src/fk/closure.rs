@@ -52,7 +52,7 @@ pub enum NoClosure {
 pub fn closure(m: &Manipulator, s: &SquaredLegLengths, found: &FkSolutions) -> Result<Closure, NoClosure> {
     let complete = matches!(found.completeness, Completeness::Proved { .. });
     let isolated = found.solution_set == SolutionSet::Isolated;
-    let simple = found.roots.iter().all(|r| r.certified && r.multiplicity == 1);
+    let simple = found.roots.iter().all(|r| r.certified() && r.multiplicity == 1);
     let poses = (complete && isolated && simple).then_some(found.roots.len());
     let mut first_error = None;
     let mut fallback = None;

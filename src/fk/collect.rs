@@ -120,7 +120,7 @@ pub(super) fn collect_with(
             let root = FkRoot {
                 pose: c.pose,
                 reality,
-                certified: false,
+                certificate: None,
                 multiplicity,
                 residual,
                 condition: c.condition,

@@ -117,7 +117,7 @@ fn witnesses(
         out.push(FkRoot {
             pose,
             reality,
-            certified: false,
+            certificate: None,
             multiplicity: 1,
             residual,
             condition,
@@ -129,7 +129,7 @@ fn witnesses(
 
 /// Moves uncertified roots that lie on curves of poses out of the list of isolated ones.
 pub(super) fn detect_curves(found: &mut FkSolutions, m: &Manipulator, s: &SquaredLegLengths) {
-    let suspect = |r: &FkRoot| !r.certified && !(r.condition < 1e6);
+    let suspect = |r: &FkRoot| !r.certified() && !(r.condition < 1e6);
     if !found.roots.iter().any(suspect) {
         return;
     }

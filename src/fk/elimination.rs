@@ -2,7 +2,7 @@
 
 use super::collect::{Candidate, collect};
 use super::evidence::{GENERAL, attach};
-use super::{Completeness, FkOptions, FkSolutions, Method, Rejected, RejectionReason, SolutionSet};
+use super::{Completeness, FkOptions, FkRoot, FkSolutions, Method, Rejected, RejectionReason, SolutionSet};
 use crate::geom::ComplexPose;
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 
@@ -57,7 +57,7 @@ impl Candidates {
         attach(&mut solutions, m, s, GENERAL, Vec::new());
         // rounding in the frames makes every problem a general one with 40 roots near by; on a special platform
         // those that are none of its own lie far out or near e.e = 0 and may pass for roots by their residual
-        let (certified, others): (Vec<_>, Vec<_>) = solutions.roots.into_iter().partition(|r| r.certified);
+        let (certified, others): (Vec<_>, Vec<_>) = solutions.roots.into_iter().partition(FkRoot::certified);
         let unproved =
             others.iter().map(|r| Rejected { reason: RejectionReason::NotCertified, residual: r.residual });
         solutions.rejected.extend(unproved);

@@ -6,7 +6,7 @@ use super::bounds::class_bound;
 use super::{Completeness, FkSolutions, Reality, Rejected, RejectionReason};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::solve::certify::{
-    Certificate, CertificateOutcome, Certifier, Distinctness, ProvedReality, RootRelation, distinct,
+    Certificate, CertifiedPose, Certifier, Distinctness, ProvedReality, RootRelation, distinct,
 };
 
 /// A proved upper bound on the number of finite poses, counted with multiplicity.
@@ -41,19 +41,20 @@ pub(super) fn attach(
     mut known: Vec<Certificate>,
 ) {
     let Ok(certifier) = Certifier::new(m, s) else { return };
-    for root in solutions.roots.iter_mut().filter(|r| !r.certified) {
-        if let CertificateOutcome::Certified(certificate) = certifier.certify(&root.pose) {
-            root.certified = true;
-            root.reality = proved(&certificate);
-            known.push(certificate);
-        }
+    for root in solutions.roots.iter_mut().filter(|r| !r.certified()) {
+        let Ok(CertifiedPose { pose, certificate }) = certifier.certify_pose(&root.pose) else { continue };
+        root.pose = pose;
+        root.residual = pose.residual(m, s);
+        root.reality = proved(certificate.reality());
+        root.certificate = Some(certificate.into());
+        known.push(certificate);
     }
     conclude(solutions, m, &known, bound);
 }
 
 /// What a certificate proves about reality.
-pub(super) fn proved(certificate: &Certificate) -> Reality {
-    match certificate.reality() {
+pub(super) fn proved(reality: ProvedReality) -> Reality {
+    match reality {
         ProvedReality::Real => Reality::Real,
         ProvedReality::NonReal => Reality::NonReal,
         ProvedReality::Undecided => Reality::Undecided,
@@ -81,7 +82,7 @@ fn conclude(solutions: &mut FkSolutions, m: &Manipulator, certificates: &[Certif
             return;
         }
     }
-    let unproved = solutions.roots.iter().filter(|r| !r.certified && r.multiplicity == 1).count();
+    let unproved = solutions.roots.iter().filter(|r| !r.certified() && r.multiplicity == 1).count();
     let Completeness::Unproved { reason, all_paths_accounted } = &mut solutions.completeness else { return };
     if unproved > 0 {
         let _ = write!(reason, "; {unproved} regular poses could not be certified");
@@ -100,14 +101,14 @@ fn conclude(solutions: &mut FkSolutions, m: &Manipulator, certificates: &[Certif
 
 /// With as many certified roots as there can be, what has no certificate is no further root.
 fn reject_others(solutions: &mut FkSolutions) {
-    if solutions.roots.iter().all(|r| r.certified) {
+    if solutions.roots.iter().all(|r| r.certified()) {
         return;
     }
     let mut place = Vec::new();
     let mut kept = Vec::new();
     for root in std::mem::take(&mut solutions.roots) {
-        place.push(root.certified.then_some(kept.len()));
-        if root.certified {
+        place.push(root.certified().then_some(kept.len()));
+        if root.certified() {
             kept.push(root);
         } else {
             let reason = RejectionReason::NotCertified;

@@ -8,9 +8,7 @@ use super::evidence::proved;
 use super::homotopy::pose_of;
 use super::{FkRoot, FkTolerances, Rejected, RejectionReason};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
-use crate::solve::certify::{
-    Certificate, CertifiedPose, Certifier, ProvedReality, RootRelation, relation,
-};
+use crate::solve::certify::{Certificate, CertifiedPose, Certifier, ProvedReality, RootRelation, relation};
 
 /// Regular ends with a larger condition number may belong to a cluster.
 const NEARLY_SINGULAR: f64 = 1e4;
@@ -91,8 +89,8 @@ fn candidate(end: &End) -> Candidate {
 fn record(m: &Manipulator, s: &SquaredLegLengths, p: Proof) -> Sourced {
     let root = FkRoot {
         pose: p.root.pose,
-        reality: proved(&p.root.certificate),
-        certified: true,
+        reality: proved(p.root.certificate.reality()),
+        certificate: Some(p.root.certificate.into()),
         multiplicity: 1,
         residual: p.root.pose.residual(m, s),
         condition: p.condition,
@@ -241,7 +239,7 @@ mod tests {
             let s = pose.squared_lengths(&m).unwrap();
             let certifier = Certifier::new(&m, &s).unwrap();
             let found = Homotopy.solve(&m, &s, &FkOptions::default()).unwrap();
-            assert_eq!(found.roots.iter().filter(|r| r.certified).count(), 40);
+            assert_eq!(found.roots.iter().filter(|r| r.certified()).count(), 40);
             for root in &found.roots {
                 let own = certifier.certify(&root.pose);
                 let proof = certifier.certify_point(&root.dual_quaternion.unwrap()).unwrap();

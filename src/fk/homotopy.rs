@@ -57,7 +57,7 @@ impl ForwardKinematics for Homotopy {
             if settled || found.all_accounted() {
                 return Ok(found);
             }
-            let certified = |f: &FkSolutions| f.roots.iter().filter(|r| r.certified).count();
+            let certified = |f: &FkSolutions| f.roots.iter().filter(|r| r.certified()).count();
             let rank = |f: &FkSolutions| (failures(f), std::cmp::Reverse(certified(f)));
             if best.as_ref().is_none_or(|b| rank(&found) < rank(b)) {
                 best = Some(found);

@@ -3,6 +3,7 @@
 use num_complex::Complex64;
 
 use crate::geom::ComplexPose;
+use crate::solve::certify::RootCertificate;
 
 /// A forward-kinematics method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -121,8 +122,8 @@ pub struct FkRoot {
     pub pose: ComplexPose,
     /// Whether it is real.
     pub reality: Reality,
-    /// Whether an interval certificate of existence and uniqueness is attached.
-    pub certified: bool,
+    /// Proof of existence and uniqueness with all its numbers, for checks by other programs; `None` where there is none.
+    pub certificate: Option<RootCertificate>,
     /// Number of start paths (or polynomial roots) that end here, mirror images of paths included.
     pub multiplicity: u32,
     /// Largest error of the leg equations over size squared and of `R^T R = I`.
@@ -132,6 +133,14 @@ pub struct FkRoot {
     /// The pose as a dual quaternion `(e_0..e_3, g_0..g_3)`, `g = p e`, `max |e_k| = 1`, `g` in design units: where `e.e` is small `R` and `p` lose as many digits as it is
     /// small, and this keeps them. `None` for methods that do not work in dual quaternions and for poses without certificate.
     pub dual_quaternion: Option<[Complex64; 8]>,
+}
+
+impl FkRoot {
+    /// Whether the root is proved.
+    #[must_use]
+    pub fn certified(&self) -> bool {
+        self.certificate.is_some()
+    }
 }
 
 /// Where a homotopy path ended.

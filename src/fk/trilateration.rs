@@ -9,8 +9,8 @@ use super::closure_candidates;
 use super::evidence::{GENERAL, attach};
 use super::harvest::{End, Harvest, harvest};
 use super::{
-    Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, PreparedDesign, Rejected,
-    RejectionReason, SolutionSet, hidden,
+    Completeness, FkError, FkOptions, FkRoot, FkSolutions, ForwardKinematics, Method, PreparedDesign,
+    Rejected, RejectionReason, SolutionSet, hidden,
 };
 use crate::distance::{Evaluator, NoPlan, Shape, fit};
 use crate::geom::ComplexPose;
@@ -201,7 +201,7 @@ pub(super) fn judged(
     tried: &str,
 ) -> FkSolutions {
     let Harvest { collected, certificates } = harvest(m, s, &o.tolerances, ends);
-    let (roots, others): (Vec<_>, Vec<_>) = collected.roots.into_iter().partition(|r| r.certified);
+    let (roots, others): (Vec<_>, Vec<_>) = collected.roots.into_iter().partition(FkRoot::certified);
     let mut rejected = collected.rejected;
     let reason = RejectionReason::NotCertified;
     rejected.extend(others.iter().map(|r| Rejected { reason, residual: r.residual }));

@@ -181,7 +181,9 @@ mod tests {
             assert_eq!(exact(middle.hi()) + exact(middle.lo()), exact(l) * exact(l));
             assert_eq!(s.radius()[i].to_bits(), 0, "{l}");
             let interval = s.intervals()[i];
-            assert!(exact(interval.lo()) <= exact(l) * exact(l) && exact(interval.hi()) >= exact(l) * exact(l));
+            assert!(
+                exact(interval.lo()) <= exact(l) * exact(l) && exact(interval.hi()) >= exact(l) * exact(l)
+            );
         }
         // beyond the range of two doubles the radius takes up what is lost
         let s = LegLengths::try_new([1e-170, 1e-160, 1.2e154, 1.0, 1.0, 1.0]).unwrap().squared();

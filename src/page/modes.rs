@@ -80,6 +80,6 @@ fn mode(m: &Manipulator, home: &Pose, root: &FkRoot) -> Value {
     json!({
         "pose": pose(&real), "turn_deg": number(turn.to_degrees()),
         "sign": sign(&j), "inverse_condition": number(inverse_condition(&j)),
-        "certified": root.certified, "multiplicity": root.multiplicity, "residual": number(root.residual),
+        "certified": root.certified(), "multiplicity": root.multiplicity, "residual": number(root.residual),
     })
 }

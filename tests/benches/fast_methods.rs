@@ -13,7 +13,7 @@ use equipod::geom::{ComplexPose, Pose, random_rotation};
 use equipod::manipulator::{Leg, Manipulator, Octahedral, default_home};
 use equipod::manufacture::{Controller, displaced, joints};
 use equipod::num::Rng;
-use equipod::solve::certify::{Certifier};
+use equipod::solve::certify::Certifier;
 use equipod::synthesis::joint_free;
 use nalgebra::{Point3, Rotation3, Vector3};
 use num_complex::Complex64;

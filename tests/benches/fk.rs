@@ -5,7 +5,7 @@ use equipod::bench::{Class, LengthsFrom, Problem, problem};
 use equipod::fk::{FkOptions, ForwardKinematics, Homotopy, Octic};
 use equipod::num::Rng;
 use equipod::num::linalg::{eigenvalues, generalized_eigenpairs};
-use equipod::solve::certify::{Certifier};
+use equipod::solve::certify::Certifier;
 
 fn main() {
     divan::main();

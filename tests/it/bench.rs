@@ -142,7 +142,7 @@ fn a_dropped_pair_is_missed() {
 fn a_perturbed_root_is_spurious_and_its_certificate_false() {
     let report = cheated(|found| {
         found.roots[0].pose.position.x += 1e-5;
-        found.roots[0].certified = true;
+        assert!(found.roots[0].certified());
     });
     assert_eq!((report.spurious_roots, report.missed_roots), (3, 3));
     assert!(report.false_certificates >= 3);
@@ -180,12 +180,12 @@ fn false_claims_of_certificates_and_reality_are_caught() {
     let moved = cheated(|found| {
         // off by less than counts as another root, by more than a certificate allows
         found.roots[2].pose.position.z += 1e-7;
-        found.roots[2].certified = true;
+        assert!(found.roots[2].certified());
     });
     assert!(moved.false_certificates >= 3, "{moved:?}");
     let real = cheated(|found| {
         for root in &mut found.roots {
-            root.certified = true;
+            assert!(root.certified());
             root.reality = Reality::Real;
         }
     });

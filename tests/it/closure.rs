@@ -15,7 +15,8 @@ fn design(name: &str) -> Design {
 fn solve(m: &Manipulator, s: &SquaredLegLengths) -> (FkSolutions, Closure) {
     let found = Homotopy.solve(m, s, &FkOptions::default()).unwrap();
     assert!(
-        matches!(found.completeness, Completeness::Proved { .. }) && found.roots.iter().all(|r| r.certified)
+        matches!(found.completeness, Completeness::Proved { .. })
+            && found.roots.iter().all(|r| r.certified())
     );
     let closure = closure(m, s, &found).unwrap();
     (found, closure)

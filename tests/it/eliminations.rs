@@ -78,7 +78,7 @@ fn answers_honestly(method: &dyn ForwardKinematics, r: &Reference) -> bool {
             for q in &found.roots {
                 let near = r.solutions.iter().map(|(pose, _)| q.pose.distance(pose, m.size()));
                 let near = near.fold(f64::INFINITY, f64::min);
-                assert!(q.certified && near < 1e-6, "{}: false root, {near:.1e}, {}", r.name, q.residual);
+                assert!(q.certified() && near < 1e-6, "{}: false root, {near:.1e}, {}", r.name, q.residual);
             }
             true
         }

@@ -30,7 +30,7 @@ fn the_distance_method_and_the_homotopy_certify_the_same_poses() {
             for x in &a.roots {
                 let near =
                     |y: &equipod::fk::FkRoot| x.pose.distance(&y.pose, m.size()) < 1e-6 * (1.0 + x.condition);
-                assert!(x.certified && b.roots.iter().filter(|y| near(y)).count() >= 1, "{id} {k}");
+                assert!(x.certified() && b.roots.iter().filter(|y| near(y)).count() >= 1, "{id} {k}");
             }
             assert_eq!(a, Trilateration::default().solve(m, s, &o).unwrap(), "same input, same output");
         }
@@ -45,7 +45,7 @@ fn designs_with_fewer_poses_are_not_called_complete_without_proof() {
     let member = problem(class, LengthsFrom::Pose, 3, 0).unwrap();
     let (m, s, o) = (&member.manipulator, &member.squares, FkOptions::default());
     let (a, b) = (Trilateration::default().solve(m, s, &o).unwrap(), Homotopy.solve(m, s, &o).unwrap());
-    assert!(a.roots.len() <= b.roots.len() && a.roots.iter().all(|r| r.certified));
+    assert!(a.roots.len() <= b.roots.len() && a.roots.iter().all(|r| r.certified()));
     assert!(proved(&a) == (a.roots.len() == 40) && a.all_accounted() == proved(&a));
 }
 

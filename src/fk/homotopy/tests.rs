@@ -65,7 +65,7 @@ fn a_joint_off_the_plane_by_a_millionth_takes_forty_paths() {
         let found = Homotopy.solve(&m, &lengths(&m, &mut rng), &FkOptions::default()).unwrap();
         assert_eq!((found.paths.len(), found.roots.len()), (40, 40));
         assert!(found.paths.iter().all(|p| p.mirror_root.is_none()));
-        assert!(found.roots.iter().all(|r| r.certified));
+        assert!(found.roots.iter().all(|r| r.certified()));
     }
 }
 
@@ -88,7 +88,7 @@ fn a_flat_pose_is_one_root_of_multiplicity_eight() {
         let here = |r: &&FkRoot| r.pose.distance(&pose.into(), m.size()) < 1e-4;
         let flat: Vec<&FkRoot> = found.roots.iter().filter(here).collect();
         assert_eq!(flat.len(), 1);
-        assert_eq!((flat[0].multiplicity, flat[0].certified), (8, false));
+        assert_eq!((flat[0].multiplicity, flat[0].certified()), (8, false));
         assert_eq!(found.count_with_multiplicity(), 40);
         assert!(found.all_accounted());
         assert_eq!(found.paths.iter().filter(|p| p.root == p.mirror_root).count(), 4);

@@ -26,7 +26,7 @@ use crate::geom::{ComplexPose, trilaterate};
 use crate::manipulator::{Leg, Manipulator, Octahedral, SquaredLegLengths};
 use crate::num::batch::LANES;
 use crate::poly::roots;
-use crate::solve::certify::{Certifier};
+use crate::solve::certify::Certifier;
 
 /// Forward kinematics of octahedral platforms (also of those whose joints coincide without being named as
 /// shared: only coordinates count).

@@ -2,10 +2,10 @@
 
 use super::{OcticPoses, OcticSolver};
 use crate::fk::collect::sort_key;
-use crate::fk::evidence::OCTAHEDRAL;
-use crate::fk::{Completeness, FkRoot, FkSolutions, Method, Reality, SolutionSet};
+use crate::fk::evidence::{OCTAHEDRAL, proved as proved_reality};
+use crate::fk::{Completeness, FkRoot, FkSolutions, Method, SolutionSet};
 use crate::num::batch::LANES;
-use crate::solve::certify::ProvedReality;
+use crate::solve::certify::RootCertificate;
 use crate::solve::certify::octahedral::OctahedralCertificates;
 
 /// The answer for poses all of which are certified and distinct.
@@ -19,15 +19,10 @@ pub(super) fn proved(
     let mut roots: Vec<FkRoot> = Vec::with_capacity(2 * LANES);
     let pairs = certificates.pairs.iter().flatten();
     for ((pair, poses), residuals) in pairs.zip(found.poses.chunks(2)).zip(found.residuals.chunks(2)) {
-        let reality = match pair.reality {
-            ProvedReality::Real => Reality::Real,
-            ProvedReality::NonReal => Reality::NonReal,
-            ProvedReality::Undecided => Reality::Undecided,
-        };
-        roots.extend(poses.iter().zip(residuals).map(|(pose, residual)| FkRoot {
+        roots.extend(poses.iter().zip(residuals).enumerate().map(|(image, (pose, residual))| FkRoot {
             pose: *pose,
-            reality,
-            certified: true,
+            reality: proved_reality(pair.reality),
+            certificate: solver.certificate(pair, pose, image == 1).map(RootCertificate::Octahedral),
             multiplicity: 1,
             residual: *residual,
             condition: pair.condition,

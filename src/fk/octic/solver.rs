@@ -14,7 +14,9 @@ use crate::fk::{FkError, Method};
 use crate::geom::{ComplexPose, reorthogonalised};
 use crate::manipulator::{Manipulator, Octahedral, SquaredLegLengths};
 use crate::num::batch::LANES;
-use crate::solve::certify::octahedral::{OctahedralCertificates, OctahedralCertifier};
+use crate::solve::certify::octahedral::{
+    OctahedralCertificate, OctahedralCertificates, OctahedralCertifier, PairCertificate,
+};
 
 /// Largest residual of a pose that is returned.
 const RESIDUAL: f64 = 1e-12;
@@ -132,12 +134,23 @@ impl OcticSolver {
     }
 
     /// Proofs for the poses that [`solve`](Self::solve) gave for the same lengths: existence, uniqueness, reality of each pair, and
-    /// that all sixteen are distinct. Allocates nothing. Squared lengths are taken as exact.
+    /// that all sixteen are distinct. Allocates nothing.
     #[must_use]
     pub fn certify(&self, s: &SquaredLegLengths, found: &OcticPoses) -> OctahedralCertificates {
         let none = OctahedralCertificates { pairs: [None; LANES], complete: false };
         let Some(certifier) = &self.certifier else { return none };
         certifier.certify(s, &found.pairs, &found.poses)
+    }
+
+    /// The certificate of pose `2k` (or `2k + 1`, the mirror image) of pair `k` of those that [`certify`](Self::certify) proved.
+    #[must_use]
+    pub fn certificate(
+        &self,
+        pair: &PairCertificate,
+        pose: &ComplexPose,
+        mirrored: bool,
+    ) -> Option<OctahedralCertificate> {
+        self.certifier.as_ref().map(|c| c.of_pose(pair, pose, mirrored))
     }
 
     /// All sixteen finite complex poses, or `None` where these lengths need the general treatment of

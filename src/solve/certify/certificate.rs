@@ -3,6 +3,7 @@
 use num_complex::Complex64;
 use thiserror::Error;
 
+use super::octahedral::OctahedralCertificate;
 use crate::num::disc::Disc;
 
 /// Signs of `(e, g)` under the mirror in `z = 0`, up to a common one.
@@ -170,6 +171,42 @@ impl Certificate {
     #[must_use]
     pub fn enclosure(&self) -> &PoseEnclosure {
         &self.enclosure
+    }
+}
+
+/// A certificate of either kind.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[allow(clippy::large_enum_variant)] // plain values, kept with roots that are as large
+pub enum RootCertificate {
+    /// In the coordinates of dual quaternions; any six legs.
+    Study(Certificate),
+    /// In two squared distances; octahedral platforms.
+    Octahedral(OctahedralCertificate),
+}
+
+impl RootCertificate {
+    /// Where `R` and `p` of the root are.
+    #[must_use]
+    pub fn enclosure(&self) -> &PoseEnclosure {
+        match self {
+            Self::Study(c) => c.enclosure(),
+            Self::Octahedral(c) => c.enclosure(),
+        }
+    }
+
+    /// What is proved about reality.
+    #[must_use]
+    pub fn reality(&self) -> ProvedReality {
+        match self {
+            Self::Study(c) => c.reality(),
+            Self::Octahedral(c) => c.pair().reality,
+        }
+    }
+}
+
+impl From<Certificate> for RootCertificate {
+    fn from(c: Certificate) -> Self {
+        Self::Study(c)
     }
 }
 

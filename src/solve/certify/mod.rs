@@ -43,7 +43,8 @@ mod second_order;
 mod system;
 
 pub use certificate::{
-    CentrePrecision, Certificate, CertificateOutcome, PoseEnclosure, ProvedReality, WhyUncertified,
+    CentrePrecision, Certificate, CertificateOutcome, PoseEnclosure, ProvedReality, RootCertificate,
+    WhyUncertified,
 };
 pub use data::SquareData;
 pub use distinct::{Distinctness, RootRelation, distinct, relation};
@@ -121,7 +122,8 @@ impl Certifier {
 
     fn build(system: &LegSystem, x: &Centre<'_>, c: &Contraction) -> Result<Certificate, WhyUncertified> {
         let centre: [Complex64; 8] = std::array::from_fn(|j| Complex64::new(x.hi.re[j], x.hi.im[j]));
-        let tail = |f: &Study<DoubleDouble>| std::array::from_fn(|j| Complex64::new(f.re[j].lo(), f.im[j].lo()));
+        let tail =
+            |f: &Study<DoubleDouble>| std::array::from_fn(|j| Complex64::new(f.re[j].lo(), f.im[j].lo()));
         let low: [Complex64; 8] = x.full.map_or([Complex64::ZERO; 8], tail);
         let (patch, radius, uniqueness_radius) = (x.hi.patch, c.radius, c.uniqueness_radius);
         let unit = system.unit();

@@ -9,7 +9,7 @@ use super::centre::{pose_numerators, pose_of, study_of};
 use super::krawczyk::{Centre, Contraction, contract, contract_sharply};
 use super::refine::refine_study;
 use super::system::{LegSystem, Scalar, Study};
-use super::{Certificate, Certifier, NEAR, RefinedPose, WhyUncertified};
+use super::{Certificate, CertificateOutcome, Certifier, NEAR, RefinedPose, WhyUncertified};
 use crate::geom::ComplexPose;
 use crate::num::double_double::DoubleDouble;
 
@@ -98,6 +98,20 @@ impl Certifier {
             std::array::from_fn(|j| Complex64::new(x.hi.re[j], x.hi.im[j]) - c.step[j]);
         let pose = self.near_pose(&better).ok_or(WhyUncertified::RotationUndefined)?;
         Ok(CertifiedPose { pose, certificate: self.accurate(&pose, certificate)? })
+    }
+
+    /// [`certify`](Self::certify) with the pose of the certified root, rounded from the best approximation at hand: for poses whose last digits got lost on the way.
+    pub(crate) fn certify_pose(&self, pose: &ComplexPose) -> Result<CertifiedPose, WhyUncertified> {
+        match self.certify(pose) {
+            CertificateOutcome::Certified(certificate) => Ok(CertifiedPose { pose: *pose, certificate }),
+            CertificateOutcome::Absent(why) => {
+                let refined =
+                    refine_study(&self.0, &study_of(pose, self.0.unit())?, NEAR).map_err(|_| why)?;
+                let pose = self.rounded_pose(&refined.x);
+                self.accurate(&pose, prove(&self.0, &refined.x)?)
+                    .map(|certificate| CertifiedPose { pose, certificate })
+            }
+        }
     }
 
     /// [`certify_point`](Self::certify_point) for a point that may be no root, or at `e.e = 0`: Newton's method in double-double is given

@@ -265,7 +265,7 @@ fn record(r: &Results, folder: &Folder) -> Map<String, Value> {
         "fk": {
             "lengths_from": r.poses.from.as_str(), "finite_count": r.poses.solutions.roots.len(),
             "real_count": r.poses.solutions.assembly_modes().count(),
-            "certified_count": r.poses.solutions.roots.iter().filter(|x| x.certified).count(),
+            "certified_count": r.poses.solutions.roots.iter().filter(|x| x.certified()).count(),
             "all_paths_accounted": r.poses.solutions.all_accounted(),
         },
         "version": env!("CARGO_PKG_VERSION"),

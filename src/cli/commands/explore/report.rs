@@ -218,7 +218,7 @@ fn verification(out: &mut String, v: &Verified) {
 }
 
 fn certified(s: &FkSolutions) -> usize {
-    s.roots.iter().filter(|r| r.certified).count()
+    s.roots.iter().filter(|r| r.certified()).count()
 }
 
 fn proved(s: &FkSolutions) -> &'static str {

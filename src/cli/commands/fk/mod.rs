@@ -1,5 +1,6 @@
 //! `equipod fk`: all poses for given leg lengths.
 
+mod certificate;
 mod closure;
 pub(super) mod lengths;
 mod near;

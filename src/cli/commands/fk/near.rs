@@ -12,7 +12,7 @@ use crate::design::Design;
 use crate::fk::{Completeness, FkRoot, FkSolutions, Method, NearOutcome, NearSolver, Reality, SolutionSet};
 use crate::geom::{ComplexPose, Pose};
 use crate::manipulator::{LegLengths, Manipulator};
-use crate::solve::certify::{Certifier};
+use crate::solve::certify::{Certifier, ProvedReality, RootCertificate};
 
 /// Follows one pose. A row that is not tracked leaves the next to start from the last tracked pose.
 pub(super) fn run(design: &Design, given: &Given, start: Pose, seed: u64) -> Answer {
@@ -73,16 +73,24 @@ fn record(
     seed: u64,
 ) -> (Map<String, Value>, FkSolutions) {
     let s = lengths.squared();
-    let certified = |pose: &ComplexPose| {
-        Certifier::new(m, &s).is_ok_and(|c| c.certify(pose).certificate().is_some())
+    let proved = |pose: &ComplexPose| {
+        let certifier = Certifier::new(m, &s).ok()?;
+        certifier.certify(pose).certificate().copied()
     };
     let root = outcome.tracked().map(|pose| {
         let pose = ComplexPose::from(*pose);
         let condition = 1.0 / outcome.evidence().inverse_condition;
+        let certificate = proved(&pose);
+        // only the certificate knows whether the root near the pose is real
+        let reality = match certificate.map(|c| c.reality()) {
+            Some(ProvedReality::Real) => Reality::Real,
+            Some(ProvedReality::NonReal) => Reality::NonReal,
+            Some(ProvedReality::Undecided) | None => Reality::Undecided,
+        };
         FkRoot {
             pose,
-            reality: Reality::Real,
-            certified: certified(&pose),
+            reality,
+            certificate: certificate.map(RootCertificate::Study),
             multiplicity: 1,
             residual: pose.residual(m, &s),
             condition,

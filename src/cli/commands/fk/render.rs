@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use num_complex::Complex64;
 use serde_json::{Map, Value, json};
 
+use super::certificate;
 use crate::cli::output::number;
 use crate::fk::{
     Completeness, FkRoot, FkSolutions, PathReport, Reality, Rejected, RejectionReason, SolutionSet,
@@ -59,7 +60,8 @@ fn root(r: &FkRoot) -> Value {
         "R": { "re": rotation(|z| z.re), "im": rotation(|z| z.im) },
         "p": { "re": position(|z| z.re), "im": position(|z| z.im) },
         "real": real,
-        "certified": r.certified,
+        "certified": r.certified(),
+        "certificate": r.certificate.as_ref().map(certificate::json),
         "multiplicity": r.multiplicity,
         "residual": number(r.residual),
         "condition": number(r.condition),
@@ -155,7 +157,7 @@ fn real_pose(out: &mut String, number: usize, r: &FkRoot) {
     let pose = r.pose.real_part();
     let (roll, pitch, yaw) = pose.rotation.euler_angles();
     let undecided = if r.reality == Reality::Undecided { "  reality undecided" } else { "" };
-    let certified = if r.certified { "  certified" } else { "" };
+    let certified = if r.certified() { "  certified" } else { "" };
     let _ = writeln!(
         out,
         "{number:>3}  p = [{:.6}, {:.6}, {:.6}]  rpy_deg = [{:.4}, {:.4}, {:.4}]  residual {:.1e}{certified}{undecided}",
@@ -197,7 +199,7 @@ mod tests {
         let root = |reality| FkRoot {
             pose: ComplexPose::from(pose),
             reality,
-            certified: false,
+            certificate: None,
             multiplicity: 2,
             residual: 1e-15,
             condition,

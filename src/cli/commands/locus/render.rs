@@ -52,7 +52,7 @@ pub(super) fn csv(rows: &[Row]) -> String {
                 v.re,
                 v.im,
                 reality(root.reality),
-                root.certified
+                root.certified()
             );
         }
         if !any {
@@ -70,7 +70,7 @@ fn values(found: &Found) -> Value {
             Reality::Undecided => Value::Null,
         };
         json!({
-            "re": number(v.re), "im": number(v.im), "real": real, "certified": root.certified,
+            "re": number(v.re), "im": number(v.im), "real": real, "certified": root.certified(),
             "multiplicity": root.multiplicity,
         })
     };

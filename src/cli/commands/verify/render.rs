@@ -65,7 +65,7 @@ fn solutions(s: &FkSolutions) -> Value {
         "all_paths_accounted": s.all_accounted(),
         "finite_count": s.roots.len(),
         "real_count": s.assembly_modes().count(),
-        "certified_count": s.roots.iter().filter(|r| r.certified).count(),
+        "certified_count": s.roots.iter().filter(|r| r.certified()).count(),
     })
 }
 
@@ -166,7 +166,7 @@ pub(super) fn text(v: &Verification, a: &str, b: &str) -> String {
         out.push_str("\nsample  poses A  poses B  matched  real  certified  worst distance\n");
     }
     for (k, s) in v.samples.iter().enumerate() {
-        let certified = |f: &FkSolutions| f.roots.iter().filter(|r| r.certified).count();
+        let certified = |f: &FkSolutions| f.roots.iter().filter(|r| r.certified()).count();
         let _ = writeln!(
             out,
             "{:>6}  {:>7}  {:>7}  {:>7}  {:>4}  {:>4}+{:<4}  {:>14.1e}{}",

@@ -3,7 +3,6 @@ use super::*;
 use crate::geom::{ComplexPose, Pose, random_rotation};
 use crate::manipulator::{Leg, Manipulator};
 use crate::num::Rng;
-use crate::num::interval::Interval;
 use crate::solve::certify::centre::study_of;
 use nalgebra::{Point3, Vector3};
 
@@ -13,8 +12,7 @@ fn random_problem(rng: &mut Rng) -> (LegSystem, Study<f64>) {
     let legs = std::array::from_fn(|_| Leg { base: point(), platform: point() });
     let m = Manipulator::from_legs(legs).unwrap();
     let pose = Pose { position: Vector3::from_fn(|_, _| rng.normal()), rotation: random_rotation(rng) };
-    let s = pose.squared_lengths(&m).unwrap().get().map(Interval::from);
-    let system = LegSystem::new(&m, &s).unwrap();
+    let system = LegSystem::new(&m, &(&pose.squared_lengths(&m).unwrap()).into()).unwrap();
     let x = study_of(&ComplexPose::from(pose), system.unit()).unwrap();
     (system, x)
 }

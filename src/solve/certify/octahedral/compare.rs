@@ -22,13 +22,25 @@ use crate::num::batch::{Batch, LANES};
 /// Largest radius of a frame's entry for which the bounds hold.
 const FRAME: f64 = 1.0 / 1024.0;
 
-/// Of both poses of each lane, relative to the largest of 1 and the entries; NaN or infinite where nothing is known.
+/// Bounds for both poses of each lane; NaN or infinite where nothing is known.
+pub(super) struct Deviation {
+    /// Of the entries of `R`.
+    pub(super) rotation: Reals,
+    /// Of the entries of `p / unit`.
+    pub(super) position: Reals,
+    /// The larger of both, each relative to the larger of 1 and the largest entry of its own kind.
+    pub(super) relative: Reals,
+    /// 1 where pose `2k` is the image with `P4` on the side where it was placed, -1 where it is the other.
+    pub(super) first: Reals,
+}
+
+/// How far the poses are from the certified ones.
 #[inline(always)]
 pub(super) fn deviation(
     design: &OctahedralCertifier,
     placed: &Placed,
     poses: &[ComplexPose; 2 * PAIRS],
-) -> Reals {
+) -> Deviation {
     let (re, rg) = (design.base.axes_radius(), design.platform.axes_radius());
     let (rho, m) = extremes(&placed.frame);
     let (rho4, m4) = extremes(&[placed.p4]);
@@ -38,7 +50,7 @@ pub(super) fn deviation(
     let far = a1.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
     let nominal = Nominal::of(design, placed);
     let first = first_image(design, placed, poses);
-    let (mut worst, mut scale) = (Reals::ZERO, Reals::all(1.0));
+    let (mut worst, mut scale) = ([Reals::ZERO; 2], [Reals::all(1.0); 2]);
     let mut largest_entry = Reals::ZERO;
     for mirrored in [false, true] {
         let sign = first.times(if mirrored { -1.0 } else { 1.0 });
@@ -47,25 +59,27 @@ pub(super) fn deviation(
             for j in 0..3 {
                 let r = nominal.even[i][j] + signed(&nominal.odd[i][j], sign);
                 let given = gather(poses, mirrored, |pose| pose.rotation[(i, j)]);
-                worst = worst.largest(sizes(&(given - r)));
-                (scale, largest_entry) = (scale.largest(parts(&r)), largest_entry.largest(sizes(&r)));
+                worst[0] = worst[0].largest(sizes(&(given - r)));
+                (scale[0], largest_entry) = (scale[0].largest(parts(&r)), largest_entry.largest(sizes(&r)));
                 p = p - r.times(b4[j]);
             }
             p = p.plus(a1[i]);
             let unit = design.unit.recip();
             let given = gather(poses, mirrored, |pose| pose.position[i] * unit);
-            worst = worst.largest(sizes(&(given - p)));
-            scale = scale.largest(parts(&p));
+            worst[1] = worst[1].largest(sizes(&(given - p)));
+            scale[1] = scale[1].largest(parts(&p));
         }
     }
     let shift = rho4.times(2.0) + m4.times(3.0 * re) + turn.times(arm);
     let rounding = (m4.times(2.0) + largest_entry.times(arm)).plus(far).times(12.0 * U);
-    let bound = (worst + turn.largest((shift + rounding).up())).up();
-    let usable = re <= FRAME && rg <= FRAME;
-    bound.zip(scale, |b, s| if usable { b / s } else { f64::NAN })
+    let usable = if re <= FRAME && rg <= FRAME { 1.0 } else { f64::NAN };
+    let rotation = (worst[0] + turn).up().times(usable);
+    let position = (worst[1] + shift + rounding).up().times(usable);
+    let relative = rotation.zip(scale[0], |b, s| b / s).largest(position.zip(scale[1], |b, s| b / s)).up();
+    Deviation { rotation, position, relative, first }
 }
 
-/// 1 where pose `2k` is the image with `P4` on the side where it was placed, -1 where it is the other.
+/// [`Deviation::first`].
 #[inline(always)]
 fn first_image(design: &OctahedralCertifier, placed: &Placed, poses: &[ComplexPose; 2 * PAIRS]) -> Reals {
     let ([a1, b4], normal) = (design.origins, design.base.axes[2]);

@@ -30,6 +30,8 @@ pub(super) struct Contraction {
     pub(super) uniqueness: Reals,
     /// `|Y F(c)|`.
     pub(super) step: Reals,
+    /// Lipschitz constant of the map on the ball of the radius.
+    pub(super) contraction: Reals,
     /// `|J| |Y|` in the weighted norm, with equations scaled to gradients of size one: no bound, an estimate.
     pub(super) condition: Reals,
 }
@@ -90,7 +92,8 @@ pub(super) fn contract(closures: &[Closure; 2], x: &Batch, y: &Batch) -> Contrac
     let [eta, kappa, beta] = bounds;
     let (eta, kappa, beta) = (eta.up(), kappa.up(), beta.up());
     let (radius, uniqueness) = radii(eta, kappa, beta);
-    Contraction { weights, radius, uniqueness, step: eta, condition }
+    let contraction = (kappa + (beta * radius).times(2.0)).up();
+    Contraction { weights, radius, uniqueness, step: eta, contraction, condition }
 }
 
 /// Radii of the ball that holds the root and of that in which it is alone, NaN where there is no proof.

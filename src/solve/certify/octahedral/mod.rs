@@ -18,7 +18,7 @@ mod lanes;
 
 use num_complex::Complex64;
 
-use super::certificate::{ProvedReality, WhyUncertified};
+use super::certificate::{PoseEnclosure, ProvedReality, WhyUncertified};
 use super::data::SquareData;
 use super::system::{exact_product, power_of_two_below, scale_point};
 use crate::geom::ComplexPose;
@@ -52,15 +52,65 @@ pub struct OctahedralCertifier {
 pub struct PairCertificate {
     /// Discs that hold `s15` and `s34`, design units squared.
     pub squared_distances: [Disc; 2],
-    /// No other pair lies in the discs about the same centres with these radii.
-    pub alone_within: [f64; 2],
+    /// Weights `sigma` of the norm `max(|h_x| / sigma_x, |h_y| / sigma_y)` of the proof, design units squared.
+    pub weights: [f64; 2],
+    /// The pair is at most this far from the centres of the discs, in that norm.
+    pub radius: f64,
+    /// There is no other pair at most this far from them.
+    pub uniqueness_radius: f64,
     /// What is proved about the two poses: both are real, or neither is.
     pub reality: ProvedReality,
-    /// The entries of `R` and `p / unit` of the given poses are at most this far from those of the certified ones, relative to the largest
-    /// of them and 1.
+    /// The given poses are at most this far from the certified ones: entries of `R` relative to the larger of 1 and the largest of them, entries of `p` relative
+    /// to the larger of the power of two near the larger triangle and the largest of them.
     pub deviation: f64,
+    /// The same distances as they are, of the entries of `R` and of `p` (design units).
+    pub distances: [f64; 2],
+    /// `P4` of pose `2k` is near this far from the base plane, on the side of `(P2 - P1) x (P3 - P1)`; of pose `2k + 1` near the negative. Design units; an
+    /// approximation that tells the two poses apart.
+    pub height: Complex64,
+    /// Contraction constant of the simplified Newton map on the disc of the pair.
+    pub contraction: f64,
     /// `|J| |J^-1|` of the closures with rows scaled to one: an estimate, not a bound.
     pub condition: f64,
+}
+
+/// Proof that exactly one root lies near a pose of an octahedral platform: the certificate of its pair, and which of its two poses it is.
+///
+/// With the legs [`order`](Self::order) from `P1 P2 P2 P3 P3 P1` to `P4 P4 P5 P5 P6 P6` there is exactly one zero `(s15, s34)` of the two closures within
+/// `uniqueness_radius` times the weights of [`centre`](Self::centre), coordinate by coordinate; it lies within `radius` times the weights. Of its two poses the root is
+/// the one with the distance of `P4` from the base plane near [`height`](Self::height).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OctahedralCertificate {
+    pub(super) order: [usize; 6],
+    pub(super) pair: PairCertificate,
+    pub(super) height: Complex64,
+    pub(super) enclosure: PoseEnclosure,
+}
+
+impl OctahedralCertificate {
+    /// Indices of the legs `14 24 25 35 36 16`.
+    #[must_use]
+    pub fn order(&self) -> [usize; 6] {
+        self.order
+    }
+
+    /// The pair of poses that the root belongs to.
+    #[must_use]
+    pub fn pair(&self) -> &PairCertificate {
+        &self.pair
+    }
+
+    /// Approximate signed distance of `P4` from the base plane, along `(P2 - P1) x (P3 - P1)`, design units.
+    #[must_use]
+    pub fn height(&self) -> Complex64 {
+        self.height
+    }
+
+    /// Where `R` and `p` of the root are.
+    #[must_use]
+    pub fn enclosure(&self) -> &PoseEnclosure {
+        &self.enclosure
+    }
 }
 
 /// What could be proved about eight pairs of poses.
@@ -102,6 +152,26 @@ impl OctahedralCertifier {
             turned: Triangle::of([q[1], q[2], q[0]]),
             origins: [p[0], q[0]],
         })
+    }
+
+    /// The certificate of pose `2k` (or `2k + 1`, the mirror image) of a certified pair `k`.
+    #[must_use]
+    pub fn of_pose(
+        &self,
+        pair: &PairCertificate,
+        pose: &ComplexPose,
+        mirrored: bool,
+    ) -> OctahedralCertificate {
+        let disc = |centre: Complex64, radius: f64| Disc { centre, radius };
+        let [turn, shift] = pair.distances;
+        let rotation = std::array::from_fn(|i| std::array::from_fn(|j| disc(pose.rotation[(i, j)], turn)));
+        let position = std::array::from_fn(|i| disc(pose.position[i], shift));
+        OctahedralCertificate {
+            order: self.order,
+            pair: *pair,
+            height: if mirrored { -pair.height } else { pair.height },
+            enclosure: PoseEnclosure { rotation, position },
+        }
     }
 
     /// Tries to prove that near each of the `pairs` (approximations of `s15`, `s34`, design units squared) there is exactly one, and that poses
@@ -155,19 +225,25 @@ impl OctahedralCertifier {
         let data = Data { base: &self.base, platform: &self.platform, s };
         let placed = data.place(discs[0], discs[1]);
         let deviation = compare::deviation(self, &placed, poses);
+        let relative = deviation.relative;
         let positive = placed.squared_height.c.re;
         let unit = self.unit * self.unit;
         let mut out = OctahedralCertificates { pairs: [None; PAIRS], complete: false };
         for k in 0..PAIRS {
-            if !(found.step.0[k] <= super::NEAR && deviation.0[k] <= super::NEAR) {
+            if !(found.step.0[k] <= super::NEAR && relative.0[k] <= super::NEAR) {
                 continue;
             }
             let disc = |d: &Discs| Disc { centre: d.c.lane(k) * unit, radius: d.r.0[k] * unit };
             out.pairs[k] = Some(PairCertificate {
                 squared_distances: [disc(&discs[0]), disc(&discs[1])],
-                alone_within: found.weights.map(|w| w.0[k] * found.uniqueness.0[k] * (2.0 - UP) * unit),
+                weights: found.weights.map(|w| w.0[k] * unit),
+                radius: found.radius.0[k],
+                uniqueness_radius: found.uniqueness.0[k],
                 reality: reality(&found, x, y, positive[k], k),
-                deviation: deviation.0[k],
+                deviation: relative.0[k],
+                distances: [deviation.rotation.0[k], deviation.position.0[k] * self.unit],
+                height: placed.p4[2].c.lane(k) * (deviation.first.0[k] * self.unit),
+                contraction: found.contraction.0[k],
                 condition: found.condition.0[k],
             });
         }

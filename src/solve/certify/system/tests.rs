@@ -3,8 +3,9 @@
 use num_rational::BigRational;
 
 use super::*;
-use crate::manipulator::Leg;
+use crate::manipulator::{Leg, LegLengths};
 use crate::num::Rng;
+use crate::num::interval::Interval;
 use nalgebra::Point3;
 
 type Complex = (BigRational, BigRational);
@@ -61,7 +62,8 @@ fn truth(system: &LegSystem, x: &[Complex; 8]) -> [Complex; N] {
         let (eb, ae) = (product(&e, &pure(&system.b[i])), product(&pure(&system.a[i]), &e));
         let v: Quaternion = std::array::from_fn(|j| add(&add(&g[j], &eb[j], 1.0), &ae[j], -1.0));
         let n = dot(&e, &e);
-        let sn = (exact(system.s[i]) * &n.0, exact(system.s[i]) * &n.1);
+        let s = exact(system.s[i]) + exact(system.s_low[i]);
+        let sn = (&s * &n.0, &s * &n.1);
         mul(&add(&dot(&v, &v), &sn, -1.0), &(exact(0.5), exact(0.0)))
     })
 }
@@ -69,8 +71,11 @@ fn truth(system: &LegSystem, x: &[Complex; 8]) -> [Complex; N] {
 fn random_system(rng: &mut Rng) -> LegSystem {
     let mut point = || Point3::new(rng.normal(), rng.normal(), rng.normal()) * 3.0;
     let legs = std::array::from_fn(|_| Leg { base: point(), platform: point() });
-    let s = std::array::from_fn(|_| Interval::from(rng.uniform(0.5, 9.0)));
-    LegSystem::new(&Manipulator::from_legs(legs).unwrap(), &s).unwrap()
+    let lengths = LegLengths::try_new(std::array::from_fn(|_| rng.uniform(0.7, 3.0))).unwrap();
+    let system =
+        LegSystem::new(&Manipulator::from_legs(legs).unwrap(), &(&lengths.squared()).into()).unwrap();
+    assert!(system.s_low.iter().all(|low| low.abs() > 0.0), "squares of lengths have digits beyond double");
+    system
 }
 
 fn random_point(rng: &mut Rng) -> Study<DoubleDouble> {
@@ -190,7 +195,7 @@ fn scaling_that_is_not_exact_is_refused() {
     };
     let system = |x: f64, s: f64| {
         let legs = std::array::from_fn(|i| leg(i, x));
-        LegSystem::new(&Manipulator::from_legs(legs).unwrap(), &[Interval::from(s); 6])
+        LegSystem::new(&Manipulator::from_legs(legs).unwrap(), &(&[Interval::from(s); 6]).into())
     };
     assert!(system(3.0, 4.0).is_ok());
     assert!(system(5e-324, 4.0).is_err(), "a subnormal coordinate loses its bits");
