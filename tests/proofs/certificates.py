@@ -1,0 +1,561 @@
+"""Certificates of roots in the answers of `fk`, one by one in ball arithmetic of 600 bits.
+
+The statement of a record of kind `study`: with the joints as the doubles they are and the squared lengths as the exact squares of the lengths, the system
+
+    |g + e b_i - a_i e|^2 = s_i e.e (i = 1..6),   e.g = 0,   e_patch = 1,        g in `unit`,
+
+has a root within `radius` of `centre + centre_low` (largest modulus of a coordinate), no other within `uniqueness_radius`, its R and p lie in `enclosure`, and it is
+real or not as `reality` says. Of kind `octahedral`: the Cayley-Menger determinants of P1 P2 P3 P4 P5 and P1 P3 P4 P5 P6 vanish at one pair (s15, s34) within `radius` times the
+`weights`, at no other within `uniqueness_radius` times these, and the pose with the height of P4 near `height` is the root. In both kinds R and p of the solution are the
+certified ones to 2^-26.
+
+How it is checked. Newton's method from the centre, then Krawczyk's test in balls about its end, proves a root and says where it is. Uniqueness: F(x) - F(y) = J((x + y) / 2) (x - y) for
+quadrics, and for the closures the second derivatives over the ball bound what J(c) leaves; with Y the inverse of J at the centre, |1 - Y J| < 1 is checked.
+"""
+
+import json
+import math
+import pathlib
+import tempfile
+
+from flint import acb, acb_mat, arb, ctx, fmpq, fmpq_mat
+
+import designs
+from common import answer, exact, rational, stream
+
+BITS = 600
+NEAR = arb(2) ** -26
+TINY = arb(2) ** -400
+# quaternion units: product[i][j] = (k, sign)
+UNITS = [
+    [(0, 1), (1, 1), (2, 1), (3, 1)],
+    [(1, 1), (0, -1), (3, 1), (2, -1)],
+    [(2, 1), (3, -1), (0, -1), (1, 1)],
+    [(3, 1), (2, 1), (1, -1), (0, -1)],
+]
+
+
+def upper(x):
+    """An upper bound of |x| as a ball of radius zero."""
+    return abs(x).upper() if isinstance(x, arb) else abs(x).upper()
+
+
+def below(x, y):
+    """x < y for all numbers of both balls."""
+    return bool(x < y)
+
+
+def largest(items):
+    items = [upper(x) for x in items]
+    out = items[0]
+    for x in items[1:]:
+        out = out if bool(x <= out) else x
+    return out
+
+
+def complex_of(part, k):
+    return acb(exact(part["re"][k]), exact(part["im"][k]))
+
+
+def middle(z):
+    return acb(z.real.mid(), z.imag.mid())
+
+
+def ball(z, radius):
+    """All complex numbers within `radius` of z, and some more: a square."""
+    r = arb(0, radius.upper())
+    return acb(z.real + r, z.imag + r)
+
+
+class Refuted(Exception):
+    """What is wrong with a record."""
+
+
+def need(truth, what):
+    if not truth:
+        raise Refuted(what)
+
+
+# --- roots of systems --------------------------------------------------------------------------------------------------------------------------------
+
+
+def newton(f, jacobian, start):
+    """Where Newton's method leads, midpoints only."""
+    x = [middle(z) for z in start]
+    for _ in range(60):
+        try:
+            step = jacobian(x).solve(acb_mat([[v] for v in f(x)]))
+        except ZeroDivisionError:
+            raise Refuted("singular Jacobian on the way")
+        x = [middle(z - step[i, 0]) for i, z in enumerate(x)]
+        if all(bool(upper(step[i, 0]) < TINY) for i in range(len(x))):
+            return x
+    raise Refuted("Newton's method does not settle")
+
+
+def proved_box(f, jacobian, x, radius):
+    """A box about x of half width `radius` that holds exactly one root (Krawczyk 1969), made smaller; or a complaint."""
+    box = [ball(z, radius) for z in x]
+    y = middle_inverse(jacobian(x))
+    image = acb_mat([[z] for z in x]) - y * acb_mat([[v] for v in f(x)])
+    n = len(x)
+    spread = acb_mat([[box[i] - x[i]] for i in range(n)])
+    one = acb_mat([[1 if i == j else 0 for j in range(n)] for i in range(n)])
+    image = image + (one - y * jacobian(box)) * spread
+    out = [image[i, 0] for i in range(n)]
+    for i in range(n):
+        need(box[i].contains(out[i]) and bool(upper(out[i] - x[i]) < radius), "no proof of a root near the end of Newton's method")
+    return out
+
+
+def middle_inverse(matrix):
+    try:
+        inverse = matrix.inv()
+    except ZeroDivisionError:
+        raise Refuted("singular Jacobian")
+    n = inverse.nrows()
+    return acb_mat([[middle(inverse[i, j]) for j in range(n)] for i in range(n)])
+
+
+def is_real(f, jacobian, x):
+    """True or False when the root near x is proved to be real or not."""
+    box = proved_box(f, jacobian, x, arb(2) ** -200)
+    if any(not z.imag.contains(0) for z in box):
+        return False
+    # a box that is its own conjugate, with one root of a real system in it
+    flat = [acb(z.real.mid(), 0) for z in x]
+    proved_box(f, jacobian, flat, arb(2) ** -190)
+    return True
+
+
+# --- kind `study` ------------------------------------------------------------------------------------------------------------------------------------
+
+
+class Study:
+    """Seven quadrics in the seven coordinates other than the patch, as symmetric matrices of exact numbers."""
+
+    def __init__(self, legs, lengths, patch, unit):
+        self.patch = patch
+        self.free = [k for k in range(8) if k != patch]
+        self.forms = []
+        for (a, b), l in zip(legs, lengths):
+            a, b = [exact(x) / unit for x in a], [exact(x) / unit for x in b]
+            # v = g + e b - a e as a 4 x 8 matrix
+            v = [[arb(0)] * 8 for _ in range(4)]
+            for k in range(4):
+                v[k][4 + k] = arb(1)
+            for i in range(4):
+                for j in range(1, 4):
+                    k, sign = UNITS[i][j]
+                    v[k][i] = v[k][i] + sign * b[j - 1]
+                    k, sign = UNITS[j][i]
+                    v[k][i] = v[k][i] - sign * a[j - 1]
+            s = (exact(l) / unit) ** 2
+            form = [[sum((v[r][i] * v[r][j] for r in range(4)), arb(0)) for j in range(8)] for i in range(8)]
+            for k in range(4):
+                form[k][k] = form[k][k] - s
+            self.forms.append(form)
+        study = [[arb(0)] * 8 for _ in range(8)]
+        for k in range(4):
+            study[k][4 + k] = study[4 + k][k] = arb(1)
+        self.forms.append(study)
+        self.matrices = [acb_mat([[x for x in row] for row in form]) for form in self.forms]
+
+    def whole(self, x):
+        x = list(x)
+        return x[: self.patch] + [acb(1)] + x[self.patch :]
+
+    def values(self, x):
+        column = acb_mat([[z] for z in self.whole(x)])
+        out = []
+        for m in self.matrices:
+            image = m * column
+            out.append(sum((column[i, 0] * image[i, 0] for i in range(8)), acb(0)))
+        return out
+
+    def jacobian(self, x):
+        column = acb_mat([[z] for z in self.whole(x)])
+        rows = []
+        for m in self.matrices:
+            image = m * column
+            rows.append([2 * image[i, 0] for i in self.free])
+        return acb_mat(rows)
+
+    def curvature(self, y):
+        """A bound of |Y (h' M_i k)_i| over all h, k with moduli at most 1."""
+        total = []
+        for row in range(7):
+            combined = None
+            for i, m in enumerate(self.matrices):
+                part = m * y[row, i]
+                combined = part if combined is None else combined + part
+            total.append(sum((upper(combined[p, q]) for p in self.free for q in self.free), arb(0)))
+        return largest(total)
+
+
+def pose_of(x, unit):
+    """R (rows) and p of e, g."""
+    w, a, b, c, g0, g1, g2, g3 = x
+    n = w * w + a * a + b * b + c * c
+    need(not n.contains(0), "e.e may vanish")
+    r = [
+        [w * w + a * a - b * b - c * c, 2 * (a * b - w * c), 2 * (a * c + w * b)],
+        [2 * (a * b + w * c), w * w - a * a + b * b - c * c, 2 * (b * c - w * a)],
+        [2 * (a * c - w * b), 2 * (b * c + w * a), w * w - a * a - b * b + c * c],
+    ]
+    # p = g conj(e) / e.e
+    p = [-g0 * a + g1 * w - g2 * c + g3 * b, -g0 * b + g1 * c + g2 * w - g3 * a, -g0 * c - g1 * b + g2 * a + g3 * w]
+    return [[z / n for z in row] for row in r], [z / n * unit for z in p]
+
+
+def check_study(legs, lengths, solution, record):
+    unit, patch = exact(record["unit"]), record["patch"]
+    need(0 <= patch < 4 and bool(unit > 0), "no patch or unit")
+    system = Study(legs, lengths, patch, unit)
+    centre = [complex_of(record["centre"], k) + complex_of(record["centre_low"], k) for k in range(8)]
+    need(bool(abs(centre[patch] - 1) == 0), "the patch is not 1 at the centre")
+    centre = [centre[k] for k in system.free]
+    radius, alone = exact(record["radius"]), exact(record["uniqueness_radius"])
+    need(bool(radius >= 0) and bool(alone > radius), "radii")
+    x = newton(system.values, system.jacobian, centre)
+    box = proved_box(system.values, system.jacobian, x, arb(2) ** -300)
+    away = largest([z - c for z, c in zip(box, centre)])
+    need(bool(away <= radius), f"the root is {away.str(5)} from the centre, not {radius.str(5)}")
+    # x, y roots within `alone`: J at their middle, which is within alone of the centre, has to be regular; one of them is this one
+    y = middle_inverse(system.jacobian(centre))
+    bound = system.curvature(y) * (alone + away)
+    defect = y * system.jacobian(centre)
+    kappa = largest(
+        [sum((upper(defect[i, j] - (1 if i == j else 0)) for j in range(7)), arb(0)) for i in range(7)]
+    )
+    need(below(bound + kappa, arb(1)), f"not alone within {alone.str(5)}: {bound.str(8)}")
+    need_reality(is_real(system.values, system.jacobian, x), record, solution)
+    rotation, position = pose_of(system.whole(box), unit)
+    size = max(abs(x) for leg in legs for joint in leg for x in joint)
+    check_pose(rotation, position, power_of_two(max(size, *lengths)), solution, record)
+    return (patch, unit, system.whole(box))
+
+
+# --- kind `octahedral` -------------------------------------------------------------------------------------------------------------------------------
+
+
+def cayley_menger(d, x_at, y_at):
+    """The determinant of five points as exact coefficients c[i][j] x^i y^j; d holds fractions, x and y stand at the places given."""
+
+    def at(x, y):
+        d[x_at[0]][x_at[1]] = d[x_at[1]][x_at[0]] = fmpq(x)
+        d[y_at[0]][y_at[1]] = d[y_at[1]][y_at[0]] = fmpq(y)
+        rows = [[fmpq(0)] + [fmpq(1)] * 5] + [[fmpq(1)] + d[i] for i in range(5)]
+        return fmpq_mat(rows).det()
+
+    # of degree two in each: by differences at 0, 1, 2
+    def parabola(v):
+        c2 = (v[2] - 2 * v[1] + v[0]) / 2
+        return [v[0], v[1] - v[0] - c2, c2]
+
+    by_y = [parabola([at(x, y) for y in range(3)]) for x in range(3)]
+    columns = [parabola([by_y[x][j] for x in range(3)]) for j in range(3)]
+    return [[columns[j][i] for j in range(3)] for i in range(3)]
+
+
+def square(p, q):
+    return sum(((u - v) ** 2 for u, v in zip(p, q)), fmpq(0))
+
+
+class Closures:
+    def __init__(self, legs, lengths, order):
+        a, b = [[[rational(x) for x in legs[i][k]] for i in order] for k in range(2)]
+        need(a[1] == a[2] and a[3] == a[4] and a[0] == a[5], "base joints are not shared as they should be")
+        need(b[0] == b[1] and b[2] == b[3] and b[4] == b[5], "platform joints are not shared as they should be")
+        s14, s24, s25, s35, s36, s16 = [rational(lengths[i]) ** 2 for i in order]
+        p1, p2, p3, p4, p5, p6 = a[0], a[1], a[3], b[0], b[2], b[4]
+        zero = fmpq(0)
+        # P1 P2 P3 P4 P5
+        first = [
+            [zero, square(p1, p2), square(p1, p3), s14, zero],
+            [square(p1, p2), zero, square(p2, p3), s24, s25],
+            [square(p1, p3), square(p2, p3), zero, zero, s35],
+            [s14, s24, zero, zero, square(p4, p5)],
+            [zero, s25, s35, square(p4, p5), zero],
+        ]
+        # P1 P3 P4 P5 P6
+        second = [
+            [zero, square(p1, p3), s14, zero, s16],
+            [square(p1, p3), zero, zero, s35, s36],
+            [s14, zero, zero, square(p4, p5), square(p4, p6)],
+            [zero, s35, square(p4, p5), zero, square(p5, p6)],
+            [s16, s36, square(p4, p6), square(p5, p6), zero],
+        ]
+        self.c = [cayley_menger(first, (0, 4), (2, 3)), cayley_menger(second, (0, 3), (1, 2))]
+        self.points = (p1, p2, p3, p4, p5, p6)
+        self.squares = (s14, s24, s25, s35, s36, s16)
+
+    def derivative(self, k, i, j, x, y):
+        """The derivative of closure k, i times by x and j times by y."""
+        falling = lambda n, m: 1 if m == 0 else n * falling(n - 1, m - 1)
+        total = acb(0)
+        for a in range(i, 3):
+            for b in range(j, 3):
+                total = total + acb(arb(self.c[k][a][b])) * falling(a, i) * falling(b, j) * x ** (a - i) * y ** (b - j)
+        return total
+
+    def values(self, z):
+        return [self.derivative(k, 0, 0, *z) for k in range(2)]
+
+    def jacobian(self, z):
+        return acb_mat([[self.derivative(k, 1, 0, *z), self.derivative(k, 0, 1, *z)] for k in range(2)])
+
+    def curvature(self, k, i, j, x, y):
+        """A bound of the second derivative over |.| <= x, y."""
+        falling = lambda n, m: 1 if m == 0 else n * falling(n - 1, m - 1)
+        total = arb(0)
+        for a in range(i, 3):
+            for b in range(j, 3):
+                total = total + abs(arb(self.c[k][a][b])) * falling(a, i) * falling(b, j) * x ** (a - i) * y ** (b - j)
+        return total
+
+
+def dot(u, v):
+    return sum((a * b for a, b in zip(u, v)), acb(0))
+
+
+def cross(u, v):
+    return [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+
+
+def minus(u, v):
+    return [a - b for a, b in zip(u, v)]
+
+
+def check_octahedral(legs, lengths, solution, record):
+    system = Closures(legs, lengths, record["order"])
+    weights = [exact(w) for w in record["weights"]]
+    need(all(bool(w > 0) for w in weights), "weights")
+    centre = [complex_of(record["centre"], k) for k in range(2)]
+    radius, alone = exact(record["radius"]), exact(record["uniqueness_radius"])
+    need(bool(radius >= 0) and bool(alone > radius), "radii")
+    z = newton(system.values, system.jacobian, centre)
+    scale = largest(weights)
+    box = proved_box(system.values, system.jacobian, z, scale * arb(2) ** -300)
+    away = largest([(v - c) / w for v, c, w in zip(box, centre, weights)])
+    need(bool(away <= radius), f"the pair is {away.str(5)} from the centre, not {radius.str(5)}")
+    reach = [abs(c).upper() + w * alone for c, w in zip(centre, weights)]
+    y = middle_inverse(system.jacobian(centre))
+    rest = []
+    for k in range(2):
+        xx, xy, yy = [system.curvature(k, i, j, *reach) for i, j in ((2, 0), (1, 1), (0, 2))]
+        wx, wy = weights
+        rest.append((xx * wx * wx + 2 * xy * wx * wy + yy * wy * wy) / 2)
+    bound = largest([sum((upper(y[k, i]) * rest[i] for i in range(2)), arb(0)) / weights[k] for k in range(2)]) * (alone + away)
+    need(below(bound, arb(1)), f"not alone within {alone.str(5)}: {bound.str(8)}")
+    real_pair = is_real(system.values, system.jacobian, z)
+    rotation, position, squared_height, size = place(system, box, record)
+    real = real_pair and squared_height_sign(squared_height)
+    need_reality(real, record, solution)
+    check_pose(rotation, position, size, solution, record)
+    return None
+
+
+def squared_height_sign(h):
+    if bool(h.real > 0):
+        return True
+    need(bool(h.real < 0), "the height may vanish")
+    return False
+
+
+def place(system, box, record):
+    """R and p of the pose with the height near the one given, by trilateration in balls."""
+    lift = lambda p: [acb(arb(x)) for x in p]
+    p1, p2, p3, p4, p5, p6 = map(lift, system.points)
+    s14, s24, s25, s35, s36, s16 = [acb(arb(s)) for s in system.squares]
+    s15, s34 = box
+    b, c = minus(p2, p1), minus(p3, p1)
+    normal = cross(b, c)
+    area = dot(normal, normal)
+    bb, bc, cc = dot(b, b), dot(b, c), dot(c, c)
+
+    def over(s1, s2, s3):
+        """The foot of a point with these squared distances, from P1, and the squared height times the area."""
+        along, across = (s1 + bb - s2) / 2, (s1 + cc - s3) / 2
+        u, v = (along * cc - across * bc) / area, (across * bb - along * bc) / area
+        foot = [u * x + v * y for x, y in zip(b, c)]
+        return foot, s1 - dot(foot, foot)
+
+    foot4, height4 = over(s14, s24, s34)
+    need(not height4.contains(0), "P4 may lie in the base plane")
+    long = area.real.sqrt()
+    h4 = height4.sqrt() if not (height4.imag.contains(0) and bool(height4.real < 0)) else acb(0, 1) * (-height4).sqrt()
+    given = complex_of(record["height"], 0)
+    if bool(abs(h4 + given) < abs(h4 - given)):
+        h4 = -h4
+    need(bool(abs(h4 - given).upper() < abs(h4 + given).lower()), "the height does not tell the two poses apart")
+    foot5, height5 = over(s15, s25, s35)
+    # P5's height from the product of both, by |P4 - P5|^2
+    side = dot(minus(p4, p5), minus(p4, p5))
+    flat = minus(foot4, foot5)
+    product = (height4 + height5 + dot(flat, flat) - side) / 2
+    h5 = product / h4
+    q4 = [f + h4 * n / long for f, n in zip(foot4, normal)]
+    q5 = [f + h5 * n / long for f, n in zip(foot5, normal)]
+    # P6 from its products with P3, P4, P5
+    s46, s56 = dot(minus(p4, p6), minus(p4, p6)), dot(minus(p5, p6), minus(p5, p6))
+    rows = acb_mat([c, q4, q5])
+    right = [(s16 + cc - s36) / 2, (s16 + s14 - s46) / 2, (s16 + s15 - s56) / 2]
+    try:
+        solved = rows.solve(acb_mat([[v] for v in right]))
+    except ZeroDivisionError:
+        raise Refuted("P1 P3 P4 P5 may be flat")
+    q6 = [solved[k, 0] for k in range(3)]
+
+    def frame(o, u, v):
+        u, v = minus(u, o), minus(v, o)
+        w = cross(u, v)
+        return acb_mat([[u[k], v[k], w[k]] for k in range(3)])
+
+    r = frame(q4, q5, q6) * frame(p4, p5, p6).inv()
+    rotation = [[r[i, j] for j in range(3)] for i in range(3)]
+    position = [p1[i] + q4[i] - sum((r[i, j] * p4[j] for j in range(3)), acb(0)) for i in range(3)]
+    sides = [math.sqrt(square(x, y)) for x, y in (system.points[:2], system.points[:3:2], system.points[3:5], system.points[3::2])]
+    return rotation, position, height4, power_of_two(max(sides))
+
+
+def power_of_two(x):
+    """The largest one not above x, as a ball of radius zero."""
+    return exact(2.0 ** (math.frexp(float(x))[1] - 1))
+
+
+# --- both kinds --------------------------------------------------------------------------------------------------------------------------------------
+
+
+def need_reality(real, record, solution):
+    stated = record["reality"]
+    need(stated in ("undecided", "real" if real else "non_real"), f"the root is {'real' if real else 'not real'}, said to be {stated}")
+    field = {"undecided": None, "real": True, "non_real": False}[stated]
+    need(solution["real"] is field, f"`real` is {solution['real']} beside a proof of {stated}")
+
+
+def check_pose(rotation, position, unit, solution, record):
+    """The enclosure holds the root, and the pose given is the root to half the digits of a double."""
+    e = record["enclosure"]
+    for i in range(3):
+        for j in range(3):
+            centre = acb(exact(e["R"]["re"][i][j]), exact(e["R"]["im"][i][j]))
+            need(bool(abs(rotation[i][j] - centre) <= exact(e["R"]["radius"][i][j])), f"R[{i}][{j}] is not in its disc")
+        centre = acb(exact(e["p"]["re"][i]), exact(e["p"]["im"][i]))
+        need(bool(abs(position[i] - centre) <= exact(e["p"]["radius"][i])), f"p[{i}] is not in its disc")
+    given = [acb(exact(solution["R"]["re"][i][j]), exact(solution["R"]["im"][i][j])) for i in range(3) for j in range(3)]
+    flat = [z for row in rotation for z in row]
+    gap, scale = largest([x - y for x, y in zip(flat, given)]), largest([arb(1)] + given)
+    need(bool(gap <= NEAR * scale), f"R of the pose is {(gap / scale).str(5)} off")
+    given = [acb(exact(solution["p"]["re"][i]), exact(solution["p"]["im"][i])) for i in range(3)]
+    gap, scale = largest([x - y for x, y in zip(position, given)]), largest([unit] + given)
+    need(bool(gap <= NEAR * scale), f"p of the pose is {(gap / scale).str(5)} off")
+
+
+def check(legs, lengths, solution):
+    """"" for a record that holds, else what is wrong with it; and the box of the root."""
+    record = solution["certificate"]
+    try:
+        if record["kind"] == "study":
+            return "", check_study(legs, lengths, solution, record)
+        if record["kind"] == "octahedral":
+            return "", check_octahedral(legs, lengths, solution, record)
+        return f"unknown kind {record['kind']}", None
+    except Refuted as why:
+        return str(why), None
+
+
+def repeated(roots):
+    """Two certified roots of one answer that are proved to be the same: boxes of 180 digits that meet."""
+
+    def on_first(patch, unit, x):
+        one = largest(x[:4])
+        k = next(i for i in range(4) if bool(upper(x[i]) * 2 > one))
+        return [z / x[k] for z in x[:4]] + [z / x[k] * unit for z in x[4:]], k
+
+    boxes = [on_first(*r) for r in roots]
+    out = []
+    for i, (x, k) in enumerate(boxes):
+        for j, (y, l) in enumerate(boxes[:i]):
+            if y[k].contains(0):
+                continue
+            y = [z / y[k] for z in y]
+            if all(u.overlaps(v) for u, v in zip(x, y)):
+                out.append((i, j))
+    return out
+
+
+FAULTS = {
+    "centre shifted": lambda s, l: s["certificate"]["centre"]["re"].__setitem__(
+        shifted(s), s["certificate"]["centre"]["re"][shifted(s)] * (1 + 1e-3) + 1e-3
+    ),
+    "radius too small": lambda s, l: s["certificate"].__setitem__("radius", s["certificate"]["radius"] * 2.0**-40),
+    "uniqueness radius too large": lambda s, l: s["certificate"].__setitem__("uniqueness_radius", s["certificate"]["uniqueness_radius"] * 1e6),
+    "reality turned round": lambda s, l: turn_reality(s),
+    "a length off by 1e-6": lambda s, l: l.__setitem__(2, l[2] * (1 + 1e-6)),
+    "an enclosure beside the root": lambda s, l: s["certificate"]["enclosure"]["p"]["re"].__setitem__(
+        1, s["certificate"]["enclosure"]["p"]["re"][1] * 1.001 + 1e-3
+    ),
+    "a pose with wrong digits": lambda s, l: s["R"]["re"][0].__setitem__(0, s["R"]["re"][0][0] + 1e-6 * rotation_size(s)),
+}
+
+
+def shifted(s):
+    record = s["certificate"]
+    return (record["patch"] + 1) % 4 if record["kind"] == "study" else 0
+
+
+def rotation_size(s):
+    return max(1.0, *(abs(x) for part in ("re", "im") for row in s["R"][part] for x in row))
+
+
+def turn_reality(s):
+    """Both statements turned round; where reality is left open, a pose that is called real without proof."""
+    turned = {"real": "non_real", "non_real": "real", "undecided": "undecided"}[s["certificate"]["reality"]]
+    s["certificate"]["reality"] = turned
+    s["real"] = turned != "non_real"
+
+
+def run(program, options, tally):
+    ctx.prec = BITS
+    wanted, k = options.certificates, 0
+    folder = pathlib.Path(tempfile.mkdtemp())
+    while tally.checked.get("certificates", 0) < wanted:
+        name, design, rows = designs.draw(stream(options.seed, "certificates", k), k)
+        k += 1
+        path = folder / "design.json"
+        path.write_text(json.dumps(design))
+        table = folder / "lengths.csv"
+        table.write_text("l1,l2,l3,l4,l5,l6\n" + "".join(",".join(map(repr, row)) + "\n" for row in rows))
+        document, _ = answer(program, "fk", path, "--lengths", table)
+        joints = lambda pair: (design["base"][pair[0]], design["platform"][pair[1]])
+        legs = [joints(pair) for pair in design["legs"]]
+        for row in document["rows"]:
+            tally.count("answers")
+            if "error" in row:
+                tally.count("answers without poses")
+                continue
+            roots = []
+            for i, solution in enumerate(row["solutions"]):
+                where = f"{name} (number {k - 1}), line {row['line']}, solution {i}"
+                if solution["certified"] != (solution["certificate"] is not None):
+                    tally.fault(f"{where}: `certified` without certificate")
+                if solution["certificate"] is None:
+                    tally.count("solutions without certificate")
+                    continue
+                if tally.checked.get("certificates", 0) >= wanted:
+                    return
+                complaint, root = check(legs, row["lengths"], solution)
+                tally.count("certificates")
+                tally.count(f"certificates of {name}")
+                if complaint:
+                    tally.fault(f"{where}: {complaint}")
+                elif root is not None:
+                    roots.append(root)
+                if i == 0 and tally.found + len(tally.missed) < 20 * len(FAULTS):
+                    for fault, plant in FAULTS.items():
+                        wrong, lengths = json.loads(json.dumps(solution)), list(row["lengths"])
+                        plant(wrong, lengths)
+                        tally.planted(f"{where}: {fault}", check(legs, lengths, wrong)[0])
+            for i, j in repeated(roots):
+                tally.fault(f"{name} (number {k - 1}), line {row['line']}: solutions {j} and {i} are one root")
