@@ -1,8 +1,8 @@
 //! The one door to the conic solver clarabel (Goulart, Chen 2024); no other file names it.
 //!
 //! A program is `minimise 1/2 x^T P x + q^T x` subject to `b - A x in K`, given row by row. Its status is
-//! translated, and never believed alone: every point is re-checked here by plain arithmetic on the rows, every
-//! infeasibility certificate by [`ConicProgram::farkas_strength`].
+//! translated, and never believed alone: every point is re-checked here by plain arithmetic on the rows, an infeasibility
+//! certificate in intervals by `num::farkas`.
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{
@@ -109,32 +109,6 @@ impl ConicProgram {
     /// Largest cone violation of `b - A x` (0 when inside all cones).
     pub(crate) fn violation(&self, x: &[f64]) -> f64 {
         cone_violation(&self.cones, &self.slacks(x))
-    }
-
-    /// `-b.y` of a ray scaled to `|y|_1 = 1`, when it proves infeasibility: `y` in the dual cone, and
-    /// `|A^T y|` so small that no `x` with entries within `radius` could outweigh `b.y < 0`. `None` otherwise.
-    pub(crate) fn farkas_strength(&self, ray: &[f64], radius: f64) -> Option<f64> {
-        let norm: f64 = ray.iter().map(|y| y.abs()).sum();
-        if ray.len() != self.rows.len() || !(norm > 0.0 && norm.is_finite()) {
-            return None;
-        }
-        let y: Vec<f64> = ray.iter().map(|y| y / norm).collect();
-        let mut pull = vec![0.0; self.variables];
-        for (row, y) in self.rows.iter().zip(&y) {
-            for &(j, a) in &row.coefficients {
-                pull[j] += a * y;
-            }
-        }
-        let strength = -self.rows.iter().zip(&y).map(|(r, y)| r.rhs * y).sum::<f64>();
-        // 0 <= y.(b - A x) = b.y - (A^T y).x; contradiction when b.y + |A^T y|_1 radius + slips < 0
-        let slip = cone_violation(&self.cones, &y)
-            * self
-                .rows
-                .iter()
-                .map(|r| r.rhs.abs() + r.coefficients.iter().map(|c| c.1.abs() * radius).sum::<f64>())
-                .sum::<f64>();
-        let loss = pull.iter().map(|p| p.abs()).sum::<f64>() * radius + slip;
-        (strength > 2.0 * loss && strength > 1e-9).then_some(strength)
     }
 
     fn matrix(&self) -> CscMatrix<f64> {
@@ -250,17 +224,27 @@ mod tests {
     }
 
     #[test]
-    fn infeasibility_is_accepted_only_with_a_certificate_that_checks() {
+    fn the_ray_of_an_infeasible_program_refutes_it_and_not_its_feasible_neighbour() {
+        use crate::num::farkas::{EnclosedRow, refuted};
+        use crate::num::interval::Interval;
         let mut p = disc();
         p.at_least_zero(vec![(0, -1.0)], -2.0); // x >= 2
         let ConicAnswer::Infeasible(ray) = p.solve() else { panic!("not infeasible") };
-        assert!(p.farkas_strength(&ray, 10.0).is_some_and(|s| s > 0.1));
+        let strength = |p: &ConicProgram, ray: &[f64]| {
+            let row = |r: &Row| EnclosedRow {
+                coefficients: r.coefficients.iter().map(|c| (c.0, c.1.into())).collect(),
+                rhs: r.rhs.into(),
+            };
+            let rows: Vec<EnclosedRow> = p.rows.iter().map(row).collect();
+            refuted(&rows, &p.cones, ray, &[Interval::new(-10.0, 10.0).unwrap(); 2])
+        };
+        assert!(strength(&p, &ray).is_some_and(|s| s > 0.1));
         let mut wrong = ray.clone();
         wrong[3] = -wrong[3];
-        assert_eq!(p.farkas_strength(&wrong, 10.0), None);
+        assert_eq!(strength(&p, &wrong), None);
         // the same ray proves nothing about the feasible neighbour x >= 0.5
         p.rows[3].rhs = -0.5;
-        assert_eq!(p.farkas_strength(&ray, 10.0), None);
+        assert_eq!(strength(&p, &ray), None);
     }
 
     #[test]

@@ -6,6 +6,7 @@ pub mod disc;
 pub mod double_double;
 pub(crate) mod echelon;
 pub(crate) mod exact;
+pub(crate) mod farkas;
 pub mod interval;
 pub mod linalg;
 pub(crate) mod modular;

@@ -1,8 +1,9 @@
 //! The 3^6 branches of the offsets and their division into cells on which the constraints have one shape.
 
 use super::conflict::Conflict;
-use super::hexagon::{Side, offset_determinant};
-use super::problem::{BACKOFF, Model};
+use super::hexagon::Side;
+use super::limits::{Bounds, Limits};
+use super::problem::Model;
 use super::spacing::Pair;
 
 /// Where a joint sits relative to its edge.
@@ -87,27 +88,29 @@ impl std::fmt::Display for Branch {
     }
 }
 
-/// A closed interval of one offset on which the spacing from all vertices holds.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Interval {
-    pub(crate) low: f64,
-    pub(crate) high: f64,
+/// A closed interval of one offset.
+type Range = (f64, f64);
+
+/// A part of a zone outside of which some vertex is too close, and the parts of it in which the search moves: where the spacing from the
+/// vertices holds with the back-off, or all of it where it is too short for that.
+#[derive(Debug, Clone, PartialEq)]
+struct Piece {
+    outer: Range,
+    kept: Vec<Range>,
 }
 
-/// What is left of a zone: intervals, or the reason why there are none (`None`: less than rounding is left).
-pub(crate) type Room = Result<Vec<Interval>, Option<Conflict>>;
+/// What is left of a zone, or the proof that nothing is.
+type Room = Result<Vec<Piece>, Conflict>;
 
-fn remove(intervals: &mut Vec<Interval>, centre: f64, half: f64) {
+fn remove(intervals: &mut Vec<Range>, centre: f64, half: f64) {
     let (a, b) = (centre - half, centre + half);
-    let pieces = intervals.iter().flat_map(|i| {
-        [Interval { low: i.low, high: i.high.min(a) }, Interval { low: i.low.max(b), high: i.high }]
-    });
-    *intervals = pieces.filter(|i| i.low <= i.high).collect();
+    let pieces = intervals.iter().flat_map(|&(low, high)| [(low, high.min(a)), (low.max(b), high)]);
+    *intervals = pieces.filter(|(low, high)| low <= high).collect();
 }
 
-fn free_intervals(side: &Side, range: (f64, f64), spacing: f64) -> Vec<Interval> {
+fn free_intervals(side: &Side, range: Range, spacing: f64) -> Vec<Range> {
     let (edge, length) = (side.edge(), side.edge_length());
-    let mut left = vec![Interval { low: range.0, high: range.1 }];
+    let mut left = vec![range];
     for vertex in [side.start, side.end, side.opposite] {
         let foot = (vertex - side.start).dot(&edge) / (length * length);
         let height = (vertex - side.joint(foot)).norm();
@@ -118,19 +121,23 @@ fn free_intervals(side: &Side, range: (f64, f64), spacing: f64) -> Vec<Interval>
     left
 }
 
-fn room(side: usize, zone: Zone, m: &Model, scale: f64) -> Room {
-    let (bounds, range) = (m.bounds[side], zone.range());
+fn room(side: usize, zone: Zone, m: &Model, limits: &Limits) -> Room {
+    let (bounds, range) = (limits.bounds()[side], zone.range());
     let cut = (bounds.0.max(range.0), bounds.1.min(range.1));
     if cut.0 > cut.1 {
-        return Err(Some(Conflict::OutsideBounds { side, zone }));
+        return Err(Conflict::OutsideBounds { side, zone });
     }
-    let kept = free_intervals(&m.sides[side], cut, m.kept_spacing());
-    if !kept.is_empty() {
-        return Ok(kept);
+    let kept = |outer: &Range| {
+        let inner = free_intervals(&m.sides[side], *outer, m.kept_spacing(side));
+        if inner.is_empty() { vec![*outer] } else { inner }
+    };
+    let pieces: Vec<Piece> =
+        limits.room(side, cut).into_iter().map(|outer| Piece { outer, kept: kept(&outer) }).collect();
+    if pieces.is_empty() {
+        let available = (cut.1 - cut.0) * m.sides[side].edge_length() * m.scale;
+        return Err(Conflict::NoRoom { side, zone, available });
     }
-    let exact = free_intervals(&m.sides[side], cut, m.spacing - BACKOFF);
-    let available = (cut.1 - cut.0) * m.sides[side].edge_length() * scale;
-    Err(exact.is_empty().then_some(Conflict::NoRoom { side, zone, available }))
+    Ok(pieces)
 }
 
 /// A part of a branch: a box, the order of close pairs (the joint farther from the common vertex) and the
@@ -138,7 +145,10 @@ fn room(side: usize, zone: Zone, m: &Model, scale: f64) -> Room {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Cell {
     pub(crate) branch: usize,
-    pub(crate) bounds: [(f64, f64); 6],
+    /// Where the search moves: the back-off is kept from the vertices.
+    pub(crate) bounds: Bounds,
+    /// The box that proofs are about: outside of it the limits are violated.
+    pub(crate) outer: Bounds,
     /// Pairs whose spacing can be violated inside the box, with `true` when the first joint is farther out.
     pub(crate) pairs: Vec<(Pair, bool)>,
     pub(crate) sign: f64,
@@ -150,25 +160,17 @@ pub(crate) struct Division {
     pub(crate) branch: Branch,
     pub(crate) cells: Vec<Cell>,
     pub(crate) conflicts: Vec<Conflict>,
-    /// Parts that are empty only to within rounding: neither searched nor proved empty.
-    pub(crate) unproved: usize,
-}
-
-/// Least and greatest value of `det A` on a box, at vertices: it is affine in every offset.
-pub(crate) fn determinant_range(bounds: &[(f64, f64); 6]) -> (f64, f64) {
-    let corner = |k: usize| -> [f64; 6] {
-        std::array::from_fn(|i| if k >> i & 1 == 0 { bounds[i].0 } else { bounds[i].1 })
-    };
-    let values = (0..64).map(|k| offset_determinant(&corner(k)));
-    values.fold((f64::INFINITY, f64::NEG_INFINITY), |r, d| (r.0.min(d), r.1.max(d)))
+    /// Boxes that hold all offsets of the branch that may meet the limits: what is outside of them is proved not to.
+    pub(crate) boxes: Vec<Bounds>,
 }
 
 impl Cell {
-    /// `+-(|1 - t_i| d_i - |t_j| d_j) >= 0` of each ordered pair as `constant + by first + by second`.
+    /// `+-(|1 - t_i| d_i - |t_j| d_j) >= 0` of each ordered pair as `constant + by first + by second`. The two orders have the same coefficients with
+    /// opposite signs, to the last bit, so that every point is in one of them.
     pub(crate) fn order_rows(&self) -> Vec<(usize, usize, [f64; 3])> {
         let row = |(pair, first_farther): &(Pair, bool)| {
             let (e, f) = pair.edges();
-            let (x, y) = (self.bounds[pair.first], self.bounds[pair.second]);
+            let (x, y) = (self.outer[pair.first], self.outer[pair.second]);
             let outward = if x.0 + x.1 < 2.0 { 1.0 } else { -1.0 };
             let along = if y.0 + y.1 > 0.0 { 1.0 } else { -1.0 };
             let s = if *first_farther { 1.0 } else { -1.0 };
@@ -178,71 +180,81 @@ impl Cell {
     }
 }
 
-/// All branches with their cells. Lengths in conflicts are in design units (`scale` times the model's).
-pub(crate) fn divide(m: &Model, scale: f64) -> Vec<Division> {
-    let rooms: Vec<[Room; 3]> = (0..6).map(|i| Zone::ALL.map(|z| room(i, z, m, scale))).collect();
+/// Boxes as products of one range for each offset.
+fn products(lists: &[Vec<Range>; 6]) -> Vec<Bounds> {
+    let mut boxes: Vec<Bounds> = vec![[(0.0, 0.0); 6]];
+    for (i, list) in lists.iter().enumerate() {
+        let extend = |b: &Bounds, range: &Range| {
+            let mut b = *b;
+            b[i] = *range;
+            b
+        };
+        boxes = boxes.iter().flat_map(|b| list.iter().map(move |r| extend(b, r))).collect();
+    }
+    boxes
+}
+
+/// All branches with their cells. Lengths in conflicts are in design units.
+pub(crate) fn divide(m: &Model, limits: &Limits) -> Vec<Division> {
+    let rooms: Vec<[Room; 3]> = (0..6).map(|i| Zone::ALL.map(|z| room(i, z, m, limits))).collect();
     let pairs = Pair::all(&m.sides);
     let divide_one = |(index, branch): (usize, Branch)| {
-        let mut out = Division { branch, cells: Vec::new(), conflicts: Vec::new(), unproved: 0 };
-        let mut boxes: Vec<[(f64, f64); 6]> = vec![[(0.0, 0.0); 6]];
-        for (i, zone) in branch.0.iter().enumerate() {
-            match &rooms[i][*zone as usize] {
-                Ok(list) => {
-                    let extend = |b: &[(f64, f64); 6], v: &Interval| {
-                        let mut b = *b;
-                        b[i] = (v.low, v.high);
-                        b
-                    };
-                    boxes = boxes.iter().flat_map(|b| list.iter().map(move |v| extend(b, v))).collect();
-                }
-                Err(why) => {
-                    boxes.clear();
-                    match why {
-                        Some(conflict) => out.conflicts.push(conflict.clone()),
-                        None => out.unproved += 1,
-                    }
-                }
-            }
-        }
-        if !out.conflicts.is_empty() {
-            out.unproved = 0; // one proved conflict empties the branch
-        }
-        for bounds in boxes {
-            split(index, bounds, &pairs, m, scale, &mut out);
+        let mut out = Division { branch, cells: Vec::new(), conflicts: Vec::new(), boxes: Vec::new() };
+        let own = |i: usize| &rooms[i][branch.0[i] as usize];
+        out.conflicts.extend((0..6).filter_map(|i| own(i).as_ref().err().cloned()));
+        // one conflict empties the branch: its list of pieces is empty, and so is the product
+        let pieces: [&[Piece]; 6] = std::array::from_fn(|i| own(i).as_deref().unwrap_or(&[]));
+        let outer = products(&pieces.map(|list| list.iter().map(|p| p.outer).collect()));
+        for outer in outer {
+            let kept = |i: usize| {
+                let piece = pieces[i].iter().find(|p| p.outer == outer[i]);
+                piece.map_or_else(Vec::new, |p| p.kept.clone())
+            };
+            split(index, outer, &products(&std::array::from_fn(kept)), &pairs, m, limits, &mut out);
         }
         out
     };
     Branch::all().into_iter().enumerate().map(divide_one).collect()
 }
 
+/// The cells of a box, for every box in which the search is to move.
 fn split(
     branch: usize,
-    bounds: [(f64, f64); 6],
+    outer: Bounds,
+    kept: &[Bounds],
     pairs: &[Pair; 6],
     m: &Model,
-    scale: f64,
+    limits: &Limits,
     out: &mut Division,
 ) {
-    let (spacing, kept) = (m.spacing, m.kept_spacing());
-    for pair in pairs {
-        let greatest = pair.greatest(pair.box_of(&bounds)).sqrt();
-        if greatest < spacing - BACKOFF {
-            let sides = (pair.first, pair.second);
-            out.conflicts.push(Conflict::PairTooClose { sides, greatest: greatest * scale });
-            return;
+    if let Some((sides, greatest)) = limits.pair_too_close(&outer) {
+        out.conflicts.push(Conflict::PairTooClose { sides, greatest });
+        return;
+    }
+    let mut signs = Vec::new();
+    for (sign, greatest) in [1i8, -1].into_iter().zip(Limits::determinant_reach(&outer)) {
+        if limits.determinant_too_small(greatest) {
+            out.conflicts.push(Conflict::DetTooSmall { sign, greatest });
+        } else {
+            signs.push(f64::from(sign));
         }
     }
-    let close: Vec<Pair> =
-        pairs.iter().filter(|p| p.least(p.box_of(&bounds)) < kept * kept).copied().collect();
-    let range = determinant_range(&bounds);
-    for (sign, greatest) in [(1i8, range.1), (-1, -range.0)] {
-        if greatest < m.min_abs_det - BACKOFF {
-            out.conflicts.push(Conflict::DetTooSmall { sign, greatest });
-            continue;
-        }
+    if !signs.is_empty() {
+        out.boxes.push(outer);
+    }
+    let may_be_close = |p: &&Pair| p.least(p.box_of(&outer)) < m.kept_spacing(p.first).powi(2);
+    let close: Vec<Pair> = pairs.iter().filter(may_be_close).copied().collect();
+    for sign in signs {
         for order in 0..1usize << close.len() {
-            let pairs = close.iter().enumerate().map(|(k, p)| (*p, order >> k & 1 == 1)).collect();
-            out.cells.push(Cell { branch, bounds, pairs, sign: f64::from(sign) });
+            let pairs: Vec<(Pair, bool)> =
+                close.iter().enumerate().map(|(k, p)| (*p, order >> k & 1 == 1)).collect();
+            out.cells.extend(kept.iter().map(|&bounds| Cell {
+                branch,
+                bounds,
+                outer,
+                pairs: pairs.clone(),
+                sign,
+            }));
         }
     }
 }
@@ -256,14 +268,14 @@ mod tests {
     fn divisions(change: &dyn Fn(&mut OffsetProblem)) -> Vec<Division> {
         let mut p = OffsetProblem::with_defaults(example(), poses());
         change(&mut p);
-        divide(&Model::new(&p), p.size())
+        divide(&Model::new(&p), &Limits::new(&p))
     }
 
     #[test]
     fn there_are_729_branches_and_every_one_has_cells_or_a_reason() {
         let all = divisions(&|_| ());
         assert_eq!(all.len(), 729);
-        assert!(all.iter().all(|d| !d.cells.is_empty() || !d.conflicts.is_empty() || d.unproved > 0));
+        assert!(all.iter().all(|d| !d.cells.is_empty() || !d.conflicts.is_empty()));
         assert_eq!(all[364].branch.to_string(), "000000");
         assert_eq!(all[0].branch.to_string(), "------");
         assert_eq!(all[728].branch.to_string(), "++++++");

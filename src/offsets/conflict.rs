@@ -8,7 +8,7 @@ use super::branch::Zone;
 pub enum Conflict {
     /// Two vertices of a body are closer than the spacing: no offset can help.
     VerticesTooClose {
-        /// Length of the edge, design units.
+        /// Upper bound of the length of the edge, design units.
         distance: f64,
         /// Side of the hexagon that slides on the edge.
         side: usize,
@@ -33,19 +33,19 @@ pub enum Conflict {
     PairTooClose {
         /// The two sides.
         sides: (usize, usize),
-        /// Greatest distance reached, design units.
+        /// Upper bound of their distance, design units.
         greatest: f64,
     },
     /// `|det A|` stays too small: `sign det A` reaches this value at most.
     DetTooSmall {
         /// Sign of `det A`.
         sign: i8,
-        /// The greatest value of `sign det A` over the box (at a vertex: it is affine in every offset).
+        /// Upper bound of `sign det A` over the box (the greatest value is at a vertex: it is affine in every offset).
         greatest: f64,
     },
-    /// The linear relaxation of all spacings together is infeasible, by a re-checked Farkas certificate.
+    /// The linear relaxation of all spacings together is infeasible, by a Farkas certificate judged in intervals.
     Combination {
-        /// By how much the certificate is violated-proof (`-b.y` for `|y|_1 = 1`), dimensionless.
+        /// How far below 0 the combination of the rows stays (`|y|_1 = 1`, the largest row about 1), dimensionless.
         strength: f64,
     },
 }

@@ -11,7 +11,10 @@ mod bound;
 mod branch;
 mod conditioning;
 mod conflict;
+mod enclosure;
+mod feasibility;
 mod hexagon;
+mod limits;
 mod outcome;
 mod polish;
 mod problem;
@@ -19,6 +22,8 @@ mod relaxation;
 mod sampling;
 mod scp;
 mod search;
+#[cfg(test)]
+mod soundness;
 mod spacing;
 mod subproblem;
 #[cfg(test)]

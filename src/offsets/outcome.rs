@@ -13,7 +13,8 @@ use crate::num::conic::SolverFailure;
 use crate::num::linalg::svd;
 use crate::synthesis::{AffineLegMap, joint_free};
 
-/// Distances from the limits; negative means violated.
+/// Distances from the limits; negative means violated. The signs are those of exact arithmetic on the offsets and the design as they are
+/// written: zero is met exactly.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Margins {
     /// Least distance of two base joint centres minus the required one, design units.
@@ -27,7 +28,7 @@ pub struct Margins {
 }
 
 impl Margins {
-    /// No limit is violated, to the last bit for spacing and determinant; offsets may be at a bound.
+    /// No limit is violated, to the last bit.
     #[must_use]
     pub fn all_met(&self) -> bool {
         self.base_spacing >= 0.0 && self.platform_spacing >= 0.0 && self.det >= 0.0 && self.bounds >= 0.0
@@ -62,23 +63,12 @@ fn inverse_condition(j: &Matrix6<f64>) -> f64 {
     }
 }
 
-fn least_distance(points: &[nalgebra::Point3<f64>; 6]) -> f64 {
-    let mut least = f64::INFINITY;
-    for i in 0..6 {
-        for j in 0..i {
-            least = least.min((points[i] - points[j]).norm());
-        }
-    }
-    least
-}
-
 impl OffsetProblem {
-    /// Evaluates offsets on the original problem: distances of the leg ends of the built manipulator, `det A` in
-    /// two ways, an SVD at every pose. `None` when the offsets make no manipulator (not finite).
+    /// Evaluates offsets on the original problem: margins with exact signs, `det A` in
+    /// two ways, an SVD at every pose of the built manipulator. `None` when the offsets make no manipulator (not finite).
     #[must_use]
     pub fn recheck(&self, t: &[f64; 6]) -> Option<Recheck> {
         let (m, map) = joint_free(&self.octahedral, *t).ok()?;
-        let legs = m.legs();
         let per_pose: Vec<f64> = self
             .poses
             .iter()
@@ -92,13 +82,7 @@ impl OffsetProblem {
         }
         let det = offset_determinant(t);
         let det_of_matrix = map.determinant();
-        let bounds = t.iter().zip(&self.bounds).map(|(t, b)| (t - b.0).min(b.1 - t));
-        let margins = Margins {
-            base_spacing: least_distance(&legs.map(|l| l.base)) - self.min_joint_distance,
-            platform_spacing: least_distance(&legs.map(|l| l.platform)) - self.min_joint_distance,
-            det: det.abs().min(det_of_matrix.abs()) - self.min_abs_det,
-            bounds: bounds.fold(f64::INFINITY, f64::min),
-        };
+        let margins = self.margins(t)?;
         Some(Recheck { objective: worst.0, worst_pose: worst.1, per_pose, det, det_of_matrix, margins })
     }
 }
@@ -141,9 +125,12 @@ pub struct OffsetSolution {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum OffsetOutcome {
-    /// Feasible by the re-check, locally optimal by the evidence, the best of all branches searched.
+    /// Feasible by the re-check, and no offsets exceed it by more than the gap asked for: proved ([`OffsetReport::bound`]).
     Optimal(Box<OffsetSolution>),
-    /// Feasible by the re-check, but the evidence of local optimality is missing.
+    /// Feasible by the re-check and locally optimal by the evidence; how much better other offsets could be is bounded by a wider gap than asked for,
+    /// or not at all.
+    LocalOptimum(Box<OffsetSolution>),
+    /// Feasible by the re-check, but the evidence of local optimality is missing and so is the proof of a small gap.
     NotConverged(Box<OffsetSolution>),
     /// Every branch is proved empty.
     Infeasible,
@@ -233,7 +220,9 @@ impl OffsetReport {
     #[must_use]
     pub fn solution(&self) -> Option<&OffsetSolution> {
         match &self.outcome {
-            OffsetOutcome::Optimal(s) | OffsetOutcome::NotConverged(s) => Some(s),
+            OffsetOutcome::Optimal(s) | OffsetOutcome::LocalOptimum(s) | OffsetOutcome::NotConverged(s) => {
+                Some(s)
+            }
             OffsetOutcome::Infeasible | OffsetOutcome::Undecided { .. } => None,
         }
     }

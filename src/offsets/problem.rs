@@ -150,17 +150,20 @@ impl OffsetProblem {
 /// The problem with lengths divided by the size, as the search sees it.
 #[derive(Debug, Clone)]
 pub(crate) struct Model {
+    /// Design units in one unit of length of the model.
+    pub(crate) scale: f64,
     pub(crate) sides: [Side; 6],
     pub(crate) poses: Vec<PoseLegs>,
-    /// Required spacing, exact.
+    /// Required spacing.
     pub(crate) spacing: f64,
+    /// Radii of the two triangles, base first: what the back-off from the spacing is relative to.
+    pub(crate) radii: [f64; 2],
     /// Required `|det A|`, exact.
     pub(crate) min_abs_det: f64,
-    pub(crate) bounds: [(f64, f64); 6],
 }
 
-/// The search keeps this distance (relative to the size; absolute in `det A`) from the true limits, so that
-/// a conic solver's residual cannot carry the answer across them.
+/// The search keeps this distance (relative to the radius of the body; absolute in `det A`) from the true limits, so that
+/// a conic solver's residual cannot carry the answer across them. It is no part of any proof.
 pub(crate) const BACKOFF: f64 = 1e-8;
 
 impl Model {
@@ -170,16 +173,22 @@ impl Model {
         let length = p.characteristic_length / scale;
         let poses = p.poses.iter().map(|pose| PoseLegs::new(&sides, pose, length, scale)).collect();
         Self {
+            scale,
             sides,
             poses,
             spacing: p.min_joint_distance / scale,
+            radii: [p.octahedral.base(), p.octahedral.platform()].map(|t| radius(&t) / scale),
             min_abs_det: p.min_abs_det,
-            bounds: p.bounds,
         }
     }
 
-    pub(crate) fn kept_spacing(&self) -> f64 {
-        self.spacing + BACKOFF
+    /// Radius of the body on which the joint of a side slides.
+    pub(crate) fn radius(&self, side: usize) -> f64 {
+        self.radii[side % 2]
+    }
+
+    pub(crate) fn kept_spacing(&self, side: usize) -> f64 {
+        self.spacing + BACKOFF * self.radius(side)
     }
 
     pub(crate) fn kept_det(&self) -> f64 {

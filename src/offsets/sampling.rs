@@ -3,7 +3,7 @@
 use super::branch::Cell;
 use super::conditioning::worst_case_above;
 use super::hexagon::offset_determinant;
-use super::problem::Model;
+use super::problem::{Model, OffsetProblem};
 use super::subproblem::violation;
 use crate::num::Rng;
 
@@ -18,7 +18,7 @@ fn draw(cell: &Cell, rng: &mut Rng) -> [f64; 6] {
     cell.bounds.map(|(low, high)| rng.uniform(low, high).min(high))
 }
 
-fn in_order(cell: &Cell, t: &[f64; 6]) -> bool {
+pub(crate) fn in_order(cell: &Cell, t: &[f64; 6]) -> bool {
     cell.order_rows().iter().all(|&(i, j, [c, x, y])| c + x * t[i] + y * t[j] >= 0.0)
 }
 
@@ -60,6 +60,28 @@ pub(crate) fn feasible_points(
     draws: usize,
 ) -> Vec<[f64; 6]> {
     (0..draws).map(|_| draw(cell, rng)).filter(|t| is_feasible(m, cell, t)).take(wanted).collect()
+}
+
+/// Distances from the corners of a box at which feasible offsets are looked for, in units of the last place of an offset.
+const NUDGES: [f64; 5] = [0.0, 1.0, 4.0, 16.0, 64.0];
+
+/// Offsets that meet all limits in exact arithmetic though nothing may be left to spare: where a restoration ended, or at a corner of the box.
+pub(crate) fn tight_point(problem: &OffsetProblem, cell: &Cell, restored: &[f64; 6]) -> Option<[f64; 6]> {
+    let corner = |k: usize, nudge: f64| -> [f64; 6] {
+        std::array::from_fn(|i| {
+            let (low, high) = cell.outer[i];
+            let inwards = |end: f64, other: f64| {
+                (end + (other - end).signum() * nudge * f64::EPSILON * end.abs()).clamp(low, high)
+            };
+            if k >> i & 1 == 0 { inwards(low, high) } else { inwards(high, low) }
+        })
+    };
+    // saves most of the exact arithmetic
+    let may_do = |t: &[f64; 6]| cell.sign * offset_determinant(t) > problem.min_abs_det * (1.0 - 1e-6);
+    let corners = (0..64).flat_map(|k| NUDGES.map(|nudge| corner(k, nudge)));
+    std::iter::once(*restored)
+        .chain(corners.filter(may_do))
+        .find(|t| problem.margins(t).is_some_and(|m| m.all_met()))
 }
 
 /// Where the search for a feasible point starts when sampling finds none: the box vertex with the greatest

@@ -7,10 +7,11 @@ use super::area::Area;
 use super::branch::{Cell, divide};
 use super::conditioning::worst_case;
 use super::conflict::Conflict;
+use super::limits::Limits;
 use super::outcome::OffsetReport;
 use super::problem::{InvalidProblem, Model, OffsetProblem};
 use super::relaxation::proved_empty;
-use super::sampling::{best_sample, feasible_points, hopeful_point};
+use super::sampling::{best_sample, feasible_points, hopeful_point, tight_point};
 use super::scp::{Effort, LocalResult, climb};
 use super::verdict::{Searched, assemble, nothing_fits, vertices_too_close};
 use crate::num::Rng;
@@ -34,7 +35,8 @@ pub struct OptimizeOptions {
     pub starts: usize,
     /// Search every branch for its own best, not only for what the whole problem needs.
     pub survey: bool,
-    /// Relative gap between the solution and the proved upper bound; a proof that takes too many boxes ends with a wider one.
+    /// Greatest relative gap between the proved upper bound and the solution at which the solution counts as optimal. The proof aims at a tenth of
+    /// it; one that takes too many boxes ends with a wider gap.
     pub gap: f64,
     /// Boxes of offsets after which the gap is widened.
     pub boxes: usize,
@@ -50,7 +52,7 @@ impl Default for OptimizeOptions {
             polished: 16,
             starts: 6,
             survey: false,
-            gap: 1e-3,
+            gap: 1e-2,
             boxes: 6000,
         }
     }
@@ -133,8 +135,18 @@ const FEW_CELLS: usize = 64;
 const CONTENDERS: usize = 12;
 const FINALISTS: usize = 3;
 
-/// Best feasible run of a few short climbs from sampled starts; without one, restoration, then a proof.
-fn rank_cell(m: &Model, cell: &Cell, index: usize, o: &OptimizeOptions) -> CellResult {
+/// What is searched: the problem as it was asked, as the search sees it, and as proofs see it.
+#[derive(Debug, Clone, Copy)]
+struct Asked<'a> {
+    problem: &'a OffsetProblem,
+    m: &'a Model,
+    limits: &'a Limits,
+}
+
+/// Best feasible run of a few short climbs from sampled starts, seeing the poses of `few`; without one, restoration, then a proof, then
+/// offsets that meet the limits with nothing to spare.
+fn rank_cell(asked: Asked<'_>, few: &Model, cell: &Cell, index: usize, o: &OptimizeOptions) -> CellResult {
+    let m = few;
     let mut rng = Rng::stream(o.seed, index as u64);
     let samples = o.samples.max(1);
     let mut best: Option<LocalResult> = None;
@@ -153,7 +165,13 @@ fn rank_cell(m: &Model, cell: &Cell, index: usize, o: &OptimizeOptions) -> CellR
     if restored.is_feasible() {
         return CellResult::Feasible(restored);
     }
-    proved_empty(cell, m).map_or(CellResult::Unknown(restored.failure), CellResult::Empty)
+    if let Some(conflict) = proved_empty(cell, asked.limits) {
+        return CellResult::Empty(conflict);
+    }
+    match tight_point(asked.problem, cell, &restored.t) {
+        Some(t) => CellResult::Feasible(LocalResult::drawn(t, worst_case(&m.poses, &t).0)),
+        None => CellResult::Unknown(restored.failure),
+    }
 }
 
 pub(crate) fn better(a: &LocalResult, b: &LocalResult) -> bool {
@@ -173,9 +191,9 @@ pub fn optimize(
     progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<OffsetReport, InvalidProblem> {
     problem.validate()?;
-    let (m, scale) = (Model::new(problem), problem.size());
-    let divisions = divide(&m, scale);
-    if let Some(conflict) = vertices_too_close(&m, scale) {
+    let (m, limits) = (Model::new(problem), Limits::new(problem));
+    let divisions = divide(&m, &limits);
+    if let Some(conflict) = vertices_too_close(&limits) {
         return Ok(nothing_fits(divisions, &conflict, options.seed));
     }
     let cells: Vec<&Cell> = divisions.iter().flat_map(|d| &d.cells).collect();
@@ -194,12 +212,14 @@ pub fn optimize(
         sample_cells(&m, &cells, options, best, progress)
     };
     let surveyed = sampled.is_none();
-    let ranked = sampled.unwrap_or_else(|| survey(&m, &cells, options, best, stopped, progress));
+    let asked = Asked { problem, m: &m, limits: &limits };
+    let ranked = sampled.unwrap_or_else(|| survey(asked, &cells, options, best, stopped, progress));
     let chosen = if surveyed { options.polished } else { FINALISTS };
     let starts = if surveyed { options.starts } else { 0 };
     let tasks = polish_starts(&m, &cells, &ranked, &best_cells(&ranked, chosen), starts, options.seed);
     let mut polished = polish(&m, &cells, &tasks, options, best, stopped, progress);
-    let area = Area { problem, m: &m, divisions: &divisions, cells: &cells };
+    keep_ranked(&m, &ranked, &mut polished);
+    let area = Area { problem, m: &m, limits: &limits, divisions: &divisions, cells: &cells };
     let bound = area.bound(&mut polished, options, stopped, progress);
     let searched = Searched { ranked, polished, bound, interrupted: stopped() };
     Ok(assemble(problem, &m, &divisions, &cells, searched, options))
@@ -218,20 +238,20 @@ fn best_cells(ranked: &[CellResult], count: usize) -> Vec<usize> {
 
 /// Every cell searched for its own best.
 fn survey(
-    m: &Model,
+    asked: Asked<'_>,
     cells: &[&Cell],
     o: &OptimizeOptions,
     best: &Best,
     stopped: &(dyn Fn() -> bool + Sync),
     progress: &mut dyn FnMut(Progress),
 ) -> Vec<CellResult> {
-    let total = cells.len();
+    let (m, total) = (asked.m, cells.len());
     let few = critical_poses(m, cells, o.seed, RANKING_POSES, CRITICAL_SAMPLES);
     let rank = |k: usize| {
         if stopped() {
             return CellResult::Passed;
         }
-        match rank_cell(few.as_ref().unwrap_or(m), cells[k], k, o) {
+        match rank_cell(asked, few.as_ref().unwrap_or(m), cells[k], k, o) {
             CellResult::Feasible(mut run) => {
                 run.value = worst_case(&m.poses, &run.t).0;
                 best.offer(&run);
@@ -365,8 +385,25 @@ fn polish(
             None => kept.push((*k, run)),
         }
     }
-    kept.sort_by(|a, b| {
+    best_first(&mut kept);
+    kept
+}
+
+fn best_first(runs: &mut [(usize, LocalResult)]) {
+    runs.sort_by(|a, b| {
         b.1.is_feasible().cmp(&a.1.is_feasible()).then(b.1.value.total_cmp(&a.1.value)).then(a.0.cmp(&b.0))
     });
-    kept
+}
+
+/// Where no climb ended at a better feasible point, the point it began at stays: a feasible set that is thinner than the back-off is left by climbs.
+fn keep_ranked(m: &Model, ranked: &[CellResult], polished: &mut [(usize, LocalResult)]) {
+    for (k, run) in polished.iter_mut() {
+        if let CellResult::Feasible(own) = &ranked[*k] {
+            let own = LocalResult { value: worst_case(&m.poses, &own.t).0, ..own.clone() };
+            if better(&own, run) {
+                *run = own;
+            }
+        }
+    }
+    best_first(polished);
 }

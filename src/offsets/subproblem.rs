@@ -6,6 +6,7 @@ use super::branch::Cell;
 use super::conditioning::Spectrum;
 use super::hexagon::{determinant_gradient, determinant_hessian, offset_determinant};
 use super::problem::Model;
+use super::spacing::Pair;
 use crate::num::conic::{ConicAnswer, ConicPoint, ConicProgram, Row, SolverFailure};
 
 /// Singular values within this factor of the extreme one are modelled together, by a cone, so that a
@@ -68,11 +69,16 @@ pub(crate) struct Subproblem<'a> {
     pub(crate) curvature: Option<Matrix6<f64>>,
 }
 
-/// Constraint values that must be at least 0: `sign det A - delta`, then `(q - m^2) / (2 m)` of every close pair.
+/// `2 m` times the radius of the body: turns a difference of squared distances into a length relative to the body.
+fn pair_unit(m: &Model, pair: &Pair) -> f64 {
+    2.0 * m.kept_spacing(pair.first) * m.radius(pair.first)
+}
+
+/// Constraint values that must be at least 0: `sign det A - delta`, then `(q - m^2) / (2 m)` of every close pair relative to the radius of its body.
 pub(crate) fn constraint_values(m: &Model, cell: &Cell, t: &[f64; 6]) -> Vec<f64> {
-    let spacing = m.kept_spacing();
     let det = cell.sign * offset_determinant(t) - m.kept_det();
-    let pairs = cell.pairs.iter().map(|(p, _)| (p.squared(t) - spacing * spacing) / (2.0 * spacing));
+    let pairs =
+        cell.pairs.iter().map(|(p, _)| (p.squared(t) - m.kept_spacing(p.first).powi(2)) / pair_unit(m, p));
     std::iter::once(det).chain(pairs).collect()
 }
 
@@ -106,7 +112,7 @@ pub(crate) fn lagrangian_curvature(
     }
     for ((pair, _), weight) in cell.pairs.iter().zip(&multipliers.pairs) {
         let (i, j) = (pair.first, pair.second);
-        let [ii, ij, jj] = pair.hessian().map(|x| x * weight / (2.0 * m.kept_spacing()));
+        let [ii, ij, jj] = pair.hessian().map(|x| x * weight / pair_unit(m, pair));
         h[(i, i)] += ii;
         h[(i, j)] += ij;
         h[(j, i)] += ij;
@@ -162,7 +168,7 @@ impl Subproblem<'_> {
         det.push((SLACK, -1.0));
         p.at_least_zero(det, values[0]);
         for (k, (pair, _)) in self.cell.pairs.iter().enumerate() {
-            let [x, y] = pair.gradient(&self.t).map(|g| g / (2.0 * self.model.kept_spacing()));
+            let [x, y] = pair.gradient(&self.t).map(|g| g / pair_unit(self.model, pair));
             p.at_least_zero(vec![(pair.first, -x), (pair.second, -y), (SLACK, -1.0)], values[k + 1]);
         }
         det_row

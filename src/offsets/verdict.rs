@@ -3,6 +3,7 @@
 use super::bound::GlobalBound;
 use super::branch::{Cell, Division};
 use super::conflict::Conflict;
+use super::limits::Limits;
 use super::outcome::{
     BranchReport, BranchVerdict, LocalEvidence, OffsetOutcome, OffsetReport, OffsetSolution,
 };
@@ -16,9 +17,8 @@ use crate::synthesis::joint_free;
 /// A pattern search may gain this much (relative) before the solution counts as not converged.
 const PATTERN_LIMIT: f64 = 1e-6;
 
-pub(crate) fn vertices_too_close(m: &Model, scale: f64) -> Option<Conflict> {
-    let side = (0..6).find(|&i| m.sides[i].edge_length() < m.spacing)?;
-    Some(Conflict::VerticesTooClose { distance: m.sides[side].edge_length() * scale, side })
+pub(crate) fn vertices_too_close(limits: &Limits) -> Option<Conflict> {
+    limits.vertices_too_close().map(|(side, distance)| Conflict::VerticesTooClose { distance, side })
 }
 
 pub(crate) fn nothing_fits(divisions: Vec<Division>, conflict: &Conflict, seed: u64) -> OffsetReport {
@@ -48,7 +48,7 @@ fn judge(d: &Division, results: Vec<(CellResult, Option<&LocalResult>)>, bounded
         verdict: BranchVerdict::Infeasible,
     };
     let mut best: Option<LocalResult> = None;
-    let (mut unknown, mut failure, mut passed) = (d.unproved > 0, None, false);
+    let (mut unknown, mut failure, mut passed) = (false, None, false);
     for (result, polished) in results {
         let mut consider = |r: &LocalResult| {
             if best.as_ref().is_none_or(|b| better(r, b)) {
@@ -115,8 +115,9 @@ pub(crate) fn assemble(
     order.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
     let solution = polished
         .into_iter()
-        .find(|p| p.1.is_feasible())
-        .and_then(|(k, run)| solution(problem, m, cells[k], divisions, run, o).map(|s| (cells[k].branch, s)));
+        .filter(|p| p.1.is_feasible())
+        .find_map(|(k, run)| solution(problem, m, cells[k], divisions, run, o).map(|s| (cells[k].branch, s)));
+    let bound = bound.map(|b| b.above(solution.as_ref().map(|s| s.1.0.recheck.objective)));
     let unproved = branches.iter().filter(|b| !matches!(b.verdict, BranchVerdict::Infeasible)).count();
     let outcome = match solution {
         None if unproved == 0 => OffsetOutcome::Infeasible,
@@ -125,7 +126,12 @@ pub(crate) fn assemble(
             branches[branch].verdict = BranchVerdict::Best;
             order.retain(|x| x.1 != branch);
             let boxed = Box::new(solution);
-            if sound { OffsetOutcome::Optimal(boxed) } else { OffsetOutcome::NotConverged(boxed) }
+            // a feasible point that nothing exceeds by more than the gap is optimal, whatever became of the climb
+            match bound {
+                Some(b) if b.gap <= o.gap => OffsetOutcome::Optimal(boxed),
+                _ if sound => OffsetOutcome::LocalOptimum(boxed),
+                _ => OffsetOutcome::NotConverged(boxed),
+            }
         }
     };
     OffsetReport {
@@ -138,7 +144,7 @@ pub(crate) fn assemble(
     }
 }
 
-/// Pattern search, then the re-check on the original problem. `None` when the re-check finds a violation.
+/// Pattern search, then the re-check on the original problem; where that finds a violation, the point before the pattern search. `None` when both violate a limit.
 fn solution(
     problem: &OffsetProblem,
     m: &Model,
@@ -148,8 +154,12 @@ fn solution(
     o: &OptimizeOptions,
 ) -> Option<(OffsetSolution, bool)> {
     let mut rng = Rng::stream(o.seed, u64::MAX);
-    let found = pattern_search(m, cell, run.t, run.value, &mut rng);
-    let recheck = problem.recheck(&found.t).filter(|r| r.margins.all_met())?;
+    let mut found = pattern_search(m, cell, run.t, run.value, &mut rng);
+    let checked = |t: &[f64; 6]| problem.recheck(t).filter(|r| r.margins.all_met());
+    let recheck = checked(&found.t).or_else(|| {
+        (found.t, found.value) = (run.t, run.value);
+        checked(&run.t)
+    })?;
     let pattern_gain = if run.value > 0.0 { found.value / run.value - 1.0 } else { 0.0 };
     let evidence = LocalEvidence {
         converged: run.converged,

@@ -192,3 +192,25 @@ fn a_shipped_6_4_platform_is_improved_within_its_replaceable_legs() {
     assert!(worst(&new) >= objective - 1e-9, "{} {objective}", worst(&new));
     assert!(worst(&old) < 0.95 * objective, "{} {objective}", worst(&old));
 }
+
+/// Version 0.1.0 called the first three infeasible, though each has offsets that meet all limits in exact arithmetic, and "proved" a bound of 0.22362 for the
+/// last, where offsets reach 0.24124.
+#[test]
+fn problems_that_leave_next_to_nothing_are_never_infeasible_and_bounds_hold() {
+    let cases =
+        [("inf-ordinary", "0", 0.0), ("inf-small", "1", 0.0), ("inf-tie", "1", 0.0), ("bound", "0", 0.24124)];
+    for (name, extension, reached) in cases {
+        let file = format!("{}/tests/fixtures/adversarial/optimize-{name}.toml", env!("CARGO_MANIFEST_DIR"));
+        let (out, _folder) =
+            optimize(&std::fs::read_to_string(file).unwrap(), &["--extension", extension, "--gap", "0.1"]);
+        let d = document(&out);
+        assert!(matches!(out.status.code(), Some(0 | 3)), "{name}: {:?} {}", out.status.code(), d["status"]);
+        assert_ne!(d["status"], "infeasible", "{name}");
+        if let Some(upper) = d["global_bound"]["upper"].as_f64() {
+            assert!(upper >= reached, "{name}: {upper}");
+        }
+        if d["status"] == "optimal" {
+            assert!(d["global_bound"]["gap"].as_f64().unwrap() <= 0.1, "{name}");
+        }
+    }
+}

@@ -1,5 +1,7 @@
 //! A proved upper bound of the worst-case inverse condition number over all offsets: branch and bound.
 
+mod ball;
+mod curved;
 mod exclude;
 mod multipliers;
 mod rows;
@@ -8,14 +10,13 @@ mod tests;
 
 use std::ops::ControlFlow;
 
-use exclude::{Bounds, Pose, Test, test};
+use exclude::{Pose, Test, test};
 use rows::LegRow;
 
-use super::branch::determinant_range;
 use super::conditioning::worst_case_above;
 use super::hexagon::sides;
+use super::limits::{Bounds, Limits};
 use super::problem::{Model, OffsetProblem};
-use super::spacing::Pair;
 use crate::num::parallel::parallel;
 
 /// No offsets within the limits of the problem reach more than `upper`.
@@ -27,6 +28,13 @@ pub struct GlobalBound {
     pub gap: f64,
     /// Boxes of offsets that were looked at.
     pub boxes: usize,
+}
+
+impl GlobalBound {
+    /// The same with the gap to the value that was reached in the end.
+    pub(crate) fn above(self, value: Option<f64>) -> Self {
+        Self { gap: value.map_or(self.gap, |v| self.upper / v - 1.0), ..self }
+    }
 }
 
 /// How far the bound is to be driven.
@@ -70,13 +78,13 @@ fn middle(bounds: &Bounds) -> [f64; 6] {
 /// The search tree with what it needs of the problem.
 pub(crate) struct Bounding<'a> {
     model: &'a Model,
-    pairs: [Pair; 6],
+    limits: &'a Limits,
     poses: Vec<Pose>,
 }
 
 impl<'a> Bounding<'a> {
     /// `None` when the data do not make intervals.
-    pub(crate) fn new(problem: &OffsetProblem, model: &'a Model) -> Option<Self> {
+    pub(crate) fn new(problem: &OffsetProblem, model: &'a Model, limits: &'a Limits) -> Option<Self> {
         let plain = sides(&problem.octahedral, 1.0);
         let rows = |pose: &crate::geom::Pose| -> Option<Pose> {
             let rows: Option<Vec<LegRow>> =
@@ -84,19 +92,7 @@ impl<'a> Bounding<'a> {
             Some(Pose { rows: rows?.try_into().ok()? })
         };
         let poses: Option<Vec<Pose>> = problem.poses.iter().map(rows).collect();
-        Some(Self { model, pairs: Pair::all(&model.sides), poses: poses? })
-    }
-
-    /// `true` when no offsets of the box meet the limits on `det A` and on the distances of sliding joints. The ranges are
-    /// exact but for rounding, which the requirement relaxed by a millionth of the size outweighs.
-    fn is_empty(&self, bounds: &Bounds) -> bool {
-        let slack = 1e-6;
-        let (low, high) = determinant_range(bounds);
-        if high < self.model.min_abs_det - slack && -low < self.model.min_abs_det - slack {
-            return true;
-        }
-        let least = self.model.spacing - slack;
-        least > 0.0 && self.pairs.iter().any(|p| p.greatest(p.box_of(bounds)).sqrt() < least)
+        Some(Self { model, limits, poses: poses? })
     }
 
     /// Drives the bound down to `value (1 + gap)` over the boxes given. `improve` is asked with the middle of every box that is kept and
@@ -142,11 +138,11 @@ impl<'a> Bounding<'a> {
 
     /// The poses to go on with, `None` when the box is excluded.
     fn look(&self, node: &Node, limit: f64) -> Option<Vec<usize>> {
-        if self.is_empty(&node.bounds) {
+        if self.limits.is_empty(&node.bounds) {
             return None;
         }
-        let jacobian = |k: usize, t: &[f64; 6]| self.model.poses[k].jacobian(t);
-        let Test::Kept(mut order) = test(&self.poses, &node.poses, &node.bounds, limit, &jacobian) else {
+        let Test::Kept(mut order) = test(&self.poses, &self.model.poses, &node.poses, &node.bounds, limit)
+        else {
             return None;
         };
         if self.poses.len() > INHERITED && (node.depth + 1).is_multiple_of(REVIEW) {

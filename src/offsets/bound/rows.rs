@@ -1,40 +1,15 @@
 //! Rows of the Jacobian as functions of one offset each, in intervals.
 
-use nalgebra::{Matrix3, Point3, Vector3};
+use nalgebra::{Matrix3, Point3};
 
+use super::ball::Ball;
 use crate::geom::Pose;
 use crate::num::interval::Interval;
+use crate::offsets::enclosure::{Vector, cross, dot, minus, plus, point, vector};
 use crate::offsets::hexagon::{Body, Side};
 
-/// An enclosure of one double. Infinite data never get here: the problem was validated.
-pub(super) fn point(x: f64) -> Interval {
-    Interval::point(x).unwrap_or(Interval::WHOLE)
-}
-
-type Vector = [Interval; 3];
-
-fn vector(v: &Vector3<f64>) -> Vector {
-    [0, 1, 2].map(|k| point(v[k]))
-}
-
 fn difference(a: &Point3<f64>, b: &Vector) -> Vector {
-    [0, 1, 2].map(|k| point(a[k]) - b[k])
-}
-
-fn sum(a: &Vector, b: &Vector) -> Vector {
-    [0, 1, 2].map(|k| a[k] + b[k])
-}
-
-fn minus(a: &Vector, b: &Vector) -> Vector {
-    [0, 1, 2].map(|k| a[k] - b[k])
-}
-
-fn dot(a: &Vector, b: &Vector) -> Interval {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: &Vector, b: &Vector) -> Vector {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    minus(&vector(&a.coords), b)
 }
 
 fn turned(r: &Matrix3<f64>, v: &Vector) -> Vector {
@@ -52,7 +27,11 @@ pub(super) struct LegRow {
     /// `q0, q1, q2` of the squared length.
     square: [Interval; 3],
     plain: PlainRow,
+    balls: Balls,
 }
+
+/// Constant, rate and squared length once more.
+type Balls = ([Ball; 6], [Ball; 6], [Ball; 3]);
 
 /// The same in plain arithmetic, for choices that prove nothing.
 #[derive(Debug, Clone, Copy)]
@@ -87,7 +66,7 @@ impl LegRow {
         };
         let (arm, arm_rate) = (turned(r, &vector(&end.coords)), turned(r, &end_rate));
         let reach = minus(&vector(&pose.position), &vector(&base.coords));
-        let (line, line_rate) = (sum(&arm, &reach), minus(&arm_rate, &base_rate));
+        let (line, line_rate) = (plus(&arm, &reach), minus(&arm_rate, &base_rate));
         let moment = cross(&arm, &reach);
         let moment_rate = minus(&cross(&arm_rate, &reach), &cross(&arm, &base_rate));
         let length = point(characteristic_length);
@@ -104,11 +83,17 @@ impl LegRow {
         let centre = |x: Interval| x.centre_and_radius().0;
         let plain =
             PlainRow { constant: constant.map(centre), rate: rate.map(centre), square: square.map(centre) };
-        Some(Self { constant, rate, square, plain })
+        let balls = (constant.map(Ball::from), rate.map(Ball::from), square.map(Ball::from));
+        Some(Self { constant, rate, square, plain, balls })
     }
 
     pub(super) fn plain(&self) -> &PlainRow {
         &self.plain
+    }
+
+    /// `constant`, `rate` and `q0, q1, q2` as balls.
+    pub(super) fn balls(&self) -> &Balls {
+        &self.balls
     }
 
     /// `c (row . v)^2` as the numerator `n0 + n1 t + n2 t^2` over the squared length.

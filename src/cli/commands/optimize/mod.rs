@@ -20,7 +20,7 @@ use crate::cli::poses;
 use crate::cli::progress::{Interrupt, Progress};
 use crate::design::{Combination, Design};
 use crate::geom::Pose;
-use crate::manipulator::{LegIndex, Manipulator, Octahedral};
+use crate::manipulator::{Manipulator, Octahedral};
 use crate::offsets::{
     self, Body, OffsetOutcome, OffsetProblem, OffsetReport, OffsetSolution, OptimizeOptions, optimize,
     sliding_joint_body,
@@ -41,8 +41,8 @@ pub(crate) struct Args {
     /// Search every branch for its own best, which takes ten times as long
     #[arg(long)]
     survey: bool,
-    /// Relative gap between the answer and the proved upper bound over all offsets
-    #[arg(long, value_name = "X", default_value_t = 1e-3)]
+    /// Greatest relative gap between the answer and the proved upper bound over all offsets at which the answer counts as optimal
+    #[arg(long, value_name = "X", default_value_t = 1e-2)]
     gap: f64,
     /// Write the steps of the run that found the answer: .svg a picture, anything else CSV
     #[arg(long, value_name = "FILE")]
@@ -207,7 +207,9 @@ impl Done {
             _ if self.report.interrupted => Exit::Inconclusive,
             OffsetOutcome::Optimal(_) => Exit::Yes,
             OffsetOutcome::Infeasible => Exit::No,
-            OffsetOutcome::NotConverged(_) | OffsetOutcome::Undecided { .. } => Exit::Inconclusive,
+            OffsetOutcome::LocalOptimum(_)
+            | OffsetOutcome::NotConverged(_)
+            | OffsetOutcome::Undecided { .. } => Exit::Inconclusive,
         }
     }
 }
@@ -255,18 +257,71 @@ fn joint_free_design(design: &Design, o: &Octahedral, m: &Manipulator) -> Design
     let (base, platform) = (design.base_names(), design.platform_names());
     let base_name = |k: usize| base[o.base_indices()[k % 3]].clone();
     let platform_name = |k: usize| platform[o.platform_indices()[k % 3]].clone();
-    let mut names: [(String, String); 6] = Default::default();
-    for (i, leg) in o.order().into_iter().map(LegIndex::get).enumerate() {
+    // names belong to joints, whose order need not be that of the legs
+    let (mut a, mut b) =
+        (vec![String::new(); m.base_joints().len()], vec![String::new(); m.platform_joints().len()]);
+    for (i, leg) in o.order().into_iter().enumerate() {
         let k = i / 2;
-        names[leg] = match sliding_joint_body(i) {
+        let (on_base, on_platform) = m.pairs()[leg.get()];
+        (a[on_base], b[on_platform]) = match sliding_joint_body(i) {
             Body::Base => (format!("{}_{}", base_name(k), base_name(k + 1)), platform_name(k)),
             Body::Platform => (base_name(k + 1), format!("{}_{}", platform_name(k), platform_name(k + 1))),
         };
     }
-    let (a, b): (Vec<String>, Vec<String>) = names.into_iter().unzip();
     let plain = Design::new(format!("{}, joint-free", design.name), design.units.clone(), m.clone());
     let distinct = |v: &[String]| v.iter().enumerate().all(|(i, x)| !v[..i].contains(x));
     let named =
         if distinct(&a) && distinct(&b) { plain.clone().with_joint_names(a, b) } else { Ok(plain.clone()) };
     named.unwrap_or(plain)
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Point3;
+
+    use super::*;
+    use crate::num::Rng;
+    use crate::synthesis::joint_free;
+
+    /// Over random triangles, leg orders and offsets: the joint `X` is where the design has it, the joint `X_Y` on the line of `X` and `Y` and on no vertex.
+    #[test]
+    fn joints_are_where_their_names_say() {
+        let mut rng = Rng::new(8);
+        for _ in 0..60 {
+            let mut triangle = |z: f64| -> Vec<Point3<f64>> {
+                (0..3).map(|_| Point3::new(rng.uniform(-5.0, 5.0), rng.uniform(-5.0, 5.0), z)).collect()
+            };
+            let (base, platform) = (triangle(0.0), triangle(1.0));
+            let mut legs = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
+            for k in (1..6).rev() {
+                legs.swap(k, (rng.unit() * (k + 1) as f64) as usize);
+            }
+            let m = Manipulator::try_new(base, platform, legs).unwrap();
+            let names = |letter: &str| (1..=3).map(|k| format!("{letter}{k}")).collect::<Vec<_>>();
+            let design = Design::new("drawn", "mm", m).with_joint_names(names("B"), names("Q")).unwrap();
+            let o = Octahedral::recognise(design.manipulator()).unwrap();
+            let t: [f64; 6] = std::array::from_fn(|_| rng.uniform(-1.0, 2.0));
+            let (platform, _) = joint_free(&o, t).unwrap();
+            let built = joint_free_design(&design, &o, &platform);
+            let mut on_edges = 0;
+            let old_joints = [design.manipulator().base_joints(), design.manipulator().platform_joints()];
+            let old_names = [design.base_names(), design.platform_names()];
+            let new_joints = [built.manipulator().base_joints(), built.manipulator().platform_joints()];
+            for (body, list) in [built.base_names(), built.platform_names()].into_iter().enumerate() {
+                let place =
+                    |name: &str| old_joints[body][old_names[body].iter().position(|n| n == name).unwrap()];
+                for (name, joint) in list.iter().zip(new_joints[body]) {
+                    let Some((x, y)) = name.split_once('_') else {
+                        assert!((joint - place(name)).norm() < 1e-12, "{name}");
+                        continue;
+                    };
+                    let (edge, gap) = (place(y) - place(x), joint - place(x));
+                    assert!(edge.cross(&gap).norm() < 1e-9 * edge.norm(), "{name} is off its line");
+                    assert!(old_joints[body].iter().all(|v| (joint - v).norm() > 1e-9), "{name} is a vertex");
+                    on_edges += 1;
+                }
+            }
+            assert_eq!(on_edges, 6);
+        }
+    }
 }

@@ -28,6 +28,7 @@ impl Found<'_> {
         match self.report.outcome {
             _ if self.report.interrupted => "interrupted",
             OffsetOutcome::Optimal(_) => "optimal",
+            OffsetOutcome::LocalOptimum(_) => "local optimum",
             OffsetOutcome::NotConverged(_) => "feasible",
             OffsetOutcome::Infeasible => "infeasible",
             _ => "undecided",
