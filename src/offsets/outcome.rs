@@ -190,6 +190,8 @@ pub struct OffsetReport {
     pub runners_up: Vec<usize>,
     /// What no offsets can exceed; `None` without a solution, or when it could not be proved.
     pub bound: Option<GlobalBound>,
+    /// Greatest gap at which a solution counts as optimal: what was asked for.
+    pub tolerance: f64,
     /// `true` when the caller broke the search off: the solution is the best until then.
     pub interrupted: bool,
     /// Seed of the starting points.

@@ -194,7 +194,7 @@ pub fn optimize(
     let (m, limits) = (Model::new(problem), Limits::new(problem));
     let divisions = divide(&m, &limits);
     if let Some(conflict) = vertices_too_close(&limits) {
-        return Ok(nothing_fits(divisions, &conflict, options.seed));
+        return Ok(nothing_fits(divisions, &conflict, options));
     }
     let cells: Vec<&Cell> = divisions.iter().flat_map(|d| &d.cells).collect();
     // once the caller breaks off, what is left is passed over

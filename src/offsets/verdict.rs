@@ -21,7 +21,11 @@ pub(crate) fn vertices_too_close(limits: &Limits) -> Option<Conflict> {
     limits.vertices_too_close().map(|(side, distance)| Conflict::VerticesTooClose { distance, side })
 }
 
-pub(crate) fn nothing_fits(divisions: Vec<Division>, conflict: &Conflict, seed: u64) -> OffsetReport {
+pub(crate) fn nothing_fits(
+    divisions: Vec<Division>,
+    conflict: &Conflict,
+    o: &OptimizeOptions,
+) -> OffsetReport {
     let report = |d: Division| BranchReport {
         branch: d.branch,
         cells: 0,
@@ -34,8 +38,9 @@ pub(crate) fn nothing_fits(divisions: Vec<Division>, conflict: &Conflict, seed: 
         branches,
         runners_up: Vec::new(),
         bound: None,
+        tolerance: o.gap,
         interrupted: false,
-        seed,
+        seed: o.seed,
     }
 }
 
@@ -139,6 +144,7 @@ pub(crate) fn assemble(
         branches,
         runners_up: order.into_iter().map(|x| x.1).collect(),
         bound,
+        tolerance: o.gap,
         interrupted,
         seed: o.seed,
     }

@@ -63,8 +63,10 @@ const BATCH: usize = 32;
 const INHERITED: usize = 80;
 /// Boxes so many halvings down look at all poses once more.
 const REVIEW: usize = 8;
-/// Widening of the gap when the boxes are used up.
-const WIDER: f64 = 3.0;
+/// Share of the gap asked for that is tried first.
+const AIM: f64 = 0.0999;
+/// Widening of the gap when the boxes are used up: the second brings it to what was asked for.
+const WIDER: f64 = 3.162_277_660_168_379_5;
 /// No bound is claimed beyond this gap.
 const WIDEST: f64 = 64.0;
 
@@ -108,7 +110,8 @@ impl<'a> Bounding<'a> {
         let first = self.telling_poses(&boxes);
         let mut open: Vec<Node> =
             boxes.into_iter().map(|bounds| Node { bounds, poses: first.clone(), depth: 0 }).collect();
-        let (mut gap, mut done, mut budget) = (o.gap, 0, o.boxes);
+        // a little below, so that rounding does not carry the last step across the gap asked for
+        let (mut gap, mut done, mut budget) = (o.gap * AIM, 0, o.boxes);
         while !open.is_empty() {
             if done >= budget {
                 (gap, budget) = (gap * WIDER, budget + o.boxes / 2);

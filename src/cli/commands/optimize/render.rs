@@ -153,6 +153,7 @@ pub(super) fn json(
         .bound
         .map(|b| json!({ "upper": number(b.upper), "gap": number(b.gap), "boxes": b.boxes }));
     fields.insert("global_bound".into(), json!(bound));
+    fields.insert("tolerance".into(), number(found.report.tolerance));
     fields.insert("runners_up".into(), found.runners_up().map(branch_json).collect());
     fields.insert("branches".into(), found.report.branches.iter().map(branch_json).collect());
     fields.insert("seed".into(), json!(found.report.seed));
@@ -179,6 +180,17 @@ pub(super) fn text(found: &Found<'_>, written: Option<&str>) -> String {
     );
     if let Some(s) = found.report.solution() {
         solution_text(&mut out, found, s);
+    }
+    match found.report.outcome {
+        OffsetOutcome::LocalOptimum(_) => {
+            let _ = writeln!(
+                out,
+                "no better offsets are near; that none are anywhere is not proved to within the gap of {} asked for",
+                found.report.tolerance
+            );
+        }
+        OffsetOutcome::NotConverged(_) => out.push_str("the limits are met; better offsets may be near\n"),
+        _ => {}
     }
     if let Some(b) = found.report.bound {
         let _ = writeln!(
