@@ -1,14 +1,21 @@
 //! Poses, quaternions, distance geometry.
 
+mod chart;
+pub(crate) mod enclosed;
 mod hull;
 mod pose;
+mod pose_set;
 mod quaternion;
 mod segment;
 mod trilateration;
+mod turn;
 
+pub(crate) use chart::{Cell, Chart, Covered, combination};
 pub(crate) use hull::convex_hull;
 pub use pose::{ComplexPose, Pose};
 pub(crate) use pose::{nearest_rotation, reorthogonalised};
+pub use pose_set::{PoseSpace, Region};
 pub use quaternion::{random_rotation, rotation_from_quaternion};
 pub use segment::{segment_box_distance, segment_distance};
 pub use trilateration::trilaterate;
+pub(crate) use turn::{TurnCoefficients, arc_cosine, degrees, radians, turn, turn_slope};

@@ -8,6 +8,7 @@ pub(crate) mod echelon;
 pub(crate) mod exact;
 pub(crate) mod farkas;
 pub mod interval;
+pub(crate) mod jet;
 pub mod linalg;
 pub(crate) mod modular;
 pub(crate) mod parallel;

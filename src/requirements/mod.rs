@@ -5,23 +5,24 @@
 //! definition and the unit of every term.
 
 mod assess;
+mod bound;
 mod hardware;
 mod keep_out;
 mod limit;
 mod load;
-mod pose_set;
 mod standing;
 mod term;
 #[cfg(test)]
 mod tests;
 
 pub use assess::{AssessOptions, Assessment, Margin, assess};
+pub use bound::{MarginBound, Proof, Verdict, prove};
 pub use hardware::{Hardware, Housing, JointAxes, LegBody, LengthLimits, Swing};
 pub use keep_out::{FixedTo, KeepOut, Shape};
 pub use limit::{Limit, Limits, PoseLimit};
 pub use load::{Load, leg_forces};
-pub use pose_set::{PoseSpace, Region};
 pub use standing::Standing;
+pub use crate::geom::{PoseSpace, Region};
 pub use term::{Quantity, Term, TermKind, Terms};
 
 /// Greatest speed of the platform: every direction of motion up to these rates, together.

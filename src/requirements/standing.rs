@@ -8,6 +8,10 @@ use crate::manipulator::{inverse_condition, jacobian};
 /// good to half of `eps`, and room to spare.
 const SHARE: f64 = 64.0 * f64::EPSILON;
 
+/// Rounding, as a share, that no margin is excused by: near singular poses and for legs of almost no length the arithmetic says nothing, and a margin below zero
+/// is a violation.
+const MOST: f64 = 1e-9;
+
 /// What a margin says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Standing {
@@ -44,7 +48,8 @@ impl Terms<'_> {
     ///
     /// Lengths: `64 eps` (1.4e-14) times `r`, the sum of the greatest distances of a joint from the origin of its body and of the distance of the
     /// platform from the base origin. Angles: the same over the shortest leg. Speeds: `64 eps` times the greatest speed times `r` over the shortest leg.
-    /// Forces: `64 eps` times the greatest force over the inverse condition number of the Jacobian.
+    /// Forces: `64 eps` times the greatest force over the inverse condition number of the Jacobian. Never more than `1e-9` radians, or `1e-9` of the greatest speed
+    /// or force.
     #[must_use]
     pub fn rounding(&self, kind: TermKind, pose: Option<&Pose>) -> f64 {
         let m = self.manipulator;
@@ -54,7 +59,7 @@ impl Terms<'_> {
         let reach = farthest(m.base_joints()) + farthest(m.platform_joints()) + away;
         let turn = || {
             let lengths = pose.map(|p| m.legs().map(|l| (p.transform(&l.platform) - l.base).norm()));
-            SHARE * reach / lengths.into_iter().flatten().fold(f64::INFINITY, f64::min)
+            (SHARE * reach / lengths.into_iter().flatten().fold(f64::INFINITY, f64::min)).min(MOST)
         };
         let hardware = &self.required.hardware;
         match kind.quantity() {
@@ -63,7 +68,7 @@ impl Terms<'_> {
             Quantity::Speed => turn() * hardware.max_leg_speed.unwrap_or(0.0),
             Quantity::Force => {
                 let conditioning = pose.map_or(1.0, |p| inverse_condition(&jacobian(m, p, m.size())));
-                SHARE * hardware.max_leg_force.unwrap_or(0.0) / conditioning
+                (SHARE / conditioning).min(MOST) * hardware.max_leg_force.unwrap_or(0.0)
             }
         }
     }

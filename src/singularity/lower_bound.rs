@@ -14,7 +14,7 @@
 
 use nalgebra::{Matrix6, Vector3, Vector6};
 
-use super::enclosed::{Matrix, Vector, apply, cross, exact_rotation, times};
+use crate::geom::enclosed::{Matrix, Vector, apply, cross, exact_rotation, times};
 use crate::geom::{Pose, random_rotation};
 use crate::manipulator::{Leg, Manipulator};
 use crate::num::Rng;

@@ -10,7 +10,6 @@ mod assembly;
 mod case;
 mod conditioning;
 mod dependency;
-mod enclosed;
 mod four_planes;
 mod griffis_duffy;
 mod lattice;
@@ -35,7 +34,7 @@ pub use lower_bound::singular_distance_at_least;
 pub use nearest::{NearestSingular, nearest_singular};
 pub use path::{JoinOptions, Joined, Piece, Sign, SignsAlong, Way, between, join, signs_along};
 pub use planar_map::PlanarMap;
-pub use regular_box::{BoxOptions, RegularBox, SingularSegment, regular_box};
+pub use regular_box::{BoxOptions, RegularBox, Regularity, SingularSegment, regular_box, regular_workspace};
 pub use self_motion::{
     CriticalPoses, CurveDegree, CurveEnd, MotionCurve, MotionOptions, MotionPoint, SelfMotion,
     critical_poses, curve_degree, self_motion,

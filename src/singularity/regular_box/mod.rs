@@ -1,36 +1,31 @@
-//! The largest box of poses around home in which the Jacobian is proved to be regular.
+//! Sets of poses in which the Jacobian is proved to be regular: the largest box about a pose, and a workspace.
 //!
-//! Poses are `R = Cay(c) R_0`, `p = p_0 + d` with
-//!
-//! ```text
-//! Cay(c) = I + 2 / (1 + c.c) ([c]x + [c]x^2),   c = tan(angle / 2) axis,
-//! ```
-//!
-//! a box is `|d_k| <= t D_k`, `|c_k| <= tan(t theta_k / 2)` with half widths `D_k` (design units) and `theta_k` (radians) that fix its
-//! shape, and `t` is sought. The box of Cayley parameters holds every rotation by at most `t min theta_k` about any axis. From below: boxes in which `det J != 0` is proved by interval arithmetic
-//! ([`enclosure`]), added shell by shell. From above: a pose at which `det J` has the other sign; the segment in `(d, c)` from home to it stays in the box and
-//! holds a singular pose ([`rays`]).
+//! Poses are those of a workspace, `R = exp([w]x) R_0`, `p = p_0 + d`, and the set of scale `t` is `|d_k| <= t D_k`, `|w_k| <= t theta_k`, or the two ellipsoids with
+//! these half axes. From below: cells in which `det J != 0` is proved by interval arithmetic ([`enclosure`]), shell by shell. From above: a pose at which `det J` has the
+//! other sign; the segment in `(d, w)` from home to it stays in the set and holds a singular pose ([`rays`]).
 //!
 //! `J` is the matrix of leg lines that are not divided by the leg lengths, so that for a leg map `det J' = det A det J` at every pose: the
-//! box is that of all equivalent platforms.
+//! sets are those of all equivalent platforms.
 
 mod enclosure;
 mod rays;
 
-use nalgebra::{Rotation3, UnitQuaternion, Vector3};
+use nalgebra::Vector3;
 
-use crate::geom::Pose;
+use crate::geom::{Cell, Chart, Covered, Pose, PoseSpace, Region};
 use crate::manipulator::Manipulator;
-use enclosure::{Lines, Region};
+use enclosure::Lines;
 
-/// What box is sought, and how hard.
+/// What set is sought, and how hard.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BoxOptions {
+    /// A box, or ellipsoids with the half widths as half axes.
+    pub region: Region,
     /// Half widths `D_k` of the translations at `t = 1`, base frame, design units; not negative.
     pub translation: [f64; 3],
-    /// Half widths `theta_k` of the rotations at `t = 1`, about the axes of the base frame, radians; not negative.
-    pub rotation: [f64; 3],
-    /// Most regions to test.
+    /// Half widths `theta_k` of the components of the rotation vector at `t = 1`, base frame, degrees; not negative.
+    pub rotation_deg: [f64; 3],
+    /// Most cells to test.
     pub regions: usize,
     /// Stop when the proved scale is at least this part of the refuted one, below 1.
     pub enough: f64,
@@ -38,45 +33,50 @@ pub struct BoxOptions {
     pub seed: u64,
 }
 
-/// The largest box found.
+/// The largest set found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RegularBox {
     /// Proved: no singular pose for scales up to this; 0 when not even home is proved regular.
     pub proved: f64,
     /// Proved: a singular pose at this scale or below; `None` when none was found up to [`RegularBox::searched`].
     pub refuted: Option<SingularSegment>,
-    /// Scale up to which singular poses were looked for. Half-turns end the box of Cayley parameters.
+    /// Scale up to which singular poses were looked for: where a component of the rotation vector is a half-turn, or a translation 16 times the size.
     pub searched: f64,
-    /// Regions tested.
+    /// Cells tested.
     pub regions: usize,
 }
 
 /// A segment of poses with a singular one on it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SingularSegment {
-    /// Scale of the smallest box that holds the segment.
+    /// Scale of the smallest set that holds the segment, rounded up.
     pub scale: f64,
-    /// `(d / size, c)` of its far end; home is the other end, `det J` has opposite signs at the two.
-    pub end: [f64; 6],
-    /// The pose of the far end, rounded.
+    /// The pose of the far end, rounded; home is the other end, `det J` has opposite signs at the two.
     pub pose: Pose,
 }
 
-/// The largest regular box of the shape given by `options` about `home`.
+/// The largest regular set of the shape given by `options` about `home`.
 ///
-/// The rotation of `home` is that of its quaternion, exactly. The answer brackets the largest scale: `proved <= t <= refuted.scale`.
+/// The answer brackets the largest scale: `proved <= t <= refuted.scale`.
 #[must_use]
 pub fn regular_box(m: &Manipulator, home: &Pose, options: &BoxOptions) -> RegularBox {
-    let lines = Lines::new(m, home);
-    let shape = Shape::new(m.size(), options);
-    let searched = shape.largest();
-    let mut state = Search { lines: &lines, shape: &shape, left: options.regions, refuted: None };
-    if !lines.is_regular(&Region::POINT) {
+    let space = PoseSpace {
+        region: options.region,
+        translation: options.translation.into(),
+        rotation_deg: options.rotation_deg.into(),
+        ..PoseSpace::at(*home)
+    };
+    let chart = Chart::of_region(&space);
+    let lines = Lines::new(m, &chart);
+    let searched = largest_scale(m.size(), &space);
+    let regular_home = lines.is_regular(&Cell::point([0.0; 6])).is_ok();
+    let Some(sign) = lines.sign_at(&[0.0; 6]).filter(|_| regular_home) else {
         return RegularBox { proved: 0.0, refuted: None, searched, regions: 1 };
-    }
-    state.refuted = rays::nearest_change(&lines, &shape, options.seed);
+    };
+    let refuted = rays::nearest_change(&lines, sign, searched, options.seed);
+    let mut state = Search { lines: &lines, sign, left: options.regions, searched, refuted };
     let mut proved = 0.0;
-    // shells thin out towards the singular pose, where regions get small
+    // shells thin out towards the singular pose, where cells get small
     let mut part = 0.5;
     while part < 1.0 && proved < options.enough * state.limit() {
         let next = part * state.limit();
@@ -89,91 +89,118 @@ pub fn regular_box(m: &Manipulator, home: &Pose, options: &BoxOptions) -> Regula
         }
         part = 1.0 - 0.7 * (1.0 - part);
     }
-    let refuted =
-        state.refuted.map(|(scale, end)| SingularSegment { scale, end, pose: pose_at(home, m.size(), &end) });
+    let refuted = state.refuted.map(|(scale, x)| SingularSegment { scale, pose: chart.pose(&x) });
     RegularBox { proved, refuted, searched, regions: options.regions - state.left }
 }
 
-/// `(R, p)` of `(d / size, c)`.
-fn pose_at(home: &Pose, size: f64, q: &[f64; 6]) -> Pose {
-    let turn = UnitQuaternion::new_normalize(nalgebra::Quaternion::new(1.0, q[3], q[4], q[5]));
-    let rotation = Rotation3::from(turn) * home.rotation;
-    Pose { rotation, position: home.position + Vector3::new(q[0], q[1], q[2]) * size }
+/// Whether the leg lines are independent at all poses of a workspace.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Regularity {
+    /// Proved: `det J` vanishes at no pose.
+    Regular,
+    /// Proved: `det J` vanishes at some pose. It has opposite signs at the home pose and at this one, of the same connected part of the workspace.
+    ChangesSign(Pose),
+    /// The leg lines at this pose are not proved to be independent, or cells ran out near it.
+    Undecided(Pose),
 }
 
-/// Half widths by scale.
-#[derive(Debug, Clone)]
-pub(super) struct Shape {
-    translation: [f64; 3],
-    rotation: [f64; 3],
+/// Judges the region, the single poses and the trajectory of a workspace on at most `cells` cells for each of its parts, and counts them.
+#[must_use]
+pub fn regular_workspace(m: &Manipulator, space: &PoseSpace, cells: usize, seed: u64) -> (Regularity, usize) {
+    let (mut doubt, mut tested) = (None, 0);
+    for chart in Chart::all(space) {
+        let lines = Lines::new(m, &chart);
+        // home, or an end of a step
+        let starts = [[0.0; 6], chart.root.hi].map(|x| chart.pulled_inside(x));
+        let Some(sign) = starts.iter().find_map(|x| lines.sign_at(x)) else {
+            doubt = doubt.or(Some(chart.pose(&starts[0])));
+            continue;
+        };
+        // shallow changes of sign are found by rays, where cells would have to be small
+        let whole = chart.root.lo.iter().any(|x| *x < 0.0);
+        let refuted = if whole { rays::nearest_change(&lines, sign, 1.0, seed) } else { None };
+        if let Some((_, x)) = refuted {
+            return (Regularity::ChangesSign(chart.pose(&x)), tested);
+        }
+        let mut waiting = vec![chart.root];
+        let mut left = cells;
+        while let Some(cell) = waiting.pop() {
+            if chart.covers(&cell, 1.0) == Covered::Outside {
+                continue;
+            }
+            let inside = chart.pulled_inside(cell.centre());
+            if left == 0 {
+                doubt = doubt.or(Some(chart.pose(&inside)));
+                break;
+            }
+            left -= 1;
+            let Err(axis) = lines.is_regular(&cell) else { continue };
+            if lines.sign_at(&inside).is_some_and(|s| s * sign < 0.0) {
+                return (Regularity::ChangesSign(chart.pose(&inside)), tested + cells - left);
+            }
+            match cell.halves(axis) {
+                Some(parts) => waiting.extend(parts),
+                None => {
+                    doubt = doubt.or(Some(chart.pose(&inside)));
+                    break;
+                }
+            }
+        }
+        tested += cells - left;
+    }
+    (doubt.map_or(Regularity::Regular, Regularity::Undecided), tested)
 }
 
-impl Shape {
-    fn new(size: f64, o: &BoxOptions) -> Self {
-        Self { translation: o.translation.map(|x| x / size), rotation: o.rotation }
-    }
-
-    /// Half widths at scale `t`, those of translations over the size.
-    pub(super) fn half_widths(&self, t: f64) -> [f64; 6] {
-        let [x, y, z] = self.translation.map(|d| d * t);
-        let [u, v, w] = self.rotation.map(|a| (0.5 * a * t).tan());
-        [x, y, z, u, v, w]
-    }
-
-    /// The scale searched: translations of 16 sizes or rotations of 170 degrees, whichever comes first.
-    pub(super) fn largest(&self) -> f64 {
-        let translations = self.translation.iter().map(|d| 16.0 / d);
-        let rotations = self.rotation.iter().map(|a| 170f64.to_radians() / a);
-        translations.chain(rotations).fold(f64::INFINITY, f64::min)
-    }
-
-    /// The smallest scale of a box that holds the point, a little more for rounding.
-    pub(super) fn scale_of(&self, q: &[f64; 6]) -> f64 {
-        let ratio = |x: f64, full: f64| if x == 0.0 { 0.0 } else { x.abs() / full };
-        let moved = (0..3).map(|k| ratio(q[k], self.translation[k]));
-        let turned = (0..3).map(|k| ratio(2.0 * q[k + 3].atan(), self.rotation[k]));
-        moved.chain(turned).fold(0.0, f64::max) * (1.0 + 1e-12)
-    }
+/// Scale up to which singular poses are looked for.
+fn largest_scale(size: f64, space: &PoseSpace) -> f64 {
+    let ratio = |limit: f64, widths: &Vector3<f64>| limit / widths.amax();
+    ratio(16.0 * size, &space.translation).min(ratio(180.0, &space.rotation_deg))
 }
 
 enum Shell {
     Regular,
-    /// A region has a pose with the other sign: the limit is lower now.
+    /// A cell has a pose with the other sign: the limit is lower now.
     Singular,
     Undecided,
 }
 
 struct Search<'a> {
-    lines: &'a Lines,
-    shape: &'a Shape,
+    lines: &'a Lines<'a>,
+    /// Of `det J` at home.
+    sign: f64,
     left: usize,
+    searched: f64,
     /// Scale and end of the segment.
     refuted: Option<(f64, [f64; 6])>,
 }
 
 impl Search<'_> {
     fn limit(&self) -> f64 {
-        self.refuted.map_or(self.shape.largest(), |r| r.0)
+        self.refuted.map_or(self.searched, |r| r.0)
     }
 
-    /// Decides the box of scale `to` less that of scale `from`, by twelve slabs and halving.
+    /// Decides the set of scale `to` less that of scale `from`, by slabs and halving.
     fn shell(&mut self, from: f64, to: f64) -> Shell {
-        let (inner, outer) = (self.shape.half_widths(from), self.shape.half_widths(to));
-        let mut waiting = slabs(&inner, &outer);
-        while let Some(region) = waiting.pop() {
+        let chart = self.lines.chart;
+        let mut waiting = slabs(chart, from, to);
+        while let Some(cell) = waiting.pop() {
+            let beyond = chart.covers(&cell, to) == Covered::Outside;
+            let before = !chart.balls.is_empty() && reach(chart, &cell) <= from;
+            if beyond || before {
+                continue;
+            }
             if self.left == 0 {
                 return Shell::Undecided;
             }
             self.left -= 1;
-            if self.lines.is_regular(&region) {
-                continue;
-            }
-            let scale = self.shape.scale_of(&region.centre);
-            if scale < self.limit() && self.lines.has_other_sign(&region.centre) {
-                self.refuted = Some((scale, region.centre));
+            let Err(axis) = self.lines.is_regular(&cell) else { continue };
+            let centre = cell.centre();
+            let scale = chart.scale_of(&centre);
+            if scale < self.limit() && self.lines.sign_at(&centre).is_some_and(|s| s * self.sign < 0.0) {
+                self.refuted = Some((scale, centre));
                 return Shell::Singular;
             }
-            match region.halves(self.lines.steepest(&region)) {
+            match cell.halves(axis) {
                 Some(parts) => waiting.extend(parts),
                 None => return Shell::Undecided,
             }
@@ -182,21 +209,36 @@ impl Search<'_> {
     }
 }
 
-/// Twelve boxes that cover the outer box less the inner one; fewer where axes have no width.
-fn slabs(inner: &[f64; 6], outer: &[f64; 6]) -> Vec<Region> {
-    let mut out = Vec::new();
-    if inner.iter().all(|w| *w == 0.0) {
-        return vec![Region::between(&outer.map(|w| -w), outer)];
+/// The scale of the smallest set that holds a cell, rounded up.
+fn reach(chart: &Chart, cell: &Cell) -> f64 {
+    let corner: [f64; 6] = std::array::from_fn(|k| cell.side(k).magnitude());
+    chart.scale_of(&corner)
+}
+
+/// Twelve cells that cover the outer box less the inner one, fewer where axes have no width; one that covers it all where the sets are no boxes.
+fn slabs(chart: &Chart, inner: f64, outer: f64) -> Vec<Cell> {
+    let axes = chart.len();
+    let cube = |half: f64| {
+        let mut cell = Cell::point([0.0; 6]);
+        for k in 0..axes {
+            (cell.lo[k], cell.hi[k]) = (-half, half);
+        }
+        cell
+    };
+    if inner == 0.0 || !chart.balls.is_empty() {
+        return vec![cube(outer)];
     }
-    for axis in (0..6).filter(|k| outer[*k] > inner[*k]) {
+    let mut out = Vec::new();
+    for axis in 0..axes {
         for side in [-1.0, 1.0] {
             // axes before this one stay inside, those after it are free
-            let half = |k: usize| if k < axis { inner[k] } else { outer[k] };
-            let mut lo: [f64; 6] = std::array::from_fn(|k| -half(k));
-            let mut hi = lo.map(|x| -x);
-            let ends = [side * inner[axis], side * outer[axis]];
-            (lo[axis], hi[axis]) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
-            out.push(Region::between(&lo, &hi));
+            let mut cell = cube(outer);
+            for k in 0..axis {
+                (cell.lo[k], cell.hi[k]) = (-inner, inner);
+            }
+            let ends = [side * inner, side * outer];
+            (cell.lo[axis], cell.hi[axis]) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+            out.push(cell);
         }
     }
     out

@@ -15,7 +15,7 @@ use crate::cli::output::Answer;
 use crate::cli::poses;
 use crate::design::Design;
 use crate::fk::{Automatic, FkOptions, ForwardKinematics};
-use crate::geom::Pose;
+use crate::geom::{Pose, Region};
 use crate::manipulator::{LegLengths, Manipulator, Octahedral, inverse_condition, jacobian, leg_determinant};
 use crate::plot::singular_slice;
 use crate::singularity::{BoxOptions, RegularBox, four_planes, regular_box};
@@ -32,8 +32,8 @@ pub(crate) struct Args {
     /// Leg lengths of which all assembly modes are judged; without them those of the pose
     #[arg(long, value_name = "L1,..,L6")]
     lengths: Option<String>,
-    /// Shape of the box: half widths of translations (design units) and rotations (degrees); without it the workspace of the
-    /// design, else half its size and 30 degrees
+    /// Shape of the box: half widths of translations (design units) and components of the rotation vector (degrees); without it
+    /// the workspace of the design, box or ellipsoid, else half its size and 30 degrees
     #[arg(long = "box", value_name = "X,Y,Z,RX,RY,RZ")]
     shape: Option<String>,
     /// Most regions tested for the box
@@ -154,20 +154,20 @@ pub(super) fn box_options(
     seed: u64,
 ) -> Result<BoxOptions, Failure> {
     let size = design.manipulator().size();
-    let (translation, degrees) = match shape {
+    let (region, translation, rotation_deg) = match shape {
         Some(text) => {
             let v = six(text, "--box")?;
             if v.iter().any(|x| *x < 0.0) || v.iter().all(|x| *x == 0.0) {
                 let message = "--box: half widths are not negative, and not all zero";
                 return Err(Failure::refused("singularities::bad_numbers", message));
             }
-            ([v[0], v[1], v[2]], [v[3], v[4], v[5]])
+            (Region::Box, [v[0], v[1], v[2]], [v[3], v[4], v[5]])
         }
         None if design.workspace.has_box() => {
-            (design.workspace.translation.into(), design.workspace.rotation_deg.into())
+            let w = &design.workspace;
+            (w.region, w.translation.into(), w.rotation_deg.into())
         }
-        None => ([0.5 * size; 3], [30.0; 3]),
+        None => (Region::Box, [0.5 * size; 3], [30.0; 3]),
     };
-    let rotation = degrees.map(f64::to_radians);
-    Ok(BoxOptions { translation, rotation, regions, enough: 0.9, seed })
+    Ok(BoxOptions { region, translation, rotation_deg, regions, enough: 0.9, seed })
 }

@@ -8,7 +8,9 @@ use super::{Found, Judged};
 use crate::cli::output::{Answer, number};
 use crate::cli::poses;
 use crate::design::Design;
+use crate::geom::Region;
 use crate::manipulator::LegLengths;
+use crate::singularity::BoxOptions;
 
 fn judged(j: &Judged) -> Value {
     let mut record = poses::record(&j.pose);
@@ -18,6 +20,13 @@ fn judged(j: &Judged) -> Value {
         record["four_planes"] = d.map(number).to_vec().into();
     }
     record
+}
+
+fn region(options: &BoxOptions) -> &'static str {
+    match options.region {
+        Region::Box => "box",
+        Region::Ellipsoid => "ellipsoid",
+    }
 }
 
 /// The answer.
@@ -38,7 +47,7 @@ pub(super) fn answer(design: &Design, lengths: &LegLengths, found: &Found) -> An
     json.insert(
         "box".into(),
         json!({
-            "translation": found.options.translation, "rotation_deg": found.options.rotation.map(f64::to_degrees),
+            "translation": found.options.translation, "rotation_deg": found.options.rotation_deg, "region": region(&found.options),
             "proved_scale": number(regular.proved), "singular_within": segment, "searched_scale": number(regular.searched),
             "regions": regular.regions,
         }),
@@ -77,10 +86,11 @@ fn text(design: &Design, found: &Found) -> String {
     out.extend(found.path.iter().map(super::paths::Path::text));
     out.extend(found.between.iter().map(super::paths::Between::text));
     let o = &found.options;
-    let degrees = o.rotation.map(f64::to_degrees);
+    let degrees = o.rotation_deg;
     let _ = writeln!(
         out,
-        "box of half widths t x ({:.4}, {:.4}, {:.4}) {} and t x ({:.4}, {:.4}, {:.4}) degrees about the pose:",
+        "{} of half widths t x ({:.4}, {:.4}, {:.4}) {} and t x ({:.4}, {:.4}, {:.4}) degrees of the rotation vector about the pose:",
+        region(o),
         o.translation[0],
         o.translation[1],
         o.translation[2],

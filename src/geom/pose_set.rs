@@ -2,7 +2,7 @@
 
 use nalgebra::{Rotation3, Vector3, Vector6};
 
-use crate::geom::Pose;
+use super::Pose;
 use crate::num::Rng;
 
 /// The shape of a region of poses.

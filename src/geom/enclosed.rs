@@ -1,0 +1,81 @@
+//! Vectors, rotations and 6 x 6 matrices of intervals.
+
+use nalgebra::{Matrix6, UnitQuaternion};
+
+use super::Pose;
+use crate::num::interval::Interval;
+
+/// Three coordinates.
+pub(crate) type Vector = [Interval; 3];
+/// A 3 x 3 matrix by rows.
+pub(crate) type Rotation = [Vector; 3];
+/// A 6 x 6 matrix by rows.
+pub(crate) type Matrix = [[Interval; 6]; 6];
+
+pub(crate) fn dot(a: &Vector, b: &Vector) -> Interval {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+pub(crate) fn cross(a: &Vector, b: &Vector) -> Vector {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// `f(0..3, 0..3)`.
+pub(crate) fn matrix(f: impl Fn(usize, usize) -> Interval) -> Rotation {
+    std::array::from_fn(|i| std::array::from_fn(|j| f(i, j)))
+}
+
+/// `[c]x`.
+pub(crate) fn skew(c: &Vector) -> Rotation {
+    let z = Interval::ZERO;
+    [[z, -c[2], c[1]], [c[2], z, -c[0]], [-c[1], c[0], z]]
+}
+
+pub(crate) fn apply(r: &Rotation, v: &Vector) -> Vector {
+    std::array::from_fn(|i| dot(&r[i], v))
+}
+
+/// The rotation of the pose's quaternion, which is one exactly whatever its norm.
+pub(crate) fn exact_rotation(home: &Pose) -> Rotation {
+    let q = UnitQuaternion::from_rotation_matrix(&home.rotation);
+    let w = Interval::from(q.w);
+    let v: Vector = [q.i, q.j, q.k].map(Interval::from);
+    let norm = w.square() + v[0].square() + v[1].square() + v[2].square();
+    let factor = Interval::from(2.0).checked_div(norm).unwrap_or(Interval::WHOLE);
+    let k = skew(&v);
+    matrix(|i, j| {
+        let identity = if i == j { Interval::from(1.0) } else { Interval::ZERO };
+        let second = if i == j { -(v[(i + 1) % 3].square() + v[(i + 2) % 3].square()) } else { v[i] * v[j] };
+        identity + factor * (w * k[i][j] + second)
+    })
+}
+
+/// `Y J`.
+pub(crate) fn times(y: &Matrix6<f64>, j: &Matrix) -> Matrix {
+    std::array::from_fn(|r| {
+        std::array::from_fn(|c| {
+            (0..6).fold(Interval::ZERO, |sum, k| sum + Interval::from(y[(r, k)]) * j[k][c])
+        })
+    })
+}
+
+/// A positive vector `u`, found by power iteration, and a bound of `max (W u)_i / u_i` when that is below 1: then the spectral radius of every matrix with entries of at most the
+/// modulus of those of `W` is.
+pub(crate) fn contraction(w: &Matrix) -> Option<([f64; 6], f64)> {
+    let mut u = [1.0; 6];
+    for _ in 0..6 {
+        let next: [f64; 6] = std::array::from_fn(|i| (0..6).map(|k| w[i][k].hi() * u[k]).sum::<f64>());
+        let largest = next.iter().copied().fold(0.0, f64::max);
+        if !(largest < 4.0) {
+            return None;
+        }
+        // a floor keeps it positive
+        u = next.map(|x| (x / largest.max(f64::MIN_POSITIVE)).max(1e-3));
+    }
+    let mut factor = 0.0_f64;
+    for i in 0..6 {
+        let sum = (0..6).fold(Interval::ZERO, |s, k| s + w[i][k] * Interval::from(u[k]));
+        factor = factor.max(sum.checked_div(Interval::from(u[i]))?.hi());
+    }
+    (factor < 1.0).then_some((u, factor))
+}

@@ -1,0 +1,238 @@
+//! Values with first and second derivatives in up to six variables, enclosed over a box of them.
+//!
+//! Forward differentiation (Wengert 1964) in outward-rounded intervals: each component of a result holds that of the exact function at every point of the box.
+
+use std::ops::{Add, Mul, Neg, Sub};
+
+use super::interval::Interval;
+
+/// Places of the second derivatives of six variables.
+const PAIRS: usize = 21;
+
+/// A function over a box of variables.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Jet {
+    /// Its values.
+    pub(crate) value: Interval,
+    slope: [Interval; 6],
+    curve: [Interval; PAIRS],
+    /// Number of variables.
+    variables: usize,
+    /// Whether second derivatives are kept.
+    second: bool,
+}
+
+/// The place of the derivative by variables `i <= j`.
+fn place(i: usize, j: usize) -> usize {
+    i * (11 - i) / 2 + j
+}
+
+impl Jet {
+    /// A constant.
+    pub(crate) fn constant(value: Interval, variables: usize, second: bool) -> Self {
+        Self { value, slope: [Interval::ZERO; 6], curve: [Interval::ZERO; PAIRS], variables, second }
+    }
+
+    /// A function with these values and constant slopes.
+    pub(crate) fn linear(value: Interval, slope: [Interval; 6], variables: usize, second: bool) -> Self {
+        Self { slope, ..Self::constant(value, variables, second) }
+    }
+
+    /// First derivatives.
+    pub(crate) fn slope(&self, k: usize) -> Interval {
+        self.slope[k]
+    }
+
+    /// Second derivatives; zero where they are not kept.
+    pub(crate) fn curve(&self, i: usize, j: usize) -> Interval {
+        self.curve[place(i.min(j), i.max(j))]
+    }
+
+    /// `f` of it, from values of `f`, `f'` and `f''` over its values.
+    pub(crate) fn composed(&self, f: [Interval; 3]) -> Self {
+        let mut out = Self::constant(f[0], self.variables, self.second);
+        for i in 0..self.variables {
+            out.slope[i] = f[1] * self.slope[i];
+            if self.second {
+                for j in i..self.variables {
+                    let bend = if i == j { self.slope[i].square() } else { self.slope[i] * self.slope[j] };
+                    out.curve[place(i, j)] = f[1] * self.curve[place(i, j)] + f[2] * bend;
+                }
+            }
+        }
+        out
+    }
+
+    /// Its square.
+    pub(crate) fn square(&self) -> Self {
+        let two = Interval::from(2.0);
+        self.composed([self.value.square(), two * self.value, two])
+    }
+
+    /// `1 / sqrt(x)`, `None` unless it is positive.
+    pub(crate) fn inverse_root(&self) -> Option<Self> {
+        let root = Some(self.value).filter(|v| v.lo() > 0.0)?.sqrt()?;
+        let one = Interval::from(1.0);
+        let f0 = one.checked_div(root)?;
+        let f1 = -f0.checked_div(self.value * Interval::from(2.0))?;
+        let f2 = (f0 * Interval::from(0.75)).checked_div(self.value.square())?;
+        Some(self.composed([f0, f1, f2]))
+    }
+
+    /// `sqrt(x)`, `None` unless it is positive.
+    pub(crate) fn root(&self) -> Option<Self> {
+        let root = Some(self.value).filter(|v| v.lo() > 0.0)?.sqrt()?;
+        let f1 = Interval::from(0.5).checked_div(root)?;
+        let f2 = -f1.checked_div(self.value * Interval::from(2.0))?;
+        Some(self.composed([root, f1, f2]))
+    }
+
+    /// A multiple.
+    pub(crate) fn times(&self, factor: Interval) -> Self {
+        let mut out = *self;
+        out.value = factor * self.value;
+        for k in 0..self.variables {
+            out.slope[k] = factor * self.slope[k];
+        }
+        if self.second {
+            out.curve = self.curve.map(|x| if x == Interval::ZERO { x } else { factor * x });
+        }
+        out
+    }
+
+    fn combined(mut self, other: &Self, f: impl Fn(Interval, Interval) -> Interval) -> Self {
+        self.value = f(self.value, other.value);
+        for k in 0..self.variables {
+            self.slope[k] = f(self.slope[k], other.slope[k]);
+        }
+        if self.second {
+            for (x, y) in self.curve.iter_mut().zip(&other.curve) {
+                *x = f(*x, *y);
+            }
+        }
+        self
+    }
+}
+
+impl Add for Jet {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        self.combined(&other, |x, y| x + y)
+    }
+}
+
+impl Sub for Jet {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        self.combined(&other, |x, y| x - y)
+    }
+}
+
+impl Neg for Jet {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self::constant(Interval::ZERO, self.variables, self.second).combined(&self, |x, y| x - y)
+    }
+}
+
+impl Mul for Jet {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        let mut out = Self::constant(self.value * other.value, self.variables, self.second);
+        // most factors depend on few variables: products with zero are left out
+        let product = |x: Interval, y: Interval| {
+            if x == Interval::ZERO || y == Interval::ZERO { Interval::ZERO } else { x * y }
+        };
+        for i in 0..self.variables {
+            out.slope[i] = product(self.slope[i], other.value) + product(self.value, other.slope[i]);
+            if self.second {
+                for j in i..self.variables {
+                    let at = place(i, j);
+                    out.curve[at] = product(self.curve[at], other.value)
+                        + product(self.value, other.curve[at])
+                        + product(self.slope[i], other.slope[j])
+                        + product(self.slope[j], other.slope[i]);
+                }
+            }
+        }
+        out
+    }
+}
+
+/// Three coordinates.
+pub(crate) type JetVector = [Jet; 3];
+
+pub(crate) fn dot(a: &JetVector, b: &JetVector) -> Jet {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+pub(crate) fn norm_squared(a: &JetVector) -> Jet {
+    a[0].square() + a[1].square() + a[2].square()
+}
+
+pub(crate) fn cross(a: &JetVector, b: &JetVector) -> JetVector {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::Rng;
+
+    /// `sqrt(1 + x y) (x - z^2) / sqrt(2 + y)` with every operation, and its values in doubles.
+    fn formula(x: [Jet; 3]) -> Jet {
+        let one = Jet::constant(Interval::from(1.0), 3, true);
+        let two = Jet::constant(Interval::from(2.0), 3, true);
+        (one + x[0] * x[1]).root().unwrap() * (x[0] - x[2].square()) * (two + x[1]).inverse_root().unwrap()
+    }
+
+    fn plain(x: [f64; 3]) -> f64 {
+        (1.0 + x[0] * x[1]).sqrt() * (x[0] - x[2] * x[2]) / (2.0 + x[1]).sqrt()
+    }
+
+    fn variables(lo: [f64; 3], width: f64) -> [Jet; 3] {
+        std::array::from_fn(|k| {
+            let mut slope = [Interval::ZERO; 6];
+            slope[k] = Interval::from(1.0);
+            Jet::linear(Interval::new(lo[k], lo[k] + width).unwrap(), slope, 3, true)
+        })
+    }
+
+    #[test]
+    fn values_and_derivatives_are_those_of_differences_and_boxes_hold_their_points() {
+        let mut rng = Rng::new(6);
+        let h = 1e-4;
+        for _ in 0..50 {
+            let x: [f64; 3] = std::array::from_fn(|_| rng.uniform(0.2, 2.0));
+            let at = formula(variables(x, 0.0));
+            let moved = |steps: &[(usize, f64)]| {
+                let mut y = x;
+                for (k, s) in steps {
+                    y[*k] += s * h;
+                }
+                plain(y)
+            };
+            assert!((at.value.lo() - plain(x)).abs() < 1e-13);
+            for i in 0..3 {
+                let slope = (moved(&[(i, 1.0)]) - moved(&[(i, -1.0)])) / (2.0 * h);
+                assert!((at.slope(i).lo() - slope).abs() < 1e-6);
+                for j in 0..3 {
+                    let s = |a: f64, b: f64| moved(&[(i, a), (j, b)]);
+                    let curve = (s(1.0, 1.0) - s(1.0, -1.0) - s(-1.0, 1.0) + s(-1.0, -1.0)) / (4.0 * h * h);
+                    assert!((at.curve(i, j).lo() - curve).abs() < 1e-5, "{i} {j}");
+                    assert_eq!(at.curve(i, j), at.curve(j, i));
+                }
+            }
+            // over a box around it
+            let low = x.map(|x| x - 0.1);
+            let over = formula(variables(low, 0.2));
+            assert!(over.value.encloses(at.value));
+            for i in 0..3 {
+                assert!(over.slope(i).encloses(at.slope(i)));
+                assert!((0..3).all(|j| over.curve(i, j).encloses(at.curve(i, j))));
+            }
+        }
+        let zero = Jet::constant(Interval::ZERO, 1, true);
+        assert!(zero.root().is_none() && zero.inverse_root().is_none());
+    }
+}

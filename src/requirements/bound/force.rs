@@ -1,0 +1,159 @@
+//! Enclosures of leg forces over a cell, with their slopes.
+//!
+//! With lines that are not divided by the leg lengths, `A G = -(f, t)`, `A = [n_i; R b_i x n_i]` by columns and `F_i = G_i |n_i|`. `K` near the inverse of `A` at the
+//! middle gives `G = K b + (I - K A) G`; where `|I - K A| <= W` with `W u <= c u`, `c < 1`, `u > 0`, the norm `max |G_i| / u_i` is at most that of `K b` over `1 - c`
+//! (Neumaier 1990, sec. 4.1). The slopes solve the same system with `b_k - A_k G` to the right.
+
+use nalgebra::Matrix6;
+
+use super::frame::{Frame, enclosed};
+use super::local::{self, Bounded};
+use crate::geom::enclosed::{Matrix, Vector, contraction, times};
+use crate::geom::{Cell, Chart};
+use crate::manipulator::Manipulator;
+use crate::num::interval::Interval;
+use crate::num::jet::{Jet, JetVector, cross};
+use crate::requirements::keep_out::FixedTo;
+use crate::requirements::load::Load;
+
+type Column = [Jet; 6];
+
+/// `A` by rows and `-(f, t)`, moments over the size, and the leg lengths.
+struct System {
+    rows: [Column; 6],
+    right: Column,
+    lengths: [Option<Jet>; 6],
+}
+
+impl System {
+    fn over(frame: &Frame<'_>, m: &Manipulator, load: &Load) -> Self {
+        let unit = Interval::from(1.0).checked_div(Interval::from(m.size())).unwrap_or(Interval::WHOLE);
+        let legs: [_; 6] = std::array::from_fn(|i| frame.leg(m, i));
+        let moments: [JetVector; 6] = std::array::from_fn(|i| legs[i].moment());
+        let rows = std::array::from_fn(|r| {
+            std::array::from_fn(|i| if r < 3 { legs[i].line[r] } else { moments[i][r - 3].times(unit) })
+        });
+        let turned = |v: &nalgebra::Vector3<f64>| {
+            let v: Vector = std::array::from_fn(|k| Interval::from(v[k]));
+            match load.fixed_to {
+                FixedTo::Base => frame.fixed(&v),
+                FixedTo::Platform => frame.turned(&v),
+            }
+        };
+        let (force, torque) = (turned(&load.force), turned(&load.torque));
+        let lever = cross(&frame.turned(&enclosed(&load.at)), &force);
+        let right = std::array::from_fn(|r| {
+            if r < 3 { -force[r] } else { -(torque[r - 3] + lever[r - 3]).times(unit) }
+        });
+        Self { rows, right, lengths: std::array::from_fn(|i| legs[i].square.root()) }
+    }
+
+    fn values(&self) -> Matrix {
+        self.rows.map(|row| row.map(|x| x.value))
+    }
+
+    fn slopes(&self, k: usize) -> Matrix {
+        self.rows.map(|row| row.map(|x| x.slope(k)))
+    }
+}
+
+/// A bound of `|I - K A|` with what solves systems by it.
+struct Solver {
+    inverse: Matrix6<f64>,
+    defect: Matrix,
+    weights: [f64; 6],
+    factor: f64,
+}
+
+fn apply(k: &Matrix6<f64>, b: &[Interval; 6]) -> [Interval; 6] {
+    std::array::from_fn(|i| (0..6).fold(Interval::ZERO, |s, j| s + Interval::from(k[(i, j)]) * b[j]))
+}
+
+impl Solver {
+    /// For `A` at `z` and all over a cell.
+    fn new(at: &System, over: &System, cell: &Cell, z: &[f64; 6], variables: usize) -> Option<Self> {
+        let there = at.values();
+        let inverse = Matrix6::from_fn(|i, k| there[i][k].centre_and_radius().0).try_inverse()?;
+        let mut defect = times(&inverse, &there);
+        for (i, row) in defect.iter_mut().enumerate() {
+            row[i] = row[i] - Interval::from(1.0);
+        }
+        let mut defect = defect.map(|row| row.map(|x| Interval::from(x.magnitude())));
+        for k in 0..variables {
+            let reach = Interval::from(cell.reach(z, k));
+            let change = times(&inverse, &over.slopes(k));
+            for (row, extra) in defect.iter_mut().zip(&change) {
+                for (x, e) in row.iter_mut().zip(extra) {
+                    *x = *x + Interval::from(e.magnitude()) * reach;
+                }
+            }
+        }
+        let (weights, factor) = contraction(&defect)?;
+        Some(Self { inverse, defect, weights, factor })
+    }
+
+    fn solve(&self, right: &[Interval; 6]) -> Option<[Interval; 6]> {
+        let start = apply(&self.inverse, right);
+        let room = Interval::from(1.0) - Interval::from(self.factor);
+        let mut norm = 0.0_f64;
+        for (x, u) in start.iter().zip(&self.weights) {
+            norm = norm.max(Interval::from(x.magnitude()).checked_div(Interval::from(*u) * room)?.hi());
+        }
+        let norm = Interval::from(norm);
+        Some(std::array::from_fn(|i| {
+            let sum = (0..6).fold(Interval::ZERO, |s, k| s + self.defect[i][k] * Interval::from(self.weights[k]));
+            let off = (sum * norm).magnitude();
+            start[i] + Interval::new(-off, off).unwrap_or(Interval::WHOLE)
+        }))
+    }
+
+    /// The forces of a system, with slopes.
+    fn forces(&self, system: &System, variables: usize) -> Option<[Jet; 6]> {
+        let value = self.solve(&system.right.map(|x| x.value))?;
+        let mut slopes = [[Interval::ZERO; 6]; 6];
+        for k in 0..variables {
+            let a = system.slopes(k);
+            let right = std::array::from_fn(|r| {
+                (0..6).fold(system.right[r].slope(k), |s, i| s - a[r][i] * value[i])
+            });
+            for (row, x) in slopes.iter_mut().zip(self.solve(&right)?) {
+                row[k] = x;
+            }
+        }
+        let mut out = system.right;
+        for (i, x) in out.iter_mut().enumerate() {
+            *x = Jet::linear(value[i], slopes[i], variables, false) * system.lengths[i]?;
+        }
+        Some(out)
+    }
+}
+
+/// A lower bound of `greatest - |F_i|` over a cell for all legs, and an upper bound of the least one at `z`.
+pub(super) fn force(
+    chart: &Chart,
+    cell: &Cell,
+    z: &[f64; 6],
+    frames: (&Frame<'_>, &Frame<'_>),
+    m: &Manipulator,
+    load: &Load,
+    greatest: f64,
+) -> (Bounded, f64) {
+    let n = chart.len();
+    let at = System::over(frames.0, m, load);
+    let over = System::over(frames.1, m, load);
+    let point = Cell::point(*z);
+    let Some(here) = Solver::new(&at, &at, &point, z, n).and_then(|s| s.forces(&at, n)) else {
+        return (Bounded::nothing(cell), f64::INFINITY);
+    };
+    let room = |f: &Jet, sign: f64| {
+        Jet::constant(Interval::from(greatest), n, false) - f.times(Interval::from(sign))
+    };
+    let both = |f: &[Jet; 6]| -> Vec<Jet> { f.iter().flat_map(|f| [room(f, 1.0), room(f, -1.0)]).collect() };
+    let points = both(&here);
+    let upper = points.iter().map(|x| x.value.hi()).fold(f64::INFINITY, f64::min);
+    let Some(all) = Solver::new(&at, &over, cell, z, n).and_then(|s| s.forces(&over, n)) else {
+        return (Bounded::nothing(cell), upper);
+    };
+    let bounds = points.iter().zip(both(&all)).map(|(p, o)| local::below_first_order(chart, cell, z, p, &o));
+    (bounds.reduce(Bounded::min).unwrap_or_else(|| Bounded::nothing(cell)), upper)
+}

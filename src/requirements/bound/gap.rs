@@ -1,0 +1,234 @@
+//! Lower bounds of the distance of legs from each other and from bodies.
+//!
+//! The distance of two convex hulls of points is at least `min u . (x - y)` over the points `x` of one and `y` of the other, for every unit vector `u`. Which `u` is good depends on the
+//! pose: for two segments that are nearest inside both it is normal to both, for an end and the inside of a segment it leaves that segment at a right angle, for two ends it
+//! joins them. As functions of the pose these directions make the bound exact to second order; a constant one serves where they are not defined.
+
+use nalgebra::Vector3;
+
+use super::frame::{Frame, enclosed};
+use super::local::{self, Bounded};
+use crate::geom::{Cell, Chart};
+use crate::manipulator::Manipulator;
+use crate::num::interval::Interval;
+use crate::num::jet::{JetVector, cross, dot, norm_squared};
+use crate::requirements::hardware::LegBody;
+use crate::requirements::keep_out::{FixedTo, KeepOut, Shape};
+
+/// The convex hull of some points, and a radius around it.
+#[derive(Clone)]
+pub(super) struct Hull {
+    points: Vec<JetVector>,
+    radius: Interval,
+}
+
+fn halved(x: f64) -> Interval {
+    Interval::from(x) * Interval::from(0.5)
+}
+
+/// Cylinder and rod of a leg over a frame.
+///
+/// Where the leg may be shorter or longer than the cylinder, or has no sure length, it is one part with the larger radius, which holds both.
+pub(super) fn leg_parts(frame: &Frame<'_>, m: &Manipulator, i: usize, body: &LegBody) -> Vec<Hull> {
+    let leg = frame.leg(m, i);
+    let end: JetVector = std::array::from_fn(|k| leg.base[k] + leg.line[k]);
+    let whole = |radius: f64| vec![Hull { points: vec![leg.base, end], radius: halved(radius) }];
+    let Some((cylinder, rod)) = body.rod else { return whole(body.diameter) };
+    let square = Interval::from(cylinder).square();
+    if leg.square.value.hi() <= square.lo() {
+        return whole(body.diameter);
+    }
+    match leg.square.inverse_root() {
+        Some(inverse) if leg.square.value.lo() > square.hi() => {
+            let share = inverse.times(Interval::from(cylinder));
+            let top: JetVector = std::array::from_fn(|k| leg.base[k] + leg.line[k] * share);
+            vec![
+                Hull { points: vec![leg.base, top], radius: halved(body.diameter) },
+                Hull { points: vec![top, end], radius: halved(rod) },
+            ]
+        }
+        _ => whole(body.diameter.max(rod)),
+    }
+}
+
+/// A keep-out over a frame.
+pub(super) fn body_part(frame: &Frame<'_>, body: &KeepOut) -> Hull {
+    let (points, diameter) = match &body.shape {
+        Shape::Sphere { center, diameter } => (vec![*center], *diameter),
+        Shape::Capsule { from, to, diameter } => (vec![*from, *to], *diameter),
+        Shape::Box { center, size } => {
+            let corner = |c: usize| {
+                let sign = |k: usize| if c >> k & 1 == 0 { -0.5 } else { 0.5 };
+                // half an edge beyond the centre, rounded away below
+                center + Vector3::from_fn(|k, _| sign(k) * size[k])
+            };
+            ((0..8).map(corner).collect(), 0.0)
+        }
+    };
+    let place = |p: &nalgebra::Point3<f64>| match body.fixed_to {
+        FixedTo::Base => frame.fixed(&enclosed(p)),
+        FixedTo::Platform => frame.moved(p),
+    };
+    // corners of boxes are rounded by less than this
+    let rounding = match &body.shape {
+        Shape::Box { center, size } => 4.0 * f64::EPSILON * (center.coords.amax() + size.amax()),
+        _ => 0.0,
+    };
+    Hull { points: points.iter().map(place).collect(), radius: halved(diameter) + Interval::from(rounding) }
+}
+
+fn middle(v: &JetVector) -> Vector3<f64> {
+    Vector3::from_fn(|k, _| v[k].value.centre_and_radius().0)
+}
+
+/// Weights of the points of two hulls whose combinations are nearest, found by alternating steps, in doubles.
+fn nearest(a: &[Vector3<f64>], b: &[Vector3<f64>]) -> (Vec<f64>, Vec<f64>) {
+    let unit = |n: usize| -> Vec<f64> { (0..n).map(|k| if k == 0 { 1.0 } else { 0.0 }).collect() };
+    let (mut x, mut y) = (unit(a.len()), unit(b.len()));
+    let at = |w: &[f64], p: &[Vector3<f64>]| p.iter().zip(w).fold(Vector3::zeros(), |s, (p, w)| s + p * *w);
+    for _ in 0..60 {
+        for side in 0..2 {
+            let (points, mut weights, other) =
+                if side == 0 { (a, x.clone(), at(&y, b)) } else { (b, y.clone(), at(&x, a)) };
+            // an exact line search along every pair of points moves weight from one to the other
+            for i in 0..points.len() {
+                for j in 0..points.len() {
+                    if i == j || weights[i] == 0.0 {
+                        continue;
+                    }
+                    let here = at(&weights, points) - other;
+                    let step = points[j] - points[i];
+                    let square = step.norm_squared();
+                    if square > 0.0 {
+                        let t = (-here.dot(&step) / square).clamp(0.0, weights[i]);
+                        weights[i] -= t;
+                        weights[j] += t;
+                    }
+                }
+            }
+            if side == 0 {
+                x = weights;
+            } else {
+                y = weights;
+            }
+        }
+    }
+    (x, y)
+}
+
+/// Where a nearest point lies on a segment.
+#[derive(Clone, Copy, PartialEq)]
+enum On {
+    End(usize),
+    Inside,
+}
+
+fn on(weights: &[f64]) -> On {
+    weights.iter().position(|w| *w > 1.0 - 1e-9).map_or(On::Inside, On::End)
+}
+
+fn less(a: &JetVector, b: &JetVector) -> JetVector {
+    std::array::from_fn(|k| a[k] - b[k])
+}
+
+/// The direction for two segments, from the second to the first, up to sign and length; and which points have to be compared.
+fn direction(a: &[JetVector], b: &[JetVector], on: (On, On)) -> (JetVector, Vec<(usize, usize)>) {
+    let every = |a: &[JetVector], b: &[JetVector]| -> Vec<(usize, usize)> {
+        (0..a.len()).flat_map(|i| (0..b.len()).map(move |j| (i, j))).collect()
+    };
+    // v less its part along f, times f . f
+    let across = |v: JetVector, f: JetVector| -> JetVector {
+        let (square, along) = (norm_squared(&f), dot(&v, &f));
+        std::array::from_fn(|k| v[k] * square - f[k] * along)
+    };
+    match on {
+        (On::Inside, On::Inside) => (cross(&less(&a[1], &a[0]), &less(&b[1], &b[0])), vec![(0, 0)]),
+        (On::End(i), On::Inside) => {
+            let u = across(less(&a[i], &b[0]), less(&b[1], &b[0]));
+            (u, (0..a.len()).map(|i| (i, 0)).collect())
+        }
+        (On::Inside, On::End(j)) => {
+            let u = across(less(&a[0], &b[j]), less(&a[1], &a[0]));
+            (u, (0..b.len()).map(|j| (0, j)).collect())
+        }
+        (On::End(i), On::End(j)) => (less(&a[i], &b[j]), every(a, b)),
+    }
+}
+
+/// A lower bound of the gap of two hulls over a cell, and an upper bound of the gap at the point `z`.
+pub(super) fn gap(
+    chart: &Chart,
+    cell: &Cell,
+    z: &[f64; 6],
+    at: (&Hull, &Hull),
+    over: (&Hull, &Hull),
+) -> (Bounded, f64) {
+    // the parts of a point may be thinner than those that hold the leg at all poses of the cell
+    let (radii, radii_over) = (at.0.radius + at.1.radius, over.0.radius + over.1.radius);
+    let plain = [at.0, at.1].map(|h| h.points.iter().map(middle).collect::<Vec<_>>());
+    let weights = nearest(&plain[0], &plain[1]);
+    let joined = |points: &[Vector3<f64>], w: &[f64]| points.iter().zip(w).fold(Vector3::zeros(), |s, (p, w)| s + p * *w);
+    let apart = joined(&plain[0], &weights.0) - joined(&plain[1], &weights.1);
+    let upper = (distance_between((&at.0.points, &weights.0), (&at.1.points, &weights.1)) - radii).hi();
+    let least = |bound: &dyn Fn((usize, usize)) -> Option<Bounded>, pairs: &[(usize, usize)]| {
+        let all = pairs.iter().map(|p| bound(*p).unwrap_or_else(|| Bounded::nothing(cell)));
+        all.reduce(Bounded::min).unwrap_or_else(|| Bounded::nothing(cell))
+    };
+    let (ours, theirs) = (&over.0.points, &over.1.points);
+    let every: Vec<(usize, usize)> =
+        (0..ours.len()).flat_map(|i| (0..theirs.len()).map(move |j| (i, j))).collect();
+    // a constant direction
+    let length = apart.norm();
+    let mut best = Bounded::nothing(cell);
+    if length > 0.0 {
+        let u: [Interval; 3] = std::array::from_fn(|k| Interval::from(apart[k]));
+        let norm = (u[0].square() + u[1].square() + u[2].square()).sqrt().unwrap_or(Interval::WHOLE);
+        let along = |a: &JetVector, b: &JetVector| {
+            let d = less(a, b);
+            let sum = d[0].times(u[0]) + d[1].times(u[1]) + d[2].times(u[2]);
+            Interval::from(1.0).checked_div(norm).map(|over| sum.times(over))
+        };
+        let bound = |(i, j): (usize, usize)| {
+            let here = along(&at.0.points[i], &at.1.points[j])?;
+            Some(local::below(chart, cell, z, &here, &along(&ours[i], &theirs[j])?))
+        };
+        best = best.max(least(&bound, &every));
+    }
+    if ours.len() == 2 && theirs.len() <= 2 {
+        let kind = (on(&weights.0), if theirs.len() == 1 { On::End(0) } else { on(&weights.1) });
+        let (u_at, pairs) = direction(&at.0.points, &at.1.points, kind);
+        let (u_over, _) = direction(ours, theirs, kind);
+        let flip = if middle(&u_at).dot(&apart) < 0.0 { -1.0 } else { 1.0 };
+        let value = |u: &JetVector, a: &JetVector, b: &JetVector| {
+            let inverse = norm_squared(u).inverse_root()?;
+            Some((dot(u, &less(a, b)) * inverse).times(Interval::from(flip)))
+        };
+        let bound = |(i, j): (usize, usize)| {
+            let here = value(&u_at, &at.0.points[i], &at.1.points[j])?;
+            Some(local::below(chart, cell, z, &here, &value(&u_over, &ours[i], &theirs[j])?))
+        };
+        best = best.max(least(&bound, &pairs));
+    }
+    best.below = (Interval::from(best.below) - radii_over).lo();
+    if best.below.is_nan() {
+        best.below = f64::NEG_INFINITY;
+    }
+    (best, upper)
+}
+
+/// The distance of two points of the hulls: an upper bound of the distance of the hulls, when weights are as good as they are rounded.
+fn distance_between(a: (&[JetVector], &[f64]), b: (&[JetVector], &[f64])) -> Interval {
+    // weights that sum to one exactly: the last one is what the others leave
+    let at = |points: &[JetVector], weights: &[f64]| -> [Interval; 3] {
+        let first: Vec<Interval> = weights[1..].iter().map(|w| Interval::from(w.clamp(0.0, 1.0))).collect();
+        let rest = first.iter().fold(Interval::from(1.0), |s, w| s - *w);
+        let rest = Interval::new(rest.lo().max(0.0), rest.hi().max(0.0)).unwrap_or(Interval::WHOLE);
+        std::array::from_fn(|k| {
+            let start = rest * points[0][k].value;
+            points[1..].iter().zip(&first).fold(start, |s, (p, w)| s + *w * p[k].value)
+        })
+    };
+    let (x, y) = (at(a.0, a.1), at(b.0, b.1));
+    let square = (0..3).fold(Interval::ZERO, |s, k| s + (x[k] - y[k]).square());
+    square.sqrt().unwrap_or(Interval::WHOLE)
+}

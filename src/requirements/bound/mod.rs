@@ -1,0 +1,647 @@
+//! Proved bounds of the least margins over all poses of a workspace.
+//!
+//! Each requirement of each leg, pair, keep-out and load is a function of the pose. Its margin is bounded from below over cells of the workspace ([`local`], [`gap`], [`force`]) and from above
+//! at points of them; the cell with the least bound is halved next, until the bound decides or a number of cells is used up (branch and bound, Moore 1966). Cells in which the margin has a slope of
+//! one sign across a side of a box hold no least margin but at that side. Where points of cells come out worse than those found before, a local search goes on from them.
+//!
+//! `docs/theory/requirements.md` has the functions and the bounds.
+
+mod force;
+mod frame;
+mod gap;
+mod local;
+#[cfg(test)]
+mod tests;
+
+use std::cmp::Ordering;
+use std::collections::{BinaryHeap, BTreeMap};
+
+use self::frame::{Frame, enclosed};
+use self::local::Bounded;
+use super::assess::{AssessOptions, Assessment, Margin, assess};
+use super::hardware::Housing;
+use super::term::{Term, TermKind, Terms};
+use super::Requirements;
+use crate::geom::enclosed::{Vector, dot};
+use crate::geom::{Cell, Chart, Covered, PoseSpace, arc_cosine, degrees, radians};
+use crate::manipulator::Manipulator;
+use crate::num::Rng;
+use crate::num::interval::Interval;
+use crate::num::jet::Jet;
+
+/// What is known of the least margin of a kind of requirement over all poses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// Proved: no margin is negative.
+    Met,
+    /// Proved: no margin is negative by more than the rounding of its evaluation ([`Terms::rounding`]).
+    AtLimit,
+    /// Proved: the margin is negative at the pose given, by more than that.
+    Violated,
+    /// Not proved: no violation was found.
+    Searched,
+}
+
+impl Verdict {
+    /// `Some` where it is proved.
+    #[must_use]
+    pub fn is_met(self) -> Option<bool> {
+        match self {
+            Self::Met | Self::AtLimit => Some(true),
+            Self::Violated => Some(false),
+            Self::Searched => None,
+        }
+    }
+}
+
+/// The least margin of a kind with what is proved of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MarginBound {
+    /// The least margin found.
+    pub found: Margin,
+    /// Proved: no pose of the workspace has a smaller margin; minus infinity when nothing is proved.
+    pub below: f64,
+    /// What follows.
+    pub verdict: Verdict,
+    /// Cells bounded.
+    pub cells: usize,
+}
+
+/// The least margins of all kinds with what is proved of them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Proof {
+    /// By kind.
+    pub bounds: Vec<MarginBound>,
+    /// Poses looked at by sampling and searches.
+    pub poses: usize,
+}
+
+impl Proof {
+    /// `Some(false)` when a requirement is violated, `Some(true)` when all are proved to be met.
+    #[must_use]
+    pub fn all_met(&self) -> Option<bool> {
+        let each = || self.bounds.iter().map(|b| b.verdict.is_met());
+        if each().any(|x| x == Some(false)) {
+            return Some(false);
+        }
+        each().all(|x| x == Some(true)).then_some(true)
+    }
+}
+
+/// [`assess()`], and proved bounds of the margins it finds, by at most `cells` cells for each kind.
+///
+/// Deterministic for a seed. Every pose of [`PoseSpace`] is covered: its region, its single poses, and the straight motions between those of its trajectory, whatever the number of steps.
+#[must_use]
+pub fn prove(m: &Manipulator, required: &Requirements, space: &PoseSpace, o: &AssessOptions, cells: usize) -> Proof {
+    let Assessment { margins, poses } = assess(m, required, space, o);
+    let terms = Terms::new(m, required, &space.home);
+    let charts = Chart::all(space);
+    let home = Chart::of_pose(&space.home);
+    let judge = Judge { m, required, terms: &terms, axes: axes(m, required, &home), charts };
+    let bounds = margins.into_iter().map(|found| {
+        if found.term.kind.is_fixed() {
+            return judge.fixed(found);
+        }
+        judge.bound(found, cells, o.seed)
+    });
+    Proof { bounds: bounds.collect(), poses }
+}
+
+/// Axes from which swing is measured, at the base in the base frame and at the platform in the platform frame, and their lengths.
+type Axes = [[(Vector, Interval); 6]; 2];
+
+fn axes(m: &Manipulator, required: &Requirements, home: &Chart) -> Axes {
+    use super::hardware::JointAxes;
+    let frame = Frame::over(home, &home.root, false);
+    let swings = [required.hardware.base_swing, required.hardware.platform_swing];
+    std::array::from_fn(|body| {
+        std::array::from_fn(|i| {
+            let axis: Vector = match swings[body].map(|s| s.axes) {
+                Some(JointAxes::Given(axes)) => std::array::from_fn(|k| Interval::from(axes[i][k])),
+                _ => {
+                    let along = frame.leg(m, i).line.map(|x| x.value);
+                    if body == 0 {
+                        along
+                    } else {
+                        // R_0^T n
+                        std::array::from_fn(|k| dot(&std::array::from_fn(|r| home.rotation[r][k]), &along))
+                    }
+                }
+            };
+            let length = dot_square(&axis).sqrt().unwrap_or(Interval::WHOLE);
+            (axis, length)
+        })
+    })
+}
+
+fn dot_square(v: &Vector) -> Interval {
+    v[0].square() + v[1].square() + v[2].square()
+}
+
+/// What is bounded: one requirement, or those that are computed together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Function {
+    /// Length, swing or speed of a leg.
+    Leg(TermKind, usize),
+    /// Two legs.
+    Pair(usize, usize),
+    /// A leg and a keep-out.
+    Body(usize, usize),
+    /// All leg forces under a load.
+    Load(usize),
+}
+
+impl Function {
+    fn has(self, term: &Term) -> bool {
+        match self {
+            Self::Leg(kind, i) => term.kind == kind && term.first == i,
+            Self::Pair(i, j) => term.kind == TermKind::LegClearance && (term.first, term.second) == (i, j),
+            Self::Body(i, k) => term.kind == TermKind::KeepOut && (term.first, term.second) == (i, k),
+            Self::Load(k) => term.kind == TermKind::LegForce && term.second == k,
+        }
+    }
+}
+
+struct Judge<'a> {
+    m: &'a Manipulator,
+    required: &'a Requirements,
+    terms: &'a Terms<'a>,
+    axes: Axes,
+    charts: Vec<Chart>,
+}
+
+/// A cell that waits.
+struct Open {
+    below: f64,
+    /// Order of arrival, which makes the order of equal bounds certain.
+    number: usize,
+    function: usize,
+    chart: usize,
+    cell: Cell,
+    axis: usize,
+}
+
+impl PartialEq for Open {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Open {}
+
+impl PartialOrd for Open {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Open {
+    /// The least bound is the greatest, for the heap.
+    fn cmp(&self, other: &Self) -> Ordering {
+        other.below.total_cmp(&self.below).then(other.number.cmp(&self.number))
+    }
+}
+
+/// What is known of a cell.
+struct Evaluated {
+    bounded: Bounded,
+    /// Proved upper bound of the margin at `z`, which is a pose of the workspace.
+    upper: f64,
+    z: [f64; 6],
+    /// The cell less what cannot hold the least margin; `None` when nothing is left.
+    rest: Option<Cell>,
+}
+
+/// Local searches that go on from a cell, by function.
+const SEARCHES: usize = 3;
+
+/// Rounds of random steps of a local search.
+const ROUNDS: usize = 60;
+
+/// Bounds need not come closer to the least margin than this part of it.
+const CLOSE: f64 = 0.8;
+
+/// Progress of one kind.
+struct State {
+    heap: BinaryHeap<Open>,
+    cells: usize,
+    upper: f64,
+    /// Chart and point of the upper bound.
+    worst: Option<(usize, [f64; 6])>,
+    /// Worst point by function and chart.
+    points: BTreeMap<(usize, usize), ([f64; 6], f64)>,
+    /// Number of local searches by function and chart, and the bound that the last one started from.
+    searches: BTreeMap<(usize, usize), (usize, f64)>,
+}
+
+impl Judge<'_> {
+    fn functions(&self, kind: TermKind) -> Vec<Function> {
+        let pairs = self.m.pairs();
+        match kind {
+            TermKind::LegClearance => (0..6)
+                .flat_map(|i| (i + 1..6).map(move |j| (i, j)))
+                .filter(|(i, j)| pairs[*i].0 != pairs[*j].0 && pairs[*i].1 != pairs[*j].1)
+                .map(|(i, j)| Function::Pair(i, j))
+                .collect(),
+            TermKind::KeepOut => (0..6)
+                .flat_map(|i| (0..self.required.keep_outs.len()).map(move |k| Function::Body(i, k)))
+                .collect(),
+            TermKind::LegForce => (0..self.required.loads.len()).map(Function::Load).collect(),
+            _ => (0..6).map(|i| Function::Leg(kind, i)).collect(),
+        }
+    }
+
+    /// The least margin of a function in doubles.
+    fn plain(&self, function: Function, chart: usize, x: &[f64; 6]) -> f64 {
+        let all = self.terms.at(&self.charts[chart].pose(x));
+        all.iter().filter(|(t, _)| function.has(t)).map(|(_, v)| *v).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The least margin of a kind over all charts.
+    fn bound(&self, mut found: Margin, cells: usize, seed: u64) -> MarginBound {
+        let kind = found.term.kind;
+        let functions = self.functions(kind);
+        // the worst pose found so far, for a proof that it is one
+        let pose = found.pose.map(|p| Judge { charts: vec![Chart::of_pose(&p)], axes: self.axes, ..*self });
+        let upper = pose.map_or(f64::INFINITY, |judge| {
+            let point = |f: &Function| judge.evaluate(*f, 0, &Cell::point([0.0; 6]), None).upper;
+            functions.iter().map(point).fold(f64::INFINITY, f64::min)
+        });
+        let mut state = State {
+            heap: BinaryHeap::new(),
+            cells: 0,
+            upper,
+            worst: None,
+            points: BTreeMap::new(),
+            searches: BTreeMap::new(),
+        };
+        let mut rng = Rng::stream(seed, 0x626e);
+        for chart in 0..self.charts.len() {
+            for f in 0..functions.len() {
+                self.push(&mut state, &functions, (f, chart), self.charts[chart].root, f64::NEG_INFINITY);
+            }
+        }
+        let rounding = |s: &State| {
+            let pose = s.worst.map(|(c, z)| self.charts[c].pose(&z)).or(found.pose);
+            self.terms.rounding(kind, pose.as_ref())
+        };
+        let mut slack = rounding(&state);
+        let mut below = f64::INFINITY;
+        while let Some(open) = state.heap.pop() {
+            below = open.below;
+            let upper = state.upper;
+            let close = below >= CLOSE * upper.abs() || below >= upper - slack;
+            let decided = upper < -slack || (close && below >= -slack);
+            if decided || state.cells >= cells {
+                break;
+            }
+            let key = (open.function, open.chart);
+            self.search(&mut state, &functions, key, &mut rng);
+            slack = rounding(&state);
+            let Some(parts) = open.cell.halves(open.axis) else { break };
+            for part in parts {
+                self.push(&mut state, &functions, key, part, open.below);
+            }
+        }
+        if let Some((chart, z)) = state.worst {
+            let pose = self.charts[chart].pose(&z);
+            let there = self.terms.at(&pose).into_iter().filter(|(t, _)| t.kind == kind);
+            if let Some((term, value)) = there.reduce(|a, b| if b.1 < a.1 { b } else { a }) {
+                if value < found.value {
+                    let standing = self.terms.standing(kind, value, Some(&pose));
+                    found = Margin { term, value, pose: Some(pose), standing };
+                }
+            }
+        }
+        let verdict = verdict(below, state.upper, slack);
+        MarginBound { found, below, verdict, cells: state.cells }
+    }
+
+    /// Bounds a cell and keeps it, unless it cannot hold a least margin.
+    fn push(
+        &self,
+        state: &mut State,
+        functions: &[Function],
+        (f, c): (usize, usize),
+        cell: Cell,
+        parent: f64,
+    ) {
+        let chart = &self.charts[c];
+        if chart.covers(&cell, 1.0) == Covered::Outside {
+            return;
+        }
+        let (mut cell, mut below) = (cell, parent);
+        loop {
+            state.cells += 1;
+            let known = state.points.get(&(f, c)).map(|p| p.0);
+            let found = self.evaluate(functions[f], c, &cell, known);
+            if found.upper < state.upper {
+                (state.upper, state.worst) = (found.upper, Some((c, found.z)));
+            }
+            let point = state.points.entry((f, c)).or_insert((found.z, f64::INFINITY));
+            if found.upper < point.1 {
+                *point = (found.z, found.upper);
+            }
+            below = below.max(found.bounded.below);
+            let Some(rest) = found.rest else { return };
+            if rest != cell {
+                // what is left is smaller: its bound is better
+                cell = rest;
+                continue;
+            }
+            let loose = found.bounded.loose;
+            let wide = |k: usize| cell.hi[k] > cell.lo[k];
+            let better = |k: usize, best: usize| wide(k) && (!wide(best) || loose[k] > loose[best]);
+            let axis = (0..6).fold(0, |best, k| if better(k, best) { k } else { best });
+            let number = state.cells;
+            state.heap.push(Open { below, number, function: f, chart: c, cell, axis });
+            return;
+        }
+    }
+
+    /// A local search in doubles from the worst point known of a function.
+    fn search(&self, state: &mut State, functions: &[Function], key: (usize, usize), rng: &mut Rng) {
+        let (f, c) = key;
+        let chart = &self.charts[c];
+        let (tried, last): &mut (usize, f64) = state.searches.entry(key).or_insert((0, f64::INFINITY));
+        let Some((mut x, start)) = state.points.get(&key).copied() else { return };
+        if *tried >= SEARCHES || chart.len() == 0 || (*tried > 0 && start >= *last) {
+            return;
+        }
+        *tried += 1;
+        let value = |x: &[f64; 6]| self.plain(functions[f], c, x);
+        let inside = |x: [f64; 6]| {
+            let held = std::array::from_fn(|k| x[k].clamp(chart.root.lo[k], chart.root.hi[k]));
+            chart.pulled_inside(held)
+        };
+        let (mut least, mut step) = (value(&x), 0.2);
+        for _ in 0..ROUNDS {
+            let mut better = false;
+            for trial in 0..2 * chart.len() {
+                let mut y = x;
+                for k in 0..chart.len() {
+                    if trial % 2 == 0 || k == trial / 2 {
+                        y[k] += step * rng.uniform(-1.0, 1.0);
+                    }
+                }
+                let y = inside(y);
+                let there = value(&y);
+                if there < least {
+                    (least, x, better) = (there, y, true);
+                }
+            }
+            if !better {
+                step /= 3.0;
+            }
+        }
+        let found = self.evaluate(functions[f], c, &Cell::point(x), None);
+        if found.upper < state.upper {
+            (state.upper, state.worst) = (found.upper, Some((c, x)));
+        }
+        if state.points.get(&key).is_none_or(|p| found.upper < p.1) {
+            state.points.insert(key, (x, found.upper));
+        }
+        if let Some(search) = state.searches.get_mut(&key) {
+            search.1 = found.upper.min(start);
+        }
+    }
+
+    fn evaluate(&self, function: Function, c: usize, cell: &Cell, known: Option<[f64; 6]>) -> Evaluated {
+        let chart = &self.charts[c];
+        let held = |x: [f64; 6]| -> [f64; 6] { std::array::from_fn(|k| x[k].clamp(cell.lo[k], cell.hi[k])) };
+        // where to expand: near the middle, and as near as possible to the worst point known where that is not far
+        let mut points = vec![held(chart.pulled_inside(cell.centre()))];
+        if let Some(x) = known {
+            let near = held(x);
+            let close = (0..6).all(|k| (near[k] - x[k]).abs() <= cell.hi[k] - cell.lo[k]);
+            if close && near != points[0] {
+                points.push(near);
+            }
+        }
+        let second = !matches!(function, Function::Load(_));
+        let over = Frame::over(chart, cell, second);
+        let mut best: Option<Evaluated> = None;
+        for z in points {
+            let at = Frame::over(chart, &Cell::point(z), false);
+            let (bounded, upper, rest) = self.at_point(function, chart, cell, &z, (&at, &over));
+            // only points of the workspace count
+            let upper = if chart.scale_of(&z) <= 1.0 { upper } else { f64::INFINITY };
+            best = Some(match best {
+                None => Evaluated { bounded, upper, z, rest },
+                Some(b) => Evaluated {
+                    bounded: b.bounded.max(bounded),
+                    upper: b.upper.min(upper),
+                    z: if upper < b.upper { z } else { b.z },
+                    rest: b.rest,
+                },
+            });
+        }
+        best.unwrap_or(Evaluated { bounded: Bounded::nothing(cell), upper: f64::INFINITY, z: cell.centre(), rest: Some(*cell) })
+    }
+
+    /// A lower bound over the cell, an upper one at `z`, and what is left of the cell.
+    fn at_point(
+        &self,
+        function: Function,
+        chart: &Chart,
+        cell: &Cell,
+        z: &[f64; 6],
+        frames: (&Frame<'_>, &Frame<'_>),
+    ) -> (Bounded, f64, Option<Cell>) {
+        let hardware = &self.required.hardware;
+        let clearance = Interval::from(hardware.leg_clearance.unwrap_or(0.0));
+        let apart = |pairs: Vec<(gap::Hull, gap::Hull, gap::Hull, gap::Hull)>| {
+            let each = pairs.iter().map(|(a, b, c, d)| gap::gap(chart, cell, z, (a, b), (c, d)));
+            let (mut bounded, mut upper) = (None, f64::INFINITY);
+            for (b, u) in each {
+                bounded = Some(bounded.map_or(b, |x: Bounded| x.min(b)));
+                upper = upper.min((Interval::from(u) - clearance).hi());
+            }
+            let mut bounded = bounded.unwrap_or(Bounded::nothing(cell));
+            if bounded.below.is_finite() {
+                bounded.below = (Interval::from(bounded.below) - clearance).lo();
+            }
+            (bounded, upper, Some(*cell))
+        };
+        match function {
+            Function::Leg(kind, i) => {
+                let value = |frame: &Frame<'_>| self.leg_value(kind, i, frame);
+                let (Some(at), Some(over)) = (value(frames.0), value(frames.1)) else {
+                    return (Bounded::nothing(cell), f64::INFINITY, Some(*cell));
+                };
+                let mut bounded = local::below(chart, cell, z, &at, &over);
+                bounded.below = self.margin(kind, Interval::from(bounded.below)).lo();
+                (bounded, self.margin(kind, at.value).hi(), shrunk(chart, cell, &over))
+            }
+            Function::Load(k) => {
+                let greatest = hardware.max_leg_force.unwrap_or(f64::INFINITY);
+                let load = &self.required.loads[k];
+                let (bounded, upper) = force::force(chart, cell, z, frames, self.m, load, greatest);
+                (bounded, upper, Some(*cell))
+            }
+            Function::Pair(..) | Function::Body(..) => {
+                let Some(body) = hardware.leg_body else {
+                    return (Bounded::nothing(cell), f64::INFINITY, Some(*cell));
+                };
+                let parts = |frame: &Frame<'_>, i: usize| gap::leg_parts(frame, self.m, i, &body);
+                let (ours, all_ours, theirs, all_theirs) = match function {
+                    Function::Pair(i, j) => {
+                        (parts(frames.0, i), parts(frames.1, i), parts(frames.0, j), parts(frames.1, j))
+                    }
+                    Function::Body(i, k) => {
+                        let body = &self.required.keep_outs[k];
+                        let one = |frame: &Frame<'_>| vec![gap::body_part(frame, body)];
+                        (parts(frames.0, i), parts(frames.1, i), one(frames.0), one(frames.1))
+                    }
+                    _ => return (Bounded::nothing(cell), f64::INFINITY, Some(*cell)),
+                };
+                let mut pairs = Vec::new();
+                for (a, over_a) in matched(&ours, &all_ours) {
+                    for (b, over_b) in matched(&theirs, &all_theirs) {
+                        pairs.push((a.clone(), b.clone(), over_a.clone(), over_b.clone()));
+                    }
+                }
+                let (bounded, upper, rest) = apart(pairs);
+                // a pose whose parts differ from those of the cell says nothing by them
+                let sure = ours.len() == all_ours.len() && theirs.len() == all_theirs.len();
+                (bounded, if sure { upper } else { f64::INFINITY }, rest)
+            }
+        }
+    }
+
+    /// The function of a leg whose least value gives the least margin ([`Judge::margin`]).
+    fn leg_value(&self, kind: TermKind, i: usize, frame: &Frame<'_>) -> Option<Jet> {
+        let leg = frame.leg(self.m, i);
+        Some(match kind {
+            TermKind::LegTooShort => leg.square,
+            TermKind::LegTooLong => -leg.square,
+            TermKind::BaseSwing => {
+                let (axis, length) = &self.axes[0][i];
+                leg.cosine(&frame.fixed(axis), *length)?
+            }
+            TermKind::PlatformSwing => {
+                let (axis, length) = &self.axes[1][i];
+                leg.cosine(&frame.turned(axis), *length)?
+            }
+            TermKind::LegSpeed => -leg.lever_squared()?,
+            _ => return None,
+        })
+    }
+
+    /// The margin for a value of the function of a leg, which it increases with.
+    fn margin(&self, kind: TermKind, value: Interval) -> Interval {
+        let hardware = &self.required.hardware;
+        let root = |x: Interval| {
+            let positive = Interval::new(x.lo().max(0.0), x.hi().max(0.0)).unwrap_or(Interval::WHOLE);
+            positive.sqrt().unwrap_or(Interval::WHOLE)
+        };
+        let limits = hardware.leg_length.map_or((Interval::WHOLE, Interval::WHOLE), |l| match l {
+            super::LengthLimits::Range(a, b) => (Interval::from(a), Interval::from(b)),
+            super::LengthLimits::Stroke { dead, stroke } => {
+                let once = Interval::from(dead) + Interval::from(stroke);
+                (once, once + Interval::from(stroke))
+            }
+        });
+        let swing = |s: Option<super::Swing>| Interval::from(s.map_or(f64::INFINITY, |s| s.limit_deg));
+        match kind {
+            TermKind::LegTooShort => root(value) - limits.0,
+            TermKind::LegTooLong => limits.1 - root(-value),
+            TermKind::BaseSwing => swing(hardware.base_swing) - degrees(arc_cosine(value)),
+            TermKind::PlatformSwing => swing(hardware.platform_swing) - degrees(arc_cosine(value)),
+            TermKind::LegSpeed => {
+                let speed = self.required.platform_speed.unwrap_or_default();
+                let greatest = Interval::from(hardware.max_leg_speed.unwrap_or(f64::INFINITY));
+                greatest - Interval::from(speed.linear) - root(-value) * radians(speed.angular_deg)
+            }
+            _ => Interval::WHOLE,
+        }
+    }
+
+    /// Distances of joints, which no pose changes.
+    fn fixed(&self, found: Margin) -> MarginBound {
+        let kind = found.term.kind;
+        let platform = kind == TermKind::PlatformSpacing;
+        let joints = if platform { self.m.platform_joints() } else { self.m.base_joints() };
+        let housing = self.required.hardware.housing(platform);
+        let (mut below, mut upper) = (f64::INFINITY, f64::INFINITY);
+        for (term, _) in self.terms.fixed().iter().filter(|(t, _)| t.kind == kind) {
+            let (a, b) = (enclosed(&joints[term.first]), enclosed(&joints[term.second]));
+            let d: Vector = std::array::from_fn(|k| a[k] - b[k]);
+            let norm = dot_square(&d).sqrt().unwrap_or(Interval::WHOLE);
+            let centres = self.required.min_joint_distance.map(|least| norm - Interval::from(least));
+            for margin in [housing.map(|h| housing_gap(&h, &d, norm)), centres].into_iter().flatten() {
+                (below, upper) = (below.min(margin.lo()), upper.min(margin.hi()));
+            }
+        }
+        let verdict = verdict(below, upper, self.terms.rounding(kind, None));
+        MarginBound { found, below, verdict, cells: 0 }
+    }
+}
+
+/// Parts at a point with those over the cell; with one part over the cell all of the point belong to it.
+fn matched<'h>(at: &'h [gap::Hull], over: &'h [gap::Hull]) -> Vec<(&'h gap::Hull, &'h gap::Hull)> {
+    if at.len() == over.len() {
+        return at.iter().zip(over).collect();
+    }
+    // the first part starts at the base joint, as the whole leg does; its slopes only choose a direction
+    over.iter().map(|o| (o, o)).collect()
+}
+
+fn verdict(below: f64, upper: f64, rounding: f64) -> Verdict {
+    if upper < -rounding {
+        Verdict::Violated
+    } else if below >= 0.0 {
+        Verdict::Met
+    } else if below >= -rounding {
+        Verdict::AtLimit
+    } else {
+        Verdict::Searched
+    }
+}
+
+/// [`Housing::gap`], enclosed.
+fn housing_gap(housing: &Housing, d: &Vector, norm: Interval) -> Interval {
+    match housing {
+        Housing::Sphere(diameter) => norm - Interval::from(*diameter),
+        Housing::Box(edges) => {
+            let beside = |x: f64, edge: f64, side: fn(Interval) -> f64| side(Interval::from(x) - Interval::from(edge));
+            let least = |x: Interval| if x.lo() <= 0.0 && x.hi() >= 0.0 { 0.0 } else { x.lo().abs().min(x.hi().abs()) };
+            let end = |size: &dyn Fn(usize) -> f64, side: fn(Interval) -> f64| {
+                let g: [f64; 3] = std::array::from_fn(|k| beside(size(k), edges[k], side));
+                let largest = g.into_iter().fold(f64::NEG_INFINITY, f64::max);
+                if largest > 0.0 {
+                    let positive: Vector = g.map(|x| Interval::from(x.max(0.0)));
+                    dot_square(&positive).sqrt().map_or(largest, side)
+                } else {
+                    largest
+                }
+            };
+            let (lo, hi) = (end(&|k| least(d[k]), Interval::lo), end(&|k| d[k].magnitude(), Interval::hi));
+            Interval::new(lo, hi).unwrap_or(Interval::WHOLE)
+        }
+    }
+}
+
+/// What is left of a cell when sides that a positive or negative slope rules out are taken away: the least value over the workspace is at the end of a side, if that is an end of the workspace, and
+/// elsewhere if not. Coordinates of balls have no such ends.
+fn shrunk(chart: &Chart, cell: &Cell, over: &Jet) -> Option<Cell> {
+    let mut out = *cell;
+    for k in (0..chart.len()).filter(|k| !chart.balls.iter().any(|g| g.contains(k))) {
+        let slope = over.slope(k);
+        if cell.lo[k] >= cell.hi[k] {
+            continue;
+        }
+        if slope.lo() > 0.0 {
+            if cell.lo[k] > chart.root.lo[k] {
+                return None;
+            }
+            out.hi[k] = out.lo[k];
+        } else if slope.hi() < 0.0 {
+            if cell.hi[k] < chart.root.hi[k] {
+                return None;
+            }
+            out.lo[k] = out.hi[k];
+        }
+    }
+    Some(out)
+}

@@ -1,0 +1,246 @@
+//! Proved margins against dense sampling by a formula of its own, planted violations, and margins known by hand.
+
+use nalgebra::{Point3, Rotation3, Unit, Vector3};
+
+use super::*;
+use crate::geom::Region;
+use crate::requirements::{
+    FixedTo, Hardware, JointAxes, KeepOut, LegBody, LengthLimits, Load, PlatformSpeed, Shape, Swing,
+};
+
+fn random_platform(rng: &mut Rng) -> (Manipulator, Pose) {
+    let mut joints = |r: f64, turn: f64| -> Vec<Point3<f64>> {
+        let mut joint = |i: usize| {
+            let side = if i % 2 == 0 { -0.35 } else { 0.35 };
+            let angle = (i / 2) as f64 * std::f64::consts::TAU / 3.0 + side + turn + rng.uniform(-0.15, 0.15);
+            Point3::new(r * angle.cos(), r * angle.sin(), rng.uniform(-0.1, 0.1))
+        };
+        (0..6).map(&mut joint).collect()
+    };
+    let (base, platform) = (joints(10.0, 0.0), joints(6.0, std::f64::consts::PI / 3.0));
+    let m = Manipulator::try_new(base, platform, [(0, 5), (1, 0), (2, 1), (3, 2), (4, 3), (5, 4)]).unwrap();
+    let rotation = Rotation3::from_euler_angles(rng.uniform(-0.1, 0.1), rng.uniform(-0.1, 0.1), rng.uniform(-0.1, 0.1));
+    (m, Pose { rotation, position: Vector3::new(0.3, -0.2, rng.uniform(10.0, 14.0)) })
+}
+
+fn random_space(home: Pose, rng: &mut Rng, region: Region) -> PoseSpace {
+    let mut half = |most: f64| Vector3::from_fn(|_, _| if rng.unit() < 0.2 { 0.0 } else { rng.uniform(0.2, 1.0) * most });
+    PoseSpace { region, translation: half(2.0), rotation_deg: half(18.0), ..PoseSpace::at(home) }
+}
+
+/// Poses of a region, by a formula of their own; every other one on the boundary.
+fn poses_of(space: &PoseSpace, count: usize, rng: &mut Rng) -> Vec<Pose> {
+    let mut draw = |k: usize, half: &Vector3<f64>| {
+        let used = half.map(|h| if h > 0.0 { 1.0 } else { 0.0 });
+        let u = Vector3::from_fn(|_, _| rng.uniform(-1.0, 1.0)).component_mul(&used);
+        let norm = u.norm().max(1e-300);
+        let reached = match (space.region, k % 2) {
+            (Region::Box, 0) => u,
+            (Region::Box, _) => u.map(|x| if rng.unit() < 0.7 { x.signum() } else { x }),
+            (Region::Ellipsoid, 0) => u / norm.max(1.0),
+            (Region::Ellipsoid, _) => u / norm,
+        };
+        reached.component_mul(half)
+    };
+    let pose = |k: usize| {
+        let (d, w) = (draw(k, &space.translation), draw(k, &space.rotation_deg).map(f64::to_radians));
+        let turn = if w.norm() > 0.0 {
+            Rotation3::from_axis_angle(&Unit::new_normalize(w), w.norm())
+        } else {
+            Rotation3::identity()
+        };
+        Pose { rotation: turn * space.home.rotation, position: space.home.position + d }
+    };
+    (0..count).map(pose).collect()
+}
+
+/// Every kind of requirement, with limits that nothing violates.
+fn everything() -> Requirements {
+    let hardware = Hardware {
+        leg_length: Some(LengthLimits::Range(0.5, 60.0)),
+        base_swing: Some(Swing { limit_deg: 100.0, axes: JointAxes::Home }),
+        platform_swing: Some(Swing { limit_deg: 100.0, axes: JointAxes::Home }),
+        leg_body: Some(LegBody { diameter: 0.3, rod: Some((6.0, 0.2)) }),
+        leg_clearance: Some(0.05),
+        joint_diameter: Some(0.4),
+        max_leg_force: Some(1e4),
+        max_leg_speed: Some(100.0),
+        ..Hardware::default()
+    };
+    let post = Shape::Capsule { from: Point3::new(0.0, 0.0, -1.0), to: Point3::new(0.0, 0.0, 4.0), diameter: 1.0 };
+    let tool = Shape::Sphere { center: Point3::new(0.0, 0.0, -3.0), diameter: 1.0 };
+    let table = Shape::Box { center: Point3::new(0.0, 1.0, 2.0), size: Vector3::new(2.0, 1.0, 0.5) };
+    let body = |name: &str, fixed_to, shape| KeepOut { name: name.into(), fixed_to, shape };
+    let load = |fixed_to| Load {
+        name: "load".into(),
+        force: Vector3::new(2.0, 1.0, -20.0),
+        torque: Vector3::new(3.0, 0.0, 1.0),
+        at: Point3::new(0.5, 0.0, 2.0),
+        fixed_to,
+    };
+    Requirements {
+        hardware,
+        keep_outs: vec![body("post", FixedTo::Base, post), body("tool", FixedTo::Platform, tool), body("table", FixedTo::Base, table)],
+        loads: vec![load(FixedTo::Base), load(FixedTo::Platform)],
+        platform_speed: Some(PlatformSpeed { linear: 3.0, angular_deg: 60.0 }),
+        min_joint_distance: Some(0.1),
+    }
+}
+
+fn quick() -> AssessOptions {
+    AssessOptions { points: 30, searches: 1, ..AssessOptions::default() }
+}
+
+/// The least margin of every kind over many poses, in doubles.
+fn sampled(terms: &Terms<'_>, poses: &[Pose]) -> BTreeMap<TermKind, f64> {
+    let mut out = BTreeMap::new();
+    for pose in poses {
+        for (term, value) in terms.at(pose) {
+            let least: &mut f64 = out.entry(term.kind).or_insert(value);
+            *least = least.min(value);
+        }
+    }
+    out
+}
+
+#[test]
+fn no_sampled_pose_is_below_a_proved_margin_and_bounds_come_close() {
+    let mut rng = Rng::new(31);
+    let (mut close, mut all) = (0, 0);
+    for k in 0..6 {
+        let (m, home) = random_platform(&mut rng);
+        let region = if k % 2 == 0 { Region::Box } else { Region::Ellipsoid };
+        let space = random_space(home, &mut rng, region);
+        let required = everything();
+        let proof = prove(&m, &required, &space, &quick(), 150);
+        let terms = Terms::new(&m, &required, &home);
+        let least = sampled(&terms, &poses_of(&space, 1500, &mut rng));
+        for bound in proof.bounds.iter().filter(|b| !b.found.term.kind.is_fixed()) {
+            let kind = bound.found.term.kind;
+            let slack = terms.rounding(kind, bound.found.pose.as_ref());
+            assert!(bound.below <= least[&kind] + slack, "{k} {kind:?}: {bound:?} {}", least[&kind]);
+            assert!(bound.below <= bound.found.value + slack, "{k} {kind:?}");
+            assert!(bound.found.value <= least[&kind] + 0.02 * least[&kind].abs(), "{k} {kind:?}: {bound:?} {}", least[&kind]);
+            all += 1;
+            close += usize::from(bound.below > 0.7 * bound.found.value);
+        }
+        assert_eq!(proof.bounds.len(), 10);
+    }
+    assert!(close > all * 3 / 4, "{close} of {all}");
+}
+
+/// Limits a little beyond the worst value are proved to be met, limits a little short of it are found to be violated, in boxes and ellipsoids.
+#[test]
+fn limits_to_either_side_of_the_worst_value_are_decided() {
+    let mut rng = Rng::new(32);
+    let mut proved = 0;
+    for k in 0..6 {
+        let (m, home) = random_platform(&mut rng);
+        let region = if k % 2 == 0 { Region::Box } else { Region::Ellipsoid };
+        let space = random_space(home, &mut rng, region);
+        let with = |length: f64, swing: f64, speed: f64| {
+            let hardware = Hardware {
+                leg_length: Some(LengthLimits::Range(0.1, length)),
+                platform_swing: Some(Swing { limit_deg: swing, axes: JointAxes::Home }),
+                max_leg_speed: Some(speed),
+                ..Hardware::default()
+            };
+            let platform_speed = Some(PlatformSpeed { linear: 1.0, angular_deg: 40.0 });
+            Requirements { hardware, platform_speed, ..Requirements::default() }
+        };
+        let kinds = [TermKind::LegTooLong, TermKind::PlatformSwing, TermKind::LegSpeed];
+        let wide = [100.0, 170.0, 100.0];
+        let first = prove(&m, &with(wide[0], wide[1], wide[2]), &space, &AssessOptions { points: 400, ..quick() }, 60);
+        let worst: [f64; 3] = std::array::from_fn(|i| {
+            wide[i] - first.bounds.iter().find(|b| b.found.term.kind == kinds[i]).unwrap().found.value
+        });
+        for depth in [1e-2, 1e-3] {
+            let [a, b, c] = worst.map(|x| x * (1.0 - depth));
+            // no sampling at all: cells have to find it
+            let none = AssessOptions { points: 0, searches: 0, ..quick() };
+            let short = prove(&m, &with(a, b, c), &space, &none, 1500);
+            for bound in short.bounds.iter().filter(|b| kinds.contains(&b.found.term.kind)) {
+                assert_eq!(bound.verdict, Verdict::Violated, "{k} {depth}: {bound:?}");
+                let pose = bound.found.pose.unwrap();
+                let terms = with(a, b, c);
+                let there = Terms::new(&m, &terms, &home).at(&pose);
+                assert!(there.iter().any(|(t, v)| *t == bound.found.term && *v < 0.0));
+            }
+            assert_eq!(short.all_met(), Some(false));
+            let [a, b, c] = worst.map(|x| x * (1.0 + depth));
+            let beyond = prove(&m, &with(a, b, c), &space, &quick(), 1500);
+            assert!(beyond.all_met() != Some(false), "{k} {depth}: {beyond:?}");
+            proved += usize::from(beyond.all_met() == Some(true));
+        }
+    }
+    assert!(proved >= 10, "{proved} of 12");
+}
+
+/// Six vertical legs over a hexagon: lengths and gaps are known.
+#[test]
+fn bounds_of_upright_legs_are_those_by_hand() {
+    let ring = || -> Vec<Point3<f64>> {
+        let at = |i: usize| (i as f64 * std::f64::consts::FRAC_PI_3).sin_cos();
+        (0..6).map(|i| Point3::new(4.0 * at(i).1, 4.0 * at(i).0, 0.0)).collect()
+    };
+    let m = Manipulator::try_new(ring(), ring(), std::array::from_fn(|i| (i, i))).unwrap();
+    let home = Pose { rotation: Rotation3::identity(), position: Vector3::new(0.0, 0.0, 10.0) };
+    let mut r = Requirements::default();
+    r.hardware.leg_length = Some(LengthLimits::Range(7.5, 13.5));
+    r.hardware.leg_body = Some(LegBody { diameter: 1.0, rod: None });
+    let space = PoseSpace { translation: Vector3::new(3.0, 4.0, 2.0), ..PoseSpace::at(home) };
+    let proof = prove(&m, &r, &space, &quick(), 4000);
+    let of = |kind: TermKind| proof.bounds.iter().find(|b| b.found.term.kind == kind).unwrap();
+    let short = of(TermKind::LegTooShort);
+    assert!(short.verdict == Verdict::Met && short.below > 0.4 && short.below <= 0.5 + 1e-12, "{short:?}");
+    let long = of(TermKind::LegTooLong);
+    assert!(long.verdict == Verdict::Met && (long.found.value - 0.5).abs() < 1e-12, "{long:?}");
+    // parallel legs, 4 apart along x or 4 at 60 degrees: translation by (3, 4, z) leans them over
+    let gap = of(TermKind::LegClearance);
+    assert!(gap.below <= gap.found.value && gap.verdict == Verdict::Met, "{gap:?}");
+    // the limit itself: reached at a corner, not passed
+    r.hardware.leg_length = Some(LengthLimits::Range(8.0, 13.0));
+    r.hardware.leg_body = None;
+    let proof = prove(&m, &r, &space, &quick(), 4000);
+    assert_eq!(proof.all_met(), Some(true), "{proof:?}");
+    assert!(proof.bounds.iter().all(|b| b.found.value.abs() < 1e-9 && b.below > -1e-12));
+    r.hardware.leg_length = Some(LengthLimits::Range(8.0 + 1e-9, 13.0));
+    assert_eq!(prove(&m, &r, &space, &quick(), 4000).all_met(), Some(false));
+}
+
+#[test]
+fn a_trajectory_is_proved_between_its_poses() {
+    let mut rng = Rng::new(33);
+    let (m, home) = random_platform(&mut rng);
+    let at = |x: f64, turn: f64| Pose {
+        position: home.position + Vector3::new(x, 0.0, -1.0),
+        rotation: Rotation3::new(Vector3::z() * turn) * home.rotation,
+    };
+    let mut space = PoseSpace::at(home);
+    space.trajectory = vec![at(-6.0, 0.2), at(6.0, -0.2)];
+    let with = |least: f64| {
+        let hardware = Hardware { leg_length: Some(LengthLimits::Range(least, 40.0)), ..Hardware::default() };
+        Requirements { hardware, ..Requirements::default() }
+    };
+    let many = space.listed(20_000);
+    let shortest = sampled(&Terms::new(&m, &with(0.0), &home), &many)[&TermKind::LegTooShort];
+    let one_step = AssessOptions { steps: 1, ..quick() };
+    assert_eq!(prove(&m, &with(shortest * (1.0 - 1e-6)), &space, &one_step, 2000).all_met(), Some(true));
+    assert_eq!(prove(&m, &with(shortest * (1.0 + 1e-6)), &space, &one_step, 2000).all_met(), Some(false));
+}
+
+/// Housings as boxes and spheres: margins of joints that stand apart, touch, and overlap.
+#[test]
+fn gaps_of_housings_are_enclosed() {
+    let mut rng = Rng::new(34);
+    for _ in 0..200 {
+        let d = Vector3::from_fn(|_, _| rng.uniform(-3.0, 3.0));
+        let enclosed: Vector = std::array::from_fn(|k| Interval::from(d[k]));
+        let norm = dot_square(&enclosed).sqrt().unwrap();
+        let edges = Vector3::from_fn(|_, _| rng.uniform(0.1, 3.0));
+        for housing in [Housing::Sphere(1.0), Housing::Box(edges)] {
+            let (gap, found) = (housing.gap(&d), housing_gap(&housing, &enclosed, norm));
+            assert!(found.lo() - 1e-14 <= gap && gap <= found.hi() + 1e-14 && found.hi() - found.lo() < 1e-13);
+        }
+    }
+}
