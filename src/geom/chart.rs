@@ -124,7 +124,8 @@ impl Chart {
     }
 
     fn new(home: &Pose, columns: Vec<[Interval; 6]>, balls: Vec<Vec<usize>>, root: Cell) -> Self {
-        let middle = |c: &[Interval; 6], from: usize| Vector3::from_fn(|k, _| c[from + k].centre_and_radius().0);
+        let middle =
+            |c: &[Interval; 6], from: usize| Vector3::from_fn(|k, _| c[from + k].centre_and_radius().0);
         let steps = columns.iter().map(|c| (middle(c, 0), middle(c, 3))).collect();
         let position = std::array::from_fn(|k| Interval::from(home.position[k]));
         Self { rotation: Self::home_rotation(home), position, columns, balls, root, home: *home, steps }
@@ -141,8 +142,7 @@ impl Chart {
         let width = |k: usize| {
             if k < 3 { Interval::from(space.translation[k]) } else { radians(space.rotation_deg[k - 3]) }
         };
-        let column =
-            |k: &usize| std::array::from_fn(|i| if i == *k { width(i) } else { Interval::ZERO });
+        let column = |k: &usize| std::array::from_fn(|i| if i == *k { width(i) } else { Interval::ZERO });
         let group = |keep: &dyn Fn(usize) -> bool| -> Vec<usize> {
             (0..axes.len()).filter(|j| keep(axes[*j])).collect()
         };
@@ -257,7 +257,8 @@ mod tests {
             rotation_deg: Vector3::new(10.0, 20.0, 150.0),
             ..PoseSpace::at(home)
         };
-        let end = Pose { rotation: Rotation3::new(Vector3::z()) * rotation, position: Vector3::new(4.0, 0.0, 9.0) };
+        let end =
+            Pose { rotation: Rotation3::new(Vector3::z()) * rotation, position: Vector3::new(4.0, 0.0, 9.0) };
         space.trajectory = vec![home, end];
         space
     }

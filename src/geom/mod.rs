@@ -18,4 +18,4 @@ pub use pose_set::{PoseSpace, Region};
 pub use quaternion::{random_rotation, rotation_from_quaternion};
 pub use segment::{segment_box_distance, segment_distance};
 pub use trilateration::trilaterate;
-pub(crate) use turn::{TurnCoefficients, arc_cosine, degrees, radians, turn, turn_slope};
+pub(crate) use turn::{TurnCoefficients, arc_cosine, cosine, degrees, radians, sine, turn, turn_slope};

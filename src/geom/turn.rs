@@ -84,6 +84,23 @@ pub(crate) fn radians(degrees: f64) -> Interval {
     (Interval::from(degrees) * pi).checked_div(Interval::from(180.0)).unwrap_or(Interval::WHOLE)
 }
 
+/// Cosine of angles of at most a turn; of all numbers, else.
+pub(crate) fn cosine(angle: Interval) -> Interval {
+    let square = angle.square();
+    if square.hi() > LARGEST {
+        return Interval::new(-1.0, 1.0).unwrap_or(Interval::WHOLE);
+    }
+    // the series has slope -C_1 / 2, at most 1/2
+    let (middle, reach) = square.centre_and_radius();
+    let off = (Interval::from(reach) * Interval::from(0.5)).hi();
+    series(0, 0, Interval::from(middle)) + Interval::new(-off, off).unwrap_or(Interval::WHOLE)
+}
+
+/// Sine of angles of at most a turn.
+pub(crate) fn sine(angle: Interval) -> Interval {
+    angle * stumpff(1, 0, angle.square())
+}
+
 /// An angle in degrees.
 pub(crate) fn degrees(radians: Interval) -> Interval {
     let pi = Interval::new(std::f64::consts::PI, std::f64::consts::PI.next_up()).unwrap_or(Interval::WHOLE);
@@ -174,7 +191,10 @@ mod tests {
             for n in 0..3 {
                 for (k, enclosed) in [(1, c.first[n]), (2, c.second[n])] {
                     let (x, slack) = (plain(k, n, s), if n == 0 { 1e-15 } else { 1e-9 });
-                    assert!(enclosed.lo() - slack <= x && x <= enclosed.hi() + slack, "{k} {n} {s}: {x} {enclosed:?}");
+                    assert!(
+                        enclosed.lo() - slack <= x && x <= enclosed.hi() + slack,
+                        "{k} {n} {s}: {x} {enclosed:?}"
+                    );
                 }
             }
             // points are enclosed tightly
@@ -182,7 +202,9 @@ mod tests {
             assert!(a > 20.0 || point.first[0].hi() - point.first[0].lo() < 1e-13);
         }
         let at_zero = TurnCoefficients::over(Interval::ZERO);
-        for (n, (x, y)) in [(1.0, 0.5), (-1.0 / 6.0, -1.0 / 24.0), (1.0 / 60.0, 1.0 / 360.0)].into_iter().enumerate() {
+        for (n, (x, y)) in
+            [(1.0, 0.5), (-1.0 / 6.0, -1.0 / 24.0), (1.0 / 60.0, 1.0 / 360.0)].into_iter().enumerate()
+        {
             assert!((at_zero.first[n].lo() - x).abs() < 1e-15 && (at_zero.second[n].hi() - y).abs() < 1e-15);
         }
     }
@@ -205,7 +227,8 @@ mod tests {
             for k in 0..3 {
                 let slope = turn_slope(&point, k);
                 let step = Vector3::from_fn(|i, _| if i == k { 1e-5 } else { 0.0 });
-                let difference = (Rotation3::new(w + step).matrix() - Rotation3::new(w - step).matrix()) / 2e-5;
+                let difference =
+                    (Rotation3::new(w + step).matrix() - Rotation3::new(w - step).matrix()) / 2e-5;
                 for i in 0..3 {
                     for j in 0..3 {
                         assert!((slope[i][j].lo() - difference[(i, j)]).abs() < 1e-8);
@@ -223,10 +246,22 @@ mod tests {
             let found = arc_cosine(Interval::from(angle.cos()));
             assert!(found.contains(angle) && found.hi() - found.lo() < 1e-12, "{angle} {found:?}");
             assert!(degrees(found).contains(angle.to_degrees()));
+            let wide = Interval::new(angle - 0.01, angle + 0.02).unwrap();
+            assert!(sine(wide).contains(angle.sin()) && cosine(wide).contains(angle.cos()));
+            let point = Interval::from(-angle);
+            assert!(
+                (sine(point).lo() + angle.sin()).abs() < 1e-13
+                    && (cosine(point).hi() - angle.cos()).abs() < 1e-13
+            );
         }
-        for (cosine, angle) in [(1.0, 0.0), (-1.0, std::f64::consts::PI), (1.5, 0.0), (-2.0, std::f64::consts::PI)] {
+        for (cosine, angle) in
+            [(1.0, 0.0), (-1.0, std::f64::consts::PI), (1.5, 0.0), (-2.0, std::f64::consts::PI)]
+        {
             let found = arc_cosine(Interval::from(cosine));
-            assert!(found.lo() <= angle && angle <= found.hi() && found.hi() - found.lo() < 1e-7, "{found:?}");
+            assert!(
+                found.lo() <= angle && angle <= found.hi() && found.hi() - found.lo() < 1e-7,
+                "{found:?}"
+            );
         }
         assert!(arc_cosine(Interval::WHOLE).encloses(Interval::new(0.0, 3.0).unwrap()));
     }

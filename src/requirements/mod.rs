@@ -15,6 +15,7 @@ mod term;
 #[cfg(test)]
 mod tests;
 
+pub use crate::geom::{PoseSpace, Region};
 pub use assess::{AssessOptions, Assessment, Margin, assess};
 pub use bound::{MarginBound, Proof, Verdict, prove};
 pub use hardware::{Hardware, Housing, JointAxes, LegBody, LengthLimits, Swing};
@@ -22,7 +23,6 @@ pub use keep_out::{FixedTo, KeepOut, Shape};
 pub use limit::{Limit, Limits, PoseLimit};
 pub use load::{Load, leg_forces};
 pub use standing::Standing;
-pub use crate::geom::{PoseSpace, Region};
 pub use term::{Quantity, Term, TermKind, Terms};
 
 /// Greatest speed of the platform: every direction of motion up to these rates, together.

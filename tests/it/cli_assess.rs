@@ -98,3 +98,41 @@ fn a_design_that_requires_nothing_is_told_so() {
     let (code, doc) = assess("designs/dietmaier.toml");
     assert_eq!((code, doc["error"]["code"].as_str()), (Some(2), Some("assess::nothing_required")));
 }
+
+/// Version 0.1.0 said that the platform joints swing 0.2 degrees less than they may; a pose that its searches missed is 0.2 degrees beyond the limit.
+#[test]
+fn a_worst_pose_that_searches_miss_is_found_by_cells() {
+    let path = "tests/fixtures/adversarial/REP_assess.toml";
+    let out = equipod(&["assess", path, "--points", "0", "--searches", "0", "--cells", "1500", "--json"]);
+    let doc = document(&out);
+    assert_eq!((out.status.code(), doc["met"].as_bool()), (Some(1), Some(false)), "{doc}");
+    let margins = doc["margins"].as_array().unwrap();
+    let swing = margins.iter().find(|m| m["requirement"] == "platform_swing").unwrap();
+    assert_eq!((swing["status"].as_str(), swing["met"].as_bool()), (Some("violated"), Some(false)));
+    assert!(swing["margin"].as_f64().unwrap() < -0.19, "{swing}");
+    // a degree more is enough
+    let folder = tempfile::tempdir().unwrap();
+    let text = std::fs::read_to_string(path).unwrap();
+    let wider = folder.path().join("wider.toml");
+    std::fs::write(&wider, text.replace("platform_swing_deg = 16.926437", "platform_swing_deg = 17.926437"))
+        .unwrap();
+    let out = equipod(&["assess", wider.to_str().unwrap(), "--points", "50", "--json"]);
+    let doc = document(&out);
+    let margins = doc["margins"].as_array().unwrap();
+    let swing = margins.iter().find(|m| m["requirement"] == "platform_swing").unwrap();
+    assert_eq!(swing["status"], "met", "{swing}");
+    let bound = swing["proved_margin"].as_f64().unwrap();
+    assert!(bound >= 0.0 && bound <= swing["margin"].as_f64().unwrap());
+}
+
+/// What is not proved is neither met nor violated.
+#[test]
+fn without_cells_nothing_is_called_met_that_depends_on_the_pose() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = design(folder.path(), "[hardware]\nleg_length = [11.97, 20.64]\n");
+    let out = equipod(&["assess", &path, "--points", "50", "--cells", "0", "--json"]);
+    let doc = document(&out);
+    assert_eq!((out.status.code(), doc["met"].is_null()), (Some(3), true), "{doc}");
+    assert_eq!(doc["margins"][0]["status"], "searched");
+    assert_eq!(doc["regular"]["status"], "undecided");
+}

@@ -167,3 +167,17 @@ fn the_forty_modes_of_dietmaiers_platform_are_two_groups_of_twenty() {
     let crossing = between["pairs"].as_array().unwrap().iter().filter(|p| p["straight"] == "crosses").count();
     assert!(crossing > 600 && crossing < 780, "{crossing}");
 }
+
+/// Version 0.1.0 proved a box of Cayley parameters up to t = 1.0002 and called it the workspace: this pose of the workspace, at t = 0.9995, has the other sign of det J.
+#[test]
+fn the_proved_box_is_one_of_rotation_vectors() {
+    let design = "tests/fixtures/adversarial/REP_box.toml";
+    let doc = document(&equipod(&["singularities", design, "--regions", "3000", "--json"]));
+    let largest = (47.0066_f64).max(47.6845).max(45.4840) / 47.71;
+    let (proved, refuted) = (&doc["box"]["proved_scale"], &doc["box"]["singular_within"]["scale"]);
+    assert!(
+        proved.as_f64().unwrap() < refuted.as_f64().unwrap() && refuted.as_f64().unwrap() <= largest,
+        "{doc}"
+    );
+    assert!(proved.as_f64().unwrap() > 0.5);
+}

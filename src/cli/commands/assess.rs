@@ -159,7 +159,11 @@ fn text(design: &Design, found: &Found) -> String {
             Standing::AtLimit => ('=', 0.0),
             Standing::Violated => ('!', m.value),
         };
-        let below = if b.below.is_finite() { format!("{:.6}", b.below + 0.0) } else { "none".into() };
+        let below = match b.below {
+            x if b.verdict == Verdict::AtLimit || x == 0.0 => format!("{:.6}", 0.0),
+            x if x.is_finite() => format!("{x:.6}"),
+            _ => "none".into(),
+        };
         let of = design.names_of(m.term).join(", ");
         let _ = writeln!(
             out,
@@ -172,7 +176,11 @@ fn text(design: &Design, found: &Found) -> String {
     let _ = match &found.regularity {
         Regularity::Regular => writeln!(out, "\nNo singular pose in the workspace: proved."),
         Regularity::ChangesSign(pose) => {
-            writeln!(out, "\nThe workspace holds a singular pose: det J changes its sign on the way to {}.", shown(pose))
+            writeln!(
+                out,
+                "\nThe workspace holds a singular pose: det J changes its sign on the way to {}.",
+                shown(pose)
+            )
         }
         Regularity::Undecided(pose) => {
             writeln!(out, "\nNot proved to be free of singular poses; undecided near {}.", shown(pose))
@@ -180,7 +188,9 @@ fn text(design: &Design, found: &Found) -> String {
     };
     out.push_str("A margin below 0 is a violation (!); = at the limit, as far as rounding can tell, which is none. The proved margin is one that no pose of the workspace falls below.\n");
     if found.met().is_none() {
-        out.push_str("What is only searched may be violated between the poses looked at; more --cells may prove it.\n");
+        out.push_str(
+            "What is only searched may be violated between the poses looked at; more --cells may prove it.\n",
+        );
     }
     out
 }

@@ -42,9 +42,12 @@ impl System {
         };
         let (force, torque) = (turned(&load.force), turned(&load.torque));
         let lever = cross(&frame.turned(&enclosed(&load.at)), &force);
-        let right = std::array::from_fn(|r| {
-            if r < 3 { -force[r] } else { -(torque[r - 3] + lever[r - 3]).times(unit) }
-        });
+        let right =
+            std::array::from_fn(
+                |r| {
+                    if r < 3 { -force[r] } else { -(torque[r - 3] + lever[r - 3]).times(unit) }
+                },
+            );
         Self { rows, right, lengths: std::array::from_fn(|i| legs[i].square.root()) }
     }
 
@@ -101,7 +104,8 @@ impl Solver {
         }
         let norm = Interval::from(norm);
         Some(std::array::from_fn(|i| {
-            let sum = (0..6).fold(Interval::ZERO, |s, k| s + self.defect[i][k] * Interval::from(self.weights[k]));
+            let sum =
+                (0..6).fold(Interval::ZERO, |s, k| s + self.defect[i][k] * Interval::from(self.weights[k]));
             let off = (sum * norm).magnitude();
             start[i] + Interval::new(-off, off).unwrap_or(Interval::WHOLE)
         }))
@@ -113,9 +117,8 @@ impl Solver {
         let mut slopes = [[Interval::ZERO; 6]; 6];
         for k in 0..variables {
             let a = system.slopes(k);
-            let right = std::array::from_fn(|r| {
-                (0..6).fold(system.right[r].slope(k), |s, i| s - a[r][i] * value[i])
-            });
+            let right =
+                std::array::from_fn(|r| (0..6).fold(system.right[r].slope(k), |s, i| s - a[r][i] * value[i]));
             for (row, x) in slopes.iter_mut().zip(self.solve(&right)?) {
                 row[k] = x;
             }

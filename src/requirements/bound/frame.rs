@@ -36,7 +36,16 @@ impl<'a> Frame<'a> {
         let w = std::array::from_fn(|k| coordinate(k + 3));
         let square = norm_squared(&w);
         let c = TurnCoefficients::over(square.value);
-        Self { chart, variables, second, shift, w, square, first: square.composed(c.first), twice: square.composed(c.second) }
+        Self {
+            chart,
+            variables,
+            second,
+            shift,
+            w,
+            square,
+            first: square.composed(c.first),
+            twice: square.composed(c.second),
+        }
     }
 
     pub(super) fn constant(&self, x: Interval) -> Jet {

@@ -167,7 +167,9 @@ pub(super) fn gap(
     let (radii, radii_over) = (at.0.radius + at.1.radius, over.0.radius + over.1.radius);
     let plain = [at.0, at.1].map(|h| h.points.iter().map(middle).collect::<Vec<_>>());
     let weights = nearest(&plain[0], &plain[1]);
-    let joined = |points: &[Vector3<f64>], w: &[f64]| points.iter().zip(w).fold(Vector3::zeros(), |s, (p, w)| s + p * *w);
+    let joined = |points: &[Vector3<f64>], w: &[f64]| {
+        points.iter().zip(w).fold(Vector3::zeros(), |s, (p, w)| s + p * *w)
+    };
     let apart = joined(&plain[0], &weights.0) - joined(&plain[1], &weights.1);
     let upper = (distance_between((&at.0.points, &weights.0), (&at.1.points, &weights.1)) - radii).hi();
     let least = |bound: &dyn Fn((usize, usize)) -> Option<Bounded>, pairs: &[(usize, usize)]| {

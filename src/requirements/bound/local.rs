@@ -70,9 +70,11 @@ fn by_coordinate(chart: &Chart, multipliers: &[f64]) -> [f64; 6] {
 /// `f(z) + sum m (|z|^2 - 1) / 2`.
 fn constant(chart: &Chart, at: &Jet, z: &[f64; 6], multipliers: &[f64]) -> Interval {
     let point = Cell::point(*z);
-    let terms = chart.balls.iter().zip(multipliers).map(|(group, m)| {
-        Interval::from(0.5 * m) * (point.norm_squared(group) - Interval::from(1.0))
-    });
+    let terms = chart
+        .balls
+        .iter()
+        .zip(multipliers)
+        .map(|(group, m)| Interval::from(0.5 * m) * (point.norm_squared(group) - Interval::from(1.0)));
     at.value + sum(terms)
 }
 
@@ -80,11 +82,8 @@ fn constant(chart: &Chart, at: &Jet, z: &[f64; 6], multipliers: &[f64]) -> Inter
 pub(super) fn below(chart: &Chart, cell: &Cell, z: &[f64; 6], at: &Jet, over: &Jet) -> Bounded {
     let best = multipliers(chart, cell, at, z);
     let plain = with(chart, cell, z, at, over, &vec![0.0; best.len()]);
-    let found = if best.iter().any(|m| *m > 0.0) {
-        plain.max(with(chart, cell, z, at, over, &best))
-    } else {
-        plain
-    };
+    let found =
+        if best.iter().any(|m| *m > 0.0) { plain.max(with(chart, cell, z, at, over, &best)) } else { plain };
     Bounded { below: found.below.max(over.value.lo()), ..found }
 }
 
@@ -199,8 +198,10 @@ mod tests {
                     (a[i][j], a[j][i]) = (x, x);
                 }
             }
-            let form: Vec<Vec<Interval>> =
-                a.iter().map(|r| r.iter().map(|x| Interval::new(x - 0.01, x + 0.01).unwrap()).collect()).collect();
+            let form: Vec<Vec<Interval>> = a
+                .iter()
+                .map(|r| r.iter().map(|x| Interval::new(x - 0.01, x + 0.01).unwrap()).collect())
+                .collect();
             let least = form_below(form);
             definite += usize::from(least == 0.0);
             for _ in 0..400 {

@@ -6,6 +6,7 @@
 //!
 //! `docs/theory/requirements.md` has the functions and the bounds.
 
+mod cone;
 mod force;
 mod frame;
 mod gap;
@@ -14,14 +15,15 @@ mod local;
 mod tests;
 
 use std::cmp::Ordering;
-use std::collections::{BinaryHeap, BTreeMap};
+use std::collections::{BTreeMap, BinaryHeap};
 
+use self::cone::{Cone, Sector};
 use self::frame::{Frame, enclosed};
 use self::local::Bounded;
+use super::Requirements;
 use super::assess::{AssessOptions, Assessment, Margin, assess};
 use super::hardware::Housing;
 use super::term::{Term, TermKind, Terms};
-use super::Requirements;
 use crate::geom::enclosed::{Vector, dot};
 use crate::geom::{Cell, Chart, Covered, PoseSpace, arc_cosine, degrees, radians};
 use crate::manipulator::Manipulator;
@@ -92,7 +94,13 @@ impl Proof {
 ///
 /// Deterministic for a seed. Every pose of [`PoseSpace`] is covered: its region, its single poses, and the straight motions between those of its trajectory, whatever the number of steps.
 #[must_use]
-pub fn prove(m: &Manipulator, required: &Requirements, space: &PoseSpace, o: &AssessOptions, cells: usize) -> Proof {
+pub fn prove(
+    m: &Manipulator,
+    required: &Requirements,
+    space: &PoseSpace,
+    o: &AssessOptions,
+    cells: usize,
+) -> Proof {
     let Assessment { margins, poses } = assess(m, required, space, o);
     let terms = Terms::new(m, required, &space.home);
     let charts = Chart::all(space);
@@ -178,8 +186,14 @@ struct Open {
     function: usize,
     chart: usize,
     cell: Cell,
+    /// For swing: directions in which the leg leans.
+    sector: Sector,
+    /// What to halve: a coordinate, or the sector (6).
     axis: usize,
 }
+
+/// In place of a coordinate: the sector is halved.
+const SECTOR: usize = 6;
 
 impl PartialEq for Open {
     fn eq(&self, other: &Self) -> bool {
@@ -210,6 +224,30 @@ struct Evaluated {
     z: [f64; 6],
     /// The cell less what cannot hold the least margin; `None` when nothing is left.
     rest: Option<Cell>,
+    /// By how much the width of the sector loosens the bound.
+    loose_sector: f64,
+}
+
+/// What is known of a cell from one point of it.
+struct AtPoint {
+    bounded: Bounded,
+    upper: f64,
+    rest: Option<Cell>,
+    loose_sector: f64,
+    /// Slopes at the point, of a function that falls with the margin towards worse poses.
+    slope: Option<[f64; 6]>,
+}
+
+impl AtPoint {
+    fn nothing(cell: &Cell) -> Self {
+        Self {
+            bounded: Bounded::nothing(cell),
+            upper: f64::INFINITY,
+            rest: Some(*cell),
+            loose_sector: 0.0,
+            slope: None,
+        }
+    }
 }
 
 /// Local searches that go on from a cell, by function.
@@ -264,7 +302,8 @@ impl Judge<'_> {
         // the worst pose found so far, for a proof that it is one
         let pose = found.pose.map(|p| Judge { charts: vec![Chart::of_pose(&p)], axes: self.axes, ..*self });
         let upper = pose.map_or(f64::INFINITY, |judge| {
-            let point = |f: &Function| judge.evaluate(*f, 0, &Cell::point([0.0; 6]), None).upper;
+            let point =
+                |f: &Function| judge.evaluate(*f, 0, &Cell::point([0.0; 6]), &Sector::ALL, None).upper;
             functions.iter().map(point).fold(f64::INFINITY, f64::min)
         });
         let mut state = State {
@@ -278,7 +317,10 @@ impl Judge<'_> {
         let mut rng = Rng::stream(seed, 0x626e);
         for chart in 0..self.charts.len() {
             for f in 0..functions.len() {
-                self.push(&mut state, &functions, (f, chart), self.charts[chart].root, f64::NEG_INFINITY);
+                for sector in Sector::all(self.cone(functions[f], &self.charts[chart]).is_some()) {
+                    let root = self.charts[chart].root;
+                    self.push(&mut state, &functions, (f, chart), root, sector, f64::NEG_INFINITY);
+                }
             }
         }
         let rounding = |s: &State| {
@@ -286,21 +328,28 @@ impl Judge<'_> {
             self.terms.rounding(kind, pose.as_ref())
         };
         let mut slack = rounding(&state);
+        let most = state.cells + cells;
         let mut below = f64::INFINITY;
         while let Some(open) = state.heap.pop() {
             below = open.below;
             let upper = state.upper;
             let close = below >= CLOSE * upper.abs() || below >= upper - slack;
             let decided = upper < -slack || (close && below >= -slack);
-            if decided || state.cells >= cells {
+            if decided || state.cells >= most {
                 break;
             }
             let key = (open.function, open.chart);
             self.search(&mut state, &functions, key, &mut rng);
             slack = rounding(&state);
+            if open.axis == SECTOR {
+                for sector in open.sector.halves() {
+                    self.push(&mut state, &functions, key, open.cell, sector, open.below);
+                }
+                continue;
+            }
             let Some(parts) = open.cell.halves(open.axis) else { break };
             for part in parts {
-                self.push(&mut state, &functions, key, part, open.below);
+                self.push(&mut state, &functions, key, part, open.sector, open.below);
             }
         }
         if let Some((chart, z)) = state.worst {
@@ -324,6 +373,7 @@ impl Judge<'_> {
         functions: &[Function],
         (f, c): (usize, usize),
         cell: Cell,
+        sector: Sector,
         parent: f64,
     ) {
         let chart = &self.charts[c];
@@ -334,7 +384,7 @@ impl Judge<'_> {
         loop {
             state.cells += 1;
             let known = state.points.get(&(f, c)).map(|p| p.0);
-            let found = self.evaluate(functions[f], c, &cell, known);
+            let found = self.evaluate(functions[f], c, &cell, &sector, known);
             if found.upper < state.upper {
                 (state.upper, state.worst) = (found.upper, Some((c, found.z)));
             }
@@ -352,9 +402,12 @@ impl Judge<'_> {
             let loose = found.bounded.loose;
             let wide = |k: usize| cell.hi[k] > cell.lo[k];
             let better = |k: usize, best: usize| wide(k) && (!wide(best) || loose[k] > loose[best]);
-            let axis = (0..6).fold(0, |best, k| if better(k, best) { k } else { best });
+            let mut axis = (0..6).fold(0, |best, k| if better(k, best) { k } else { best });
+            if found.loose_sector > if wide(axis) { loose[axis] } else { 0.0 } {
+                axis = SECTOR;
+            }
             let number = state.cells;
-            state.heap.push(Open { below, number, function: f, chart: c, cell, axis });
+            state.heap.push(Open { below, number, function: f, chart: c, cell, sector, axis });
             return;
         }
     }
@@ -394,7 +447,7 @@ impl Judge<'_> {
                 step /= 3.0;
             }
         }
-        let found = self.evaluate(functions[f], c, &Cell::point(x), None);
+        let found = self.evaluate(functions[f], c, &Cell::point(x), &Sector::ALL, None);
         if found.upper < state.upper {
             (state.upper, state.worst) = (found.upper, Some((c, x)));
         }
@@ -406,7 +459,14 @@ impl Judge<'_> {
         }
     }
 
-    fn evaluate(&self, function: Function, c: usize, cell: &Cell, known: Option<[f64; 6]>) -> Evaluated {
+    fn evaluate(
+        &self,
+        function: Function,
+        c: usize,
+        cell: &Cell,
+        sector: &Sector,
+        known: Option<[f64; 6]>,
+    ) -> Evaluated {
         let chart = &self.charts[c];
         let held = |x: [f64; 6]| -> [f64; 6] { std::array::from_fn(|k| x[k].clamp(cell.lo[k], cell.hi[k])) };
         // where to expand: near the middle, and as near as possible to the worst point known where that is not far
@@ -420,23 +480,42 @@ impl Judge<'_> {
         }
         let second = !matches!(function, Function::Load(_));
         let over = Frame::over(chart, cell, second);
-        let mut best: Option<Evaluated> = None;
-        for z in points {
+        let mut out = Evaluated {
+            bounded: Bounded { below: f64::NEG_INFINITY, ..Bounded::nothing(cell) },
+            upper: f64::INFINITY,
+            z: points[0],
+            rest: Some(*cell),
+            loose_sector: 0.0,
+        };
+        for (number, z) in points.into_iter().enumerate() {
             let at = Frame::over(chart, &Cell::point(z), false);
-            let (bounded, upper, rest) = self.at_point(function, chart, cell, &z, (&at, &over));
+            let found = self.at_point(function, chart, cell, sector, &z, (&at, &over));
+            if number == 0 {
+                (out.bounded, out.rest, out.loose_sector) = (found.bounded, found.rest, found.loose_sector);
+            } else {
+                out.bounded = out.bounded.max(found.bounded);
+            }
             // only points of the workspace count
-            let upper = if chart.scale_of(&z) <= 1.0 { upper } else { f64::INFINITY };
-            best = Some(match best {
-                None => Evaluated { bounded, upper, z, rest },
-                Some(b) => Evaluated {
-                    bounded: b.bounded.max(bounded),
-                    upper: b.upper.min(upper),
-                    z: if upper < b.upper { z } else { b.z },
-                    rest: b.rest,
-                },
-            });
+            if chart.scale_of(&z) <= 1.0 && found.upper < out.upper {
+                (out.upper, out.z) = (found.upper, z);
+            }
+            if let (Some(slope), 0) = (found.slope, number) {
+                // where a function with these slopes is least
+                let y = held(farthest(chart, cell, &slope));
+                let there = Frame::over(chart, &Cell::point(y), false);
+                let upper = self.upper(function, &there);
+                if chart.scale_of(&y) <= 1.0 && upper < out.upper {
+                    (out.upper, out.z) = (upper, y);
+                }
+            }
         }
-        best.unwrap_or(Evaluated { bounded: Bounded::nothing(cell), upper: f64::INFINITY, z: cell.centre(), rest: Some(*cell) })
+        out
+    }
+
+    /// An upper bound of the margin at a point, for the functions of one leg.
+    fn upper(&self, function: Function, at: &Frame<'_>) -> f64 {
+        let Function::Leg(kind, i) = function else { return f64::INFINITY };
+        self.leg_value(kind, i, at).map_or(f64::INFINITY, |x| self.margin(kind, x.value).hi())
     }
 
     /// A lower bound over the cell, an upper one at `z`, and what is left of the cell.
@@ -445,68 +524,103 @@ impl Judge<'_> {
         function: Function,
         chart: &Chart,
         cell: &Cell,
+        sector: &Sector,
         z: &[f64; 6],
         frames: (&Frame<'_>, &Frame<'_>),
-    ) -> (Bounded, f64, Option<Cell>) {
-        let hardware = &self.required.hardware;
-        let clearance = Interval::from(hardware.leg_clearance.unwrap_or(0.0));
-        let apart = |pairs: Vec<(gap::Hull, gap::Hull, gap::Hull, gap::Hull)>| {
-            let each = pairs.iter().map(|(a, b, c, d)| gap::gap(chart, cell, z, (a, b), (c, d)));
-            let (mut bounded, mut upper) = (None, f64::INFINITY);
-            for (b, u) in each {
-                bounded = Some(bounded.map_or(b, |x: Bounded| x.min(b)));
-                upper = upper.min((Interval::from(u) - clearance).hi());
+    ) -> AtPoint {
+        let nothing = AtPoint::nothing(cell);
+        match function {
+            Function::Leg(kind, i) => {
+                let slopes = |at: &Jet| Some(std::array::from_fn(|k| at.slope(k).centre_and_radius().0));
+                if let Some(cone) = self.cone(function, chart) {
+                    let (Some(at), Some(over)) = (cone.value(frames.0, sector), cone.value(frames.1, sector))
+                    else {
+                        return nothing;
+                    };
+                    let mut bounded = local::below(chart, cell, z, &at.value, &over.value);
+                    bounded.below = cone.margin(bounded.below, &over);
+                    let loose_sector = over.loose;
+                    let upper = self.upper(function, frames.0);
+                    return AtPoint { bounded, upper, loose_sector, slope: slopes(&at.value), ..nothing };
+                }
+                let value = |frame: &Frame<'_>| self.leg_value(kind, i, frame);
+                let (Some(at), Some(over)) = (value(frames.0), value(frames.1)) else { return nothing };
+                let mut bounded = local::below(chart, cell, z, &at, &over);
+                bounded.below = self.margin(kind, Interval::from(bounded.below)).lo();
+                let (upper, rest) = (self.margin(kind, at.value).hi(), shrunk(chart, cell, &over));
+                AtPoint { bounded, upper, rest, slope: slopes(&at), ..nothing }
             }
-            let mut bounded = bounded.unwrap_or(Bounded::nothing(cell));
+            Function::Load(k) => {
+                let greatest = self.required.hardware.max_leg_force.unwrap_or(f64::INFINITY);
+                let load = &self.required.loads[k];
+                let (bounded, upper) = force::force(chart, cell, z, frames, self.m, load, greatest);
+                AtPoint { bounded, upper, ..nothing }
+            }
+            Function::Pair(i, j) => {
+                let parts = |frame: &Frame<'_>, i: usize| self.parts(frame, i);
+                let (ours, theirs) =
+                    ((parts(frames.0, i), parts(frames.1, i)), (parts(frames.0, j), parts(frames.1, j)));
+                self.gaps(chart, cell, z, (&ours.0, &ours.1), (&theirs.0, &theirs.1))
+            }
+            Function::Body(i, k) => {
+                let body = &self.required.keep_outs[k];
+                let ours = (self.parts(frames.0, i), self.parts(frames.1, i));
+                let theirs = (vec![gap::body_part(frames.0, body)], vec![gap::body_part(frames.1, body)]);
+                self.gaps(chart, cell, z, (&ours.0, &ours.1), (&theirs.0, &theirs.1))
+            }
+        }
+    }
+
+    /// Cylinder and rod of a leg.
+    fn parts(&self, frame: &Frame<'_>, i: usize) -> Vec<gap::Hull> {
+        self.required.hardware.leg_body.map_or_else(Vec::new, |body| gap::leg_parts(frame, self.m, i, &body))
+    }
+
+    /// The least gap of the parts of two bodies, each given at `z` and over the cell, less the clearance.
+    fn gaps(
+        &self,
+        chart: &Chart,
+        cell: &Cell,
+        z: &[f64; 6],
+        ours: (&[gap::Hull], &[gap::Hull]),
+        theirs: (&[gap::Hull], &[gap::Hull]),
+    ) -> AtPoint {
+        let clearance = Interval::from(self.required.hardware.leg_clearance.unwrap_or(0.0));
+        let mut out = AtPoint::nothing(cell);
+        let mut least: Option<Bounded> = None;
+        for (a, over_a) in matched(ours.0, ours.1) {
+            for (b, over_b) in matched(theirs.0, theirs.1) {
+                let (bounded, upper) = gap::gap(chart, cell, z, (a, b), (over_a, over_b));
+                least = Some(least.map_or(bounded, |l| l.min(bounded)));
+                out.upper = out.upper.min((Interval::from(upper) - clearance).hi());
+            }
+        }
+        if let Some(mut bounded) = least {
             if bounded.below.is_finite() {
                 bounded.below = (Interval::from(bounded.below) - clearance).lo();
             }
-            (bounded, upper, Some(*cell))
-        };
-        match function {
-            Function::Leg(kind, i) => {
-                let value = |frame: &Frame<'_>| self.leg_value(kind, i, frame);
-                let (Some(at), Some(over)) = (value(frames.0), value(frames.1)) else {
-                    return (Bounded::nothing(cell), f64::INFINITY, Some(*cell));
-                };
-                let mut bounded = local::below(chart, cell, z, &at, &over);
-                bounded.below = self.margin(kind, Interval::from(bounded.below)).lo();
-                (bounded, self.margin(kind, at.value).hi(), shrunk(chart, cell, &over))
-            }
-            Function::Load(k) => {
-                let greatest = hardware.max_leg_force.unwrap_or(f64::INFINITY);
-                let load = &self.required.loads[k];
-                let (bounded, upper) = force::force(chart, cell, z, frames, self.m, load, greatest);
-                (bounded, upper, Some(*cell))
-            }
-            Function::Pair(..) | Function::Body(..) => {
-                let Some(body) = hardware.leg_body else {
-                    return (Bounded::nothing(cell), f64::INFINITY, Some(*cell));
-                };
-                let parts = |frame: &Frame<'_>, i: usize| gap::leg_parts(frame, self.m, i, &body);
-                let (ours, all_ours, theirs, all_theirs) = match function {
-                    Function::Pair(i, j) => {
-                        (parts(frames.0, i), parts(frames.1, i), parts(frames.0, j), parts(frames.1, j))
-                    }
-                    Function::Body(i, k) => {
-                        let body = &self.required.keep_outs[k];
-                        let one = |frame: &Frame<'_>| vec![gap::body_part(frame, body)];
-                        (parts(frames.0, i), parts(frames.1, i), one(frames.0), one(frames.1))
-                    }
-                    _ => return (Bounded::nothing(cell), f64::INFINITY, Some(*cell)),
-                };
-                let mut pairs = Vec::new();
-                for (a, over_a) in matched(&ours, &all_ours) {
-                    for (b, over_b) in matched(&theirs, &all_theirs) {
-                        pairs.push((a.clone(), b.clone(), over_a.clone(), over_b.clone()));
-                    }
-                }
-                let (bounded, upper, rest) = apart(pairs);
-                // a pose whose parts differ from those of the cell says nothing by them
-                let sure = ours.len() == all_ours.len() && theirs.len() == all_theirs.len();
-                (bounded, if sure { upper } else { f64::INFINITY }, rest)
-            }
+            out.bounded = bounded;
         }
+        // a pose whose parts differ from those of the cell says nothing by them
+        if ours.0.len() != ours.1.len() || theirs.0.len() != theirs.1.len() {
+            out.upper = f64::INFINITY;
+        }
+        out
+    }
+
+    /// The cone in which a leg may lean, for limits below 90 degrees and regions; on single poses and steps the cosine is as good.
+    fn cone(&self, function: Function, chart: &Chart) -> Option<Cone<'_>> {
+        let Function::Leg(kind, leg) = function else { return None };
+        if chart.len() < 2 {
+            return None;
+        }
+        let (body, swing) = match kind {
+            TermKind::BaseSwing => (0, self.required.hardware.base_swing?),
+            TermKind::PlatformSwing => (1, self.required.hardware.platform_swing?),
+            _ => return None,
+        };
+        let (axis, length) = &self.axes[body][leg];
+        Cone::new(self.m, leg, body == 1, axis, *length, swing.limit_deg)
     }
 
     /// The function of a leg whose least value gives the least margin ([`Judge::margin`]).
@@ -578,6 +692,20 @@ impl Judge<'_> {
     }
 }
 
+/// Where a function with given slopes is least on the cell, by its balls and sides.
+fn farthest(chart: &Chart, cell: &Cell, slope: &[f64; 6]) -> [f64; 6] {
+    let mut out: [f64; 6] = std::array::from_fn(|k| if slope[k] > 0.0 { cell.lo[k] } else { cell.hi[k] });
+    for group in &chart.balls {
+        let norm = group.iter().map(|k| slope[*k] * slope[*k]).sum::<f64>().sqrt();
+        if norm > 0.0 {
+            for k in group {
+                out[*k] = -slope[*k] / norm * (1.0 - 4.0 * f64::EPSILON);
+            }
+        }
+    }
+    out
+}
+
 /// Parts at a point with those over the cell; with one part over the cell all of the point belong to it.
 fn matched<'h>(at: &'h [gap::Hull], over: &'h [gap::Hull]) -> Vec<(&'h gap::Hull, &'h gap::Hull)> {
     if at.len() == over.len() {
@@ -604,8 +732,11 @@ fn housing_gap(housing: &Housing, d: &Vector, norm: Interval) -> Interval {
     match housing {
         Housing::Sphere(diameter) => norm - Interval::from(*diameter),
         Housing::Box(edges) => {
-            let beside = |x: f64, edge: f64, side: fn(Interval) -> f64| side(Interval::from(x) - Interval::from(edge));
-            let least = |x: Interval| if x.lo() <= 0.0 && x.hi() >= 0.0 { 0.0 } else { x.lo().abs().min(x.hi().abs()) };
+            let beside =
+                |x: f64, edge: f64, side: fn(Interval) -> f64| side(Interval::from(x) - Interval::from(edge));
+            let least = |x: Interval| {
+                if x.lo() <= 0.0 && x.hi() >= 0.0 { 0.0 } else { x.lo().abs().min(x.hi().abs()) }
+            };
             let end = |size: &dyn Fn(usize) -> f64, side: fn(Interval) -> f64| {
                 let g: [f64; 3] = std::array::from_fn(|k| beside(size(k), edges[k], side));
                 let largest = g.into_iter().fold(f64::NEG_INFINITY, f64::max);

@@ -3,7 +3,7 @@
 use nalgebra::{Point3, Rotation3, Unit, Vector3};
 
 use super::*;
-use crate::geom::Region;
+use crate::geom::{Pose, Region};
 use crate::requirements::{
     FixedTo, Hardware, JointAxes, KeepOut, LegBody, LengthLimits, Load, PlatformSpeed, Shape, Swing,
 };
@@ -19,12 +19,15 @@ fn random_platform(rng: &mut Rng) -> (Manipulator, Pose) {
     };
     let (base, platform) = (joints(10.0, 0.0), joints(6.0, std::f64::consts::PI / 3.0));
     let m = Manipulator::try_new(base, platform, [(0, 5), (1, 0), (2, 1), (3, 2), (4, 3), (5, 4)]).unwrap();
-    let rotation = Rotation3::from_euler_angles(rng.uniform(-0.1, 0.1), rng.uniform(-0.1, 0.1), rng.uniform(-0.1, 0.1));
+    let rotation =
+        Rotation3::from_euler_angles(rng.uniform(-0.1, 0.1), rng.uniform(-0.1, 0.1), rng.uniform(-0.1, 0.1));
     (m, Pose { rotation, position: Vector3::new(0.3, -0.2, rng.uniform(10.0, 14.0)) })
 }
 
 fn random_space(home: Pose, rng: &mut Rng, region: Region) -> PoseSpace {
-    let mut half = |most: f64| Vector3::from_fn(|_, _| if rng.unit() < 0.2 { 0.0 } else { rng.uniform(0.2, 1.0) * most });
+    let mut half = |most: f64| {
+        Vector3::from_fn(|_, _| if rng.unit() < 0.2 { 0.0 } else { rng.uniform(0.2, 1.0) * most })
+    };
     PoseSpace { region, translation: half(2.0), rotation_deg: half(18.0), ..PoseSpace::at(home) }
 }
 
@@ -67,7 +70,8 @@ fn everything() -> Requirements {
         max_leg_speed: Some(100.0),
         ..Hardware::default()
     };
-    let post = Shape::Capsule { from: Point3::new(0.0, 0.0, -1.0), to: Point3::new(0.0, 0.0, 4.0), diameter: 1.0 };
+    let post =
+        Shape::Capsule { from: Point3::new(0.0, 0.0, -1.0), to: Point3::new(0.0, 0.0, 4.0), diameter: 1.0 };
     let tool = Shape::Sphere { center: Point3::new(0.0, 0.0, -3.0), diameter: 1.0 };
     let table = Shape::Box { center: Point3::new(0.0, 1.0, 2.0), size: Vector3::new(2.0, 1.0, 0.5) };
     let body = |name: &str, fixed_to, shape| KeepOut { name: name.into(), fixed_to, shape };
@@ -80,7 +84,11 @@ fn everything() -> Requirements {
     };
     Requirements {
         hardware,
-        keep_outs: vec![body("post", FixedTo::Base, post), body("tool", FixedTo::Platform, tool), body("table", FixedTo::Base, table)],
+        keep_outs: vec![
+            body("post", FixedTo::Base, post),
+            body("tool", FixedTo::Platform, tool),
+            body("table", FixedTo::Base, table),
+        ],
         loads: vec![load(FixedTo::Base), load(FixedTo::Platform)],
         platform_speed: Some(PlatformSpeed { linear: 3.0, angular_deg: 60.0 }),
         min_joint_distance: Some(0.1),
@@ -120,7 +128,11 @@ fn no_sampled_pose_is_below_a_proved_margin_and_bounds_come_close() {
             let slack = terms.rounding(kind, bound.found.pose.as_ref());
             assert!(bound.below <= least[&kind] + slack, "{k} {kind:?}: {bound:?} {}", least[&kind]);
             assert!(bound.below <= bound.found.value + slack, "{k} {kind:?}");
-            assert!(bound.found.value <= least[&kind] + 0.02 * least[&kind].abs(), "{k} {kind:?}: {bound:?} {}", least[&kind]);
+            assert!(
+                bound.found.value <= least[&kind] + 0.02 * least[&kind].abs(),
+                "{k} {kind:?}: {bound:?} {}",
+                least[&kind]
+            );
             all += 1;
             close += usize::from(bound.below > 0.7 * bound.found.value);
         }
@@ -150,7 +162,13 @@ fn limits_to_either_side_of_the_worst_value_are_decided() {
         };
         let kinds = [TermKind::LegTooLong, TermKind::PlatformSwing, TermKind::LegSpeed];
         let wide = [100.0, 170.0, 100.0];
-        let first = prove(&m, &with(wide[0], wide[1], wide[2]), &space, &AssessOptions { points: 400, ..quick() }, 60);
+        let first = prove(
+            &m,
+            &with(wide[0], wide[1], wide[2]),
+            &space,
+            &AssessOptions { points: 400, ..quick() },
+            60,
+        );
         let worst: [f64; 3] = std::array::from_fn(|i| {
             wide[i] - first.bounds.iter().find(|b| b.found.term.kind == kinds[i]).unwrap().found.value
         });
@@ -240,7 +258,9 @@ fn gaps_of_housings_are_enclosed() {
         let edges = Vector3::from_fn(|_, _| rng.uniform(0.1, 3.0));
         for housing in [Housing::Sphere(1.0), Housing::Box(edges)] {
             let (gap, found) = (housing.gap(&d), housing_gap(&housing, &enclosed, norm));
-            assert!(found.lo() - 1e-14 <= gap && gap <= found.hi() + 1e-14 && found.hi() - found.lo() < 1e-13);
+            assert!(
+                found.lo() - 1e-14 <= gap && gap <= found.hi() + 1e-14 && found.hi() - found.lo() < 1e-13
+            );
         }
     }
 }

@@ -23,8 +23,14 @@ fn home(m: &Manipulator) -> Pose {
     home
 }
 
-const OPTIONS: BoxOptions =
-    BoxOptions { region: Region::Box, translation: [60.0; 3], rotation_deg: [17.0; 3], regions: 12_000, enough: 0.7, seed: 1 };
+const OPTIONS: BoxOptions = BoxOptions {
+    region: Region::Box,
+    translation: [60.0; 3],
+    rotation_deg: [17.0; 3],
+    regions: 12_000,
+    enough: 0.7,
+    seed: 1,
+};
 
 /// Poses of the set of a scale, by a rotation formula of their own; every other one with all components at the boundary.
 fn poses_within(home: &Pose, o: &BoxOptions, scale: f64, count: usize, rng: &mut Rng) -> Vec<Pose> {
@@ -145,7 +151,8 @@ fn wide_rotations_never_contradict_the_proved_set() {
     let (mut proved, mut reached) = (0, 0);
     for k in 0..16 {
         let m = random_platform(&mut rng, k % 2 == 0);
-        let home = Pose { rotation: Rotation3::identity(), position: Vector3::new(0.0, 0.0, rng.uniform(0.8, 2.0)) };
+        let home =
+            Pose { rotation: Rotation3::identity(), position: Vector3::new(0.0, 0.0, rng.uniform(0.8, 2.0)) };
         let region = if k % 3 == 0 { Region::Ellipsoid } else { Region::Box };
         let options = BoxOptions {
             region,
@@ -209,10 +216,8 @@ fn a_workspace_is_judged_as_its_scale_is() {
 fn singular_poses_between_the_poses_of_a_trajectory_are_found() {
     let m = hexapod();
     let home = home(&m);
-    let turned = |deg: f64| Pose {
-        rotation: Rotation3::new(Vector3::z() * deg.to_radians()) * home.rotation,
-        ..home
-    };
+    let turned =
+        |deg: f64| Pose { rotation: Rotation3::new(Vector3::z() * deg.to_radians()) * home.rotation, ..home };
     let mut space = PoseSpace::at(home);
     space.trajectory = vec![turned(-60.0), home, turned(60.0)];
     assert_eq!(regular_workspace(&m, &space, 1000, 1).0, Regularity::Regular);
