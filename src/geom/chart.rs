@@ -110,7 +110,8 @@ impl Chart {
     /// `R_0` of the pose for every reading of it: its matrix as it is, and the rotation of its quaternion.
     fn home_rotation(home: &Pose) -> Rotation {
         let exact = exact_rotation(home);
-        let quarter_turns = home.rotation.matrix().iter().all(|x| *x == 0.0 || x.abs() == 1.0);
+        let quarter_turns =
+            home.rotation.matrix().iter().all(|x| *x == 0.0 || x.abs().to_bits() == 1.0_f64.to_bits());
         std::array::from_fn(|i| {
             std::array::from_fn(|j| {
                 let (x, y) = (home.rotation[(i, j)], exact[i][j]);

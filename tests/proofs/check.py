@@ -13,9 +13,10 @@ import sys
 import time
 
 import certificates
+import workspace
 from common import Tally
 
-TOPICS = {"certificates": certificates}
+TOPICS = {"certificates": certificates, "workspace": workspace}
 
 
 def main():

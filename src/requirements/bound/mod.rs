@@ -253,6 +253,9 @@ impl AtPoint {
 /// Local searches that go on from a cell, by function.
 const SEARCHES: usize = 3;
 
+/// Steps along the slopes from a point of each cell.
+const STEPS: usize = 6;
+
 /// Rounds of random steps of a local search.
 const ROUNDS: usize = 60;
 
@@ -474,7 +477,7 @@ impl Judge<'_> {
         if let Some(x) = known {
             let near = held(x);
             let close = (0..6).all(|k| (near[k] - x[k]).abs() <= cell.hi[k] - cell.lo[k]);
-            if close && near != points[0] {
+            if close && (0..6).any(|k| near[k].to_bits() != points[0][k].to_bits()) {
                 points.push(near);
             }
         }
@@ -499,17 +502,27 @@ impl Judge<'_> {
             if chart.scale_of(&z) <= 1.0 && found.upper < out.upper {
                 (out.upper, out.z) = (found.upper, z);
             }
-            if let (Some(slope), 0) = (found.slope, number) {
-                // where a function with these slopes is least
-                let y = held(farthest(chart, cell, &slope));
-                let there = Frame::over(chart, &Cell::point(y), false);
-                let upper = self.upper(function, &there);
-                if chart.scale_of(&y) <= 1.0 && upper < out.upper {
-                    (out.upper, out.z) = (upper, y);
-                }
+            if let (Some(slope), Function::Leg(kind, i), 0) = (found.slope, function, number) {
+                self.follow((kind, i), chart, slope, &mut out);
             }
         }
         out
+    }
+
+    /// Goes to the pose of the workspace where a function with the slopes of this point is least, and on from there as long as margins fall: for functions with
+    /// their least values on the boundary, as lengths and angles have them, this ends at a local one after a few steps.
+    fn follow(&self, (kind, i): (TermKind, usize), chart: &Chart, mut slope: [f64; 6], out: &mut Evaluated) {
+        for _ in 0..STEPS {
+            let y = farthest(chart, &slope);
+            let there = Frame::over(chart, &Cell::point(y), false);
+            let Some(value) = self.leg_value(kind, i, &there) else { return };
+            let upper = self.margin(kind, value.value).hi();
+            if !(chart.scale_of(&y) <= 1.0 && upper < out.upper) {
+                return;
+            }
+            (out.upper, out.z) = (upper, y);
+            slope = std::array::from_fn(|k| value.slope(k).centre_and_radius().0);
+        }
     }
 
     /// An upper bound of the margin at a point, for the functions of one leg.
@@ -692,9 +705,10 @@ impl Judge<'_> {
     }
 }
 
-/// Where a function with given slopes is least on the cell, by its balls and sides.
-fn farthest(chart: &Chart, cell: &Cell, slope: &[f64; 6]) -> [f64; 6] {
-    let mut out: [f64; 6] = std::array::from_fn(|k| if slope[k] > 0.0 { cell.lo[k] } else { cell.hi[k] });
+/// Where a function with given slopes is least on a chart.
+fn farthest(chart: &Chart, slope: &[f64; 6]) -> [f64; 6] {
+    let root = &chart.root;
+    let mut out: [f64; 6] = std::array::from_fn(|k| if slope[k] > 0.0 { root.lo[k] } else { root.hi[k] });
     for group in &chart.balls {
         let norm = group.iter().map(|k| slope[*k] * slope[*k]).sum::<f64>().sqrt();
         if norm > 0.0 {
