@@ -6,7 +6,7 @@ use super::Class;
 use super::generator::{LengthsFrom, NotDrawn, problem};
 use super::run::RunError;
 use super::statistics::quantile;
-use crate::fk::{FkOptions, FkSolutions, ForwardKinematics, Reality, Threads, in_order};
+use crate::fk::{FkOptions, FkSolutions, ForwardKinematics, PoseCounting, Reality, Threads, in_order};
 use crate::geom::Pose;
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::num::Rng;
@@ -103,7 +103,7 @@ fn disturbed(s: &SquaredLegLengths, sigma: f64, n: &[f64; 6]) -> Option<SquaredL
 fn one(plan: &NoisePlan, solver: &dyn ForwardKinematics, k: u64) -> Result<Vec<Errors>, NotDrawn> {
     let (m, truth, n) = draw(plan.class, plan.seed, k)?;
     let exact = truth.squared_lengths(&m).ok_or(NotDrawn::Lengths)?;
-    let options = FkOptions { seed: plan.seed, ..FkOptions::default() };
+    let options = FkOptions { seed: plan.seed, pose_count: PoseCounting::Never, ..FkOptions::default() };
     let at = |sigma: &f64| {
         let s = disturbed(&exact, *sigma, &n)?;
         errors(&solver.solve(&m, &s, &options).ok()?, &truth)

@@ -11,7 +11,7 @@ use super::expectation::expected_count;
 use super::generator::{LengthsFrom, NotDrawn, Problem, problem};
 use super::statistics::{Report, summarise};
 use super::validator::{Claim, Verdict, validate};
-use crate::fk::{Completeness, FkOptions, FkSolutions, ForwardKinematics};
+use crate::fk::{Completeness, FkOptions, FkSolutions, ForwardKinematics, PoseCounting};
 use crate::geom::ComplexPose;
 use crate::solve::certify::Certifier;
 
@@ -30,6 +30,8 @@ pub struct Plan {
     pub seed: u64,
     /// Threads; each problem is solved on one.
     pub threads: usize,
+    /// Whether poses are counted modulo random primes where completeness is not proved.
+    pub count_poses: bool,
     /// Every so many problems the reference solver solves it again from two other starts; 0 for never.
     pub recheck_every: u64,
 }
@@ -105,7 +107,11 @@ pub(super) fn claims_of(problem: &Problem, found: &FkSolutions) -> (Vec<Claim>, 
 }
 
 fn starts(seed: u64) -> [FkOptions; 2] {
-    [1, 2].map(|k: u64| FkOptions { seed: seed.wrapping_add(k * 7_919), ..FkOptions::default() })
+    [1, 2].map(|k: u64| FkOptions {
+        seed: seed.wrapping_add(k * 7_919),
+        pose_count: PoseCounting::Never,
+        ..FkOptions::default()
+    })
 }
 
 fn one(
@@ -116,7 +122,11 @@ fn one(
     reference: &dyn ForwardKinematics,
 ) -> Result<Outcome, NotDrawn> {
     let problem = problem(plan.class, plan.lengths, plan.seed, k)?;
-    let options = FkOptions { seed: plan.seed, ..FkOptions::default() };
+    let options = FkOptions {
+        seed: plan.seed,
+        pose_count: if plan.count_poses { PoseCounting::WhenUnproved } else { PoseCounting::Never },
+        ..FkOptions::default()
+    };
     let start = Instant::now();
     let solved = solver.solve(&problem.manipulator, &problem.squares, &options);
     let solve_us = start.elapsed().as_secs_f64() * 1e6;
@@ -124,7 +134,7 @@ fn one(
         Ok(found) => {
             let said = match &found.completeness {
                 Completeness::Proved { argument } => argument.clone(),
-                Completeness::Unproved { reason, .. } => reason.clone(),
+                _ => found.completeness_reason(),
             };
             (Some(found), said)
         }
@@ -148,7 +158,10 @@ fn one(
     verdict.missed = verdict.missed.max(expected.saturating_sub(verdict.counted));
     let proved = found.as_ref().is_some_and(|f| matches!(f.completeness, Completeness::Proved { .. }));
     // a proof of completeness is a certificate too
-    verdict.false_certificates += usize::from(proved && verdict.missed > 0);
+    let claimed_complete = found
+        .as_ref()
+        .is_some_and(|f| matches!(f.completeness, Completeness::Proved { .. } | Completeness::Modular));
+    verdict.false_certificates += usize::from(claimed_complete && verdict.missed > 0);
     let poses: Vec<ComplexPose> = claims.iter().map(|c| c.pose).collect();
     Ok(Outcome {
         k,

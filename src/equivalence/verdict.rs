@@ -5,7 +5,7 @@ use thiserror::Error;
 use super::determined::{ROUNDED, is_beyond_precision};
 use super::matching::{PoseMatching, match_poses};
 use super::sample::{Sample, SamplePlan};
-use crate::fk::{FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, solver};
+use crate::fk::{FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, PoseCounting, solver};
 use crate::geom::ComplexPose;
 use crate::manipulator::{LegIndex, Manipulator};
 use crate::num::linalg::LinalgError;
@@ -210,6 +210,8 @@ fn take_sample(
         None => pose.squared_lengths(b).ok_or(none)?,
     };
     let failed = |platform| move |error| VerifyError::ForwardKinematics { platform, error };
+    // the two sets are compared with each other: poses that joints in double precision do not determine are set aside there, not counted
+    let options = &FkOptions { pose_count: PoseCounting::Never, ..*options };
     let solutions_a = solver(None).solve(a, &squares_a, options).map_err(failed("A"))?;
     let solutions_b = Homotopy.solve(b, &squares_b, options).map_err(failed("B"))?;
     let matching = matched(&solutions_a, &solutions_b, a.size().max(b.size()));

@@ -1,12 +1,19 @@
-//! Platforms whose leg equations are linearly dependent: no pose at all, or curves of poses.
+//! Platforms that cannot be assembled, and sets of poses of positive dimension.
 
 use super::homotopy::pose_of;
+use super::judge::counted;
 use super::newton::on_a_curve;
-use super::{Completeness, FkError, FkOptions, FkRoot, FkSolutions, Method, Reality, SolutionSet};
+use super::real_points::real_points;
+use super::{
+    Completeness, FkError, FkOptions, FkRoot, FkSolutions, Method, Reality, Rejected, RejectionReason,
+    SolutionSet,
+};
+use crate::geom::{ComplexPose, Pose};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::num::Rng;
 use crate::solve::Frame;
 use crate::solve::homotopy::{EndKind, Path, StartKind, solve_sections};
+use crate::solve::pose_count::PoseSet;
 
 /// Leg equations count as dependent below this sine when curves are looked for.
 const RANK: f64 = 1e-9;
@@ -21,6 +28,7 @@ fn without_roots(reason: String, solution_set: SolutionSet, o: &FkOptions) -> Fk
         completeness: Completeness::Unproved { reason, all_paths_accounted: true },
         paths: Vec::new(),
         rejected: Vec::new(),
+        pose_count: None,
         seed: o.seed,
     }
 }
@@ -34,7 +42,7 @@ pub(super) fn incompatible(o: &FkOptions) -> FkSolutions {
     out
 }
 
-/// Dependent leg equations: as many random sections as there are relations, and the points they cut out.
+/// Dependent leg equations: as many random sections as there are relations, or as the poses have dimensions, and the points they cut out.
 ///
 /// `proved` is the number of relations known to hold exactly, 0 when none is.
 pub(super) fn curves(
@@ -44,33 +52,20 @@ pub(super) fn curves(
     frame: &Frame,
     proved: usize,
 ) -> Result<FkSolutions, FkError> {
-    let breakdown = |what: &str| FkError::Breakdown { what: what.to_owned() };
-    let mut best: Option<(Vec<FkRoot>, usize, bool)> = None;
-    for slice in 0..SLICES {
-        let mut rng = Rng::stream(o.seed, 1000 + slice);
-        let (sections, dimension) = frame
-            .sliced_sections(m, s, RANK, &mut rng)
-            .ok_or_else(|| breakdown("the leg equations have no rank"))?;
-        let paths =
-            solve_sections(StartKind::Generic, &sections, o.seed).map_err(|e| breakdown(&e.to_string()))?;
-        let points = witnesses(m, s, o, frame, &paths);
-        let clean = paths.iter().all(|p| !matches!(p.kind, EndKind::Failed | EndKind::Singular));
-        let finite = paths.iter().filter(|p| p.kind == EndKind::Regular).count();
-        let established = proved > 0 && dimension == proved && clean && finite == points.len() && finite > 0;
-        let real = points.iter().any(|p| p.reality == Reality::Real);
-        if best.is_none() || real {
-            best = Some((points, dimension, established));
-        }
-        if real {
-            break;
-        }
+    let count = counted(m, s, o);
+    let least = match count.as_ref().map(|c| &c.set) {
+        Some(PoseSet::PositiveDimensional { dimension, .. }) => *dimension,
+        _ => 0,
+    };
+    let cuts = cut(m, s, o, frame, least)?;
+    let dimension = cuts.dimension;
+    let established = proved > 0 && dimension == proved && cuts.clean && !cuts.points.is_empty();
+    let mut points = cuts.points;
+    let sections = points.len();
+    if points.iter().all(|p| p.reality != Reality::Real) {
+        points.extend(searched(m, s, o));
     }
-    let (points, dimension, established) = best.ok_or_else(|| breakdown("no slice was made"))?;
-    Ok(report(points, dimension, established, o))
-}
-
-fn report(points: Vec<FkRoot>, dimension: usize, established: bool, o: &FkOptions) -> FkSolutions {
-    let real = points.iter().filter(|p| p.reality == Reality::Real).count();
+    let mut out = without_roots(String::new(), SolutionSet::Isolated, o);
     let relation = if established {
         "a relation between the leg vectors holds exactly and"
     } else {
@@ -78,14 +73,107 @@ fn report(points: Vec<FkRoot>, dimension: usize, established: bool, o: &FkOption
     };
     let reason = format!(
         "{relation} the lengths satisfy it within rounding: the poses form a set of dimension {dimension} (at least), which a general \
-         section of that codimension meets in {} finite points, {real} of them real in this section; isolated poses beside it are not \
-         looked for",
-        points.len(),
+         section of that codimension meets in {sections} finite points; {}; isolated poses beside it are not looked for",
+        real_part(&points),
     );
-    let set = SolutionSet::PositiveDimensional { dimension, witnesses: points, established };
-    let mut out = without_roots(String::new(), set, o);
+    out.solution_set = SolutionSet::PositiveDimensional { dimension, witnesses: points, established };
     out.completeness = Completeness::Unproved { reason, all_paths_accounted: established };
-    out
+    out.pose_count = count;
+    Ok(out)
+}
+
+/// The answer for a set of positive dimension that the count has found: points on it in place of the ends of paths, which are arbitrary. Certified
+/// roots are isolated poses beside it and stay; what has no certificate is no root.
+pub(super) fn positive_dimensional(
+    mut found: FkSolutions,
+    m: &Manipulator,
+    s: &SquaredLegLengths,
+    o: &FkOptions,
+    frame: &Frame,
+    dimension: usize,
+) -> Result<FkSolutions, FkError> {
+    let (isolated, others): (Vec<FkRoot>, Vec<FkRoot>) = found.roots.into_iter().partition(FkRoot::certified);
+    let reason = RejectionReason::NotCertified;
+    found.rejected.extend(others.iter().map(|r| Rejected { reason, residual: r.residual }));
+    found.roots = isolated;
+    forget_numbering(&mut found.paths);
+    let mut points = cut(m, s, o, frame, dimension)?.points;
+    let sections = points.len();
+    points.extend(searched(m, s, o));
+    let reason = format!(
+        "general sections of that codimension met it numerically in {sections} points; {}; {} certified isolated poses beside it are listed, \
+         and others may be missing",
+        real_part(&points),
+        found.roots.len(),
+    );
+    found.completeness = Completeness::Unproved { reason, all_paths_accounted: false };
+    found.solution_set =
+        SolutionSet::PositiveDimensional { dimension, witnesses: points, established: false };
+    Ok(found)
+}
+
+/// What is known of the real points.
+fn real_part(points: &[FkRoot]) -> String {
+    match points.iter().filter(|p| p.reality == Reality::Real).count() {
+        0 => "no real pose was found on it by sections and a search from 24 starts, which is no proof that there is none".to_owned(),
+        real => format!("{real} of the points listed are real, found numerically"),
+    }
+}
+
+/// Where random sections meet a set.
+struct Cuts {
+    points: Vec<FkRoot>,
+    dimension: usize,
+    /// All paths of the sections have a regular end or none, and all regular ends are points of the set.
+    clean: bool,
+}
+
+/// Real random sections, as many as dimensions, up to [`SLICES`] times until one has a real point.
+fn cut(
+    m: &Manipulator,
+    s: &SquaredLegLengths,
+    o: &FkOptions,
+    frame: &Frame,
+    least: usize,
+) -> Result<Cuts, FkError> {
+    let breakdown = |what: &str| FkError::Breakdown { what: what.to_owned() };
+    let mut best: Option<Cuts> = None;
+    for slice in 0..SLICES {
+        let mut rng = Rng::stream(o.seed, 1000 + slice);
+        let (sections, dimension) = frame
+            .sliced_sections(m, s, RANK, least, &mut rng)
+            .ok_or_else(|| breakdown("the leg equations have no rank"))?;
+        let paths =
+            solve_sections(StartKind::Generic, &sections, o.seed).map_err(|e| breakdown(&e.to_string()))?;
+        let points = witnesses(m, s, o, frame, &paths);
+        let clean = paths.iter().all(|p| !matches!(p.kind, EndKind::Failed | EndKind::Singular));
+        let finite = paths.iter().filter(|p| p.kind == EndKind::Regular).count();
+        let real = points.iter().any(|p| p.reality == Reality::Real);
+        if best.is_none() || real {
+            best = Some(Cuts { clean: clean && finite == points.len(), points, dimension });
+        }
+        if real {
+            break;
+        }
+    }
+    best.ok_or_else(|| breakdown("no slice was made"))
+}
+
+/// Real poses on real components, as records without a certificate.
+fn searched(m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Vec<FkRoot> {
+    let record = |pose: &Pose| {
+        let pose = ComplexPose::from(*pose);
+        FkRoot {
+            pose,
+            reality: Reality::Real,
+            certificate: None,
+            multiplicity: 1,
+            residual: pose.residual(m, s),
+            condition: f64::INFINITY,
+            dual_quaternion: None,
+        }
+    };
+    real_points(m, s, o.seed).iter().map(record).collect()
 }
 
 fn witnesses(
@@ -127,6 +215,14 @@ fn witnesses(
     out
 }
 
+/// The numbering of the roots has changed.
+fn forget_numbering(paths: &mut [super::PathReport]) {
+    for path in paths {
+        path.root = None;
+        path.mirror_root = None;
+    }
+}
+
 /// Moves uncertified roots that lie on curves of poses out of the list of isolated ones.
 pub(super) fn detect_curves(found: &mut FkSolutions, m: &Manipulator, s: &SquaredLegLengths) {
     let suspect = |r: &FkRoot| !r.certified() && !(r.condition < 1e6);
@@ -140,11 +236,7 @@ pub(super) fn detect_curves(found: &mut FkSolutions, m: &Manipulator, s: &Square
     if curve.is_empty() {
         return;
     }
-    for path in &mut found.paths {
-        // the numbering of the roots has changed
-        path.root = None;
-        path.mirror_root = None;
-    }
+    forget_numbering(&mut found.paths);
     let reason = format!(
         "{} paths end on curves of poses (self-motions), found numerically; further curves and isolated poses may be missing",
         curve.iter().map(|r| r.multiplicity).sum::<u32>()

@@ -52,6 +52,7 @@ impl Candidates {
             completeness: Completeness::Unproved { reason: String::new(), all_paths_accounted: false },
             paths: Vec::new(),
             rejected,
+            pose_count: None,
             seed: o.seed,
         };
         attach(&mut solutions, m, s, GENERAL, Vec::new());

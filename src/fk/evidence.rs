@@ -100,8 +100,8 @@ fn conclude(solutions: &mut FkSolutions, m: &Manipulator, certificates: &[Certif
 }
 
 /// With as many certified roots as there can be, what has no certificate is no further root.
-fn reject_others(solutions: &mut FkSolutions) {
-    if solutions.roots.iter().all(|r| r.certified()) {
+pub(super) fn reject_others(solutions: &mut FkSolutions) {
+    if solutions.roots.iter().all(super::FkRoot::certified) {
         return;
     }
     let mut place = Vec::new();

@@ -2,9 +2,10 @@
 
 use num_complex::Complex64;
 
-use super::dependent::{curves, detect_curves, incompatible};
+use super::dependent::{curves, detect_curves, incompatible, positive_dimensional};
 use super::evidence::{GENERAL, attach};
 use super::harvest::{End, Harvest, harvest};
+use super::judge::{Judgement, counted, judge};
 use super::{
     Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, PathEnd, PathReport,
     SolutionSet,
@@ -13,6 +14,7 @@ use crate::geom::{ComplexPose, rotation_from_quaternion};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::solve::certify::Certificate;
 use crate::solve::homotopy::{EndKind, GENERIC_COUNT, Path, StartKind, solve_sections};
+use crate::solve::pose_count::PoseCount;
 use crate::solve::{Dependence, Frame, Sections, dependence, mirror, quaternion_product, split};
 
 /// Times the whole problem is tracked again with another gamma when paths fail.
@@ -43,28 +45,61 @@ impl ForwardKinematics for Homotopy {
         };
         let Some(sections) = frame.sections(m, s) else { return curves(m, s, o, &frame, 0) };
         let mut best: Option<FkSolutions> = None;
+        let mut count: Option<PoseCount> = None;
         let generic = (0..ATTEMPTS).map(|k| (Problem { frame, sections, kind: StartKind::Generic }, k));
         let planar = Problem::planar(m, s).map(|p| (p, 0));
         for (problem, attempt) in planar.into_iter().chain(generic) {
             let seed = o.seed.wrapping_add(attempt.wrapping_mul(0x9e37_79b9));
             let (mut found, certificates) = problem.solve(m, s, o, seed)?;
             attach(&mut found, m, s, GENERAL, certificates);
-            detect_curves(&mut found, m, s);
+            if matches!(found.completeness, Completeness::Proved { .. }) {
+                return Ok(found);
+            }
+            // before any end without a proof is taken for a pose: what kind of set is it?
+            if count.is_none() {
+                count = counted(m, s, o);
+            }
+            let uncertified = found.roots.iter().any(|r| !r.certified()).then(|| found.clone());
+            let judgement = count.as_ref().map_or(Ok(Judgement::Silent), |c| judge(&mut found, c))?;
+            match judgement {
+                Judgement::Complete => {
+                    return Ok(moving_within_rounding(uncertified, m, s, count).unwrap_or(found));
+                }
+                Judgement::PositiveDimensional { dimension } => {
+                    return positive_dimensional(found, m, s, o, &frame, dimension);
+                }
+                Judgement::Short => {}
+                Judgement::Silent => detect_curves(&mut found, m, s),
+            }
             if nearly {
                 doubt_near_relation(&mut found);
             }
-            let settled = nearly || found.solution_set != SolutionSet::Isolated;
+            let settled =
+                (nearly && judgement == Judgement::Silent) || found.solution_set != SolutionSet::Isolated;
             if settled || found.all_accounted() {
                 return Ok(found);
             }
             let certified = |f: &FkSolutions| f.roots.iter().filter(|r| r.certified()).count();
-            let rank = |f: &FkSolutions| (failures(f), std::cmp::Reverse(certified(f)));
+            let rank = |f: &FkSolutions| (std::cmp::Reverse(certified(f)), failures(f));
             if best.as_ref().is_none_or(|b| rank(&found) < rank(b)) {
                 best = Some(found);
             }
         }
         best.ok_or_else(|| FkError::Breakdown { what: "no attempt was made".to_owned() })
     }
+}
+
+/// Lengths of a motion, rounded, are lengths of no motion: the design as written has the poses that are certified and no others, and next to it are designs that move. That is said, and nothing is called complete.
+fn moving_within_rounding(
+    found: Option<FkSolutions>,
+    m: &Manipulator,
+    s: &SquaredLegLengths,
+    count: Option<PoseCount>,
+) -> Option<FkSolutions> {
+    let mut found = found?;
+    detect_curves(&mut found, m, s);
+    found.pose_count = count;
+    matches!(found.solution_set, SolutionSet::PositiveDimensional { .. }).then_some(found)
 }
 
 /// Failed paths, each counted once for every pose it stands for.
@@ -231,6 +266,7 @@ fn assemble(
         completeness: Completeness::Unproved { reason, all_paths_accounted },
         paths: reports,
         rejected: collected.rejected,
+        pose_count: None,
         seed: o.seed,
     };
     (solutions, certificates)

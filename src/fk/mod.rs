@@ -16,9 +16,11 @@ mod evidence;
 mod harvest;
 mod hidden;
 mod homotopy;
+mod judge;
 mod near;
 mod newton;
 mod octic;
+mod real_points;
 mod solutions;
 mod sylvester;
 mod template;
@@ -49,8 +51,20 @@ use thiserror::Error;
 pub struct FkOptions {
     /// Seed of the generic constants (gamma, patches). Same seed, same output.
     pub seed: u64,
+    /// Whether poses are counted modulo random primes when completeness is not proved otherwise: some milliseconds a problem.
+    pub pose_count: PoseCounting,
     /// Limits relative to the design that decide what counts as one root, a real root, a root at all.
     pub tolerances: FkTolerances,
+}
+
+/// When the finite poses are counted (see [`crate::solve::pose_count`]).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum PoseCounting {
+    /// Where no theorem says that the poses found are all.
+    #[default]
+    WhenUnproved,
+    /// Not at all: then completeness is proved by a theorem or not known, and sets of positive dimension are recognised numerically only.
+    Never,
 }
 
 /// Dimensionless limits; positions are divided by the size of the design before they are compared.
@@ -72,7 +86,7 @@ impl Default for FkTolerances {
 
 impl Default for FkOptions {
     fn default() -> Self {
-        Self { seed: 1, tolerances: FkTolerances::default() }
+        Self { seed: 1, pose_count: PoseCounting::default(), tolerances: FkTolerances::default() }
     }
 }
 
@@ -87,6 +101,12 @@ pub enum FkError {
         method: Method,
         /// Why it does not apply.
         reason: String,
+    },
+    /// Two computations contradict each other: at least one of them is wrong.
+    #[error("a contradiction: {what}")]
+    Contradiction {
+        /// What was found.
+        what: String,
     },
     /// The numbers left the range in which the computation makes sense.
     #[error("the computation broke down: {what}")]

@@ -4,6 +4,7 @@ use num_complex::Complex64;
 
 use crate::geom::ComplexPose;
 use crate::solve::certify::RootCertificate;
+use crate::solve::pose_count::{PoseCount, PoseSet};
 
 /// A forward-kinematics method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -63,6 +64,9 @@ pub enum Completeness {
         /// The bound and where its proof stands.
         argument: String,
     },
+    /// The certified roots are distinct and as many as the finite poses, multiplicity included, of the design and lengths as written, counted modulo random primes: all poses are
+    /// isolated and listed, up to the probability of error of [`FkSolutions::pose_count`].
+    Modular,
     /// No proof; the text says what is known and what gives rise to doubt.
     Unproved {
         /// What is known.
@@ -71,6 +75,18 @@ pub enum Completeness {
         /// `false` when something failed, so that roots may be missing.
         all_paths_accounted: bool,
     },
+}
+
+impl Completeness {
+    /// The name used in JSON.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Proved { .. } => "proved",
+            Self::Modular => "modular",
+            Self::Unproved { .. } => "unproved",
+        }
+    }
 }
 
 /// What the finite complex poses form.
@@ -231,6 +247,8 @@ pub struct FkSolutions {
     pub paths: Vec<PathReport>,
     /// Candidates that are no roots.
     pub rejected: Vec<Rejected>,
+    /// The finite poses counted without finding them; `None` when that was not asked, or not needed for a proof.
+    pub pose_count: Option<PoseCount>,
     /// Seed of the generic constants.
     pub seed: u64,
 }
@@ -251,8 +269,57 @@ impl FkSolutions {
     #[must_use]
     pub fn all_accounted(&self) -> bool {
         match &self.completeness {
-            Completeness::Proved { .. } => true,
+            Completeness::Proved { .. } | Completeness::Modular => true,
             Completeness::Unproved { all_paths_accounted, .. } => *all_paths_accounted,
+        }
+    }
+
+    /// Roots with a certificate, by multiplicity.
+    #[must_use]
+    pub fn certified_count(&self) -> usize {
+        self.roots.iter().filter(|r| r.certified()).map(|r| r.multiplicity as usize).sum()
+    }
+
+    /// Finite poses that exist, multiplicity included, and are not among the certified roots, where their number is known.
+    #[must_use]
+    pub fn missing(&self) -> Option<usize> {
+        self.pose_count.as_ref()?.finite()?.checked_sub(self.certified_count())
+    }
+
+    /// What is known of completeness, in words.
+    #[must_use]
+    pub fn completeness_reason(&self) -> String {
+        let count = self.pose_count.as_ref();
+        let error = count.map_or(0.0, |c| c.error_probability);
+        match (&self.completeness, count.map(|c| &c.set)) {
+            (Completeness::Proved { argument }, _) => argument.clone(),
+            (Completeness::Modular, _) => format!(
+                "{} certified distinct poses, and the design and lengths as written have as many finite poses, all isolated, by their algebra modulo random primes \
+                 (probability of error below {error:.0e})",
+                self.certified_count()
+            ),
+            (Completeness::Unproved { reason, .. }, Some(PoseSet::Finite { count, .. })) => format!(
+                "the design and lengths as written have {count} finite poses, multiplicity included (modulo random primes, probability of error below {error:.0e}), \
+                 {} are certified, {} are missing or not certified; {reason}",
+                self.certified_count(),
+                self.missing().unwrap_or(0)
+            ),
+            (
+                Completeness::Unproved { reason, .. },
+                Some(PoseSet::PositiveDimensional { dimension, degree }),
+            ) => format!(
+                "the poses form a set of dimension {dimension} and degree {degree} (modulo random primes, probability of error below {error:.0e}); {reason}"
+            ),
+            (Completeness::Unproved { reason, .. }, _) => reason.clone(),
+        }
+    }
+
+    /// The answer is whole: all poses are listed, by proof or modulo random primes, or a motion is established of which they are points.
+    #[must_use]
+    pub fn is_complete(&self) -> bool {
+        match &self.solution_set {
+            SolutionSet::PositiveDimensional { established, .. } => *established && self.all_accounted(),
+            _ => !matches!(self.completeness, Completeness::Unproved { .. }),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Forward kinematics by the 15 x 15 Sylvester matrix.
 
 use super::elimination::Candidates;
+use super::judge::compared_with_count;
 use super::{Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::num::Rng;
@@ -25,28 +26,32 @@ impl ForwardKinematics for Sylvester {
     }
 
     fn solve(&self, m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
-        let mut candidates = Candidates::default();
-        let mut refusal = None;
-        for attempt in 0..ATTEMPTS {
-            let problem = GenericProblem::draw(m, s, &mut Rng::stream(o.seed, attempt));
-            let eliminant = match Eliminant::of(&problem) {
-                Ok(eliminant) => eliminant,
-                Err(e) => {
-                    refusal = Some(e);
-                    continue;
-                }
-            };
-            candidates.add(eliminant.poses(&problem));
-            let found = candidates.solutions(Method::Sylvester, m, s, o);
-            if attempt + 1 == ATTEMPTS || matches!(found.completeness, Completeness::Proved { .. }) {
-                return Ok(found);
+        compared_with_count(eliminated(m, s, o)?, m, s, o)
+    }
+}
+
+fn eliminated(m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
+    let mut candidates = Candidates::default();
+    let mut refusal = None;
+    for attempt in 0..ATTEMPTS {
+        let problem = GenericProblem::draw(m, s, &mut Rng::stream(o.seed, attempt));
+        let eliminant = match Eliminant::of(&problem) {
+            Ok(eliminant) => eliminant,
+            Err(e) => {
+                refusal = Some(e);
+                continue;
             }
+        };
+        candidates.add(eliminant.poses(&problem));
+        let found = candidates.solutions(Method::Sylvester, m, s, o);
+        if attempt + 1 == ATTEMPTS || matches!(found.completeness, Completeness::Proved { .. }) {
+            return Ok(found);
         }
-        match refusal {
-            Some(e) if candidates.is_empty() => {
-                Err(FkError::NotApplicable { method: Method::Sylvester, reason: e.to_string() })
-            }
-            _ => Ok(candidates.solutions(Method::Sylvester, m, s, o)),
+    }
+    match refusal {
+        Some(e) if candidates.is_empty() => {
+            Err(FkError::NotApplicable { method: Method::Sylvester, reason: e.to_string() })
         }
+        _ => Ok(candidates.solutions(Method::Sylvester, m, s, o)),
     }
 }

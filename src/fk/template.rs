@@ -1,6 +1,7 @@
 //! Forward kinematics by the elimination template.
 
 use super::elimination::Candidates;
+use super::judge::compared_with_count;
 use super::{Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::num::Rng;
@@ -29,7 +30,7 @@ impl ForwardKinematics for Template {
 
     fn solve(&self, m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
         let layout = Layout::shipped().map_err(|e| FkError::Breakdown { what: e.to_string() })?;
-        solve_with(layout, m, s, o)
+        compared_with_count(solve_with(layout, m, s, o)?, m, s, o)
     }
 }
 

@@ -8,6 +8,7 @@ use num_complex::Complex64;
 use super::closure_candidates;
 use super::evidence::{GENERAL, attach};
 use super::harvest::{End, Harvest, harvest};
+use super::judge::compared_with_count;
 use super::{
     Completeness, FkError, FkOptions, FkRoot, FkSolutions, ForwardKinematics, Method, PreparedDesign,
     Rejected, RejectionReason, SolutionSet, hidden,
@@ -132,7 +133,7 @@ impl ForwardKinematics for Trilateration {
 
     fn solve(&self, m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
         match hidden::solve(m, s, o) {
-            Some(found) => Ok(found),
+            Some(found) => compared_with_count(found, m, s, o),
             None => self.prepared(m)?.solve(s, o),
         }
     }
@@ -171,9 +172,10 @@ impl PreparedDesign for Prepared<'_> {
                 *found = judged(self.manipulator, s, o, &ends, *expected, &tried);
             }
         }
-        answer
-            .map(|a| a.0)
-            .ok_or_else(|| FkError::Breakdown { what: "no sequence could be evaluated".to_owned() })
+        let found = answer.map(|a| a.0);
+        let found =
+            found.ok_or_else(|| FkError::Breakdown { what: "no sequence could be evaluated".to_owned() })?;
+        compared_with_count(found, self.manipulator, s, o)
     }
 }
 
@@ -219,6 +221,7 @@ pub(super) fn judged(
         completeness: Completeness::Unproved { reason, all_paths_accounted },
         paths: Vec::new(),
         rejected,
+        pose_count: None,
         seed: o.seed,
     };
     attach(&mut solutions, m, s, GENERAL, certificates);

@@ -60,10 +60,8 @@ pub(super) fn record(
     let listed = lengths.is_none() && !matches!(found.solution_set, SolutionSet::PositiveDimensional { .. });
     let here =
         (0..real.len()).filter(|_| listed).min_by(|a, b| distance(real[*a]).total_cmp(&distance(real[*b])));
-    let (proved, reason) = match &found.completeness {
-        Completeness::Proved { argument } => (true, argument),
-        Completeness::Unproved { reason, .. } => (false, reason),
-    };
+    let proved = matches!(found.completeness, Completeness::Proved { .. });
+    let reason = found.completeness_reason();
     Ok(json!({
         "method": found.method.name(), "solution_set": found.solution_set.name(),
         "finite": found.roots.len(), "proved": proved, "reason": reason, "here": here,

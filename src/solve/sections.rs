@@ -91,12 +91,13 @@ impl Frame {
     }
 
     /// The span of the leg equations as far as they are independent (sines above `tolerance`), filled up to
-    /// six dimensions by random real sections, and how many these are.
+    /// six dimensions by random real sections, and how many these are: `least` or more, for which general combinations of the leg equations make room.
     pub(crate) fn sliced_sections(
         &self,
         m: &Manipulator,
         s: &SquaredLegLengths,
         tolerance: f64,
+        least: usize,
         rng: &mut Rng,
     ) -> Option<(Sections, usize)> {
         let mut rest: Vec<SVector<Complex64, FORMS>> = self.leg_rows(m, s).map(SVector::from).to_vec();
@@ -117,6 +118,10 @@ impl Frame {
                 *other -= parallel;
             }
             basis.push(row);
+        }
+        if basis.len() + least > 6 {
+            let mix = |_| basis.iter().map(|row| row * Complex64::new(rng.normal(), 0.0)).sum();
+            basis = (0..6usize.saturating_sub(least)).map(mix).collect();
         }
         let missing = 6 - basis.len();
         let mut random = || SVector::from_fn(|_, _| Complex64::new(rng.normal(), 0.0));

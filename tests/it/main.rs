@@ -39,6 +39,7 @@ mod instances;
 mod leg_maps;
 mod octahedral_class;
 mod optimizer_evidence;
+mod pose_count;
 mod presets;
 mod rearrangements;
 mod reference;

@@ -13,10 +13,11 @@ import sys
 import time
 
 import certificates
+import counts
 import workspace
 from common import Tally
 
-TOPICS = {"certificates": certificates, "workspace": workspace}
+TOPICS = {"certificates": certificates, "counts": counts, "workspace": workspace}
 
 
 def main():

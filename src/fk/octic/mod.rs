@@ -19,6 +19,7 @@ use num_complex::Complex64;
 
 use super::collect::{Candidate, collect, pose_scale};
 use super::evidence::{OCTAHEDRAL, attach};
+use super::judge::compared_with_count;
 use super::{
     Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, PreparedDesign, SolutionSet,
 };
@@ -51,7 +52,7 @@ impl ForwardKinematics for Octic {
     }
 
     fn solve(&self, m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
-        OcticSolver::new(m)?.records(s, o)
+        compared_with_count(OcticSolver::new(m)?.records(s, o)?, m, s, o)
     }
 
     fn prepare<'a>(&'a self, m: &'a Manipulator) -> Option<Box<dyn PreparedDesign + 'a>> {
@@ -62,7 +63,7 @@ impl ForwardKinematics for Octic {
 
 impl PreparedDesign for OcticSolver {
     fn solve(&self, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
-        self.records(s, o)
+        compared_with_count(self.records(s, o)?, self.manipulator(), s, o)
     }
 }
 
@@ -96,6 +97,7 @@ impl OcticSolver {
             completeness: Completeness::Unproved { reason, all_paths_accounted },
             paths: Vec::new(),
             rejected: collected.rejected,
+            pose_count: None,
             seed: o.seed,
         };
         attach(&mut solutions, m, s, OCTAHEDRAL, Vec::new());

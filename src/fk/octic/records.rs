@@ -37,6 +37,7 @@ pub(super) fn proved(
         completeness: Completeness::Proved { argument: OCTAHEDRAL.argument.to_owned() },
         paths: Vec::new(),
         rejected: Vec::new(),
+        pose_count: None,
         seed,
     }
 }

@@ -7,7 +7,7 @@
 mod quadrics;
 mod quotient;
 
-use crate::manipulator::{Leg, Manipulator};
+use crate::manipulator::{Leg, Manipulator, SquaredLegLengths};
 use crate::num::Rng;
 use crate::num::modular::{Field, mantissa_and_exponent};
 use quadrics::{COORDINATES, Cut, Linear, cut};
@@ -15,6 +15,13 @@ use quotient::{Outcome, close};
 
 /// Squared lengths, each the exact sum of two doubles.
 pub type ExactSquares = [[f64; 2]; 6];
+
+/// Squared lengths as sums of two doubles; `None` when they are known within a radius only.
+#[must_use]
+pub fn exact_squares(s: &SquaredLegLengths) -> Option<ExactSquares> {
+    let exact = s.radius().iter().all(|r| r.to_bits() << 1 == 0);
+    exact.then(|| s.middle().map(|x| [x.hi(), x.lo()]))
+}
 
 /// Highest degree of the spaces. Four is enough for sets of poses whose closure is finite (see the documentation); more costs little where few
 /// monomials are left over.
@@ -70,6 +77,20 @@ pub enum Undecided {
     DegreeTooLow,
     /// The primes disagree: one of them at least divides a number it should not.
     PrimesDisagree,
+    /// The squared lengths are not known exactly: they have been computed with rounding.
+    LengthsNotExact,
+}
+
+impl Undecided {
+    /// The name used in JSON.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::DegreeTooLow => "degree_too_low",
+            Self::PrimesDisagree => "primes_disagree",
+            Self::LengthsNotExact => "lengths_not_exact",
+        }
+    }
 }
 
 /// The set and what speaks for it.
@@ -84,6 +105,12 @@ pub struct PoseCount {
 }
 
 impl PoseCount {
+    /// No count.
+    #[must_use]
+    pub fn undecided(why: Undecided) -> Self {
+        Self { set: PoseSet::Undecided { why }, primes: Vec::new(), error_probability: 0.0 }
+    }
+
     /// The number of finite poses with multiplicity, where there are finitely many.
     #[must_use]
     pub fn finite(&self) -> Option<usize> {
@@ -145,11 +172,7 @@ fn counted(m: &Manipulator, lengths: Lengths<'_>, options: &CountOptions) -> Pos
             break;
         }
     }
-    out.unwrap_or(PoseCount {
-        set: PoseSet::Undecided { why: Undecided::DegreeTooLow },
-        primes: Vec::new(),
-        error_probability: 0.0,
-    })
+    out.unwrap_or(PoseCount::undecided(Undecided::DegreeTooLow))
 }
 
 /// The set modulo one prime, and the degree of the multiples used.

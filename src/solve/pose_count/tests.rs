@@ -162,24 +162,6 @@ fn four_concurrent_legs_move_or_do_not_fit() {
     }
 }
 
-#[test]
-fn coinciding_legs_leave_as_many_freedoms() {
-    let mut rng = Rng::new(7);
-    for twins in 1..4 {
-        let mut joints = bodies(&mut rng, false);
-        for body in &mut joints {
-            for i in 1..=twins {
-                body[i] = body[0];
-            }
-        }
-        let s = at_home(&joints, [3.0, -2.0, 15.0]);
-        assert_eq!(dimension(&joints, &s, 1), twins);
-        let mut longer = s;
-        longer[0][0] = longer[0][0].next_up();
-        assert_eq!(finite(&joints, &longer, 1), Some(0));
-    }
-}
-
 /// All midpoints of two triangles: architecturally singular, with motions for lengths of poses.
 #[test]
 fn a_singular_griffis_duffy_platform_moves() {

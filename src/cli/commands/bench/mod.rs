@@ -40,6 +40,9 @@ pub(crate) struct Args {
     /// Every so many problems, look for missed roots from two other starts; 0 for never
     #[arg(long, value_name = "N", default_value_t = 10)]
     recheck_every: u64,
+    /// Count the poses modulo random primes where completeness is not proved, as fk does: some milliseconds a problem
+    #[arg(long)]
+    count_poses: bool,
     /// Instead of the proof: disturb the leg lengths of random poses by relative errors from 1e-12 to 1e-1 and measure how far the poses move
     #[arg(long, conflicts_with_all = ["first", "lengths_from", "recheck_every"])]
     noise: bool,
@@ -90,6 +93,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
             first: args.first,
             seed: context.seed(),
             threads: usize::try_from(args.threads).unwrap_or(1),
+            count_poses: args.count_poses,
             recheck_every: args.recheck_every,
         };
         let report = run_plan(&plan, solver.as_ref(), &Homotopy);

@@ -22,7 +22,7 @@ use crate::cli::poses;
 use crate::cli::progress::{Interrupt, Progress};
 use crate::design::Design;
 use crate::equivalence::{SamplePlan, Verification, verify};
-use crate::fk::{self, FkOptions, FkSolutions};
+use crate::fk::{self, FkOptions, FkSolutions, PoseCounting};
 use crate::manipulator::{LegLengths, Octahedral};
 use crate::offsets;
 use crate::synthesis::{Family, FamilyMember};
@@ -127,7 +127,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let mut folder = Folder::prepare(&args.output, &args.design)?;
     let mut progress = Progress::new(context.quiet());
     let seed = context.seed();
-    let options = FkOptions { seed, ..FkOptions::default() };
+    let options = FkOptions { seed, pose_count: PoseCounting::Never, ..FkOptions::default() };
     folder.write(folder::ORIGINAL, &original(&design, seed).to_toml())?;
 
     progress.stage(1, "equivalence class");

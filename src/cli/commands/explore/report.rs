@@ -224,6 +224,7 @@ fn certified(s: &FkSolutions) -> usize {
 fn proved(s: &FkSolutions) -> &'static str {
     match s.completeness {
         Completeness::Proved { .. } => "yes",
+        Completeness::Modular => "modulo random primes",
         Completeness::Unproved { all_paths_accounted: true, .. } => "no (all paths accounted for)",
         Completeness::Unproved { .. } => "NO, poses may be missing",
     }
@@ -236,11 +237,13 @@ fn poses(out: &mut String, r: &Results) {
         LengthsFrom::Design => "its own leg lengths",
         LengthsFrom::Home => "the leg lengths of its home pose (the design gives none)",
     };
-    let (complete, reason) = match &s.completeness {
-        Completeness::Proved { argument } => ("proved", argument),
-        Completeness::Unproved { all_paths_accounted: true, reason } => ("not proved", reason),
-        Completeness::Unproved { reason, .. } => ("NOT proved, poses may be missing", reason),
+    let complete = match &s.completeness {
+        Completeness::Proved { .. } => "proved",
+        Completeness::Modular => "modulo random primes",
+        Completeness::Unproved { all_paths_accounted: true, .. } => "not proved",
+        Completeness::Unproved { .. } => "NOT proved, poses may be missing",
     };
+    let reason = s.completeness_reason();
     let _ = writeln!(
         out,
         "## Assembly modes\n\nThe design at {whose}, ({}) {}: {} finite poses, {} real, {} certified (method {}). \
@@ -251,7 +254,7 @@ fn poses(out: &mut String, r: &Results) {
         s.assembly_modes().count(),
         certified(s),
         s.method,
-        plain(reason),
+        plain(&reason),
         folder::FK,
         folder::FK,
         folder::MODES

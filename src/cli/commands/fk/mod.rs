@@ -161,12 +161,13 @@ pub(super) fn failure_of(error: &FkError) -> Failure {
         FkError::NotApplicable { .. } => {
             Failure::refused("fk::not_applicable", error.to_string()).with_help("take --method auto")
         }
+        FkError::Contradiction { .. } => Failure::internal(error.to_string()),
         FkError::Breakdown { .. } => Failure::new(Exit::Inconclusive, "fk::breakdown", error.to_string())
             .with_help("try another --method or --seed"),
     }
 }
 
-/// 0 when every path is accounted for, 3 when roots may be missing.
+/// 0 when the answer is whole, 3 when poses may be missing.
 fn exit_of(solutions: &FkSolutions) -> Exit {
-    if solutions.all_accounted() { Exit::Yes } else { Exit::Inconclusive }
+    if solutions.is_complete() { Exit::Yes } else { Exit::Inconclusive }
 }

@@ -108,6 +108,7 @@ fn record(
         },
         paths: Vec::new(),
         rejected: Vec::new(),
+        pose_count: None,
         seed,
     };
     let mut fields = render::json(&solutions);

@@ -10,27 +10,32 @@ use crate::cli::output::number;
 use crate::fk::{
     Completeness, FkRoot, FkSolutions, PathReport, Reality, Rejected, RejectionReason, SolutionSet,
 };
+use crate::solve::pose_count::PoseSet;
 
 /// The fields of the document.
 pub(in crate::cli::commands) fn json(s: &FkSolutions) -> Map<String, Value> {
-    let (completeness, reason) = match &s.completeness {
-        Completeness::Proved { argument } => ("proved", argument),
-        Completeness::Unproved { reason, .. } => ("unproved", reason),
-    };
     let undecided = s.roots.iter().filter(|r| r.reality == Reality::Undecided).count();
     let mut fields = Map::new();
     let mut put = |key: &str, value: Value| fields.insert(key.into(), value);
     put("method", json!(s.method.name()));
-    put("completeness", json!(completeness));
-    put("completeness_reason", json!(reason));
+    put("completeness", json!(s.completeness.name()));
+    put("completeness_reason", json!(s.completeness_reason()));
     put("all_paths_accounted", json!(s.all_accounted()));
     put("finite_count", json!(s.roots.len()));
     put("finite_count_with_multiplicity", json!(s.count_with_multiplicity()));
     put("real_count", json!(s.assembly_modes().count()));
     put("undecided_count", json!(undecided));
+    put("missing_count", json!(s.missing()));
+    put("pose_count", pose_count(s));
     put("solutions", s.roots.iter().map(root).collect());
     put("solution_set", json!(s.solution_set.name()));
     if let SolutionSet::PositiveDimensional { dimension, witnesses, established } = &s.solution_set {
+        let counted = s.pose_count.as_ref().map(|c| &c.set);
+        let exact = match counted {
+            Some(PoseSet::PositiveDimensional { dimension, .. }) => Some(dimension),
+            _ => None,
+        };
+        put("dimension", json!(exact));
         put("dimension_at_least", json!(dimension));
         put("dimension_established", json!(established));
         put("degree", if *established { json!(witnesses.len()) } else { Value::Null });
@@ -43,6 +48,33 @@ pub(in crate::cli::commands) fn json(s: &FkSolutions) -> Map<String, Value> {
         put("notes", json!(["null stands for a number that is infinite or not a number"]));
     }
     fields
+}
+
+/// The number of poses, by theorem or counted without finding them.
+fn pose_count(s: &FkSolutions) -> Value {
+    let Some(c) = &s.pose_count else {
+        return match s.completeness {
+            Completeness::Proved { .. } => json!({
+                "finite": s.certified_count(), "by_degree": null, "dimension": null, "degree": null, "undecided": null,
+                "evidence": "proved", "error_probability": null, "primes": [],
+            }),
+            _ => Value::Null,
+        };
+    };
+    let (finite, by_degree, dimension, degree, undecided) = match &c.set {
+        PoseSet::Finite { count, by_degree } => (Some(count), Some(by_degree), None, None, None),
+        PoseSet::PositiveDimensional { dimension, degree } => {
+            (None, None, Some(dimension), Some(degree), None)
+        }
+        PoseSet::Undecided { why } => (None, None, None, None, Some(why.name())),
+    };
+    json!({
+        "finite": finite, "by_degree": by_degree, "dimension": dimension, "degree": degree, "undecided": undecided,
+        "evidence": "modular",
+        "error_probability": if undecided.is_some() { Value::Null } else { json!(c.error_probability) },
+        // more digits than a double has
+        "primes": c.primes.iter().map(u64::to_string).collect::<Vec<_>>(),
+    })
 }
 
 fn root(r: &FkRoot) -> Value {
@@ -136,11 +168,15 @@ fn count_line(out: &mut String, name: &str, s: &FkSolutions) {
 }
 
 fn completeness_line(out: &mut String, s: &FkSolutions) {
+    let reason = s.completeness_reason();
     match &s.completeness {
-        Completeness::Proved { argument } => {
-            let _ = writeln!(out, "complete: proved, {argument}");
+        Completeness::Proved { .. } => {
+            let _ = writeln!(out, "complete: proved, {reason}");
         }
-        Completeness::Unproved { reason, all_paths_accounted } => {
+        Completeness::Modular => {
+            let _ = writeln!(out, "complete: modulo random primes, {reason}");
+        }
+        Completeness::Unproved { all_paths_accounted, .. } => {
             let head = if matches!(s.solution_set, SolutionSet::PositiveDimensional { .. }) {
                 if *all_paths_accounted { "self-motion: established" } else { "UNDECIDED: self-motion" }
             } else if *all_paths_accounted {
@@ -176,6 +212,7 @@ pub(super) fn table_row(line: usize, s: &FkSolutions) -> String {
     let complete = match &s.completeness {
         _ if !s.solution_set.witnesses().is_empty() => "SELF-MOTION",
         Completeness::Proved { .. } => "proved",
+        Completeness::Modular => "modular",
         Completeness::Unproved { all_paths_accounted: true, .. } => "all paths accounted",
         Completeness::Unproved { .. } => "ROOTS MAY BE MISSING",
     };
@@ -222,6 +259,7 @@ mod tests {
                 retracked: 0,
             }],
             rejected: vec![Rejected { reason: RejectionReason::Duplicate, residual: 0.0 }],
+            pose_count: None,
             seed: 7,
         }
     }

@@ -13,7 +13,7 @@ use crate::cli::failure::Failure;
 use crate::cli::files;
 use crate::cli::output::Answer;
 use crate::design::Design;
-use crate::fk::{self, FkOptions, FkSolutions, Reality, SolutionSet, Threads};
+use crate::fk::{self, FkOptions, FkSolutions, PoseCounting, Reality, SolutionSet, Threads};
 use crate::manipulator::{Leg, LegLengths, Manipulator};
 use crate::plot::{LocusStep, LocusValue};
 use crate::topology::Topology;
@@ -141,7 +141,7 @@ fn solve(args: &Question, context: &mut Context) -> Result<Locus, Failure> {
     };
     let lengths = varied(args, &given)?;
     let squares: Vec<_> = lengths.iter().map(LegLengths::squared).collect();
-    let options = FkOptions { seed: context.seed(), ..FkOptions::default() };
+    let options = FkOptions { seed: context.seed(), pose_count: PoseCounting::Never, ..FkOptions::default() };
     let solver = fk::solver(method);
     let results = fk::solve_batch(solver.as_ref(), m, &squares, &options, Threads::All);
     let mut rows = Vec::with_capacity(results.len());

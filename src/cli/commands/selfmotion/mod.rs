@@ -68,6 +68,8 @@ enum Origin {
     Section,
     /// A critical point of a linear function.
     CriticalPoint,
+    /// A search from random poses, for sets of dimension two or more.
+    Search,
 }
 
 impl Origin {
@@ -76,6 +78,7 @@ impl Origin {
             Self::Pose => "pose",
             Self::Section => "section",
             Self::CriticalPoint => "critical_point",
+            Self::Search => "search",
         }
     }
 }
@@ -92,6 +95,8 @@ struct Found {
     degrees: Vec<Option<CurveDegree>>,
     /// Of every starting pose.
     origins: Vec<Origin>,
+    /// Real poses on surfaces and sets of higher dimension, which are not followed.
+    real_poses: Vec<Pose>,
     critical: Option<CriticalPoses>,
     /// Whether, numerically, no real component is missing; `None` when no search was made.
     accounted: Option<bool>,
@@ -140,6 +145,9 @@ fn trace(args: &Question, context: &mut Context) -> Result<(Design, Found), Fail
             accounted = Some(found.is_accounted() && sections.established);
             critical = Some(found);
         } else {
+            // surfaces are not followed: a real pose on each real component that was met has to do
+            let real = sections.points.iter().filter(|r| r.reality == Reality::Real);
+            starts.extend(real.map(|r| (r.pose.real_part(), Origin::Search)));
             accounted = Some(start.is_none() && sections.dimension == 0 && sections.established);
         }
         let all: Vec<Pose> = starts.iter().map(|s| s.0).collect();
@@ -156,10 +164,14 @@ fn trace(args: &Question, context: &mut Context) -> Result<(Design, Found), Fail
         0 if start.is_some() || accounted == Some(true) => Exit::No,
         1 if whole && !motion.curves.is_empty() => Exit::Yes,
         1 if accounted == Some(true) => Exit::No,
+        // it moves, over a surface or more
+        d if d > 1 && start.is_none() && !starts.is_empty() => Exit::Yes,
         _ => Exit::Inconclusive,
     };
     let origins = starts.iter().map(|s| s.1).collect();
-    let found = Found { start, squares, dimension, motion, degrees, origins, critical, accounted, exit };
+    let real_poses = starts.iter().filter(|s| s.1 == Origin::Search).map(|s| s.0).collect();
+    let found =
+        Found { start, squares, dimension, motion, degrees, origins, real_poses, critical, accounted, exit };
     Ok((design, found))
 }
 

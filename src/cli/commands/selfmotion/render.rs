@@ -48,6 +48,7 @@ pub(super) fn answer(design: &Design, found: &Found) -> Answer {
     json.insert("lengths".into(), json!(found.squares.lengths().get()));
     json.insert("singular_values".into(), motion.singular_values.map(number).to_vec().into());
     json.insert("further_starts".into(), json!(further(found)));
+    json.insert("real_poses".into(), found.real_poses.iter().map(poses::record).collect());
     json.insert("completeness".into(), json!("unproved"));
     json.insert("components_accounted".into(), json!(found.accounted));
     let critical = found.critical.as_ref();
@@ -89,6 +90,22 @@ fn text(design: &Design, found: &Found) -> String {
         1 => {}
         d => {
             let _ = writeln!(out, "the platform has {d} freedoms: no curve was followed");
+        }
+    }
+    if found.dimension > 1 && found.start.is_none() {
+        let count = found.real_poses.len();
+        let _ = writeln!(
+            out,
+            "real poses found on the set of dimension {}: {count}; it was not followed",
+            found.dimension
+        );
+        for pose in &found.real_poses {
+            let (p, q) = (&pose.position, pose.quaternion());
+            let _ = writeln!(
+                out,
+                "  p = [{:.6}, {:.6}, {:.6}]  q = [{:.6}, {:.6}, {:.6}, {:.6}]",
+                p.x, p.y, p.z, q[0], q[1], q[2], q[3]
+            );
         }
     }
     for (k, (curve, degree)) in motion.curves.iter().zip(&found.degrees).enumerate() {

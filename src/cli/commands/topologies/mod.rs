@@ -17,7 +17,7 @@ use crate::cli::files;
 use crate::cli::output::Answer;
 use crate::design::Design;
 use crate::distance::{ClosureDegrees, generic_degrees};
-use crate::fk::{Completeness, FkOptions, ForwardKinematics, Homotopy};
+use crate::fk::{Completeness, FkOptions, ForwardKinematics, Homotopy, PoseCounting};
 use crate::manipulator::{Manipulator, default_home};
 use crate::num::Rng;
 use crate::plot::{TopologyFigure, topology_diagram, topology_sheet};
@@ -97,7 +97,7 @@ fn entry(named: NamedTopology, members: u64, seed: u64) -> Result<Entry, Failure
         let internal =
             |e: &dyn std::fmt::Display| Failure::internal(format!("{}, member {k}: {e}", named.id()));
         let member = problem(class, LengthsFrom::Pose, seed, k).map_err(|e| internal(&e))?;
-        let options = FkOptions { seed, ..FkOptions::default() };
+        let options = FkOptions { seed, pose_count: PoseCounting::Never, ..FkOptions::default() };
         let found =
             Homotopy.solve(&member.manipulator, &member.squares, &options).map_err(|e| internal(&e))?;
         let vote = votes.entry(found.count_with_multiplicity()).or_default();

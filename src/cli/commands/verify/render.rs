@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 use crate::cli::commands::map;
 use crate::cli::output::number;
 use crate::equivalence::{Counterexample, Sample, SamplePlan, Verdict, Verification};
-use crate::fk::{Completeness, FkSolutions};
+use crate::fk::FkSolutions;
 use crate::synthesis::LegMapOutcome;
 
 /// The fields of the document.
@@ -54,14 +54,10 @@ pub(super) fn unaligned(map: &LegMapOutcome, none: bool, explanation: &str) -> M
 }
 
 fn solutions(s: &FkSolutions) -> Value {
-    let (completeness, reason) = match &s.completeness {
-        Completeness::Proved { argument } => ("proved", argument),
-        Completeness::Unproved { reason, .. } => ("unproved", reason),
-    };
     json!({
         "method": s.method.name(),
-        "completeness": completeness,
-        "completeness_reason": reason,
+        "completeness": s.completeness.name(),
+        "completeness_reason": s.completeness_reason(),
         "all_paths_accounted": s.all_accounted(),
         "finite_count": s.roots.len(),
         "real_count": s.assembly_modes().count(),

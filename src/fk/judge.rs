@@ -1,0 +1,102 @@
+//! Whether the poses found are all there are, by their number: the design and lengths as written have so many finite poses, modulo random primes.
+//!
+//! The count shares nothing with what finds the poses. Certified roots are distinct zeros of the same equations: as many as the count are all, each is simple and isolated; fewer
+//! are not all; more contradict it.
+
+use super::evidence::reject_others;
+use super::{Completeness, FkError, FkOptions, FkRoot, FkSolutions, PoseCounting, SolutionSet};
+use crate::manipulator::{Manipulator, SquaredLegLengths};
+use crate::solve::certify::{Certificate, Distinctness, RootCertificate, distinct};
+use crate::solve::pose_count::{CountOptions, PoseCount, PoseSet, Undecided, count_poses, exact_squares};
+
+/// What the number says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Judgement {
+    /// Proved before, or as many as there are.
+    Complete,
+    /// Poses are missing.
+    Short,
+    /// Curves, surfaces or more.
+    PositiveDimensional {
+        /// Of the components of highest dimension.
+        dimension: usize,
+    },
+    /// Nothing: it was not asked or does not know.
+    Silent,
+}
+
+/// The count, if it is wanted.
+pub(super) fn counted(m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Option<PoseCount> {
+    if o.pose_count == PoseCounting::Never {
+        return None;
+    }
+    let options = CountOptions { seed: o.seed, ..CountOptions::default() };
+    Some(match exact_squares(s) {
+        Some(squares) => count_poses(m, &squares, &options),
+        None => PoseCount::undecided(Undecided::LengthsNotExact),
+    })
+}
+
+/// Whether the certified roots are proved to be different ones.
+fn are_distinct(found: &FkSolutions) -> bool {
+    let study = |r: &FkRoot| match &r.certificate {
+        Some(RootCertificate::Study(c)) => Some(*c),
+        _ => None,
+    };
+    let certificates: Vec<Certificate> = found.roots.iter().filter_map(study).collect();
+    // those of the other kind are not compared
+    certificates.len() == found.roots.iter().filter(|r| r.certified()).count()
+        && distinct(&certificates) == Distinctness::AllDistinct
+}
+
+/// Compares the certified roots with the count and files both.
+pub(super) fn judge(found: &mut FkSolutions, count: &PoseCount) -> Result<Judgement, FkError> {
+    found.pose_count = Some(count.clone());
+    let distinct = are_distinct(found);
+    let certified = found.certified_count();
+    let (expected, judgement) = match &count.set {
+        PoseSet::Undecided { .. } => return Ok(Judgement::Silent),
+        PoseSet::PositiveDimensional { dimension, .. } => {
+            return Ok(Judgement::PositiveDimensional { dimension: *dimension });
+        }
+        PoseSet::Finite { count, .. } if distinct && certified > *count => {
+            let what =
+                format!("{certified} distinct poses are certified, but the count modulo a prime is {count}");
+            return Err(FkError::Contradiction { what });
+        }
+        PoseSet::Finite { count, .. } if distinct && certified == *count => (*count, Judgement::Complete),
+        PoseSet::Finite { count, .. } => (*count, Judgement::Short),
+    };
+    if judgement == Judgement::Complete {
+        found.completeness = Completeness::Modular;
+        if expected == 0 {
+            found.solution_set = SolutionSet::Empty;
+        }
+        reject_others(found);
+    } else if let Completeness::Unproved { all_paths_accounted, .. } = &mut found.completeness {
+        *all_paths_accounted = false;
+    }
+    Ok(judgement)
+}
+
+/// The answer of a method that does not look for more when poses are missing.
+pub(super) fn compared_with_count(
+    mut found: FkSolutions,
+    m: &Manipulator,
+    s: &SquaredLegLengths,
+    o: &FkOptions,
+) -> Result<FkSolutions, FkError> {
+    if matches!(found.completeness, Completeness::Proved { .. }) {
+        return Ok(found);
+    }
+    let Some(count) = counted(m, s, o) else { return Ok(found) };
+    if let Judgement::PositiveDimensional { dimension } = judge(&mut found, &count)? {
+        reject_others(&mut found);
+        if let Completeness::Unproved { all_paths_accounted, .. } = &mut found.completeness {
+            *all_paths_accounted = false;
+        }
+        found.solution_set =
+            SolutionSet::PositiveDimensional { dimension, witnesses: Vec::new(), established: false };
+    }
+    Ok(found)
+}
