@@ -193,12 +193,79 @@ pub(super) fn motion(from: &Place, to: &Place) -> (f64, f64) {
     (angle, norm(&p))
 }
 
-/// The numbers of the Kantorovich test at the start of a segment.
+/// Takes up the rounding of fewer than a thousand operations on numbers that are not negative.
+const UP: f64 = 1.0 + 1.0 / (1u64 << 40) as f64;
+const U: f64 = f64::EPSILON / 2.0;
+
+/// How far the numbers of a [`Local`] may be from those of the exact problem, leg by leg, Euclidean norms.
+///
+/// The exact problem has the joints of the design, moved by the doubles `origin` and `centre` and divided by the double `unit`, the rotation nearest to the matrix of the
+/// place, and target squares within `target_error` of the numbers given. With `u = 2^-53`, to first order, and constants rounded up:
+///
+/// * joints: a difference and a quotient, `2 u |a|`, `2 u |b|`;
+/// * rotation: the singular values of `R` are off 1 by at most `|R^T R - I|`, so the nearest rotation is that near (entries of `R^T R` are computed to `3 u`);
+/// * `B = R b`: `(|R^T R - I| + 9 u) |b|`; `A = a - q`: `2 u |a| + u |A|`; `D = B - A`: both and `u |D|`;
+/// * `f = (D.D - s) / 2`: `|D| d + d^2 / 2`, six roundings of `|D|^2`, one of `f`, half of `target_error`.
+pub(super) struct Blur {
+    a: [f64; 6],
+    b: [f64; 6],
+    d: [f64; 6],
+    f: [f64; 6],
+}
+
+impl Blur {
+    pub(super) fn of(solver: &NearSolver, place: &Place, here: &Local, target_error: &[f64; 6]) -> Self {
+        let r = &place.rotation;
+        let mut square = 0.0;
+        for j in 0..3 {
+            for k in 0..3 {
+                let product: f64 = (0..3).map(|i| r[i][j] * r[i][k]).sum();
+                let defect = (product - if j == k { 1.0 } else { 0.0 }).abs() + 4.0 * U;
+                square += defect * defect;
+            }
+        }
+        let turn = square.sqrt() * UP;
+        let mut out = Self { a: [0.0; 6], b: [0.0; 6], d: [0.0; 6], f: [0.0; 6] };
+        for i in 0..6 {
+            let length = norm(&here.d[i]);
+            let b = (turn + 10.0 * U) * norm(&solver.platform[i]) * UP;
+            let a = (2.5 * U * norm(&solver.base[i]) + 1.5 * U * norm(&here.a[i])) * UP;
+            let d = (a + b + 1.5 * U * length) * UP;
+            let own = 6.0 * U * here.squares[i] + 2.0 * U * here.f[i].abs();
+            let f = (length * d + 0.5 * d * d + own + 0.5 * target_error[i]) * UP;
+            (out.a[i], out.b[i], out.d[i], out.f[i]) = (a, b, d, f);
+        }
+        out
+    }
+
+    /// Of a row of the Jacobian: `d` in `D`, and in `2 B x D` the terms of the product's change with its own rounding; and seven roundings of a sum over six
+    /// such rows.
+    fn row(&self, here: &Local, i: usize) -> f64 {
+        let (b, d) = (norm(&here.b[i]), norm(&here.d[i]));
+        let turned = 2.0 * (self.b[i] * d + b * self.d[i] + self.b[i] * self.d[i]);
+        (self.d[i] + turned + 10.0 * U * b * d + 8.0 * U * (d + 2.0 * b * d)) * UP
+    }
+
+    /// Of the coefficients of `Q_i` without those of `g0 D.w`, and of the latter: `A + B`, and `W` with `|W| <= 6 |A| |B|`; and the roundings of their sums.
+    fn second_order(&self, here: &Local, i: usize) -> (f64, f64) {
+        let (a, b) = (norm(&here.a[i]), norm(&here.b[i]));
+        let own = 10.0 * U * (1.0 + a + b + 6.0 * a * b);
+        let change = self.a[i] + self.b[i] + 6.0 * (self.a[i] * b + a * self.b[i] + self.a[i] * self.b[i]);
+        ((change + own) * UP, (self.d[i] + 10.0 * U * norm(&here.d[i])) * UP)
+    }
+}
+
+/// The numbers of the Kantorovich test at the start of a segment: bounds for the exact problem, see [`Blur`].
+///
+/// With `kappa >= |I - Y J|` the conditions of the theorem are `4 (beta + eta) eta <= (1 - kappa)^2` and, for a ball of radius `r`, `2 (beta + eta) r <= 1 - kappa`. Both
+/// numbers are given divided by `(1 - kappa)^2`, so that the conditions with `kappa = 0` imply them.
 pub(super) struct Start {
     /// The Newton step to the end of the way.
     pub(super) step: [f64; 6],
-    /// Its size.
+    /// Bound of its size.
     pub(super) eta: f64,
+    /// The part of `eta` that is there at the beginning of the way too.
+    pub(super) slack: f64,
     /// Bound of `|Y Q|` without the part of `f`, which is at most `eta`. At least 1.
     pub(super) beta: f64,
     /// Weight of `g0` in the norm.
@@ -207,7 +274,7 @@ pub(super) struct Start {
 }
 
 impl Start {
-    pub(super) fn of(here: &Local) -> Option<Self> {
+    pub(super) fn of(here: &Local, blur: &Blur) -> Option<Self> {
         let j = here.jacobian();
         let mut work = j;
         let mut y = [[0.0; 6]; 6];
@@ -216,17 +283,34 @@ impl Start {
         }
         invert(&mut work, &mut y)?;
         let step: [f64; 6] = std::array::from_fn(|k| -(0..6).map(|i| y[k][i] * here.f[i]).sum::<f64>());
-        let eta = Newton { step }.size();
         let frobenius = |m: &Matrix6| m.iter().flatten().map(|x| x * x).sum::<f64>().sqrt();
         let inverse_condition = 6.0 / (frobenius(&j) * frobenius(&y));
-        let (beta, epsilon) = second_order(here, &y);
-        let sound = eta.is_finite() && beta.is_finite() && inverse_condition.is_finite();
-        sound.then_some(Self { step, eta, beta, epsilon, inverse_condition })
+        let rows: [f64; 6] = std::array::from_fn(|i| blur.row(here, i));
+        let (mut steps, mut defects) = ([0.0; 6], [0.0; 6]);
+        for k in 0..6 {
+            let mut left = [0.0; 6];
+            left[k] = 1.0;
+            for i in 0..6 {
+                (0..6).for_each(|l| left[l] -= y[k][i] * j[i][l]);
+                steps[k] += y[k][i].abs() * (blur.f[i] + 8.0 * U * here.f[i].abs());
+                defects[k] += y[k][i].abs() * rows[i];
+            }
+            defects[k] += left.iter().map(|x| x * x).sum::<f64>().sqrt() + 2.0 * U;
+        }
+        // in the norm max(|h|, |w|) a row acts by at most sqrt 2 times its Euclidean norm
+        let kappa = std::f64::consts::SQRT_2 * Newton { step: defects }.size() * UP;
+        let room = (1.0 - kappa) * (1.0 - kappa) * (2.0 - UP);
+        let slack = Newton { step: steps }.size() * UP / room;
+        let eta = Newton { step }.size() * UP / room + slack;
+        let (beta, epsilon) = second_order(here, &y, blur);
+        let beta = beta * UP / room;
+        let sound = eta.is_finite() && beta.is_finite() && inverse_condition.is_finite() && kappa < 0.5;
+        sound.then_some(Self { step, eta, slack, beta, epsilon, inverse_condition })
     }
 }
 
 /// `(beta, epsilon)`: rows of `Y Q` are combined over the legs first, then bounded, in blocks of three by the Euclidean norm.
-fn second_order(here: &Local, y: &Matrix6) -> (f64, f64) {
+fn second_order(here: &Local, y: &Matrix6, blur: &Blur) -> (f64, f64) {
     // per leg: 1, D, A + B, and the upper triangle of W
     let mut terms = [[0.0; 13]; 6];
     for (t, (a, (b, d))) in terms.iter_mut().zip(here.a.iter().zip(here.b.iter().zip(&here.d))) {
@@ -247,6 +331,7 @@ fn second_order(here: &Local, y: &Matrix6) -> (f64, f64) {
             a[1] * b[2] + a[2] * b[1],
         ];
     }
+    let extra: [(f64, f64); 6] = std::array::from_fn(|i| blur.second_order(here, i));
     let (mut free, mut unit, mut linear) = ([0.0; 6], [0.0; 6], [0.0; 6]);
     for k in 0..6 {
         let mut c = [0.0; 13];
@@ -259,6 +344,11 @@ fn second_order(here: &Local, y: &Matrix6) -> (f64, f64) {
         unit[k] = 0.5 * c[0].abs();
         linear[k] = square(1..4).sqrt();
         free[k] = unit[k] + square(4..7).sqrt() + (square(7..10) + 2.0 * square(10..13)).sqrt();
+        for (weight, (of_free, of_linear)) in y[k].iter().zip(&extra) {
+            free[k] += weight.abs() * of_free;
+            linear[k] += weight.abs() * of_linear;
+            unit[k] += weight.abs() * 8.0 * U;
+        }
     }
     let bound = |epsilon: f64| {
         let row = |k: usize| free[k] + epsilon * (linear[k] + epsilon * unit[k]);

@@ -2,7 +2,7 @@
 //!
 //! The known pose `P0` is an exact solution for its own squared lengths `s(P0)`. The solver moves the squared lengths
 //! along the straight line from `s(P0)` to those asked for and follows the pose, in segments so short that a Kantorovich
-//! test shows each of them free of singularities: the answer is the continuous continuation of `P0`, never
+//! test, with bounds of every rounding, proves each of them free of singularities: the answer is the continuous continuation of `P0`, never
 //! another assembly mode. Theory: `docs/theory/near-pose.md`.
 
 mod local;
@@ -15,10 +15,12 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 use super::{FkError, FkOptions, FkSolutions, ForwardKinematics, Method};
 use crate::geom::Pose;
 use crate::manipulator::{Manipulator, SquaredLegLengths};
-use local::{Local, Newton, Start};
+use local::{Blur, Local, Newton, Start};
 
-/// `4 (beta + eta) eta` of every accepted segment is at most this; the theorem needs 1.
+/// `4 (beta + eta) eta` aimed at for every segment; the theorem needs 1.
 const KANTOROVICH: f64 = 0.88;
+/// What it may be at most, so that the last roundings of the test itself do not matter.
+const PROVED: f64 = 1.0 - 1.0 / (1u64 << 30) as f64;
 /// Newton corrections within a segment; in a Kantorovich ball five reach rounding.
 const CORRECTIONS: u32 = 12;
 
@@ -120,8 +122,7 @@ impl NearSolver {
     /// Continues the pose `start` to the squared leg lengths `s`.
     #[must_use]
     pub fn solve(&self, s: &SquaredLegLengths, start: &Pose) -> NearOutcome {
-        let scale = (self.unit * self.unit).recip();
-        let target = s.get().map(|s| s * scale);
+        let (target, target_error) = self.target(s);
         let from = self.place_of(start);
         let mut evidence = NearEvidence::default();
         let Some(mut place) = local::orthonormal(&from) else {
@@ -137,7 +138,7 @@ impl NearSolver {
             if evidence.segments >= self.options.segments {
                 break (1.0 - left, Some(WhyLost::SegmentsExhausted));
             }
-            match self.segment(&target, &place, &mut evidence) {
+            match self.segment(&target, &target_error, &place, &mut evidence) {
                 Segment::Arrived(end) => {
                     place = end;
                     break (1.0, None);
@@ -160,12 +161,21 @@ impl NearSolver {
         }
     }
 
+    /// Squared lengths in the solver's units, and how far from these those asked for may be: three roundings and what two doubles hold beyond one.
+    fn target(&self, s: &SquaredLegLengths) -> ([f64; 6], [f64; 6]) {
+        let scale = (self.unit * self.unit).recip();
+        let target = s.get().map(|s| s * scale);
+        let error = std::array::from_fn(|i| {
+            (4.0 * f64::EPSILON * target[i] + s.radius()[i] * scale) * (1.0 + 1e-9) + f64::MIN_POSITIVE
+        });
+        (target, error)
+    }
+
     /// `steps` plain Newton steps on the leg equations from `start`, without a test of where they lead: for a start so near to the pose that a
     /// step squares its error. `None` when `start` is no pose or singular.
     #[must_use]
     pub fn newton_steps(&self, s: &SquaredLegLengths, start: &Pose, steps: u32) -> Option<Pose> {
-        let scale = (self.unit * self.unit).recip();
-        let target = s.get().map(|s| s * scale);
+        let (target, _) = self.target(s);
         let mut place = local::orthonormal(&self.place_of(start))?;
         for _ in 0..steps {
             place = Local::at(self, &place, &target).newton()?.applied_to(&place);
@@ -173,10 +183,17 @@ impl NearSolver {
         Some(self.pose_of(&place))
     }
 
-    /// One certified segment from `place` towards `target`, as far as the Kantorovich test allows.
-    fn segment(&self, target: &[f64; 6], place: &Place, evidence: &mut NearEvidence) -> Segment {
+    /// One segment from `place` towards `target`, as far as the Kantorovich test proves it free of singularities.
+    fn segment(
+        &self,
+        target: &[f64; 6],
+        target_error: &[f64; 6],
+        place: &Place,
+        evidence: &mut NearEvidence,
+    ) -> Segment {
         let here = Local::at(self, place, target);
-        let Some(start) = Start::of(&here) else { return Segment::Singular };
+        let blur = Blur::of(self, place, &here, target_error);
+        let Some(start) = Start::of(&here, &blur) else { return Segment::Singular };
         if !(start.inverse_condition >= self.options.singular) {
             return Segment::Singular;
         }
@@ -194,7 +211,13 @@ impl NearSolver {
         }
         let part = part.min(1.0);
         let between = here.squares_after(part);
-        evidence.accept(4.0 * (start.beta + part * start.eta) * part * start.eta);
+        // of the way itself, whose beginning and end are known to rounding
+        let eta = part * start.eta + start.slack;
+        let number = 4.0 * (start.beta + eta) * eta;
+        if !(number <= PROVED) {
+            return Segment::Stuck;
+        }
+        evidence.accept(number);
         self.correct(&between, place, &start, part, evidence)
             .map_or(Segment::Stuck, |next| Segment::Advanced(next, part))
     }
@@ -208,7 +231,7 @@ impl NearSolver {
         part: f64,
         evidence: &mut NearEvidence,
     ) -> Option<Place> {
-        let beta = start.beta + part * start.eta;
+        let beta = start.beta + part * start.eta + start.slack;
         let mut newton = Newton { step: start.step.map(|x| part * x) };
         let mut place = *from;
         for _ in 0..CORRECTIONS {
@@ -225,14 +248,18 @@ impl NearSolver {
             newton = Local::at(self, &place, target).newton()?;
         }
         let radius = local::distance(from, &place, start.epsilon);
-        (2.0 * beta * radius <= 1.0).then_some(place)
+        // rounding of the distance is some twenty units in the last place of its terms, over epsilon at most
+        let room =
+            1e-14 * (1.0 + from.position.iter().chain(&place.position).fold(0.0, |m: f64, x| m.max(x.abs())));
+        (2.0 * beta * (radius + room / start.epsilon) <= PROVED).then_some(place)
     }
 
     /// Residual, condition and distance at the end.
     fn measure(&self, target: &[f64; 6], from: &Place, place: &Place, evidence: &mut NearEvidence) {
         let here = Local::at(self, place, target);
         evidence.residual = here.largest_defect() * self.residual_scale;
-        evidence.inverse_condition = Start::of(&here).map_or(0.0, |s| s.inverse_condition);
+        let blur = Blur::of(self, place, &here, &[0.0; 6]);
+        evidence.inverse_condition = Start::of(&here, &blur).map_or(0.0, |s| s.inverse_condition);
         let (angle, shift) = local::motion(from, place);
         evidence.angle = angle;
         evidence.distance = shift * self.unit;

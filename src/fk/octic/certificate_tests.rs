@@ -159,3 +159,54 @@ fn the_discs_hold_the_pair_of_the_generating_pose() {
         assert_eq!(holding, 1, "case {k}");
     }
 }
+
+/// What is stated about the accuracy of the poses is true of the roots, `R` and `p` each by its own size; with frames far from the joints the two have little to do with each other.
+#[test]
+fn poses_called_proved_are_the_roots_to_the_accuracy_stated() {
+    let (mut checked, mut worst) = (0, 0.0_f64);
+    for k in 0..120 {
+        let mut rng = Rng::stream(79, k);
+        let far = [0.0, 30.0, 1000.0][(k % 3) as usize];
+        let mut triangle = || -> Vec<Point3<f64>> {
+            let shift = Vector3::from_fn(|_, _| far * rng.normal());
+            (0..3).map(|_| Point3::from(Vector3::from_fn(|_, _| rng.uniform(-2.0, 2.0)) + shift)).collect()
+        };
+        let m = Manipulator::try_new(triangle(), triangle(), LEGS).unwrap();
+        let lengths = std::array::from_fn(|_| rng.uniform(2.0, 4.0));
+        let s = crate::manipulator::LegLengths::try_new(lengths).unwrap().squared();
+        let solver = OcticSolver::new(&m).unwrap();
+        let Some(found) = solver.solve(&s) else { continue };
+        let certificates = solver.certify(&s, &found);
+        let general = Certifier::new(&m, &s).unwrap();
+        for (i, pose) in found.poses.iter().enumerate() {
+            let Some(pair) = &certificates.pairs[i / 2] else { continue };
+            let own = solver.certificate(pair, pose, i % 2 == 1).unwrap();
+            let Ok(root) = general.refine(pose).map(|r| r.pose()) else { continue };
+            checked += 1;
+            let rows: Vec<Complex64> = (0..9).map(|k| root.rotation[(k / 3, k % 3)]).collect();
+            let entries = rows.iter().chain(root.position.iter());
+            for (disc, z) in own.enclosure().discs().zip(entries) {
+                // the root is rounded to doubles
+                assert!((disc.centre - z).norm() <= disc.radius + 4.0 * f64::EPSILON * z.norm(), "{k} {i}");
+            }
+            let largest = |z: &[Complex64], least: f64| z.iter().map(|z| z.norm()).fold(least, f64::max);
+            let gap = |a: &[Complex64], b: &[Complex64]| {
+                a.iter().zip(b).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)
+            };
+            let given: Vec<Complex64> = (0..9).map(|k| pose.rotation[(k / 3, k % 3)]).collect();
+            let turn = gap(&rows, &given) / largest(&given, 1.0);
+            // the larger triangle has sides of two at least
+            let shift = gap(root.position.as_slice(), pose.position.as_slice())
+                / largest(pose.position.as_slice(), 4.0);
+            assert!(
+                turn <= pair.deviation * 1.001 + 1e-15 && shift <= pair.deviation * 1.001 + 1e-15,
+                "{k} {i}: {turn:e} {shift:e}"
+            );
+            assert!(pair.deviation <= crate::solve::certify::NEAR);
+            worst = worst.max(turn.max(shift));
+        }
+    }
+    assert!(checked > 1000, "{checked}");
+    // and the poses are not perfect, so that the test can fail
+    assert!(worst > 1e-13, "{worst:e}");
+}

@@ -4,6 +4,7 @@ use num_complex::Complex64;
 use thiserror::Error;
 
 use super::octahedral::OctahedralCertificate;
+use crate::geom::ComplexPose;
 use crate::num::disc::Disc;
 
 /// Signs of `(e, g)` under the mirror in `z = 0`, up to a common one.
@@ -42,6 +43,14 @@ impl PoseEnclosure {
     /// The twelve discs, `R` row by row, then `p`.
     pub fn discs(&self) -> impl Iterator<Item = &Disc> {
         self.rotation.iter().flatten().chain(&self.position)
+    }
+
+    /// The centres of the discs.
+    pub(crate) fn middle(&self) -> ComplexPose {
+        ComplexPose {
+            rotation: nalgebra::Matrix3::from_fn(|i, j| self.rotation[i][j].centre),
+            position: nalgebra::Vector3::from_fn(|i, _| self.position[i].centre),
+        }
     }
 
     fn mirrored(&self) -> Self {

@@ -9,7 +9,7 @@ use super::centre::{pose_numerators, pose_of, study_of};
 use super::krawczyk::{Centre, Contraction, contract, contract_sharply};
 use super::refine::refine_study;
 use super::system::{LegSystem, Scalar, Study};
-use super::{Certificate, CertificateOutcome, Certifier, NEAR, RefinedPose, WhyUncertified};
+use super::{CentrePrecision, Certificate, CertificateOutcome, Certifier, NEAR, RefinedPose, WhyUncertified};
 use crate::geom::ComplexPose;
 use crate::num::double_double::DoubleDouble;
 
@@ -103,7 +103,12 @@ impl Certifier {
     /// [`certify`](Self::certify) with the pose of the certified root, rounded from the best approximation at hand: for poses whose last digits got lost on the way.
     pub(crate) fn certify_pose(&self, pose: &ComplexPose) -> Result<CertifiedPose, WhyUncertified> {
         match self.certify(pose) {
-            CertificateOutcome::Certified(certificate) => Ok(CertifiedPose { pose: *pose, certificate }),
+            // in doubles the pose is as good as the centre; beyond, the middle of the enclosure has more digits
+            CertificateOutcome::Certified(certificate) => {
+                let digits = certificate.precision() == CentrePrecision::DoubleDouble;
+                let pose = if digits { certificate.enclosure().middle() } else { *pose };
+                Ok(CertifiedPose { pose, certificate })
+            }
             CertificateOutcome::Absent(why) => {
                 let refined =
                     refine_study(&self.0, &study_of(pose, self.0.unit())?, NEAR).map_err(|_| why)?;

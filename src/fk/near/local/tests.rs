@@ -54,7 +54,7 @@ fn the_second_order_bound_holds_and_is_not_idle() {
         let (solver, place, _) = problem(seed);
         let own = Local::at(&solver, &place, &[0.0; 6]).squares;
         let here = Local::at(&solver, &place, &own);
-        let start = Start::of(&here).unwrap();
+        let start = Start::of(&here, &Blur::of(&solver, &place, &here, &[0.0; 6])).unwrap();
         let mut y = [[0.0; 6]; 6];
         (0..6).for_each(|i| y[i][i] = 1.0);
         invert(&mut here.jacobian(), &mut y).unwrap();
@@ -113,4 +113,68 @@ fn what_is_no_rotation_is_refused() {
     assert!(orthonormal(&far).is_none());
     far.position[1] = f64::NAN;
     assert!(orthonormal(&far).is_none());
+}
+
+/// The numbers of the exact problem, over the rationals, are within the bounds of those computed; and the bounds are of use.
+#[test]
+fn the_exact_problem_is_within_the_blur() {
+    use num_rational::BigRational;
+    type Exact = BigRational;
+    let exact = |x: f64| Exact::from_float(x).unwrap();
+    for seed in 0..20 {
+        let mut rng = Rng::new(seed + 900);
+        let far = if seed % 2 == 0 { 0.0 } else { 50.0 };
+        let legs: [Leg; 6] = std::array::from_fn(|_| {
+            let mut p = || Point3::new(rng.normal() + far, rng.normal(), rng.normal());
+            Leg { base: p(), platform: p() }
+        });
+        let m = Manipulator::from_legs(legs).unwrap();
+        let solver = NearSolver::new(&m);
+        // a rational rotation, rounded
+        let q: [Exact; 4] = std::array::from_fn(|_| exact((rng.normal() * 64.0).round()));
+        let [w, x, y, z] = &q;
+        let n = w * w + x * x + y * y + z * z;
+        let two = exact(2.0);
+        let turn: [[Exact; 3]; 3] = [
+            [(w * w + x * x - y * y - z * z) / &n, &two * (x * y - w * z) / &n, &two * (x * z + w * y) / &n],
+            [&two * (x * y + w * z) / &n, (w * w - x * x + y * y - z * z) / &n, &two * (y * z - w * x) / &n],
+            [&two * (x * z - w * y) / &n, &two * (y * z + w * x) / &n, (w * w - x * x - y * y + z * z) / &n],
+        ];
+        let double = |x: &Exact| num_traits::ToPrimitive::to_f64(x).unwrap();
+        let rotation = std::array::from_fn(|i| std::array::from_fn(|j| double(&turn[i][j])));
+        let place = Place { rotation, position: std::array::from_fn(|_| rng.normal()) };
+        let l = crate::manipulator::LegLengths::try_new(std::array::from_fn(|_| rng.uniform(1.0, 4.0) + far))
+            .unwrap();
+        let s = l.squared();
+        let (target, error) = solver.target(&s);
+        let here = Local::at(&solver, &place, &target);
+        let blur = Blur::of(&solver, &place, &here, &error);
+        let unit = exact(solver.unit);
+        let within = |gap: [Exact; 3], bound: f64| {
+            let square: Exact = gap.iter().map(|x| x * x).sum();
+            square <= exact(bound) * exact(bound)
+        };
+        for i in 0..6 {
+            let local = |p: &Point3<f64>, o: &nalgebra::Vector3<f64>| -> [Exact; 3] {
+                std::array::from_fn(|k| (exact(p[k]) - exact(o[k])) / &unit)
+            };
+            let (a, b) = (local(&legs[i].base, &solver.origin), local(&legs[i].platform, &solver.centre));
+            let b: [Exact; 3] = std::array::from_fn(|k| (0..3).map(|j| &turn[k][j] * &b[j]).sum());
+            let a: [Exact; 3] = std::array::from_fn(|k| &a[k] - exact(place.position[k]));
+            let d: [Exact; 3] = std::array::from_fn(|k| &b[k] - &a[k]);
+            let gap =
+                |x: &[Exact; 3], y: &Vector| -> [Exact; 3] { std::array::from_fn(|k| &x[k] - exact(y[k])) };
+            assert!(within(gap(&a, &here.a[i]), blur.a[i]) && within(gap(&b, &here.b[i]), blur.b[i]));
+            assert!(within(gap(&d, &here.d[i]), blur.d[i]));
+            let square: Exact = d.iter().map(|x| x * x).sum();
+            let wanted = exact(l.get()[i]) * exact(l.get()[i]) / (&unit * &unit);
+            let f = (square - wanted) / exact(2.0);
+            assert!(within([f - exact(here.f[i]), exact(0.0), exact(0.0)], blur.f[i]), "{seed} {i}");
+            assert!(
+                blur.f[i] < 1e-13 * (1.0 + far) * (1.0 + target[i]),
+                "the bound is of use: {:e}",
+                blur.f[i]
+            );
+        }
+    }
 }
