@@ -83,6 +83,8 @@ pub struct Certificate {
     pub(super) patch: usize,
     pub(super) unit: f64,
     pub(super) radius: f64,
+    /// As `radius`, of the root for the middles of the data.
+    pub(super) centre_radius: f64,
     pub(super) uniqueness_radius: f64,
     pub(super) contraction: f64,
     pub(super) reality: ProvedReality,

@@ -32,6 +32,8 @@ use crate::num::double_double::DoubleDouble;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Contraction {
     pub(super) radius: f64,
+    /// The root for the middles of the data is at most this far from the centre.
+    pub(super) centre_radius: f64,
     pub(super) uniqueness_radius: f64,
     pub(super) lipschitz: f64,
     /// `Y F(c)`, computed: the centre less this is a better approximation (zero for the patch).
@@ -132,11 +134,14 @@ fn radii(b: &Bounds) -> Result<Contraction, WhyUncertified> {
     let admissible = room * room / (4.0 * b.beta);
     let failure = WhyUncertified::NoContraction { step: b.eta, admissible };
     // the smaller root of beta r^2 - room r + eta, a little enlarged; the proof is the check below
-    let root = (room * room - 4.0 * b.beta * b.eta).sqrt();
-    let radius = 2.0 * b.eta / (room + root) * (1.0 + 1e-3);
+    let smallest = |eta: f64| {
+        let root = (room * room - 4.0 * b.beta * eta).sqrt();
+        2.0 * eta / (room + root) * (1.0 + 1e-3)
+    };
+    let inside = |eta: f64, r: f64| (eta + b.kappa * r + b.beta * r * r) * UP <= r;
+    let radius = smallest(b.eta);
     let lipschitz = (b.kappa + 2.0 * b.beta * radius) * UP;
-    let inside = (b.eta + b.kappa * radius + b.beta * radius * radius) * UP <= radius;
-    let contracts = inside && lipschitz < 1.0;
+    let contracts = inside(b.eta, radius) && lipschitz < 1.0;
     if !contracts {
         return Err(failure);
     }
@@ -144,7 +149,11 @@ fn radii(b: &Bounds) -> Result<Contraction, WhyUncertified> {
     let uniqueness_radius = room / b.beta * (1.0 - 1e-9) - radius;
     let unique = uniqueness_radius > radius * (1.0 + 1e-9)
         && (b.kappa + b.beta * (radius + uniqueness_radius)) * UP < 1.0;
-    if unique { Ok(Contraction { radius, uniqueness_radius, lipschitz, step: b.step }) } else { Err(failure) }
+    // the same theorem for one member of the data
+    let closer = smallest(b.eta_centre);
+    let centre_radius = if closer < radius && inside(b.eta_centre, closer) { closer } else { radius };
+    let proof = Contraction { radius, centre_radius, uniqueness_radius, lipschitz, step: b.step };
+    if unique { Ok(proof) } else { Err(failure) }
 }
 
 /// The radii when the bounds prove something and the Newton step at the centre is at most `near`.

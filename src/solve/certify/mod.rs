@@ -70,6 +70,13 @@ use system::{LegSystem, Study};
 /// larger of 1 and the largest entry, for `p` relative to the larger of the unit and the largest entry.
 pub const NEAR: f64 = 1.0 / (1u32 << 26) as f64;
 
+/// How wide an enclosure may be, in the measure of [`NEAR`], where `e.e` is so small that double-double does not give `R` and `p` to `NEAR`. The pose is then the middle of
+/// it, and the enclosure says which digits it has.
+pub const FAR_OUT: f64 = 1.0 / (1u32 << 10) as f64;
+
+/// A pose this near to the middle of its enclosure is the middle, rounded.
+const ROUNDED: f64 = 1.0 / (1u64 << 40) as f64;
+
 /// One problem, scaled once and ready to certify any number of roots.
 #[derive(Debug, Clone)]
 pub struct Certifier(LegSystem);
@@ -110,14 +117,29 @@ impl Certifier {
         self.accurate(pose, certificate)
     }
 
-    /// The certificate when the pose is its root to within [`NEAR`] in `R` and `p`.
+    /// The certificate when the pose is its root, for the middles of the data, to within [`NEAR`] in `R` and `p`; or, far out, the middle of an enclosure not wider than
+    /// [`FAR_OUT`].
     fn accurate(&self, pose: &ComplexPose, c: Certificate) -> Result<Certificate, WhyUncertified> {
-        let distance = rotation_distance(pose, &c.enclosure);
+        let own =
+            if c.centre_radius < c.radius { Self::enclose(&c, c.centre_radius) } else { Some(c.enclosure) };
+        let enclosure = own.ok_or(WhyUncertified::RotationUndefined)?;
+        let distance = rotation_distance(pose, &enclosure);
         if !(distance <= NEAR) {
             return Err(WhyUncertified::NotARotation { distance });
         }
-        let distance = deviation(pose, &c.enclosure, self.0.unit());
-        if distance <= NEAR { Ok(c) } else { Err(WhyUncertified::Deviation { distance }) }
+        let unit = self.0.unit();
+        let distance = deviation(pose, &enclosure, unit, false);
+        let is_middle = || deviation(pose, &enclosure, unit, true) <= ROUNDED;
+        let far_out = distance <= FAR_OUT && c.precision == CentrePrecision::DoubleDouble && is_middle();
+        if distance <= NEAR || far_out { Ok(c) } else { Err(WhyUncertified::Deviation { distance }) }
+    }
+
+    /// Encloses `R` and `p` over the ball of `radius` about the centre.
+    fn enclose(c: &Certificate, radius: f64) -> Option<PoseEnclosure> {
+        match c.precision {
+            CentrePrecision::Double => enclose_pose(&c.centre, c.patch, radius, c.unit),
+            CentrePrecision::DoubleDouble => enclose_pose_widely(&c.centre, &c.low, c.patch, radius, c.unit),
+        }
     }
 
     fn build(system: &LegSystem, x: &Centre<'_>, c: &Contraction) -> Result<Certificate, WhyUncertified> {
@@ -140,6 +162,7 @@ impl Certifier {
             patch,
             unit,
             radius,
+            centre_radius: c.centre_radius,
             uniqueness_radius,
             contraction: c.lipschitz,
             reality: reality(x, c),

@@ -133,7 +133,7 @@ impl Certifier {
             Ok(certificate) => certificate,
             Err(why) => self.prove_coarsely(&refined.x).ok_or(why)?,
         };
-        let pose = self.rounded_pose(&refined.x);
+        let pose = certificate.enclosure.middle();
         Ok(CertifiedPose { pose, certificate: self.accurate(&pose, certificate)? })
     }
 
