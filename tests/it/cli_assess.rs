@@ -105,7 +105,11 @@ fn a_worst_pose_that_searches_miss_is_found_by_cells() {
     let path = "tests/fixtures/adversarial/REP_assess.toml";
     let out = equipod(&["assess", path, "--points", "0", "--searches", "0", "--cells", "1500", "--json"]);
     let doc = document(&out);
-    assert!(matches!(out.status.code(), Some(1 | 3)) && doc["met"].as_bool() != Some(true), "{doc}");
+    assert_eq!((out.status.code(), doc["met"].as_bool()), (Some(1), Some(false)), "{doc}");
+    let margins = doc["margins"].as_array().unwrap();
+    let swing = margins.iter().find(|m| m["requirement"] == "platform_swing").unwrap();
+    assert_eq!((swing["status"].as_str(), swing["met"].as_bool()), (Some("violated"), Some(false)));
+    assert!(swing["margin"].as_f64().unwrap() < -0.15, "{swing}");
     // a degree more is enough
     let folder = tempfile::tempdir().unwrap();
     let text = std::fs::read_to_string(path).unwrap();

@@ -253,6 +253,9 @@ impl AtPoint {
 /// Local searches that go on from a cell, by function.
 const SEARCHES: usize = 3;
 
+/// Cells in which worse violations than the first one are looked for.
+const WORSE: usize = 300;
+
 /// Steps along the slopes from a point of each cell.
 const STEPS: usize = 6;
 
@@ -331,13 +334,13 @@ impl Judge<'_> {
             self.terms.rounding(kind, pose.as_ref())
         };
         let mut slack = rounding(&state);
-        let most = state.cells + cells;
+        let (most, enough) = (state.cells + cells, state.cells + cells.min(WORSE));
         let mut below = f64::INFINITY;
         while let Some(open) = state.heap.pop() {
             below = open.below;
             let upper = state.upper;
             let close = below >= CLOSE * upper.abs() || below >= upper - slack;
-            let decided = upper < -slack || (close && below >= -slack);
+            let decided = (upper < -slack && state.cells >= enough) || (close && below >= -slack);
             if decided || state.cells >= most {
                 break;
             }
