@@ -38,6 +38,15 @@ impl Ball {
         self * self
     }
 
+    /// Square root; `None` unless all numbers are above zero.
+    pub(super) fn root(self) -> Option<Self> {
+        let low = (self.c - self.r).next_down();
+        if !(low > 0.0) {
+            return None;
+        }
+        Some(Interval::new(low, self.high())?.sqrt()?.into())
+    }
+
     /// `1 / x`; `None` unless all numbers are above zero.
     pub(super) fn inverse(self) -> Option<Self> {
         let (low, high) = ((self.c - self.r).next_down(), self.high());
@@ -120,6 +129,13 @@ mod tests {
                 && let Some(inverse) = a.inverse()
             {
                 assert!(holds(inverse, &(rational(1.0).unwrap() / &x)));
+            }
+            if a.c > 0.0
+                && let Some(root) = a.root()
+            {
+                let exact = |x: f64| rational(x).unwrap();
+                let (low, high) = (exact(root.c) - exact(root.r), exact(root.c) + exact(root.r));
+                assert!(&low * &low <= x && x <= &high * &high);
             }
         }
         assert!(Ball { c: 1.0, r: 1.5 }.inverse().is_none());

@@ -2,17 +2,16 @@
 
 use nalgebra::Matrix6;
 
-use super::ball::Ball;
-use super::curved::{self, Curved, Turning};
+use super::corners::{self, AtCorners, at_corners};
 use super::multipliers::{SAMPLES, Sampled, multipliers};
 use super::rows::{LegRow, Quotient, greatest};
 use crate::offsets::conditioning::PoseLegs;
 use crate::offsets::enclosure::point;
 use crate::offsets::limits::Bounds;
 
-/// Attempts at a proof: poses that are looked at, those of them that take part, those for which vectors are mixed, and those that take part with turning
-/// vectors. Most boxes need the first only, which costs little.
-const ATTEMPTS: [(usize, usize, usize, usize); 2] = [(10, 6, 3, 10), (usize::MAX, 30, 20, 20)];
+/// Attempts at a proof: poses that are looked at, those of them that take part, those for which vectors are mixed, and those that take part with
+/// determinants. Most boxes need the first only, which costs little.
+const ATTEMPTS: [(usize, usize, usize, usize); 2] = [(10, 6, 3, 8), (usize::MAX, 30, 20, 14)];
 
 /// The poses of the problem as rows in intervals and the singular vectors that bound the singular values.
 #[derive(Debug)]
@@ -94,7 +93,7 @@ pub(super) fn test(
     let middle = bounds.map(|(low, high)| f64::midpoint(low, high));
     let mut found: Vec<(usize, Direction)> = Vec::new();
     let mut seen = 0;
-    for (looked_at, taking_part, mixed, turning) in ATTEMPTS {
+    for (looked_at, taking_part, mixed, at_all_corners) in ATTEMPTS {
         let more = &candidates[seen..candidates.len().min(looked_at)];
         seen += more.len();
         found.extend(more.iter().filter_map(|&k| Some((k, Direction::of(&plain[k].jacobian(&middle))?))));
@@ -102,27 +101,14 @@ pub(super) fn test(
         if excluded(poses, &found[..found.len().min(taking_part)], mixed, bounds, limit) {
             return Test::Excluded;
         }
-        if excluded_by_turning(poses, plain, &found[..found.len().min(turning)], bounds, limit) {
+        let function = |(k, _): &(usize, Direction)| at_corners(&poses[*k].rows, &plain[*k], bounds, limit);
+        let functions: Vec<AtCorners> =
+            found[..found.len().min(at_all_corners)].iter().filter_map(function).collect();
+        if corners::excluded(&functions) {
             return Test::Excluded;
         }
     }
     Test::Kept(found.into_iter().map(|f| f.0).collect())
-}
-
-/// One attempt with these poses and vectors that turn with the offsets.
-fn excluded_by_turning(
-    poses: &[Pose],
-    plain: &[PoseLegs],
-    found: &[(usize, Direction)],
-    bounds: &Bounds,
-    limit: f64,
-) -> bool {
-    let limit = Ball::from(point(limit).square());
-    let function = |(k, _): &(usize, Direction)| {
-        Curved::new(&poses[*k].rows, &Turning::of(&plain[*k], bounds)?, bounds, limit)
-    };
-    let functions: Vec<Curved> = found.iter().filter_map(function).collect();
-    curved::excluded(&functions, bounds)
 }
 
 /// One attempt with these poses, worst first.

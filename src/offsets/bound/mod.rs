@@ -1,7 +1,7 @@
 //! A proved upper bound of the worst-case inverse condition number over all offsets: branch and bound.
 
 mod ball;
-mod curved;
+mod corners;
 mod exclude;
 mod multipliers;
 mod rows;

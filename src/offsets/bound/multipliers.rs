@@ -49,8 +49,53 @@ pub(super) fn multipliers(samples: &[Sampled]) -> Option<Vec<f64>> {
     Some(mu.into_iter().map(|m| if m < NEGLIGIBLE * largest { 0.0 } else { m }).collect())
 }
 
+/// Multipliers `mu >= 0`, `sum mu = 1`, that minimise the greatest of the values `sum_k mu_k values[k][j]`; `None` when that is not below 0.
+///
+/// A matrix game (von Neumann 1928): with all values raised above 0, `p = mu / value` maximises `sum p` under `sum_k p_k values[k][j] <= 1`.
+pub(super) fn game<const N: usize>(values: &[[f64; N]]) -> Option<Vec<f64>> {
+    let n = values.len();
+    let range =
+        values.iter().flatten().fold((f64::INFINITY, f64::NEG_INFINITY), |r, x| (r.0.min(*x), r.1.max(*x)));
+    if !(range.0.is_finite() && range.1.is_finite() && range.0 < 0.0)
+        || values.iter().flatten().any(|x| x.is_nan())
+    {
+        return None;
+    }
+    let raised = (range.1 - range.0).max(-range.0);
+    let scale = 1.0 / raised;
+    let mut entries = vec![0.0; (N + 1) * (n + 1)];
+    for j in 0..N {
+        for (k, own) in values.iter().enumerate() {
+            entries[j * (n + 1) + k] = (own[j] - range.0) * scale + 1.0;
+        }
+        entries[j * (n + 1) + n] = 1.0 + APART * (1.0 + (0.618_034 * j as f64).fract());
+    }
+    entries[N * (n + 1)..][..n].fill(-1.0);
+    let basic = (n..n + N).collect();
+    let mut tableau = Tableau { rows: N, columns: n, entries, basic, other: (0..n).collect(), small: SMALL };
+    for _ in 0..MOST_PIVOTS {
+        let Some(column) = tableau.entering() else { break };
+        let row = tableau.leaving(column)?;
+        tableau.pivot(row, column);
+    }
+    let mut mu = vec![0.0; n];
+    for (row, variable) in tableau.basic.iter().enumerate() {
+        if *variable < n {
+            mu[*variable] = tableau.entry(row, n).max(0.0);
+        }
+    }
+    let total: f64 = mu.iter().sum();
+    if !(total > 0.0 && total.is_finite()) {
+        return None;
+    }
+    let mu: Vec<f64> = mu.into_iter().map(|m| if m < NEGLIGIBLE * total { 0.0 } else { m / total }).collect();
+    let at = |j: usize| mu.iter().zip(values).map(|(m, v)| m * v[j]).sum::<f64>();
+    (0..N).all(|j| at(j) < 0.0).then_some(mu)
+}
+
 /// Basic variables over the others: `basic + sum entry * other = right-hand side`, the costs of the others in the last row.
 struct Tableau {
+    rows: usize,
     /// Without the right-hand side, which is one more.
     columns: usize,
     entries: Vec<f64>,
@@ -84,7 +129,14 @@ impl Tableau {
         }
         set(ROWS - 1, columns, 1.0);
         let basic = (columns..columns + ROWS).collect();
-        Self { columns, entries, basic, other: (0..columns).collect(), small: SMALL * scale.min(1.0) }
+        Self {
+            rows: ROWS,
+            columns,
+            entries,
+            basic,
+            other: (0..columns).collect(),
+            small: SMALL * scale.min(1.0),
+        }
     }
 
     fn entry(&self, row: usize, column: usize) -> f64 {
@@ -93,7 +145,7 @@ impl Tableau {
 
     /// The column of the lowest cost; `None` at the optimum.
     fn entering(&self) -> Option<usize> {
-        let costs = &self.entries[ROWS * (self.columns + 1)..][..self.columns];
+        let costs = &self.entries[self.rows * (self.columns + 1)..][..self.columns];
         let lowest = costs.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1));
         lowest.filter(|(_, cost)| **cost < -self.small).map(|(k, _)| k)
     }
@@ -101,7 +153,7 @@ impl Tableau {
     /// The row that bounds the entering variable; of equal ones the one with the larger pivot.
     fn leaving(&self, column: usize) -> Option<usize> {
         let mut best: Option<(f64, f64, usize)> = None;
-        for row in 0..ROWS {
+        for row in 0..self.rows {
             let pivot = self.entry(row, column);
             if pivot > self.small {
                 let ratio = self.entry(row, self.columns) / pivot;
@@ -190,6 +242,45 @@ mod tests {
             }
         }
         assert!(below > 20 && none > 20, "{below} {none}");
+    }
+
+    #[test]
+    fn games_have_the_value_of_the_conic_solver() {
+        let mut rng = Rng::new(6);
+        let (mut below, mut none) = (0, 0);
+        for n in 0..80 {
+            let (functions, lift) = (1 + n % 20, rng.uniform(-1.5, 1.5));
+            let values: Vec<[f64; 16]> =
+                (0..functions).map(|_| std::array::from_fn(|_| rng.normal() + lift)).collect();
+            let mut p = ConicProgram {
+                variables: functions + 1,
+                linear: vec![0.0; functions + 1],
+                ..Default::default()
+            };
+            p.linear[functions] = 1.0;
+            for j in 0..16 {
+                let mut row: Vec<(usize, f64)> = (0..functions).map(|k| (k, values[k][j])).collect();
+                row.push((functions, -1.0));
+                p.at_least_zero(row, 0.0);
+            }
+            (0..functions).for_each(|k| p.at_least_zero(vec![(k, -1.0)], 0.0));
+            p.at_least_zero((0..functions).map(|k| (k, 1.0)).collect(), 1.0);
+            p.at_least_zero((0..functions).map(|k| (k, -1.0)).collect(), -1.0);
+            let ConicAnswer::Point(found) = p.solve() else { panic!("no point") };
+            let expected = found.x[functions];
+            if let Some(mu) = game(&values) {
+                below += 1;
+                assert!(mu.iter().all(|m| *m >= 0.0));
+                let at = |j: usize| mu.iter().zip(&values).map(|(m, v)| m * v[j]).sum::<f64>();
+                let value = (0..16).map(at).fold(f64::MIN, f64::max);
+                assert!((value - expected).abs() < 2e-3 * expected.abs().max(0.1), "{value} {expected}");
+            } else {
+                none += 1;
+                assert!(expected > -1e-3, "{expected}");
+            }
+        }
+        assert!(below > 10 && none > 10, "{below} {none}");
+        assert!(game::<4>(&[]).is_none() && game(&[[f64::NAN; 4]]).is_none());
     }
 
     #[test]

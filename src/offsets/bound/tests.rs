@@ -128,3 +128,36 @@ fn better_offsets_than_the_value_given_are_come_upon() {
         .unwrap();
     assert!(best > start && bound.upper >= best && bound.upper < best * 1.06, "{best} {bound:?}");
 }
+
+/// What the corners say of a function holds between them: at offsets drawn in the box, the function of the theory page by plain arithmetic is not above the one that
+/// is affine in every offset.
+#[test]
+fn functions_at_the_corners_are_above_what_they_bound() {
+    use super::corners::{CORNERS, at_corners};
+    let p = problem();
+    let m = Model::new(&p);
+    let limits = Limits::new(&p);
+    let tree = Bounding::new(&p, &m, &limits).unwrap();
+    let mut rng = Rng::new(12);
+    let mut sharp = 0;
+    for n in 0..60 {
+        let t = offsets(&mut rng);
+        let bounds = around(&t, [0.3, 0.05, 1e-3][n % 3], &mut rng);
+        let k = n % p.poses.len();
+        let reached = m.poses[k].inverse_condition(&t);
+        // offsets that reach the limit have values that are not negative
+        let Some(f) = at_corners(&tree.poses[k].rows, &m.poses[k], &bounds, reached * (1.0 - 1e-9)) else {
+            continue;
+        };
+        let share = |i: usize| (t[i] - bounds[i].0) / (bounds[i].1 - bounds[i].0);
+        let weight = |corner: usize| -> f64 {
+            (0..6).map(|i| if corner >> i & 1 == 1 { share(i) } else { 1.0 - share(i) }).product()
+        };
+        let value: f64 = (0..CORNERS).map(|c| weight(c) * (f[c].c + f[c].r)).sum();
+        assert!(value >= 0.0, "{n}: {value}");
+        // and a limit well above makes small boxes negative
+        let above = at_corners(&tree.poses[k].rows, &m.poses[k], &bounds, reached * 1.05).unwrap();
+        sharp += usize::from(n % 3 == 2 && above.iter().all(|b| b.c + b.r < 0.0));
+    }
+    assert!(sharp >= 15, "{sharp} of 20");
+}
