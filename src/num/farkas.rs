@@ -96,6 +96,6 @@ mod tests {
         assert!(refuted(&rows, &cones, &[0.5, -1.0, 0.0, 1.0], &ranges).is_some());
         assert!(refuted(&rows, &cones, &[1.0, 1.0, 0.0, 1.0], &ranges).is_none());
         assert!(refuted(&rows, &cones, &[1.0, -1.0, 0.0], &ranges).is_none());
-        assert!(refuted(&rows, &cones, &[f64::NAN, -1.0, 0.0, 1.0], &ranges).is_none());
+        assert!(refuted(&rows, &cones, &[1.0, f64::NAN, 0.0, 1.0], &ranges).is_none());
     }
 }

@@ -35,8 +35,8 @@ pub struct OptimizeOptions {
     pub starts: usize,
     /// Search every branch for its own best, not only for what the whole problem needs.
     pub survey: bool,
-    /// Greatest relative gap between the proved upper bound and the solution at which the solution counts as optimal. The proof aims at a tenth of
-    /// it; one that takes too many boxes ends with a wider gap.
+    /// Greatest relative gap between the proved upper bound and the solution at which the solution counts as optimal. A proof
+    /// that takes too many boxes ends with a wider one.
     pub gap: f64,
     /// Boxes of offsets after which the gap is widened.
     pub boxes: usize,
@@ -53,7 +53,7 @@ impl Default for OptimizeOptions {
             starts: 6,
             survey: false,
             gap: 1e-2,
-            boxes: 6000,
+            boxes: 40_000,
         }
     }
 }

@@ -85,7 +85,14 @@ fn small_problem() -> OffsetProblem {
 }
 
 fn quick() -> OptimizeOptions {
-    OptimizeOptions { samples: 8, climbs: 2, polished: 3, starts: 3, ..OptimizeOptions::default() }
+    OptimizeOptions {
+        samples: 8,
+        climbs: 2,
+        polished: 3,
+        starts: 3,
+        boxes: 2000,
+        ..OptimizeOptions::default()
+    }
 }
 
 fn optimum(p: &OffsetProblem) -> OffsetSolution {

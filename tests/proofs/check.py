@@ -14,10 +14,11 @@ import time
 
 import certificates
 import counts
+import offsets
 import workspace
 from common import Tally
 
-TOPICS = {"certificates": certificates, "counts": counts, "workspace": workspace}
+TOPICS = {"certificates": certificates, "counts": counts, "offsets": offsets, "workspace": workspace}
 
 
 def main():

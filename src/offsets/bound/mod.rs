@@ -63,10 +63,13 @@ const BATCH: usize = 32;
 const INHERITED: usize = 80;
 /// Boxes so many halvings down look at all poses once more.
 const REVIEW: usize = 8;
-/// Share of the gap asked for that is tried first.
-const AIM: f64 = 0.0999;
-/// Widening of the gap when the boxes are used up: the second brings it to what was asked for.
-const WIDER: f64 = 3.162_277_660_168_379_5;
+/// Share of the gap asked for that the proof aims at.
+const AIM: f64 = 0.999;
+/// Widening of the gap when the boxes are used up, and the share of them that each wider gap gets.
+const WIDER: f64 = 2.0;
+const MORE: usize = 8;
+/// A proof that took at most this share of the boxes is tried again with a tenth of the gap and as many boxes more.
+const EASY: usize = 10;
 /// No bound is claimed beyond this gap.
 const WIDEST: f64 = 64.0;
 
@@ -97,9 +100,37 @@ impl<'a> Bounding<'a> {
         Some(Self { model, limits, poses: poses? })
     }
 
+    /// The bound for the gap asked for, and for a tenth of it where that was easy; see [`Self::prove_once`].
+    pub(crate) fn prove(
+        &self,
+        boxes: Vec<Bounds>,
+        value: f64,
+        o: BoundOptions,
+        improve: &mut dyn FnMut(&[[f64; 6]]) -> f64,
+        tick: &mut dyn FnMut(usize, usize, f64) -> ControlFlow<()>,
+    ) -> Option<GlobalBound> {
+        let first = self.prove_once(boxes.clone(), value, o, improve, tick)?;
+        let easy = o.boxes / EASY;
+        if first.boxes > easy || first.gap > o.gap {
+            return Some(first);
+        }
+        let finer = BoundOptions { gap: 0.1 * o.gap, boxes: easy, ..o };
+        let value = improve(&[]).max(value);
+        let done = first.boxes;
+        let second = self.prove_once(boxes, value, finer, improve, &mut |boxes, open, best| {
+            // a wider gap than the first is no use
+            if boxes > easy { ControlFlow::Break(()) } else { tick(done + boxes, open, best) }
+        });
+        Some(
+            second
+                .filter(|s| s.upper < first.upper)
+                .map_or(first, |s| GlobalBound { boxes: done + s.boxes, ..s }),
+        )
+    }
+
     /// Drives the bound down to `value (1 + gap)` over the boxes given. `improve` is asked with the middle of every box that is kept and
     /// answers with the best value known from then on. `None` when `tick` breaks off, or when nothing could be proved.
-    pub(crate) fn prove(
+    fn prove_once(
         &self,
         boxes: Vec<Bounds>,
         mut value: f64,
@@ -114,7 +145,7 @@ impl<'a> Bounding<'a> {
         let (mut gap, mut done, mut budget) = (o.gap * AIM, 0, o.boxes);
         while !open.is_empty() {
             if done >= budget {
-                (gap, budget) = (gap * WIDER, budget + o.boxes / 2);
+                (gap, budget) = (gap * WIDER, budget + o.boxes / MORE);
                 if gap > WIDEST {
                     return None;
                 }

@@ -89,7 +89,7 @@ fn a_box_that_holds_something_better_is_never_excluded_and_small_ones_below_the_
 #[test]
 fn no_random_offsets_exceed_the_bound_and_the_solution_is_near_it() {
     let p = problem();
-    let o = OptimizeOptions { threads: 2, ..OptimizeOptions::default() };
+    let o = OptimizeOptions { threads: 2, boxes: 8000, ..OptimizeOptions::default() };
     let r = optimize(&p, &o, &mut |_| ControlFlow::Continue(())).unwrap();
     let (bound, value) = (r.bound.unwrap(), r.solution().unwrap().recheck.objective);
     // few poses leave wide plateaus: the gap asked for is not always reached within the boxes allowed
