@@ -189,7 +189,8 @@ mod tests {
         let s = LegLengths::try_new([1e-170, 1e-160, 1.2e154, 1.0, 1.0, 1.0]).unwrap().squared();
         for (i, l) in [1e-170, 1e-160, 1.2e154].into_iter().enumerate() {
             let gap = exact(s.get()[i]) - exact(l) * exact(l);
-            assert!(&gap <= &exact(s.radius()[i]) && -&gap <= exact(s.radius()[i]) && s.radius()[i] > 0.0);
+            let radius = exact(s.radius()[i]);
+            assert!(gap <= radius && -gap <= radius && s.radius()[i] > 0.0);
         }
     }
 }

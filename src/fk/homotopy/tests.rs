@@ -65,7 +65,7 @@ fn a_joint_off_the_plane_by_a_millionth_takes_forty_paths() {
         let found = Homotopy.solve(&m, &lengths(&m, &mut rng), &FkOptions::default()).unwrap();
         assert_eq!((found.paths.len(), found.roots.len()), (40, 40));
         assert!(found.paths.iter().all(|p| p.mirror_root.is_none()));
-        assert!(found.roots.iter().all(|r| r.certified()));
+        assert!(found.roots.iter().all(FkRoot::certified));
     }
 }
 

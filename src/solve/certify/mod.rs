@@ -119,6 +119,7 @@ impl Certifier {
 
     /// The certificate when the pose is its root, for the middles of the data, to within [`NEAR`] in `R` and `p`; or, far out, the middle of an enclosure not wider than
     /// [`FAR_OUT`].
+    #[allow(clippy::large_types_passed_by_value, reason = "it goes in and comes out again")]
     fn accurate(&self, pose: &ComplexPose, c: Certificate) -> Result<Certificate, WhyUncertified> {
         let own =
             if c.centre_radius < c.radius { Self::enclose(&c, c.centre_radius) } else { Some(c.enclosure) };

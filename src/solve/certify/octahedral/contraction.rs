@@ -31,7 +31,7 @@ pub(super) struct Contraction {
     /// `|Y F(c)|`.
     pub(super) step: Reals,
     /// Lipschitz constant of the map on the ball of the radius.
-    pub(super) contraction: Reals,
+    pub(super) lipschitz: Reals,
     /// `|J| |Y|` in the weighted norm, with equations scaled to gradients of size one: no bound, an estimate.
     pub(super) condition: Reals,
 }
@@ -92,8 +92,8 @@ pub(super) fn contract(closures: &[Closure; 2], x: &Batch, y: &Batch) -> Contrac
     let [eta, kappa, beta] = bounds;
     let (eta, kappa, beta) = (eta.up(), kappa.up(), beta.up());
     let (radius, uniqueness) = radii(eta, kappa, beta);
-    let contraction = (kappa + (beta * radius).times(2.0)).up();
-    Contraction { weights, radius, uniqueness, step: eta, contraction, condition }
+    let lipschitz = (kappa + (beta * radius).times(2.0)).up();
+    Contraction { weights, radius, uniqueness, step: eta, lipschitz, condition }
 }
 
 /// Radii of the ball that holds the root and of that in which it is alone, NaN where there is no proof.

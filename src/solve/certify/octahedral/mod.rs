@@ -243,7 +243,7 @@ impl OctahedralCertifier {
                 deviation: relative.0[k],
                 distances: [deviation.rotation.0[k], deviation.position.0[k] * self.unit],
                 height: placed.p4[2].c.lane(k) * (deviation.first.0[k] * self.unit),
-                contraction: found.contraction.0[k],
+                contraction: found.lipschitz.0[k],
                 condition: found.condition.0[k],
             });
         }
