@@ -29,6 +29,7 @@ fn without_roots(reason: String, solution_set: SolutionSet, o: &FkOptions) -> Fk
         paths: Vec::new(),
         rejected: Vec::new(),
         pose_count: None,
+        unproved: Vec::new(),
         seed: o.seed,
     }
 }

@@ -53,6 +53,7 @@ impl Candidates {
             paths: Vec::new(),
             rejected,
             pose_count: None,
+            unproved: Vec::new(),
             seed: o.seed,
         };
         attach(&mut solutions, m, s, GENERAL, Vec::new());

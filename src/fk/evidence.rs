@@ -3,10 +3,10 @@
 use std::fmt::Write as _;
 
 use super::bounds::class_bound;
-use super::{Completeness, FkSolutions, Reality, Rejected, RejectionReason};
+use super::{Completeness, FkRoot, FkSolutions, Reality, Rejected, RejectionReason};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::solve::certify::{
-    Certificate, CertifiedPose, Certifier, Distinctness, ProvedReality, RootRelation, distinct,
+    Certificate, CertifiedPose, Certifier, Distinctness, ProvedReality, RootRelation, distinct, relation,
 };
 
 /// A proved upper bound on the number of finite poses, counted with multiplicity.
@@ -41,13 +41,31 @@ pub(super) fn attach(
     mut known: Vec<Certificate>,
 ) {
     let Ok(certifier) = Certifier::new(m, s) else { return };
-    for root in solutions.roots.iter_mut().filter(|r| !r.certified()) {
+    let mut repeated = vec![false; solutions.roots.len()];
+    for (root, repeated) in solutions.roots.iter_mut().zip(&mut repeated).filter(|(r, _)| !r.certified()) {
         let Ok(CertifiedPose { pose, certificate }) = certifier.certify_pose(&root.pose) else { continue };
+        let same = |k: &Certificate| relation(k, &certificate) == RootRelation::Same;
+        if known.iter().any(same) {
+            *repeated = true;
+            continue;
+        }
         root.pose = pose;
         root.residual = pose.residual(m, s);
         root.reality = proved(certificate.reality());
         root.certificate = Some(certificate.into());
+        // a certified root is simple, however many paths came near it
+        root.multiplicity = 1;
         known.push(certificate);
+    }
+    if repeated.contains(&true) {
+        let mut repeated = repeated.iter();
+        let duplicates = withdraw(solutions, |_| repeated.next() == Some(&true));
+        let duplicate = |r: &FkRoot| Rejected { reason: RejectionReason::Duplicate, residual: r.residual };
+        solutions.rejected.extend(duplicates.iter().map(duplicate));
+        if let Completeness::Unproved { reason, all_paths_accounted } = &mut solutions.completeness {
+            let _ = write!(reason, "; {} candidates are roots found already", duplicates.len());
+            *all_paths_accounted = false;
+        }
     }
     conclude(solutions, m, &known, bound);
 }
@@ -101,23 +119,42 @@ fn conclude(solutions: &mut FkSolutions, m: &Manipulator, certificates: &[Certif
 
 /// With as many certified roots as there can be, what has no certificate is no further root.
 pub(super) fn reject_others(solutions: &mut FkSolutions) {
-    if solutions.roots.iter().all(super::FkRoot::certified) {
+    let others = withdraw(solutions, |r| !r.certified());
+    let rejected = |r: &FkRoot| Rejected { reason: RejectionReason::NotCertified, residual: r.residual };
+    solutions.rejected.extend(others.iter().map(rejected));
+}
+
+/// What has no certificate is no root of the answer: it is named beside them, and the answer is undecided.
+pub(super) fn set_unproved_apart(solutions: &mut FkSolutions) {
+    let unproved = withdraw(solutions, |r| !r.certified());
+    if unproved.is_empty() {
         return;
     }
+    if let Completeness::Unproved { reason, all_paths_accounted } = &mut solutions.completeness {
+        let paths: u32 = unproved.iter().map(|r| r.multiplicity).sum();
+        let _ = write!(
+            reason,
+            "; {paths} paths end near {} points without a certificate: multiple poses, several close ones, or none",
+            unproved.len()
+        );
+        *all_paths_accounted = false;
+    }
+    solutions.unproved.extend(unproved);
+}
+
+/// Takes roots out of the list and out of the records of the paths.
+fn withdraw(solutions: &mut FkSolutions, mut which: impl FnMut(&FkRoot) -> bool) -> Vec<FkRoot> {
     let mut place = Vec::new();
-    let mut kept = Vec::new();
+    let (mut kept, mut out) = (Vec::new(), Vec::new());
     for root in std::mem::take(&mut solutions.roots) {
-        place.push(root.certified().then_some(kept.len()));
-        if root.certified() {
-            kept.push(root);
-        } else {
-            let reason = RejectionReason::NotCertified;
-            solutions.rejected.push(Rejected { reason, residual: root.residual });
-        }
+        let goes = which(&root);
+        place.push((!goes).then_some(kept.len()));
+        if goes { out.push(root) } else { kept.push(root) }
     }
     solutions.roots = kept;
     for path in &mut solutions.paths {
         path.root = path.root.and_then(|r| place[r]);
         path.mirror_root = path.mirror_root.and_then(|r| place[r]);
     }
+    out
 }

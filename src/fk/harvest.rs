@@ -7,7 +7,9 @@ use super::collect::{Candidate, Collected, Sourced, collect_with};
 use super::evidence::proved;
 use super::homotopy::pose_of;
 use super::{FkRoot, FkTolerances, Rejected, RejectionReason};
+use crate::geom::ComplexPose;
 use crate::manipulator::{Manipulator, SquaredLegLengths};
+use crate::num::octuple::ComplexOctuple;
 use crate::solve::certify::{Certificate, CertifiedPose, Certifier, ProvedReality, RootRelation, relation};
 
 /// Regular ends with a larger condition number may belong to a cluster.
@@ -31,6 +33,15 @@ pub(super) struct End {
     pub(super) source: usize,
 }
 
+/// An end known with 256 bits, in the design's frames.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PreciseEnd {
+    pub(super) point: [ComplexOctuple; 8],
+    pub(super) condition: f64,
+    /// Index of the path.
+    pub(super) source: usize,
+}
+
 /// Roots, and the certificates of those that are certified.
 pub(super) struct Harvest {
     pub(super) collected: Collected,
@@ -45,8 +56,14 @@ struct Proof {
 }
 
 /// Certifies regular ends one by one, conjugates together. What has no certificate is refined and merged as the candidates of
-/// any other method are.
-pub(super) fn harvest(m: &Manipulator, s: &SquaredLegLengths, t: &FkTolerances, ends: &[End]) -> Harvest {
+/// any other method are. `precise` are ends of other paths.
+pub(super) fn harvest(
+    m: &Manipulator,
+    s: &SquaredLegLengths,
+    t: &FkTolerances,
+    ends: &[End],
+    precise: &[PreciseEnd],
+) -> Harvest {
     let (doubtful, ends): (Vec<End>, Vec<End>) = ends.iter().partition(|e| e.doubtful);
     let (close, mut alone): (Vec<End>, Vec<End>) =
         ends.into_iter().partition(|e| e.singular || !(e.condition < NEARLY_SINGULAR));
@@ -65,6 +82,7 @@ pub(super) fn harvest(m: &Manipulator, s: &SquaredLegLengths, t: &FkTolerances, 
         .collect();
     open.extend(certify_all(m, s, &alone, &mut proofs));
     proofs.extend(finite_after_all(m, s, &doubtful));
+    open.extend(certify_precise(m, s, precise, &mut proofs));
     let repeated = drop_repeated(&mut proofs);
     let certificates = proofs.iter().map(|p| p.root.certificate).collect();
     // a conjugate without a path of its own is a root all the same, but the path that should end there went elsewhere
@@ -183,7 +201,13 @@ fn finite_after_all(m: &Manipulator, s: &SquaredLegLengths, ends: &[End]) -> Vec
         }
     }
     // the loops of conjugates are as hard as each other, rounding decides which is followed far enough
-    for k in 0..proofs.len() {
+    add_conjugates(&mut proofs, 0);
+    proofs
+}
+
+/// Roots that are certified because their conjugates are, for proofs from `first` on.
+fn add_conjugates(proofs: &mut Vec<Proof>, first: usize) {
+    for k in first..proofs.len() {
         if proofs[k].root.certificate.reality() == ProvedReality::NonReal {
             let (root, condition) = (proofs[k].root.conjugate(), proofs[k].condition);
             let apart =
@@ -193,7 +217,58 @@ fn finite_after_all(m: &Manipulator, s: &SquaredLegLengths, ends: &[End]) -> Vec
             }
         }
     }
-    proofs
+}
+
+/// Certifies what can be of the ends known with many digits; returns the rest.
+fn certify_precise(
+    m: &Manipulator,
+    s: &SquaredLegLengths,
+    ends: &[PreciseEnd],
+    proofs: &mut Vec<Proof>,
+) -> Vec<Candidate> {
+    let first = proofs.len();
+    let certifier = Certifier::new(m, s);
+    let mut open = Vec::new();
+    for end in ends {
+        match certifier.as_ref().map(|c| c.certify_precise(&end.point)) {
+            Ok(Ok(root)) => {
+                proofs.push(Proof { root, condition: end.condition, sources: vec![end.source] });
+            }
+            _ => open.push(Candidate {
+                pose: precise_pose(&end.point),
+                singular: true,
+                condition: end.condition,
+                source: end.source,
+            }),
+        }
+    }
+    add_conjugates(proofs, first);
+    open
+}
+
+/// `R` and `p` of `(e, g)`, rounded.
+fn precise_pose(x: &[ComplexOctuple; 8]) -> ComplexPose {
+    let n = (0..4).fold(ComplexOctuple::ZERO, |sum, k| sum + x[k] * x[k]).recip();
+    let [w, x1, x2, x3, g0, g1, g2, g3] = *x;
+    let two = |a: ComplexOctuple| (a.scaled(1) * n).rounded();
+    let diagonal = |a, b, c| ((w * w + a * a - b * b - c * c) * n).rounded();
+    let rotation = nalgebra::Matrix3::new(
+        diagonal(x1, x2, x3),
+        two(x1 * x2 - w * x3),
+        two(x1 * x3 + w * x2),
+        two(x1 * x2 + w * x3),
+        diagonal(x2, x1, x3),
+        two(x2 * x3 - w * x1),
+        two(x1 * x3 - w * x2),
+        two(x2 * x3 + w * x1),
+        diagonal(x3, x1, x2),
+    );
+    let position = nalgebra::Vector3::new(
+        ((w * g1 - g0 * x1 + x2 * g3 - x3 * g2) * n).rounded(),
+        ((w * g2 - g0 * x2 + x3 * g1 - x1 * g3) * n).rounded(),
+        ((w * g3 - g0 * x3 + x1 * g2 - x2 * g1) * n).rounded(),
+    );
+    ComplexPose { rotation, position }
 }
 
 /// Merges proofs of one root; their number. A conjugate that has a path after all is no repetition.

@@ -3,22 +3,26 @@
 use num_complex::Complex64;
 
 use super::dependent::{curves, detect_curves, incompatible, positive_dimensional};
-use super::evidence::{GENERAL, attach};
-use super::harvest::{End, Harvest, harvest};
+use super::evidence::{GENERAL, attach, set_unproved_apart};
+use super::harvest::{End, Harvest, PreciseEnd, harvest};
 use super::judge::{Judgement, counted, judge};
 use super::{
     Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, PathEnd, PathReport,
-    SolutionSet,
+    PoseCounting, SolutionSet,
 };
 use crate::geom::{ComplexPose, rotation_from_quaternion};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::solve::certify::Certificate;
-use crate::solve::homotopy::{EndKind, GENERIC_COUNT, Path, StartKind, solve_sections};
+use crate::solve::homotopy::{
+    EndKind, GENERIC_COUNT, Path, StartError, StartKind, TailEnd, follow_finely, solve_sections,
+};
 use crate::solve::pose_count::PoseCount;
 use crate::solve::{Dependence, Frame, Sections, dependence, mirror, quaternion_product, split};
 
 /// Times the whole problem is tracked again with another gamma when paths fail.
 const ATTEMPTS: u64 = 3;
+/// The same with 256 bits, seconds each where paths fail.
+const FINE_ATTEMPTS: u64 = 2;
 
 /// Forward kinematics of any six legs by 40 homotopy paths from a generic start system, or, where base and platform are planar,
 /// by 20 paths to one pose of each mirror pair.
@@ -26,7 +30,8 @@ const ATTEMPTS: u64 = 3;
 /// Unknowns are the dual quaternion `(e, g)`, `g = p e`; a pose is finite when `e.e != 0` (source: Husty 1996
 /// for the coordinates, Gallet, Nawratil, Schicho 2014 for the degree 40). Each path is reported with its
 /// end: a finite pose, `e.e = 0`, infinity, or failed. Both poses of a mirror pair are refined and certified on the
-/// legs as they are; when anything does not fit, all 40 paths are tracked.
+/// legs as they are; when fewer are found than there can be, all 40 paths are tracked, and those of them that do not end in a certified pose
+/// are followed with 256 bits.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Homotopy;
 
@@ -46,9 +51,13 @@ impl ForwardKinematics for Homotopy {
         let Some(sections) = frame.sections(m, s) else { return curves(m, s, o, &frame, 0) };
         let mut best: Option<FkSolutions> = None;
         let mut count: Option<PoseCount> = None;
-        let generic = (0..ATTEMPTS).map(|k| (Problem { frame, sections, kind: StartKind::Generic }, k));
+        let whole = |k, fine| (Problem { frame, sections, kind: StartKind::Generic, fine }, k);
         let planar = Problem::planar(m, s).map(|p| (p, 0));
-        for (problem, attempt) in planar.into_iter().chain(generic) {
+        // without the count nothing asks for poses that doubles cannot see
+        let quick = o.pose_count == PoseCounting::Never;
+        let (plain, fine) = if quick { (ATTEMPTS, 0) } else { (1, FINE_ATTEMPTS) };
+        let plans = (0..plain).map(|k| whole(k, false)).chain((0..fine).map(|k| whole(k, true)));
+        for (problem, attempt) in planar.into_iter().chain(plans) {
             let seed = o.seed.wrapping_add(attempt.wrapping_mul(0x9e37_79b9));
             let (mut found, certificates) = problem.solve(m, s, o, seed)?;
             attach(&mut found, m, s, GENERAL, certificates);
@@ -74,15 +83,20 @@ impl ForwardKinematics for Homotopy {
             if nearly {
                 doubt_near_relation(&mut found);
             }
-            let settled =
-                (nearly && judgement == Judgement::Silent) || found.solution_set != SolutionSet::Isolated;
-            if settled || found.all_accounted() {
+            set_unproved_apart(&mut found);
+            let settled = (nearly && quick) || found.solution_set != SolutionSet::Isolated;
+            if settled || (found.all_accounted() && (quick || problem.fine)) {
                 return Ok(found);
             }
             let certified = |f: &FkSolutions| f.roots.iter().filter(|r| r.certified()).count();
             let rank = |f: &FkSolutions| (std::cmp::Reverse(certified(f)), failures(f));
+            // where every path has an end, other paths have the same
+            let last = problem.fine && failures(&found) == 0 && found.rejected.is_empty();
             if best.as_ref().is_none_or(|b| rank(&found) < rank(b)) {
                 best = Some(found);
+            }
+            if last {
+                break;
             }
         }
         best.ok_or_else(|| FkError::Breakdown { what: "no attempt was made".to_owned() })
@@ -98,6 +112,7 @@ fn moving_within_rounding(
 ) -> Option<FkSolutions> {
     let mut found = found?;
     detect_curves(&mut found, m, s);
+    set_unproved_apart(&mut found);
     found.pose_count = count;
     matches!(found.solution_set, SolutionSet::PositiveDimensional { .. }).then_some(found)
 }
@@ -113,13 +128,15 @@ struct Problem {
     frame: Frame,
     sections: Sections,
     kind: StartKind,
+    /// Whether paths that end in no certified pose are followed with 256 bits; for [`StartKind::Generic`].
+    fine: bool,
 }
 
 impl Problem {
     /// The problem in the planes of base and platform, if there are such planes.
     fn planar(m: &Manipulator, s: &SquaredLegLengths) -> Option<Self> {
         let frame = Frame::planar(m, s)?;
-        Some(Self { sections: frame.sections(m, s)?, frame, kind: StartKind::Planar })
+        Some(Self { sections: frame.sections(m, s)?, frame, kind: StartKind::Planar, fine: false })
     }
 
     fn solve(
@@ -129,10 +146,55 @@ impl Problem {
         o: &FkOptions,
         seed: u64,
     ) -> Result<(FkSolutions, Vec<Certificate>), FkError> {
-        let paths = solve_sections(self.kind, &self.sections, seed)
-            .map_err(|e| FkError::Breakdown { what: e.to_string() })?;
-        Ok(assemble(m, s, o, self, &paths))
+        let breakdown = |e: StartError| FkError::Breakdown { what: e.to_string() };
+        let mut paths = solve_sections(self.kind, &self.sections, seed).map_err(breakdown)?;
+        let mut found = harvest(m, s, &o.tolerances, &ends_of(self, &paths), &[]);
+        if self.fine {
+            // with 256 bits nothing is dependent that is not so exactly: that is for others to find
+            if let Some(sections) = self.frame.octuple_sections(m, s) {
+                let open = open_paths(&found, paths.len());
+                let tails = follow_finely(&sections, seed, &open).map_err(breakdown)?;
+                let precise = self.take_over(&mut paths, &open, &tails);
+                found = harvest(m, s, &o.tolerances, &ends_of(self, &paths), &precise);
+            }
+        }
+        Ok(assemble(o, self, &paths, found))
     }
+
+    /// Puts what the precise continuation of paths found in the place of what doubles had; the finite ends with all their digits.
+    fn take_over(&self, paths: &mut [Path], open: &[usize], tails: &[TailEnd]) -> Vec<PreciseEnd> {
+        let mut out = Vec::new();
+        for (&source, tail) in open.iter().zip(tails) {
+            let path = &mut paths[source];
+            path.kind = tail.kind();
+            path.x = tail.rounded();
+            path.steps += tail.steps;
+            path.rejections += tail.rejections;
+            path.winding = u32::from(tail.arrived);
+            path.retracked += 1;
+            path.split = None;
+            path.pivot_ratio = tail.pivot_ratio;
+            path.precise = true;
+            if path.kind == EndKind::Regular {
+                let point = self.frame.to_design_precisely(&tail.x);
+                out.push(PreciseEnd { point, condition: 1.0 / tail.pivot_ratio, source });
+            }
+        }
+        out
+    }
+}
+
+/// Paths that do not end in a certified root, or share it with another.
+fn open_paths(found: &Harvest, count: usize) -> Vec<usize> {
+    let collected = &found.collected;
+    let settled: Vec<usize> = collected
+        .roots
+        .iter()
+        .zip(&collected.sources)
+        .filter(|(root, sources)| root.certified() && sources.len() == 1)
+        .map(|(_, sources)| sources[0])
+        .collect();
+    (0..count).filter(|k| !settled.contains(k)).collect()
 }
 
 /// A relation that holds to rounding only: the answer depends on digits that nobody knows.
@@ -158,7 +220,9 @@ fn ends_of(problem: &Problem, paths: &[Path]) -> Vec<End> {
     let mut out = Vec::new();
     for (start, path) in paths.iter().enumerate() {
         let finite = matches!(path.kind, EndKind::Regular | EndKind::Singular);
-        if path.kind == EndKind::Failed || !(finite || path.winding <= 2) {
+        // ends followed with 256 bits are what they are, finite ones in a list of their own
+        let elsewhere = path.precise && path.kind != EndKind::Singular;
+        if elsewhere || path.kind == EndKind::Failed || !(finite || path.winding <= 2) {
             continue;
         }
         let end = |x: [Complex64; 8], split: Option<[Complex64; 8]>, source| End {
@@ -211,19 +275,19 @@ fn is_blurred(path: &Path) -> bool {
     let n: Complex64 = path.x[..4].iter().map(|z| z * z).sum();
     let at_infinity = e < 1e-14 * all;
     let isotropic = n.norm() < 1e-10 * e && e > 1e-6 * all;
-    matches!(path.kind, EndKind::Infinite | EndKind::Isotropic) && !at_infinity && !isotropic
+    let far = matches!(path.kind, EndKind::Infinite | EndKind::Isotropic);
+    far && !path.precise && !at_infinity && !isotropic
 }
 
 fn assemble(
-    m: &Manipulator,
-    s: &SquaredLegLengths,
     o: &FkOptions,
     problem: &Problem,
     paths: &[Path],
+    found: Harvest,
 ) -> (FkSolutions, Vec<Certificate>) {
     let mut reports: Vec<PathReport> =
         paths.iter().enumerate().map(|(start, path)| report_of(start, path)).collect();
-    let Harvest { mut collected, certificates } = harvest(m, s, &o.tolerances, &ends_of(problem, paths));
+    let Harvest { mut collected, certificates } = found;
     for (root, sources) in collected.sources.iter().enumerate() {
         for &source in sources {
             let report = &mut reports[source % paths.len()];
@@ -267,6 +331,7 @@ fn assemble(
         paths: reports,
         rejected: collected.rejected,
         pose_count: None,
+        unproved: Vec::new(),
         seed: o.seed,
     };
     (solutions, certificates)

@@ -192,7 +192,7 @@ pub struct PathReport {
     pub start: usize,
     /// Where it ended.
     pub end: PathEnd,
-    /// Index into [`FkSolutions::roots`] when the end is finite.
+    /// Index into [`FkSolutions::roots`] when the end is a certified pose.
     pub root: Option<usize>,
     /// Index of the mirror image of that root where base and platform are planar and one path of each pair of mirror images was
     /// tracked, 20 of 40; `None` where the paths were all tracked. The same as `root` when the pose is its own image.
@@ -249,6 +249,9 @@ pub struct FkSolutions {
     pub rejected: Vec<Rejected>,
     /// The finite poses counted without finding them; `None` when that was not asked, or not needed for a proof.
     pub pose_count: Option<PoseCount>,
+    /// Ends of paths without a proof: there may be a root of this multiplicity near the pose, several, or none. They are not among the roots,
+    /// and as long as there are any the answer is undecided.
+    pub unproved: Vec<FkRoot>,
     /// Seed of the generic constants.
     pub seed: u64,
 }

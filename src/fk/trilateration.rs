@@ -202,7 +202,7 @@ pub(super) fn judged(
     expected: usize,
     tried: &str,
 ) -> FkSolutions {
-    let Harvest { collected, certificates } = harvest(m, s, &o.tolerances, ends);
+    let Harvest { collected, certificates } = harvest(m, s, &o.tolerances, ends, &[]);
     let (roots, others): (Vec<_>, Vec<_>) = collected.roots.into_iter().partition(FkRoot::certified);
     let mut rejected = collected.rejected;
     let reason = RejectionReason::NotCertified;
@@ -222,6 +222,7 @@ pub(super) fn judged(
         paths: Vec::new(),
         rejected,
         pose_count: None,
+        unproved: Vec::new(),
         seed: o.seed,
     };
     attach(&mut solutions, m, s, GENERAL, certificates);

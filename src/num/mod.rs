@@ -11,6 +11,7 @@ pub mod interval;
 pub(crate) mod jet;
 pub mod linalg;
 pub(crate) mod modular;
+pub(crate) mod octuple;
 pub(crate) mod parallel;
 mod seed;
 pub(crate) mod wide_disc;

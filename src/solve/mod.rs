@@ -5,6 +5,7 @@ pub mod certify;
 mod dependence;
 pub mod generic_frame;
 pub mod homotopy;
+mod octuple_sections;
 mod planar;
 pub mod pose_count;
 mod sections;

@@ -38,11 +38,11 @@ pub(crate) struct Sections {
 /// Centred and scaled frames in which a problem is solved: `turn (a - origin_a) = scale a'`, likewise `b`.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Frame {
-    base_origin: Vector3<f64>,
-    platform_origin: Vector3<f64>,
-    scale: f64,
+    pub(super) base_origin: Vector3<f64>,
+    pub(super) platform_origin: Vector3<f64>,
+    pub(super) scale: f64,
     /// For doubly planar platforms: both frames turned so that the planes of the joints are `z = 0`.
-    planes: Option<Planes>,
+    pub(super) planes: Option<Planes>,
 }
 
 impl Frame {

@@ -37,6 +37,7 @@ mod fk_laws;
 mod hidden_lengths;
 mod instances;
 mod leg_maps;
+mod nearly_special;
 mod octahedral_class;
 mod optimizer_evidence;
 mod pose_count;

@@ -98,6 +98,7 @@ impl OcticSolver {
             paths: Vec::new(),
             rejected: collected.rejected,
             pose_count: None,
+            unproved: Vec::new(),
             seed: o.seed,
         };
         attach(&mut solutions, m, s, OCTAHEDRAL, Vec::new());

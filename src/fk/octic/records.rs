@@ -38,6 +38,7 @@ pub(super) fn proved(
         paths: Vec::new(),
         rejected: Vec::new(),
         pose_count: None,
+        unproved: Vec::new(),
         seed,
     }
 }

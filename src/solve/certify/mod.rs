@@ -38,6 +38,7 @@ mod inverse;
 mod krawczyk;
 pub mod octahedral;
 mod point;
+mod precisely;
 mod refine;
 mod second_order;
 mod system;

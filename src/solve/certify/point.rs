@@ -7,11 +7,13 @@ use num_complex::Complex64;
 
 use super::centre::{pose_numerators, pose_of, study_of};
 use super::krawczyk::{Centre, Contraction, contract, contract_sharply};
+use super::precisely::contract_precisely;
 use super::refine::refine_study;
 use super::system::{LegSystem, Scalar, Study};
 use super::{CentrePrecision, Certificate, CertificateOutcome, Certifier, NEAR, RefinedPose, WhyUncertified};
 use crate::geom::ComplexPose;
 use crate::num::double_double::DoubleDouble;
+use crate::num::octuple::{ComplexOctuple, Octuple};
 
 /// Below this `|e.e| / |e|^2` a pose is computed in double-double.
 const FAR: f64 = 1.0 / 16.0;
@@ -78,6 +80,13 @@ fn prove(system: &LegSystem, x: &Study<DoubleDouble>) -> Result<Certificate, Why
     Certifier::build(system, &centre, &contract_sharply(system, &centre)?)
 }
 
+/// [`prove`] with 256 bits for the inverse of the Jacobian and everything it is multiplied with.
+fn prove_precisely(system: &LegSystem, x: &Study<DoubleDouble>) -> Result<Certificate, WhyUncertified> {
+    let hi = x.rounded();
+    let centre = Centre { hi: &hi, full: Some(x) };
+    Certifier::build(system, &centre, &contract_precisely(system, x)?)
+}
+
 impl Certifier {
     /// Proves that the point `(e, g)` of the design's frames (any scale) approximates one root, as [`certify`](Self::certify) does
     /// for poses.
@@ -135,6 +144,42 @@ impl Certifier {
         };
         let pose = certificate.enclosure.middle();
         Ok(CertifiedPose { pose, certificate: self.accurate(&pose, certificate)? })
+    }
+
+    /// [`certify_point`](Self::certify_point) for a point known to more digits than a double-double has: however far out, the unit of length is
+    /// taken from the point itself, and only its digits beyond double-double are dropped.
+    pub(crate) fn certify_precise(&self, x: &[ComplexOctuple; 8]) -> Result<CertifiedPose, WhyUncertified> {
+        let size = |k: usize| x[k].norm_sqr().rounded();
+        let patch = (1..4).fold(0, |best, k| if size(k) > size(best) { k } else { best });
+        let inverse = x[patch].recip();
+        let plain: [ComplexOctuple; 8] = std::array::from_fn(|k| x[k] * inverse);
+        let own = self.0.unit().log2() as i32;
+        let g = plain[4..].iter().map(ComplexOctuple::exponent).max().unwrap_or(0) - own;
+        let both =
+            |z: Octuple| DoubleDouble::from_sum(z.rounded(), (z - Octuple::from(z.rounded())).rounded());
+        let mut why = WhyUncertified::OutOfRange;
+        for more in FLATTER {
+            let coarser = (g.max(0) + more).max(0);
+            let system = if coarser == 0 { Some(self.0.clone()) } else { self.0.coarser(2f64.powi(coarser)) };
+            let Some(system) = system else { continue };
+            let in_unit = |k: usize| if k < 4 { plain[k] } else { plain[k].scaled(-own - coarser) };
+            let mut study = Study {
+                re: std::array::from_fn(|k| both(in_unit(k).re)),
+                im: std::array::from_fn(|k| both(in_unit(k).im)),
+                patch,
+            };
+            (study.re[patch], study.im[patch]) = (DoubleDouble::ONE, DoubleDouble::ZERO);
+            match prove(&system, &study).or_else(|why| prove_precisely(&system, &study).map_err(|_| why)) {
+                Ok(certificate) => {
+                    let (rotation, position) = pose_of(&study, system.unit());
+                    let pose =
+                        RefinedPose { rotation, position, moved: 0.0, last_step: 0.0, steps: 0 }.pose();
+                    return Ok(CertifiedPose { pose, certificate: self.accurate(&pose, certificate)? });
+                }
+                Err(reason) => why = reason,
+            }
+        }
+        Err(why)
     }
 
     /// Near infinity `g` is known less well than `e` by many powers of ten, and the largest ball in which there is one root is as

@@ -17,9 +17,11 @@ mod quadrics;
 mod sprint;
 mod start;
 mod system;
+mod tail;
 mod tracker;
 
 pub use monodromy::{GENERIC_COUNT, StartKind};
 pub use start::{SHIPPED_SEED, StartError, start_system_text};
 
-pub(crate) use paths::{EndKind, Path, solve_sections};
+pub(crate) use paths::{EndKind, Path, follow_finely, solve_sections};
+pub(crate) use tail::TailEnd;

@@ -9,8 +9,10 @@ use super::polish::{Polished, polish};
 use super::sprint::{Pace, Sprint};
 use super::start::{StartError, shipped};
 use super::system::SectionHomotopy;
-use super::tracker::TrackerSettings;
+use super::tail::{Tail, TailEnd};
+use super::tracker::{Tracked, TrackerSettings};
 use crate::num::Rng;
+use crate::solve::octuple_sections::OctupleSections;
 use crate::solve::planar::mirror;
 use crate::solve::sections::Sections;
 
@@ -18,6 +20,8 @@ use crate::solve::sections::Sections;
 const SETTLED: f64 = 1e-13;
 /// Paths to be tracked again are stopped here and always go through the endgame.
 const CAREFUL_ENDGAME_AT: f64 = 1e-2;
+/// Paths are followed with 256 bits from here.
+const TAIL_AT: f64 = 1e-2;
 /// A point with `|e.e| / |e|^2` below this at a converged end has no rotation.
 const ISOTROPIC: f64 = 1e-9;
 /// A converged end with `|e| / |(e, g)|` below this is at infinity or very far out: for a certificate to decide.
@@ -78,6 +82,8 @@ pub(crate) struct Path {
     pub(crate) split: Option<[Complex64; 8]>,
     /// Smallest over largest pivot modulus of the Newton matrix at the end.
     pub(crate) pivot_ratio: f64,
+    /// The end was followed with 256 bits.
+    pub(crate) precise: bool,
 }
 
 fn isotropy(x: &[Complex64; 8]) -> (f64, f64) {
@@ -95,8 +101,7 @@ fn isotropy(x: &[Complex64; 8]) -> (f64, f64) {
 /// what fails then is left as [`EndKind::Failed`].
 pub(crate) fn solve_sections(kind: StartKind, target: &Sections, seed: u64) -> Result<Vec<Path>, StartError> {
     let start = shipped(kind)?;
-    let mut rng = Rng::stream(seed, 0);
-    let corner = Complex64::new(0.5, 0.0) + Complex64::from_polar(0.25, rng.uniform(0.6, 2.5));
+    let corner = corner(seed);
     let aligned = start.sections.aligned_with(target);
     let real = SectionHomotopy::real(&aligned, target).ok_or(StartError::NotReal)?;
     let (starts, pace) = (&start.solutions, Pace::DEFAULT);
@@ -118,6 +123,7 @@ pub(crate) fn solve_sections(kind: StartKind, target: &Sections, seed: u64) -> R
                 retracked: 0,
                 split: None,
                 pivot_ratio: 1.0 / p.condition,
+                precise: false,
             };
             match p.remaining {
                 None => blank,
@@ -138,6 +144,37 @@ pub(crate) fn solve_sections(kind: StartKind, target: &Sections, seed: u64) -> R
         retracker.run(&mut paths, &again, &settings);
     }
     Ok(paths)
+}
+
+/// The corner of the way from start to target.
+fn corner(seed: u64) -> Complex64 {
+    let mut rng = Rng::stream(seed, 0);
+    Complex64::new(0.5, 0.0) + Complex64::from_polar(0.25, rng.uniform(0.6, 2.5))
+}
+
+/// Tracks the paths `which` of the 40 to `target` again, the last part of each with 256 bits. The seed is that of
+/// [`solve_sections`], whose paths these are.
+pub(crate) fn follow_finely(
+    target: &OctupleSections,
+    seed: u64,
+    which: &[usize],
+) -> Result<Vec<TailEnd>, StartError> {
+    let start = shipped(StartKind::Generic)?;
+    let corner = corner(seed);
+    let rounded = target.rounded();
+    let aligned = start.sections.aligned_with(&rounded);
+    let real = SectionHomotopy::real(&aligned, &rounded).ok_or(StartError::NotReal)?;
+    let first = SectionHomotopy::through(&real, Complex64::ONE).shortened(corner);
+    let second = SectionHomotopy::through(&real, corner).shortened(TAIL_AT.into());
+    let tail = Tail::new(&aligned, target, corner);
+    let from: Vec<[Complex64; 8]> = which.iter().map(|i| start.solutions[*i]).collect();
+    let at_corner = track_all(&first, &from, &TrackerSettings::CAREFUL, 0.0);
+    let middle: Vec<[Complex64; 8]> = at_corner.iter().map(|p| p.x).collect();
+    let near_end = track_all(&second, &middle, &TrackerSettings::CAREFUL, 0.0);
+    let follow = |(p, q): (&Tracked, &Tracked)| {
+        if p.arrived && q.arrived { tail.follow(&q.x, TAIL_AT) } else { TailEnd::lost(&q.x) }
+    };
+    Ok(at_corner.iter().zip(&near_end).map(follow).collect())
 }
 
 fn settle_arrived(homotopy: &SectionHomotopy, path: &Path) -> Path {
@@ -223,6 +260,7 @@ impl Retracker<'_> {
                 retracked: before.retracked + 1,
                 split: None,
                 pivot_ratio: 0.0,
+                precise: false,
             };
             let arrived = p.arrived && q.arrived;
             paths[*index] =

@@ -69,6 +69,11 @@ impl SectionHomotopy {
         Self { target: target.rows, slope }
     }
 
+    /// `target + t slope`.
+    pub(super) fn line(target: &[[Complex64; FORMS]; 6], slope: &[[Complex64; FORMS]; 6]) -> Self {
+        Self { target: *target, slope: *slope }
+    }
+
     /// The line of the real homotopy seen from `t = corner`: `t` of this one is `corner` times `t` of the new.
     pub(super) fn through(real: &SectionHomotopy<f64>, corner: Complex64) -> Self {
         let lift = |rows: &[[f64; FORMS]; 6], k: Complex64| rows.map(|row| row.map(|x| k * x));

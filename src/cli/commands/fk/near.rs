@@ -109,6 +109,7 @@ fn record(
         paths: Vec::new(),
         rejected: Vec::new(),
         pose_count: None,
+        unproved: Vec::new(),
         seed,
     };
     let mut fields = render::json(&solutions);

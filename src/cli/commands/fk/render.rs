@@ -43,6 +43,7 @@ pub(in crate::cli::commands) fn json(s: &FkSolutions) -> Map<String, Value> {
     }
     put("paths", s.paths.iter().map(path).collect());
     put("rejected", s.rejected.iter().map(rejected).collect());
+    put("unproved", s.unproved.iter().map(root).collect());
     put("seed", json!(s.seed));
     if !all_finite(s) {
         put("notes", json!(["null stands for a number that is infinite or not a number"]));
@@ -122,7 +123,7 @@ fn rejected(r: &Rejected) -> Value {
 }
 
 fn all_finite(s: &FkSolutions) -> bool {
-    let roots = s.roots.iter().all(|r| {
+    let roots = s.roots.iter().chain(&s.unproved).all(|r| {
         let pose = r.pose.rotation.iter().chain(r.pose.position.iter()).all(|z| z.is_finite());
         pose && r.residual.is_finite() && r.condition.is_finite()
     });
@@ -153,6 +154,13 @@ pub(super) fn text(name: &str, s: &FkSolutions) -> String {
     let complex = s.roots.iter().filter(|r| r.reality == Reality::NonReal).count();
     if complex > 0 {
         let _ = writeln!(out, "{complex} complex poses: see --json");
+    }
+    if !s.unproved.is_empty() {
+        let _ = writeln!(
+            out,
+            "{} ends of paths without a proof, none of them listed: see --json",
+            s.unproved.len()
+        );
     }
     out
 }
@@ -260,6 +268,7 @@ mod tests {
             }],
             rejected: vec![Rejected { reason: RejectionReason::Duplicate, residual: 0.0 }],
             pose_count: None,
+            unproved: Vec::new(),
             seed: 7,
         }
     }
