@@ -29,7 +29,6 @@ pub(crate) const KINDS: [Kind; 6] = [
 /// A design with lengths of a real pose.
 #[derive(Debug, Clone)]
 pub(crate) struct Member {
-    pub(crate) kind: Kind,
     pub(crate) planar: bool,
     /// How far the joints are off the special design, by its size.
     pub(crate) offset: f64,
@@ -129,5 +128,5 @@ pub(crate) fn member(kind: Kind, seed: u64, k: u64) -> Option<Member> {
         _ => Pose { rotation: random_rotation(rng), position: normal(rng) * 1.2 },
     };
     let s = pose.squared_lengths(&m)?;
-    Some(Member { kind, planar, offset, m, s, pose })
+    Some(Member { planar, offset, m, s, pose })
 }

@@ -75,7 +75,7 @@ fn published(name: &str) -> (Manipulator, SquaredLegLengths) {
     let path = format!("{}/tests/fixtures/adversarial/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(&path).unwrap();
     let (design, _): (Design, _) = parse(&text, Format::Toml).unwrap();
-    (*design.manipulator(), design.lengths.unwrap().squared())
+    (design.manipulator().clone(), design.lengths.unwrap().squared())
 }
 
 /// Designs on which version 0.1.0 lost poses, listed phantoms and counted roots twice.
@@ -121,7 +121,7 @@ fn many_members() {
             }
         }
         println!(
-            "{kind:?}: {count} members, {complete} complete, {} undecided, {} wrong, planted pose not listed as real {lost}, {:.1} s; undecided: {missing:.1e?}; wrong: {wrong:?}",
+            "{kind:?}: {count} members, {complete} complete, {} undecided, {} wrong, planted pose not listed as real {lost}, {:.1} s; undecided: {missing:?}; wrong: {wrong:?}",
             missing.len(),
             wrong.len(),
             start.elapsed().as_secs_f64()
