@@ -37,7 +37,8 @@ pub(crate) fn proved_empty(
     // what the lines are made of, in the unit of the rows
     let ends = model.shape.ends(x);
     let positions = poses.iter().map(|p| p.pose.position.amax()).fold(ends.lift.amax(), f64::max);
-    let coordinates = ends.base.iter().chain(&ends.platform).map(|p| p.amax()).fold(positions, f64::max);
+    let coordinates =
+        ends.base.iter().chain(&ends.platform).map(nalgebra::Matrix::amax).fold(positions, f64::max);
     let mut p = ConicProgram { variables: n, linear: vec![0.0; n], ..Default::default() };
     let mut rows: Vec<EnclosedRow> = Vec::new();
     for item in own {

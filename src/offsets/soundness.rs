@@ -105,9 +105,9 @@ fn barely(rng: &mut Rng, n: usize) -> (OffsetProblem, [f64; 6]) {
         let t: [f64; 6] = std::array::from_fn(|_| match n % 5 {
             0 => rng.uniform(-1.0, 2.0),
             1 => (rng.uniform(-1.0, 2.0) * 8.0).round() / 8.0,
-            2 => [-1.0, 2.0, 0.5, 0.25][(rng.unit() * 4.0) as usize],
+            2 => [-1.0, 2.0, 0.5, 0.25][(rng.next_u64() % 4) as usize],
             3 => rng.uniform(0.02, 0.98),
-            _ => [1.0 - 1e-6, 1e-6, -1e-9, 0.5][(rng.unit() * 4.0) as usize] + 1e-3 * rng.unit(),
+            _ => [1.0 - 1e-6, 1e-6, -1e-9, 0.5][(rng.next_u64() % 4) as usize] + 1e-3 * rng.unit(),
         });
         let (distance, det) = exact_values(&o, &t);
         if distance == exact(0.0) || det == exact(0.0) {
@@ -126,7 +126,7 @@ fn barely(rng: &mut Rng, n: usize) -> (OffsetProblem, [f64; 6]) {
 fn around(t: &[f64; 6], rng: &mut Rng) -> Bounds {
     t.map(|x| {
         let width = 10f64.powf(rng.uniform(-13.0, 0.0));
-        match (rng.unit() * 3.0) as usize {
+        match (rng.next_u64() % 3) as usize {
             0 => (x, x + width),
             1 => (x - width, x),
             _ => (x - 0.3 * width, x + 0.7 * width),
@@ -198,7 +198,7 @@ fn thin_feasible_windows_are_never_infeasible_and_never_above_the_bound() {
     let (mut found, mut bounded) = (0, 0);
     for n in 0..24 {
         let (mut p, t) = barely(&mut rng, n);
-        let width = 10f64.powi(-6 - (n % 7) as i32);
+        let width = 10f64.powf(-6.0 - (n % 7) as f64);
         p.bounds = t.map(|x| if rng.unit() < 0.5 { (x, x + width) } else { (x - width, x) });
         let r = optimize(&p, &quick(), &mut |_| ControlFlow::Continue(())).unwrap();
         assert_ne!(r.outcome, OffsetOutcome::Infeasible, "{n}: {t:?} meets {p:?}");

@@ -40,8 +40,8 @@ struct Vectors {
 
 impl Vectors {
     /// Singular vectors of the least and of the greatest singular value; `None` when the decomposition fails.
-    fn of(j: Matrix6<f64>) -> Option<Self> {
-        let svd = SVD::try_new(j, true, true, f64::EPSILON, 200)?;
+    fn of(j: &Matrix6<f64>) -> Option<Self> {
+        let svd = SVD::try_new(*j, true, true, f64::EPSILON, 200)?;
         let (u, v_t) = (svd.u?, svd.v_t?);
         let sigma = svd.singular_values;
         let (least, greatest) = (sigma.imin(), sigma.imax());
@@ -162,7 +162,7 @@ pub(super) fn at_corners(
     limit: f64,
 ) -> Option<AtCorners> {
     let middle = bounds.map(|(low, high)| f64::midpoint(low, high));
-    let v = Vectors::of(plain.jacobian(&middle))?;
+    let v = Vectors::of(&plain.jacobian(&middle))?;
     let mut ends: [[Row; 2]; 6] = [[[Ball::ZERO; 6]; 2]; 6];
     let mut length = [[Ball::ZERO; 2]; 6];
     let mut chord = [0.0; 6];

@@ -294,7 +294,7 @@ mod tests {
             let (base, platform) = (triangle(0.0), triangle(1.0));
             let mut legs = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
             for k in (1..6).rev() {
-                legs.swap(k, (rng.unit() * (k + 1) as f64) as usize);
+                legs.swap(k, (rng.next_u64() % (k as u64 + 1)) as usize);
             }
             let m = Manipulator::try_new(base, platform, legs).unwrap();
             let names = |letter: &str| (1..=3).map(|k| format!("{letter}{k}")).collect::<Vec<_>>();
