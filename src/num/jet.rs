@@ -180,7 +180,7 @@ mod tests {
     use crate::num::Rng;
 
     /// `sqrt(1 + x y) (x - z^2) / sqrt(2 + y)` with every operation, and its values in doubles.
-    fn formula(x: [Jet; 3]) -> Jet {
+    fn formula(x: &[Jet; 3]) -> Jet {
         let one = Jet::constant(Interval::from(1.0), 3, true);
         let two = Jet::constant(Interval::from(2.0), 3, true);
         (one + x[0] * x[1]).root().unwrap() * (x[0] - x[2].square()) * (two + x[1]).inverse_root().unwrap()
@@ -204,7 +204,7 @@ mod tests {
         let h = 1e-4;
         for _ in 0..50 {
             let x: [f64; 3] = std::array::from_fn(|_| rng.uniform(0.2, 2.0));
-            let at = formula(variables(x, 0.0));
+            let at = formula(&variables(x, 0.0));
             let moved = |steps: &[(usize, f64)]| {
                 let mut y = x;
                 for (k, s) in steps {
@@ -225,7 +225,7 @@ mod tests {
             }
             // over a box around it
             let low = x.map(|x| x - 0.1);
-            let over = formula(variables(low, 0.2));
+            let over = formula(&variables(low, 0.2));
             assert!(over.value.encloses(at.value));
             for i in 0..3 {
                 assert!(over.slope(i).encloses(at.slope(i)));

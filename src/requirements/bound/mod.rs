@@ -124,16 +124,15 @@ fn axes(m: &Manipulator, required: &Requirements, home: &Chart) -> Axes {
     let swings = [required.hardware.base_swing, required.hardware.platform_swing];
     std::array::from_fn(|body| {
         std::array::from_fn(|i| {
-            let axis: Vector = match swings[body].map(|s| s.axes) {
-                Some(JointAxes::Given(axes)) => std::array::from_fn(|k| Interval::from(axes[i][k])),
-                _ => {
-                    let along = frame.leg(m, i).line.map(|x| x.value);
-                    if body == 0 {
-                        along
-                    } else {
-                        // R_0^T n
-                        std::array::from_fn(|k| dot(&std::array::from_fn(|r| home.rotation[r][k]), &along))
-                    }
+            let axis: Vector = if let Some(JointAxes::Given(axes)) = swings[body].map(|s| s.axes) {
+                std::array::from_fn(|k| Interval::from(axes[i][k]))
+            } else {
+                let along = frame.leg(m, i).line.map(|x| x.value);
+                if body == 0 {
+                    along
+                } else {
+                    // R_0^T n
+                    std::array::from_fn(|k| dot(&std::array::from_fn(|r| home.rotation[r][k]), &along))
                 }
             };
             let length = dot_square(&axis).sqrt().unwrap_or(Interval::WHOLE);
@@ -361,11 +360,10 @@ impl Judge<'_> {
         if let Some((chart, z)) = state.worst {
             let pose = self.charts[chart].pose(&z);
             let there = self.terms.at(&pose).into_iter().filter(|(t, _)| t.kind == kind);
-            if let Some((term, value)) = there.reduce(|a, b| if b.1 < a.1 { b } else { a }) {
-                if value < found.value {
-                    let standing = self.terms.standing(kind, value, Some(&pose));
-                    found = Margin { term, value, pose: Some(pose), standing };
-                }
+            let least = there.reduce(|a, b| if b.1 < a.1 { b } else { a });
+            if let Some((term, value)) = least.filter(|l| l.1 < found.value) {
+                let standing = self.terms.standing(kind, value, Some(&pose));
+                found = Margin { term, value, pose: Some(pose), standing };
             }
         }
         let verdict = verdict(below, state.upper, slack);

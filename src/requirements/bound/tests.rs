@@ -11,7 +11,7 @@ use crate::requirements::{
 fn random_platform(rng: &mut Rng) -> (Manipulator, Pose) {
     let mut joints = |r: f64, turn: f64| -> Vec<Point3<f64>> {
         let mut joint = |i: usize| {
-            let side = if i % 2 == 0 { -0.35 } else { 0.35 };
+            let side = if i.is_multiple_of(2) { -0.35 } else { 0.35 };
             let angle = (i / 2) as f64 * std::f64::consts::TAU / 3.0 + side + turn + rng.uniform(-0.15, 0.15);
             Point3::new(r * angle.cos(), r * angle.sin(), rng.uniform(-0.1, 0.1))
         };

@@ -138,13 +138,11 @@ pub fn regular_workspace(m: &Manipulator, space: &PoseSpace, cells: usize, seed:
             if lines.sign_at(&inside).is_some_and(|s| s * sign < 0.0) {
                 return (Regularity::ChangesSign(chart.pose(&inside)), tested + cells - left);
             }
-            match cell.halves(axis) {
-                Some(parts) => waiting.extend(parts),
-                None => {
-                    doubt = doubt.or(Some(chart.pose(&inside)));
-                    break;
-                }
-            }
+            let Some(parts) = cell.halves(axis) else {
+                doubt = doubt.or(Some(chart.pose(&inside)));
+                break;
+            };
+            waiting.extend(parts);
         }
         tested += cells - left;
     }
