@@ -142,7 +142,7 @@ fn no_sampled_pose_is_below_a_proved_margin_and_bounds_come_close() {
 }
 
 /// Limits a little short of the worst value are found to be violated without a look at any pose but those of cells, or at least never called met; limits a little beyond it are
-/// never called violated, and mostly proved to be met: in boxes and ellipsoids.
+/// never called violated, and lengths are proved to be met by these few cells: in boxes and ellipsoids.
 #[test]
 fn limits_to_either_side_of_the_worst_value_are_decided() {
     let mut rng = Rng::new(32);
@@ -196,10 +196,10 @@ fn limits_to_either_side_of_the_worst_value_are_decided() {
             let [a, b, c] = worst.map(|x| x * (1.0 + depth));
             let beyond = prove(&m, &with(a, b, c), &space, &quick(), 1500);
             assert!(beyond.all_met() != Some(false), "{k} {depth}: {beyond:?}");
-            proved += usize::from(beyond.all_met() == Some(true));
+            proved += beyond.bounds.iter().filter(|b| b.verdict == Verdict::Met).count();
         }
     }
-    assert!(proved >= 3 && found * 10 >= planted * 9, "{proved} of 12 proved, {found} of {planted} found");
+    assert!(proved >= 24 && found * 10 >= planted * 9, "{proved} of 48 proved, {found} of {planted} found");
 }
 
 /// Six vertical legs over a hexagon: lengths and gaps are known.
