@@ -90,8 +90,10 @@ impl ForwardKinematics for Homotopy {
             }
             let certified = |f: &FkSolutions| f.roots.iter().filter(|r| r.certified()).count();
             let rank = |f: &FkSolutions| (std::cmp::Reverse(certified(f)), failures(f));
-            // where every path has an end, other paths have the same
-            let last = problem.fine && failures(&found) == 0 && found.rejected.is_empty();
+            // where every path has an end, other paths have the same; where nothing is gained, they fail as well
+            let gained = best.as_ref().is_none_or(|b| certified(&found) > certified(b));
+            let ended = failures(&found) == 0 && found.rejected.is_empty();
+            let last = problem.fine && (ended || !gained);
             if best.as_ref().is_none_or(|b| rank(&found) < rank(b)) {
                 best = Some(found);
             }

@@ -2,7 +2,9 @@
 
 use std::fmt::Write as _;
 
-use equipod::fk::{Completeness, FkError, FkOptions, ForwardKinematics, Homotopy, Sylvester, Template};
+use equipod::fk::{
+    Completeness, FkError, FkOptions, ForwardKinematics, Homotopy, PoseCounting, Sylvester, Template,
+};
 
 use equipod::manipulator::{Leg, LegLengths, Manipulator, SquaredLegLengths};
 use nalgebra::Point3;
@@ -118,7 +120,8 @@ fn griffis_duffy() -> (Manipulator, SquaredLegLengths) {
 #[test]
 fn neither_applies_to_a_griffis_duffy_platform() {
     let (m, s) = griffis_duffy();
-    let o = FkOptions::default();
+    // without the count nobody asks for the poses far out that rounding of the joints makes
+    let o = FkOptions { pose_count: PoseCounting::Never, ..FkOptions::default() };
     assert_eq!(Homotopy.solve(&m, &s, &o).unwrap().roots.len(), 16);
     for method in [&Template as &dyn ForwardKinematics, &Sylvester] {
         let refused = method.solve(&m, &s, &o);
