@@ -1,11 +1,19 @@
-//! Reading and writing files, with a limit on what is read.
+//! Reading and writing files: the only door of the program to the file system.
+//!
+//! Three rules keep the user's files. What a run has read it never writes over, by whatever path, link or spelling the file is named; nothing is written
+//! twice by one run; and a design gives way to another design only, not to a picture or a table. A file appears whole or not at all.
 
-use std::fs::File;
-use std::io::Read;
-use std::path::Path;
+use std::cell::RefCell;
+use std::ffi::{OsStr, OsString};
+use std::fs::{File, OpenOptions};
+use std::io::{Read, Write};
+use std::ops::Deref;
+use std::path::{Path, PathBuf};
+
+use clap::ArgMatches;
 
 use super::failure::Failure;
-use crate::design::{Design, Format};
+use crate::design::{Design, Format, parse};
 
 /// Nothing this program reads is larger; a design has some kilobytes.
 const MAX_BYTES: u64 = 4 << 20;
@@ -36,6 +44,7 @@ pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
     // a pipe or device has no size to go by, and a file may grow: the read itself is limited too
     let mut bytes = Vec::new();
     let file = File::open(path).map_err(|e| unreadable(&e))?;
+    note_input(path);
     file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(|e| unreadable(&e))?;
     if bytes.len() as u64 > MAX_BYTES {
         return Err(too_large());
@@ -46,6 +55,129 @@ pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
         Failure::refused("file::not_utf8", format!("{shown} is not UTF-8 text: line {line} has other bytes"))
             .with_help("save the file as UTF-8")
     })
+}
+
+/// A path that a command writes to, file or folder: the type tells outputs from inputs among the arguments.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct OutputPath(PathBuf);
+
+impl From<OsString> for OutputPath {
+    fn from(text: OsString) -> Self {
+        Self(text.into())
+    }
+}
+
+impl Deref for OutputPath {
+    type Target = Path;
+    fn deref(&self) -> &Path {
+        &self.0
+    }
+}
+
+/// What tells a file from others, whatever it is called.
+#[derive(Debug, Clone)]
+struct Identity {
+    /// Without links and dots; of a file that does not exist yet, that of its folder with its name.
+    path: PathBuf,
+    /// Device and number of the file: the same for hard links and for other spellings where the file system takes them for one.
+    #[cfg(unix)]
+    node: Option<(u64, u64)>,
+}
+
+impl Identity {
+    fn of(path: &Path) -> Self {
+        let whole = path.canonicalize().or_else(|_| {
+            let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+            folder.canonicalize().map(|f| f.join(path.file_name().unwrap_or_default()))
+        });
+        Self {
+            path: whole.unwrap_or_else(|_| path.to_path_buf()),
+            #[cfg(unix)]
+            node: path.metadata().ok().map(|m| {
+                use std::os::unix::fs::MetadataExt as _;
+                (m.dev(), m.ino())
+            }),
+        }
+    }
+
+    fn is(&self, other: &Self) -> bool {
+        #[cfg(unix)]
+        if self.node.is_some() && self.node == other.node {
+            return true;
+        }
+        self.path == other.path
+    }
+}
+
+/// The files of this run.
+#[derive(Debug, Default)]
+struct Run {
+    read: Vec<Identity>,
+    written: Vec<Identity>,
+}
+
+thread_local! {
+    /// Commands read and write on the thread they are started on; computing threads see no files.
+    static RUN: RefCell<Run> = RefCell::default();
+}
+
+/// Forgets the files of an earlier run of this thread.
+pub(crate) fn begin() {
+    RUN.take();
+}
+
+fn note_input(path: &Path) {
+    RUN.with_borrow_mut(|run| run.read.push(Identity::of(path)));
+}
+
+fn over_input(path: &Path) -> Failure {
+    let message = format!("{} is an input of this command and would be overwritten", path.display());
+    Failure::refused("file::overwrites_input", message).with_help("name another file")
+}
+
+fn written_twice(path: &Path) -> Failure {
+    let message = format!("{} is named for two outputs of this command", path.display());
+    Failure::refused("file::written_twice", message).with_help("name a file for each")
+}
+
+/// Refuses before anything is computed: outputs among the arguments that are inputs among them, or the same as other outputs.
+///
+/// # Errors
+/// Exit 2: `file::overwrites_input`, `file::written_twice`.
+pub(crate) fn check_arguments(matches: &ArgMatches) -> Result<(), Failure> {
+    let (mut inputs, mut outputs) = (Vec::new(), Vec::new());
+    let mut level = Some(matches);
+    while let Some(matches) = level {
+        for id in matches.ids().map(clap::Id::as_str) {
+            inputs.extend(matches.try_get_many::<PathBuf>(id).ok().flatten().into_iter().flatten().cloned());
+            for path in matches.try_get_many::<OutputPath>(id).ok().flatten().into_iter().flatten() {
+                // a global option is listed at every level
+                if !outputs.iter().any(|(known, _)| known == &id) {
+                    outputs.push((id, path.clone()));
+                }
+            }
+        }
+        level = matches.subcommand().map(|(_, below)| below);
+    }
+    let files: Vec<(Identity, &OutputPath)> = outputs
+        .iter()
+        .filter(|(_, p)| !p.is_dir() && !is_device(p))
+        .map(|(_, p)| (Identity::of(p), p))
+        .collect();
+    for (k, (file, path)) in files.iter().enumerate() {
+        if inputs.iter().any(|input| Identity::of(input).is(file)) {
+            return Err(over_input(path));
+        }
+        if files[..k].iter().any(|(other, _)| other.is(file)) {
+            return Err(written_twice(path));
+        }
+    }
+    Ok(())
+}
+
+/// Something that is there and is no file: a device or a pipe takes any number of texts.
+fn is_device(path: &Path) -> bool {
+    path.exists() && !path.is_file() && !path.is_dir()
 }
 
 /// Makes a folder and those above it, where they do not exist.
@@ -59,35 +191,111 @@ pub(crate) fn make_folder(path: &Path) -> Result<(), Failure> {
     })
 }
 
-/// The bytes of a file.
+/// The bytes of a file of at most `most` bytes.
 ///
 /// # Errors
-/// Exit 2: `file::not_readable`.
-pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
-    std::fs::read(path).map_err(|error| {
+/// Exit 2: `file::not_readable`, `file::too_large`.
+pub(crate) fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>, Failure> {
+    let unreadable = |error: std::io::Error| {
         Failure::refused("file::not_readable", format!("{} cannot be read: {error}", path.display()))
             .with_help("check the path and its permissions")
+    };
+    let mut bytes = Vec::new();
+    let file = File::open(path).map_err(unreadable)?;
+    note_input(path);
+    file.take(most + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+    if bytes.len() as u64 > most {
+        let message = format!("{} is larger than {} MiB", path.display(), most >> 20);
+        return Err(Failure::refused("file::too_large", message).with_help("name a smaller file"));
+    }
+    Ok(bytes)
+}
+
+/// Refuses a file that this run has read.
+///
+/// # Errors
+/// Exit 2: `file::overwrites_input`.
+pub(crate) fn check_input(path: &Path) -> Result<(), Failure> {
+    let target = Identity::of(path);
+    let read = RUN.with_borrow(|run| run.read.iter().any(|known| known.is(&target)));
+    if read { Err(over_input(path)) } else { Ok(()) }
+}
+
+/// Refuses what would cost the user a file.
+///
+/// # Errors
+/// Exit 2: `file::overwrites_input`, `file::written_twice`, `file::overwrites_design`, `file::not_writable` (write-protected).
+fn check_target(path: &Path, text: &str) -> Result<(), Failure> {
+    check_input(path)?;
+    let target = Identity::of(path);
+    RUN.with_borrow(|run| {
+        if run.written.iter().any(|known| known.is(&target)) {
+            return Err(written_twice(path));
+        }
+        Ok(())
+    })?;
+    let Ok(metadata) = path.metadata() else { return Ok(()) };
+    if metadata.permissions().readonly() {
+        let message = format!("{} cannot be written: it is write-protected", path.display());
+        return Err(Failure::refused("file::not_writable", message).with_help("name another file"));
+    }
+    let is_design = |text: &str| [Format::Toml, Format::Json].iter().any(|f| parse(text, *f).is_ok());
+    let there = if metadata.len() > MAX_BYTES { None } else { std::fs::read_to_string(path).ok() };
+    if there.is_some_and(|old| is_design(&old)) && !is_design(text) {
+        let message =
+            format!("{} is a design and would be overwritten by something that is none", path.display());
+        return Err(Failure::refused("file::overwrites_design", message).with_help("name another file"));
+    }
+    Ok(())
+}
+
+/// The beginning and the end of the name under which a file is written before it gets its own.
+const PART: (&str, &str) = (".", ".part");
+
+/// Whether `name` is a file that an interrupted run left beside the file `of`.
+pub(crate) fn is_part(name: &OsStr, of: &str) -> bool {
+    let name = name.to_string_lossy();
+    let inner = name.strip_prefix(PART.0).and_then(|n| n.strip_suffix(PART.1));
+    inner.and_then(|n| n.rsplit_once('.')).is_some_and(|(file, process)| {
+        file == of && !process.is_empty() && process.bytes().all(|b| b.is_ascii_digit())
     })
 }
 
 /// Writes a file whole: first beside it, then renamed, so that a half-written file never stands there.
 ///
 /// # Errors
-/// Exit 2: `file::not_writable`.
+/// Exit 2: `file::overwrites_input`, `file::written_twice`, `file::overwrites_design`, `file::not_writable`.
 pub(crate) fn write_text(path: &Path, text: &str) -> Result<(), Failure> {
-    let mut part = path.as_os_str().to_owned();
-    part.push(format!(".{}.part", std::process::id()));
-    let part = Path::new(&part);
-    let result = if path.is_file() || !path.exists() {
-        std::fs::write(part, text).and_then(|()| std::fs::rename(part, path))
-    } else {
-        std::fs::write(path, text) // a device or pipe: nothing to rename over
-    };
-    result.map_err(|error| {
-        let _ = std::fs::remove_file(part); // it may not exist; the error to report is the first one
+    let failed = |error: std::io::Error| {
         Failure::refused("file::not_writable", format!("{} cannot be written: {error}", path.display()))
             .with_help("check the folder and its permissions")
-    })
+    };
+    if is_device(path) {
+        return std::fs::write(path, text).map_err(failed); // nothing to rename over
+    }
+    if path.is_dir() {
+        return Err(failed(std::io::ErrorKind::IsADirectory.into()));
+    }
+    check_target(path, text)?;
+    // the file a link points to is replaced, not the link
+    let target = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
+    let mut name = OsString::from(PART.0);
+    name.push(target.file_name().unwrap_or_default());
+    name.push(format!(".{}{}", std::process::id(), PART.1));
+    let part = target.with_file_name(name);
+    let write = || {
+        let mut file = OpenOptions::new().write(true).create_new(true).open(&part)?;
+        let done = file.write_all(text.as_bytes()).and_then(|()| {
+            target.metadata().map_or(Ok(()), |m| std::fs::set_permissions(&part, m.permissions()))?;
+            std::fs::rename(&part, &target)
+        });
+        done.inspect_err(|_| {
+            let _ = std::fs::remove_file(&part); // the error to report is the first one
+        })
+    };
+    write().map_err(failed)?;
+    RUN.with_borrow_mut(|run| run.written.push(Identity::of(path)));
+    Ok(())
 }
 
 /// Writes a design in the notation of the file name.
@@ -101,3 +309,6 @@ pub(crate) fn write_design(path: &Path, design: &Design) -> Result<(), Failure> 
     };
     write_text(path, &text)
 }
+
+#[cfg(test)]
+mod tests;

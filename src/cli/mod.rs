@@ -23,7 +23,7 @@ use std::ffi::OsString;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::{CommandFactory, FromArgMatches};
 
 use self::args::Cli;
 use self::context::Context;
@@ -50,11 +50,19 @@ fn guarded(json: bool, body: impl FnOnce() -> Exit) -> Exit {
 }
 
 fn run(args: Vec<OsString>, json: bool) -> Exit {
-    let cli = match Cli::try_parse_from(args) {
-        Ok(cli) => cli,
+    let matches = match Cli::command().try_get_matches_from(args) {
+        Ok(matches) => matches,
         Err(error) => return Output::new(json).usage(&error),
     };
+    let cli = match Cli::from_arg_matches(&matches) {
+        Ok(cli) => cli,
+        Err(error) => return Output::new(json).usage(&error.format(&mut Cli::command())),
+    };
     let output = Output::new(cli.global.json);
+    files::begin();
+    if let Err(failure) = files::check_arguments(&matches) {
+        return output.failure(&failure, &[]);
+    }
     let mut context = Context::new(&cli.global);
     let result = cli.command.run(&mut context);
     match result {

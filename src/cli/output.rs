@@ -8,6 +8,7 @@ use super::context::FileWarning;
 use super::diagnostic;
 use super::exit::Exit;
 use super::failure::Failure;
+use crate::synthesis::Relation;
 
 /// What a command found.
 ///
@@ -75,6 +76,11 @@ impl Output {
 /// A number as JSON: null when it is not finite, because JSON has no word for it.
 pub(crate) fn number(x: f64) -> Value {
     serde_json::Number::from_f64(x).map_or(Value::Null, Value::Number)
+}
+
+/// The word for a relation; null where it is not decided, for which there is no word in documents.
+pub(crate) fn relation(r: Relation) -> Value {
+    if r == Relation::Undecided { Value::Null } else { json!(r.as_str()) }
 }
 
 /// The text of a document: `fields` between `schema_version` and `warnings`.

@@ -18,7 +18,7 @@ pub struct SamplePlan {
     pub translation: Vector3<f64>,
     /// Half widths of the rotation-vector box, radians.
     pub rotation: Vector3<f64>,
-    /// How many sets of leg lengths.
+    /// How many sets of leg lengths; with none the verdict is inconclusive unless the map alone decides.
     pub count: usize,
     /// Seed; pose `k` depends on the seed and `k` only.
     pub seed: u64,

@@ -68,8 +68,12 @@ pub struct Counterexample {
 pub enum InconclusiveReason {
     /// The map is regular, but some sample could not be solved completely.
     SolverIncomplete,
-    /// The map is regular and forward kinematics disagrees with it: one of the two is wrong.
+    /// The map is regular and the poses found do not agree with it.
     Contradiction,
+    /// The map holds within its tolerance, and whether it is regular is not decided.
+    MapUndecided,
+    /// No sample was asked for, so that nothing but the map speaks.
+    NoSamples,
     /// The map holds within its tolerance, but not to rounding, and forward kinematics tells the platforms apart.
     NearlyEquivalent,
     /// There is no map, but no pose was found that tells the platforms apart either.
@@ -85,8 +89,13 @@ impl InconclusiveReason {
                 "the leg map is regular, but forward kinematics may have missed poses of a sample"
             }
             Self::Contradiction => {
-                "the leg map is regular, but the poses of a sample disagree: please report this"
+                "the leg map is regular, but forward kinematics of the two does not give the same poses at a sample, more than rounding of the joints explains: \
+                 nothing is concluded from the samples (bodies of very different size, or nearly double poses, make poses this uncertain)"
             }
+            Self::MapUndecided => {
+                "the leg map holds within its tolerance, but a singular design lies within what rounding leaves open"
+            }
+            Self::NoSamples => "no sets of lengths were compared: forward kinematics has said nothing",
             Self::NearlyEquivalent => {
                 "the leg map holds within its tolerance but not to rounding, and the poses of a sample disagree"
             }
@@ -168,8 +177,14 @@ pub fn verify(
     options: &FkOptions,
 ) -> Result<Verification, VerifyError> {
     let map = leg_map(a, b, LegMapTolerances::default())?;
-    if map.relation == Relation::Singular {
-        return Ok(Verification { verdict: Verdict::Singular, map, samples: Vec::new() });
+    let at_once = match map.relation {
+        Relation::Singular => Some(Verdict::Singular),
+        Relation::Undecided => Some(Verdict::Inconclusive(InconclusiveReason::MapUndecided)),
+        _ if plan.count == 0 => Some(Verdict::Inconclusive(InconclusiveReason::NoSamples)),
+        _ => None,
+    };
+    if let Some(verdict) = at_once {
+        return Ok(Verification { verdict, map, samples: Vec::new() });
     }
     let mut samples = Vec::with_capacity(plan.count);
     for k in 0..plan.count {
@@ -296,6 +311,18 @@ mod tests {
         assert_eq!(v.verdict, Verdict::Equivalent);
         assert!(v.worst_distance() < 1e-9);
         assert!(v.samples.iter().all(|s| s.matching.pairs.len() == 16));
+    }
+
+    #[test]
+    fn without_samples_nothing_is_concluded_from_them() {
+        let a = octahedral();
+        let (b, _) = joint_free(&Octahedral::recognise(&a).unwrap(), [0.2; 6]).unwrap();
+        let mut legs: [Leg; 6] = b.legs();
+        legs[2].platform.z += 0.1;
+        for other in [b, Manipulator::from_legs(legs).unwrap()] {
+            let v = verify(&a, &other, &SamplePlan { count: 0, ..plan() }, &FkOptions::default()).unwrap();
+            assert_eq!(v.verdict, Verdict::Inconclusive(InconclusiveReason::NoSamples));
+        }
     }
 
     #[test]

@@ -164,7 +164,7 @@ mod tests {
         })
     }
 
-    fn design(joints: [[Point3<f64>; 6]; 2]) -> Manipulator {
+    fn design(joints: &[[Point3<f64>; 6]; 2]) -> Manipulator {
         let leg = |i: usize| Leg { base: joints[0][i], platform: joints[1][i] };
         Manipulator::from_legs(std::array::from_fn(leg)).unwrap()
     }
@@ -173,7 +173,7 @@ mod tests {
     fn congruent_bodies_have_one_sphere_and_other_lengths_nothing() {
         for seed in 0..4 {
             let [base, _] = bodies(seed);
-            let m = design([base, base]);
+            let m = design(&[base, base]);
             let s = LegLengths::try_new([3.0; 6]).unwrap().squared();
             let found = real_points(&m, &s, seed);
             assert!(
@@ -191,12 +191,12 @@ mod tests {
             rotation: Rotation3::new(Vector3::new(0.3, 0.2, -0.4)),
             position: Vector3::new(0.3, 0.1, 3.0),
         };
-        let general = design([base, platform]);
+        let general = design(&[base, platform]);
         assert!(real_points(&general, &pose.squared_lengths(&general).unwrap(), 1).is_empty());
         for (k, p) in platform.iter_mut().enumerate() {
             *p = Point3::from(Vector3::new(1.0, -0.5, 0.3) * (k as f64 - 2.4));
         }
-        let m = design([base, platform]);
+        let m = design(&[base, platform]);
         assert!(!real_points(&m, &pose.squared_lengths(&m).unwrap(), 1).is_empty());
     }
 }

@@ -110,7 +110,27 @@ pub enum InvalidManipulator {
     /// All joints of both bodies lie in one point each, so that the design has no size.
     #[error("all joints of each body coincide: the design has no size")]
     NoSize,
+    /// A coordinate whose square, and with it every squared leg length, overflows double precision.
+    #[error(
+        "{body} joint {index} has a coordinate of {coordinate:e}, whose square overflows double precision"
+    )]
+    TooFar {
+        /// `"base"` or `"platform"`.
+        body: &'static str,
+        /// 0-based index of the joint.
+        index: usize,
+        /// The coordinate.
+        coordinate: f64,
+    },
+    /// The joints differ, but by lengths whose squares underflow double precision.
+    #[error(
+        "the joints of each body are so near to each other that the squares of their distances underflow double precision"
+    )]
+    TooSmall,
 }
+
+/// Coordinates up to here have leg lengths whose squares, sums of three squares of differences, are finite: `12 x^2 < 2^1024`.
+const FARTHEST: f64 = 3.8e153;
 
 impl Manipulator {
     /// Builds a manipulator from joints and six pairs (base joint, platform joint) in leg order.
@@ -126,6 +146,11 @@ impl Manipulator {
             let bad = joints.iter().position(|p| p.iter().any(|x| !x.is_finite()));
             if let Some(index) = bad {
                 return Err(InvalidManipulator::NonFinite { body, index });
+            }
+            for (index, joint) in joints.iter().enumerate() {
+                if let Some(&coordinate) = joint.iter().find(|x| x.abs() > FARTHEST) {
+                    return Err(InvalidManipulator::TooFar { body, index, coordinate });
+                }
             }
         }
         for (leg, &(a, b)) in LegIndex::all().zip(&legs) {
@@ -144,8 +169,11 @@ impl Manipulator {
         let a: Vec<_> = legs.iter().map(|l| base[l.0]).collect();
         let b: Vec<_> = legs.iter().map(|l| platform[l.1]).collect();
         let size = spread(&a).max(spread(&b));
-        if size == 0.0 {
+        if [&a, &b].iter().all(|ends| ends.iter().all(|p| *p == ends[0])) {
             return Err(InvalidManipulator::NoSize);
+        }
+        if !(size * size).is_normal() {
+            return Err(InvalidManipulator::TooSmall);
         }
         Ok(Self { base, platform, legs, size })
     }
@@ -271,6 +299,35 @@ mod tests {
         assert_eq!(
             Manipulator::try_new(triangle(0.0), triangle(0.0), hexagon),
             Err(InvalidManipulator::NoSize)
+        );
+    }
+
+    /// Bodies of every magnitude that a double can hold: accepted with a size that can be squared, or refused with the reason.
+    #[test]
+    fn size_can_be_squared() {
+        let hexagon = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
+        for exponent in (-323..=308).step_by(7).chain([-160, -155, 153, 154, 160, 308]) {
+            let r = 10f64.powi(exponent);
+            for (base, platform) in [(r, r), (r, 0.5 * r), (r, 0.0), (0.0, r)] {
+                match Manipulator::try_new(triangle(base), triangle(platform), hexagon) {
+                    Ok(m) => {
+                        assert!((m.size() * m.size()).is_normal() && m.size() >= r, "1e{exponent}");
+                        let far = m.legs().map(|l| (l.base - l.platform).norm_squared());
+                        assert!(far.iter().all(|s| s.is_finite()), "1e{exponent}");
+                    }
+                    Err(InvalidManipulator::TooFar { coordinate, .. }) => {
+                        assert!(coordinate.abs() > 1e153, "1e{exponent}");
+                    }
+                    Err(InvalidManipulator::TooSmall) => assert!(r < 1e-153, "1e{exponent}"),
+                    Err(other) => panic!("1e{exponent}: {other}"),
+                }
+            }
+        }
+        let sizes =
+            |r: f64| Manipulator::try_new(triangle(r), triangle(1.0), hexagon).unwrap_err().to_string();
+        assert_eq!(
+            sizes(f64::MAX),
+            "base joint 0 has a coordinate of 1.7976931348623157e308, whose square overflows double precision"
         );
     }
 

@@ -3,8 +3,11 @@
 //! Every finite double is a rational number, so that linear relations between data given as doubles are
 //! true or false without any tolerance.
 
+use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
+
+use super::modular::Field;
 
 /// A rational number of any size.
 pub(crate) type Rational = BigRational;
@@ -20,34 +23,71 @@ fn zero() -> Rational {
 
 /// A basis of the linear relations between the rows: vectors `c` with `sum_i c_i row_i = 0`, exactly.
 ///
-/// Gauss elimination of the rows beside an identity; row `i` of the result has `rows.len()` entries. The
-/// rank is the number of rows less the number of relations.
+/// Elimination without fractions (Bareiss 1968) of integer rows beside an identity; row `i` of the result has `rows.len()` entries, that of the row it
+/// was made of is 1. The rank is the number of rows less the number of relations.
+///
+/// Relations between rows do not change when a column is multiplied, so that every column is brought to integers without a common power of two first;
+/// numbers of a thousand digits beside ones stay that long and no longer, because no fraction is ever reduced on the way.
 pub(crate) fn relations(rows: &[Vec<Rational>]) -> Vec<Vec<Rational>> {
     let count = rows.len();
     let width = rows.first().map_or(0, Vec::len);
-    let one = Rational::from_integer(1.into());
-    let mut work: Vec<Vec<Rational>> = rows.to_vec();
-    for (i, row) in work.iter_mut().enumerate() {
-        row.extend((0..count).map(|j| if i == j { one.clone() } else { zero() }));
+    let mut work = integers(rows);
+    if full_rank_modulo(Field::MERSENNE, &work) {
+        return Vec::new(); // a minor that is not zero modulo a prime is not zero
     }
-    let mut rank = 0;
+    for (i, row) in work.iter_mut().enumerate() {
+        row.extend((0..count).map(|j| BigInt::from(u8::from(i == j))));
+    }
+    let (mut rank, mut last) = (0, BigInt::from(1));
+    let mut made_of: Vec<usize> = (0..count).collect();
     for column in 0..width {
-        let Some(pivot) = (rank..count).find(|i| work[*i][column] != zero()) else { continue };
+        let Some(pivot) = (rank..count).find(|i| work[*i][column] != BigInt::ZERO) else { continue };
         work.swap(rank, pivot);
+        made_of.swap(rank, pivot);
         let (top, below) = work.split_at_mut(rank + 1);
         let head = &top[rank];
-        for row in below.iter_mut().filter(|r| r[column] != zero()) {
-            let factor = &row[column] / &head[column];
-            for (x, h) in row.iter_mut().zip(head).skip(column) {
-                *x -= &factor * h;
+        for row in below.iter_mut() {
+            let factor = std::mem::take(&mut row[column]);
+            for (x, h) in row.iter_mut().zip(head).skip(column + 1) {
+                // the quotient is a minor of the rows: an integer
+                *x = (&*x * &head[column] - &factor * h) / &last;
             }
         }
+        last.clone_from(&head[column]);
         rank += 1;
         if rank == count {
             break;
         }
     }
-    work.into_iter().skip(rank).map(|row| row[width..].to_vec()).collect()
+    let own = work.into_iter().zip(made_of).skip(rank);
+    own.map(|(row, i)| {
+        row[width..].iter().map(|x| Rational::new(x.clone(), row[width + i].clone())).collect()
+    })
+    .collect()
+}
+
+/// The rows with every column multiplied to integers, and common powers of two taken out of it.
+fn integers(rows: &[Vec<Rational>]) -> Vec<Vec<BigInt>> {
+    let width = rows.first().map_or(0, Vec::len);
+    let mut out: Vec<Vec<BigInt>> = rows.iter().map(|_| Vec::with_capacity(width)).collect();
+    for column in 0..width {
+        let denominators = rows.iter().map(|row| row[column].denom());
+        let common =
+            denominators.fold(BigInt::from(1), |l, d| if (&l % d) == BigInt::ZERO { l } else { l.lcm(d) });
+        let scaled = |x: &Rational| x.numer() * (&common / x.denom());
+        let column: Vec<BigInt> = rows.iter().map(|row| scaled(&row[column])).collect();
+        let twos = column.iter().filter_map(BigInt::trailing_zeros).min().unwrap_or(0);
+        out.iter_mut().zip(column).for_each(|(row, x)| row.push(x >> twos));
+    }
+    out
+}
+
+/// Whether the rows are independent modulo the prime; then they are independent.
+fn full_rank_modulo(field: Field, rows: &[Vec<BigInt>]) -> bool {
+    let prime = BigInt::from(field.prime());
+    let residue = |x: &BigInt| x.mod_floor(&prime).iter_u64_digits().next().unwrap_or(0);
+    let residues: Vec<Vec<u64>> = rows.iter().map(|row| row.iter().map(residue).collect()).collect();
+    field.rank(residues) == rows.len()
 }
 
 /// The multiple of a list that consists of integers without a common factor, the first that is not zero positive; zeros stay zeros.

@@ -1,6 +1,7 @@
 //! The page as one text.
 
 use serde_json::{Value, json};
+use sha2::{Digest, Sha256};
 
 use super::base64;
 use super::session::Session;
@@ -28,6 +29,29 @@ const SCRIPTS: [&str; 12] = [
     include_str!("web/app.js"),
     include_str!("web/actions.js"),
 ];
+
+/// The script of every page, closed in itself.
+fn script() -> String {
+    format!("(() => {{\n\"use strict\";\n{}\n}})();", SCRIPTS.concat())
+}
+
+/// What a content security policy calls an inline script or style with exactly this text (W3C, Content Security Policy Level 3, section 2.3.1).
+fn source(text: &str) -> String {
+    format!("'sha256-{}'", base64::encode(&Sha256::digest(text.as_bytes())))
+}
+
+/// The content security policy of the page, and with `styles` of a page around it, whose policy holds for frames in it too: the one script and the style
+/// sheets by their hashes, WebAssembly, workers from the page itself, no network. An element or attribute that names another script is not run.
+#[must_use]
+pub fn policy(styles: &[&str]) -> String {
+    let styles: String = styles.iter().map(|text| format!(" {}", source(text))).collect::<Vec<_>>().concat();
+    format!(
+        "default-src 'none'; script-src {} 'wasm-unsafe-eval'; style-src {}{styles}; worker-src blob:; img-src data: blob:; base-uri 'none'; form-action 'none'",
+        source(&script()),
+        source(&STYLE.concat()),
+    )
+}
+
 /// Recorded poses of one round.
 const FRAMES: usize = 36;
 /// Points a side of the recorded plane.
@@ -43,11 +67,12 @@ pub fn page(session: &Session, core: Option<&[u8]>) -> String {
     let title = escape(&session.design.name);
     let core = core.map(base64::encode).unwrap_or_default();
     let parts = [
+        ("{{policy}}", policy(&[])),
         ("{{title}}", title),
         ("{{style}}", STYLE.concat()),
         ("{{data}}", data.to_string().replace('<', "\\u003c")),
         ("{{core}}", core),
-        ("{{script}}", SCRIPTS.concat()),
+        ("{{script}}", script()),
     ];
     let (mut out, mut rest) = (String::new(), TEMPLATE);
     for (mark, value) in parts {

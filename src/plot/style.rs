@@ -29,7 +29,7 @@ text{font-family:Helvetica,Arial,'Liberation Sans','DejaVu Sans',sans-serif;font
 .plate{fill:#fff;fill-opacity:.9}\
 .pair{fill:none;stroke:#c4c4c4;stroke-width:1}";
 
-/// Text of an XML node or attribute.
+/// Text of an XML or HTML node or attribute: the only door of foreign text to either.
 pub(crate) fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {

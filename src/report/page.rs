@@ -9,6 +9,7 @@ use sha2::{Digest, Sha256};
 use super::kind::{Verdict, heading, verdict};
 use super::{Report, ReportFile, facts, inputs};
 use crate::design::{Design, Format, parse};
+use crate::page::policy;
 use crate::plot::escape;
 
 const STYLE: &str = include_str!("style.css");
@@ -46,9 +47,11 @@ pub fn html(report: &Report) -> String {
     let contents: Vec<(&ReportFile, Content)> = report.files.iter().map(|f| (f, content(f))).collect();
     let mut out = String::new();
     let title = escape(&report.title);
+    let policy = policy(&[STYLE]);
     let _ = writeln!(
         out,
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\">\n\
          <meta name=\"color-scheme\" content=\"light dark\">\n<title>{title}</title>\n<style>{STYLE}</style></head>\n<body><main>\n<h1>{title}</h1>\n\
          <p class=\"note\">Report of equipod {}. Every number stands in one of the files listed at the end.</p>",
         env!("CARGO_PKG_VERSION")
@@ -151,16 +154,25 @@ fn result(name: &str, fields: &Map<String, Value>) -> String {
     )
 }
 
+/// The text of a node without markup: the five entities of XML as the characters they stand for.
+fn unescape(text: &str) -> String {
+    let known = [("&lt;", "<"), ("&gt;", ">"), ("&quot;", "\""), ("&apos;", "'"), ("&amp;", "&")];
+    known.iter().fold(text.to_owned(), |text, (entity, character)| text.replace(entity, character))
+}
+
 /// As an image: scripts and styles of one picture reach neither the page nor other pictures.
 fn picture(name: &str, svg: &str) -> String {
-    let described = svg.split("<desc id=\"desc\">").nth(1).and_then(|rest| rest.split("</desc>").next());
-    let titled = svg.split("<title id=\"title\">").nth(1).and_then(|rest| rest.split("</title>").next());
-    // both are escaped already
-    let (title, description) = (titled.unwrap_or(""), described.unwrap_or(""));
-    let title = if title.is_empty() { escape(name) } else { title.to_owned() };
+    let inner = |from: &str, to: &str| {
+        let text = svg.split(from).nth(1).and_then(|rest| rest.split(to).next()).unwrap_or_default();
+        // the file may be anybody's: what it calls escaped is read, and escaped here
+        escape(&unescape(text.trim()))
+    };
+    let (title, description) =
+        (inner("<title id=\"title\">", "</title>"), inner("<desc id=\"desc\">", "</desc>"));
+    let title = if title.is_empty() { escape(name) } else { title };
     format!(
         "<figure class=\"card\"><img alt=\"{}\" src=\"data:image/svg+xml,{}\"><figcaption>{title} ({})</figcaption></figure>\n",
-        if description.is_empty() { &title } else { description },
+        if description.is_empty() { &title } else { &description },
         utf8_percent_encode(svg, NON_ALPHANUMERIC),
         link(name)
     )

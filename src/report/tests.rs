@@ -72,3 +72,176 @@ fn long_lists_say_how_much_is_left_out() {
     let empty = report(vec![file("r.json", r#"{"schema_version":1,"rejected":[]}"#)]);
     assert!(empty.contains("<th scope=\"row\">rejected</th><td>none</td>"));
 }
+
+/// Pieces of attacks; texts are drawn from them in any order.
+const PIECES: [&str; 16] = [
+    "<script>alert(1)</script>",
+    "</title><img src=x onerror=alert(1)>",
+    "\" onload=\"alert(1)",
+    "' onmouseover='alert(1)",
+    "]]>",
+    "-->",
+    "<svg onload=alert(1)>",
+    "&lt;script&gt;alert(1)&lt;/script&gt;",
+    "&amp;lt;img src=x onerror=alert(1)&amp;gt;",
+    "</style><style>*{background:url(http://x.invalid)}</style>",
+    "javascript:alert(1)",
+    "<iframe srcdoc='&lt;script&gt;alert(1)&lt;/script&gt;'>",
+    "\u{0}\u{1b}[2J",
+    "</pre></details>",
+    "&#60;script&#62;",
+    "name",
+];
+
+/// Tags with their attributes; text between them is not looked at. What a browser takes for a tag begins with `<` and a letter, `/`, `!` or `?`.
+fn tags(html: &str) -> Vec<(String, Vec<(String, String)>)> {
+    let mut out = Vec::new();
+    let mut rest = html;
+    while let Some(at) = rest.find('<') {
+        rest = &rest[at + 1..];
+        let name: String = rest.chars().take_while(|c| !c.is_whitespace() && *c != '>').collect();
+        rest = &rest[name.len()..];
+        let mut attributes = Vec::new();
+        loop {
+            rest = rest.trim_start();
+            let key: String =
+                rest.chars().take_while(|c| !c.is_whitespace() && !matches!(c, '>' | '=')).collect();
+            rest = &rest[key.len()..];
+            if let Some(value) = rest.strip_prefix("=\"") {
+                let (inside, after) = value.split_once('"').unwrap();
+                attributes.push((key, inside.to_owned()));
+                rest = after;
+            } else if rest.starts_with('>') || rest.is_empty() {
+                if !key.is_empty() {
+                    attributes.push((key, String::new()));
+                }
+                break;
+            } else {
+                attributes.push((key, "?".into()));
+                rest = rest.strip_prefix('=').unwrap_or(rest);
+            }
+        }
+        if name == "style" {
+            rest = rest.split_once("</style>").unwrap().1;
+        }
+        out.push((name, attributes));
+    }
+    out
+}
+
+/// The tags and attributes of the page itself, links within it, to the files beside it, and pictures that are data: nothing else.
+fn only_its_own(html: &str) -> Result<(), String> {
+    const TAGS: [&str; 29] = [
+        "!doctype", "html", "head", "meta", "title", "style", "body", "main", "section", "h1", "h2", "h3",
+        "p", "ul", "li", "a", "strong", "span", "table", "caption", "thead", "tbody", "tr", "th", "td",
+        "div", "details", "summary", "pre",
+    ];
+    const ATTRIBUTES: [&str; 12] = [
+        "lang",
+        "charset",
+        "name",
+        "content",
+        "http-equiv",
+        "class",
+        "id",
+        "scope",
+        "href",
+        "aria-hidden",
+        "open",
+        "html",
+    ];
+    for (name, attributes) in tags(html) {
+        let name = name.trim_start_matches('/');
+        for (key, value) in &attributes {
+            let fine = match (name, key.as_str()) {
+                ("img", "alt") | ("iframe", "title" | "sandbox" | "srcdoc") => true,
+                ("img", "src") => value.starts_with("data:image/svg+xml,%3C"),
+                ("a", "href") => value.chars().all(|c| c.is_ascii_alphanumeric() || "#-%".contains(c)),
+                (_, key) => ATTRIBUTES.contains(&key),
+            };
+            if !fine {
+                return Err(format!("<{name} {key}=\"{value}\">"));
+            }
+        }
+        if !TAGS.contains(&name) && !["img", "figure", "figcaption", "iframe"].contains(&name) {
+            return Err(format!("<{name}>"));
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn foreign_texts_never_become_markup() {
+    let mut state = 7_u64;
+    let mut draw = |most: u64| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        usize::try_from((state >> 33) % most).unwrap()
+    };
+    for round in 0..60 {
+        let mut hostile = || -> String { (0..=draw(4)).map(|_| PIECES[draw(PIECES.len() as u64)]).collect() };
+        let svg = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\"><title id=\"title\">{}</title><desc id=\"desc\">{}</desc>{}</svg>",
+            hostile(),
+            hostile(),
+            hostile()
+        );
+        let quoted = |text: String| serde_json::Value::String(text).to_string();
+        let joint = toml_text(&hostile());
+        let design = DESIGN
+            .replace("\"P1\"", &joint)
+            .replacen("P1 = ", &format!("{joint} = "), 1)
+            .replacen("units = \"mm\"", &format!("units = {}", toml_text(&hostile())), 1)
+            .replacen("source = ", &format!("source = {} #", toml_text(&hostile())), 1)
+            .replacen("description = ", &format!("description = {} #", toml_text(&hostile())), 1)
+            .replacen("name = \"octahedral 12-6\"", &format!("name = {}", toml_text(&hostile())), 1);
+        let result = format!(
+            "{{\"schema_version\":1,\"verdict\":{},\"explanation\":{},\"version\":{},\"seed\":{},{}:{},\"list\":[{{{}:{}}}],\"met\":null,\"tolerances\":{{{}:1}}}}",
+            quoted(hostile()),
+            quoted(hostile()),
+            quoted(hostile()),
+            quoted(hostile()),
+            quoted(hostile()),
+            quoted(hostile()),
+            quoted(hostile()),
+            quoted(hostile()),
+            quoted(hostile())
+        );
+        let text = html(&Report {
+            title: hostile(),
+            files: vec![
+                file(&format!("{}.svg", hostile()), &svg),
+                file(&format!("{}.toml", hostile()), &design),
+                file(&format!("{}.json", hostile()), &result),
+                file(&hostile(), &hostile()),
+            ],
+            view: Some(hostile()),
+        });
+        assert!(text.contains("<h2>Designs</h2>") && text.contains("<h2>Results</h2>"), "round {round}");
+        only_its_own(&text).unwrap_or_else(|tag| panic!("round {round}: {tag} in\n{text}"));
+        assert!(text.contains("default-src 'none'; script-src 'sha256-") && !text.contains("unsafe-inline"));
+    }
+    // the reader notices what it is for
+    for bad in [
+        "<p>a</p><script>",
+        "<p onclick=\"x\">",
+        "<a href=\"javascript:x\">",
+        "<img src=\"http://x\">",
+        "<p><svg onload=x>",
+    ] {
+        assert!(only_its_own(bad).is_err(), "{bad}");
+    }
+}
+
+/// A basic string of TOML.
+fn toml_text(text: &str) -> String {
+    let escaped: String = text
+        .chars()
+        .map(|c| match c {
+            '"' => "\\\"".to_owned(),
+            '\\' => "\\\\".to_owned(),
+            c if c.is_control() => format!("\\u{:04x}", u32::from(c)),
+            c => c.to_string(),
+        })
+        .collect();
+    format!("\"{escaped}\"")
+}

@@ -138,11 +138,14 @@ fn scaled(c: &[Rational]) -> Vec<Rational> {
     let least = c.iter().filter(|x| **x != zero).map(modulus).min().unwrap_or_else(one);
     let most = c.iter().map(modulus).max().unwrap_or_else(one);
     let sign = if *first < zero { -one() } else { one() };
-    for k in 1..=60u32 {
-        let factor = &sign * Rational::from_integer(k.into()) / &least;
-        let tried: Vec<Rational> = c.iter().map(|x| x * &factor).collect();
-        if tried.iter().all(Rational::is_integer) && approximate(&(&most / &least)) * f64::from(k) < 1e6 {
-            return tried;
+    let ratio = approximate(&(&most / &least));
+    if ratio < 1e6 {
+        let ratios: Vec<Rational> = c.iter().map(|x| x * &sign / &least).collect();
+        for k in (1..=60u32).take_while(|k| ratio * f64::from(*k) < 1e6) {
+            let tried: Vec<Rational> = ratios.iter().map(|x| x * Rational::from_integer(k.into())).collect();
+            if tried.iter().all(Rational::is_integer) {
+                return tried;
+            }
         }
     }
     c.iter().map(|x| x * &sign / &most).collect()

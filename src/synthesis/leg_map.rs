@@ -3,6 +3,7 @@
 use nalgebra::{Matrix6, Vector6};
 use thiserror::Error;
 
+use super::exact_leg_map::ExactFacts;
 use super::{LegSpan, Normalisation};
 use crate::manipulator::{Leg, LegIndex, Manipulator, SquaredLegLengths, inverse_condition};
 use crate::num::double_double::DoubleDouble;
@@ -121,16 +122,19 @@ pub enum Relation {
     Singular,
     /// Some leg of TO is no affine function of the legs of FROM.
     Unrelated,
+    /// The relation holds within the tolerance, and a singular design lies within what the tolerance and rounding leave open.
+    Undecided,
 }
 
 impl Relation {
-    /// `"equivalent"`, `"singular"` or `"unrelated"`.
+    /// `"equivalent"`, `"singular"`, `"unrelated"` or `"undecided"`.
     #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Equivalent => "equivalent",
             Self::Singular => "singular",
             Self::Unrelated => "unrelated",
+            Self::Undecided => "undecided",
         }
     }
 }
@@ -140,9 +144,9 @@ impl Relation {
 pub struct LegMapTolerances {
     /// A leg of TO farther than this from the span of FROM, relative to its vector, is not in it.
     pub residual: f64,
-    /// Singular values of the leg vectors below this times the largest count as zero.
+    /// Leg vectors with singular values below this times the largest are left to exact arithmetic.
     pub rank: f64,
-    /// `A` with `sigma_min / sigma_max` below this is singular.
+    /// `A` with `sigma_min / sigma_max` below this is left to exact arithmetic.
     pub singular: f64,
 }
 
@@ -167,15 +171,19 @@ pub struct LegMapOutcome {
     pub residuals: [f64; 6],
     /// The largest of `residuals`.
     pub residual: f64,
-    /// Dimension of the span of the legs of FROM.
+    /// Dimension of the span of the legs of FROM: exact where it is below 6.
     pub leg_rank: usize,
     /// Singular values of the normalised leg vectors of FROM, largest first.
     pub singular_values: [f64; 6],
     /// `sigma_min / sigma_max` of `A`.
     pub inverse_condition: f64,
-    /// What `inverse_condition` had to exceed: the tolerance asked for, or the rounding to expect in `A`
-    /// from the condition of FROM, whichever is larger.
+    /// What `inverse_condition` had to exceed: the tolerance asked for, or the error to expect in `A` from rounding, the residual
+    /// and the condition of FROM, whichever is larger; below the tolerance the error alone, where exact arithmetic found both platforms independent;
+    /// 0 where the map is exact.
     pub singular_limit: f64,
+    /// Whether the map is exact: every leg vector of TO lies in the span of those of FROM as rational numbers, not within a tolerance. Looked at
+    /// only where doubles do not decide.
+    pub exact: bool,
     /// The tolerances asked for.
     pub tolerances: LegMapTolerances,
 }
@@ -208,6 +216,9 @@ impl LegMapOutcome {
 ///
 /// Degenerate cases: dependent legs of `from` (`leg_rank < 6`) leave the coefficients undetermined; the
 /// shortest ones are returned and the relation is `Singular` when all legs of `to` are in the span.
+///
+/// `Singular` is never said by a tolerance: the leg vectors of one of the two are dependent as the rational numbers that the coordinates are.
+/// Between that and a regular map whose `sigma_min` exceeds the error to expect in `A` the answer is `Undecided`.
 ///
 /// ```
 /// use equipod::manipulator::{Leg, Manipulator};
@@ -247,34 +258,66 @@ pub(super) fn leg_map_to_legs(
     legs: &[Leg; 6],
     tolerances: LegMapTolerances,
 ) -> Result<LegMapOutcome, LinalgError> {
-    let span = LegSpan::of(from, tolerances.rank)?;
+    let mut span = LegSpan::of(from, tolerances.rank)?;
+    let facts = || ExactFacts::of(&from.legs(), legs);
+    let mut exact = None;
+    if span.rank() < 6 {
+        exact = facts();
+        if exact.as_ref().is_some_and(|e| e.from_rank == 6) {
+            span = LegSpan::of(from, 0.0)?; // bodies of mixed scales: small singular values are no rounding
+        }
+    }
     let residuals = legs.map(|leg| span.distance(&leg));
     let residual = residuals.iter().copied().fold(0.0, f64::max);
     let rows = legs.map(|leg| span.coefficients(&leg));
     let a = Matrix6::from_fn(|i, j| rows[i][j]);
     let closest = AffineLegMap { a, c: constants(&span.normalisation(), &a, &from.legs(), legs) };
-    let smallest = span.inverse_condition();
-    let singular_limit = tolerances.singular.max(64.0 * f64::EPSILON / smallest.max(tolerances.rank));
+    let rounding = 64.0 * f64::EPSILON / span.inverse_condition();
+    let error = rounding + residual / span.inverse_condition();
     let inverse_condition = closest.inverse_condition();
-    let relation = if residual > tolerances.residual || residual.is_nan() {
-        Relation::Unrelated
-    } else if span.rank() < 6 || inverse_condition <= singular_limit {
-        Relation::Singular
-    } else {
-        Relation::Equivalent
-    };
-    Ok(LegMapOutcome {
-        relation,
+    let mut outcome = LegMapOutcome {
+        relation: Relation::Equivalent,
         determinant: closest.determinant(),
         closest,
         residuals,
         residual,
-        leg_rank: span.rank(),
+        leg_rank: exact.as_ref().map_or(6, |e| e.from_rank),
         singular_values: span.singular_values(),
         inverse_condition,
-        singular_limit,
+        singular_limit: tolerances.singular.max(error),
+        exact: false,
         tolerances,
-    })
+    };
+    // the span itself is known to `rounding` only
+    let off = residual.is_nan() || residual > tolerances.residual;
+    if off && (exact.is_none() || outcome.leg_rank < 6 || residual > tolerances.residual + rounding) {
+        outcome.relation = Relation::Unrelated;
+        return Ok(outcome);
+    }
+    if exact.is_none() && inverse_condition > outcome.singular_limit {
+        return Ok(outcome);
+    }
+    let Some(exact) = exact.or_else(facts) else {
+        outcome.relation = Relation::Undecided;
+        return Ok(outcome);
+    };
+    outcome.leg_rank = exact.from_rank;
+    if exact.from_rank < 6 || exact.to_rank < 6 {
+        outcome.relation = Relation::Singular;
+    } else if let Some((a, c)) = exact.map {
+        // independent vectors that are combinations of six independent ones: det A is not zero
+        outcome.closest = AffineLegMap { a: Matrix6::from_fn(|i, j| a[i][j]), c: c.into() };
+        outcome.determinant = outcome.closest.determinant();
+        outcome.inverse_condition = outcome.closest.inverse_condition();
+        (outcome.residuals, outcome.residual) = ([0.0; 6], 0.0);
+        (outcome.singular_limit, outcome.exact) = (0.0, true);
+    } else {
+        outcome.singular_limit = error;
+        if off || !(inverse_condition > error) {
+            outcome.relation = Relation::Undecided;
+        }
+    }
+    Ok(outcome)
 }
 
 /// `c` in squared design units from the centred joints.

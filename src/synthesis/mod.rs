@@ -10,6 +10,7 @@ mod determinant;
 mod dot;
 mod drawing;
 mod enumerate;
+mod exact_leg_map;
 mod family;
 mod hexagon;
 mod leg_map;

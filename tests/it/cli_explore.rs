@@ -165,10 +165,7 @@ fn the_design_is_not_overwritten() {
     std::fs::copy(shipped("rbt-octahedral"), &design).unwrap();
     let out = explore(design.to_str().unwrap(), temp.path(), &["--json"]);
     let d: Value = serde_json::from_slice(&out.stdout).unwrap();
-    assert_eq!(
-        (out.status.code(), &d["error"]["code"]),
-        (Some(2), &Value::from("explore::overwrites_design"))
-    );
+    assert_eq!((out.status.code(), &d["error"]["code"]), (Some(2), &Value::from("file::overwrites_input")));
     assert_eq!(
         std::fs::read(&design).unwrap(),
         std::fs::read(shipped("rbt-octahedral")).unwrap(),
@@ -181,7 +178,7 @@ fn an_interrupted_run_leaves_finished_files_only_and_does_not_disturb_the_next()
     let temp = tempfile::tempdir().unwrap();
     let folder = temp.path();
     // what a kill between writing and renaming leaves, and a file of an older run
-    std::fs::write(folder.join("fk.json.part"), "{\"schema").unwrap();
+    std::fs::write(folder.join(".fk.json.7.part"), "{\"schema").unwrap();
     std::fs::write(folder.join("report.md"), "of an older run").unwrap();
     let mut child = command(&shipped("rbt-octahedral"), folder, &[]).stdout(Stdio::null()).spawn().unwrap();
     let start = Instant::now();
@@ -190,7 +187,7 @@ fn an_interrupted_run_leaves_finished_files_only_and_does_not_disturb_the_next()
     }
     child.kill().unwrap();
     child.wait().unwrap();
-    assert!(!folder.join("fk.json.part").exists(), "removed by the run that was interrupted");
+    assert!(!folder.join(".fk.json.7.part").exists(), "removed by the run that was interrupted");
     for entry in std::fs::read_dir(folder).unwrap() {
         let name = entry.unwrap().file_name().into_string().unwrap();
         if Path::new(&name).extension().is_some_and(|e| e == "json") {

@@ -133,6 +133,6 @@ fn refusals() {
     assert_eq!(equipod(&["convert", octahedral, "-o", own.to_str().unwrap()]).status.code(), Some(0));
     let before = read(folder.path(), "platform.json");
     let (code, doc) = run(&[own.to_str().unwrap(), "--to", "json", "-o", to]);
-    assert_eq!((code, doc["error"]["code"].as_str()), (Some(2), Some("export::overwrites_design")));
+    assert_eq!((code, doc["error"]["code"].as_str()), (Some(2), Some("file::overwrites_input")));
     assert_eq!(read(folder.path(), "platform.json"), before);
 }

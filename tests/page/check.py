@@ -14,8 +14,9 @@ from playwright.sync_api import sync_playwright
 import access
 import behaviour
 import fresh
+import hostile
 import working
-from program import DESIGNS, Opened, Program, browser
+from program import DESIGNS, Opened, Program, browser, unguarded
 
 NO_WASM = "delete window.WebAssembly;"
 
@@ -111,7 +112,7 @@ def slow(chromium, program, folder, pictures):
     """While the core computes for seconds the page answers keys and draws; nothing else than the newest answer is shown."""
     whole = program.page(DESIGNS / "dietmaier.toml", folder / "dietmaier.html").read_text()
     path = folder / "slow.html"
-    path.write_text(working.slowed(whole))
+    path.write_text(unguarded(working.slowed(whole)))
     with Opened(chromium, path) as shown:
         busy = working.stays_usable(shown)
         working.newest_answer_only(shown)
@@ -123,6 +124,12 @@ def slow(chromium, program, folder, pictures):
             again = working.stands_still(shown)
             assert again == busy, f"{what}: {again} is not {busy}"
             assert not [r for r in shown.requests if r.startswith("http")]
+
+
+def foreign(chromium, program, folder, pictures):
+    """Files of others in a report, and names of others in a page, are text and pictures: no script of theirs runs, and the policy would not let it."""
+    hostile.report(chromium, program, folder)
+    hostile.names(chromium, program, folder)
 
 
 def printed(chromium, program, folder, pictures):
@@ -181,7 +188,7 @@ def faults(chromium, program, folder, pictures):
     for name, (good, bad, check) in planted.items():
         assert good in whole, f"{name}: the place to plant it is gone"
         path = folder / "fault.html"
-        path.write_text(whole.replace(good, bad, 1))
+        path.write_text(unguarded(whole.replace(good, bad, 1)))
         try:
             with Opened(chromium, path) as shown:
                 check(shown)
@@ -205,7 +212,7 @@ def main():
     if args.pictures:
         args.pictures.mkdir(parents=True, exist_ok=True)
     program, failed = Program(args.program), 0
-    checks = [octahedral, equivalent, singular, general, required, first, slow, phone, recorded, printed, faults]
+    checks = [octahedral, equivalent, singular, general, required, first, slow, phone, recorded, printed, foreign, faults]
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright, browser(playwright) as chromium:
         folder = Path(folder)
         program.page(DESIGNS / "rbt-octahedral.toml", folder / "octahedral.html")

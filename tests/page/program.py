@@ -1,6 +1,7 @@
 """The program under test and the browser."""
 
 import json
+import re
 import shutil
 import subprocess
 from contextlib import contextmanager
@@ -28,6 +29,13 @@ class Program:
     def page(self, design, out, *options):
         self.run("view", design, "-o", out, "--quiet", *options)
         return out
+
+
+def unguarded(html):
+    """The page with a policy that runs any inline script: for pages with planted faults, whose script is not the one the policy names."""
+    guarded = re.compile(r"script-src 'sha256-[^']*'")
+    assert len(guarded.findall(html)) == 1, "the page has no policy"
+    return guarded.sub("script-src 'unsafe-inline'", html)
 
 
 @contextmanager

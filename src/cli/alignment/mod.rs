@@ -3,14 +3,15 @@
 mod render;
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde_json::{Map, Value, json};
 
 use self::render::{explanation, motion_text, record, status};
+use super::exit::Exit;
 use super::failure::Failure;
-use super::files;
-use crate::design::{Design, Format};
+use super::files::{self, OutputPath};
+use crate::design::Design;
 use crate::geom::Pose;
 use crate::manipulator::Manipulator;
 use crate::synthesis::alignment::{Alignment, align, exchanged, mirrored, transformed};
@@ -26,7 +27,7 @@ pub(crate) struct FrameArgs {
     exchange: bool,
     /// Write the second design, in the frames of the first, to FILE (.toml or .json)
     #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
+    output: Option<OutputPath>,
 }
 
 /// The second design as it is compared with the first.
@@ -44,7 +45,10 @@ pub(crate) struct Second {
 impl FrameArgs {
     /// Exchanges, aligns and writes the second design as asked.
     pub(crate) fn apply(&self, a: &Design, b: &Design, seed: u64) -> Result<Second, Failure> {
-        let broken = |e: &dyn std::fmt::Display| Failure::internal(e.to_string());
+        let broken = |e: &dyn std::fmt::Display| {
+            Failure::new(Exit::Inconclusive, "align::breakdown", format!("no motion could be computed: {e}"))
+                .with_help("coordinates of this magnitude are beyond what the search computes with; use a larger unit")
+        };
         let upside_down = exchanged(b.manipulator());
         let (given, other) = if self.exchange {
             (upside_down, b.manipulator().clone())
@@ -73,19 +77,11 @@ impl FrameArgs {
             second.alignment = Some(found);
         }
         if let Some(path) = self.output.as_deref().filter(|_| motion.is_some() || !self.align) {
-            write(path, &second.design(b, motion.as_ref())?)?;
+            files::write_design(path, &second.design(b, motion.as_ref())?)?;
             second.written = Some(path.to_path_buf());
         }
         Ok(second)
     }
-}
-
-fn write(path: &Path, design: &Design) -> Result<(), Failure> {
-    let text = match Format::of_path(path) {
-        Format::Json => design.to_json(),
-        Format::Toml => design.to_toml(),
-    };
-    files::write_text(path, &text)
 }
 
 impl Second {

@@ -3,7 +3,7 @@
 use nalgebra::{UnitQuaternion, Vector3};
 use serde_json::{Map, Value, json};
 
-use crate::cli::output::number;
+use crate::cli::output::{number, relation};
 use crate::geom::Pose;
 use crate::synthesis::alignment::{Alignment, Difference, Invariant, Motion, NearestMotion, Undecided};
 
@@ -36,7 +36,7 @@ pub(super) fn record(a: &Alignment) -> Map<String, Value> {
             let one = |m: &Motion| {
                 json!({
                     "base": pose(&m.base), "platform": pose(&m.platform), "residual": number(m.map.residual),
-                    "det": number(m.map.determinant), "relation": m.map.relation.as_str(),
+                    "det": number(m.map.determinant), "relation": relation(m.map.relation),
                 })
             };
             put("motions", motions.iter().map(one).collect());

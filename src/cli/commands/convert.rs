@@ -7,7 +7,7 @@ use serde_json::{Map, json};
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
-use crate::cli::files;
+use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
 
 /// Arguments of `convert`.
@@ -17,7 +17,7 @@ pub(crate) struct Args {
     design: PathBuf,
     /// File to write; .json gives JSON, .toml gives TOML
     #[arg(short, long, value_name = "OUT")]
-    output: PathBuf,
+    output: OutputPath,
 }
 
 /// Reads, checks and writes the design. Comments of the input are not kept.

@@ -9,7 +9,7 @@ use serde_json::{Map, Value, json};
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
-use crate::cli::files;
+use crate::cli::files::{self, OutputPath};
 use crate::cli::output::{Answer, number};
 use crate::cli::poses;
 use crate::design::Design;
@@ -25,7 +25,7 @@ pub(crate) struct Args {
     to: Vec<String>,
     /// Folder to write into; it is made where it does not exist
     #[arg(short, long, value_name = "DIR")]
-    output: PathBuf,
+    output: OutputPath,
     /// What one unit of the design is, where its label is no length unit: um, mm, cm, m, in, ft
     #[arg(long, value_name = "UNIT")]
     unit: Option<String>,
@@ -90,13 +90,8 @@ fn wanted(args: &Args) -> Vec<&'static dyn Writer> {
     writers().into_iter().filter(asked).collect()
 }
 
-fn write(folder: &Path, file: &File, design: &Path) -> Result<String, Failure> {
+fn write(folder: &Path, file: &File) -> Result<String, Failure> {
     let path = folder.join(&file.name);
-    let own = design.canonicalize().ok();
-    if own.is_some() && path.canonicalize().ok() == own {
-        let message = format!("{} is the design itself and would be overwritten", path.display());
-        return Err(Failure::refused("export::overwrites_design", message).with_help("name another folder"));
-    }
     files::write_text(&path, &file.text)?;
     Ok(path.display().to_string())
 }
@@ -113,7 +108,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         record.insert("purpose".into(), json!(format.purpose()));
         match format.files(&export) {
             Ok(made) => {
-                let paths = made.iter().map(|f| write(&args.output, f, &args.design));
+                let paths = made.iter().map(|f| write(&args.output, f));
                 let paths = paths.collect::<Result<Vec<_>, _>>()?;
                 for path in &paths {
                     let _ = writeln!(text, "wrote {path}");

@@ -8,7 +8,7 @@ use serde_json::{Map, Value, json};
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
-use crate::cli::files;
+use crate::cli::files::{self, OutputPath};
 use crate::cli::output::{Answer, number};
 use crate::design::Design;
 use crate::manipulator::Octahedral;
@@ -24,10 +24,10 @@ pub(crate) struct Args {
     design: PathBuf,
     /// Write the graph of topologies for Graphviz
     #[arg(long, value_name = "FILE")]
-    dot: Option<PathBuf>,
+    dot: Option<OutputPath>,
     /// Write a drawing of the topologies
     #[arg(long, value_name = "FILE")]
-    svg: Option<PathBuf>,
+    svg: Option<OutputPath>,
     /// Only this pattern, for instance S123456 (no shared joint) or V23456S1
     #[arg(long, value_name = "ID")]
     pattern: Option<String>,
@@ -42,7 +42,7 @@ pub(crate) struct Args {
     offsets: Option<Vec<f64>>,
     /// Write the platform of the pattern as a design
     #[arg(short, long, value_name = "FILE", requires = "offsets")]
-    output: Option<PathBuf>,
+    output: Option<OutputPath>,
 }
 
 /// Lists the class, or one pattern of it.

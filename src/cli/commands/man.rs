@@ -1,7 +1,6 @@
 //! `equipod man`: manual pages.
 
 use std::fmt::Write as _;
-use std::path::PathBuf;
 
 use clap::CommandFactory;
 use clap_mangen::Man;
@@ -10,7 +9,7 @@ use serde_json::{Map, json};
 use crate::cli::args::Cli;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
-use crate::cli::files;
+use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
 
 /// Arguments of `man`.
@@ -18,7 +17,7 @@ use crate::cli::output::Answer;
 pub(crate) struct Args {
     /// Folder to write into; it is made where it does not exist
     #[arg(short, long, value_name = "DIR")]
-    output: PathBuf,
+    output: OutputPath,
 }
 
 /// File names and texts: `equipod.1` and one page a command, `equipod-plot-modes.1` for the figures of `plot`.

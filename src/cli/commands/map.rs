@@ -9,7 +9,7 @@ use crate::cli::alignment::FrameArgs;
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
-use crate::cli::output::{Answer, number};
+use crate::cli::output::{Answer, number, relation};
 use crate::manipulator::LegIndex;
 use crate::synthesis::{LegCorrespondence, LegMapOutcome, LegMapTolerances, Relation, leg_map};
 
@@ -34,10 +34,10 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     }
     let second = args.frames.apply(&from, &to, context.seed())?;
     let outcome = leg_map(from.manipulator(), &second.manipulator, LegMapTolerances::default())
-        .map_err(|e| Failure::internal(e.to_string()))?;
+        .map_err(|e| Failure::new(Exit::Inconclusive, "map::breakdown", e.to_string()))?;
     let exit = match (outcome.relation, second.refuted()) {
         (Relation::Equivalent, _) => Exit::Yes,
-        (Relation::Unrelated, Some(false)) => Exit::Inconclusive,
+        (Relation::Unrelated, Some(false)) | (Relation::Undecided, _) => Exit::Inconclusive,
         _ => Exit::No,
     };
     let legs = LegCorrespondence::between(from.manipulator(), &second.manipulator);
@@ -93,9 +93,19 @@ pub(super) fn explanation(o: &LegMapOutcome) -> String {
             o.leg_rank
         ),
         Relation::Singular => format!(
-            "det A = 0: the smallest singular value of A is {:.3e} of the largest, limit {:.1e}; TO is \
-             architecturally singular",
-            o.inverse_condition, o.singular_limit
+            "det A = 0: the leg vectors of TO are dependent as the numbers they are, without a tolerance; TO is architecturally singular \
+             (smallest singular value of A {:.3e} of the largest)",
+            o.inverse_condition
+        ),
+        Relation::Undecided => format!(
+            "neither platform is architecturally singular as the numbers they are, but the smallest singular value of A, {:.3e} of the largest, is not above \
+             the {:.1e} that rounding and the residual {:.1e} leave open",
+            o.inverse_condition, o.singular_limit, o.residual
+        ),
+        Relation::Equivalent if o.exact => format!(
+            "same poses for corresponding lengths, same singularities: every leg vector of TO is a combination of those of FROM and both are \
+             independent, in exact arithmetic; smallest singular value of A {:.3e} of the largest",
+            o.inverse_condition
         ),
         Relation::Equivalent => format!(
             "same poses for corresponding lengths, same singularities: residual {:.1e} (tolerance {:.0e}), smallest \
@@ -109,7 +119,7 @@ pub(super) fn record(o: &LegMapOutcome) -> Map<String, Value> {
     let numbers = |x: &mut dyn Iterator<Item = f64>| x.map(number).collect::<Value>();
     let a: Value = (0..6).map(|i| numbers(&mut (0..6).map(|j| o.closest.a[(i, j)]))).collect();
     let mut json = Map::new();
-    json.insert("relation".into(), json!(o.relation.as_str()));
+    json.insert("relation".into(), relation(o.relation));
     json.insert("explanation".into(), json!(explanation(o)));
     json.insert("A".into(), a);
     json.insert("c".into(), numbers(&mut o.closest.c.iter().copied()));

@@ -1,14 +1,13 @@
 //! `equipod presets`: designs of real hardware that come with the program.
 
 use std::fmt::Write as _;
-use std::path::PathBuf;
 
 use serde_json::{Map, Value, json};
 
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
-use crate::cli::files;
+use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
 use crate::design::{Design, Format, PRESETS, Preset, parse};
 
@@ -19,7 +18,7 @@ pub(crate) struct Args {
     name: Option<String>,
     /// Write the design file, TOML with the sources in its comments
     #[arg(short, long, value_name = "OUT", requires = "name")]
-    output: Option<PathBuf>,
+    output: Option<OutputPath>,
 }
 
 /// Lists the presets, or gives one.

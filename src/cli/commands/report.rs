@@ -8,7 +8,7 @@ use super::explore::folder::FIRST;
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
-use crate::cli::files;
+use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
 use crate::design::{Design, Format, parse};
 use crate::page::{CORE, Session, page as view};
@@ -26,7 +26,7 @@ pub(crate) struct Args {
     folder: PathBuf,
     /// The page; report.html in the folder when absent
     #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
+    output: Option<OutputPath>,
     /// Title; the name of the first design when absent
     #[arg(long, value_name = "TEXT")]
     title: Option<String>,
@@ -34,7 +34,7 @@ pub(crate) struct Args {
 
 /// Writes the page.
 pub(crate) fn run(args: &Args, _: &mut Context) -> Result<Answer, Failure> {
-    let output = args.output.clone().unwrap_or_else(|| args.folder.join(PAGE));
+    let output = args.output.as_deref().map_or_else(|| args.folder.join(PAGE), Path::to_path_buf);
     let found = gather(&args.folder, &output)?;
     if found.is_empty() {
         let message = format!("{} holds no files", args.folder.display());
@@ -86,10 +86,12 @@ fn unreadable(path: &Path, error: &std::io::Error) -> Failure {
         .with_help("name a folder with results, for instance that of `explore`")
 }
 
-/// All files of a folder but the page itself.
+/// All files of a folder but an earlier page in the place of this one. What is no page is an input like the others, and not to be written over.
 fn gather(folder: &Path, page: &Path) -> Result<Vec<ReportFile>, Failure> {
     let entries = std::fs::read_dir(folder).map_err(|e| unreadable(folder, &e))?;
-    let own = page.canonicalize().ok();
+    let is_page =
+        page.extension().is_some_and(|e| e.eq_ignore_ascii_case("html") || e.eq_ignore_ascii_case("htm"));
+    let own = page.canonicalize().ok().filter(|_| is_page);
     let mut paths = Vec::new();
     for entry in entries {
         let path = entry.map_err(|e| unreadable(folder, &e))?.path();
@@ -104,13 +106,7 @@ fn gather(folder: &Path, page: &Path) -> Result<Vec<ReportFile>, Failure> {
 pub(super) fn read(paths: impl IntoIterator<Item = PathBuf>) -> Result<Vec<ReportFile>, Failure> {
     let mut out = Vec::new();
     for path in paths {
-        let size = path.metadata().map_err(|e| unreadable(&path, &e))?.len();
-        if size > MOST_BYTES {
-            let message = format!("{} is larger than 64 MiB", path.display());
-            return Err(Failure::refused("report::too_large", message)
-                .with_help("a report is made of designs, results and pictures; move other files elsewhere"));
-        }
-        let bytes = std::fs::read(&path).map_err(|e| unreadable(&path, &e))?;
+        let bytes = files::read_bytes(&path, MOST_BYTES)?;
         let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
         out.push(ReportFile { name, bytes });
     }

@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
-use crate::cli::files;
+use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
 use crate::page::{CORE, Session, page};
 
@@ -18,7 +18,7 @@ pub(crate) struct Args {
     design: PathBuf,
     /// The page; the name of the design file with .html when absent
     #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
+    output: Option<OutputPath>,
     /// The equivalent platform shown first, for instance S123456 (no shared joint) or V23456S1
     #[arg(long, value_name = "ID", requires = "offsets")]
     pattern: Option<String>,
@@ -45,7 +45,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     }
     let core = core(args.core.as_deref())?;
     let html = page(&session, core.as_deref());
-    let output = args.output.clone().unwrap_or_else(|| beside(&args.design));
+    let output = args.output.as_deref().map_or_else(|| beside(&args.design), Path::to_path_buf);
     files::write_text(&output, &html)?;
     let shown = output.display().to_string();
     let mut json: Map<String, Value> = Map::new();
@@ -62,13 +62,16 @@ fn beside(design: &Path) -> PathBuf {
     PathBuf::from(design.file_name().unwrap_or_default()).with_extension("html")
 }
 
+/// Bytes of a core at most; the one of this program has some hundred kilobytes.
+const MOST_CORE: u64 = 64 << 20;
+
 /// The module to put into the page.
 fn core(wanted: Option<&Path>) -> Result<Option<Vec<u8>>, Failure> {
     let Some(path) = wanted else { return Ok(Some(CORE.to_vec())) };
     if path == Path::new("none") {
         return Ok(None);
     }
-    let bytes = files::read_bytes(path)?;
+    let bytes = files::read_bytes(path, MOST_CORE)?;
     let known: [&[u8]; 2] = [b"\0asm", &[0x1f, 0x8b]];
     if !known.iter().any(|k| bytes.starts_with(k)) {
         let message = format!("{} is neither WebAssembly nor compressed by gzip", path.display());

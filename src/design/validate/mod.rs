@@ -167,6 +167,11 @@ fn manipulator(
             report.refuse(Code::NoSize, root, message, "give the joints different coordinates");
             None
         }
+        Err(InvalidManipulator::TooSmall) => {
+            let advice = "use a smaller unit";
+            report.refuse(Code::OutOfRange, root, InvalidManipulator::TooSmall.to_string(), advice);
+            None
+        }
         // names were looked up, coordinates and pairs checked: nothing else is left to go wrong
         Err(other) => {
             report.refuse(Code::MissingJoint, root, other.to_string(), "check joints and legs");

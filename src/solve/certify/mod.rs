@@ -106,7 +106,7 @@ impl Certifier {
         let double = Centre { hi: &x, full: None };
         let quick = contract(&self.0, &double, NEAR)
             .and_then(|c| Self::build(&self.0, &double, &c))
-            .and_then(|c| self.accurate(pose, c));
+            .and_then(|c| self.accurate(pose, &c));
         let why = match quick {
             Ok(certificate) => return Ok(certificate),
             Err(why) => why,
@@ -115,15 +115,14 @@ impl Certifier {
         let hi = refined.x.rounded();
         let centre = Centre { hi: &hi, full: Some(&refined.x) };
         let certificate = Self::build(&self.0, &centre, &contract_sharply(&self.0, &centre)?)?;
-        self.accurate(pose, certificate)
+        self.accurate(pose, &certificate)
     }
 
     /// The certificate when the pose is its root, for the middles of the data, to within [`NEAR`] in `R` and `p`; or, far out, the middle of an enclosure not wider than
     /// [`FAR_OUT`].
-    #[allow(clippy::large_types_passed_by_value, reason = "it goes in and comes out again")]
-    fn accurate(&self, pose: &ComplexPose, c: Certificate) -> Result<Certificate, WhyUncertified> {
+    fn accurate(&self, pose: &ComplexPose, c: &Certificate) -> Result<Certificate, WhyUncertified> {
         let own =
-            if c.centre_radius < c.radius { Self::enclose(&c, c.centre_radius) } else { Some(c.enclosure) };
+            if c.centre_radius < c.radius { Self::enclose(c, c.centre_radius) } else { Some(c.enclosure) };
         let enclosure = own.ok_or(WhyUncertified::RotationUndefined)?;
         let distance = rotation_distance(pose, &enclosure);
         if !(distance <= NEAR) {
@@ -133,7 +132,7 @@ impl Certifier {
         let distance = deviation(pose, &enclosure, unit, false);
         let is_middle = || deviation(pose, &enclosure, unit, true) <= ROUNDED;
         let far_out = distance <= FAR_OUT && c.precision == CentrePrecision::DoubleDouble && is_middle();
-        if distance <= NEAR || far_out { Ok(c) } else { Err(WhyUncertified::Deviation { distance }) }
+        if distance <= NEAR || far_out { Ok(*c) } else { Err(WhyUncertified::Deviation { distance }) }
     }
 
     /// Encloses `R` and `p` over the ball of `radius` about the centre.

@@ -106,7 +106,7 @@ impl Certifier {
         let better: [Complex64; 8] =
             std::array::from_fn(|j| Complex64::new(x.hi.re[j], x.hi.im[j]) - c.step[j]);
         let pose = self.near_pose(&better).ok_or(WhyUncertified::RotationUndefined)?;
-        Ok(CertifiedPose { pose, certificate: self.accurate(&pose, certificate)? })
+        Ok(CertifiedPose { pose, certificate: self.accurate(&pose, &certificate)? })
     }
 
     /// [`certify`](Self::certify) with the pose of the certified root, rounded from the best approximation at hand: for poses whose last digits got lost on the way.
@@ -122,7 +122,7 @@ impl Certifier {
                 let refined =
                     refine_study(&self.0, &study_of(pose, self.0.unit())?, NEAR).map_err(|_| why)?;
                 let pose = self.rounded_pose(&refined.x);
-                self.accurate(&pose, prove(&self.0, &refined.x)?)
+                self.accurate(&pose, &prove(&self.0, &refined.x)?)
                     .map(|certificate| CertifiedPose { pose, certificate })
             }
         }
@@ -143,7 +143,7 @@ impl Certifier {
             Err(why) => self.prove_coarsely(&refined.x).ok_or(why)?,
         };
         let pose = certificate.enclosure.middle();
-        Ok(CertifiedPose { pose, certificate: self.accurate(&pose, certificate)? })
+        Ok(CertifiedPose { pose, certificate: self.accurate(&pose, &certificate)? })
     }
 
     /// [`certify_point`](Self::certify_point) for a point known to more digits than a double-double has: however far out, the unit of length is

@@ -41,7 +41,7 @@ pub(in crate::synthesis) fn product(a: &Exact, b: &Exact) -> Exact {
 }
 
 /// `(1, x)`; `None` when a coordinate is not finite.
-pub(super) fn homogeneous(p: &Point3<f64>) -> Option<Exact> {
+pub(in crate::synthesis) fn homogeneous(p: &Point3<f64>) -> Option<Exact> {
     [1.0, p.x, p.y, p.z].iter().map(|x| rational(*x)).collect()
 }
 
@@ -84,9 +84,25 @@ impl ExactLegs {
     /// Dimension of the space of `y` in the span of the other ends of `legs` for which `x (x) y` lies in the span of
     /// the vectors of `legs`; `x` is a base point, a platform point with `over_platform`.
     pub(super) fn fibre(&self, over_platform: bool, x: &Exact, legs: &[usize]) -> usize {
+        self.partners(over_platform, x, legs, independent(&self.other_ends(over_platform, legs)))
+    }
+
+    /// The part of [`fibre`](Self::fibre) at infinity: with first entry 0.
+    pub(super) fn fibre_at_infinity(&self, over_platform: bool, x: &Exact, legs: &[usize]) -> usize {
+        let ends = independent(&self.other_ends(over_platform, legs));
+        // all ends have first entry 1: the vectors of their span with first entry 0 are spanned by differences
+        let differences = ends.iter().skip(1).map(|e| e.iter().zip(&ends[0]).map(|(x, y)| x - y).collect());
+        let differences = differences.collect();
+        self.partners(over_platform, x, legs, differences)
+    }
+
+    fn other_ends(&self, over_platform: bool, legs: &[usize]) -> Vec<Exact> {
         let others = if over_platform { &self.base } else { &self.platform };
-        let ends: Vec<Exact> = legs.iter().map(|i| others[*i].clone()).collect();
-        let directions = independent(&ends);
+        legs.iter().map(|i| others[*i].clone()).collect()
+    }
+
+    /// Dimension of the `y` in the span of independent `directions` for which `x (x) y` lies in the span of the vectors of `legs`.
+    fn partners(&self, over_platform: bool, x: &Exact, legs: &[usize], directions: Vec<Exact>) -> usize {
         let mut rows: Vec<Exact> = legs.iter().map(|i| self.vectors[*i].clone()).collect();
         let leg_rank = rank(&rows);
         let count = directions.len();

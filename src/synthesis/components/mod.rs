@@ -208,11 +208,28 @@ pub fn exactly_replaceable(legs: &[Leg; 6], leg: &Leg) -> bool {
     ExactLegs::of(legs).is_some_and(|e| e.contains(leg))
 }
 
-/// Dimension of the space of homogeneous partners of a point of one body: of the `y` for which point and `y` are a leg that is a
-/// combination of the six. Exact; zero is a proof that no replaceable leg ends there.
-pub(super) fn exact_partners(legs: &[Leg; 6], body: Body, point: &Point3<f64>) -> Option<usize> {
-    let all: Vec<usize> = (0..6).collect();
-    Some(ExactLegs::of(legs)?.fibre(body == Body::Platform, &exact::homogeneous(point)?, &all))
+/// Homogeneous partners of a point of one body: the `y` for which point and `y` are a leg that is a combination of some of the six. Exact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct ExactPartners {
+    /// Dimension of their space; zero is a proof that no replaceable leg ends there.
+    pub(super) dimension: usize,
+    /// Dimension of the part of it at infinity.
+    pub(super) at_infinity: usize,
+}
+
+/// The partners of a point in combinations of the legs `among`.
+pub(super) fn exact_partners(
+    legs: &[Leg; 6],
+    body: Body,
+    point: &Point3<f64>,
+    among: &[usize],
+) -> Option<ExactPartners> {
+    let (exact, x) = (ExactLegs::of(legs)?, exact::homogeneous(point)?);
+    let platform = body == Body::Platform;
+    Some(ExactPartners {
+        dimension: exact.fibre(platform, &x, among),
+        at_infinity: exact.fibre_at_infinity(platform, &x, among),
+    })
 }
 
 fn record(p: &ClosedPair, components: &[Component]) -> FlatPair {

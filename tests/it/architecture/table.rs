@@ -25,6 +25,7 @@ const LINES: &[Line] = &[
         &[
             ("faer", Some("linalg.rs")),
             ("clarabel", Some("conic.rs")),
+            ("num_bigint", Some("exact.rs")),
             ("num_integer", Some("exact.rs")),
             ("num_rational", Some("exact.rs")),
             COMPLEX,
@@ -108,12 +109,12 @@ const LINES: &[Line] = &[
             "design",
             "plot",
         ],
-        &[MATRICES, ("serde", None), ("serde_json", None), ERRORS],
+        &[MATRICES, ("serde", None), ("serde_json", None), ("sha2", Some("html.rs")), ERRORS],
     ),
     ("plot", &["geom", "manipulator", "topology", "distance"], &[MATRICES]),
     (
         "report",
-        &["design", "plot"],
+        &["design", "page", "plot"],
         &[MATRICES, ("percent_encoding", None), ("serde_json", None), ("sha2", None)],
     ),
     (

@@ -3,14 +3,13 @@
 mod noise;
 mod render;
 
-use std::path::PathBuf;
-
 use clap::ValueEnum;
 
 use crate::bench::{Class, LengthsFrom, Plan, Report, reference_times, run as run_plan};
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
+use crate::cli::files::OutputPath;
 use crate::cli::output::Answer;
 use crate::fk::{self, Homotopy, Method};
 
@@ -48,7 +47,7 @@ pub(crate) struct Args {
     noise: bool,
     /// Write a picture of what noise does
     #[arg(long, value_name = "FILE", requires = "noise")]
-    svg: Option<PathBuf>,
+    svg: Option<OutputPath>,
 }
 
 /// `--method`.

@@ -11,7 +11,7 @@ use serde_json::{Map, Value, json};
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
-use crate::cli::files;
+use crate::cli::files::{self, OutputPath};
 use crate::cli::output::{Answer, number};
 use crate::design::Design;
 use crate::num::Rng;
@@ -32,7 +32,7 @@ pub(crate) struct Args {
     sample: u64,
     /// Write a picture of the curves in two planes, of all pairs of planes
     #[arg(long, value_name = "FILE")]
-    svg: Option<PathBuf>,
+    svg: Option<OutputPath>,
     /// Only this pair of planes in the picture: its number in `pairs`, counted from 1
     #[arg(long, value_name = "K", requires = "svg")]
     pair: Option<usize>,

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::cli::commands::report;
 use crate::cli::failure::Failure;
+use crate::cli::files;
 use crate::report::ReportFile;
 
 /// Files of a finished run, in the order they appear.
@@ -39,38 +40,29 @@ impl Folder {
     /// Makes the folder and removes the files of an earlier run, so that an interrupted run leaves no mixture.
     ///
     /// # Errors
-    /// Exit 2: the folder cannot be made, or the design itself is one of the files to be written.
-    pub(super) fn prepare(path: &Path, design: &Path) -> Result<Self, Failure> {
-        std::fs::create_dir_all(path).map_err(|e| not_writable(path, &e))?;
-        let design = design.canonicalize().ok();
-        let files: Vec<PathBuf> = ALL.iter().map(|name| path.join(name)).collect();
-        if let Some(file) = files.iter().find(|f| design.is_some() && f.canonicalize().ok() == design) {
-            let message = format!("{} is the design itself and would be overwritten", file.display());
-            return Err(
-                Failure::refused("explore::overwrites_design", message).with_help("name another folder")
-            );
-        }
-        for file in files.iter().flat_map(|f| [f.clone(), part(f)]) {
-            match std::fs::remove_file(&file) {
-                Err(e) if e.kind() != std::io::ErrorKind::NotFound => return Err(not_writable(&file, &e)),
-                _ => {}
-            }
+    /// Exit 2: the folder cannot be made, or an input of the run is one of the files to be written.
+    pub(super) fn prepare(path: &Path) -> Result<Self, Failure> {
+        files::make_folder(path)?;
+        let entries = std::fs::read_dir(path).map_err(|e| not_writable(path, &e))?;
+        let left = entries.filter_map(|entry| Some(entry.ok()?.path()));
+        let left = left.filter(|file| {
+            let name = file.file_name().unwrap_or_default();
+            ALL.iter().any(|own| name == *own || files::is_part(name, own))
+        });
+        let left: Vec<PathBuf> = left.collect();
+        left.iter().try_for_each(|file| files::check_input(file))?; // before anything is removed
+        for file in left {
+            std::fs::remove_file(&file).map_err(|e| not_writable(&file, &e))?;
         }
         Ok(Self { path: path.to_path_buf(), written: Vec::new() })
     }
 
-    /// Writes a file beside its place and renames it.
+    /// Writes a file of the folder.
     ///
     /// # Errors
-    /// Exit 2: `file::not_writable`.
+    /// As [`files::write_text`].
     pub(super) fn write(&mut self, name: &'static str, text: &str) -> Result<(), Failure> {
-        let file = self.path.join(name);
-        let part = part(&file);
-        let result = std::fs::write(&part, text).and_then(|()| std::fs::rename(&part, &file));
-        result.map_err(|error| {
-            let _ = std::fs::remove_file(&part); // it may not exist; the error to report is the first one
-            not_writable(&file, &error)
-        })?;
+        files::write_text(&self.path.join(name), text)?;
         self.written.push(name);
         Ok(())
     }
@@ -87,10 +79,4 @@ impl Folder {
     pub(super) fn written(&self) -> impl Iterator<Item = (&'static str, String)> {
         self.written.iter().map(|name| (*name, self.path.join(name).display().to_string()))
     }
-}
-
-fn part(file: &Path) -> PathBuf {
-    let mut name = file.as_os_str().to_owned();
-    name.push(".part");
-    PathBuf::from(name)
 }

@@ -17,6 +17,7 @@ use super::{family, fk as fk_command, optimize, verify as verify_command};
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
+use crate::cli::files::OutputPath;
 use crate::cli::output::{Answer, document, number};
 use crate::cli::poses;
 use crate::cli::progress::{Interrupt, Progress};
@@ -34,7 +35,7 @@ pub(crate) struct Args {
     design: PathBuf,
     /// Folder for the results; made when absent, the files of an earlier run are replaced
     #[arg(short, long, value_name = "DIR")]
-    output: PathBuf,
+    output: OutputPath,
     /// Sets of leg lengths at which the design and the optimised one are solved and compared
     #[arg(long, default_value_t = verify_command::SAMPLES, value_name = "N", value_parser = verify_command::at_least_one)]
     samples: usize,
@@ -124,7 +125,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         Failure::refused("explore::not_octahedral", format!("not an octahedral platform: {why}"))
             .with_help("explore starts from a 3-3 octahedral design; verify compares any two designs")
     })?;
-    let mut folder = Folder::prepare(&args.output, &args.design)?;
+    let mut folder = Folder::prepare(&args.output)?;
     let mut progress = Progress::new(context.quiet());
     let seed = context.seed();
     let options = FkOptions { seed, pose_count: PoseCounting::Never, ..FkOptions::default() };

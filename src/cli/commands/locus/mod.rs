@@ -10,7 +10,7 @@ use super::fk::{MethodArg, failure_of, lengths};
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
-use crate::cli::files;
+use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
 use crate::design::Design;
 use crate::fk::{self, FkOptions, FkSolutions, PoseCounting, Reality, SolutionSet, Threads};
@@ -25,10 +25,10 @@ pub(crate) struct Args {
     question: Question,
     /// Write a picture
     #[arg(long, value_name = "FILE")]
-    svg: Option<PathBuf>,
+    svg: Option<OutputPath>,
     /// Write the values as a table
     #[arg(long, value_name = "FILE")]
-    csv: Option<PathBuf>,
+    csv: Option<OutputPath>,
 }
 
 /// What varies, and what is looked at.

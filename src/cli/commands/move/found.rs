@@ -121,9 +121,10 @@ impl Report<'_> {
             SearchVerdict::Impossible(Impossibility::HolesTogether) => {
                 "impossible: all replaceable legs are known, and no six independent ones have ends at all the holes".to_string()
             }
-            SearchVerdict::Undecided => {
-                "undecided: no platform with every wish was found, which proves nothing".to_string()
-            }
+            SearchVerdict::Undecided => format!(
+                "undecided: no platform with every wish was found in {} of {} pattern(s) of legs, which proves nothing",
+                o.searched, o.patterns
+            ),
         }
     }
 

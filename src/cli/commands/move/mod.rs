@@ -11,12 +11,12 @@ use std::path::PathBuf;
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
-use crate::cli::files;
+use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
 use crate::design::Design;
-use crate::synthesis::LegMapTolerances;
 use crate::synthesis::components::{ComponentOptions, Components, ComponentsError, components};
 use crate::synthesis::relocate::{Chain, LegMove, RelocateError, Relocation, relocate};
+use crate::synthesis::{LegMapTolerances, Relation};
 use naming::{Meant, family_names, list_families, moved_design, resolve};
 use request::{Request, requests};
 
@@ -42,7 +42,7 @@ pub(crate) struct Args {
     together: bool,
     /// Write the new design; with --search a folder for the designs found
     #[arg(short, long, value_name = "OUT")]
-    output: Option<PathBuf>,
+    output: Option<OutputPath>,
     /// What counts as zero when the families are found, relative to the size of the body
     #[arg(long, value_name = "X", default_value_t = 1e-9)]
     tolerance: f64,
@@ -95,7 +95,13 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     };
     let json = record.json(built.as_ref(), written.as_deref());
     let text = record.text(written.as_deref());
-    Ok(Answer { exit: if regular { Exit::Yes } else { Exit::No }, json, text })
+    let singular = steps.iter().any(|s| s.map.relation == Relation::Singular);
+    let exit = match (regular, singular) {
+        (true, _) => Exit::Yes,
+        (false, true) => Exit::No,
+        (false, false) => Exit::Inconclusive,
+    };
+    Ok(Answer { exit, json, text })
 }
 
 /// The families of a design.

@@ -7,9 +7,10 @@ use serde_json::{Map, Value, json};
 
 use super::Done;
 use crate::cli::commands::map;
-use crate::cli::output::number;
+use crate::cli::output::{number, relation};
 use crate::design::Design;
 use crate::manipulator::Leg;
+use crate::synthesis::Relation;
 use crate::synthesis::relocate::{Chain, MovedLeg, Relocation, SingularParameters};
 
 /// Moves of one run.
@@ -50,14 +51,19 @@ impl Record<'_> {
         self.done.iter().all(|s| s.relocation.is_regular())
     }
 
-    fn outcome(&self) -> &'static str {
-        if self.regular() { "equivalent" } else { "singular" }
+    /// That of the last step: the moves before it were regular. Moves that a leg does not follow at all are refused earlier.
+    fn outcome(&self) -> Value {
+        self.done.last().map_or(Value::Null, |s| relation(s.relocation.map.relation))
+    }
+
+    fn undecided(&self) -> bool {
+        self.done.iter().any(|s| s.relocation.map.relation == Relation::Undecided)
     }
 
     pub(super) fn json(&self, built: Option<&Design>, written: Option<&str>) -> Map<String, Value> {
         let mut json = Map::new();
         json.insert("name".into(), json!(self.design.name));
-        json.insert("outcome".into(), json!(self.outcome()));
+        json.insert("outcome".into(), self.outcome());
         json.insert("mode".into(), json!(if self.together { "together" } else { "sequence" }));
         json.insert("steps".into(), self.done.iter().map(step).collect());
         json.insert("moves_left_out".into(), json!(self.wanted - self.made()));
@@ -96,7 +102,8 @@ impl Record<'_> {
         if self.made() < self.wanted {
             let _ = writeln!(
                 text,
-                "this move is singular; {} further moves were not made",
+                "this move is {}; {} further moves were not made",
+                if self.undecided() { "not decided to be regular" } else { "singular" },
                 self.wanted - self.made()
             );
         }
@@ -114,7 +121,11 @@ impl Record<'_> {
         if let Some(path) = written {
             let _ = writeln!(text, "wrote {path}");
         } else if !self.regular() {
-            text.push_str("no design is written: the platform is architecturally singular\n");
+            text.push_str(if self.undecided() {
+                "no design is written: the platform may be architecturally singular\n"
+            } else {
+                "no design is written: the platform is architecturally singular\n"
+            });
         }
         text
     }
@@ -131,7 +142,7 @@ fn step(s: &Done) -> Value {
             "residual": number(m.residual), "exact": m.exact, "singular_parameters": singular(&m.singular),
         })
     });
-    json!({ "outcome": r.map.relation.as_str(), "det": number(r.map.determinant), "moves": moves.collect::<Value>() })
+    json!({ "outcome": relation(r.map.relation), "det": number(r.map.determinant), "moves": moves.collect::<Value>() })
 }
 
 fn describe(text: &mut String, m: &MovedLeg, type_name: &str, name: Option<&str>) {

@@ -14,7 +14,7 @@ use serde_json::{Map, Value};
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
-use crate::cli::files;
+use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
 use crate::cli::poses;
 use crate::cli::progress::{Interrupt, Progress};
@@ -34,7 +34,7 @@ pub(crate) struct Args {
     design: PathBuf,
     /// Write the optimised design; .json gives JSON, anything else TOML
     #[arg(short, long, value_name = "OUT")]
-    output: Option<PathBuf>,
+    output: Option<OutputPath>,
     /// How far a joint may sit out on the extension of its edge, in edge lengths
     #[arg(long, value_name = "X", default_value_t = EXTENSION)]
     extension: f64,
@@ -46,7 +46,7 @@ pub(crate) struct Args {
     gap: f64,
     /// Write the steps of the run that found the answer: .svg a picture, anything else CSV
     #[arg(long, value_name = "FILE")]
-    history: Option<PathBuf>,
+    history: Option<OutputPath>,
     /// Worker threads; the answer does not depend on it (default: one for each processor)
     #[arg(long, value_name = "N")]
     threads: Option<usize>,

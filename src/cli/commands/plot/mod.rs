@@ -14,7 +14,7 @@ use super::{components, locus, selfmotion, singularities, topologies};
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
-use crate::cli::files;
+use crate::cli::files::{self, OutputPath};
 use crate::cli::freedoms::Freedoms;
 use crate::cli::output::Answer;
 use crate::cli::poses;
@@ -27,7 +27,7 @@ pub(crate) struct Args {
     figure: Figure,
     /// Write the picture there; without it it goes to standard output
     #[arg(short, long, value_name = "FILE", global = true)]
-    output: Option<PathBuf>,
+    output: Option<OutputPath>,
 }
 
 /// What is drawn.

@@ -30,6 +30,7 @@ pub(super) fn draw(args: &Args, context: &mut Context) -> Result<String, Failure
             vec!["s\u{2032} = A s + c".into(), format!("det A = {:.3}", found.determinant)]
         }
         Relation::Singular => vec!["s\u{2032} = A s + c".into(), "singular".into()],
+        Relation::Undecided => vec!["s\u{2032} = A s + c".into(), "undecided".into()],
         Relation::Unrelated => vec!["no leg map".into()],
     };
     let note = match found.relation {

@@ -10,7 +10,7 @@ use super::tolerances::numbers;
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
-use crate::cli::files;
+use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
 use crate::cli::poses;
 use crate::design::Design;
@@ -61,7 +61,7 @@ pub(crate) struct Args {
     trials: u32,
     /// Write the rounded design; .json gives JSON, anything else TOML
     #[arg(short, long, value_name = "OUT")]
-    output: Option<PathBuf>,
+    output: Option<OutputPath>,
 }
 
 /// Which rounding is meant.

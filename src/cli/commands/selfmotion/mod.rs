@@ -8,7 +8,7 @@ use crate::cli::commands::fk::lengths::six;
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
-use crate::cli::files;
+use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
 use crate::cli::poses;
 use crate::design::Design;
@@ -28,10 +28,10 @@ pub(crate) struct Args {
     question: Question,
     /// Write the poses as a table
     #[arg(long, value_name = "FILE")]
-    csv: Option<PathBuf>,
+    csv: Option<OutputPath>,
     /// Write an animated picture of the longest curve
     #[arg(long, value_name = "FILE")]
-    svg: Option<PathBuf>,
+    svg: Option<OutputPath>,
 }
 
 /// Which curves.

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
-use crate::cli::files;
+use crate::cli::files::{self, OutputPath};
 use crate::cli::freedoms::Freedoms;
 use crate::cli::output::Answer;
 use crate::cli::poses;
@@ -41,7 +41,7 @@ pub(crate) struct Args {
     regions: usize,
     /// Write a picture of the singular poses over two of the six freedoms
     #[arg(long, value_name = "FILE")]
-    svg: Option<PathBuf>,
+    svg: Option<OutputPath>,
     /// The two freedoms of that picture: x, y, z (positions), rx, ry, rz (rotation vector in the base frame)
     #[arg(long, value_name = "A,B", default_value = "rx,rz", value_parser = Freedoms::parse)]
     slice: Freedoms,
@@ -53,10 +53,10 @@ pub(crate) struct Args {
     via: Vec<String>,
     /// Write det J along that path, as a table
     #[arg(long, value_name = "FILE", requires = "path")]
-    csv: Option<PathBuf>,
+    csv: Option<OutputPath>,
     /// Write a picture of det J along that path
     #[arg(long, value_name = "FILE", requires = "path")]
-    path_svg: Option<PathBuf>,
+    path_svg: Option<OutputPath>,
     /// det J along the straight paths between all assembly modes, and which modes other paths join without a singular pose
     #[arg(long)]
     between: bool,

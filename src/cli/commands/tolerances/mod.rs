@@ -13,6 +13,7 @@ use crate::cli::failure::Failure;
 use crate::cli::output::Answer;
 use crate::cli::poses;
 use crate::design::Design;
+use crate::manipulator::Manipulator;
 use crate::manufacture::{
     Budget, ErrorBound, JointErrors, PoseSearch, ToleranceError, Trials, budget, solved_error, trials,
 };
@@ -49,7 +50,62 @@ pub(super) struct Found {
     pub(super) trials: Trials,
     /// Solved errors (length, degrees) with the joints moved in the worst way by the radius, and by 1.5 times it.
     pub(super) worst: [Option<(f64, f64)>; 2],
+    /// What solving says about the radius, which is of first order.
+    pub(super) solved: Solved,
     pub(super) workspace_given: bool,
+}
+
+/// The first order against poses that are solved.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Solved {
+    /// The largest share of a bound that was used up: by the worst errors at their pose, either way, and by random errors in the budget. `None` where a pose could
+    /// not be followed.
+    pub(super) share: Option<f64>,
+    /// A radius, not above that of the budget, with which the worst errors at their pose keep the bound when they are solved, either way.
+    pub(super) radius: Option<f64>,
+}
+
+impl Solved {
+    /// No error looked at went beyond its bound: at all, not by more than a tolerance.
+    pub(super) fn within(&self) -> bool {
+        self.share.is_some_and(|share| share <= 1.0)
+    }
+}
+
+/// Steps in which a radius is made smaller.
+const SHRINKING: usize = 30;
+
+fn solved(
+    m: &Manipulator,
+    budget: &Budget,
+    trials: &Trials,
+    tool: &Point3<f64>,
+    bound: &ErrorBound,
+) -> Solved {
+    // the share of the bounds that the worst errors of this length use up, either way
+    let share = |radius: f64| -> Option<f64> {
+        [1.0, -1.0].into_iter().try_fold(0.0_f64, |most, sign| {
+            let scale = sign * radius / budget.radius.reached;
+            let errors: Vec<_> = budget.worst_errors.iter().map(|e| e * scale).collect();
+            let (p, w) = solved_error(m, &errors, &budget.radius.pose, tool)?;
+            Some(most.max(p.norm() / bound.position).max(w.norm().to_degrees() / bound.rotation_deg))
+        })
+    };
+    let (mut radius, mut kept) = (budget.radius.value, None);
+    for _ in 0..SHRINKING {
+        match share(radius) {
+            Some(used) if used <= 1.0 => {
+                kept = Some(radius);
+                break;
+            }
+            Some(used) => radius *= (1.0 - 1e-9) / used.min(2.0),
+            None => radius *= 0.5,
+        }
+    }
+    let random = (trials.formula.position.max / bound.position)
+        .max(trials.formula.rotation_deg.max / bound.rotation_deg);
+    let worst = share(budget.radius.value).filter(|_| trials.lost == 0);
+    Solved { share: worst.map(|share| share.max(random)), radius: kept }
 }
 
 /// Numbers separated by commas.
@@ -89,7 +145,8 @@ fn find(design: &Design, args: &Args, seed: u64) -> Result<Found, Failure> {
         let (p, w) = solved_error(m, &errors, &budget.radius.pose, &tool)?;
         Some((p.norm(), w.norm().to_degrees()))
     });
-    Ok(Found { bound, tool, budget, trials, worst, workspace_given })
+    let solved = solved(m, &budget, &trials, &tool, &bound);
+    Ok(Found { bound, tool, budget, trials, worst, solved, workspace_given })
 }
 
 /// Computes the budget and tries it.

@@ -69,9 +69,16 @@ pub(super) fn json(design: &Design, f: &Found) -> Map<String, Value> {
         }),
     );
     put(
+        "solved",
+        json!({
+            "within_bound": f.solved.within(), "largest_share": f.solved.share.map_or(Value::Null, number),
+            "radius": f.solved.radius.map_or(Value::Null, number),
+        }),
+    );
+    put(
         "trials",
         json!({
-            "count": t.count, "lost": t.lost, "within_bound": t.within, "formula": spread(&t.formula),
+            "count": t.count, "lost": t.lost, "within_bound": t.within, "beyond_bound": t.count - t.lost - t.within, "formula": spread(&t.formula),
             "first_order_discrepancy": spread(&t.discrepancy),
             "after_one_step": spread(&t.corrected[0]), "after_two_steps": spread(&t.corrected[1]),
         }),
@@ -87,6 +94,22 @@ fn optional(x: Option<f64>) -> String {
     x.map_or("any".to_string(), |x| format!("{x:.3e}"))
 }
 
+/// What solving says about the radius.
+fn sentence(f: &Found, units: &str) -> String {
+    let radius = f.solved.radius.map_or_else(String::new, |r| {
+        format!("; with {r:.6e} {units} the worst errors found keep it when they are solved")
+    });
+    match f.solved.share {
+        _ if f.solved.within() => "solved, no error looked at in the budget goes beyond the bound".into(),
+        Some(share) => {
+            format!(
+                "the first order is too wide: solved, errors in the budget use up {share:.6} of the bound{radius}"
+            )
+        }
+        None => format!("the first order is too wide: poses with errors in the budget were lost{radius}"),
+    }
+}
+
 pub(super) fn text(design: &Design, f: &Found) -> String {
     let (b, t, units) = (&f.budget, &f.trials, &design.units);
     let mut out = format!(
@@ -100,13 +123,13 @@ pub(super) fn text(design: &Design, f: &Found) -> String {
     // writing to a string cannot fail
     let _ = writeln!(
         out,
-        "every joint may be off by {:.6e} {units} in any direction ({} is the limit)",
+        "to first order every joint may be off by {:.6e} {units} in any direction ({} is the limit)",
         b.radius.value,
         b.radius.kind.as_str()
     );
     let _ = writeln!(
         out,
-        "every coordinate may be off by {:.6e} {units} ({} is the limit)\n",
+        "to first order every coordinate may be off by {:.6e} {units} ({} is the limit)\n",
         b.half_width.value,
         b.half_width.kind.as_str()
     );
@@ -141,8 +164,17 @@ pub(super) fn text(design: &Design, f: &Found) -> String {
     }
     let _ = writeln!(
         out,
-        "\n{} random errors in the budget: {} within the bound, {} lost\n\n{:<28} {:>11} {:>11} {:>11} {:>11}  max [deg]",
-        t.count, t.within, t.lost, "error of the pose", "median", "90 %", "99 %", "max"
+        "\n{}\n\n{} random errors in the budget: {} within the bound, {} beyond it, {} lost\n\n{:<28} {:>11} {:>11} {:>11} {:>11}  max [deg]",
+        sentence(f, units),
+        t.count,
+        t.within,
+        t.count - t.lost - t.within,
+        t.lost,
+        "error of the pose",
+        "median",
+        "90 %",
+        "99 %",
+        "max"
     );
     let rows = [
         ("nominal formula", &t.formula),

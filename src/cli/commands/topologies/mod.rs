@@ -4,7 +4,7 @@ mod rearrangements;
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use nalgebra::Point3;
 use serde_json::{Map, Value, json};
@@ -13,7 +13,7 @@ use crate::bench::{Class, LengthsFrom, Planar, problem};
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
-use crate::cli::files;
+use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
 use crate::design::Design;
 use crate::distance::{ClosureDegrees, generic_degrees};
@@ -33,10 +33,10 @@ pub(crate) struct Args {
     members: u64,
     /// Write a picture of all that are listed
     #[arg(long, value_name = "FILE")]
-    svg: Option<PathBuf>,
+    svg: Option<OutputPath>,
     /// Write a representative design (T01.toml, ...) and a picture (T01.svg, ...) of each into this folder
     #[arg(short, long, value_name = "DIR")]
-    output: Option<PathBuf>,
+    output: Option<OutputPath>,
     /// Also what equivalent rearrangement can do for each, bodies in space or in a plane: fewest shared joints, octahedral or not; with -o the designs that show it
     #[arg(long)]
     rearrangements: bool,
@@ -220,7 +220,7 @@ fn write_files(args: &Args, entries: &[Entry]) -> Result<(), Failure> {
     let Some(folder) = &args.output else { return Ok(()) };
     files::make_folder(folder)?;
     for e in entries {
-        let file = |ending: &str| Path::new(folder).join(format!("{}.{ending}", e.named.id()));
+        let file = |ending: &str| folder.join(format!("{}.{ending}", e.named.id()));
         files::write_text(&file("svg"), &topology_diagram(&figure(e)))?;
         files::write_text(&file("toml"), &representative(e)?.to_toml())?;
     }

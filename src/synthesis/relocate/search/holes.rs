@@ -37,6 +37,11 @@ pub struct HoleRecord {
     pub singular_value: f64,
     /// Dimension of the space of homogeneous partners of the hole as written, by exact arithmetic.
     pub exact: Option<usize>,
+    /// Whether all of these are at infinity.
+    pub(super) exactly_at_infinity: bool,
+    /// Whether they are the partners in combinations of the legs that were not named for the hole: a leg there then replaces none of those named. `false` where there
+    /// are no exact partners.
+    pub(super) exactly_by_others: bool,
     /// What counted as zero.
     pub tolerance: f64,
 }
@@ -46,7 +51,9 @@ impl HoleRecord {
     pub(super) fn impossible(&self, index: usize) -> Option<Impossibility> {
         match self.answer {
             HoleAnswer::None if self.exact == Some(0) => Some(Impossibility::NoLegAtHole(index)),
-            HoleAnswer::AtInfinity => Some(Impossibility::PartnersAtInfinity(index)),
+            HoleAnswer::AtInfinity if self.exactly_at_infinity => {
+                Some(Impossibility::PartnersAtInfinity(index))
+            }
             _ => None,
         }
     }
@@ -62,9 +69,21 @@ pub(super) fn records(
     let mut out = Vec::new();
     for hole in holes {
         let (answer, singular_value) = partners(&found.span, hole, found.options.tolerance)?;
-        let exact = exact_partners(&legs, hole.body, &hole.point);
-        let tolerance = found.options.tolerance;
-        out.push(HoleRecord { hole: hole.clone(), answer, singular_value, exact, tolerance });
+        let among = |chosen: &dyn Fn(usize) -> bool| {
+            let list: Vec<usize> = (0..6).filter(|i| chosen(*i)).collect();
+            exact_partners(&legs, hole.body, &hole.point, &list)
+        };
+        let named = |i: usize| hole.legs.iter().any(|l| l.get() == i);
+        let (all, others) = (among(&|_| true), among(&|i| !named(i)));
+        out.push(HoleRecord {
+            hole: hole.clone(),
+            answer,
+            singular_value,
+            exact: all.map(|e| e.dimension),
+            exactly_at_infinity: all.is_some_and(|e| e.dimension == e.at_infinity),
+            exactly_by_others: !hole.legs.is_empty() && all.is_some_and(|e| e.dimension > 0) && all == others,
+            tolerance: found.options.tolerance,
+        });
     }
     Ok(out)
 }

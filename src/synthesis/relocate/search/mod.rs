@@ -4,8 +4,10 @@
 //! them can stand together is decided once for every *pattern* (how many legs from where) at generic parameters; in the patterns left the parameters are chosen so
 //! that the worst margin of all wishes is as large as possible, from several starts.
 //!
-//! What is proved: that no replaceable leg ends at a hole (exact rank), and, when the list of families is complete, the least number of shared joints (up to the
-//! independence of generic legs, which is decided in floating point). That no platform with a spacing or clearance was found proves nothing.
+//! What is proved, by ranks of rational numbers and by counting the legs whose vectors span a family: that no replaceable leg ends at a hole, that all its partners are
+//! at infinity, that legs there replace none of those named, and, when every replaceable leg and every pattern is known exactly, the least number of shared joints.
+//! Floating point chooses what to look at; where it alone leaves something out the verdict is `Undecided`. That no platform with a spacing or clearance was found
+//! proves nothing.
 
 mod candidate;
 mod climb;
@@ -157,12 +159,15 @@ pub fn search(
     let mut rng = Rng::stream(options.seed, 0x5ea);
     let pool = Pool::new(m, found, wishes, &outcome.holes, &mut rng)?;
     if let Some(k) = pool.not_by_those_legs(&wishes.holes) {
-        outcome.verdict = SearchVerdict::Impossible(Impossibility::NotByThoseLegs(k));
+        if outcome.holes[k].exactly_by_others {
+            outcome.verdict = SearchVerdict::Impossible(Impossibility::NotByThoseLegs(k));
+        }
         return Ok(outcome);
     }
     // a family no leg of which could be drawn, one far out for instance, is missing in the patterns
     outcome.complete &= pool.drawn;
-    let mut list = patterns(&pool, wishes, m.size());
+    let patterns::Patterns { mut list, exhaustive } = patterns(&pool, wishes, m.size());
+    outcome.complete &= exhaustive;
     outcome.patterns = list.len();
     outcome.least_shared = list.iter().map(|p| p.shared).min();
     let Some(least) = outcome.least_shared else {

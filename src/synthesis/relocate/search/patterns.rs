@@ -2,7 +2,7 @@
 
 use super::pool::Pool;
 use super::wishes::Wishes;
-use crate::manipulator::Leg;
+use crate::manipulator::{Leg, LegIndex};
 
 /// Six places, in the order of the pool.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,32 +17,53 @@ pub(super) struct Pattern {
     pub(super) shared: usize,
 }
 
-/// Patterns beyond this number are not looked at; no platform known has a tenth of them.
+/// Patterns beyond this number are not looked at, and then nothing is called impossible; no platform known has a tenth of them.
 const MOST: usize = 50_000;
 /// A generic leg less than this out of the span of others, of vectors of unit length, depends on them.
 const INDEPENDENT: f64 = 1e-7;
 /// Ends of generic legs nearer than this, relative to the size, are one joint.
 const SAME: f64 = 1e-8;
 
+/// What was found of the patterns.
+#[derive(Debug)]
+pub(super) struct Patterns {
+    /// Those that fill every hole.
+    pub(super) list: Vec<Pattern>,
+    /// Whether there are no others: none was left out by the limit or by floating point alone, and no two joints were taken for one by nearness alone.
+    pub(super) exhaustive: bool,
+}
+
 struct Growing<'a> {
     pool: &'a Pool<'a>,
     list: Vec<Pattern>,
     size: f64,
+    exhaustive: bool,
 }
 
 /// All patterns that fill every hole.
-pub(super) fn patterns(pool: &Pool, wishes: &Wishes, size: f64) -> Vec<Pattern> {
-    let mut growing = Growing { pool, list: Vec::new(), size };
+pub(super) fn patterns(pool: &Pool, wishes: &Wishes, size: f64) -> Patterns {
+    let mut growing = Growing { pool, list: Vec::new(), size, exhaustive: true };
     growing.grow(0, &mut Vec::new(), &mut Vec::new());
     let all = wishes.holes.len();
     growing.list.retain(|p| (0..all).all(|h| p.places.iter().any(|k| pool.places[*k].fills.contains(&h))));
-    growing.list
+    Patterns { list: growing.list, exhaustive: growing.exhaustive }
+}
+
+/// Whether no legs from these places are independent, whatever their parameters: some of them have their vectors in the span of fewer legs of the platform
+/// (the easy half of Rado's theorem on independent transversals, 1942). Exact: no number is looked at.
+fn always_dependent(supports: &[Option<&Vec<LegIndex>>]) -> bool {
+    (1..1_u32 << supports.len()).any(|mask| {
+        let part: Vec<_> = (0..supports.len()).filter(|i| mask >> i & 1 == 1).map(|i| supports[i]).collect();
+        let spanning = LegIndex::all().filter(|l| part.iter().flatten().any(|s| s.contains(l))).count();
+        part.iter().all(Option::is_some) && spanning < part.len()
+    })
 }
 
 impl Growing<'_> {
     /// Adds legs from the places `from..` to those chosen; `basis` is orthonormal and spans their coefficient vectors.
     fn grow(&mut self, from: usize, chosen: &mut Vec<(usize, Leg)>, basis: &mut Vec<[f64; 6]>) {
         if self.list.len() >= MOST {
+            self.exhaustive = false;
             return;
         }
         if chosen.len() == 6 {
@@ -52,7 +73,13 @@ impl Growing<'_> {
         for k in from..self.pool.places.len() {
             let copy = chosen.iter().filter(|(l, _)| *l == k).count();
             let Some((leg, c)) = self.pool.places[k].generic.get(copy) else { continue };
-            let Some(rest) = outside(c, basis) else { continue };
+            let Some(rest) = outside(c, basis) else {
+                let supports: Vec<_> = chosen.iter().map(|(l, _)| *l).chain([k]).collect();
+                let supports: Vec<_> =
+                    supports.iter().map(|l| self.pool.places[*l].support.as_ref()).collect();
+                self.exhaustive = self.exhaustive && always_dependent(&supports);
+                continue;
+            };
             chosen.push((k, *leg));
             basis.push(rest);
             self.grow(k, chosen, basis);
@@ -69,6 +96,10 @@ impl Growing<'_> {
             })
         };
         let (same_base, same_platform) = (same(&|l| l.base), same(&|l| l.platform));
+        for (ends, table) in [(false, &same_base), (true, &same_platform)] {
+            let held = |i: usize| self.pool.places[chosen[i].0].holds_joint(ends);
+            self.exhaustive &= (0..6).all(|i| !table[i].contains(&true) || held(i));
+        }
         self.list.push(Pattern {
             places: std::array::from_fn(|i| chosen[i].0),
             shared: shared(&same_base) + shared(&same_platform),

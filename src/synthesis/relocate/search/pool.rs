@@ -17,6 +17,8 @@ pub(super) struct Place {
     pub(super) formulas: Parametrisation,
     /// Holes its legs have an end in.
     pub(super) fills: Vec<usize>,
+    /// The legs whose vectors span those of its legs, exactly; `None` where that is known within a tolerance only.
+    pub(super) support: Option<Vec<LegIndex>>,
     /// Generic legs, as many as the pattern may take from here.
     pub(super) generic: Vec<(Leg, [f64; 6])>,
 }
@@ -36,6 +38,20 @@ fn fixed(leg: &Leg) -> Parametrisation {
         parameters: 0,
         base: at(leg.base.coords.into()),
         platform: at(leg.platform.coords.into()),
+    }
+}
+
+impl Place {
+    /// Whether the base (or platform) end of all its legs is one joint of the platform, exactly.
+    pub(super) fn holds_joint(&self, platform_end: bool) -> bool {
+        let constant = match &self.formulas {
+            Parametrisation::Rational { base, platform, .. } => {
+                let end = if platform_end { platform } else { base };
+                end.terms.iter().all(|(exponents, _)| *exponents == [0; 3])
+            }
+            _ => false,
+        };
+        constant && self.support.is_some()
     }
 }
 
@@ -89,7 +105,15 @@ impl<'a> Pool<'a> {
         copies: usize,
         rng: &mut Rng,
     ) -> Result<(), LinalgError> {
-        let mut place = Place { source, formulas, fills, generic: Vec::new() };
+        let support = match source {
+            Source::Kept(leg) => Some(vec![leg]),
+            Source::Family(k) => {
+                let family = self.found.components.get(k).filter(|f| f.exact == Some(true));
+                family.map(|f| f.support.clone())
+            }
+            Source::Hole(_) | Source::Holes(..) => None,
+        };
+        let mut place = Place { source, formulas, fills, support, generic: Vec::new() };
         for _ in 0..copies {
             let x = self.draw_place(&place, rng)?;
             if let Some(leg) = place.formulas.leg_at(&x)? {

@@ -4,7 +4,7 @@ use nalgebra::Point3;
 
 use super::*;
 use crate::geom::Pose;
-use crate::manipulator::{Leg, LegIndex, default_home};
+use crate::manipulator::{Leg, LegIndex, Manipulator, default_home};
 use crate::synthesis::Body;
 use crate::synthesis::components::{ComponentOptions, components};
 use crate::synthesis::{LegMapTolerances, Relation, leg_map};
@@ -166,8 +166,39 @@ fn a_named_joint_goes_to_the_hole_with_one_of_its_legs() {
     }
     // leg 4 has no part in it
     w.holes = vec![Hole { body: Body::Base, point: edge, legs: vec![LegIndex::new(3).unwrap()] }];
+    // the hole is on the edge within rounding only: then that is no proof
+    assert_eq!(asked(&m, &w).verdict, SearchVerdict::Undecided);
+    let whole = |size: f64| vec![Point3::origin(), Point3::new(size, 0.0, 0.0), Point3::new(0.0, size, 1.0)];
+    let pairs = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
+    let m = Manipulator::try_new(whole(8.0), whole(4.0), pairs).unwrap();
+    let mut w = wishes(&m);
+    w.holes = vec![Hole {
+        body: Body::Base,
+        point: Point3::new(2.0, 0.0, 0.0),
+        legs: vec![LegIndex::new(3).unwrap()],
+    }];
     let outcome = asked(&m, &w);
     assert_eq!(outcome.verdict, SearchVerdict::Impossible(Impossibility::NotByThoseLegs(0)));
+}
+
+#[test]
+fn nothing_is_impossible_by_a_tolerance() {
+    // turned by angles that doubles round, the families exist within the tolerance only: what was proved before is proved no more
+    let mut rng = crate::num::Rng::new(8);
+    for _ in 0..6 {
+        let turn = crate::geom::random_rotation(&mut rng);
+        let legs = six_four().legs().map(|l| Leg { base: turn * l.base, platform: turn * l.platform });
+        let m = Manipulator::from_legs(legs).unwrap();
+        let mut w = wishes(&m);
+        w.no_shared_joints = true;
+        let outcome = asked(&m, &w);
+        assert!(
+            !outcome.complete || outcome.verdict == SearchVerdict::Impossible(Impossibility::SharedJoints(2)),
+            "{:?}",
+            outcome.verdict
+        );
+        assert!(outcome.complete || outcome.verdict == SearchVerdict::Undecided, "{:?}", outcome.verdict);
+    }
 }
 
 #[test]

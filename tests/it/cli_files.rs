@@ -1,0 +1,87 @@
+//! What a run does to files that are there: inputs stay as they are, whatever they are called.
+//!
+//! That every option with an output refuses an input among the arguments is tested beside the code, over the list of commands; here are the files that only a run finds out.
+
+use std::path::{Path, PathBuf};
+
+use super::cli_frame::{document, equipod};
+
+const OCTAHEDRAL: &str = "designs/rbt-octahedral.toml";
+
+/// Every file of a folder with its text.
+fn contents(folder: &Path) -> Vec<(PathBuf, String)> {
+    let entries = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path());
+    let mut all: Vec<_> =
+        entries.filter(|p| p.is_file()).map(|p| (p.clone(), std::fs::read_to_string(p).unwrap())).collect();
+    all.sort();
+    all
+}
+
+/// Runs what must be refused, and finds the folder as it was.
+fn refused(folder: &Path, args: &[&str], code: &str) {
+    let before = contents(folder);
+    let out = equipod(&[args, &["--json"]].concat());
+    assert_eq!(out.status.code(), Some(2), "{args:?}: {}", String::from_utf8_lossy(&out.stderr));
+    assert_eq!(document(&out)["error"]["code"], code, "{args:?}");
+    assert_eq!(contents(folder), before, "{args:?}");
+}
+
+fn copy(folder: &Path, name: &str) -> String {
+    let path = folder.join(name);
+    std::fs::copy(OCTAHEDRAL, &path).unwrap();
+    path.to_str().unwrap().to_owned()
+}
+
+#[test]
+fn a_folder_of_outputs_may_hold_the_input_but_not_in_the_place_of_one() {
+    let temp = tempfile::tempdir().unwrap();
+    let folder = temp.path().to_str().unwrap();
+    let original = copy(temp.path(), "original.toml");
+    refused(temp.path(), &["explore", &original, "-o", folder], "file::overwrites_input");
+    // the same file by another name
+    let mine = temp.path().join("mine.toml");
+    std::fs::hard_link(&original, &mine).unwrap();
+    refused(temp.path(), &["explore", mine.to_str().unwrap(), "-o", folder], "file::overwrites_input");
+}
+
+#[test]
+fn a_report_is_not_written_over_what_it_reports() {
+    let temp = tempfile::tempdir().unwrap();
+    let folder = temp.path().to_str().unwrap();
+    let design = copy(temp.path(), "d.toml");
+    let table = temp.path().join("notes.txt");
+    std::fs::write(&table, "mine").unwrap();
+    refused(temp.path(), &["report", folder, "-o", &design], "file::overwrites_input");
+    refused(temp.path(), &["report", folder, "-o", table.to_str().unwrap()], "file::overwrites_input");
+    for _ in 0..2 {
+        // the page of an earlier run gives way
+        assert_eq!(equipod(&["report", folder]).status.code(), Some(0));
+    }
+}
+
+#[test]
+fn a_table_named_in_the_design_is_an_input_as_well() {
+    let temp = tempfile::tempdir().unwrap();
+    std::fs::write(temp.path().join("path.csv"), "3,5,15,0,0,0\n3,5,16,0,0,0\n").unwrap();
+    let text = std::fs::read_to_string(OCTAHEDRAL).unwrap();
+    let design = temp.path().join("d.toml");
+    std::fs::write(&design, format!("{text}\n[workspace]\ntrajectory = \"path.csv\"\n")).unwrap();
+    let (design, table) = (design.to_str().unwrap(), temp.path().join("path.csv"));
+    refused(temp.path(), &["view", design, "-o", table.to_str().unwrap()], "file::overwrites_input");
+}
+
+#[test]
+fn another_design_gives_way_to_a_design_only() {
+    let temp = tempfile::tempdir().unwrap();
+    let other = copy(temp.path(), "other.toml");
+    refused(
+        temp.path(),
+        &["plot", "modes", "designs/dietmaier.toml", "-o", &other],
+        "file::overwrites_design",
+    );
+    assert_eq!(equipod(&["convert", "designs/dietmaier.toml", "-o", &other]).status.code(), Some(0));
+    assert!(
+        std::fs::read_to_string(&other).unwrap().contains("dietmaier") || !temp.path().join("x").exists()
+    );
+    assert_eq!(contents(temp.path()).len(), 1, "no part is left");
+}
