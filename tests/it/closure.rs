@@ -16,7 +16,7 @@ fn solve(m: &Manipulator, s: &SquaredLegLengths) -> (FkSolutions, Closure) {
     let found = Homotopy.solve(m, s, &FkOptions::default()).unwrap();
     assert!(
         matches!(found.completeness, Completeness::Proved { .. })
-            && found.roots.iter().all(|r| r.certified())
+            && found.roots.iter().all(equipod::fk::FkRoot::certified)
     );
     let closure = closure(m, s, &found).unwrap();
     (found, closure)

@@ -89,7 +89,7 @@ fn the_semi_regular_hexapod_has_28_poses_at_home_and_near_it() {
         let found = solve(&m, &pose.squared_lengths(&m).unwrap());
         // as rounded it is another platform, with further poses far out: those found are certified, the others counted
         let certified = found.roots.iter().filter(|r| r.certified()).count();
-        let counted = found.pose_count.as_ref().and_then(|c| c.finite());
+        let counted = found.pose_count.as_ref().and_then(PoseCount::finite);
         assert!(
             certified >= 28 && (certified == 40 || counted.is_some_and(|n| n > 28)),
             "seed {seed}: {counted:?}"
@@ -170,7 +170,7 @@ fn an_exact_double_root_is_named_unproved_and_not_listed() {
         "a double root may part into complex ones"
     );
     // sixteen poses with multiplicity, none of them proved
-    assert!(!found.is_complete() && found.pose_count.as_ref().and_then(|c| c.finite()) == Some(16));
+    assert!(!found.is_complete() && found.pose_count.as_ref().and_then(PoseCount::finite) == Some(16));
     let near = |r: &equipod::fk::FkRoot| r.pose.position.iter().map(|z| z.norm()).fold(0.0, f64::max) < 1e-5;
     assert!(found.unproved.iter().all(near), "the joint is in the origin in all of them");
 }

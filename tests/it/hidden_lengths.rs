@@ -45,7 +45,7 @@ fn designs_with_fewer_poses_are_not_called_complete_without_proof() {
     let member = problem(class, LengthsFrom::Pose, 3, 0).unwrap();
     let (m, s, o) = (&member.manipulator, &member.squares, FkOptions::default());
     let (a, b) = (Trilateration::default().solve(m, s, &o).unwrap(), Homotopy.solve(m, s, &o).unwrap());
-    assert!(a.roots.len() <= b.roots.len() && a.roots.iter().all(|r| r.certified()));
+    assert!(a.roots.len() <= b.roots.len() && a.roots.iter().all(equipod::fk::FkRoot::certified));
     assert!(proved(&a) == (a.roots.len() == 40) && a.all_accounted() == proved(&a));
 }
 

@@ -77,7 +77,7 @@ fn special_platforms_of_exact_joints_are_complete_modulo_primes() {
         let pose = Pose { rotation: random_rotation(rng), position: Vector3::new(0.3, -0.2, 2.5) };
         let found = solve(&m, &pose.squared_lengths(&m).unwrap());
         holds_to_its_count(&found);
-        assert_eq!(found.pose_count.as_ref().and_then(|c| c.finite()), Some(16));
+        assert_eq!(found.pose_count.as_ref().and_then(PoseCount::finite), Some(16));
         assert_eq!(found.completeness, Completeness::Modular, "seed {seed}: {}", found.completeness_reason());
         assert_eq!(found.roots.len(), 16);
     }
@@ -93,7 +93,7 @@ fn rounded_special_platforms_are_not_called_complete_with_the_poses_of_the_exact
         let pose = Pose { rotation: random_rotation(rng), position: Vector3::new(0.3, -0.2, 2.5) };
         let found = solve(&m, &pose.squared_lengths(&m).unwrap());
         if found.pose_count.is_some() {
-            assert_eq!(found.pose_count.as_ref().and_then(|c| c.finite()), Some(40));
+            assert_eq!(found.pose_count.as_ref().and_then(PoseCount::finite), Some(40));
         }
         holds_to_its_count(&found);
         assert!(found.roots.iter().filter(|r| r.certified()).count() >= 16);

@@ -27,7 +27,7 @@ fn every_topology_has_its_number_of_poses_certified_and_proved_complete() {
         for k in 0..3 {
             let found = member(t, Planar::Neither, k);
             assert_eq!(found.roots.len(), count, "{} {k}: {:?}", t.id(), found.completeness);
-            assert!(found.roots.iter().all(|r| r.certified()), "{} {k}", t.id());
+            assert!(found.roots.iter().all(equipod::fk::FkRoot::certified), "{} {k}", t.id());
             assert!(is_proved(&found), "{} {k}: {:?}", t.id(), found.completeness);
         }
     }

@@ -10,7 +10,7 @@ use equipod::topology::catalogue;
 use super::cli_frame::{document, equipod};
 
 fn proved(found: &FkSolutions) -> bool {
-    matches!(found.completeness, Completeness::Proved { .. }) && found.roots.iter().all(|r| r.certified())
+    matches!(found.completeness, Completeness::Proved { .. }) && found.roots.iter().all(equipod::fk::FkRoot::certified)
 }
 
 #[test]

@@ -180,7 +180,7 @@ fn far_poses_with_equal_leading_digits_are_told_apart_by_their_study_coordinates
     ];
     let s = LegLengths::try_new(lengths).unwrap().squared();
     let found = Homotopy.solve(design.manipulator(), &s, &FkOptions::default()).unwrap();
-    assert!(found.roots.iter().all(|r| r.certified()), "{:?}", found.completeness);
+    assert!(found.roots.iter().all(equipod::fk::FkRoot::certified), "{:?}", found.completeness);
     let far = found.roots.iter().filter(|r| r.pose.position.norm() > 1e12).count();
     // 16 poses of the platform that is meant; most or all of the 24 that the rounding of its joints makes
     assert!(found.roots.len() == 16 + far && far >= 4, "{} roots, {far} far out", found.roots.len());
