@@ -120,8 +120,8 @@ fn every_word_of_proof_in_the_source_stands_in_the_table() {
     let missing: Vec<&String> = claiming.iter().filter(|f| !places.iter().any(|p| covers(p, f))).collect();
     assert!(missing.is_empty(), "not in docs/claims.md: {missing:#?}");
     for place in &places {
-        let used =
-            claiming.iter().any(|f| covers(place, f)) || (Path::new(place).extension().is_some_and(|e| e == "md") && claims(&read(place)));
+        let used = claiming.iter().any(|f| covers(place, f))
+            || (Path::new(place).extension().is_some_and(|e| e == "md") && claims(&read(place)));
         assert!(used, "`{place}` is listed in docs/claims.md and claims nothing");
     }
     // a new file with a claim would be missed by none of this

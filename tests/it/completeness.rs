@@ -4,6 +4,7 @@ use equipod::fk::{Completeness, FkOptions, FkSolutions, ForwardKinematics, Homot
 use equipod::geom::{Pose, random_rotation};
 use equipod::manipulator::{Leg, Manipulator, SquaredLegLengths};
 use equipod::num::Rng;
+use equipod::solve::pose_count::PoseCount;
 use nalgebra::{Point3, Vector3};
 
 fn points(rng: &mut Rng, height: f64) -> [Point3<f64>; 6] {
@@ -200,7 +201,7 @@ fn lengths_at_a_singular_pose_give_two_close_roots_that_are_told_apart_or_one_do
         let unproved: u32 = found.unproved.iter().map(|r| r.multiplicity).sum();
         let count = found.count_with_multiplicity() + unproved;
         assert_eq!(count, 40, "seed {seed}: {:?}", found.completeness);
-        assert!(found.roots.iter().all(|r| r.certified()), "seed {seed}");
+        assert!(found.roots.iter().all(equipod::fk::FkRoot::certified), "seed {seed}");
         let certified = found.roots.len();
         assert_eq!(found.is_complete(), certified == 40, "seed {seed}");
         assert_eq!(found.missing().unwrap_or(0), 40 - certified, "seed {seed}");

@@ -4,7 +4,7 @@ use equipod::fk::{Completeness, FkOptions, FkSolutions, ForwardKinematics, Homot
 use equipod::geom::{Pose, random_rotation};
 use equipod::manipulator::{Leg, LegLengths, Manipulator, SquaredLegLengths};
 use equipod::num::Rng;
-use equipod::solve::pose_count::PoseSet;
+use equipod::solve::pose_count::{PoseCount, PoseSet};
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use crate::cli_frame::{document, equipod};

@@ -10,7 +10,8 @@ use equipod::topology::catalogue;
 use super::cli_frame::{document, equipod};
 
 fn proved(found: &FkSolutions) -> bool {
-    matches!(found.completeness, Completeness::Proved { .. }) && found.roots.iter().all(equipod::fk::FkRoot::certified)
+    matches!(found.completeness, Completeness::Proved { .. })
+        && found.roots.iter().all(equipod::fk::FkRoot::certified)
 }
 
 #[test]

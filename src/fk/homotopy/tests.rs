@@ -91,7 +91,7 @@ fn a_flat_pose_is_named_as_eightfold_and_not_listed() {
         assert_eq!((flat.len(), found.unproved.len()), (1, 1));
         assert_eq!((flat[0].multiplicity, flat[0].certified()), (8, false));
         assert_eq!((found.roots.len(), found.count_with_multiplicity()), (32, 32));
-        assert!(found.roots.iter().all(|r| r.certified()) && !found.all_accounted());
+        assert!(found.roots.iter().all(FkRoot::certified) && !found.all_accounted());
         assert_eq!(found.paths.iter().filter(|p| p.root == p.mirror_root).count(), 4);
     }
 }

@@ -3,7 +3,10 @@
 use nalgebra::{Point3, Rotation3, Unit, Vector3};
 
 use super::*;
+use std::collections::BTreeMap;
+
 use crate::geom::{Pose, Region};
+use crate::num::Rng;
 use crate::requirements::{
     FixedTo, Hardware, JointAxes, KeepOut, LegBody, LengthLimits, Load, PlatformSpeed, Shape, Swing,
 };

@@ -174,7 +174,7 @@ impl Certifier {
                     let (rotation, position) = pose_of(&study, system.unit());
                     let pose =
                         RefinedPose { rotation, position, moved: 0.0, last_step: 0.0, steps: 0 }.pose();
-                    return Ok(CertifiedPose { pose, certificate: self.accurate(&pose, certificate)? });
+                    return Ok(CertifiedPose { pose, certificate: self.accurate(&pose, &certificate)? });
                 }
                 Err(reason) => why = reason,
             }

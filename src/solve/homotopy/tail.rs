@@ -526,8 +526,8 @@ mod tests {
         let series = tail.series(&x, &lu, at);
         let change = |h: f64| {
             let mut y = x;
-            for (k, c) in series.iter().enumerate() {
-                let power = Octuple::from(h.powi(k as i32 + 1));
+            for (power, c) in (1..).zip(&series) {
+                let power = Octuple::from(h.powi(power));
                 for p in 0..8 {
                     y[p] = y[p] + c[p].times(power);
                 }

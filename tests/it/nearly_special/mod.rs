@@ -102,6 +102,7 @@ fn the_real_pose_far_off_home_of_nearly_congruent_bodies_is_found() {
 /// `NEARLY_SPECIAL=1000 cargo test --release --test it nearly_special -- --ignored --nocapture`: numbers for a thousand members of each family.
 #[test]
 #[ignore = "minutes; prints what it measures"]
+#[allow(clippy::print_stdout, reason = "a table for people")]
 fn many_members() {
     let count = std::env::var("NEARLY_SPECIAL").ok().and_then(|x| x.parse().ok()).unwrap_or(100);
     for kind in KINDS {
