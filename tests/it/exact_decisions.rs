@@ -47,10 +47,10 @@ fn singular_is_said_of_designs_that_are_singular_as_the_numbers_they_are() {
 fn regular_designs_near_the_singular_ones_are_not_called_singular() {
     let mut rng = Rng::new(32);
     let (mut equivalent, mut undecided) = (0, 0);
-    for k in 0..60 {
+    for k in 0..60_usize {
         let m = whole_octahedral(&mut rng);
         let mut t = [0.5; 6];
-        let power = 20 + i32::try_from(k / 2).unwrap();
+        let power = 20 + i32::try_from(k).unwrap() / 2;
         t[k % 6] += 2f64.powi(-power);
         let near = offset(&m, t);
         assert!(!Architecture::of(&near).is_singular(), "2^-{power}");
