@@ -65,7 +65,7 @@ fn a_table_named_in_the_design_is_an_input_as_well() {
     std::fs::write(temp.path().join("path.csv"), "3,5,15,0,0,0\n3,5,16,0,0,0\n").unwrap();
     let text = std::fs::read_to_string(OCTAHEDRAL).unwrap();
     let design = temp.path().join("d.toml");
-    std::fs::write(&design, format!("{text}\n[workspace]\ntrajectory = \"path.csv\"\n")).unwrap();
+    std::fs::write(&design, text.replace("[workspace]", "[workspace]\ntrajectory = \"path.csv\"")).unwrap();
     let (design, table) = (design.to_str().unwrap(), temp.path().join("path.csv"));
     refused(temp.path(), &["view", design, "-o", table.to_str().unwrap()], "file::overwrites_input");
 }

@@ -101,8 +101,8 @@ fn a_design_of_mixed_scales_is_related_to_itself_regularly() {
     }
 }
 
-/// Whole coordinates of flat bodies, and in any number of places a number far beyond or below them.
-fn extreme(rng: &mut Rng, others: &[f64]) -> Manipulator {
+/// Whole coordinates of flat bodies, and in any number of places a number far beyond or below them; four legs at one point where it is to be singular.
+fn extreme(rng: &mut Rng, others: &[f64], singular: bool) -> Manipulator {
     let places = 1 + (rng.next_u64() % 6) as usize;
     let mut legs: [Leg; 6] = std::array::from_fn(|_| {
         let mut point = || Point3::new(rng.uniform(-9.0, 9.0).round(), rng.uniform(-9.0, 9.0).round(), 0.0);
@@ -113,6 +113,10 @@ fn extreme(rng: &mut Rng, others: &[f64]) -> Manipulator {
         let value = others[(rng.next_u64() % others.len() as u64) as usize];
         let end = if rng.uniform(0.0, 1.0) < 0.5 { &mut legs[leg].base } else { &mut legs[leg].platform };
         end[axis] = value;
+    }
+    if singular {
+        let point = legs[0].base;
+        legs[1..4].iter_mut().for_each(|l| l.base = point);
     }
     Manipulator::from_legs(legs).unwrap()
 }
@@ -127,13 +131,15 @@ fn coordinates_of_any_magnitude_are_decided_at_once() {
             1 => &[1e-300, 5e-324, 3e-310, 1e-17],
             _ => &[1e60, 1e-300, 7.3e59, 5e-324],
         };
-        let m = extreme(&mut rng, others);
+        let m = extreme(&mut rng, others, k % 2 == 0);
         let start = Instant::now();
-        singular += usize::from(Architecture::of(&m).is_singular());
+        let found = Architecture::of(&m).is_singular();
+        assert!(found || k % 2 != 0, "four legs at one point: {m:?}");
+        singular += usize::from(found);
         slowest = slowest.max(start.elapsed());
     }
     assert!(slowest < Duration::from_secs(4), "{slowest:?}");
-    assert!((1..24).contains(&singular), "{singular} singular of 24");
+    assert!((12..24).contains(&singular), "{singular} singular of 24");
 }
 
 #[test]

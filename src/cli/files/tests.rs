@@ -37,7 +37,7 @@ fn commands() -> Vec<(Vec<String>, Command)> {
 /// What a command needs besides its files.
 fn needed(words: &[String], output: &str) -> Vec<&'static str> {
     match (words.iter().map(String::as_str).collect::<Vec<_>>().as_slice(), output) {
-        (["family"], "output") => vec!["--offsets", "0.1,0.1,0.1,0.1,0.1,0.1"],
+        (["family"], "output") => vec!["--pattern", "S123456", "--offsets", "0.1,0.1,0.1,0.1,0.1,0.1"],
         (["singularities"], "csv" | "path_svg") => vec!["--path", "home"],
         (["export"], _) => vec!["--to", "csv"],
         (["map" | "verify"], "output") => vec!["--align"],
