@@ -39,6 +39,9 @@ const SETTLED: f64 = 1e-10;
 /// Legs with a smaller share in the relation count as not taking part.
 const SHARE: f64 = 1e-7;
 
+/// Coordinates below this, relative to the size, are left out of the search; what it finds is measured from the joints as they are.
+const LEAST: f64 = 1e-100;
+
 /// Joints in use, centred and scaled to the size.
 struct Problem {
     joints: [Vec<usize>; 2],
@@ -59,10 +62,10 @@ impl Problem {
         for (list, at) in joints.iter().zip([m.base_joints(), m.platform_joints()]) {
             let first = at[list[0]];
             let mean = list.iter().map(|j| at[*j] - first).sum::<Vector3<f64>>() / list.len() as f64;
-            x.extend(
-                list.iter()
-                    .flat_map(|j| ((at[*j] - first - mean) / m.size()).iter().copied().collect::<Vec<_>>()),
-            );
+            let scaled = |j: &usize| (at[*j] - first - mean) / m.size();
+            // parts that no sum with a part of order one can hold: products of them are below the range of doubles, where iterations do not settle
+            let held = |x: f64| if x.abs() < LEAST { 0.0 } else { x };
+            x.extend(list.iter().flat_map(|j| scaled(j).iter().map(|x| held(*x)).collect::<Vec<_>>()));
         }
         let place = |list: &[usize], j: usize| list.iter().position(|k| *k == j).unwrap_or_default();
         let legs = m.pairs().map(|(a, b)| (place(&joints[0], a), joints[0].len() + place(&joints[1], b)));
@@ -107,7 +110,7 @@ pub(super) fn project(m: &Manipulator, start: &Start) -> Option<Change> {
         let v = problem.vectors(&x);
         let f = &v * &c;
         let by_x = problem.by_joints(&x, &c);
-        let reached = tangent(&v, &c).svd(true, false);
+        let reached = tangent(&v, &c).try_svd(true, false, f64::EPSILON, 500)?;
         // columns of U with a singular value: what a change of c reaches
         let u = reached.u.as_ref()?;
         let limit = 1e-10 * reached.singular_values.max();

@@ -116,7 +116,9 @@ fn line_up(m: &Manipulator, change: &mut Change, body: Body, groups: &[Vec<usize
     let mean = groups.iter().map(|g| centre(g) * g.len() as f64).sum::<Vector3<f64>>() / weight;
     let term = |g: &Vec<usize>| (centre(g) - mean) * (centre(g) - mean).transpose() * g.len() as f64;
     let scatter: Matrix3<f64> = groups.iter().map(term).sum();
-    let eigen = scatter.symmetric_eigen();
+    // what no sum with the largest entry can hold is left out: products of such parts are below the range of doubles, where iterations do not settle
+    let least = 1e-100 * scatter.amax();
+    let eigen = scatter.map(|x| if x.abs() < least { 0.0 } else { x }).symmetric_eigen();
     let axis = eigen.eigenvectors.column(eigen.eigenvalues.imax()).into_owned();
     for group in &groups {
         let place = mean + axis * axis.dot(&(centre(group) - mean));

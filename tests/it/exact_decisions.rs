@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use equipod::manipulator::{Leg, Manipulator, Octahedral};
 use equipod::num::Rng;
-use equipod::singularity::Architecture;
+use equipod::singularity::{Architecture, nearest_singular};
 use equipod::synthesis::{LegMapTolerances, Relation, joint_free, leg_map};
 use nalgebra::Point3;
 
@@ -116,7 +116,10 @@ fn extreme(rng: &mut Rng, others: &[f64], singular: bool) -> Manipulator {
     }
     if singular {
         let point = legs[0].base;
-        legs[1..4].iter_mut().for_each(|l| l.base = point);
+        for (k, leg) in legs[1..4].iter_mut().enumerate() {
+            leg.base = point;
+            leg.platform.z += 1.0 + f64::from(u8::try_from(k).unwrap()); // no two legs become one
+        }
     }
     Manipulator::from_legs(legs).unwrap()
 }
@@ -149,4 +152,7 @@ fn the_design_that_took_minutes_is_decided_at_once() {
     let start = Instant::now();
     let _ = Architecture::of(design.manipulator());
     assert!(start.elapsed() < Duration::from_secs(4), "{:?}", start.elapsed());
+    let found = nearest_singular(design.manipulator(), 1).unwrap();
+    assert!(found.is_none_or(|n| n.distance.is_finite()));
+    assert!(start.elapsed() < Duration::from_secs(12), "{:?}", start.elapsed());
 }

@@ -40,6 +40,7 @@ fn needed(words: &[String], output: &str) -> Vec<&'static str> {
         (["family"], "output") => vec!["--pattern", "S123456", "--offsets", "0.1,0.1,0.1,0.1,0.1,0.1"],
         (["singularities"], "csv" | "path_svg") => vec!["--path", "home"],
         (["export"], _) => vec!["--to", "csv"],
+        (["round"], _) => vec!["--grid", "0.5"],
         (["map" | "verify"], "output") => vec!["--align"],
         (["locus"] | ["plot", "locus"], _) => vec!["--leg", "1", "--from", "1", "--to", "2"],
         _ => vec![],
