@@ -5,7 +5,7 @@
 
 use nalgebra::{Matrix6, Rotation3, SVector, Vector3, Vector6};
 
-use crate::geom::{Pose, random_rotation};
+use crate::geom::{Pose, nearest_rotation, random_rotation};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::num::Rng;
 
@@ -73,9 +73,7 @@ impl Equations<'_> {
     fn displaced(&self, pose: &Pose, step: &Vector6<f64>) -> Pose {
         let turn = Rotation3::new(Vector3::new(step[3], step[4], step[5]));
         let shift = Vector3::new(step[0], step[1], step[2]) * self.size;
-        let mut rotation = turn * pose.rotation;
-        rotation.renormalize();
-        Pose { rotation, position: pose.position + shift }
+        Pose { rotation: nearest_rotation((turn * pose.rotation).matrix()), position: pose.position + shift }
     }
 
     /// The step from one pose to another.

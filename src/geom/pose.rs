@@ -137,15 +137,31 @@ impl ComplexPose {
     }
 }
 
-/// The rotation nearest to a matrix that is nearly one.
+/// The rotation nearest to a matrix that is nearly one: the orthogonal factor of its polar decomposition, by `X <- (X + X^-T) / 2` (Higham 1986), which converges for every
+/// regular matrix. A matrix with no positive determinant is near to none; it gives the rotation of its quaternion.
 ///
-/// The iteration starts from the rotation of the matrix's quaternion: started from the identity, as by default, it can end at a wrong rotation
-/// when the wanted one is a half turn.
+/// The number of steps is bounded. `nalgebra`'s own iteration has no bound by default, and its angle can hover above the rounding of doubles without end.
 pub(crate) fn nearest_rotation(m: &Matrix3<f64>) -> Rotation3<f64> {
-    let guess =
-        UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*m)).to_rotation_matrix();
-    Rotation3::from_matrix_eps(m, f64::EPSILON, 0, guess)
+    let of_quaternion =
+        || UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*m)).to_rotation_matrix();
+    if !(m.determinant() > 0.0) {
+        return of_quaternion();
+    }
+    let mut x = *m;
+    for _ in 0..POLAR_STEPS {
+        let Some(inverse) = x.try_inverse() else { return of_quaternion() };
+        let next = (x + inverse.transpose()) * 0.5;
+        let change = (next - x).amax();
+        x = next;
+        if change <= 4.0 * f64::EPSILON {
+            break;
+        }
+    }
+    Rotation3::from_matrix_unchecked(x)
 }
+
+/// Steps of the polar decomposition: each halves the logarithm of the singular values far from one, and squares the error near it.
+const POLAR_STEPS: usize = 60;
 
 /// One step of `R <- R (3 I - R^T R) / 2`, which squares the defect of `R^T R = I` (over `C` as well).
 pub(crate) fn reorthogonalised(r: &Matrix3<Complex64>) -> Matrix3<Complex64> {
@@ -171,6 +187,22 @@ impl From<Pose> for ComplexPose {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geom::random_rotation;
+    use crate::num::Rng;
+
+    #[test]
+    fn the_nearest_rotation_is_found_from_every_matrix_near_one() {
+        let mut rng = Rng::new(3);
+        for k in 0..2000 {
+            let rotation = random_rotation(&mut rng);
+            let noise = Matrix3::from_fn(|_, _| rng.normal()) * 10f64.powi(-(k % 17));
+            // R (I + S) with a symmetric S has R as its polar factor
+            let s = (noise + noise.transpose()) * (0.05 / noise.amax().max(1.0));
+            let found = nearest_rotation(&(rotation.matrix() * (Matrix3::identity() + s)));
+            assert!((found.matrix() - rotation.matrix()).amax() < 1e-14, "{k}");
+            assert!((found.matrix() * found.matrix().transpose() - Matrix3::identity()).amax() < 1e-14);
+        }
+    }
 
     #[test]
     fn half_turns_are_their_own_nearest_rotations() {

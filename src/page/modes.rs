@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use super::request::Refusal;
 use super::scene::sign;
 use super::wire::{number, pose};
-use crate::fk::{Completeness, FkOptions, FkRoot, FkSolutions, Reality, SolutionSet, solver};
+use crate::fk::{Completeness, FkOptions, FkRoot, FkSolutions, PoseCounting, Reality, SolutionSet, solver};
 use crate::geom::{ComplexPose, Pose};
 use crate::manipulator::{LegLengths, Manipulator, SquaredLegLengths, inverse_condition, jacobian};
 
@@ -15,13 +15,20 @@ fn at_pose(m: &Manipulator, at: &Pose) -> Result<SquaredLegLengths, Refusal> {
 }
 
 fn solve(m: &Manipulator, s: SquaredLegLengths) -> Result<FkSolutions, Refusal> {
-    solver(None).solve(m, &s, &FkOptions::default()).map_err(|e| Refusal::new("fk", e))
+    solve_with(m, s, &FkOptions::default())
+}
+
+fn solve_with(m: &Manipulator, s: SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, Refusal> {
+    solver(None).solve(m, &s, o).map_err(|e| Refusal::new("fk", e))
 }
 
 /// All poses of two platforms, real and complex, with their own leg lengths at a pose; `distance` is the largest from a pose of the first to the
 /// nearest of the second, `null` unless each has one of its own.
 pub(super) fn confirm(first: &Manipulator, second: &Manipulator, at: &Pose) -> Result<Value, Refusal> {
-    let (a, b) = (solve(first, at_pose(first, at)?)?, solve(second, at_pose(second, at)?)?);
+    // as in `verify`: not looked for are poses so far out that the rounding of the joints decides whether there are any
+    let options = FkOptions { pose_count: PoseCounting::Never, ..FkOptions::default() };
+    let poses = |m: &Manipulator| solve_with(m, at_pose(m, at)?, &options);
+    let (a, b) = (poses(first)?, poses(second)?);
     let mut free: Vec<&FkRoot> = b.roots.iter().collect();
     let mut worst = Some(0.0_f64);
     for root in &a.roots {

@@ -8,7 +8,7 @@ use equipod::manufacture::{Controller, displaced, joints};
 use nalgebra::{Rotation3, Vector3};
 
 /// Allocations of one 6-6 problem by the homotopy with certificates, at most.
-const HOMOTOPY: u64 = 100;
+const HOMOTOPY: u64 = 115;
 
 fn problems(class: Class, from: LengthsFrom, count: u64) -> impl Iterator<Item = Problem> {
     (0..count).map(move |k| problem(class, from, 1, k).unwrap())

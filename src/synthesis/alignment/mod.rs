@@ -63,7 +63,13 @@ pub fn align(a: &Manipulator, b: &Manipulator, seed: u64) -> Result<Alignment, L
         if nearest.as_ref().is_none_or(|n| motion.residual < n.residual) {
             nearest = Some(motion);
         }
-        if map.relation != Relation::Unrelated && !motions.iter().any(|m| m.is_near(&base, &platform)) {
+        // an undecided map of legs off the span is no evidence that they are in it
+        let related = match map.relation {
+            Relation::Unrelated => false,
+            Relation::Undecided => map.residual <= map.tolerances.residual,
+            _ => true,
+        };
+        if related && !motions.iter().any(|m| m.is_near(&base, &platform)) {
             freedom = freedom.max(fit.freedom);
             motions.push(Motion { base, platform, map });
         }

@@ -199,7 +199,7 @@ fn scaling_that_is_not_exact_is_refused() {
     };
     assert!(system(3.0, 4.0).is_ok());
     assert!(system(5e-324, 4.0).is_err(), "a subnormal coordinate loses its bits");
-    assert!(system(1e200, 4.0).is_err() && system(3.0, 1e300).is_err());
+    assert!(system(1e150, 4.0).is_err() && system(3.0, 1e300).is_err());
 }
 
 /// Points far out: `g` up to `10^5` times `e`.
