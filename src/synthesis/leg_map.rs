@@ -302,7 +302,9 @@ pub(super) fn leg_map_to_legs(
         return Ok(outcome);
     };
     outcome.leg_rank = exact.from_rank;
-    if exact.from_rank < 6 || exact.to_rank < 6 {
+    // dependent legs of TO that are off the span say nothing about FROM
+    let holds = !off || exact.map.is_some();
+    if holds && (exact.from_rank < 6 || exact.to_rank < 6) {
         outcome.relation = Relation::Singular;
     } else if let Some((a, c)) = exact.map {
         // independent vectors that are combinations of six independent ones: det A is not zero
