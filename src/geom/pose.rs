@@ -149,13 +149,12 @@ pub(crate) fn nearest_rotation(m: &Matrix3<f64>) -> Rotation3<f64> {
     }
     let mut x = *m;
     for _ in 0..POLAR_STEPS {
-        let Some(inverse) = x.try_inverse() else { return of_quaternion() };
-        let next = (x + inverse.transpose()) * 0.5;
-        let change = (next - x).amax();
-        x = next;
-        if change <= 4.0 * f64::EPSILON {
+        // what is a rotation up to rounding stays as it is, to the last digit
+        if (x.transpose() * x - Matrix3::identity()).amax() <= 8.0 * f64::EPSILON {
             break;
         }
+        let Some(inverse) = x.try_inverse() else { return of_quaternion() };
+        x = (x + inverse.transpose()) * 0.5;
     }
     Rotation3::from_matrix_unchecked(x)
 }
