@@ -126,9 +126,13 @@ pub(super) fn reject_others(solutions: &mut FkSolutions) {
 
 /// What has no certificate is no root of the answer: it is named beside them, and the answer is undecided.
 pub(super) fn set_unproved_apart(solutions: &mut FkSolutions) {
-    let unproved = withdraw(solutions, |r| !r.certified());
+    let mut unproved = withdraw(solutions, |r| !r.certified());
     if unproved.is_empty() {
         return;
+    }
+    // near a multiple pose the last digit of a length decides whether there is a real one
+    for root in unproved.iter_mut().filter(|r| r.reality == Reality::Real) {
+        root.reality = Reality::Undecided;
     }
     if let Completeness::Unproved { reason, all_paths_accounted } = &mut solutions.completeness {
         let paths: u32 = unproved.iter().map(|r| r.multiplicity).sum();

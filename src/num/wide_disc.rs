@@ -1,6 +1,6 @@
 //! Discs of complex numbers about centres in double-double.
 //!
-//! As [`Disc`](super::disc::Disc), with the unit of double-double `U = `[`DoubleDouble::UNIT`] for that of double. A sum has relative error `U` in each part. Each part of a product
+//! As [`Disc`], with the unit of double-double `U = `[`DoubleDouble::UNIT`] for that of double. A sum has relative error `U` in each part. Each part of a product
 //! `ac - bd` takes two products and a sum, error at most `2 U (1 + U) (|ac| + |bd|)`, together below `3 U |z|_1 |w|_1`. `1 / z = conj z / |z|^2` takes a
 //! product, a sum without cancellation and a quotient: below `4 U |1/z|_1`. Radii are computed in double from fewer than 60 numbers that are not negative, which
 //! `1 + 2^-40` takes up; moduli of centres are those of their leading doubles, off by `2^-53` of themselves, which it takes up too. Low parts that underflow lose less than

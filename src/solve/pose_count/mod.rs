@@ -1,7 +1,7 @@
 //! The number of finite poses of a design and lengths exactly as written, by linear algebra modulo a prime.
 //!
-//! In the sixteen coordinates of the group a leg is a linear equation (see [`quadrics`]), so that the finite poses are the zeros of quadrics in ten unknowns. Their
-//! algebra is built degree by degree (see [`quotient`]) from the joints and squared lengths as the dyadic numbers they are, modulo a random prime of 61 bits. The method shares nothing with
+//! In the sixteen coordinates of the group a leg is a linear equation (`quadrics.rs`), so that the finite poses are the zeros of quadrics in ten unknowns. Their
+//! algebra is built degree by degree (`quotient.rs`) from the joints and squared lengths as the dyadic numbers they are, modulo a random prime of 61 bits. The method shares nothing with
 //! those that find poses, nor with their certificates. Theorem, bound on the probability of error and sources: `docs/theory/completeness.md`.
 
 mod quadrics;

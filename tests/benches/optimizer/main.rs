@@ -3,17 +3,19 @@
 //! ```text
 //! cargo bench --bench optimizer -- [--random 100000] [--factor 100] [--threads 2] [--seed 1] [--seconds 600] [--walk-seconds 1800] [--only offsets|requirements] [--out FOLDER] [DESIGN ...]
 //! cargo bench --bench optimizer -- --timing
+//! cargo bench --bench optimizer -- --gaps 100 [--threads 2] [--seed 1]
 //! ```
 //!
 //! Default: all designs of `designs/`, `designs/worked/` and `designs/presets/`. The problem of a design is that of `equipod optimize`. Octahedral ones are taken without their requirements too: the offsets alone,
 //! once with the joints up to one edge length out and once inside the edges. Random search draws from the box of the variables for `--seconds` of processor time; where fewer than `--random` feasible
 //! designs come to light, walks inside the feasible set, from the feasible designs that either rival found, go on to that number or for `--walk-seconds`. Prints a Markdown table; with `--out` writes it, the rows as CSV and a picture of the convergence for each problem (rows of other problems that stand there already are kept). Exit 1 when
-//! the optimiser loses. `--timing`: the time of problems with 200 poses instead.
+//! the optimiser loses. `--timing`: the time of problems with 200 poses instead. `--gaps`: the gaps proved on so many random pairs of triangles.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program that prints tables")]
 
 mod cap;
 mod dimensional;
 mod evolution;
+mod gaps;
 mod judge;
 mod question;
 mod random;
@@ -55,6 +57,7 @@ struct Arguments {
     designs: Vec<PathBuf>,
     only: Only,
     timing: bool,
+    gaps: Option<u64>,
 }
 
 /// Which problems of a design.
@@ -77,6 +80,7 @@ fn arguments() -> Result<Option<Arguments>, Failure> {
         designs: Vec::new(),
         only: Only::All,
         timing: false,
+        gaps: None,
     };
     let mut measured = false;
     let mut words = std::env::args().skip(1);
@@ -100,6 +104,7 @@ fn arguments() -> Result<Option<Arguments>, Failure> {
                 }
             }
             "--timing" => a.timing = true,
+            "--gaps" => a.gaps = Some(next()?.parse()?),
             other if other.starts_with('-') => return Err(format!("unknown option {other}").into()),
             file => a.designs.push(file.into()),
         }
@@ -274,6 +279,9 @@ fn run(a: &Arguments) -> Result<bool, Failure> {
 fn main() -> ExitCode {
     let done = arguments().and_then(|a| match a {
         None => Ok(false),
+        Some(Arguments { gaps: Some(count), threads, seed, .. }) => {
+            gaps::run(count, threads, seed).map(|()| false)
+        }
         Some(a) if a.timing => timing::run(a.threads).map(|()| false),
         Some(a) => run(&a),
     });

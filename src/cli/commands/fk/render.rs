@@ -158,9 +158,12 @@ pub(super) fn text(name: &str, s: &FkSolutions) -> String {
     if !s.unproved.is_empty() {
         let _ = writeln!(
             out,
-            "{} ends of paths without a proof, none of them listed: see --json",
+            "{} ends of paths without a proof (multiple poses, several close ones, or none), under `unproved` with --json; those that may be real:",
             s.unproved.len()
         );
+        for (i, r) in s.unproved.iter().enumerate().filter(|(_, r)| r.reality != Reality::NonReal) {
+            unproved_pose(&mut out, i + 1, r);
+        }
     }
     out
 }
@@ -212,6 +215,24 @@ fn real_pose(out: &mut String, number: usize, r: &FkRoot) {
         pitch.to_degrees(),
         yaw.to_degrees(),
         r.residual,
+    );
+}
+
+/// Where a multiple pose may be, with the number of paths that end there.
+fn unproved_pose(out: &mut String, number: usize, r: &FkRoot) {
+    let pose = r.pose.real_part();
+    let (roll, pitch, yaw) = pose.rotation.euler_angles();
+    let p = pose.position;
+    let _ = writeln!(
+        out,
+        "{number:>3}  near p = [{:.4}, {:.4}, {:.4}]  rpy_deg = [{:.2}, {:.2}, {:.2}]  paths {}",
+        p.x,
+        p.y,
+        p.z,
+        roll.to_degrees(),
+        pitch.to_degrees(),
+        yaw.to_degrees(),
+        r.multiplicity,
     );
 }
 

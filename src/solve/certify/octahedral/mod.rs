@@ -77,7 +77,7 @@ pub struct PairCertificate {
 /// Proof that exactly one root lies near a pose of an octahedral platform: the certificate of its pair, and which of its two poses it is.
 ///
 /// With the legs [`order`](Self::order) from `P1 P2 P2 P3 P3 P1` to `P4 P4 P5 P5 P6 P6` there is exactly one zero `(s15, s34)` of the two closures within
-/// `uniqueness_radius` times the weights of [`centre`](Self::centre), coordinate by coordinate; it lies within `radius` times the weights. Of its two poses the root is
+/// `uniqueness_radius` times the weights of the pair (see [`pair`](Self::pair)), coordinate by coordinate; it lies within `radius` times the weights. Of its two poses the root is
 /// the one with the distance of `P4` from the base plane near [`height`](Self::height).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OctahedralCertificate {
