@@ -12,6 +12,7 @@ use super::pull::{Gradient, Pull};
 use super::shape::Ends;
 use super::terms::{Terms, joint_pull, leg_forces};
 use crate::num::linalg::svd;
+use crate::num::small::singular_values;
 use crate::requirements::Load;
 use crate::synthesis::Normalisation;
 
@@ -106,7 +107,7 @@ impl<'a> Merit<'a> {
             Objective::WorstConditioning => crate::manipulator::inverse_condition(&l.jacobian(self.length)),
             Objective::SmallestSingularValue | Objective::Stiffness => {
                 let j = l.jacobian(self.length);
-                let s = if j.iter().all(|x| x.is_finite()) { j.singular_values().min() } else { 0.0 };
+                let s = singular_values(&j).map_or(0.0, |s| s.min());
                 if o == Objective::Stiffness { s * s } else { s }
             }
             Objective::LegForce => {

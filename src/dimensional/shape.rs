@@ -8,6 +8,7 @@ use super::pull::Rate;
 use super::triangle::Triangle;
 use crate::geom::Pose;
 use crate::manipulator::{InvalidManipulator, Leg, Manipulator, Octahedral};
+use crate::num::small::symmetric_eigen3;
 
 /// Where the joints come from.
 #[derive(Debug, Clone)]
@@ -60,8 +61,8 @@ fn upwards(m: &Manipulator, home: &Pose) -> Vector3<f64> {
         .map(|l| l.base.coords - centre)
         .map(|v| v * v.transpose())
         .sum::<nalgebra::Matrix3<f64>>();
-    let e = moments.symmetric_eigen();
-    let n: Vector3<f64> = e.eigenvectors.column(e.eigenvalues.imin()).into();
+    let (values, vectors) = symmetric_eigen3(&moments);
+    let n: Vector3<f64> = vectors.column(values.imin()).into();
     let tip = legs.iter().map(|l| home.transform(&l.platform).coords).sum::<Vector3<f64>>() / 6.0;
     if n.dot(&(tip - centre)) < 0.0 { -n } else { n }
 }

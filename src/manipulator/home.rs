@@ -4,6 +4,7 @@ use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 
 use super::Manipulator;
 use crate::geom::Pose;
+use crate::num::small::symmetric_eigen3;
 
 /// Centroid and centred copies of six leg ends (a joint with two legs counts twice).
 fn centred(points: [Vector3<f64>; 6]) -> (Vector3<f64>, [Vector3<f64>; 6]) {
@@ -25,17 +26,17 @@ fn normal_to(axis: Vector3<f64>, towards: Vector3<f64>) -> Vector3<f64> {
 /// coincide: z.
 fn plane_normal(points: &[Vector3<f64>; 6], size: f64) -> Vector3<f64> {
     let moments: Matrix3<f64> = points.iter().map(|p| p * p.transpose()).sum();
-    let e = moments.symmetric_eigen();
+    let (values, vectors) = symmetric_eigen3(&moments);
     let mut order = [0, 1, 2];
-    order.sort_by(|&i, &j| e.eigenvalues[i].total_cmp(&e.eigenvalues[j]));
+    order.sort_by(|&i, &j| values[i].total_cmp(&values[j]));
     let [least, middle, most] = order;
-    if e.eigenvalues[most] <= 1e-24 * size * size {
+    if values[most] <= 1e-24 * size * size {
         return Vector3::z();
     }
-    if e.eigenvalues[middle] <= 1e-18 * e.eigenvalues[most] {
-        return normal_to(e.eigenvectors.column(most).normalize(), Vector3::z());
+    if values[middle] <= 1e-18 * values[most] {
+        return normal_to(vectors.column(most).normalize(), Vector3::z());
     }
-    let n: Vector3<f64> = e.eigenvectors.column(least).normalize();
+    let n: Vector3<f64> = vectors.column(least).normalize();
     let leading = [n.z, n.y, n.x].into_iter().find(|x| x.abs() > 1e-9);
     if leading.is_some_and(|x| x < 0.0) { -n } else { n }
 }

@@ -4,6 +4,7 @@ use nalgebra::Matrix6;
 
 use super::{Leg, Manipulator};
 use crate::geom::Pose;
+use crate::num::small::singular_values;
 
 /// The matrix of normalised leg lines at a pose: row `i` is `[u_i, ((R b_i) x u_i) / L]`.
 ///
@@ -55,10 +56,7 @@ pub(crate) fn leg_determinant(m: &Manipulator, pose: &Pose) -> f64 {
 /// `sigma_min / sigma_max` of a 6 x 6 matrix, in `[0, 1]`; 0 for a matrix with entries that are not finite.
 #[must_use]
 pub fn inverse_condition(j: &Matrix6<f64>) -> f64 {
-    if j.iter().any(|x| !x.is_finite()) {
-        return 0.0;
-    }
-    let s = j.singular_values();
+    let Some(s) = singular_values(j) else { return 0.0 };
     let (max, min) = (s.max(), s.min());
     if max > 0.0 { min / max } else { 0.0 }
 }

@@ -8,6 +8,7 @@ use super::product::largest_product;
 use super::sample::{Entry, ErrorBound, ErrorKind, PoseSample, PoseSearch, Shares, ToleranceError};
 use crate::geom::Pose;
 use crate::manipulator::Manipulator;
+use crate::num::small::symmetric_eigen3;
 use crate::requirements::PoseSpace;
 
 /// Gap of the bracket of the worst case at the worst pose.
@@ -89,9 +90,9 @@ fn limit(
 
 /// The largest singular value of a matrix with its right singular vector.
 fn norm_and_direction(g: &Matrix3<f64>) -> (f64, Vector3<f64>) {
-    let e = (g.transpose() * g).symmetric_eigen();
-    let k = e.eigenvalues.imax();
-    (e.eigenvalues[k].max(0.0).sqrt(), e.eigenvectors.column(k).into())
+    let (values, vectors) = symmetric_eigen3(&(g.transpose() * g));
+    let k = values.imax();
+    (values[k].max(0.0).sqrt(), vectors.column(k).into())
 }
 
 /// Sign so that the entry of largest modulus is positive.

@@ -14,6 +14,7 @@ pub(crate) mod modular;
 pub(crate) mod octuple;
 pub(crate) mod parallel;
 mod seed;
+pub(crate) mod small;
 pub(crate) mod wide_disc;
 
 pub use seed::Rng;

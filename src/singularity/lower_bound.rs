@@ -19,6 +19,7 @@ use crate::geom::{Pose, random_rotation};
 use crate::manipulator::{Leg, Manipulator};
 use crate::num::Rng;
 use crate::num::interval::Interval;
+use crate::num::small::singular_values;
 
 /// Random poses, and random steps from the best of them.
 const POSES: usize = 300;
@@ -69,7 +70,8 @@ fn at_pose(m: &Manipulator, pose: &Pose) -> f64 {
         Vector6::new(n.x, n.y, n.z, moment.x, moment.y, moment.z).transpose()
     });
     // change(d) is close to linear up to the distances that matter
-    Matrix6::from_rows(&rows).singular_values().min() / (2.0 * most_legs_at_a_joint(m)).sqrt()
+    singular_values(&Matrix6::from_rows(&rows)).map_or(0.0, |s| s.min())
+        / (2.0 * most_legs_at_a_joint(m)).sqrt()
 }
 
 fn middle(ends: &[(Vector3<f64>, Vector3<f64>); 6]) -> Vector3<f64> {
@@ -141,7 +143,7 @@ fn smallest_singular_value(j: &Matrix) -> Option<f64> {
         }
     }
     let shrink = one - defect.sqrt()?;
-    let bound = inverse.singular_values().max() * (1.0 + 1e-9);
+    let bound = singular_values(&inverse)?.max() * (1.0 + 1e-9);
     let exact = inverse.map(Interval::from);
     let square = Interval::from(bound).square();
     let gap: Matrix = std::array::from_fn(|r| {

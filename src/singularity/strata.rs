@@ -4,6 +4,7 @@ use nalgebra::{Matrix3, Point3, Vector3};
 
 use super::nearest::Change;
 use crate::manipulator::Manipulator;
+use crate::num::small::symmetric_eigen3;
 use crate::synthesis::Body;
 
 /// The nearest member of each simple family: coincident legs, four legs at one point, two points that hold all legs, a collinear body,
@@ -116,10 +117,8 @@ fn line_up(m: &Manipulator, change: &mut Change, body: Body, groups: &[Vec<usize
     let mean = groups.iter().map(|g| centre(g) * g.len() as f64).sum::<Vector3<f64>>() / weight;
     let term = |g: &Vec<usize>| (centre(g) - mean) * (centre(g) - mean).transpose() * g.len() as f64;
     let scatter: Matrix3<f64> = groups.iter().map(term).sum();
-    // what no sum with the largest entry can hold is left out: products of such parts are below the range of doubles, where iterations do not settle
-    let least = 1e-100 * scatter.amax();
-    let eigen = scatter.map(|x| if x.abs() < least { 0.0 } else { x }).symmetric_eigen();
-    let axis = eigen.eigenvectors.column(eigen.eigenvalues.imax()).into_owned();
+    let (values, vectors) = symmetric_eigen3(&scatter);
+    let axis = vectors.column(values.imax()).into_owned();
     for group in &groups {
         let place = mean + axis * axis.dot(&(centre(group) - mean));
         for j in group {

@@ -8,6 +8,8 @@ use equipod::singularity::{Architecture, nearest_singular};
 use equipod::synthesis::{LegMapTolerances, Relation, joint_free, leg_map};
 use nalgebra::Point3;
 
+use crate::cli_frame::{document, equipod};
+
 fn relation(from: &Manipulator, to: &Manipulator) -> Relation {
     leg_map(from, to, LegMapTolerances::default()).unwrap().relation
 }
@@ -155,4 +157,30 @@ fn the_design_that_took_minutes_is_decided_at_once() {
     let found = nearest_singular(design.manipulator(), 1).unwrap();
     assert!(found.is_none_or(|n| n.distance.is_finite()));
     assert!(start.elapsed() < Duration::from_secs(12), "{:?}", start.elapsed());
+}
+
+/// Iterations over matrices with entries next to nothing have to end: `check` went on for minutes, or without end.
+#[test]
+fn check_ends_whatever_the_magnitudes() {
+    let text = std::fs::read_to_string("tests/fixtures/adversarial/REP_checkslow.toml").unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let mut rng = Rng::new(35);
+    for k in 0..12 {
+        // the zeros of the design become numbers of these magnitudes as well
+        let tiny = ["5e-324", "2.5e-321", "1e-310", "3e-308", "1e-200", "1e-160"][k % 6];
+        let mut drawn = String::new();
+        for part in text.split_inclusive("0.0") {
+            let replaced = part.ends_with("0.0") && rng.unit() < 0.3;
+            drawn += &if replaced { part.replace("0.0", tiny) } else { part.to_owned() };
+        }
+        let path = folder.path().join(format!("{k}.toml"));
+        std::fs::write(&path, drawn.replace("5e-324", tiny)).unwrap();
+        let out = equipod(&["check", path.to_str().unwrap(), "--json"]);
+        let code = out.status.code();
+        assert!(matches!(code, Some(0 | 1 | 3)), "{k}: {out:?}");
+        assert_eq!(
+            document(&out)["architecturally_singular"].as_bool(),
+            [Some(false), Some(true), None][[0, 1, 3].iter().position(|c| Some(*c) == code).unwrap()]
+        );
+    }
 }

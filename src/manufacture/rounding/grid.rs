@@ -1,5 +1,6 @@
 //! A grid of holes in the plane of a body.
 
+use crate::num::small::symmetric_eigen3;
 use nalgebra::{Matrix3, Point3, Vector3};
 
 /// Joints count as lying in a plane within this times the size of the design.
@@ -40,8 +41,8 @@ fn normal(points: &[Point3<f64>], size: f64) -> Option<Vector3<f64>> {
     }
     let centre = points.iter().map(|p| p - first).sum::<Vector3<f64>>() / points.len() as f64;
     let moments: Matrix3<f64> = points.iter().map(|p| p - first - centre).map(|d| d * d.transpose()).sum();
-    let e = moments.symmetric_eigen();
-    let n: Vector3<f64> = e.eigenvectors.column(e.eigenvalues.imin()).normalize();
+    let (values, vectors) = symmetric_eigen3(&moments);
+    let n: Vector3<f64> = vectors.column(values.imin()).normalize();
     let leading = [n.z, n.y, n.x].into_iter().find(|x| x.abs() > FLAT);
     let n = if leading.is_some_and(|x| x < 0.0) { -n } else { n };
     points.iter().all(|p| (p - first - centre).dot(&n).abs() <= FLAT * size).then_some(n)

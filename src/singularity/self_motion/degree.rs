@@ -54,8 +54,11 @@ pub fn curve_degree(m: &Manipulator, s: &SquaredLegLengths, pose: &Pose, seed: u
 
 /// Whether the point is on one curve of poses: rank six.
 pub(super) fn is_regular(equations: &LegEquations, y: &Plane) -> bool {
-    let values = equations.jacobian(&(y / Z::from(y.norm()))).singular_values();
-    values[6] < ON_CURVE * values[0] && values[5] >= OFF_CROSSING * values[0]
+    let jacobian = equations.jacobian(&(y / Z::from(y.norm())));
+    jacobian.try_svd(false, false, f64::EPSILON, 1000).is_some_and(|d| {
+        let values = d.singular_values;
+        values[6] < ON_CURVE * values[0] && values[5] >= OFF_CROSSING * values[0]
+    })
 }
 
 pub(super) fn draw(rng: &mut Rng) -> Plane {

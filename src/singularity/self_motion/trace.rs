@@ -5,6 +5,7 @@ use nalgebra::{SMatrix, SVector};
 use super::equations::{EQUATIONS, LegEquations, Point};
 use super::{CurveEnd, MotionOptions};
 use crate::num::Rng;
+use crate::num::small::bounded_svd;
 
 type Square = SMatrix<f64, 8, 8>;
 
@@ -243,7 +244,9 @@ impl Decomposed {
 }
 
 fn decomposed(j: &Square) -> Decomposed {
-    let d = j.svd(true, true);
+    let Some(d) = bounded_svd(j) else {
+        return Decomposed { s: [0.0; 8], u: Square::identity(), v_t: Square::identity() };
+    };
     let s = d.singular_values;
     Decomposed {
         s: std::array::from_fn(|k| s[k]),

@@ -3,6 +3,7 @@
 //! Symmetric 3 x 3 matrices formed from the projector on the span turn with the body. Their common principal axes are the axes; where two
 //! principal values agree, an angle about the third axis is left open, where all three agree, the whole rotation.
 
+use crate::num::small::symmetric_eigen3;
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
 /// Projector on a span, entry `(4 i + j, 4 k + l)`.
@@ -45,16 +46,16 @@ impl Axes {
 
     /// `p(i, j, k, l)` with `i, k` for the body whose axes are wanted.
     fn of(p: impl Fn(usize, usize, usize, usize) -> f64, equal: Option<[bool; 2]>) -> Self {
-        let e = moments(&p).symmetric_eigen();
+        let (found, vectors) = symmetric_eigen3(&moments(&p));
         let mut order = [0, 1, 2];
-        order.sort_by(|x, y| e.eigenvalues[*y].total_cmp(&e.eigenvalues[*x]));
-        let values = order.map(|k| e.eigenvalues[k]);
-        let size = e.eigenvalues.amax().max(f64::MIN_POSITIVE);
+        order.sort_by(|x, y| found[*y].total_cmp(&found[*x]));
+        let values = order.map(|k| found[k]);
+        let size = found.amax().max(f64::MIN_POSITIVE);
         let equal = equal.unwrap_or_else(|| [0, 1].map(|k| values[k] - values[k + 1] <= EQUAL * size));
         if equal == [false, true] {
             order.rotate_left(1); // the lone axis becomes the third
         }
-        let mut frame = Matrix3::from_columns(&order.map(|k| e.eigenvectors.column(k).into_owned()));
+        let mut frame = Matrix3::from_columns(&order.map(|k| vectors.column(k).into_owned()));
         if frame.determinant() < 0.0 {
             let third = -frame.column(2);
             frame.set_column(2, &third);

@@ -6,6 +6,7 @@ use super::form::{Form, cross, line_basis, random_vector};
 use super::spectrum::{least_squares, norm, real_roots, unit, without};
 use crate::num::Rng;
 use crate::num::linalg::LinalgError;
+use crate::num::small::symmetric_eigen3;
 
 /// A part of a plane curve that does not split further over the reals.
 #[derive(Debug, Clone)]
@@ -144,9 +145,9 @@ fn best_line(
 fn eigen(form: &Form) -> Vec<(f64, Vec<f64>)> {
     let c = &form.coefficients;
     let (xy, xz, yz) = (c[1] / 2.0, c[2] / 2.0, c[4] / 2.0);
-    let e = Matrix3::new(c[0], xy, xz, xy, c[3], yz, xz, yz, c[5]).symmetric_eigen();
-    let vector = |k: usize| e.eigenvectors.column(k).iter().copied().collect::<Vec<f64>>();
-    let mut pairs: Vec<(f64, Vec<f64>)> = (0..3).map(|k| (e.eigenvalues[k], vector(k))).collect();
+    let (values, vectors) = symmetric_eigen3(&Matrix3::new(c[0], xy, xz, xy, c[3], yz, xz, yz, c[5]));
+    let vector = |k: usize| vectors.column(k).iter().copied().collect::<Vec<f64>>();
+    let mut pairs: Vec<(f64, Vec<f64>)> = (0..3).map(|k| (values[k], vector(k))).collect();
     pairs.sort_by(|x, y| y.0.abs().total_cmp(&x.0.abs()));
     pairs
 }

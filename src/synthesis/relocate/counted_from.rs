@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DVector, Point3, Vector3};
 
+use crate::num::small::bounded_svd;
 use crate::synthesis::components::{MovingPoint, Parametrisation};
 
 /// `t_i = map[i][0] + sum_j map[i][j + 1] s_j`: the family's own parameters by the new ones.
@@ -34,7 +35,7 @@ impl AffineEnd {
     /// Own parameters of a point or, with the start left out, of a direction, by least squares.
     fn solve(&self, target: Vector3<f64>) -> Option<Vec<f64>> {
         let d = DMatrix::from_fn(3, self.directions.len(), |i, k| self.directions[k].1[i]);
-        let x = d.svd(true, true).solve(&DVector::from_column_slice(target.as_slice()), 1e-12).ok()?;
+        let x = bounded_svd(&d)?.solve(&DVector::from_column_slice(target.as_slice()), 1e-12).ok()?;
         Some(x.iter().copied().collect())
     }
 }
