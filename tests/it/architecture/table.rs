@@ -28,6 +28,7 @@ const LINES: &[Line] = &[
             ("num_bigint", Some("exact.rs")),
             ("num_integer", Some("exact.rs")),
             ("num_rational", Some("exact.rs")),
+            ("nalgebra", Some("small.rs")),
             COMPLEX,
             ERRORS,
         ],
