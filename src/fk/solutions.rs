@@ -301,6 +301,14 @@ impl FkSolutions {
                  (probability of error below {error:.0e})",
                 self.certified_count()
             ),
+            (Completeness::Unproved { reason, .. }, Some(PoseSet::Finite { count, .. }))
+                if matches!(self.solution_set, SolutionSet::PositiveDimensional { .. }) =>
+            {
+                format!(
+                    "within rounding: taken to the last digit the design and lengths have {count} finite poses and no motion (modulo random primes, \
+                     probability of error below {error:.0e}); {reason}"
+                )
+            }
             (Completeness::Unproved { reason, .. }, Some(PoseSet::Finite { count, .. })) => format!(
                 "the design and lengths as written have {count} finite poses, multiplicity included (modulo random primes, probability of error below {error:.0e}), \
                  {} are certified, {} are missing or not certified; {reason}",
