@@ -15,8 +15,8 @@
 use std::error::Error;
 use std::fmt::Write;
 
-use equipod::design::{Format, parse};
-use equipod::fk::{FkOptions, ForwardKinematics, Homotopy, solver};
+use equipod::methods::design::{Format, parse};
+use equipod::methods::fk::{FkOptions, ForwardKinematics, Homotopy, solver};
 
 fn main() -> Result<(), Box<dyn Error>> {
     std::io::Write::write_all(&mut std::io::stdout(), report()?.as_bytes())?;

@@ -10,9 +10,9 @@
 use std::error::Error;
 use std::fmt::Write;
 
-use equipod::design::{Format, parse};
-use equipod::manipulator::Octahedral;
-use equipod::synthesis::{Family, Pattern};
+use equipod::methods::design::{Format, parse};
+use equipod::methods::manipulator::Octahedral;
+use equipod::methods::synthesis::{Family, Pattern};
 
 fn main() -> Result<(), Box<dyn Error>> {
     std::io::Write::write_all(&mut std::io::stdout(), report()?.as_bytes())?;

@@ -11,8 +11,8 @@
 use std::error::Error;
 use std::fmt::Write;
 
-use equipod::design::{Design, Format, parse};
-use equipod::synthesis::{LegMapTolerances, leg_map};
+use equipod::methods::design::{Design, Format, parse};
+use equipod::methods::synthesis::{LegMapTolerances, leg_map};
 
 const DESIGNS: [(&str, &str); 3] = [
     ("Griffis-Duffy type", include_str!("../designs/rbt-griffis-duffy.toml")),

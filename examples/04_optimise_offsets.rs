@@ -10,9 +10,9 @@ use std::error::Error;
 use std::fmt::Write;
 use std::ops::ControlFlow;
 
-use equipod::design::{Format, parse};
-use equipod::manipulator::Octahedral;
-use equipod::offsets::{OffsetOutcome, OffsetProblem, OptimizeOptions, optimize};
+use equipod::methods::design::{Format, parse};
+use equipod::methods::manipulator::Octahedral;
+use equipod::methods::offsets::{OffsetOutcome, OffsetProblem, OptimizeOptions, optimize};
 
 fn main() -> Result<(), Box<dyn Error>> {
     std::io::Write::write_all(&mut std::io::stdout(), report()?.as_bytes())?;

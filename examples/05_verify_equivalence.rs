@@ -11,10 +11,10 @@
 use std::error::Error;
 use std::fmt::Write;
 
-use equipod::design::{Design, Format, parse};
-use equipod::equivalence::{SamplePlan, Verdict, verify};
-use equipod::fk::FkOptions;
-use equipod::manipulator::Manipulator;
+use equipod::methods::design::{Design, Format, parse};
+use equipod::methods::equivalence::{SamplePlan, Verdict, verify};
+use equipod::methods::fk::FkOptions;
+use equipod::methods::manipulator::Manipulator;
 use nalgebra::Vector3;
 
 fn main() -> Result<(), Box<dyn Error>> {

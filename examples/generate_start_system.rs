@@ -1,6 +1,6 @@
 //! Makes `src/solve/homotopy/data/generic40.txt` and `planar20.txt`: run from the project's top folder.
 
-use equipod::solve::homotopy::{SHIPPED_SEED, StartKind, start_system_text};
+use equipod::methods::solve::homotopy::{SHIPPED_SEED, StartKind, start_system_text};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     for (name, kind) in [("generic40", StartKind::Generic), ("planar20", StartKind::Planar)] {

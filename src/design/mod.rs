@@ -55,7 +55,7 @@ impl Format {
 /// Reads a design from text.
 ///
 /// ```
-/// use equipod::design::{parse, Code, Format};
+/// use equipod::methods::design::{parse, Code, Format};
 /// let violations = parse("name = 'x'\nunit = 'mm'\n", Format::Toml).unwrap_err();
 /// assert_eq!(violations[0].code, Code::MissingKey);
 /// let slip = violations.iter().find(|v| v.code == Code::UnknownKey).unwrap();

@@ -29,7 +29,7 @@ impl PresetClass {
 /// A design of real hardware: joints, limits, loads and workspace with their sources in the comments.
 ///
 /// ```
-/// use equipod::design::{Format, PRESETS, parse};
+/// use equipod::methods::design::{Format, PRESETS, parse};
 /// let preset = PRESETS.iter().find(|p| p.name == "bench-l16").expect("a preset");
 /// let (design, warnings) = parse(preset.text, Format::Toml).expect("presets are designs");
 /// assert_eq!((design.hardware.max_leg_force, warnings.len()), (Some(46.0), 0)); // newtons

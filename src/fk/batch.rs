@@ -46,8 +46,8 @@ pub type BatchResult = Result<FkSolutions, FkError>;
 /// Solves one design for many leg lengths; result `i` belongs to `lengths[i]`. A problem that fails leaves the others as they are.
 ///
 /// ```
-/// use equipod::fk::{Automatic, FkOptions, Threads, solve_batch};
-/// use equipod::manipulator::{LegLengths, Manipulator};
+/// use equipod::methods::fk::{Automatic, FkOptions, Threads, solve_batch};
+/// use equipod::methods::manipulator::{LegLengths, Manipulator};
 /// use nalgebra::Point3;
 /// let triangle = |r: f64| vec![Point3::origin(), Point3::new(r / 2.0, r, 0.0), Point3::new(r, 0.0, 0.0)];
 /// let legs = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];

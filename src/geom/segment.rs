@@ -8,7 +8,7 @@ use nalgebra::{Point3, Vector3};
 /// that is inside, and on one of the four edges otherwise. All five are tried: for parallel segments, where the first does not exist, the edges decide.
 ///
 /// ```
-/// use equipod::geom::segment_distance;
+/// use equipod::methods::geom::segment_distance;
 /// use nalgebra::Point3;
 /// let at = |x: f64, y: f64, z: f64| Point3::new(x, y, z);
 /// let crossing = segment_distance([at(-1.0, 0.0, 0.0), at(1.0, 0.0, 0.0)], [at(0.0, -1.0, 0.5), at(0.0, 1.0, 0.5)]);

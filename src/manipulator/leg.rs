@@ -57,7 +57,7 @@ pub struct Leg {
 /// legs) is told from two joints that happen to lie at the same place.
 ///
 /// ```
-/// use equipod::manipulator::{Leg, Manipulator};
+/// use equipod::methods::manipulator::{Leg, Manipulator};
 /// use nalgebra::Point3;
 /// let legs = std::array::from_fn(|i| {
 ///     let (s, c) = (f64::from(i as u8)).sin_cos();
@@ -65,7 +65,7 @@ pub struct Leg {
 /// });
 /// let hexapod = Manipulator::from_legs(legs)?;
 /// assert_eq!(hexapod.base_joints().len(), 6);
-/// # Ok::<(), equipod::manipulator::InvalidManipulator>(())
+/// # Ok::<(), equipod::methods::manipulator::InvalidManipulator>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Manipulator {

@@ -26,14 +26,14 @@ const SWEEPS: usize = 120;
 /// [`RootsError::NoPolynomial`] for non-finite or all-zero coefficients.
 ///
 /// ```
-/// use equipod::poly::roots;
+/// use equipod::methods::poly::roots;
 /// use num_complex::Complex64;
 /// // (x - 1)(x - 2)(x + 3) = 6 - 7x + x^3
 /// let c = [6.0, -7.0, 0.0, 1.0].map(|r| Complex64::new(r, 0.0));
 /// let mut x: Vec<f64> = roots(&c)?.iter().map(|z| z.re).collect();
 /// x.sort_by(f64::total_cmp);
 /// assert!((x[0] + 3.0).abs() + (x[1] - 1.0).abs() + (x[2] - 2.0).abs() < 1e-12);
-/// # Ok::<(), equipod::poly::RootsError>(())
+/// # Ok::<(), equipod::methods::poly::RootsError>(())
 /// ```
 pub fn roots(coefficients: &[Complex64]) -> Result<Vec<Complex64>, RootsError> {
     if coefficients.iter().any(|c| !c.re.is_finite() || !c.im.is_finite()) {

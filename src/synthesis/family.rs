@@ -61,7 +61,7 @@ pub struct FamilyCounts {
 /// Every platform equivalent to an octahedral one, up to the values of the offsets.
 ///
 /// ```
-/// let family = equipod::synthesis::Family::octahedral();
+/// let family = equipod::methods::synthesis::Family::octahedral();
 /// assert_eq!(family.counts().patterns, 3usize.pow(6) - 1);
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq)]

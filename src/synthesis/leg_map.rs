@@ -221,8 +221,8 @@ impl LegMapOutcome {
 /// Between that and a regular map whose `sigma_min` exceeds the error to expect in `A` the answer is `Undecided`.
 ///
 /// ```
-/// use equipod::manipulator::{Leg, Manipulator};
-/// use equipod::synthesis::{LegMapTolerances, Relation, leg_map};
+/// use equipod::methods::manipulator::{Leg, Manipulator};
+/// use equipod::methods::synthesis::{LegMapTolerances, Relation, leg_map};
 /// use nalgebra::Point3;
 /// let joint = |r: f64, k: u32| {
 ///     let (s, c) = (std::f64::consts::TAU * f64::from(k) / 3.0).sin_cos();

@@ -8,7 +8,7 @@ use crate::manipulator::Manipulator;
 /// as they appear. Equal graphs are equal values.
 ///
 /// ```
-/// use equipod::topology::Topology;
+/// use equipod::methods::topology::Topology;
 /// // the octahedral zigzag, from wherever one starts
 /// let one = Topology::of_legs([0, 1, 1, 2, 2, 0], [0, 0, 1, 1, 2, 2]);
 /// assert_eq!(one, Topology::of_legs([7, 7, 4, 4, 5, 5], [0, 1, 1, 2, 2, 0]));

@@ -1,10 +1,10 @@
 //! `cargo bench --bench closure`: exact closure polynomials of random members of the topologies that have one.
 
 use divan::Bencher;
-use equipod::bench::{Class, LengthsFrom, Planar, Problem, problem};
-use equipod::distance::{ClosurePolynomial, closure_polynomial, generic_degrees, plans};
-use equipod::poly::{complex_roots, real_roots};
-use equipod::topology::{NamedTopology, Sequence, catalogue};
+use equipod::methods::bench::{Class, LengthsFrom, Planar, Problem, problem};
+use equipod::methods::distance::{ClosurePolynomial, closure_polynomial, generic_degrees, plans};
+use equipod::methods::poly::{complex_roots, real_roots};
+use equipod::methods::topology::{NamedTopology, Sequence, catalogue};
 
 fn main() {
     divan::main();

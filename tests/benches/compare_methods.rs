@@ -7,13 +7,15 @@
 use std::error::Error;
 use std::time::{Duration, Instant};
 
-use equipod::fk::{Completeness, FkOptions, FkSolutions, ForwardKinematics, Homotopy, Sylvester, Template};
-use equipod::geom::ComplexPose;
-use equipod::manipulator::{Leg, Manipulator, SquaredLegLengths};
-use equipod::num::Rng;
-use equipod::solve::generic_frame::GenericProblem;
-use equipod::solve::sylvester::Eliminant;
-use equipod::solve::template::Layout;
+use equipod::methods::fk::{
+    Completeness, FkOptions, FkSolutions, ForwardKinematics, Homotopy, Sylvester, Template,
+};
+use equipod::methods::geom::ComplexPose;
+use equipod::methods::manipulator::{Leg, Manipulator, SquaredLegLengths};
+use equipod::methods::num::Rng;
+use equipod::methods::solve::generic_frame::GenericProblem;
+use equipod::methods::solve::sylvester::Eliminant;
+use equipod::methods::solve::template::Layout;
 use nalgebra::{Point3, Vector3};
 
 #[derive(Clone, Copy)]

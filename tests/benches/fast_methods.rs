@@ -6,15 +6,15 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use equipod::bench::{Class, LengthsFrom, problem};
-use equipod::distance::{Evaluator, plans};
-use equipod::fk::{FkOptions, ForwardKinematics, NearSolver, Octic, OcticSolver, Trilateration};
-use equipod::geom::{ComplexPose, Pose, random_rotation};
-use equipod::manipulator::{Leg, Manipulator, Octahedral, default_home};
-use equipod::manufacture::{Controller, displaced, joints};
-use equipod::num::Rng;
-use equipod::solve::certify::Certifier;
-use equipod::synthesis::joint_free;
+use equipod::methods::bench::{Class, LengthsFrom, problem};
+use equipod::methods::distance::{Evaluator, plans};
+use equipod::methods::fk::{FkOptions, ForwardKinematics, NearSolver, Octic, OcticSolver, Trilateration};
+use equipod::methods::geom::{ComplexPose, Pose, random_rotation};
+use equipod::methods::manipulator::{Leg, Manipulator, Octahedral, default_home};
+use equipod::methods::manufacture::{Controller, displaced, joints};
+use equipod::methods::num::Rng;
+use equipod::methods::solve::certify::Certifier;
+use equipod::methods::synthesis::joint_free;
 use nalgebra::{Point3, Rotation3, Vector3};
 use num_complex::Complex64;
 

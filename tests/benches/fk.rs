@@ -1,11 +1,11 @@
 //! `cargo bench`: the rows the figures of `docs/benchmarks.md` are compared by, with two eigenvalue problems as units.
 
 use divan::Bencher;
-use equipod::bench::{Class, LengthsFrom, Problem, problem};
-use equipod::fk::{FkOptions, ForwardKinematics, Homotopy, Octic};
-use equipod::num::Rng;
-use equipod::num::linalg::{eigenvalues, generalized_eigenpairs};
-use equipod::solve::certify::Certifier;
+use equipod::methods::bench::{Class, LengthsFrom, Problem, problem};
+use equipod::methods::fk::{FkOptions, ForwardKinematics, Homotopy, Octic};
+use equipod::methods::num::Rng;
+use equipod::methods::num::linalg::{eigenvalues, generalized_eigenpairs};
+use equipod::methods::solve::certify::Certifier;
 
 fn main() {
     divan::main();

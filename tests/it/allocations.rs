@@ -1,10 +1,10 @@
 //! What is made for control loops allocates nothing; what is not, allocates for its results.
 
 use allocation_counter::measure;
-use equipod::bench::{Class, LengthsFrom, Problem, problem};
-use equipod::fk::{FkOptions, ForwardKinematics, Homotopy, NearSolver, OcticSolver};
-use equipod::geom::Pose;
-use equipod::manufacture::{Controller, displaced, joints};
+use equipod::methods::bench::{Class, LengthsFrom, Problem, problem};
+use equipod::methods::fk::{FkOptions, ForwardKinematics, Homotopy, NearSolver, OcticSolver};
+use equipod::methods::geom::Pose;
+use equipod::methods::manufacture::{Controller, displaced, joints};
 use nalgebra::{Rotation3, Vector3};
 
 /// Allocations of one 6-6 problem by the homotopy with certificates, at most.

@@ -1,9 +1,11 @@
 //! The harness: short runs of every class, and solvers that cheat, each of which it must catch.
 
-use equipod::bench::{Class, LengthsFrom, Plan, Planar, Report, run};
-use equipod::fk::{FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, Method, Reality, solver};
-use equipod::manipulator::{Manipulator, SquaredLegLengths};
-use equipod::topology::catalogue;
+use equipod::methods::bench::{Class, LengthsFrom, Plan, Planar, Report, run};
+use equipod::methods::fk::{
+    FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, Method, Reality, solver,
+};
+use equipod::methods::manipulator::{Manipulator, SquaredLegLengths};
+use equipod::methods::topology::catalogue;
 
 fn plan(class: Class, count: u64) -> Plan {
     let lengths = if class.allows_uniform_lengths() { LengthsFrom::Uniform } else { LengthsFrom::Pose };
@@ -110,7 +112,7 @@ fn problems_depend_on_their_index_only() {
     assert_eq!(later.plan.first, 3);
     let reals = later.real_counts.keys().next().unwrap();
     assert!(all.real_counts.contains_key(reals));
-    let draw = |k| equipod::bench::problem(Class::General, LengthsFrom::Uniform, 1, k).unwrap();
+    let draw = |k| equipod::methods::bench::problem(Class::General, LengthsFrom::Uniform, 1, k).unwrap();
     assert_eq!(draw(3), draw(3));
     assert_ne!(draw(3).squares, draw(2).squares);
 }

@@ -1,6 +1,6 @@
 //! `equipod check` as a process.
 
-use equipod::design::Design;
+use equipod::methods::design::Design;
 use serde_json::Value;
 
 use super::cli_frame::{document, equipod};

@@ -111,7 +111,8 @@ fn the_folder_holds_designs_records_pictures_and_report_and_the_same_bytes_again
 fn optimised_design_has_the_lengths_of_the_same_poses(folder: &Path) {
     let parse = |name: &str| {
         let (design, warnings) =
-            equipod::design::parse(&read(folder, name), equipod::design::Format::Toml).unwrap();
+            equipod::methods::design::parse(&read(folder, name), equipod::methods::design::Format::Toml)
+                .unwrap();
         assert!(warnings.is_empty() && design.description.as_ref().is_some_and(|d| d.contains("equipod")));
         design
     };
@@ -120,7 +121,7 @@ fn optimised_design_has_the_lengths_of_the_same_poses(folder: &Path) {
     let root = &fk["solutions"][0];
     assert_eq!(root["real"], true);
     let x = |v: &Value| v.as_f64().unwrap();
-    let pose = equipod::geom::Pose {
+    let pose = equipod::methods::geom::Pose {
         rotation: nalgebra::Rotation3::from_matrix_unchecked(nalgebra::Matrix3::from_fn(|i, j| {
             x(&root["R"]["re"][i][j])
         })),

@@ -49,12 +49,14 @@ fn inside_the_edges_the_optimum_is_written_as_a_design_that_reads_back() {
         assert!(d["constraint_margins"][margin].as_f64().unwrap() >= 0.0, "{margin}");
     }
     let text = std::fs::read_to_string(folder.path().join("out.toml")).unwrap();
-    let (design, warnings) = equipod::design::parse(&text, equipod::design::Format::Toml).unwrap();
+    let (design, warnings) =
+        equipod::methods::design::parse(&text, equipod::methods::design::Format::Toml).unwrap();
     assert!(warnings.is_empty());
     assert_eq!(design.manipulator().base_joints().len(), 6);
     // s' = A s + c at a pose, on the design as written
-    let (source, _) = equipod::design::parse(DESIGN, equipod::design::Format::Toml).unwrap();
-    let pose = equipod::manipulator::default_home(source.manipulator());
+    let (source, _) =
+        equipod::methods::design::parse(DESIGN, equipod::methods::design::Format::Toml).unwrap();
+    let pose = equipod::methods::manipulator::default_home(source.manipulator());
     let (s, new) = (pose.squared_lengths(source.manipulator()), pose.squared_lengths(design.manipulator()));
     let (s, new) = (s.unwrap().get(), new.unwrap().get());
     for i in 0..6 {
@@ -173,18 +175,21 @@ fn a_shipped_6_4_platform_is_improved_within_its_replaceable_legs() {
     let d = document(&out);
     assert_eq!((&d["status"], &d["verify"]["verdict"]), (&"optimal".into(), &"equivalent".into()));
     assert_eq!(d["variables"].as_array().unwrap().len(), 4);
-    let read = |text: &str| equipod::design::parse(text, equipod::design::Format::Toml).unwrap().0;
+    let read =
+        |text: &str| equipod::methods::design::parse(text, equipod::methods::design::Format::Toml).unwrap().0;
     let (old, new) = (read(&text), read(&std::fs::read_to_string(folder.path().join("out.toml")).unwrap()));
     // worst over the corners of the region, from the public Jacobian
-    let worst = |design: &equipod::design::Design| {
+    let worst = |design: &equipod::methods::design::Design| {
         let m = design.manipulator();
         let scale = old.manipulator().platform_rms_radius();
         let at = |c: usize| {
             let side = |k: usize| if c >> k & 1 == 0 { -1.0 } else { 1.0 };
             let turn = nalgebra::Vector3::from_fn(|k, _| side(k) * 1f64.to_radians());
             let position = nalgebra::Vector3::from_fn(|k, _| side(k + 3) * 0.05);
-            let pose = equipod::geom::Pose { rotation: nalgebra::Rotation3::new(turn), position };
-            equipod::manipulator::inverse_condition(&equipod::manipulator::jacobian(m, &pose, scale))
+            let pose = equipod::methods::geom::Pose { rotation: nalgebra::Rotation3::new(turn), position };
+            equipod::methods::manipulator::inverse_condition(&equipod::methods::manipulator::jacobian(
+                m, &pose, scale,
+            ))
         };
         (0..64).map(at).fold(f64::INFINITY, f64::min)
     };

@@ -58,7 +58,8 @@ fn both_roundings_are_reported_and_the_chosen_one_is_written_and_verified() {
         round(&[&path, "--grid", "0.25", "--grid-platform", "0.125", "--variant", "exact", "-o", out]);
     assert_eq!(code, Some(0), "{chosen}");
     let text = std::fs::read_to_string(out).unwrap();
-    let (written, _) = equipod::design::parse(&text, equipod::design::Format::Toml).unwrap();
+    let (written, _) =
+        equipod::methods::design::parse(&text, equipod::methods::design::Format::Toml).unwrap();
     let m = written.manipulator();
     for (joints, pitch) in [(m.base_joints(), 0.25), (m.platform_joints(), 0.125)] {
         assert!(joints.iter().flat_map(|p| p.iter()).all(|x| (x / pitch).fract().abs() <= 0.0));
@@ -88,7 +89,8 @@ fn free_grids_are_told_written_and_no_worse() {
     assert_eq!(fixed["nearest"]["grids"]["platform"]["angle_deg"], 0.0);
     // every joint of the file is on a hole of the grid that is told
     let text = std::fs::read_to_string(out).unwrap();
-    let (written, _) = equipod::design::parse(&text, equipod::design::Format::Toml).unwrap();
+    let (written, _) =
+        equipod::methods::design::parse(&text, equipod::methods::design::Format::Toml).unwrap();
     let (sin, cos) = grid["angle_deg"].as_f64().unwrap().to_radians().sin_cos();
     let [x, y] = [0, 1].map(|k| grid["origin"][k].as_f64().unwrap());
     for p in written.manipulator().platform_joints() {

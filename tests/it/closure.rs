@@ -1,11 +1,13 @@
 //! The two examples of Porta and Thomas by their exact closure polynomials, against the certified poses.
 
 use super::cli_frame::{document, equipod};
-use equipod::design::{Design, Format, parse};
-use equipod::distance::{closure_degrees, closure_polynomial, plans};
-use equipod::fk::{Closure, Completeness, FkOptions, FkSolutions, ForwardKinematics, Homotopy, closure};
-use equipod::manipulator::{Leg, Manipulator, SquaredLegLengths};
-use equipod::poly::{RealRoot, complex_roots};
+use equipod::methods::design::{Design, Format, parse};
+use equipod::methods::distance::{closure_degrees, closure_polynomial, plans};
+use equipod::methods::fk::{
+    Closure, Completeness, FkOptions, FkSolutions, ForwardKinematics, Homotopy, closure,
+};
+use equipod::methods::manipulator::{Leg, Manipulator, SquaredLegLengths};
+use equipod::methods::poly::{RealRoot, complex_roots};
 
 fn design(name: &str) -> Design {
     let path = format!("{}/designs/{name}.toml", env!("CARGO_MANIFEST_DIR"));
@@ -16,7 +18,7 @@ fn solve(m: &Manipulator, s: &SquaredLegLengths) -> (FkSolutions, Closure) {
     let found = Homotopy.solve(m, s, &FkOptions::default()).unwrap();
     assert!(
         matches!(found.completeness, Completeness::Proved { .. })
-            && found.roots.iter().all(equipod::fk::FkRoot::certified)
+            && found.roots.iter().all(equipod::methods::fk::FkRoot::certified)
     );
     let closure = closure(m, s, &found).unwrap();
     (found, closure)

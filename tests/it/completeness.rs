@@ -1,10 +1,12 @@
 //! Counts of finite poses by class, multiple roots, dependent legs: what the general method must say of each.
 
-use equipod::fk::{Completeness, FkOptions, FkSolutions, ForwardKinematics, Homotopy, Reality, SolutionSet};
-use equipod::geom::{Pose, random_rotation};
-use equipod::manipulator::{Leg, Manipulator, SquaredLegLengths};
-use equipod::num::Rng;
-use equipod::solve::pose_count::PoseCount;
+use equipod::methods::fk::{
+    Completeness, FkOptions, FkSolutions, ForwardKinematics, Homotopy, Reality, SolutionSet,
+};
+use equipod::methods::geom::{Pose, random_rotation};
+use equipod::methods::manipulator::{Leg, Manipulator, SquaredLegLengths};
+use equipod::methods::num::Rng;
+use equipod::methods::solve::pose_count::PoseCount;
 use nalgebra::{Point3, Vector3};
 
 fn points(rng: &mut Rng, height: f64) -> [Point3<f64>; 6] {
@@ -172,7 +174,9 @@ fn an_exact_double_root_is_named_unproved_and_not_listed() {
     );
     // sixteen poses with multiplicity, none of them proved
     assert!(!found.is_complete() && found.pose_count.as_ref().and_then(PoseCount::finite) == Some(16));
-    let near = |r: &equipod::fk::FkRoot| r.pose.position.iter().map(|z| z.norm()).fold(0.0, f64::max) < 1e-5;
+    let near = |r: &equipod::methods::fk::FkRoot| {
+        r.pose.position.iter().map(|z| z.norm()).fold(0.0, f64::max) < 1e-5
+    };
     assert!(found.unproved.iter().all(near), "the joint is in the origin in all of them");
 }
 
@@ -188,7 +192,7 @@ fn lengths_at_a_singular_pose_give_two_close_roots_that_are_told_apart_or_one_do
             rotation: from.rotation * nalgebra::Rotation3::from_scaled_axis(turn * t),
             position: from.position.lerp(&to.position, t),
         };
-        let det = |t: f64| equipod::manipulator::jacobian(&m, &at(t), 1.0).determinant();
+        let det = |t: f64| equipod::methods::manipulator::jacobian(&m, &at(t), 1.0).determinant();
         let grid = |k: u32| f64::from(k) / 100.0;
         let Some(k) = (0..100).find(|k| det(grid(*k)) * det(grid(k + 1)) < 0.0) else { continue };
         let (mut low, mut high) = (grid(k), grid(k + 1));
@@ -201,7 +205,7 @@ fn lengths_at_a_singular_pose_give_two_close_roots_that_are_told_apart_or_one_do
         let unproved: u32 = found.unproved.iter().map(|r| r.multiplicity).sum();
         let count = found.count_with_multiplicity() + unproved;
         assert_eq!(count, 40, "seed {seed}: {:?}", found.completeness);
-        assert!(found.roots.iter().all(equipod::fk::FkRoot::certified), "seed {seed}");
+        assert!(found.roots.iter().all(equipod::methods::fk::FkRoot::certified), "seed {seed}");
         let certified = found.roots.len();
         assert_eq!(found.is_complete(), certified == 40, "seed {seed}");
         assert_eq!(found.missing().unwrap_or(0), 40 - certified, "seed {seed}");

@@ -1,9 +1,9 @@
 //! Shipped designs, reading back what was written, and inputs that are no designs.
 
-use equipod::design::{Code, Design, Format, OptimizeTable, Workspace, parse};
-use equipod::geom::Pose;
-use equipod::manipulator::{LegLengths, Manipulator};
-use equipod::requirements::{Hardware, JointAxes, LegBody, Region, Swing};
+use equipod::methods::design::{Code, Design, Format, OptimizeTable, Workspace, parse};
+use equipod::methods::geom::Pose;
+use equipod::methods::manipulator::{LegLengths, Manipulator};
+use equipod::methods::requirements::{Hardware, JointAxes, LegBody, Region, Swing};
 use nalgebra::{Point3, Rotation3, Vector3};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;

@@ -2,11 +2,11 @@
 
 use std::fmt::Write as _;
 
-use equipod::fk::{
+use equipod::methods::fk::{
     Completeness, FkError, FkOptions, ForwardKinematics, Homotopy, PoseCounting, Sylvester, Template,
 };
 
-use equipod::manipulator::{Leg, LegLengths, Manipulator, SquaredLegLengths};
+use equipod::methods::manipulator::{Leg, LegLengths, Manipulator, SquaredLegLengths};
 use nalgebra::Point3;
 
 use crate::reference::{Reference, load};

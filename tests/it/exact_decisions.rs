@@ -2,10 +2,10 @@
 
 use std::time::{Duration, Instant};
 
-use equipod::manipulator::{Leg, Manipulator, Octahedral};
-use equipod::num::Rng;
-use equipod::singularity::{Architecture, nearest_singular};
-use equipod::synthesis::{LegMapTolerances, Relation, joint_free, leg_map};
+use equipod::methods::manipulator::{Leg, Manipulator, Octahedral};
+use equipod::methods::num::Rng;
+use equipod::methods::singularity::{Architecture, nearest_singular};
+use equipod::methods::synthesis::{LegMapTolerances, Relation, joint_free, leg_map};
 use nalgebra::Point3;
 
 use crate::cli_frame::{document, equipod};
@@ -150,7 +150,7 @@ fn coordinates_of_any_magnitude_are_decided_at_once() {
 #[test]
 fn the_design_that_took_minutes_is_decided_at_once() {
     let text = std::fs::read_to_string("tests/fixtures/adversarial/REP_checkslow.toml").unwrap();
-    let (design, _) = equipod::design::parse(&text, equipod::design::Format::Toml).unwrap();
+    let (design, _) = equipod::methods::design::parse(&text, equipod::methods::design::Format::Toml).unwrap();
     let start = Instant::now();
     let _ = Architecture::of(design.manipulator());
     assert!(start.elapsed() < Duration::from_secs(4), "{:?}", start.elapsed());

@@ -1,9 +1,9 @@
 //! Laws of forward kinematics, the same for every method: legs renamed, frames moved, units changed, mirror images.
 
-use equipod::fk::{FkOptions, FkSolutions, ForwardKinematics, Homotopy, Method, solver};
-use equipod::geom::{ComplexPose, Pose, random_rotation};
-use equipod::manipulator::{Leg, Manipulator, SquaredLegLengths};
-use equipod::num::Rng;
+use equipod::methods::fk::{FkOptions, FkSolutions, ForwardKinematics, Homotopy, Method, solver};
+use equipod::methods::geom::{ComplexPose, Pose, random_rotation};
+use equipod::methods::manipulator::{Leg, Manipulator, SquaredLegLengths};
+use equipod::methods::num::Rng;
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 use num_complex::Complex64;
 
@@ -229,7 +229,7 @@ fn methods_that_break_a_law_are_found() {
             m: &Manipulator,
             s: &SquaredLegLengths,
             o: &FkOptions,
-        ) -> Result<FkSolutions, equipod::fk::FkError> {
+        ) -> Result<FkSolutions, equipod::methods::fk::FkError> {
             let mut found = Homotopy.solve(m, s, o)?;
             if m.legs()[0].base.z > 0.0 {
                 found.roots.pop();

@@ -1,8 +1,10 @@
 //! Two and three virtual legs: the distance method and the homotopy find the same poses.
 
-use equipod::bench::{Class, LengthsFrom, Planar, problem};
-use equipod::fk::{Completeness, FkOptions, FkSolutions, ForwardKinematics, Homotopy, Method, Trilateration};
-use equipod::topology::catalogue;
+use equipod::methods::bench::{Class, LengthsFrom, Planar, problem};
+use equipod::methods::fk::{
+    Completeness, FkOptions, FkSolutions, ForwardKinematics, Homotopy, Method, Trilateration,
+};
+use equipod::methods::topology::catalogue;
 
 use super::cli_frame::{document, equipod};
 
@@ -28,8 +30,9 @@ fn the_distance_method_and_the_homotopy_certify_the_same_poses() {
             );
             assert_eq!(a.roots.len(), b.roots.len(), "{id} {k}");
             for x in &a.roots {
-                let near =
-                    |y: &equipod::fk::FkRoot| x.pose.distance(&y.pose, m.size()) < 1e-6 * (1.0 + x.condition);
+                let near = |y: &equipod::methods::fk::FkRoot| {
+                    x.pose.distance(&y.pose, m.size()) < 1e-6 * (1.0 + x.condition)
+                };
                 assert!(x.certified() && b.roots.iter().filter(|y| near(y)).count() >= 1, "{id} {k}");
             }
             assert_eq!(a, Trilateration::default().solve(m, s, &o).unwrap(), "same input, same output");
@@ -45,7 +48,7 @@ fn designs_with_fewer_poses_are_not_called_complete_without_proof() {
     let member = problem(class, LengthsFrom::Pose, 3, 0).unwrap();
     let (m, s, o) = (&member.manipulator, &member.squares, FkOptions::default());
     let (a, b) = (Trilateration::default().solve(m, s, &o).unwrap(), Homotopy.solve(m, s, &o).unwrap());
-    assert!(a.roots.len() <= b.roots.len() && a.roots.iter().all(equipod::fk::FkRoot::certified));
+    assert!(a.roots.len() <= b.roots.len() && a.roots.iter().all(equipod::methods::fk::FkRoot::certified));
     assert!(proved(&a) == (a.roots.len() == 40) && a.all_accounted() == proved(&a));
 }
 

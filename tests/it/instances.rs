@@ -1,6 +1,6 @@
 //! Architecturally singular designs with small integer coordinates, so that they are singular exactly.
 
-use equipod::manipulator::{InvalidManipulator, Leg, Manipulator};
+use equipod::methods::manipulator::{InvalidManipulator, Leg, Manipulator};
 use nalgebra::Point3;
 
 /// A design and what must be found.

@@ -1,16 +1,16 @@
 //! Leg maps: published numbers, laws, and negative controls.
 
-use equipod::geom::{Pose, random_rotation};
-use equipod::manipulator::{Leg, LegIndex, LegLengths, Manipulator};
-use equipod::num::Rng;
-use equipod::synthesis::{AffineLegMap, LegMapTolerances, LegSpan, Relation, leg_map};
+use equipod::methods::geom::{Pose, random_rotation};
+use equipod::methods::manipulator::{Leg, LegIndex, LegLengths, Manipulator};
+use equipod::methods::num::Rng;
+use equipod::methods::synthesis::{AffineLegMap, LegMapTolerances, LegSpan, Relation, leg_map};
 use nalgebra::{Matrix6, Point3, Rotation3, Vector3, Vector6};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
 const HEXAGON: [(usize, usize); 6] = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
 
-fn map(from: &Manipulator, to: &Manipulator) -> equipod::synthesis::LegMapOutcome {
+fn map(from: &Manipulator, to: &Manipulator) -> equipod::methods::synthesis::LegMapOutcome {
     leg_map(from, to, LegMapTolerances::default()).unwrap()
 }
 

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use equipod::geom::{Pose, random_rotation};
-use equipod::manipulator::{LegLengths, Manipulator, Octahedral};
-use equipod::num::Rng;
-use equipod::synthesis::{
+use equipod::methods::geom::{Pose, random_rotation};
+use equipod::methods::manipulator::{LegLengths, Manipulator, Octahedral};
+use equipod::methods::num::Rng;
+use equipod::methods::synthesis::{
     Family, HexagonPoint, InstantiateError, LegMapTolerances, Offset, Pattern, Relation, Symmetry, Topology,
     edge_lengths, enumerate, joint_free, leg_map, moves, offsets_from_distances, reachable, representative,
 };

@@ -3,9 +3,9 @@
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use equipod::design::{Format, parse};
-use equipod::num::Rng;
-use equipod::offsets::{OffsetProblem, OptimizeOptions, optimize};
+use equipod::methods::design::{Format, parse};
+use equipod::methods::num::Rng;
+use equipod::methods::offsets::{OffsetProblem, OptimizeOptions, optimize};
 use nalgebra::Vector3;
 
 #[path = "../benches/optimizer/cap.rs"]

@@ -1,10 +1,12 @@
 //! Completeness by the number of poses, and sets of positive dimension: families with members drawn from seeds.
 
-use equipod::fk::{Completeness, FkOptions, FkSolutions, ForwardKinematics, Homotopy, Reality, SolutionSet};
-use equipod::geom::{Pose, random_rotation};
-use equipod::manipulator::{Leg, LegLengths, Manipulator, SquaredLegLengths};
-use equipod::num::Rng;
-use equipod::solve::pose_count::{PoseCount, PoseSet};
+use equipod::methods::fk::{
+    Completeness, FkOptions, FkSolutions, ForwardKinematics, Homotopy, Reality, SolutionSet,
+};
+use equipod::methods::geom::{Pose, random_rotation};
+use equipod::methods::manipulator::{Leg, LegLengths, Manipulator, SquaredLegLengths};
+use equipod::methods::num::Rng;
+use equipod::methods::solve::pose_count::{PoseCount, PoseSet};
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use crate::cli_frame::{document, equipod};

@@ -1,9 +1,9 @@
 //! Designs of real hardware: they load, say where their figures come from, and are what the page says.
 
-use equipod::design::{Code, Format, PRESETS, PresetClass, parse};
-use equipod::geom::Pose;
-use equipod::requirements::{AssessOptions, TermKind, assess};
-use equipod::singularity::Architecture;
+use equipod::methods::design::{Code, Format, PRESETS, PresetClass, parse};
+use equipod::methods::geom::Pose;
+use equipod::methods::requirements::{AssessOptions, TermKind, assess};
+use equipod::methods::singularity::Architecture;
 
 use super::cli_frame::{document, equipod};
 

@@ -1,16 +1,16 @@
 //! The table of equivalent rearrangements: every design it names by the leg map, by poses, and against the documentation.
 
-use equipod::equivalence::{SamplePlan, Verdict, verify};
-use equipod::fk::FkOptions;
-use equipod::geom::{Pose, random_rotation};
-use equipod::manipulator::{Manipulator, default_home};
-use equipod::num::Rng;
-use equipod::synthesis::rearrangement::{
+use equipod::methods::equivalence::{SamplePlan, Verdict, verify};
+use equipod::methods::fk::FkOptions;
+use equipod::methods::geom::{Pose, random_rotation};
+use equipod::methods::manipulator::{Manipulator, default_home};
+use equipod::methods::num::Rng;
+use equipod::methods::synthesis::rearrangement::{
     Argument, Arrangement, NotOctahedral, PlanarBodies, Rearrangement, Reduction, rearrangement,
     rearrangements,
 };
-use equipod::synthesis::{Family, LegMapTolerances, Relation, leg_map};
-use equipod::topology::{Topology, catalogue};
+use equipod::methods::synthesis::{Family, LegMapTolerances, Relation, leg_map};
+use equipod::methods::topology::{Topology, catalogue};
 use nalgebra::{Vector3, Vector6};
 
 fn name(r: &Rearrangement) -> String {

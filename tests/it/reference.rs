@@ -3,9 +3,9 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use equipod::fk::{FkOptions, ForwardKinematics, Homotopy, Reality};
-use equipod::geom::ComplexPose;
-use equipod::manipulator::{LegLengths, Manipulator};
+use equipod::methods::fk::{FkOptions, ForwardKinematics, Homotopy, Reality};
+use equipod::methods::geom::ComplexPose;
+use equipod::methods::manipulator::{LegLengths, Manipulator};
 use nalgebra::{Matrix3, Point3, Vector3};
 use num_complex::Complex64;
 use serde_json::Value;

@@ -1,9 +1,9 @@
 //! Architectural singularity: constructed instances of every case, and the same ones spoilt by `1e-9`.
 
-use equipod::geom::{Pose, random_rotation};
-use equipod::manipulator::{Leg, Manipulator};
-use equipod::num::Rng;
-use equipod::singularity::{Architecture, Case, PlanarMap, RankBound, nearest_singular};
+use equipod::methods::geom::{Pose, random_rotation};
+use equipod::methods::manipulator::{Leg, Manipulator};
+use equipod::methods::num::Rng;
+use equipod::methods::singularity::{Architecture, Case, PlanarMap, RankBound, nearest_singular};
 use nalgebra::{Matrix6, Point3, Rotation3, Vector3};
 
 use super::instances::{Instance, apart, instances};
@@ -40,7 +40,7 @@ fn the_rank_is_that_of_doubles_at_random_poses() {
         for _ in 0..5 {
             let position = Vector3::from_fn(|_, _| rng.uniform(-5.0, 5.0));
             let pose = Pose { rotation: random_rotation(&mut rng), position };
-            let s = equipod::manipulator::plucker_matrix(&m, &pose, 1.0).singular_values();
+            let s = equipod::methods::manipulator::plucker_matrix(&m, &pose, 1.0).singular_values();
             let numeric = s.iter().filter(|x| **x > 1e-11 * s.max()).count();
             assert_eq!(numeric, rank, "{name}: {s}");
         }
@@ -147,7 +147,7 @@ fn lengths_of_poses_satisfy_every_dependency() {
             assert!(d.defect(&s).abs() < 1e-13, "{name}");
             let mut longer = s.get();
             longer[d.legs[0]] += 1e-3;
-            let longer = equipod::manipulator::SquaredLegLengths::try_new(longer).unwrap();
+            let longer = equipod::methods::manipulator::SquaredLegLengths::try_new(longer).unwrap();
             assert!(d.defect(&longer).abs() > 1e-9, "{name}");
         }
     }
@@ -223,7 +223,7 @@ fn crowded_designs_are_decided_as_doubles_see_them_and_get_a_name() {
         let numeric = (0..3).map(|_| {
             let position = Vector3::from_fn(|_, _| rng.uniform(-2.0, 2.0));
             let pose = Pose { rotation: random_rotation(&mut rng), position };
-            let s = equipod::manipulator::plucker_matrix(&m, &pose, 1.0).singular_values();
+            let s = equipod::methods::manipulator::plucker_matrix(&m, &pose, 1.0).singular_values();
             s.iter().filter(|x| **x > 1e-11 * s.max()).count()
         });
         assert_eq!(numeric.max(), Some(found.jacobian.rank), "{legs:?}");

@@ -1,9 +1,9 @@
 //! Number of finite poses of the joint-sharing topologies: what is found, and the bound that proves it complete.
 
-use equipod::bench::{Class, LengthsFrom, Planar, problem};
-use equipod::fk::{Completeness, FkOptions, FkSolutions, solver};
-use equipod::manipulator::Manipulator;
-use equipod::topology::{NamedTopology, catalogue, recognise};
+use equipod::methods::bench::{Class, LengthsFrom, Planar, problem};
+use equipod::methods::fk::{Completeness, FkOptions, FkSolutions, solver};
+use equipod::methods::manipulator::Manipulator;
+use equipod::methods::topology::{NamedTopology, catalogue, recognise};
 
 /// Finite poses of generic members, in the order of the catalogue (`docs/theory/topologies.md`).
 const COUNTS: [usize; 34] = [
@@ -27,7 +27,7 @@ fn every_topology_has_its_number_of_poses_certified_and_proved_complete() {
         for k in 0..3 {
             let found = member(t, Planar::Neither, k);
             assert_eq!(found.roots.len(), count, "{} {k}: {:?}", t.id(), found.completeness);
-            assert!(found.roots.iter().all(equipod::fk::FkRoot::certified), "{} {k}", t.id());
+            assert!(found.roots.iter().all(equipod::methods::fk::FkRoot::certified), "{} {k}", t.id());
             assert!(is_proved(&found), "{} {k}: {:?}", t.id(), found.completeness);
         }
     }

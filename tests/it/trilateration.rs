@@ -1,17 +1,17 @@
 //! `fk::Trilateration` on all topologies it takes, against proofs and against the homotopy.
 
-use equipod::bench::{Class, LengthsFrom, Planar, problem};
-use equipod::fk::{
+use equipod::methods::bench::{Class, LengthsFrom, Planar, problem};
+use equipod::methods::fk::{
     Completeness, FkOptions, FkSolutions, ForwardKinematics, Homotopy, Method, Trilateration, solver,
 };
-use equipod::manipulator::Manipulator;
-use equipod::topology::catalogue;
+use equipod::methods::manipulator::Manipulator;
+use equipod::methods::topology::catalogue;
 
 use super::cli_frame::{document, equipod};
 
 fn proved(found: &FkSolutions) -> bool {
     matches!(found.completeness, Completeness::Proved { .. })
-        && found.roots.iter().all(equipod::fk::FkRoot::certified)
+        && found.roots.iter().all(equipod::methods::fk::FkRoot::certified)
 }
 
 #[test]
@@ -44,7 +44,7 @@ fn the_homotopy_finds_the_same_poses() {
             let size = p.manipulator.size();
             for r in &one.roots {
                 let scale = r.pose.rotation.iter().map(|z| z.norm()).fold(1.0, f64::max);
-                let near = |q: &&equipod::fk::FkRoot| q.pose.distance(&r.pose, size) < 1e-6 * scale;
+                let near = |q: &&equipod::methods::fk::FkRoot| q.pose.distance(&r.pose, size) < 1e-6 * scale;
                 let partner: Vec<_> = other.roots.iter().filter(near).collect();
                 assert!(!partner.is_empty() && partner.iter().any(|q| q.reality == r.reality));
             }
@@ -84,7 +84,7 @@ fn other_lengths_have_other_poses() {
     let class = Class::Topology { topology: catalogue()[7], planar: Planar::Neither };
     let p = problem(class, LengthsFrom::Pose, 2, 0).unwrap();
     let squares =
-        equipod::manipulator::SquaredLegLengths::try_new(p.squares.get().map(|s| 1.01 * s)).unwrap();
+        equipod::methods::manipulator::SquaredLegLengths::try_new(p.squares.get().map(|s| 1.01 * s)).unwrap();
     let o = FkOptions::default();
     let (one, other) = (
         Trilateration::default().solve(&p.manipulator, &p.squares, &o),

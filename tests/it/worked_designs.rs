@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use equipod::design::{Design, Format, parse};
-use equipod::dimensional::{DimensionalProblem, Mode, Objective, Variables, evaluate};
-use equipod::equivalence::{SamplePlan, verify};
-use equipod::fk::FkOptions;
-use equipod::manipulator::Manipulator;
-use equipod::requirements::{AssessOptions, Margin, TermKind, assess};
+use equipod::methods::design::{Design, Format, parse};
+use equipod::methods::dimensional::{DimensionalProblem, Mode, Objective, Variables, evaluate};
+use equipod::methods::equivalence::{SamplePlan, verify};
+use equipod::methods::fk::FkOptions;
+use equipod::methods::manipulator::Manipulator;
+use equipod::methods::requirements::{AssessOptions, Margin, TermKind, assess};
 
 use super::cli_frame::{document, equipod};
 
@@ -137,7 +137,9 @@ fn the_griffis_duffy_hexapod_has_the_kinematics_of_the_machine_it_replaces() {
     for name in ["linuxcnc-octahedral", "linuxcnc-griffis-duffy"] {
         assert_eq!(verdict(&machine, &worked(name)), "equivalent", "{name}");
     }
-    let found = equipod::singularity::GriffisDuffy::recognise(worked("linuxcnc-griffis-duffy").manipulator());
+    let found = equipod::methods::singularity::GriffisDuffy::recognise(
+        worked("linuxcnc-griffis-duffy").manipulator(),
+    );
     let found = found.expect("joints on the sides of two triangles, alternately at corners");
     // alternately near one corner or the other: both platforms are equally good
     let near = |low: f64| found.t.iter().all(|t| (low..low + 0.5).contains(t));

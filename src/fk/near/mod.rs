@@ -43,8 +43,8 @@ impl Default for NearOptions {
 /// Follows one real pose of a manipulator. Made once a design; a solve allocates nothing.
 ///
 /// ```
-/// use equipod::fk::{NearOutcome, NearSolver};
-/// use equipod::manipulator::{Leg, Manipulator, default_home};
+/// use equipod::methods::fk::{NearOutcome, NearSolver};
+/// use equipod::methods::manipulator::{Leg, Manipulator, default_home};
 /// use nalgebra::Point3;
 /// let legs = std::array::from_fn(|i| {
 ///     let t = f64::from(i as u8);

@@ -24,8 +24,8 @@ const RESIDUAL: f64 = 1e-12;
 /// Forward kinematics of one octahedral design; made once, a solve allocates nothing.
 ///
 /// ```
-/// use equipod::fk::OcticSolver;
-/// use equipod::manipulator::{LegLengths, Manipulator};
+/// use equipod::methods::fk::OcticSolver;
+/// use equipod::methods::manipulator::{LegLengths, Manipulator};
 /// use nalgebra::Point3;
 /// let triangle = |r: f64| {
 ///     let h = 0.75f64.sqrt() * r;

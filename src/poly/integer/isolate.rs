@@ -120,7 +120,7 @@ impl RealRoot {
 /// Square-free factors by Yun's algorithm, then Descartes' rule of signs on halved intervals (Collins, Akritas 1976), in integers throughout: the number of roots is proved.
 ///
 /// ```
-/// use equipod::poly::{IntPoly, real_roots};
+/// use equipod::methods::poly::{IntPoly, real_roots};
 /// // (x^2 - 2) (x - 3)^2
 /// let p = IntPoly::from_i64(&[-18, 12, 7, -6, 1]);
 /// let roots = real_roots(&p);

@@ -25,7 +25,7 @@ pub use sturm::sturm_count;
 /// The zero polynomial has no coefficients and no degree. Products use Kronecker substitution, so that they cost one product of large integers.
 ///
 /// ```
-/// use equipod::poly::IntPoly;
+/// use equipod::methods::poly::IntPoly;
 /// let p = IntPoly::from_i64(&[-1, 1]); // x - 1
 /// let q = IntPoly::from_i64(&[2, 1]); // x + 2
 /// assert_eq!(&p * &q, IntPoly::from_i64(&[-2, 1, 1]));

@@ -8,9 +8,9 @@
 //! the submodules. Joints enter as the exact doubles they are, squared lengths with all their digits and a radius ([`SquareData`]).
 //!
 //! ```
-//! use equipod::geom::{ComplexPose, Pose};
-//! use equipod::manipulator::{Leg, Manipulator};
-//! use equipod::solve::certify::{ProvedReality, certify};
+//! use equipod::methods::geom::{ComplexPose, Pose};
+//! use equipod::methods::manipulator::{Leg, Manipulator};
+//! use equipod::methods::solve::certify::{ProvedReality, certify};
 //! use nalgebra::{Point3, Rotation3, Vector3};
 //! let legs = std::array::from_fn(|i| {
 //!     let t = f64::from(i as u8);

@@ -137,8 +137,8 @@ pub struct Components {
 /// [`ComponentsError`].
 ///
 /// ```
-/// use equipod::manipulator::{Leg, Manipulator};
-/// use equipod::synthesis::components::{ComponentOptions, components};
+/// use equipod::methods::manipulator::{Leg, Manipulator};
+/// use equipod::methods::synthesis::components::{ComponentOptions, components};
 /// use nalgebra::Point3;
 /// let joint = |r: f64, k: u32| {
 ///     let (s, c) = (std::f64::consts::TAU * f64::from(k) / 3.0).sin_cos();

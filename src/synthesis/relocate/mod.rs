@@ -141,10 +141,10 @@ pub enum RelocateError {
 /// depend at all is refused.
 ///
 /// ```
-/// use equipod::manipulator::{Leg, LegIndex, Manipulator};
-/// use equipod::synthesis::components::{ComponentOptions, components};
-/// use equipod::synthesis::relocate::{LegMove, relocate};
-/// use equipod::synthesis::LegMapTolerances;
+/// use equipod::methods::manipulator::{Leg, LegIndex, Manipulator};
+/// use equipod::methods::synthesis::components::{ComponentOptions, components};
+/// use equipod::methods::synthesis::relocate::{LegMove, relocate};
+/// use equipod::methods::synthesis::LegMapTolerances;
 /// use nalgebra::Point3;
 /// let joint = |r: f64, k: u32| {
 ///     let (s, c) = (std::f64::consts::TAU * f64::from(k) / 3.0).sin_cos();

@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 use std::sync::RwLock;
 
-use equipod::dimensional::{DimensionalProblem, DimensionalSolution, Objective, Triangles};
-use equipod::geom::Pose;
-use equipod::manipulator::{Leg, LegIndex, Manipulator, Octahedral, inverse_condition, jacobian};
-use equipod::num::Rng;
-use equipod::requirements::{
+use equipod::methods::dimensional::{DimensionalProblem, DimensionalSolution, Objective, Triangles};
+use equipod::methods::geom::Pose;
+use equipod::methods::manipulator::{Leg, LegIndex, Manipulator, Octahedral, inverse_condition, jacobian};
+use equipod::methods::num::Rng;
+use equipod::methods::requirements::{
     AssessOptions, JointAxes, PoseSpace, Quantity, Requirements, Term, TermKind, Terms, assess, leg_forces,
 };
 use nalgebra::{Point3, Unit, Vector3, Vector6};
@@ -239,7 +239,7 @@ impl DimensionalJudge {
                 [p.requirements.hardware.leg_stiffness.unwrap_or(0.0) * s * s, 0.0]
             }
             Objective::LegForce => {
-                let force = |load: &equipod::requirements::Load| {
+                let force = |load: &equipod::methods::requirements::Load| {
                     leg_forces(m, pose, &load.wrench(pose), m.size()).map_or(f64::INFINITY, |f| f.amax())
                 };
                 [-p.requirements.loads.iter().map(force).fold(0.0, f64::max), 0.0]

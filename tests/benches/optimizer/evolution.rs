@@ -4,7 +4,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use cmaes::{CMAESOptions, DVector, Mode};
-use equipod::num::Rng;
+use equipod::methods::num::Rng;
 
 use crate::judge::Judge;
 use crate::record::{Record, Rival};

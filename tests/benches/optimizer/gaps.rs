@@ -5,10 +5,10 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-use equipod::design::Design;
-use equipod::manipulator::{Manipulator, Octahedral};
-use equipod::num::Rng;
-use equipod::offsets::{OffsetProblem, OptimizeOptions, optimize};
+use equipod::methods::design::Design;
+use equipod::methods::manipulator::{Manipulator, Octahedral};
+use equipod::methods::num::Rng;
+use equipod::methods::offsets::{OffsetProblem, OptimizeOptions, optimize};
 use nalgebra::Point3;
 
 use crate::Failure;

@@ -1,9 +1,11 @@
 //! What a set of variables is worth, by code that the optimiser does not use.
 
-use equipod::design::Design;
-use equipod::geom::Pose;
-use equipod::manipulator::{Leg, Manipulator, Octahedral, default_home, inverse_condition, jacobian};
-use equipod::offsets::OffsetProblem;
+use equipod::methods::design::Design;
+use equipod::methods::geom::Pose;
+use equipod::methods::manipulator::{
+    Leg, Manipulator, Octahedral, default_home, inverse_condition, jacobian,
+};
+use equipod::methods::offsets::OffsetProblem;
 use nalgebra::{Point3, Vector3};
 
 use super::verdict::Judged;

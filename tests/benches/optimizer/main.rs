@@ -30,9 +30,9 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use equipod::design::{Design, Format, parse};
-use equipod::dimensional::{DimensionalProblem, SearchOptions};
-use equipod::offsets::{OffsetProblem, OptimizeOptions, Progress, optimize};
+use equipod::methods::design::{Design, Format, parse};
+use equipod::methods::dimensional::{DimensionalProblem, SearchOptions};
+use equipod::methods::offsets::{OffsetProblem, OptimizeOptions, Progress, optimize};
 
 use dimensional::{Built, DimensionalJudge};
 use evolution::evolution;
@@ -182,7 +182,7 @@ fn optimise_dimensional(
     let clock = Clock::start();
     let mut curve: Vec<Point> = Vec::new();
     let is_cost = p.objectives.first().is_some_and(|o| o.0.is_cost());
-    let report = equipod::dimensional::optimize(p, &[], &options, &mut |progress| {
+    let report = equipod::methods::dimensional::optimize(p, &[], &options, &mut |progress| {
         if let Some(best) = progress.best {
             let value = if is_cost { -best } else { best };
             if curve.last().is_none_or(|p| p.value < value) {

@@ -1,10 +1,12 @@
 //! What `equipod optimize` is asked by a design with requirements.
 
-use equipod::design::{Combination, Design, SearchTable};
-use equipod::dimensional::{DimensionalProblem, Mode, Objective, Triangles, VariableKind, Variables};
-use equipod::manipulator::{Octahedral, default_home};
-use equipod::offsets::{DEFAULT_MIN_ABS_DET, OffsetProblem};
-use equipod::requirements::Requirements;
+use equipod::methods::design::{Combination, Design, SearchTable};
+use equipod::methods::dimensional::{
+    DimensionalProblem, Mode, Objective, Triangles, VariableKind, Variables,
+};
+use equipod::methods::manipulator::{Octahedral, default_home};
+use equipod::methods::offsets::{DEFAULT_MIN_ABS_DET, OffsetProblem};
+use equipod::methods::requirements::Requirements;
 
 use crate::dimensional::components;
 

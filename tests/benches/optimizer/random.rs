@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use equipod::num::Rng;
+use equipod::methods::num::Rng;
 
 use super::judge::Judge;
 use super::record::{Record, Rival};

@@ -1,6 +1,6 @@
 //! The worst pose near another one.
 
-use equipod::num::Rng;
+use equipod::methods::num::Rng;
 use nalgebra::Vector6;
 
 /// The least value near a point of the cube, without derivatives.

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use equipod::plot::{ConvergenceCurve, ConvergenceFigure, convergence_chart};
+use equipod::methods::plot::{ConvergenceCurve, ConvergenceFigure, convergence_chart};
 
 use crate::record::{Point, Rival, Spent};
 use crate::verdict::{Judged, Verdict};

@@ -4,8 +4,8 @@ use std::hint::black_box;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use equipod::num::Rng;
-use equipod::offsets::{OptimizeOptions, optimize};
+use equipod::methods::num::Rng;
+use equipod::methods::offsets::{OptimizeOptions, optimize};
 
 use crate::judge::{Judge, OffsetJudge, offset_problem};
 use crate::record::Clock;

@@ -1,9 +1,9 @@
 //! Lengths are certified as they were given, not as rounded squares of them: where two poses nearly meet the difference decides whether they are real.
 
-use equipod::design::{Format, parse};
-use equipod::fk::{Completeness, FkOptions, FkSolutions, Reality, solver};
-use equipod::manipulator::{Leg, LegLengths, Manipulator, SquaredLegLengths};
-use equipod::num::Rng;
+use equipod::methods::design::{Format, parse};
+use equipod::methods::fk::{Completeness, FkOptions, FkSolutions, Reality, solver};
+use equipod::methods::manipulator::{Leg, LegLengths, Manipulator, SquaredLegLengths};
+use equipod::methods::num::Rng;
 use nalgebra::Point3;
 
 fn solve(m: &Manipulator, s: &SquaredLegLengths) -> FkSolutions {

@@ -1,13 +1,13 @@
 //! Multiple roots have no certificate, separate ones do, however close.
 
-use equipod::design::{Format, parse};
-use equipod::fk::{FkOptions, ForwardKinematics, Homotopy};
-use equipod::geom::{ComplexPose, Pose, random_rotation};
-use equipod::manipulator::{LegLengths, Manipulator};
-use equipod::num::Rng;
-use equipod::num::double_double::DoubleDouble;
-use equipod::num::interval::Interval;
-use equipod::solve::certify::{
+use equipod::methods::design::{Format, parse};
+use equipod::methods::fk::{FkOptions, ForwardKinematics, Homotopy};
+use equipod::methods::geom::{ComplexPose, Pose, random_rotation};
+use equipod::methods::manipulator::{LegLengths, Manipulator};
+use equipod::methods::num::Rng;
+use equipod::methods::num::double_double::DoubleDouble;
+use equipod::methods::num::interval::Interval;
+use equipod::methods::solve::certify::{
     CentrePrecision, Certificate, CertificateOutcome, Certifier, ProvedReality, RootRelation, relation,
 };
 use nalgebra::{Rotation3, Vector3};
@@ -180,7 +180,7 @@ fn far_poses_with_equal_leading_digits_are_told_apart_by_their_study_coordinates
     ];
     let s = LegLengths::try_new(lengths).unwrap().squared();
     let found = Homotopy.solve(design.manipulator(), &s, &FkOptions::default()).unwrap();
-    assert!(found.roots.iter().all(equipod::fk::FkRoot::certified), "{:?}", found.completeness);
+    assert!(found.roots.iter().all(equipod::methods::fk::FkRoot::certified), "{:?}", found.completeness);
     let far = found.roots.iter().filter(|r| r.pose.position.norm() > 1e12).count();
     // 16 poses of the platform that is meant; most or all of the 24 that the rounding of its joints makes
     assert!(found.roots.len() == 16 + far && far >= 4, "{} roots, {far} far out", found.roots.len());

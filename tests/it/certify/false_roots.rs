@@ -1,7 +1,7 @@
-use equipod::geom::{ComplexPose, Pose, random_rotation};
-use equipod::num::Rng;
-use equipod::num::interval::Interval;
-use equipod::solve::certify::{CertificateOutcome, Certifier, WhyUncertified};
+use equipod::methods::geom::{ComplexPose, Pose, random_rotation};
+use equipod::methods::num::Rng;
+use equipod::methods::num::interval::Interval;
+use equipod::methods::solve::certify::{CertificateOutcome, Certifier, WhyUncertified};
 use nalgebra::{Matrix3, Vector3};
 use num_complex::Complex64;
 

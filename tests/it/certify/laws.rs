@@ -1,8 +1,8 @@
-use equipod::geom::{ComplexPose, random_rotation};
-use equipod::manipulator::{Leg, Manipulator};
-use equipod::num::Rng;
-use equipod::num::interval::Interval;
-use equipod::solve::certify::{CertificateOutcome, Certifier, WhyUncertified};
+use equipod::methods::geom::{ComplexPose, random_rotation};
+use equipod::methods::manipulator::{Leg, Manipulator};
+use equipod::methods::num::Rng;
+use equipod::methods::num::interval::Interval;
+use equipod::methods::solve::certify::{CertificateOutcome, Certifier, WhyUncertified};
 use nalgebra::{Rotation3, Vector3};
 use num_complex::Complex64;
 
@@ -16,7 +16,12 @@ fn assert_all_certified(p: &Problem, certifier: &Certifier, map: impl Fn(&Comple
     for (i, (root, real)) in p.roots.iter().zip(&p.real).enumerate() {
         let outcome = certifier.certify(&map(&pose(root)));
         let c = outcome.certificate().unwrap_or_else(|| panic!("{} root {i}: {outcome:?}", p.name));
-        assert_eq!(c.reality() == equipod::solve::certify::ProvedReality::Real, *real, "{} {i}", p.name);
+        assert_eq!(
+            c.reality() == equipod::methods::solve::certify::ProvedReality::Real,
+            *real,
+            "{} {i}",
+            p.name
+        );
     }
 }
 
@@ -129,7 +134,7 @@ fn the_narrow_certificate_covers_every_choice_of_lengths() {
     for root in &p.roots {
         let outcome = whole.certify(&pose(root));
         let refined = end.refine(&pose(root)).unwrap().pose();
-        let holds = |c: &equipod::solve::certify::Certificate| {
+        let holds = |c: &equipod::methods::solve::certify::Certificate| {
             let mut entries =
                 (0..9).map(|k| refined.rotation[(k / 3, k % 3)]).chain(refined.position.iter().copied());
             c.enclosure().discs().all(|d| entries.next().is_some_and(|z| d.contains(z)))

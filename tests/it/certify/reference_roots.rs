@@ -1,4 +1,4 @@
-use equipod::solve::certify::{
+use equipod::methods::solve::certify::{
     CentrePrecision, Distinctness, ProvedReality, RootRelation, distinct, relation,
 };
 

@@ -1,10 +1,10 @@
 //! Reference problems: roots to 31 digits, each number as a sum of two doubles.
 
-use equipod::geom::ComplexPose;
-use equipod::manipulator::{Leg, LegLengths, Manipulator};
-use equipod::num::double_double::{ComplexDoubleDouble, DoubleDouble};
-use equipod::num::interval::Interval;
-use equipod::solve::certify::{Certificate, CertificateOutcome, Certifier};
+use equipod::methods::geom::ComplexPose;
+use equipod::methods::manipulator::{Leg, LegLengths, Manipulator};
+use equipod::methods::num::double_double::{ComplexDoubleDouble, DoubleDouble};
+use equipod::methods::num::interval::Interval;
+use equipod::methods::solve::certify::{Certificate, CertificateOutcome, Certifier};
 use nalgebra::{Matrix3, Point3, Vector3};
 
 /// `R` row by row, then `p`.

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use equipod::solve::certify::distinct;
+use equipod::methods::solve::certify::distinct;
 
 use super::support::{pose, problems};
 

@@ -1,9 +1,9 @@
 //! Designs that rounding, or a small displacement, takes off a special one: as they are written they are platforms of
 //! the general class, with poses far out or close together where the special design has none or has multiple ones.
 
-use equipod::geom::{Pose, random_rotation};
-use equipod::manipulator::{Leg, Manipulator, SquaredLegLengths};
-use equipod::num::Rng;
+use equipod::methods::geom::{Pose, random_rotation};
+use equipod::methods::manipulator::{Leg, Manipulator, SquaredLegLengths};
+use equipod::methods::num::Rng;
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
 /// The special design that a member is near.

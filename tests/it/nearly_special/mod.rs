@@ -2,9 +2,9 @@
 
 mod family;
 
-use equipod::design::{Design, Format, parse};
-use equipod::fk::{FkOptions, FkSolutions, ForwardKinematics, Homotopy, Reality, SolutionSet};
-use equipod::manipulator::{Manipulator, SquaredLegLengths};
+use equipod::methods::design::{Design, Format, parse};
+use equipod::methods::fk::{FkOptions, FkSolutions, ForwardKinematics, Homotopy, Reality, SolutionSet};
+use equipod::methods::manipulator::{Manipulator, SquaredLegLengths};
 use family::{KINDS, Kind, Member, member};
 
 /// Members of a family in the default run, fewer where one takes seconds.
@@ -94,7 +94,7 @@ fn the_real_pose_far_off_home_of_nearly_congruent_bodies_is_found() {
     let (m, s) = published("REP_lostreal");
     let found = solve(&m, &s);
     let there = nalgebra::Vector3::new(1.08053, -0.64236, -1.55558);
-    let near = |r: &equipod::fk::FkRoot| (r.pose.real_part().position - there).norm() < 1e-4;
+    let near = |r: &equipod::methods::fk::FkRoot| (r.pose.real_part().position - there).norm() < 1e-4;
     assert!(found.roots.iter().any(|r| r.reality == Reality::Real && near(r)));
     assert_eq!(found.solution_set, SolutionSet::Isolated);
 }
