@@ -6,8 +6,8 @@ use jsonc_parser::errors::ParseErrorKind;
 use jsonc_parser::{CollectOptions, ParseOptions, parse_to_ast};
 
 use super::Code;
-use super::report::Report;
 use super::tree::{Entry, MAX_DEPTH, Node, Value};
+use super::violation::Report;
 
 const STRICT: ParseOptions = ParseOptions {
     allow_comments: false,

@@ -7,16 +7,11 @@
 mod fixtures;
 mod json_text;
 mod model;
-mod naming;
 mod presets;
-mod report;
 #[cfg(test)]
 mod requirements_tests;
 mod save;
-mod save_optimize;
-mod save_requirements;
 mod schema;
-mod search;
 #[cfg(test)]
 mod tests;
 mod toml_text;
@@ -25,10 +20,10 @@ mod validate;
 mod violation;
 mod workspace;
 
+pub use self::model::{Combination, SearchTable};
 pub use model::{Design, NameCount, OptimizeTable};
 pub use presets::{PRESETS, Preset, PresetClass};
 pub use schema::SCHEMA;
-pub use search::{Combination, SearchTable};
 pub use violation::{Code, Violation, Warning};
 pub use workspace::{Trajectory, Workspace};
 
@@ -66,7 +61,7 @@ impl Format {
 /// All violations found, in the order of the text: a text with syntax errors is not examined further.
 pub fn parse(text: &str, format: Format) -> Result<(Design, Vec<Warning>), Vec<Violation>> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let mut report = report::Report::new(text);
+    let mut report = violation::Report::new(text);
     if text.trim().is_empty() {
         let help = "a design needs name, units, legs, [base] and [platform]; `designs/` has examples";
         report.refuse(Code::Empty, &(0..0), "the file is empty", help);

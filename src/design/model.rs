@@ -1,11 +1,12 @@
-//! The design: what a file holds once it is valid.
+//! The design: what a file holds once it is valid, with its requirements and what the optimiser may choose.
 
 use thiserror::Error;
 
-use super::{SearchTable, Workspace};
+use super::Workspace;
+use crate::dimensional::{Objective, VariableKind};
 use crate::geom::Pose;
 use crate::manipulator::{LegLengths, Manipulator};
-use crate::requirements::{Hardware, KeepOut, Load, PlatformSpeed, Requirements};
+use crate::requirements::{Hardware, KeepOut, Load, PlatformSpeed, Quantity, Requirements, Term, TermKind};
 
 /// A manipulator with names and everything else a design file may carry.
 #[derive(Debug, Clone, PartialEq)]
@@ -155,4 +156,64 @@ impl Design {
             min_joint_distance: self.optimize.min_joint_distance,
         }
     }
+}
+
+impl Design {
+    /// Leg, joint, keep-out and load names of a requirement.
+    pub(crate) fn names_of(&self, term: Term) -> Vec<String> {
+        let leg = |i: usize| format!("leg {}", i + 1);
+        let joints = |names: &[String]| vec![names[term.first].clone(), names[term.second].clone()];
+        match term.kind {
+            TermKind::BaseSpacing => joints(self.base_names()),
+            TermKind::PlatformSpacing => joints(self.platform_names()),
+            TermKind::LegClearance => vec![leg(term.first), leg(term.second)],
+            TermKind::KeepOut => vec![leg(term.first), self.keep_outs[term.second].name.clone()],
+            TermKind::LegForce => vec![leg(term.first), self.loads[term.second].name.clone()],
+            _ => vec![leg(term.first)],
+        }
+    }
+
+    /// The unit of a margin.
+    pub(crate) fn unit_of(&self, quantity: Quantity) -> String {
+        match quantity {
+            Quantity::Length => self.units.clone(),
+            Quantity::Angle => "deg".to_string(),
+            Quantity::Force => "force".to_string(),
+            Quantity::Speed => format!("{}/s", self.units),
+        }
+    }
+}
+
+/// How several objectives are combined.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Combination {
+    /// The weighted sum of the gains.
+    Weighted,
+    /// One after the other; later levels may take this share of the gains of the earlier ones.
+    Lexicographic {
+        /// Share, positive.
+        slack: f64,
+    },
+    /// Designs of which none is better in every objective.
+    Pareto {
+        /// Steps between the extremes of each objective but the first.
+        points: usize,
+    },
+}
+
+/// The keys of `[optimize]` that ask for more than the six offsets with the best worst-case conditioning.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct SearchTable {
+    /// What may be chosen; empty: the offsets.
+    pub variables: Vec<VariableKind>,
+    /// Objectives with weights, or in the order of their levels; empty: the worst-case conditioning.
+    pub objectives: Vec<(Objective, f64)>,
+    /// How objectives are combined, weighted when absent.
+    pub mode: Option<Combination>,
+    /// Least and greatest offset; 0 and 1 are the ends of the edge.
+    pub offset_bounds: Option<(f64, f64)>,
+    /// Least and greatest change of a triangle, as a share of its size.
+    pub stretch_bounds: Option<(f64, f64)>,
+    /// Least and greatest change of the height of home, in sizes of the design.
+    pub height_bounds: Option<(f64, f64)>,
 }

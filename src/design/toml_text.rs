@@ -4,8 +4,8 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::Code;
-use super::report::Report;
 use super::tree::{Entry, MAX_DEPTH, Node, Value};
+use super::violation::Report;
 
 /// Reads the text; syntax errors go to the report and make this `None`.
 ///

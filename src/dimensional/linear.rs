@@ -2,13 +2,11 @@
 
 use nalgebra::{Rotation3, Vector3};
 
-use super::kinematics::{HeldPose, Lines};
 use super::merit::{Cluster, Piece};
 use super::model::{Group, Model, Task};
 use super::problem::Objective;
-use super::pull::{Gradient, Pull, Rate};
-use super::shape::Ends;
-use super::terms::{Exact, Item, TermId};
+use super::shape::{Ends, Gradient, Pull, Rate};
+use super::terms::{Exact, HeldPose, Item, Lines, TermId};
 use crate::requirements::TermKind;
 
 /// Stands for the pose of what has none.

@@ -5,12 +5,9 @@
 
 use nalgebra::{Matrix6, SVD, Vector3, Vector4, Vector6};
 
-use super::clearance::Gap;
-use super::kinematics::{HeldPose, Lines};
 use super::problem::{DimensionalProblem, Objective};
-use super::pull::{Gradient, Pull};
-use super::shape::Ends;
-use super::terms::{Terms, joint_pull, leg_forces};
+use super::shape::{Ends, Gradient, Pull};
+use super::terms::{Gap, HeldPose, Lines, Terms, joint_pull, leg_forces};
 use crate::num::linalg::svd;
 use crate::num::small::singular_values;
 use crate::requirements::Load;

@@ -4,16 +4,7 @@
 //! this module with derivatives. Sequential convex programming from many starts, over poses that are added where the requirements
 //! are met least. Definitions, method and limits: `docs/theory/dimensional-synthesis.md`.
 
-mod answer;
-mod cap;
-mod certificate;
-mod clearance;
 mod conflict;
-mod ends;
-mod evaluate;
-mod families;
-mod judging;
-mod kinematics;
 mod linear;
 mod merit;
 mod model;
@@ -21,18 +12,15 @@ mod outcome;
 mod pareto;
 mod population;
 mod problem;
-mod pull;
 mod scp;
 mod search;
 mod shape;
-mod subproblem;
 mod terms;
 #[cfg(test)]
 mod tests;
-mod triangle;
 mod worst_pose;
 
-pub use evaluate::evaluate;
+pub use self::outcome::evaluate;
 pub use outcome::{Conflict, Demand, DimensionalOutcome, DimensionalReport, DimensionalSolution, Give};
 pub use pareto::{ParetoPoint, ParetoReport, pareto};
 pub use problem::{DimensionalProblem, InvalidProblem, Mode, Objective, Triangles, VariableKind, Variables};

@@ -4,11 +4,10 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::kinematics::HeldPose;
 use super::merit::Merit;
 use super::problem::{DimensionalProblem, InvalidProblem, Objective, Variables};
 use super::shape::Shape;
-use super::terms::Terms;
+use super::terms::{HeldPose, Terms};
 use crate::num::Rng;
 use crate::requirements::TermKind;
 

@@ -2,10 +2,8 @@
 
 use std::ops::ControlFlow;
 
-use super::answer::outcome;
-use super::evaluate::evaluate;
 use super::model::{Model, Task};
-use super::outcome::{DimensionalOutcome, DimensionalSolution};
+use super::outcome::{DimensionalOutcome, DimensionalSolution, evaluate, outcome};
 use super::problem::{DimensionalProblem, InvalidProblem};
 use super::search::{Progress, Refined, SearchOptions, Stage, Watch, better, refine, search_task};
 use crate::num::parallel::parallel;

@@ -4,10 +4,10 @@
 //! points that meet them by their gain, all before the others by their violation. A trial is given up at the first pose that shows
 //! that it is no better than its parent.
 
-use super::judging::{Judged, Judging};
-use super::kinematics::{HeldPose, Lines};
 use super::model::{Model, Task};
 use super::scp::PENALTY;
+use super::terms::{HeldPose, Lines};
+use super::worst_pose::{Judged, Judging};
 use crate::num::Rng;
 
 /// What a point is worth.
@@ -19,7 +19,7 @@ pub(crate) struct Worth {
 }
 
 impl Worth {
-    pub(crate) fn is_better(&self, other: &Self) -> bool {
+    fn is_better(&self, other: &Self) -> bool {
         if self.violation.total_cmp(&other.violation).is_eq() {
             self.gain > other.gain
         } else {

@@ -2,15 +2,13 @@
 
 use std::ops::ControlFlow;
 
-use super::answer::outcome;
 use super::conflict::{Clash, conflict, elastic};
-use super::ends::{End, Ends};
-use super::kinematics::HeldPose;
 use super::model::{Model, Task};
-use super::outcome::{DimensionalOutcome, DimensionalReport};
-use super::population::{Judge, evolve, offspring};
+use super::outcome::{DimensionalOutcome, DimensionalReport, outcome};
+use super::population::{Judge, Worth, evolve, offspring};
 use super::problem::{DimensionalProblem, InvalidProblem, Mode};
-use super::scp::{Effort, Run, climb};
+use super::scp::{Effort, PENALTY, Run, climb};
+use super::terms::HeldPose;
 use super::worst_pose::worse_poses;
 use crate::num::Rng;
 use crate::num::parallel::parallel;
@@ -76,7 +74,7 @@ const SHORT_ROUNDS: usize = 3;
 /// Rounds of adding poses.
 const ROUNDS: usize = 12;
 /// Members that differ by more in some variable are starts of their own.
-const DISTINCT: f64 = 0.1;
+const DISTINCT_STARTS: f64 = 0.1;
 
 /// A polished run with the poses it ended with.
 #[derive(Debug, Clone)]
@@ -134,7 +132,7 @@ pub(crate) fn population(
     let few: Vec<HeldPose> = judge.poses().iter().take(FEW_POSES).copied().collect();
     let mut out: Vec<Start> = Vec::new();
     for m in members {
-        if out.len() < o.starts.max(1) && !out.iter().any(|s| are_near(&s.x, &m.x, DISTINCT)) {
+        if out.len() < o.starts.max(1) && !out.iter().any(|s| are_near(&s.x, &m.x, DISTINCT_STARTS)) {
             out.push(Start { x: m.x, few: few.clone() });
         }
     }
@@ -364,4 +362,65 @@ pub fn optimize(
         }
     }
     Ok(report(outcome(&model, &task, &found.refined[0])))
+}
+
+/// Ends whose values differ by less, relatively, count as one.
+const DISTINCT_GAINS: f64 = 1e-4;
+
+/// An end of the first pass.
+pub(crate) struct End {
+    /// In all variables.
+    pub(crate) x: Vec<f64>,
+    pub(crate) run: Run,
+}
+
+impl End {
+    pub(crate) fn new(model: &Model<'_>, without_axes: bool, run: Run) -> Self {
+        let mut x = run.x.clone();
+        x.resize(model.shape.start.len(), 0.0);
+        if without_axes {
+            model.aim(&mut x);
+        }
+        Self { x, run }
+    }
+}
+
+/// The ends of the first pass, and what refining some of them taught.
+pub(crate) struct Ends {
+    pub(crate) points: Vec<End>,
+    pub(crate) tried: Vec<usize>,
+    /// Poses that refine starts with.
+    pub(crate) poses: Vec<HeldPose>,
+}
+
+impl Ends {
+    /// The most promising ends with different values that were not tried yet and promise more than `best`, by their worth over the poses known.
+    pub(crate) fn choose(&self, model: &Model<'_>, task: &Task, best: f64, count: usize) -> Vec<usize> {
+        let mut judge = Judge::over(model, task, self.poses.clone());
+        let worths: Vec<Option<Worth>> =
+            self.points.iter().map(|e| judge.worth(&e.run.x, usize::MAX, None)).collect();
+        let mut order: Vec<(usize, Worth)> =
+            worths.into_iter().enumerate().filter_map(|(k, w)| Some((k, w?))).collect();
+        // the merit of the climbs: an end that misses little at poses it did not know is worth more than a poor one that misses nothing
+        order.sort_by(|a, b| b.1.merit(PENALTY).total_cmp(&a.1.merit(PENALTY)).then(a.0.cmp(&b.0)));
+        let mut chosen: Vec<(usize, Worth)> = Vec::new();
+        for (k, worth) in order {
+            // symmetric platforms have the same optimum many times
+            let known = chosen.iter().any(|(_, w)| w.is_close(&worth, DISTINCT_GAINS));
+            let promises_more = worth.merit(PENALTY) > best;
+            if chosen.len() < count && promises_more && !known && !self.tried.contains(&k) {
+                chosen.push((k, worth));
+            }
+        }
+        chosen.into_iter().map(|c| c.0).collect()
+    }
+
+    /// Poses that mattered to refined ends matter to the others.
+    pub(crate) fn learn(&mut self, poses: Vec<HeldPose>) {
+        for at in poses {
+            if !self.poses.contains(&at) {
+                self.poses.push(at);
+            }
+        }
+    }
 }

@@ -1,14 +1,22 @@
 //! From variables to joints: offsets, triangles, height of the home pose, joint axes, parameters of families.
+//!
+//! The triangles of an octahedral design under a stretch of their planes.
+//!
+//! Legs of any design on the rational families of replaceable legs they belong to.
+//!
+//! The smallest cap of the sphere that holds given directions: the joint axis from which a leg leans least.
+//!
+//! Derivatives by reverse accumulation: what a function pulls at on the joints, and what the variables do to the joints.
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Matrix6, Point3, Rotation3, SMatrix, Vector3};
 
-use super::families::Families;
 use super::problem::{InvalidProblem, Triangles, Variables};
-use super::pull::Rate;
-use super::triangle::Triangle;
 use crate::geom::Pose;
-use crate::manipulator::{InvalidManipulator, Leg, Manipulator, Octahedral};
+use crate::manipulator::{InvalidManipulator, Leg, LegIndex, Manipulator, Octahedral};
+use crate::num::linalg::svd;
 use crate::num::small::symmetric_eigen3;
+use crate::synthesis::components::{Component, ComponentOptions, MovingPoint, Parametrisation, components};
+use crate::synthesis::{Normalisation, leg_vector};
 
 /// Where the joints come from.
 #[derive(Debug, Clone)]
@@ -361,5 +369,410 @@ impl Shape {
             (base[a], platform[b]) = (ends.base[i].into(), ends.platform[i].into());
         }
         Manipulator::try_new(base, platform, self.joints)
+    }
+}
+
+/// A triangle that is stretched in its plane about its centroid.
+#[derive(Debug, Clone)]
+pub(crate) struct Triangle {
+    centre: Vector3<f64>,
+    /// Coordinates of the vertices in `axes`.
+    plane: [[f64; 2]; 3],
+    axes: [Vector3<f64>; 2],
+    /// Index of the first variable.
+    pub(crate) first: Option<usize>,
+    kind: Triangles,
+}
+
+impl Triangle {
+    pub(crate) fn new(vertices: [Point3<f64>; 3], kind: Triangles, first: Option<usize>) -> Self {
+        let centre = vertices.iter().map(|v| v.coords).sum::<Vector3<f64>>() / 3.0;
+        let edge = (vertices[1] - vertices[0]).normalize();
+        let normal = (vertices[1] - vertices[0]).cross(&(vertices[2] - vertices[0])).normalize();
+        let axes = [edge, normal.cross(&edge)];
+        let plane = vertices.map(|v| axes.map(|e| e.dot(&(v.coords - centre))));
+        Self { centre, plane, axes, first, kind }
+    }
+
+    /// Entries `xx, xy, yy` of the stretch less the identity.
+    fn stretch(&self, x: &[f64]) -> [f64; 3] {
+        match (self.first, self.kind) {
+            (Some(k), Triangles::Sizes) => [x[k], 0.0, x[k]],
+            (Some(k), Triangles::Shapes) => [x[k], x[k + 1], x[k + 2]],
+            _ => [0.0; 3],
+        }
+    }
+
+    fn displaced(&self, v: usize, s: [f64; 3]) -> Vector3<f64> {
+        let [p, q] = self.plane[v];
+        self.axes[0] * (s[0] * p + s[1] * q) + self.axes[1] * (s[1] * p + s[2] * q)
+    }
+
+    pub(crate) fn vertices(&self, x: &[f64]) -> [Vector3<f64>; 3] {
+        let [xx, xy, yy] = self.stretch(x);
+        [0, 1, 2].map(|v| self.centre + self.displaced(v, [1.0 + xx, xy, 1.0 + yy]))
+    }
+
+    /// Variables with the directions in which they move the vertices.
+    pub(crate) fn rates(&self) -> Vec<(usize, [Vector3<f64>; 3])> {
+        let unit: &[[f64; 3]] = match self.kind {
+            Triangles::Fixed => &[],
+            Triangles::Sizes => &[[1.0, 0.0, 1.0]],
+            Triangles::Shapes => &[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        };
+        let Some(first) = self.first else { return Vec::new() };
+        unit.iter().enumerate().map(|(k, s)| (first + k, [0, 1, 2].map(|v| self.displaced(v, *s)))).collect()
+    }
+}
+
+/// A leg that slides on a family.
+#[derive(Debug, Clone)]
+pub(crate) struct Sliding {
+    pub(crate) leg: usize,
+    /// Number of parameters.
+    pub(crate) parameters: usize,
+    base: MovingPoint,
+    platform: MovingPoint,
+}
+
+/// The legs that slide, and what tells the determinant of the leg map.
+#[derive(Debug, Clone)]
+pub(crate) struct Families {
+    pub(crate) sliding: Vec<Sliding>,
+    pub(crate) legs: [Leg; 6],
+    normalisation: Normalisation,
+    /// Right inverse of the leg vectors of the design: `A = V' P`.
+    inverse: SMatrix<f64, 16, 6>,
+}
+
+/// Largest distance of an end from the centre of its body, in reaches of the body.
+const REACH: f64 = 2.5;
+
+/// A point and its derivatives by the parameters.
+fn moved(p: &MovingPoint, parameters: &[f64]) -> (Vector3<f64>, Vec<Vector3<f64>>) {
+    let h = p.homogeneous(parameters);
+    let point = Vector3::new(h[1], h[2], h[3]) / h[0];
+    let rate = |k: usize| {
+        let mut d = [0.0; 4];
+        for (e, c) in p.terms.iter().filter(|(e, _)| e[k] > 0) {
+            let power = |j: usize| {
+                let x = parameters.get(j).copied().unwrap_or(0.0);
+                if j == k { f64::from(e[j]) * x.powi(i32::from(e[j]) - 1) } else { x.powi(i32::from(e[j])) }
+            };
+            let factor = power(0) * power(1) * power(2);
+            d.iter_mut().zip(c).for_each(|(o, x)| *o += factor * x);
+        }
+        (Vector3::new(d[1], d[2], d[3]) - point * d[0]) / h[0]
+    };
+    (point, (0..parameters.len().min(3)).map(rate).collect())
+}
+
+/// A family for each leg, different ones as far as possible (augmenting paths); a leg without family has `None`.
+fn assigned(rational: &[&Component]) -> [Option<usize>; 6] {
+    fn place(leg: usize, own: &[Vec<usize>; 6], held: &mut [Option<usize>], seen: &mut [bool]) -> bool {
+        for &c in &own[leg] {
+            if !std::mem::replace(&mut seen[c], true)
+                && held[c].is_none_or(|other| place(other, own, held, seen))
+            {
+                held[c] = Some(leg);
+                return true;
+            }
+        }
+        false
+    }
+    let own: [Vec<usize>; 6] = std::array::from_fn(|leg| {
+        let holds = |c: &&usize| rational[**c].legs.iter().any(|l| l.get() == leg);
+        let all: Vec<usize> = (0..rational.len()).collect();
+        all.iter().filter(holds).copied().collect()
+    });
+    let mut held = vec![None; rational.len()];
+    for leg in 0..6 {
+        place(leg, &own, &mut held, &mut vec![false; rational.len()]);
+    }
+    std::array::from_fn(|leg| held.iter().position(|h| *h == Some(leg)).or_else(|| own[leg].first().copied()))
+}
+
+impl Families {
+    /// The rational families of a design with a leg on each as far as there are any.
+    pub(crate) fn of(m: &Manipulator) -> Result<Self, InvalidProblem> {
+        let found = components(m, ComponentOptions::default())?;
+        let rational: Vec<&Component> = found
+            .components
+            .iter()
+            .filter(|c| {
+                matches!(c.parametrisation, Parametrisation::Rational { .. }) && c.contained_in.is_empty()
+            })
+            .collect();
+        let choice = assigned(&rational);
+        let slide = |leg: LegIndex| match &rational[choice[leg.get()]?].parametrisation {
+            Parametrisation::Rational { parameters, base, platform } => Some(Sliding {
+                leg: leg.get(),
+                parameters: *parameters,
+                base: base.clone(),
+                platform: platform.clone(),
+            }),
+            _ => None,
+        };
+        let sliding: Vec<Sliding> = LegIndex::all().filter_map(slide).collect();
+        if sliding.is_empty() {
+            return Err(InvalidProblem::NoFamily);
+        }
+        let (legs, normalisation) = (m.legs(), Normalisation::of(m));
+        let rows: Vec<Vec<f64>> = legs.iter().map(|l| leg_vector(&normalisation.apply(l)).to_vec()).collect();
+        let d = svd(&rows).map_err(crate::synthesis::components::ComponentsError::from)?;
+        if !(d.s[5] > 1e-9 * d.s[0]) {
+            return Err(InvalidProblem::DependentLegs);
+        }
+        let inverse = SMatrix::from_fn(|p, i| (0..6).map(|k| d.v[p][k] * d.u[i][k] / d.s[k]).sum());
+        Ok(Self { sliding, legs, normalisation, inverse })
+    }
+
+    /// Ends of a sliding leg and their velocities.
+    pub(crate) fn ends(s: &Sliding, parameters: &[f64]) -> [(Vector3<f64>, Vec<Vector3<f64>>); 2] {
+        [moved(&s.base, parameters), moved(&s.platform, parameters)]
+    }
+
+    /// Whether an end of a sliding leg never moves.
+    pub(crate) fn is_fixed(s: &Sliding, platform: bool) -> bool {
+        let p = if platform { &s.platform } else { &s.base };
+        p.terms.iter().all(|(e, _)| *e == [0; 3])
+    }
+
+    /// `det A` of the leg map to these legs, and its derivatives by base ends and platform ends.
+    pub(crate) fn determinant(
+        &self,
+        base: &[Vector3<f64>; 6],
+        platform: &[Vector3<f64>; 6],
+    ) -> (f64, [Vector3<f64>; 6], [Vector3<f64>; 6]) {
+        let n = &self.normalisation;
+        let legs: [Leg; 6] = std::array::from_fn(|i| {
+            n.apply(&Leg { base: Point3::from(base[i]), platform: Point3::from(platform[i]) })
+        });
+        let vectors = legs.map(|l| leg_vector(&l));
+        let a = Matrix6::from_fn(|i, j| (0..16).map(|p| vectors[i][p] * self.inverse[(p, j)]).sum());
+        let det: f64 = a.determinant();
+        // cofactors by products, so that a singular A does no harm
+        let cofactor = Matrix6::from_fn(|i, j| {
+            let minor: f64 = a.remove_row(i).remove_column(j).determinant();
+            if (i + j) % 2 == 0 { minor } else { -minor }
+        });
+        let (mut on_base, mut on_platform) = ([Vector3::zeros(); 6], [Vector3::zeros(); 6]);
+        for i in 0..6 {
+            let g: [f64; 16] =
+                std::array::from_fn(|p| (0..6).map(|j| cofactor[(i, j)] * self.inverse[(p, j)]).sum());
+            let one = |v: &Point3<f64>| [1.0, v.x, v.y, v.z];
+            let (alpha, beta) = (one(&legs[i].base), one(&legs[i].platform));
+            for k in 0..3 {
+                on_base[i][k] = (0..4).map(|q| g[4 * (k + 1) + q] * beta[q]).sum::<f64>() / n.base_unit;
+                on_platform[i][k] =
+                    (0..4).map(|p| g[4 * p + k + 1] * alpha[p]).sum::<f64>() / n.platform_unit;
+            }
+        }
+        (det, on_base, on_platform)
+    }
+
+    /// How far an end may still go out, in reaches, and the gradient.
+    pub(crate) fn room(&self, platform: bool, end: &Vector3<f64>) -> (f64, Vector3<f64>) {
+        let n = &self.normalisation;
+        let (centre, unit) = if platform {
+            (n.platform_centre.coords, n.platform_unit)
+        } else {
+            (n.base_centre.coords, n.base_unit)
+        };
+        let out = (end - centre) / unit;
+        (REACH - out.norm(), -out.try_normalize(0.0).unwrap_or_else(Vector3::x) / unit)
+    }
+}
+
+/// Directions within this angle cosine count as inside; about 1e-7 degrees at 45 degrees.
+const SLIP: f64 = 1e-14;
+
+#[derive(Debug, Clone, Copy)]
+struct Cap {
+    axis: Vector3<f64>,
+    cos: f64,
+}
+
+impl Cap {
+    fn holds(&self, u: &Vector3<f64>) -> bool {
+        self.axis.dot(u) >= self.cos - SLIP
+    }
+
+    fn of_two(u: &Vector3<f64>, v: &Vector3<f64>) -> Option<Self> {
+        let axis = (u + v).try_normalize(1e-9)?;
+        Some(Self { axis, cos: axis.dot(u).min(axis.dot(v)) })
+    }
+
+    /// The cap whose rim passes through three directions.
+    fn of_three(u: &Vector3<f64>, v: &Vector3<f64>, w: &Vector3<f64>) -> Option<Self> {
+        let n = (v - u).cross(&(w - u)).try_normalize(1e-300)?;
+        let axis = if n.dot(u) < 0.0 { -n } else { n };
+        Some(Self { axis, cos: axis.dot(u).min(axis.dot(v)).min(axis.dot(w)) })
+    }
+}
+
+/// Axis (unit vector) that minimises the greatest angle to the directions, and the cosine of that angle.
+///
+/// `max_c min_k u_k . c` over `|c| <= 1`; at the optimum two or three directions are on the rim, and the incremental algorithm of
+/// Welzl (1991) finds them. `None` for no direction, or when no open half space holds all.
+pub(crate) fn smallest_cap(directions: &[Vector3<f64>]) -> Option<(Vector3<f64>, f64)> {
+    let first = directions.first()?;
+    let mut cap = Cap { axis: *first, cos: 1.0 };
+    for i in 1..directions.len() {
+        if cap.holds(&directions[i]) {
+            continue;
+        }
+        cap = Cap { axis: directions[i], cos: 1.0 };
+        for j in 0..i {
+            if cap.holds(&directions[j]) {
+                continue;
+            }
+            cap = Cap::of_two(&directions[i], &directions[j])?;
+            for k in 0..j {
+                if !cap.holds(&directions[k]) {
+                    cap = Cap::of_three(&directions[i], &directions[j], &directions[k])?;
+                }
+            }
+        }
+    }
+    (cap.cos > 0.0 && directions.iter().all(|u| cap.axis.dot(u) >= cap.cos - 1e-9))
+        .then_some((cap.axis, cap.cos))
+}
+
+/// Directions in which the joints move when one variable grows at unit rate.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Rate {
+    /// Leg, velocity of its base end (base frame) and of its platform end (platform frame).
+    pub(crate) ends: Vec<(usize, Vector3<f64>, Vector3<f64>)>,
+    /// Velocity of home, and of every pose that is given relative to it.
+    pub(crate) lift: Vector3<f64>,
+    /// Joint axis: body (0 base, 1 platform), leg, component.
+    pub(crate) axis: Option<(usize, usize, usize)>,
+}
+
+/// What a formula leaves of its gradient: a [`Pull`], or nothing where the value alone is wanted.
+pub(crate) trait Gradient: Copy {
+    /// Whether anything is kept; formulas skip their derivatives otherwise.
+    const KEPT: bool;
+    fn none() -> Self;
+    /// Adds to the gradient with respect to a base end.
+    fn at_base(&mut self, leg: usize, g: &Vector3<f64>);
+    /// Adds to the gradient with respect to an arm `R b`.
+    fn at_arm(&mut self, leg: usize, g: &Vector3<f64>);
+    /// Adds to the gradient with respect to the position.
+    fn at_position(&mut self, g: &Vector3<f64>);
+    /// Sets the gradient with respect to the line of a leg at home.
+    fn set_home(&mut self, leg: usize, g: Vector3<f64>);
+    /// Sets the gradient with respect to the axis of a joint.
+    fn set_axis(&mut self, body: usize, leg: usize, g: Vector3<f64>);
+    fn scaled(self, factor: f64) -> Self;
+
+    /// Adds a gradient with respect to the line `R b + p - a` of a leg.
+    fn line(&mut self, leg: usize, g: Vector3<f64>) {
+        self.at_base(leg, &-g);
+        self.at_arm(leg, &g);
+        self.at_position(&g);
+    }
+}
+
+impl Gradient for () {
+    const KEPT: bool = false;
+    fn none() -> Self {}
+    fn at_base(&mut self, _: usize, _: &Vector3<f64>) {}
+    fn at_arm(&mut self, _: usize, _: &Vector3<f64>) {}
+    fn at_position(&mut self, _: &Vector3<f64>) {}
+    fn set_home(&mut self, _: usize, _: Vector3<f64>) {}
+    fn set_axis(&mut self, _: usize, _: usize, _: Vector3<f64>) {}
+    fn scaled(self, _: f64) -> Self {}
+}
+
+/// Gradient of a function of the legs at one pose with respect to base ends, arms `R b` and position.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Pull {
+    pub(crate) base: [Vector3<f64>; 6],
+    pub(crate) arm: [Vector3<f64>; 6],
+    pub(crate) position: Vector3<f64>,
+    /// Leg and gradient with respect to its line at home.
+    pub(crate) home: Option<(usize, Vector3<f64>)>,
+    /// Body, leg and gradient with respect to the axis of the joint.
+    pub(crate) axis: Option<(usize, usize, Vector3<f64>)>,
+}
+
+impl Gradient for Pull {
+    const KEPT: bool = true;
+
+    fn none() -> Self {
+        let zero = Vector3::zeros();
+        Self { base: [zero; 6], arm: [zero; 6], position: zero, home: None, axis: None }
+    }
+
+    fn at_base(&mut self, leg: usize, g: &Vector3<f64>) {
+        self.base[leg] += g;
+    }
+
+    fn at_arm(&mut self, leg: usize, g: &Vector3<f64>) {
+        self.arm[leg] += g;
+    }
+
+    fn at_position(&mut self, g: &Vector3<f64>) {
+        self.position += g;
+    }
+
+    fn set_home(&mut self, leg: usize, g: Vector3<f64>) {
+        self.home = Some((leg, g));
+    }
+
+    fn set_axis(&mut self, body: usize, leg: usize, g: Vector3<f64>) {
+        self.axis = Some((body, leg, g));
+    }
+
+    fn scaled(mut self, factor: f64) -> Self {
+        self.base.iter_mut().chain(&mut self.arm).for_each(|g| *g *= factor);
+        self.position *= factor;
+        self.home = self.home.map(|(i, g)| (i, g * factor));
+        self.axis = self.axis.map(|(b, i, g)| (b, i, g * factor));
+        self
+    }
+}
+
+impl Pull {
+    /// Adds `factor` times another.
+    pub(crate) fn add(&mut self, other: &Self, factor: f64) {
+        for i in 0..6 {
+            self.base[i] += other.base[i] * factor;
+            self.arm[i] += other.arm[i] * factor;
+        }
+        self.position += other.position * factor;
+    }
+
+    /// Gradient with respect to the variables at a pose; `follows`: the pose moves with home.
+    pub(crate) fn gradient(
+        &self,
+        rates: &[Rate],
+        rotation: &Rotation3<f64>,
+        follows: bool,
+        home: &Rotation3<f64>,
+    ) -> Vec<f64> {
+        let arm = self.arm.map(|g| rotation.inverse() * g);
+        let back = self.home.map(|(i, g)| (i, g, home.inverse() * g));
+        let one = |rate: &Rate| {
+            let mut sum = if follows { self.position.dot(&rate.lift) } else { 0.0 };
+            for (i, a, b) in &rate.ends {
+                sum += self.base[*i].dot(a) + arm[*i].dot(b);
+            }
+            if let Some((leg, g, turned)) = &back {
+                sum += g.dot(&rate.lift);
+                for (_, a, b) in rate.ends.iter().filter(|e| e.0 == *leg) {
+                    sum += turned.dot(b) - g.dot(a);
+                }
+            }
+            if let (Some((body, leg, g)), Some((b, l, k))) = (self.axis, rate.axis)
+                && (body, leg) == (b, l)
+            {
+                sum += g[k];
+            }
+            sum
+        };
+        rates.iter().map(one).collect()
     }
 }

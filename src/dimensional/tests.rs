@@ -6,10 +6,10 @@ use std::ops::ControlFlow;
 
 use nalgebra::{Point3, Rotation3, Unit, Vector3};
 
-use super::cap::smallest_cap;
-use super::kinematics::HeldPose;
 use super::linear::LinearBound;
 use super::model::{Group, Model, Task};
+use super::shape::smallest_cap;
+use super::terms::HeldPose;
 use super::*;
 use crate::geom::Pose;
 use crate::manipulator::Manipulator;

@@ -144,7 +144,7 @@ impl Spectrum {
     /// Second-order perturbation of the symmetric matrix `[0 J; J^T 0]`:
     /// `u^T J'' v + sum_o ((alpha+beta)^2 / (sigma_k - sigma_o) + (alpha-beta)^2 / (sigma_k + sigma_o)) / 2`,
     /// `alpha = u_o^T J' v_k`, `beta = u_k^T J' v_o`.
-    pub(crate) fn smooth_hessian(&self, k: usize, cluster: &[usize]) -> Matrix6<f64> {
+    fn smooth_hessian(&self, k: usize, cluster: &[usize]) -> Matrix6<f64> {
         let mut h = Matrix6::from_fn(|j, l| if j == l { self.u[(j, k)] * self.bend[(j, k)] } else { 0.0 });
         for o in (0..6).filter(|&o| o != k) {
             let alpha = Vector6::from_fn(|j, _| self.u[(j, o)] * self.rate[(j, k)]);

@@ -2,11 +2,55 @@
 //!
 //! All data are the doubles of the problem, in design units; every comparison is between ends of intervals that are
 //! rounded outwards (Moore 1966). Equality never excludes.
+//!
+//! The distance of two sliding joints of one body is a convex quadratic of two offsets, bounded from below. A cell is proved
+//! empty by a linear relaxation with a Farkas certificate that is judged in intervals.
 
-use super::enclosure::{Vector, minus, norm_squared, plus, point, times, vector};
+use nalgebra::Vector3;
+
+use super::branch::Cell;
 use super::hexagon::{Side, sides};
 use super::problem::OffsetProblem;
+use super::verdict::Conflict;
+use crate::num::conic::{Cone, ConicAnswer, ConicProgram};
+use crate::num::farkas::{EnclosedRow, refuted};
 use crate::num::interval::Interval;
+
+/// An enclosure of one double. Infinite data never get here: the problem was validated.
+pub(super) fn point(x: f64) -> Interval {
+    Interval::from(x)
+}
+
+pub(super) type Vector = [Interval; 3];
+
+pub(super) fn vector(v: &Vector3<f64>) -> Vector {
+    [0, 1, 2].map(|k| point(v[k]))
+}
+
+pub(super) fn plus(a: &Vector, b: &Vector) -> Vector {
+    [0, 1, 2].map(|k| a[k] + b[k])
+}
+
+pub(super) fn minus(a: &Vector, b: &Vector) -> Vector {
+    [0, 1, 2].map(|k| a[k] - b[k])
+}
+
+pub(super) fn times(a: &Vector, x: Interval) -> Vector {
+    a.map(|c| c * x)
+}
+
+pub(super) fn dot(a: &Vector, b: &Vector) -> Interval {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// The sum of the squares, each of them not below zero.
+pub(super) fn norm_squared(a: &Vector) -> Interval {
+    a[0].square() + a[1].square() + a[2].square()
+}
+
+pub(super) fn cross(a: &Vector, b: &Vector) -> Vector {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
 
 /// Six ranges of offsets.
 pub(crate) type Bounds = [(f64, f64); 6];
@@ -163,7 +207,7 @@ impl Limits {
 
     /// Coefficients `[constant, by x, by y]` of affine functions that are nowhere on the box below `q(x, y) - required`, `q` the squared distance of the
     /// sliding joints of sides `first` and `first + 2`: chords for the squares, `McCormick`'s two envelopes for the product.
-    pub(crate) fn overestimates(&self, first: usize, bounds: &Bounds) -> [[Interval; 3]; 2] {
+    fn overestimates(&self, first: usize, bounds: &Bounds) -> [[Interval; 3]; 2] {
         let (a, b) = (&self.sides[first], &self.sides[(first + 2) % 6]);
         let (x, y) = (bounds[first], bounds[(first + 2) % 6]);
         // q = |w + x e - y f|^2
@@ -205,4 +249,165 @@ fn part(x: Interval, low: f64, high: f64) -> Interval {
 /// An upper bound of the square root.
 fn root_above(x: f64) -> f64 {
     if x > 0.0 { x.sqrt().next_up() } else { 0.0 }
+}
+
+/// Two edge joints that slide on edges with a common vertex: sides `first` and `second = first + 2`.
+///
+/// `q(x, y) = |w + x e - y f|^2` with `x = t_first`, `y = t_second`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Pair {
+    pub(crate) first: usize,
+    pub(crate) second: usize,
+    w: Vector3<f64>,
+    e: Vector3<f64>,
+    f: Vector3<f64>,
+}
+
+pub(crate) type Box2 = [(f64, f64); 2];
+
+impl Pair {
+    /// The six pairs, three on each body.
+    pub(crate) fn all(sides: &[Side; 6]) -> [Self; 6] {
+        std::array::from_fn(|first| {
+            let second = (first + 2) % 6;
+            let (a, b) = (&sides[first], &sides[second]);
+            Self { first, second, w: a.start - b.start, e: a.edge(), f: b.edge() }
+        })
+    }
+
+    fn gap(&self, x: f64, y: f64) -> Vector3<f64> {
+        self.w + self.e * x - self.f * y
+    }
+
+    pub(crate) fn squared(&self, t: &[f64; 6]) -> f64 {
+        self.gap(t[self.first], t[self.second]).norm_squared()
+    }
+
+    /// Derivatives by `t_first` and `t_second`.
+    pub(crate) fn gradient(&self, t: &[f64; 6]) -> [f64; 2] {
+        let gap = self.gap(t[self.first], t[self.second]);
+        [2.0 * gap.dot(&self.e), -2.0 * gap.dot(&self.f)]
+    }
+
+    /// Second derivatives: by first twice, mixed, by second twice. Constant.
+    pub(crate) fn hessian(&self) -> [f64; 3] {
+        [2.0 * self.e.norm_squared(), -2.0 * self.e.dot(&self.f), 2.0 * self.f.norm_squared()]
+    }
+
+    pub(crate) fn edges(&self) -> (f64, f64) {
+        (self.e.norm(), self.f.norm())
+    }
+
+    pub(crate) fn box_of(&self, bounds: &[(f64, f64); 6]) -> Box2 {
+        [bounds[self.first], bounds[self.second]]
+    }
+
+    /// Least value on a box: at the common vertex `(1, 0)` when inside, else on one of the four edges.
+    pub(crate) fn least(&self, [x, y]: Box2) -> f64 {
+        if x.0 <= 1.0 && 1.0 <= x.1 && y.0 <= 0.0 && 0.0 <= y.1 {
+            return 0.0;
+        }
+        let (ee, ff) = (self.e.norm_squared(), self.f.norm_squared());
+        let along_x = |y: f64| (-self.e.dot(&self.gap(0.0, y)) / ee).clamp(x.0, x.1);
+        let along_y = |x: f64| (self.f.dot(&self.gap(x, 0.0)) / ff).clamp(y.0, y.1);
+        let candidates = [(along_x(y.0), y.0), (along_x(y.1), y.1), (x.0, along_y(x.0)), (x.1, along_y(x.1))];
+        candidates.iter().map(|&(x, y)| self.gap(x, y).norm_squared()).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// The linear relaxation of order and spacing on a cell: every squared distance is replaced by affine
+/// functions that are nowhere below it on the box, so that an infeasible relaxation proves the cell empty.
+/// `det A` is not part of it; its range on the box is tested before.
+fn relaxation(cell: &Cell, limits: &Limits) -> Vec<EnclosedRow> {
+    let order = cell.order_rows().into_iter().map(|(i, j, [c, x, y])| EnclosedRow {
+        coefficients: vec![(i, point(-x)), (j, point(-y))],
+        rhs: point(c),
+    });
+    let spacing = (0..6).flat_map(|first| {
+        limits
+            .overestimates(first, &cell.outer)
+            .map(|[c, x, y]| EnclosedRow { coefficients: vec![(first, -x), ((first + 2) % 6, -y)], rhs: c })
+    });
+    order.chain(spacing).collect()
+}
+
+/// A proved conflict of the cell, or `None` when the relaxation is feasible or nothing could be shown.
+pub(crate) fn proved_empty(cell: &Cell, limits: &Limits) -> Option<Conflict> {
+    let rows = relaxation(cell, limits);
+    let centre = |x: &Interval| x.centre_and_radius().0;
+    // the solver scales its rows itself, but not by the size of the design: squared distances are made of order one
+    let largest = rows.iter().map(|r| centre(&r.rhs).abs()).fold(f64::MIN_POSITIVE, f64::max);
+    let mut p = ConicProgram { variables: 6, linear: vec![0.0; 6], ..Default::default() };
+    for r in &rows {
+        let coefficients = r.coefficients.iter().map(|(j, a)| (*j, centre(a) / largest)).collect();
+        p.at_least_zero(coefficients, centre(&r.rhs) / largest);
+    }
+    for (i, (low, high)) in cell.outer.into_iter().enumerate() {
+        p.at_least_zero(vec![(i, 1.0)], high);
+        p.at_least_zero(vec![(i, -1.0)], -low);
+    }
+    let ConicAnswer::Infeasible(ray) = p.solve() else { return None };
+    // the ranges of the offsets take part as they are, without multipliers
+    let ray = ray.get(..rows.len())?;
+    let ranges: Option<Vec<Interval>> = cell.outer.iter().map(|b| Interval::new(b.0, b.1)).collect();
+    let strength = refuted(&rows, &[Cone::NonNegative(rows.len())], ray, &ranges?)?;
+    Some(Conflict::Combination { strength: strength / largest })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::hexagon::sides;
+    use super::super::problem::OffsetProblem;
+    use super::super::tests::{example, poses};
+    use super::*;
+    use crate::num::Rng;
+
+    #[test]
+    fn the_least_value_on_a_box_is_that_of_samples() {
+        let mut rng = Rng::new(11);
+        for pair in Pair::all(&sides(&example(), 5.0)) {
+            for _ in 0..40 {
+                let mut side = || {
+                    let (a, b) = (rng.uniform(-1.0, 2.0), rng.uniform(-1.0, 2.0));
+                    (a.min(b), a.max(b))
+                };
+                let b2 = [side(), side()];
+                let mut found = f64::INFINITY;
+                for k in 0..=20 {
+                    for l in 0..=20 {
+                        let at = |b: (f64, f64), k: i32| b.0 + (b.1 - b.0) * f64::from(k) / 20.0;
+                        let mut t = [0.0; 6];
+                        (t[pair.first], t[pair.second]) = (at(b2[0], k), at(b2[1], l));
+                        found = found.min(pair.squared(&t));
+                    }
+                }
+                let low = pair.least(b2);
+                assert!(low <= found + 1e-12 && found - low < 0.3, "{low} {found}");
+            }
+        }
+    }
+
+    #[test]
+    fn joints_at_the_common_vertex_have_distance_zero() {
+        for pair in Pair::all(&sides(&example(), 1.0)) {
+            let mut t = [0.3; 6];
+            (t[pair.first], t[pair.second]) = (1.0, 0.0);
+            assert!(pair.squared(&t) < 1e-24);
+        }
+    }
+
+    /// Two joints on platform edges, both near the common vertex, angle 60 degrees: with arms in `[m, 1.2 m]`
+    /// the distance is at most `1.2 m`; with a wider requirement the box is empty, and so says the certificate.
+    #[test]
+    fn a_cell_without_room_is_proved_empty_and_one_with_room_is_not() {
+        let mut p = OffsetProblem::with_defaults(example(), poses());
+        p.min_joint_distance = 1.5;
+        let mut bounds = [(0.3, 0.7); 6];
+        (bounds[1], bounds[3]) = ((0.7, 0.75), (0.25, 0.3)); // arms 1.5 to 1.8 of edge 6
+        let cell = Cell { branch: 364, bounds, outer: bounds, pairs: Vec::new(), sign: 1.0 };
+        assert_eq!(proved_empty(&cell, &Limits::new(&p)), None);
+        p.min_joint_distance *= 1.3;
+        let proof = proved_empty(&cell, &Limits::new(&p));
+        assert!(matches!(proof, Some(Conflict::Combination { strength }) if strength > 1e-6), "{proof:?}");
+    }
 }

@@ -6,34 +6,26 @@
 //! all other offsets by branch and bound.
 //! Derivation and limits: `docs/theory/offset-optimisation.md`.
 
-mod area;
 mod bound;
 mod branch;
 mod conditioning;
-mod conflict;
-mod enclosure;
 mod feasibility;
 mod hexagon;
 mod limits;
 mod outcome;
-mod polish;
 mod problem;
-mod relaxation;
-mod sampling;
 mod scp;
 mod search;
 #[cfg(test)]
 mod soundness;
-mod spacing;
-mod subproblem;
 #[cfg(test)]
 mod tests;
 mod verdict;
 
+pub use self::verdict::Conflict;
 pub use crate::num::conic::SolverFailure;
 pub use bound::GlobalBound;
 pub use branch::{Branch, Zone};
-pub use conflict::Conflict;
 pub use hexagon::{Body, offset_determinant, sliding_joint_body};
 pub use outcome::{
     BranchCounts, BranchReport, BranchVerdict, LocalEvidence, Margins, OffsetOutcome, OffsetReport,

@@ -4,10 +4,10 @@ use nalgebra::Matrix6;
 
 use super::bound::GlobalBound;
 use super::branch::Branch;
-use super::conflict::Conflict;
 use super::hexagon::offset_determinant;
 use super::problem::OffsetProblem;
 use super::scp::HistoryStep;
+use super::verdict::Conflict;
 use crate::manipulator::{Manipulator, jacobian};
 use crate::num::conic::SolverFailure;
 use crate::num::linalg::svd;

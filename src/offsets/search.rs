@@ -1,19 +1,23 @@
 //! The search over all branches: divide, sample, rank every cell, polish the best ones.
+//!
+//! Two pieces of evidence follow: a derivative-free search around the solution, which uses neither the conic solver nor any
+//! derivative, and the bound over all offsets of the problem, which the best run is compared with.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-use super::area::Area;
-use super::branch::{Cell, divide};
-use super::conditioning::worst_case;
-use super::conflict::Conflict;
-use super::limits::Limits;
+use super::bound::{BoundOptions, Bounding, GlobalBound};
+use super::branch::{
+    Branch, Cell, Division, best_sample, divide, feasible_points, hopeful_point, in_order, is_feasible,
+    tight_point,
+};
+use super::conditioning::{worst_case, worst_case_above};
+use super::hexagon::offset_determinant;
+use super::limits::{Limits, proved_empty};
 use super::outcome::OffsetReport;
 use super::problem::{InvalidProblem, Model, OffsetProblem};
-use super::relaxation::proved_empty;
-use super::sampling::{best_sample, feasible_points, hopeful_point, tight_point};
-use super::scp::{Effort, LocalResult, climb};
-use super::verdict::{Searched, assemble, nothing_fits, vertices_too_close};
+use super::scp::{Effort, LocalResult, climb, violation};
+use super::verdict::{Conflict, Searched, assemble, nothing_fits, vertices_too_close};
 use crate::num::Rng;
 use crate::num::conic::SolverFailure;
 use crate::num::parallel::parallel;
@@ -406,4 +410,117 @@ fn keep_ranked(m: &Model, ranked: &[CellResult], polished: &mut [(usize, LocalRe
         }
     }
     best_first(polished);
+}
+
+/// Result of the search.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Polished {
+    pub(crate) t: [f64; 6],
+    pub(crate) value: f64,
+    pub(crate) trials: usize,
+}
+
+/// Tries steps along the axes, along pairs of axes and in random directions, at radii from 1e-2 down to 1e-6
+/// (offset units); steps are cut off at the box, points that violate a constraint are dropped.
+pub(crate) fn pattern_search(m: &Model, cell: &Cell, start: [f64; 6], value: f64, rng: &mut Rng) -> Polished {
+    let mut best = Polished { t: start, value, trials: 0 };
+    let mut hint = 0;
+    for step in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
+        for k in 0..132 {
+            let direction = direction(k, rng);
+            let t: [f64; 6] = std::array::from_fn(|i| {
+                let (low, high) = cell.bounds[i];
+                (best.t[i] + step * direction[i]).clamp(low, high)
+            });
+            best.trials += 1;
+            if violation(m, cell, &t) > 0.0 {
+                continue;
+            }
+            match worst_case_above(&m.poses, &t, best.value, hint) {
+                Ok((value, _)) => (best.t, best.value) = (t, value),
+                Err((_, pose)) => hint = pose,
+            }
+        }
+    }
+    best
+}
+
+/// 12 axis directions, 60 along two axes, then random ones.
+fn direction(k: usize, rng: &mut Rng) -> [f64; 6] {
+    let sign = |bit: bool| if bit { 1.0 } else { -1.0 };
+    let mut d = [0.0; 6];
+    if k < 12 {
+        d[k / 2] = sign(k.is_multiple_of(2));
+    } else if k < 72 {
+        let (pair, signs) = ((k - 12) / 4, (k - 12) % 4);
+        let (i, j) = (1..6).flat_map(|i| (0..i).map(move |j| (i, j))).nth(pair).unwrap_or((1, 0));
+        (d[i], d[j]) = (sign(signs & 1 == 0), sign(signs & 2 == 0));
+    } else {
+        d = std::array::from_fn(|_| rng.normal());
+    }
+    d
+}
+
+/// The whole problem: everything the bound compares with.
+pub(crate) struct Area<'a> {
+    pub(crate) problem: &'a OffsetProblem,
+    pub(crate) m: &'a Model,
+    pub(crate) limits: &'a Limits,
+    pub(crate) divisions: &'a [Division],
+    pub(crate) cells: &'a [&'a Cell],
+}
+
+impl Area<'_> {
+    /// A run from offsets that are better than all so far; `None` when they do not meet the limits.
+    fn run_from(&self, t: &[f64; 6], value: f64) -> Option<(usize, LocalResult)> {
+        let d = Branch::of(t).index();
+        let first: usize = self.divisions[..d].iter().map(|d| d.cells.len()).sum();
+        let mut own = first..first + self.divisions[d].cells.len();
+        if let Some(k) = own.clone().find(|&k| is_feasible(self.m, self.cells[k], t)) {
+            let run = climb(self.m, self.cells[k], *t, Effort::POLISH);
+            if run.is_feasible() && run.value > value {
+                return Some((k, run));
+            }
+        }
+        // nothing to spare, or nothing to climb
+        let k = own.find(|&k| {
+            let cell = self.cells[k];
+            cell.sign * offset_determinant(t) > 0.0 && in_order(cell, t)
+        })?;
+        let met = self.problem.margins(t).is_some_and(|m| m.all_met());
+        met.then(|| (k, LocalResult::drawn(*t, value)))
+    }
+
+    /// Compares the best run with all offsets; better ones that turn up on the way are climbed from and put in front.
+    pub(crate) fn bound(
+        &self,
+        polished: &mut Vec<(usize, LocalResult)>,
+        o: &OptimizeOptions,
+        stopped: &dyn Fn() -> bool,
+        progress: &mut dyn FnMut(Progress),
+    ) -> Option<GlobalBound> {
+        let start = polished.first().filter(|p| p.1.is_feasible() && p.1.value > 0.0)?.1.value;
+        let (mut hint, mut value) = (0, start);
+        let mut improve = |points: &[[f64; 6]]| {
+            for t in points {
+                match worst_case_above(&self.m.poses, t, value, hint) {
+                    Err((_, pose)) => hint = pose,
+                    Ok((reached, _)) => {
+                        if let Some((k, run)) = self.run_from(t, reached) {
+                            value = run.value;
+                            polished.insert(0, (k, run));
+                        }
+                    }
+                }
+            }
+            value
+        };
+        let options = BoundOptions { gap: o.gap, boxes: o.boxes, threads: o.threads };
+        let tick = &mut |boxes, open, best| {
+            progress(Progress::Bounding { boxes, open, best });
+            if stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        let boxes = self.divisions.iter().flat_map(|d| d.boxes.iter().copied()).collect();
+        Bounding::new(self.problem, self.m, self.limits)?.prove(boxes, start, options, &mut improve, tick)
+    }
 }

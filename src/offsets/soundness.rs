@@ -4,13 +4,11 @@ use std::ops::ControlFlow;
 
 use nalgebra::Point3;
 
-use super::branch::{Branch, divide};
+use super::branch::{Branch, divide, in_order};
 use super::conditioning::worst_case;
 use super::hexagon::{Body, sides};
-use super::limits::{Bounds, Limits};
+use super::limits::{Bounds, Limits, proved_empty};
 use super::problem::Model;
-use super::relaxation::proved_empty;
-use super::sampling::in_order;
 use super::tests::poses;
 use super::{OffsetOutcome, OffsetProblem, OptimizeOptions, optimize};
 use crate::manipulator::{Manipulator, Octahedral};

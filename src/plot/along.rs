@@ -1,7 +1,6 @@
 //! A quantity with a sign along a path, with the pieces where the sign is proved.
 
-use super::axis::Axis;
-use super::style::Svg;
+use super::style::{Axis, Svg};
 
 /// One straight part of the path.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,7 +1,6 @@
 //! The best value of several methods over the time they took.
 
-use super::axis::Axis;
-use super::style::Svg;
+use super::style::{Axis, Svg};
 
 /// One method.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,8 +1,7 @@
 //! `det A` of the joint-free platform over the two offsets of equal-offset platforms.
 
-use super::axis::{self, Axis};
 use super::contour::Grid;
-use super::style::Svg;
+use super::style::{Axis, Svg};
 
 /// One axis: an offset as a fraction `t` of the edge, shown as `t * scale`.
 #[derive(Debug, Clone, PartialEq)]
@@ -217,7 +216,7 @@ fn marks(svg: &mut Svg, points: &[PlanePoint], places: &[(f64, f64)]) {
 fn frame(svg: &mut Svg, x: &Axis, y: &Axis, plane: &OffsetPlane) {
     let shown = |axis: &Axis, scale: f64| Axis { low: axis.low * scale, high: axis.high * scale, ..*axis };
     let (sx, sy) = (shown(x, plane.base.scale), shown(y, plane.platform.scale));
-    axis::frame(svg, &sx, &sy, (8, 8));
+    super::style::frame(svg, &sx, &sy, (8, 8));
     svg.text("mid", (f64::midpoint(LEFT, RIGHT), BOTTOM + 44.0), &plane.base.label);
     svg.turned_text("mid", (26.0, f64::midpoint(TOP, BOTTOM)), -90.0, &plane.platform.label);
 }

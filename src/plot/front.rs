@@ -1,7 +1,6 @@
 //! Platforms of which none is better in every objective.
 
-use super::axis::{Axis, frame};
-use super::style::Svg;
+use super::style::{Axis, Svg, frame};
 
 /// One objective.
 #[derive(Debug, Clone, PartialEq)]

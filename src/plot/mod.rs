@@ -4,7 +4,6 @@
 //! shape or text as well.
 
 mod along;
-mod axis;
 mod components;
 mod contour;
 mod convergence;

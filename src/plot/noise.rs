@@ -1,7 +1,6 @@
 //! Errors of poses over errors of leg lengths, both on logarithmic axes.
 
-use super::axis::Axis;
-use super::style::Svg;
+use super::style::{Axis, Svg};
 
 /// One point of a curve.
 #[derive(Debug, Clone, Copy, PartialEq)]

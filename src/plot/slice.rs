@@ -1,8 +1,7 @@
 //! Where a determinant vanishes over two variables.
 
-use super::axis::{Axis, frame};
 use super::contour::Grid;
-use super::style::Svg;
+use super::style::{Axis, Svg, frame};
 
 /// One axis of the slice.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,7 +1,6 @@
 //! The steps of a search: value and violation.
 
-use super::axis::Axis;
-use super::style::Svg;
+use super::style::{Axis, Svg};
 
 /// A step of a search.
 #[derive(Debug, Clone, Copy, PartialEq)]

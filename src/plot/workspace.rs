@@ -1,9 +1,8 @@
 //! A slice of the workspace, coloured by what ends it.
 
-use super::axis::{self, Axis};
 use super::contour::Grid;
 use super::slice::SliceAxis;
-use super::style::Svg;
+use super::style::{Axis, Svg};
 
 /// What the picture shows.
 #[derive(Debug, Clone, PartialEq)]
@@ -140,7 +139,7 @@ fn joined(figure: &WorkspaceFigure) -> Vec<bool> {
 }
 
 fn frame(svg: &mut Svg, x: &Axis, y: &Axis, figure: &WorkspaceFigure) {
-    axis::frame(svg, x, y, (8, 8));
+    super::style::frame(svg, x, y, (8, 8));
     svg.text("mid", (f64::midpoint(LEFT, RIGHT), BOTTOM + 44.0), &figure.across.label);
     svg.turned_text("mid", (24.0, f64::midpoint(TOP, BOTTOM)), -90.0, &figure.up.label);
     for (k, note) in figure.notes.iter().enumerate() {

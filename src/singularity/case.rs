@@ -1,8 +1,15 @@
 //! Names for architectural singularities, each with an exact test.
+//!
+//! Whether corresponding points of two planes are images under a projectivity is decided exactly too. A singular design that
+//! is known in doubles only gets its name with a tolerance.
+
+use nalgebra::{Point3, Vector3};
 
 use super::dependency::{Dependency, ExactLegs, dimension, kronecker, rank, subsets_by_size};
 use super::griffis_duffy::GriffisDuffy;
-use super::planar_map::{PlanarMap, planar_map};
+use crate::manipulator::Manipulator;
+use crate::num::exact::{Rational, relations};
+use crate::num::linalg::{LinalgError, svd};
 use crate::synthesis::Body;
 
 /// A geometric reason for which the leg lines are dependent at every pose.
@@ -268,11 +275,157 @@ fn is_star_and_pencil(legs: &ExactLegs, star: Body, among: &[usize]) -> bool {
         })
 }
 
+/// Singular values below this times the largest count as zero; names only, nothing is decided with it.
+const NEGLIGIBLE: f64 = 1e-7;
+
+/// The case of a relation between the vectors of `legs`; codes as in [`Case::name`](super::Case::name).
+pub(super) fn name(m: &Manipulator, legs: &[usize]) -> Result<&'static str, LinalgError> {
+    let all = m.legs();
+    let base = plane_coordinates(m, &legs.iter().map(|i| all[*i].base).collect::<Vec<_>>())?;
+    let platform = plane_coordinates(m, &legs.iter().map(|i| all[*i].platform).collect::<Vec<_>>())?;
+    Ok(match (base.dimension, platform.dimension) {
+        (0, 0) => "coincident_legs",
+        (0, 1) | (1, 0) => "point_line",
+        (0, _) | (_, 0) => "concurrent_four",
+        (1, 1) => "line_line",
+        (1, _) | (_, 1) => "line_other",
+        // nothing but two planes is left for a relation of six legs or fewer
+        _ if legs.len() == 6 && GriffisDuffy::recognise(m).is_some_and(|g| g.is_nearly_singular()) => {
+            "griffis_duffy"
+        }
+        _ if projective_within(&base.coordinates, &platform.coordinates)? => "conic",
+        _ => "planar_bodies",
+    })
+}
+
+struct Spread {
+    dimension: usize,
+    /// `(1, x, y)` along the two principal axes, in units of the largest spread.
+    coordinates: Vec<[f64; 3]>,
+}
+
+fn plane_coordinates(m: &Manipulator, points: &[Point3<f64>]) -> Result<Spread, LinalgError> {
+    let mean = points.iter().map(|p| p - points[0]).sum::<Vector3<f64>>() / points.len() as f64;
+    let rows: Vec<Vec<f64>> =
+        points.iter().map(|p| ((p - points[0] - mean) / m.size()).iter().copied().collect()).collect();
+    let d = svd(&rows)?;
+    let dimension = d.s.iter().filter(|s| **s > NEGLIGIBLE).count();
+    let unit = if d.s[0] > 0.0 { d.s[0] } else { 1.0 };
+    let along = |row: &[f64], k: usize| (0..3).map(|i| row[i] * d.v[i][k]).sum::<f64>() / unit;
+    let coordinates = rows.iter().map(|row| [1.0, along(row, 0), along(row, 1)]).collect();
+    Ok(Spread { dimension, coordinates })
+}
+
+/// Whether a projectivity takes one set to the other: `b_i x T a_i = 0`, linear in the nine entries of `T`, has a solution. With dependent leg
+/// vectors the points then lie on a conic.
+fn projective_within(a: &[[f64; 3]], b: &[[f64; 3]]) -> Result<bool, LinalgError> {
+    let mut rows = Vec::new();
+    for (a, b) in a.iter().zip(b) {
+        for k in 0..3 {
+            let (next, last) = ((k + 1) % 3, (k + 2) % 3);
+            let mut row = vec![0.0; 9];
+            for l in 0..3 {
+                row[3 * last + l] = b[next] * a[l];
+                row[3 * next + l] = -b[last] * a[l];
+            }
+            rows.push(row);
+        }
+    }
+    let s = svd(&rows)?.s;
+    Ok(s[8] <= NEGLIGIBLE * s[0])
+}
+
+/// What takes one planar set of points to another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PlanarMap {
+    /// A similarity: all distances in one ratio.
+    Similar,
+    /// An affine map.
+    Affine,
+    /// A projectivity.
+    Projective,
+}
+
+impl std::fmt::Display for PlanarMap {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Similar => "similar images",
+            Self::Affine => "affine images",
+            Self::Projective => "projective images",
+        })
+    }
+}
+
+/// The most special regular map with `b_i` the image of `a_i`; both sets span planes.
+fn planar_map(a: &[[Rational; 3]], b: &[[Rational; 3]]) -> Option<PlanarMap> {
+    if similar(a, b) {
+        return Some(PlanarMap::Similar);
+    }
+    let one = || Rational::from_integer(1.into());
+    let affine = |x: &[[Rational; 3]], y: &[[Rational; 3]]| {
+        let rows =
+            x.iter().zip(y).map(|(x, y)| [one()].into_iter().chain(x.iter().chain(y).cloned()).collect());
+        // the graph of an affine map of a plane is a plane
+        rank(&rows.collect::<Vec<_>>()) == 3
+    };
+    if affine(a, b) {
+        return Some(PlanarMap::Affine);
+    }
+    projective(&in_plane(a)?, &in_plane(b)?).then_some(PlanarMap::Projective)
+}
+
+fn squared_distance(x: &[Rational; 3], y: &[Rational; 3]) -> Rational {
+    x.iter().zip(y).map(|(x, y)| (x - y) * (x - y)).sum()
+}
+
+fn similar(a: &[[Rational; 3]], b: &[[Rational; 3]]) -> bool {
+    let pairs = || (0..a.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
+    let zero = Rational::from_integer(0.into());
+    let from = |list: &[[Rational; 3]], (i, j): (usize, usize)| squared_distance(&list[i], &list[j]);
+    let Some(unit) = pairs().find(|p| from(a, *p) != zero) else { return false };
+    let (u, v) = (from(a, unit), from(b, unit));
+    v != zero && pairs().all(|p| from(a, p) * &v == from(b, p) * &u)
+}
+
+/// Homogeneous coordinates in the plane: two coordinates in which the points still span a plane.
+fn in_plane(points: &[[Rational; 3]]) -> Option<Vec<[Rational; 3]>> {
+    let one = || Rational::from_integer(1.into());
+    let zero = || Rational::from_integer(0.into());
+    let [x, y] = [[0, 1], [1, 2], [2, 0]].into_iter().find(|[i, j]| {
+        dimension(&points.iter().map(|p| [p[*i].clone(), p[*j].clone(), zero()]).collect::<Vec<_>>()) == 2
+    })?;
+    Some(points.iter().map(|p| [one(), p[x].clone(), p[y].clone()]).collect())
+}
+
+/// Whether a regular 3 x 3 matrix `T` with `T a_i` a multiple of `b_i` exists: `b_i x T a_i = 0` is linear in `T`.
+fn projective(a: &[[Rational; 3]], b: &[[Rational; 3]]) -> bool {
+    let zero = || Rational::from_integer(0.into());
+    // one row an entry T_kl, one column an equation
+    let equations = |k: usize, l: usize| -> Vec<Rational> {
+        a.iter()
+            .zip(b)
+            .flat_map(|(a, b)| {
+                let (mut e, next, last) = ([zero(), zero(), zero()], (k + 1) % 3, (k + 2) % 3);
+                e[next] = -(&b[last] * &a[l]);
+                e[last] = &b[next] * &a[l];
+                e
+            })
+            .collect()
+    };
+    let rows: Vec<_> = (0..9).map(|i| equations(i / 3, i % 3)).collect();
+    let solutions = relations(&rows);
+    let [t] = solutions.as_slice() else { return false };
+    let minor = |i: usize, j: usize, k: usize| &t[i] * (&t[3 + j] * &t[6 + k] - &t[3 + k] * &t[6 + j]);
+    minor(0, 1, 2) + minor(1, 2, 0) + minor(2, 0, 1) != zero()
+}
+
 #[cfg(test)]
 mod tests {
+    use nalgebra::Point3;
+
     use super::*;
     use crate::manipulator::{Leg, Manipulator};
-    use nalgebra::Point3;
+    use crate::num::exact::rational;
 
     /// The names for singular designs with independent leg vectors that are not of the known kinds; no such design is known, so that the names
     /// are tested on designs that are not singular.
@@ -294,5 +447,35 @@ mod tests {
         assert_eq!((found.case.name(), Case::Unnamed.reason()), ("four_collinear", "jacobian_vanishes"));
         // four on a line count when they are among the guilty ones only
         assert_eq!(of_lines(&legs(lined), vec![0, 1, 2, 3, 4]).case, Case::Unnamed);
+    }
+
+    fn points(list: &[[f64; 3]]) -> Vec<[Rational; 3]> {
+        list.iter().map(|p| p.map(|x| rational(x).unwrap())).collect()
+    }
+
+    #[test]
+    fn maps_are_told_apart() {
+        let plane = [[0.0, 0.0], [3.0, 1.0], [5.0, 2.0], [4.0, 6.0], [1.0, 7.0], [-2.0, 3.0]];
+        let image = |f: &dyn Fn(f64, f64) -> [f64; 3]| points(&plane.map(|[x, y]| f(x, y)));
+        let a = image(&|x, y| [x, 1.0, y]);
+        // turned by the angle of the triangle 3, 4, 5 and scaled
+        assert_eq!(
+            planar_map(&a, &image(&|x, y| [3.0 * x - 4.0 * y, 4.0 * x + 3.0 * y, 2.0])),
+            Some(PlanarMap::Similar)
+        );
+        assert_eq!(planar_map(&a, &image(&|x, y| [x + y, 2.0 * y, x])), Some(PlanarMap::Affine));
+        // z = 8 / (8 + x): powers of two keep the quotients exact
+        let b = image(&|x, y| [x, y, 0.0]);
+        let homogeneous: Vec<[Rational; 3]> = b
+            .iter()
+            .map(|p| {
+                let w = rational(8.0).unwrap() + &p[0];
+                [&p[0] / &w, &p[1] / &w, p[2].clone()]
+            })
+            .collect();
+        assert_eq!(planar_map(&a, &homogeneous), Some(PlanarMap::Projective));
+        let mut spoilt = homogeneous;
+        spoilt[4][1] += rational(1e-30).unwrap();
+        assert_eq!(planar_map(&a, &spoilt), None);
     }
 }

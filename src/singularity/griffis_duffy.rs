@@ -13,12 +13,19 @@
 //! ```text
 //! det A = prod (1 - t_k) - prod t_k = 0.
 //! ```
+//!
+//! [`assembly`] says which leg lengths a singular platform of this type can be assembled with. On the surface `det A = 0` the squared lengths `s` determine the octahedral squared lengths `o` behind them up to one parameter,
+//! `A o = s + k`, `k_i = t_i (1 - t_i) d_i^2`, if they satisfy the one affine condition: `o = o_0 + x n` with `A n = 0`. Each `x` whose octahedral
+//! platform has a real pose gives one pose; they form curves. For a real pose six triangles have to close, those of consecutive
+//! legs and the side on which they end: `16 area^2 = 4 o_k d_k^2 - (o_k + d_k^2 - o_(k+1))^2 >= 0`, concave in `x`: an interval.
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
 use super::dependency::{ExactLegs, dimension};
+use crate::geom::Pose;
 use crate::manipulator::{Manipulator, SquaredLegLengths, is_collinear};
 use crate::num::exact::Rational;
+use crate::num::linalg::{LinalgError, svd};
 
 /// A platform recognised as one of Griffis-Duffy type.
 #[derive(Debug, Clone, PartialEq)]
@@ -196,8 +203,236 @@ fn exactly_singular(legs: &ExactLegs, order: [usize; 6]) -> bool {
     products[0] == products[1]
 }
 
+/// What is known about assembling with given lengths.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Assembly {
+    /// The affine condition is violated by more than rounding: no pose, real or complex.
+    Incompatible {
+        /// Relative defect of the condition.
+        defect: f64,
+    },
+    /// The condition holds within rounding, but the six triangles never close together: no real pose.
+    NoTriangles,
+    /// A real pose was found.
+    Real {
+        /// The pose.
+        pose: Pose,
+        /// Largest error of its squared lengths over the squared size.
+        residual: f64,
+        /// The one-parameter family behind it.
+        corners: CornerLengths,
+    },
+    /// The triangles close for some parameters, and a search found no real pose.
+    NotFound {
+        /// The family searched.
+        corners: CornerLengths,
+    },
+}
+
+/// Octahedral squared lengths `origin + x direction`, in the order of the hexagon, for `x` in an interval.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CornerLengths {
+    /// The shortest solution, design units squared.
+    pub origin: [f64; 6],
+    /// Unit vector with `A direction = 0`.
+    pub direction: [f64; 6],
+    /// Where all six triangles close.
+    pub interval: [f64; 2],
+}
+
+/// The condition counts as satisfied within this: rounding of lengths, squares and offsets.
+const COMPATIBLE: f64 = 1e-12;
+/// Grid of the search, and steps of bisection.
+const PARAMETERS: usize = 48;
+const ANGLES: usize = 120;
+const BISECTIONS: usize = 60;
+
+/// Decides for a platform on the surface `det A = 0` (nearly: the caller looks at `g.determinant()`).
+///
+/// # Errors
+/// When a singular value decomposition does not converge.
+pub fn assembly(g: &GriffisDuffy, m: &Manipulator, s: &SquaredLegLengths) -> Result<Assembly, LinalgError> {
+    let defect = g.assembly_defect(s);
+    if !(defect.abs() <= COMPATIBLE) {
+        return Ok(Assembly::Incompatible { defect });
+    }
+    let Some(corners) = corner_lengths(g, s)? else { return Ok(Assembly::NoTriangles) };
+    let frame = Frame::of(g, m);
+    let [low, high] = corners.interval;
+    for k in 0..PARAMETERS {
+        // the middle first: the ends are flat poses
+        let part = (k as f64 + 0.5) / PARAMETERS as f64;
+        let x = low + (high - low) * (0.5 + if k % 2 == 0 { 0.5 * part } else { -0.5 * part });
+        let o = std::array::from_fn(|i| corners.origin[i] + x * corners.direction[i]);
+        if let Some(pose) = frame.search(&o) {
+            let size = m.size() * m.size();
+            let error =
+                |(leg, s): (&crate::manipulator::Leg, f64)| (pose.squared_length(leg) - s).abs() / size;
+            let residual = m.legs().iter().zip(s.get()).map(error).fold(0.0, f64::max);
+            return Ok(Assembly::Real { pose, residual, corners });
+        }
+    }
+    Ok(Assembly::NotFound { corners })
+}
+
+/// The family of octahedral lengths, `None` where the triangles do not close for any parameter.
+fn corner_lengths(g: &GriffisDuffy, s: &SquaredLegLengths) -> Result<Option<CornerLengths>, LinalgError> {
+    let mut rows = vec![vec![0.0; 6]; 6];
+    let mut right = [0.0; 6];
+    for k in 0..6 {
+        rows[k][k] = 1.0 - g.t[k];
+        rows[k][(k + 1) % 6] = g.t[k];
+        right[k] = s.get()[g.order[k]] + g.t[k] * (1.0 - g.t[k]) * g.sides[k].powi(2);
+    }
+    let d = svd(&rows)?;
+    let direction: [f64; 6] = std::array::from_fn(|i| d.v[i][5]);
+    let along: Vec<f64> =
+        (0..5).map(|k| (0..6).map(|i| d.u[i][k] * right[i]).sum::<f64>() / d.s[k]).collect();
+    let origin: [f64; 6] = std::array::from_fn(|i| (0..5).map(|k| d.v[i][k] * along[k]).sum());
+    let mut interval = [f64::NEG_INFINITY, f64::INFINITY];
+    for k in 0..6 {
+        let (next, square) = ((k + 1) % 6, g.sides[k].powi(2));
+        let (p, q) = (origin[k] + square - origin[next], direction[k] - direction[next]);
+        // 4 (o + x n) d^2 - (p + x q)^2 = c + b x - a x^2
+        let (a, b, c) = (q * q, 4.0 * direction[k] * square - 2.0 * p * q, 4.0 * origin[k] * square - p * p);
+        let Some([low, high]) = where_positive(a, b, c) else { return Ok(None) };
+        interval = [interval[0].max(low), interval[1].min(high)];
+    }
+    Ok((interval[0] <= interval[1]).then_some(CornerLengths { origin, direction, interval }))
+}
+
+/// Where `c + b x - a x^2 >= 0`, `a >= 0`.
+fn where_positive(a: f64, b: f64, c: f64) -> Option<[f64; 2]> {
+    let root = (b * b + 4.0 * a * c).sqrt();
+    if root.is_nan() {
+        return None;
+    }
+    // the two roots without cancellation; a may vanish, then one is at infinity
+    let q = 0.5 * (b + if b < 0.0 { -root } else { root });
+    if q.abs() <= 0.0 {
+        // b = 0, and a = 0 or c = 0
+        let everywhere = [f64::NEG_INFINITY, f64::INFINITY];
+        return (c >= 0.0).then_some(if a > 0.0 { [0.0, 0.0] } else { everywhere });
+    }
+    let (x, y) = (q / a, -c / q);
+    Some([x.min(y), x.max(y)])
+}
+
+/// The base triangle, a normal, and the sides of the platform triangle.
+struct Frame {
+    base: [Vector3<f64>; 3],
+    normal: Vector3<f64>,
+    platform: [Point3<f64>; 3],
+    /// Squared `C1 C2`, `C2 C3`, `C3 C1`.
+    sides: [f64; 3],
+}
+
+/// A circle about a side of the base.
+struct Circle {
+    centre: Vector3<f64>,
+    across: Vector3<f64>,
+    normal: Vector3<f64>,
+}
+
+impl Circle {
+    fn at(&self, angle: f64) -> Vector3<f64> {
+        self.centre + self.across * angle.cos() + self.normal * angle.sin()
+    }
+
+    /// The two angles at which the point has the given squared distance from `p`.
+    fn at_distance(&self, p: &Vector3<f64>, square: f64) -> Option<[f64; 2]> {
+        let w = self.centre - p;
+        let (x, y) = (2.0 * w.dot(&self.across), 2.0 * w.dot(&self.normal));
+        let z = square - w.norm_squared() - self.across.norm_squared();
+        let turn = (z / x.hypot(y)).acos();
+        (!turn.is_nan()).then(|| [y.atan2(x) + turn, y.atan2(x) - turn])
+    }
+}
+
+impl Frame {
+    fn of(g: &GriffisDuffy, m: &Manipulator) -> Self {
+        let legs = m.legs();
+        let base = [5, 1, 3].map(|k| legs[g.order[k]].base.coords);
+        let platform = [0, 2, 4].map(|k| legs[g.order[k]].platform);
+        let normal = (base[1] - base[0]).cross(&(base[2] - base[0])).normalize();
+        Self { base, normal, platform, sides: [1, 3, 5].map(|k| g.sides[k].powi(2)) }
+    }
+
+    /// Where corner `k` of the platform can be.
+    fn circle(&self, k: usize, o: &[f64; 6]) -> Option<Circle> {
+        let (from, to) = (self.base[k], self.base[(k + 1) % 3]);
+        let side = to - from;
+        let part = (o[2 * k] - o[2 * k + 1] + side.norm_squared()) / (2.0 * side.norm_squared());
+        let square = o[2 * k] - part * part * side.norm_squared();
+        let radius = square.sqrt();
+        let across = side.cross(&self.normal).normalize() * radius;
+        (!radius.is_nan()).then(|| Circle {
+            centre: from + side * part,
+            across,
+            normal: self.normal * radius,
+        })
+    }
+
+    /// The corners with the first at `angle`, the others on the branches `first` and `second`.
+    fn corners(&self, circles: &[Circle; 3], angle: f64, branch: usize) -> Option<[Vector3<f64>; 3]> {
+        let first = circles[0].at(angle);
+        let second = circles[1].at_distance(&first, self.sides[0])?[branch % 2];
+        let third = circles[2].at_distance(&first, self.sides[2])?[branch / 2];
+        Some([first, circles[1].at(second), circles[2].at(third)])
+    }
+
+    /// A real pose of the octahedral platform with squared lengths `o`, by changes of sign of the last side.
+    ///
+    /// The first corner runs over half a circle: the other half has the mirror images.
+    fn search(&self, o: &[f64; 6]) -> Option<Pose> {
+        let circles = [self.circle(0, o)?, self.circle(1, o)?, self.circle(2, o)?];
+        for branch in 0..4 {
+            let gap = |angle: f64| {
+                let c = self.corners(&circles, angle, branch)?;
+                Some((c[1] - c[2]).norm_squared() - self.sides[1])
+            };
+            let at = |i: usize| std::f64::consts::PI * i as f64 / ANGLES as f64;
+            for i in 0..ANGLES {
+                let (Some(left), Some(right)) = (gap(at(i)), gap(at(i + 1))) else { continue };
+                if left.signum() * right.signum() > 0.0 {
+                    continue;
+                }
+                let (mut low, mut high) = (at(i), at(i + 1));
+                for _ in 0..BISECTIONS {
+                    let middle = f64::midpoint(low, high);
+                    let same = gap(middle).is_none_or(|v| v.signum() * left.signum() > 0.0);
+                    if same { low = middle } else { high = middle }
+                }
+                let tolerance = 1e-9 * self.sides[1];
+                if gap(low).is_some_and(|v| v.abs() < tolerance) {
+                    return self.pose(&self.corners(&circles, low, branch)?);
+                }
+            }
+        }
+        None
+    }
+
+    /// The pose that takes the platform triangle to `corners`.
+    fn pose(&self, corners: &[Vector3<f64>; 3]) -> Option<Pose> {
+        let axes = |p: [Vector3<f64>; 3]| {
+            let x = (p[1] - p[0]).normalize();
+            let z = (p[1] - p[0]).cross(&(p[2] - p[0])).normalize();
+            Matrix3::from_columns(&[x, z.cross(&x), z])
+        };
+        let own = self.platform.map(|p| p.coords);
+        let rotation = Rotation3::from_matrix_unchecked(axes(*corners) * axes(own).transpose());
+        let position = corners[0] - rotation * own[0];
+        rotation
+            .matrix()
+            .iter()
+            .chain(position.iter())
+            .all(|x| x.is_finite())
+            .then_some(Pose { rotation, position })
+    }
+}
+
 #[cfg(test)]
-pub(super) mod tests {
+mod tests {
     use super::*;
     use crate::geom::{Pose, random_rotation};
     use crate::manipulator::Leg;
@@ -208,11 +443,7 @@ pub(super) mod tests {
     }
 
     /// Six legs on the sides of two triangles.
-    pub(in crate::singularity) fn on_sides(
-        base: &[Point3<f64>; 3],
-        top: &[Point3<f64>; 3],
-        t: &[f64; 6],
-    ) -> Manipulator {
+    fn on_sides(base: &[Point3<f64>; 3], top: &[Point3<f64>; 3], t: &[f64; 6]) -> Manipulator {
         Manipulator::from_legs(std::array::from_fn(|k| {
             let on = |p: &[Point3<f64>; 3]| p[k / 2] + (p[(k / 2 + 1) % 3] - p[k / 2]) * t[k];
             if k % 2 == 0 {
@@ -273,5 +504,59 @@ pub(super) mod tests {
         let t = [0.3, 0.7, 0.3, 0.7, 0.3, 0.0];
         assert!((griffis_duffy_singular_offset(&t, 5).unwrap() - 0.7).abs() < 1e-14);
         assert_eq!(griffis_duffy_singular_offset(&[0.0, 1.0, 0.5, 0.5, 0.5, 0.5], 3), None);
+    }
+
+    fn singular_platform(rng: &mut Rng) -> Manipulator {
+        let mut point =
+            || Point3::new(rng.uniform(-3.0, 3.0), rng.uniform(-3.0, 3.0), rng.uniform(-0.5, 0.5));
+        let (base, top) = ([point(), point(), point()], [point(), point(), point()]);
+        let mut t = [(); 6].map(|()| rng.uniform(0.2, 0.8));
+        t[2] = griffis_duffy_singular_offset(&t, 2).unwrap();
+        on_sides(&base, &top, &t)
+    }
+
+    #[test]
+    fn lengths_of_poses_are_assembled_again_spoilt_and_short_ones_are_not() {
+        let mut rng = Rng::new(21);
+        let (mut real, mut flat) = (0, 0);
+        for _ in 0..20 {
+            let m = singular_platform(&mut rng);
+            let g = GriffisDuffy::recognise(&m).unwrap();
+            let position = Vector3::from_fn(|_, _| rng.uniform(-4.0, 4.0));
+            let pose = Pose { rotation: random_rotation(&mut rng), position };
+            let s = pose.squared_lengths(&m).unwrap();
+            match assembly(&g, &m, &s).unwrap() {
+                Assembly::Real { residual, corners, .. } => {
+                    assert!(residual < 1e-9, "{residual}");
+                    assert!(corners.interval[0] < corners.interval[1]);
+                    real += 1;
+                }
+                other => assert!(matches!(other, Assembly::NotFound { .. }), "{other:?}"),
+            }
+            let spoilt = SquaredLegLengths::try_new(std::array::from_fn(|i| {
+                s.get()[i] + if i == 3 { 1e-6 } else { 0.0 }
+            }));
+            let spoilt = assembly(&g, &m, &spoilt.unwrap()).unwrap();
+            assert!(matches!(spoilt, Assembly::Incompatible { .. }), "{spoilt:?}");
+            // one leg of the length that satisfies the condition, five of length zero
+            let c = g.coefficients();
+            let leg = (0..6).find(|i| g.constant() / c[*i] > 0.0).unwrap();
+            let short = std::array::from_fn(|i| if i == leg { g.constant() / c[i] } else { 0.0 });
+            let short = assembly(&g, &m, &SquaredLegLengths::try_new(short).unwrap()).unwrap();
+            assert!(matches!(short, Assembly::NoTriangles | Assembly::NotFound { .. }), "{short:?}");
+            flat += usize::from(short == Assembly::NoTriangles);
+        }
+        assert!(real >= 18, "{real} of 20 found by the search");
+        assert!(flat > 0);
+    }
+
+    #[test]
+    fn intervals_of_a_quadratic() {
+        assert_eq!(where_positive(1.0, 0.0, 4.0), Some([-2.0, 2.0]));
+        assert_eq!(where_positive(1.0, 0.0, -1.0), None);
+        assert_eq!(where_positive(0.0, 2.0, 6.0), Some([-3.0, f64::INFINITY]));
+        assert_eq!(where_positive(0.0, -2.0, 6.0), Some([f64::NEG_INFINITY, 3.0]));
+        assert_eq!(where_positive(0.0, 0.0, 1.0), Some([f64::NEG_INFINITY, f64::INFINITY]));
+        assert_eq!(where_positive(0.0, 0.0, -1.0), None);
     }
 }

@@ -6,7 +6,6 @@
 //! A design is *architecturally singular* when its six leg lines are dependent at every pose. Coordinates are taken as the binary
 //! numbers they are; the answer for them is proved either way. Theory: `docs/theory/architectural-singularity.md`.
 
-mod assembly;
 mod case;
 mod conditioning;
 mod dependency;
@@ -14,16 +13,13 @@ mod four_planes;
 mod griffis_duffy;
 mod lattice;
 mod lower_bound;
-mod nearby_case;
 mod nearest;
 mod path;
-mod planar_map;
-mod projection;
 mod regular_box;
 mod self_motion;
-mod strata;
 
-pub use assembly::{Assembly, CornerLengths, assembly};
+pub use self::case::PlanarMap;
+pub use self::griffis_duffy::{Assembly, CornerLengths, assembly};
 pub use case::{Case, Finding};
 pub use conditioning::{Conditioning, conditioning};
 pub use dependency::Dependency;
@@ -33,7 +29,6 @@ pub use lattice::{GenericRank, RankBound, RationalPose};
 pub use lower_bound::singular_distance_at_least;
 pub use nearest::{NearestSingular, nearest_singular};
 pub use path::{JoinOptions, Joined, Piece, Sign, SignsAlong, Way, between, join, signs_along};
-pub use planar_map::PlanarMap;
 pub use regular_box::{BoxOptions, RegularBox, Regularity, SingularSegment, regular_box, regular_workspace};
 pub use self_motion::{
     CriticalPoses, CurveDegree, CurveEnd, MotionCurve, MotionOptions, MotionPoint, SelfMotion,

@@ -2,14 +2,20 @@
 //!
 //! Distance is the Euclidean norm of the change of all joints together, design units; a shared joint moves as one. What is found is an explicit
 //! singular design, hence an upper bound of the distance; nothing is claimed about the best one.
+//!
+//! The nearest design with a relation between its leg vectors is found by Gauss-Newton steps on joints and relation together.
+//! Minimise `|y|^2` over changes `y` of the joints and unit vectors `c` with `F = sum c_i v_i(x_0 + y) = 0` (sixteen equations). Each step solves the
+//! linearised problem: the part of the equations that a change of `c` cannot reach is met by the least `y`, the rest by `c`.
+//!
+//! The nearest designs in which joints meet or line up so that no pose is held are known in closed form.
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix3, Point3, Vector3};
 
-use super::projection::{Start, project};
-use super::{nearby_case, strata};
 use crate::manipulator::{InvalidManipulator, Manipulator};
+use crate::num::Rng;
 use crate::num::linalg::LinalgError;
-use crate::synthesis::LegSpan;
+use crate::num::small::symmetric_eigen3;
+use crate::synthesis::{Body, LegSpan};
 
 /// A singular design near a given one.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,7 +42,7 @@ pub struct NearestSingular {
 /// Changes of the joints that make a design singular.
 #[derive(Debug, Clone)]
 pub(super) struct Change {
-    pub(super) kind: &'static str,
+    kind: &'static str,
     pub(super) legs: Vec<usize>,
     pub(super) coefficients: Option<[f64; 6]>,
     pub(super) base: Vec<Vector3<f64>>,
@@ -65,7 +71,7 @@ pub fn nearest_singular(m: &Manipulator, seed: u64) -> Result<Option<NearestSing
     let least = |all: Vec<Change>| {
         all.into_iter().filter(|c| c.norm().is_finite()).min_by(|x, y| x.norm().total_cmp(&y.norm()))
     };
-    let closed = least(strata::changes(m));
+    let closed = least(changes(m));
     let searched = least(Start::all(m, seed, STARTS).iter().filter_map(|start| project(m, start)).collect());
     let best = match (closed, searched) {
         // a design found both ways is the exact one, whatever rounding says
@@ -85,7 +91,7 @@ fn describe(m: &Manipulator, change: Change) -> Result<NearestSingular, LinalgEr
         Manipulator::try_new(base.clone(), platform.clone(), m.pairs());
     let (residual, kind) = match (&change.coefficients, rebuilt) {
         (Some(_), Ok(there)) => {
-            (LegSpan::of(&there, 0.0)?.inverse_condition(), nearby_case::name(&there, &change.legs)?)
+            (LegSpan::of(&there, 0.0)?.inverse_condition(), super::case::name(&there, &change.legs)?)
         }
         _ => (0.0, change.kind),
     };
@@ -105,4 +111,323 @@ fn describe(m: &Manipulator, change: Change) -> Result<NearestSingular, LinalgEr
         residual,
         within_rounding,
     })
+}
+
+/// Where the search begins: a unit vector of coefficients.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Start([f64; 6]);
+
+impl Start {
+    /// The six singular vectors of the relation `c -> sum c_i v_i`, and `random` others.
+    pub(super) fn all(m: &Manipulator, seed: u64, random: u64) -> Vec<Self> {
+        let problem = Problem::of(m);
+        let singular =
+            problem.vectors(&problem.start).try_svd(false, true, f64::EPSILON, 500).and_then(|d| d.v_t);
+        let rows =
+            singular.iter().flat_map(|v| (0..6).rev().map(move |k| std::array::from_fn(|i| v[(k, i)])));
+        let mut starts: Vec<Self> = rows.map(Self).collect();
+        for k in 0..random {
+            let mut rng = Rng::stream(seed, k);
+            starts.push(Self([(); 6].map(|()| rng.normal())));
+        }
+        starts
+    }
+}
+
+const STEPS: usize = 60;
+/// Largest change in one step, and of `|F|` at the end, in the normalised coordinates.
+const STRIDE: f64 = 0.3;
+const SOLVED: f64 = 1e-13;
+/// Smaller steps than this end the search: what they leave in `F` is their square.
+const SETTLED: f64 = 1e-10;
+/// Legs with a smaller share in the relation count as not taking part.
+const SHARE: f64 = 1e-7;
+
+/// Coordinates below this, relative to the size, are left out of the search; what it finds is measured from the joints as they are.
+const LEAST: f64 = 1e-100;
+
+/// Joints in use, centred and scaled to the size.
+struct Problem {
+    joints: [Vec<usize>; 2],
+    start: DVector<f64>,
+    legs: [(usize, usize); 6],
+}
+
+impl Problem {
+    fn of(m: &Manipulator) -> Self {
+        let used = |pick: fn(&(usize, usize)) -> usize| {
+            let mut list: Vec<usize> = m.pairs().iter().map(pick).collect();
+            list.sort_unstable();
+            list.dedup();
+            list
+        };
+        let joints = [used(|p| p.0), used(|p| p.1)];
+        let mut x = Vec::new();
+        for (list, at) in joints.iter().zip([m.base_joints(), m.platform_joints()]) {
+            let first = at[list[0]];
+            let mean = list.iter().map(|j| at[*j] - first).sum::<Vector3<f64>>() / list.len() as f64;
+            let scaled = |j: &usize| (at[*j] - first - mean) / m.size();
+            // parts that no sum with a part of order one can hold: products of them are below the range of doubles, where iterations do not settle
+            let held = |x: f64| if x.abs() < LEAST { 0.0 } else { x };
+            x.extend(list.iter().flat_map(|j| scaled(j).iter().map(|x| held(*x)).collect::<Vec<_>>()));
+        }
+        let place = |list: &[usize], j: usize| list.iter().position(|k| *k == j).unwrap_or_default();
+        let legs = m.pairs().map(|(a, b)| (place(&joints[0], a), joints[0].len() + place(&joints[1], b)));
+        Self { joints, start: DVector::from_vec(x), legs }
+    }
+
+    /// `(1, a)` and `(1, b)` of a leg.
+    fn ends(&self, x: &DVector<f64>, leg: usize) -> [[f64; 4]; 2] {
+        let (a, b) = self.legs[leg];
+        [a, b].map(|j| [1.0, x[3 * j], x[3 * j + 1], x[3 * j + 2]])
+    }
+
+    /// The leg vectors as columns.
+    fn vectors(&self, x: &DVector<f64>) -> DMatrix<f64> {
+        let ends: Vec<_> = (0..6).map(|i| self.ends(x, i)).collect();
+        DMatrix::from_fn(16, 6, |k, i| ends[i][0][k / 4] * ends[i][1][k % 4])
+    }
+
+    /// Derivative of `sum c_i v_i` by the joints.
+    fn by_joints(&self, x: &DVector<f64>, c: &DVector<f64>) -> DMatrix<f64> {
+        let mut d = DMatrix::zeros(16, x.len());
+        for leg in 0..6 {
+            let [a, b] = self.ends(x, leg);
+            let (j, k) = self.legs[leg];
+            for axis in 0..3 {
+                for other in 0..4 {
+                    d[(4 * (axis + 1) + other, 3 * j + axis)] += c[leg] * b[other];
+                    d[(4 * other + axis + 1, 3 * k + axis)] += c[leg] * a[other];
+                }
+            }
+        }
+        d
+    }
+}
+
+/// Follows one start; `None` when it does not settle on a design with a relation.
+fn project(m: &Manipulator, start: &Start) -> Option<Change> {
+    let problem = Problem::of(m);
+    let mut x = problem.start.clone();
+    let mut c = DVector::from_row_slice(&start.0).normalize();
+    for _ in 0..STEPS {
+        let v = problem.vectors(&x);
+        let f = &v * &c;
+        let by_x = problem.by_joints(&x, &c);
+        let reached = tangent(&v, &c).try_svd(true, false, f64::EPSILON, 500)?;
+        // columns of U with a singular value: what a change of c reaches
+        let u = reached.u.as_ref()?;
+        let limit = 1e-10 * reached.singular_values.max();
+        let kept: Vec<usize> = (0..5).filter(|k| reached.singular_values[*k] > limit).collect();
+        let across = |w: &DMatrix<f64>| {
+            let basis = u.select_columns(&kept);
+            w - &basis * (basis.transpose() * w)
+        };
+        let y = &x - &problem.start;
+        let target = across(&DMatrix::from_column_slice(16, 1, (&by_x * &y - &f).as_slice()));
+        let least = pseudo_solve(across(&by_x), &target)?;
+        let mut step = DVector::from_column_slice(least.as_slice()) - &y;
+        let left = -(&f + &by_x * &step);
+        let mut turn = pseudo_solve(tangent(&v, &c), &DMatrix::from_column_slice(16, 1, left.as_slice()))?;
+        let damping = (STRIDE / step.norm().max(turn.norm())).min(1.0);
+        step *= damping;
+        turn *= damping;
+        x += &step;
+        c = (&c + basis_across(&c) * DVector::from_column_slice(turn.as_slice())).normalize();
+        if step.norm() <= SETTLED && turn.norm() <= SETTLED {
+            break;
+        }
+    }
+    let residual = (problem.vectors(&x) * &c).norm();
+    (residual < SOLVED).then(|| change(m, &problem, &x, &c))
+}
+
+/// An orthonormal basis of the vectors at right angles to `c`, as 6 x 5.
+fn basis_across(c: &DVector<f64>) -> DMatrix<f64> {
+    // Householder: the reflection that takes the first axis to c takes the others to a basis
+    let mut h = c.clone();
+    let sign = if h[0] < 0.0 { -1.0 } else { 1.0 };
+    h[0] += sign;
+    let reflection = DMatrix::identity(6, 6) - (&h * h.transpose()) * (2.0 / h.norm_squared());
+    reflection.columns(1, 5).into_owned()
+}
+
+/// Changes of `F` by changes of `c` on the unit sphere.
+fn tangent(v: &DMatrix<f64>, c: &DVector<f64>) -> DMatrix<f64> {
+    v * basis_across(c)
+}
+
+fn pseudo_solve(a: DMatrix<f64>, b: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    let svd = a.try_svd(true, true, f64::EPSILON, 500)?;
+    let limit = 1e-10 * svd.singular_values.max();
+    svd.solve(b, limit).ok()
+}
+
+fn change(m: &Manipulator, problem: &Problem, x: &DVector<f64>, c: &DVector<f64>) -> Change {
+    let moved = (x - &problem.start) * m.size();
+    let still = |count: usize| vec![Vector3::zeros(); count];
+    let mut bodies = [still(m.base_joints().len()), still(m.platform_joints().len())];
+    let mut next = 0;
+    for (body, list) in problem.joints.iter().enumerate() {
+        for j in list {
+            bodies[body][*j] = Vector3::new(moved[next], moved[next + 1], moved[next + 2]);
+            next += 3;
+        }
+    }
+    let [base, platform] = bodies;
+    let coefficients: [f64; 6] = std::array::from_fn(|i| c[i]);
+    let legs = (0..6).filter(|i| c[*i].abs() > SHARE).collect();
+    Change { kind: "leg_vectors_dependent", legs, coefficients: Some(coefficients), base, platform }
+}
+
+/// The nearest member of each simple family: coincident legs, four legs at one point, two points that hold all legs, a collinear body,
+/// three legs of a pencil, a bundle and a pencil with a common line.
+///
+/// Each is the least change within its family: points that have to meet meet in their centroid, points that have to line up go
+/// to the line through their centroid along the principal axis.
+pub(super) fn changes(m: &Manipulator) -> Vec<Change> {
+    let mut found = Vec::new();
+    let bodies = [Body::Base, Body::Platform];
+    for set in (1u8..64).map(members) {
+        let rest: Vec<usize> = (0..6).filter(|i| !set.contains(i)).collect();
+        if set.len() == 2 {
+            let mut change = still(m, "coincident_legs", &set);
+            for body in bodies {
+                meet(m, &mut change, body, &set);
+            }
+            found.push(change);
+        }
+        for body in bodies {
+            if set.len() == 4 {
+                let mut change = still(m, "concurrent_four", &set);
+                meet(m, &mut change, body, &set);
+                found.push(change);
+            }
+            if set.len() == 3 {
+                let mut change = still(m, "point_line", &set);
+                meet(m, &mut change, body, &set);
+                line_up(m, &mut change, opposite(body), &each(m, opposite(body), &set));
+                found.push(change);
+                stars_and_pencils(m, body, &set, &rest, &mut found);
+                for other in bodies {
+                    let mut change = still(m, "two_joints_hold_all_legs", &[0, 1, 2, 3, 4, 5]);
+                    meet(m, &mut change, body, &set);
+                    meet_again(m, &mut change, other, &rest);
+                    found.push(change);
+                }
+            }
+            if set.len() == 6 {
+                let mut change = still(m, "all_collinear", &set);
+                line_up(m, &mut change, body, &each(m, body, &set));
+                found.push(change);
+            }
+        }
+    }
+    found
+}
+
+fn members(mask: u8) -> Vec<usize> {
+    (0..6).filter(|i| mask >> i & 1 == 1).collect()
+}
+
+fn opposite(body: Body) -> Body {
+    if body == Body::Base { Body::Platform } else { Body::Base }
+}
+
+fn still(m: &Manipulator, kind: &'static str, legs: &[usize]) -> Change {
+    let none = |joints: &[Point3<f64>]| vec![Vector3::zeros(); joints.len()];
+    let (base, platform) = (none(m.base_joints()), none(m.platform_joints()));
+    Change { kind, legs: legs.to_vec(), coefficients: None, base, platform }
+}
+
+/// The joints of `body` at which `legs` end, each once.
+fn joints(m: &Manipulator, body: Body, legs: &[usize]) -> Vec<usize> {
+    let pairs = m.pairs();
+    let mut list: Vec<usize> =
+        legs.iter().map(|i| if body == Body::Base { pairs[*i].0 } else { pairs[*i].1 }).collect();
+    list.sort_unstable();
+    list.dedup();
+    list
+}
+
+fn places(m: &Manipulator, body: Body) -> &[Point3<f64>] {
+    if body == Body::Base { m.base_joints() } else { m.platform_joints() }
+}
+
+fn displacements(change: &mut Change, body: Body) -> &mut Vec<Vector3<f64>> {
+    if body == Body::Base { &mut change.base } else { &mut change.platform }
+}
+
+/// Moves the ends of `legs` to their centroid.
+fn meet(m: &Manipulator, change: &mut Change, body: Body, legs: &[usize]) {
+    let (list, at) = (joints(m, body, legs), places(m, body));
+    let mean = list.iter().map(|j| at[*j].coords).sum::<Vector3<f64>>() / list.len() as f64;
+    for j in list {
+        displacements(change, body)[j] = mean - at[j].coords;
+    }
+}
+
+/// As [`meet`], where joints of `body` may have been moved already: a joint in both sets makes the two points one.
+fn meet_again(m: &Manipulator, change: &mut Change, body: Body, legs: &[usize]) {
+    let list = joints(m, body, legs);
+    let moved = |j: &usize, change: &mut Change| displacements(change, body)[*j].norm_squared() > 0.0;
+    if list.iter().any(|j| moved(j, change)) {
+        let all: Vec<usize> = (0..6).collect();
+        meet(m, change, body, &all);
+    } else {
+        meet(m, change, body, legs);
+    }
+}
+
+/// Moves the ends of each group to one point, and these points to a line: the line through the weighted centroid along the principal axis
+/// leaves the least change.
+fn line_up(m: &Manipulator, change: &mut Change, body: Body, groups: &[Vec<usize>]) {
+    let at = places(m, body);
+    let groups: Vec<Vec<usize>> = groups.iter().map(|g| joints(m, body, g)).collect();
+    let centre =
+        |group: &Vec<usize>| group.iter().map(|j| at[*j].coords).sum::<Vector3<f64>>() / group.len() as f64;
+    let weight: f64 = groups.iter().map(|g| g.len() as f64).sum();
+    let mean = groups.iter().map(|g| centre(g) * g.len() as f64).sum::<Vector3<f64>>() / weight;
+    let term = |g: &Vec<usize>| (centre(g) - mean) * (centre(g) - mean).transpose() * g.len() as f64;
+    let scatter: Matrix3<f64> = groups.iter().map(term).sum();
+    let (values, vectors) = symmetric_eigen3(&scatter);
+    let axis = vectors.column(values.imax()).into_owned();
+    for group in &groups {
+        let place = mean + axis * axis.dot(&(centre(group) - mean));
+        for j in group {
+            displacements(change, body)[*j] = place - at[*j].coords;
+        }
+    }
+}
+
+/// One group a joint of `body` at which `legs` end.
+fn each(m: &Manipulator, body: Body, legs: &[usize]) -> Vec<Vec<usize>> {
+    let mut seen = Vec::new();
+    legs.iter()
+        .filter_map(|i| {
+            let joint = joints(m, body, &[*i]);
+            let new = !seen.contains(&joint);
+            seen.push(joint);
+            new.then(|| vec![*i])
+        })
+        .collect()
+}
+
+/// Three legs from one point of `body`, two of the others from one point of the other body to a line through it.
+fn stars_and_pencils(m: &Manipulator, body: Body, star: &[usize], rest: &[usize], found: &mut Vec<Change>) {
+    for skipped in rest {
+        let pair: Vec<usize> = rest.iter().copied().filter(|i| i != skipped).collect();
+        let mut legs: Vec<usize> = star.iter().chain(&pair).copied().collect();
+        legs.sort_unstable();
+        let at_star = joints(m, body, star);
+        if pair.iter().any(|i| at_star.contains(&joints(m, body, &[*i])[0])) {
+            continue; // four legs at one point: another family
+        }
+        let mut change = still(m, "star_and_pencil", &legs);
+        let mut groups = each(m, body, &pair);
+        groups.push(star.to_vec());
+        line_up(m, &mut change, body, &groups);
+        meet(m, &mut change, opposite(body), &pair);
+        found.push(change);
+    }
 }

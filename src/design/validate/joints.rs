@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use nalgebra::Point3;
 
-use super::fields::{self, nearest, numbers, shown};
-use crate::design::report::Report;
+use super::{nearest, numbers, shown};
 use crate::design::tree::{Entry, Node, Span, Value};
+use crate::design::violation::Report;
 use crate::design::{Code, Warning};
 use crate::manipulator::is_collinear;
 
@@ -47,7 +47,7 @@ pub(super) fn is_list_of_pairs(node: &Node) -> bool {
 
 /// Reads `[base]` or `[platform]`.
 pub(super) fn body(report: &mut Report<'_>, label: &'static str, entry: &Entry) -> Option<Body> {
-    let entries = fields::table(report, &entry.node, &format!("[{label}]"))?;
+    let entries = super::table(report, &entry.node, &format!("[{label}]"))?;
     let mut body = Body { label, span: entry.key_span.clone(), joints: Vec::new(), index: BTreeMap::new() };
     for e in entries.iter().filter(|e| e.key != "legs" || !is_list_of_pairs(&e.node)) {
         if e.key.trim().is_empty() {

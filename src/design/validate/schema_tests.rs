@@ -2,9 +2,8 @@
 
 use serde_json::Value;
 
-use super::requirements::HARDWARE_KEYS;
 use super::search::SEARCH_KEYS;
-use super::tables::{LIMIT_KEYS, POSE_KEYS, WORKSPACE_KEYS};
+use super::tables::{HARDWARE_KEYS, LIMIT_KEYS, POSE_KEYS, WORKSPACE_KEYS};
 use crate::design::SCHEMA;
 use crate::dimensional::{Objective, VariableKind};
 

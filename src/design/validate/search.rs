@@ -1,9 +1,9 @@
 //! The keys of `[optimize]` that say what may be chosen and what is best.
 
-use super::fields::{check_keys, nearest_help, number, numbers, shown, table};
-use super::requirements::positive;
-use crate::design::report::Report;
+use super::tables::positive;
+use super::{check_keys, nearest_help, number, numbers, shown, table};
 use crate::design::tree::{Entry, Node, Value, find};
+use crate::design::violation::Report;
 use crate::design::{Code, Combination, SearchTable};
 use crate::dimensional::{Objective, VariableKind};
 

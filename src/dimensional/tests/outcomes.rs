@@ -55,13 +55,7 @@ fn a_conflict_of_cones_is_proved_and_one_that_is_none_is_not() {
     let proved = |p: &DimensionalProblem, group: Group| {
         let model = Model::new(p).unwrap();
         let x = [0.4; 6];
-        crate::dimensional::certificate::proved_empty(
-            &model,
-            &model.first_poses(),
-            &x,
-            &[group],
-            &everything(1),
-        )
+        crate::dimensional::conflict::proved_empty(&model, &model.first_poses(), &x, &[group], &everything(1))
     };
     assert!(proved(&p, Group::Term(TermKind::BaseSwing)));
     // spacing is not convex: nothing is proved about it

@@ -1,6 +1,7 @@
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
 use super::super::plans;
+use super::strip::literal;
 use super::*;
 use crate::poly::complex_roots;
 use crate::topology::{catalogue, sequences};
@@ -40,7 +41,7 @@ fn the_short_way_gives_the_polynomial_of_the_long_one() {
             let data = ExactData::random(&legs, &mut Rng::new(number as u64));
             let closure = best_closure(&data, s).unwrap();
             let short = reduced::<FieldPoly>(&data, s, closure).unwrap().polynomial;
-            let long = remove_factors(&literal::literal::<FieldPoly>(&data, s, closure).unwrap()).polynomial;
+            let long = remove_factors(&literal::<FieldPoly>(&data, s, closure).unwrap()).polynomial;
             let degrees = (short.degree().unwrap(), long.degree().unwrap());
             // a closure that the last root does not enter is squared on the long way
             let power = degrees.1 / degrees.0;

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use num_complex::Complex64;
 
-use super::aberth::{Condition, zeros};
+use super::roots::{Condition, zeros};
 
 /// A polynomial `sum over -n..=n of b_m v^m`, `t = (v + 1/v) / 2`, `b_-m = b_m` real: a sum of Chebyshev polynomials `T_m(t)`.
 #[derive(Debug, Clone)]

@@ -6,22 +6,15 @@
 //! of a leg, and the same product over the 40 poses of that platform is a polynomial of degree 40 in the squared virtual length. Theory, proofs and
 //! costs: `docs/theory/hidden-lengths.md`.
 
-mod aberth;
 mod chebyshev;
-mod circle;
 mod general;
 mod legs;
-mod newton;
-mod octic;
-mod product;
 mod roots;
 mod rotations;
-mod search;
 
-use self::general::GeneralRoles;
+use self::general::{GeneralRoles, general_poses};
 use self::legs::{HiddenLeg, Roles, scaled, unscaled};
 use self::roots::closure_zeros;
-use self::search::general_poses;
 use crate::geom::ComplexPose;
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 

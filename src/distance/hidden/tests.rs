@@ -1,9 +1,8 @@
 use nalgebra::{Point3, Vector3};
 use num_complex::Complex64;
 
-use super::legs::Roles;
-use super::newton::refined;
-use super::product::Scratch;
+use super::general::refined;
+use super::legs::{Roles, Scratch};
 use super::*;
 use crate::geom::{Pose, random_rotation};
 use crate::num::Rng;

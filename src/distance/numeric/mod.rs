@@ -6,20 +6,18 @@
 //! of the Gram determinants of the steps' bases; values on `|u| = 1` give its coefficients, its zeros give one configuration each,
 //! made accurate by Newton's method on the closure itself. Theory: `docs/theory/trilateration.md`.
 
-mod branch;
 mod chain;
 mod number;
 mod shape;
-mod trigonometric;
 
 pub use shape::Shape;
 
 use num_complex::Complex64;
 
+use self::chain::{Branch, Leaf};
 use crate::geom::ComplexPose;
 use crate::manipulator::Manipulator;
 use crate::topology::{Joint, Sequence};
-use branch::{Branch, Leaf};
 use chain::{Chain, Positions};
 use number::squared_distance;
 
@@ -115,11 +113,10 @@ impl Evaluator {
             return;
         };
         let count = (2 * self.shape.degree + 1).next_multiple_of(8);
-        let points: Vec<Complex64> =
-            trigonometric::unit_circle(count).into_iter().map(|v| v * radius).collect();
+        let points: Vec<Complex64> = shape::unit_circle(count).into_iter().map(|v| v * radius).collect();
         let values = branch.products(&points, self.shape.exponents);
-        let coefficients = trigonometric::coefficients(&values, self.shape.degree);
-        let (zeros, lost) = trigonometric::zeros(&coefficients);
+        let coefficients = shape::coefficients(&values, self.shape.degree);
+        let (zeros, lost) = shape::zeros(&coefficients);
         out.lost += lost;
         let mut zeros: Vec<Complex64> = zeros.into_iter().map(|v| v * radius).collect();
         let mut found = self.polished(&branch, &zeros);

@@ -1,31 +1,27 @@
-//! Joints on a grid of holes.
+//! Joints on a grid of holes, and what a rounded design is worth: conditioning, requirements, distances of joints.
 
 mod exact;
-mod fit;
 mod free;
 mod grid;
-mod judge;
 mod nearest;
-mod pool;
-mod roles;
 #[cfg(test)]
 mod tests;
 
-pub use exact::ExactRounding;
-pub use grid::Grid;
-pub use judge::Judgement;
-pub use nearest::NearestRounding;
+use std::collections::BTreeMap;
 
 use nalgebra::{Point3, Vector3};
 use thiserror::Error;
 
+pub use self::exact::ExactRounding;
+use self::exact::Roles;
+pub use self::grid::Grid;
 use self::grid::{BodyGrid, Cell};
-use self::roles::Roles;
+pub use self::nearest::NearestRounding;
 use super::joint::{Joint, joints};
 use crate::equivalence::SamplePlan;
 use crate::geom::Pose;
-use crate::manipulator::Manipulator;
-use crate::requirements::{PoseSpace, Requirements};
+use crate::manipulator::{Manipulator, inverse_condition, jacobian};
+use crate::requirements::{PoseSpace, Requirements, TermKind, Terms};
 use crate::synthesis::Body;
 
 /// Sets of leg lengths at which a rounded design is compared with what it should be equivalent to.
@@ -161,7 +157,7 @@ pub fn round_to_grid(problem: &RoundingProblem<'_>) -> Result<Rounding, NoRoundi
     let det = roles.as_ref().map(|r| r.determinant(m));
     let free = |roles| if problem.free { layings(problem, &given, roles) } else { vec![given] };
     Ok(Rounding {
-        wanted: judge::judge(m, problem, det),
+        wanted: judge(m, problem, det),
         exact: match &roles {
             Some(roles) => exact::round(problem, &free(Some(roles)), roles),
             None => Err(NoRounding::NoTriangles),
@@ -257,4 +253,87 @@ fn sample_plan(problem: &RoundingProblem<'_>) -> SamplePlan {
         rotation = Vector3::repeat(20f64.to_radians());
     }
     SamplePlan { home: space.home, translation, rotation, count: SAMPLES, seed: problem.seed }
+}
+
+/// The numbers by which roundings are compared.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Judgement {
+    /// Worst inverse condition number over the poses.
+    pub objective: f64,
+    /// Where.
+    pub worst_pose: Pose,
+    /// Least distance of two joints of the base and of the platform, design units.
+    pub least_distances: [f64; 2],
+    /// `det A` of the leg map from the octahedral platform, where there is one.
+    pub det: Option<f64>,
+    /// Least margin of each kind of requirement at the poses.
+    pub margins: Vec<(TermKind, f64)>,
+    /// No margin is below 0 by more than rounding and `|det A|` is as large as required.
+    pub met: bool,
+}
+
+fn least_distance(joints: &[Point3<f64>], used: &[usize; 6]) -> f64 {
+    let mut least = f64::INFINITY;
+    for i in 0..joints.len() {
+        for j in (0..i).filter(|j| used.contains(&i) && used.contains(j)) {
+            least = least.min((joints[i] - joints[j]).norm());
+        }
+    }
+    least
+}
+
+/// The worst inverse condition number when it is above `floor`, poses from number `hint` on first; `hint` becomes the number of the worst.
+fn objective_above(
+    m: &Manipulator,
+    problem: &RoundingProblem<'_>,
+    floor: f64,
+    hint: &mut usize,
+) -> Option<f64> {
+    let count = problem.poses.len();
+    let (mut worst, start) = (f64::INFINITY, *hint);
+    for k in (0..count).map(|k| (start + k) % count) {
+        let value = inverse_condition(&jacobian(m, &problem.poses[k], problem.characteristic_length));
+        if value < worst {
+            (worst, *hint) = (value, k);
+        }
+        if !(worst > floor) {
+            return None;
+        }
+    }
+    Some(worst)
+}
+
+/// Least margins at the poses, and whether none is violated.
+fn margins(m: &Manipulator, problem: &RoundingProblem<'_>) -> (Vec<(TermKind, f64)>, bool) {
+    let terms = Terms::new(m, problem.requirements, &problem.space.home);
+    let mut least: BTreeMap<TermKind, (f64, Option<&Pose>)> = BTreeMap::new();
+    let at = |pose| terms.at(pose).into_iter().map(move |(term, margin)| (term, margin, Some(pose)));
+    let fixed = terms.fixed().into_iter().map(|(term, margin)| (term, margin, None));
+    for (term, margin, pose) in fixed.chain(problem.poses.iter().flat_map(at)) {
+        let entry = least.entry(term.kind).or_insert((margin, pose));
+        if margin < entry.0 {
+            *entry = (margin, pose);
+        }
+    }
+    let met = least.iter().all(|(kind, (margin, pose))| terms.standing(*kind, *margin, *pose).is_met());
+    (least.into_iter().map(|(kind, (margin, _))| (kind, margin)).collect(), met)
+}
+
+/// Everything about a design.
+fn judge(m: &Manipulator, problem: &RoundingProblem<'_>, det: Option<f64>) -> Judgement {
+    let mut hint = 0;
+    let objective = objective_above(m, problem, -1.0, &mut hint).unwrap_or(0.0);
+    let ((margins, requirements_met), pairs) = (margins(m, problem), m.pairs());
+    let det_met = problem.min_abs_det.is_none_or(|least| det.is_none_or(|det| det.abs() >= least));
+    Judgement {
+        objective,
+        worst_pose: problem.poses[hint],
+        least_distances: [
+            least_distance(m.base_joints(), &pairs.map(|p| p.0)),
+            least_distance(m.platform_joints(), &pairs.map(|p| p.1)),
+        ],
+        det,
+        met: det_met && requirements_met,
+        margins,
+    }
 }

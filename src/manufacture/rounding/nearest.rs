@@ -2,11 +2,11 @@
 
 use nalgebra::{Matrix3, Vector3};
 
+use super::exact::Roles;
 use super::grid::{BodyGrid, Cell};
-use super::judge::{Judgement, judge};
-use super::roles::Roles;
 use super::{
-    Grid, Laying, NoRounding, RoundedJoint, RoundingProblem, best_of, grid_of, on_cells, place, sample_plan,
+    Grid, Judgement, Laying, NoRounding, RoundedJoint, RoundingProblem, best_of, grid_of, judge, on_cells,
+    place, sample_plan,
 };
 use crate::equivalence::{Verification, VerifyError, verify};
 use crate::fk::FkOptions;

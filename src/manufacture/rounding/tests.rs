@@ -3,6 +3,7 @@
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::exact::{proved, rank};
+use super::grid::{Wanted, pool};
 use super::*;
 use crate::equivalence::Verdict;
 use crate::manipulator::{Leg, inverse_condition, jacobian};
@@ -85,11 +86,9 @@ fn no_other_triangle_of_one_body_is_better() {
             let points: Vec<_> = list.iter().filter(|j| j.body == own).map(|j| place(m, *j)).collect();
             let grid = BodyGrid::new(&points, &GRID, m.size()).unwrap();
             let at = |j: Joint| grid.coordinates(&place(m, j));
-            let wanted = pool::Wanted {
-                corners: roles.corners[body].map(at),
-                inner: roles.inner.map(|i| i[body].map(at)),
-            };
-            for t in pool::pool(&wanted, 30, 16.0).triangles {
+            let wanted =
+                Wanted { corners: roles.corners[body].map(at), inner: roles.inner.map(|i| i[body].map(at)) };
+            for t in pool(&wanted, 30, 16.0).triangles {
                 let mut joints =
                     [found.manipulator.base_joints().to_vec(), found.manipulator.platform_joints().to_vec()];
                 for k in 0..3 {

@@ -2,12 +2,12 @@
 
 use std::ops::ControlFlow;
 
-use super::exclude::{Test, test};
 use super::rows::{LegRow, greatest};
 use super::*;
+use super::{Test, test};
 use crate::num::Rng;
 use crate::offsets::conditioning::worst_case;
-use crate::offsets::enclosure::point;
+use crate::offsets::limits::point;
 use crate::offsets::tests::{example, poses_about};
 use crate::offsets::{OffsetOutcome, OptimizeOptions, optimize};
 

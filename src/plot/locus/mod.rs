@@ -1,14 +1,9 @@
 //! All values of a squared virtual length in the complex plane while one leg length varies.
+//!
+//! Values are followed from step to step: what belongs together, and where values meet on the real axis. Pieces of curves are
+//! joined to strokes, so that the document is no longer than it must be.
 
-mod follow;
-mod pen;
-
-pub use self::follow::{LocusMeeting, LocusStep, LocusValue, locus_meetings};
-
-use self::follow::{Links, Sides, links, sides};
-use self::pen::Pen;
-use super::axis::Axis;
-use super::style::Svg;
+use super::style::{Axis, Svg};
 
 /// What the picture shows.
 #[derive(Debug, Clone, PartialEq)]
@@ -237,6 +232,224 @@ fn frame(svg: &mut Svg, panel: &Panel, quantity: &str) {
     svg.turned_text("mid", (x.from - 54.0, f64::midpoint(TOP, bottom)), -90.0, &format!("Im {quantity}"));
 }
 
+/// The values at one length.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LocusStep {
+    /// The length that is varied, design units.
+    pub length: f64,
+    /// Squared virtual lengths, one a pose; those not finite are passed over.
+    pub values: Vec<LocusValue>,
+}
+
+/// One squared virtual length.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LocusValue {
+    /// Real part, design units squared.
+    pub re: f64,
+    /// Imaginary part.
+    pub im: f64,
+    /// The pose is real.
+    pub real: bool,
+}
+
+/// Two values meet on the real axis and leave it, or the other way round: a double root in between.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LocusMeeting {
+    /// Index of the step before.
+    pub after: usize,
+    /// About this length.
+    pub length: f64,
+    /// About this value.
+    pub value: f64,
+}
+
+/// Values this close, relative to the largest of the step, are one for the picture (poses that are mirror images).
+const SAME: f64 = 1e-9;
+/// The nearest value is the next one on the curve when every other is this much farther.
+const CLEAR: f64 = 1.5;
+
+/// One step with values told apart by the side of the real axis.
+struct Sides {
+    length: f64,
+    /// On the real axis, ascending, with whether a pose is real.
+    axis: Vec<(f64, bool)>,
+    /// Above it; the conjugates below are left out.
+    above: Vec<(f64, f64)>,
+}
+
+fn sides(step: &LocusStep) -> Sides {
+    let finite = step.values.iter().filter(|v| v.re.is_finite() && v.im.is_finite());
+    let values: Vec<&LocusValue> = finite.collect();
+    let scale = values.iter().map(|v| v.re.hypot(v.im)).fold(0.0, f64::max);
+    let near = |d: f64| d <= SAME * scale;
+    let mut out = Sides { length: step.length, axis: Vec::new(), above: Vec::new() };
+    for v in values {
+        if v.real || near(v.im.abs()) {
+            match out.axis.iter_mut().find(|a| near((a.0 - v.re).abs())) {
+                Some(known) => known.1 |= v.real,
+                None => out.axis.push((v.re, v.real)),
+            }
+        } else if v.im > 0.0 && !out.above.iter().any(|a| near((a.0 - v.re).hypot(a.1 - v.im))) {
+            out.above.push((v.re, v.im));
+        }
+    }
+    out.axis.sort_by(|a, b| a.0.total_cmp(&b.0));
+    out
+}
+
+/// What becomes of the values between two steps.
+struct Links {
+    /// Indices on the axis, before and after.
+    axis: Vec<(usize, usize)>,
+    /// Indices above the axis.
+    above: Vec<(usize, usize)>,
+    /// Two on the axis, one above; `before` tells on which side of the meeting the two are.
+    meetings: Vec<Met>,
+}
+
+/// A meeting with the indices of its values.
+struct Met {
+    pair: [usize; 2],
+    above: usize,
+    axis_before: bool,
+    length: f64,
+    value: f64,
+}
+
+fn links(before: &Sides, after: &Sides) -> Links {
+    let real = |s: &Sides| s.axis.iter().map(|a| (a.0, 0.0)).collect::<Vec<_>>();
+    let (b, a) = (real(before), real(after));
+    let axis = mutual(&b, &a);
+    let above = mutual(&before.above, &after.above);
+    let meetings = if before.axis.len() > after.axis.len() {
+        meet(before, after, &axis, &above, true)
+    } else {
+        meet(after, before, &turned(&axis), &turned(&above), false)
+    };
+    Links { axis, above, meetings }
+}
+
+fn turned(pairs: &[(usize, usize)]) -> Vec<(usize, usize)> {
+    pairs.iter().map(|p| (p.1, p.0)).collect()
+}
+
+/// Pairs each of which is the other's nearest by far.
+fn mutual(before: &[(f64, f64)], after: &[(f64, f64)]) -> Vec<(usize, usize)> {
+    let to: Vec<Option<usize>> = before.iter().map(|p| nearest(p, after)).collect();
+    let back: Vec<Option<usize>> = after.iter().map(|p| nearest(p, before)).collect();
+    let pair = |(i, j): (usize, &Option<usize>)| j.filter(|j| back[*j] == Some(i)).map(|j| (i, j));
+    to.iter().enumerate().filter_map(pair).collect()
+}
+
+fn nearest(p: &(f64, f64), others: &[(f64, f64)]) -> Option<usize> {
+    let distance = |q: &(f64, f64)| (p.0 - q.0).hypot(p.1 - q.1);
+    let best = (0..others.len()).min_by(|i, j| distance(&others[*i]).total_cmp(&distance(&others[*j])))?;
+    let limit = CLEAR * distance(&others[best]);
+    let clear = others.iter().enumerate().all(|(k, q)| k == best || distance(q) >= limit);
+    clear.then_some(best)
+}
+
+/// Values without a partner: two neighbours on the axis of one step and one above in the other. The square of half their difference is
+/// smooth through the meeting and changes sign there, so that it is found by interpolation.
+fn meet(
+    two: &Sides,
+    one: &Sides,
+    axis: &[(usize, usize)],
+    above: &[(usize, usize)],
+    axis_before: bool,
+) -> Vec<Met> {
+    let mut free: Vec<usize> = (0..two.axis.len()).filter(|i| axis.iter().all(|p| p.0 != *i)).collect();
+    let mut out = Vec::new();
+    for k in (0..one.above.len()).filter(|k| above.iter().all(|p| p.1 != *k)) {
+        let (re, im) = one.above[k];
+        let middle = |i: usize| f64::midpoint(two.axis[free[i]].0, two.axis[free[i + 1]].0);
+        let off = |i: &usize| (middle(*i) - re).abs();
+        let Some(i) = (0..free.len().saturating_sub(1)).min_by(|i, j| off(i).total_cmp(&off(j))) else {
+            break;
+        };
+        let half = 0.5 * (two.axis[free[i + 1]].0 - two.axis[free[i]].0);
+        // farther apart than they can have come in one step: they belong to something else
+        if off(&i) > 2.0 * (half + im) {
+            continue;
+        }
+        let t = half * half / (half * half + im * im);
+        out.push(Met {
+            pair: [free[i], free[i + 1]],
+            above: k,
+            axis_before,
+            length: two.length + t * (one.length - two.length),
+            value: middle(i) + t * (re - middle(i)),
+        });
+        free.drain(i..i + 2);
+    }
+    out
+}
+
+/// Where values meet on the real axis, by interpolation between steps; meetings that are not clear are not reported.
+#[must_use]
+pub fn locus_meetings(steps: &[LocusStep]) -> Vec<LocusMeeting> {
+    let sides: Vec<Sides> = steps.iter().map(sides).collect();
+    let mut out = Vec::new();
+    for (after, pair) in sides.windows(2).enumerate() {
+        let found = links(&pair[0], &pair[1]).meetings;
+        out.extend(found.iter().map(|m| LocusMeeting { after, length: m.length, value: m.value }));
+    }
+    out
+}
+
+/// A stroke of one class.
+struct Stroke {
+    class: usize,
+    heavy: bool,
+    points: Vec<(f64, f64)>,
+}
+
+/// Strokes in the order of their beginnings.
+#[derive(Default)]
+struct Pen {
+    strokes: Vec<Stroke>,
+    /// Strokes that ended at the last step and may go on, and those of this step.
+    open: [Vec<usize>; 2],
+}
+
+impl Pen {
+    /// The pieces that follow belong to the next step.
+    fn next_step(&mut self) {
+        self.open[0] = std::mem::take(&mut self.open[1]);
+    }
+
+    /// Adds a piece: to the stroke that ends where it begins, else as a new one.
+    fn piece(&mut self, class: usize, heavy: bool, points: &[(f64, f64)]) {
+        let [first, _, ..] = points else { return };
+        let same = |p: (f64, f64), q: (f64, f64)| (p.0 - q.0).abs() + (p.1 - q.1).abs() < 1e-9;
+        let goes_on = |k: &usize| {
+            let s = &self.strokes[*k];
+            s.class == class && s.heavy == heavy && s.points.last().is_some_and(|e| same(*e, *first))
+        };
+        let k = if let Some(k) = self.open[0].iter().copied().find(goes_on) {
+            let stroke = &mut self.strokes[k].points;
+            // what is not seen is not drawn, but the end stays where it is
+            if let [.., p, q] = stroke[..]
+                && (p.0 - q.0).hypot(p.1 - q.1) < 0.7
+            {
+                stroke.pop();
+            }
+            stroke.extend(&points[1..]);
+            k
+        } else {
+            self.strokes.push(Stroke { class, heavy, points: points.to_vec() });
+            self.strokes.len() - 1
+        };
+        self.open[1].push(k);
+    }
+
+    fn draw(self, svg: &mut Svg) {
+        for s in self.strokes {
+            svg.polyline(&format!("along c{}{}", s.class, if s.heavy { " on" } else { "" }), &s.points);
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -273,5 +486,49 @@ mod tests {
         let far = LocusValue { re: f64::MAX, im: f64::INFINITY, real: false };
         let one = LocusStep { length: 1.0, values: vec![far, LocusValue { re: 3.0, im: 0.0, real: true }] };
         assert!(!locus_chart(&figure(vec![one.clone(), one])).contains("NaN"));
+    }
+
+    /// Roots of `x^2 = t` beside one that stays.
+    fn step(t: f64) -> LocusStep {
+        let root = t.abs().sqrt();
+        let value = |re: f64, im: f64| LocusValue { re, im, real: im.to_bits() << 1 == 0 };
+        let pair = if t > 0.0 {
+            [value(-root, 0.0), value(root, 0.0)]
+        } else {
+            [value(0.0, -root), value(0.0, root)]
+        };
+        LocusStep { length: t, values: vec![pair[0], value(9.0, 0.0), pair[1]] }
+    }
+
+    #[test]
+    fn a_double_root_is_found_between_the_steps_in_both_directions() {
+        let steps: Vec<LocusStep> = (0..10).map(|k| step(f64::from(k) - 4.3)).collect();
+        let back: Vec<LocusStep> = steps.iter().rev().cloned().collect();
+        for (list, after) in [(steps, 4), (back, 4)] {
+            let found = locus_meetings(&list);
+            assert_eq!(found.len(), 1, "{found:?}");
+            assert_eq!(found[0].after, after);
+            assert!(found[0].length.abs() < 1e-12 && found[0].value.abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn values_that_stay_on_their_side_do_not_meet() {
+        let steps: Vec<LocusStep> = (1..10).map(|k| step(f64::from(k))).collect();
+        assert_eq!(locus_meetings(&steps), []);
+        let none = LocusStep { length: 0.0, values: Vec::new() };
+        assert_eq!(locus_meetings(&[step(1.0), none, step(-1.0)]), []);
+    }
+
+    #[test]
+    fn equal_values_are_one_and_unclear_ones_are_not_linked() {
+        let value = |re: f64, im: f64| LocusValue { re, im, real: false };
+        let twice = sides(&LocusStep {
+            length: 1.0,
+            values: vec![value(2.0, 1.0), value(2.0, 1.0), value(3.0, 1e-12), value(f64::NAN, 0.0)],
+        });
+        assert_eq!((twice.above.len(), twice.axis.as_slice()), (1, [(3.0, false)].as_slice()));
+        assert_eq!(mutual(&[(0.0, 1.0)], &[(0.1, 1.0), (-0.11, 1.0)]), []);
+        assert_eq!(mutual(&[(0.0, 1.0)], &[(0.1, 1.0), (-0.9, 1.0)]), [(0, 0)]);
     }
 }

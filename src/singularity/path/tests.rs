@@ -23,7 +23,7 @@ fn the_form_of_degree_18_is_the_determinant_times_the_sixth_power_of_the_norm() 
     let mut rng = Rng::new(1);
     for _ in 0..5 {
         let (m, x, y) = (design(&mut rng), pose(&mut rng), pose(&mut rng));
-        let c = polynomial::determinant(&m, &x, &y);
+        let c = determinant(&m, &x, &y);
         assert_eq!(c.len(), 19);
         let (e0, e1) = quaternions(&x, &y);
         for u in [0.0, 0.3, 0.77, 0.99_f64] {

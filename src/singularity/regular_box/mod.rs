@@ -1,20 +1,31 @@
 //! Sets of poses in which the Jacobian is proved to be regular: the largest box about a pose, and a workspace.
 //!
 //! Poses are those of a workspace, `R = exp([w]x) R_0`, `p = p_0 + d`, and the set of scale `t` is `|d_k| <= t D_k`, `|w_k| <= t theta_k`, or the two ellipsoids with
-//! these half axes. From below: cells in which `det J != 0` is proved by interval arithmetic ([`enclosure`]), shell by shell. From above: a pose at which `det J` has the
-//! other sign; the segment in `(d, w)` from home to it stays in the set and holds a singular pose ([`rays`]).
+//! these half axes. From below: cells in which `det J != 0` is proved by interval arithmetic, shell by shell. From above: a pose at which `det J` has the
+//! other sign; the segment in `(d, w)` from home to it stays in the set and holds a singular pose.
 //!
 //! `J` is the matrix of leg lines that are not divided by the leg lengths, so that for a leg map `det J' = det A det J` at every pose: the
 //! sets are those of all equivalent platforms.
+//!
+//! The leg lines over a box of poses are independent at all of them by this test. With `K` near the inverse of `J` at the centre and `J_k` an enclosure of `dJ / dq_k` over the box, the mean value theorem gives
+//!
+//! ```text
+//! |I - K J(q)| <= W = |I - K J(centre)| + sum_k |K J_k| half_k      entry by entry, for every q of the box.
+//! ```
+//!
+//! When `W u < u` for some positive vector `u` the spectral radius of `I - K J(q)` is below 1 and `J(q)` is regular (Neumaier, Interval methods for systems of equations, 1990,
+//! sec. 4.1). Rows are `[n, a x n]`, `n = R b + p - a`, about the mean base joint, in units of the size.
 
-mod enclosure;
-mod rays;
+#[cfg(test)]
+mod tests;
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix6, Vector3};
 
-use crate::geom::{Cell, Chart, Covered, Pose, PoseSpace, Region};
-use crate::manipulator::Manipulator;
-use enclosure::Lines;
+use crate::geom::enclosed::{Matrix, Vector, apply, contraction, cross, dot, times};
+use crate::geom::{Cell, Chart, Covered, Pose, PoseSpace, Region, combination, turn, turn_slope};
+use crate::manipulator::{Manipulator, leg_determinant};
+use crate::num::Rng;
+use crate::num::interval::Interval;
 
 /// What set is sought, and how hard.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -73,7 +84,7 @@ pub fn regular_box(m: &Manipulator, home: &Pose, options: &BoxOptions) -> Regula
     let Some(sign) = lines.sign_at(&[0.0; 6]).filter(|_| regular_home) else {
         return RegularBox { proved: 0.0, refuted: None, searched, regions: 1 };
     };
-    let refuted = rays::nearest_change(&lines, sign, searched, options.seed);
+    let refuted = nearest_change(&lines, sign, searched, options.seed);
     let mut state = Search { lines: &lines, sign, left: options.regions, searched, refuted };
     let mut proved = 0.0;
     // shells thin out towards the singular pose, where cells get small
@@ -118,7 +129,7 @@ pub fn regular_workspace(m: &Manipulator, space: &PoseSpace, cells: usize, seed:
         };
         // shallow changes of sign are found by rays, where cells would have to be small
         let whole = chart.root.lo.iter().any(|x| *x < 0.0);
-        let refuted = if whole { rays::nearest_change(&lines, sign, 1.0, seed) } else { None };
+        let refuted = if whole { nearest_change(&lines, sign, 1.0, seed) } else { None };
         if let Some((_, x)) = refuted {
             return (Regularity::ChangesSign(chart.pose(&x)), tested);
         }
@@ -242,5 +253,206 @@ fn slabs(chart: &Chart, inner: f64, outer: f64) -> Vec<Cell> {
     out
 }
 
-#[cfg(test)]
-mod tests;
+/// The legs of a manipulator over the poses of a chart.
+#[derive(Debug)]
+struct Lines<'a> {
+    chart: &'a Chart,
+    manipulator: &'a Manipulator,
+    /// Base joints, from their mean.
+    base: [Vector; 6],
+    /// `R_0 b`.
+    arm: [Vector; 6],
+    /// `p_0` less the mean base joint.
+    home: Vector,
+    /// Columns of the chart, lengths over the size.
+    columns: Vec<[Interval; 6]>,
+}
+
+impl<'a> Lines<'a> {
+    fn new(manipulator: &'a Manipulator, chart: &'a Chart) -> Self {
+        let legs = manipulator.legs();
+        let mean = legs.iter().map(|l| l.base.coords).sum::<Vector3<f64>>() / 6.0;
+        let unit = Interval::from(manipulator.size());
+        // rounded away before anything is proved: the origin of moments is free
+        let over = |x: Interval| x.checked_div(unit).unwrap_or(Interval::WHOLE);
+        let scaled = |x: f64, from: f64| over(Interval::from(x) - Interval::from(from));
+        let base = legs.map(|l| std::array::from_fn(|k| scaled(l.base[k], mean[k])));
+        let arm = legs.map(|l| apply(&chart.rotation, &std::array::from_fn(|k| scaled(l.platform[k], 0.0))));
+        let home = std::array::from_fn(|k| over(chart.position[k] - Interval::from(mean[k])));
+        let column = |c: &[Interval; 6]| std::array::from_fn(|k| if k < 3 { over(c[k]) } else { c[k] });
+        let columns = chart.columns.iter().map(column).collect();
+        Self { chart, manipulator, base, arm, home, columns }
+    }
+
+    /// `det J` of rounded numbers.
+    fn determinant(&self, x: &[f64; 6]) -> f64 {
+        leg_determinant(self.manipulator, &self.chart.pose(x))
+    }
+
+    /// Rows `[n_i, a_i x n_i]`.
+    fn rows(&self, n: impl Fn(usize) -> Vector) -> Matrix {
+        std::array::from_fn(|i| {
+            let direction = n(i);
+            let moment = cross(&self.base[i], &direction);
+            std::array::from_fn(|k| if k < 3 { direction[k] } else { moment[k - 3] })
+        })
+    }
+
+    /// Encloses `J` over a cell.
+    fn over(&self, cell: &Cell) -> Matrix {
+        let q = combination(&self.columns, cell);
+        let r = turn(&[q[3], q[4], q[5]]);
+        self.rows(|i| {
+            let arm = apply(&r, &self.arm[i]);
+            std::array::from_fn(|k| arm[k] + self.home[k] + q[k] - self.base[i][k])
+        })
+    }
+
+    /// Enclosures of `dJ / dx_k` over the cell, by coordinate.
+    fn slopes(&self, cell: &Cell) -> Vec<Matrix> {
+        let q = combination(&self.columns, cell);
+        let turning = |c: &[Interval; 6]| c[3..].iter().any(|x| *x != Interval::ZERO);
+        let needed = self.columns.iter().any(turning);
+        let turns: Vec<_> =
+            (0..if needed { 3 } else { 0 }).map(|k| turn_slope(&[q[3], q[4], q[5]], k)).collect();
+        let slope = |column: &[Interval; 6]| {
+            self.rows(|i| {
+                let mut step: Vector = std::array::from_fn(|k| column[k]);
+                for (k, turned) in turns.iter().enumerate().filter(|(k, _)| column[k + 3] != Interval::ZERO) {
+                    let moved = apply(turned, &self.arm[i]);
+                    step = std::array::from_fn(|l| step[l] + column[k + 3] * moved[l]);
+                }
+                step
+            })
+        };
+        self.columns.iter().map(slope).collect()
+    }
+
+    /// Whether all poses of the cell are proved regular; if not, the axis along which `J` changes most over it.
+    fn is_regular(&self, cell: &Cell) -> Result<(), usize> {
+        let centre = cell.centre();
+        let slopes = self.slopes(cell);
+        let reach = |k: usize| cell.reach(&centre, k);
+        let steepest = |changes: &[Matrix]| {
+            let weight = |k: usize| {
+                let sum: f64 = changes[k].iter().flatten().map(|x| x.magnitude()).sum();
+                reach(k) * if sum.is_finite() { sum } else { 1.0 }
+            };
+            (0..changes.len()).fold(0, |best, k| if weight(k) > weight(best) { k } else { best })
+        };
+        let there = self.over(&Cell::point(centre));
+        let plain = Matrix6::from_fn(|i, k| there[i][k].centre_and_radius().0);
+        // a centre that is singular itself: the axis is found without an inverse
+        let Some(inverse) = plain.try_inverse() else { return Err(steepest(&slopes)) };
+        let changes: Vec<Matrix> = slopes.iter().map(|s| times(&inverse, s)).collect();
+        let mut w = times(&inverse, &there);
+        for (i, row) in w.iter_mut().enumerate() {
+            row[i] = row[i] - Interval::from(1.0);
+        }
+        let mut w = w.map(|row| row.map(|x| Interval::from(x.magnitude())));
+        for (k, change) in changes.iter().enumerate() {
+            let half = Interval::from(reach(k));
+            for (row, extra) in w.iter_mut().zip(change) {
+                for (x, e) in row.iter_mut().zip(extra) {
+                    *x = *x + Interval::from(e.magnitude()) * half;
+                }
+            }
+        }
+        if contraction(&w).is_some() { Ok(()) } else { Err(steepest(&changes)) }
+    }
+
+    /// The proved sign of `det J` at a point of the chart.
+    fn sign_at(&self, x: &[f64; 6]) -> Option<f64> {
+        let d = determinant(&self.over(&Cell::point(*x)));
+        if d.lo() > 0.0 { Some(1.0) } else { (d.hi() < 0.0).then_some(-1.0) }
+    }
+}
+
+/// Encloses the determinant: Laplace expansion by complementary minors of the first three rows.
+fn determinant(m: &Matrix) -> Interval {
+    let minor = |rows: [usize; 3], c: [usize; 3]| {
+        let r = rows.map(|r| c.map(|k| m[r][k]));
+        dot(&r[0], &cross(&r[1], &r[2]))
+    };
+    let mut sum = Interval::ZERO;
+    for i in 0..6 {
+        for j in i + 1..6 {
+            for k in j + 1..6 {
+                let mut others = (0..6).filter(|x| ![i, j, k].contains(x));
+                let rest: [usize; 3] = std::array::from_fn(|_| others.next().unwrap_or(0));
+                let term = minor([0, 1, 2], [i, j, k]) * minor([3, 4, 5], rest);
+                // sign of moving columns i, j, k to the front: i + j + k - (0 + 1 + 2)
+                sum = if (i + j + k) % 2 == 1 { sum + term } else { sum - term };
+            }
+        }
+    }
+    sum
+}
+
+/// Rays tried at random.
+const RAYS: usize = 1500;
+
+/// Steps of a ray up to the nearest change found so far.
+const STEPS: usize = 60;
+
+/// Rays by which the best ones are improved.
+const IMPROVEMENTS: usize = 1500;
+
+/// The smallest scale found up to `limit`, and the point there, with a proved change of sign between home and it.
+///
+/// Proves nothing about what it does not find.
+fn nearest_change(lines: &Lines<'_>, sign: f64, mut limit: f64, seed: u64) -> Option<(f64, [f64; 6])> {
+    let mut rng = Rng::new(seed);
+    let chart = lines.chart;
+    let most = limit;
+    let mut best: Option<(f64, [f64; 6])> = None;
+    let mut direction_of = None;
+    for k in 0..RAYS + IMPROVEMENTS {
+        let mut direction = [0.0; 6];
+        for x in direction.iter_mut().take(chart.len()) {
+            *x = rng.uniform(-1.0, 1.0);
+        }
+        if k >= RAYS {
+            let Some(u) = direction_of else { break };
+            // steps that shrink: the nearest point is usually on edges of the box
+            let width = 0.5 * (1.0 - (k - RAYS) as f64 / IMPROVEMENTS as f64).powi(2) + 1e-3;
+            let near: [f64; 6] = u;
+            for (x, y) in direction.iter_mut().zip(near).take(chart.len()) {
+                *x = (y + width * rng.normal()).clamp(-1.0, 1.0);
+            }
+        }
+        let scale = chart.scale_of(&direction);
+        if !(scale > 0.0) {
+            continue;
+        }
+        let u = direction.map(|x| x / scale);
+        if let Some(t) = change_along(lines, &u, limit) {
+            let point = u.map(|x| x * t);
+            let scale = chart.scale_of(&point);
+            if scale <= most && lines.sign_at(&point).is_some_and(|s| s * sign < 0.0) {
+                limit = t;
+                direction_of = Some(u);
+                best = Some((scale, point));
+            }
+        }
+    }
+    best
+}
+
+/// The first change of sign found along a ray, a little beyond it so that the sign there is clear.
+fn change_along(lines: &Lines<'_>, u: &[f64; 6], limit: f64) -> Option<f64> {
+    let value = |t: f64| lines.determinant(&u.map(|x| x * t));
+    let home = value(0.0);
+    let step = limit / STEPS as f64;
+    let mut hit = (1..=STEPS).map(|k| k as f64 * step).find(|t| value(*t) * home < 0.0)?;
+    let mut clear = hit - step;
+    while hit - clear > 1e-6 * hit {
+        let middle = 0.5 * (hit + clear);
+        if value(middle) * home < 0.0 {
+            hit = middle;
+        } else {
+            clear = middle;
+        }
+    }
+    (hit < limit).then_some(hit)
+}

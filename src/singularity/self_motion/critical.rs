@@ -12,10 +12,10 @@
 
 use nalgebra::{Matrix4, Vector4};
 
-use super::degree::{CurveDegree, draw, gather, is_regular, same};
-use super::equations::LegEquations;
 use super::pose as real_pose;
-use super::slices::{Condition, Plane, Slicer, Sweep, System, Z};
+use super::slices::{
+    Condition, CurveDegree, LegEquations, Plane, Slicer, Sweep, System, Z, draw, gather, is_regular, same,
+};
 use crate::geom::{ComplexPose, Pose};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::num::Rng;

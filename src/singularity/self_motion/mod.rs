@@ -2,29 +2,26 @@
 //!
 //! Poses are dual quaternions `y = (e, g)`, `g = p e`, `|e| = 1`, lengths in units of the size; `y` and `-y` are one pose. On a curve of poses the
 //! equations (six legs, `e.g = 0`, `|e| = 1`) have rank 7 of 8; the curve is followed along its tangent, the null vector, with Gauss-Newton corrections ([`trace`]).
-//! Where it crosses itself or another curve the rank is 6 and the tangents are the real zeros of a quadratic form ([`branches`]); every branch is
+//! Where it crosses itself or another curve the rank is 6 and the tangents are the real zeros of a quadratic form; every branch is
 //! followed. Leg lengths bound the position, so that every real curve is a closed loop.
 //!
 //! Real components that meet none of the curves from the poses given are not found from them: [`critical_poses`] gives poses on all real components of the complex
 //! curves through given poses, real or complex.
 
-mod branches;
 mod critical;
-mod degree;
-mod equations;
 mod slices;
 mod trace;
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
+use self::slices::{LegEquations, Point};
 use crate::geom::Pose;
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::num::Rng;
-use equations::{LegEquations, Point};
 use trace::Tracer;
 
+pub use self::slices::{CurveDegree, curve_degree};
 pub use critical::{CriticalPoses, critical_poses};
-pub use degree::{CurveDegree, curve_degree};
 
 /// How closely curves are followed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -126,7 +123,7 @@ pub fn self_motion(
     let tracer = Tracer::new(&equations, options, &mut Rng::new(options.seed));
     let starts: Vec<Point<f64>> = poses.iter().map(|p| point(p, m.size())).collect();
     let (dimension, singular_values) = starts.first().map_or((0, [0.0; 8]), |y| tracer.dimension(y));
-    let mut state = branches::Web::new(&tracer, options.points);
+    let mut state = trace::Web::new(&tracer, options.points);
     let mut origins = Vec::new();
     if dimension == 1 {
         for (k, start) in starts.iter().enumerate() {

@@ -1,10 +1,112 @@
-//! Points of a curve of poses that satisfy one more condition, carried along while the condition changes.
+//! Slices of a curve of poses: points of the leg equations that satisfy one more condition, carried along while the condition
+//! changes.
+//!
+//! They give the degree of the curve among the dual quaternions `(e : g)` of projective 7-space.
+//!
+//! A general hyperplane meets the curve in as many points as its degree. From one point the others are reached by carrying the hyperplane around random
+//! triangles (monodromy). They are all of an irreducible curve when, for parallel hyperplanes `h(y) = tau` in an affine chart, the sum of the points is a linear function
+//! of `tau` (trace test; Sommese, Verschelde, Wampler 2002). Numerical, not a proof.
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::{ComplexField, SMatrix, SVector, Vector3};
 use num_complex::Complex64;
 
-use super::equations::{EQUATIONS, LegEquations};
+use super::point;
+use crate::geom::Pose;
+use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::num::Rng;
+
+/// `(e, g)`, `g = p e` with `p` in units of the size.
+pub(super) type Point<T> = SVector<T, 8>;
+
+/// Six leg equations and `e.g = 0`.
+pub(super) const EQUATIONS: usize = 7;
+
+/// One leg, lengths in units of the size.
+#[derive(Debug, Clone, Copy)]
+struct LegForm {
+    /// `b - a`.
+    difference: Vector3<f64>,
+    /// `a + b`.
+    sum: Vector3<f64>,
+    squared_length: f64,
+}
+
+/// `F_i = (|g + e b - a e|^2 - s e.e) / 2`, `F_7 = e.g`.
+#[derive(Debug, Clone)]
+pub(super) struct LegEquations {
+    legs: [LegForm; 6],
+}
+
+impl LegEquations {
+    pub(super) fn new(m: &Manipulator, s: &SquaredLegLengths) -> Self {
+        let unit = m.size();
+        let (legs, squares) = (m.legs(), s.get());
+        let form = |i: usize| {
+            let (a, b) = (legs[i].base.coords / unit, legs[i].platform.coords / unit);
+            LegForm { difference: b - a, sum: a + b, squared_length: squares[i] / (unit * unit) }
+        };
+        Self { legs: std::array::from_fn(form) }
+    }
+
+    /// `F(y)`.
+    pub(super) fn values<T: ComplexField<RealField = f64> + Copy>(
+        &self,
+        y: &Point<T>,
+    ) -> SVector<T, EQUATIONS> {
+        let half = T::from_real(0.5);
+        SVector::from_fn(|i, _| {
+            if i == 6 {
+                return (0..4).fold(T::zero(), |sum, k| sum + y[k] * y[k + 4]);
+            }
+            let v = self.legs[i].displacement(y);
+            let s = T::from_real(self.legs[i].squared_length);
+            (0..4).fold(T::zero(), |sum, k| sum + half * (v[k] * v[k] - s * y[k] * y[k]))
+        })
+    }
+
+    /// `dF / dy`; it is linear in `y`, and `F(y) = F'(y) y / 2`.
+    pub(super) fn jacobian<T: ComplexField<RealField = f64> + Copy>(
+        &self,
+        y: &Point<T>,
+    ) -> SMatrix<T, EQUATIONS, 8> {
+        let mut j = SMatrix::zeros();
+        for (i, leg) in self.legs.iter().enumerate() {
+            let v = leg.displacement(y);
+            let turned = leg.skew(&v);
+            let s = T::from_real(leg.squared_length);
+            for k in 0..4 {
+                j[(i, k)] = -turned[k] - s * y[k];
+                j[(i, k + 4)] = v[k];
+            }
+        }
+        for k in 0..4 {
+            j[(6, k)] = y[k + 4];
+            j[(6, k + 4)] = y[k];
+        }
+        j
+    }
+}
+
+impl LegForm {
+    /// `T x` with `T x = x b - a x`.
+    fn skew<T: ComplexField<RealField = f64> + Copy>(&self, x: &[T; 4]) -> [T; 4] {
+        let d = self.difference.map(T::from_real);
+        let c = self.sum.map(T::from_real);
+        let [w, u, v, z] = *x;
+        [
+            -(d.x * u + d.y * v + d.z * z),
+            d.x * w - (c.y * z - c.z * v),
+            d.y * w - (c.z * u - c.x * z),
+            d.z * w - (c.x * v - c.y * u),
+        ]
+    }
+
+    /// `g + T e`, whose norm squared is `s e.e`.
+    fn displacement<T: ComplexField<RealField = f64> + Copy>(&self, y: &Point<T>) -> [T; 4] {
+        let turned = self.skew(&[y[0], y[1], y[2], y[3]]);
+        std::array::from_fn(|k| y[k + 4] + turned[k])
+    }
+}
 
 pub(super) type Z = Complex64;
 pub(super) type Plane = SVector<Z, 8>;
@@ -131,7 +233,7 @@ impl<'a> Slicer<'a> {
     }
 
     /// Second difference of the sum of the points over parallel hyperplanes, relative to the first.
-    pub(super) fn trace_defect(&self, points: &[Plane], home: &Plane) -> Option<f64> {
+    fn trace_defect(&self, points: &[Plane], home: &Plane) -> Option<f64> {
         let shift = self.chart * Z::from(0.1 * home.norm() / self.chart.norm());
         let mut sums = [Plane::zeros(); 3];
         let mut moved = 0.0;
@@ -145,4 +247,100 @@ impl<'a> Slicer<'a> {
         }
         Some((sums[0] - sums[1] * Z::from(2.0) + sums[2]).norm() / moved)
     }
+}
+
+/// Loops without a new point and with a linear trace after which the points are called all.
+const PATIENCE: usize = 3;
+/// Most loops.
+const LOOPS: usize = 120;
+/// Largest defect of the trace over the sum of the points' sizes.
+const LINEAR: f64 = 1e-7;
+
+/// The seventh singular value of the equations on a curve, and the sixth away from crossings, over the first.
+const ON_CURVE: f64 = 1e-9;
+const OFF_CROSSING: f64 = 1e-6;
+
+/// What was found about the degree.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CurveDegree {
+    /// Points in which a general hyperplane meets the irreducible curve through the pose; those found, when not complete.
+    pub degree: usize,
+    /// The trace test holds.
+    pub complete: bool,
+    /// Its defect, relative.
+    pub defect: f64,
+}
+
+/// Degree in the projective space of `(e, g)`, over the complex numbers, of the irreducible curve of poses through a regular pose of a self-motion.
+///
+/// `None` when the pose is on no curve or too near a crossing to be followed.
+#[must_use]
+pub fn curve_degree(m: &Manipulator, s: &SquaredLegLengths, pose: &Pose, seed: u64) -> Option<CurveDegree> {
+    let mut rng = Rng::new(seed);
+    let equations = LegEquations::new(m, s);
+    let start: Plane = point(pose, m.size()).map(Z::from);
+    if !is_regular(&equations, &start) {
+        return None;
+    }
+    let slicer = Slicer::new(&equations, &mut rng);
+    // a hyperplane through the first point
+    let start = start / slicer.chart.dot(&start);
+    let mut home = draw(&mut rng);
+    home -= slicer.chart * home.dot(&start);
+    Some(gather(&slicer, start, &home, &mut rng)?.1)
+}
+
+/// Whether the point is on one curve of poses: rank six.
+pub(super) fn is_regular(equations: &LegEquations, y: &Plane) -> bool {
+    let jacobian = equations.jacobian(&(y / Z::from(y.norm())));
+    jacobian.try_svd(false, false, f64::EPSILON, 1000).is_some_and(|d| {
+        let values = d.singular_values;
+        values[6] < ON_CURVE * values[0] && values[5] >= OFF_CROSSING * values[0]
+    })
+}
+
+pub(super) fn draw(rng: &mut Rng) -> Plane {
+    Plane::from_fn(|_, _| Z::new(rng.normal(), rng.normal()))
+}
+
+pub(super) fn same(x: &Plane, y: &Plane) -> bool {
+    (x - y).norm() < 1e-7 * y.norm()
+}
+
+/// The points in which the hyperplane `home` meets the irreducible curve through its point `start`.
+pub(super) fn gather(
+    slicer: &Slicer<'_>,
+    start: Plane,
+    home: &Plane,
+    rng: &mut Rng,
+) -> Option<(Vec<Plane>, CurveDegree)> {
+    let mut points = vec![slicer.newton(start, &Sweep::new(home, home), 0.0)?];
+    let mut quiet = 0;
+    let mut defect = f64::INFINITY;
+    for _ in 0..LOOPS {
+        let (one, two) = (draw(rng), draw(rng));
+        let mut fresh: Vec<Plane> = Vec::new();
+        for y in &points {
+            let around = slicer
+                .carry(*y, &Sweep::new(home, &one))
+                .and_then(|y| slicer.carry(y, &Sweep::new(&one, &two)))
+                .and_then(|y| slicer.carry(y, &Sweep::new(&two, home)));
+            if let Ok(y) = around
+                && !points.iter().chain(&fresh).any(|z| same(z, &y))
+            {
+                fresh.push(y);
+            }
+        }
+        quiet = if fresh.is_empty() { quiet + 1 } else { 0 };
+        points.extend(fresh);
+        if quiet > 0 {
+            defect = slicer.trace_defect(&points, home).unwrap_or(f64::INFINITY);
+            if defect < LINEAR && quiet >= PATIENCE {
+                let degree = CurveDegree { degree: points.len(), complete: true, defect };
+                return Some((points, degree));
+            }
+        }
+    }
+    let degree = CurveDegree { degree: points.len(), complete: false, defect };
+    Some((points, degree))
 }

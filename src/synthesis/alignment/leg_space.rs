@@ -1,12 +1,21 @@
 //! The span of leg vectors as a subspace of `R^4 (x) R^4`, and what translations of the two bodies do to it.
+//!
+//! The origin of each body that belongs to a span of leg vectors, whatever frames it is written in.
+//!
+//! Three linear least-squares problems one after the other, each invariant under rotations of both bodies; what one leaves open the next decides.
+//! What the last one leaves open are translations that map the span to itself. See `docs/theory/alignment.md`.
+//!
+//! A design in canonical form is a span about its own origins; two designs are compared by how far two such spans are apart.
 
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
-use super::super::components::spectrum::{Spectrum, unit, without};
-use super::super::leg_vector::{Normalisation, leg_vector};
 use super::TOLERANCE;
+use super::rotations::{Axes, Candidates, Projector, candidates, turned};
 use crate::manipulator::{Leg, Manipulator};
+use crate::num::Rng;
 use crate::num::linalg::{LinalgError, svd};
+use crate::synthesis::components::spectrum::{Spectrum, unit, without};
+use crate::synthesis::leg_vector::{Normalisation, leg_vector};
 
 /// Where the entries `1, a, b` of an element stand.
 const HEAD: [usize; 7] = [0, 4, 8, 12, 1, 2, 3];
@@ -69,7 +78,7 @@ impl LegSpace {
     }
 
     /// `L` over the entries `1, a, b`.
-    pub(super) fn head(&self) -> Result<Head, LinalgError> {
+    fn head(&self) -> Result<Head, LinalgError> {
         let rows: Vec<Vec<f64>> = self.basis.iter().map(|v| HEAD.map(|i| v[i]).to_vec()).collect();
         let d = svd(&rows)?;
         let rank = d.s.iter().filter(|s| **s > TOLERANCE).count();
@@ -105,7 +114,7 @@ impl Head {
     }
 
     /// `C` of the element with this head, orthogonal to the moments.
-    pub(super) fn tail(&self, head: &[f64]) -> Vec<f64> {
+    fn tail(&self, head: &[f64]) -> Vec<f64> {
         let mut out = vec![0.0; 9];
         for (e, c) in self.image.iter().zip(&self.tails) {
             let along: f64 = e.iter().zip(head).map(|(x, y)| x * y).sum();
@@ -115,14 +124,14 @@ impl Head {
     }
 
     /// `x y^T` without its part along the moments.
-    pub(super) fn product(&self, x: &Vector3<f64>, y: &Vector3<f64>) -> Vec<f64> {
+    fn product(&self, x: &Vector3<f64>, y: &Vector3<f64>) -> Vec<f64> {
         let m: Matrix3<f64> = x * y.transpose();
         let flat: Vec<f64> = (0..9).map(|i| m[(i / 3, i % 3)]).collect();
         without(&flat, &self.moments)
     }
 
     /// The head `(1, a, b)` orthogonal to all heads `(0, a, b)`, and an orthonormal basis of the latter.
-    pub(super) fn split(&self) -> Result<(Vec<f64>, Vec<Vec<f64>>), LinalgError> {
+    fn split(&self) -> Result<(Vec<f64>, Vec<Vec<f64>>), LinalgError> {
         let mut first = vec![0.0; 7];
         for e in &self.image {
             first.iter_mut().zip(e).for_each(|(f, x)| *f += e[0] * x);
@@ -141,4 +150,181 @@ impl Head {
 /// The parts `a` and `b` of a head, or `s` and `t` of a pair of shifts.
 pub(super) fn pair(v: &[f64]) -> (Vector3<f64>, Vector3<f64>) {
     (Vector3::new(v[0], v[1], v[2]), Vector3::new(v[3], v[4], v[5]))
+}
+
+/// A span about its own origins.
+#[derive(Debug, Clone)]
+pub(super) struct Centred {
+    pub(super) space: LegSpace,
+    /// What was added to base and platform coordinates.
+    pub(super) shift: (Vector3<f64>, Vector3<f64>),
+    /// Dimensions that tell spans apart: of `L`, of its heads, of what each least-squares problem left open.
+    pub(super) dimensions: [usize; 5],
+    /// The singular values nearest to the decisions on these dimensions: smallest kept, largest dropped.
+    pub(super) gap: (f64, f64),
+}
+
+/// Moves the span to its own origins.
+pub(super) fn centred(space: &LegSpace) -> Result<Centred, LinalgError> {
+    let mut open: Vec<Vec<f64>> =
+        (0..6).map(|k| (0..6).map(|i| f64::from(u8::from(i == k))).collect()).collect();
+    let mut space = space.clone();
+    let mut total = (Vector3::zeros(), Vector3::zeros());
+    let mut dimensions = [space.dimension(), space.head()?.dimension(), 0, 0, 0];
+    let mut gap = narrower(space.gap, space.head()?.gap);
+    for (k, problem) in [differences, heads, means].iter().enumerate() {
+        let head = space.head()?;
+        let (columns, target) = problem(&head, &open)?;
+        let found = solve(&open, &columns, &target)?;
+        let (s, t) = pair(&found.shift);
+        space = space.shifted(&s, &t)?;
+        total = (total.0 + s, total.1 + t);
+        (open, gap) = (found.open, narrower(gap, found.gap));
+        dimensions[k + 2] = open.len();
+    }
+    Ok(Centred { space, shift: total, dimensions, gap })
+}
+
+/// What shifts along each open direction add to a list of numbers, and the list to be cancelled.
+type Problem = (Vec<Vec<f64>>, Vec<f64>);
+
+/// The blocks `C` of the elements `(0, a, b, C)`: a shift adds `s b^T + a t^T`.
+fn differences(head: &Head, open: &[Vec<f64>]) -> Result<Problem, LinalgError> {
+    let level = head.split()?.1;
+    let column = |x: &Vec<f64>| {
+        let (s, t) = pair(x);
+        let added = |d: &Vec<f64>| {
+            let (a, b) = pair(&d[1..]);
+            sum(&head.product(&s, &b), &head.product(&a, &t), 1.0)
+        };
+        level.iter().flat_map(added).collect()
+    };
+    Ok((open.iter().map(column).collect(), level.iter().flat_map(|d| head.tail(d)).collect()))
+}
+
+/// The part of `(a, b)` of the elements `(1, a, b, C)` across those with first entry zero.
+fn heads(head: &Head, open: &[Vec<f64>]) -> Result<Problem, LinalgError> {
+    let (first, level) = head.split()?;
+    let level: Vec<Vec<f64>> = level.iter().map(|d| d[1..].to_vec()).collect();
+    Ok((open.iter().map(|x| without(x, &level)).collect(), first[1..].to_vec()))
+}
+
+/// The block `C` of the element `(1, a, b, C)` with `(a, b)` across those with first entry zero.
+///
+/// An open shift `(s, t)` is itself the head of an element `(0, s, t, C')`, and `s t^T` is a moment: the block changes by
+/// `s b^T + a t^T - C'`.
+fn means(head: &Head, open: &[Vec<f64>]) -> Result<Problem, LinalgError> {
+    let first = head.split()?.0;
+    let (a, b) = pair(&first[1..]);
+    let column = |x: &Vec<f64>| {
+        let (s, t) = pair(x);
+        let own: Vec<f64> = std::iter::once(0.0).chain(x.iter().copied()).collect();
+        let moved = sum(&head.product(&s, &b), &head.product(&a, &t), 1.0);
+        sum(&moved, &head.tail(&own), -1.0)
+    };
+    Ok((open.iter().map(column).collect(), head.tail(&first)))
+}
+
+fn sum(x: &[f64], y: &[f64], factor: f64) -> Vec<f64> {
+    x.iter().zip(y).map(|(p, q)| p + factor * q).collect()
+}
+
+fn narrower(x: (f64, f64), y: (f64, f64)) -> (f64, f64) {
+    (x.0.min(y.0), x.1.max(y.1))
+}
+
+/// Solution of one least-squares problem.
+struct Solution {
+    shift: Vec<f64>,
+    open: Vec<Vec<f64>>,
+    gap: (f64, f64),
+}
+
+/// The shift within the open directions that makes `target` smallest, and the directions that do not change it.
+fn solve(open: &[Vec<f64>], columns: &[Vec<f64>], target: &[f64]) -> Result<Solution, LinalgError> {
+    let mut shift = vec![0.0; 6];
+    if open.is_empty() || target.is_empty() {
+        return Ok(Solution { shift, open: open.to_vec(), gap: (1.0, 0.0) });
+    }
+    let d = svd(columns)?;
+    let rank = d.s.iter().filter(|s| **s > TOLERANCE).count();
+    let kept = if rank > 0 { d.s[rank - 1] } else { 1.0 };
+    let gap = (kept, d.s.get(rank).copied().unwrap_or(0.0));
+    let direction = |k: usize| -> Vec<f64> {
+        (0..6).map(|i| open.iter().enumerate().map(|(l, x)| d.u[l][k] * x[i]).sum()).collect()
+    };
+    for k in 0..rank {
+        let along: f64 = target.iter().zip(&d.v).map(|(t, row)| t * row[k]).sum::<f64>() / d.s[k];
+        shift.iter_mut().zip(direction(k)).for_each(|(x, y)| *x -= along * y);
+    }
+    let rest: Vec<Vec<f64>> = (rank..open.len()).map(direction).collect();
+    Ok(Solution { shift, open: rest, gap })
+}
+
+/// Size of the trial changes of joints that measure sensitivities, in units of the body; below the tolerance of every rank.
+const TRIAL: f64 = 1e-11;
+/// How many of them.
+const TRIALS: u64 = 3;
+
+/// A design in normalised coordinates, its span about its own origins, and the numbers that no rigid motion changes.
+#[derive(Debug, Clone)]
+pub(super) struct Canonical {
+    pub(super) normalisation: Normalisation,
+    pub(super) legs: [Leg; 6],
+    pub(super) span: Centred,
+    pub(super) projector: Projector,
+    /// Principal values of base and platform.
+    pub(super) values: [f64; 6],
+}
+
+impl Canonical {
+    pub(super) fn of(m: &Manipulator, units: &Normalisation) -> Result<Self, LinalgError> {
+        let normalisation = coordinates(m, units);
+        Self::from_legs(normalisation, &m.legs().map(|leg| normalisation.apply(&leg)))
+    }
+
+    fn from_legs(normalisation: Normalisation, legs: &[Leg; 6]) -> Result<Self, LinalgError> {
+        let span = centred(&LegSpace::of(legs)?)?;
+        let projector = span.space.projector();
+        let (x, y) = (Axes::of_base(&projector, None).values, Axes::of_platform(&projector, None).values);
+        let values = [x[0], x[1], x[2], y[0], y[1], y[2]];
+        Ok(Self { normalisation, legs: *legs, span, projector, values })
+    }
+
+    /// The legs about the origins of the span.
+    pub(super) fn centred_legs(&self) -> [Leg; 6] {
+        let (s, t) = self.span.shift;
+        self.legs.map(|leg| Leg { base: leg.base + s, platform: leg.platform + t })
+    }
+
+    /// How much the principal values and the canonical form change for a change of the joints by one unit of their body, to first order.
+    pub(super) fn sensitivity(&self, seed: u64) -> Result<Sensitivity, LinalgError> {
+        let mut most = Sensitivity { values: [0.0; 6], distance: 0.0 };
+        for trial in 0..TRIALS {
+            let mut rng = Rng::stream(seed, trial);
+            let mut change = || Vector3::from_fn(|_, _| rng.normal() * TRIAL);
+            let legs =
+                self.legs.map(|leg| Leg { base: leg.base + change(), platform: leg.platform + change() });
+            let near = Self::from_legs(self.normalisation, &legs)?;
+            for (most, (x, y)) in most.values.iter_mut().zip(self.values.iter().zip(near.values)) {
+                *most = most.max((x - y).abs() / TRIAL);
+            }
+            most.distance = most.distance.max(self.nearest(&near, seed).0 / TRIAL);
+        }
+        Ok(most)
+    }
+
+    /// The smallest distance of the projectors over all candidates, and the candidates.
+    pub(super) fn nearest(&self, other: &Self, seed: u64) -> (f64, Candidates) {
+        let found = candidates(&self.projector, &other.projector, seed);
+        let distances = found.turns.iter().map(|t| (self.projector - turned(&other.projector, t)).norm());
+        (distances.fold(f64::INFINITY, f64::min), found)
+    }
+}
+
+/// Largest changes seen, per unit.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sensitivity {
+    pub(super) values: [f64; 6],
+    pub(super) distance: f64,
 }

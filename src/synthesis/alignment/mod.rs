@@ -4,13 +4,9 @@
 //! problems that rotations do not change), its own axes (principal axes of matrices formed from the projector on `L`), and from these the
 //! finitely many pairs of motions, or families of them, that can be. See `docs/theory/alignment.md`.
 
-mod axes;
-mod candidates;
-mod canonical;
-mod centre;
 mod leg_space;
 mod outcome;
-mod refine;
+mod rotations;
 #[cfg(test)]
 mod tests;
 
@@ -18,8 +14,8 @@ pub use outcome::{Alignment, Difference, Invariant, Motion, NearestMotion, Undec
 
 use nalgebra::{Point3, Vector3};
 
-use self::canonical::{Canonical, Sensitivity};
-use self::refine::{Fit, refine};
+use self::leg_space::{Canonical, Sensitivity};
+use self::rotations::{Fit, refine};
 use super::leg_map::{LegMapTolerances, Relation, leg_map};
 use super::leg_vector::Normalisation;
 use crate::geom::Pose;

@@ -1,6 +1,6 @@
 //! Answers of [`align`](super::align), and the reasons for them.
 
-use super::canonical::Canonical;
+use super::leg_space::Canonical;
 use super::{Bounds, CLEAR, SAME};
 use crate::geom::Pose;
 use crate::synthesis::leg_map::LegMapOutcome;

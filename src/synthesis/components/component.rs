@@ -1,8 +1,7 @@
 //! A family of replaceable legs as it is handed out.
 
-use super::decision::Decision;
-use super::parametrisation::Parametrisation;
-use super::spectrum::real_roots;
+use super::shape::Parametrisation;
+use super::spectrum::{Decision, real_roots};
 use crate::manipulator::{Leg, LegIndex};
 use crate::num::Rng;
 use crate::num::linalg::LinalgError;

@@ -3,11 +3,12 @@
 use nalgebra::Vector3;
 use num_bigint::BigInt;
 
-use super::curves::SingularKind;
 use super::exact::{Exact, ExactLegs, rank};
-use super::exact_form::{ExactForm, Place, bits, cross, integers, rank_modulo, rationals};
-use super::exact_split::{CubicPoint, ExactKind, RationalPart, cubic_point, split};
-use super::form::{exponents, laplace, power};
+use super::exact_form::{
+    CubicPoint, ExactForm, ExactKind, Place, RationalPart, bits, cross, cubic_point, integers, rank_modulo,
+    rationals, split,
+};
+use super::form::{SingularKind, exponents, laplace, power};
 use crate::num::exact::{Rational, approximate, relations};
 
 /// Bits of coefficients up to which greatest common divisors of minors are computed.

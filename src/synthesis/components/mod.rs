@@ -10,25 +10,14 @@
 //! legs only these pairs of flats have to be looked at: a point and any flat; two lines (`k' = 3, 4`); line and plane
 //! (4, 5, 6); line and space (5, 6); two planes (5, 6); plane and space (6). Proofs and formulas: `docs/theory/components.md`.
 
-mod collect;
 mod component;
-mod confirm;
-mod curves;
-mod decision;
 pub(super) mod exact;
 mod exact_curve;
 mod exact_form;
-mod exact_split;
-mod flat;
+mod flats;
 mod form;
 mod found;
-mod isolated;
-mod kernel;
-mod pairs;
-mod parametrisation;
-mod plane_pair;
 mod planes;
-mod product;
 mod search;
 mod shape;
 pub(super) mod spectrum;
@@ -38,17 +27,17 @@ mod tests;
 use nalgebra::Point3;
 use thiserror::Error;
 
+pub use self::exact_form::ExactKind;
+pub use self::flats::Reading;
+pub use self::form::{PartKind, SingularKind};
+pub use self::planes::{CurvePart, Partners, PlaneCurve, PlanePair, SingularPoint, curve_value};
+pub use self::shape::{CubicPencil, MovingPoint, Parametrisation};
+pub use self::spectrum::{Decision, Question};
 pub use component::{Component, FamilyKind, SampledLeg, flat_name};
-pub use curves::{PartKind, SingularKind};
-pub use decision::{Decision, Question};
 pub use exact_curve::{ExactCurve, ExactPart, ExactPoint, NoExactCurve};
-pub use exact_split::ExactKind;
-pub use pairs::Reading;
-pub use parametrisation::{CubicPencil, MovingPoint, Parametrisation};
-pub use plane_pair::{CurvePart, Partners, PlaneCurve, PlanePair, SingularPoint, curve_value};
 
 use self::exact::ExactLegs;
-use self::pairs::{ClosedPair, Ends, closed_pairs};
+use self::flats::{ClosedPair, Ends, closed_pairs};
 use self::search::Search;
 use super::hexagon::Body;
 use super::leg_vector::{LegSpan, Normalisation};
@@ -181,13 +170,13 @@ pub fn components(m: &Manipulator, options: ComponentOptions) -> Result<Componen
         search.pair(index, pair)?;
     }
     let all: Vec<usize> = (0..6).collect();
-    let whole = pairs::whole(&ends)?;
+    let whole = flats::whole(&ends)?;
     search.joints(&whole)?;
     let mut planes = Vec::new();
     for (index, base, platform) in std::mem::take(&mut search.planes) {
         let pair = &pairs[index];
         let (sides, rng) = ((&base, &platform), &mut search.rng);
-        planes.push(plane_pair::plane_pair(index, pair, sides, &n, options.tolerance, rng)?);
+        planes.push(planes::plane_pair(index, pair, sides, &n, options.tolerance, rng)?);
     }
     let components = ordered(&mut search)?;
     let leg_rank = Decision::rank(

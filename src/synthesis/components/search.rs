@@ -1,24 +1,27 @@
-//! All families of a design.
+//! The search for all families of a design.
+//!
+//! Every closed pair is looked at; each family is kept once, with the legs that belong to it, and exact arithmetic confirms
+//! or denies what floating point has found.
 
 use nalgebra::Vector3;
 
-use super::component::{Component, FamilyKind};
-use super::curves::PartKind;
-use super::decision::Question;
-use super::exact_curve::NoExactCurve;
-use super::exact_split::ExactKind;
-use super::form::Form;
+use super::component::{Component, FamilyKind, SampledLeg, infinite_parameters};
+use super::exact::{Exact, combination};
+use super::exact_curve::{ExactCurve, NoExactCurve, meeting, place};
+use super::exact_form::ExactKind;
+use super::flats::{ClosedPair, Ends, Flat, Reading};
+use super::form::{Form, PartKind};
 use super::found::{Found, View};
-use super::pairs::{ClosedPair, Ends, Reading};
-use super::planes::{PlaneSide, plane_side, points_of};
+use super::planes::{PlaneSide, joints_on_line, line_points, plane_side, points_of};
 use super::shape::Shape;
-use super::spectrum::unit;
+use super::spectrum::{Question, unit};
+use crate::manipulator::LegIndex;
 use crate::num::Rng;
 use crate::num::linalg::LinalgError;
 use crate::synthesis::leg_vector::{LegSpan, Normalisation};
 
 /// Base and platform end in normalised coordinates.
-pub(super) type NormalisedLeg = (Vector3<f64>, Vector3<f64>);
+type NormalisedLeg = (Vector3<f64>, Vector3<f64>);
 
 /// The families with the sets they are, in the order in which they were found.
 #[derive(Debug)]
@@ -255,15 +258,15 @@ impl Search<'_> {
     /// common zeros of the minors of order 3; that there are no others is shown by the dimension these leave of all cubics.
     fn isolated_points(&mut self, view: &View<'_>, pair: &ClosedPair) -> Result<(), LinalgError> {
         let joints: Vec<Vec<f64>> = view.near.iter().map(|p| view.product.base.local(p)).collect();
-        let conditions = super::isolated::conditions(view, &mut self.rng)?;
+        let conditions = super::planes::conditions(view, &mut self.rng)?;
         let mut points: Vec<Vec<f64>> = Vec::new();
-        let (located, complex) = super::isolated::located(view, &mut self.rng)?;
-        for candidate in super::isolated::candidates(&joints).into_iter().chain(located) {
+        let (located, complex) = super::planes::located(view, &mut self.rng)?;
+        for candidate in super::planes::candidates(&joints).into_iter().chain(located) {
             let s = view.product.spectrum(&candidate)?;
             if s.rank(10.0 * self.ends.tolerance) + 2 > view.product.platform.dimension() + 1 {
                 continue;
             }
-            let new = !points.iter().any(|p| super::curves::same_point(p, &candidate, 1e-6));
+            let new = !points.iter().any(|p| super::form::same_point(p, &candidate, 1e-6));
             if new && candidate[0].abs() > 1e-9 {
                 let place = super::found::point(&view.product.base, &candidate);
                 if let Some(found) = view.over_point(&place, None)?.filter(|f| !self.inside_larger(f)) {
@@ -273,7 +276,7 @@ impl Search<'_> {
             }
             points.push(candidate);
         }
-        let met = super::isolated::conditions_of(&points, view.product.platform.dimension())? + complex;
+        let met = super::planes::conditions_of(&points, view.product.platform.dimension())? + complex;
         if conditions > met {
             self.doubts.push(format!(
                 "over the plane of legs {} there may be a point with a line of partners that was not located",
@@ -285,6 +288,238 @@ impl Search<'_> {
 }
 
 /// Leg numbers, counted from 1.
-pub(super) fn names(legs: &[usize]) -> String {
+fn names(legs: &[usize]) -> String {
     legs.iter().map(|i| (i + 1).to_string()).collect::<Vec<_>>().join(" ")
+}
+
+impl Search<'_> {
+    /// Whether a flat of partners of one point lies in a family of larger dimension.
+    fn inside_larger(&self, found: &Found) -> bool {
+        let Shape::Product { base, platform, .. } = &found.shape else { return false };
+        let mut rng = self.rng.clone();
+        let mut random =
+            |flat: &Flat| flat.axes.iter().fold(flat.origin, |x, e| x + e * rng.uniform(-1.0, 1.0));
+        let samples: Vec<_> = (0..4).map(|_| (random(base), random(platform))).collect();
+        let inside = |shape: &Shape| samples.iter().all(|(a, b)| shape.distance(a, b) <= self.near());
+        self.found.iter().any(|(k, c)| c.dimension > found.shape.dimension() && inside(&k.shape))
+    }
+
+    /// Adds a family unless it is there already.
+    pub(super) fn add(
+        &mut self,
+        mut found: Found,
+        pair: &ClosedPair,
+        exact: Option<bool>,
+    ) -> Result<(), LinalgError> {
+        found.exact = exact;
+        let mut decisions = pair.decisions.clone();
+        decisions.append(&mut found.decisions);
+        found.decisions = decisions;
+        let n = self.normalisation();
+        let parametrisation = found.shape.parametrisation(self.ends, &n);
+        let mut component = Component {
+            kind: found.kind,
+            base_span: found.base_span,
+            platform_span: found.platform_span,
+            dimension: found.shape.dimension(),
+            legs: Vec::new(),
+            support: Vec::new(),
+            at_infinity: infinite_parameters(&parametrisation)?,
+            parametrisation,
+            exact,
+            decisions: found.decisions.clone(),
+            contained_in: Vec::new(),
+        };
+        let samples = self.samples(&component, 4)?;
+        for (old, known) in &mut self.found {
+            if known.dimension != component.dimension || samples.is_empty() {
+                continue;
+            }
+            let mut same = true;
+            for (a, b) in &samples {
+                same &= old.shape.distance(a, b) <= (10.0 * self.ends.tolerance).max(1e-8);
+            }
+            if same {
+                if known.exact != Some(true) && exact == Some(true) {
+                    (known.exact, old.exact) = (exact, exact);
+                }
+                return Ok(());
+            }
+        }
+        for leg in LegIndex::all() {
+            let (a, b) = (self.ends.base[leg.get()], self.ends.platform[leg.get()]);
+            if found.shape.distance(&a, &b) <= self.near() {
+                component.legs.push(leg);
+            }
+        }
+        component.support = self.support(&component)?;
+        self.found.push((found, component));
+        Ok(())
+    }
+
+    /// Normalised ends of random legs of a family.
+    pub(super) fn samples(
+        &mut self,
+        component: &Component,
+        count: usize,
+    ) -> Result<Vec<NormalisedLeg>, LinalgError> {
+        let n = self.normalisation();
+        let mut out = Vec::new();
+        for _ in 0..count {
+            if let Some(s) = self.sample(component)? {
+                let leg = n.apply(&s.leg);
+                out.push((leg.base.coords, leg.platform.coords));
+            }
+        }
+        Ok(out)
+    }
+
+    /// A random leg, near the joints where there is one: a family whose fixed end is far out has none.
+    fn sample(&mut self, component: &Component) -> Result<Option<SampledLeg>, LinalgError> {
+        let near = component.sample(self.span, &mut self.rng)?;
+        if near.is_some() { Ok(near) } else { component.sample_within(1e4, self.span, &mut self.rng) }
+    }
+
+    fn support(&mut self, component: &Component) -> Result<Vec<LegIndex>, LinalgError> {
+        let mut used = [false; 6];
+        for _ in 0..3 {
+            if let Some(s) = self.sample(component)? {
+                let largest = s.coefficients.iter().fold(0.0f64, |m, c| m.max(c.abs()));
+                for (u, c) in used.iter_mut().zip(s.coefficients) {
+                    *u |= c.abs() > 1e-7 * largest;
+                }
+            }
+        }
+        Ok(LegIndex::all().filter(|i| used[i.get()]).collect())
+    }
+}
+
+impl Search<'_> {
+    /// Centre and unit of the normalised coordinates of the carrying body.
+    fn frame(&self, view: &View<'_>) -> (Vector3<f64>, f64) {
+        let n = self.normalisation();
+        if view.over_platform {
+            (n.platform_centre.coords, n.platform_unit)
+        } else {
+            (n.base_centre.coords, n.base_unit)
+        }
+    }
+
+    /// Exact dimension of the partners of a generic point of the flat of the carrying body, if asked on an exact pair:
+    /// the least at points on which no minor of order 4 can vanish without vanishing everywhere.
+    fn exact_over(&self, view: &View<'_>, pair: &ClosedPair, steps: &[i32]) -> Option<usize> {
+        if pair.reading == Reading::ToleranceOnly {
+            return Some(usize::MAX);
+        }
+        let ends = if view.over_platform { &self.ends.exact.platform } else { &self.ends.exact.base };
+        let mut kept: Vec<&Exact> = Vec::new();
+        for i in &pair.legs {
+            let mut rows: Vec<Exact> = kept.iter().map(|r| (*r).clone()).collect();
+            rows.push(ends[*i].clone());
+            if super::exact::rank(&rows) == rows.len() {
+                kept.push(&ends[*i]);
+            }
+        }
+        let points: Vec<Exact> = match kept.len() {
+            2 => steps.iter().map(|s| combination(&kept, &[1, *s])).collect(),
+            3 => (0..5)
+                .flat_map(|x| (0..5 - x).map(move |y| [x, y, 4 - x - y]))
+                .map(|c| combination(&kept, &c))
+                .collect(),
+            _ => return None,
+        };
+        points.iter().map(|x| self.ends.exact.fibre(view.over_platform, x, &pair.legs)).min()
+    }
+
+    /// Whether the exact data have a family over the line through two joints on it.
+    fn exact_line(
+        &self,
+        view: &View<'_>,
+        pair: &ClosedPair,
+        line: &Form,
+        generic: Option<usize>,
+    ) -> Option<bool> {
+        if pair.reading == Reading::ToleranceOnly {
+            return Some(false);
+        }
+        let joints: Vec<Vec<f64>> = view.near.iter().map(|p| view.product.base.local(p)).collect();
+        let on = joints_on_line(line, &joints, self.ends.tolerance);
+        let ends = if view.over_platform { &self.ends.exact.platform } else { &self.ends.exact.base };
+        let p = &ends[pair.legs[*on.first()?]];
+        let q = on.iter().map(|k| &ends[pair.legs[*k]]).find(|q| *q != p)?;
+        let generic = generic?;
+        let points = [0, 1, 2, 3, 5].map(|s| combination(&[p, q], &[1, s]));
+        let fibres = points.iter().map(|x| self.ends.exact.fibre(view.over_platform, x, &pair.legs));
+        Some(fibres.min()? > generic)
+    }
+
+    /// The curve of the exact data over the plane of the carrying body.
+    pub(super) fn exact_curve(&self, view: &View<'_>, pair: &ClosedPair) -> Result<ExactCurve, NoExactCurve> {
+        if pair.reading == Reading::ToleranceOnly {
+            return Err(NoExactCurve::OtherFlats);
+        }
+        ExactCurve::of(&self.ends.exact, &pair.legs, view.over_platform)
+    }
+
+    /// Whether the exact curve has a line or conic where the one within the tolerance has part `k`.
+    fn exact_part(&self, view: &View<'_>, side: &PlaneSide, k: usize) -> Result<Option<bool>, LinalgError> {
+        let curve = match &side.exact {
+            Ok(curve) => curve,
+            Err(NoExactCurve::OtherFlats) => return Ok(Some(false)),
+            Err(_) => return Ok(None),
+        };
+        let (part, flat) = (&side.split.parts[k], &view.product.base);
+        let joints: Vec<Vec<f64>> = view.near.iter().map(|p| flat.local(p)).collect();
+        let line = part.kind == PartKind::Line;
+        let points = if line {
+            let Some([p, q]) = line_points(&part.form, &joints, self.ends.tolerance) else { return Ok(None) };
+            let along = |t: f64| p.iter().zip(&q).map(|(x, y)| x + t * (y - x)).collect::<Vec<f64>>();
+            [-1.0, 0.0, 0.5, 1.0, 2.0].map(along).to_vec()
+        } else {
+            // a stream of its own: what is found does not depend on how it is checked
+            points_of(&part.form, 8, &mut Rng::new(8))?
+        };
+        let (centre, unit) = self.frame(view);
+        let places: Vec<Vector3<f64>> = points
+            .iter()
+            .filter(|p| p[0].abs() > 1e-3)
+            .map(|p| centre + super::found::point(flat, p) * unit)
+            .collect();
+        let lines = |k| matches!(k, ExactKind::Line | ExactKind::RealLines | ExactKind::ThreeLines { .. });
+        Ok(curve.has_part(|k| if line { lines(k) } else { k == ExactKind::Conic }, &places))
+    }
+
+    /// Whether the exact data have partners of that dimension over the crossing of two lines of joints that is nearest to a point.
+    fn exact_meeting(
+        &self,
+        view: &View<'_>,
+        pair: &ClosedPair,
+        at: &Vector3<f64>,
+        dimension: usize,
+    ) -> Option<bool> {
+        if pair.reading == Reading::ToleranceOnly {
+            return Some(false);
+        }
+        let ends = if view.over_platform { &self.ends.exact.platform } else { &self.ends.exact.base };
+        let (centre, unit) = self.frame(view);
+        let distance = |p: &Exact| place(p).map_or(f64::MAX, |x| ((x - centre) / unit - at).norm());
+        let mut best: Option<(f64, Exact)> = None;
+        let lines: Vec<[&Exact; 2]> = (0..pair.legs.len())
+            .flat_map(|k| (0..k).map(move |l| [k, l]))
+            .map(|pair_of| pair_of.map(|k| &ends[pair.legs[k]]))
+            .filter(|[p, q]| p != q)
+            .collect();
+        for (k, l) in lines.iter().enumerate() {
+            for m in &lines[..k] {
+                let Some(point) = meeting([*l, *m]) else { continue };
+                let d = distance(&point);
+                if best.as_ref().is_none_or(|b| d < b.0) {
+                    best = Some((d, point));
+                }
+            }
+        }
+        let (distance, point) = best?;
+        let fibre = self.ends.exact.fibre(view.over_platform, &point, &pair.legs);
+        (distance < 1e-6).then_some(fibre == dimension + 1)
+    }
 }

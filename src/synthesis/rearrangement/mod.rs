@@ -5,20 +5,15 @@
 //! arithmetic; how few joints six legs can share follows from ranks of unions of families (Rado's theorem on independent
 //! transversals). Theorems and proofs: `docs/theory/rearrangements.md`.
 
-mod arrangement;
-mod choice;
-mod joints;
 mod octahedral;
-mod piece;
-mod planes;
+mod pieces;
 mod sample;
-mod split;
 mod table;
 #[cfg(test)]
 mod tests;
 
-pub use arrangement::Arrangement;
-pub use choice::Obstruction;
+pub use self::pieces::{Piece, PieceKind};
+pub use self::sample::Arrangement;
+pub use self::table::Obstruction;
 pub use octahedral::{NotOctahedral, Reduction};
-pub use piece::{Piece, PieceKind};
 pub use table::{Argument, NotDecided, PlanarBodies, Rearrangement, rearrangement, rearrangements};

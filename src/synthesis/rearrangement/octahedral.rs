@@ -3,10 +3,8 @@
 //! The replaceable legs of an octahedral design are the six sides of a hexagon of lines between two planes, and nothing else
 //! (`docs/theory/octahedral-class.md`). They are those of every equivalent design, so that anything else among them is a proof that there is no octahedral one.
 
-use super::arrangement::Arrangement;
-use super::piece::Piece;
-use super::planes::{Planes, scroll};
-use super::sample::{ExactLeg, Sample};
+use super::pieces::{Piece, Planes, scroll};
+use super::sample::{Arrangement, ExactLeg, Sample};
 use crate::synthesis::components::exact::{Exact, rank};
 use crate::synthesis::hexagon::Body;
 use crate::topology::Topology;

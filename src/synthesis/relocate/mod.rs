@@ -9,26 +9,20 @@
 //!
 //! [`relocate`] moves legs, [`Chain`] composes moves made one after another, [`search`](mod@search) looks for equivalent platforms that fulfil wishes.
 
-mod between;
-mod chain;
-mod counted_from;
-mod joints;
+mod names;
 pub mod search;
 mod singular;
 #[cfg(test)]
 mod tests;
 
+use nalgebra::Point3;
 use thiserror::Error;
 
-pub use between::{family_between, spanning_joints};
-pub use chain::Chain;
-pub use counted_from::counted_from;
-pub use joints::{Assembled, JointOrigin};
-pub use singular::SingularParameters;
-
+pub use self::names::{counted_from, family_between, spanning_joints};
+pub use self::singular::SingularParameters;
 use super::components::{Component, Components, Parametrisation, exactly_replaceable};
-use super::leg_map::{LegMapOutcome, LegMapTolerances, Relation, leg_map_to_legs};
-use crate::manipulator::{Leg, LegIndex, Manipulator};
+use super::leg_map::{AffineLegMap, LegMapOutcome, LegMapTolerances, Relation, leg_map_to_legs};
+use crate::manipulator::{InvalidManipulator, Leg, LegIndex, Manipulator};
 use crate::num::linalg::LinalgError;
 
 /// One leg and where it is to go.
@@ -184,7 +178,7 @@ pub fn relocate(
             return Err(RelocateError::NotCarried { leg: only.leg, family: only.family });
         }
     }
-    let assembled = joints::assemble(m, &legs);
+    let assembled = assemble(m, &legs);
     let map = leg_map_to_legs(m, &assembled.legs, tolerances)?;
     let old = m.legs();
     let mut moved = Vec::new();
@@ -216,4 +210,119 @@ fn target(found: &Components, step: &LegMove) -> Result<Leg, RelocateError> {
     }
     let leg = formulas.leg_at(&step.parameters)?;
     leg.ok_or_else(|| RelocateError::NoLeg { family: step.family, parameters: step.parameters.clone() })
+}
+
+/// A new end nearer than this to a joint, relative to the size, is that joint: rounding of formulas, not of data.
+const SNAP: f64 = 1e-12;
+
+/// Where a joint of the new platform comes from; indices of joints of the same body of the old one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum JointOrigin {
+    /// It is where it was.
+    Kept(usize),
+    /// All legs left the old joint, and this is where the first of them went.
+    Displaced(usize),
+    /// A leg left the old joint for this one.
+    Split(usize),
+}
+
+/// The new platform.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Assembled {
+    /// Joints and legs. Two legs that have become the same leg are no platform.
+    pub platform: Result<Manipulator, InvalidManipulator>,
+    /// The six legs.
+    pub legs: [Leg; 6],
+    /// Origins of the base joints.
+    pub base: Vec<JointOrigin>,
+    /// Origins of the platform joints.
+    pub platform_joints: Vec<JointOrigin>,
+}
+
+/// Joints of one body and which of them carries each leg.
+struct Side {
+    points: Vec<Point3<f64>>,
+    origins: Vec<JointOrigin>,
+    of_leg: [usize; 6],
+}
+
+/// Puts the legs that are given in the place of the old ones. An end that is within rounding of a joint shares it.
+fn assemble(m: &Manipulator, new: &[Option<Leg>; 6]) -> Assembled {
+    let limit = SNAP * m.size();
+    let pairs = m.pairs();
+    let base = side(m.base_joints(), pairs.map(|p| p.0), new.map(|l| l.map(|l| l.base)), limit);
+    let platform = side(m.platform_joints(), pairs.map(|p| p.1), new.map(|l| l.map(|l| l.platform)), limit);
+    let pairs: [(usize, usize); 6] = std::array::from_fn(|k| (base.of_leg[k], platform.of_leg[k]));
+    Assembled {
+        legs: pairs.map(|(a, b)| Leg { base: base.points[a], platform: platform.points[b] }),
+        platform: Manipulator::try_new(base.points, platform.points, pairs),
+        base: base.origins,
+        platform_joints: platform.origins,
+    }
+}
+
+fn side(old: &[Point3<f64>], of_leg: [usize; 6], new: [Option<Point3<f64>>; 6], limit: f64) -> Side {
+    let mut points = old.to_vec();
+    let mut origins: Vec<JointOrigin> = (0..old.len()).map(JointOrigin::Kept).collect();
+    let mut ends = of_leg;
+    for (k, p) in new.iter().enumerate().filter_map(|(k, p)| p.map(|p| (k, p))) {
+        let near = |q: &Point3<f64>| (p - q).norm() <= limit;
+        // the leg's own joint first: two joints may stand at one place
+        let found = if near(&points[of_leg[k]]) { Some(of_leg[k]) } else { points.iter().position(near) };
+        ends[k] = found.unwrap_or_else(|| {
+            points.push(p);
+            origins.push(JointOrigin::Split(of_leg[k]));
+            points.len() - 1
+        });
+    }
+    // a joint that all legs left goes, and the first new one that came from it takes its place in the list
+    let mut order: Vec<(usize, JointOrigin)> = Vec::new();
+    for j in 0..old.len() {
+        if ends.contains(&j) || !of_leg.contains(&j) {
+            order.push((j, JointOrigin::Kept(j)));
+        } else if let Some(l) = (old.len()..points.len()).find(|l| origins[*l] == JointOrigin::Split(j)) {
+            order.push((l, JointOrigin::Displaced(j)));
+        }
+    }
+    for l in old.len()..points.len() {
+        if !order.iter().any(|(x, _)| *x == l) {
+            order.push((l, origins[l]));
+        }
+    }
+    Side {
+        points: order.iter().map(|(l, _)| points[*l]).collect(),
+        origins: order.iter().map(|(_, o)| *o).collect(),
+        of_leg: ends.map(|e| order.iter().position(|(l, _)| *l == e).unwrap_or_default()),
+    }
+}
+
+/// A sequence of moves as a whole.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Chain {
+    /// The map composed of those of the steps.
+    pub composed: AffineLegMap,
+    /// The map computed from the first platform and the legs of the last one.
+    pub direct: LegMapOutcome,
+    /// Largest difference of the two matrices over the largest entry, and of the constants over the squared size: rounding, when all is well.
+    pub disagreement: f64,
+}
+
+impl Chain {
+    /// Composes moves that were made one after another from `first`; a singular one can only be the last.
+    ///
+    /// # Errors
+    /// When a decomposition does not converge.
+    pub fn of(
+        first: &Manipulator,
+        steps: &[Relocation],
+        tolerances: LegMapTolerances,
+    ) -> Result<Self, LinalgError> {
+        let composed = steps.iter().fold(AffineLegMap::identity(), |map, s| map.then(&s.map.closest));
+        let legs = steps.last().map_or(first.legs(), |s| s.assembled.legs);
+        let direct = leg_map_to_legs(first, &legs, tolerances)?;
+        let top = composed.a.abs().max().max(1.0);
+        let matrices = (composed.a - direct.closest.a).abs().max() / top;
+        let constants = (composed.c - direct.closest.c).abs().max() / (first.size() * first.size() * top);
+        Ok(Self { composed, direct, disagreement: matrices.max(constants) })
+    }
 }

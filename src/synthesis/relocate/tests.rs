@@ -9,6 +9,17 @@ use crate::num::Rng;
 use crate::synthesis::components::{ComponentOptions, components};
 use crate::synthesis::{AffineLegMap, joint_free, leg_map};
 
+pub(super) fn corner(r: f64, k: usize) -> Point3<f64> {
+    let (s, c) = (std::f64::consts::TAU * k as f64 / 3.0).sin_cos();
+    Point3::new(r * c, r * s, 0.0)
+}
+
+pub(super) fn octahedral() -> Manipulator {
+    let hexagon = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
+    Manipulator::from_legs(hexagon.map(|(i, j)| Leg { base: corner(2.0, i), platform: corner(1.0, j) }))
+        .unwrap()
+}
+
 /// Multiples of 1/64: exact arithmetic on them is quick.
 fn short(x: f64) -> f64 {
     (64.0 * x).round() / 64.0
@@ -19,7 +30,7 @@ fn p(rng: &mut Rng) -> Vector3<f64> {
 }
 
 /// The design of Rojas, Borras and Thomas, sec. 6: triangles of edge 12 and 6.
-pub(super) fn published() -> Manipulator {
+fn published() -> Manipulator {
     let h = 108f64.sqrt();
     let base = [Point3::origin(), Point3::new(6.0, h, 0.0), Point3::new(12.0, 0.0, 0.0)];
     let platform = [Point3::origin(), Point3::new(6.0, 0.0, 0.0), Point3::new(3.0, -h / 2.0, 0.0)];
@@ -396,4 +407,32 @@ fn families_are_named_by_the_joints_that_span_them() {
     let off = [Point3::new(1.0, 2.0, 3.0)];
     assert!(family_between(&m, &found, &off, &[m.legs()[0].platform]).unwrap().is_empty());
     assert!(family_between(&m, &found, &[], &[]).unwrap().is_empty());
+}
+
+#[test]
+fn a_leg_that_leaves_a_shared_joint_splits_it_and_the_last_one_displaces_it() {
+    let m = octahedral();
+    let there = Leg { base: Point3::new(0.1, 0.2, 0.0), platform: corner(1.0, 0) };
+    let one = assemble(&m, &[Some(there), None, None, None, None, None]);
+    assert_eq!(one.base[3], JointOrigin::Split(0));
+    assert_eq!(one.platform_joints, [0, 1, 2].map(JointOrigin::Kept));
+    assert_eq!(one.legs[0], there);
+    // leg 6 was the other one at that base joint
+    let mut legs = [Some(there), None, None, None, None, None];
+    legs[5] = Some(Leg { base: Point3::new(-0.1, 0.2, 0.0), platform: corner(1.0, 2) });
+    let both = assemble(&m, &legs);
+    assert_eq!(
+        both.base,
+        [JointOrigin::Displaced(0), JointOrigin::Kept(1), JointOrigin::Kept(2), JointOrigin::Split(0)]
+    );
+    assert_eq!(both.legs[5], legs[5].unwrap());
+    // onto another joint, off by rounding: shared
+    let shared = Leg { base: corner(2.0, 2) + Vector3::new(1e-14, 0.0, 0.0), platform: corner(1.0, 0) };
+    let third = assemble(&m, &[Some(shared), None, None, None, None, None]);
+    assert_eq!(third.base.len(), 3);
+    assert_eq!(third.legs[0].base, corner(2.0, 2));
+    assert!(third.platform.is_ok());
+    // onto another leg: no platform
+    let same = Leg { base: corner(2.0, 1), platform: corner(1.0, 0) };
+    assert!(assemble(&m, &[Some(same), None, None, None, None, None]).platform.is_err());
 }

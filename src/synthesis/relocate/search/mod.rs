@@ -10,28 +10,24 @@
 //! proves nothing.
 
 mod candidate;
-mod climb;
-mod holes;
-mod patterns;
 mod pool;
-mod score;
 #[cfg(test)]
 mod tests;
 mod wishes;
 
 use thiserror::Error;
 
+pub use self::wishes::{HoleAnswer, HoleRecord};
 pub use candidate::{Candidate, Placement, Source};
-pub use holes::{HoleAnswer, HoleRecord};
 pub use wishes::{Hole, Margin, Wish, Wishes};
 
+use self::candidate::Scorer;
+use self::pool::{Pattern, patterns};
 use super::super::components::{Components, PartKind, Reading, SingularKind};
 use crate::manipulator::Manipulator;
 use crate::num::Rng;
 use crate::num::linalg::LinalgError;
-use patterns::{Pattern, patterns};
 use pool::Pool;
-use score::Scorer;
 
 /// How long to search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -145,7 +141,7 @@ pub fn search(
     let mut outcome = SearchOutcome {
         verdict: SearchVerdict::Undecided,
         candidates: Vec::new(),
-        holes: holes::records(m, found, &wishes.holes)?,
+        holes: wishes::records(m, found, &wishes.holes)?,
         patterns: 0,
         searched: 0,
         least_shared: None,
@@ -166,7 +162,7 @@ pub fn search(
     }
     // a family no leg of which could be drawn, one far out for instance, is missing in the patterns
     outcome.complete &= pool.drawn;
-    let patterns::Patterns { mut list, exhaustive } = patterns(&pool, wishes, m.size());
+    let pool::Patterns { mut list, exhaustive } = patterns(&pool, wishes, m.size());
     outcome.complete &= exhaustive;
     outcome.patterns = list.len();
     outcome.least_shared = list.iter().map(|p| p.shared).min();
@@ -222,7 +218,7 @@ fn climb_all(
     let mut out: Vec<Candidate> = Vec::new();
     for (_, k, x) in starts {
         let scorer = Scorer { pool, found, m, wishes, pattern: &list[k] };
-        let (_, x) = climb::climb(&scorer, x, options.evaluations, rng)?;
+        let (_, x) = candidate::climb(&scorer, x, options.evaluations, rng)?;
         if let Some(candidate) = candidate::candidate(&scorer, &x)? {
             out.push(candidate);
         }

@@ -2,23 +2,12 @@
 
 use nalgebra::Point3;
 
+use super::super::tests::{corner, octahedral};
 use super::*;
 use crate::geom::Pose;
 use crate::manipulator::{Leg, LegIndex, Manipulator, default_home};
-use crate::synthesis::Body;
 use crate::synthesis::components::{ComponentOptions, components};
-use crate::synthesis::{LegMapTolerances, Relation, leg_map};
-
-fn corner(r: f64, k: usize) -> Point3<f64> {
-    let (s, c) = (std::f64::consts::TAU * k as f64 / 3.0).sin_cos();
-    Point3::new(r * c, r * s, 0.0)
-}
-
-fn octahedral() -> Manipulator {
-    let hexagon = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
-    Manipulator::from_legs(hexagon.map(|(i, j)| Leg { base: corner(2.0, i), platform: corner(1.0, j) }))
-        .unwrap()
-}
+use crate::synthesis::{Body, LegMapTolerances, Relation, leg_map};
 
 /// Four legs in pairs at two platform joints, two others: nothing but the two pairs can be moved.
 fn six_four() -> Manipulator {

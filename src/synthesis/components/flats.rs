@@ -1,0 +1,376 @@
+//! Flats that legs end on, and the pairs of flats that are looked at for families.
+//!
+//! A flat has coordinates of its own, normalised to the joints in it. The legs between two flats that are combinations of
+//! given legs satisfy bilinear equations `N_r(a, b) = 0`. Closed pairs, which hold all legs between the flats that these legs
+//! span, are found exactly and within a tolerance.
+
+use std::collections::BTreeMap;
+
+use nalgebra::Vector3;
+
+use super::exact::ExactLegs;
+use super::form::Form;
+use super::spectrum::{Decision, Question, Spectrum, unit};
+use crate::manipulator::Leg;
+use crate::num::linalg::LinalgError;
+use crate::synthesis::leg_vector::Normalisation;
+
+/// Below this ratio of the spreads of the joints the axes follow the joints, with a unit for each.
+const NARROW: f64 = 1e-2;
+
+/// A flat `origin + sum_k xi_k axes_k` with orthogonal axes, as long as the joints reach: local coordinates are of order one,
+/// also for joints nearly on a line or nearly in a plane.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Flat {
+    pub(super) origin: Vector3<f64>,
+    pub(super) axes: Vec<Vector3<f64>>,
+}
+
+fn rows(points: &[Vector3<f64>]) -> (Vector3<f64>, Vec<Vec<f64>>) {
+    let mean = points.iter().sum::<Vector3<f64>>() / points.len() as f64;
+    (mean, points.iter().map(|p| (p - mean).iter().copied().collect()).collect())
+}
+
+/// Singular values of the centred points: as many as their flat has dimensions are different from zero.
+fn spread(points: &[Vector3<f64>]) -> Result<[f64; 3], LinalgError> {
+    let s = Spectrum::of(&rows(points).1, 3)?;
+    Ok(std::array::from_fn(|k| s.values[k]))
+}
+
+impl Flat {
+    /// The flat of dimension `dimension` nearest to the points (least squares, total).
+    pub(super) fn nearest(points: &[Vector3<f64>], dimension: usize) -> Result<Self, LinalgError> {
+        let (origin, centred) = rows(points);
+        let s = Spectrum::of(&centred, 3)?;
+        let axis = |v: &Vec<f64>| Vector3::new(v[0], v[1], v[2]);
+        let narrow = dimension > 0 && s.values[dimension - 1] < NARROW * s.values[0];
+        let mut axes = match dimension {
+            2 if !narrow => plane_axes(forward(axis(&s.vectors[2]))),
+            3 if !narrow => vec![Vector3::x(), Vector3::y(), Vector3::z()],
+            _ => s.vectors[..dimension].iter().map(|v| forward(axis(v))).collect(),
+        };
+        let reach = points.iter().map(|p| (p - origin).norm()).fold(0.0, f64::max);
+        for e in &mut axes {
+            let along = points.iter().map(|p| e.dot(&(p - origin)).abs()).fold(0.0, f64::max);
+            let length = if narrow { along } else { reach };
+            if length > 0.0 {
+                *e *= length;
+            }
+        }
+        Ok(Self { origin, axes })
+    }
+
+    /// A point and directions, made orthonormal.
+    pub(super) fn spanned(origin: Vector3<f64>, directions: &[Vector3<f64>]) -> Self {
+        let mut axes: Vec<Vector3<f64>> = Vec::new();
+        for d in directions {
+            let mut rest = d.normalize();
+            for _ in 0..2 {
+                for e in &axes {
+                    rest -= e * e.dot(&rest);
+                }
+            }
+            axes.push(rest.normalize());
+        }
+        Self { origin, axes }
+    }
+
+    pub(super) fn dimension(&self) -> usize {
+        self.axes.len()
+    }
+
+    /// Homogeneous local coordinates `(1, xi)` of a point's nearest point in the flat.
+    pub(super) fn local(&self, p: &Vector3<f64>) -> Vec<f64> {
+        let d = p - self.origin;
+        std::iter::once(1.0).chain(self.axes.iter().map(|e| e.dot(&d) / e.norm_squared())).collect()
+    }
+
+    /// Distance of a point from the flat.
+    pub(super) fn distance(&self, p: &Vector3<f64>) -> f64 {
+        let mut d = p - self.origin;
+        for e in &self.axes {
+            d -= e * (e.dot(&d) / e.norm_squared());
+        }
+        d.norm()
+    }
+
+    /// Homogeneous coordinates `(w, w x)` in the body of homogeneous local ones.
+    pub(super) fn place(&self, local: &[f64]) -> [f64; 4] {
+        let mut x = self.origin * local[0];
+        for (e, c) in self.axes.iter().zip(&local[1..]) {
+            x += e * *c;
+        }
+        [local[0], x.x, x.y, x.z]
+    }
+}
+
+/// The direction with its largest component positive: the same for both signs of a singular vector.
+fn forward(v: Vector3<f64>) -> Vector3<f64> {
+    if v[v.iamax()] < 0.0 { -v } else { v }
+}
+
+/// Two axes of the plane with the given normal: the first as near to the `x` axis of the body as possible.
+fn plane_axes(normal: Vector3<f64>) -> Vec<Vector3<f64>> {
+    let start = if normal.x.abs() < 0.9 { Vector3::x() } else { Vector3::y() };
+    let first = (start - normal * normal.dot(&start)).normalize();
+    vec![first, normal.cross(&first)]
+}
+
+/// The span of legs inside the product of two flats, and the equations that cut it out.
+///
+/// In local homogeneous coordinates `alpha` (base, `i + 1` entries) and `beta` (platform, `j + 1` entries) a leg is
+/// `alpha (x) beta`. The span of the legs has rank `k'`; an orthonormal basis of its complement are the
+/// `m = (i + 1)(j + 1) - k'` equations.
+#[derive(Debug, Clone)]
+pub(super) struct Product {
+    pub(super) base: Flat,
+    pub(super) platform: Flat,
+    pub(super) rank: usize,
+    /// `equations[r][p (j + 1) + q]`.
+    pub(super) equations: Vec<Vec<f64>>,
+    pub(super) decision: Decision,
+}
+
+impl Product {
+    /// Of the legs with these ends (normalised coordinates); the rank is what the tolerance says, or prescribed.
+    pub(super) fn new(
+        base: Flat,
+        platform: Flat,
+        ends: &[(Vector3<f64>, Vector3<f64>)],
+        prescribed: Option<usize>,
+        tolerance: f64,
+    ) -> Result<Self, LinalgError> {
+        let rows: Vec<Vec<f64>> = ends
+            .iter()
+            .map(|(a, b)| {
+                let (alpha, beta) = (base.local(a), platform.local(b));
+                unit(&alpha.iter().flat_map(|x| beta.iter().map(move |y| x * y)).collect::<Vec<f64>>())
+            })
+            .collect();
+        let width = (base.dimension() + 1) * (platform.dimension() + 1);
+        let s = Spectrum::of(&rows, width)?;
+        let top = s.values.first().copied().unwrap_or(0.0);
+        let used = &s.values[..rows.len().min(width)];
+        let mut decision = Decision::rank(Question::LegRank, used, top, tolerance);
+        if let Some(rank) = prescribed {
+            decision = decision.taken(rank);
+        }
+        let rank = decision.value;
+        Ok(Self { base, platform, rank, equations: s.kernel(rank).to_vec(), decision })
+    }
+
+    /// The same with the two bodies exchanged.
+    pub(super) fn exchanged(&self) -> Self {
+        let (i, j) = (self.base.dimension() + 1, self.platform.dimension() + 1);
+        let turn = |n: &Vec<f64>| (0..i * j).map(|k| n[(k % i) * j + k / i]).collect();
+        Self {
+            base: self.platform.clone(),
+            platform: self.base.clone(),
+            rank: self.rank,
+            equations: self.equations.iter().map(turn).collect(),
+            decision: self.decision,
+        }
+    }
+
+    /// `M(alpha)`: `m` rows of `j + 1` entries with `M(alpha) beta = 0` for the legs of the span.
+    pub(super) fn matrix(&self, alpha: &[f64]) -> Vec<Vec<f64>> {
+        let j = self.platform.dimension() + 1;
+        let row = |n: &Vec<f64>| {
+            (0..j).map(|q| alpha.iter().enumerate().map(|(p, x)| x * n[p * j + q]).sum()).collect()
+        };
+        self.equations.iter().map(row).collect()
+    }
+
+    /// The spectrum of `M` at the direction of `alpha`.
+    pub(super) fn spectrum(&self, alpha: &[f64]) -> Result<Spectrum, LinalgError> {
+        Spectrum::of(&self.matrix(&unit(alpha)), self.platform.dimension() + 1)
+    }
+
+    /// `M` with linear forms as entries; for a base plane.
+    pub(super) fn forms(&self) -> Vec<Vec<Form>> {
+        let j = self.platform.dimension() + 1;
+        let entry =
+            |n: &Vec<f64>, q: usize| Form::linear(&(0..3).map(|p| n[p * j + q]).collect::<Vec<f64>>());
+        self.equations.iter().map(|n| (0..j).map(|q| entry(n, q)).collect()).collect()
+    }
+}
+
+/// Which reading of the joints a pair of flats belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Reading {
+    /// The doubles as rational numbers, and the tolerance as well.
+    Both,
+    /// The doubles as rational numbers only: within the tolerance the joints are more special, or less.
+    ExactOnly,
+    /// Within the tolerance only.
+    ToleranceOnly,
+}
+
+impl Reading {
+    /// The name used in JSON.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Both => "exact",
+            Self::ExactOnly => "exact_only",
+            Self::ToleranceOnly => "within_tolerance",
+        }
+    }
+}
+
+/// A closed pair: the legs between two flats that these legs span, and how it was decided.
+#[derive(Debug, Clone)]
+pub(super) struct ClosedPair {
+    pub(super) legs: Vec<usize>,
+    pub(super) base: usize,
+    pub(super) platform: usize,
+    pub(super) rank: usize,
+    pub(super) reading: Reading,
+    pub(super) product: Product,
+    pub(super) decisions: Vec<Decision>,
+}
+
+/// The joints in both readings.
+#[derive(Debug)]
+pub(super) struct Ends {
+    pub(super) base: [Vector3<f64>; 6],
+    pub(super) platform: [Vector3<f64>; 6],
+    pub(super) exact: ExactLegs,
+    /// The legs in design units.
+    pub(super) design: [Leg; 6],
+    pub(super) tolerance: f64,
+}
+
+impl Ends {
+    /// Ends of some legs.
+    pub(super) fn of(&self, legs: &[usize]) -> Vec<(Vector3<f64>, Vector3<f64>)> {
+        legs.iter().map(|i| (self.base[*i], self.platform[*i])).collect()
+    }
+
+    /// Design coordinates of a point: those of the joint where it is one.
+    pub(super) fn design_point(&self, platform: bool, p: &Vector3<f64>, n: &Normalisation) -> Vector3<f64> {
+        let joint = self.side(platform).iter().position(|q| q == p);
+        match (joint, platform) {
+            (Some(k), false) => self.design[k].base.coords,
+            (Some(k), true) => self.design[k].platform.coords,
+            (None, false) => n.base_centre.coords + p * n.base_unit,
+            (None, true) => n.platform_centre.coords + p * n.platform_unit,
+        }
+    }
+
+    pub(super) fn side(&self, platform: bool) -> &[Vector3<f64>; 6] {
+        if platform { &self.platform } else { &self.base }
+    }
+}
+
+fn members(mask: usize) -> Vec<usize> {
+    (0..6).filter(|i| mask >> i & 1 == 1).collect()
+}
+
+/// Dimensions of the flats of the ends of every subset of legs.
+struct Dimensions {
+    base: [usize; 64],
+    platform: [usize; 64],
+}
+
+impl Dimensions {
+    fn of(dimension: impl Fn(bool, &[usize]) -> Result<usize, LinalgError>) -> Result<Self, LinalgError> {
+        let mut out = Self { base: [0; 64], platform: [0; 64] };
+        for mask in 1..64 {
+            out.base[mask] = dimension(false, &members(mask))?;
+            out.platform[mask] = dimension(true, &members(mask))?;
+        }
+        Ok(out)
+    }
+
+    /// All legs between the flats of the legs of `mask`.
+    fn closure(&self, mask: usize) -> usize {
+        let inside = |i: &usize| {
+            let more = mask | 1 << i;
+            self.base[more] == self.base[mask] && self.platform[more] == self.platform[mask]
+        };
+        let next = (0..6).filter(inside).fold(mask, |m, i| m | 1 << i);
+        // within a tolerance the union may span more than each leg alone
+        let same = self.base[next] == self.base[mask] && self.platform[next] == self.platform[mask];
+        if next == mask || !same { mask } else { self.closure(next) }
+    }
+
+    fn closed(&self) -> impl Iterator<Item = usize> + '_ {
+        (1..64usize).filter(|m| m.count_ones() > 1 && self.closure(*m) == *m)
+    }
+}
+
+/// All closed pairs that can hold a family, see `docs/theory/components.md`: `k' >= i + j + 1`, not both points.
+pub(super) fn closed_pairs(ends: &Ends) -> Result<Vec<ClosedPair>, LinalgError> {
+    let exact = Dimensions::of(|platform, legs| Ok(ends.exact.dimension(platform, legs)))?;
+    let numerical = Dimensions::of(|platform, legs| {
+        let points: Vec<Vector3<f64>> = legs.iter().map(|i| ends.side(platform)[*i]).collect();
+        Ok(spread(&points)?.iter().filter(|s| **s > ends.tolerance).count())
+    })?;
+    // legs, i, j, rank -> (exact, within the tolerance)
+    let mut found: BTreeMap<(usize, usize, usize, usize), (bool, bool)> = BTreeMap::new();
+    for mask in exact.closed() {
+        let rank = ends.exact.leg_rank(&members(mask));
+        found.entry((mask, exact.base[mask], exact.platform[mask], rank)).or_default().0 = true;
+    }
+    for mask in numerical.closed() {
+        let (i, j) = (numerical.base[mask], numerical.platform[mask]);
+        let rank = product(ends, &members(mask), i, j, None)?.rank;
+        found.entry((mask, i, j, rank)).or_default().1 = true;
+    }
+    let mut out = Vec::new();
+    for ((mask, i, j, rank), (is_exact, is_numerical)) in found {
+        if i + j == 0 || rank < i + j + 1 {
+            continue;
+        }
+        let reading = match (is_exact, is_numerical) {
+            (true, true) => Reading::Both,
+            (true, false) => Reading::ExactOnly,
+            _ => Reading::ToleranceOnly,
+        };
+        let legs = members(mask);
+        let product = product(ends, &legs, i, j, Some(rank))?;
+        let mut decisions = Vec::new();
+        for (on_platform, question, used, by_exact) in [
+            (false, Question::BaseDimension, i, exact.base[mask]),
+            (true, Question::PlatformDimension, j, exact.platform[mask]),
+        ] {
+            let points: Vec<Vector3<f64>> = legs.iter().map(|k| ends.side(on_platform)[*k]).collect();
+            let decision = Decision::rank(question, &spread(&points)?, 1.0, ends.tolerance);
+            decisions.push(decision.taken(used).beside(Some(by_exact)));
+        }
+        decisions.push(product.decision.beside(Some(ends.exact.leg_rank(&legs))));
+        out.push(ClosedPair { legs, base: i, platform: j, rank, reading, product, decisions });
+    }
+    Ok(out)
+}
+
+fn product(
+    ends: &Ends,
+    legs: &[usize],
+    i: usize,
+    j: usize,
+    rank: Option<usize>,
+) -> Result<Product, LinalgError> {
+    let pairs = ends.of(legs);
+    let base = Flat::nearest(&pairs.iter().map(|p| p.0).collect::<Vec<_>>(), i)?;
+    let platform = Flat::nearest(&pairs.iter().map(|p| p.1).collect::<Vec<_>>(), j)?;
+    Product::new(base, platform, &pairs, rank, ends.tolerance)
+}
+
+/// All six legs between the flats they span within the tolerance.
+pub(super) fn whole(ends: &Ends) -> Result<ClosedPair, LinalgError> {
+    let legs: Vec<usize> = (0..6).collect();
+    let dimension = |platform: bool| -> Result<usize, LinalgError> {
+        Ok(spread(ends.side(platform))?.iter().filter(|s| **s > ends.tolerance).count())
+    };
+    let (i, j) = (dimension(false)?, dimension(true)?);
+    let product = product(ends, &legs, i, j, None)?;
+    let same = ends.exact.dimension(false, &legs) == i
+        && ends.exact.dimension(true, &legs) == j
+        && ends.exact.leg_rank(&legs) == product.rank;
+    let reading = if same { Reading::Both } else { Reading::ToleranceOnly };
+    let decisions = vec![product.decision.beside(Some(ends.exact.leg_rank(&legs)))];
+    Ok(ClosedPair { legs, base: i, platform: j, rank: product.rank, reading, product, decisions })
+}

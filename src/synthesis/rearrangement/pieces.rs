@@ -1,0 +1,473 @@
+//! Irreducible families of replaceable legs in exact form, found for three kinds of designs.
+//!
+//! Designs whose legs span a sum of stars: `L = sum_j alpha_j (x) V_j` with independent points `alpha_j` of one body.
+//!
+//! Then `(a, b)` with `(1, a) = sum_j lambda_j alpha_j` is replaceable exactly when `(1, b)` lies in `V_j` for every `j` with
+//! `lambda_j != 0`, so that the replaceable legs are the legs between the flats `span(alpha_j, j in S)` and `V_S`, the intersection of the `V_j` with `j` in `S`.
+//!
+//! Designs with one body or both in space and too many joints for a sum of stars: families at the joints, and one pairing.
+//!
+//! A leg that is a combination of legs `S` with coefficients all different from zero needs `|S| >= i + j + 1` (lemma of
+//! `docs/theory/components.md`). If the joints of one body used by `S` are independent the argument for stars holds for `S`;
+//! otherwise `i` and `j` are the dimensions of the bodies, and only a plane and a space with all six legs are left.
+//!
+//! Replaceable legs between two planes, drawn from the pair of cubics by chords.
+//!
+//! `M(alpha) beta = 0` are the three equations of the span of six legs. A line through two points of the cubic `det M = 0`
+//! meets it once more, so that six rational legs lead to further rational ones.
+
+use super::sample::{ExactLeg, Sample, finite, integer, meet, other, subsets, weighted};
+use crate::num::Rng;
+use crate::num::exact::{Rational, relations};
+use crate::synthesis::components::exact::{Exact, rank};
+use crate::synthesis::hexagon::Body;
+
+/// How the ends of the legs of a [`Piece`] are paired.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PieceKind {
+    /// Every leg between two flats.
+    AllPairs,
+    /// A projective pairing of two lines.
+    Pairing,
+}
+
+/// One irreducible family of replaceable legs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Piece {
+    /// How the ends are paired.
+    pub kind: PieceKind,
+    /// Homogeneous coordinates of points that span the flat of the base ends.
+    pub(super) base: Vec<Exact>,
+    /// Points that span the flat of the platform ends; for a pairing partner `k` belongs to base point `k`, and sums to sums.
+    pub(super) platform: Vec<Exact>,
+    /// Where its legs lie: summands of the span of all legs, with the dimension it has in each at most.
+    pub(super) parts: Vec<usize>,
+    /// That dimension.
+    pub(super) weight: usize,
+}
+
+impl Piece {
+    /// Dimension of the flat of its base ends.
+    #[must_use]
+    pub fn base_dimension(&self) -> usize {
+        self.base.len().saturating_sub(1)
+    }
+
+    /// Dimension of the flat of its platform ends.
+    #[must_use]
+    pub fn platform_dimension(&self) -> usize {
+        self.platform.len().saturating_sub(1)
+    }
+
+    /// Dimension of the family.
+    #[must_use]
+    pub fn dimension(&self) -> usize {
+        match self.kind {
+            PieceKind::AllPairs => self.base_dimension() + self.platform_dimension(),
+            PieceKind::Pairing => 1,
+        }
+    }
+
+    /// Number of independent legs in it.
+    #[must_use]
+    pub fn rank(&self) -> usize {
+        match self.kind {
+            PieceKind::AllPairs => self.base.len() * self.platform.len(),
+            PieceKind::Pairing => 3,
+        }
+    }
+
+    /// The summands of the span of the legs in which its legs have a part; in each they span at most [`weight`](Self::weight)
+    /// dimensions.
+    #[must_use]
+    pub fn parts(&self) -> &[usize] {
+        &self.parts
+    }
+
+    /// See [`parts`](Self::parts).
+    #[must_use]
+    pub fn weight(&self) -> usize {
+        self.weight
+    }
+
+    /// Whether all its legs, more than one, meet in a joint.
+    #[must_use]
+    pub fn has_common_joint(&self) -> bool {
+        (self.base.len() == 1) != (self.platform.len() == 1)
+    }
+
+    /// Homogeneous coordinates of points that span the two flats, as fractions: base, platform.
+    #[must_use]
+    pub fn points(&self) -> [Vec<[String; 4]>; 2] {
+        let text = |list: &[Exact]| {
+            list.iter()
+                .map(|p| std::array::from_fn(|k| p.get(k).map_or(String::new(), Rational::to_string)))
+                .collect()
+        };
+        [text(&self.base), text(&self.platform)]
+    }
+
+    /// A leg of it at random fractions; `None` when an end is at infinity.
+    pub(super) fn draw(&self, rng: &mut Rng) -> Option<ExactLeg> {
+        let base = weights(self.base.len(), rng);
+        let platform = match self.kind {
+            PieceKind::AllPairs => weights(self.platform.len(), rng),
+            PieceKind::Pairing => base.clone(),
+        };
+        ExactLeg::through(&weighted(&self.base, &base), &weighted(&self.platform, &platform))
+    }
+}
+
+/// Barycentric coordinates, quarters and halves: points spread about the given ones.
+fn weights(count: usize, rng: &mut Rng) -> Vec<Rational> {
+    const LINE: [[i64; 2]; 8] = [[2, 2], [1, 3], [3, 1], [6, -2], [-2, 6], [5, -1], [-1, 5], [8, -4]];
+    let quarter = |x: i64| integer(x) / integer(4);
+    if count == 1 {
+        return vec![integer(1)];
+    }
+    let mut out = vec![integer(1)];
+    for _ in 1..count {
+        // one point of the simplex so far, then the line to the next vertex
+        let [s, t] = LINE[(rng.next_u64() % 8) as usize].map(quarter);
+        for w in &mut out {
+            *w *= &s;
+        }
+        out.push(t);
+    }
+    out
+}
+
+/// A point of a body and joints of the other one to which it has replaceable legs in every design of the topology.
+#[derive(Debug, Clone)]
+struct Star {
+    point: Exact,
+    sees: Vec<usize>,
+}
+
+/// All families, and the dimensions of the summands.
+#[derive(Debug, Clone)]
+pub(super) struct Split {
+    pub(super) pieces: Vec<Piece>,
+    pub(super) summands: Vec<usize>,
+}
+
+/// What was found about a sample.
+#[derive(Debug, Clone)]
+pub(super) enum Outcome {
+    /// All families of the sample, which are those of every general member.
+    Found(Split),
+    /// An intersection is larger than it is in general: another sample has to be drawn.
+    Special,
+    /// The span is no such sum.
+    None,
+}
+
+/// Joints of a body whose legs reach every point of the other body's flat.
+fn full(sample: &Sample, body: Body) -> Vec<usize> {
+    let enough = sample.dimension(other(body)) + 1;
+    (0..sample.joints(body).len()).filter(|k| sample.neighbours(body, *k).len() >= enough).collect()
+}
+
+/// The joints of a body, and the points of its plane where the lines of two double joints of the other body cross.
+fn stars(sample: &Sample, body: Body) -> Vec<Star> {
+    let there = other(body);
+    let everywhere = full(sample, there);
+    let with = |mut sees: Vec<usize>| {
+        sees.extend(&everywhere);
+        sees.sort_unstable();
+        sees.dedup();
+        sees
+    };
+    let joints = sample.joints(body).iter().enumerate();
+    let mut out: Vec<Star> =
+        joints.map(|(k, p)| Star { point: p.clone(), sees: with(sample.neighbours(body, k)) }).collect();
+    for pair in subsets(sample.joints(there).len()).filter(|s| s.len() == 2) {
+        let seen = [0, 1].map(|k| sample.neighbours(there, pair[k]));
+        let apart = seen[0].iter().all(|k| !seen[1].contains(k));
+        if sample.dimension(body) == 2 && apart && seen.iter().all(|s| s.len() == 2) {
+            let [u, v] = seen.map(|s| sample.points(body, &s));
+            let crossing = meet(&u, &v).first().and_then(finite);
+            out.extend(crossing.map(|point| Star { point, sees: with(pair) }));
+        }
+    }
+    out
+}
+
+/// Finds the sum over points of `body`.
+pub(super) fn split(sample: &Sample, body: Body) -> Outcome {
+    let there = other(body);
+    let (own, most) = (sample.dimension(body) + 1, sample.dimension(there) + 1);
+    let all = stars(sample, body);
+    let chosen = subsets(all.len()).filter(|s| s.len() == own).find(|s| {
+        let legs: usize = s.iter().map(|k| all[*k].sees.len()).sum();
+        let points: Vec<Exact> = s.iter().map(|k| all[*k].point.clone()).collect();
+        legs == 6 && s.iter().all(|k| all[*k].sees.len() <= most) && rank(&points) == own
+    });
+    let Some(chosen) = chosen else { return Outcome::None };
+    let basis: Vec<&Star> = chosen.iter().map(|k| &all[*k]).collect();
+    families(sample, body, &basis).map_or(Outcome::Special, Outcome::Found)
+}
+
+/// The least dimension that the intersection of the `V_j` has: joints in common, and what counting dimensions guarantees.
+fn least(basis: &[&Star], most: usize, set: &[usize]) -> usize {
+    let Some((first, rest)) = set.split_first() else { return most };
+    let common =
+        basis[*first].sees.iter().filter(|k| rest.iter().all(|j| basis[*j].sees.contains(k))).count();
+    let parts = subsets(set.len()).filter(|s| s.len() < set.len() && s[0] == 0).map(|s| {
+        let (in_it, out): (Vec<usize>, Vec<usize>) = (0..set.len()).partition(|k| s.contains(k));
+        let at = |part: Vec<usize>| least(basis, most, &part.iter().map(|k| set[*k]).collect::<Vec<_>>());
+        (at(in_it) + at(out)).saturating_sub(most)
+    });
+    parts.max().unwrap_or(0).max(common)
+}
+
+/// The families; `None` when an intersection has more than its least dimension.
+fn families(sample: &Sample, body: Body, basis: &[&Star]) -> Option<Split> {
+    let there = other(body);
+    let most = sample.dimension(there) + 1;
+    let mut pieces = Vec::new();
+    for set in subsets(basis.len()) {
+        let seen: Vec<Vec<Exact>> = basis.iter().map(|s| sample.points(there, &s.sees)).collect();
+        let common: Vec<usize> = basis[set[0]]
+            .sees
+            .iter()
+            .copied()
+            .filter(|k| set.iter().all(|j| basis[*j].sees.contains(k)))
+            .collect();
+        let mut flat = set[1..].iter().fold(seen[set[0]].clone(), |flat, j| meet(&flat, &seen[*j]));
+        if flat.len() != least(basis, most, &set) {
+            return None;
+        }
+        if flat.len() == common.len() {
+            flat = sample.points(there, &common);
+        } else {
+            flat = flat.iter().map(finite).collect::<Option<_>>()?;
+        }
+        let inside = |j: usize| rank(&[seen[j].clone(), flat.clone()].concat()) == seen[j].len();
+        if flat.is_empty() || (0..basis.len()).any(|j| !set.contains(&j) && inside(j)) {
+            continue;
+        }
+        let weight = flat.len();
+        let own: Vec<Exact> = set.iter().map(|j| basis[*j].point.clone()).collect();
+        let (base, platform) = if body == Body::Base { (own, flat) } else { (flat, own) };
+        pieces.push(Piece { kind: PieceKind::AllPairs, base, platform, parts: set, weight });
+    }
+    Some(Split { pieces, summands: basis.iter().map(|s| s.sees.len()).collect() })
+}
+
+/// The families; `None` when the sample is special.
+pub(super) fn at_joints(sample: &Sample, legs: &[(usize, usize); 6]) -> Option<Split> {
+    let both = [Body::Base, Body::Platform];
+    if !both.into_iter().all(|body| flats_meet_in_joints(sample, body)) {
+        return None;
+    }
+    let mut split = Split { pieces: complete_graphs(sample, legs), summands: vec![1; 6] };
+    let flat = both.into_iter().find(|b| sample.dimension(*b) == 2);
+    if let Some(pairing) = flat.and_then(|body| pairing(sample, body)) {
+        // a single leg at a joint of the line is a leg of the pairing
+        let same = |x: &Exact, y: &Exact| rank(&[x.clone(), y.clone()]) == 1;
+        let held = |p: &Piece| {
+            let mut ends = pairing.base.iter().zip(&pairing.platform);
+            p.dimension() == 0 && ends.any(|(a, b)| same(a, &p.base[0]) && same(b, &p.platform[0]))
+        };
+        split.pieces.retain(|p| !held(p));
+        split.pieces.push(pairing);
+        split.summands.push(3);
+    }
+    Some(split)
+}
+
+/// Whether the flats that two joints see on the other body have joints in common and nothing else.
+fn flats_meet_in_joints(sample: &Sample, body: Body) -> bool {
+    let there = other(body);
+    subsets(sample.joints(body).len()).filter(|s| s.len() == 2).all(|pair| {
+        let seen = [0, 1].map(|k| sample.neighbours(body, pair[k]));
+        let common = seen[0].iter().filter(|k| seen[1].contains(k)).count();
+        let [u, v] = seen.map(|s| sample.points(there, &s));
+        meet(&u, &v).len() == common
+    })
+}
+
+/// Maximal sets of joints that are all joined to each other, each leg in at least one.
+fn complete_graphs(sample: &Sample, legs: &[(usize, usize); 6]) -> Vec<Piece> {
+    let count = sample.joints(Body::Base).len();
+    let seen: Vec<Vec<usize>> = (0..count).map(|k| sample.neighbours(Body::Base, k)).collect();
+    let sets = subsets(count).filter_map(|set| {
+        let common: Vec<usize> =
+            seen[set[0]].iter().copied().filter(|k| set.iter().all(|j| seen[*j].contains(k))).collect();
+        let closed = (0..count).all(|j| set.contains(&j) || !common.iter().all(|k| seen[j].contains(k)));
+        (closed && !common.is_empty()).then_some((set, common))
+    });
+    let piece = |(set, common): (Vec<usize>, Vec<usize>)| Piece {
+        kind: PieceKind::AllPairs,
+        parts: (0..6).filter(|l| set.contains(&legs[*l].0) && common.contains(&legs[*l].1)).collect(),
+        base: sample.points(Body::Base, &set),
+        platform: sample.points(Body::Platform, &common),
+        weight: 1,
+    };
+    sets.map(piece).collect()
+}
+
+/// The pairing of the line `a1 a2` of a planar body of four joints with the line in space through the double joint `b` that
+/// meets the flats which `a1` and `a2` see, where `b` is joined to the other two joints and no other joint is.
+///
+/// With `b = w1 + w2` (`wk` in the flat of `ak`) and the crossing `c = a1 + a2` (suitably scaled) of `a1 a2` with the line of the other two
+/// joints, the legs `(a1, w1)`, `(a2, w2)`, `(c, b)` are replaceable and lie between two lines.
+fn pairing(sample: &Sample, planar: Body) -> Option<Piece> {
+    let space = other(planar);
+    if sample.joints(planar).len() != 4 || sample.joints(space).len() != 5 {
+        return None;
+    }
+    // its rank is counted in a summand of its own, after those of the six legs
+    let double = (0..5).find(|k| sample.neighbours(space, *k).len() == 2)?;
+    let held = sample.neighbours(space, double);
+    let free: Vec<usize> = (0..4).filter(|k| !held.contains(k)).collect();
+    let flats = [0, 1].map(|k| sample.points(space, &sample.neighbours(planar, free[k])));
+    if flats[0].len() + flats[1].len() != 4 {
+        return None;
+    }
+    let line = sample.points(planar, &free);
+    let crossing = meet(&line, &sample.points(planar, &held)).into_iter().next()?;
+    let target = &sample.points(space, &[double])[0];
+    let on_plane = parts(&crossing, [&line[..1], &line[1..]])?.to_vec();
+    let in_space = parts(target, [&flats[0], &flats[1]])?.to_vec();
+    let (base, platform) = if planar == Body::Base { (on_plane, in_space) } else { (in_space, on_plane) };
+    Some(Piece { kind: PieceKind::Pairing, base, platform, parts: vec![6], weight: 3 })
+}
+
+/// `x = u + v` with `u` and `v` in two spans that have only zero in common.
+fn parts(x: &Exact, spans: [&[Exact]; 2]) -> Option<[Exact; 2]> {
+    let rows: Vec<Exact> = spans[0].iter().chain(spans[1]).chain([x]).cloned().collect();
+    let relation = relations(&rows).into_iter().next()?;
+    let (last, head) = relation.split_last()?;
+    let scaled: Vec<_> = head.iter().map(|c| -(c / last)).collect();
+    let (u, v) = scaled.split_at(spans[0].len());
+    Some([weighted(spans[0], u), weighted(spans[1], v)])
+}
+
+/// The equations of the span of six legs between the planes `z = 0`.
+#[derive(Debug, Clone)]
+pub(super) struct Planes {
+    /// `equations[r][3 i + j]` is the coefficient of `alpha_i beta_j`.
+    equations: Vec<Exact>,
+}
+
+impl Planes {
+    /// Of six legs with independent vectors.
+    pub(super) fn of(sample: &Sample) -> Self {
+        let vectors: Vec<Exact> = sample.legs().iter().map(|l| flat(&l.base, &l.platform)).collect();
+        let columns: Vec<Exact> = (0..9).map(|k| vectors.iter().map(|v| v[k].clone()).collect()).collect();
+        Self { equations: relations(&columns) }
+    }
+
+    /// The equations for the partners of a point of a body: one row each.
+    fn matrix(&self, body: Body, point: &Exact) -> Vec<Exact> {
+        let entry = |e: &Exact, free: usize| {
+            let terms = (0..3).map(|k| {
+                let at = if body == Body::Base { 3 * k + free } else { 3 * free + k };
+                &e[at] * &point[k]
+            });
+            terms.fold(integer(0), |sum, x| sum + x)
+        };
+        self.equations.iter().map(|e| (0..3).map(|free| entry(e, free)).collect()).collect()
+    }
+
+    fn determinant(&self, body: Body, point: &Exact) -> Rational {
+        let m = self.matrix(body, point);
+        let minor = |i: usize, j: usize| &m[1][i] * &m[2][j] - &m[1][j] * &m[2][i];
+        &m[0][0] * minor(1, 2) - &m[0][1] * minor(0, 2) + &m[0][2] * minor(0, 1)
+    }
+
+    /// Points that span the partners of a point, which has coordinates `(1, x, y, 0)`.
+    pub(super) fn partners(&self, body: Body, point: &Exact) -> Vec<Exact> {
+        let m = self.matrix(body, point);
+        let columns: Vec<Exact> = (0..3).map(|k| m.iter().map(|row| row[k].clone()).collect()).collect();
+        let spatial = |mut x: Exact| {
+            x.push(integer(0));
+            x
+        };
+        relations(&columns).into_iter().map(spatial).collect()
+    }
+
+    /// Finite points of the cubic on the line through two of its points, other than these two.
+    fn chord(&self, body: Body, p: &Exact, q: &Exact) -> Vec<Exact> {
+        let at = |t: Rational| -> Exact { p.iter().zip(q).map(|(x, y)| x + &t * y).collect() };
+        // det M(p + t q) = c1 t + c2 t^2
+        let (plus, minus) =
+            (self.determinant(body, &at(integer(1))), self.determinant(body, &at(integer(-1))));
+        let (linear, square) = (&plus - &minus, &plus + &minus);
+        let zero = integer(0);
+        let all = if linear == zero && square == zero {
+            vec![at(integer(1)), at(integer(3))]
+        } else if linear == zero || square == zero {
+            Vec::new()
+        } else {
+            vec![at(-(linear / square))]
+        };
+        all.iter().filter_map(finite).collect()
+    }
+
+    /// The six legs, and legs at chords of the two cubics through joints, those with the shorter numbers first.
+    pub(super) fn legs(&self, sample: &Sample) -> Vec<ExactLeg> {
+        let mut out = sample.legs();
+        for body in [Body::Base, Body::Platform] {
+            let joints = sample.joints(body);
+            for pair in subsets(joints.len()).filter(|s| s.len() == 2) {
+                for point in self.chord(body, &joints[pair[0]], &joints[pair[1]]) {
+                    out.extend(self.leg_at(body, &point));
+                }
+            }
+            for joint in joints {
+                out.extend(self.leg_at(body, joint));
+            }
+        }
+        let digits = |l: &ExactLeg| {
+            let ends = l.base.iter().chain(&l.platform);
+            ends.map(|x| x.numer().bits() + x.denom().bits()).max()
+        };
+        out[6..].sort_by_cached_key(digits);
+        out
+    }
+
+    /// A leg at a point of a cubic: to its partner, or to one of them.
+    fn leg_at(&self, body: Body, point: &Exact) -> Option<ExactLeg> {
+        let partners: Vec<Exact> = self.partners(body, point).iter().filter_map(finite).collect();
+        let (first, rest) = partners.split_first()?;
+        // weights with sum 1 that no joint has
+        let mut end = first.clone();
+        for next in rest {
+            end = end.iter().zip(next).map(|(x, y)| (integer(5) * x - y) / integer(4)).collect();
+        }
+        match body {
+            Body::Base => ExactLeg::through(point, &end),
+            Body::Platform => ExactLeg::through(&end, point),
+        }
+    }
+
+    /// Whether each end of the leg has the other one as its only partner.
+    pub(super) fn alone(&self, leg: &ExactLeg) -> bool {
+        self.partners(Body::Base, &leg.base).len() == 1
+            && self.partners(Body::Platform, &leg.platform).len() == 1
+    }
+}
+
+/// Whether five of the legs and of those they imply lie between the line of two joints of a body and the other plane: then every point of
+/// the line has a line of partners.
+pub(super) fn scroll(sample: &Sample) -> bool {
+    [Body::Base, Body::Platform].into_iter().any(|body| {
+        let there = other(body);
+        // two legs at a joint of the other body imply one at the crossing of the line of their joints with the line in question
+        let crossing = |pair: &[usize]| {
+            let joints = (0..sample.joints(there).len()).map(|k| sample.neighbours(there, k));
+            joints.filter(|s| s.len() == 2 && s.iter().all(|k| !pair.contains(k))).count()
+        };
+        subsets(sample.joints(body).len()).filter(|s| s.len() == 2).any(|pair| {
+            pair.iter().map(|k| sample.neighbours(body, *k).len()).sum::<usize>() + crossing(&pair) >= 5
+        })
+    })
+}
+
+/// `alpha (x) beta` without the third coordinates, which are zero.
+fn flat(base: &Exact, platform: &Exact) -> Exact {
+    base[..3].iter().flat_map(|x| platform[..3].iter().map(move |y| x * y)).collect()
+}
