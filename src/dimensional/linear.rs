@@ -5,7 +5,9 @@ use nalgebra::{Rotation3, Vector3};
 use super::merit::{Cluster, Piece};
 use super::model::{Group, Model, Task};
 use super::problem::Objective;
-use super::shape::{Ends, Gradient, Pull, Rate};
+use super::pull::{Gradient, Pull, Rate};
+use super::shape::Ends;
+use super::skeleton::Room;
 use super::terms::{Exact, HeldPose, Item, Lines, TermId};
 use crate::requirements::TermKind;
 
@@ -183,12 +185,12 @@ impl Model<'_> {
             let id = (NO_POSE, (TermKind::BaseSpacing, NO_POSE, NO_POSE, NO_POSE));
             out.items.push(LinearItem { group: Group::Determinant, id, value, gradient, cone: None });
         }
-        for (leg, platform, value, g) in self.shape.rooms(&ends) {
+        for Room { leg, platform, value, gradient } in self.shape.rooms(&ends) {
             let mut pull = Pull::none();
             if platform {
-                pull.arm[leg] = g;
+                pull.arm[leg] = gradient;
             } else {
-                pull.base[leg] = g;
+                pull.base[leg] = gradient;
             }
             let id = (NO_POSE, (TermKind::PlatformSpacing, leg, NO_POSE, usize::from(platform)));
             let gradient = pull.gradient(&rates, &identity, false, &home);

@@ -6,7 +6,8 @@
 use nalgebra::{Matrix6, SVD, Vector3, Vector4, Vector6};
 
 use super::problem::{DimensionalProblem, Objective};
-use super::shape::{Ends, Gradient, Pull};
+use super::pull::{Gradient, Pull};
+use super::shape::Ends;
 use super::terms::{Gap, HeldPose, Lines, Terms, joint_pull, leg_forces};
 use crate::num::linalg::svd;
 use crate::num::small::singular_values;

@@ -12,9 +12,12 @@ mod outcome;
 mod pareto;
 mod population;
 mod problem;
+mod pull;
 mod scp;
 mod search;
 mod shape;
+mod skeleton;
+mod streams;
 mod terms;
 #[cfg(test)]
 mod tests;

@@ -7,8 +7,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use super::merit::Merit;
 use super::problem::{DimensionalProblem, InvalidProblem, Objective, Variables};
 use super::shape::Shape;
+use super::streams;
 use super::terms::{HeldPose, Terms};
-use crate::num::Rng;
 use crate::requirements::TermKind;
 
 /// Constraints that share one slack.
@@ -92,7 +92,7 @@ impl<'a> Model<'a> {
             }
         }
         let mut sample = listed(problem);
-        let points = problem.space.cube_points(SAMPLE, &mut Rng::new(1));
+        let points = problem.space.cube_points(SAMPLE, &mut streams::sample());
         sample.extend(points.iter().map(|x| HeldPose { pose: problem.space.pose(x), follows: true }));
         let continuous = !problem.space.axes().is_empty() || problem.space.trajectory.len() > 1;
         Ok(Self {
@@ -121,7 +121,7 @@ impl<'a> Model<'a> {
     /// The poses that every run starts with: home, corners, the ends of the axes, a few points between, and those that are listed.
     pub(crate) fn first_poses(&self) -> Vec<HeldPose> {
         let (mut out, space) = (listed(self.problem), &self.problem.space);
-        let mut points = space.cube_points(BETWEEN, &mut Rng::new(2));
+        let mut points = space.cube_points(BETWEEN, &mut streams::between_corners());
         for (k, sign) in space.axes().into_iter().flat_map(|k| [(k, 1.0), (k, -1.0)]) {
             let mut x = nalgebra::Vector6::zeros();
             x[k] = sign;

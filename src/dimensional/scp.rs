@@ -58,10 +58,13 @@ pub(crate) struct Run {
 
 /// Price of a violation that a climb begins with.
 pub(crate) const PENALTY: f64 = 10.0;
+/// Price beyond which it is not raised.
 const LARGEST_PENALTY: f64 = 1e6;
+/// Trust region of the first step, of the longest one, and the one at which a climb has come to its end, in units of the variables.
 const FIRST_RADIUS: f64 = 0.15;
 const LARGEST_RADIUS: f64 = 0.5;
 const SMALLEST_RADIUS: f64 = 1e-9;
+/// Radius at which stationarity is measured.
 const PROBE_RADIUS: f64 = 1e-3;
 
 impl Run {

@@ -4,13 +4,13 @@ use std::ops::ControlFlow;
 
 use super::conflict::{Clash, conflict, elastic};
 use super::model::{Model, Task};
-use super::outcome::{DimensionalOutcome, DimensionalReport, outcome};
+use super::outcome::{Conflict, DimensionalOutcome, DimensionalReport, outcome};
 use super::population::{Judge, Worth, evolve, offspring};
 use super::problem::{DimensionalProblem, InvalidProblem, Mode};
 use super::scp::{Effort, PENALTY, Run, climb};
+use super::streams;
 use super::terms::HeldPose;
 use super::worst_pose::worse_poses;
-use crate::num::Rng;
 use crate::num::parallel::parallel;
 
 /// Options of the search; none of them changes what is feasible.
@@ -61,20 +61,26 @@ pub struct Progress {
     pub best: Option<f64>,
 }
 
-/// Every so many populations one evolves so many times as long: young populations have many basins, old ones the deep ones.
-const LONG: (usize, usize) = (3, 4);
+/// Every so many populations one evolves longer: young populations have many basins, old ones the deep ones.
+const LONG_EVERY: usize = 3;
+/// How many times as many generations such a population has.
+const LONG_FACTOR: usize = 4;
 /// Poses of the first pass.
 const FEW_POSES: usize = 16;
 /// Batches of runs that are polished while others promise more.
 const BATCHES: usize = 6;
-/// Generations of mixtures of the ends, each a quarter as many as the starts.
+/// Generations of mixtures of the ends.
 const GENERATIONS_OF_ENDS: usize = 2;
+/// How many starts there are for each mixture of a generation.
+const STARTS_PER_MIXTURE: usize = 4;
 /// Rounds of adding poses in the first pass.
 const SHORT_ROUNDS: usize = 3;
 /// Rounds of adding poses.
 const ROUNDS: usize = 12;
 /// Members that differ by more in some variable are starts of their own.
 const DISTINCT_STARTS: f64 = 0.1;
+/// Ends whose values differ by less, relatively, count as one.
+const DISTINCT_GAINS: f64 = 1e-4;
 
 /// A polished run with the poses it ended with.
 #[derive(Debug, Clone)]
@@ -101,7 +107,7 @@ pub(crate) fn refine(
             break;
         }
         let sign = model.sign(&run.x);
-        let worse = worse_poses(model, &run.x, task, &poses, sign, seed.wrapping_add(round as u64));
+        let worse = worse_poses(model, &run.x, task, &poses, sign, streams::of_round(seed, round));
         complete = worse.is_empty();
         if complete {
             break;
@@ -127,8 +133,9 @@ pub(crate) fn population(
     o: &SearchOptions,
 ) -> Vec<Start> {
     let mut judge = Judge::new(model, task);
-    let generations = if k % LONG.0 == LONG.0 - 1 { LONG.1 * o.generations } else { o.generations };
-    let members = evolve(&mut judge, given, generations, &mut Rng::stream(o.seed, 0x5347 + k as u64));
+    let is_long = k % LONG_EVERY == LONG_EVERY - 1;
+    let generations = if is_long { LONG_FACTOR * o.generations } else { o.generations };
+    let members = evolve(&mut judge, given, generations, &mut streams::population(o.seed, k));
     let few: Vec<HeldPose> = judge.poses().iter().take(FEW_POSES).copied().collect();
     let mut out: Vec<Start> = Vec::new();
     for m in members {
@@ -187,16 +194,6 @@ fn rank(model: &Model<'_>, task: &Task, start: &Start) -> Run {
     run
 }
 
-fn climbs(
-    model: &Model<'_>,
-    task: &Task,
-    starts: &[Start],
-    o: &SearchOptions,
-    tick: &mut dyn FnMut(usize),
-) -> Vec<Run> {
-    parallel(starts.len(), o.threads, |k| rank(model, task, &starts[k]), &mut |done, _| tick(done))
-}
-
 /// Tells how far the search is, and heeds the answer.
 pub(crate) struct Watch<'w, 'm, 'a> {
     model: &'m Model<'a>,
@@ -226,156 +223,15 @@ impl<'w, 'm, 'a> Watch<'w, 'm, 'a> {
     }
 }
 
-/// Populations, short climbs from their best members, and the best ends polished.
-pub(crate) fn search_task(
-    model: &Model<'_>,
-    task: &Task,
-    given: &[Vec<f64>],
-    o: &SearchOptions,
-    watch: &mut Watch<'_, '_, '_>,
-) -> Searched {
-    let coarse = model.without_axes();
-    let first = coarse.as_ref().unwrap_or(model);
-    let fits = |x: &&Vec<f64>| x.len() == model.shape.start.len();
-    let mut given: Vec<Vec<f64>> = given.iter().filter(fits).cloned().collect();
-    if model.shape.offset_variables().is_none() {
-        given.push(model.shape.start.clone());
-    }
-    for x in &mut given {
-        x.truncate(first.shape.start.len());
-    }
-    let total = o.populations.max(1);
-    // the first population knows what is given
-    let live = |k: usize| population(first, task, if k == 0 { &given } else { &[] }, k, o);
-    let found =
-        parallel(total, o.threads, live, &mut |done, _| watch.tell(Stage::Populations, (done, total), None));
-    let few: Vec<HeldPose> = found.first().and_then(|f| f.first()).map_or(Vec::new(), |s| s.few.clone());
-    let given = given.into_iter().map(|x| Start { x, few: few.clone() });
-    let starts: Vec<Start> = found.into_iter().flatten().chain(given).collect();
-    let total = starts.len() + GENERATIONS_OF_ENDS * starts.len().div_ceil(4);
-    let mut ranked =
-        climbs(first, task, &starts, o, &mut |done| watch.tell(Stage::Climbs, (done, total), None));
-    let mut rng = Rng::stream(o.seed, 0x4d65);
-    for _ in 0..GENERATIONS_OF_ENDS {
-        let mut judge = Judge::new(first, task);
-        let ends: Vec<&[f64]> = ranked.iter().map(|r| r.x.as_slice()).collect();
-        let trials = offspring(&mut judge, &ends, starts.len().div_ceil(4), &mut rng);
-        let with_poses = |x: Vec<f64>| Start { few: judge.worst(&x, FEW_POSES), x };
-        let starts: Vec<Start> = trials.into_iter().map(with_poses).collect();
-        let known = ranked.len();
-        let tick = &mut |done| watch.tell(Stage::Climbs, (known + done, total), None);
-        ranked.extend(climbs(first, task, &starts, o, tick));
-    }
-    let total = ranked.len();
-    let feasible = ranked.iter().filter(|r| r.is_feasible(first)).count();
-    let mut ends = Ends { poses: model.first_poses(), points: Vec::new(), tried: Vec::new() };
-    ends.points = ranked.into_iter().map(|run| End::new(model, coarse.is_some(), run)).collect();
-    let mut refined: Vec<Refined> = Vec::new();
-    for _ in 0..BATCHES {
-        let best = refined.iter().filter(|r| r.run.is_feasible(model)).map(|r| r.run.judged.gain(task));
-        let batch = ends.choose(first, task, best.fold(f64::NEG_INFINITY, f64::max), o.polished.max(1));
-        let polish = |i: usize| {
-            let end = &ends.points[batch[i]];
-            let refined = refine(model, task, &end.x, ends.poses.clone(), o.seed);
-            Refined { run: refined.run.after(end.run.history.clone()), ..refined }
-        };
-        let total = batch.len();
-        let tick = &mut |done: usize, r: &Refined| watch.tell(Stage::Polishing, (done, total), Some(&r.run));
-        let found = parallel(total, o.threads, polish, tick);
-        ends.tried.extend(batch);
-        let more = found.iter().flat_map(|r| r.poses.iter().copied());
-        ends.learn(more.collect());
-        refined.extend(found);
-        if total == 0 || model.is_stopped() {
-            break;
-        }
-    }
-    refined.sort_by(|a, b| better(model, task, &a.run, &b.run));
-    Searched { refined, starts: total, feasible }
-}
-
-/// Finds the best platform that meets the requirements; `docs/theory/dimensional-synthesis.md` has the method.
-///
-/// `given` are further starts, in the variables of [`super::DimensionalSolution::point`]. The answer is a local optimum, the best of all starts.
-/// Requirements hold at the held poses, to which the worst ones found between them were added until none was worse;
-/// [`crate::requirements::assess`] checks that with formulas of its own.
-///
-/// # Errors
-/// [`InvalidProblem`] when the problem cannot be asked. An infeasible problem is a value.
-pub fn optimize(
-    problem: &DimensionalProblem,
-    given: &[Vec<f64>],
-    options: &SearchOptions,
-    progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
-) -> Result<DimensionalReport, InvalidProblem> {
-    let model = Model::new(problem)?;
-    let mut task = first_task(problem);
-    let mut watch = Watch::new(&model, progress);
-    let mut found = search_task(&model, &task, given, options, &mut watch);
-    let (starts, feasible) = (found.starts, found.feasible);
-    let polished =
-        found.refined.iter().map(|r| r.run.is_feasible(&model).then(|| r.run.judged.gain(&task))).collect();
-    let report = |outcome| {
-        let interrupted = model.is_stopped();
-        DimensionalReport { outcome, starts, feasible, polished, seed: options.seed, interrupted }
-    };
-    let Some(first) = found.refined.first() else { return Ok(report(DimensionalOutcome::Undecided(None))) };
-    if !first.run.is_feasible(&model) && model.is_stopped() {
-        return Ok(report(DimensionalOutcome::Undecided(None)));
-    }
-    if !first.run.is_feasible(&model) {
-        let settled = elastic(&model, &found.refined, options.threads);
-        // a run without an objective that met all requirements is where to climb again
-        let mut met = settled.iter().find(|r| r.run.is_feasible(&model)).cloned();
-        if met.is_none() {
-            match conflict(&model, &settled, options) {
-                Clash::Conflict(conflict) => return Ok(report(DimensionalOutcome::Infeasible(conflict))),
-                Clash::Met(refined) => met = Some(*refined),
-                Clash::Unsettled => {}
-            }
-        }
-        if let Some(met) = met {
-            let again = refine(&model, &task, &met.run.x, met.poses, options.seed);
-            found.refined.insert(0, again);
-            found.refined.sort_by(|a, b| better(&model, &task, &a.run, &b.run));
-        }
-        if !found.refined[0].run.is_feasible(&model) {
-            let failure = found.refined[0].run.failure;
-            return Ok(report(DimensionalOutcome::Undecided(failure)));
-        }
-    }
-    if let Mode::Lexicographic { slack } = problem.mode {
-        for level in 1..problem.objectives.len() {
-            let gain = found.refined[0].run.judged.gains[level - 1];
-            task.floors[level - 1] = Some(gain - slack * gain.abs());
-            task.weights = (0..problem.objectives.len()).map(|m| f64::from(u8::from(m == level))).collect();
-            let again = |k: usize| {
-                let from = &found.refined[k];
-                refine(&model, &task, &from.run.x, from.poses.clone(), options.seed)
-            };
-            let total = found.refined.len();
-            let tick =
-                &mut |done: usize, r: &Refined| watch.tell(Stage::Polishing, (done, total), Some(&r.run));
-            let mut refined = parallel(total, options.threads, again, tick);
-            refined.sort_by(|a, b| better(&model, &task, &a.run, &b.run));
-            found.refined = refined;
-        }
-    }
-    Ok(report(outcome(&model, &task, &found.refined[0])))
-}
-
-/// Ends whose values differ by less, relatively, count as one.
-const DISTINCT_GAINS: f64 = 1e-4;
-
 /// An end of the first pass.
-pub(crate) struct End {
+struct End {
     /// In all variables.
-    pub(crate) x: Vec<f64>,
-    pub(crate) run: Run,
+    x: Vec<f64>,
+    run: Run,
 }
 
 impl End {
-    pub(crate) fn new(model: &Model<'_>, without_axes: bool, run: Run) -> Self {
+    fn new(model: &Model<'_>, without_axes: bool, run: Run) -> Self {
         let mut x = run.x.clone();
         x.resize(model.shape.start.len(), 0.0);
         if without_axes {
@@ -386,16 +242,16 @@ impl End {
 }
 
 /// The ends of the first pass, and what refining some of them taught.
-pub(crate) struct Ends {
-    pub(crate) points: Vec<End>,
-    pub(crate) tried: Vec<usize>,
+struct Ends {
+    points: Vec<End>,
+    tried: Vec<usize>,
     /// Poses that refine starts with.
-    pub(crate) poses: Vec<HeldPose>,
+    poses: Vec<HeldPose>,
 }
 
 impl Ends {
     /// The most promising ends with different values that were not tried yet and promise more than `best`, by their worth over the poses known.
-    pub(crate) fn choose(&self, model: &Model<'_>, task: &Task, best: f64, count: usize) -> Vec<usize> {
+    fn choose(&self, model: &Model<'_>, task: &Task, best: f64, count: usize) -> Vec<usize> {
         let mut judge = Judge::over(model, task, self.poses.clone());
         let worths: Vec<Option<Worth>> =
             self.points.iter().map(|e| judge.worth(&e.run.x, usize::MAX, None)).collect();
@@ -416,11 +272,227 @@ impl Ends {
     }
 
     /// Poses that mattered to refined ends matter to the others.
-    pub(crate) fn learn(&mut self, poses: Vec<HeldPose>) {
+    fn learn(&mut self, poses: impl Iterator<Item = HeldPose>) {
         for at in poses {
             if !self.poses.contains(&at) {
                 self.poses.push(at);
             }
         }
     }
+}
+
+/// Populations, short climbs from their best members and from mixtures of the ends, and the best ends polished.
+pub(crate) fn search_task(
+    model: &Model<'_>,
+    task: &Task,
+    given: &[Vec<f64>],
+    options: &SearchOptions,
+    watch: &mut Watch<'_, '_, '_>,
+) -> Searched {
+    let without_axes = model.without_axes();
+    let coarse = without_axes.as_ref().unwrap_or(model);
+    let search = Search { model, coarse, task, options };
+    let starts = search.starts(search.given(given), watch);
+    let runs = search.first_pass(&starts, watch);
+    let (climbed, feasible) = (runs.len(), runs.iter().filter(|r| r.is_feasible(coarse)).count());
+    let points = runs.into_iter().map(|run| End::new(model, without_axes.is_some(), run)).collect();
+    let ends = Ends { poses: model.first_poses(), points, tried: Vec::new() };
+    let mut refined = search.polished(ends, watch);
+    refined.sort_by(|a, b| better(model, task, &a.run, &b.run));
+    Searched { refined, starts: climbed, feasible }
+}
+
+/// What the steps of a search for one task share.
+#[derive(Clone, Copy)]
+struct Search<'s, 'a> {
+    model: &'s Model<'a>,
+    /// The model of the first pass: joint axes follow from the legs instead of being variables.
+    coarse: &'s Model<'a>,
+    task: &'s Task,
+    options: &'s SearchOptions,
+}
+
+impl Search<'_, '_> {
+    /// The points that are given, and the design itself unless its offsets are variables, in the variables of the first pass.
+    fn given(&self, given: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let start = &self.model.shape.start;
+        let mut out: Vec<Vec<f64>> = given.iter().filter(|x| x.len() == start.len()).cloned().collect();
+        if self.model.shape.offset_variables().is_none() {
+            out.push(start.clone());
+        }
+        for x in &mut out {
+            x.truncate(self.coarse.shape.start.len());
+        }
+        out
+    }
+
+    /// The best members of all populations, of which the first knows what is given, and what is given itself.
+    fn starts(&self, given: Vec<Vec<f64>>, watch: &mut Watch<'_, '_, '_>) -> Vec<Start> {
+        let (o, total) = (self.options, self.options.populations.max(1));
+        let evolved = |k: usize| population(self.coarse, self.task, if k == 0 { &given } else { &[] }, k, o);
+        let tick = &mut |done: usize, _: &Vec<Start>| watch.tell(Stage::Populations, (done, total), None);
+        let members = parallel(total, o.threads, evolved, tick);
+        let few: Vec<HeldPose> =
+            members.first().and_then(|m| m.first()).map_or(Vec::new(), |s| s.few.clone());
+        let given = given.into_iter().map(|x| Start { x, few: few.clone() });
+        members.into_iter().flatten().chain(given).collect()
+    }
+
+    /// Short climbs from the starts, then from mixtures of the ends they led to.
+    fn first_pass(&self, starts: &[Start], watch: &mut Watch<'_, '_, '_>) -> Vec<Run> {
+        let mixtures = starts.len().div_ceil(STARTS_PER_MIXTURE);
+        let total = starts.len() + GENERATIONS_OF_ENDS * mixtures;
+        let mut runs = self.climbs(starts, (0, total), watch);
+        let mut rng = streams::mixtures(self.options.seed);
+        for _ in 0..GENERATIONS_OF_ENDS {
+            let mut judge = Judge::new(self.coarse, self.task);
+            let ends: Vec<&[f64]> = runs.iter().map(|r| r.x.as_slice()).collect();
+            let trials = offspring(&mut judge, &ends, mixtures, &mut rng);
+            let with_poses = |x: Vec<f64>| Start { few: judge.worst(&x, FEW_POSES), x };
+            let mixed: Vec<Start> = trials.into_iter().map(with_poses).collect();
+            runs.extend(self.climbs(&mixed, (runs.len(), total), watch));
+        }
+        runs
+    }
+
+    /// A short climb from each start; `known` climbs of `total` were done before.
+    fn climbs(
+        &self,
+        starts: &[Start],
+        (known, total): (usize, usize),
+        watch: &mut Watch<'_, '_, '_>,
+    ) -> Vec<Run> {
+        let climbed = |k: usize| rank(self.coarse, self.task, &starts[k]);
+        let tick = &mut |done: usize, _: &Run| watch.tell(Stage::Climbs, (known + done, total), None);
+        parallel(starts.len(), self.options.threads, climbed, tick)
+    }
+
+    /// The most promising ends polished, batch after batch, while others promise more than the best of them.
+    fn polished(&self, mut ends: Ends, watch: &mut Watch<'_, '_, '_>) -> Vec<Refined> {
+        let Self { model, coarse, task, options } = *self;
+        let mut refined: Vec<Refined> = Vec::new();
+        for _ in 0..BATCHES {
+            let gains = refined.iter().filter(|r| r.run.is_feasible(model)).map(|r| r.run.judged.gain(task));
+            let best = gains.fold(f64::NEG_INFINITY, f64::max);
+            let batch = ends.choose(coarse, task, best, options.polished.max(1));
+            let polish = |i: usize| {
+                let end = &ends.points[batch[i]];
+                let refined = refine(model, task, &end.x, ends.poses.clone(), options.seed);
+                Refined { run: refined.run.after(end.run.history.clone()), ..refined }
+            };
+            let size = batch.len();
+            let tick =
+                &mut |done: usize, r: &Refined| watch.tell(Stage::Polishing, (done, size), Some(&r.run));
+            let found = parallel(size, options.threads, polish, tick);
+            ends.tried.extend(batch);
+            ends.learn(found.iter().flat_map(|r| r.poses.iter().copied()));
+            refined.extend(found);
+            if size == 0 || model.is_stopped() {
+                break;
+            }
+        }
+        refined
+    }
+}
+
+/// Finds the best platform that meets the requirements; `docs/theory/dimensional-synthesis.md` has the method.
+///
+/// `given` are further starts, in the variables of [`super::DimensionalSolution::point`]. The answer is a local optimum, the best of all starts.
+/// Requirements hold at the held poses, to which the worst ones found between them were added until none was worse;
+/// [`crate::requirements::assess`] checks that with formulas of its own.
+///
+/// # Errors
+/// [`InvalidProblem`] when the problem cannot be asked. An infeasible problem is a value.
+pub fn optimize(
+    problem: &DimensionalProblem,
+    given: &[Vec<f64>],
+    options: &SearchOptions,
+    progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+) -> Result<DimensionalReport, InvalidProblem> {
+    let model = Model::new(problem)?;
+    let task = first_task(problem);
+    let mut watch = Watch::new(&model, progress);
+    let Searched { refined, starts, feasible } = search_task(&model, &task, given, options, &mut watch);
+    let polished =
+        refined.iter().map(|r| r.run.is_feasible(&model).then(|| r.run.judged.gain(&task))).collect();
+    let outcome = concluded(&model, task, refined, options, &mut watch);
+    let interrupted = model.is_stopped();
+    Ok(DimensionalReport { outcome, starts, feasible, polished, seed: options.seed, interrupted })
+}
+
+/// The answer that the polished runs of the first task lead to.
+fn concluded(
+    model: &Model<'_>,
+    task: Task,
+    mut refined: Vec<Refined>,
+    options: &SearchOptions,
+    watch: &mut Watch<'_, '_, '_>,
+) -> DimensionalOutcome {
+    let is_met = |refined: &[Refined]| refined.first().is_some_and(|r| r.run.is_feasible(model));
+    if refined.is_empty() || !is_met(&refined) && model.is_stopped() {
+        return DimensionalOutcome::Undecided(None);
+    }
+    if !is_met(&refined)
+        && let Some(conflict) = met_or_conflict(model, &task, &mut refined, options)
+    {
+        return DimensionalOutcome::Infeasible(conflict);
+    }
+    if !is_met(&refined) {
+        return DimensionalOutcome::Undecided(refined[0].run.failure);
+    }
+    let (last_task, refined) = match model.problem.mode {
+        Mode::Lexicographic { slack } => through_levels(model, task, refined, slack, options, watch),
+        Mode::Weighted => (task, refined),
+    };
+    outcome(model, &last_task, &refined[0])
+}
+
+/// Where no run meets the requirements: runs without an objective that do are climbed from again, or the conflict is returned.
+fn met_or_conflict(
+    model: &Model<'_>,
+    task: &Task,
+    refined: &mut Vec<Refined>,
+    options: &SearchOptions,
+) -> Option<Conflict> {
+    let settled = elastic(model, refined, options.threads);
+    let mut met = settled.iter().find(|r| r.run.is_feasible(model)).cloned();
+    if met.is_none() {
+        match conflict(model, &settled, options) {
+            Clash::Conflict(conflict) => return Some(conflict),
+            Clash::Met(refined) => met = Some(*refined),
+            Clash::Unsettled => {}
+        }
+    }
+    if let Some(met) = met {
+        refined.insert(0, refine(model, task, &met.run.x, met.poses, options.seed));
+        refined.sort_by(|a, b| better(model, task, &a.run, &b.run));
+    }
+    None
+}
+
+/// One objective after the other, each run giving up no more than a share `slack` of those before; the last task and its runs.
+fn through_levels(
+    model: &Model<'_>,
+    mut task: Task,
+    mut refined: Vec<Refined>,
+    slack: f64,
+    options: &SearchOptions,
+    watch: &mut Watch<'_, '_, '_>,
+) -> (Task, Vec<Refined>) {
+    let levels = model.problem.objectives.len();
+    for level in 1..levels {
+        let gain = refined[0].run.judged.gains[level - 1];
+        task.floors[level - 1] = Some(gain - slack * gain.abs());
+        task.weights = (0..levels).map(|m| f64::from(u8::from(m == level))).collect();
+        let again = |k: usize| {
+            let from = &refined[k];
+            refine(model, &task, &from.run.x, from.poses.clone(), options.seed)
+        };
+        let total = refined.len();
+        let tick = &mut |done: usize, r: &Refined| watch.tell(Stage::Polishing, (done, total), Some(&r.run));
+        let next = parallel(total, options.threads, again, tick);
+        refined = next;
+        refined.sort_by(|a, b| better(model, &task, &a.run, &b.run));
+    }
+    (task, refined)
 }

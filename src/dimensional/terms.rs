@@ -5,7 +5,8 @@
 
 use nalgebra::{Matrix6, Rotation3, Vector3, Vector6};
 
-use super::shape::{Ends, Gradient, Shape};
+use super::pull::Gradient;
+use super::shape::{Ends, LegJoints, Shape};
 use crate::geom::Pose;
 use crate::requirements;
 use crate::requirements::{
@@ -107,8 +108,8 @@ pub(crate) struct Terms<'a> {
     pub(crate) required: &'a Requirements,
     pub(crate) size: f64,
     pub(crate) home: Pose,
-    /// Legs that share a joint: equal numbers.
-    pub(crate) joints: [(usize, usize); 6],
+    /// Base and platform joint of each leg.
+    pub(crate) joints: LegJoints,
     /// First variables of chosen axes.
     pub(crate) axes: [Option<usize>; 2],
 }

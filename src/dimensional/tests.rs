@@ -8,7 +8,7 @@ use nalgebra::{Point3, Rotation3, Unit, Vector3};
 
 use super::linear::LinearBound;
 use super::model::{Group, Model, Task};
-use super::shape::smallest_cap;
+use super::outcome::smallest_cap;
 use super::terms::HeldPose;
 use super::*;
 use crate::geom::Pose;

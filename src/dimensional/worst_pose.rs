@@ -10,11 +10,13 @@ use super::merit::{Merit, Piece};
 use super::model::{Group, Model, Task};
 use super::problem::Objective;
 use super::shape::Ends;
+use super::streams;
 use super::terms::{HeldPose, Item, Lines};
 use crate::num::Rng;
 
-/// Points looked at, and local searches from the worst of them for each quantity: four for an objective, one for what single legs or pairs have.
+/// Points looked at.
 const POINTS: usize = 150;
+/// Local searches from the worst of them for each quantity: for an objective, and for what single legs or pairs have.
 const SEARCHES: [usize; 2] = [4, 1];
 /// A requirement is searched when twice the spread over the points would bring it from the worst of them to its limit.
 const SPREADS: f64 = 2.0;
@@ -165,7 +167,7 @@ pub(crate) fn worse_poses(
     let look = Look { model, ends: model.shape.ends(x), x, task };
     let judged = model.judge(held, x, task, sign);
     let mut seen: BTreeMap<Quantity, Seen> = BTreeMap::new();
-    for cube in space.cube_points(POINTS, &mut Rng::stream(seed, 7)) {
+    for cube in space.cube_points(POINTS, &mut streams::look(seed)) {
         for (q, value) in look.all(&look.lines(&cube)) {
             let of = seen.entry(q).or_insert(Seen { greatest: value, worst: Vec::new() });
             of.greatest = of.greatest.max(value);
@@ -175,7 +177,7 @@ pub(crate) fn worse_poses(
         }
     }
     let lengths = [false, true].map(|longest| look.least_length(held, longest));
-    let (mut out, mut rng): (Vec<HeldPose>, Rng) = (Vec::new(), Rng::stream(seed, 8));
+    let (mut out, mut rng): (Vec<HeldPose>, Rng) = (Vec::new(), streams::descent(seed));
     for (q, Seen { greatest, worst }) in seen {
         // what the held poses guarantee
         let known = match q {
@@ -243,8 +245,8 @@ impl<'m, 'a> Judging<'m, 'a> {
         if let Some((value, _)) = model.determinant(x, sign) {
             out.hold(Group::Determinant, value);
         }
-        for (_, _, value, _) in model.shape.rooms(&ends) {
-            out.hold(Group::Reach, value);
+        for room in model.shape.rooms(&ends) {
+            out.hold(Group::Reach, room.value);
         }
         out
     }

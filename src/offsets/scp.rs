@@ -86,7 +86,9 @@ impl LocalResult {
 
 /// First weight of the violation; raised tenfold while a run settles at an infeasible point.
 const PENALTY: f64 = 100.0;
+/// A run that would need a larger one is given up.
 const LARGEST_PENALTY: f64 = 1e7;
+/// Trust region of the first step, of the longest one, and the one at which a run has come to its end; offsets are fractions of an edge.
 const FIRST_RADIUS: f64 = 0.15;
 const LARGEST_RADIUS: f64 = 0.6;
 const SMALLEST_RADIUS: f64 = 1e-8;
@@ -337,6 +339,7 @@ pub(crate) fn violation(m: &Model, cell: &Cell, t: &[f64; 6]) -> f64 {
     constraint_values(m, cell, t).into_iter().fold(0.0, |v, c| v.max(-c))
 }
 
+/// Columns of the subproblem after the six steps: the bound of the objective that is raised, and the violation that is paid for.
 const GAMMA: usize = 6;
 const SLACK: usize = 7;
 

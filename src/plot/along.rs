@@ -24,6 +24,7 @@ pub struct AlongFigure {
     pub parts: Vec<AlongPart>,
 }
 
+// the layout in pixels: sizes, and where they are from the left and the top
 const PANEL: (f64, f64) = (720.0, 340.0);
 const LEFT: f64 = 84.0;
 const TOP: f64 = 60.0;

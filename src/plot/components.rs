@@ -40,6 +40,7 @@ pub struct CurveFigure {
     pub panels: Vec<[CurvePanel; 2]>,
 }
 
+// the layout in pixels: sizes, and where they are from the left and the top
 const SIDE: f64 = 400.0;
 const MARGIN: f64 = 30.0;
 const TOP: f64 = 84.0;

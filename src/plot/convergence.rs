@@ -31,6 +31,7 @@ impl ConvergenceFigure {
     pub const LEAST_SHORTFALL: f64 = 1e-10;
 }
 
+// the layout in pixels: sizes, and where they are from the left and the top
 const PANEL: (f64, f64) = (360.0, 300.0);
 const LEFT: f64 = 74.0;
 const TOP: f64 = 92.0;

@@ -40,6 +40,7 @@ pub struct OffsetPlane {
     pub points: Vec<PlanePoint>,
 }
 
+// the layout in pixels: sizes, and where they are from the left and the top
 const WIDTH: f64 = 760.0;
 const HEIGHT: f64 = 640.0;
 const LEFT: f64 = 80.0;

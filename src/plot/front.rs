@@ -24,6 +24,7 @@ pub struct FrontFigure {
     pub members: Vec<Vec<f64>>,
 }
 
+// the layout in pixels: sizes, and where they are from the left and the top
 const SIDE: f64 = 400.0;
 const LEFT: f64 = 84.0;
 const TOP: f64 = 62.0;

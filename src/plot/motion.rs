@@ -18,6 +18,7 @@ pub struct MotionFigure {
     pub closed: bool,
 }
 
+// the layout in pixels: sizes, and where they are from the left and the top
 const WIDTH: f64 = 640.0;
 const HEIGHT: f64 = 520.0;
 const MARGIN: f64 = 40.0;

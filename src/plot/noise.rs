@@ -40,6 +40,7 @@ impl NoiseFigure {
     pub const MOST_CURVES: usize = 4;
 }
 
+// the layout in pixels: sizes, and where they are from the left and the top
 const PANEL: (f64, f64) = (360.0, 400.0);
 const LEFT: f64 = 74.0;
 const TOP: f64 = 92.0;

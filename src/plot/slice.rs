@@ -35,6 +35,7 @@ pub struct SliceFigure {
     pub mark: Option<((f64, f64), String)>,
 }
 
+// the layout in pixels: sizes, and where they are from the left and the top
 const WIDTH: f64 = 700.0;
 const HEIGHT: f64 = 660.0;
 const LEFT: f64 = 84.0;

@@ -28,6 +28,7 @@ pub struct StepsFigure {
 
 /// Violations below this are drawn at it.
 const LEAST_VIOLATION: f64 = 1e-10;
+// the layout in pixels: sizes, and where they are from the left and the top
 const PANEL: (f64, f64) = (360.0, 280.0);
 const LEFT: f64 = 74.0;
 const TOP: f64 = 84.0;

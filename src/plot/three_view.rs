@@ -39,6 +39,7 @@ pub struct ThreeViewFigure {
 
 /// Width and height of the largest view, pixels.
 const VIEW: f64 = 320.0;
+// the layout in pixels: sizes, and where they are from the left and the top
 const MARGIN: f64 = 60.0;
 const TOP: f64 = 70.0;
 const CSS: &str = "\

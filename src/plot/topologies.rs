@@ -15,6 +15,7 @@ pub struct TopologyFigure {
     pub caption: String,
 }
 
+// the layout in pixels: sizes, and where they are from the left and the top
 const CELL: (f64, f64) = (168.0, 200.0);
 const COLUMNS: usize = 6;
 const MARGIN: f64 = 20.0;

@@ -27,6 +27,7 @@ pub struct WorkspaceFigure {
     pub home: ((f64, f64), String),
 }
 
+// the layout in pixels: sizes, and where they are from the left and the top
 const WIDTH: f64 = 860.0;
 const HEIGHT: f64 = 690.0;
 const LEFT: f64 = 84.0;

@@ -23,6 +23,7 @@ pub struct Conditioning {
     pub worst: f64,
 }
 
+/// Random poses that the figures are taken over.
 const POSES: usize = 200;
 
 /// The figures of `m`, poses drawn with `seed`.

@@ -242,9 +242,11 @@ pub struct CornerLengths {
 
 /// The condition counts as satisfied within this: rounding of lengths, squares and offsets.
 const COMPATIBLE: f64 = 1e-12;
-/// Grid of the search, and steps of bisection.
+/// Values of the parameter `x` that the search goes through.
 const PARAMETERS: usize = 48;
+/// Angles of the platform that it goes through at each of them.
 const ANGLES: usize = 120;
+/// Steps of bisection between two of them: to rounding.
 const BISECTIONS: usize = 60;
 
 /// Decides for a platform on the surface `det A = 0` (nearly: the caller looks at `g.determinant()`).

@@ -21,8 +21,9 @@ use crate::num::Rng;
 use crate::num::interval::Interval;
 use crate::num::small::singular_values;
 
-/// Random poses, and random steps from the best of them.
+/// Random poses that are looked at.
 const POSES: usize = 300;
+/// Random steps from the best of them.
 const CLIMB: usize = 300;
 
 /// No design within this distance of `m` (norm of the change of all joints, design units) is architecturally singular: proved, rounding included; 0 where nothing

@@ -134,9 +134,11 @@ impl Start {
     }
 }
 
+/// Most Gauss-Newton steps.
 const STEPS: usize = 60;
-/// Largest change in one step, and of `|F|` at the end, in the normalised coordinates.
+/// Largest change in one step, in the normalised coordinates.
 const STRIDE: f64 = 0.3;
+/// Largest `|F|` at the end, in the normalised coordinates.
 const SOLVED: f64 = 1e-13;
 /// Smaller steps than this end the search: what they leave in `F` is their square.
 const SETTLED: f64 = 1e-10;

@@ -19,8 +19,6 @@
 //!
 //! For comparison the closure is also carried out as the paper does: squared distances from coordinates, denominators cleared, roots squared out, nothing cancelled.
 
-use num_bigint::BigInt;
-
 use super::tower::{Divisor, Fraction, Fractions, Ring, STEPS, is_zero, zero};
 use super::{ClosureError, ExactData, cross, dot, minus};
 use crate::topology::{Joint, Sequence, Step};
@@ -190,21 +188,21 @@ impl<'a, R: Ring> Strip<'a, R> {
         let t = self.placed.len();
         let (base, new) = (self.base_of(t), self.steps[t].place);
         let [o, p, q] = base;
-        let a = self.singular_factor(base);
-        if self.fractions.tower.norm(&a.numerator).is_zero() {
+        let singular = self.singular_factor(base);
+        if self.fractions.tower.norm(&singular.numerator).is_zero() {
             return Err(ClosureError::Collinear { step: t });
         }
-        let inverse = self.fractions.adjoin_factor(&a);
+        let inverse = self.fractions.adjoin_factor(&singular);
         let f = &self.fractions;
-        let (uu, vv, m) = (self.squared(o, p), self.squared(o, q), self.doubled(o, p, q));
-        let (ff, gg) = (self.doubled(o, p, new), self.doubled(o, q, new));
-        let twice_v = f.minus(&f.twice(&f.times(&vv, &ff)), &f.times(&m, &gg));
-        let twice_u = f.minus(&f.twice(&f.times(&uu, &gg)), &f.times(&m, &ff));
+        // the symbols of the module's page: m = 2 u.v, F = 2 u.(P - o), G = 2 v.(P - o)
+        let (u_u, v_v, m) = (self.squared(o, p), self.squared(o, q), self.doubled(o, p, q));
+        let (big_f, big_g) = (self.doubled(o, p, new), self.doubled(o, q, new));
+        let along_u = f.minus(&f.twice(&f.times(&v_v, &big_f)), &f.times(&m, &big_g));
+        let along_v = f.minus(&f.twice(&f.times(&u_u, &big_g)), &f.times(&m, &big_f));
         // 2 K = F (2 v.v F - m G) + G (2 u.u G - m F)
-        let k = f.plus(&f.times(&ff, &twice_v), &f.times(&gg, &twice_u));
-        let radicand = f.minus(&f.twice(&f.times(&self.squared(o, new), &a)), &k);
+        let two_k = f.plus(&f.times(&big_f, &along_u), &f.times(&big_g, &along_v));
         // 2 sqrt(s A - K) = sqrt(2 (2 s A - 2 K))
-        let radicand = f.twice(&radicand);
+        let radicand = f.twice(&f.minus(&f.twice(&f.times(&self.squared(o, new), &singular)), &two_k));
         let origin = self.coordinates(o);
         let u = self.difference(&self.coordinates(p), &origin);
         let v = self.difference(&self.coordinates(q), &origin);
@@ -212,11 +210,11 @@ impl<'a, R: Ring> Strip<'a, R> {
         let n = self.cross(&u, &v);
         let f = &self.fractions;
         let place = std::array::from_fn(|i| {
-            let flat = f.plus(&f.times(&twice_v, &u[i]), &f.times(&twice_u, &v[i]));
+            let flat = f.plus(&f.times(&along_u, &u[i]), &f.times(&along_v, &v[i]));
             let out = f.plus(&flat, &f.times(&root, &n[i]));
             f.plus(&origin[i], &f.times(&inverse, &out))
         });
-        self.singular.push(a);
+        self.singular.push(singular);
         self.placed.push(place);
         Ok(())
     }
@@ -249,48 +247,58 @@ impl<'a, R: Ring> Strip<'a, R> {
         std::array::from_fn(|i| std::array::from_fn(|j| pair(list[i], list[j])))
     }
 
-    /// The closure is a distance of a joint `k` rigidly joined to all three that are placed, `P1`, `P2`, `P3`. With `y = P2 - P1`, `z = P3 - P1`, `N = |y x z|^2`:
-    /// `N (k - P1) = n1 y + n2 z + n3 (y x z)`, integers; with `t = P1 - l` the closure is `2 w.z = h`, `w = n2 t + n3 (t x y)`.
+    /// The closure is a distance of a joint `K` rigidly joined to all three that are placed, `P1`, `P2`, `P3`, from a joint `L` in place.
+    ///
+    /// With `y = P2 - P1`, `z = P3 - P1`, `n = y x z`: `|n|^2 (K - P1) = c_y y + c_z z + c_n n`, integers. With `t = P1 - L` the closure is
+    /// `2 w.z = h`, `w = c_z t + c_n (t x y)`. The four vectors of the Gram matrix are `y`, `v = J - P1` (`J` the joint in place that the third
+    /// step starts from), `z` and `2 w`; all products are doubled.
     fn rigid_products(&self) -> Result<[[Fraction<R>; 4]; 4], ClosureError> {
         let f = &self.fractions;
         let [p1, p2, p3] = self.steps.map(|s| s.place);
-        let (k, l) = (self.closure.last, self.closure.other);
-        let j = self.steps[2].from.into_iter().find(|j| !j.same_body(p1)).ok_or(ClosureError::Unsupported)?;
-        let moving = self.steps[2].from.iter().filter(|j| j.same_body(p1)).count();
+        let Closure { last, other, .. } = self.closure;
+        let in_place = |joint: &Joint| !joint.same_body(p1);
+        let start = self.steps[2].from.into_iter().find(in_place).ok_or(ClosureError::Unsupported)?;
+        let moving = self.steps[2].from.iter().filter(|j| !in_place(j)).count();
         if moving != 2 {
             return Err(ClosureError::Unsupported);
         }
-        let point = |joint| self.data.point(joint);
-        let (y, z, kk) =
-            (minus(point(p2), point(p1)), minus(point(p3), point(p1)), minus(point(k), point(p1)));
+        // the rigid body in integers
+        let from_first = |joint| minus(self.data.point(joint), self.data.point(p1));
+        let (y, z, to_last) = (from_first(p2), from_first(p3), from_first(last));
         let normal = cross(&y, &z);
-        let size = dot(&normal, &normal);
-        let n1 = dot(&cross(&kk, &z), &normal);
-        let n2 = dot(&cross(&y, &kk), &normal);
-        let n3 = dot(&kk, &normal);
-        let scaled = |x: &Fraction<R>, c: &BigInt| f.scaled(x, c);
-        let (uu, tt, vv) = (self.squared(p1, p2), self.squared(p1, l), self.squared(p1, j));
-        let still = f.integer(&self.data.within(j, l));
-        // doubled scalar products; t = P1 - l, v = j - P1
-        let ty = f.minus(&self.squared(p2, l), &f.plus(&tt, &uu));
-        let vt = f.minus(&still, &f.plus(&vv, &tt));
-        let volume = self.volume(p1, p2, j, l);
-        let yw = scaled(&ty, &n2);
-        let vw = f.plus(&scaled(&vt, &n2), &scaled(&f.twice(&volume), &n3));
+        let along_y = dot(&cross(&to_last, &z), &normal);
+        let along_z = dot(&cross(&y, &to_last), &normal);
+        let along_normal = dot(&to_last, &normal);
+        // squared lengths
+        let y_y = self.squared(p1, p2);
+        let t_t = self.squared(p1, other);
+        let v_v = self.squared(p1, start);
+        let z_z = f.integer(&self.data.within(p1, p3));
+        // doubled products of the legs with each other and with t
+        let two_y_t = f.minus(&self.squared(p2, other), &f.plus(&t_t, &y_y));
+        let start_to_other = f.integer(&self.data.within(start, other));
+        let two_v_t = f.minus(&start_to_other, &f.plus(&v_v, &t_t));
+        let two_y_v = self.doubled(p1, p2, start);
+        let two_y_z = self.doubled(p1, p2, p3);
+        let two_v_z = self.doubled(p1, start, p3);
+        // doubled products with w, which is at right angles to y but for its part along t
+        let two_y_w = f.scaled(&two_y_t, &along_z);
+        let two_volumes = f.twice(&self.volume(p1, p2, start, other));
+        let two_v_w = f.plus(&f.scaled(&two_v_t, &along_z), &f.scaled(&two_volumes, &along_normal));
         // 4 |t x y|^2; the last vector is 2 w, so that its square needs no half
-        let area = f.minus(&f.scaled(&f.times(&tt, &uu), &4.into()), &f.times(&ty, &ty));
-        let ww = f.plus(&scaled(&tt, &(&n2 * &n2 * 8)), &scaled(&area, &(&n3 * &n3 * 2)));
-        let rigid = f.minus(&self.closing(), &f.plus(&f.integer(&dot(&kk, &kk)), &tt));
-        let h = f.minus(&scaled(&rigid, &size), &scaled(&ty, &n1));
-        let s1 = f.integer(&self.data.within(p1, p3));
-        let (yv, yz, vz) = (self.doubled(p1, p2, j), self.doubled(p1, p2, p3), self.doubled(p1, j, p3));
-        let two = |x: &Fraction<R>| f.twice(x);
-        let (yw, vw, h) = (two(&yw), two(&vw), two(&h));
+        let four_areas = f.minus(&f.scaled(&f.times(&t_t, &y_y), &4.into()), &f.times(&two_y_t, &two_y_t));
+        let eight_w_w = f.plus(
+            &f.scaled(&t_t, &(&along_z * &along_z * 8)),
+            &f.scaled(&four_areas, &(&along_normal * &along_normal * 2)),
+        );
+        let rigid = f.minus(&self.closing(), &f.plus(&f.integer(&dot(&to_last, &to_last)), &t_t));
+        let closure = f.minus(&f.scaled(&rigid, &dot(&normal, &normal)), &f.scaled(&two_y_t, &along_y));
+        let (four_y_w, four_v_w, four_z_w) = (f.twice(&two_y_w), f.twice(&two_v_w), f.twice(&closure));
         Ok([
-            [two(&uu), yv.clone(), yz.clone(), yw.clone()],
-            [yv, two(&vv), vz.clone(), vw.clone()],
-            [yz, vz, two(&s1), h.clone()],
-            [yw, vw, h, ww],
+            [f.twice(&y_y), two_y_v.clone(), two_y_z.clone(), four_y_w.clone()],
+            [two_y_v, f.twice(&v_v), two_v_z.clone(), four_v_w.clone()],
+            [two_y_z, two_v_z, f.twice(&z_z), four_z_w.clone()],
+            [four_y_w, four_v_w, four_z_w, eight_w_w],
         ])
     }
 

@@ -71,6 +71,7 @@ impl Ring for IntPoly {
 /// The modulus `2^61 - 1`.
 const P: u64 = (1 << 61) - 1;
 
+/// The field with that many elements.
 const FIELD: Field = Field::MERSENNE;
 
 /// A polynomial over the field with `2^61 - 1` elements, the constant coefficient first, the last one not zero.

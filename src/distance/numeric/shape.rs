@@ -154,8 +154,11 @@ fn gram_zero(branch: &Branch<'_>, t: usize, rng: &mut Rng) -> Option<Complex64> 
 
 /// How often a function turns about zero along a small circle; `None` when that is not clear.
 fn winding(f: &dyn Fn(Complex64) -> Complex64, centre: Complex64) -> Option<i32> {
+    /// Points of the circle: enough to count the turns of a zero of any order that occurs.
     const POINTS: usize = 48;
-    let radius = 1e-3 * centre.norm();
+    /// Radius of the circle, relative to the modulus of its centre.
+    const RADIUS: f64 = 1e-3;
+    let radius = RADIUS * centre.norm();
     let values: Vec<Complex64> = unit_circle(POINTS).iter().map(|v| f(centre + v * radius)).collect();
     let turns = (0..POINTS).map(|k| (values[(k + 1) % POINTS] / values[k]).arg());
     let turns: Vec<f64> = turns.collect();

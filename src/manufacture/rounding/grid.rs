@@ -85,6 +85,7 @@ impl BodyGrid {
 
 /// Reaches that are tried, in pitches: each larger by this factor than the one before.
 const GROWTH: f64 = 1.25;
+/// The first of them, in pitches.
 const FIRST_REACH: f64 = 0.75;
 /// Triangles kept of a body, at most: the nearest ones.
 const POOL: usize = 3000;

@@ -13,6 +13,7 @@ const ROWS: usize = 6 * (SAMPLES - 1) + 1;
 const APART: f64 = 1e-9;
 /// Share of the largest entry below which an entry is no pivot and a cost no gain.
 const SMALL: f64 = 1e-12;
+/// Pivots after which the multipliers reached are taken: any bound is valid, the best one only tighter.
 const MOST_PIVOTS: usize = 600;
 
 /// Multipliers `mu >= 0`, `sum mu <= 1`, that minimise `sum_i max_j sum_k mu_k samples[k][i][j]`; `None` when the least value is not below 0.

@@ -20,6 +20,7 @@ pub struct LocusFigure {
     pub steps: Vec<LocusStep>,
 }
 
+// the layout in pixels: sizes, and where they are from the left and the top
 const LEFT: f64 = 74.0;
 const TOP: f64 = 116.0;
 const PANEL: (f64, f64) = (470.0, 440.0);

@@ -24,8 +24,9 @@ use crate::num::Rng;
 const FORMS: usize = 7;
 /// Homotopies with other random numbers while paths are given up.
 const ATTEMPTS: usize = 4;
-/// Imaginary parts below this, relative, are those of a real point: of one known to rounding, and of one where curves meet.
+/// Imaginary parts below this, relative, are those of a real point known to rounding.
 const REAL: f64 = 1e-7;
+/// The same for a point where curves meet, which is reached slowly.
 const NEARLY_REAL: f64 = 1e-2;
 /// `|e.e| / |y|^2` below which an end is no pose; ends of multiplicity are reached slowly.
 const NO_POSE: f64 = 1e-2;

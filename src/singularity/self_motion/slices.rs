@@ -256,8 +256,9 @@ const LOOPS: usize = 120;
 /// Largest defect of the trace over the sum of the points' sizes.
 const LINEAR: f64 = 1e-7;
 
-/// The seventh singular value of the equations on a curve, and the sixth away from crossings, over the first.
+/// Largest seventh singular value of the equations on a curve, over the first.
 const ON_CURVE: f64 = 1e-9;
+/// Least sixth singular value of the equations away from crossings, over the first.
 const OFF_CROSSING: f64 = 1e-6;
 
 /// What was found about the degree.

@@ -278,6 +278,7 @@ fn circular(p: &Projector) -> DMatrix<Complex<f64>> {
     &k * p * k.adjoint()
 }
 
+/// Most Gauss-Newton steps.
 const STEPS: usize = 40;
 /// Singular values of the Jacobian below this times the largest belong to motions that keep the span.
 const FREE: f64 = 1e-7;

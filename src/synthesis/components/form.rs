@@ -4,7 +4,7 @@
 
 use nalgebra::Matrix3;
 
-use super::spectrum::{Spectrum, dot, least_squares, norm, orthonormal, real_roots, unit, without};
+use super::spectrum::{SAME, Spectrum, dot, least_squares, norm, orthonormal, real_roots, unit, without};
 use crate::num::Rng;
 use crate::num::linalg::LinalgError;
 use crate::num::small::symmetric_eigen3;
@@ -347,7 +347,7 @@ pub(super) fn split(
 fn push(out: &mut Split, part: Part) {
     let same = |p: &&mut Part| {
         p.kind == PartKind::Line
-            && norm(&cross(&unit(&p.form.coefficients), &unit(&part.form.coefficients))) < 1e-6
+            && norm(&cross(&unit(&p.form.coefficients), &unit(&part.form.coefficients))) < SAME
     };
     match out.parts.iter_mut().find(same) {
         Some(old) => old.multiplicity += 1,

@@ -8,7 +8,9 @@ use super::component::FamilyKind;
 use super::flats::{Flat, Product};
 use super::form::{Form, conic_frame, exponents, index, power};
 use super::shape::{Curve, Shape};
-use super::spectrum::{Decision, Question, Spectrum, norm, orthonormal, unit, without};
+use super::spectrum::{
+    APART, COMPUTED, Decision, NO_DIMENSION, Question, Spectrum, nearness, norm, orthonormal, unit, without,
+};
 use crate::num::Rng;
 use crate::num::linalg::LinalgError;
 
@@ -276,7 +278,7 @@ impl View<'_> {
         let fibre = if self.product.equations.is_empty() {
             Spectrum::of(&[], self.width())?.vectors.into_iter().map(|v| vec![v]).collect()
         } else {
-            minimal_kernel(&matrices, self.width(), dimension, 10.0 * self.tolerance)?
+            minimal_kernel(&matrices, self.width(), dimension, COMPUTED * self.tolerance)?
         };
         if fibre.len() < dimension {
             return Ok(None);
@@ -292,7 +294,7 @@ impl View<'_> {
             return Ok(Some(self.all_pairs(line, other, vec![decision])));
         }
         let all: Vec<Vec<f64>> = fibre.iter().flatten().cloned().collect();
-        let other_span = orthonormal(&all, 1e-7).len() - 1;
+        let other_span = orthonormal(&all, NO_DIMENSION).len() - 1;
         let shape = Shape::Over {
             over_platform: self.over_platform,
             curve,
@@ -305,7 +307,7 @@ impl View<'_> {
 
     /// One partner for every point of the carrying plane, when `M` has rank one less than its columns there.
     pub(super) fn over_plane(&self, decision: Decision) -> Result<Option<Found>, LinalgError> {
-        let tolerance = 10.0 * self.tolerance;
+        let tolerance = COMPUTED * self.tolerance;
         let Some((degree, map)) = planar_kernel(&self.product.equations, self.width(), tolerance)? else {
             return Ok(None);
         };
@@ -314,7 +316,7 @@ impl View<'_> {
             let carrier = self.product.base.clone();
             return Ok(other.map(|other| self.all_pairs(carrier, other, vec![decision])));
         }
-        let other_span = orthonormal(&map, 1e-7).len() - 1;
+        let other_span = orthonormal(&map, NO_DIMENSION).len() - 1;
         let shape = Shape::Graph {
             over_platform: self.over_platform,
             carrier: self.product.base.clone(),
@@ -346,7 +348,7 @@ fn flat_of(within: &Flat, vectors: &[Vec<f64>], tolerance: f64) -> Option<Flat> 
     }
     let mut all = vec![unit(&centre)];
     all.extend(basis.iter().cloned());
-    let directions: Vec<Vector3<f64>> = orthonormal(&all, 1e-7)[1..]
+    let directions: Vec<Vector3<f64>> = orthonormal(&all, NO_DIMENSION)[1..]
         .iter()
         .take(basis.len() - 1)
         .map(|v| {
@@ -359,7 +361,7 @@ fn flat_of(within: &Flat, vectors: &[Vec<f64>], tolerance: f64) -> Option<Flat> 
 
 /// Points of a list that span the flat, the first ones preferred; where they do not, points of the flat itself.
 fn spanning_points(flat: &Flat, points: &[Vector3<f64>], tolerance: f64) -> Vec<Vector3<f64>> {
-    let limit = (10.0 * tolerance).max(1e-8);
+    let limit = nearness(tolerance);
     let mut out: Vec<Vector3<f64>> = Vec::new();
     for p in points.iter().filter(|p| flat.distance(p) <= limit) {
         let directions: Vec<Vec<f64>> =
@@ -368,8 +370,8 @@ fn spanning_points(flat: &Flat, points: &[Vector3<f64>], tolerance: f64) -> Vec<
             None => true,
             Some(first) => {
                 let d: Vec<f64> = (p - first).iter().copied().collect();
-                let rest = super::spectrum::without(&d, &orthonormal(&directions, 1e-9));
-                super::spectrum::norm(&rest) > 1e-3
+                let rest = without(&d, &orthonormal(&directions, 1e-9));
+                norm(&rest) > APART
             }
         };
         if fresh && out.len() <= flat.dimension() {

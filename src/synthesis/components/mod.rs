@@ -253,7 +253,7 @@ fn ordered(search: &mut Search<'_>) -> Result<Vec<Component>, LinalgError> {
         };
         key(a).cmp(&key(b))
     });
-    let limit = (10.0 * search.ends.tolerance).max(1e-8);
+    let limit = search.near();
     let count = search.found.len();
     for k in 0..count {
         let component = search.found[k].1.clone();

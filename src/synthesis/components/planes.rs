@@ -12,7 +12,10 @@ use super::form::{
 };
 use super::found::{Found, View};
 use super::shape::frame;
-use super::spectrum::{Decision, Question, Spectrum, dot, least_squares, norm, unit};
+use super::spectrum::{
+    APART, AT_INFINITY, COMPUTED, Decision, NO_DIMENSION, Question, SAME, Spectrum, dot, least_squares,
+    nearness, norm, unit,
+};
 use crate::num::Rng;
 use crate::num::linalg::{LinalgError, eigenvalues};
 use crate::synthesis::hexagon::Body;
@@ -71,7 +74,7 @@ pub(super) fn plane_side(
     let form = match list.as_slice() {
         [only] => only.normalised(),
         [f, g] => {
-            let (form, above, below) = common_factor(f, g, 10.0 * tolerance)?;
+            let (form, above, below) = common_factor(f, g, COMPUTED * tolerance)?;
             decisions.push(Decision {
                 question: Question::CommonFactor,
                 value: form.degree,
@@ -79,7 +82,7 @@ pub(super) fn plane_side(
                 exact: None,
                 above,
                 below,
-                tolerance: 10.0 * tolerance,
+                tolerance: COMPUTED * tolerance,
             });
             form
         }
@@ -125,7 +128,7 @@ fn part_decision(part: &Part, split: &Split, tolerance: f64) -> Decision {
 
 /// Joints on a line of the plane.
 pub(super) fn joints_on_line(line: &Form, joints: &[Vec<f64>], tolerance: f64) -> Vec<usize> {
-    let limit = (10.0 * tolerance).max(1e-8);
+    let limit = nearness(tolerance);
     (0..joints.len()).filter(|k| incidence(&line.coefficients, &joints[*k]).abs() <= limit).collect()
 }
 
@@ -135,7 +138,7 @@ pub(super) fn line_points(line: &Form, joints: &[Vec<f64>], tolerance: f64) -> O
     if let Some(first) = on.first() {
         let apart = |k: &&usize| {
             let d: Vec<f64> = joints[**k].iter().zip(&joints[*first]).map(|(x, y)| x - y).collect();
-            norm(&d) > 1e-3
+            norm(&d) > APART
         };
         if let Some(second) = on.iter().find(apart) {
             return Some([joints[*first].clone(), joints[*second].clone()]);
@@ -175,7 +178,7 @@ fn functionals(view: &View<'_>, rng: &mut Rng) -> Result<Vec<Vec<f64>>, LinalgEr
         rows.push(unit(&random_minor(&m, order, rng).coefficients));
     }
     let s = Spectrum::of(&rows, all)?;
-    Ok(s.kernel(s.rank(10.0 * view.tolerance * s.values[0])).to_vec())
+    Ok(s.kernel(s.rank(COMPUTED * view.tolerance * s.values[0])).to_vec())
 }
 
 /// How many independent conditions the points of rank `j - 1` or less put on forms: ten less the dimension of the span of
@@ -244,7 +247,7 @@ pub(super) fn candidates(joints: &[Vec<f64>]) -> Vec<Vec<f64>> {
     for (k, p) in joints.iter().enumerate() {
         for q in &joints[..k] {
             let line = cross(&unit(p), &unit(q));
-            if norm(&line) > 1e-6 {
+            if norm(&line) > SAME {
                 lines.push(unit(&line));
             }
         }
@@ -253,7 +256,7 @@ pub(super) fn candidates(joints: &[Vec<f64>]) -> Vec<Vec<f64>> {
     for (k, l) in lines.iter().enumerate() {
         for m in &lines[..k] {
             let p = cross(l, m);
-            if norm(&p) > 1e-6 {
+            if norm(&p) > SAME {
                 out.push(unit(&p));
             }
         }
@@ -407,10 +410,10 @@ fn curve(
         let gradient: Vec<f64> = side.form.gradient().iter().map(|d| d.value(&p)).collect();
         singular.push(SingularPoint {
             coordinates: [p[0], p[1], p[2]],
-            point: (p[0].abs() > 1e-9).then(|| Point3::from(affine)),
+            point: (p[0].abs() > AT_INFINITY).then(|| Point3::from(affine)),
             kind: singular_kind(&side.form, &p),
             gradient: norm(&gradient) / side.form.norm(),
-            line_of_partners: s.rank((10.0 * tolerance).max(1e-7)) < 2,
+            line_of_partners: s.rank((COMPUTED * tolerance).max(NO_DIMENSION)) < 2,
         });
     }
     let mut decisions = side.decisions.clone();
@@ -444,7 +447,7 @@ fn singular_points(
     let mut out: Vec<Vec<f64>> = Vec::new();
     let mut add = |p: Vec<f64>| {
         // a line that touches a conic meets it in a double root, known to the square root of rounding
-        if !out.iter().any(|q| same_point(q, &p, 1e-6)) {
+        if !out.iter().any(|q| same_point(q, &p, SAME)) {
             out.push(p);
         }
     };
@@ -459,7 +462,7 @@ fn singular_points(
     let mut decision = None;
     for part in parts.iter().filter(|p| matches!(p.kind, PartKind::Cubic | PartKind::ComplexLines)) {
         let (p, size) = singular_point(&part.form, rng)?;
-        let limit = (10.0 * tolerance).max(1e-12);
+        let limit = (COMPUTED * tolerance).max(1e-12);
         if part.kind == PartKind::Cubic {
             let is = usize::from(size <= limit);
             decision = Some(Decision {

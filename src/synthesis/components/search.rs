@@ -14,7 +14,7 @@ use super::form::{Form, PartKind};
 use super::found::{Found, View};
 use super::planes::{PlaneSide, joints_on_line, line_points, plane_side, points_of};
 use super::shape::Shape;
-use super::spectrum::{Question, unit};
+use super::spectrum::{APART, AT_INFINITY, COMPUTED, Question, SAME, nearness, unit};
 use crate::manipulator::LegIndex;
 use crate::num::Rng;
 use crate::num::linalg::LinalgError;
@@ -43,7 +43,7 @@ impl Search<'_> {
 
     /// How near a leg must be to a family to belong to it.
     pub(super) fn near(&self) -> f64 {
-        (10.0 * self.ends.tolerance).max(1e-8)
+        nearness(self.ends.tolerance)
     }
 
     /// Everything in one closed pair.
@@ -77,7 +77,7 @@ impl Search<'_> {
     fn line(&mut self, view: &View<'_>, pair: &ClosedPair) -> Result<(), LinalgError> {
         let flat = &view.product.base;
         let first = view.near[0];
-        let far = view.near.iter().find(|p| (*p - first).norm() > 1e-3 * flat.axes[0].norm());
+        let far = view.near.iter().find(|p| (*p - first).norm() > APART * flat.axes[0].norm());
         let second = far.copied().unwrap_or(first + flat.axes[0]);
         let (p, q) = (flat.local(&first), flat.local(&second));
         if let Some(found) = view.over_line(&p, &q, None, &mut self.rng)? {
@@ -263,11 +263,11 @@ impl Search<'_> {
         let (located, complex) = super::planes::located(view, &mut self.rng)?;
         for candidate in super::planes::candidates(&joints).into_iter().chain(located) {
             let s = view.product.spectrum(&candidate)?;
-            if s.rank(10.0 * self.ends.tolerance) + 2 > view.product.platform.dimension() + 1 {
+            if s.rank(COMPUTED * self.ends.tolerance) + 2 > view.product.platform.dimension() + 1 {
                 continue;
             }
-            let new = !points.iter().any(|p| super::form::same_point(p, &candidate, 1e-6));
-            if new && candidate[0].abs() > 1e-9 {
+            let new = !points.iter().any(|p| super::form::same_point(p, &candidate, SAME));
+            if new && candidate[0].abs() > AT_INFINITY {
                 let place = super::found::point(&view.product.base, &candidate);
                 if let Some(found) = view.over_point(&place, None)?.filter(|f| !self.inside_larger(f)) {
                     let exact = self.exact_meeting(view, pair, &place, found.shape.dimension());
@@ -337,7 +337,7 @@ impl Search<'_> {
             }
             let mut same = true;
             for (a, b) in &samples {
-                same &= old.shape.distance(a, b) <= (10.0 * self.ends.tolerance).max(1e-8);
+                same &= old.shape.distance(a, b) <= nearness(self.ends.tolerance);
             }
             if same {
                 if known.exact != Some(true) && exact == Some(true) {

@@ -2,6 +2,22 @@
 
 use crate::num::linalg::{LinalgError, svd};
 
+/// Kernels of computed polynomials and minors know a digit less than the data: what counts as zero there, over the tolerance of the data.
+pub(super) const COMPUTED: f64 = 10.0;
+/// Parts of unit vectors below this add no dimension to a span of computed vectors.
+pub(super) const NO_DIMENSION: f64 = 1e-7;
+/// Unit homogeneous points and lines whose directions differ by less are one: a double root is known to the square root of rounding.
+pub(super) const SAME: f64 = 1e-6;
+/// First coordinate of a unit homogeneous point below which the point is at infinity.
+pub(super) const AT_INFINITY: f64 = 1e-9;
+/// Least distance of two joints that a line is drawn through, in reaches of the joints.
+pub(super) const APART: f64 = 1e-3;
+
+/// How near a leg or a joint must be to a set that was computed from the data to belong to it, in sizes of the body.
+pub(super) fn nearness(tolerance: f64) -> f64 {
+    (COMPUTED * tolerance).max(1e-8)
+}
+
 /// Singular values and right singular vectors of a matrix with `n` columns.
 #[derive(Debug, Clone)]
 pub(in crate::synthesis) struct Spectrum {

@@ -98,15 +98,3 @@ fn every_dependency_is_used_and_every_crate_of_the_table_is_one() {
         assert!(sources.iter().any(|s| scan::blank(s).contains(&path)), "{name} is not used");
     }
 }
-
-/// A file is one idea, and no number says how long an idea is; one this long is likely to hold two.
-#[test]
-fn no_file_has_more_than_700_lines() {
-    for folder in ["src", "tests", "examples"] {
-        let folder = root().join(folder);
-        for file in rust_files(&folder) {
-            let lines = read(&folder.join(&file)).lines().count();
-            assert!(lines <= 700, "{file} has {lines} lines");
-        }
-    }
-}
