@@ -25,6 +25,7 @@ mod offsets;
 mod page;
 mod plot;
 mod poly;
+pub mod records;
 mod report;
 mod requirements;
 mod singularity;

@@ -1,9 +1,8 @@
 //! Why a command has no answer.
 
-use serde_json::{Map, Value, json};
-
 use super::exit::Exit;
 use crate::design::Violation;
+use crate::records::{FailureRecord, ViolationRecord};
 
 /// A refusal or failure: what `"error"` holds in JSON and standard error shows.
 #[derive(Debug, Clone)]
@@ -61,26 +60,24 @@ impl Failure {
         failure.design = Some(Box::new(BadDesign { path, text, violations }));
         failure
     }
+}
 
-    /// The `"error"` record.
-    pub(crate) fn to_json(&self) -> Value {
-        let mut error = Map::new();
-        error.insert("code".into(), json!(self.code));
-        error.insert("message".into(), json!(self.message));
-        if let Some(help) = &self.help {
-            error.insert("help".into(), json!(help));
+impl From<&Failure> for FailureRecord {
+    fn from(f: &Failure) -> Self {
+        let violations = f.design.as_ref().map(|d| d.violations.as_slice()).unwrap_or_default();
+        let violation = |v: &Violation| ViolationRecord {
+            code: v.code.as_str().into(),
+            line: v.line,
+            column: v.column,
+            message: v.message.clone(),
+            help: v.help.clone(),
+        };
+        Self {
+            code: f.code.clone(),
+            message: f.message.clone(),
+            help: f.help.clone(),
+            path: f.design.as_ref().map(|d| d.path.clone()),
+            violations: violations.iter().map(violation).collect(),
         }
-        if let Some(design) = &self.design {
-            error.insert("path".into(), json!(design.path));
-        }
-        let violations = self.design.as_ref().map(|d| d.violations.as_slice()).unwrap_or_default();
-        let violations = violations.iter().map(|v| {
-            json!({
-                "code": v.code.as_str(), "line": v.line, "column": v.column,
-                "message": v.message, "help": v.help,
-            })
-        });
-        error.insert("violations".into(), violations.collect());
-        Value::Object(error)
     }
 }

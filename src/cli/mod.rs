@@ -66,7 +66,7 @@ fn run(args: Vec<OsString>, json: bool) -> Exit {
     let mut context = Context::new(&cli.global);
     let result = cli.command.run(&mut context);
     match result {
-        Ok(answer) => output.answer(answer, context.warnings()),
+        Ok(answer) => output.answer(&answer, context.warnings()),
         Err(failure) => output.failure(&failure, context.warnings()),
     }
 }

@@ -1,24 +1,41 @@
 //! Answers and failures to standard output and standard error.
 
+use std::fmt::Debug;
 use std::io::{self, Write};
 
-use serde_json::{Map, Value, json};
+use serde::Serialize;
+use serde_json::Value;
 
 use super::context::FileWarning;
 use super::diagnostic;
 use super::exit::Exit;
 use super::failure::Failure;
+use crate::records::{Document, ErrorAnswer, HelpAnswer, WarningRecord};
 use crate::synthesis::Relation;
 
-/// What a command found.
-///
-/// `json` holds the fields of the document without `schema_version` and `warnings`, which are added for all
-/// commands alike; `text` is what people read, without `--json`.
+/// What a command found: the record that `--json` prints, and the text that people read without it.
 #[derive(Debug)]
 pub(crate) struct Answer {
     pub(crate) exit: Exit,
-    pub(crate) json: Map<String, Value>,
-    pub(crate) text: String,
+    record: Box<dyn Written>,
+    text: String,
+}
+
+impl Answer {
+    pub(crate) fn new(exit: Exit, record: impl Serialize + Debug + 'static, text: String) -> Self {
+        Self { exit, record: Box::new(record), text }
+    }
+}
+
+/// A record of whatever type that can be written as a document.
+trait Written: Debug {
+    fn document(&self, warnings: &[FileWarning]) -> Result<String, Failure>;
+}
+
+impl<T: Serialize + Debug> Written for T {
+    fn document(&self, warnings: &[FileWarning]) -> Result<String, Failure> {
+        document(self, warnings)
+    }
 }
 
 /// Where results go.
@@ -32,9 +49,14 @@ impl Output {
         Self { json }
     }
 
-    pub(crate) fn answer(self, answer: Answer, warnings: &[FileWarning]) -> Exit {
-        let text = if self.json { document(answer.json, warnings) } else { answer.text };
-        write_out(&text, answer.exit)
+    pub(crate) fn answer(self, answer: &Answer, warnings: &[FileWarning]) -> Exit {
+        if !self.json {
+            return write_out(&answer.text, answer.exit);
+        }
+        match answer.record.document(warnings) {
+            Ok(text) => write_out(&text, answer.exit),
+            Err(failure) => self.failure(&failure, warnings),
+        }
     }
 
     pub(crate) fn failure(self, failure: &Failure, warnings: &[FileWarning]) -> Exit {
@@ -42,9 +64,7 @@ impl Output {
         if !self.json {
             return failure.exit;
         }
-        let mut fields = Map::new();
-        fields.insert("error".into(), failure.to_json());
-        write_out(&document(fields, warnings), failure.exit)
+        write_failure(failure, warnings)
     }
 
     /// What clap has to say: help and version, or a refusal of the arguments.
@@ -59,14 +79,13 @@ impl Output {
             let message = lines.filter(|l| !l.is_empty()).collect::<Vec<_>>().join(" ");
             let message = message.trim_start_matches("error: ");
             let failure = Failure::refused("usage", message).with_help("see equipod --help");
-            let mut fields = Map::new();
-            fields.insert("error".into(), failure.to_json());
-            return write_out(&document(fields, &[]), Exit::Refused);
+            return write_failure(&failure, &[]);
         }
         if self.json {
-            let mut fields = Map::new();
-            fields.insert("help".into(), json!(error.to_string()));
-            return write_out(&document(fields, &[]), Exit::Yes);
+            return match document(HelpAnswer { help: error.to_string() }, &[]) {
+                Ok(text) => write_out(&text, Exit::Yes),
+                Err(failure) => self.failure(&failure, &[]),
+            };
         }
         let _ = error.print();
         Exit::Yes
@@ -80,24 +99,41 @@ pub(crate) fn number(x: f64) -> Value {
 
 /// The word for a relation; null where it is not decided, for which there is no word in documents.
 pub(crate) fn relation(r: Relation) -> Value {
-    if r == Relation::Undecided { Value::Null } else { json!(r.as_str()) }
+    if r == Relation::Undecided { Value::Null } else { Value::from(r.as_str()) }
 }
 
-/// The text of a document: `fields` between `schema_version` and `warnings`.
-pub(crate) fn document(fields: Map<String, Value>, warnings: &[FileWarning]) -> String {
-    let mut document = Map::new();
-    document.insert("schema_version".into(), json!(1));
-    document.extend(fields);
-    let warnings = warnings.iter().map(|w| {
-        json!({
-            "code": w.warning.code(), "path": w.path, "line": w.warning.line(),
-            "message": w.warning.to_string(), "help": w.warning.advice(),
-        })
-    });
-    document.insert("warnings".into(), warnings.collect());
-    let mut text = Value::Object(document).to_string();
-    text.push('\n');
-    text
+/// The fields of a record.
+pub(crate) fn fields(record: impl Serialize) -> serde_json::Map<String, Value> {
+    match serde_json::to_value(record) {
+        Ok(Value::Object(fields)) => fields,
+        _ => serde_json::Map::new(),
+    }
+}
+
+/// The text of a document.
+pub(crate) fn document(answer: impl Serialize, warnings: &[FileWarning]) -> Result<String, Failure> {
+    let document = Document::new(answer, warnings.iter().map(WarningRecord::from).collect());
+    let text = serde_json::to_string(&document);
+    text.map(|t| t + "\n")
+        .map_err(|e| Failure::internal(format!("the answer cannot be written as JSON: {e}")))
+}
+
+/// A refusal or failure as a document. It is made of texts and numbers of lines alone: when even that cannot be written, standard error has said it.
+fn write_failure(failure: &Failure, warnings: &[FileWarning]) -> Exit {
+    let text = document(ErrorAnswer { error: failure.into() }, warnings).unwrap_or_default();
+    write_out(&text, failure.exit)
+}
+
+impl From<&FileWarning> for WarningRecord {
+    fn from(w: &FileWarning) -> Self {
+        Self {
+            code: w.warning.code().into(),
+            path: w.path.clone(),
+            line: w.warning.line(),
+            message: w.warning.to_string(),
+            help: w.warning.advice(),
+        }
+    }
 }
 
 /// Writes to standard output. A closed pipe (`| head`) ends quietly, any other failure is exit 4.

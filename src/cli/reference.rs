@@ -128,5 +128,5 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let text = written(&files::read_text(&args.page)?)?;
     let mut json = Map::new();
     json.insert("page".into(), json!(text));
-    Ok(Answer { exit: Exit::Yes, json, text })
+    Ok(Answer::new(Exit::Yes, json, text))
 }

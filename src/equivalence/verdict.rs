@@ -147,6 +147,37 @@ pub struct Verification {
 }
 
 impl Verification {
+    /// One sentence with the numbers that decided.
+    #[must_use]
+    pub fn explanation(&self) -> String {
+        let (v, n) = (self, self.samples.len());
+        match &v.verdict {
+            Verdict::Equivalent => format!(
+                "the leg map is regular (det A = {:.6}), and forward kinematics of both, solved independently, agrees \
+                 at {n} of {n} sets of lengths; worst distance of matched poses {:.1e}{}",
+                v.map.determinant,
+                v.worst_distance(),
+                set_aside(v)
+            ),
+            Verdict::Singular => v.map.explanation(),
+            Verdict::NotEquivalent(c) => {
+                let other = if c.solves == "A" { "B" } else { "A" };
+                format!(
+                    "no leg map exists (residual {:.1e}); at sample {} a {}pose of {} misses the squared length of {} of {other} \
+                     by {:.1e} of the squared size (rounding {:.1e})",
+                    v.map.residual,
+                    c.sample + 1,
+                    if c.certified { "certified " } else { "" },
+                    c.solves,
+                    c.leg,
+                    c.miss,
+                    c.rounding
+                )
+            }
+            Verdict::Inconclusive(reason) => reason.sentence().to_owned(),
+        }
+    }
+
     /// The largest distance of matched poses over all samples.
     #[must_use]
     pub fn worst_distance(&self) -> f64 {
@@ -158,6 +189,18 @@ impl Verification {
     pub fn beyond_precision(&self) -> [usize; 2] {
         let count = |of: fn(&Sample) -> usize| self.samples.iter().map(of).sum();
         [count(|s| s.matching.beyond_a.len()), count(|s| s.matching.beyond_b.len())]
+    }
+}
+
+/// What is said about poses beyond precision, after the sentence.
+fn set_aside(v: &Verification) -> String {
+    let [a, b] = v.beyond_precision();
+    match a + b {
+        0 => String::new(),
+        count => format!(
+            "; {count} further pose{} so far out that the rounding of the joints decides whether they exist, left out",
+            if count == 1 { "" } else { "s" }
+        ),
     }
 }
 

@@ -9,6 +9,11 @@ use crate::solve::pose_count::{PoseCount, PoseSet};
 /// A forward-kinematics method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
+#[cfg_attr(
+    feature = "files",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
 pub enum Method {
     /// Octic in one unknown squared distance; octahedral platforms only (Rojas, Borras, Thomas).
     Octic,
@@ -161,12 +166,18 @@ impl FkRoot {
 
 /// Where a homotopy path ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(
+    feature = "files",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
 pub enum PathEnd {
     /// A finite pose.
     Finite,
     /// `e -> 0`: the position grows without bound.
     AtInfinity,
     /// `e.e -> 0` with `e != 0`: no rotation.
+    #[cfg_attr(feature = "files", serde(rename = "isotropic"))]
     IsotropicRotation,
     /// Not tracked to an end; roots may be missing.
     Failed,
@@ -212,6 +223,11 @@ pub struct PathReport {
 /// Why a candidate is no root.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
+#[cfg_attr(
+    feature = "files",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
 pub enum RejectionReason {
     /// It does not satisfy all leg equations.
     ResidualTooLarge,

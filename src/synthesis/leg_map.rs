@@ -114,6 +114,11 @@ impl AffineLegMap {
 
 /// What two platforms have to do with each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "files",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
 pub enum Relation {
     /// `s(TO) = A s(FROM) + c` at every pose with `det A != 0`: same poses, same singularities.
     Equivalent,
@@ -189,6 +194,49 @@ pub struct LegMapOutcome {
 }
 
 impl LegMapOutcome {
+    /// One sentence: what was decided and by which number.
+    #[must_use]
+    pub fn explanation(&self) -> String {
+        let (o, t) = (self, self.tolerances);
+        match o.relation {
+            Relation::Unrelated => {
+                let legs: Vec<String> = o.legs_off().map(|i| i.to_string()).collect();
+                format!(
+                    "the squared length of {} of TO is no affine function of those of FROM: distance from the span \
+                     {:.3e}, tolerance {:.0e}; A and c are the closest fit only",
+                    legs.join(", "),
+                    o.residual,
+                    t.residual
+                )
+            }
+            Relation::Singular if o.leg_rank < 6 => format!(
+                "the leg vectors of FROM have rank {}: FROM is architecturally singular and the coefficients of the map \
+                 are not unique; the shortest ones are given",
+                o.leg_rank
+            ),
+            Relation::Singular => format!(
+                "det A = 0: the leg vectors of TO are dependent as the numbers they are, without a tolerance; TO is architecturally singular \
+                 (smallest singular value of A {:.3e} of the largest)",
+                o.inverse_condition
+            ),
+            Relation::Undecided => format!(
+                "neither platform is architecturally singular as the numbers they are, but the smallest singular value of A, {:.3e} of the largest, is not above \
+                 the {:.1e} that rounding and the residual {:.1e} leave open",
+                o.inverse_condition, o.singular_limit, o.residual
+            ),
+            Relation::Equivalent if o.exact => format!(
+                "same poses for corresponding lengths, same singularities: every leg vector of TO is a combination of those of FROM and both are \
+                 independent, in exact arithmetic; smallest singular value of A {:.3e} of the largest",
+                o.inverse_condition
+            ),
+            Relation::Equivalent => format!(
+                "same poses for corresponding lengths, same singularities: residual {:.1e} (tolerance {:.0e}), smallest \
+                 singular value of A {:.3e} of the largest (limit {:.1e})",
+                o.residual, t.residual, o.inverse_condition, o.singular_limit
+            ),
+        }
+    }
+
     /// The map, `None` for unrelated platforms.
     #[must_use]
     pub fn map(&self) -> Option<&AffineLegMap> {

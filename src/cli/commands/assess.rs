@@ -86,7 +86,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         Some(false) => Exit::No,
         None => Exit::Inconclusive,
     };
-    Ok(Answer { exit, json: record(&design, &found), text: text(&design, &found) })
+    Ok(Answer::new(exit, record(&design, &found), text(&design, &found)))
 }
 
 fn margin(design: &Design, m: &Margin, met: Option<bool>, status: &str, below: f64) -> Value {

@@ -23,5 +23,5 @@ pub(crate) fn run(args: &Args) -> Answer {
     let mut json = Map::new();
     json.insert("shell".into(), json!(args.shell.to_string()));
     json.insert("script".into(), json!(text));
-    Answer { exit: Exit::Yes, json, text }
+    Answer::new(Exit::Yes, json, text)
 }

@@ -37,5 +37,5 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     json.insert("name".into(), json!(design.name));
     json.insert("output".into(), json!(output));
     json.insert("format".into(), json!(extension));
-    Ok(Answer { exit: Exit::Yes, json, text: format!("wrote {output}\n") })
+    Ok(Answer::new(Exit::Yes, json, format!("wrote {output}\n")))
 }

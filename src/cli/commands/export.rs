@@ -140,5 +140,5 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     json.insert("formats".into(), json!(records));
     let choice = |c: &crate::export::Choice| json!({ "what": c.what, "value": number(c.value), "unit": c.unit, "from": c.from });
     json.insert("sizes".into(), export.choices.iter().map(choice).collect());
-    Ok(Answer { exit, json, text })
+    Ok(Answer::new(exit, json, text))
 }

@@ -75,7 +75,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         }
         None => list_topologies(&mut text, &family),
     }
-    Ok(Answer { exit: Exit::Yes, json, text })
+    Ok(Answer::new(Exit::Yes, json, text))
 }
 
 /// The fields of the document.

@@ -51,5 +51,5 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     }
     let mut json = Map::new();
     json.insert("paths".into(), json!(paths));
-    Ok(Answer { exit: Exit::Yes, json, text })
+    Ok(Answer::new(Exit::Yes, json, text))
 }

@@ -3,14 +3,13 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use serde_json::{Map, Value, json};
-
 use crate::cli::alignment::FrameArgs;
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
-use crate::cli::output::{Answer, number, relation};
+use crate::cli::output::Answer;
 use crate::manipulator::LegIndex;
+use crate::records::MapAnswer;
 use crate::synthesis::{LegCorrespondence, LegMapOutcome, LegMapTolerances, Relation, leg_map};
 
 /// Arguments of `map`.
@@ -41,23 +40,12 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         _ => Exit::No,
     };
     let legs = LegCorrespondence::between(from.manipulator(), &second.manipulator);
-    let mut json = record(&outcome);
-    json.insert("correspondence".into(), correspondence(&legs));
-    second.put(&mut json);
+    let record =
+        MapAnswer { map: (&outcome).into(), correspondence: (&legs).into(), frames: second.record() };
     let mut text = second.text();
     text.push_str(&table(&outcome, &from.name, &to.name));
     text.push_str(&same_legs(&legs));
-    Ok(Answer { exit, json, text })
-}
-
-/// Which leg of FROM each leg of TO is, from 1.
-fn correspondence(c: &LegCorrespondence) -> Value {
-    json!({
-        "legs": c.legs.map(|leg| leg.map(|i| i.get() + 1)),
-        "distances": c.distances.map(number),
-        "permutation": c.is_permutation(),
-        "exact": c.is_exact(),
-    })
+    Ok(Answer::new(exit, record, text))
 }
 
 fn same_legs(c: &LegCorrespondence) -> String {
@@ -73,73 +61,8 @@ fn same_legs(c: &LegCorrespondence) -> String {
     if list.is_empty() { String::new() } else { format!("{}{nearly}\n", list.join(", ")) }
 }
 
-/// One sentence: what was decided and by which number.
-pub(super) fn explanation(o: &LegMapOutcome) -> String {
-    let t = o.tolerances;
-    match o.relation {
-        Relation::Unrelated => {
-            let legs: Vec<String> = o.legs_off().map(|i| i.to_string()).collect();
-            format!(
-                "the squared length of {} of TO is no affine function of those of FROM: distance from the span \
-                 {:.3e}, tolerance {:.0e}; A and c are the closest fit only",
-                legs.join(", "),
-                o.residual,
-                t.residual
-            )
-        }
-        Relation::Singular if o.leg_rank < 6 => format!(
-            "the leg vectors of FROM have rank {}: FROM is architecturally singular and the coefficients of the map \
-             are not unique; the shortest ones are given",
-            o.leg_rank
-        ),
-        Relation::Singular => format!(
-            "det A = 0: the leg vectors of TO are dependent as the numbers they are, without a tolerance; TO is architecturally singular \
-             (smallest singular value of A {:.3e} of the largest)",
-            o.inverse_condition
-        ),
-        Relation::Undecided => format!(
-            "neither platform is architecturally singular as the numbers they are, but the smallest singular value of A, {:.3e} of the largest, is not above \
-             the {:.1e} that rounding and the residual {:.1e} leave open",
-            o.inverse_condition, o.singular_limit, o.residual
-        ),
-        Relation::Equivalent if o.exact => format!(
-            "same poses for corresponding lengths, same singularities: every leg vector of TO is a combination of those of FROM and both are \
-             independent, in exact arithmetic; smallest singular value of A {:.3e} of the largest",
-            o.inverse_condition
-        ),
-        Relation::Equivalent => format!(
-            "same poses for corresponding lengths, same singularities: residual {:.1e} (tolerance {:.0e}), smallest \
-             singular value of A {:.3e} of the largest (limit {:.1e})",
-            o.residual, t.residual, o.inverse_condition, o.singular_limit
-        ),
-    }
-}
-
-pub(super) fn record(o: &LegMapOutcome) -> Map<String, Value> {
-    let numbers = |x: &mut dyn Iterator<Item = f64>| x.map(number).collect::<Value>();
-    let a: Value = (0..6).map(|i| numbers(&mut (0..6).map(|j| o.closest.a[(i, j)]))).collect();
-    let mut json = Map::new();
-    json.insert("relation".into(), relation(o.relation));
-    json.insert("explanation".into(), json!(explanation(o)));
-    json.insert("A".into(), a);
-    json.insert("c".into(), numbers(&mut o.closest.c.iter().copied()));
-    json.insert("det".into(), number(o.determinant));
-    json.insert("residual".into(), number(o.residual));
-    json.insert("residuals".into(), numbers(&mut o.residuals.into_iter()));
-    json.insert("leg_rank".into(), json!(o.leg_rank));
-    json.insert("singular_values".into(), numbers(&mut o.singular_values.into_iter()));
-    json.insert("inverse_condition".into(), number(o.inverse_condition));
-    json.insert(
-        "tolerances".into(),
-        json!({
-            "residual": o.tolerances.residual, "rank": o.tolerances.rank, "inverse_condition": o.singular_limit,
-        }),
-    );
-    json
-}
-
 pub(super) fn table(o: &LegMapOutcome, from: &str, to: &str) -> String {
-    let mut text = format!("{from} -> {to}: {}\n{}\n\n", o.relation.as_str(), explanation(o));
+    let mut text = format!("{from} -> {to}: {}\n{}\n\n", o.relation.as_str(), o.explanation());
     text.push_str("s(TO) = A s(FROM) + c\n        A");
     text.push_str(&" ".repeat(60));
     text.push_str("c            residual\n");

@@ -44,7 +44,7 @@ pub(crate) fn run(args: &Args, _: &mut Context) -> Result<Answer, Failure> {
     } else {
         json.insert("text".into(), json!(preset.text));
     }
-    Ok(Answer { exit: Exit::Yes, json, text })
+    Ok(Answer::new(Exit::Yes, json, text))
 }
 
 fn list() -> Result<Answer, Failure> {
@@ -58,7 +58,7 @@ fn list() -> Result<Answer, Failure> {
     }
     json.insert("presets".into(), records.into_iter().map(Value::Object).collect());
     text.push_str("\n`equipod presets NAME -o FILE.toml` writes one, with the source of every figure in its comments.\n");
-    Ok(Answer { exit: Exit::Yes, json, text })
+    Ok(Answer::new(Exit::Yes, json, text))
 }
 
 fn record(preset: &Preset) -> Result<Map<String, Value>, Failure> {

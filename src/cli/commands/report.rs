@@ -47,7 +47,7 @@ pub(crate) fn run(args: &Args, _: &mut Context) -> Result<Answer, Failure> {
     let mut json = Map::new();
     json.insert("output".into(), json!(output.display().to_string()));
     json.insert("files".into(), json!(count));
-    Ok(Answer { exit: Exit::Yes, json, text: format!("{}\n", output.display()) })
+    Ok(Answer::new(Exit::Yes, json, format!("{}\n", output.display())))
 }
 
 /// The page about these files.

@@ -54,7 +54,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     json.insert("bytes".into(), json!(html.len()));
     json.insert("live".into(), json!(core.is_some()));
     let how = if core.is_some() { "" } else { ", with recorded data only" };
-    Ok(Answer { exit: Exit::Yes, json, text: format!("wrote {shown}{how}\n") })
+    Ok(Answer::new(Exit::Yes, json, format!("wrote {shown}{how}\n")))
 }
 
 /// `designs/a.toml` gives `a.html`.

@@ -12,6 +12,11 @@ const MIRROR: [f64; 8] = [1.0, -1.0, -1.0, 1.0, -1.0, 1.0, 1.0, -1.0];
 
 /// What is proved about a root being a real pose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "files",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
 pub enum ProvedReality {
     /// The root equals its complex conjugate, for every choice of the data in their intervals.
     Real,
@@ -23,6 +28,11 @@ pub enum ProvedReality {
 
 /// Precision in which the equations had to be evaluated at the centre.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "files",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
 pub enum CentrePrecision {
     /// Doubles sufficed.
     Double,

@@ -72,6 +72,11 @@ pub enum PoseSet {
 /// Why the poses were not counted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
+#[cfg_attr(
+    feature = "files",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
 pub enum Undecided {
     /// Neither the set nor random linear sections of it close at the highest degree computed.
     DegreeTooLow,

@@ -42,6 +42,11 @@ pub struct NearestMotion {
 /// A number that no rigid motion changes and that equivalent designs share.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
+#[cfg_attr(
+    feature = "files",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
 pub enum Invariant {
     /// Dimension of the span `L` of the leg vectors.
     LegRank,
@@ -90,6 +95,11 @@ pub struct Difference {
 /// Why nothing was decided.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
+#[cfg_attr(
+    feature = "files",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
 pub enum Undecided {
     /// A dimension is not clear: singular values too near to the tolerance.
     UnclearDimension,
@@ -197,4 +207,71 @@ pub(super) fn none_found(
         None if distance.is_none() => Alignment::Undecided { reason: Undecided::NoAxes, nearest },
         None => Alignment::Undecided { reason: Undecided::WithinErrors, nearest },
     }
+}
+
+impl Alignment {
+    /// One sentence with the numbers that decided.
+    #[must_use]
+    pub fn explanation(&self) -> String {
+        match self {
+            Alignment::Found { motions, all, freedom } => {
+                let n = motions.len();
+                let family = match freedom {
+                    0 => String::new(),
+                    d => format!(", one of each family of dimension {d}"),
+                };
+                let others = if *all { "there are no others" } else { "there may be others" };
+                format!(
+                    "{n} pair{} of rigid motions make{} the second design equivalent to the first{family}; {others}",
+                    if n == 1 { "" } else { "s" },
+                    if n == 1 { "s" } else { "" }
+                )
+            }
+            Alignment::None { difference, nearest } => {
+                format!(
+                    "no rigid motions make the second design equivalent to the first: {}{}",
+                    reason(difference),
+                    remark(nearest.as_ref())
+                )
+            }
+            Alignment::Undecided { reason, nearest } => {
+                let why = match reason {
+                    Undecided::UnclearDimension => {
+                        "a dimension is not clear, singular values are too near to the tolerance"
+                    }
+                    Undecided::NoAxes => "a body has no axes of its own, and the search found no motion",
+                    _ => {
+                        "no invariant differs by more than its error bound, and no motion reaches the tolerance"
+                    }
+                };
+                format!(
+                    "whether rigid motions make the designs equivalent is not decided: {why}{}",
+                    remark(nearest.as_ref())
+                )
+            }
+        }
+    }
+}
+
+fn reason(d: &Difference) -> String {
+    let (x, y, gap, bound) = (d.in_a, d.in_b, d.gap, d.bound);
+    match d.invariant {
+        Invariant::BasePrincipalValue => format!(
+            "a principal value of the base is {x:.9} and {y:.9}, they differ by {gap:.1e} (error bound {bound:.1e})"
+        ),
+        Invariant::PlatformPrincipalValue => format!(
+            "a principal value of the platform is {x:.9} and {y:.9}, they differ by {gap:.1e} (error bound {bound:.1e})"
+        ),
+        Invariant::CanonicalDistance => {
+            format!("the canonical forms are {gap:.1e} apart at best (error bound {bound:.1e})")
+        }
+        other => format!(
+            "{} is {x} and {y} (smallest singular value that counts {gap:.1e}, largest that does not {bound:.1e})",
+            other.as_str().replace('_', " ")
+        ),
+    }
+}
+
+fn remark(nearest: Option<&NearestMotion>) -> String {
+    nearest.map_or(String::new(), |n| format!("; the nearest motions leave a residual of {:.1e}", n.residual))
 }

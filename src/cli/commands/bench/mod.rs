@@ -102,7 +102,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let name = args.method.to_possible_value().map(|v| v.get_name().to_string()).unwrap_or_default();
     let (json, text) =
         (render::json(&args.class, &name, &reports, &references), render::text(&reports, &references));
-    Ok(Answer { exit, json, text })
+    Ok(Answer::new(exit, json, text))
 }
 
 fn classes(names: &str) -> Result<Vec<Class>, Failure> {

@@ -54,7 +54,7 @@ pub(super) fn run(
     json.insert("seed".into(), json!(seed));
     json.insert("threads".into(), json!(args.threads));
     json.insert("rows".into(), rows.iter().map(record).collect());
-    Ok(Answer { exit: Exit::Yes, json, text: text(&rows) })
+    Ok(Answer::new(Exit::Yes, json, text(&rows)))
 }
 
 fn record((class, levels): &Row) -> Value {

@@ -94,7 +94,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     json.insert("components".into(), list.into());
     let exit = if found.doubts.is_empty() { Exit::Yes } else { Exit::Inconclusive };
     let text = text::table(&design, &found, &wanted, &samples);
-    Ok(Answer { exit, json, text })
+    Ok(Answer::new(exit, json, text))
 }
 
 /// Family `k` draws from a stream of its own: `--component` does not change what is drawn.

@@ -8,6 +8,7 @@ use std::fmt::Write as _;
 use std::io::IsTerminal;
 use std::path::PathBuf;
 
+use serde::Serialize;
 use serde_json::{Map, Value, json};
 
 use self::folder::Folder;
@@ -26,6 +27,7 @@ use crate::equivalence::{SamplePlan, Verification, verify};
 use crate::fk::{self, FkOptions, FkSolutions, PoseCounting};
 use crate::manipulator::{LegLengths, Octahedral};
 use crate::offsets;
+use crate::records::{FkRunRecord, FramesRecord, RunRecord, VerifyAnswer};
 use crate::synthesis::{Family, FamilyMember};
 
 /// Arguments of `explore`.
@@ -134,7 +136,10 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     progress.stage(1, "equivalence class");
     let family = Family::octahedral();
     let members: Vec<&FamilyMember> = family.members().iter().collect();
-    folder.write(folder::FAMILY, &framed(family::record(&design, &octahedral, &family, &members), seed))?;
+    folder.write(
+        folder::FAMILY,
+        &framed(family::record(&design, &octahedral, &family, &members), Some(seed))?,
+    )?;
 
     progress.stage(2, "offsets");
     let interrupt = Interrupt::watch();
@@ -153,7 +158,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         // the same pose, seen by the new legs
         new.lengths = design.lengths.and_then(|l| s.map.apply(&l.squared()).ok()).map(|s| s.lengths());
     }
-    folder.write(folder::OPTIMIZE, &framed(done.record(&design, None), seed))?;
+    folder.write(folder::OPTIMIZE, &framed(done.record(&design, None), Some(seed))?)?;
     if let Some(new) = &done.optimised {
         folder.write(folder::OPTIMISED, &new.to_toml())?;
     }
@@ -168,7 +173,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
 
     progress.stage(4, "forward kinematics");
     let poses = solve(&design, &options)?;
-    folder.write(folder::FK, &framed(fk_record(&poses), seed))?;
+    folder.write(folder::FK, &framed(fk_record(&poses), None)?)?;
     folder.write(folder::MODES, &figures::modes(&design, &poses))?;
 
     progress.stage(5, "report");
@@ -177,7 +182,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     folder.write(folder::REPORT, &report::markdown(&results))?;
     let files = folder.results()?;
     folder.write(folder::PAGE, &page(files, None))?;
-    Ok(Answer { exit: results.exit(), json: record(&results, &folder), text: text(&results, &folder) })
+    Ok(Answer::new(results.exit(), record(&results, &folder), text(&results, &folder)))
 }
 
 /// The design as it was read, with a word on where the copy comes from.
@@ -192,12 +197,8 @@ fn original(design: &Design, seed: u64) -> Design {
 }
 
 /// A record as a document of its own.
-fn framed(record: Map<String, Value>, seed: u64) -> String {
-    let mut fields = Map::new();
-    fields.insert("version".into(), json!(env!("CARGO_PKG_VERSION")));
-    fields.insert("seed".into(), json!(seed));
-    fields.extend(record);
-    document(fields, &[])
+fn framed(record: impl Serialize, seed: Option<u64>) -> Result<String, Failure> {
+    document(RunRecord { version: env!("CARGO_PKG_VERSION").into(), seed, answer: record }, &[])
 }
 
 fn verification(
@@ -210,9 +211,9 @@ fn verification(
     let plan = verify_command::sample_plan(design, samples, options.seed);
     let found = verify(design.manipulator(), new.manipulator(), &plan, options)
         .map_err(|e| verify_command::failure_of(&e))?;
-    let record = verify_command::record(&found, &plan);
-    let explanation = record.get("explanation").and_then(Value::as_str).unwrap_or_default().to_owned();
-    folder.write(folder::VERIFY, &framed(record, options.seed))?;
+    let record = VerifyAnswer::new(&found, &plan, FramesRecord::default());
+    let explanation = record.explanation.clone();
+    folder.write(folder::VERIFY, &framed(record, Some(options.seed))?)?;
     Ok(Verified { found, plan, explanation })
 }
 
@@ -236,12 +237,12 @@ pub(super) fn modes_picture(design: &Design, options: &FkOptions) -> Result<Stri
     Ok(figures::modes(design, &solve(design, options)?))
 }
 
-fn fk_record(poses: &Poses) -> Map<String, Value> {
-    let mut fields = Map::new();
-    fields.insert("lengths".into(), json!(poses.lengths.get()));
-    fields.insert("lengths_from".into(), json!(poses.from.as_str()));
-    fields.extend(fk_command::record(&poses.solutions));
-    fields
+fn fk_record(poses: &Poses) -> FkRunRecord {
+    FkRunRecord {
+        lengths: poses.lengths.get(),
+        lengths_from: poses.from.as_str().into(),
+        solved: (&poses.solutions).into(),
+    }
 }
 
 /// What `--json` writes to standard output.

@@ -1,7 +1,5 @@
 //! `equipod fk`: all poses for given leg lengths.
 
-mod certificate;
-mod closure;
 pub(super) mod lengths;
 mod near;
 mod render;
@@ -10,7 +8,6 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::ValueEnum;
-use serde_json::{Map, Value, json};
 
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
@@ -19,9 +16,11 @@ use crate::cli::output::Answer;
 use crate::cli::poses;
 use crate::fk::{self, BatchResult, FkError, FkOptions, FkSolutions, Method, Threads};
 use crate::manipulator::{LegLengths, Manipulator};
+use crate::records::{
+    ClosureRecord, FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, RowFailure, SolvedRecord,
+};
 
 use self::lengths::Given;
-pub(super) use self::render::json as record;
 
 /// Arguments of `fk`.
 #[derive(Debug, clap::Args)]
@@ -82,16 +81,16 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         Given::One(l) => {
             let solutions = solve(method, m, &l, &options)?;
             let exit = exit_of(&solutions);
-            let mut json = render::json(&solutions);
-            let mut text = render::text(&design.name, &solutions);
+            let mut answer = FkOneAnswer::from(SolvedRecord::from(&solutions));
+            let mut text = render::text(&design.name, &answer.solved);
             if args.method == MethodArg::Trilateration {
-                let found = fk::closure(m, &l.squared(), &solutions);
-                json.insert("closure".into(), closure::json(&design, &found));
-                text.push_str(&closure::text(&design, &found));
+                let found = ClosureRecord::new(&design, &fk::closure(m, &l.squared(), &solutions));
+                text.push_str(&render::closure(&found));
+                answer.closure = Some(found);
             }
-            Ok(Answer { exit, json, text })
+            Ok(Answer::new(exit, FkAnswer::One(Box::new(answer)), text))
         }
-        Given::Rows(rows) => Ok(many(method, m, &rows, &options, threads(args.threads), context.json())),
+        Given::Rows(rows) => Ok(many(method, m, &rows, &options, threads(args.threads))),
     }
 }
 
@@ -106,44 +105,29 @@ fn many(
     rows: &[lengths::Row],
     options: &FkOptions,
     threads: Threads,
-    json: bool,
 ) -> Answer {
     let squares: Vec<_> = rows.iter().map(|row| row.lengths.squared()).collect();
     let solver = fk::solver(method);
     let results = fk::solve_batch(solver.as_ref(), m, &squares, options, threads);
-    // forty poses with all their numbers take as long to write down as to find
-    let written = fk::in_order(rows.len(), threads, &|i| written_row(&rows[i], &results[i], json));
-    let mut exit = Exit::Yes;
-    let mut records = Vec::with_capacity(rows.len());
+    // forty poses with all their numbers take as long to put into records as to find
+    let solved = fk::in_order(rows.len(), threads, &|i| solved_row(&rows[i], &results[i]));
+    let exit = solved.iter().map(|(exit, _)| *exit).fold(Exit::Yes, Exit::max);
+    let rows: Vec<FkRowRecord> = solved.into_iter().map(|(_, record)| record).collect();
     let mut text = String::from("line  method         finite  real  complete\n");
-    for (row_exit, line, record) in written {
-        exit = exit.max(row_exit);
-        text.push_str(&line);
-        records.push(Value::Object(record));
-    }
-    let mut document = Map::new();
-    document.insert("rows".into(), Value::Array(records));
-    Answer { exit, json: document, text }
+    text.extend(rows.iter().map(render::table_row));
+    Answer::new(exit, FkAnswer::Rows(FkRowsAnswer { rows }), text)
 }
 
-/// Exit code, line of the table and, for `json`, record of one row.
-fn written_row(row: &lengths::Row, result: &BatchResult, json: bool) -> (Exit, String, Map<String, Value>) {
-    let mut record = Map::new();
-    record.insert("line".into(), json!(row.line));
-    record.insert("lengths".into(), json!(row.lengths.get()));
-    match result {
-        Ok(solutions) => {
-            if json {
-                record.extend(render::json(solutions));
-            }
-            (exit_of(solutions), render::table_row(row.line, solutions), record)
-        }
+/// Exit code and record of one row.
+fn solved_row(row: &lengths::Row, result: &BatchResult) -> (Exit, FkRowRecord) {
+    let (exit, outcome) = match result {
+        Ok(s) => (exit_of(s), FkRowOutcome::Solved(Box::new(SolvedRecord::from(s).into()))),
         Err(error) => {
             let failure = failure_of(error);
-            record.insert("error".into(), failure.to_json());
-            (failure.exit, format!("{:>4}  {}\n", row.line, failure.message), record)
+            (failure.exit, FkRowOutcome::Failed(RowFailure { error: (&failure).into() }))
         }
-    }
+    };
+    (exit, FkRowRecord { line: row.line, lengths: row.lengths.get(), outcome })
 }
 
 fn solve(

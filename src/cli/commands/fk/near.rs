@@ -2,16 +2,15 @@
 
 use std::fmt::Write as _;
 
-use serde_json::{Map, Value, json};
-
 use super::lengths::{Given, Row};
 use super::render;
 use crate::cli::exit::Exit;
-use crate::cli::output::{Answer, number};
+use crate::cli::output::Answer;
 use crate::design::Design;
 use crate::fk::{Completeness, FkRoot, FkSolutions, Method, NearOutcome, NearSolver, Reality, SolutionSet};
 use crate::geom::{ComplexPose, Pose};
 use crate::manipulator::{LegLengths, Manipulator};
+use crate::records::{FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, NearRecord};
 use crate::solve::certify::{Certifier, ProvedReality, RootCertificate};
 
 /// Follows one pose. A row that is not tracked leaves the next to start from the last tracked pose.
@@ -21,9 +20,9 @@ pub(super) fn run(design: &Design, given: &Given, start: Pose, seed: u64) -> Ans
     match given {
         Given::One(l) => {
             let outcome = solver.solve(&l.squared(), &start);
-            let (record, solutions) = record(m, l, &start, &outcome, seed);
-            let text = format!("{}{}", sentence(&outcome), render::text(&design.name, &solutions));
-            Answer { exit: exit_of(&outcome), json: record, text }
+            let record = record(m, l, &start, &outcome, seed);
+            let text = format!("{}{}", sentence(&outcome), render::text(&design.name, &record.solved));
+            Answer::new(exit_of(&outcome), FkAnswer::One(Box::new(record)), text)
         }
         Given::Rows(rows) => trajectory(m, &solver, rows, start, seed),
     }
@@ -36,11 +35,11 @@ fn trajectory(m: &Manipulator, solver: &NearSolver, rows: &[Row], start: Pose, s
     for row in rows {
         let outcome = solver.solve(&row.lengths.squared(), &from);
         exit = exit.max(exit_of(&outcome));
-        let mut fields = Map::new();
-        fields.insert("line".into(), json!(row.line));
-        fields.insert("lengths".into(), json!(row.lengths.get()));
-        fields.extend(record(m, &row.lengths, &from, &outcome, seed).0);
-        records.push(Value::Object(fields));
+        records.push(FkRowRecord {
+            line: row.line,
+            lengths: row.lengths.get(),
+            outcome: FkRowOutcome::Solved(Box::new(record(m, &row.lengths, &from, &outcome, seed))),
+        });
         let (e, p) = (outcome.evidence(), outcome.pose().position);
         let _ = writeln!(
             text,
@@ -55,9 +54,7 @@ fn trajectory(m: &Manipulator, solver: &NearSolver, rows: &[Row], start: Pose, s
         );
         from = outcome.tracked().copied().unwrap_or(from);
     }
-    let mut json = Map::new();
-    json.insert("rows".into(), Value::Array(records));
-    Answer { exit, json, text }
+    Answer::new(exit, FkAnswer::Rows(FkRowsAnswer { rows: records }), text)
 }
 
 fn exit_of(outcome: &NearOutcome) -> Exit {
@@ -71,7 +68,7 @@ fn record(
     start: &Pose,
     outcome: &NearOutcome,
     seed: u64,
-) -> (Map<String, Value>, FkSolutions) {
+) -> FkOneAnswer {
     let s = lengths.squared();
     let proved = |pose: &ComplexPose| {
         let certifier = Certifier::new(m, &s).ok()?;
@@ -112,38 +109,7 @@ fn record(
         unproved: Vec::new(),
         seed,
     };
-    let mut fields = render::json(&solutions);
-    fields.insert("near".into(), evidence(start, outcome));
-    (fields, solutions)
-}
-
-fn evidence(start: &Pose, outcome: &NearOutcome) -> Value {
-    let e = outcome.evidence();
-    let (fraction, reason) = match outcome {
-        NearOutcome::Tracked { .. } => (1.0, Value::Null),
-        NearOutcome::NearSingularity { fraction, .. } => (*fraction, Value::Null),
-        NearOutcome::Lost { fraction, reason, .. } => (*fraction, json!(reason.to_string())),
-    };
-    json!({
-        "outcome": outcome.name(),
-        "reason": reason,
-        "start": pose(start),
-        "reached": pose(outcome.pose()),
-        "fraction": number(fraction),
-        "residual": number(e.residual),
-        "inverse_condition": number(e.inverse_condition),
-        "segments": e.segments,
-        "newton_steps": e.newton_steps,
-        "kantorovich": number(e.kantorovich),
-        "distance": number(e.distance),
-        "angle_deg": number(e.angle.to_degrees()),
-    })
-}
-
-fn pose(p: &Pose) -> Value {
-    let r = p.rotation.matrix();
-    let rows: Value = (0..3).map(|i| (0..3).map(|j| number(r[(i, j)])).collect::<Value>()).collect();
-    json!({ "R": rows, "p": p.position.iter().map(|x| number(*x)).collect::<Value>() })
+    FkOneAnswer { solved: (&solutions).into(), near: Some(NearRecord::new(start, outcome)), closure: None }
 }
 
 /// One line for people, before the list of poses.

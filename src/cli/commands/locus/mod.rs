@@ -119,7 +119,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     }
     let exit = if rows.iter().all(Row::complete) { Exit::Yes } else { Exit::Inconclusive };
     let text = render::text(name, *leg, between, rows, steps);
-    Ok(Answer { exit, json: render::json(*leg, between, rows, steps), text })
+    Ok(Answer::new(exit, render::json(*leg, between, rows, steps), text))
 }
 
 /// The picture alone.

@@ -57,7 +57,7 @@ pub(super) fn run(
         SearchVerdict::Undecided => Exit::Inconclusive,
     };
     let report = Report { design, families: &families, outcome: &outcome };
-    Ok(Answer { exit, json: report.json(&designs, &written)?, text: report.text(&written)? })
+    Ok(Answer::new(exit, report.json(&designs, &written)?, report.text(&written)?))
 }
 
 /// A platform of the search as a design.
@@ -193,7 +193,7 @@ impl Report<'_> {
             "margins": margins.collect::<Value>(), "moves": moves,
         });
         if let Some(fields) = record.as_object_mut() {
-            fields.extend(crate::cli::commands::map::record(&c.map));
+            fields.extend(crate::cli::output::fields(crate::records::MapRecord::from(&c.map)));
             fields.insert("design".into(), design.map_or(Value::Null, design_value));
         }
         Ok(record)

@@ -101,7 +101,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         (false, true) => Exit::No,
         (false, false) => Exit::Inconclusive,
     };
-    Ok(Answer { exit, json, text })
+    Ok(Answer::new(exit, json, text))
 }
 
 /// The families of a design.

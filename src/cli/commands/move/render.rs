@@ -69,7 +69,7 @@ impl Record<'_> {
         json.insert("moves_left_out".into(), json!(self.wanted - self.made()));
         let exact = self.moved().all(|m| m.exact);
         json.insert("exact".into(), json!(exact));
-        for (key, value) in map::record(&self.chain.direct) {
+        for (key, value) in crate::cli::output::fields(crate::records::MapRecord::from(&self.chain.direct)) {
             json.insert(key, value);
         }
         json.insert("composition_difference".into(), number(self.chain.disagreement));

@@ -60,7 +60,7 @@ pub(super) fn run(
         json.insert("conflict".into(), conflict_json(design, c));
     }
     json.insert("seed".into(), json!(context.seed()));
-    Ok(Answer { exit, json, text: text(design, status, &report, &members, &written) })
+    Ok(Answer::new(exit, json, text(design, status, &report, &members, &written)))
 }
 
 /// Status and exit code; `met` when all members meet their requirements.

@@ -117,7 +117,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         let written = write(args.output.as_deref(), done.checked.as_ref().map(|c| &c.design))?;
         let json = dimensional_text::record(&design, &done, written.as_deref());
         let text = dimensional_text::text(&design, &done, written.as_deref());
-        return Ok(Answer { exit: done.exit(), json, text });
+        return Ok(Answer::new(done.exit(), json, text));
     }
     let octahedral = Octahedral::recognise(design.manipulator()).map_err(|why| {
         Failure::refused("optimize::not_octahedral", format!("not an octahedral platform: {why}"))
@@ -148,7 +148,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let json = done.record(&design, written.as_deref());
     let text =
         if context.json() { String::new() } else { render::text(&done.found(&design), written.as_deref()) };
-    Ok(Answer { exit: done.exit(), json, text })
+    Ok(Answer::new(done.exit(), json, text))
 }
 
 /// How far the search is, for people.

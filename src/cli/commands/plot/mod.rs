@@ -136,5 +136,5 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         json.insert("svg".into(), json!(svg));
         svg
     };
-    Ok(Answer { exit: Exit::Yes, json, text })
+    Ok(Answer::new(Exit::Yes, json, text))
 }

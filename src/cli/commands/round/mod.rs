@@ -195,5 +195,5 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         rounded,
         written: written.as_deref(),
     };
-    Ok(Answer { exit, json: report.json(), text: report.text() })
+    Ok(Answer::new(exit, report.json(), report.text()))
 }

@@ -63,7 +63,7 @@ pub(super) fn answer(design: &Design, found: &Found) -> Answer {
         .zip(&found.degrees)
         .map(|(c, d)| curve_record(c, *d, found.origins.get(c.start)));
     json.insert("curves".into(), curves.collect());
-    Answer { exit: found.exit, json, text: text(design, found) }
+    Answer::new(found.exit, json, text(design, found))
 }
 
 fn text(design: &Design, found: &Found) -> String {

@@ -58,7 +58,7 @@ pub(super) fn answer(design: &Design, lengths: &LegLengths, found: &Found) -> An
     if let Some(between) = &found.between {
         json.insert("between".into(), between.record());
     }
-    Answer { exit: found.exit, json, text: text(design, found) }
+    Answer::new(found.exit, json, text(design, found))
 }
 
 fn text(design: &Design, found: &Found) -> String {

@@ -153,5 +153,5 @@ fn find(design: &Design, args: &Args, seed: u64) -> Result<Found, Failure> {
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
     let found = find(&design, args, context.seed())?;
-    Ok(Answer { exit: Exit::Yes, json: render::json(&design, &found), text: render::text(&design, &found) })
+    Ok(Answer::new(Exit::Yes, render::json(&design, &found), render::text(&design, &found)))
 }

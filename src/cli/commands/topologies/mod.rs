@@ -86,7 +86,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         args.output.iter().try_for_each(|folder| rearrangements::write(folder, list))?;
     }
     let exit = if entries.iter().all(|e| e.proved) { Exit::Yes } else { Exit::Inconclusive };
-    Ok(Answer { exit, json, text })
+    Ok(Answer::new(exit, json, text))
 }
 
 fn entry(named: NamedTopology, members: u64, seed: u64) -> Result<Entry, Failure> {

@@ -1,24 +1,29 @@
 //! `equipod verify`: are two designs kinematically equivalent?
 
-mod plan;
-mod render;
-
+use std::fmt::Write as _;
 use std::path::PathBuf;
+
+use nalgebra::Vector3;
 
 use crate::cli::alignment::FrameArgs;
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::output::Answer;
-use crate::equivalence::{Verdict, VerifyError, verify};
+use crate::cli::poses;
+use crate::design::Design;
+use crate::equivalence::{SamplePlan, Verdict, VerifyError, verify};
 use crate::fk::FkOptions;
+use crate::records::{SampleRecord, VerifyAnswer};
 use crate::synthesis::{LegMapTolerances, Relation, leg_map};
-
-pub(crate) use plan::sample_plan;
-pub(crate) use render::record;
 
 /// Sample poses when `--samples` is not given.
 pub(crate) const SAMPLES: usize = 10;
+
+/// Half width of the box of positions where the design has no workspace box, in sizes of the design.
+const TRANSLATION: f64 = 0.25;
+/// Half width of the box of rotation vectors where the design has no workspace box, degrees.
+const ROTATION_DEG: f64 = 20.0;
 
 /// Arguments of `verify`.
 #[derive(Debug, clap::Args)]
@@ -55,20 +60,18 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
             .map_err(|e| failure_of(&e.into()))?;
         if map.relation == Relation::Unrelated {
             let exit = if none { Exit::No } else { Exit::Inconclusive };
-            let mut json = render::unaligned(&map, none, &second.explanation().unwrap_or_default());
-            second.put(&mut json);
-            let verdict = render::unaligned_verdict(none);
-            let text = format!("{} ~ {}: {verdict}\n{}", a.name, b.name, second.text());
-            return Ok(Answer { exit, json, text });
+            let explanation = second.explanation().unwrap_or_default();
+            let record = VerifyAnswer::unaligned(&map, none, explanation, second.record());
+            let text = format!("{} ~ {}: {}\n{}", a.name, b.name, record.verdict.as_str(), second.text());
+            return Ok(Answer::new(exit, record, text));
         }
     }
     let plan = sample_plan(&a, args.samples, context.seed());
     let options = FkOptions { seed: context.seed(), ..FkOptions::default() };
     let found = verify(a.manipulator(), &second.manipulator, &plan, &options).map_err(|e| failure_of(&e))?;
-    let mut json = record(&found, &plan);
-    second.put(&mut json);
-    let text = second.text() + &render::text(&found, &a.name, &b.name);
-    Ok(Answer { exit: exit_of(&found.verdict), json, text })
+    let record = VerifyAnswer::new(&found, &plan, second.record());
+    let text = second.text() + &text(&record, &a.name, &b.name);
+    Ok(Answer::new(exit_of(&found.verdict), record, text))
 }
 
 /// What the verdict means for the exit code.
@@ -90,4 +93,55 @@ pub(crate) fn failure_of(error: &VerifyError) -> Failure {
                 .with_help("try another --seed")
         }
     }
+}
+
+/// The remark behind the row of a sample.
+fn remark(s: &SampleRecord) -> String {
+    let mut out = String::new();
+    for (platform, beyond) in [("A", s.beyond_precision_a), ("B", s.beyond_precision_b)] {
+        if beyond > 0 {
+            let _ = write!(out, "  {beyond} of {platform} beyond double precision");
+        }
+    }
+    if !(s.a.all_paths_accounted && s.b.all_paths_accounted) {
+        out.push_str("  poses may be missing");
+    }
+    out
+}
+
+/// What people read.
+fn text(v: &VerifyAnswer, a: &str, b: &str) -> String {
+    let mut out = format!("{a} ~ {b}: {}\n{}\n", v.verdict.as_str(), v.explanation);
+    if !v.samples.is_empty() {
+        out.push_str("\nsample  poses A  poses B  matched  real  certified  worst distance\n");
+    }
+    for (k, s) in v.samples.iter().enumerate() {
+        let _ = writeln!(
+            out,
+            "{:>6}  {:>7}  {:>7}  {:>7}  {:>4}  {:>4}+{:<4}  {:>14.1e}{}",
+            k + 1,
+            s.a.finite_count,
+            s.b.finite_count,
+            s.matched,
+            s.b.real_count,
+            s.a.certified_count,
+            s.b.certified_count,
+            s.worst_distance.0,
+            remark(s),
+        );
+    }
+    out
+}
+
+/// Random poses in the workspace box of the design about its home pose; where it has neither, about the
+/// default home pose, a quarter of the size and 20 degrees each way.
+pub(crate) fn sample_plan(design: &Design, count: usize, seed: u64) -> SamplePlan {
+    let m = design.manipulator();
+    let home = poses::home(design);
+    let (translation, rotation) = if design.workspace.has_box() {
+        (design.workspace.translation, design.workspace.rotation_deg.map(f64::to_radians))
+    } else {
+        (Vector3::repeat(TRANSLATION * m.size()), Vector3::repeat(ROTATION_DEG.to_radians()))
+    };
+    SamplePlan { home, translation, rotation, count, seed }
 }

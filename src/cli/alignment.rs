@@ -1,19 +1,17 @@
 //! `--align` and `--exchange` of `map` and `verify`: the second design in the frames of the first.
 
-mod render;
-
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use serde_json::{Map, Value, json};
+use nalgebra::{UnitQuaternion, Vector3};
 
-use self::render::{explanation, motion_text, record, status};
 use super::exit::Exit;
 use super::failure::Failure;
 use super::files::{self, OutputPath};
 use crate::design::Design;
 use crate::geom::Pose;
 use crate::manipulator::Manipulator;
+use crate::records::{AlignmentRecord, FramesRecord};
 use crate::synthesis::alignment::{Alignment, align, exchanged, mirrored, transformed};
 
 /// Options about the frames of the second design.
@@ -35,11 +33,20 @@ pub(crate) struct FrameArgs {
 pub(crate) struct Second {
     /// In the frames of the first, where `--align` found how.
     pub(crate) manipulator: Manipulator,
-    alignment: Option<Alignment>,
-    /// What `--align` finds for the second design taken otherwise.
-    others: Vec<(&'static str, Alignment)>,
+    aligned: Option<Aligned>,
     exchange: bool,
     written: Option<PathBuf>,
+}
+
+/// What `--align` finds.
+#[derive(Debug)]
+struct Aligned {
+    /// For the second design as it is asked about.
+    given: Alignment,
+    /// With its base and platform exchanged.
+    exchanged: Alignment,
+    /// For its mirror image.
+    mirrored: Alignment,
 }
 
 impl FrameArgs {
@@ -56,25 +63,18 @@ impl FrameArgs {
             (b.manipulator().clone(), upside_down)
         };
         let find = |m: &Manipulator| align(a.manipulator(), m, seed).map_err(|e| broken(&e));
-        let mut second = Second {
-            manipulator: given,
-            alignment: None,
-            others: Vec::new(),
-            exchange: self.exchange,
-            written: None,
-        };
+        let mut second = Second { manipulator: given, aligned: None, exchange: self.exchange, written: None };
         let mut motion = None;
         if self.align {
             let found = find(&second.manipulator)?;
-            second.others =
-                vec![("exchanged", find(&other)?), ("mirrored", find(&mirrored(&second.manipulator))?)];
+            let (exchanged, mirrored) = (find(&other)?, find(&mirrored(&second.manipulator))?);
             if let Alignment::Found { motions, .. } = &found {
                 let first = &motions[0];
                 motion = Some((first.base, first.platform));
                 second.manipulator =
                     transformed(&second.manipulator, &first.base, &first.platform).map_err(|e| broken(&e))?;
             }
-            second.alignment = Some(found);
+            second.aligned = Some(Aligned { given: found, exchanged, mirrored });
         }
         if let Some(path) = self.output.as_deref().filter(|_| motion.is_some() || !self.align) {
             files::write_design(path, &second.design(b, motion.as_ref())?)?;
@@ -87,7 +87,7 @@ impl FrameArgs {
 impl Second {
     /// Some rigid motion was asked for and not found: there is none (`Some(true)`), or it is not decided (`Some(false)`).
     pub(crate) fn refuted(&self) -> Option<bool> {
-        match self.alignment.as_ref()? {
+        match self.aligned.as_ref()?.given {
             Alignment::Found { .. } => None,
             Alignment::None { .. } => Some(true),
             Alignment::Undecided { .. } => Some(false),
@@ -115,20 +115,12 @@ impl Second {
     }
 
     /// Fields for the document.
-    pub(crate) fn put(&self, fields: &mut Map<String, Value>) {
-        if self.exchange {
-            fields.insert("exchanged".into(), json!(true));
-        }
-        if let Some(found) = &self.alignment {
-            let mut record = record(found);
-            for (name, other) in &self.others {
-                let count = if let Alignment::Found { motions, .. } = other { motions.len() } else { 0 };
-                record.insert((*name).into(), json!({ "status": status(other), "motions": count }));
-            }
-            fields.insert("alignment".into(), Value::Object(record));
-        }
-        if let Some(path) = &self.written {
-            fields.insert("output".into(), json!(path.display().to_string()));
+    pub(crate) fn record(&self) -> FramesRecord {
+        let aligned = self.aligned.as_ref();
+        FramesRecord {
+            exchanged: self.exchange,
+            alignment: aligned.map(|a| AlignmentRecord::new(&a.given, &a.exchanged, &a.mirrored)),
+            output: self.written.as_ref().map(|path| path.display().to_string()),
         }
     }
 
@@ -140,9 +132,9 @@ impl Second {
                 "base and platform of the second design are exchanged: its poses are inverse poses\n",
             );
         }
-        let Some(found) = &self.alignment else { return out };
-        let _ = writeln!(out, "{}", explanation(found));
-        if let Alignment::Found { motions, .. } = found {
+        let Some(found) = &self.aligned else { return out };
+        let _ = writeln!(out, "{}", found.given.explanation());
+        if let Alignment::Found { motions, .. } = &found.given {
             for (k, m) in motions.iter().enumerate() {
                 let _ = writeln!(out, "{:>3}  base      {}", k + 1, motion_text(&m.base));
                 let _ = writeln!(out, "     platform  {}", motion_text(&m.platform));
@@ -150,7 +142,7 @@ impl Second {
                     writeln!(out, "     residual {:.1e}, det A = {:.6}", m.map.residual, m.map.determinant);
             }
         }
-        for (name, other) in &self.others {
+        for (name, other) in [("exchanged", &found.exchanged), ("mirrored", &found.mirrored)] {
             if let (Alignment::Found { .. }, false) = (other, self.refuted().is_none()) {
                 let _ = writeln!(out, "it is equivalent when the second design is {name}");
             }
@@ -161,8 +153,18 @@ impl Second {
 
     /// One sentence on the alignment, where one was asked for.
     pub(crate) fn explanation(&self) -> Option<String> {
-        self.alignment.as_ref().map(explanation)
+        self.aligned.as_ref().map(|a| a.given.explanation())
     }
+}
+
+/// A motion as axis, angle and shift.
+fn motion_text(p: &Pose) -> String {
+    // by the quaternion: the axis of a half turn has no place in the skew part of the matrix
+    let q = UnitQuaternion::from_rotation_matrix(&p.rotation);
+    let (axis, angle) = q.axis_angle().map_or((Vector3::z(), 0.0), |(u, t)| (u.into_inner(), t.to_degrees()));
+    let place = |x: f64| (x * 1e6).round() / 1e6 + 0.0; // + 0.0: no "-0.000000"
+    let vector = |v: &Vector3<f64>| format!("({:.6}, {:.6}, {:.6})", place(v.x), place(v.y), place(v.z));
+    format!("turn by {angle:.6} deg about {}, then shift by {}", vector(&axis), vector(&p.position))
 }
 
 fn inverse(pose: &Pose) -> Pose {

@@ -1,0 +1,162 @@
+//! `equipod check`: whether a design is architecturally singular, and why.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use crate::cli::context::Context;
+use crate::cli::exit::Exit;
+use crate::cli::failure::Failure;
+use crate::cli::output::Answer;
+use crate::records::{
+    AssemblyRecord, CheckAnswer, Checked, DependencyRecord, GriffisDuffyRecord, NearestSingularRecord, Number,
+};
+use crate::singularity::{
+    Architecture, assembly, conditioning, nearest_singular, singular_distance_at_least,
+};
+
+/// Arguments of `check`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Design file (.toml or .json)
+    design: PathBuf,
+}
+
+/// Decides and explains.
+pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+    let design = context.load(&args.design)?;
+    let m = design.manipulator();
+    let failed = |e: crate::num::linalg::LinalgError| Failure::internal(e.to_string());
+    let architecture = Architecture::of(m);
+    let nearest = if architecture.is_singular() {
+        None
+    } else {
+        nearest_singular(m, context.seed()).map_err(failed)?
+    };
+    let at_least = if nearest.is_some() { singular_distance_at_least(m, context.seed()) } else { 0.0 };
+    let conditioning = conditioning(m, context.seed()).map_err(failed)?;
+    let singular_hexagon = architecture.griffis_duffy.as_ref().filter(|g| g.is_nearly_singular());
+    let assembly = match (singular_hexagon, design.lengths) {
+        (Some(g), Some(l)) => Some(assembly(g, m, &l.squared()).map_err(failed)?),
+        _ => None,
+    };
+    let checked = Checked { design: &design, architecture, nearest, at_least, assembly, conditioning };
+    let answer = CheckAnswer::from(&checked);
+    let exit = match answer.architecturally_singular {
+        Some(false) => Exit::Yes,
+        Some(true) => Exit::No,
+        None => Exit::Inconclusive,
+    };
+    let text = text(&answer, m.size(), &design.units);
+    Ok(Answer::new(exit, answer, text))
+}
+
+fn list(legs: &[usize]) -> String {
+    let numbers: Vec<String> = legs.iter().map(ToString::to_string).collect();
+    format!("legs {}", numbers.join(", "))
+}
+
+/// The answer in words; `size` and `units` are those of the design.
+fn text(c: &CheckAnswer, size: f64, units: &str) -> String {
+    let verdict = match c.architecturally_singular {
+        Some(true) => "architecturally singular",
+        Some(false) => "regular",
+        None => "regular as written, singular within rounding",
+    };
+    let mut text = format!("{}: {verdict}\n{}\n", c.name, c.explanation);
+    let _ = writeln!(text, "\nrank of the leg vectors     {}", c.leg_rank);
+    let _ = writeln!(text, "generic rank of the lines   {}", c.jacobian_rank);
+    let _ = writeln!(text, "proof: {}", c.proof_explanation);
+    for f in c.cases.iter().skip(1) {
+        let _ = writeln!(text, "also: {} ({})", f.sentence, list(&f.legs));
+    }
+    for d in &c.dependencies {
+        dependency(&mut text, d);
+    }
+    if let Some(g) = &c.griffis_duffy {
+        griffis_duffy(&mut text, g);
+    }
+    if let Some(n) = &c.nearest_singular {
+        nearest(&mut text, n, size, units);
+    }
+    let f = &c.jacobian_inverse_condition;
+    let values: Vec<String> = c.singular_values.iter().map(|x| format!("{:.3e}", x.0)).collect();
+    let _ = writeln!(text, "\nsingular values of the normalised leg vectors: {}", values.join(", "));
+    let _ = writeln!(
+        text,
+        "inverse condition number of the Jacobian at {} random poses: best {:.3e}, median {:.3e}, worst {:.3e}",
+        f.poses, f.best.0, f.median.0, f.worst.0
+    );
+    text
+}
+
+fn sum(coefficients: &[Number; 6], letter: char) -> String {
+    let mut text = String::new();
+    for (i, c) in coefficients.iter().map(|c| c.0).enumerate().filter(|(_, c)| *c != 0.0) {
+        let sign = match (c < 0.0, text.is_empty()) {
+            (true, true) => "-",
+            (true, false) => " - ",
+            (false, true) => "",
+            (false, false) => " + ",
+        };
+        let size = c.abs();
+        let factor = if size.total_cmp(&1.0).is_eq() { String::new() } else { format!("{size} ") };
+        let _ = write!(text, "{sign}{factor}{letter}{}", i + 1);
+    }
+    text
+}
+
+fn dependency(text: &mut String, d: &DependencyRecord) {
+    let _ = writeln!(text, "\ndependency of {}: {} = 0", list(&d.legs), sum(&d.coefficients, 'v'));
+    let _ = writeln!(
+        text,
+        "  base ends span dimension {}, platform ends {}",
+        d.base_dimension, d.platform_dimension
+    );
+    let _ =
+        writeln!(text, "  squared lengths of every pose: {} = {}", sum(&d.coefficients, 's'), d.constant.0);
+    if let Some(defect) = d.lengths_defect {
+        let _ = writeln!(text, "  the lengths of the design miss it by {:.1e} (relative)", defect.0);
+    }
+}
+
+fn griffis_duffy(text: &mut String, g: &GriffisDuffyRecord) {
+    let t: Vec<String> = g.t.iter().map(|t| format!("{:.6}", t.0)).collect();
+    let _ = writeln!(text, "\nGriffis-Duffy type, going round by {}: t = {}", list(&g.order), t.join(", "));
+    let exactly = if g.exactly_singular { " (zero exactly)" } else { "" };
+    let _ = writeln!(
+        text,
+        "  det A = prod (1 - t) - prod t = {:.6e}{exactly}; singular where it is zero",
+        g.det.0
+    );
+    let _ = writeln!(
+        text,
+        "  joints off their sides by at most {:.1e} (recognised up to {:.1e})",
+        g.deviation.0, g.deviation_limit.0
+    );
+    let lengths = match &g.assembly {
+        None => return,
+        Some(AssemblyRecord::Incompatible { defect }) => {
+            format!("cannot be assembled: they miss the condition by {:.1e} (relative)", defect.0)
+        }
+        Some(AssemblyRecord::NoRealPose {}) => {
+            "satisfy the condition, but have no real pose: the triangles of the legs do not close".into()
+        }
+        Some(AssemblyRecord::Undecided { .. }) => "satisfy the condition; no real pose was found".into(),
+        Some(AssemblyRecord::Real { residual, .. }) => {
+            format!("can be assembled, and the platform moves: real pose found, residual {:.1e}", residual.0)
+        }
+    };
+    let _ = writeln!(text, "  the lengths of the design {lengths}");
+}
+
+fn nearest(text: &mut String, n: &NearestSingularRecord, size: f64, units: &str) {
+    let _ = writeln!(
+        text,
+        "\nnearest singular design found ({}, {}): {:.6e} away, {:.1e} of the size (norm of the change of all joints)",
+        n.kind,
+        list(&n.legs),
+        n.distance.0,
+        n.distance.0 / size
+    );
+    let _ = writeln!(text, "  none is nearer than {:.6e} (lengths in {units})", n.distance_at_least.0);
+}

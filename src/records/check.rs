@@ -1,0 +1,423 @@
+//! Answers on whether a design is architecturally singular, why, and how far from a singular one it is.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::pose::leg_numbers;
+use super::{NamedPoints, Number, PoseRecord};
+use crate::design::Design;
+use crate::manipulator::LegLengths;
+use crate::singularity::{
+    Architecture, Assembly, Conditioning, CornerLengths, Dependency, Finding, GriffisDuffy, NearestSingular,
+    RankBound, RationalPose,
+};
+
+/// The answer of `check`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CheckAnswer {
+    /// The name of the design.
+    pub name: String,
+    /// Null: the design as written is regular, and a singular one lies within rounding of it.
+    pub architecturally_singular: Option<bool>,
+    /// Decided exactly, for the joints as the numbers they are.
+    pub singular_as_written: bool,
+    /// A short code of the reason; null: regular.
+    pub reason: Option<String>,
+    /// One sentence.
+    pub explanation: String,
+    /// What proves the answer for the joints as written.
+    pub proof: ProofWord,
+    /// One sentence on the proof.
+    pub proof_explanation: String,
+    /// Rank of the leg vectors.
+    pub leg_rank: usize,
+    /// Rank of the leg lines at almost every pose.
+    pub jacobian_rank: usize,
+    /// A pose with that rank.
+    pub witness: WitnessRecord,
+    /// The first of the dependencies.
+    pub dependency: Option<DependencyRecord>,
+    /// Dependencies of leg vectors.
+    pub dependencies: Vec<DependencyRecord>,
+    /// The legs of the first case.
+    pub guilty_legs: Option<Vec<usize>>,
+    /// The cases that apply, most telling first.
+    pub cases: Vec<CaseRecord>,
+    /// The Griffis-Duffy type, where the joints lie on the sides of two triangles.
+    pub griffis_duffy: Option<GriffisDuffyRecord>,
+    /// The nearest singular design that was found; null for a singular one.
+    pub nearest_singular: Option<NearestSingularRecord>,
+    /// Singular values of the normalised leg vectors.
+    pub singular_values: [Number; 6],
+    /// How well conditioned the Jacobian is at random poses.
+    pub jacobian_inverse_condition: ConditioningRecord,
+}
+
+/// What was found about a design.
+#[derive(Debug, Clone)]
+pub struct Checked<'a> {
+    /// The design.
+    pub design: &'a Design,
+    /// The exact decision.
+    pub architecture: Architecture,
+    /// For a regular design only.
+    pub nearest: Option<NearestSingular>,
+    /// No singular design is nearer; 0 for a singular one.
+    pub at_least: f64,
+    /// For a (nearly) singular design of Griffis-Duffy type with lengths.
+    pub assembly: Option<Assembly>,
+    /// Figures at random poses.
+    pub conditioning: Conditioning,
+}
+
+impl Checked<'_> {
+    /// `None` where a singular design lies within rounding of one that is regular as written.
+    fn verdict(&self) -> Option<bool> {
+        let doubtful = self.nearest.as_ref().is_some_and(|n| n.within_rounding);
+        (!doubtful).then(|| self.architecture.is_singular())
+    }
+
+    fn reason(&self) -> Option<&'static str> {
+        match self.verdict() {
+            None => Some("singular_within_rounding"),
+            Some(_) => self.architecture.findings.first().map(|f| f.case.reason()),
+        }
+    }
+
+    fn proof(&self) -> ProofWord {
+        match self.architecture.jacobian.bound {
+            _ if !self.architecture.is_singular() => ProofWord::RegularPose,
+            RankBound::LegVectors | RankBound::Legs => ProofWord::LegVectors,
+            RankBound::Lattice { .. } => ProofWord::PoseLattice,
+        }
+    }
+
+    /// Which design it is, in one sentence.
+    fn explanation(&self) -> String {
+        let c = self;
+        let a = &c.architecture;
+        match (c.verdict(), a.findings.first()) {
+            (None, _) => "as written the design is regular, but a singular one differs from it by no more than rounding: which of the two \
+                          was meant cannot be told from the file"
+                .into(),
+            (_, Some(f)) => format!("{} ({})", f.case.sentence(), list(&f.legs)),
+            (_, None) => "almost every pose holds the platform".into(),
+        }
+    }
+
+    /// What proves the answer for the joints as written.
+    fn proof_explanation(&self) -> String {
+        let c = self;
+        let j = &c.architecture.jacobian;
+        let pose = format!(
+            "the pose with quaternion {:?} and p = {}",
+            j.witness.quaternion,
+            triple(&j.witness.pose().position)
+        );
+        match j.bound {
+            RankBound::Legs => {
+                format!("{pose} has six independent leg lines, in exact arithmetic on the joints as written")
+            }
+            RankBound::LegVectors => format!(
+                "the leg vectors have rank {0} exactly, the lines never have more; {pose} has rank {0}",
+                c.architecture.leg_rank
+            ),
+            RankBound::Lattice { poses, primes } => format!(
+                "the leg lines have rank {} or less at {poses} poses that decide all poses, in exact arithmetic ({primes} primes); {pose} has \
+                 that rank",
+                j.rank
+            ),
+        }
+    }
+}
+
+impl From<&Checked<'_>> for CheckAnswer {
+    fn from(c: &Checked<'_>) -> Self {
+        let (a, f) = (&c.architecture, &c.conditioning);
+        let lengths = c.design.lengths.as_ref();
+        let dependencies: Vec<_> = a.dependencies.iter().map(|d| DependencyRecord::new(d, lengths)).collect();
+        Self {
+            name: c.design.name.clone(),
+            architecturally_singular: c.verdict(),
+            singular_as_written: a.is_singular(),
+            reason: c.reason().map(str::to_owned),
+            explanation: c.explanation(),
+            proof: c.proof(),
+            proof_explanation: c.proof_explanation(),
+            leg_rank: a.leg_rank,
+            jacobian_rank: a.jacobian.rank,
+            witness: (&a.jacobian.witness).into(),
+            dependency: dependencies.first().cloned(),
+            dependencies,
+            guilty_legs: a.findings.first().map(|f| leg_numbers(&f.legs)),
+            cases: a.findings.iter().map(CaseRecord::from).collect(),
+            griffis_duffy: a
+                .griffis_duffy
+                .as_ref()
+                .map(|g| GriffisDuffyRecord::new(g, c.design, c.assembly.as_ref())),
+            nearest_singular: c.nearest.as_ref().map(|n| NearestSingularRecord::new(n, c.at_least, c.design)),
+            singular_values: f.leg_vectors.map(Number),
+            jacobian_inverse_condition: ConditioningRecord {
+                poses: f.poses,
+                best: Number(f.best),
+                median: Number(f.median),
+                worst: Number(f.worst),
+            },
+        }
+    }
+}
+
+/// What proves a design regular or singular.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ProofWord {
+    /// A pose with six independent leg lines.
+    RegularPose,
+    /// The rank of the leg vectors.
+    LegVectors,
+    /// Ranks at the poses of a lattice that decide all poses.
+    PoseLattice,
+}
+
+/// A pose with rational coordinates.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct WitnessRecord {
+    /// The pose.
+    #[serde(flatten)]
+    pub pose: PoseRecord,
+    /// A quaternion of any norm, scalar part first.
+    pub quaternion: [i64; 4],
+}
+
+impl From<&RationalPose> for WitnessRecord {
+    fn from(w: &RationalPose) -> Self {
+        Self { pose: (&w.pose()).into(), quaternion: w.quaternion }
+    }
+}
+
+/// A dependency of leg vectors: sum c_i v_i = 0.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct DependencyRecord {
+    /// The legs in it, from 1.
+    pub legs: Vec<usize>,
+    /// The numbers c_i.
+    pub coefficients: [Number; 6],
+    /// sum c_i s_i of the squared lengths of every pose.
+    pub constant: Number,
+    /// Dimension of the span of the base ends.
+    pub base_dimension: usize,
+    /// Dimension of the span of the platform ends.
+    pub platform_dimension: usize,
+    /// By how much the lengths of the design miss the constant, relative; null without lengths.
+    pub lengths_defect: Option<Number>,
+}
+
+impl DependencyRecord {
+    fn new(d: &Dependency, lengths: Option<&LegLengths>) -> Self {
+        Self {
+            legs: leg_numbers(&d.legs),
+            coefficients: d.coefficients.map(Number),
+            constant: Number(d.constant),
+            base_dimension: d.base_dimension,
+            platform_dimension: d.platform_dimension,
+            lengths_defect: lengths.map(|l| Number(d.defect(&l.squared()))),
+        }
+    }
+}
+
+/// A known kind of singular design.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct CaseRecord {
+    /// Which.
+    pub case: String,
+    /// The short code of the reason.
+    pub reason: String,
+    /// The legs it is about, from 1.
+    pub legs: Vec<usize>,
+    /// One sentence.
+    pub sentence: String,
+}
+
+impl From<&Finding> for CaseRecord {
+    fn from(f: &Finding) -> Self {
+        Self {
+            case: f.case.name().into(),
+            reason: f.case.reason().into(),
+            legs: leg_numbers(&f.legs),
+            sentence: f.case.sentence().into(),
+        }
+    }
+}
+
+/// Joints on the sides of two triangles.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct GriffisDuffyRecord {
+    /// The legs going round the hexagon, from 1.
+    pub order: Vec<usize>,
+    /// Where each joint lies on its side, from 0 to 1.
+    pub t: [Number; 6],
+    /// Lengths of the sides, design units.
+    pub side_lengths: [Number; 6],
+    /// prod (1 - t) - prod t: singular where it is zero.
+    pub det: Number,
+    /// It is zero, exactly.
+    pub exactly_singular: bool,
+    /// How far joints are off their sides, relative.
+    pub deviation: Number,
+    /// Up to which deviation the type is recognised.
+    pub deviation_limit: Number,
+    /// The dependency of the legs where `det` is zero.
+    pub coefficients: [Number; 6],
+    /// sum c_i s_i of the squared lengths of every pose.
+    pub constant: Number,
+    /// By how much the lengths of the design miss the constant, relative; null without lengths.
+    pub lengths_defect: Option<Number>,
+    /// Whether the platform can be assembled with the lengths of the design.
+    pub assembly: Option<AssemblyRecord>,
+}
+
+impl GriffisDuffyRecord {
+    fn new(g: &GriffisDuffy, design: &Design, assembly: Option<&Assembly>) -> Self {
+        Self {
+            order: leg_numbers(&g.order),
+            t: g.t.map(Number),
+            side_lengths: g.sides.map(Number),
+            det: Number(g.determinant()),
+            exactly_singular: g.is_exactly_singular(),
+            deviation: Number(g.deviation),
+            deviation_limit: Number(GriffisDuffy::limit(design.manipulator())),
+            coefficients: g.coefficients().map(Number),
+            constant: Number(g.constant()),
+            lengths_defect: design.lengths.map(|l| Number(g.assembly_defect(&l.squared()))),
+            assembly: assembly.map(AssemblyRecord::from),
+        }
+    }
+}
+
+/// Whether a singular platform can be assembled.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "verdict", rename_all = "snake_case")]
+pub enum AssemblyRecord {
+    /// The lengths miss the condition.
+    Incompatible {
+        /// By how much, relative.
+        defect: Number,
+    },
+    /// The triangles of the legs do not close.
+    NoRealPose {},
+    /// No real pose was found.
+    Undecided {
+        /// Squared lengths of the octahedral platforms.
+        octahedral_squared_lengths: CornerLengthsRecord,
+    },
+    /// There is a real pose, and the platform moves.
+    Real {
+        /// The pose.
+        pose: PoseRecord,
+        /// Its residual.
+        residual: Number,
+        /// Squared lengths of the octahedral platforms.
+        octahedral_squared_lengths: CornerLengthsRecord,
+    },
+}
+
+impl From<&Assembly> for AssemblyRecord {
+    fn from(a: &Assembly) -> Self {
+        match a {
+            Assembly::Incompatible { defect } => Self::Incompatible { defect: Number(*defect) },
+            Assembly::NoTriangles => Self::NoRealPose {},
+            Assembly::NotFound { corners } => Self::Undecided { octahedral_squared_lengths: corners.into() },
+            Assembly::Real { pose, residual, corners } => Self::Real {
+                pose: pose.into(),
+                residual: Number(*residual),
+                octahedral_squared_lengths: corners.into(),
+            },
+        }
+    }
+}
+
+/// Squared lengths origin + x direction with x in the interval.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CornerLengthsRecord {
+    /// For x = 0.
+    pub origin: [Number; 6],
+    /// What x multiplies.
+    pub direction: [Number; 6],
+    /// Where x may be.
+    pub interval: [Number; 2],
+}
+
+impl From<&CornerLengths> for CornerLengthsRecord {
+    fn from(c: &CornerLengths) -> Self {
+        Self {
+            origin: c.origin.map(Number),
+            direction: c.direction.map(Number),
+            interval: c.interval.map(Number),
+        }
+    }
+}
+
+/// The nearest singular design that was found.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct NearestSingularRecord {
+    /// Norm of the change of all joints, design units.
+    pub distance: Number,
+    /// The distance found is an upper bound of the least one.
+    #[schemars(extend("const" = "upper"))]
+    pub bound: String,
+    /// No singular design is nearer.
+    pub distance_at_least: Number,
+    /// What becomes singular.
+    pub kind: String,
+    /// The legs in it, from 1.
+    pub legs: Vec<usize>,
+    /// The dependency of their leg vectors.
+    pub coefficients: Option<[Number; 6]>,
+    /// What is left of the dependency.
+    pub residual: Number,
+    /// Rounding of the file may be the only difference.
+    pub within_rounding: bool,
+    /// Its base joints by name, base frame.
+    pub base: NamedPoints,
+    /// Its platform joints by name, platform frame.
+    pub platform: NamedPoints,
+}
+
+impl NearestSingularRecord {
+    fn new(n: &NearestSingular, at_least: f64, design: &Design) -> Self {
+        Self {
+            distance: Number(n.distance),
+            bound: "upper".into(),
+            distance_at_least: Number(at_least),
+            kind: n.kind.to_string(),
+            legs: leg_numbers(&n.legs),
+            coefficients: n.coefficients.map(|c| c.map(Number)),
+            residual: Number(n.residual),
+            within_rounding: n.within_rounding,
+            base: NamedPoints::new(design.base_names(), &n.base),
+            platform: NamedPoints::new(design.platform_names(), &n.platform),
+        }
+    }
+}
+
+/// The inverse condition number of the Jacobian at random poses.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ConditioningRecord {
+    /// How many poses.
+    pub poses: usize,
+    /// The best.
+    pub best: Number,
+    /// The median.
+    pub median: Number,
+    /// The worst.
+    pub worst: Number,
+}
+
+fn triple(v: &nalgebra::Vector3<f64>) -> String {
+    format!("({}, {}, {})", v.x, v.y, v.z)
+}
+
+fn list(legs: &[usize]) -> String {
+    let numbers: Vec<String> = legs.iter().map(|i| (i + 1).to_string()).collect();
+    format!("legs {}", numbers.join(", "))
+}

@@ -1,0 +1,693 @@
+//! Answers of forward kinematics: all poses with given leg lengths, each with its proof.
+
+use num_complex::Complex64;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{ComplexRecord, FailureRecord, NearRecord, Number};
+use crate::design::Design;
+use crate::distance::SingularFactor;
+use crate::fk::{
+    Closure, Completeness, FkRoot, FkSolutions, Method, NoClosure, PathEnd, PathReport, Reality, Rejected,
+    RejectionReason, SolutionSet,
+};
+use crate::geom::ComplexPose;
+use crate::num::disc::Disc;
+use crate::poly::{Dyadic, RealRoot};
+use crate::solve::certify::octahedral::OctahedralCertificate;
+use crate::solve::certify::{CentrePrecision, Certificate, PoseEnclosure, ProvedReality, RootCertificate};
+use crate::solve::pose_count::{PoseSet, Undecided};
+use crate::topology::{Joint, Step};
+
+/// The answer of `fk`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum FkAnswer {
+    /// The lengths come from a CSV file: one record a row.
+    Rows(FkRowsAnswer),
+    /// One set of lengths.
+    One(Box<FkOneAnswer>),
+}
+
+/// The poses with the lengths of each row of a file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct FkRowsAnswer {
+    /// In the order of the file.
+    pub rows: Vec<FkRowRecord>,
+}
+
+/// One row of a file of lengths.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct FkRowRecord {
+    /// The line of the CSV file, from 1.
+    pub line: usize,
+    /// The six lengths, design units.
+    pub lengths: [f64; 6],
+    /// The poses, or why there are none.
+    #[serde(flatten)]
+    pub outcome: FkRowOutcome,
+}
+
+/// What came of a row.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum FkRowOutcome {
+    /// It was solved.
+    Solved(Box<FkOneAnswer>),
+    /// It could not be solved.
+    Failed(RowFailure),
+}
+
+/// Why a row has no poses.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct RowFailure {
+    /// The failure, as the command would have reported it for this row alone.
+    pub error: FailureRecord,
+}
+
+/// The poses with one set of lengths, and what was asked for besides.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct FkOneAnswer {
+    /// The poses.
+    #[serde(flatten)]
+    pub solved: SolvedRecord,
+    /// How the pose was followed, with `--near`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub near: Option<NearRecord>,
+    /// The exact closure polynomial, with `--method trilateration`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub closure: Option<ClosureRecord>,
+}
+
+impl From<SolvedRecord> for FkOneAnswer {
+    fn from(solved: SolvedRecord) -> Self {
+        Self { solved, near: None, closure: None }
+    }
+}
+
+/// All finite complex poses with given leg lengths, and whether these are all.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SolvedRecord {
+    /// The method that found them.
+    pub method: Method,
+    /// Whether these are known to be all.
+    pub completeness: CompletenessWord,
+    /// One sentence on what is known.
+    pub completeness_reason: String,
+    /// False: roots may be missing.
+    pub all_paths_accounted: bool,
+    /// The number of `solutions`.
+    pub finite_count: usize,
+    /// The same, each pose counted as often as it stands for.
+    pub finite_count_with_multiplicity: u32,
+    /// Real poses among them.
+    pub real_count: usize,
+    /// Poses of which it is not decided whether they are real.
+    pub undecided_count: usize,
+    /// Finite poses, multiplicity included, that are not among the certified ones; null: not counted.
+    pub missing_count: Option<usize>,
+    /// The number of poses, by theorem or counted without finding them; null: not known.
+    pub pose_count: Option<PoseCountRecord>,
+    /// Real ones first.
+    pub solutions: Vec<SolutionRecord>,
+    /// Whether the poses are isolated.
+    #[serde(flatten)]
+    pub solution_set: SolutionSetRecord,
+    /// The paths of the homotopy.
+    pub paths: Vec<PathRecord>,
+    /// Candidates that are no roots.
+    pub rejected: Vec<RejectedRecord>,
+    /// Ends of paths without a certificate, near which there may be one pose, several or none: they are not among the solutions.
+    pub unproved: Vec<SolutionRecord>,
+    /// The seed of the generic constants.
+    pub seed: u64,
+    /// What null stands for, where a number is not finite.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
+}
+
+/// Whether all poses are known to be listed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum CompletenessWord {
+    /// By a theorem.
+    Proved,
+    /// Counted modulo random primes, with a bound on the probability of error.
+    Modular,
+    /// Not known.
+    Unproved,
+}
+
+impl From<&Completeness> for CompletenessWord {
+    fn from(c: &Completeness) -> Self {
+        match c {
+            Completeness::Proved { .. } => Self::Proved,
+            Completeness::Modular => Self::Modular,
+            Completeness::Unproved { .. } => Self::Unproved,
+        }
+    }
+}
+
+impl From<&FkSolutions> for SolvedRecord {
+    fn from(s: &FkSolutions) -> Self {
+        let mut record = Self {
+            method: s.method,
+            completeness: (&s.completeness).into(),
+            completeness_reason: s.completeness_reason(),
+            all_paths_accounted: s.all_accounted(),
+            finite_count: s.roots.len(),
+            finite_count_with_multiplicity: s.count_with_multiplicity(),
+            real_count: s.assembly_modes().count(),
+            undecided_count: s.roots.iter().filter(|r| r.reality == Reality::Undecided).count(),
+            missing_count: s.missing(),
+            pose_count: PoseCountRecord::of(s),
+            solutions: s.roots.iter().map(SolutionRecord::from).collect(),
+            solution_set: s.into(),
+            paths: s.paths.iter().map(PathRecord::from).collect(),
+            rejected: s.rejected.iter().map(RejectedRecord::from).collect(),
+            unproved: s.unproved.iter().map(SolutionRecord::from).collect(),
+            seed: s.seed,
+            notes: Vec::new(),
+        };
+        if !record.is_finite() {
+            record.notes.push("null stands for a number that is infinite or not a number".into());
+        }
+        record
+    }
+}
+
+impl SolvedRecord {
+    fn is_finite(&self) -> bool {
+        self.solutions.iter().chain(&self.unproved).all(SolutionRecord::is_finite)
+            && self.paths.iter().all(|p| p.isotropy.0.is_finite())
+            && self.rejected.iter().all(|r| r.residual.0.is_finite())
+    }
+}
+
+/// What the finite poses form.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "solution_set", rename_all = "snake_case")]
+pub enum SolutionSetRecord {
+    /// Nothing speaks against isolated poses.
+    Isolated {},
+    /// There is no finite pose, real or complex: proved.
+    Empty {},
+    /// Poses form curves or surfaces: self-motions.
+    PositiveDimensional {
+        /// Counted modulo random primes; null: not counted.
+        dimension: Option<usize>,
+        /// What was seen numerically.
+        dimension_at_least: usize,
+        /// Whether a relation between the legs proves it.
+        dimension_established: bool,
+        /// Null: not established.
+        degree: Option<usize>,
+        /// Points of a general section, and real points found by a search.
+        witness_points: Vec<SolutionRecord>,
+    },
+}
+
+impl SolutionSetRecord {
+    /// Points of a set of positive dimension.
+    #[must_use]
+    pub fn witness_points(&self) -> &[SolutionRecord] {
+        match self {
+            Self::PositiveDimensional { witness_points, .. } => witness_points,
+            _ => &[],
+        }
+    }
+}
+
+impl From<&FkSolutions> for SolutionSetRecord {
+    fn from(s: &FkSolutions) -> Self {
+        match &s.solution_set {
+            SolutionSet::Isolated => Self::Isolated {},
+            SolutionSet::Empty => Self::Empty {},
+            SolutionSet::PositiveDimensional { dimension, witnesses, established } => {
+                Self::PositiveDimensional {
+                    dimension: match s.pose_count.as_ref().map(|c| &c.set) {
+                        Some(PoseSet::PositiveDimensional { dimension, .. }) => Some(*dimension),
+                        _ => None,
+                    },
+                    dimension_at_least: *dimension,
+                    dimension_established: *established,
+                    degree: established.then_some(witnesses.len()),
+                    witness_points: witnesses.iter().map(SolutionRecord::from).collect(),
+                }
+            }
+        }
+    }
+}
+
+/// The finite poses of the design and lengths as written, counted without finding them.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PoseCountRecord {
+    /// Their number with multiplicity; null: not finite, or undecided.
+    pub finite: Option<usize>,
+    /// Standard monomials of each degree.
+    pub by_degree: Option<Vec<usize>>,
+    /// Dimension of a set of positive dimension.
+    pub dimension: Option<usize>,
+    /// Degree of a set of positive dimension, in the 16 coordinates of a pose, with multiplicity.
+    pub degree: Option<usize>,
+    /// Why there is no count.
+    pub undecided: Option<Undecided>,
+    /// By a theorem and certificates, or modulo random primes.
+    pub evidence: EvidenceWord,
+    /// A bound; null: proved, or undecided.
+    pub error_probability: Option<f64>,
+    /// In decimal, as text: they have more digits than a double.
+    pub primes: Vec<String>,
+}
+
+/// What a count rests on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum EvidenceWord {
+    /// A theorem and certificates.
+    Proved,
+    /// Linear algebra modulo random primes.
+    Modular,
+}
+
+impl PoseCountRecord {
+    fn of(s: &FkSolutions) -> Option<Self> {
+        let mut record = Self {
+            finite: None,
+            by_degree: None,
+            dimension: None,
+            degree: None,
+            undecided: None,
+            evidence: EvidenceWord::Modular,
+            error_probability: None,
+            primes: Vec::new(),
+        };
+        let Some(c) = &s.pose_count else {
+            record.finite = Some(s.certified_count());
+            record.evidence = EvidenceWord::Proved;
+            return matches!(s.completeness, Completeness::Proved { .. }).then_some(record);
+        };
+        match &c.set {
+            PoseSet::Finite { count, by_degree } => {
+                record.finite = Some(*count);
+                record.by_degree = Some(by_degree.clone());
+            }
+            PoseSet::PositiveDimensional { dimension, degree } => {
+                record.dimension = Some(*dimension);
+                record.degree = Some(*degree);
+            }
+            PoseSet::Undecided { why } => record.undecided = Some(*why),
+        }
+        record.error_probability = record.undecided.is_none().then_some(c.error_probability);
+        record.primes = c.primes.iter().map(u64::to_string).collect();
+        Some(record)
+    }
+}
+
+/// A pose over the complex numbers.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ComplexPoseRecord {
+    /// Rotation matrix, rows.
+    #[serde(rename = "R")]
+    pub rotation: ComplexRecord<[[Number; 3]; 3]>,
+    /// Position, base frame, design units.
+    #[serde(rename = "p")]
+    pub position: ComplexRecord<[Number; 3]>,
+}
+
+impl From<&ComplexPose> for ComplexPoseRecord {
+    fn from(pose: &ComplexPose) -> Self {
+        let row = |i: usize| [0, 1, 2].map(|j| pose.rotation[(i, j)]);
+        let position: [Complex64; 3] = pose.position.into();
+        Self { rotation: [0, 1, 2].map(row).into(), position: position.into() }
+    }
+}
+
+impl From<&ComplexPoseRecord> for ComplexPose {
+    fn from(record: &ComplexPoseRecord) -> Self {
+        let (r, p) = (&record.rotation, &record.position);
+        Self {
+            rotation: nalgebra::Matrix3::from_fn(|i, j| Complex64::new(r.re[i][j].0, r.im[i][j].0)),
+            position: nalgebra::Vector3::from_fn(|i, _| Complex64::new(p.re[i].0, p.im[i].0)),
+        }
+    }
+}
+
+/// One pose with its evidence.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SolutionRecord {
+    /// The pose.
+    #[serde(flatten)]
+    pub pose: ComplexPoseRecord,
+    /// Null: undecided.
+    pub real: Option<bool>,
+    /// Whether there is a certificate.
+    pub certified: bool,
+    /// The proof; null where there is none.
+    pub certificate: Option<CertificateRecord>,
+    /// Paths, or roots of a polynomial, that end here.
+    pub multiplicity: u32,
+    /// Largest error of the leg equations over the squared size.
+    pub residual: Number,
+    /// Estimate of the condition number.
+    pub condition: Number,
+    /// (e, g), scalar part of e first, g = p e in design units, `max |e_k| = 1`.
+    pub dual_quaternion: Option<ComplexRecord<[Number; 8]>>,
+}
+
+impl From<&FkRoot> for SolutionRecord {
+    fn from(r: &FkRoot) -> Self {
+        Self {
+            pose: (&r.pose).into(),
+            real: match r.reality {
+                Reality::Real => Some(true),
+                Reality::NonReal => Some(false),
+                Reality::Undecided => None,
+            },
+            certified: r.certified(),
+            certificate: r.certificate.as_ref().map(CertificateRecord::from),
+            multiplicity: r.multiplicity,
+            residual: Number(r.residual),
+            condition: Number(r.condition),
+            dual_quaternion: r.dual_quaternion.map(ComplexRecord::from),
+        }
+    }
+}
+
+impl SolutionRecord {
+    fn is_finite(&self) -> bool {
+        let (r, p) = (&self.pose.rotation, &self.pose.position);
+        let pose = r.re.iter().chain(&r.im).flatten().chain(&p.re).chain(&p.im);
+        pose.chain([&self.residual, &self.condition]).all(|x| x.0.is_finite())
+    }
+}
+
+/// The proof that a root exists and is alone, with all its numbers.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum CertificateRecord {
+    /// In coordinates `(e, g / unit)` with `e_patch = 1`; distances are largest moduli of coordinate differences.
+    Study {
+        /// Index of the coordinate that is 1.
+        patch: usize,
+        /// A power of two, design units.
+        unit: Number,
+        /// The centre.
+        centre: ComplexRecord<[Number; 8]>,
+        /// To be added to the centre.
+        centre_low: ComplexRecord<[Number; 8]>,
+        /// One root lies within this distance of the centre.
+        radius: Number,
+        /// No other root lies within this distance.
+        uniqueness_radius: Number,
+        /// Contraction of the simplified Newton map on the ball of the radius, below 1.
+        contraction: Number,
+        /// Precision of the centre.
+        precision: CentrePrecision,
+        /// Proved for all squared lengths that the data can mean.
+        reality: ProvedReality,
+        /// What holds the pose of the root.
+        enclosure: Box<EnclosureRecord>,
+    },
+    /// In the squared distances (s15, s34); distances are max(|x| / weights[0], |y| / weights[1]).
+    Octahedral {
+        /// Legs 14 24 25 35 36 16, from 0.
+        order: [usize; 6],
+        /// Design units squared.
+        weights: [Number; 2],
+        /// s15, s34, design units squared.
+        centre: ComplexRecord<[Number; 2]>,
+        /// One pair lies within this distance of the centre.
+        radius: Number,
+        /// No other pair lies within this distance.
+        uniqueness_radius: Number,
+        /// Contraction of the simplified Newton map on the ball of the radius, below 1.
+        contraction: Number,
+        /// Near the distance of P4 from the base plane along (P2 - P1) x (P3 - P1), design units: which pose of the pair it is.
+        height: ComplexRecord<[Number; 1]>,
+        /// Precision of the centre.
+        precision: CentrePrecision,
+        /// Proved for all squared lengths that the data can mean.
+        reality: ProvedReality,
+        /// What holds the pose of the root.
+        enclosure: Box<EnclosureRecord>,
+    },
+}
+
+impl From<&RootCertificate> for CertificateRecord {
+    fn from(c: &RootCertificate) -> Self {
+        match c {
+            RootCertificate::Study(c) => c.into(),
+            RootCertificate::Octahedral(c) => c.into(),
+        }
+    }
+}
+
+impl From<&Certificate> for CertificateRecord {
+    fn from(c: &Certificate) -> Self {
+        Self::Study {
+            patch: c.patch(),
+            unit: Number(c.unit()),
+            centre: (*c.centre()).into(),
+            centre_low: (*c.low()).into(),
+            radius: Number(c.radius()),
+            uniqueness_radius: Number(c.uniqueness_radius()),
+            contraction: Number(c.contraction()),
+            precision: c.precision(),
+            reality: c.reality(),
+            enclosure: Box::new(c.enclosure().into()),
+        }
+    }
+}
+
+impl From<&OctahedralCertificate> for CertificateRecord {
+    fn from(c: &OctahedralCertificate) -> Self {
+        let pair = c.pair();
+        Self::Octahedral {
+            order: c.order(),
+            weights: pair.weights.map(Number),
+            centre: pair.squared_distances.map(|d| d.centre).into(),
+            radius: Number(pair.radius),
+            uniqueness_radius: Number(pair.uniqueness_radius),
+            contraction: Number(pair.contraction),
+            height: [c.height()].into(),
+            precision: CentrePrecision::Double,
+            reality: pair.reality,
+            enclosure: Box::new(c.enclosure().into()),
+        }
+    }
+}
+
+/// Discs that hold the entries of R and p of a root.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct EnclosureRecord {
+    /// The entries of the rotation matrix, rows.
+    #[serde(rename = "R")]
+    pub rotation: DiscsRecord<[[Number; 3]; 3]>,
+    /// The entries of the position, design units.
+    #[serde(rename = "p")]
+    pub position: DiscsRecord<[Number; 3]>,
+}
+
+/// Discs in the complex plane, in some arrangement.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct DiscsRecord<T> {
+    /// Real parts of the centres.
+    pub re: T,
+    /// Imaginary parts of the centres.
+    pub im: T,
+    /// Radii.
+    pub radius: T,
+}
+
+impl From<&PoseEnclosure> for EnclosureRecord {
+    fn from(e: &PoseEnclosure) -> Self {
+        let rows =
+            |of: fn(&Disc) -> f64| e.rotation.each_ref().map(|row| row.each_ref().map(|d| Number(of(d))));
+        let three = |of: fn(&Disc) -> f64| e.position.each_ref().map(|d| Number(of(d)));
+        Self {
+            rotation: DiscsRecord {
+                re: rows(|d| d.centre.re),
+                im: rows(|d| d.centre.im),
+                radius: rows(|d| d.radius),
+            },
+            position: DiscsRecord {
+                re: three(|d| d.centre.re),
+                im: three(|d| d.centre.im),
+                radius: three(|d| d.radius),
+            },
+        }
+    }
+}
+
+/// What a path of the homotopy did.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PathRecord {
+    /// Index of the start point.
+    pub start: usize,
+    /// Where it ended.
+    pub end: PathEnd,
+    /// Index into `solutions`, from 0.
+    pub root: Option<usize>,
+    /// Index of the mirror image, where one path stands for two.
+    pub mirror_root: Option<usize>,
+    /// Accepted steps.
+    pub steps: u32,
+    /// Rejected steps.
+    pub rejections: u32,
+    /// Winding number, 1 for a regular end, 0 where it is not determined.
+    pub winding: u32,
+    /// |e.e| / |e|^2 at the end.
+    pub isotropy: Number,
+    /// How often it had to be tracked again with smaller steps.
+    pub retracked: u32,
+}
+
+impl From<&PathReport> for PathRecord {
+    fn from(p: &PathReport) -> Self {
+        Self {
+            start: p.start,
+            end: p.end,
+            root: p.root,
+            mirror_root: p.mirror_root,
+            steps: p.steps,
+            rejections: p.rejections,
+            winding: p.winding,
+            isotropy: Number(p.isotropy),
+            retracked: p.retracked,
+        }
+    }
+}
+
+/// A candidate that is no root.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct RejectedRecord {
+    /// Why.
+    pub reason: RejectionReason,
+    /// Its error in the leg equations, over the squared size.
+    pub residual: Number,
+}
+
+impl From<&Rejected> for RejectedRecord {
+    fn from(r: &Rejected) -> Self {
+        Self { reason: r.reason, residual: Number(r.residual) }
+    }
+}
+
+/// The exact closure polynomial beside the poses.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum ClosureRecord {
+    /// There is one.
+    Polynomial(Box<ClosurePolynomialRecord>),
+    /// There is none.
+    None {
+        /// Why not.
+        error: String,
+    },
+}
+
+/// The closure polynomial in one squared distance, with what it says about the number of real poses.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ClosurePolynomialRecord {
+    /// The joints of the virtual leg; null where none is needed.
+    pub virtual_leg: Option<[String; 2]>,
+    /// The joints whose squared distance is the unknown.
+    pub unknown: [String; 2],
+    /// The joints of the first triangle.
+    pub start: [String; 3],
+    /// The trilaterations after it.
+    pub sequence: Vec<TrilaterationStepRecord>,
+    /// The degree before singular factors are removed.
+    pub degree_before: usize,
+    /// The degree; null for the zero polynomial.
+    pub degree: Option<usize>,
+    /// Different complex roots.
+    pub distinct_roots: usize,
+    /// Singular factors.
+    pub factors: Vec<SingularFactorRecord>,
+    /// The coefficients of the primitive integer polynomial as decimal text, the constant one first.
+    #[schemars(inner(regex(pattern = r"^-?[0-9]+$")))]
+    pub coefficients: Vec<String>,
+    /// Real roots as [low, high], rounded outwards.
+    pub real_roots: Vec<[Number; 2]>,
+    /// How often each of them is a root.
+    pub real_root_multiplicities: Vec<usize>,
+    /// Real poses at each of them; null where that does not follow.
+    pub real_poses_at_roots: Option<Vec<usize>>,
+    /// Real poses in all, proved; null where that does not follow.
+    pub poses_real_proved: Option<usize>,
+}
+
+/// One trilateration: a joint placed by its distances from three others.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct TrilaterationStepRecord {
+    /// Three joints in place.
+    pub from: [String; 3],
+    /// The joint placed.
+    pub place: String,
+    /// All four are on one body: one place instead of two.
+    pub rigid: bool,
+}
+
+/// A factor of the closure condition that belongs to degenerate trilaterations.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct SingularFactorRecord {
+    /// Unoriented steps, from 0.
+    pub step: usize,
+    /// Its degree.
+    pub degree: usize,
+    /// How often it was removed.
+    pub removed: usize,
+}
+
+impl From<&SingularFactor> for SingularFactorRecord {
+    fn from(f: &SingularFactor) -> Self {
+        Self { step: f.step, degree: f.degree, removed: f.removed }
+    }
+}
+
+impl ClosureRecord {
+    /// The record of a closure polynomial, with the names of the design's joints.
+    #[must_use]
+    pub fn new(design: &Design, closure: &Result<Closure, NoClosure>) -> Self {
+        let c = match closure {
+            Ok(c) => c,
+            Err(why) => return Self::None { error: why.to_string() },
+        };
+        let p = &c.polynomial;
+        let name = |j: Joint| match j {
+            Joint::Base(k) => design.base_names()[k].clone(),
+            Joint::Platform(k) => design.platform_names()[k].clone(),
+        };
+        let ends = |(a, b): &(usize, usize)| [name(Joint::Base(*a)), name(Joint::Platform(*b))];
+        let step = |s: &Step| TrilaterationStepRecord {
+            from: s.from.map(name),
+            place: name(s.place),
+            rigid: s.rigid,
+        };
+        Self::Polynomial(Box::new(ClosurePolynomialRecord {
+            virtual_leg: p.sequence.virtual_legs.first().map(ends),
+            unknown: p.unknown.map(name),
+            start: p.sequence.start.map(name),
+            sequence: p.sequence.steps.iter().map(step).collect(),
+            degree_before: c.degrees.before,
+            degree: p.polynomial.degree(),
+            distinct_roots: p.distinct,
+            factors: c.degrees.factors.iter().map(SingularFactorRecord::from).collect(),
+            coefficients: p.polynomial.coefficients().iter().map(ToString::to_string).collect(),
+            real_roots: p.real_roots.iter().map(enclosing).collect(),
+            real_root_multiplicities: p.real_roots.iter().map(RealRoot::multiplicity).collect(),
+            real_poses_at_roots: c.real_poses.clone(),
+            poses_real_proved: c.real_count(),
+        }))
+    }
+}
+
+/// An interval of doubles that holds the root, a point where the root is one.
+fn enclosing(root: &RealRoot) -> [Number; 2] {
+    let mut root = root.clone();
+    root.refine_relative(60);
+    let [low, high] = [root.low(), root.high()].map(Dyadic::to_f64);
+    if root.is_exact() { [low, high].map(Number) } else { [low.next_down(), high.next_up()].map(Number) }
+}

@@ -1,0 +1,119 @@
+//! Poses and legs.
+
+use std::borrow::Cow;
+use std::fmt;
+
+use nalgebra::Point3;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::{MapAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use super::Number;
+use crate::geom::Pose;
+use crate::manipulator::LegIndex;
+
+/// A pose: a platform point x is at R x + p in the base frame.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PoseRecord {
+    /// Rows of the rotation matrix.
+    #[serde(rename = "R")]
+    pub rotation: [[Number; 3]; 3],
+    /// Position of the platform origin, base frame, design units.
+    #[serde(rename = "p")]
+    pub position: [Number; 3],
+}
+
+impl From<&Pose> for PoseRecord {
+    fn from(pose: &Pose) -> Self {
+        let m = pose.rotation.matrix();
+        let p = &pose.position;
+        Self {
+            rotation: [0, 1, 2].map(|i| [0, 1, 2].map(|j| Number(m[(i, j)]))),
+            position: [p.x, p.y, p.z].map(Number),
+        }
+    }
+}
+
+/// A pose by its quaternion: a platform point x is at R(q) x + p in the base frame.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PoseQuaternionRecord {
+    /// Position of the platform origin, base frame, design units.
+    #[serde(rename = "p")]
+    pub position: [Number; 3],
+    /// Unit quaternion, scalar part first.
+    #[serde(rename = "q")]
+    pub quaternion: [Number; 4],
+}
+
+impl From<&Pose> for PoseQuaternionRecord {
+    fn from(pose: &Pose) -> Self {
+        let p = &pose.position;
+        Self { position: [p.x, p.y, p.z].map(Number), quaternion: pose.quaternion().map(Number) }
+    }
+}
+
+/// Points by name, in an order of their own: the joints of a body.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct NamedPoints(pub Vec<(String, [Number; 3])>);
+
+impl NamedPoints {
+    /// Names with their points.
+    #[must_use]
+    pub fn new(names: &[String], points: &[Point3<f64>]) -> Self {
+        Self(names.iter().cloned().zip(points.iter().map(|p| [p.x, p.y, p.z].map(Number))).collect())
+    }
+}
+
+impl Serialize for NamedPoints {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.collect_map(self.0.iter().map(|(name, point)| (name, point)))
+    }
+}
+
+impl<'de> Deserialize<'de> for NamedPoints {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        struct Entries;
+        impl<'de> Visitor<'de> for Entries {
+            type Value = NamedPoints;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("points by name")
+            }
+
+            fn visit_map<M: MapAccess<'de>>(self, mut map: M) -> Result<NamedPoints, M::Error> {
+                let mut points = Vec::new();
+                while let Some(entry) = map.next_entry()? {
+                    points.push(entry);
+                }
+                Ok(NamedPoints(points))
+            }
+        }
+        from.deserialize_map(Entries)
+    }
+}
+
+impl JsonSchema for NamedPoints {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "NamedPoints".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let point = generator.subschema_for::<[Number; 3]>();
+        json_schema!({"type": "object", "additionalProperties": point})
+    }
+}
+
+/// Numbers of legs as people count, from 1, for indices from 0.
+pub(super) fn leg_numbers(legs: &[usize]) -> Vec<usize> {
+    legs.iter().map(|leg| leg + 1).collect()
+}
+
+/// The number of a leg as people count, from 1.
+#[must_use]
+pub fn leg_number(leg: LegIndex) -> usize {
+    leg.get() + 1
+}

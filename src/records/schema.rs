@@ -1,0 +1,46 @@
+//! Schemas of the answers, made from their types.
+
+use schemars::generate::SchemaSettings;
+use schemars::{JsonSchema, SchemaGenerator};
+use serde_json::{Map, Value};
+
+use super::{CheckAnswer, Document, ErrorAnswer, FkAnswer, HelpAnswer, MapAnswer, VerifyAnswer};
+
+/// Names of answers with the function that writes their schema: commands by their own name, `error` for refusals, `help` for --help.
+type Table = &'static [(&'static str, fn(&mut SchemaGenerator) -> schemars::Schema)];
+
+const ANSWERS: Table = &[
+    ("check", Document::<CheckAnswer>::json_schema),
+    ("error", Document::<ErrorAnswer>::json_schema),
+    ("fk", Document::<FkAnswer>::json_schema),
+    ("help", Document::<HelpAnswer>::json_schema),
+    ("map", Document::<MapAnswer>::json_schema),
+    ("verify", Document::<VerifyAnswer>::json_schema),
+];
+
+/// What has a schema, in the order of the alphabet.
+pub fn schema_names() -> impl Iterator<Item = &'static str> {
+    ANSWERS.iter().map(|(name, _)| *name)
+}
+
+/// The JSON Schema (draft 2020-12) of the documents that a command writes with `--json`; `None` for a name that is not one of [`schema_names`].
+///
+/// Objects are open: later versions may add keys to them.
+#[must_use]
+pub fn schema(of: &str) -> Option<Map<String, Value>> {
+    let (name, write) = ANSWERS.iter().find(|(name, _)| *name == of)?;
+    let mut generator = SchemaSettings::draft2020_12().for_serialize().into_generator();
+    let document = write(&mut generator).to_value();
+    let mut definitions = Map::new();
+    definitions.insert((*name).into(), document);
+    definitions.extend(generator.take_definitions(true));
+    let open = "Later versions with the same schema_version may add keys to every object, and words to lists of words: pass over what is not known. \
+                docs/cli.md says what the fields mean.";
+    let mut root = Map::new();
+    root.insert("$schema".into(), "https://json-schema.org/draft/2020-12/schema".into());
+    root.insert("title".into(), format!("Answer of equipod {name} --json").into());
+    root.insert("description".into(), open.into());
+    root.insert("$ref".into(), format!("#/$defs/{name}").into());
+    root.insert("$defs".into(), Value::Object(definitions));
+    Some(root)
+}
