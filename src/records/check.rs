@@ -195,14 +195,14 @@ impl From<&RationalPose> for WitnessRecord {
     }
 }
 
-/// A dependency of leg vectors: sum c_i v_i = 0.
+/// A dependency of leg vectors: `sum c_i v_i = 0`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct DependencyRecord {
     /// The legs in it, from 1.
     pub legs: Vec<usize>,
-    /// The numbers c_i.
+    /// The numbers `c_i`.
     pub coefficients: [Number; 6],
-    /// sum c_i s_i of the squared lengths of every pose.
+    /// `sum c_i s_i` of the squared lengths of every pose.
     pub constant: Number,
     /// Dimension of the span of the base ends.
     pub base_dimension: usize,
@@ -244,7 +244,7 @@ impl From<&Finding> for CaseRecord {
             case: f.case.name().into(),
             reason: f.case.reason().into(),
             legs: leg_numbers(&f.legs),
-            sentence: f.case.sentence().into(),
+            sentence: f.case.sentence(),
         }
     }
 }
@@ -268,7 +268,7 @@ pub struct GriffisDuffyRecord {
     pub deviation_limit: Number,
     /// The dependency of the legs where `det` is zero.
     pub coefficients: [Number; 6],
-    /// sum c_i s_i of the squared lengths of every pose.
+    /// `sum c_i s_i` of the squared lengths of every pose.
     pub constant: Number,
     /// By how much the lengths of the design miss the constant, relative; null without lengths.
     pub lengths_defect: Option<Number>,

@@ -620,7 +620,7 @@ pub struct ClosurePolynomialRecord {
 }
 
 /// One trilateration: a joint placed by its distances from three others.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct TrilaterationStepRecord {
     /// Three joints in place.
     pub from: [String; 3],

@@ -10,12 +10,17 @@
 mod check;
 mod explore;
 mod failure;
+mod family;
 mod fk;
+mod locus;
 mod map;
 mod near;
 mod number;
 mod pose;
+mod rearrangement;
 mod schema;
+mod selfmotion;
+mod topologies;
 mod verify;
 
 use schemars::JsonSchema;
@@ -27,12 +32,17 @@ pub use self::check::{
 };
 pub use self::explore::{FkRunRecord, RunRecord};
 pub use self::failure::{ErrorAnswer, FailureRecord, HelpAnswer, ViolationRecord, WarningRecord};
+pub use self::family::{
+    CountsRecord, FamilyAnswer, FamilyTopologyRecord, InstanceRecord, PatternLegRecord, PatternPlace, PatternRecord,
+    SharedJointRecord,
+};
 pub use self::fk::{
     CertificateRecord, ClosurePolynomialRecord, ClosureRecord, CompletenessWord, ComplexPoseRecord,
     DiscsRecord, EnclosureRecord, EvidenceWord, FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord,
     FkRowsAnswer, PathRecord, PoseCountRecord, RejectedRecord, RowFailure, SingularFactorRecord,
     SolutionRecord, SolutionSetRecord, SolvedRecord, TrilaterationStepRecord,
 };
+pub use self::locus::{LocusAnswer, LocusMeetingRecord, LocusRowRecord, LocusValueRecord, LocusWord};
 pub use self::map::{
     AlignmentOutcome, AlignmentRecord, AlignmentWord, CorrespondenceRecord, DifferenceRecord, FramesRecord,
     MapAnswer, MapRecord, MapTolerancesRecord, MotionRecord, NearestMotionRecord, OtherAlignmentRecord,
@@ -40,7 +50,17 @@ pub use self::map::{
 pub use self::near::{NearRecord, NearWord};
 pub use self::number::{ComplexRecord, Number};
 pub use self::pose::{NamedPoints, PoseQuaternionRecord, PoseRecord, leg_number};
+pub use self::rearrangement::{
+    ArgumentWord, ExactDesignRecord, FamilyKind, FamilyRecord, ObstructionRecord, RearrangementRecord,
+};
 pub use self::schema::{schema, schema_names};
+pub use self::selfmotion::{
+    CriticalPointsRecord, CurveCrossingRecord, CurveDegreeRecord, MotionCurveRecord, MotionPointRecord, OriginWord,
+    SelfmotionAnswer,
+};
+pub use self::topologies::{
+    RecognisedRecord, TopologiesAnswer, TopologyFindings, TopologyRecord, VirtualLegsRecord,
+};
 pub use self::verify::{
     BeyondPrecisionRecord, CounterexampleRecord, SampleRecord, SamplingRecord, SolvedSampleRecord,
     VerdictWord, VerifyAnswer,

@@ -4,7 +4,10 @@ use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, SchemaGenerator};
 use serde_json::{Map, Value};
 
-use super::{CheckAnswer, Document, ErrorAnswer, FkAnswer, HelpAnswer, MapAnswer, VerifyAnswer};
+use super::{
+    CheckAnswer, Document, ErrorAnswer, FamilyAnswer, FkAnswer, HelpAnswer, LocusAnswer, MapAnswer, SelfmotionAnswer, TopologiesAnswer,
+    VerifyAnswer,
+};
 
 /// Names of answers with the function that writes their schema: commands by their own name, `error` for refusals, `help` for --help.
 type Table = &'static [(&'static str, fn(&mut SchemaGenerator) -> schemars::Schema)];
@@ -12,9 +15,13 @@ type Table = &'static [(&'static str, fn(&mut SchemaGenerator) -> schemars::Sche
 const ANSWERS: Table = &[
     ("check", Document::<CheckAnswer>::json_schema),
     ("error", Document::<ErrorAnswer>::json_schema),
+    ("family", Document::<FamilyAnswer>::json_schema),
     ("fk", Document::<FkAnswer>::json_schema),
     ("help", Document::<HelpAnswer>::json_schema),
+    ("locus", Document::<LocusAnswer>::json_schema),
     ("map", Document::<MapAnswer>::json_schema),
+    ("selfmotion", Document::<SelfmotionAnswer>::json_schema),
+    ("topologies", Document::<TopologiesAnswer>::json_schema),
     ("verify", Document::<VerifyAnswer>::json_schema),
 ];
 

@@ -3,18 +3,17 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use serde_json::{Map, Value, json};
-
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::files::{self, OutputPath};
-use crate::cli::output::{Answer, number};
+use crate::cli::output::Answer;
 use crate::design::Design;
 use crate::manipulator::Octahedral;
 use crate::page::Original;
+use crate::records::{FamilyAnswer, InstanceRecord};
 use crate::synthesis::{
-    Body, Factor, Family, FamilyCounts, FamilyMember, HexagonPoint, JointLabel, Pattern, edge_lengths,
+    Body, Factor, Family, FamilyCounts, FamilyMember, HexagonPoint, Pattern, edge_lengths,
 };
 
 /// Arguments of `family`.
@@ -63,37 +62,19 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let members: Vec<&FamilyMember> =
         family.members().iter().filter(|m| wanted.as_ref().is_none_or(|p| m.pattern == *p)).collect();
     let c = family.counts();
-    let mut json = record(&design, &o, &family, &members);
+    let mut answer = FamilyAnswer::new(&design, &o, &family, &members);
     let mut text = summary(&design, c);
     match wanted {
         Some(pattern) => {
             let original = Original::octahedral(&design, o);
             describe(&mut text, &pattern, &original);
             if let Some(offsets) = &args.offsets {
-                realise(args, &pattern, &original, offsets, &mut json, &mut text)?;
+                answer.instance = Some(realise(args, &pattern, &original, offsets, &mut text)?);
             }
         }
         None => list_topologies(&mut text, &family),
     }
-    Ok(Answer::new(Exit::Yes, json, text))
-}
-
-/// The fields of the document.
-pub(super) fn record(
-    design: &Design,
-    o: &Octahedral,
-    family: &Family,
-    members: &[&FamilyMember],
-) -> Map<String, Value> {
-    let mut json = Map::new();
-    json.insert("name".into(), json!(design.name));
-    json.insert("cyclic_order".into(), o.order().iter().map(|i| json!(i.get() + 1)).collect());
-    json.insert("edges".into(), edge_lengths(o).into_iter().map(number).collect());
-    json.insert("counts".into(), counts_record(family.counts()));
-    let original = Original::octahedral(design, o.clone());
-    json.insert("patterns".into(), members.iter().map(|m| pattern_record(m, &original)).collect());
-    json.insert("topologies".into(), topology_records(family));
-    json
+    Ok(Answer::new(Exit::Yes, answer, text))
 }
 
 fn parse_pattern(text: &str) -> Result<Pattern, Failure> {
@@ -109,90 +90,17 @@ fn realise(
     pattern: &Pattern,
     original: &Original,
     offsets: &[f64],
-    json: &mut Map<String, Value>,
     text: &mut String,
-) -> Result<(), Failure> {
+) -> Result<InstanceRecord, Failure> {
     let refused = |e: &dyn std::fmt::Display| Failure::refused("family::bad_offsets", e.to_string());
     let (built, map) = original.equivalent(pattern, offsets).map_err(|e| refused(&e))?;
-    let m = built.manipulator();
-    let det = pattern.determinant(offsets).map_err(|e| refused(&e))?;
-    json.insert(
-        "instance".into(),
-        json!({
-            "pattern": pattern.to_string(),
-            "offsets": offsets.iter().copied().map(number).collect::<Value>(),
-            "A": (0..6).map(|i| (0..6).map(|j| number(map.a[(i, j)])).collect()).collect::<Vec<Value>>(),
-            "c": map.c.iter().copied().map(number).collect::<Value>(),
-            "det": number(det),
-            "base_joints": m.base_joints().len(),
-            "platform_joints": m.platform_joints().len(),
-        }),
-    );
-    let _ = writeln!(text, "\nat these offsets det A = {det}");
+    let record = InstanceRecord::new(pattern, offsets, &built, &map).map_err(|e| refused(&e))?;
+    let _ = writeln!(text, "\nat these offsets det A = {}", record.determinant.0);
     if let Some(path) = &args.output {
         files::write_design(path, &built)?;
         let _ = writeln!(text, "wrote {}", path.display());
     }
-    Ok(())
-}
-
-fn counts_record(c: FamilyCounts) -> Value {
-    json!({
-        "patterns": c.patterns, "classes": c.classes, "classes_exchange": c.classes_exchange,
-        "topologies": c.topologies, "topologies_exchange": c.topologies_exchange,
-        "sequential_topologies": c.sequential_topologies,
-        "sequential_topologies_exchange": c.sequential_topologies_exchange,
-        "sequential_patterns": c.sequential_patterns, "splitting_patterns": c.splitting_patterns,
-    })
-}
-
-fn pattern_record(member: &FamilyMember, original: &Original) -> Value {
-    let (p, o) = (&member.pattern, &original.octahedral);
-    let order = o.order();
-    let name = |j: JointLabel| original.joint_name(j);
-    let mut legs = vec![Value::Null; 6];
-    for (slot, point) in order.iter().zip(p.legs()) {
-        let [base, platform] = point.joints().map(name);
-        legs[slot.get()] = match point {
-            HexagonPoint::Vertex(_) => json!({"base": base, "platform": platform, "kind": "vertex"}),
-            HexagonPoint::Inner(t) => json!({
-                "base": base, "platform": platform, "kind": "inner", "side": t.side + 1, "offset": t.to_string(),
-                "between": [order[t.side].get() + 1, order[(t.side + 1) % 6].get() + 1],
-            }),
-        };
-    }
-    let shared = p.shared_joints().into_iter().map(|(body, joint, legs)| {
-        let mut legs: Vec<usize> = legs.iter().map(|i| order[*i].get() + 1).collect();
-        legs.sort_unstable();
-        json!({"body": body.to_string(), "joint": name(joint), "legs": legs})
-    });
-    let aligned = p.alignments();
-    json!({
-        "id": p.to_string(),
-        "class": member.class + 1,
-        "class_exchange": member.class_exchange + 1,
-        "topology": member.topology + 1,
-        "sequential": member.sequential,
-        "legs": legs,
-        "offsets": p.offsets().iter().map(ToString::to_string).collect::<Vec<_>>(),
-        "shared_joints": shared.collect::<Value>(),
-        "alignments": aligned.iter().map(|l| l.iter().map(|j| name(*j)).collect::<Vec<_>>()).collect::<Vec<_>>(),
-        "A": p.matrix_formulas(o),
-        "det": p.determinant_formula(),
-        "det_zero": p.factors().iter().map(|f| f.zero()).collect::<Vec<_>>(),
-    })
-}
-
-fn topology_records(family: &Family) -> Value {
-    let records = family.topologies().iter().enumerate().map(|(k, t)| {
-        json!({
-            "topology": k + 1,
-            "base_joints": t.topology.base_joints(), "platform_joints": t.topology.platform_joints(),
-            "shared_joints": t.topology.shared_joints(), "sequential": t.sequential,
-            "example": t.example.to_string(), "next": t.next.iter().map(|n| n + 1).collect::<Vec<_>>(),
-        })
-    });
-    records.collect()
+    Ok(record)
 }
 
 fn summary(design: &Design, c: FamilyCounts) -> String {

@@ -18,7 +18,7 @@ macro_rules! definitions {
 const SHARED: [(&str, &str); 1] = definitions!["shared"];
 
 /// What has a schema besides design files: the answer of every command, refusals, and help.
-const ANSWERS: [(&str, &str); 23] = definitions![
+const ANSWERS: [(&str, &str); 19] = definitions![
     "assess",
     "bench",
     "completions",
@@ -26,8 +26,6 @@ const ANSWERS: [(&str, &str); 23] = definitions![
     "convert",
     "explore",
     "export",
-    "family",
-    "locus",
     "man",
     "map",
     "move",
@@ -37,10 +35,8 @@ const ANSWERS: [(&str, &str); 23] = definitions![
     "report",
     "round",
     "schema",
-    "selfmotion",
     "singularities",
     "tolerances",
-    "topologies",
     "view"
 ];
 

@@ -14,7 +14,7 @@ use serde_json::{Map, Value, json};
 use self::folder::Folder;
 use super::optimize::{Choices, Done};
 use super::report::page;
-use super::{family, fk as fk_command, optimize, verify as verify_command};
+use super::{fk as fk_command, optimize, verify as verify_command};
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
@@ -27,7 +27,7 @@ use crate::equivalence::{SamplePlan, Verification, verify};
 use crate::fk::{self, FkOptions, FkSolutions, PoseCounting};
 use crate::manipulator::{LegLengths, Octahedral};
 use crate::offsets;
-use crate::records::{FkRunRecord, FramesRecord, RunRecord, VerifyAnswer};
+use crate::records::{FamilyAnswer, FkRunRecord, FramesRecord, RunRecord, VerifyAnswer};
 use crate::synthesis::{Family, FamilyMember};
 
 /// Arguments of `explore`.
@@ -138,7 +138,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let members: Vec<&FamilyMember> = family.members().iter().collect();
     folder.write(
         folder::FAMILY,
-        &framed(family::record(&design, &octahedral, &family, &members), Some(seed))?,
+        &framed(FamilyAnswer::new(&design, &octahedral, &family, &members), Some(seed))?,
     )?;
 
     progress.stage(2, "offsets");

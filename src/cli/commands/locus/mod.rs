@@ -15,6 +15,7 @@ use crate::cli::output::Answer;
 use crate::design::Design;
 use crate::fk::{self, FkOptions, FkSolutions, PoseCounting, Reality, SolutionSet, Threads};
 use crate::manipulator::{Leg, LegLengths, Manipulator};
+use crate::records::LocusWord;
 use crate::plot::{LocusStep, LocusValue};
 use crate::topology::Topology;
 
@@ -81,9 +82,13 @@ struct Found {
 }
 
 impl Row {
-    /// `isolated`, `empty`, `positive_dimensional` (a self-motion) or `failed`.
-    fn status(&self) -> &'static str {
-        self.found.as_ref().map_or("failed", |f| f.solutions.solution_set.name())
+    fn status(&self) -> LocusWord {
+        match self.found.as_ref().map(|f| &f.solutions.solution_set) {
+            None => LocusWord::Failed,
+            Some(SolutionSet::Isolated) => LocusWord::Isolated,
+            Some(SolutionSet::Empty) => LocusWord::Empty,
+            Some(SolutionSet::PositiveDimensional { .. }) => LocusWord::PositiveDimensional,
+        }
     }
 
     /// Nothing failed and no pose is missing.
@@ -119,7 +124,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     }
     let exit = if rows.iter().all(Row::complete) { Exit::Yes } else { Exit::Inconclusive };
     let text = render::text(name, *leg, between, rows, steps);
-    Ok(Answer::new(exit, render::json(*leg, between, rows, steps), text))
+    Ok(Answer::new(exit, render::record(*leg, between, rows, steps), text))
 }
 
 /// The picture alone.

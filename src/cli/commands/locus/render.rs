@@ -2,15 +2,15 @@
 
 use std::fmt::Write as _;
 
-use serde_json::{Map, Value, json};
+use num_complex::Complex64;
 
 use super::{Between, Found, Row};
-use crate::cli::output::number;
-use crate::fk::Reality;
+use crate::fk::{FkRoot, Reality};
+use crate::records::{LocusAnswer, LocusMeetingRecord, LocusRowRecord, LocusValueRecord, LocusWord, Number};
 use crate::plot::{LocusFigure, LocusStep, locus_chart, locus_meetings};
 
 pub(super) fn picture(name: &str, leg: u8, between: &Between, rows: &[Row], steps: &[LocusStep]) -> String {
-    let without = rows.iter().filter(|r| r.status() != "isolated").count();
+    let without = rows.iter().filter(|r| r.status() != LocusWord::Isolated).count();
     let mut note = format!("{} lengths", rows.len());
     if without > 0 {
         let _ = write!(note, ", {without} of them without isolated poses");
@@ -48,7 +48,7 @@ pub(super) fn csv(rows: &[Row]) -> String {
                 out,
                 "{k},{},{},{},{},{},{}",
                 row.length,
-                row.status(),
+                row.status().as_str(),
                 v.re,
                 v.im,
                 reality(root.reality),
@@ -56,43 +56,42 @@ pub(super) fn csv(rows: &[Row]) -> String {
             );
         }
         if !any {
-            let _ = writeln!(out, "{k},{},{},,,,", row.length, row.status());
+            let _ = writeln!(out, "{k},{},{},,,,", row.length, row.status().as_str());
         }
     }
     out
 }
 
-fn values(found: &Found) -> Value {
-    let value = |(root, v): (&crate::fk::FkRoot, &num_complex::Complex64)| {
-        let real = match root.reality {
-            Reality::Real => json!(true),
-            Reality::NonReal => json!(false),
-            Reality::Undecided => Value::Null,
-        };
-        json!({
-            "re": number(v.re), "im": number(v.im), "real": real, "certified": root.certified(),
-            "multiplicity": root.multiplicity,
-        })
+fn values(found: &Found) -> Vec<LocusValueRecord> {
+    let value = |(root, v): (&FkRoot, &Complex64)| LocusValueRecord {
+        re: Number(v.re),
+        im: Number(v.im),
+        real: match root.reality {
+            Reality::Real => Some(true),
+            Reality::NonReal => Some(false),
+            Reality::Undecided => None,
+        },
+        certified: root.certified(),
+        multiplicity: root.multiplicity,
     };
     found.solutions.roots.iter().zip(&found.values).map(value).collect()
 }
 
-pub(super) fn json(leg: u8, between: &Between, rows: &[Row], steps: &[LocusStep]) -> Map<String, Value> {
-    let mut out = Map::new();
-    out.insert("leg".into(), json!(leg));
-    out.insert("between".into(), json!([between.base, between.platform]));
-    let record = |(k, row): (usize, &Row)| {
-        json!({
-            "step": k, "length": number(row.length), "status": row.status(), "all_paths_accounted": row.complete(),
-            "method": row.found.as_ref().map(|f| f.solutions.method.name()),
-            "values": row.found.as_ref().map_or_else(|| json!([]), values),
-        })
+pub(super) fn record(leg: u8, between: &Between, rows: &[Row], steps: &[LocusStep]) -> LocusAnswer {
+    let row = |(step, row): (usize, &Row)| LocusRowRecord {
+        step,
+        length: Number(row.length),
+        status: row.status(),
+        all_paths_accounted: row.complete(),
+        method: row.found.as_ref().map(|f| f.solutions.method),
+        values: row.found.as_ref().map_or_else(Vec::new, values),
     };
-    out.insert("rows".into(), rows.iter().enumerate().map(record).collect());
-    let meetings = locus_meetings(steps);
-    let meeting = |m: &crate::plot::LocusMeeting| json!({ "after_step": m.after, "length": number(m.length), "value": number(m.value) });
-    out.insert("meetings".into(), meetings.iter().map(meeting).collect());
-    out
+    LocusAnswer {
+        leg,
+        between: [between.base.clone(), between.platform.clone()],
+        rows: rows.iter().enumerate().map(row).collect(),
+        meetings: locus_meetings(steps).iter().map(LocusMeetingRecord::from).collect(),
+    }
 }
 
 pub(super) fn text(name: &str, leg: u8, between: &Between, rows: &[Row], steps: &[LocusStep]) -> String {
@@ -110,7 +109,7 @@ pub(super) fn text(name: &str, leg: u8, between: &Between, rows: &[Row], steps: 
         let (poses, real, status, complete) = key(&group[0]);
         let ends = (group[0].length, group[group.len() - 1].length);
         let doubt = if complete { "" } else { " (poses may be missing)" };
-        let _ = writeln!(out, "{:>9.5} {:>9.5}  {poses:>5}  {real:>4}  {status}{doubt}", ends.0, ends.1);
+        let _ = writeln!(out, "{:>9.5} {:>9.5}  {poses:>5}  {real:>4}  {}{doubt}", ends.0, ends.1, status.as_str());
     }
     let meetings = locus_meetings(steps);
     if !meetings.is_empty() {

@@ -16,6 +16,7 @@ use crate::fk::{FkOptions, FkRoot, ForwardKinematics, Homotopy, Reality, Solutio
 use crate::geom::{ComplexPose, Pose};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::plot::{MotionFigure, motion};
+use crate::records::OriginWord;
 use crate::singularity::{
     CriticalPoses, CurveDegree, CurveEnd, MotionOptions, SelfMotion, critical_poses, curve_degree,
     self_motion,
@@ -59,30 +60,6 @@ fn turn(text: &str) -> Result<f64, String> {
     if (1e-3..=0.2).contains(&value) { Ok(value) } else { Err("give 0.001 to 0.2".to_string()) }
 }
 
-/// Where a starting pose comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Origin {
-    /// Given on the command line.
-    Pose,
-    /// A random section of the curves.
-    Section,
-    /// A critical point of a linear function.
-    CriticalPoint,
-    /// A search from random poses, for sets of dimension two or more.
-    Search,
-}
-
-impl Origin {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Pose => "pose",
-            Self::Section => "section",
-            Self::CriticalPoint => "critical_point",
-            Self::Search => "search",
-        }
-    }
-}
-
 /// What was found, for [`render`].
 struct Found {
     /// The pose given.
@@ -94,7 +71,7 @@ struct Found {
     /// Of each curve.
     degrees: Vec<Option<CurveDegree>>,
     /// Of every starting pose.
-    origins: Vec<Origin>,
+    origins: Vec<OriginWord>,
     /// Real poses on surfaces and sets of higher dimension, which are not followed.
     real_poses: Vec<Pose>,
     critical: Option<CriticalPoses>,
@@ -128,7 +105,7 @@ fn trace(args: &Question, context: &mut Context) -> Result<(Design, Found), Fail
     let options = MotionOptions { turn: args.turn, seed: context.seed(), ..MotionOptions::default() };
     let given: Vec<Pose> = start.into_iter().collect();
     let mut motion = self_motion(m, &squares, &given, &options);
-    let mut starts: Vec<(Pose, Origin)> = given.iter().map(|p| (*p, Origin::Pose)).collect();
+    let mut starts: Vec<(Pose, OriginWord)> = given.iter().map(|p| (*p, OriginWord::Pose)).collect();
     let mut dimension = motion.dimension;
     let (mut critical, mut accounted) = (None, None);
     let searches = if start.is_none() { args.searches.max(1) } else { args.searches };
@@ -137,17 +114,17 @@ fn trace(args: &Question, context: &mut Context) -> Result<(Design, Found), Fail
         dimension = if start.is_none() { sections.dimension } else { dimension };
         if sections.dimension == 1 {
             let real = sections.points.iter().filter(|r| r.reality == Reality::Real);
-            starts.extend(real.map(|r| (r.pose.real_part(), Origin::Section)));
+            starts.extend(real.map(|r| (r.pose.real_part(), OriginWord::Section)));
             let mut on: Vec<ComplexPose> = given.iter().map(|p| (*p).into()).collect();
             on.extend(sections.points.iter().map(|r| r.pose));
             let found = critical_poses(m, &squares, &on, context.seed());
-            starts.extend(found.poses.iter().map(|p| (*p, Origin::CriticalPoint)));
+            starts.extend(found.poses.iter().map(|p| (*p, OriginWord::CriticalPoint)));
             accounted = Some(found.is_accounted() && sections.established);
             critical = Some(found);
         } else {
             // surfaces are not followed: a real pose on each real component that was met has to do
             let real = sections.points.iter().filter(|r| r.reality == Reality::Real);
-            starts.extend(real.map(|r| (r.pose.real_part(), Origin::Search)));
+            starts.extend(real.map(|r| (r.pose.real_part(), OriginWord::Search)));
             accounted = Some(start.is_none() && sections.dimension == 0 && sections.established);
         }
         let all: Vec<Pose> = starts.iter().map(|s| s.0).collect();
@@ -169,7 +146,7 @@ fn trace(args: &Question, context: &mut Context) -> Result<(Design, Found), Fail
         _ => Exit::Inconclusive,
     };
     let origins = starts.iter().map(|s| s.1).collect();
-    let real_poses = starts.iter().filter(|s| s.1 == Origin::Search).map(|s| s.0).collect();
+    let real_poses = starts.iter().filter(|s| s.1 == OriginWord::Search).map(|s| s.0).collect();
     let found =
         Found { start, squares, dimension, motion, degrees, origins, real_poses, critical, accounted, exit };
     Ok((design, found))

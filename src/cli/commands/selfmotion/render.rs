@@ -2,68 +2,39 @@
 
 use std::fmt::Write as _;
 
-use serde_json::{Map, Value, json};
-
-use super::{Found, Origin};
-use crate::cli::output::{Answer, number};
-use crate::cli::poses;
+use super::Found;
+use crate::cli::output::Answer;
 use crate::design::Design;
-use crate::singularity::{CriticalPoses, CurveDegree, MotionCurve};
-
-fn degree_record(d: &CurveDegree) -> Value {
-    json!({ "degree": d.degree, "complete": d.complete, "trace_defect": number(d.defect) })
-}
-
-fn critical_record(c: &CriticalPoses) -> Value {
-    json!({
-        "paths": c.paths, "real": c.poses.len(), "regular": c.regular, "singular": c.singular, "no_pose": c.no_pose,
-        "lost": c.lost, "unused_starts": c.unused,
-    })
-}
-
-fn curve_record(curve: &MotionCurve, degree: Option<CurveDegree>, origin: Option<&Origin>) -> Value {
-    let points = curve.points.iter().map(|p| {
-        let mut record = poses::record(&p.pose);
-        record["arc"] = number(p.arc);
-        record["length_error"] = number(p.length_error);
-        record["gap"] = number(p.gap);
-        record
-    });
-    json!({
-        "end": curve.end.name(),
-        "crossings": curve.crossings.iter().map(|(after, k)| json!({ "after_point": after, "crossing": k })).collect::<Value>(),
-        "degree": degree.as_ref().map(degree_record), "found_by": origin.map(|o| o.name()),
-        "points": points.collect::<Value>(),
-    })
-}
+use crate::records::{
+    CompletenessWord, CriticalPointsRecord, CurveDegreeRecord, MotionCurveRecord, Number, OriginWord, PoseQuaternionRecord,
+    SelfmotionAnswer,
+};
 
 /// The answer.
 pub(super) fn answer(design: &Design, found: &Found) -> Answer {
     let motion = &found.motion;
-    let mut json = Map::new();
-    json.insert("name".into(), json!(design.name));
-    json.insert("units".into(), json!(design.units));
-    json.insert("dimension".into(), json!(found.dimension));
-    json.insert("start".into(), found.start.as_ref().map_or(Value::Null, poses::record));
-    json.insert("lengths".into(), json!(found.squares.lengths().get()));
-    json.insert("singular_values".into(), motion.singular_values.map(number).to_vec().into());
-    json.insert("further_starts".into(), json!(further(found)));
-    json.insert("real_poses".into(), found.real_poses.iter().map(poses::record).collect());
-    json.insert("completeness".into(), json!("unproved"));
-    json.insert("components_accounted".into(), json!(found.accounted));
     let critical = found.critical.as_ref();
-    let components = critical.map(|c| c.components.iter().map(degree_record).collect::<Value>());
-    json.insert("complex_components".into(), components.unwrap_or(Value::Null));
-    json.insert("critical_points".into(), critical.map_or(Value::Null, critical_record));
-    json.insert("worst_length_error".into(), number(motion.worst_length_error));
-    json.insert("crossings".into(), motion.crossings.iter().map(poses::record).collect());
-    let curves = motion
-        .curves
-        .iter()
-        .zip(&found.degrees)
-        .map(|(c, d)| curve_record(c, *d, found.origins.get(c.start)));
-    json.insert("curves".into(), curves.collect());
-    Answer::new(found.exit, json, text(design, found))
+    let curves = motion.curves.iter().zip(&found.degrees);
+    let record = SelfmotionAnswer {
+        name: design.name.clone(),
+        units: design.units.clone(),
+        dimension: found.dimension,
+        start: found.start.as_ref().map(PoseQuaternionRecord::from),
+        lengths: found.squares.lengths().get().map(Number),
+        singular_values: motion.singular_values.map(Number),
+        further_starts: further(found),
+        real_poses: found.real_poses.iter().map(PoseQuaternionRecord::from).collect(),
+        completeness: CompletenessWord::Unproved,
+        components_accounted: found.accounted,
+        complex_components: critical.map(|c| c.components.iter().map(CurveDegreeRecord::from).collect()),
+        critical_points: critical.map(CriticalPointsRecord::from),
+        worst_length_error: Number(motion.worst_length_error),
+        crossings: motion.crossings.iter().map(PoseQuaternionRecord::from).collect(),
+        curves: curves
+            .map(|(c, d)| MotionCurveRecord::new(c, d.as_ref(), found.origins.get(c.start).copied()))
+            .collect(),
+    };
+    Answer::new(found.exit, record, text(design, found))
 }
 
 fn text(design: &Design, found: &Found) -> String {
@@ -123,7 +94,7 @@ fn text(design: &Design, found: &Found) -> String {
             Some(d) => write!(out, ", degree at least {}", d.degree),
             None => Ok(()),
         };
-        let origin = found.origins.get(curve.start).map_or("", |o| o.name());
+        let origin = found.origins.get(curve.start).map_or("", |o| o.as_str());
         let _ = writeln!(out, ", found from a {}", origin.replace('_', " "));
     }
     if !motion.curves.is_empty() {
@@ -155,7 +126,7 @@ fn text(design: &Design, found: &Found) -> String {
 
 /// Starting poses beside the one given.
 fn further(found: &Found) -> usize {
-    found.origins.iter().filter(|o| **o != Origin::Pose).count()
+    found.origins.iter().filter(|o| **o != OriginWord::Pose).count()
 }
 
 /// One line a pose.

@@ -7,7 +7,6 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use nalgebra::Point3;
-use serde_json::{Map, Value, json};
 
 use crate::bench::{Class, LengthsFrom, Planar, problem};
 use crate::cli::context::Context;
@@ -20,8 +19,11 @@ use crate::distance::{ClosureDegrees, generic_degrees};
 use crate::fk::{Completeness, FkOptions, ForwardKinematics, Homotopy, PoseCounting};
 use crate::manipulator::{Manipulator, default_home};
 use crate::num::Rng;
+use crate::records::{
+    RearrangementRecord, RecognisedRecord, TopologiesAnswer, TopologyFindings, TopologyRecord, VirtualLegsRecord,
+};
 use crate::plot::{TopologyFigure, topology_diagram, topology_sheet};
-use crate::topology::{Joint, NamedTopology, Recognised, Sequence, catalogue, recognise};
+use crate::topology::{NamedTopology, Recognised, Sequence, catalogue, recognise};
 
 /// Arguments of `topologies`.
 #[derive(Debug, clap::Args)]
@@ -55,38 +57,45 @@ struct Entry {
 
 /// Lists the catalogue, or the topology of one design.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
-    let mut json = Map::new();
     let mut text = String::new();
     let mut wanted = catalogue();
-    json.insert("count".into(), json!(wanted.len()));
+    let count = wanted.len();
+    let (mut of_design, mut by_virtual_legs) = (None, None);
     if let Some(path) = &args.design {
         let design = context.load(path)?;
         let found = recognised(&design)?;
         let turned = if found.exchanged { ", base and platform exchanged" } else { "" };
         let _ =
             writeln!(text, "{}: {} {}{turned}\n", design.name, found.topology.id(), found.topology.name());
-        let record = json!({
-            "name": design.name, "id": found.topology.id(), "topology": found.topology.name(), "exchanged": found.exchanged,
+        of_design = Some(RecognisedRecord {
+            name: design.name.clone(),
+            id: found.topology.id(),
+            topology: found.topology.name(),
+            exchanged: found.exchanged,
         });
-        json.insert("design".into(), record);
         wanted = vec![found.topology];
     } else {
-        json.insert("by_virtual_legs".into(), classes(&wanted));
+        by_virtual_legs = Some(VirtualLegsRecord::of(&wanted));
     }
     let moved = if args.rearrangements { Some(rearrangements::cases(&wanted)?) } else { None };
     let entries = wanted.into_iter().map(|t| entry(t, args.members, context.seed()));
     let entries = entries.collect::<Result<Vec<Entry>, Failure>>()?;
-    json.insert("members".into(), json!(args.members));
-    json.insert("topologies".into(), entries.iter().map(record).collect());
     table(&mut text, &entries);
     write_files(args, &entries)?;
     if let Some(list) = &moved {
-        json.insert("rearrangements".into(), list.iter().map(rearrangements::record).collect());
         rearrangements::table(&mut text, list);
         args.output.iter().try_for_each(|folder| rearrangements::write(folder, list))?;
     }
     let exit = if entries.iter().all(|e| e.proved) { Exit::Yes } else { Exit::Inconclusive };
-    Ok(Answer::new(exit, json, text))
+    let answer = TopologiesAnswer {
+        count,
+        design: of_design,
+        by_virtual_legs,
+        members: args.members,
+        topologies: entries.iter().map(record).collect(),
+        rearrangements: moved.map(|list| list.iter().map(RearrangementRecord::from).collect()),
+    };
+    Ok(Answer::new(exit, answer, text))
 }
 
 fn entry(named: NamedTopology, members: u64, seed: u64) -> Result<Entry, Failure> {
@@ -112,49 +121,16 @@ fn entry(named: NamedTopology, members: u64, seed: u64) -> Result<Entry, Failure
     Ok(Entry { named, sequence, decoupled: t.is_decoupled(), poses, proved, closure })
 }
 
-/// Numbers of topologies by virtual legs needed.
-fn classes(list: &[NamedTopology]) -> Value {
-    let count = |legs: usize, decoupled: bool| {
-        let of = |t: &&NamedTopology| {
-            let t = t.topology();
-            t.trilateration().virtual_legs.len() == legs && t.is_decoupled() == decoupled
-        };
-        list.iter().filter(of).count()
-    };
-    json!({
-        "0": count(0, false), "1_decoupled": count(1, true), "1_coupled": count(1, false),
-        "2": count(2, false), "3": count(3, false),
+fn record(e: &Entry) -> TopologyRecord {
+    (&TopologyFindings {
+        named: e.named,
+        sequence: &e.sequence,
+        decoupled: e.decoupled,
+        poses: e.poses,
+        proved: e.proved,
+        closure: e.closure.as_ref(),
     })
-}
-
-fn joint_name(joint: Joint) -> String {
-    match joint {
-        Joint::Base(k) => format!("A{}", k + 1),
-        Joint::Platform(k) => format!("B{}", k + 1),
-    }
-}
-
-fn pairs(legs: &[(usize, usize)]) -> Value {
-    legs.iter().map(|(a, b)| json!([joint_name(Joint::Base(*a)), joint_name(Joint::Platform(*b))])).collect()
-}
-
-fn record(e: &Entry) -> Value {
-    let t = e.named.topology();
-    let steps =
-        e.sequence.steps.iter().map(
-            |s| json!({ "from": s.from.map(joint_name), "place": joint_name(s.place), "rigid": s.rigid }),
-        );
-    json!({
-        "id": e.named.id(), "name": e.named.name(),
-        "base_joints": t.base_joints(), "platform_joints": t.platform_joints(), "shared_joints": t.shared_joints(),
-        "legs": pairs(&t.legs()),
-        "virtual_legs": e.sequence.virtual_legs.len(), "virtual_leg_joints": pairs(&e.sequence.virtual_legs),
-        "decoupled": e.decoupled, "start": e.sequence.start.map(joint_name), "sequence": steps.collect::<Value>(),
-        "finite_roots": e.poses, "finite_roots_proved": e.proved,
-        "closure_degree": e.closure.as_ref().map(|c| c.after),
-        "closure_degree_before": e.closure.as_ref().map(|c| c.before),
-        "closure_distinct_roots": e.closure.as_ref().map(|c| c.distinct),
-    })
+        .into()
 }
 
 fn table(text: &mut String, entries: &[Entry]) {

@@ -3,15 +3,12 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use serde_json::{Map, Value, json};
-
 use crate::cli::failure::Failure;
 use crate::cli::files;
 use crate::design::Design;
 use crate::manipulator::default_home;
-use crate::synthesis::Body;
 use crate::synthesis::rearrangement::{
-    Argument, Arrangement, Piece, PieceKind, PlanarBodies, Rearrangement, Reduction, rearrangement,
+    Arrangement, PlanarBodies, Rearrangement, Reduction, rearrangement,
 };
 use crate::topology::NamedTopology;
 
@@ -21,57 +18,11 @@ pub(super) fn cases(list: &[NamedTopology]) -> Result<Vec<Rearrangement>, Failur
     all.map(|(t, planar)| rearrangement(t, planar).map_err(|e| Failure::internal(e.to_string()))).collect()
 }
 
-fn argument(r: &Rearrangement) -> &'static str {
-    match r.argument {
-        Argument::Stars(Body::Base) => "stars_base",
-        Argument::Stars(Body::Platform) => "stars_platform",
-        Argument::Supports => "supports",
-        Argument::Curves => "curves",
-    }
-}
-
 fn octahedral(r: &Rearrangement) -> &'static str {
     match &r.octahedral {
         Reduction::Octahedral(_) => "yes",
         Reduction::Not(why) => why.as_str(),
     }
-}
-
-fn design_record(a: &Arrangement) -> Value {
-    let joints = |letter: char, list: Vec<[String; 3]>| -> Map<String, Value> {
-        list.into_iter().enumerate().map(|(k, p)| (format!("{letter}{}", k + 1), json!(p))).collect()
-    };
-    json!({ "base": joints('A', a.base()), "platform": joints('B', a.platform()), "legs": super::pairs(&a.legs()) })
-}
-
-fn family(p: &Piece) -> Value {
-    let [base, platform] = p.points();
-    json!({
-        "kind": match p.kind { PieceKind::AllPairs => "all_pairs", PieceKind::Pairing => "pairing" },
-        "base_dimension": p.base_dimension(), "platform_dimension": p.platform_dimension(), "dimension": p.dimension(),
-        "rank": p.rank(), "common_joint": p.has_common_joint(), "base": base, "platform": platform,
-        "parts": p.parts(), "weight": p.weight(),
-    })
-}
-
-/// One line of the table with its proof.
-pub(super) fn record(r: &Rearrangement) -> Value {
-    let (is_octahedral, reason, design) = match &r.octahedral {
-        Reduction::Octahedral(design) => (true, None, Some(design_record(design))),
-        Reduction::Not(why) => (false, Some(why.as_str()), None),
-    };
-    let obstructions =
-        r.obstructions.iter().map(|o| json!({ "allowed": o.allowed, "within": o.within, "most": o.most }));
-    json!({
-        "id": r.topology.id(), "name": r.topology.name(), "base": r.planar.names()[0], "platform": r.planar.names()[1],
-        "argument": argument(r), "families": r.families.iter().map(family).collect::<Value>(),
-        "family_names": r.family_names(), "summands": r.summands,
-        "shared_joints": r.topology.topology().shared_joints(), "fewest_shared_joints": r.fewest_shared,
-        "merged_ends": r.member.merged_ends(), "fewest_merged_ends": r.fewest_merged,
-        "obstructions": obstructions.collect::<Value>(),
-        "octahedral": is_octahedral, "octahedral_reason": reason, "octahedral_design": design,
-        "member": design_record(&r.member), "fewest": design_record(&r.fewest),
-    })
 }
 
 /// The table in words.
