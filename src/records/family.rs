@@ -8,8 +8,8 @@ use crate::design::Design;
 use crate::manipulator::Octahedral;
 use crate::page::Original;
 use crate::synthesis::{
-    AffineLegMap, Body, Family, FamilyCounts, FamilyMember, HexagonPoint, JointLabel, InstantiateError, Pattern,
-    edge_lengths,
+    AffineLegMap, Body, Family, FamilyCounts, FamilyMember, HexagonPoint, InstantiateError, JointLabel,
+    Pattern, edge_lengths,
 };
 
 /// The answer of `family`.
@@ -261,7 +261,12 @@ impl InstanceRecord {
     ///
     /// # Errors
     /// When the offsets do not fit the pattern.
-    pub fn new(pattern: &Pattern, offsets: &[f64], built: &Design, map: &AffineLegMap) -> Result<Self, InstantiateError> {
+    pub fn new(
+        pattern: &Pattern,
+        offsets: &[f64],
+        built: &Design,
+        map: &AffineLegMap,
+    ) -> Result<Self, InstantiateError> {
         let m = built.manipulator();
         let c: [f64; 6] = map.c.into();
         Ok(Self {

@@ -33,8 +33,8 @@ pub use self::check::{
 pub use self::explore::{FkRunRecord, RunRecord};
 pub use self::failure::{ErrorAnswer, FailureRecord, HelpAnswer, ViolationRecord, WarningRecord};
 pub use self::family::{
-    CountsRecord, FamilyAnswer, FamilyTopologyRecord, InstanceRecord, PatternLegRecord, PatternPlace, PatternRecord,
-    SharedJointRecord,
+    CountsRecord, FamilyAnswer, FamilyTopologyRecord, InstanceRecord, PatternLegRecord, PatternPlace,
+    PatternRecord, SharedJointRecord,
 };
 pub use self::fk::{
     CertificateRecord, ClosurePolynomialRecord, ClosureRecord, CompletenessWord, ComplexPoseRecord,
@@ -55,8 +55,8 @@ pub use self::rearrangement::{
 };
 pub use self::schema::{schema, schema_names};
 pub use self::selfmotion::{
-    CriticalPointsRecord, CurveCrossingRecord, CurveDegreeRecord, MotionCurveRecord, MotionPointRecord, OriginWord,
-    SelfmotionAnswer,
+    CriticalPointsRecord, CurveCrossingRecord, CurveDegreeRecord, MotionCurveRecord, MotionPointRecord,
+    OriginWord, SelfmotionAnswer,
 };
 pub use self::topologies::{
     RecognisedRecord, TopologiesAnswer, TopologyFindings, TopologyRecord, VirtualLegsRecord,

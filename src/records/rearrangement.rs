@@ -7,7 +7,9 @@ use serde::{Deserialize, Serialize};
 
 use super::topologies::joint_pairs;
 use crate::synthesis::Body;
-use crate::synthesis::rearrangement::{Argument, Arrangement, Obstruction, Piece, PieceKind, Rearrangement, Reduction};
+use crate::synthesis::rearrangement::{
+    Argument, Arrangement, Obstruction, Piece, PieceKind, Rearrangement, Reduction,
+};
 
 /// One line of the table of rearrangements.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -190,6 +192,10 @@ impl From<&Arrangement> for ExactDesignRecord {
         let joints = |letter: char, list: Vec<[String; 3]>| {
             list.into_iter().enumerate().map(|(k, p)| (format!("{letter}{}", k + 1), p)).collect()
         };
-        Self { base: joints('A', a.base()), platform: joints('B', a.platform()), legs: joint_pairs(&a.legs()) }
+        Self {
+            base: joints('A', a.base()),
+            platform: joints('B', a.platform()),
+            legs: joint_pairs(&a.legs()),
+        }
     }
 }

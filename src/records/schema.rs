@@ -5,8 +5,8 @@ use schemars::{JsonSchema, SchemaGenerator};
 use serde_json::{Map, Value};
 
 use super::{
-    CheckAnswer, Document, ErrorAnswer, FamilyAnswer, FkAnswer, HelpAnswer, LocusAnswer, MapAnswer, SelfmotionAnswer, TopologiesAnswer,
-    VerifyAnswer,
+    CheckAnswer, Document, ErrorAnswer, FamilyAnswer, FkAnswer, HelpAnswer, LocusAnswer, MapAnswer,
+    SelfmotionAnswer, TopologiesAnswer, VerifyAnswer,
 };
 
 /// Names of answers with the function that writes their schema: commands by their own name, `error` for refusals, `help` for --help.

@@ -27,6 +27,10 @@ impl Scan {
         while i < words.len() {
             let next = |k: usize| words.get(i + k).map_or("", String::as_str);
             match words[i].as_str() {
+                "#" if next(1) == "[" && next(2) == "cfg_attr" => {
+                    i = attribute_end(&words, i + 1);
+                    continue;
+                }
                 "mod" if is_name(next(1)) => {
                     scan.declared.push(next(1).to_string());
                     if next(2) == "{" {
@@ -62,6 +66,22 @@ impl Scan {
         }
         scan
     }
+}
+
+/// Behind the attribute whose bracket is at `open`: derives behind a feature (`serde`, `schemars`) are no edges of the module.
+fn attribute_end(words: &[String], open: usize) -> usize {
+    let mut depth = 0;
+    for (i, word) in words.iter().enumerate().skip(open) {
+        match word.as_str() {
+            "[" => depth += 1,
+            "]" => depth -= 1,
+            _ => {}
+        }
+        if depth == 0 {
+            return i + 1;
+        }
+    }
+    words.len()
 }
 
 fn is_name(word: &str) -> bool {

@@ -15,8 +15,8 @@ use crate::cli::output::Answer;
 use crate::design::Design;
 use crate::fk::{self, FkOptions, FkSolutions, PoseCounting, Reality, SolutionSet, Threads};
 use crate::manipulator::{Leg, LegLengths, Manipulator};
-use crate::records::LocusWord;
 use crate::plot::{LocusStep, LocusValue};
+use crate::records::LocusWord;
 use crate::topology::Topology;
 
 /// Arguments of `locus`.

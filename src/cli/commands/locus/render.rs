@@ -6,8 +6,8 @@ use num_complex::Complex64;
 
 use super::{Between, Found, Row};
 use crate::fk::{FkRoot, Reality};
-use crate::records::{LocusAnswer, LocusMeetingRecord, LocusRowRecord, LocusValueRecord, LocusWord, Number};
 use crate::plot::{LocusFigure, LocusStep, locus_chart, locus_meetings};
+use crate::records::{LocusAnswer, LocusMeetingRecord, LocusRowRecord, LocusValueRecord, LocusWord, Number};
 
 pub(super) fn picture(name: &str, leg: u8, between: &Between, rows: &[Row], steps: &[LocusStep]) -> String {
     let without = rows.iter().filter(|r| r.status() != LocusWord::Isolated).count();
@@ -109,7 +109,13 @@ pub(super) fn text(name: &str, leg: u8, between: &Between, rows: &[Row], steps: 
         let (poses, real, status, complete) = key(&group[0]);
         let ends = (group[0].length, group[group.len() - 1].length);
         let doubt = if complete { "" } else { " (poses may be missing)" };
-        let _ = writeln!(out, "{:>9.5} {:>9.5}  {poses:>5}  {real:>4}  {}{doubt}", ends.0, ends.1, status.as_str());
+        let _ = writeln!(
+            out,
+            "{:>9.5} {:>9.5}  {poses:>5}  {real:>4}  {}{doubt}",
+            ends.0,
+            ends.1,
+            status.as_str()
+        );
     }
     let meetings = locus_meetings(steps);
     if !meetings.is_empty() {

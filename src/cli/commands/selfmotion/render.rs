@@ -6,8 +6,8 @@ use super::Found;
 use crate::cli::output::Answer;
 use crate::design::Design;
 use crate::records::{
-    CompletenessWord, CriticalPointsRecord, CurveDegreeRecord, MotionCurveRecord, Number, OriginWord, PoseQuaternionRecord,
-    SelfmotionAnswer,
+    CompletenessWord, CriticalPointsRecord, CurveDegreeRecord, MotionCurveRecord, Number, OriginWord,
+    PoseQuaternionRecord, SelfmotionAnswer,
 };
 
 /// The answer.

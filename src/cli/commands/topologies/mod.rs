@@ -19,10 +19,11 @@ use crate::distance::{ClosureDegrees, generic_degrees};
 use crate::fk::{Completeness, FkOptions, ForwardKinematics, Homotopy, PoseCounting};
 use crate::manipulator::{Manipulator, default_home};
 use crate::num::Rng;
-use crate::records::{
-    RearrangementRecord, RecognisedRecord, TopologiesAnswer, TopologyFindings, TopologyRecord, VirtualLegsRecord,
-};
 use crate::plot::{TopologyFigure, topology_diagram, topology_sheet};
+use crate::records::{
+    RearrangementRecord, RecognisedRecord, TopologiesAnswer, TopologyFindings, TopologyRecord,
+    VirtualLegsRecord,
+};
 use crate::topology::{NamedTopology, Recognised, Sequence, catalogue, recognise};
 
 /// Arguments of `topologies`.

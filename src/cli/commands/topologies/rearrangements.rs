@@ -7,9 +7,7 @@ use crate::cli::failure::Failure;
 use crate::cli::files;
 use crate::design::Design;
 use crate::manipulator::default_home;
-use crate::synthesis::rearrangement::{
-    Arrangement, PlanarBodies, Rearrangement, Reduction, rearrangement,
-};
+use crate::synthesis::rearrangement::{Arrangement, PlanarBodies, Rearrangement, Reduction, rearrangement};
 use crate::topology::NamedTopology;
 
 /// All cases of these topologies.
