@@ -11,7 +11,6 @@ use super::diagnostic;
 use super::exit::Exit;
 use super::failure::Failure;
 use crate::records::{Document, ErrorAnswer, HelpAnswer, WarningRecord};
-use crate::synthesis::Relation;
 
 /// What a command found: the record that `--json` prints, and the text that people read without it.
 #[derive(Debug)]
@@ -95,19 +94,6 @@ impl Output {
 /// A number as JSON: null when it is not finite, because JSON has no word for it.
 pub(crate) fn number(x: f64) -> Value {
     serde_json::Number::from_f64(x).map_or(Value::Null, Value::Number)
-}
-
-/// The word for a relation; null where it is not decided, for which there is no word in documents.
-pub(crate) fn relation(r: Relation) -> Value {
-    if r == Relation::Undecided { Value::Null } else { Value::from(r.as_str()) }
-}
-
-/// The fields of a record.
-pub(crate) fn fields(record: impl Serialize) -> serde_json::Map<String, Value> {
-    match serde_json::to_value(record) {
-        Ok(Value::Object(fields)) => fields,
-        _ => serde_json::Map::new(),
-    }
 }
 
 /// The text of a document.

@@ -20,6 +20,11 @@ pub struct ErrorBound {
 
 /// Which of the two errors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(
+    feature = "files",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
 pub enum ErrorKind {
     /// Of the tool point.
     Position,

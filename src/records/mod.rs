@@ -8,63 +8,53 @@
 //! Units stand in the names of fields (`angle_deg`) where they are not those of the design; legs are counted from 1.
 
 mod check;
+mod components;
+mod design;
 mod explore;
 mod failure;
 mod family;
 mod fk;
 mod locus;
 mod map;
+mod moves;
 mod near;
 mod number;
 mod pose;
 mod rearrangement;
+mod rounding;
 mod schema;
 mod selfmotion;
+mod singularities;
+mod statistics;
+mod tolerances;
 mod topologies;
 mod verify;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use self::check::{
-    AssemblyRecord, CaseRecord, CheckAnswer, Checked, ConditioningRecord, CornerLengthsRecord,
-    DependencyRecord, GriffisDuffyRecord, NearestSingularRecord, ProofWord, WitnessRecord,
-};
-pub use self::explore::{FkRunRecord, RunRecord};
-pub use self::failure::{ErrorAnswer, FailureRecord, HelpAnswer, ViolationRecord, WarningRecord};
-pub use self::family::{
-    CountsRecord, FamilyAnswer, FamilyTopologyRecord, InstanceRecord, PatternLegRecord, PatternPlace,
-    PatternRecord, SharedJointRecord,
-};
-pub use self::fk::{
-    CertificateRecord, ClosurePolynomialRecord, ClosureRecord, CompletenessWord, ComplexPoseRecord,
-    DiscsRecord, EnclosureRecord, EvidenceWord, FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord,
-    FkRowsAnswer, PathRecord, PoseCountRecord, RejectedRecord, RowFailure, SingularFactorRecord,
-    SolutionRecord, SolutionSetRecord, SolvedRecord, TrilaterationStepRecord,
-};
-pub use self::locus::{LocusAnswer, LocusMeetingRecord, LocusRowRecord, LocusValueRecord, LocusWord};
-pub use self::map::{
-    AlignmentOutcome, AlignmentRecord, AlignmentWord, CorrespondenceRecord, DifferenceRecord, FramesRecord,
-    MapAnswer, MapRecord, MapTolerancesRecord, MotionRecord, NearestMotionRecord, OtherAlignmentRecord,
-};
-pub use self::near::{NearRecord, NearWord};
-pub use self::number::{ComplexRecord, Number};
-pub use self::pose::{NamedPoints, PoseQuaternionRecord, PoseRecord, leg_number};
-pub use self::rearrangement::{
-    ArgumentWord, ExactDesignRecord, FamilyKind, FamilyRecord, ObstructionRecord, RearrangementRecord,
-};
-pub use self::schema::{schema, schema_names};
-pub use self::selfmotion::{
-    CriticalPointsRecord, CurveCrossingRecord, CurveDegreeRecord, MotionCurveRecord, MotionPointRecord,
-    OriginWord, SelfmotionAnswer,
-};
-pub use self::topologies::{
-    RecognisedRecord, TopologiesAnswer, TopologyFindings, TopologyRecord, VirtualLegsRecord,
-};
-pub use self::verify::{
-    BeyondPrecisionRecord, CounterexampleRecord, SampleRecord, SamplingRecord, SolvedSampleRecord,
-    VerdictWord, VerifyAnswer,
-};
+pub use self::check::*;
+pub use self::components::*;
+pub use self::design::*;
+pub use self::explore::*;
+pub use self::failure::*;
+pub use self::family::*;
+pub use self::fk::*;
+pub use self::locus::*;
+pub use self::map::*;
+pub use self::moves::*;
+pub use self::near::*;
+pub use self::number::*;
+pub use self::pose::*;
+pub use self::rearrangement::*;
+pub use self::rounding::*;
+pub use self::schema::*;
+pub use self::selfmotion::*;
+pub use self::singularities::*;
+pub use self::statistics::*;
+pub use self::tolerances::*;
+pub use self::topologies::*;
+pub use self::verify::*;
 
 /// The version of the dialect: a later version of the program may add fields to every object, and words to lists of words, under the same one.
 pub const SCHEMA_VERSION: u32 = 1;

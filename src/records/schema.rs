@@ -5,8 +5,9 @@ use schemars::{JsonSchema, SchemaGenerator};
 use serde_json::{Map, Value};
 
 use super::{
-    CheckAnswer, Document, ErrorAnswer, FamilyAnswer, FkAnswer, HelpAnswer, LocusAnswer, MapAnswer,
-    SelfmotionAnswer, TopologiesAnswer, VerifyAnswer,
+    CheckAnswer, ComponentsAnswer, Document, ErrorAnswer, FamilyAnswer, FkAnswer, HelpAnswer, LocusAnswer,
+    MapAnswer, MoveAnswer, RoundAnswer, SelfmotionAnswer, SingularitiesAnswer, TolerancesAnswer,
+    TopologiesAnswer, VerifyAnswer,
 };
 
 /// Names of answers with the function that writes their schema: commands by their own name, `error` for refusals, `help` for --help.
@@ -14,13 +15,18 @@ type Table = &'static [(&'static str, fn(&mut SchemaGenerator) -> schemars::Sche
 
 const ANSWERS: Table = &[
     ("check", Document::<CheckAnswer>::json_schema),
+    ("components", Document::<ComponentsAnswer>::json_schema),
     ("error", Document::<ErrorAnswer>::json_schema),
     ("family", Document::<FamilyAnswer>::json_schema),
     ("fk", Document::<FkAnswer>::json_schema),
     ("help", Document::<HelpAnswer>::json_schema),
     ("locus", Document::<LocusAnswer>::json_schema),
     ("map", Document::<MapAnswer>::json_schema),
+    ("move", Document::<MoveAnswer>::json_schema),
+    ("round", Document::<RoundAnswer>::json_schema),
     ("selfmotion", Document::<SelfmotionAnswer>::json_schema),
+    ("singularities", Document::<SingularitiesAnswer>::json_schema),
+    ("tolerances", Document::<TolerancesAnswer>::json_schema),
     ("topologies", Document::<TopologiesAnswer>::json_schema),
     ("verify", Document::<VerifyAnswer>::json_schema),
 ];

@@ -12,6 +12,11 @@ use crate::manipulator::{Manipulator, jacobian};
 /// The kinds of requirements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
+#[cfg_attr(
+    feature = "files",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
 pub enum TermKind {
     /// Leg length minus the least one.
     LegTooShort,

@@ -18,25 +18,19 @@ macro_rules! definitions {
 const SHARED: [(&str, &str); 1] = definitions!["shared"];
 
 /// What has a schema besides design files: the answer of every command, refusals, and help.
-const ANSWERS: [(&str, &str); 19] = definitions![
+const ANSWERS: [(&str, &str); 13] = definitions![
     "assess",
     "bench",
     "completions",
-    "components",
     "convert",
     "explore",
     "export",
     "man",
-    "map",
-    "move",
     "optimize",
     "plot",
     "presets",
     "report",
-    "round",
     "schema",
-    "singularities",
-    "tolerances",
     "view"
 ];
 

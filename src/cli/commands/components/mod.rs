@@ -1,20 +1,18 @@
 //! `equipod components`: the families of replaceable legs of a design.
 
 mod figure;
-mod record;
 mod text;
 
 use std::path::PathBuf;
-
-use serde_json::{Map, Value, json};
 
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::files::{self, OutputPath};
-use crate::cli::output::{Answer, number};
+use crate::cli::output::Answer;
 use crate::design::Design;
 use crate::num::Rng;
+use crate::records::{ComponentRecord, ComponentsAnswer};
 use crate::synthesis::components::{
     Component, ComponentOptions, Components, ComponentsError, SampledLeg, components,
 };
@@ -84,17 +82,12 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     for k in &wanted {
         samples.push(draw(&found, &found.components[*k], args.sample, context.seed(), *k)?);
     }
-    let mut json = Map::new();
-    json.insert("name".into(), json!(design.name));
-    json.insert("tolerance".into(), number(options.tolerance));
-    json.insert("seed".into(), json!(options.seed));
-    record::summary(&mut json, &found);
-    let list: Vec<Value> =
-        wanted.iter().zip(&samples).map(|(k, s)| record::component(*k, &found.components[*k], s)).collect();
-    json.insert("components".into(), list.into());
+    let list = wanted.iter().zip(&samples);
+    let list = list.map(|(k, s)| ComponentRecord::new(*k, &found.components[*k], s)).collect();
+    let answer = ComponentsAnswer::new(&design.name, (options.tolerance, options.seed), &found, list);
     let exit = if found.doubts.is_empty() { Exit::Yes } else { Exit::Inconclusive };
     let text = text::table(&design, &found, &wanted, &samples);
-    Ok(Answer::new(exit, json, text))
+    Ok(Answer::new(exit, answer, text))
 }
 
 /// Family `k` draws from a stream of its own: `--component` does not change what is drawn.

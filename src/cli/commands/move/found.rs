@@ -3,19 +3,20 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use serde_json::{Map, Value, json};
-
 use super::naming::{family_names, moved_design};
-use super::render::{design_value, leg, numbers};
 use super::wishes::WishArgs;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::files;
-use crate::cli::output::{Answer, number};
+use crate::cli::output::Answer;
 use crate::design::Design;
+use crate::records::{
+    CandidateRecord, DesignRecord, HoleRecord, MoveAnswer, MoveSearchAnswer, Number, PlacementRecord,
+    SearchWord, WishMarginRecord,
+};
 use crate::synthesis::components::{ComponentOptions, Components};
 use crate::synthesis::relocate::search::{
-    Candidate, HoleAnswer, Impossibility, SearchError, SearchOutcome, SearchVerdict, Source, search,
+    Candidate, Impossibility, Placement, SearchError, SearchOutcome, SearchVerdict, Source, search,
 };
 
 /// Searches, and writes the designs found.
@@ -57,7 +58,9 @@ pub(super) fn run(
         SearchVerdict::Undecided => Exit::Inconclusive,
     };
     let report = Report { design, families: &families, outcome: &outcome };
-    Ok(Answer::new(exit, report.json(&designs, &written)?, report.text(&written)?))
+    let text = report.text(&written)?;
+    let record = report.record(&designs, written)?;
+    Ok(Answer::new(exit, MoveAnswer::Search(Box::new(record)), text))
 }
 
 /// A platform of the search as a design.
@@ -128,75 +131,48 @@ impl Report<'_> {
         }
     }
 
-    fn json(&self, designs: &[Option<Design>], written: &[String]) -> Result<Map<String, Value>, Failure> {
-        let (o, w) = (self.outcome, &self.outcome.wishes);
-        let mut json = Map::new();
-        json.insert("name".into(), json!(self.design.name));
-        json.insert("mode".into(), json!("search"));
-        let verdict = match o.verdict {
-            SearchVerdict::Found => "found",
-            SearchVerdict::Impossible(_) => "impossible",
-            SearchVerdict::Undecided => "undecided",
-        };
-        json.insert("outcome".into(), json!(verdict));
-        json.insert("reason".into(), reason(o.verdict));
-        json.insert("explanation".into(), json!(self.explanation()));
-        json.insert("patterns".into(), json!(o.patterns));
-        json.insert("patterns_searched".into(), json!(o.searched));
-        json.insert("least_shared_joints".into(), json!(o.least_shared));
-        json.insert("complete".into(), json!(o.complete));
-        json.insert(
-            "wishes".into(),
-            json!({
-                "no_shared_joints": w.no_shared_joints, "spacing": number(w.spacing), "clearance": w.clearance.map(number),
-                "conditioning": number(w.conditioning), "reach": number(w.reach), "poses": w.poses.len(),
-                "characteristic_length": number(w.characteristic_length),
-            }),
-        );
-        let holes = o.holes.iter().map(|h| {
-            let (answer, dimension) = match &h.answer {
-                HoleAnswer::Legs { dimension, .. } => ("legs", Some(*dimension)),
-                HoleAnswer::AtInfinity => ("at_infinity", None),
-                HoleAnswer::None => ("none", None),
-            };
-            json!({
-                "body": h.hole.body.to_string(), "point": numbers(h.hole.point.iter().copied()), "answer": answer,
-                "legs": h.hole.legs.iter().map(|l| l.get() + 1).collect::<Vec<_>>(), "dimension": dimension,
-                "exact_rank_defect": h.exact, "singular_value": number(h.singular_value), "tolerance": number(h.tolerance),
-            })
-        });
-        json.insert("holes".into(), holes.collect());
-        let mut list = Vec::new();
-        for (c, d) in o.candidates.iter().zip(designs) {
-            list.push(self.candidate(c, d.as_ref())?);
-        }
-        json.insert("designs".into(), list.into());
-        json.insert("output".into(), json!(written));
-        Ok(json)
+    fn record(&self, designs: &[Option<Design>], written: Vec<String>) -> Result<MoveSearchAnswer, Failure> {
+        let o = self.outcome;
+        let (outcome, reason) = SearchWord::of(o.verdict);
+        let candidates = o.candidates.iter().zip(designs).map(|(c, d)| self.candidate(c, d.as_ref()));
+        Ok(MoveSearchAnswer {
+            name: self.design.name.clone(),
+            mode: "search".into(),
+            outcome,
+            reason,
+            explanation: self.explanation(),
+            patterns: o.patterns,
+            patterns_searched: o.searched,
+            least_shared_joints: o.least_shared,
+            complete: o.complete,
+            wishes: (&o.wishes).into(),
+            holes: o.holes.iter().map(HoleRecord::from).collect(),
+            designs: candidates.collect::<Result<_, _>>()?,
+            output: written,
+        })
     }
 
-    fn candidate(&self, c: &Candidate, design: Option<&Design>) -> Result<Value, Failure> {
-        let mut moves = Vec::new();
-        for p in &c.placements {
+    fn candidate(&self, c: &Candidate, design: Option<&Design>) -> Result<CandidateRecord, Failure> {
+        let place = |p: &Placement| {
             let k = p.leg.get();
-            moves.push(json!({
-                "leg": k + 1, "from": self.source(p.source)?, "parameters": numbers(p.parameters.iter().copied()),
-                "to": leg(&c.assembled.legs[k]), "coefficient": number(c.map.closest.a[(k, k)]), "residual": number(c.map.residuals[k]),
-            }));
-        }
-        let margins = c.margins.iter().map(|m| {
-            let (value, required, slack) = (number(m.value), number(m.required), number(m.slack));
-            json!({ "wish": m.wish.as_str(), "value": value, "required": required, "slack": slack })
-        });
-        let mut record = json!({
-            "fulfilled": c.fulfilled, "worst": number(c.worst), "shared_joints": c.shared_joints,
-            "margins": margins.collect::<Value>(), "moves": moves,
-        });
-        if let Some(fields) = record.as_object_mut() {
-            fields.extend(crate::cli::output::fields(crate::records::MapRecord::from(&c.map)));
-            fields.insert("design".into(), design.map_or(Value::Null, design_value));
-        }
-        Ok(record)
+            Ok(PlacementRecord {
+                leg: k + 1,
+                from: self.source(p.source)?,
+                parameters: p.parameters.iter().copied().map(Number).collect(),
+                to: (&c.assembled.legs[k]).into(),
+                coefficient: Number(c.map.closest.a[(k, k)]),
+                residual: Number(c.map.residuals[k]),
+            })
+        };
+        Ok(CandidateRecord {
+            fulfilled: c.fulfilled,
+            worst: Number(c.worst),
+            shared_joints: c.shared_joints,
+            margins: c.margins.iter().map(WishMarginRecord::from).collect(),
+            moves: c.placements.iter().map(place).collect::<Result<_, Failure>>()?,
+            map: (&c.map).into(),
+            design: design.map(DesignRecord::from),
+        })
     }
 
     fn text(&self, written: &[String]) -> Result<String, Failure> {
@@ -250,16 +226,5 @@ impl Report<'_> {
             let _ = writeln!(text, "wrote {path}");
         }
         Ok(text)
-    }
-}
-
-fn reason(verdict: SearchVerdict) -> Value {
-    match verdict {
-        SearchVerdict::Impossible(Impossibility::NoLegAtHole(_)) => json!("no_leg_at_hole"),
-        SearchVerdict::Impossible(Impossibility::PartnersAtInfinity(_)) => json!("partners_at_infinity"),
-        SearchVerdict::Impossible(Impossibility::NotByThoseLegs(_)) => json!("not_by_those_legs"),
-        SearchVerdict::Impossible(Impossibility::SharedJoints(_)) => json!("shared_joints"),
-        SearchVerdict::Impossible(Impossibility::HolesTogether) => json!("holes_together"),
-        _ => Value::Null,
     }
 }

@@ -14,6 +14,7 @@ use crate::cli::failure::Failure;
 use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
 use crate::design::Design;
+use crate::records::MoveAnswer;
 use crate::synthesis::components::{ComponentOptions, Components, ComponentsError, components};
 use crate::synthesis::relocate::{Chain, LegMove, RelocateError, Relocation, relocate};
 use crate::synthesis::{LegMapTolerances, Relation};
@@ -93,7 +94,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         wanted: wanted.len(),
         together: args.together,
     };
-    let json = record.json(built.as_ref(), written.as_deref());
+    let answer = record.record(built.as_ref(), written.as_deref());
     let text = record.text(written.as_deref());
     let singular = steps.iter().any(|s| s.map.relation == Relation::Singular);
     let exit = match (regular, singular) {
@@ -101,7 +102,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         (false, true) => Exit::No,
         (false, false) => Exit::Inconclusive,
     };
-    Ok(Answer::new(exit, json, text))
+    Ok(Answer::new(exit, MoveAnswer::Moves(Box::new(answer)), text))
 }
 
 /// The families of a design.

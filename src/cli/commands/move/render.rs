@@ -2,14 +2,11 @@
 
 use std::fmt::Write as _;
 
-use nalgebra::Point3;
-use serde_json::{Map, Value, json};
-
 use super::Done;
 use crate::cli::commands::map;
-use crate::cli::output::{number, relation};
 use crate::design::Design;
 use crate::manipulator::Leg;
+use crate::records::{DesignRecord, LegMoveRecord, MoveMode, MoveStepRecord, MovesAnswer, Number};
 use crate::synthesis::Relation;
 use crate::synthesis::relocate::{Chain, MovedLeg, Relocation, SingularParameters};
 
@@ -22,60 +19,29 @@ pub(super) struct Record<'a> {
     pub(super) together: bool,
 }
 
-pub(super) fn numbers(x: impl IntoIterator<Item = f64>) -> Value {
-    x.into_iter().map(number).collect()
-}
-
-fn point(p: &Point3<f64>) -> Value {
-    numbers(p.iter().copied())
-}
-
-pub(super) fn leg(l: &Leg) -> Value {
-    json!({ "base": point(&l.base), "platform": point(&l.platform) })
-}
-
-/// The design as the document it would be as a file.
-pub(super) fn design_value(d: &Design) -> Value {
-    serde_json::from_str(&d.to_json()).unwrap_or(Value::Null)
-}
-
-fn singular(s: &SingularParameters) -> Value {
-    match s {
-        SingularParameters::Everywhere => json!("everywhere"),
-        SingularParameters::At(list) => numbers(list.iter().copied()),
-    }
-}
-
 impl Record<'_> {
     fn regular(&self) -> bool {
         self.done.iter().all(|s| s.relocation.is_regular())
-    }
-
-    /// That of the last step: the moves before it were regular. Moves that a leg does not follow at all are refused earlier.
-    fn outcome(&self) -> Value {
-        self.done.last().map_or(Value::Null, |s| relation(s.relocation.map.relation))
     }
 
     fn undecided(&self) -> bool {
         self.done.iter().any(|s| s.relocation.map.relation == Relation::Undecided)
     }
 
-    pub(super) fn json(&self, built: Option<&Design>, written: Option<&str>) -> Map<String, Value> {
-        let mut json = Map::new();
-        json.insert("name".into(), json!(self.design.name));
-        json.insert("outcome".into(), self.outcome());
-        json.insert("mode".into(), json!(if self.together { "together" } else { "sequence" }));
-        json.insert("steps".into(), self.done.iter().map(step).collect());
-        json.insert("moves_left_out".into(), json!(self.wanted - self.made()));
-        let exact = self.moved().all(|m| m.exact);
-        json.insert("exact".into(), json!(exact));
-        for (key, value) in crate::cli::output::fields(crate::records::MapRecord::from(&self.chain.direct)) {
-            json.insert(key, value);
+    pub(super) fn record(&self, built: Option<&Design>, written: Option<&str>) -> MovesAnswer {
+        MovesAnswer {
+            name: self.design.name.clone(),
+            // that of the last step: the moves before it were regular, and those that a leg does not follow at all are refused earlier
+            outcome: self.done.last().and_then(|s| decided(s.relocation.map.relation)),
+            mode: if self.together { MoveMode::Together } else { MoveMode::Sequence },
+            steps: self.done.iter().map(step).collect(),
+            moves_left_out: self.wanted - self.made(),
+            exact: self.moved().all(|m| m.exact),
+            map: (&self.chain.direct).into(),
+            composition_difference: Number(self.chain.disagreement),
+            design: built.map(DesignRecord::from),
+            output: written.map(str::to_owned),
         }
-        json.insert("composition_difference".into(), number(self.chain.disagreement));
-        json.insert("design".into(), built.map_or(Value::Null, design_value));
-        json.insert("output".into(), json!(written));
-        json
     }
 
     fn moved(&self) -> impl Iterator<Item = &MovedLeg> {
@@ -131,18 +97,31 @@ impl Record<'_> {
     }
 }
 
-fn step(s: &Done) -> Value {
+fn decided(relation: Relation) -> Option<Relation> {
+    Some(relation).filter(|r| *r != Relation::Undecided)
+}
+
+fn step(s: &Done) -> MoveStepRecord {
     let r: &Relocation = &s.relocation;
-    let moves = r.moved.iter().zip(&s.families).map(|(m, (type_name, name))| {
-        let k = m.request.leg.get();
-        json!({
-            "leg": k + 1, "component": m.request.family + 1, "type": type_name, "along": name,
-            "parameters": numbers(m.request.parameters.iter().copied()), "from": leg(&m.from), "to": leg(&m.to),
-            "coefficients": numbers(m.coefficients), "coefficient": number(m.coefficients[k]),
-            "residual": number(m.residual), "exact": m.exact, "singular_parameters": singular(&m.singular),
-        })
-    });
-    json!({ "outcome": relation(r.map.relation), "det": number(r.map.determinant), "moves": moves.collect::<Value>() })
+    let one = |(m, (type_name, name)): (&MovedLeg, &(String, Option<String>))| LegMoveRecord {
+        leg: m.request.leg.get() + 1,
+        component: m.request.family + 1,
+        type_name: type_name.clone(),
+        along: name.clone(),
+        parameters: m.request.parameters.iter().copied().map(Number).collect(),
+        from: (&m.from).into(),
+        to: (&m.to).into(),
+        coefficients: m.coefficients.map(Number),
+        coefficient: Number(m.coefficients[m.request.leg.get()]),
+        residual: Number(m.residual),
+        exact: m.exact,
+        singular_parameters: (&m.singular).into(),
+    };
+    MoveStepRecord {
+        outcome: decided(r.map.relation),
+        det: Number(r.map.determinant),
+        moves: r.moved.iter().zip(&s.families).map(one).collect(),
+    }
 }
 
 fn describe(text: &mut String, m: &MovedLeg, type_name: &str, name: Option<&str>) {

@@ -14,9 +14,10 @@ use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
 use crate::cli::poses;
 use crate::design::Design;
-use crate::equivalence::{Verdict, Verification, VerifyError};
+use crate::equivalence::{Verdict, Verification};
 use crate::manipulator::Manipulator;
 use crate::manufacture::{Grid, NoRounding, Rounding, RoundingProblem, equivalent_octahedral, round_to_grid};
+use crate::records::VariantWord;
 
 /// Arguments of `round`.
 #[derive(Debug, clap::Args)]
@@ -75,25 +76,24 @@ pub(super) enum Variant {
     Nearest,
 }
 
-/// The word for a verdict.
-pub(super) fn verdict(v: &Result<Verification, VerifyError>) -> &'static str {
-    v.as_ref().map_or("not_computed", |v| v.verdict.as_str())
-}
-
 /// A rounding that may be written.
 #[derive(Debug, Clone, Copy)]
 struct Choice<'a> {
-    variant: &'static str,
+    variant: VariantWord,
     manipulator: &'a Manipulator,
     grids: &'a [Grid; 2],
 }
 
 fn chosen(found: &Rounding, variant: Variant, keep: f64) -> Option<Choice<'_>> {
     let exact = found.exact.as_ref().ok();
-    let exact = exact.map(|e| Choice { variant: "exact", manipulator: &e.manipulator, grids: &e.grids });
+    let exact =
+        exact.map(|e| Choice { variant: VariantWord::Exact, manipulator: &e.manipulator, grids: &e.grids });
     let nearest = found.nearest.as_ref().ok();
-    let nearest =
-        nearest.map(|n| Choice { variant: "nearest", manipulator: &n.manipulator, grids: &n.grids });
+    let nearest = nearest.map(|n| Choice {
+        variant: VariantWord::Nearest,
+        manipulator: &n.manipulator,
+        grids: &n.grids,
+    });
     match variant {
         Variant::Exact => exact,
         Variant::Nearest => nearest,
@@ -119,7 +119,7 @@ fn rounded_design(design: &Design, choice: &Choice<'_>) -> Design {
         "Joints of the design \"{}\" on grids by equipod {}, variant {}; base: {}; platform: {}",
         design.name,
         env!("CARGO_PKG_VERSION"),
-        choice.variant,
+        choice.variant.as_str(),
         in_words(&choice.grids[0]),
         in_words(&choice.grids[1])
     ));
@@ -195,5 +195,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         rounded,
         written: written.as_deref(),
     };
-    Ok(Answer::new(exit, report.json(), report.text()))
+    let record = report.record();
+    let text = report.text(&record);
+    Ok(Answer::new(exit, record, text))
 }

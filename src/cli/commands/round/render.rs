@@ -2,15 +2,12 @@
 
 use std::fmt::Write as _;
 
-use serde_json::{Map, Value, json};
-
-use super::{in_words, verdict};
-use crate::cli::commands::tolerances::{joint_name, spread};
-use crate::cli::output::number;
-use crate::cli::poses;
+use super::in_words;
 use crate::design::Design;
-use crate::manufacture::{
-    ExactRounding, Grid, Judgement, NearestRounding, NoRounding, RoundedJoint, Rounding, RoundingProblem,
+use crate::manufacture::{Grid, Judgement, Rounding, RoundingProblem};
+use crate::records::{
+    ExactRoundingOutcome, NearestRoundingOutcome, RoundAnswer, RoundedJointRecord, RoundingVerdict,
+    VariantWord,
 };
 
 /// Everything there is to tell.
@@ -19,87 +16,22 @@ pub(super) struct Report<'a> {
     pub(super) design: &'a Design,
     pub(super) problem: &'a RoundingProblem<'a>,
     pub(super) found: &'a Rounding,
-    pub(super) rounded: Option<(&'static str, &'a Design)>,
+    pub(super) rounded: Option<(VariantWord, &'a Design)>,
     pub(super) written: Option<&'a str>,
 }
 
-fn judgement(j: &Judgement) -> Value {
-    let margins = j
-        .margins
-        .iter()
-        .map(|(kind, margin)| json!({ "requirement": kind.code(), "margin": number(*margin) }));
-    json!({
-        "objective": number(j.objective), "worst_pose": poses::record(&j.worst_pose),
-        "least_distances": j.least_distances.map(number), "det": j.det.map_or(Value::Null, number),
-        "margins": margins.collect::<Value>(), "met": j.met,
-    })
-}
-
-fn refusal(why: NoRounding) -> Value {
-    let code = match why {
-        NoRounding::NoTriangles => "no_triangles",
-        NoRounding::NoTriangleNear(_) => "no_triangle_near",
-        NoRounding::Singular => "singular",
-        NoRounding::JointsCoincide(_) => "joints_coincide",
-        NoRounding::SingularPose => "singular_pose",
-        _ => "bad_grid",
-    };
-    json!({ "error": { "code": code, "message": why.to_string() } })
-}
-
-fn grids(grids: &[Grid; 2]) -> Value {
-    let one = |g: &Grid| json!({ "pitch": number(g.pitch), "origin": g.origin.map(number), "angle_deg": number(g.angle_deg) });
-    json!({ "base": one(&grids[0]), "platform": one(&grids[1]) })
-}
-
 impl Report<'_> {
-    fn joints(&self, joints: &[RoundedJoint]) -> Value {
-        let one = |j: &RoundedJoint| {
-            json!({
-                "body": j.joint.body.to_string(), "joint": joint_name(self.design, j.joint), "cell": j.cell,
-                "moved": j.moved.iter().map(|x| number(*x)).collect::<Value>(),
-                "distance": number(j.moved.norm()), "off_line": j.off_line.map_or(Value::Null, number),
-            })
-        };
-        joints.iter().map(one).collect()
-    }
-
-    fn exact(&self, e: &ExactRounding) -> Value {
-        json!({
-            "grids": grids(&e.grids), "proved": e.proved, "verdict": verdict(&e.verification),
-            "fractions": e.fractions.map_or(Value::Null, |f| f.iter().map(|(k, n)| json!([k, n])).collect()),
-            "joints": self.joints(&e.joints), "judgement": judgement(&e.judgement),
-            "search": { "triangles": e.pool, "complete_to": e.complete_to.map(number), "replacements": e.replacements },
-        })
-    }
-
-    fn nearest(&self, n: &NearestRounding) -> Value {
-        let pair = |(p, w): (f64, f64)| json!({ "position": number(p), "rotation_deg": number(w) });
-        let residual = n.verification.as_ref().map_or(Value::Null, |v| number(v.map.residual));
-        json!({
-            "grids": grids(&n.grids), "verdict": verdict(&n.verification), "map_residual": residual,
-            "joints": self.joints(&n.joints), "judgement": judgement(&n.judgement),
-            "pose_error": {
-                "first_order": pair(n.first_order), "first_order_nearest_points": pair(n.first_order_nearest),
-                "solved": spread(&n.solved.0), "solved_poses": n.solved.1,
-            },
-            "not_nearest": n.not_nearest,
-        })
-    }
-
-    pub(super) fn json(&self) -> Map<String, Value> {
-        let mut out = Map::new();
-        let mut put = |key: &str, value: Value| out.insert(key.into(), value);
-        put("grids", grids(&self.problem.grids));
-        put("free_grid", json!(self.problem.free));
-        put("wanted", judgement(&self.found.wanted));
-        put("exact", self.found.exact.as_ref().map_or_else(|why| refusal(*why), |e| self.exact(e)));
-        put("nearest", self.found.nearest.as_ref().map_or_else(|why| refusal(*why), |n| self.nearest(n)));
-        put("chosen", json!(self.rounded.map(|r| r.0)));
-        let design = self.rounded.and_then(|(_, d)| serde_json::from_str::<Value>(&d.to_json()).ok());
-        put("design", design.unwrap_or(Value::Null));
-        put("output", json!(self.written));
-        out
+    pub(super) fn record(&self) -> RoundAnswer {
+        RoundAnswer {
+            grids: (&self.problem.grids).into(),
+            free_grid: self.problem.free,
+            wanted: (&self.found.wanted).into(),
+            exact: ExactRoundingOutcome::new(self.design, &self.found.exact),
+            nearest: NearestRoundingOutcome::new(self.design, &self.found.nearest),
+            chosen: self.rounded.map(|r| r.0),
+            design: self.rounded.map(|r| r.1.into()),
+            output: self.written.map(str::to_owned),
+        }
     }
 
     fn judged(&self, out: &mut String, what: &str, j: &Judgement) {
@@ -123,27 +55,27 @@ impl Report<'_> {
         }
     }
 
-    fn table(&self, out: &mut String, joints: &[RoundedJoint]) {
+    fn table(out: &mut String, joints: &[RoundedJointRecord]) {
         let _ = writeln!(
             out,
             "  {:<8} {:<12} {:>7} {:>7}  {:>10}  off its line",
             "body", "joint", "i", "j", "moved"
         );
         for j in joints {
-            let off = j.off_line.map_or("corner".to_string(), |x| format!("{x:.3e}"));
+            let off = j.off_line.map_or("corner".to_string(), |x| format!("{:.3e}", x.0));
             let _ = writeln!(
                 out,
                 "  {:<8} {:<12} {:>7} {:>7}  {:>10.6}  {off}",
-                j.joint.body.to_string(),
-                joint_name(self.design, j.joint),
+                j.body.to_string(),
+                j.joint,
                 j.cell[0],
                 j.cell[1],
-                j.moved.norm()
+                j.distance.0
             );
         }
     }
 
-    pub(super) fn text(&self) -> String {
+    pub(super) fn text(&self, record: &RoundAnswer) -> String {
         let units = &self.design.units;
         let mut out = format!("{}\n", self.design.name);
         self.judged(&mut out, "wanted", &self.found.wanted);
@@ -154,10 +86,12 @@ impl Report<'_> {
                 let _ = writeln!(
                     out,
                     "  equivalent to its own octahedral platform: {proof}; leg map and forward kinematics: {}",
-                    verdict(&e.verification)
+                    RoundingVerdict::from(&e.verification).as_str()
                 );
                 self.grids(&mut out, &e.grids);
-                self.table(&mut out, &e.joints);
+                if let ExactRoundingOutcome::Found(r) = &record.exact {
+                    Self::table(&mut out, &r.joints);
+                }
             }
             Err(why) => {
                 let _ = writeln!(out, "exact    none: {why}");
@@ -170,7 +104,7 @@ impl Report<'_> {
                     out,
                     "  with the wanted design: {}; error of the pose by its formula: first order {:.4e} {units}, {:.4e} deg \
                      (every joint on the nearest point: {:.4e}, {:.4e}); solved at {} random poses at most {:.4e}, {:.4e}",
-                    verdict(&n.verification),
+                    RoundingVerdict::from(&n.verification).as_str(),
                     n.first_order.0,
                     n.first_order.1,
                     n.first_order_nearest.0,
@@ -180,13 +114,15 @@ impl Report<'_> {
                     n.solved.0.rotation_deg.max
                 );
                 self.grids(&mut out, &n.grids);
-                self.table(&mut out, &n.joints);
+                if let NearestRoundingOutcome::Found(r) = &record.nearest {
+                    Self::table(&mut out, &r.joints);
+                }
             }
             Err(why) => {
                 let _ = writeln!(out, "nearest  none: {why}");
             }
         }
-        let chosen = self.rounded.map_or("none meets the requirements", |r| r.0);
+        let chosen = self.rounded.map_or("none meets the requirements", |r| r.0.as_str());
         let _ = writeln!(out, "chosen: {chosen}");
         if let Some(path) = self.written {
             let _ = writeln!(out, "wrote {path}");

@@ -2,18 +2,19 @@
 
 use std::fmt::Write as _;
 
-use serde_json::{Map, Value, json};
-
 use super::{Args, Judged};
 use crate::cli::failure::Failure;
 use crate::cli::files;
-use crate::cli::output::number;
 use crate::cli::poses;
 use crate::design::Design;
 use crate::geom::Pose;
 use crate::manipulator::leg_determinant;
 use crate::plot::{AlongFigure, AlongPart, sign_along};
-use crate::singularity::{JoinOptions, Joined, Piece, Sign, SignsAlong, between, join, signs_along};
+use crate::records::{
+    Number, PoseQuaternionRecord, SignOutcome, SignPairRecord, SignPairsRecord, SignPartRecord,
+    SignPathRecord, WayRecord,
+};
+use crate::singularity::{JoinOptions, Joined, Sign, SignsAlong, between, join, signs_along};
 
 /// Values of det J listed on each straight part of a path.
 const STEPS: usize = 100;
@@ -95,20 +96,6 @@ pub(super) fn all_pairs(args: &Args, design: &Design, modes: &[Judged], seed: u6
     Some(Between { straight, joined })
 }
 
-fn sign(s: Option<Sign>) -> Value {
-    json!(s.map(Sign::value))
-}
-
-fn outcome(s: &SignsAlong) -> &'static str {
-    if s.kept().is_some() {
-        "keeps_sign"
-    } else if s.changes().next().is_some() {
-        "crosses"
-    } else {
-        "undecided"
-    }
-}
-
 impl Path {
     fn csv(&self) -> String {
         let mut out = String::from("part,u,x,y,z,qw,qx,qy,qz,det\n");
@@ -130,21 +117,18 @@ impl Path {
         out
     }
 
-    pub(super) fn record(&self) -> Value {
-        let piece = |p: &Piece| json!({ "from": number(p.from), "to": number(p.to), "sign": sign(p.sign) });
+    pub(super) fn record(&self) -> SignPathRecord {
         let parts = self.parts.iter().enumerate().map(|(k, s)| {
-            let values = self.values.iter().filter(|v| v.0 == k).map(|v| json!([number(v.1), number(v.3)]));
-            json!({
-                "outcome": outcome(s), "changes": s.changes().count(), "doubtful": s.doubtful().count(),
-                "pieces": s.pieces.iter().map(piece).collect::<Value>(), "values": values.collect::<Value>(),
-            })
+            let values = self.values.iter().filter(|v| v.0 == k).map(|v| [Number(v.1), Number(v.3)]);
+            SignPartRecord::new(s, values.collect())
         });
-        json!({
-            "from": self.ends[0], "to": self.ends[1],
-            "poses": self.poses.iter().map(poses::record).collect::<Value>(),
-            "keeps_sign": self.keeps_sign(),
-            "parts": parts.collect::<Value>(),
-        })
+        SignPathRecord {
+            from: self.ends[0],
+            to: self.ends[1],
+            poses: self.poses.iter().map(PoseQuaternionRecord::from).collect(),
+            keeps_sign: self.keeps_sign(),
+            parts: parts.collect(),
+        }
     }
 
     fn figure(&self, design: &Design) -> AlongFigure {
@@ -198,20 +182,20 @@ impl Between {
         }
     }
 
-    pub(super) fn record(&self) -> Value {
-        let pair = |([i, j], s): &([usize; 2], SignsAlong)| {
-            json!({
-                "modes": [i + 1, j + 1], "straight": outcome(s), "changes": s.changes().count(), "joined": self.joined(*i, *j),
-            })
+    pub(super) fn record(&self) -> SignPairsRecord {
+        let pair = |([i, j], s): &([usize; 2], SignsAlong)| SignPairRecord {
+            modes: [i + 1, j + 1],
+            straight: s.into(),
+            changes: s.changes().count(),
+            joined: self.joined(*i, *j),
         };
-        let way = |w: &crate::singularity::Way| json!({ "modes": [w.from + 1, w.to + 1], "poses": w.poses.iter().map(poses::record).collect::<Value>() });
-        let mut fields = Map::new();
-        fields.insert("signs".into(), self.joined.signs.iter().map(|s| sign(*s)).collect());
-        fields.insert("pairs".into(), self.straight.iter().map(pair).collect());
-        let groups = self.joined.groups.iter().map(|g| g.iter().map(|k| k + 1).collect::<Vec<_>>());
-        fields.insert("groups".into(), json!(groups.collect::<Vec<_>>()));
-        fields.insert("ways".into(), self.joined.ways.iter().map(way).collect());
-        Value::Object(fields)
+        let groups = self.joined.groups.iter().map(|g| g.iter().map(|k| k + 1).collect());
+        SignPairsRecord {
+            signs: self.joined.signs.iter().map(|s| (*s).into()).collect(),
+            pairs: self.straight.iter().map(pair).collect(),
+            groups: groups.collect(),
+            ways: self.joined.ways.iter().map(WayRecord::from).collect(),
+        }
     }
 
     pub(super) fn text(&self) -> String {
@@ -226,11 +210,11 @@ impl Between {
             let _ = write!(out, "\n  {:>3}", i + 1);
             for j in 0..n {
                 let found = self.straight.iter().find(|s| s.0 == [i.min(j), i.max(j)]);
-                let mark = match found.map(|s| outcome(&s.1)) {
+                let mark = match found.map(|s| SignOutcome::from(&s.1)) {
                     None => ".",
-                    Some("keeps_sign") => "=",
-                    Some("crosses") => "x",
-                    Some(_) => "?",
+                    Some(SignOutcome::KeepsSign) => "=",
+                    Some(SignOutcome::Crosses) => "x",
+                    Some(SignOutcome::Undecided) => "?",
                 };
                 let _ = write!(out, "{mark:>3}");
             }

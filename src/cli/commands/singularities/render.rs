@@ -2,63 +2,57 @@
 
 use std::fmt::Write as _;
 
-use serde_json::{Map, Value, json};
-
 use super::{Found, Judged};
-use crate::cli::output::{Answer, number};
-use crate::cli::poses;
+use crate::cli::output::Answer;
 use crate::design::Design;
 use crate::geom::Region;
 use crate::manipulator::LegLengths;
+use crate::records::{
+    JudgedPoseRecord, Number, RegionWord, RegularBoxRecord, ScaledPoseRecord, SingularitiesAnswer,
+};
 use crate::singularity::BoxOptions;
 
-fn judged(j: &Judged) -> Value {
-    let mut record = poses::record(&j.pose);
-    record["determinant"] = number(j.determinant);
-    record["inverse_condition"] = number(j.inverse_condition);
-    if let Some(d) = j.four_planes {
-        record["four_planes"] = d.map(number).to_vec().into();
+fn judged(j: &Judged) -> JudgedPoseRecord {
+    JudgedPoseRecord {
+        pose: (&j.pose).into(),
+        determinant: Number(j.determinant),
+        inverse_condition: Number(j.inverse_condition),
+        four_planes: j.four_planes.map(|d| d.map(Number)),
     }
-    record
 }
 
-fn region(options: &BoxOptions) -> &'static str {
+fn region(options: &BoxOptions) -> RegionWord {
     match options.region {
-        Region::Box => "box",
-        Region::Ellipsoid => "ellipsoid",
+        Region::Box => RegionWord::Box,
+        Region::Ellipsoid => RegionWord::Ellipsoid,
     }
 }
 
 /// The answer.
 pub(super) fn answer(design: &Design, lengths: &LegLengths, found: &Found) -> Answer {
-    let mut json = Map::new();
-    json.insert("name".into(), json!(design.name));
-    json.insert("units".into(), json!(design.units));
-    json.insert("pose".into(), judged(&found.middle));
-    json.insert("lengths".into(), json!(lengths.get()));
-    json.insert("assembly_modes".into(), found.modes.iter().map(judged).collect());
-    json.insert("assembly_modes_accounted".into(), json!(found.modes_complete));
     let regular = &found.regular;
-    let segment = regular.refuted.map(|s| {
-        let mut record = poses::record(&s.pose);
-        record["scale"] = number(s.scale);
-        record
-    });
-    json.insert(
-        "box".into(),
-        json!({
-            "translation": found.options.translation, "rotation_deg": found.options.rotation_deg, "region": region(&found.options),
-            "proved_scale": number(regular.proved), "singular_within": segment, "searched_scale": number(regular.searched),
-            "regions": regular.regions,
-        }),
-    );
-    if let Some(path) = &found.path {
-        json.insert("path".into(), path.record());
-    }
-    if let Some(between) = &found.between {
-        json.insert("between".into(), between.record());
-    }
-    Answer::new(found.exit, json, text(design, found))
+    let record = SingularitiesAnswer {
+        name: design.name.clone(),
+        units: design.units.clone(),
+        pose: judged(&found.middle),
+        lengths: lengths.get(),
+        assembly_modes: found.modes.iter().map(judged).collect(),
+        assembly_modes_accounted: found.modes_complete,
+        regular_box: RegularBoxRecord {
+            translation: found.options.translation,
+            rotation_deg: found.options.rotation_deg,
+            region: region(&found.options),
+            proved_scale: Number(regular.proved),
+            singular_within: regular
+                .refuted
+                .map(|s| ScaledPoseRecord { pose: (&s.pose).into(), scale: Number(s.scale) }),
+            searched_scale: Number(regular.searched),
+            regions: regular.regions,
+        },
+        path: found.path.as_ref().map(super::paths::Path::record),
+        between: found.between.as_ref().map(super::paths::Between::record),
+    };
+    Answer::new(found.exit, record, text(design, found))
 }
 
 fn text(design: &Design, found: &Found) -> String {
@@ -90,7 +84,7 @@ fn text(design: &Design, found: &Found) -> String {
     let _ = writeln!(
         out,
         "{} of half widths t x ({:.4}, {:.4}, {:.4}) {} and t x ({:.4}, {:.4}, {:.4}) degrees of the rotation vector about the pose:",
-        region(o),
+        region(o).as_str(),
         o.translation[0],
         o.translation[1],
         o.translation[2],

@@ -6,7 +6,6 @@ use std::path::PathBuf;
 
 use nalgebra::Point3;
 
-pub(super) use self::render::{joint_name, spread};
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
@@ -153,5 +152,7 @@ fn find(design: &Design, args: &Args, seed: u64) -> Result<Found, Failure> {
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
     let found = find(&design, args, context.seed())?;
-    Ok(Answer::new(Exit::Yes, render::json(&design, &found), render::text(&design, &found)))
+    let record = render::record(&design, &found);
+    let text = render::text(&design, &found, &record);
+    Ok(Answer::new(Exit::Yes, record, text))
 }

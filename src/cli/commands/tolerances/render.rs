@@ -2,96 +2,43 @@
 
 use std::fmt::Write as _;
 
-use serde_json::{Map, Value, json};
-
 use super::Found;
-use crate::cli::output::number;
-use crate::cli::poses;
 use crate::design::Design;
-use crate::manufacture::{ErrorSpread, Joint, JointBudget, Limit, Quantiles};
-use crate::synthesis::Body;
+use crate::records::{
+    BudgetPosesRecord, JointBudgetRecord, Number, PoseErrorRecord, SolvedBudgetRecord, TolerancesAnswer,
+    WorkspaceWord, WorstErrorsRecord,
+};
 
-/// The name of a joint in the design.
-pub(crate) fn joint_name(design: &Design, joint: Joint) -> &str {
-    match joint.body {
-        Body::Base => &design.base_names()[joint.index],
-        Body::Platform => &design.platform_names()[joint.index],
+/// The record of the answer.
+pub(super) fn record(design: &Design, f: &Found) -> TolerancesAnswer {
+    let b = &f.budget;
+    TolerancesAnswer {
+        bound: (f.bound.position, f.bound.rotation_deg).into(),
+        tool: [f.tool.x, f.tool.y, f.tool.z].map(Number),
+        units: design.units.clone(),
+        all_joints_radius: (&b.radius).into(),
+        all_coordinates: (&b.half_width).into(),
+        joints: b.joints.iter().map(|j| JointBudgetRecord::new(design, j)).collect(),
+        worst_errors: WorstErrorsRecord {
+            in_budget: f.worst[0].map(PoseErrorRecord::from),
+            times_1_5: f.worst[1].map(PoseErrorRecord::from),
+            pose: (&b.radius.pose).into(),
+        },
+        solved: SolvedBudgetRecord {
+            within_bound: f.solved.within(),
+            largest_share: f.solved.share.map(Number),
+            radius: f.solved.radius.map(Number),
+        },
+        trials: (&f.trials).into(),
+        poses: BudgetPosesRecord {
+            count: b.poses,
+            workspace: if f.workspace_given { WorkspaceWord::Design } else { WorkspaceWord::Default },
+        },
     }
 }
 
-fn limit(l: &Limit) -> Value {
-    json!({
-        "value": number(l.value), "reached": number(l.reached), "limited_by": l.kind.as_str(),
-        "pose": poses::record(&l.pose),
-    })
-}
-
-fn quantiles(q: &Quantiles) -> Value {
-    json!({ "median": number(q.median), "p90": number(q.p90), "p99": number(q.p99), "max": number(q.max) })
-}
-
-pub(crate) fn spread(s: &ErrorSpread) -> Value {
-    json!({ "position": quantiles(&s.position), "rotation_deg": quantiles(&s.rotation_deg) })
-}
-
-fn joint(design: &Design, b: &JointBudget) -> Value {
-    let each = |v: &[Option<f64>; 3]| v.iter().map(|x| x.map_or(Value::Null, number)).collect::<Value>();
-    json!({
-        "body": b.joint.body.to_string(), "joint": joint_name(design, b.joint),
-        "alone": limit(&b.alone),
-        "direction": b.direction.iter().map(|x| number(*x)).collect::<Value>(),
-        "position_per_unit": number(b.per_unit.0), "rotation_deg_per_unit": number(b.per_unit.1),
-        "along_axes": each(&b.along), "largest_product": each(&b.product_box),
-    })
-}
-
-pub(super) fn json(design: &Design, f: &Found) -> Map<String, Value> {
-    let error = |e: &Option<(f64, f64)>| {
-        e.map_or(Value::Null, |(p, w)| json!({ "position": number(p), "rotation_deg": number(w) }))
-    };
-    let (b, t) = (&f.budget, &f.trials);
-    let mut out = Map::new();
-    let mut put = |key: &str, value: Value| out.insert(key.into(), value);
-    put(
-        "bound",
-        json!({ "position": number(f.bound.position), "rotation_deg": number(f.bound.rotation_deg) }),
-    );
-    put("tool", f.tool.coords.iter().map(|x| number(*x)).collect());
-    put("units", json!(design.units));
-    put("all_joints_radius", limit(&b.radius));
-    put("all_coordinates", limit(&b.half_width));
-    put("joints", b.joints.iter().map(|j| joint(design, j)).collect());
-    put(
-        "worst_errors",
-        json!({
-            "in_budget": error(&f.worst[0]), "times_1_5": error(&f.worst[1]),
-            "pose": poses::record(&b.radius.pose),
-        }),
-    );
-    put(
-        "solved",
-        json!({
-            "within_bound": f.solved.within(), "largest_share": f.solved.share.map_or(Value::Null, number),
-            "radius": f.solved.radius.map_or(Value::Null, number),
-        }),
-    );
-    put(
-        "trials",
-        json!({
-            "count": t.count, "lost": t.lost, "within_bound": t.within, "beyond_bound": t.count - t.lost - t.within, "formula": spread(&t.formula),
-            "first_order_discrepancy": spread(&t.discrepancy),
-            "after_one_step": spread(&t.corrected[0]), "after_two_steps": spread(&t.corrected[1]),
-        }),
-    );
-    put(
-        "poses",
-        json!({ "count": b.poses, "workspace": if f.workspace_given { "design" } else { "default" } }),
-    );
-    out
-}
-
-fn optional(x: Option<f64>) -> String {
-    x.map_or("any".to_string(), |x| format!("{x:.3e}"))
+fn optional(x: Option<Number>) -> String {
+    x.map_or("any".to_string(), |x| format!("{:.3e}", x.0))
 }
 
 /// What solving says about the radius.
@@ -110,7 +57,7 @@ fn sentence(f: &Found, units: &str) -> String {
     }
 }
 
-pub(super) fn text(design: &Design, f: &Found) -> String {
+pub(super) fn text(design: &Design, f: &Found, r: &TolerancesAnswer) -> String {
     let (b, t, units) = (&f.budget, &f.trials, &design.units);
     let mut out = format!(
         "{}: error of the tool point at most {} {units}, of the orientation {} deg ({} poses, {} workspace)\n\n",
@@ -137,21 +84,21 @@ pub(super) fn text(design: &Design, f: &Found) -> String {
         out,
         "most critical first    alone      worst direction           pos/unit  deg/unit  alone along x, y, z              all, largest product"
     );
-    for j in &b.joints {
-        let direction = j.direction.iter().map(|x| format!("{x:6.3}")).collect::<Vec<_>>().join(" ");
-        let list = |v: &[Option<f64>; 3]| {
+    for j in &r.joints {
+        let direction = j.direction.iter().map(|x| format!("{:6.3}", x.0)).collect::<Vec<_>>().join(" ");
+        let list = |v: &[Option<Number>; 3]| {
             v.iter().map(|x| format!("{:>9}", optional(*x))).collect::<Vec<_>>().join(" ")
         };
         let _ = writeln!(
             out,
             "{:<8} {:<12} {:>9.3e}  ({direction})  {:>8.3}  {:>8.4}  {}  {}",
-            j.joint.body.to_string(),
-            joint_name(design, j.joint),
-            j.alone.value,
-            j.per_unit.0,
-            j.per_unit.1,
-            list(&j.along),
-            list(&j.product_box)
+            j.body.to_string(),
+            j.joint,
+            j.alone.value.0,
+            j.position_per_unit.0,
+            j.rotation_deg_per_unit.0,
+            list(&j.along_axes),
+            list(&j.largest_product)
         );
     }
     for (what, e) in ["the budget", "1.5 times it"].iter().zip(&f.worst) {

@@ -1,0 +1,181 @@
+//! Answers on how far joints may be off for the pose to stay within a bound.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{Number, PoseErrorRecord, PoseErrorsRecord, PoseQuaternionRecord};
+use crate::design::Design;
+use crate::manufacture::{ErrorKind, Joint, JointBudget, Limit, Trials};
+use crate::synthesis::Body;
+
+/// The answer of `tolerances`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct TolerancesAnswer {
+    /// The greatest error allowed.
+    pub bound: PoseErrorRecord,
+    /// The tool point, platform frame.
+    pub tool: [Number; 3],
+    /// The unit of lengths.
+    pub units: String,
+    /// How far every joint may be off in any direction, to first order.
+    pub all_joints_radius: JointLimitRecord,
+    /// How far every coordinate may be off, to first order.
+    pub all_coordinates: JointLimitRecord,
+    /// The joints, the most critical first.
+    pub joints: Vec<JointBudgetRecord>,
+    /// Errors of the pose with the joints off in the worst way, solved.
+    pub worst_errors: WorstErrorsRecord,
+    /// What solving says about the radius.
+    pub solved: SolvedBudgetRecord,
+    /// Random errors in the budget.
+    pub trials: TrialsRecord,
+    /// The poses looked at.
+    pub poses: BudgetPosesRecord,
+}
+
+/// How far joints may be off.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct JointLimitRecord {
+    /// Keeps the bound to first order, design units.
+    pub value: Number,
+    /// Uses the bound up to first order.
+    pub reached: Number,
+    /// Which bound it is.
+    pub limited_by: ErrorKind,
+    /// The pose at which it is.
+    pub pose: PoseQuaternionRecord,
+}
+
+impl From<&Limit> for JointLimitRecord {
+    fn from(l: &Limit) -> Self {
+        Self {
+            value: Number(l.value),
+            reached: Number(l.reached),
+            limited_by: l.kind,
+            pose: (&l.pose).into(),
+        }
+    }
+}
+
+/// How far one joint may be off while the others are where they should be.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct JointBudgetRecord {
+    /// Its body.
+    pub body: Body,
+    /// Its name.
+    pub joint: String,
+    /// In any direction.
+    pub alone: JointLimitRecord,
+    /// The worst direction, frame of the body.
+    pub direction: [Number; 3],
+    /// Error of the tool point for each unit of error in the worst direction.
+    pub position_per_unit: Number,
+    /// Error of the orientation for each unit of error in the worst direction.
+    pub rotation_deg_per_unit: Number,
+    /// Along x, y and z of the body; null: no influence.
+    pub along_axes: [Option<Number>; 3],
+    /// Half widths of the box of largest volume for all joints together; null: no influence.
+    pub largest_product: [Option<Number>; 3],
+}
+
+impl JointBudgetRecord {
+    /// The record of a joint of the design.
+    #[must_use]
+    pub fn new(design: &Design, b: &JointBudget) -> Self {
+        Self {
+            body: b.joint.body,
+            joint: joint_name(design, b.joint).to_owned(),
+            alone: (&b.alone).into(),
+            direction: [b.direction.x, b.direction.y, b.direction.z].map(Number),
+            position_per_unit: Number(b.per_unit.0),
+            rotation_deg_per_unit: Number(b.per_unit.1),
+            along_axes: b.along.map(|x| x.map(Number)),
+            largest_product: b.product_box.map(|x| x.map(Number)),
+        }
+    }
+}
+
+/// The name of a joint in the design.
+pub(super) fn joint_name(design: &Design, joint: Joint) -> &str {
+    match joint.body {
+        Body::Base => &design.base_names()[joint.index],
+        Body::Platform => &design.platform_names()[joint.index],
+    }
+}
+
+/// Errors of the pose with all joints off in the worst way, solved.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct WorstErrorsRecord {
+    /// By the radius; null: the pose was lost.
+    pub in_budget: Option<PoseErrorRecord>,
+    /// By one and a half times the radius; null: the pose was lost.
+    pub times_1_5: Option<PoseErrorRecord>,
+    /// The pose.
+    pub pose: PoseQuaternionRecord,
+}
+
+/// What solving says about the radius, which is of first order.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SolvedBudgetRecord {
+    /// No error looked at in the budget goes beyond the bound when its pose is solved.
+    pub within_bound: bool,
+    /// The largest share of the bound that was used up; null: a pose was lost.
+    pub largest_share: Option<Number>,
+    /// The worst errors of this length at their pose keep the bound when they are solved.
+    pub radius: Option<Number>,
+}
+
+/// Random errors in the budget.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct TrialsRecord {
+    /// How many.
+    pub count: usize,
+    /// Poses that were lost.
+    pub lost: usize,
+    /// Poses within the bound.
+    pub within_bound: usize,
+    /// Poses beyond it.
+    pub beyond_bound: usize,
+    /// Errors of the pose by the nominal formula.
+    pub formula: PoseErrorsRecord,
+    /// By how much their first order is off.
+    pub first_order_discrepancy: PoseErrorsRecord,
+    /// Errors after one Newton step with the joints as they are.
+    pub after_one_step: PoseErrorsRecord,
+    /// Errors after two.
+    pub after_two_steps: PoseErrorsRecord,
+}
+
+impl From<&Trials> for TrialsRecord {
+    fn from(t: &Trials) -> Self {
+        Self {
+            count: t.count,
+            lost: t.lost,
+            within_bound: t.within,
+            beyond_bound: t.count - t.lost - t.within,
+            formula: (&t.formula).into(),
+            first_order_discrepancy: (&t.discrepancy).into(),
+            after_one_step: (&t.corrected[0]).into(),
+            after_two_steps: (&t.corrected[1]).into(),
+        }
+    }
+}
+
+/// The poses looked at.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct BudgetPosesRecord {
+    /// How many.
+    pub count: usize,
+    /// Whether the workspace is that of the design.
+    pub workspace: WorkspaceWord,
+}
+
+/// Where a workspace comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum WorkspaceWord {
+    /// The design.
+    Design,
+    /// A box about home, because the design has none.
+    Default,
+}
