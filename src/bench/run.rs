@@ -132,10 +132,7 @@ fn one(
     let solve_us = start.elapsed().as_secs_f64() * 1e6;
     let (found, solver) = match solved {
         Ok(found) => {
-            let said = match &found.completeness {
-                Completeness::Proved { argument } => argument.clone(),
-                _ => found.completeness_reason(),
-            };
+            let said = found.completeness.to_string();
             (Some(found), said)
         }
         Err(error) => (None, error.to_string()),
@@ -158,9 +155,9 @@ fn one(
     verdict.missed = verdict.missed.max(expected.saturating_sub(verdict.counted));
     let proved = found.as_ref().is_some_and(|f| matches!(f.completeness, Completeness::Proved { .. }));
     // a proof of completeness is a certificate too
-    let claimed_complete = found
-        .as_ref()
-        .is_some_and(|f| matches!(f.completeness, Completeness::Proved { .. } | Completeness::Modular));
+    let claimed_complete = found.as_ref().is_some_and(|f| {
+        matches!(f.completeness, Completeness::Proved { .. } | Completeness::Modular { .. })
+    });
     verdict.false_certificates += usize::from(claimed_complete && verdict.missed > 0);
     let poses: Vec<ComplexPose> = claims.iter().map(|c| c.pose).collect();
     Ok(Outcome {

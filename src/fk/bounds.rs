@@ -3,21 +3,15 @@
 //! Statements and proofs: `docs/theory/completeness.md`. A bound proved for generic platforms of a topology holds for every
 //! platform of it and of its mergers; which joints coincide is decided exactly, on the doubles as they are.
 
+use super::Theorem;
 use crate::manipulator::Manipulator;
 use crate::topology::Topology;
 
-/// A bound with the reason, in words for people.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct ClassBound {
-    pub(super) count: usize,
-    pub(super) reason: &'static str,
-}
-
 /// A topology with a count of its own, base and platform joint of every leg.
-type Row = ([usize; 6], [usize; 6], ClassBound);
+type Row = ([usize; 6], [usize; 6], Theorem);
 
-const fn row(count: usize, base: [usize; 6], platform: [usize; 6], reason: &'static str) -> Row {
-    (base, platform, ClassBound { count, reason })
+const fn row(poses: usize, base: [usize; 6], platform: [usize; 6], construction: &'static str) -> Row {
+    (base, platform, Theorem::SharedJoints { poses, construction })
 }
 
 const ALL: [usize; 6] = [0, 1, 2, 3, 4, 5];
@@ -92,14 +86,14 @@ const PROVED: [Row; 10] = [
 ];
 
 /// The smallest bound known for this platform below 40, if any.
-pub(super) fn class_bound(m: &Manipulator) -> Option<ClassBound> {
+pub(super) fn class_bound(m: &Manipulator) -> Option<Theorem> {
     let legs = m.legs();
     let (base, platform) = (places(legs.map(|l| l.base.into())), places(legs.map(|l| l.platform.into())));
     bound_of(Topology::unordered(base, platform))
 }
 
 /// The bound of a topology.
-fn bound_of(t: Topology) -> Option<ClassBound> {
+fn bound_of(t: Topology) -> Option<Theorem> {
     let found = PROVED.iter().find(|(base, platform, _)| {
         // exchanging the rows' bodies is exchanging the platform's
         t.is_merger_of(Topology::unordered(*base, *platform))
@@ -132,13 +126,13 @@ mod tests {
     }
 
     fn count(legs: &[Leg; 6]) -> Option<usize> {
-        class_bound(&Manipulator::from_legs(*legs).unwrap()).map(|b| b.count)
+        class_bound(&Manipulator::from_legs(*legs).unwrap()).map(Theorem::bound)
     }
 
     #[test]
     fn every_topology_of_the_catalogue_has_the_bound_of_its_finest_rows() {
         let bounds: Vec<usize> =
-            catalogue().iter().map(|n| bound_of(n.topology()).map_or(40, |b| b.count)).collect();
+            catalogue().iter().map(|n| bound_of(n.topology()).map_or(40, Theorem::bound)).collect();
         let number = |count| bounds.iter().filter(|b| **b == count).count();
         assert_eq!([40, 32, 24, 16, 8].map(number), [3, 2, 3, 12, 14]);
         for n in catalogue() {
@@ -149,7 +143,7 @@ mod tests {
     #[test]
     fn bounds_are_sorted_and_no_row_is_idle() {
         let rows: Vec<&Row> = PROVED.iter().collect();
-        assert!(rows.windows(2).all(|w| w[0].2.count <= w[1].2.count));
+        assert!(rows.windows(2).all(|w| w[0].2.bound() <= w[1].2.bound()));
         for r in rows {
             assert_eq!(
                 bound_of(Topology::of_legs(r.0, r.1)),
@@ -162,7 +156,7 @@ mod tests {
     #[test]
     fn merging_joints_never_raises_a_bound() {
         let list = catalogue();
-        let count = |t: Topology| bound_of(t).map_or(40, |b| b.count);
+        let count = |t: Topology| bound_of(t).map_or(40, Theorem::bound);
         let mut pairs = 0;
         for (x, y) in list.iter().flat_map(|x| list.iter().map(move |y| (x.topology(), y.topology()))) {
             if x.is_merger_of(y) {

@@ -1,12 +1,12 @@
 //! Platforms that cannot be assembled, and sets of poses of positive dimension.
 
 use super::homotopy::pose_of;
-use super::judge::counted;
+use super::judge::{counted, set_counted};
 use super::newton::on_a_curve;
 use super::real_points::real_points;
 use super::{
-    Completeness, FkError, FkOptions, FkRoot, FkSolutions, Method, Reality, Rejected, RejectionReason,
-    SolutionSet,
+    Completeness, FkError, FkOptions, FkRoot, FkSolutions, Method, Reality, Reason, Rejected,
+    RejectionReason, SolutionSet, Theorem,
 };
 use crate::geom::{ComplexPose, Pose};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
@@ -20,12 +20,12 @@ const RANK: f64 = 1e-9;
 /// Slices tried for one with a real pose on it.
 const SLICES: u64 = 4;
 
-fn without_roots(reason: String, solution_set: SolutionSet, o: &FkOptions) -> FkSolutions {
+fn without_roots(completeness: Completeness, solution_set: SolutionSet, o: &FkOptions) -> FkSolutions {
     FkSolutions {
         method: Method::Homotopy,
         roots: Vec::new(),
         solution_set,
-        completeness: Completeness::Unproved { reason, all_paths_accounted: true },
+        completeness,
         paths: Vec::new(),
         rejected: Vec::new(),
         pose_count: None,
@@ -36,11 +36,8 @@ fn without_roots(reason: String, solution_set: SolutionSet, o: &FkOptions) -> Fk
 
 /// Leg vectors with a relation that the lengths contradict.
 pub(super) fn incompatible(o: &FkOptions) -> FkSolutions {
-    let argument = "the leg vectors satisfy a linear relation, exactly, and the squared lengths do not: the same combination of \
-                    the leg equations is a nonzero multiple of e.e, which no pose annuls (docs/theory/completeness.md)";
-    let mut out = without_roots(String::new(), SolutionSet::Empty, o);
-    out.completeness = Completeness::Proved { argument: argument.to_owned() };
-    out
+    let theorem = Theorem::ContradictoryLengths;
+    without_roots(Completeness::Proved { theorem }, SolutionSet::Empty, o)
 }
 
 /// Dependent leg equations: as many random sections as there are relations, or as the poses have dimensions, and the points they cut out.
@@ -66,19 +63,13 @@ pub(super) fn curves(
     if points.iter().all(|p| p.reality != Reality::Real) {
         points.extend(searched(m, s, o));
     }
-    let mut out = without_roots(String::new(), SolutionSet::Isolated, o);
-    let relation = if established {
-        "a relation between the leg vectors holds exactly and"
-    } else {
-        "numerically, a relation between the leg vectors holds and"
-    };
-    let reason = format!(
-        "{relation} the lengths satisfy it within rounding: the poses form a set of dimension {dimension} (at least), which a general \
-         section of that codimension meets in {sections} finite points; {}; isolated poses beside it are not looked for",
-        real_part(&points),
-    );
-    out.solution_set = SolutionSet::PositiveDimensional { dimension, witnesses: points, established };
-    out.completeness = Completeness::Unproved { reason, all_paths_accounted: established };
+    let seen = Reason::DependentLegs { established, dimension, points: sections, real: real(&points) };
+    let mut completeness = Completeness::unproved([seen]);
+    if let Some(count) = &count {
+        completeness.learn(set_counted(count, established));
+    }
+    let set = SolutionSet::PositiveDimensional { dimension, witnesses: points, established };
+    let mut out = without_roots(completeness, set, o);
     out.pose_count = count;
     Ok(out)
 }
@@ -101,24 +92,16 @@ pub(super) fn positive_dimensional(
     let mut points = cut(m, s, o, frame, dimension)?.points;
     let sections = points.len();
     points.extend(searched(m, s, o));
-    let reason = format!(
-        "general sections of that codimension met it numerically in {sections} points; {}; {} certified isolated poses beside it are listed, \
-         and others may be missing",
-        real_part(&points),
-        found.roots.len(),
-    );
-    found.completeness = Completeness::Unproved { reason, all_paths_accounted: false };
+    let isolated = found.roots.len();
+    found.completeness.doubt(Reason::Sectioned { points: sections, real: real(&points), isolated });
     found.solution_set =
         SolutionSet::PositiveDimensional { dimension, witnesses: points, established: false };
     Ok(found)
 }
 
-/// What is known of the real points.
-fn real_part(points: &[FkRoot]) -> String {
-    match points.iter().filter(|p| p.reality == Reality::Real).count() {
-        0 => "no real pose was found on it by sections and a search from 24 starts, which is no proof that there is none".to_owned(),
-        real => format!("{real} of the points listed are real, found numerically"),
-    }
+/// How many of the points are real.
+fn real(points: &[FkRoot]) -> usize {
+    points.iter().filter(|p| p.reality == Reality::Real).count()
 }
 
 /// Where random sections meet a set.
@@ -238,11 +221,8 @@ pub(super) fn detect_curves(found: &mut FkSolutions, m: &Manipulator, s: &Square
         return;
     }
     forget_numbering(&mut found.paths);
-    let reason = format!(
-        "{} paths end on curves of poses (self-motions), found numerically; further curves and isolated poses may be missing",
-        curve.iter().map(|r| r.multiplicity).sum::<u32>()
-    );
-    found.completeness = Completeness::Unproved { reason, all_paths_accounted: false };
+    let paths = curve.iter().map(|r| r.multiplicity).sum();
+    found.completeness.doubt(Reason::CurvesSeen { paths });
     found.solution_set =
         SolutionSet::PositiveDimensional { dimension: 1, witnesses: curve, established: false };
 }

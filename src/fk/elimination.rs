@@ -1,8 +1,10 @@
 //! What the two published eliminations share: candidates of several attempts, refined, merged and certified.
 
 use super::collect::{Candidate, collect};
-use super::evidence::{GENERAL, attach};
-use super::{Completeness, FkOptions, FkRoot, FkSolutions, Method, Rejected, RejectionReason, SolutionSet};
+use super::evidence::{certify, conclude, reject_others};
+use super::{
+    Completeness, FkOptions, FkSolutions, Method, Reason, Rejected, RejectionReason, SolutionSet, Theorem,
+};
 use crate::geom::ComplexPose;
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 
@@ -49,31 +51,63 @@ impl Candidates {
             method,
             roots: collected.roots,
             solution_set: SolutionSet::Isolated,
-            completeness: Completeness::Unproved { reason: String::new(), all_paths_accounted: false },
+            completeness: Completeness::unproved([]),
             paths: Vec::new(),
             rejected,
             pose_count: None,
             unproved: Vec::new(),
             seed: o.seed,
         };
-        attach(&mut solutions, m, s, GENERAL, Vec::new());
+        let certificates = certify(&mut solutions, m, s, Vec::new()).unwrap_or_default();
         // rounding in the frames makes every problem a general one with 40 roots near by; on a special platform
         // those that are none of its own lie far out or near e.e = 0 and may pass for roots by their residual
-        let (certified, others): (Vec<_>, Vec<_>) = solutions.roots.into_iter().partition(FkRoot::certified);
-        let unproved =
-            others.iter().map(|r| Rejected { reason: RejectionReason::NotCertified, residual: r.residual });
-        solutions.rejected.extend(unproved);
-        solutions.roots = certified;
-        if let Completeness::Unproved { reason, .. } = &mut solutions.completeness {
-            *reason = format!(
-                "{} candidates of {} elimination(s) gave {} certified poses and {} that could not be certified; a \
-                 general platform has 40, so that roots may be missing or the platform is a special one",
-                self.poses.len() + self.infinite,
-                self.attempts,
-                solutions.roots.len(),
-                others.len(),
-            );
-        }
+        let refined = solutions.roots.len();
+        reject_others(&mut solutions);
+        let certified = solutions.roots.len();
+        solutions.completeness.doubt(Reason::CandidatesEliminated {
+            candidates: self.poses.len() + self.infinite,
+            eliminations: self.attempts,
+            certified,
+            uncertified: refined - certified,
+        });
+        conclude(&mut solutions, m, &certificates, Theorem::SixLegs);
         solutions
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fk::FkTolerances;
+    use crate::geom::Pose;
+    use crate::manipulator::Leg;
+    use crate::num::Rng;
+    use nalgebra::{Point3, Rotation3, Vector3};
+
+    /// Certification finds that candidates repeat a root; the counts of the elimination are told beside that, not in its place.
+    #[test]
+    fn what_certification_found_doubtful_is_still_told_after_the_counts_of_the_elimination() {
+        let mut rng = Rng::new(17);
+        let mut point =
+            || Point3::new(rng.uniform(-2.0, 2.0), rng.uniform(-2.0, 2.0), rng.uniform(-2.0, 2.0));
+        let m = Manipulator::from_legs(std::array::from_fn(|_| Leg { base: point(), platform: point() }))
+            .unwrap();
+        let pose = Pose {
+            rotation: Rotation3::from_euler_angles(0.2, -0.4, 0.9),
+            position: Vector3::new(0.3, 0.1, 1.9),
+        };
+        let s = pose.squared_lengths(&m).unwrap();
+        let mut moved = pose;
+        moved.position.x += 2e-16;
+        let mut candidates = Candidates::default();
+        candidates.add([pose, moved].map(|p| Some(ComplexPose::from(p))));
+        // with no tolerance at all only certificates tell that the two are one
+        let tolerances = FkTolerances { distinct: 0.0, ..FkTolerances::default() };
+        let o = FkOptions { tolerances, ..FkOptions::default() };
+        let found = candidates.solutions(Method::Template, &m, &s, &o);
+        assert_eq!((found.roots.len(), found.rejected.len()), (1, 1));
+        let said = found.completeness.to_string();
+        assert!(said.contains("2 candidates of 1 elimination(s) gave 1 certified poses"), "{said}");
+        assert!(said.contains("1 candidates are roots found already"), "{said}");
     }
 }

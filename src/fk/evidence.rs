@@ -1,46 +1,21 @@
 //! Certificates for the roots of a method, and completeness when they reach a proved bound.
 
-use std::fmt::Write as _;
-
 use super::bounds::class_bound;
-use super::{Completeness, FkRoot, FkSolutions, Reality, Rejected, RejectionReason};
+use super::{Completeness, FkRoot, FkSolutions, Reality, Reason, Rejected, RejectionReason, Theorem};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::solve::certify::{
     Certificate, CertifiedPose, Certifier, Distinctness, ProvedReality, RootRelation, distinct, relation,
 };
 
-/// A proved upper bound on the number of finite poses, counted with multiplicity.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Bound {
-    pub(super) count: usize,
-    /// Whose bound it is.
-    pub(super) argument: &'static str,
-}
-
-/// Six legs never have more than 40 isolated finite poses.
-pub(super) const GENERAL: Bound = Bound {
-    count: 40,
-    argument: "40 certified distinct poses, and six leg equations never have more than 40 isolated ones \
-               (Ronga, Vust 1992; Lazard 1993; Mourrain 1993)",
-};
-
-/// The octic: eight values of the unknown distance, two mirror poses each.
-pub(super) const OCTAHEDRAL: Bound = Bound {
-    count: 16,
-    argument: "16 certified distinct poses, and an octahedral platform never has more than 16 isolated ones \
-               (degree of the octic, two mirror poses a root)",
-};
-
 /// Tries to certify every root that is not yet; a certified root takes its reality from the proof. `known` are the
-/// certificates of those that are. Then [`conclude`].
-pub(super) fn attach(
+/// certificates of those that are; all certificates together are the result, `None` where nothing can be certified.
+pub(super) fn certify(
     solutions: &mut FkSolutions,
     m: &Manipulator,
     s: &SquaredLegLengths,
-    bound: Bound,
     mut known: Vec<Certificate>,
-) {
-    let Ok(certifier) = Certifier::new(m, s) else { return };
+) -> Option<Vec<Certificate>> {
+    let certifier = Certifier::new(m, s).ok()?;
     let mut repeated = vec![false; solutions.roots.len()];
     for (root, repeated) in solutions.roots.iter_mut().zip(&mut repeated).filter(|(r, _)| !r.certified()) {
         let Ok(CertifiedPose { pose, certificate }) = certifier.certify_pose(&root.pose) else { continue };
@@ -62,12 +37,22 @@ pub(super) fn attach(
         let duplicates = withdraw(solutions, |_| repeated.next() == Some(&true));
         let duplicate = |r: &FkRoot| Rejected { reason: RejectionReason::Duplicate, residual: r.residual };
         solutions.rejected.extend(duplicates.iter().map(duplicate));
-        if let Completeness::Unproved { reason, all_paths_accounted } = &mut solutions.completeness {
-            let _ = write!(reason, "; {} candidates are roots found already", duplicates.len());
-            *all_paths_accounted = false;
-        }
+        solutions.completeness.doubt(Reason::CandidatesRepeated { candidates: duplicates.len() });
     }
-    conclude(solutions, m, &known, bound);
+    Some(known)
+}
+
+/// [`certify`], then [`conclude`].
+pub(super) fn attach(
+    solutions: &mut FkSolutions,
+    m: &Manipulator,
+    s: &SquaredLegLengths,
+    theorem: Theorem,
+    known: Vec<Certificate>,
+) {
+    if let Some(certificates) = certify(solutions, m, s, known) {
+        conclude(solutions, m, &certificates, theorem);
+    }
 }
 
 /// What a certificate proves about reality.
@@ -79,41 +64,30 @@ pub(super) fn proved(reality: ProvedReality) -> Reality {
     }
 }
 
-/// When the certified roots are pairwise distinct and as many as the bound, or as that of the platform's class,
+/// When the certified roots are pairwise distinct and as many as the theorem allows, or as that of the platform's class does,
 /// completeness is proved. Otherwise regular roots without a certificate, and certificates that may be of one root, are doubts.
-fn conclude(solutions: &mut FkSolutions, m: &Manipulator, certificates: &[Certificate], bound: Bound) {
+pub(super) fn conclude(
+    solutions: &mut FkSolutions,
+    m: &Manipulator,
+    certificates: &[Certificate],
+    theorem: Theorem,
+) {
     let distinct = distinct(certificates);
-    let count = certificates.len();
-    if distinct == Distinctness::AllDistinct {
-        if count == bound.count {
-            solutions.completeness = Completeness::Proved { argument: bound.argument.to_owned() };
-            reject_others(solutions);
-            return;
-        }
-        if let Some(class) = class_bound(m).filter(|b| b.count == count) {
-            let argument = format!(
-                "{count} certified distinct poses, and no more than {count} are possible: {}",
-                class.reason
-            );
-            solutions.completeness = Completeness::Proved { argument };
-            reject_others(solutions);
-            return;
-        }
+    let reached = |theorem: &Theorem| theorem.bound() == certificates.len();
+    if distinct == Distinctness::AllDistinct
+        && let Some(theorem) = Some(theorem).filter(reached).or_else(|| class_bound(m).filter(reached))
+    {
+        solutions.completeness.learn(Completeness::Proved { theorem });
+        reject_others(solutions);
+        return;
     }
     let unproved = solutions.roots.iter().filter(|r| !r.certified() && r.multiplicity == 1).count();
-    let Completeness::Unproved { reason, all_paths_accounted } = &mut solutions.completeness else { return };
     if unproved > 0 {
-        let _ = write!(reason, "; {unproved} regular poses could not be certified");
-        *all_paths_accounted = false;
+        solutions.completeness.doubt(Reason::PosesUncertified { poses: unproved });
     }
     if let Distinctness::NotAll(pairs) = distinct {
-        let same = pairs.iter().filter(|p| p.2 == RootRelation::Same).count();
-        let _ = write!(
-            reason,
-            "; {} pairs of certified poses are not proved distinct, {same} of them proved equal",
-            pairs.len()
-        );
-        *all_paths_accounted = false;
+        let equal = pairs.iter().filter(|p| p.2 == RootRelation::Same).count();
+        solutions.completeness.doubt(Reason::PairsNotDistinct { pairs: pairs.len(), equal });
     }
 }
 
@@ -134,15 +108,8 @@ pub(super) fn set_unproved_apart(solutions: &mut FkSolutions) {
     for root in unproved.iter_mut().filter(|r| r.reality == Reality::Real) {
         root.reality = Reality::Undecided;
     }
-    if let Completeness::Unproved { reason, all_paths_accounted } = &mut solutions.completeness {
-        let paths: u32 = unproved.iter().map(|r| r.multiplicity).sum();
-        let _ = write!(
-            reason,
-            "; {paths} paths end near {} points without a certificate: multiple poses, several close ones, or none",
-            unproved.len()
-        );
-        *all_paths_accounted = false;
-    }
+    let paths: u32 = unproved.iter().map(|r| r.multiplicity).sum();
+    solutions.completeness.doubt(Reason::EndsUnproved { paths, points: unproved.len() });
     solutions.unproved.extend(unproved);
 }
 

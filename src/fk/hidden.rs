@@ -1,10 +1,9 @@
 //! Two and three virtual legs: candidates by distances, certificates as for any other method.
 
 use super::bounds::class_bound;
-use super::evidence::GENERAL;
 use super::harvest::End;
 use super::trilateration::{ends_at, judged};
-use super::{Completeness, FkOptions, FkSolutions};
+use super::{FkOptions, FkSolutions, Theorem, Tried};
 use crate::distance::HiddenLengths;
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 
@@ -20,7 +19,7 @@ const BUDGET: usize = 150_000;
 pub(super) fn solve(m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Option<FkSolutions> {
     let hidden = HiddenLengths::of(m)?;
     let most = WAYS.iter().find(|w| w.0 == hidden.virtual_legs()).map_or(1, |w| w.1);
-    let usual = class_bound(m).map_or(GENERAL.count, |b| b.count);
+    let usual = class_bound(m).unwrap_or(Theorem::SixLegs).bound();
     let mut ends: Vec<End> = Vec::new();
     let mut evaluations = 0;
     let mut answer = None;
@@ -29,10 +28,9 @@ pub(super) fn solve(m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Op
             evaluations += found.evaluations;
             ends.extend(ends_at(found.poses.into_iter().flatten()));
         }
-        let tried =
-            format!("{} ways to hide a length with {evaluations} values of closure conditions", way + 1);
-        let found = judged(m, s, o, &ends, usual, &tried);
-        let proved = matches!(found.completeness, Completeness::Proved { .. });
+        let tried = Tried::HiddenLengths { ways: way + 1, values: evaluations };
+        let found = judged(m, s, o, &ends, usual, tried);
+        let proved = found.completeness.is_proved();
         answer = Some(found);
         if proved || evaluations > BUDGET {
             break;

@@ -3,12 +3,12 @@
 use num_complex::Complex64;
 
 use super::dependent::{curves, detect_curves, incompatible, positive_dimensional};
-use super::evidence::{GENERAL, attach, set_unproved_apart};
+use super::evidence::{attach, set_unproved_apart};
 use super::harvest::{End, Harvest, PreciseEnd, harvest};
-use super::judge::{Judgement, counted, judge};
+use super::judge::{Judgement, counted, judge, set_counted};
 use super::{
     Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, PathEnd, PathReport,
-    PoseCounting, SolutionSet,
+    PathsEnded, PoseCounting, Reason, SolutionSet, Theorem,
 };
 use crate::geom::{ComplexPose, rotation_from_quaternion};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
@@ -60,8 +60,8 @@ impl ForwardKinematics for Homotopy {
         for (problem, attempt) in planar.into_iter().chain(plans) {
             let seed = o.seed.wrapping_add(attempt.wrapping_mul(0x9e37_79b9));
             let (mut found, certificates) = problem.solve(m, s, o, seed)?;
-            attach(&mut found, m, s, GENERAL, certificates);
-            if matches!(found.completeness, Completeness::Proved { .. }) {
+            attach(&mut found, m, s, Theorem::SixLegs, certificates);
+            if found.completeness.is_proved() {
                 return Ok(found);
             }
             // before any end without a proof is taken for a pose: what kind of set is it?
@@ -81,7 +81,8 @@ impl ForwardKinematics for Homotopy {
                 Judgement::Silent => detect_curves(&mut found, m, s),
             }
             if nearly {
-                doubt_near_relation(&mut found);
+                // the answer depends on digits that nobody knows
+                found.completeness.doubt(Reason::LegsNearlyDependent);
             }
             set_unproved_apart(&mut found);
             let settled = (nearly && quick) || found.solution_set != SolutionSet::Isolated;
@@ -115,6 +116,9 @@ fn moving_within_rounding(
     let mut found = found?;
     detect_curves(&mut found, m, s);
     set_unproved_apart(&mut found);
+    if let Some(count) = &count {
+        found.completeness.learn(set_counted(count, false));
+    }
     found.pose_count = count;
     matches!(found.solution_set, SolutionSet::PositiveDimensional { .. }).then_some(found)
 }
@@ -197,14 +201,6 @@ fn open_paths(found: &Harvest, count: usize) -> Vec<usize> {
         .map(|(_, sources)| sources[0])
         .collect();
     (0..count).filter(|k| !settled.contains(k)).collect()
-}
-
-/// A relation that holds to rounding only: the answer depends on digits that nobody knows.
-fn doubt_near_relation(found: &mut FkSolutions) {
-    if let Completeness::Unproved { reason, all_paths_accounted } = &mut found.completeness {
-        reason.push_str("; the leg vectors are linearly dependent to within 1e-9 but not exactly (nearly architecturally singular)");
-        *all_paths_accounted = false;
-    }
 }
 
 /// The pose of homogeneous coordinates `(e, g)` in the design's frames: `R = R(e)`, `p = g e~ / (e.e)`.
@@ -301,35 +297,23 @@ fn assemble(
         }
     }
     let count = |end| reports.iter().filter(|p| p.end == end).count();
-    let failed = count(PathEnd::Failed);
-    let blurred = reports.iter().zip(paths).filter(|(r, p)| r.root.is_none() && is_blurred(p)).count();
-    let all_paths_accounted = failed == 0
-        && blurred == 0
-        && collected.rejected.is_empty()
-        && !collected.doubtful
-        && reports.len() == problem.kind.count();
-    let both = match problem.kind {
-        StartKind::Generic => "",
-        StartKind::Planar => ", each standing for its mirror image as well,",
+    let ends = PathsEnded {
+        paths: problem.kind.count(),
+        mirrored: problem.kind == StartKind::Planar,
+        finite: count(PathEnd::Finite),
+        isotropic: count(PathEnd::IsotropicRotation),
+        infinite: count(PathEnd::AtInfinity),
+        failed: count(PathEnd::Failed),
+        blurred: reports.iter().zip(paths).filter(|(r, p)| r.root.is_none() && is_blurred(p)).count(),
+        rejected: collected.rejected.len(),
+        ambiguous: collected.doubtful,
+        unreported: problem.kind.count().abs_diff(reports.len()),
     };
-    let reason = format!(
-        "of {} paths{both} {} ended in finite poses, {} at e.e = 0, {} at infinity, {failed} failed; {}{}",
-        problem.kind.count(),
-        count(PathEnd::Finite),
-        count(PathEnd::IsotropicRotation),
-        count(PathEnd::AtInfinity),
-        if all_paths_accounted { "every path is accounted for" } else { "poses may be missing" },
-        if blurred > 0 {
-            format!(": {blurred} ends are so near infinity or e.e = 0 that they may be finite poses")
-        } else {
-            String::new()
-        },
-    );
     let solutions = FkSolutions {
         method: Method::Homotopy,
         roots: collected.roots,
         solution_set: SolutionSet::Isolated,
-        completeness: Completeness::Unproved { reason, all_paths_accounted },
+        completeness: Completeness::unproved([Reason::PathsEnded(ends)]),
         paths: reports,
         rejected: collected.rejected,
         pose_count: None,

@@ -4,7 +4,7 @@
 //! are not all; more contradict it.
 
 use super::evidence::reject_others;
-use super::{Completeness, FkError, FkOptions, FkRoot, FkSolutions, PoseCounting, SolutionSet};
+use super::{Completeness, FkError, FkOptions, FkRoot, FkSolutions, PoseCounting, Reason, SolutionSet};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::solve::certify::{Certificate, Distinctness, RootCertificate, distinct};
 use crate::solve::pose_count::{CountOptions, PoseCount, PoseSet, Undecided, count_poses, exact_squares};
@@ -54,9 +54,11 @@ pub(super) fn judge(found: &mut FkSolutions, count: &PoseCount) -> Result<Judgem
     found.pose_count = Some(count.clone());
     let distinct = are_distinct(found);
     let certified = found.certified_count();
-    let (expected, judgement) = match &count.set {
+    let error_probability = count.error_probability;
+    let counted = match &count.set {
         PoseSet::Undecided { .. } => return Ok(Judgement::Silent),
         PoseSet::PositiveDimensional { dimension, .. } => {
+            found.completeness.learn(set_counted(count, false));
             return Ok(Judgement::PositiveDimensional { dimension: *dimension });
         }
         PoseSet::Finite { count, .. } if distinct && certified > *count => {
@@ -64,19 +66,31 @@ pub(super) fn judge(found: &mut FkSolutions, count: &PoseCount) -> Result<Judgem
                 format!("{certified} distinct poses are certified, but the count modulo a prime is {count}");
             return Err(FkError::Contradiction { what });
         }
-        PoseSet::Finite { count, .. } if distinct && certified == *count => (*count, Judgement::Complete),
-        PoseSet::Finite { count, .. } => (*count, Judgement::Short),
+        PoseSet::Finite { count, .. } => *count,
     };
-    if judgement == Judgement::Complete {
-        found.completeness = Completeness::Modular;
-        if expected == 0 {
-            found.solution_set = SolutionSet::Empty;
-        }
-        reject_others(found);
-    } else if let Completeness::Unproved { all_paths_accounted, .. } = &mut found.completeness {
-        *all_paths_accounted = false;
+    if !distinct || certified != counted {
+        found.completeness.doubt(Reason::PosesMissing { counted, certified, error_probability });
+        return Ok(Judgement::Short);
     }
-    Ok(judgement)
+    found.completeness.learn(Completeness::Modular { poses: certified, error_probability });
+    if counted == 0 {
+        found.solution_set = SolutionSet::Empty;
+    }
+    reject_others(found);
+    Ok(Judgement::Complete)
+}
+
+/// What the count says where poses form a set of positive dimension, or seem to within rounding; nothing when it is undecided.
+pub(super) fn set_counted(count: &PoseCount, established: bool) -> Completeness {
+    let error_probability = count.error_probability;
+    let reason = match count.set {
+        PoseSet::PositiveDimensional { dimension, degree } => {
+            Some(Reason::SetCounted { dimension, degree, error_probability, established })
+        }
+        PoseSet::Finite { count, .. } => Some(Reason::NoMotionAsWritten { poses: count, error_probability }),
+        PoseSet::Undecided { .. } => None,
+    };
+    Completeness::unproved(reason)
 }
 
 /// The answer of a method that does not look for more when poses are missing.
@@ -86,15 +100,12 @@ pub(super) fn compared_with_count(
     s: &SquaredLegLengths,
     o: &FkOptions,
 ) -> Result<FkSolutions, FkError> {
-    if matches!(found.completeness, Completeness::Proved { .. }) {
+    if found.completeness.is_proved() {
         return Ok(found);
     }
     let Some(count) = counted(m, s, o) else { return Ok(found) };
     if let Judgement::PositiveDimensional { dimension } = judge(&mut found, &count)? {
         reject_others(&mut found);
-        if let Completeness::Unproved { all_paths_accounted, .. } = &mut found.completeness {
-            *all_paths_accounted = false;
-        }
         found.solution_set =
             SolutionSet::PositiveDimensional { dimension, witnesses: Vec::new(), established: false };
     }

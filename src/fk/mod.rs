@@ -10,6 +10,7 @@ mod closure;
 mod closure_poses;
 mod cluster;
 mod collect;
+mod completeness;
 mod dependent;
 mod elimination;
 mod evidence;
@@ -31,13 +32,13 @@ pub use batch::{BatchProblem, BatchResult, Threads, solve_batch, solve_problems}
 pub use choose::{Automatic, solver};
 pub use closure::{Closure, NoClosure, closure};
 pub use closure_poses::closure_candidates;
+pub use completeness::{Completeness, PathsEnded, Reason, Reasons, Theorem, Tried};
 pub use homotopy::Homotopy;
 use near::NeedsStart;
 pub use near::{NearEvidence, NearOptions, NearOutcome, NearSolver, WhyLost};
 pub use octic::{Octic, OcticPoses, OcticSolver, octic};
 pub use solutions::{
-    Completeness, FkRoot, FkSolutions, Method, PathEnd, PathReport, Reality, Rejected, RejectionReason,
-    SolutionSet,
+    FkRoot, FkSolutions, Method, PathEnd, PathReport, Reality, Rejected, RejectionReason, SolutionSet,
 };
 pub use sylvester::Sylvester;
 pub use template::Template;

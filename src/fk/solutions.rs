@@ -2,9 +2,10 @@
 
 use num_complex::Complex64;
 
+use super::Completeness;
 use crate::geom::ComplexPose;
 use crate::solve::certify::RootCertificate;
-use crate::solve::pose_count::{PoseCount, PoseSet};
+use crate::solve::pose_count::PoseCount;
 
 /// A forward-kinematics method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -59,39 +60,6 @@ pub enum Reality {
     NonReal,
     /// Between: not decided.
     Undecided,
-}
-
-/// Whether the set of roots is known to be all of them.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Completeness {
-    /// The number of distinct certified roots equals a proved upper bound.
-    Proved {
-        /// The bound and where its proof stands.
-        argument: String,
-    },
-    /// The certified roots are distinct and as many as the finite poses, multiplicity included, of the design and lengths as written, counted modulo random primes: all poses are
-    /// isolated and listed, up to the probability of error of [`FkSolutions::pose_count`].
-    Modular,
-    /// No proof; the text says what is known and what gives rise to doubt.
-    Unproved {
-        /// What is known.
-        reason: String,
-        /// `true` when nothing speaks against completeness: every path ended where theory lets it end.
-        /// `false` when something failed, so that roots may be missing.
-        all_paths_accounted: bool,
-    },
-}
-
-impl Completeness {
-    /// The name used in JSON.
-    #[must_use]
-    pub fn name(&self) -> &'static str {
-        match self {
-            Self::Proved { .. } => "proved",
-            Self::Modular => "modular",
-            Self::Unproved { .. } => "unproved",
-        }
-    }
 }
 
 /// What the finite complex poses form.
@@ -287,10 +255,7 @@ impl FkSolutions {
     /// `false` when something failed and roots may be missing.
     #[must_use]
     pub fn all_accounted(&self) -> bool {
-        match &self.completeness {
-            Completeness::Proved { .. } | Completeness::Modular => true,
-            Completeness::Unproved { all_paths_accounted, .. } => *all_paths_accounted,
-        }
+        self.completeness.all_accounted()
     }
 
     /// Roots with a certificate, by multiplicity.
@@ -303,42 +268,6 @@ impl FkSolutions {
     #[must_use]
     pub fn missing(&self) -> Option<usize> {
         self.pose_count.as_ref()?.finite()?.checked_sub(self.certified_count())
-    }
-
-    /// What is known of completeness, in words.
-    #[must_use]
-    pub fn completeness_reason(&self) -> String {
-        let count = self.pose_count.as_ref();
-        let error = count.map_or(0.0, |c| c.error_probability);
-        match (&self.completeness, count.map(|c| &c.set)) {
-            (Completeness::Proved { argument }, _) => argument.clone(),
-            (Completeness::Modular, _) => format!(
-                "{} certified distinct poses, and the design and lengths as written have as many finite poses, all isolated, by their algebra modulo random primes \
-                 (probability of error below {error:.0e})",
-                self.certified_count()
-            ),
-            (Completeness::Unproved { reason, .. }, Some(PoseSet::Finite { count, .. }))
-                if matches!(self.solution_set, SolutionSet::PositiveDimensional { .. }) =>
-            {
-                format!(
-                    "within rounding: taken to the last digit the design and lengths have {count} finite poses and no motion (modulo random primes, \
-                     probability of error below {error:.0e}); {reason}"
-                )
-            }
-            (Completeness::Unproved { reason, .. }, Some(PoseSet::Finite { count, .. })) => format!(
-                "the design and lengths as written have {count} finite poses, multiplicity included (modulo random primes, probability of error below {error:.0e}), \
-                 {} are certified, {} are missing or not certified; {reason}",
-                self.certified_count(),
-                self.missing().unwrap_or(0)
-            ),
-            (
-                Completeness::Unproved { reason, .. },
-                Some(PoseSet::PositiveDimensional { dimension, degree }),
-            ) => format!(
-                "the poses form a set of dimension {dimension} and degree {degree} (modulo random primes, probability of error below {error:.0e}); {reason}"
-            ),
-            (Completeness::Unproved { reason, .. }, _) => reason.clone(),
-        }
     }
 
     /// The answer is whole: all poses are listed, by proof or modulo random primes, or a motion is established of which they are points.

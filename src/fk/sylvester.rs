@@ -2,7 +2,7 @@
 
 use super::elimination::Candidates;
 use super::judge::compared_with_count;
-use super::{Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method};
+use super::{FkError, FkOptions, FkSolutions, ForwardKinematics, Method};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::num::Rng;
 use crate::solve::generic_frame::GenericProblem;
@@ -44,7 +44,7 @@ fn eliminated(m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Result<F
         };
         candidates.add(eliminant.poses(&problem));
         let found = candidates.solutions(Method::Sylvester, m, s, o);
-        if attempt + 1 == ATTEMPTS || matches!(found.completeness, Completeness::Proved { .. }) {
+        if attempt + 1 == ATTEMPTS || found.completeness.is_proved() {
             return Ok(found);
         }
     }

@@ -2,7 +2,7 @@
 
 use super::elimination::Candidates;
 use super::judge::compared_with_count;
-use super::{Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method};
+use super::{FkError, FkOptions, FkSolutions, ForwardKinematics, Method};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::num::Rng;
 use crate::solve::generic_frame::GenericProblem;
@@ -52,7 +52,7 @@ fn solve_with(
         let pairs = eliminated.eigenpairs().map_err(|e| FkError::Breakdown { what: e.to_string() })?;
         candidates.add(pairs.iter().map(|pair| layout.pose(&problem, pair)));
         let found = candidates.solutions(Method::Template, m, s, o);
-        if attempt + 1 == ATTEMPTS || matches!(found.completeness, Completeness::Proved { .. }) {
+        if attempt + 1 == ATTEMPTS || found.completeness.is_proved() {
             return Ok(found);
         }
     }
@@ -83,7 +83,7 @@ mod tests {
         let s = SquaredLegLengths::try_new([0.7, 1.1, 2.0, 0.9, 2.9, 1.5]).unwrap();
         let o = FkOptions::default();
         let right = Template.solve(&m, &s, &o).unwrap();
-        assert!(matches!(right.completeness, Completeness::Proved { .. }));
+        assert!(right.completeness.is_proved());
         assert_eq!(right.rejected.len(), 29, "69 candidates, 40 poses, the others with a reason");
         let shipped = Layout::shipped().unwrap();
         let problem = GenericProblem::draw(&m, &s, &mut Rng::stream(o.seed, 0));

@@ -6,12 +6,12 @@ use std::sync::{Arc, Mutex, PoisonError};
 use num_complex::Complex64;
 
 use super::closure_candidates;
-use super::evidence::{GENERAL, attach};
+use super::evidence::attach;
 use super::harvest::{End, Harvest, harvest};
 use super::judge::compared_with_count;
 use super::{
-    Completeness, FkError, FkOptions, FkRoot, FkSolutions, ForwardKinematics, Method, PreparedDesign,
-    Rejected, RejectionReason, SolutionSet, hidden,
+    Completeness, FkError, FkOptions, FkRoot, FkSolutions, ForwardKinematics, Method, PreparedDesign, Reason,
+    Rejected, RejectionReason, SolutionSet, Theorem, Tried, hidden,
 };
 use crate::distance::{Evaluator, NoPlan, Shape, fit};
 use crate::geom::ComplexPose;
@@ -156,9 +156,9 @@ impl PreparedDesign for Prepared<'_> {
             }
             let configurations = evaluator.configurations(&squares, radius);
             ends.extend(ends_at(configurations.found.iter().map(|c| c.pose)));
-            let tried = format!("{} evaluations", attempt + 1);
-            let found = judged(self.manipulator, s, o, &ends, configurations.expected, &tried);
-            if matches!(found.completeness, Completeness::Proved { .. }) {
+            let tried = Tried::Evaluations(attempt + 1);
+            let found = judged(self.manipulator, s, o, &ends, configurations.expected, tried);
+            if found.completeness.is_proved() {
                 return Ok(found);
             }
             answer = Some((found, configurations.expected, attempt + 2));
@@ -168,8 +168,8 @@ impl PreparedDesign for Prepared<'_> {
             let exact = closure_candidates(self.manipulator, s);
             if !exact.is_empty() {
                 ends.extend(ends_at(exact));
-                let tried = format!("{attempts} evaluations");
-                *found = judged(self.manipulator, s, o, &ends, *expected, &tried);
+                let tried = Tried::Evaluations(*attempts);
+                *found = judged(self.manipulator, s, o, &ends, *expected, tried);
             }
         }
         let found = answer.map(|a| a.0);
@@ -200,31 +200,26 @@ pub(super) fn judged(
     o: &FkOptions,
     ends: &[End],
     expected: usize,
-    tried: &str,
+    tried: Tried,
 ) -> FkSolutions {
     let Harvest { collected, certificates } = harvest(m, s, &o.tolerances, ends, &[]);
     let (roots, others): (Vec<_>, Vec<_>) = collected.roots.into_iter().partition(FkRoot::certified);
     let mut rejected = collected.rejected;
     let reason = RejectionReason::NotCertified;
     rejected.extend(others.iter().map(|r| Rejected { reason, residual: r.residual }));
-    let distinct = roots.len();
-    let all_paths_accounted = distinct == expected;
-    let reason = format!(
-        "{distinct} certified poses from {} configurations of {tried}, {expected} are usual for the topology{}",
-        ends.len(),
-        if all_paths_accounted { "" } else { "; poses may be missing or multiple" },
-    );
+    let found =
+        Reason::Trilaterated { certified: roots.len(), configurations: ends.len(), tried, usual: expected };
     let mut solutions = FkSolutions {
         method: Method::Trilateration,
         roots,
         solution_set: SolutionSet::Isolated,
-        completeness: Completeness::Unproved { reason, all_paths_accounted },
+        completeness: Completeness::unproved([found]),
         paths: Vec::new(),
         rejected,
         pose_count: None,
         unproved: Vec::new(),
         seed: o.seed,
     };
-    attach(&mut solutions, m, s, GENERAL, certificates);
+    attach(&mut solutions, m, s, Theorem::SixLegs, certificates);
     solutions
 }

@@ -68,7 +68,7 @@ pub(super) fn record(
     let here =
         (0..real.len()).filter(|_| listed).min_by(|a, b| distance(real[*a]).total_cmp(&distance(real[*b])));
     let proved = matches!(found.completeness, Completeness::Proved { .. });
-    let reason = found.completeness_reason();
+    let reason = found.completeness.to_string();
     Ok(json!({
         "method": found.method.name(), "solution_set": found.solution_set.name(),
         "finite": found.roots.len(), "proved": proved, "reason": reason, "here": here,

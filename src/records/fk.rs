@@ -142,7 +142,7 @@ impl From<&Completeness> for CompletenessWord {
     fn from(c: &Completeness) -> Self {
         match c {
             Completeness::Proved { .. } => Self::Proved,
-            Completeness::Modular => Self::Modular,
+            Completeness::Modular { .. } => Self::Modular,
             Completeness::Unproved { .. } => Self::Unproved,
         }
     }
@@ -153,7 +153,7 @@ impl From<&FkSolutions> for SolvedRecord {
         let mut record = Self {
             method: s.method,
             completeness: (&s.completeness).into(),
-            completeness_reason: s.completeness_reason(),
+            completeness_reason: s.completeness.to_string(),
             all_paths_accounted: s.all_accounted(),
             finite_count: s.roots.len(),
             finite_count_with_multiplicity: s.count_with_multiplicity(),

@@ -190,7 +190,7 @@ impl From<&FkSolutions> for SolvedSampleRecord {
         Self {
             method: s.method,
             completeness: (&s.completeness).into(),
-            completeness_reason: s.completeness_reason(),
+            completeness_reason: s.completeness.to_string(),
             all_paths_accounted: s.all_accounted(),
             finite_count: s.roots.len(),
             real_count: s.assembly_modes().count(),

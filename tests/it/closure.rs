@@ -76,7 +76,7 @@ fn nothing_is_claimed_without_the_number_of_all_poses() {
     let d = design("innocenti-6-4");
     let (m, s) = (d.manipulator(), d.lengths.unwrap().squared());
     let mut found = Homotopy.solve(m, &s, &FkOptions::default()).unwrap();
-    found.completeness = Completeness::Unproved { reason: String::new(), all_paths_accounted: true };
+    found.completeness = Completeness::unproved([]);
     assert_eq!(closure(m, &s, &found).unwrap().real_count(), None);
     // nor with a wrong number
     let mut found = Homotopy.solve(m, &s, &FkOptions::default()).unwrap();

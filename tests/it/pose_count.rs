@@ -48,7 +48,7 @@ fn holds_to_its_count(found: &FkSolutions) {
         assert_eq!(found.missing(), Some(count - certified));
         assert_eq!(found.is_complete(), certified == *count, "{:?}", found.completeness);
     } else {
-        assert!(!matches!(found.completeness, Completeness::Modular));
+        assert!(!matches!(found.completeness, Completeness::Modular { .. }));
     }
 }
 
@@ -80,7 +80,8 @@ fn special_platforms_of_exact_joints_are_complete_modulo_primes() {
         let found = solve(&m, &pose.squared_lengths(&m).unwrap());
         holds_to_its_count(&found);
         assert_eq!(found.pose_count.as_ref().and_then(PoseCount::finite), Some(16));
-        assert_eq!(found.completeness, Completeness::Modular, "seed {seed}: {}", found.completeness_reason());
+        let modular = matches!(found.completeness, Completeness::Modular { .. });
+        assert!(modular, "seed {seed}: {}", found.completeness);
         assert_eq!(found.roots.len(), 16);
     }
 }

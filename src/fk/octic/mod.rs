@@ -18,10 +18,11 @@ use nalgebra::{Matrix3, Vector3};
 use num_complex::Complex64;
 
 use super::collect::{Candidate, collect, pose_scale};
-use super::evidence::{OCTAHEDRAL, attach};
+use super::evidence::attach;
 use super::judge::compared_with_count;
 use super::{
-    Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, PreparedDesign, SolutionSet,
+    Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, PreparedDesign, Reason,
+    SolutionSet, Theorem,
 };
 use crate::geom::{ComplexPose, trilaterate};
 use crate::manipulator::{Leg, Manipulator, Octahedral, SquaredLegLengths};
@@ -84,24 +85,19 @@ impl OcticSolver {
         };
         let candidates = sharpened(m, s, candidates);
         let collected = collect(m, s, &o.tolerances, &candidates);
-        let found = collected.roots.len();
-        let all_paths_accounted = found == 16 && unplaced == 0;
-        let reason = format!(
-            "the octic gave {pairs} pairs (s15, s34), {found} distinct poses of at most 16 were found{}",
-            if all_paths_accounted { "" } else { "; poses may be missing or multiple" },
-        );
+        let solved = Reason::OcticSolved { pairs, poses: collected.roots.len(), unplaced };
         let mut solutions = FkSolutions {
             method: Method::Octic,
             roots: collected.roots,
             solution_set: SolutionSet::Isolated,
-            completeness: Completeness::Unproved { reason, all_paths_accounted },
+            completeness: Completeness::unproved([solved]),
             paths: Vec::new(),
             rejected: collected.rejected,
             pose_count: None,
             unproved: Vec::new(),
             seed: o.seed,
         };
-        attach(&mut solutions, m, s, OCTAHEDRAL, Vec::new());
+        attach(&mut solutions, m, s, Theorem::Octahedral, Vec::new());
         Ok(solutions)
     }
 }

@@ -2,8 +2,8 @@
 
 use super::{OcticPoses, OcticSolver};
 use crate::fk::collect::sort_key;
-use crate::fk::evidence::{OCTAHEDRAL, proved as proved_reality};
-use crate::fk::{Completeness, FkRoot, FkSolutions, Method, SolutionSet};
+use crate::fk::evidence::proved as proved_reality;
+use crate::fk::{Completeness, FkRoot, FkSolutions, Method, SolutionSet, Theorem};
 use crate::num::batch::LANES;
 use crate::solve::certify::RootCertificate;
 use crate::solve::certify::octahedral::OctahedralCertificates;
@@ -34,7 +34,7 @@ pub(super) fn proved(
         method: Method::Octic,
         roots,
         solution_set: SolutionSet::Isolated,
-        completeness: Completeness::Proved { argument: OCTAHEDRAL.argument.to_owned() },
+        completeness: Completeness::Proved { theorem: Theorem::Octahedral },
         paths: Vec::new(),
         rejected: Vec::new(),
         pose_count: None,

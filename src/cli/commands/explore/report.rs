@@ -224,8 +224,8 @@ fn certified(s: &FkSolutions) -> usize {
 fn proved(s: &FkSolutions) -> &'static str {
     match s.completeness {
         Completeness::Proved { .. } => "yes",
-        Completeness::Modular => "modulo random primes",
-        Completeness::Unproved { all_paths_accounted: true, .. } => "no (all paths accounted for)",
+        Completeness::Modular { .. } => "modulo random primes",
+        Completeness::Unproved { .. } if s.all_accounted() => "no (all paths accounted for)",
         Completeness::Unproved { .. } => "NO, poses may be missing",
     }
 }
@@ -239,11 +239,11 @@ fn poses(out: &mut String, r: &Results) {
     };
     let complete = match &s.completeness {
         Completeness::Proved { .. } => "proved",
-        Completeness::Modular => "modulo random primes",
-        Completeness::Unproved { all_paths_accounted: true, .. } => "not proved",
+        Completeness::Modular { .. } => "modulo random primes",
+        Completeness::Unproved { .. } if s.all_accounted() => "not proved",
         Completeness::Unproved { .. } => "NOT proved, poses may be missing",
     };
-    let reason = s.completeness_reason();
+    let reason = s.completeness.to_string();
     let _ = writeln!(
         out,
         "## Assembly modes\n\nThe design at {whose}, ({}) {}: {} finite poses, {} real, {} certified (method {}). \

@@ -7,7 +7,9 @@ use super::render;
 use crate::cli::exit::Exit;
 use crate::cli::output::Answer;
 use crate::design::Design;
-use crate::fk::{Completeness, FkRoot, FkSolutions, Method, NearOutcome, NearSolver, Reality, SolutionSet};
+use crate::fk::{
+    Completeness, FkRoot, FkSolutions, Method, NearOutcome, NearSolver, Reality, Reason, SolutionSet,
+};
 use crate::geom::{ComplexPose, Pose};
 use crate::manipulator::{LegLengths, Manipulator};
 use crate::records::{FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, NearRecord};
@@ -99,10 +101,7 @@ fn record(
         method: Method::Near,
         roots: root.into_iter().collect(),
         solution_set: SolutionSet::Isolated,
-        completeness: Completeness::Unproved {
-            reason: "one pose was followed from the pose given; others were not looked for".to_owned(),
-            all_paths_accounted: tracked,
-        },
+        completeness: Completeness::unproved([Reason::OnePoseFollowed { found: tracked }]),
         paths: Vec::new(),
         rejected: Vec::new(),
         pose_count: None,

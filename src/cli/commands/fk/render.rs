@@ -145,8 +145,8 @@ pub(super) fn closure(closure: &ClosureRecord) -> String {
 mod tests {
     use super::*;
     use crate::fk::{
-        Completeness, FkRoot, FkSolutions, Method, PathEnd, PathReport, Reality, Rejected, RejectionReason,
-        SolutionSet,
+        Completeness, FkRoot, FkSolutions, Method, PathEnd, PathReport, Reality, Reason, Rejected,
+        RejectionReason, SolutionSet,
     };
     use crate::geom::{ComplexPose, Pose};
     use nalgebra::{Rotation3, Vector3};
@@ -167,7 +167,7 @@ mod tests {
             method: Method::Homotopy,
             roots: [Reality::Real, Reality::Undecided, Reality::NonReal].map(root).to_vec(),
             solution_set: SolutionSet::Isolated,
-            completeness: Completeness::Unproved { reason: "paths".into(), all_paths_accounted: false },
+            completeness: Completeness::unproved([Reason::LegsNearlyDependent]),
             paths: vec![PathReport {
                 start: 3,
                 end: PathEnd::AtInfinity,
