@@ -48,7 +48,9 @@ pub(crate) fn report() -> Result<String, Box<dyn Error>> {
             writeln!(
                 out,
                 "  a pose of {} misses {} of the other, certified: {}",
-                c.solves, c.leg, c.certified
+                c.solves,
+                c.leg,
+                c.certified()
             )?;
         }
     }

@@ -9,6 +9,7 @@ use crate::fk::{FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, Po
 use crate::geom::ComplexPose;
 use crate::manipulator::{LegIndex, Manipulator};
 use crate::num::linalg::LinalgError;
+use crate::solve::certify::RootCertificate;
 use crate::synthesis::{LegMapOutcome, LegMapTolerances, NotRealizable, Relation, leg_map};
 
 /// Two poses are the same when they are closer than this (relative to the size and to their own numbers).
@@ -53,14 +54,22 @@ pub struct Counterexample {
     pub solves: &'static str,
     /// The pose.
     pub pose: ComplexPose,
-    /// Whether an interval certificate proves the pose a solution of the one.
-    pub certified: bool,
+    /// The interval certificate that proves the pose a solution of the one, where there is one.
+    pub certificate: Option<RootCertificate>,
     /// The leg of the other platform that is missed most.
     pub leg: LegIndex,
     /// By how much its squared length is missed, relative to the squared size.
     pub miss: f64,
     /// Rounding to expect in this number.
     pub rounding: f64,
+}
+
+impl Counterexample {
+    /// Whether the pose is proved a solution of the one.
+    #[must_use]
+    pub fn certified(&self) -> bool {
+        self.certificate.is_some()
+    }
 }
 
 /// Why no verdict was reached.
@@ -167,7 +176,7 @@ impl Verification {
                      by {:.1e} of the squared size (rounding {:.1e})",
                     v.map.residual,
                     c.sample + 1,
-                    if c.certified { "certified " } else { "" },
+                    if c.certified() { "certified " } else { "" },
                     c.solves,
                     c.leg,
                     c.miss,
@@ -300,12 +309,11 @@ fn counterexample(a: &Manipulator, b: &Manipulator, sample: usize, s: &Sample) -
                     root.residual.max(1e-15 * (1.0 + found.norm() / scale)) * root.condition.max(1.0);
                 let clearer = best.as_ref().is_none_or(|b| miss / rounding > b.miss / b.rounding);
                 if miss > CLEAR_MISS * rounding && clearer {
-                    let certified = root.certified();
                     best = Some(Counterexample {
                         sample,
                         solves,
                         pose: root.pose,
-                        certified,
+                        certificate: root.certificate,
                         leg,
                         miss,
                         rounding,
@@ -377,7 +385,7 @@ mod tests {
         let moved = Manipulator::from_legs(legs).unwrap();
         let v = verify(&a, &moved, &plan(), &FkOptions::default()).unwrap();
         let Verdict::NotEquivalent(c) = v.verdict else { panic!("{:?}", v.verdict) };
-        assert!(c.miss > 1e-9 && c.certified);
+        assert!(c.miss > 1e-9 && c.certified());
     }
 
     /// What `agrees` makes of a sample of an equivalent pair with one more root in B.

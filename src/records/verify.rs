@@ -225,7 +225,7 @@ impl From<&Counterexample> for CounterexampleRecord {
             sample: c.sample,
             solves: c.solves.to_owned(),
             pose: parts(&c.pose),
-            certified: c.certified,
+            certified: c.certified(),
             leg: leg_number(c.leg),
             miss: Number(c.miss),
             rounding: Number(c.rounding),
