@@ -5,10 +5,10 @@ use num_complex::Complex64;
 
 use super::StartKind;
 use super::dispatch::track_all;
-use super::sprint::{Pace, Sprint, Sprinted};
+use super::fast_tracker::{FastPath, FastTracker};
+use super::limits::{FAST, FastTrackerLimits, StepLimits, TrackerLimits};
 use super::start::shipped;
 use super::system::SectionHomotopy;
-use super::tracker::TrackerSettings;
 use crate::manipulator::{Leg, Manipulator, SquaredLegLengths};
 use crate::num::Rng;
 use crate::solve::Frame;
@@ -31,13 +31,18 @@ fn the_fast_tracker_allocates_for_its_results_whatever_the_number_of_steps() {
     let starts = &shipped(StartKind::Generic).unwrap().solutions;
     for seed in 1..4 {
         let real = homotopy(seed);
-        let run = |pace: Pace| {
-            let mut out: Vec<Sprinted> = Vec::new();
-            let counted = measure(|| out = Sprint { homotopy: &real, starts, corner: CORNER, pace }.run());
+        let run = |limits: FastTrackerLimits| {
+            let mut out: Vec<FastPath> = Vec::new();
+            let counted =
+                measure(|| out = FastTracker { homotopy: &real, starts, corner: CORNER, limits }.run());
             (counted.count_total, out.iter().map(|p| p.steps).sum::<u32>())
         };
-        let usual = run(Pace::DEFAULT);
-        let slow = run(Pace { prediction: 1e-9, radius_fraction: 0.05, most_ticks: 5000, ..Pace::DEFAULT });
+        let usual = run(FAST);
+        let slow = run(FastTrackerLimits {
+            step: StepLimits { truncation: 1e-9, radius_fraction: 0.05, ..FAST.step },
+            most_iterations: 5000,
+            ..FAST
+        });
         assert!(slow.1 > 4 * usual.1, "{} and {} steps", usual.1, slow.1);
         // the paths once, the list of those that arrived as it grows
         assert_eq!((usual.0, slow.0), (6, 6));
@@ -48,17 +53,14 @@ fn the_fast_tracker_allocates_for_its_results_whatever_the_number_of_steps() {
 fn the_careful_tracker_allocates_once_whatever_the_number_of_steps() {
     let starts = &shipped(StartKind::Generic).unwrap().solutions;
     let first = SectionHomotopy::through(&homotopy(1), Complex64::ONE).shortened(CORNER);
-    let run = |prediction: f64| {
-        let settings = TrackerSettings {
-            prediction,
-            radius_fraction: 0.5,
-            capture: 1e-3,
-            accuracy: 1e-9,
+    let run = |truncation: f64| {
+        let limits = TrackerLimits {
+            step: StepLimits { truncation, radius_fraction: 0.5, first_correction: 1e-3, accuracy: 1e-9 },
             corrections: 4,
             most_steps: 20_000,
         };
         let mut out = Vec::new();
-        let counted = measure(|| out = track_all(&first, starts, &settings, 0.0));
+        let counted = measure(|| out = track_all(&first, starts, &limits, 0.0));
         (counted.count_total, out.iter().map(|p| p.steps).sum::<u32>())
     };
     let (rough, fine) = (run(1e-3), run(1e-10));

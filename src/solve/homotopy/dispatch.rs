@@ -3,13 +3,14 @@
 use num_complex::Complex64;
 use pulp::{Arch, Simd, WithSimd};
 
+use super::limits::TrackerLimits;
 use super::system::SectionHomotopy;
-use super::tracker::{Tracked, TrackerSettings, track_lanes};
+use super::tracker::{Tracked, track_lanes};
 
 struct TrackAll<'a> {
     homotopy: &'a SectionHomotopy,
     starts: &'a [[Complex64; 8]],
-    settings: &'a TrackerSettings,
+    limits: &'a TrackerLimits,
     endgame_at: f64,
 }
 
@@ -18,7 +19,7 @@ impl WithSimd for TrackAll<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Vec<Tracked> {
-        track_lanes(simd, self.homotopy, self.starts, self.settings, self.endgame_at)
+        track_lanes(simd, self.homotopy, self.starts, self.limits, self.endgame_at)
     }
 }
 
@@ -26,8 +27,8 @@ impl WithSimd for TrackAll<'_> {
 pub(crate) fn track_all(
     homotopy: &SectionHomotopy,
     starts: &[[Complex64; 8]],
-    settings: &TrackerSettings,
+    limits: &TrackerLimits,
     endgame_at: f64,
 ) -> Vec<Tracked> {
-    Arch::new().dispatch(TrackAll { homotopy, starts, settings, endgame_at })
+    Arch::new().dispatch(TrackAll { homotopy, starts, limits, endgame_at })
 }

@@ -7,9 +7,10 @@
 
 use num_complex::Complex64;
 
+use super::limits::{ARC, TrackerLimits};
 use super::polish::{Polished, polish};
 use super::system::SectionHomotopy;
-use super::tracker::{TrackerSettings, track_one};
+use super::tracker::track_one;
 
 /// Samples a turn.
 const SAMPLES: usize = 16;
@@ -22,17 +23,6 @@ const LOOSE_AGREEMENT: f64 = 1e-4;
 
 /// Smallest circle: rounding in `C(t)` is `1e-16`.
 const SMALLEST: f64 = 1e-14;
-
-/// Limits for the short arcs of the endgame.
-const ARC: TrackerSettings = TrackerSettings {
-    prediction: 1e-4,
-    radius_fraction: 0.5,
-    capture: 1e-2,
-    // at ends with e -> 0 the Newton matrix loses two ranks and rounding stops corrections near 1e-8
-    accuracy: 1e-7,
-    corrections: 4,
-    most_steps: 40,
-};
 
 /// The end of a path.
 #[derive(Debug, Clone, Copy)]
@@ -57,7 +47,7 @@ pub(crate) fn end_path(homotopy: &SectionHomotopy, x: &[Complex64; 8], t: f64) -
     let mut best: Option<EndPoint> = None;
     let mut previous: Option<[Complex64; 8]> = None;
     for _ in 0..28 {
-        let straight = TrackerSettings { most_steps: 12, ..ARC };
+        let straight = TrackerLimits { most_steps: 12, ..ARC };
         if let Some(end) = track_one(homotopy, &x, t.into(), Complex64::ZERO, &straight) {
             // arriving at a singular end is easy with a loose corrector: only Newton's convergence counts
             let end = polish(homotopy, &end);

@@ -8,13 +8,15 @@
 mod allocation_tests;
 mod dispatch;
 mod endgame;
+mod fast_tracker;
 mod lanes;
+mod limits;
 mod lu;
 mod monodromy;
 mod paths;
 mod polish;
+mod predictor;
 mod quadrics;
-mod sprint;
 mod start;
 mod system;
 mod tail;

@@ -9,8 +9,8 @@ use num_complex::Complex64;
 
 use super::dispatch::track_all;
 use super::endgame::projective_distance;
+use super::limits::CAREFUL;
 use super::system::SectionHomotopy;
-use super::tracker::TrackerSettings;
 use crate::num::Rng;
 use crate::solve::planar::{PLANAR_FORMS, mirror, spatial_row};
 use crate::solve::sections::{Row, Sections, forms};
@@ -124,7 +124,7 @@ pub(crate) fn generate(kind: StartKind, seed: u64, loops: usize) -> Option<Start
         for (from, to) in way {
             let phase = Complex64::from_polar(1.0, rng.uniform(0.0, std::f64::consts::TAU));
             let homotopy = SectionHomotopy::new(from, phase, to);
-            let tracked = track_all(&homotopy, &points, &TrackerSettings::CAREFUL, 0.0);
+            let tracked = track_all(&homotopy, &points, &CAREFUL, 0.0);
             points = tracked.into_iter().filter(|p| p.arrived).map(|p| p.x).collect();
         }
         for point in points {
@@ -149,11 +149,11 @@ fn to_real_sections(
     let real = Sections { rows }.orthonormalised()?;
     let phase = Complex64::from_polar(1.0, rng.uniform(0.0, std::f64::consts::TAU));
     let carry = SectionHomotopy::new(sections, phase, &real);
-    let carried = track_all(&carry, solutions, &TrackerSettings::CAREFUL, 0.0);
+    let carried = track_all(&carry, solutions, &CAREFUL, 0.0);
     // once more round nothing: polishes every solution to rounding
     let polish = SectionHomotopy::new(&real, Complex64::ONE, &real);
     let points: Vec<[Complex64; 8]> = carried.iter().filter(|p| p.arrived).map(|p| p.x).collect();
-    let tracked = track_all(&polish, &points, &TrackerSettings::CAREFUL, 0.0);
+    let tracked = track_all(&polish, &points, &CAREFUL, 0.0);
     let complete = tracked.len() == kind.count() && tracked.iter().all(|p| p.arrived);
     complete.then(|| StartSystem { sections: real, solutions: tracked.into_iter().map(|p| p.x).collect() })
 }

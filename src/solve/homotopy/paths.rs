@@ -4,13 +4,14 @@ use num_complex::Complex64;
 
 use super::dispatch::track_all;
 use super::endgame::{end_path, projective_distance};
+use super::fast_tracker::FastTracker;
+use super::limits::{BRISK, CAREFUL, FAST, TrackerLimits, VERY_CAREFUL};
 use super::monodromy::StartKind;
 use super::polish::{Polished, polish};
-use super::sprint::{Pace, Sprint};
 use super::start::{StartError, shipped};
 use super::system::SectionHomotopy;
 use super::tail::{Tail, TailEnd};
-use super::tracker::{Tracked, TrackerSettings};
+use super::tracker::Tracked;
 use crate::num::Rng;
 use crate::solve::octuple_sections::OctupleSections;
 use crate::solve::planar::mirror;
@@ -35,25 +36,6 @@ const SAME_END: f64 = 1e-7;
 
 /// A regular end with a smaller pivot ratio may be one of two roots that coincide nearly.
 const NEARLY_SINGULAR: f64 = 1e-5;
-/// For paths that the fast tracker left without an end.
-const BRISK: TrackerSettings = TrackerSettings {
-    prediction: 1e-2,
-    radius_fraction: 0.8,
-    capture: 5e-2,
-    accuracy: 1e-5,
-    corrections: 3,
-    most_steps: 400,
-};
-/// The last resort for paths that jump or get lost.
-const VERY_CAREFUL: TrackerSettings = TrackerSettings {
-    prediction: 1e-7,
-    radius_fraction: 0.15,
-    capture: 1e-5,
-    accuracy: 1e-10,
-    corrections: 4,
-    most_steps: 20_000,
-};
-
 /// Where a path ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum EndKind {
@@ -104,14 +86,14 @@ pub(crate) fn solve_sections(kind: StartKind, target: &Sections, seed: u64) -> R
     let corner = corner(seed);
     let aligned = start.sections.aligned_with(target);
     let real = SectionHomotopy::real(&aligned, target).ok_or(StartError::NotReal)?;
-    let (starts, pace) = (&start.solutions, Pace::DEFAULT);
-    let sprinted = match kind {
-        StartKind::Generic => Sprint { homotopy: &real, starts, corner, pace }.run(),
-        StartKind::Planar => Sprint { homotopy: &real.planar(), starts, corner, pace }.run(),
+    let (starts, limits) = (&start.solutions, FAST);
+    let tracked_fast = match kind {
+        StartKind::Generic => FastTracker { homotopy: &real, starts, corner, limits }.run(),
+        StartKind::Planar => FastTracker { homotopy: &real.planar(), starts, corner, limits }.run(),
     };
     // the second leg, from the corner to the target, as a homotopy of its own
     let homotopy = SectionHomotopy::through(&real, corner);
-    let mut paths: Vec<Path> = sprinted
+    let mut paths: Vec<Path> = tracked_fast
         .iter()
         .map(|p| {
             let blank = Path {
@@ -136,12 +118,12 @@ pub(crate) fn solve_sections(kind: StartKind, target: &Sections, seed: u64) -> R
     let retracker = Retracker { homotopy: &homotopy, real: &real, corner, starts };
     // A long last step may arrive at a singular end without passing through the endgame: those paths are
     // stopped before it. The later rounds are for lost and crossed paths.
-    for settings in [BRISK, TrackerSettings::CAREFUL, VERY_CAREFUL] {
+    for limits in [BRISK, CAREFUL, VERY_CAREFUL] {
         let again = suspects(kind, &paths, target);
         if again.is_empty() {
             break;
         }
-        retracker.run(&mut paths, &again, &settings);
+        retracker.run(&mut paths, &again, &limits);
     }
     Ok(paths)
 }
@@ -168,9 +150,9 @@ pub(crate) fn follow_finely(
     let second = SectionHomotopy::through(&real, corner).shortened(TAIL_AT.into());
     let tail = Tail::new(&aligned, target, corner);
     let from: Vec<[Complex64; 8]> = which.iter().map(|i| start.solutions[*i]).collect();
-    let at_corner = track_all(&first, &from, &TrackerSettings::CAREFUL, 0.0);
+    let at_corner = track_all(&first, &from, &CAREFUL, 0.0);
     let middle: Vec<[Complex64; 8]> = at_corner.iter().map(|p| p.x).collect();
-    let near_end = track_all(&second, &middle, &TrackerSettings::CAREFUL, 0.0);
+    let near_end = track_all(&second, &middle, &CAREFUL, 0.0);
     let follow = |(p, q): (&Tracked, &Tracked)| {
         if p.arrived && q.arrived { tail.follow(&q.x, TAIL_AT) } else { TailEnd::lost(&q.x) }
     };
@@ -242,13 +224,13 @@ struct Retracker<'a> {
 }
 
 impl Retracker<'_> {
-    fn run(&self, paths: &mut [Path], again: &[usize], settings: &TrackerSettings) {
+    fn run(&self, paths: &mut [Path], again: &[usize], limits: &TrackerLimits) {
         let first = SectionHomotopy::through(self.real, Complex64::ONE).shortened(self.corner);
         let second = self.homotopy.shortened(CAREFUL_ENDGAME_AT.into());
         let from: Vec<[Complex64; 8]> = again.iter().map(|i| self.starts[*i]).collect();
-        let at_corner = track_all(&first, &from, settings, 0.0);
+        let at_corner = track_all(&first, &from, limits, 0.0);
         let middle: Vec<[Complex64; 8]> = at_corner.iter().map(|p| p.x).collect();
-        let near_end = track_all(&second, &middle, settings, 0.0);
+        let near_end = track_all(&second, &middle, limits, 0.0);
         for ((index, p), q) in again.iter().zip(at_corner).zip(near_end) {
             let before = &paths[*index];
             let path = Path {

@@ -1,55 +1,26 @@
 //! Predictor-corrector tracking of as many paths at a time as the vector unit has lanes.
 //!
-//! Predictor: Taylor series of order [`ORDER`] in the (complex) parameter. Its last term
-//! sets the step, the ratio of its last two terms bounds it by the estimated radius of convergence
-//! (Timme 2021 uses the same two limits with a Pade predictor). Corrector: Newton. Every lane has its own
-//! parameter, goal and step; a lane whose corrector does not contract repeats the step at a fraction.
+//! Predictor: the Taylor series of the [`predictor`](super::predictor) module. Corrector: Newton's method until it
+//! has converged. Every lane has its own parameter, goal and step; a lane whose corrector does not contract repeats the step at a fraction.
 
 use num_complex::Complex64;
 
 use pulp::{Scalar, Simd};
 
 use super::lanes::{Lanes, MOST_LANES, PerLane, Vec8, load, norm_sqr, store};
+use super::limits::{CORRECTION_RATIO, STEP_GROWTH, STEP_REDUCTION, TrackerLimits};
 use super::lu::Lu;
-use super::system::{ORDER, SectionHomotopy, derivative_matrix, taylor, values};
-
-/// Limits of the tracker; dimensionless, since solutions are kept at norm one.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct TrackerSettings {
-    /// Size of the last Taylor term aimed at.
-    pub(crate) prediction: f64,
-    /// Largest step as a fraction of the estimated radius of convergence.
-    pub(crate) radius_fraction: f64,
-    /// A first Newton correction larger than this rejects the step.
-    pub(crate) capture: f64,
-    /// A Newton correction below this ends the corrector.
-    pub(crate) accuracy: f64,
-    /// Most Newton corrections a step.
-    pub(crate) corrections: u32,
-    /// Most steps (accepted and rejected) a path.
-    pub(crate) most_steps: u32,
-}
-
-impl TrackerSettings {
-    /// For paths that the fast tracker could not finish, and for making start systems.
-    pub(crate) const CAREFUL: Self = Self {
-        prediction: 2e-5,
-        radius_fraction: 0.4,
-        capture: 1e-3,
-        accuracy: 1e-9,
-        corrections: 3,
-        most_steps: 4000,
-    };
-}
+use super::predictor::{choose_step, predicted};
+use super::system::{SectionHomotopy, derivative_matrix, taylor, values};
 
 /// Paths under way, one per lane.
 #[derive(Debug, Clone)]
-pub(super) struct Front<S: Simd> {
+pub(super) struct PathBatch<S: Simd> {
     pub(super) x: Vec8<S>,
     pub(super) t: Lanes<S>,
     pub(super) goal: Lanes<S>,
-    /// Factor on the next step, below one after a rejection.
-    pub(super) caution: PerLane,
+    /// Factor on the step that the predictor proposes, below one after a rejection.
+    pub(super) step_factor: PerLane,
 }
 
 /// What one step did in each lane.
@@ -59,12 +30,12 @@ pub(super) struct StepReport {
     pub(super) arrived: [bool; MOST_LANES],
 }
 
-impl<S: Simd> Front<S> {
+impl<S: Simd> PathBatch<S> {
     pub(super) fn new(simd: S) -> Self {
         let zero = Lanes::zero(simd);
         let mut x = [zero; 8];
         x[0] = Lanes::splat(simd, Complex64::ONE);
-        Self { x, t: zero, goal: zero, caution: [1.0; MOST_LANES] }
+        Self { x, t: zero, goal: zero, step_factor: [1.0; MOST_LANES] }
     }
 
     pub(super) fn set_lane(&mut self, l: usize, x: &[Complex64; 8], t: Complex64, goal: Complex64) {
@@ -74,7 +45,7 @@ impl<S: Simd> Front<S> {
         }
         self.t.set_lane(l, t);
         self.goal.set_lane(l, goal);
-        self.caution[l] = 1.0;
+        self.step_factor[l] = 1.0;
     }
 
     /// The point in lane `l`, norm one.
@@ -95,77 +66,34 @@ impl<S: Simd> Front<S> {
 
     /// One step of every lane towards its goal.
     #[inline(always)]
-    pub(super) fn step(&mut self, homotopy: &SectionHomotopy, settings: &TrackerSettings) -> StepReport {
+    pub(super) fn step(&mut self, homotopy: &SectionHomotopy, limits: &TrackerLimits) -> StepReport {
         let s = self.t.simd;
         let patch = self.normalise();
         let lu = Lu::factorise(homotopy.derivative_at(self.t, &self.x, &patch));
         let series = taylor(homotopy, self.t, &self.x, |b| *b = lu.solve(*b));
-        let (next_t, dt, reaches) = self.choose_step(&series, settings);
-        let mut y = self.x;
-        for p in 0..8 {
-            let mut sum = series[ORDER - 1][p];
-            for k in (0..ORDER - 1).rev() {
-                sum = series[k][p].mul_add(sum, dt);
-            }
-            y[p] = y[p].mul_add(sum, dt);
-        }
-        let accepted = correct(homotopy, settings, next_t, &patch, &mut y);
+        let ends = [self.t, self.goal];
+        let step = choose_step(ends, &series, &limits.step, &self.step_factor, &[true; MOST_LANES]);
+        let mut y = predicted(&self.x, &series, step.dt);
+        let accepted = correct(homotopy, limits, step.t, &patch, &mut y);
         let mask = s.greater_than_f64s(load(s, &accepted.map(f64::from)), s.splat_f64s(0.5));
         for p in 0..8 {
             self.x[p] = self.x[p].select(mask, y[p]);
         }
-        self.t = self.t.select(mask, next_t);
+        self.t = self.t.select(mask, step.t);
         for l in 0..S::F64_LANES {
-            let grown = (2.0 * self.caution[l]).min(1.0);
-            self.caution[l] = if accepted[l] { grown } else { 0.35 * self.caution[l] };
+            let grown = (STEP_GROWTH * self.step_factor[l]).min(1.0);
+            self.step_factor[l] = if accepted[l] { grown } else { STEP_REDUCTION * self.step_factor[l] };
         }
-        let arrived = std::array::from_fn(|l| accepted[l] && reaches[l]);
+        let arrived = std::array::from_fn(|l| accepted[l] && step.reaches[l]);
         StepReport { accepted, arrived }
     }
-
-    /// Next parameter, its difference to the present one, and whether it is the goal.
-    #[inline(always)]
-    fn choose_step(
-        &self,
-        series: &[Vec8<S>; ORDER],
-        settings: &TrackerSettings,
-    ) -> (Lanes<S>, Lanes<S>, [bool; MOST_LANES]) {
-        let s = self.t.simd;
-        let last = store::<S>(norm_sqr(&series[ORDER - 1]));
-        let earlier = store::<S>(norm_sqr(&series[ORDER - 2]));
-        let way = self.goal - self.t;
-        let distance = store::<S>(s.sqrt_f64s(way.norm_sqr()));
-        let mut fraction = [1.0; MOST_LANES];
-        let mut reaches = [false; MOST_LANES];
-        for l in 0..S::F64_LANES {
-            let radius = (earlier[l] / last[l]).sqrt();
-            let by_error = rough_root(settings.prediction * settings.prediction / last[l]);
-            let step = by_error.min(settings.radius_fraction * radius) * self.caution[l];
-            reaches[l] = !(step < distance[l]);
-            fraction[l] = if reaches[l] { 1.0 } else { step / distance[l] };
-        }
-        let dt = way.scale(load(s, &fraction));
-        let mask = s.greater_than_f64s(load(s, &reaches.map(f64::from)), s.splat_f64s(0.5));
-        let next = (self.t + dt).select(mask, self.goal);
-        (next, dt, reaches)
-    }
-}
-
-/// `x^(1 / (2 ORDER))` to six percent: the exponent field of a double is its logarithm, near enough for a
-/// step size and far faster than `powf` in every lane.
-#[inline(always)]
-pub(super) fn rough_root(x: f64) -> f64 {
-    const ONE: i64 = 0x3ff0_0000_0000_0000;
-    const DEGREE: i64 = 2 * ORDER.cast_signed() as i64;
-    let bits = x.to_bits().cast_signed() - ONE;
-    f64::from_bits((bits / DEGREE + ONE).cast_unsigned())
 }
 
 /// Newton's method at `t` on the patch; which lanes converged.
 #[inline(always)]
 fn correct<S: Simd>(
     homotopy: &SectionHomotopy,
-    settings: &TrackerSettings,
+    limits: &TrackerLimits,
     t: Lanes<S>,
     patch: &Vec8<S>,
     y: &mut Vec8<S>,
@@ -173,8 +101,8 @@ fn correct<S: Simd>(
     let rows = homotopy.rows_at(t);
     let mut good = [false; MOST_LANES];
     let mut bad = [false; MOST_LANES];
-    let mut previous = [settings.capture; MOST_LANES];
-    for _ in 0..settings.corrections {
+    let mut previous = [limits.step.first_correction; MOST_LANES];
+    for _ in 0..limits.corrections {
         let j = derivative_matrix(&rows, y, patch);
         let f = values(&j, y);
         let delta = Lu::factorise(j).solve(f);
@@ -185,8 +113,8 @@ fn correct<S: Simd>(
         for l in 0..S::F64_LANES {
             // NaN counts as bad
             bad[l] |= !good[l] && !(size[l] <= previous[l]);
-            good[l] |= !bad[l] && size[l] <= settings.accuracy;
-            previous[l] = 0.3 * size[l];
+            good[l] |= !bad[l] && size[l] <= limits.step.accuracy;
+            previous[l] = CORRECTION_RATIO * size[l];
         }
         if (0..S::F64_LANES).all(|l| good[l] || bad[l]) {
             break;
@@ -217,35 +145,35 @@ pub(super) fn track_lanes<S: Simd>(
     simd: S,
     homotopy: &SectionHomotopy,
     starts: &[[Complex64; 8]],
-    settings: &TrackerSettings,
+    limits: &TrackerLimits,
     endgame_at: f64,
 ) -> Vec<Tracked> {
     let blank =
         |x: &[Complex64; 8]| Tracked { x: *x, t: Complex64::ONE, arrived: false, steps: 0, rejections: 0 };
     let mut out: Vec<Tracked> = starts.iter().map(blank).collect();
-    let mut front = Front::new(simd);
-    let mut occupant: [Option<usize>; MOST_LANES] = [None; MOST_LANES];
+    let mut batch = PathBatch::new(simd);
+    let mut path_of_lane: [Option<usize>; MOST_LANES] = [None; MOST_LANES];
     let mut next = 0;
     for l in 0..S::F64_LANES {
-        refill(&mut front, &mut occupant, l, &mut next, starts);
+        refill(&mut batch, &mut path_of_lane, l, &mut next, starts);
     }
-    while occupant.iter().any(Option::is_some) {
-        let report = front.step(homotopy, settings);
+    while path_of_lane.iter().any(Option::is_some) {
+        let report = batch.step(homotopy, limits);
         for l in 0..S::F64_LANES {
-            let Some(index) = occupant[l] else { continue };
+            let Some(index) = path_of_lane[l] else { continue };
             let path = &mut out[index];
             if report.accepted[l] {
                 path.steps += 1;
             } else {
                 path.rejections += 1;
             }
-            let t = front.t.lane(l);
-            let spent = path.steps + path.rejections >= settings.most_steps;
+            let t = batch.t.lane(l);
+            let spent = path.steps + path.rejections >= limits.most_steps;
             if report.arrived[l] || t.norm() < endgame_at || spent {
-                path.x = front.lane(l);
+                path.x = batch.lane(l);
                 path.t = t;
                 path.arrived = report.arrived[l];
-                refill(&mut front, &mut occupant, l, &mut next, starts);
+                refill(&mut batch, &mut path_of_lane, l, &mut next, starts);
             }
         }
     }
@@ -253,15 +181,15 @@ pub(super) fn track_lanes<S: Simd>(
 }
 
 fn refill<S: Simd>(
-    front: &mut Front<S>,
-    occupant: &mut [Option<usize>; MOST_LANES],
+    batch: &mut PathBatch<S>,
+    path_of_lane: &mut [Option<usize>; MOST_LANES],
     l: usize,
     next: &mut usize,
     starts: &[[Complex64; 8]],
 ) {
-    occupant[l] = (*next < starts.len()).then_some(*next);
-    if let Some(index) = occupant[l] {
-        front.set_lane(l, &starts[index], Complex64::ONE, Complex64::ZERO);
+    path_of_lane[l] = (*next < starts.len()).then_some(*next);
+    if let Some(index) = path_of_lane[l] {
+        batch.set_lane(l, &starts[index], Complex64::ONE, Complex64::ZERO);
         *next += 1;
     }
 }
@@ -273,13 +201,13 @@ pub(crate) fn track_one(
     x: &[Complex64; 8],
     t: Complex64,
     goal: Complex64,
-    settings: &TrackerSettings,
+    limits: &TrackerLimits,
 ) -> Option<[Complex64; 8]> {
-    let mut front = Front::new(Scalar::new());
-    front.set_lane(0, x, t, goal);
-    for _ in 0..settings.most_steps {
-        if front.step(homotopy, settings).arrived[0] {
-            return Some(front.lane(0));
+    let mut batch = PathBatch::new(Scalar::new());
+    batch.set_lane(0, x, t, goal);
+    for _ in 0..limits.most_steps {
+        if batch.step(homotopy, limits).arrived[0] {
+            return Some(batch.lane(0));
         }
     }
     None

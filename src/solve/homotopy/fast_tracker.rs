@@ -11,52 +11,15 @@ use num_complex::Complex64;
 use pulp::{Arch, Simd, WithSimd};
 
 use super::lanes::{Lanes, MOST_LANES, Matrix8, PerLane, Vec8, load, norm_sqr, store};
+use super::limits::{CORRECTION_RATIO, FastTrackerLimits, STEP_GROWTH, STEP_REDUCTION};
 use super::lu::{eliminate, substitute};
+use super::predictor::{choose_step, predicted};
 use super::quadrics::{Forms, Quadrics};
 use super::system::{ORDER, SectionHomotopy, derivative_matrix, taylor, values};
-use super::tracker::rough_root;
-
-/// Limits of the fast tracker.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Pace {
-    /// Size of the last Taylor term aimed at.
-    pub(super) prediction: f64,
-    /// Largest step as a fraction of the estimated radius of convergence.
-    pub(super) radius_fraction: f64,
-    /// A first correction larger than this rejects the step.
-    pub(super) capture: f64,
-    /// A correction below this lets the path go on.
-    pub(super) accuracy: f64,
-    /// Largest ratio of the next correction to this one, estimated from the curvature of the path.
-    pub(super) contraction: f64,
-    /// Most ticks of a path.
-    pub(super) most_ticks: u32,
-    /// Below this `|t|` relative to the corner a path is left to the endgame.
-    pub(super) endgame_at: f64,
-    /// Below this relative `|t|` a path whose `|e|^2` is less than `small_rotation` is left to the endgame, too: the
-    /// condition of the equations grows with `|e|^-2`.
-    pub(super) infinity_at: f64,
-    /// See `infinity_at`.
-    pub(super) small_rotation: f64,
-}
-
-impl Pace {
-    pub(super) const DEFAULT: Self = Self {
-        prediction: 3e-3,
-        radius_fraction: 0.8,
-        capture: 8e-2,
-        accuracy: 1e-2,
-        contraction: 0.02,
-        most_ticks: 200,
-        endgame_at: 1e-4,
-        infinity_at: 3e-2,
-        small_rotation: 1e-5,
-    };
-}
 
 /// What became of one path.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Sprinted {
+pub(super) struct FastPath {
     /// Last good point, norm one.
     pub(super) x: [Complex64; 8],
     /// Where it stands: `t / corner` on the second leg, `None` when the path broke off.
@@ -67,64 +30,68 @@ pub(super) struct Sprinted {
     pub(super) steps: u32,
     /// Rejected steps and repeated corrections.
     pub(super) rejections: u32,
-    /// Last Newton correction at the end point, after [`Sprint`] has polished it.
+    /// Last Newton correction at the end point, after [`FastTracker`] has polished it.
     pub(super) correction: f64,
     /// Estimate of the condition number of the derivative matrix at the end point.
     pub(super) condition: f64,
 }
 
 /// One problem for the fast tracker.
-pub(super) struct Sprint<'a, const F: usize> {
+pub(super) struct FastTracker<'a, const F: usize> {
     pub(super) homotopy: &'a SectionHomotopy<f64, F>,
     pub(super) starts: &'a [[Complex64; 8]],
     pub(super) corner: Complex64,
-    pub(super) pace: Pace,
+    pub(super) limits: FastTrackerLimits,
 }
 
-impl<const F: usize> Sprint<'_, F>
+impl<const F: usize> FastTracker<'_, F>
 where
     Forms<F>: Quadrics<F>,
 {
     /// Runs on the widest vector unit of this machine.
-    pub(super) fn run(self) -> Vec<Sprinted> {
+    pub(super) fn run(self) -> Vec<FastPath> {
         Arch::new().dispatch(self)
     }
 }
 
-impl<const F: usize> WithSimd for Sprint<'_, F>
+impl<const F: usize> WithSimd for FastTracker<'_, F>
 where
     Forms<F>: Quadrics<F>,
 {
-    type Output = Vec<Sprinted>;
+    type Output = Vec<FastPath>;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Vec<Sprinted> {
-        let mut field = Field::new(simd, &self);
-        while field.occupant.iter().any(Option::is_some) {
-            field.tick(&self);
+    fn with_simd<S: Simd>(self, simd: S) -> Vec<FastPath> {
+        let mut batch = PathBatch::new(simd, &self);
+        while batch.path_of_lane.iter().any(Option::is_some) {
+            batch.iterate(&self);
         }
-        let mut out = field.out;
+        let mut out = batch.out;
         polish(simd, self.homotopy, &mut out);
         out
     }
 }
 
-/// The paths under way.
-struct Field<S: Simd> {
+/// The paths under way, one per lane, and the results of all.
+struct PathBatch<S: Simd> {
     /// Present point, predicted and not yet corrected.
     x: Vec8<S>,
     t: Lanes<S>,
     goal: Lanes<S>,
     /// Last accepted point.
-    safe_x: Vec8<S>,
-    safe_t: Lanes<S>,
-    caution: PerLane,
+    accepted_x: Vec8<S>,
+    accepted_t: Lanes<S>,
+    /// Factor on the step that the predictor proposes, below one after a rejection.
+    step_factor: PerLane,
     /// Size of the last correction of this point, infinite for a fresh prediction.
     last: PerLane,
-    occupant: [Option<usize>; MOST_LANES],
-    ticks: [u32; MOST_LANES],
+    /// Index of the path in each lane.
+    path_of_lane: [Option<usize>; MOST_LANES],
+    /// Iterations of that path.
+    iterations: [u32; MOST_LANES],
+    /// Index of the first path that has not started.
     next: usize,
-    out: Vec<Sprinted>,
+    out: Vec<FastPath>,
 }
 
 fn normalised(x: &[Complex64; 8]) -> [Complex64; 8] {
@@ -141,13 +108,13 @@ fn lane_of<S: Simd>(x: &Vec8<S>, l: usize) -> [Complex64; 8] {
     normalised(&out)
 }
 
-impl<S: Simd> Field<S> {
+impl<S: Simd> PathBatch<S> {
     #[inline(always)]
-    fn new<const F: usize>(simd: S, sprint: &Sprint<'_, F>) -> Self {
+    fn new<const F: usize>(simd: S, tracker: &FastTracker<'_, F>) -> Self {
         let zero = Lanes::zero(simd);
         let mut x = [zero; 8];
         x[0] = Lanes::splat(simd, Complex64::ONE);
-        let blank = |x: &[Complex64; 8]| Sprinted {
+        let blank = |x: &[Complex64; 8]| FastPath {
             x: *x,
             remaining: None,
             corner: None,
@@ -156,44 +123,44 @@ impl<S: Simd> Field<S> {
             correction: f64::INFINITY,
             condition: f64::INFINITY,
         };
-        let mut field = Self {
+        let mut batch = Self {
             x,
             t: zero,
             goal: zero,
-            safe_x: x,
-            safe_t: zero,
-            caution: [1.0; MOST_LANES],
+            accepted_x: x,
+            accepted_t: zero,
+            step_factor: [1.0; MOST_LANES],
             last: [f64::INFINITY; MOST_LANES],
-            occupant: [None; MOST_LANES],
-            ticks: [0; MOST_LANES],
+            path_of_lane: [None; MOST_LANES],
+            iterations: [0; MOST_LANES],
             next: 0,
-            out: sprint.starts.iter().map(blank).collect(),
+            out: tracker.starts.iter().map(blank).collect(),
         };
         for l in 0..S::F64_LANES {
-            field.refill(l, sprint);
+            batch.refill(l, tracker);
         }
-        field
+        batch
     }
 
     #[inline(always)]
-    fn refill<const F: usize>(&mut self, l: usize, sprint: &Sprint<'_, F>) {
-        self.occupant[l] = (self.next < sprint.starts.len()).then_some(self.next);
+    fn refill<const F: usize>(&mut self, l: usize, tracker: &FastTracker<'_, F>) {
+        self.path_of_lane[l] = (self.next < tracker.starts.len()).then_some(self.next);
         self.next += 1;
-        if let Some(index) = self.occupant[l] {
-            for (lanes, z) in self.x.iter_mut().zip(&sprint.starts[index]) {
+        if let Some(index) = self.path_of_lane[l] {
+            for (lanes, z) in self.x.iter_mut().zip(&tracker.starts[index]) {
                 lanes.set_lane(l, *z);
             }
             self.t.set_lane(l, Complex64::ONE);
-            self.goal.set_lane(l, sprint.corner);
-            self.caution[l] = 1.0;
+            self.goal.set_lane(l, tracker.corner);
+            self.step_factor[l] = 1.0;
             self.last[l] = f64::INFINITY;
-            self.ticks[l] = 0;
+            self.iterations[l] = 0;
         }
     }
 
     /// One correction of every lane, then a step from those that are accurate enough.
     #[inline(always)]
-    fn tick<const F: usize>(&mut self, sprint: &Sprint<'_, F>)
+    fn iterate<const F: usize>(&mut self, tracker: &FastTracker<'_, F>)
     where
         Forms<F>: Quadrics<F>,
     {
@@ -204,7 +171,7 @@ impl<S: Simd> Field<S> {
             self.x[p] = self.x[p].scale(inverse_norm);
             patch[p] = self.x[p].conj();
         }
-        let mut matrix: Matrix8<S> = sprint.homotopy.derivative_at(self.t, &self.x, &patch);
+        let mut matrix: Matrix8<S> = tracker.homotopy.derivative_at(self.t, &self.x, &patch);
         let mut delta = values(&matrix, &self.x);
         let mut inverse = patch;
         eliminate(&mut matrix, &mut inverse);
@@ -213,54 +180,60 @@ impl<S: Simd> Field<S> {
         for p in 0..8 {
             self.x[p] -= delta[p];
         }
-        let series = taylor(sprint.homotopy, self.t, &self.x, |b| substitute(&matrix, &inverse, b));
+        let series = taylor(tracker.homotopy, self.t, &self.x, |b| substitute(&matrix, &inverse, b));
         // |x_2| / |x_1|^2 measures the curvature that Newton's method has to cope with: the correction after
         // one of size d will be about that times d^2
         let speed = norm_sqr(&series[0]);
         let curvature = store::<S>(s.div_f64s(s.sqrt_f64s(norm_sqr(&series[1])), speed));
-        let advance = self.judge(&size, &curvature, sprint);
-        self.predict(&series, advance, &sprint.pace);
+        let advance = self.accept_or_reject(&size, &curvature, tracker);
+        self.predict(&series, advance, &tracker.limits);
     }
 
     /// Accepts, repeats or rejects every lane by its correction; which lanes go on.
     #[inline(always)]
-    fn judge<const F: usize>(
+    fn accept_or_reject<const F: usize>(
         &mut self,
         size: &PerLane,
         curvature: &PerLane,
-        sprint: &Sprint<'_, F>,
+        tracker: &FastTracker<'_, F>,
     ) -> [bool; MOST_LANES] {
-        let pace = &sprint.pace;
+        let limits = &tracker.limits;
         let mut advance = [false; MOST_LANES];
         for l in 0..S::F64_LANES {
-            let Some(index) = self.occupant[l] else { continue };
-            self.ticks[l] += 1;
-            let limit = if self.last[l].is_finite() { 0.3 * self.last[l] } else { pace.capture };
-            if !(size[l] <= limit.max(1e-12)) || self.ticks[l] > pace.most_ticks {
+            let Some(index) = self.path_of_lane[l] else { continue };
+            self.iterations[l] += 1;
+            let limit = if self.last[l].is_finite() {
+                CORRECTION_RATIO * self.last[l]
+            } else {
+                limits.step.first_correction
+            };
+            if !(size[l] <= limit.max(1e-12)) || self.iterations[l] > limits.most_iterations {
                 self.out[index].rejections += 1;
-                let stuck = self.caution[l] < 1e-6 || self.out[index].steps == 0;
-                if stuck || self.ticks[l] > pace.most_ticks {
-                    self.leave(l, index, sprint);
-                    self.refill(l, sprint);
+                let stuck = self.step_factor[l] < 1e-6 || self.out[index].steps == 0;
+                if stuck || self.iterations[l] > limits.most_iterations {
+                    self.retire(l, index, tracker);
+                    self.refill(l, tracker);
                 } else {
                     for p in 0..8 {
-                        let z = self.safe_x[p].lane(l);
+                        let z = self.accepted_x[p].lane(l);
                         self.x[p].set_lane(l, z);
                     }
-                    let t = self.safe_t.lane(l);
+                    let t = self.accepted_t.lane(l);
                     self.t.set_lane(l, t);
-                    self.caution[l] *= 0.35;
+                    self.step_factor[l] *= STEP_REDUCTION;
                     self.last[l] = f64::INFINITY;
                 }
                 continue;
             }
             self.last[l] = size[l];
-            if size[l] > pace.accuracy || !(size[l] * curvature[l] <= pace.contraction || size[l] < 1e-9) {
+            if size[l] > limits.step.accuracy
+                || !(size[l] * curvature[l] <= limits.contraction || size[l] < 1e-9)
+            {
                 self.out[index].rejections += 1;
                 continue;
             }
             self.out[index].steps += 1;
-            self.caution[l] = (2.0 * self.caution[l]).min(1.0);
+            self.step_factor[l] = (STEP_GROWTH * self.step_factor[l]).min(1.0);
             let (t, goal) = (self.t.lane(l), self.goal.lane(l));
             if t == goal && goal != Complex64::ZERO {
                 self.out[index].corner = Some(lane_of(&self.x, l));
@@ -268,15 +241,15 @@ impl<S: Simd> Field<S> {
             }
             for p in 0..8 {
                 let z = self.x[p].lane(l);
-                self.safe_x[p].set_lane(l, z);
+                self.accepted_x[p].set_lane(l, z);
             }
-            self.safe_t.set_lane(l, t);
-            let remaining = t.norm() / sprint.corner.norm();
+            self.accepted_t.set_lane(l, t);
+            let remaining = t.norm() / tracker.corner.norm();
             let towards_infinity =
-                remaining < pace.infinity_at && self.rotation_size(l) < pace.small_rotation;
-            if self.out[index].corner.is_some() && (remaining < pace.endgame_at || towards_infinity) {
-                self.leave(l, index, sprint);
-                self.refill(l, sprint);
+                remaining < limits.infinity_at && self.rotation_size(l) < limits.small_rotation;
+            if self.out[index].corner.is_some() && (remaining < limits.endgame_at || towards_infinity) {
+                self.retire(l, index, tracker);
+                self.refill(l, tracker);
             } else {
                 advance[l] = true;
             }
@@ -292,56 +265,44 @@ impl<S: Simd> Field<S> {
 
     /// Records the last good point of a path that goes no further.
     #[inline(always)]
-    fn leave<const F: usize>(&mut self, l: usize, index: usize, sprint: &Sprint<'_, F>) {
+    fn retire<const F: usize>(&mut self, l: usize, index: usize, tracker: &FastTracker<'_, F>) {
         let path = &mut self.out[index];
         if path.steps > 0 {
-            path.x = lane_of(&self.safe_x, l);
-            let t = self.safe_t.lane(l);
-            path.remaining = path.corner.map(|_| t.norm() / sprint.corner.norm());
+            path.x = lane_of(&self.accepted_x, l);
+            let t = self.accepted_t.lane(l);
+            path.remaining = path.corner.map(|_| t.norm() / tracker.corner.norm());
         }
     }
 
     /// Moves the lanes that advance along their series.
     #[inline(always)]
-    fn predict(&mut self, series: &[Vec8<S>; ORDER], advance: [bool; MOST_LANES], pace: &Pace) {
+    fn predict(
+        &mut self,
+        series: &[Vec8<S>; ORDER],
+        advance: [bool; MOST_LANES],
+        limits: &FastTrackerLimits,
+    ) {
         let s = self.t.simd;
-        let last = store::<S>(norm_sqr(&series[ORDER - 1]));
-        let earlier = store::<S>(norm_sqr(&series[ORDER - 2]));
-        let way = self.goal - self.t;
-        let distance = store::<S>(s.sqrt_f64s(way.norm_sqr()));
-        let mut fraction = [0.0; MOST_LANES];
-        let mut reaches = [0.0; MOST_LANES];
+        let ends = [self.t, self.goal];
+        let step = choose_step(ends, series, &limits.step, &self.step_factor, &advance);
         for l in 0..S::F64_LANES {
-            if !advance[l] {
-                continue;
+            if advance[l] {
+                self.last[l] = f64::INFINITY;
             }
-            let radius = (earlier[l] / last[l]).sqrt();
-            let by_error = rough_root(pace.prediction * pace.prediction / last[l]);
-            let step = by_error.min(pace.radius_fraction * radius) * self.caution[l];
-            let arrives = !(step < distance[l]);
-            fraction[l] = if arrives { 1.0 } else { step / distance[l] };
-            reaches[l] = f64::from(arrives);
-            self.last[l] = f64::INFINITY;
         }
-        let dt = way.scale(load(s, &fraction));
+        // lanes that stay may have meaningless series: 0 times infinity must not reach them
+        let moved = predicted(&self.x, series, step.dt);
+        let mask = s.greater_than_f64s(load(s, &step.fraction), s.splat_f64s(0.0));
         for p in 0..8 {
-            let mut sum = series[ORDER - 1][p];
-            for k in (0..ORDER - 1).rev() {
-                sum = series[k][p].mul_add(sum, dt);
-            }
-            // lanes that stay may have meaningless series: 0 times infinity must not reach them
-            let moved = self.x[p].mul_add(sum, dt);
-            let mask = s.greater_than_f64s(load(s, &fraction), s.splat_f64s(0.0));
-            self.x[p] = self.x[p].select(mask, moved);
+            self.x[p] = self.x[p].select(mask, moved[p]);
         }
-        let mask = s.greater_than_f64s(load(s, &reaches), s.splat_f64s(0.5));
-        self.t = (self.t + dt).select(mask, self.goal);
+        self.t = step.t;
     }
 }
 
 /// Newton's method at the target for all paths that arrived there, and a condition estimate.
 #[inline(always)]
-fn polish<S: Simd, const F: usize>(simd: S, homotopy: &SectionHomotopy<f64, F>, paths: &mut [Sprinted])
+fn polish<S: Simd, const F: usize>(simd: S, homotopy: &SectionHomotopy<f64, F>, paths: &mut [FastPath])
 where
     Forms<F>: Quadrics<F>,
 {

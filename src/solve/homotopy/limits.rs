@@ -1,0 +1,89 @@
+//! Limits of the path trackers, all in one place; dimensionless, since solutions are kept at norm one.
+
+/// Limits of one predictor-corrector step.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct StepLimits {
+    /// Size of the last Taylor term aimed at: an estimate of the predictor's error.
+    pub(crate) truncation: f64,
+    /// Largest step as a fraction of the estimated radius of convergence.
+    pub(crate) radius_fraction: f64,
+    /// A first Newton correction larger than this rejects the step.
+    pub(crate) first_correction: f64,
+    /// A Newton correction below this ends the corrector.
+    pub(crate) accuracy: f64,
+}
+
+/// Limits of the [tracker](super::tracker) that converges at every step.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct TrackerLimits {
+    /// Of a step.
+    pub(crate) step: StepLimits,
+    /// Most Newton corrections a step.
+    pub(crate) corrections: u32,
+    /// Most steps (accepted and rejected) a path.
+    pub(crate) most_steps: u32,
+}
+
+/// Limits of the [fast tracker](super::fast_tracker).
+#[derive(Debug, Clone, Copy)]
+pub(super) struct FastTrackerLimits {
+    /// Of a step; the accuracy lets the path go on.
+    pub(super) step: StepLimits,
+    /// Largest ratio of the next correction to this one, estimated from the curvature of the path.
+    pub(super) contraction: f64,
+    /// Most iterations of a path.
+    pub(super) most_iterations: u32,
+    /// Below this `|t|` relative to the corner a path is left to the endgame.
+    pub(super) endgame_at: f64,
+    /// Below this relative `|t|` a path whose `|e|^2` is less than `small_rotation` is left to the endgame, too: the
+    /// condition of the equations grows with `|e|^-2`.
+    pub(super) infinity_at: f64,
+    /// See `infinity_at`.
+    pub(super) small_rotation: f64,
+}
+
+/// Factor on the next step after a rejection.
+pub(super) const STEP_REDUCTION: f64 = 0.35;
+/// Factor on the next step after an accepted one, up to the step that the predictor proposes.
+pub(super) const STEP_GROWTH: f64 = 2.0;
+/// Newton corrections that do not shrink by this factor do not converge to the path.
+pub(super) const CORRECTION_RATIO: f64 = 0.3;
+
+/// For generic problems: the first attempt at every path, checked at the end.
+pub(super) const FAST: FastTrackerLimits = FastTrackerLimits {
+    step: StepLimits { truncation: 3e-3, radius_fraction: 0.8, first_correction: 8e-2, accuracy: 1e-2 },
+    contraction: 0.02,
+    most_iterations: 200,
+    endgame_at: 1e-4,
+    infinity_at: 3e-2,
+    small_rotation: 1e-5,
+};
+
+/// For paths that the fast tracker left without an end.
+pub(super) const BRISK: TrackerLimits = TrackerLimits {
+    step: StepLimits { truncation: 1e-2, radius_fraction: 0.8, first_correction: 5e-2, accuracy: 1e-5 },
+    corrections: 3,
+    most_steps: 400,
+};
+
+/// For paths that these could not finish, and for making start systems.
+pub(super) const CAREFUL: TrackerLimits = TrackerLimits {
+    step: StepLimits { truncation: 2e-5, radius_fraction: 0.4, first_correction: 1e-3, accuracy: 1e-9 },
+    corrections: 3,
+    most_steps: 4000,
+};
+
+/// The last resort for paths that jump or get lost.
+pub(super) const VERY_CAREFUL: TrackerLimits = TrackerLimits {
+    step: StepLimits { truncation: 1e-7, radius_fraction: 0.15, first_correction: 1e-5, accuracy: 1e-10 },
+    corrections: 4,
+    most_steps: 20_000,
+};
+
+/// For the short arcs of the endgame.
+pub(super) const ARC: TrackerLimits = TrackerLimits {
+    // at ends with e -> 0 the Newton matrix loses two ranks and rounding stops corrections near 1e-8
+    step: StepLimits { truncation: 1e-4, radius_fraction: 0.5, first_correction: 1e-2, accuracy: 1e-7 },
+    corrections: 4,
+    most_steps: 40,
+};
