@@ -4,7 +4,8 @@ use super::bounds::class_bound;
 use super::{Completeness, FkRoot, FkSolutions, Reality, Reason, Rejected, RejectionReason, Theorem};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::solve::certify::{
-    Certificate, CertifiedPose, Certifier, Distinctness, ProvedReality, RootRelation, distinct, relation,
+    Certificate, CertifiedPose, Certifier, Distinctness, ProvedReality, RootRelation, Start, distinct,
+    relation,
 };
 
 /// Tries to certify every root that is not yet; a certified root takes its reality from the proof. `known` are the
@@ -18,7 +19,9 @@ pub(super) fn certify(
     let certifier = Certifier::new(m, s).ok()?;
     let mut repeated = vec![false; solutions.roots.len()];
     for (root, repeated) in solutions.roots.iter_mut().zip(&mut repeated).filter(|(r, _)| !r.certified()) {
-        let Ok(CertifiedPose { pose, certificate }) = certifier.certify_pose(&root.pose) else { continue };
+        let Ok(CertifiedPose { pose, certificate }) = certifier.root_near(Start::Pose(&root.pose)) else {
+            continue;
+        };
         let same = |k: &Certificate| relation(k, &certificate) == RootRelation::Same;
         if known.iter().any(same) {
             *repeated = true;

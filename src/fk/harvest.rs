@@ -10,7 +10,9 @@ use super::{FkRoot, FkTolerances, Rejected, RejectionReason};
 use crate::geom::ComplexPose;
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::num::octuple::ComplexOctuple;
-use crate::solve::certify::{Certificate, CertifiedPose, Certifier, ProvedReality, RootRelation, relation};
+use crate::solve::certify::{
+    Certificate, CertifiedPose, Certifier, ProvedReality, RootRelation, Start, relation,
+};
 
 /// Regular ends with a larger condition number may belong to a cluster.
 const NEARLY_SINGULAR: f64 = 1e4;
@@ -154,7 +156,7 @@ fn certify_all(
         if std::mem::replace(&mut done[i], true) {
             continue;
         }
-        let Ok(root) = certifier.certify_point(&end.point) else {
+        let Ok(root) = certifier.root_near(Start::Point(&end.point)) else {
             open.push(candidate(end));
             continue;
         };
@@ -190,7 +192,7 @@ fn finite_after_all(m: &Manipulator, s: &SquaredLegLengths, ends: &[End]) -> Vec
             Some(h) => [1.0, -1.0].map(|sign| std::array::from_fn(|k| end.point[k] + h[k] * sign)).to_vec(),
         };
         for start in starts {
-            let Ok(root) = certifier.certify_doubtful(&start, MEAN) else { continue };
+            let Ok(root) = certifier.root_near(Start::DoubtfulPoint(&start, MEAN)) else { continue };
             // the two paths of a pair are free to share it out
             let taken =
                 |p: &Proof| relation(&p.root.certificate, &root.certificate) != RootRelation::Distinct;
@@ -230,7 +232,7 @@ fn certify_precise(
     let certifier = Certifier::new(m, s);
     let mut open = Vec::new();
     for end in ends {
-        match certifier.as_ref().map(|c| c.certify_precise(&end.point)) {
+        match certifier.as_ref().map(|c| c.root_near(Start::PrecisePoint(&end.point))) {
             Ok(Ok(root)) => {
                 proofs.push(Proof { root, condition: end.condition, sources: vec![end.source] });
             }
@@ -317,7 +319,7 @@ mod tests {
             assert_eq!(found.roots.iter().filter(|r| r.certified()).count(), 40);
             for root in &found.roots {
                 let own = certifier.certify(&root.pose);
-                let proof = certifier.certify_point(&root.dual_quaternion.unwrap()).unwrap();
+                let proof = certifier.root_near(Start::Point(&root.dual_quaternion.unwrap())).unwrap();
                 assert_eq!(relation(own.certificate().unwrap(), &proof.certificate), RootRelation::Same);
                 for image in images(&proof, true) {
                     let own = certifier.certify(&image.pose);

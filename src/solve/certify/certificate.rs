@@ -195,6 +195,34 @@ impl Certificate {
     }
 }
 
+/// A proved root and its pose, rounded from the best approximation at hand.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct CertifiedPose {
+    pub(crate) pose: ComplexPose,
+    pub(crate) certificate: Certificate,
+}
+
+impl CertifiedPose {
+    /// The mirror image in `z = 0`, see [`Certificate::mirrored`].
+    pub(crate) fn mirrored(&self) -> Self {
+        let side = |k: usize| if k == 2 { -1.0 } else { 1.0 };
+        let pose = ComplexPose {
+            rotation: nalgebra::Matrix3::from_fn(|i, j| self.pose.rotation[(i, j)] * (side(i) * side(j))),
+            position: nalgebra::Vector3::from_fn(|i, _| self.pose.position[i] * side(i)),
+        };
+        Self { pose, certificate: self.certificate.mirrored() }
+    }
+
+    /// The complex conjugate root.
+    pub(crate) fn conjugate(&self) -> Self {
+        let pose = ComplexPose {
+            rotation: self.pose.rotation.map(|z| z.conj()),
+            position: self.pose.position.map(|z| z.conj()),
+        };
+        Self { pose, certificate: self.certificate.conjugate() }
+    }
+}
+
 /// A certificate of either kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[allow(clippy::large_enum_variant)] // plain values, kept with roots that are as large

@@ -1,4 +1,4 @@
-//! The contraction test.
+//! When a ball about a centre holds exactly one root: the theorem, and the verb that applies it.
 //!
 //! `F(c + h) = F(c) + J h + Q(h, h)` exactly, so `G(h) = h - Y F(c + h)` satisfies, with
 //! `eta >= |Y F(c)|`, `kappa >= |I - Y J|`, `beta >= sup |Y Q(h, k)|` over unit `h`, `k` (max norm),
@@ -21,26 +21,30 @@
 use num_complex::Complex64;
 
 use super::NEAR;
-use super::apart::contract_apart;
 use super::certificate::WhyUncertified;
-use super::inverse::{Matrix, approximate_inverse, subtract};
-use super::system::{Jacobian, LegSystem, N, Scalar, Study, U, Values};
+use super::differences;
+use super::inverse::{approximate_inverse, subtract};
+use super::octuple;
+use super::system::{LegSystem, N, Scalar, Study, U};
 use crate::num::disc::{TINY, UP};
 use crate::num::double_double::DoubleDouble;
 
-/// Radii with the proof's numbers.
+/// A ball about a centre that holds exactly one root, with the proof's numbers.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Contraction {
+pub(super) struct RootBall {
+    /// The root is at most this far from the centre.
     pub(super) radius: f64,
     /// The root for the middles of the data is at most this far from the centre.
     pub(super) centre_radius: f64,
+    /// There is no other root at most this far from the centre.
     pub(super) uniqueness_radius: f64,
+    /// Of the Newton map on the ball of `radius`.
     pub(super) lipschitz: f64,
     /// `Y F(c)`, computed: the centre less this is a better approximation (zero for the patch).
     pub(super) step: [Complex64; 8],
 }
 
-/// The three bounds; `eta` is split into the part of the centre and the whole with the width of the data.
+/// The three bounds of the theorem; `eta` is split into the part of the centre and the whole with the width of the data.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bounds {
     pub(super) eta_centre: f64,
@@ -84,7 +88,21 @@ impl Centre<'_> {
     }
 }
 
-fn bounds(system: &LegSystem, x: &Centre<'_>, values: &Values<f64>, j: &Jacobian, y: &Matrix) -> Bounds {
+/// Digits with which the equations may be evaluated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Digits {
+    /// Those of the centre: doubles, or values in double-double with an inverse in double; where that is not enough, differences of
+    /// the equations in double-double.
+    OfTheCentre,
+    /// 256 bits, the inverse of the Jacobian included; for centres in double-double.
+    Octuple,
+}
+
+/// The bounds on the equations themselves. Values have the digits of the centre, inverse and Jacobian those of doubles.
+fn bounds(system: &LegSystem, x: &Centre<'_>) -> Result<Bounds, WhyUncertified> {
+    let values = system.values(x.hi);
+    let j = system.jacobian(x.hi, &values);
+    let y = approximate_inverse(&j.re, &j.im).ok_or(WhyUncertified::SingularJacobian)?;
     let (f_re, f_im, unit) = match x.full {
         None => (values.f_re, values.f_im, U),
         Some(full) => {
@@ -92,7 +110,7 @@ fn bounds(system: &LegSystem, x: &Centre<'_>, values: &Values<f64>, j: &Jacobian
             (f.f_re.map(Scalar::rounded), f.f_im.map(Scalar::rounded), DoubleDouble::UNIT)
         }
     };
-    let (rounding, width) = system.value_bounds(x.hi, values, unit);
+    let (rounding, width) = system.value_bounds(x.hi, &values, unit);
     let tail = x.tail(); // J was evaluated that far from the centre
     let f_error: [f64; N] = std::array::from_fn(|i| rounding[i] + 17.0 * U * (f_re[i].abs() + f_im[i].abs()));
     let j_error: [f64; N] = std::array::from_fn(|i| {
@@ -121,7 +139,7 @@ fn bounds(system: &LegSystem, x: &Centre<'_>, values: &Values<f64>, j: &Jacobian
         out.kappa = largest(out.kappa, defect + row_sum(&weights, &j_error) + 2.0 * beta * tail);
         out.beta = largest(out.beta, beta);
     }
-    out.rounded_up()
+    Ok(out.rounded_up())
 }
 
 /// The larger, or NaN when one is NaN.
@@ -129,7 +147,7 @@ pub(super) fn largest(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }
 
-fn radii(b: &Bounds) -> Result<Contraction, WhyUncertified> {
+fn radii(b: &Bounds) -> Result<RootBall, WhyUncertified> {
     let room = 1.0 - b.kappa;
     let admissible = room * room / (4.0 * b.beta);
     let failure = WhyUncertified::NoContraction { step: b.eta, admissible };
@@ -152,12 +170,12 @@ fn radii(b: &Bounds) -> Result<Contraction, WhyUncertified> {
     // the same theorem for one member of the data
     let closer = smallest(b.eta_centre);
     let centre_radius = if closer < radius && inside(b.eta_centre, closer) { closer } else { radius };
-    let proof = Contraction { radius, centre_radius, uniqueness_radius, lipschitz, step: b.step };
+    let proof = RootBall { radius, centre_radius, uniqueness_radius, lipschitz, step: b.step };
     if unique { Ok(proof) } else { Err(failure) }
 }
 
-/// The radii when the bounds prove something and the Newton step at the centre is at most `near`.
-pub(super) fn decide(b: &Bounds, near: f64) -> Result<Contraction, WhyUncertified> {
+/// The theorem: a ball that holds exactly one root, when the bounds prove one and the Newton step at the centre is at most `near`.
+fn holds_one_root(b: &Bounds, near: f64) -> Result<RootBall, WhyUncertified> {
     // a NaN fails every one of these; 2^200 keeps products of bounds in range
     let regular = b.kappa < 1.0 && b.beta < 2f64.powi(200);
     let accurate = b.eta_centre <= near;
@@ -168,21 +186,20 @@ pub(super) fn decide(b: &Bounds, near: f64) -> Result<Contraction, WhyUncertifie
     }
 }
 
-/// Tries to prove one root in a ball about `x`; `near` limits the Newton step at `x` itself.
-pub(super) fn contract(system: &LegSystem, x: &Centre<'_>, near: f64) -> Result<Contraction, WhyUncertified> {
-    let values = system.values(x.hi);
-    let jacobian = system.jacobian(x.hi, &values);
-    let y = approximate_inverse(&jacobian.re, &jacobian.im).ok_or(WhyUncertified::SingularJacobian)?;
-    let b = bounds(system, x, &values, &jacobian, &y);
-    decide(&b, near)
-}
-
-/// [`contract`] for a centre with digits in double-double; far out on differences of the equations.
-pub(super) fn contract_sharply(system: &LegSystem, x: &Centre<'_>) -> Result<Contraction, WhyUncertified> {
-    let direct = contract(system, x, NEAR);
-    match (&direct, x.full) {
-        (Err(_), Some(full)) => contract_apart(system, full, NEAR).or(direct),
-        _ => direct,
+/// Decides whether some ball about `x` holds exactly one root, which is at most a Newton step of [`NEAR`] away.
+pub(super) fn one_root_about(
+    system: &LegSystem,
+    x: &Centre<'_>,
+    digits: Digits,
+) -> Result<RootBall, WhyUncertified> {
+    let decide = |bounds: Result<Bounds, WhyUncertified>| holds_one_root(&bounds?, NEAR);
+    match (digits, x.full) {
+        (Digits::Octuple, Some(full)) => decide(octuple::bounds(system, full)),
+        (Digits::OfTheCentre, Some(full)) => {
+            let direct = decide(bounds(system, x));
+            direct.or_else(|why| decide(differences::bounds(system, full)).map_err(|_| why))
+        }
+        (_, None) => decide(bounds(system, x)),
     }
 }
 

@@ -7,6 +7,39 @@
 //! polynomial systems). Statement, proof and all rounding bounds: `docs/theory/certificates.md` and the sources of
 //! the submodules. Joints enter as the exact doubles they are, squared lengths with all their digits and a radius ([`SquareData`]).
 //!
+//! # What is decided, and by what
+//!
+//! ```text
+//!   callers:    certify(pose)              root_near(start)            relation(a, b)   distinct(list)
+//!                    |                          |                            |________________|
+//!                    |   pose_is_the_root  <----+----> refine                |
+//!                    |          ^               |                   enclosures of R, p and x,
+//!                    +----------+               |                   balls of uniqueness
+//!                    |                          |
+//!                    +------> certificate_about(centre) <------+
+//!                               |               |
+//!                      one_root_about       enclose, reality
+//!                               |
+//!                        holds_one_root      the theorem, on three bounds |Y F|, |I - Y J|, |Y Q|
+//!                       ________|_________________
+//!                      |            |             |
+//!                   krawczyk   differences     octuple     the bounds: on the equations as they are, on their
+//!                                                          differences, with 256 bits
+//! ```
+//!
+//! | verb | decides | theorem and preconditions | without an answer |
+//! |---|---|---|---|
+//! | [`Certifier::certify`] | is this pose, as given, exactly one root to half of the digits of a double? | `certificate_about`, then `pose_is_the_root`; the centre is the pose, refined by at most [`NEAR`] where doubles do not do | [`WhyUncertified`]: not that there is no root |
+//! | `Certifier::root_near` | is there exactly one root where Newton's method leads from a start, and which pose is it? | the same about the end of the iteration, which a `Start` limits | as above; a root further away is not looked for |
+//! | `certificate_about` | does a ball about the centre hold exactly one root, with finite `R` and `p` in known discs? is the root real? | `one_root_about`; disc arithmetic over the ball, in which `e.e` must not vanish; conjugation for reality | as above; reality has an [`Undecided`](ProvedReality::Undecided) of its own |
+//! | `one_root_about` | does a ball about the centre hold exactly one root? | the contraction theorem of `krawczyk.rs`; the centre is finite, on its patch, with a Newton step of at most [`NEAR`] | no ball contracts: no root, two close ones, or data or digits that are not good enough |
+//! | `pose_is_the_root` | has the pose the digits of the certified root? | the distance from all points of the enclosure is at most [`NEAR`] | the root is proved, but is not shown to be this pose |
+//! | [`relation`], [`distinct`] | are two certified roots different, or one? | different where enclosures are disjoint, one where an enclosure lies in the other's ball of uniqueness; certificates of one problem | [`RootRelation::Undecided`]: enclosures overlap |
+//!
+//! [`Certifier::refine`] proves nothing: it is Newton's method in double-double. Octahedral platforms have a certificate of all sixteen poses
+//! at once, [`octahedral`]. Outside this folder a root is certified by [`Certifier::certify`] when its pose shall be judged as it is, and by
+//! `root_near` when the best pose is wanted with its proof.
+//!
 //! ```
 //! use equipod::methods::geom::{ComplexPose, Pose};
 //! use equipod::methods::manipulator::{Leg, Manipulator};
@@ -28,29 +61,27 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod apart;
-mod centre;
 mod certificate;
-mod data;
+mod coordinates;
 mod differences;
 mod distinct;
 mod inverse;
 mod krawczyk;
 pub mod octahedral;
-mod point;
-mod precisely;
+mod octuple;
 mod refine;
 mod second_order;
 mod system;
 
+pub(crate) use certificate::CertifiedPose;
 pub use certificate::{
     CentrePrecision, Certificate, CertificateOutcome, PoseEnclosure, ProvedReality, RootCertificate,
     WhyUncertified,
 };
-pub use data::SquareData;
+pub(crate) use coordinates::dual_quaternion;
 pub use distinct::{Distinctness, RootRelation, distinct, relation};
-pub(crate) use point::{CertifiedPose, dual_quaternion};
 pub use refine::RefinedPose;
+pub use system::SquareData;
 
 use num_complex::Complex64;
 
@@ -58,10 +89,14 @@ use crate::geom::ComplexPose;
 use crate::manipulator::Manipulator;
 use crate::num::disc::UP;
 use crate::num::double_double::DoubleDouble;
-use centre::{deviation, enclose_pose, enclose_pose_widely, pose_of, rotation_distance, study_of};
-use krawczyk::{Centre, Contraction, contract, contract_sharply};
+use crate::num::octuple::ComplexOctuple;
+use coordinates::{
+    PrecisePoint, deviation, enclose_pose, enclose_pose_widely, pose_in_double, pose_of, rotation_distance,
+    rounded_pose, study_at, study_of,
+};
+use krawczyk::{Centre, Digits, RootBall, one_root_about};
 use refine::refine_study;
-use system::{LegSystem, Study};
+use system::{LegSystem, Scalar, Study};
 
 /// How accurate a pose must be to be certified: `2^-26`, half of the digits of a double.
 ///
@@ -78,6 +113,25 @@ pub const FAR_OUT: f64 = 1.0 / (1u32 << 10) as f64;
 /// A pose this near to the middle of its enclosure is the middle, rounded.
 const ROUNDED: f64 = 1.0 / (1u64 << 40) as f64;
 
+/// Points with smaller `|g|` gain nothing from a larger unit of length.
+const CLOSE: f64 = 64.0;
+/// Powers of two by which the unit is enlarged beyond `|g|`.
+const FLATTER: [i32; 4] = [0, 5, 10, 15];
+
+/// Where Newton's method starts, and how far it may lead.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Start<'a> {
+    /// A pose whose last digits got lost on the way; by no more than [`NEAR`].
+    Pose(&'a ComplexPose),
+    /// A point `(e, g)` of the design's frames, any scale; however far.
+    Point(&'a [Complex64; 8]),
+    /// A point that may be no root, or at `e.e = 0`; by no more than `reach`, in the size of the point.
+    DoubtfulPoint(&'a [Complex64; 8], f64),
+    /// A point known to more digits than a double-double has, which is not moved at all. However far out, the unit of length is taken from the
+    /// point itself, and only its digits beyond double-double are dropped.
+    PrecisePoint(&'a [ComplexOctuple; 8]),
+}
+
 /// One problem, scaled once and ready to certify any number of roots.
 #[derive(Debug, Clone)]
 pub struct Certifier(LegSystem);
@@ -91,8 +145,8 @@ impl Certifier {
         LegSystem::new(m, &s.into()).map(Self)
     }
 
-    /// Proves that the pose approximates exactly one root, see [`Certificate`]; the centre is the pose as
-    /// given. Only when doubles do not suffice is it refined in double-double, by no more than [`NEAR`].
+    /// Decides whether the pose as given approximates exactly one root, see [`Certificate`]; the centre is the pose.
+    /// Only when doubles do not suffice is the centre refined in double-double, by no more than [`NEAR`].
     #[must_use]
     pub fn certify(&self, pose: &ComplexPose) -> CertificateOutcome {
         match self.try_certify(pose) {
@@ -103,26 +157,128 @@ impl Certifier {
 
     fn try_certify(&self, pose: &ComplexPose) -> Result<Certificate, WhyUncertified> {
         let x = study_of(pose, self.0.unit())?;
-        let double = Centre { hi: &x, full: None };
-        let quick = contract(&self.0, &double, NEAR)
-            .and_then(|c| Self::build(&self.0, &double, &c))
-            .and_then(|c| self.accurate(pose, &c));
+        let quick = certificate_about(&self.0, &Centre { hi: &x, full: None }, Digits::OfTheCentre)
+            .and_then(|c| self.pose_is_the_root(pose, &c).map(|()| c));
         let why = match quick {
             Ok(certificate) => return Ok(certificate),
             Err(why) => why,
         };
         let refined = refine_study(&self.0, &x, NEAR).map_err(|_| why)?;
-        let hi = refined.x.rounded();
-        let centre = Centre { hi: &hi, full: Some(&refined.x) };
-        let certificate = Self::build(&self.0, &centre, &contract_sharply(&self.0, &centre)?)?;
-        self.accurate(pose, &certificate)
+        let certificate = certificate_about_precise(&self.0, &refined.x, Digits::OfTheCentre)?;
+        self.pose_is_the_root(pose, &certificate)?;
+        Ok(certificate)
     }
 
-    /// The certificate when the pose is its root, for the middles of the data, to within [`NEAR`] in `R` and `p`; or, far out, the middle of an enclosure not wider than
-    /// [`FAR_OUT`].
-    fn accurate(&self, pose: &ComplexPose, c: &Certificate) -> Result<Certificate, WhyUncertified> {
-        let own =
-            if c.centre_radius < c.radius { Self::enclose(c, c.centre_radius) } else { Some(c.enclosure) };
+    /// Decides whether there is exactly one root where Newton's method leads from `start`, and gives its pose, rounded from the best approximation at hand.
+    pub(crate) fn root_near(&self, start: Start<'_>) -> Result<CertifiedPose, WhyUncertified> {
+        match start {
+            Start::Pose(pose) => self.root_near_pose(pose),
+            Start::Point(x) => {
+                // how far Newton's method leads does not matter: the proof is about where it ends
+                let far = || self.root_near_doubtful_point(x, f64::INFINITY);
+                let study = study_at(x, self.0.unit())?;
+                let double = Centre { hi: &study, full: None };
+                match one_root_about(&self.0, &double, Digits::OfTheCentre) {
+                    Ok(ball) => self.root_in_double(&double, &ball).or_else(|_| far()),
+                    Err(why) => far().map_err(|_| why),
+                }
+            }
+            Start::DoubtfulPoint(x, reach) => self.root_near_doubtful_point(x, reach),
+            Start::PrecisePoint(x) => self.root_at_precise_point(x),
+        }
+    }
+
+    fn root_near_pose(&self, pose: &ComplexPose) -> Result<CertifiedPose, WhyUncertified> {
+        match self.certify(pose) {
+            // in doubles the pose is as good as the centre; beyond, the middle of the enclosure has more digits
+            CertificateOutcome::Certified(certificate) => {
+                let digits = certificate.precision() == CentrePrecision::DoubleDouble;
+                let pose = if digits { certificate.enclosure().middle() } else { *pose };
+                Ok(CertifiedPose { pose, certificate })
+            }
+            CertificateOutcome::Absent(why) => {
+                let unit = self.0.unit();
+                let refined = refine_study(&self.0, &study_of(pose, unit)?, NEAR).map_err(|_| why)?;
+                let certificate = certificate_about_precise(&self.0, &refined.x, Digits::OfTheCentre)?;
+                self.certified(rounded_pose(&refined.x, unit), &certificate)
+            }
+        }
+    }
+
+    /// The root in a ball about a double, with the pose one Newton step on, where doubles are enough for `R` and `p`.
+    fn root_in_double(&self, x: &Centre<'_>, ball: &RootBall) -> Result<CertifiedPose, WhyUncertified> {
+        let certificate = certificate_of(&self.0, x, ball)?;
+        let better: [Complex64; 8] =
+            std::array::from_fn(|j| Complex64::new(x.hi.re[j], x.hi.im[j]) - ball.step[j]);
+        let pose = pose_in_double(&better, self.0.unit()).ok_or(WhyUncertified::RotationUndefined)?;
+        self.certified(pose, &certificate)
+    }
+
+    fn root_near_doubtful_point(
+        &self,
+        x: &[Complex64; 8],
+        reach: f64,
+    ) -> Result<CertifiedPose, WhyUncertified> {
+        let study = study_at(x, self.0.unit())?;
+        let size = (0..8).map(|j| study.re[j].hypot(study.im[j])).fold(1.0, f64::max);
+        let refined = refine_study(&self.0, &study, reach * size)?;
+        let certificate = certificate_about_precise(&self.0, &refined.x, Digits::OfTheCentre)
+            .or_else(|why| self.certificate_in_a_larger_unit(&refined.x).ok_or(why))?;
+        self.certified(certificate.enclosure.middle(), &certificate)
+    }
+
+    /// Near infinity `g` is known less well than `e` by many powers of ten, and the largest ball in which there is one root is as
+    /// flat: a larger unit of length makes it round.
+    fn certificate_in_a_larger_unit(&self, x: &Study<DoubleDouble>) -> Option<Certificate> {
+        let g = (4..8).map(|k| x.re[k].rounded().hypot(x.im[k].rounded())).fold(0.0, f64::max);
+        if !(g > CLOSE) {
+            return None;
+        }
+        FLATTER.iter().find_map(|more| {
+            let factor = 2f64.powi(g.log2() as i32 + more);
+            let system = self.0.coarser(factor)?;
+            let mut y = *x;
+            for k in 4..8 {
+                (y.re[k], y.im[k]) = (x.re[k].scaled(factor.recip()), x.im[k].scaled(factor.recip()));
+            }
+            certificate_about_precise(&system, &y, Digits::OfTheCentre).ok()
+        })
+    }
+
+    fn root_at_precise_point(&self, x: &[ComplexOctuple; 8]) -> Result<CertifiedPose, WhyUncertified> {
+        let point = PrecisePoint::of(x);
+        let own = self.0.unit().log2() as i32;
+        let g = point.exponent() - own;
+        let mut why = WhyUncertified::OutOfRange;
+        for more in FLATTER {
+            let coarser = (g.max(0) + more).max(0);
+            let system = if coarser == 0 { Some(self.0.clone()) } else { self.0.coarser(2f64.powi(coarser)) };
+            let Some(system) = system else { continue };
+            let study = point.study(own + coarser);
+            let certificate = certificate_about_precise(&system, &study, Digits::OfTheCentre)
+                .or_else(|why| certificate_about_precise(&system, &study, Digits::Octuple).map_err(|_| why));
+            match certificate {
+                Ok(certificate) => return self.certified(rounded_pose(&study, system.unit()), &certificate),
+                Err(reason) => why = reason,
+            }
+        }
+        Err(why)
+    }
+
+    /// The pose with its certificate, when [`pose_is_the_root`](Self::pose_is_the_root).
+    fn certified(
+        &self,
+        pose: ComplexPose,
+        certificate: &Certificate,
+    ) -> Result<CertifiedPose, WhyUncertified> {
+        self.pose_is_the_root(&pose, certificate)?;
+        Ok(CertifiedPose { pose, certificate: *certificate })
+    }
+
+    /// Decides whether the pose is the certified root, for the middles of the data, to within [`NEAR`] in `R` and `p`; or, far out, the middle of an enclosure not
+    /// wider than [`FAR_OUT`].
+    fn pose_is_the_root(&self, pose: &ComplexPose, c: &Certificate) -> Result<(), WhyUncertified> {
+        let own = if c.centre_radius < c.radius { enclose(c, c.centre_radius) } else { Some(c.enclosure) };
         let enclosure = own.ok_or(WhyUncertified::RotationUndefined)?;
         let distance = rotation_distance(pose, &enclosure);
         if !(distance <= NEAR) {
@@ -132,44 +288,7 @@ impl Certifier {
         let distance = deviation(pose, &enclosure, unit, false);
         let is_middle = || deviation(pose, &enclosure, unit, true) <= ROUNDED;
         let far_out = distance <= FAR_OUT && c.precision == CentrePrecision::DoubleDouble && is_middle();
-        if distance <= NEAR || far_out { Ok(*c) } else { Err(WhyUncertified::Deviation { distance }) }
-    }
-
-    /// Encloses `R` and `p` over the ball of `radius` about the centre.
-    fn enclose(c: &Certificate, radius: f64) -> Option<PoseEnclosure> {
-        match c.precision {
-            CentrePrecision::Double => enclose_pose(&c.centre, c.patch, radius, c.unit),
-            CentrePrecision::DoubleDouble => enclose_pose_widely(&c.centre, &c.low, c.patch, radius, c.unit),
-        }
-    }
-
-    fn build(system: &LegSystem, x: &Centre<'_>, c: &Contraction) -> Result<Certificate, WhyUncertified> {
-        let centre: [Complex64; 8] = std::array::from_fn(|j| Complex64::new(x.hi.re[j], x.hi.im[j]));
-        let tail =
-            |f: &Study<DoubleDouble>| std::array::from_fn(|j| Complex64::new(f.re[j].lo(), f.im[j].lo()));
-        let low: [Complex64; 8] = x.full.map_or([Complex64::ZERO; 8], tail);
-        let (patch, radius, uniqueness_radius) = (x.hi.patch, c.radius, c.uniqueness_radius);
-        let unit = system.unit();
-        let enclosure = match x.full {
-            None => enclose_pose(&centre, patch, radius, unit),
-            Some(_) => enclose_pose_widely(&centre, &low, patch, radius, unit),
-        };
-        let enclosure = enclosure.ok_or(WhyUncertified::RotationUndefined)?;
-        let precision =
-            if x.full.is_some() { CentrePrecision::DoubleDouble } else { CentrePrecision::Double };
-        Ok(Certificate {
-            centre,
-            low,
-            patch,
-            unit,
-            radius,
-            centre_radius: c.centre_radius,
-            uniqueness_radius,
-            contraction: c.lipschitz,
-            reality: reality(x, c),
-            precision,
-            enclosure,
-        })
+        if distance <= NEAR || far_out { Ok(()) } else { Err(WhyUncertified::Deviation { distance }) }
     }
 
     /// Newton in double-double from the pose, as far as it leads: about `2^-102` times the condition of the root.
@@ -184,9 +303,66 @@ impl Certifier {
     }
 }
 
+/// Decides whether a ball about the centre holds exactly one root, a finite pose.
+fn certificate_about(
+    system: &LegSystem,
+    x: &Centre<'_>,
+    digits: Digits,
+) -> Result<Certificate, WhyUncertified> {
+    certificate_of(system, x, &one_root_about(system, x, digits)?)
+}
+
+/// [`certificate_about`] a centre in double-double.
+fn certificate_about_precise(
+    system: &LegSystem,
+    x: &Study<DoubleDouble>,
+    digits: Digits,
+) -> Result<Certificate, WhyUncertified> {
+    certificate_about(system, &Centre { hi: &x.rounded(), full: Some(x) }, digits)
+}
+
+/// The certificate of the root in a ball: where its `R` and `p` are, and whether it is real.
+fn certificate_of(
+    system: &LegSystem,
+    x: &Centre<'_>,
+    ball: &RootBall,
+) -> Result<Certificate, WhyUncertified> {
+    let centre: [Complex64; 8] = std::array::from_fn(|j| Complex64::new(x.hi.re[j], x.hi.im[j]));
+    let tail = |f: &Study<DoubleDouble>| std::array::from_fn(|j| Complex64::new(f.re[j].lo(), f.im[j].lo()));
+    let low: [Complex64; 8] = x.full.map_or([Complex64::ZERO; 8], tail);
+    let (patch, unit) = (x.hi.patch, system.unit());
+    let enclosure = match x.full {
+        None => enclose_pose(&centre, patch, ball.radius, unit),
+        Some(_) => enclose_pose_widely(&centre, &low, patch, ball.radius, unit),
+    };
+    Ok(Certificate {
+        centre,
+        low,
+        patch,
+        unit,
+        radius: ball.radius,
+        centre_radius: ball.centre_radius,
+        uniqueness_radius: ball.uniqueness_radius,
+        contraction: ball.lipschitz,
+        reality: reality(x, ball),
+        precision: if x.full.is_some() { CentrePrecision::DoubleDouble } else { CentrePrecision::Double },
+        enclosure: enclosure.ok_or(WhyUncertified::RotationUndefined)?,
+    })
+}
+
+/// Encloses `R` and `p` over the ball of `radius` about the centre of a certificate.
+fn enclose(c: &Certificate, radius: f64) -> Option<PoseEnclosure> {
+    match c.precision {
+        CentrePrecision::Double => enclose_pose(&c.centre, c.patch, radius, c.unit),
+        CentrePrecision::DoubleDouble => enclose_pose_widely(&c.centre, &c.low, c.patch, radius, c.unit),
+    }
+}
+
+/// Decides whether the root in a ball is real.
+///
 /// The system and the patch are real, so the conjugate of a root is one. It is at most `radius + 2 |im c|` from the
 /// centre; within the uniqueness ball it is the root itself. A coordinate whose disc holds no real number proves the contrary.
-fn reality(x: &Centre<'_>, c: &Contraction) -> ProvedReality {
+fn reality(x: &Centre<'_>, c: &RootBall) -> ProvedReality {
     // the digits beyond double change a coordinate by less than 2^-53 of itself
     let largest = x.hi.im.iter().fold(0.0_f64, |m, y| m.max(y.abs()));
     if (c.radius + 2.0 * largest) * UP <= c.uniqueness_radius {

@@ -29,11 +29,11 @@
 use std::ops::{Add, Mul, Neg, Sub};
 
 use super::certificate::WhyUncertified;
-use super::data::SquareData;
 use super::second_order::SecondOrder;
-use crate::manipulator::Manipulator;
+use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::num::disc::{TINY, UP};
 use crate::num::double_double::DoubleDouble;
+use crate::num::interval::Interval;
 
 /// Unknowns on an affine patch, and equations.
 pub(super) const N: usize = 7;
@@ -65,6 +65,26 @@ impl Scalar for DoubleDouble {
     }
     fn rounded(self) -> f64 {
         self.hi()
+    }
+}
+
+/// Squared leg lengths for a proof, design units squared. Negative numbers and unbounded intervals may be asked about; the latter have no certificates.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SquareData {
+    pub(super) middle: [DoubleDouble; 6],
+    pub(super) radius: [f64; 6],
+}
+
+impl From<&SquaredLegLengths> for SquareData {
+    fn from(s: &SquaredLegLengths) -> Self {
+        Self { middle: s.middle(), radius: s.radius() }
+    }
+}
+
+impl From<&[Interval; 6]> for SquareData {
+    fn from(s: &[Interval; 6]) -> Self {
+        let both = s.map(Interval::centre_and_radius);
+        Self { middle: both.map(|b| b.0.into()), radius: both.map(|b| b.1) }
     }
 }
 

@@ -3,7 +3,7 @@ use super::*;
 use crate::geom::{ComplexPose, Pose, random_rotation};
 use crate::manipulator::{Leg, Manipulator};
 use crate::num::Rng;
-use crate::solve::certify::centre::study_of;
+use crate::solve::certify::coordinates::study_of;
 use nalgebra::{Point3, Vector3};
 
 /// A system with a real root, and the root.
@@ -35,7 +35,8 @@ fn whatever_ball_contracts_holds_a_root_even_far_from_the_centre() {
             x.re[j] += size * rng.normal();
             x.im[j] += size * rng.normal();
         }
-        match contract(&system, &Centre { hi: &x, full: None }, f64::INFINITY) {
+        let centre = Centre { hi: &x, full: None };
+        match bounds(&system, &centre).and_then(|b| holds_one_root(&b, f64::INFINITY)) {
             Ok(c) => {
                 proved += 1;
                 let end = refine_study(&system, &x, f64::INFINITY).unwrap();

@@ -1,35 +1,29 @@
 //! Certificates for octahedral platforms, all sixteen poses at once.
 //!
 //! With base triangle `P1 P2 P3`, platform triangle `P4 P5 P6` and legs `14 24 25 35 36 16`, a pose gives two unknown squared distances
-//! `x = s15`, `y = s34` that satisfy two closures (`closure`): Cayley-Menger determinants of the points 1 2 3 4 5 and 1 3 4 5 6. A regular zero
+//! `x = s15`, `y = s34` that satisfy two closures (`closures.rs`): Cayley-Menger determinants of the points 1 2 3 4 5 and 1 3 4 5 6. A regular zero
 //! of both at which `P4` (or `P5`) is off the base plane and 1 3 4 5 is no flat tetrahedron belongs to exactly two poses, regular and mirror
-//! images in the base plane; theorem and proof: `docs/theory/certificates.md`. So a test in two unknowns (`contraction`) certifies two poses, and their
-//! places follow by disc arithmetic (`corners`). Coefficients are enclosed from the joints as the exact doubles they are and from squared
+//! images in the base plane; theorem and proof: `docs/theory/certificates.md`. So a test in two unknowns certifies two poses, and their
+//! places follow by disc arithmetic (`poses.rs`). Coefficients are enclosed from the joints as the exact doubles they are and from squared
 //! lengths as intervals. Nothing is shared with the solver but the order of the legs.
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
-mod ball;
-mod closure;
-mod compare;
-mod contraction;
-mod corners;
-mod lanes;
+mod arithmetic;
+mod closures;
+mod poses;
 
 use num_complex::Complex64;
 
 use super::certificate::{PoseEnclosure, ProvedReality, WhyUncertified};
-use super::data::SquareData;
-use super::system::{exact_product, power_of_two_below, scale_point};
+use super::system::{SquareData, exact_product, power_of_two_below, scale_point};
 use crate::geom::ComplexPose;
 use crate::manipulator::{LegIndex, Octahedral};
 use crate::num::batch::{Batch, LANES};
 use crate::num::disc::{Disc, UP};
-use ball::{Ball, Triangle};
-use closure::Closure;
-use contraction::{Contraction, contract};
-use corners::Data;
-use lanes::Discs;
+use arithmetic::{Ball, Discs, Triangle};
+use closures::{Closure, RootDiscs, one_root_about};
+use poses::{Data, deviation};
 
 /// Pairs of poses of an octahedral platform.
 pub const PAIRS: usize = LANES;
@@ -219,12 +213,12 @@ impl OctahedralCertifier {
             Closure::new(&self.base, [s[2], s[3]], [s[0], s[1]], self.platform.bb),
             Closure::new(&self.turned, [s[5], s[0]], [s[3], s[4]], self.base.cc),
         ];
-        let found = contract(&closures, x, y);
+        let found = one_root_about(&closures, x, y);
         let radii = found.weights.map(|w| (w * found.radius).up());
         let discs = [Discs { c: *x, r: radii[0] }, Discs { c: *y, r: radii[1] }];
         let data = Data { base: &self.base, platform: &self.platform, s };
         let placed = data.place(discs[0], discs[1]);
-        let deviation = compare::deviation(self, &placed, poses);
+        let deviation = deviation(self, &placed, poses);
         let relative = deviation.relative;
         let positive = placed.squared_height.c.re;
         let unit = self.unit * self.unit;
@@ -276,7 +270,7 @@ const LARGEST: f64 = (1u64 << 50) as f64;
 /// The system is real, so that the conjugate of a pair is one; within the uniqueness ball it is the pair itself. The poses of a real pair
 /// are real when the squared height, which is real and not zero, is positive, and neither is when it is negative.
 #[inline(always)]
-fn reality(found: &Contraction, x: &Batch, y: &Batch, height: f64, k: usize) -> ProvedReality {
+fn reality(found: &RootDiscs, x: &Batch, y: &Batch, height: f64, k: usize) -> ProvedReality {
     let imaginary = (x.im[k].abs() / found.weights[0].0[k]).max(y.im[k].abs() / found.weights[1].0[k]);
     let (radius, alone) = (found.radius.0[k], found.uniqueness.0[k]);
     if (radius + 2.0 * imaginary) * UP <= alone {

@@ -1,4 +1,7 @@
-//! From a pose to Study coordinates, and from a ball of these back to enclosures of `R` and `p`.
+//! From poses and dual quaternions to Study coordinates, and from a point or ball of these back to `R` and `p`.
+//!
+//! `R = X(e) / (e.e)` loses `log10(|e|^2 / |e.e|)` digits in double, and `p e = g` as many on the way back. Far out, where `e.e`
+//! is small, a pose is therefore made from a point in double-double.
 
 use num_complex::Complex64;
 
@@ -8,7 +11,11 @@ use super::system::Study;
 use crate::geom::ComplexPose;
 use crate::num::disc::{Disc, UP};
 use crate::num::double_double::{ComplexDoubleDouble, DoubleDouble};
+use crate::num::octuple::{ComplexOctuple, Octuple};
 use crate::num::wide_disc::WideDisc;
+
+/// Below this `|e.e| / |e|^2` a pose is computed in double-double.
+const FAR: f64 = 1.0 / 16.0;
 
 /// `4 e e^T / N` of a rotation matrix, column `k` (Shepperd 1978).
 fn quaternion_column(r: &nalgebra::Matrix3<Complex64>, k: usize) -> [Complex64; 4] {
@@ -52,6 +59,29 @@ pub(super) fn study_of(pose: &ComplexPose, unit: f64) -> Result<Study<f64>, WhyU
         return Err(WhyUncertified::OutOfRange);
     }
     let z: [Complex64; 8] = std::array::from_fn(|j| if j < 4 { e[j] } else { g[j - 4] });
+    Ok(Study { re: z.map(|z| z.re), im: z.map(|z| z.im), patch })
+}
+
+/// `(e, g)` of a pose, any scale; `None` for numbers out of range.
+pub(crate) fn dual_quaternion(pose: &ComplexPose) -> Option<[Complex64; 8]> {
+    let x = study_of(pose, 1.0).ok()?;
+    Some(std::array::from_fn(|k| Complex64::new(x.re[k], x.im[k])))
+}
+
+/// `x = (e, g)` on the patch of its largest `|e_k|`, lengths divided by `unit`.
+pub(super) fn study_at(x: &[Complex64; 8], unit: f64) -> Result<Study<f64>, WhyUncertified> {
+    let size = |k: &usize| x[*k].norm_sqr();
+    let patch = (1..4).fold(0, |best, k| if size(&k) > size(&best) { k } else { best });
+    let inverse = x[patch].inv();
+    let mut z: [Complex64; 8] = std::array::from_fn(|j| x[j] * if j < 4 { inverse } else { inverse / unit });
+    z[patch] = Complex64::ONE;
+    if !z.iter().all(|z| z.is_finite()) {
+        return Err(WhyUncertified::NotFinite);
+    }
+    // as for poses: moduli below 2^30 keep every product of the evaluation far below 2^100
+    if !z.iter().all(|z| z.norm_sqr() < 2f64.powi(60)) {
+        return Err(WhyUncertified::OutOfRange);
+    }
     Ok(Study { re: z.map(|z| z.re), im: z.map(|z| z.im), patch })
 }
 
@@ -129,6 +159,60 @@ pub(super) fn pose_of(
         std::array::from_fn(|j| ComplexDoubleDouble { re: x.re[j], im: x.im[j] });
     let (r, p, n) = pose_numerators(&z);
     (std::array::from_fn(|i| std::array::from_fn(|j| r[3 * i + j] / n)), p.map(|z| (z / n).scaled(unit)))
+}
+
+/// The pose of a point in doubles, `None` where `e.e` is too small for them.
+pub(super) fn pose_in_double(x: &[Complex64; 8], unit: f64) -> Option<ComplexPose> {
+    let (r, p, n) = pose_numerators(x);
+    let size: f64 = x[..4].iter().map(Complex64::norm_sqr).sum();
+    let inverse = n.inv();
+    (n.norm_sqr() > FAR * FAR * size * size).then(|| ComplexPose {
+        rotation: nalgebra::Matrix3::from_fn(|i, j| r[3 * i + j] * inverse),
+        position: nalgebra::Vector3::from_fn(|i, _| p[i] * inverse * unit),
+    })
+}
+
+/// The pose of a point in double-double, rounded.
+pub(super) fn rounded_pose(x: &Study<DoubleDouble>, unit: f64) -> ComplexPose {
+    let (rotation, position) = pose_of(x, unit);
+    ComplexPose {
+        rotation: nalgebra::Matrix3::from_fn(|i, j| rotation[i][j].hi()),
+        position: nalgebra::Vector3::from_fn(|i, _| position[i].hi()),
+    }
+}
+
+/// The point of many digits on the patch of its largest `|e_k|`, with `g` divided by a power of two.
+pub(super) struct PrecisePoint {
+    x: [ComplexOctuple; 8],
+    patch: usize,
+}
+
+impl PrecisePoint {
+    pub(super) fn of(x: &[ComplexOctuple; 8]) -> Self {
+        let size = |k: usize| x[k].norm_sqr().rounded();
+        let patch = (1..4).fold(0, |best, k| if size(k) > size(best) { k } else { best });
+        let inverse = x[patch].recip();
+        Self { x: x.map(|z| z * inverse), patch }
+    }
+
+    /// The binary exponent of the largest `|g_k|`.
+    pub(super) fn exponent(&self) -> i32 {
+        self.x[4..].iter().map(ComplexOctuple::exponent).max().unwrap_or(0)
+    }
+
+    /// Study coordinates with `g` divided by `2^exponent`; digits beyond double-double are dropped.
+    pub(super) fn study(&self, exponent: i32) -> Study<DoubleDouble> {
+        let both =
+            |z: Octuple| DoubleDouble::from_sum(z.rounded(), (z - Octuple::from(z.rounded())).rounded());
+        let in_unit = |k: usize| if k < 4 { self.x[k] } else { self.x[k].scaled(-exponent) };
+        let mut study = Study {
+            re: std::array::from_fn(|k| both(in_unit(k).re)),
+            im: std::array::from_fn(|k| both(in_unit(k).im)),
+            patch: self.patch,
+        };
+        (study.re[self.patch], study.im[self.patch]) = (DoubleDouble::ONE, DoubleDouble::ZERO);
+        study
+    }
 }
 
 /// Largest distance of a rotation entry of the pose from the enclosure's centre, relative to the larger of 1 and

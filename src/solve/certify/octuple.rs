@@ -1,4 +1,4 @@
-//! The contraction test with 256 bits, for roots whose Jacobian no double can tell from a singular one.
+//! The bounds of the theorem with 256 bits, for roots whose Jacobian no double can tell from a singular one.
 //!
 //! Near special platforms the equations at a pose far out differ in the twentieth digit only: the approximate inverse of the Jacobian has to have more
 //! digits than that, and so has everything it is multiplied with. Statement and proof are those of the [`krawczyk`](super::krawczyk) module; centre,
@@ -11,9 +11,8 @@
 
 use num_complex::Complex64;
 
-use super::NEAR;
 use super::certificate::WhyUncertified;
-use super::krawczyk::{Bounds, Contraction, decide, largest};
+use super::krawczyk::{Bounds, largest};
 use super::system::{LegSystem, N, Study};
 use crate::num::disc::UP;
 use crate::num::double_double::DoubleDouble;
@@ -72,16 +71,8 @@ fn leg_at(system: &LegSystem, i: usize, x: &[ComplexOctuple; 8]) -> LegAt {
     LegAt { value, gradient, turn, s }
 }
 
-/// [`contract`](super::krawczyk::contract) about `x` with 256 bits.
-pub(super) fn contract_precisely(
-    system: &LegSystem,
-    x: &Study<DoubleDouble>,
-) -> Result<Contraction, WhyUncertified> {
-    let b = bounds(system, x).ok_or(WhyUncertified::SingularJacobian)?;
-    decide(&b, NEAR)
-}
-
-fn bounds(system: &LegSystem, x: &Study<DoubleDouble>) -> Option<Bounds> {
+/// The bounds about `x` with 256 bits.
+pub(super) fn bounds(system: &LegSystem, x: &Study<DoubleDouble>) -> Result<Bounds, WhyUncertified> {
     let point: [ComplexOctuple; 8] =
         std::array::from_fn(|k| ComplexOctuple { re: octuple(x.re[k]), im: octuple(x.im[k]) });
     let legs: [LegAt; 6] = std::array::from_fn(|i| leg_at(system, i, &point));
@@ -96,7 +87,7 @@ fn bounds(system: &LegSystem, x: &Study<DoubleDouble>) -> Option<Bounds> {
     // column `patch` holds the gradient by g_3, as everywhere here
     let jacobian: [[ComplexOctuple; N]; N] =
         std::array::from_fn(|i| std::array::from_fn(|k| rows[i][if k == x.patch { 7 } else { k }]));
-    let lu = OctupleLu::factorise(jacobian)?;
+    let lu = OctupleLu::factorise(jacobian).ok_or(WhyUncertified::SingularJacobian)?;
     // columns of the approximate inverse
     let columns: [[ComplexOctuple; N]; N] = std::array::from_fn(|i| {
         let mut unit = [ComplexOctuple::ZERO; N];
@@ -134,7 +125,7 @@ fn bounds(system: &LegSystem, x: &Study<DoubleDouble>) -> Option<Bounds> {
         out.kappa = largest(out.kappa, defect + ERROR * along(&row_size) + along(&|i| 4.0 * radius(i) * e));
         out.beta = largest(out.beta, beta);
     }
-    Some(out.rounded_up())
+    Ok(out.rounded_up())
 }
 
 /// The bound of the `second_order` module for a row of the inverse, rounding apart:
@@ -166,7 +157,8 @@ mod tests {
     use crate::geom::{Pose, random_rotation};
     use crate::manipulator::{Leg, Manipulator};
     use crate::num::Rng;
-    use crate::solve::certify::centre::study_of;
+    use crate::solve::certify::coordinates::study_of;
+    use crate::solve::certify::krawczyk::{Centre, Digits, RootBall, one_root_about};
     use crate::solve::certify::refine::refine_study;
     use nalgebra::{Point3, Vector3};
 
@@ -183,18 +175,22 @@ mod tests {
         (system, refined.x)
     }
 
+    fn one_root(system: &LegSystem, x: &Study<DoubleDouble>) -> Result<RootBall, WhyUncertified> {
+        one_root_about(system, &Centre { hi: &x.rounded(), full: Some(x) }, Digits::Octuple)
+    }
+
     #[test]
     fn the_ball_holds_the_root_however_far_the_centre_is_moved() {
         let rng = &mut Rng::new(0x9ec);
         for _ in 0..8 {
             let (system, root) = known_root(rng);
-            let own = contract_precisely(&system, &root).unwrap();
+            let own = one_root(&system, &root).unwrap();
             assert!(own.radius < 1e-26 && own.uniqueness_radius > 1e-8, "{own:?}");
             for shift in [1e-20, 1e-14, 1e-10] {
                 let mut centre = root;
                 let k = (0..4).find(|k| *k != root.patch).unwrap();
                 centre.im[k] = centre.im[k] + DoubleDouble::from(shift);
-                let moved = contract_precisely(&system, &centre).unwrap();
+                let moved = one_root(&system, &centre).unwrap();
                 // the root is at this distance, give or take its own uncertainty
                 assert!(
                     moved.radius >= shift * (1.0 - 1e-5) && moved.radius < 1.1 * shift,
@@ -205,7 +201,7 @@ mod tests {
             // no root is as near as a certificate wants it
             let mut centre = root;
             centre.re[5] = centre.re[5] + DoubleDouble::from(1e-3);
-            assert!(contract_precisely(&system, &centre).is_err());
+            assert!(one_root(&system, &centre).is_err());
         }
     }
 }
