@@ -17,6 +17,8 @@ use crate::solve::pose_count::PoseSet;
 
 /// Leg equations count as dependent below this sine when curves are looked for.
 const RANK: f64 = 1e-9;
+/// Points of a section with imaginary parts this many times the tolerance are not real.
+const NON_REAL: f64 = 1e4;
 /// Slices tried for one with a real pose on it.
 const SLICES: u64 = 4;
 
@@ -180,7 +182,7 @@ fn witnesses(
         let imaginary = pose.imaginary_size(size) / scale;
         let reality = if imaginary < o.tolerances.reality {
             Reality::Real
-        } else if imaginary > 1e4 * o.tolerances.reality {
+        } else if imaginary > NON_REAL * o.tolerances.reality {
             Reality::NonReal
         } else {
             Reality::Undecided

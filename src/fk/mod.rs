@@ -71,11 +71,12 @@ pub enum PoseCounting {
 /// Dimensionless limits; positions are divided by the size of the design before they are compared.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FkTolerances {
-    /// Largest accepted residual of a root (leg equations over size squared, `R^T R = I`).
+    /// Largest accepted residual of a root (leg equations over size squared, `R^T R = I`), relative to the square of the pose's own numbers; its root for singular ends of paths.
     pub residual: f64,
-    /// Two poses closer than this are one root.
+    /// Two regular poses without certificate that are closer than this, relative to their own numbers, are one root. Certificates tell closer ones apart.
     pub distinct: f64,
-    /// A pose with imaginary parts below this is real, above ten thousand times this non-real, between undecided.
+    /// Relative size of imaginary parts up to which a regular pose without certificate is taken for real, times the root of its condition number; a thousand times more is
+    /// non-real (ten thousand times for points on curves of poses), between is undecided. Certificates decide reality by proof.
     pub reality: f64,
 }
 

@@ -113,7 +113,8 @@ pub struct FkRoot {
     pub reality: Reality,
     /// Proof of existence and uniqueness with all its numbers, for checks by other programs; `None` where there is none.
     pub certificate: Option<RootCertificate>,
-    /// Number of start paths (or polynomial roots) that end here, mirror images of paths included.
+    /// 1 for certified and for regular roots, however many candidates ended there; for singular ones the number of start paths (or polynomial roots) that end here, mirror
+    /// images of paths included.
     pub multiplicity: u32,
     /// Largest error of the leg equations over size squared and of `R^T R = I`.
     pub residual: f64,
