@@ -3,10 +3,10 @@
 use thiserror::Error;
 
 use super::Workspace;
-use crate::dimensional::{Objective, VariableKind};
 use crate::geom::Pose;
 use crate::manipulator::{LegLengths, Manipulator};
 use crate::requirements::{Hardware, KeepOut, Load, PlatformSpeed, Quantity, Requirements, Term, TermKind};
+use crate::requirements::{Objective, VariableKind};
 
 /// A manipulator with names and everything else a design file may carry.
 #[derive(Debug, Clone, PartialEq)]

@@ -4,11 +4,11 @@ use nalgebra::{Rotation3, Vector3};
 
 use super::merit::{Cluster, Piece};
 use super::model::{Group, Model, Task};
-use super::problem::Objective;
 use super::pull::{Gradient, Pull, Rate};
 use super::shape::Ends;
 use super::skeleton::Room;
 use super::terms::{Exact, HeldPose, Item, Lines, TermId};
+use crate::requirements::Objective;
 use crate::requirements::TermKind;
 
 /// Stands for the pose of what has none.

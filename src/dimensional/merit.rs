@@ -5,13 +5,14 @@
 
 use nalgebra::{Matrix6, SVD, Vector3, Vector4, Vector6};
 
-use super::problem::{DimensionalProblem, Objective};
+use super::problem::DimensionalProblem;
 use super::pull::{Gradient, Pull};
 use super::shape::Ends;
 use super::terms::{Gap, HeldPose, Lines, Terms, joint_pull, leg_forces};
 use crate::num::linalg::svd;
 use crate::num::small::singular_values;
 use crate::requirements::Load;
+use crate::requirements::Objective;
 use crate::synthesis::Normalisation;
 
 /// Singular values within this factor of the extreme one are modelled together with it.

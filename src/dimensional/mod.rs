@@ -26,6 +26,6 @@ mod worst_pose;
 pub use self::outcome::evaluate;
 pub use outcome::{Conflict, Demand, DimensionalOutcome, DimensionalReport, DimensionalSolution, Give};
 pub use pareto::{ParetoPoint, ParetoReport, pareto};
-pub use problem::{DimensionalProblem, InvalidProblem, Mode, Objective, Triangles, VariableKind, Variables};
+pub use problem::{DimensionalProblem, InvalidProblem, Mode, Triangles, Variables};
 pub use scp::HistoryStep;
 pub use search::{Progress, SearchOptions, Stage, optimize};

@@ -5,10 +5,11 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::merit::Merit;
-use super::problem::{DimensionalProblem, InvalidProblem, Objective, Variables};
+use super::problem::{DimensionalProblem, InvalidProblem, Variables};
 use super::shape::Shape;
 use super::streams;
 use super::terms::{HeldPose, Terms};
+use crate::requirements::Objective;
 use crate::requirements::TermKind;
 
 /// Constraints that share one slack.

@@ -3,7 +3,7 @@
 use nalgebra::{Unit, Vector3};
 
 use super::model::{Model, Task};
-use super::problem::{DimensionalProblem, Objective};
+use super::problem::DimensionalProblem;
 use super::scp::HistoryStep;
 use super::search::Refined;
 use super::streams;
@@ -12,7 +12,7 @@ use crate::geom::Pose;
 use crate::manipulator::{Manipulator, inverse_condition, jacobian};
 use crate::num::conic::SolverFailure;
 use crate::num::linalg::svd;
-use crate::requirements::{Hardware, PoseSpace, Requirements, TermKind, Terms, leg_forces};
+use crate::requirements::{Hardware, Objective, PoseSpace, Requirements, TermKind, Terms, leg_forces};
 use crate::synthesis::{Normalisation, leg_vector};
 
 /// A platform that meets the requirements.

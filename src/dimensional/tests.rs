@@ -15,8 +15,8 @@ use crate::geom::Pose;
 use crate::manipulator::Manipulator;
 use crate::num::Rng;
 use crate::requirements::{
-    AssessOptions, FixedTo, Housing, JointAxes, KeepOut, LegBody, LengthLimits, Load, PlatformSpeed,
-    PoseSpace, Requirements, Shape, Swing, assess,
+    AssessOptions, FixedTo, Housing, JointAxes, KeepOut, LegBody, LengthLimits, Load, Objective,
+    PlatformSpeed, PoseSpace, Requirements, Shape, Swing, VariableKind, assess,
 };
 
 fn octahedral() -> (Manipulator, Pose) {

@@ -8,11 +8,11 @@ use nalgebra::Vector6;
 
 use super::merit::{Merit, Piece};
 use super::model::{Group, Model, Task};
-use super::problem::Objective;
 use super::shape::Ends;
 use super::streams;
 use super::terms::{HeldPose, Item, Lines};
 use crate::num::Rng;
+use crate::requirements::Objective;
 
 /// Points looked at.
 const POINTS: usize = 150;

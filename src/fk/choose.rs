@@ -2,8 +2,10 @@
 
 use super::{
     FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, Method, NeedsStart, Octic, PreparedDesign,
-    Sylvester, Template, Trilateration,
+    Trilateration,
 };
+#[cfg(feature = "lab")]
+use super::{Sylvester, Template};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 
 /// The solver for a method by name, or for `None` the automatic choice.
@@ -14,7 +16,9 @@ pub fn solver(method: Option<Method>) -> Box<dyn ForwardKinematics> {
         Some(Method::Octic) => Box::new(Octic),
         Some(Method::Homotopy) => Box::new(Homotopy),
         Some(Method::Near) => Box::new(NeedsStart),
+        #[cfg(feature = "lab")]
         Some(Method::Sylvester) => Box::new(Sylvester),
+        #[cfg(feature = "lab")]
         Some(Method::Template) => Box::new(Template),
         Some(Method::Trilateration) => Box::new(Trilateration::default()),
     }

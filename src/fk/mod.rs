@@ -12,6 +12,7 @@ mod cluster;
 mod collect;
 mod completeness;
 mod dependent;
+#[cfg(feature = "lab")]
 mod elimination;
 mod evidence;
 mod harvest;
@@ -23,7 +24,9 @@ mod newton;
 mod octic;
 mod real_points;
 mod solutions;
+#[cfg(feature = "lab")]
 mod sylvester;
+#[cfg(feature = "lab")]
 mod template;
 mod trilateration;
 
@@ -40,7 +43,9 @@ pub use octic::{Octic, OcticPoses, OcticSolver, octic};
 pub use solutions::{
     FkRoot, FkSolutions, Method, PathEnd, PathReport, Reality, Rejected, RejectionReason, SolutionSet,
 };
+#[cfg(feature = "lab")]
 pub use sylvester::Sylvester;
+#[cfg(feature = "lab")]
 pub use template::Template;
 pub use trilateration::Trilateration;
 

@@ -22,8 +22,10 @@ pub enum Method {
     Homotopy,
     /// Continuation of one real pose from a known one ([`NearSolver`](super::NearSolver)); not complete.
     Near,
+    #[cfg(feature = "lab")]
     /// Sylvester matrix, polynomial of degree 40 (Lee, Shim); general six legs.
     Sylvester,
+    #[cfg(feature = "lab")]
     /// Elimination template and generalized eigenvectors (Martyushev); general six legs.
     Template,
     /// Trilateration with virtual legs (Porta, Thomas).
@@ -38,7 +40,9 @@ impl Method {
             Self::Octic => "octic",
             Self::Homotopy => "homotopy",
             Self::Near => "near",
+            #[cfg(feature = "lab")]
             Self::Sylvester => "sylvester",
+            #[cfg(feature = "lab")]
             Self::Template => "template",
             Self::Trilateration => "trilateration",
         }

@@ -1,14 +1,17 @@
 //! Seeded random numbers, double-double, interval and exact rational arithmetic, and the doors to faer and clarabel.
 
 pub(crate) mod batch;
+#[cfg(feature = "optimize")]
 pub(crate) mod conic;
 pub mod disc;
 pub mod double_double;
 pub(crate) mod echelon;
 pub(crate) mod exact;
+#[cfg(feature = "optimize")]
 pub(crate) mod farkas;
 pub mod interval;
 pub(crate) mod jet;
+#[cfg(any(feature = "lab", feature = "synthesis"))]
 pub mod linalg;
 pub(crate) mod modular;
 pub(crate) mod octuple;

@@ -26,6 +26,5 @@ mod worst;
 #[cfg(not(target_arch = "wasm32"))]
 pub use html::CORE;
 pub use html::{page, policy};
-#[cfg_attr(not(feature = "cli"), allow(unused_imports, reason = "the command line alone uses it"))]
 pub(crate) use original::Original;
 pub use session::{InvalidStart, Session};

@@ -6,6 +6,7 @@
 
 mod assess;
 mod bound;
+mod goal;
 mod hardware;
 mod keep_out;
 mod limit;
@@ -18,6 +19,7 @@ mod tests;
 pub use crate::geom::{PoseSpace, Region};
 pub use assess::{AssessOptions, Assessment, Margin, assess};
 pub use bound::{MarginBound, Proof, Verdict, prove};
+pub use goal::{Objective, VariableKind};
 pub use hardware::{Hardware, Housing, JointAxes, LegBody, LengthLimits, Swing};
 pub use keep_out::{FixedTo, KeepOut, Shape};
 pub use limit::{Limit, Limits, PoseLimit};

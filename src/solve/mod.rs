@@ -3,13 +3,16 @@
 
 pub mod certify;
 mod dependence;
+#[cfg(feature = "lab")]
 pub mod generic_frame;
 pub mod homotopy;
 mod octuple_sections;
 mod planar;
 pub mod pose_count;
 mod sections;
+#[cfg(feature = "lab")]
 pub mod sylvester;
+#[cfg(feature = "lab")]
 pub mod template;
 
 pub(crate) use dependence::{Dependence, dependence};

@@ -3,10 +3,11 @@
 use std::collections::BTreeMap;
 
 use equipod::methods::design::{Design, Format, parse};
-use equipod::methods::dimensional::{DimensionalProblem, Mode, Objective, Variables, evaluate};
+use equipod::methods::dimensional::{DimensionalProblem, Mode, Variables, evaluate};
 use equipod::methods::equivalence::{SamplePlan, verify};
 use equipod::methods::fk::FkOptions;
 use equipod::methods::manipulator::Manipulator;
+use equipod::methods::requirements::Objective;
 use equipod::methods::requirements::{AssessOptions, Margin, TermKind, assess};
 
 use super::cli_frame::{document, equipod};

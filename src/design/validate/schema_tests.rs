@@ -5,7 +5,7 @@ use serde_json::Value;
 use super::search::SEARCH_KEYS;
 use super::tables::{HARDWARE_KEYS, LIMIT_KEYS, POSE_KEYS, WORKSPACE_KEYS};
 use crate::design::SCHEMA;
-use crate::dimensional::{Objective, VariableKind};
+use crate::requirements::{Objective, VariableKind};
 
 fn sorted<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
     let mut names: Vec<&str> = names.into_iter().collect();

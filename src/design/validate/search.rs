@@ -5,7 +5,7 @@ use super::{check_keys, nearest_help, number, numbers, shown, table};
 use crate::design::tree::{Entry, Node, Value, find};
 use crate::design::violation::Report;
 use crate::design::{Code, Combination, SearchTable};
-use crate::dimensional::{Objective, VariableKind};
+use crate::requirements::{Objective, VariableKind};
 
 /// The keys read here.
 pub(super) const SEARCH_KEYS: [&str; 9] = [

@@ -10,7 +10,7 @@ use super::super::search::refine;
 use super::super::*;
 use super::{Group, Model, everything, problem, quick};
 use crate::manipulator::Manipulator;
-use crate::requirements::{JointAxes, LengthLimits, Swing, TermKind};
+use crate::requirements::{JointAxes, LengthLimits, Objective, Swing, TermKind, VariableKind};
 
 #[test]
 fn a_conflict_is_named_with_what_each_requirement_would_have_to_give() {

@@ -3,10 +3,11 @@
 use std::collections::BTreeMap;
 use std::sync::RwLock;
 
-use equipod::methods::dimensional::{DimensionalProblem, DimensionalSolution, Objective, Triangles};
+use equipod::methods::dimensional::{DimensionalProblem, DimensionalSolution, Triangles};
 use equipod::methods::geom::Pose;
 use equipod::methods::manipulator::{Leg, LegIndex, Manipulator, Octahedral, inverse_condition, jacobian};
 use equipod::methods::num::Rng;
+use equipod::methods::requirements::Objective;
 use equipod::methods::requirements::{
     AssessOptions, JointAxes, PoseSpace, Quantity, Requirements, Term, TermKind, Terms, assess, leg_forces,
 };

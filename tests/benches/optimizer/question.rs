@@ -1,12 +1,11 @@
 //! What `equipod optimize` is asked by a design with requirements.
 
 use equipod::methods::design::{Combination, Design, SearchTable};
-use equipod::methods::dimensional::{
-    DimensionalProblem, Mode, Objective, Triangles, VariableKind, Variables,
-};
+use equipod::methods::dimensional::{DimensionalProblem, Mode, Triangles, Variables};
 use equipod::methods::manipulator::{Octahedral, default_home};
 use equipod::methods::offsets::{DEFAULT_MIN_ABS_DET, OffsetProblem};
 use equipod::methods::requirements::Requirements;
+use equipod::methods::requirements::{Objective, VariableKind};
 
 use crate::dimensional::components;
 

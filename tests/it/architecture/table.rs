@@ -81,7 +81,7 @@ const LINES: &[Line] = &[
     ),
     (
         "design",
-        &["geom", "manipulator", "requirements", "dimensional"],
+        &["geom", "manipulator", "requirements"],
         &[
             MATRICES,
             ("serde", None),

@@ -8,13 +8,14 @@ use crate::cli::progress::{Interrupt, Progress};
 use crate::design::{Combination, Design};
 use crate::dimensional::{
     DimensionalOutcome, DimensionalProblem, DimensionalReport, DimensionalSolution, InvalidProblem, Mode,
-    Objective, SearchOptions, Stage, VariableKind, Variables, evaluate, optimize,
+    SearchOptions, Stage, Variables, evaluate, optimize,
 };
 use crate::equivalence::{Verification, verify};
 use crate::fk::FkOptions;
 use crate::manipulator::Octahedral;
 use crate::offsets::OffsetProblem;
 use crate::requirements::{AssessOptions, Assessment, JointAxes, Requirements, assess};
+use crate::requirements::{Objective, VariableKind};
 
 /// Points of the dense evaluation, and as many random ones.
 const POINTS: usize = 5000;

@@ -9,7 +9,8 @@ use crate::cli::commands::assess;
 use crate::cli::output::number;
 use crate::cli::poses;
 use crate::design::Design;
-use crate::dimensional::{Conflict, Demand, DimensionalOutcome, DimensionalSolution, Give, Objective};
+use crate::dimensional::{Conflict, Demand, DimensionalOutcome, DimensionalSolution, Give};
+use crate::requirements::Objective;
 use crate::requirements::TermKind;
 
 fn numbers(values: &[f64]) -> Value {

@@ -6,8 +6,8 @@ use serde_json::Value;
 
 use crate::cli::failure::Failure;
 use crate::cli::files;
-use crate::dimensional::Objective;
 use crate::plot::{FrontAxis, FrontFigure, pareto_front};
+use crate::requirements::Objective;
 
 /// Arguments of `plot pareto`.
 #[derive(Debug, clap::Args)]

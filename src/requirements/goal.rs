@@ -1,0 +1,121 @@
+//! What the search for the best platform may change and what it makes best, by the names in design files.
+
+use super::Quantity;
+
+/// A kind of variable, by its name in design files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum VariableKind {
+    /// The six offsets of an octahedral design.
+    Offsets,
+    /// One offset for the three edges of the base and one for those of the platform.
+    SymmetricOffsets,
+    /// A factor for each triangle.
+    TriangleSizes,
+    /// Shapes and sizes of the triangles.
+    Triangles,
+    /// Height of home.
+    HomeHeight,
+    /// Axes of all joints with a swing limit.
+    JointAxes,
+    /// Parameters of the rational families of replaceable legs of any design.
+    Components,
+}
+
+impl VariableKind {
+    /// Every kind.
+    pub const ALL: [Self; 7] = [
+        Self::Offsets,
+        Self::SymmetricOffsets,
+        Self::TriangleSizes,
+        Self::Triangles,
+        Self::HomeHeight,
+        Self::JointAxes,
+        Self::Components,
+    ];
+
+    /// The name in design files.
+    #[must_use]
+    pub fn code(self) -> &'static str {
+        match self {
+            Self::Offsets => "offsets",
+            Self::SymmetricOffsets => "symmetric_offsets",
+            Self::TriangleSizes => "triangle_sizes",
+            Self::Triangles => "triangles",
+            Self::HomeHeight => "home_height",
+            Self::JointAxes => "joint_axes",
+            Self::Components => "components",
+        }
+    }
+}
+
+/// A figure of merit; `docs/theory/dimensional-synthesis.md` has the formulas.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum Objective {
+    /// Least `sigma_6 / sigma_1` over the poses, to be large.
+    WorstConditioning,
+    /// Mean of `sigma_6 / sigma_1` over the sample, to be large.
+    MeanConditioning,
+    /// Least `sigma_6` over the poses, to be large.
+    SmallestSingularValue,
+    /// Greatest push or pull of a leg over poses and loads, to be small.
+    LegForce,
+    /// Least distance of two joint centres of a body, to be large.
+    JointSpacing,
+    /// Least gap of two legs over the poses, to be large.
+    LegClearance,
+    /// Greatest less least leg length over all legs and poses, to be small.
+    Stroke,
+    /// Least eigenvalue of `k J^T J` over the poses, to be large.
+    Stiffness,
+    /// Distance from architectural singularity: smallest singular value of the leg vectors, to be large.
+    SingularityDistance,
+}
+
+impl Objective {
+    /// Every objective.
+    pub const ALL: [Self; 9] = [
+        Self::WorstConditioning,
+        Self::MeanConditioning,
+        Self::SmallestSingularValue,
+        Self::LegForce,
+        Self::JointSpacing,
+        Self::LegClearance,
+        Self::Stroke,
+        Self::Stiffness,
+        Self::SingularityDistance,
+    ];
+
+    /// The name in design files.
+    #[must_use]
+    pub fn code(self) -> &'static str {
+        match self {
+            Self::WorstConditioning => "worst_conditioning",
+            Self::MeanConditioning => "mean_conditioning",
+            Self::SmallestSingularValue => "smallest_singular_value",
+            Self::LegForce => "leg_force",
+            Self::JointSpacing => "joint_spacing",
+            Self::LegClearance => "leg_clearance",
+            Self::Stroke => "stroke",
+            Self::Stiffness => "stiffness",
+            Self::SingularityDistance => "singularity_distance",
+        }
+    }
+
+    /// What the value is measured in; `None` for a pure number.
+    #[must_use]
+    pub fn quantity(self) -> Option<Quantity> {
+        match self {
+            Self::LegForce => Some(Quantity::Force),
+            Self::JointSpacing | Self::LegClearance | Self::Stroke => Some(Quantity::Length),
+            _ => None,
+        }
+    }
+
+    /// `true` when small values are wanted.
+    #[must_use]
+    pub fn is_cost(self) -> bool {
+        matches!(self, Self::LegForce | Self::Stroke)
+    }
+}
