@@ -181,7 +181,7 @@ pub enum InvalidProblem {
 }
 
 impl DimensionalProblem {
-    /// Checks everything that makes the problem askable.
+    /// Checks that the problem is complete and its numbers are possible.
     ///
     /// # Errors
     /// The first violation.

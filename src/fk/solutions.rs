@@ -26,7 +26,7 @@ pub enum Method {
     /// Sylvester matrix, polynomial of degree 40 (Lee, Shim); general six legs.
     Sylvester,
     #[cfg(feature = "lab")]
-    /// Elimination template and generalized eigenvectors (Martyushev); general six legs.
+    /// Elimination template and generalised eigenvectors (Martyushev); general six legs.
     Template,
     /// Trilateration with virtual legs (Porta, Thomas).
     Trilateration,

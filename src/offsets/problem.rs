@@ -116,7 +116,7 @@ impl OffsetProblem {
         sides(&self.octahedral, 1.0).map(|s| s.sliding)
     }
 
-    /// Checks everything that makes the problem askable.
+    /// Checks that the problem is complete and its numbers are possible.
     ///
     /// # Errors
     /// The first violation.

@@ -1,4 +1,4 @@
-//! A moving platform: base, platform and legs in oblique projection, animated along a curve of poses.
+//! A self-motion as a picture: base, platform and legs in oblique projection, animated along a curve of poses.
 
 use super::oblique::{Extent, oblique, outlines};
 use super::style::{Svg, px};

@@ -248,7 +248,7 @@ fn on_a_conic(points: &[[crate::num::exact::Rational; 3]]) -> bool {
     rank(&squares) < 6
 }
 
-/// The case of a design with independent leg vectors and dependent lines, and the guilty legs `among`.
+/// The case of a design with independent leg vectors and dependent lines, and the legs to blame, `among`.
 pub(super) fn of_lines(legs: &ExactLegs, among: Vec<usize>) -> Finding {
     if let Some(star) = BODIES.into_iter().find(|b| is_star_and_pencil(legs, *b, &among)) {
         return Finding { case: Case::StarAndPencil { star }, legs: among };

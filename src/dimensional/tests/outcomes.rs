@@ -144,7 +144,7 @@ fn what_cannot_be_asked_is_refused() {
     assert_eq!(refused(&p), InvalidProblem::SwingTooWide(120.0));
 }
 
-/// An octahedral hexapod whose struts are longest with the joints near the corners, and must be longer than they are on the way between.
+/// An octahedral hexapod whose legs are longest with the joints near the corners, and must be longer than they are on the way between.
 fn long_struts(limits: LengthLimits) -> DimensionalProblem {
     let corner = |r: f64, k: f64| {
         let (s, c) = (std::f64::consts::TAU * k / 3.0).sin_cos();

@@ -1,4 +1,4 @@
-//! Six leg equations by an elimination template: one LU factorisation, one generalized eigenproblem.
+//! Six leg equations by an elimination template: one LU factorisation, one generalised eigenproblem.
 //!
 //! Cayley vector `(u, v, w)`, that is the quaternion `e = (1, u, v, w)`, and position `t = (x, y, z)`; leg 1 joins
 //! the origins, so `f_1 = t.t - L_1`. The other legs minus `N f_1`, `N = e.e`, are
