@@ -1,4 +1,4 @@
-//! The command line: the only place that reads files, prints and exits.
+//! The command line: the only place that reads files, prints and ends the process.
 //!
 //! Data goes to standard output, everything else to standard error. With `--json` standard output holds
 //! exactly one JSON document, for refusals and failures too. See `docs/cli.md`.

@@ -1,4 +1,4 @@
-//! Design files: a manipulator with its joint names, home pose, workspace and options, as TOML or JSON.
+//! Reads and writes design files: a manipulator with its joint names, home pose, workspace and options, as TOML or JSON.
 //!
 //! Everything here is pure: text in, [`Design`] or a list of [`Violation`]s out, and back to text. The
 //! format is described key by key in `docs/design-files.md`.

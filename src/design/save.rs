@@ -1,4 +1,4 @@
-//! A design back to text. Numbers are written with the fewest digits that read back to the same double.
+//! Writes a design as text. Numbers are written with the fewest digits that read back to the same double.
 
 use nalgebra::{Point3, Vector3};
 use serde::Serialize;

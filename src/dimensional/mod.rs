@@ -1,4 +1,4 @@
-//! Dimensional synthesis: the platform that meets its requirements and is best.
+//! Dimensional synthesis: chooses the dimensions of a platform such that it meets all its requirements and is otherwise as good as can be found.
 //!
 //! Variables are offsets, triangles, the height of home and joint axes; requirements are those of [`crate::requirements`], in formulas of
 //! this module with derivatives. Sequential convex programming from many starts, over poses that are added where the requirements

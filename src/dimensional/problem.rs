@@ -1,4 +1,4 @@
-//! What is asked: variables, objectives, requirements, poses.
+//! The problem of dimensional synthesis: variables, objectives, requirements, poses.
 
 use thiserror::Error;
 

@@ -1,4 +1,4 @@
-//! Matching two sets of complex poses.
+//! Matches two sets of complex poses.
 
 use super::determined::magnitude;
 use crate::geom::ComplexPose;

@@ -1,5 +1,5 @@
-//! Are two platforms kinematically equivalent? The map says so algebraically, forward kinematics of both,
-//! solved independently, agrees or disagrees.
+//! Decides whether two platforms are kinematically equivalent, by two kinds of evidence: the leg map between them, and the poses that forward kinematics of both,
+//! solved independently, finds.
 //!
 //! Only this module sees both `synthesis` (leg maps) and `fk` (poses).
 

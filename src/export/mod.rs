@@ -1,4 +1,4 @@
-//! Files for other programs: CAD, simulators, machine controls, tables, drawings.
+//! Writes a design as files for the programs that come next: CAD, simulators, machine controls, tables, drawings.
 //!
 //! [`Export`] holds everything the formats need, worked out once: plates around the joints, legs at home, the length unit.
 //! A [`Writer`] turns it into the text of one or more files; it is pure, and the same input gives the same bytes. Every file states its

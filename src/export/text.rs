@@ -1,4 +1,4 @@
-//! Numbers and names as the formats want them.
+//! Writes numbers and names as the formats want them.
 
 use nalgebra::Vector3;
 

@@ -1,4 +1,4 @@
-//! Many problems on all cores.
+//! Solves many problems on all cores.
 //!
 //! Problems are handed out one by one; each result goes to the place of its problem, and each is computed on one thread from its own data and
 //! the options alone. So results do not depend on the number of threads, nor on which thread took which problem.

@@ -1,4 +1,4 @@
-//! Which method solves a problem.
+//! Chooses the method that solves a problem.
 
 use super::{
     FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, Method, NeedsStart, Octic, PreparedDesign,

@@ -1,4 +1,4 @@
-//! Forward kinematics: all finite complex poses for given leg lengths.
+//! Forward kinematics: finds all finite complex poses that a platform can have with given leg lengths.
 //!
 //! Nothing in here knows leg maps: `fk` and `synthesis` never import each other, so that agreement of
 //! the root sets of two platforms is evidence for the map between them.

@@ -1,4 +1,4 @@
-//! Poses, quaternions, distance geometry.
+//! Geometry that all layers share: poses, quaternions, distances, and their enclosures in intervals.
 
 mod chart;
 pub(crate) mod enclosed;

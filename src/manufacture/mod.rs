@@ -1,4 +1,4 @@
-//! From a design to a platform that is built: tolerances of the joints, the correction a controller runs, joints on a grid of holes.
+//! Takes a design to a platform that can be built: tolerances of the joints, the correction that a controller runs, joints on a grid of holes.
 //!
 //! * [`budget()`] and [`trials()`]: how far joints may be off for the pose that the nominal formula gives to stay within a bound, to first order and by
 //!   random errors.

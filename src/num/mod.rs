@@ -1,4 +1,4 @@
-//! Seeded random numbers, double-double, interval and exact rational arithmetic, and the doors to faer and clarabel.
+//! Numbers with known errors: double-double, interval and exact rational arithmetic, seeded random numbers, and the doors to faer and clarabel.
 
 pub(crate) mod batch;
 #[cfg(feature = "optimize")]

@@ -1,4 +1,4 @@
-//! What came out, re-checked on the original problem in design units by code the search does not use.
+//! The answer of the search, checked again on the original problem in design units by code that the search does not use.
 
 use nalgebra::Matrix6;
 

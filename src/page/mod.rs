@@ -1,4 +1,4 @@
-//! One HTML page that shows a design at work, and the questions it asks the core.
+//! Shows a design to people who have only a browser: one HTML page, and the questions that it asks the core.
 //!
 //! The page computes nothing by itself: every number it shows is the answer of [`Session::answer`] to a request in JSON. In the
 //! browser that function runs as WebAssembly; where there is none, the page replays answers that were recorded when it was written.

@@ -1,4 +1,4 @@
-//! Pictures as SVG text: pure functions, the same bytes for the same input.
+//! Draws pictures as SVG text, by pure functions that give the same bytes for the same input.
 //!
 //! Line widths, fonts and colours are in one place (`style`); what is told by colour is told by line pattern,
 //! shape or text as well.

@@ -1,4 +1,4 @@
-//! Polynomials in one unknown.
+//! Polynomials in one unknown: their roots in floating point, and exact arithmetic on those with integer coefficients.
 
 mod integer;
 mod octic;

@@ -1,4 +1,4 @@
-//! A folder of results as one HTML page: inputs, verdicts with their evidence, pictures, where every file comes from.
+//! Shows a folder of results as one HTML page: inputs, verdicts with their evidence, pictures, and where every file comes from.
 //!
 //! Pure text in, text out. Nothing is computed anew: every number of the page stands in one of the files, which are named with their SHA-256 so that a reader
 //! can tell whether the page belongs to them.

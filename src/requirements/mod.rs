@@ -1,4 +1,4 @@
-//! What a platform has to satisfy besides being regular: room, lengths, swing, loads, speed over a set of poses.
+//! Says what a platform has to satisfy besides being regular, and by how much it does: room, lengths, swing, loads and speed over a set of poses.
 //!
 //! The types say what a design file asks for. [`assess()`] evaluates them directly, pose by pose, from the definitions; an
 //! optimiser has formulas of its own, so that its answers can be checked here. `docs/theory/requirements.md` has the

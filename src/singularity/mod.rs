@@ -1,4 +1,4 @@
-//! Singularities.
+//! Finds out where, and whether at all, the legs hold the platform.
 //!
 //! *Architectural singularity*: platforms that no pose can hold, decided exactly and explained. *Parallel singularities*: single poses at which the legs
 //! do not hold the platform, and boxes of poses without any. *Self-motions*: curves of poses with constant leg lengths.

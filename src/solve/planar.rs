@@ -1,4 +1,4 @@
-//! Platforms whose base joints lie in a plane and whose platform joints lie in a plane: half of everything.
+//! Platforms whose base joints lie in a plane and whose platform joints lie in a plane need only half of the paths.
 //!
 //! With both planes as `z = 0` seven of the 17 forms drop out of the leg equations and ten remain,
 //!

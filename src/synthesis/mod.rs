@@ -1,4 +1,4 @@
-//! Leg maps, and the class of platforms equivalent to the octahedral one.
+//! Finds the platforms that are equivalent to a given one, and the leg maps between them.
 //!
 //! Nothing in here solves forward kinematics: `synthesis` and `fk` never import each other, so that
 //! agreement of the root sets of two platforms is evidence for the map between them.

@@ -1,4 +1,4 @@
-//! Which legs share which joints: the graph of a platform, and the catalogue of all graphs that can hold one.
+//! Says which legs share which joints: the graph of a platform, and the catalogue of all graphs that can hold one.
 //!
 //! Theory, the conditions and the list: `docs/theory/topologies.md`. Source: Porta, Thomas (34 topologies);
 //! here they are enumerated.

@@ -1,4 +1,4 @@
-//! Closure polynomials, exactly.
+//! Computes closure polynomials exactly, in integers.
 //!
 //! Doubles are rational numbers: scaled by a power of two, joints and squared leg lengths are integers, and the closure condition of a
 //! trilateration sequence is an element of a tower of square roots over `Q(x)`, `x` the squared length of the virtual leg. Its norm to `Q(x)`,

@@ -1,4 +1,4 @@
-//! Trilateration sequences with no or one unknown virtual leg in floating point: all configurations.
+//! Finds all poses by trilateration in floating point, for sequences with no or one unknown virtual leg.
 //!
 //! The joint at the end of the virtual leg has two other known distances, so that it turns on a circle. Its angle is a better unknown than
 //! the length of the virtual leg: `u = exp(i angle)` is a rational parameter of the first square root, and real configurations

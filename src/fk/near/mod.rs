@@ -1,4 +1,4 @@
-//! One real pose followed from a known one, for control loops.
+//! Follows one real pose from a known one, for control loops.
 //!
 //! The known pose `P0` is an exact solution for its own squared lengths `s(P0)`. The solver moves the squared lengths
 //! along the straight line from `s(P0)` to those asked for and follows the pose, in segments so short that a Kantorovich

@@ -1,4 +1,4 @@
-//! Joints on a grid of holes, and what a rounded design is worth: conditioning, requirements, distances of joints.
+//! Puts the joints of a design on a grid of holes, and says what the rounded design is worth: conditioning, requirements, distances of joints.
 
 mod exact;
 mod free;

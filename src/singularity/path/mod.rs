@@ -1,4 +1,4 @@
-//! `det J` along paths of poses, and paths that keep its sign.
+//! Joins poses by paths without a singular pose: `det J` along paths, and paths that keep its sign.
 //!
 //! The *straight path* from one pose to another: `p` linear, the quaternion linear (and normalised), that is, the rotation about the fixed axis of
 //! the relative rotation, the short way. On it `det J` is a polynomial of degree 18 over a positive function, so that its sign is proved piece

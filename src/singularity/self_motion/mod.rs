@@ -1,4 +1,4 @@
-//! Self-motions: curves of poses with the same leg lengths.
+//! Follows self-motions: curves of poses with the same leg lengths.
 //!
 //! Poses are dual quaternions `y = (e, g)`, `g = p e`, `|e| = 1`, lengths in units of the size; `y` and `-y` are one pose. On a curve of poses the
 //! equations (six legs, `e.g = 0`, `|e| = 1`) have rank 7 of 8; the curve is followed along its tangent, the null vector, with Gauss-Newton corrections ([`trace`]).

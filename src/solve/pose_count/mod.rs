@@ -1,4 +1,4 @@
-//! The number of finite poses of a design and lengths exactly as written, by linear algebra modulo a prime.
+//! Counts the finite poses of a design and lengths exactly as written without finding them, by linear algebra modulo a prime.
 //!
 //! In the sixteen coordinates of the group a leg is a linear equation (`quadrics.rs`), so that the finite poses are the zeros of quadrics in ten unknowns. Their
 //! algebra is built degree by degree (`quotient.rs`) from the joints and squared lengths as the dyadic numbers they are, modulo a random prime of 61 bits. The method shares nothing with

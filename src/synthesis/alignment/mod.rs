@@ -1,4 +1,4 @@
-//! Rigid motions of the base frame and of the platform frame under which one design is equivalent to another.
+//! Finds the rigid motions of the base frame and of the platform frame under which one design is equivalent to another.
 //!
 //! Everything is computed from the span `L` of the leg vectors, which is all that equivalence knows of a design: its own origins (least-squares
 //! problems that rotations do not change), its own axes (principal axes of matrices formed from the projector on `L`), and from these the

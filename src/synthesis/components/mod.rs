@@ -1,4 +1,4 @@
-//! All families of replaceable legs of a design.
+//! Finds all families of replaceable legs of a design.
 //!
 //! The squared length of a leg `(a, b)` is an affine function of those of the six legs exactly when
 //! `(1, a) (x) (1, b)` lies in the span of `v_1, .., v_6` (see [`leg_vector`](super::leg_vector())); then the leg may replace

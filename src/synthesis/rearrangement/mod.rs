@@ -1,4 +1,4 @@
-//! What equivalent rearrangement can do for each of the topologies: fewest shared joints, the octahedral graph.
+//! Says for each of the topologies whether equivalent rearrangement frees it of shared joints or makes it octahedral.
 //!
 //! The replaceable legs of a design are the points of its leg span `L` on the Segre variety; an equivalent rearrangement is a choice of six of
 //! them that span `L`. For general members of a topology, bodies in space or in a plane, the families of replaceable legs are found in exact

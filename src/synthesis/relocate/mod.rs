@@ -1,4 +1,4 @@
-//! Moving legs along families of replaceable legs, of any platform.
+//! Moves legs of any platform along their families of replaceable legs, which leads to the platforms equivalent to it.
 //!
 //! With `v' = sum c_l v_l` the vector of a replaceable leg (see [`components`](super::components)), putting it in the place of leg `k` gives the
 //! leg map whose row `k` is `c` and whose other rows are those of the identity: `det A = c_k`. Several legs moved together give the matrix with
