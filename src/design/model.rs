@@ -55,7 +55,7 @@ pub struct OptimizeTable {
 
 /// There are not as many names as joints.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{names} names for the {joints} joints of the {body}")]
+#[error("the {body} has {joints} joints, but {names} names were given for them")]
 pub struct NameCount {
     /// `"base"` or `"platform"`.
     pub body: &'static str,

@@ -163,7 +163,9 @@ pub enum InvalidProblem {
         value: f64,
     },
     /// Bounds that leave nothing.
-    #[error("the bounds of {variable} are {low} and {high}: no interval")]
+    #[error(
+        "the bounds of {variable} are {low} and {high}; both have to be finite, and the first no larger than the second"
+    )]
     Bounds {
         /// Name of the variable.
         variable: String,
@@ -173,7 +175,7 @@ pub enum InvalidProblem {
         high: f64,
     },
     /// Axes are chosen for swing limits below 90 degrees only.
-    #[error("axes are chosen for swing limits below 90 degrees, and this limit is {0}")]
+    #[error("joint axes can be chosen for swing limits below 90 degrees only, and this limit is {0} degrees")]
     SwingTooWide(f64),
     /// A leg has no length at home.
     #[error("a leg has no length at home")]

@@ -12,7 +12,7 @@ use crate::topology::{Joint, Nesting, Sequence, sequences};
 #[non_exhaustive]
 pub enum NoPlan {
     /// More virtual legs would be needed than allowed.
-    #[error("{needed} virtual legs are needed, {allowed} are possible here")]
+    #[error("the design needs {needed} virtual legs, but at most {allowed} are possible here")]
     TooManyVirtualLegs {
         /// As many as this topology needs.
         needed: usize,
@@ -20,7 +20,7 @@ pub enum NoPlan {
         allowed: usize,
     },
     /// Every sequence starts from collinear joints.
-    #[error("in every sequence three joints that have to span a triangle are collinear")]
+    #[error("every trilateration sequence needs a triangle whose three joints are collinear in this design")]
     Collinear,
 }
 

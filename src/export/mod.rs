@@ -75,7 +75,7 @@ pub enum Unsupported {
     },
     /// A leg has no room for a body between its joints.
     #[error(
-        "leg {leg} is {length} long at home and its joints take {taken} (design units): no room for a cylinder and a rod"
+        "leg {leg} is {length} long at home and its joints take {taken} (design units), which leaves no room for a cylinder and a rod"
     )]
     LegTooShort {
         /// 1-based number.

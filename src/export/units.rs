@@ -15,7 +15,7 @@ pub struct LengthUnit {
 
 /// A label that names no known length unit.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("`{label}` is no length unit known here; known are {}", LengthUnit::labels())]
+#[error("`{label}` is not a known unit of length; the known units are {}", LengthUnit::labels())]
 pub struct UnknownUnit {
     /// The label.
     pub label: String,

@@ -110,7 +110,7 @@ pub enum FkError {
         reason: String,
     },
     /// Two computations contradict each other: at least one of them is wrong.
-    #[error("a contradiction: {what}")]
+    #[error("two results contradict each other: {what}")]
     Contradiction {
         /// What was found.
         what: String,

@@ -67,7 +67,7 @@ impl Default for PoseSearch {
 #[non_exhaustive]
 pub enum ToleranceError {
     /// At a singular pose no error of the joints is small enough.
-    #[error("the workspace holds a singular pose: there no bound on the pose can be kept")]
+    #[error("the workspace holds a singular pose, at which no bound on the error of the pose can be kept")]
     SingularPose {
         /// The pose.
         pose: Pose,

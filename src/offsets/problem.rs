@@ -62,7 +62,7 @@ pub enum InvalidProblem {
         value: f64,
     },
     /// Lower bound above the upper bound, or a bound that is not finite.
-    #[error("the bounds of offset {} are {low} and {high}: no interval", side + 1)]
+    #[error("the bounds of offset {} are {low} and {high}; both have to be finite, and the first no larger than the second", side + 1)]
     Bounds {
         /// 0-based side of the hexagon.
         side: usize,

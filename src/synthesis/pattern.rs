@@ -28,7 +28,7 @@ pub struct Pattern {
 #[non_exhaustive]
 pub enum InstantiateError {
     /// A wrong number of offsets.
-    #[error("the pattern has {expected} offsets, {given} were given")]
+    #[error("the pattern has {expected} offsets, but {given} were given")]
     OffsetCount {
         /// Inner points of the pattern.
         expected: usize,

@@ -63,14 +63,14 @@ pub struct RoundingProblem<'a> {
 #[non_exhaustive]
 pub enum NoRounding {
     /// The joints of a body do not lie in a plane.
-    #[error("the joints of the {0} do not lie in a plane: a grid of holes is in one")]
+    #[error("the joints of the {0} do not lie in a plane, as the holes of a grid do")]
     NotPlanar(Body),
     /// A pitch is not a positive number, or another value of a grid is not finite.
     #[error("the grid of the {0} has no positive finite pitch, or an origin or angle that is not finite")]
     BadGrid(Body),
     /// The design is neither octahedral nor has it one joint on each side of two triangles.
     #[error(
-        "the design is neither octahedral nor has one joint on each side of two triangles: no lines to keep the joints on"
+        "the design is neither octahedral nor has one joint on each side of two triangles, so there are no lines to keep the joints on"
     )]
     NoTriangles,
     /// No triangle on the grid is near enough.

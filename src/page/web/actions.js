@@ -165,7 +165,7 @@ Object.assign(App.prototype, {
     const count = modes.solution_set === "positive_dimensional"
       ? `For exactly these lengths ${of} has a whole curve of complex poses; ${modes.modes.length ? `${modes.modes.length} real ones on it are listed` : "no real one was found on it"}. Isolated poses beside the curve (the one shown may be one) are not listed: move the platform a little and ask again.`
       : `${modes.modes.length} real of ${modes.finite} finite complex poses of ${of}, by the ${modes.method} method; the list is ${modes.proved ? "proved complete" : "not proved complete"}, ${modes.modes.filter((m) => m.certified).length} real ones are certified.`;
-    return this.listed === "stale" ? `${count} For the lengths at which they were found: the platform has moved since.` : count;
+    return this.listed === "stale" ? `${count} These are the poses for the lengths at which they were found; the platform has moved since.` : count;
   },
 
   captionGhost() {
@@ -195,7 +195,7 @@ Object.assign(App.prototype, {
 
   showConfirmed(found) {
     $("modes-words").textContent = found.error ? found.error.message
-      : `Solved for each platform from its own leg lengths: ${found.first.finite} finite poses of the original (${found.first.method}), ${found.second.finite} of the equivalent (${found.second.method}); `
+      : `Each platform was solved from its own leg lengths: the original has ${found.first.finite} finite poses (${found.first.method}), the equivalent has ${found.second.finite} (${found.second.method}); `
         + (found.distance === null ? "they cannot be paired." : `paired, they are at most ${show(found.distance, 2)} of the size apart.`);
   },
 
@@ -238,7 +238,7 @@ Object.assign(App.prototype, {
 openCore().then((core) => {
   if (!core.live) {
     $("note").hidden = false;
-    $("note").textContent = `Recorded data: ${core.why}. One round of poses, the assembly modes at home and det A over two offsets are shown; sliders need the core in WebAssembly.`;
+    $("note").textContent = `This page shows recorded data: ${core.why}. It has one round of poses, the assembly modes at home and det A over two offsets; sliders need the core in WebAssembly.`;
   }
   $("about").textContent = `equipod ${data.version}. ${core.live ? "Every number is computed here by its core, compiled to WebAssembly; nothing is sent anywhere." : "Recorded data."}`;
   new App(core);

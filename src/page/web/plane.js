@@ -65,7 +65,7 @@ class Plane {
     this.mark(c);
     const [i, j] = this.axes.map((k) => pattern.offsets[k].name);
     const [x, y] = this.axes.map((k) => show(offsets[k]));
-    this.words.textContent = `Mark: ${i} = ${x}, ${j} = ${y}, det A = ${show(det)}. Heavy line: det A = 0; plus and minus: its sign. `
+    this.words.textContent = `The mark is at ${i} = ${x}, ${j} = ${y}, where det A = ${show(det)}. On the heavy line det A = 0; plus and minus show its sign. `
       + (plane.zero.length ? "" : "It does not vanish in this square.");
   }
 

@@ -42,7 +42,7 @@ const Tables = {
     const all = [...first.margins, ...(second ? second.margins.filter((m) => !find(first, m)) : [])];
     $("margins-card").hidden = false;
     $("margins-words").textContent = all.length
-      ? "Room that is left at the pose shown, least of each kind; below zero the requirement is violated."
+      ? "The least margin of each requirement at the pose shown; below zero the requirement is violated."
       : "The design requires nothing: it has no [hardware], loads or keep-outs.";
     // what rounding does not tell from zero is not written as a number
     const words = (m) => (m.at_limit ? "0, at the limit" : `${show(m.margin, 4)}${m.met ? "" : " violated"}`);

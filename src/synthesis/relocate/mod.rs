@@ -96,7 +96,7 @@ pub enum RelocateError {
         count: usize,
     },
     /// A family has another number of parameters.
-    #[error("family {} has {expected} parameter(s), {given} given", family + 1)]
+    #[error("family {} has {expected} parameter(s), but {given} were given", family + 1)]
     ParameterCount {
         /// The family, from 0.
         family: usize,
@@ -114,7 +114,7 @@ pub enum RelocateError {
         parameters: Vec<f64>,
     },
     /// The coefficient of the leg is zero all along the family.
-    #[error("{leg} cannot be replaced by a leg of family {}: their squared lengths do not depend on its", family + 1)]
+    #[error("{leg} cannot be replaced by a leg of family {}: the squared lengths of that family do not depend on that of the leg", family + 1)]
     NotCarried {
         /// The leg.
         leg: LegIndex,
@@ -122,7 +122,7 @@ pub enum RelocateError {
         family: usize,
     },
     /// A leg is moved twice at once.
-    #[error("{0} is moved twice together")]
+    #[error("{0} is moved twice in one step; move it once, or in one step after the other")]
     Twice(LegIndex),
     /// A decomposition failed.
     #[error(transparent)]
