@@ -38,7 +38,7 @@ pub enum Class {
     PlanarBase,
     /// Base and platform in a plane each.
     BothPlanar,
-    /// Base and platform in planes that are no coordinate planes of their frames.
+    /// Base and platform in planes that are not coordinate planes of their frames.
     TiltedPlanes,
     /// Zigzag between two triangles.
     Octahedral,

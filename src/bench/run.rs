@@ -60,7 +60,7 @@ pub struct Failure {
     pub k: u64,
     /// Roots that are missing.
     pub missed: usize,
-    /// Claims that are no roots.
+    /// Claims that are not roots.
     pub spurious: usize,
     /// Certificates that are wrong.
     pub false_certificates: usize,

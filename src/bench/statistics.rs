@@ -55,7 +55,7 @@ pub struct Report {
     pub certified_roots: u64,
     /// True roots not found.
     pub missed_roots: u64,
-    /// Claims that are no root, or a second time the same.
+    /// Claims that are not a root, or a second time the same.
     pub spurious_roots: u64,
     /// Certificates, of roots or of completeness, that are wrong.
     pub false_certificates: u64,

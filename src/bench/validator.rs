@@ -48,7 +48,7 @@ pub struct Verdict {
     pub counted: usize,
     /// Real ones among them.
     pub real: usize,
-    /// Claims that are no root or repeat one.
+    /// Claims that are not a root or repeat one.
     pub spurious: usize,
     /// True roots that are not among the claims.
     pub missed: usize,

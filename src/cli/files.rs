@@ -175,7 +175,7 @@ pub(crate) fn check_arguments(matches: &ArgMatches) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Something that is there and is no file: a device or a pipe takes any number of texts.
+/// Something that is there and is not a file: a device or a pipe takes any number of texts.
 fn is_device(path: &Path) -> bool {
     path.exists() && !path.is_file() && !path.is_dir()
 }

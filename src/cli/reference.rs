@@ -110,7 +110,7 @@ fn written(page: &str) -> Result<String, Failure> {
         } else if let Some(k) = open.iter().position(|c| c.get_name() == name) {
             out.push_str(&block(open.remove(k), false));
         } else {
-            return Err(bad(format!("`{name}` is no command, or is there twice")));
+            return Err(bad(format!("`{name}` is not a command, or is there twice")));
         }
     }
     if skipping {

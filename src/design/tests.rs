@@ -108,10 +108,10 @@ fn legs_and_triangles() {
     insta::assert_snapshot!(all, @r#"
         4:1 design::leg_count: there are 5 legs instead of six | write six pairs: legs = [["A1", "B1"], ["A2", "B2"], ...]
         4:79 design::identical_legs: legs 1 and 6 both join P1 to P4 | each leg needs its own pair of joints; with two equal legs the platform is never rigid
-        4:80 design::missing_joint: leg 6 names `P9`, which is no joint of the base | add `P9 = [x, y, z]` to [base]
-        4:86 design::missing_joint: leg 6 names `X`, which is no joint of the platform | add `X = [x, y, z]` to [platform]
-        4:80 design::missing_joint: leg 6 names `P6`, which is no joint of the base | `P6` is a joint of the platform; a leg names the base joint first
-        4:86 design::missing_joint: leg 6 names `P1`, which is no joint of the platform | `P1` is a joint of the base; a leg names the base joint first
+        4:80 design::missing_joint: leg 6 names `P9`, which is not a joint of the base | add `P9 = [x, y, z]` to [base]
+        4:86 design::missing_joint: leg 6 names `X`, which is not a joint of the platform | add `X = [x, y, z]` to [platform]
+        4:80 design::missing_joint: leg 6 names `P6`, which is not a joint of the base | `P6` is a joint of the platform; a leg names the base joint first
+        4:86 design::missing_joint: leg 6 names `P1`, which is not a joint of the platform | `P1` is a joint of the base; a leg names the base joint first
         4:79 design::leg_shape: leg 6 is not a pair of joint names | write ["base joint", "platform joint"]
         4:79 design::leg_shape: leg 6 is not a pair of joint names | write ["base joint", "platform joint"]
         5:2 design::collinear_triangle: the base joints P1, P2, P3 are on one line | move one of them: a body held in three points on a line can turn about it
@@ -147,7 +147,7 @@ fn optional_tables() {
     insta::assert_snapshot!(all, @r#"
         15:13 design::rotation: `quat_wxyz` of [home] has norm 1.4142135623730951, not 1 | divide the quaternion by its norm
         16:1 design::rotation: [home] gives its rotation more than once | give one of rpy_deg = [roll, pitch, yaw], quat_wxyz = [w, x, y, z], rotation = [[..], [..], [..]]
-        15:12 design::rotation: `rotation` of [home] is no rotation: R^T R differs from I by 0e0, det R = -1 | give all digits and a right-handed frame, or use quat_wxyz, which is normalised
+        15:12 design::rotation: `rotation` of [home] is not a rotation: R^T R differs from I by 0e0, det R = -1 | give all digits and a right-handed frame, or use quat_wxyz, which is normalised
         13:1 design::rotation: [home] has no rotation | give one of rpy_deg = [roll, pitch, yaw], quat_wxyz = [w, x, y, z], rotation = [[..], [..], [..]]
         15:1 design::unknown_key: `rpy` is not a key of [home] | did you mean `rpy_deg`?
         13:1 design::missing_key: `position` of [home] is missing | add position = [x, y, z]

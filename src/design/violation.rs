@@ -48,7 +48,7 @@ pub enum Code {
     NegativeLength,
     /// A quantity that must be above zero (or not below) is not.
     NotPositive,
-    /// None or several of `rpy_deg`, `quat_wxyz`, `rotation`, or numbers that are no rotation.
+    /// None or several of `rpy_deg`, `quat_wxyz`, `rotation`, or numbers that are not a rotation.
     Rotation,
     /// A workspace box without the `[home]` it lies around.
     MissingHome,

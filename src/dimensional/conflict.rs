@@ -183,7 +183,7 @@ fn amounts(model: &Model<'_>, poses: &[HeldPose], x: &[f64], task: &Task) -> BTr
             Group::Floor(_) => {
                 out.insert(*group, *value);
             }
-            // the spare is no part of what is required
+            // the spare is not part of what is required
             Group::Determinant | Group::Reach => {
                 out.insert(*group, (*value - model.backoff).max(0.0));
             }

@@ -165,7 +165,7 @@ impl Shape {
         self.axes.iter().flatten().any(|first| (*first..first + AXIS_VARIABLES).contains(&j))
     }
 
-    /// The variables that are no component of a joint axis.
+    /// The variables that are not a component of a joint axis.
     pub(crate) fn free(&self) -> Vec<usize> {
         (0..self.start.len()).filter(|j| !self.is_axis(*j)).collect()
     }

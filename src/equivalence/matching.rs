@@ -40,7 +40,7 @@ impl PoseMatching {
 }
 
 /// Pairs the poses of two sets one to one, nearest pairs first; a pair farther apart than `tolerance`
-/// (relative to `size` for positions and to the pose's own numbers) is no pair.
+/// (relative to `size` for positions and to the pose's own numbers) is not a pair.
 #[must_use]
 pub fn match_poses(a: &[ComplexPose], b: &[ComplexPose], size: f64, tolerance: f64) -> PoseMatching {
     let mut all: Vec<(usize, usize, f64)> = Vec::with_capacity(a.len() * b.len());

@@ -128,6 +128,6 @@ mod tests {
             values.retain(|v| (v - z).norm() > 1e-6 * (1.0 + z.norm()));
             assert!(values.len() < over, "{id}: no pose over {z}");
         }
-        assert!(values.is_empty(), "{id}: {values:?} are no roots");
+        assert!(values.is_empty(), "{id}: {values:?} are not roots");
     }
 }

@@ -77,7 +77,7 @@ pub(super) fn curves(
 }
 
 /// The answer for a set of positive dimension that the count has found: points on it in place of the ends of paths, which are arbitrary. Certified
-/// roots are isolated poses beside it and stay; what has no certificate is no root.
+/// roots are isolated poses beside it and stay; what has no certificate is not a root.
 pub(super) fn positive_dimensional(
     mut found: FkSolutions,
     m: &Manipulator,

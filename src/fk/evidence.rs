@@ -101,7 +101,7 @@ pub(super) fn reject_others(solutions: &mut FkSolutions) {
     solutions.rejected.extend(others.iter().map(rejected));
 }
 
-/// What has no certificate is no root of the answer: it is named beside them, and the answer is undecided.
+/// What has no certificate is not a root of the answer: it is named beside them, and the answer is undecided.
 pub(super) fn set_unproved_apart(solutions: &mut FkSolutions) {
     let mut unproved = withdraw(solutions, |r| !r.certified());
     if unproved.is_empty() {

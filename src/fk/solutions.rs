@@ -193,7 +193,7 @@ pub struct PathReport {
     pub retracked: u32,
 }
 
-/// Why a candidate is no root.
+/// Why a candidate is not a root.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(
@@ -234,7 +234,7 @@ pub struct FkSolutions {
     pub completeness: Completeness,
     /// What each homotopy path did, 40 or, where each stands for itself and its mirror image, 20; empty for other methods.
     pub paths: Vec<PathReport>,
-    /// Candidates that are no roots.
+    /// Candidates that are not roots.
     pub rejected: Vec<Rejected>,
     /// The finite poses counted without finding them; `None` when that was not asked, or not needed for a proof.
     pub pose_count: Option<PoseCount>,

@@ -192,7 +192,7 @@ pub(super) fn ends_at(poses: impl IntoIterator<Item = ComplexPose>) -> impl Iter
     })
 }
 
-/// Refines, merges and certifies the ends of all that was `tried`. What cannot be certified is no root: with other distances
+/// Refines, merges and certifies the ends of all that was `tried`. What cannot be certified is not a root: with other distances
 /// the same lengths give other poses of rounding far out.
 pub(super) fn judged(
     m: &Manipulator,

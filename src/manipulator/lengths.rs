@@ -19,7 +19,7 @@ pub struct SquaredLegLengths {
     radius: [f64; 6],
 }
 
-/// A value that is no leg length.
+/// A value that is not a leg length.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum InvalidLengths {

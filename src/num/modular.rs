@@ -53,7 +53,7 @@ impl Field {
         if x < 0 { self.sub(0, r) } else { r }
     }
 
-    /// The residue of `x 2^shift` for a finite double; also where that is no integer (2 has an inverse).
+    /// The residue of `x 2^shift` for a finite double; also where that is not an integer (2 has an inverse).
     pub(crate) fn scaled(self, x: f64, shift: i32) -> u64 {
         let (mantissa, exponent) = mantissa_and_exponent(x);
         self.mul(self.integer(mantissa), self.power_of_two(exponent + shift))

@@ -101,7 +101,7 @@ impl Slide {
         let foot = -dot(&w, &e) / squared_length;
         let nearest: [f64; 3] = std::array::from_fn(|k| w[k] + foot * e[k]);
         let half = ((required.centre_and_radius().0 - dot(&nearest, &nearest)) / squared_length).sqrt();
-        // a negative radicand makes a half width that is no number
+        // a negative radicand makes a half width that is not a number
         if !(half > 0.0 && half.is_finite() && foot.is_finite()) {
             return None;
         }

@@ -163,7 +163,7 @@ pub(crate) struct Model {
 }
 
 /// The search keeps this distance (relative to the radius of the body; absolute in `det A`) from the true limits, so that
-/// a conic solver's residual cannot carry the answer across them. It is no part of any proof.
+/// a conic solver's residual cannot carry the answer across them. It is not part of any proof.
 pub(crate) const BACKOFF: f64 = 1e-8;
 
 impl Model {

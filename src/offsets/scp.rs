@@ -262,7 +262,7 @@ fn stationarity(run: &Run<'_>) -> f64 {
 }
 
 /// Singular values within this factor of the extreme one are modelled together, by a cone, so that a
-/// crossing is no kink of the model.
+/// crossing is not a kink of the model.
 const CLUSTER_RATIO: f64 = 2.0;
 /// A subproblem point with a larger violation (data of order one) is refused.
 const ACCEPTED_RESIDUAL: f64 = 1e-6;

@@ -10,7 +10,7 @@ use crate::geom::Pose;
 
 /// Steps between two poses of a trajectory.
 const STEPS: usize = 24;
-/// Turns of each coordinate in one round; different ones, so that the path is no line.
+/// Turns of each coordinate in one round; different ones, so that the path is not a line.
 const TURNS: [f64; 6] = [1.0, 2.0, 1.0, 3.0, 2.0, 1.0];
 /// Share of the region that is used.
 const SHARE: f64 = 0.9;

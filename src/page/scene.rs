@@ -34,7 +34,7 @@ pub(super) fn record(session: &Session, at: &Pose, e: Option<&Equivalent>) -> Re
 
 fn squares(design: &Design, at: &Pose) -> Result<SquaredLegLengths, Refusal> {
     let s = at.squared_lengths(design.manipulator());
-    s.ok_or_else(|| Refusal::new("pose", "a leg length at this pose is no finite positive number"))
+    s.ok_or_else(|| Refusal::new("pose", "a leg length at this pose is not a finite positive number"))
 }
 
 fn platform(session: &Session, design: &Design, at: &Pose, s: &SquaredLegLengths, required: bool) -> Value {

@@ -26,7 +26,7 @@ pub(crate) const PLANAR_FORMS: usize = 10;
 pub(crate) type PlanarRow = [f64; PLANAR_FORMS];
 
 /// Joints count as coplanar when they are closer to the plane of three of them than this part of the largest
-/// coordinate: what rounding makes of joints in a plane that is no coordinate plane.
+/// coordinate: what rounding makes of joints in a plane that is not a coordinate plane.
 const FLAT: f64 = 64.0 * f64::EPSILON;
 /// The triangle that spans the plane must not be thinner than this part of the square of the size.
 const SPAN: f64 = 1e-3;

@@ -125,7 +125,7 @@ pub enum Relation {
     /// The relation holds, but not backwards: the legs of TO are dependent (`det A = 0`), or those of FROM
     /// are (`leg_rank < 6`) and `A` is not unique.
     Singular,
-    /// Some leg of TO is no affine function of the legs of FROM.
+    /// Some leg of TO is not an affine function of the legs of FROM.
     Unrelated,
     /// The relation holds within the tolerance, and a singular design lies within what the tolerance and rounding leave open.
     Undecided,

@@ -48,7 +48,7 @@ pub enum InstantiateError {
     Design(#[from] InvalidManipulator),
 }
 
-/// A text that is no pattern identifier.
+/// A text that is not a pattern identifier.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum ParsePatternError {

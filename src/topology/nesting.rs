@@ -33,7 +33,7 @@ pub struct StepDependence {
     pub base: Dependence,
     /// Of the number under its square root: the base triangle and the three distances to the joint.
     pub radicand: Dependence,
-    /// Sides of the base triangle that are no known distances.
+    /// Sides of the base triangle that are not known distances.
     pub computed_sides: u8,
 }
 

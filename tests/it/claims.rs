@@ -147,7 +147,7 @@ fn every_claim_has_its_reason_its_preconditions_and_a_test_that_exists() {
         assert!(!row[1].is_empty() && !quoted(&row[0]).is_empty(), "{row:?}");
     }
     assert!(!has_test("tests/it/claims.rs::no_such_test") && !has_test("tests/it/nowhere.rs::x"));
-    assert!(!has_test("tests/it/claims.rs::has_test"), "a function that is no test");
+    assert!(!has_test("tests/it/claims.rs::has_test"), "a function that is not a test");
 }
 
 /// `path::name` of a function under `#[test]`.

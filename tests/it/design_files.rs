@@ -1,4 +1,4 @@
-//! Shipped designs, reading back what was written, and inputs that are no designs.
+//! Shipped designs, reading back what was written, and inputs that are not designs.
 
 use equipod::methods::design::{Code, Design, Format, OptimizeTable, Workspace, parse};
 use equipod::methods::geom::Pose;

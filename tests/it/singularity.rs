@@ -190,7 +190,7 @@ fn extreme_units_and_far_origins_are_decided_the_same() {
             let place =
                 |p: Point3<f64>| Point3::from((p.coords + Vector3::new(shift, -shift, shift)) * factor);
             let legs = m.legs().map(|l| Leg { base: place(l.base), platform: place(l.platform) });
-            // sizes whose squares overflow or vanish are no designs
+            // sizes whose squares overflow or vanish are not designs
             let Ok(m) = apart(&legs) else { continue };
             let found = Architecture::of(&m);
             assert_eq!((found.leg_rank, found.jacobian.rank), (leg_rank, rank), "{name}, {factor} {shift}");

@@ -17,6 +17,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 MARKDOWN = ["*.md", "docs/*.md", "docs/theory/*.md", "designs/*.md", "tests/*/README.md"]
 SOURCES = ["src/**/*.rs", "examples/*.rs"]
+PAGE = ["src/page/web/*.js", "src/page/web/*.html"]
 
 # words with a full stop that end no sentence
 ABBREVIATIONS = {
@@ -175,11 +176,32 @@ def rust(text):
     return found
 
 
+def page(text):
+    """Faults of the comments and texts of the page, a script or HTML: (line, rule, what)."""
+    found = []
+    for number, line in enumerate(text.splitlines(), 1):
+        if re.match(r"\s*(?://|/\*\*?|\*) ", line):
+            said = [re.sub(r"^\s*\S+ ", "", line)]
+        elif re.search(r"</?[a-z]+[ >]", line):
+            said = [re.sub(r"<[^>]*>?|&\w+;", "\u00a7", line)]
+        else:
+            said = re.findall(r'"([^"]*)"|`([^`]*)`', line)
+            said = [s for pair in said for s in pair if len(re.findall(r"\b[a-z]{2,} [a-z]{2,}", s)) >= 2]
+        for text in said:
+            plain = re.sub(r"\$\{.*?\}|`[^`]*`|\b\w*[_\d/(]\w*\b|\w+\.\w+|\S*[={}]\S*", "\u00a7", text)
+            found += [(number, *f) for f in words_of(plain)]
+    return found
+
+
+def judge(path):
+    return {".md": markdown, ".rs": rust}.get(path.suffix, page)
+
+
 def check(paths):
     faults = 0
     for path in paths:
         text = path.read_text(encoding="utf-8")
-        for line, rule, what in markdown(text) if path.suffix == ".md" else rust(text):
+        for line, rule, what in judge(path)(text):
             faults += 1
             print(f"{path.relative_to(ROOT) if path.is_relative_to(ROOT) else path}:{line}: {rule}: {what}")
     return faults
@@ -202,21 +224,24 @@ PLANTED = [
     (rust, "one term per thing", "/// The direct kinematics of a platform.\nfn f() {}\n"),
     (rust, "a sentence ends", "//! The pose of a platform\n\nfn f() {}\n"),
     (rust, "a sentence has a subject", "/// Wanted: all poses.\nfn f() {}\n"),
+    (page, "spelling", '$("words").textContent = "the legs of the platfrom hold it here";\n'),
+    (page, "one term per thing", "<p>The direct kinematics of a platform.</p>\n"),
 ]
 SOUND = [
     (markdown, "# A\n\nThis page, by N. Rojas and J.-C. Latombe (sec. 5, Fig. 2), has one formula:\n\n    a. B. C\n\n* one\n* two\n"),
+    (page, '  const plane = `${platfrom} of ${legs} holds it here`;\n'),
     (rust, '//! The pose of a platform.\n\n/// The `platfrom` of a design.\nfn f() { g("a..b") }\n'),
 ]
 
 
 def planted():
     missed = 0
-    for judge, rule, text in PLANTED:
-        if rule not in {r for _, r, _ in judge(text)}:
+    for judged, rule, text in PLANTED:
+        if rule not in {r for _, r, _ in judged(text)}:
             missed += 1
             print(f"planted fault not found: {rule}: {text!r}")
-    for judge, text in SOUND:
-        for fault in judge(text):
+    for judged, text in SOUND:
+        for fault in judged(text):
             missed += 1
             print(f"found in a sound text: {fault}: {text!r}")
     print(f"{len(PLANTED)} planted faults, {len(PLANTED) + len(SOUND) - missed} of {len(PLANTED) + len(SOUND)} texts judged as they should be")
@@ -232,7 +257,7 @@ def main():
         return 1 if planted() else 0
     paths = [p.resolve() for p in options.files]
     if not paths:
-        paths = sorted({p for pattern in MARKDOWN + SOURCES for p in ROOT.glob(pattern)})
+        paths = sorted({p for pattern in MARKDOWN + SOURCES + PAGE for p in ROOT.glob(pattern)})
         if len(paths) < 200:
             print(f"{len(paths)} files: the project is not there")
             return 1

@@ -26,7 +26,7 @@ pub(crate) struct Args {
     /// Folder to write into; it is made where it does not exist
     #[arg(short, long, value_name = "DIR")]
     output: OutputPath,
-    /// What one unit of the design is, where its label is no length unit: um, mm, cm, m, in, ft
+    /// What one unit of the design is, where its label is not a length unit: um, mm, cm, m, in, ft
     #[arg(long, value_name = "UNIT")]
     unit: Option<String>,
     /// Thickness of the plates, design units

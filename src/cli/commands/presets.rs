@@ -74,6 +74,6 @@ fn record(preset: &Preset) -> Result<Map<String, Value>, Failure> {
 }
 
 fn design(preset: &Preset) -> Result<Design, Failure> {
-    let unread = |_| Failure::internal(format!("the preset {} is no design", preset.name));
+    let unread = |_| Failure::internal(format!("the preset {} is not a design", preset.name));
     parse(preset.text, Format::Toml).map(|(design, _)| design).map_err(unread)
 }

@@ -86,7 +86,7 @@ fn unreadable(path: &Path, error: &std::io::Error) -> Failure {
         .with_help("name a folder with results, for instance that of `explore`")
 }
 
-/// All files of a folder but an earlier page in the place of this one. What is no page is an input like the others, and not to be written over.
+/// All files of a folder but an earlier page in the place of this one. What is not a page is an input like the others, and not to be written over.
 fn gather(folder: &Path, page: &Path) -> Result<Vec<ReportFile>, Failure> {
     let entries = std::fs::read_dir(folder).map_err(|e| unreadable(folder, &e))?;
     let is_page =

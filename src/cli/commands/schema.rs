@@ -52,7 +52,7 @@ fn names() -> Vec<&'static str> {
 }
 
 fn parsed(text: &str) -> Result<Map<String, Value>, Failure> {
-    serde_json::from_str(text).map_err(|e| Failure::internal(format!("a schema is no JSON: {e}")))
+    serde_json::from_str(text).map_err(|e| Failure::internal(format!("a schema is not JSON: {e}")))
 }
 
 /// Answers may have more keys in later versions, also where a design file may not.

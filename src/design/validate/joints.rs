@@ -150,7 +150,7 @@ fn lookup(
     } else {
         format!("add `{} = [x, y, z]` to [{label}]", shown(name))
     };
-    let message = format!("leg {leg} names `{}`, which is no joint of the {label}", shown(name));
+    let message = format!("leg {leg} names `{}`, which is not a joint of the {label}", shown(name));
     report.refuse(Code::MissingJoint, span, message, help);
     None
 }

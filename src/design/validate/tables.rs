@@ -16,7 +16,7 @@ use crate::requirements::{
 pub(super) const POSE_KEYS: [&str; 4] = ["position", "rpy_deg", "quat_wxyz", "rotation"];
 pub(super) const WORKSPACE_KEYS: [&str; 6] =
     ["translation", "rotation_deg", "region", "grid", "poses", "trajectory"];
-/// The keys of `[optimize]` that are no search.
+/// The keys of `[optimize]` that are not a search.
 pub(super) const LIMIT_KEYS: [&str; 3] = ["min_joint_distance", "min_abs_det", "characteristic_length"];
 const ROTATION_HELP: &str =
     "give one of rpy_deg = [roll, pitch, yaw], quat_wxyz = [w, x, y, z], rotation = [[..], [..], [..]]";
@@ -105,8 +105,10 @@ fn rotation_matrix(report: &mut Report<'_>, node: &Node, what: &str) -> Option<R
     let m = Matrix3::from_fn(|i, j| rows[i][j]);
     let error = (m.transpose() * m - Matrix3::identity()).amax();
     if error > 1e-9 || m.determinant() < 0.0 {
-        let message =
-            format!("{what} is no rotation: R^T R differs from I by {error:e}, det R = {}", m.determinant());
+        let message = format!(
+            "{what} is not a rotation: R^T R differs from I by {error:e}, det R = {}",
+            m.determinant()
+        );
         let help = "give all digits and a right-handed frame, or use quat_wxyz, which is normalised";
         report.refuse(Code::Rotation, &node.span, message, help);
         return None;

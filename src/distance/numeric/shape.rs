@@ -42,7 +42,7 @@ impl Shape {
         self.simple
     }
 
-    /// Measures the shape of a sequence for designs with the legs of `m`; `None` when the closure is no polynomial for any exponents
+    /// Measures the shape of a sequence for designs with the legs of `m`; `None` when the closure is not a polynomial for any exponents
     /// tried. The result depends on the legs alone, not on coordinates.
     #[must_use]
     pub fn measure(

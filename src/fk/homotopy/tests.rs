@@ -53,7 +53,7 @@ fn twenty_paths_and_their_mirror_images_are_the_forty_poses() {
     }
 }
 
-/// Negative control: with one joint off the plane the mirror images are no poses.
+/// Negative control: with one joint off the plane the mirror images are not poses.
 #[test]
 fn a_joint_off_the_plane_by_a_millionth_takes_forty_paths() {
     let mut rng = Rng::new(78);

@@ -172,7 +172,7 @@ impl NearSolver {
     }
 
     /// `steps` plain Newton steps on the leg equations from `start`, without a test of where they lead: for a start so near to the pose that a
-    /// step squares its error. `None` when `start` is no pose or singular.
+    /// step squares its error. `None` when `start` is not a pose or singular.
     #[must_use]
     pub fn newton_steps(&self, s: &SquaredLegLengths, start: &Pose, steps: u32) -> Option<Pose> {
         let (target, _) = self.target(s);

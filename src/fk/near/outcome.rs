@@ -36,8 +36,8 @@ impl NearEvidence {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum WhyLost {
-    /// The start has an entry that is not finite, or its matrix is no rotation (by more than `1e-6`).
-    #[error("the start is no pose: its matrix is not a rotation, or a number is not finite")]
+    /// The start has an entry that is not finite, or its matrix is not a rotation (by more than `1e-6`).
+    #[error("the start is not a pose: its matrix is not a rotation, or a number is not finite")]
     StartIsNoPose,
     /// [`NearOptions::segments`](super::NearOptions::segments) were not enough.
     #[error("the lengths are too far from those of the start for the number of segments allowed")]
@@ -74,7 +74,7 @@ pub enum NearOutcome {
         reason: WhyLost,
         /// How far on the straight line of squared lengths, from 0 to 1.
         fraction: f64,
-        /// Evidence at that pose (all zero when the start is no pose).
+        /// Evidence at that pose (all zero when the start is not a pose).
         evidence: NearEvidence,
     },
 }

@@ -149,7 +149,7 @@ struct Side {
     off: f64,
 }
 
-/// The sides from `p` to `q` (cell number `to`) with a joint within `reach` of `wanted` that is no corner.
+/// The sides from `p` to `q` (cell number `to`) with a joint within `reach` of `wanted` that is not a corner.
 fn sides(p: Cell, (to, q): (usize, Cell), wanted: Option<[f64; 2]>, reach: f64, out: &mut Vec<Side>) {
     let d = [q[0] - p[0], q[1] - p[1]];
     let parts = gcd(d[0], d[1]);

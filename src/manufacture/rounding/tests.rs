@@ -53,7 +53,7 @@ fn the_exact_rounding_is_on_the_grid_on_its_lines_and_proved_equivalent() {
     assert_eq!(e.verification.unwrap().verdict, Verdict::Equivalent);
     for p in e.manipulator.base_joints().iter().chain(e.manipulator.platform_joints()) {
         for x in p.iter() {
-            assert!((x / GRID.pitch).fract().abs() <= 0.0, "{x} is no multiple of the pitch");
+            assert!((x / GRID.pitch).fract().abs() <= 0.0, "{x} is not a multiple of the pitch");
         }
     }
     for j in &e.joints {

@@ -11,7 +11,7 @@ const NEGLIGIBLE: f64 = 1e-4;
 const ROWS: usize = 6 * (SAMPLES - 1) + 1;
 /// Share of the largest entry by which the right-hand sides are set apart, so that the method does not stall.
 const APART: f64 = 1e-9;
-/// Share of the largest entry below which an entry is no pivot and a cost no gain.
+/// Share of the largest entry below which an entry is not a pivot, and a cost is not a gain.
 const SMALL: f64 = 1e-12;
 /// Pivots after which the multipliers reached are taken: any bound is valid, the best one only tighter.
 const MOST_PIVOTS: usize = 600;

@@ -78,7 +78,7 @@ pub(super) struct Leaning {
 }
 
 impl<'a> Cone<'a> {
-    /// `None` for limits of 90 degrees and more, where the directions allowed are no convex cone.
+    /// `None` for limits of 90 degrees and more, where the directions allowed are not a convex cone.
     pub(super) fn new(
         m: &'a Manipulator,
         leg: usize,

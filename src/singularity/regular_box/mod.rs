@@ -224,7 +224,7 @@ fn reach(chart: &Chart, cell: &Cell) -> f64 {
     chart.scale_of(&corner)
 }
 
-/// Twelve cells that cover the outer box less the inner one, fewer where axes have no width; one that covers it all where the sets are no boxes.
+/// Twelve cells that cover the outer box less the inner one, fewer where axes have no width; one that covers it all where the sets are not boxes.
 fn slabs(chart: &Chart, inner: f64, outer: f64) -> Vec<Cell> {
     let axes = chart.len();
     let cube = |half: f64| {

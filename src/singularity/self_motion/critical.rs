@@ -28,7 +28,7 @@ const ATTEMPTS: usize = 4;
 const REAL: f64 = 1e-7;
 /// The same for a point where curves meet, which is reached slowly.
 const NEARLY_REAL: f64 = 1e-2;
-/// `|e.e| / |y|^2` below which an end is no pose; ends of multiplicity are reached slowly.
+/// `|e.e| / |y|^2` below which an end is not a pose; ends of multiplicity are reached slowly.
 const NO_POSE: f64 = 1e-2;
 /// Parameter beyond which a path that cannot be followed has come to a singular end.
 const NEAR_THE_END: f64 = 0.999;

@@ -49,7 +49,7 @@ pub enum CurveEnd {
     Joined,
     /// The number of points allowed is used up.
     Unfinished,
-    /// Steps became too small: a singular point that is no simple crossing, or the end of what the numbers can tell.
+    /// Steps became too small: a singular point that is not a simple crossing, or the end of what the numbers can tell.
     Stuck,
 }
 

@@ -270,7 +270,7 @@ pub enum WhyUncertified {
     #[error("the data span a range in which scaling by a power of two is not exact")]
     OutOfRange,
     /// The matrix is not, up to `NEAR`, the rotation of any quaternion.
-    #[error("the matrix is no rotation: it is {distance:e} away from that of its quaternion")]
+    #[error("the matrix is not a rotation: it is {distance:e} away from that of its quaternion")]
     NotARotation {
         /// Largest entry difference, relative to the larger of 1 and the largest entry; infinite when there is no quaternion.
         distance: f64,
@@ -285,7 +285,7 @@ pub enum WhyUncertified {
         defect: f64,
     },
     /// The Newton step at the centre is longer than `NEAR`: the pose is not accurate to half the digits of a double.
-    #[error("the pose is no accurate approximation: the Newton step is {step:e}")]
+    #[error("the pose is not an accurate approximation: the Newton step is {step:e}")]
     Inaccurate {
         /// Length of the step, or the bound of it.
         step: f64,
@@ -305,7 +305,7 @@ pub enum WhyUncertified {
         distance: f64,
     },
     /// `e.e` may be zero in the ball, where there is no pose.
-    #[error("e.e may vanish in the enclosure, which is no finite pose")]
+    #[error("e.e may vanish in the enclosure, which is not a finite pose")]
     RotationUndefined,
 }
 

@@ -55,7 +55,7 @@ pub enum SylvesterError {
     },
     /// The determinant vanishes identically or is not a polynomial of degree 40 to rounding.
     #[error(
-        "the determinant is no polynomial of degree 40 (excess coefficients {excess:.1e} of the largest)"
+        "the determinant is not a polynomial of degree 40 (excess coefficients {excess:.1e} of the largest)"
     )]
     NotDegree40 {
         /// Largest coefficient above degree 40 relative to the largest of all.

@@ -159,7 +159,7 @@ impl Search<'_> {
             for d in &mut found.decisions {
                 match d.question {
                     Question::LineFactor => d.exact = exact.map(usize::from),
-                    // of a conic that is none nothing more is known than that it is no part
+                    // of a conic that is none nothing more is known than that it is not part
                     Question::ConicRank if exact == Some(true) => d.exact = Some(3),
                     _ => {}
                 }
@@ -254,7 +254,7 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// Points of a plane over which whole lines stand that are no joints: crossings of lines through joints, and what is left as
+    /// Points of a plane over which whole lines stand that are not joints: crossings of lines through joints, and what is left as
     /// common zeros of the minors of order 3; that there are no others is shown by the dimension these leave of all cubics.
     fn isolated_points(&mut self, view: &View<'_>, pair: &ClosedPair) -> Result<(), LinalgError> {
         let joints: Vec<Vec<f64>> = view.near.iter().map(|p| view.product.base.local(p)).collect();

@@ -229,7 +229,7 @@ pub enum JointOrigin {
 /// The new platform.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Assembled {
-    /// Joints and legs. Two legs that have become the same leg are no platform.
+    /// Joints and legs. Two legs that have become the same leg are not a platform.
     pub platform: Result<Manipulator, InvalidManipulator>,
     /// The six legs.
     pub legs: [Leg; 6],

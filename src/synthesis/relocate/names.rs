@@ -276,7 +276,7 @@ mod tests {
                 assert!(found.span.distance(&leg) < 1e-10);
                 assert!((leg.base - (points[0] + (points[1] - points[0]) * t)).norm() < 1e-12);
             }
-            // one point is no line
+            // one point is not a line
             assert!(counted_from(&family.parametrisation, &points[..1], &[]).is_none());
         }
     }

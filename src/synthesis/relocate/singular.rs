@@ -99,7 +99,7 @@ fn rational(along: &Along, degree: usize) -> Result<SingularParameters, LinalgEr
     };
     let mut roots: Vec<f64> = Vec::new();
     for t in real_roots(&trimmed)? {
-        // a zero of the denominators is no zero of det A
+        // a zero of the denominators is not a zero of det A
         let growth = (1.0 + t.abs()).powf(degree as f64);
         let zero = along.at(t)?.is_some_and(|y| y.abs() <= 1e-7 * top * growth);
         if zero && !roots.iter().any(|r| (r - t).abs() <= 1e-7 * (1.0 + t.abs())) {

@@ -121,7 +121,7 @@ fn classes_named(name: &str) -> Result<Vec<Class>, Failure> {
         return Ok(vec![class]);
     }
     let known: Vec<_> = Class::ALL.iter().map(|c| c.name()).collect();
-    Err(Failure::refused("bench::unknown_class", format!("`{name}` is no class of problems"))
+    Err(Failure::refused("bench::unknown_class", format!("`{name}` is not a class of problems"))
         .with_help(format!("the classes are {}, all, T01 to T34, topologies", known.join(", "))))
 }
 

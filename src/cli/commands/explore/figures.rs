@@ -99,7 +99,7 @@ pub(super) fn modes(design: &Design, poses: &Poses) -> String {
         s.roots.len(),
         s.assembly_modes().count(),
         lengths.join(", "),
-        // "1" is no unit to print
+        // "1" is not a unit to print
         if design.units == "1" { String::new() } else { format!(" {}", design.units) }
     );
     if undecided > 0 {

@@ -52,7 +52,7 @@ pub(crate) struct Question {
     /// How many lengths, both ends included
     #[arg(long, value_name = "N", default_value_t = 201, value_parser = clap::value_parser!(u32).range(2..=100_000))]
     steps: u32,
-    /// The virtual leg, by its joints; the first that trilateration needs (else the first that is no leg) when absent
+    /// The virtual leg, by its joints; the first that trilateration needs (else the first that is not a leg) when absent
     #[arg(long, value_name = "BASE,PLATFORM")]
     between: Option<String>,
     /// Method; auto takes the best one for the design
@@ -213,7 +213,7 @@ fn named(text: &str, design: &Design) -> Result<Between, Failure> {
         Failure::refused("locus::unknown_joint", message).with_help(help)
     };
     let Some((a, b)) = text.split_once(',') else {
-        return Err(refuse(format!("--between: `{text}` is no pair of joints")));
+        return Err(refuse(format!("--between: `{text}` is not a pair of joints")));
     };
     let find = |names: &[String], name: &str, body: &str| {
         names

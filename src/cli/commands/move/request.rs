@@ -37,7 +37,7 @@ pub(super) fn requests(
         let Some((leg, (along, to))) =
             text.split_once(':').and_then(|(leg, rest)| Some((leg, rest.rsplit_once(':')?)))
         else {
-            return Err(Failure::refused("move::bad_move", format!("`{text}` is no move")).with_help(FORM));
+            return Err(Failure::refused("move::bad_move", format!("`{text}` is not a move")).with_help(FORM));
         };
         out.push(request(leg, along, to)?);
     }
@@ -62,7 +62,7 @@ fn request(leg: &str, along: &str, to: &str) -> Result<Request, Failure> {
 pub(super) fn leg(text: &str) -> Result<LegIndex, Failure> {
     let number = text.trim().parse::<usize>().ok().and_then(|n| n.checked_sub(1));
     number.and_then(LegIndex::new).ok_or_else(|| {
-        let message = format!("`{text}` is no leg: they are numbered 1 to 6");
+        let message = format!("`{text}` is not a leg: they are numbered 1 to 6");
         Failure::refused("move::no_such_leg", message)
     })
 }

@@ -173,7 +173,7 @@ fn write(path: Option<&std::path::Path>, design: Option<&Design>) -> Result<Opti
     Ok(Some(path.display().to_string()))
 }
 
-/// Refuses an `--extension` that is no length.
+/// Refuses an `--extension` that is not a length.
 pub(super) fn check_extension(extension: f64) -> Result<(), Failure> {
     if extension >= 0.0 && extension.is_finite() {
         return Ok(());

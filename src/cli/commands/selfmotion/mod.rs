@@ -164,7 +164,7 @@ fn beginning(args: &Question, design: &Design) -> Result<(Option<Pose>, SquaredL
     let squares = start.squared_lengths(design.manipulator()).ok_or_else(|| {
         Failure::refused(
             "selfmotion::bad_pose",
-            "the leg lengths at this pose are no finite positive numbers",
+            "the leg lengths at this pose are not finite positive numbers",
         )
     })?;
     Ok((Some(start), squares))

@@ -101,7 +101,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let lengths = lengths.ok_or_else(|| {
         Failure::refused(
             "singularities::bad_pose",
-            "the leg lengths at this pose are no finite positive numbers",
+            "the leg lengths at this pose are not finite positive numbers",
         )
     })?;
     let octahedral = Octahedral::recognise(m).ok();

@@ -2,7 +2,7 @@
 //!
 //! With base triangle `P1 P2 P3`, platform triangle `P4 P5 P6` and legs `14 24 25 35 36 16`, a pose gives two unknown squared distances
 //! `x = s15`, `y = s34` that satisfy two closures (`closures.rs`): Cayley-Menger determinants of the points 1 2 3 4 5 and 1 3 4 5 6. A regular zero
-//! of both at which `P4` (or `P5`) is off the base plane and 1 3 4 5 is no flat tetrahedron belongs to exactly two poses, regular and mirror
+//! of both at which `P4` (or `P5`) is off the base plane and 1 3 4 5 is not a flat tetrahedron belongs to exactly two poses, regular and mirror
 //! images in the base plane; theorem and proof: `docs/theory/certificates.md`. So a test in two unknowns certifies two poses, and their
 //! places follow by disc arithmetic (`poses.rs`). Coefficients are enclosed from the joints as the exact doubles they are and from squared
 //! lengths as intervals. Nothing is shared with the solver but the order of the legs.

@@ -128,7 +128,7 @@ pub struct HoleRecord {
     /// Whether all of these are at infinity.
     exactly_at_infinity: bool,
     /// Whether they are the partners in combinations of the legs that were not named for the hole: a leg there then replaces none of those named. `false` where there
-    /// are no exact partners.
+    /// are not exact partners.
     pub(super) exactly_by_others: bool,
     /// What counted as zero.
     pub tolerance: f64,
