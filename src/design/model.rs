@@ -4,6 +4,7 @@ use thiserror::Error;
 
 use super::Workspace;
 use crate::geom::Pose;
+use crate::manipulator::Body;
 use crate::manipulator::{LegLengths, Manipulator};
 use crate::requirements::{Hardware, KeepOut, Load, PlatformSpeed, Quantity, Requirements, Term, TermKind};
 use crate::requirements::{Objective, VariableKind};
@@ -57,8 +58,8 @@ pub struct OptimizeTable {
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("the {body} has {joints} joints, but {names} names were given for them")]
 pub struct NameCount {
-    /// `"base"` or `"platform"`.
-    pub body: &'static str,
+    /// The body.
+    pub body: Body,
     /// Names given.
     pub names: usize,
     /// Joints there are.
@@ -98,8 +99,8 @@ impl Design {
     /// here; a file with the same name twice in a body is refused when it is read.
     pub fn with_joint_names(mut self, base: Vec<String>, platform: Vec<String>) -> Result<Self, NameCount> {
         let bodies = [
-            ("base", base.len(), self.manipulator.base_joints().len()),
-            ("platform", platform.len(), self.manipulator.platform_joints().len()),
+            (Body::Base, base.len(), self.manipulator.base_joints().len()),
+            (Body::Platform, platform.len(), self.manipulator.platform_joints().len()),
         ];
         for (body, names, joints) in bodies {
             if names != joints {

@@ -5,7 +5,8 @@ use std::fmt::Write as _;
 
 use super::fixtures::REQUIRED as GOOD;
 use super::*;
-use crate::requirements::{FixedTo, Housing, JointAxes, LengthLimits, Region, Shape};
+use crate::manipulator::Body;
+use crate::requirements::{Housing, JointAxes, LengthLimits, Region, Shape};
 
 #[test]
 fn every_key_is_read_and_written_back_to_the_bit() {
@@ -21,7 +22,7 @@ fn every_key_is_read_and_written_back_to_the_bit() {
     assert!((axes[3].into_inner() - nalgebra::Vector3::new(0.0, 0.6, 0.8)).norm() < 1e-15);
     assert_eq!(design.workspace.region, Region::Ellipsoid);
     assert_eq!(design.workspace.trajectory.as_ref().unwrap().file, "path.csv");
-    assert_eq!((design.loads[1].name.as_str(), design.loads[1].fixed_to), ("load 2", FixedTo::Platform));
+    assert_eq!((design.loads[1].name.as_str(), design.loads[1].fixed_to), ("load 2", Body::Platform));
     assert!(matches!(design.keep_outs[2].shape, Shape::Capsule { diameter: 3.0, .. }));
     let required = design.requirements();
     assert_eq!(

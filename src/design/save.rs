@@ -6,9 +6,7 @@ use serde::ser::{SerializeMap, Serializer};
 
 use super::{Combination, Design, OptimizeTable, SearchTable};
 use crate::geom::Pose;
-use crate::requirements::{
-    FixedTo, Hardware, Housing, JointAxes, KeepOut, LengthLimits, Load, Region, Shape, Swing,
-};
+use crate::requirements::{Hardware, Housing, JointAxes, KeepOut, LengthLimits, Load, Region, Shape, Swing};
 
 /// The structure of a file, in the order it is written.
 #[derive(Serialize)]
@@ -313,13 +311,6 @@ pub(super) struct SpeedTable {
     pub(super) angular_deg: f64,
 }
 
-fn word(f: FixedTo) -> &'static str {
-    match f {
-        FixedTo::Base => "base",
-        FixedTo::Platform => "platform",
-    }
-}
-
 /// One of `[[loads]]`.
 #[derive(Serialize)]
 pub(super) struct LoadTable<'a> {
@@ -337,7 +328,7 @@ impl<'a> From<&'a Load> for LoadTable<'a> {
             force: l.force.into(),
             torque: l.torque.into(),
             at: l.at.coords.into(),
-            fixed_to: word(l.fixed_to),
+            fixed_to: l.fixed_to.name(),
         }
     }
 }
@@ -379,7 +370,7 @@ impl<'a> From<&'a KeepOut> for KeepOutTable<'a> {
         let point = |p: Point3<f64>| -> [f64; 3] { p.coords.into() };
         let vector = |v: Vector3<f64>| -> [f64; 3] { v.into() };
         let mut out =
-            Self { name: &k.name, fixed_to: word(k.fixed_to), block: None, sphere: None, capsule: None };
+            Self { name: &k.name, fixed_to: k.fixed_to.name(), block: None, sphere: None, capsule: None };
         match k.shape {
             Shape::Box { center, size } => {
                 out.block = Some(BoxTable { center: point(center), size: vector(size) });

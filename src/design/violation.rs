@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::tree::Span;
+use crate::manipulator::Body;
 
 /// What kind of violation; the name in [`Code::as_str`] is stable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -129,8 +130,8 @@ impl fmt::Display for Violation {
 pub enum Warning {
     /// A joint no leg is attached to.
     UnusedJoint {
-        /// `"base"` or `"platform"`.
-        body: &'static str,
+        /// The body.
+        body: Body,
         /// Its name.
         name: String,
         /// Line, 1-based.
@@ -138,8 +139,8 @@ pub enum Warning {
     },
     /// Two names at exactly the same coordinates.
     CoincidentJoints {
-        /// `"base"` or `"platform"`.
-        body: &'static str,
+        /// The body.
+        body: Body,
         /// The name that comes first.
         first: String,
         /// The name that comes later.

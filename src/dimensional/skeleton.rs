@@ -12,7 +12,7 @@ use crate::num::linalg::svd;
 use crate::synthesis::components::{
     Component, ComponentOptions, ComponentsError, MovingPoint, Parametrisation, components,
 };
-use crate::synthesis::{Normalisation, leg_vector};
+use crate::synthesis::{Normalisation, determinant_gradient, leg_vector, offset_determinant};
 
 /// The ends of the legs as functions of the variables: what a kind of design has to say of itself.
 pub(crate) trait Skeleton: Debug + Send + Sync {
@@ -235,13 +235,10 @@ impl Skeleton for OctahedralSides {
         let at = self.offsets?;
         let t = at.map(|k| x[k]);
         let mut gradient = vec![0.0; x.len()];
-        for j in 0..6 {
-            let others = || (0..6).filter(move |i| *i != j);
-            gradient[at[j]] -=
-                others().map(|i| 1.0 - t[i]).product::<f64>() + others().map(|i| t[i]).product::<f64>();
+        for (k, slope) in at.into_iter().zip(determinant_gradient(&t)) {
+            gradient[k] += slope;
         }
-        let det = t.iter().map(|x| 1.0 - x).product::<f64>() - t.iter().product::<f64>();
-        Some((det, gradient))
+        Some((offset_determinant(&t), gradient))
     }
 
     fn is_affine(&self) -> bool {

@@ -8,10 +8,9 @@ use nalgebra::{Matrix6, Rotation3, Vector3, Vector6};
 use super::pull::Gradient;
 use super::shape::{Ends, LegJoints, Shape};
 use crate::geom::Pose;
+use crate::manipulator::Body;
 use crate::requirements;
-use crate::requirements::{
-    FixedTo, Housing, JointAxes, KeepOut, LegBody, Load, Requirements, Swing, TermKind,
-};
+use crate::requirements::{Housing, JointAxes, KeepOut, LegBody, Load, Requirements, Swing, TermKind};
 
 /// A pose at which the requirements are held.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -350,7 +349,7 @@ pub(crate) struct Forces {
 
 /// `sum F_i (u_i, R b_i x u_i) = -(f, t)`; `None` at a singular pose.
 pub(crate) fn leg_forces(l: &Lines, load: &Load, length: f64) -> Option<Forces> {
-    let turn = |v: &Vector3<f64>| if load.fixed_to == FixedTo::Platform { l.rotation * v } else { *v };
+    let turn = |v: &Vector3<f64>| if load.fixed_to == Body::Platform { l.rotation * v } else { *v };
     let force = turn(&load.force);
     let torque = (turn(&load.torque) + (l.rotation * load.at.coords).cross(&force)) / length;
     let wrench = Vector6::new(force.x, force.y, force.z, torque.x, torque.y, torque.z);
@@ -481,7 +480,7 @@ impl Lines {
         keep_out: &KeepOut,
         see: &mut impl FnMut(Gap<P>),
     ) {
-        let moving = keep_out.fixed_to == FixedTo::Platform;
+        let moving = keep_out.fixed_to == Body::Platform;
         let local = |v: Vector3<f64>| if moving { self.rotation.inverse() * (v - self.position) } else { v };
         for (part, p) in parts(body, self.length[i]).enumerate() {
             let (a, b) = (local(self.at(i, p.from)), local(self.at(i, p.to)));

@@ -12,11 +12,11 @@ use super::outcome::smallest_cap;
 use super::terms::HeldPose;
 use super::*;
 use crate::geom::Pose;
-use crate::manipulator::Manipulator;
+use crate::manipulator::{Body, Manipulator};
 use crate::num::Rng;
 use crate::requirements::{
-    AssessOptions, FixedTo, Housing, JointAxes, KeepOut, LegBody, LengthLimits, Load, Objective,
-    PlatformSpeed, PoseSpace, Requirements, Shape, Swing, VariableKind, assess,
+    AssessOptions, Housing, JointAxes, KeepOut, LegBody, LengthLimits, Load, Objective, PlatformSpeed,
+    PoseSpace, Requirements, Shape, Swing, VariableKind, assess,
 };
 
 fn octahedral() -> (Manipulator, Pose) {
@@ -67,7 +67,7 @@ fn crowded(kinds: &[VariableKind], axes: JointAxes) -> DimensionalProblem {
     p.requirements.platform_speed = Some(PlatformSpeed { linear: 100.0, angular_deg: 20.0 });
     let at = Point3::new(10.0, 0.0, 30.0);
     let (force, torque) = (Vector3::new(5.0, -3.0, -100.0), Vector3::new(0.0, 200.0, 0.0));
-    for fixed_to in [FixedTo::Base, FixedTo::Platform] {
+    for fixed_to in Body::BOTH {
         p.requirements.loads.push(Load { name: String::new(), force, torque, at, fixed_to });
     }
     let shapes = [
@@ -80,7 +80,7 @@ fn crowded(kinds: &[VariableKind], axes: JointAxes) -> DimensionalProblem {
         Shape::Box { center: Point3::new(150.0, 20.0, 60.0), size: Vector3::new(80.0, 90.0, 70.0) },
     ];
     for (k, shape) in shapes.into_iter().enumerate() {
-        let fixed_to = if k == 1 { FixedTo::Platform } else { FixedTo::Base };
+        let fixed_to = if k == 1 { Body::Platform } else { Body::Base };
         p.requirements.keep_outs.push(KeepOut { name: String::new(), fixed_to, shape });
     }
     p

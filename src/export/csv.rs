@@ -43,7 +43,7 @@ fn joints(export: &Export) -> String {
     for body in &export.bodies {
         for joint in &body.joints {
             let at = scaled(&joint.at.coords, export.unit.millimetres, ",");
-            let _ = writeln!(out, "{},{},{at}", body.name, csv_field(&joint.name));
+            let _ = writeln!(out, "{},{},{at}", body.body, csv_field(&joint.name));
         }
     }
     out

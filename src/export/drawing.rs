@@ -7,7 +7,7 @@ use nalgebra::{Point2, Point3, Vector3};
 use super::outline::on_circle;
 use super::plate::any_across;
 use super::text::one_line;
-use super::{Body, Export, ExportLeg, File, Plate, Unsupported, Writer};
+use super::{Export, ExportBody, ExportLeg, File, Plate, Unsupported, Writer};
 use crate::plot::{ThreeViewBody, ThreeViewFigure, three_views};
 
 /// The format `svg`.
@@ -55,7 +55,7 @@ fn circle(at: &Point2<f64>, diameter: f64) -> Vec<Point2<f64>> {
 
 /// Plate, posts, holes, balls and names of a body that `place` puts into the base frame.
 fn drawn(
-    body: &Body,
+    body: &ExportBody,
     mm: f64,
     place: &dyn Fn(&Point3<f64>) -> Point3<f64>,
 ) -> Result<ThreeViewBody, Unsupported> {

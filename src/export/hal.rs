@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use super::text::{ascii, commented, real};
 use super::{Export, File, Unsupported, Writer};
+use crate::manipulator::Body;
 
 /// The format `hal`.
 #[derive(Debug)]
@@ -44,7 +45,7 @@ fn settings(export: &Export) -> String {
     let _ = writeln!(out, "# Strut lengths there: {}", lengths.join(" "));
     for leg in &export.legs {
         let b = export.bodies[1].joints[leg.platform].at;
-        for (body, point) in [("base", leg.foot), ("platform", b)] {
+        for (body, point) in [(Body::Base, leg.foot), (Body::Platform, b)] {
             for (axis, value) in ["x", "y", "z"].iter().zip(point.iter()) {
                 let _ =
                     writeln!(out, "setp genhexkins.{body}.{}.{axis} {}", leg.number - 1, real(value * mm));

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::{Body, Export, File, Unsupported, Writer};
+use super::{Export, ExportBody, File, Unsupported, Writer};
 use crate::geom::Pose;
 
 /// The format `json`.
@@ -69,7 +69,7 @@ fn lengths(export: &Export, poses: &[Pose]) -> Vec<Value> {
 }
 
 /// `plate` is null where its holes overlap.
-fn body_record(body: &Body, mm: f64) -> Value {
+fn body_record(body: &ExportBody, mm: f64) -> Value {
     let joints: Vec<Value> =
         body.joints.iter().map(|j| json!({ "name": j.name, "at": (j.at.coords * mm).as_slice() })).collect();
     let plate = body.plate().map_or(Value::Null, |plate| {

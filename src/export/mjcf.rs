@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
 use super::plate::any_across;
 use super::text::{one_line, real, reals, scaled, xml_comment};
-use super::{Body, Export, ExportLeg, File, Unsupported, Writer};
+use super::{Export, ExportBody, ExportLeg, File, Unsupported, Writer};
 use crate::geom::Pose;
 use crate::plot::escape;
 
@@ -99,7 +99,7 @@ fn quat(pose: &Pose) -> String {
 }
 
 /// Bars along the hull of the joints of a body stand for its plate, balls for its joints.
-fn shape(out: &mut String, scale: &Scale, body: &Body, indent: &str) {
+fn shape(out: &mut String, scale: &Scale, body: &ExportBody, indent: &str) {
     let radius = real(0.25 * body.ball_diameter * scale.metres);
     for joint in &body.joints {
         let ball = real(0.5 * body.ball_diameter * scale.metres);

@@ -30,7 +30,9 @@ mod units;
 
 use thiserror::Error;
 
-pub use model::{Body, Export, ExportLeg, Joint};
+use crate::manipulator::Body;
+
+pub use model::{Export, ExportBody, ExportLeg, Joint};
 pub use outline::{Outline, OutlinePart};
 pub use plate::{Hole, Plate};
 pub use sizes::{Choice, ExportOptions, NoExport};
@@ -60,8 +62,8 @@ pub enum Unsupported {
         "the {parts} of the joints {first} and {second} of the {body} overlap: their axes are {distance} apart and {parts} are {diameter} wide (design units)"
     )]
     SeatsOverlap {
-        /// `"base"` or `"platform"`.
-        body: &'static str,
+        /// The body.
+        body: Body,
         /// `"holes"`, or `"posts"` where a joint stands on one.
         parts: &'static str,
         /// Name of a joint.

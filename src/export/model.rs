@@ -8,6 +8,7 @@ use super::sizes::{Choice, ExportOptions, LegSizes, NoExport, Sizes, least_dista
 use super::units::LengthUnit;
 use crate::design::Design;
 use crate::geom::Pose;
+use crate::manipulator::Body;
 
 /// A joint of a body.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,24 +21,24 @@ pub struct Joint {
 
 /// Base or platform.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Body {
-    /// `"base"` or `"platform"`.
-    pub name: &'static str,
+pub struct ExportBody {
+    /// Which of the two.
+    pub body: Body,
     /// Its joints in the order of the design; a shared joint once.
     pub joints: Vec<Joint>,
     /// Diameter of the balls of its joints, design units.
     pub ball_diameter: f64,
-    /// Its plate. Formats that draw it ask [`Body::plate`].
+    /// Its plate. Formats that draw it ask [`ExportBody::plate`].
     plate: Plate,
 }
 
-impl Body {
+impl ExportBody {
     /// The plate.
     ///
     /// # Errors
     /// Holes that run into each other.
     pub fn plate(&self) -> Result<&Plate, Unsupported> {
-        self.plate.made(self.name)
+        self.plate.made(self.body)
     }
 }
 
@@ -93,7 +94,7 @@ pub struct Export {
     /// Home pose, design units.
     pub home: Pose,
     /// Base and platform.
-    pub bodies: [Body; 2],
+    pub bodies: [ExportBody; 2],
     /// Legs in leg order.
     pub legs: [ExportLeg; 6],
     /// Least and greatest length of a leg, design units, where the design limits them.
@@ -151,8 +152,13 @@ impl Export {
         let sizes = LegSizes::of(hardware, base_ball.min(platform_ball), shortest, &mut choices);
         let mass = mass(options.mass, size * unit.metres, &mut choices)?;
         let bodies = [
-            Body { name: "base", joints: base, ball_diameter: base_ball, plate: base_plate },
-            Body { name: "platform", joints: platform, ball_diameter: platform_ball, plate: platform_plate },
+            ExportBody { body: Body::Base, joints: base, ball_diameter: base_ball, plate: base_plate },
+            ExportBody {
+                body: Body::Platform,
+                joints: platform,
+                ball_diameter: platform_ball,
+                plate: platform_plate,
+            },
         ];
         let pairs = m.pairs();
         let legs = std::array::from_fn(|i| ExportLeg {

@@ -8,6 +8,7 @@ use super::Unsupported;
 use super::model::Joint;
 use super::outline::Outline;
 use super::sizes::Sizes;
+use crate::manipulator::Body;
 
 /// A hole of a plate under a joint.
 #[derive(Debug, Clone, PartialEq)]
@@ -158,7 +159,7 @@ impl Plate {
     ///
     /// # Errors
     /// [`Unsupported::SeatsOverlap`].
-    pub fn made(&self, body: &'static str) -> Result<&Self, Unsupported> {
+    pub fn made(&self, body: Body) -> Result<&Self, Unsupported> {
         for (i, a) in self.holes.iter().enumerate() {
             for b in &self.holes[i + 1..] {
                 let distance = (a.at - b.at).norm();

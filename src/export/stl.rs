@@ -8,7 +8,7 @@ use nalgebra::{Point2, Point3};
 use super::outline::on_circle;
 use super::text::{ascii, scaled};
 use super::triangulate::triangulate;
-use super::{Body, Export, File, Plate, Unsupported, Writer};
+use super::{Export, ExportBody, File, Plate, Unsupported, Writer};
 
 /// The format `stl`.
 #[derive(Debug)]
@@ -32,8 +32,8 @@ impl Writer for Stl {
     }
 
     fn files(&self, export: &Export) -> Result<Vec<File>, Unsupported> {
-        let mesh = |body: &Body| {
-            Ok(File::new(&format!("{}-plate.stl", body.name), mesh(export, body, body.plate()?)))
+        let mesh = |body: &ExportBody| {
+            Ok(File::new(&format!("{}-plate.stl", body.body), mesh(export, body, body.plate()?)))
         };
         export.bodies.iter().map(mesh).collect()
     }
@@ -80,10 +80,10 @@ fn prism(
     out
 }
 
-fn mesh(export: &Export, body: &Body, plate: &Plate) -> String {
+fn mesh(export: &Export, body: &ExportBody, plate: &Plate) -> String {
     let mm = export.unit.millimetres;
     let name = ascii(&export.name, |_| "?".to_string());
-    let title = format!("{} plate of {name} - mm - frame of the {}", body.name, body.name);
+    let title = format!("{} plate of {name} - mm - frame of the {}", body.body, body.body);
     let mut out = format!("solid {title}\n");
     for [a, b, c] in triangles(plate) {
         let normal = (b - a).cross(&(c - a)).try_normalize(0.0).unwrap_or_default();

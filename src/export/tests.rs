@@ -9,6 +9,7 @@ use super::triangulate::triangulate;
 use super::*;
 use crate::design::{Design, Format, parse};
 use crate::geom::Pose;
+use crate::manipulator::Body;
 
 const OCTAHEDRAL: &str = include_str!("../../designs/rbt-octahedral.toml");
 const GENERAL: &str = include_str!("../../designs/general-6-6.toml");
@@ -106,7 +107,7 @@ fn balls_sit_on_the_edges_of_their_holes_and_plates_on_the_far_side_of_the_legs(
         let export = export(text);
         for (body, sign) in export.bodies.iter().zip([-1.0, 1.0]) {
             let plate = body.plate().unwrap();
-            assert_eq!(plate.legs_above, sign < 0.0, "{}", body.name);
+            assert_eq!(plate.legs_above, sign < 0.0, "{}", body.body);
             let face = if plate.legs_above { plate.thickness } else { 0.0 };
             assert_eq!(plate.holes.iter().map(|h| h.joints.len()).sum::<usize>(), body.joints.len());
             for hole in &plate.holes {
@@ -134,11 +135,11 @@ fn tables_read_back_to_the_same_numbers() {
     let csv = text_of(&export, "csv", "joints.csv");
     let rows: Vec<Vec<&str>> =
         csv.lines().filter(|l| !l.starts_with('#')).skip(1).map(|l| l.split(',').collect()).collect();
-    let joints: Vec<(&str, &Joint)> =
-        export.bodies.iter().flat_map(|b| b.joints.iter().map(move |j| (b.name, j))).collect();
+    let joints: Vec<(Body, &Joint)> =
+        export.bodies.iter().flat_map(|b| b.joints.iter().map(move |j| (b.body, j))).collect();
     assert_eq!(rows.len(), joints.len());
     for (row, (body, joint)) in rows.iter().zip(joints) {
-        assert_eq!((row[0], row[1]), (body, joint.name.as_str()));
+        assert_eq!((row[0], row[1]), (body.name(), joint.name.as_str()));
         for k in 0..3 {
             assert_eq!(row[2 + k], real(joint.at[k] * 1000.0));
         }

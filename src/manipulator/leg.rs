@@ -3,6 +3,8 @@
 use nalgebra::{Point3, Vector3};
 use thiserror::Error;
 
+use super::body::Body;
+
 /// A leg number, 0-based in code and printed 1-based ("leg 3") as the papers count.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct LegIndex(u8);
@@ -51,6 +53,14 @@ pub struct Leg {
     pub platform: Point3<f64>,
 }
 
+impl Leg {
+    /// The end on `body`, in the frame of that body.
+    #[must_use]
+    pub fn end(&self, body: Body) -> Point3<f64> {
+        body.of((self.base, self.platform))
+    }
+}
+
 /// Six legs between the joints of a base and the joints of a platform.
 ///
 /// Joints are kept apart from legs so that a *shared* joint (one ball joint that carries two or more
@@ -82,8 +92,8 @@ pub enum InvalidManipulator {
     /// A coordinate is NaN or infinite.
     #[error("{body} joint {index} has a coordinate that is not a finite number")]
     NonFinite {
-        /// `"base"` or `"platform"`.
-        body: &'static str,
+        /// The body.
+        body: Body,
         /// 0-based index of the joint.
         index: usize,
     },
@@ -92,8 +102,8 @@ pub enum InvalidManipulator {
     MissingJoint {
         /// The leg.
         leg: LegIndex,
-        /// `"base"` or `"platform"`.
-        body: &'static str,
+        /// The body.
+        body: Body,
         /// The index asked for.
         index: usize,
         /// How many joints the body has.
@@ -115,8 +125,8 @@ pub enum InvalidManipulator {
         "{body} joint {index} has a coordinate of {coordinate:e}, whose square overflows double precision"
     )]
     TooFar {
-        /// `"base"` or `"platform"`.
-        body: &'static str,
+        /// The body.
+        body: Body,
         /// 0-based index of the joint.
         index: usize,
         /// The coordinate.
@@ -142,7 +152,7 @@ impl Manipulator {
         platform: Vec<Point3<f64>>,
         legs: [(usize, usize); 6],
     ) -> Result<Self, InvalidManipulator> {
-        for (body, joints) in [("base", &base), ("platform", &platform)] {
+        for (body, joints) in [(Body::Base, &base), (Body::Platform, &platform)] {
             let bad = joints.iter().position(|p| p.iter().any(|x| !x.is_finite()));
             if let Some(index) = bad {
                 return Err(InvalidManipulator::NonFinite { body, index });
@@ -154,7 +164,7 @@ impl Manipulator {
             }
         }
         for (leg, &(a, b)) in LegIndex::all().zip(&legs) {
-            let ends = [("base", a, base.len()), ("platform", b, platform.len())];
+            let ends = [(Body::Base, a, base.len()), (Body::Platform, b, platform.len())];
             for (body, index, count) in ends {
                 if index >= count {
                     return Err(InvalidManipulator::MissingJoint { leg, body, index, count });
@@ -214,6 +224,12 @@ impl Manipulator {
         self.legs
     }
 
+    /// The joints of `body`, in its own frame.
+    #[must_use]
+    pub fn joints(&self, body: Body) -> &[Point3<f64>] {
+        body.of((&self.base, &self.platform))
+    }
+
     /// Base joints, base frame.
     #[must_use]
     pub fn base_joints(&self) -> &[Point3<f64>] {
@@ -252,7 +268,7 @@ impl Manipulator {
     pub fn reordered(&self, order: [usize; 6]) -> Result<Self, InvalidManipulator> {
         if let Some(leg) = LegIndex::all().find(|i| order[i.get()] >= 6) {
             let index = order[leg.get()];
-            return Err(InvalidManipulator::MissingJoint { leg, body: "base", index, count: 6 });
+            return Err(InvalidManipulator::MissingJoint { leg, body: Body::Base, index, count: 6 });
         }
         Self::try_new(self.base.clone(), self.platform.clone(), order.map(|i| self.legs[i]))
     }
@@ -294,7 +310,7 @@ mod tests {
         nan[1].y = f64::NAN;
         assert!(matches!(
             Manipulator::try_new(triangle(2.0), nan, hexagon),
-            Err(InvalidManipulator::NonFinite { body: "platform", index: 1 })
+            Err(InvalidManipulator::NonFinite { body: Body::Platform, index: 1 })
         ));
         assert_eq!(
             Manipulator::try_new(triangle(0.0), triangle(0.0), hexagon),

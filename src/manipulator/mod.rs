@@ -4,12 +4,16 @@
 //! frame) to the platform joint `b_i` (coordinates in the platform frame). At the pose `(R, p)` with
 //! `x_base = R x_platform + p` its length is `l_i = |R b_i + p - a_i|`.
 
+mod body;
+mod exact_legs;
 mod home;
 mod jacobian;
 mod leg;
 mod lengths;
 mod octahedral;
 
+pub use body::{Body, NoSuchBody};
+pub(crate) use exact_legs::{ExactLeg, ExactLegs, flat_dimension, homogeneous};
 pub use home::default_home;
 pub(crate) use jacobian::jacobian_of_legs;
 pub(crate) use jacobian::leg_determinant;

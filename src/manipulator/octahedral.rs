@@ -3,7 +3,7 @@
 use nalgebra::Point3;
 use thiserror::Error;
 
-use super::{LegIndex, Manipulator};
+use super::{Body, LegIndex, Manipulator};
 
 /// An octahedral manipulator in cyclic leg order.
 ///
@@ -26,16 +26,16 @@ pub enum NotOctahedral {
     /// A body does not have exactly three joints in use.
     #[error("the {body} has {count} joints in use; an octahedral platform has three on each body")]
     JointCount {
-        /// `"base"` or `"platform"`.
-        body: &'static str,
+        /// The body.
+        body: Body,
         /// Joints in use.
         count: usize,
     },
     /// A joint carries other than two legs.
     #[error("{body} joint {index} carries {count} legs; in an octahedral platform each joint carries two")]
     LegsAtJoint {
-        /// `"base"` or `"platform"`.
-        body: &'static str,
+        /// The body.
+        body: Body,
         /// 0-based joint index.
         index: usize,
         /// Legs at the joint.
@@ -47,8 +47,8 @@ pub enum NotOctahedral {
     /// The three joints of a body are on a line (within `1e-9` of its size).
     #[error("the three {body} joints are on one line: no triangle")]
     Collinear {
-        /// `"base"` or `"platform"`.
-        body: &'static str,
+        /// The body.
+        body: Body,
     },
 }
 
@@ -77,8 +77,8 @@ impl Octahedral {
     /// The reason why it is not octahedral.
     pub fn recognise_from(m: &Manipulator, first: LegIndex) -> Result<Self, NotOctahedral> {
         let pairs = m.pairs();
-        for (body, pick) in [("base", 0), ("platform", 1)] {
-            let end = |l: &(usize, usize)| if pick == 0 { l.0 } else { l.1 };
+        for body in Body::BOTH {
+            let end = |l: &(usize, usize)| body.of(*l);
             let mut used: Vec<usize> = pairs.iter().map(end).collect();
             used.sort_unstable();
             used.dedup();
@@ -105,7 +105,7 @@ impl Octahedral {
         let platform = [pairs[cycle[0]].1, pairs[cycle[2]].1, pairs[cycle[4]].1];
         let base_points = base.map(|i| m.base_joints()[i]);
         let platform_points = platform.map(|i| m.platform_joints()[i]);
-        for (body, t) in [("base", &base_points), ("platform", &platform_points)] {
+        for (body, t) in [(Body::Base, &base_points), (Body::Platform, &platform_points)] {
             if is_collinear(t) {
                 return Err(NotOctahedral::Collinear { body });
             }
@@ -185,6 +185,6 @@ mod tests {
         let line = vec![Point3::origin(), Point3::new(1.0, 0.0, 0.0), Point3::new(2.0, 0.0, 0.0)];
         let t = vec![Point3::origin(), Point3::new(1.0, 0.0, 0.0), Point3::new(0.0, 1.0, 0.0)];
         let m = Manipulator::try_new(line, t, [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)]).unwrap();
-        assert_eq!(Octahedral::recognise(&m), Err(NotOctahedral::Collinear { body: "base" }));
+        assert_eq!(Octahedral::recognise(&m), Err(NotOctahedral::Collinear { body: Body::Base }));
     }
 }

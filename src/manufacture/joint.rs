@@ -2,8 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::manipulator::{InvalidManipulator, Manipulator};
-use crate::synthesis::Body;
+use crate::manipulator::{Body, InvalidManipulator, Manipulator};
 
 /// A joint that carries legs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -20,10 +19,9 @@ pub struct Joint {
 #[must_use]
 pub fn joints(m: &Manipulator) -> Vec<Joint> {
     let pairs = m.pairs();
-    let base = (0..m.base_joints().len()).filter(|k| pairs.iter().any(|p| p.0 == *k));
-    let platform = (0..m.platform_joints().len()).filter(|k| pairs.iter().any(|p| p.1 == *k));
-    let of = |body| move |index| Joint { body, index };
-    base.map(of(Body::Base)).chain(platform.map(of(Body::Platform))).collect()
+    let used = |j: &Joint| pairs.iter().any(|p| j.body.of(*p) == j.index);
+    let all = |body| (0..m.joints(body).len()).map(move |index| Joint { body, index });
+    Body::BOTH.into_iter().flat_map(all).filter(used).collect()
 }
 
 /// The manipulator with joint `k` of [`joints`] moved by `errors[k]`, in the frame of its body.
@@ -33,10 +31,7 @@ pub fn joints(m: &Manipulator) -> Vec<Joint> {
 pub fn displaced(m: &Manipulator, errors: &[Vector3<f64>]) -> Result<Manipulator, InvalidManipulator> {
     let (mut base, mut platform) = (m.base_joints().to_vec(), m.platform_joints().to_vec());
     for (joint, error) in joints(m).iter().zip(errors) {
-        match joint.body {
-            Body::Base => base[joint.index] += error,
-            Body::Platform => platform[joint.index] += error,
-        }
+        joint.body.of((&mut base, &mut platform))[joint.index] += error;
     }
     Manipulator::try_new(base, platform, m.pairs())
 }

@@ -4,8 +4,7 @@ use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
 use super::joint::joints;
 use crate::geom::Pose;
-use crate::manipulator::{Manipulator, inverse_condition, jacobian};
-use crate::synthesis::Body;
+use crate::manipulator::{Body, Manipulator, inverse_condition, jacobian};
 
 /// Below this inverse condition number (platform radius as characteristic length) a pose counts as singular.
 const SINGULAR: f64 = 1e-10;

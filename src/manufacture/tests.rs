@@ -100,7 +100,7 @@ fn a_shared_joint_is_one_joint_with_one_error() {
         (Sensitivity::at(&m, &pose, &TOOL).unwrap(), Sensitivity::at(&apart, &pose, &TOOL).unwrap());
     assert_eq!((one.position.len(), two.position.len()), (6, 12));
     for (joint, g) in joints(&m).iter().zip(&one.position) {
-        let base = joint.body == crate::synthesis::Body::Base;
+        let base = joint.body == crate::manipulator::Body::Base;
         let own =
             |i: &usize| if base { m.pairs()[*i].0 == joint.index } else { m.pairs()[*i].1 == joint.index };
         let sum: nalgebra::Matrix3<f64> =

@@ -12,6 +12,9 @@ use super::modular::Field;
 /// A rational number of any size.
 pub(crate) type Rational = BigRational;
 
+/// A vector of rational numbers.
+pub(crate) type ExactVector = Vec<Rational>;
+
 /// The value of a double; `None` for NaN and infinities.
 pub(crate) fn rational(x: f64) -> Option<Rational> {
     Rational::from_float(x)
@@ -28,7 +31,7 @@ fn zero() -> Rational {
 ///
 /// Relations between rows do not change when a column is multiplied, so that every column is brought to integers without a common power of two first;
 /// numbers of a thousand digits beside ones stay that long and no longer, because no fraction is ever reduced on the way.
-pub(crate) fn relations(rows: &[Vec<Rational>]) -> Vec<Vec<Rational>> {
+pub(crate) fn relations(rows: &[ExactVector]) -> Vec<ExactVector> {
     let count = rows.len();
     let width = rows.first().map_or(0, Vec::len);
     let mut work = integers(rows);
@@ -64,6 +67,16 @@ pub(crate) fn relations(rows: &[Vec<Rational>]) -> Vec<Vec<Rational>> {
         row[width..].iter().map(|x| Rational::new(x.clone(), row[width + i].clone())).collect()
     })
     .collect()
+}
+
+/// Rank of a list of rows.
+pub(crate) fn rank(rows: &[ExactVector]) -> usize {
+    rows.len() - relations(rows).len()
+}
+
+/// `a (x) b`, entry by entry.
+pub(crate) fn product(a: &[Rational], b: &[Rational]) -> ExactVector {
+    a.iter().flat_map(|x| b.iter().map(move |y| x * y)).collect()
 }
 
 /// The rows with every column multiplied to integers, and common powers of two taken out of it.

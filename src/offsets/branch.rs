@@ -2,12 +2,12 @@
 //! a cell.
 
 use super::conditioning::worst_case_above;
-use super::hexagon::{Side, offset_determinant};
 use super::limits::{Bounds, Limits, Pair};
 use super::problem::{Model, OffsetProblem};
 use super::scp::violation;
 use super::verdict::Conflict;
 use crate::num::Rng;
+use crate::synthesis::{Side, offset_determinant};
 
 /// Where a joint sits relative to its edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -5,8 +5,9 @@
 
 use nalgebra::{Matrix6, SVD, Vector3, Vector6};
 
-use super::hexagon::{Body, Side};
 use crate::geom::Pose;
+use crate::manipulator::Body;
+use crate::synthesis::Side;
 
 /// One leg at one pose: `arm = R b` and `line = R b + p - a` are affine in the offset.
 #[derive(Debug, Clone, Copy)]
@@ -209,10 +210,10 @@ pub(crate) fn worst_case_above(
 
 #[cfg(test)]
 mod tests {
-    use super::super::hexagon::sides;
     use super::super::tests::{example, poses};
     use super::*;
     use crate::manipulator;
+    use crate::synthesis::sides;
 
     const T: [f64; 6] = [0.3, -0.4, 0.2, 1.3, 0.6, 0.8];
     const SCALE: f64 = 7.0;

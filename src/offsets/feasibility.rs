@@ -5,10 +5,12 @@
 
 use nalgebra::Point3;
 
-use super::hexagon::{Body, Side, sides};
 use super::outcome::Margins;
 use super::problem::OffsetProblem;
+use crate::manipulator::Body;
 use crate::num::exact::{Rational, approximate, rational};
+use crate::synthesis::{Side, sides};
+use crate::synthesis::{offset_determinant, offset_products};
 
 /// Margins in plain arithmetic above this share of the largest number involved have the sign of the exact ones.
 const CLEAR: f64 = 1e-9;
@@ -94,13 +96,9 @@ fn determinant_margin(t: &[f64; 6], plain: f64, required: f64) -> Option<f64> {
         return Some(margin);
     }
     let one = Rational::from_integer(1.into());
-    let (mut free, mut own) = (one.clone(), one.clone());
-    for x in t {
-        let x = rational(*x)?;
-        free *= &one - &x;
-        own *= x;
-    }
-    let det = free - own;
+    let exact: Option<Vec<Rational>> = t.iter().map(|x| rational(*x)).collect();
+    let (rest, own) = offset_products(&one, exact?);
+    let det = rest - own;
     let size = if det < Rational::from_integer(0.into()) { -det } else { det };
     let excess = size - rational(required)?;
     Some(signed(&excess, approximate(&excess)))
@@ -119,7 +117,7 @@ impl OffsetProblem {
         Some(Margins {
             base_spacing: spacing(Body::Base)?,
             platform_spacing: spacing(Body::Platform)?,
-            det: determinant_margin(t, super::hexagon::offset_determinant(t), self.min_abs_det)?,
+            det: determinant_margin(t, offset_determinant(t), self.min_abs_det)?,
             bounds: bounds.fold(f64::INFINITY, f64::min),
         })
     }

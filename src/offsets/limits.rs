@@ -9,12 +9,12 @@
 use nalgebra::Vector3;
 
 use super::branch::Cell;
-use super::hexagon::{Side, sides};
 use super::problem::OffsetProblem;
 use super::verdict::Conflict;
 use crate::num::conic::{Cone, ConicAnswer, ConicProgram};
 use crate::num::farkas::{EnclosedRow, refuted};
 use crate::num::interval::Interval;
+use crate::synthesis::{Side, offset_products, sides};
 
 /// An enclosure of one double. Infinite data never get here: the problem was validated.
 pub(super) fn point(x: f64) -> Interval {
@@ -177,17 +177,17 @@ impl Limits {
         // products over three offsets at the eight corners of their ranges, of `1 - t` and of `t`
         let half = |first: usize| -> [(Interval, Interval); 8] {
             std::array::from_fn(|corner| {
-                (0..3).fold((point(1.0), point(1.0)), |(free, own), i| {
+                let at = |i: usize| {
                     let (low, high) = bounds[first + i];
-                    let t = point(if corner >> i & 1 == 0 { low } else { high });
-                    (free * (point(1.0) - t), own * t)
-                })
+                    point(if corner >> i & 1 == 0 { low } else { high })
+                };
+                offset_products(&point(1.0), (0..3).map(at))
             })
         };
         let mut reach = [f64::NEG_INFINITY; 2];
-        for (free_a, own_a) in half(0) {
-            for (free_b, own_b) in half(3) {
-                let det = free_a * free_b - own_a * own_b;
+        for (rest_a, own_a) in half(0) {
+            for (rest_b, own_b) in half(3) {
+                let det = rest_a * rest_b - own_a * own_b;
                 reach = [reach[0].max(det.hi()), reach[1].max(-det.lo())];
             }
         }
@@ -356,7 +356,6 @@ pub(crate) fn proved_empty(cell: &Cell, limits: &Limits) -> Option<Conflict> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::hexagon::sides;
     use super::super::problem::OffsetProblem;
     use super::super::tests::{example, poses};
     use super::*;

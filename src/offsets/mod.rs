@@ -10,7 +10,6 @@ mod bound;
 mod branch;
 mod conditioning;
 mod feasibility;
-mod hexagon;
 mod limits;
 mod outcome;
 mod problem;
@@ -26,7 +25,6 @@ pub use self::verdict::Conflict;
 pub use crate::num::conic::SolverFailure;
 pub use bound::GlobalBound;
 pub use branch::{Branch, Zone};
-pub use hexagon::{Body, offset_determinant, sliding_joint_body};
 pub use outcome::{
     BranchCounts, BranchReport, BranchVerdict, LocalEvidence, Margins, OffsetOutcome, OffsetReport,
     OffsetSolution, Recheck,

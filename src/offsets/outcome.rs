@@ -4,14 +4,13 @@ use nalgebra::Matrix6;
 
 use super::bound::GlobalBound;
 use super::branch::Branch;
-use super::hexagon::offset_determinant;
 use super::problem::OffsetProblem;
 use super::scp::HistoryStep;
 use super::verdict::Conflict;
 use crate::manipulator::{Manipulator, jacobian};
 use crate::num::conic::SolverFailure;
 use crate::num::linalg::svd;
-use crate::synthesis::{AffineLegMap, joint_free};
+use crate::synthesis::{AffineLegMap, joint_free, offset_determinant};
 
 /// Distances from the limits; negative means violated. The signs are those of exact arithmetic on the offsets and the design as they are
 /// written: zero is met exactly.

@@ -3,9 +3,9 @@
 use thiserror::Error;
 
 use super::conditioning::PoseLegs;
-use super::hexagon::{Body, Side, sides};
 use crate::geom::Pose;
-use crate::manipulator::Octahedral;
+use crate::manipulator::{Body, Octahedral};
+use crate::synthesis::{Side, sides};
 
 /// Default of [`OffsetProblem::min_joint_distance`] as a share of the smaller body's radius.
 pub const DEFAULT_SPACING_SHARE: f64 = 0.05;

@@ -7,10 +7,10 @@ use nalgebra::Matrix6;
 
 use super::branch::Cell;
 use super::conditioning::{Spectrum, worst_case, worst_case_above};
-use super::hexagon::{determinant_gradient, determinant_hessian, offset_determinant};
 use super::limits::Pair;
 use super::problem::{BACKOFF, Model};
 use crate::num::conic::{ConicAnswer, ConicPoint, ConicProgram, Row, SolverFailure};
+use crate::synthesis::{determinant_gradient, determinant_hessian, offset_determinant};
 
 /// How hard to try.
 #[derive(Debug, Clone, Copy)]

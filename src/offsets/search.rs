@@ -12,7 +12,6 @@ use super::branch::{
     tight_point,
 };
 use super::conditioning::{worst_case, worst_case_above};
-use super::hexagon::offset_determinant;
 use super::limits::{Limits, proved_empty};
 use super::outcome::OffsetReport;
 use super::problem::{InvalidProblem, Model, OffsetProblem};
@@ -21,6 +20,7 @@ use super::verdict::{Conflict, Searched, assemble, nothing_fits, vertices_too_cl
 use crate::num::Rng;
 use crate::num::conic::SolverFailure;
 use crate::num::parallel::parallel;
+use crate::synthesis::offset_determinant;
 
 /// Options of the search; none of them changes what is feasible.
 #[derive(Debug, Clone, Copy, PartialEq)]

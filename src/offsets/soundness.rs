@@ -6,14 +6,14 @@ use nalgebra::Point3;
 
 use super::branch::{Branch, divide, in_order};
 use super::conditioning::worst_case;
-use super::hexagon::{Body, sides};
 use super::limits::{Bounds, Limits, proved_empty};
 use super::problem::Model;
 use super::tests::poses;
 use super::{OffsetOutcome, OffsetProblem, OptimizeOptions, optimize};
-use crate::manipulator::{Manipulator, Octahedral};
+use crate::manipulator::{Body, Manipulator, Octahedral};
 use crate::num::Rng;
 use crate::num::exact::{Rational, approximate, rational};
+use crate::synthesis::sides;
 
 fn exact(x: f64) -> Rational {
     rational(x).unwrap()
@@ -49,7 +49,7 @@ fn octahedral(rng: &mut Rng, n: usize) -> Octahedral {
 fn exact_values(o: &Octahedral, t: &[f64; 6]) -> (Rational, Rational) {
     let sides = sides(o, 1.0);
     let mut least: Option<Rational> = None;
-    for body in [Body::Base, Body::Platform] {
+    for body in Body::BOTH {
         let mut joints: Vec<[Rational; 3]> = Vec::new();
         for i in (0..6).filter(|i| sides[*i].sliding == body) {
             let place = |x: f64| {
@@ -69,6 +69,7 @@ fn exact_values(o: &Octahedral, t: &[f64; 6]) -> (Rational, Rational) {
             }
         }
     }
+    // a second evaluation on purpose, apart from the one that is tested here
     let (mut free, mut own) = (exact(1.0), exact(1.0));
     for x in t {
         free *= exact(1.0) - exact(*x);
@@ -155,7 +156,7 @@ fn offsets_that_meet_the_limits_exactly_are_in_a_box_and_in_no_excluded_one() {
         let own = &divide(&m, &limits)[Branch::of(&t).index()];
         let inside = |b: &Bounds| t.iter().zip(b).all(|(t, b)| (b.0..=b.1).contains(t));
         assert!(own.boxes.iter().any(inside), "{n}: {t:?} {:?}", own.conflicts);
-        let det = super::offset_determinant(&t);
+        let det = crate::synthesis::offset_determinant(&t);
         let cells: Vec<_> =
             own.cells.iter().filter(|c| inside(&c.outer) && c.sign * det > 0.0 && in_order(c, &t)).collect();
         assert!(!cells.is_empty(), "{n}");

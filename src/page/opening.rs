@@ -7,7 +7,7 @@ use super::session::{Equivalent, Session};
 use super::wire::{number, numbers, pose};
 use crate::singularity::Architecture;
 use crate::synthesis::{
-    Body, Factor, Family, HexagonPoint, JointLabel, Pattern, corner, edge_lengths, sliding_body,
+    Factor, Family, HexagonPoint, JointLabel, Pattern, corner, edge_lengths, sliding_body,
 };
 
 /// The design, the original's hexagon, and the patterns to choose from.
@@ -45,7 +45,7 @@ fn hexagon(o: &Original) -> Value {
     });
     let sides = (0..6).map(|k| {
         let body = sliding_body(k);
-        let fixed = if body == Body::Base { Body::Platform } else { Body::Base };
+        let fixed = body.other();
         let name = |i: usize| o.joint_name(JointLabel::Corner(i));
         json!({
             "body": body.to_string(), "fixed": name(corner(fixed, k)), "length": number(lengths[k]),

@@ -1,11 +1,9 @@
 //! The octahedral platform behind a design, and its equivalents as designs with names.
 
 use crate::design::Design;
-use crate::manipulator::{LegIndex, Manipulator, Octahedral};
+use crate::manipulator::{Body, LegIndex, Manipulator, Octahedral};
 use crate::singularity::GriffisDuffy;
-use crate::synthesis::{
-    AffineLegMap, Body, HexagonPoint, InstantiateError, JointLabel, Offset, Pattern, corner,
-};
+use crate::synthesis::{AffineLegMap, HexagonPoint, InstantiateError, JointLabel, Offset, Pattern, corner};
 
 /// An octahedral platform with the names of its corners and of the joints on its edges.
 #[derive(Debug, Clone)]

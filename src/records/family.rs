@@ -5,11 +5,11 @@ use serde::{Deserialize, Serialize};
 
 use super::{Number, leg_number};
 use crate::design::Design;
-use crate::manipulator::Octahedral;
+use crate::manipulator::{Body, Octahedral};
 use crate::page::Original;
 use crate::synthesis::{
-    AffineLegMap, Body, Family, FamilyCounts, FamilyMember, HexagonPoint, InstantiateError, JointLabel,
-    Pattern, edge_lengths,
+    AffineLegMap, Family, FamilyCounts, FamilyMember, HexagonPoint, InstantiateError, JointLabel, Pattern,
+    edge_lengths,
 };
 
 /// The answer of `family`.

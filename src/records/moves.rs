@@ -4,11 +4,12 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{DesignRecord, LegEndsRecord, MapRecord, Number};
+use crate::manipulator::Body;
+use crate::synthesis::Relation;
 use crate::synthesis::relocate::SingularParameters;
 use crate::synthesis::relocate::search::{
     self, Hole, HoleAnswer, Impossibility, Margin, SearchVerdict, Wishes,
 };
-use crate::synthesis::{Body, Relation};
 
 /// The answer of `move`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::topologies::joint_pairs;
-use crate::synthesis::Body;
+use crate::manipulator::Body;
 use crate::synthesis::rearrangement::{
     Argument, Arrangement, Obstruction, Piece, PieceKind, Rearrangement, Reduction,
 };

@@ -7,9 +7,9 @@ use super::tolerances::joint_name;
 use super::{DesignRecord, Number, PoseErrorRecord, PoseErrorsRecord, PoseQuaternionRecord};
 use crate::design::Design;
 use crate::equivalence::{Verification, VerifyError};
+use crate::manipulator::Body;
 use crate::manufacture::{ExactRounding, Grid, Judgement, NearestRounding, NoRounding, RoundedJoint};
 use crate::requirements::TermKind;
-use crate::synthesis::Body;
 
 /// The answer of `round`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use super::{Number, PoseErrorRecord, PoseErrorsRecord, PoseQuaternionRecord};
 use crate::design::Design;
+use crate::manipulator::Body;
 use crate::manufacture::{ErrorKind, Joint, JointBudget, Limit, Trials};
-use crate::synthesis::Body;
 
 /// The answer of `tolerances`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -3,15 +3,7 @@
 use nalgebra::{Point3, Vector3};
 
 use crate::geom::{segment_box_distance, segment_distance};
-
-/// The body a keep-out moves with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FixedTo {
-    /// Coordinates in the base frame.
-    Base,
-    /// Coordinates in the platform frame.
-    Platform,
-}
+use crate::manipulator::Body;
 
 /// The shape of a keep-out, design units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,8 +38,8 @@ pub enum Shape {
 pub struct KeepOut {
     /// What it is called in reports.
     pub name: String,
-    /// The body it moves with.
-    pub fixed_to: FixedTo,
+    /// The body it moves with, in whose frame its coordinates are.
+    pub fixed_to: Body,
     /// What it looks like.
     pub shape: Shape,
 }

@@ -2,9 +2,8 @@
 
 use nalgebra::{Point3, Vector3, Vector6};
 
-use super::keep_out::FixedTo;
 use crate::geom::Pose;
-use crate::manipulator::{Manipulator, jacobian};
+use crate::manipulator::{Body, Manipulator, jacobian};
 
 /// A force and a torque that act on the platform.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,7 +18,7 @@ pub struct Load {
     pub at: Point3<f64>,
     /// The frame in which force and torque keep their direction: weight is fixed to the base, a cutting force to the
     /// platform.
-    pub fixed_to: FixedTo,
+    pub fixed_to: Body,
 }
 
 impl Load {
@@ -27,8 +26,8 @@ impl Load {
     #[must_use]
     pub fn wrench(&self, pose: &Pose) -> Vector6<f64> {
         let turn = |v: &Vector3<f64>| match self.fixed_to {
-            FixedTo::Base => *v,
-            FixedTo::Platform => pose.rotation * v,
+            Body::Base => *v,
+            Body::Platform => pose.rotation * v,
         };
         let force = turn(&self.force);
         let torque = turn(&self.torque) + (pose.rotation * self.at.coords).cross(&force);
@@ -74,7 +73,7 @@ mod tests {
             force: Vector3::new(3.0, -1.0, -40.0),
             torque: Vector3::new(0.5, 7.0, -2.0),
             at: Point3::new(1.0, 2.0, 6.0),
-            fixed_to: FixedTo::Platform,
+            fixed_to: Body::Platform,
         };
         let forces = leg_forces(&m, &pose, &load.wrench(&pose), 20.0).unwrap();
         // balance about the base origin, from the definitions

@@ -21,7 +21,7 @@ pub use assess::{AssessOptions, Assessment, Margin, assess};
 pub use bound::{MarginBound, Proof, Verdict, prove};
 pub use goal::{Objective, VariableKind};
 pub use hardware::{Hardware, Housing, JointAxes, LegBody, LengthLimits, Swing};
-pub use keep_out::{FixedTo, KeepOut, Shape};
+pub use keep_out::{KeepOut, Shape};
 pub use limit::{Limit, Limits, PoseLimit};
 pub use load::{Load, leg_forces};
 pub use standing::Standing;

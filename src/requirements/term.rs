@@ -4,10 +4,10 @@ use nalgebra::{Point3, Unit, Vector3};
 
 use super::Requirements;
 use super::hardware::{JointAxes, LegBody, Swing};
-use super::keep_out::{FixedTo, KeepOut};
+use super::keep_out::KeepOut;
 use super::load::leg_forces;
 use crate::geom::{Pose, segment_distance};
-use crate::manipulator::{Manipulator, jacobian};
+use crate::manipulator::{Body, Manipulator, jacobian};
 
 /// The kinds of requirements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -259,8 +259,8 @@ impl<'a> Terms<'a> {
 
 fn keep_out_gap(keep_out: &KeepOut, (a, b, radius): &Part, pose: &Pose) -> f64 {
     let distance = match keep_out.fixed_to {
-        FixedTo::Base => keep_out.shape.distance(a, b),
-        FixedTo::Platform => {
+        Body::Base => keep_out.shape.distance(a, b),
+        Body::Platform => {
             let back = |q: &Point3<f64>| pose.rotation.inverse() * (q - pose.position);
             keep_out.shape.distance(&back(a), &back(b))
         }

@@ -5,6 +5,7 @@ use nalgebra::{Point3, Rotation3, Unit, Vector3};
 
 use super::*;
 use crate::geom::Pose;
+use crate::manipulator::Body;
 use crate::manipulator::{Manipulator, jacobian};
 use crate::num::Rng;
 
@@ -63,7 +64,7 @@ fn lengths_swing_and_clearances_of_upright_legs() {
     let post =
         Shape::Capsule { from: Point3::new(0.0, 0.0, -1.0), to: Point3::new(0.0, 0.0, 9.0), diameter: 2.0 };
     let tool = Shape::Box { center: Point3::new(0.0, 0.0, -5.0), size: Vector3::new(2.0, 6.0, 4.0) };
-    for (name, fixed_to, shape) in [("post", FixedTo::Base, post), ("tool", FixedTo::Platform, tool)] {
+    for (name, fixed_to, shape) in [("post", Body::Base, post), ("tool", Body::Platform, tool)] {
         r.keep_outs.push(KeepOut { name: name.into(), fixed_to, shape });
     }
     let at = |x: f64| Pose { position: home.position + Vector3::new(x, 0.0, 0.0), ..home };
@@ -179,7 +180,7 @@ fn weight_is_shared_by_the_legs_and_forces_at_a_singular_pose_are_violations() {
         force: Vector3::new(0.0, 0.0, -600.0),
         torque: Vector3::zeros(),
         at: Point3::origin(),
-        fixed_to: FixedTo::Base,
+        fixed_to: Body::Base,
     });
     let rise = jacobian(&m, &home, 1.0)[(0, 2)];
     for (_, margin) in Terms::new(&m, &r, &home).at(&home) {
@@ -226,7 +227,7 @@ fn limits_set_to_the_values_at_home_are_reached_and_not_violated() {
         force: Vector3::new(0.0, 20.0, -100.0),
         torque: Vector3::zeros(),
         at: Point3::new(1.0, 2.0, 3.0),
-        fixed_to: FixedTo::Base,
+        fixed_to: Body::Base,
     };
     let with = |length: f64, swing: f64, force: f64, speed: f64| {
         let mut r = Requirements {

@@ -5,12 +5,11 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::dependency::{Dependency, ExactLegs, dimension, kronecker, rank, subsets_by_size};
+use super::dependency::{Dependency, subsets_by_size};
 use super::griffis_duffy::GriffisDuffy;
-use crate::manipulator::Manipulator;
-use crate::num::exact::{Rational, relations};
+use crate::manipulator::{Body, ExactLegs, Manipulator};
+use crate::num::exact::{ExactVector, Rational, product, rank, relations};
 use crate::num::linalg::{LinalgError, svd};
-use crate::synthesis::Body;
 
 /// A geometric reason for which the leg lines are dependent at every pose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -157,20 +156,10 @@ pub struct Finding {
     pub legs: Vec<usize>,
 }
 
-const BODIES: [Body; 2] = [Body::Base, Body::Platform];
-
-impl ExactLegs {
-    fn ends(&self, body: Body) -> &[[crate::num::exact::Rational; 3]] {
-        match body {
-            Body::Base => &self.base,
-            Body::Platform => &self.platform,
-        }
-    }
-
-    fn at_point_of(&self, body: Body, leg: usize) -> Vec<usize> {
-        let ends = self.ends(body);
-        (0..6).filter(|j| ends[*j] == ends[leg]).collect()
-    }
+/// The legs that end where `leg` does.
+fn at_point_of(legs: &ExactLegs, body: Body, leg: usize) -> Vec<usize> {
+    let ends = legs.ends(body);
+    (0..6).filter(|j| ends[*j] == ends[leg]).collect()
 }
 
 /// The cases that need no more than the positions of the joints, worst first.
@@ -180,10 +169,10 @@ pub(super) fn positional(legs: &ExactLegs) -> Vec<Finding> {
     for (i, j) in (0..6).flat_map(|i| (i + 1..6).map(move |j| (i, j))).filter(|(i, j)| same(*i, *j)) {
         found.push(Finding { case: Case::CoincidentLegs, legs: vec![i, j] });
     }
-    let groups: Vec<(Body, Vec<usize>)> = BODIES
+    let groups: Vec<(Body, Vec<usize>)> = Body::BOTH
         .into_iter()
         .flat_map(|body| (0..6).map(move |i| (body, i)))
-        .map(|(b, i)| (b, legs.at_point_of(b, i)))
+        .map(|(b, i)| (b, at_point_of(legs, b, i)))
         .collect();
     for (k, (body, group)) in groups.iter().enumerate() {
         let known = groups[..k].iter().any(|g| g.0 == *body && g.1 == *group);
@@ -195,8 +184,8 @@ pub(super) fn positional(legs: &ExactLegs) -> Vec<Finding> {
     if groups.iter().any(|x| groups.iter().any(|y| covers(&x.1, &y.1))) {
         found.push(Finding { case: Case::TwoJointsHoldAllLegs, legs: (0..6).collect() });
     }
-    for body in BODIES {
-        if dimension(legs.ends(body)) <= 1 {
+    for body in Body::BOTH {
+        if legs.dimension(body, &[0, 1, 2, 3, 4, 5]) <= 1 {
             found.push(Finding { case: Case::AllCollinear { body }, legs: (0..6).collect() });
         }
     }
@@ -224,10 +213,8 @@ fn planar_case(legs: &ExactLegs, d: &Dependency, hexagon: Option<&GriffisDuffy>)
     if hexagon.is_some_and(GriffisDuffy::is_exactly_singular) {
         return Case::GriffisDuffy;
     }
-    let pick = |list: &[[crate::num::exact::Rational; 3]]| {
-        d.legs.iter().map(|i| list[*i].clone()).collect::<Vec<_>>()
-    };
-    let (a, b) = (pick(&legs.base), pick(&legs.platform));
+    let [a, b] =
+        Body::BOTH.map(|body| d.legs.iter().map(|i| legs.ends(body)[*i].clone()).collect::<Vec<_>>());
     match planar_map(&a, &b) {
         Some(map) if on_a_conic(&a) => Case::Conic { map },
         _ => Case::PlanarBodies,
@@ -235,43 +222,35 @@ fn planar_case(legs: &ExactLegs, d: &Dependency, hexagon: Option<&GriffisDuffy>)
 }
 
 /// Whether points of a plane satisfy a quadratic equation of the plane that is not zero on all of it.
-fn on_a_conic(points: &[[crate::num::exact::Rational; 3]]) -> bool {
-    let one = crate::num::exact::Rational::from_integer(1.into());
-    let squares: Vec<_> = points
-        .iter()
-        .map(|p| {
-            let x: Vec<_> = [one.clone()].into_iter().chain(p.iter().cloned()).collect();
-            kronecker(&x, &x)
-        })
-        .collect();
+fn on_a_conic(points: &[ExactVector]) -> bool {
+    let squares: Vec<_> = points.iter().map(|x| product(x, x)).collect();
     // six quadratic monomials in the plane
     rank(&squares) < 6
 }
 
 /// The case of a design with independent leg vectors and dependent lines, and the legs to blame, `among`.
 pub(super) fn of_lines(legs: &ExactLegs, among: Vec<usize>) -> Finding {
-    if let Some(star) = BODIES.into_iter().find(|b| is_star_and_pencil(legs, *b, &among)) {
+    if let Some(star) = Body::BOTH.into_iter().find(|b| is_star_and_pencil(legs, *b, &among)) {
         return Finding { case: Case::StarAndPencil { star }, legs: among };
     }
     let four = |body: Body| {
-        subsets_by_size(4).into_iter().filter(|s| s.len() == 4).any(|s| {
-            s.iter().all(|i| among.contains(i)) && dimension(s.iter().map(|i| &legs.ends(body)[*i])) <= 1
-        })
+        subsets_by_size(4)
+            .into_iter()
+            .filter(|s| s.len() == 4)
+            .any(|s| s.iter().all(|i| among.contains(i)) && legs.dimension(body, &s) <= 1)
     };
     let case =
-        BODIES.into_iter().find(|b| four(*b)).map_or(Case::Unnamed, |body| Case::FourCollinear { body });
+        Body::BOTH.into_iter().find(|b| four(*b)).map_or(Case::Unnamed, |body| Case::FourCollinear { body });
     Finding { case, legs: among }
 }
 
 fn is_star_and_pencil(legs: &ExactLegs, star: Body, among: &[usize]) -> bool {
-    let other = if star == Body::Base { Body::Platform } else { Body::Base };
+    let other = star.other();
     let (ends, far) = (legs.ends(star), legs.ends(other));
     among.len() == 5
         && among.iter().any(|i| {
             let (at, off): (Vec<usize>, Vec<usize>) = among.iter().partition(|j| ends[**j] == ends[*i]);
-            at.len() == 3
-                && far[off[0]] == far[off[1]]
-                && dimension([&ends[*i], &ends[off[0]], &ends[off[1]]]) <= 1
+            at.len() == 3 && far[off[0]] == far[off[1]] && legs.dimension(star, &[*i, off[0], off[1]]) <= 1
         })
 }
 
@@ -356,15 +335,13 @@ impl std::fmt::Display for PlanarMap {
     }
 }
 
-/// The most special regular map with `b_i` the image of `a_i`; both sets span planes.
-fn planar_map(a: &[[Rational; 3]], b: &[[Rational; 3]]) -> Option<PlanarMap> {
+/// The most special regular map with `b_i` the image of `a_i`, points `(1, x, y, z)`; both sets span planes.
+fn planar_map(a: &[ExactVector], b: &[ExactVector]) -> Option<PlanarMap> {
     if similar(a, b) {
         return Some(PlanarMap::Similar);
     }
-    let one = || Rational::from_integer(1.into());
-    let affine = |x: &[[Rational; 3]], y: &[[Rational; 3]]| {
-        let rows =
-            x.iter().zip(y).map(|(x, y)| [one()].into_iter().chain(x.iter().chain(y).cloned()).collect());
+    let affine = |x: &[ExactVector], y: &[ExactVector]| {
+        let rows = x.iter().zip(y).map(|(x, y)| x.iter().chain(&y[1..]).cloned().collect());
         // the graph of an affine map of a plane is a plane
         rank(&rows.collect::<Vec<_>>()) == 3
     };
@@ -374,31 +351,30 @@ fn planar_map(a: &[[Rational; 3]], b: &[[Rational; 3]]) -> Option<PlanarMap> {
     projective(&in_plane(a)?, &in_plane(b)?).then_some(PlanarMap::Projective)
 }
 
-fn squared_distance(x: &[Rational; 3], y: &[Rational; 3]) -> Rational {
+fn squared_distance(x: &ExactVector, y: &ExactVector) -> Rational {
     x.iter().zip(y).map(|(x, y)| (x - y) * (x - y)).sum()
 }
 
-fn similar(a: &[[Rational; 3]], b: &[[Rational; 3]]) -> bool {
+fn similar(a: &[ExactVector], b: &[ExactVector]) -> bool {
     let pairs = || (0..a.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
     let zero = Rational::from_integer(0.into());
-    let from = |list: &[[Rational; 3]], (i, j): (usize, usize)| squared_distance(&list[i], &list[j]);
+    let from = |list: &[ExactVector], (i, j): (usize, usize)| squared_distance(&list[i], &list[j]);
     let Some(unit) = pairs().find(|p| from(a, *p) != zero) else { return false };
     let (u, v) = (from(a, unit), from(b, unit));
     v != zero && pairs().all(|p| from(a, p) * &v == from(b, p) * &u)
 }
 
 /// Homogeneous coordinates in the plane: two coordinates in which the points still span a plane.
-fn in_plane(points: &[[Rational; 3]]) -> Option<Vec<[Rational; 3]>> {
-    let one = || Rational::from_integer(1.into());
-    let zero = || Rational::from_integer(0.into());
-    let [x, y] = [[0, 1], [1, 2], [2, 0]].into_iter().find(|[i, j]| {
-        dimension(&points.iter().map(|p| [p[*i].clone(), p[*j].clone(), zero()]).collect::<Vec<_>>()) == 2
-    })?;
-    Some(points.iter().map(|p| [one(), p[x].clone(), p[y].clone()]).collect())
+fn in_plane(points: &[ExactVector]) -> Option<Vec<ExactVector>> {
+    [[1, 2], [2, 3], [3, 1]].into_iter().find_map(|[i, j]| {
+        let seen: Vec<ExactVector> =
+            points.iter().map(|p| [0, i, j].map(|k| p[k].clone()).to_vec()).collect();
+        (rank(&seen) == 3).then_some(seen)
+    })
 }
 
 /// Whether a regular 3 x 3 matrix `T` with `T a_i` a multiple of `b_i` exists: `b_i x T a_i = 0` is linear in `T`.
-fn projective(a: &[[Rational; 3]], b: &[[Rational; 3]]) -> bool {
+fn projective(a: &[ExactVector], b: &[ExactVector]) -> bool {
     let zero = || Rational::from_integer(0.into());
     // one row an entry T_kl, one column an equation
     let equations = |k: usize, l: usize| -> Vec<Rational> {
@@ -424,7 +400,7 @@ mod tests {
     use nalgebra::Point3;
 
     use super::*;
-    use crate::manipulator::{Leg, Manipulator};
+    use crate::manipulator::{Leg, homogeneous};
     use crate::num::exact::rational;
 
     /// The names for singular designs with independent leg vectors that are not of the known kinds; no such design is known, so that the names
@@ -434,7 +410,7 @@ mod tests {
         let joints = [[0., 0., 0.], [7., 1., 0.], [9., 6., 1.], [4., 9., -1.], [-3., 5., 2.], [-5., -2., 3.]];
         let legs = |base: [[f64; 3]; 6]| {
             let leg = |i: usize| Leg { base: Point3::from(base[i]), platform: Point3::from(joints[5 - i]) };
-            ExactLegs::of(&Manipulator::from_legs(std::array::from_fn(leg)).unwrap())
+            ExactLegs::of(&std::array::from_fn(leg)).unwrap()
         };
         let all: Vec<usize> = (0..6).collect();
         assert_eq!(of_lines(&legs(joints), all.clone()).case, Case::Unnamed);
@@ -449,8 +425,8 @@ mod tests {
         assert_eq!(of_lines(&legs(lined), vec![0, 1, 2, 3, 4]).case, Case::Unnamed);
     }
 
-    fn points(list: &[[f64; 3]]) -> Vec<[Rational; 3]> {
-        list.iter().map(|p| p.map(|x| rational(x).unwrap())).collect()
+    fn points(list: &[[f64; 3]]) -> Vec<ExactVector> {
+        list.iter().map(|p| homogeneous(&Point3::from(*p)).unwrap()).collect()
     }
 
     #[test]
@@ -466,16 +442,16 @@ mod tests {
         assert_eq!(planar_map(&a, &image(&|x, y| [x + y, 2.0 * y, x])), Some(PlanarMap::Affine));
         // z = 8 / (8 + x): powers of two keep the quotients exact
         let b = image(&|x, y| [x, y, 0.0]);
-        let homogeneous: Vec<[Rational; 3]> = b
+        let projected: Vec<ExactVector> = b
             .iter()
             .map(|p| {
-                let w = rational(8.0).unwrap() + &p[0];
-                [&p[0] / &w, &p[1] / &w, p[2].clone()]
+                let w = rational(8.0).unwrap() + &p[1];
+                vec![p[0].clone(), &p[1] / &w, &p[2] / &w, p[3].clone()]
             })
             .collect();
-        assert_eq!(planar_map(&a, &homogeneous), Some(PlanarMap::Projective));
-        let mut spoilt = homogeneous;
-        spoilt[4][1] += rational(1e-30).unwrap();
+        assert_eq!(planar_map(&a, &projected), Some(PlanarMap::Projective));
+        let mut spoilt = projected;
+        spoilt[4][2] += rational(1e-30).unwrap();
         assert_eq!(planar_map(&a, &spoilt), None);
     }
 }

@@ -1,7 +1,7 @@
 //! Exact linear relations between the leg vectors `v = (1, a) (x) (1, b)`.
 
-use crate::manipulator::{Leg, Manipulator, SquaredLegLengths};
-use crate::num::exact::{Rational, approximate, rational, relations};
+use crate::manipulator::{Body, ExactLegs, SquaredLegLengths};
+use crate::num::exact::{Rational, approximate, relations};
 
 /// A smallest set of legs with dependent vectors: `sum c_i v_i = 0`, and no proper part of it is dependent.
 ///
@@ -30,61 +30,11 @@ impl Dependency {
     }
 }
 
-/// The legs of a manipulator as exact numbers.
-pub(super) struct ExactLegs {
-    pub(super) base: Vec<[Rational; 3]>,
-    pub(super) platform: Vec<[Rational; 3]>,
-}
-
 fn one() -> Rational {
     Rational::from_integer(1.into())
 }
 
-fn with_one(p: &[Rational; 3]) -> Vec<Rational> {
-    [one()].into_iter().chain(p.iter().cloned()).collect()
-}
-
-/// `x (x) y`, entry by entry.
-pub(super) fn kronecker(x: &[Rational], y: &[Rational]) -> Vec<Rational> {
-    x.iter().flat_map(|x| y.iter().map(move |y| x * y)).collect()
-}
-
-/// Rank of rows.
-pub(super) fn rank(rows: &[Vec<Rational>]) -> usize {
-    rows.len() - relations(rows).len()
-}
-
-/// Dimension of the affine span of points: 0 a point, 1 a line, 2 a plane, 3 space.
-pub(super) fn dimension<'a>(points: impl IntoIterator<Item = &'a [Rational; 3]>) -> usize {
-    let rows: Vec<_> = points.into_iter().map(with_one).collect();
-    rank(&rows).saturating_sub(1)
-}
-
 impl ExactLegs {
-    pub(super) fn of(m: &Manipulator) -> Self {
-        let exact = |pick: fn(&Leg) -> [f64; 3]| {
-            // coordinates of a manipulator are finite
-            m.legs().iter().map(|l| pick(l).map(|x| rational(x).unwrap_or_else(one))).collect()
-        };
-        Self { base: exact(|l| l.base.coords.into()), platform: exact(|l| l.platform.coords.into()) }
-    }
-
-    pub(super) fn vector(&self, leg: usize) -> Vec<Rational> {
-        kronecker(&with_one(&self.base[leg]), &with_one(&self.platform[leg]))
-    }
-
-    pub(super) fn rank_of(&self, legs: &[usize]) -> usize {
-        rank(&legs.iter().map(|i| self.vector(*i)).collect::<Vec<_>>())
-    }
-
-    pub(super) fn base_dimension(&self, legs: &[usize]) -> usize {
-        dimension(legs.iter().map(|i| &self.base[*i]))
-    }
-
-    pub(super) fn platform_dimension(&self, legs: &[usize]) -> usize {
-        dimension(legs.iter().map(|i| &self.platform[*i]))
-    }
-
     /// All smallest dependent sets, fewest legs first.
     pub(super) fn dependencies(&self) -> Vec<Dependency> {
         let mut found: Vec<Dependency> = Vec::new();
@@ -92,9 +42,8 @@ impl ExactLegs {
             if found.iter().any(|d| d.legs.iter().all(|i| legs.contains(i))) {
                 continue;
             }
-            let rows: Vec<_> = legs.iter().map(|i| self.vector(*i)).collect();
             // no part is dependent: there is at most one relation
-            if let Some(c) = relations(&rows).first() {
+            if let Some(c) = relations(&self.vectors_of(&legs)).first() {
                 found.push(self.dependency(&legs, c));
             }
         }
@@ -107,15 +56,14 @@ impl ExactLegs {
         let mut constant = Rational::from_integer(0.into());
         for (i, c) in legs.iter().zip(&c) {
             coefficients[*i] = approximate(c);
-            let squares: Rational = self.base[*i].iter().chain(&self.platform[*i]).map(|x| x * x).sum();
-            constant += c * squares;
+            constant += c * self.squares(*i);
         }
         Dependency {
             legs: legs.to_vec(),
             coefficients,
             constant: approximate(&constant),
-            base_dimension: self.base_dimension(legs),
-            platform_dimension: self.platform_dimension(legs),
+            base_dimension: self.dimension(Body::Base, legs),
+            platform_dimension: self.dimension(Body::Platform, legs),
         }
     }
 }
@@ -154,6 +102,7 @@ fn scaled(c: &[Rational]) -> Vec<Rational> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::manipulator::{Leg, Manipulator};
     use nalgebra::Point3;
 
     fn legs(list: &[([f64; 3], [f64; 3]); 6]) -> Manipulator {
@@ -172,7 +121,7 @@ mod tests {
             ([2.0, 3.0, 0.0], [-1.0, 2.0, 0.5]),
             ([0.0, -3.0, 2.0], [1.0, -2.0, 0.0]),
         ]);
-        let found = ExactLegs::of(&m).dependencies();
+        let found = ExactLegs::of(&m.legs()).unwrap().dependencies();
         assert_eq!(found.len(), 1);
         let d = &found[0];
         assert_eq!((d.legs.as_slice(), d.base_dimension, d.platform_dimension), (&[0, 1, 2][..], 1, 0));

@@ -21,11 +21,11 @@
 
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
-use super::dependency::{ExactLegs, dimension};
 use crate::geom::Pose;
-use crate::manipulator::{Manipulator, SquaredLegLengths, is_collinear};
+use crate::manipulator::{ExactLegs, Manipulator, SquaredLegLengths, flat_dimension, is_collinear};
 use crate::num::exact::Rational;
 use crate::num::linalg::{LinalgError, svd};
+use crate::synthesis::{offset_determinant, offset_products};
 
 /// A platform recognised as one of Griffis-Duffy type.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,24 +45,6 @@ pub struct GriffisDuffy {
 /// Joints count as lying on a side within this times the size of the design.
 const ON_SIDE: f64 = 1e-9;
 
-/// `det A = prod (1 - t_k) - prod t_k`; zero exactly for the singular platforms, whatever the triangles.
-#[must_use]
-pub fn griffis_duffy_determinant(t: &[f64; 6]) -> f64 {
-    t.iter().map(|t| 1.0 - t).product::<f64>() - t.iter().product::<f64>()
-}
-
-/// The offset `t_k` that makes a platform with the five others singular: `t_k = Q / (P + Q)`, `P = prod t_j`, `Q = prod (1 - t_j)` over
-/// `j != k`.
-///
-/// `None` where `P + Q = 0`: either no finite `t_k` does, or (`P = Q = 0`, two coincident legs or the like) every one.
-#[must_use]
-pub fn griffis_duffy_singular_offset(t: &[f64; 6], k: usize) -> Option<f64> {
-    let others = || t.iter().enumerate().filter(|(j, _)| *j != k).map(|(_, t)| *t);
-    let (p, q) = (others().product::<f64>(), others().map(|t| 1.0 - t).product::<f64>());
-    let value = q / (p + q);
-    value.is_finite().then_some(value)
-}
-
 impl GriffisDuffy {
     /// Recognises the type in any order of the legs, base and platform as they stand.
     ///
@@ -79,7 +61,8 @@ impl GriffisDuffy {
             }
         }
         let mut found = best?;
-        found.exactly_singular = exactly_singular(&ExactLegs::of(m), found.order);
+        found.exactly_singular =
+            ExactLegs::of(&m.legs()).is_some_and(|legs| exactly_singular(&legs, found.order));
         Some(found)
     }
 
@@ -112,7 +95,7 @@ impl GriffisDuffy {
     /// `det A`; the platform is singular where it is zero.
     #[must_use]
     pub fn determinant(&self) -> f64 {
-        griffis_duffy_determinant(&self.t)
+        offset_determinant(&self.t)
     }
 
     /// Whether the joints as written lie on their sides and on the surface `det A = 0` exactly.
@@ -124,9 +107,8 @@ impl GriffisDuffy {
     /// Whether `det A` is zero within `1e-7` of the two products.
     #[must_use]
     pub fn is_nearly_singular(&self) -> bool {
-        let products =
-            self.t.iter().map(|t| 1.0 - t).product::<f64>().abs() + self.t.iter().product::<f64>().abs();
-        self.determinant().abs() <= 1e-7 * products
+        let (rest, own) = offset_products(&1.0, self.t);
+        (rest - own).abs() <= 1e-7 * (rest.abs() + own.abs())
     }
 
     /// Whether every joint is at a corner of its triangle, up to rounding.
@@ -187,20 +169,19 @@ fn orders() -> impl Iterator<Item = [usize; 6]> {
 fn exactly_singular(legs: &ExactLegs, order: [usize; 6]) -> bool {
     let (a, b) = (order.map(|i| &legs.base[i]), order.map(|i| &legs.platform[i]));
     let (base, platform) = ([a[5], a[1], a[3]], [b[0], b[2], b[4]]);
-    let mut products = [Rational::from_integer(1.into()), Rational::from_integer(1.into())];
+    let mut offsets = Vec::new();
     for k in 0..6 {
         let (triangle, x) = if k % 2 == 0 { (&base, a[k]) } else { (&platform, b[k]) };
         let [from, to] = [triangle[k / 2], triangle[(k / 2 + 1) % 3]];
-        if dimension([from, to, x]) > 1 {
+        if flat_dimension([from, to, x]) > 1 {
             return false;
         }
         // a coordinate in which the two vertices differ
-        let Some(axis) = (0..3).find(|i| from[*i] != to[*i]) else { return false };
-        let t = (&x[axis] - &from[axis]) / (&to[axis] - &from[axis]);
-        products[1] *= Rational::from_integer(1.into()) - &t;
-        products[0] *= t;
+        let Some(axis) = (1..4).find(|i| from[*i] != to[*i]) else { return false };
+        offsets.push((&x[axis] - &from[axis]) / (&to[axis] - &from[axis]));
     }
-    products[0] == products[1]
+    let (rest, own) = offset_products(&Rational::from_integer(1.into()), offsets);
+    rest == own
 }
 
 /// What is known about assembling with given lengths.
@@ -439,6 +420,7 @@ mod tests {
     use crate::geom::{Pose, random_rotation};
     use crate::manipulator::Leg;
     use crate::num::Rng;
+    use crate::synthesis::singular_offset;
 
     fn point(rng: &mut Rng) -> Point3<f64> {
         Point3::new(rng.normal(), rng.normal(), rng.normal())
@@ -471,7 +453,7 @@ mod tests {
             let m = platform(&mut rng, &t).reordered([2, 5, 0, 1, 4, 3]).unwrap();
             let found = GriffisDuffy::recognise(&m).unwrap();
             assert!(found.deviation < 1e-12 * m.size().max(1.0));
-            assert!((found.determinant().abs() - griffis_duffy_determinant(&t).abs()).abs() < 1e-9);
+            assert!((found.determinant().abs() - offset_determinant(&t).abs()).abs() < 1e-9);
         }
         let mut moved = platform(&mut rng, &[0.3; 6]).legs();
         moved[0].base.x += 1e-4;
@@ -483,8 +465,8 @@ mod tests {
         let mut rng = Rng::new(9);
         for trial in 0..10 {
             let mut t = [(); 6].map(|()| rng.uniform(0.1, 0.9));
-            t[4] = griffis_duffy_singular_offset(&t, 4).unwrap();
-            assert!(griffis_duffy_determinant(&t).abs() < 1e-14);
+            t[4] = singular_offset(&t, 4).unwrap();
+            assert!(offset_determinant(&t).abs() < 1e-14);
             if trial == 0 {
                 t[4] += 0.05;
             }
@@ -504,8 +486,8 @@ mod tests {
     fn the_offset_that_closes_the_surface_is_the_published_line_for_two_offsets() {
         // Delta1 / 12 + Delta2 / 6 = 1 (Rojas, Borras, Thomas 2010, sec. 6)
         let t = [0.3, 0.7, 0.3, 0.7, 0.3, 0.0];
-        assert!((griffis_duffy_singular_offset(&t, 5).unwrap() - 0.7).abs() < 1e-14);
-        assert_eq!(griffis_duffy_singular_offset(&[0.0, 1.0, 0.5, 0.5, 0.5, 0.5], 3), None);
+        assert!((singular_offset(&t, 5).unwrap() - 0.7).abs() < 1e-14);
+        assert_eq!(singular_offset(&[0.0, 1.0, 0.5, 0.5, 0.5, 0.5], 3), None);
     }
 
     fn singular_platform(rng: &mut Rng) -> Manipulator {
@@ -513,7 +495,7 @@ mod tests {
             || Point3::new(rng.uniform(-3.0, 3.0), rng.uniform(-3.0, 3.0), rng.uniform(-0.5, 0.5));
         let (base, top) = ([point(), point(), point()], [point(), point(), point()]);
         let mut t = [(); 6].map(|()| rng.uniform(0.2, 0.8));
-        t[2] = griffis_duffy_singular_offset(&t, 2).unwrap();
+        t[2] = singular_offset(&t, 2).unwrap();
         on_sides(&base, &top, &t)
     }
 

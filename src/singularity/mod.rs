@@ -24,7 +24,7 @@ pub use case::{Case, Finding};
 pub use conditioning::{Conditioning, conditioning};
 pub use dependency::Dependency;
 pub use four_planes::four_planes;
-pub use griffis_duffy::{GriffisDuffy, griffis_duffy_determinant, griffis_duffy_singular_offset};
+pub use griffis_duffy::GriffisDuffy;
 pub use lattice::{GenericRank, RankBound, RationalPose};
 pub use lower_bound::singular_distance_at_least;
 pub use nearest::{NearestSingular, nearest_singular};
@@ -35,9 +35,9 @@ pub use self_motion::{
     critical_poses, curve_degree, self_motion,
 };
 
-use self::dependency::{ExactLegs, subsets_by_size};
+use self::dependency::subsets_by_size;
 use self::lattice::{generic_rank, rank_at_least};
-use crate::manipulator::Manipulator;
+use crate::manipulator::{ExactLegs, Manipulator};
 
 /// The answer for a design as it is written, with what proves it.
 #[derive(Debug, Clone, PartialEq)]
@@ -58,9 +58,11 @@ impl Architecture {
     /// Decides the design as it is written: no tolerance takes part.
     #[must_use]
     pub fn of(m: &Manipulator) -> Self {
-        let legs = ExactLegs::of(m);
+        let Some(legs) = ExactLegs::of(&m.legs()) else {
+            unreachable!("coordinates of a manipulator are finite")
+        };
         let all: Vec<usize> = (0..6).collect();
-        let leg_rank = legs.rank_of(&all);
+        let leg_rank = legs.rank(&all);
         let jacobian = generic_rank(m, &all, leg_rank);
         // with all joints at corners it is the octahedral platform itself
         let griffis_duffy = GriffisDuffy::recognise(m).filter(|g| !g.is_octahedral());

@@ -11,11 +11,11 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, Point3, Vector3};
 
-use crate::manipulator::{InvalidManipulator, Manipulator};
+use crate::manipulator::{Body, InvalidManipulator, Manipulator};
 use crate::num::Rng;
 use crate::num::linalg::LinalgError;
 use crate::num::small::symmetric_eigen3;
-use crate::synthesis::{Body, LegSpan};
+use crate::synthesis::LegSpan;
 
 /// A singular design near a given one.
 #[derive(Debug, Clone, PartialEq)]
@@ -289,7 +289,7 @@ fn change(m: &Manipulator, problem: &Problem, x: &DVector<f64>, c: &DVector<f64>
 /// to the line through their centroid along the principal axis.
 pub(super) fn changes(m: &Manipulator) -> Vec<Change> {
     let mut found = Vec::new();
-    let bodies = [Body::Base, Body::Platform];
+    let bodies = Body::BOTH;
     for set in (1u8..64).map(members) {
         let rest: Vec<usize> = (0..6).filter(|i| !set.contains(i)).collect();
         if set.len() == 2 {
@@ -308,7 +308,7 @@ pub(super) fn changes(m: &Manipulator) -> Vec<Change> {
             if set.len() == 3 {
                 let mut change = still(m, "point_line", &set);
                 meet(m, &mut change, body, &set);
-                line_up(m, &mut change, opposite(body), &each(m, opposite(body), &set));
+                line_up(m, &mut change, body.other(), &each(m, body.other(), &set));
                 found.push(change);
                 stars_and_pencils(m, body, &set, &rest, &mut found);
                 for other in bodies {
@@ -332,10 +332,6 @@ fn members(mask: u8) -> Vec<usize> {
     (0..6).filter(|i| mask >> i & 1 == 1).collect()
 }
 
-fn opposite(body: Body) -> Body {
-    if body == Body::Base { Body::Platform } else { Body::Base }
-}
-
 fn still(m: &Manipulator, kind: &'static str, legs: &[usize]) -> Change {
     let none = |joints: &[Point3<f64>]| vec![Vector3::zeros(); joints.len()];
     let (base, platform) = (none(m.base_joints()), none(m.platform_joints()));
@@ -345,24 +341,19 @@ fn still(m: &Manipulator, kind: &'static str, legs: &[usize]) -> Change {
 /// The joints of `body` at which `legs` end, each once.
 fn joints(m: &Manipulator, body: Body, legs: &[usize]) -> Vec<usize> {
     let pairs = m.pairs();
-    let mut list: Vec<usize> =
-        legs.iter().map(|i| if body == Body::Base { pairs[*i].0 } else { pairs[*i].1 }).collect();
+    let mut list: Vec<usize> = legs.iter().map(|i| body.of(pairs[*i])).collect();
     list.sort_unstable();
     list.dedup();
     list
 }
 
-fn places(m: &Manipulator, body: Body) -> &[Point3<f64>] {
-    if body == Body::Base { m.base_joints() } else { m.platform_joints() }
-}
-
 fn displacements(change: &mut Change, body: Body) -> &mut Vec<Vector3<f64>> {
-    if body == Body::Base { &mut change.base } else { &mut change.platform }
+    body.of((&mut change.base, &mut change.platform))
 }
 
 /// Moves the ends of `legs` to their centroid.
 fn meet(m: &Manipulator, change: &mut Change, body: Body, legs: &[usize]) {
-    let (list, at) = (joints(m, body, legs), places(m, body));
+    let (list, at) = (joints(m, body, legs), m.joints(body));
     let mean = list.iter().map(|j| at[*j].coords).sum::<Vector3<f64>>() / list.len() as f64;
     for j in list {
         displacements(change, body)[j] = mean - at[j].coords;
@@ -384,7 +375,7 @@ fn meet_again(m: &Manipulator, change: &mut Change, body: Body, legs: &[usize]) 
 /// Moves the ends of each group to one point, and these points to a line: the line through the weighted centroid along the principal axis
 /// leaves the least change.
 fn line_up(m: &Manipulator, change: &mut Change, body: Body, groups: &[Vec<usize>]) {
-    let at = places(m, body);
+    let at = m.joints(body);
     let groups: Vec<Vec<usize>> = groups.iter().map(|g| joints(m, body, g)).collect();
     let centre =
         |group: &Vec<usize>| group.iter().map(|j| at[*j].coords).sum::<Vector3<f64>>() / group.len() as f64;
@@ -429,7 +420,7 @@ fn stars_and_pencils(m: &Manipulator, body: Body, star: &[usize], rest: &[usize]
         let mut groups = each(m, body, &pair);
         groups.push(star.to_vec());
         line_up(m, &mut change, body, &groups);
-        meet(m, &mut change, opposite(body), &pair);
+        meet(m, &mut change, body.other(), &pair);
         found.push(change);
     }
 }

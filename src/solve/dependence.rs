@@ -5,8 +5,8 @@
 //! `e.e sum c_i (|a_i|^2 + |b_i|^2 - s_i) = 0`: either the lengths satisfy the relation as well, and one
 //! equation says nothing, or `e.e = 0` and there is no finite pose.
 
-use crate::manipulator::{Manipulator, SquaredLegLengths};
-use crate::num::exact::{Rational, rational, relations};
+use crate::manipulator::{ExactLeg, Manipulator, SquaredLegLengths};
+use crate::num::exact::{ExactVector, Rational, rational, relations};
 
 /// Below this (sine of the angle to the span of the others) exact arithmetic is asked.
 const SUSPECT: f64 = 1e-9;
@@ -36,7 +36,7 @@ pub(crate) fn dependence(m: &Manipulator, s: &SquaredLegLengths) -> Dependence {
         return Dependence::Independent;
     }
     let Some(rows) = exact_rows(m, s) else { return Dependence::Nearly };
-    let vectors: Vec<Vec<Rational>> = rows.iter().map(|r| r.vector.clone()).collect();
+    let vectors: Vec<ExactVector> = rows.iter().map(|r| r.vector.clone()).collect();
     let found = relations(&vectors);
     if found.is_empty() {
         return Dependence::Nearly;
@@ -52,24 +52,23 @@ pub(crate) fn dependence(m: &Manipulator, s: &SquaredLegLengths) -> Dependence {
 }
 
 struct ExactRow {
-    vector: Vec<Rational>,
+    vector: ExactVector,
     /// `|a|^2 + |b|^2 - s`.
     constant: Rational,
     slack: Rational,
 }
 
 fn exact_rows(m: &Manipulator, s: &SquaredLegLengths) -> Option<Vec<ExactRow>> {
-    let one = Rational::from_integer(1.into());
     let rounding = rational(ROUNDING)?;
     let mut rows = Vec::new();
     for (leg, s) in m.legs().iter().zip(s.get()) {
-        let lift = |p: &nalgebra::Point3<f64>| -> Option<[Rational; 4]> {
-            Some([one.clone(), rational(p.x)?, rational(p.y)?, rational(p.z)?])
-        };
-        let (a, b, s) = (lift(&leg.base)?, lift(&leg.platform)?, rational(s)?);
-        let vector = a.iter().flat_map(|x| b.iter().map(move |y| x * y)).collect();
-        let squares: Rational = a[1..].iter().chain(&b[1..]).map(|x| x * x).sum();
-        rows.push(ExactRow { vector, constant: &squares - &s, slack: (squares + s) * &rounding });
+        let (leg, s) = (ExactLeg::of(leg)?, rational(s)?);
+        let squares = leg.squares();
+        rows.push(ExactRow {
+            vector: leg.vector(),
+            constant: &squares - &s,
+            slack: (squares + s) * &rounding,
+        });
     }
     Some(rows)
 }

@@ -1,6 +1,62 @@
 //! `det A` of a pattern as a product of factors, by Laplace expansion along forced entries.
 
+use std::ops::{Mul, Sub};
+
+use nalgebra::Matrix6;
+
 use super::hexagon::{HexagonPoint, Offset};
+
+/// `(prod (1 - t), prod t)` over offsets, in any numbers (floating point, exact, intervals): with one offset on each side of the hexagon
+/// their difference is `det A`, with some left out the minors of `A`.
+pub(crate) fn offset_products<T>(one: &T, t: impl IntoIterator<Item = T>) -> (T, T)
+where
+    T: Clone + Mul<Output = T> + Sub<Output = T>,
+{
+    t.into_iter()
+        .fold((one.clone(), one.clone()), |(rest, own), t| (rest * (one.clone() - t.clone()), own * t))
+}
+
+/// `det A = prod(1 - t_i) - prod(t_i)` of the map from the octahedral to the joint-free platform.
+///
+/// The joint-free platform is singular exactly where it vanishes, whatever the two triangles.
+/// Source: expansion of the cyclic bidiagonal matrix of the six one-offset relations (Rojas, Borras,
+/// Thomas, sec. 6, for two distinct values of `t`).
+#[must_use]
+pub fn offset_determinant(t: &[f64; 6]) -> f64 {
+    let (rest, own) = offset_products(&1.0, *t);
+    rest - own
+}
+
+/// The offset `t_k` that makes the joint-free platform with the five others singular: `t_k = Q / (P + Q)`, `P = prod t_j`,
+/// `Q = prod (1 - t_j)` over `j != k`.
+///
+/// `None` where `P + Q = 0`: either no finite `t_k` does, or (`P = Q = 0`, two coincident legs or the like) every one.
+#[must_use]
+pub fn singular_offset(t: &[f64; 6], k: usize) -> Option<f64> {
+    let (rest, own) = products_without(t, &[k]);
+    let value = rest / (own + rest);
+    value.is_finite().then_some(value)
+}
+
+fn products_without(t: &[f64; 6], left_out: &[usize]) -> (f64, f64) {
+    offset_products(&1.0, (0..6).filter(|i| !left_out.contains(i)).map(|i| t[i]))
+}
+
+/// Gradient of [`offset_determinant`]; products without the own factor, so zeros do no harm.
+pub(crate) fn determinant_gradient(t: &[f64; 6]) -> [f64; 6] {
+    std::array::from_fn(|j| {
+        let (rest, own) = products_without(t, &[j]);
+        -rest - own
+    })
+}
+
+/// Hessian of [`offset_determinant`]: zero diagonal, since every product is affine in each offset.
+pub(crate) fn determinant_hessian(t: &[f64; 6]) -> Matrix6<f64> {
+    Matrix6::from_fn(|j, k| {
+        let (rest, own) = products_without(t, &[j, k]);
+        if j == k { 0.0 } else { rest - own }
+    })
+}
 
 /// One factor of `det A`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -23,8 +79,7 @@ impl Factor {
             Self::Plain(o) => at(o),
             Self::Difference(side) => at(Offset { side, second: true }) - at(Offset { side, second: false }),
             Self::Cycle => {
-                let t = |side| at(Offset { side, second: false });
-                (0..6).map(|k| 1.0 - t(k)).product::<f64>() - (0..6).map(t).product::<f64>()
+                offset_determinant(&std::array::from_fn(|side| at(Offset { side, second: false })))
             }
         }
     }
@@ -135,4 +190,35 @@ fn close_cycles(open: &[HexagonPoint], slots: &mut [Option<HexagonPoint>; 6]) ->
         }
     }
     factors
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::synthesis::hexagon::tests::example;
+    use crate::synthesis::joint_free;
+
+    const T: [f64; 6] = [0.3, -0.4, 0.2, 1.3, 0.6, 0.8];
+
+    #[test]
+    fn determinant_formula_matrix_and_derivatives_agree() {
+        assert!((offset_determinant(&T) - joint_free(&example(), T).unwrap().1.determinant()).abs() < 1e-13);
+        let (g, hess, h) = (determinant_gradient(&T), determinant_hessian(&T), 1e-6);
+        for j in 0..6 {
+            let moved = |x: f64| {
+                let mut t = T;
+                t[j] += x;
+                t
+            };
+            let slope = (offset_determinant(&moved(h)) - offset_determinant(&moved(-h))) / (2.0 * h);
+            assert!((slope - g[j]).abs() < 1e-9);
+            for k in 0..6 {
+                let bend =
+                    (determinant_gradient(&moved(h))[k] - determinant_gradient(&moved(-h))[k]) / (2.0 * h);
+                assert!((bend - hess[(j, k)]).abs() < 1e-9);
+            }
+        }
+        // Griffis-Duffy: all midpoints
+        assert!(offset_determinant(&[0.5; 6]).abs() < 1e-16);
+    }
 }

@@ -2,9 +2,8 @@
 //!
 //! Coordinates are taken as the binary numbers they are, so that ranks of leg vectors are true or false without a tolerance.
 
-use super::components::exact::{Exact, homogeneous, product, rank};
-use crate::manipulator::Leg;
-use crate::num::exact::{Rational, approximate, relations};
+use crate::manipulator::{ExactLegs, Leg};
+use crate::num::exact::{Rational, approximate, rank, relations};
 
 /// Exact facts about the legs of two platforms.
 pub(super) struct ExactFacts {
@@ -16,38 +15,27 @@ pub(super) struct ExactFacts {
     pub(super) map: Option<([[f64; 6]; 6], [f64; 6])>,
 }
 
-fn vector(leg: &Leg) -> Option<Exact> {
-    Some(product(&homogeneous(&leg.base)?, &homogeneous(&leg.platform)?))
-}
-
-/// `|a|^2 + |b|^2`.
-fn squares(v: &Exact) -> Rational {
-    // (1, a) (x) (1, b): b follows the first entry, a stands at every fourth
-    [1, 2, 3, 4, 8, 12].iter().map(|k| &v[*k] * &v[*k]).sum()
-}
-
 impl ExactFacts {
     /// `None` when a coordinate is not finite, which no manipulator has.
     pub(super) fn of(from: &[Leg; 6], to: &[Leg; 6]) -> Option<Self> {
-        let vectors = |legs: &[Leg; 6]| legs.iter().map(vector).collect::<Option<Vec<Exact>>>();
-        let (old, new) = (vectors(from)?, vectors(to)?);
-        let (from_rank, to_rank) = (rank(&old), rank(&new));
+        let (old, new) = (ExactLegs::of(from)?, ExactLegs::of(to)?);
+        let (from_rank, to_rank) = (rank(&old.vectors), rank(&new.vectors));
         let map = if from_rank == 6 { map(&old, &new) } else { None };
         Some(Self { from_rank, to_rank, map })
     }
 }
 
 /// The map between independent `old` and `new` in their span.
-fn map(old: &[Exact], new: &[Exact]) -> Option<([[f64; 6]; 6], [f64; 6])> {
+fn map(old: &ExactLegs, new: &ExactLegs) -> Option<([[f64; 6]; 6], [f64; 6])> {
     let (mut a, mut c) = ([[0.0; 6]; 6], [0.0; 6]);
-    for (i, w) in new.iter().enumerate() {
-        let mut rows = old.to_vec();
+    for (i, w) in new.vectors.iter().enumerate() {
+        let mut rows = old.vectors.clone();
         rows.push(w.clone());
         // the six are independent: at most one relation, and the seventh has a part in it
         let relation = relations(&rows).pop()?;
         let row: Vec<Rational> = relation[..6].iter().map(|x| -(x / &relation[6])).collect();
-        let taken: Rational = row.iter().zip(old).map(|(x, v)| x * squares(v)).sum();
-        c[i] = approximate(&(squares(w) - taken));
+        let taken: Rational = row.iter().enumerate().map(|(k, x)| x * old.squares(k)).sum();
+        c[i] = approximate(&(new.squares(i) - taken));
         for (entry, x) in a[i].iter_mut().zip(&row) {
             *entry = approximate(x);
         }

@@ -5,32 +5,9 @@
 //! end on the line through the two other joints. On even sides (0, 2, 4) the platform joint is fixed and the
 //! base end slides along a side of the base triangle, on odd sides it is the other way round.
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 
-use crate::manipulator::Octahedral;
-
-/// One of the two bodies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[cfg_attr(
-    feature = "files",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
-)]
-pub enum Body {
-    /// The fixed body.
-    Base,
-    /// The moving body.
-    Platform,
-}
-
-impl std::fmt::Display for Body {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Base => "base",
-            Self::Platform => "platform",
-        })
-    }
-}
+use crate::manipulator::{Body, Leg, Octahedral};
 
 /// The place of an inner point on a side: `t` runs from 0 at leg `side` to 1 at leg `side + 1`.
 ///
@@ -81,7 +58,7 @@ impl HexagonPoint {
     #[must_use]
     pub fn joints(self) -> [JointLabel; 2] {
         match self {
-            Self::Vertex(i) => [Body::Base, Body::Platform].map(|b| JointLabel::Corner(corner(b, i))),
+            Self::Vertex(i) => Body::BOTH.map(|b| JointLabel::Corner(corner(b, i))),
             Self::Inner(o) => match sliding_body(o.side) {
                 Body::Base => [JointLabel::OnEdge(o), JointLabel::Corner(corner(Body::Platform, o.side))],
                 Body::Platform => [JointLabel::Corner(corner(Body::Base, o.side)), JointLabel::OnEdge(o)],
@@ -125,19 +102,66 @@ pub(crate) fn corner_point(o: &Octahedral, i: usize) -> Point3<f64> {
     if i < 3 { o.base()[i] } else { o.platform()[i - 3] }
 }
 
-/// The joint at the fraction `t` of the triangle side that belongs to a side of the hexagon.
-pub(crate) fn joint_on_edge(o: &Octahedral, side: usize, t: f64) -> Point3<f64> {
-    let [x, y] = edge(side).map(|i| corner_point(o, i));
-    x + (y - x) * t
+/// A side of the hexagon in place: the leg at offset `t` joins `fixed` to `start + t (end - start)`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Side {
+    pub(crate) sliding: Body,
+    pub(crate) fixed: Point3<f64>,
+    pub(crate) start: Point3<f64>,
+    pub(crate) end: Point3<f64>,
+    /// The vertex of the sliding triangle that is not on the edge.
+    pub(crate) opposite: Point3<f64>,
+}
+
+impl Side {
+    /// Side `k` of the hexagon of `o`.
+    pub(crate) fn of(o: &Octahedral, k: usize) -> Self {
+        let sliding = sliding_body(k);
+        let own = |i: usize| corner_point(o, corner(sliding, (k + i) % 6));
+        Self {
+            sliding,
+            fixed: corner_point(o, corner(sliding.other(), k)),
+            start: own(0),
+            end: own(1),
+            opposite: own(3),
+        }
+    }
+
+    fn shrunk(self, scale: f64) -> Self {
+        let shrink = |p: Point3<f64>| Point3::from(p.coords / scale);
+        let (fixed, start, end) = (shrink(self.fixed), shrink(self.start), shrink(self.end));
+        Self { sliding: self.sliding, fixed, start, end, opposite: shrink(self.opposite) }
+    }
+
+    pub(crate) fn edge(&self) -> Vector3<f64> {
+        self.end - self.start
+    }
+
+    pub(crate) fn edge_length(&self) -> f64 {
+        self.edge().norm()
+    }
+
+    /// The sliding joint at offset `t`.
+    pub(crate) fn joint(&self, t: f64) -> Point3<f64> {
+        self.start + self.edge() * t
+    }
+
+    pub(crate) fn leg(&self, t: f64) -> Leg {
+        let (slid, fixed) = (self.joint(t), self.fixed);
+        let (base, platform) = self.sliding.of(((slid, fixed), (fixed, slid)));
+        Leg { base, platform }
+    }
+}
+
+/// The six sides in cyclic order, lengths divided by `scale`.
+pub(crate) fn sides(o: &Octahedral, scale: f64) -> [Side; 6] {
+    std::array::from_fn(|k| Side::of(o, k).shrunk(scale))
 }
 
 /// Lengths `d_0 .. d_5` of the triangle sides that belong to the sides of the hexagon, design units.
 #[must_use]
 pub fn edge_lengths(o: &Octahedral) -> [f64; 6] {
-    std::array::from_fn(|k| {
-        let [x, y] = edge(k).map(|i| corner_point(o, i));
-        (y - x).norm()
-    })
+    std::array::from_fn(|k| Side::of(o, k).edge_length())
 }
 
 /// `t = Delta / edge` on the six sides for one offset on all base edges and one on all platform edges.
@@ -147,5 +171,53 @@ pub fn edge_lengths(o: &Octahedral) -> [f64; 6] {
 #[must_use]
 pub fn offsets_from_distances(o: &Octahedral, base: f64, platform: f64) -> [f64; 6] {
     let d = edge_lengths(o);
-    std::array::from_fn(|k| if sliding_body(k) == Body::Base { base / d[k] } else { platform / d[k] })
+    std::array::from_fn(|k| sliding_body(k).of((base, platform)) / d[k])
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+
+    use super::*;
+    use crate::geom::Pose;
+    use crate::manipulator::{Manipulator, SquaredLegLengths};
+    use crate::synthesis::joint_free;
+    use nalgebra::Rotation3;
+
+    pub(in crate::synthesis) fn example() -> Octahedral {
+        let triangle = |edge: f64| {
+            [(0.0, 0.0), (1.0, 0.0), (0.5, 0.75f64.sqrt())]
+                .map(|(x, y)| Point3::new(edge * x, edge * y, 0.0))
+                .to_vec()
+        };
+        let legs = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
+        Octahedral::recognise(&Manipulator::try_new(triangle(12.0), triangle(6.0), legs).unwrap()).unwrap()
+    }
+
+    const T: [f64; 6] = [0.3, -0.4, 0.2, 1.3, 0.6, 0.8];
+
+    #[test]
+    fn legs_are_those_of_the_leg_map_module() {
+        let o = example();
+        let (m, map) = joint_free(&o, T).unwrap();
+        let old = sides(&o, 1.0);
+        let pose = Pose {
+            rotation: Rotation3::from_euler_angles(0.2, 0.3, -0.5),
+            position: Vector3::new(4.0, 1.0, 13.0),
+        };
+        let s: [f64; 6] = std::array::from_fn(|i| pose.squared_length(&old[i].leg(0.0)));
+        let mapped = map.apply(&SquaredLegLengths::try_new(s).unwrap()).unwrap().get();
+        for i in 0..6 {
+            assert!((m.legs()[i].base - old[i].leg(T[i]).base).norm() < 1e-13);
+            assert!((m.legs()[i].platform - old[i].leg(T[i]).platform).norm() < 1e-13);
+            assert!((mapped[i] - pose.squared_length(&old[i].leg(T[i]))).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn side_ends_are_the_consecutive_legs_of_the_cycle() {
+        let s = sides(&example(), 1.0);
+        for i in 0..6 {
+            assert_eq!(s[i].leg(1.0), s[(i + 1) % 6].leg(0.0));
+        }
+    }
 }

@@ -23,13 +23,12 @@ mod topology;
 
 pub use crate::topology::Topology;
 pub use correspondence::LegCorrespondence;
-pub use determinant::Factor;
+pub use determinant::{Factor, offset_determinant, singular_offset};
+pub(crate) use determinant::{determinant_gradient, determinant_hessian, offset_products};
 pub use enumerate::{Symmetry, enumerate, representative};
 pub use family::{Family, FamilyCounts, FamilyMember, FamilyTopology};
-pub(crate) use hexagon::corner;
-pub use hexagon::{
-    Body, HexagonPoint, JointLabel, Offset, edge_lengths, offsets_from_distances, sliding_body,
-};
+pub use hexagon::{HexagonPoint, JointLabel, Offset, edge_lengths, offsets_from_distances, sliding_body};
+pub(crate) use hexagon::{Side, corner, sides};
 pub use leg_map::{
     AffineLegMap, LegMapOutcome, LegMapTolerances, NotRealizable, Relation, SingularMap, leg_map,
 };

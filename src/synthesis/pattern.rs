@@ -5,10 +5,9 @@ use thiserror::Error;
 
 use super::AffineLegMap;
 use super::determinant::{Factor, expand};
-use super::hexagon::{
-    Body, HexagonPoint, JointLabel, Offset, corner_point, edge, edge_lengths, joint_on_edge,
-};
-use crate::manipulator::{InvalidManipulator, LegIndex, Manipulator, Octahedral};
+use super::hexagon::{HexagonPoint, JointLabel, Offset, corner_point, edge, edge_lengths};
+use crate::manipulator::{Body, InvalidManipulator, LegIndex, Manipulator, Octahedral};
+use crate::synthesis::Side;
 
 /// Six points of the hexagon that are linearly independent for generic offsets.
 ///
@@ -140,7 +139,7 @@ impl Pattern {
     #[must_use]
     pub fn shared_joints(&self) -> Vec<(Body, JointLabel, Vec<usize>)> {
         let mut shared = Vec::new();
-        for (pick, body) in [Body::Base, Body::Platform].into_iter().enumerate() {
+        for (pick, body) in Body::BOTH.into_iter().enumerate() {
             for joint in &self.joints()[pick] {
                 let legs: Vec<usize> = (0..6).filter(|i| self.slots[*i].joints()[pick] == *joint).collect();
                 if legs.len() > 1 {
@@ -238,7 +237,7 @@ impl Pattern {
         let at = self.lookup(offsets)?;
         let place = |joint: &JointLabel| match *joint {
             JointLabel::Corner(i) => corner_point(o, i),
-            JointLabel::OnEdge(offset) => joint_on_edge(o, offset.side, at(offset)),
+            JointLabel::OnEdge(offset) => Side::of(o, offset.side).joint(at(offset)),
         };
         let joints = self.joints();
         let index =

@@ -9,12 +9,10 @@ use crate::cli::failure::Failure;
 use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
 use crate::design::Design;
-use crate::manipulator::Octahedral;
+use crate::manipulator::{Body, Octahedral};
 use crate::page::Original;
 use crate::records::{FamilyAnswer, InstanceRecord};
-use crate::synthesis::{
-    Body, Factor, Family, FamilyCounts, FamilyMember, HexagonPoint, Pattern, edge_lengths,
-};
+use crate::synthesis::{Factor, Family, FamilyCounts, FamilyMember, HexagonPoint, Pattern, edge_lengths};
 
 /// Arguments of `family`.
 #[derive(Debug, clap::Args)]

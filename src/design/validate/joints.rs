@@ -8,7 +8,7 @@ use super::{nearest, numbers, shown};
 use crate::design::tree::{Entry, Node, Span, Value};
 use crate::design::violation::Report;
 use crate::design::{Code, Warning};
-use crate::manipulator::is_collinear;
+use crate::manipulator::{Body, is_collinear};
 
 /// A joint of the file. One with bad coordinates is kept so that legs still find its name.
 #[derive(Debug)]
@@ -21,8 +21,8 @@ pub(super) struct Joint {
 
 /// The joints of the base or of the platform.
 #[derive(Debug)]
-pub(super) struct Body {
-    label: &'static str,
+pub(super) struct NamedJoints {
+    body: Body,
     span: Span,
     pub(super) joints: Vec<Joint>,
     index: BTreeMap<String, usize>,
@@ -34,7 +34,7 @@ pub(super) struct Legs {
     pub(super) pairs: [(usize, usize); 6],
 }
 
-impl Body {
+impl NamedJoints {
     pub(super) fn names(&self) -> Vec<String> {
         self.joints.iter().map(|j| j.name.clone()).collect()
     }
@@ -46,15 +46,16 @@ pub(super) fn is_list_of_pairs(node: &Node) -> bool {
 }
 
 /// Reads `[base]` or `[platform]`.
-pub(super) fn body(report: &mut Report<'_>, label: &'static str, entry: &Entry) -> Option<Body> {
-    let entries = super::table(report, &entry.node, &format!("[{label}]"))?;
-    let mut body = Body { label, span: entry.key_span.clone(), joints: Vec::new(), index: BTreeMap::new() };
+pub(super) fn body(report: &mut Report<'_>, which: Body, entry: &Entry) -> Option<NamedJoints> {
+    let entries = super::table(report, &entry.node, &format!("[{which}]"))?;
+    let mut body =
+        NamedJoints { body: which, span: entry.key_span.clone(), joints: Vec::new(), index: BTreeMap::new() };
     for e in entries.iter().filter(|e| e.key != "legs" || !is_list_of_pairs(&e.node)) {
         if e.key.trim().is_empty() {
-            let message = format!("a joint of the {label} has an empty name");
+            let message = format!("a joint of the {which} has an empty name");
             report.refuse(Code::EmptyName, &e.key_span, message, "give the joint a name");
         }
-        let what = format!("{label} joint {}", shown(&e.key));
+        let what = format!("{which} joint {}", shown(&e.key));
         let point = numbers::<3>(report, &e.node, &what, Code::CoordinateCount, "coordinates x, y, z");
         body.index.insert(e.key.clone(), body.joints.len());
         body.joints.push(Joint {
@@ -68,14 +69,14 @@ pub(super) fn body(report: &mut Report<'_>, label: &'static str, entry: &Entry) 
     Some(body)
 }
 
-fn warn_coincident(report: &mut Report<'_>, body: &Body) {
+fn warn_coincident(report: &mut Report<'_>, body: &NamedJoints) {
     let mut seen: BTreeMap<[u64; 3], &str> = BTreeMap::new();
     for joint in body.joints.iter().filter(|j| j.intact) {
         let key = joint.point.map(|x| (x + 0.0).to_bits()); // -0 + 0 = 0: one place, one key
         if let Some(first) = seen.get(&key) {
             let (first, second) = ((*first).to_string(), joint.name.clone());
             let line = report.line(joint.span.start);
-            report.warn(Warning::CoincidentJoints { body: body.label, first, second, line });
+            report.warn(Warning::CoincidentJoints { body: body.body, first, second, line });
         } else {
             seen.insert(key, &joint.name);
         }
@@ -83,7 +84,12 @@ fn warn_coincident(report: &mut Report<'_>, body: &Body) {
 }
 
 /// Reads `legs`, checks the pairs and what they make of the joints.
-pub(super) fn legs(report: &mut Report<'_>, entry: &Entry, base: &Body, platform: &Body) -> Option<Legs> {
+pub(super) fn legs(
+    report: &mut Report<'_>,
+    entry: &Entry,
+    base: &NamedJoints,
+    platform: &NamedJoints,
+) -> Option<Legs> {
     let help = "write six pairs: legs = [[\"A1\", \"B1\"], [\"A2\", \"B2\"], ...]";
     let Value::Array(list) = &entry.node.value else {
         let message = format!("`legs` is {}, not an array of pairs", entry.node.value.kind());
@@ -110,8 +116,8 @@ fn pair(
     report: &mut Report<'_>,
     i: usize,
     node: &Node,
-    base: &Body,
-    platform: &Body,
+    base: &NamedJoints,
+    platform: &NamedJoints,
 ) -> Option<(usize, usize)> {
     let leg = i + 1;
     let ends: Vec<Option<(&str, &Span)>> = match &node.value {
@@ -135,16 +141,16 @@ fn lookup(
     report: &mut Report<'_>,
     leg: usize,
     (name, span): (&str, &Span),
-    body: &Body,
-    other: &Body,
+    body: &NamedJoints,
+    other: &NamedJoints,
 ) -> Option<usize> {
     if let Some(index) = body.index.get(name) {
         return Some(*index);
     }
-    let label = body.label;
+    let label = body.body;
     let names: Vec<&str> = body.joints.iter().map(|j| j.name.as_str()).take(200).collect();
     let help = if other.index.contains_key(name) {
-        format!("`{}` is a joint of the {}; a leg names the base joint first", shown(name), other.label)
+        format!("`{}` is a joint of the {}; a leg names the base joint first", shown(name), other.body)
     } else if let Some(near) = nearest(name, &names) {
         format!("did you mean `{}`?", shown(near))
     } else {
@@ -159,8 +165,8 @@ fn refuse_identical(
     report: &mut Report<'_>,
     list: &[Node],
     pairs: &[Option<(usize, usize)>],
-    base: &Body,
-    platform: &Body,
+    base: &NamedJoints,
+    platform: &NamedJoints,
 ) {
     let mut seen: BTreeMap<(usize, usize), usize> = BTreeMap::new();
     for (i, pair) in pairs.iter().enumerate() {
@@ -178,11 +184,11 @@ fn refuse_identical(
 }
 
 /// Unused joints, and triangles that are none.
-fn check_use(report: &mut Report<'_>, body: &Body, used: [usize; 6]) {
+fn check_use(report: &mut Report<'_>, body: &NamedJoints, used: [usize; 6]) {
     for (i, joint) in body.joints.iter().enumerate() {
         if !used.contains(&i) {
             let line = report.line(joint.span.start);
-            report.warn(Warning::UnusedJoint { body: body.label, name: joint.name.clone(), line });
+            report.warn(Warning::UnusedJoint { body: body.body, name: joint.name.clone(), line });
         }
     }
     let mut distinct = used.to_vec();
@@ -193,7 +199,7 @@ fn check_use(report: &mut Report<'_>, body: &Body, used: [usize; 6]) {
         let points = triangle.map(|joint| Point3::from(joint.point));
         if triangle.iter().all(|joint| joint.intact) && is_collinear(&points) {
             let names = triangle.map(|joint| shown(&joint.name)).join(", ");
-            let message = format!("the {} joints {names} are on one line", body.label);
+            let message = format!("the {} joints {names} are on one line", body.body);
             let help = "move one of them: a body held in three points on a line can turn about it";
             report.refuse(Code::CollinearTriangle, &body.span, message, help);
         }

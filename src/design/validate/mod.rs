@@ -8,11 +8,11 @@ mod tables;
 
 use nalgebra::Point3;
 
-use self::joints::{Body, Legs};
+use self::joints::{Legs, NamedJoints};
 use super::tree::{Entry, Node, Span, Value, find};
 use super::violation::Report;
 use super::{Code, Design, Warning};
-use crate::manipulator::{InvalidManipulator, LegLengths, Manipulator};
+use crate::manipulator::{Body, InvalidManipulator, LegLengths, Manipulator};
 
 const TOP_LEVEL: [&str; 15] = [
     "name",
@@ -51,9 +51,9 @@ pub(super) fn design(root: &Node, report: &mut Report<'_>) -> Option<Design> {
     let source = text_or_absent(report, entries, "source");
     let description = text_or_absent(report, entries, "description");
     let legs_entry = legs_entry(report, root, entries);
-    let base = required(report, root, entries, "base").and_then(|e| joints::body(report, "base", e));
+    let base = required(report, root, entries, "base").and_then(|e| joints::body(report, Body::Base, e));
     let platform =
-        required(report, root, entries, "platform").and_then(|e| joints::body(report, "platform", e));
+        required(report, root, entries, "platform").and_then(|e| joints::body(report, Body::Platform, e));
     let legs = match (legs_entry, &base, &platform) {
         (Some(entry), Some(base), Some(platform)) => joints::legs(report, entry, base, platform),
         _ => None,
@@ -142,11 +142,11 @@ fn lengths(report: &mut Report<'_>, entries: &[Entry]) -> Option<LegLengths> {
 fn manipulator(
     report: &mut Report<'_>,
     root: &Span,
-    base: &Body,
-    platform: &Body,
+    base: &NamedJoints,
+    platform: &NamedJoints,
     legs: &Legs,
 ) -> Option<Manipulator> {
-    let points = |body: &Body| body.joints.iter().map(|j| Point3::from(j.point)).collect();
+    let points = |body: &NamedJoints| body.joints.iter().map(|j| Point3::from(j.point)).collect();
     match Manipulator::try_new(points(base), points(platform), legs.pairs) {
         Ok(m) if m.size() < SMALLEST => {
             let message = format!("the design is {:e} long", m.size());

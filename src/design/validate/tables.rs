@@ -8,9 +8,9 @@ use crate::design::tree::{Entry, Node, Value, find};
 use crate::design::violation::Report;
 use crate::design::{Code, OptimizeTable, SearchTable, Trajectory, Workspace};
 use crate::geom::Pose;
+use crate::manipulator::Body;
 use crate::requirements::{
-    FixedTo, Hardware, Housing, JointAxes, KeepOut, LegBody, LengthLimits, Load, PlatformSpeed, Region,
-    Shape, Swing,
+    Hardware, Housing, JointAxes, KeepOut, LegBody, LengthLimits, Load, PlatformSpeed, Region, Shape, Swing,
 };
 
 pub(super) const POSE_KEYS: [&str; 4] = ["position", "rpy_deg", "quat_wxyz", "rotation"];
@@ -418,17 +418,15 @@ fn tables<'a>(report: &mut Report<'_>, top: &'a [Entry], key: &str) -> Vec<&'a [
     list.iter().filter_map(|node| table(report, node, &format!("[[{key}]]"))).collect()
 }
 
-fn fixed_to(report: &mut Report<'_>, entries: &[Entry]) -> Option<FixedTo> {
+fn fixed_to(report: &mut Report<'_>, entries: &[Entry]) -> Option<Body> {
     let entry = find(entries, "fixed_to")?;
-    match text(report, entry)?.as_str() {
-        "base" => Some(FixedTo::Base),
-        "platform" => Some(FixedTo::Platform),
-        other => {
-            let message = format!("`fixed_to` is \"{}\"", shown(other));
-            report.refuse(Code::WrongType, &entry.node.span, message, "write \"base\" or \"platform\"");
-            None
-        }
+    let word = text(report, entry)?;
+    let body = word.parse().ok();
+    if body.is_none() {
+        let message = format!("`fixed_to` is \"{}\"", shown(&word));
+        report.refuse(Code::WrongType, &entry.node.span, message, "write \"base\" or \"platform\"");
     }
+    body
 }
 
 fn name(report: &mut Report<'_>, entries: &[Entry], default: String) -> String {
@@ -445,7 +443,7 @@ pub(super) fn loads(report: &mut Report<'_>, top: &[Entry]) -> Vec<Load> {
             force: vector(report, entries, "force").unwrap_or_default(),
             torque: vector(report, entries, "torque").unwrap_or_default(),
             at: Point3::from(vector(report, entries, "at").unwrap_or_default()),
-            fixed_to: fixed_to(report, entries).unwrap_or(FixedTo::Base),
+            fixed_to: fixed_to(report, entries).unwrap_or(Body::Base),
         }
     };
     list.iter().enumerate().map(read).collect()
@@ -458,7 +456,7 @@ pub(super) fn keep_outs(report: &mut Report<'_>, top: &[Entry]) -> Vec<KeepOut> 
     for (i, entries) in list.into_iter().enumerate() {
         check_keys(report, entries, &["name", "fixed_to", "box", "sphere", "capsule"], "[[keep_out]]");
         let name = name(report, entries, format!("keep-out {}", i + 1));
-        let fixed_to = fixed_to(report, entries).unwrap_or(FixedTo::Base);
+        let fixed_to = fixed_to(report, entries).unwrap_or(Body::Base);
         let shapes: Vec<&Entry> =
             entries.iter().filter(|e| ["box", "sphere", "capsule"].contains(&e.key.as_str())).collect();
         let [entry] = shapes[..] else {

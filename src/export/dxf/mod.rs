@@ -8,7 +8,7 @@ use nalgebra::{Point2, Vector2};
 use self::dimension::dimensions;
 use self::page::Page;
 use super::outline::OutlinePart;
-use super::{Body, Export, File, Hole, Plate, Unsupported, Writer};
+use super::{Export, ExportBody, File, Hole, Plate, Unsupported, Writer};
 
 /// The format `dxf`.
 #[derive(Debug)]
@@ -28,8 +28,8 @@ impl Writer for Dxf {
     }
 
     fn files(&self, export: &Export) -> Result<Vec<File>, Unsupported> {
-        let plan = |body: &Body| {
-            Ok(File::new(&format!("{}-plate.dxf", body.name), plan(export, body, body.plate()?)))
+        let plan = |body: &ExportBody| {
+            Ok(File::new(&format!("{}-plate.dxf", body.body), plan(export, body, body.plate()?)))
         };
         export.bodies.iter().map(plan).collect()
     }
@@ -47,7 +47,7 @@ fn extent(plate: &Plate, mm: f64) -> [Point2<f64>; 2] {
     [(low - margin) * mm, (high + margin) * mm]
 }
 
-fn plan(export: &Export, body: &Body, plate: &Plate) -> String {
+fn plan(export: &Export, body: &ExportBody, plate: &Plate) -> String {
     let mm = export.unit.millimetres;
     let extent = extent(plate, mm);
     let mut page = Page::new(TEXT * (extent[1] - extent[0]).max());
@@ -59,7 +59,7 @@ fn plan(export: &Export, body: &Body, plate: &Plate) -> String {
         plate.axes.column_iter().map(|c| format!("({} {} {})", c[0] + 0.0, c[1] + 0.0, c[2] + 0.0)).collect();
     page.comment(&format!(
         "Plate of the {}: drawing x, y, z (towards the viewer) are {}, {}, {} in the frame of the {}; the legs are on {side} side",
-        body.name, axes[0], axes[1], axes[2], body.name
+        body.body, axes[0], axes[1], axes[2], body.body
     ));
     page.comment(&format!("Plate thickness {} mm; cut the layers OUTLINE and HOLES", plate.thickness * mm));
     for corner in extent {
@@ -114,11 +114,11 @@ fn origin(page: &mut Page, [low, high]: [Point2<f64>; 2]) {
 }
 
 /// Positions of the holes in the drawing, which are those in the frame of the plate.
-fn table(page: &mut Page, body: &Body, plate: &Plate, extent: [Point2<f64>; 2], mm: f64) {
+fn table(page: &mut Page, body: &ExportBody, plate: &Plate, extent: [Point2<f64>; 2], mm: f64) {
     let h = page.text_height;
     let mut at = Point2::new(page.right() + 3.0 * h, extent[1].y);
     let mut lines = vec![
-        format!("{} plate, mm, thickness {:.4}", body.name, plate.thickness * mm),
+        format!("{} plate, mm, thickness {:.4}", body.body, plate.thickness * mm),
         format!("{} holes, diameter {:.4}", plate.holes.len(), plate.hole_diameter * mm),
         format!("corner radius {:.4}", plate.outline.margin * mm),
         "hole   x   y".to_string(),

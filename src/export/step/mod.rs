@@ -59,10 +59,10 @@ fn assembly(export: &Export) -> Result<String, Unsupported> {
     for (body, placed) in export.bodies.iter().zip([base_frame, export.home]) {
         let plate = body.plate()?;
         let frame = within(&placed, &plate_frame(plate));
-        let name = format!("{} plate", body.name);
+        let name = format!("{} plate", body.body);
         let part = a.part(&name, |b| solids::plate(b, &name, plate, mm));
         a.place(part, &name, &frame);
-        let name = format!("ball of the {}", body.name);
+        let name = format!("ball of the {}", body.body);
         let ball = a.part(&name, |b| solids::ball(b, &name, body.ball_diameter * mm));
         for joint in &body.joints {
             let at = Pose { rotation: placed.rotation, position: placed.transform(&joint.at).coords };

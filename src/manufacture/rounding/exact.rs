@@ -9,12 +9,12 @@ use super::{
 };
 use crate::equivalence::{Verification, VerifyError, verify};
 use crate::fk::FkOptions;
-use crate::manipulator::{Manipulator, Octahedral};
+use crate::manipulator::{Body, Manipulator, Octahedral};
 use crate::manufacture::correction::octahedral_of;
 use crate::manufacture::joint::{Joint, joints};
-use crate::num::exact::{Rational, rational, relations};
-use crate::singularity::{GriffisDuffy, griffis_duffy_determinant};
-use crate::synthesis::Body;
+use crate::num::exact::{self, ExactVector, product, rational};
+use crate::singularity::GriffisDuffy;
+use crate::synthesis::offset_determinant;
 
 /// The triangles of base and platform.
 #[derive(Debug, Clone)]
@@ -59,7 +59,7 @@ impl Roles {
             let side = to - from;
             (place(m, joint) - from).dot(&side) / side.norm_squared()
         };
-        griffis_duffy_determinant(&std::array::from_fn(t))
+        offset_determinant(&std::array::from_fn(t))
     }
 
     /// Distance of a joint on a side from the line of the side, on `m`; `at` is where the joint is.
@@ -127,7 +127,7 @@ struct Search<'a> {
 
 fn cells(roles: &Roles, list: &[Joint], triangles: &[Triangle; 2]) -> Vec<Cell> {
     let cell = |joint: &Joint| {
-        let body = usize::from(joint.body == Body::Platform);
+        let body = joint.body.index();
         let corner = roles.corners[body].iter().position(|j| j == joint);
         let inner = roles.inner.and_then(|i| i[body].iter().position(|j| j == joint));
         match (corner, inner) {
@@ -210,13 +210,9 @@ fn determinant_numerator(triangles: &[Triangle; 2]) -> Option<i128> {
 /// Exact rank of legs between holes: `(1, i, j) (x) (1, k, l)`.
 pub(super) fn rank(legs: &[(Cell, Cell)]) -> Option<usize> {
     let number = |x: i64| rational(x as f64);
-    let point = |c: &Cell| -> Option<Vec<Rational>> { [1, c[0], c[1]].into_iter().map(number).collect() };
-    let row = |(a, b): &(Cell, Cell)| -> Option<Vec<Rational>> {
-        let (a, b) = (point(a)?, point(b)?);
-        Some(a.iter().flat_map(|x| b.iter().map(move |y| x * y)).collect())
-    };
-    let rows: Vec<Vec<Rational>> = legs.iter().map(row).collect::<Option<_>>()?;
-    Some(rows.len() - relations(&rows).len())
+    let point = |c: &Cell| -> Option<ExactVector> { [1, c[0], c[1]].into_iter().map(number).collect() };
+    let row = |(a, b): &(Cell, Cell)| Some(product(&point(a)?, &point(b)?));
+    Some(exact::rank(&legs.iter().map(row).collect::<Option<Vec<_>>>()?))
 }
 
 /// Whether the six legs span the same space as the octahedral legs between the corners, which has dimension six.
@@ -264,7 +260,7 @@ fn search(problem: &RoundingProblem<'_>, laying: &Laying, roles: &Roles) -> Resu
         let wanted = wanted(m, roles, &laying.bodies[body], body);
         pool(&wanted, count, limit(&wanted))
     });
-    for (body, pool) in [Body::Base, Body::Platform].into_iter().zip(&pools) {
+    for (body, pool) in Body::BOTH.into_iter().zip(&pools) {
         if pool.triangles.is_empty() {
             return Err(NoRounding::NoTriangleNear(body));
         }

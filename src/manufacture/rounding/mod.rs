@@ -20,9 +20,8 @@ pub use self::nearest::NearestRounding;
 use super::joint::{Joint, joints};
 use crate::equivalence::SamplePlan;
 use crate::geom::Pose;
-use crate::manipulator::{Manipulator, inverse_condition, jacobian};
+use crate::manipulator::{Body, Manipulator, inverse_condition, jacobian};
 use crate::requirements::{PoseSpace, Requirements, TermKind, Terms};
-use crate::synthesis::Body;
 
 /// Sets of leg lengths at which a rounded design is compared with what it should be equivalent to.
 const SAMPLES: usize = 3;
@@ -140,7 +139,7 @@ impl Rounding {
 pub fn round_to_grid(problem: &RoundingProblem<'_>) -> Result<Rounding, NoRounding> {
     let m = problem.manipulator;
     let mut grids = Vec::with_capacity(2);
-    for (body, grid) in [Body::Base, Body::Platform].into_iter().zip(&problem.grids) {
+    for (body, grid) in Body::BOTH.into_iter().zip(&problem.grids) {
         let finite = grid.origin.iter().chain([&grid.angle_deg]).all(|x| x.is_finite());
         if !(grid.pitch > 0.0 && grid.pitch.is_finite() && finite) {
             return Err(NoRounding::BadGrid(body));
@@ -177,8 +176,8 @@ struct Laying {
 /// without roles to the joints as they are, with the best ones of both in every combination.
 fn layings(problem: &RoundingProblem<'_>, given: &Laying, roles: Option<&Roles>) -> Vec<Laying> {
     let m = problem.manipulator;
-    let found = [Body::Base, Body::Platform].map(|body| {
-        let k = usize::from(body == Body::Platform);
+    let found = Body::BOTH.map(|body| {
+        let k = body.index();
         let plain = Grid { origin: [0.0; 2], angle_deg: 0.0, ..problem.grids[k] };
         let points = places(m, body);
         let lay = |grid: Grid| {
@@ -222,26 +221,20 @@ fn places(m: &Manipulator, body: Body) -> Vec<Point3<f64>> {
 }
 
 fn place(m: &Manipulator, joint: Joint) -> Point3<f64> {
-    match joint.body {
-        Body::Base => m.base_joints()[joint.index],
-        Body::Platform => m.platform_joints()[joint.index],
-    }
+    m.joints(joint.body)[joint.index]
 }
 
 /// The design with its joints (in the order of [`joints`]) on these holes.
 fn on_cells(m: &Manipulator, grids: &[BodyGrid; 2], cells: &[Cell]) -> Option<Manipulator> {
     let (mut base, mut platform) = (m.base_joints().to_vec(), m.platform_joints().to_vec());
     for (joint, cell) in joints(m).into_iter().zip(cells) {
-        match joint.body {
-            Body::Base => base[joint.index] = grids[0].point(*cell),
-            Body::Platform => platform[joint.index] = grids[1].point(*cell),
-        }
+        joint.body.of((&mut base, &mut platform))[joint.index] = grid_of(grids, joint.body).point(*cell);
     }
     Manipulator::try_new(base, platform, m.pairs()).ok()
 }
 
 fn grid_of(grids: &[BodyGrid; 2], body: Body) -> &BodyGrid {
-    &grids[usize::from(body == Body::Platform)]
+    &grids[body.index()]
 }
 
 /// Sample poses in the workspace, or a quarter of the size and 20 degrees about home where it has no width.

@@ -63,7 +63,7 @@ fn the_exact_rounding_is_on_the_grid_on_its_lines_and_proved_equivalent() {
     assert_eq!(e.joints.iter().filter(|j| j.off_line.is_some()).count(), 6);
     // det A from the fractions
     let t = e.fractions.unwrap().map(|(k, n)| k as f64 / n as f64);
-    let det = crate::singularity::griffis_duffy_determinant(&t);
+    let det = crate::synthesis::offset_determinant(&t);
     assert!((det - e.judgement.det.unwrap()).abs() < 1e-12 * det.abs().max(1.0));
 }
 

@@ -17,10 +17,10 @@ use self::corners::{AtCorners, at_corners};
 use self::multipliers::{SAMPLES, Sampled, multipliers};
 use self::rows::{LegRow, Quotient, greatest};
 use super::conditioning::{PoseLegs, worst_case_above};
-use super::hexagon::sides;
 use super::limits::{Bounds, Limits, point};
 use super::problem::{Model, OffsetProblem};
 use crate::num::parallel::parallel;
+use crate::synthesis::sides;
 
 /// No offsets within the limits of the problem reach more than `upper`.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -4,9 +4,10 @@ use nalgebra::{Matrix3, Point3};
 
 use super::ball::Ball;
 use crate::geom::Pose;
+use crate::manipulator::Body;
 use crate::num::interval::Interval;
-use crate::offsets::hexagon::{Body, Side};
 use crate::offsets::limits::{Vector, cross, dot, minus, plus, point, vector};
+use crate::synthesis::Side;
 
 fn difference(a: &Point3<f64>, b: &Vector) -> Vector {
     minus(&vector(&a.coords), b)

@@ -10,10 +10,9 @@ use super::frame::{Frame, enclosed};
 use super::local::{self, Bounded};
 use crate::geom::enclosed::{Matrix, Vector, contraction, times};
 use crate::geom::{Cell, Chart};
-use crate::manipulator::Manipulator;
+use crate::manipulator::{Body, Manipulator};
 use crate::num::interval::Interval;
 use crate::num::jet::{Jet, JetVector, cross};
-use crate::requirements::keep_out::FixedTo;
 use crate::requirements::load::Load;
 
 type Column = [Jet; 6];
@@ -36,8 +35,8 @@ impl System {
         let turned = |v: &nalgebra::Vector3<f64>| {
             let v: Vector = std::array::from_fn(|k| Interval::from(v[k]));
             match load.fixed_to {
-                FixedTo::Base => frame.fixed(&v),
-                FixedTo::Platform => frame.turned(&v),
+                Body::Base => frame.fixed(&v),
+                Body::Platform => frame.turned(&v),
             }
         };
         let (force, torque) = (turned(&load.force), turned(&load.torque));

@@ -9,11 +9,11 @@ use nalgebra::Vector3;
 use super::frame::{Frame, enclosed};
 use super::local::{self, Bounded};
 use crate::geom::{Cell, Chart};
-use crate::manipulator::Manipulator;
+use crate::manipulator::{Body, Manipulator};
 use crate::num::interval::Interval;
 use crate::num::jet::{JetVector, cross, dot, norm_squared};
 use crate::requirements::hardware::LegBody;
-use crate::requirements::keep_out::{FixedTo, KeepOut, Shape};
+use crate::requirements::keep_out::{KeepOut, Shape};
 
 /// The convex hull of some points, and a radius around it.
 #[derive(Clone)]
@@ -66,8 +66,8 @@ pub(super) fn body_part(frame: &Frame<'_>, body: &KeepOut) -> Hull {
         }
     };
     let place = |p: &nalgebra::Point3<f64>| match body.fixed_to {
-        FixedTo::Base => frame.fixed(&enclosed(p)),
-        FixedTo::Platform => frame.moved(p),
+        Body::Base => frame.fixed(&enclosed(p)),
+        Body::Platform => frame.moved(p),
     };
     // corners of boxes are rounded by less than this
     let rounding = match &body.shape {

@@ -3,12 +3,13 @@
 use nalgebra::{Point3, Rotation3, Unit, Vector3};
 
 use super::*;
+use crate::manipulator::Body;
 use std::collections::BTreeMap;
 
 use crate::geom::{Pose, Region};
 use crate::num::Rng;
 use crate::requirements::{
-    FixedTo, Hardware, JointAxes, KeepOut, LegBody, LengthLimits, Load, PlatformSpeed, Shape, Swing,
+    Hardware, JointAxes, KeepOut, LegBody, LengthLimits, Load, PlatformSpeed, Shape, Swing,
 };
 
 fn random_platform(rng: &mut Rng) -> (Manipulator, Pose) {
@@ -88,11 +89,11 @@ fn everything() -> Requirements {
     Requirements {
         hardware,
         keep_outs: vec![
-            body("post", FixedTo::Base, post),
-            body("tool", FixedTo::Platform, tool),
-            body("table", FixedTo::Base, table),
+            body("post", Body::Base, post),
+            body("tool", Body::Platform, tool),
+            body("table", Body::Base, table),
         ],
-        loads: vec![load(FixedTo::Base), load(FixedTo::Platform)],
+        loads: vec![load(Body::Base), load(Body::Platform)],
         platform_speed: Some(PlatformSpeed { linear: 3.0, angular_deg: 60.0 }),
         min_joint_distance: Some(0.1),
     }

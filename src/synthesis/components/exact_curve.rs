@@ -3,13 +3,13 @@
 use nalgebra::Vector3;
 use num_bigint::BigInt;
 
-use super::exact::{Exact, ExactLegs, rank};
 use super::exact_form::{
     CubicPoint, ExactForm, ExactKind, Place, RationalPart, bits, cross, cubic_point, integers, rank_modulo,
     rationals, split,
 };
 use super::form::{SingularKind, exponents, laplace, power};
-use crate::num::exact::{Rational, approximate, relations};
+use crate::manipulator::{Body, ExactLegs};
+use crate::num::exact::{ExactVector, Rational, approximate, rank, relations};
 
 /// Bits of coefficients up to which greatest common divisors of minors are computed.
 const LONG: u64 = 300;
@@ -84,24 +84,25 @@ impl std::fmt::Display for NoExactCurve {
 }
 
 /// Three (four) of the homogeneous coordinates that tell the points of their flat apart.
-fn coordinates(points: &[Exact], dimension: usize) -> Option<(Vec<usize>, Vec<Exact>)> {
+fn coordinates(points: &[ExactVector], dimension: usize) -> Option<(Vec<usize>, Vec<ExactVector>)> {
     let choices: [&[usize]; 4] = [&[0, 1, 2], &[0, 1, 3], &[0, 2, 3], &[0, 1, 2, 3]];
     choices.into_iter().filter(|c| c.len() == dimension + 1).find_map(|kept| {
-        let projected: Vec<Exact> =
+        let projected: Vec<ExactVector> =
             points.iter().map(|p| kept.iter().map(|k| p[*k].clone()).collect()).collect();
         (rank(&projected) == dimension + 1).then(|| (kept.to_vec(), projected))
     })
 }
 
 /// The bilinear equations of the legs between a plane (`near`) and a plane or space, as `M` with linear forms as entries.
-fn matrix(near: &[Exact], far: &[Exact]) -> Vec<Vec<ExactForm>> {
+fn matrix(near: &[ExactVector], far: &[ExactVector]) -> Vec<Vec<ExactForm>> {
     let width = far[0].len();
-    let rows: Vec<Exact> = near
+    let rows: Vec<ExactVector> = near
         .iter()
         .zip(far)
         .map(|(x, y)| x.iter().flat_map(|x| y.iter().map(move |y| x * y)).collect())
         .collect();
-    let columns: Vec<Exact> = (0..3 * width).map(|c| rows.iter().map(|r| r[c].clone()).collect()).collect();
+    let columns: Vec<ExactVector> =
+        (0..3 * width).map(|c| rows.iter().map(|r| r[c].clone()).collect()).collect();
     let entry = |n: &[BigInt], q: usize| ExactForm {
         degree: 1,
         coefficients: (0..3).map(|p| n[p * width + q].clone()).collect(),
@@ -117,7 +118,7 @@ fn generic_rank(m: &[Vec<ExactForm>]) -> usize {
     let mut best = 0;
     for (x, y) in (0..5i32).flat_map(|x| (0..5 - x).map(move |y| (x, y))) {
         let p: Place = [4 - x - y, x, y].map(BigInt::from);
-        let rows: Vec<Exact> =
+        let rows: Vec<ExactVector> =
             m.iter().map(|r| rationals(&r.iter().map(|f| f.value(&p)).collect::<Vec<_>>())).collect();
         let lower = rank_modulo(&rows);
         best = best.max(if lower < most { rank(&rows) } else { lower });
@@ -167,13 +168,14 @@ fn common_minor(m: &[Vec<ExactForm>], order: usize) -> Result<ExactForm, NoExact
 impl ExactCurve {
     /// Over the plane of the base ends (platform ends with `over_platform`) of legs.
     pub(super) fn of(exact: &ExactLegs, legs: &[usize], over_platform: bool) -> Result<Self, NoExactCurve> {
-        let pick = |list: &[Exact]| -> Vec<Exact> { legs.iter().map(|i| list[*i].clone()).collect() };
+        let pick =
+            |list: &[ExactVector]| -> Vec<ExactVector> { legs.iter().map(|i| list[*i].clone()).collect() };
         let (near, far) = if over_platform {
             (pick(&exact.platform), pick(&exact.base))
         } else {
             (pick(&exact.base), pick(&exact.platform))
         };
-        let width = exact.dimension(!over_platform, legs);
+        let width = exact.dimension(if over_platform { Body::Base } else { Body::Platform }, legs);
         let chosen = coordinates(&near, 2).zip(coordinates(&far, width));
         let Some(((kept, near), (_, far))) = chosen else { return Err(NoExactCurve::OtherFlats) };
         let m = matrix(&near, &far);
@@ -254,15 +256,16 @@ impl ExactCurve {
 }
 
 /// The exact point in which the lines through two pairs of points of a plane meet, homogeneous; `None` where they do not meet in one point.
-pub(super) fn meeting(lines: [[&Exact; 2]; 2]) -> Option<Exact> {
-    let rows: Vec<Exact> = lines.iter().flatten().map(|p| (*p).clone()).collect();
-    let [relation] = <[Exact; 1]>::try_from(relations(&rows)).ok()?;
-    let point: Exact = (0..4).map(|k| &relation[0] * &rows[0][k] + &relation[1] * &rows[1][k]).collect();
+pub(super) fn meeting(lines: [[&ExactVector; 2]; 2]) -> Option<ExactVector> {
+    let rows: Vec<ExactVector> = lines.iter().flatten().map(|p| (*p).clone()).collect();
+    let [relation] = <[ExactVector; 1]>::try_from(relations(&rows)).ok()?;
+    let point: ExactVector =
+        (0..4).map(|k| &relation[0] * &rows[0][k] + &relation[1] * &rows[1][k]).collect();
     point.iter().any(|x| *x != Rational::from_integer(BigInt::ZERO)).then_some(point)
 }
 
 /// The double nearest to a point, for comparison; `None` at infinity.
-pub(super) fn place(point: &Exact) -> Option<Vector3<f64>> {
+pub(super) fn place(point: &ExactVector) -> Option<Vector3<f64>> {
     (point[0] != Rational::from_integer(BigInt::ZERO))
         .then(|| Vector3::from_fn(|k, _| approximate(&(&point[k + 1] / &point[0]))))
 }

@@ -6,9 +6,8 @@
 
 use num_bigint::BigInt;
 
-use super::exact::{Exact, rank};
 use super::form::{exponents, index, laplace};
-use crate::num::exact::{Rational, approximate, primitive, relations};
+use crate::num::exact::{ExactVector, Rational, approximate, primitive, rank, relations};
 use crate::num::modular::Field;
 use crate::poly::{IntPoly, real_roots};
 
@@ -27,7 +26,7 @@ pub(super) fn integers(list: &[Rational]) -> Vec<BigInt> {
     primitive(list).iter().map(|x| x.numer().clone()).collect()
 }
 
-pub(super) fn rationals(list: &[BigInt]) -> Exact {
+pub(super) fn rationals(list: &[BigInt]) -> ExactVector {
     list.iter().map(|x| Rational::from_integer(x.clone())).collect()
 }
 
@@ -131,7 +130,7 @@ impl ExactForm {
     }
 
     /// Products with all monomials of a degree.
-    fn shifts(&self, degree: usize) -> Vec<Exact> {
+    fn shifts(&self, degree: usize) -> Vec<ExactVector> {
         exponents(degree).map(|e| rationals(&self.times(&Self::monomial(e)).coefficients)).collect()
     }
 
@@ -183,7 +182,7 @@ impl ExactForm {
 }
 
 /// A lower bound of the rank of rows of integers: that modulo `2^61 - 1`.
-pub(super) fn rank_modulo(rows: &[Exact]) -> usize {
+pub(super) fn rank_modulo(rows: &[ExactVector]) -> usize {
     let field = Field::MERSENNE;
     let residue = |x: &Rational| {
         let r = x.numer() % field.prime();
@@ -209,7 +208,7 @@ pub(super) fn rank_modulo(rows: &[Exact]) -> usize {
 }
 
 /// The products of the partial derivatives with the monomials of degree `2 deg - 4` (for a cubic: 18 quartics).
-fn jacobian_products(form: &ExactForm) -> Vec<Exact> {
+fn jacobian_products(form: &ExactForm) -> Vec<ExactVector> {
     form.gradient().iter().flat_map(|d| d.shifts((2 * form.degree).saturating_sub(4))).collect()
 }
 
@@ -462,7 +461,8 @@ pub(super) fn cubic_point(form: &ExactForm) -> CubicPoint {
         return CubicPoint::TooLong;
     }
     let products = jacobian_products(form);
-    let columns: Vec<Exact> = (0..15).map(|m| products.iter().map(|r| r[m].clone()).collect()).collect();
+    let columns: Vec<ExactVector> =
+        (0..15).map(|m| products.iter().map(|r| r[m].clone()).collect()).collect();
     let dual = relations(&columns);
     if dual.is_empty() {
         return CubicPoint::None;
@@ -479,10 +479,10 @@ pub(super) fn cubic_point(form: &ExactForm) -> CubicPoint {
 }
 
 /// The point from the functionals on quartics that vanish on the products of the derivatives; `None` where `l` vanishes at it.
-fn eigenvalues(dual: &[Exact], l: [i32; 3]) -> Option<Place> {
+fn eigenvalues(dual: &[ExactVector], l: [i32; 3]) -> Option<Place> {
     let zero = || Rational::from_integer(BigInt::ZERO);
     // functionals on cubics: multiplication with a linear form first
-    let times = |d: &Exact, l: [i32; 3]| -> Exact {
+    let times = |d: &ExactVector, l: [i32; 3]| -> ExactVector {
         let at = |e: [usize; 3], k: usize| {
             let mut up = e;
             up[k] += 1;
@@ -490,7 +490,7 @@ fn eigenvalues(dual: &[Exact], l: [i32; 3]) -> Option<Place> {
         };
         exponents(3).map(|e| (0..3).map(|k| at(e, k)).sum()).collect()
     };
-    let with_l: Vec<Exact> = dual.iter().map(|d| times(d, l)).collect();
+    let with_l: Vec<ExactVector> = dual.iter().map(|d| times(d, l)).collect();
     if rank(&with_l) < dual.len() {
         return None;
     }

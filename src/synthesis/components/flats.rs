@@ -8,10 +8,9 @@ use std::collections::BTreeMap;
 
 use nalgebra::Vector3;
 
-use super::exact::ExactLegs;
 use super::form::Form;
 use super::spectrum::{Decision, Question, Spectrum, unit};
-use crate::manipulator::Leg;
+use crate::manipulator::{Body, ExactLegs, Leg};
 use crate::num::linalg::LinalgError;
 use crate::synthesis::leg_vector::Normalisation;
 
@@ -303,7 +302,9 @@ impl Dimensions {
 
 /// All closed pairs that can hold a family, see `docs/theory/components.md`: `k' >= i + j + 1`, not both points.
 pub(super) fn closed_pairs(ends: &Ends) -> Result<Vec<ClosedPair>, LinalgError> {
-    let exact = Dimensions::of(|platform, legs| Ok(ends.exact.dimension(platform, legs)))?;
+    let exact = Dimensions::of(|platform, legs| {
+        Ok(ends.exact.dimension(if platform { Body::Platform } else { Body::Base }, legs))
+    })?;
     let numerical = Dimensions::of(|platform, legs| {
         let points: Vec<Vector3<f64>> = legs.iter().map(|i| ends.side(platform)[*i]).collect();
         Ok(spread(&points)?.iter().filter(|s| **s > ends.tolerance).count())
@@ -311,7 +312,7 @@ pub(super) fn closed_pairs(ends: &Ends) -> Result<Vec<ClosedPair>, LinalgError> 
     // legs, i, j, rank -> (exact, within the tolerance)
     let mut found: BTreeMap<(usize, usize, usize, usize), (bool, bool)> = BTreeMap::new();
     for mask in exact.closed() {
-        let rank = ends.exact.leg_rank(&members(mask));
+        let rank = ends.exact.rank(&members(mask));
         found.entry((mask, exact.base[mask], exact.platform[mask], rank)).or_default().0 = true;
     }
     for mask in numerical.closed() {
@@ -340,7 +341,7 @@ pub(super) fn closed_pairs(ends: &Ends) -> Result<Vec<ClosedPair>, LinalgError> 
             let decision = Decision::rank(question, &spread(&points)?, 1.0, ends.tolerance);
             decisions.push(decision.taken(used).beside(Some(by_exact)));
         }
-        decisions.push(product.decision.beside(Some(ends.exact.leg_rank(&legs))));
+        decisions.push(product.decision.beside(Some(ends.exact.rank(&legs))));
         out.push(ClosedPair { legs, base: i, platform: j, rank, reading, product, decisions });
     }
     Ok(out)
@@ -367,10 +368,10 @@ pub(super) fn whole(ends: &Ends) -> Result<ClosedPair, LinalgError> {
     };
     let (i, j) = (dimension(false)?, dimension(true)?);
     let product = product(ends, &legs, i, j, None)?;
-    let same = ends.exact.dimension(false, &legs) == i
-        && ends.exact.dimension(true, &legs) == j
-        && ends.exact.leg_rank(&legs) == product.rank;
+    let same = ends.exact.dimension(Body::Base, &legs) == i
+        && ends.exact.dimension(Body::Platform, &legs) == j
+        && ends.exact.rank(&legs) == product.rank;
     let reading = if same { Reading::Both } else { Reading::ToleranceOnly };
-    let decisions = vec![product.decision.beside(Some(ends.exact.leg_rank(&legs)))];
+    let decisions = vec![product.decision.beside(Some(ends.exact.rank(&legs)))];
     Ok(ClosedPair { legs, base: i, platform: j, rank: product.rank, reading, product, decisions })
 }

@@ -36,12 +36,10 @@ pub use self::spectrum::{Decision, Question};
 pub use component::{Component, FamilyKind, SampledLeg, flat_name};
 pub use exact_curve::{ExactCurve, ExactPart, ExactPoint, NoExactCurve};
 
-use self::exact::ExactLegs;
 use self::flats::{ClosedPair, Ends, closed_pairs};
 use self::search::Search;
-use super::hexagon::Body;
 use super::leg_vector::{LegSpan, Normalisation};
-use crate::manipulator::{Leg, LegIndex, Manipulator};
+use crate::manipulator::{Body, ExactLegs, Leg, LegIndex, Manipulator, homogeneous};
 use crate::num::Rng;
 use crate::num::linalg::LinalgError;
 
@@ -185,7 +183,7 @@ pub fn components(m: &Manipulator, options: ComponentOptions) -> Result<Componen
         span.singular_values()[0],
         options.tolerance,
     )
-    .beside(Some(ends.exact.leg_rank(&all)));
+    .beside(Some(ends.exact.rank(&all)));
     let doubts = search.doubts;
     let pairs = pairs.iter().map(|p| record(p, &components)).collect();
     Ok(Components { components, pairs, planes, leg_rank, doubts, span, options })
@@ -213,7 +211,7 @@ pub(super) fn exact_partners(
     point: &Point3<f64>,
     among: &[usize],
 ) -> Option<ExactPartners> {
-    let (exact, x) = (ExactLegs::of(legs)?, exact::homogeneous(point)?);
+    let (exact, x) = (ExactLegs::of(legs)?, homogeneous(point)?);
     let platform = body == Body::Platform;
     Some(ExactPartners {
         dimension: exact.fibre(platform, &x, among),

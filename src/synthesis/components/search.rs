@@ -6,7 +6,7 @@
 use nalgebra::Vector3;
 
 use super::component::{Component, FamilyKind, SampledLeg, infinite_parameters};
-use super::exact::{Exact, combination};
+use super::exact::combination;
 use super::exact_curve::{ExactCurve, NoExactCurve, meeting, place};
 use super::exact_form::ExactKind;
 use super::flats::{ClosedPair, Ends, Flat, Reading};
@@ -17,6 +17,7 @@ use super::shape::Shape;
 use super::spectrum::{APART, AT_INFINITY, COMPUTED, Question, SAME, nearness, unit};
 use crate::manipulator::LegIndex;
 use crate::num::Rng;
+use crate::num::exact::ExactVector;
 use crate::num::linalg::LinalgError;
 use crate::synthesis::leg_vector::{LegSpan, Normalisation};
 
@@ -412,15 +413,15 @@ impl Search<'_> {
             return Some(usize::MAX);
         }
         let ends = if view.over_platform { &self.ends.exact.platform } else { &self.ends.exact.base };
-        let mut kept: Vec<&Exact> = Vec::new();
+        let mut kept: Vec<&ExactVector> = Vec::new();
         for i in &pair.legs {
-            let mut rows: Vec<Exact> = kept.iter().map(|r| (*r).clone()).collect();
+            let mut rows: Vec<ExactVector> = kept.iter().map(|r| (*r).clone()).collect();
             rows.push(ends[*i].clone());
-            if super::exact::rank(&rows) == rows.len() {
+            if crate::num::exact::rank(&rows) == rows.len() {
                 kept.push(&ends[*i]);
             }
         }
-        let points: Vec<Exact> = match kept.len() {
+        let points: Vec<ExactVector> = match kept.len() {
             2 => steps.iter().map(|s| combination(&kept, &[1, *s])).collect(),
             3 => (0..5)
                 .flat_map(|x| (0..5 - x).map(move |y| [x, y, 4 - x - y]))
@@ -502,9 +503,9 @@ impl Search<'_> {
         }
         let ends = if view.over_platform { &self.ends.exact.platform } else { &self.ends.exact.base };
         let (centre, unit) = self.frame(view);
-        let distance = |p: &Exact| place(p).map_or(f64::MAX, |x| ((x - centre) / unit - at).norm());
-        let mut best: Option<(f64, Exact)> = None;
-        let lines: Vec<[&Exact; 2]> = (0..pair.legs.len())
+        let distance = |p: &ExactVector| place(p).map_or(f64::MAX, |x| ((x - centre) / unit - at).norm());
+        let mut best: Option<(f64, ExactVector)> = None;
+        let lines: Vec<[&ExactVector; 2]> = (0..pair.legs.len())
             .flat_map(|k| (0..k).map(move |l| [k, l]))
             .map(|pair_of| pair_of.map(|k| &ends[pair.legs[k]]))
             .filter(|[p, q]| p != q)

@@ -4,9 +4,9 @@
 //! (`docs/theory/octahedral-class.md`). They are those of every equivalent design, so that anything else among them is a proof that there is no octahedral one.
 
 use super::pieces::{Piece, Planes, scroll};
-use super::sample::{Arrangement, ExactLeg, Sample};
-use crate::synthesis::components::exact::{Exact, rank};
-use crate::synthesis::hexagon::Body;
+use super::sample::{Arrangement, Sample};
+use crate::manipulator::{Body, ExactLeg};
+use crate::num::exact::{ExactVector, rank};
 use crate::topology::Topology;
 
 /// The answer.
@@ -70,12 +70,12 @@ pub(super) fn from_cubics(sample: &Sample, planes: &Planes, legs: &[ExactLeg]) -
 }
 
 pub(super) fn in_space(sample: &Sample) -> Option<Body> {
-    [Body::Base, Body::Platform].into_iter().find(|b| sample.dimension(*b) == 3)
+    Body::BOTH.into_iter().find(|b| sample.dimension(*b) == 3)
 }
 
 /// The legs between the fixed joints of the six lines.
 fn corners(sample: &Sample, pieces: &[Piece]) -> Option<Arrangement> {
-    let own: Vec<Exact> = sample.legs().iter().map(ExactLeg::vector).collect();
+    let own: Vec<ExactVector> = sample.legs().iter().map(ExactLeg::vector).collect();
     let fixed = |base: bool| {
         let side = move |p: &&Piece| if base { p.base.len() == 1 } else { p.platform.len() == 1 };
         pieces.iter().filter(side).map(move |p| if base { &p.base[0] } else { &p.platform[0] })

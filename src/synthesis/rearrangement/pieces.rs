@@ -16,11 +16,10 @@
 //! `M(alpha) beta = 0` are the three equations of the span of six legs. A line through two points of the cubic `det M = 0`
 //! meets it once more, so that six rational legs lead to further rational ones.
 
-use super::sample::{ExactLeg, Sample, finite, integer, meet, other, subsets, weighted};
+use super::sample::{Sample, finite, integer, meet, subsets, weighted};
+use crate::manipulator::{Body, ExactLeg};
 use crate::num::Rng;
-use crate::num::exact::{Rational, relations};
-use crate::synthesis::components::exact::{Exact, rank};
-use crate::synthesis::hexagon::Body;
+use crate::num::exact::{ExactVector, Rational, rank, relations};
 
 /// How the ends of the legs of a [`Piece`] are paired.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,9 +36,9 @@ pub struct Piece {
     /// How the ends are paired.
     pub kind: PieceKind,
     /// Homogeneous coordinates of points that span the flat of the base ends.
-    pub(super) base: Vec<Exact>,
+    pub(super) base: Vec<ExactVector>,
     /// Points that span the flat of the platform ends; for a pairing partner `k` belongs to base point `k`, and sums to sums.
-    pub(super) platform: Vec<Exact>,
+    pub(super) platform: Vec<ExactVector>,
     /// Where its legs lie: summands of the span of all legs, with the dimension it has in each at most.
     pub(super) parts: Vec<usize>,
     /// That dimension.
@@ -99,7 +98,7 @@ impl Piece {
     /// Homogeneous coordinates of points that span the two flats, as fractions: base, platform.
     #[must_use]
     pub fn points(&self) -> [Vec<[String; 4]>; 2] {
-        let text = |list: &[Exact]| {
+        let text = |list: &[ExactVector]| {
             list.iter()
                 .map(|p| std::array::from_fn(|k| p.get(k).map_or(String::new(), Rational::to_string)))
                 .collect()
@@ -140,7 +139,7 @@ fn weights(count: usize, rng: &mut Rng) -> Vec<Rational> {
 /// A point of a body and joints of the other one to which it has replaceable legs in every design of the topology.
 #[derive(Debug, Clone)]
 struct Star {
-    point: Exact,
+    point: ExactVector,
     sees: Vec<usize>,
 }
 
@@ -164,13 +163,13 @@ pub(super) enum Outcome {
 
 /// Joints of a body whose legs reach every point of the other body's flat.
 fn full(sample: &Sample, body: Body) -> Vec<usize> {
-    let enough = sample.dimension(other(body)) + 1;
+    let enough = sample.dimension(body.other()) + 1;
     (0..sample.joints(body).len()).filter(|k| sample.neighbours(body, *k).len() >= enough).collect()
 }
 
 /// The joints of a body, and the points of its plane where the lines of two double joints of the other body cross.
 fn stars(sample: &Sample, body: Body) -> Vec<Star> {
-    let there = other(body);
+    let there = body.other();
     let everywhere = full(sample, there);
     let with = |mut sees: Vec<usize>| {
         sees.extend(&everywhere);
@@ -195,12 +194,12 @@ fn stars(sample: &Sample, body: Body) -> Vec<Star> {
 
 /// Finds the sum over points of `body`.
 pub(super) fn split(sample: &Sample, body: Body) -> Outcome {
-    let there = other(body);
+    let there = body.other();
     let (own, most) = (sample.dimension(body) + 1, sample.dimension(there) + 1);
     let all = stars(sample, body);
     let chosen = subsets(all.len()).filter(|s| s.len() == own).find(|s| {
         let legs: usize = s.iter().map(|k| all[*k].sees.len()).sum();
-        let points: Vec<Exact> = s.iter().map(|k| all[*k].point.clone()).collect();
+        let points: Vec<ExactVector> = s.iter().map(|k| all[*k].point.clone()).collect();
         legs == 6 && s.iter().all(|k| all[*k].sees.len() <= most) && rank(&points) == own
     });
     let Some(chosen) = chosen else { return Outcome::None };
@@ -223,11 +222,11 @@ fn least(basis: &[&Star], most: usize, set: &[usize]) -> usize {
 
 /// The families; `None` when an intersection has more than its least dimension.
 fn families(sample: &Sample, body: Body, basis: &[&Star]) -> Option<Split> {
-    let there = other(body);
+    let there = body.other();
     let most = sample.dimension(there) + 1;
     let mut pieces = Vec::new();
     for set in subsets(basis.len()) {
-        let seen: Vec<Vec<Exact>> = basis.iter().map(|s| sample.points(there, &s.sees)).collect();
+        let seen: Vec<Vec<ExactVector>> = basis.iter().map(|s| sample.points(there, &s.sees)).collect();
         let common: Vec<usize> = basis[set[0]]
             .sees
             .iter()
@@ -248,7 +247,7 @@ fn families(sample: &Sample, body: Body, basis: &[&Star]) -> Option<Split> {
             continue;
         }
         let weight = flat.len();
-        let own: Vec<Exact> = set.iter().map(|j| basis[*j].point.clone()).collect();
+        let own: Vec<ExactVector> = set.iter().map(|j| basis[*j].point.clone()).collect();
         let (base, platform) = if body == Body::Base { (own, flat) } else { (flat, own) };
         pieces.push(Piece { kind: PieceKind::AllPairs, base, platform, parts: set, weight });
     }
@@ -257,7 +256,7 @@ fn families(sample: &Sample, body: Body, basis: &[&Star]) -> Option<Split> {
 
 /// The families; `None` when the sample is special.
 pub(super) fn at_joints(sample: &Sample, legs: &[(usize, usize); 6]) -> Option<Split> {
-    let both = [Body::Base, Body::Platform];
+    let both = Body::BOTH;
     if !both.into_iter().all(|body| flats_meet_in_joints(sample, body)) {
         return None;
     }
@@ -265,7 +264,7 @@ pub(super) fn at_joints(sample: &Sample, legs: &[(usize, usize); 6]) -> Option<S
     let flat = both.into_iter().find(|b| sample.dimension(*b) == 2);
     if let Some(pairing) = flat.and_then(|body| pairing(sample, body)) {
         // a single leg at a joint of the line is a leg of the pairing
-        let same = |x: &Exact, y: &Exact| rank(&[x.clone(), y.clone()]) == 1;
+        let same = |x: &ExactVector, y: &ExactVector| rank(&[x.clone(), y.clone()]) == 1;
         let held = |p: &Piece| {
             let mut ends = pairing.base.iter().zip(&pairing.platform);
             p.dimension() == 0 && ends.any(|(a, b)| same(a, &p.base[0]) && same(b, &p.platform[0]))
@@ -279,7 +278,7 @@ pub(super) fn at_joints(sample: &Sample, legs: &[(usize, usize); 6]) -> Option<S
 
 /// Whether the flats that two joints see on the other body have joints in common and nothing else.
 fn flats_meet_in_joints(sample: &Sample, body: Body) -> bool {
-    let there = other(body);
+    let there = body.other();
     subsets(sample.joints(body).len()).filter(|s| s.len() == 2).all(|pair| {
         let seen = [0, 1].map(|k| sample.neighbours(body, pair[k]));
         let common = seen[0].iter().filter(|k| seen[1].contains(k)).count();
@@ -288,7 +287,7 @@ fn flats_meet_in_joints(sample: &Sample, body: Body) -> bool {
     })
 }
 
-/// Maximal sets of joints that are all joined to each other, each leg in at least one.
+/// Maximal sets of joints that are all joined to each each leg in at least one.
 fn complete_graphs(sample: &Sample, legs: &[(usize, usize); 6]) -> Vec<Piece> {
     let count = sample.joints(Body::Base).len();
     let seen: Vec<Vec<usize>> = (0..count).map(|k| sample.neighbours(Body::Base, k)).collect();
@@ -314,7 +313,7 @@ fn complete_graphs(sample: &Sample, legs: &[(usize, usize); 6]) -> Vec<Piece> {
 /// With `b = w1 + w2` (`wk` in the flat of `ak`) and the crossing `c = a1 + a2` (suitably scaled) of `a1 a2` with the line of the other two
 /// joints, the legs `(a1, w1)`, `(a2, w2)`, `(c, b)` are replaceable and lie between two lines.
 fn pairing(sample: &Sample, planar: Body) -> Option<Piece> {
-    let space = other(planar);
+    let space = planar.other();
     if sample.joints(planar).len() != 4 || sample.joints(space).len() != 5 {
         return None;
     }
@@ -336,8 +335,8 @@ fn pairing(sample: &Sample, planar: Body) -> Option<Piece> {
 }
 
 /// `x = u + v` with `u` and `v` in two spans that have only zero in common.
-fn parts(x: &Exact, spans: [&[Exact]; 2]) -> Option<[Exact; 2]> {
-    let rows: Vec<Exact> = spans[0].iter().chain(spans[1]).chain([x]).cloned().collect();
+fn parts(x: &ExactVector, spans: [&[ExactVector]; 2]) -> Option<[ExactVector; 2]> {
+    let rows: Vec<ExactVector> = spans[0].iter().chain(spans[1]).chain([x]).cloned().collect();
     let relation = relations(&rows).into_iter().next()?;
     let (last, head) = relation.split_last()?;
     let scaled: Vec<_> = head.iter().map(|c| -(c / last)).collect();
@@ -349,20 +348,21 @@ fn parts(x: &Exact, spans: [&[Exact]; 2]) -> Option<[Exact; 2]> {
 #[derive(Debug, Clone)]
 pub(super) struct Planes {
     /// `equations[r][3 i + j]` is the coefficient of `alpha_i beta_j`.
-    equations: Vec<Exact>,
+    equations: Vec<ExactVector>,
 }
 
 impl Planes {
     /// Of six legs with independent vectors.
     pub(super) fn of(sample: &Sample) -> Self {
-        let vectors: Vec<Exact> = sample.legs().iter().map(|l| flat(&l.base, &l.platform)).collect();
-        let columns: Vec<Exact> = (0..9).map(|k| vectors.iter().map(|v| v[k].clone()).collect()).collect();
+        let vectors: Vec<ExactVector> = sample.legs().iter().map(|l| flat(&l.base, &l.platform)).collect();
+        let columns: Vec<ExactVector> =
+            (0..9).map(|k| vectors.iter().map(|v| v[k].clone()).collect()).collect();
         Self { equations: relations(&columns) }
     }
 
     /// The equations for the partners of a point of a body: one row each.
-    fn matrix(&self, body: Body, point: &Exact) -> Vec<Exact> {
-        let entry = |e: &Exact, free: usize| {
+    fn matrix(&self, body: Body, point: &ExactVector) -> Vec<ExactVector> {
+        let entry = |e: &ExactVector, free: usize| {
             let terms = (0..3).map(|k| {
                 let at = if body == Body::Base { 3 * k + free } else { 3 * free + k };
                 &e[at] * &point[k]
@@ -372,17 +372,18 @@ impl Planes {
         self.equations.iter().map(|e| (0..3).map(|free| entry(e, free)).collect()).collect()
     }
 
-    fn determinant(&self, body: Body, point: &Exact) -> Rational {
+    fn determinant(&self, body: Body, point: &ExactVector) -> Rational {
         let m = self.matrix(body, point);
         let minor = |i: usize, j: usize| &m[1][i] * &m[2][j] - &m[1][j] * &m[2][i];
         &m[0][0] * minor(1, 2) - &m[0][1] * minor(0, 2) + &m[0][2] * minor(0, 1)
     }
 
     /// Points that span the partners of a point, which has coordinates `(1, x, y, 0)`.
-    pub(super) fn partners(&self, body: Body, point: &Exact) -> Vec<Exact> {
+    pub(super) fn partners(&self, body: Body, point: &ExactVector) -> Vec<ExactVector> {
         let m = self.matrix(body, point);
-        let columns: Vec<Exact> = (0..3).map(|k| m.iter().map(|row| row[k].clone()).collect()).collect();
-        let spatial = |mut x: Exact| {
+        let columns: Vec<ExactVector> =
+            (0..3).map(|k| m.iter().map(|row| row[k].clone()).collect()).collect();
+        let spatial = |mut x: ExactVector| {
             x.push(integer(0));
             x
         };
@@ -390,8 +391,8 @@ impl Planes {
     }
 
     /// Finite points of the cubic on the line through two of its points, other than these two.
-    fn chord(&self, body: Body, p: &Exact, q: &Exact) -> Vec<Exact> {
-        let at = |t: Rational| -> Exact { p.iter().zip(q).map(|(x, y)| x + &t * y).collect() };
+    fn chord(&self, body: Body, p: &ExactVector, q: &ExactVector) -> Vec<ExactVector> {
+        let at = |t: Rational| -> ExactVector { p.iter().zip(q).map(|(x, y)| x + &t * y).collect() };
         // det M(p + t q) = c1 t + c2 t^2
         let (plus, minus) =
             (self.determinant(body, &at(integer(1))), self.determinant(body, &at(integer(-1))));
@@ -410,7 +411,7 @@ impl Planes {
     /// The six legs, and legs at chords of the two cubics through joints, those with the shorter numbers first.
     pub(super) fn legs(&self, sample: &Sample) -> Vec<ExactLeg> {
         let mut out = sample.legs();
-        for body in [Body::Base, Body::Platform] {
+        for body in Body::BOTH {
             let joints = sample.joints(body);
             for pair in subsets(joints.len()).filter(|s| s.len() == 2) {
                 for point in self.chord(body, &joints[pair[0]], &joints[pair[1]]) {
@@ -430,8 +431,8 @@ impl Planes {
     }
 
     /// A leg at a point of a cubic: to its partner, or to one of them.
-    fn leg_at(&self, body: Body, point: &Exact) -> Option<ExactLeg> {
-        let partners: Vec<Exact> = self.partners(body, point).iter().filter_map(finite).collect();
+    fn leg_at(&self, body: Body, point: &ExactVector) -> Option<ExactLeg> {
+        let partners: Vec<ExactVector> = self.partners(body, point).iter().filter_map(finite).collect();
         let (first, rest) = partners.split_first()?;
         // weights with sum 1 that no joint has
         let mut end = first.clone();
@@ -454,8 +455,8 @@ impl Planes {
 /// Whether five of the legs and of those they imply lie between the line of two joints of a body and the other plane: then every point of
 /// the line has a line of partners.
 pub(super) fn scroll(sample: &Sample) -> bool {
-    [Body::Base, Body::Platform].into_iter().any(|body| {
-        let there = other(body);
+    Body::BOTH.into_iter().any(|body| {
+        let there = body.other();
         // two legs at a joint of the other body imply one at the crossing of the line of their joints with the line in question
         let crossing = |pair: &[usize]| {
             let joints = (0..sample.joints(there).len()).map(|k| sample.neighbours(there, k));
@@ -468,6 +469,6 @@ pub(super) fn scroll(sample: &Sample) -> bool {
 }
 
 /// `alpha (x) beta` without the third coordinates, which are zero.
-fn flat(base: &Exact, platform: &Exact) -> Exact {
+fn flat(base: &ExactVector, platform: &ExactVector) -> ExactVector {
     base[..3].iter().flat_map(|x| platform[..3].iter().map(move |y| x * y)).collect()
 }

@@ -3,33 +3,16 @@
 
 use nalgebra::Point3;
 
-use crate::manipulator::{InvalidManipulator, Manipulator};
+use crate::manipulator::{Body, ExactLeg, InvalidManipulator, Manipulator, flat_dimension};
 use crate::num::Rng;
-use crate::num::exact::{Rational, relations};
-use crate::synthesis::components::exact::{Exact, product, rank};
-use crate::synthesis::hexagon::Body;
+use crate::num::exact::{ExactVector, Rational, rank, relations};
 
 /// Joints and legs of one design. Joints are homogeneous: `(1, x, y, z)`.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Sample {
-    base: Vec<Exact>,
-    platform: Vec<Exact>,
+    base: Vec<ExactVector>,
+    platform: Vec<ExactVector>,
     legs: [(usize, usize); 6],
-}
-
-/// A leg between two points in exact homogeneous coordinates, first coordinates 1.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct ExactLeg {
-    pub(super) base: Exact,
-    pub(super) platform: Exact,
-}
-
-/// The body that is not this one.
-pub(super) fn other(body: Body) -> Body {
-    match body {
-        Body::Base => Body::Platform,
-        Body::Platform => Body::Base,
-    }
 }
 
 pub(super) fn integer(x: i64) -> Rational {
@@ -37,19 +20,19 @@ pub(super) fn integer(x: i64) -> Rational {
 }
 
 /// The same point with the first coordinate 1; `None` at infinity.
-pub(super) fn finite(x: &Exact) -> Option<Exact> {
+pub(super) fn finite(x: &ExactVector) -> Option<ExactVector> {
     let first = x.first().filter(|f| **f != integer(0))?;
     Some(x.iter().map(|c| c / first).collect())
 }
 
 /// A basis of the intersection of the spans of two lists of independent vectors.
-pub(super) fn meet(u: &[Exact], v: &[Exact]) -> Vec<Exact> {
-    let rows: Vec<Exact> = u.iter().chain(v).cloned().collect();
+pub(super) fn meet(u: &[ExactVector], v: &[ExactVector]) -> Vec<ExactVector> {
+    let rows: Vec<ExactVector> = u.iter().chain(v).cloned().collect();
     relations(&rows).iter().map(|c| weighted(u, c)).collect()
 }
 
 /// `sum_k c_k rows_k`; further coefficients are ignored.
-pub(super) fn weighted(rows: &[Exact], c: &[Rational]) -> Exact {
+pub(super) fn weighted(rows: &[ExactVector], c: &[Rational]) -> ExactVector {
     let mut out = vec![integer(0); rows.first().map_or(0, Vec::len)];
     for (row, c) in rows.iter().zip(c) {
         out.iter_mut().zip(row).for_each(|(o, x)| *o += c * x);
@@ -58,13 +41,8 @@ pub(super) fn weighted(rows: &[Exact], c: &[Rational]) -> Exact {
 }
 
 impl ExactLeg {
-    /// `(1, a) (x) (1, b)`.
-    pub(super) fn vector(&self) -> Exact {
-        product(&self.base, &self.platform)
-    }
-
     /// Both ends normalised; `None` when one is at infinity.
-    pub(super) fn through(base: &Exact, platform: &Exact) -> Option<Self> {
+    pub(super) fn through(base: &ExactVector, platform: &ExactVector) -> Option<Self> {
         Some(Self { base: finite(base)?, platform: finite(platform)? })
     }
 }
@@ -72,7 +50,7 @@ impl ExactLeg {
 impl Sample {
     /// Joints drawn from the integers `-9..=9`, planar bodies in `z = 0`.
     pub(super) fn draw(legs: [(usize, usize); 6], planar: (bool, bool), rng: &mut Rng) -> Self {
-        let mut joints = |count: usize, planar: bool| -> Vec<Exact> {
+        let mut joints = |count: usize, planar: bool| -> Vec<ExactVector> {
             let mut coordinate = || (rng.next_u64() % 19).cast_signed() - 9;
             let mut point = || {
                 let (x, y, z) = (coordinate(), coordinate(), coordinate());
@@ -87,29 +65,26 @@ impl Sample {
     }
 
     /// All joints of a body.
-    pub(super) fn joints(&self, body: Body) -> &[Exact] {
-        match body {
-            Body::Base => &self.base,
-            Body::Platform => &self.platform,
-        }
+    pub(super) fn joints(&self, body: Body) -> &[ExactVector] {
+        body.of((&self.base, &self.platform))
     }
 
     /// Some joints of a body.
-    pub(super) fn points(&self, body: Body, which: &[usize]) -> Vec<Exact> {
+    pub(super) fn points(&self, body: Body, which: &[usize]) -> Vec<ExactVector> {
         which.iter().map(|k| self.joints(body)[*k].clone()).collect()
     }
 
     /// Joints of the other body to which a joint has a leg, ascending.
     pub(super) fn neighbours(&self, body: Body, joint: usize) -> Vec<usize> {
-        let ends = self.legs.iter().map(|l| if body == Body::Base { *l } else { (l.1, l.0) });
-        let mut out: Vec<usize> = ends.filter(|l| l.0 == joint).map(|l| l.1).collect();
+        let ends = self.legs.iter().filter(|l| body.of(**l) == joint);
+        let mut out: Vec<usize> = ends.map(|l| body.other().of(*l)).collect();
         out.sort_unstable();
         out
     }
 
     /// Dimension of the flat of all joints of a body.
     pub(super) fn dimension(&self, body: Body) -> usize {
-        rank(self.joints(body)).saturating_sub(1)
+        flat_dimension(self.joints(body))
     }
 
     /// The six legs.
@@ -123,7 +98,7 @@ impl Sample {
 
     /// Whether no joints coincide, any joints of a body as many as its flat allows are independent, and so are the six leg vectors.
     pub(super) fn is_general(&self, planar: (bool, bool)) -> bool {
-        let vectors: Vec<Exact> = self.legs().iter().map(ExactLeg::vector).collect();
+        let vectors: Vec<ExactVector> = self.legs().iter().map(ExactLeg::vector).collect();
         let general = |body: Body, planar: bool| {
             let joints = self.joints(body);
             let size = joints.len().min(if planar { 3 } else { 4 });
@@ -134,7 +109,7 @@ impl Sample {
 }
 
 /// The nearest doubles of a finite point.
-fn rounded(x: &Exact) -> Point3<f64> {
+fn rounded(x: &ExactVector) -> Point3<f64> {
     let near = crate::num::exact::approximate;
     Point3::new(near(&x[1]), near(&x[2]), near(&x[3]))
 }
@@ -147,8 +122,8 @@ pub(super) fn subsets(count: usize) -> impl Iterator<Item = Vec<usize>> {
 /// A design with rational joints.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Arrangement {
-    base: Vec<Exact>,
-    platform: Vec<Exact>,
+    base: Vec<ExactVector>,
+    platform: Vec<ExactVector>,
     legs: [(usize, usize); 6],
 }
 
@@ -204,7 +179,7 @@ impl Arrangement {
     /// # Errors
     /// [`InvalidManipulator`] when the joints make no manipulator.
     pub fn manipulator(&self) -> Result<Manipulator, InvalidManipulator> {
-        let points = |list: &[Exact]| list.iter().map(rounded).collect::<Vec<Point3<f64>>>();
+        let points = |list: &[ExactVector]| list.iter().map(rounded).collect::<Vec<Point3<f64>>>();
         Manipulator::try_new(points(&self.base), points(&self.platform), self.legs)
     }
 
@@ -215,7 +190,7 @@ impl Arrangement {
         rank(&own) == 6 && rank(&others) == 6 && rank(&[own, others].concat()) == 6
     }
 
-    fn vectors(&self) -> Vec<Exact> {
+    fn vectors(&self) -> Vec<ExactVector> {
         let leg = |l: &(usize, usize)| ExactLeg {
             base: self.base[l.0].clone(),
             platform: self.platform[l.1].clone(),
@@ -224,13 +199,13 @@ impl Arrangement {
     }
 }
 
-fn place(joints: &mut Vec<Exact>, point: &Exact) -> usize {
+fn place(joints: &mut Vec<ExactVector>, point: &ExactVector) -> usize {
     joints.iter().position(|p| p == point).unwrap_or_else(|| {
         joints.push(point.clone());
         joints.len() - 1
     })
 }
 
-fn fractions(x: &Exact) -> [String; 3] {
+fn fractions(x: &ExactVector) -> [String; 3] {
     std::array::from_fn(|k| x.get(k + 1).map_or(String::new(), Rational::to_string))
 }

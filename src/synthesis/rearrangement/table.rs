@@ -6,11 +6,11 @@ use thiserror::Error;
 
 use super::octahedral::{Reduction, from_cubics, from_families, in_space};
 use super::pieces::{Outcome, Piece, PieceKind, Planes, Split, at_joints, split};
-use super::sample::{Arrangement, ExactLeg, Sample};
+use super::sample::{Arrangement, Sample};
+use crate::manipulator::{Body, ExactLeg};
 use crate::num::Rng;
-use crate::synthesis::components::exact::{Exact, rank};
+use crate::num::exact::{ExactVector, rank};
 use crate::synthesis::components::flat_name;
-use crate::synthesis::hexagon::Body;
 use crate::topology::{NamedTopology, catalogue};
 
 /// Which bodies have all their joints in a plane.
@@ -220,7 +220,7 @@ fn of_sample(
 
 /// All families, `None` inside for a pair of curves; `None` for a special sample.
 fn families(sample: &Sample, topology: NamedTopology) -> Option<(Argument, Option<Split>)> {
-    for body in [Body::Base, Body::Platform] {
+    for body in Body::BOTH {
         match split(sample, body) {
             Outcome::Found(found) => return Some((Argument::Stars(body), Some(found))),
             Outcome::Special => return None,
@@ -257,7 +257,7 @@ fn joint_free(legs: &[ExactLeg], taken: &mut Vec<ExactLeg>, from: usize) -> Opti
             continue;
         }
         taken.push(leg.clone());
-        let vectors: Vec<Exact> = taken.iter().map(ExactLeg::vector).collect();
+        let vectors: Vec<ExactVector> = taken.iter().map(ExactLeg::vector).collect();
         let found = if rank(&vectors) == taken.len() { joint_free(legs, taken, k + 1) } else { None };
         if found.is_some() {
             return found;

@@ -1,10 +1,11 @@
 //! The table against another search for families, other members, and ranks of random legs.
 
-use super::sample::{ExactLeg, finite, subsets};
+use super::sample::{finite, subsets};
 use super::table::from_seed;
 use super::*;
+use crate::manipulator::ExactLeg;
 use crate::num::Rng;
-use crate::synthesis::components::exact::{Exact, rank};
+use crate::num::exact::{ExactVector, rank};
 use crate::synthesis::components::{ComponentOptions, components};
 
 /// Dimension of a family and of the flats of its ends.
@@ -67,7 +68,7 @@ fn other_members_give_the_same_table() {
 
 /// Rank of random legs: many from the families that may be used freely, one from each other.
 fn rank_of_random_legs(r: &Rearrangement, allowed: &[usize], rng: &mut Rng) -> usize {
-    let mut legs: Vec<Exact> = Vec::new();
+    let mut legs: Vec<ExactVector> = Vec::new();
     for (k, family) in r.families.iter().enumerate() {
         // more legs than the rank: some of the fractions are drawn twice
         let count = if family.has_common_joint() && !allowed.contains(&k) { 1 } else { 3 * family.rank() };

@@ -115,7 +115,7 @@ const LINES: &[Line] = &[
     ),
     (
         "export",
-        &["geom", "requirements", "design", "plot"],
+        &["geom", "manipulator", "requirements", "design", "plot"],
         &[MATRICES, ("serde_json", Some("json.rs")), ERRORS],
     ),
     (

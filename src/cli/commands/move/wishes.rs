@@ -5,8 +5,7 @@ use nalgebra::Point3;
 use crate::cli::failure::Failure;
 use crate::cli::poses;
 use crate::design::Design;
-use crate::manipulator::{LegIndex, inverse_condition, jacobian};
-use crate::synthesis::Body;
+use crate::manipulator::{Body, LegIndex, inverse_condition, jacobian};
 use crate::synthesis::relocate::search::{Hole, SearchOptions, Wishes};
 
 /// What an equivalent platform is to fulfil.
@@ -125,27 +124,20 @@ fn point(text: &str, whole: &str) -> Result<Point3<f64>, Failure> {
 }
 
 fn hole(text: &str) -> Result<Hole, Failure> {
-    let body = match text.split_once(':') {
-        Some(("base", _)) => Body::Base,
-        Some(("platform", _)) => Body::Platform,
-        _ => {
-            return Err(Failure::refused("move::bad_hole", format!("`{text}` names no body"))
-                .with_help("base:X,Y,Z or platform:X,Y,Z"));
-        }
+    let named = text.split_once(':').and_then(|(body, place)| Some((body.parse().ok()?, place)));
+    let Some((body, place)) = named else {
+        return Err(Failure::refused("move::bad_hole", format!("`{text}` names no body"))
+            .with_help("base:X,Y,Z or platform:X,Y,Z"));
     };
-    let place = text.split_once(':').map_or("", |x| x.1);
     Ok(Hole { body, point: point(place, text)?, legs: Vec::new() })
 }
 
 /// `NAME=X,Y,Z`: the legs at the joint NAME are those of which one has to go there.
 fn joint(text: &str, design: &Design) -> Result<Hole, Failure> {
     let (name, place) = text.rsplit_once('=').unwrap_or((text, ""));
-    let legs = |platform: bool| -> Vec<LegIndex> {
-        let names = design.leg_names();
-        let at = |l: &LegIndex| if platform { names[l.get()].1 == name } else { names[l.get()].0 == name };
-        LegIndex::all().filter(at).collect()
-    };
-    let (base, platform) = (legs(false), legs(true));
+    let names = design.leg_names();
+    let legs = |body: Body| LegIndex::all().filter(|l| body.of(names[l.get()]) == name).collect::<Vec<_>>();
+    let (base, platform) = (legs(Body::Base), legs(Body::Platform));
     let (body, legs) = match (base.is_empty(), platform.is_empty()) {
         (false, true) => (Body::Base, base),
         (true, false) => (Body::Platform, platform),

@@ -20,12 +20,12 @@ use crate::cli::poses;
 use crate::cli::progress::{Interrupt, Progress};
 use crate::design::{Combination, Design};
 use crate::geom::Pose;
-use crate::manipulator::{Manipulator, Octahedral};
+use crate::manipulator::{Body, Manipulator, Octahedral};
 use crate::offsets::{
-    self, Body, OffsetOutcome, OffsetProblem, OffsetReport, OffsetSolution, OptimizeOptions, optimize,
-    sliding_joint_body,
+    self, OffsetOutcome, OffsetProblem, OffsetReport, OffsetSolution, OptimizeOptions, optimize,
 };
 use crate::plot::SearchStep;
+use crate::synthesis::sliding_body;
 
 /// Arguments of `optimize`.
 #[derive(Debug, clap::Args)]
@@ -263,7 +263,7 @@ fn joint_free_design(design: &Design, o: &Octahedral, m: &Manipulator) -> Design
     for (i, leg) in o.order().into_iter().enumerate() {
         let k = i / 2;
         let (on_base, on_platform) = m.pairs()[leg.get()];
-        (a[on_base], b[on_platform]) = match sliding_joint_body(i) {
+        (a[on_base], b[on_platform]) = match sliding_body(i) {
             Body::Base => (format!("{}_{}", base_name(k), base_name(k + 1)), platform_name(k)),
             Body::Platform => (base_name(k + 1), format!("{}_{}", platform_name(k), platform_name(k + 1))),
         };

@@ -6,8 +6,8 @@ use crate::cli::context::Context;
 use crate::cli::failure::Failure;
 use crate::cli::numbers;
 use crate::manipulator::Octahedral;
-use crate::offsets::offset_determinant;
 use crate::plot::{SliceAxis, SliceFigure, singular_slice};
+use crate::synthesis::offset_determinant;
 
 /// Grid points a side.
 const SIDE: usize = 201;

@@ -3,11 +3,10 @@
 
 use super::candidate::Source;
 use super::wishes::{Hole, HoleAnswer, HoleRecord, Wishes};
-use crate::manipulator::{Leg, LegIndex, Manipulator};
+use crate::manipulator::{Body, Leg, LegIndex, Manipulator};
 use crate::num::Rng;
 use crate::num::linalg::LinalgError;
 use crate::synthesis::components::{Component, Components, MovingPoint, Parametrisation};
-use crate::synthesis::hexagon::Body;
 
 /// A place, with generic legs from it.
 #[derive(Debug)]
@@ -68,8 +67,7 @@ impl<'a> Pool<'a> {
         for leg in LegIndex::all() {
             let ends = legs[leg.get()];
             let fits = |(_, h): &(usize, &Hole)| {
-                let p = if h.body == Body::Base { ends.base } else { ends.platform };
-                (p - h.point).norm() <= limit && (h.legs.is_empty() || h.legs.contains(&leg))
+                (ends.end(h.body) - h.point).norm() <= limit && (h.legs.is_empty() || h.legs.contains(&leg))
             };
             let fills = wishes.holes.iter().enumerate().filter(fits).map(|(k, _)| k).collect();
             pool.add(Source::Kept(leg), fixed(&ends), fills, 1, rng)?;

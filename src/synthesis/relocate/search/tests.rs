@@ -5,9 +5,9 @@ use nalgebra::Point3;
 use super::super::tests::{corner, octahedral};
 use super::*;
 use crate::geom::Pose;
-use crate::manipulator::{Leg, LegIndex, Manipulator, default_home};
+use crate::manipulator::{Body, Leg, LegIndex, Manipulator, default_home};
 use crate::synthesis::components::{ComponentOptions, components};
-use crate::synthesis::{Body, LegMapTolerances, Relation, leg_map};
+use crate::synthesis::{LegMapTolerances, Relation, leg_map};
 
 /// Four legs in pairs at two platform joints, two others: nothing but the two pairs can be moved.
 fn six_four() -> Manipulator {

@@ -4,11 +4,10 @@ use nalgebra::{Point3, Vector3};
 
 use super::{Impossibility, SearchError};
 use crate::geom::Pose;
-use crate::manipulator::{LegIndex, Manipulator};
+use crate::manipulator::{Body, LegIndex, Manipulator};
 use crate::num::linalg::LinalgError;
 use crate::synthesis::components::spectrum::Spectrum;
 use crate::synthesis::components::{Components, MovingPoint, Parametrisation, exact_partners};
-use crate::synthesis::hexagon::Body;
 use crate::synthesis::leg_vector::LegSpan;
 
 /// A place where a joint has to be.
@@ -182,7 +181,7 @@ fn partners(span: &LegSpan, hole: &Hole, tolerance: f64) -> Result<(HoleAnswer, 
     let on_base = hole.body == Body::Base;
     // the leg with the hole at both ends: only the end on its own body is used
     let place = n.apply(&crate::manipulator::Leg { base: hole.point, platform: hole.point });
-    let x = if on_base { place.base } else { place.platform };
+    let x = place.end(hole.body);
     let alpha = nalgebra::Vector4::new(1.0, x.x, x.y, x.z).normalize();
     let rows: Vec<Vec<f64>> = span
         .complement()

@@ -1,0 +1,76 @@
+//! The two bodies that the legs join.
+
+use std::str::FromStr;
+
+use thiserror::Error;
+
+/// One of the two bodies.
+///
+/// ```
+/// use equipod::methods::manipulator::Body;
+/// assert_eq!("base".parse(), Ok(Body::Base));
+/// assert_eq!(Body::Base.other().to_string(), "platform");
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(
+    feature = "files",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
+pub enum Body {
+    /// The fixed body.
+    Base,
+    /// The moving body.
+    Platform,
+}
+
+/// A word that names neither body.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("`{0}` is not a body: base or platform")]
+pub struct NoSuchBody(pub String);
+
+impl Body {
+    /// The base, then the platform: the order of every pair of values that belong to the bodies.
+    pub const BOTH: [Self; 2] = [Self::Base, Self::Platform];
+
+    /// The body at the other end of a leg.
+    #[must_use]
+    pub fn other(self) -> Self {
+        self.of((Self::Platform, Self::Base))
+    }
+
+    /// Of a pair of values for the base and for the platform, the one of this body.
+    #[must_use]
+    pub fn of<T>(self, (base, platform): (T, T)) -> T {
+        match self {
+            Self::Base => base,
+            Self::Platform => platform,
+        }
+    }
+
+    /// 0 for the base, 1 for the platform: the place of this body in [`Body::BOTH`].
+    #[must_use]
+    pub fn index(self) -> usize {
+        self.of((0, 1))
+    }
+
+    /// `base` or `platform`, as files and answers write it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.of(("base", "platform"))
+    }
+}
+
+impl std::fmt::Display for Body {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl FromStr for Body {
+    type Err = NoSuchBody;
+
+    fn from_str(word: &str) -> Result<Self, NoSuchBody> {
+        Self::BOTH.into_iter().find(|b| b.name() == word).ok_or_else(|| NoSuchBody(word.into()))
+    }
+}
