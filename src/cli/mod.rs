@@ -30,6 +30,7 @@ use self::context::Context;
 use self::exit::Exit;
 use self::failure::Failure;
 use self::output::Output;
+use crate::num::rounding::check_arithmetic;
 
 /// Runs the program on its arguments and returns its exit code. Panics inside are caught and reported.
 pub fn main(args: impl IntoIterator<Item = OsString>) -> ExitCode {
@@ -59,6 +60,11 @@ fn run(args: Vec<OsString>, json: bool) -> Exit {
         Err(error) => return Output::new(json).usage(&error.format(&mut Cli::command())),
     };
     let output = Output::new(cli.global.json);
+    if let Err(unfit) = check_arithmetic() {
+        let help = "a library loaded into this process has switched the processor, as code compiled with -ffast-math does: start without it (LD_PRELOAD?)";
+        return output
+            .failure(&Failure::new(Exit::Internal, "arithmetic", unfit.to_string()).with_help(help), &[]);
+    }
     files::begin();
     if let Err(failure) = files::check_arguments(&matches) {
         return output.failure(&failure, &[]);

@@ -16,6 +16,7 @@ pub mod linalg;
 pub(crate) mod modular;
 pub(crate) mod octuple;
 pub(crate) mod parallel;
+pub mod rounding;
 mod seed;
 pub(crate) mod small;
 pub(crate) mod wide_disc;

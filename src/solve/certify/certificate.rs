@@ -6,6 +6,7 @@ use thiserror::Error;
 use super::octahedral::OctahedralCertificate;
 use crate::geom::ComplexPose;
 use crate::num::disc::Disc;
+use crate::num::rounding::UnfitArithmetic;
 
 /// Signs of `(e, g)` under the mirror in `z = 0`, up to a common one.
 const MIRROR: [f64; 8] = [1.0, -1.0, -1.0, 1.0, -1.0, 1.0, 1.0, -1.0];
@@ -263,6 +264,9 @@ impl From<Certificate> for RootCertificate {
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum WhyUncertified {
+    /// Arithmetic of this thread is not what the proof assumes.
+    #[error(transparent)]
+    Arithmetic(#[from] UnfitArithmetic),
     /// An entry of the pose is NaN or infinite.
     #[error("the pose has an entry that is not a finite number")]
     NotFinite,

@@ -140,7 +140,7 @@ impl Certifier {
     /// Prepares `m` with the squared leg lengths `s`: [`SquaredLegLengths`](crate::manipulator::SquaredLegLengths) or intervals (design units squared).
     ///
     /// # Errors
-    /// [`WhyUncertified::OutOfRange`] when the data cannot be scaled exactly.
+    /// [`WhyUncertified::OutOfRange`] when the data cannot be scaled exactly; [`WhyUncertified::Arithmetic`].
     pub fn new(m: &Manipulator, s: impl Into<SquareData>) -> Result<Self, WhyUncertified> {
         LegSystem::new(m, &s.into()).map(Self)
     }

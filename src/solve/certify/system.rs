@@ -34,6 +34,7 @@ use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::num::disc::{TINY, UP};
 use crate::num::double_double::DoubleDouble;
 use crate::num::interval::Interval;
+use crate::num::rounding::check_arithmetic;
 
 /// Unknowns on an affine patch, and equations.
 pub(super) const N: usize = 7;
@@ -199,6 +200,7 @@ fn rotation_gradient(d: &[f64; 3], c: &[f64; 3], s: f64, v: &[f64; 4], e: &[f64]
 impl LegSystem {
     /// Scales the data by a power of two, exactly, so that they are of order one.
     pub(super) fn new(m: &Manipulator, s: &SquareData) -> Result<Self, WhyUncertified> {
+        check_arithmetic()?;
         let legs = m.legs();
         let largest = |p: &nalgebra::Point3<f64>| p.iter().fold(0.0_f64, |x, y| x.max(y.abs()));
         let joints = legs.iter().map(|l| largest(&l.base).max(largest(&l.platform))).fold(0.0, f64::max);

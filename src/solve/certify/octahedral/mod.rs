@@ -21,6 +21,7 @@ use crate::geom::ComplexPose;
 use crate::manipulator::{LegIndex, Octahedral};
 use crate::num::batch::{Batch, LANES};
 use crate::num::disc::{Disc, UP};
+use crate::num::rounding::check_arithmetic;
 use arithmetic::{Ball, Discs, Triangle};
 use closures::{Closure, RootDiscs, one_root_about};
 use poses::{Data, deviation};
@@ -120,8 +121,9 @@ impl OctahedralCertifier {
     /// Prepares a design.
     ///
     /// # Errors
-    /// [`WhyUncertified::OutOfRange`] when coordinates cannot be scaled exactly.
+    /// [`WhyUncertified::OutOfRange`] when coordinates cannot be scaled exactly; [`WhyUncertified::Arithmetic`].
     pub fn new(design: &Octahedral) -> Result<Self, WhyUncertified> {
+        check_arithmetic()?;
         let (base, platform) = (design.base(), design.platform());
         let sides = |t: &[nalgebra::Point3<f64>; 3]| (t[1] - t[0]).norm().max((t[2] - t[0]).norm());
         let size = sides(&base).max(sides(&platform));
