@@ -40,6 +40,7 @@ mod fk_laws;
 mod hidden_lengths;
 mod instances;
 mod leg_maps;
+mod mutated_inputs;
 mod nearly_special;
 mod octahedral_class;
 mod optimizer_evidence;

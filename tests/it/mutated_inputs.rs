@@ -1,0 +1,293 @@
+//! Every reader of user input against files that are nearly right: designs, tables of lengths and of poses, answers read back, folders of results, requests of the page.
+//!
+//! Whatever stands in a file, the program ends by itself within a minute with 0, 1, 2 or 3 and one JSON document, which has an error record when the code is 2. Exit 4 would be a panic.
+//! Cases are drawn from a fixed seed and named by their number: `EQUIPOD_FUZZ_SEED` takes another seed, `EQUIPOD_FUZZ_CASES` that many times as many cases. The targets of `tests/fuzz` look
+//! for inputs by coverage in the same readers.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+use equipod::methods::page::Session;
+use serde_json::Value;
+
+#[path = "../fuzz/mutate.rs"]
+mod mutate;
+use mutate::{Draw, mutated};
+
+const SLOWEST: Duration = Duration::from_secs(60);
+const OCTAHEDRAL: &str = include_str!("../../designs/rbt-octahedral.toml");
+const LENGTHS: &str = "l1,l2,l3,l4,l5,l6\n# home\n17,16,15,17,16,15\n16.5,16.25,15.75,17,16,15.5\n";
+const POSES: &str = "x,y,z,roll,pitch,yaw\n3,5,15,0,0,0\n3,5,16,1,-2,3\n3,5,16.5,1,0,0,0\n";
+const FRONT: &str = r#"{"schema_version":1,"seed":7,"front":[
+{"objectives":[{"name":"worst_conditioning","value":0.25,"unit":""},{"name":"stiffness","value":1200.5,"unit":"N/mm"}],"design":{"name":"a front"}},
+{"objectives":[{"name":"worst_conditioning","value":0.5,"unit":""},{"name":"stiffness","value":800.25,"unit":"N/mm"}],"design":{"name":"a front"}}],"warnings":[]}"#;
+const ANSWER: &str = r#"{"schema_version":1,"version":"0.2.0","seed":7,"verdict":"not_equivalent","explanation":"a pose tells them apart","offsets":[0.25,0.5,0.25,0.5,0.25,0.5],
+"relation":"regular","determinant":22.1,"solutions":[{"real":true,"certified":true,"p":[1.0,2.0,3.0]}],"warnings":[]}"#;
+const PICTURE: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 10 10"><title>a &amp; b</title><desc>c</desc><path d="M0 0L1 1"/></svg>"#;
+
+fn from_environment(name: &str, default: u64) -> u64 {
+    std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(default)
+}
+
+/// The first of `cases` mutations of `files` with which `read` finds a fault, as number of the case and fault.
+fn first_fault(
+    files: &[&[u8]],
+    cases: u64,
+    mut read: impl FnMut(&[u8], &mut Draw) -> Result<(), String>,
+) -> Option<(u64, String)> {
+    let seed = from_environment("EQUIPOD_FUZZ_SEED", 1);
+    (0..cases * from_environment("EQUIPOD_FUZZ_CASES", 1)).find_map(|case| {
+        let mut draw = Draw::of_case(seed, case);
+        let file = draw.one(files);
+        let bytes = mutated(&mut draw, file, files);
+        read(&bytes, &mut draw).err().map(|fault| (case, fault))
+    })
+}
+
+/// What is wrong with how the program ended.
+fn judge(out: &Output) -> Result<(), String> {
+    let fault = |what: &str| {
+        let shown = |bytes: &[u8]| String::from_utf8_lossy(bytes).chars().take(400).collect::<String>();
+        Err(format!("{what}: {:?} {} {}", out.status, shown(&out.stdout), shown(&out.stderr)))
+    };
+    let Some(code @ 0..=3) = out.status.code() else { return fault("a panic or a kill") };
+    let Ok(document) = serde_json::from_slice::<Value>(&out.stdout) else { return fault("no JSON document") };
+    if document["schema_version"] != 1 || !document["warnings"].is_array() {
+        return fault("not the document of an answer");
+    }
+    let error = &document["error"];
+    let is_record = |key: &str| error[key].as_str().is_some_and(|text| !text.is_empty());
+    if (code == 2) != !error.is_null() || (code == 2 && !(is_record("code") && is_record("message"))) {
+        return fault("the error record does not fit the code");
+    }
+    Ok(())
+}
+
+/// Runs the program with `--json` and judges how it ends.
+fn program(args: &[&str]) -> Result<(), String> {
+    let child = Command::new(env!("CARGO_BIN_EXE_equipod"))
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .args(args)
+        .arg("--json")
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn();
+    let mut child = child.map_err(|e| e.to_string())?;
+    let pipes = (child.stdout.take(), child.stderr.take());
+    // pipes are emptied meanwhile, or a long answer would wait for ever
+    let read = |pipe: Option<Box<dyn std::io::Read + Send>>| {
+        std::thread::spawn(move || {
+            let mut bytes = Vec::new();
+            pipe.map(|mut p| p.read_to_end(&mut bytes));
+            bytes
+        })
+    };
+    let stdout = read(pipes.0.map(|p| Box::new(p) as _));
+    let stderr = read(pipes.1.map(|p| Box::new(p) as _));
+    let began = Instant::now();
+    let status = loop {
+        match child.try_wait().map_err(|e| e.to_string())? {
+            Some(status) => break status,
+            None if began.elapsed() > SLOWEST => {
+                let _ = child.kill();
+                let _ = child.wait();
+                return Err(format!("no end within {SLOWEST:?}"));
+            }
+            None => std::thread::sleep(Duration::from_millis(2)),
+        }
+    };
+    judge(&Output { status, stdout: stdout.join().unwrap(), stderr: stderr.join().unwrap() })
+}
+
+/// A file in a folder of its own.
+struct Place {
+    folder: tempfile::TempDir,
+}
+
+impl Place {
+    fn new() -> Self {
+        Self { folder: tempfile::tempdir().unwrap() }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn write(&self, name: &str, bytes: &[u8]) -> String {
+        let path = self.path(name);
+        std::fs::write(&path, bytes).unwrap();
+        path.to_str().unwrap().to_owned()
+    }
+}
+
+fn designs() -> Vec<Vec<u8>> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("designs");
+    let mut paths: Vec<_> = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();
+    paths.retain(|p| p.extension().is_some_and(|e| e == "toml"));
+    paths.sort();
+    paths.iter().map(|p| std::fs::read(p).unwrap()).collect()
+}
+
+#[track_caller]
+fn sound(found: Option<(u64, String)>) {
+    if let Some((case, fault)) = found {
+        panic!("case {case}: {fault}");
+    }
+}
+
+#[test]
+fn designs_are_read_or_refused() {
+    let (place, files) = (Place::new(), designs());
+    let files: Vec<&[u8]> = files.iter().map(Vec::as_slice).collect();
+    let out = place.path("out.toml");
+    sound(first_fault(&files, 60, |bytes, draw| {
+        let design = place.write(["d.toml", "d.json"][draw.below(2)], bytes);
+        program(&["convert", &design, "-o", out.to_str().unwrap()])
+    }));
+}
+
+#[test]
+fn tables_of_lengths_and_of_poses_are_read_or_refused() {
+    let place = Place::new();
+    sound(first_fault(&[LENGTHS.as_bytes()], 30, |bytes, _| {
+        let table = place.write("lengths.csv", bytes);
+        program(&["fk", "designs/rbt-octahedral.toml", "--lengths", &table])
+    }));
+    let text = OCTAHEDRAL.replace("[workspace]", "[workspace]\ntrajectory = \"path.csv\"");
+    assert_ne!(text, OCTAHEDRAL);
+    let design = place.write("d.toml", text.as_bytes());
+    let out = place.path("out.toml");
+    sound(first_fault(&[POSES.as_bytes()], 30, |bytes, _| {
+        place.write("path.csv", bytes);
+        program(&["convert", &design, "-o", out.to_str().unwrap()])
+    }));
+}
+
+#[test]
+fn answers_that_are_read_back_are_read_or_refused() {
+    let place = Place::new();
+    let picture = place.path("front.svg");
+    sound(first_fault(&[FRONT.as_bytes(), ANSWER.as_bytes()], 40, |bytes, _| {
+        let front = place.write("front.json", bytes);
+        program(&["plot", "pareto", &front, "-o", picture.to_str().unwrap()])
+    }));
+}
+
+/// The page of a report computes what it shows of the first design, so that these cases are few.
+#[test]
+fn folders_of_results_are_reported_whatever_stands_in_a_file() {
+    let place = Place::new();
+    let files = [ANSWER.as_bytes(), FRONT.as_bytes(), PICTURE.as_bytes(), OCTAHEDRAL.as_bytes()];
+    let folder = place.folder.path().to_str().unwrap().to_owned();
+    sound(first_fault(&files, 12, |bytes, draw| {
+        let names = ["verify.json", "optimize.json", "a.svg", "a.csv", "original.toml"];
+        for name in names {
+            let _ = std::fs::remove_file(place.path(name));
+        }
+        place.write("optimize.json", ANSWER.as_bytes());
+        place.write(names[draw.below(names.len())], bytes);
+        program(&["report", &folder])
+    }));
+}
+
+/// A reader in this process: a panic is the fault.
+fn quiet(read: impl FnOnce()) -> Result<(), String> {
+    catch_unwind(AssertUnwindSafe(read)).map_err(|payload| {
+        let text = payload.downcast_ref::<String>().cloned();
+        text.or_else(|| payload.downcast_ref::<&str>().map(ToString::to_string)).unwrap_or_default()
+    })
+}
+
+#[test]
+fn requests_of_the_page_are_answered_or_refused() {
+    let pose = r#"{"p":[3,5,15],"q":[1,0,0,0]}"#;
+    let chosen = r#"{"pattern":"111111","offsets":[0.2,0.3,0.4,0.5,0.6,0.7]}"#;
+    let opening = serde_json::json!({ "design": OCTAHEDRAL }).to_string();
+    let session = Session::open(&opening).unwrap();
+    let requests = [
+        r#"{"op":"open"}"#.to_owned(),
+        r#"{"op":"path","at":0.25}"#.to_owned(),
+        r#"{"op":"start","pattern":"111111"}"#.to_owned(),
+        format!(r#"{{"op":"state","pose":{pose},"chosen":{chosen}}}"#),
+        format!(r#"{{"op":"modes","pose":{pose},"lengths":[15,15,15,15,15,15],"which":"first"}}"#),
+        format!(r#"{{"op":"plane","chosen":{chosen},"axes":[0,1],"range":[-0.5,1.5],"points":9}}"#),
+        format!(r#"{{"op":"design","which":"second","chosen":{chosen}}}"#),
+    ];
+    let files: Vec<&[u8]> = requests.iter().map(String::as_bytes).collect();
+    let answered = |text: &str| {
+        let answer: Value = serde_json::from_str(&session.answer(text)).unwrap();
+        assert!(answer.is_object(), "{answer}");
+    };
+    for request in &requests {
+        answered(request);
+    }
+    sound(first_fault(&files, 150, |bytes, _| quiet(|| answered(&String::from_utf8_lossy(bytes)))));
+    sound(first_fault(&[opening.as_bytes()], 40, |bytes, _| {
+        quiet(|| {
+            if let Err(refusal) = Session::open(&String::from_utf8_lossy(bytes)) {
+                let refusal: Value = serde_json::from_str(&refusal).unwrap();
+                assert!(refusal["error"]["code"].is_string());
+            }
+        })
+    }));
+}
+
+/// Faults as readers have them are found in as many cases as the readers above get.
+#[test]
+fn planted_faults_are_found() {
+    type Reader = fn(&str);
+    let planted: [(&str, Reader); 4] = [
+        ("a number that is no finite one", |text| {
+            let numbers =
+                text.split([',', '\n', ' ', '=', '[', ']']).filter_map(|f| f.trim().parse::<f64>().ok());
+            numbers.for_each(|x| assert!(x.is_finite() && x.abs() < 1e300));
+        }),
+        ("a cut inside a character", |text| {
+            for line in text.lines().filter(|l| l.len() > 8) {
+                let _ = &line[..8];
+            }
+        }),
+        ("a line that lacks fields", |text| {
+            for line in text.lines().filter(|l| l.contains(',') && !l.starts_with('#')) {
+                let _ = line.split(',').nth(2).expect("a third field");
+            }
+        }),
+        ("brackets deeper than a stack", |text| assert!(text.matches('[').count() < 10_000)),
+    ];
+    let missed: Vec<&str> = planted
+        .iter()
+        .filter(|(_, reader)| {
+            let read = |bytes: &[u8], _: &mut Draw| quiet(|| reader(&String::from_utf8_lossy(bytes)));
+            first_fault(&[OCTAHEDRAL.as_bytes(), LENGTHS.as_bytes()], 120, read).is_none()
+        })
+        .map(|(name, _)| *name)
+        .collect();
+    assert_eq!(missed, Vec::<&str>::new());
+}
+
+/// What the judge of a run has to refuse.
+#[cfg(unix)]
+#[test]
+fn the_judge_refuses_panics_kills_and_wrong_documents() {
+    use std::os::unix::process::ExitStatusExt;
+    let ended = |wait: i32, stdout: &str| Output {
+        status: std::process::ExitStatus::from_raw(wait),
+        stdout: stdout.into(),
+        stderr: Vec::new(),
+    };
+    let yes = r#"{"schema_version":1,"warnings":[]}"#;
+    let no = r#"{"schema_version":1,"error":{"code":"a::b","message":"c"},"warnings":[]}"#;
+    assert!(
+        judge(&ended(0, yes)).is_ok()
+            && judge(&ended(3 << 8, yes)).is_ok()
+            && judge(&ended(2 << 8, no)).is_ok()
+    );
+    let bad =
+        [(0, no), (2 << 8, yes), (4 << 8, no), (101 << 8, no), (9, yes), (0, ""), (0, "[]"), (0, "{}{}")];
+    for (wait, stdout) in bad {
+        assert!(judge(&ended(wait, stdout)).is_err(), "{wait} {stdout}");
+    }
+}
