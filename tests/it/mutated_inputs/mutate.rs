@@ -1,4 +1,4 @@
-//! Files that are nearly right: edits of real ones, drawn from a seed. Shared by the tests and by the fuzz targets' first inputs.
+//! Files that are nearly right: edits of real ones, drawn from a seed.
 
 /// Random numbers from a seed (splitmix64), so that a case is named by its number.
 #[derive(Debug, Clone)]

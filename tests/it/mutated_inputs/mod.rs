@@ -12,12 +12,11 @@ use std::time::{Duration, Instant};
 use equipod::methods::page::Session;
 use serde_json::Value;
 
-#[path = "../fuzz/mutate.rs"]
 mod mutate;
 use mutate::{Draw, mutated};
 
 const SLOWEST: Duration = Duration::from_secs(60);
-const OCTAHEDRAL: &str = include_str!("../../designs/rbt-octahedral.toml");
+const OCTAHEDRAL: &str = include_str!("../../../designs/rbt-octahedral.toml");
 const LENGTHS: &str = "l1,l2,l3,l4,l5,l6\n# home\n17,16,15,17,16,15\n16.5,16.25,15.75,17,16,15.5\n";
 const POSES: &str = "x,y,z,roll,pitch,yaw\n3,5,15,0,0,0\n3,5,16,1,-2,3\n3,5,16.5,1,0,0,0\n";
 const FRONT: &str = r#"{"schema_version":1,"seed":7,"front":[
@@ -182,7 +181,7 @@ fn folders_of_results_are_reported_whatever_stands_in_a_file() {
     let place = Place::new();
     let files = [ANSWER.as_bytes(), FRONT.as_bytes(), PICTURE.as_bytes(), OCTAHEDRAL.as_bytes()];
     let folder = place.folder.path().to_str().unwrap().to_owned();
-    sound(first_fault(&files, 12, |bytes, draw| {
+    sound(first_fault(&files, 8, |bytes, draw| {
         let names = ["verify.json", "optimize.json", "a.svg", "a.csv", "original.toml"];
         for name in names {
             let _ = std::fs::remove_file(place.path(name));
@@ -203,14 +202,14 @@ fn quiet(read: impl FnOnce()) -> Result<(), String> {
 
 #[test]
 fn requests_of_the_page_are_answered_or_refused() {
-    let pose = r#"{"p":[3,5,15],"q":[1,0,0,0]}"#;
-    let chosen = r#"{"pattern":"111111","offsets":[0.2,0.3,0.4,0.5,0.6,0.7]}"#;
+    let pose = r#"{"R":[[1,0,0],[0,1,0],[0,0,1]],"p":[3,5,15]}"#;
+    let chosen = r#"{"pattern":"S123456","offsets":[0.2,0.3,0.4,0.5,0.6,0.7]}"#;
     let opening = serde_json::json!({ "design": OCTAHEDRAL }).to_string();
     let session = Session::open(&opening).unwrap();
     let requests = [
         r#"{"op":"open"}"#.to_owned(),
         r#"{"op":"path","at":0.25}"#.to_owned(),
-        r#"{"op":"start","pattern":"111111"}"#.to_owned(),
+        r#"{"op":"start","pattern":"S123456"}"#.to_owned(),
         format!(r#"{{"op":"state","pose":{pose},"chosen":{chosen}}}"#),
         format!(r#"{{"op":"modes","pose":{pose},"lengths":[15,15,15,15,15,15],"which":"first"}}"#),
         format!(r#"{{"op":"plane","chosen":{chosen},"axes":[0,1],"range":[-0.5,1.5],"points":9}}"#),
@@ -220,11 +219,12 @@ fn requests_of_the_page_are_answered_or_refused() {
     let answered = |text: &str| {
         let answer: Value = serde_json::from_str(&session.answer(text)).unwrap();
         assert!(answer.is_object(), "{answer}");
+        answer["error"].is_null()
     };
     for request in &requests {
-        answered(request);
+        assert!(answered(request), "{request}");
     }
-    sound(first_fault(&files, 150, |bytes, _| quiet(|| answered(&String::from_utf8_lossy(bytes)))));
+    sound(first_fault(&files, 150, |bytes, _| quiet(|| _ = answered(&String::from_utf8_lossy(bytes)))));
     sound(first_fault(&[opening.as_bytes()], 40, |bytes, _| {
         quiet(|| {
             if let Err(refusal) = Session::open(&String::from_utf8_lossy(bytes)) {
