@@ -61,7 +61,7 @@ fn run(args: Vec<OsString>, json: bool) -> Exit {
     };
     let output = Output::new(cli.global.json);
     if let Err(unfit) = check_arithmetic() {
-        let help = "a library loaded into this process has switched the processor, as code compiled with -ffast-math does: start without it (LD_PRELOAD?)";
+        let help = "a library loaded into this process has switched the processor, as code compiled with `-ffast-math` does: start without it (LD_PRELOAD?)";
         return output
             .failure(&Failure::new(Exit::Internal, "arithmetic", unfit.to_string()).with_help(help), &[]);
     }
