@@ -12,6 +12,11 @@ use crate::topology::NamedTopology;
 
 /// Where leg lengths come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "files",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
 pub enum LengthsFrom {
     /// A random real pose: rotation uniform, position standard normal.
     Pose,

@@ -4,13 +4,13 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use clap::{Arg, Command, CommandFactory};
-use serde_json::{Map, json};
 
 use super::args::Cli;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::files;
 use super::output::Answer;
+use crate::records::ReferenceAnswer;
 
 /// Arguments of `reference`.
 #[derive(Debug, clap::Args)]
@@ -126,7 +126,5 @@ fn written(page: &str) -> Result<String, Failure> {
 /// The page on standard output.
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let text = written(&files::read_text(&args.page)?)?;
-    let mut json = Map::new();
-    json.insert("page".into(), json!(text));
-    Ok(Answer::new(Exit::Yes, json, text))
+    Ok(Answer::new(Exit::Yes, ReferenceAnswer { page: text.clone() }, text))
 }

@@ -29,6 +29,11 @@ pub use workspace::{Trajectory, Workspace};
 
 /// The two notations of the same structure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "files",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
 pub enum Format {
     /// TOML 1.
     Toml,

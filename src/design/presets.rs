@@ -2,14 +2,22 @@
 
 /// What a machine is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "files",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
 pub enum PresetClass {
     /// Small machines with drives from a catalogue.
     Bench,
     /// Moves a person or a cabin.
+    #[cfg_attr(feature = "files", serde(rename = "motion simulator"))]
     MotionSimulator,
     /// Travels millimetres, steps by micrometres.
+    #[cfg_attr(feature = "files", serde(rename = "precision positioner"))]
     PrecisionPositioner,
     /// Carries a spindle.
+    #[cfg_attr(feature = "files", serde(rename = "machine tool"))]
     MachineTool,
 }
 

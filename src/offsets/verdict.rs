@@ -236,16 +236,20 @@ pub enum Conflict {
 }
 
 impl Conflict {
-    /// A short stable code.
+    /// The codes there are.
+    pub const CODES: [&'static str; 6] =
+        ["vertices_too_close", "outside_bounds", "no_room", "pair_too_close", "det_too_small", "combination"];
+
+    /// A short stable code, one of [`CODES`](Self::CODES).
     #[must_use]
     pub fn code(&self) -> &'static str {
         match self {
-            Self::VerticesTooClose { .. } => "vertices_too_close",
-            Self::OutsideBounds { .. } => "outside_bounds",
-            Self::NoRoom { .. } => "no_room",
-            Self::PairTooClose { .. } => "pair_too_close",
-            Self::DetTooSmall { .. } => "det_too_small",
-            Self::Combination { .. } => "combination",
+            Self::VerticesTooClose { .. } => Self::CODES[0],
+            Self::OutsideBounds { .. } => Self::CODES[1],
+            Self::NoRoom { .. } => Self::CODES[2],
+            Self::PairTooClose { .. } => Self::CODES[3],
+            Self::DetTooSmall { .. } => Self::CODES[4],
+            Self::Combination { .. } => Self::CODES[5],
         }
     }
 }

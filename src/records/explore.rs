@@ -3,7 +3,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::SolvedRecord;
+use super::{Number, SolvedRecord, VerdictWord};
+use crate::equivalence::Verification;
+use crate::fk::FkSolutions;
+use crate::offsets::OffsetSolution;
 
 /// A file of the folder: the answer of a command with what the run was.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -23,9 +26,176 @@ pub struct RunRecord<T> {
 pub struct FkRunRecord {
     /// Leg lengths, design units.
     pub lengths: [f64; 6],
-    /// Where the lengths come from: the design, or its home pose.
-    pub lengths_from: String,
+    /// Where the lengths come from.
+    pub lengths_from: LengthsOrigin,
     /// The poses.
     #[serde(flatten)]
     pub solved: SolvedRecord,
+}
+
+/// Whose leg lengths poses belong to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum LengthsOrigin {
+    /// Those of the design.
+    Design,
+    /// The design has none: those of its home pose.
+    Home,
+}
+
+/// The answer of `explore`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ExploreAnswer {
+    /// Of the whole run.
+    pub verdict: ExploreVerdict,
+    /// One sentence with the numbers that decided.
+    pub explanation: String,
+    /// The name of the design.
+    pub name: String,
+    /// The files written.
+    pub paths: Vec<String>,
+    /// The equivalence class.
+    pub family: FamilySizeRecord,
+    /// The offsets; null: none were found.
+    pub optimize: Option<OffsetsFoundRecord>,
+    /// The comparison of the design with the optimised one; null: there is none.
+    pub verify: Option<ComparedRecord>,
+    /// The poses of the design.
+    pub fk: PoseTotalsRecord,
+    /// The version of the program.
+    pub version: String,
+    /// The seed of the run.
+    pub seed: u64,
+}
+
+/// The verdict of `explore`: that of the comparison, or why there was none.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ExploreVerdict {
+    /// The designs are equivalent.
+    Equivalent,
+    /// They are not.
+    NotEquivalent,
+    /// One of them is architecturally singular.
+    Singular,
+    /// Not decided.
+    Inconclusive,
+    /// Every branch of offsets is proved to violate the limits.
+    Infeasible,
+}
+
+impl From<VerdictWord> for ExploreVerdict {
+    fn from(verdict: VerdictWord) -> Self {
+        match verdict {
+            VerdictWord::Equivalent => Self::Equivalent,
+            VerdictWord::NotEquivalent => Self::NotEquivalent,
+            VerdictWord::Singular => Self::Singular,
+            VerdictWord::Inconclusive => Self::Inconclusive,
+        }
+    }
+}
+
+impl ExploreVerdict {
+    /// The word.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Equivalent => "equivalent",
+            Self::NotEquivalent => "not_equivalent",
+            Self::Singular => "singular",
+            Self::Inconclusive => "inconclusive",
+            Self::Infeasible => "infeasible",
+        }
+    }
+}
+
+/// How many platforms are equivalent to an octahedral one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct FamilySizeRecord {
+    /// Patterns of legs.
+    pub patterns: usize,
+    /// Ways to share joints.
+    pub topologies: usize,
+}
+
+/// Offsets in short.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct OffsetsFoundRecord {
+    /// No offsets exceed the objective by more than the tolerance: proved.
+    pub converged: bool,
+    /// Worst inverse condition number.
+    pub objective: Number,
+    /// The numbers `t_i`, cyclic order.
+    pub offsets: [Number; 6],
+    /// `t_i d_i`, design units.
+    pub shifts: [Number; 6],
+    /// det A.
+    pub det: Number,
+}
+
+impl OffsetsFoundRecord {
+    /// The solution of a search.
+    #[must_use]
+    pub fn new(s: &OffsetSolution, converged: bool) -> Self {
+        Self {
+            converged,
+            objective: Number(s.recheck.objective),
+            offsets: s.offsets.map(Number),
+            shifts: s.shifts.map(Number),
+            det: Number(s.recheck.det),
+        }
+    }
+}
+
+/// A verification in short.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ComparedRecord {
+    /// Sets of lengths at which both designs were solved.
+    pub samples: usize,
+    /// The largest distance of matched poses.
+    pub worst_distance: Number,
+    /// Of the affine map.
+    pub residual: Number,
+    /// Its determinant.
+    pub det: Number,
+}
+
+impl From<&Verification> for ComparedRecord {
+    fn from(v: &Verification) -> Self {
+        Self {
+            samples: v.samples.len(),
+            worst_distance: Number(v.worst_distance()),
+            residual: Number(v.map.residual),
+            det: Number(v.map.determinant),
+        }
+    }
+}
+
+/// Poses counted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct PoseTotalsRecord {
+    /// Where the lengths come from.
+    pub lengths_from: LengthsOrigin,
+    /// Finite poses, real and complex.
+    pub finite_count: usize,
+    /// Real ones.
+    pub real_count: usize,
+    /// Poses with a certificate.
+    pub certified_count: usize,
+    /// False: poses may be missing.
+    pub all_paths_accounted: bool,
+}
+
+impl PoseTotalsRecord {
+    /// Counts of the poses with lengths of that origin.
+    #[must_use]
+    pub fn new(lengths_from: LengthsOrigin, s: &FkSolutions) -> Self {
+        Self {
+            lengths_from,
+            finite_count: s.roots.len(),
+            real_count: s.assembly_modes().count(),
+            certified_count: s.roots.iter().filter(|r| r.certified()).count(),
+            all_paths_accounted: s.all_accounted(),
+        }
+    }
 }

@@ -7,10 +7,13 @@
 //! Numbers that may be infinite or not a number are [`Number`]s and `null` in JSON; a truth that may be undecided is an `Option<bool>` and `null` where it is.
 //! Units stand in the names of fields (`angle_deg`) where they are not those of the design; legs are counted from 1.
 
+#[cfg(feature = "lab")]
+mod bench;
 mod check;
 mod components;
 mod design;
 mod explore;
+mod export;
 mod failure;
 mod family;
 mod fk;
@@ -19,8 +22,11 @@ mod map;
 mod moves;
 mod near;
 mod number;
+mod optimize;
 mod pose;
+mod presets;
 mod rearrangement;
+mod requirement;
 mod rounding;
 mod schema;
 mod selfmotion;
@@ -29,14 +35,18 @@ mod statistics;
 mod tolerances;
 mod topologies;
 mod verify;
+mod written;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+#[cfg(feature = "lab")]
+pub use self::bench::*;
 pub use self::check::*;
 pub use self::components::*;
 pub use self::design::*;
 pub use self::explore::*;
+pub use self::export::*;
 pub use self::failure::*;
 pub use self::family::*;
 pub use self::fk::*;
@@ -45,8 +55,11 @@ pub use self::map::*;
 pub use self::moves::*;
 pub use self::near::*;
 pub use self::number::*;
+pub use self::optimize::*;
 pub use self::pose::*;
+pub use self::presets::*;
 pub use self::rearrangement::*;
+pub use self::requirement::*;
 pub use self::rounding::*;
 pub use self::schema::*;
 pub use self::selfmotion::*;
@@ -55,6 +68,7 @@ pub use self::statistics::*;
 pub use self::tolerances::*;
 pub use self::topologies::*;
 pub use self::verify::*;
+pub use self::written::*;
 
 /// The version of the dialect: a later version of the program may add fields to every object, and words to lists of words, under the same one.
 pub const SCHEMA_VERSION: u32 = 1;

@@ -52,6 +52,33 @@ impl From<&Pose> for PoseQuaternionRecord {
     }
 }
 
+/// Where a home pose or a workspace comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SourceWord {
+    /// The design.
+    Design,
+    /// The design has none: the usual one of its size.
+    Default,
+}
+
+impl SourceWord {
+    /// The design where it has one.
+    #[must_use]
+    pub fn given(by_design: bool) -> Self {
+        if by_design { Self::Design } else { Self::Default }
+    }
+
+    /// `"given"` or `"default"`, for texts.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Design => "given",
+            Self::Default => "default",
+        }
+    }
+}
+
 /// Points by name, in an order of their own: the joints of a body.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct NamedPoints(pub Vec<(String, [Number; 3])>);

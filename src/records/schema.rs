@@ -5,30 +5,45 @@ use schemars::{JsonSchema, SchemaGenerator};
 use serde_json::{Map, Value};
 
 use super::{
-    CheckAnswer, ComponentsAnswer, Document, ErrorAnswer, FamilyAnswer, FkAnswer, HelpAnswer, LocusAnswer,
-    MapAnswer, MoveAnswer, RoundAnswer, SelfmotionAnswer, SingularitiesAnswer, TolerancesAnswer,
-    TopologiesAnswer, VerifyAnswer,
+    AssessAnswer, CheckAnswer, CompletionsAnswer, ComponentsAnswer, ConvertAnswer, Document, ErrorAnswer,
+    ExploreAnswer, ExportAnswer, FamilyAnswer, FkAnswer, HelpAnswer, LocusAnswer, ManAnswer, MapAnswer,
+    MoveAnswer, OptimizeAnswer, PlotAnswer, PresetsAnswer, ReportAnswer, RoundAnswer, SchemaAnswer,
+    SelfmotionAnswer, SingularitiesAnswer, TolerancesAnswer, TopologiesAnswer, VerifyAnswer, ViewAnswer,
 };
 
 /// Names of answers with the function that writes their schema: commands by their own name, `error` for refusals, `help` for --help.
 type Table = &'static [(&'static str, fn(&mut SchemaGenerator) -> schemars::Schema)];
 
 const ANSWERS: Table = &[
+    ("assess", Document::<AssessAnswer>::json_schema),
+    #[cfg(feature = "lab")]
+    ("bench", Document::<super::BenchAnswer>::json_schema),
     ("check", Document::<CheckAnswer>::json_schema),
+    ("completions", Document::<CompletionsAnswer>::json_schema),
     ("components", Document::<ComponentsAnswer>::json_schema),
+    ("convert", Document::<ConvertAnswer>::json_schema),
     ("error", Document::<ErrorAnswer>::json_schema),
+    ("explore", Document::<ExploreAnswer>::json_schema),
+    ("export", Document::<ExportAnswer>::json_schema),
     ("family", Document::<FamilyAnswer>::json_schema),
     ("fk", Document::<FkAnswer>::json_schema),
     ("help", Document::<HelpAnswer>::json_schema),
     ("locus", Document::<LocusAnswer>::json_schema),
+    ("man", Document::<ManAnswer>::json_schema),
     ("map", Document::<MapAnswer>::json_schema),
     ("move", Document::<MoveAnswer>::json_schema),
+    ("optimize", Document::<OptimizeAnswer>::json_schema),
+    ("plot", Document::<PlotAnswer>::json_schema),
+    ("presets", Document::<PresetsAnswer>::json_schema),
+    ("report", Document::<ReportAnswer>::json_schema),
     ("round", Document::<RoundAnswer>::json_schema),
+    ("schema", Document::<SchemaAnswer>::json_schema),
     ("selfmotion", Document::<SelfmotionAnswer>::json_schema),
     ("singularities", Document::<SingularitiesAnswer>::json_schema),
     ("tolerances", Document::<TolerancesAnswer>::json_schema),
     ("topologies", Document::<TopologiesAnswer>::json_schema),
     ("verify", Document::<VerifyAnswer>::json_schema),
+    ("view", Document::<ViewAnswer>::json_schema),
 ];
 
 /// What has a schema, in the order of the alphabet.

@@ -52,6 +52,11 @@ impl VariableKind {
 /// A figure of merit; `docs/theory/dimensional-synthesis.md` has the formulas.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
+#[cfg_attr(
+    feature = "files",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
 pub enum Objective {
     /// Least `sigma_6 / sigma_1` over the poses, to be large.
     WorstConditioning,

@@ -2,11 +2,11 @@
 
 use clap::CommandFactory;
 use clap_complete::Shell;
-use serde_json::{Map, json};
 
 use crate::cli::args::Cli;
 use crate::cli::exit::Exit;
 use crate::cli::output::Answer;
+use crate::records::CompletionsAnswer;
 
 /// Arguments of `completions`.
 #[derive(Debug, clap::Args)]
@@ -20,8 +20,6 @@ pub(crate) fn run(args: &Args) -> Answer {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut Cli::command(), "equipod", &mut script);
     let text = String::from_utf8_lossy(&script).into_owned();
-    let mut json = Map::new();
-    json.insert("shell".into(), json!(args.shell.to_string()));
-    json.insert("script".into(), json!(text));
-    Answer::new(Exit::Yes, json, text)
+    let record = CompletionsAnswer { shell: args.shell.to_string(), script: text.clone() };
+    Answer::new(Exit::Yes, record, text)
 }

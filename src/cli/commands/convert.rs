@@ -2,13 +2,13 @@
 
 use std::path::PathBuf;
 
-use serde_json::{Map, json};
-
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
+use crate::design::Format;
+use crate::records::ConvertAnswer;
 
 /// Arguments of `convert`.
 #[derive(Debug, clap::Args)]
@@ -22,9 +22,12 @@ pub(crate) struct Args {
 
 /// Reads, checks and writes the design. Comments of the input are not kept.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
-    let known = ["toml", "json"];
     let extension = args.output.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
-    let Some(extension) = extension.filter(|e| known.contains(&e.as_str())) else {
+    let Some(format) = extension.and_then(|e| match e.as_str() {
+        "toml" => Some(Format::Toml),
+        "json" => Some(Format::Json),
+        _ => None,
+    }) else {
         let message = format!("{}: the extension does not tell the format", args.output.display());
         return Err(
             Failure::refused("convert::unknown_format", message).with_help("end the name in .toml or .json")
@@ -33,9 +36,6 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let design = context.load(&args.design)?;
     files::write_design(&args.output, &design)?;
     let output = args.output.display().to_string();
-    let mut json = Map::new();
-    json.insert("name".into(), json!(design.name));
-    json.insert("output".into(), json!(output));
-    json.insert("format".into(), json!(extension));
-    Ok(Answer::new(Exit::Yes, json, format!("wrote {output}\n")))
+    let text = format!("wrote {output}\n");
+    Ok(Answer::new(Exit::Yes, ConvertAnswer { name: design.name, output, format }, text))
 }

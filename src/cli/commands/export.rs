@@ -4,16 +4,16 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use clap::builder::PossibleValuesParser;
-use serde_json::{Map, Value, json};
 
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::files::{self, OutputPath};
-use crate::cli::output::{Answer, number};
+use crate::cli::output::Answer;
 use crate::cli::poses;
 use crate::design::Design;
 use crate::export::{Export, ExportOptions, File, LengthUnit, NoExport, Writer, writer, writers};
+use crate::records::{ExportAnswer, FormatOutcome, FormatRecord, Number};
 
 /// Arguments of `export`.
 #[derive(Debug, clap::Args)]
@@ -101,44 +101,35 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let design = context.load(&args.design)?;
     let export = model(args, &design)?;
     files::make_folder(&args.output)?;
-    let (mut exit, mut records, mut text) = (Exit::Yes, Vec::new(), String::new());
+    let (mut exit, mut formats, mut text) = (Exit::Yes, Vec::new(), String::new());
     for format in wanted(args) {
-        let mut record = Map::new();
-        record.insert("format".into(), json!(format.name()));
-        record.insert("purpose".into(), json!(format.purpose()));
-        match format.files(&export) {
+        let (files, outcome) = match format.files(&export) {
             Ok(made) => {
                 let paths = made.iter().map(|f| write(&args.output, f));
                 let paths = paths.collect::<Result<Vec<_>, _>>()?;
                 for path in &paths {
                     let _ = writeln!(text, "wrote {path}");
                 }
-                record.insert("files".into(), json!(paths));
-                record.insert("leaves_out".into(), json!(format.leaves_out()));
                 if !format.leaves_out().is_empty() {
                     let _ = writeln!(text, "  {} leaves out {}", format.name(), format.leaves_out());
                 }
+                (paths, FormatOutcome::Written { leaves_out: format.leaves_out().into() })
             }
             Err(why) => {
                 exit = Exit::No;
                 let _ = writeln!(text, "{} not written: {why}", format.name());
-                record.insert("files".into(), json!([]));
-                record.insert("refused".into(), json!(why.to_string()));
+                (Vec::new(), FormatOutcome::Refused { refused: why.to_string() })
             }
-        }
-        records.push(Value::Object(record));
+        };
+        let (name, purpose) = (format.name().into(), format.purpose().into());
+        formats.push(FormatRecord { format: name, purpose, files, outcome });
     }
+    let record = ExportAnswer::new(&export, args.output.display().to_string(), formats);
     text.push_str("sizes\n");
-    for c in &export.choices {
-        let value = if c.value < 1e-3 { format!("{:.4e}", c.value) } else { format!("{:.6}", c.value) };
+    for c in &record.sizes {
+        let Number(x) = c.value;
+        let value = if x < 1e-3 { format!("{x:.4e}") } else { format!("{x:.6}") };
         let _ = writeln!(text, "  {:<36} {value:>12} {:<13} {}", c.what, c.unit, c.from);
     }
-    let mut json = Map::new();
-    json.insert("name".into(), json!(export.name));
-    json.insert("output".into(), json!(args.output.display().to_string()));
-    json.insert("design_unit".into(), json!({ "label": export.unit.label, "mm": export.unit.millimetres }));
-    json.insert("formats".into(), json!(records));
-    let choice = |c: &crate::export::Choice| json!({ "what": c.what, "value": number(c.value), "unit": c.unit, "from": c.from });
-    json.insert("sizes".into(), export.choices.iter().map(choice).collect());
-    Ok(Answer::new(exit, json, text))
+    Ok(Answer::new(exit, record, text))
 }

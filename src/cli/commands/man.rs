@@ -4,13 +4,13 @@ use std::fmt::Write as _;
 
 use clap::CommandFactory;
 use clap_mangen::Man;
-use serde_json::{Map, json};
 
 use crate::cli::args::Cli;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
+use crate::records::ManAnswer;
 
 /// Arguments of `man`.
 #[derive(Debug, clap::Args)]
@@ -49,7 +49,5 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         let _ = writeln!(text, "wrote {}", path.display());
         paths.push(path.display().to_string());
     }
-    let mut json = Map::new();
-    json.insert("paths".into(), json!(paths));
-    Ok(Answer::new(Exit::Yes, json, text))
+    Ok(Answer::new(Exit::Yes, ManAnswer { paths }, text))
 }

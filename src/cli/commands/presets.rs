@@ -2,14 +2,13 @@
 
 use std::fmt::Write as _;
 
-use serde_json::{Map, Value, json};
-
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
 use crate::design::{Design, Format, PRESETS, Preset, parse};
+use crate::records::{PresetAnswer, PresetFile, PresetRecord, PresetsAnswer};
 
 /// Arguments of `presets`.
 #[derive(Debug, clap::Args)]
@@ -29,9 +28,8 @@ pub(crate) fn run(args: &Args, _: &mut Context) -> Result<Answer, Failure> {
         Failure::refused("presets::unknown", format!("there is no preset `{name}`"))
             .with_help(format!("one of: {names}"))
     })?;
-    let mut json = record(preset)?;
-    let mut text = preset.text.to_string();
-    if let Some(path) = &args.output {
+    let record = record(preset)?;
+    let (file, text) = if let Some(path) = &args.output {
         let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
         if !extension.eq_ignore_ascii_case("toml") {
             let message = format!("{}: presets are written as TOML, with their comments", path.display());
@@ -39,38 +37,28 @@ pub(crate) fn run(args: &Args, _: &mut Context) -> Result<Answer, Failure> {
                 .with_help("end the name in .toml; `equipod convert` makes JSON of it"));
         }
         files::write_text(path, preset.text)?;
-        json.insert("output".into(), json!(path.display().to_string()));
-        text = format!("wrote {}\n", path.display());
+        let output = path.display().to_string();
+        let text = format!("wrote {output}\n");
+        (PresetFile::Written { output }, text)
     } else {
-        json.insert("text".into(), json!(preset.text));
-    }
-    Ok(Answer::new(Exit::Yes, json, text))
+        (PresetFile::Given { text: preset.text.into() }, preset.text.into())
+    };
+    Ok(Answer::new(Exit::Yes, PresetsAnswer::One(PresetAnswer { preset: record, file }), text))
 }
 
 fn list() -> Result<Answer, Failure> {
-    let mut json = Map::new();
     let mut text = String::new();
-    let records = PRESETS.iter().map(record).collect::<Result<Vec<_>, _>>()?;
-    for record in &records {
-        let field = |key: &str| record.get(key).and_then(Value::as_str).unwrap_or_default();
-        let _ = writeln!(text, "{:<24} {:<22} {}", field("preset"), field("class"), field("name"));
-        let _ = writeln!(text, "{:<24} {}", "", field("source"));
+    let presets = PRESETS.iter().map(record).collect::<Result<Vec<_>, _>>()?;
+    for p in &presets {
+        let _ = writeln!(text, "{:<24} {:<22} {}", p.preset, p.class.as_str(), p.name);
+        let _ = writeln!(text, "{:<24} {}", "", p.source.as_deref().unwrap_or_default());
     }
-    json.insert("presets".into(), records.into_iter().map(Value::Object).collect());
     text.push_str("\n`equipod presets NAME -o FILE.toml` writes one, with the source of every figure in its comments.\n");
-    Ok(Answer::new(Exit::Yes, json, text))
+    Ok(Answer::new(Exit::Yes, PresetsAnswer::List { presets }, text))
 }
 
-fn record(preset: &Preset) -> Result<Map<String, Value>, Failure> {
-    let design = design(preset)?;
-    let mut json = Map::new();
-    json.insert("preset".into(), json!(preset.name));
-    json.insert("class".into(), json!(preset.class.as_str()));
-    json.insert("name".into(), json!(design.name));
-    json.insert("units".into(), json!(design.units));
-    json.insert("source".into(), json!(design.source));
-    json.insert("description".into(), json!(design.description));
-    Ok(json)
+fn record(preset: &Preset) -> Result<PresetRecord, Failure> {
+    Ok(PresetRecord::new(preset, &design(preset)?))
 }
 
 fn design(preset: &Preset) -> Result<Design, Failure> {

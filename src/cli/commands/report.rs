@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use serde_json::{Map, Value, json};
+use serde_json::Value;
 
 use super::explore::folder::FIRST;
 use crate::cli::context::Context;
@@ -12,6 +12,7 @@ use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
 use crate::design::{Design, Format, parse};
 use crate::page::{CORE, Session, page as view};
+use crate::records::ReportAnswer;
 use crate::report::{Report, ReportFile, html};
 use crate::synthesis::Pattern;
 
@@ -42,12 +43,11 @@ pub(crate) fn run(args: &Args, _: &mut Context) -> Result<Answer, Failure> {
             Failure::refused("report::empty", message).with_help("run `equipod explore DESIGN -o DIR` first")
         );
     }
-    let count = found.len();
+    let files = found.len();
     files::write_text(&output, &page(found, args.title.clone()))?;
-    let mut json = Map::new();
-    json.insert("output".into(), json!(output.display().to_string()));
-    json.insert("files".into(), json!(count));
-    Ok(Answer::new(Exit::Yes, json, format!("{}\n", output.display())))
+    let record = ReportAnswer { output: output.display().to_string(), files };
+    let text = format!("{}\n", record.output);
+    Ok(Answer::new(Exit::Yes, record, text))
 }
 
 /// The page about these files.

@@ -2,14 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use serde_json::{Map, Value, json};
-
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
 use crate::page::{CORE, Session, page};
+use crate::records::ViewAnswer;
 
 /// Arguments of `view`.
 #[derive(Debug, clap::Args)]
@@ -47,14 +46,15 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let html = page(&session, core.as_deref());
     let output = args.output.as_deref().map_or_else(|| beside(&args.design), Path::to_path_buf);
     files::write_text(&output, &html)?;
-    let shown = output.display().to_string();
-    let mut json: Map<String, Value> = Map::new();
-    json.insert("name".into(), json!(session.design().name));
-    json.insert("output".into(), json!(shown));
-    json.insert("bytes".into(), json!(html.len()));
-    json.insert("live".into(), json!(core.is_some()));
-    let how = if core.is_some() { "" } else { ", with recorded data only" };
-    Ok(Answer::new(Exit::Yes, json, format!("wrote {shown}{how}\n")))
+    let record = ViewAnswer {
+        name: session.design().name.clone(),
+        output: output.display().to_string(),
+        bytes: html.len(),
+        live: core.is_some(),
+    };
+    let how = if record.live { "" } else { ", with recorded data only" };
+    let text = format!("wrote {}{how}\n", record.output);
+    Ok(Answer::new(Exit::Yes, record, text))
 }
 
 /// `designs/a.toml` gives `a.html`.

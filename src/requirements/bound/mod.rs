@@ -30,6 +30,11 @@ use crate::num::jet::Jet;
 
 /// What is known of the least margin of a kind of requirement over all poses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "files",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
 pub enum Verdict {
     /// Proved: no margin is negative.
     Met,

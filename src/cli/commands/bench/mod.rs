@@ -12,6 +12,7 @@ use crate::cli::failure::Failure;
 use crate::cli::files::OutputPath;
 use crate::cli::output::Answer;
 use crate::fk::{self, Homotopy, Method};
+use crate::records::{BenchAnswer, BenchClassRecord};
 
 /// Arguments of `bench`.
 #[derive(Debug, clap::Args)]
@@ -100,9 +101,9 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     }
     let exit = if reports.iter().all(Report::passed) { Exit::Yes } else { Exit::No };
     let name = args.method.to_possible_value().map(|v| v.get_name().to_string()).unwrap_or_default();
-    let (json, text) =
-        (render::json(&args.class, &name, &reports, &references), render::text(&reports, &references));
-    Ok(Answer::new(exit, json, text))
+    let rows: Vec<_> = reports.iter().map(|r| BenchClassRecord::new(r, &references)).collect();
+    let text = render::text(&rows, &references);
+    Ok(Answer::new(exit, BenchAnswer::new(&args.class, &name, rows, &references), text))
 }
 
 fn classes(names: &str) -> Result<Vec<Class>, Failure> {

@@ -3,21 +3,18 @@
 use std::fmt::Write as _;
 use std::num::NonZeroUsize;
 
-use serde_json::{Map, Value, json};
-
 use super::Args;
-use crate::bench::{Class, NOISE_LEVELS, NoiseLevel, NoisePlan, Spread, noise};
+use crate::bench::{Class, NOISE_LEVELS, NoisePlan, noise};
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::files;
-use crate::cli::output::{Answer, number};
+use crate::cli::output::Answer;
 use crate::fk::{ForwardKinematics, Threads};
 use crate::plot::{NoiseCurve, NoiseFigure, NoisePoint, noise_chart};
+use crate::records::{BenchAnswer, NoiseAnswer, NoiseLevelRecord, NoiseRowRecord, SpreadRecord};
 
 /// Levels the published figure shows, other than zero.
 const PUBLISHED: (f64, f64) = (1e-4, 8e-4);
-
-type Row = (Class, Vec<NoiseLevel>);
 
 /// Runs the classes, writes the picture.
 pub(super) fn run(
@@ -32,7 +29,7 @@ pub(super) fn run(
             .with_help(format!("name at most {} classes", NoiseFigure::MOST_CURVES)));
     }
     let threads = usize::try_from(args.threads).ok().and_then(NonZeroUsize::new);
-    let mut rows: Vec<Row> = Vec::new();
+    let mut rows = Vec::new();
     for class in classes {
         let plan = NoisePlan {
             class: *class,
@@ -43,50 +40,30 @@ pub(super) fn run(
         };
         let levels = noise(&plan, solver);
         let levels = levels.map_err(|e| Failure::new(Exit::Inconclusive, "bench::not_run", e.to_string()))?;
-        rows.push((*class, levels));
+        rows.push(NoiseRowRecord::new(*class, &levels));
     }
+    let record =
+        NoiseAnswer { class: args.class.clone(), count: args.count, seed, threads: args.threads, rows };
     if let Some(path) = &args.svg {
-        files::write_text(path, &noise_chart(&figure(args.count, seed, &rows)))?;
+        files::write_text(path, &noise_chart(&figure(&record)))?;
     }
-    let mut json = Map::new();
-    json.insert("class".into(), json!(args.class));
-    json.insert("count".into(), json!(args.count));
-    json.insert("seed".into(), json!(seed));
-    json.insert("threads".into(), json!(args.threads));
-    json.insert("rows".into(), rows.iter().map(record).collect());
-    Ok(Answer::new(Exit::Yes, json, text(&rows)))
+    let text = text(&record.rows);
+    Ok(Answer::new(Exit::Yes, BenchAnswer::Noise(record), text))
 }
 
-fn record((class, levels): &Row) -> Value {
-    let level = |l: &NoiseLevel| {
-        json!({
-            "sigma": number(l.sigma), "without_real_pose": l.without_pose,
-            "rotation": l.rotation.as_ref().map(spread), "position": l.position.as_ref().map(spread),
-        })
-    };
-    json!({ "class": class.name(), "levels": levels.iter().map(level).collect::<Vec<_>>() })
-}
-
-fn spread(s: &Spread) -> Value {
-    json!({
-        "lower_quartile": number(s.lower_quartile), "median": number(s.median),
-        "upper_quartile": number(s.upper_quartile), "p99": number(s.p99), "max": number(s.max),
-    })
-}
-
-fn text(rows: &[Row]) -> String {
+fn text(rows: &[NoiseRowRecord]) -> String {
     let mut out = format!(
         "{:<14} {:>7} {:>7} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
         "class", "sigma", "no pose", "rot 25%", "50%", "75%", "99%", "pos 25%", "50%", "75%", "99%"
     );
-    for (class, levels) in rows {
-        for l in levels {
-            let _ = write!(out, "{:<14} {:>7.0e} {:>7}", class.name(), l.sigma, l.without_pose);
+    for row in rows {
+        for l in &row.levels {
+            let _ = write!(out, "{:<14} {:>7.0e} {:>7}", row.class, l.sigma.0, l.without_real_pose);
             for s in [&l.rotation, &l.position] {
                 match s {
                     Some(s) => {
                         for value in [s.lower_quartile, s.median, s.upper_quartile, s.p99] {
-                            let _ = write!(out, " {value:>9.2e}");
+                            let _ = write!(out, " {:>9.2e}", value.0);
                         }
                     }
                     None => out.push_str(&format!(" {:>9}", "-").repeat(4)),
@@ -99,15 +76,16 @@ fn text(rows: &[Row]) -> String {
     out
 }
 
-fn figure(count: u64, seed: u64, rows: &[Row]) -> NoiseFigure {
-    let quartiles = |s: &Spread| [s.lower_quartile, s.median, s.upper_quartile];
-    let point = |l: &NoiseLevel| {
+fn figure(noise: &NoiseAnswer) -> NoiseFigure {
+    let (count, seed) = (noise.count, noise.seed);
+    let quartiles = |s: &SpreadRecord| [s.lower_quartile.0, s.median.0, s.upper_quartile.0];
+    let point = |l: &NoiseLevelRecord| {
         let (rotation, position) = (l.rotation.as_ref()?, l.position.as_ref()?);
-        Some(NoisePoint { sigma: l.sigma, quartiles: [quartiles(rotation), quartiles(position)] })
+        Some(NoisePoint { sigma: l.sigma.0, quartiles: [quartiles(rotation), quartiles(position)] })
     };
-    let curve = |(class, levels): &Row| NoiseCurve {
-        label: class.name().into_owned(),
-        points: levels.iter().filter_map(point).collect(),
+    let curve = |row: &NoiseRowRecord| NoiseCurve {
+        label: row.class.clone(),
+        points: row.levels.iter().filter_map(point).collect(),
     };
     NoiseFigure {
         title: "Errors of poses over errors of leg lengths".into(),
@@ -117,6 +95,6 @@ fn figure(count: u64, seed: u64, rows: &[Row]) -> NoiseFigure {
         ),
         panels: ["angle of the rotation [rad]".into(), "angle of the position vectors [rad]".into()],
         marked: (PUBLISHED.0, PUBLISHED.1, "published range".into()),
-        curves: rows.iter().map(curve).collect(),
+        curves: noise.rows.iter().map(curve).collect(),
     }
 }

@@ -2,12 +2,13 @@
 
 use std::fmt::Write as _;
 
-use super::{LengthsFrom, Poses};
+use super::Poses;
 use crate::cli::commands::optimize::Done;
 use crate::design::Design;
 use crate::fk::Reality;
 use crate::manipulator::Octahedral;
 use crate::plot::{ModesFigure, OffsetPlane, PlaneAxis, PlanePoint, assembly_modes, determinant_plane};
+use crate::records::LengthsOrigin;
 
 /// Edges or offsets that agree this well are equal for a picture.
 const SAME: f64 = 1e-9;
@@ -93,7 +94,7 @@ pub(super) fn modes(design: &Design, poses: &Poses) -> String {
     let real = s.roots.iter().enumerate().filter(|(_, r)| r.reality == Reality::Real);
     let undecided = s.roots.iter().filter(|r| r.reality == Reality::Undecided).count();
     let lengths: Vec<String> = poses.lengths.get().iter().map(|l| short(*l)).collect();
-    let whose = if poses.from == LengthsFrom::Design { "" } else { " (home pose)" };
+    let whose = if poses.from == LengthsOrigin::Design { "" } else { " (home pose)" };
     let mut note = format!(
         "{} finite poses, {} real; leg lengths {}{}{whose}; numbers as in the list of fk",
         s.roots.len(),

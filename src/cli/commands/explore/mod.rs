@@ -9,7 +9,6 @@ use std::io::IsTerminal;
 use std::path::PathBuf;
 
 use serde::Serialize;
-use serde_json::{Map, Value, json};
 
 use self::folder::Folder;
 use super::optimize::{Choices, Done};
@@ -19,7 +18,7 @@ use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::files::OutputPath;
-use crate::cli::output::{Answer, document, number};
+use crate::cli::output::{Answer, document};
 use crate::cli::poses;
 use crate::cli::progress::{Interrupt, Progress};
 use crate::design::Design;
@@ -27,7 +26,10 @@ use crate::equivalence::{SamplePlan, Verification, verify};
 use crate::fk::{self, FkOptions, FkSolutions, PoseCounting};
 use crate::manipulator::{LegLengths, Octahedral};
 use crate::offsets;
-use crate::records::{FamilyAnswer, FkRunRecord, FramesRecord, RunRecord, VerifyAnswer};
+use crate::records::{
+    ComparedRecord, ExploreAnswer, ExploreVerdict, FamilyAnswer, FamilySizeRecord, FkRunRecord, FramesRecord,
+    LengthsOrigin, OffsetsFoundRecord, PoseTotalsRecord, RunRecord, VerdictWord, VerifyAnswer,
+};
 use crate::synthesis::{Family, FamilyMember};
 
 /// Arguments of `explore`.
@@ -46,22 +48,6 @@ pub(crate) struct Args {
     extension: f64,
 }
 
-/// Whose leg lengths the poses belong to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum LengthsFrom {
-    Design,
-    Home,
-}
-
-impl LengthsFrom {
-    fn as_str(self) -> &'static str {
-        match self {
-            Self::Design => "design",
-            Self::Home => "home",
-        }
-    }
-}
-
 /// The verification with its plan.
 #[derive(Debug)]
 struct Verified {
@@ -74,7 +60,7 @@ struct Verified {
 #[derive(Debug)]
 struct Poses {
     lengths: LegLengths,
-    from: LengthsFrom,
+    from: LengthsOrigin,
     solutions: FkSolutions,
 }
 
@@ -94,11 +80,11 @@ struct Results {
 
 impl Results {
     /// The word for the whole run.
-    fn verdict(&self) -> &'static str {
+    fn verdict(&self) -> ExploreVerdict {
         match (&self.verified, self.done.exit()) {
-            (Some(v), _) => v.found.verdict.as_str(),
-            (None, Exit::No) => "infeasible",
-            (None, _) => "inconclusive",
+            (Some(v), _) => VerdictWord::from(&v.found.verdict).into(),
+            (None, Exit::No) => ExploreVerdict::Infeasible,
+            (None, _) => ExploreVerdict::Inconclusive,
         }
     }
 
@@ -158,7 +144,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         // the same pose, seen by the new legs
         new.lengths = design.lengths.and_then(|l| s.map.apply(&l.squared()).ok()).map(|s| s.lengths());
     }
-    folder.write(folder::OPTIMIZE, &framed(done.record(&design, None), Some(seed))?)?;
+    folder.write(folder::OPTIMIZE, &framed(done.record(&design, None), None)?)?;
     if let Some(new) = &done.optimised {
         folder.write(folder::OPTIMISED, &new.to_toml())?;
     }
@@ -182,7 +168,9 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     folder.write(folder::REPORT, &report::markdown(&results))?;
     let files = folder.results()?;
     folder.write(folder::PAGE, &page(files, None))?;
-    Ok(Answer::new(results.exit(), record(&results, &folder), text(&results, &folder)))
+    let record = record(&results, &folder);
+    let text = text(&record);
+    Ok(Answer::new(results.exit(), record, text))
 }
 
 /// The design as it was read, with a word on where the copy comes from.
@@ -222,10 +210,10 @@ fn solve(design: &Design, options: &FkOptions) -> Result<Poses, Failure> {
     let m = design.manipulator();
     let home = || poses::home(design).lengths(m);
     let (lengths, from) = if let Some(lengths) = design.lengths {
-        (lengths, LengthsFrom::Design)
+        (lengths, LengthsOrigin::Design)
     } else {
         let none = || Failure::refused("explore::no_lengths", "the home pose has no finite leg lengths");
-        (home().ok_or_else(none)?, LengthsFrom::Home)
+        (home().ok_or_else(none)?, LengthsOrigin::Home)
     };
     let solutions =
         fk::solver(None).solve(m, &lengths.squared(), options).map_err(|e| fk_command::failure_of(&e))?;
@@ -238,54 +226,34 @@ pub(super) fn modes_picture(design: &Design, options: &FkOptions) -> Result<Stri
 }
 
 fn fk_record(poses: &Poses) -> FkRunRecord {
-    FkRunRecord {
-        lengths: poses.lengths.get(),
-        lengths_from: poses.from.as_str().into(),
-        solved: (&poses.solutions).into(),
-    }
+    FkRunRecord { lengths: poses.lengths.get(), lengths_from: poses.from, solved: (&poses.solutions).into() }
 }
 
 /// What `--json` writes to standard output.
-fn record(r: &Results, folder: &Folder) -> Map<String, Value> {
+fn record(r: &Results, folder: &Folder) -> ExploreAnswer {
     let c = r.family.counts();
-    let s = r.done.report.solution();
-    let v = r.verified.as_ref();
-    let value = json!({
-        "verdict": r.verdict(),
-        "explanation": r.explanation(),
-        "name": r.design.name,
-        "paths": folder.written().map(|(_, path)| path).collect::<Vec<_>>(),
-        "family": { "patterns": c.patterns, "topologies": c.topologies },
-        "optimize": s.map(|s| json!({
-            "converged": matches!(r.done.exit(), Exit::Yes), "objective": number(s.recheck.objective),
-            "offsets": s.offsets.map(number), "shifts": s.shifts.map(number), "det": number(s.recheck.det),
-        })),
-        "verify": v.map(|v| json!({
-            "samples": v.found.samples.len(), "worst_distance": number(v.found.worst_distance()),
-            "residual": number(v.found.map.residual), "det": number(v.found.map.determinant),
-        })),
-        "fk": {
-            "lengths_from": r.poses.from.as_str(), "finite_count": r.poses.solutions.roots.len(),
-            "real_count": r.poses.solutions.assembly_modes().count(),
-            "certified_count": r.poses.solutions.roots.iter().filter(|x| x.certified()).count(),
-            "all_paths_accounted": r.poses.solutions.all_accounted(),
-        },
-        "version": env!("CARGO_PKG_VERSION"),
-        "seed": r.options.seed,
-    });
-    match value {
-        Value::Object(fields) => fields,
-        _ => Map::new(),
+    let converged = r.done.exit() == Exit::Yes;
+    ExploreAnswer {
+        verdict: r.verdict(),
+        explanation: r.explanation().into(),
+        name: r.design.name.clone(),
+        paths: folder.written().map(|(_, path)| path).collect(),
+        family: FamilySizeRecord { patterns: c.patterns, topologies: c.topologies },
+        optimize: r.done.report.solution().map(|s| OffsetsFoundRecord::new(s, converged)),
+        verify: r.verified.as_ref().map(|v| ComparedRecord::from(&v.found)),
+        fk: PoseTotalsRecord::new(r.poses.from, &r.poses.solutions),
+        version: env!("CARGO_PKG_VERSION").into(),
+        seed: r.options.seed,
     }
 }
 
 /// The paths, for programs; before them the verdict, for people.
-fn text(r: &Results, folder: &Folder) -> String {
+fn text(r: &ExploreAnswer) -> String {
     let mut out = String::new();
     if std::io::stdout().is_terminal() {
-        let _ = writeln!(out, "{}: {}\n{}", r.design.name, r.verdict(), r.explanation());
+        let _ = writeln!(out, "{}: {}\n{}", r.name, r.verdict.as_str(), r.explanation);
     }
-    for (_, path) in folder.written() {
+    for path in &r.paths {
         let _ = writeln!(out, "{path}");
     }
     out

@@ -2,11 +2,12 @@
 
 use std::fmt::Write as _;
 
-use super::{LengthsFrom, Results, Verified, folder};
+use super::{Results, Verified, folder};
 use crate::equivalence::SAME_POSE;
 use crate::fk::{Completeness, FkSolutions};
 use crate::manipulator::LegIndex;
 use crate::offsets::OffsetSolution;
+use crate::records::{LengthsOrigin, SourceWord};
 use crate::synthesis::AffineLegMap;
 
 /// The whole report. Writing to a string cannot fail, so the results of `write!` are dropped.
@@ -16,7 +17,7 @@ pub(super) fn markdown(r: &Results) -> String {
         out,
         "# {}: {}\n\nEvidence: {}.\n",
         plain(&r.design.name),
-        r.verdict().replace('_', " "),
+        r.verdict().as_str().replace('_', " "),
         plain(r.explanation())
     );
     inputs(&mut out, r);
@@ -54,14 +55,14 @@ fn inputs(out: &mut String, r: &Results) {
     for (leg, (a, b)) in LegIndex::all().zip(d.leg_names()) {
         let _ = writeln!(out, "| {} | {} | {} |", leg.get() + 1, plain(a), plain(b));
     }
-    let given = |yes: bool| if yes { "of the design" } else { "default" };
+    let given = |origin| if origin == SourceWord::Design { "of the design" } else { "default" };
     let _ = writeln!(
         out,
         "\nHome pose: {}. Worst case over {} poses, workspace: {}. Joints of one body at least {} {} apart, \
          |det A| at least {}, characteristic length {} {}.\n",
-        given(r.done.set.home_given),
+        given(r.done.set.home_origin),
         p.poses.len(),
-        given(r.done.set.workspace_given),
+        given(r.done.set.workspace_origin),
         p.min_joint_distance,
         plain(&d.units),
         p.min_abs_det,
@@ -234,8 +235,8 @@ fn poses(out: &mut String, r: &Results) {
     let s = &r.poses.solutions;
     let lengths: Vec<String> = r.poses.lengths.get().iter().map(ToString::to_string).collect();
     let whose = match r.poses.from {
-        LengthsFrom::Design => "its own leg lengths",
-        LengthsFrom::Home => "the leg lengths of its home pose (the design gives none)",
+        LengthsOrigin::Design => "its own leg lengths",
+        LengthsOrigin::Home => "the leg lengths of its home pose (the design gives none)",
     };
     let complete = match &s.completeness {
         Completeness::Proved { .. } => "proved",

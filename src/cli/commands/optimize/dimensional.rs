@@ -7,15 +7,15 @@ use crate::cli::poses;
 use crate::cli::progress::{Interrupt, Progress};
 use crate::design::{Combination, Design};
 use crate::dimensional::{
-    DimensionalOutcome, DimensionalProblem, DimensionalReport, DimensionalSolution, InvalidProblem, Mode,
-    SearchOptions, Stage, Variables, evaluate, optimize,
+    DimensionalProblem, DimensionalReport, DimensionalSolution, InvalidProblem, Mode, SearchOptions, Stage,
+    Variables, evaluate, optimize,
 };
-use crate::equivalence::{Verification, verify};
+use crate::equivalence::verify;
 use crate::fk::FkOptions;
 use crate::manipulator::Octahedral;
 use crate::offsets::OffsetProblem;
-use crate::requirements::{AssessOptions, Assessment, JointAxes, Requirements, assess};
-use crate::requirements::{Objective, VariableKind};
+use crate::records::{CheckedSolution, DimensionalAnswer, DimensionalStatus};
+use crate::requirements::{AssessOptions, JointAxes, Objective, Requirements, VariableKind, assess};
 
 /// Points of the dense evaluation, and as many random ones.
 const POINTS: usize = 5000;
@@ -33,38 +33,23 @@ pub(super) fn asks_for_more(design: &Design) -> bool {
 #[derive(Debug)]
 pub(super) struct Done {
     pub(super) report: DimensionalReport,
-    pub(super) checked: Option<Checked>,
-}
-
-/// A platform with the evidence gathered by other code.
-#[derive(Debug)]
-pub(super) struct Checked {
-    pub(super) design: Design,
-    /// Requirements, densely.
-    pub(super) assessment: Assessment,
-    /// Objectives, densely.
-    pub(super) objectives: Vec<(Objective, f64)>,
-    /// Equivalence with the design, where the variables keep it.
-    pub(super) verification: Option<Verification>,
+    pub(super) checked: Option<CheckedSolution>,
 }
 
 impl Done {
-    pub(super) fn exit(&self) -> Exit {
-        match (&self.report.outcome, &self.checked) {
-            _ if self.report.interrupted => Exit::Inconclusive,
-            (DimensionalOutcome::Infeasible(_), _) => Exit::No,
-            (DimensionalOutcome::Optimal(_), Some(c)) if c.assessment.all_met() => Exit::Yes,
-            _ => Exit::Inconclusive,
-        }
+    /// The answer about it.
+    pub(super) fn record(&self, design: &Design, written: Option<&str>) -> DimensionalAnswer {
+        DimensionalAnswer::new(design, &self.report, self.checked.as_ref(), written)
     }
+}
 
-    pub(super) fn status(&self) -> &'static str {
-        match (&self.report.outcome, &self.checked) {
-            _ if self.report.interrupted => "interrupted",
-            (DimensionalOutcome::Infeasible(_), _) => "infeasible",
-            (DimensionalOutcome::Optimal(_), Some(c)) if c.assessment.all_met() => "optimal",
-            (_, Some(c)) if c.assessment.all_met() => "feasible",
-            _ => "undecided",
+/// What the status means for the exit code.
+pub(super) fn exit_of(status: DimensionalStatus) -> Exit {
+    match status {
+        DimensionalStatus::Optimal => Exit::Yes,
+        DimensionalStatus::Infeasible => Exit::No,
+        DimensionalStatus::Feasible | DimensionalStatus::Undecided | DimensionalStatus::Interrupted => {
+            Exit::Inconclusive
         }
     }
 }
@@ -160,7 +145,7 @@ pub(super) fn checked(
     problem: &DimensionalProblem,
     s: &DimensionalSolution,
     seed: u64,
-) -> Result<Checked, Failure> {
+) -> Result<CheckedSolution, Failure> {
     let out = optimised(design, problem, s, seed);
     let space = crate::requirements::PoseSpace { home: s.home, ..problem.space.clone() };
     let requirements = Requirements { hardware: out.hardware, ..problem.requirements.clone() };
@@ -179,7 +164,7 @@ pub(super) fn checked(
     } else {
         None
     };
-    Ok(Checked { design: out, assessment, objectives, verification })
+    Ok(CheckedSolution { design: out, assessment, objectives, verification })
 }
 
 /// The platform with the tables of the design, its axes and its home.

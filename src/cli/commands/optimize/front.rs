@@ -3,17 +3,16 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use serde_json::{Map, Value, json};
-
-use super::dimensional::{Checked, checked, options, problem, refusal, words};
-use super::dimensional_text::{conflict_json, conflict_text, solution_json, unit};
+use super::dimensional::{checked, options, problem, refusal, words};
+use super::dimensional_text::conflict_text;
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
-use crate::cli::output::{Answer, number};
+use crate::cli::output::Answer;
 use crate::cli::progress::{Interrupt, Progress};
 use crate::design::Design;
-use crate::dimensional::{DimensionalOutcome, ParetoReport, pareto};
+use crate::dimensional::pareto;
+use crate::records::{FrontAnswer, FrontStatus, OptimizeAnswer};
 
 /// `out.toml` as `out-1.toml`, `out-2.toml`, ...
 fn numbered(path: &Path, k: usize) -> PathBuf {
@@ -49,71 +48,42 @@ pub(super) fn run(
         written.push(super::write(path.as_deref(), Some(&member.design))?);
         members.push(member);
     }
-    let met = members.iter().all(|c| c.assessment.all_met());
-    let (status, exit) = verdict(&report, met);
-    let mut json = Map::new();
-    json.insert("status".into(), json!(status));
-    json.insert("front".into(), front_json(design, &report, &members, &written));
-    json.insert("dominated".into(), json!(report.dominated));
-    json.insert("unmet".into(), json!(report.unmet));
-    if let Some(DimensionalOutcome::Infeasible(c)) = &report.failure {
-        json.insert("conflict".into(), conflict_json(design, c));
-    }
-    json.insert("seed".into(), json!(context.seed()));
-    Ok(Answer::new(exit, json, text(design, status, &report, &members, &written)))
+    let record = FrontAnswer::new(design, &report, &members, &written, context.seed());
+    let text = text(&design.name, &record);
+    Ok(Answer::new(exit_of(record.status), OptimizeAnswer::Front(record), text))
 }
 
-/// Status and exit code; `met` when all members meet their requirements.
-fn verdict(report: &ParetoReport, met: bool) -> (&'static str, Exit) {
-    match &report.failure {
-        _ if report.interrupted => ("interrupted", Exit::Inconclusive),
-        Some(DimensionalOutcome::Infeasible(_)) => ("infeasible", Exit::No),
-        None if met => ("front", Exit::Yes),
-        _ => ("undecided", Exit::Inconclusive),
+/// What the status means for the exit code.
+fn exit_of(status: FrontStatus) -> Exit {
+    match status {
+        FrontStatus::Front => Exit::Yes,
+        FrontStatus::Infeasible => Exit::No,
+        FrontStatus::Undecided | FrontStatus::Interrupted => Exit::Inconclusive,
     }
 }
 
-fn front_json(design: &Design, r: &ParetoReport, members: &[Checked], written: &[Option<String>]) -> Value {
-    let member = |(k, c): (usize, &Checked)| {
-        let mut fields = Map::new();
-        solution_json(&mut fields, design, &r.front[k].solution, c);
-        fields.remove("history");
-        let own = serde_json::from_str::<Value>(&c.design.to_json()).unwrap_or(Value::Null);
-        fields.insert("design".into(), own);
-        fields.insert("output".into(), json!(written[k]));
-        fields.insert("non_dominated_at".into(), r.front[k].dense.iter().map(|x| number(*x)).collect());
-        Value::Object(fields)
-    };
-    members.iter().enumerate().map(member).collect()
-}
-
-fn text(
-    design: &Design,
-    status: &str,
-    r: &ParetoReport,
-    members: &[Checked],
-    written: &[Option<String>],
-) -> String {
-    let mut out = format!("{}: {status}\n", design.name);
-    if r.interrupted {
+fn text(name: &str, a: &FrontAnswer) -> String {
+    let mut out = format!("{name}: {}\n", a.status.as_str());
+    if a.status == FrontStatus::Interrupted {
         out.push_str("the front as far as it was found; runs that were not finished may be improved\n");
     }
     // writing to a string cannot fail
     let _ = writeln!(
         out,
         "{} platforms of which none is better in every objective; {} dominated or equal ones left out, {} bounds not met",
-        r.front.len(),
-        r.dominated,
-        r.unmet
+        a.front.len(),
+        a.dominated,
+        a.unmet
     );
-    for (k, c) in members.iter().enumerate() {
-        let values = c.objectives.iter().map(|(o, x)| format!("{} {x:.6} {}", o.code(), unit(design, *o)));
-        let met = if c.assessment.all_met() { "" } else { "  (violates requirements)" };
-        let path = written[k].as_ref().map_or_else(String::new, |p| format!("  {p}"));
+    for (k, member) in a.front.iter().enumerate() {
+        let s = &member.solution;
+        let values = s.objectives.iter().map(|o| format!("{} {:.6} {}", o.name.code(), o.value.0, o.unit));
+        let met = if s.requirements_met { "" } else { "  (violates requirements)" };
+        let path = member.output.as_ref().map_or_else(String::new, |p| format!("  {p}"));
         let _ = writeln!(out, "  {:>3}  {}{met}{path}", k + 1, values.collect::<Vec<_>>().join("  "));
     }
-    if let Some(DimensionalOutcome::Infeasible(c)) = &r.failure {
-        conflict_text(&mut out, design, c);
+    if let Some(c) = &a.conflict {
+        conflict_text(&mut out, c);
     }
     out
 }
@@ -122,6 +92,7 @@ fn text(
 mod tests {
     use super::*;
     use crate::design::{Format, parse};
+    use crate::dimensional::ParetoReport;
 
     #[test]
     fn an_interrupted_front_is_not_called_complete() {
@@ -129,16 +100,15 @@ mod tests {
         let (design, _) = parse(&text, Format::Toml).unwrap();
         let mut report =
             ParetoReport { front: Vec::new(), dominated: 0, unmet: 0, failure: None, interrupted: true };
-        let said = verdict(&report, true);
-        assert_eq!(said, ("interrupted", Exit::Inconclusive));
-        assert!(text_of(&design, said.0, &report).contains("as far as it was found"));
+        let said = FrontStatus::of(&report, true);
+        assert_eq!((said.as_str(), exit_of(said)), ("interrupted", Exit::Inconclusive));
+        let answer = |report: &ParetoReport| FrontAnswer::new(&design, report, &[], &[], 0);
+        assert_eq!(answer(&report).status, said);
+        assert!(text(&design.name, &answer(&report)).contains("as far as it was found"));
         report.interrupted = false;
-        assert_eq!(verdict(&report, true), ("front", Exit::Yes));
-        assert_eq!(verdict(&report, false), ("undecided", Exit::Inconclusive));
-        assert!(!text_of(&design, "front", &report).contains("as far as it was found"));
-    }
-
-    fn text_of(design: &Design, status: &str, report: &ParetoReport) -> String {
-        super::text(design, status, report, &[], &[])
+        let verdict = |met| FrontStatus::of(&report, met);
+        assert_eq!((verdict(true).as_str(), exit_of(verdict(true))), ("front", Exit::Yes));
+        assert_eq!((verdict(false).as_str(), exit_of(verdict(false))), ("undecided", Exit::Inconclusive));
+        assert!(!text(&design.name, &answer(&report)).contains("as far as it was found"));
     }
 }

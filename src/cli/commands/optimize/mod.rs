@@ -9,8 +9,6 @@ mod render;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
-use serde_json::{Map, Value};
-
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
@@ -21,10 +19,9 @@ use crate::cli::progress::{Interrupt, Progress};
 use crate::design::{Combination, Design};
 use crate::geom::Pose;
 use crate::manipulator::{Body, Manipulator, Octahedral};
-use crate::offsets::{
-    self, OffsetOutcome, OffsetProblem, OffsetReport, OffsetSolution, OptimizeOptions, optimize,
-};
+use crate::offsets::{self, OffsetProblem, OffsetReport, OffsetSolution, OptimizeOptions, optimize};
 use crate::plot::SearchStep;
+use crate::records::{OffsetsAnswer, OffsetsFound, OffsetsStatus, OptimizeAnswer, SourceWord};
 use crate::synthesis::sliding_body;
 
 /// Arguments of `optimize`.
@@ -76,14 +73,19 @@ impl Choices {
 pub(crate) struct PoseSet {
     pub(crate) poses: Vec<Pose>,
     pub(crate) home: Pose,
-    pub(crate) home_given: bool,
-    pub(crate) workspace_given: bool,
+    pub(crate) home_origin: SourceWord,
+    pub(crate) workspace_origin: SourceWord,
 }
 
 fn pose_set(design: &Design) -> PoseSet {
     let (home, (workspace, workspace_given)) = (poses::home(design), poses::workspace(design));
     let poses = workspace.sample(Some(&home));
-    PoseSet { poses, home, home_given: design.home.is_some(), workspace_given }
+    PoseSet {
+        poses,
+        home,
+        home_origin: SourceWord::given(design.home.is_some()),
+        workspace_origin: SourceWord::given(workspace_given),
+    }
 }
 
 fn problem(design: &Design, octahedral: Octahedral, poses: Vec<Pose>, extension: f64) -> OffsetProblem {
@@ -115,9 +117,13 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
             history::write(path, &design, "sum of the weighted objectives", &rows)?;
         }
         let written = write(args.output.as_deref(), done.checked.as_ref().map(|c| &c.design))?;
-        let json = dimensional_text::record(&design, &done, written.as_deref());
-        let text = dimensional_text::text(&design, &done, written.as_deref());
-        return Ok(Answer::new(done.exit(), json, text));
+        let record = done.record(&design, written.as_deref());
+        let text = dimensional_text::text(&design.name, &record, &done.report.outcome);
+        return Ok(Answer::new(
+            dimensional::exit_of(record.status),
+            OptimizeAnswer::Dimensional(Box::new(record)),
+            text,
+        ));
     }
     let octahedral = Octahedral::recognise(design.manipulator()).map_err(|why| {
         Failure::refused("optimize::not_octahedral", format!("not an octahedral platform: {why}"))
@@ -145,10 +151,13 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         let rows: Vec<history::Row> = s.history.iter().map(of).collect();
         history::write(path, &design, "worst inverse condition number", &rows)?;
     }
-    let json = done.record(&design, written.as_deref());
-    let text =
-        if context.json() { String::new() } else { render::text(&done.found(&design), written.as_deref()) };
-    Ok(Answer::new(done.exit(), json, text))
+    let record = done.record(&design, written.as_deref());
+    let text = if context.json() {
+        String::new()
+    } else {
+        render::text(&design, &record, &done.problem, done.report.solution())
+    };
+    Ok(Answer::new(exit_of(record.status), OptimizeAnswer::Offsets(Box::new(record)), text))
 }
 
 /// How far the search is, for people.
@@ -193,24 +202,34 @@ pub(super) struct Done {
 }
 
 impl Done {
-    fn found<'a>(&'a self, design: &'a Design) -> render::Found<'a> {
-        render::Found { design, problem: &self.problem, set: &self.set, report: &self.report }
-    }
-
-    /// The fields of the document.
-    pub(super) fn record(&self, design: &Design, written: Option<&str>) -> Map<String, Value> {
-        render::json(&self.found(design), self.optimised.as_ref(), written)
+    /// The answer about it.
+    pub(super) fn record(&self, design: &Design, written: Option<&str>) -> OffsetsAnswer {
+        let found = OffsetsFound {
+            design,
+            problem: &self.problem,
+            report: &self.report,
+            home: &self.set.home,
+            home_origin: self.set.home_origin,
+            workspace_origin: self.set.workspace_origin,
+            optimised: self.optimised.as_ref(),
+        };
+        OffsetsAnswer::new(&found, written)
     }
 
     pub(super) fn exit(&self) -> Exit {
-        match self.report.outcome {
-            _ if self.report.interrupted => Exit::Inconclusive,
-            OffsetOutcome::Optimal(_) => Exit::Yes,
-            OffsetOutcome::Infeasible => Exit::No,
-            OffsetOutcome::LocalOptimum(_)
-            | OffsetOutcome::NotConverged(_)
-            | OffsetOutcome::Undecided { .. } => Exit::Inconclusive,
-        }
+        exit_of((&self.report).into())
+    }
+}
+
+/// What the status means for the exit code.
+fn exit_of(status: OffsetsStatus) -> Exit {
+    match status {
+        OffsetsStatus::Optimal => Exit::Yes,
+        OffsetsStatus::Infeasible => Exit::No,
+        OffsetsStatus::LocalOptimum
+        | OffsetsStatus::Feasible
+        | OffsetsStatus::Undecided
+        | OffsetsStatus::Interrupted => Exit::Inconclusive,
     }
 }
 

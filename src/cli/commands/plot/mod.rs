@@ -8,8 +8,6 @@ mod workspace;
 
 use std::path::PathBuf;
 
-use serde_json::{Map, json};
-
 use super::{components, locus, selfmotion, singularities, topologies};
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
@@ -19,6 +17,7 @@ use crate::cli::freedoms::Freedoms;
 use crate::cli::output::Answer;
 use crate::cli::poses;
 use crate::plot::singular_slice;
+use crate::records::{FigureWord, PictureRecord, PlotAnswer};
 
 /// Arguments of `plot`.
 #[derive(Debug, clap::Args)]
@@ -80,18 +79,18 @@ enum Figure {
 }
 
 impl Figure {
-    fn name(&self) -> &'static str {
+    fn word(&self) -> FigureWord {
         match self {
-            Self::Modes(_) => "modes",
-            Self::Components { .. } => "components",
-            Self::Det(_) => "det",
-            Self::Locus(_) => "locus",
-            Self::Pair(_) => "pair",
-            Self::Pareto(_) => "pareto",
-            Self::Selfmotion(_) => "selfmotion",
-            Self::Singularities { .. } => "singularities",
-            Self::Topologies { .. } => "topologies",
-            Self::Workspace(_) => "workspace",
+            Self::Modes(_) => FigureWord::Modes,
+            Self::Components { .. } => FigureWord::Components,
+            Self::Det(_) => FigureWord::Det,
+            Self::Locus(_) => FigureWord::Locus,
+            Self::Pair(_) => FigureWord::Pair,
+            Self::Pareto(_) => FigureWord::Pareto,
+            Self::Selfmotion(_) => FigureWord::Selfmotion,
+            Self::Singularities { .. } => FigureWord::Singularities,
+            Self::Topologies { .. } => FigureWord::Topologies,
+            Self::Workspace(_) => FigureWord::Workspace,
         }
     }
 
@@ -126,15 +125,13 @@ impl Figure {
 /// Draws, and writes the file or the picture itself.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let svg = args.figure.draw(context)?;
-    let mut json = Map::new();
-    json.insert("figure".into(), json!(args.figure.name()));
-    let text = if let Some(path) = &args.output {
+    let (picture, text) = if let Some(path) = &args.output {
         files::write_text(path, &svg)?;
-        json.insert("output".into(), json!(path.display().to_string()));
-        format!("{}\n", path.display())
+        let output = path.display().to_string();
+        let text = format!("{output}\n");
+        (PictureRecord::Written { output }, text)
     } else {
-        json.insert("svg".into(), json!(svg));
-        svg
+        (PictureRecord::Given { svg: svg.clone() }, svg)
     };
-    Ok(Answer::new(Exit::Yes, json, text))
+    Ok(Answer::new(Exit::Yes, PlotAnswer { figure: args.figure.word(), picture }, text))
 }

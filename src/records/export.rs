@@ -1,0 +1,95 @@
+//! Answers of `export`.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::Number;
+use crate::export::{Choice, Export, Writer, writers};
+
+/// The answer of `export`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ExportAnswer {
+    /// The name of the design.
+    pub name: String,
+    /// The folder.
+    pub output: String,
+    /// What one unit of the design is.
+    pub design_unit: LengthUnitRecord,
+    /// What became of each format.
+    pub formats: Vec<FormatRecord>,
+    /// The sizes that were chosen.
+    pub sizes: Vec<SizeRecord>,
+}
+
+impl ExportAnswer {
+    /// The answer of a model whose files stand in a folder.
+    #[must_use]
+    pub fn new(export: &Export, output: String, formats: Vec<FormatRecord>) -> Self {
+        Self {
+            name: export.name.clone(),
+            output,
+            design_unit: LengthUnitRecord { label: export.unit.label.into(), mm: export.unit.millimetres },
+            formats,
+            sizes: export.choices.iter().map(SizeRecord::from).collect(),
+        }
+    }
+}
+
+/// A length unit.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct LengthUnitRecord {
+    /// Its label.
+    pub label: String,
+    /// Millimetres.
+    pub mm: f64,
+}
+
+/// The files of a format.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct FormatRecord {
+    /// Its name.
+    #[schemars(extend("enum" = writers().map(Writer::name)))]
+    pub format: String,
+    /// What it is for.
+    pub purpose: String,
+    /// The files written.
+    pub files: Vec<String>,
+    /// Whether it could hold the design.
+    #[serde(flatten)]
+    pub outcome: FormatOutcome,
+}
+
+/// What became of a format.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum FormatOutcome {
+    /// It was written.
+    Written {
+        /// What of the design it does not carry.
+        leaves_out: String,
+    },
+    /// It was not.
+    Refused {
+        /// Why it cannot hold the design.
+        refused: String,
+    },
+}
+
+/// A size and where it comes from.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SizeRecord {
+    /// What it is the size of.
+    pub what: String,
+    /// Its value in `unit`.
+    pub value: Number,
+    /// Design units, or kilograms.
+    pub unit: String,
+    /// Option, table or rule.
+    pub from: String,
+}
+
+impl From<&Choice> for SizeRecord {
+    fn from(c: &Choice) -> Self {
+        Self { what: c.what.clone(), value: Number(c.value), unit: c.unit.into(), from: c.from.into() }
+    }
+}

@@ -1,0 +1,145 @@
+//! Requirements that cannot be met together.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::design::Design;
+use crate::dimensional::{Conflict, Demand, Give, Objective};
+use crate::records::Number;
+use crate::requirements::TermKind;
+
+/// Requirements that cannot be met together; without any one of them the others were met.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ConflictRecord {
+    /// The set is proved to be in conflict.
+    pub proved: bool,
+    /// What would have to give.
+    pub requirements: Vec<GiveRecord>,
+}
+
+impl ConflictRecord {
+    /// The record of a conflict about a design.
+    #[must_use]
+    pub fn new(design: &Design, c: &Conflict) -> Self {
+        Self {
+            proved: c.proved,
+            requirements: c.demands.iter().map(|g| GiveRecord::new(design, g)).collect(),
+        }
+    }
+}
+
+/// A requirement of a conflict.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct GiveRecord {
+    /// Which.
+    pub requirement: DemandWord,
+    /// In which it gives.
+    pub unit: String,
+    /// By how much it would have to give alone; null: cannot make room.
+    pub alone: Option<Number>,
+    /// Its violation where the sum of all, each in its scale, is least.
+    pub together: Number,
+    /// One sentence.
+    pub message: String,
+}
+
+impl GiveRecord {
+    fn new(design: &Design, g: &Give) -> Self {
+        let (what, unit) = words(design, g.demand);
+        let message = match g.alone {
+            Some(x) if x > 0.0 => {
+                format!("{what} would have to give by {} {unit}", amount(x)).trim_end().to_string()
+            }
+            Some(_) => format!("{what} would have to give by no more than the spare of the search"),
+            None => format!("{what} cannot make room alone, whatever it gives"),
+        };
+        Self {
+            requirement: g.demand.into(),
+            unit,
+            alone: g.alone.map(Number),
+            together: Number(g.together),
+            message,
+        }
+    }
+
+    /// By how much it gives together with the others, for people.
+    #[must_use]
+    pub fn amount(&self) -> String {
+        amount(self.together.0)
+    }
+}
+
+/// A positive amount with at least four significant digits.
+fn amount(x: f64) -> String {
+    if x < 1e-3 { format!("{x:.3e}") } else { format!("{x:.6}") }
+}
+
+/// A constraint in words, and the unit in which it gives.
+fn words(design: &Design, d: Demand) -> (String, String) {
+    match d {
+        Demand::Requirement(kind) => {
+            let sentence = match kind {
+                TermKind::LegTooShort => "the least leg length",
+                TermKind::LegTooLong => "the greatest leg length",
+                TermKind::BaseSwing => "the swing limit of the base joints",
+                TermKind::PlatformSwing => "the swing limit of the platform joints",
+                TermKind::LegClearance => "the clearance between legs",
+                TermKind::KeepOut => "the clearance from the keep-outs",
+                TermKind::LegForce => "the greatest leg force",
+                TermKind::LegSpeed => "the greatest leg speed",
+                TermKind::BaseSpacing => "the room between base joints",
+                TermKind::PlatformSpacing => "the room between platform joints",
+            };
+            (sentence.to_string(), design.unit_of(kind.quantity()))
+        }
+        Demand::Determinant => ("the least |det A|".to_string(), String::new()),
+        Demand::Reach => ("the reach of sliding joints".to_string(), "reaches".to_string()),
+        Demand::Level(o) => (format!("the level of {}", o.code()), String::new()),
+    }
+}
+
+/// What is demanded.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum DemandWord {
+    /// A requirement of the design.
+    Requirement(TermKind),
+    /// An objective at a level at least.
+    Level(Objective),
+    /// What the search itself demands.
+    Special(SpecialDemand),
+}
+
+/// What the search itself demands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SpecialDemand {
+    /// A least |det A|.
+    AbsDet,
+    /// Joints that slide stay near their body.
+    Reach,
+}
+
+impl From<Demand> for DemandWord {
+    fn from(d: Demand) -> Self {
+        match d {
+            Demand::Requirement(kind) => Self::Requirement(kind),
+            Demand::Level(o) => Self::Level(o),
+            Demand::Determinant => Self::Special(SpecialDemand::AbsDet),
+            Demand::Reach => Self::Special(SpecialDemand::Reach),
+        }
+    }
+}
+
+impl DemandWord {
+    /// The word.
+    #[must_use]
+    pub fn code(self) -> &'static str {
+        match self {
+            Self::Requirement(kind) => kind.code(),
+            Self::Level(o) => o.code(),
+            Self::Special(SpecialDemand::AbsDet) => "abs_det",
+            Self::Special(SpecialDemand::Reach) => "reach",
+        }
+    }
+}

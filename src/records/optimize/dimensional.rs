@@ -1,0 +1,290 @@
+//! Answers about a dimensional problem.
+
+use nalgebra::{Unit, Vector3};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::ConflictRecord;
+use crate::design::Design;
+use crate::dimensional::{
+    DimensionalOutcome, DimensionalReport, DimensionalSolution, HistoryStep, Objective,
+};
+use crate::equivalence::Verification;
+use crate::records::{DesignRecord, MarginRecord, Number, PoseQuaternionRecord, VerdictWord};
+use crate::requirements::Assessment;
+
+/// A platform that was found, with the evidence gathered by other code.
+#[derive(Debug, Clone)]
+pub struct CheckedSolution {
+    /// The platform as a design.
+    pub design: Design,
+    /// Requirements, densely.
+    pub assessment: Assessment,
+    /// Objectives, densely.
+    pub objectives: Vec<(Objective, f64)>,
+    /// Equivalence with the design, where the variables keep it.
+    pub verification: Option<Verification>,
+}
+
+/// The answer of `optimize` about a design that asks for more than offsets.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct DimensionalAnswer {
+    /// What came of the search.
+    pub status: DimensionalStatus,
+    /// The best platform found.
+    #[serde(flatten)]
+    pub solution: Option<DimensionalSolutionRecord>,
+    /// When infeasible.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub conflict: Option<ConflictRecord>,
+    /// How the search went.
+    pub search: SearchRecord,
+    /// Its seed.
+    pub seed: u64,
+    /// The platform; null: there is none.
+    pub design: Option<DesignRecord>,
+    /// The file written.
+    pub output: Option<String>,
+}
+
+impl DimensionalAnswer {
+    /// The answer of a search from a design; `checked` is its solution, if there is one.
+    #[must_use]
+    pub fn new(
+        design: &Design,
+        report: &DimensionalReport,
+        checked: Option<&CheckedSolution>,
+        output: Option<&str>,
+    ) -> Self {
+        let solution = report.solution().zip(checked);
+        Self {
+            status: DimensionalStatus::of(report, checked),
+            solution: solution.map(|(s, c)| DimensionalSolutionRecord::new(design, s, c)),
+            conflict: match &report.outcome {
+                DimensionalOutcome::Infeasible(c) => Some(ConflictRecord::new(design, c)),
+                _ => None,
+            },
+            search: SearchRecord {
+                starts: report.starts,
+                feasible: report.feasible,
+                polished: report.polished.iter().map(|g| g.map(Number)).collect(),
+            },
+            seed: report.seed,
+            design: checked.map(|c| (&c.design).into()),
+            output: output.map(str::to_owned),
+        }
+    }
+}
+
+/// What came of a search.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum DimensionalStatus {
+    /// Locally optimal by the evidence, and the requirements are met.
+    Optimal,
+    /// The requirements are met; better platforms may be near.
+    Feasible,
+    /// No start met the requirements.
+    Infeasible,
+    /// Neither.
+    Undecided,
+    /// The search was told to end.
+    Interrupted,
+}
+
+impl DimensionalStatus {
+    fn of(report: &DimensionalReport, checked: Option<&CheckedSolution>) -> Self {
+        let met = checked.is_some_and(|c| c.assessment.all_met());
+        match &report.outcome {
+            _ if report.interrupted => Self::Interrupted,
+            DimensionalOutcome::Infeasible(_) => Self::Infeasible,
+            DimensionalOutcome::Optimal(_) if met => Self::Optimal,
+            _ if met => Self::Feasible,
+            _ => Self::Undecided,
+        }
+    }
+
+    /// The word.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Optimal => "optimal",
+            Self::Feasible => "feasible",
+            Self::Infeasible => "infeasible",
+            Self::Undecided => "undecided",
+            Self::Interrupted => "interrupted",
+        }
+    }
+}
+
+/// How a search went.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SearchRecord {
+    /// Starts that were climbed from.
+    pub starts: usize,
+    /// Starts that led to a feasible point.
+    pub feasible: usize,
+    /// Gains; null: not feasible.
+    pub polished: Vec<Option<Number>>,
+}
+
+/// A platform found by a search.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct DimensionalSolutionRecord {
+    /// Value of the first objective.
+    pub objective: Number,
+    /// All of them.
+    pub objectives: Vec<ObjectiveRecord>,
+    /// What was chosen, axes left out.
+    pub variables: Vec<VariableRecord>,
+    /// In cyclic order; null: not chosen.
+    pub offsets: Option<[Number; 6]>,
+    /// Home, lifted when its height was chosen.
+    pub home: PoseQuaternionRecord,
+    /// The axes chosen.
+    pub joint_axes: JointAxesRecord,
+    /// The requirements, over many poses and by other code.
+    pub constraint_margins: Vec<MarginRecord>,
+    /// None of them is violated.
+    pub requirements_met: bool,
+    /// Whether it is equivalent to the design; null: the variables do not keep the class.
+    pub verify: Option<VerifiedRecord>,
+    /// Steps of the run that found it; absent in a front.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub history: Option<Vec<DimensionalStepRecord>>,
+    /// Evidence of local optimality.
+    pub local_optimality: StationarityRecord,
+    /// Numbers of poses.
+    pub poses: HeldPosesRecord,
+}
+
+impl DimensionalSolutionRecord {
+    /// The record of a solution for a design.
+    #[must_use]
+    pub fn new(design: &Design, s: &DimensionalSolution, c: &CheckedSolution) -> Self {
+        let objective = |((o, held), (_, dense)): (&(Objective, f64), &(Objective, f64))| ObjectiveRecord {
+            name: *o,
+            value: Number(*dense),
+            at_held_poses: Number(*held),
+            unit: o.quantity().map_or_else(String::new, |q| design.unit_of(q)),
+        };
+        let objectives: Vec<ObjectiveRecord> =
+            s.objectives.iter().zip(&c.objectives).map(objective).collect();
+        let axes = |list: &Option<[Unit<Vector3<f64>>; 6]>| {
+            list.map(|list| list.map(|a| [a.x, a.y, a.z].map(Number)))
+        };
+        Self {
+            objective: objectives.first().map_or(Number(f64::NAN), |o| o.value),
+            objectives,
+            variables: s
+                .variables
+                .iter()
+                .map(|(name, x)| VariableRecord { name: name.clone(), value: Number(*x) })
+                .collect(),
+            offsets: s.offsets.map(|t| t.map(Number)),
+            home: (&s.home).into(),
+            joint_axes: JointAxesRecord { base: axes(&s.axes[0]), platform: axes(&s.axes[1]) },
+            constraint_margins: MarginRecord::searched(&c.design, &c.assessment),
+            requirements_met: c.assessment.all_met(),
+            verify: c.verification.as_ref().map(VerifiedRecord::from),
+            history: Some(s.history.iter().map(DimensionalStepRecord::from).collect()),
+            local_optimality: StationarityRecord { stationarity: Number(s.stationarity) },
+            poses: HeldPosesRecord { held: s.poses.len(), checked: c.assessment.poses },
+        }
+    }
+}
+
+/// An objective and its value.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ObjectiveRecord {
+    /// Which.
+    pub name: Objective,
+    /// By the dense evaluation.
+    pub value: Number,
+    /// Over the poses at which the optimiser kept the requirements.
+    pub at_held_poses: Number,
+    /// Empty for a pure number.
+    pub unit: String,
+}
+
+/// A quantity that was chosen.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct VariableRecord {
+    /// Which.
+    pub name: String,
+    /// Its value.
+    pub value: Number,
+}
+
+/// Axes of joints: unit vectors, frame of the body; null: not chosen.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct JointAxesRecord {
+    /// Of the base ends of the legs.
+    pub base: Option<[[Number; 3]; 6]>,
+    /// Of their platform ends.
+    pub platform: Option<[[Number; 3]; 6]>,
+}
+
+/// A verification in short.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct VerifiedRecord {
+    /// The verdict.
+    pub verdict: VerdictWord,
+    /// The largest distance of matched poses.
+    pub worst_distance: Number,
+    /// Sets of lengths at which both were solved.
+    pub samples: usize,
+}
+
+impl From<&Verification> for VerifiedRecord {
+    fn from(v: &Verification) -> Self {
+        Self {
+            verdict: (&v.verdict).into(),
+            worst_distance: Number(v.worst_distance()),
+            samples: v.samples.len(),
+        }
+    }
+}
+
+/// A step of the run that found a platform.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct DimensionalStepRecord {
+    /// Weighted gain.
+    pub objective: Number,
+    /// In the scale of its constraint.
+    pub violation: Number,
+    /// Of the trust region.
+    pub radius: Number,
+    /// Held.
+    pub poses: usize,
+    /// The step was taken.
+    pub accepted: bool,
+}
+
+impl From<&HistoryStep> for DimensionalStepRecord {
+    fn from(h: &HistoryStep) -> Self {
+        Self {
+            objective: Number(h.gain),
+            violation: Number(h.violation),
+            radius: Number(h.radius),
+            poses: h.poses,
+            accepted: h.accepted,
+        }
+    }
+}
+
+/// Evidence of local optimality.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct StationarityRecord {
+    /// Gain still promised for a unit of the variables.
+    pub stationarity: Number,
+}
+
+/// Numbers of poses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct HeldPosesRecord {
+    /// Where the optimiser kept the requirements.
+    pub held: usize,
+    /// Of the dense evaluation.
+    pub checked: usize,
+}

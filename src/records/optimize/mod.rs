@@ -1,0 +1,34 @@
+//! Answers of `optimize`.
+
+mod conflict;
+mod dimensional;
+mod front;
+mod offsets;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+pub use self::conflict::{ConflictRecord, DemandWord, GiveRecord, SpecialDemand};
+pub use self::dimensional::{
+    CheckedSolution, DimensionalAnswer, DimensionalSolutionRecord, DimensionalStatus, DimensionalStepRecord,
+    HeldPosesRecord, JointAxesRecord, ObjectiveRecord, SearchRecord, StationarityRecord, VariableRecord,
+    VerifiedRecord,
+};
+pub use self::front::{FrontAnswer, FrontMemberRecord, FrontStatus};
+pub use self::offsets::{
+    BranchConflictRecord, BranchCountsRecord, BranchRecord, BranchWord, GlobalBoundRecord,
+    LocalOptimalityRecord, OffsetLimitsRecord, OffsetMarginsRecord, OffsetSolutionRecord, OffsetStepRecord,
+    OffsetsAnswer, OffsetsFound, OffsetsStatus, PoseSetRecord, WorstPoseRecord,
+};
+
+/// The answer of `optimize`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum OptimizeAnswer {
+    /// mode = "pareto".
+    Front(FrontAnswer),
+    /// Offsets of an octahedral design.
+    Offsets(Box<OffsetsAnswer>),
+    /// A design that asks for more.
+    Dimensional(Box<DimensionalAnswer>),
+}

@@ -1,0 +1,144 @@
+//! By how much requirements are met.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{Number, PoseQuaternionRecord};
+use crate::design::Design;
+use crate::geom::Pose;
+use crate::requirements::{Assessment, Margin, MarginBound, Proof, Standing, TermKind, Verdict};
+use crate::singularity::Regularity;
+
+/// The least margin of a kind of requirement.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct MarginRecord {
+    /// The kind.
+    pub requirement: TermKind,
+    /// Least over the poses looked at; a violation below 0.
+    pub margin: Number,
+    /// Not violated by more than rounding: proved in `assess` (null where it is not), at the poses looked at elsewhere.
+    pub met: Option<bool>,
+    /// Rounding does not tell the margin from 0.
+    pub at_limit: bool,
+    /// What is known of it.
+    pub status: Verdict,
+    /// No pose of the workspace has a smaller margin; null where nothing is proved.
+    pub proved_margin: Number,
+    /// Of the margins.
+    pub unit: String,
+    /// Legs, joints, keep-out or load.
+    pub between: Vec<String>,
+    /// Where it is least; null where the pose has no influence.
+    pub pose: Option<PoseQuaternionRecord>,
+}
+
+impl MarginRecord {
+    fn new(design: &Design, m: &Margin, met: Option<bool>, status: Verdict, below: f64) -> Self {
+        Self {
+            requirement: m.term.kind,
+            margin: Number(m.value),
+            met,
+            at_limit: m.standing == Standing::AtLimit,
+            status,
+            proved_margin: Number(below),
+            unit: design.unit_of(m.term.kind.quantity()),
+            between: design.names_of(m.term),
+            pose: m.pose.as_ref().map(PoseQuaternionRecord::from),
+        }
+    }
+
+    /// With what is proved of it.
+    #[must_use]
+    pub fn proved(design: &Design, bound: &MarginBound) -> Self {
+        Self::new(design, &bound.found, bound.verdict.is_met(), bound.verdict, bound.below)
+    }
+
+    /// Margins that were looked for and not proved: `met` says that no violation was found.
+    #[must_use]
+    pub fn searched(design: &Design, found: &Assessment) -> Vec<Self> {
+        let record = |m: &Margin| {
+            let met = m.standing.is_met();
+            let status = if met { Verdict::Searched } else { Verdict::Violated };
+            Self::new(design, m, Some(met), status, f64::NEG_INFINITY)
+        };
+        found.margins.iter().map(record).collect()
+    }
+
+    /// Whether the margin found is one of a violation.
+    #[must_use]
+    pub fn violates(&self) -> bool {
+        !self.at_limit && (self.margin.0 < 0.0 || self.margin.0.is_nan())
+    }
+}
+
+/// The answer of `assess`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct AssessAnswer {
+    /// True: every margin and det J are proved, for every pose of the workspace; false: a violation or a change of sign of det J is proved by its pose;
+    /// null: neither.
+    pub met: Option<bool>,
+    /// The least of each kind.
+    pub margins: Vec<MarginRecord>,
+    /// Whether there are singular poses.
+    pub regular: RegularityRecord,
+    /// Poses looked at.
+    pub poses: usize,
+    /// Cells over which margins were bounded.
+    pub cells: usize,
+}
+
+impl AssessAnswer {
+    /// What is proved of a design, and of `det J` on so many cells of its workspace.
+    #[must_use]
+    pub fn new(design: &Design, proof: &Proof, regularity: &Regularity, cells: usize) -> Self {
+        let regular = RegularityRecord::new(regularity, cells);
+        let met = match (proof.all_met(), regular.met) {
+            (Some(false), _) | (_, Some(false)) => Some(false),
+            (Some(true), Some(true)) => Some(true),
+            _ => None,
+        };
+        Self {
+            met,
+            margins: proof.bounds.iter().map(|b| MarginRecord::proved(design, b)).collect(),
+            regular,
+            poses: proof.poses,
+            cells: proof.bounds.iter().map(|b| b.cells).sum(),
+        }
+    }
+}
+
+/// Whether det J vanishes at no pose of the workspace.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct RegularityRecord {
+    /// Null: undecided.
+    pub met: Option<bool>,
+    /// The same in a word.
+    pub status: RegularityWord,
+    /// Where det J has the other sign than at home, or where it is undecided.
+    pub pose: Option<PoseQuaternionRecord>,
+    /// Cells of the workspace that were looked at.
+    pub cells: usize,
+}
+
+/// What is known of the sign of det J.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum RegularityWord {
+    /// It vanishes at no pose.
+    Proved,
+    /// It vanishes at some pose.
+    ChangesSign,
+    /// Neither is proved.
+    Undecided,
+}
+
+impl RegularityRecord {
+    fn new(regularity: &Regularity, cells: usize) -> Self {
+        let (met, status, pose): (_, _, Option<&Pose>) = match regularity {
+            Regularity::Regular => (Some(true), RegularityWord::Proved, None),
+            Regularity::ChangesSign(pose) => (Some(false), RegularityWord::ChangesSign, Some(pose)),
+            Regularity::Undecided(pose) => (None, RegularityWord::Undecided, Some(pose)),
+        };
+        Self { met, status, pose: pose.map(PoseQuaternionRecord::from), cells }
+    }
+}
