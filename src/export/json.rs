@@ -1,8 +1,8 @@
 //! Everything as one JSON document, lengths in millimetres.
 
-use serde_json::{Value, json};
+use serde::Serialize;
 
-use super::{Export, ExportBody, File, Unsupported, Writer};
+use super::{Choice, Export, ExportBody, ExportLeg, File, Hole, Plate, Unsupported, Writer};
 use crate::geom::Pose;
 
 /// The format `json`.
@@ -19,73 +19,187 @@ impl Writer for Json {
     }
 
     fn files(&self, export: &Export) -> Result<Vec<File>, Unsupported> {
-        let mut text = document(export).to_string();
+        // texts, numbers, lists and fields can be written
+        let mut text = serde_json::to_string(&Document::of(export)).unwrap_or_default();
         text.push('\n');
         Ok(vec![File::new("platform.json", text)])
     }
 }
 
-fn document(export: &Export) -> Value {
-    let mm = export.unit.millimetres;
-    json!({
-        "schema_version": 1,
-        "name": export.name,
-        "source": export.source,
-        "program": export.program,
-        "units": "mm",
-        "design_unit": { "label": export.unit.label, "mm": mm },
-        "frames": "right-handed; a pose (R, p) takes platform to base coordinates: x_base = R x_platform + p; quat_wxyz is R, scalar first",
-        "home": pose_record(&export.home, mm),
-        "base": body_record(&export.bodies[0], mm),
-        "platform": body_record(&export.bodies[1], mm),
-        "legs": export.legs.iter().map(|leg| {
+/// What frames the numbers are in.
+const FRAMES: &str = "right-handed; a pose (R, p) takes platform to base coordinates: x_base = R x_platform + p; quat_wxyz is R, scalar first";
+/// What frame those of a plate are in.
+const PLATE_FRAME: &str = "plate coordinates (u, v, w) are origin + u*axes[0] + v*axes[1] + w*axes[2] in the frame of the body; the plate is 0 <= w <= thickness";
+
+#[derive(Debug, Serialize)]
+struct Document<'a> {
+    schema_version: u32,
+    name: &'a str,
+    source: Option<&'a str>,
+    program: &'a str,
+    units: &'static str,
+    design_unit: UnitRecord,
+    frames: &'static str,
+    home: PoseRecord,
+    base: BodyRecord<'a>,
+    platform: BodyRecord<'a>,
+    legs: Vec<LegRecord<'a>>,
+    workspace: Vec<LengthsRecord>,
+    trajectory: Vec<LengthsRecord>,
+    choices: Vec<ChoiceRecord<'a>>,
+}
+
+#[derive(Debug, Serialize)]
+struct UnitRecord {
+    label: &'static str,
+    mm: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct PoseRecord {
+    position: [f64; 3],
+    quat_wxyz: [f64; 4],
+}
+
+#[derive(Debug, Serialize)]
+struct LengthsRecord {
+    #[serde(flatten)]
+    pose: PoseRecord,
+    lengths: [f64; 6],
+}
+
+#[derive(Debug, Serialize)]
+struct BodyRecord<'a> {
+    ball_diameter: f64,
+    joints: Vec<JointRecord<'a>>,
+    /// Null where its holes overlap.
+    plate: Option<PlateRecord<'a>>,
+}
+
+#[derive(Debug, Serialize)]
+struct JointRecord<'a> {
+    name: &'a str,
+    at: [f64; 3],
+}
+
+#[derive(Debug, Serialize)]
+struct PlateRecord<'a> {
+    frame: &'static str,
+    origin: [f64; 3],
+    axes: [[f64; 3]; 3],
+    legs_on_upper_side: bool,
+    thickness: f64,
+    margin: f64,
+    hole_diameter: f64,
+    volume: f64,
+    holes: Vec<HoleRecord<'a>>,
+}
+
+#[derive(Debug, Serialize)]
+struct HoleRecord<'a> {
+    joints: &'a [String],
+    at: [f64; 2],
+    post: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct LegRecord<'a> {
+    leg: usize,
+    base_joint: &'a str,
+    platform_joint: &'a str,
+    home_length: f64,
+    cylinder_diameter: f64,
+    rod_diameter: f64,
+    cylinder_length: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct ChoiceRecord<'a> {
+    what: &'a str,
+    value: f64,
+    unit: &'a str,
+    from: &'a str,
+}
+
+impl<'a> Document<'a> {
+    fn of(export: &'a Export) -> Self {
+        let mm = export.unit.millimetres;
+        let leg = |leg: &'a ExportLeg| {
             let (a, b) = export.ends_of(leg);
-            json!({
-                "leg": leg.number, "base_joint": a, "platform_joint": b, "home_length": leg.length() * mm,
-                "cylinder_diameter": leg.diameters.0 * mm, "rod_diameter": leg.diameters.1 * mm,
-                "cylinder_length": leg.cylinder * mm,
-            })
-        }).collect::<Vec<_>>(),
-        "workspace": lengths(export, &export.workspace),
-        "trajectory": lengths(export, &export.trajectory),
-        "choices": export.choices.iter().map(|c| {
-            json!({ "what": c.what, "value": c.value, "unit": c.unit, "from": c.from })
-        }).collect::<Vec<_>>(),
-    })
+            LegRecord {
+                leg: leg.number,
+                base_joint: a,
+                platform_joint: b,
+                home_length: leg.length() * mm,
+                cylinder_diameter: leg.diameters.0 * mm,
+                rod_diameter: leg.diameters.1 * mm,
+                cylinder_length: leg.cylinder * mm,
+            }
+        };
+        let choice =
+            |c: &'a Choice| ChoiceRecord { what: &c.what, value: c.value, unit: c.unit, from: c.from };
+        Self {
+            schema_version: 1,
+            name: &export.name,
+            source: export.source.as_deref(),
+            program: &export.program,
+            units: "mm",
+            design_unit: UnitRecord { label: export.unit.label, mm },
+            frames: FRAMES,
+            home: PoseRecord::of(&export.home, mm),
+            base: BodyRecord::of(&export.bodies[0], mm),
+            platform: BodyRecord::of(&export.bodies[1], mm),
+            legs: export.legs.iter().map(leg).collect(),
+            workspace: lengths(export, &export.workspace),
+            trajectory: lengths(export, &export.trajectory),
+            choices: export.choices.iter().map(choice).collect(),
+        }
+    }
 }
 
-fn pose_record(pose: &Pose, mm: f64) -> Value {
-    json!({ "position": (pose.position * mm).as_slice(), "quat_wxyz": pose.quaternion() })
+impl PoseRecord {
+    fn of(pose: &Pose, mm: f64) -> Self {
+        Self { position: (pose.position * mm).into(), quat_wxyz: pose.quaternion() }
+    }
 }
 
-fn lengths(export: &Export, poses: &[Pose]) -> Vec<Value> {
+fn lengths(export: &Export, poses: &[Pose]) -> Vec<LengthsRecord> {
     let mm = export.unit.millimetres;
-    let record = |pose: &Pose| {
-        let mut record = pose_record(pose, mm);
-        record["lengths"] = json!(export.lengths_at(pose).map(|l| l * mm));
-        record
+    let record = |pose: &Pose| LengthsRecord {
+        pose: PoseRecord::of(pose, mm),
+        lengths: export.lengths_at(pose).map(|l| l * mm),
     };
     poses.iter().map(record).collect()
 }
 
-/// `plate` is null where its holes overlap.
-fn body_record(body: &ExportBody, mm: f64) -> Value {
-    let joints: Vec<Value> =
-        body.joints.iter().map(|j| json!({ "name": j.name, "at": (j.at.coords * mm).as_slice() })).collect();
-    let plate = body.plate().map_or(Value::Null, |plate| {
-        json!({
-            "frame": "plate coordinates (u, v, w) are origin + u*axes[0] + v*axes[1] + w*axes[2] in the frame of the body; the plate is 0 <= w <= thickness",
-            "origin": (plate.origin.coords * mm).as_slice(),
-            "axes": plate.axes.column_iter().map(|c| json!([c[0], c[1], c[2]])).collect::<Vec<_>>(),
-            "legs_on_upper_side": plate.legs_above,
-            "thickness": plate.thickness * mm,
-            "margin": plate.outline.margin * mm,
-            "hole_diameter": plate.hole_diameter * mm,
-            "volume": plate.volume() * mm.powi(3),
-            "holes": plate.holes.iter().map(|h| json!({
-                "joints": h.joints, "at": [h.at.x * mm, h.at.y * mm], "post": h.post * mm,
-            })).collect::<Vec<_>>(),
-        })
-    });
-    json!({ "ball_diameter": body.ball_diameter * mm, "joints": joints, "plate": plate })
+impl<'a> BodyRecord<'a> {
+    fn of(body: &'a ExportBody, mm: f64) -> Self {
+        Self {
+            ball_diameter: body.ball_diameter * mm,
+            joints: body
+                .joints
+                .iter()
+                .map(|j| JointRecord { name: &j.name, at: (j.at.coords * mm).into() })
+                .collect(),
+            plate: body.plate().ok().map(|plate| PlateRecord::of(plate, mm)),
+        }
+    }
+}
+
+impl<'a> PlateRecord<'a> {
+    fn of(plate: &'a Plate, mm: f64) -> Self {
+        let hole =
+            |h: &'a Hole| HoleRecord { joints: &h.joints, at: [h.at.x * mm, h.at.y * mm], post: h.post * mm };
+        Self {
+            frame: PLATE_FRAME,
+            origin: (plate.origin.coords * mm).into(),
+            axes: [0, 1, 2].map(|k| plate.axes.column(k).into_owned().into()),
+            legs_on_upper_side: plate.legs_above,
+            thickness: plate.thickness * mm,
+            margin: plate.outline.margin * mm,
+            hole_diameter: plate.hole_diameter * mm,
+            volume: plate.volume() * mm.powi(3),
+            holes: plate.holes.iter().map(hole).collect(),
+        }
+    }
 }

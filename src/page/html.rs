@@ -1,11 +1,14 @@
 //! The page as one text.
 
-use serde_json::{Value, json};
+use serde::Serialize;
+use serde_json::Value;
 use sha2::{Digest, Sha256};
 
 use super::base64;
+use super::request::{Chosen, Opening, Request, Which};
 use super::session::Session;
-use super::wire::pose;
+use super::wire::PoseRecord;
+use crate::geom::Pose;
 use crate::plot::escape;
 
 /// The core compiled to WebAssembly, compressed by gzip; `tests/page/README.md` says how it is made and compared with its sources.
@@ -63,14 +66,17 @@ const PLANE: usize = 41;
 /// that refuse it, the page shows recorded answers: one round of poses, the assembly modes at home, `det A` over two offsets, and the first self-motion.
 #[must_use]
 pub fn page(session: &Session, core: Option<&[u8]>) -> String {
-    let data = json!({"opening": opening(session), "recorded": recorded(session), "version": env!("CARGO_PKG_VERSION")});
+    let data =
+        PageData { opening: session.into(), recorded: recorded(session), version: env!("CARGO_PKG_VERSION") };
+    // texts, numbers, lists and fields can be written
+    let data = serde_json::to_string(&data).unwrap_or_default();
     let title = escape(&session.design.name);
     let core = core.map(base64::encode).unwrap_or_default();
     let parts = [
         ("{{policy}}", policy(&[])),
         ("{{title}}", title),
         ("{{style}}", STYLE.concat()),
-        ("{{data}}", data.to_string().replace('<', "\\u003c")),
+        ("{{data}}", data.replace('<', "\\u003c")),
         ("{{core}}", core),
         ("{{script}}", script()),
     ];
@@ -85,48 +91,52 @@ pub fn page(session: &Session, core: Option<&[u8]>) -> String {
     out + rest
 }
 
-/// What [`Session::open`] needs to open the same session.
-fn opening(session: &Session) -> Value {
-    let trajectory = session.design.workspace.trajectory.as_ref();
-    json!({
-        "design": session.design.to_toml(),
-        "trajectory": trajectory.map(|t| t.poses.iter().map(pose).collect::<Vec<_>>()).unwrap_or_default(),
-        "start": start(session),
-    })
-}
-
-fn start(session: &Session) -> Value {
-    session.start.as_ref().map_or(
-        Value::Null,
-        |s| json!({"pattern": s.pattern.to_string(), "offsets": super::wire::numbers(s.offsets.iter().copied())}),
-    )
+/// What stands in a page besides its script.
+#[derive(Debug, Serialize)]
+struct PageData {
+    opening: Opening,
+    recorded: Recorded,
+    version: &'static str,
 }
 
 /// Answers for browsers without WebAssembly.
-fn recorded(session: &Session) -> Value {
-    let ask = |request: Value| -> Value {
-        serde_json::from_str(&session.answer(&request.to_string())).unwrap_or(Value::Null)
-    };
-    let chosen = start(session);
-    let frames: Vec<Value> = (0..FRAMES)
-        .map(|k| session.along(k as f64 / FRAMES as f64))
-        .map(|p| ask(json!({"op": "state", "pose": pose(&p), "chosen": chosen})))
-        .collect();
-    let home = pose(&session.home);
-    let equivalent = session.start.as_ref();
-    let two = equivalent.filter(|s| s.offsets.len() > 1);
-    let plane = two.map(|_| {
-        ask(json!({"op": "plane", "chosen": chosen, "axes": [0, 1], "range": [-0.5, 1.5], "points": PLANE}))
-    });
-    let moving = if equivalent.is_some() { "second" } else { "first" };
-    let design = |which: &str| ask(json!({"op": "design", "which": which, "chosen": chosen}));
-    json!({
-        "open": ask(json!({"op": "open"})),
-        "frames": frames,
-        "worst": ask(json!({"op": "worst", "chosen": chosen})),
-        "modes": ask(json!({"op": "modes", "pose": home, "which": "first"})),
-        "plane": plane,
-        "motion": ask(json!({"op": "motion", "pose": home, "which": moving, "chosen": chosen})),
-        "designs": {"first": design("first"), "second": equivalent.map(|_| design("second"))},
-    })
+#[derive(Debug, Serialize)]
+struct Recorded {
+    open: Value,
+    frames: Vec<Value>,
+    worst: Value,
+    modes: Value,
+    plane: Option<Value>,
+    motion: Value,
+    designs: RecordedDesigns,
+}
+
+/// Both platforms as design files.
+#[derive(Debug, Serialize)]
+struct RecordedDesigns {
+    first: Value,
+    second: Option<Value>,
+}
+
+fn recorded(session: &Session) -> Recorded {
+    let chosen = session.start.as_ref().map(Chosen::from);
+    let state =
+        |p: Pose| session.reply(Request::State { pose: PoseRecord::from(&p), chosen: chosen.clone() });
+    let home = PoseRecord::from(&session.home);
+    let two = session.start.as_ref().filter(|s| s.offsets.len() > 1);
+    let plane = |chosen| Request::Plane { chosen, axes: [0, 1], range: [-0.5, 1.5], points: PLANE };
+    let moving = if chosen.is_some() { Which::Second } else { Which::First };
+    let design = |which| session.reply(Request::Design { which, chosen: chosen.clone() });
+    Recorded {
+        open: session.reply(Request::Open),
+        frames: (0..FRAMES).map(|k| session.along(k as f64 / FRAMES as f64)).map(state).collect(),
+        worst: session.reply(Request::Worst { chosen: chosen.clone() }),
+        modes: session.reply(Request::Modes { pose: home, lengths: None, which: Which::First, chosen: None }),
+        plane: two.map(|s| session.reply(plane(s.into()))),
+        motion: session.reply(Request::Motion { pose: home, which: moving, chosen: chosen.clone() }),
+        designs: RecordedDesigns {
+            first: design(Which::First),
+            second: chosen.as_ref().map(|_| design(Which::Second)),
+        },
+    }
 }

@@ -1,14 +1,57 @@
 //! Assembly modes: all real poses with given leg lengths.
 
 use nalgebra::UnitQuaternion;
-use serde_json::{Value, json};
+use serde::Serialize;
 
 use super::request::Refusal;
 use super::scene::sign;
-use super::wire::{number, pose};
+use super::wire::PoseRecord;
 use crate::fk::{Completeness, FkOptions, FkRoot, FkSolutions, PoseCounting, Reality, SolutionSet, solver};
 use crate::geom::{ComplexPose, Pose};
 use crate::manipulator::{LegLengths, Manipulator, SquaredLegLengths, inverse_condition, jacobian};
+
+/// All poses of two platforms.
+#[derive(Debug, Serialize)]
+pub(super) struct ConfirmedRecord {
+    first: PosesRecord,
+    second: PosesRecord,
+    /// The largest distance of a pose from its partner; `null` unless each has one.
+    distance: Option<f64>,
+}
+
+/// How many poses a platform has.
+#[derive(Debug, Serialize)]
+struct PosesRecord {
+    method: &'static str,
+    finite: usize,
+    set: &'static str,
+}
+
+/// Assembly modes.
+#[derive(Debug, Serialize)]
+pub(super) struct ModesRecord {
+    method: &'static str,
+    solution_set: &'static str,
+    finite: usize,
+    proved: bool,
+    reason: String,
+    /// Index of the mode of the pose asked about.
+    here: Option<usize>,
+    modes: Vec<ModeRecord>,
+    complex: usize,
+}
+
+/// A real pose.
+#[derive(Debug, Serialize)]
+struct ModeRecord {
+    pose: PoseRecord,
+    turn_deg: f64,
+    sign: i8,
+    inverse_condition: f64,
+    certified: bool,
+    multiplicity: u32,
+    residual: f64,
+}
 
 fn at_pose(m: &Manipulator, at: &Pose) -> Result<SquaredLegLengths, Refusal> {
     at.squared_lengths(m).ok_or_else(|| Refusal::new("pose", "a leg has no length at this pose"))
@@ -24,7 +67,11 @@ fn solve_with(m: &Manipulator, s: SquaredLegLengths, o: &FkOptions) -> Result<Fk
 
 /// All poses of two platforms, real and complex, with their own leg lengths at a pose; `distance` is the largest from a pose of the first to the
 /// nearest of the second, `null` unless each has one of its own.
-pub(super) fn confirm(first: &Manipulator, second: &Manipulator, at: &Pose) -> Result<Value, Refusal> {
+pub(super) fn confirm(
+    first: &Manipulator,
+    second: &Manipulator,
+    at: &Pose,
+) -> Result<ConfirmedRecord, Refusal> {
     // as in `verify`: not looked for are poses so far out that the rounding of the joints decides whether there are any
     let options = FkOptions { pose_count: PoseCounting::Never, ..FkOptions::default() };
     let poses = |m: &Manipulator| solve_with(m, at_pose(m, at)?, &options);
@@ -40,8 +87,12 @@ pub(super) fn confirm(first: &Manipulator, second: &Manipulator, at: &Pose) -> R
         }
     }
     let distance = worst.filter(|_| a.roots.len() == b.roots.len());
-    let side = |s: &FkSolutions| json!({"method": s.method.name(), "finite": s.roots.len(), "set": s.solution_set.name()});
-    Ok(json!({"first": side(&a), "second": side(&b), "distance": distance.map_or(Value::Null, number)}))
+    let side = |s: &FkSolutions| PosesRecord {
+        method: s.method.name(),
+        finite: s.roots.len(),
+        set: s.solution_set.name(),
+    };
+    Ok(ConfirmedRecord { first: side(&a), second: side(&b), distance })
 }
 
 /// All poses with the lengths given, or with those at a pose; `here` is then the index of the one nearest to that pose, where poses are isolated.
@@ -51,7 +102,7 @@ pub(super) fn record(
     home: &Pose,
     at: &Pose,
     lengths: Option<[f64; 6]>,
-) -> Result<Value, Refusal> {
+) -> Result<ModesRecord, Refusal> {
     let found = match lengths {
         Some(l) => solve(m, LegLengths::try_new(l).map_err(|e| Refusal::new("lengths", e))?.squared())?,
         None => solve(m, at_pose(m, at)?)?,
@@ -68,23 +119,30 @@ pub(super) fn record(
     let here =
         (0..real.len()).filter(|_| listed).min_by(|a, b| distance(real[*a]).total_cmp(&distance(real[*b])));
     let proved = matches!(found.completeness, Completeness::Proved { .. });
-    let reason = found.completeness.to_string();
-    Ok(json!({
-        "method": found.method.name(), "solution_set": found.solution_set.name(),
-        "finite": found.roots.len(), "proved": proved, "reason": reason, "here": here,
-        "modes": real.iter().map(|r| mode(m, home, r)).collect::<Value>(),
-        "complex": roots.iter().filter(|r| r.reality != Reality::Real).count(),
-    }))
+    Ok(ModesRecord {
+        method: found.method.name(),
+        solution_set: found.solution_set.name(),
+        finite: found.roots.len(),
+        proved,
+        reason: found.completeness.to_string(),
+        here,
+        modes: real.iter().map(|r| mode(m, home, r)).collect(),
+        complex: roots.iter().filter(|r| r.reality != Reality::Real).count(),
+    })
 }
 
-fn mode(m: &Manipulator, home: &Pose, root: &FkRoot) -> Value {
+fn mode(m: &Manipulator, home: &Pose, root: &FkRoot) -> ModeRecord {
     let real = root.pose.real_part();
     let j = jacobian(m, &real, m.platform_rms_radius());
     // by the quaternion: the arc cosine of the trace loses half of the digits at 0 and may be of more than 1
     let turn = UnitQuaternion::from_rotation_matrix(&(home.rotation.inverse() * real.rotation)).angle();
-    json!({
-        "pose": pose(&real), "turn_deg": number(turn.to_degrees()),
-        "sign": sign(&j), "inverse_condition": number(inverse_condition(&j)),
-        "certified": root.certified(), "multiplicity": root.multiplicity, "residual": number(root.residual),
-    })
+    ModeRecord {
+        pose: (&real).into(),
+        turn_deg: turn.to_degrees(),
+        sign: sign(&j),
+        inverse_condition: inverse_condition(&j),
+        certified: root.certified(),
+        multiplicity: root.multiplicity,
+        residual: root.residual,
+    }
 }

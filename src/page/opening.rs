@@ -1,17 +1,115 @@
 //! What there is to show of a design.
 
-use serde_json::{Value, json};
+use serde::Serialize;
 
 use super::original::Original;
+use super::request::Chosen;
 use super::session::{Equivalent, Session};
-use super::wire::{number, numbers, pose};
+use super::wire::PoseRecord;
 use crate::singularity::Architecture;
 use crate::synthesis::{
     Factor, Family, HexagonPoint, JointLabel, Pattern, corner, edge_lengths, sliding_body,
 };
 
+/// A design with what a page can do about it.
+#[derive(Debug, Serialize)]
+pub(super) struct OpeningRecord<'a> {
+    name: &'a str,
+    units: &'a str,
+    source: Option<&'a str>,
+    description: Option<&'a str>,
+    /// `"octahedral"`, `"equivalent"` or `"general"`.
+    kind: &'static str,
+    size: f64,
+    singular: bool,
+    /// Why it is singular.
+    reason: Option<String>,
+    home: PoseRecord,
+    centre: [f64; 3],
+    radius: f64,
+    trajectory: bool,
+    workspace: bool,
+    lengths: Option<[f64; 6]>,
+    limits: LimitsRecord,
+    characteristic_length: f64,
+    /// Of the octahedral original.
+    hexagon: Option<HexagonRecord>,
+    /// Equivalents to choose from.
+    patterns: Option<Vec<PatternRecord>>,
+    /// The equivalent the page begins with.
+    start: Option<Chosen>,
+}
+
+/// What is asked of an equivalent.
+#[derive(Debug, Serialize)]
+struct LimitsRecord {
+    /// Of joint centres, design units.
+    spacing: f64,
+    /// Of `|det A|`.
+    det: f64,
+}
+
+/// Legs (vertices) and what slides on the sides between them.
+#[derive(Debug, Serialize)]
+struct HexagonRecord {
+    vertices: Vec<VertexRecord>,
+    sides: Vec<SideRecord>,
+}
+
+/// A leg of the original.
+#[derive(Debug, Serialize)]
+struct VertexRecord {
+    leg: usize,
+    joints: [String; 2],
+}
+
+/// An edge of a body on which a joint can slide.
+#[derive(Debug, Serialize)]
+struct SideRecord {
+    body: String,
+    /// The joint of the other body.
+    fixed: String,
+    length: f64,
+    from: String,
+    to: String,
+}
+
+/// One of the equivalents.
+#[derive(Debug, Serialize)]
+struct PatternRecord {
+    id: String,
+    base_joints: usize,
+    platform_joints: usize,
+    shared_joints: usize,
+    offsets: Vec<OffsetRecord>,
+    legs: Vec<LegRecord>,
+    /// The formula of `det A`.
+    det: String,
+    /// Where its factors vanish.
+    zero: Vec<String>,
+}
+
+/// An offset of an equivalent.
+#[derive(Debug, Serialize)]
+struct OffsetRecord {
+    name: String,
+    side: usize,
+    joint: String,
+}
+
+/// A leg of an equivalent.
+#[derive(Debug, Serialize)]
+struct LegRecord {
+    leg: usize,
+    joints: [String; 2],
+    side: Option<usize>,
+    /// Index into the offsets.
+    offset: Option<usize>,
+    vertex: Option<usize>,
+}
+
 /// The design, the original's hexagon, and the patterns to choose from.
-pub(super) fn record(session: &Session) -> Value {
+pub(super) fn record(session: &Session) -> OpeningRecord<'_> {
     let design = &session.design;
     let architecture = Architecture::of(design.manipulator());
     let finding = architecture.findings.first();
@@ -21,42 +119,53 @@ pub(super) fn record(session: &Session) -> Value {
         Some(_) => "equivalent",
         None => "general",
     };
-    json!({
-        "name": design.name, "units": design.units, "source": design.source, "description": design.description,
-        "kind": kind, "size": number(design.manipulator().size()),
-        "singular": architecture.is_singular(), "reason": finding.map(|f| f.case.sentence()),
-        "home": pose(&session.home), "centre": numbers(centre.iter().copied()), "radius": number(radius),
-        "trajectory": design.workspace.trajectory.is_some(), "workspace": !design.workspace.is_empty(),
-        "lengths": session.first().lengths.map(|l| numbers(l.get())),
-        "limits": {"spacing": number(session.limits.0), "det": number(session.limits.1)},
-        "characteristic_length": number(session.characteristic_length),
-        "hexagon": session.original.as_ref().map(hexagon),
-        "patterns": session.start.as_ref().zip(session.original.as_ref()).map(|(s, o)| patterns(s, o)),
-        "start": session.start.as_ref().map(|s| json!({"pattern": s.pattern.to_string(), "offsets": numbers(s.offsets.iter().copied())})),
-    })
+    let original = session.original.as_ref();
+    OpeningRecord {
+        name: &design.name,
+        units: &design.units,
+        source: design.source.as_deref(),
+        description: design.description.as_deref(),
+        kind,
+        size: design.manipulator().size(),
+        singular: architecture.is_singular(),
+        reason: finding.map(|f| f.case.sentence()),
+        home: (&session.home).into(),
+        centre: centre.coords.into(),
+        radius,
+        trajectory: design.workspace.trajectory.is_some(),
+        workspace: !design.workspace.is_empty(),
+        lengths: session.first().lengths.map(|l| l.get()),
+        limits: LimitsRecord { spacing: session.limits.0, det: session.limits.1 },
+        characteristic_length: session.characteristic_length,
+        hexagon: original.map(hexagon),
+        patterns: session.start.as_ref().zip(original).map(|(s, o)| patterns(s, o)),
+        start: session.start.as_ref().map(Chosen::from),
+    }
 }
 
-/// Legs (vertices) and what slides on the sides between them.
-fn hexagon(o: &Original) -> Value {
+fn hexagon(o: &Original) -> HexagonRecord {
     let lengths = edge_lengths(&o.octahedral);
-    let vertices = (0..6).map(|k| {
-        let leg = o.octahedral.order()[k];
-        json!({"leg": leg.get() + 1, "joints": o.leg_names(HexagonPoint::Vertex(k))})
+    let vertices = (0..6).map(|k| VertexRecord {
+        leg: o.octahedral.order()[k].get() + 1,
+        joints: o.leg_names(HexagonPoint::Vertex(k)),
     });
     let sides = (0..6).map(|k| {
         let body = sliding_body(k);
         let fixed = body.other();
         let name = |i: usize| o.joint_name(JointLabel::Corner(i));
-        json!({
-            "body": body.to_string(), "fixed": name(corner(fixed, k)), "length": number(lengths[k]),
-            "from": name(corner(body, k)), "to": name(corner(body, (k + 1) % 6)),
-        })
+        SideRecord {
+            body: body.to_string(),
+            fixed: name(corner(fixed, k)),
+            length: lengths[k],
+            from: name(corner(body, k)),
+            to: name(corner(body, (k + 1) % 6)),
+        }
     });
-    json!({"vertices": vertices.collect::<Value>(), "sides": sides.collect::<Value>()})
+    HexagonRecord { vertices: vertices.collect(), sides: sides.collect() }
 }
 
 /// One pattern of every topology, the platform without shared joints first, and the one the page starts with.
-fn patterns(start: &Equivalent, o: &Original) -> Value {
+fn patterns(start: &Equivalent, o: &Original) -> Vec<PatternRecord> {
     let mut list: Vec<Pattern> = vec![start.pattern.clone()];
     list.extend(Pattern::new([false; 6], [1; 6]));
     let mut others: Vec<Pattern> =
@@ -72,23 +181,34 @@ fn patterns(start: &Equivalent, o: &Original) -> Value {
     list.iter().map(|p| pattern(p, o)).collect()
 }
 
-fn pattern(p: &Pattern, o: &Original) -> Value {
+fn pattern(p: &Pattern, o: &Original) -> PatternRecord {
     let [base, platform] = p.joints();
     let legs = p.legs().into_iter().enumerate().map(|(k, point)| {
         let (side, offset) = match point {
             HexagonPoint::Vertex(_) => (None, None),
             HexagonPoint::Inner(t) => (Some(t.side), p.offsets().iter().position(|x| *x == t)),
         };
-        json!({
-            "leg": o.octahedral.order()[k].get() + 1, "joints": o.leg_names(point), "side": side, "offset": offset,
-            "vertex": if let HexagonPoint::Vertex(v) = point { Some(v) } else { None },
-        })
+        LegRecord {
+            leg: o.octahedral.order()[k].get() + 1,
+            joints: o.leg_names(point),
+            side,
+            offset,
+            vertex: if let HexagonPoint::Vertex(v) = point { Some(v) } else { None },
+        }
     });
-    let shared: usize = p.shared_joints().len();
-    json!({
-        "id": p.to_string(), "base_joints": base.len(), "platform_joints": platform.len(), "shared_joints": shared,
-        "offsets": p.offsets().iter().map(|t| json!({"name": t.to_string(), "side": t.side, "joint": o.joint_name(JointLabel::OnEdge(*t))})).collect::<Value>(),
-        "legs": legs.collect::<Value>(),
-        "det": p.determinant_formula(), "zero": p.factors().iter().map(|f| Factor::zero(*f)).collect::<Vec<_>>(),
-    })
+    let offsets = p.offsets().into_iter().map(|t| OffsetRecord {
+        name: t.to_string(),
+        side: t.side,
+        joint: o.joint_name(JointLabel::OnEdge(t)),
+    });
+    PatternRecord {
+        id: p.to_string(),
+        base_joints: base.len(),
+        platform_joints: platform.len(),
+        shared_joints: p.shared_joints().len(),
+        offsets: offsets.collect(),
+        legs: legs.collect(),
+        det: p.determinant_formula(),
+        zero: p.factors().iter().map(|f| Factor::zero(*f)).collect(),
+    }
 }

@@ -1,11 +1,11 @@
 //! The poses a page runs through.
 
 use nalgebra::Vector6;
-use serde_json::{Value, json};
+use serde::Serialize;
 use std::f64::consts::TAU;
 
 use super::session::Session;
-use super::wire;
+use super::wire::PoseRecord;
 use crate::geom::Pose;
 
 /// Steps between two poses of a trajectory.
@@ -32,7 +32,13 @@ impl Session {
     }
 }
 
+/// A pose of the round.
+#[derive(Debug, Serialize)]
+pub(super) struct PathRecord {
+    pose: PoseRecord,
+}
+
 /// The pose at `at`.
-pub(super) fn record(session: &Session, at: f64) -> Value {
-    json!({"pose": wire::pose(&session.along(at))})
+pub(super) fn record(session: &Session, at: f64) -> PathRecord {
+    PathRecord { pose: (&session.along(at)).into() }
 }

@@ -1,10 +1,9 @@
 //! `det A` over two offsets of an equivalent platform.
 
-use serde_json::{Value, json};
+use serde::Serialize;
 
 use super::request::Refusal;
 use super::session::Equivalent;
-use super::wire::{number, numbers};
 use crate::plot::Grid;
 
 /// Most points a side.
@@ -35,13 +34,26 @@ impl Equivalent {
     }
 }
 
+/// `det A` on a square of two offsets.
+#[derive(Debug, Serialize)]
+pub(super) struct PlaneRecord {
+    /// Points a side.
+    points: usize,
+    low: f64,
+    high: f64,
+    /// Row by row, the first offset to the right.
+    values: Vec<f64>,
+    /// Lines on which it vanishes.
+    zero: Vec<Vec<[f64; 2]>>,
+}
+
 /// Values on a square of two offsets, row by row with the first offset to the right, and the lines on which they vanish.
 pub(super) fn record(
     e: &Equivalent,
     [i, j]: [usize; 2],
     [low, high]: [f64; 2],
     points: usize,
-) -> Result<Value, Refusal> {
+) -> Result<PlaneRecord, Refusal> {
     if i == j || !(2..=MOST).contains(&points) || !(low < high && high - low < f64::INFINITY) {
         return Err(Refusal::new(
             "request",
@@ -56,11 +68,7 @@ pub(super) fn record(
         }
     }
     let grid = Grid { columns: points, rows: points, values };
-    let lines: Value = grid
-        .contour(0.0)
-        .into_iter()
-        .map(|line| line.into_iter().map(|(x, y)| json!([number(place(x)), number(place(y))])).collect())
-        .collect::<Vec<Value>>()
-        .into();
-    Ok(json!({"points": points, "low": low, "high": high, "values": numbers(grid.values), "zero": lines}))
+    let lines = grid.contour(0.0).into_iter();
+    let zero = lines.map(|line| line.into_iter().map(|(x, y)| [place(x), place(y)]).collect()).collect();
+    Ok(PlaneRecord { points, low, high, values: grid.values, zero })
 }

@@ -1,10 +1,10 @@
 //! What a page may ask.
 
-use serde::Deserialize;
-use serde_json::{Value, json};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 use super::session::{Equivalent, InvalidStart, Session};
-use super::wire::{PoseRecord, numbers};
+use super::wire::PoseRecord;
 use super::{modes, motion, opening, path, plane, scene, worst};
 use crate::design::{Format, parse};
 use crate::geom::Pose;
@@ -21,15 +21,22 @@ pub(super) enum Which {
 }
 
 /// An equivalent platform, as asked for.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-struct Chosen {
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct Chosen {
     pattern: String,
     offsets: Vec<f64>,
 }
 
+impl From<&Equivalent> for Chosen {
+    fn from(e: &Equivalent) -> Self {
+        Self { pattern: e.pattern.to_string(), offsets: e.offsets.clone() }
+    }
+}
+
+/// A question.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(tag = "op", rename_all = "lowercase")]
-enum Request {
+pub(super) enum Request {
     /// What there is to show.
     Open,
     /// Offsets to begin with.
@@ -52,8 +59,33 @@ enum Request {
     Design { which: Which, chosen: Option<Chosen> },
 }
 
+/// Offsets to begin with.
+#[derive(Debug, Serialize)]
+struct OffsetsRecord {
+    offsets: Vec<f64>,
+}
+
+/// A platform as a design file.
+#[derive(Debug, Serialize)]
+struct DesignRecord {
+    name: String,
+    toml: String,
+    json: String,
+}
+
+/// A refusal.
+#[derive(Debug, Serialize)]
+struct RefusalRecord {
+    error: Refusal,
+}
+
+/// A record as it is sent: every one of them is made of texts, numbers, lists and fields, and can be.
+fn value(record: impl Serialize) -> Value {
+    serde_json::to_value(record).unwrap_or_default()
+}
+
 /// Why there is no answer.
-#[derive(Debug)]
+#[derive(Debug, Serialize)]
 pub(super) struct Refusal {
     code: &'static str,
     message: String,
@@ -64,8 +96,8 @@ impl Refusal {
         Self { code, message: message.to_string() }
     }
 
-    fn record(&self) -> Value {
-        json!({"error": {"code": self.code, "message": self.message}})
+    fn record(self) -> Value {
+        value(RefusalRecord { error: self })
     }
 }
 
@@ -96,39 +128,47 @@ impl Session {
     pub fn answer(&self, request: &str) -> String {
         let request: Result<Request, _> = serde_json::from_str(request);
         let request = request.map_err(|e| Refusal::new("request", e));
-        request.and_then(|r| self.respond(r)).unwrap_or_else(|e| e.record()).to_string()
+        request.map_or_else(Refusal::record, |r| self.reply(r)).to_string()
+    }
+
+    /// The answer to a request, or the refusal.
+    pub(super) fn reply(&self, request: Request) -> Value {
+        self.respond(request).unwrap_or_else(Refusal::record)
     }
 
     fn respond(&self, request: Request) -> Result<Value, Refusal> {
         let equivalent = |c: Option<Chosen>| c.map(Chosen::equivalent).transpose();
         match request {
-            Request::Open => Ok(opening::record(self)),
+            Request::Open => Ok(value(opening::record(self))),
             Request::Start { pattern } => {
                 let pattern: Pattern = pattern.parse().map_err(|e| Refusal::new("pattern", e))?;
-                Ok(json!({"offsets": numbers(self.first_offsets(&pattern)?)}))
+                Ok(value(OffsetsRecord { offsets: self.first_offsets(&pattern)? }))
             }
-            Request::Path { at } => Ok(path::record(self, at)),
+            Request::Path { at } => Ok(value(path::record(self, at))),
             Request::State { pose, chosen } => {
-                scene::record(self, &Pose::from(&pose), equivalent(chosen)?.as_ref())
+                scene::record(self, &Pose::from(&pose), equivalent(chosen)?.as_ref()).map(value)
             }
-            Request::Worst { chosen } => worst::record(self, equivalent(chosen)?.as_ref()),
+            Request::Worst { chosen } => worst::record(self, equivalent(chosen)?.as_ref()).map(value),
             Request::Modes { pose, lengths, which, chosen } => {
                 let design = self.platform(which, equivalent(chosen)?)?;
-                modes::record(design.manipulator(), &self.home, &Pose::from(&pose), lengths)
+                modes::record(design.manipulator(), &self.home, &Pose::from(&pose), lengths).map(value)
             }
             Request::Confirm { pose, chosen } => {
                 let second = self.second(&chosen.equivalent()?)?.0;
                 modes::confirm(self.first().manipulator(), second.manipulator(), &Pose::from(&pose))
+                    .map(value)
             }
             Request::Plane { chosen, axes, range, points } => {
-                plane::record(&chosen.equivalent()?, axes, range, points)
+                plane::record(&chosen.equivalent()?, axes, range, points).map(value)
             }
             Request::Motion { pose, which, chosen } => {
                 motion::record(self.platform(which, equivalent(chosen)?)?.manipulator(), &Pose::from(&pose))
+                    .map(value)
             }
             Request::Design { which, chosen } => {
                 let design = self.platform(which, equivalent(chosen)?)?;
-                Ok(json!({"name": design.name, "toml": design.to_toml(), "json": design.to_json()}))
+                let (toml, json) = (design.to_toml(), design.to_json());
+                Ok(value(DesignRecord { name: design.name, toml, json }))
             }
         }
     }
@@ -146,12 +186,25 @@ impl Session {
     }
 }
 
-#[derive(Debug, Deserialize)]
-struct Opening {
+/// What [`Session::open`] needs.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Opening {
     design: String,
     #[serde(default)]
     trajectory: Vec<PoseRecord>,
     start: Option<Chosen>,
+}
+
+impl From<&Session> for Opening {
+    /// What opens the same session.
+    fn from(session: &Session) -> Self {
+        let trajectory = session.design.workspace.trajectory.as_ref();
+        Self {
+            design: session.design.to_toml(),
+            trajectory: trajectory.map_or_else(Vec::new, |t| t.poses.iter().map(PoseRecord::from).collect()),
+            start: session.start.as_ref().map(Chosen::from),
+        }
+    }
 }
 
 fn opened(text: &str) -> Result<Session, Refusal> {

@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 
 use nalgebra::{Matrix6, Point3};
-use serde_json::{Value, json};
+use serde::Serialize;
 
 use super::request::Refusal;
 use super::session::{Equivalent, Session};
-use super::wire::{self, number, numbers};
+use super::wire::PoseRecord;
 use crate::design::Design;
 use crate::geom::Pose;
 use crate::manipulator::{SquaredLegLengths, inverse_condition, jacobian};
@@ -17,19 +17,93 @@ use crate::synthesis::AffineLegMap;
 /// Below this a singular value is not told from zero.
 const ROUNDING: f64 = 1e-13;
 
+/// Both platforms at a pose.
+#[derive(Debug, Serialize)]
+pub(super) struct SceneRecord {
+    pose: PoseRecord,
+    platforms: Vec<PlatformRecord>,
+    /// From the lengths of the first to those of the second.
+    map: Option<RelationRecord>,
+}
+
+/// A platform at a pose.
+#[derive(Debug, Serialize)]
+struct PlatformRecord {
+    name: String,
+    base: Vec<PlaceRecord>,
+    platform: Vec<PlaceRecord>,
+    /// Indices of the joints of each leg.
+    legs: [[usize; 2]; 6],
+    lengths: [f64; 6],
+    squares: [f64; 6],
+    inverse_condition: f64,
+    sign: i8,
+    spacing: BodySpacings,
+    margins: Vec<MarginRecord>,
+}
+
+/// A joint and where it is, base frame.
+#[derive(Debug, Serialize)]
+struct PlaceRecord {
+    name: String,
+    at: [f64; 3],
+}
+
+/// The closest joints of each body.
+#[derive(Debug, Serialize)]
+struct BodySpacings {
+    base: Option<SpacingRecord>,
+    platform: Option<SpacingRecord>,
+}
+
+/// The two joint centres in use that are closest to each other.
+#[derive(Debug, Serialize)]
+struct SpacingRecord {
+    distance: f64,
+    joints: [String; 2],
+}
+
+/// By how much a kind of requirement is met at the pose.
+#[derive(Debug, Serialize)]
+struct MarginRecord {
+    requirement: &'static str,
+    margin: f64,
+    met: bool,
+    at_limit: bool,
+    unit: String,
+    between: Vec<String>,
+}
+
+/// `s' = A s + c`, and how well it holds at the pose.
+#[derive(Debug, Serialize)]
+struct RelationRecord {
+    #[serde(rename = "A")]
+    matrix: [[f64; 6]; 6],
+    #[serde(rename = "c")]
+    constants: [f64; 6],
+    det: f64,
+    inverse_condition: f64,
+    /// `A s + c`.
+    image: [f64; 6],
+    /// Its largest difference from `s'`, relative.
+    error: f64,
+    /// For each offset where `det A` vanishes; `null`: nowhere.
+    zeros: Vec<Option<f64>>,
+}
+
 /// Everything a page shows at a pose.
-pub(super) fn record(session: &Session, at: &Pose, e: Option<&Equivalent>) -> Result<Value, Refusal> {
+pub(super) fn record(session: &Session, at: &Pose, e: Option<&Equivalent>) -> Result<SceneRecord, Refusal> {
     let first = session.first();
     let s = squares(first, at)?;
     let mut platforms = vec![platform(session, first, at, &s, session.first_is_given())];
-    let mut map = Value::Null;
+    let mut map = None;
     if let Some(e) = e {
         let (second, a) = session.second(e)?;
         let own = squares(&second, at)?;
         platforms.push(platform(session, &second, at, &own, true));
-        map = relation(e, &a, &s, &own)?;
+        map = Some(relation(e, &a, &s, &own)?);
     }
-    Ok(json!({"pose": wire::pose(at), "platforms": platforms, "map": map}))
+    Ok(SceneRecord { pose: at.into(), platforms, map })
 }
 
 fn squares(design: &Design, at: &Pose) -> Result<SquaredLegLengths, Refusal> {
@@ -37,24 +111,33 @@ fn squares(design: &Design, at: &Pose) -> Result<SquaredLegLengths, Refusal> {
     s.ok_or_else(|| Refusal::new("pose", "a leg length at this pose is not a finite positive number"))
 }
 
-fn platform(session: &Session, design: &Design, at: &Pose, s: &SquaredLegLengths, required: bool) -> Value {
+fn platform(
+    session: &Session,
+    design: &Design,
+    at: &Pose,
+    s: &SquaredLegLengths,
+    required: bool,
+) -> PlatformRecord {
     let m = design.manipulator();
-    let place = |(name, p): (&String, Point3<f64>)| json!({"name": name, "at": numbers(p.iter().copied())});
+    let place = |(name, p): (&String, Point3<f64>)| PlaceRecord { name: name.clone(), at: p.coords.into() };
     let base = design.base_names().iter().zip(m.base_joints().iter().copied());
     let moved = design.platform_names().iter().zip(m.platform_joints().iter().map(|p| at.transform(p)));
     let pairs = m.pairs();
-    json!({
-        "name": design.name,
-        "base": base.map(place).collect::<Value>(), "platform": moved.map(place).collect::<Value>(),
-        "legs": pairs.map(|(a, b)| [a, b]), "lengths": numbers(s.lengths().get()), "squares": numbers(s.get()),
-        "inverse_condition": number(session.inverse_condition(design, at)),
-        "sign": sign(&jacobian(m, at, session.characteristic_length)),
-        "spacing": {
-            "base": spacing(design.base_names(), m.base_joints(), &pairs.map(|p| p.0)),
-            "platform": spacing(design.platform_names(), m.platform_joints(), &pairs.map(|p| p.1)),
+    PlatformRecord {
+        name: design.name.clone(),
+        base: base.map(place).collect(),
+        platform: moved.map(place).collect(),
+        legs: pairs.map(|(a, b)| [a, b]),
+        lengths: s.lengths().get(),
+        squares: s.get(),
+        inverse_condition: session.inverse_condition(design, at),
+        sign: sign(&jacobian(m, at, session.characteristic_length)),
+        spacing: BodySpacings {
+            base: spacing(design.base_names(), m.base_joints(), &pairs.map(|p| p.0)),
+            platform: spacing(design.platform_names(), m.platform_joints(), &pairs.map(|p| p.1)),
         },
-        "margins": if required { margins(session, design, at) } else { json!([]) },
-    })
+        margins: if required { margins(session, design, at) } else { Vec::new() },
+    }
 }
 
 /// The sign of `det J`; 0 where `sigma_min / sigma_max` is below rounding.
@@ -66,8 +149,7 @@ pub(super) fn sign(j: &Matrix6<f64>) -> i8 {
     }
 }
 
-/// The two joint centres in use that are closest to each other.
-fn spacing(names: &[String], joints: &[Point3<f64>], used: &[usize; 6]) -> Value {
+fn spacing(names: &[String], joints: &[Point3<f64>], used: &[usize; 6]) -> Option<SpacingRecord> {
     let mut least: Option<(f64, usize, usize)> = None;
     for i in 0..joints.len() {
         for j in 0..i {
@@ -78,11 +160,12 @@ fn spacing(names: &[String], joints: &[Point3<f64>], used: &[usize; 6]) -> Value
             }
         }
     }
-    least.map_or(Value::Null, |(d, i, j)| json!({"distance": number(d), "joints": [names[i], names[j]]}))
+    let names = |i: usize, j: usize| [names[i].clone(), names[j].clone()];
+    least.map(|(distance, i, j)| SpacingRecord { distance, joints: names(i, j) })
 }
 
 /// The least margin of every kind of requirement at the pose.
-fn margins(session: &Session, design: &Design, at: &Pose) -> Value {
+fn margins(session: &Session, design: &Design, at: &Pose) -> Vec<MarginRecord> {
     let required = design.requirements();
     let terms = Terms::new(design.manipulator(), &required, &session.home);
     let mut least: BTreeMap<TermKind, (Term, f64)> = BTreeMap::new();
@@ -92,33 +175,38 @@ fn margins(session: &Session, design: &Design, at: &Pose) -> Value {
             *entry = (term, value);
         }
     }
-    let row = |(term, value): (Term, f64)| {
+    let row = |(term, margin): (Term, f64)| {
         let pose = (!term.kind.is_fixed()).then_some(at);
-        let standing = terms.standing(term.kind, value, pose);
-        json!({
-            "requirement": term.kind.code(), "margin": number(value),
-            "met": standing.is_met(), "at_limit": standing == Standing::AtLimit,
-            "unit": design.unit_of(term.kind.quantity()), "between": design.names_of(term),
-        })
+        let standing = terms.standing(term.kind, margin, pose);
+        MarginRecord {
+            requirement: term.kind.code(),
+            margin,
+            met: standing.is_met(),
+            at_limit: standing == Standing::AtLimit,
+            unit: design.unit_of(term.kind.quantity()),
+            between: design.names_of(term),
+        }
     };
     least.into_values().map(row).collect()
 }
 
-/// `s' = A s + c`, and how well it holds at the pose.
 fn relation(
     e: &Equivalent,
     map: &AffineLegMap,
     s: &SquaredLegLengths,
     own: &SquaredLegLengths,
-) -> Result<Value, Refusal> {
+) -> Result<RelationRecord, Refusal> {
     let image = map.a * nalgebra::Vector6::from(s.get()) + map.c;
     let most = own.get().into_iter().fold(0.0, f64::max);
     let error = image.iter().zip(own.get()).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max) / most;
-    let rows: Value = (0..6).map(|i| numbers((0..6).map(|j| map.a[(i, j)]))).collect();
     let det = e.pattern.determinant(&e.offsets).map_err(|e| Refusal::new("offsets", e))?;
-    Ok(json!({
-        "A": rows, "c": numbers(map.c.iter().copied()), "det": number(det),
-        "inverse_condition": number(map.inverse_condition()), "image": numbers(image.iter().copied()), "error": number(error),
-        "zeros": e.zeros()?.into_iter().map(|z| z.map_or(Value::Null, number)).collect::<Value>(),
-    }))
+    Ok(RelationRecord {
+        matrix: [0, 1, 2, 3, 4, 5].map(|i| [0, 1, 2, 3, 4, 5].map(|j| map.a[(i, j)])),
+        constants: map.c.into(),
+        det,
+        inverse_condition: map.inverse_condition(),
+        image: image.into(),
+        error,
+        zeros: e.zeros()?,
+    })
 }

@@ -1,13 +1,12 @@
-//! Numbers and poses in the JSON of the page.
+//! Poses in the JSON of the page. A number that is not finite is `null` there.
 
 use nalgebra::{Matrix3, Vector3};
-use serde::Deserialize;
-use serde_json::{Value, json};
+use serde::{Deserialize, Serialize};
 
 use crate::geom::{Pose, nearest_rotation};
 
-/// A pose as the page sends it: rows of `R`, and `p` in design units.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+/// A pose as the page sends and gets it: rows of `R`, and `p` in design units.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct PoseRecord {
     #[serde(rename = "R")]
     rotation: [[f64; 3]; 3],
@@ -21,18 +20,8 @@ impl From<&PoseRecord> for Pose {
     }
 }
 
-/// A pose as the page gets it.
-pub(super) fn pose(p: &Pose) -> Value {
-    let rows: Value = (0..3).map(|i| numbers((0..3).map(|j| p.rotation[(i, j)]))).collect();
-    json!({"R": rows, "p": numbers(p.position.iter().copied())})
-}
-
-/// `null` where a number is not finite.
-pub(super) fn numbers(values: impl IntoIterator<Item = f64>) -> Value {
-    values.into_iter().map(number).collect()
-}
-
-/// `null` where the number is not finite.
-pub(super) fn number(x: f64) -> Value {
-    serde_json::Number::from_f64(x).map_or(Value::Null, Value::Number)
+impl From<&Pose> for PoseRecord {
+    fn from(p: &Pose) -> Self {
+        Self { rotation: [0, 1, 2].map(|i| [0, 1, 2].map(|j| p.rotation[(i, j)])), p: p.position.into() }
+    }
 }

@@ -1,13 +1,29 @@
 //! Conditioning over all poses of the workspace.
 
-use serde_json::{Value, json};
+use serde::Serialize;
 
 use super::request::Refusal;
 use super::session::{Equivalent, Session};
-use super::wire::{number, pose};
+use super::wire::PoseRecord;
 use crate::design::Design;
 use crate::geom::Pose;
 use crate::manipulator::{inverse_condition, jacobian};
+
+/// The worst conditioning of the platforms.
+#[derive(Debug, Serialize)]
+pub(super) struct WorstRecord {
+    /// How many poses were looked at.
+    poses: usize,
+    first: Option<LeastRecord>,
+    second: Option<LeastRecord>,
+}
+
+/// The least inverse condition number of a platform and where it is reached.
+#[derive(Debug, Serialize)]
+struct LeastRecord {
+    inverse_condition: f64,
+    pose: PoseRecord,
+}
 
 impl Session {
     /// `sigma_min / sigma_max` of the length-normalised Jacobian.
@@ -15,20 +31,19 @@ impl Session {
         inverse_condition(&jacobian(design.manipulator(), pose, self.characteristic_length))
     }
 
-    fn worst(&self, design: &Design, poses: &[Pose]) -> Value {
+    fn worst(&self, design: &Design, poses: &[Pose]) -> Option<LeastRecord> {
         let values = poses.iter().map(|p| (self.inverse_condition(design, p), p));
-        values
-            .min_by(|x, y| x.0.total_cmp(&y.0))
-            .map_or(Value::Null, |(value, p)| json!({"inverse_condition": number(value), "pose": pose(p)}))
+        let least = values.min_by(|x, y| x.0.total_cmp(&y.0));
+        least.map(|(inverse_condition, p)| LeastRecord { inverse_condition, pose: p.into() })
     }
 }
 
 /// The least inverse condition number of both platforms and the pose where it is reached.
-pub(super) fn record(session: &Session, e: Option<&Equivalent>) -> Result<Value, Refusal> {
+pub(super) fn record(session: &Session, e: Option<&Equivalent>) -> Result<WorstRecord, Refusal> {
     let poses = session.judged();
     let second = match e {
         Some(e) => session.worst(&session.second(e)?.0, &poses),
-        None => Value::Null,
+        None => None,
     };
-    Ok(json!({"poses": poses.len(), "first": session.worst(session.first(), &poses), "second": second}))
+    Ok(WorstRecord { poses: poses.len(), first: session.worst(session.first(), &poses), second })
 }

@@ -70,7 +70,7 @@ fn there_is_a_manual_page_for_every_command() {
 /// `equipod schema OF`.
 fn schema(of: &str) -> Value {
     let out = equipod(&["schema", of]).stdout;
-    serde_json::from_slice(&out).unwrap_or_else(|_| panic!("{of} lacks its schema: src/cli/answers"))
+    serde_json::from_slice(&out).unwrap_or_else(|_| panic!("{of} lacks its schema: src/records/schema.rs"))
 }
 
 #[test]
@@ -79,7 +79,7 @@ fn schemas_are_json_and_every_answer_has_one() {
     for command in commands().iter().map(String::as_str).chain(["error", "help"]) {
         let schema = schema(command);
         assert_eq!(schema["$ref"], format!("#/$defs/{command}"));
-        assert!(schema["$defs"][command].is_object(), "{command} lacks its answer in src/cli/answers");
+        assert!(schema["$defs"][command].is_object(), "{command} lacks its answer in src/records/schema.rs");
     }
     assert_eq!(equipod(&["schema", "nothing"]).status.code(), Some(2));
 }
