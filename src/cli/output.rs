@@ -4,7 +4,6 @@ use std::fmt::Debug;
 use std::io::{self, Write};
 
 use serde::Serialize;
-use serde_json::Value;
 
 use super::context::FileWarning;
 use super::diagnostic;
@@ -89,11 +88,6 @@ impl Output {
         let _ = error.print();
         Exit::Yes
     }
-}
-
-/// A number as JSON: null when it is not finite, because JSON has no word for it.
-pub(crate) fn number(x: f64) -> Value {
-    serde_json::Number::from_f64(x).map_or(Value::Null, Value::Number)
 }
 
 /// The text of a document.

@@ -2,10 +2,7 @@
 
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
 
-use serde_json::{Value, json};
-
 use super::failure::Failure;
-use super::output::number;
 use crate::design::{Design, Workspace};
 use crate::geom::Pose;
 use crate::requirements::PoseSpace;
@@ -67,10 +64,4 @@ pub(crate) fn numbers(text: &str) -> Result<Pose, String> {
         _ => return Err(format!("{} values instead of six or seven", values.len())),
     };
     Ok(Pose { rotation, position: Vector3::new(values[0], values[1], values[2]) })
-}
-
-/// Position `p` and quaternion `q` of a pose.
-pub(crate) fn record(pose: &Pose) -> Value {
-    let p = &pose.position;
-    json!({ "p": [number(p.x), number(p.y), number(p.z)], "q": pose.quaternion().map(number) })
 }

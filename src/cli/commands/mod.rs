@@ -8,9 +8,9 @@
 //! 3. describe it in `docs/cli.md` and test the process in `tests/it/cli_foo.rs`.
 //!
 //! Load designs with [`Context::load`], take the seed from [`Context::seed`], write files with
-//! `files::write_text`, put numbers into JSON with `output::number` (NaN becomes null, which then needs a
-//! word of explanation in the document). Print nothing: what the command found is the [`Answer`], why it
-//! has no answer is the [`Failure`].
+//! `files::write_text`. What the command found is a record (`src/records`), from which its text is made; numbers
+//! that may be infinite or not a number are `records::Number`. Print nothing: the record and its text are the [`Answer`],
+//! why there is none is the [`Failure`].
 
 mod assess;
 mod bench;

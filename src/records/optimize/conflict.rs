@@ -4,9 +4,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::design::Design;
-use crate::dimensional::{Conflict, Demand, Give, Objective};
+use crate::dimensional::{Conflict, Demand, Give};
 use crate::records::Number;
-use crate::requirements::TermKind;
+use crate::requirements::{Objective, TermKind};
 
 /// Requirements that cannot be met together; without any one of them the others were met.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -6,12 +6,10 @@ use serde::{Deserialize, Serialize};
 
 use super::ConflictRecord;
 use crate::design::Design;
-use crate::dimensional::{
-    DimensionalOutcome, DimensionalReport, DimensionalSolution, HistoryStep, Objective,
-};
+use crate::dimensional::{DimensionalOutcome, DimensionalReport, DimensionalSolution, HistoryStep};
 use crate::equivalence::Verification;
 use crate::records::{DesignRecord, MarginRecord, Number, PoseQuaternionRecord, VerdictWord};
-use crate::requirements::Assessment;
+use crate::requirements::{Assessment, Objective};
 
 /// A platform that was found, with the evidence gathered by other code.
 #[derive(Debug, Clone)]

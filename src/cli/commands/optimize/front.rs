@@ -96,8 +96,8 @@ mod tests {
 
     #[test]
     fn an_interrupted_front_is_not_called_complete() {
-        let text = std::fs::read_to_string("designs/worked/isolator-octahedral.toml").unwrap();
-        let (design, _) = parse(&text, Format::Toml).unwrap();
+        let file = std::fs::read_to_string("designs/worked/isolator-octahedral.toml").unwrap();
+        let (design, _) = parse(&file, Format::Toml).unwrap();
         let mut report =
             ParetoReport { front: Vec::new(), dominated: 0, unmet: 0, failure: None, interrupted: true };
         let said = FrontStatus::of(&report, true);
