@@ -15,31 +15,30 @@
 use std::error::Error;
 use std::fmt::Write;
 
-use equipod::methods::design::{Format, parse};
-use equipod::methods::fk::{FkOptions, ForwardKinematics, Homotopy, solver};
+use equipod::prelude::*;
 
+#[allow(clippy::print_stdout, reason = "an example prints")]
 fn main() -> Result<(), Box<dyn Error>> {
-    std::io::Write::write_all(&mut std::io::stdout(), report()?.as_bytes())?;
+    print!("{}", report()?);
     Ok(())
 }
 
 /// The text of the output.
 pub(crate) fn report() -> Result<String, Box<dyn Error>> {
-    let text = include_str!("../designs/rbt-octahedral.toml");
-    let (design, _) = parse(text, Format::Toml).map_err(|v| v[0].message.clone())?;
-    let squares = design.lengths.ok_or("the design has no lengths")?.squared();
-
-    let options = FkOptions::default();
-    let found = solver(None).solve(design.manipulator(), &squares, &options)?;
-    let general = Homotopy.solve(design.manipulator(), &squares, &options)?;
-
     let mut out = String::new();
+    let design = Design::load("designs/rbt-octahedral.toml")?;
+    let lengths = design.lengths.ok_or("the design has no lengths")?;
+    let found = design.fk(lengths)?;
+    let general = design.fk_with(lengths, FkOptions::new().method(Method::Homotopy))?;
+
     writeln!(out, "{}: {} finite poses by the {} method", design.name, found.roots.len(), found.method)?;
     writeln!(out, "{} finite poses by the {} method", general.roots.len(), general.method)?;
     writeln!(out, "real, certified, platform origin above the base at x, y, z:")?;
-    for root in found.assembly_modes().filter(|r| r.certified() && r.pose.position.z.re > 0.0) {
-        let p = root.pose.position.map(|z| z.re);
-        writeln!(out, "{:9.4} {:9.4} {:9.4}", p.x, p.y, p.z)?;
+    for pose in found.roots.iter().filter(|root| root.certified()).filter_map(FkRoot::real_pose) {
+        let p = pose.position;
+        if p.z > 0.0 {
+            writeln!(out, "{:9.4} {:9.4} {:9.4}", p.x, p.y, p.z)?;
+        }
     }
     Ok(out)
 }

@@ -10,42 +10,29 @@
 use std::error::Error;
 use std::fmt::Write;
 
-use equipod::methods::design::{Format, parse};
-use equipod::methods::manipulator::Octahedral;
-use equipod::methods::synthesis::{Family, Pattern};
+use equipod::prelude::*;
 
+#[allow(clippy::print_stdout, reason = "an example prints")]
 fn main() -> Result<(), Box<dyn Error>> {
-    std::io::Write::write_all(&mut std::io::stdout(), report()?.as_bytes())?;
+    print!("{}", report()?);
     Ok(())
 }
 
 /// The text of the output.
 pub(crate) fn report() -> Result<String, Box<dyn Error>> {
-    let text = include_str!("../designs/rbt-octahedral.toml");
-    let (design, _) = parse(text, Format::Toml).map_err(|v| v[0].message.clone())?;
-    let octahedral = Octahedral::recognise(design.manipulator())?;
-
-    let family = Family::octahedral();
-    let counts = family.counts();
     let mut out = String::new();
+    let class = Design::load("designs/rbt-octahedral.toml")?.equivalents()?;
+    let counts = class.family().counts();
     writeln!(out, "{} patterns, {} up to symmetry", counts.patterns, counts.classes_exchange)?;
-    writeln!(
-        out,
-        "{} topologies, {} with base and platform exchanged",
-        counts.topologies, counts.topologies_exchange
-    )?;
+    let [topologies, exchanged] = [counts.topologies, counts.topologies_exchange];
+    writeln!(out, "{topologies} topologies, {exchanged} with base and platform exchanged")?;
 
     // legs 3 to 6 kept, both legs at one joint moved along side 1
     let pattern: Pattern = "V3456S11".parse()?;
-    let offsets = [0.25, 0.75];
-    let platform = pattern.instantiate(&octahedral, &offsets)?;
-    writeln!(
-        out,
-        "{pattern}: det A = {} = {}",
-        pattern.determinant_formula(),
-        pattern.determinant(&offsets)?
-    )?;
-    let [base, moving] = [platform.base_joints().len(), platform.platform_joints().len()];
+    let (built, map) = class.build(&pattern, &[0.25, 0.75])?;
+    let formula = pattern.determinant_formula();
+    writeln!(out, "{pattern}: det A = {formula} = {:.1}", map.determinant().abs())?;
+    let [base, moving] = [built.base_names().len(), built.platform_names().len()];
     writeln!(out, "{base} base joints, {moving} platform joints, {} shared", pattern.shared_joints().len())?;
     Ok(out)
 }

@@ -11,36 +11,30 @@
 use std::error::Error;
 use std::fmt::Write;
 
-use equipod::methods::design::{Design, Format, parse};
-use equipod::methods::synthesis::{LegMapTolerances, leg_map};
+use equipod::prelude::*;
 
-const DESIGNS: [(&str, &str); 3] = [
-    ("Griffis-Duffy type", include_str!("../designs/rbt-griffis-duffy.toml")),
-    ("all midpoints", include_str!("../designs/rbt-midline.toml")),
-    ("general", include_str!("../designs/general-6-6.toml")),
-];
-
+#[allow(clippy::print_stdout, reason = "an example prints")]
 fn main() -> Result<(), Box<dyn Error>> {
-    std::io::Write::write_all(&mut std::io::stdout(), report()?.as_bytes())?;
+    print!("{}", report()?);
     Ok(())
-}
-
-fn read(text: &str) -> Result<Design, String> {
-    Ok(parse(text, Format::Toml).map_err(|v| v[0].message.clone())?.0)
 }
 
 /// The text of the output.
 pub(crate) fn report() -> Result<String, Box<dyn Error>> {
-    let octahedral = read(include_str!("../designs/rbt-octahedral.toml"))?;
-    let squares = octahedral.lengths.ok_or("the design has no lengths")?.squared();
     let mut out = String::new();
-    for (name, text) in DESIGNS {
-        let design = read(text)?;
-        let found = leg_map(octahedral.manipulator(), design.manipulator(), LegMapTolerances::default())?;
-        writeln!(out, "{name}: {}", found.relation.as_str())?;
+    let octahedral = Design::load("designs/rbt-octahedral.toml")?;
+    let squares = octahedral.lengths.ok_or("the design has no lengths")?.squared();
+    for (name, file) in [
+        ("Griffis-Duffy type", "designs/rbt-griffis-duffy.toml"),
+        ("all midpoints", "designs/rbt-midline.toml"),
+        ("general", "designs/general-6-6.toml"),
+    ] {
+        let mut design = Design::load(file)?;
+        design.units.clone_from(&octahedral.units); // one of the files has no unit
+        let found = leg_map(&octahedral, &design)?;
+        writeln!(out, "{name}: {}", found.relation)?;
         if let Some(map) = found.map() {
-            let lengths = map.apply(&squares)?.lengths().get();
-            let [first, .., last] = lengths;
+            let [first, .., last] = map.apply(&squares)?.lengths().get();
             writeln!(out, "  det A = {:.4}, lengths {first:.6} .. {last:.6}", found.determinant.abs())?;
         }
     }

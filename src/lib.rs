@@ -1,15 +1,107 @@
-//! Design synthesis and kinematic equivalence of Gough-Stewart platforms.
+//! Gough-Stewart platforms that can be built: for a platform whose legs share joints, an equivalent one without shared joints, and all poses of either
+//! for given leg lengths, with certificates.
 //!
-//! Leg `i` joins the base joint `a_i` to the platform joint `b_i`; at the pose `(R, p)` its squared length is
+//! The best known of these platforms are the octahedral ones, whose six legs meet in three joints of the base and three of the platform. A joint that two
+//! legs share is hard to build: it has play, and little room to swing. Every octahedral platform is *kinematically equivalent* to platforms without shared joints: they have the same poses, the same
+//! singularities and the same forward kinematics.
+//!
+//! Leg `i` joins the base joint `a_i` to the platform joint `b_i`. At the pose `(R, p)` its squared length is
 //!
 //! ```text
-//! s_i = |R b_i + p - a_i|^2.
+//! s_i = |R b_i + p - a_i|^2,
 //! ```
 //!
-//! Two platforms are *kinematically equivalent* when `s' = A s + c` with `det A != 0` holds at every pose.
+//! and two platforms are equivalent when `s' = A s + c` holds at every pose, with a constant matrix `A` and `det A != 0`.
 //!
-//! Without cargo features the crate solves forward kinematics: all poses for given leg lengths, each with its certificate. The features
-//! `synthesis`, `optimize`, `files`, `page`, `lab` and `cli` add the rest; `docs/architecture.md` says what each costs.
+//! Everything on this page is in [`prelude`]. A [`Design`] is a platform with names, units, home pose and requirements, read from a file or a text:
+//!
+//! ```
+//! use equipod::prelude::*;
+//!
+//! let design = Design::load("designs/rbt-octahedral.toml")?;
+//! let home = design.home_or_default();
+//! let lengths = design.ik(&home)?; // from a pose to lengths: one answer
+//!
+//! let found = design.fk(&lengths)?; // and back: all poses, real and complex, each with its certificate
+//! assert_eq!(found.roots.len(), 16);
+//! assert!(found.roots.iter().all(|root| root.certified()));
+//! assert_eq!(found.completeness.name(), "proved");
+//! assert!(found.real_poses().any(|pose| (pose.position - home.position).norm() < 1e-9));
+//! # Ok::<(), Error>(())
+//! ```
+//!
+//! # An equivalent platform without shared joints
+//!
+//! [`Design::equivalents`] has all platforms of the class, [`Design::optimize`] the best one under the requirements of the design. [`verify`] compares any two
+//! designs: by the leg map, and by forward kinematics that knows nothing of it.
+//!
+//! ```
+//! use equipod::prelude::*;
+//!
+//! let design = Design::load("designs/rbt-octahedral.toml")?;
+//! let class = design.equivalents()?;
+//! assert_eq!(class.family().counts().patterns, 728);
+//!
+//! let (free, map) = class.joint_free([0.25, 0.5, 0.25, 0.5, 0.25, 0.75])?;
+//! assert!(map.determinant().abs() > 0.1);
+//! let found = verify_with(&design, &free, VerifyOptions::new().samples(3))?;
+//! assert_eq!(found.verdict, Verdict::Equivalent);
+//! assert_eq!(leg_map(&design, &free)?.relation, Relation::Equivalent);
+//! # Ok::<(), Error>(())
+//! ```
+//!
+//! # A design changed, judged and handed on
+//!
+//! ```
+//! use equipod::prelude::*;
+//!
+//! let mut design = Design::load("designs/presets/bench-l16.toml")?;
+//! assert_eq!(design.check()?.is_singular(), Some(false));
+//!
+//! let joint = design.manipulator().platform_joints()[0];
+//! let name = format!("platform.{}", design.platform_names()[0]);
+//! design.set_joint(&name, joint + nalgebra::Vector3::new(0.0, 0.0, 0.5))?;
+//! let text = design.text(); // with the comments of the file; `design.save(path)` writes it
+//! assert!(text.parse::<Design>()? == design && text.contains('#'));
+//!
+//! let files = design.export("step".parse()?)?; // names and texts
+//! assert_eq!(files.len(), 1);
+//! # Ok::<(), Error>(())
+//! ```
+//!
+//! # Many lengths, one pose after the other
+//!
+//! [`Design::solver`] prepares a design once; [`Solver::solve_all`] takes rows of lengths from any iterator and gives results in their order, from all cores, as
+//! they are done. [`Design::tracker`] follows the one pose that a machine is at. [`Cancel`] ends what takes long.
+//!
+//! ```
+//! use equipod::prelude::*;
+//!
+//! let design = Design::load("designs/rbt-octahedral.toml")?;
+//! let mut pose = design.home_or_default();
+//! let mut tracker = design.tracker(pose);
+//! let solver = design.solver(FkOptions::new().seed(7));
+//! let rows: Vec<LegLengths> = (0..3)
+//!     .map(|k| design.ik(&Pose::new([0.1 * f64::from(k), 0.0, pose.position.z], pose.rotation)))
+//!     .collect::<Result<_, _>>()?;
+//! for found in solver.solve_all(rows) {
+//!     assert!(found?.real_poses().count() > 0);
+//! }
+//! pose.position.y += 0.1;
+//! assert!(matches!(tracker.step(&design.ik(&pose)?)?, NearOutcome::Tracked { .. }));
+//! # Ok::<(), Error>(())
+//! ```
+//!
+//! # Poses
+//!
+//! A [`Pose`] is made from a position and [`Angles`], a unit quaternion or a rotation matrix, from a 4 x 4 matrix or from nalgebra's `Isometry3`, and becomes any
+//! of them. `nalgebra` and `num_complex` are re-exported in the versions of the signatures.
+//!
+//! # Without files
+//!
+//! With `default-features = false` the library has poses and certificates alone: [`Manipulator`] has `fk`, `ik`, `solver` and `tracker` as a design has.
+//! The features `synthesis`, `optimize`, `files`, `page`, `lab` and `cli` add the rest; `docs/architecture.md` says what each costs.
+//! The modules behind this page are in [`methods`], for those who develop methods.
 
 #![cfg_attr(
     not(feature = "cli"),
@@ -29,8 +121,11 @@ mod design;
 #[cfg(feature = "optimize")]
 mod dimensional;
 mod distance;
+mod entrance;
 #[cfg(feature = "synthesis")]
 mod equivalence;
+#[cfg(all(feature = "files", feature = "synthesis"))]
+mod equivalents;
 #[cfg(feature = "files")]
 mod export;
 mod fk;
@@ -38,6 +133,7 @@ mod geom;
 mod manipulator;
 #[cfg(feature = "synthesis")]
 mod manufacture;
+mod names;
 mod num;
 #[cfg(feature = "optimize")]
 mod offsets;
@@ -58,6 +154,59 @@ mod solve;
 #[cfg(feature = "synthesis")]
 mod synthesis;
 mod topology;
+
+pub use nalgebra;
+pub use num_complex;
+
+#[doc(inline)]
+pub use prelude::*;
+
+/// Everything on the front page, for `use equipod::prelude::*`.
+pub mod prelude {
+    #[doc(inline)]
+    pub use crate::entrance::{Batch, Error, Solver, Tracker};
+    #[doc(inline)]
+    pub use crate::fk::{
+        Completeness, FkOptions, FkRoot, FkSolutions, Method, NearOutcome, PoseCounting, Reality,
+        SolutionSet, Threads,
+    };
+    #[doc(inline)]
+    pub use crate::geom::{Angles, ComplexPose, Pose};
+    #[doc(inline)]
+    pub use crate::manipulator::{
+        Body, Leg, LegIndex, LegLengths, Manipulator, Octahedral, SquaredLegLengths,
+    };
+    #[doc(inline)]
+    pub use crate::num::Cancel;
+    #[cfg(feature = "synthesis")]
+    #[doc(inline)]
+    pub use crate::synthesis::{AffineLegMap, Family, LegMapOutcome, Pattern, Relation};
+
+    #[cfg(feature = "files")]
+    #[doc(inline)]
+    pub use crate::design::{Design, Format, PRESETS, Violation, Warning};
+    #[cfg(all(feature = "files", feature = "synthesis"))]
+    #[doc(inline)]
+    pub use crate::entrance::{AssessReport, CheckReport, VerifyOptions, leg_map, verify, verify_with};
+    #[cfg(all(feature = "files", feature = "synthesis"))]
+    #[doc(inline)]
+    pub use crate::equivalence::{Sample, Verdict, Verification};
+    #[cfg(all(feature = "files", feature = "synthesis"))]
+    #[doc(inline)]
+    pub use crate::equivalents::Equivalents;
+    #[cfg(feature = "files")]
+    #[doc(inline)]
+    pub use crate::export::{ExportFormat, ExportOptions, ExportedFile, LengthUnit};
+    #[cfg(feature = "files")]
+    #[doc(inline)]
+    pub use crate::requirements::AssessOptions;
+
+    #[cfg(all(feature = "files", feature = "optimize"))]
+    #[doc(inline)]
+    pub use crate::entrance::{
+        OptimizeEvidence, OptimizeOptions, OptimizeProgress, OptimizeReport, OptimizeStatus,
+    };
+}
 
 /// The modules behind the entrance, for those who develop methods: a new solver, a new way to prove a root, another
 /// search. Users of the library need none of them.

@@ -6,10 +6,9 @@ use super::args::Global;
 use super::diagnostic;
 use super::failure::Failure;
 use super::files;
-use super::poses;
 use super::rows::{self, Table};
 use crate::design::{Design, Format, Warning, parse};
-use crate::geom::Pose;
+use crate::geom::{InvalidPose, Pose};
 
 /// A warning and the file it is about.
 #[derive(Debug)]
@@ -85,6 +84,8 @@ fn poses_beside(design: &Path, file: &str) -> Result<Vec<Pose>, Failure> {
         code: "design::bad_trajectory",
         form: "a pose a line: x,y,z,roll_deg,pitch_deg,yaw_deg or x,y,z,qw,qx,qy,qz",
     };
-    let rows = rows::read(&files::read_text(&path)?, table, poses::numbers)?;
+    let rows = rows::read(&files::read_text(&path)?, table, |line| {
+        line.parse().map_err(|e: InvalidPose| e.to_string())
+    })?;
     Ok(rows.into_iter().map(|(_, pose)| pose).collect())
 }

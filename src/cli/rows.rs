@@ -1,6 +1,7 @@
 //! Tables of numbers: one record a line.
 
 use super::failure::Failure;
+use crate::design::table_rows;
 
 /// At most so many bad lines are quoted.
 const SHOWN: usize = 20;
@@ -26,19 +27,10 @@ pub(crate) fn read<T>(
     table: Table<'_>,
     record: impl Fn(&str) -> Result<T, String>,
 ) -> Result<Vec<(usize, T)>, Failure> {
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let (mut rows, mut bad) = (Vec::new(), Vec::new());
-    let content = text.lines().enumerate().filter(|(_, l)| !l.trim().is_empty() && !l.starts_with('#'));
-    for (position, (i, line)) in content.enumerate() {
-        let is_header = position == 0 && line.split(',').all(|f| f.trim().parse::<f64>().is_err());
-        if is_header {
-            continue;
-        }
-        match record(line) {
-            Ok(value) => rows.push((i + 1, value)),
-            Err(message) => bad.push(format!("line {}: {message}", i + 1)),
-        }
-    }
+    let (rows, bad) = match table_rows(text, record) {
+        Ok(rows) => (rows, Vec::new()),
+        Err(bad) => (Vec::new(), bad),
+    };
     let path = table.path;
     let refused = |message: String| {
         Err(Failure::refused(table.code, message).with_help(format!("write {}", table.form)))

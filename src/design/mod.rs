@@ -3,6 +3,7 @@
 //! Everything here is pure: text in, [`Design`] or a list of [`Violation`]s out, and back to text. The
 //! format is described key by key in `docs/design-files.md`.
 
+mod edit;
 #[cfg(test)]
 mod fixtures;
 mod json_text;
@@ -10,6 +11,7 @@ mod model;
 mod presets;
 #[cfg(test)]
 mod requirements_tests;
+mod rows;
 mod save;
 mod schema;
 #[cfg(test)]
@@ -20,12 +22,16 @@ mod validate;
 mod violation;
 mod workspace;
 
-pub use self::model::{Combination, SearchTable};
-pub use model::{Design, NameCount, OptimizeTable};
+pub use edit::JointError;
+pub(crate) use edit::Written;
+pub use model::{Combination, Design, NameCount, OptimizeTable, SearchTable};
 pub use presets::{PRESETS, Preset, PresetClass};
+pub(crate) use rows::table_rows;
 pub use schema::SCHEMA;
 pub use violation::{Code, Violation, Warning};
 pub use workspace::{Trajectory, Workspace};
+
+use crate::names::{UnknownName, named};
 
 /// The two notations of the same structure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -49,6 +55,29 @@ impl Format {
             Some(ext) if ext.eq_ignore_ascii_case("json") => Self::Json,
             _ => Self::Toml,
         }
+    }
+
+    /// The name: `"toml"` or `"json"`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Toml => "toml",
+            Self::Json => "json",
+        }
+    }
+}
+
+impl std::fmt::Display for Format {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl std::str::FromStr for Format {
+    type Err = UnknownName;
+
+    fn from_str(text: &str) -> Result<Self, UnknownName> {
+        named("notation", text, &[Self::Toml, Self::Json], Self::name)
     }
 }
 
@@ -78,7 +107,11 @@ pub fn parse(text: &str, format: Format) -> Result<(Design, Vec<Warning>), Vec<V
     };
     let design = root.and_then(|root| validate::design(&root, &mut report));
     match design {
-        Some(design) if report.is_clean() => Ok((design, report.into_warnings())),
+        Some(mut design) if report.is_clean() => {
+            let warnings = report.into_warnings();
+            design.written = Written::new(text, format, &warnings);
+            Ok((design, warnings))
+        }
         _ => Err(report.into_violations()),
     }
 }

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::Workspace;
+use super::{Workspace, Written};
 use crate::geom::Pose;
 use crate::manipulator::Body;
 use crate::manipulator::{LegLengths, Manipulator};
@@ -38,7 +38,9 @@ pub struct Design {
     pub loads: Vec<Load>,
     /// Bodies that the legs must not touch.
     pub keep_outs: Vec<KeepOut>,
-    manipulator: Manipulator,
+    /// The text it was read from.
+    pub(crate) written: Written,
+    pub(super) manipulator: Manipulator,
     base_names: Vec<String>,
     platform_names: Vec<String>,
 }
@@ -88,6 +90,7 @@ impl Design {
             keep_outs: Vec::new(),
             base_names: names('A', manipulator.base_joints().len()),
             platform_names: names('B', manipulator.platform_joints().len()),
+            written: Written::default(),
             manipulator,
         }
     }

@@ -61,6 +61,21 @@ pub struct Progress {
     pub best: Option<f64>,
 }
 
+/// In words for people.
+impl std::fmt::Display for Progress {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        if let Some(best) = self.best {
+            write!(f, "best {best:.6}; ")?;
+        }
+        let stage = match self.stage {
+            Stage::Populations => "population",
+            Stage::Climbs => "climb",
+            Stage::Polishing => "polish",
+        };
+        write!(f, "{stage} {} of {}", self.done, self.total)
+    }
+}
+
 /// Every so many populations one evolves longer: young populations have many basins, old ones the deep ones.
 const LONG_EVERY: usize = 3;
 /// How many times as many generations such a population has.

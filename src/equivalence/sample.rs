@@ -37,6 +37,7 @@ impl SamplePlan {
 
 /// One comparison: the lengths, what forward kinematics of each platform found, how the poses match.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Sample {
     /// The pose the lengths come from.
     pub pose: Pose,

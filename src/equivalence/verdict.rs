@@ -1,14 +1,21 @@
 //! The verdict on two platforms.
 
+use std::num::NonZeroUsize;
+use std::ops::ControlFlow;
+
 use thiserror::Error;
 
 use super::determined::{ROUNDED, is_beyond_precision};
 use super::matching::{PoseMatching, match_poses};
 use super::sample::{Sample, SamplePlan};
-use crate::fk::{FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, PoseCounting, solver};
+use crate::fk::{
+    FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, PoseCounting, Threads, solver,
+};
 use crate::geom::ComplexPose;
 use crate::manipulator::{LegIndex, Manipulator};
+use crate::num::Cancel;
 use crate::num::linalg::LinalgError;
+use crate::num::stream::Stream;
 use crate::solve::certify::RootCertificate;
 use crate::synthesis::{LegMapOutcome, LegMapTolerances, NotRealizable, Relation, leg_map};
 
@@ -43,10 +50,14 @@ pub enum VerifyError {
         /// The leg whose square came out negative.
         why: Option<NotRealizable>,
     },
+    /// It was told to end.
+    #[error("the comparison was cancelled")]
+    Cancelled,
 }
 
 /// A pose that belongs to the lengths of one platform and not to those of the other.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Counterexample {
     /// Index of the sample.
     pub sample: usize,
@@ -131,6 +142,23 @@ pub enum Verdict {
     Inconclusive(InconclusiveReason),
 }
 
+/// The verdict in words, with what shows it or why there is none.
+impl std::fmt::Display for Verdict {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Equivalent => f.write_str("equivalent"),
+            Self::NotEquivalent(c) => {
+                let proved = if c.certified() { "proved" } else { "not proved" };
+                write!(f, "not equivalent: a pose of {} ({proved}) misses {} of the other", c.solves, c.leg)
+            }
+            Self::Singular => f.write_str(
+                "singular: there is a leg map, and one of the platforms is architecturally singular",
+            ),
+            Self::Inconclusive(why) => write!(f, "inconclusive: {}", why.sentence()),
+        }
+    }
+}
+
 impl Verdict {
     /// The word of the command line.
     #[must_use]
@@ -146,6 +174,7 @@ impl Verdict {
 
 /// The verdict with all its evidence.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Verification {
     /// The verdict.
     pub verdict: Verdict,
@@ -228,6 +257,31 @@ pub fn verify(
     plan: &SamplePlan,
     options: &FkOptions,
 ) -> Result<Verification, VerifyError> {
+    let alone = Run { threads: Threads::Count(NonZeroUsize::MIN), cancel: Cancel::new() };
+    verify_each(a, b, plan, options, &alone, &mut |_| ControlFlow::Continue(()))
+}
+
+/// How a comparison is carried out; its answer does not depend on it.
+#[derive(Debug, Clone, Default)]
+pub struct Run {
+    /// Threads that solve samples.
+    pub threads: Threads,
+    /// What ends it before its time.
+    pub cancel: Cancel,
+}
+
+/// As [`verify()`], with each sample shown as soon as it and those before it are solved.
+///
+/// # Errors
+/// Those of [`verify()`]; [`VerifyError::Cancelled`] when `look` breaks or the run is cancelled.
+pub fn verify_each(
+    a: &Manipulator,
+    b: &Manipulator,
+    plan: &SamplePlan,
+    options: &FkOptions,
+    run: &Run,
+    look: &mut dyn FnMut(&Sample) -> ControlFlow<()>,
+) -> Result<Verification, VerifyError> {
     let map = leg_map(a, b, LegMapTolerances::default())?;
     let at_once = match map.relation {
         Relation::Singular => Some(Verdict::Singular),
@@ -239,8 +293,20 @@ pub fn verify(
         return Ok(Verification { verdict, map, samples: Vec::new() });
     }
     let mut samples = Vec::with_capacity(plan.count);
-    for k in 0..plan.count {
-        samples.push(take_sample(a, b, plan, options, &map, k)?);
+    let job = {
+        let (a, b, plan, options, map) = (a.clone(), b.clone(), *plan, *options, map.clone());
+        move |k| take_sample(&a, &b, &plan, &options, &map, k)
+    };
+    let workers = run.threads.count(plan.count);
+    for sample in Stream::new(0..plan.count, workers, run.cancel.clone(), job) {
+        let sample = sample?;
+        if look(&sample).is_break() {
+            return Err(VerifyError::Cancelled);
+        }
+        samples.push(sample);
+    }
+    if samples.len() < plan.count {
+        return Err(VerifyError::Cancelled);
     }
     let verdict = if map.relation == Relation::Equivalent {
         if samples.iter().all(Sample::agrees) {

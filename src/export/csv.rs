@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::text::{commented, csv_field, real, reals, scaled};
-use super::{Export, File, Unsupported, Writer};
+use super::{Export, ExportedFile, Unsupported, Writer};
 use crate::geom::Pose;
 
 /// The format `csv`.
@@ -19,14 +19,14 @@ impl Writer for Csv {
         "tables of joints and leg lengths, for spreadsheets and controllers"
     }
 
-    fn files(&self, export: &Export) -> Result<Vec<File>, Unsupported> {
+    fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
         let mut out = vec![
-            File::new("joints.csv", joints(export)),
-            File::new("legs.csv", legs(export)),
-            File::new("lengths-workspace.csv", lengths(export, &export.workspace)),
+            ExportedFile::new("joints.csv", joints(export)),
+            ExportedFile::new("legs.csv", legs(export)),
+            ExportedFile::new("lengths-workspace.csv", lengths(export, &export.workspace)),
         ];
         if !export.trajectory.is_empty() {
-            out.push(File::new("lengths-trajectory.csv", lengths(export, &export.trajectory)));
+            out.push(ExportedFile::new("lengths-trajectory.csv", lengths(export, &export.trajectory)));
         }
         Ok(out)
     }

@@ -7,7 +7,7 @@ use nalgebra::{Point2, Point3, Vector3};
 use super::outline::on_circle;
 use super::plate::any_across;
 use super::text::one_line;
-use super::{Export, ExportBody, ExportLeg, File, Plate, Unsupported, Writer};
+use super::{Export, ExportBody, ExportLeg, ExportedFile, Plate, Unsupported, Writer};
 use crate::plot::{ThreeViewBody, ThreeViewFigure, three_views};
 
 /// The format `svg`.
@@ -30,7 +30,7 @@ impl Writer for Drawing {
         "what hides what: the silhouettes of all parts are seen"
     }
 
-    fn files(&self, export: &Export) -> Result<Vec<File>, Unsupported> {
+    fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
         let mm = export.unit.millimetres;
         let [base, platform] = &export.bodies;
         let legs = export.legs.iter().map(|leg| bars(leg, mm)).collect::<Result<Vec<_>, _>>()?;
@@ -45,7 +45,7 @@ impl Writer for Drawing {
             leg_bodies: legs.into_iter().flatten().collect(),
             origins: [Point3::origin(), Point3::from(Vector3::from(export.home.position * mm))],
         };
-        Ok(vec![File::new("three-views.svg", three_views(&figure))])
+        Ok(vec![ExportedFile::new("three-views.svg", three_views(&figure))])
     }
 }
 

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::text::{ascii, commented, real};
-use super::{Export, File, Unsupported, Writer};
+use super::{Export, ExportedFile, Unsupported, Writer};
 use crate::manipulator::Body;
 
 /// The format `hal`.
@@ -23,8 +23,8 @@ impl Writer for Hal {
         "joint axes and lead of the screws (genhexkins corrects for both): base-n, platform-n and screw-lead stay as they are"
     }
 
-    fn files(&self, export: &Export) -> Result<Vec<File>, Unsupported> {
-        Ok(vec![File::new("genhexkins.hal", settings(export))])
+    fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
+        Ok(vec![ExportedFile::new("genhexkins.hal", settings(export))])
     }
 }
 

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Choice, Export, ExportBody, ExportLeg, File, Hole, Plate, Unsupported, Writer};
+use super::{Choice, Export, ExportBody, ExportLeg, ExportedFile, Hole, Plate, Unsupported, Writer};
 use crate::geom::Pose;
 
 /// The format `json`.
@@ -18,11 +18,11 @@ impl Writer for Json {
         "joints, plates, legs, poses and lengths in one document, for scripts"
     }
 
-    fn files(&self, export: &Export) -> Result<Vec<File>, Unsupported> {
+    fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
         // texts, numbers, lists and fields can be written
         let mut text = serde_json::to_string(&Document::of(export)).unwrap_or_default();
         text.push('\n');
-        Ok(vec![File::new("platform.json", text)])
+        Ok(vec![ExportedFile::new("platform.json", text)])
     }
 }
 

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::text::{commented, one_line, real};
-use super::{Export, File, Unsupported, Writer};
+use super::{Export, ExportedFile, Unsupported, Writer};
 
 /// The format `matlab`.
 #[derive(Debug)]
@@ -18,8 +18,8 @@ impl Writer for Matlab {
         "3x6 arrays in metres and the inverse kinematics, for MATLAB, Octave and Simscape"
     }
 
-    fn files(&self, export: &Export) -> Result<Vec<File>, Unsupported> {
-        Ok(vec![File::new("platform.m", script(export))])
+    fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
+        Ok(vec![ExportedFile::new("platform.m", script(export))])
     }
 }
 

@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
 use super::plate::any_across;
 use super::text::{one_line, real, reals, scaled, xml_comment};
-use super::{Export, ExportBody, ExportLeg, File, Unsupported, Writer};
+use super::{Export, ExportBody, ExportLeg, ExportedFile, Unsupported, Writer};
 use crate::geom::Pose;
 use crate::plot::escape;
 
@@ -27,8 +27,8 @@ impl Writer for Mjcf {
         "contacts, friction, limits of forces, speeds and swing"
     }
 
-    fn files(&self, export: &Export) -> Result<Vec<File>, Unsupported> {
-        Ok(vec![File::new("platform.xml", model(export)?)])
+    fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
+        Ok(vec![ExportedFile::new("platform.xml", model(export)?)])
     }
 }
 

@@ -31,6 +31,7 @@ mod units;
 use thiserror::Error;
 
 use crate::manipulator::Body;
+use crate::names::{UnknownName, named};
 
 pub use model::{Export, ExportBody, ExportLeg, Joint};
 pub use outline::{Outline, OutlinePart};
@@ -40,14 +41,14 @@ pub use units::{LengthUnit, UnknownUnit};
 
 /// A file: its name and its text.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct File {
+pub struct ExportedFile {
     /// Name without folder.
     pub name: String,
     /// All of it.
     pub text: String,
 }
 
-impl File {
+impl ExportedFile {
     fn new(name: &str, text: String) -> Self {
         Self { name: name.to_string(), text }
     }
@@ -112,27 +113,80 @@ pub trait Writer: std::fmt::Debug + Sync {
     ///
     /// # Errors
     /// What the format cannot express.
-    fn files(&self, export: &Export) -> Result<Vec<File>, Unsupported>;
+    fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported>;
 }
 
-/// All formats, by name.
-#[must_use]
-pub fn writers() -> [&'static dyn Writer; 9] {
-    [
-        &csv::Csv,
-        &dxf::Dxf,
-        &hal::Hal,
-        &json::Json,
-        &matlab::Matlab,
-        &mjcf::Mjcf,
-        &step::Step,
-        &stl::Stl,
-        &drawing::Drawing,
-    ]
+/// A format by its name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum ExportFormat {
+    /// Joints, lengths at home, workspace and trajectory as tables.
+    Csv,
+    /// Hole plans of both plates.
+    Dxf,
+    /// Geometry for `genhexkins` of `LinuxCNC`.
+    Hal,
+    /// Everything, for programs.
+    Json,
+    /// MATLAB and Octave.
+    Matlab,
+    /// A closed mechanism for `MuJoCo` and other simulators.
+    Mjcf,
+    /// Solids for CAD programs.
+    Step,
+    /// Solids as meshes.
+    Stl,
+    /// A drawing with three views.
+    Drawing,
 }
 
-/// The format of this name.
-#[must_use]
-pub fn writer(name: &str) -> Option<&'static dyn Writer> {
-    writers().into_iter().find(|w| w.name() == name)
+impl ExportFormat {
+    /// Every format, by name.
+    pub const ALL: [Self; 9] = [
+        Self::Csv,
+        Self::Dxf,
+        Self::Hal,
+        Self::Json,
+        Self::Matlab,
+        Self::Mjcf,
+        Self::Step,
+        Self::Stl,
+        Self::Drawing,
+    ];
+
+    /// What writes it.
+    #[must_use]
+    pub fn writer(self) -> &'static dyn Writer {
+        match self {
+            Self::Csv => &csv::Csv,
+            Self::Dxf => &dxf::Dxf,
+            Self::Hal => &hal::Hal,
+            Self::Json => &json::Json,
+            Self::Matlab => &matlab::Matlab,
+            Self::Mjcf => &mjcf::Mjcf,
+            Self::Step => &step::Step,
+            Self::Stl => &stl::Stl,
+            Self::Drawing => &drawing::Drawing,
+        }
+    }
+
+    /// Its name on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.writer().name()
+    }
+}
+
+impl std::fmt::Display for ExportFormat {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl std::str::FromStr for ExportFormat {
+    type Err = UnknownName;
+
+    fn from_str(text: &str) -> Result<Self, UnknownName> {
+        named("format", text, &Self::ALL, Self::name)
+    }
 }

@@ -111,22 +111,36 @@ pub struct Export {
     pub choices: Vec<Choice>,
 }
 
+/// Steps between two poses of a trajectory in the table of leg lengths.
+const STEPS: usize = 20;
+
 impl Export {
+    /// Works out plates, legs at home and sizes, with the home, the workspace and the trajectory of the design.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn of(design: &Design, options: &ExportOptions) -> Result<Self, NoExport> {
+        let (home, mut workspace) = (design.home_or_default(), design.workspace_or_default());
+        let mut path = workspace.space(&home);
+        path.poses.clear();
+        workspace.trajectory = None;
+        let listed = (workspace.sample(Some(&home)), path.listed(STEPS));
+        Self::new(design, home, listed, options)
+    }
+
     /// Works out plates, legs at home and sizes.
     ///
-    /// `unit` is what one design unit is, where the label of the design does not say it. `home` is in design units; `workspace` and `trajectory` are the
-    /// poses whose leg lengths are listed.
+    /// `home` is in design units; `workspace` and `trajectory` are the poses whose leg lengths are listed.
     ///
     /// # Errors
     /// [`NoExport`]: an unknown unit, a size that is not positive or does not fit the others.
     pub fn new(
         design: &Design,
-        unit: Option<LengthUnit>,
         home: Pose,
         (workspace, trajectory): (Vec<Pose>, Vec<Pose>),
         options: &ExportOptions,
     ) -> Result<Self, NoExport> {
-        let unit = unit.map_or_else(|| LengthUnit::of(&design.units), Ok)?;
+        let unit = options.unit.map_or_else(|| LengthUnit::of(&design.units), Ok)?;
         let m = design.manipulator();
         let size = m.size();
         let hardware = &design.hardware;

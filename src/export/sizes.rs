@@ -4,12 +4,15 @@ use nalgebra::{Point3, Vector3};
 use thiserror::Error;
 
 use super::model::Joint;
-use super::units::UnknownUnit;
+use super::units::{LengthUnit, UnknownUnit};
 use crate::requirements::{Hardware, Housing};
 
 /// What the user may choose; lengths in design units. What is absent comes from `[hardware]` or from a rule that [`Export::choices`](super::Export::choices) states.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct ExportOptions {
+    /// What one unit of the design is, where its label does not say it.
+    pub unit: Option<LengthUnit>,
     /// Thickness of the plates.
     pub thickness: Option<f64>,
     /// Distance of the outline of a plate from the hull of its joints.
@@ -22,6 +25,63 @@ pub struct ExportOptions {
     pub mass: Option<f64>,
     /// Whether simulators are told to carry the weight of all bodies.
     pub gravity_compensation: bool,
+}
+
+impl ExportOptions {
+    /// The defaults: every size from `[hardware]` or by rule.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// What one unit of the design is.
+    #[must_use]
+    pub fn unit(mut self, unit: LengthUnit) -> Self {
+        self.unit = Some(unit);
+        self
+    }
+
+    /// Thickness of the plates, design units.
+    #[must_use]
+    pub fn thickness(mut self, thickness: f64) -> Self {
+        self.thickness = Some(thickness);
+        self
+    }
+
+    /// Distance of the outline of a plate from the hull of its joints, design units.
+    #[must_use]
+    pub fn margin(mut self, margin: f64) -> Self {
+        self.margin = Some(margin);
+        self
+    }
+
+    /// Diameter of the holes in the plates, design units.
+    #[must_use]
+    pub fn hole(mut self, hole: f64) -> Self {
+        self.hole = Some(hole);
+        self
+    }
+
+    /// Diameter of the balls of the joints, design units.
+    #[must_use]
+    pub fn ball(mut self, ball: f64) -> Self {
+        self.ball = Some(ball);
+        self
+    }
+
+    /// Mass of the platform with its payload, kilograms.
+    #[must_use]
+    pub fn mass(mut self, mass: f64) -> Self {
+        self.mass = Some(mass);
+        self
+    }
+
+    /// Whether simulators are told to carry the weight of all bodies.
+    #[must_use]
+    pub fn gravity_compensation(mut self, wanted: bool) -> Self {
+        self.gravity_compensation = wanted;
+        self
+    }
 }
 
 /// Sizes of the joints and the plate of a body, design units.

@@ -8,7 +8,7 @@ use nalgebra::{Point2, Point3};
 use super::outline::on_circle;
 use super::text::{ascii, scaled};
 use super::triangulate::triangulate;
-use super::{Export, ExportBody, File, Plate, Unsupported, Writer};
+use super::{Export, ExportBody, ExportedFile, Plate, Unsupported, Writer};
 
 /// The format `stl`.
 #[derive(Debug)]
@@ -31,9 +31,9 @@ impl Writer for Stl {
         "legs and balls; circles are polygons; a post is a shell of its own that touches the plate"
     }
 
-    fn files(&self, export: &Export) -> Result<Vec<File>, Unsupported> {
+    fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
         let mesh = |body: &ExportBody| {
-            Ok(File::new(&format!("{}-plate.stl", body.body), mesh(export, body, body.plate()?)))
+            Ok(ExportedFile::new(&format!("{}-plate.stl", body.body), mesh(export, body, body.plate()?)))
         };
         export.bodies.iter().map(mesh).collect()
     }

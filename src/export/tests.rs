@@ -23,7 +23,7 @@ fn export_with(design: &Design, options: &ExportOptions) -> Export {
     let home = design.home.unwrap_or_else(above);
     let poses = vec![home, Pose { position: home.position + Vector3::new(0.5, -0.25, 1.0), ..home }];
     let unit = LengthUnit::of(&design.units).or_else(|_| LengthUnit::of("m")).unwrap();
-    Export::new(design, Some(unit), home, (poses, Vec::new()), options).unwrap()
+    Export::new(design, home, (poses, Vec::new()), &ExportOptions { unit: Some(unit), ..*options }).unwrap()
 }
 
 fn above() -> Pose {
@@ -35,7 +35,7 @@ fn export(text: &str) -> Export {
 }
 
 fn text_of(export: &Export, format: &str, file: &str) -> String {
-    let files = writer(format).unwrap().files(export).unwrap();
+    let files = format.parse::<ExportFormat>().unwrap().writer().files(export).unwrap();
     files.into_iter().find(|f| f.name == file).unwrap().text
 }
 
@@ -96,7 +96,7 @@ fn triangles_fill_a_polygon_with_holes() {
 fn a_unit_that_is_none_is_refused_with_those_that_are() {
     assert_eq!(real(LengthUnit::of("in").unwrap().millimetres), "25.4");
     let home = above();
-    let refused = Export::new(&design(GENERAL), None, home, (vec![], vec![]), &ExportOptions::default());
+    let refused = Export::new(&design(GENERAL), home, (vec![], vec![]), &ExportOptions::default());
     let text = refused.unwrap_err().to_string();
     assert!(text.contains("`1`") && text.contains("um, mm, cm, m, in, ft"), "{text}");
 }
@@ -289,11 +289,14 @@ fn what_a_format_cannot_hold_is_said() {
         ExportOptions { hole: Some(4.0), ball: Some(5.0), margin: Some(5.0), ..ExportOptions::default() };
     let tight = export_with(&design(MIDLINE), &wide);
     for format in ["dxf", "step", "stl", "svg"] {
-        let why = writer(format).unwrap().files(&tight).unwrap_err();
+        let why = format.parse::<ExportFormat>().unwrap().writer().files(&tight).unwrap_err();
         assert!(matches!(why, Unsupported::SeatsOverlap { parts: "holes", .. }), "{why}");
     }
     for format in ["csv", "hal", "json", "matlab", "mjcf"] {
-        assert!(writer(format).unwrap().files(&tight).is_ok(), "{format} has no plates");
+        assert!(
+            format.parse::<ExportFormat>().unwrap().writer().files(&tight).is_ok(),
+            "{format} has no plates"
+        );
     }
     // joints above one another, and a post beside a joint
     for x in [20.0, 21.0] {
@@ -304,14 +307,14 @@ fn what_a_format_cannot_hold_is_said() {
              [platform]\nG = [0, 0, 0]\nH = [30, 0, 0]\nI = [0, 30, 0]\n"
         );
         let options = ExportOptions { ball: Some(2.0), hole: Some(0.4), ..ExportOptions::default() };
-        let why = writer("stl").unwrap().files(&export_with(&design(&text), &options)).unwrap_err();
+        let why = ExportFormat::Stl.writer().files(&export_with(&design(&text), &options)).unwrap_err();
         assert!(matches!(why, Unsupported::SeatsOverlap { parts: "posts", .. }), "{why}");
     }
     let fat = ExportOptions { hole: Some(0.1), ball: Some(17.0), ..ExportOptions::default() };
-    let why = writer("step").unwrap().files(&export_with(&design(OCTAHEDRAL), &fat)).unwrap_err();
+    let why = ExportFormat::Step.writer().files(&export_with(&design(OCTAHEDRAL), &fat)).unwrap_err();
     assert!(matches!(why, Unsupported::LegTooShort { leg: 1, .. }), "{why}");
     let home = above();
-    let bad = |options| Export::new(&design(OCTAHEDRAL), None, home, (vec![], vec![]), &options).unwrap_err();
+    let bad = |options| Export::new(&design(OCTAHEDRAL), home, (vec![], vec![]), &options).unwrap_err();
     for options in [
         ExportOptions { hole: Some(9.0), ball: Some(5.0), ..ExportOptions::default() },
         ExportOptions { thickness: Some(0.0), ..ExportOptions::default() },
@@ -341,7 +344,7 @@ fn names_cannot_break_out_of_a_file() {
 
 #[test]
 fn the_same_design_gives_the_same_bytes_and_every_file_says_its_unit() {
-    for format in writers() {
+    for format in ExportFormat::ALL.map(ExportFormat::writer) {
         let (one, two) = (export(OCTAHEDRAL), export(OCTAHEDRAL));
         assert_eq!(format.files(&one), format.files(&two), "{}", format.name());
         for file in format.files(&one).unwrap() {

@@ -159,7 +159,7 @@ mod tests {
         shared::<crate::solve::certify::octahedral::OctahedralCertifier>();
         shared::<FkSolutions>();
         shared::<Box<dyn ForwardKinematics>>();
-        shared::<Box<dyn crate::fk::PreparedDesign + '_>>();
+        shared::<Box<dyn crate::fk::PreparedDesign>>();
     }
 
     #[test]

@@ -42,23 +42,23 @@ impl ForwardKinematics for Automatic {
         }
     }
 
-    fn prepare<'a>(&'a self, m: &'a Manipulator) -> Option<Box<dyn PreparedDesign + 'a>> {
+    fn prepare(&self, m: &Manipulator) -> Option<Box<dyn PreparedDesign>> {
         let octic = Octic.prepare(m)?;
-        Some(Box::new(PreparedAutomatic { octic, manipulator: m }))
+        Some(Box::new(PreparedAutomatic { octic, manipulator: m.clone() }))
     }
 }
 
 /// [`Automatic`] for an octahedral design.
-struct PreparedAutomatic<'a> {
-    octic: Box<dyn PreparedDesign + 'a>,
-    manipulator: &'a Manipulator,
+struct PreparedAutomatic {
+    octic: Box<dyn PreparedDesign>,
+    manipulator: Manipulator,
 }
 
-impl PreparedDesign for PreparedAutomatic<'_> {
+impl PreparedDesign for PreparedAutomatic {
     fn solve(&self, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
         match self.octic.solve(s, o) {
             Ok(found) if found.all_accounted() => Ok(found),
-            _ => Homotopy.solve(self.manipulator, s, o),
+            _ => Homotopy.solve(&self.manipulator, s, o),
         }
     }
 }

@@ -52,9 +52,18 @@ pub use trilateration::Trilateration;
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use thiserror::Error;
 
-/// Options every method takes.
+/// Options of forward kinematics.
+///
+/// ```
+/// use equipod::{FkOptions, Method};
+/// let options = FkOptions::new().method(Method::Homotopy).seed(7);
+/// assert_eq!((options.seed, options.method), (7, Some(Method::Homotopy)));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct FkOptions {
+    /// The method that [`solver`] is to choose; `None` for the fastest that applies. A method that is asked itself does not look at it.
+    pub method: Option<Method>,
     /// Seed of the generic constants (gamma, patches). Same seed, same output.
     pub seed: u64,
     /// Whether poses are counted modulo random primes when completeness is not proved otherwise: some milliseconds a problem.
@@ -93,7 +102,48 @@ impl Default for FkTolerances {
 
 impl Default for FkOptions {
     fn default() -> Self {
-        Self { seed: 1, pose_count: PoseCounting::default(), tolerances: FkTolerances::default() }
+        Self {
+            method: None,
+            seed: 1,
+            pose_count: PoseCounting::default(),
+            tolerances: FkTolerances::default(),
+        }
+    }
+}
+
+impl FkOptions {
+    /// The defaults: the fastest method that applies, seed 1.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Another method.
+    #[must_use]
+    pub fn method(mut self, method: Method) -> Self {
+        self.method = Some(method);
+        self
+    }
+
+    /// Another seed. Same seed, same output.
+    #[must_use]
+    pub fn seed(mut self, seed: u64) -> Self {
+        self.seed = seed;
+        self
+    }
+
+    /// When the finite poses are counted modulo random primes.
+    #[must_use]
+    pub fn pose_count(mut self, when: PoseCounting) -> Self {
+        self.pose_count = when;
+        self
+    }
+
+    /// Other limits.
+    #[must_use]
+    pub fn tolerances(mut self, tolerances: FkTolerances) -> Self {
+        self.tolerances = tolerances;
+        self
     }
 }
 
@@ -136,13 +186,13 @@ pub trait ForwardKinematics: Send + Sync {
 
     /// The method with what depends on the design alone done, for many lengths of one design. Results are those of [`solve`](Self::solve).
     /// `None` when there is nothing to prepare, or when the method does not apply: then [`solve`](Self::solve) says so.
-    fn prepare<'a>(&'a self, m: &'a Manipulator) -> Option<Box<dyn PreparedDesign + 'a>> {
+    fn prepare(&self, m: &Manipulator) -> Option<Box<dyn PreparedDesign>> {
         let _ = m;
         None
     }
 }
 
-/// A method prepared for one design: many lengths, from any number of threads.
+/// A method prepared for one design, which it owns: many lengths, from any number of threads.
 pub trait PreparedDesign: Send + Sync {
     /// As [`ForwardKinematics::solve`].
     ///

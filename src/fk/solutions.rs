@@ -3,7 +3,8 @@
 use num_complex::Complex64;
 
 use super::Completeness;
-use crate::geom::ComplexPose;
+use crate::geom::{ComplexPose, Pose};
+use crate::names::{UnknownName, named};
 use crate::solve::certify::RootCertificate;
 use crate::solve::pose_count::PoseCount;
 
@@ -33,6 +34,10 @@ pub enum Method {
 }
 
 impl Method {
+    /// Every method.
+    pub const ALL: [Self; 6] =
+        [Self::Octic, Self::Homotopy, Self::Near, Self::Sylvester, Self::Template, Self::Trilateration];
+
     /// The name on the command line and in JSON.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -55,6 +60,14 @@ impl std::fmt::Display for Method {
     }
 }
 
+impl std::str::FromStr for Method {
+    type Err = UnknownName;
+
+    fn from_str(text: &str) -> Result<Self, UnknownName> {
+        named("method", text, &Self::ALL, Self::name)
+    }
+}
+
 /// Whether a root is a real pose (an assembly mode).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reality {
@@ -64,6 +77,16 @@ pub enum Reality {
     NonReal,
     /// Between: not decided.
     Undecided,
+}
+
+impl std::fmt::Display for Reality {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Real => "real",
+            Self::NonReal => "not real",
+            Self::Undecided => "real or not: undecided",
+        })
+    }
 }
 
 /// What the finite complex poses form.
@@ -85,6 +108,12 @@ pub enum SolutionSet {
         /// all witnesses are regular; `false` when the motion was only seen numerically.
         established: bool,
     },
+}
+
+impl std::fmt::Display for SolutionSet {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
 }
 
 impl SolutionSet {
@@ -110,6 +139,7 @@ impl SolutionSet {
 
 /// One root with its evidence.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct FkRoot {
     /// The pose.
     pub pose: ComplexPose,
@@ -134,6 +164,12 @@ impl FkRoot {
     #[must_use]
     pub fn certified(&self) -> bool {
         self.certificate.is_some()
+    }
+
+    /// The pose as a real one, `None` unless it [is real](Reality::Real).
+    #[must_use]
+    pub fn real_pose(&self) -> Option<Pose> {
+        (self.reality == Reality::Real).then(|| self.pose.real_part())
     }
 }
 
@@ -223,6 +259,7 @@ pub struct Rejected {
 
 /// All roots of one problem.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct FkSolutions {
     /// The method that found them.
     pub method: Method,
@@ -245,7 +282,27 @@ pub struct FkSolutions {
     pub seed: u64,
 }
 
+/// One sentence: how many poses, how many are real, how many are proved, whether these are all.
+impl std::fmt::Display for FkSolutions {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let (poses, real) = (self.roots.len(), self.assembly_modes().count());
+        let certified = self.roots.iter().filter(|r| r.certified()).count();
+        write!(
+            f,
+            "{poses} finite poses by the {} method, {real} real, {certified} certified; {}: {}",
+            self.method,
+            self.completeness.name(),
+            self.completeness
+        )
+    }
+}
+
 impl FkSolutions {
+    /// The poses of the roots that are real.
+    pub fn real_poses(&self) -> impl Iterator<Item = Pose> + '_ {
+        self.roots.iter().filter_map(FkRoot::real_pose)
+    }
+
     /// Roots that are real.
     pub fn assembly_modes(&self) -> impl Iterator<Item = &FkRoot> {
         self.roots.iter().filter(|r| r.reality == Reality::Real)

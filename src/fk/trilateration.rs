@@ -46,8 +46,8 @@ type Ranked = Result<Vec<(Sequence, Shape)>, NoPlan>;
 
 /// [`Trilateration`] for one design.
 #[derive(Debug)]
-struct Prepared<'a> {
-    manipulator: &'a Manipulator,
+struct Prepared {
+    manipulator: Manipulator,
     evaluators: Vec<Evaluator>,
 }
 
@@ -64,7 +64,7 @@ impl Trilateration {
         })
     }
 
-    fn prepared<'a>(&self, m: &'a Manipulator) -> Result<Prepared<'a>, FkError> {
+    fn prepared(&self, m: &Manipulator) -> Result<Prepared, FkError> {
         let refuse =
             |why: NoPlan| FkError::NotApplicable { method: Method::Trilateration, reason: why.to_string() };
         let ranked = self.ranked(m);
@@ -81,7 +81,7 @@ impl Trilateration {
         if evaluators.is_empty() {
             return Err(refuse(NoPlan::Collinear));
         }
-        Ok(Prepared { manipulator: m, evaluators })
+        Ok(Prepared { manipulator: m.clone(), evaluators })
     }
 }
 
@@ -138,12 +138,12 @@ impl ForwardKinematics for Trilateration {
         }
     }
 
-    fn prepare<'a>(&'a self, m: &'a Manipulator) -> Option<Box<dyn PreparedDesign + 'a>> {
+    fn prepare(&self, m: &Manipulator) -> Option<Box<dyn PreparedDesign>> {
         Some(Box::new(self.prepared(m).ok()?))
     }
 }
 
-impl PreparedDesign for Prepared<'_> {
+impl PreparedDesign for Prepared {
     fn solve(&self, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
         let squares = s.get().map(Complex64::from);
         let mut ends: Vec<End> = Vec::new();
@@ -157,7 +157,7 @@ impl PreparedDesign for Prepared<'_> {
             let configurations = evaluator.configurations(&squares, radius);
             ends.extend(ends_at(configurations.found.iter().map(|c| c.pose)));
             let tried = Tried::Evaluations(attempt + 1);
-            let found = judged(self.manipulator, s, o, &ends, configurations.expected, tried);
+            let found = judged(&self.manipulator, s, o, &ends, configurations.expected, tried);
             if found.completeness.is_proved() {
                 return Ok(found);
             }
@@ -165,17 +165,17 @@ impl PreparedDesign for Prepared<'_> {
         }
         if let Some((found, expected, attempts)) = &mut answer {
             // doubles did not find them all: the exact polynomial, where there is one
-            let exact = closure_candidates(self.manipulator, s);
+            let exact = closure_candidates(&self.manipulator, s);
             if !exact.is_empty() {
                 ends.extend(ends_at(exact));
                 let tried = Tried::Evaluations(*attempts);
-                *found = judged(self.manipulator, s, o, &ends, *expected, tried);
+                *found = judged(&self.manipulator, s, o, &ends, *expected, tried);
             }
         }
         let found = answer.map(|a| a.0);
         let found =
             found.ok_or_else(|| FkError::Breakdown { what: "no sequence could be evaluated".to_owned() })?;
-        compared_with_count(found, self.manipulator, s, o)
+        compared_with_count(found, &self.manipulator, s, o)
     }
 }
 

@@ -87,6 +87,28 @@ impl LegLengths {
     }
 }
 
+impl TryFrom<[f64; 6]> for LegLengths {
+    type Error = InvalidLengths;
+
+    fn try_from(lengths: [f64; 6]) -> Result<Self, InvalidLengths> {
+        Self::try_new(lengths)
+    }
+}
+
+impl TryFrom<&[f64; 6]> for LegLengths {
+    type Error = InvalidLengths;
+
+    fn try_from(lengths: &[f64; 6]) -> Result<Self, InvalidLengths> {
+        Self::try_new(*lengths)
+    }
+}
+
+impl From<&LegLengths> for LegLengths {
+    fn from(lengths: &LegLengths) -> Self {
+        *lengths
+    }
+}
+
 impl SquaredLegLengths {
     /// Checks six squared lengths.
     ///

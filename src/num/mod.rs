@@ -19,6 +19,8 @@ pub(crate) mod parallel;
 pub mod rounding;
 mod seed;
 pub(crate) mod small;
+pub(crate) mod stream;
 pub(crate) mod wide_disc;
 
 pub use seed::Rng;
+pub use stream::Cancel;

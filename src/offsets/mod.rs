@@ -33,4 +33,4 @@ pub use problem::{
     DEFAULT_BOUNDS, DEFAULT_MIN_ABS_DET, DEFAULT_SPACING_SHARE, InvalidProblem, OffsetProblem,
 };
 pub use scp::HistoryStep;
-pub use search::{OptimizeOptions, Progress, optimize};
+pub use search::{Progress, SearchOptions, optimize};

@@ -24,7 +24,7 @@ use crate::synthesis::offset_determinant;
 
 /// Options of the search; none of them changes what is feasible.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct OptimizeOptions {
+pub struct SearchOptions {
     /// Seed of starting points. Same seed, same answer, whatever the number of threads.
     pub seed: u64,
     /// Worker threads (0 counts as 1).
@@ -46,7 +46,7 @@ pub struct OptimizeOptions {
     pub boxes: usize,
 }
 
-impl Default for OptimizeOptions {
+impl Default for SearchOptions {
     fn default() -> Self {
         Self {
             seed: 1,
@@ -58,6 +58,19 @@ impl Default for OptimizeOptions {
             survey: false,
             gap: 1e-2,
             boxes: 40_000,
+        }
+    }
+}
+
+/// In words for people.
+impl std::fmt::Display for Progress {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Ranking { done, total, best } => write!(f, "best {best:.6}; cell {done} of {total}"),
+            Self::Polishing { done, total, best } => write!(f, "best {best:.6}; climb {done} of {total}"),
+            Self::Bounding { boxes, open, best } => {
+                write!(f, "best {best:.6}; {boxes} boxes compared, {open} waiting")
+            }
         }
     }
 }
@@ -149,7 +162,7 @@ struct Asked<'a> {
 
 /// Best feasible run of a few short climbs from sampled starts, seeing the poses of `few`; without one, restoration, then a proof, then
 /// offsets that meet the limits with nothing to spare.
-fn rank_cell(asked: Asked<'_>, few: &Model, cell: &Cell, index: usize, o: &OptimizeOptions) -> CellResult {
+fn rank_cell(asked: Asked<'_>, few: &Model, cell: &Cell, index: usize, o: &SearchOptions) -> CellResult {
     let m = few;
     let mut rng = Rng::stream(o.seed, index as u64);
     let samples = o.samples.max(1);
@@ -185,13 +198,13 @@ pub(crate) fn better(a: &LocalResult, b: &LocalResult) -> bool {
 /// Finds the best joint-free platform; see [`OffsetProblem`] for the problem, the theory page for the method.
 ///
 /// The best of several climbs is compared with all offsets there are by branch and bound ([`OffsetReport::bound`]), which also leads to better
-/// starts when there are any. `progress` may break the search off; the best until then is returned. With [`OptimizeOptions::survey`], with few cells, or when no feasible point is drawn, every branch is searched.
+/// starts when there are any. `progress` may break the search off; the best until then is returned. With [`SearchOptions::survey`], with few cells, or when no feasible point is drawn, every branch is searched.
 ///
 /// # Errors
 /// [`InvalidProblem`] when the problem cannot be asked. An infeasible problem is a value.
 pub fn optimize(
     problem: &OffsetProblem,
-    options: &OptimizeOptions,
+    options: &SearchOptions,
     progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<OffsetReport, InvalidProblem> {
     problem.validate()?;
@@ -244,7 +257,7 @@ fn best_cells(ranked: &[CellResult], count: usize) -> Vec<usize> {
 fn survey(
     asked: Asked<'_>,
     cells: &[&Cell],
-    o: &OptimizeOptions,
+    o: &SearchOptions,
     best: &Best,
     stopped: &(dyn Fn() -> bool + Sync),
     progress: &mut dyn FnMut(Progress),
@@ -272,7 +285,7 @@ fn survey(
 fn sample_cells(
     m: &Model,
     cells: &[&Cell],
-    o: &OptimizeOptions,
+    o: &SearchOptions,
     best: &Best,
     progress: &mut dyn FnMut(Progress),
 ) -> Option<Vec<CellResult>> {
@@ -365,7 +378,7 @@ fn polish(
     m: &Model,
     cells: &[&Cell],
     tasks: &[Start],
-    o: &OptimizeOptions,
+    o: &SearchOptions,
     best: &Best,
     stopped: &(dyn Fn() -> bool + Sync),
     progress: &mut dyn FnMut(Progress),
@@ -495,7 +508,7 @@ impl Area<'_> {
     pub(crate) fn bound(
         &self,
         polished: &mut Vec<(usize, LocalResult)>,
-        o: &OptimizeOptions,
+        o: &SearchOptions,
         stopped: &dyn Fn() -> bool,
         progress: &mut dyn FnMut(Progress),
     ) -> Option<GlobalBound> {

@@ -9,7 +9,7 @@ use super::conditioning::worst_case;
 use super::limits::{Bounds, Limits, proved_empty};
 use super::problem::Model;
 use super::tests::poses;
-use super::{OffsetOutcome, OffsetProblem, OptimizeOptions, optimize};
+use super::{OffsetOutcome, OffsetProblem, SearchOptions, optimize};
 use crate::manipulator::{Body, Manipulator, Octahedral};
 use crate::num::Rng;
 use crate::num::exact::{Rational, approximate, rational};
@@ -186,8 +186,8 @@ fn a_limit_raised_by_a_billionth_is_seen_to_exclude() {
     assert!(excluded > 36, "{excluded} of 40");
 }
 
-fn quick() -> OptimizeOptions {
-    OptimizeOptions { samples: 2, climbs: 1, polished: 1, starts: 1, boxes: 60, ..OptimizeOptions::default() }
+fn quick() -> SearchOptions {
+    SearchOptions { samples: 2, climbs: 1, polished: 1, starts: 1, boxes: 60, ..SearchOptions::default() }
 }
 
 /// Windows of 1e-12 to 1e-6 of an edge about offsets that meet the limits with nothing to spare.

@@ -9,7 +9,7 @@ use super::outcome::{
 };
 use super::problem::{Model, OffsetProblem};
 use super::scp::LocalResult;
-use super::search::{CellResult, OptimizeOptions, better, pattern_search};
+use super::search::{CellResult, SearchOptions, better, pattern_search};
 use crate::num::Rng;
 use crate::synthesis::joint_free;
 
@@ -20,11 +20,7 @@ pub(crate) fn vertices_too_close(limits: &Limits) -> Option<Conflict> {
     limits.vertices_too_close().map(|(side, distance)| Conflict::VerticesTooClose { distance, side })
 }
 
-pub(crate) fn nothing_fits(
-    divisions: Vec<Division>,
-    conflict: &Conflict,
-    o: &OptimizeOptions,
-) -> OffsetReport {
+pub(crate) fn nothing_fits(divisions: Vec<Division>, conflict: &Conflict, o: &SearchOptions) -> OffsetReport {
     let report = |d: Division| BranchReport {
         branch: d.branch,
         cells: 0,
@@ -100,7 +96,7 @@ pub(crate) fn assemble(
     divisions: &[Division],
     cells: &[&Cell],
     searched: Searched,
-    o: &OptimizeOptions,
+    o: &SearchOptions,
 ) -> OffsetReport {
     let Searched { ranked, polished, bound, interrupted } = searched;
     let mut results = ranked.into_iter().enumerate();
@@ -156,7 +152,7 @@ fn solution(
     cell: &Cell,
     divisions: &[Division],
     run: LocalResult,
-    o: &OptimizeOptions,
+    o: &SearchOptions,
 ) -> Option<(OffsetSolution, bool)> {
     let mut rng = Rng::stream(o.seed, u64::MAX);
     let mut found = pattern_search(m, cell, run.t, run.value, &mut rng);

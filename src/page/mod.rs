@@ -11,7 +11,6 @@ mod html;
 mod modes;
 mod motion;
 mod opening;
-mod original;
 mod path;
 mod plane;
 mod request;
@@ -26,5 +25,5 @@ mod worst;
 #[cfg(not(target_arch = "wasm32"))]
 pub use html::CORE;
 pub use html::{page, policy};
-pub(crate) use original::Original;
+#[cfg_attr(not(feature = "cli"), allow(unused_imports, reason = "the command line alone uses it"))]
 pub use session::{InvalidStart, Session};

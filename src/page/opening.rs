@@ -2,10 +2,10 @@
 
 use serde::Serialize;
 
-use super::original::Original;
 use super::request::Chosen;
 use super::session::{Equivalent, Session};
 use super::wire::PoseRecord;
+use crate::equivalents::Original;
 use crate::singularity::Architecture;
 use crate::synthesis::{
     Factor, Family, HexagonPoint, JointLabel, Pattern, corner, edge_lengths, sliding_body,

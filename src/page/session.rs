@@ -2,8 +2,8 @@
 
 use thiserror::Error;
 
-use super::original::Original;
 use crate::design::Design;
+use crate::equivalents::Original;
 use crate::geom::Pose;
 use crate::manipulator::Manipulator;
 use crate::offsets::OffsetProblem;

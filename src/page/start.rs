@@ -1,7 +1,7 @@
 //! The offsets a page begins with when nothing else is asked.
 
-use super::original::Original;
 use super::session::{InvalidStart, Session};
+use crate::equivalents::Original;
 use crate::manipulator::{Body, inverse_condition, jacobian};
 use crate::requirements::{Requirements, Standing, Terms};
 use crate::synthesis::{Offset, Pattern, sliding_body};

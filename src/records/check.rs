@@ -6,10 +6,11 @@ use serde::{Deserialize, Serialize};
 use super::pose::leg_numbers;
 use super::{NamedPoints, Number, PoseRecord};
 use crate::design::Design;
+use crate::entrance::CheckReport;
 use crate::manipulator::LegLengths;
 use crate::singularity::{
-    Architecture, Assembly, Conditioning, CornerLengths, Dependency, Finding, GriffisDuffy, NearestSingular,
-    RankBound, RationalPose,
+    Architecture, Assembly, CornerLengths, Dependency, Finding, GriffisDuffy, NearestSingular, RankBound,
+    RationalPose,
 };
 
 /// The answer of `check`.
@@ -53,97 +54,19 @@ pub struct CheckAnswer {
     pub jacobian_inverse_condition: ConditioningRecord,
 }
 
-/// What was found about a design.
-#[derive(Debug, Clone)]
-pub struct Checked<'a> {
-    /// The design.
-    pub design: &'a Design,
-    /// The exact decision.
-    pub architecture: Architecture,
-    /// For a regular design only.
-    pub nearest: Option<NearestSingular>,
-    /// No singular design is nearer; 0 for a singular one.
-    pub at_least: f64,
-    /// For a (nearly) singular design of Griffis-Duffy type with lengths.
-    pub assembly: Option<Assembly>,
-    /// Figures at random poses.
-    pub conditioning: Conditioning,
-}
-
-impl Checked<'_> {
-    /// `None` where a singular design lies within rounding of one that is regular as written.
-    fn verdict(&self) -> Option<bool> {
-        let doubtful = self.nearest.as_ref().is_some_and(|n| n.within_rounding);
-        (!doubtful).then(|| self.architecture.is_singular())
-    }
-
-    fn reason(&self) -> Option<&'static str> {
-        match self.verdict() {
-            None => Some("singular_within_rounding"),
-            Some(_) => self.architecture.findings.first().map(|f| f.case.reason()),
-        }
-    }
-
-    fn proof(&self) -> ProofWord {
-        match self.architecture.jacobian.bound {
-            _ if !self.architecture.is_singular() => ProofWord::RegularPose,
-            RankBound::LegVectors | RankBound::Legs => ProofWord::LegVectors,
-            RankBound::Lattice { .. } => ProofWord::PoseLattice,
-        }
-    }
-
-    /// Which design it is, in one sentence.
-    fn explanation(&self) -> String {
-        let c = self;
-        let a = &c.architecture;
-        match (c.verdict(), a.findings.first()) {
-            (None, _) => "as written the design is regular, but a singular one differs from it by no more than rounding: which of the two \
-                          was meant cannot be told from the file"
-                .into(),
-            (_, Some(f)) => format!("{} ({})", f.case.sentence(), list(&f.legs)),
-            (_, None) => "almost every pose holds the platform".into(),
-        }
-    }
-
-    /// What proves the answer for the joints as written.
-    fn proof_explanation(&self) -> String {
-        let c = self;
-        let j = &c.architecture.jacobian;
-        let pose = format!(
-            "the pose with quaternion {:?} and p = {}",
-            j.witness.quaternion,
-            triple(&j.witness.pose().position)
-        );
-        match j.bound {
-            RankBound::Legs => {
-                format!("{pose} has six independent leg lines, in exact arithmetic on the joints as written")
-            }
-            RankBound::LegVectors => format!(
-                "the leg vectors have rank {0} exactly, the lines never have more; {pose} has rank {0}",
-                c.architecture.leg_rank
-            ),
-            RankBound::Lattice { poses, primes } => format!(
-                "the leg lines have rank {} or less at {poses} poses that decide all poses, in exact arithmetic ({primes} primes); {pose} has \
-                 that rank",
-                j.rank
-            ),
-        }
-    }
-}
-
-impl From<&Checked<'_>> for CheckAnswer {
-    fn from(c: &Checked<'_>) -> Self {
+impl From<&CheckReport> for CheckAnswer {
+    fn from(c: &CheckReport) -> Self {
         let (a, f) = (&c.architecture, &c.conditioning);
         let lengths = c.design.lengths.as_ref();
         let dependencies: Vec<_> = a.dependencies.iter().map(|d| DependencyRecord::new(d, lengths)).collect();
         Self {
             name: c.design.name.clone(),
-            architecturally_singular: c.verdict(),
+            architecturally_singular: c.is_singular(),
             singular_as_written: a.is_singular(),
             reason: c.reason().map(str::to_owned),
-            explanation: c.explanation(),
-            proof: c.proof(),
-            proof_explanation: c.proof_explanation(),
+            explanation: explanation(c),
+            proof: proof(a),
+            proof_explanation: proof_explanation(a),
             leg_rank: a.leg_rank,
             jacobian_rank: a.jacobian.rank,
             witness: (&a.jacobian.witness).into(),
@@ -154,8 +77,11 @@ impl From<&Checked<'_>> for CheckAnswer {
             griffis_duffy: a
                 .griffis_duffy
                 .as_ref()
-                .map(|g| GriffisDuffyRecord::new(g, c.design, c.assembly.as_ref())),
-            nearest_singular: c.nearest.as_ref().map(|n| NearestSingularRecord::new(n, c.at_least, c.design)),
+                .map(|g| GriffisDuffyRecord::new(g, &c.design, c.assembly.as_ref())),
+            nearest_singular: c
+                .nearest
+                .as_ref()
+                .map(|n| NearestSingularRecord::new(n, c.at_least, &c.design)),
             singular_values: f.leg_vectors.map(Number),
             jacobian_inverse_condition: ConditioningRecord {
                 poses: f.poses,
@@ -164,6 +90,50 @@ impl From<&Checked<'_>> for CheckAnswer {
                 worst: Number(f.worst),
             },
         }
+    }
+}
+
+/// What proves the answer for the joints as written.
+fn proof(a: &Architecture) -> ProofWord {
+    match a.jacobian.bound {
+        _ if !a.is_singular() => ProofWord::RegularPose,
+        RankBound::LegVectors | RankBound::Legs => ProofWord::LegVectors,
+        RankBound::Lattice { .. } => ProofWord::PoseLattice,
+    }
+}
+
+/// Which design it is, in one sentence.
+fn explanation(c: &CheckReport) -> String {
+    match (c.is_singular(), c.architecture.findings.first()) {
+        (None, _) => "as written the design is regular, but a singular one differs from it by no more than rounding: which of the two \
+                      was meant cannot be told from the file"
+            .into(),
+        (_, Some(f)) => format!("{} ({})", f.case.sentence(), list(&f.legs)),
+        (_, None) => "almost every pose holds the platform".into(),
+    }
+}
+
+/// The same about the proof.
+fn proof_explanation(a: &Architecture) -> String {
+    let j = &a.jacobian;
+    let pose = format!(
+        "the pose with quaternion {:?} and p = {}",
+        j.witness.quaternion,
+        triple(&j.witness.pose().position)
+    );
+    match j.bound {
+        RankBound::Legs => {
+            format!("{pose} has six independent leg lines, in exact arithmetic on the joints as written")
+        }
+        RankBound::LegVectors => format!(
+            "the leg vectors have rank {0} exactly, the lines never have more; {pose} has rank {0}",
+            a.leg_rank
+        ),
+        RankBound::Lattice { poses, primes } => format!(
+            "the leg lines have rank {} or less at {poses} poses that decide all poses, in exact arithmetic ({primes} primes); {pose} has \
+             that rank",
+            j.rank
+        ),
     }
 }
 

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Number;
-use crate::export::{Choice, Export, Writer, writers};
+use crate::export::{Choice, Export, ExportFormat};
 
 /// The answer of `export`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -48,7 +48,7 @@ pub struct LengthUnitRecord {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct FormatRecord {
     /// Its name.
-    #[schemars(extend("enum" = writers().map(Writer::name)))]
+    #[schemars(extend("enum" = ExportFormat::ALL.map(ExportFormat::name)))]
     pub format: String,
     /// What it is for.
     pub purpose: String,

@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use super::{Number, leg_number};
 use crate::design::Design;
+use crate::equivalents::Original;
 use crate::manipulator::{Body, Octahedral};
-use crate::page::Original;
 use crate::synthesis::{
     AffineLegMap, Family, FamilyCounts, FamilyMember, HexagonPoint, InstantiateError, JointLabel, Pattern,
     edge_lengths,

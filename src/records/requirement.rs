@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use super::{Number, PoseQuaternionRecord};
 use crate::design::Design;
-use crate::geom::Pose;
-use crate::requirements::{Assessment, Margin, MarginBound, Proof, Standing, TermKind, Verdict};
+use crate::entrance::AssessReport;
+use crate::requirements::{Assessment, Margin, MarginBound, Standing, TermKind, Verdict};
 use crate::singularity::Regularity;
 
 /// The least margin of a kind of requirement.
@@ -88,19 +88,14 @@ pub struct AssessAnswer {
 }
 
 impl AssessAnswer {
-    /// What is proved of a design, and of `det J` on so many cells of its workspace.
+    /// What is proved of a design.
     #[must_use]
-    pub fn new(design: &Design, proof: &Proof, regularity: &Regularity, cells: usize) -> Self {
-        let regular = RegularityRecord::new(regularity, cells);
-        let met = match (proof.all_met(), regular.met) {
-            (Some(false), _) | (_, Some(false)) => Some(false),
-            (Some(true), Some(true)) => Some(true),
-            _ => None,
-        };
+    pub fn new(design: &Design, found: &AssessReport) -> Self {
+        let proof = &found.proof;
         Self {
-            met,
+            met: found.met(),
             margins: proof.bounds.iter().map(|b| MarginRecord::proved(design, b)).collect(),
-            regular,
+            regular: RegularityRecord::new(&found.regularity, found.regularity_cells),
             poses: proof.poses,
             cells: proof.bounds.iter().map(|b| b.cells).sum(),
         }
@@ -134,11 +129,11 @@ pub enum RegularityWord {
 
 impl RegularityRecord {
     fn new(regularity: &Regularity, cells: usize) -> Self {
-        let (met, status, pose): (_, _, Option<&Pose>) = match regularity {
-            Regularity::Regular => (Some(true), RegularityWord::Proved, None),
-            Regularity::ChangesSign(pose) => (Some(false), RegularityWord::ChangesSign, Some(pose)),
-            Regularity::Undecided(pose) => (None, RegularityWord::Undecided, Some(pose)),
+        let (status, pose) = match regularity {
+            Regularity::Regular => (RegularityWord::Proved, None),
+            Regularity::ChangesSign(pose) => (RegularityWord::ChangesSign, Some(pose)),
+            Regularity::Undecided(pose) => (RegularityWord::Undecided, Some(pose)),
         };
-        Self { met, status, pose: pose.map(PoseQuaternionRecord::from), cells }
+        Self { met: regularity.is_regular(), status, pose: pose.map(PoseQuaternionRecord::from), cells }
     }
 }

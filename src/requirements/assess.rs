@@ -13,6 +13,7 @@ use crate::num::Rng;
 
 /// How densely the poses are looked at.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct AssessOptions {
     /// Points of a Halton sequence, and as many random ones, in the region of poses.
     pub points: usize,
@@ -27,6 +28,42 @@ pub struct AssessOptions {
 impl Default for AssessOptions {
     fn default() -> Self {
         Self { points: 5000, steps: 10, searches: 3, seed: 0 }
+    }
+}
+
+impl AssessOptions {
+    /// The defaults: 5000 points, 10 steps, 3 searches.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Points of a Halton sequence, and as many random ones.
+    #[must_use]
+    pub fn points(mut self, points: usize) -> Self {
+        self.points = points;
+        self
+    }
+
+    /// Steps between two poses of a trajectory.
+    #[must_use]
+    pub fn steps(mut self, steps: usize) -> Self {
+        self.steps = steps;
+        self
+    }
+
+    /// Local searches for the worst pose of each kind of requirement.
+    #[must_use]
+    pub fn searches(mut self, searches: usize) -> Self {
+        self.searches = searches;
+        self
+    }
+
+    /// Seed of the random points and of the searches.
+    #[must_use]
+    pub fn seed(mut self, seed: u64) -> Self {
+        self.seed = seed;
+        self
     }
 }
 

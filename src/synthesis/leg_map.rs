@@ -144,6 +144,12 @@ impl Relation {
     }
 }
 
+impl std::fmt::Display for Relation {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.as_str())
+    }
+}
+
 /// Dimensionless limits of [`leg_map`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LegMapTolerances {
@@ -164,6 +170,7 @@ impl Default for LegMapTolerances {
 
 /// The answer of [`leg_map`] with the numbers that decided it.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct LegMapOutcome {
     /// The verdict.
     pub relation: Relation,

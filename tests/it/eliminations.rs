@@ -121,7 +121,7 @@ fn griffis_duffy() -> (Manipulator, SquaredLegLengths) {
 fn neither_applies_to_a_griffis_duffy_platform() {
     let (m, s) = griffis_duffy();
     // without the count nobody asks for the poses far out that rounding of the joints makes
-    let o = FkOptions { pose_count: PoseCounting::Never, ..FkOptions::default() };
+    let o = FkOptions::new().pose_count(PoseCounting::Never);
     assert_eq!(Homotopy.solve(&m, &s, &o).unwrap().roots.len(), 16);
     for method in [&Template as &dyn ForwardKinematics, &Sylvester] {
         let refused = method.solve(&m, &s, &o);

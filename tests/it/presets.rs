@@ -7,7 +7,9 @@ use equipod::methods::singularity::Architecture;
 
 use super::cli_frame::{document, equipod};
 
-const QUICK: AssessOptions = AssessOptions { points: 300, steps: 4, searches: 1, seed: 1 };
+fn quick() -> AssessOptions {
+    AssessOptions::new().points(300).steps(4).searches(1).seed(1)
+}
 
 fn page() -> String {
     std::fs::read_to_string("docs/presets.md").unwrap()
@@ -81,7 +83,7 @@ fn every_preset_is_regular_and_meets_what_it_asks_for() {
         let home = design.home.unwrap();
         assert!(!Architecture::of(design.manipulator()).is_singular(), "{}", preset.name);
         let found =
-            assess(design.manipulator(), &design.requirements(), &design.workspace.space(&home), &QUICK);
+            assess(design.manipulator(), &design.requirements(), &design.workspace.space(&home), &quick());
         assert!(found.all_met() && found.margins.len() >= 3, "{}: {:?}", preset.name, found.margins);
     }
 }
@@ -114,7 +116,7 @@ fn a_preset_with_a_broken_value_is_refused_and_one_with_a_shorter_drive_fails() 
     let shorter = text.replace("leg_length = [198.0, 298.0]", "leg_length = [148.0, 198.0]");
     let (design, _) = parse(&shorter, Format::Toml).unwrap();
     let space = design.workspace.space(&design.home.unwrap());
-    let found = assess(design.manipulator(), &design.requirements(), &space, &QUICK);
+    let found = assess(design.manipulator(), &design.requirements(), &space, &quick());
     let failing: Vec<TermKind> =
         found.margins.iter().filter(|m| m.value < 0.0).map(|m| m.term.kind).collect();
     assert_eq!(failing, [TermKind::LegTooLong]);

@@ -43,7 +43,7 @@ fn assessed(design: &Design, options: &AssessOptions) -> Vec<Margin> {
 }
 
 fn margins(design: &Design, points: usize) -> Vec<Margin> {
-    assessed(design, &AssessOptions { points, searches: 1, ..AssessOptions::default() })
+    assessed(design, &AssessOptions::new().points(points).searches(1))
 }
 
 fn verdict(a: &Design, b: &Design) -> &'static str {
@@ -223,8 +223,7 @@ fn the_page_quotes_the_margins_and_objectives_of_the_program() {
     for ((start, result), rows) in quoted {
         let designs = [worked(&start), worked(&result)];
         // as the command does
-        let found =
-            designs.each_ref().map(|d| assessed(d, &AssessOptions { seed: 1, ..AssessOptions::default() }));
+        let found = designs.each_ref().map(|d| assessed(d, &AssessOptions::new().seed(1)));
         for margin in &found[1] {
             let code = margin.term.kind.code();
             assert!(rows.iter().any(|r| r.0 == code), "{result}: {code} is not quoted");

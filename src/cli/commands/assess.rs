@@ -7,10 +7,9 @@ use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::output::Answer;
-use crate::cli::poses;
+use crate::entrance::Error;
 use crate::records::{AssessAnswer, PoseQuaternionRecord, RegularityWord};
-use crate::requirements::{AssessOptions, Verdict, prove};
-use crate::singularity::regular_workspace;
+use crate::requirements::{AssessOptions, Verdict};
 
 /// Arguments of `assess`.
 #[derive(Debug, clap::Args)]
@@ -34,24 +33,20 @@ pub(crate) struct Args {
 /// Evaluates the requirements.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
-    let home = poses::home(&design);
-    let options = AssessOptions {
-        points: args.points as usize,
-        steps: args.steps as usize,
-        searches: args.searches as usize,
-        seed: context.seed(),
-    };
-    let (m, space, cells) = (design.manipulator(), design.workspace.space(&home), args.cells as usize);
-    let proof = prove(m, &design.requirements(), &space, &options, cells);
-    if proof.bounds.is_empty() {
-        let help =
-            "add [hardware] with lengths, swing, diameters or greatest forces; see docs/design-files.md";
-        return Err(
+    let options = AssessOptions::new()
+        .points(args.points as usize)
+        .steps(args.steps as usize)
+        .searches(args.searches as usize)
+        .seed(context.seed());
+    let found = design.assess_with(&options, args.cells as usize).map_err(|e| match e {
+        Error::NothingRequired => {
+            let help =
+                "add [hardware] with lengths, swing, diameters or greatest forces; see docs/design-files.md";
             Failure::refused("assess::nothing_required", "the design requires nothing").with_help(help)
-        );
-    }
-    let (regularity, regularity_cells) = regular_workspace(m, &space, cells, context.seed());
-    let record = AssessAnswer::new(&design, &proof, &regularity, regularity_cells);
+        }
+        other => Failure::internal(other.to_string()),
+    })?;
+    let record = AssessAnswer::new(&design, &found);
     let exit = match record.met {
         Some(true) => Exit::Yes,
         Some(false) => Exit::No,
@@ -64,15 +59,6 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
 fn shown(pose: &PoseQuaternionRecord) -> String {
     let values = pose.position.iter().chain(&pose.quaternion);
     values.map(|x| format!("{:.4}", x.0)).collect::<Vec<_>>().join(",")
-}
-
-fn status(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Met => "met",
-        Verdict::AtLimit => "at_limit",
-        Verdict::Violated => "violated",
-        Verdict::Searched => "searched",
-    }
 }
 
 fn text(name: &str, found: &AssessAnswer) -> String {
@@ -103,7 +89,7 @@ fn text(name: &str, found: &AssessAnswer) -> String {
             out,
             "{:<17}{mark}{:<9} {value:>14.6} {below:>14} {:<8} {:<24} {pose}",
             m.requirement.code(),
-            status(m.status),
+            m.status.name(),
             m.unit,
             m.between.join(", ")
         );

@@ -8,10 +8,7 @@ use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::output::Answer;
 use crate::records::{
-    AssemblyRecord, CheckAnswer, Checked, DependencyRecord, GriffisDuffyRecord, NearestSingularRecord, Number,
-};
-use crate::singularity::{
-    Architecture, assembly, conditioning, nearest_singular, singular_distance_at_least,
+    AssemblyRecord, CheckAnswer, DependencyRecord, GriffisDuffyRecord, NearestSingularRecord, Number,
 };
 
 /// Arguments of `check`.
@@ -25,22 +22,8 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
     let m = design.manipulator();
-    let failed = |e: crate::num::linalg::LinalgError| Failure::internal(e.to_string());
-    let architecture = Architecture::of(m);
-    let nearest = if architecture.is_singular() {
-        None
-    } else {
-        nearest_singular(m, context.seed()).map_err(failed)?
-    };
-    let at_least = if nearest.is_some() { singular_distance_at_least(m, context.seed()) } else { 0.0 };
-    let conditioning = conditioning(m, context.seed()).map_err(failed)?;
-    let singular_hexagon = architecture.griffis_duffy.as_ref().filter(|g| g.is_nearly_singular());
-    let assembly = match (singular_hexagon, design.lengths) {
-        (Some(g), Some(l)) => Some(assembly(g, m, &l.squared()).map_err(failed)?),
-        _ => None,
-    };
-    let checked = Checked { design: &design, architecture, nearest, at_least, assembly, conditioning };
-    let answer = CheckAnswer::from(&checked);
+    let found = design.check_with(context.seed()).map_err(|e| Failure::internal(e.to_string()))?;
+    let answer = CheckAnswer::from(&found);
     let exit = match answer.architecturally_singular {
         Some(false) => Exit::Yes,
         Some(true) => Exit::No,

@@ -10,9 +10,8 @@ use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
-use crate::cli::poses;
 use crate::design::Design;
-use crate::export::{Export, ExportOptions, File, LengthUnit, NoExport, Writer, writer, writers};
+use crate::export::{Export, ExportFormat, ExportOptions, ExportedFile, LengthUnit, NoExport, Writer};
 use crate::records::{ExportAnswer, FormatOutcome, FormatRecord, Number};
 
 /// Arguments of `export`.
@@ -51,16 +50,14 @@ pub(crate) struct Args {
 
 /// The names `--to` takes.
 fn names() -> Vec<&'static str> {
-    writers().map(Writer::name).into_iter().chain(["all"]).collect()
+    ExportFormat::ALL.map(ExportFormat::name).into_iter().chain(["all"]).collect()
 }
-
-/// Steps between two poses of a trajectory in the table of leg lengths.
-const STEPS: usize = 20;
 
 fn model(args: &Args, design: &Design) -> Result<Export, Failure> {
     let unit = args.unit.as_deref().map(LengthUnit::of).transpose();
     let unit = unit.map_err(|e| Failure::refused("export::unknown_unit", format!("--unit: {e}")))?;
     let options = ExportOptions {
+        unit,
         thickness: args.thickness,
         margin: args.margin,
         hole: args.hole,
@@ -68,13 +65,7 @@ fn model(args: &Args, design: &Design) -> Result<Export, Failure> {
         mass: args.mass,
         gravity_compensation: args.gravity_compensation,
     };
-    let home = poses::home(design);
-    let (mut workspace, _) = poses::workspace(design);
-    let mut path = workspace.space(&home);
-    path.poses.clear();
-    workspace.trajectory = None;
-    let listed = (workspace.sample(Some(&home)), path.listed(STEPS));
-    Export::new(design, unit, home, listed, &options).map_err(|why| match why {
+    Export::of(design, &options).map_err(|why| match why {
         NoExport::Unit(e) => Failure::refused("export::unknown_unit", format!("units of the design: {e}"))
             .with_help("`--unit mm` says what one unit of the design is"),
         other => Failure::refused("export::bad_size", other.to_string()),
@@ -84,13 +75,11 @@ fn model(args: &Args, design: &Design) -> Result<Export, Failure> {
 /// The formats asked for, each once, in the order of the list.
 fn wanted(args: &Args) -> Vec<&'static dyn Writer> {
     let all = args.to.iter().any(|t| t == "all");
-    let asked = |w: &&'static dyn Writer| {
-        all || args.to.iter().any(|t| writer(t).is_some_and(|x| x.name() == w.name()))
-    };
-    writers().into_iter().filter(asked).collect()
+    let asked = |f: &ExportFormat| all || args.to.iter().any(|t| t == f.name());
+    ExportFormat::ALL.into_iter().filter(asked).map(ExportFormat::writer).collect()
 }
 
-fn write(folder: &Path, file: &File) -> Result<String, Failure> {
+fn write(folder: &Path, file: &ExportedFile) -> Result<String, Failure> {
     let path = folder.join(&file.name);
     files::write_text(&path, &file.text)?;
     Ok(path.display().to_string())

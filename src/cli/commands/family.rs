@@ -9,8 +9,8 @@ use crate::cli::failure::Failure;
 use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
 use crate::design::Design;
+use crate::equivalents::Original;
 use crate::manipulator::{Body, Octahedral};
-use crate::page::Original;
 use crate::records::{FamilyAnswer, InstanceRecord};
 use crate::synthesis::{Factor, Family, FamilyCounts, FamilyMember, HexagonPoint, Pattern, edge_lengths};
 

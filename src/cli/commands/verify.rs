@@ -3,27 +3,16 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use nalgebra::Vector3;
-
 use crate::cli::alignment::FrameArgs;
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::output::Answer;
-use crate::cli::poses;
-use crate::design::Design;
-use crate::equivalence::{SamplePlan, Verdict, VerifyError, verify};
+use crate::entrance::{SAMPLES, sample_plan};
+use crate::equivalence::{Verdict, VerifyError, verify};
 use crate::fk::FkOptions;
 use crate::records::{SampleRecord, VerifyAnswer};
 use crate::synthesis::{LegMapTolerances, Relation, leg_map};
-
-/// Sample poses when `--samples` is not given.
-pub(crate) const SAMPLES: usize = 10;
-
-/// Half width of the box of positions where the design has no workspace box, in sizes of the design.
-const TRANSLATION: f64 = 0.25;
-/// Half width of the box of rotation vectors where the design has no workspace box, degrees.
-const ROTATION_DEG: f64 = 20.0;
 
 /// Arguments of `verify`.
 #[derive(Debug, clap::Args)]
@@ -88,7 +77,7 @@ pub(crate) fn failure_of(error: &VerifyError) -> Failure {
     match error {
         VerifyError::Lengths { .. } => Failure::refused("verify::lengths", error.to_string())
             .with_help("give design A a [home] pose and a [workspace] that the platform can reach"),
-        VerifyError::LegMap(_) | VerifyError::ForwardKinematics { .. } => {
+        VerifyError::LegMap(_) | VerifyError::ForwardKinematics { .. } | VerifyError::Cancelled => {
             Failure::new(Exit::Inconclusive, "verify::breakdown", error.to_string())
                 .with_help("try another --seed")
         }
@@ -131,17 +120,4 @@ fn text(v: &VerifyAnswer, a: &str, b: &str) -> String {
         );
     }
     out
-}
-
-/// Random poses in the workspace box of the design about its home pose; where it has neither, about the
-/// default home pose, a quarter of the size and 20 degrees each way.
-pub(crate) fn sample_plan(design: &Design, count: usize, seed: u64) -> SamplePlan {
-    let m = design.manipulator();
-    let home = poses::home(design);
-    let (translation, rotation) = if design.workspace.has_box() {
-        (design.workspace.translation, design.workspace.rotation_deg.map(f64::to_radians))
-    } else {
-        (Vector3::repeat(TRANSLATION * m.size()), Vector3::repeat(ROTATION_DEG.to_radians()))
-    };
-    SamplePlan { home, translation, rotation, count, seed }
 }

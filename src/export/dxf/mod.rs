@@ -8,7 +8,7 @@ use nalgebra::{Point2, Vector2};
 use self::dimension::dimensions;
 use self::page::Page;
 use super::outline::OutlinePart;
-use super::{Export, ExportBody, File, Hole, Plate, Unsupported, Writer};
+use super::{Export, ExportBody, ExportedFile, Hole, Plate, Unsupported, Writer};
 
 /// The format `dxf`.
 #[derive(Debug)]
@@ -27,9 +27,9 @@ impl Writer for Dxf {
         "legs, and heights of joints out of the plane of the plate other than as text"
     }
 
-    fn files(&self, export: &Export) -> Result<Vec<File>, Unsupported> {
+    fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
         let plan = |body: &ExportBody| {
-            Ok(File::new(&format!("{}-plate.dxf", body.body), plan(export, body, body.plate()?)))
+            Ok(ExportedFile::new(&format!("{}-plate.dxf", body.body), plan(export, body, body.plate()?)))
         };
         export.bodies.iter().map(plan).collect()
     }

@@ -8,7 +8,7 @@ use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
 use self::assembly::Assembly;
 use super::plate::any_across;
-use super::{Export, File, Plate, Unsupported, Writer};
+use super::{Export, ExportedFile, Plate, Unsupported, Writer};
 use crate::geom::Pose;
 
 /// The format `step`.
@@ -28,8 +28,8 @@ impl Writer for Step {
         "joints as constraints: the parts stand at home; legs that share a ball run into each other near it"
     }
 
-    fn files(&self, export: &Export) -> Result<Vec<File>, Unsupported> {
-        Ok(vec![File::new("platform.step", assembly(export)?)])
+    fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
+        Ok(vec![ExportedFile::new("platform.step", assembly(export)?)])
     }
 }
 

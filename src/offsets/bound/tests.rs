@@ -9,7 +9,7 @@ use crate::num::Rng;
 use crate::offsets::conditioning::worst_case;
 use crate::offsets::limits::point;
 use crate::offsets::tests::{example, poses_about};
-use crate::offsets::{OffsetOutcome, OptimizeOptions, optimize};
+use crate::offsets::{OffsetOutcome, SearchOptions, optimize};
 
 fn problem() -> OffsetProblem {
     OffsetProblem::with_defaults(example(), poses_about(std::f64::consts::PI, 5))
@@ -89,7 +89,7 @@ fn a_box_that_holds_something_better_is_never_excluded_and_small_ones_below_the_
 #[test]
 fn no_random_offsets_exceed_the_bound_and_the_solution_is_near_it() {
     let p = problem();
-    let o = OptimizeOptions { threads: 2, boxes: 8000, ..OptimizeOptions::default() };
+    let o = SearchOptions { threads: 2, boxes: 8000, ..SearchOptions::default() };
     let r = optimize(&p, &o, &mut |_| ControlFlow::Continue(())).unwrap();
     let (bound, value) = (r.bound.unwrap(), r.solution().unwrap().recheck.objective);
     // few poses leave wide plateaus: the gap asked for is not always reached within the boxes allowed
@@ -104,7 +104,7 @@ fn no_random_offsets_exceed_the_bound_and_the_solution_is_near_it() {
         }
     }
     // the same, whatever the number of threads
-    let one = optimize(&p, &OptimizeOptions { threads: 1, ..o }, &mut |_| ControlFlow::Continue(())).unwrap();
+    let one = optimize(&p, &SearchOptions { threads: 1, ..o }, &mut |_| ControlFlow::Continue(())).unwrap();
     assert_eq!((one.bound, one.outcome), (r.bound, r.outcome));
 }
 

@@ -7,22 +7,11 @@ use serde::{Deserialize, Serialize};
 use super::ConflictRecord;
 use crate::design::Design;
 use crate::dimensional::{DimensionalOutcome, DimensionalReport, DimensionalSolution, HistoryStep};
+use crate::entrance::OptimizeStatus;
+use crate::entrance::optimizing::{Checked, dimensional_status};
 use crate::equivalence::Verification;
 use crate::records::{DesignRecord, MarginRecord, Number, PoseQuaternionRecord, VerdictWord};
-use crate::requirements::{Assessment, Objective};
-
-/// A platform that was found, with the evidence gathered by other code.
-#[derive(Debug, Clone)]
-pub struct CheckedSolution {
-    /// The platform as a design.
-    pub design: Design,
-    /// Requirements, densely.
-    pub assessment: Assessment,
-    /// Objectives, densely.
-    pub objectives: Vec<(Objective, f64)>,
-    /// Equivalence with the design, where the variables keep it.
-    pub verification: Option<Verification>,
-}
+use crate::requirements::Objective;
 
 /// The answer of `optimize` about a design that asks for more than offsets.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -51,12 +40,12 @@ impl DimensionalAnswer {
     pub fn new(
         design: &Design,
         report: &DimensionalReport,
-        checked: Option<&CheckedSolution>,
+        checked: Option<&Checked>,
         output: Option<&str>,
     ) -> Self {
         let solution = report.solution().zip(checked);
         Self {
-            status: DimensionalStatus::of(report, checked),
+            status: dimensional_status(report, checked).into(),
             solution: solution.map(|(s, c)| DimensionalSolutionRecord::new(design, s, c)),
             conflict: match &report.outcome {
                 DimensionalOutcome::Infeasible(c) => Some(ConflictRecord::new(design, c)),
@@ -90,18 +79,19 @@ pub enum DimensionalStatus {
     Interrupted,
 }
 
-impl DimensionalStatus {
-    fn of(report: &DimensionalReport, checked: Option<&CheckedSolution>) -> Self {
-        let met = checked.is_some_and(|c| c.assessment.all_met());
-        match &report.outcome {
-            _ if report.interrupted => Self::Interrupted,
-            DimensionalOutcome::Infeasible(_) => Self::Infeasible,
-            DimensionalOutcome::Optimal(_) if met => Self::Optimal,
-            _ if met => Self::Feasible,
-            _ => Self::Undecided,
+impl From<OptimizeStatus> for DimensionalStatus {
+    fn from(status: OptimizeStatus) -> Self {
+        match status {
+            OptimizeStatus::Optimal => Self::Optimal,
+            OptimizeStatus::Feasible => Self::Feasible,
+            OptimizeStatus::Infeasible => Self::Infeasible,
+            OptimizeStatus::Undecided => Self::Undecided,
+            OptimizeStatus::Interrupted => Self::Interrupted,
         }
     }
+}
 
+impl DimensionalStatus {
     /// The word.
     #[must_use]
     pub fn as_str(self) -> &'static str {
@@ -159,7 +149,7 @@ pub struct DimensionalSolutionRecord {
 impl DimensionalSolutionRecord {
     /// The record of a solution for a design.
     #[must_use]
-    pub fn new(design: &Design, s: &DimensionalSolution, c: &CheckedSolution) -> Self {
+    pub fn new(design: &Design, s: &DimensionalSolution, c: &Checked) -> Self {
         let objective = |((o, held), (_, dense)): (&(Objective, f64), &(Objective, f64))| ObjectiveRecord {
             name: *o,
             value: Number(*dense),

@@ -3,9 +3,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{CheckedSolution, ConflictRecord, DimensionalSolutionRecord};
+use super::{ConflictRecord, DimensionalSolutionRecord};
 use crate::design::Design;
 use crate::dimensional::{DimensionalOutcome, ParetoReport};
+use crate::entrance::optimizing::Checked;
 use crate::records::{DesignRecord, Number};
 
 /// The answer of `optimize` with mode = "pareto".
@@ -32,12 +33,12 @@ impl FrontAnswer {
     pub fn new(
         design: &Design,
         report: &ParetoReport,
-        members: &[CheckedSolution],
+        members: &[Checked],
         written: &[Option<String>],
         seed: u64,
     ) -> Self {
         let member = |((point, c), output): ((&crate::dimensional::ParetoPoint, _), &Option<String>)| {
-            let c: &CheckedSolution = c;
+            let c: &Checked = c;
             FrontMemberRecord {
                 solution: DimensionalSolutionRecord {
                     history: None,

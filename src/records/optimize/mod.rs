@@ -10,9 +10,8 @@ use serde::{Deserialize, Serialize};
 
 pub use self::conflict::{ConflictRecord, DemandWord, GiveRecord, SpecialDemand};
 pub use self::dimensional::{
-    CheckedSolution, DimensionalAnswer, DimensionalSolutionRecord, DimensionalStatus, DimensionalStepRecord,
-    HeldPosesRecord, JointAxesRecord, ObjectiveRecord, SearchRecord, StationarityRecord, VariableRecord,
-    VerifiedRecord,
+    DimensionalAnswer, DimensionalSolutionRecord, DimensionalStatus, DimensionalStepRecord, HeldPosesRecord,
+    JointAxesRecord, ObjectiveRecord, SearchRecord, StationarityRecord, VariableRecord, VerifiedRecord,
 };
 pub use self::front::{FrontAnswer, FrontMemberRecord, FrontStatus};
 pub use self::offsets::{

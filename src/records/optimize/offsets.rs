@@ -4,6 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::design::Design;
+use crate::entrance::OptimizeStatus;
+use crate::entrance::optimizing::offset_status;
 use crate::geom::Pose;
 use crate::offsets::{
     BranchReport, BranchVerdict, Conflict, GlobalBound, HistoryStep, OffsetOutcome, OffsetProblem,
@@ -117,13 +119,15 @@ pub enum OffsetsStatus {
 
 impl From<&OffsetReport> for OffsetsStatus {
     fn from(r: &OffsetReport) -> Self {
-        match r.outcome {
-            _ if r.interrupted => Self::Interrupted,
-            OffsetOutcome::Optimal(_) => Self::Optimal,
-            OffsetOutcome::LocalOptimum(_) => Self::LocalOptimum,
-            OffsetOutcome::NotConverged(_) => Self::Feasible,
-            OffsetOutcome::Infeasible => Self::Infeasible,
-            OffsetOutcome::Undecided { .. } => Self::Undecided,
+        match offset_status(r) {
+            OptimizeStatus::Optimal => Self::Optimal,
+            OptimizeStatus::Feasible if matches!(r.outcome, OffsetOutcome::LocalOptimum(_)) => {
+                Self::LocalOptimum
+            }
+            OptimizeStatus::Feasible => Self::Feasible,
+            OptimizeStatus::Infeasible => Self::Infeasible,
+            OptimizeStatus::Undecided => Self::Undecided,
+            OptimizeStatus::Interrupted => Self::Interrupted,
         }
     }
 }

@@ -47,6 +47,17 @@ pub enum Verdict {
 }
 
 impl Verdict {
+    /// The word for it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Met => "met",
+            Self::AtLimit => "at_limit",
+            Self::Violated => "violated",
+            Self::Searched => "searched",
+        }
+    }
+
     /// `Some` where it is proved.
     #[must_use]
     pub fn is_met(self) -> Option<bool> {
@@ -55,6 +66,12 @@ impl Verdict {
             Self::Violated => Some(false),
             Self::Searched => None,
         }
+    }
+}
+
+impl std::fmt::Display for Verdict {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
     }
 }
 

@@ -115,6 +115,18 @@ pub enum Regularity {
     Undecided(Pose),
 }
 
+impl Regularity {
+    /// `Some` where it is proved.
+    #[must_use]
+    pub fn is_regular(&self) -> Option<bool> {
+        match self {
+            Self::Regular => Some(true),
+            Self::ChangesSign(_) => Some(false),
+            Self::Undecided(_) => None,
+        }
+    }
+}
+
 /// Judges the region, the single poses and the trajectory of a workspace on at most `cells` cells for each of its parts, and counts them.
 #[must_use]
 pub fn regular_workspace(m: &Manipulator, space: &PoseSpace, cells: usize, seed: u64) -> (Regularity, usize) {

@@ -325,7 +325,7 @@ impl DimensionalJudge {
 
     /// The last word: densely, from other points than any of the answers was chosen by.
     pub(crate) fn judge(&self, built: &Built) -> Judged {
-        let options = AssessOptions { points: JUDGED, seed: 77, ..AssessOptions::default() };
+        let options = AssessOptions::new().points(JUDGED).seed(77);
         let found = assess(&built.manipulator, &built.requirements, &self.space(built.home), &options);
         let shares = found.margins.iter().map(|m| self.share(&(m.term, m.value)));
         let least = shares.fold(self.least_margin(built, JUDGED).0, f64::min);

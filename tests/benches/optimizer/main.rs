@@ -31,8 +31,8 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use equipod::methods::design::{Design, Format, parse};
-use equipod::methods::dimensional::{DimensionalProblem, SearchOptions};
-use equipod::methods::offsets::{OffsetProblem, OptimizeOptions, Progress, optimize};
+use equipod::methods::dimensional::DimensionalProblem;
+use equipod::methods::offsets::{OffsetProblem, Progress, SearchOptions, optimize};
 
 use dimensional::{Built, DimensionalJudge};
 use evolution::evolution;
@@ -150,7 +150,7 @@ struct Answer {
 }
 
 fn optimise(p: &OffsetProblem, judge: &OffsetJudge, a: &Arguments) -> Result<Answer, Failure> {
-    let options = OptimizeOptions { seed: a.seed, threads: a.threads, ..OptimizeOptions::default() };
+    let options = SearchOptions { seed: a.seed, threads: a.threads, ..SearchOptions::default() };
     let clock = Clock::start();
     let mut curve: Vec<Point> = Vec::new();
     let report = optimize(p, &options, &mut |progress| {
@@ -178,7 +178,11 @@ fn optimise_dimensional(
     judge: &mut DimensionalJudge,
     a: &Arguments,
 ) -> Result<(Answer, Option<Built>), Failure> {
-    let options = SearchOptions { seed: a.seed, threads: a.threads, ..SearchOptions::default() };
+    let options = equipod::methods::dimensional::SearchOptions {
+        seed: a.seed,
+        threads: a.threads,
+        ..equipod::methods::dimensional::SearchOptions::default()
+    };
     let clock = Clock::start();
     let mut curve: Vec<Point> = Vec::new();
     let is_cost = p.objectives.first().is_some_and(|o| o.0.is_cost());

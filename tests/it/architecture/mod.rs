@@ -11,6 +11,11 @@ use std::path::{Path, PathBuf};
 use rules::violations;
 use table::{APART, in_page, reach, table};
 
+/// A source with comments, strings and characters replaced by blanks.
+pub(crate) fn without_comments(source: &str) -> String {
+    scan::blank(source)
+}
+
 fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
 }

@@ -22,6 +22,8 @@ use crate::cli::output::{Answer, document};
 use crate::cli::poses;
 use crate::cli::progress::{Interrupt, Progress};
 use crate::design::Design;
+use crate::entrance::optimizing::EXTENSION;
+use crate::entrance::{SAMPLES, sample_plan};
 use crate::equivalence::{SamplePlan, Verification, verify};
 use crate::fk::{self, FkOptions, FkSolutions, PoseCounting};
 use crate::manipulator::{LegLengths, Octahedral};
@@ -41,10 +43,10 @@ pub(crate) struct Args {
     #[arg(short, long, value_name = "DIR")]
     output: OutputPath,
     /// Sets of leg lengths at which the design and the optimised one are solved and compared
-    #[arg(long, default_value_t = verify_command::SAMPLES, value_name = "N", value_parser = verify_command::at_least_one)]
+    #[arg(long, default_value_t = SAMPLES, value_name = "N", value_parser = verify_command::at_least_one)]
     samples: usize,
     /// How far a joint may sit out on the extension of its edge, in edge lengths
-    #[arg(long, value_name = "X", default_value_t = optimize::EXTENSION)]
+    #[arg(long, value_name = "X", default_value_t = EXTENSION)]
     extension: f64,
 }
 
@@ -196,7 +198,7 @@ fn verification(
     options: &FkOptions,
     folder: &mut Folder,
 ) -> Result<Verified, Failure> {
-    let plan = verify_command::sample_plan(design, samples, options.seed);
+    let plan = sample_plan(design, samples, options.seed);
     let found = verify(design.manipulator(), new.manipulator(), &plan, options)
         .map_err(|e| verify_command::failure_of(&e))?;
     let record = VerifyAnswer::new(&found, &plan, FramesRecord::default());

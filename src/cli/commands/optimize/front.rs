@@ -3,8 +3,9 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use super::dimensional::{checked, options, problem, refusal, words};
+use super::dimensional::{options, refusal};
 use super::dimensional_text::conflict_text;
+use crate::cli::commands::verify::failure_of;
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
@@ -12,6 +13,7 @@ use crate::cli::output::Answer;
 use crate::cli::progress::{Interrupt, Progress};
 use crate::design::Design;
 use crate::dimensional::pareto;
+use crate::entrance::optimizing::{checked, dimensional_problem};
 use crate::records::{FrontAnswer, FrontStatus, OptimizeAnswer};
 
 /// `out.toml` as `out-1.toml`, `out-2.toml`, ...
@@ -31,11 +33,11 @@ pub(super) fn run(
     args: &super::Args,
     context: &Context,
 ) -> Result<Answer, Failure> {
-    let problem = problem(design, args.extension);
+    let problem = dimensional_problem(design, args.extension);
     let options = options(args, context);
     let (mut progress, interrupt) = (Progress::new(context.quiet()), Interrupt::watch());
     let report = pareto(&problem, points, &options, &mut |p| {
-        progress.note(&words(&p));
+        progress.note(&p.to_string());
         interrupt.flow()
     })
     .map_err(|why| refusal(&why))?;
@@ -43,7 +45,8 @@ pub(super) fn run(
     let mut members = Vec::new();
     let mut written = Vec::new();
     for (k, point) in report.front.iter().enumerate() {
-        let member = checked(design, &problem, &point.solution, context.seed())?;
+        let member =
+            checked(design, &problem, &point.solution, context.seed()).map_err(|e| failure_of(&e))?;
         let path = args.output.as_deref().map(|p| numbered(p, k));
         written.push(super::write(path.as_deref(), Some(&member.design))?);
         members.push(member);

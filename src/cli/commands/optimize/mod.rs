@@ -17,12 +17,12 @@ use crate::cli::output::Answer;
 use crate::cli::poses;
 use crate::cli::progress::{Interrupt, Progress};
 use crate::design::{Combination, Design};
+use crate::entrance::optimizing::{EXTENSION, asks_for_more, offset_problem, optimised_design};
 use crate::geom::Pose;
-use crate::manipulator::{Body, Manipulator, Octahedral};
-use crate::offsets::{self, OffsetProblem, OffsetReport, OffsetSolution, OptimizeOptions, optimize};
+use crate::manipulator::Octahedral;
+use crate::offsets::{self, OffsetProblem, OffsetReport, SearchOptions, optimize};
 use crate::plot::SearchStep;
 use crate::records::{OffsetsAnswer, OffsetsFound, OffsetsStatus, OptimizeAnswer, SourceWord};
-use crate::synthesis::sliding_body;
 
 /// Arguments of `optimize`.
 #[derive(Debug, clap::Args)]
@@ -49,9 +49,6 @@ pub(crate) struct Args {
     threads: Option<usize>,
 }
 
-/// Default of `--extension`, edge lengths.
-pub(super) const EXTENSION: f64 = 1.0;
-
 /// How the search is to go.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Choices {
@@ -64,7 +61,7 @@ pub(super) struct Choices {
 impl Choices {
     /// Defaults but for the extension.
     pub(super) fn plain(extension: f64) -> Self {
-        Self { extension, survey: false, gap: OptimizeOptions::default().gap, threads: None }
+        Self { extension, survey: false, gap: SearchOptions::default().gap, threads: None }
     }
 }
 
@@ -88,23 +85,11 @@ fn pose_set(design: &Design) -> PoseSet {
     }
 }
 
-fn problem(design: &Design, octahedral: Octahedral, poses: Vec<Pose>, extension: f64) -> OffsetProblem {
-    let default = OffsetProblem::with_defaults(octahedral, poses);
-    let table = &design.optimize;
-    OffsetProblem {
-        characteristic_length: table.characteristic_length.unwrap_or(default.characteristic_length),
-        min_joint_distance: table.min_joint_distance.unwrap_or(default.min_joint_distance),
-        min_abs_det: table.min_abs_det.unwrap_or(default.min_abs_det),
-        bounds: [(-extension, 1.0 + extension); 6],
-        ..default
-    }
-}
-
 /// Optimises, and writes the design when asked to.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     check_extension(args.extension)?;
     let design = context.load(&args.design)?;
-    if dimensional::asks_for_more(&design) {
+    if asks_for_more(&design) {
         if let Some(Combination::Pareto { points }) = design.search.mode {
             return front::run(&design, points, args, context);
         }
@@ -139,7 +124,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         Choices { extension: args.extension, survey: args.survey, gap: args.gap, threads: args.threads };
     let (mut progress, interrupt) = (Progress::new(context.quiet()), Interrupt::watch());
     let done = search(&design, octahedral, &choices, context.seed(), &mut |p| {
-        progress.note(&words(p));
+        progress.note(&p.to_string());
         interrupt.flow()
     })?;
     progress.end();
@@ -158,21 +143,6 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         render::text(&design, &record, &done.problem, done.report.solution())
     };
     Ok(Answer::new(exit_of(record.status), OptimizeAnswer::Offsets(Box::new(record)), text))
-}
-
-/// How far the search is, for people.
-fn words(p: offsets::Progress) -> String {
-    match p {
-        offsets::Progress::Ranking { done, total, best } => {
-            format!("best {best:.6}; cell {done} of {total}")
-        }
-        offsets::Progress::Polishing { done, total, best } => {
-            format!("best {best:.6}; climb {done} of {total}")
-        }
-        offsets::Progress::Bounding { boxes, open, best } => {
-            format!("best {best:.6}; {boxes} boxes compared, {open} waiting")
-        }
-    }
 }
 
 /// Writes the design when a path is given; the path as it is shown.
@@ -242,105 +212,13 @@ pub(super) fn search(
     progress: &mut dyn FnMut(offsets::Progress) -> ControlFlow<()>,
 ) -> Result<Done, Failure> {
     let set = pose_set(design);
-    let problem = problem(design, octahedral, set.poses.clone(), choices.extension);
+    let problem = offset_problem(design, octahedral, set.poses.clone(), choices.extension);
     let processors = || std::thread::available_parallelism().map_or(1, usize::from);
     let threads = choices.threads.unwrap_or_else(processors).clamp(1, 256);
-    let options = OptimizeOptions {
-        seed,
-        threads,
-        survey: choices.survey,
-        gap: choices.gap,
-        ..OptimizeOptions::default()
-    };
+    let options =
+        SearchOptions { seed, threads, survey: choices.survey, gap: choices.gap, ..SearchOptions::default() };
     let report = optimize(&problem, &options, progress)
         .map_err(|why| Failure::refused("optimize::invalid_problem", why.to_string()))?;
     let optimised = report.solution().map(|s| optimised_design(design, &problem, s, report.seed));
     Ok(Done { problem, set, report, optimised })
-}
-
-/// The optimised platform as a design with the tables of the one it comes from.
-fn optimised_design(design: &Design, problem: &OffsetProblem, s: &OffsetSolution, seed: u64) -> Design {
-    let mut out = joint_free_design(design, &problem.octahedral, &s.manipulator);
-    out.source.clone_from(&design.source);
-    out.description = Some(format!(
-        "Offsets optimised by equipod {} (seed {seed}) from the design \"{}\": worst inverse condition number {}",
-        env!("CARGO_PKG_VERSION"),
-        design.name,
-        s.recheck.objective
-    ));
-    out.with_tables_of(design)
-}
-
-/// The platform with names: vertices keep theirs, an edge joint is named after its edge.
-fn joint_free_design(design: &Design, o: &Octahedral, m: &Manipulator) -> Design {
-    let (base, platform) = (design.base_names(), design.platform_names());
-    let base_name = |k: usize| base[o.base_indices()[k % 3]].clone();
-    let platform_name = |k: usize| platform[o.platform_indices()[k % 3]].clone();
-    // names belong to joints, whose order need not be that of the legs
-    let (mut a, mut b) =
-        (vec![String::new(); m.base_joints().len()], vec![String::new(); m.platform_joints().len()]);
-    for (i, leg) in o.order().into_iter().enumerate() {
-        let k = i / 2;
-        let (on_base, on_platform) = m.pairs()[leg.get()];
-        (a[on_base], b[on_platform]) = match sliding_body(i) {
-            Body::Base => (format!("{}_{}", base_name(k), base_name(k + 1)), platform_name(k)),
-            Body::Platform => (base_name(k + 1), format!("{}_{}", platform_name(k), platform_name(k + 1))),
-        };
-    }
-    let plain = Design::new(format!("{}, joint-free", design.name), design.units.clone(), m.clone());
-    let distinct = |v: &[String]| v.iter().enumerate().all(|(i, x)| !v[..i].contains(x));
-    let named =
-        if distinct(&a) && distinct(&b) { plain.clone().with_joint_names(a, b) } else { Ok(plain.clone()) };
-    named.unwrap_or(plain)
-}
-
-#[cfg(test)]
-mod tests {
-    use nalgebra::Point3;
-
-    use super::*;
-    use crate::num::Rng;
-    use crate::synthesis::joint_free;
-
-    /// Over random triangles, leg orders and offsets: the joint `X` is where the design has it, the joint `X_Y` on the line of `X` and `Y` and on no vertex.
-    #[test]
-    fn joints_are_where_their_names_say() {
-        let mut rng = Rng::new(8);
-        for _ in 0..60 {
-            let mut triangle = |z: f64| -> Vec<Point3<f64>> {
-                (0..3).map(|_| Point3::new(rng.uniform(-5.0, 5.0), rng.uniform(-5.0, 5.0), z)).collect()
-            };
-            let (base, platform) = (triangle(0.0), triangle(1.0));
-            let mut legs = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
-            for k in (1..6).rev() {
-                legs.swap(k, (rng.next_u64() % (k as u64 + 1)) as usize);
-            }
-            let m = Manipulator::try_new(base, platform, legs).unwrap();
-            let names = |letter: &str| (1..=3).map(|k| format!("{letter}{k}")).collect::<Vec<_>>();
-            let design = Design::new("drawn", "mm", m).with_joint_names(names("B"), names("Q")).unwrap();
-            let o = Octahedral::recognise(design.manipulator()).unwrap();
-            let t: [f64; 6] = std::array::from_fn(|_| rng.uniform(-1.0, 2.0));
-            let (platform, _) = joint_free(&o, t).unwrap();
-            let built = joint_free_design(&design, &o, &platform);
-            let mut on_edges = 0;
-            let old_joints = [design.manipulator().base_joints(), design.manipulator().platform_joints()];
-            let old_names = [design.base_names(), design.platform_names()];
-            let new_joints = [built.manipulator().base_joints(), built.manipulator().platform_joints()];
-            for (body, list) in [built.base_names(), built.platform_names()].into_iter().enumerate() {
-                let place =
-                    |name: &str| old_joints[body][old_names[body].iter().position(|n| n == name).unwrap()];
-                for (name, joint) in list.iter().zip(new_joints[body]) {
-                    let Some((x, y)) = name.split_once('_') else {
-                        assert!((joint - place(name)).norm() < 1e-12, "{name}");
-                        continue;
-                    };
-                    let (edge, gap) = (place(y) - place(x), joint - place(x));
-                    assert!(edge.cross(&gap).norm() < 1e-9 * edge.norm(), "{name} is off its line");
-                    assert!(old_joints[body].iter().all(|v| (joint - v).norm() > 1e-9), "{name} is a vertex");
-                    on_edges += 1;
-                }
-            }
-            assert_eq!(on_edges, 6);
-        }
-    }
 }

@@ -1,9 +1,11 @@
 //! The octahedral platform behind a design, and its equivalents as designs with names.
 
 use crate::design::Design;
-use crate::manipulator::{Body, LegIndex, Manipulator, Octahedral};
+use crate::manipulator::{Body, LegIndex, Manipulator, NotOctahedral, Octahedral};
 use crate::singularity::GriffisDuffy;
-use crate::synthesis::{AffineLegMap, HexagonPoint, InstantiateError, JointLabel, Offset, Pattern, corner};
+use crate::synthesis::{
+    AffineLegMap, Family, HexagonPoint, InstantiateError, JointLabel, Offset, Pattern, corner,
+};
 
 /// An octahedral platform with the names of its corners and of the joints on its edges.
 #[derive(Debug, Clone)]
@@ -127,4 +129,60 @@ fn free_name(design: &Design, side: usize, second: bool) -> String {
         name.insert(0, 'N');
     }
     name
+}
+
+/// Every platform equivalent to an octahedral one: patterns of joints on the sides of its triangles, and the designs they make.
+#[derive(Debug, Clone)]
+pub struct Equivalents {
+    original: Original,
+    family: Family,
+}
+
+impl Equivalents {
+    /// The class of the platform that a design is, or is made of.
+    ///
+    /// # Errors
+    /// Why the design is not octahedral, where it is not made from an octahedral one either.
+    pub(crate) fn of(design: &Design) -> Result<Self, NotOctahedral> {
+        match Original::of(design) {
+            Some(original) => Ok(Self { original, family: Family::octahedral() }),
+            None => Err(Octahedral::recognise(design.manipulator())
+                .err()
+                .unwrap_or_else(|| unreachable!("an octahedral design is its own original"))),
+        }
+    }
+
+    /// The octahedral platform, the design itself where it is one.
+    #[must_use]
+    pub fn original(&self) -> &Design {
+        &self.original.design
+    }
+
+    /// All patterns with their topologies and counts.
+    #[must_use]
+    pub fn family(&self) -> &Family {
+        &self.family
+    }
+
+    /// The platform of a pattern as a design, and the leg map from the octahedral platform to it; one offset for each inner point, as a fraction of its side.
+    ///
+    /// # Errors
+    /// Offsets that are too few or too many, not finite, or make no platform.
+    pub fn build(
+        &self,
+        pattern: &Pattern,
+        offsets: &[f64],
+    ) -> Result<(Design, AffineLegMap), InstantiateError> {
+        self.original.equivalent(pattern, offsets)
+    }
+
+    /// The platform without shared joints at these offsets, one for each side of the hexagon of legs, and the leg map to it.
+    ///
+    /// # Errors
+    /// Offsets that are not finite or make no platform.
+    pub fn joint_free(&self, offsets: [f64; 6]) -> Result<(Design, AffineLegMap), InstantiateError> {
+        let pattern = Pattern::new([false; 6], [1; 6])
+            .unwrap_or_else(|| unreachable!("one inner point on each side is a pattern"));
+        self.build(&pattern, &offsets)
+    }
 }

@@ -1,0 +1,87 @@
+//! Designs read from files and written to them: beside the command line the only place of the library that does.
+
+use std::io::Write as _;
+use std::path::Path;
+
+use super::Error;
+use crate::design::{Design, Format, Warning, parse, table_rows};
+
+impl Design {
+    /// Reads a design file, TOML or, where the name ends in `.json`, JSON, and the table of its trajectory where it names one. What is allowed but
+    /// often a slip is in [`warnings`](Self::warnings).
+    ///
+    /// ```
+    /// use equipod::prelude::*;
+    /// let design = Design::load("designs/rbt-octahedral.toml")?;
+    /// assert_eq!((design.name.as_str(), design.warnings().len()), ("octahedral 12-6", 0));
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A file that cannot be read; a design with violations, all of them.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, Error> {
+        let path = path.as_ref();
+        let (mut design, _) = parse(&read(path)?, Format::of_path(path))
+            .map_err(|violations| Error::Design { file: Some(path.to_path_buf()), violations })?;
+        if let Some(trajectory) = &mut design.workspace.trajectory {
+            let file = path.parent().unwrap_or(Path::new("")).join(&trajectory.file);
+            let rows = table_rows(&read(&file)?, |line| {
+                line.parse().map_err(|e: crate::geom::InvalidPose| e.to_string())
+            });
+            let rows = rows.map_err(|bad| Error::Trajectory { file, bad })?;
+            trajectory.poses = rows.into_iter().map(|(_, pose)| pose).collect();
+        }
+        Ok(design)
+    }
+
+    /// Writes the design, as JSON where the name ends in `.json`, else as TOML with the comments of the file it is from ([`text`](Self::text)). The file
+    /// appears whole or not at all.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<(), Error> {
+        let path = path.as_ref();
+        let text = match Format::of_path(path) {
+            Format::Toml => self.text(),
+            Format::Json => self.to_json(),
+        };
+        write_whole(path, &text).map_err(|source| Error::File { path: path.to_path_buf(), source })
+    }
+
+    /// What is allowed in the text the design was read from but often a slip.
+    #[must_use]
+    pub fn warnings(&self) -> &[Warning] {
+        self.written.warnings()
+    }
+}
+
+/// TOML; [`Design::load`] reads files of both notations.
+impl std::str::FromStr for Design {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        match parse(text, Format::Toml) {
+            Ok((design, _)) => Ok(design),
+            Err(violations) => Err(Error::Design { file: None, violations }),
+        }
+    }
+}
+
+fn read(path: &Path) -> Result<String, Error> {
+    std::fs::read_to_string(path).map_err(|source| Error::File { path: path.to_path_buf(), source })
+}
+
+/// Writes beside the file, then renames.
+fn write_whole(path: &Path, text: &str) -> std::io::Result<()> {
+    // the file a link points to is replaced, not the link
+    let target = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
+    let mut name = std::ffi::OsString::from(".");
+    name.push(target.file_name().unwrap_or_default());
+    name.push(format!(".{}.part", std::process::id()));
+    let part = target.with_file_name(name);
+    let mut file = std::fs::OpenOptions::new().write(true).create_new(true).open(&part)?;
+    let done = file.write_all(text.as_bytes()).and_then(|()| std::fs::rename(&part, &target));
+    done.inspect_err(|_| {
+        let _ = std::fs::remove_file(&part); // the error to report is the first one
+    })
+}

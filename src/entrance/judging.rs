@@ -1,0 +1,172 @@
+//! Is the design singular, and does it meet its requirements?
+
+use super::Error;
+use crate::design::Design;
+use crate::equivalents::Equivalents;
+use crate::requirements::{AssessOptions, Proof, prove};
+use crate::singularity::{
+    Architecture, Assembly, Conditioning, NearestSingular, Regularity, assembly, conditioning,
+    nearest_singular, regular_workspace, singular_distance_at_least,
+};
+
+/// Whether a design is architecturally singular, and why.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct CheckReport {
+    /// The design.
+    pub design: Design,
+    /// The decision on the joints as written, in exact arithmetic, with its proof.
+    pub architecture: Architecture,
+    /// A singular design nearby; for a regular design only.
+    pub nearest: Option<NearestSingular>,
+    /// No singular design is nearer, design units; 0 for a singular one.
+    pub at_least: f64,
+    /// Whether the lengths can be assembled; for a (nearly) singular design of Griffis-Duffy type with lengths.
+    pub assembly: Option<Assembly>,
+    /// How well the legs hold the platform at random poses.
+    pub conditioning: Conditioning,
+}
+
+impl CheckReport {
+    /// `None` where a singular design lies within rounding of one that is regular as written.
+    #[must_use]
+    pub fn is_singular(&self) -> Option<bool> {
+        let doubtful = self.nearest.as_ref().is_some_and(|n| n.within_rounding);
+        (!doubtful).then(|| self.architecture.is_singular())
+    }
+
+    /// The reason in a short code, `None` for a regular design.
+    #[must_use]
+    pub fn reason(&self) -> Option<&'static str> {
+        match self.is_singular() {
+            None => Some("singular_within_rounding"),
+            Some(_) => self.architecture.findings.first().map(|f| f.case.reason()),
+        }
+    }
+}
+
+/// The verdict in a sentence.
+impl std::fmt::Display for CheckReport {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let name = &self.design.name;
+        match (self.is_singular(), self.reason()) {
+            (Some(false), _) => write!(f, "{name} is not architecturally singular: proved"),
+            (Some(true), Some(reason)) => write!(f, "{name} is architecturally singular: proved ({reason})"),
+            (Some(true), None) => write!(f, "{name} is architecturally singular: proved"),
+            (None, _) => write!(f, "{name} is regular as written, and within rounding of a singular design"),
+        }
+    }
+}
+
+/// By how much a design meets its requirements.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct AssessReport {
+    /// The least margin of each kind of requirement, with what is proved of it.
+    pub proof: Proof,
+    /// Whether a pose of the workspace is singular.
+    pub regularity: Regularity,
+    /// Cells looked at for that.
+    pub regularity_cells: usize,
+}
+
+impl AssessReport {
+    /// Proved either way, or `None`.
+    #[must_use]
+    pub fn met(&self) -> Option<bool> {
+        match (self.proof.all_met(), self.regularity.is_regular()) {
+            (Some(false), _) | (_, Some(false)) => Some(false),
+            (Some(true), Some(true)) => Some(true),
+            _ => None,
+        }
+    }
+}
+
+/// The verdict in a sentence.
+impl std::fmt::Display for AssessReport {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self.met() {
+            Some(true) => "all requirements are met, proved for every pose of the workspace",
+            Some(false) => "requirements are violated",
+            None => "no requirement is violated at the poses looked at; not all is proved",
+        })
+    }
+}
+
+/// Cells of the workspace over which [`Design::assess`] bounds the margins of one kind of requirement, and `det J`, at most.
+pub(crate) const ASSESS_CELLS: usize = 6000;
+
+impl Design {
+    /// Whether the design is architecturally singular, so that no pose can hold the platform: decided exactly, explained, and how far away a singular
+    /// design is.
+    ///
+    /// ```
+    /// use equipod::prelude::*;
+    /// let midpoints = Design::load("designs/rbt-midline.toml")?;
+    /// assert_eq!(midpoints.check()?.is_singular(), Some(true));
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A decomposition that does not converge.
+    pub fn check(&self) -> Result<CheckReport, Error> {
+        self.check_with(1)
+    }
+
+    /// As [`check`](Self::check), with another seed of the search for a singular design nearby.
+    ///
+    /// # Errors
+    /// A decomposition that does not converge.
+    pub fn check_with(&self, seed: u64) -> Result<CheckReport, Error> {
+        let m = self.manipulator();
+        let architecture = Architecture::of(m);
+        let nearest = if architecture.is_singular() { None } else { nearest_singular(m, seed)? };
+        let at_least = if nearest.is_some() { singular_distance_at_least(m, seed) } else { 0.0 };
+        let conditioning = conditioning(m, seed)?;
+        let singular_hexagon = architecture.griffis_duffy.as_ref().filter(|g| g.is_nearly_singular());
+        let assembly = match (singular_hexagon, self.lengths) {
+            (Some(g), Some(l)) => Some(assembly(g, m, &l.squared())?),
+            _ => None,
+        };
+        Ok(CheckReport { design: self.clone(), architecture, nearest, at_least, assembly, conditioning })
+    }
+
+    /// By how much the design meets its requirements over its whole workspace, and whether that is proved.
+    ///
+    /// # Errors
+    /// [`Error::NothingRequired`] where the design requires nothing.
+    pub fn assess(&self) -> Result<AssessReport, Error> {
+        self.assess_with(&AssessOptions::default(), ASSESS_CELLS)
+    }
+
+    /// As [`assess`](Self::assess), with other numbers of poses and cells looked at.
+    ///
+    /// # Errors
+    /// [`Error::NothingRequired`] where the design requires nothing.
+    pub fn assess_with(&self, options: &AssessOptions, cells: usize) -> Result<AssessReport, Error> {
+        let (m, space) = (self.manipulator(), self.workspace.space(&self.home_or_default()));
+        let proof = prove(m, &self.requirements(), &space, options, cells);
+        if proof.bounds.is_empty() {
+            return Err(Error::NothingRequired);
+        }
+        let (regularity, regularity_cells) = regular_workspace(m, &space, cells, options.seed);
+        Ok(AssessReport { proof, regularity, regularity_cells })
+    }
+
+    /// Every platform equivalent to this one: the class of the octahedral platform that the design is, or is made of.
+    ///
+    /// ```
+    /// use equipod::prelude::*;
+    /// let design = Design::load("designs/rbt-octahedral.toml")?;
+    /// let (free, map) = design.equivalents()?.joint_free([0.25, 0.5, 0.25, 0.5, 0.25, 0.75])?;
+    /// assert_eq!((free.base_names().len(), free.platform_names().len()), (6, 6));
+    /// assert!(map.determinant().abs() > 0.0);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::NotOctahedral`] for a design that is neither octahedral nor made from an octahedral one by offsets along the sides of its triangles.
+    pub fn equivalents(&self) -> Result<Equivalents, Error> {
+        Ok(Equivalents::of(self)?)
+    }
+}

@@ -1,0 +1,27 @@
+//! The methods of the front page: what a user asks of a design, put together from the layers below.
+//!
+//! Nothing is computed here. Each question names the modules that answer it, with their defaults; the command line asks the same questions.
+
+#[cfg(all(feature = "files", feature = "synthesis"))]
+mod equivalence;
+mod error;
+#[cfg(feature = "files")]
+mod exporting;
+#[cfg(feature = "files")]
+mod files;
+#[cfg(all(feature = "files", feature = "synthesis"))]
+mod judging;
+#[cfg(all(feature = "files", feature = "optimize"))]
+pub(crate) mod optimizing;
+mod solving;
+
+#[cfg(all(feature = "files", feature = "synthesis"))]
+pub(crate) use equivalence::{SAMPLES, sample_plan};
+#[cfg(all(feature = "files", feature = "synthesis"))]
+pub use equivalence::{VerifyOptions, leg_map, verify, verify_with};
+pub use error::Error;
+#[cfg(all(feature = "files", feature = "synthesis"))]
+pub use judging::{AssessReport, CheckReport};
+#[cfg(all(feature = "files", feature = "optimize"))]
+pub use optimizing::{OptimizeEvidence, OptimizeOptions, OptimizeProgress, OptimizeReport, OptimizeStatus};
+pub use solving::{Batch, Solver, Tracker};

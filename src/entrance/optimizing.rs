@@ -1,0 +1,546 @@
+//! The best platform for a design.
+
+use std::ops::ControlFlow;
+
+use super::Error;
+use super::equivalence::sample_plan;
+use crate::design::{Combination, Design};
+use crate::dimensional::{
+    self, DimensionalOutcome, DimensionalProblem, DimensionalReport, DimensionalSolution, Mode,
+    SearchOptions, Variables, evaluate,
+};
+use crate::equivalence::{Verification, VerifyError, verify};
+use crate::fk::{FkOptions, Threads};
+use crate::geom::Pose;
+use crate::manipulator::{Body, Manipulator, Octahedral};
+use crate::num::Cancel;
+use crate::offsets::{self, OffsetOutcome, OffsetProblem, OffsetReport, OffsetSolution};
+use crate::requirements::{
+    AssessOptions, Assessment, JointAxes, Objective, Requirements, VariableKind, assess,
+};
+use crate::synthesis::sliding_body;
+
+/// Points of the dense evaluation, and as many random ones.
+const POINTS: usize = 5000;
+/// Samples of the comparison with the design.
+const SAMPLES: usize = 3;
+/// How far a joint may sit out on the extension of its edge, edge lengths, where nothing is said.
+pub(crate) const EXTENSION: f64 = 1.0;
+/// Most worker threads.
+const MOST_THREADS: usize = 256;
+
+/// How far the search is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum OptimizeProgress {
+    /// Of the search for offsets.
+    Offsets(offsets::Progress),
+    /// Of the search for a platform that meets its requirements.
+    Dimensions(dimensional::Progress),
+}
+
+impl std::fmt::Display for OptimizeProgress {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Offsets(p) => p.fmt(f),
+            Self::Dimensions(p) => p.fmt(f),
+        }
+    }
+}
+
+type OnProgress<'a> = Box<dyn FnMut(OptimizeProgress) -> ControlFlow<()> + 'a>;
+
+/// Options of [`Design::optimize_with`].
+pub struct OptimizeOptions<'a> {
+    seed: u64,
+    threads: Threads,
+    extension: f64,
+    survey: bool,
+    gap: f64,
+    cancel: Cancel,
+    on_progress: Option<OnProgress<'a>>,
+}
+
+impl std::fmt::Debug for OptimizeOptions<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { seed, threads, extension, survey, gap, cancel, on_progress } = self;
+        f.debug_struct("OptimizeOptions")
+            .field("seed", seed)
+            .field("threads", threads)
+            .field("extension", extension)
+            .field("survey", survey)
+            .field("gap", gap)
+            .field("cancel", cancel)
+            .field("on_progress", &on_progress.is_some())
+            .finish()
+    }
+}
+
+impl Default for OptimizeOptions<'_> {
+    fn default() -> Self {
+        Self {
+            seed: 1,
+            threads: Threads::All,
+            extension: EXTENSION,
+            survey: false,
+            gap: offsets::SearchOptions::default().gap,
+            cancel: Cancel::new(),
+            on_progress: None,
+        }
+    }
+}
+
+impl<'a> OptimizeOptions<'a> {
+    /// The defaults: seed 1, a thread for each processor, joints at most one edge length out on the extension of their edge, optimal within one per cent.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Seed of starting points. Same seed, same answer, whatever the number of threads.
+    #[must_use]
+    pub fn seed(mut self, seed: u64) -> Self {
+        self.seed = seed;
+        self
+    }
+
+    /// How many threads search.
+    #[must_use]
+    pub fn threads(mut self, threads: Threads) -> Self {
+        self.threads = threads;
+        self
+    }
+
+    /// How far a joint may sit out on the extension of its edge, edge lengths; 0 keeps joints inside the edges.
+    #[must_use]
+    pub fn extension(mut self, extension: f64) -> Self {
+        self.extension = extension;
+        self
+    }
+
+    /// Whether every branch of offsets is searched for its own best, which takes ten times as long.
+    #[must_use]
+    pub fn survey(mut self, survey: bool) -> Self {
+        self.survey = survey;
+        self
+    }
+
+    /// Greatest relative gap between the answer and the proved upper bound over all offsets at which the answer counts as optimal.
+    #[must_use]
+    pub fn gap(mut self, gap: f64) -> Self {
+        self.gap = gap;
+        self
+    }
+
+    /// What ends the search before its time; the answer is then the best until then.
+    #[must_use]
+    pub fn cancel(mut self, cancel: &Cancel) -> Self {
+        self.cancel = cancel.clone();
+        self
+    }
+
+    /// Is told how far the search is, and may end it.
+    #[must_use]
+    pub fn on_progress(mut self, look: impl FnMut(OptimizeProgress) -> ControlFlow<()> + 'a) -> Self {
+        self.on_progress = Some(Box::new(look));
+        self
+    }
+
+    fn flow(&mut self, progress: OptimizeProgress) -> ControlFlow<()> {
+        if self.cancel.is_cancelled() {
+            return ControlFlow::Break(());
+        }
+        self.on_progress.as_mut().map_or(ControlFlow::Continue(()), |look| look(progress))
+    }
+}
+
+/// What became of an optimisation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum OptimizeStatus {
+    /// Feasible by a check of its own. Of offsets: proved to be within the gap of the best. Of platforms under requirements: a local optimum, the best of all starts.
+    Optimal,
+    /// Feasible by a check of its own; how much better others could be is not known well enough.
+    Feasible,
+    /// Proved for offsets: none meets the limits. Under requirements: no start met them together.
+    Infeasible,
+    /// Nothing feasible was found, and that there is nothing is not known.
+    Undecided,
+    /// Told to end; the answer is the best until then.
+    Interrupted,
+}
+
+impl OptimizeStatus {
+    /// The word for it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Optimal => "optimal",
+            Self::Feasible => "feasible",
+            Self::Infeasible => "infeasible",
+            Self::Undecided => "undecided",
+            Self::Interrupted => "interrupted",
+        }
+    }
+}
+
+impl std::fmt::Display for OptimizeStatus {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// The best platform found, with the evidence for it.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct OptimizeReport {
+    /// What became of it.
+    pub status: OptimizeStatus,
+    /// The platform, with the tables of the design it is from.
+    pub design: Option<Design>,
+    /// What was found on the way.
+    pub evidence: OptimizeEvidence,
+}
+
+/// The evidence of an [`OptimizeReport`].
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum OptimizeEvidence {
+    /// Of offsets alone, for the best worst-case conditioning: branches, bound, re-check.
+    Offsets(Box<OffsetReport>),
+    /// Of a platform under requirements.
+    Dimensions {
+        /// The search.
+        report: Box<DimensionalReport>,
+        /// The platform it found, evaluated by code that the search does not use.
+        checked: Option<Box<Checked>>,
+    },
+}
+
+/// The status and the value of what was optimised.
+impl std::fmt::Display for OptimizeReport {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}", self.status)?;
+        match &self.evidence {
+            OptimizeEvidence::Offsets(report) => match report.solution() {
+                Some(s) => {
+                    let (value, det) = (s.recheck.objective, s.recheck.det.abs());
+                    write!(f, ": worst inverse condition number {value:.6}, |det A| {det:.6}")
+                }
+                None => Ok(()),
+            },
+            OptimizeEvidence::Dimensions { checked, .. } => {
+                let objectives = checked.iter().flat_map(|c| &c.objectives);
+                for (k, (objective, value)) in objectives.enumerate() {
+                    write!(f, "{}{} {value:.6}", if k == 0 { ": " } else { ", " }, objective.code())?;
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+impl Design {
+    /// The best platform for this design: under all its requirements where it has any, else the equivalent platform without shared joints with the best
+    /// worst-case conditioning.
+    ///
+    /// # Errors
+    /// A design that cannot be optimised as it asks: one that is not octahedral and names no other variables, for instance.
+    pub fn optimize(&self) -> Result<OptimizeReport, Error> {
+        self.optimize_with(OptimizeOptions::new())
+    }
+
+    /// As [`optimize`](Self::optimize), with options.
+    ///
+    /// # Errors
+    /// As [`optimize`](Self::optimize).
+    pub fn optimize_with(&self, mut options: OptimizeOptions<'_>) -> Result<OptimizeReport, Error> {
+        let (seed, threads) = (options.seed, options.threads.count(MOST_THREADS));
+        if asks_for_more(self) {
+            if let Some(Combination::Pareto { .. }) = self.search.mode {
+                return Err(Error::ParetoFront);
+            }
+            let problem = dimensional_problem(self, options.extension);
+            let search = SearchOptions { seed, threads, ..SearchOptions::default() };
+            let report = dimensional::optimize(&problem, &[], &search, &mut |p| {
+                options.flow(OptimizeProgress::Dimensions(p))
+            })?;
+            let checked = report.solution().map(|s| checked(self, &problem, s, seed)).transpose()?;
+            return Ok(OptimizeReport {
+                status: dimensional_status(&report, checked.as_ref()),
+                design: checked.as_ref().map(|c| c.design.clone()),
+                evidence: OptimizeEvidence::Dimensions {
+                    report: Box::new(report),
+                    checked: checked.map(Box::new),
+                },
+            });
+        }
+        let octahedral = Octahedral::recognise(self.manipulator())?;
+        let search = offsets::SearchOptions {
+            seed,
+            threads,
+            survey: options.survey,
+            gap: options.gap,
+            ..offsets::SearchOptions::default()
+        };
+        let poses = self.workspace_or_default().sample(Some(&self.home_or_default()));
+        let problem = offset_problem(self, octahedral, poses, options.extension);
+        let report =
+            offsets::optimize(&problem, &search, &mut |p| options.flow(OptimizeProgress::Offsets(p)))?;
+        Ok(OptimizeReport {
+            status: offset_status(&report),
+            design: report.solution().map(|s| optimised_design(self, &problem, s, seed)),
+            evidence: OptimizeEvidence::Offsets(Box::new(report)),
+        })
+    }
+}
+
+/// What became of a search for offsets.
+pub(crate) fn offset_status(report: &OffsetReport) -> OptimizeStatus {
+    match report.outcome {
+        _ if report.interrupted => OptimizeStatus::Interrupted,
+        OffsetOutcome::Optimal(_) => OptimizeStatus::Optimal,
+        OffsetOutcome::LocalOptimum(_) | OffsetOutcome::NotConverged(_) => OptimizeStatus::Feasible,
+        OffsetOutcome::Infeasible => OptimizeStatus::Infeasible,
+        OffsetOutcome::Undecided { .. } => OptimizeStatus::Undecided,
+    }
+}
+
+/// What became of a search for a platform under requirements, with the check that does not use its code.
+pub(crate) fn dimensional_status(report: &DimensionalReport, checked: Option<&Checked>) -> OptimizeStatus {
+    match (&report.outcome, checked) {
+        _ if report.interrupted => OptimizeStatus::Interrupted,
+        (DimensionalOutcome::Infeasible(_), _) => OptimizeStatus::Infeasible,
+        (DimensionalOutcome::Optimal(_), Some(c)) if c.assessment.all_met() => OptimizeStatus::Optimal,
+        (_, Some(c)) if c.assessment.all_met() => OptimizeStatus::Feasible,
+        _ => OptimizeStatus::Undecided,
+    }
+}
+
+/// Whether a design asks for anything besides offsets with the best worst-case conditioning.
+pub(crate) fn asks_for_more(design: &Design) -> bool {
+    let plain =
+        Requirements { min_joint_distance: design.optimize.min_joint_distance, ..Requirements::default() };
+    design.search != crate::design::SearchTable::default() || design.requirements() != plain
+}
+
+/// The offsets of an octahedral design over these poses, within the limits of its `[optimize]`.
+pub(crate) fn offset_problem(
+    design: &Design,
+    octahedral: Octahedral,
+    poses: Vec<Pose>,
+    extension: f64,
+) -> OffsetProblem {
+    let default = OffsetProblem::with_defaults(octahedral, poses);
+    let table = &design.optimize;
+    OffsetProblem {
+        characteristic_length: table.characteristic_length.unwrap_or(default.characteristic_length),
+        min_joint_distance: table.min_joint_distance.unwrap_or(default.min_joint_distance),
+        min_abs_det: table.min_abs_det.unwrap_or(default.min_abs_det),
+        bounds: [(-extension, 1.0 + extension); 6],
+        ..default
+    }
+}
+
+/// The optimised platform as a design with the tables of the one it comes from.
+pub(crate) fn optimised_design(
+    design: &Design,
+    problem: &OffsetProblem,
+    s: &OffsetSolution,
+    seed: u64,
+) -> Design {
+    let mut out = joint_free_design(design, &problem.octahedral, &s.manipulator);
+    out.source.clone_from(&design.source);
+    out.description = Some(format!(
+        "Offsets optimised by equipod {} (seed {seed}) from the design \"{}\": worst inverse condition number {}",
+        env!("CARGO_PKG_VERSION"),
+        design.name,
+        s.recheck.objective
+    ));
+    out.with_tables_of(design)
+}
+
+/// The platform with names: vertices keep theirs, an edge joint is named after its edge.
+fn joint_free_design(design: &Design, o: &Octahedral, m: &Manipulator) -> Design {
+    let (base, platform) = (design.base_names(), design.platform_names());
+    let base_name = |k: usize| base[o.base_indices()[k % 3]].clone();
+    let platform_name = |k: usize| platform[o.platform_indices()[k % 3]].clone();
+    // names belong to joints, whose order need not be that of the legs
+    let (mut a, mut b) =
+        (vec![String::new(); m.base_joints().len()], vec![String::new(); m.platform_joints().len()]);
+    for (i, leg) in o.order().into_iter().enumerate() {
+        let k = i / 2;
+        let (on_base, on_platform) = m.pairs()[leg.get()];
+        (a[on_base], b[on_platform]) = match sliding_body(i) {
+            Body::Base => (format!("{}_{}", base_name(k), base_name(k + 1)), platform_name(k)),
+            Body::Platform => (base_name(k + 1), format!("{}_{}", platform_name(k), platform_name(k + 1))),
+        };
+    }
+    let plain = Design::new(format!("{}, joint-free", design.name), design.units.clone(), m.clone());
+    let distinct = |v: &[String]| v.iter().enumerate().all(|(i, x)| !v[..i].contains(x));
+    let named =
+        if distinct(&a) && distinct(&b) { plain.clone().with_joint_names(a, b) } else { Ok(plain.clone()) };
+    named.unwrap_or(plain)
+}
+
+/// A platform with the evidence gathered by other code.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Checked {
+    /// The platform as a design.
+    pub design: Design,
+    /// Requirements, densely.
+    pub assessment: Assessment,
+    /// Objectives, densely.
+    pub objectives: Vec<(Objective, f64)>,
+    /// Equivalence with the design, where the variables keep it.
+    pub verification: Option<Verification>,
+}
+
+/// The problem of a design.
+pub(crate) fn dimensional_problem(design: &Design, extension: f64) -> DimensionalProblem {
+    let (m, table, search) = (design.manipulator(), &design.optimize, &design.search);
+    let home = design.home_or_default();
+    let space = design.workspace_or_default().space(&home);
+    let kinds = if search.variables.is_empty() { &[VariableKind::Offsets] } else { &search.variables[..] };
+    let mut variables = Variables::of(kinds);
+    variables.offset_bounds = [search.offset_bounds.unwrap_or((-extension, 1.0 + extension)); 6];
+    variables.stretch_bounds = search.stretch_bounds.unwrap_or(variables.stretch_bounds);
+    variables.height_bounds = search.height_bounds.unwrap_or(variables.height_bounds);
+    let mut requirements = design.requirements();
+    let octahedral = Octahedral::recognise(m).ok().map(|o| OffsetProblem::with_defaults(o, Vec::new()));
+    if let (true, Some(default)) = (variables.offsets, &octahedral) {
+        // joints that offsets separate need room, also where the design says nothing
+        requirements.min_joint_distance.get_or_insert(default.min_joint_distance);
+    }
+    let objectives = if search.objectives.is_empty() {
+        vec![(Objective::WorstConditioning, 1.0)]
+    } else {
+        search.objectives.clone()
+    };
+    let mode = match search.mode {
+        Some(Combination::Lexicographic { slack }) => Mode::Lexicographic { slack },
+        _ => Mode::Weighted,
+    };
+    DimensionalProblem {
+        characteristic_length: table.characteristic_length.unwrap_or_else(|| m.platform_rms_radius()),
+        min_abs_det: table.min_abs_det.unwrap_or(crate::offsets::DEFAULT_MIN_ABS_DET),
+        manipulator: m.clone(),
+        requirements,
+        space,
+        variables,
+        objectives,
+        mode,
+    }
+}
+
+/// The platform as a design, evaluated by code that the optimiser does not use.
+pub(crate) fn checked(
+    design: &Design,
+    problem: &DimensionalProblem,
+    s: &DimensionalSolution,
+    seed: u64,
+) -> Result<Checked, VerifyError> {
+    let out = optimised(design, problem, s, seed);
+    let space = crate::requirements::PoseSpace { home: s.home, ..problem.space.clone() };
+    let requirements = Requirements { hardware: out.hardware, ..problem.requirements.clone() };
+    let options = AssessOptions { points: POINTS, seed, ..AssessOptions::default() };
+    let assessment = assess(&s.manipulator, &requirements, &space, &options);
+    let values = evaluate(problem, &s.manipulator, &space, &s.poses, POINTS, seed);
+    let objectives = problem.objectives.iter().map(|o| o.0).zip(values).collect();
+    let v = &problem.variables;
+    let keeps_class =
+        (v.offsets || v.components) && problem.variables.triangles == crate::dimensional::Triangles::Fixed;
+    let verification = if keeps_class {
+        let plan = sample_plan(design, SAMPLES, seed);
+        let options = FkOptions::new().seed(seed);
+        Some(verify(design.manipulator(), &s.manipulator, &plan, &options)?)
+    } else {
+        None
+    };
+    Ok(Checked { design: out, assessment, objectives, verification })
+}
+
+/// The platform with the tables of the design, its axes and its home.
+fn optimised(design: &Design, problem: &DimensionalProblem, s: &DimensionalSolution, seed: u64) -> Design {
+    let octahedral = Octahedral::recognise(design.manipulator()).ok().filter(|_| s.offsets.is_some());
+    let mut out = if let Some(o) = octahedral {
+        joint_free_design(design, &o, &s.manipulator)
+    } else {
+        let name = format!("{}, optimised", design.name);
+        let plain = Design::new(name, design.units.clone(), s.manipulator.clone());
+        let (base, platform) = (design.base_names().to_vec(), design.platform_names().to_vec());
+        plain.clone().with_joint_names(base, platform).unwrap_or(plain)
+    };
+    out.source.clone_from(&design.source);
+    let best: Vec<String> = s.objectives.iter().map(|(o, v)| format!("{} {v}", o.code())).collect();
+    out.description = Some(format!(
+        "Optimised by equipod {} (seed {seed}) from the design \"{}\": {}",
+        env!("CARGO_PKG_VERSION"),
+        design.name,
+        best.join(", ")
+    ));
+    let mut out = out.with_tables_of(design);
+    if design.home.is_some() || problem.variables.home_height {
+        out.home = Some(s.home);
+    }
+    for (swing, axes) in
+        [(&mut out.hardware.base_swing, s.axes[0]), (&mut out.hardware.platform_swing, s.axes[1])]
+    {
+        if let (Some(swing), Some(axes)) = (swing, axes) {
+            swing.axes = JointAxes::Given(axes);
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Point3;
+
+    use super::*;
+    use crate::num::Rng;
+    use crate::synthesis::joint_free;
+
+    /// Over random triangles, leg orders and offsets: the joint `X` is where the design has it, the joint `X_Y` on the line of `X` and `Y` and on no vertex.
+    #[test]
+    fn joints_are_where_their_names_say() {
+        let mut rng = Rng::new(8);
+        for _ in 0..60 {
+            let mut triangle = |z: f64| -> Vec<Point3<f64>> {
+                (0..3).map(|_| Point3::new(rng.uniform(-5.0, 5.0), rng.uniform(-5.0, 5.0), z)).collect()
+            };
+            let (base, platform) = (triangle(0.0), triangle(1.0));
+            let mut legs = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
+            for k in (1..6).rev() {
+                legs.swap(k, (rng.next_u64() % (k as u64 + 1)) as usize);
+            }
+            let m = Manipulator::try_new(base, platform, legs).unwrap();
+            let names = |letter: &str| (1..=3).map(|k| format!("{letter}{k}")).collect::<Vec<_>>();
+            let design = Design::new("drawn", "mm", m).with_joint_names(names("B"), names("Q")).unwrap();
+            let o = Octahedral::recognise(design.manipulator()).unwrap();
+            let t: [f64; 6] = std::array::from_fn(|_| rng.uniform(-1.0, 2.0));
+            let (platform, _) = joint_free(&o, t).unwrap();
+            let built = joint_free_design(&design, &o, &platform);
+            let mut on_edges = 0;
+            let old_joints = [design.manipulator().base_joints(), design.manipulator().platform_joints()];
+            let old_names = [design.base_names(), design.platform_names()];
+            let new_joints = [built.manipulator().base_joints(), built.manipulator().platform_joints()];
+            for (body, list) in [built.base_names(), built.platform_names()].into_iter().enumerate() {
+                let place =
+                    |name: &str| old_joints[body][old_names[body].iter().position(|n| n == name).unwrap()];
+                for (name, joint) in list.iter().zip(new_joints[body]) {
+                    let Some((x, y)) = name.split_once('_') else {
+                        assert!((joint - place(name)).norm() < 1e-12, "{name}");
+                        continue;
+                    };
+                    let (edge, gap) = (place(y) - place(x), joint - place(x));
+                    assert!(edge.cross(&gap).norm() < 1e-9 * edge.norm(), "{name} is off its line");
+                    assert!(old_joints[body].iter().all(|v| (joint - v).norm() > 1e-9), "{name} is a vertex");
+                    on_edges += 1;
+                }
+            }
+            assert_eq!(on_edges, 6);
+        }
+    }
+}
