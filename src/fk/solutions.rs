@@ -34,9 +34,17 @@ pub enum Method {
 }
 
 impl Method {
-    /// Every method.
-    pub const ALL: [Self; 6] =
-        [Self::Octic, Self::Homotopy, Self::Near, Self::Sylvester, Self::Template, Self::Trilateration];
+    /// Every method that this build has.
+    pub const ALL: &'static [Self] = &[
+        Self::Octic,
+        Self::Homotopy,
+        Self::Near,
+        #[cfg(feature = "lab")]
+        Self::Sylvester,
+        #[cfg(feature = "lab")]
+        Self::Template,
+        Self::Trilateration,
+    ];
 
     /// The name on the command line and in JSON.
     #[must_use]
@@ -64,7 +72,7 @@ impl std::str::FromStr for Method {
     type Err = UnknownName;
 
     fn from_str(text: &str) -> Result<Self, UnknownName> {
-        named("method", text, &Self::ALL, Self::name)
+        named("method", text, Self::ALL, Self::name)
     }
 }
 

@@ -157,7 +157,7 @@ pub struct PlanePairRecord {
 pub struct PlaneCurveRecord {
     /// The origin of plane coordinates, frame of the body.
     pub origin: [Number; 3],
-    /// The point (x, y) is origin + x axes[0] + y axes[1].
+    /// The point `(x, y)` is `origin + x axes[0] + y axes[1]`.
     pub axes: [[Number; 3]; 2],
     /// Its degree.
     pub degree: usize,

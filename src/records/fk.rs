@@ -409,7 +409,7 @@ pub enum CertificateRecord {
         /// What holds the pose of the root.
         enclosure: Box<EnclosureRecord>,
     },
-    /// In the squared distances (s15, s34); distances are max(|x| / weights[0], |y| / weights[1]).
+    /// In the squared distances (s15, s34); distances are `max(|x| / weights[0], |y| / weights[1])`.
     Octahedral {
         /// Legs 14 24 25 35 36 16, from 0.
         order: [usize; 6],

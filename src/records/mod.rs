@@ -1,7 +1,7 @@
 //! Every answer of the program as plain data: what `--json` prints, what the page and other programs read, and what the schemas describe.
 //!
 //! An answer of a command is a type whose name ends in `Answer`; its parts end in `Record`. They are made `From` the values of the library, hold no
-//! logic, and are read back by `serde`. The same value is printed as text by the command, as JSON by [`Document`], and described by [`schema`]:
+//! logic, and are read back by `serde`. The same value is printed as text by the command, as JSON by [`Document`], and described by [`schema()`]:
 //! no field is written in two places.
 //!
 //! Numbers that may be infinite or not a number are [`Number`]s and `null` in JSON; a truth that may be undecided is an `Option<bool>` and `null` where it is.

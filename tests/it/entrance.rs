@@ -282,7 +282,7 @@ fn designs_are_exported_by_the_names_of_formats() {
 
 #[test]
 fn names_are_read_back_and_slips_are_told_what_there_is() {
-    for method in Method::ALL {
+    for &method in Method::ALL {
         assert_eq!(method.to_string().parse::<Method>(), Ok(method));
     }
     assert_eq!(" Homotopy ".parse::<Method>(), Ok(Method::Homotopy));

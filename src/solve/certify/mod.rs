@@ -34,7 +34,7 @@
 //! | `certificate_about` | does a ball about the centre hold exactly one root, with finite `R` and `p` in known discs? is the root real? | `one_root_about`; disc arithmetic over the ball, in which `e.e` must not vanish; conjugation for reality | as above; reality has an [`Undecided`](ProvedReality::Undecided) of its own |
 //! | `one_root_about` | does a ball about the centre hold exactly one root? | the contraction theorem of `krawczyk.rs`; the centre is finite, on its patch, with a Newton step of at most [`NEAR`] | no ball contracts: no root, two close ones, or data or digits that are not good enough |
 //! | `pose_is_the_root` | has the pose the digits of the certified root? | the distance from all points of the enclosure is at most [`NEAR`] | the root is proved, but is not shown to be this pose |
-//! | [`relation`], [`distinct`] | are two certified roots different, or one? | different where enclosures are disjoint, one where an enclosure lies in the other's ball of uniqueness; certificates of one problem | [`RootRelation::Undecided`]: enclosures overlap |
+//! | [`relation()`], [`distinct()`] | are two certified roots different, or one? | different where enclosures are disjoint, one where an enclosure lies in the other's ball of uniqueness; certificates of one problem | [`RootRelation::Undecided`]: enclosures overlap |
 //!
 //! [`Certifier::refine`] proves nothing: it is Newton's method in double-double. Octahedral platforms have a certificate of all sixteen poses
 //! at once, [`octahedral`]. Outside this folder a root is certified by [`Certifier::certify`] when its pose shall be judged as it is, and by
