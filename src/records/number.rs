@@ -63,6 +63,33 @@ impl<const N: usize, const M: usize> From<[[Complex64; N]; M]> for ComplexRecord
     }
 }
 
+/// The fields of a record that stand among those of another: all of them or none.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum AllOrNone<T> {
+    /// All of them.
+    All(T),
+    /// None of them.
+    None {},
+}
+
+impl<T> AllOrNone<T> {
+    /// The record, where its fields are there.
+    #[must_use]
+    pub fn as_option(&self) -> Option<&T> {
+        match self {
+            Self::All(record) => Some(record),
+            Self::None {} => None,
+        }
+    }
+}
+
+impl<T> From<Option<T>> for AllOrNone<T> {
+    fn from(record: Option<T>) -> Self {
+        record.map_or(Self::None {}, Self::All)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -10,7 +10,7 @@ use crate::dimensional::{DimensionalOutcome, DimensionalReport, DimensionalSolut
 use crate::entrance::OptimizeStatus;
 use crate::entrance::optimizing::{Checked, dimensional_status};
 use crate::equivalence::Verification;
-use crate::records::{DesignRecord, MarginRecord, Number, PoseQuaternionRecord, VerdictWord};
+use crate::records::{AllOrNone, DesignRecord, MarginRecord, Number, PoseQuaternionRecord, VerdictWord};
 use crate::requirements::Objective;
 
 /// The answer of `optimize` about a design that asks for more than offsets.
@@ -20,7 +20,7 @@ pub struct DimensionalAnswer {
     pub status: DimensionalStatus,
     /// The best platform found.
     #[serde(flatten)]
-    pub solution: Option<DimensionalSolutionRecord>,
+    pub solution: AllOrNone<DimensionalSolutionRecord>,
     /// When infeasible.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub conflict: Option<ConflictRecord>,
@@ -46,7 +46,7 @@ impl DimensionalAnswer {
         let solution = report.solution().zip(checked);
         Self {
             status: dimensional_status(report, checked).into(),
-            solution: solution.map(|(s, c)| DimensionalSolutionRecord::new(design, s, c)),
+            solution: solution.map(|(s, c)| DimensionalSolutionRecord::new(design, s, c)).into(),
             conflict: match &report.outcome {
                 DimensionalOutcome::Infeasible(c) => Some(ConflictRecord::new(design, c)),
                 _ => None,

@@ -11,7 +11,7 @@ use crate::offsets::{
     BranchReport, BranchVerdict, Conflict, GlobalBound, HistoryStep, OffsetOutcome, OffsetProblem,
     OffsetReport, OffsetSolution,
 };
-use crate::records::{DesignRecord, Number, PoseRecord, SourceWord, leg_number};
+use crate::records::{AllOrNone, DesignRecord, Number, PoseRecord, SourceWord, leg_number};
 
 /// Runners-up that are listed.
 const RUNNERS_UP: usize = 5;
@@ -42,7 +42,7 @@ pub struct OffsetsAnswer {
     pub status: OffsetsStatus,
     /// The best offsets found.
     #[serde(flatten)]
-    pub solution: Option<OffsetSolutionRecord>,
+    pub solution: AllOrNone<OffsetSolutionRecord>,
     /// What was required.
     pub requirements: OffsetLimitsRecord,
     /// The poses the worst case is taken over.
@@ -72,7 +72,7 @@ impl OffsetsAnswer {
         let (p, r) = (found.problem, found.report);
         Self {
             status: r.into(),
-            solution: r.solution().map(|s| OffsetSolutionRecord::new(p, s)),
+            solution: r.solution().map(|s| OffsetSolutionRecord::new(p, s)).into(),
             requirements: OffsetLimitsRecord {
                 min_joint_distance: p.min_joint_distance,
                 min_abs_det: p.min_abs_det,

@@ -11,7 +11,7 @@ pub(super) fn text(name: &str, a: &DimensionalAnswer, outcome: &DimensionalOutco
     let r = &a.search;
     // writing to a string cannot fail
     let _ = writeln!(out, "{} starts, {} of them feasible in the first pass", r.starts, r.feasible);
-    if let Some(s) = &a.solution {
+    if let Some(s) = a.solution.as_option() {
         solution_text(&mut out, s);
     }
     if let Some(c) = &a.conflict {

@@ -37,7 +37,7 @@ pub(super) fn text(
         p.min_abs_det,
         p.characteristic_length
     );
-    if let (Some(r), Some(s)) = (&a.solution, solution) {
+    if let (Some(r), Some(s)) = (a.solution.as_option(), solution) {
         solution_text(&mut out, r, problem, s, units);
     }
     match a.status {
