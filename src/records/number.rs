@@ -70,6 +70,7 @@ pub enum AllOrNone<T> {
     /// All of them.
     All(T),
     /// None of them.
+    #[schemars(extend("properties" = {}))]
     None {},
 }
 
