@@ -42,7 +42,7 @@
 //! let class = design.equivalents()?;
 //! assert_eq!(class.family().counts().patterns, 728);
 //!
-//! let (free, map) = class.joint_free([0.25, 0.5, 0.25, 0.5, 0.25, 0.75])?;
+//! let (free, map) = class.joint_free([0.2, 0.21, 0.22, 0.2, 0.2, 0.23])?;
 //! assert!(map.determinant().abs() > 0.1);
 //! let found = verify_with(&design, &free, VerifyOptions::new().samples(3))?;
 //! assert_eq!(found.verdict, Verdict::Equivalent);
