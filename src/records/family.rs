@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::map::matrix;
 use super::{Number, leg_number};
 use crate::design::Design;
 use crate::equivalents::Original;
@@ -272,7 +273,7 @@ impl InstanceRecord {
         Ok(Self {
             pattern: pattern.to_string(),
             offsets: offsets.iter().copied().map(Number).collect(),
-            matrix: [0, 1, 2, 3, 4, 5].map(|i| [0, 1, 2, 3, 4, 5].map(|j| Number(map.a[(i, j)]))),
+            matrix: matrix(map),
             constants: c.map(Number),
             determinant: Number(pattern.determinant(offsets)?),
             base_joints: m.base_joints().len(),

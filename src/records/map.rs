@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Number, PoseRecord, leg_number};
 use crate::synthesis::alignment::{Alignment, Difference, Invariant, Motion, NearestMotion, Undecided};
-use crate::synthesis::{LegCorrespondence, LegMapOutcome, Relation};
+use crate::synthesis::{AffineLegMap, LegCorrespondence, LegMapOutcome, Relation};
 
 /// The answer of `map`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -61,18 +61,19 @@ pub struct MapTolerancesRecord {
     pub inverse_condition: f64,
 }
 
-/// The relation where it is decided.
-pub(super) fn decided(relation: Relation) -> Option<Relation> {
-    Some(relation).filter(|r| *r != Relation::Undecided)
+/// Rows of A.
+pub(super) fn matrix(map: &AffineLegMap) -> [[Number; 6]; 6] {
+    let rows = [0, 1, 2, 3, 4, 5];
+    rows.map(|i| rows.map(|j| Number(map.a[(i, j)])))
 }
 
 impl From<&LegMapOutcome> for MapRecord {
     fn from(o: &LegMapOutcome) -> Self {
         let c: [f64; 6] = o.closest.c.into();
         Self {
-            relation: decided(o.relation),
+            relation: o.relation.decided(),
             explanation: o.explanation(),
-            matrix: [0, 1, 2, 3, 4, 5].map(|i| [0, 1, 2, 3, 4, 5].map(|j| Number(o.closest.a[(i, j)]))),
+            matrix: matrix(&o.closest),
             constants: c.map(Number),
             determinant: Number(o.determinant),
             residual: Number(o.residual),
@@ -224,7 +225,7 @@ impl From<&Motion> for MotionRecord {
             platform: (&m.platform).into(),
             residual: Number(m.map.residual),
             det: Number(m.map.determinant),
-            relation: decided(m.map.relation),
+            relation: m.map.relation.decided(),
         }
     }
 }

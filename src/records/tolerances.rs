@@ -97,10 +97,7 @@ impl JointBudgetRecord {
 
 /// The name of a joint in the design.
 pub(super) fn joint_name(design: &Design, joint: Joint) -> &str {
-    match joint.body {
-        Body::Base => &design.base_names()[joint.index],
-        Body::Platform => &design.platform_names()[joint.index],
-    }
+    &joint.body.of((design.base_names(), design.platform_names()))[joint.index]
 }
 
 /// Errors of the pose with all joints off in the worst way, solved.

@@ -132,6 +132,11 @@ pub enum Relation {
 }
 
 impl Relation {
+    /// The relation where it is decided.
+    pub(crate) fn decided(self) -> Option<Self> {
+        Some(self).filter(|r| *r != Self::Undecided)
+    }
+
     /// `"equivalent"`, `"singular"`, `"unrelated"` or `"undecided"`.
     #[must_use]
     pub fn as_str(self) -> &'static str {

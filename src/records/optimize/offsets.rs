@@ -11,6 +11,7 @@ use crate::offsets::{
     BranchReport, BranchVerdict, Conflict, GlobalBound, HistoryStep, OffsetOutcome, OffsetProblem,
     OffsetReport, OffsetSolution,
 };
+use crate::records::map::matrix;
 use crate::records::{AllOrNone, DesignRecord, Number, PoseRecord, SourceWord, leg_number};
 
 /// Runners-up that are listed.
@@ -199,7 +200,7 @@ impl OffsetSolutionRecord {
             cyclic_order: problem.octahedral.order().map(leg_number),
             det: Number(r.det),
             det_of_matrix: Number(r.det_of_matrix),
-            matrix: [0, 1, 2, 3, 4, 5].map(|i| [0, 1, 2, 3, 4, 5].map(|j| Number(s.map.a[(i, j)]))),
+            matrix: matrix(&s.map),
             constants: constants.map(Number),
             constraint_margins: OffsetMarginsRecord {
                 base_spacing: Number(r.margins.base_spacing),

@@ -32,7 +32,7 @@ impl Record<'_> {
         MovesAnswer {
             name: self.design.name.clone(),
             // that of the last step: the moves before it were regular, and those that a leg does not follow at all are refused earlier
-            outcome: self.done.last().and_then(|s| decided(s.relocation.map.relation)),
+            outcome: self.done.last().and_then(|s| s.relocation.map.relation.decided()),
             mode: if self.together { MoveMode::Together } else { MoveMode::Sequence },
             steps: self.done.iter().map(step).collect(),
             moves_left_out: self.wanted - self.made(),
@@ -97,10 +97,6 @@ impl Record<'_> {
     }
 }
 
-fn decided(relation: Relation) -> Option<Relation> {
-    Some(relation).filter(|r| *r != Relation::Undecided)
-}
-
 fn step(s: &Done) -> MoveStepRecord {
     let r: &Relocation = &s.relocation;
     let one = |(m, (type_name, name)): (&MovedLeg, &(String, Option<String>))| LegMoveRecord {
@@ -118,7 +114,7 @@ fn step(s: &Done) -> MoveStepRecord {
         singular_parameters: (&m.singular).into(),
     };
     MoveStepRecord {
-        outcome: decided(r.map.relation),
+        outcome: r.map.relation.decided(),
         det: Number(r.map.determinant),
         moves: r.moved.iter().zip(&s.families).map(one).collect(),
     }
