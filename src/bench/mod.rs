@@ -2,7 +2,7 @@
 //! nothing with the solver, counts and times.
 //!
 //! Generator ([`Class`], [`problem`]) -> any [`ForwardKinematics`](crate::fk::ForwardKinematics) -> [`validate`]
-//! (double-double Newton in the twelve entries of `R` and `p`, on the data as given) -> [`Report`]. Problem `k` of a class
+//! (double-double Newton in the twelve entries of `R` and `p`, on the data as given) -> [`BenchReport`]. Problem `k` of a class
 //! depends on the seed, the class and `k` only, so that a failure is named by three values.
 //!
 //! This module measures time; nothing else below `cli` does.
@@ -26,6 +26,6 @@ pub use error_metric::error_metric;
 pub use generator::{LengthsFrom, NotDrawn, Problem, problem};
 pub use noise::{NOISE_LEVELS, NoiseLevel, NoisePlan, Spread, noise};
 pub use reference_time::{ReferenceTimes, reference_times};
-pub use run::{Failure, Plan, RunError, run};
-pub use statistics::{ErrorStatistics, Report, TimeSplit};
-pub use validator::{Claim, Verdict, validate};
+pub use run::{Plan, RunError, WrongAnswer, run};
+pub use statistics::{BenchReport, ErrorStatistics, TimeSplit};
+pub use validator::{Claim, Validation, validate};

@@ -56,7 +56,7 @@ pub(super) struct LegEquations {
 
 /// What an iteration led to.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Refined {
+pub(super) struct NewtonEnd {
     pub(super) point: Point,
     /// Largest entry of the first point's residual, over the squared scale of the point.
     pub(super) residual: f64,
@@ -147,29 +147,29 @@ impl LegEquations {
     /// Newton from `start` until corrections stop shrinking. Corrections are solved for in double; where that does not
     /// converge (far out, near `e.e = 0`, the Jacobian's condition grows with a power of the pose) in double-double, and where
     /// even that does not in dual quaternions.
-    pub(super) fn refine(&self, start: &Point) -> Refined {
+    pub(super) fn refine(&self, start: &Point) -> NewtonEnd {
         self.refine_from(start, None)
     }
 
     /// [`refine`](Self::refine), with the digits that a dual quaternion has and the pose has not.
-    pub(super) fn refine_from(&self, start: &Point, dual: Option<&[Complex64; 8]>) -> Refined {
+    pub(super) fn refine_from(&self, start: &Point, dual: Option<&[Complex64; 8]>) -> NewtonEnd {
         let residual = self.residual(start);
         let (point, error) = iterate(start, |x| {
             solve(self.jacobian(x).map(|row| row.map(Z::hi)), self.values(x).map(Z::hi))
                 .map(|s| s.map(Z::from))
         });
         if error < CLOSE {
-            return Refined { point, residual, error, converged: true, proper: point.is_rotation() };
+            return NewtonEnd { point, residual, error, converged: true, proper: point.is_rotation() };
         }
         let (point, error) = iterate(start, |x| solve(self.jacobian(x), self.values(x)));
         if !(error < CLOSE) {
             // what comes from a dual quaternion is a rotation
             if let Some((point, error)) = refine_dual(self, start, dual) {
-                return Refined { point, residual, error, converged: true, proper: true };
+                return NewtonEnd { point, residual, error, converged: true, proper: true };
             }
         }
         let converged = error < converged_below(point.scale());
-        Refined { point, residual, error, converged, proper: point.is_rotation() }
+        NewtonEnd { point, residual, error, converged, proper: point.is_rotation() }
     }
 }
 
@@ -210,13 +210,15 @@ fn times(z: Z, x: f64) -> Z {
 }
 
 /// What Gaussian elimination needs of a number.
-pub(super) trait Number: Copy + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> {
+pub(super) trait EliminationNumber:
+    Copy + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
+{
     const ZERO: Self;
     fn modulus(self) -> f64;
     fn reduced(self, power_of_two: f64) -> Self;
 }
 
-impl Number for Complex64 {
+impl EliminationNumber for Complex64 {
     const ZERO: Self = Self::ZERO;
     fn modulus(self) -> f64 {
         self.norm()
@@ -226,7 +228,7 @@ impl Number for Complex64 {
     }
 }
 
-impl Number for Z {
+impl EliminationNumber for Z {
     const ZERO: Self = Z::ZERO;
     fn modulus(self) -> f64 {
         self.hi().norm()
@@ -237,7 +239,10 @@ impl Number for Z {
 }
 
 /// Gaussian elimination with partial pivoting, rows scaled to largest entry about one.
-pub(super) fn solve<T: Number, const K: usize>(mut m: [[T; K]; K], mut y: [T; K]) -> Option<[T; K]> {
+pub(super) fn solve<T: EliminationNumber, const K: usize>(
+    mut m: [[T; K]; K],
+    mut y: [T; K],
+) -> Option<[T; K]> {
     for i in 0..K {
         let largest = m[i].iter().map(|z| z.modulus()).fold(0.0, f64::max);
         if !(largest > 0.0 && largest.is_finite()) {

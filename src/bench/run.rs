@@ -9,8 +9,8 @@ use super::Class;
 use super::error_metric::error_metric;
 use super::expectation::expected_count;
 use super::generator::{LengthsFrom, NotDrawn, Problem, problem};
-use super::statistics::{Report, summarise};
-use super::validator::{Claim, Verdict, validate};
+use super::statistics::{BenchReport, summarise};
+use super::validator::{Claim, Validation, validate};
 use crate::fk::{Completeness, FkOptions, FkSolutions, ForwardKinematics, PoseCounting};
 use crate::geom::ComplexPose;
 use crate::solve::certify::Certifier;
@@ -55,7 +55,7 @@ pub enum RunError {
 
 /// A problem whose answer is not right.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Failure {
+pub struct WrongAnswer {
     /// Index of the problem: with class and seed it names the problem.
     pub k: u64,
     /// Roots that are missing.
@@ -74,7 +74,7 @@ pub struct Failure {
 #[derive(Debug, Clone)]
 pub(super) struct Outcome {
     pub(super) k: u64,
-    pub(super) verdict: Verdict,
+    pub(super) verdict: Validation,
     pub(super) claimed: usize,
     pub(super) certified_roots: usize,
     pub(super) proved: bool,
@@ -184,7 +184,7 @@ pub fn run(
     plan: &Plan,
     solver: &dyn ForwardKinematics,
     reference: &dyn ForwardKinematics,
-) -> Result<Report, RunError> {
+) -> Result<BenchReport, RunError> {
     let undrawn = |k: u64| move |why: NotDrawn| RunError::NotDrawn { k, why };
     problem(plan.class, plan.lengths, plan.seed, plan.first).map_err(undrawn(plan.first))?;
     let expected = expected_count(plan.class, plan.lengths, plan.seed, reference)

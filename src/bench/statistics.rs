@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::run::{Failure, Outcome, Plan};
+use super::run::{Outcome, Plan, WrongAnswer};
 
 /// Statistics of Martyushev's error metric over the problems, as in the paper's Table 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,7 +32,7 @@ pub struct TimeSplit {
 
 /// The result of a run.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Report {
+pub struct BenchReport {
     /// What was run.
     pub plan: Plan,
     /// Finite poses a member of the class has, as computed.
@@ -78,10 +78,10 @@ pub struct Report {
     /// Accuracy in Martyushev's measure.
     pub epsilon: ErrorStatistics,
     /// Problems whose answer is not right.
-    pub failures: Vec<Failure>,
+    pub failures: Vec<WrongAnswer>,
 }
 
-impl Report {
+impl BenchReport {
     /// Nothing missed, nothing spurious, no false certificate.
     #[must_use]
     pub fn passed(&self) -> bool {
@@ -116,7 +116,7 @@ fn is_wrong(o: &Outcome) -> bool {
     o.verdict.missed + o.verdict.spurious + o.verdict.false_certificates > 0
 }
 
-pub(super) fn summarise(plan: &Plan, expected: usize, seconds: f64, outcomes: &[Outcome]) -> Report {
+pub(super) fn summarise(plan: &Plan, expected: usize, seconds: f64, outcomes: &[Outcome]) -> BenchReport {
     let count = |test: &dyn Fn(&Outcome) -> bool| outcomes.iter().filter(|o| test(o)).count() as u64;
     let sum = |of: &dyn Fn(&Outcome) -> usize| outcomes.iter().map(|o| of(o) as u64).sum();
     let median = |of: &dyn Fn(&Outcome) -> f64| quantile(outcomes.iter().map(of), 0.5);
@@ -127,7 +127,7 @@ pub(super) fn summarise(plan: &Plan, expected: usize, seconds: f64, outcomes: &[
         }
         counts
     };
-    let failures = outcomes.iter().filter(|o| is_wrong(o)).map(|o| Failure {
+    let failures = outcomes.iter().filter(|o| is_wrong(o)).map(|o| WrongAnswer {
         k: o.k,
         missed: o.verdict.missed,
         spurious: o.verdict.spurious,
@@ -135,7 +135,7 @@ pub(super) fn summarise(plan: &Plan, expected: usize, seconds: f64, outcomes: &[
         found: o.verdict.distinct,
         solver: o.solver.clone(),
     });
-    Report {
+    BenchReport {
         plan: *plan,
         expected,
         complete: count(&|o| o.verdict.missed + o.verdict.spurious == 0),

@@ -8,7 +8,7 @@ use crate::num::disc::Disc;
 use crate::num::double_double::ComplexDoubleDouble;
 
 use super::generator::Problem;
-use super::newton::{LegEquations, Point, Refined};
+use super::newton::{LegEquations, NewtonEnd, Point};
 use super::symmetry::Mirror;
 
 /// Largest residual of a root, relative to the square of the pose's own numbers.
@@ -41,7 +41,7 @@ pub struct Claim {
 
 /// What validation found.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Verdict {
+pub struct Validation {
     /// Distinct roots that are right.
     pub distinct: usize,
     /// The same, singular ones counted with their claimed multiplicity.
@@ -68,9 +68,9 @@ struct Root {
 /// start): each that refines to a regular root must be among the claims, as must conjugates and, for two
 /// planar bodies, mirror images.
 #[must_use]
-pub fn validate(problem: &Problem, claims: &[Claim], others: &[ComplexPose]) -> Verdict {
+pub fn validate(problem: &Problem, claims: &[Claim], others: &[ComplexPose]) -> Validation {
     let equations = LegEquations::new(&problem.manipulator, &problem.squares);
-    let mut verdict = Verdict::default();
+    let mut verdict = Validation::default();
     let mut roots: Vec<Root> = Vec::new();
     for claim in claims {
         let start = equations.point(&claim.pose);
@@ -103,13 +103,13 @@ pub fn validate(problem: &Problem, claims: &[Claim], others: &[ComplexPose]) -> 
 }
 
 /// The iteration converged near where it started.
-fn is_regular(start: &Point, refined: &Refined) -> bool {
+fn is_regular(start: &Point, refined: &NewtonEnd) -> bool {
     refined.converged && start.distance(&refined.point) <= MOVED * start.scale()
 }
 
 /// The claimed discs hold both what is claimed and the root the iteration converged to. Far out, where discs are wider than
 /// [`MOVED`], this is the better rule.
-fn encloses(claim: &Claim, start: &Point, refined: &Refined, unit: f64) -> bool {
+fn encloses(claim: &Claim, start: &Point, refined: &NewtonEnd, unit: f64) -> bool {
     let discs = claim.enclosure.as_deref().filter(|_| claim.certified && refined.converged);
     discs.is_some_and(|discs| {
         let slack = 1e-28 + 10.0 * refined.error;
@@ -128,7 +128,7 @@ fn in_discs(discs: &[Disc], x: &Point, slack: f64, unit: f64) -> bool {
     discs.len() == 12 && discs.iter().enumerate().all(holds)
 }
 
-fn radius(refined: &Refined) -> f64 {
+fn radius(refined: &NewtonEnd) -> f64 {
     (SAME + 100.0 * refined.error) * refined.point.scale()
 }
 
@@ -137,7 +137,7 @@ fn holds(roots: &[Root], x: &Point) -> bool {
 }
 
 /// The refined root lies in the claimed discs and is as real as claimed.
-fn is_as_claimed(claim: &Claim, refined: &Refined, unit: f64) -> bool {
+fn is_as_claimed(claim: &Claim, refined: &NewtonEnd, unit: f64) -> bool {
     let x = &refined.point;
     let scale = x.scale();
     let in_place = if let Some(discs) = &claim.enclosure {
@@ -166,7 +166,7 @@ fn missed(
     others: &[ComplexPose],
 ) -> usize {
     let mut absent: Vec<Root> = Vec::new();
-    let mut look = |refined: Refined, near: bool| {
+    let mut look = |refined: NewtonEnd, near: bool| {
         let known = holds(roots, &refined.point) || holds(&absent, &refined.point);
         if near && refined.converged && refined.proper && !known {
             let (point, radius) = (refined.point, radius(&refined));

@@ -6,7 +6,7 @@ use super::args::Global;
 use super::diagnostic;
 use super::failure::Failure;
 use super::files;
-use super::rows::{self, Table};
+use super::rows::{self, TableName};
 use crate::design::{Design, Format, Warning, parse};
 use crate::geom::{InvalidPose, Pose};
 
@@ -79,7 +79,7 @@ impl Context {
 fn poses_beside(design: &Path, file: &str) -> Result<Vec<Pose>, Failure> {
     let path = design.parent().unwrap_or(Path::new("")).join(file);
     let shown = path.display().to_string();
-    let table = Table {
+    let table = TableName {
         path: &shown,
         code: "design::bad_trajectory",
         form: "a pose a line: x,y,z,roll_deg,pitch_deg,yaw_deg or x,y,z,qw,qx,qy,qz",

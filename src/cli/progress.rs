@@ -7,12 +7,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Writes nothing unless standard error is a terminal.
 #[derive(Debug)]
-pub(crate) struct Progress {
+pub(crate) struct ProgressLine {
     on: bool,
     shown: Option<usize>,
 }
 
-impl Progress {
+impl ProgressLine {
     pub(crate) fn new(quiet: bool) -> Self {
         Self { on: !quiet && std::io::stderr().is_terminal(), shown: None }
     }
@@ -47,7 +47,7 @@ impl Progress {
         self.shown = None;
     }
 
-    /// Ends the line of [`Progress::note`].
+    /// Ends the line of [`ProgressLine::note`].
     pub(crate) fn end(&mut self) {
         self.put("\n");
     }

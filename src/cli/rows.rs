@@ -8,7 +8,7 @@ const SHOWN: usize = 20;
 
 /// What a table is called when it is refused.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Table<'a> {
+pub(crate) struct TableName<'a> {
     /// Its file.
     pub(crate) path: &'a str,
     /// Code of the refusal.
@@ -24,7 +24,7 @@ pub(crate) struct Table<'a> {
 /// Exit 2: all bad lines are named; a table without a record is refused too.
 pub(crate) fn read<T>(
     text: &str,
-    table: Table<'_>,
+    table: TableName<'_>,
     record: impl Fn(&str) -> Result<T, String>,
 ) -> Result<Vec<(usize, T)>, Failure> {
     let (rows, bad) = match table_rows(text, record) {

@@ -4,7 +4,7 @@ use nalgebra::Point3;
 use thiserror::Error;
 
 use super::tree::{Entry, Value, find};
-use super::violation::Report;
+use super::violation::Findings;
 use super::{Design, Format, Warning, parse, toml_text};
 use crate::manipulator::{InvalidManipulator, Manipulator};
 
@@ -55,7 +55,7 @@ impl Written {
 
 /// Where the three coordinates of a joint stand, in this order.
 fn coordinates(text: &str, body: &str, name: &str) -> Option<[std::ops::Range<usize>; 3]> {
-    let root = toml_text::read(text, &mut Report::new(text))?;
+    let root = toml_text::read(text, &mut Findings::new(text))?;
     let table = |value: &Value, key: &str| -> Option<Value> {
         let Value::Table(entries) = value else { return None };
         find(entries, key).map(|e: &Entry| e.node.value.clone())

@@ -7,7 +7,7 @@ use jsonc_parser::{CollectOptions, ParseOptions, parse_to_ast};
 
 use super::Code;
 use super::tree::{Entry, MAX_DEPTH, Node, Value};
-use super::violation::Report;
+use super::violation::Findings;
 
 const STRICT: ParseOptions = ParseOptions {
     allow_comments: false,
@@ -23,7 +23,7 @@ const STRICT: ParseOptions = ParseOptions {
 };
 
 /// Reads the text; a syntax error goes to the report and makes this `None`.
-pub(super) fn read(text: &str, report: &mut Report<'_>) -> Option<Node> {
+pub(super) fn read(text: &str, report: &mut Findings<'_>) -> Option<Node> {
     match parse_to_ast(text, &CollectOptions::default(), &STRICT) {
         Ok(result) => match result.value {
             Some(value) => node(&value, report, 0),
@@ -43,12 +43,12 @@ pub(super) fn read(text: &str, report: &mut Report<'_>) -> Option<Node> {
     }
 }
 
-fn too_deep(report: &mut Report<'_>, span: &std::ops::Range<usize>) {
+fn too_deep(report: &mut Findings<'_>, span: &std::ops::Range<usize>) {
     let help = "a design has objects of arrays of numbers, nothing deeper";
     report.refuse(Code::NestingTooDeep, span, format!("nested deeper than {MAX_DEPTH} levels"), help);
 }
 
-fn node(value: &Ast<'_>, report: &mut Report<'_>, depth: usize) -> Option<Node> {
+fn node(value: &Ast<'_>, report: &mut Findings<'_>, depth: usize) -> Option<Node> {
     let span = value.start()..value.end();
     if depth > MAX_DEPTH {
         too_deep(report, &span);
@@ -69,7 +69,7 @@ fn node(value: &Ast<'_>, report: &mut Report<'_>, depth: usize) -> Option<Node> 
     Some(Node { span, value })
 }
 
-fn table(object: &Object<'_>, report: &mut Report<'_>, depth: usize) -> Option<Value> {
+fn table(object: &Object<'_>, report: &mut Findings<'_>, depth: usize) -> Option<Value> {
     let mut entries: Vec<Entry> = Vec::with_capacity(object.properties.len());
     let mut seen = std::collections::BTreeSet::new();
     for property in &object.properties {

@@ -95,7 +95,7 @@ impl std::str::FromStr for Format {
 /// All violations found, in the order of the text: a text with syntax errors is not examined further.
 pub fn parse(text: &str, format: Format) -> Result<(Design, Vec<Warning>), Vec<Violation>> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let mut report = violation::Report::new(text);
+    let mut report = violation::Findings::new(text);
     if text.trim().is_empty() {
         let help = "a design needs name, units, legs, [base] and [platform]; `designs/` has examples";
         report.refuse(Code::Empty, &(0..0), "the file is empty", help);

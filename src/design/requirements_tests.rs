@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use super::fixtures::REQUIRED as GOOD;
 use super::*;
 use crate::manipulator::Body;
-use crate::requirements::{Housing, JointAxes, LengthLimits, Region, Shape};
+use crate::requirements::{Housing, JointAxes, KeepOutShape, LengthLimits, Region};
 
 #[test]
 fn every_key_is_read_and_written_back_to_the_bit() {
@@ -23,7 +23,7 @@ fn every_key_is_read_and_written_back_to_the_bit() {
     assert_eq!(design.workspace.region, Region::Ellipsoid);
     assert_eq!(design.workspace.trajectory.as_ref().unwrap().file, "path.csv");
     assert_eq!((design.loads[1].name.as_str(), design.loads[1].fixed_to), ("load 2", Body::Platform));
-    assert!(matches!(design.keep_outs[2].shape, Shape::Capsule { diameter: 3.0, .. }));
+    assert!(matches!(design.keep_outs[2].shape, KeepOutShape::Capsule { diameter: 3.0, .. }));
     let required = design.requirements();
     assert_eq!(
         (required.loads.len(), required.keep_outs.len(), required.platform_speed.unwrap().linear),

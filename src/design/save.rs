@@ -6,7 +6,9 @@ use serde::ser::{SerializeMap, Serializer};
 
 use super::{Combination, Design, OptimizeTable, SearchTable};
 use crate::geom::Pose;
-use crate::requirements::{Hardware, Housing, JointAxes, KeepOut, LengthLimits, Load, Region, Shape, Swing};
+use crate::requirements::{
+    Hardware, Housing, JointAxes, KeepOut, KeepOutShape, LengthLimits, Load, Region, Swing,
+};
 
 /// The structure of a file, in the order it is written.
 #[derive(Serialize)]
@@ -372,13 +374,13 @@ impl<'a> From<&'a KeepOut> for KeepOutTable<'a> {
         let mut out =
             Self { name: &k.name, fixed_to: k.fixed_to.name(), block: None, sphere: None, capsule: None };
         match k.shape {
-            Shape::Box { center, size } => {
+            KeepOutShape::Box { center, size } => {
                 out.block = Some(BoxTable { center: point(center), size: vector(size) });
             }
-            Shape::Sphere { center, diameter } => {
+            KeepOutShape::Sphere { center, diameter } => {
                 out.sphere = Some(SphereTable { center: point(center), diameter });
             }
-            Shape::Capsule { from, to, diameter } => {
+            KeepOutShape::Capsule { from, to, diameter } => {
                 out.capsule = Some(CapsuleTable { from: point(from), to: point(to), diameter });
             }
         }

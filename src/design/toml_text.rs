@@ -5,13 +5,13 @@ use toml::de::{DeTable, DeValue};
 
 use super::Code;
 use super::tree::{Entry, MAX_DEPTH, Node, Value};
-use super::violation::Report;
+use super::violation::Findings;
 
 /// Reads the text; syntax errors go to the report and make this `None`.
 ///
 /// After a fault the parser goes on where it can, and an open bracket then makes every later line wrong. Of neighbouring
 /// faulty lines only the first is therefore reported; a fault after good lines is reported again.
-pub(super) fn read(text: &str, report: &mut Report<'_>) -> Option<Node> {
+pub(super) fn read(text: &str, report: &mut Findings<'_>) -> Option<Node> {
     let (document, errors) = DeTable::parse_recoverable(text);
     let mut faults = Vec::new();
     for error in &errors {
@@ -48,12 +48,12 @@ fn holds_toml(line: &str) -> bool {
     !line.trim().is_empty() && !line.trim_start().starts_with('#')
 }
 
-fn too_deep(report: &mut Report<'_>, span: &std::ops::Range<usize>) {
+fn too_deep(report: &mut Findings<'_>, span: &std::ops::Range<usize>) {
     let help = "a design has tables of arrays of numbers, nothing deeper";
     report.refuse(Code::NestingTooDeep, span, format!("nested deeper than {MAX_DEPTH} levels"), help);
 }
 
-fn table(table: &DeTable<'_>, report: &mut Report<'_>, depth: usize) -> Option<Value> {
+fn table(table: &DeTable<'_>, report: &mut Findings<'_>, depth: usize) -> Option<Value> {
     let mut entries = Vec::with_capacity(table.len());
     for (key, value) in table {
         let node = node(value, report, depth + 1)?;
@@ -64,7 +64,7 @@ fn table(table: &DeTable<'_>, report: &mut Report<'_>, depth: usize) -> Option<V
     Some(Value::Table(entries))
 }
 
-fn node(value: &Spanned<DeValue<'_>>, report: &mut Report<'_>, depth: usize) -> Option<Node> {
+fn node(value: &Spanned<DeValue<'_>>, report: &mut Findings<'_>, depth: usize) -> Option<Node> {
     let span = value.span();
     if depth > MAX_DEPTH {
         too_deep(report, &span);

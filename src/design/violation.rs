@@ -210,7 +210,7 @@ const MAX_VIOLATIONS: usize = 100;
 
 /// Violations and warnings found so far in one text.
 #[derive(Debug)]
-pub(super) struct Report<'t> {
+pub(super) struct Findings<'t> {
     text: &'t str,
     line_starts: Vec<usize>,
     violations: Vec<Violation>,
@@ -218,7 +218,7 @@ pub(super) struct Report<'t> {
     unlisted: usize,
 }
 
-impl<'t> Report<'t> {
+impl<'t> Findings<'t> {
     pub(super) fn new(text: &'t str) -> Self {
         let starts = text.bytes().enumerate().filter(|(_, b)| *b == b'\n').map(|(i, _)| i + 1);
         let line_starts = std::iter::once(0).chain(starts).collect();
@@ -303,7 +303,7 @@ mod tests {
     #[test]
     fn columns_are_counted_in_characters() {
         let text = "a\n\u{e9}\u{e9} = x\r\n";
-        let mut report = Report::new(text);
+        let mut report = Findings::new(text);
         let at = text.find('x').unwrap();
         report.refuse(Code::Syntax, &(at..at + 1), "m", "h");
         report.refuse(Code::Syntax, &(text.len()..text.len()), "m", "h");
@@ -313,7 +313,7 @@ mod tests {
 
     #[test]
     fn endless_violations_end_in_a_count() {
-        let mut report = Report::new("x");
+        let mut report = Findings::new("x");
         for _ in 0..250 {
             report.refuse(Code::UnknownKey, &(0..1), "m", "h");
         }

@@ -3,35 +3,35 @@
 
 use std::collections::BTreeMap;
 
-use super::model::{Group, Model, Task};
-use super::outcome::{Conflict, Demand, Give};
-use super::search::{Refined, SearchOptions, population, refine};
-use super::terms::{HeldPose, Item, Lines};
-use crate::num::conic::{Cone, ConicAnswer, ConicProgram, Row};
+use super::model::{ConstraintGroup, Model, Task};
+use super::outcome::{ConstraintConflict, Demand, Give};
+use super::search::{RefinedRun, ShapeSearchOptions, population, refine};
+use super::terms::{HeldPose, Item, LegLines};
+use crate::num::conic::{Cone, ConicAnswer, ConicProgram, ConicRow};
 use crate::num::farkas::{EnclosedRow, refuted};
 use crate::num::interval::Interval;
 use crate::num::parallel::parallel;
 use crate::requirements::TermKind;
 
-fn no_objective(model: &Model<'_>, dropped: Vec<Group>) -> Task {
+fn no_objective(model: &Model<'_>, dropped: Vec<ConstraintGroup>) -> Task {
     let n = model.objectives.len();
     Task { weights: vec![0.0; n], floors: vec![None; n], dropped, soft: None }
 }
 
 /// Least violation, objectives left out, from where the runs ended.
-pub(crate) fn elastic(model: &Model<'_>, from: &[Refined], threads: usize) -> Vec<Refined> {
+pub(crate) fn elastic(model: &Model<'_>, from: &[RefinedRun], threads: usize) -> Vec<RefinedRun> {
     settle(model, &no_objective(model, Vec::new()), from, threads)
 }
 
-fn settle(model: &Model<'_>, task: &Task, from: &[Refined], threads: usize) -> Vec<Refined> {
+fn settle(model: &Model<'_>, task: &Task, from: &[RefinedRun], threads: usize) -> Vec<RefinedRun> {
     let run = |k: usize| refine(model, task, &from[k].run.x, from[k].poses.clone(), k as u64);
     let mut out = parallel(from.len(), threads, run, &mut |_, _| ());
     out.sort_by(|a, b| by_violation(task, a, b));
     out
 }
 
-fn by_violation(task: &Task, a: &Refined, b: &Refined) -> std::cmp::Ordering {
-    let of = |r: &Refined| r.run.judged.total_violation(task);
+fn by_violation(task: &Task, a: &RefinedRun, b: &RefinedRun) -> std::cmp::Ordering {
+    let of = |r: &RefinedRun| r.run.judged.total_violation(task);
     of(a).total_cmp(&of(b))
 }
 
@@ -46,13 +46,13 @@ const FRESH: (usize, usize) = (6, 5);
 pub(crate) fn attempt(
     model: &Model<'_>,
     task: &Task,
-    from: &[Refined],
-    o: &SearchOptions,
+    from: &[RefinedRun],
+    o: &ShapeSearchOptions,
     k: usize,
-) -> Result<Refined, Vec<Refined>> {
+) -> Result<RefinedRun, Vec<RefinedRun>> {
     let mut runs = settle(model, task, from, o.threads);
     if !runs.iter().any(|r| r.run.is_feasible(model)) {
-        let few = SearchOptions { starts: FRESH.0, generations: FRESH.1, ..*o };
+        let few = ShapeSearchOptions { starts: FRESH.0, generations: FRESH.1, ..*o };
         let starts = population(model, task, &[], POPULATIONS + 3 * k, &few);
         let run = |i: usize| refine(model, task, &starts[i].x, model.first_poses(), i as u64);
         runs.extend(parallel(starts.len(), o.threads, run, &mut |_, _| ()));
@@ -68,9 +68,9 @@ pub(crate) fn attempt(
 /// What becomes of requirements that no run met.
 pub(crate) enum Clash {
     /// An irreducible set of constraints that could not be met together.
-    Conflict(Conflict),
+    Conflict(ConstraintConflict),
     /// Looking for one, a point was found that meets all of them.
-    Met(Box<Refined>),
+    Met(Box<RefinedRun>),
     /// The elastic problem did not settle, or the set that was left could be met after all.
     Unsettled,
 }
@@ -78,15 +78,15 @@ pub(crate) enum Clash {
 /// Looks for an irreducible set of constraints that could not be met together.
 ///
 /// Deletion filter (Chinneck, Dravnieks 1991): constraints are left out one kind at a time, and stay out when the others still cannot be met.
-pub(crate) fn conflict(model: &Model<'_>, settled: &[Refined], o: &SearchOptions) -> Clash {
+pub(crate) fn conflict(model: &Model<'_>, settled: &[RefinedRun], o: &ShapeSearchOptions) -> Clash {
     let Some(best) = settled.first().filter(|best| best.run.converged) else { return Clash::Unsettled };
-    let all: Vec<Group> = best.run.judged.violations.keys().copied().collect();
-    let mut dropped: Vec<Group> = Vec::new();
-    let mut from: Vec<Refined> = settled.to_vec();
+    let all: Vec<ConstraintGroup> = best.run.judged.violations.keys().copied().collect();
+    let mut dropped: Vec<ConstraintGroup> = Vec::new();
+    let mut from: Vec<RefinedRun> = settled.to_vec();
     // those that hold at the least violation go first: they are most likely to take no part
     let mut order = all.clone();
     order.sort_by(|a, b| best.run.judged.violations[a].total_cmp(&best.run.judged.violations[b]));
-    let mut alone: BTreeMap<Group, Refined> = BTreeMap::new();
+    let mut alone: BTreeMap<ConstraintGroup, RefinedRun> = BTreeMap::new();
     for (k, group) in order.into_iter().enumerate() {
         let mut without = dropped.clone();
         without.push(group);
@@ -100,7 +100,7 @@ pub(crate) fn conflict(model: &Model<'_>, settled: &[Refined], o: &SearchOptions
             Err(runs) => (dropped, from) = (without, runs),
         }
     }
-    let kept: Vec<Group> = all.into_iter().filter(|g| !dropped.contains(g)).collect();
+    let kept: Vec<ConstraintGroup> = all.into_iter().filter(|g| !dropped.contains(g)).collect();
     let task = no_objective(model, dropped);
     let together = settle(model, &task, &from, o.threads);
     let Some(least) = together.first().filter(|least| !least.run.is_feasible(model)) else {
@@ -108,7 +108,7 @@ pub(crate) fn conflict(model: &Model<'_>, settled: &[Refined], o: &SearchOptions
     };
     let total = amounts(model, &least.poses, &least.run.x, &task);
     let proved = proved_empty(model, &least.poses, &least.run.x, &kept, &task);
-    let of = |group: &Group| total.get(group).copied().unwrap_or(0.0);
+    let of = |group: &ConstraintGroup| total.get(group).copied().unwrap_or(0.0);
     let mut demands = Vec::new();
     for group in kept {
         let mut found = None;
@@ -130,37 +130,37 @@ pub(crate) fn conflict(model: &Model<'_>, settled: &[Refined], o: &SearchOptions
         }
         demands.push(Give { demand: demand(model, group), alone: found, together: of(&group) });
     }
-    Clash::Conflict(Conflict { demands, proved })
+    Clash::Conflict(ConstraintConflict { demands, proved })
 }
 
-fn demand(model: &Model<'_>, group: Group) -> Demand {
+fn demand(model: &Model<'_>, group: ConstraintGroup) -> Demand {
     match group {
-        Group::Term(kind) => Demand::Requirement(kind),
-        Group::Determinant => Demand::Determinant,
-        Group::Reach => Demand::Reach,
-        Group::Floor(m) => Demand::Level(model.objectives[m]),
+        ConstraintGroup::Term(kind) => Demand::Requirement(kind),
+        ConstraintGroup::Determinant => Demand::Determinant,
+        ConstraintGroup::Reach => Demand::Reach,
+        ConstraintGroup::Floor(m) => Demand::Level(model.objectives[m]),
     }
 }
 
 /// The run with the least violation of one group while the others of the conflict are to hold.
-fn least_alone(model: &Model<'_>, from: &Refined, group: Group, task: &Task) -> Refined {
+fn least_alone(model: &Model<'_>, from: &RefinedRun, group: ConstraintGroup, task: &Task) -> RefinedRun {
     // a group that costs a hundredth of the others gives way first
     let task = Task { soft: Some(group), ..task.clone() };
     refine(model, &task, &from.run.x, from.poses.clone(), 1)
 }
 
-fn others_hold(model: &Model<'_>, refined: &Refined, group: Group) -> bool {
+fn others_hold(model: &Model<'_>, refined: &RefinedRun, group: ConstraintGroup) -> bool {
     let others = refined.run.judged.violations.iter().filter(|(g, _)| **g != group);
     others.map(|(_, v)| *v).fold(0.0, f64::max) <= model.backoff
 }
 
 /// Violations in the units of the requirements.
-fn amounts(model: &Model<'_>, poses: &[HeldPose], x: &[f64], task: &Task) -> BTreeMap<Group, f64> {
+fn amounts(model: &Model<'_>, poses: &[HeldPose], x: &[f64], task: &Task) -> BTreeMap<ConstraintGroup, f64> {
     let h = &model.problem.requirements.hardware;
     let ends = model.shape.ends(x);
-    let mut out: BTreeMap<Group, f64> = BTreeMap::new();
+    let mut out: BTreeMap<ConstraintGroup, f64> = BTreeMap::new();
     for at in poses {
-        let l = Lines::new(&ends, at);
+        let l = LegLines::new(&ends, at);
         model.terms.visit(&l, &ends, x, &mut |item: Item<()>| {
             let (kind, leg) = (item.id.0, item.id.1);
             let lean = |limit: f64| {
@@ -174,23 +174,23 @@ fn amounts(model: &Model<'_>, poses: &[HeldPose], x: &[f64], task: &Task) -> BTr
                 TermKind::LegSpeed => -item.value * h.max_leg_speed.unwrap_or(1.0),
                 _ => -item.value * model.terms.size,
             };
-            let worst = out.entry(Group::Term(kind)).or_insert(0.0);
+            let worst = out.entry(ConstraintGroup::Term(kind)).or_insert(0.0);
             *worst = worst.max(miss);
         });
     }
     for (group, value) in &model.judge(poses, x, task, model.sign(x)).violations {
         match group {
-            Group::Floor(_) => {
+            ConstraintGroup::Floor(_) => {
                 out.insert(*group, *value);
             }
             // the spare is not part of what is required
-            Group::Determinant | Group::Reach => {
+            ConstraintGroup::Determinant | ConstraintGroup::Reach => {
                 out.insert(*group, (*value - model.backoff).max(0.0));
             }
-            Group::Term(kind) if kind.is_fixed() => {
+            ConstraintGroup::Term(kind) if kind.is_fixed() => {
                 out.insert(*group, (*value - model.backoff).max(0.0) * model.terms.size);
             }
-            Group::Term(_) => {}
+            ConstraintGroup::Term(_) => {}
         }
     }
     out
@@ -218,7 +218,7 @@ pub(crate) fn proved_empty(
     model: &Model<'_>,
     poses: &[HeldPose],
     x: &[f64],
-    groups: &[Group],
+    groups: &[ConstraintGroup],
     task: &Task,
 ) -> bool {
     let Some(all) = model.linearise(poses, x, task, model.sign(x), EVERYWHERE) else { return false };
@@ -233,13 +233,14 @@ pub(crate) fn proved_empty(
     let mut rows: Vec<EnclosedRow> = Vec::new();
     for item in own {
         let Some(cone) = &item.cone else { return false };
-        let row = |(value, gradient): &(f64, Vec<f64>), spare: f64| Row {
+        let row = |(value, gradient): &(f64, Vec<f64>), spare: f64| ConicRow {
             coefficients: gradient.iter().enumerate().map(|(j, g)| (j, -g)).collect(),
             rhs: value + spare,
         };
         // what is proved is about the requirement itself, without the spare
         let head = row(&cone.head, model.backoff * cone.slack);
-        let block: Vec<Row> = std::iter::once(head).chain(cone.tail.iter().map(|t| row(t, 0.0))).collect();
+        let block: Vec<ConicRow> =
+            std::iter::once(head).chain(cone.tail.iter().map(|t| row(t, 0.0))).collect();
         let rates = block.iter().flat_map(|r| &r.coefficients).map(|c| c.1.abs()).fold(0.0, f64::max);
         let largest = block.iter().map(|r| r.rhs.abs()).fold(rates, f64::max);
         let scale = (coordinates / model.terms.size + largest + 1.0) * cone.slack.abs().max(1.0);

@@ -2,12 +2,12 @@
 
 use nalgebra::{Rotation3, Vector3};
 
-use super::merit::{Cluster, Piece};
-use super::model::{Group, Model, Task};
+use super::merit::{Cluster, MeritPiece};
+use super::model::{ConstraintGroup, Model, Task};
 use super::pull::{Gradient, Pull, Rate};
-use super::shape::Ends;
+use super::shape::JointEnds;
 use super::skeleton::Room;
-use super::terms::{Exact, HeldPose, Item, Lines, TermId};
+use super::terms::{ConvexForm, HeldPose, Item, LegLines, TermId};
 use crate::requirements::Objective;
 use crate::requirements::TermKind;
 
@@ -17,18 +17,18 @@ const NO_POSE: usize = usize::MAX;
 /// A constraint near a point.
 #[derive(Debug, Clone)]
 pub(crate) struct LinearItem {
-    pub(crate) group: Group,
+    pub(crate) group: ConstraintGroup,
     /// Pose and requirement.
     pub(crate) id: (usize, TermId),
     pub(crate) value: f64,
     pub(crate) gradient: Vec<f64>,
     /// Head and tail of a second-order cone, divided by the size.
-    pub(crate) cone: Option<Cone>,
+    pub(crate) cone: Option<AffineCone>,
 }
 
 /// `head >= |tail|`, affine in the step.
 #[derive(Debug, Clone)]
-pub(crate) struct Cone {
+pub(crate) struct AffineCone {
     pub(crate) head: (f64, Vec<f64>),
     pub(crate) tail: [(f64, Vec<f64>); 3],
     /// Factor of the slack in the head.
@@ -48,7 +48,7 @@ pub(crate) struct LinearCluster {
 pub(crate) enum LinearBound {
     Plain,
     Spectral { f: f64, h: f64, low: LinearCluster, high: LinearCluster },
-    Length(Option<Cone>),
+    Length(Option<AffineCone>),
 }
 
 /// A piece of an objective near a point.
@@ -66,7 +66,7 @@ fn affine(at: f64, gradient: &[f64], d: &[f64]) -> f64 {
     at + gradient.iter().zip(d).map(|(g, d)| g * d).sum::<f64>()
 }
 
-impl Cone {
+impl AffineCone {
     fn norm(&self, d: &[f64]) -> f64 {
         self.tail.iter().map(|(v, g)| affine(*v, g, d).powi(2)).sum::<f64>().sqrt()
     }
@@ -124,7 +124,7 @@ pub(crate) struct Linearised {
 
 /// Legs at a held pose with the motions of the variables.
 struct Near<'a> {
-    l: Lines,
+    l: LegLines,
     at: &'a HeldPose,
     rates: &'a [Rate],
     home: Rotation3<f64>,
@@ -152,9 +152,9 @@ impl Model<'_> {
         let mut out = Linearised::default();
         let near = 4.0 * radius + 0.01;
         for (k, at) in poses.iter().enumerate() {
-            let n = Near { l: Lines::new(&ends, at), at, rates: &rates, home };
+            let n = Near { l: LegLines::new(&ends, at), at, rates: &rates, home };
             self.terms.visit(&n.l, &ends, x, &mut |item: Item<Pull>| {
-                let group = Group::Term(item.id.0);
+                let group = ConstraintGroup::Term(item.id.0);
                 let steep = matches!(item.id.0, TermKind::LegForce | TermKind::LegSpeed);
                 if (steep || item.value < near) && !task.dropped.contains(&group) {
                     let gradient = n.gradient(&item.pull);
@@ -173,17 +173,23 @@ impl Model<'_> {
             }
         }
         self.terms.fixed(&ends, &mut |item: Item<Pull>| {
-            let group = Group::Term(item.id.0);
+            let group = ConstraintGroup::Term(item.id.0);
             if !task.dropped.contains(&group) {
                 let gradient = item.pull.gradient(&rates, &identity, false, &home);
                 out.items.extend(screened(NO_POSE, &item, group, gradient, None, radius));
             }
         });
         if let (Some((value, gradient)), false) =
-            (self.determinant(x, sign), task.dropped.contains(&Group::Determinant))
+            (self.determinant(x, sign), task.dropped.contains(&ConstraintGroup::Determinant))
         {
             let id = (NO_POSE, (TermKind::BaseSpacing, NO_POSE, NO_POSE, NO_POSE));
-            out.items.push(LinearItem { group: Group::Determinant, id, value, gradient, cone: None });
+            out.items.push(LinearItem {
+                group: ConstraintGroup::Determinant,
+                id,
+                value,
+                gradient,
+                cone: None,
+            });
         }
         for Room { leg, platform, value, gradient } in self.shape.rooms(&ends) {
             let mut pull = Pull::none();
@@ -194,7 +200,7 @@ impl Model<'_> {
             }
             let id = (NO_POSE, (TermKind::PlatformSpacing, leg, NO_POSE, usize::from(platform)));
             let gradient = pull.gradient(&rates, &identity, false, &home);
-            out.items.push(LinearItem { group: Group::Reach, id, value, gradient, cone: None });
+            out.items.push(LinearItem { group: ConstraintGroup::Reach, id, value, gradient, cone: None });
         }
         for (m, o) in self.wanted(task) {
             let mut number = 0;
@@ -204,7 +210,7 @@ impl Model<'_> {
                 out.pieces.push(LinearPiece { objective: m, id: (NO_POSE, 0), value, gradient, bound });
             }
             self.merit.pieces_fixed(o, &self.terms, &ends, &mut |piece| {
-                if let Piece::Linear(value, pull) = piece {
+                if let MeritPiece::Linear(value, pull) = piece {
                     let gradient = pull.gradient(&rates, &identity, false, &home);
                     let bound = LinearBound::Plain;
                     out.pieces.push(LinearPiece {
@@ -224,11 +230,11 @@ impl Model<'_> {
         good.then_some(out)
     }
 
-    fn mean(&self, ends: &Ends, rates: &[Rate]) -> Option<(f64, Vec<f64>)> {
+    fn mean(&self, ends: &JointEnds, rates: &[Rate]) -> Option<(f64, Vec<f64>)> {
         let count = self.merit.sample.len() as f64;
         let (mut value, mut gradient) = (0.0, vec![0.0; rates.len()]);
         for at in &self.merit.sample {
-            let l = Lines::new(ends, at);
+            let l = LegLines::new(ends, at);
             let (g, pull) = self.merit.conditioning(&l)?;
             value += g / count;
             let own = pull.gradient(rates, &l.rotation, at.follows, &self.terms.home.rotation);
@@ -237,13 +243,13 @@ impl Model<'_> {
         Some((value, gradient))
     }
 
-    fn piece(&self, objective: usize, id: (usize, usize), piece: Piece, n: &Near<'_>) -> LinearPiece {
+    fn piece(&self, objective: usize, id: (usize, usize), piece: MeritPiece, n: &Near<'_>) -> LinearPiece {
         match piece {
-            Piece::Linear(value, pull) => {
+            MeritPiece::Linear(value, pull) => {
                 LinearPiece { objective, id, value, gradient: n.gradient(&pull), bound: LinearBound::Plain }
             }
-            Piece::Length(leg, value, pull) => {
-                let exact = Exact::Length { leg, greatest: 0.0 };
+            MeritPiece::Length(leg, value, pull) => {
+                let exact = ConvexForm::Length { leg, greatest: 0.0 };
                 let cone = self.affine.then(|| self.cone(exact, n));
                 LinearPiece {
                     objective,
@@ -253,7 +259,7 @@ impl Model<'_> {
                     bound: LinearBound::Length(cone),
                 }
             }
-            Piece::Spectral(s) => {
+            MeritPiece::Spectral(s) => {
                 let cluster = |c: &Cluster| LinearCluster {
                     sigma: c.sigma,
                     own: n.gradient(&c.own),
@@ -267,9 +273,9 @@ impl Model<'_> {
     }
 
     /// The cone of a convex requirement, the line affine in the step.
-    fn cone(&self, exact: Exact, n: &Near<'_>) -> Cone {
+    fn cone(&self, exact: ConvexForm, n: &Near<'_>) -> AffineCone {
         let (l, at, rates) = (&n.l, n.at, n.rates);
-        let (Exact::Length { leg, .. } | Exact::Swing { leg, .. }) = exact;
+        let (ConvexForm::Length { leg, .. } | ConvexForm::Swing { leg, .. }) = exact;
         let velocity = |rate: &Rate| {
             let lift = if at.follows { rate.lift } else { Vector3::zeros() };
             let own = rate.ends.iter().filter(|e| e.0 == leg);
@@ -280,13 +286,13 @@ impl Model<'_> {
         let along = |c: Vector3<f64>| velocities.iter().map(|v| v.dot(&c)).collect::<Vec<f64>>();
         let tail = [0, 1, 2].map(|k| (line[k], velocities.iter().map(|v| v[k]).collect()));
         match exact {
-            Exact::Length { greatest, .. } => {
+            ConvexForm::Length { greatest, .. } => {
                 let head = (greatest / self.terms.size - self.backoff, vec![0.0; rates.len()]);
-                Cone { head, tail, slack: 1.0 }
+                AffineCone { head, tail, slack: 1.0 }
             }
-            Exact::Swing { axis, cos, .. } => {
+            ConvexForm::Swing { axis, cos, .. } => {
                 let head = ((line.dot(&axis) - self.backoff) / cos, along(axis / cos));
-                Cone { head, tail, slack: 1.0 / cos }
+                AffineCone { head, tail, slack: 1.0 / cos }
             }
         }
     }
@@ -296,9 +302,9 @@ impl Model<'_> {
 fn screened(
     pose: usize,
     item: &Item<Pull>,
-    group: Group,
+    group: ConstraintGroup,
     gradient: Vec<f64>,
-    cone: Option<Cone>,
+    cone: Option<AffineCone>,
     radius: f64,
 ) -> Option<LinearItem> {
     let reach: f64 = match &cone {

@@ -7,8 +7,8 @@ use nalgebra::{Matrix6, SVD, Vector3, Vector4, Vector6};
 
 use super::problem::DimensionalProblem;
 use super::pull::{Gradient, Pull};
-use super::shape::Ends;
-use super::terms::{Gap, HeldPose, Lines, Terms, joint_pull, leg_forces};
+use super::shape::JointEnds;
+use super::terms::{Gap, HeldPose, LegLines, RequirementTerms, joint_pull, leg_forces};
 use crate::num::linalg::svd;
 use crate::num::small::singular_values;
 use crate::requirements::Load;
@@ -41,7 +41,7 @@ pub(crate) struct Cluster {
 
 /// What bounds an objective from above.
 #[derive(Debug, Clone)]
-pub(crate) enum Piece {
+pub(crate) enum MeritPiece {
     /// `y <= value + gradient`.
     Linear(f64, Pull),
     /// By the least and the greatest singular value.
@@ -101,7 +101,7 @@ impl<'a> Merit<'a> {
     }
 
     /// The least gain at one pose, of the objectives over poses.
-    pub(crate) fn at_pose(&self, o: Objective, terms: &Terms<'_>, l: &Lines) -> f64 {
+    pub(crate) fn at_pose(&self, o: Objective, terms: &RequirementTerms<'_>, l: &LegLines) -> f64 {
         match o {
             Objective::WorstConditioning => crate::manipulator::inverse_condition(&l.jacobian(self.length)),
             Objective::SmallestSingularValue | Objective::Stiffness => {
@@ -129,11 +129,17 @@ impl<'a> Merit<'a> {
     }
 
     /// The pieces of an objective over poses at one pose.
-    pub(crate) fn pieces_at(&self, o: Objective, terms: &Terms<'_>, l: &Lines, see: &mut dyn FnMut(Piece)) {
+    pub(crate) fn pieces_at(
+        &self,
+        o: Objective,
+        terms: &RequirementTerms<'_>,
+        l: &LegLines,
+        see: &mut dyn FnMut(MeritPiece),
+    ) {
         match o {
             Objective::WorstConditioning | Objective::SmallestSingularValue | Objective::Stiffness => {
                 if let Some(s) = self.spectral(o, l) {
-                    see(Piece::Spectral(Box::new(s)));
+                    see(MeritPiece::Spectral(Box::new(s)));
                 }
             }
             Objective::LegForce => {
@@ -143,9 +149,9 @@ impl<'a> Merit<'a> {
                             Some(f) => {
                                 let (value, pull): (f64, Pull) = f.of(l, i, self.size);
                                 let factor = -value.signum() / self.force_unit;
-                                Piece::Linear(value * factor, pull.scaled(factor))
+                                MeritPiece::Linear(value * factor, pull.scaled(factor))
                             }
-                            None => Piece::Linear(SINGULAR_GAIN, Pull::none()),
+                            None => MeritPiece::Linear(SINGULAR_GAIN, Pull::none()),
                         };
                         see(piece);
                     }
@@ -155,7 +161,7 @@ impl<'a> Merit<'a> {
                 let Some(body) = self.leg_body else { return };
                 for (i, j) in terms.separate_legs() {
                     l.leg_gaps(&body, i, j, &mut |gap: Gap<Pull>| {
-                        see(Piece::Linear(gap.value / self.size, gap.pull.scaled(1.0 / self.size)));
+                        see(MeritPiece::Linear(gap.value / self.size, gap.pull.scaled(1.0 / self.size)));
                     });
                 }
             }
@@ -163,7 +169,7 @@ impl<'a> Merit<'a> {
                 for i in 0..6 {
                     let mut pull = Pull::none();
                     pull.line(i, l.direction[i] / self.size);
-                    see(Piece::Length(i, l.length[i] / self.size, pull));
+                    see(MeritPiece::Length(i, l.length[i] / self.size, pull));
                 }
             }
             _ => {}
@@ -174,9 +180,9 @@ impl<'a> Merit<'a> {
     pub(crate) fn pieces_fixed(
         &self,
         o: Objective,
-        terms: &Terms<'_>,
-        ends: &Ends,
-        see: &mut dyn FnMut(Piece),
+        terms: &RequirementTerms<'_>,
+        ends: &JointEnds,
+        see: &mut dyn FnMut(MeritPiece),
     ) {
         match o {
             Objective::JointSpacing => {
@@ -185,13 +191,13 @@ impl<'a> Merit<'a> {
                         let at = if platform { &ends.platform } else { &ends.base };
                         let d = at[j] - at[i];
                         let n = d.try_normalize(0.0).unwrap_or_else(Vector3::x) / self.size;
-                        see(Piece::Linear(d.norm() / self.size, joint_pull(platform, i, j, &n)));
+                        see(MeritPiece::Linear(d.norm() / self.size, joint_pull(platform, i, j, &n)));
                     }
                 }
             }
             Objective::SingularityDistance => {
                 if let Some((value, pull)) = self.leg_vectors(ends) {
-                    see(Piece::Linear(value, pull));
+                    see(MeritPiece::Linear(value, pull));
                 }
             }
             _ => {}
@@ -199,7 +205,7 @@ impl<'a> Merit<'a> {
     }
 
     /// Smallest singular value of the six leg vectors and its gradient.
-    fn leg_vectors(&self, ends: &Ends) -> Option<(f64, Pull)> {
+    fn leg_vectors(&self, ends: &JointEnds) -> Option<(f64, Pull)> {
         let n = &self.normalisation;
         let one = |v: Vector3<f64>| Vector4::new(1.0, v.x, v.y, v.z);
         let a = ends.base.map(|p| one((p - n.base_centre.coords) / n.base_unit));
@@ -218,7 +224,7 @@ impl<'a> Merit<'a> {
     }
 
     /// Inverse condition number at a pose and its gradient.
-    pub(crate) fn conditioning(&self, l: &Lines) -> Option<(f64, Pull)> {
+    pub(crate) fn conditioning(&self, l: &LegLines) -> Option<(f64, Pull)> {
         let (u, s, v) = decomposed(&l.jacobian(self.length))?;
         let g = s[5] / s[0];
         let mut pull = Pull::none();
@@ -229,7 +235,7 @@ impl<'a> Merit<'a> {
         Some((g, pull))
     }
 
-    fn spectral(&self, o: Objective, l: &Lines) -> Option<Spectral> {
+    fn spectral(&self, o: Objective, l: &LegLines) -> Option<Spectral> {
         let (u, s, v) = decomposed(&l.jacobian(self.length))?;
         let block = |a: usize, b: usize| {
             let mut pull = Pull::none();

@@ -24,8 +24,10 @@ mod tests;
 mod worst_pose;
 
 pub use self::outcome::evaluate;
-pub use outcome::{Conflict, Demand, DimensionalOutcome, DimensionalReport, DimensionalSolution, Give};
+pub use outcome::{
+    ConstraintConflict, Demand, DimensionalOutcome, DimensionalReport, DimensionalSolution, Give,
+};
 pub use pareto::{ParetoPoint, ParetoReport, pareto};
 pub use problem::{DimensionalProblem, InvalidProblem, Mode, Triangles, Variables};
 pub use scp::HistoryStep;
-pub use search::{Progress, SearchOptions, Stage, optimize};
+pub use search::{Progress, ShapeSearchOptions, Stage, optimize};

@@ -8,13 +8,13 @@ use super::merit::Merit;
 use super::problem::{DimensionalProblem, InvalidProblem, Variables};
 use super::shape::Shape;
 use super::streams;
-use super::terms::{HeldPose, Terms};
+use super::terms::{HeldPose, RequirementTerms};
 use crate::requirements::Objective;
 use crate::requirements::TermKind;
 
 /// Constraints that share one slack.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Group {
+pub(crate) enum ConstraintGroup {
     /// Requirements of one kind.
     Term(TermKind),
     /// `|det A|`.
@@ -33,14 +33,14 @@ pub(crate) struct Task {
     /// Least gain of each objective.
     pub(crate) floors: Vec<Option<f64>>,
     /// Constraints that are not held.
-    pub(crate) dropped: Vec<Group>,
+    pub(crate) dropped: Vec<ConstraintGroup>,
     /// Constraints whose violation costs a hundredth.
-    pub(crate) soft: Option<Group>,
+    pub(crate) soft: Option<ConstraintGroup>,
 }
 
 impl Task {
     /// Relative price of a violation.
-    pub(crate) fn cost(&self, group: Group) -> f64 {
+    pub(crate) fn cost(&self, group: ConstraintGroup) -> f64 {
         if self.soft == Some(group) { 0.01 } else { 1.0 }
     }
 }
@@ -50,7 +50,7 @@ impl Task {
 pub(crate) struct Model<'a> {
     pub(crate) problem: &'a DimensionalProblem,
     pub(crate) shape: Shape,
-    pub(crate) terms: Terms<'a>,
+    pub(crate) terms: RequirementTerms<'a>,
     pub(crate) merit: Merit<'a>,
     pub(crate) objectives: Vec<Objective>,
     /// Constraints are held with this to spare, so that what lies between the poses meets them too.
@@ -98,7 +98,7 @@ impl<'a> Model<'a> {
         let continuous = !problem.space.axes().is_empty() || problem.space.trajectory.len() > 1;
         Ok(Self {
             problem,
-            terms: Terms::new(&problem.requirements, m.size(), home, &shape),
+            terms: RequirementTerms::new(&problem.requirements, m.size(), home, &shape),
             merit: Merit::new(problem, sample),
             objectives: problem.objectives.iter().map(|o| o.0).collect(),
             backoff: if continuous { BACKOFF.0 } else { BACKOFF.1 },

@@ -5,9 +5,9 @@ use nalgebra::{Unit, Vector3};
 use super::model::{Model, Task};
 use super::problem::DimensionalProblem;
 use super::scp::HistoryStep;
-use super::search::Refined;
+use super::search::RefinedRun;
 use super::streams;
-use super::terms::Lines;
+use super::terms::LegLines;
 use crate::geom::Pose;
 use crate::manipulator::{Manipulator, inverse_condition, jacobian};
 use crate::num::conic::SolverFailure;
@@ -66,7 +66,7 @@ pub struct Give {
 
 /// Why nothing was found: an irreducible set of constraints that no start could meet together.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Conflict {
+pub struct ConstraintConflict {
     /// Without any one of them the others were met.
     pub demands: Vec<Give>,
     /// Whether the set is proved to be in conflict: the constraints are convex and a checked certificate separates them.
@@ -82,7 +82,7 @@ pub enum DimensionalOutcome {
     /// Requirements hold, evidence of local optimality is missing.
     NotConverged(Box<DimensionalSolution>),
     /// From every start the violation settled above zero.
-    Infeasible(Conflict),
+    Infeasible(ConstraintConflict),
     /// Neither.
     Undecided(Option<SolverFailure>),
 }
@@ -119,7 +119,7 @@ impl DimensionalReport {
 const STATIONARY: f64 = 1e-3;
 
 /// The first of the refined runs as an answer.
-pub(crate) fn outcome(model: &Model<'_>, task: &Task, refined: &Refined) -> DimensionalOutcome {
+pub(crate) fn outcome(model: &Model<'_>, task: &Task, refined: &RefinedRun) -> DimensionalOutcome {
     let Some(solution) = solution(model, task, refined) else { return DimensionalOutcome::Undecided(None) };
     let settled = refined.run.converged || refined.run.stationarity.abs() < STATIONARY;
     if settled && refined.complete {
@@ -129,7 +129,7 @@ pub(crate) fn outcome(model: &Model<'_>, task: &Task, refined: &Refined) -> Dime
     }
 }
 
-fn solution(model: &Model<'_>, task: &Task, refined: &Refined) -> Option<DimensionalSolution> {
+fn solution(model: &Model<'_>, task: &Task, refined: &RefinedRun) -> Option<DimensionalSolution> {
     let x = &refined.run.x;
     let manipulator = model.shape.manipulator(x).ok()?;
     let home = model.terms.home;
@@ -156,15 +156,15 @@ fn solution(model: &Model<'_>, task: &Task, refined: &Refined) -> Option<Dimensi
 }
 
 /// The axis with the smallest cap for every joint, over the held poses and a sample of the region.
-fn axes(model: &Model<'_>, refined: &Refined) -> [Option<[Unit<Vector3<f64>>; 6]>; 2] {
+fn axes(model: &Model<'_>, refined: &RefinedRun) -> [Option<[Unit<Vector3<f64>>; 6]>; 2] {
     let ends = model.shape.ends(&refined.run.x);
-    let all: Vec<Lines> =
-        refined.poses.iter().chain(&model.merit.sample).map(|at| Lines::new(&ends, at)).collect();
+    let all: Vec<LegLines> =
+        refined.poses.iter().chain(&model.merit.sample).map(|at| LegLines::new(&ends, at)).collect();
     [0, 1].map(|body| {
         let first = model.shape.axes[body]?;
         Some(std::array::from_fn(|i| {
             let seen =
-                |l: &Lines| if body == 0 { l.direction[i] } else { l.rotation.inverse() * l.direction[i] };
+                |l: &LegLines| if body == 0 { l.direction[i] } else { l.rotation.inverse() * l.direction[i] };
             let directions: Vec<Vector3<f64>> = all.iter().map(seen).collect();
             let own = || Vector3::from_fn(|k, _| refined.run.x[first + 3 * i + k]);
             Unit::new_normalize(smallest_cap(&directions).map_or_else(own, |cap| cap.0))

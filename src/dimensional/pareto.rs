@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use super::model::{Model, Task};
 use super::outcome::{DimensionalOutcome, DimensionalSolution, evaluate, outcome};
 use super::problem::{DimensionalProblem, InvalidProblem};
-use super::search::{Progress, Refined, SearchOptions, Stage, Watch, better, refine, search_task};
+use super::search::{Progress, RefinedRun, ShapeSearchOptions, Stage, Watch, better, refine, search_task};
 use crate::num::parallel::parallel;
 use crate::requirements::PoseSpace;
 
@@ -51,7 +51,7 @@ pub struct ParetoReport {
 pub fn pareto(
     problem: &DimensionalProblem,
     points: usize,
-    options: &SearchOptions,
+    options: &ShapeSearchOptions,
     progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<ParetoReport, InvalidProblem> {
     let n = problem.objectives.len();
@@ -60,7 +60,7 @@ pub fn pareto(
     }
     let model = Model::new(problem)?;
     let mut watch = Watch::new(&model, progress);
-    let mut known: Vec<Refined> = Vec::new();
+    let mut known: Vec<RefinedRun> = Vec::new();
     for m in 0..n {
         if model.is_stopped() {
             break;
@@ -96,7 +96,7 @@ pub fn pareto(
     };
     let extremes = known.len();
     let mut unmet = 0;
-    let mut previous: Option<Refined> = None;
+    let mut previous: Option<RefinedRun> = None;
     for (done, cell) in cells.iter().enumerate() {
         if model.is_stopped() {
             break;
@@ -106,7 +106,7 @@ pub fn pareto(
             .collect();
         let weights = (0..n).map(|k| if k == 0 { 1.0 } else { AUGMENTED }).collect();
         let task = Task { weights, floors, ..Task::default() };
-        let from: Vec<&Refined> = known[..extremes].iter().chain(&previous).collect();
+        let from: Vec<&RefinedRun> = known[..extremes].iter().chain(&previous).collect();
         let run = |k: usize| refine(&model, &task, &from[k].run.x, from[k].poses.clone(), options.seed);
         let mut tell = |done| watch.tell(Stage::Polishing, (done, cells.len()), None);
         let mut runs = parallel(from.len(), options.threads, run, &mut |_, _| tell(done));
@@ -127,7 +127,7 @@ pub fn pareto(
 fn front(
     p: &DimensionalProblem,
     model: &Model<'_>,
-    known: &[Refined],
+    known: &[RefinedRun],
     unmet: usize,
     seed: u64,
 ) -> ParetoReport {

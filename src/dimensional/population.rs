@@ -6,8 +6,8 @@
 
 use super::model::{Model, Task};
 use super::scp::PENALTY;
-use super::terms::{HeldPose, Lines};
-use super::worst_pose::{Judged, Judging};
+use super::terms::{HeldPose, LegLines};
+use super::worst_pose::{Judging, PointValues};
 use crate::num::Rng;
 
 /// What a point is worth.
@@ -111,7 +111,7 @@ impl<'m, 'a> Judge<'m, 'a> {
 
     /// The worth of a point over the first `count` poses, `None` as soon as it is no better than `bar`.
     pub(crate) fn worth(&mut self, x: &[f64], count: usize, bar: Option<&Worth>) -> Option<Worth> {
-        let worth = |judged: &Judged| {
+        let worth = |judged: &PointValues| {
             let within = judged.violation() <= 0.5 * self.model.backoff;
             let violation = if within { 0.0 } else { judged.total_violation(self.task) };
             Worth { violation, gain: judged.gain(self.task) }
@@ -247,7 +247,7 @@ impl Model<'_> {
         }
         let ends = self.shape.ends(x);
         let home = HeldPose { pose: self.terms.home, follows: true };
-        let l = Lines::new(&ends, &home);
+        let l = LegLines::new(&ends, &home);
         for (body, first) in self.shape.axes.iter().enumerate() {
             let Some(first) = first else { continue };
             for leg in 0..6 {

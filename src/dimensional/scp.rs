@@ -8,11 +8,11 @@ use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::linear::{Cone, LinearBound, LinearCluster, LinearItem, LinearPiece, Linearised};
-use super::model::{Group, Model, Task};
+use super::linear::{AffineCone, LinearBound, LinearCluster, LinearItem, LinearPiece, Linearised};
+use super::model::{ConstraintGroup, Model, Task};
 use super::terms::HeldPose;
-use super::worst_pose::Judged;
-use crate::num::conic::{ConicAnswer, ConicPoint, ConicProgram, Row, SolverFailure};
+use super::worst_pose::PointValues;
+use crate::num::conic::{ConicAnswer, ConicPoint, ConicProgram, ConicRow, SolverFailure};
 
 /// How hard to try.
 #[derive(Debug, Clone, Copy)]
@@ -46,9 +46,9 @@ pub struct HistoryStep {
 
 /// Where a run ended.
 #[derive(Debug, Clone)]
-pub(crate) struct Run {
+pub(crate) struct ShapeRun {
     pub(crate) x: Vec<f64>,
-    pub(crate) judged: Judged,
+    pub(crate) judged: PointValues,
     pub(crate) converged: bool,
     /// Gain still promised for a unit of the variables, less the violation.
     pub(crate) stationarity: f64,
@@ -67,7 +67,7 @@ const SMALLEST_RADIUS: f64 = 1e-9;
 /// Radius at which stationarity is measured.
 const PROBE_RADIUS: f64 = 1e-3;
 
-impl Run {
+impl ShapeRun {
     /// The same with the steps that led to its start.
     pub(crate) fn after(mut self, mut earlier: Vec<HistoryStep>) -> Self {
         earlier.append(&mut self.history);
@@ -87,13 +87,13 @@ struct State<'a> {
     sign: f64,
     penalty: f64,
     x: Vec<f64>,
-    judged: Judged,
+    judged: PointValues,
     curvature: DMatrix<f64>,
     updates: usize,
 }
 
 impl State<'_> {
-    fn merit(&self, j: &Judged) -> f64 {
+    fn merit(&self, j: &PointValues) -> f64 {
         let gain = j.gain(self.task);
         let value = gain - self.penalty * j.total_violation(self.task);
         if value.is_nan() { f64::NEG_INFINITY } else { value }
@@ -103,9 +103,9 @@ impl State<'_> {
         self.model.linearise(self.poses, &self.x, self.task, self.sign, radius)
     }
 
-    fn subproblem<'b>(&'b self, near: &'b Linearised, radius: f64, curved: bool) -> Subproblem<'b> {
+    fn subproblem<'b>(&'b self, near: &'b Linearised, radius: f64, curved: bool) -> ShapeSubproblem<'b> {
         let curvature = (curved && self.updates > 0).then_some(&self.curvature);
-        Subproblem {
+        ShapeSubproblem {
             model: self.model,
             task: self.task,
             x: &self.x,
@@ -117,7 +117,7 @@ impl State<'_> {
     }
 
     /// Damped BFGS with the change of the gradient of `- gains + multipliers . constraints` between two points.
-    fn learn(&mut self, old: &Linearised, new: &Linearised, step: &Step) {
+    fn learn(&mut self, old: &Linearised, new: &Linearised, step: &ShapeStep) {
         let n = self.x.len();
         let mut change = DVector::zeros(n);
         let mut add = |weight: f64, before: &[f64], after: &[f64]| {
@@ -172,7 +172,7 @@ pub(crate) fn climb(
     task: &Task,
     start: &[f64],
     effort: Effort,
-) -> Run {
+) -> ShapeRun {
     let n = start.len();
     let sign = model.sign(start);
     let judged = model.judge(poses, start, task, sign);
@@ -255,7 +255,7 @@ pub(crate) fn climb(
         }
     }
     let stationarity = if effort.tolerance < 1e-6 { stationarity(&s) } else { f64::INFINITY };
-    Run { x: s.x, judged: s.judged, converged, stationarity, history, failure }
+    ShapeRun { x: s.x, judged: s.judged, converged, stationarity, history, failure }
 }
 
 /// First-order gain promised within [`PROBE_RADIUS`] for a unit of the variables.
@@ -276,7 +276,7 @@ const FIRST: usize = 6;
 
 /// What a step is computed from.
 #[derive(Debug)]
-pub(crate) struct Subproblem<'a> {
+pub(crate) struct ShapeSubproblem<'a> {
     pub(crate) model: &'a Model<'a>,
     pub(crate) task: &'a Task,
     pub(crate) x: &'a [f64],
@@ -288,7 +288,7 @@ pub(crate) struct Subproblem<'a> {
 
 /// A step with what the model promises.
 #[derive(Debug, Clone)]
-pub(crate) struct Step {
+pub(crate) struct ShapeStep {
     pub(crate) d: Vec<f64>,
     /// Weighted gain less penalised slacks, curvature included.
     pub(crate) merit: f64,
@@ -308,7 +308,7 @@ impl Held {
     fn first(near: &Linearised, backoff: f64) -> Self {
         let mut items: Vec<bool> = near.items.iter().map(|i| i.value < backoff).collect();
         let mut pieces = vec![false; near.pieces.len()];
-        let mut groups: BTreeMap<Group, Vec<usize>> = BTreeMap::new();
+        let mut groups: BTreeMap<ConstraintGroup, Vec<usize>> = BTreeMap::new();
         near.items.iter().enumerate().for_each(|(k, i)| groups.entry(i.group).or_default().push(k));
         for mut list in groups.into_values() {
             list.sort_by(|i, j| near.items[*i].value.total_cmp(&near.items[*j].value));
@@ -333,7 +333,7 @@ struct Draft {
     gains: BTreeMap<usize, usize>,
     /// Least and greatest length, for the stroke.
     lengths: BTreeMap<usize, (usize, usize)>,
-    slacks: BTreeMap<Group, usize>,
+    slacks: BTreeMap<ConstraintGroup, usize>,
 }
 
 impl Draft {
@@ -345,22 +345,22 @@ impl Draft {
 }
 
 /// `value + gradient . d + more >= 0` as a row.
-fn row(value: f64, gradient: &[f64], factor: f64, more: &[(usize, f64)]) -> Row {
+fn row(value: f64, gradient: &[f64], factor: f64, more: &[(usize, f64)]) -> ConicRow {
     let own = gradient.iter().enumerate().filter(|(_, g)| **g != 0.0).map(|(j, g)| (j, -factor * g));
-    Row { coefficients: own.chain(more.iter().map(|(j, v)| (*j, -v))).collect(), rhs: value }
+    ConicRow { coefficients: own.chain(more.iter().map(|(j, v)| (*j, -v))).collect(), rhs: value }
 }
 
-fn add(p: &mut ConicProgram, row: Row) -> usize {
+fn add(p: &mut ConicProgram, row: ConicRow) -> usize {
     p.at_least_zero(row.coefficients, row.rhs);
     p.rows.len() - 1
 }
 
-impl Subproblem<'_> {
+impl ShapeSubproblem<'_> {
     /// Solves for the step; refuses a point whose plain residual is too large.
     ///
     /// Few rows bind. The program is written with those that are nearest to it, and rows that its point violates are added until there are
     /// none: the point is then that of the program with all rows.
-    pub(crate) fn solve(&self) -> Result<Step, SolverFailure> {
+    pub(crate) fn solve(&self) -> Result<ShapeStep, SolverFailure> {
         let mut held = Held::first(self.near, self.model.backoff);
         loop {
             let (draft, rows) = self.write(&held);
@@ -391,7 +391,9 @@ impl Subproblem<'_> {
             }
         }
         let used = self.near.items.iter().zip(&held.items).filter(|(_, h)| **h).map(|(i, _)| i.group);
-        let floors = (0..self.task.floors.len()).filter(|m| self.task.floors[*m].is_some()).map(Group::Floor);
+        let floors = (0..self.task.floors.len())
+            .filter(|m| self.task.floors[*m].is_some())
+            .map(ConstraintGroup::Floor);
         for group in used.chain(floors) {
             if !draft.slacks.contains_key(&group) {
                 let s = draft.variable(self.penalty * self.task.cost(group));
@@ -401,7 +403,7 @@ impl Subproblem<'_> {
         }
         for (m, floor) in self.task.floors.iter().enumerate() {
             if let Some(floor) = floor {
-                let (y, s) = (draft.gains[&m], draft.slacks[&Group::Floor(m)]);
+                let (y, s) = (draft.gains[&m], draft.slacks[&ConstraintGroup::Floor(m)]);
                 draft.p.at_least_zero(vec![(y, -1.0), (s, -1.0)], -floor);
             }
         }
@@ -439,7 +441,7 @@ impl Subproblem<'_> {
         any
     }
 
-    fn step(&self, draft: &Draft, rows: [Vec<Option<usize>>; 2], point: &ConicPoint) -> Step {
+    fn step(&self, draft: &Draft, rows: [Vec<Option<usize>>; 2], point: &ConicPoint) -> ShapeStep {
         let n = self.x.len();
         let d: Vec<f64> = (0..n)
             .map(|j| {
@@ -456,7 +458,7 @@ impl Subproblem<'_> {
         let dual =
             |rows: Vec<Option<usize>>| rows.into_iter().map(|r| r.map_or(0.0, |r| point.dual[r])).collect();
         let [items, pieces] = rows.map(dual);
-        Step { d, merit: gain - self.penalty * slack - bend, items, pieces }
+        ShapeStep { d, merit: gain - self.penalty * slack - bend, items, pieces }
     }
 
     fn trust_region(&self, draft: &mut Draft) {
@@ -469,8 +471,8 @@ impl Subproblem<'_> {
             for leg in 0..6 {
                 let tail = (0..3)
                     .map(|k| first + 3 * leg + k)
-                    .map(|j| Row { coefficients: vec![(j, -1.0)], rhs: self.x[j] });
-                let head = Row { coefficients: Vec::new(), rhs: 1.0 };
+                    .map(|j| ConicRow { coefficients: vec![(j, -1.0)], rhs: self.x[j] });
+                let head = ConicRow { coefficients: Vec::new(), rhs: 1.0 };
                 draft.p.second_order(std::iter::once(head).chain(tail).collect());
             }
         }
@@ -521,7 +523,7 @@ impl Subproblem<'_> {
     }
 }
 
-fn second_order(p: &mut ConicProgram, head: Row, cone: &Cone) {
+fn second_order(p: &mut ConicProgram, head: ConicRow, cone: &AffineCone) {
     let tail = cone.tail.iter().map(|(v, g)| row(*v, g, 1.0, &[]));
     p.second_order(std::iter::once(head).chain(tail).collect());
 }

@@ -4,10 +4,10 @@ use std::ops::ControlFlow;
 
 use super::conflict::{Clash, conflict, elastic};
 use super::model::{Model, Task};
-use super::outcome::{Conflict, DimensionalOutcome, DimensionalReport, outcome};
+use super::outcome::{ConstraintConflict, DimensionalOutcome, DimensionalReport, outcome};
 use super::population::{Judge, Worth, evolve, offspring};
 use super::problem::{DimensionalProblem, InvalidProblem, Mode};
-use super::scp::{Effort, PENALTY, Run, climb};
+use super::scp::{Effort, PENALTY, ShapeRun, climb};
 use super::streams;
 use super::terms::HeldPose;
 use super::worst_pose::worse_poses;
@@ -15,7 +15,7 @@ use crate::num::parallel::parallel;
 
 /// Options of the search; none of them changes what is feasible.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct SearchOptions {
+pub struct ShapeSearchOptions {
     /// Seed of the populations. Same seed, same answer, whatever the number of threads.
     pub seed: u64,
     /// Worker threads (0 counts as 1).
@@ -30,7 +30,7 @@ pub struct SearchOptions {
     pub polished: usize,
 }
 
-impl Default for SearchOptions {
+impl Default for ShapeSearchOptions {
     fn default() -> Self {
         Self { seed: 1, threads: 1, populations: 12, generations: 15, starts: 12, polished: 8 }
     }
@@ -99,8 +99,8 @@ const DISTINCT_GAINS: f64 = 1e-4;
 
 /// A polished run with the poses it ended with.
 #[derive(Debug, Clone)]
-pub(crate) struct Refined {
-    pub(crate) run: Run,
+pub(crate) struct RefinedRun {
+    pub(crate) run: ShapeRun,
     pub(crate) poses: Vec<HeldPose>,
     pub(crate) complete: bool,
 }
@@ -112,7 +112,7 @@ pub(crate) fn refine(
     start: &[f64],
     mut poses: Vec<HeldPose>,
     seed: u64,
-) -> Refined {
+) -> RefinedRun {
     let mut run = climb(model, &poses, task, start, Effort::POLISH);
     // more poses only make worse what misses a requirement already
     let hopeless = task.weights.iter().any(|w| *w > 0.0) && !run.is_feasible(model);
@@ -130,11 +130,11 @@ pub(crate) fn refine(
         poses.extend(worse);
         run = climb(model, &poses, task, &run.x, Effort::POLISH).after(run.history);
     }
-    Refined { run, poses, complete }
+    RefinedRun { run, poses, complete }
 }
 
 /// A point with the poses that matter most near it.
-pub(crate) struct Start {
+pub(crate) struct SearchStart {
     pub(crate) x: Vec<f64>,
     few: Vec<HeldPose>,
 }
@@ -145,17 +145,17 @@ pub(crate) fn population(
     task: &Task,
     given: &[Vec<f64>],
     k: usize,
-    o: &SearchOptions,
-) -> Vec<Start> {
+    o: &ShapeSearchOptions,
+) -> Vec<SearchStart> {
     let mut judge = Judge::new(model, task);
     let is_long = k % LONG_EVERY == LONG_EVERY - 1;
     let generations = if is_long { LONG_FACTOR * o.generations } else { o.generations };
     let members = evolve(&mut judge, given, generations, &mut streams::population(o.seed, k));
     let few: Vec<HeldPose> = judge.poses().iter().take(FEW_POSES).copied().collect();
-    let mut out: Vec<Start> = Vec::new();
+    let mut out: Vec<SearchStart> = Vec::new();
     for m in members {
         if out.len() < o.starts.max(1) && !out.iter().any(|s| are_near(&s.x, &m.x, DISTINCT_STARTS)) {
-            out.push(Start { x: m.x, few: few.clone() });
+            out.push(SearchStart { x: m.x, few: few.clone() });
         }
     }
     out
@@ -165,7 +165,7 @@ fn are_near(a: &[f64], b: &[f64], within: f64) -> bool {
     a.iter().zip(b).all(|(a, b)| (a - b).abs() < within)
 }
 
-pub(crate) fn better(model: &Model<'_>, task: &Task, a: &Run, b: &Run) -> std::cmp::Ordering {
+pub(crate) fn better(model: &Model<'_>, task: &Task, a: &ShapeRun, b: &ShapeRun) -> std::cmp::Ordering {
     let (fa, fb) = (a.is_feasible(model), b.is_feasible(model));
     fb.cmp(&fa).then(if fa && fb {
         b.judged.gain(task).total_cmp(&a.judged.gain(task))
@@ -185,15 +185,15 @@ fn first_task(p: &DimensionalProblem) -> Task {
 }
 
 /// What a search for one task found.
-pub(crate) struct Searched {
+pub(crate) struct SearchedShape {
     /// Best first; feasible ones before the others.
-    pub(crate) refined: Vec<Refined>,
+    pub(crate) refined: Vec<RefinedRun>,
     pub(crate) starts: usize,
     pub(crate) feasible: usize,
 }
 
 /// A short climb over few poses, and again with those at which its end is worse.
-fn rank(model: &Model<'_>, task: &Task, start: &Start) -> Run {
+fn rank(model: &Model<'_>, task: &Task, start: &SearchStart) -> ShapeRun {
     let mut few = start.few.clone();
     let mut run = climb(model, &few, task, &start.x, Effort::RANK);
     let judge = Judge::new(model, task);
@@ -224,7 +224,7 @@ impl<'w, 'm, 'a> Watch<'w, 'm, 'a> {
         Self { model, best: None, progress }
     }
 
-    pub(crate) fn tell(&mut self, stage: Stage, (done, total): (usize, usize), run: Option<&Run>) {
+    pub(crate) fn tell(&mut self, stage: Stage, (done, total): (usize, usize), run: Option<&ShapeRun>) {
         if let Some(run) = run.filter(|r| r.is_feasible(self.model))
             && let (Some(o), Some(gain)) = (self.model.objectives.first(), run.judged.gains.first())
         {
@@ -242,11 +242,11 @@ impl<'w, 'm, 'a> Watch<'w, 'm, 'a> {
 struct End {
     /// In all variables.
     x: Vec<f64>,
-    run: Run,
+    run: ShapeRun,
 }
 
 impl End {
-    fn new(model: &Model<'_>, without_axes: bool, run: Run) -> Self {
+    fn new(model: &Model<'_>, without_axes: bool, run: ShapeRun) -> Self {
         let mut x = run.x.clone();
         x.resize(model.shape.start.len(), 0.0);
         if without_axes {
@@ -257,14 +257,14 @@ impl End {
 }
 
 /// The ends of the first pass, and what refining some of them taught.
-struct Ends {
+struct FirstPass {
     points: Vec<End>,
     tried: Vec<usize>,
     /// Poses that refine starts with.
     poses: Vec<HeldPose>,
 }
 
-impl Ends {
+impl FirstPass {
     /// The most promising ends with different values that were not tried yet and promise more than `best`, by their worth over the poses known.
     fn choose(&self, model: &Model<'_>, task: &Task, best: f64, count: usize) -> Vec<usize> {
         let mut judge = Judge::over(model, task, self.poses.clone());
@@ -301,9 +301,9 @@ pub(crate) fn search_task(
     model: &Model<'_>,
     task: &Task,
     given: &[Vec<f64>],
-    options: &SearchOptions,
+    options: &ShapeSearchOptions,
     watch: &mut Watch<'_, '_, '_>,
-) -> Searched {
+) -> SearchedShape {
     let without_axes = model.without_axes();
     let coarse = without_axes.as_ref().unwrap_or(model);
     let search = Search { model, coarse, task, options };
@@ -311,10 +311,10 @@ pub(crate) fn search_task(
     let runs = search.first_pass(&starts, watch);
     let (climbed, feasible) = (runs.len(), runs.iter().filter(|r| r.is_feasible(coarse)).count());
     let points = runs.into_iter().map(|run| End::new(model, without_axes.is_some(), run)).collect();
-    let ends = Ends { poses: model.first_poses(), points, tried: Vec::new() };
+    let ends = FirstPass { poses: model.first_poses(), points, tried: Vec::new() };
     let mut refined = search.polished(ends, watch);
     refined.sort_by(|a, b| better(model, task, &a.run, &b.run));
-    Searched { refined, starts: climbed, feasible }
+    SearchedShape { refined, starts: climbed, feasible }
 }
 
 /// What the steps of a search for one task share.
@@ -324,7 +324,7 @@ struct Search<'s, 'a> {
     /// The model of the first pass: joint axes follow from the legs instead of being variables.
     coarse: &'s Model<'a>,
     task: &'s Task,
-    options: &'s SearchOptions,
+    options: &'s ShapeSearchOptions,
 }
 
 impl Search<'_, '_> {
@@ -342,19 +342,20 @@ impl Search<'_, '_> {
     }
 
     /// The best members of all populations, of which the first knows what is given, and what is given itself.
-    fn starts(&self, given: Vec<Vec<f64>>, watch: &mut Watch<'_, '_, '_>) -> Vec<Start> {
+    fn starts(&self, given: Vec<Vec<f64>>, watch: &mut Watch<'_, '_, '_>) -> Vec<SearchStart> {
         let (o, total) = (self.options, self.options.populations.max(1));
         let evolved = |k: usize| population(self.coarse, self.task, if k == 0 { &given } else { &[] }, k, o);
-        let tick = &mut |done: usize, _: &Vec<Start>| watch.tell(Stage::Populations, (done, total), None);
+        let tick =
+            &mut |done: usize, _: &Vec<SearchStart>| watch.tell(Stage::Populations, (done, total), None);
         let members = parallel(total, o.threads, evolved, tick);
         let few: Vec<HeldPose> =
             members.first().and_then(|m| m.first()).map_or(Vec::new(), |s| s.few.clone());
-        let given = given.into_iter().map(|x| Start { x, few: few.clone() });
+        let given = given.into_iter().map(|x| SearchStart { x, few: few.clone() });
         members.into_iter().flatten().chain(given).collect()
     }
 
     /// Short climbs from the starts, then from mixtures of the ends they led to.
-    fn first_pass(&self, starts: &[Start], watch: &mut Watch<'_, '_, '_>) -> Vec<Run> {
+    fn first_pass(&self, starts: &[SearchStart], watch: &mut Watch<'_, '_, '_>) -> Vec<ShapeRun> {
         let mixtures = starts.len().div_ceil(STARTS_PER_MIXTURE);
         let total = starts.len() + GENERATIONS_OF_ENDS * mixtures;
         let mut runs = self.climbs(starts, (0, total), watch);
@@ -363,8 +364,8 @@ impl Search<'_, '_> {
             let mut judge = Judge::new(self.coarse, self.task);
             let ends: Vec<&[f64]> = runs.iter().map(|r| r.x.as_slice()).collect();
             let trials = offspring(&mut judge, &ends, mixtures, &mut rng);
-            let with_poses = |x: Vec<f64>| Start { few: judge.worst(&x, FEW_POSES), x };
-            let mixed: Vec<Start> = trials.into_iter().map(with_poses).collect();
+            let with_poses = |x: Vec<f64>| SearchStart { few: judge.worst(&x, FEW_POSES), x };
+            let mixed: Vec<SearchStart> = trials.into_iter().map(with_poses).collect();
             runs.extend(self.climbs(&mixed, (runs.len(), total), watch));
         }
         runs
@@ -373,19 +374,19 @@ impl Search<'_, '_> {
     /// A short climb from each start; `known` climbs of `total` were done before.
     fn climbs(
         &self,
-        starts: &[Start],
+        starts: &[SearchStart],
         (known, total): (usize, usize),
         watch: &mut Watch<'_, '_, '_>,
-    ) -> Vec<Run> {
+    ) -> Vec<ShapeRun> {
         let climbed = |k: usize| rank(self.coarse, self.task, &starts[k]);
-        let tick = &mut |done: usize, _: &Run| watch.tell(Stage::Climbs, (known + done, total), None);
+        let tick = &mut |done: usize, _: &ShapeRun| watch.tell(Stage::Climbs, (known + done, total), None);
         parallel(starts.len(), self.options.threads, climbed, tick)
     }
 
     /// The most promising ends polished, batch after batch, while others promise more than the best of them.
-    fn polished(&self, mut ends: Ends, watch: &mut Watch<'_, '_, '_>) -> Vec<Refined> {
+    fn polished(&self, mut ends: FirstPass, watch: &mut Watch<'_, '_, '_>) -> Vec<RefinedRun> {
         let Self { model, coarse, task, options } = *self;
-        let mut refined: Vec<Refined> = Vec::new();
+        let mut refined: Vec<RefinedRun> = Vec::new();
         for _ in 0..BATCHES {
             let gains = refined.iter().filter(|r| r.run.is_feasible(model)).map(|r| r.run.judged.gain(task));
             let best = gains.fold(f64::NEG_INFINITY, f64::max);
@@ -393,11 +394,11 @@ impl Search<'_, '_> {
             let polish = |i: usize| {
                 let end = &ends.points[batch[i]];
                 let refined = refine(model, task, &end.x, ends.poses.clone(), options.seed);
-                Refined { run: refined.run.after(end.run.history.clone()), ..refined }
+                RefinedRun { run: refined.run.after(end.run.history.clone()), ..refined }
             };
             let size = batch.len();
             let tick =
-                &mut |done: usize, r: &Refined| watch.tell(Stage::Polishing, (done, size), Some(&r.run));
+                &mut |done: usize, r: &RefinedRun| watch.tell(Stage::Polishing, (done, size), Some(&r.run));
             let found = parallel(size, options.threads, polish, tick);
             ends.tried.extend(batch);
             ends.learn(found.iter().flat_map(|r| r.poses.iter().copied()));
@@ -421,13 +422,13 @@ impl Search<'_, '_> {
 pub fn optimize(
     problem: &DimensionalProblem,
     given: &[Vec<f64>],
-    options: &SearchOptions,
+    options: &ShapeSearchOptions,
     progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<DimensionalReport, InvalidProblem> {
     let model = Model::new(problem)?;
     let task = first_task(problem);
     let mut watch = Watch::new(&model, progress);
-    let Searched { refined, starts, feasible } = search_task(&model, &task, given, options, &mut watch);
+    let SearchedShape { refined, starts, feasible } = search_task(&model, &task, given, options, &mut watch);
     let polished =
         refined.iter().map(|r| r.run.is_feasible(&model).then(|| r.run.judged.gain(&task))).collect();
     let outcome = concluded(&model, task, refined, options, &mut watch);
@@ -439,11 +440,11 @@ pub fn optimize(
 fn concluded(
     model: &Model<'_>,
     task: Task,
-    mut refined: Vec<Refined>,
-    options: &SearchOptions,
+    mut refined: Vec<RefinedRun>,
+    options: &ShapeSearchOptions,
     watch: &mut Watch<'_, '_, '_>,
 ) -> DimensionalOutcome {
-    let is_met = |refined: &[Refined]| refined.first().is_some_and(|r| r.run.is_feasible(model));
+    let is_met = |refined: &[RefinedRun]| refined.first().is_some_and(|r| r.run.is_feasible(model));
     if refined.is_empty() || !is_met(&refined) && model.is_stopped() {
         return DimensionalOutcome::Undecided(None);
     }
@@ -466,9 +467,9 @@ fn concluded(
 fn met_or_conflict(
     model: &Model<'_>,
     task: &Task,
-    refined: &mut Vec<Refined>,
-    options: &SearchOptions,
-) -> Option<Conflict> {
+    refined: &mut Vec<RefinedRun>,
+    options: &ShapeSearchOptions,
+) -> Option<ConstraintConflict> {
     let settled = elastic(model, refined, options.threads);
     let mut met = settled.iter().find(|r| r.run.is_feasible(model)).cloned();
     if met.is_none() {
@@ -489,11 +490,11 @@ fn met_or_conflict(
 fn through_levels(
     model: &Model<'_>,
     mut task: Task,
-    mut refined: Vec<Refined>,
+    mut refined: Vec<RefinedRun>,
     slack: f64,
-    options: &SearchOptions,
+    options: &ShapeSearchOptions,
     watch: &mut Watch<'_, '_, '_>,
-) -> (Task, Vec<Refined>) {
+) -> (Task, Vec<RefinedRun>) {
     let levels = model.problem.objectives.len();
     for level in 1..levels {
         let gain = refined[0].run.judged.gains[level - 1];
@@ -504,7 +505,8 @@ fn through_levels(
             refine(model, &task, &from.run.x, from.poses.clone(), options.seed)
         };
         let total = refined.len();
-        let tick = &mut |done: usize, r: &Refined| watch.tell(Stage::Polishing, (done, total), Some(&r.run));
+        let tick =
+            &mut |done: usize, r: &RefinedRun| watch.tell(Stage::Polishing, (done, total), Some(&r.run));
         let next = parallel(total, options.threads, again, tick);
         refined = next;
         refined.sort_by(|a, b| better(model, &task, &a.run, &b.run));

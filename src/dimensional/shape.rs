@@ -33,13 +33,13 @@ pub(crate) fn joints_of(m: &Manipulator) -> LegJoints {
 
 /// The variables in their order, as they are laid out.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Layout {
+pub(crate) struct VariableLayout {
     names: Vec<String>,
     bounds: Vec<(f64, f64)>,
     start: Vec<f64>,
 }
 
-impl Layout {
+impl VariableLayout {
     /// Index of the next variable.
     pub(crate) fn next(&self) -> usize {
         self.start.len()
@@ -73,7 +73,7 @@ pub(crate) struct Shape {
 
 /// Joints at the variables.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Ends {
+pub(crate) struct JointEnds {
     pub(crate) base: [Vector3<f64>; 6],
     /// Platform frame.
     pub(crate) platform: [Vector3<f64>; 6],
@@ -96,7 +96,7 @@ fn upwards(m: &Manipulator, home: &Pose) -> Vector3<f64> {
 fn skeleton(
     m: &Manipulator,
     v: &Variables,
-    layout: &mut Layout,
+    layout: &mut VariableLayout,
 ) -> Result<Arc<dyn Skeleton>, InvalidProblem> {
     let octahedral = v.offsets || v.triangles != Triangles::Fixed;
     Ok(match (octahedral, v.components) {
@@ -114,7 +114,7 @@ fn skeleton(
 impl Shape {
     /// Lays out the variables.
     pub(crate) fn new(m: &Manipulator, home: &Pose, v: &Variables) -> Result<Self, InvalidProblem> {
-        let mut layout = Layout::default();
+        let mut layout = VariableLayout::default();
         let skeleton = skeleton(m, v, &mut layout)?;
         let lift = v.home_height.then(|| {
             let k = layout.add("home height".into(), v.height_bounds, 0.0);
@@ -132,7 +132,7 @@ impl Shape {
                 }
             }
         }
-        let Layout { names, bounds, start } = layout;
+        let VariableLayout { names, bounds, start } = layout;
         if start.is_empty() {
             return Err(InvalidProblem::NoVariables);
         }
@@ -146,7 +146,7 @@ impl Shape {
     }
 
     /// How far the ends of sliding legs may still go out.
-    pub(crate) fn rooms(&self, ends: &Ends) -> Vec<Room> {
+    pub(crate) fn rooms(&self, ends: &JointEnds) -> Vec<Room> {
         self.skeleton.rooms(&ends.base, &ends.platform)
     }
 
@@ -174,10 +174,10 @@ impl Shape {
         self.skeleton.offset_variables()
     }
 
-    pub(crate) fn ends(&self, x: &[f64]) -> Ends {
+    pub(crate) fn ends(&self, x: &[f64]) -> JointEnds {
         let lift = self.lift.map_or_else(Vector3::zeros, |(k, v)| v * x[k]);
         let [base, platform] = self.skeleton.ends(x);
-        Ends { base, platform, lift }
+        JointEnds { base, platform, lift }
     }
 
     /// What each variable moves.

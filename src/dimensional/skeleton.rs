@@ -6,7 +6,7 @@ use nalgebra::{Matrix6, Point3, SMatrix, Vector3};
 
 use super::problem::{InvalidProblem, Triangles, Variables};
 use super::pull::Rate;
-use super::shape::{JointId, Layout, LegJoints, joints_of};
+use super::shape::{JointId, LegJoints, VariableLayout, joints_of};
 use crate::manipulator::{Leg, LegIndex, Manipulator, Octahedral};
 use crate::num::linalg::svd;
 use crate::synthesis::components::{
@@ -146,7 +146,11 @@ fn side(i: usize) -> [usize; 2] {
 
 impl OctahedralSides {
     /// Lays out offsets and stretches.
-    pub(crate) fn of(m: &Manipulator, v: &Variables, layout: &mut Layout) -> Result<Self, InvalidProblem> {
+    pub(crate) fn of(
+        m: &Manipulator,
+        v: &Variables,
+        layout: &mut VariableLayout,
+    ) -> Result<Self, InvalidProblem> {
         let o = Octahedral::recognise(m).map_err(InvalidProblem::NotOctahedral)?;
         let offsets = v.offsets.then(|| {
             let mut at = [0; 6];
@@ -343,7 +347,11 @@ const SAME_JOINT: f64 = 1e-9;
 
 impl OnFamilies {
     /// The rational families of a design with a leg on each as far as there are any; lays out their parameters.
-    pub(crate) fn of(m: &Manipulator, v: &Variables, layout: &mut Layout) -> Result<Self, InvalidProblem> {
+    pub(crate) fn of(
+        m: &Manipulator,
+        v: &Variables,
+        layout: &mut VariableLayout,
+    ) -> Result<Self, InvalidProblem> {
         let found = components(m, ComponentOptions::default())?;
         let is_rational = |c: &&Component| {
             matches!(c.parametrisation, Parametrisation::Rational { .. }) && c.contained_in.is_empty()

@@ -6,7 +6,7 @@
 use nalgebra::{Matrix6, Rotation3, Vector3, Vector6};
 
 use super::pull::Gradient;
-use super::shape::{Ends, LegJoints, Shape};
+use super::shape::{JointEnds, LegJoints, Shape};
 use crate::geom::Pose;
 use crate::manipulator::Body;
 use crate::requirements;
@@ -23,7 +23,7 @@ pub(crate) struct HeldPose {
 
 /// The six legs at a pose.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Lines {
+pub(crate) struct LegLines {
     pub(crate) rotation: Rotation3<f64>,
     pub(crate) position: Vector3<f64>,
     pub(crate) base: [Vector3<f64>; 6],
@@ -35,8 +35,8 @@ pub(crate) struct Lines {
     pub(crate) direction: [Vector3<f64>; 6],
 }
 
-impl Lines {
-    pub(crate) fn new(ends: &Ends, at: &HeldPose) -> Self {
+impl LegLines {
+    pub(crate) fn new(ends: &JointEnds, at: &HeldPose) -> Self {
         let rotation = at.pose.rotation;
         let position = if at.follows { at.pose.position + ends.lift } else { at.pose.position };
         let arm = ends.platform.map(|b| rotation * b);
@@ -85,7 +85,7 @@ pub(crate) type TermId = (TermKind, usize, usize, usize);
 
 /// A convex form of `value >= 0`: the head at least the norm of the line of the leg, both divided by the size.
 #[derive(Debug, Clone, Copy)]
-pub(crate) enum Exact {
+pub(crate) enum ConvexForm {
     /// `greatest >= |d|`.
     Length { leg: usize, greatest: f64 },
     /// `d . c / cos(limit) >= |d|` for a given axis (base frame).
@@ -98,12 +98,12 @@ pub(crate) struct Item<P> {
     pub(crate) id: TermId,
     pub(crate) value: f64,
     pub(crate) pull: P,
-    pub(crate) exact: Option<Exact>,
+    pub(crate) exact: Option<ConvexForm>,
 }
 
 /// What the requirements are evaluated with besides the legs.
 #[derive(Debug, Clone)]
-pub(crate) struct Terms<'a> {
+pub(crate) struct RequirementTerms<'a> {
     pub(crate) required: &'a Requirements,
     pub(crate) size: f64,
     pub(crate) home: Pose,
@@ -116,7 +116,7 @@ pub(crate) struct Terms<'a> {
 /// Value with which a singular pose violates the limits of forces, in limits.
 const SINGULAR_FORCE: f64 = -10.0;
 
-impl<'a> Terms<'a> {
+impl<'a> RequirementTerms<'a> {
     pub(crate) fn new(required: &'a Requirements, size: f64, home: Pose, shape: &Shape) -> Self {
         Self { required, size, home, joints: shape.joints, axes: shape.axes }
     }
@@ -124,8 +124,8 @@ impl<'a> Terms<'a> {
     /// Every requirement at a pose.
     pub(crate) fn visit<P: Gradient>(
         &self,
-        l: &Lines,
-        ends: &Ends,
+        l: &LegLines,
+        ends: &JointEnds,
         x: &[f64],
         see: &mut impl FnMut(Item<P>),
     ) {
@@ -136,7 +136,7 @@ impl<'a> Terms<'a> {
         self.speeds(l, see);
     }
 
-    fn lengths<P: Gradient>(&self, l: &Lines, see: &mut impl FnMut(Item<P>)) {
+    fn lengths<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(Item<P>)) {
         let Some(limits) = self.required.hardware.leg_length else { return };
         let (least, greatest) = limits.range();
         for i in 0..6 {
@@ -144,13 +144,13 @@ impl<'a> Terms<'a> {
             pull.line(i, l.direction[i] / self.size);
             let short = (l.length[i] - least) / self.size;
             see(Item { id: (TermKind::LegTooShort, i, i, 0), value: short, pull, exact: None });
-            let exact = Some(Exact::Length { leg: i, greatest });
+            let exact = Some(ConvexForm::Length { leg: i, greatest });
             let long = (greatest - l.length[i]) / self.size;
             see(Item { id: (TermKind::LegTooLong, i, i, 0), value: long, pull: pull.scaled(-1.0), exact });
         }
     }
 
-    fn swing<P: Gradient>(&self, l: &Lines, ends: &Ends, x: &[f64], see: &mut impl FnMut(Item<P>)) {
+    fn swing<P: Gradient>(&self, l: &LegLines, ends: &JointEnds, x: &[f64], see: &mut impl FnMut(Item<P>)) {
         let h = &self.required.hardware;
         let bodies = [(TermKind::BaseSwing, h.base_swing), (TermKind::PlatformSwing, h.platform_swing)];
         for (body, (kind, swing)) in bodies.into_iter().enumerate() {
@@ -163,8 +163,8 @@ impl<'a> Terms<'a> {
 
     fn swing_of<P: Gradient>(
         &self,
-        l: &Lines,
-        ends: &Ends,
+        l: &LegLines,
+        ends: &JointEnds,
         x: &[f64],
         (body, kind, i): (usize, TermKind, usize),
         swing: &Swing,
@@ -182,7 +182,7 @@ impl<'a> Terms<'a> {
             }
             (None, JointAxes::Given(axes)) => {
                 let c = here(&axes[i]);
-                (c, (cos > 0.0).then_some(Exact::Swing { leg: i, axis: c, cos }))
+                (c, (cos > 0.0).then_some(ConvexForm::Swing { leg: i, axis: c, cos }))
             }
             (None, _) => {
                 // along the leg at home, which moves with the joints
@@ -204,7 +204,7 @@ impl<'a> Terms<'a> {
         Item { id: (kind, i, i, 0), value: (d.dot(&axis) - cos * l.length[i]) / self.size, pull, exact }
     }
 
-    fn clearances<P: Gradient>(&self, l: &Lines, see: &mut impl FnMut(Item<P>)) {
+    fn clearances<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(Item<P>)) {
         let h = &self.required.hardware;
         let Some(body) = h.leg_body else { return };
         let clearance = h.leg_clearance.unwrap_or(0.0);
@@ -240,7 +240,7 @@ impl<'a> Terms<'a> {
             .filter(move |&(i, j)| joints[i].0 != joints[j].0 && joints[i].1 != joints[j].1)
     }
 
-    fn forces<P: Gradient>(&self, l: &Lines, see: &mut impl FnMut(Item<P>)) {
+    fn forces<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(Item<P>)) {
         let Some(greatest) = self.required.hardware.max_leg_force else { return };
         for (k, load) in self.required.loads.iter().enumerate() {
             let forces = leg_forces(l, load, self.size);
@@ -264,7 +264,7 @@ impl<'a> Terms<'a> {
         }
     }
 
-    fn speeds<P: Gradient>(&self, l: &Lines, see: &mut impl FnMut(Item<P>)) {
+    fn speeds<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(Item<P>)) {
         let (Some(greatest), Some(speed)) =
             (self.required.hardware.max_leg_speed, self.required.platform_speed)
         else {
@@ -284,7 +284,7 @@ impl<'a> Terms<'a> {
     }
 
     /// Requirements without a pose: gaps of housings and distances of joint centres.
-    pub(crate) fn fixed<P: Gradient>(&self, ends: &Ends, see: &mut impl FnMut(Item<P>)) {
+    pub(crate) fn fixed<P: Gradient>(&self, ends: &JointEnds, see: &mut impl FnMut(Item<P>)) {
         for (kind, platform) in [(TermKind::BaseSpacing, false), (TermKind::PlatformSpacing, true)] {
             let housing = self.required.hardware.housing(platform);
             for (i, j) in self.separate_joints(platform) {
@@ -348,7 +348,7 @@ pub(crate) struct Forces {
 }
 
 /// `sum F_i (u_i, R b_i x u_i) = -(f, t)`; `None` at a singular pose.
-pub(crate) fn leg_forces(l: &Lines, load: &Load, length: f64) -> Option<Forces> {
+pub(crate) fn leg_forces(l: &LegLines, load: &Load, length: f64) -> Option<Forces> {
     let turn = |v: &Vector3<f64>| if load.fixed_to == Body::Platform { l.rotation * v } else { *v };
     let force = turn(&load.force);
     let torque = (turn(&load.torque) + (l.rotation * load.at.coords).cross(&force)) / length;
@@ -360,7 +360,7 @@ pub(crate) fn leg_forces(l: &Lines, load: &Load, length: f64) -> Option<Forces> 
 
 impl Forces {
     /// Force of a leg and its gradient: `dF_i = - sum_j F_j (row i of the inverse) . d(column j)`.
-    pub(crate) fn of<P: Gradient>(&self, l: &Lines, leg: usize, length: f64) -> (f64, P) {
+    pub(crate) fn of<P: Gradient>(&self, l: &LegLines, leg: usize, length: f64) -> (f64, P) {
         let y: Vector6<f64> = self.inverse.row(leg).transpose();
         let mut pull = P::none();
         for j in (0..6).filter(|_| P::KEPT) {
@@ -419,7 +419,7 @@ fn closest(p: &Vector3<f64>, e: &Vector3<f64>, q: &Vector3<f64>, f: &Vector3<f64
     (x, on_second(x))
 }
 
-impl Lines {
+impl LegLines {
     fn at(&self, leg: usize, share: f64) -> Vector3<f64> {
         self.base[leg] + self.line[leg] * share
     }
@@ -499,18 +499,26 @@ impl Lines {
 }
 
 /// Share of the segment `a + x e` closest to a shape, signed distance there, and the direction away from it.
-fn nearest(shape: &requirements::Shape, a: &Vector3<f64>, e: &Vector3<f64>) -> (f64, f64, Vector3<f64>) {
+fn nearest(
+    shape: &requirements::KeepOutShape,
+    a: &Vector3<f64>,
+    e: &Vector3<f64>,
+) -> (f64, f64, Vector3<f64>) {
     let round = |from: Vector3<f64>, f: Vector3<f64>, radius: f64| {
         let (x, y) = closest(a, e, &from, &f);
         let apart = a + e * x - from - f * y;
         (x, apart.norm() - radius, apart.try_normalize(0.0).unwrap_or_else(Vector3::z))
     };
     match shape {
-        requirements::Shape::Sphere { center, diameter } => {
+        requirements::KeepOutShape::Sphere { center, diameter } => {
             round(center.coords, Vector3::zeros(), diameter / 2.0)
         }
-        requirements::Shape::Capsule { from, to, diameter } => round(from.coords, to - from, diameter / 2.0),
-        requirements::Shape::Box { center, size } => nearest_box(&(a - center.coords), e, &(size / 2.0)),
+        requirements::KeepOutShape::Capsule { from, to, diameter } => {
+            round(from.coords, to - from, diameter / 2.0)
+        }
+        requirements::KeepOutShape::Box { center, size } => {
+            nearest_box(&(a - center.coords), e, &(size / 2.0))
+        }
     }
 }
 

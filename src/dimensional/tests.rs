@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 use nalgebra::{Point3, Rotation3, Unit, Vector3};
 
 use super::linear::LinearBound;
-use super::model::{Group, Model, Task};
+use super::model::{ConstraintGroup, Model, Task};
 use super::outcome::smallest_cap;
 use super::terms::HeldPose;
 use super::*;
@@ -15,8 +15,8 @@ use crate::geom::Pose;
 use crate::manipulator::{Body, Manipulator};
 use crate::num::Rng;
 use crate::requirements::{
-    AssessOptions, Housing, JointAxes, KeepOut, LegBody, LengthLimits, Load, Objective, PlatformSpeed,
-    PoseSpace, Requirements, Shape, Swing, VariableKind, assess,
+    AssessOptions, Housing, JointAxes, KeepOut, KeepOutShape, LegBody, LengthLimits, Load, Objective,
+    PlatformSpeed, PoseSpace, Requirements, Swing, VariableKind, assess,
 };
 
 fn octahedral() -> (Manipulator, Pose) {
@@ -71,13 +71,13 @@ fn crowded(kinds: &[VariableKind], axes: JointAxes) -> DimensionalProblem {
         p.requirements.loads.push(Load { name: String::new(), force, torque, at, fixed_to });
     }
     let shapes = [
-        Shape::Sphere { center: Point3::new(20.0, 5.0, 90.0), diameter: 60.0 },
-        Shape::Capsule {
+        KeepOutShape::Sphere { center: Point3::new(20.0, 5.0, 90.0), diameter: 60.0 },
+        KeepOutShape::Capsule {
             from: Point3::new(0.0, 0.0, -80.0),
             to: Point3::new(5.0, 0.0, -10.0),
             diameter: 20.0,
         },
-        Shape::Box { center: Point3::new(150.0, 20.0, 60.0), size: Vector3::new(80.0, 90.0, 70.0) },
+        KeepOutShape::Box { center: Point3::new(150.0, 20.0, 60.0), size: Vector3::new(80.0, 90.0, 70.0) },
     ];
     for (k, shape) in shapes.into_iter().enumerate() {
         let fixed_to = if k == 1 { Body::Platform } else { Body::Base };
@@ -111,7 +111,7 @@ fn gradients_are_those_of_differences() {
         let (poses, task) = ([tilted(&p, follows)], everything(9));
         let at = |x: &[f64]| model.linearise(&poses, x, &task, 1.0, 100.0).unwrap();
         let here = at(&x);
-        let kinds: std::collections::BTreeSet<Group> = here.items.iter().map(|i| i.group).collect();
+        let kinds: std::collections::BTreeSet<ConstraintGroup> = here.items.iter().map(|i| i.group).collect();
         assert_eq!(kinds.len(), 11, "every kind of requirement and the determinant: {kinds:?}");
         let h = 1e-6;
         for j in 0..x.len() {
@@ -198,8 +198,8 @@ fn the_smallest_cap_is_that_of_two_or_three_directions() {
     assert_eq!(smallest_cap(&[Vector3::x(), -Vector3::x()]), None);
 }
 
-fn quick() -> SearchOptions {
-    SearchOptions { populations: 2, generations: 20, polished: 2, ..SearchOptions::default() }
+fn quick() -> ShapeSearchOptions {
+    ShapeSearchOptions { populations: 2, generations: 20, polished: 2, ..ShapeSearchOptions::default() }
 }
 
 #[test]
@@ -225,10 +225,11 @@ fn the_optimum_holds_densely_and_random_designs_do_not_beat_it() {
     let mut p = problem(&[VariableKind::SymmetricOffsets], Objective::WorstConditioning);
     p.requirements.hardware.leg_body = Some(LegBody { diameter: 20.0, rod: None });
     p.requirements.hardware.base_swing = Some(Swing { limit_deg: 45.0, axes: JointAxes::Home });
-    let found = optimize(&p, &[], &SearchOptions { populations: 4, generations: 60, ..quick() }, &mut |_| {
-        ControlFlow::Continue(())
-    })
-    .unwrap();
+    let found =
+        optimize(&p, &[], &ShapeSearchOptions { populations: 4, generations: 60, ..quick() }, &mut |_| {
+            ControlFlow::Continue(())
+        })
+        .unwrap();
     assert!(matches!(found.outcome, DimensionalOutcome::Optimal(_)), "{found:?}");
     let s = found.solution().unwrap();
     let options = AssessOptions { points: 300, ..AssessOptions::default() };
@@ -248,7 +249,7 @@ fn the_optimum_holds_densely_and_random_designs_do_not_beat_it() {
         }
     }
     assert!(feasible > 10, "{feasible}");
-    let again = SearchOptions { threads: 3, populations: 4, generations: 60, ..quick() };
+    let again = ShapeSearchOptions { threads: 3, populations: 4, generations: 60, ..quick() };
     assert_eq!(
         optimize(&p, &[], &again, &mut |_| ControlFlow::Continue(())).unwrap(),
         found,

@@ -6,11 +6,11 @@ use std::collections::BTreeMap;
 
 use nalgebra::Vector6;
 
-use super::merit::{Merit, Piece};
-use super::model::{Group, Model, Task};
-use super::shape::Ends;
+use super::merit::{Merit, MeritPiece};
+use super::model::{ConstraintGroup, Model, Task};
+use super::shape::JointEnds;
 use super::streams;
-use super::terms::{HeldPose, Item, Lines};
+use super::terms::{HeldPose, Item, LegLines};
 use crate::num::Rng;
 use crate::requirements::Objective;
 
@@ -26,8 +26,8 @@ const STEPS: (f64, f64) = (0.25, 1e-5);
 /// Requirements of single legs or pairs, and objectives, that depend on the pose. Each leg has worst poses of its own: searches for the
 /// worst of all legs end again and again at the one that is held already.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Quantity {
-    Constraint(Group, usize, usize),
+enum PoseQuantity {
+    Constraint(ConstraintGroup, usize, usize),
     Objective(usize),
     /// Length of a leg for the stroke; with `true` the greatest one.
     Length(usize, bool),
@@ -42,45 +42,45 @@ struct Seen {
 
 struct Look<'a> {
     model: &'a Model<'a>,
-    ends: Ends,
+    ends: JointEnds,
     x: &'a [f64],
     task: &'a Task,
 }
 
 impl Look<'_> {
-    fn lines(&self, cube: &Vector6<f64>) -> Lines {
+    fn lines(&self, cube: &Vector6<f64>) -> LegLines {
         let pose = self.model.problem.space.pose(cube);
-        Lines::new(&self.ends, &HeldPose { pose, follows: true })
+        LegLines::new(&self.ends, &HeldPose { pose, follows: true })
     }
 
     /// Every quantity at a pose, to be small where it matters.
-    fn all(&self, l: &Lines) -> BTreeMap<Quantity, f64> {
+    fn all(&self, l: &LegLines) -> BTreeMap<PoseQuantity, f64> {
         let mut out = BTreeMap::new();
         let mut keep = |q, value: f64| {
             let least = out.entry(q).or_insert(f64::INFINITY);
             *least = f64::min(*least, value);
         };
         self.model.terms.visit(l, &self.ends, self.x, &mut |item: Item<()>| {
-            let group = Group::Term(item.id.0);
+            let group = ConstraintGroup::Term(item.id.0);
             if !self.task.dropped.contains(&group) {
-                keep(Quantity::Constraint(group, item.id.1, item.id.2), item.value);
+                keep(PoseQuantity::Constraint(group, item.id.1, item.id.2), item.value);
             }
         });
         for (m, o) in self.model.objectives.iter().enumerate() {
             if Merit::is_over_poses(*o) && (self.task.weights[m] > 0.0 || self.task.floors[m].is_some()) {
-                keep(Quantity::Objective(m), self.model.merit.at_pose(*o, &self.model.terms, l));
+                keep(PoseQuantity::Objective(m), self.model.merit.at_pose(*o, &self.model.terms, l));
             }
         }
         if self.model.wanted(self.task).any(|(_, o)| o == Objective::Stroke) {
             for (leg, longest) in (0..6).flat_map(|leg| [(leg, false), (leg, true)]) {
-                keep(Quantity::Length(leg, longest), self.length(l, leg, longest));
+                keep(PoseQuantity::Length(leg, longest), self.length(l, leg, longest));
             }
         }
         out
     }
 
     /// To be small: the length, or the least of its opposite, in sizes.
-    fn length(&self, l: &Lines, leg: usize, longest: bool) -> f64 {
+    fn length(&self, l: &LegLines, leg: usize, longest: bool) -> f64 {
         let value = l.length[leg] / self.model.terms.size;
         if longest { -value } else { value }
     }
@@ -88,23 +88,23 @@ impl Look<'_> {
     /// The least of [`Look::length`] of all legs over the held poses.
     fn least_length(&self, held: &[HeldPose], longest: bool) -> f64 {
         let at = |at: &HeldPose| {
-            let l = Lines::new(&self.ends, at);
+            let l = LegLines::new(&self.ends, at);
             (0..6).map(|leg| self.length(&l, leg, longest)).fold(f64::INFINITY, f64::min)
         };
         held.iter().map(at).fold(f64::INFINITY, f64::min)
     }
 
-    fn one(&self, q: Quantity, cube: &Vector6<f64>) -> f64 {
+    fn one(&self, q: PoseQuantity, cube: &Vector6<f64>) -> f64 {
         let l = self.lines(cube);
         match q {
-            Quantity::Objective(m) => {
+            PoseQuantity::Objective(m) => {
                 self.model.merit.at_pose(self.model.objectives[m], &self.model.terms, &l)
             }
-            Quantity::Length(leg, longest) => self.length(&l, leg, longest),
-            Quantity::Constraint(group, first, second) => {
+            PoseQuantity::Length(leg, longest) => self.length(&l, leg, longest),
+            PoseQuantity::Constraint(group, first, second) => {
                 let mut least = f64::INFINITY;
                 self.model.terms.visit(&l, &self.ends, self.x, &mut |item: Item<()>| {
-                    if (Group::Term(item.id.0), item.id.1, item.id.2) == (group, first, second) {
+                    if (ConstraintGroup::Term(item.id.0), item.id.1, item.id.2) == (group, first, second) {
                         least = least.min(item.value);
                     }
                 });
@@ -117,7 +117,7 @@ impl Look<'_> {
     /// steps that shrink by halves.
     fn descend(
         &self,
-        q: Quantity,
+        q: PoseQuantity,
         axes: &[usize],
         (mut value, mut cube): (f64, Vector6<f64>),
         rng: &mut Rng,
@@ -126,7 +126,7 @@ impl Look<'_> {
         while step > STEPS.1 {
             let mut better = false;
             let mut directions: Vec<Vector6<f64>> = axes.iter().map(|k| Vector6::ith(*k, 1.0)).collect();
-            if matches!(q, Quantity::Objective(_)) {
+            if matches!(q, PoseQuantity::Objective(_)) {
                 directions.extend(axes.iter().map(|_| {
                     let mut d = Vector6::zeros();
                     for k in axes {
@@ -166,14 +166,14 @@ pub(crate) fn worse_poses(
     }
     let look = Look { model, ends: model.shape.ends(x), x, task };
     let judged = model.judge(held, x, task, sign);
-    let mut seen: BTreeMap<Quantity, Seen> = BTreeMap::new();
+    let mut seen: BTreeMap<PoseQuantity, Seen> = BTreeMap::new();
     for cube in space.cube_points(POINTS, &mut streams::look(seed)) {
         for (q, value) in look.all(&look.lines(&cube)) {
             let of = seen.entry(q).or_insert(Seen { greatest: value, worst: Vec::new() });
             of.greatest = of.greatest.max(value);
             of.worst.push((value, cube));
             of.worst.sort_by(|a, b| a.0.total_cmp(&b.0));
-            of.worst.truncate(SEARCHES[usize::from(!matches!(q, Quantity::Objective(_)))]);
+            of.worst.truncate(SEARCHES[usize::from(!matches!(q, PoseQuantity::Objective(_)))]);
         }
     }
     let lengths = [false, true].map(|longest| look.least_length(held, longest));
@@ -181,12 +181,12 @@ pub(crate) fn worse_poses(
     for (q, Seen { greatest, worst }) in seen {
         // what the held poses guarantee
         let known = match q {
-            Quantity::Constraint(..) => 0.5 * model.backoff,
-            Quantity::Objective(m) => judged.gains[m] - model.backoff,
-            Quantity::Length(_, longest) => lengths[usize::from(longest)] - model.backoff,
+            PoseQuantity::Constraint(..) => 0.5 * model.backoff,
+            PoseQuantity::Objective(m) => judged.gains[m] - model.backoff,
+            PoseQuantity::Length(_, longest) => lengths[usize::from(longest)] - model.backoff,
         };
         let far = worst.first().is_some_and(|(least, _)| least - SPREADS * (greatest - least) > known);
-        if far && !matches!(q, Quantity::Objective(_)) {
+        if far && !matches!(q, PoseQuantity::Objective(_)) {
             continue;
         }
         for (value, cube) in worst {
@@ -202,14 +202,14 @@ pub(crate) fn worse_poses(
 
 /// Values at a point.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Judged {
+pub(crate) struct PointValues {
     /// Gain of each objective.
     pub(crate) gains: Vec<f64>,
     /// Largest violation of each group (0 when met).
-    pub(crate) violations: BTreeMap<Group, f64>,
+    pub(crate) violations: BTreeMap<ConstraintGroup, f64>,
 }
 
-impl Judged {
+impl PointValues {
     pub(crate) fn violation(&self) -> f64 {
         self.violations.values().fold(0.0, |m, v| m.max(*v))
     }
@@ -229,9 +229,9 @@ pub(crate) struct Judging<'m, 'a> {
     model: &'m Model<'a>,
     x: &'m [f64],
     task: &'m Task,
-    ends: Ends,
+    ends: JointEnds,
     lengths: (f64, f64),
-    pub(crate) so_far: Judged,
+    pub(crate) so_far: PointValues,
 }
 
 impl<'m, 'a> Judging<'m, 'a> {
@@ -239,19 +239,21 @@ impl<'m, 'a> Judging<'m, 'a> {
     pub(crate) fn new(model: &'m Model<'a>, x: &'m [f64], task: &'m Task, sign: f64) -> Self {
         let ends = model.shape.ends(x);
         let so_far =
-            Judged { gains: vec![f64::INFINITY; model.objectives.len()], violations: BTreeMap::new() };
+            PointValues { gains: vec![f64::INFINITY; model.objectives.len()], violations: BTreeMap::new() };
         let mut out = Self { model, x, task, ends, lengths: (f64::INFINITY, f64::NEG_INFINITY), so_far };
-        model.terms.fixed(&ends, &mut |item: Item<()>| out.hold(Group::Term(item.id.0), item.value));
+        model
+            .terms
+            .fixed(&ends, &mut |item: Item<()>| out.hold(ConstraintGroup::Term(item.id.0), item.value));
         if let Some((value, _)) = model.determinant(x, sign) {
-            out.hold(Group::Determinant, value);
+            out.hold(ConstraintGroup::Determinant, value);
         }
         for room in model.shape.rooms(&ends) {
-            out.hold(Group::Reach, room.value);
+            out.hold(ConstraintGroup::Reach, room.value);
         }
         out
     }
 
-    fn hold(&mut self, group: Group, value: f64) {
+    fn hold(&mut self, group: ConstraintGroup, value: f64) {
         if !self.task.dropped.contains(&group) {
             let worst = self.so_far.violations.entry(group).or_insert(0.0);
             let miss = self.model.backoff - value;
@@ -262,24 +264,24 @@ impl<'m, 'a> Judging<'m, 'a> {
     /// Looks at one more pose.
     pub(crate) fn pose(&mut self, at: &HeldPose) {
         let (model, ends) = (self.model, self.ends);
-        let l = Lines::new(&ends, at);
+        let l = LegLines::new(&ends, at);
         for (m, o) in model.wanted(self.task).filter(|(_, o)| Merit::is_over_poses(*o)) {
             self.so_far.gains[m] = self.so_far.gains[m].min(model.merit.at_pose(o, &model.terms, &l));
         }
-        model
-            .terms
-            .visit(&l, &ends, self.x, &mut |item: Item<()>| self.hold(Group::Term(item.id.0), item.value));
+        model.terms.visit(&l, &ends, self.x, &mut |item: Item<()>| {
+            self.hold(ConstraintGroup::Term(item.id.0), item.value)
+        });
         self.lengths = l.length.iter().fold(self.lengths, |r, x| (r.0.min(*x), r.1.max(*x)));
     }
 
     /// The values after the last pose.
-    pub(crate) fn finish(mut self) -> Judged {
+    pub(crate) fn finish(mut self) -> PointValues {
         for (m, o) in self.model.wanted(self.task).filter(|(_, o)| !Merit::is_over_poses(*o)) {
             self.so_far.gains[m] = self.gain_without_pose(o);
         }
         for (m, floor) in self.task.floors.iter().enumerate() {
             if let Some(floor) = floor {
-                self.hold(Group::Floor(m), self.so_far.gains[m] - floor + self.model.backoff);
+                self.hold(ConstraintGroup::Floor(m), self.so_far.gains[m] - floor + self.model.backoff);
             }
         }
         self.so_far
@@ -291,14 +293,14 @@ impl<'m, 'a> Judging<'m, 'a> {
             Objective::Stroke => (self.lengths.0 - self.lengths.1) / terms.size,
             Objective::MeanConditioning => {
                 let at = |p: &HeldPose| {
-                    merit.at_pose(Objective::WorstConditioning, terms, &Lines::new(&self.ends, p))
+                    merit.at_pose(Objective::WorstConditioning, terms, &LegLines::new(&self.ends, p))
                 };
                 merit.sample.iter().map(at).sum::<f64>() / merit.sample.len() as f64
             }
             _ => {
                 let mut least = f64::INFINITY;
                 merit.pieces_fixed(o, terms, &self.ends, &mut |p| {
-                    if let Piece::Linear(value, _) = p {
+                    if let MeritPiece::Linear(value, _) = p {
                         least = least.min(value);
                     }
                 });
@@ -310,7 +312,7 @@ impl<'m, 'a> Judging<'m, 'a> {
 
 impl Model<'_> {
     /// Values at a point over the poses.
-    pub(crate) fn judge(&self, poses: &[HeldPose], x: &[f64], task: &Task, sign: f64) -> Judged {
+    pub(crate) fn judge(&self, poses: &[HeldPose], x: &[f64], task: &Task, sign: f64) -> PointValues {
         let mut judging = Judging::new(self, x, task, sign);
         for at in poses {
             judging.pose(at);

@@ -81,7 +81,7 @@ pub struct Tetrahedron<S> {
 ///
 /// `sigma = 1` when `u, v, p_l - p_i` are right-handed, `-1` when they are left-handed. Source: Porta, Thomas, eq. (5).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Trilateration<S> {
+pub struct TrilateratedPoint<S> {
     /// `A`, four times the Gram determinant of the triangle: zero when it is collinear, or isotropic over the complex numbers, and then there is no trilateration.
     pub a: S,
     /// `B`.
@@ -107,10 +107,10 @@ impl<S: Scalar> Tetrahedron<S> {
 
     /// The coefficients of eq. (5), from the squared distances alone.
     #[must_use]
-    pub fn trilateration(&self) -> Trilateration<S> {
+    pub fn trilateration(&self) -> TrilateratedPoint<S> {
         let (like, squared) = (&self.ij, |x, y| self.squared(x, y));
         let twice = |x: S| x.plus(&x);
-        Trilateration {
+        TrilateratedPoint {
             a: determinant(like, &[0, 1, 2], &squared).negated(),
             b: bideterminant(like, &[0, 2, 3], &[0, 1, 2], &squared),
             c: bideterminant(like, &[0, 1, 3], &[0, 1, 2], &squared).negated(),
@@ -119,7 +119,7 @@ impl<S: Scalar> Tetrahedron<S> {
     }
 }
 
-impl<S: Scalar> Trilateration<S> {
+impl<S: Scalar> TrilateratedPoint<S> {
     /// `omega = (B, C, root) / A` for a square root of the radicand, whose sign is the orientation: the coordinates of `p_l - p_i` in
     /// `u, v, u x v` (eq. 6). `None` when the base is degenerate, `A = 0` or a divisor of zero.
     #[must_use]
@@ -205,7 +205,7 @@ mod tests {
             let back = u * x + v * y + u.cross(&v) * z;
             // the square root halves the digits of a flat tetrahedron
             prop_assert!((back - w).norm() < 1e-5);
-            let length = Trilateration::squared_length(&[x, y, z], [&u.norm_squared(), &v.norm_squared(), &(u - v).norm_squared()]);
+            let length = TrilateratedPoint::squared_length(&[x, y, z], [&u.norm_squared(), &v.norm_squared(), &(u - v).norm_squared()]);
             prop_assert!((length - w.norm_squared()).abs() < 1e-8);
             let other = u * x + v * y - u.cross(&v) * z;
             for q in [Point::zeros(), u, v] {

@@ -11,12 +11,12 @@ mod numeric;
 mod plan;
 mod scalar;
 
-pub use cayley_menger::{Base, Tetrahedron, Trilateration, bideterminant, determinant};
+pub use cayley_menger::{Base, Tetrahedron, TrilateratedPoint, bideterminant, determinant};
 pub use exact::{
     ClosureDegrees, ClosureError, ClosurePolynomial, SingularFactor, closure_degrees, closure_polynomial,
     generic_degrees,
 };
 pub use hidden::{HiddenLengths, HiddenPoses};
-pub use numeric::{Configuration, Configurations, Evaluator, Shape};
+pub use numeric::{Configuration, Configurations, Evaluator, GenericDegrees};
 pub use plan::{NoPlan, fit, plans};
 pub use scalar::Scalar;

@@ -5,7 +5,7 @@ use thiserror::Error;
 
 use super::cayley_menger::Base;
 use crate::manipulator::Manipulator;
-use crate::topology::{Joint, Nesting, Sequence, sequences};
+use crate::topology::{JointIndex, Nesting, Sequence, sequences};
 
 /// Why a design has no trilateration sequence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
@@ -56,35 +56,35 @@ pub fn fit(m: &Manipulator, s: &Sequence) -> Option<(f64, Sequence)> {
 }
 
 /// Coordinates of a joint in the frame of its body.
-pub(crate) fn coordinates(m: &Manipulator, joint: Joint) -> Point3<f64> {
+pub(crate) fn coordinates(m: &Manipulator, joint: JointIndex) -> Point3<f64> {
     match joint {
-        Joint::Base(k) => m.base_joints()[k],
-        Joint::Platform(k) => m.platform_joints()[k],
+        JointIndex::Base(k) => m.base_joints()[k],
+        JointIndex::Platform(k) => m.platform_joints()[k],
     }
 }
 
 /// [`Base::fatness`] of three joints of one body.
-fn fatness(m: &Manipulator, three: [Joint; 3]) -> f64 {
+fn fatness(m: &Manipulator, three: [JointIndex; 3]) -> f64 {
     let p = three.map(|j| coordinates(m, j));
     Base::fatness([(0, 1), (0, 2), (1, 2)].map(|(i, j)| (p[i] - p[j]).norm_squared()))
 }
 
 /// The sequence with the fattest start triangle, and the fatness of the leanest triangle that it needs; `None` when that is collinear.
 fn fitted(m: &Manipulator, mut s: Sequence) -> Option<(f64, Sequence)> {
-    let on_first = |j: &Joint| j.same_body(s.start[0]);
-    let first: Vec<Joint> =
+    let on_first = |j: &JointIndex| j.same_body(s.start[0]);
+    let first: Vec<JointIndex> =
         s.start.iter().copied().chain(s.steps.iter().map(|t| t.place).filter(on_first)).collect();
-    let three: Vec<Joint> = s.unoriented().map(|t| t.place).collect();
+    let three: Vec<JointIndex> = s.unoriented().map(|t| t.place).collect();
     let second = [three[0], three[1], three[2]];
     let (_, start) = best_triangle(m, &first)?;
     let bases = s.unoriented().map(|t| t.from).filter(|f| f[0].same_body(f[1]) && f[0].same_body(f[2]));
     let needed = bases.chain([start, second]);
     let leanest = needed.map(|t| fatness(m, t)).fold(f64::INFINITY, f64::min);
-    let proper = |t: [Joint; 3]| fatness(m, t) > 2f64.powi(-40);
+    let proper = |t: [JointIndex; 3]| fatness(m, t) > 2f64.powi(-40);
     if !proper(start) || leanest <= 2f64.powi(-40) {
         return None;
     }
-    let others: Vec<Joint> = first.iter().copied().filter(|j| !start.contains(j)).collect();
+    let others: Vec<JointIndex> = first.iter().copied().filter(|j| !start.contains(j)).collect();
     let (mut others, old) = (others.into_iter(), s.start[0]);
     for step in s.steps.iter_mut().filter(|t| t.rigid && t.place.same_body(old)) {
         step.from = start;
@@ -95,11 +95,11 @@ fn fitted(m: &Manipulator, mut s: Sequence) -> Option<(f64, Sequence)> {
 }
 
 /// The fattest triangle of joints of one body, the first of equal ones.
-fn best_triangle(m: &Manipulator, joints: &[Joint]) -> Option<(f64, [Joint; 3])> {
+fn best_triangle(m: &Manipulator, joints: &[JointIndex]) -> Option<(f64, [JointIndex; 3])> {
     let n = joints.len();
     let pairs = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j)));
     let all = pairs.flat_map(|(i, j)| (j + 1..n).map(move |k| [i, j, k])).map(|t| t.map(|i| joints[i]));
-    all.map(|t| (fatness(m, t), t)).fold(None, |best: Option<(f64, [Joint; 3])>, t| match best {
+    all.map(|t| (fatness(m, t), t)).fold(None, |best: Option<(f64, [JointIndex; 3])>, t| match best {
         Some(b) if b.0 >= t.0 => Some(b),
         _ => Some(t),
     })

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 
 use super::Error;
 use crate::design::Design;
-use crate::equivalence::{Run, Sample, SamplePlan, Verification, VerifyError, verify_each};
+use crate::equivalence::{Sample, SamplePlan, Verification, VerifyError, VerifyRun, verify_each};
 use crate::fk::{FkOptions, Threads};
 use crate::num::Cancel;
 use crate::synthesis::{LegMapOutcome, LegMapTolerances};
@@ -37,7 +37,7 @@ type OnSample<'a> = Box<dyn FnMut(&Sample) -> ControlFlow<()> + 'a>;
 pub struct VerifyOptions<'a> {
     samples: usize,
     seed: u64,
-    run: Run,
+    run: VerifyRun,
     on_sample: Option<OnSample<'a>>,
 }
 
@@ -55,7 +55,7 @@ impl std::fmt::Debug for VerifyOptions<'_> {
 
 impl Default for VerifyOptions<'_> {
     fn default() -> Self {
-        Self { samples: SAMPLES, seed: 1, run: Run::default(), on_sample: None }
+        Self { samples: SAMPLES, seed: 1, run: VerifyRun::default(), on_sample: None }
     }
 }
 

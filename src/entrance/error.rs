@@ -119,7 +119,7 @@ pub enum Error {
     /// The offsets cannot be optimised as the design asks.
     #[cfg(feature = "optimize")]
     #[error(transparent)]
-    OffsetProblem(#[from] crate::offsets::InvalidProblem),
+    OffsetProblem(#[from] crate::offsets::InvalidOffsetProblem),
     /// The platform cannot be optimised as the design asks.
     #[cfg(feature = "optimize")]
     #[error(transparent)]

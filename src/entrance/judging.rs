@@ -3,7 +3,7 @@
 use super::Error;
 use crate::design::Design;
 use crate::equivalents::Equivalents;
-use crate::requirements::{AssessOptions, Proof, prove};
+use crate::requirements::{AssessOptions, MarginProof, prove};
 use crate::singularity::{
     Architecture, Assembly, Conditioning, NearestSingular, Regularity, assembly, conditioning,
     nearest_singular, regular_workspace, singular_distance_at_least,
@@ -63,7 +63,7 @@ impl std::fmt::Display for CheckReport {
 #[non_exhaustive]
 pub struct AssessReport {
     /// The least margin of each kind of requirement, with what is proved of it.
-    pub proof: Proof,
+    pub proof: MarginProof,
     /// Whether a pose of the workspace is singular.
     pub regularity: Regularity,
     /// Cells looked at for that.

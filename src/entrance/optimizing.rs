@@ -7,7 +7,7 @@ use super::equivalence::sample_plan;
 use crate::design::{Combination, Design};
 use crate::dimensional::{
     self, DimensionalOutcome, DimensionalProblem, DimensionalReport, DimensionalSolution, Mode,
-    SearchOptions, Variables, evaluate,
+    ShapeSearchOptions, Variables, evaluate,
 };
 use crate::equivalence::{Verification, VerifyError, verify};
 use crate::fk::{FkOptions, Threads};
@@ -34,7 +34,7 @@ const MOST_THREADS: usize = 256;
 #[non_exhaustive]
 pub enum OptimizeProgress {
     /// Of the search for offsets.
-    Offsets(offsets::Progress),
+    Offsets(offsets::OffsetProgress),
     /// Of the search for a platform that meets its requirements.
     Dimensions(dimensional::Progress),
 }
@@ -83,7 +83,7 @@ impl Default for OptimizeOptions<'_> {
             threads: Threads::All,
             extension: EXTENSION,
             survey: false,
-            gap: offsets::SearchOptions::default().gap,
+            gap: offsets::OffsetSearchOptions::default().gap,
             cancel: Cancel::new(),
             on_progress: None,
         }
@@ -261,7 +261,7 @@ impl Design {
                 return Err(Error::ParetoFront);
             }
             let problem = dimensional_problem(self, options.extension);
-            let search = SearchOptions { seed, threads, ..SearchOptions::default() };
+            let search = ShapeSearchOptions { seed, threads, ..ShapeSearchOptions::default() };
             let report = dimensional::optimize(&problem, &[], &search, &mut |p| {
                 options.flow(OptimizeProgress::Dimensions(p))
             })?;
@@ -276,12 +276,12 @@ impl Design {
             });
         }
         let octahedral = Octahedral::recognise(self.manipulator())?;
-        let search = offsets::SearchOptions {
+        let search = offsets::OffsetSearchOptions {
             seed,
             threads,
             survey: options.survey,
             gap: options.gap,
-            ..offsets::SearchOptions::default()
+            ..offsets::OffsetSearchOptions::default()
         };
         let poses = self.workspace_or_default().sample(Some(&self.home_or_default()));
         let problem = offset_problem(self, octahedral, poses, options.extension);

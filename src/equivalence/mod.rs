@@ -11,6 +11,6 @@ mod verdict;
 pub use matching::{PoseMatching, match_poses};
 pub use sample::{Sample, SamplePlan};
 pub use verdict::{
-    Counterexample, InconclusiveReason, Run, SAME_POSE, Verdict, Verification, VerifyError, verify,
+    Counterexample, InconclusiveReason, SAME_POSE, Verdict, Verification, VerifyError, VerifyRun, verify,
     verify_each,
 };

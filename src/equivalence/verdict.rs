@@ -257,13 +257,13 @@ pub fn verify(
     plan: &SamplePlan,
     options: &FkOptions,
 ) -> Result<Verification, VerifyError> {
-    let alone = Run { threads: Threads::Count(NonZeroUsize::MIN), cancel: Cancel::new() };
+    let alone = VerifyRun { threads: Threads::Count(NonZeroUsize::MIN), cancel: Cancel::new() };
     verify_each(a, b, plan, options, &alone, &mut |_| ControlFlow::Continue(()))
 }
 
 /// How a comparison is carried out; its answer does not depend on it.
 #[derive(Debug, Clone, Default)]
-pub struct Run {
+pub struct VerifyRun {
     /// Threads that solve samples.
     pub threads: Threads,
     /// What ends it before its time.
@@ -279,7 +279,7 @@ pub fn verify_each(
     b: &Manipulator,
     plan: &SamplePlan,
     options: &FkOptions,
-    run: &Run,
+    run: &VerifyRun,
     look: &mut dyn FnMut(&Sample) -> ControlFlow<()>,
 ) -> Result<Verification, VerifyError> {
     let map = leg_map(a, b, LegMapTolerances::default())?;

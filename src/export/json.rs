@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Choice, Export, ExportBody, ExportLeg, ExportedFile, Hole, Plate, Unsupported, Writer};
+use super::{Export, ExportBody, ExportLeg, ExportedFile, Plate, PlateHole, SizeChoice, Unsupported, Writer};
 use crate::geom::Pose;
 
 /// The format `json`.
@@ -20,7 +20,7 @@ impl Writer for Json {
 
     fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
         // texts, numbers, lists and fields can be written
-        let mut text = serde_json::to_string(&Document::of(export)).unwrap_or_default();
+        let mut text = serde_json::to_string(&ExportedDocument::of(export)).unwrap_or_default();
         text.push('\n');
         Ok(vec![ExportedFile::new("platform.json", text)])
     }
@@ -32,7 +32,7 @@ const FRAMES: &str = "right-handed; a pose (R, p) takes platform to base coordin
 const PLATE_FRAME: &str = "plate coordinates (u, v, w) are origin + u*axes[0] + v*axes[1] + w*axes[2] in the frame of the body; the plate is 0 <= w <= thickness";
 
 #[derive(Debug, Serialize)]
-struct Document<'a> {
+struct ExportedDocument<'a> {
     schema_version: u32,
     name: &'a str,
     source: Option<&'a str>,
@@ -40,7 +40,7 @@ struct Document<'a> {
     units: &'static str,
     design_unit: UnitRecord,
     frames: &'static str,
-    home: PoseRecord,
+    home: ExportedPose,
     base: BodyRecord<'a>,
     platform: BodyRecord<'a>,
     legs: Vec<LegRecord<'a>>,
@@ -56,7 +56,7 @@ struct UnitRecord {
 }
 
 #[derive(Debug, Serialize)]
-struct PoseRecord {
+struct ExportedPose {
     position: [f64; 3],
     quat_wxyz: [f64; 4],
 }
@@ -64,7 +64,7 @@ struct PoseRecord {
 #[derive(Debug, Serialize)]
 struct LengthsRecord {
     #[serde(flatten)]
-    pose: PoseRecord,
+    pose: ExportedPose,
     lengths: [f64; 6],
 }
 
@@ -92,11 +92,11 @@ struct PlateRecord<'a> {
     margin: f64,
     hole_diameter: f64,
     volume: f64,
-    holes: Vec<HoleRecord<'a>>,
+    holes: Vec<ExportedHole<'a>>,
 }
 
 #[derive(Debug, Serialize)]
-struct HoleRecord<'a> {
+struct ExportedHole<'a> {
     joints: &'a [String],
     at: [f64; 2],
     post: f64,
@@ -121,7 +121,7 @@ struct ChoiceRecord<'a> {
     from: &'a str,
 }
 
-impl<'a> Document<'a> {
+impl<'a> ExportedDocument<'a> {
     fn of(export: &'a Export) -> Self {
         let mm = export.unit.millimetres;
         let leg = |leg: &'a ExportLeg| {
@@ -137,7 +137,7 @@ impl<'a> Document<'a> {
             }
         };
         let choice =
-            |c: &'a Choice| ChoiceRecord { what: &c.what, value: c.value, unit: c.unit, from: c.from };
+            |c: &'a SizeChoice| ChoiceRecord { what: &c.what, value: c.value, unit: c.unit, from: c.from };
         Self {
             schema_version: 1,
             name: &export.name,
@@ -146,7 +146,7 @@ impl<'a> Document<'a> {
             units: "mm",
             design_unit: UnitRecord { label: export.unit.label, mm },
             frames: FRAMES,
-            home: PoseRecord::of(&export.home, mm),
+            home: ExportedPose::of(&export.home, mm),
             base: BodyRecord::of(&export.bodies[0], mm),
             platform: BodyRecord::of(&export.bodies[1], mm),
             legs: export.legs.iter().map(leg).collect(),
@@ -157,7 +157,7 @@ impl<'a> Document<'a> {
     }
 }
 
-impl PoseRecord {
+impl ExportedPose {
     fn of(pose: &Pose, mm: f64) -> Self {
         Self { position: (pose.position * mm).into(), quat_wxyz: pose.quaternion() }
     }
@@ -166,7 +166,7 @@ impl PoseRecord {
 fn lengths(export: &Export, poses: &[Pose]) -> Vec<LengthsRecord> {
     let mm = export.unit.millimetres;
     let record = |pose: &Pose| LengthsRecord {
-        pose: PoseRecord::of(pose, mm),
+        pose: ExportedPose::of(pose, mm),
         lengths: export.lengths_at(pose).map(|l| l * mm),
     };
     poses.iter().map(record).collect()
@@ -188,8 +188,11 @@ impl<'a> BodyRecord<'a> {
 
 impl<'a> PlateRecord<'a> {
     fn of(plate: &'a Plate, mm: f64) -> Self {
-        let hole =
-            |h: &'a Hole| HoleRecord { joints: &h.joints, at: [h.at.x * mm, h.at.y * mm], post: h.post * mm };
+        let hole = |h: &'a PlateHole| ExportedHole {
+            joints: &h.joints,
+            at: [h.at.x * mm, h.at.y * mm],
+            post: h.post * mm,
+        };
         Self {
             frame: PLATE_FRAME,
             origin: (plate.origin.coords * mm).into(),

@@ -33,10 +33,10 @@ use thiserror::Error;
 use crate::manipulator::Body;
 use crate::names::{UnknownName, named};
 
-pub use model::{Export, ExportBody, ExportLeg, Joint};
+pub use model::{Export, ExportBody, ExportLeg, ExportedJoint};
 pub use outline::{Outline, OutlinePart};
-pub use plate::{Hole, Plate};
-pub use sizes::{Choice, ExportOptions, NoExport};
+pub use plate::{Plate, PlateHole};
+pub use sizes::{ExportOptions, NoExport, SizeChoice};
 pub use units::{LengthUnit, UnknownUnit};
 
 /// A file: its name and its text.
@@ -164,7 +164,7 @@ impl ExportFormat {
             Self::Json => &json::Json,
             Self::Matlab => &matlab::Matlab,
             Self::Mjcf => &mjcf::Mjcf,
-            Self::Step => &step::Step,
+            Self::Step => &step::StepFile,
             Self::Stl => &stl::Stl,
             Self::Drawing => &drawing::Drawing,
         }

@@ -4,7 +4,7 @@ use nalgebra::{Point3, Vector3};
 
 use super::Unsupported;
 use super::plate::{self, Plate};
-use super::sizes::{Choice, ExportOptions, LegSizes, NoExport, Sizes, least_distance, mass};
+use super::sizes::{ExportOptions, LegSizes, NoExport, SizeChoice, Sizes, least_distance, mass};
 use super::units::LengthUnit;
 use crate::design::Design;
 use crate::geom::Pose;
@@ -12,7 +12,7 @@ use crate::manipulator::Body;
 
 /// A joint of a body.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Joint {
+pub struct ExportedJoint {
     /// Its name.
     pub name: String,
     /// Its centre in the frame of the body, design units.
@@ -25,7 +25,7 @@ pub struct ExportBody {
     /// Which of the two.
     pub body: Body,
     /// Its joints in the order of the design; a shared joint once.
-    pub joints: Vec<Joint>,
+    pub joints: Vec<ExportedJoint>,
     /// Diameter of the balls of its joints, design units.
     pub ball_diameter: f64,
     /// Its plate. Formats that draw it ask [`ExportBody::plate`].
@@ -108,7 +108,7 @@ pub struct Export {
     /// Whether simulators are told to carry the weight of all bodies.
     pub gravity_compensation: bool,
     /// The sizes and where they come from.
-    pub choices: Vec<Choice>,
+    pub choices: Vec<SizeChoice>,
 }
 
 /// Steps between two poses of a trajectory in the table of leg lengths.
@@ -144,8 +144,8 @@ impl Export {
         let m = design.manipulator();
         let size = m.size();
         let hardware = &design.hardware;
-        let joints = |names: &[String], points: &[Point3<f64>]| -> Vec<Joint> {
-            names.iter().zip(points).map(|(name, at)| Joint { name: name.clone(), at: *at }).collect()
+        let joints = |names: &[String], points: &[Point3<f64>]| -> Vec<ExportedJoint> {
+            names.iter().zip(points).map(|(name, at)| ExportedJoint { name: name.clone(), at: *at }).collect()
         };
         let base = joints(design.base_names(), m.base_joints());
         let platform = joints(design.platform_names(), m.platform_joints());
@@ -154,7 +154,7 @@ impl Export {
         let shortest = lengths.iter().copied().filter(|l| *l > 1e-9 * size).fold(f64::INFINITY, f64::min);
         let towards: Vector3<f64> = ends.iter().map(|(a, b)| b - a).sum();
         let mut choices = Vec::new();
-        let mut seated = |platform: bool, joints: &[Joint], towards: &Vector3<f64>| {
+        let mut seated = |platform: bool, joints: &[ExportedJoint], towards: &Vector3<f64>| {
             let normal = plate::normal(joints, towards, size);
             let distance = least_distance(joints, &normal, size);
             let ball = (0.05 * size).min(0.4 * distance).min(0.1 * shortest);

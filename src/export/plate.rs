@@ -5,14 +5,14 @@ use std::f64::consts::PI;
 use nalgebra::{Matrix3, Point2, Point3, Vector3};
 
 use super::Unsupported;
-use super::model::Joint;
+use super::model::ExportedJoint;
 use super::outline::Outline;
 use super::sizes::Sizes;
 use crate::manipulator::Body;
 
 /// A hole of a plate under a joint.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Hole {
+pub struct PlateHole {
     /// The joint above it, or several separate joints with the same centre.
     pub joints: Vec<String>,
     /// Its axis in the plate, plate frame.
@@ -40,14 +40,14 @@ pub struct Plate {
     /// Diameter of the posts, that of the balls, design units.
     pub post_diameter: f64,
     /// The holes.
-    pub holes: Vec<Hole>,
+    pub holes: Vec<PlateHole>,
     /// The outline in the plate frame.
     pub outline: Outline,
 }
 
 /// Normal of the greatest triangle of the joints, towards positive z (then y, then x); the direction across their line nearest to `along` where they
 /// lie on one.
-pub(super) fn normal(joints: &[Joint], along: &Vector3<f64>, size: f64) -> Vector3<f64> {
+pub(super) fn normal(joints: &[ExportedJoint], along: &Vector3<f64>, size: f64) -> Vector3<f64> {
     let points: Vec<Point3<f64>> = joints.iter().map(|j| j.at).collect();
     let mut best = Vector3::zeros();
     let mut line = Vector3::zeros();
@@ -96,7 +96,7 @@ fn frame_of(n: &Vector3<f64>) -> Matrix3<f64> {
 impl Plate {
     /// The plate of a body with these joints across `normal`; `towards_legs` is the mean direction of the legs from the body, in its frame.
     pub(super) fn under(
-        joints: &[Joint],
+        joints: &[ExportedJoint],
         normal: &Vector3<f64>,
         towards_legs: &Vector3<f64>,
         sizes: &Sizes,
@@ -112,15 +112,16 @@ impl Plate {
         let face = side * (lowest - seat);
         let lower = if legs_above { face - sizes.thickness } else { face };
         let tolerance = 1e-9 * size;
-        let mut holes: Vec<Hole> = Vec::new();
+        let mut holes: Vec<PlateHole> = Vec::new();
         for joint in joints {
             let local = axes.transpose() * joint.at.coords;
             let (at, above) = (Point2::new(local.x, local.y), height(&joint.at) - lowest);
             let post = if above > tolerance { (seat + above - 0.5 * sizes.ball).max(0.0) } else { 0.0 };
-            let same = |h: &&mut Hole| (h.at - at).norm() <= tolerance && (h.post - post).abs() <= tolerance;
+            let same =
+                |h: &&mut PlateHole| (h.at - at).norm() <= tolerance && (h.post - post).abs() <= tolerance;
             match holes.iter_mut().find(same) {
                 Some(hole) => hole.joints.push(joint.name.clone()),
-                None => holes.push(Hole { joints: vec![joint.name.clone()], at, post }),
+                None => holes.push(PlateHole { joints: vec![joint.name.clone()], at, post }),
             }
         }
         let centres: Vec<Point2<f64>> = holes.iter().map(|h| h.at).collect();
@@ -151,7 +152,7 @@ impl Plate {
 
     /// Where the post of a hole begins and ends along the normal.
     #[must_use]
-    pub fn post_span(&self, hole: &Hole) -> (f64, f64) {
+    pub fn post_span(&self, hole: &PlateHole) -> (f64, f64) {
         if self.legs_above { (self.thickness, self.thickness + hole.post) } else { (-hole.post, 0.0) }
     }
 
@@ -167,7 +168,7 @@ impl Plate {
                 let (parts, diameter) =
                     if raised { ("posts", self.post_diameter) } else { ("holes", self.hole_diameter) };
                 if distance <= diameter {
-                    let name = |h: &Hole| h.joints.join("/");
+                    let name = |h: &PlateHole| h.joints.join("/");
                     let (first, second) = (name(a), name(b));
                     return Err(Unsupported::SeatsOverlap { body, parts, first, second, distance, diameter });
                 }

@@ -3,7 +3,7 @@
 use nalgebra::{Point3, Vector3};
 use thiserror::Error;
 
-use super::model::Joint;
+use super::model::ExportedJoint;
 use super::units::{LengthUnit, UnknownUnit};
 use crate::requirements::{Hardware, Housing};
 
@@ -103,7 +103,7 @@ pub(super) struct LegSizes {
 
 /// A size and where it comes from.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Choice {
+pub struct SizeChoice {
     /// What it is the size of.
     pub what: String,
     /// Its value in `unit`.
@@ -144,7 +144,7 @@ fn housing_width(hardware: &Hardware, platform: bool) -> Option<f64> {
 }
 
 /// Least distance of the axes of two seats, lines along `normal` through the joints, that do not coincide.
-pub(super) fn least_distance(joints: &[Joint], normal: &Vector3<f64>, size: f64) -> f64 {
+pub(super) fn least_distance(joints: &[ExportedJoint], normal: &Vector3<f64>, size: f64) -> f64 {
     let apart = |a: &Point3<f64>, b: &Point3<f64>| {
         let d = b - a;
         (d - normal * normal.dot(&d)).norm()
@@ -156,14 +156,14 @@ pub(super) fn least_distance(joints: &[Joint], normal: &Vector3<f64>, size: f64)
 
 /// The first value there is, with its origin, noted in `choices`.
 fn choose<const N: usize>(
-    choices: &mut Vec<Choice>,
+    choices: &mut Vec<SizeChoice>,
     what: &str,
     candidates: [(Option<f64>, &'static str); N],
     rule: (f64, &'static str),
 ) -> f64 {
     let given = candidates.into_iter().find_map(|(value, from)| value.map(|v| (v, from)));
     let (value, from) = given.unwrap_or(rule);
-    choices.push(Choice { what: what.to_string(), value, unit: "design units", from });
+    choices.push(SizeChoice { what: what.to_string(), value, unit: "design units", from });
     value
 }
 
@@ -180,7 +180,7 @@ impl Sizes {
         hardware: &Hardware,
         options: &ExportOptions,
         rule_ball: f64,
-        choices: &mut Vec<Choice>,
+        choices: &mut Vec<SizeChoice>,
     ) -> Result<Self, NoExport> {
         let body = if platform { "platform" } else { "base" };
         let ball = choose(
@@ -229,7 +229,7 @@ impl LegSizes {
         hardware: &Hardware,
         smaller_ball: f64,
         shortest: f64,
-        choices: &mut Vec<Choice>,
+        choices: &mut Vec<SizeChoice>,
     ) -> Self {
         let body = hardware.leg_body;
         let cylinder_diameter = choose(
@@ -258,11 +258,11 @@ impl LegSizes {
 ///
 /// # Errors
 /// [`NoExport::BadSize`].
-pub(super) fn mass(given: Option<f64>, metres: f64, choices: &mut Vec<Choice>) -> Result<f64, NoExport> {
+pub(super) fn mass(given: Option<f64>, metres: f64, choices: &mut Vec<SizeChoice>) -> Result<f64, NoExport> {
     let value = given.unwrap_or(20.0 * metres.powi(3));
     positive("the mass", value)?;
     let rule = "rule: 20 kg times the cube of the size in metres";
-    choices.push(Choice {
+    choices.push(SizeChoice {
         what: "mass of the platform with payload".to_string(),
         value,
         unit: "kg",

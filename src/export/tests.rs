@@ -135,7 +135,7 @@ fn tables_read_back_to_the_same_numbers() {
     let csv = text_of(&export, "csv", "joints.csv");
     let rows: Vec<Vec<&str>> =
         csv.lines().filter(|l| !l.starts_with('#')).skip(1).map(|l| l.split(',').collect()).collect();
-    let joints: Vec<(Body, &Joint)> =
+    let joints: Vec<(Body, &ExportedJoint)> =
         export.bodies.iter().flat_map(|b| b.joints.iter().map(move |j| (b.body, j))).collect();
     assert_eq!(rows.len(), joints.len());
     for (row, (body, joint)) in rows.iter().zip(joints) {

@@ -7,7 +7,7 @@ use crate::distance::{closure_polynomial, plans};
 use crate::geom::{ComplexPose, trilaterate};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::poly::complex_roots;
-use crate::topology::{Joint, Sequence};
+use crate::topology::{JointIndex, Sequence};
 
 /// Bits to which roots are enclosed before they are rounded.
 const BITS: u64 = 60;
@@ -38,16 +38,16 @@ pub fn closure_candidates(m: &Manipulator, s: &SquaredLegLengths) -> Vec<Complex
 /// The poses of all eight orientations with their residuals, fewer where a base is singular.
 fn over(m: &Manipulator, s: &SquaredLegLengths, plan: &Sequence, x: Complex64) -> Vec<(f64, ComplexPose)> {
     let virtual_leg = plan.virtual_legs.first().copied();
-    let squared = |a: Joint, b: Joint| match a.across(b) {
+    let squared = |a: JointIndex, b: JointIndex| match a.across(b) {
         None => Some(Complex64::from((point(m, a) - point(m, b)).norm_squared())),
         pair if pair == virtual_leg => Some(x),
         Some(pair) => m.pairs().iter().position(|l| *l == pair).map(|i| Complex64::from(s.get()[i])),
     };
-    let mut partial: Vec<Vec<(Joint, Vector3<Complex64>)>> = vec![Vec::new()];
+    let mut partial: Vec<Vec<(JointIndex, Vector3<Complex64>)>> = vec![Vec::new()];
     for step in plan.unoriented() {
         let mut next = Vec::new();
         for placed in &partial {
-            let position = |j: Joint| {
+            let position = |j: JointIndex| {
                 let moved = placed.iter().find(|p| p.0 == j).map(|p| p.1);
                 moved.unwrap_or_else(|| point(m, j).coords.map(Complex64::from))
             };
@@ -61,25 +61,25 @@ fn over(m: &Manipulator, s: &SquaredLegLengths, plan: &Sequence, x: Complex64) -
     poses.map(|p| (p.residual(m, s), p)).filter(|p| p.0.is_finite()).collect()
 }
 
-fn point(m: &Manipulator, joint: Joint) -> Point3<f64> {
+fn point(m: &Manipulator, joint: JointIndex) -> Point3<f64> {
     match joint {
-        Joint::Base(k) => m.base_joints()[k],
-        Joint::Platform(k) => m.platform_joints()[k],
+        JointIndex::Base(k) => m.base_joints()[k],
+        JointIndex::Platform(k) => m.platform_joints()[k],
     }
 }
 
 /// The pose that takes three joints of one body to their places in the frame of the other.
-fn pose(m: &Manipulator, placed: &[(Joint, Vector3<Complex64>)]) -> Option<ComplexPose> {
+fn pose(m: &Manipulator, placed: &[(JointIndex, Vector3<Complex64>)]) -> Option<ComplexPose> {
     let [(a, pa), (b, pb), (c, pc)] = placed else { return None };
     let frame = |u: Vector3<Complex64>, v: Vector3<Complex64>| Matrix3::from_columns(&[u, v, u.cross(&v)]);
-    let own = |j: &Joint| point(m, *j).coords.map(Complex64::from);
+    let own = |j: &JointIndex| point(m, *j).coords.map(Complex64::from);
     let from = frame(own(b) - own(a), own(c) - own(a));
     let rotation = frame(pb - pa, pc - pa) * from.try_inverse()?;
     let position = pa - rotation * own(a);
     Some(match a {
-        Joint::Platform(_) => ComplexPose { rotation, position },
+        JointIndex::Platform(_) => ComplexPose { rotation, position },
         // the base was placed in the platform's frame
-        Joint::Base(_) => {
+        JointIndex::Base(_) => {
             let back = rotation.transpose();
             ComplexPose { rotation: back, position: -(back * position) }
         }

@@ -2,7 +2,7 @@
 
 use num_complex::Complex64;
 
-use super::collect::Candidate;
+use super::collect::PoseCandidate;
 use super::newton::beside;
 use crate::geom::ComplexPose;
 use crate::manipulator::{Manipulator, SquaredLegLengths};
@@ -17,22 +17,22 @@ const STARTS: [f64; 2] = [1e-6, 1e-4];
 
 /// Candidates sorted into those that stand alone and those proved to be close but distinct.
 pub(super) struct Separated {
-    pub(super) plain: Vec<Candidate>,
-    pub(super) proved: Vec<(Candidate, Certificate)>,
+    pub(super) plain: Vec<PoseCandidate>,
+    pub(super) proved: Vec<(PoseCandidate, Certificate)>,
 }
 
 /// Takes clusters of nearly singular candidates apart.
 ///
 /// A cluster of `k` ends with `k` certified distinct roots in it becomes these roots. One without any certified
 /// root becomes a root of multiplicity `k`. Anything else stays as it is, so that the coincidence is reported.
-pub(super) fn separate(m: &Manipulator, s: &SquaredLegLengths, candidates: Vec<Candidate>) -> Separated {
+pub(super) fn separate(m: &Manipulator, s: &SquaredLegLengths, candidates: Vec<PoseCandidate>) -> Separated {
     let size = m.size();
     let (close, mut plain): (Vec<_>, Vec<_>) =
         candidates.into_iter().partition(|c| c.singular || !(c.condition < SINGULAR));
-    let mut clusters: Vec<Vec<Candidate>> = Vec::new();
+    let mut clusters: Vec<Vec<PoseCandidate>> = Vec::new();
     for c in close {
         let spread = |p: &ComplexPose| p.rotation.iter().map(|z| z.norm()).fold(1.0, f64::max);
-        let near = |d: &Candidate| d.pose.distance(&c.pose, size) < RADIUS * spread(&c.pose);
+        let near = |d: &PoseCandidate| d.pose.distance(&c.pose, size) < RADIUS * spread(&c.pose);
         match clusters.iter_mut().find(|members| members.iter().any(near)) {
             Some(members) => members.push(c),
             None => clusters.push(vec![c]),
@@ -52,24 +52,24 @@ pub(super) fn separate(m: &Manipulator, s: &SquaredLegLengths, candidates: Vec<C
 fn resolve(
     m: &Manipulator,
     s: &SquaredLegLengths,
-    members: Vec<Candidate>,
-    plain: &mut Vec<Candidate>,
-    proved: &mut Vec<(Candidate, Certificate)>,
+    members: Vec<PoseCandidate>,
+    plain: &mut Vec<PoseCandidate>,
+    proved: &mut Vec<(PoseCandidate, Certificate)>,
 ) {
     let centre = mean(&members);
     let found = certified_near(m, s, &members, &centre);
     if found.len() == members.len() {
         let roots = members.iter().zip(found);
-        proved.extend(roots.map(|(c, (pose, proof))| (Candidate { pose, singular: false, ..*c }, proof)));
+        proved.extend(roots.map(|(c, (pose, proof))| (PoseCandidate { pose, singular: false, ..*c }, proof)));
     } else if found.is_empty() {
-        plain.extend(members.iter().map(|c| Candidate { pose: centre, singular: true, ..*c }));
+        plain.extend(members.iter().map(|c| PoseCandidate { pose: centre, singular: true, ..*c }));
     } else {
         plain.extend(members);
     }
 }
 
 /// The mean cancels the leading errors of the ends about a multiple root.
-fn mean(members: &[Candidate]) -> ComplexPose {
+fn mean(members: &[PoseCandidate]) -> ComplexPose {
     let weight = Complex64::new(1.0 / members.len() as f64, 0.0);
     let mut out = members[0].pose;
     out.rotation = members.iter().map(|c| c.pose.rotation * weight).sum();
@@ -81,7 +81,7 @@ fn mean(members: &[Candidate]) -> ComplexPose {
 fn certified_near(
     m: &Manipulator,
     s: &SquaredLegLengths,
-    members: &[Candidate],
+    members: &[PoseCandidate],
     centre: &ComplexPose,
 ) -> Vec<(ComplexPose, Certificate)> {
     let Ok(certifier) = Certifier::new(m, s) else { return Vec::new() };

@@ -13,7 +13,7 @@ use crate::manipulator::{Manipulator, SquaredLegLengths};
 
 /// A pose some method believes to be a solution.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Candidate {
+pub(super) struct PoseCandidate {
     pub(super) pose: ComplexPose,
     /// The method found the equations singular there, so that coinciding candidates count as multiplicity.
     pub(super) singular: bool,
@@ -44,8 +44,8 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 const FAR: f64 = 100.0;
 
 /// A distinct pose with everything that ended in it.
-struct Group {
-    candidate: Candidate,
+struct PoseGroup {
+    candidate: PoseCandidate,
     residual: f64,
     /// See [`pose_scale`].
     scale: f64,
@@ -60,7 +60,7 @@ pub(super) fn collect(
     m: &Manipulator,
     s: &SquaredLegLengths,
     tolerances: &FkTolerances,
-    candidates: &[Candidate],
+    candidates: &[PoseCandidate],
 ) -> Collected {
     collect_with(m, s, tolerances, candidates, Vec::new())
 }
@@ -73,11 +73,11 @@ pub(super) fn collect_with(
     m: &Manipulator,
     s: &SquaredLegLengths,
     tolerances: &FkTolerances,
-    candidates: &[Candidate],
+    candidates: &[PoseCandidate],
     certified: Vec<Sourced>,
 ) -> Collected {
     let length = m.size();
-    let mut groups: Vec<Group> = Vec::new();
+    let mut groups: Vec<PoseGroup> = Vec::new();
     let mut rejected = Vec::new();
     let mut doubtful = false;
     for candidate in candidates {
@@ -117,12 +117,12 @@ pub(super) fn collect_with(
                 }
                 g.sources.push(c.source);
             }
-            None => groups.push(Group { candidate: c, residual, scale, sources: vec![c.source] }),
+            None => groups.push(PoseGroup { candidate: c, residual, scale, sources: vec![c.source] }),
         }
     }
     let plain = groups.into_iter();
     let mut order: Vec<Sourced> = plain
-        .map(|Group { candidate: c, residual, sources, .. }| {
+        .map(|PoseGroup { candidate: c, residual, sources, .. }| {
             let reality = reality_of(&c, length, tolerances);
             let multiplicity = if c.singular { sources.len() as u32 } else { 1 };
             let root = FkRoot {
@@ -156,7 +156,7 @@ const NON_REAL: f64 = 1e3;
 
 /// Whether a pose without a certificate is real: imaginary parts are blurred by the tolerance times the root of the condition number, those of singular poses
 /// by [`SINGULAR_RADIUS`], where nothing shows that a pose is real.
-fn reality_of(c: &Candidate, length: f64, tolerances: &FkTolerances) -> Reality {
+fn reality_of(c: &PoseCandidate, length: f64, tolerances: &FkTolerances) -> Reality {
     let blur = if c.singular {
         SINGULAR_RADIUS
     } else {

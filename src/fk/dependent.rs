@@ -11,8 +11,8 @@ use super::{
 use crate::geom::{ComplexPose, Pose};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::num::Rng;
-use crate::solve::Frame;
-use crate::solve::homotopy::{EndKind, Path, StartKind, solve_sections};
+use crate::solve::ScaledFrames;
+use crate::solve::homotopy::{EndKind, HomotopyPath, StartKind, solve_sections};
 use crate::solve::pose_count::PoseSet;
 
 /// Leg equations count as dependent below this sine when curves are looked for.
@@ -49,7 +49,7 @@ pub(super) fn curves(
     m: &Manipulator,
     s: &SquaredLegLengths,
     o: &FkOptions,
-    frame: &Frame,
+    frame: &ScaledFrames,
     proved: usize,
 ) -> Result<FkSolutions, FkError> {
     let count = counted(m, s, o);
@@ -83,7 +83,7 @@ pub(super) fn positive_dimensional(
     m: &Manipulator,
     s: &SquaredLegLengths,
     o: &FkOptions,
-    frame: &Frame,
+    frame: &ScaledFrames,
     dimension: usize,
 ) -> Result<FkSolutions, FkError> {
     let (isolated, others): (Vec<FkRoot>, Vec<FkRoot>) = found.roots.into_iter().partition(FkRoot::certified);
@@ -119,7 +119,7 @@ fn cut(
     m: &Manipulator,
     s: &SquaredLegLengths,
     o: &FkOptions,
-    frame: &Frame,
+    frame: &ScaledFrames,
     least: usize,
 ) -> Result<Cuts, FkError> {
     let breakdown = |what: &str| FkError::Breakdown { what: what.to_owned() };
@@ -166,8 +166,8 @@ fn witnesses(
     m: &Manipulator,
     s: &SquaredLegLengths,
     o: &FkOptions,
-    frame: &Frame,
-    paths: &[Path],
+    frame: &ScaledFrames,
+    paths: &[HomotopyPath],
 ) -> Vec<FkRoot> {
     let size = m.size();
     let mut out = Vec::new();

@@ -1,6 +1,6 @@
 //! What the two published eliminations share: candidates of several attempts, refined, merged and certified.
 
-use super::collect::{Candidate, collect};
+use super::collect::{PoseCandidate, collect};
 use super::evidence::{certify, conclude, reject_others};
 use super::{
     Completeness, FkOptions, FkSolutions, Method, Reason, Rejected, RejectionReason, SolutionSet, Theorem,
@@ -11,7 +11,7 @@ use crate::manipulator::{Manipulator, SquaredLegLengths};
 /// Candidates so far; `None` where an eigenvector or root gives no finite pose.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Candidates {
-    poses: Vec<Candidate>,
+    poses: Vec<PoseCandidate>,
     infinite: usize,
     attempts: usize,
 }
@@ -24,7 +24,7 @@ impl Candidates {
             match pose {
                 Some(pose) => {
                     let source = self.poses.len() + self.infinite;
-                    self.poses.push(Candidate { pose, singular: false, condition: 1.0, source });
+                    self.poses.push(PoseCandidate { pose, singular: false, condition: 1.0, source });
                 }
                 None => self.infinite += 1,
             }

@@ -4,7 +4,7 @@ use super::bounds::class_bound;
 use super::{Completeness, FkRoot, FkSolutions, Reality, Reason, Rejected, RejectionReason, Theorem};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::solve::certify::{
-    Certificate, CertifiedPose, Certifier, Distinctness, ProvedReality, RootRelation, Start, distinct,
+    Certificate, CertifiedPose, Certifier, Distinctness, NewtonStart, ProvedReality, RootRelation, distinct,
     relation,
 };
 
@@ -19,7 +19,8 @@ pub(super) fn certify(
     let certifier = Certifier::new(m, s).ok()?;
     let mut repeated = vec![false; solutions.roots.len()];
     for (root, repeated) in solutions.roots.iter_mut().zip(&mut repeated).filter(|(r, _)| !r.certified()) {
-        let Ok(CertifiedPose { pose, certificate }) = certifier.root_near(Start::Pose(&root.pose)) else {
+        let Ok(CertifiedPose { pose, certificate }) = certifier.root_near(NewtonStart::Pose(&root.pose))
+        else {
             continue;
         };
         let same = |k: &Certificate| relation(k, &certificate) == RootRelation::Same;

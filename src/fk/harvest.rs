@@ -3,7 +3,7 @@
 use num_complex::Complex64;
 
 use super::cluster::separate;
-use super::collect::{Candidate, Collected, Sourced, collect_with};
+use super::collect::{Collected, PoseCandidate, Sourced, collect_with};
 use super::evidence::proved;
 use super::homotopy::pose_of;
 use super::{FkRoot, FkTolerances, Rejected, RejectionReason};
@@ -11,7 +11,7 @@ use crate::geom::ComplexPose;
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::num::octuple::ComplexOctuple;
 use crate::solve::certify::{
-    Certificate, CertifiedPose, Certifier, ProvedReality, RootRelation, Start, relation,
+    Certificate, CertifiedPose, Certifier, NewtonStart, ProvedReality, RootRelation, relation,
 };
 
 /// Regular ends with a larger condition number may belong to a cluster.
@@ -51,7 +51,7 @@ pub(super) struct Harvest {
 }
 
 /// A certified root and the paths that ended there; none where it is known as the conjugate of another only.
-struct Proof {
+struct CertifiedRoot {
     root: CertifiedPose,
     condition: f64,
     sources: Vec<usize>,
@@ -70,13 +70,13 @@ pub(super) fn harvest(
     let (close, mut alone): (Vec<End>, Vec<End>) =
         ends.into_iter().partition(|e| e.singular || !(e.condition < NEARLY_SINGULAR));
     let clusters = separate(m, s, close.iter().map(candidate).collect());
-    let (mut open, plain): (Vec<Candidate>, Vec<Candidate>) =
+    let (mut open, plain): (Vec<PoseCandidate>, Vec<PoseCandidate>) =
         clusters.plain.into_iter().partition(|c| c.singular);
     alone.extend(close.iter().filter(|e| plain.iter().any(|c| c.source == e.source)));
-    let mut proofs: Vec<Proof> = clusters
+    let mut proofs: Vec<CertifiedRoot> = clusters
         .proved
         .into_iter()
-        .map(|(c, certificate)| Proof {
+        .map(|(c, certificate)| CertifiedRoot {
             root: CertifiedPose { pose: c.pose, certificate },
             condition: c.condition,
             sources: vec![c.source],
@@ -97,8 +97,8 @@ pub(super) fn harvest(
     Harvest { collected, certificates }
 }
 
-fn candidate(end: &End) -> Candidate {
-    Candidate {
+fn candidate(end: &End) -> PoseCandidate {
+    PoseCandidate {
         pose: pose_of(end.point),
         singular: end.singular,
         condition: end.condition,
@@ -106,7 +106,7 @@ fn candidate(end: &End) -> Candidate {
     }
 }
 
-fn record(m: &Manipulator, s: &SquaredLegLengths, p: Proof) -> Sourced {
+fn record(m: &Manipulator, s: &SquaredLegLengths, p: CertifiedRoot) -> Sourced {
     let root = FkRoot {
         pose: p.root.pose,
         reality: proved(p.root.certificate.reality()),
@@ -143,8 +143,8 @@ fn certify_all(
     m: &Manipulator,
     s: &SquaredLegLengths,
     ends: &[End],
-    proofs: &mut Vec<Proof>,
-) -> Vec<Candidate> {
+    proofs: &mut Vec<CertifiedRoot>,
+) -> Vec<PoseCandidate> {
     let Ok(certifier) = Certifier::new(m, s) else {
         return ends.iter().map(candidate).collect();
     };
@@ -156,16 +156,17 @@ fn certify_all(
         if std::mem::replace(&mut done[i], true) {
             continue;
         }
-        let Ok(root) = certifier.root_near(Start::Point(&end.point)) else {
+        let Ok(root) = certifier.root_near(NewtonStart::Point(&end.point)) else {
             open.push(candidate(end));
             continue;
         };
         let first = proofs.len();
-        proofs.push(Proof { root, condition: end.condition, sources: vec![end.source] });
+        proofs.push(CertifiedRoot { root, condition: end.condition, sources: vec![end.source] });
         for image in images(&root, flat) {
             // an image of an image may be known already; the root may be an image of itself
-            let apart =
-                |p: &Proof| relation(&p.root.certificate, &image.certificate) == RootRelation::Distinct;
+            let apart = |p: &CertifiedRoot| {
+                relation(&p.root.certificate, &image.certificate) == RootRelation::Distinct
+            };
             if !proofs[first..].iter().all(apart) {
                 continue;
             }
@@ -176,28 +177,29 @@ fn certify_all(
                 ends[j].source
             });
             let sources = sources.into_iter().collect();
-            proofs.push(Proof { root: image, condition: end.condition, sources });
+            proofs.push(CertifiedRoot { root: image, condition: end.condition, sources });
         }
     }
     open
 }
 
 /// Poses so far out, or so close to an end at `e.e = 0`, that the endgame could not tell: a certificate can, it proves `e.e != 0`.
-fn finite_after_all(m: &Manipulator, s: &SquaredLegLengths, ends: &[End]) -> Vec<Proof> {
+fn finite_after_all(m: &Manipulator, s: &SquaredLegLengths, ends: &[End]) -> Vec<CertifiedRoot> {
     let Ok(certifier) = Certifier::new(m, s) else { return Vec::new() };
-    let mut proofs: Vec<Proof> = Vec::new();
+    let mut proofs: Vec<CertifiedRoot> = Vec::new();
     for end in ends {
         let starts = match &end.split {
             None => vec![end.point],
             Some(h) => [1.0, -1.0].map(|sign| std::array::from_fn(|k| end.point[k] + h[k] * sign)).to_vec(),
         };
         for start in starts {
-            let Ok(root) = certifier.root_near(Start::DoubtfulPoint(&start, MEAN)) else { continue };
+            let Ok(root) = certifier.root_near(NewtonStart::DoubtfulPoint(&start, MEAN)) else { continue };
             // the two paths of a pair are free to share it out
-            let taken =
-                |p: &Proof| relation(&p.root.certificate, &root.certificate) != RootRelation::Distinct;
+            let taken = |p: &CertifiedRoot| {
+                relation(&p.root.certificate, &root.certificate) != RootRelation::Distinct
+            };
             if end.split.is_none() || !proofs.iter().any(taken) {
-                proofs.push(Proof { root, condition: end.condition, sources: vec![end.source] });
+                proofs.push(CertifiedRoot { root, condition: end.condition, sources: vec![end.source] });
                 break;
             }
         }
@@ -208,14 +210,15 @@ fn finite_after_all(m: &Manipulator, s: &SquaredLegLengths, ends: &[End]) -> Vec
 }
 
 /// Roots that are certified because their conjugates are, for proofs from `first` on.
-fn add_conjugates(proofs: &mut Vec<Proof>, first: usize) {
+fn add_conjugates(proofs: &mut Vec<CertifiedRoot>, first: usize) {
     for k in first..proofs.len() {
         if proofs[k].root.certificate.reality() == ProvedReality::NonReal {
             let (root, condition) = (proofs[k].root.conjugate(), proofs[k].condition);
-            let apart =
-                |p: &Proof| relation(&p.root.certificate, &root.certificate) == RootRelation::Distinct;
+            let apart = |p: &CertifiedRoot| {
+                relation(&p.root.certificate, &root.certificate) == RootRelation::Distinct
+            };
             if proofs.iter().all(apart) {
-                proofs.push(Proof { root, condition, sources: Vec::new() });
+                proofs.push(CertifiedRoot { root, condition, sources: Vec::new() });
             }
         }
     }
@@ -226,17 +229,17 @@ fn certify_precise(
     m: &Manipulator,
     s: &SquaredLegLengths,
     ends: &[PreciseEnd],
-    proofs: &mut Vec<Proof>,
-) -> Vec<Candidate> {
+    proofs: &mut Vec<CertifiedRoot>,
+) -> Vec<PoseCandidate> {
     let first = proofs.len();
     let certifier = Certifier::new(m, s);
     let mut open = Vec::new();
     for end in ends {
-        match certifier.as_ref().map(|c| c.root_near(Start::PrecisePoint(&end.point))) {
+        match certifier.as_ref().map(|c| c.root_near(NewtonStart::PrecisePoint(&end.point))) {
             Ok(Ok(root)) => {
-                proofs.push(Proof { root, condition: end.condition, sources: vec![end.source] });
+                proofs.push(CertifiedRoot { root, condition: end.condition, sources: vec![end.source] });
             }
-            _ => open.push(Candidate {
+            _ => open.push(PoseCandidate {
                 pose: precise_pose(&end.point),
                 singular: true,
                 condition: end.condition,
@@ -274,11 +277,12 @@ fn precise_pose(x: &[ComplexOctuple; 8]) -> ComplexPose {
 }
 
 /// Merges proofs of one root; their number. A conjugate that has a path after all is no repetition.
-fn drop_repeated(proofs: &mut Vec<Proof>) -> usize {
-    let mut kept: Vec<Proof> = Vec::with_capacity(proofs.len());
+fn drop_repeated(proofs: &mut Vec<CertifiedRoot>) -> usize {
+    let mut kept: Vec<CertifiedRoot> = Vec::with_capacity(proofs.len());
     let mut repeated = 0;
     for proof in proofs.drain(..) {
-        let same = |k: &Proof| relation(&k.root.certificate, &proof.root.certificate) == RootRelation::Same;
+        let same =
+            |k: &CertifiedRoot| relation(&k.root.certificate, &proof.root.certificate) == RootRelation::Same;
         match kept.iter_mut().find(|k| same(k)) {
             Some(known) => {
                 repeated += usize::from(!known.sources.is_empty() && !proof.sources.is_empty());
@@ -319,7 +323,7 @@ mod tests {
             assert_eq!(found.roots.iter().filter(|r| r.certified()).count(), 40);
             for root in &found.roots {
                 let own = certifier.certify(&root.pose);
-                let proof = certifier.root_near(Start::Point(&root.dual_quaternion.unwrap())).unwrap();
+                let proof = certifier.root_near(NewtonStart::Point(&root.dual_quaternion.unwrap())).unwrap();
                 assert_eq!(relation(own.certificate().unwrap(), &proof.certificate), RootRelation::Same);
                 for image in images(&proof, true) {
                     let own = certifier.certify(&image.pose);

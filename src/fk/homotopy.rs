@@ -5,7 +5,7 @@ use num_complex::Complex64;
 use super::dependent::{curves, detect_curves, incompatible, positive_dimensional};
 use super::evidence::{attach, set_unproved_apart};
 use super::harvest::{End, Harvest, PreciseEnd, harvest};
-use super::judge::{Judgement, counted, judge, set_counted};
+use super::judge::{RealityJudgement, counted, judge, set_counted};
 use super::{
     Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, PathEnd, PathReport,
     PathsEnded, PoseCounting, Reason, SolutionSet, Theorem,
@@ -14,10 +14,10 @@ use crate::geom::{ComplexPose, rotation_from_quaternion};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::solve::certify::Certificate;
 use crate::solve::homotopy::{
-    EndKind, GENERIC_COUNT, Path, StartError, StartKind, TailEnd, follow_finely, solve_sections,
+    EndKind, GENERIC_COUNT, HomotopyPath, StartError, StartKind, TailEnd, follow_finely, solve_sections,
 };
 use crate::solve::pose_count::PoseCount;
-use crate::solve::{Dependence, Frame, Sections, dependence, mirror, quaternion_product, split};
+use crate::solve::{LegDependence, ScaledFrames, Sections, dependence, mirror, quaternion_product, split};
 
 /// Times the whole problem is tracked again with another gamma when paths fail.
 const ATTEMPTS: u64 = 3;
@@ -41,18 +41,18 @@ impl ForwardKinematics for Homotopy {
     }
 
     fn solve(&self, m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
-        let frame = Frame::of(m, s);
+        let frame = ScaledFrames::of(m, s);
         let nearly = match dependence(m, s) {
-            Dependence::Independent => false,
-            Dependence::Nearly => true,
-            Dependence::Incompatible => return Ok(incompatible(o)),
-            Dependence::Compatible { relations } => return curves(m, s, o, &frame, relations),
+            LegDependence::Independent => false,
+            LegDependence::Nearly => true,
+            LegDependence::Incompatible => return Ok(incompatible(o)),
+            LegDependence::Compatible { relations } => return curves(m, s, o, &frame, relations),
         };
         let Some(sections) = frame.sections(m, s) else { return curves(m, s, o, &frame, 0) };
         let mut best: Option<FkSolutions> = None;
         let mut count: Option<PoseCount> = None;
-        let whole = |k, fine| (Problem { frame, sections, kind: StartKind::Generic, fine }, k);
-        let planar = Problem::planar(m, s).map(|p| (p, 0));
+        let whole = |k, fine| (SectionProblem { frame, sections, kind: StartKind::Generic, fine }, k);
+        let planar = SectionProblem::planar(m, s).map(|p| (p, 0));
         // without the count nothing asks for poses that doubles cannot see
         let quick = o.pose_count == PoseCounting::Never;
         let (plain, fine) = if quick { (ATTEMPTS, 0) } else { (1, FINE_ATTEMPTS) };
@@ -69,16 +69,16 @@ impl ForwardKinematics for Homotopy {
                 count = counted(m, s, o);
             }
             let uncertified = found.roots.iter().any(|r| !r.certified()).then(|| found.clone());
-            let judgement = count.as_ref().map_or(Ok(Judgement::Silent), |c| judge(&mut found, c))?;
+            let judgement = count.as_ref().map_or(Ok(RealityJudgement::Silent), |c| judge(&mut found, c))?;
             match judgement {
-                Judgement::Complete => {
+                RealityJudgement::Complete => {
                     return Ok(moving_within_rounding(uncertified, m, s, count).unwrap_or(found));
                 }
-                Judgement::PositiveDimensional { dimension } => {
+                RealityJudgement::PositiveDimensional { dimension } => {
                     return positive_dimensional(found, m, s, o, &frame, dimension);
                 }
-                Judgement::Short => {}
-                Judgement::Silent => detect_curves(&mut found, m, s),
+                RealityJudgement::Short => {}
+                RealityJudgement::Silent => detect_curves(&mut found, m, s),
             }
             if nearly {
                 // the answer depends on digits that nobody knows
@@ -130,18 +130,18 @@ fn failures(found: &FkSolutions) -> usize {
 }
 
 /// The sections to be solved and the frame they belong to.
-struct Problem {
-    frame: Frame,
+struct SectionProblem {
+    frame: ScaledFrames,
     sections: Sections,
     kind: StartKind,
     /// Whether paths that end in no certified pose are followed with 256 bits; for [`StartKind::Generic`].
     fine: bool,
 }
 
-impl Problem {
+impl SectionProblem {
     /// The problem in the planes of base and platform, if there are such planes.
     fn planar(m: &Manipulator, s: &SquaredLegLengths) -> Option<Self> {
-        let frame = Frame::planar(m, s)?;
+        let frame = ScaledFrames::planar(m, s)?;
         Some(Self { sections: frame.sections(m, s)?, frame, kind: StartKind::Planar, fine: false })
     }
 
@@ -168,7 +168,7 @@ impl Problem {
     }
 
     /// Puts what the precise continuation of paths found in the place of what doubles had; the finite ends with all their digits.
-    fn take_over(&self, paths: &mut [Path], open: &[usize], tails: &[TailEnd]) -> Vec<PreciseEnd> {
+    fn take_over(&self, paths: &mut [HomotopyPath], open: &[usize], tails: &[TailEnd]) -> Vec<PreciseEnd> {
         let mut out = Vec::new();
         for (&source, tail) in open.iter().zip(tails) {
             let path = &mut paths[source];
@@ -214,7 +214,7 @@ pub(super) fn pose_of(x: [Complex64; 8]) -> ComplexPose {
 }
 
 /// The ends that are or may be finite; where paths stand for two, the mirror images follow with sources counted on.
-fn ends_of(problem: &Problem, paths: &[Path]) -> Vec<End> {
+fn ends_of(problem: &SectionProblem, paths: &[HomotopyPath]) -> Vec<End> {
     let mut out = Vec::new();
     for (start, path) in paths.iter().enumerate() {
         let finite = matches!(path.kind, EndKind::Regular | EndKind::Singular);
@@ -239,7 +239,7 @@ fn ends_of(problem: &Problem, paths: &[Path]) -> Vec<End> {
     out
 }
 
-fn report_of(start: usize, path: &Path) -> PathReport {
+fn report_of(start: usize, path: &HomotopyPath) -> PathReport {
     let end = match path.kind {
         EndKind::Regular | EndKind::Singular => PathEnd::Finite,
         EndKind::Isotropic => PathEnd::IsotropicRotation,
@@ -267,7 +267,7 @@ fn report_of(start: usize, path: &Path) -> PathReport {
 /// Ends at infinity have `|e| / |(e, g)|` below `1e-9`, or around `1e-8`, the root of rounding, where two paths end in one; ends at
 /// `e.e = 0` have `|e.e| / |e|^2` below `1e-13` and `e` not small (18,000 ends of the special classes of the harness). The limits leave a factor of ten. Between
 /// are poses far out.
-fn is_blurred(path: &Path) -> bool {
+fn is_blurred(path: &HomotopyPath) -> bool {
     let e: f64 = path.x[..4].iter().map(Complex64::norm_sqr).sum();
     let all: f64 = path.x.iter().map(Complex64::norm_sqr).sum();
     let n: Complex64 = path.x[..4].iter().map(|z| z * z).sum();
@@ -279,8 +279,8 @@ fn is_blurred(path: &Path) -> bool {
 
 fn assemble(
     o: &FkOptions,
-    problem: &Problem,
-    paths: &[Path],
+    problem: &SectionProblem,
+    paths: &[HomotopyPath],
     found: Harvest,
 ) -> (FkSolutions, Vec<Certificate>) {
     let mut reports: Vec<PathReport> =

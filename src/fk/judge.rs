@@ -7,11 +7,13 @@ use super::evidence::reject_others;
 use super::{Completeness, FkError, FkOptions, FkRoot, FkSolutions, PoseCounting, Reason, SolutionSet};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::solve::certify::{Certificate, Distinctness, RootCertificate, distinct};
-use crate::solve::pose_count::{CountOptions, PoseCount, PoseSet, Undecided, count_poses, exact_squares};
+use crate::solve::pose_count::{
+    CountOptions, CountUndecided, PoseCount, PoseSet, count_poses, exact_squares,
+};
 
 /// What the number says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Judgement {
+pub(super) enum RealityJudgement {
     /// Proved before, or as many as there are.
     Complete,
     /// Poses are missing.
@@ -33,7 +35,7 @@ pub(super) fn counted(m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> 
     let options = CountOptions { seed: o.seed, ..CountOptions::default() };
     Some(match exact_squares(s) {
         Some(squares) => count_poses(m, &squares, &options),
-        None => PoseCount::undecided(Undecided::LengthsNotExact),
+        None => PoseCount::undecided(CountUndecided::LengthsNotExact),
     })
 }
 
@@ -50,16 +52,16 @@ fn are_distinct(found: &FkSolutions) -> bool {
 }
 
 /// Compares the certified roots with the count and files both.
-pub(super) fn judge(found: &mut FkSolutions, count: &PoseCount) -> Result<Judgement, FkError> {
+pub(super) fn judge(found: &mut FkSolutions, count: &PoseCount) -> Result<RealityJudgement, FkError> {
     found.pose_count = Some(count.clone());
     let distinct = are_distinct(found);
     let certified = found.certified_count();
     let error_probability = count.error_probability;
     let counted = match &count.set {
-        PoseSet::Undecided { .. } => return Ok(Judgement::Silent),
+        PoseSet::Undecided { .. } => return Ok(RealityJudgement::Silent),
         PoseSet::PositiveDimensional { dimension, .. } => {
             found.completeness.learn(set_counted(count, false));
-            return Ok(Judgement::PositiveDimensional { dimension: *dimension });
+            return Ok(RealityJudgement::PositiveDimensional { dimension: *dimension });
         }
         PoseSet::Finite { count, .. } if distinct && certified > *count => {
             let what =
@@ -70,14 +72,14 @@ pub(super) fn judge(found: &mut FkSolutions, count: &PoseCount) -> Result<Judgem
     };
     if !distinct || certified != counted {
         found.completeness.doubt(Reason::PosesMissing { counted, certified, error_probability });
-        return Ok(Judgement::Short);
+        return Ok(RealityJudgement::Short);
     }
     found.completeness.learn(Completeness::Modular { poses: certified, error_probability });
     if counted == 0 {
         found.solution_set = SolutionSet::Empty;
     }
     reject_others(found);
-    Ok(Judgement::Complete)
+    Ok(RealityJudgement::Complete)
 }
 
 /// What the count says where poses form a set of positive dimension, or seem to within rounding; nothing when it is undecided.
@@ -104,7 +106,7 @@ pub(super) fn compared_with_count(
         return Ok(found);
     }
     let Some(count) = counted(m, s, o) else { return Ok(found) };
-    if let Judgement::PositiveDimensional { dimension } = judge(&mut found, &count)? {
+    if let RealityJudgement::PositiveDimensional { dimension } = judge(&mut found, &count)? {
         reject_others(&mut found);
         found.solution_set =
             SolutionSet::PositiveDimensional { dimension, witnesses: Vec::new(), established: false };

@@ -6,7 +6,7 @@ use super::{FkError, FkOptions, FkSolutions, ForwardKinematics, Method};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::num::Rng;
 use crate::solve::generic_frame::GenericProblem;
-use crate::solve::template::Layout;
+use crate::solve::template::TemplateLayout;
 
 /// Times the elimination is made anew, in other frames, while fewer than 40 poses are proved.
 const ATTEMPTS: u64 = 3;
@@ -29,13 +29,13 @@ impl ForwardKinematics for Template {
     }
 
     fn solve(&self, m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
-        let layout = Layout::shipped().map_err(|e| FkError::Breakdown { what: e.to_string() })?;
+        let layout = TemplateLayout::shipped().map_err(|e| FkError::Breakdown { what: e.to_string() })?;
         compared_with_count(solve_with(layout, m, s, o)?, m, s, o)
     }
 }
 
 fn solve_with(
-    layout: &Layout,
+    layout: &TemplateLayout,
     m: &Manipulator,
     s: &SquaredLegLengths,
     o: &FkOptions,
@@ -85,9 +85,9 @@ mod tests {
         let right = Template.solve(&m, &s, &o).unwrap();
         assert!(right.completeness.is_proved());
         assert_eq!(right.rejected.len(), 29, "69 candidates, 40 poses, the others with a reason");
-        let shipped = Layout::shipped().unwrap();
+        let shipped = TemplateLayout::shipped().unwrap();
         let problem = GenericProblem::draw(&m, &s, &mut Rng::stream(o.seed, 0));
-        let good = |layout: &Layout| {
+        let good = |layout: &TemplateLayout| {
             let pairs = layout.fill(&problem).eliminate().eigenpairs().unwrap();
             let poses = pairs.iter().filter_map(|p| layout.pose(&problem, p));
             poses.filter(|pose| pose.residual(&m, &s) < 1e-4).count()

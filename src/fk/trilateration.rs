@@ -13,11 +13,11 @@ use super::{
     Completeness, FkError, FkOptions, FkRoot, FkSolutions, ForwardKinematics, Method, PreparedDesign, Reason,
     Rejected, RejectionReason, SolutionSet, Theorem, Tried, hidden,
 };
-use crate::distance::{Evaluator, NoPlan, Shape, fit};
+use crate::distance::{Evaluator, GenericDegrees, NoPlan, fit};
 use crate::geom::ComplexPose;
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::solve::certify::dual_quaternion;
-use crate::topology::{Joint, Nesting, Sequence, sequences};
+use crate::topology::{JointIndex, Nesting, Sequence, sequences};
 
 /// Sequences kept for the legs of a design.
 const KEPT: usize = 6;
@@ -42,7 +42,7 @@ pub struct Trilateration {
 type Legs = [(usize, usize); 6];
 
 /// Sequences for six legs with what is known of them, or the number of virtual legs when that is too large.
-type Ranked = Result<Vec<(Sequence, Shape)>, NoPlan>;
+type Ranked = Result<Vec<(Sequence, GenericDegrees)>, NoPlan>;
 
 /// [`Trilateration`] for one design.
 #[derive(Debug)]
@@ -71,10 +71,10 @@ impl Trilateration {
         let ranked = ranked.as_ref().as_ref().map_err(|why| refuse(*why))?;
         let fitted =
             ranked.iter().filter_map(|(s, shape)| fit(m, s).map(|(fatness, s)| (fatness, s, *shape)));
-        let mut fitted: Vec<(Nesting, f64, Sequence, Shape)> =
+        let mut fitted: Vec<(Nesting, f64, Sequence, GenericDegrees)> =
             fitted.map(|(f, s, shape)| (Nesting::of(&m.pairs(), &s), f, s, shape)).collect();
         fitted.sort_by(|x, y| x.0.cmp(&y.0).then(y.1.total_cmp(&x.1)));
-        let evaluator = |(_, _, s, shape): &(Nesting, f64, Sequence, Shape)| {
+        let evaluator = |(_, _, s, shape): &(Nesting, f64, Sequence, GenericDegrees)| {
             Evaluator::with_shape(m, s, &[], s.closures.first().copied(), *shape)
         };
         let evaluators: Vec<Evaluator> = fitted.iter().filter_map(evaluator).collect();
@@ -94,14 +94,14 @@ fn rank(m: &Manipulator) -> Ranked {
         return Err(NoPlan::TooManyVirtualLegs { needed, allowed: 1 });
     }
     let mut seen = Vec::new();
-    let mut ranked: Vec<(Sequence, Shape)> = Vec::new();
+    let mut ranked: Vec<(Sequence, GenericDegrees)> = Vec::new();
     for s in list {
         let key = essence(&s);
         if seen.contains(&key) {
             continue;
         }
         seen.push(key);
-        let Some(shape) = Shape::measure(m, &s, &[], s.closures.first().copied()) else { continue };
+        let Some(shape) = GenericDegrees::measure(m, &s, &[], s.closures.first().copied()) else { continue };
         ranked.push((s, shape));
         if ranked.iter().filter(|r| r.1.is_simple()).count() == KEPT {
             break;
@@ -117,9 +117,9 @@ fn rank(m: &Manipulator) -> Ranked {
 }
 
 /// What the numerical evaluation depends on: where the virtual leg ends on the first body does not matter.
-fn essence(s: &Sequence) -> Vec<Vec<Joint>> {
-    let known = |x: Joint, y: Joint| x.across(y).is_none_or(|p| !s.virtual_legs.contains(&p));
-    let step = |place: Joint, from: [Joint; 3]| {
+fn essence(s: &Sequence) -> Vec<Vec<JointIndex>> {
+    let known = |x: JointIndex, y: JointIndex| x.across(y).is_none_or(|p| !s.virtual_legs.contains(&p));
+    let step = |place: JointIndex, from: [JointIndex; 3]| {
         std::iter::once(place).chain(from.into_iter().filter(|f| known(*f, place))).collect::<Vec<_>>()
     };
     let steps = s.unoriented().map(|t| step(t.place, t.from));

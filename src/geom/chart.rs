@@ -2,7 +2,7 @@
 
 use nalgebra::{Rotation3, Vector3};
 
-use super::enclosed::{Rotation, Vector, exact_rotation};
+use super::enclosed::{IntervalVector, Rotation, exact_rotation};
 use super::turn::radians;
 use super::{Pose, PoseSpace, Region};
 use crate::num::interval::Interval;
@@ -16,13 +16,13 @@ pub(crate) struct Chart {
     /// `R_0`.
     pub(crate) rotation: Rotation,
     /// `p_0`, design units.
-    pub(crate) position: Vector,
+    pub(crate) position: IntervalVector,
     /// `d` (design units) and `w` (radians) by coordinate, six coordinates at most.
     pub(crate) columns: Vec<[Interval; 6]>,
     /// Groups of coordinates with `|x| <= 1`.
     pub(crate) balls: Vec<Vec<usize>>,
     /// The cell of all coordinates.
-    pub(crate) root: Cell,
+    pub(crate) root: ChartCell,
     /// Rounded `R_0`, `p_0` and columns.
     home: Pose,
     steps: Vec<(Vector3<f64>, Vector3<f64>)>,
@@ -30,7 +30,7 @@ pub(crate) struct Chart {
 
 /// A box of coordinates; those that the chart does not have are 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Cell {
+pub(crate) struct ChartCell {
     /// Lower ends.
     pub(crate) lo: [f64; 6],
     /// Upper ends.
@@ -51,7 +51,7 @@ pub(crate) enum Covered {
 /// Sides are not halved below this.
 const NARROW: f64 = 1e-12;
 
-impl Cell {
+impl ChartCell {
     /// A point.
     pub(crate) fn point(x: [f64; 6]) -> Self {
         Self { lo: x, hi: x }
@@ -91,7 +91,7 @@ impl Cell {
 }
 
 /// `sum_k x_k column_k` over a cell.
-pub(crate) fn combination(columns: &[[Interval; 6]], cell: &Cell) -> [Interval; 6] {
+pub(crate) fn combination(columns: &[[Interval; 6]], cell: &ChartCell) -> [Interval; 6] {
     let mut out = [Interval::ZERO; 6];
     for (k, column) in columns.iter().enumerate() {
         for (sum, c) in out.iter_mut().zip(column) {
@@ -124,7 +124,7 @@ impl Chart {
         })
     }
 
-    fn new(home: &Pose, columns: Vec<[Interval; 6]>, balls: Vec<Vec<usize>>, root: Cell) -> Self {
+    fn new(home: &Pose, columns: Vec<[Interval; 6]>, balls: Vec<Vec<usize>>, root: ChartCell) -> Self {
         let middle =
             |c: &[Interval; 6], from: usize| Vector3::from_fn(|k, _| c[from + k].centre_and_radius().0);
         let steps = columns.iter().map(|c| (middle(c, 0), middle(c, 3))).collect();
@@ -134,7 +134,7 @@ impl Chart {
 
     /// One pose.
     pub(crate) fn of_pose(pose: &Pose) -> Self {
-        Self::new(pose, Vec::new(), Vec::new(), Cell::point([0.0; 6]))
+        Self::new(pose, Vec::new(), Vec::new(), ChartCell::point([0.0; 6]))
     }
 
     /// The region of a pose space, by the coordinates `x` of its half widths that are not 0: `[-1, 1]` each, and in unit balls for ellipsoids.
@@ -154,7 +154,7 @@ impl Chart {
                 [group(&|k| k < 3), group(&|k| k >= 3)].into_iter().filter(|g| g.len() > 1).collect()
             }
         };
-        let mut root = Cell::point([0.0; 6]);
+        let mut root = ChartCell::point([0.0; 6]);
         for j in 0..axes.len() {
             (root.lo[j], root.hi[j]) = (-1.0, 1.0);
         }
@@ -176,7 +176,7 @@ impl Chart {
             _ if angle == 0.0 => Interval::ZERO,
             _ => about(turn[k - 3], 1.0 + angle),
         });
-        let mut root = Cell::point([0.0; 6]);
+        let mut root = ChartCell::point([0.0; 6]);
         root.hi[0] = 1.0;
         Self::new(from, vec![column], Vec::new(), root)
     }
@@ -205,7 +205,7 @@ impl Chart {
     }
 
     /// Whether a cell lies in the balls of radius `scale`.
-    pub(crate) fn covers(&self, cell: &Cell, scale: f64) -> Covered {
+    pub(crate) fn covers(&self, cell: &ChartCell, scale: f64) -> Covered {
         let limit = Interval::from(scale).square();
         let mut all = Covered::Inside;
         for group in &self.balls {
@@ -223,7 +223,7 @@ impl Chart {
     /// A scale whose balls and box hold the point, rounded up.
     pub(crate) fn scale_of(&self, x: &[f64; 6]) -> f64 {
         let largest = x.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-        let point = Cell::point(*x);
+        let point = ChartCell::point(*x);
         let norm = |g: &Vec<usize>| point.norm_squared(g).sqrt().map_or(f64::INFINITY, Interval::hi);
         self.balls.iter().map(norm).fold(largest, f64::max)
     }
@@ -231,7 +231,7 @@ impl Chart {
     /// The point moved into the balls of radius 1 where it lies outside, by shrinking: exactly inside.
     pub(crate) fn pulled_inside(&self, mut x: [f64; 6]) -> [f64; 6] {
         for group in &self.balls {
-            let norm = Cell::point(x).norm_squared(group).sqrt().map_or(1.0, Interval::hi);
+            let norm = ChartCell::point(x).norm_squared(group).sqrt().map_or(1.0, Interval::hi);
             if norm > 1.0 {
                 for k in group {
                     x[*k] *= (1.0 - 4.0 * f64::EPSILON) / norm;
@@ -278,7 +278,7 @@ mod tests {
                 let w = (pose.rotation * s.home.rotation.inverse()).scaled_axis().map(f64::to_degrees);
                 let q = [d.x / 2.0, d.z, w.x / 10.0, w.y / 20.0, w.z / 150.0, 0.0];
                 assert!(charts[0].scale_of(&q) < 1.0 + 1e-12);
-                let cell = Cell { lo: q.map(|x| x - 1e-9), hi: q.map(|x| x + 1e-9) };
+                let cell = ChartCell { lo: q.map(|x| x - 1e-9), hi: q.map(|x| x + 1e-9) };
                 let there = combination(&charts[0].columns, &cell);
                 let turned = turn(&[there[3], there[4], there[5]]);
                 for k in 0..3 {
@@ -294,7 +294,7 @@ mod tests {
     #[test]
     fn cells_inside_outside_and_across_a_ball_are_told_apart() {
         let chart = Chart::of_region(&space(Region::Ellipsoid));
-        let at = |x: [f64; 6], half: f64| Cell { lo: x.map(|x| x - half), hi: x.map(|x| x + half) };
+        let at = |x: [f64; 6], half: f64| ChartCell { lo: x.map(|x| x - half), hi: x.map(|x| x + half) };
         assert_eq!(chart.covers(&at([0.0; 6], 0.5), 1.0), Covered::Inside);
         assert_eq!(chart.covers(&at([0.9, 0.9, 0.0, 0.0, 0.0, 0.0], 0.1), 1.0), Covered::Outside);
         assert_eq!(chart.covers(&at([0.9, 0.0, 0.0, 0.0, 0.0, 0.0], 0.2), 1.0), Covered::Partly);

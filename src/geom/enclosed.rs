@@ -6,17 +6,17 @@ use super::Pose;
 use crate::num::interval::Interval;
 
 /// Three coordinates.
-pub(crate) type Vector = [Interval; 3];
+pub(crate) type IntervalVector = [Interval; 3];
 /// A 3 x 3 matrix by rows.
-pub(crate) type Rotation = [Vector; 3];
+pub(crate) type Rotation = [IntervalVector; 3];
 /// A 6 x 6 matrix by rows.
-pub(crate) type Matrix = [[Interval; 6]; 6];
+pub(crate) type IntervalMatrix = [[Interval; 6]; 6];
 
-pub(crate) fn dot(a: &Vector, b: &Vector) -> Interval {
+pub(crate) fn dot(a: &IntervalVector, b: &IntervalVector) -> Interval {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-pub(crate) fn cross(a: &Vector, b: &Vector) -> Vector {
+pub(crate) fn cross(a: &IntervalVector, b: &IntervalVector) -> IntervalVector {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
@@ -26,12 +26,12 @@ pub(crate) fn matrix(f: impl Fn(usize, usize) -> Interval) -> Rotation {
 }
 
 /// `[c]x`.
-pub(crate) fn skew(c: &Vector) -> Rotation {
+pub(crate) fn skew(c: &IntervalVector) -> Rotation {
     let z = Interval::ZERO;
     [[z, -c[2], c[1]], [c[2], z, -c[0]], [-c[1], c[0], z]]
 }
 
-pub(crate) fn apply(r: &Rotation, v: &Vector) -> Vector {
+pub(crate) fn apply(r: &Rotation, v: &IntervalVector) -> IntervalVector {
     std::array::from_fn(|i| dot(&r[i], v))
 }
 
@@ -39,7 +39,7 @@ pub(crate) fn apply(r: &Rotation, v: &Vector) -> Vector {
 pub(crate) fn exact_rotation(home: &Pose) -> Rotation {
     let q = UnitQuaternion::from_rotation_matrix(&home.rotation);
     let w = Interval::from(q.w);
-    let v: Vector = [q.i, q.j, q.k].map(Interval::from);
+    let v: IntervalVector = [q.i, q.j, q.k].map(Interval::from);
     let norm = w.square() + v[0].square() + v[1].square() + v[2].square();
     let factor = Interval::from(2.0).checked_div(norm).unwrap_or(Interval::WHOLE);
     let k = skew(&v);
@@ -51,7 +51,7 @@ pub(crate) fn exact_rotation(home: &Pose) -> Rotation {
 }
 
 /// `Y J`.
-pub(crate) fn times(y: &Matrix6<f64>, j: &Matrix) -> Matrix {
+pub(crate) fn times(y: &Matrix6<f64>, j: &IntervalMatrix) -> IntervalMatrix {
     std::array::from_fn(|r| {
         std::array::from_fn(|c| {
             (0..6).fold(Interval::ZERO, |sum, k| sum + Interval::from(y[(r, k)]) * j[k][c])
@@ -61,7 +61,7 @@ pub(crate) fn times(y: &Matrix6<f64>, j: &Matrix) -> Matrix {
 
 /// A positive vector `u`, found by power iteration, and a bound of `max (W u)_i / u_i` when that is below 1: then the spectral radius of every matrix with entries of at most the
 /// modulus of those of `W` is.
-pub(crate) fn contraction(w: &Matrix) -> Option<([f64; 6], f64)> {
+pub(crate) fn contraction(w: &IntervalMatrix) -> Option<([f64; 6], f64)> {
     let mut u = [1.0; 6];
     for _ in 0..6 {
         let next: [f64; 6] = std::array::from_fn(|i| (0..6).map(|k| w[i][k].hi() * u[k]).sum::<f64>());

@@ -11,7 +11,7 @@ mod segment;
 mod trilateration;
 mod turn;
 
-pub(crate) use chart::{Cell, Chart, Covered, combination};
+pub(crate) use chart::{Chart, ChartCell, Covered, combination};
 pub(crate) use hull::convex_hull;
 pub use pose::{ComplexPose, Pose};
 pub(crate) use pose::{nearest_rotation, reorthogonalised};

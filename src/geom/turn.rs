@@ -8,7 +8,7 @@
 //!
 //! The series is summed in outward-rounded intervals and closed by its first omitted term: sines of a mathematical library have no bound that could be relied on.
 
-use super::enclosed::{Rotation, Vector, matrix, skew};
+use super::enclosed::{IntervalVector, Rotation, matrix, skew};
 use crate::num::interval::Interval;
 
 /// Terms of the series: from the last of them on the terms fall for every `s <= LARGEST`.
@@ -127,16 +127,16 @@ pub(crate) fn arc_cosine(cosine: Interval) -> Interval {
 }
 
 /// `[w]x^2 = w w^T - s I`, with the terms of the diagonal that cancel left out.
-fn double_cross(w: &Vector) -> Rotation {
+fn double_cross(w: &IntervalVector) -> Rotation {
     matrix(|i, j| if i == j { -(w[(i + 1) % 3].square() + w[(i + 2) % 3].square()) } else { w[i] * w[j] })
 }
 
-fn norm_squared(w: &Vector) -> Interval {
+fn norm_squared(w: &IntervalVector) -> Interval {
     w[0].square() + w[1].square() + w[2].square()
 }
 
 /// Encloses `exp([w]x)`.
-pub(crate) fn turn(w: &Vector) -> Rotation {
+pub(crate) fn turn(w: &IntervalVector) -> Rotation {
     let c = TurnCoefficients::over(norm_squared(w));
     let (once, twice) = (skew(w), double_cross(w));
     let identity = |i, j| if i == j { Interval::from(1.0) } else { Interval::ZERO };
@@ -144,10 +144,11 @@ pub(crate) fn turn(w: &Vector) -> Rotation {
 }
 
 /// Encloses `d exp([w]x) / d w_k`: `2 w_k (C_1' [w]x + C_2' [w]x^2) + C_1 [e_k]x + C_2 (e_k w^T + w e_k^T - 2 w_k I)`.
-pub(crate) fn turn_slope(w: &Vector, k: usize) -> Rotation {
+pub(crate) fn turn_slope(w: &IntervalVector, k: usize) -> Rotation {
     let c = TurnCoefficients::over(norm_squared(w));
     let (once, twice) = (skew(w), double_cross(w));
-    let unit: Vector = std::array::from_fn(|i| if i == k { Interval::from(1.0) } else { Interval::ZERO });
+    let unit: IntervalVector =
+        std::array::from_fn(|i| if i == k { Interval::from(1.0) } else { Interval::ZERO });
     let turned = skew(&unit);
     let two = Interval::from(2.0) * w[k];
     matrix(|i, j| {
@@ -214,8 +215,9 @@ mod tests {
         let mut rng = Rng::new(5);
         for _ in 0..200 {
             let w = Vector3::from_fn(|_, _| rng.uniform(-2.0, 2.0));
-            let wide: Vector = std::array::from_fn(|k| Interval::new(w[k] - 0.01, w[k] + 0.02).unwrap());
-            let point: Vector = std::array::from_fn(|k| Interval::from(w[k]));
+            let wide: IntervalVector =
+                std::array::from_fn(|k| Interval::new(w[k] - 0.01, w[k] + 0.02).unwrap());
+            let point: IntervalVector = std::array::from_fn(|k| Interval::from(w[k]));
             let (r, over, at) = (Rotation3::new(w), turn(&wide), turn(&point));
             for i in 0..3 {
                 for j in 0..3 {

@@ -20,7 +20,7 @@ const NO_INFLUENCE: f64 = 1e-12;
 
 /// An allowance with the pose that limits it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Limit {
+pub struct LimitedAllowance {
     /// Design units; no error of this size uses up the bound at the poses looked at, to first order.
     pub value: f64,
     /// Some error of this size uses up the bound at `pose`; above `value` by a millionth at most, save for worst cases in which all
@@ -38,7 +38,7 @@ pub struct JointBudget {
     /// The joint.
     pub joint: Joint,
     /// How far it alone may be off in the worst direction, all other joints in their places.
-    pub alone: Limit,
+    pub alone: LimitedAllowance,
     /// That direction, frame of the body, of norm 1; the opposite one is as bad.
     pub direction: Vector3<f64>,
     /// Error at `alone.pose` per unit of error in that direction: of the tool point (no unit) and of the orientation (degrees per design unit).
@@ -53,9 +53,9 @@ pub struct JointBudget {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Budget {
     /// All joints at once, each in a ball of this radius.
-    pub radius: Limit,
+    pub radius: LimitedAllowance,
     /// All coordinates at once, each up to this much.
-    pub half_width: Limit,
+    pub half_width: LimitedAllowance,
     /// Joints, the most critical first.
     pub joints: Vec<JointBudget>,
     /// Errors of all joints that use up the bound at `radius.pose`, of length `radius.reached`, in the order of [`joints`].
@@ -77,14 +77,14 @@ fn index(kind: ErrorKind) -> usize {
 fn limit(
     sample: &PoseSample<'_>,
     gauge: &dyn Fn(&[Matrix3<f64>]) -> Gauge,
-) -> Result<(Limit, Entry, Vector3<f64>), ToleranceError> {
+) -> Result<(LimitedAllowance, Entry, Vector3<f64>), ToleranceError> {
     let measure = |s: &Shares| larger([0, 1].map(|k| gauge(&s[k]).search().0)).0;
     let (_, worst) = sample.worst(&measure)?;
     let brackets = [0, 1].map(|k| gauge(&worst.shares[k]).bracket(GAP));
     let (_, kind) = larger(brackets.map(|b| b.least));
     let most = brackets[0].most.max(brackets[1].most);
     let reached = brackets[index(kind)];
-    let limit = Limit { value: 1.0 / most, reached: 1.0 / reached.least, pose: worst.pose, kind };
+    let limit = LimitedAllowance { value: 1.0 / most, reached: 1.0 / reached.least, pose: worst.pose, kind };
     Ok((limit, worst, reached.direction))
 }
 
@@ -137,7 +137,7 @@ pub fn budget(
         let size = |k: usize| (at.shares[k][j] * direction).norm();
         list.push(JointBudget {
             joint,
-            alone: Limit { value: 1.0 / most, reached: 1.0 / most, pose: at.pose, kind },
+            alone: LimitedAllowance { value: 1.0 / most, reached: 1.0 / most, pose: at.pose, kind },
             direction,
             per_unit: (size(0) * bound.position, size(1) * bound.rotation_deg),
             along: std::array::from_fn(|k| rows[3 * j + k].as_ref().map(|r| 1.0 / r[3 * j + k])),

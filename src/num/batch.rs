@@ -9,12 +9,12 @@ pub(crate) const LANES: usize = 8;
 
 /// Eight complex numbers, real and imaginary parts apart.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Batch {
+pub(crate) struct ComplexBatch {
     pub(crate) re: [f64; LANES],
     pub(crate) im: [f64; LANES],
 }
 
-impl Batch {
+impl ComplexBatch {
     pub(crate) const ZERO: Self = Self { re: [0.0; LANES], im: [0.0; LANES] };
 
     #[inline(always)]
@@ -101,7 +101,7 @@ impl Batch {
     }
 }
 
-impl std::ops::Add for Batch {
+impl std::ops::Add for ComplexBatch {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -109,7 +109,7 @@ impl std::ops::Add for Batch {
     }
 }
 
-impl std::ops::Sub for Batch {
+impl std::ops::Sub for ComplexBatch {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
@@ -117,7 +117,7 @@ impl std::ops::Sub for Batch {
     }
 }
 
-impl std::ops::Mul for Batch {
+impl std::ops::Mul for ComplexBatch {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
@@ -133,13 +133,16 @@ mod tests {
     #[test]
     fn agrees_with_scalar_complex_numbers() {
         let mut rng = Rng::new(1);
-        let mut draw =
-            || Batch { re: std::array::from_fn(|_| rng.normal()), im: std::array::from_fn(|_| rng.normal()) };
+        let mut draw = || ComplexBatch {
+            re: std::array::from_fn(|_| rng.normal()),
+            im: std::array::from_fn(|_| rng.normal()),
+        };
         let (x, y) = (draw(), draw());
         let choice = std::array::from_fn(|k| k % 3 == 0);
         for k in 0..LANES {
             let (a, b) = (x.lane(k), y.lane(k));
-            let same = |z: Batch, w: Complex64| assert!((z.lane(k) - w).norm() < 1e-14 * (1.0 + w.norm()));
+            let same =
+                |z: ComplexBatch, w: Complex64| assert!((z.lane(k) - w).norm() < 1e-14 * (1.0 + w.norm()));
             same(x + y, a + b);
             same(x - y, a - b);
             same(x * y, a * b);
@@ -149,8 +152,8 @@ mod tests {
             same(x.select(y, choice), if k % 3 == 0 { a } else { b });
             assert!(x.sqrt().re[k] >= 0.0);
         }
-        assert!(Batch::ZERO.sqrt().norm_sqr().iter().all(|n| *n < 1e-300));
-        let square = Batch::real(-4.0).sqrt();
+        assert!(ComplexBatch::ZERO.sqrt().norm_sqr().iter().all(|n| *n < 1e-300));
+        let square = ComplexBatch::real(-4.0).sqrt();
         assert!(square.re[0].abs() < 1e-15 && (square.im[0].abs() - 2.0).abs() < 1e-15);
     }
 }

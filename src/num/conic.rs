@@ -12,7 +12,7 @@ use clarabel::solver::{
 
 /// `rhs - sum coefficients x`, which must be in the cone of its block.
 #[derive(Debug, Clone)]
-pub(crate) struct Row {
+pub(crate) struct ConicRow {
     pub(crate) coefficients: Vec<(usize, f64)>,
     pub(crate) rhs: f64,
 }
@@ -33,7 +33,7 @@ pub(crate) struct ConicProgram {
     /// Upper triangle of `P`: (row, column, value), row at most column.
     pub(crate) quadratic: Vec<(usize, usize, f64)>,
     pub(crate) linear: Vec<f64>,
-    pub(crate) rows: Vec<Row>,
+    pub(crate) rows: Vec<ConicRow>,
     pub(crate) cones: Vec<Cone>,
 }
 
@@ -88,7 +88,7 @@ impl std::fmt::Display for SolverFailure {
 impl ConicProgram {
     /// Appends one linear inequality `rhs - coefficients . x >= 0`.
     pub(crate) fn at_least_zero(&mut self, coefficients: Vec<(usize, f64)>, rhs: f64) {
-        self.rows.push(Row { coefficients, rhs });
+        self.rows.push(ConicRow { coefficients, rhs });
         match self.cones.last_mut() {
             Some(Cone::NonNegative(n)) => *n += 1,
             _ => self.cones.push(Cone::NonNegative(1)),
@@ -96,13 +96,13 @@ impl ConicProgram {
     }
 
     /// Appends `rows[0] >= |rows[1..]|`.
-    pub(crate) fn second_order(&mut self, rows: Vec<Row>) {
+    pub(crate) fn second_order(&mut self, rows: Vec<ConicRow>) {
         self.cones.push(Cone::SecondOrder(rows.len()));
         self.rows.extend(rows);
     }
 
     fn slacks(&self, x: &[f64]) -> Vec<f64> {
-        let value = |r: &Row| r.rhs - r.coefficients.iter().map(|&(j, a)| a * x[j]).sum::<f64>();
+        let value = |r: &ConicRow| r.rhs - r.coefficients.iter().map(|&(j, a)| a * x[j]).sum::<f64>();
         self.rows.iter().map(value).collect()
     }
 
@@ -207,8 +207,10 @@ mod tests {
     fn disc() -> ConicProgram {
         // |(x, y)| <= 1
         let mut p = ConicProgram { variables: 2, linear: vec![-1.0, -1.0], ..Default::default() };
-        let row =
-            |j: Option<usize>, rhs| Row { coefficients: j.map(|j| (j, -1.0)).into_iter().collect(), rhs };
+        let row = |j: Option<usize>, rhs| ConicRow {
+            coefficients: j.map(|j| (j, -1.0)).into_iter().collect(),
+            rhs,
+        };
         p.second_order(vec![row(None, 1.0), row(Some(0), 0.0), row(Some(1), 0.0)]);
         p
     }
@@ -231,7 +233,7 @@ mod tests {
         p.at_least_zero(vec![(0, -1.0)], -2.0); // x >= 2
         let ConicAnswer::Infeasible(ray) = p.solve() else { panic!("not infeasible") };
         let strength = |p: &ConicProgram, ray: &[f64]| {
-            let row = |r: &Row| EnclosedRow {
+            let row = |r: &ConicRow| EnclosedRow {
                 coefficients: r.coefficients.iter().map(|c| (c.0, c.1.into())).collect(),
                 rhs: r.rhs.into(),
             };

@@ -2,12 +2,12 @@
 //! a cell.
 
 use super::conditioning::worst_case_above;
-use super::limits::{Bounds, Limits, Pair};
-use super::problem::{Model, OffsetProblem};
+use super::limits::{OffsetLimits, OffsetRanges, SlidingPair};
+use super::problem::{OffsetModel, OffsetProblem};
 use super::scp::violation;
 use super::verdict::Conflict;
 use crate::num::Rng;
-use crate::synthesis::{Side, offset_determinant};
+use crate::synthesis::{HexagonSide, offset_determinant};
 
 /// Where a joint sits relative to its edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -97,13 +97,13 @@ type Range = (f64, f64);
 /// A part of a zone outside of which some vertex is too close, and the parts of it in which the search moves: where the spacing from the
 /// vertices holds with the back-off, or all of it where it is too short for that.
 #[derive(Debug, Clone, PartialEq)]
-struct Piece {
+struct ZonePiece {
     outer: Range,
     kept: Vec<Range>,
 }
 
 /// What is left of a zone, or the proof that nothing is.
-type Room = Result<Vec<Piece>, Conflict>;
+type ZoneRoom = Result<Vec<ZonePiece>, Conflict>;
 
 fn remove(intervals: &mut Vec<Range>, centre: f64, half: f64) {
     let (a, b) = (centre - half, centre + half);
@@ -111,7 +111,7 @@ fn remove(intervals: &mut Vec<Range>, centre: f64, half: f64) {
     *intervals = pieces.filter(|(low, high)| low <= high).collect();
 }
 
-fn free_intervals(side: &Side, range: Range, spacing: f64) -> Vec<Range> {
+fn free_intervals(side: &HexagonSide, range: Range, spacing: f64) -> Vec<Range> {
     let (edge, length) = (side.edge(), side.edge_length());
     let mut left = vec![range];
     for vertex in [side.start, side.end, side.opposite] {
@@ -124,7 +124,7 @@ fn free_intervals(side: &Side, range: Range, spacing: f64) -> Vec<Range> {
     left
 }
 
-fn room(side: usize, zone: Zone, m: &Model, limits: &Limits) -> Room {
+fn room(side: usize, zone: Zone, m: &OffsetModel, limits: &OffsetLimits) -> ZoneRoom {
     let (bounds, range) = (limits.bounds()[side], zone.range());
     let cut = (bounds.0.max(range.0), bounds.1.min(range.1));
     if cut.0 > cut.1 {
@@ -134,8 +134,8 @@ fn room(side: usize, zone: Zone, m: &Model, limits: &Limits) -> Room {
         let inner = free_intervals(&m.sides[side], *outer, m.kept_spacing(side));
         if inner.is_empty() { vec![*outer] } else { inner }
     };
-    let pieces: Vec<Piece> =
-        limits.room(side, cut).into_iter().map(|outer| Piece { outer, kept: kept(&outer) }).collect();
+    let pieces: Vec<ZonePiece> =
+        limits.room(side, cut).into_iter().map(|outer| ZonePiece { outer, kept: kept(&outer) }).collect();
     if pieces.is_empty() {
         let available = (cut.1 - cut.0) * m.sides[side].edge_length() * m.scale;
         return Err(Conflict::NoRoom { side, zone, available });
@@ -146,14 +146,14 @@ fn room(side: usize, zone: Zone, m: &Model, limits: &Limits) -> Room {
 /// A part of a branch: a box, the order of close pairs (the joint farther from the common vertex) and the
 /// sign of `det A`.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Cell {
+pub(crate) struct BranchCell {
     pub(crate) branch: usize,
     /// Where the search moves: the back-off is kept from the vertices.
-    pub(crate) bounds: Bounds,
+    pub(crate) bounds: OffsetRanges,
     /// The box that proofs are about: outside of it the limits are violated.
-    pub(crate) outer: Bounds,
+    pub(crate) outer: OffsetRanges,
     /// Pairs whose spacing can be violated inside the box, with `true` when the first joint is farther out.
-    pub(crate) pairs: Vec<(Pair, bool)>,
+    pub(crate) pairs: Vec<(SlidingPair, bool)>,
     pub(crate) sign: f64,
 }
 
@@ -161,17 +161,17 @@ pub(crate) struct Cell {
 #[derive(Debug, Clone)]
 pub(crate) struct Division {
     pub(crate) branch: Branch,
-    pub(crate) cells: Vec<Cell>,
+    pub(crate) cells: Vec<BranchCell>,
     pub(crate) conflicts: Vec<Conflict>,
     /// Boxes that hold all offsets of the branch that may meet the limits: what is outside of them is proved not to.
-    pub(crate) boxes: Vec<Bounds>,
+    pub(crate) boxes: Vec<OffsetRanges>,
 }
 
-impl Cell {
+impl BranchCell {
     /// `+-(|1 - t_i| d_i - |t_j| d_j) >= 0` of each ordered pair as `constant + by first + by second`. The two orders have the same coefficients with
     /// opposite signs, to the last bit, so that every point is in one of them.
     pub(crate) fn order_rows(&self) -> Vec<(usize, usize, [f64; 3])> {
-        let row = |(pair, first_farther): &(Pair, bool)| {
+        let row = |(pair, first_farther): &(SlidingPair, bool)| {
             let (e, f) = pair.edges();
             let (x, y) = (self.outer[pair.first], self.outer[pair.second]);
             let outward = if x.0 + x.1 < 2.0 { 1.0 } else { -1.0 };
@@ -184,10 +184,10 @@ impl Cell {
 }
 
 /// Boxes as products of one range for each offset.
-fn products(lists: &[Vec<Range>; 6]) -> Vec<Bounds> {
-    let mut boxes: Vec<Bounds> = vec![[(0.0, 0.0); 6]];
+fn products(lists: &[Vec<Range>; 6]) -> Vec<OffsetRanges> {
+    let mut boxes: Vec<OffsetRanges> = vec![[(0.0, 0.0); 6]];
     for (i, list) in lists.iter().enumerate() {
-        let extend = |b: &Bounds, range: &Range| {
+        let extend = |b: &OffsetRanges, range: &Range| {
             let mut b = *b;
             b[i] = *range;
             b
@@ -198,15 +198,15 @@ fn products(lists: &[Vec<Range>; 6]) -> Vec<Bounds> {
 }
 
 /// All branches with their cells. Lengths in conflicts are in design units.
-pub(crate) fn divide(m: &Model, limits: &Limits) -> Vec<Division> {
-    let rooms: Vec<[Room; 3]> = (0..6).map(|i| Zone::ALL.map(|z| room(i, z, m, limits))).collect();
-    let pairs = Pair::all(&m.sides);
+pub(crate) fn divide(m: &OffsetModel, limits: &OffsetLimits) -> Vec<Division> {
+    let rooms: Vec<[ZoneRoom; 3]> = (0..6).map(|i| Zone::ALL.map(|z| room(i, z, m, limits))).collect();
+    let pairs = SlidingPair::all(&m.sides);
     let divide_one = |(index, branch): (usize, Branch)| {
         let mut out = Division { branch, cells: Vec::new(), conflicts: Vec::new(), boxes: Vec::new() };
         let own = |i: usize| &rooms[i][branch.0[i] as usize];
         out.conflicts.extend((0..6).filter_map(|i| own(i).as_ref().err().cloned()));
         // one conflict empties the branch: its list of pieces is empty, and so is the product
-        let pieces: [&[Piece]; 6] = std::array::from_fn(|i| own(i).as_deref().unwrap_or(&[]));
+        let pieces: [&[ZonePiece]; 6] = std::array::from_fn(|i| own(i).as_deref().unwrap_or(&[]));
         let outer = products(&pieces.map(|list| list.iter().map(|p| p.outer).collect()));
         for outer in outer {
             let kept = |i: usize| {
@@ -223,11 +223,11 @@ pub(crate) fn divide(m: &Model, limits: &Limits) -> Vec<Division> {
 /// The cells of a box, for every box in which the search is to move.
 fn split(
     branch: usize,
-    outer: Bounds,
-    kept: &[Bounds],
-    pairs: &[Pair; 6],
-    m: &Model,
-    limits: &Limits,
+    outer: OffsetRanges,
+    kept: &[OffsetRanges],
+    pairs: &[SlidingPair; 6],
+    m: &OffsetModel,
+    limits: &OffsetLimits,
     out: &mut Division,
 ) {
     if let Some((sides, greatest)) = limits.pair_too_close(&outer) {
@@ -235,7 +235,7 @@ fn split(
         return;
     }
     let mut signs = Vec::new();
-    for (sign, greatest) in [1i8, -1].into_iter().zip(Limits::determinant_reach(&outer)) {
+    for (sign, greatest) in [1i8, -1].into_iter().zip(OffsetLimits::determinant_reach(&outer)) {
         if limits.determinant_too_small(greatest) {
             out.conflicts.push(Conflict::DetTooSmall { sign, greatest });
         } else {
@@ -245,13 +245,13 @@ fn split(
     if !signs.is_empty() {
         out.boxes.push(outer);
     }
-    let may_be_close = |p: &&Pair| p.least(p.box_of(&outer)) < m.kept_spacing(p.first).powi(2);
-    let close: Vec<Pair> = pairs.iter().filter(may_be_close).copied().collect();
+    let may_be_close = |p: &&SlidingPair| p.least(p.box_of(&outer)) < m.kept_spacing(p.first).powi(2);
+    let close: Vec<SlidingPair> = pairs.iter().filter(may_be_close).copied().collect();
     for sign in signs {
         for order in 0..1usize << close.len() {
-            let pairs: Vec<(Pair, bool)> =
+            let pairs: Vec<(SlidingPair, bool)> =
                 close.iter().enumerate().map(|(k, p)| (*p, order >> k & 1 == 1)).collect();
-            out.cells.extend(kept.iter().map(|&bounds| Cell {
+            out.cells.extend(kept.iter().map(|&bounds| BranchCell {
                 branch,
                 bounds,
                 outer,
@@ -264,33 +264,33 @@ fn split(
 
 /// A feasible point with its worst case.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Sample {
+pub(crate) struct FeasibleSample {
     pub(crate) t: [f64; 6],
     pub(crate) value: f64,
 }
 
-fn draw(cell: &Cell, rng: &mut Rng) -> [f64; 6] {
+fn draw(cell: &BranchCell, rng: &mut Rng) -> [f64; 6] {
     cell.bounds.map(|(low, high)| rng.uniform(low, high).min(high))
 }
 
-pub(crate) fn in_order(cell: &Cell, t: &[f64; 6]) -> bool {
+pub(crate) fn in_order(cell: &BranchCell, t: &[f64; 6]) -> bool {
     cell.order_rows().iter().all(|&(i, j, [c, x, y])| c + x * t[i] + y * t[j] >= 0.0)
 }
 
 /// `true` for a point of the cell that meets all limits.
-pub(crate) fn is_feasible(m: &Model, cell: &Cell, t: &[f64; 6]) -> bool {
+pub(crate) fn is_feasible(m: &OffsetModel, cell: &BranchCell, t: &[f64; 6]) -> bool {
     in_order(cell, t) && violation(m, cell, t) <= 0.0
 }
 
 /// The best of `wanted` feasible points among at most `draws` uniform ones.
 pub(crate) fn best_sample(
-    m: &Model,
-    cell: &Cell,
+    m: &OffsetModel,
+    cell: &BranchCell,
     rng: &mut Rng,
     wanted: usize,
     draws: usize,
-) -> Option<Sample> {
-    let mut best: Option<Sample> = None;
+) -> Option<FeasibleSample> {
+    let mut best: Option<FeasibleSample> = None;
     let mut hint = 0;
     for t in feasible_points(m, cell, rng, wanted, draws) {
         // -1: the first sample is kept whatever its value
@@ -298,7 +298,7 @@ pub(crate) fn best_sample(
         match worst_case_above(&m.poses, &t, floor, hint) {
             Ok((value, pose)) => {
                 hint = pose;
-                best = Some(Sample { t, value });
+                best = Some(FeasibleSample { t, value });
             }
             Err((_, pose)) => hint = pose,
         }
@@ -308,8 +308,8 @@ pub(crate) fn best_sample(
 
 /// At most `wanted` feasible points among `draws` uniform ones.
 pub(crate) fn feasible_points(
-    m: &Model,
-    cell: &Cell,
+    m: &OffsetModel,
+    cell: &BranchCell,
     rng: &mut Rng,
     wanted: usize,
     draws: usize,
@@ -321,7 +321,11 @@ pub(crate) fn feasible_points(
 const NUDGES: [f64; 5] = [0.0, 1.0, 4.0, 16.0, 64.0];
 
 /// Offsets that meet all limits in exact arithmetic though nothing may be left to spare: where a restoration ended, or at a corner of the box.
-pub(crate) fn tight_point(problem: &OffsetProblem, cell: &Cell, restored: &[f64; 6]) -> Option<[f64; 6]> {
+pub(crate) fn tight_point(
+    problem: &OffsetProblem,
+    cell: &BranchCell,
+    restored: &[f64; 6],
+) -> Option<[f64; 6]> {
     let corner = |k: usize, nudge: f64| -> [f64; 6] {
         std::array::from_fn(|i| {
             let (low, high) = cell.outer[i];
@@ -341,7 +345,7 @@ pub(crate) fn tight_point(problem: &OffsetProblem, cell: &Cell, restored: &[f64;
 
 /// Where the search for a feasible point starts when sampling finds none: the box vertex with the greatest
 /// `sign det A`, pulled slightly inwards.
-pub(crate) fn hopeful_point(cell: &Cell) -> [f64; 6] {
+pub(crate) fn hopeful_point(cell: &BranchCell) -> [f64; 6] {
     let corner = |k: usize| -> [f64; 6] {
         std::array::from_fn(|i| {
             let (low, high) = cell.bounds[i];
@@ -368,7 +372,7 @@ mod tests {
     fn divisions(change: &dyn Fn(&mut OffsetProblem)) -> Vec<Division> {
         let mut p = OffsetProblem::with_defaults(example(), poses());
         change(&mut p);
-        divide(&Model::new(&p), &Limits::new(&p))
+        divide(&OffsetModel::new(&p), &OffsetLimits::new(&p))
     }
 
     #[test]
@@ -408,7 +412,7 @@ mod tests {
         let d = all.iter().find(|d| d.branch.to_string() == "0-0-0-").unwrap();
         assert!(d.cells.iter().all(|c| c.bounds[1].1 < -5.4 / 6.0));
         let inside = free_intervals(
-            &Model::new(&OffsetProblem::with_defaults(example(), poses())).sides[1],
+            &OffsetModel::new(&OffsetProblem::with_defaults(example(), poses())).sides[1],
             (-1.0, 2.0),
             0.1,
         );

@@ -7,7 +7,7 @@ use nalgebra::{Matrix6, SVD, Vector3, Vector6};
 
 use crate::geom::Pose;
 use crate::manipulator::Body;
-use crate::synthesis::Side;
+use crate::synthesis::HexagonSide;
 
 /// One leg at one pose: `arm = R b` and `line = R b + p - a` are affine in the offset.
 #[derive(Debug, Clone, Copy)]
@@ -28,7 +28,7 @@ pub(crate) struct PoseLegs {
 
 /// Rows of `J`, of `dJ/dt` and of `d2J/dt2`.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Rows {
+pub(crate) struct JacobianRows {
     pub(crate) value: Matrix6<f64>,
     pub(crate) rate: Matrix6<f64>,
     pub(crate) bend: Matrix6<f64>,
@@ -36,7 +36,7 @@ pub(crate) struct Rows {
 
 /// Singular value decomposition at a pose together with `B = (dJ/dt) V` and `F = (d2J/dt2) V`.
 #[derive(Debug, Clone)]
-pub(crate) struct Spectrum {
+pub(crate) struct PoseSpectrum {
     /// Singular values, largest first.
     pub(crate) sigma: [f64; 6],
     u: Matrix6<f64>,
@@ -72,7 +72,7 @@ impl LegLine {
 
 impl PoseLegs {
     /// `sides` and `characteristic_length` are already divided by `scale`, the pose is not.
-    pub(crate) fn new(sides: &[Side; 6], pose: &Pose, characteristic_length: f64, scale: f64) -> Self {
+    pub(crate) fn new(sides: &[HexagonSide; 6], pose: &Pose, characteristic_length: f64, scale: f64) -> Self {
         let position = pose.position / scale;
         let legs = sides.map(|side| {
             let leg = side.leg(0.0);
@@ -99,8 +99,9 @@ impl PoseLegs {
         crate::manipulator::inverse_condition(&self.jacobian(t))
     }
 
-    pub(crate) fn rows(&self, t: &[f64; 6]) -> Rows {
-        let mut rows = Rows { value: Matrix6::zeros(), rate: Matrix6::zeros(), bend: Matrix6::zeros() };
+    pub(crate) fn rows(&self, t: &[f64; 6]) -> JacobianRows {
+        let mut rows =
+            JacobianRows { value: Matrix6::zeros(), rate: Matrix6::zeros(), bend: Matrix6::zeros() };
         for i in 0..6 {
             let [r, r1, r2] = self.legs[i].row_with_derivatives(t[i], self.moment_scale);
             rows.value.set_row(i, &r.transpose());
@@ -111,7 +112,7 @@ impl PoseLegs {
     }
 
     /// `None` when an entry is not finite or the decomposition does not converge.
-    pub(crate) fn spectrum(&self, t: &[f64; 6]) -> Option<Spectrum> {
+    pub(crate) fn spectrum(&self, t: &[f64; 6]) -> Option<PoseSpectrum> {
         let rows = self.rows(t);
         if rows.value.iter().chain(rows.rate.iter()).any(|x| !x.is_finite()) {
             return None;
@@ -120,11 +121,11 @@ impl PoseLegs {
         let (u, v_t) = (svd.u?, svd.v_t?);
         let v = v_t.transpose();
         let sigma = std::array::from_fn(|k| svd.singular_values[k]);
-        Some(Spectrum { sigma, u, rate: rows.rate * v, bend: rows.bend * v })
+        Some(PoseSpectrum { sigma, u, rate: rows.rate * v, bend: rows.bend * v })
     }
 }
 
-impl Spectrum {
+impl PoseSpectrum {
     pub(crate) fn inverse_condition(&self) -> f64 {
         if self.sigma[0] > 0.0 { self.sigma[5] / self.sigma[0] } else { 0.0 }
     }

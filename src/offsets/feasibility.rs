@@ -9,7 +9,7 @@ use super::outcome::Margins;
 use super::problem::OffsetProblem;
 use crate::manipulator::Body;
 use crate::num::exact::{Rational, approximate, rational};
-use crate::synthesis::{Side, sides};
+use crate::synthesis::{HexagonSide, sides};
 use crate::synthesis::{offset_determinant, offset_products};
 
 /// Margins in plain arithmetic above this share of the largest number involved have the sign of the exact ones.
@@ -17,13 +17,13 @@ const CLEAR: f64 = 1e-9;
 
 /// An edge and the place on it.
 #[derive(Debug, Clone, Copy)]
-struct Joint {
+struct EdgeJoint {
     start: Point3<f64>,
     end: Point3<f64>,
     t: f64,
 }
 
-impl Joint {
+impl EdgeJoint {
     fn at(vertex: Point3<f64>) -> Self {
         Self { start: vertex, end: vertex, t: 0.0 }
     }
@@ -58,7 +58,7 @@ fn signed(exact: &Rational, size: f64) -> f64 {
 }
 
 /// Distance of two joints less the required one; `None` where a number is not finite.
-fn distance_margin(a: &Joint, b: &Joint, required: f64) -> Option<f64> {
+fn distance_margin(a: &EdgeJoint, b: &EdgeJoint, required: f64) -> Option<f64> {
     let distance = (a.plain() - b.plain()).norm();
     let plain = distance - required;
     if plain.abs() > CLEAR * a.largest().max(b.largest()).max(required) {
@@ -75,11 +75,11 @@ fn distance_margin(a: &Joint, b: &Joint, required: f64) -> Option<f64> {
     Some(signed(&excess, approximate(&excess) / (distance + required)))
 }
 
-fn least_margin(body: Body, sides: &[Side; 6], t: &[f64; 6], required: f64) -> Option<f64> {
+fn least_margin(body: Body, sides: &[HexagonSide; 6], t: &[f64; 6], required: f64) -> Option<f64> {
     let own = |i: &usize| sides[*i].sliding == body;
-    let sliding = (0..6).filter(own).map(|i| Joint { start: sides[i].start, end: sides[i].end, t: t[i] });
-    let vertices = (0..6).filter(own).map(|i| Joint::at(sides[i].start));
-    let joints: Vec<Joint> = sliding.chain(vertices).collect();
+    let sliding = (0..6).filter(own).map(|i| EdgeJoint { start: sides[i].start, end: sides[i].end, t: t[i] });
+    let vertices = (0..6).filter(own).map(|i| EdgeJoint::at(sides[i].start));
+    let joints: Vec<EdgeJoint> = sliding.chain(vertices).collect();
     let mut least = f64::INFINITY;
     for (i, a) in joints.iter().enumerate() {
         for b in &joints[..i] {

@@ -8,13 +8,13 @@
 
 use nalgebra::Vector3;
 
-use super::branch::Cell;
+use super::branch::BranchCell;
 use super::problem::OffsetProblem;
 use super::verdict::Conflict;
 use crate::num::conic::{Cone, ConicAnswer, ConicProgram};
 use crate::num::farkas::{EnclosedRow, refuted};
 use crate::num::interval::Interval;
-use crate::synthesis::{Side, offset_products, sides};
+use crate::synthesis::{HexagonSide, offset_products, sides};
 
 /// An enclosure of one double. Infinite data never get here: the problem was validated.
 pub(super) fn point(x: f64) -> Interval {
@@ -53,16 +53,16 @@ pub(super) fn cross(a: &Vector, b: &Vector) -> Vector {
 }
 
 /// Six ranges of offsets.
-pub(crate) type Bounds = [(f64, f64); 6];
+pub(crate) type OffsetRanges = [(f64, f64); 6];
 
 /// What the limits of a problem leave of ranges and boxes of offsets.
 #[derive(Debug, Clone)]
-pub(crate) struct Limits {
+pub(crate) struct OffsetLimits {
     sides: [Slide; 6],
     /// Square of the required distance.
     required: Interval,
     min_abs_det: f64,
-    bounds: Bounds,
+    bounds: OffsetRanges,
 }
 
 /// A joint `start + t edge` and its distances from the vertices: `|from_vertex + t edge|`.
@@ -74,7 +74,7 @@ struct Slide {
 }
 
 impl Slide {
-    fn new(side: &Side) -> Self {
+    fn new(side: &HexagonSide) -> Self {
         let [start, end, opposite] = [side.start, side.end, side.opposite].map(|p| vector(&p.coords));
         let from_vertices = [start, end, opposite].map(|v| minus(&start, &v));
         Self { start, edge: minus(&end, &start), from_vertices }
@@ -122,7 +122,7 @@ impl Slide {
     }
 }
 
-impl Limits {
+impl OffsetLimits {
     pub(crate) fn new(p: &OffsetProblem) -> Self {
         Self {
             sides: sides(&p.octahedral, 1.0).map(|s| Slide::new(&s)),
@@ -132,7 +132,7 @@ impl Limits {
         }
     }
 
-    pub(crate) fn bounds(&self) -> Bounds {
+    pub(crate) fn bounds(&self) -> OffsetRanges {
         self.bounds
     }
 
@@ -156,7 +156,7 @@ impl Limits {
     }
 
     /// Two sliding joints of one body that are closer than required all over the box, with an upper bound of their distance.
-    pub(crate) fn pair_too_close(&self, bounds: &Bounds) -> Option<((usize, usize), f64)> {
+    pub(crate) fn pair_too_close(&self, bounds: &OffsetRanges) -> Option<((usize, usize), f64)> {
         (0..6).find_map(|first| {
             let second = (first + 2) % 6;
             let (a, b) = (&self.sides[first], &self.sides[second]);
@@ -173,7 +173,7 @@ impl Limits {
     }
 
     /// Upper bounds of `det A` and of `-det A` on a box: the greatest values are at corners because it is affine in every offset.
-    pub(crate) fn determinant_reach(bounds: &Bounds) -> [f64; 2] {
+    pub(crate) fn determinant_reach(bounds: &OffsetRanges) -> [f64; 2] {
         // products over three offsets at the eight corners of their ranges, of `1 - t` and of `t`
         let half = |first: usize| -> [(Interval, Interval); 8] {
             std::array::from_fn(|corner| {
@@ -200,14 +200,14 @@ impl Limits {
     }
 
     /// `true` when no offsets of the box meet the limits on `det A` and on the distances of sliding joints.
-    pub(crate) fn is_empty(&self, bounds: &Bounds) -> bool {
+    pub(crate) fn is_empty(&self, bounds: &OffsetRanges) -> bool {
         Self::determinant_reach(bounds).into_iter().all(|x| self.determinant_too_small(x))
             || self.pair_too_close(bounds).is_some()
     }
 
     /// Coefficients `[constant, by x, by y]` of affine functions that are nowhere on the box below `q(x, y) - required`, `q` the squared distance of the
     /// sliding joints of sides `first` and `first + 2`: chords for the squares, `McCormick`'s two envelopes for the product.
-    fn overestimates(&self, first: usize, bounds: &Bounds) -> [[Interval; 3]; 2] {
+    fn overestimates(&self, first: usize, bounds: &OffsetRanges) -> [[Interval; 3]; 2] {
         let (a, b) = (&self.sides[first], &self.sides[(first + 2) % 6]);
         let (x, y) = (bounds[first], bounds[(first + 2) % 6]);
         // q = |w + x e - y f|^2
@@ -255,7 +255,7 @@ fn root_above(x: f64) -> f64 {
 ///
 /// `q(x, y) = |w + x e - y f|^2` with `x = t_first`, `y = t_second`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Pair {
+pub(crate) struct SlidingPair {
     pub(crate) first: usize,
     pub(crate) second: usize,
     w: Vector3<f64>,
@@ -265,9 +265,9 @@ pub(crate) struct Pair {
 
 pub(crate) type Box2 = [(f64, f64); 2];
 
-impl Pair {
+impl SlidingPair {
     /// The six pairs, three on each body.
-    pub(crate) fn all(sides: &[Side; 6]) -> [Self; 6] {
+    pub(crate) fn all(sides: &[HexagonSide; 6]) -> [Self; 6] {
         std::array::from_fn(|first| {
             let second = (first + 2) % 6;
             let (a, b) = (&sides[first], &sides[second]);
@@ -318,7 +318,7 @@ impl Pair {
 /// The linear relaxation of order and spacing on a cell: every squared distance is replaced by affine
 /// functions that are nowhere below it on the box, so that an infeasible relaxation proves the cell empty.
 /// `det A` is not part of it; its range on the box is tested before.
-fn relaxation(cell: &Cell, limits: &Limits) -> Vec<EnclosedRow> {
+fn relaxation(cell: &BranchCell, limits: &OffsetLimits) -> Vec<EnclosedRow> {
     let order = cell.order_rows().into_iter().map(|(i, j, [c, x, y])| EnclosedRow {
         coefficients: vec![(i, point(-x)), (j, point(-y))],
         rhs: point(c),
@@ -332,7 +332,7 @@ fn relaxation(cell: &Cell, limits: &Limits) -> Vec<EnclosedRow> {
 }
 
 /// A proved conflict of the cell, or `None` when the relaxation is feasible or nothing could be shown.
-pub(crate) fn proved_empty(cell: &Cell, limits: &Limits) -> Option<Conflict> {
+pub(crate) fn proved_empty(cell: &BranchCell, limits: &OffsetLimits) -> Option<Conflict> {
     let rows = relaxation(cell, limits);
     let centre = |x: &Interval| x.centre_and_radius().0;
     // the solver scales its rows itself, but not by the size of the design: squared distances are made of order one
@@ -364,7 +364,7 @@ mod tests {
     #[test]
     fn the_least_value_on_a_box_is_that_of_samples() {
         let mut rng = Rng::new(11);
-        for pair in Pair::all(&sides(&example(), 5.0)) {
+        for pair in SlidingPair::all(&sides(&example(), 5.0)) {
             for _ in 0..40 {
                 let mut side = || {
                     let (a, b) = (rng.uniform(-1.0, 2.0), rng.uniform(-1.0, 2.0));
@@ -388,7 +388,7 @@ mod tests {
 
     #[test]
     fn joints_at_the_common_vertex_have_distance_zero() {
-        for pair in Pair::all(&sides(&example(), 1.0)) {
+        for pair in SlidingPair::all(&sides(&example(), 1.0)) {
             let mut t = [0.3; 6];
             (t[pair.first], t[pair.second]) = (1.0, 0.0);
             assert!(pair.squared(&t) < 1e-24);
@@ -403,10 +403,10 @@ mod tests {
         p.min_joint_distance = 1.5;
         let mut bounds = [(0.3, 0.7); 6];
         (bounds[1], bounds[3]) = ((0.7, 0.75), (0.25, 0.3)); // arms 1.5 to 1.8 of edge 6
-        let cell = Cell { branch: 364, bounds, outer: bounds, pairs: Vec::new(), sign: 1.0 };
-        assert_eq!(proved_empty(&cell, &Limits::new(&p)), None);
+        let cell = BranchCell { branch: 364, bounds, outer: bounds, pairs: Vec::new(), sign: 1.0 };
+        assert_eq!(proved_empty(&cell, &OffsetLimits::new(&p)), None);
         p.min_joint_distance *= 1.3;
-        let proof = proved_empty(&cell, &Limits::new(&p));
+        let proof = proved_empty(&cell, &OffsetLimits::new(&p));
         assert!(matches!(proof, Some(Conflict::Combination { strength }) if strength > 1e-6), "{proof:?}");
     }
 }

@@ -30,7 +30,7 @@ pub use outcome::{
     OffsetSolution, Recheck,
 };
 pub use problem::{
-    DEFAULT_BOUNDS, DEFAULT_MIN_ABS_DET, DEFAULT_SPACING_SHARE, InvalidProblem, OffsetProblem,
+    DEFAULT_BOUNDS, DEFAULT_MIN_ABS_DET, DEFAULT_SPACING_SHARE, InvalidOffsetProblem, OffsetProblem,
 };
-pub use scp::HistoryStep;
-pub use search::{Progress, SearchOptions, optimize};
+pub use scp::OffsetHistoryStep;
+pub use search::{OffsetProgress, OffsetSearchOptions, optimize};

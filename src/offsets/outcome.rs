@@ -5,7 +5,7 @@ use nalgebra::Matrix6;
 use super::bound::GlobalBound;
 use super::branch::Branch;
 use super::problem::OffsetProblem;
-use super::scp::HistoryStep;
+use super::scp::OffsetHistoryStep;
 use super::verdict::Conflict;
 use crate::manipulator::{Manipulator, jacobian};
 use crate::num::conic::SolverFailure;
@@ -113,7 +113,7 @@ pub struct OffsetSolution {
     /// Local optimality evidence.
     pub evidence: LocalEvidence,
     /// Steps of the run that found it.
-    pub history: Vec<HistoryStep>,
+    pub history: Vec<OffsetHistoryStep>,
     /// The platform, legs in the order of the design.
     pub manipulator: Manipulator,
     /// `s' = A s + c`, legs in the order of the design.

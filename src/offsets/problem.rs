@@ -5,7 +5,7 @@ use thiserror::Error;
 use super::conditioning::PoseLegs;
 use crate::geom::Pose;
 use crate::manipulator::{Body, Octahedral};
-use crate::synthesis::{Side, sides};
+use crate::synthesis::{HexagonSide, sides};
 
 /// Default of [`OffsetProblem::min_joint_distance`] as a share of the smaller body's radius.
 pub const DEFAULT_SPACING_SHARE: f64 = 0.05;
@@ -43,7 +43,7 @@ pub struct OffsetProblem {
 /// A problem that cannot be asked.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
-pub enum InvalidProblem {
+pub enum InvalidOffsetProblem {
     /// No pose to take the worst case over.
     #[error("no pose is given to judge the platform at")]
     NoPoses,
@@ -120,13 +120,13 @@ impl OffsetProblem {
     ///
     /// # Errors
     /// The first violation.
-    pub fn validate(&self) -> Result<(), InvalidProblem> {
+    pub fn validate(&self) -> Result<(), InvalidOffsetProblem> {
         if self.poses.is_empty() {
-            return Err(InvalidProblem::NoPoses);
+            return Err(InvalidOffsetProblem::NoPoses);
         }
         let finite = |p: &Pose| p.rotation.matrix().iter().chain(p.position.iter()).all(|x| x.is_finite());
         if let Some(index) = self.poses.iter().position(|p| !finite(p)) {
-            return Err(InvalidProblem::PoseNotFinite { index });
+            return Err(InvalidOffsetProblem::PoseNotFinite { index });
         }
         let positive = [
             ("characteristic_length", self.characteristic_length),
@@ -135,12 +135,12 @@ impl OffsetProblem {
         ];
         for (quantity, value) in positive {
             if !(value > 0.0 && value.is_finite()) {
-                return Err(InvalidProblem::NotPositive { quantity, value });
+                return Err(InvalidOffsetProblem::NotPositive { quantity, value });
             }
         }
         for (side, (low, high)) in self.bounds.into_iter().enumerate() {
             if !(low.is_finite() && high.is_finite() && low <= high) {
-                return Err(InvalidProblem::Bounds { side, low, high });
+                return Err(InvalidOffsetProblem::Bounds { side, low, high });
             }
         }
         Ok(())
@@ -149,10 +149,10 @@ impl OffsetProblem {
 
 /// The problem with lengths divided by the size, as the search sees it.
 #[derive(Debug, Clone)]
-pub(crate) struct Model {
+pub(crate) struct OffsetModel {
     /// Design units in one unit of length of the model.
     pub(crate) scale: f64,
-    pub(crate) sides: [Side; 6],
+    pub(crate) sides: [HexagonSide; 6],
     pub(crate) poses: Vec<PoseLegs>,
     /// Required spacing.
     pub(crate) spacing: f64,
@@ -166,7 +166,7 @@ pub(crate) struct Model {
 /// a conic solver's residual cannot carry the answer across them. It is not part of any proof.
 pub(crate) const BACKOFF: f64 = 1e-8;
 
-impl Model {
+impl OffsetModel {
     pub(crate) fn new(p: &OffsetProblem) -> Self {
         let scale = p.size();
         let sides = sides(&p.octahedral, scale);
@@ -210,10 +210,13 @@ mod tests {
             change(&mut p);
             p.validate().unwrap_err()
         };
-        assert_eq!(check(&|p| p.poses.clear()), InvalidProblem::NoPoses);
-        assert_eq!(check(&|p| p.poses[1].position.x = f64::NAN), InvalidProblem::PoseNotFinite { index: 1 });
-        assert!(matches!(check(&|p| p.min_abs_det = 0.0), InvalidProblem::NotPositive { .. }));
-        assert!(matches!(check(&|p| p.bounds[4] = (1.0, 0.0)), InvalidProblem::Bounds { side: 4, .. }));
+        assert_eq!(check(&|p| p.poses.clear()), InvalidOffsetProblem::NoPoses);
+        assert_eq!(
+            check(&|p| p.poses[1].position.x = f64::NAN),
+            InvalidOffsetProblem::PoseNotFinite { index: 1 }
+        );
+        assert!(matches!(check(&|p| p.min_abs_det = 0.0), InvalidOffsetProblem::NotPositive { .. }));
+        assert!(matches!(check(&|p| p.bounds[4] = (1.0, 0.0)), InvalidOffsetProblem::Bounds { side: 4, .. }));
     }
 
     #[test]

@@ -5,11 +5,11 @@
 
 use nalgebra::Matrix6;
 
-use super::branch::Cell;
-use super::conditioning::{Spectrum, worst_case, worst_case_above};
-use super::limits::Pair;
-use super::problem::{BACKOFF, Model};
-use crate::num::conic::{ConicAnswer, ConicPoint, ConicProgram, Row, SolverFailure};
+use super::branch::BranchCell;
+use super::conditioning::{PoseSpectrum, worst_case, worst_case_above};
+use super::limits::SlidingPair;
+use super::problem::{BACKOFF, OffsetModel};
+use crate::num::conic::{ConicAnswer, ConicPoint, ConicProgram, ConicRow, SolverFailure};
 use crate::synthesis::{determinant_gradient, determinant_hessian, offset_determinant};
 
 /// How hard to try.
@@ -36,7 +36,7 @@ impl Effort {
 
 /// One accepted or refused step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct HistoryStep {
+pub struct OffsetHistoryStep {
     /// Worst-case inverse condition number after the step.
     pub value: f64,
     /// Largest constraint violation after the step (lengths relative to the size).
@@ -60,7 +60,7 @@ pub(crate) struct LocalResult {
     pub(crate) converged: bool,
     /// First-order gain the model still promises, relative to the value, for a unit of offset.
     pub(crate) stationarity: f64,
-    pub(crate) history: Vec<HistoryStep>,
+    pub(crate) history: Vec<OffsetHistoryStep>,
     pub(crate) failure: Option<SolverFailure>,
 }
 
@@ -97,9 +97,9 @@ const FIRST_POSES: usize = 6;
 /// Radius at which stationarity is measured.
 const PROBE_RADIUS: f64 = 1e-2;
 
-struct Run<'a> {
-    m: &'a Model,
-    cell: &'a Cell,
+struct OffsetRun<'a> {
+    m: &'a OffsetModel,
+    cell: &'a BranchCell,
     t: [f64; 6],
     value: f64,
     worst: usize,
@@ -110,7 +110,7 @@ struct Run<'a> {
     penalty: f64,
 }
 
-impl Run<'_> {
+impl OffsetRun<'_> {
     fn reference(&self) -> f64 {
         self.value.max(1e-9)
     }
@@ -125,11 +125,11 @@ impl Run<'_> {
         self.working.iter().map(decompose).collect()
     }
 
-    fn subproblem<'b>(&'b self, active: &'b [ActivePose], radius: f64, curved: bool) -> Subproblem<'b> {
+    fn subproblem<'b>(&'b self, active: &'b [ActivePose], radius: f64, curved: bool) -> OffsetSubproblem<'b> {
         let (t, reference) = (self.t, self.reference());
         let bend = || lagrangian_curvature(self.m, self.cell, &t, active, reference, &self.multipliers);
         let curvature = (curved && !self.multipliers.poses.is_empty()).then(bend);
-        Subproblem {
+        OffsetSubproblem {
             model: self.m,
             cell: self.cell,
             t,
@@ -142,7 +142,7 @@ impl Run<'_> {
     }
 }
 
-fn lowest_poses(m: &Model, t: &[f64; 6], count: usize) -> Vec<usize> {
+fn lowest_poses(m: &OffsetModel, t: &[f64; 6], count: usize) -> Vec<usize> {
     let mut ranked: Vec<(f64, usize)> =
         m.poses.iter().enumerate().map(|(k, p)| (p.inverse_condition(t), k)).collect();
     ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -152,9 +152,9 @@ fn lowest_poses(m: &Model, t: &[f64; 6], count: usize) -> Vec<usize> {
 }
 
 /// Climbs from `start` within the cell.
-pub(crate) fn climb(m: &Model, cell: &Cell, start: [f64; 6], effort: Effort) -> LocalResult {
+pub(crate) fn climb(m: &OffsetModel, cell: &BranchCell, start: [f64; 6], effort: Effort) -> LocalResult {
     let (value, worst) = worst_case(&m.poses, &start);
-    let mut run = Run {
+    let mut run = OffsetRun {
         m,
         cell,
         t: start,
@@ -206,7 +206,7 @@ pub(crate) fn climb(m: &Model, cell: &Cell, start: [f64; 6], effort: Effort) -> 
         let actual = run.merit(trial_value, trial_violation) - now;
         let known = run.working.contains(&trial_worst);
         let length = step.d.iter().fold(0.0, |x: f64, d| x.max(d.abs()));
-        history.push(HistoryStep {
+        history.push(OffsetHistoryStep {
             value: if enough { trial_value } else { run.value },
             violation: if enough { trial_violation } else { run.violation },
             radius,
@@ -246,7 +246,7 @@ pub(crate) fn climb(m: &Model, cell: &Cell, start: [f64; 6], effort: Effort) -> 
 /// First-order gain promised within [`PROBE_RADIUS`], relative, per unit of offset; all poses are seen.
 ///
 /// The subproblem is accurate to about 1e-8, so values below 1e-6 (of either sign) mean none.
-fn stationarity(run: &Run<'_>) -> f64 {
+fn stationarity(run: &OffsetRun<'_>) -> f64 {
     let decompose = |(pose, p): (usize, &super::conditioning::PoseLegs)| {
         Some(ActivePose { pose, spectrum: p.spectrum(&run.t)? })
     };
@@ -271,7 +271,7 @@ const ACCEPTED_RESIDUAL: f64 = 1e-6;
 #[derive(Debug, Clone)]
 pub(crate) struct ActivePose {
     pub(crate) pose: usize,
-    pub(crate) spectrum: Spectrum,
+    pub(crate) spectrum: PoseSpectrum,
 }
 
 impl ActivePose {
@@ -299,7 +299,7 @@ pub(crate) struct Multipliers {
 
 /// A step with what the model promises.
 #[derive(Debug, Clone)]
-pub(crate) struct Step {
+pub(crate) struct OffsetStep {
     pub(crate) d: [f64; 6],
     /// Predicted worst case relative to the reference value, curvature included.
     pub(crate) value: f64,
@@ -310,9 +310,9 @@ pub(crate) struct Step {
 
 /// What a subproblem is made of. `reference` scales the objective to order one; `penalty` weighs the slack.
 #[derive(Debug)]
-pub(crate) struct Subproblem<'a> {
-    pub(crate) model: &'a Model,
-    pub(crate) cell: &'a Cell,
+pub(crate) struct OffsetSubproblem<'a> {
+    pub(crate) model: &'a OffsetModel,
+    pub(crate) cell: &'a BranchCell,
     pub(crate) t: [f64; 6],
     active: &'a [ActivePose],
     pub(crate) reference: f64,
@@ -322,12 +322,12 @@ pub(crate) struct Subproblem<'a> {
 }
 
 /// `2 m` times the radius of the body: turns a difference of squared distances into a length relative to the body.
-fn pair_unit(m: &Model, pair: &Pair) -> f64 {
+fn pair_unit(m: &OffsetModel, pair: &SlidingPair) -> f64 {
     2.0 * m.kept_spacing(pair.first) * m.radius(pair.first)
 }
 
 /// Constraint values that must be at least 0: `sign det A - delta`, then `(q - m^2) / (2 m)` of every close pair relative to the radius of its body.
-fn constraint_values(m: &Model, cell: &Cell, t: &[f64; 6]) -> Vec<f64> {
+fn constraint_values(m: &OffsetModel, cell: &BranchCell, t: &[f64; 6]) -> Vec<f64> {
     let det = cell.sign * offset_determinant(t) - m.kept_det();
     let pairs =
         cell.pairs.iter().map(|(p, _)| (p.squared(t) - m.kept_spacing(p.first).powi(2)) / pair_unit(m, p));
@@ -335,7 +335,7 @@ fn constraint_values(m: &Model, cell: &Cell, t: &[f64; 6]) -> Vec<f64> {
 }
 
 /// Largest violation of [`constraint_values`].
-pub(crate) fn violation(m: &Model, cell: &Cell, t: &[f64; 6]) -> f64 {
+pub(crate) fn violation(m: &OffsetModel, cell: &BranchCell, t: &[f64; 6]) -> f64 {
     constraint_values(m, cell, t).into_iter().fold(0.0, |v, c| v.max(-c))
 }
 
@@ -349,8 +349,8 @@ fn along(d: &[f64; 6], factor: f64) -> Vec<(usize, f64)> {
 
 /// Hessian of the Lagrangian at `t`, made negative semidefinite by dropping what curves upwards.
 fn lagrangian_curvature(
-    m: &Model,
-    cell: &Cell,
+    m: &OffsetModel,
+    cell: &BranchCell,
     t: &[f64; 6],
     active: &[ActivePose],
     reference: f64,
@@ -380,9 +380,9 @@ fn lagrangian_curvature(
     out
 }
 
-impl Subproblem<'_> {
+impl OffsetSubproblem<'_> {
     /// Solves for the step; refuses a point whose plain residual is too large.
-    pub(crate) fn solve(&self) -> Result<Step, SolverFailure> {
+    pub(crate) fn solve(&self) -> Result<OffsetStep, SolverFailure> {
         let mut p = ConicProgram { variables: 8, linear: vec![0.0; 8], ..Default::default() };
         p.linear[GAMMA] = -1.0;
         p.linear[SLACK] = self.penalty;
@@ -461,7 +461,7 @@ impl Subproblem<'_> {
         cones.collect()
     }
 
-    fn step(&self, point: &ConicPoint, det_row: usize, pose_rows: &[Vec<(usize, f64)>]) -> Step {
+    fn step(&self, point: &ConicPoint, det_row: usize, pose_rows: &[Vec<(usize, f64)>]) -> OffsetStep {
         // solver residuals of 1e-9 must not leave the box of the branch
         let d: [f64; 6] = std::array::from_fn(|i| {
             let (low, high) = self.cell.bounds[i];
@@ -475,7 +475,7 @@ impl Subproblem<'_> {
         let poses = self.active.iter().zip(pose_rows).map(|(a, rows)| (a.pose, weight(rows))).collect();
         let pairs = (0..self.cell.pairs.len()).map(|k| point.dual[det_row + 1 + k]).collect();
         let multipliers = Multipliers { poses, det: point.dual[det_row], pairs };
-        Step { d, value: point.x[GAMMA] + bend, slack: point.x[SLACK].max(0.0), multipliers }
+        OffsetStep { d, value: point.x[GAMMA] + bend, slack: point.x[SLACK].max(0.0), multipliers }
     }
 }
 
@@ -483,7 +483,7 @@ impl Subproblem<'_> {
 /// `base` and scaled by `f` (negative: upper bound). Returns the first row.
 fn add_cone(
     p: &mut ConicProgram,
-    s: &Spectrum,
+    s: &PoseSpectrum,
     (k, o): (usize, usize),
     f: f64,
     z: &[(usize, f64)],
@@ -499,9 +499,9 @@ fn add_cone(
     let mut first = along(&sum, -f);
     first.extend(z.iter().map(|&(j, v)| (j, 2.0 * sign * v)));
     p.second_order(vec![
-        Row { coefficients: merged(first), rhs: va + vc },
-        Row { coefficients: along(&difference, -f), rhs: va - vc },
-        Row { coefficients: along(&b, -2.0 * f), rhs: 0.0 },
+        ConicRow { coefficients: merged(first), rhs: va + vc },
+        ConicRow { coefficients: along(&difference, -f), rhs: va - vc },
+        ConicRow { coefficients: along(&b, -2.0 * f), rhs: 0.0 },
     ]);
     at
 }

@@ -8,15 +8,15 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use super::bound::{BoundOptions, Bounding, GlobalBound};
 use super::branch::{
-    Branch, Cell, Division, best_sample, divide, feasible_points, hopeful_point, in_order, is_feasible,
+    Branch, BranchCell, Division, best_sample, divide, feasible_points, hopeful_point, in_order, is_feasible,
     tight_point,
 };
 use super::conditioning::{worst_case, worst_case_above};
-use super::limits::{Limits, proved_empty};
+use super::limits::{OffsetLimits, proved_empty};
 use super::outcome::OffsetReport;
-use super::problem::{InvalidProblem, Model, OffsetProblem};
+use super::problem::{InvalidOffsetProblem, OffsetModel, OffsetProblem};
 use super::scp::{Effort, LocalResult, climb, violation};
-use super::verdict::{Conflict, Searched, assemble, nothing_fits, vertices_too_close};
+use super::verdict::{Conflict, SearchedOffsets, assemble, nothing_fits, vertices_too_close};
 use crate::num::Rng;
 use crate::num::conic::SolverFailure;
 use crate::num::parallel::parallel;
@@ -24,7 +24,7 @@ use crate::synthesis::offset_determinant;
 
 /// Options of the search; none of them changes what is feasible.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SearchOptions {
+pub struct OffsetSearchOptions {
     /// Seed of starting points. Same seed, same answer, whatever the number of threads.
     pub seed: u64,
     /// Worker threads (0 counts as 1).
@@ -46,7 +46,7 @@ pub struct SearchOptions {
     pub boxes: usize,
 }
 
-impl Default for SearchOptions {
+impl Default for OffsetSearchOptions {
     fn default() -> Self {
         Self {
             seed: 1,
@@ -63,7 +63,7 @@ impl Default for SearchOptions {
 }
 
 /// In words for people.
-impl std::fmt::Display for Progress {
+impl std::fmt::Display for OffsetProgress {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Ranking { done, total, best } => write!(f, "best {best:.6}; cell {done} of {total}"),
@@ -78,7 +78,7 @@ impl std::fmt::Display for Progress {
 /// How far the search is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
-pub enum Progress {
+pub enum OffsetProgress {
     /// Cells ranked so far.
     Ranking {
         /// Done.
@@ -156,13 +156,19 @@ const FINALISTS: usize = 3;
 #[derive(Debug, Clone, Copy)]
 struct Asked<'a> {
     problem: &'a OffsetProblem,
-    m: &'a Model,
-    limits: &'a Limits,
+    m: &'a OffsetModel,
+    limits: &'a OffsetLimits,
 }
 
 /// Best feasible run of a few short climbs from sampled starts, seeing the poses of `few`; without one, restoration, then a proof, then
 /// offsets that meet the limits with nothing to spare.
-fn rank_cell(asked: Asked<'_>, few: &Model, cell: &Cell, index: usize, o: &SearchOptions) -> CellResult {
+fn rank_cell(
+    asked: Asked<'_>,
+    few: &OffsetModel,
+    cell: &BranchCell,
+    index: usize,
+    o: &OffsetSearchOptions,
+) -> CellResult {
     let m = few;
     let mut rng = Rng::stream(o.seed, index as u64);
     let samples = o.samples.max(1);
@@ -198,22 +204,22 @@ pub(crate) fn better(a: &LocalResult, b: &LocalResult) -> bool {
 /// Finds the best joint-free platform; see [`OffsetProblem`] for the problem, the theory page for the method.
 ///
 /// The best of several climbs is compared with all offsets there are by branch and bound ([`OffsetReport::bound`]), which also leads to better
-/// starts when there are any. `progress` may break the search off; the best until then is returned. With [`SearchOptions::survey`], with few cells, or when no feasible point is drawn, every branch is searched.
+/// starts when there are any. `progress` may break the search off; the best until then is returned. With [`OffsetSearchOptions::survey`], with few cells, or when no feasible point is drawn, every branch is searched.
 ///
 /// # Errors
-/// [`InvalidProblem`] when the problem cannot be asked. An infeasible problem is a value.
+/// [`InvalidOffsetProblem`] when the problem cannot be asked. An infeasible problem is a value.
 pub fn optimize(
     problem: &OffsetProblem,
-    options: &SearchOptions,
-    progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
-) -> Result<OffsetReport, InvalidProblem> {
+    options: &OffsetSearchOptions,
+    progress: &mut dyn FnMut(OffsetProgress) -> ControlFlow<()>,
+) -> Result<OffsetReport, InvalidOffsetProblem> {
     problem.validate()?;
-    let (m, limits) = (Model::new(problem), Limits::new(problem));
+    let (m, limits) = (OffsetModel::new(problem), OffsetLimits::new(problem));
     let divisions = divide(&m, &limits);
     if let Some(conflict) = vertices_too_close(&limits) {
         return Ok(nothing_fits(divisions, &conflict, options));
     }
-    let cells: Vec<&Cell> = divisions.iter().flat_map(|d| &d.cells).collect();
+    let cells: Vec<&BranchCell> = divisions.iter().flat_map(|d| &d.cells).collect();
     // once the caller breaks off, what is left is passed over
     let stopped = AtomicBool::new(false);
     let progress = &mut |p| {
@@ -238,7 +244,7 @@ pub fn optimize(
     keep_ranked(&m, &ranked, &mut polished);
     let area = Area { problem, m: &m, limits: &limits, divisions: &divisions, cells: &cells };
     let bound = area.bound(&mut polished, options, stopped, progress);
-    let searched = Searched { ranked, polished, bound, interrupted: stopped() };
+    let searched = SearchedOffsets { ranked, polished, bound, interrupted: stopped() };
     Ok(assemble(problem, &m, &divisions, &cells, searched, options))
 }
 
@@ -256,11 +262,11 @@ fn best_cells(ranked: &[CellResult], count: usize) -> Vec<usize> {
 /// Every cell searched for its own best.
 fn survey(
     asked: Asked<'_>,
-    cells: &[&Cell],
-    o: &SearchOptions,
+    cells: &[&BranchCell],
+    o: &OffsetSearchOptions,
     best: &Best,
     stopped: &(dyn Fn() -> bool + Sync),
-    progress: &mut dyn FnMut(Progress),
+    progress: &mut dyn FnMut(OffsetProgress),
 ) -> Vec<CellResult> {
     let (m, total) = (asked.m, cells.len());
     let few = critical_poses(m, cells, o.seed, RANKING_POSES, CRITICAL_SAMPLES);
@@ -277,17 +283,17 @@ fn survey(
             other => other,
         }
     };
-    let tick = &mut |done, _: &_| progress(Progress::Ranking { done, total, best: best.value() });
+    let tick = &mut |done, _: &_| progress(OffsetProgress::Ranking { done, total, best: best.value() });
     parallel(total, o.threads, rank, tick)
 }
 
 /// One feasible sample of every cell, and short climbs from the best; `None` when there is no sample.
 fn sample_cells(
-    m: &Model,
-    cells: &[&Cell],
-    o: &SearchOptions,
+    m: &OffsetModel,
+    cells: &[&BranchCell],
+    o: &OffsetSearchOptions,
     best: &Best,
-    progress: &mut dyn FnMut(Progress),
+    progress: &mut dyn FnMut(OffsetProgress),
 ) -> Option<Vec<CellResult>> {
     let few = critical_poses(m, cells, o.seed, SAMPLED_POSES, SAMPLED_POSES);
     let few = few.as_ref().unwrap_or(m);
@@ -303,7 +309,7 @@ fn sample_cells(
         CellResult::Feasible(r) => Some(r.t),
         _ => None,
     };
-    let starts: Vec<Start> =
+    let starts: Vec<ClimbStart> =
         best_cells(&ranked, CONTENDERS).into_iter().filter_map(|k| Some((k, start(k)?))).collect();
     if starts.is_empty() {
         return None;
@@ -315,7 +321,7 @@ fn sample_cells(
         best.offer(&run);
         run
     };
-    let tick = &mut |done, _: &_| progress(Progress::Ranking { done, total, best: best.value() });
+    let tick = &mut |done, _: &_| progress(OffsetProgress::Ranking { done, total, best: best.value() });
     for ((k, _), run) in starts.iter().zip(parallel(total, o.threads, run, tick)) {
         if run.is_feasible() {
             ranked[*k] = CellResult::Feasible(run);
@@ -326,7 +332,13 @@ fn sample_cells(
 
 /// The model with the poses that are worst at feasible samples of many cells, most frequent first, then evenly
 /// strided ones; `None` when there are few poses anyway.
-fn critical_poses(m: &Model, cells: &[&Cell], seed: u64, wanted: usize, samples: usize) -> Option<Model> {
+fn critical_poses(
+    m: &OffsetModel,
+    cells: &[&BranchCell],
+    seed: u64,
+    wanted: usize,
+    samples: usize,
+) -> Option<OffsetModel> {
     let count = m.poses.len();
     if count <= wanted || cells.is_empty() {
         return None;
@@ -346,22 +358,22 @@ fn critical_poses(m: &Model, cells: &[&Cell], seed: u64, wanted: usize, samples:
     order.sort_by(|&i, &j| hits[j].cmp(&hits[i]).then(i.cmp(&j)));
     order.truncate(wanted);
     order.sort_unstable();
-    Some(Model { poses: order.into_iter().map(|k| m.poses[k].clone()).collect(), ..m.clone() })
+    Some(OffsetModel { poses: order.into_iter().map(|k| m.poses[k].clone()).collect(), ..m.clone() })
 }
 
 /// A cell and offsets to climb from.
-type Start = (usize, [f64; 6]);
+type ClimbStart = (usize, [f64; 6]);
 
 /// The points that were ranked and `more` further ones of each of the chosen cells.
 fn polish_starts(
-    m: &Model,
-    cells: &[&Cell],
+    m: &OffsetModel,
+    cells: &[&BranchCell],
     ranked: &[CellResult],
     chosen: &[usize],
     more: usize,
     seed: u64,
-) -> Vec<Start> {
-    let mut tasks: Vec<Start> = Vec::new();
+) -> Vec<ClimbStart> {
+    let mut tasks: Vec<ClimbStart> = Vec::new();
     for &k in chosen {
         if let CellResult::Feasible(r) = &ranked[k] {
             tasks.push((k, r.t));
@@ -375,13 +387,13 @@ fn polish_starts(
 
 /// Climbs from every start; the best feasible run of each cell, best first.
 fn polish(
-    m: &Model,
-    cells: &[&Cell],
-    tasks: &[Start],
-    o: &SearchOptions,
+    m: &OffsetModel,
+    cells: &[&BranchCell],
+    tasks: &[ClimbStart],
+    o: &OffsetSearchOptions,
     best: &Best,
     stopped: &(dyn Fn() -> bool + Sync),
-    progress: &mut dyn FnMut(Progress),
+    progress: &mut dyn FnMut(OffsetProgress),
 ) -> Vec<(usize, LocalResult)> {
     let total = tasks.len();
     let run = |i: usize| {
@@ -392,7 +404,7 @@ fn polish(
         best.offer(&run);
         run
     };
-    let tick = &mut |done, _: &_| progress(Progress::Polishing { done, total, best: best.value() });
+    let tick = &mut |done, _: &_| progress(OffsetProgress::Polishing { done, total, best: best.value() });
     let runs = parallel(total, o.threads, run, tick);
     let mut kept: Vec<(usize, LocalResult)> = Vec::new();
     for ((k, _), run) in tasks.iter().zip(runs) {
@@ -413,7 +425,7 @@ fn best_first(runs: &mut [(usize, LocalResult)]) {
 }
 
 /// Where no climb ended at a better feasible point, the point it began at stays: a feasible set that is thinner than the back-off is left by climbs.
-fn keep_ranked(m: &Model, ranked: &[CellResult], polished: &mut [(usize, LocalResult)]) {
+fn keep_ranked(m: &OffsetModel, ranked: &[CellResult], polished: &mut [(usize, LocalResult)]) {
     for (k, run) in polished.iter_mut() {
         if let CellResult::Feasible(own) = &ranked[*k] {
             let own = LocalResult { value: worst_case(&m.poses, &own.t).0, ..own.clone() };
@@ -427,7 +439,7 @@ fn keep_ranked(m: &Model, ranked: &[CellResult], polished: &mut [(usize, LocalRe
 
 /// Result of the search.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Polished {
+pub(crate) struct PolishedOffsets {
     pub(crate) t: [f64; 6],
     pub(crate) value: f64,
     pub(crate) trials: usize,
@@ -435,8 +447,14 @@ pub(crate) struct Polished {
 
 /// Tries steps along the axes, along pairs of axes and in random directions, at radii from 1e-2 down to 1e-6
 /// (offset units); steps are cut off at the box, points that violate a constraint are dropped.
-pub(crate) fn pattern_search(m: &Model, cell: &Cell, start: [f64; 6], value: f64, rng: &mut Rng) -> Polished {
-    let mut best = Polished { t: start, value, trials: 0 };
+pub(crate) fn pattern_search(
+    m: &OffsetModel,
+    cell: &BranchCell,
+    start: [f64; 6],
+    value: f64,
+    rng: &mut Rng,
+) -> PolishedOffsets {
+    let mut best = PolishedOffsets { t: start, value, trials: 0 };
     let mut hint = 0;
     for step in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
         for k in 0..132 {
@@ -477,10 +495,10 @@ fn direction(k: usize, rng: &mut Rng) -> [f64; 6] {
 /// The whole problem: everything the bound compares with.
 pub(crate) struct Area<'a> {
     pub(crate) problem: &'a OffsetProblem,
-    pub(crate) m: &'a Model,
-    pub(crate) limits: &'a Limits,
+    pub(crate) m: &'a OffsetModel,
+    pub(crate) limits: &'a OffsetLimits,
     pub(crate) divisions: &'a [Division],
-    pub(crate) cells: &'a [&'a Cell],
+    pub(crate) cells: &'a [&'a BranchCell],
 }
 
 impl Area<'_> {
@@ -508,9 +526,9 @@ impl Area<'_> {
     pub(crate) fn bound(
         &self,
         polished: &mut Vec<(usize, LocalResult)>,
-        o: &SearchOptions,
+        o: &OffsetSearchOptions,
         stopped: &dyn Fn() -> bool,
-        progress: &mut dyn FnMut(Progress),
+        progress: &mut dyn FnMut(OffsetProgress),
     ) -> Option<GlobalBound> {
         let start = polished.first().filter(|p| p.1.is_feasible() && p.1.value > 0.0)?.1.value;
         let (mut hint, mut value) = (0, start);
@@ -530,7 +548,7 @@ impl Area<'_> {
         };
         let options = BoundOptions { gap: o.gap, boxes: o.boxes, threads: o.threads };
         let tick = &mut |boxes, open, best| {
-            progress(Progress::Bounding { boxes, open, best });
+            progress(OffsetProgress::Bounding { boxes, open, best });
             if stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
         let boxes = self.divisions.iter().flat_map(|d| d.boxes.iter().copied()).collect();

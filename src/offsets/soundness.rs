@@ -6,10 +6,10 @@ use nalgebra::Point3;
 
 use super::branch::{Branch, divide, in_order};
 use super::conditioning::worst_case;
-use super::limits::{Bounds, Limits, proved_empty};
-use super::problem::Model;
+use super::limits::{OffsetLimits, OffsetRanges, proved_empty};
+use super::problem::OffsetModel;
 use super::tests::poses;
-use super::{OffsetOutcome, OffsetProblem, SearchOptions, optimize};
+use super::{OffsetOutcome, OffsetProblem, OffsetSearchOptions, optimize};
 use crate::manipulator::{Body, Manipulator, Octahedral};
 use crate::num::Rng;
 use crate::num::exact::{Rational, approximate, rational};
@@ -122,7 +122,7 @@ fn barely(rng: &mut Rng, n: usize) -> (OffsetProblem, [f64; 6]) {
 }
 
 /// Ranges about offsets, the offsets at an end of some.
-fn around(t: &[f64; 6], rng: &mut Rng) -> Bounds {
+fn around(t: &[f64; 6], rng: &mut Rng) -> OffsetRanges {
     t.map(|x| {
         let width = 10f64.powf(rng.uniform(-13.0, 0.0));
         match (rng.next_u64() % 3) as usize {
@@ -138,7 +138,7 @@ fn offsets_that_meet_the_limits_exactly_are_in_a_box_and_in_no_excluded_one() {
     let mut rng = Rng::new(41);
     for n in 0..60 {
         let (p, t) = barely(&mut rng, n);
-        let limits = Limits::new(&p);
+        let limits = OffsetLimits::new(&p);
         assert_eq!(limits.vertices_too_close(), None, "{n}");
         for _ in 0..20 {
             let bounds = around(&t, &mut rng);
@@ -152,9 +152,9 @@ fn offsets_that_meet_the_limits_exactly_are_in_a_box_and_in_no_excluded_one() {
                 );
             }
         }
-        let m = Model::new(&p);
+        let m = OffsetModel::new(&p);
         let own = &divide(&m, &limits)[Branch::of(&t).index()];
-        let inside = |b: &Bounds| t.iter().zip(b).all(|(t, b)| (b.0..=b.1).contains(t));
+        let inside = |b: &OffsetRanges| t.iter().zip(b).all(|(t, b)| (b.0..=b.1).contains(t));
         assert!(own.boxes.iter().any(inside), "{n}: {t:?} {:?}", own.conflicts);
         let det = crate::synthesis::offset_determinant(&t);
         let cells: Vec<_> =
@@ -176,7 +176,7 @@ fn a_limit_raised_by_a_billionth_is_seen_to_exclude() {
         } else {
             p.min_abs_det *= 1.0 + 1e-9;
         }
-        let limits = Limits::new(&p);
+        let limits = OffsetLimits::new(&p);
         let point = t.map(|x| (x, x));
         let gone = limits.vertices_too_close().is_some()
             || limits.is_empty(&point)
@@ -186,8 +186,15 @@ fn a_limit_raised_by_a_billionth_is_seen_to_exclude() {
     assert!(excluded > 36, "{excluded} of 40");
 }
 
-fn quick() -> SearchOptions {
-    SearchOptions { samples: 2, climbs: 1, polished: 1, starts: 1, boxes: 60, ..SearchOptions::default() }
+fn quick() -> OffsetSearchOptions {
+    OffsetSearchOptions {
+        samples: 2,
+        climbs: 1,
+        polished: 1,
+        starts: 1,
+        boxes: 60,
+        ..OffsetSearchOptions::default()
+    }
 }
 
 /// Windows of 1e-12 to 1e-6 of an edge about offsets that meet the limits with nothing to spare.
@@ -207,7 +214,7 @@ fn thin_feasible_windows_are_never_infeasible_and_never_above_the_bound() {
         }
         if let Some(b) = r.bound {
             bounded += 1;
-            let value = worst_case(&Model::new(&p).poses, &t).0;
+            let value = worst_case(&OffsetModel::new(&p).poses, &t).0;
             assert!(value <= b.upper * (1.0 + 1e-12), "{n}: {value} above {b:?}");
         }
     }

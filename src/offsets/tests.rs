@@ -47,7 +47,7 @@ fn full_size_search_is_not_beaten_by_twenty_thousand_random_designs() {
     for turn in [0.0, std::f64::consts::FRAC_PI_3, std::f64::consts::PI] {
         let p = OffsetProblem::with_defaults(example(), poses_about(turn, 27));
         let started = std::time::Instant::now();
-        let r = optimize(&p, &SearchOptions::default(), &mut |_| ControlFlow::Continue(())).unwrap();
+        let r = optimize(&p, &OffsetSearchOptions::default(), &mut |_| ControlFlow::Continue(())).unwrap();
         println!("turn {turn:.3}: {:?}, {:?}", started.elapsed(), r.counts());
         let s = r.solution().unwrap();
         println!("{} {:?} {}", s.branch, s.offsets, s.recheck.objective);
@@ -84,8 +84,15 @@ fn small_problem() -> OffsetProblem {
     p
 }
 
-fn quick() -> SearchOptions {
-    SearchOptions { samples: 8, climbs: 2, polished: 3, starts: 3, boxes: 2000, ..SearchOptions::default() }
+fn quick() -> OffsetSearchOptions {
+    OffsetSearchOptions {
+        samples: 8,
+        climbs: 2,
+        polished: 3,
+        starts: 3,
+        boxes: 2000,
+        ..OffsetSearchOptions::default()
+    }
 }
 
 fn optimum(p: &OffsetProblem) -> OffsetSolution {
@@ -129,7 +136,8 @@ fn random_feasible_designs_never_beat_the_optimum() {
 fn same_answer_with_any_number_of_threads_and_other_seeds_find_the_same_optimum() {
     let p = small_problem();
     let run = |threads, seed| {
-        optimize(&p, &SearchOptions { seed, threads, ..quick() }, &mut |_| ControlFlow::Continue(())).unwrap()
+        optimize(&p, &OffsetSearchOptions { seed, threads, ..quick() }, &mut |_| ControlFlow::Continue(()))
+            .unwrap()
     };
     let one = run(1, 1);
     assert_eq!(one, run(3, 1));

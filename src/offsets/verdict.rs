@@ -2,25 +2,29 @@
 //! feasible, in values and in words.
 
 use super::bound::GlobalBound;
-use super::branch::{Cell, Division, Zone};
-use super::limits::Limits;
+use super::branch::{BranchCell, Division, Zone};
+use super::limits::OffsetLimits;
 use super::outcome::{
     BranchReport, BranchVerdict, LocalEvidence, OffsetOutcome, OffsetReport, OffsetSolution,
 };
-use super::problem::{Model, OffsetProblem};
+use super::problem::{OffsetModel, OffsetProblem};
 use super::scp::LocalResult;
-use super::search::{CellResult, SearchOptions, better, pattern_search};
+use super::search::{CellResult, OffsetSearchOptions, better, pattern_search};
 use crate::num::Rng;
 use crate::synthesis::joint_free;
 
 /// A pattern search may gain this much (relative) before the solution counts as not converged.
 const PATTERN_LIMIT: f64 = 1e-6;
 
-pub(crate) fn vertices_too_close(limits: &Limits) -> Option<Conflict> {
+pub(crate) fn vertices_too_close(limits: &OffsetLimits) -> Option<Conflict> {
     limits.vertices_too_close().map(|(side, distance)| Conflict::VerticesTooClose { distance, side })
 }
 
-pub(crate) fn nothing_fits(divisions: Vec<Division>, conflict: &Conflict, o: &SearchOptions) -> OffsetReport {
+pub(crate) fn nothing_fits(
+    divisions: Vec<Division>,
+    conflict: &Conflict,
+    o: &OffsetSearchOptions,
+) -> OffsetReport {
     let report = |d: Division| BranchReport {
         branch: d.branch,
         cells: 0,
@@ -81,7 +85,7 @@ fn judge(d: &Division, results: Vec<(CellResult, Option<&LocalResult>)>, bounded
 }
 
 /// What the search found.
-pub(crate) struct Searched {
+pub(crate) struct SearchedOffsets {
     /// One result for each cell.
     pub(crate) ranked: Vec<CellResult>,
     /// The best runs with their cells, best first.
@@ -92,13 +96,13 @@ pub(crate) struct Searched {
 
 pub(crate) fn assemble(
     problem: &OffsetProblem,
-    m: &Model,
+    m: &OffsetModel,
     divisions: &[Division],
-    cells: &[&Cell],
-    searched: Searched,
-    o: &SearchOptions,
+    cells: &[&BranchCell],
+    searched: SearchedOffsets,
+    o: &OffsetSearchOptions,
 ) -> OffsetReport {
-    let Searched { ranked, polished, bound, interrupted } = searched;
+    let SearchedOffsets { ranked, polished, bound, interrupted } = searched;
     let mut results = ranked.into_iter().enumerate();
     let mut branches = Vec::with_capacity(divisions.len());
     for d in divisions {
@@ -148,11 +152,11 @@ pub(crate) fn assemble(
 /// Pattern search, then the re-check on the original problem; where that finds a violation, the point before the pattern search. `None` when both violate a limit.
 fn solution(
     problem: &OffsetProblem,
-    m: &Model,
-    cell: &Cell,
+    m: &OffsetModel,
+    cell: &BranchCell,
     divisions: &[Division],
     run: LocalResult,
-    o: &SearchOptions,
+    o: &OffsetSearchOptions,
 ) -> Option<(OffsetSolution, bool)> {
     let mut rng = Rng::stream(o.seed, u64::MAX);
     let mut found = pattern_search(m, cell, run.t, run.value, &mut rng);

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::request::Refusal;
 use super::session::Equivalent;
-use crate::plot::Grid;
+use crate::plot::ValueGrid;
 
 /// Most points a side.
 const MOST: usize = 201;
@@ -67,7 +67,7 @@ pub(super) fn record(
             values.push(e.with(&[(i, place(column as f64)), (j, place(row as f64))])?);
         }
     }
-    let grid = Grid { columns: points, rows: points, values };
+    let grid = ValueGrid { columns: points, rows: points, values };
     let lines = grid.contour(0.0).into_iter();
     let zero = lines.map(|line| line.into_iter().map(|(x, y)| [place(x), place(y)]).collect()).collect();
     Ok(PlaneRecord { points, low, high, values: grid.values, zero })

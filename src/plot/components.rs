@@ -1,6 +1,6 @@
 //! Two planes with the curves of replaceable joints, side by side.
 
-use super::contour::Grid;
+use super::contour::ValueGrid;
 use super::style::Svg;
 
 /// A marked point of a panel.
@@ -133,7 +133,7 @@ fn draw(svg: &mut Svg, panel: &CurvePanel, corner: (f64, f64)) {
             let (x, y) = (window.left + step * (k % GRID) as f64, window.low + step * (k / GRID) as f64);
             value(panel, x / panel.units[0], y / panel.units[1])
         };
-        let grid = Grid { columns: GRID, rows: GRID, values: (0..GRID * GRID).map(at).collect() };
+        let grid = ValueGrid { columns: GRID, rows: GRID, values: (0..GRID * GRID).map(at).collect() };
         for line in grid.contour(0.0) {
             let scale = (GRID - 1) as f64;
             let points: Vec<(f64, f64)> =

@@ -13,13 +13,13 @@ type Edge = (usize, usize, bool);
 
 /// Values on a grid of `columns` x `rows` points, row by row.
 #[derive(Debug, Clone)]
-pub(crate) struct Grid {
+pub(crate) struct ValueGrid {
     pub(crate) columns: usize,
     pub(crate) rows: usize,
     pub(crate) values: Vec<f64>,
 }
 
-impl Grid {
+impl ValueGrid {
     fn value(&self, i: usize, j: usize) -> f64 {
         self.values[j * self.columns + i]
     }
@@ -89,10 +89,10 @@ impl Grid {
 mod tests {
     use super::*;
 
-    fn grid(f: impl Fn(f64, f64) -> f64) -> Grid {
+    fn grid(f: impl Fn(f64, f64) -> f64) -> ValueGrid {
         let n = 41;
         let at = |k: usize| k as f64 / 20.0 - 1.0;
-        Grid { columns: n, rows: n, values: (0..n * n).map(|k| f(at(k % n), at(k / n))).collect() }
+        ValueGrid { columns: n, rows: n, values: (0..n * n).map(|k| f(at(k % n), at(k / n))).collect() }
     }
 
     #[test]

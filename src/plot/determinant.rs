@@ -1,6 +1,6 @@
 //! `det A` of the joint-free platform over the two offsets of equal-offset platforms.
 
-use super::contour::Grid;
+use super::contour::ValueGrid;
 use super::style::{Axis, Svg};
 
 /// One axis: an offset as a fraction `t` of the edge, shown as `t * scale`.
@@ -163,7 +163,7 @@ fn contours(svg: &mut Svg, x: &Axis, y: &Axis, mut taken: Vec<(f64, f64)>) {
     let det = |t1: f64, t2: f64| ((1.0 - t1) * (1.0 - t2)).powi(3) - (t1 * t2).powi(3);
     let values =
         (0..GRID * GRID).map(|k| det(place(x, (k % GRID) as f64), place(y, (k / GRID) as f64))).collect();
-    let grid = Grid { columns: GRID, rows: GRID, values };
+    let grid = ValueGrid { columns: GRID, rows: GRID, values };
     let mut labels = Vec::new();
     for level in LEVELS.iter().flat_map(|l| [*l, -l]) {
         let lines: Vec<Vec<(f64, f64)>> = grid

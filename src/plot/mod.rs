@@ -26,7 +26,7 @@ pub(crate) use style::escape;
 
 pub use along::{AlongFigure, AlongPart, sign_along};
 pub use components::{CurveFigure, CurveMark, CurvePanel, component_curves};
-pub(crate) use contour::Grid;
+pub(crate) use contour::ValueGrid;
 pub use convergence::{ConvergenceCurve, ConvergenceFigure, convergence_chart};
 pub use determinant::{OffsetPlane, PlaneAxis, PlanePoint, determinant_plane};
 pub use front::{FrontAxis, FrontFigure, pareto_front};

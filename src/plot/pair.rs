@@ -69,13 +69,13 @@ pub fn platform_pair(platforms: [&Manipulator; 2], figure: &PairFigure) -> Strin
 }
 
 /// A joint on the page and how many legs end there.
-type Joint = ((f64, f64), usize);
+type DrawnJoint = ((f64, f64), usize);
 
 /// A platform on the page, right and up, design units.
 #[derive(Debug)]
 struct Drawn {
     bodies: Bodies,
-    joints: Vec<Joint>,
+    joints: Vec<DrawnJoint>,
 }
 
 impl Drawn {

@@ -1,6 +1,6 @@
 //! Where a determinant vanishes over two variables.
 
-use super::contour::Grid;
+use super::contour::ValueGrid;
 use super::style::{Axis, Svg, frame};
 
 /// One axis of the slice.
@@ -60,7 +60,7 @@ pub fn singular_slice(figure: &SliceFigure) -> String {
     let last = figure.side.saturating_sub(1).max(1) as f64;
     let place = |axis: &Axis, k: f64| axis.at(axis.low + k / last * (axis.high - axis.low));
     negative_cells(&mut svg, figure, &|k| place(&x, k), &|k| place(&y, k));
-    let grid = Grid { columns: figure.side, rows: figure.side, values: figure.values.clone() };
+    let grid = ValueGrid { columns: figure.side, rows: figure.side, values: figure.values.clone() };
     for line in grid.contour(0.0) {
         let points: Vec<(f64, f64)> = line.into_iter().map(|(i, j)| (place(&x, i), place(&y, j))).collect();
         svg.polyline("singular", &points);

@@ -1,6 +1,6 @@
 //! A slice of the workspace, coloured by what ends it.
 
-use super::contour::Grid;
+use super::contour::ValueGrid;
 use super::slice::SliceAxis;
 use super::style::{Axis, Svg};
 
@@ -60,7 +60,7 @@ pub fn workspace_slice(figure: &WorkspaceFigure) -> String {
     let joined = joined(figure);
     cells(&mut svg, figure, &joined, &|k| place(&x, k), &|k| place(&y, k));
     let margins = figure.margins.iter().map(|m| m.clamp(-1e300, 1e300)).collect();
-    let grid = Grid { columns: figure.side, rows: figure.side, values: margins };
+    let grid = ValueGrid { columns: figure.side, rows: figure.side, values: margins };
     for line in grid.contour(0.0) {
         let points: Vec<(f64, f64)> = line.into_iter().map(|(i, j)| (place(&x, i), place(&y, j))).collect();
         svg.polyline("boundary", &points);

@@ -2,7 +2,7 @@
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
-use crate::num::batch::{Batch, LANES};
+use crate::num::batch::{ComplexBatch, LANES};
 
 /// Sweeps before giving up; well separated roots take about ten.
 const SWEEPS: usize = 40;
@@ -12,7 +12,7 @@ const SWEEPS: usize = 40;
 /// Ehrlich-Aberth iteration on all roots side by side, from circles whose radii are the slopes of the Newton polygon. `None` when an end
 /// coefficient is zero or not finite, or when some root does not settle (multiple roots converge linearly).
 #[inline(always)]
-pub(crate) fn octic_roots(c: &[f64; LANES + 1], accuracy: f64) -> Option<Batch> {
+pub(crate) fn octic_roots(c: &[f64; LANES + 1], accuracy: f64) -> Option<ComplexBatch> {
     let usable = c.iter().all(|x| x.is_finite()) && c[0].abs() > 0.0 && c[LANES].abs() > 0.0;
     if !usable {
         return None;
@@ -40,8 +40,8 @@ pub(crate) fn octic_roots(c: &[f64; LANES + 1], accuracy: f64) -> Option<Batch> 
 
 /// `N / (1 - N sum 1 / (z_k - z_j))`, `N = p / p'`.
 #[inline(always)]
-fn corrections(c: &[f64; LANES + 1], z: &Batch) -> Batch {
-    let (mut p, mut d) = (Batch::real(c[LANES]), Batch::ZERO);
+fn corrections(c: &[f64; LANES + 1], z: &ComplexBatch) -> ComplexBatch {
+    let (mut p, mut d) = (ComplexBatch::real(c[LANES]), ComplexBatch::ZERO);
     for k in (0..LANES).rev() {
         d = d * *z + p;
         p = (p * *z).plus(c[k]);
@@ -51,11 +51,11 @@ fn corrections(c: &[f64; LANES + 1], z: &Batch) -> Batch {
 
 /// `sum 1 / (z_k - z_j)` over the other lanes `j`, for every lane `k`.
 #[inline(always)]
-pub(crate) fn repulsion(z: &Batch) -> Batch {
-    let mut sum = Batch::ZERO;
+pub(crate) fn repulsion(z: &ComplexBatch) -> ComplexBatch {
+    let mut sum = ComplexBatch::ZERO;
     // lane k against lane k + shift, every pair from both sides
     for shift in 1..LANES {
-        let mut other = Batch::ZERO;
+        let mut other = ComplexBatch::ZERO;
         for k in 0..LANES {
             (other.re[k], other.im[k]) = (z.re[(k + shift) % LANES], z.im[(k + shift) % LANES]);
         }
@@ -66,7 +66,7 @@ pub(crate) fn repulsion(z: &Batch) -> Batch {
 
 /// Points on circles whose radii are the slopes of the upper convex hull of `(k, ln |c_k|)`.
 #[inline(always)]
-fn starting_points(c: &[f64; LANES + 1]) -> Batch {
+fn starting_points(c: &[f64; LANES + 1]) -> ComplexBatch {
     // unit vectors at 2 pi k / 8 + 0.4, not symmetric to the real axis
     const COSINE: [f64; LANES] = [
         0.921_060_994_002_885_1,
@@ -96,7 +96,7 @@ fn starting_points(c: &[f64; LANES + 1]) -> Batch {
         hull[count] = k;
         count += 1;
     }
-    let mut z = Batch::ZERO;
+    let mut z = ComplexBatch::ZERO;
     for edge in hull[..count].windows(2) {
         let length = edge[1] - edge[0];
         let radius = ((logs[edge[0]] - logs[edge[1]]) / length as f64).exp();

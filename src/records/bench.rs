@@ -8,8 +8,8 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use super::Number;
 use crate::bench::{
-    Class, ErrorStatistics, Failure, LengthsFrom, NoiseLevel, Plan, ReferenceTimes, Report, Spread,
-    TimeSplit, problem,
+    BenchReport, Class, ErrorStatistics, LengthsFrom, NoiseLevel, Plan, ReferenceTimes, Spread, TimeSplit,
+    WrongAnswer, problem,
 };
 
 /// The answer of `bench`.
@@ -94,7 +94,7 @@ pub struct BenchCountsRecord {
 }
 
 impl BenchCountsRecord {
-    fn new(r: &Report, references: &ReferenceTimes) -> Self {
+    fn new(r: &BenchReport, references: &ReferenceTimes) -> Self {
         Self {
             class: r.plan.class.name().into_owned(),
             count: r.plan.count,
@@ -194,7 +194,7 @@ pub struct BenchClassRecord {
 impl BenchClassRecord {
     /// The record of a run, with the times of the references on the same machine.
     #[must_use]
-    pub fn new(r: &Report, references: &ReferenceTimes) -> Self {
+    pub fn new(r: &BenchReport, references: &ReferenceTimes) -> Self {
         Self {
             counts: BenchCountsRecord::new(r, references),
             ratio_to_reference: ReferenceRecord {
@@ -324,7 +324,7 @@ pub struct BenchFailureRecord {
 }
 
 impl BenchFailureRecord {
-    fn new(plan: &Plan, f: &Failure) -> Self {
+    fn new(plan: &Plan, f: &WrongAnswer) -> Self {
         let drawn = problem(plan.class, plan.lengths, plan.seed, f.k).ok();
         let point = |p: nalgebra::Point3<f64>| [p.x, p.y, p.z].map(Number);
         Self {

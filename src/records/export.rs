@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Number;
-use crate::export::{Choice, Export, ExportFormat};
+use crate::export::{Export, ExportFormat, SizeChoice};
 
 /// The answer of `export`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -88,8 +88,8 @@ pub struct SizeRecord {
     pub from: String,
 }
 
-impl From<&Choice> for SizeRecord {
-    fn from(c: &Choice) -> Self {
+impl From<&SizeChoice> for SizeRecord {
+    fn from(c: &SizeChoice) -> Self {
         Self { what: c.what.clone(), value: Number(c.value), unit: c.unit.into(), from: c.from.into() }
     }
 }

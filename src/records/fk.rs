@@ -16,8 +16,8 @@ use crate::num::disc::Disc;
 use crate::poly::{Dyadic, RealRoot};
 use crate::solve::certify::octahedral::OctahedralCertificate;
 use crate::solve::certify::{CentrePrecision, Certificate, PoseEnclosure, ProvedReality, RootCertificate};
-use crate::solve::pose_count::{PoseSet, Undecided};
-use crate::topology::{Joint, Step};
+use crate::solve::pose_count::{CountUndecided, PoseSet};
+use crate::topology::{JointIndex, Step};
 
 /// The answer of `fk`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -251,7 +251,7 @@ pub struct PoseCountRecord {
     /// Degree of a set of positive dimension, in the 16 coordinates of a pose, with multiplicity.
     pub degree: Option<usize>,
     /// Why there is no count.
-    pub undecided: Option<Undecided>,
+    pub undecided: Option<CountUndecided>,
     /// By a theorem and certificates, or modulo random primes.
     pub evidence: EvidenceWord,
     /// A bound; null: proved, or undecided.
@@ -656,11 +656,11 @@ impl ClosureRecord {
             Err(why) => return Self::None { error: why.to_string() },
         };
         let p = &c.polynomial;
-        let name = |j: Joint| match j {
-            Joint::Base(k) => design.base_names()[k].clone(),
-            Joint::Platform(k) => design.platform_names()[k].clone(),
+        let name = |j: JointIndex| match j {
+            JointIndex::Base(k) => design.base_names()[k].clone(),
+            JointIndex::Platform(k) => design.platform_names()[k].clone(),
         };
-        let ends = |(a, b): &(usize, usize)| [name(Joint::Base(*a)), name(Joint::Platform(*b))];
+        let ends = |(a, b): &(usize, usize)| [name(JointIndex::Base(*a)), name(JointIndex::Platform(*b))];
         let step = |s: &Step| TrilaterationStepRecord {
             from: s.from.map(name),
             place: name(s.place),

@@ -4,7 +4,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Number, PoseRecord, leg_number};
-use crate::synthesis::alignment::{Alignment, Difference, Invariant, Motion, NearestMotion, Undecided};
+use crate::synthesis::alignment::{
+    Alignment, AlignmentUndecided, Difference, Invariant, Motion, NearestMotion,
+};
 use crate::synthesis::{AffineLegMap, LegCorrespondence, LegMapOutcome, Relation};
 
 /// The answer of `map`.
@@ -165,7 +167,7 @@ pub enum AlignmentOutcome {
     /// Not decided.
     Undecided {
         /// Why not.
-        reason: Undecided,
+        reason: AlignmentUndecided,
         /// How near a motion comes.
         nearest: Option<NearestMotionRecord>,
     },

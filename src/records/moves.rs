@@ -8,7 +8,7 @@ use crate::manipulator::Body;
 use crate::synthesis::Relation;
 use crate::synthesis::relocate::SingularParameters;
 use crate::synthesis::relocate::search::{
-    self, Hole, HoleAnswer, Impossibility, Margin, SearchVerdict, Wishes,
+    self, Hole, HoleAnswer, Impossibility, SearchVerdict, WishMargin, Wishes,
 };
 
 /// The answer of `move`.
@@ -245,8 +245,8 @@ pub enum HoleWord {
     None,
 }
 
-impl From<&search::HoleRecord> for HoleRecord {
-    fn from(h: &search::HoleRecord) -> Self {
+impl From<&search::JudgedHole> for HoleRecord {
+    fn from(h: &search::JudgedHole) -> Self {
         let (answer, dimension) = match &h.answer {
             HoleAnswer::Legs { dimension, .. } => (HoleWord::Legs, Some(*dimension)),
             HoleAnswer::AtInfinity => (HoleWord::AtInfinity, None),
@@ -300,8 +300,8 @@ pub struct WishMarginRecord {
     pub slack: Number,
 }
 
-impl From<&Margin> for WishMarginRecord {
-    fn from(m: &Margin) -> Self {
+impl From<&WishMargin> for WishMarginRecord {
+    fn from(m: &WishMargin) -> Self {
         Self {
             wish: m.wish.as_str().into(),
             value: Number(m.value),

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{Number, PoseQuaternionRecord};
 use crate::design::Design;
 use crate::entrance::AssessReport;
-use crate::requirements::{Assessment, Margin, MarginBound, Standing, TermKind, Verdict};
+use crate::requirements::{Assessment, Margin, MarginBound, MarginVerdict, Standing, TermKind};
 use crate::singularity::Regularity;
 
 /// The least margin of a kind of requirement.
@@ -21,7 +21,7 @@ pub struct MarginRecord {
     /// Rounding does not tell the margin from 0.
     pub at_limit: bool,
     /// What is known of it.
-    pub status: Verdict,
+    pub status: MarginVerdict,
     /// No pose of the workspace has a smaller margin; null where nothing is proved.
     pub proved_margin: Number,
     /// Of the margins.
@@ -33,7 +33,7 @@ pub struct MarginRecord {
 }
 
 impl MarginRecord {
-    fn new(design: &Design, m: &Margin, met: Option<bool>, status: Verdict, below: f64) -> Self {
+    fn new(design: &Design, m: &Margin, met: Option<bool>, status: MarginVerdict, below: f64) -> Self {
         Self {
             requirement: m.term.kind,
             margin: Number(m.value),
@@ -58,7 +58,7 @@ impl MarginRecord {
     pub fn searched(design: &Design, found: &Assessment) -> Vec<Self> {
         let record = |m: &Margin| {
             let met = m.standing.is_met();
-            let status = if met { Verdict::Searched } else { Verdict::Violated };
+            let status = if met { MarginVerdict::Searched } else { MarginVerdict::Violated };
             Self::new(design, m, Some(met), status, f64::NEG_INFINITY)
         };
         found.margins.iter().map(record).collect()

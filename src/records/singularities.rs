@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Number, PoseQuaternionRecord};
-use crate::singularity::{Piece, Sign, SignsAlong, Way};
+use crate::singularity::{PathPiece, Sign, SignsAlong, Way};
 
 /// The answer of `singularities`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -187,8 +187,8 @@ pub struct SignPieceRecord {
     pub sign: SignRecord,
 }
 
-impl From<&Piece> for SignPieceRecord {
-    fn from(p: &Piece) -> Self {
+impl From<&PathPiece> for SignPieceRecord {
+    fn from(p: &PathPiece) -> Self {
         Self { from: Number(p.from), to: Number(p.to), sign: p.sign.into() }
     }
 }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{Number, PoseErrorRecord, PoseErrorsRecord, PoseQuaternionRecord};
 use crate::design::Design;
 use crate::manipulator::Body;
-use crate::manufacture::{ErrorKind, Joint, JointBudget, Limit, Trials};
+use crate::manufacture::{ErrorKind, Joint, JointBudget, LimitedAllowance, Trials};
 
 /// The answer of `tolerances`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -46,8 +46,8 @@ pub struct JointLimitRecord {
     pub pose: PoseQuaternionRecord,
 }
 
-impl From<&Limit> for JointLimitRecord {
-    fn from(l: &Limit) -> Self {
+impl From<&LimitedAllowance> for JointLimitRecord {
+    fn from(l: &LimitedAllowance) -> Self {
         Self {
             value: Number(l.value),
             reached: Number(l.reached),

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{RearrangementRecord, TrilaterationStepRecord};
 use crate::distance::ClosureDegrees;
-use crate::topology::{Joint, NamedTopology, Sequence};
+use crate::topology::{JointIndex, NamedTopology, Sequence};
 
 /// The answer of `topologies`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -166,14 +166,16 @@ impl From<&TopologyFindings<'_>> for TopologyRecord {
     }
 }
 
-fn joint_name(joint: Joint) -> String {
+fn joint_name(joint: JointIndex) -> String {
     match joint {
-        Joint::Base(k) => format!("A{}", k + 1),
-        Joint::Platform(k) => format!("B{}", k + 1),
+        JointIndex::Base(k) => format!("A{}", k + 1),
+        JointIndex::Platform(k) => format!("B{}", k + 1),
     }
 }
 
 /// Names of the joints of legs.
 pub(super) fn joint_pairs(legs: &[(usize, usize)]) -> Vec<[String; 2]> {
-    legs.iter().map(|(a, b)| [joint_name(Joint::Base(*a)), joint_name(Joint::Platform(*b))]).collect()
+    legs.iter()
+        .map(|(a, b)| [joint_name(JointIndex::Base(*a)), joint_name(JointIndex::Platform(*b))])
+        .collect()
 }

@@ -4,7 +4,7 @@ use serde_json::{Map, Value};
 
 /// The answer of a result.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Verdict {
+pub struct ResultVerdict {
     /// The word of the result itself, for instance `equivalent`.
     pub word: String,
     /// Yes, no, or neither.
@@ -40,12 +40,12 @@ pub(super) fn heading(fields: &Map<String, Value>) -> &'static str {
 }
 
 /// The answer, where the result has one.
-pub(super) fn verdict(fields: &Map<String, Value>) -> Option<Verdict> {
+pub(super) fn verdict(fields: &Map<String, Value>) -> Option<ResultVerdict> {
     let text = |key: &str| fields.get(key).and_then(Value::as_str).map(str::to_owned);
     let explanation = text("explanation").or_else(|| text("completeness_reason"));
     if let Some(met) = fields.get("met").and_then(Value::as_bool) {
         let word = if met { "met" } else { "violated" };
-        return Some(Verdict { word: word.into(), holds: Some(met), explanation });
+        return Some(ResultVerdict { word: word.into(), holds: Some(met), explanation });
     }
     let word = ["verdict", "status", "relation"].iter().find_map(|key| text(key)).or_else(|| {
         let count = |key: &str| fields.get(key).and_then(Value::as_u64);
@@ -56,5 +56,5 @@ pub(super) fn verdict(fields: &Map<String, Value>) -> Option<Verdict> {
         w if NO.contains(&w) => Some(false),
         _ => fields.get("completeness").and_then(Value::as_str).filter(|c| *c == "proved").map(|_| true),
     };
-    Some(Verdict { word: word.replace('_', " "), holds, explanation })
+    Some(ResultVerdict { word: word.replace('_', " "), holds, explanation })
 }

@@ -8,7 +8,7 @@ mod inputs;
 mod kind;
 mod page;
 
-pub use kind::Verdict;
+pub use kind::ResultVerdict;
 pub use page::html;
 
 /// One file of the folder.

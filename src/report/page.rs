@@ -6,7 +6,7 @@ use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
 use serde_json::{Map, Value};
 use sha2::{Digest, Sha256};
 
-use super::kind::{Verdict, heading, verdict};
+use super::kind::{ResultVerdict, heading, verdict};
 use super::{Report, ReportFile, facts, inputs};
 use crate::design::{Design, Format, parse};
 use crate::page::policy;
@@ -104,7 +104,7 @@ fn section(out: &mut String, id: &str, title: &str, parts: impl Iterator<Item = 
 }
 
 /// The class and the sign that stand for a verdict, in colour and without.
-fn badge(v: &Verdict) -> String {
+fn badge(v: &ResultVerdict) -> String {
     let (class, sign) = match v.holds {
         Some(true) => ("yes", "\u{2713}"),
         Some(false) => ("no", "\u{2717}"),

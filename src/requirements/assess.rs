@@ -103,7 +103,7 @@ impl Assessment {
 type Least = (Term, f64, Option<Pose>);
 
 /// A point of the region with what is known about it.
-type Candidate = (f64, Vector6<f64>);
+type RegionPoint = (f64, Vector6<f64>);
 
 /// The least margin of a kind at a pose.
 fn least(terms: &Terms<'_>, kind: TermKind, pose: &Pose) -> f64 {
@@ -135,7 +135,7 @@ pub fn assess(m: &Manipulator, required: &Requirements, space: &PoseSpace, o: &A
         keep(terms.at(&pose), Some(pose));
         poses += 1;
     }
-    let mut worst: BTreeMap<TermKind, Vec<Candidate>> = BTreeMap::new();
+    let mut worst: BTreeMap<TermKind, Vec<RegionPoint>> = BTreeMap::new();
     for x in space.cube_points(o.points, &mut rng) {
         let pose = space.pose(&x);
         let list = terms.at(&pose);
@@ -177,7 +177,7 @@ fn descend(
     kind: TermKind,
     space: &PoseSpace,
     axes: &[usize],
-    (mut value, mut x): Candidate,
+    (mut value, mut x): RegionPoint,
     rng: &mut Rng,
 ) -> (Vector6<f64>, usize) {
     let (mut step, mut tried) = (0.2, 0);

@@ -7,7 +7,7 @@ use crate::manipulator::Body;
 
 /// The shape of a keep-out, design units.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Shape {
+pub enum KeepOutShape {
     /// A box along the axes of the frame: centre and edge lengths. A plate is a flat box.
     Box {
         /// Its centre.
@@ -41,10 +41,10 @@ pub struct KeepOut {
     /// The body it moves with, in whose frame its coordinates are.
     pub fixed_to: Body,
     /// What it looks like.
-    pub shape: Shape,
+    pub shape: KeepOutShape,
 }
 
-impl Shape {
+impl KeepOutShape {
     /// Distance of the segment `x y` from the shape, 0 when they meet. (How deep they overlap is not measured
     /// for boxes; for balls and capsules it is: the value is then negative.)
     #[must_use]

@@ -18,10 +18,10 @@ mod tests;
 
 pub use crate::geom::{PoseSpace, Region};
 pub use assess::{AssessOptions, Assessment, Margin, assess};
-pub use bound::{MarginBound, Proof, Verdict, prove};
+pub use bound::{MarginBound, MarginProof, MarginVerdict, prove};
 pub use goal::{Objective, VariableKind};
 pub use hardware::{Hardware, Housing, JointAxes, LegBody, LengthLimits, Swing};
-pub use keep_out::{KeepOut, Shape};
+pub use keep_out::{KeepOut, KeepOutShape};
 pub use limit::{Limit, Limits, PoseLimit};
 pub use load::{Load, leg_forces};
 pub use standing::Standing;

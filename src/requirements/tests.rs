@@ -61,9 +61,12 @@ fn lengths_swing_and_clearances_of_upright_legs() {
     r.hardware.platform_swing = Some(Swing { limit_deg: 50.0, axes: JointAxes::Given([tilted; 6]) });
     r.hardware.joint_diameter = Some(1.5);
     r.min_joint_distance = Some(3.0);
-    let post =
-        Shape::Capsule { from: Point3::new(0.0, 0.0, -1.0), to: Point3::new(0.0, 0.0, 9.0), diameter: 2.0 };
-    let tool = Shape::Box { center: Point3::new(0.0, 0.0, -5.0), size: Vector3::new(2.0, 6.0, 4.0) };
+    let post = KeepOutShape::Capsule {
+        from: Point3::new(0.0, 0.0, -1.0),
+        to: Point3::new(0.0, 0.0, 9.0),
+        diameter: 2.0,
+    };
+    let tool = KeepOutShape::Box { center: Point3::new(0.0, 0.0, -5.0), size: Vector3::new(2.0, 6.0, 4.0) };
     for (name, fixed_to, shape) in [("post", Body::Base, post), ("tool", Body::Platform, tool)] {
         r.keep_outs.push(KeepOut { name: name.into(), fixed_to, shape });
     }

@@ -277,13 +277,13 @@ pub(super) fn name(m: &Manipulator, legs: &[usize]) -> Result<&'static str, Lina
     })
 }
 
-struct Spread {
+struct PrincipalSpread {
     dimension: usize,
     /// `(1, x, y)` along the two principal axes, in units of the largest spread.
     coordinates: Vec<[f64; 3]>,
 }
 
-fn plane_coordinates(m: &Manipulator, points: &[Point3<f64>]) -> Result<Spread, LinalgError> {
+fn plane_coordinates(m: &Manipulator, points: &[Point3<f64>]) -> Result<PrincipalSpread, LinalgError> {
     let mean = points.iter().map(|p| p - points[0]).sum::<Vector3<f64>>() / points.len() as f64;
     let rows: Vec<Vec<f64>> =
         points.iter().map(|p| ((p - points[0] - mean) / m.size()).iter().copied().collect()).collect();
@@ -292,7 +292,7 @@ fn plane_coordinates(m: &Manipulator, points: &[Point3<f64>]) -> Result<Spread, 
     let unit = if d.s[0] > 0.0 { d.s[0] } else { 1.0 };
     let along = |row: &[f64], k: usize| (0..3).map(|i| row[i] * d.v[i][k]).sum::<f64>() / unit;
     let coordinates = rows.iter().map(|row| [1.0, along(row, 0), along(row, 1)]).collect();
-    Ok(Spread { dimension, coordinates })
+    Ok(PrincipalSpread { dimension, coordinates })
 }
 
 /// Whether a projectivity takes one set to the other: `b_i x T a_i = 0`, linear in the nine entries of `T`, has a solution. With dependent leg

@@ -240,7 +240,7 @@ pub fn assembly(g: &GriffisDuffy, m: &Manipulator, s: &SquaredLegLengths) -> Res
         return Ok(Assembly::Incompatible { defect });
     }
     let Some(corners) = corner_lengths(g, s)? else { return Ok(Assembly::NoTriangles) };
-    let frame = Frame::of(g, m);
+    let frame = TriangleFrame::of(g, m);
     let [low, high] = corners.interval;
     for k in 0..PARAMETERS {
         // the middle first: the ends are flat poses
@@ -302,7 +302,7 @@ fn where_positive(a: f64, b: f64, c: f64) -> Option<[f64; 2]> {
 }
 
 /// The base triangle, a normal, and the sides of the platform triangle.
-struct Frame {
+struct TriangleFrame {
     base: [Vector3<f64>; 3],
     normal: Vector3<f64>,
     platform: [Point3<f64>; 3],
@@ -332,7 +332,7 @@ impl Circle {
     }
 }
 
-impl Frame {
+impl TriangleFrame {
     fn of(g: &GriffisDuffy, m: &Manipulator) -> Self {
         let legs = m.legs();
         let base = [5, 1, 3].map(|k| legs[g.order[k]].base.coords);

@@ -14,7 +14,7 @@
 
 use nalgebra::{Matrix6, Vector3, Vector6};
 
-use crate::geom::enclosed::{Matrix, Vector, apply, cross, exact_rotation, times};
+use crate::geom::enclosed::{IntervalMatrix, IntervalVector, apply, cross, exact_rotation, times};
 use crate::geom::{Pose, random_rotation};
 use crate::manipulator::{Leg, Manipulator};
 use crate::num::Rng;
@@ -89,17 +89,17 @@ fn most_legs_at_a_joint(m: &Manipulator) -> f64 {
 /// The bound from one pose, proved: every step encloses what it computes. 0 where nothing is proved.
 fn proved_at_pose(m: &Manipulator, pose: &Pose) -> f64 {
     let rotation = exact_rotation(pose);
-    let point = |v: &Vector3<f64>| -> Vector { std::array::from_fn(|k| Interval::from(v[k])) };
+    let point = |v: &Vector3<f64>| -> IntervalVector { std::array::from_fn(|k| Interval::from(v[k])) };
     let place = point(&pose.position);
     // any double will do as the origin of moments, and as their unit
     let origin = middle(&m.legs().map(|l| (l.base.coords, pose.transform(&l.platform).coords)));
     let origin = point(&origin);
-    let from_origin = |v: Vector| -> Vector { std::array::from_fn(|k| v[k] - origin[k]) };
+    let from_origin = |v: IntervalVector| -> IntervalVector { std::array::from_fn(|k| v[k] - origin[k]) };
     let ends = m.legs().map(|l| {
         let turned = apply(&rotation, &point(&l.platform.coords));
         (from_origin(point(&l.base.coords)), from_origin(std::array::from_fn(|k| turned[k] + place[k])))
     });
-    let square = |v: &Vector| v[0].square() + v[1].square() + v[2].square();
+    let square = |v: &IntervalVector| v[0].square() + v[1].square() + v[2].square();
     let reach = ends.iter().map(|(a, e)| (square(a) + square(e)).hi()).fold(0.0, f64::max).sqrt().next_up();
     let unit = reach / std::f64::consts::SQRT_2;
     if !(unit > 0.0 && unit.is_finite()) {
@@ -134,7 +134,7 @@ fn proved_at_pose(m: &Manipulator, pose: &Pose) -> f64 {
 
 /// A number that the smallest singular value of every matrix in `j` exceeds: with `B` near the inverse and `|I - B j| <= e < 1`, `|1 / j| <= |B| / (1 - e)`, and
 /// `|B|^2 < x` when `x I - B^T B` is positive definite.
-fn smallest_singular_value(j: &Matrix) -> Option<f64> {
+fn smallest_singular_value(j: &IntervalMatrix) -> Option<f64> {
     let inverse = Matrix6::from_fn(|r, c| j[r][c].centre_and_radius().0).try_inverse()?;
     let one = Interval::from(1.0);
     let mut defect = Interval::ZERO;
@@ -147,7 +147,7 @@ fn smallest_singular_value(j: &Matrix) -> Option<f64> {
     let bound = singular_values(&inverse)?.max() * (1.0 + 1e-9);
     let exact = inverse.map(Interval::from);
     let square = Interval::from(bound).square();
-    let gap: Matrix = std::array::from_fn(|r| {
+    let gap: IntervalMatrix = std::array::from_fn(|r| {
         std::array::from_fn(|c| {
             let product = (0..6).fold(Interval::ZERO, |s, k| s + exact[(k, r)] * exact[(k, c)]);
             (if r == c { square } else { Interval::ZERO }) - product
@@ -158,7 +158,7 @@ fn smallest_singular_value(j: &Matrix) -> Option<f64> {
 }
 
 /// Whether all pivots of elimination are proved to be positive.
-fn is_positive_definite(mut m: Matrix) -> bool {
+fn is_positive_definite(mut m: IntervalMatrix) -> bool {
     for k in 0..6 {
         if m[k][k].lo() <= 0.0 {
             return false;
@@ -207,11 +207,13 @@ mod tests {
             let mut j = Matrix6::from_fn(|_, _| rng.normal());
             let spoilt = j.row(0) + j.row(1) + j.row(5) * 10f64.powi(-k);
             j.set_row(5, &spoilt);
-            let points: Matrix = std::array::from_fn(|r| std::array::from_fn(|c| Interval::from(j[(r, c)])));
+            let points: IntervalMatrix =
+                std::array::from_fn(|r| std::array::from_fn(|c| Interval::from(j[(r, c)])));
             let (low, s) = (smallest_singular_value(&points).unwrap(), j.singular_values().min());
             assert!(low < s * (1.0 + 1e-7) && low > s * (1.0 - 1e-6), "{k}: {low} {s}");
         }
-        let zero: Matrix = std::array::from_fn(|r| std::array::from_fn(|c| Interval::from((r * c) as f64)));
+        let zero: IntervalMatrix =
+            std::array::from_fn(|r| std::array::from_fn(|c| Interval::from((r * c) as f64)));
         assert_eq!(smallest_singular_value(&zero), None);
     }
 

@@ -28,7 +28,7 @@ pub use griffis_duffy::GriffisDuffy;
 pub use lattice::{GenericRank, RankBound, RationalPose};
 pub use lower_bound::singular_distance_at_least;
 pub use nearest::{NearestSingular, nearest_singular};
-pub use path::{JoinOptions, Joined, Piece, Sign, SignsAlong, Way, between, join, signs_along};
+pub use path::{JoinOptions, Joined, PathPiece, Sign, SignsAlong, Way, between, join, signs_along};
 pub use regular_box::{BoxOptions, RegularBox, Regularity, SingularSegment, regular_box, regular_workspace};
 pub use self_motion::{
     CriticalPoses, CurveDegree, CurveEnd, MotionCurve, MotionOptions, MotionPoint, SelfMotion,

@@ -72,7 +72,8 @@ pub fn nearest_singular(m: &Manipulator, seed: u64) -> Result<Option<NearestSing
         all.into_iter().filter(|c| c.norm().is_finite()).min_by(|x, y| x.norm().total_cmp(&y.norm()))
     };
     let closed = least(changes(m));
-    let searched = least(Start::all(m, seed, STARTS).iter().filter_map(|start| project(m, start)).collect());
+    let searched =
+        least(UnitCoefficients::all(m, seed, STARTS).iter().filter_map(|start| project(m, start)).collect());
     let best = match (closed, searched) {
         // a design found both ways is the exact one, whatever rounding says
         (Some(x), Some(y)) => Some(if x.norm() <= y.norm() * (1.0 + SAME) { x } else { y }),
@@ -115,12 +116,12 @@ fn describe(m: &Manipulator, change: Change) -> Result<NearestSingular, LinalgEr
 
 /// Where the search begins: a unit vector of coefficients.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Start([f64; 6]);
+pub(super) struct UnitCoefficients([f64; 6]);
 
-impl Start {
+impl UnitCoefficients {
     /// The six singular vectors of the relation `c -> sum c_i v_i`, and `random` others.
     pub(super) fn all(m: &Manipulator, seed: u64, random: u64) -> Vec<Self> {
-        let problem = Problem::of(m);
+        let problem = NearestProblem::of(m);
         let singular =
             problem.vectors(&problem.start).try_svd(false, true, f64::EPSILON, 500).and_then(|d| d.v_t);
         let rows =
@@ -149,13 +150,13 @@ const SHARE: f64 = 1e-7;
 const LEAST: f64 = 1e-100;
 
 /// Joints in use, centred and scaled to the size.
-struct Problem {
+struct NearestProblem {
     joints: [Vec<usize>; 2],
     start: DVector<f64>,
     legs: [(usize, usize); 6],
 }
 
-impl Problem {
+impl NearestProblem {
     fn of(m: &Manipulator) -> Self {
         let used = |pick: fn(&(usize, usize)) -> usize| {
             let mut list: Vec<usize> = m.pairs().iter().map(pick).collect();
@@ -208,8 +209,8 @@ impl Problem {
 }
 
 /// Follows one start; `None` when it does not settle on a design with a relation.
-fn project(m: &Manipulator, start: &Start) -> Option<Change> {
-    let problem = Problem::of(m);
+fn project(m: &Manipulator, start: &UnitCoefficients) -> Option<Change> {
+    let problem = NearestProblem::of(m);
     let mut x = problem.start.clone();
     let mut c = DVector::from_row_slice(&start.0).normalize();
     for _ in 0..STEPS {
@@ -265,7 +266,7 @@ fn pseudo_solve(a: DMatrix<f64>, b: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     svd.solve(b, limit).ok()
 }
 
-fn change(m: &Manipulator, problem: &Problem, x: &DVector<f64>, c: &DVector<f64>) -> Change {
+fn change(m: &Manipulator, problem: &NearestProblem, x: &DVector<f64>, c: &DVector<f64>) -> Change {
     let moved = (x - &problem.start) * m.size();
     let still = |count: usize| vec![Vector3::zeros(); count];
     let mut bodies = [still(m.base_joints().len()), still(m.platform_joints().len())];

@@ -16,7 +16,7 @@ const ROUNDING: f64 = 1.0 / (1u64 << 49) as f64;
 
 /// What is known of the six leg vectors and lengths.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Dependence {
+pub(crate) enum LegDependence {
     /// Independent, far from any relation.
     Independent,
     /// Independent as the doubles are, but a relation holds nearly.
@@ -31,15 +31,15 @@ pub(crate) enum Dependence {
 }
 
 /// Decides the dependence of the legs of `m` with squared lengths `s`.
-pub(crate) fn dependence(m: &Manipulator, s: &SquaredLegLengths) -> Dependence {
+pub(crate) fn dependence(m: &Manipulator, s: &SquaredLegLengths) -> LegDependence {
     if least_sine(m) > SUSPECT {
-        return Dependence::Independent;
+        return LegDependence::Independent;
     }
-    let Some(rows) = exact_rows(m, s) else { return Dependence::Nearly };
+    let Some(rows) = exact_rows(m, s) else { return LegDependence::Nearly };
     let vectors: Vec<ExactVector> = rows.iter().map(|r| r.vector.clone()).collect();
     let found = relations(&vectors);
     if found.is_empty() {
-        return Dependence::Nearly;
+        return LegDependence::Nearly;
     }
     let zero = Rational::from_integer(0.into());
     let modulus = |x: &Rational| if *x < zero { -x } else { x.clone() };
@@ -48,7 +48,11 @@ pub(crate) fn dependence(m: &Manipulator, s: &SquaredLegLengths) -> Dependence {
         let slack: Rational = c.iter().zip(&rows).map(|(c, r)| modulus(c) * &r.slack).sum();
         modulus(&defect) > slack
     });
-    if contradicted { Dependence::Incompatible } else { Dependence::Compatible { relations: found.len() } }
+    if contradicted {
+        LegDependence::Incompatible
+    } else {
+        LegDependence::Compatible { relations: found.len() }
+    }
 }
 
 struct ExactRow {
@@ -136,11 +140,11 @@ mod tests {
             let position = Vector3::from_fn(|_, _| rng.uniform(-9.0, 9.0));
             let pose = Pose { rotation: random_rotation(&mut rng), position };
             let s = pose.squared_lengths(&m).unwrap();
-            assert_eq!(dependence(&m, &s), Dependence::Compatible { relations: 1 });
+            assert_eq!(dependence(&m, &s), LegDependence::Compatible { relations: 1 });
             let mut longer = s.get();
             longer[2] *= 1.0 + 1e-12;
             let longer = SquaredLegLengths::try_new(longer).unwrap();
-            assert_eq!(dependence(&m, &longer), Dependence::Incompatible);
+            assert_eq!(dependence(&m, &longer), LegDependence::Incompatible);
         }
     }
 
@@ -150,10 +154,10 @@ mod tests {
         let legs = midline().legs().map(|l| Leg { base: turn * l.base, platform: l.platform });
         let m = Manipulator::from_legs(legs).unwrap();
         let s = SquaredLegLengths::try_new([200.0; 6]).unwrap();
-        assert_eq!(dependence(&m, &s), Dependence::Nearly);
+        assert_eq!(dependence(&m, &s), LegDependence::Nearly);
         let mut moved = midline().legs();
         moved[0].base.x += 1e-3;
         let m = Manipulator::from_legs(moved).unwrap();
-        assert_eq!(dependence(&m, &s), Dependence::Independent);
+        assert_eq!(dependence(&m, &s), LegDependence::Independent);
     }
 }

@@ -23,12 +23,12 @@ pub struct GenericProblem {
     pub(crate) first: f64,
     /// Squared lengths of legs 2..6.
     pub(crate) others: [f64; 5],
-    frame: Frame,
+    frame: GenericFrame,
 }
 
 /// `x' = turn (x - origin) / scale` in each body.
 #[derive(Debug, Clone)]
-struct Frame {
+struct GenericFrame {
     base_origin: Vector3<f64>,
     platform_origin: Vector3<f64>,
     base_turn: Rotation3<f64>,
@@ -43,7 +43,7 @@ impl GenericProblem {
     pub fn draw(m: &Manipulator, s: &SquaredLegLengths, rng: &mut Rng) -> Self {
         let legs = m.legs();
         let s = s.get();
-        let frame = Frame {
+        let frame = GenericFrame {
             base_origin: legs[0].base.coords,
             platform_origin: legs[0].platform.coords,
             base_turn: random_rotation(rng),

@@ -15,6 +15,6 @@ pub mod sylvester;
 #[cfg(feature = "lab")]
 pub mod template;
 
-pub(crate) use dependence::{Dependence, dependence};
+pub(crate) use dependence::{LegDependence, dependence};
 pub(crate) use planar::mirror;
-pub(crate) use sections::{Frame, Sections, quaternion_product, split};
+pub(crate) use sections::{ScaledFrames, Sections, quaternion_product, split};

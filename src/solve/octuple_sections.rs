@@ -2,7 +2,7 @@
 
 use num_complex::Complex64;
 
-use super::sections::{FORMS, Frame, Sections};
+use super::sections::{FORMS, ScaledFrames, Sections};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::num::octuple::{ComplexOctuple, Octuple};
 
@@ -53,7 +53,7 @@ fn leg_row(a: &Point, b: &Point, s: Octuple) -> OctupleRow {
     ]
 }
 
-impl Frame {
+impl ScaledFrames {
     /// [`sections`](Self::sections) with 256 bits, of the joints and squared lengths as they are. `None` when the equations are dependent,
     /// and for frames turned into planes, which are turned in doubles.
     pub(crate) fn octuple_sections(&self, m: &Manipulator, s: &SquaredLegLengths) -> Option<OctupleSections> {
@@ -80,7 +80,7 @@ impl Frame {
     }
 }
 
-impl Frame {
+impl ScaledFrames {
     /// [`to_design`](Self::to_design) for a frame that is not turned.
     pub(crate) fn to_design_precisely(self, x: &[ComplexOctuple; 8]) -> [ComplexOctuple; 8] {
         let pure = |v: &nalgebra::Vector3<f64>| -> [ComplexOctuple; 4] {
@@ -179,7 +179,7 @@ mod tests {
                 .unwrap();
             let pose = Pose { rotation: random_rotation(rng), position: Vector3::new(0.2, 0.5, 1.1) };
             let s = pose.squared_lengths(&m).unwrap();
-            let frame = Frame::of(&m, &s);
+            let frame = ScaledFrames::of(&m, &s);
             let plain = frame.sections(&m, &s).unwrap();
             let precise = frame.octuple_sections(&m, &s).unwrap();
             let rounded = precise.rounded();

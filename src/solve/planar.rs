@@ -96,7 +96,7 @@ mod tests {
     use crate::geom::{Pose, random_rotation};
     use crate::manipulator::Leg;
     use crate::num::Rng;
-    use crate::solve::sections::{Frame, forms};
+    use crate::solve::sections::{ScaledFrames, forms};
     use nalgebra::{Matrix3, UnitQuaternion};
 
     fn random_point(rng: &mut Rng) -> [Complex64; 8] {
@@ -154,7 +154,7 @@ mod tests {
             let m = joints(&mut rng, 0.0, tilt);
             let pose = Pose { rotation: random_rotation(&mut rng), position: Vector3::new(1.0, 2.0, -0.5) };
             let s = pose.squared_lengths(&m).unwrap();
-            let sections = Frame::planar(&m, &s).unwrap().sections(&m, &s).unwrap();
+            let sections = ScaledFrames::planar(&m, &s).unwrap().sections(&m, &s).unwrap();
             for row in sections.rows {
                 let again = spatial_row(planar_row(row.map(|z| z.re)).map(Complex64::from));
                 let lost = row.iter().zip(again).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);

@@ -27,17 +27,17 @@ pub(crate) const FORMS: usize = 17;
 
 /// Coefficients of one quadratic form, in the order `E00 E01 E02 E03 E11 E12 E13 E22 E23 E33`
 /// (diagonal entries as they stand, off-diagonal entries of the symmetric matrix), `m`, `n`, `c`.
-pub(crate) type Row = [Complex64; FORMS];
+pub(crate) type FormRow = [Complex64; FORMS];
 
 /// Six linear sections.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Sections {
-    pub(crate) rows: [Row; 6],
+    pub(crate) rows: [FormRow; 6],
 }
 
 /// Centred and scaled frames in which a problem is solved: `turn (a - origin_a) = scale a'`, likewise `b`.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Frame {
+pub(crate) struct ScaledFrames {
     pub(super) base_origin: Vector3<f64>,
     pub(super) platform_origin: Vector3<f64>,
     pub(super) scale: f64,
@@ -45,7 +45,7 @@ pub(crate) struct Frame {
     pub(super) planes: Option<Planes>,
 }
 
-impl Frame {
+impl ScaledFrames {
     /// Centroids as origins; the scale is the larger of the design's size and its RMS leg length.
     pub(crate) fn of(m: &Manipulator, s: &SquaredLegLengths) -> Self {
         let legs = m.legs();
@@ -60,7 +60,7 @@ impl Frame {
         }
     }
 
-    /// [`Frame::of`] with the joints of base and platform in `z = 0`; `None` unless both are coplanar to rounding.
+    /// [`ScaledFrames::of`] with the joints of base and platform in `z = 0`; `None` unless both are coplanar to rounding.
     pub(crate) fn planar(m: &Manipulator, s: &SquaredLegLengths) -> Option<Self> {
         Some(Self { planes: Some(Planes::of(m)?), ..Self::of(m, s) })
     }
@@ -75,7 +75,7 @@ impl Frame {
         Sections { rows: [a, b, c, d, e, first] }.orthonormalised()
     }
 
-    fn leg_rows(&self, m: &Manipulator, s: &SquaredLegLengths) -> [Row; 6] {
+    fn leg_rows(&self, m: &Manipulator, s: &SquaredLegLengths) -> [FormRow; 6] {
         let mut rows = [[Complex64::ZERO; FORMS]; 6];
         for ((row, leg), s) in rows.iter_mut().zip(m.legs()).zip(s.get()) {
             let mut a = (leg.base.coords - self.base_origin) / self.scale;
@@ -177,7 +177,7 @@ pub(crate) fn quaternion_product(p: [Complex64; 4], q: [Complex64; 4]) -> [Compl
 }
 
 /// The coefficient vector of one leg equation.
-pub(crate) fn leg_row(a: &Vector3<f64>, b: &Vector3<f64>, s: f64) -> Row {
+pub(crate) fn leg_row(a: &Vector3<f64>, b: &Vector3<f64>, s: f64) -> FormRow {
     let gamma: Matrix3<f64> = a * b.transpose() * -2.0;
     let delta = a.norm_squared() + b.norm_squared() - s;
     let trace = gamma.trace();
@@ -264,7 +264,7 @@ impl Sections {
 }
 
 /// The 17 forms at `x`, such that `q(x) = sum_k row_k forms_k`.
-pub(crate) fn forms(x: [Complex64; 8]) -> Row {
+pub(crate) fn forms(x: [Complex64; 8]) -> FormRow {
     let (e, g) = split(x);
     let ev = Vector3::new(e[1], e[2], e[3]);
     let gv = Vector3::new(g[1], g[2], g[3]);

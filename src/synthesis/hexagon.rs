@@ -104,7 +104,7 @@ pub(crate) fn corner_point(o: &Octahedral, i: usize) -> Point3<f64> {
 
 /// A side of the hexagon in place: the leg at offset `t` joins `fixed` to `start + t (end - start)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Side {
+pub(crate) struct HexagonSide {
     pub(crate) sliding: Body,
     pub(crate) fixed: Point3<f64>,
     pub(crate) start: Point3<f64>,
@@ -113,7 +113,7 @@ pub(crate) struct Side {
     pub(crate) opposite: Point3<f64>,
 }
 
-impl Side {
+impl HexagonSide {
     /// Side `k` of the hexagon of `o`.
     pub(crate) fn of(o: &Octahedral, k: usize) -> Self {
         let sliding = sliding_body(k);
@@ -154,14 +154,14 @@ impl Side {
 }
 
 /// The six sides in cyclic order, lengths divided by `scale`.
-pub(crate) fn sides(o: &Octahedral, scale: f64) -> [Side; 6] {
-    std::array::from_fn(|k| Side::of(o, k).shrunk(scale))
+pub(crate) fn sides(o: &Octahedral, scale: f64) -> [HexagonSide; 6] {
+    std::array::from_fn(|k| HexagonSide::of(o, k).shrunk(scale))
 }
 
 /// Lengths `d_0 .. d_5` of the triangle sides that belong to the sides of the hexagon, design units.
 #[must_use]
 pub fn edge_lengths(o: &Octahedral) -> [f64; 6] {
-    std::array::from_fn(|k| Side::of(o, k).edge_length())
+    std::array::from_fn(|k| HexagonSide::of(o, k).edge_length())
 }
 
 /// `t = Delta / edge` on the six sides for one offset on all base edges and one on all platform edges.

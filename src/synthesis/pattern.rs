@@ -7,7 +7,7 @@ use super::AffineLegMap;
 use super::determinant::{Factor, expand};
 use super::hexagon::{HexagonPoint, JointLabel, Offset, corner_point, edge, edge_lengths};
 use crate::manipulator::{Body, InvalidManipulator, LegIndex, Manipulator, Octahedral};
-use crate::synthesis::Side;
+use crate::synthesis::HexagonSide;
 
 /// Six points of the hexagon that are linearly independent for generic offsets.
 ///
@@ -237,7 +237,7 @@ impl Pattern {
         let at = self.lookup(offsets)?;
         let place = |joint: &JointLabel| match *joint {
             JointLabel::Corner(i) => corner_point(o, i),
-            JointLabel::OnEdge(offset) => Side::of(o, offset.side).joint(at(offset)),
+            JointLabel::OnEdge(offset) => HexagonSide::of(o, offset.side).joint(at(offset)),
         };
         let joints = self.joints();
         let index =

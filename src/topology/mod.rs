@@ -15,4 +15,4 @@ pub use graph::{AlwaysSingular, Topology};
 pub use layout::Layout;
 pub use nesting::{Dependence, Nesting, StepDependence};
 pub use search::sequences;
-pub use sequence::{Joint, Sequence, Step};
+pub use sequence::{JointIndex, Sequence, Step};

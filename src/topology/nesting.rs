@@ -1,6 +1,6 @@
 //! Which square roots a trilateration sequence takes, of what.
 
-use super::sequence::{Joint, Sequence};
+use super::sequence::{JointIndex, Sequence};
 
 /// What a number computed along a sequence depends on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -64,11 +64,11 @@ impl Sequence {
     /// One record for each unoriented step, for legs between the joints of the sequence.
     #[must_use]
     pub fn dependence(&self, legs: &[(usize, usize); 6]) -> Vec<StepDependence> {
-        let mut at: Vec<(Joint, Dependence)> = Vec::new();
+        let mut at: Vec<(JointIndex, Dependence)> = Vec::new();
         let mut out = Vec::new();
         for (t, step) in self.unoriented().enumerate() {
-            let of = |j: Joint| at.iter().find(|p| p.0 == j).map_or(Dependence::default(), |p| p.1);
-            let virtual_leg = |x: Joint, y: Joint| {
+            let of = |j: JointIndex| at.iter().find(|p| p.0 == j).map_or(Dependence::default(), |p| p.1);
+            let virtual_leg = |x: JointIndex, y: JointIndex| {
                 let found = x.across(y).and_then(|p| self.virtual_legs.iter().position(|v| *v == p));
                 found.map(|v| Dependence { radicals: 0, virtual_legs: 1 << v })
             };
@@ -98,7 +98,7 @@ impl Nesting {
     #[must_use]
     pub fn of(legs: &[(usize, usize); 6], s: &Sequence) -> Self {
         let steps = s.dependence(legs);
-        let rigid = |j: &Joint| {
+        let rigid = |j: &JointIndex| {
             s.steps.iter().any(|step| step.rigid && step.place == *j && !step.place.same_body(s.start[0]))
         };
         let first = steps.iter().position(|d| !d.is_constant()).unwrap_or(steps.len());

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::nesting::Nesting;
-use super::sequence::{Joint, Sequence, Step};
+use super::sequence::{JointIndex, Sequence, Step};
 
 type Legs = [(usize, usize); 6];
 
@@ -15,15 +15,15 @@ type Legs = [(usize, usize); 6];
 /// placed.
 #[must_use]
 pub fn sequences(legs: &[(usize, usize); 6], count: usize) -> Vec<Sequence> {
-    let base: BTreeSet<Joint> = legs.iter().map(|l| Joint::Base(l.0)).collect();
-    let platform: BTreeSet<Joint> = legs.iter().map(|l| Joint::Platform(l.1)).collect();
+    let base: BTreeSet<JointIndex> = legs.iter().map(|l| JointIndex::Base(l.0)).collect();
+    let platform: BTreeSet<JointIndex> = legs.iter().map(|l| JointIndex::Platform(l.1)).collect();
     let mut found = Vec::new();
     for (first, second) in [(&base, &platform), (&platform, &base)] {
         if first.len() < 3 || second.len() < 3 {
             continue;
         }
-        let first: Vec<Joint> = first.iter().copied().collect();
-        let second: Vec<Joint> = second.iter().copied().collect();
+        let first: Vec<JointIndex> = first.iter().copied().collect();
+        let second: Vec<JointIndex> = second.iter().copied().collect();
         let mut search = Search {
             legs,
             count,
@@ -42,9 +42,9 @@ pub fn sequences(legs: &[(usize, usize); 6], count: usize) -> Vec<Sequence> {
 struct Search<'a> {
     legs: &'a Legs,
     count: usize,
-    first: &'a [Joint],
-    second: &'a [Joint],
-    placed: Vec<Joint>,
+    first: &'a [JointIndex],
+    second: &'a [JointIndex],
+    placed: Vec<JointIndex>,
     virtual_legs: Vec<(usize, usize)>,
     steps: Vec<Step>,
 }
@@ -85,26 +85,26 @@ impl<'a> Search<'a> {
 
     /// The sequence with its rigid steps and closures.
     fn finished(&self) -> Sequence {
-        let rigid = |from: [Joint; 3], place: Joint| Step { from, place, rigid: true };
+        let rigid = |from: [JointIndex; 3], place: JointIndex| Step { from, place, rigid: true };
         let start = [self.first[0], self.first[1], self.first[2]];
         let three = [0, 1, 2].map(|k: usize| self.steps[k].place);
         let mut steps: Vec<Step> = self.first[3..].iter().map(|j| rigid(start, *j)).collect();
         steps.extend(&self.steps);
         steps.extend(self.second.iter().filter(|j| !three.contains(j)).map(|j| rigid(three, *j)));
-        let used = |x: Joint, y: Joint| {
+        let used = |x: JointIndex, y: JointIndex| {
             self.steps
                 .iter()
                 .any(|s| (s.place == x && s.from.contains(&y)) || (s.place == y && s.from.contains(&x)))
         };
         let within = [[three[0], three[1]], [three[0], three[2]], [three[1], three[2]]];
-        let legs = self.legs.iter().map(|l| [Joint::Base(l.0), Joint::Platform(l.1)]);
+        let legs = self.legs.iter().map(|l| [JointIndex::Base(l.0), JointIndex::Platform(l.1)]);
         let closures = within.into_iter().chain(legs).filter(|[x, y]| !used(*x, *y)).collect();
         Sequence { virtual_legs: self.virtual_legs.clone(), start, steps, closures }
     }
 }
 
 /// Every three of `list`, in order.
-fn triples(list: &[Joint]) -> Vec<[Joint; 3]> {
+fn triples(list: &[JointIndex]) -> Vec<[JointIndex; 3]> {
     let n = list.len();
     let pairs = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j)));
     pairs.flat_map(|(i, j)| (j + 1..n).map(move |k| [list[i], list[j], list[k]])).collect()

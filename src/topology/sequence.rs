@@ -8,14 +8,14 @@ use super::search::sequences;
 
 /// A joint of a [`Topology`], numbered as in [`Topology::legs`], or of a design, numbered as there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Joint {
+pub enum JointIndex {
     /// On the base.
     Base(usize),
     /// On the platform.
     Platform(usize),
 }
 
-impl Joint {
+impl JointIndex {
     /// Whether both are on one body, so that their distance is that of the design.
     #[must_use]
     pub fn same_body(self, other: Self) -> bool {
@@ -36,9 +36,9 @@ impl Joint {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Step {
     /// Joints in place.
-    pub from: [Joint; 3],
+    pub from: [JointIndex; 3],
     /// The joint that is placed.
-    pub place: Joint,
+    pub place: JointIndex,
     /// All four are on one body: one place instead of two (in brackets in the paper).
     pub rigid: bool,
 }
@@ -53,11 +53,11 @@ pub struct Sequence {
     /// Distances that have to be known beside the legs, as pairs of a base and a platform joint, in the order in which steps need them.
     pub virtual_legs: Vec<(usize, usize)>,
     /// The triangle that is laid out first: three joints of one body.
-    pub start: [Joint; 3],
+    pub start: [JointIndex; 3],
     /// One step for each other joint.
     pub steps: Vec<Step>,
     /// Known distances that no step uses, one for each virtual leg: they have to come out right.
-    pub closures: Vec<[Joint; 2]>,
+    pub closures: Vec<[JointIndex; 2]>,
 }
 
 impl Sequence {
@@ -114,7 +114,7 @@ mod tests {
     /// Whatever the numbers of the joints and the order of the legs, every joint is placed once, from known distances, and every known
     /// distance is used once: by a step, within a body, or as a closure.
     fn check(legs: &[(usize, usize); 6], s: &Sequence) {
-        let known = |x: Joint, y: Joint| {
+        let known = |x: JointIndex, y: JointIndex| {
             x.across(y).is_none_or(|pair| legs.contains(&pair) || s.virtual_legs.contains(&pair))
         };
         assert!(s.start[0].same_body(s.start[1]) && s.start[0].same_body(s.start[2]));
@@ -137,7 +137,7 @@ mod tests {
         for pair in legs.iter().chain(&s.virtual_legs) {
             assert_eq!(used.iter().filter(|u| *u == pair).count(), 1);
         }
-        for joint in legs.iter().flat_map(|l| [Joint::Base(l.0), Joint::Platform(l.1)]) {
+        for joint in legs.iter().flat_map(|l| [JointIndex::Base(l.0), JointIndex::Platform(l.1)]) {
             assert!(placed.contains(&joint));
         }
         assert_eq!((s.unoriented().count(), s.closures.len()), (3, s.virtual_legs.len()));

@@ -15,7 +15,7 @@ use equipod::methods::manipulator::{Leg, Manipulator, SquaredLegLengths};
 use equipod::methods::num::Rng;
 use equipod::methods::solve::generic_frame::GenericProblem;
 use equipod::methods::solve::sylvester::Eliminant;
-use equipod::methods::solve::template::Layout;
+use equipod::methods::solve::template::TemplateLayout;
 use nalgebra::{Point3, Vector3};
 
 #[derive(Clone, Copy)]
@@ -80,7 +80,7 @@ fn median(mut x: Vec<f64>) -> f64 {
 }
 
 fn template(p: &Problem, o: &FkOptions, tally: &mut Tally) -> Result<(), Box<dyn Error>> {
-    let layout = Layout::shipped()?;
+    let layout = TemplateLayout::shipped()?;
     let problem = GenericProblem::draw(&p.0, &p.1, &mut Rng::stream(o.seed, 0));
     let t = [Instant::now(); 5];
     let filled = layout.fill(&problem);

@@ -1,6 +1,6 @@
 //! The harness: short runs of every class, and solvers that cheat, each of which it must catch.
 
-use equipod::methods::bench::{Class, LengthsFrom, Plan, Planar, Report, run};
+use equipod::methods::bench::{BenchReport, Class, LengthsFrom, Plan, Planar, run};
 use equipod::methods::fk::{
     FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, Method, Reality, solver,
 };
@@ -12,7 +12,7 @@ fn plan(class: Class, count: u64) -> Plan {
     Plan { class, lengths, count, first: 0, seed: 1, threads: 2, count_poses: false, recheck_every: 10 }
 }
 
-fn short(class: Class, count: u64) -> Report {
+fn short(class: Class, count: u64) -> BenchReport {
     run(&plan(class, count), solver(None).as_ref(), &Homotopy).unwrap()
 }
 
@@ -31,7 +31,7 @@ impl ForwardKinematics for Cheat {
     }
 }
 
-fn cheated(cheat: fn(&mut FkSolutions)) -> Report {
+fn cheated(cheat: fn(&mut FkSolutions)) -> BenchReport {
     let report = run(&plan(Class::General, 3), &Cheat(cheat), &Homotopy).unwrap();
     assert_eq!(report.expected, 40);
     report

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use equipod::methods::design::{Format, parse};
 use equipod::methods::num::Rng;
-use equipod::methods::offsets::{OffsetProblem, SearchOptions, optimize};
+use equipod::methods::offsets::{OffsetProblem, OffsetSearchOptions, optimize};
 use nalgebra::Vector3;
 
 #[path = "../benches/optimizer/cap.rs"]
@@ -58,7 +58,7 @@ fn the_judge_and_the_optimisers_own_check_agree() {
 fn a_worse_answer_is_found_out() {
     let p = problem(0.0);
     let judge = OffsetJudge::new(&p);
-    let o = SearchOptions { gap: 0.05, ..SearchOptions::default() };
+    let o = OffsetSearchOptions { gap: 0.05, ..OffsetSearchOptions::default() };
     let report = optimize(&p, &o, &mut |_| ControlFlow::Continue(())).unwrap();
     let t = report.solution().unwrap().offsets;
     let best = judged(&judge, &t);

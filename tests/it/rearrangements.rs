@@ -6,7 +6,7 @@ use equipod::methods::geom::{Pose, random_rotation};
 use equipod::methods::manipulator::{Manipulator, default_home};
 use equipod::methods::num::Rng;
 use equipod::methods::synthesis::rearrangement::{
-    Argument, Arrangement, NotOctahedral, PlanarBodies, Rearrangement, Reduction, rearrangement,
+    Argument, Arrangement, NoOctahedralEquivalent, PlanarBodies, Rearrangement, Reduction, rearrangement,
     rearrangements,
 };
 use equipod::methods::synthesis::{Family, LegMapTolerances, Relation, leg_map};
@@ -117,7 +117,7 @@ fn all_three_topologies_with_three_joints_a_body_can_be_freed() {
         all.iter().filter(|r| r.topology.topology().base_joints() == 3).collect();
     assert_eq!(three.iter().map(|r| r.topology.name()).collect::<Vec<_>>(), ["3-3a", "3-3b", "3-3c"]);
     assert!(three.iter().all(|r| r.fewest_shared == 0));
-    let surface = Reduction::Not(NotOctahedral::Surface);
+    let surface = Reduction::Not(NoOctahedralEquivalent::Surface);
     assert!(
         three[0].octahedral == surface && three[1].octahedral == surface && octahedral(three[2]).is_some()
     );

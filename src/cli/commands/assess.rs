@@ -9,7 +9,7 @@ use crate::cli::failure::Failure;
 use crate::cli::output::Answer;
 use crate::entrance::Error;
 use crate::records::{AssessAnswer, PoseQuaternionRecord, RegularityWord};
-use crate::requirements::{AssessOptions, Verdict};
+use crate::requirements::{AssessOptions, MarginVerdict};
 
 /// Arguments of `assess`.
 #[derive(Debug, clap::Args)]
@@ -81,7 +81,7 @@ fn text(name: &str, found: &AssessAnswer) -> String {
             () => (' ', m.margin.0),
         };
         let below = match m.proved_margin.0 {
-            x if m.status == Verdict::AtLimit || x == 0.0 => format!("{:.6}", 0.0),
+            x if m.status == MarginVerdict::AtLimit || x == 0.0 => format!("{:.6}", 0.0),
             x if x.is_finite() => format!("{x:.6}"),
             _ => "none".into(),
         };

@@ -6,13 +6,13 @@ use nalgebra::Point3;
 
 use super::{nearest, numbers, shown};
 use crate::design::tree::{Entry, Node, Span, Value};
-use crate::design::violation::Report;
+use crate::design::violation::Findings;
 use crate::design::{Code, Warning};
 use crate::manipulator::{Body, is_collinear};
 
 /// A joint of the file. One with bad coordinates is kept so that legs still find its name.
 #[derive(Debug)]
-pub(super) struct Joint {
+pub(super) struct FileJoint {
     pub(super) name: String,
     pub(super) point: [f64; 3],
     intact: bool,
@@ -24,7 +24,7 @@ pub(super) struct Joint {
 pub(super) struct NamedJoints {
     body: Body,
     span: Span,
-    pub(super) joints: Vec<Joint>,
+    pub(super) joints: Vec<FileJoint>,
     index: BTreeMap<String, usize>,
 }
 
@@ -46,7 +46,7 @@ pub(super) fn is_list_of_pairs(node: &Node) -> bool {
 }
 
 /// Reads `[base]` or `[platform]`.
-pub(super) fn body(report: &mut Report<'_>, which: Body, entry: &Entry) -> Option<NamedJoints> {
+pub(super) fn body(report: &mut Findings<'_>, which: Body, entry: &Entry) -> Option<NamedJoints> {
     let entries = super::table(report, &entry.node, &format!("[{which}]"))?;
     let mut body =
         NamedJoints { body: which, span: entry.key_span.clone(), joints: Vec::new(), index: BTreeMap::new() };
@@ -58,7 +58,7 @@ pub(super) fn body(report: &mut Report<'_>, which: Body, entry: &Entry) -> Optio
         let what = format!("{which} joint {}", shown(&e.key));
         let point = numbers::<3>(report, &e.node, &what, Code::CoordinateCount, "coordinates x, y, z");
         body.index.insert(e.key.clone(), body.joints.len());
-        body.joints.push(Joint {
+        body.joints.push(FileJoint {
             name: e.key.clone(),
             point: point.unwrap_or_default(),
             intact: point.is_some(),
@@ -69,7 +69,7 @@ pub(super) fn body(report: &mut Report<'_>, which: Body, entry: &Entry) -> Optio
     Some(body)
 }
 
-fn warn_coincident(report: &mut Report<'_>, body: &NamedJoints) {
+fn warn_coincident(report: &mut Findings<'_>, body: &NamedJoints) {
     let mut seen: BTreeMap<[u64; 3], &str> = BTreeMap::new();
     for joint in body.joints.iter().filter(|j| j.intact) {
         let key = joint.point.map(|x| (x + 0.0).to_bits()); // -0 + 0 = 0: one place, one key
@@ -85,7 +85,7 @@ fn warn_coincident(report: &mut Report<'_>, body: &NamedJoints) {
 
 /// Reads `legs`, checks the pairs and what they make of the joints.
 pub(super) fn legs(
-    report: &mut Report<'_>,
+    report: &mut Findings<'_>,
     entry: &Entry,
     base: &NamedJoints,
     platform: &NamedJoints,
@@ -113,7 +113,7 @@ pub(super) fn legs(
 
 /// One leg.
 fn pair(
-    report: &mut Report<'_>,
+    report: &mut Findings<'_>,
     i: usize,
     node: &Node,
     base: &NamedJoints,
@@ -138,7 +138,7 @@ fn pair(
 }
 
 fn lookup(
-    report: &mut Report<'_>,
+    report: &mut Findings<'_>,
     leg: usize,
     (name, span): (&str, &Span),
     body: &NamedJoints,
@@ -162,7 +162,7 @@ fn lookup(
 }
 
 fn refuse_identical(
-    report: &mut Report<'_>,
+    report: &mut Findings<'_>,
     list: &[Node],
     pairs: &[Option<(usize, usize)>],
     base: &NamedJoints,
@@ -184,7 +184,7 @@ fn refuse_identical(
 }
 
 /// Unused joints, and triangles that are none.
-fn check_use(report: &mut Report<'_>, body: &NamedJoints, used: [usize; 6]) {
+fn check_use(report: &mut Findings<'_>, body: &NamedJoints, used: [usize; 6]) {
     for (i, joint) in body.joints.iter().enumerate() {
         if !used.contains(&i) {
             let line = report.line(joint.span.start);

@@ -10,7 +10,7 @@ use nalgebra::Point3;
 
 use self::joints::{Legs, NamedJoints};
 use super::tree::{Entry, Node, Span, Value, find};
-use super::violation::Report;
+use super::violation::Findings;
 use super::{Code, Design, Warning};
 use crate::manipulator::{Body, InvalidManipulator, LegLengths, Manipulator};
 
@@ -34,7 +34,7 @@ const TOP_LEVEL: [&str; 15] = [
 
 /// The design, or `None` with the reasons in the report. Later checks run on whatever earlier ones left
 /// intact, so that one run shows all violations.
-pub(super) fn design(root: &Node, report: &mut Report<'_>) -> Option<Design> {
+pub(super) fn design(root: &Node, report: &mut Findings<'_>) -> Option<Design> {
     let Value::Table(entries) = &root.value else {
         let help = "write { \"name\": ..., \"units\": ..., \"base\": { ... }, \"platform\": { ... }, \"legs\": [ ... ] }";
         report.refuse(
@@ -87,7 +87,12 @@ pub(super) fn design(root: &Node, report: &mut Report<'_>) -> Option<Design> {
     Some(design)
 }
 
-fn required<'a>(report: &mut Report<'_>, root: &Node, entries: &'a [Entry], key: &str) -> Option<&'a Entry> {
+fn required<'a>(
+    report: &mut Findings<'_>,
+    root: &Node,
+    entries: &'a [Entry],
+    key: &str,
+) -> Option<&'a Entry> {
     let found = find(entries, key);
     if found.is_none() {
         let help = match key {
@@ -111,7 +116,7 @@ fn required<'a>(report: &mut Report<'_>, root: &Node, entries: &'a [Entry], key:
 
 /// `legs` belongs at the top level. Written below a table header TOML counts it to that table; there it
 /// cannot be a joint (it holds pairs of names), so that the meaning is clear: it is taken with a warning.
-fn legs_entry<'a>(report: &mut Report<'_>, root: &Node, entries: &'a [Entry]) -> Option<&'a Entry> {
+fn legs_entry<'a>(report: &mut Findings<'_>, root: &Node, entries: &'a [Entry]) -> Option<&'a Entry> {
     if find(entries, "legs").is_none() {
         for table in ["base", "platform"] {
             let inner = find(entries, table).and_then(|e| match &e.node.value {
@@ -128,7 +133,7 @@ fn legs_entry<'a>(report: &mut Report<'_>, root: &Node, entries: &'a [Entry]) ->
     required(report, root, entries, "legs")
 }
 
-fn lengths(report: &mut Report<'_>, entries: &[Entry]) -> Option<LegLengths> {
+fn lengths(report: &mut Findings<'_>, entries: &[Entry]) -> Option<LegLengths> {
     let node = &find(entries, "lengths")?.node;
     let l = numbers::<6>(report, node, "`lengths`", Code::LengthCount, "leg lengths, one for each leg");
     for (i, x) in elements(node).enumerate().filter(|(_, x)| *x < 0.0 && x.is_finite()) {
@@ -140,7 +145,7 @@ fn lengths(report: &mut Report<'_>, entries: &[Entry]) -> Option<LegLengths> {
 }
 
 fn manipulator(
-    report: &mut Report<'_>,
+    report: &mut Findings<'_>,
     root: &Span,
     base: &NamedJoints,
     platform: &NamedJoints,
@@ -183,7 +188,7 @@ const LARGEST: f64 = 1e60;
 const SMALLEST: f64 = 1e-60;
 
 /// Refuses every key that is not in `known`.
-fn check_keys(report: &mut Report<'_>, entries: &[Entry], known: &[&str], place: &str) {
+fn check_keys(report: &mut Findings<'_>, entries: &[Entry], known: &[&str], place: &str) {
     for entry in entries.iter().filter(|e| !known.contains(&e.key.as_str())) {
         let message = format!("`{}` is not a key of {place}", shown(&entry.key));
         report.refuse(Code::UnknownKey, &entry.key_span, message, nearest_help(&entry.key, known));
@@ -216,7 +221,7 @@ fn shown(name: &str) -> String {
 }
 
 /// A text that is not blank.
-fn text(report: &mut Report<'_>, entry: &Entry) -> Option<String> {
+fn text(report: &mut Findings<'_>, entry: &Entry) -> Option<String> {
     let key = &entry.key;
     match &entry.node.value {
         Value::Text(s) if !s.trim().is_empty() => Some(s.clone()),
@@ -233,12 +238,12 @@ fn text(report: &mut Report<'_>, entry: &Entry) -> Option<String> {
     }
 }
 
-fn text_or_absent(report: &mut Report<'_>, entries: &[Entry], key: &str) -> Option<String> {
+fn text_or_absent(report: &mut Findings<'_>, entries: &[Entry], key: &str) -> Option<String> {
     find(entries, key).and_then(|e| text(report, e))
 }
 
 /// A finite number of a magnitude that can be squared.
-fn number(report: &mut Report<'_>, node: &Node, what: &str) -> Option<f64> {
+fn number(report: &mut Findings<'_>, node: &Node, what: &str) -> Option<f64> {
     match &node.value {
         Value::Number(x) if !x.is_finite() => {
             let message = format!("{what} is {x}, not a finite number");
@@ -266,7 +271,7 @@ fn number(report: &mut Report<'_>, node: &Node, what: &str) -> Option<f64> {
 
 /// An array of exactly `N` finite numbers; every bad element is reported.
 fn numbers<const N: usize>(
-    report: &mut Report<'_>,
+    report: &mut Findings<'_>,
     node: &Node,
     what: &str,
     count: Code,
@@ -305,7 +310,7 @@ fn element_span(node: &Node, i: usize) -> Span {
 }
 
 /// The entries of a table, or a refusal.
-fn table<'a>(report: &mut Report<'_>, node: &'a Node, what: &str) -> Option<&'a [Entry]> {
+fn table<'a>(report: &mut Findings<'_>, node: &'a Node, what: &str) -> Option<&'a [Entry]> {
     match &node.value {
         Value::Table(entries) => Some(entries),
         other => {

@@ -3,7 +3,7 @@
 use super::tables::positive;
 use super::{check_keys, nearest_help, number, numbers, shown, table};
 use crate::design::tree::{Entry, Node, Value, find};
-use crate::design::violation::Report;
+use crate::design::violation::Findings;
 use crate::design::{Code, Combination, SearchTable};
 use crate::requirements::{Objective, VariableKind};
 
@@ -25,7 +25,7 @@ const SLACK: f64 = 0.01;
 const POINTS: (usize, usize) = (10, 100);
 
 /// The search part of `[optimize]`.
-pub(super) fn search(report: &mut Report<'_>, entries: &[Entry]) -> SearchTable {
+pub(super) fn search(report: &mut Findings<'_>, entries: &[Entry]) -> SearchTable {
     SearchTable {
         variables: variables(report, entries),
         objectives: objectives(report, entries),
@@ -37,7 +37,12 @@ pub(super) fn search(report: &mut Report<'_>, entries: &[Entry]) -> SearchTable 
 }
 
 /// One of the names; a name that is not known is refused.
-fn named<T: Copy>(report: &mut Report<'_>, node: &Node, what: &str, all: &[(&'static str, T)]) -> Option<T> {
+fn named<T: Copy>(
+    report: &mut Findings<'_>,
+    node: &Node,
+    what: &str,
+    all: &[(&'static str, T)],
+) -> Option<T> {
     let names: Vec<&str> = all.iter().map(|a| a.0).collect();
     let Value::Text(text) = &node.value else {
         let message = format!("{what} is {}, not a string", node.value.kind());
@@ -52,7 +57,7 @@ fn named<T: Copy>(report: &mut Report<'_>, node: &Node, what: &str, all: &[(&'st
     found
 }
 
-fn list<'a>(report: &mut Report<'_>, entry: &'a Entry) -> &'a [Node] {
+fn list<'a>(report: &mut Findings<'_>, entry: &'a Entry) -> &'a [Node] {
     if let Value::Array(list) = &entry.node.value {
         return list;
     }
@@ -61,14 +66,14 @@ fn list<'a>(report: &mut Report<'_>, entry: &'a Entry) -> &'a [Node] {
     &[]
 }
 
-fn variables(report: &mut Report<'_>, entries: &[Entry]) -> Vec<VariableKind> {
+fn variables(report: &mut Findings<'_>, entries: &[Entry]) -> Vec<VariableKind> {
     let Some(entry) = find(entries, "variables") else { return Vec::new() };
     let all = VariableKind::ALL.map(|v| (v.code(), v));
     let names = list(report, entry);
     names.iter().filter_map(|node| named(report, node, "a variable", &all)).collect()
 }
 
-fn objectives(report: &mut Report<'_>, entries: &[Entry]) -> Vec<(Objective, f64)> {
+fn objectives(report: &mut Findings<'_>, entries: &[Entry]) -> Vec<(Objective, f64)> {
     let all = Objective::ALL.map(|o| (o.code(), o));
     match (find(entries, "objective"), find(entries, "objectives")) {
         (Some(entry), Some(_)) => {
@@ -89,7 +94,7 @@ fn objectives(report: &mut Report<'_>, entries: &[Entry]) -> Vec<(Objective, f64
 
 /// A name, or `{ name, weight }`.
 fn weighted(
-    report: &mut Report<'_>,
+    report: &mut Findings<'_>,
     node: &Node,
     all: &[(&'static str, Objective)],
 ) -> Option<(Objective, f64)> {
@@ -107,7 +112,7 @@ fn weighted(
     named(report, &entry.node, "an objective", all).map(|o| (o, weight))
 }
 
-fn mode(report: &mut Report<'_>, entries: &[Entry]) -> Option<Combination> {
+fn mode(report: &mut Findings<'_>, entries: &[Entry]) -> Option<Combination> {
     let slack = positive(report, entries, "slack");
     let points = find(entries, "points").and_then(|e| points(report, &e.node));
     let all = [("weighted", 0), ("lexicographic", 1), ("pareto", 2)];
@@ -125,7 +130,7 @@ fn mode(report: &mut Report<'_>, entries: &[Entry]) -> Option<Combination> {
     })
 }
 
-fn points(report: &mut Report<'_>, node: &Node) -> Option<usize> {
+fn points(report: &mut Findings<'_>, node: &Node) -> Option<usize> {
     let x = number(report, node, "`points`")?;
     let whole = (2..=POINTS.1).find(|n| (*n as f64 - x).abs() < 1e-9);
     if whole.is_some() {
@@ -136,7 +141,7 @@ fn points(report: &mut Report<'_>, node: &Node) -> Option<usize> {
     None
 }
 
-fn bounds(report: &mut Report<'_>, entries: &[Entry], key: &str) -> Option<(f64, f64)> {
+fn bounds(report: &mut Findings<'_>, entries: &[Entry], key: &str) -> Option<(f64, f64)> {
     let node = &find(entries, key)?.node;
     let [low, high] =
         numbers::<2>(report, node, &format!("`{key}`"), Code::CoordinateCount, "bounds, least and greatest")?;

@@ -5,12 +5,13 @@ use nalgebra::{Matrix3, Point3, Quaternion, Rotation3, Unit, UnitQuaternion, Vec
 use super::search::{SEARCH_KEYS, search};
 use super::{check_keys, element_span, number, numbers, shown, table, text};
 use crate::design::tree::{Entry, Node, Value, find};
-use crate::design::violation::Report;
+use crate::design::violation::Findings;
 use crate::design::{Code, OptimizeTable, SearchTable, Trajectory, Workspace};
 use crate::geom::Pose;
 use crate::manipulator::Body;
 use crate::requirements::{
-    Hardware, Housing, JointAxes, KeepOut, LegBody, LengthLimits, Load, PlatformSpeed, Region, Shape, Swing,
+    Hardware, Housing, JointAxes, KeepOut, KeepOutShape, LegBody, LengthLimits, Load, PlatformSpeed, Region,
+    Swing,
 };
 
 pub(super) const POSE_KEYS: [&str; 4] = ["position", "rpy_deg", "quat_wxyz", "rotation"];
@@ -22,11 +23,11 @@ const ROTATION_HELP: &str =
     "give one of rpy_deg = [roll, pitch, yaw], quat_wxyz = [w, x, y, z], rotation = [[..], [..], [..]]";
 
 /// `[home]`.
-pub(super) fn home(report: &mut Report<'_>, node: &Node) -> Option<Pose> {
+pub(super) fn home(report: &mut Findings<'_>, node: &Node) -> Option<Pose> {
     pose(report, node, "[home]")
 }
 
-fn pose(report: &mut Report<'_>, node: &Node, place: &str) -> Option<Pose> {
+fn pose(report: &mut Findings<'_>, node: &Node, place: &str) -> Option<Pose> {
     let entries = table(report, node, place)?;
     check_keys(report, entries, &POSE_KEYS, place);
     let position = if let Some(e) = find(entries, "position") {
@@ -58,7 +59,7 @@ fn pose(report: &mut Report<'_>, node: &Node, place: &str) -> Option<Pose> {
     Some(Pose { rotation: rotation?, position: Vector3::from(position?) })
 }
 
-fn rotation(report: &mut Report<'_>, entry: &Entry, place: &str) -> Option<Rotation3<f64>> {
+fn rotation(report: &mut Findings<'_>, entry: &Entry, place: &str) -> Option<Rotation3<f64>> {
     let what = format!("`{}` of {place}", entry.key);
     match entry.key.as_str() {
         "rpy_deg" => {
@@ -88,7 +89,7 @@ fn rotation(report: &mut Report<'_>, entry: &Entry, place: &str) -> Option<Rotat
 }
 
 /// Three rows. Taken as they are, without orthonormalisation, so that a saved pose reads back exactly.
-fn rotation_matrix(report: &mut Report<'_>, node: &Node, what: &str) -> Option<Rotation3<f64>> {
+fn rotation_matrix(report: &mut Findings<'_>, node: &Node, what: &str) -> Option<Rotation3<f64>> {
     let rows = match &node.value {
         Value::Array(rows) if rows.len() == 3 => rows,
         _ => {
@@ -117,7 +118,7 @@ fn rotation_matrix(report: &mut Report<'_>, node: &Node, what: &str) -> Option<R
 }
 
 /// `[workspace]`.
-pub(super) fn workspace(report: &mut Report<'_>, top: &[Entry]) -> Workspace {
+pub(super) fn workspace(report: &mut Findings<'_>, top: &[Entry]) -> Workspace {
     let mut result = Workspace::default();
     let Some(entry) = find(top, "workspace") else { return result };
     let Some(entries) = table(report, &entry.node, "[workspace]") else { return result };
@@ -156,7 +157,7 @@ pub(super) fn workspace(report: &mut Report<'_>, top: &[Entry]) -> Workspace {
     result
 }
 
-fn region(report: &mut Report<'_>, entry: &Entry) -> Option<Region> {
+fn region(report: &mut Findings<'_>, entry: &Entry) -> Option<Region> {
     match text(report, entry)?.as_str() {
         "box" => Some(Region::Box),
         "ellipsoid" => Some(Region::Ellipsoid),
@@ -168,7 +169,7 @@ fn region(report: &mut Report<'_>, entry: &Entry) -> Option<Region> {
     }
 }
 
-fn half_widths(report: &mut Report<'_>, entries: &[Entry], key: &str) -> Option<Vector3<f64>> {
+fn half_widths(report: &mut Findings<'_>, entries: &[Entry], key: &str) -> Option<Vector3<f64>> {
     let node = &find(entries, key)?.node;
     let w = numbers::<3>(report, node, &format!("`{key}`"), Code::CoordinateCount, "half widths")?;
     for (i, x) in w.iter().enumerate().filter(|(_, x)| **x < 0.0) {
@@ -178,7 +179,7 @@ fn half_widths(report: &mut Report<'_>, entries: &[Entry], key: &str) -> Option<
     w.iter().all(|x| *x >= 0.0).then(|| Vector3::from(w))
 }
 
-fn grid(report: &mut Report<'_>, node: &Node) -> Option<usize> {
+fn grid(report: &mut Findings<'_>, node: &Node) -> Option<usize> {
     let x = number(report, node, "`grid`")?;
     let found = (1..=5_u8).find(|n| (f64::from(*n) - x).abs() < f64::EPSILON);
     if found.is_none() {
@@ -188,7 +189,7 @@ fn grid(report: &mut Report<'_>, node: &Node) -> Option<usize> {
     found.map(usize::from)
 }
 
-fn single_poses(report: &mut Report<'_>, node: &Node) -> Vec<Pose> {
+fn single_poses(report: &mut Findings<'_>, node: &Node) -> Vec<Pose> {
     let Value::Array(list) = &node.value else {
         let message = format!("`poses` is {}, not an array of poses", node.value.kind());
         report.refuse(
@@ -206,7 +207,7 @@ fn single_poses(report: &mut Report<'_>, node: &Node) -> Vec<Pose> {
 }
 
 /// `[optimize]`.
-pub(super) fn optimize(report: &mut Report<'_>, top: &[Entry]) -> (OptimizeTable, SearchTable) {
+pub(super) fn optimize(report: &mut Findings<'_>, top: &[Entry]) -> (OptimizeTable, SearchTable) {
     let place = "[optimize]";
     let entries = find(top, "optimize").and_then(|e| table(report, &e.node, place)).unwrap_or_default();
     let known: Vec<&str> = LIMIT_KEYS.into_iter().chain(SEARCH_KEYS).collect();
@@ -238,7 +239,7 @@ pub(super) const HARDWARE_KEYS: [&str; 17] = [
 ];
 
 /// A positive number of a table.
-pub(super) fn positive(report: &mut Report<'_>, entries: &[Entry], key: &str) -> Option<f64> {
+pub(super) fn positive(report: &mut Findings<'_>, entries: &[Entry], key: &str) -> Option<f64> {
     let node = &find(entries, key)?.node;
     let x = number(report, node, &format!("`{key}`"))?;
     if x <= 0.0 {
@@ -248,7 +249,7 @@ pub(super) fn positive(report: &mut Report<'_>, entries: &[Entry], key: &str) ->
 }
 
 /// A number of a table that is not negative.
-fn not_negative(report: &mut Report<'_>, entries: &[Entry], key: &str) -> Option<f64> {
+fn not_negative(report: &mut Findings<'_>, entries: &[Entry], key: &str) -> Option<f64> {
     let node = &find(entries, key)?.node;
     let x = number(report, node, &format!("`{key}`"))?;
     if x < 0.0 {
@@ -258,14 +259,14 @@ fn not_negative(report: &mut Report<'_>, entries: &[Entry], key: &str) -> Option
 }
 
 /// Three numbers of a table.
-fn vector(report: &mut Report<'_>, entries: &[Entry], key: &str) -> Option<Vector3<f64>> {
+fn vector(report: &mut Findings<'_>, entries: &[Entry], key: &str) -> Option<Vector3<f64>> {
     let node = &find(entries, key)?.node;
     numbers::<3>(report, node, &format!("`{key}`"), Code::CoordinateCount, "coordinates x, y, z")
         .map(Vector3::from)
 }
 
 /// Three positive numbers of a node.
-fn edges(report: &mut Report<'_>, node: &Node, key: &str) -> Option<Vector3<f64>> {
+fn edges(report: &mut Findings<'_>, node: &Node, key: &str) -> Option<Vector3<f64>> {
     let e = numbers::<3>(report, node, &format!("`{key}`"), Code::CoordinateCount, "edge lengths")?;
     for (i, x) in e.iter().enumerate().filter(|(_, x)| **x <= 0.0) {
         let message = format!("an edge length of {x}");
@@ -275,7 +276,7 @@ fn edges(report: &mut Report<'_>, node: &Node, key: &str) -> Option<Vector3<f64>
 }
 
 /// A key that asks for another one.
-fn needs(report: &mut Report<'_>, entries: &[Entry], key: &str, other: &str) {
+fn needs(report: &mut Findings<'_>, entries: &[Entry], key: &str, other: &str) {
     if let (Some(e), None) = (find(entries, key), find(entries, other)) {
         let message = format!("`{key}` without `{other}`");
         report.refuse(Code::MissingKey, &e.key_span, message, format!("add `{other}`, or remove `{key}`"));
@@ -283,7 +284,7 @@ fn needs(report: &mut Report<'_>, entries: &[Entry], key: &str, other: &str) {
 }
 
 /// `[hardware]`.
-pub(super) fn hardware(report: &mut Report<'_>, top: &[Entry]) -> Hardware {
+pub(super) fn hardware(report: &mut Findings<'_>, top: &[Entry]) -> Hardware {
     let place = "[hardware]";
     let entries = find(top, "hardware").and_then(|e| table(report, &e.node, place)).unwrap_or_default();
     check_keys(report, entries, &HARDWARE_KEYS, place);
@@ -317,7 +318,7 @@ pub(super) fn hardware(report: &mut Report<'_>, top: &[Entry]) -> Hardware {
     }
 }
 
-fn housing(report: &mut Report<'_>, entries: &[Entry], key: &str) -> Option<Housing> {
+fn housing(report: &mut Findings<'_>, entries: &[Entry], key: &str) -> Option<Housing> {
     let node = &find(entries, key)?.node;
     if matches!(node.value, Value::Array(_)) {
         return edges(report, node, key).map(Housing::Box);
@@ -325,7 +326,7 @@ fn housing(report: &mut Report<'_>, entries: &[Entry], key: &str) -> Option<Hous
     positive(report, entries, key).map(Housing::Sphere)
 }
 
-fn length_limits(report: &mut Report<'_>, entries: &[Entry]) -> Option<LengthLimits> {
+fn length_limits(report: &mut Findings<'_>, entries: &[Entry]) -> Option<LengthLimits> {
     let dead = not_negative(report, entries, "dead_length");
     let stroke = positive(report, entries, "stroke");
     let Some(entry) = find(entries, "leg_length") else {
@@ -349,7 +350,7 @@ fn length_limits(report: &mut Report<'_>, entries: &[Entry]) -> Option<LengthLim
     Some(LengthLimits::Range(least, greatest))
 }
 
-fn swing(report: &mut Report<'_>, entries: &[Entry], limit: &str, axes: &str) -> Option<Swing> {
+fn swing(report: &mut Findings<'_>, entries: &[Entry], limit: &str, axes: &str) -> Option<Swing> {
     let axes = find(entries, axes).and_then(|e| joint_axes(report, e));
     let limit_deg = positive(report, entries, limit)?;
     if limit_deg > 180.0 {
@@ -364,7 +365,7 @@ fn swing(report: &mut Report<'_>, entries: &[Entry], limit: &str, axes: &str) ->
     Some(Swing { limit_deg, axes: axes.unwrap_or_default() })
 }
 
-fn joint_axes(report: &mut Report<'_>, entry: &Entry) -> Option<JointAxes> {
+fn joint_axes(report: &mut Findings<'_>, entry: &Entry) -> Option<JointAxes> {
     let help = "write \"home\", \"optimize\" or six vectors in leg order";
     match &entry.node.value {
         Value::Text(t) if t == "home" => Some(JointAxes::Home),
@@ -382,7 +383,7 @@ fn joint_axes(report: &mut Report<'_>, entry: &Entry) -> Option<JointAxes> {
     }
 }
 
-fn axis(report: &mut Report<'_>, node: &Node, key: &str) -> Option<Unit<Vector3<f64>>> {
+fn axis(report: &mut Findings<'_>, node: &Node, key: &str) -> Option<Unit<Vector3<f64>>> {
     let what = format!("an axis of `{key}`");
     let v = numbers::<3>(report, node, &what, Code::CoordinateCount, "components").map(Vector3::from)?;
     // a vector that is a unit vector already is kept to the bit, so that a saved design reads back equal
@@ -398,7 +399,7 @@ fn axis(report: &mut Report<'_>, node: &Node, key: &str) -> Option<Unit<Vector3<
 }
 
 /// `[speed]`.
-pub(super) fn speed(report: &mut Report<'_>, top: &[Entry]) -> Option<PlatformSpeed> {
+pub(super) fn speed(report: &mut Findings<'_>, top: &[Entry]) -> Option<PlatformSpeed> {
     let entries = table(report, &find(top, "speed")?.node, "[speed]")?;
     check_keys(report, entries, &["linear", "angular_deg"], "[speed]");
     Some(PlatformSpeed {
@@ -408,7 +409,7 @@ pub(super) fn speed(report: &mut Report<'_>, top: &[Entry]) -> Option<PlatformSp
 }
 
 /// The tables of an array of tables.
-fn tables<'a>(report: &mut Report<'_>, top: &'a [Entry], key: &str) -> Vec<&'a [Entry]> {
+fn tables<'a>(report: &mut Findings<'_>, top: &'a [Entry], key: &str) -> Vec<&'a [Entry]> {
     let Some(entry) = find(top, key) else { return Vec::new() };
     let Value::Array(list) = &entry.node.value else {
         let message = format!("`{key}` is {}, not a list of tables", entry.node.value.kind());
@@ -418,7 +419,7 @@ fn tables<'a>(report: &mut Report<'_>, top: &'a [Entry], key: &str) -> Vec<&'a [
     list.iter().filter_map(|node| table(report, node, &format!("[[{key}]]"))).collect()
 }
 
-fn fixed_to(report: &mut Report<'_>, entries: &[Entry]) -> Option<Body> {
+fn fixed_to(report: &mut Findings<'_>, entries: &[Entry]) -> Option<Body> {
     let entry = find(entries, "fixed_to")?;
     let word = text(report, entry)?;
     let body = word.parse().ok();
@@ -429,12 +430,12 @@ fn fixed_to(report: &mut Report<'_>, entries: &[Entry]) -> Option<Body> {
     body
 }
 
-fn name(report: &mut Report<'_>, entries: &[Entry], default: String) -> String {
+fn name(report: &mut Findings<'_>, entries: &[Entry], default: String) -> String {
     find(entries, "name").and_then(|e| text(report, e)).unwrap_or(default)
 }
 
 /// `[[loads]]`.
-pub(super) fn loads(report: &mut Report<'_>, top: &[Entry]) -> Vec<Load> {
+pub(super) fn loads(report: &mut Findings<'_>, top: &[Entry]) -> Vec<Load> {
     let list = tables(report, top, "loads");
     let read = |(i, entries): (usize, &&[Entry])| {
         check_keys(report, entries, &["name", "force", "torque", "at", "fixed_to"], "[[loads]]");
@@ -450,7 +451,7 @@ pub(super) fn loads(report: &mut Report<'_>, top: &[Entry]) -> Vec<Load> {
 }
 
 /// `[[keep_out]]`.
-pub(super) fn keep_outs(report: &mut Report<'_>, top: &[Entry]) -> Vec<KeepOut> {
+pub(super) fn keep_outs(report: &mut Findings<'_>, top: &[Entry]) -> Vec<KeepOut> {
     let list = tables(report, top, "keep_out");
     let mut out = Vec::new();
     for (i, entries) in list.into_iter().enumerate() {
@@ -473,7 +474,7 @@ pub(super) fn keep_outs(report: &mut Report<'_>, top: &[Entry]) -> Vec<KeepOut> 
     out
 }
 
-fn shape(report: &mut Report<'_>, entry: &Entry) -> Option<Shape> {
+fn shape(report: &mut Findings<'_>, entry: &Entry) -> Option<KeepOutShape> {
     let place = format!("`{}`", entry.key);
     let entries = table(report, &entry.node, &place)?;
     let keys: &[&str] = match entry.key.as_str() {
@@ -495,14 +496,18 @@ fn shape(report: &mut Report<'_>, entry: &Entry) -> Option<Shape> {
     Some(match entry.key.as_str() {
         "box" => {
             let center = point("center")?;
-            Shape::Box { center, size: find(entries, "size").and_then(|e| edges(report, &e.node, "size"))? }
+            KeepOutShape::Box {
+                center,
+                size: find(entries, "size").and_then(|e| edges(report, &e.node, "size"))?,
+            }
         }
-        "sphere" => {
-            Shape::Sphere { center: point("center")?, diameter: positive(report, entries, "diameter")? }
-        }
+        "sphere" => KeepOutShape::Sphere {
+            center: point("center")?,
+            diameter: positive(report, entries, "diameter")?,
+        },
         _ => {
             let (from, to) = (point("from")?, point("to")?);
-            Shape::Capsule { from, to, diameter: positive(report, entries, "diameter")? }
+            KeepOutShape::Capsule { from, to, diameter: positive(report, entries, "diameter")? }
         }
     })
 }

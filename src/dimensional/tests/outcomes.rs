@@ -8,7 +8,7 @@ use super::super::conflict::attempt;
 use super::super::model::Task;
 use super::super::search::refine;
 use super::super::*;
-use super::{Group, Model, everything, problem, quick};
+use super::{ConstraintGroup, Model, everything, problem, quick};
 use crate::manipulator::Manipulator;
 use crate::requirements::{JointAxes, LengthLimits, Objective, Swing, TermKind, VariableKind};
 
@@ -52,21 +52,21 @@ fn a_conflict_of_cones_is_proved_and_one_that_is_none_is_not() {
     // no leg of any offset points along the base axis within a degree at all poses
     let axis = Unit::new_normalize(Vector3::new(1.0, 0.0, 0.3));
     p.requirements.hardware.base_swing = Some(Swing { limit_deg: 1.0, axes: JointAxes::Given([axis; 6]) });
-    let proved = |p: &DimensionalProblem, group: Group| {
+    let proved = |p: &DimensionalProblem, group: ConstraintGroup| {
         let model = Model::new(p).unwrap();
         let x = [0.4; 6];
         crate::dimensional::conflict::proved_empty(&model, &model.first_poses(), &x, &[group], &everything(1))
     };
-    assert!(proved(&p, Group::Term(TermKind::BaseSwing)));
+    assert!(proved(&p, ConstraintGroup::Term(TermKind::BaseSwing)));
     // spacing is not convex: nothing is proved about it
-    assert!(!proved(&p, Group::Term(TermKind::BaseSpacing)));
+    assert!(!proved(&p, ConstraintGroup::Term(TermKind::BaseSpacing)));
     let found = optimize(&p, &[], &quick(), &mut |_| ControlFlow::Continue(())).unwrap();
     let DimensionalOutcome::Infeasible(conflict) = &found.outcome else { panic!("{found:?}") };
     assert!(conflict.proved && conflict.demands.len() == 1, "{conflict:?}");
     // negative control: the legs can be within 70 degrees of the vertical
     let axes = JointAxes::Given([Vector3::z_axis(); 6]);
     p.requirements.hardware.base_swing = Some(Swing { limit_deg: 70.0, axes });
-    assert!(!proved(&p, Group::Term(TermKind::BaseSwing)));
+    assert!(!proved(&p, ConstraintGroup::Term(TermKind::BaseSwing)));
 }
 
 #[test]
@@ -172,8 +172,9 @@ fn what_other_starts_can_meet_is_no_conflict() {
     let p = long_struts(LengthLimits::Range(24.0, 33.0));
     // the compromise of both has joints in the middle of sides, where the least length has a saddle and climbs do not leave
     let model = Model::new(&p).unwrap();
-    let others = [TermKind::LegTooLong, TermKind::BaseSpacing, TermKind::PlatformSpacing].map(Group::Term);
-    let dropped = others.into_iter().chain([Group::Determinant]).collect();
+    let others =
+        [TermKind::LegTooLong, TermKind::BaseSpacing, TermKind::PlatformSpacing].map(ConstraintGroup::Term);
+    let dropped = others.into_iter().chain([ConstraintGroup::Determinant]).collect();
     let task = Task { weights: vec![0.0], floors: vec![None], dropped, soft: None };
     let middle = [0.5, 0.55, 0.6, 0.45, 0.3, 0.6];
     let stuck = refine(&model, &task, &middle, model.first_poses(), 1);

@@ -13,12 +13,12 @@ mod tower;
 use num_bigint::{BigInt, Sign};
 use thiserror::Error;
 
-use self::strip::{Closure, Strip};
+use self::strip::{Strip, StripClosure};
 use self::tower::{Divisor, FieldPoly, Ring, STEPS};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::num::Rng;
 use crate::poly::{Dyadic, IntPoly, RealRoot, gcd, real_roots, squarefree_factors};
-use crate::topology::{Joint, Sequence};
+use crate::topology::{JointIndex, Sequence};
 
 /// Why there is no closure polynomial.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
@@ -73,7 +73,7 @@ pub struct ClosureDegrees {
 #[derive(Debug, Clone)]
 pub struct ClosurePolynomial {
     /// The two joints whose squared distance is the unknown: the virtual leg, or without one a pair that has no leg.
-    pub unknown: [Joint; 2],
+    pub unknown: [JointIndex; 2],
     /// The sequence it belongs to.
     pub sequence: Sequence,
     /// Primitive, in the unknown in design units squared.
@@ -173,7 +173,7 @@ pub fn closure_degrees(
 }
 
 /// The closure whose polynomial has most distinct roots, the first of equal ones; there is a choice without virtual leg only.
-fn best_closure(data: &ExactData, s: &Sequence) -> Result<Closure, ClosureError> {
+fn best_closure(data: &ExactData, s: &Sequence) -> Result<StripClosure, ClosureError> {
     let all = strip::closures(data, s);
     if let [only] = all[..] {
         return Ok(only);
@@ -259,7 +259,7 @@ fn divide_out<R: Ring>(p: &mut R, divisor: &R) -> usize {
 /// A closure polynomial of the problem with integer data, contents not removed.
 struct Reduced<R> {
     polynomial: R,
-    unknown: [Joint; 2],
+    unknown: [JointIndex; 2],
     /// The first radicand, zero when it is not used.
     height: R,
     /// Norms of the singular factors.
@@ -267,7 +267,11 @@ struct Reduced<R> {
 }
 
 /// The polynomial by the short way: singular factors are divided out level by level, as soon as they can be.
-fn reduced<R: Ring>(data: &ExactData, s: &Sequence, closure: Closure) -> Result<Reduced<R>, ClosureError> {
+fn reduced<R: Ring>(
+    data: &ExactData,
+    s: &Sequence,
+    closure: StripClosure,
+) -> Result<Reduced<R>, ClosureError> {
     let mut strip = Strip::<R>::new(data, s, closure, false)?;
     let last = closure.steps.min(STEPS) - 1;
     for _ in 0..last {
@@ -372,21 +376,21 @@ impl ExactData {
     }
 
     /// Coordinates in the frame of the joint's body.
-    fn point(&self, joint: Joint) -> &[BigInt; 3] {
+    fn point(&self, joint: JointIndex) -> &[BigInt; 3] {
         match joint {
-            Joint::Base(k) => &self.base[k],
-            Joint::Platform(k) => &self.platform[k],
+            JointIndex::Base(k) => &self.base[k],
+            JointIndex::Platform(k) => &self.platform[k],
         }
     }
 
     /// The squared distance of two joints of one body.
-    fn within(&self, x: Joint, y: Joint) -> BigInt {
+    fn within(&self, x: JointIndex, y: JointIndex) -> BigInt {
         let d = minus(self.point(x), self.point(y));
         dot(&d, &d)
     }
 
     /// The squared length of the leg between two joints.
-    fn leg(&self, x: Joint, y: Joint) -> Option<&BigInt> {
+    fn leg(&self, x: JointIndex, y: JointIndex) -> Option<&BigInt> {
         let pair = x.across(y)?;
         self.legs.iter().position(|l| *l == pair).map(|i| &self.squares[i])
     }

@@ -21,14 +21,14 @@
 
 use super::tower::{Divisor, Fraction, Fractions, Ring, STEPS, is_zero, zero};
 use super::{ClosureError, ExactData, cross, dot, minus};
-use crate::topology::{Joint, Sequence, Step};
+use crate::topology::{JointIndex, Sequence, Step};
 
 /// A closure of a sequence: the squared distance between the two joints, computed, is the known one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Closure {
+pub(super) struct StripClosure {
     /// The joint placed last.
-    pub(super) last: Joint,
-    pub(super) other: Joint,
+    pub(super) last: JointIndex,
+    pub(super) other: JointIndex,
     /// Steps that are needed to place both.
     pub(super) steps: usize,
 }
@@ -38,7 +38,7 @@ pub(super) struct Strip<'a, R> {
     pub(super) data: &'a ExactData,
     pub(super) fractions: Fractions<R>,
     pub(super) steps: [Step; STEPS],
-    pub(super) closure: Closure,
+    pub(super) closure: StripClosure,
     virtual_leg: Option<(usize, usize)>,
     /// Coordinates of the joints placed so far.
     placed: Vec<[Fraction<R>; 3]>,
@@ -52,7 +52,7 @@ impl<'a, R: Ring> Strip<'a, R> {
     pub(super) fn new(
         data: &'a ExactData,
         s: &Sequence,
-        closure: Closure,
+        closure: StripClosure,
         literal: bool,
     ) -> Result<Self, ClosureError> {
         let steps: Vec<Step> = s.unoriented().copied().collect();
@@ -72,12 +72,12 @@ impl<'a, R: Ring> Strip<'a, R> {
         })
     }
 
-    fn index(&self, joint: Joint) -> Option<usize> {
+    fn index(&self, joint: JointIndex) -> Option<usize> {
         self.steps.iter().position(|s| s.place == joint)
     }
 
     /// Coordinates in the frame of the first body.
-    fn coordinates(&self, joint: Joint) -> [Fraction<R>; 3] {
+    fn coordinates(&self, joint: JointIndex) -> [Fraction<R>; 3] {
         match self.index(joint).and_then(|k| self.placed.get(k)) {
             Some(p) => p.clone(),
             None => self.data.point(joint).each_ref().map(|c| self.fractions.integer(c)),
@@ -103,7 +103,7 @@ impl<'a, R: Ring> Strip<'a, R> {
     }
 
     /// A known squared distance, that of the closure left out.
-    fn known(&self, x: Joint, y: Joint) -> Option<Fraction<R>> {
+    fn known(&self, x: JointIndex, y: JointIndex) -> Option<Fraction<R>> {
         let closing = (x, y) == (self.closure.last, self.closure.other)
             || (y, x) == (self.closure.last, self.closure.other);
         match x.across(y) {
@@ -115,16 +115,16 @@ impl<'a, R: Ring> Strip<'a, R> {
     }
 
     /// The two joints whose squared distance is the unknown.
-    pub(super) fn unknown(&self) -> [Joint; 2] {
+    pub(super) fn unknown(&self) -> [JointIndex; 2] {
         match self.virtual_leg {
-            Some((a, b)) => [Joint::Base(a), Joint::Platform(b)],
+            Some((a, b)) => [JointIndex::Base(a), JointIndex::Platform(b)],
             None => [self.closure.last, self.closure.other],
         }
     }
 
     /// What the closure says: the known distance, or the unknown when there is no virtual leg.
     fn closing(&self) -> Fraction<R> {
-        let Closure { last, other, .. } = self.closure;
+        let StripClosure { last, other, .. } = self.closure;
         match last.across(other) {
             None => self.fractions.integer(&self.data.within(last, other)),
             Some(_) => match self.data.leg(last, other) {
@@ -135,7 +135,7 @@ impl<'a, R: Ring> Strip<'a, R> {
     }
 
     /// The squared distance of two joints in place.
-    pub(super) fn squared(&self, x: Joint, y: Joint) -> Fraction<R> {
+    pub(super) fn squared(&self, x: JointIndex, y: JointIndex) -> Fraction<R> {
         if let Some(s) = self.known(x, y) {
             return s;
         }
@@ -160,14 +160,14 @@ impl<'a, R: Ring> Strip<'a, R> {
     }
 
     /// `2 (x - o).(y - o)` from distances.
-    fn doubled(&self, o: Joint, x: Joint, y: Joint) -> Fraction<R> {
+    fn doubled(&self, o: JointIndex, x: JointIndex, y: JointIndex) -> Fraction<R> {
         let f = &self.fractions;
         let legs = f.plus(&self.squared(o, x), &self.squared(o, y));
         if x == y { legs } else { f.minus(&legs, &self.squared(x, y)) }
     }
 
     /// `A = 4 (u.u v.v) - (2 u.v)^2` of step `t`.
-    pub(super) fn singular_factor(&self, [o, p, q]: [Joint; 3]) -> Fraction<R> {
+    pub(super) fn singular_factor(&self, [o, p, q]: [JointIndex; 3]) -> Fraction<R> {
         let f = &self.fractions;
         let m = self.doubled(o, p, q);
         let product = f.times(&self.squared(o, p), &self.squared(o, q));
@@ -175,7 +175,7 @@ impl<'a, R: Ring> Strip<'a, R> {
     }
 
     /// The joints of step `t` with the origin first: one of the first body.
-    pub(super) fn base_of(&self, t: usize) -> [Joint; 3] {
+    pub(super) fn base_of(&self, t: usize) -> [JointIndex; 3] {
         let mut from = self.steps[t].from;
         if let Some(k) = from.iter().position(|j| !j.same_body(self.steps[t].place)) {
             from.swap(0, k);
@@ -235,7 +235,7 @@ impl<'a, R: Ring> Strip<'a, R> {
     fn direct_products(&self, t: usize) -> [[Fraction<R>; 4]; 4] {
         let ([o, p, q], new, other) = (self.base_of(t), self.steps[t].place, self.closure.other);
         let f = &self.fractions;
-        let pair = |x: Joint, y: Joint| {
+        let pair = |x: JointIndex, y: JointIndex| {
             if x == y {
                 return f.twice(&self.squared(o, x));
             }
@@ -255,8 +255,8 @@ impl<'a, R: Ring> Strip<'a, R> {
     fn rigid_products(&self) -> Result<[[Fraction<R>; 4]; 4], ClosureError> {
         let f = &self.fractions;
         let [p1, p2, p3] = self.steps.map(|s| s.place);
-        let Closure { last, other, .. } = self.closure;
-        let in_place = |joint: &Joint| !joint.same_body(p1);
+        let StripClosure { last, other, .. } = self.closure;
+        let in_place = |joint: &JointIndex| !joint.same_body(p1);
         let start = self.steps[2].from.into_iter().find(in_place).ok_or(ClosureError::Unsupported)?;
         let moving = self.steps[2].from.iter().filter(|j| !in_place(j)).count();
         if moving != 2 {
@@ -303,7 +303,7 @@ impl<'a, R: Ring> Strip<'a, R> {
     }
 
     /// `(j - P1).[(P1 - l) x (P2 - P1)] = det(j - P1, j - l, P2 - j)`, bilinear in the coordinates.
-    fn volume(&self, p1: Joint, p2: Joint, j: Joint, l: Joint) -> Fraction<R> {
+    fn volume(&self, p1: JointIndex, p2: JointIndex, j: JointIndex, l: JointIndex) -> Fraction<R> {
         let cj = self.coordinates(j);
         let first = self.difference(&cj, &self.coordinates(p1));
         let last = self.difference(&self.coordinates(p2), &cj);
@@ -335,20 +335,20 @@ impl<'a, R: Ring> Strip<'a, R> {
 
 /// The closures to choose from: that of the sequence, or without virtual legs every pair of a joint placed by the steps and a joint of the first body
 /// without a leg between them, the joint placed last first.
-pub(super) fn closures(data: &ExactData, s: &Sequence) -> Vec<Closure> {
-    let steps: Vec<Joint> = s.unoriented().map(|t| t.place).collect();
-    let order = |j: Joint| {
+pub(super) fn closures(data: &ExactData, s: &Sequence) -> Vec<StripClosure> {
+    let steps: Vec<JointIndex> = s.unoriented().map(|t| t.place).collect();
+    let order = |j: JointIndex| {
         if j.same_body(s.start[0]) { 0 } else { steps.iter().position(|p| *p == j).map_or(STEPS, |k| k + 1) }
     };
     if let Some([x, y]) = s.closures.first() {
         let (last, other) = if order(*x) >= order(*y) { (*x, *y) } else { (*y, *x) };
-        return vec![Closure { last, other, steps: order(last) }];
+        return vec![StripClosure { last, other, steps: order(last) }];
     }
     let all = s.start.iter().copied().chain(s.steps.iter().map(|t| t.place));
-    let first: Vec<Joint> = all.filter(|j| order(*j) == 0).collect();
+    let first: Vec<JointIndex> = all.filter(|j| order(*j) == 0).collect();
     let pairs = steps.iter().rev().flat_map(|last| first.iter().map(move |other| (*last, *other)));
     let free = pairs.filter(|(last, other)| data.leg(*last, *other).is_none());
-    free.map(|(last, other)| Closure { last, other, steps: order(last) }).collect()
+    free.map(|(last, other)| StripClosure { last, other, steps: order(last) }).collect()
 }
 
 /// The polynomial without roots, and what belongs to it.
@@ -366,7 +366,7 @@ pub(super) struct Literal<R> {
 pub(super) fn literal<R: Ring>(
     data: &ExactData,
     s: &Sequence,
-    closure: Closure,
+    closure: StripClosure,
 ) -> Result<Literal<R>, ClosureError> {
     let mut strip = Strip::<R>::new(data, s, closure, true)?;
     for _ in 0..strip.closure.steps.min(STEPS) {

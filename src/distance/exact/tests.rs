@@ -167,7 +167,7 @@ fn degenerate_data_are_reported() {
     // the base of the first step on a line
     let mut base = m.base_joints().to_vec();
     let first = plan.unoriented().next().unwrap().from;
-    let on_base = first.map(|j| if let Joint::Base(k) = j { k } else { panic!("{j:?}") });
+    let on_base = first.map(|j| if let JointIndex::Base(k) = j { k } else { panic!("{j:?}") });
     base[on_base[2]] = base[on_base[0]] + (base[on_base[1]] - base[on_base[0]]) * 2.0;
     let lean = Manipulator::try_new(base, m.platform_joints().to_vec(), m.pairs()).unwrap();
     assert_eq!(closure_polynomial(&lean, &s, &plan).unwrap_err(), ClosureError::Collinear { step: 0 });

@@ -9,10 +9,10 @@
 use nalgebra::{Matrix3, Vector3};
 use num_complex::Complex64;
 
-use super::rotations::{Angles, Arm, Setting, Three, evaluate};
+use super::rotations::{Arm, ComplexAngles, Setting, Three, evaluate};
 use crate::geom::ComplexPose;
 use crate::manipulator::{Manipulator, SquaredLegLengths};
-use crate::num::batch::Batch;
+use crate::num::batch::ComplexBatch;
 
 /// The points with given squared distances to two fixed points, `c + r (cos t e1 + sin t e2)` with `w = exp(i t)`.
 ///
@@ -122,7 +122,7 @@ impl Roles {
     }
 
     /// `None` when joints coincide that must not.
-    pub(super) fn closure(&self, legs: &[HiddenLeg; 6]) -> Option<Closure> {
+    pub(super) fn closure(&self, legs: &[HiddenLeg; 6]) -> Option<HiddenClosure> {
         let ends = |i: usize| {
             let l = &legs[i];
             if self.exchanged { (l.platform, l.base) } else { (l.base, l.platform) }
@@ -131,7 +131,7 @@ impl Roles {
         let joint = ends(i).1;
         let circle = Circle::new([ends(i).0, ends(j).0], [legs[i].s, legs[j].s])?;
         let arm = |k: usize| Arm { base: ends(k).0, b: ends(k).1 - joint, s: legs[k].s };
-        Some(Closure { circle, three: Three::new(self.three.map(arm))?, last: arm(self.last) })
+        Some(HiddenClosure { circle, three: Three::new(self.three.map(arm))?, last: arm(self.last) })
     }
 
     /// The pose with the joint at `at`.
@@ -162,7 +162,7 @@ fn shared(joint: [usize; 6]) -> Vec<Vec<usize>> {
 
 /// Joint on a circle, three legs, and the leg left out.
 #[derive(Debug, Clone)]
-pub(super) struct Closure {
+pub(super) struct HiddenClosure {
     pub(super) circle: Circle,
     pub(super) three: Three,
     pub(super) last: Arm,
@@ -171,8 +171,8 @@ pub(super) struct Closure {
 /// What is kept from one evaluation to the next, to start near.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Scratch {
-    warm: Option<Batch>,
-    angles: Vec<Angles>,
+    warm: Option<ComplexBatch>,
+    angles: Vec<ComplexAngles>,
 }
 
 /// One pose without the last leg.
@@ -209,7 +209,7 @@ impl Poses {
     }
 }
 
-impl Closure {
+impl HiddenClosure {
     /// Number of zeros.
     pub(super) fn degree(&self) -> usize {
         if self.three.common() { 24 } else { 40 }
@@ -257,7 +257,7 @@ impl Closure {
         let tangent = self.circle.at(w).1;
         let u = self.three.arms().map(|arm| complex(&arm.base) - joint);
         let place =
-            |angles: &Angles| self.place(self.three.rotation(&setting, *angles), &u, &joint, &tangent);
+            |angles: &ComplexAngles| self.place(self.three.rotation(&setting, *angles), &u, &joint, &tangent);
         let placed = scratch.angles.iter().map(place).collect::<Option<Vec<Placed>>>()?;
         let mut slope: Complex64 = placed.iter().map(|p| p.slope / p.gap).sum();
         for &(i, j) in self.pairs() {

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use num_complex::Complex64;
 
-use super::legs::{Closure, Poses, Scratch};
+use super::legs::{HiddenClosure, Poses, Scratch};
 use crate::poly::approximate_roots;
 
 /// Sweeps after which a zero that still moves is left where it is.
@@ -99,7 +99,7 @@ pub(super) struct Zeros {
 }
 
 /// As many zeros as the degree says, start values from the interpolated polynomial; `None` when it cannot be interpolated.
-pub(super) fn closure_zeros(closure: &Closure) -> Option<Zeros> {
+pub(super) fn closure_zeros(closure: &HiddenClosure) -> Option<Zeros> {
     let half = closure.degree() / 2;
     let mut scratch = Scratch::default();
     let mut on_circle = |radius: f64| Laurent::on_circle(closure, half, radius, &mut scratch);
@@ -137,7 +137,7 @@ struct Laurent {
 
 impl Laurent {
     /// From values at equidistant points of a circle.
-    fn on_circle(closure: &Closure, half: usize, radius: f64, scratch: &mut Scratch) -> Option<Self> {
+    fn on_circle(closure: &HiddenClosure, half: usize, radius: f64, scratch: &mut Scratch) -> Option<Self> {
         let count = points(half);
         let turn = |k: usize| TAU * k as f64 / count as f64;
         let value = |k: usize| closure.value(Complex64::from_polar(radius, PHASE + turn(k)), scratch);
@@ -193,7 +193,7 @@ impl Laurent {
 
 /// `w^half` times the condition.
 struct OnCircle<'a> {
-    closure: &'a Closure,
+    closure: &'a HiddenClosure,
     half: usize,
     scratch: Scratch,
 }

@@ -12,7 +12,7 @@ use nalgebra::{Matrix3, Vector3};
 use num_complex::Complex64;
 
 use super::legs::{complex, perpendicular};
-use crate::num::batch::{Batch, LANES};
+use crate::num::batch::{ComplexBatch, LANES};
 use crate::poly::repulsion;
 
 /// A leg whose platform end is at `b` from the known joint.
@@ -36,7 +36,7 @@ pub(super) struct Three {
 type Form = [[Complex64; 3]; 3];
 
 /// `z` and `y` of a rotation.
-pub(super) type Angles = (Complex64, Complex64);
+pub(super) type ComplexAngles = (Complex64, Complex64);
 
 /// Three legs with the joint in place.
 #[derive(Debug, Clone)]
@@ -95,7 +95,12 @@ impl Three {
     }
 
     /// All rotations; those of a neighbour in `warm` make it faster, and are replaced.
-    pub(super) fn angles(&self, setting: &Setting, warm: &mut Option<Batch>, out: &mut Vec<Angles>) {
+    pub(super) fn angles(
+        &self,
+        setting: &Setting,
+        warm: &mut Option<ComplexBatch>,
+        out: &mut Vec<ComplexAngles>,
+    ) {
         out.clear();
         let [f, g] = &setting.forms;
         if self.common {
@@ -105,7 +110,7 @@ impl Three {
         }
     }
 
-    pub(super) fn rotation(&self, setting: &Setting, (z, y): Angles) -> Matrix3<Complex64> {
+    pub(super) fn rotation(&self, setting: &Setting, (z, y): ComplexAngles) -> Matrix3<Complex64> {
         let (o, l) = (Complex64::ZERO, Complex64::ONE);
         let (c, s) = (setting.cosine, setting.sine);
         let tilt = Matrix3::new(c, o, s, o, l, o, -s, o, c);
@@ -119,7 +124,7 @@ fn angle_term(arm: &Arm, square: Complex64) -> Complex64 {
 }
 
 /// Value of a form.
-pub(super) fn evaluate(form: &Form, (z, y): Angles) -> Complex64 {
+pub(super) fn evaluate(form: &Form, (z, y): ComplexAngles) -> Complex64 {
     let inverse = y.inv();
     let row = |r: &[Complex64; 3]| r[0] * inverse + r[1] + r[2] * y;
     row(&form[0]) / z + row(&form[1]) + row(&form[2]) * z
@@ -187,7 +192,12 @@ fn value(p: &[Complex64], z: Complex64) -> Complex64 {
 
 /// Common roots of two forms; with `f = f0 / y + f1 + f2 y` and brackets `[ij] = f_i g_j - f_j g_i` the resultant is
 /// `[20]^2 - [21] [10]` and the root `y = -[20] / [21] = -[10] / [20]`.
-fn roots_of(f: &Form, g: &Form, start: Option<Batch>, out: &mut Vec<Angles>) -> Option<Batch> {
+fn roots_of(
+    f: &Form,
+    g: &Form,
+    start: Option<ComplexBatch>,
+    out: &mut Vec<ComplexAngles>,
+) -> Option<ComplexBatch> {
     let column = |h: &Form, n: usize| -> [Complex64; 3] { [h[0][n], h[1][n], h[2][n]] };
     let a = [0, 1, 2].map(|n| column(f, n));
     let b = [0, 1, 2].map(|n| column(g, n));
@@ -206,7 +216,7 @@ fn roots_of(f: &Form, g: &Form, start: Option<Batch>, out: &mut Vec<Angles>) -> 
 }
 
 /// The first form is free of `z`: two `y`, two `z` for each, in this order.
-fn common_roots(f: &Form, g: &Form, out: &mut Vec<Angles>) {
+fn common_roots(f: &Form, g: &Form, out: &mut Vec<ComplexAngles>) {
     for y in quadratic(f[1]) {
         let row = |m: usize| value(&g[m], y);
         out.extend(quadratic([row(0), row(1), row(2)]).map(|z| (z, y)));
@@ -230,7 +240,7 @@ const ACCURACY: f64 = 1e-6;
 ///
 /// Ehrlich-Aberth iteration on all roots side by side; multiple roots are left after [`SWEEPS`] as near as they came. `start` must be eight
 /// different numbers; without it points of a circle are taken.
-fn octic_roots(c: &[Complex64; LANES + 1], start: Option<Batch>) -> Option<Batch> {
+fn octic_roots(c: &[Complex64; LANES + 1], start: Option<ComplexBatch>) -> Option<ComplexBatch> {
     let usable = c.iter().all(|z| z.is_finite()) && c[0].norm() > 0.0 && c[LANES].norm() > 0.0;
     if !usable {
         return None;
@@ -241,7 +251,7 @@ fn octic_roots(c: &[Complex64; LANES + 1], start: Option<Batch>) -> Option<Batch
         let (moved, size) = (step.norm_sqr(), z.norm_sqr());
         let finite = moved.map(f64::is_finite);
         // two roots in one place repel each other infinitely: they stay
-        z = z - step.select(Batch::ZERO, finite);
+        z = z - step.select(ComplexBatch::ZERO, finite);
         if (0..LANES).all(|k| !finite[k] || moved[k] <= ACCURACY * ACCURACY * size[k]) {
             break;
         }
@@ -250,8 +260,8 @@ fn octic_roots(c: &[Complex64; LANES + 1], start: Option<Batch>) -> Option<Batch
 }
 
 /// Eight points of a circle, not symmetric to the real axis.
-fn circle(radius: f64) -> Batch {
-    let mut z = Batch::ZERO;
+fn circle(radius: f64) -> ComplexBatch {
+    let mut z = ComplexBatch::ZERO;
     for k in 0..LANES {
         let point = Complex64::from_polar(radius * (1.0 + 0.01 * k as f64), 0.4 + 0.785 * k as f64);
         (z.re[k], z.im[k]) = (point.re, point.im);
@@ -261,12 +271,12 @@ fn circle(radius: f64) -> Batch {
 
 /// `N / (1 - N sum 1 / (z_k - z_j))`, `N = p / p'`; where `|z| > 1` from the reversed polynomial.
 #[inline(always)]
-fn corrections(c: &[Complex64; LANES + 1], z: &Batch) -> Batch {
+fn corrections(c: &[Complex64; LANES + 1], z: &ComplexBatch) -> ComplexBatch {
     let outside = z.norm_sqr().map(|n| n > 1.0);
     let inverse = z.reciprocal();
     let y = inverse.select(*z, outside);
     let coefficient = |k: usize| all(c[LANES - k]).select(all(c[k]), outside);
-    let (mut p, mut d) = (coefficient(LANES), Batch::ZERO);
+    let (mut p, mut d) = (coefficient(LANES), ComplexBatch::ZERO);
     for k in (0..LANES).rev() {
         d = d * y + p;
         p = p * y + coefficient(k);
@@ -278,8 +288,8 @@ fn corrections(c: &[Complex64; LANES + 1], z: &Batch) -> Batch {
 }
 
 #[inline(always)]
-fn all(c: Complex64) -> Batch {
-    Batch { re: [c.re; LANES], im: [c.im; LANES] }
+fn all(c: Complex64) -> ComplexBatch {
+    ComplexBatch { re: [c.re; LANES], im: [c.im; LANES] }
 }
 
 #[cfg(test)]

@@ -5,12 +5,12 @@
 use nalgebra::{Matrix3, Vector3};
 use num_complex::Complex64;
 
-use super::number::{Number, Places, Vector, along, cross, dot, minus, squared_distance};
+use super::number::{LaneNumber, Places, Vector, along, cross, dot, minus, squared_distance};
 use crate::distance::plan::coordinates;
 use crate::geom::ComplexPose;
 use crate::manipulator::Manipulator;
-use crate::num::batch::{Batch, LANES};
-use crate::topology::{Joint, Sequence, Step};
+use crate::num::batch::{ComplexBatch, LANES};
+use crate::topology::{JointIndex, Sequence, Step};
 
 /// Places for six joints of the first body and three of the second.
 const SLOTS: usize = 9;
@@ -41,7 +41,7 @@ impl Measured {
 
 /// An unoriented step with three known distances.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Placement {
+pub(super) struct JointPlacement {
     pub(super) from: [usize; 3],
     pub(super) distances: [Measured; 3],
     pub(super) place: usize,
@@ -59,7 +59,7 @@ pub(super) struct Turn {
 
 /// The known distance that no step uses.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Closure {
+pub(super) enum ChainClosure {
     /// Of two joints in place.
     Pair([usize; 2], Measured),
     /// Of a joint of the first body and one that is `y1 + a (y2 - y1) + b (y3 - y1) + c (y2 - y1) x (y3 - y1)`.
@@ -68,14 +68,14 @@ pub(super) enum Closure {
 
 /// A sequence for one design.
 #[derive(Debug, Clone)]
-pub(super) struct Chain {
+pub(super) struct TrilaterationChain {
     /// Joints of the first body over the size.
     pub(super) first: Positions<Complex64>,
     /// Steps that do not depend on the virtual leg.
-    pub(super) before: Vec<Placement>,
+    pub(super) before: Vec<JointPlacement>,
     pub(super) turn: Option<Turn>,
-    pub(super) after: Vec<Placement>,
-    pub(super) closure: Option<Closure>,
+    pub(super) after: Vec<JointPlacement>,
+    pub(super) closure: Option<ChainClosure>,
     /// Frame of the three joints in their body, inverted, and the first of them, over the size.
     inverse: Matrix3<f64>,
     origin: Vector3<f64>,
@@ -85,37 +85,37 @@ pub(super) struct Chain {
 
 /// Joints in their slots.
 struct Slots {
-    first: Vec<Joint>,
-    three: Vec<Joint>,
+    first: Vec<JointIndex>,
+    three: Vec<JointIndex>,
 }
 
 impl Slots {
-    fn of(&self, joint: Joint) -> Option<usize> {
+    fn of(&self, joint: JointIndex) -> Option<usize> {
         let on_first = self.first.iter().position(|j| *j == joint);
         on_first.or_else(|| self.three.iter().position(|j| *j == joint).map(|k| THREE + k))
     }
 }
 
-impl Chain {
+impl TrilaterationChain {
     /// The sequence for `m`, with the lengths of the virtual legs `given` known and, when there is one more, that one to be found
     /// from `closure`. `None` when the sequence is not of this kind.
     pub(super) fn new(
         m: &Manipulator,
         s: &Sequence,
         given: &[(usize, usize)],
-        closure: Option<[Joint; 2]>,
+        closure: Option<[JointIndex; 2]>,
     ) -> Option<Self> {
         let size = m.size();
-        let local = |j: Joint| coordinates(m, j).coords / size;
-        let on_first = |j: &Joint| j.same_body(s.start[0]);
+        let local = |j: JointIndex| coordinates(m, j).coords / size;
+        let on_first = |j: &JointIndex| j.same_body(s.start[0]);
         let placed = s.steps.iter().map(|t| t.place);
-        let first: Vec<Joint> = s.start.iter().copied().chain(placed.filter(on_first)).collect();
-        let three: Vec<Joint> = s.unoriented().map(|t| t.place).collect();
+        let first: Vec<JointIndex> = s.start.iter().copied().chain(placed.filter(on_first)).collect();
+        let three: Vec<JointIndex> = s.unoriented().map(|t| t.place).collect();
         if first.len() > THREE || three.len() != 3 {
             return None;
         }
         let slots = Slots { first, three };
-        let measured = |x: Joint, y: Joint| match x.across(y) {
+        let measured = |x: JointIndex, y: JointIndex| match x.across(y) {
             None => Some(Measured::Fixed((local(x) - local(y)).norm_squared())),
             Some(pair) => {
                 let leg = m.pairs().iter().position(|l| *l == pair);
@@ -141,7 +141,7 @@ impl Chain {
             closure,
             inverse,
             origin: a,
-            base_is_first: matches!(s.start[0], Joint::Base(_)),
+            base_is_first: matches!(s.start[0], JointIndex::Base(_)),
             size,
         };
         for step in s.unoriented() {
@@ -154,7 +154,7 @@ impl Chain {
         &mut self,
         step: &Step,
         slots: &Slots,
-        measured: &impl Fn(Joint, Joint) -> Option<Measured>,
+        measured: &impl Fn(JointIndex, JointIndex) -> Option<Measured>,
     ) -> Option<()> {
         let place = slots.of(step.place)?;
         let mut known = Vec::new();
@@ -167,7 +167,7 @@ impl Chain {
         }
         match (known[..].as_ref(), open[..].as_ref()) {
             ([x, y, z], []) => {
-                let placement = Placement { from: [x.0, y.0, z.0], distances: [x.1, y.1, z.1], place };
+                let placement = JointPlacement { from: [x.0, y.0, z.0], distances: [x.1, y.1, z.1], place };
                 if self.turn.is_some() { self.after.push(placement) } else { self.before.push(placement) }
             }
             ([x, y], [virtual_end]) if self.turn.is_none() => {
@@ -181,17 +181,21 @@ impl Chain {
 
     /// The two places of a step.
     #[inline(always)]
-    pub(super) fn places<T: Number>(step: &Placement, at: &Positions<T>, lengths: &[Complex64]) -> Places<T> {
+    pub(super) fn places<T: LaneNumber>(
+        step: &JointPlacement,
+        at: &Positions<T>,
+        lengths: &[Complex64],
+    ) -> Places<T> {
         let distances = step.distances.map(|d| T::constant(d.value(lengths)));
         Places::of(step.from.map(|k| &at[k]), distances)
     }
 
     /// Computed less known squared distance of the closure.
     #[inline(always)]
-    pub(super) fn defect<T: Number>(&self, at: &Positions<T>, lengths: &[Complex64]) -> Option<T> {
+    pub(super) fn defect<T: LaneNumber>(&self, at: &Positions<T>, lengths: &[Complex64]) -> Option<T> {
         let (square, distance) = match self.closure? {
-            Closure::Pair([x, y], d) => (squared_distance(&at[x], &at[y]), d),
-            Closure::Rigid { at: x, omega, distance } => {
+            ChainClosure::Pair([x, y], d) => (squared_distance(&at[x], &at[y]), d),
+            ChainClosure::Rigid { at: x, omega, distance } => {
                 let (u, v) = (minus(&at[THREE + 1], &at[THREE]), minus(&at[THREE + 2], &at[THREE]));
                 let real = |c: f64| T::constant(Complex64::from(c));
                 let n = cross(&u, &v);
@@ -225,15 +229,15 @@ impl Chain {
 /// The closure between `x` and `y` at a known distance; `omega` gives the place of a joint in the frame of the three.
 fn closure_of(
     slots: &Slots,
-    x: Joint,
-    y: Joint,
+    x: JointIndex,
+    y: JointIndex,
     distance: Measured,
-    omega: &impl Fn(Joint) -> Vector3<f64>,
-) -> Option<Closure> {
+    omega: &impl Fn(JointIndex) -> Vector3<f64>,
+) -> Option<ChainClosure> {
     match (slots.of(x), slots.of(y)) {
-        (Some(i), Some(j)) => Some(Closure::Pair([i, j], distance)),
-        (Some(at), None) => Some(Closure::Rigid { at, omega: omega(y).into(), distance }),
-        (None, Some(at)) => Some(Closure::Rigid { at, omega: omega(x).into(), distance }),
+        (Some(i), Some(j)) => Some(ChainClosure::Pair([i, j], distance)),
+        (Some(at), None) => Some(ChainClosure::Rigid { at, omega: omega(y).into(), distance }),
+        (None, Some(at)) => Some(ChainClosure::Rigid { at, omega: omega(x).into(), distance }),
         (None, None) => None,
     }
 }
@@ -272,7 +276,7 @@ impl Circle {
     }
 
     #[inline(always)]
-    pub(super) fn point<T: Number>(&self, u: T) -> Vector<T> {
+    pub(super) fn point<T: LaneNumber>(&self, u: T) -> Vector<T> {
         let inverse = u.reciprocal();
         std::array::from_fn(|i| {
             T::constant(self.centre[i]) + T::constant(self.forth[i]) * u + T::constant(self.back[i]) * inverse
@@ -290,8 +294,8 @@ pub(super) type Exponents = [u32; 2];
 
 /// A chain with lengths, the joints before the turn in place.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Branch<'a> {
-    pub(super) chain: &'a Chain,
+pub(super) struct ChainBranch<'a> {
+    pub(super) chain: &'a TrilaterationChain,
     pub(super) lengths: &'a [Complex64],
     fixed: Positions<Complex64>,
     circle: Circle,
@@ -307,10 +311,10 @@ pub(super) struct Leaf {
     pub(super) at: Positions<Complex64>,
 }
 
-impl<'a> Branch<'a> {
+impl<'a> ChainBranch<'a> {
     /// `None` when the circle is degenerate.
     pub(super) fn new(
-        chain: &'a Chain,
+        chain: &'a TrilaterationChain,
         lengths: &'a [Complex64],
         fixed: &Positions<Complex64>,
     ) -> Option<Self> {
@@ -321,7 +325,7 @@ impl<'a> Branch<'a> {
     }
 
     #[inline(always)]
-    fn start<T: Number>(&self, u: T) -> Positions<T> {
+    fn start<T: LaneNumber>(&self, u: T) -> Positions<T> {
         let mut at = self.fixed.map(|p| p.map(T::constant));
         at[self.place] = self.circle.point(u);
         at
@@ -329,14 +333,14 @@ impl<'a> Branch<'a> {
 
     /// The product of the closures over all orientations and of the powers of the Gram determinants.
     #[inline(always)]
-    pub(super) fn product<T: Number>(&self, u: T, e: Exponents) -> T {
+    pub(super) fn product<T: LaneNumber>(&self, u: T, e: Exponents) -> T {
         let mut at = self.start(u);
         let one = T::constant(Complex64::ONE);
         let last = |at: &Positions<T>| self.chain.defect(at, self.lengths).unwrap_or(one);
         match self.chain.after[..] {
             [] => last(&at),
             [step] => {
-                let places = Chain::places(&step, &at, self.lengths);
+                let places = TrilaterationChain::places(&step, &at, self.lengths);
                 let mut out = power(places.gram, e[0]);
                 for q in places.both() {
                     at[step.place] = q;
@@ -345,11 +349,11 @@ impl<'a> Branch<'a> {
                 out
             }
             [first, second, ..] => {
-                let places = Chain::places(&first, &at, self.lengths);
+                let places = TrilaterationChain::places(&first, &at, self.lengths);
                 let mut out = power(places.gram, e[0]);
                 for q in places.both() {
                     at[first.place] = q;
-                    let next = Chain::places(&second, &at, self.lengths);
+                    let next = TrilaterationChain::places(&second, &at, self.lengths);
                     out = out * power(next.gram, e[1]);
                     for r in next.both() {
                         at[second.place] = r;
@@ -366,12 +370,12 @@ impl<'a> Branch<'a> {
         let mut at = self.start(u);
         let mut out = [Complex64::ONE; 2];
         let Some(first) = self.chain.after.first() else { return out };
-        let places = Chain::places(first, &at, self.lengths);
+        let places = TrilaterationChain::places(first, &at, self.lengths);
         out[0] = places.gram;
         let Some(second) = self.chain.after.get(1) else { return out };
         for q in places.both() {
             at[first.place] = q;
-            out[1] *= Chain::places(second, &at, self.lengths).gram;
+            out[1] *= TrilaterationChain::places(second, &at, self.lengths).gram;
         }
         out
     }
@@ -381,7 +385,8 @@ impl<'a> Branch<'a> {
         let mut out = Vec::with_capacity(points.len());
         for chunk in points.chunks(LANES) {
             let at = |k: usize| chunk[k.min(chunk.len() - 1)];
-            let u = Batch { re: std::array::from_fn(|k| at(k).re), im: std::array::from_fn(|k| at(k).im) };
+            let u =
+                ComplexBatch { re: std::array::from_fn(|k| at(k).re), im: std::array::from_fn(|k| at(k).im) };
             let values = pulp::Arch::new().dispatch(Product { branch: self, u, e });
             out.extend((0..chunk.len()).map(|k| values.lane(k)));
         }
@@ -429,7 +434,7 @@ impl<'a> Branch<'a> {
         let mut at = self.start(u);
         let mut heights = [Complex64::ZERO; 2];
         for (t, step) in self.chain.after.iter().enumerate() {
-            let places: Places<Complex64> = Chain::places(step, &at, self.lengths);
+            let places: Places<Complex64> = TrilaterationChain::places(step, &at, self.lengths);
             let up = upper(t, places.height);
             let [above, below] = places.both();
             at[step.place] = if up { above } else { below };
@@ -463,22 +468,22 @@ impl<'a> Branch<'a> {
 }
 
 struct Product<'a, 'b> {
-    branch: &'b Branch<'a>,
-    u: Batch,
+    branch: &'b ChainBranch<'a>,
+    u: ComplexBatch,
     e: Exponents,
 }
 
 impl pulp::WithSimd for Product<'_, '_> {
-    type Output = Batch;
+    type Output = ComplexBatch;
 
     #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) -> Batch {
+    fn with_simd<S: pulp::Simd>(self, _: S) -> ComplexBatch {
         self.branch.product(self.u, self.e)
     }
 }
 
 #[inline(always)]
-fn power<T: Number>(z: T, n: u32) -> T {
+fn power<T: LaneNumber>(z: T, n: u32) -> T {
     let mut out = T::constant(Complex64::ONE);
     for _ in 0..n {
         out = out * z;

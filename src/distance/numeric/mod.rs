@@ -10,22 +10,22 @@ mod chain;
 mod number;
 mod shape;
 
-pub use shape::Shape;
+pub use shape::GenericDegrees;
 
 use num_complex::Complex64;
 
-use self::chain::{Branch, Leaf};
+use self::chain::{ChainBranch, Leaf};
 use crate::geom::ComplexPose;
 use crate::manipulator::Manipulator;
-use crate::topology::{Joint, Sequence};
-use chain::{Chain, Positions};
+use crate::topology::{JointIndex, Sequence};
+use chain::{Positions, TrilaterationChain};
 use number::squared_distance;
 
 /// A sequence prepared for a design, for any lengths.
 #[derive(Debug, Clone)]
 pub struct Evaluator {
-    chain: Chain,
-    shape: Shape,
+    chain: TrilaterationChain,
+    shape: GenericDegrees,
 }
 
 /// A pose that satisfies the distances used.
@@ -58,9 +58,9 @@ impl Evaluator {
         m: &Manipulator,
         s: &Sequence,
         given: &[(usize, usize)],
-        closure: Option<[Joint; 2]>,
+        closure: Option<[JointIndex; 2]>,
     ) -> Option<Self> {
-        let shape = Shape::measure(m, s, given, closure)?;
+        let shape = GenericDegrees::measure(m, s, given, closure)?;
         Self::with_shape(m, s, given, closure, shape)
     }
 
@@ -70,15 +70,15 @@ impl Evaluator {
         m: &Manipulator,
         s: &Sequence,
         given: &[(usize, usize)],
-        closure: Option<[Joint; 2]>,
-        shape: Shape,
+        closure: Option<[JointIndex; 2]>,
+        shape: GenericDegrees,
     ) -> Option<Self> {
-        Some(Self { chain: Chain::new(m, s, given, closure)?, shape })
+        Some(Self { chain: TrilaterationChain::new(m, s, given, closure)?, shape })
     }
 
     /// What is known of all designs of the topology.
     #[must_use]
-    pub fn shape(&self) -> Shape {
+    pub fn shape(&self) -> GenericDegrees {
         self.shape
     }
 
@@ -108,7 +108,7 @@ impl Evaluator {
             out.found.push(Configuration { pose: self.chain.pose(at), virtual_square: None, step: 0.0 });
             return;
         }
-        let Some(branch) = Branch::new(&self.chain, lengths, at) else {
+        let Some(branch) = ChainBranch::new(&self.chain, lengths, at) else {
             out.lost += 2 * self.shape.degree;
             return;
         };
@@ -129,12 +129,12 @@ impl Evaluator {
     }
 
     /// The configuration at each zero.
-    fn polished(&self, branch: &Branch<'_>, zeros: &[Complex64]) -> Vec<(Complex64, Configuration)> {
+    fn polished(&self, branch: &ChainBranch<'_>, zeros: &[Complex64]) -> Vec<(Complex64, Configuration)> {
         zeros.iter().filter_map(|u| self.configuration(branch, *u)).collect()
     }
 
     /// The configuration near a zero of the product, that of the orientations whose closure is least, and its `u`.
-    fn configuration(&self, branch: &Branch<'_>, u: Complex64) -> Option<(Complex64, Configuration)> {
+    fn configuration(&self, branch: &ChainBranch<'_>, u: Complex64) -> Option<(Complex64, Configuration)> {
         let least = |x: &Leaf, y: &Leaf| x.defect.norm_sqr().total_cmp(&y.defect.norm_sqr());
         let leaf = branch.leaves(u).into_iter().min_by(least)?;
         let (u, leaf, step) = branch.polished(u, leaf);
@@ -153,9 +153,13 @@ fn settled(found: &[(Complex64, Configuration)], zeros: usize) -> bool {
 }
 
 /// All places of the joints before the turn.
-fn each_start(chain: &Chain, lengths: &[Complex64], visit: &mut impl FnMut(&Positions<Complex64>)) {
+fn each_start(
+    chain: &TrilaterationChain,
+    lengths: &[Complex64],
+    visit: &mut impl FnMut(&Positions<Complex64>),
+) {
     fn next(
-        chain: &Chain,
+        chain: &TrilaterationChain,
         lengths: &[Complex64],
         t: usize,
         at: &mut Positions<Complex64>,
@@ -165,7 +169,7 @@ fn each_start(chain: &Chain, lengths: &[Complex64], visit: &mut impl FnMut(&Posi
             visit(at);
             return;
         };
-        for q in Chain::places(step, at, lengths).both() {
+        for q in TrilaterationChain::places(step, at, lengths).both() {
             at[step.place] = q;
             next(chain, lengths, t + 1, at, visit);
         }

@@ -6,10 +6,12 @@ use std::ops::{Add, Mul, Sub};
 
 use num_complex::Complex64;
 
-use crate::num::batch::{Batch, LANES};
+use crate::num::batch::{ComplexBatch, LANES};
 
 /// One complex number, or [`LANES`] of them.
-pub(super) trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
+pub(super) trait LaneNumber:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
+{
     /// The same number everywhere.
     fn constant(z: Complex64) -> Self;
     /// Not a number where it is zero.
@@ -20,7 +22,7 @@ pub(super) trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Ou
     fn times(self, c: f64) -> Self;
 }
 
-impl Number for Complex64 {
+impl LaneNumber for Complex64 {
     #[inline(always)]
     fn constant(z: Complex64) -> Self {
         z
@@ -47,7 +49,7 @@ impl Number for Complex64 {
     }
 }
 
-impl Number for Batch {
+impl LaneNumber for ComplexBatch {
     #[inline(always)]
     fn constant(z: Complex64) -> Self {
         Self { re: [z.re; LANES], im: [z.im; LANES] }
@@ -73,29 +75,29 @@ impl Number for Batch {
 pub(super) type Vector<T> = [T; 3];
 
 #[inline(always)]
-pub(super) fn minus<T: Number>(x: &Vector<T>, y: &Vector<T>) -> Vector<T> {
+pub(super) fn minus<T: LaneNumber>(x: &Vector<T>, y: &Vector<T>) -> Vector<T> {
     [x[0] - y[0], x[1] - y[1], x[2] - y[2]]
 }
 
 #[inline(always)]
-pub(super) fn dot<T: Number>(x: &Vector<T>, y: &Vector<T>) -> T {
+pub(super) fn dot<T: LaneNumber>(x: &Vector<T>, y: &Vector<T>) -> T {
     x[0] * y[0] + x[1] * y[1] + x[2] * y[2]
 }
 
 #[inline(always)]
-pub(super) fn cross<T: Number>(x: &Vector<T>, y: &Vector<T>) -> Vector<T> {
+pub(super) fn cross<T: LaneNumber>(x: &Vector<T>, y: &Vector<T>) -> Vector<T> {
     [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]]
 }
 
 /// `x + c y`.
 #[inline(always)]
-pub(super) fn along<T: Number>(x: &Vector<T>, c: T, y: &Vector<T>) -> Vector<T> {
+pub(super) fn along<T: LaneNumber>(x: &Vector<T>, c: T, y: &Vector<T>) -> Vector<T> {
     [x[0] + c * y[0], x[1] + c * y[1], x[2] + c * y[2]]
 }
 
 /// `|x - y|^2`, bilinear.
 #[inline(always)]
-pub(super) fn squared_distance<T: Number>(x: &Vector<T>, y: &Vector<T>) -> T {
+pub(super) fn squared_distance<T: LaneNumber>(x: &Vector<T>, y: &Vector<T>) -> T {
     let d = minus(x, y);
     dot(&d, &d)
 }
@@ -110,7 +112,7 @@ pub(super) struct Places<T> {
     pub(super) height: T,
 }
 
-impl<T: Number> Places<T> {
+impl<T: LaneNumber> Places<T> {
     /// Trilateration in matrix form with the coordinates of the triangle at hand.
     #[inline(always)]
     pub(super) fn of(p: [&Vector<T>; 3], s: [T; 3]) -> Self {

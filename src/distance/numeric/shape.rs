@@ -4,16 +4,16 @@
 use nalgebra::Point3;
 use num_complex::Complex64;
 
-use super::chain::{Branch, Chain, Exponents};
+use super::chain::{ChainBranch, Exponents, TrilaterationChain};
 use super::each_start;
 use crate::manipulator::Manipulator;
 use crate::num::Rng;
 use crate::poly::approximate_roots;
-use crate::topology::{Joint, Sequence};
+use crate::topology::{JointIndex, Sequence};
 
 /// Degrees that hold for all designs of a topology: almost all have them, the others may have less.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Shape {
+pub struct GenericDegrees {
     /// See `docs/theory/trilateration.md`.
     pub(super) exponents: Exponents,
     /// Half the number of zeros for each choice of the orientations before the turn.
@@ -29,7 +29,7 @@ const SAMPLES: usize = 128;
 /// Random instances that have to agree, and the most that are tried until one shows the degree clearly.
 const INSTANCES: (u64, u64) = (2, 8);
 
-impl Shape {
+impl GenericDegrees {
     /// Poses of almost all designs with this shape.
     #[must_use]
     pub fn expected(&self) -> usize {
@@ -49,13 +49,13 @@ impl Shape {
         m: &Manipulator,
         s: &Sequence,
         given: &[(usize, usize)],
-        closure: Option<[Joint; 2]>,
+        closure: Option<[JointIndex; 2]>,
     ) -> Option<Self> {
         let mut seen: Vec<(Self, bool)> = Vec::new();
         for k in 0..INSTANCES.1 {
             let rng = &mut Rng::stream(0x5ea1, k);
             let random = random_design(m, rng)?;
-            let chain = Chain::new(&random, s, given, closure)?;
+            let chain = TrilaterationChain::new(&random, s, given, closure)?;
             let complex = |_| Complex64::new(rng.uniform(1.0, 4.0), rng.uniform(-1.0, 1.0));
             let lengths: Vec<Complex64> = (0..6 + given.len()).map(complex).collect();
             seen.extend(of_instance(&chain, &lengths, rng));
@@ -84,14 +84,21 @@ fn random_design(m: &Manipulator, rng: &mut Rng) -> Option<Manipulator> {
 }
 
 /// The shape, and whether nothing stands between the coefficients and rounding.
-fn of_instance(chain: &Chain, lengths: &[Complex64], rng: &mut Rng) -> Option<(Shape, bool)> {
+fn of_instance(
+    chain: &TrilaterationChain,
+    lengths: &[Complex64],
+    rng: &mut Rng,
+) -> Option<(GenericDegrees, bool)> {
     let mut starts = Vec::new();
     each_start(chain, lengths, &mut |at| starts.push(*at));
     if chain.turn.is_none() {
         // half a zero for each place
-        return Some((Shape { exponents: [0, 0], degree: 0, starts: starts.len(), simple: true }, true));
+        return Some((
+            GenericDegrees { exponents: [0, 0], degree: 0, starts: starts.len(), simple: true },
+            true,
+        ));
     }
-    let branch = Branch::new(chain, lengths, starts.first()?)?;
+    let branch = ChainBranch::new(chain, lengths, starts.first()?)?;
     let exponents = exponents(&branch, rng)?;
     let values = branch.products(&unit_circle(SAMPLES), exponents);
     let most = SAMPLES / 2 - 1;
@@ -108,11 +115,11 @@ fn of_instance(chain: &Chain, lengths: &[Complex64], rng: &mut Rng) -> Option<(S
     let apart =
         |i: usize, j: usize| (found[i] - found[j]).norm() > 1e-4 * found[i].norm().min(found[j].norm());
     let simple = (0..found.len()).all(|i| (0..i).all(|j| apart(i, j)));
-    Some((Shape { exponents, degree, starts: starts.len(), simple }, clear == degree))
+    Some((GenericDegrees { exponents, degree, starts: starts.len(), simple }, clear == degree))
 }
 
 /// The least exponents with which the product has neither zeros nor poles where a Gram determinant vanishes.
-fn exponents(branch: &Branch<'_>, rng: &mut Rng) -> Option<Exponents> {
+fn exponents(branch: &ChainBranch<'_>, rng: &mut Rng) -> Option<Exponents> {
     let mut seen: Vec<[i32; 3]> = Vec::new();
     for t in 0..branch.chain.after.len() {
         for _ in 0..4 {
@@ -131,7 +138,7 @@ fn exponents(branch: &Branch<'_>, rng: &mut Rng) -> Option<Exponents> {
 }
 
 /// A zero of a Gram determinant by the secant method from a random point.
-fn gram_zero(branch: &Branch<'_>, t: usize, rng: &mut Rng) -> Option<Complex64> {
+fn gram_zero(branch: &ChainBranch<'_>, t: usize, rng: &mut Rng) -> Option<Complex64> {
     let mut x = Complex64::from_polar(rng.uniform(0.4, 2.5), rng.uniform(-3.1, 3.1));
     let mut y = x * (1.0 + 1e-3);
     let scale = branch.grams(x)[t].norm();

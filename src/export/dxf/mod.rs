@@ -8,7 +8,7 @@ use nalgebra::{Point2, Vector2};
 use self::dimension::dimensions;
 use self::page::Page;
 use super::outline::OutlinePart;
-use super::{Export, ExportBody, ExportedFile, Hole, Plate, Unsupported, Writer};
+use super::{Export, ExportBody, ExportedFile, Plate, PlateHole, Unsupported, Writer};
 
 /// The format `dxf`.
 #[derive(Debug)]
@@ -123,7 +123,7 @@ fn table(page: &mut Page, body: &ExportBody, plate: &Plate, extent: [Point2<f64>
         format!("corner radius {:.4}", plate.outline.margin * mm),
         "hole   x   y".to_string(),
     ];
-    let row = |h: &Hole| {
+    let row = |h: &PlateHole| {
         let post = if h.post > 0.0 { format!("   post {:.4}", h.post * mm) } else { String::new() };
         format!("{}   {:.4}   {:.4}{post}", h.joints.join("/"), h.at.x * mm + 0.0, h.at.y * mm + 0.0)
     };

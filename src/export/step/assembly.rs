@@ -24,7 +24,7 @@ struct Occurrence {
 
 /// An assembly under construction.
 #[derive(Debug)]
-pub(super) struct Assembly {
+pub(super) struct StepAssembly {
     b: Builder,
     header: String,
     name: String,
@@ -36,7 +36,7 @@ pub(super) struct Assembly {
 
 const HEADER_END: &str = "FILE_SCHEMA(('AP242_MANAGED_MODEL_BASED_3D_ENGINEERING_MIM_LF { 1 0 10303 442 1 1 4 }'));\nENDSEC;\nDATA;\n";
 
-impl Assembly {
+impl StepAssembly {
     pub(super) fn new(export: &Export) -> Self {
         let mut lines = export.heading("mm");
         lines.push("Assembly frame: the base frame; the platform is at home".to_string());

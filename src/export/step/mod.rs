@@ -6,16 +6,16 @@ mod solids;
 
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
-use self::assembly::Assembly;
+use self::assembly::StepAssembly;
 use super::plate::any_across;
 use super::{Export, ExportedFile, Plate, Unsupported, Writer};
 use crate::geom::Pose;
 
 /// The format `step`.
 #[derive(Debug)]
-pub(super) struct Step;
+pub(super) struct StepFile;
 
-impl Writer for Step {
+impl Writer for StepFile {
     fn name(&self) -> &'static str {
         "step"
     }
@@ -54,7 +54,7 @@ fn plate_frame(plate: &Plate) -> Pose {
 
 fn assembly(export: &Export) -> Result<String, Unsupported> {
     let mm = export.unit.millimetres;
-    let mut a = Assembly::new(export);
+    let mut a = StepAssembly::new(export);
     let base_frame = Pose { rotation: Rotation3::identity(), position: Vector3::zeros() };
     for (body, placed) in export.bodies.iter().zip([base_frame, export.home]) {
         let plate = body.plate()?;

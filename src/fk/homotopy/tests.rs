@@ -23,9 +23,9 @@ fn lengths(m: &Manipulator, rng: &mut Rng) -> SquaredLegLengths {
 }
 
 fn generic(m: &Manipulator, s: &SquaredLegLengths) -> FkSolutions {
-    let frame = Frame::of(m, s);
+    let frame = ScaledFrames::of(m, s);
     let sections = frame.sections(m, s).unwrap();
-    let problem = Problem { sections, frame, kind: StartKind::Generic, fine: false };
+    let problem = SectionProblem { sections, frame, kind: StartKind::Generic, fine: false };
     problem.solve(m, s, &FkOptions::default(), 5).unwrap().0
 }
 

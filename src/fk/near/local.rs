@@ -259,7 +259,7 @@ impl Blur {
 ///
 /// With `kappa >= |I - Y J|` the conditions of the theorem are `4 (beta + eta) eta <= (1 - kappa)^2` and, for a ball of radius `r`, `2 (beta + eta) r <= 1 - kappa`. Both
 /// numbers are given divided by `(1 - kappa)^2`, so that the conditions with `kappa = 0` imply them.
-pub(super) struct Start {
+pub(super) struct SegmentStart {
     /// The Newton step to the end of the way.
     pub(super) step: [f64; 6],
     /// Bound of its size.
@@ -273,7 +273,7 @@ pub(super) struct Start {
     pub(super) inverse_condition: f64,
 }
 
-impl Start {
+impl SegmentStart {
     pub(super) fn of(here: &Local, blur: &Blur) -> Option<Self> {
         let j = here.jacobian();
         let mut work = j;

@@ -15,7 +15,7 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 use super::{FkError, FkOptions, FkSolutions, ForwardKinematics, Method};
 use crate::geom::Pose;
 use crate::manipulator::{Manipulator, SquaredLegLengths};
-use local::{Blur, Local, Newton, Start};
+use local::{Blur, Local, Newton, SegmentStart};
 
 /// `4 (beta + eta) eta` aimed at for every segment; the theorem needs 1.
 const KANTOROVICH: f64 = 0.88;
@@ -193,7 +193,7 @@ impl NearSolver {
     ) -> Segment {
         let here = Local::at(self, place, target);
         let blur = Blur::of(self, place, &here, target_error);
-        let Some(start) = Start::of(&here, &blur) else { return Segment::Singular };
+        let Some(start) = SegmentStart::of(&here, &blur) else { return Segment::Singular };
         if !(start.inverse_condition >= self.options.singular) {
             return Segment::Singular;
         }
@@ -227,7 +227,7 @@ impl NearSolver {
         &self,
         target: &[f64; 6],
         from: &Place,
-        start: &Start,
+        start: &SegmentStart,
         part: f64,
         evidence: &mut NearEvidence,
     ) -> Option<Place> {
@@ -259,7 +259,7 @@ impl NearSolver {
         let here = Local::at(self, place, target);
         evidence.residual = here.largest_defect() * self.residual_scale;
         let blur = Blur::of(self, place, &here, &[0.0; 6]);
-        evidence.inverse_condition = Start::of(&here, &blur).map_or(0.0, |s| s.inverse_condition);
+        evidence.inverse_condition = SegmentStart::of(&here, &blur).map_or(0.0, |s| s.inverse_condition);
         let (angle, shift) = local::motion(from, place);
         evidence.angle = angle;
         evidence.distance = shift * self.unit;

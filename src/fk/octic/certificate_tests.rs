@@ -12,7 +12,7 @@ use num_complex::Complex64;
 
 const LEGS: [(usize, usize); 6] = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
 
-struct Case {
+struct OcticCase {
     m: Manipulator,
     s: SquaredLegLengths,
     certifier: OctahedralCertifier,
@@ -20,7 +20,7 @@ struct Case {
 }
 
 /// Random design in another leg order, with the lengths of a random pose; `None` where the fast solver gives up.
-fn case(k: u64) -> Option<Case> {
+fn case(k: u64) -> Option<OcticCase> {
     let mut rng = Rng::stream(77, k);
     let mut triangle =
         || (0..3).map(|_| Point3::from(Vector3::from_fn(|_, _| rng.uniform(-2.0, 2.0)))).collect();
@@ -30,10 +30,10 @@ fn case(k: u64) -> Option<Case> {
     let s = pose.squared_lengths(&m).unwrap();
     let certifier = OctahedralCertifier::new(&Octahedral::recognise(&m).unwrap()).unwrap();
     let found = OcticSolver::new(&m).unwrap().solve(&s)?;
-    Some(Case { m, s, certifier, found })
+    Some(OcticCase { m, s, certifier, found })
 }
 
-fn certify(c: &Case) -> OctahedralCertificates {
+fn certify(c: &OcticCase) -> OctahedralCertificates {
     c.certifier.certify(&c.s, &c.found.pairs, &c.found.poses)
 }
 

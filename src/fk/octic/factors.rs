@@ -5,7 +5,7 @@
 use nalgebra::Vector3;
 
 use super::Biquadratic;
-use crate::num::batch::Batch;
+use crate::num::batch::ComplexBatch;
 
 /// Products of the sides `b = B - A`, `c = C - A` of a triangle, and `|b x c|^2`.
 #[derive(Debug, Clone)]
@@ -77,7 +77,7 @@ impl Factors {
 
     /// Value and derivatives by `x` and `y` in all lanes.
     #[inline(always)]
-    pub(super) fn values(&self, x: Batch, y: Batch) -> [Batch; 3] {
+    pub(super) fn values(&self, x: ComplexBatch, y: ComplexBatch) -> [ComplexBatch; 3] {
         let [[w00, w01], [w10, w11]] = self.w;
         let wx = y.times(w11).plus(w10);
         let w = wx * x + y.times(w01).plus(w00);

@@ -8,7 +8,7 @@ use super::factors::Factors;
 use super::solver::{OcticSolver, Triangle};
 use super::{minor, resultant};
 use crate::geom::ComplexPose;
-use crate::num::batch::{Batch, LANES};
+use crate::num::batch::{ComplexBatch, LANES};
 use crate::poly::octic_roots;
 
 /// Relative accuracy asked of the octic's roots before both closures take over.
@@ -19,11 +19,11 @@ const POLISHES: usize = 3;
 pub(super) const SEPARATE: f64 = 1e-5;
 
 /// Three complex coordinates in eight lanes.
-pub(super) type Points = [Batch; 3];
-const ORIGIN: Points = [Batch::ZERO; 3];
+pub(super) type Points = [ComplexBatch; 3];
+const ORIGIN: Points = [ComplexBatch::ZERO; 3];
 
 #[inline(always)]
-fn dot(a: &Points, b: &Points) -> Batch {
+fn dot(a: &Points, b: &Points) -> ComplexBatch {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
@@ -33,8 +33,8 @@ fn cross(a: &Points, b: &Points) -> Points {
 }
 
 #[inline(always)]
-fn horner(c: &[f64; 5], x: Batch) -> Batch {
-    let mut out = Batch::real(c[4]);
+fn horner(c: &[f64; 5], x: ComplexBatch) -> ComplexBatch {
+    let mut out = ComplexBatch::real(c[4]);
     for k in (0..4).rev() {
         out = (out * x).plus(c[k]);
     }
@@ -43,7 +43,7 @@ fn horner(c: &[f64; 5], x: Batch) -> Batch {
 
 /// The eight pairs `(s15, s34)`, `None` when they are not eight well separated ones.
 #[inline(always)]
-pub(super) fn pairs(first: &Factors, second: &Factors) -> Option<(Batch, Batch)> {
+pub(super) fn pairs(first: &Factors, second: &Factors) -> Option<(ComplexBatch, ComplexBatch)> {
     let (a, b) = (first.expanded(), second.expanded());
     let mut x = octic_roots(&resultant(&a, &b), COARSE)?;
     // the common root of both quadratics in y: y = -(a2 b0 - a0 b2) / (a2 b1 - a1 b2)
@@ -70,7 +70,7 @@ pub(super) fn pairs(first: &Factors, second: &Factors) -> Option<(Batch, Batch)>
 }
 
 #[inline(always)]
-fn separate(x: &Batch, y: &Batch) -> bool {
+fn separate(x: &ComplexBatch, y: &ComplexBatch) -> bool {
     let mut nearest = f64::INFINITY;
     for shift in 1..=LANES / 2 {
         for k in 0..LANES {
@@ -97,14 +97,14 @@ pub(super) struct Placed {
 impl OcticSolver {
     /// `P4, P5, P6` in the frame of the base triangle, one of the two mirror images.
     #[inline(always)]
-    pub(super) fn corners(&self, s: &[f64; 6], x: Batch, y: Batch) -> [Points; 3] {
+    pub(super) fn corners(&self, s: &[f64; 6], x: ComplexBatch, y: ComplexBatch) -> [Points; 3] {
         let Triangle { b, u, v, .. } = self.base;
         let far = u * u + v * v;
         let p4x = 0.5 * (s[0] + b * b - s[1]) / b;
         let p4y = y.times(-0.5 / v).plus((0.5 * (s[0] + far) - u * p4x) / v);
         let p5x = x.times(0.5 / b).plus(0.5 * (b * b - s[2]) / b);
         let p5y = (x.times(0.5).plus(0.5 * (far - s[3])) - p5x.times(u)).times(1.0 / v);
-        let (z4, z5) = (Batch::real(s[0] - p4x * p4x) - p4y * p4y, x - p5x * p5x - p5y * p5y);
+        let (z4, z5) = (ComplexBatch::real(s[0] - p4x * p4x) - p4y * p4y, x - p5x * p5x - p5y * p5y);
         // the closure: product of both heights
         let side = self.platform.b * self.platform.b;
         let product = x.times(0.5).plus(0.5 * (s[0] - side)) - p5x.times(p4x) - p4y * p5y;
@@ -115,7 +115,7 @@ impl OcticSolver {
         }
         let root = z4.select(z5, first).sqrt();
         let other = product * root.reciprocal();
-        let p4 = [Batch::real(p4x), p4y, root.select(other, first)];
+        let p4 = [ComplexBatch::real(p4x), p4y, root.select(other, first)];
         let p5 = [p5x, p5y, other.select(root, first)];
         // P6 from its distances to P1 (origin), P3, P4, P5: three linear equations
         let (t, d) = (&self.platform, self.platform.u - self.platform.b);
@@ -123,7 +123,7 @@ impl OcticSolver {
         let k4 = 0.5 * (s[5] + s[0] - (t.u * t.u + t.v * t.v));
         let k5 = x.times(0.5).plus(0.5 * (s[5] - (d * d + t.v * t.v)));
         let normal = cross(&p4, &p5);
-        let p3 = [Batch::real(u), Batch::real(v), Batch::ZERO];
+        let p3 = [ComplexBatch::real(u), ComplexBatch::real(v), ComplexBatch::ZERO];
         let (from5, from4) = (cross(&p5, &p3), cross(&p3, &p4));
         let inverse = (normal[0].times(u) + normal[1].times(v)).reciprocal();
         let mut p6 = ORIGIN;
@@ -238,7 +238,7 @@ impl OcticSolver {
 
 /// The larger of `worst` and the squared modulus of the error, NaN when that is.
 #[inline(always)]
-fn raise(worst: &mut [f64; LANES], error: Batch) {
+fn raise(worst: &mut [f64; LANES], error: ComplexBatch) {
     let e = error.norm_sqr();
     for k in 0..LANES {
         worst[k] = if e[k] <= worst[k] { worst[k] } else { e[k] };

@@ -17,7 +17,7 @@ pub use solver::{OcticPoses, OcticSolver};
 use nalgebra::{Matrix3, Vector3};
 use num_complex::Complex64;
 
-use super::collect::{Candidate, collect, pose_scale};
+use super::collect::{PoseCandidate, collect, pose_scale};
 use super::evidence::attach;
 use super::judge::compared_with_count;
 use super::{
@@ -39,7 +39,7 @@ pub struct Octic;
 type Biquadratic = [[f64; 3]; 3];
 
 /// The numbers of one problem, in units of the design's size, in cyclic order.
-struct Problem {
+struct OcticProblem {
     base: [Vector3<f64>; 3],
     platform: [Vector3<f64>; 3],
     s: [f64; 6],
@@ -103,8 +103,8 @@ impl OcticSolver {
 }
 
 /// Sixteen poses of eight well separated pairs.
-fn regular(found: &OcticPoses) -> Vec<Candidate> {
-    let candidate = |(i, pose): (usize, &ComplexPose)| Candidate {
+fn regular(found: &OcticPoses) -> Vec<PoseCandidate> {
+    let candidate = |(i, pose): (usize, &ComplexPose)| PoseCandidate {
         pose: *pose,
         singular: false,
         condition: 1.0,
@@ -119,8 +119,12 @@ const FAR: f64 = 30.0;
 const REFINED: f64 = 1e-2;
 
 /// Poses far out, which the trilateration gives with few digits, in all digits of a double.
-fn sharpened(m: &Manipulator, s: &SquaredLegLengths, mut candidates: Vec<Candidate>) -> Vec<Candidate> {
-    let far = |c: &Candidate| pose_scale(&c.pose, m.size()) > FAR;
+fn sharpened(
+    m: &Manipulator,
+    s: &SquaredLegLengths,
+    mut candidates: Vec<PoseCandidate>,
+) -> Vec<PoseCandidate> {
+    let far = |c: &PoseCandidate| pose_scale(&c.pose, m.size()) > FAR;
     if !candidates.iter().any(far) {
         return candidates;
     }
@@ -252,7 +256,7 @@ fn polish(a: &Biquadratic, b: &Biquadratic, start: [Complex64; 2]) -> Option<[Co
     (step < 1e-8 * scale).then_some([x, y])
 }
 
-impl Problem {
+impl OcticProblem {
     fn closures(&self) -> (Biquadratic, Biquadratic) {
         let s = self.s.map(|k| [k, 0.0]);
         let unknown = [0.0, 1.0];
@@ -267,13 +271,13 @@ impl Problem {
     }
 
     /// Root by root, for coinciding pairs and flat corners too: candidates, pairs, pairs without a pose.
-    fn candidates(&self) -> Result<(Vec<Candidate>, usize, usize), FkError> {
+    fn candidates(&self) -> Result<(Vec<PoseCandidate>, usize, usize), FkError> {
         let pairs = self.distance_pairs().map_err(|what| FkError::Breakdown { what })?;
         let mut candidates = Vec::new();
         let mut unplaced = 0;
         for (source, pair) in pairs.iter().enumerate() {
             match self.poses(*pair) {
-                Some(two) => candidates.extend(two.map(|pose| Candidate {
+                Some(two) => candidates.extend(two.map(|pose| PoseCandidate {
                     pose: ComplexPose { position: pose.position * Complex64::from(self.size), ..pose },
                     singular: false,
                     condition: 1.0,
@@ -379,7 +383,7 @@ pub fn octic(m: &Manipulator, s: &SquaredLegLengths) -> Result<[f64; 9], FkError
     let legs: [Leg; 6] = m.legs();
     let merged = Manipulator::from_legs(legs).map_err(|e| refuse(e.to_string()))?;
     let octahedral = Octahedral::recognise(&merged).map_err(|e| refuse(e.to_string()))?;
-    let problem = Problem {
+    let problem = OcticProblem {
         base: octahedral.base().map(|p| p.coords),
         platform: octahedral.platform().map(|p| p.coords),
         s: octahedral.order().map(|i| s.get()[i.get()]),

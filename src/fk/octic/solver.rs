@@ -5,7 +5,7 @@
 use nalgebra::Vector3;
 use num_complex::Complex64;
 
-use super::Problem;
+use super::OcticProblem;
 use super::factors::{Factors, Gram};
 use super::lanes::{Placed, SEPARATE, pairs};
 use crate::fk::collect::pose_scale;
@@ -210,9 +210,9 @@ impl OcticSolver {
     }
 
     /// The same numbers for the general treatment.
-    pub(super) fn problem(&self, s: &SquaredLegLengths) -> Problem {
+    pub(super) fn problem(&self, s: &SquaredLegLengths) -> OcticProblem {
         let (base, platform, given) = (self.base_corners, self.platform_corners, s.get());
         let scale = (self.size * self.size).recip();
-        Problem { base, platform, s: self.order.map(|i| given[i] * scale), size: self.size }
+        OcticProblem { base, platform, s: self.order.map(|i| given[i] * scale), size: self.size }
     }
 }

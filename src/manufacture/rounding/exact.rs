@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::grid::{BodyGrid, Cell, Pool, Triangle, Wanted, pool};
+use super::grid::{BodyGrid, GridHole, Pool, Triangle, Wanted, pool};
 use super::{
     Grid, Judgement, Laying, NoRounding, RoundedJoint, RoundingProblem, best_of, grid_of, judge,
     objective_above, on_cells, place, sample_plan,
@@ -110,7 +110,7 @@ pub struct ExactRounding {
 
 /// The search state: a pair of triangles with its worth.
 #[derive(Debug, Clone, Copy)]
-struct Pair {
+struct TrianglePair {
     triangles: [Triangle; 2],
     objective: f64,
 }
@@ -125,7 +125,7 @@ struct Search<'a> {
     hint: usize,
 }
 
-fn cells(roles: &Roles, list: &[Joint], triangles: &[Triangle; 2]) -> Vec<Cell> {
+fn cells(roles: &Roles, list: &[Joint], triangles: &[Triangle; 2]) -> Vec<GridHole> {
     let cell = |joint: &Joint| {
         let body = joint.body.index();
         let corner = roles.corners[body].iter().position(|j| j == joint);
@@ -148,21 +148,21 @@ impl Search<'_> {
     }
 
     /// The pair when its objective is above `floor` and, in a strict search, no requirement is violated.
-    fn better(&mut self, triangles: [Triangle; 2], floor: f64) -> Option<Pair> {
+    fn better(&mut self, triangles: [Triangle; 2], floor: f64) -> Option<TrianglePair> {
         let m = self.build(&triangles)?;
         let mut hint = self.hint;
         let objective = objective_above(&m, self.problem, floor, &mut hint);
         self.hint = hint;
         let objective = objective?;
         let met = !self.strict || judge(&m, self.problem, Some(self.roles.determinant(&m))).met;
-        met.then_some(Pair { triangles, objective })
+        met.then_some(TrianglePair { triangles, objective })
     }
 
     /// The best combination of the first `count` triangles of each body, then replacements of one of them by any of its pool until none is
     /// better.
-    fn run(&mut self, pools: &[Pool; 2], count: usize) -> Option<(Pair, usize)> {
-        let floor = |best: &Option<Pair>| best.map_or(0.0, |b| b.objective);
-        let mut best: Option<Pair> = None;
+    fn run(&mut self, pools: &[Pool; 2], count: usize) -> Option<(TrianglePair, usize)> {
+        let floor = |best: &Option<TrianglePair>| best.map_or(0.0, |b| b.objective);
+        let mut best: Option<TrianglePair> = None;
         for a in pools[0].triangles.iter().take(count) {
             for b in pools[1].triangles.iter().take(count) {
                 best = self.better([*a, *b], floor(&best)).or(best);
@@ -208,21 +208,26 @@ fn determinant_numerator(triangles: &[Triangle; 2]) -> Option<i128> {
 }
 
 /// Exact rank of legs between holes: `(1, i, j) (x) (1, k, l)`.
-pub(super) fn rank(legs: &[(Cell, Cell)]) -> Option<usize> {
+pub(super) fn rank(legs: &[(GridHole, GridHole)]) -> Option<usize> {
     let number = |x: i64| rational(x as f64);
-    let point = |c: &Cell| -> Option<ExactVector> { [1, c[0], c[1]].into_iter().map(number).collect() };
-    let row = |(a, b): &(Cell, Cell)| Some(product(&point(a)?, &point(b)?));
+    let point = |c: &GridHole| -> Option<ExactVector> { [1, c[0], c[1]].into_iter().map(number).collect() };
+    let row = |(a, b): &(GridHole, GridHole)| Some(product(&point(a)?, &point(b)?));
     Some(exact::rank(&legs.iter().map(row).collect::<Option<Vec<_>>>()?))
 }
 
 /// Whether the six legs span the same space as the octahedral legs between the corners, which has dimension six.
-pub(super) fn proved(m: &Manipulator, list: &[Joint], cells: &[Cell], corners: &[[Cell; 3]; 2]) -> bool {
+pub(super) fn proved(
+    m: &Manipulator,
+    list: &[Joint],
+    cells: &[GridHole],
+    corners: &[[GridHole; 3]; 2],
+) -> bool {
     let cell = |body, index| list.iter().position(|j| *j == Joint { body, index }).map(|k| cells[k]);
-    let legs: Option<Vec<(Cell, Cell)>> =
+    let legs: Option<Vec<(GridHole, GridHole)>> =
         m.pairs().iter().map(|p| Some((cell(Body::Base, p.0)?, cell(Body::Platform, p.1)?))).collect();
     let Some(legs) = legs else { return false };
     let [a, b] = corners;
-    let octahedral: Vec<(Cell, Cell)> =
+    let octahedral: Vec<(GridHole, GridHole)> =
         [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)].map(|(i, j)| (a[i], b[j])).to_vec();
     let both: Vec<_> = legs.iter().chain(&octahedral).copied().collect();
     [&legs, &octahedral, &both].into_iter().all(|list| rank(list) == Some(6))
@@ -247,7 +252,7 @@ pub(super) fn limit(w: &Wanted) -> f64 {
 struct Found {
     laying: Laying,
     pools: [Pool; 2],
-    best: Pair,
+    best: TrianglePair,
     replacements: usize,
     /// Whether it meets the requirements.
     met: bool,
@@ -319,9 +324,9 @@ fn rounded_joints(
     rounded: &Manipulator,
     roles: &Roles,
     grids: &[BodyGrid; 2],
-    cells: &[Cell],
+    cells: &[GridHole],
 ) -> Vec<RoundedJoint> {
-    let one = |(joint, cell): (Joint, &Cell)| {
+    let one = |(joint, cell): (Joint, &GridHole)| {
         let at = grid_of(grids, joint.body).point(*cell);
         let off_line = roles.off_line(rounded, joint, &at);
         RoundedJoint { joint, cell: *cell, moved: at - place(m, joint), off_line }

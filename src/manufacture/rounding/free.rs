@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::{Rotation2, Vector2};
 
-use super::grid::{BodyGrid, Cell, Grid, Wanted, pool};
+use super::grid::{BodyGrid, Grid, GridHole, Wanted, pool};
 
 /// Points within this much of the radius beyond it count as inside a circle.
 const SLIP: f64 = 1e-12;
@@ -68,10 +68,10 @@ pub(super) struct Laid {
 
 /// Lays the grid so that the greatest distance of the cells from their places is least: the best shift for every turn is the centre of a smallest
 /// circle, the turn is sought within `half` of `angle`, where that distance is nearly convex.
-fn fit(places: &[Vector2<f64>], cells: &[Cell], angle: f64, half: f64) -> Laid {
+fn fit(places: &[Vector2<f64>], cells: &[GridHole], angle: f64, half: f64) -> Laid {
     let at = |angle: f64| {
         let turn = Rotation2::new(angle);
-        let off = |(p, c): (&Vector2<f64>, &Cell)| p - turn * Vector2::new(c[0] as f64, c[1] as f64);
+        let off = |(p, c): (&Vector2<f64>, &GridHole)| p - turn * Vector2::new(c[0] as f64, c[1] as f64);
         let offsets: Vec<Vector2<f64>> = places.iter().zip(cells).map(off).collect();
         let (origin, worst) = smallest_circle(&offsets);
         Laid { angle, origin, worst }
@@ -153,7 +153,7 @@ pub(super) fn near_holes(places: &[[f64; 2]]) -> Vec<Laid> {
     let centre = places.iter().sum::<Place>() / places.len().max(1) as f64;
     let angles = turns(&places, &centre, 0.5, TURNS);
     let step = FRAC_PI_2 / angles.len() as f64;
-    let mut ranked: Vec<(f64, f64, Vec<Cell>)> = Vec::with_capacity(angles.len());
+    let mut ranked: Vec<(f64, f64, Vec<GridHole>)> = Vec::with_capacity(angles.len());
     for angle in angles {
         let turned: Vec<Place> = places.iter().map(|p| Rotation2::new(-angle) * (p - centre)).collect();
         let (origin, worst) = shift(&turned);

@@ -24,7 +24,7 @@ pub struct Grid {
 }
 
 /// A hole, counted from the origin along both axes.
-pub(super) type Cell = [i64; 2];
+pub(super) type GridHole = [i64; 2];
 
 /// A grid laid into the plane of the joints of a body.
 #[derive(Debug, Clone, Copy)]
@@ -68,7 +68,7 @@ impl BodyGrid {
     }
 
     /// The hole.
-    pub(super) fn point(&self, cell: Cell) -> Point3<f64> {
+    pub(super) fn point(&self, cell: GridHole) -> Point3<f64> {
         let along = |k: usize| self.axes[k] * (cell[k] as f64 * self.pitch);
         self.origin + (along(0) + along(1))
     }
@@ -103,7 +103,7 @@ pub(super) struct Wanted {
 pub(super) struct Triangle {
     /// Largest distance of a joint from where it is wanted, pitches.
     deviation: f64,
-    pub(super) corners: [Cell; 3],
+    pub(super) corners: [GridHole; 3],
     /// Side `k` has `parts[k]` equal parts between grid points; its joint is at the end of part `inner[k]` (below 0 or above `parts` on an extension).
     pub(super) parts: [i64; 3],
     pub(super) inner: [i64; 3],
@@ -111,7 +111,7 @@ pub(super) struct Triangle {
 
 impl Triangle {
     /// The joint on a side.
-    pub(super) fn joint(&self, k: usize) -> Cell {
+    pub(super) fn joint(&self, k: usize) -> GridHole {
         let (from, to) = (self.corners[k], self.corners[(k + 1) % 3]);
         [0, 1].map(|i| from[i] + (to[i] - from[i]) / self.parts[k] * self.inner[k])
     }
@@ -130,11 +130,11 @@ fn gcd(a: i64, b: i64) -> i64 {
     if b == 0 { a.abs() } else { gcd(b, a % b) }
 }
 
-fn distance(cell: Cell, wanted: [f64; 2]) -> f64 {
+fn distance(cell: GridHole, wanted: [f64; 2]) -> f64 {
     (cell[0] as f64 - wanted[0]).hypot(cell[1] as f64 - wanted[1])
 }
 
-fn cells_within(centre: [f64; 2], reach: f64) -> Vec<Cell> {
+fn cells_within(centre: [f64; 2], reach: f64) -> Vec<GridHole> {
     let range = |k: usize| (centre[k] - reach).ceil() as i64..=(centre[k] + reach).floor() as i64;
     let all = range(0).flat_map(|i| range(1).map(move |j| [i, j]));
     all.filter(|c| distance(*c, centre) <= reach).collect()
@@ -142,7 +142,7 @@ fn cells_within(centre: [f64; 2], reach: f64) -> Vec<Cell> {
 
 /// A side between two cells with its joint: index of the second cell, parts, joint, distance of the joint from where it is wanted.
 #[derive(Debug, Clone, Copy)]
-struct Side {
+struct GridSide {
     to: usize,
     parts: i64,
     inner: i64,
@@ -150,14 +150,20 @@ struct Side {
 }
 
 /// The sides from `p` to `q` (cell number `to`) with a joint within `reach` of `wanted` that is not a corner.
-fn sides(p: Cell, (to, q): (usize, Cell), wanted: Option<[f64; 2]>, reach: f64, out: &mut Vec<Side>) {
+fn sides(
+    p: GridHole,
+    (to, q): (usize, GridHole),
+    wanted: Option<[f64; 2]>,
+    reach: f64,
+    out: &mut Vec<GridSide>,
+) {
     let d = [q[0] - p[0], q[1] - p[1]];
     let parts = gcd(d[0], d[1]);
     if parts == 0 {
         return;
     }
     let Some(wanted) = wanted else {
-        out.push(Side { to, parts, inner: 0, off: 0.0 });
+        out.push(GridSide { to, parts, inner: 0, off: 0.0 });
         return;
     };
     let step = d.map(|x| (x / parts) as f64);
@@ -172,7 +178,7 @@ fn sides(p: Cell, (to, q): (usize, Cell), wanted: Option<[f64; 2]>, reach: f64, 
     for inner in (middle - half).ceil() as i64..=(middle + half).floor() as i64 {
         if inner != 0 && inner != parts {
             let joint = [0, 1].map(|k| p[k] + d[k] / parts * inner);
-            out.push(Side { to, parts, inner, off: distance(joint, wanted) });
+            out.push(GridSide { to, parts, inner, off: distance(joint, wanted) });
         }
     }
 }
@@ -181,9 +187,9 @@ fn sides(p: Cell, (to, q): (usize, Cell), wanted: Option<[f64; 2]>, reach: f64, 
 fn within(wanted: &Wanted, reach: f64) -> Vec<Triangle> {
     let cells = wanted.corners.map(|c| cells_within(c, reach));
     // sides of each kind by the number of their first cell
-    let table = |k: usize| -> Vec<Vec<Side>> {
+    let table = |k: usize| -> Vec<Vec<GridSide>> {
         let next = &cells[(k + 1) % 3];
-        let all = |p: &Cell| {
+        let all = |p: &GridHole| {
             let mut out = Vec::new();
             for (to, q) in next.iter().enumerate() {
                 sides(*p, (to, *q), wanted.inner.map(|w| w[k]), reach, &mut out);
@@ -308,7 +314,7 @@ mod tests {
                     // grid points near the wanted joints that are on the line of their side
                     let on = |k: usize| {
                         let (p, q) = (corners[k], corners[(k + 1) % 3]);
-                        let line = move |x: &Cell| {
+                        let line = move |x: &GridHole| {
                             (q[0] - p[0]) * (x[1] - p[1]) == (q[1] - p[1]) * (x[0] - p[0])
                                 && *x != p
                                 && *x != q

@@ -15,7 +15,7 @@ use thiserror::Error;
 pub use self::exact::ExactRounding;
 use self::exact::Roles;
 pub use self::grid::Grid;
-use self::grid::{BodyGrid, Cell};
+use self::grid::{BodyGrid, GridHole};
 pub use self::nearest::NearestRounding;
 use super::joint::{Joint, joints};
 use crate::equivalence::SamplePlan;
@@ -225,7 +225,7 @@ fn place(m: &Manipulator, joint: Joint) -> Point3<f64> {
 }
 
 /// The design with its joints (in the order of [`joints`]) on these holes.
-fn on_cells(m: &Manipulator, grids: &[BodyGrid; 2], cells: &[Cell]) -> Option<Manipulator> {
+fn on_cells(m: &Manipulator, grids: &[BodyGrid; 2], cells: &[GridHole]) -> Option<Manipulator> {
     let (mut base, mut platform) = (m.base_joints().to_vec(), m.platform_joints().to_vec());
     for (joint, cell) in joints(m).into_iter().zip(cells) {
         joint.body.of((&mut base, &mut platform))[joint.index] = grid_of(grids, joint.body).point(*cell);

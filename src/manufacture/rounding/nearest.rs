@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::exact::Roles;
-use super::grid::{BodyGrid, Cell};
+use super::grid::{BodyGrid, GridHole};
 use super::{
     Grid, Judgement, Laying, NoRounding, RoundedJoint, RoundingProblem, best_of, grid_of, judge, on_cells,
     place, sample_plan,
@@ -44,7 +44,7 @@ pub struct NearestRounding {
 struct State<'a> {
     sensitivities: &'a [Sensitivity],
     length: f64,
-    cells: Vec<Cell>,
+    cells: Vec<GridHole>,
     moved: Vec<Vector3<f64>>,
 }
 
@@ -67,11 +67,11 @@ impl State<'_> {
 }
 
 /// The four cells around a place, nearest first.
-fn around(grid: &BodyGrid, m: &Manipulator, joint: Joint) -> [Cell; 4] {
+fn around(grid: &BodyGrid, m: &Manipulator, joint: Joint) -> [GridHole; 4] {
     let at = grid.coordinates(&place(m, joint));
     let low = at.map(|x| x.floor() as i64);
     let mut out = [[0, 0], [1, 0], [0, 1], [1, 1]].map(|d: [i64; 2]| [low[0] + d[0], low[1] + d[1]]);
-    let distance = |c: &Cell| (c[0] as f64 - at[0]).hypot(c[1] as f64 - at[1]);
+    let distance = |c: &GridHole| (c[0] as f64 - at[0]).hypot(c[1] as f64 - at[1]);
     out.sort_by(|a, b| distance(a).total_cmp(&distance(b)).then(a.cmp(b)));
     out
 }
@@ -80,7 +80,7 @@ fn around(grid: &BodyGrid, m: &Manipulator, joint: Joint) -> [Cell; 4] {
 struct Found {
     laying: Laying,
     /// For every joint its hole, and where it is next to the nearest.
-    cells: Vec<Cell>,
+    cells: Vec<GridHole>,
     moved: Vec<Vector3<f64>>,
     not_nearest: usize,
     rounded: Manipulator,
@@ -104,10 +104,10 @@ fn search(
     let m = problem.manipulator;
     let list = joints(m);
     let grids = &laying.bodies;
-    let choices: Vec<[Cell; 4]> = list.iter().map(|j| around(grid_of(grids, j.body), m, *j)).collect();
-    let moved = |k: usize, cell: Cell| grid_of(grids, list[k].body).point(cell) - place(m, list[k]);
-    let cells: Vec<Cell> = choices.iter().map(|c| c[0]).collect();
-    let taken = |cells: &[Cell], k: usize, cell: Cell| {
+    let choices: Vec<[GridHole; 4]> = list.iter().map(|j| around(grid_of(grids, j.body), m, *j)).collect();
+    let moved = |k: usize, cell: GridHole| grid_of(grids, list[k].body).point(cell) - place(m, list[k]);
+    let cells: Vec<GridHole> = choices.iter().map(|c| c[0]).collect();
+    let taken = |cells: &[GridHole], k: usize, cell: GridHole| {
         (0..list.len()).any(|i| i != k && list[i].body == list[k].body && cells[i] == cell)
     };
     if let Some(k) = (0..list.len()).find(|k| taken(&cells, *k, cells[*k])) {

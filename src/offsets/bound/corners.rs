@@ -22,7 +22,7 @@ use super::ball::{Ball, dot};
 use super::multipliers::game;
 use super::rows::LegRow;
 use crate::offsets::conditioning::PoseLegs;
-use crate::offsets::limits::Bounds;
+use crate::offsets::limits::OffsetRanges;
 
 /// Corners of a box; bit `i` of the number tells the end of offset `i`.
 pub(super) const CORNERS: usize = 64;
@@ -158,7 +158,7 @@ fn least_length(q: &[Ball; 3], low: f64, high: f64, a: &Ball, b: &Ball) -> Optio
 pub(super) fn at_corners(
     rows: &[LegRow; 6],
     plain: &PoseLegs,
-    bounds: &Bounds,
+    bounds: &OffsetRanges,
     limit: f64,
 ) -> Option<AtCorners> {
     let middle = bounds.map(|(low, high)| f64::midpoint(low, high));
@@ -218,7 +218,7 @@ pub(super) fn at_corners(
 }
 
 /// A lower bound of `sigma_1` on the box: `z^T J w / (|z| |w|)` is a sum of functions of one offset each.
-fn greatest_singular_value(rows: &[LegRow; 6], v: &Vectors, bounds: &Bounds) -> Option<f64> {
+fn greatest_singular_value(rows: &[LegRow; 6], v: &Vectors, bounds: &OffsetRanges) -> Option<f64> {
     let (z, w) = (v.z.map(Ball::point), v.w.map(Ball::point));
     let mut sum = Ball::ZERO;
     for i in 0..6 {

@@ -17,8 +17,8 @@ use self::corners::{AtCorners, at_corners};
 use self::multipliers::{SAMPLES, Sampled, multipliers};
 use self::rows::{LegRow, Quotient, greatest};
 use super::conditioning::{PoseLegs, worst_case_above};
-use super::limits::{Bounds, Limits, point};
-use super::problem::{Model, OffsetProblem};
+use super::limits::{OffsetLimits, OffsetRanges, point};
+use super::problem::{OffsetModel, OffsetProblem};
 use crate::num::parallel::parallel;
 use crate::synthesis::sides;
 
@@ -53,7 +53,7 @@ pub(crate) struct BoundOptions {
 /// A box of offsets that may still hold something better.
 #[derive(Debug, Clone)]
 struct Node {
-    bounds: Bounds,
+    bounds: OffsetRanges,
     /// Poses to look at, the worst of the parent first.
     poses: Vec<usize>,
     /// Halvings it took.
@@ -79,34 +79,38 @@ const WIDEST: f64 = 64.0;
 /// Boxes in whose middles all poses are looked at.
 const LOOKS: usize = 24;
 
-fn middle(bounds: &Bounds) -> [f64; 6] {
+fn middle(bounds: &OffsetRanges) -> [f64; 6] {
     bounds.map(|(low, high)| f64::midpoint(low, high))
 }
 
 /// The search tree with what it needs of the problem.
 pub(crate) struct Bounding<'a> {
-    model: &'a Model,
-    limits: &'a Limits,
-    poses: Vec<Pose>,
+    model: &'a OffsetModel,
+    limits: &'a OffsetLimits,
+    poses: Vec<EnclosedPose>,
 }
 
 impl<'a> Bounding<'a> {
     /// `None` when the data do not make intervals.
-    pub(crate) fn new(problem: &OffsetProblem, model: &'a Model, limits: &'a Limits) -> Option<Self> {
+    pub(crate) fn new(
+        problem: &OffsetProblem,
+        model: &'a OffsetModel,
+        limits: &'a OffsetLimits,
+    ) -> Option<Self> {
         let plain = sides(&problem.octahedral, 1.0);
-        let rows = |pose: &crate::geom::Pose| -> Option<Pose> {
+        let rows = |pose: &crate::geom::Pose| -> Option<EnclosedPose> {
             let rows: Option<Vec<LegRow>> =
                 plain.iter().map(|s| LegRow::new(s, pose, problem.characteristic_length)).collect();
-            Some(Pose { rows: rows?.try_into().ok()? })
+            Some(EnclosedPose { rows: rows?.try_into().ok()? })
         };
-        let poses: Option<Vec<Pose>> = problem.poses.iter().map(rows).collect();
+        let poses: Option<Vec<EnclosedPose>> = problem.poses.iter().map(rows).collect();
         Some(Self { model, limits, poses: poses? })
     }
 
     /// The bound for the gap asked for, and for a tenth of it where that was easy; see [`Self::prove_once`].
     pub(crate) fn prove(
         &self,
-        boxes: Vec<Bounds>,
+        boxes: Vec<OffsetRanges>,
         value: f64,
         o: BoundOptions,
         improve: &mut dyn FnMut(&[[f64; 6]]) -> f64,
@@ -135,7 +139,7 @@ impl<'a> Bounding<'a> {
     /// answers with the best value known from then on. `None` when `tick` breaks off, or when nothing could be proved.
     fn prove_once(
         &self,
-        boxes: Vec<Bounds>,
+        boxes: Vec<OffsetRanges>,
         mut value: f64,
         o: BoundOptions,
         improve: &mut dyn FnMut(&[[f64; 6]]) -> f64,
@@ -204,7 +208,7 @@ impl<'a> Bounding<'a> {
     }
 
     /// Poses that are worst in the middles of some of the boxes, most frequent first: a start for the proofs.
-    fn telling_poses(&self, boxes: &[Bounds]) -> Vec<usize> {
+    fn telling_poses(&self, boxes: &[OffsetRanges]) -> Vec<usize> {
         let count = self.model.poses.len();
         let mut hits: Vec<(usize, usize)> = (0..count).map(|k| (0, k)).collect();
         if count > INHERITED {
@@ -238,7 +242,7 @@ const ATTEMPTS: [(usize, usize, usize, usize); 2] = [(10, 6, 3, 8), (usize::MAX,
 
 /// The poses of the problem as rows in intervals and the singular vectors that bound the singular values.
 #[derive(Debug)]
-struct Pose {
+struct EnclosedPose {
     rows: [LegRow; 6],
 }
 
@@ -306,7 +310,13 @@ struct Function<'a> {
 /// `mu_k >= 0` the sum over `k` is a sum of six functions of one offset each, and the box is excluded when their greatest values
 /// add up to less than 0. `v_k`, `w_k` are the singular vectors in the middle of the box; the multipliers come from a linear
 /// program over samples; both only decide how sharp the proof is.
-fn test(poses: &[Pose], plain: &[PoseLegs], candidates: &[usize], bounds: &Bounds, limit: f64) -> Test {
+fn test(
+    poses: &[EnclosedPose],
+    plain: &[PoseLegs],
+    candidates: &[usize],
+    bounds: &OffsetRanges,
+    limit: f64,
+) -> Test {
     let middle = bounds.map(|(low, high)| f64::midpoint(low, high));
     let mut found: Vec<(usize, Direction)> = Vec::new();
     let mut seen = 0;
@@ -329,7 +339,13 @@ fn test(poses: &[Pose], plain: &[PoseLegs], candidates: &[usize], bounds: &Bound
 }
 
 /// One attempt with these poses, worst first.
-fn excluded(poses: &[Pose], found: &[(usize, Direction)], mixed: usize, bounds: &Bounds, limit: f64) -> bool {
+fn excluded(
+    poses: &[EnclosedPose],
+    found: &[(usize, Direction)],
+    mixed: usize,
+    bounds: &OffsetRanges,
+    limit: f64,
+) -> bool {
     let mut functions: Vec<Function<'_>> = Vec::new();
     for (place, (pose, d)) in found.iter().enumerate() {
         // the first vectors with each of the others; for the worst poses only
@@ -355,7 +371,7 @@ fn excluded(poses: &[Pose], found: &[(usize, Direction)], mixed: usize, bounds: 
 }
 
 /// In intervals: the greatest values of the sum of the functions with their multipliers add up to less than 0.
-fn proved(poses: &[Pose], terms: &[(f64, &Function<'_>)], bounds: &Bounds, limit: f64) -> bool {
+fn proved(poses: &[EnclosedPose], terms: &[(f64, &Function<'_>)], bounds: &OffsetRanges, limit: f64) -> bool {
     let limit = point(limit).square();
     let greatest_of = |i: usize| -> f64 {
         let quotient = |(mu, f): &(f64, &Function<'_>)| -> Option<(f64, Quotient)> {
@@ -369,7 +385,12 @@ fn proved(poses: &[Pose], terms: &[(f64, &Function<'_>)], bounds: &Bounds, limit
 }
 
 /// Values of every function at the samples of its offsets, in plain arithmetic.
-fn sampled(poses: &[Pose], functions: &[Function<'_>], bounds: &Bounds, limit: f64) -> Vec<Sampled> {
+fn sampled(
+    poses: &[EnclosedPose],
+    functions: &[Function<'_>],
+    bounds: &OffsetRanges,
+    limit: f64,
+) -> Vec<Sampled> {
     let norm = |v: &[f64; 6]| v.iter().map(|x| x * x).sum::<f64>();
     let last = (SAMPLES - 1) as f64;
     let values = |f: &Function<'_>| -> Sampled {

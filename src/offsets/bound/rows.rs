@@ -7,7 +7,7 @@ use crate::geom::Pose;
 use crate::manipulator::Body;
 use crate::num::interval::Interval;
 use crate::offsets::limits::{Vector, cross, dot, minus, plus, point, vector};
-use crate::synthesis::Side;
+use crate::synthesis::HexagonSide;
 
 fn difference(a: &Point3<f64>, b: &Vector) -> Vector {
     minus(&vector(&a.coords), b)
@@ -57,7 +57,7 @@ impl PlainRow {
 
 impl LegRow {
     /// Everything in design units; `None` when `L` cannot divide.
-    pub(super) fn new(side: &Side, pose: &Pose, characteristic_length: f64) -> Option<Self> {
+    pub(super) fn new(side: &HexagonSide, pose: &Pose, characteristic_length: f64) -> Option<Self> {
         let r = pose.rotation.matrix();
         let edge = difference(&side.end, &vector(&side.start.coords));
         let zero = [Interval::ZERO; 3];

@@ -9,7 +9,7 @@ use crate::num::Rng;
 use crate::offsets::conditioning::worst_case;
 use crate::offsets::limits::point;
 use crate::offsets::tests::{example, poses_about};
-use crate::offsets::{OffsetOutcome, SearchOptions, optimize};
+use crate::offsets::{OffsetOutcome, OffsetSearchOptions, optimize};
 
 fn problem() -> OffsetProblem {
     OffsetProblem::with_defaults(example(), poses_about(std::f64::consts::PI, 5))
@@ -20,7 +20,7 @@ fn offsets(rng: &mut Rng) -> [f64; 6] {
 }
 
 /// Ranges of a width around offsets, which are not in their middles.
-fn around(t: &[f64; 6], width: f64, rng: &mut Rng) -> Bounds {
+fn around(t: &[f64; 6], width: f64, rng: &mut Rng) -> OffsetRanges {
     t.map(|x| {
         let low = x - width * rng.unit();
         (low, low + width)
@@ -30,7 +30,7 @@ fn around(t: &[f64; 6], width: f64, rng: &mut Rng) -> Bounds {
 #[test]
 fn rows_in_intervals_hold_the_rows_of_the_model() {
     let p = problem();
-    let m = Model::new(&p);
+    let m = OffsetModel::new(&p);
     let plain = sides(&p.octahedral, 1.0);
     let mut rng = Rng::new(2);
     for (k, pose) in p.poses.iter().enumerate() {
@@ -65,8 +65,8 @@ fn rows_in_intervals_hold_the_rows_of_the_model() {
 #[test]
 fn a_box_that_holds_something_better_is_never_excluded_and_small_ones_below_the_limit_are() {
     let p = problem();
-    let m = Model::new(&p);
-    let limits = Limits::new(&p);
+    let m = OffsetModel::new(&p);
+    let limits = OffsetLimits::new(&p);
     let tree = Bounding::new(&p, &m, &limits).unwrap();
     let all: Vec<usize> = (0..p.poses.len()).collect();
     let mut rng = Rng::new(9);
@@ -89,13 +89,13 @@ fn a_box_that_holds_something_better_is_never_excluded_and_small_ones_below_the_
 #[test]
 fn no_random_offsets_exceed_the_bound_and_the_solution_is_near_it() {
     let p = problem();
-    let o = SearchOptions { threads: 2, boxes: 8000, ..SearchOptions::default() };
+    let o = OffsetSearchOptions { threads: 2, boxes: 8000, ..OffsetSearchOptions::default() };
     let r = optimize(&p, &o, &mut |_| ControlFlow::Continue(())).unwrap();
     let (bound, value) = (r.bound.unwrap(), r.solution().unwrap().recheck.objective);
     // few poses leave wide plateaus: the gap asked for is not always reached within the boxes allowed
     assert!(bound.upper >= value && bound.upper <= value * 1.04, "{bound:?} {value}");
     assert_eq!(matches!(r.outcome, OffsetOutcome::Optimal(_)), bound.gap <= o.gap);
-    let m = Model::new(&p);
+    let m = OffsetModel::new(&p);
     let mut rng = Rng::new(4);
     for _ in 0..3000 {
         let t = offsets(&mut rng);
@@ -104,7 +104,8 @@ fn no_random_offsets_exceed_the_bound_and_the_solution_is_near_it() {
         }
     }
     // the same, whatever the number of threads
-    let one = optimize(&p, &SearchOptions { threads: 1, ..o }, &mut |_| ControlFlow::Continue(())).unwrap();
+    let one =
+        optimize(&p, &OffsetSearchOptions { threads: 1, ..o }, &mut |_| ControlFlow::Continue(())).unwrap();
     assert_eq!((one.bound, one.outcome), (r.bound, r.outcome));
 }
 
@@ -112,8 +113,8 @@ fn no_random_offsets_exceed_the_bound_and_the_solution_is_near_it() {
 #[test]
 fn better_offsets_than_the_value_given_are_come_upon() {
     let p = problem();
-    let m = Model::new(&p);
-    let limits = Limits::new(&p);
+    let m = OffsetModel::new(&p);
+    let limits = OffsetLimits::new(&p);
     let tree = Bounding::new(&p, &m, &limits).unwrap();
     let options = BoundOptions { gap: 0.05, boxes: 20_000, threads: 1 };
     let (start, mut best) = (0.02, 0.02f64);
@@ -135,8 +136,8 @@ fn better_offsets_than_the_value_given_are_come_upon() {
 fn functions_at_the_corners_are_above_what_they_bound() {
     use super::corners::{CORNERS, at_corners};
     let p = problem();
-    let m = Model::new(&p);
-    let limits = Limits::new(&p);
+    let m = OffsetModel::new(&p);
+    let limits = OffsetLimits::new(&p);
     let tree = Bounding::new(&p, &m, &limits).unwrap();
     let mut rng = Rng::new(12);
     let mut sharp = 0;

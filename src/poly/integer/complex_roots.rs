@@ -85,7 +85,7 @@ fn of_squarefree(q: &IntPoly, bits: u64, multiplicity: usize) -> Result<Vec<Comp
     let bound = q.root_bound();
     let q = q.stretched(-bound);
     let mut precision = (bits + 64).next_power_of_two();
-    let mut z: Vec<Fixed> = start(&q).into_iter().map(|z| Fixed::from_f64(z, precision)).collect();
+    let mut z: Vec<FixedPoint> = start(&q).into_iter().map(|z| FixedPoint::from_f64(z, precision)).collect();
     loop {
         let work = FixedPoly::new(&q, precision);
         for _ in 0..SWEEPS {
@@ -110,7 +110,7 @@ fn of_squarefree(q: &IntPoly, bits: u64, multiplicity: usize) -> Result<Vec<Comp
         if precision >= LAST {
             return Err(NotSeparated { bits: precision });
         }
-        z = z.into_iter().map(|z| Fixed { re: z.re << precision, im: z.im << precision }).collect();
+        z = z.into_iter().map(|z| FixedPoint { re: z.re << precision, im: z.im << precision }).collect();
         precision *= 2;
     }
 }
@@ -134,12 +134,12 @@ fn start(q: &IntPoly) -> Vec<Complex64> {
 
 /// A complex number `(re + i im) 2^-precision`.
 #[derive(Debug, Clone, PartialEq)]
-struct Fixed {
+struct FixedPoint {
     re: BigInt,
     im: BigInt,
 }
 
-impl Fixed {
+impl FixedPoint {
     fn from_f64(z: Complex64, precision: u64) -> Self {
         let part = |x: f64| {
             let d = Dyadic::from_f64(x).unwrap_or_else(|| Dyadic::new(BigInt::zero(), 0));
@@ -217,8 +217,8 @@ impl FixedPoly {
         Self { c: fixed(q, bits), d: fixed(&q.derivative(), bits), precision }
     }
 
-    fn horner(&self, c: &[BigInt], z: &Fixed) -> Fixed {
-        let mut value = Fixed { re: BigInt::zero(), im: BigInt::zero() };
+    fn horner(&self, c: &[BigInt], z: &FixedPoint) -> FixedPoint {
+        let mut value = FixedPoint { re: BigInt::zero(), im: BigInt::zero() };
         for c in c.iter().rev() {
             value = value.times(z, self.precision);
             value.re += c;
@@ -227,7 +227,7 @@ impl FixedPoly {
     }
 
     /// One sweep; `true` when every step was at the size of rounding or nothing more can be gained.
-    fn sweep(&self, z: &mut [Fixed]) -> bool {
+    fn sweep(&self, z: &mut [FixedPoint]) -> bool {
         let mut settled = true;
         for k in 0..z.len() {
             let value = self.horner(&self.c, &z[k]);
@@ -247,12 +247,12 @@ impl FixedPoly {
                 .sum();
             let factor = (1.0 - newton.scaled(log) * repulsion).inv();
             let factor = if factor.is_finite() && factor.norm() < 1e6 { factor } else { Complex64::ONE };
-            let mut step = newton.times(&Fixed::from_f64(factor, self.precision), self.precision);
+            let mut step = newton.times(&FixedPoint::from_f64(factor, self.precision), self.precision);
             let length = step.log2(true) - self.precision as f64;
             if length > 0.0 {
                 // no step is longer than the disc of the roots
                 let places = length.ceil() as i64;
-                step = Fixed { re: shifted(&step.re, -places), im: shifted(&step.im, -places) };
+                step = FixedPoint { re: shifted(&step.re, -places), im: shifted(&step.im, -places) };
             }
             settled &= length < -(self.precision as f64) * 0.75;
             z[k] = z[k].minus(&step);
@@ -261,7 +261,7 @@ impl FixedPoly {
     }
 
     /// Discs about the iterates, `None` unless they are disjoint and of radius below `2^-bits`; real roots get real centres.
-    fn enclose(&self, z: &[Fixed], bits: u64) -> Option<Vec<(BigInt, BigInt, f64)>> {
+    fn enclose(&self, z: &[FixedPoint], bits: u64) -> Option<Vec<(BigInt, BigInt, f64)>> {
         let n = z.len();
         let units = self.precision as f64;
         let lead = log2(self.c[n].magnitude());
@@ -282,8 +282,9 @@ impl FixedPoly {
             .collect();
         let small = radius.iter().all(|r| *r < -(bits as f64));
         // distances in units of one; the discs' sum of radii is at most twice the larger one
-        let apart =
-            |a: &Fixed, b: &Fixed, r: f64, s: f64| a.minus(b).log2(false) - units > r.max(s) + 1.0 + MARGIN;
+        let apart = |a: &FixedPoint, b: &FixedPoint, r: f64, s: f64| {
+            a.minus(b).log2(false) - units > r.max(s) + 1.0 + MARGIN
+        };
         let disjoint = (0..n).all(|i| (0..i).all(|j| apart(&z[i], &z[j], radius[i], radius[j])));
         if !(small && disjoint) {
             return None;
@@ -293,16 +294,16 @@ impl FixedPoly {
 
     fn decided(
         &self,
-        z: &[Fixed],
+        z: &[FixedPoint],
         radius: &[f64],
         i: usize,
-        apart: &impl Fn(&Fixed, &Fixed, f64, f64) -> bool,
+        apart: &impl Fn(&FixedPoint, &FixedPoint, f64, f64) -> bool,
     ) -> Option<(BigInt, BigInt, f64)> {
         let height = log2(z[i].im.magnitude()) - self.precision as f64;
         if height > radius[i] + MARGIN {
             return Some((z[i].re.clone(), z[i].im.clone(), radius[i]));
         }
-        let mirror = Fixed { re: z[i].re.clone(), im: -&z[i].im };
+        let mirror = FixedPoint { re: z[i].re.clone(), im: -&z[i].im };
         let alone = (0..z.len()).all(|j| j == i || apart(&mirror, &z[j], radius[i], radius[j]));
         // the root of the mirrored disc is the conjugate root, which is in no other disc
         alone.then(|| (z[i].re.clone(), BigInt::zero(), radius[i]))

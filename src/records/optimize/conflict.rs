@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::design::Design;
-use crate::dimensional::{Conflict, Demand, Give};
+use crate::dimensional::{ConstraintConflict, Demand, Give};
 use crate::records::Number;
 use crate::requirements::{Objective, TermKind};
 
@@ -20,7 +20,7 @@ pub struct ConflictRecord {
 impl ConflictRecord {
     /// The record of a conflict about a design.
     #[must_use]
-    pub fn new(design: &Design, c: &Conflict) -> Self {
+    pub fn new(design: &Design, c: &ConstraintConflict) -> Self {
         Self {
             proved: c.proved,
             requirements: c.demands.iter().map(|g| GiveRecord::new(design, g)).collect(),

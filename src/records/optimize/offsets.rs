@@ -8,7 +8,7 @@ use crate::entrance::OptimizeStatus;
 use crate::entrance::optimizing::offset_status;
 use crate::geom::Pose;
 use crate::offsets::{
-    BranchReport, BranchVerdict, Conflict, GlobalBound, HistoryStep, OffsetOutcome, OffsetProblem,
+    BranchReport, BranchVerdict, Conflict, GlobalBound, OffsetHistoryStep, OffsetOutcome, OffsetProblem,
     OffsetReport, OffsetSolution,
 };
 use crate::records::map::matrix;
@@ -273,8 +273,8 @@ pub struct OffsetStepRecord {
     pub accepted: bool,
 }
 
-impl From<&HistoryStep> for OffsetStepRecord {
-    fn from(h: &HistoryStep) -> Self {
+impl From<&OffsetHistoryStep> for OffsetStepRecord {
+    fn from(h: &OffsetHistoryStep) -> Self {
         Self {
             objective: Number(h.value),
             violation: Number(h.violation),

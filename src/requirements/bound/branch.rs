@@ -4,8 +4,8 @@ use std::cmp::Ordering;
 use std::collections::{BTreeMap, BinaryHeap};
 
 use super::cone::Sector;
-use super::{Function, Judge, MarginBound, verdict};
-use crate::geom::{Cell, Chart, Covered};
+use super::{CellJudge, Function, MarginBound, verdict};
+use crate::geom::{Chart, ChartCell, Covered};
 use crate::num::Rng;
 use crate::requirements::assess::Margin;
 
@@ -16,7 +16,7 @@ struct Open {
     number: usize,
     function: usize,
     chart: usize,
-    cell: Cell,
+    cell: ChartCell,
     /// For swing: directions in which the leg leans.
     sector: Sector,
     /// What to halve: a coordinate, or the sector (6).
@@ -71,7 +71,7 @@ struct State {
     searches: BTreeMap<(usize, usize), (usize, f64)>,
 }
 
-impl Judge<'_> {
+impl CellJudge<'_> {
     /// The least margin of a function in doubles.
     fn plain(&self, function: Function, chart: usize, x: &[f64; 6]) -> f64 {
         let all = self.terms.at(&self.charts[chart].pose(x));
@@ -83,10 +83,11 @@ impl Judge<'_> {
         let kind = found.term.kind;
         let functions = self.functions(kind);
         // the worst pose found so far, for a proof that it is one
-        let pose = found.pose.map(|p| Judge { charts: vec![Chart::of_pose(&p)], axes: self.axes, ..*self });
+        let pose =
+            found.pose.map(|p| CellJudge { charts: vec![Chart::of_pose(&p)], axes: self.axes, ..*self });
         let upper = pose.map_or(f64::INFINITY, |judge| {
             let point =
-                |f: &Function| judge.evaluate(*f, 0, &Cell::point([0.0; 6]), &Sector::ALL, None).upper;
+                |f: &Function| judge.evaluate(*f, 0, &ChartCell::point([0.0; 6]), &Sector::ALL, None).upper;
             functions.iter().map(point).fold(f64::INFINITY, f64::min)
         });
         let mut state = State {
@@ -154,7 +155,7 @@ impl Judge<'_> {
         state: &mut State,
         functions: &[Function],
         (f, c): (usize, usize),
-        cell: Cell,
+        cell: ChartCell,
         sector: Sector,
         parent: f64,
     ) {
@@ -229,7 +230,7 @@ impl Judge<'_> {
                 step /= 3.0;
             }
         }
-        let found = self.evaluate(functions[f], c, &Cell::point(x), &Sector::ALL, None);
+        let found = self.evaluate(functions[f], c, &ChartCell::point(x), &Sector::ALL, None);
         if found.upper < state.upper {
             (state.upper, state.worst) = (found.upper, Some((c, x)));
         }

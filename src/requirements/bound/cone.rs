@@ -9,8 +9,8 @@
 //!
 //! The right side is linear in the translation and nearly so in the rotation, where the angle itself has a kink and many local minima. The directions `e` all around the axis are covered by sectors.
 
-use super::frame::Frame;
-use crate::geom::enclosed::{Vector, cross};
+use super::frame::CellFrame;
+use crate::geom::enclosed::{IntervalVector, cross};
 use crate::geom::{arc_cosine, cosine, degrees, radians, sine};
 use crate::manipulator::Manipulator;
 use crate::num::interval::Interval;
@@ -53,13 +53,13 @@ impl Sector {
 }
 
 /// Where a leg may lean.
-pub(super) struct Cone<'a> {
+pub(super) struct SwingCone<'a> {
     m: &'a Manipulator,
     leg: usize,
     /// Whether the axis is that of a joint of the platform and moves with it.
     platform: bool,
     /// Axis and two directions across it, orthonormal; platform frame for a joint of the platform.
-    frame: [Vector; 3],
+    frame: [IntervalVector; 3],
     limit_deg: f64,
     /// `sin` and `cos` of the limit.
     sine: Interval,
@@ -77,13 +77,13 @@ pub(super) struct Leaning {
     pub(super) loose: f64,
 }
 
-impl<'a> Cone<'a> {
+impl<'a> SwingCone<'a> {
     /// `None` for limits of 90 degrees and more, where the directions allowed are not a convex cone.
     pub(super) fn new(
         m: &'a Manipulator,
         leg: usize,
         platform: bool,
-        axis: &Vector,
+        axis: &IntervalVector,
         length: Interval,
         limit_deg: f64,
     ) -> Option<Self> {
@@ -97,7 +97,7 @@ impl<'a> Cone<'a> {
         // a right-handed frame: the cross product with the coordinate axis that is farthest away, made a unit vector in intervals
         let farthest =
             (0..3).fold(0, |best, j| if k[j].magnitude() < k[best].magnitude() { j } else { best });
-        let unit: Vector =
+        let unit: IntervalVector =
             std::array::from_fn(|j| if j == farthest { Interval::from(1.0) } else { Interval::ZERO });
         let mut first = cross(&k, &unit);
         let norm = (first[0].square() + first[1].square() + first[2].square()).sqrt()?;
@@ -118,12 +118,12 @@ impl<'a> Cone<'a> {
     }
 
     /// The right side over a frame; `None` for sectors too wide for it.
-    pub(super) fn value(&self, frame: &Frame<'_>, sector: &Sector) -> Option<Leaning> {
+    pub(super) fn value(&self, frame: &CellFrame<'_>, sector: &Sector) -> Option<Leaning> {
         let line = frame.leg(self.m, self.leg).line;
-        let place = |v: &Vector| if self.platform { frame.turned(v) } else { frame.fixed(v) };
+        let place = |v: &IntervalVector| if self.platform { frame.turned(v) } else { frame.fixed(v) };
         let middle = Interval::from(sector.middle);
         let (c, s) = (cosine(middle), sine(middle));
-        let e: Vector = std::array::from_fn(|k| c * self.frame[1][k] + s * self.frame[2][k]);
+        let e: IntervalVector = std::array::from_fn(|k| c * self.frame[1][k] + s * self.frame[2][k]);
         let narrow = cosine(Interval::from(sector.half + OVERLAP));
         let weight = self.cosine.checked_div(narrow).filter(|_| narrow.lo() > 0.0)?;
         let (along, across) = (dot(&line, &place(&self.frame[0])), dot(&line, &place(&e)));
@@ -155,7 +155,7 @@ impl<'a> Cone<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::{Cell, Chart, Pose};
+    use crate::geom::{Chart, ChartCell, Pose};
     use crate::num::Rng;
     use nalgebra::{Point3, Rotation3, Vector3};
 
@@ -173,12 +173,12 @@ mod tests {
                 position: Vector3::new(rng.normal(), 0.3, 4.0),
             };
             let axis = Vector3::new(0.3 * rng.normal(), 0.3 * rng.normal(), 1.0);
-            let enclosed: Vector = std::array::from_fn(|k| Interval::from(axis[k]));
+            let enclosed: IntervalVector = std::array::from_fn(|k| Interval::from(axis[k]));
             let length = (enclosed[0].square() + enclosed[1].square() + enclosed[2].square()).sqrt().unwrap();
             let limit = rng.uniform(10.0, 85.0);
-            let cone = Cone::new(&m, 2, false, &enclosed, length, limit).unwrap();
+            let cone = SwingCone::new(&m, 2, false, &enclosed, length, limit).unwrap();
             let chart = Chart::of_pose(&pose);
-            let frame = Frame::over(&chart, &Cell::point([0.0; 6]), false);
+            let frame = CellFrame::over(&chart, &ChartCell::point([0.0; 6]), false);
             let mut sectors = Sector::all(true);
             for _ in 0..5 {
                 sectors = sectors.into_iter().flat_map(Sector::halves).collect();
@@ -196,12 +196,15 @@ mod tests {
                 limit - angle
             );
         }
-        let k: Vector = [Interval::ZERO, Interval::ZERO, Interval::from(1.0)];
+        let k: IntervalVector = [Interval::ZERO, Interval::ZERO, Interval::from(1.0)];
         let m = Manipulator::try_new(
             vec![Point3::origin(), Point3::new(1.0, 0.0, 0.0), Point3::new(0.0, 1.0, 0.0)],
             vec![Point3::origin(), Point3::new(1.0, 0.0, 0.0), Point3::new(0.0, 1.0, 0.0)],
             [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)],
         );
-        assert!(Cone::new(&m.unwrap(), 0, false, &k, Interval::from(1.0), 120.0).is_none(), "no convex cone");
+        assert!(
+            SwingCone::new(&m.unwrap(), 0, false, &k, Interval::from(1.0), 120.0).is_none(),
+            "no convex cone"
+        );
     }
 }

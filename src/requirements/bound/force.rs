@@ -6,10 +6,10 @@
 
 use nalgebra::Matrix6;
 
-use super::frame::{Frame, enclosed};
+use super::frame::{CellFrame, enclosed};
 use super::local::{self, Bounded};
-use crate::geom::enclosed::{Matrix, Vector, contraction, times};
-use crate::geom::{Cell, Chart};
+use crate::geom::enclosed::{IntervalMatrix, IntervalVector, contraction, times};
+use crate::geom::{Chart, ChartCell};
 use crate::manipulator::{Body, Manipulator};
 use crate::num::interval::Interval;
 use crate::num::jet::{Jet, JetVector, cross};
@@ -25,7 +25,7 @@ struct System {
 }
 
 impl System {
-    fn over(frame: &Frame<'_>, m: &Manipulator, load: &Load) -> Self {
+    fn over(frame: &CellFrame<'_>, m: &Manipulator, load: &Load) -> Self {
         let unit = Interval::from(1.0).checked_div(Interval::from(m.size())).unwrap_or(Interval::WHOLE);
         let legs: [_; 6] = std::array::from_fn(|i| frame.leg(m, i));
         let moments: [JetVector; 6] = std::array::from_fn(|i| legs[i].moment());
@@ -33,7 +33,7 @@ impl System {
             std::array::from_fn(|i| if r < 3 { legs[i].line[r] } else { moments[i][r - 3].times(unit) })
         });
         let turned = |v: &nalgebra::Vector3<f64>| {
-            let v: Vector = std::array::from_fn(|k| Interval::from(v[k]));
+            let v: IntervalVector = std::array::from_fn(|k| Interval::from(v[k]));
             match load.fixed_to {
                 Body::Base => frame.fixed(&v),
                 Body::Platform => frame.turned(&v),
@@ -50,19 +50,19 @@ impl System {
         Self { rows, right, lengths: std::array::from_fn(|i| legs[i].square.root()) }
     }
 
-    fn values(&self) -> Matrix {
+    fn values(&self) -> IntervalMatrix {
         self.rows.map(|row| row.map(|x| x.value))
     }
 
-    fn slopes(&self, k: usize) -> Matrix {
+    fn slopes(&self, k: usize) -> IntervalMatrix {
         self.rows.map(|row| row.map(|x| x.slope(k)))
     }
 }
 
 /// A bound of `|I - K A|` with what solves systems by it.
-struct Solver {
+struct ForceSolver {
     inverse: Matrix6<f64>,
-    defect: Matrix,
+    defect: IntervalMatrix,
     weights: [f64; 6],
     factor: f64,
 }
@@ -71,9 +71,9 @@ fn apply(k: &Matrix6<f64>, b: &[Interval; 6]) -> [Interval; 6] {
     std::array::from_fn(|i| (0..6).fold(Interval::ZERO, |s, j| s + Interval::from(k[(i, j)]) * b[j]))
 }
 
-impl Solver {
+impl ForceSolver {
     /// For `A` at `z` and all over a cell.
-    fn new(at: &System, over: &System, cell: &Cell, z: &[f64; 6], variables: usize) -> Option<Self> {
+    fn new(at: &System, over: &System, cell: &ChartCell, z: &[f64; 6], variables: usize) -> Option<Self> {
         let there = at.values();
         let inverse = Matrix6::from_fn(|i, k| there[i][k].centre_and_radius().0).try_inverse()?;
         let mut defect = times(&inverse, &there);
@@ -133,9 +133,9 @@ impl Solver {
 /// A lower bound of `greatest - |F_i|` over a cell for all legs, and an upper bound of the least one at `z`.
 pub(super) fn force(
     chart: &Chart,
-    cell: &Cell,
+    cell: &ChartCell,
     z: &[f64; 6],
-    frames: (&Frame<'_>, &Frame<'_>),
+    frames: (&CellFrame<'_>, &CellFrame<'_>),
     m: &Manipulator,
     load: &Load,
     greatest: f64,
@@ -143,8 +143,8 @@ pub(super) fn force(
     let n = chart.len();
     let at = System::over(frames.0, m, load);
     let over = System::over(frames.1, m, load);
-    let point = Cell::point(*z);
-    let Some(here) = Solver::new(&at, &at, &point, z, n).and_then(|s| s.forces(&at, n)) else {
+    let point = ChartCell::point(*z);
+    let Some(here) = ForceSolver::new(&at, &at, &point, z, n).and_then(|s| s.forces(&at, n)) else {
         return (Bounded::nothing(cell), f64::INFINITY);
     };
     let room = |f: &Jet, sign: f64| {
@@ -153,7 +153,7 @@ pub(super) fn force(
     let both = |f: &[Jet; 6]| -> Vec<Jet> { f.iter().flat_map(|f| [room(f, 1.0), room(f, -1.0)]).collect() };
     let points = both(&here);
     let upper = points.iter().map(|x| x.value.hi()).fold(f64::INFINITY, f64::min);
-    let Some(all) = Solver::new(&at, &over, cell, z, n).and_then(|s| s.forces(&over, n)) else {
+    let Some(all) = ForceSolver::new(&at, &over, cell, z, n).and_then(|s| s.forces(&over, n)) else {
         return (Bounded::nothing(cell), upper);
     };
     let bounds = points.iter().zip(both(&all)).map(|(p, o)| local::below_first_order(chart, cell, z, p, &o));

@@ -2,14 +2,14 @@
 
 use nalgebra::Point3;
 
-use crate::geom::enclosed::{Vector, apply};
-use crate::geom::{Cell, Chart, TurnCoefficients, combination};
+use crate::geom::enclosed::{IntervalVector, apply};
+use crate::geom::{Chart, ChartCell, TurnCoefficients, combination};
 use crate::manipulator::Manipulator;
 use crate::num::interval::Interval;
 use crate::num::jet::{Jet, JetVector, cross, dot, norm_squared};
 
 /// The poses of a cell: translation `d` and the parts of `exp([w]x) = I + C_1 [w]x + C_2 (w w^T - (w.w) I)`.
-pub(super) struct Frame<'a> {
+pub(super) struct CellFrame<'a> {
     chart: &'a Chart,
     variables: usize,
     second: bool,
@@ -20,9 +20,9 @@ pub(super) struct Frame<'a> {
     twice: Jet,
 }
 
-impl<'a> Frame<'a> {
+impl<'a> CellFrame<'a> {
     /// The frame over a cell, with second derivatives where they are needed.
-    pub(super) fn over(chart: &'a Chart, cell: &Cell, second: bool) -> Self {
+    pub(super) fn over(chart: &'a Chart, cell: &ChartCell, second: bool) -> Self {
         let variables = chart.len();
         let values = combination(&chart.columns, cell);
         let coordinate = |k: usize| {
@@ -53,12 +53,12 @@ impl<'a> Frame<'a> {
     }
 
     /// A fixed vector.
-    pub(super) fn fixed(&self, v: &Vector) -> JetVector {
+    pub(super) fn fixed(&self, v: &IntervalVector) -> JetVector {
         v.map(|x| self.constant(x))
     }
 
     /// A vector of the platform frame in the base frame: `exp([w]x) R_0 v`.
-    pub(super) fn turned(&self, v: &Vector) -> JetVector {
+    pub(super) fn turned(&self, v: &IntervalVector) -> JetVector {
         let y = apply(&self.chart.rotation, v);
         let fixed = self.fixed(&y);
         let once = [
@@ -85,23 +85,23 @@ impl<'a> Frame<'a> {
     }
 
     /// The legs of a manipulator.
-    pub(super) fn leg(&self, m: &Manipulator, i: usize) -> Leg {
+    pub(super) fn leg(&self, m: &Manipulator, i: usize) -> LegOverCell {
         let joints = m.legs()[i];
         let arm = self.turned(&enclosed(&joints.platform));
         let origin = self.origin();
         let base = self.fixed(&enclosed(&joints.base));
         let line: JetVector = std::array::from_fn(|k| arm[k] + (origin[k] - base[k]));
-        Leg { base, arm, line, square: norm_squared(&line) }
+        LegOverCell { base, arm, line, square: norm_squared(&line) }
     }
 }
 
 /// The coordinates of a point.
-pub(super) fn enclosed(point: &Point3<f64>) -> Vector {
+pub(super) fn enclosed(point: &Point3<f64>) -> IntervalVector {
     std::array::from_fn(|k| Interval::from(point[k]))
 }
 
 /// A leg over the poses of a frame.
-pub(super) struct Leg {
+pub(super) struct LegOverCell {
     /// Base joint.
     pub(super) base: JetVector,
     /// `R b`.
@@ -112,7 +112,7 @@ pub(super) struct Leg {
     pub(super) square: Jet,
 }
 
-impl Leg {
+impl LegOverCell {
     /// `cos` of the angle between the leg and a vector whose length is known; `None` where the leg may have no length.
     pub(super) fn cosine(&self, axis: &JetVector, length: Interval) -> Option<Jet> {
         let over = Interval::from(1.0).checked_div(length)?;

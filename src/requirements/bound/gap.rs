@@ -6,14 +6,14 @@
 
 use nalgebra::Vector3;
 
-use super::frame::{Frame, enclosed};
+use super::frame::{CellFrame, enclosed};
 use super::local::{self, Bounded};
-use crate::geom::{Cell, Chart};
+use crate::geom::{Chart, ChartCell};
 use crate::manipulator::{Body, Manipulator};
 use crate::num::interval::Interval;
 use crate::num::jet::{JetVector, cross, dot, norm_squared};
 use crate::requirements::hardware::LegBody;
-use crate::requirements::keep_out::{KeepOut, Shape};
+use crate::requirements::keep_out::{KeepOut, KeepOutShape};
 
 /// The convex hull of some points, and a radius around it.
 #[derive(Clone)]
@@ -29,7 +29,7 @@ fn halved(x: f64) -> Interval {
 /// Cylinder and rod of a leg over a frame.
 ///
 /// Where the leg may be shorter or longer than the cylinder, or has no sure length, it is one part with the larger radius, which holds both.
-pub(super) fn leg_parts(frame: &Frame<'_>, m: &Manipulator, i: usize, body: &LegBody) -> Vec<Hull> {
+pub(super) fn leg_parts(frame: &CellFrame<'_>, m: &Manipulator, i: usize, body: &LegBody) -> Vec<Hull> {
     let leg = frame.leg(m, i);
     let end: JetVector = std::array::from_fn(|k| leg.base[k] + leg.line[k]);
     let whole = |radius: f64| vec![Hull { points: vec![leg.base, end], radius: halved(radius) }];
@@ -52,11 +52,11 @@ pub(super) fn leg_parts(frame: &Frame<'_>, m: &Manipulator, i: usize, body: &Leg
 }
 
 /// A keep-out over a frame.
-pub(super) fn body_part(frame: &Frame<'_>, body: &KeepOut) -> Hull {
+pub(super) fn body_part(frame: &CellFrame<'_>, body: &KeepOut) -> Hull {
     let (points, diameter) = match &body.shape {
-        Shape::Sphere { center, diameter } => (vec![*center], *diameter),
-        Shape::Capsule { from, to, diameter } => (vec![*from, *to], *diameter),
-        Shape::Box { center, size } => {
+        KeepOutShape::Sphere { center, diameter } => (vec![*center], *diameter),
+        KeepOutShape::Capsule { from, to, diameter } => (vec![*from, *to], *diameter),
+        KeepOutShape::Box { center, size } => {
             let corner = |c: usize| {
                 let sign = |k: usize| if c >> k & 1 == 0 { -0.5 } else { 0.5 };
                 // half an edge beyond the centre, rounded away below
@@ -71,7 +71,7 @@ pub(super) fn body_part(frame: &Frame<'_>, body: &KeepOut) -> Hull {
     };
     // corners of boxes are rounded by less than this
     let rounding = match &body.shape {
-        Shape::Box { center, size } => 4.0 * f64::EPSILON * (center.coords.amax() + size.amax()),
+        KeepOutShape::Box { center, size } => 4.0 * f64::EPSILON * (center.coords.amax() + size.amax()),
         _ => 0.0,
     };
     Hull { points: points.iter().map(place).collect(), radius: halved(diameter) + Interval::from(rounding) }
@@ -158,7 +158,7 @@ fn direction(a: &[JetVector], b: &[JetVector], on: (On, On)) -> (JetVector, Vec<
 /// A lower bound of the gap of two hulls over a cell, and an upper bound of the gap at the point `z`.
 pub(super) fn gap(
     chart: &Chart,
-    cell: &Cell,
+    cell: &ChartCell,
     z: &[f64; 6],
     at: (&Hull, &Hull),
     over: (&Hull, &Hull),

@@ -10,7 +10,7 @@
 //! `m = -g . z / |z|^2` the slopes nearly vanish at a worst pose on the sphere, and the curvature gains `m`. The quadratic form is at least `-sum s_k`, with `s_k` such that the elimination of
 //! `D H D + diag(s)` has positive pivots for all matrices of the interval matrix (`D` the reaches of the cell), or by Gershgorin's circles.
 
-use crate::geom::{Cell, Chart};
+use crate::geom::{Chart, ChartCell};
 use crate::num::interval::Interval;
 use crate::num::jet::Jet;
 
@@ -23,7 +23,7 @@ pub(super) struct Bounded {
 
 impl Bounded {
     /// Nothing is known.
-    pub(super) fn nothing(cell: &Cell) -> Self {
+    pub(super) fn nothing(cell: &ChartCell) -> Self {
         Self { below: f64::NEG_INFINITY, loose: std::array::from_fn(|k| cell.hi[k] - cell.lo[k]) }
     }
 
@@ -43,7 +43,7 @@ fn sum(terms: impl Iterator<Item = Interval>) -> Interval {
 }
 
 /// The multipliers of the balls at `z`; none for balls that hold the whole cell.
-fn multipliers(chart: &Chart, cell: &Cell, at: &Jet, z: &[f64; 6]) -> Vec<f64> {
+fn multipliers(chart: &Chart, cell: &ChartCell, at: &Jet, z: &[f64; 6]) -> Vec<f64> {
     let of = |group: &Vec<usize>| {
         if !(cell.norm_squared(group).hi() > 1.0) {
             return 0.0;
@@ -69,7 +69,7 @@ fn by_coordinate(chart: &Chart, multipliers: &[f64]) -> [f64; 6] {
 
 /// `f(z) + sum m (|z|^2 - 1) / 2`.
 fn constant(chart: &Chart, at: &Jet, z: &[f64; 6], multipliers: &[f64]) -> Interval {
-    let point = Cell::point(*z);
+    let point = ChartCell::point(*z);
     let terms = chart
         .balls
         .iter()
@@ -79,7 +79,7 @@ fn constant(chart: &Chart, at: &Jet, z: &[f64; 6], multipliers: &[f64]) -> Inter
 }
 
 /// Lower bound from values and derivatives at the point `z` (`at`, first order) and over the cell (`over`, second order).
-pub(super) fn below(chart: &Chart, cell: &Cell, z: &[f64; 6], at: &Jet, over: &Jet) -> Bounded {
+pub(super) fn below(chart: &Chart, cell: &ChartCell, z: &[f64; 6], at: &Jet, over: &Jet) -> Bounded {
     let best = multipliers(chart, cell, at, z);
     let plain = with(chart, cell, z, at, over, &vec![0.0; best.len()]);
     let found =
@@ -87,7 +87,7 @@ pub(super) fn below(chart: &Chart, cell: &Cell, z: &[f64; 6], at: &Jet, over: &J
     Bounded { below: found.below.max(over.value.lo()), ..found }
 }
 
-fn with(chart: &Chart, cell: &Cell, z: &[f64; 6], at: &Jet, over: &Jet, multipliers: &[f64]) -> Bounded {
+fn with(chart: &Chart, cell: &ChartCell, z: &[f64; 6], at: &Jet, over: &Jet, multipliers: &[f64]) -> Bounded {
     let n = chart.len();
     let extra = by_coordinate(chart, multipliers);
     let reach: [f64; 6] = std::array::from_fn(|k| cell.reach(z, k));
@@ -113,7 +113,13 @@ fn with(chart: &Chart, cell: &Cell, z: &[f64; 6], at: &Jet, over: &Jet, multipli
 }
 
 /// Lower bound from values and slopes at `z` and slopes over the cell (`over`): the mean value theorem.
-pub(super) fn below_first_order(chart: &Chart, cell: &Cell, z: &[f64; 6], at: &Jet, over: &Jet) -> Bounded {
+pub(super) fn below_first_order(
+    chart: &Chart,
+    cell: &ChartCell,
+    z: &[f64; 6],
+    at: &Jet,
+    over: &Jet,
+) -> Bounded {
     let n = chart.len();
     let mut best = Bounded { below: over.value.lo(), loose: [0.0; 6] };
     for k in 0..n {

@@ -15,15 +15,15 @@ mod local;
 #[cfg(test)]
 mod tests;
 
-use self::cone::{Cone, Sector};
-use self::frame::{Frame, enclosed};
+use self::cone::{Sector, SwingCone};
+use self::frame::{CellFrame, enclosed};
 use self::local::Bounded;
 use super::Requirements;
 use super::assess::{AssessOptions, Assessment, Margin, assess};
 use super::hardware::Housing;
 use super::term::{Term, TermKind, Terms};
-use crate::geom::enclosed::{Vector, dot};
-use crate::geom::{Cell, Chart, PoseSpace, arc_cosine, degrees, radians};
+use crate::geom::enclosed::{IntervalVector, dot};
+use crate::geom::{Chart, ChartCell, PoseSpace, arc_cosine, degrees, radians};
 use crate::manipulator::Manipulator;
 use crate::num::interval::Interval;
 use crate::num::jet::Jet;
@@ -35,7 +35,7 @@ use crate::num::jet::Jet;
     derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     serde(rename_all = "snake_case")
 )]
-pub enum Verdict {
+pub enum MarginVerdict {
     /// Proved: no margin is negative.
     Met,
     /// Proved: no margin is negative by more than the rounding of its evaluation ([`Terms::rounding`]).
@@ -46,7 +46,7 @@ pub enum Verdict {
     Searched,
 }
 
-impl Verdict {
+impl MarginVerdict {
     /// The word for it.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -69,7 +69,7 @@ impl Verdict {
     }
 }
 
-impl std::fmt::Display for Verdict {
+impl std::fmt::Display for MarginVerdict {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(self.name())
     }
@@ -83,21 +83,21 @@ pub struct MarginBound {
     /// Proved: no pose of the workspace has a smaller margin; minus infinity when nothing is proved.
     pub below: f64,
     /// What follows.
-    pub verdict: Verdict,
+    pub verdict: MarginVerdict,
     /// Cells bounded.
     pub cells: usize,
 }
 
 /// The least margins of all kinds with what is proved of them.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Proof {
+pub struct MarginProof {
     /// By kind.
     pub bounds: Vec<MarginBound>,
     /// Poses looked at by sampling and searches.
     pub poses: usize,
 }
 
-impl Proof {
+impl MarginProof {
     /// `Some(false)` when a requirement is violated, `Some(true)` when all are proved to be met.
     #[must_use]
     pub fn all_met(&self) -> Option<bool> {
@@ -119,31 +119,31 @@ pub fn prove(
     space: &PoseSpace,
     o: &AssessOptions,
     cells: usize,
-) -> Proof {
+) -> MarginProof {
     let Assessment { margins, poses } = assess(m, required, space, o);
     let terms = Terms::new(m, required, &space.home);
     let charts = Chart::all(space);
     let home = Chart::of_pose(&space.home);
-    let judge = Judge { m, required, terms: &terms, axes: axes(m, required, &home), charts };
+    let judge = CellJudge { m, required, terms: &terms, axes: axes(m, required, &home), charts };
     let bounds = margins.into_iter().map(|found| {
         if found.term.kind.is_fixed() {
             return judge.fixed(found);
         }
         judge.bound(found, cells, o.seed)
     });
-    Proof { bounds: bounds.collect(), poses }
+    MarginProof { bounds: bounds.collect(), poses }
 }
 
 /// Axes from which swing is measured, at the base in the base frame and at the platform in the platform frame, and their lengths.
-type Axes = [[(Vector, Interval); 6]; 2];
+type Axes = [[(IntervalVector, Interval); 6]; 2];
 
 fn axes(m: &Manipulator, required: &Requirements, home: &Chart) -> Axes {
     use super::hardware::JointAxes;
-    let frame = Frame::over(home, &home.root, false);
+    let frame = CellFrame::over(home, &home.root, false);
     let swings = [required.hardware.base_swing, required.hardware.platform_swing];
     std::array::from_fn(|body| {
         std::array::from_fn(|i| {
-            let axis: Vector = if let Some(JointAxes::Given(axes)) = swings[body].map(|s| s.axes) {
+            let axis: IntervalVector = if let Some(JointAxes::Given(axes)) = swings[body].map(|s| s.axes) {
                 std::array::from_fn(|k| Interval::from(axes[i][k]))
             } else {
                 let along = frame.leg(m, i).line.map(|x| x.value);
@@ -160,7 +160,7 @@ fn axes(m: &Manipulator, required: &Requirements, home: &Chart) -> Axes {
     })
 }
 
-fn dot_square(v: &Vector) -> Interval {
+fn dot_square(v: &IntervalVector) -> Interval {
     v[0].square() + v[1].square() + v[2].square()
 }
 
@@ -188,7 +188,7 @@ impl Function {
     }
 }
 
-struct Judge<'a> {
+struct CellJudge<'a> {
     m: &'a Manipulator,
     required: &'a Requirements,
     terms: &'a Terms<'a>,
@@ -203,7 +203,7 @@ struct Evaluated {
     upper: f64,
     z: [f64; 6],
     /// The cell less what cannot hold the least margin; `None` when nothing is left.
-    rest: Option<Cell>,
+    rest: Option<ChartCell>,
     /// By how much the width of the sector loosens the bound.
     loose_sector: f64,
 }
@@ -212,14 +212,14 @@ struct Evaluated {
 struct AtPoint {
     bounded: Bounded,
     upper: f64,
-    rest: Option<Cell>,
+    rest: Option<ChartCell>,
     loose_sector: f64,
     /// Slopes at the point, of a function that falls with the margin towards worse poses.
     slope: Option<[f64; 6]>,
 }
 
 impl AtPoint {
-    fn nothing(cell: &Cell) -> Self {
+    fn nothing(cell: &ChartCell) -> Self {
         Self {
             bounded: Bounded::nothing(cell),
             upper: f64::INFINITY,
@@ -233,7 +233,7 @@ impl AtPoint {
 /// Steps along the slopes from a point of each cell.
 const STEPS: usize = 6;
 
-impl Judge<'_> {
+impl CellJudge<'_> {
     fn functions(&self, kind: TermKind) -> Vec<Function> {
         let pairs = self.m.pairs();
         match kind {
@@ -254,7 +254,7 @@ impl Judge<'_> {
         &self,
         function: Function,
         c: usize,
-        cell: &Cell,
+        cell: &ChartCell,
         sector: &Sector,
         known: Option<[f64; 6]>,
     ) -> Evaluated {
@@ -270,7 +270,7 @@ impl Judge<'_> {
             }
         }
         let second = !matches!(function, Function::Load(_));
-        let over = Frame::over(chart, cell, second);
+        let over = CellFrame::over(chart, cell, second);
         let mut out = Evaluated {
             bounded: Bounded { below: f64::NEG_INFINITY, ..Bounded::nothing(cell) },
             upper: f64::INFINITY,
@@ -279,7 +279,7 @@ impl Judge<'_> {
             loose_sector: 0.0,
         };
         for (number, z) in points.into_iter().enumerate() {
-            let at = Frame::over(chart, &Cell::point(z), false);
+            let at = CellFrame::over(chart, &ChartCell::point(z), false);
             let found = self.at_point(function, chart, cell, sector, &z, (&at, &over));
             if number == 0 {
                 (out.bounded, out.rest, out.loose_sector) = (found.bounded, found.rest, found.loose_sector);
@@ -302,7 +302,7 @@ impl Judge<'_> {
     fn follow(&self, (kind, i): (TermKind, usize), chart: &Chart, mut slope: [f64; 6], out: &mut Evaluated) {
         for _ in 0..STEPS {
             let y = farthest(chart, &slope);
-            let there = Frame::over(chart, &Cell::point(y), false);
+            let there = CellFrame::over(chart, &ChartCell::point(y), false);
             let Some(value) = self.leg_value(kind, i, &there) else { return };
             let upper = self.margin(kind, value.value).hi();
             if !(chart.scale_of(&y) <= 1.0 && upper < out.upper) {
@@ -314,7 +314,7 @@ impl Judge<'_> {
     }
 
     /// An upper bound of the margin at a point, for the functions of one leg.
-    fn upper(&self, function: Function, at: &Frame<'_>) -> f64 {
+    fn upper(&self, function: Function, at: &CellFrame<'_>) -> f64 {
         let Function::Leg(kind, i) = function else { return f64::INFINITY };
         self.leg_value(kind, i, at).map_or(f64::INFINITY, |x| self.margin(kind, x.value).hi())
     }
@@ -324,10 +324,10 @@ impl Judge<'_> {
         &self,
         function: Function,
         chart: &Chart,
-        cell: &Cell,
+        cell: &ChartCell,
         sector: &Sector,
         z: &[f64; 6],
-        frames: (&Frame<'_>, &Frame<'_>),
+        frames: (&CellFrame<'_>, &CellFrame<'_>),
     ) -> AtPoint {
         let nothing = AtPoint::nothing(cell);
         match function {
@@ -344,7 +344,7 @@ impl Judge<'_> {
                     let upper = self.upper(function, frames.0);
                     return AtPoint { bounded, upper, loose_sector, slope: slopes(&at.value), ..nothing };
                 }
-                let value = |frame: &Frame<'_>| self.leg_value(kind, i, frame);
+                let value = |frame: &CellFrame<'_>| self.leg_value(kind, i, frame);
                 let (Some(at), Some(over)) = (value(frames.0), value(frames.1)) else { return nothing };
                 let mut bounded = local::below(chart, cell, z, &at, &over);
                 bounded.below = self.margin(kind, Interval::from(bounded.below)).lo();
@@ -358,7 +358,7 @@ impl Judge<'_> {
                 AtPoint { bounded, upper, ..nothing }
             }
             Function::Pair(i, j) => {
-                let parts = |frame: &Frame<'_>, i: usize| self.parts(frame, i);
+                let parts = |frame: &CellFrame<'_>, i: usize| self.parts(frame, i);
                 let (ours, theirs) =
                     ((parts(frames.0, i), parts(frames.1, i)), (parts(frames.0, j), parts(frames.1, j)));
                 self.gaps(chart, cell, z, (&ours.0, &ours.1), (&theirs.0, &theirs.1))
@@ -373,7 +373,7 @@ impl Judge<'_> {
     }
 
     /// Cylinder and rod of a leg.
-    fn parts(&self, frame: &Frame<'_>, i: usize) -> Vec<gap::Hull> {
+    fn parts(&self, frame: &CellFrame<'_>, i: usize) -> Vec<gap::Hull> {
         self.required.hardware.leg_body.map_or_else(Vec::new, |body| gap::leg_parts(frame, self.m, i, &body))
     }
 
@@ -381,7 +381,7 @@ impl Judge<'_> {
     fn gaps(
         &self,
         chart: &Chart,
-        cell: &Cell,
+        cell: &ChartCell,
         z: &[f64; 6],
         ours: (&[gap::Hull], &[gap::Hull]),
         theirs: (&[gap::Hull], &[gap::Hull]),
@@ -410,7 +410,7 @@ impl Judge<'_> {
     }
 
     /// The cone in which a leg may lean, for limits below 90 degrees and regions; on single poses and steps the cosine is as good.
-    fn cone(&self, function: Function, chart: &Chart) -> Option<Cone<'_>> {
+    fn cone(&self, function: Function, chart: &Chart) -> Option<SwingCone<'_>> {
         let Function::Leg(kind, leg) = function else { return None };
         if chart.len() < 2 {
             return None;
@@ -421,11 +421,11 @@ impl Judge<'_> {
             _ => return None,
         };
         let (axis, length) = &self.axes[body][leg];
-        Cone::new(self.m, leg, body == 1, axis, *length, swing.limit_deg)
+        SwingCone::new(self.m, leg, body == 1, axis, *length, swing.limit_deg)
     }
 
-    /// The function of a leg whose least value gives the least margin ([`Judge::margin`]).
-    fn leg_value(&self, kind: TermKind, i: usize, frame: &Frame<'_>) -> Option<Jet> {
+    /// The function of a leg whose least value gives the least margin ([`CellJudge::margin`]).
+    fn leg_value(&self, kind: TermKind, i: usize, frame: &CellFrame<'_>) -> Option<Jet> {
         let leg = frame.leg(self.m, i);
         Some(match kind {
             TermKind::LegTooShort => leg.square,
@@ -481,7 +481,7 @@ impl Judge<'_> {
         let (mut below, mut upper) = (f64::INFINITY, f64::INFINITY);
         for (term, _) in self.terms.fixed().iter().filter(|(t, _)| t.kind == kind) {
             let (a, b) = (enclosed(&joints[term.first]), enclosed(&joints[term.second]));
-            let d: Vector = std::array::from_fn(|k| a[k] - b[k]);
+            let d: IntervalVector = std::array::from_fn(|k| a[k] - b[k]);
             let norm = dot_square(&d).sqrt().unwrap_or(Interval::WHOLE);
             let centres = self.required.min_joint_distance.map(|least| norm - Interval::from(least));
             for margin in [housing.map(|h| housing_gap(&h, &d, norm)), centres].into_iter().flatten() {
@@ -517,20 +517,20 @@ fn matched<'h>(at: &'h [gap::Hull], over: &'h [gap::Hull]) -> Vec<(&'h gap::Hull
     over.iter().map(|o| (o, o)).collect()
 }
 
-fn verdict(below: f64, upper: f64, rounding: f64) -> Verdict {
+fn verdict(below: f64, upper: f64, rounding: f64) -> MarginVerdict {
     if upper < -rounding {
-        Verdict::Violated
+        MarginVerdict::Violated
     } else if below >= 0.0 {
-        Verdict::Met
+        MarginVerdict::Met
     } else if below >= -rounding {
-        Verdict::AtLimit
+        MarginVerdict::AtLimit
     } else {
-        Verdict::Searched
+        MarginVerdict::Searched
     }
 }
 
 /// [`Housing::gap`], enclosed.
-fn housing_gap(housing: &Housing, d: &Vector, norm: Interval) -> Interval {
+fn housing_gap(housing: &Housing, d: &IntervalVector, norm: Interval) -> Interval {
     match housing {
         Housing::Sphere(diameter) => norm - Interval::from(*diameter),
         Housing::Box(edges) => {
@@ -543,7 +543,7 @@ fn housing_gap(housing: &Housing, d: &Vector, norm: Interval) -> Interval {
                 let g: [f64; 3] = std::array::from_fn(|k| beside(size(k), edges[k], side));
                 let largest = g.into_iter().fold(f64::NEG_INFINITY, f64::max);
                 if largest > 0.0 {
-                    let positive: Vector = g.map(|x| Interval::from(x.max(0.0)));
+                    let positive: IntervalVector = g.map(|x| Interval::from(x.max(0.0)));
                     dot_square(&positive).sqrt().map_or(largest, side)
                 } else {
                     largest
@@ -557,7 +557,7 @@ fn housing_gap(housing: &Housing, d: &Vector, norm: Interval) -> Interval {
 
 /// What is left of a cell when sides that a positive or negative slope rules out are taken away: the least value over the workspace is at the end of a side, if that is an end of the workspace, and
 /// elsewhere if not. Coordinates of balls have no such ends.
-fn shrunk(chart: &Chart, cell: &Cell, over: &Jet) -> Option<Cell> {
+fn shrunk(chart: &Chart, cell: &ChartCell, over: &Jet) -> Option<ChartCell> {
     let mut out = *cell;
     for k in (0..chart.len()).filter(|k| !chart.balls.iter().any(|g| g.contains(k))) {
         let slope = over.slope(k);

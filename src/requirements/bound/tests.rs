@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use crate::geom::{Pose, Region};
 use crate::num::Rng;
 use crate::requirements::{
-    Hardware, JointAxes, KeepOut, LegBody, LengthLimits, Load, PlatformSpeed, Shape, Swing,
+    Hardware, JointAxes, KeepOut, KeepOutShape, LegBody, LengthLimits, Load, PlatformSpeed, Swing,
 };
 
 fn random_platform(rng: &mut Rng) -> (Manipulator, Pose) {
@@ -74,10 +74,13 @@ fn everything() -> Requirements {
         max_leg_speed: Some(100.0),
         ..Hardware::default()
     };
-    let post =
-        Shape::Capsule { from: Point3::new(0.0, 0.0, -1.0), to: Point3::new(0.0, 0.0, 4.0), diameter: 1.0 };
-    let tool = Shape::Sphere { center: Point3::new(0.0, 0.0, -3.0), diameter: 1.0 };
-    let table = Shape::Box { center: Point3::new(0.0, 1.0, 2.0), size: Vector3::new(2.0, 1.0, 0.5) };
+    let post = KeepOutShape::Capsule {
+        from: Point3::new(0.0, 0.0, -1.0),
+        to: Point3::new(0.0, 0.0, 4.0),
+        diameter: 1.0,
+    };
+    let tool = KeepOutShape::Sphere { center: Point3::new(0.0, 0.0, -3.0), diameter: 1.0 };
+    let table = KeepOutShape::Box { center: Point3::new(0.0, 1.0, 2.0), size: Vector3::new(2.0, 1.0, 0.5) };
     let body = |name: &str, fixed_to, shape| KeepOut { name: name.into(), fixed_to, shape };
     let load = |fixed_to| Load {
         name: "load".into(),
@@ -184,11 +187,11 @@ fn limits_to_either_side_of_the_worst_value_are_decided() {
             let short = prove(&m, &with(a, b, c), &space, &none, 1500);
             for bound in short.bounds.iter().filter(|b| kinds.contains(&b.found.term.kind)) {
                 assert!(
-                    matches!(bound.verdict, Verdict::Violated | Verdict::Searched),
+                    matches!(bound.verdict, MarginVerdict::Violated | MarginVerdict::Searched),
                     "{k} {depth}: {bound:?}"
                 );
                 planted += 1;
-                if bound.verdict == Verdict::Violated {
+                if bound.verdict == MarginVerdict::Violated {
                     found += 1;
                     let pose = bound.found.pose.unwrap();
                     let terms = with(a, b, c);
@@ -200,7 +203,7 @@ fn limits_to_either_side_of_the_worst_value_are_decided() {
             let [a, b, c] = worst.map(|x| x * (1.0 + depth));
             let beyond = prove(&m, &with(a, b, c), &space, &quick(), 1500);
             assert!(beyond.all_met() != Some(false), "{k} {depth}: {beyond:?}");
-            proved += beyond.bounds.iter().filter(|b| b.verdict == Verdict::Met).count();
+            proved += beyond.bounds.iter().filter(|b| b.verdict == MarginVerdict::Met).count();
         }
     }
     assert!(proved >= 24 && found * 10 >= planted * 9, "{proved} of 48 proved, {found} of {planted} found");
@@ -222,12 +225,15 @@ fn bounds_of_upright_legs_are_those_by_hand() {
     let proof = prove(&m, &r, &space, &quick(), 4000);
     let of = |kind: TermKind| proof.bounds.iter().find(|b| b.found.term.kind == kind).unwrap();
     let short = of(TermKind::LegTooShort);
-    assert!(short.verdict == Verdict::Met && short.below > 0.4 && short.below <= 0.5 + 1e-12, "{short:?}");
+    assert!(
+        short.verdict == MarginVerdict::Met && short.below > 0.4 && short.below <= 0.5 + 1e-12,
+        "{short:?}"
+    );
     let long = of(TermKind::LegTooLong);
-    assert!(long.verdict == Verdict::Met && (long.found.value - 0.5).abs() < 1e-12, "{long:?}");
+    assert!(long.verdict == MarginVerdict::Met && (long.found.value - 0.5).abs() < 1e-12, "{long:?}");
     // parallel legs, 4 apart along x or 4 at 60 degrees: translation by (3, 4, z) leans them over
     let gap = of(TermKind::LegClearance);
-    assert!(gap.below <= gap.found.value && gap.verdict == Verdict::Met, "{gap:?}");
+    assert!(gap.below <= gap.found.value && gap.verdict == MarginVerdict::Met, "{gap:?}");
     // the limit itself: reached at a corner, not passed
     r.hardware.leg_length = Some(LengthLimits::Range(8.0, 13.0));
     r.hardware.leg_body = None;
@@ -265,7 +271,7 @@ fn gaps_of_housings_are_enclosed() {
     let mut rng = Rng::new(34);
     for _ in 0..200 {
         let d = Vector3::from_fn(|_, _| rng.uniform(-3.0, 3.0));
-        let enclosed: Vector = std::array::from_fn(|k| Interval::from(d[k]));
+        let enclosed: IntervalVector = std::array::from_fn(|k| Interval::from(d[k]));
         let norm = dot_square(&enclosed).sqrt().unwrap();
         let edges = Vector3::from_fn(|_, _| rng.uniform(0.1, 3.0));
         for housing in [Housing::Sphere(1.0), Housing::Box(edges)] {

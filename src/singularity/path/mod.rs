@@ -26,7 +26,7 @@ const DEPTH: u32 = 40;
 
 /// A part `[from, to]` of a path.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Piece {
+pub struct PathPiece {
     /// Parameter of its start, in `[0, 1]`.
     pub from: f64,
     /// Parameter of its end.
@@ -39,7 +39,7 @@ pub struct Piece {
 #[derive(Debug, Clone, PartialEq)]
 pub struct SignsAlong {
     /// Pieces that follow each other from 0 to 1; neighbours differ in sign, or one is open.
-    pub pieces: Vec<Piece>,
+    pub pieces: Vec<PathPiece>,
 }
 
 impl SignsAlong {
@@ -55,21 +55,21 @@ impl SignsAlong {
     /// Proved signs at start and end.
     #[must_use]
     pub fn ends(&self) -> [Option<Sign>; 2] {
-        let sign = |piece: Option<&Piece>| piece.and_then(|p| p.sign);
+        let sign = |piece: Option<&PathPiece>| piece.and_then(|p| p.sign);
         [sign(self.pieces.first()), sign(self.pieces.last())]
     }
 
     /// Open pieces between opposite signs: each holds a singular pose.
-    pub fn changes(&self) -> impl Iterator<Item = Piece> + '_ {
+    pub fn changes(&self) -> impl Iterator<Item = PathPiece> + '_ {
         self.open().filter(|w| w.1).map(|w| w.0)
     }
 
     /// Open pieces not between opposite signs: `det J` vanishes there, twice or more, or nearly does.
-    pub fn doubtful(&self) -> impl Iterator<Item = Piece> + '_ {
+    pub fn doubtful(&self) -> impl Iterator<Item = PathPiece> + '_ {
         self.open().filter(|w| !w.1).map(|w| w.0)
     }
 
-    fn open(&self) -> impl Iterator<Item = (Piece, bool)> + '_ {
+    fn open(&self) -> impl Iterator<Item = (PathPiece, bool)> + '_ {
         let sign = |k: Option<usize>| k.and_then(|k| self.pieces.get(k)).and_then(|p| p.sign);
         self.pieces.iter().enumerate().filter(|(_, p)| p.sign.is_none()).map(move |(k, p)| {
             let (before, after) = (sign(k.checked_sub(1)), sign(Some(k + 1)));
@@ -93,7 +93,7 @@ pub fn between(from: &Pose, to: &Pose, u: f64) -> Pose {
 /// Rotations are those of the rounded quaternions of the poses, exactly; the poses of the path are exact functions of these and of the positions.
 #[must_use]
 pub fn signs_along(m: &Manipulator, from: &Pose, to: &Pose) -> SignsAlong {
-    let mut pieces: Vec<Piece> = Vec::new();
+    let mut pieces: Vec<PathPiece> = Vec::new();
     let mut open: Vec<(f64, f64, Vec<Interval>, u32)> = vec![(0.0, 1.0, determinant(m, from, to), 0)];
     while let Some((from, to, c, depth)) = open.pop() {
         let sign = common_sign(&c);
@@ -106,7 +106,7 @@ pub fn signs_along(m: &Manipulator, from: &Pose, to: &Pose) -> SignsAlong {
         }
         match pieces.last_mut().filter(|last| last.sign == sign) {
             Some(last) => last.to = to,
-            None => pieces.push(Piece { from, to, sign }),
+            None => pieces.push(PathPiece { from, to, sign }),
         }
     }
     SignsAlong { pieces }

@@ -21,8 +21,8 @@ mod tests;
 
 use nalgebra::{Matrix6, Vector3};
 
-use crate::geom::enclosed::{Matrix, Vector, apply, contraction, cross, dot, times};
-use crate::geom::{Cell, Chart, Covered, Pose, PoseSpace, Region, combination, turn, turn_slope};
+use crate::geom::enclosed::{IntervalMatrix, IntervalVector, apply, contraction, cross, dot, times};
+use crate::geom::{Chart, ChartCell, Covered, Pose, PoseSpace, Region, combination, turn, turn_slope};
 use crate::manipulator::{Manipulator, leg_determinant};
 use crate::num::Rng;
 use crate::num::interval::Interval;
@@ -78,9 +78,9 @@ pub fn regular_box(m: &Manipulator, home: &Pose, options: &BoxOptions) -> Regula
         ..PoseSpace::at(*home)
     };
     let chart = Chart::of_region(&space);
-    let lines = Lines::new(m, &chart);
+    let lines = LegsOverChart::new(m, &chart);
     let searched = largest_scale(m.size(), &space);
-    let regular_home = lines.is_regular(&Cell::point([0.0; 6])).is_ok();
+    let regular_home = lines.is_regular(&ChartCell::point([0.0; 6])).is_ok();
     let Some(sign) = lines.sign_at(&[0.0; 6]).filter(|_| regular_home) else {
         return RegularBox { proved: 0.0, refuted: None, searched, regions: 1 };
     };
@@ -132,7 +132,7 @@ impl Regularity {
 pub fn regular_workspace(m: &Manipulator, space: &PoseSpace, cells: usize, seed: u64) -> (Regularity, usize) {
     let (mut doubt, mut tested) = (None, 0);
     for chart in Chart::all(space) {
-        let lines = Lines::new(m, &chart);
+        let lines = LegsOverChart::new(m, &chart);
         // home, or an end of a step
         let starts = [[0.0; 6], chart.root.hi].map(|x| chart.pulled_inside(x));
         let Some(sign) = starts.iter().find_map(|x| lines.sign_at(x)) else {
@@ -186,7 +186,7 @@ enum Shell {
 }
 
 struct Search<'a> {
-    lines: &'a Lines<'a>,
+    lines: &'a LegsOverChart<'a>,
     /// Of `det J` at home.
     sign: f64,
     left: usize,
@@ -231,16 +231,16 @@ impl Search<'_> {
 }
 
 /// The scale of the smallest set that holds a cell, rounded up.
-fn reach(chart: &Chart, cell: &Cell) -> f64 {
+fn reach(chart: &Chart, cell: &ChartCell) -> f64 {
     let corner: [f64; 6] = std::array::from_fn(|k| cell.side(k).magnitude());
     chart.scale_of(&corner)
 }
 
 /// Twelve cells that cover the outer box less the inner one, fewer where axes have no width; one that covers it all where the sets are not boxes.
-fn slabs(chart: &Chart, inner: f64, outer: f64) -> Vec<Cell> {
+fn slabs(chart: &Chart, inner: f64, outer: f64) -> Vec<ChartCell> {
     let axes = chart.len();
     let cube = |half: f64| {
-        let mut cell = Cell::point([0.0; 6]);
+        let mut cell = ChartCell::point([0.0; 6]);
         for k in 0..axes {
             (cell.lo[k], cell.hi[k]) = (-half, half);
         }
@@ -267,20 +267,20 @@ fn slabs(chart: &Chart, inner: f64, outer: f64) -> Vec<Cell> {
 
 /// The legs of a manipulator over the poses of a chart.
 #[derive(Debug)]
-struct Lines<'a> {
+struct LegsOverChart<'a> {
     chart: &'a Chart,
     manipulator: &'a Manipulator,
     /// Base joints, from their mean.
-    base: [Vector; 6],
+    base: [IntervalVector; 6],
     /// `R_0 b`.
-    arm: [Vector; 6],
+    arm: [IntervalVector; 6],
     /// `p_0` less the mean base joint.
-    home: Vector,
+    home: IntervalVector,
     /// Columns of the chart, lengths over the size.
     columns: Vec<[Interval; 6]>,
 }
 
-impl<'a> Lines<'a> {
+impl<'a> LegsOverChart<'a> {
     fn new(manipulator: &'a Manipulator, chart: &'a Chart) -> Self {
         let legs = manipulator.legs();
         let mean = legs.iter().map(|l| l.base.coords).sum::<Vector3<f64>>() / 6.0;
@@ -302,7 +302,7 @@ impl<'a> Lines<'a> {
     }
 
     /// Rows `[n_i, a_i x n_i]`.
-    fn rows(&self, n: impl Fn(usize) -> Vector) -> Matrix {
+    fn rows(&self, n: impl Fn(usize) -> IntervalVector) -> IntervalMatrix {
         std::array::from_fn(|i| {
             let direction = n(i);
             let moment = cross(&self.base[i], &direction);
@@ -311,7 +311,7 @@ impl<'a> Lines<'a> {
     }
 
     /// Encloses `J` over a cell.
-    fn over(&self, cell: &Cell) -> Matrix {
+    fn over(&self, cell: &ChartCell) -> IntervalMatrix {
         let q = combination(&self.columns, cell);
         let r = turn(&[q[3], q[4], q[5]]);
         self.rows(|i| {
@@ -321,7 +321,7 @@ impl<'a> Lines<'a> {
     }
 
     /// Enclosures of `dJ / dx_k` over the cell, by coordinate.
-    fn slopes(&self, cell: &Cell) -> Vec<Matrix> {
+    fn slopes(&self, cell: &ChartCell) -> Vec<IntervalMatrix> {
         let q = combination(&self.columns, cell);
         let turning = |c: &[Interval; 6]| c[3..].iter().any(|x| *x != Interval::ZERO);
         let needed = self.columns.iter().any(turning);
@@ -329,7 +329,7 @@ impl<'a> Lines<'a> {
             (0..if needed { 3 } else { 0 }).map(|k| turn_slope(&[q[3], q[4], q[5]], k)).collect();
         let slope = |column: &[Interval; 6]| {
             self.rows(|i| {
-                let mut step: Vector = std::array::from_fn(|k| column[k]);
+                let mut step: IntervalVector = std::array::from_fn(|k| column[k]);
                 for (k, turned) in turns.iter().enumerate().filter(|(k, _)| column[k + 3] != Interval::ZERO) {
                     let moved = apply(turned, &self.arm[i]);
                     step = std::array::from_fn(|l| step[l] + column[k + 3] * moved[l]);
@@ -341,22 +341,22 @@ impl<'a> Lines<'a> {
     }
 
     /// Whether all poses of the cell are proved regular; if not, the axis along which `J` changes most over it.
-    fn is_regular(&self, cell: &Cell) -> Result<(), usize> {
+    fn is_regular(&self, cell: &ChartCell) -> Result<(), usize> {
         let centre = cell.centre();
         let slopes = self.slopes(cell);
         let reach = |k: usize| cell.reach(&centre, k);
-        let steepest = |changes: &[Matrix]| {
+        let steepest = |changes: &[IntervalMatrix]| {
             let weight = |k: usize| {
                 let sum: f64 = changes[k].iter().flatten().map(|x| x.magnitude()).sum();
                 reach(k) * if sum.is_finite() { sum } else { 1.0 }
             };
             (0..changes.len()).fold(0, |best, k| if weight(k) > weight(best) { k } else { best })
         };
-        let there = self.over(&Cell::point(centre));
+        let there = self.over(&ChartCell::point(centre));
         let plain = Matrix6::from_fn(|i, k| there[i][k].centre_and_radius().0);
         // a centre that is singular itself: the axis is found without an inverse
         let Some(inverse) = plain.try_inverse() else { return Err(steepest(&slopes)) };
-        let changes: Vec<Matrix> = slopes.iter().map(|s| times(&inverse, s)).collect();
+        let changes: Vec<IntervalMatrix> = slopes.iter().map(|s| times(&inverse, s)).collect();
         let mut w = times(&inverse, &there);
         for (i, row) in w.iter_mut().enumerate() {
             row[i] = row[i] - Interval::from(1.0);
@@ -375,13 +375,13 @@ impl<'a> Lines<'a> {
 
     /// The proved sign of `det J` at a point of the chart.
     fn sign_at(&self, x: &[f64; 6]) -> Option<f64> {
-        let d = determinant(&self.over(&Cell::point(*x)));
+        let d = determinant(&self.over(&ChartCell::point(*x)));
         if d.lo() > 0.0 { Some(1.0) } else { (d.hi() < 0.0).then_some(-1.0) }
     }
 }
 
 /// Encloses the determinant: Laplace expansion by complementary minors of the first three rows.
-fn determinant(m: &Matrix) -> Interval {
+fn determinant(m: &IntervalMatrix) -> Interval {
     let minor = |rows: [usize; 3], c: [usize; 3]| {
         let r = rows.map(|r| c.map(|k| m[r][k]));
         dot(&r[0], &cross(&r[1], &r[2]))
@@ -413,7 +413,12 @@ const IMPROVEMENTS: usize = 1500;
 /// The smallest scale found up to `limit`, and the point there, with a proved change of sign between home and it.
 ///
 /// Proves nothing about what it does not find.
-fn nearest_change(lines: &Lines<'_>, sign: f64, mut limit: f64, seed: u64) -> Option<(f64, [f64; 6])> {
+fn nearest_change(
+    lines: &LegsOverChart<'_>,
+    sign: f64,
+    mut limit: f64,
+    seed: u64,
+) -> Option<(f64, [f64; 6])> {
     let mut rng = Rng::new(seed);
     let chart = lines.chart;
     let most = limit;
@@ -452,7 +457,7 @@ fn nearest_change(lines: &Lines<'_>, sign: f64, mut limit: f64, seed: u64) -> Op
 }
 
 /// The first change of sign found along a ray, a little beyond it so that the sign there is clear.
-fn change_along(lines: &Lines<'_>, u: &[f64; 6], limit: f64) -> Option<f64> {
+fn change_along(lines: &LegsOverChart<'_>, u: &[f64; 6], limit: f64) -> Option<f64> {
     let value = |t: f64| lines.determinant(&u.map(|x| x * t));
     let home = value(0.0);
     let step = limit / STEPS as f64;

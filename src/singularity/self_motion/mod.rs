@@ -160,7 +160,7 @@ fn pose(y: &Point<f64>, size: f64) -> Pose {
     Pose { rotation, position: Vector3::new(p.i, p.j, p.k) * size }
 }
 
-fn curve(path: &trace::Path, start: usize, m: &Manipulator, s: &SquaredLegLengths) -> MotionCurve {
+fn curve(path: &trace::TracedCurve, start: usize, m: &Manipulator, s: &SquaredLegLengths) -> MotionCurve {
     let wanted = s.lengths().get();
     let mut arc = 0.0;
     let mut last: Option<Point<f64>> = None;

@@ -44,7 +44,7 @@ impl OnCurve {
 
 /// A curve so far.
 #[derive(Debug, Clone)]
-pub(super) struct Path {
+pub(super) struct TracedCurve {
     pub(super) points: Vec<OnCurve>,
     pub(super) end: CurveEnd,
     /// Index of the point before a crossing and, later, of the crossing.
@@ -151,8 +151,8 @@ impl<'a> Tracer<'a> {
         start: OnCurve,
         most: usize,
         mut stop: impl FnMut(&OnCurve, &OnCurve) -> Option<CurveEnd>,
-    ) -> Path {
-        let mut path = Path { points: vec![start], end: CurveEnd::Unfinished, crossings: Vec::new() };
+    ) -> TracedCurve {
+        let mut path = TracedCurve { points: vec![start], end: CurveEnd::Unfinished, crossings: Vec::new() };
         let mut here = start;
         let mut step = 0.5 * self.turn;
         while path.points.len() < most {
@@ -263,7 +263,7 @@ const AWAY: f64 = 1e-2;
 pub(super) struct Web<'a> {
     tracer: &'a Tracer<'a>,
     left: usize,
-    paths: Vec<Path>,
+    paths: Vec<TracedCurve>,
     crossings: Vec<Point<f64>>,
 }
 
@@ -278,7 +278,7 @@ impl<'a> Web<'a> {
     }
 
     /// Curves and crossings.
-    pub(super) fn finish(self) -> (Vec<Path>, Vec<Point<f64>>) {
+    pub(super) fn finish(self) -> (Vec<TracedCurve>, Vec<Point<f64>>) {
         (self.paths, self.crossings)
     }
 
@@ -319,7 +319,7 @@ impl<'a> Web<'a> {
             let mut crossings: Vec<(usize, usize)> = turned.collect();
             crossings.extend(path.crossings.iter().map(|c| (c.0 + shift, c.1)));
             other.points.extend_from_slice(&path.points[1..]);
-            path = Path { points: other.points, end: other.end, crossings };
+            path = TracedCurve { points: other.points, end: other.end, crossings };
         }
         let mut reached = Vec::new();
         for k in 0..path.crossings.len() {

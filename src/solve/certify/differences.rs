@@ -21,9 +21,9 @@
 use num_complex::Complex64;
 
 use super::certificate::WhyUncertified;
-use super::inverse::{Matrix, apart, equilibrated_inverse};
-use super::krawczyk::{Bounds, largest};
-use super::system::{LegSystem, N, Scalar, Study, U, leg_vector, row_sums};
+use super::inverse::{PaddedMatrix, apart, equilibrated_inverse};
+use super::krawczyk::{KrawczykBounds, largest};
+use super::system::{LegSystem, N, RealScalar, Study, U, leg_vector, row_sums};
 use crate::num::disc::{TINY, UP};
 use crate::num::double_double::DoubleDouble;
 
@@ -33,27 +33,27 @@ const UNIT: f64 = DoubleDouble::UNIT;
 type Turn<S> = ([S; 3], [S; 3]);
 
 /// `T y`.
-fn apply<S: Scalar>(turn: &Turn<S>, y: &[S; 4]) -> [S; 4] {
+fn apply<S: RealScalar>(turn: &Turn<S>, y: &[S; 4]) -> [S; 4] {
     let zero = S::from(0.0);
     leg_vector(&turn.0, &turn.1, &[y[0], y[1], y[2], y[3], zero, zero, zero, zero])
 }
 
-fn quarter<S: Scalar>(x: &[S; 8], first: usize) -> [S; 4] {
+fn quarter<S: RealScalar>(x: &[S; 8], first: usize) -> [S; 4] {
     std::array::from_fn(|k| x[first + k])
 }
 
-fn plus<S: Scalar>(x: &[S; 4], y: &[S; 4]) -> [S; 4] {
+fn plus<S: RealScalar>(x: &[S; 4], y: &[S; 4]) -> [S; 4] {
     std::array::from_fn(|k| x[k] + y[k])
 }
 
 /// Real and imaginary part of `x.y`.
-fn dot<S: Scalar>(x: &[[S; 4]; 2], y: &[[S; 4]; 2]) -> [S; 2] {
+fn dot<S: RealScalar>(x: &[[S; 4]; 2], y: &[[S; 4]; 2]) -> [S; 2] {
     let part = |a: &[S; 4], b: &[S; 4]| (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]);
     [part(&x[0], &y[0]) + -part(&x[1], &y[1]), part(&x[0], &y[1]) + part(&x[1], &y[0])]
 }
 
 impl LegSystem {
-    fn turn<S: Scalar>(&self, i: usize) -> Turn<S> {
+    fn turn<S: RealScalar>(&self, i: usize) -> Turn<S> {
         (
             std::array::from_fn(|k| S::sum(self.b[i][k], -self.a[i][k])),
             std::array::from_fn(|k| S::sum(self.b[i][k], self.a[i][k])),
@@ -61,12 +61,12 @@ impl LegSystem {
     }
 
     /// The middle of the squared length, rounded in double.
-    fn square<S: Scalar>(&self, i: usize) -> S {
+    fn square<S: RealScalar>(&self, i: usize) -> S {
         S::sum(self.s[i], self.s_low[i])
     }
 
     /// `T_i - T_0`.
-    fn gap<S: Scalar>(&self, i: usize) -> Turn<S> {
+    fn gap<S: RealScalar>(&self, i: usize) -> Turn<S> {
         let (leg, first) = (self.turn::<S>(i), self.turn::<S>(0));
         let minus = |x: &[S; 3], y: &[S; 3]| std::array::from_fn(|k| x[k] + -y[k]);
         (minus(&leg.0, &first.0), minus(&leg.1, &first.1))
@@ -133,7 +133,7 @@ impl LegSystem {
     }
 
     /// The Jacobian, in real and imaginary part; column `patch` holds the gradient by `g_3`, lane 7 is zero.
-    pub(super) fn jacobian_apart<S: Scalar>(&self, x: &Study<S>) -> [[[S; 8]; N]; 2] {
+    pub(super) fn jacobian_apart<S: RealScalar>(&self, x: &Study<S>) -> [[[S; 8]; N]; 2] {
         let zero = S::from(0.0);
         let mut parts = [[[zero; 8]; N]; 2];
         for (rows, x) in parts.iter_mut().zip([&x.re, &x.im]) {
@@ -188,7 +188,7 @@ impl LegSystem {
 }
 
 /// The bounds about `x` on differences of the equations.
-pub(super) fn bounds(system: &LegSystem, x: &Study<DoubleDouble>) -> Result<Bounds, WhyUncertified> {
+pub(super) fn bounds(system: &LegSystem, x: &Study<DoubleDouble>) -> Result<KrawczykBounds, WhyUncertified> {
     let hi = &x.rounded();
     let [re, im] = system.jacobian_apart(hi);
     let y = &equilibrated_inverse(&re, &im).ok_or(WhyUncertified::SingularJacobian)?;
@@ -202,7 +202,8 @@ pub(super) fn bounds(system: &LegSystem, x: &Study<DoubleDouble>) -> Result<Boun
         (0..8).map(|k| j_re[i][k].rounded().abs() + j_im[i][k].rounded().abs()).sum()
     });
     let whole = apart(y);
-    let mut out = Bounds { eta_centre: 0.0, eta: 0.0, kappa: 0.0, beta: 0.0, step: [Complex64::ZERO; 8] };
+    let mut out =
+        KrawczykBounds { eta_centre: 0.0, eta: 0.0, kappa: 0.0, beta: 0.0, step: [Complex64::ZERO; 8] };
     for k in 0..N {
         let weights: [f64; N] = std::array::from_fn(|i| y.re[k][i].abs() + y.im[k][i].abs());
         let along = |terms: &[f64; N]| weights.iter().zip(terms).map(|(w, t)| w * t).sum::<f64>();
@@ -227,7 +228,12 @@ pub(super) fn bounds(system: &LegSystem, x: &Study<DoubleDouble>) -> Result<Boun
 }
 
 /// `|.|_1` of row `k` of `I - Y J`, computed in double-double.
-fn row_defect(k: usize, y: &Matrix, j_re: &[[DoubleDouble; 8]; N], j_im: &[[DoubleDouble; 8]; N]) -> f64 {
+fn row_defect(
+    k: usize,
+    y: &PaddedMatrix,
+    j_re: &[[DoubleDouble; 8]; N],
+    j_im: &[[DoubleDouble; 8]; N],
+) -> f64 {
     let mut total = 0.0;
     for l in 0..N {
         let mut re = DoubleDouble::from(if l == k { 1.0 } else { 0.0 });

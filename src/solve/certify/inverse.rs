@@ -4,7 +4,7 @@ use super::system::N;
 
 /// Rows of a 7 x 7 matrix padded to eight lanes, parts apart.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Matrix {
+pub(super) struct PaddedMatrix {
     pub(super) re: [[f64; 8]; N],
     pub(super) im: [[f64; 8]; N],
 }
@@ -12,8 +12,8 @@ pub(super) struct Matrix {
 /// Inverse by Gauss-Jordan elimination in place with row pivoting, `None` at a pivot that is zero or not finite.
 ///
 /// No accuracy is claimed: what is made of the result bounds `I - Y J` afterwards.
-pub(super) fn approximate_inverse(re: &[[f64; 8]; N], im: &[[f64; 8]; N]) -> Option<Matrix> {
-    let mut m = Matrix { re: *re, im: *im };
+pub(super) fn approximate_inverse(re: &[[f64; 8]; N], im: &[[f64; 8]; N]) -> Option<PaddedMatrix> {
+    let mut m = PaddedMatrix { re: *re, im: *im };
     let mut swapped = [0; N];
     for p in 0..N {
         let size = |r: usize| m.re[r][p] * m.re[r][p] + m.im[r][p] * m.im[r][p];
@@ -51,7 +51,7 @@ pub(super) fn approximate_inverse(re: &[[f64; 8]; N], im: &[[f64; 8]; N]) -> Opt
 }
 
 /// [`approximate_inverse`] after scaling rows and columns by powers of two, for matrices with entries of very different size.
-pub(super) fn equilibrated_inverse(re: &[[f64; 8]; N], im: &[[f64; 8]; N]) -> Option<Matrix> {
+pub(super) fn equilibrated_inverse(re: &[[f64; 8]; N], im: &[[f64; 8]; N]) -> Option<PaddedMatrix> {
     let unit = |x: f64| if x.is_normal() { 2f64.powi(-(x.log2().floor() as i32)) } else { 1.0 };
     let size = |i: usize, k: usize| re[i][k].abs().max(im[i][k].abs());
     let rows: [f64; N] = std::array::from_fn(|i| unit((0..N).map(|k| size(i, k)).fold(0.0, f64::max)));
@@ -73,7 +73,7 @@ pub(super) fn equilibrated_inverse(re: &[[f64; 8]; N], im: &[[f64; 8]; N]) -> Op
 }
 
 /// `Y` for the equations themselves from that for `F_0`, `F_i - F_0`, `F_6`.
-pub(super) fn apart(y: &Matrix) -> Matrix {
+pub(super) fn apart(y: &PaddedMatrix) -> PaddedMatrix {
     let mut whole = *y;
     for row in whole.re.iter_mut().chain(&mut whole.im) {
         row[0] -= row[1] + row[2] + row[3] + row[4] + row[5];

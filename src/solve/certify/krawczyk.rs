@@ -25,7 +25,7 @@ use super::certificate::WhyUncertified;
 use super::differences;
 use super::inverse::{approximate_inverse, subtract};
 use super::octuple;
-use super::system::{LegSystem, N, Scalar, Study, U};
+use super::system::{LegSystem, N, RealScalar, Study, U};
 use crate::num::disc::{TINY, UP};
 use crate::num::double_double::DoubleDouble;
 
@@ -46,7 +46,7 @@ pub(super) struct RootBall {
 
 /// The three bounds of the theorem; `eta` is split into the part of the centre and the whole with the width of the data.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Bounds {
+pub(super) struct KrawczykBounds {
     pub(super) eta_centre: f64,
     pub(super) eta: f64,
     pub(super) kappa: f64,
@@ -54,7 +54,7 @@ pub(super) struct Bounds {
     pub(super) step: [Complex64; 8],
 }
 
-impl Bounds {
+impl KrawczykBounds {
     /// Takes up the rounding of the bounds themselves.
     pub(super) fn rounded_up(self) -> Self {
         let up = |bound: f64| (bound + TINY) * UP;
@@ -99,7 +99,7 @@ pub(super) enum Digits {
 }
 
 /// The bounds on the equations themselves. Values have the digits of the centre, inverse and Jacobian those of doubles.
-fn bounds(system: &LegSystem, x: &Centre<'_>) -> Result<Bounds, WhyUncertified> {
+fn bounds(system: &LegSystem, x: &Centre<'_>) -> Result<KrawczykBounds, WhyUncertified> {
     let values = system.values(x.hi);
     let j = system.jacobian(x.hi, &values);
     let y = approximate_inverse(&j.re, &j.im).ok_or(WhyUncertified::SingularJacobian)?;
@@ -107,7 +107,7 @@ fn bounds(system: &LegSystem, x: &Centre<'_>) -> Result<Bounds, WhyUncertified> 
         None => (values.f_re, values.f_im, U),
         Some(full) => {
             let f = system.values(full);
-            (f.f_re.map(Scalar::rounded), f.f_im.map(Scalar::rounded), DoubleDouble::UNIT)
+            (f.f_re.map(RealScalar::rounded), f.f_im.map(RealScalar::rounded), DoubleDouble::UNIT)
         }
     };
     let (rounding, width) = system.value_bounds(x.hi, &values, unit);
@@ -118,7 +118,7 @@ fn bounds(system: &LegSystem, x: &Centre<'_>) -> Result<Bounds, WhyUncertified> 
         j.error[i] + 16.0 * U * row
     });
     let zero = Complex64::ZERO;
-    let mut out = Bounds { eta_centre: 0.0, eta: 0.0, kappa: 0.0, beta: 0.0, step: [zero; 8] };
+    let mut out = KrawczykBounds { eta_centre: 0.0, eta: 0.0, kappa: 0.0, beta: 0.0, step: [zero; 8] };
     for k in 0..N {
         let (y_re, y_im) = (&y.re[k], &y.im[k]);
         let weights: [f64; N] = std::array::from_fn(|i| y_re[i].abs() + y_im[i].abs());
@@ -147,7 +147,7 @@ pub(super) fn largest(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }
 
-fn radii(b: &Bounds) -> Result<RootBall, WhyUncertified> {
+fn radii(b: &KrawczykBounds) -> Result<RootBall, WhyUncertified> {
     let room = 1.0 - b.kappa;
     let admissible = room * room / (4.0 * b.beta);
     let failure = WhyUncertified::NoContraction { step: b.eta, admissible };
@@ -175,7 +175,7 @@ fn radii(b: &Bounds) -> Result<RootBall, WhyUncertified> {
 }
 
 /// The theorem: a ball that holds exactly one root, when the bounds prove one and the Newton step at the centre is at most `near`.
-fn holds_one_root(b: &Bounds, near: f64) -> Result<RootBall, WhyUncertified> {
+fn holds_one_root(b: &KrawczykBounds, near: f64) -> Result<RootBall, WhyUncertified> {
     // a NaN fails every one of these; 2^200 keeps products of bounds in range
     let regular = b.kappa < 1.0 && b.beta < 2f64.powi(200);
     let accurate = b.eta_centre <= near;
@@ -192,7 +192,7 @@ pub(super) fn one_root_about(
     x: &Centre<'_>,
     digits: Digits,
 ) -> Result<RootBall, WhyUncertified> {
-    let decide = |bounds: Result<Bounds, WhyUncertified>| holds_one_root(&bounds?, NEAR);
+    let decide = |bounds: Result<KrawczykBounds, WhyUncertified>| holds_one_root(&bounds?, NEAR);
     match (digits, x.full) {
         (Digits::Octuple, Some(full)) => decide(octuple::bounds(system, full)),
         (Digits::OfTheCentre, Some(full)) => {

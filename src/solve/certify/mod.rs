@@ -30,7 +30,7 @@
 //! | verb | decides | theorem and preconditions | without an answer |
 //! |---|---|---|---|
 //! | [`Certifier::certify`] | is this pose, as given, exactly one root to half of the digits of a double? | `certificate_about`, then `pose_is_the_root`; the centre is the pose, refined by at most [`NEAR`] where doubles do not do | [`WhyUncertified`]: not that there is no root |
-//! | `Certifier::root_near` | is there exactly one root where Newton's method leads from a start, and which pose is it? | the same about the end of the iteration, which a `Start` limits | as above; a root further away is not looked for |
+//! | `Certifier::root_near` | is there exactly one root where Newton's method leads from a start, and which pose is it? | the same about the end of the iteration, which a `NewtonStart` limits | as above; a root further away is not looked for |
 //! | `certificate_about` | does a ball about the centre hold exactly one root, with finite `R` and `p` in known discs? is the root real? | `one_root_about`; disc arithmetic over the ball, in which `e.e` must not vanish; conjugation for reality | as above; reality has an [`Undecided`](ProvedReality::Undecided) of its own |
 //! | `one_root_about` | does a ball about the centre hold exactly one root? | the contraction theorem of `krawczyk.rs`; the centre is finite, on its patch, with a Newton step of at most [`NEAR`] | no ball contracts: no root, two close ones, or data or digits that are not good enough |
 //! | `pose_is_the_root` | has the pose the digits of the certified root? | the distance from all points of the enclosure is at most [`NEAR`] | the root is proved, but is not shown to be this pose |
@@ -96,7 +96,7 @@ use coordinates::{
 };
 use krawczyk::{Centre, Digits, RootBall, one_root_about};
 use refine::refine_study;
-use system::{LegSystem, Scalar, Study};
+use system::{LegSystem, RealScalar, Study};
 
 /// How accurate a pose must be to be certified: `2^-26`, half of the digits of a double.
 ///
@@ -120,7 +120,7 @@ const FLATTER: [i32; 4] = [0, 5, 10, 15];
 
 /// Where Newton's method starts, and how far it may lead.
 #[derive(Debug, Clone, Copy)]
-pub(crate) enum Start<'a> {
+pub(crate) enum NewtonStart<'a> {
     /// A pose whose last digits got lost on the way; by no more than [`NEAR`].
     Pose(&'a ComplexPose),
     /// A point `(e, g)` of the design's frames, any scale; however far.
@@ -170,10 +170,10 @@ impl Certifier {
     }
 
     /// Decides whether there is exactly one root where Newton's method leads from `start`, and gives its pose, rounded from the best approximation at hand.
-    pub(crate) fn root_near(&self, start: Start<'_>) -> Result<CertifiedPose, WhyUncertified> {
+    pub(crate) fn root_near(&self, start: NewtonStart<'_>) -> Result<CertifiedPose, WhyUncertified> {
         match start {
-            Start::Pose(pose) => self.root_near_pose(pose),
-            Start::Point(x) => {
+            NewtonStart::Pose(pose) => self.root_near_pose(pose),
+            NewtonStart::Point(x) => {
                 // how far Newton's method leads does not matter: the proof is about where it ends
                 let far = || self.root_near_doubtful_point(x, f64::INFINITY);
                 let study = study_at(x, self.0.unit())?;
@@ -183,8 +183,8 @@ impl Certifier {
                     Err(why) => far().map_err(|_| why),
                 }
             }
-            Start::DoubtfulPoint(x, reach) => self.root_near_doubtful_point(x, reach),
-            Start::PrecisePoint(x) => self.root_at_precise_point(x),
+            NewtonStart::DoubtfulPoint(x, reach) => self.root_near_doubtful_point(x, reach),
+            NewtonStart::PrecisePoint(x) => self.root_at_precise_point(x),
         }
     }
 

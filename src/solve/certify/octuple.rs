@@ -12,7 +12,7 @@
 use num_complex::Complex64;
 
 use super::certificate::WhyUncertified;
-use super::krawczyk::{Bounds, largest};
+use super::krawczyk::{KrawczykBounds, largest};
 use super::system::{LegSystem, N, Study};
 use crate::num::disc::UP;
 use crate::num::double_double::DoubleDouble;
@@ -72,7 +72,7 @@ fn leg_at(system: &LegSystem, i: usize, x: &[ComplexOctuple; 8]) -> LegAt {
 }
 
 /// The bounds about `x` with 256 bits.
-pub(super) fn bounds(system: &LegSystem, x: &Study<DoubleDouble>) -> Result<Bounds, WhyUncertified> {
+pub(super) fn bounds(system: &LegSystem, x: &Study<DoubleDouble>) -> Result<KrawczykBounds, WhyUncertified> {
     let point: [ComplexOctuple; 8] =
         std::array::from_fn(|k| ComplexOctuple { re: octuple(x.re[k]), im: octuple(x.im[k]) });
     let legs: [LegAt; 6] = std::array::from_fn(|i| leg_at(system, i, &point));
@@ -102,7 +102,8 @@ pub(super) fn bounds(system: &LegSystem, x: &Study<DoubleDouble>) -> Result<Boun
     let row_size = |i: usize| {
         if i == 6 { 8.0 * (e + g) } else { 16.0 * (1.0 + system.t[i]) * size(i).0 + 8.0 * size(i).1 * e }
     };
-    let mut out = Bounds { eta_centre: 0.0, eta: 0.0, kappa: 0.0, beta: 0.0, step: [Complex64::ZERO; 8] };
+    let mut out =
+        KrawczykBounds { eta_centre: 0.0, eta: 0.0, kappa: 0.0, beta: 0.0, step: [Complex64::ZERO; 8] };
     for k in 0..N {
         let y: [ComplexOctuple; N] = std::array::from_fn(|i| columns[i][k]);
         let weights = y.map(modulus);

@@ -7,7 +7,7 @@ use num_complex::Complex64;
 
 use super::certificate::WhyUncertified;
 use super::inverse::equilibrated_inverse;
-use super::system::{LegSystem, N, Scalar, Study};
+use super::system::{LegSystem, N, RealScalar, Study};
 use crate::geom::ComplexPose;
 use crate::num::double_double::{ComplexDoubleDouble, DoubleDouble};
 
@@ -41,7 +41,7 @@ impl RefinedPose {
 }
 
 /// Where the iteration ended.
-pub(super) struct Refined {
+pub(super) struct RefinedRoot {
     pub(super) x: Study<DoubleDouble>,
     pub(super) moved: f64,
     pub(super) last_step: f64,
@@ -67,7 +67,7 @@ pub(super) fn refine_study(
     system: &LegSystem,
     start: &Study<f64>,
     near: f64,
-) -> Result<Refined, WhyUncertified> {
+) -> Result<RefinedRoot, WhyUncertified> {
     let mut x = start.lifted();
     let mut previous = f64::INFINITY;
     for steps in 1..=MAX_STEPS {
@@ -90,7 +90,7 @@ pub(super) fn refine_study(
         // settled: below the unit of double-double, or no longer shrinking where only rounding is left
         let settled = length <= 2f64.powi(-102) * size || (length < 1e-12 * size && length > 0.9 * previous);
         if settled {
-            return Ok(Refined { x, moved, last_step: length, steps });
+            return Ok(RefinedRoot { x, moved, last_step: length, steps });
         }
         previous = length;
     }

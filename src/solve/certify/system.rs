@@ -42,7 +42,7 @@ pub(super) const N: usize = 7;
 pub(super) const U: f64 = f64::EPSILON / 2.0;
 
 /// A real number type: `f64` with unit `2^-53` or [`DoubleDouble`] with [`DoubleDouble::UNIT`].
-pub(super) trait Scalar:
+pub(super) trait RealScalar:
     Copy + From<f64> + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {
     /// `a + b`, with the relative error of the type.
@@ -51,7 +51,7 @@ pub(super) trait Scalar:
     fn rounded(self) -> f64;
 }
 
-impl Scalar for f64 {
+impl RealScalar for f64 {
     fn sum(a: f64, b: f64) -> Self {
         a + b
     }
@@ -60,7 +60,7 @@ impl Scalar for f64 {
     }
 }
 
-impl Scalar for DoubleDouble {
+impl RealScalar for DoubleDouble {
     fn sum(a: f64, b: f64) -> Self {
         Self::from_sum(a, b)
     }
@@ -97,7 +97,7 @@ pub(super) struct Study<S> {
     pub(super) patch: usize,
 }
 
-impl<S: Scalar> Study<S> {
+impl<S: RealScalar> Study<S> {
     /// The nearest doubles.
     pub(super) fn rounded(&self) -> Study<f64> {
         Study { re: self.re.map(S::rounded), im: self.im.map(S::rounded), patch: self.patch }
@@ -178,7 +178,7 @@ pub(super) fn row_sums(d: &[f64; 3], c: &[f64; 3]) -> [f64; 4] {
 }
 
 /// `v = g + T e`, real coefficients on one part of the coordinates.
-pub(super) fn leg_vector<S: Scalar>(d: &[S; 3], c: &[S; 3], x: &[S; 8]) -> [S; 4] {
+pub(super) fn leg_vector<S: RealScalar>(d: &[S; 3], c: &[S; 3], x: &[S; 8]) -> [S; 4] {
     [
         x[4] - (d[0] * x[1] + d[1] * x[2] + d[2] * x[3]),
         (x[5] + d[0] * x[0]) + (x[2] * c[2] - x[3] * c[1]),
@@ -292,7 +292,7 @@ impl LegSystem {
     }
 
     /// `F` for the middles of the `s`; in double for the doubles nearest to these.
-    pub(super) fn values<S: Scalar>(&self, x: &Study<S>) -> Values<S> {
+    pub(super) fn values<S: RealScalar>(&self, x: &Study<S>) -> Values<S> {
         let zero = S::from(0.0);
         let half = S::from(0.5);
         let mut out = Values { f_re: [zero; N], f_im: [zero; N], v_re: [[zero; 4]; 6], v_im: [[zero; 4]; 6] };

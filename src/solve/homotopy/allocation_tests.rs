@@ -11,7 +11,7 @@ use super::start::shipped;
 use super::system::SectionHomotopy;
 use crate::manipulator::{Leg, Manipulator, SquaredLegLengths};
 use crate::num::Rng;
-use crate::solve::Frame;
+use crate::solve::ScaledFrames;
 
 /// From the shipped start to six random legs.
 fn homotopy(seed: u64) -> SectionHomotopy<f64> {
@@ -20,7 +20,7 @@ fn homotopy(seed: u64) -> SectionHomotopy<f64> {
     let legs = std::array::from_fn(|_| Leg { base: point(), platform: point() });
     let m = Manipulator::from_legs(legs).unwrap();
     let s = SquaredLegLengths::try_new([1.1, 2.0, 0.7, 2.9, 1.6, 2.3]).unwrap();
-    let target = Frame::of(&m, &s).sections(&m, &s).unwrap();
+    let target = ScaledFrames::of(&m, &s).sections(&m, &s).unwrap();
     SectionHomotopy::real(&shipped(StartKind::Generic).unwrap().sections, &target).unwrap()
 }
 

@@ -8,7 +8,7 @@
 use num_complex::Complex64;
 
 use super::limits::{ARC, TrackerLimits};
-use super::polish::{Polished, polish};
+use super::polish::{PolishedRoot, polish};
 use super::system::SectionHomotopy;
 use super::tracker::track_one;
 
@@ -37,7 +37,7 @@ pub(crate) struct EndPoint {
     /// `x` plus and minus this. Lost in rounding for a true double root.
     pub(crate) split: Option<[Complex64; 8]>,
     /// Newton's method at the target, where the path was followed to it along the real line.
-    pub(crate) regular: Option<Polished>,
+    pub(crate) regular: Option<PolishedRoot>,
 }
 
 /// Ends the path that stands at `x`, real `t > 0` small. `None` when nothing converges.

@@ -25,5 +25,5 @@ mod tracker;
 pub use monodromy::{GENERIC_COUNT, StartKind};
 pub use start::{SHIPPED_SEED, StartError, start_system_text};
 
-pub(crate) use paths::{EndKind, Path, follow_finely, solve_sections};
+pub(crate) use paths::{EndKind, HomotopyPath, follow_finely, solve_sections};
 pub(crate) use tail::TailEnd;

@@ -13,7 +13,7 @@ use super::limits::CAREFUL;
 use super::system::SectionHomotopy;
 use crate::num::Rng;
 use crate::solve::planar::{PLANAR_FORMS, mirror, spatial_row};
-use crate::solve::sections::{Row, Sections, forms};
+use crate::solve::sections::{FormRow, Sections, forms};
 
 /// Number of solutions of six general sections: the degree of the compactification.
 pub const GENERIC_COUNT: usize = 40;
@@ -45,7 +45,7 @@ impl StartKind {
     }
 
     /// The coefficients of the forms that are not in use made zero, orthogonally.
-    fn projected(self, row: &Row) -> Row {
+    fn projected(self, row: &FormRow) -> FormRow {
         match self {
             Self::Generic => *row,
             Self::Planar => {
@@ -92,7 +92,7 @@ fn sections_through(kind: StartKind, x: &[Complex64; 8], rng: &mut Rng) -> Optio
     // conj(f) spans the normal of the rows that vanish at x; its projection does within the kind
     let f = kind.projected(&forms(*x).map(|z| z.conj())).map(|z| z.conj());
     let size: f64 = f.iter().map(num_complex::Complex::norm_sqr).sum();
-    let rows: [Row; 6] = std::array::from_fn(|_| {
+    let rows: [FormRow; 6] = std::array::from_fn(|_| {
         let row = kind.projected(&std::array::from_fn(|_| random_number(rng)));
         let value: Complex64 = row.iter().zip(&f).map(|(c, z)| c * z).sum();
         std::array::from_fn(|k| row[k] - value / size * f[k].conj())

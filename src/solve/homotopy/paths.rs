@@ -7,7 +7,7 @@ use super::endgame::{end_path, projective_distance};
 use super::fast_tracker::FastTracker;
 use super::limits::{BRISK, CAREFUL, FAST, TrackerLimits, VERY_CAREFUL};
 use super::monodromy::StartKind;
-use super::polish::{Polished, polish};
+use super::polish::{PolishedRoot, polish};
 use super::start::{StartError, shipped};
 use super::system::SectionHomotopy;
 use super::tail::{Tail, TailEnd};
@@ -53,7 +53,7 @@ pub(crate) enum EndKind {
 
 /// One path.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Path {
+pub(crate) struct HomotopyPath {
     pub(crate) x: [Complex64; 8],
     pub(crate) kind: EndKind,
     pub(crate) steps: u32,
@@ -81,7 +81,11 @@ fn isotropy(x: &[Complex64; 8]) -> (f64, f64) {
 ///
 /// Ends that look alike although regular, and paths without an end, are tracked again with smaller steps;
 /// what fails then is left as [`EndKind::Failed`].
-pub(crate) fn solve_sections(kind: StartKind, target: &Sections, seed: u64) -> Result<Vec<Path>, StartError> {
+pub(crate) fn solve_sections(
+    kind: StartKind,
+    target: &Sections,
+    seed: u64,
+) -> Result<Vec<HomotopyPath>, StartError> {
     let start = shipped(kind)?;
     let corner = corner(seed);
     let aligned = start.sections.aligned_with(target);
@@ -93,10 +97,10 @@ pub(crate) fn solve_sections(kind: StartKind, target: &Sections, seed: u64) -> R
     };
     // the second leg, from the corner to the target, as a homotopy of its own
     let homotopy = SectionHomotopy::through(&real, corner);
-    let mut paths: Vec<Path> = tracked_fast
+    let mut paths: Vec<HomotopyPath> = tracked_fast
         .iter()
         .map(|p| {
-            let blank = Path {
+            let blank = HomotopyPath {
                 x: p.x,
                 kind: EndKind::Failed,
                 steps: p.steps,
@@ -159,17 +163,17 @@ pub(crate) fn follow_finely(
     Ok(at_corner.iter().zip(&near_end).map(follow).collect())
 }
 
-fn settle_arrived(homotopy: &SectionHomotopy, path: &Path) -> Path {
+fn settle_arrived(homotopy: &SectionHomotopy, path: &HomotopyPath) -> HomotopyPath {
     settle_polished(*path, &polish(homotopy, &path.x))
 }
 
-fn settle_polished(mut path: Path, end: &Polished) -> Path {
+fn settle_polished(mut path: HomotopyPath, end: &PolishedRoot) -> HomotopyPath {
     path.pivot_ratio = end.pivot_ratio;
     if end.converged { settle(path, &end.x) } else { path }
 }
 
 /// A path whose end point Newton's method has settled.
-fn settle(mut path: Path, x: &[Complex64; 8]) -> Path {
+fn settle(mut path: HomotopyPath, x: &[Complex64; 8]) -> HomotopyPath {
     let (iso, finite) = isotropy(x);
     path.x = *x;
     path.winding = 1;
@@ -183,7 +187,7 @@ fn settle(mut path: Path, x: &[Complex64; 8]) -> Path {
     path
 }
 
-fn settle_by_endgame(homotopy: &SectionHomotopy, mut path: Path, t: f64) -> Path {
+fn settle_by_endgame(homotopy: &SectionHomotopy, mut path: HomotopyPath, t: f64) -> HomotopyPath {
     let Some(end) = end_path(homotopy, &path.x, t) else { return path };
     if let Some(polished) = &end.regular {
         return settle_polished(path, polished);
@@ -224,7 +228,7 @@ struct Retracker<'a> {
 }
 
 impl Retracker<'_> {
-    fn run(&self, paths: &mut [Path], again: &[usize], limits: &TrackerLimits) {
+    fn run(&self, paths: &mut [HomotopyPath], again: &[usize], limits: &TrackerLimits) {
         let first = SectionHomotopy::through(self.real, Complex64::ONE).shortened(self.corner);
         let second = self.homotopy.shortened(CAREFUL_ENDGAME_AT.into());
         let from: Vec<[Complex64; 8]> = again.iter().map(|i| self.starts[*i]).collect();
@@ -233,7 +237,7 @@ impl Retracker<'_> {
         let near_end = track_all(&second, &middle, limits, 0.0);
         for ((index, p), q) in again.iter().zip(at_corner).zip(near_end) {
             let before = &paths[*index];
-            let path = Path {
+            let path = HomotopyPath {
                 x: q.x,
                 kind: EndKind::Failed,
                 steps: before.steps + p.steps + q.steps,
@@ -253,7 +257,7 @@ impl Retracker<'_> {
 
 /// Indices of paths whose end is missing, coincides with that of another regular path, or lacks its
 /// complex conjugate although the target is real. Mirror images of ends are ends, too, for a planar start.
-pub(crate) fn suspects(kind: StartKind, paths: &[Path], target: &Sections) -> Vec<usize> {
+pub(crate) fn suspects(kind: StartKind, paths: &[HomotopyPath], target: &Sections) -> Vec<usize> {
     let real = target.rows.iter().flatten().all(|z| z.im == 0.0);
     let mut ends: Vec<([Complex64; 8], bool)> =
         paths.iter().map(|p| (unit(&p.x), p.kind == EndKind::Regular)).collect();

@@ -9,7 +9,7 @@ use super::system::{SectionHomotopy, derivative_matrix, values};
 
 /// Newton's method at the target.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Polished {
+pub(crate) struct PolishedRoot {
     pub(crate) x: [Complex64; 8],
     pub(crate) converged: bool,
     /// Smallest over largest pivot modulus of the last Newton matrix.
@@ -17,7 +17,7 @@ pub(crate) struct Polished {
 }
 
 /// Newton's method at `t = 0` on the patch of `x`, until it stops contracting.
-pub(super) fn polish(homotopy: &SectionHomotopy, x: &[Complex64; 8]) -> Polished {
+pub(super) fn polish(homotopy: &SectionHomotopy, x: &[Complex64; 8]) -> PolishedRoot {
     let norm = x.iter().map(num_complex::Complex::norm_sqr).sum::<f64>().sqrt();
     let simd = Scalar::new();
     let mut y: Vec8<Scalar> = x.map(|z| Lanes::splat(simd, z / norm));
@@ -35,7 +35,7 @@ pub(super) fn polish(homotopy: &SectionHomotopy, x: &[Complex64; 8]) -> Polished
         if !(size < 0.1 * last) {
             // no longer contracting: at rounding level that is the end of it, above it is failure
             let x = y.map(|z| z.lane(0));
-            return Polished { x, converged: last < 1e-8 && size < 1e-8, pivot_ratio };
+            return PolishedRoot { x, converged: last < 1e-8 && size < 1e-8, pivot_ratio };
         }
         for p in 0..8 {
             y[p] -= delta[p];
@@ -45,5 +45,5 @@ pub(super) fn polish(homotopy: &SectionHomotopy, x: &[Complex64; 8]) -> Polished
             break;
         }
     }
-    Polished { x: y.map(|z| z.lane(0)), converged: last < 1e-8, pivot_ratio }
+    PolishedRoot { x: y.map(|z| z.lane(0)), converged: last < 1e-8, pivot_ratio }
 }

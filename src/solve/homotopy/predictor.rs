@@ -10,7 +10,7 @@ use super::limits::StepLimits;
 use super::system::ORDER;
 
 /// The step of every lane towards its goal.
-pub(super) struct Step<S: Simd> {
+pub(super) struct PredictorStep<S: Simd> {
     /// Difference of the parameters.
     pub(super) dt: Lanes<S>,
     /// Parameter after the step, exactly the goal where it is reached.
@@ -29,7 +29,7 @@ pub(super) fn choose_step<S: Simd>(
     limits: &StepLimits,
     factor: &PerLane,
     moving: &[bool; MOST_LANES],
-) -> Step<S> {
+) -> PredictorStep<S> {
     let s = t.simd;
     let last = store::<S>(norm_sqr(&series[ORDER - 1]));
     let earlier = store::<S>(norm_sqr(&series[ORDER - 2]));
@@ -49,7 +49,7 @@ pub(super) fn choose_step<S: Simd>(
     }
     let dt = way.scale(load(s, &fraction));
     let mask = s.greater_than_f64s(load(s, &reaches.map(f64::from)), s.splat_f64s(0.5));
-    Step { dt, t: (t + dt).select(mask, goal), fraction, reaches }
+    PredictorStep { dt, t: (t + dt).select(mask, goal), fraction, reaches }
 }
 
 /// The series about `x` at `dt`.

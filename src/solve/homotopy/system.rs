@@ -266,7 +266,7 @@ mod tests {
     use super::*;
     use crate::num::Rng;
     use crate::solve::homotopy::lu::Lu;
-    use crate::solve::sections::{Row, forms};
+    use crate::solve::sections::{FormRow, forms};
     use pulp::Scalar;
 
     fn random_vector(rng: &mut Rng) -> [Complex64; 8] {
@@ -322,7 +322,7 @@ mod tests {
         // sections through x at t = 1/2 only: the target row is the start row less twice what sticks out
         let f = forms(x);
         let ff: Complex64 = f.iter().map(|z| z * z).sum();
-        let start: [Row; 6] =
+        let start: [FormRow; 6] =
             std::array::from_fn(|_| std::array::from_fn(|_| Complex64::new(rng.normal(), rng.normal())));
         let target = start.map(|row| {
             let overlap: Complex64 = row.iter().zip(&f).map(|(c, z)| c * z).sum();

@@ -14,7 +14,7 @@ use super::paths::EndKind;
 use super::system::{ORDER, SectionHomotopy, derivative_matrix, taylor};
 use crate::num::octuple::{ComplexOctuple, Octuple, OctupleLu};
 use crate::solve::octuple_sections::{OctupleSections, octuple_forms};
-use crate::solve::sections::{FORMS, Row, Sections};
+use crate::solve::sections::{FORMS, FormRow, Sections};
 
 /// Values of the forms.
 type Forms17 = [ComplexOctuple; FORMS];
@@ -216,7 +216,7 @@ impl Tail {
         let factor = self.corner.times(at);
         let row = |i: usize| if i < 5 { exponent } else { 0 };
         let shift = |i: usize, k: usize| exponent * DEGREE[k] - row(i);
-        let target: [Row; 6] = std::array::from_fn(|i| {
+        let target: [FormRow; 6] = std::array::from_fn(|i| {
             std::array::from_fn(|k| {
                 // the first five equations have no g.g
                 if i < 5 && DEGREE[k] == 0 {
@@ -226,7 +226,7 @@ impl Tail {
                 }
             })
         });
-        let slope: [Row; 6] = std::array::from_fn(|i| {
+        let slope: [FormRow; 6] = std::array::from_fn(|i| {
             std::array::from_fn(|k| {
                 if i < 5 && DEGREE[k] == 0 {
                     Complex64::ZERO

@@ -65,7 +65,7 @@ pub enum PoseSet {
     /// The computation does not tell.
     Undecided {
         /// Why.
-        why: Undecided,
+        why: CountUndecided,
     },
 }
 
@@ -77,7 +77,7 @@ pub enum PoseSet {
     derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     serde(rename_all = "snake_case")
 )]
-pub enum Undecided {
+pub enum CountUndecided {
     /// Neither the set nor random linear sections of it close at the highest degree computed.
     DegreeTooLow,
     /// The primes disagree: one of them at least divides a number it should not.
@@ -86,7 +86,7 @@ pub enum Undecided {
     LengthsNotExact,
 }
 
-impl Undecided {
+impl CountUndecided {
     /// The name used in JSON.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -112,7 +112,7 @@ pub struct PoseCount {
 impl PoseCount {
     /// No count.
     #[must_use]
-    pub fn undecided(why: Undecided) -> Self {
+    pub fn undecided(why: CountUndecided) -> Self {
         Self { set: PoseSet::Undecided { why }, primes: Vec::new(), error_probability: 0.0 }
     }
 
@@ -170,14 +170,14 @@ fn counted(m: &Manipulator, lengths: Lengths<'_>, options: &CountOptions) -> Pos
         count.primes.push(field.prime());
         count.error_probability *= error;
         if count.set != set {
-            count.set = PoseSet::Undecided { why: Undecided::PrimesDisagree };
+            count.set = PoseSet::Undecided { why: CountUndecided::PrimesDisagree };
         }
         if matches!(count.set, PoseSet::Undecided { .. }) {
             count.error_probability = 0.0;
             break;
         }
     }
-    out.unwrap_or(PoseCount::undecided(Undecided::DegreeTooLow))
+    out.unwrap_or(PoseCount::undecided(CountUndecided::DegreeTooLow))
 }
 
 /// The set modulo one prime, and the degree of the multiples used.
@@ -214,14 +214,14 @@ fn set_modulo(field: Field, m: &Manipulator, lengths: Lengths<'_>, draws: &Draws
             let set = if dimension == 0 || (count == 0 && dimension == relations) {
                 PoseSet::Finite { count, by_degree }
             } else if count == 0 {
-                PoseSet::Undecided { why: Undecided::DegreeTooLow }
+                PoseSet::Undecided { why: CountUndecided::DegreeTooLow }
             } else {
                 PoseSet::PositiveDimensional { dimension, degree: count }
             };
             return (set, deepest);
         }
     }
-    (PoseSet::Undecided { why: Undecided::DegreeTooLow }, deepest)
+    (PoseSet::Undecided { why: CountUndecided::DegreeTooLow }, deepest)
 }
 
 /// `r - 2 a.y - 2 b.x - 2 a.(M b) + |a|^2 + |b|^2 - s = 0`.

@@ -21,7 +21,7 @@ fn m(i: usize, j: usize) -> usize {
 }
 
 /// Terms of a quadric: coefficient and up to two coordinates.
-type Terms = Vec<(i64, Vec<usize>)>;
+type QuadricTerms = Vec<(i64, Vec<usize>)>;
 
 /// The sign of the permutation `(i, j, k)`, 0 when two are equal.
 fn sign(i: usize, j: usize, k: usize) -> i64 {
@@ -33,11 +33,11 @@ fn sign(i: usize, j: usize, k: usize) -> i64 {
 }
 
 /// `M M^T = 1`, `M^T M = 1`, `cof M = M`, `M^T y = -x`, `M x = -y`, `y.y = r`, `x.x = r`, `[y]_x M = -M [x]_x`: integer coefficients, at most 2 in absolute value.
-pub(super) fn quadrics() -> Vec<Terms> {
-    let mut out: Vec<Terms> = Vec::new();
+pub(super) fn quadrics() -> Vec<QuadricTerms> {
+    let mut out: Vec<QuadricTerms> = Vec::new();
     for i in 0..3 {
         for j in i..3 {
-            let one = |mut t: Terms| {
+            let one = |mut t: QuadricTerms| {
                 if i == j {
                     t.push((-1, vec![]));
                 }
@@ -119,7 +119,7 @@ pub(super) fn cut(field: Field, equations: &[Linear]) -> Cut {
     Cut::Quadrics { unknowns: left.len(), polynomials }
 }
 
-fn substituted(field: Field, terms: &Terms, forms: &[Polynomial]) -> Polynomial {
+fn substituted(field: Field, terms: &QuadricTerms, forms: &[Polynomial]) -> Polynomial {
     let mut sum: Vec<(Monomial, u64)> = Vec::new();
     for (coefficient, factors) in terms {
         let mut product = vec![(UNIT, field.integer(*coefficient))];

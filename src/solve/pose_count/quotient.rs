@@ -65,7 +65,7 @@ enum Product {
 
 /// A polynomial of the ideal and the degree of the multiples it is made of.
 #[derive(Debug, Clone)]
-struct Relation {
+struct IdealRelation {
     polynomial: Polynomial,
     depth: usize,
 }
@@ -80,17 +80,17 @@ struct Spaces {
     /// Products of the standard monomials of all degrees built but the last.
     products: Vec<Vec<Product>>,
     /// Relations by degree.
-    given: Vec<Vec<Relation>>,
+    given: Vec<Vec<IdealRelation>>,
     /// Degree of the multiples used for each space.
     depth: Vec<usize>,
 }
 
 /// Builds the spaces up to degree `limit`.
 pub(super) fn close(field: Field, unknowns: usize, polynomials: Vec<Polynomial>, limit: usize) -> Outcome {
-    let mut given: Vec<Vec<Relation>> = vec![Vec::new(); limit + 1];
+    let mut given: Vec<Vec<IdealRelation>> = vec![Vec::new(); limit + 1];
     for polynomial in polynomials {
         let Some(d) = polynomial.iter().map(|t| degree(t.0)).max() else { continue };
-        given[d].push(Relation { polynomial, depth: d });
+        given[d].push(IdealRelation { polynomial, depth: d });
     }
     let mut s = Spaces {
         field,
@@ -196,7 +196,7 @@ impl Spaces {
                 let terms = (0..=i).map(|k| (self.standard[k], row[columns.of_standard(k)]));
                 let polynomial = terms.filter(|t| t.1 != 0).collect();
                 let d = degree(self.standard[i]);
-                self.given[d].push(Relation { polynomial, depth });
+                self.given[d].push(IdealRelation { polynomial, depth });
                 lowest = Some(d);
             }
         }

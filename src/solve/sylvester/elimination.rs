@@ -6,7 +6,7 @@ use crate::num::double_double::ComplexDoubleDouble as Number;
 
 /// A matrix brought to upper triangular form in its first columns, the pivots on the diagonal.
 #[derive(Debug, Clone)]
-pub(super) struct Eliminated {
+pub(super) struct Triangularised {
     rows: Vec<Vec<Number>>,
     /// `columns[k]`: which unknown the pivot of row `k` belongs to; the unknowns without pivot follow.
     columns: Vec<usize>,
@@ -17,7 +17,7 @@ fn size(z: Number) -> f64 {
     z.hi().l1_norm()
 }
 
-impl Eliminated {
+impl Triangularised {
     /// Eliminates in the first `unknowns` columns; the columns after them are right-hand sides.
     pub(super) fn new(mut rows: Vec<Vec<Number>>, unknowns: usize) -> Self {
         let mut columns: Vec<usize> = (0..unknowns).collect();

@@ -4,7 +4,7 @@ use num_complex::Complex64;
 
 use super::SylvesterError;
 use super::bivariate::{Bivariate, count, place};
-use super::elimination::Eliminated;
+use super::elimination::Triangularised;
 use crate::num::double_double::{ComplexDoubleDouble as Number, DoubleDouble};
 use crate::solve::generic_frame::{GenericProblem, PRODUCTS, norm_form, rotation_forms};
 
@@ -70,7 +70,7 @@ impl Equations {
             }));
             row
         });
-        let eliminated = Eliminated::new(rows.collect(), 6);
+        let eliminated = Triangularised::new(rows.collect(), 6);
         let pivot_ratio = eliminated.pivot_ratio();
         if !(pivot_ratio > LINEAR_LIMIT) {
             return Err(SylvesterError::DependentLegs { pivot_ratio });
@@ -154,7 +154,7 @@ impl Slice {
             let top = (0..6).map(|j| r.at(5 - j, j)).collect::<Vec<_>>();
             top.into_iter().chain(r.up_to(4).iter().map(|z| -*z)).collect::<Vec<_>>()
         });
-        let eliminated = Eliminated::new(rows.collect(), 6);
+        let eliminated = Triangularised::new(rows.collect(), 6);
         let pivot_ratio = eliminated.pivot_ratio();
         if !(pivot_ratio > CUBIC_LIMIT) {
             return Err(SylvesterError::CommonFactor { pivot_ratio });

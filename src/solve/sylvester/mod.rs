@@ -24,7 +24,7 @@ use thiserror::Error;
 use super::generic_frame::GenericProblem;
 use crate::geom::ComplexPose;
 use crate::num::double_double::{ComplexDoubleDouble as Number, DoubleDouble};
-use elimination::Eliminated;
+use elimination::Triangularised;
 use equations::Equations;
 
 /// Degree of the eliminant.
@@ -91,7 +91,7 @@ impl Eliminant {
                 let c3 = univariate::root_of_unity(k, POINTS);
                 let mut matrix = equations.slice(c3).matrix(c3)?;
                 touch(c3, &mut matrix);
-                Ok(Eliminated::new(matrix, 15).determinant())
+                Ok(Triangularised::new(matrix, 15).determinant())
             })
             .collect();
         let mut coefficients = univariate::interpolate(&values?, POINTS);
@@ -119,7 +119,7 @@ impl Eliminant {
 
     fn pose(&self, problem: &GenericProblem, c3: Number) -> Option<ComplexPose> {
         let slice = self.equations.slice(c3);
-        let w = Eliminated::new(slice.matrix(c3).ok()?, 15).null_vector();
+        let w = Triangularised::new(slice.matrix(c3).ok()?, 15).null_vector();
         let (c1, c2) = (w[1] / w[0], w[2] / w[0]);
         let value = |p: &bivariate::Bivariate| p.value(c1, c2);
         let denominators = slice.denominators.each_ref().map(value);

@@ -48,7 +48,7 @@ pub(super) enum Quotient {
 
 /// The elimination template: matrix entries and the pencil made from the eliminated matrix.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Layout {
+pub struct TemplateLayout {
     pub(super) rows: usize,
     pub(super) excessive: usize,
     pub(super) reducible: usize,
@@ -107,7 +107,7 @@ fn reduce(m: Monomial, shifts: &BTreeSet<Monomial>) -> Vec<(Monomial, f64, u8)> 
     part(lower, 1.0, 1).chain(part(with_y, -1.0, 0)).chain(part(with_z, -1.0, 0)).collect()
 }
 
-impl Layout {
+impl TemplateLayout {
     /// Builds the layout from the monomial sets in `text`.
     ///
     /// # Errors
@@ -197,7 +197,7 @@ impl Layout {
     /// # Errors
     /// [`LayoutError`], if the shipped data were damaged.
     pub fn shipped() -> Result<&'static Self, LayoutError> {
-        static LAYOUT: OnceLock<Result<Layout, LayoutError>> = OnceLock::new();
+        static LAYOUT: OnceLock<Result<TemplateLayout, LayoutError>> = OnceLock::new();
         LAYOUT.get_or_init(|| Self::parse(include_str!("data/template66.txt"))).as_ref().map_err(Clone::clone)
     }
 }
@@ -208,7 +208,7 @@ mod tests {
 
     #[test]
     fn the_shipped_template_has_the_published_sizes() {
-        let l = Layout::shipped().unwrap();
+        let l = TemplateLayout::shipped().unwrap();
         assert_eq!((l.rows, l.excessive, l.reducible, l.basic), (293, 255, 38, 69));
         let reducible = l.quotients.iter().filter(|q| matches!(q, Quotient::Reducible(_))).count();
         assert_eq!(reducible, 38);
@@ -222,13 +222,13 @@ mod tests {
     fn damaged_data_are_refused() {
         let text = include_str!("data/template66.txt");
         assert_eq!(
-            Layout::parse(&text.replace("@basic 69", "@basic 70")),
+            TemplateLayout::parse(&text.replace("@basic 69", "@basic 70")),
             Err(LayoutError::Section { section: "basic" })
         );
         assert_eq!(
-            Layout::parse(&text.replace("001001 001000", "001001 000100")),
+            TemplateLayout::parse(&text.replace("001001 001000", "001001 000100")),
             Err(LayoutError::Inconsistent)
         );
-        assert_eq!(Layout::parse("").unwrap_err(), LayoutError::Section { section: "shifts1" });
+        assert_eq!(TemplateLayout::parse("").unwrap_err(), LayoutError::Section { section: "shifts1" });
     }
 }

@@ -16,7 +16,7 @@
 
 mod layout;
 
-pub use layout::{Layout, LayoutError};
+pub use layout::{LayoutError, TemplateLayout};
 
 use nalgebra::Vector3;
 
@@ -28,14 +28,14 @@ use layout::Quotient;
 /// The matrix of a problem, 293 x 362, columns excessive, reducible, basic.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Filled<'a> {
-    layout: &'a Layout,
+    layout: &'a TemplateLayout,
     rows: Vec<Vec<f64>>,
 }
 
 /// What the factorisation leaves: `A_R v(R) + A_B v(B) = 0`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Eliminated<'a> {
-    layout: &'a Layout,
+    layout: &'a TemplateLayout,
     /// 38 rows, columns reducible, basic.
     rows: Vec<Vec<f64>>,
     /// Smallest pivot over largest, a rough measure of how near the template is to losing rank.
@@ -60,7 +60,7 @@ fn coefficients(problem: &GenericProblem) -> [[f64; 40]; 5] {
     })
 }
 
-impl Layout {
+impl TemplateLayout {
     /// Writes the coefficients of a problem into the template.
     #[must_use]
     pub fn fill(&self, problem: &GenericProblem) -> Filled<'_> {
@@ -114,7 +114,7 @@ impl Eliminated<'_> {
     }
 }
 
-impl Layout {
+impl TemplateLayout {
     /// The pose an eigenvector points to, in the design's frames, not checked against any equation. It is read
     /// from `w (1, u, v, w, x, y, z)`; `None` when the eigenvalue or the coordinates are at infinity or `e.e = 0`.
     #[must_use]

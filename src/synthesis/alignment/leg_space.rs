@@ -186,10 +186,10 @@ pub(super) fn centred(space: &LegSpace) -> Result<Centred, LinalgError> {
 }
 
 /// What shifts along each open direction add to a list of numbers, and the list to be cancelled.
-type Problem = (Vec<Vec<f64>>, Vec<f64>);
+type ShiftProblem = (Vec<Vec<f64>>, Vec<f64>);
 
 /// The blocks `C` of the elements `(0, a, b, C)`: a shift adds `s b^T + a t^T`.
-fn differences(head: &Head, open: &[Vec<f64>]) -> Result<Problem, LinalgError> {
+fn differences(head: &Head, open: &[Vec<f64>]) -> Result<ShiftProblem, LinalgError> {
     let level = head.split()?.1;
     let column = |x: &Vec<f64>| {
         let (s, t) = pair(x);
@@ -203,7 +203,7 @@ fn differences(head: &Head, open: &[Vec<f64>]) -> Result<Problem, LinalgError> {
 }
 
 /// The part of `(a, b)` of the elements `(1, a, b, C)` across those with first entry zero.
-fn heads(head: &Head, open: &[Vec<f64>]) -> Result<Problem, LinalgError> {
+fn heads(head: &Head, open: &[Vec<f64>]) -> Result<ShiftProblem, LinalgError> {
     let (first, level) = head.split()?;
     let level: Vec<Vec<f64>> = level.iter().map(|d| d[1..].to_vec()).collect();
     Ok((open.iter().map(|x| without(x, &level)).collect(), first[1..].to_vec()))
@@ -213,7 +213,7 @@ fn heads(head: &Head, open: &[Vec<f64>]) -> Result<Problem, LinalgError> {
 ///
 /// An open shift `(s, t)` is itself the head of an element `(0, s, t, C')`, and `s t^T` is a moment: the block changes by
 /// `s b^T + a t^T - C'`.
-fn means(head: &Head, open: &[Vec<f64>]) -> Result<Problem, LinalgError> {
+fn means(head: &Head, open: &[Vec<f64>]) -> Result<ShiftProblem, LinalgError> {
     let first = head.split()?.0;
     let (a, b) = pair(&first[1..]);
     let column = |x: &Vec<f64>| {
@@ -298,8 +298,8 @@ impl Canonical {
     }
 
     /// How much the principal values and the canonical form change for a change of the joints by one unit of their body, to first order.
-    pub(super) fn sensitivity(&self, seed: u64) -> Result<Sensitivity, LinalgError> {
-        let mut most = Sensitivity { values: [0.0; 6], distance: 0.0 };
+    pub(super) fn sensitivity(&self, seed: u64) -> Result<ShiftSensitivity, LinalgError> {
+        let mut most = ShiftSensitivity { values: [0.0; 6], distance: 0.0 };
         for trial in 0..TRIALS {
             let mut rng = Rng::stream(seed, trial);
             let mut change = || Vector3::from_fn(|_, _| rng.normal() * TRIAL);
@@ -324,7 +324,7 @@ impl Canonical {
 
 /// Largest changes seen, per unit.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Sensitivity {
+pub(super) struct ShiftSensitivity {
     pub(super) values: [f64; 6],
     pub(super) distance: f64,
 }

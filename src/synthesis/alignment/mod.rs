@@ -10,11 +10,11 @@ mod rotations;
 #[cfg(test)]
 mod tests;
 
-pub use outcome::{Alignment, Difference, Invariant, Motion, NearestMotion, Undecided};
+pub use outcome::{Alignment, AlignmentUndecided, Difference, Invariant, Motion, NearestMotion};
 
 use nalgebra::{Point3, Vector3};
 
-use self::leg_space::{Canonical, Sensitivity};
+use self::leg_space::{Canonical, ShiftSensitivity};
 use self::rotations::{Fit, refine};
 use super::leg_map::{LegMapTolerances, Relation, leg_map};
 use super::leg_vector::Normalisation;
@@ -77,19 +77,19 @@ pub fn align(a: &Manipulator, b: &Manipulator, seed: u64) -> Result<Alignment, L
         }
         return Ok(Alignment::Found { motions, all: candidates.complete, freedom });
     }
-    let bounds = Bounds::of(&of_a, &of_b, [a, b], seed)?;
+    let bounds = RoundingBounds::of(&of_a, &of_b, [a, b], seed)?;
     Ok(outcome::none_found(&of_a, &of_b, candidates.complete.then_some(distance), &bounds, nearest))
 }
 
 /// First-order bounds, with a factor for safety, of the errors of invariants that come from the rounding of the joints.
-struct Bounds {
+struct RoundingBounds {
     values: [f64; 6],
     distance: f64,
 }
 
-impl Bounds {
+impl RoundingBounds {
     fn of(a: &Canonical, b: &Canonical, designs: [&Manipulator; 2], seed: u64) -> Result<Self, LinalgError> {
-        let one = |c: &Canonical, m: &Manipulator| -> Result<(Sensitivity, f64, f64), LinalgError> {
+        let one = |c: &Canonical, m: &Manipulator| -> Result<(ShiftSensitivity, f64, f64), LinalgError> {
             let far = |points: &[Point3<f64>], unit: f64| {
                 points.iter().map(|p| p.coords.amax()).fold(0.0, f64::max) / unit
             };

@@ -1,7 +1,7 @@
 //! Answers of [`align`](super::align), and the reasons for them.
 
 use super::leg_space::Canonical;
-use super::{Bounds, CLEAR, SAME};
+use super::{CLEAR, RoundingBounds, SAME};
 use crate::geom::Pose;
 use crate::synthesis::leg_map::LegMapOutcome;
 
@@ -100,7 +100,7 @@ pub struct Difference {
     derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     serde(rename_all = "snake_case")
 )]
-pub enum Undecided {
+pub enum AlignmentUndecided {
     /// A dimension is not clear: singular values too near to the tolerance.
     UnclearDimension,
     /// A body has no axes of its own, or nearly so; a search found no motion, which proves nothing.
@@ -109,7 +109,7 @@ pub enum Undecided {
     WithinErrors,
 }
 
-impl Undecided {
+impl AlignmentUndecided {
     /// The name used in JSON.
     #[must_use]
     pub fn as_str(self) -> &'static str {
@@ -143,7 +143,7 @@ pub enum Alignment {
     /// Not decided.
     Undecided {
         /// Why.
-        reason: Undecided,
+        reason: AlignmentUndecided,
         /// How near a motion comes.
         nearest: Option<NearestMotion>,
     },
@@ -170,7 +170,7 @@ pub(super) fn dimensions_differ(a: &Canonical, b: &Canonical) -> Alignment {
     };
     let (gap, bound) = gaps(a, b);
     if !is_clear(a, b) {
-        return Alignment::Undecided { reason: Undecided::UnclearDimension, nearest: None };
+        return Alignment::Undecided { reason: AlignmentUndecided::UnclearDimension, nearest: None };
     }
     let difference = Difference { invariant, in_a: x[at] as f64, in_b: y[at] as f64, bound, gap };
     Alignment::None { difference, nearest: None }
@@ -181,11 +181,11 @@ pub(super) fn none_found(
     a: &Canonical,
     b: &Canonical,
     distance: Option<f64>,
-    bounds: &Bounds,
+    bounds: &RoundingBounds,
     nearest: Option<NearestMotion>,
 ) -> Alignment {
     if !is_clear(a, b) {
-        return Alignment::Undecided { reason: Undecided::UnclearDimension, nearest };
+        return Alignment::Undecided { reason: AlignmentUndecided::UnclearDimension, nearest };
     }
     let values = (0..6).map(|k| Difference {
         invariant: if k < 3 { Invariant::BasePrincipalValue } else { Invariant::PlatformPrincipalValue },
@@ -204,8 +204,8 @@ pub(super) fn none_found(
     let clear = values.chain(forms).filter(|d| d.gap > d.bound);
     match clear.max_by(|x, y| (x.gap / x.bound).total_cmp(&(y.gap / y.bound))) {
         Some(difference) => Alignment::None { difference, nearest },
-        None if distance.is_none() => Alignment::Undecided { reason: Undecided::NoAxes, nearest },
-        None => Alignment::Undecided { reason: Undecided::WithinErrors, nearest },
+        None if distance.is_none() => Alignment::Undecided { reason: AlignmentUndecided::NoAxes, nearest },
+        None => Alignment::Undecided { reason: AlignmentUndecided::WithinErrors, nearest },
     }
 }
 
@@ -236,10 +236,12 @@ impl Alignment {
             }
             Alignment::Undecided { reason, nearest } => {
                 let why = match reason {
-                    Undecided::UnclearDimension => {
+                    AlignmentUndecided::UnclearDimension => {
                         "a dimension is not clear, singular values are too near to the tolerance"
                     }
-                    Undecided::NoAxes => "a body has no axes of its own, and the search found no motion",
+                    AlignmentUndecided::NoAxes => {
+                        "a body has no axes of its own, and the search found no motion"
+                    }
                     _ => {
                         "no invariant differs by more than its error bound, and no motion reaches the tolerance"
                     }

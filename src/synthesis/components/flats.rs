@@ -232,7 +232,7 @@ pub(super) struct ClosedPair {
 
 /// The joints in both readings.
 #[derive(Debug)]
-pub(super) struct Ends {
+pub(super) struct BothReadings {
     pub(super) base: [Vector3<f64>; 6],
     pub(super) platform: [Vector3<f64>; 6],
     pub(super) exact: ExactLegs,
@@ -241,7 +241,7 @@ pub(super) struct Ends {
     pub(super) tolerance: f64,
 }
 
-impl Ends {
+impl BothReadings {
     /// Ends of some legs.
     pub(super) fn of(&self, legs: &[usize]) -> Vec<(Vector3<f64>, Vector3<f64>)> {
         legs.iter().map(|i| (self.base[*i], self.platform[*i])).collect()
@@ -301,7 +301,7 @@ impl Dimensions {
 }
 
 /// All closed pairs that can hold a family, see `docs/theory/components.md`: `k' >= i + j + 1`, not both points.
-pub(super) fn closed_pairs(ends: &Ends) -> Result<Vec<ClosedPair>, LinalgError> {
+pub(super) fn closed_pairs(ends: &BothReadings) -> Result<Vec<ClosedPair>, LinalgError> {
     let exact = Dimensions::of(|platform, legs| {
         Ok(ends.exact.dimension(if platform { Body::Platform } else { Body::Base }, legs))
     })?;
@@ -348,7 +348,7 @@ pub(super) fn closed_pairs(ends: &Ends) -> Result<Vec<ClosedPair>, LinalgError> 
 }
 
 fn product(
-    ends: &Ends,
+    ends: &BothReadings,
     legs: &[usize],
     i: usize,
     j: usize,
@@ -361,7 +361,7 @@ fn product(
 }
 
 /// All six legs between the flats they span within the tolerance.
-pub(super) fn whole(ends: &Ends) -> Result<ClosedPair, LinalgError> {
+pub(super) fn whole(ends: &BothReadings) -> Result<ClosedPair, LinalgError> {
     let legs: Vec<usize> = (0..6).collect();
     let dimension = |platform: bool| -> Result<usize, LinalgError> {
         Ok(spread(ends.side(platform))?.iter().filter(|s| **s > ends.tolerance).count())

@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use super::component::FamilyKind;
 use super::flats::{Flat, Product};
 use super::form::{Form, conic_frame, exponents, index, power};
-use super::shape::{Curve, Shape};
+use super::shape::{Curve, FamilyShape};
 use super::spectrum::{
     APART, COMPUTED, Decision, NO_DIMENSION, Question, Spectrum, nearness, norm, orthonormal, unit, without,
 };
@@ -138,7 +138,7 @@ fn planar_kernel(
 /// A family before it is compared with the others.
 #[derive(Debug, Clone)]
 pub(super) struct Found {
-    pub(super) shape: Shape,
+    pub(super) shape: FamilyShape,
     pub(super) kind: FamilyKind,
     pub(super) base_span: usize,
     pub(super) platform_span: usize,
@@ -186,7 +186,7 @@ impl View<'_> {
 
     fn found(
         &self,
-        shape: Shape,
+        shape: FamilyShape,
         kind: FamilyKind,
         spans: (usize, usize),
         decisions: Vec<Decision>,
@@ -201,9 +201,9 @@ impl View<'_> {
         let near = spanning_points(&carrier, self.near, self.tolerance);
         let far = spanning_points(&other, self.far, self.tolerance);
         let shape = if self.over_platform {
-            Shape::Product { base: other, platform: carrier, base_points: far, platform_points: near }
+            FamilyShape::Product { base: other, platform: carrier, base_points: far, platform_points: near }
         } else {
-            Shape::Product { base: carrier, platform: other, base_points: near, platform_points: far }
+            FamilyShape::Product { base: carrier, platform: other, base_points: near, platform_points: far }
         };
         self.found(shape, FamilyKind::AllPairs, spans, decisions)
     }
@@ -295,7 +295,7 @@ impl View<'_> {
         }
         let all: Vec<Vec<f64>> = fibre.iter().flatten().cloned().collect();
         let other_span = orthonormal(&all, NO_DIMENSION).len() - 1;
-        let shape = Shape::Over {
+        let shape = FamilyShape::Over {
             over_platform: self.over_platform,
             curve,
             carrier: carrier.clone(),
@@ -317,7 +317,7 @@ impl View<'_> {
             return Ok(other.map(|other| self.all_pairs(carrier, other, vec![decision])));
         }
         let other_span = orthonormal(&map, NO_DIMENSION).len() - 1;
-        let shape = Shape::Graph {
+        let shape = FamilyShape::Graph {
             over_platform: self.over_platform,
             carrier: self.product.base.clone(),
             other: self.product.platform.clone(),

@@ -36,7 +36,7 @@ pub use self::spectrum::{Decision, Question};
 pub use component::{Component, FamilyKind, SampledLeg, flat_name};
 pub use exact_curve::{ExactCurve, ExactPart, ExactPoint, NoExactCurve};
 
-use self::flats::{ClosedPair, Ends, closed_pairs};
+use self::flats::{BothReadings, ClosedPair, closed_pairs};
 use self::search::Search;
 use super::leg_vector::{LegSpan, Normalisation};
 use crate::manipulator::{Body, ExactLegs, Leg, LegIndex, Manipulator, homogeneous};
@@ -145,7 +145,7 @@ pub fn components(m: &Manipulator, options: ComponentOptions) -> Result<Componen
     let n = Normalisation::of(m);
     let legs = m.legs();
     let scaled = legs.map(|l| n.apply(&l));
-    let ends = Ends {
+    let ends = BothReadings {
         base: scaled.map(|l| l.base.coords),
         platform: scaled.map(|l| l.platform.coords),
         exact: ExactLegs::of(&legs).ok_or(ComponentsError::NonFinite)?,

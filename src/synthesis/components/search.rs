@@ -9,11 +9,11 @@ use super::component::{Component, FamilyKind, SampledLeg, infinite_parameters};
 use super::exact::combination;
 use super::exact_curve::{ExactCurve, NoExactCurve, meeting, place};
 use super::exact_form::ExactKind;
-use super::flats::{ClosedPair, Ends, Flat, Reading};
+use super::flats::{BothReadings, ClosedPair, Flat, Reading};
 use super::form::{Form, PartKind};
 use super::found::{Found, View};
 use super::planes::{PlaneSide, joints_on_line, line_points, plane_side, points_of};
-use super::shape::Shape;
+use super::shape::FamilyShape;
 use super::spectrum::{APART, AT_INFINITY, COMPUTED, Question, SAME, nearness, unit};
 use crate::manipulator::LegIndex;
 use crate::num::Rng;
@@ -27,7 +27,7 @@ type NormalisedLeg = (Vector3<f64>, Vector3<f64>);
 /// The families with the sets they are, in the order in which they were found.
 #[derive(Debug)]
 pub(super) struct Search<'a> {
-    pub(super) ends: &'a Ends,
+    pub(super) ends: &'a BothReadings,
     pub(super) span: &'a LegSpan,
     pub(super) rng: Rng,
     pub(super) found: Vec<(Found, Component)>,
@@ -196,7 +196,7 @@ impl Search<'_> {
         }
         let fits = |f: &Form| partners.iter().all(|b| f.value(b).abs() <= 1e-6 * f.norm());
         let curve = platform.and_then(|s| s.split.parts.iter().map(|p| &p.form).find(|f| fits(f)));
-        let shape = Shape::Cubic {
+        let shape = FamilyShape::Cubic {
             product: Box::new(view.product.clone()),
             base: form.clone(),
             platform: curve.cloned(),
@@ -296,12 +296,12 @@ fn names(legs: &[usize]) -> String {
 impl Search<'_> {
     /// Whether a flat of partners of one point lies in a family of larger dimension.
     fn inside_larger(&self, found: &Found) -> bool {
-        let Shape::Product { base, platform, .. } = &found.shape else { return false };
+        let FamilyShape::Product { base, platform, .. } = &found.shape else { return false };
         let mut rng = self.rng.clone();
         let mut random =
             |flat: &Flat| flat.axes.iter().fold(flat.origin, |x, e| x + e * rng.uniform(-1.0, 1.0));
         let samples: Vec<_> = (0..4).map(|_| (random(base), random(platform))).collect();
-        let inside = |shape: &Shape| samples.iter().all(|(a, b)| shape.distance(a, b) <= self.near());
+        let inside = |shape: &FamilyShape| samples.iter().all(|(a, b)| shape.distance(a, b) <= self.near());
         self.found.iter().any(|(k, c)| c.dimension > found.shape.dimension() && inside(&k.shape))
     }
 

@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::flats::{Ends, Flat, Product};
+use super::flats::{BothReadings, Flat, Product};
 use super::form::{Form, exponents, power};
 use super::found::{Polynomial, value};
 use super::spectrum::{Spectrum, dot, norm, orthonormal, unit, without};
@@ -61,7 +61,7 @@ impl Curve {
 
 /// One irreducible family.
 #[derive(Debug, Clone)]
-pub(super) enum Shape {
+pub(super) enum FamilyShape {
     /// All legs between two flats.
     Product { base: Flat, platform: Flat, base_points: Vec<Vector3<f64>>, platform_points: Vec<Vector3<f64>> },
     /// A flat of partners for every point of a curve of one body.
@@ -77,7 +77,7 @@ fn off_span(v: &[f64], span: &[Vec<f64>]) -> f64 {
     norm(&without(&unit(v), &orthonormal(span, 1e-12)))
 }
 
-impl Shape {
+impl FamilyShape {
     /// Dimension of the family.
     pub(super) fn dimension(&self) -> usize {
         match self {
@@ -119,7 +119,7 @@ impl Shape {
     }
 
     /// The formulas, in design coordinates.
-    pub(super) fn parametrisation(&self, ends: &Ends, n: &Normalisation) -> Parametrisation {
+    pub(super) fn parametrisation(&self, ends: &BothReadings, n: &Normalisation) -> Parametrisation {
         match self {
             Self::Product { base_points, platform_points, .. } => {
                 let first = base_points.len() - 1;
@@ -187,16 +187,16 @@ fn single(p: &Polynomial) -> Vec<([u8; 3], Vec<f64>)> {
     p.iter().enumerate().map(|(e, c)| ([e as u8, 0, 0], c.clone())).collect()
 }
 
-type Terms = [([u8; 3], Vec<f64>)];
+type PolynomialTerms = [([u8; 3], Vec<f64>)];
 
 fn two_sides(
     over_platform: bool,
     parameters: usize,
-    moving: (&Flat, &Terms),
-    partner: (&Flat, &Terms),
+    moving: (&Flat, &PolynomialTerms),
+    partner: (&Flat, &PolynomialTerms),
     n: &Normalisation,
 ) -> Parametrisation {
-    let point = |(flat, terms): (&Flat, &Terms), on_platform: bool| MovingPoint {
+    let point = |(flat, terms): (&Flat, &PolynomialTerms), on_platform: bool| MovingPoint {
         terms: terms
             .iter()
             .map(|(e, c)| {

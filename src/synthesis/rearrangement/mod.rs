@@ -15,5 +15,5 @@ mod tests;
 pub use self::pieces::{Piece, PieceKind};
 pub use self::sample::Arrangement;
 pub use self::table::Obstruction;
-pub use octahedral::{NotOctahedral, Reduction};
+pub use octahedral::{NoOctahedralEquivalent, Reduction};
 pub use table::{Argument, NotDecided, PlanarBodies, Rearrangement, rearrangement, rearrangements};

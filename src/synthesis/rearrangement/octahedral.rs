@@ -3,8 +3,8 @@
 //! The replaceable legs of an octahedral design are the six sides of a hexagon of lines between two planes, and nothing else
 //! (`docs/theory/octahedral-class.md`). They are those of every equivalent design, so that anything else among them is a proof that there is no octahedral one.
 
-use super::pieces::{Piece, Planes, scroll};
-use super::sample::{Arrangement, Sample};
+use super::pieces::{Piece, PlaneGroups, scroll};
+use super::sample::{Arrangement, DesignSample};
 use crate::manipulator::{Body, ExactLeg};
 use crate::num::exact::{ExactVector, rank};
 use crate::topology::Topology;
@@ -15,13 +15,13 @@ pub enum Reduction {
     /// This octahedral design is equivalent.
     Octahedral(Arrangement),
     /// None is.
-    Not(NotOctahedral),
+    Not(NoOctahedralEquivalent),
 }
 
 /// Why no octahedral design is equivalent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum NotOctahedral {
+pub enum NoOctahedralEquivalent {
     /// The joints of a body span space; those of equivalent designs do too.
     BodyInSpace(Body),
     /// There is a family of dimension two or three.
@@ -30,7 +30,7 @@ pub enum NotOctahedral {
     LegOnNoLine,
 }
 
-impl NotOctahedral {
+impl NoOctahedralEquivalent {
     /// The name used in JSON and in the documentation.
     #[must_use]
     pub fn as_str(self) -> &'static str {
@@ -44,37 +44,41 @@ impl NotOctahedral {
 }
 
 /// Decides from all families.
-pub(super) fn from_families(sample: &Sample, pieces: &[Piece]) -> Option<Reduction> {
+pub(super) fn from_families(sample: &DesignSample, pieces: &[Piece]) -> Option<Reduction> {
     if let Some(body) = in_space(sample) {
-        return Some(Reduction::Not(NotOctahedral::BodyInSpace(body)));
+        return Some(Reduction::Not(NoOctahedralEquivalent::BodyInSpace(body)));
     }
     if pieces.iter().any(|p| p.dimension() > 1) {
-        return Some(Reduction::Not(NotOctahedral::Surface));
+        return Some(Reduction::Not(NoOctahedralEquivalent::Surface));
     }
     if pieces.iter().any(|p| !p.has_common_joint()) {
-        return Some(Reduction::Not(NotOctahedral::LegOnNoLine));
+        return Some(Reduction::Not(NoOctahedralEquivalent::LegOnNoLine));
     }
     corners(sample, pieces).map(Reduction::Octahedral)
 }
 
 /// Decides from the cubics of two planes.
-pub(super) fn from_cubics(sample: &Sample, planes: &Planes, legs: &[ExactLeg]) -> Option<Reduction> {
+pub(super) fn from_cubics(
+    sample: &DesignSample,
+    planes: &PlaneGroups,
+    legs: &[ExactLeg],
+) -> Option<Reduction> {
     let reason = if legs.iter().any(|l| planes.alone(l)) {
-        NotOctahedral::LegOnNoLine
+        NoOctahedralEquivalent::LegOnNoLine
     } else if scroll(sample) {
-        NotOctahedral::Surface
+        NoOctahedralEquivalent::Surface
     } else {
         return None;
     };
     Some(Reduction::Not(reason))
 }
 
-pub(super) fn in_space(sample: &Sample) -> Option<Body> {
+pub(super) fn in_space(sample: &DesignSample) -> Option<Body> {
     Body::BOTH.into_iter().find(|b| sample.dimension(*b) == 3)
 }
 
 /// The legs between the fixed joints of the six lines.
-fn corners(sample: &Sample, pieces: &[Piece]) -> Option<Arrangement> {
+fn corners(sample: &DesignSample, pieces: &[Piece]) -> Option<Arrangement> {
     let own: Vec<ExactVector> = sample.legs().iter().map(ExactLeg::vector).collect();
     let fixed = |base: bool| {
         let side = move |p: &&Piece| if base { p.base.len() == 1 } else { p.platform.len() == 1 };

@@ -16,7 +16,7 @@
 //! `M(alpha) beta = 0` are the three equations of the span of six legs. A line through two points of the cubic `det M = 0`
 //! meets it once more, so that six rational legs lead to further rational ones.
 
-use super::sample::{Sample, finite, integer, meet, subsets, weighted};
+use super::sample::{DesignSample, finite, integer, meet, subsets, weighted};
 use crate::manipulator::{Body, ExactLeg};
 use crate::num::Rng;
 use crate::num::exact::{ExactVector, Rational, rank, relations};
@@ -162,13 +162,13 @@ pub(super) enum Outcome {
 }
 
 /// Joints of a body whose legs reach every point of the other body's flat.
-fn full(sample: &Sample, body: Body) -> Vec<usize> {
+fn full(sample: &DesignSample, body: Body) -> Vec<usize> {
     let enough = sample.dimension(body.other()) + 1;
     (0..sample.joints(body).len()).filter(|k| sample.neighbours(body, *k).len() >= enough).collect()
 }
 
 /// The joints of a body, and the points of its plane where the lines of two double joints of the other body cross.
-fn stars(sample: &Sample, body: Body) -> Vec<Star> {
+fn stars(sample: &DesignSample, body: Body) -> Vec<Star> {
     let there = body.other();
     let everywhere = full(sample, there);
     let with = |mut sees: Vec<usize>| {
@@ -193,7 +193,7 @@ fn stars(sample: &Sample, body: Body) -> Vec<Star> {
 }
 
 /// Finds the sum over points of `body`.
-pub(super) fn split(sample: &Sample, body: Body) -> Outcome {
+pub(super) fn split(sample: &DesignSample, body: Body) -> Outcome {
     let there = body.other();
     let (own, most) = (sample.dimension(body) + 1, sample.dimension(there) + 1);
     let all = stars(sample, body);
@@ -221,7 +221,7 @@ fn least(basis: &[&Star], most: usize, set: &[usize]) -> usize {
 }
 
 /// The families; `None` when an intersection has more than its least dimension.
-fn families(sample: &Sample, body: Body, basis: &[&Star]) -> Option<Split> {
+fn families(sample: &DesignSample, body: Body, basis: &[&Star]) -> Option<Split> {
     let there = body.other();
     let most = sample.dimension(there) + 1;
     let mut pieces = Vec::new();
@@ -255,7 +255,7 @@ fn families(sample: &Sample, body: Body, basis: &[&Star]) -> Option<Split> {
 }
 
 /// The families; `None` when the sample is special.
-pub(super) fn at_joints(sample: &Sample, legs: &[(usize, usize); 6]) -> Option<Split> {
+pub(super) fn at_joints(sample: &DesignSample, legs: &[(usize, usize); 6]) -> Option<Split> {
     let both = Body::BOTH;
     if !both.into_iter().all(|body| flats_meet_in_joints(sample, body)) {
         return None;
@@ -277,7 +277,7 @@ pub(super) fn at_joints(sample: &Sample, legs: &[(usize, usize); 6]) -> Option<S
 }
 
 /// Whether the flats that two joints see on the other body have joints in common and nothing else.
-fn flats_meet_in_joints(sample: &Sample, body: Body) -> bool {
+fn flats_meet_in_joints(sample: &DesignSample, body: Body) -> bool {
     let there = body.other();
     subsets(sample.joints(body).len()).filter(|s| s.len() == 2).all(|pair| {
         let seen = [0, 1].map(|k| sample.neighbours(body, pair[k]));
@@ -288,7 +288,7 @@ fn flats_meet_in_joints(sample: &Sample, body: Body) -> bool {
 }
 
 /// Maximal sets of joints that are all joined to each each leg in at least one.
-fn complete_graphs(sample: &Sample, legs: &[(usize, usize); 6]) -> Vec<Piece> {
+fn complete_graphs(sample: &DesignSample, legs: &[(usize, usize); 6]) -> Vec<Piece> {
     let count = sample.joints(Body::Base).len();
     let seen: Vec<Vec<usize>> = (0..count).map(|k| sample.neighbours(Body::Base, k)).collect();
     let sets = subsets(count).filter_map(|set| {
@@ -312,7 +312,7 @@ fn complete_graphs(sample: &Sample, legs: &[(usize, usize); 6]) -> Vec<Piece> {
 ///
 /// With `b = w1 + w2` (`wk` in the flat of `ak`) and the crossing `c = a1 + a2` (suitably scaled) of `a1 a2` with the line of the other two
 /// joints, the legs `(a1, w1)`, `(a2, w2)`, `(c, b)` are replaceable and lie between two lines.
-fn pairing(sample: &Sample, planar: Body) -> Option<Piece> {
+fn pairing(sample: &DesignSample, planar: Body) -> Option<Piece> {
     let space = planar.other();
     if sample.joints(planar).len() != 4 || sample.joints(space).len() != 5 {
         return None;
@@ -346,14 +346,14 @@ fn parts(x: &ExactVector, spans: [&[ExactVector]; 2]) -> Option<[ExactVector; 2]
 
 /// The equations of the span of six legs between the planes `z = 0`.
 #[derive(Debug, Clone)]
-pub(super) struct Planes {
+pub(super) struct PlaneGroups {
     /// `equations[r][3 i + j]` is the coefficient of `alpha_i beta_j`.
     equations: Vec<ExactVector>,
 }
 
-impl Planes {
+impl PlaneGroups {
     /// Of six legs with independent vectors.
-    pub(super) fn of(sample: &Sample) -> Self {
+    pub(super) fn of(sample: &DesignSample) -> Self {
         let vectors: Vec<ExactVector> = sample.legs().iter().map(|l| flat(&l.base, &l.platform)).collect();
         let columns: Vec<ExactVector> =
             (0..9).map(|k| vectors.iter().map(|v| v[k].clone()).collect()).collect();
@@ -409,7 +409,7 @@ impl Planes {
     }
 
     /// The six legs, and legs at chords of the two cubics through joints, those with the shorter numbers first.
-    pub(super) fn legs(&self, sample: &Sample) -> Vec<ExactLeg> {
+    pub(super) fn legs(&self, sample: &DesignSample) -> Vec<ExactLeg> {
         let mut out = sample.legs();
         for body in Body::BOTH {
             let joints = sample.joints(body);
@@ -454,7 +454,7 @@ impl Planes {
 
 /// Whether five of the legs and of those they imply lie between the line of two joints of a body and the other plane: then every point of
 /// the line has a line of partners.
-pub(super) fn scroll(sample: &Sample) -> bool {
+pub(super) fn scroll(sample: &DesignSample) -> bool {
     Body::BOTH.into_iter().any(|body| {
         let there = body.other();
         // two legs at a joint of the other body imply one at the crossing of the line of their joints with the line in question

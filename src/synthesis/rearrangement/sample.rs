@@ -9,7 +9,7 @@ use crate::num::exact::{ExactVector, Rational, rank, relations};
 
 /// Joints and legs of one design. Joints are homogeneous: `(1, x, y, z)`.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Sample {
+pub(super) struct DesignSample {
     base: Vec<ExactVector>,
     platform: Vec<ExactVector>,
     legs: [(usize, usize); 6],
@@ -47,7 +47,7 @@ impl ExactLeg {
     }
 }
 
-impl Sample {
+impl DesignSample {
     /// Joints drawn from the integers `-9..=9`, planar bodies in `z = 0`.
     pub(super) fn draw(legs: [(usize, usize); 6], planar: (bool, bool), rng: &mut Rng) -> Self {
         let mut joints = |count: usize, planar: bool| -> Vec<ExactVector> {
@@ -129,7 +129,7 @@ pub struct Arrangement {
 
 impl Arrangement {
     /// The design of a sample's own joints.
-    pub(super) fn of_sample(sample: &Sample) -> Option<Self> {
+    pub(super) fn of_sample(sample: &DesignSample) -> Option<Self> {
         Self::of_legs(&sample.legs())
     }
 

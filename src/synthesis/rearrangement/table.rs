@@ -5,8 +5,8 @@
 use thiserror::Error;
 
 use super::octahedral::{Reduction, from_cubics, from_families, in_space};
-use super::pieces::{Outcome, Piece, PieceKind, Planes, Split, at_joints, split};
-use super::sample::{Arrangement, Sample};
+use super::pieces::{Outcome, Piece, PieceKind, PlaneGroups, Split, at_joints, split};
+use super::sample::{Arrangement, DesignSample};
 use crate::manipulator::{Body, ExactLeg};
 use crate::num::Rng;
 use crate::num::exact::{ExactVector, rank};
@@ -161,7 +161,7 @@ pub(super) fn from_seed(
     let mut rng = Rng::stream(seed, stream);
     let flat = (planar.base, planar.platform);
     for _ in 0..60 {
-        let sample = Sample::draw(topology.topology().legs(), flat, &mut rng);
+        let sample = DesignSample::draw(topology.topology().legs(), flat, &mut rng);
         let found =
             if sample.is_general(flat) { of_sample(topology, planar, &sample, &mut rng) } else { None };
         if let Some(found) = found {
@@ -174,13 +174,13 @@ pub(super) fn from_seed(
 fn of_sample(
     topology: NamedTopology,
     planar: PlanarBodies,
-    sample: &Sample,
+    sample: &DesignSample,
     rng: &mut Rng,
 ) -> Option<Rearrangement> {
     let (argument, found) = families(sample, topology)?;
     let member = Arrangement::of_sample(sample)?;
     let Some(Split { pieces, summands }) = found else {
-        let planes = Planes::of(sample);
+        let planes = PlaneGroups::of(sample);
         let legs = planes.legs(sample);
         let fewest = joint_free(&legs, &mut Vec::new(), 0)?;
         let octahedral = from_cubics(sample, &planes, &legs)?;
@@ -219,7 +219,7 @@ fn of_sample(
 }
 
 /// All families, `None` inside for a pair of curves; `None` for a special sample.
-fn families(sample: &Sample, topology: NamedTopology) -> Option<(Argument, Option<Split>)> {
+fn families(sample: &DesignSample, topology: NamedTopology) -> Option<(Argument, Option<Split>)> {
     for body in Body::BOTH {
         match split(sample, body) {
             Outcome::Found(found) => return Some((Argument::Stars(body), Some(found))),
@@ -234,7 +234,12 @@ fn families(sample: &Sample, topology: NamedTopology) -> Option<(Argument, Optio
 }
 
 /// Six legs spread as told, equivalent to the member, with no more shared joints than the spread asks for.
-fn realise(pieces: &[Piece], spread: &Spread, member: &Arrangement, rng: &mut Rng) -> Option<Arrangement> {
+fn realise(
+    pieces: &[Piece],
+    spread: &FamilySpread,
+    member: &Arrangement,
+    rng: &mut Rng,
+) -> Option<Arrangement> {
     for _ in 0..40 {
         let taken = pieces.iter().zip(&spread.counts).flat_map(|(p, n)| std::iter::repeat_n(p, *n));
         let Some(legs) = taken.map(|p| p.draw(rng)).collect::<Option<Vec<ExactLeg>>>() else { continue };
@@ -269,7 +274,7 @@ fn joint_free(legs: &[ExactLeg], taken: &mut Vec<ExactLeg>, from: usize) -> Opti
 
 /// Number of legs taken from each family, with what they share at least.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Spread {
+pub(super) struct FamilySpread {
     /// Joints with two or more legs.
     pub(super) shared: usize,
     /// Twelve less the number of joints.
@@ -288,7 +293,7 @@ fn rank_bound<'a>(pieces: impl Iterator<Item = &'a Piece>, summands: &[usize]) -
 }
 
 /// All ways to take six legs such that no families hold more of them than their rank bound, those that share fewest joints first.
-fn spreads(pieces: &[Piece], summands: &[usize]) -> Vec<Spread> {
+fn spreads(pieces: &[Piece], summands: &[usize]) -> Vec<FamilySpread> {
     let bounds: Vec<usize> = (0..1usize << pieces.len())
         .map(|set| {
             rank_bound(pieces.iter().enumerate().filter(|(k, _)| set >> k & 1 == 1).map(|(_, p)| p), summands)
@@ -297,7 +302,7 @@ fn spreads(pieces: &[Piece], summands: &[usize]) -> Vec<Spread> {
     let mut out = Vec::new();
     let mut counts = vec![0; pieces.len()];
     spread(pieces, &bounds, &mut counts, 0, 6, &mut out);
-    out.sort_by_key(|s: &Spread| (s.shared, s.merged));
+    out.sort_by_key(|s: &FamilySpread| (s.shared, s.merged));
     out
 }
 
@@ -307,7 +312,7 @@ fn spread(
     counts: &mut [usize],
     next: usize,
     left: usize,
-    out: &mut Vec<Spread>,
+    out: &mut Vec<FamilySpread>,
 ) {
     if next == pieces.len() {
         let held = |set: usize| {
@@ -316,7 +321,7 @@ fn spread(
         if left == 0 && (1..bounds.len()).all(|set| held(set) <= bounds[set]) {
             let common = || pieces.iter().zip(&*counts).filter(|(p, n)| p.has_common_joint() && **n > 1);
             let merged = common().map(|(_, n)| n - 1).sum();
-            out.push(Spread { shared: common().count(), merged, counts: counts.to_vec() });
+            out.push(FamilySpread { shared: common().count(), merged, counts: counts.to_vec() });
         }
         return;
     }

@@ -240,7 +240,7 @@ pub struct Assembled {
 }
 
 /// Joints of one body and which of them carries each leg.
-struct Side {
+struct BodyJoints {
     points: Vec<Point3<f64>>,
     origins: Vec<JointOrigin>,
     of_leg: [usize; 6],
@@ -261,7 +261,7 @@ fn assemble(m: &Manipulator, new: &[Option<Leg>; 6]) -> Assembled {
     }
 }
 
-fn side(old: &[Point3<f64>], of_leg: [usize; 6], new: [Option<Point3<f64>>; 6], limit: f64) -> Side {
+fn side(old: &[Point3<f64>], of_leg: [usize; 6], new: [Option<Point3<f64>>; 6], limit: f64) -> BodyJoints {
     let mut points = old.to_vec();
     let mut origins: Vec<JointOrigin> = (0..old.len()).map(JointOrigin::Kept).collect();
     let mut ends = of_leg;
@@ -289,7 +289,7 @@ fn side(old: &[Point3<f64>], of_leg: [usize; 6], new: [Option<Point3<f64>>; 6], 
             order.push((l, origins[l]));
         }
     }
-    Side {
+    BodyJoints {
         points: order.iter().map(|(l, _)| points[*l]).collect(),
         origins: order.iter().map(|(_, o)| *o).collect(),
         of_leg: ends.map(|e| order.iter().position(|(l, _)| *l == e).unwrap_or_default()),

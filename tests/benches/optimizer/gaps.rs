@@ -8,7 +8,7 @@ use std::time::Instant;
 use equipod::methods::design::Design;
 use equipod::methods::manipulator::{Manipulator, Octahedral};
 use equipod::methods::num::Rng;
-use equipod::methods::offsets::{OffsetProblem, SearchOptions, optimize};
+use equipod::methods::offsets::{OffsetProblem, OffsetSearchOptions, optimize};
 use nalgebra::Point3;
 
 use crate::Failure;
@@ -57,7 +57,7 @@ fn problem(number: u64, seed: u64) -> Result<OffsetProblem, Failure> {
 
 fn prove(number: u64, seed: u64) -> Result<Proved, Failure> {
     let p = problem(number, seed)?;
-    let options = SearchOptions { threads: 1, ..SearchOptions::default() };
+    let options = OffsetSearchOptions { threads: 1, ..OffsetSearchOptions::default() };
     let clock = Instant::now();
     let report = optimize(&p, &options, &mut |_| ControlFlow::Continue(()))?;
     let seconds = clock.elapsed().as_secs_f64();

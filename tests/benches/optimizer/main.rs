@@ -32,7 +32,7 @@ use std::process::ExitCode;
 
 use equipod::methods::design::{Design, Format, parse};
 use equipod::methods::dimensional::DimensionalProblem;
-use equipod::methods::offsets::{OffsetProblem, Progress, SearchOptions, optimize};
+use equipod::methods::offsets::{OffsetProblem, OffsetProgress, OffsetSearchOptions, optimize};
 
 use dimensional::{Built, DimensionalJudge};
 use evolution::evolution;
@@ -150,14 +150,14 @@ struct Answer {
 }
 
 fn optimise(p: &OffsetProblem, judge: &OffsetJudge, a: &Arguments) -> Result<Answer, Failure> {
-    let options = SearchOptions { seed: a.seed, threads: a.threads, ..SearchOptions::default() };
+    let options = OffsetSearchOptions { seed: a.seed, threads: a.threads, ..OffsetSearchOptions::default() };
     let clock = Clock::start();
     let mut curve: Vec<Point> = Vec::new();
     let report = optimize(p, &options, &mut |progress| {
         let value = match progress {
-            Progress::Ranking { best, .. }
-            | Progress::Polishing { best, .. }
-            | Progress::Bounding { best, .. } => best,
+            OffsetProgress::Ranking { best, .. }
+            | OffsetProgress::Polishing { best, .. }
+            | OffsetProgress::Bounding { best, .. } => best,
             _ => 0.0,
         };
         if curve.last().map_or(0.0, |p| p.value) < value {
@@ -178,10 +178,10 @@ fn optimise_dimensional(
     judge: &mut DimensionalJudge,
     a: &Arguments,
 ) -> Result<(Answer, Option<Built>), Failure> {
-    let options = equipod::methods::dimensional::SearchOptions {
+    let options = equipod::methods::dimensional::ShapeSearchOptions {
         seed: a.seed,
         threads: a.threads,
-        ..equipod::methods::dimensional::SearchOptions::default()
+        ..equipod::methods::dimensional::ShapeSearchOptions::default()
     };
     let clock = Clock::start();
     let mut curve: Vec<Point> = Vec::new();

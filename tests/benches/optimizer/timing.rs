@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use equipod::methods::num::Rng;
-use equipod::methods::offsets::{SearchOptions, optimize};
+use equipod::methods::offsets::{OffsetSearchOptions, optimize};
 
 use crate::judge::{Judge, OffsetJudge, offset_problem};
 use crate::record::Clock;
@@ -49,7 +49,7 @@ pub(crate) fn run(threads: usize) -> Result<(), Failure> {
             let mut points = space.cube_points(68, &mut Rng::new(run));
             points.truncate(200);
             p.poses = points.iter().map(|x| space.pose(x)).collect();
-            let options = SearchOptions { threads, seed: run, ..SearchOptions::default() };
+            let options = OffsetSearchOptions { threads, seed: run, ..OffsetSearchOptions::default() };
             let clock = Clock::start();
             black_box(optimize(&p, &options, &mut |_| ControlFlow::Continue(()))?);
             let spent = clock.spent();

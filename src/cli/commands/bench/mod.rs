@@ -5,7 +5,7 @@ mod render;
 
 use clap::ValueEnum;
 
-use crate::bench::{Class, LengthsFrom, Plan, Report, reference_times, run as run_plan};
+use crate::bench::{BenchReport, Class, LengthsFrom, Plan, reference_times, run as run_plan};
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
@@ -83,7 +83,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         return noise::run(args, &classes, solver.as_ref(), context.seed());
     }
     let references = reference_times(context.seed()).map_err(|e| Failure::internal(e.to_string()))?;
-    let mut reports: Vec<Report> = Vec::new();
+    let mut reports: Vec<BenchReport> = Vec::new();
     for class in classes {
         let lengths = lengths(args.lengths_from, class)?;
         let plan = Plan {
@@ -99,7 +99,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         let report = run_plan(&plan, solver.as_ref(), &Homotopy);
         reports.push(report.map_err(|e| Failure::new(Exit::Inconclusive, "bench::not_run", e.to_string()))?);
     }
-    let exit = if reports.iter().all(Report::passed) { Exit::Yes } else { Exit::No };
+    let exit = if reports.iter().all(BenchReport::passed) { Exit::Yes } else { Exit::No };
     let name = args.method.to_possible_value().map(|v| v.get_name().to_string()).unwrap_or_default();
     let rows: Vec<_> = reports.iter().map(|r| BenchClassRecord::new(r, &references)).collect();
     let text = render::text(&rows, &references);

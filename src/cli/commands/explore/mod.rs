@@ -20,7 +20,7 @@ use crate::cli::failure::Failure;
 use crate::cli::files::OutputPath;
 use crate::cli::output::{Answer, document};
 use crate::cli::poses;
-use crate::cli::progress::{Interrupt, Progress};
+use crate::cli::progress::{Interrupt, ProgressLine};
 use crate::design::Design;
 use crate::entrance::optimizing::EXTENSION;
 use crate::entrance::{SAMPLES, sample_plan};
@@ -116,7 +116,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
             .with_help("explore starts from a 3-3 octahedral design; verify compares any two designs")
     })?;
     let mut folder = Folder::prepare(&args.output)?;
-    let mut progress = Progress::new(context.quiet());
+    let mut progress = ProgressLine::new(context.quiet());
     let seed = context.seed();
     let options = FkOptions { seed, pose_count: PoseCounting::Never, ..FkOptions::default() };
     folder.write(folder::ORIGINAL, &original(&design, seed).to_toml())?;
@@ -134,9 +134,11 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let mut done =
         optimize::search(&design, octahedral.clone(), &Choices::plain(args.extension), seed, &mut |p| {
             match p {
-                offsets::Progress::Ranking { done, total, .. } => progress.part("ranking", done, total),
-                offsets::Progress::Polishing { done, total, .. } => progress.part("polishing", done, total),
-                offsets::Progress::Bounding { boxes, open, .. } => {
+                offsets::OffsetProgress::Ranking { done, total, .. } => progress.part("ranking", done, total),
+                offsets::OffsetProgress::Polishing { done, total, .. } => {
+                    progress.part("polishing", done, total)
+                }
+                offsets::OffsetProgress::Bounding { boxes, open, .. } => {
                     progress.part("bounding", boxes, boxes + open);
                 }
             }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::cli::failure::Failure;
 use crate::cli::files;
-use crate::cli::rows::{self, Table};
+use crate::cli::rows::{self, TableName};
 use crate::manipulator::LegLengths;
 
 /// Lengths of one line of a CSV file.
@@ -56,7 +56,7 @@ pub(in crate::cli::commands) fn six(text: &str) -> Result<LegLengths, String> {
 
 /// A CSV file: six numbers a line.
 fn rows(text: &str, path: &str) -> Result<Vec<Row>, Failure> {
-    let table = Table { path, code: "fk::bad_lengths", form: "six lengths a line: l1,l2,l3,l4,l5,l6" };
+    let table = TableName { path, code: "fk::bad_lengths", form: "six lengths a line: l1,l2,l3,l4,l5,l6" };
     let rows = rows::read(text, table, six)?;
     Ok(rows.into_iter().map(|(line, lengths)| Row { line, lengths }).collect())
 }

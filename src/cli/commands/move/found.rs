@@ -16,7 +16,7 @@ use crate::records::{
 };
 use crate::synthesis::components::{ComponentOptions, Components};
 use crate::synthesis::relocate::search::{
-    Candidate, Impossibility, Placement, SearchError, SearchOutcome, SearchVerdict, Source, search,
+    Candidate, Impossibility, LegSource, Placement, SearchError, SearchOutcome, SearchVerdict, search,
 };
 
 /// Searches, and writes the designs found.
@@ -86,15 +86,15 @@ struct Report<'a> {
 }
 
 impl Report<'_> {
-    fn source(&self, source: Source) -> Result<String, Failure> {
+    fn source(&self, source: LegSource) -> Result<String, Failure> {
         Ok(match source {
-            Source::Kept(leg) => leg.to_string(),
-            Source::Family(k) => {
+            LegSource::Kept(leg) => leg.to_string(),
+            LegSource::Family(k) => {
                 let name = family_names(self.design, self.families, k)?;
                 name.map_or(format!("family {}", k + 1), |n| format!("family {} {n}", k + 1))
             }
-            Source::Hole(h) => format!("hole {}", h + 1),
-            Source::Holes(h, l) => format!("holes {} and {}", h + 1, l + 1),
+            LegSource::Hole(h) => format!("hole {}", h + 1),
+            LegSource::Holes(h, l) => format!("holes {} and {}", h + 1, l + 1),
         })
     }
 

@@ -6,7 +6,7 @@ use crate::cli::failure::Failure;
 use crate::cli::poses;
 use crate::design::Design;
 use crate::manipulator::{Body, LegIndex, inverse_condition, jacobian};
-use crate::synthesis::relocate::search::{Hole, SearchOptions, Wishes};
+use crate::synthesis::relocate::search::{Hole, MoveSearchOptions, Wishes};
 
 /// What an equivalent platform is to fulfil.
 #[derive(Debug, clap::Args)]
@@ -104,9 +104,9 @@ impl WishArgs {
         })
     }
 
-    pub(super) fn options(&self, seed: u64) -> SearchOptions {
-        let default = SearchOptions::default();
-        SearchOptions { seed, count: self.count.unwrap_or(default.count), ..default }
+    pub(super) fn options(&self, seed: u64) -> MoveSearchOptions {
+        let default = MoveSearchOptions::default();
+        MoveSearchOptions { seed, count: self.count.unwrap_or(default.count), ..default }
     }
 }
 

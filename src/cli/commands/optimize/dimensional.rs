@@ -4,9 +4,9 @@ use crate::cli::commands::verify::failure_of;
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
-use crate::cli::progress::{Interrupt, Progress};
+use crate::cli::progress::{Interrupt, ProgressLine};
 use crate::design::Design;
-use crate::dimensional::{DimensionalReport, InvalidProblem, SearchOptions, optimize};
+use crate::dimensional::{DimensionalReport, InvalidProblem, ShapeSearchOptions, optimize};
 use crate::entrance::optimizing::{Checked, checked, dimensional_problem};
 use crate::records::{DimensionalAnswer, DimensionalStatus};
 
@@ -48,17 +48,17 @@ pub(super) fn refusal(why: &InvalidProblem) -> Failure {
 }
 
 /// Threads and seed of the command line.
-pub(super) fn options(args: &super::Args, context: &Context) -> SearchOptions {
+pub(super) fn options(args: &super::Args, context: &Context) -> ShapeSearchOptions {
     let processors = || std::thread::available_parallelism().map_or(1, usize::from);
     let threads = args.threads.unwrap_or_else(processors).clamp(1, 256);
-    SearchOptions { seed: context.seed(), threads, ..SearchOptions::default() }
+    ShapeSearchOptions { seed: context.seed(), threads, ..ShapeSearchOptions::default() }
 }
 
 /// Optimises and checks.
 pub(super) fn run(design: &Design, args: &super::Args, context: &Context) -> Result<Done, Failure> {
     let problem = dimensional_problem(design, args.extension);
     let options = options(args, context);
-    let (mut progress, interrupt) = (Progress::new(context.quiet()), Interrupt::watch());
+    let (mut progress, interrupt) = (ProgressLine::new(context.quiet()), Interrupt::watch());
     let report = optimize(&problem, &[], &options, &mut |p| {
         progress.note(&p.to_string());
         interrupt.flow()

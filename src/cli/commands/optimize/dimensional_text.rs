@@ -83,7 +83,7 @@ pub(super) fn conflict_text(out: &mut String, c: &ConflictRecord) {
 mod tests {
     use super::*;
     use crate::design::{Format, parse};
-    use crate::dimensional::{Conflict, Demand, Give};
+    use crate::dimensional::{ConstraintConflict, Demand, Give};
     use crate::requirements::TermKind;
 
     #[test]
@@ -98,7 +98,10 @@ mod tests {
             give(TermKind::LegSpeed, None, 0.0),
         ];
         let mut out = String::new();
-        conflict_text(&mut out, &ConflictRecord::new(&design, &Conflict { demands, proved: false }));
+        conflict_text(
+            &mut out,
+            &ConflictRecord::new(&design, &ConstraintConflict { demands, proved: false }),
+        );
         insta::assert_snapshot!(out, @r"
         within the bounds of the variables these requirements could not, from any start, be met together:
           the least leg length would have to give by 1.564700 in

@@ -10,7 +10,7 @@ use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::output::Answer;
-use crate::cli::progress::{Interrupt, Progress};
+use crate::cli::progress::{Interrupt, ProgressLine};
 use crate::design::Design;
 use crate::dimensional::pareto;
 use crate::entrance::optimizing::{checked, dimensional_problem};
@@ -35,7 +35,7 @@ pub(super) fn run(
 ) -> Result<Answer, Failure> {
     let problem = dimensional_problem(design, args.extension);
     let options = options(args, context);
-    let (mut progress, interrupt) = (Progress::new(context.quiet()), Interrupt::watch());
+    let (mut progress, interrupt) = (ProgressLine::new(context.quiet()), Interrupt::watch());
     let report = pareto(&problem, points, &options, &mut |p| {
         progress.note(&p.to_string());
         interrupt.flow()

@@ -15,12 +15,12 @@ use crate::cli::failure::Failure;
 use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
 use crate::cli::poses;
-use crate::cli::progress::{Interrupt, Progress};
+use crate::cli::progress::{Interrupt, ProgressLine};
 use crate::design::{Combination, Design};
 use crate::entrance::optimizing::{EXTENSION, asks_for_more, offset_problem, optimised_design};
 use crate::geom::Pose;
 use crate::manipulator::Octahedral;
-use crate::offsets::{self, OffsetProblem, OffsetReport, SearchOptions, optimize};
+use crate::offsets::{self, OffsetProblem, OffsetReport, OffsetSearchOptions, optimize};
 use crate::plot::SearchStep;
 use crate::records::{OffsetsAnswer, OffsetsFound, OffsetsStatus, OptimizeAnswer, SourceWord};
 
@@ -61,23 +61,23 @@ pub(super) struct Choices {
 impl Choices {
     /// Defaults but for the extension.
     pub(super) fn plain(extension: f64) -> Self {
-        Self { extension, survey: false, gap: SearchOptions::default().gap, threads: None }
+        Self { extension, survey: false, gap: OffsetSearchOptions::default().gap, threads: None }
     }
 }
 
 /// The poses the worst case is taken over, and where they come from.
 #[derive(Debug)]
-pub(crate) struct PoseSet {
+pub(crate) struct WorstCasePoses {
     pub(crate) poses: Vec<Pose>,
     pub(crate) home: Pose,
     pub(crate) home_origin: SourceWord,
     pub(crate) workspace_origin: SourceWord,
 }
 
-fn pose_set(design: &Design) -> PoseSet {
+fn pose_set(design: &Design) -> WorstCasePoses {
     let (home, (workspace, workspace_given)) = (poses::home(design), poses::workspace(design));
     let poses = workspace.sample(Some(&home));
-    PoseSet {
+    WorstCasePoses {
         poses,
         home,
         home_origin: SourceWord::given(design.home.is_some()),
@@ -122,7 +122,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     }
     let choices =
         Choices { extension: args.extension, survey: args.survey, gap: args.gap, threads: args.threads };
-    let (mut progress, interrupt) = (Progress::new(context.quiet()), Interrupt::watch());
+    let (mut progress, interrupt) = (ProgressLine::new(context.quiet()), Interrupt::watch());
     let done = search(&design, octahedral, &choices, context.seed(), &mut |p| {
         progress.note(&p.to_string());
         interrupt.flow()
@@ -130,7 +130,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     progress.end();
     let written = write(args.output.as_deref(), done.optimised.as_ref())?;
     if let (Some(path), Some(s)) = (&args.history, done.report.solution()) {
-        let of = |h: &offsets::HistoryStep| {
+        let of = |h: &offsets::OffsetHistoryStep| {
             (SearchStep { value: h.value, violation: h.violation, accepted: h.accepted }, h.radius)
         };
         let rows: Vec<history::Row> = s.history.iter().map(of).collect();
@@ -165,7 +165,7 @@ pub(super) fn check_extension(extension: f64) -> Result<(), Failure> {
 #[derive(Debug)]
 pub(super) struct Done {
     pub(super) problem: OffsetProblem,
-    pub(super) set: PoseSet,
+    pub(super) set: WorstCasePoses,
     pub(super) report: OffsetReport,
     /// The optimised platform, when there is one.
     pub(super) optimised: Option<Design>,
@@ -209,14 +209,19 @@ pub(super) fn search(
     octahedral: Octahedral,
     choices: &Choices,
     seed: u64,
-    progress: &mut dyn FnMut(offsets::Progress) -> ControlFlow<()>,
+    progress: &mut dyn FnMut(offsets::OffsetProgress) -> ControlFlow<()>,
 ) -> Result<Done, Failure> {
     let set = pose_set(design);
     let problem = offset_problem(design, octahedral, set.poses.clone(), choices.extension);
     let processors = || std::thread::available_parallelism().map_or(1, usize::from);
     let threads = choices.threads.unwrap_or_else(processors).clamp(1, 256);
-    let options =
-        SearchOptions { seed, threads, survey: choices.survey, gap: choices.gap, ..SearchOptions::default() };
+    let options = OffsetSearchOptions {
+        seed,
+        threads,
+        survey: choices.survey,
+        gap: choices.gap,
+        ..OffsetSearchOptions::default()
+    };
     let report = optimize(&problem, &options, progress)
         .map_err(|why| Failure::refused("optimize::invalid_problem", why.to_string()))?;
     let optimised = report.solution().map(|s| optimised_design(design, &problem, s, report.seed));

@@ -171,7 +171,7 @@ fn beginning(args: &Question, design: &Design) -> Result<(Option<Pose>, SquaredL
 }
 
 /// Points on random sections of the poses with these lengths, over the complex numbers.
-struct Sections {
+struct PoseSections {
     /// Of the set: 0 when it is empty or isolated poses only.
     dimension: usize,
     points: Vec<FkRoot>,
@@ -179,8 +179,13 @@ struct Sections {
     established: bool,
 }
 
-fn sections(m: &Manipulator, s: &SquaredLegLengths, searches: u64, seed: u64) -> Result<Sections, Failure> {
-    let mut out = Sections { dimension: 0, points: Vec::new(), established: true };
+fn sections(
+    m: &Manipulator,
+    s: &SquaredLegLengths,
+    searches: u64,
+    seed: u64,
+) -> Result<PoseSections, Failure> {
+    let mut out = PoseSections { dimension: 0, points: Vec::new(), established: true };
     for k in 0..searches {
         let options = FkOptions { seed: seed.wrapping_add(k), ..FkOptions::default() };
         let found = Homotopy.solve(m, s, &options);

@@ -54,7 +54,7 @@ fn the_second_order_bound_holds_and_is_not_idle() {
         let (solver, place, _) = problem(seed);
         let own = Local::at(&solver, &place, &[0.0; 6]).squares;
         let here = Local::at(&solver, &place, &own);
-        let start = Start::of(&here, &Blur::of(&solver, &place, &here, &[0.0; 6])).unwrap();
+        let start = SegmentStart::of(&here, &Blur::of(&solver, &place, &here, &[0.0; 6])).unwrap();
         let mut y = [[0.0; 6]; 6];
         (0..6).for_each(|i| y[i][i] = 1.0);
         invert(&mut here.jacobian(), &mut y).unwrap();

@@ -58,8 +58,9 @@ fn whatever_ball_contracts_holds_a_root_even_far_from_the_centre() {
 
 #[test]
 fn radii_solve_the_quadratic_inequality_and_nan_proves_nothing() {
-    let b =
-        |eta, kappa, beta| radii(&Bounds { eta_centre: eta, eta, kappa, beta, step: [Complex64::ZERO; 8] });
+    let b = |eta, kappa, beta| {
+        radii(&KrawczykBounds { eta_centre: eta, eta, kappa, beta, step: [Complex64::ZERO; 8] })
+    };
     let c = b(1e-3, 0.1, 10.0).unwrap();
     assert!(1e-3 + 0.1 * c.radius + 10.0 * c.radius * c.radius <= c.radius);
     assert!(c.lipschitz < 1.0 && 0.1 + 10.0 * (c.radius + c.uniqueness_radius) < 1.0);

@@ -7,7 +7,7 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-use crate::num::batch::{Batch, LANES};
+use crate::num::batch::{ComplexBatch, LANES};
 use crate::num::disc::{TINY, UP};
 
 const U: f64 = f64::EPSILON / 2.0;
@@ -167,7 +167,7 @@ impl Mul for Reals {
 
 /// `|re| + |im|`, at least the modulus.
 #[inline(always)]
-pub(super) fn sizes(z: &Batch) -> Reals {
+pub(super) fn sizes(z: &ComplexBatch) -> Reals {
     let mut out = Reals::ZERO;
     for k in 0..LANES {
         out.0[k] = z.re[k].abs() + z.im[k].abs();
@@ -177,7 +177,7 @@ pub(super) fn sizes(z: &Batch) -> Reals {
 
 /// The larger of `|re|` and `|im|`, at most the modulus.
 #[inline(always)]
-pub(super) fn parts(z: &Batch) -> Reals {
+pub(super) fn parts(z: &ComplexBatch) -> Reals {
     let mut out = Reals::ZERO;
     for k in 0..LANES {
         let (re, im) = (z.re[k].abs(), z.im[k].abs());
@@ -189,21 +189,21 @@ pub(super) fn parts(z: &Batch) -> Reals {
 /// Eight discs; an infinite or NaN radius says nothing.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Discs {
-    pub(super) c: Batch,
+    pub(super) c: ComplexBatch,
     pub(super) r: Reals,
 }
 
 impl Discs {
-    pub(super) const ZERO: Self = Self { c: Batch::ZERO, r: Reals::ZERO };
+    pub(super) const ZERO: Self = Self { c: ComplexBatch::ZERO, r: Reals::ZERO };
 
     #[inline(always)]
-    pub(super) fn point(c: Batch) -> Self {
+    pub(super) fn point(c: ComplexBatch) -> Self {
         Self { c, r: Reals::ZERO }
     }
 
     #[inline(always)]
     pub(super) fn real(x: Ball) -> Self {
-        Self { c: Batch::real(x.c), r: Reals::all(x.r) }
+        Self { c: ComplexBatch::real(x.c), r: Reals::all(x.r) }
     }
 
     /// Upper bounds of the moduli.
@@ -330,13 +330,13 @@ impl Mul for Discs {
     }
 }
 
-type Vector = [Ball; 3];
+type BallVector = [Ball; 3];
 
-fn dot(a: &Vector, b: &Vector) -> Ball {
+fn dot(a: &BallVector, b: &BallVector) -> Ball {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-fn cross(a: &Vector, b: &Vector) -> Vector {
+fn cross(a: &BallVector, b: &BallVector) -> BallVector {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
@@ -354,13 +354,14 @@ pub(super) struct Triangle {
     pub(super) u: Ball,
     pub(super) v: Ball,
     /// Rows: along `b`, in the plane towards `C`, normal.
-    pub(super) axes: [Vector; 3],
+    pub(super) axes: [BallVector; 3],
 }
 
 impl Triangle {
     /// From exact corners.
     pub(super) fn of(p: [[f64; 3]; 3]) -> Self {
-        let side = |i: usize, j: usize| -> Vector { [0, 1, 2].map(|k| Ball::difference(p[i][k], p[j][k])) };
+        let side =
+            |i: usize, j: usize| -> BallVector { [0, 1, 2].map(|k| Ball::difference(p[i][k], p[j][k])) };
         let (b, c, a) = (side(1, 0), side(2, 0), side(2, 1));
         let normal = cross(&b, &c);
         let (bb, bc, area) = (dot(&b, &b), dot(&b, &c), dot(&normal, &normal));

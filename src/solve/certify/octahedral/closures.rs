@@ -23,12 +23,12 @@
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
 use super::arithmetic::{Ball, Discs, Reals, Triangle, sizes};
-use crate::num::batch::{Batch, LANES};
+use crate::num::batch::{ComplexBatch, LANES};
 use crate::num::disc::UP;
 
 /// Coefficients of `w[i][j] x^i y^j`, `hu[i] x^i`, `hv[j] y^j`.
 #[derive(Debug, Clone)]
-pub(super) struct Closure {
+pub(super) struct ClosureCoefficients {
     pub(super) w: [[Ball; 2]; 2],
     pub(super) hu: [Ball; 3],
     pub(super) hv: [Ball; 3],
@@ -48,7 +48,7 @@ pub(super) struct Curvature {
     pub(super) yy: Reals,
 }
 
-impl Closure {
+impl ClosureCoefficients {
     /// `u = [u_B, u_C]`, `v = [v_A, v_B]`.
     #[inline(always)]
     pub(super) fn new(t: &Triangle, u: [Ball; 2], v: [Ball; 2], d: Ball) -> Self {
@@ -140,7 +140,7 @@ pub(super) struct RootDiscs {
 }
 
 #[inline(always)]
-fn weight(z: &Batch) -> Reals {
+fn weight(z: &ComplexBatch) -> Reals {
     sizes(z).map(|x| if x > 1.0 { x } else { 1.0 })
 }
 
@@ -152,7 +152,11 @@ fn inverse(x: Reals) -> Reals {
 
 /// Decides for each lane whether some disc about its centre holds exactly one zero of both closures.
 #[inline(always)]
-pub(super) fn one_root_about(closures: &[Closure; 2], x: &Batch, y: &Batch) -> RootDiscs {
+pub(super) fn one_root_about(
+    closures: &[ClosureCoefficients; 2],
+    x: &ComplexBatch,
+    y: &ComplexBatch,
+) -> RootDiscs {
     let weights = [weight(x), weight(y)];
     let (px, py) = (Discs::point(*x), Discs::point(*y));
     let [a, b] = [closures[0].values(px, py), closures[1].values(px, py)];

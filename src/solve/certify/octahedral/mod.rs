@@ -19,11 +19,11 @@ use super::certificate::{PoseEnclosure, ProvedReality, WhyUncertified};
 use super::system::{SquareData, exact_product, power_of_two_below, scale_point};
 use crate::geom::ComplexPose;
 use crate::manipulator::{LegIndex, Octahedral};
-use crate::num::batch::{Batch, LANES};
+use crate::num::batch::{ComplexBatch, LANES};
 use crate::num::disc::{Disc, UP};
 use crate::num::rounding::check_arithmetic;
 use arithmetic::{Ball, Discs, Triangle};
-use closures::{Closure, RootDiscs, one_root_about};
+use closures::{ClosureCoefficients, RootDiscs, one_root_about};
 use poses::{Data, deviation};
 
 /// Pairs of poses of an octahedral platform.
@@ -191,29 +191,34 @@ impl OctahedralCertifier {
             let blur = (s.middle[i].lo().abs() + s.radius[i]) * UP * scale;
             *square = Ball { c, r: if blur <= 0.0 { 0.0 } else { blur.next_up() } };
         }
-        let (mut x, mut y) = (Batch::ZERO, Batch::ZERO);
+        let (mut x, mut y) = (ComplexBatch::ZERO, ComplexBatch::ZERO);
         for (k, pair) in pairs.iter().enumerate() {
             (x.re[k], x.im[k]) = (pair[0].re * scale, pair[0].im * scale);
             (y.re[k], y.im[k]) = (pair[1].re * scale, pair[1].im * scale);
         }
-        let in_range = |z: &Batch| z.re.iter().chain(&z.im).all(|v| v.abs() < LARGEST);
+        let in_range = |z: &ComplexBatch| z.re.iter().chain(&z.im).all(|v| v.abs() < LARGEST);
         if !(in_range(&x) && in_range(&y) && squares.iter().all(|s| s.magnitude() < LARGEST)) {
             return none;
         }
-        pulp::Arch::new().dispatch(Proof { certifier: self, squares: &squares, pairs: [&x, &y], poses })
+        pulp::Arch::new().dispatch(OctahedralProof {
+            certifier: self,
+            squares: &squares,
+            pairs: [&x, &y],
+            poses,
+        })
     }
 
     #[inline(always)]
     fn prove(
         &self,
         s: &[Ball; 6],
-        x: &Batch,
-        y: &Batch,
+        x: &ComplexBatch,
+        y: &ComplexBatch,
         poses: &[ComplexPose; 2 * PAIRS],
     ) -> OctahedralCertificates {
         let closures = [
-            Closure::new(&self.base, [s[2], s[3]], [s[0], s[1]], self.platform.bb),
-            Closure::new(&self.turned, [s[5], s[0]], [s[3], s[4]], self.base.cc),
+            ClosureCoefficients::new(&self.base, [s[2], s[3]], [s[0], s[1]], self.platform.bb),
+            ClosureCoefficients::new(&self.turned, [s[5], s[0]], [s[3], s[4]], self.base.cc),
         ];
         let found = one_root_about(&closures, x, y);
         let radii = found.weights.map(|w| (w * found.radius).up());
@@ -250,14 +255,14 @@ impl OctahedralCertifier {
 }
 
 /// A proof to be made with the vector units that the machine turns out to have; the results are the same on all.
-struct Proof<'a> {
+struct OctahedralProof<'a> {
     certifier: &'a OctahedralCertifier,
     squares: &'a [Ball; 6],
-    pairs: [&'a Batch; 2],
+    pairs: [&'a ComplexBatch; 2],
     poses: &'a [ComplexPose; 2 * PAIRS],
 }
 
-impl pulp::WithSimd for Proof<'_> {
+impl pulp::WithSimd for OctahedralProof<'_> {
     type Output = OctahedralCertificates;
 
     #[inline(always)]
@@ -272,7 +277,7 @@ const LARGEST: f64 = (1u64 << 50) as f64;
 /// The system is real, so that the conjugate of a pair is one; within the uniqueness ball it is the pair itself. The poses of a real pair
 /// are real when the squared height, which is real and not zero, is positive, and neither is when it is negative.
 #[inline(always)]
-fn reality(found: &RootDiscs, x: &Batch, y: &Batch, height: f64, k: usize) -> ProvedReality {
+fn reality(found: &RootDiscs, x: &ComplexBatch, y: &ComplexBatch, height: f64, k: usize) -> ProvedReality {
     let imaginary = (x.im[k].abs() / found.weights[0].0[k]).max(y.im[k].abs() / found.weights[1].0[k]);
     let (radius, alone) = (found.radius.0[k], found.uniqueness.0[k]);
     if (radius + 2.0 * imaginary) * UP <= alone {

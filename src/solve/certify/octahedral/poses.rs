@@ -19,7 +19,7 @@
 use super::arithmetic::{Ball, Discs, Reals, Triangle, parts, sizes};
 use super::{OctahedralCertifier, PAIRS, U};
 use crate::geom::ComplexPose;
-use crate::num::batch::{Batch, LANES};
+use crate::num::batch::{ComplexBatch, LANES};
 
 pub(super) type Points = [Discs; 3];
 
@@ -212,7 +212,7 @@ pub(super) fn deviation(
 #[inline(always)]
 fn first_image(design: &OctahedralCertifier, placed: &Placed, poses: &[ComplexPose; 2 * PAIRS]) -> Reals {
     let ([a1, b4], normal) = (design.origins, design.base.axes[2]);
-    let mut height = Batch::ZERO;
+    let mut height = ComplexBatch::ZERO;
     let unit = design.unit.recip();
     for i in 0..3 {
         let mut corner = gather(poses, false, |pose| pose.position[i] * unit).plus(-a1[i]);
@@ -227,7 +227,7 @@ fn first_image(design: &OctahedralCertifier, placed: &Placed, poses: &[ComplexPo
 }
 
 #[inline(always)]
-fn signed(z: &Batch, sign: Reals) -> Batch {
+fn signed(z: &ComplexBatch, sign: Reals) -> ComplexBatch {
     let mut out = *z;
     for k in 0..LANES {
         (out.re[k], out.im[k]) = (sign.0[k] * z.re[k], sign.0[k] * z.im[k]);
@@ -240,8 +240,8 @@ fn gather(
     poses: &[ComplexPose; 2 * PAIRS],
     mirrored: bool,
     entry: impl Fn(&ComplexPose) -> num_complex::Complex64,
-) -> Batch {
-    let mut out = Batch::ZERO;
+) -> ComplexBatch {
+    let mut out = ComplexBatch::ZERO;
     for k in 0..LANES {
         let z = entry(&poses[2 * k + usize::from(mirrored)]);
         (out.re[k], out.im[k]) = (z.re, z.im);
@@ -251,9 +251,9 @@ fn gather(
 
 /// Midpoints of `E^T F_e G`, `E^T F_o G` and of both parts of `E^T c4`.
 struct Nominal {
-    even: [[Batch; 3]; 3],
-    odd: [[Batch; 3]; 3],
-    corner: [[Batch; 3]; 2],
+    even: [[ComplexBatch; 3]; 3],
+    odd: [[ComplexBatch; 3]; 3],
+    corner: [[ComplexBatch; 3]; 2],
 }
 
 impl Nominal {
@@ -261,11 +261,11 @@ impl Nominal {
     fn of(design: &OctahedralCertifier, placed: &Placed) -> Self {
         let (e, g) = (&design.base.axes, &design.platform.axes);
         let f = &placed.frame;
-        let zero = [[Batch::ZERO; 3]; 3];
-        let mut out = Self { even: zero, odd: zero, corner: [[Batch::ZERO; 3]; 2] };
+        let zero = [[ComplexBatch::ZERO; 3]; 3];
+        let mut out = Self { even: zero, odd: zero, corner: [[ComplexBatch::ZERO; 3]; 2] };
         for i in 0..3 {
             // row i of E^T F, split: rows 0 and 1 of F, row 2 of F
-            let (mut even, mut odd) = ([Batch::ZERO; 3], [Batch::ZERO; 3]);
+            let (mut even, mut odd) = ([ComplexBatch::ZERO; 3], [ComplexBatch::ZERO; 3]);
             for j in 0..3 {
                 let plane = f[j][0].c.times(e[0][i].c) + f[j][1].c.times(e[1][i].c);
                 let normal = f[j][2].c.times(e[2][i].c);

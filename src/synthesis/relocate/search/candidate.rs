@@ -4,8 +4,8 @@
 
 use nalgebra::Matrix6;
 
-use super::pool::{Pattern, Pool, shared};
-use super::wishes::{Margin, Wish, Wishes};
+use super::pool::{JointPattern, Pool, shared};
+use super::wishes::{Wish, WishMargin, Wishes};
 use crate::geom::{Pose, segment_distance};
 use crate::manipulator::{Leg, LegIndex, Manipulator, inverse_condition, jacobian_of_legs};
 use crate::num::Rng;
@@ -20,7 +20,7 @@ pub(super) struct Scorer<'a> {
     pub(super) found: &'a Components,
     pub(super) m: &'a Manipulator,
     pub(super) wishes: &'a Wishes,
-    pub(super) pattern: &'a Pattern,
+    pub(super) pattern: &'a JointPattern,
 }
 
 impl Scorer<'_> {
@@ -31,9 +31,9 @@ impl Scorer<'_> {
     }
 
     /// All margins of six legs of the pattern, in its order.
-    pub(super) fn margins(&self, legs: &[Leg; 6]) -> Vec<Margin> {
+    pub(super) fn margins(&self, legs: &[Leg; 6]) -> Vec<WishMargin> {
         let (w, size) = (self.wishes, self.m.size());
-        let above = |wish, value: f64, required: f64, unit: f64| Margin {
+        let above = |wish, value: f64, required: f64, unit: f64| WishMargin {
             wish,
             value,
             required,
@@ -48,7 +48,7 @@ impl Scorer<'_> {
         }
         let reach = self.reach(legs);
         let slack = (w.reach - reach) / size;
-        out.push(Margin { wish: Wish::Reach, value: reach, required: w.reach, slack });
+        out.push(WishMargin { wish: Wish::Reach, value: reach, required: w.reach, slack });
         out
     }
 
@@ -101,8 +101,8 @@ impl Scorer<'_> {
 }
 
 /// The smallest slack. The reach is a limit, nothing that is better the larger it is: it counts only where it is missed.
-pub(super) fn worst(margins: &[Margin]) -> f64 {
-    let counts = |m: &&Margin| m.wish != Wish::Reach || m.slack < 0.0;
+pub(super) fn worst(margins: &[WishMargin]) -> f64 {
+    let counts = |m: &&WishMargin| m.wish != Wish::Reach || m.slack < 0.0;
     margins.iter().filter(counts).map(|m| m.slack).fold(f64::INFINITY, f64::min)
 }
 
@@ -150,7 +150,7 @@ pub(super) fn climb(
 
 /// Where a leg comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Source {
+pub enum LegSource {
     /// It is a leg of the given platform.
     Kept(LegIndex),
     /// It belongs to a family (index).
@@ -167,7 +167,7 @@ pub struct Placement {
     /// The leg it replaces, whose number it has.
     pub leg: LegIndex,
     /// Where it comes from; never `Kept`.
-    pub source: Source,
+    pub source: LegSource,
     /// Its parameters there.
     pub parameters: Vec<f64>,
 }
@@ -182,7 +182,7 @@ pub struct Candidate {
     /// The legs that are not where they were.
     pub placements: Vec<Placement>,
     /// Every wish with its number, recomputed on the joints as they are written.
-    pub margins: Vec<Margin>,
+    pub margins: Vec<WishMargin>,
     /// The smallest slack.
     pub worst: f64,
     /// Whether every wish is fulfilled.
@@ -231,7 +231,7 @@ pub(super) fn candidate(scorer: &Scorer, x: &[f64]) -> Result<Option<Candidate>,
     for (row, k) in scorer.pattern.places.iter().enumerate() {
         let place = &scorer.pool.places[*k];
         let n = place.formulas.parameters();
-        if !matches!(place.source, Source::Kept(_)) {
+        if !matches!(place.source, LegSource::Kept(_)) {
             new[order[row].get()] = Some(legs[row]);
             let parameters = x[at..at + n].to_vec();
             placements.push(Placement { leg: order[row], source: place.source, parameters });
@@ -261,10 +261,10 @@ pub(super) fn candidate(scorer: &Scorer, x: &[f64]) -> Result<Option<Candidate>,
 /// named joints among theirs. A regular matrix has a product that is not zero (Leibniz' formula), so that each leg can replace the one whose number it gets.
 fn numbering(scorer: &Scorer, a: &Matrix6<f64>) -> Option<[LegIndex; 6]> {
     let allowed = |row: usize, leg: LegIndex| match scorer.pool.places[scorer.pattern.places[row]].source {
-        Source::Kept(own) => own == leg,
-        Source::Family(_) => true,
-        Source::Hole(h) => allows(scorer, h, leg),
-        Source::Holes(h, l) => allows(scorer, h, leg) && allows(scorer, l, leg),
+        LegSource::Kept(own) => own == leg,
+        LegSource::Family(_) => true,
+        LegSource::Hole(h) => allows(scorer, h, leg),
+        LegSource::Holes(h, l) => allows(scorer, h, leg) && allows(scorer, l, leg),
     };
     let mut best: (f64, Option<[LegIndex; 6]>) = (0.0, None);
     let all: Vec<LegIndex> = LegIndex::all().collect();

@@ -17,12 +17,12 @@ mod wishes;
 
 use thiserror::Error;
 
-pub use self::wishes::{HoleAnswer, HoleRecord};
-pub use candidate::{Candidate, Placement, Source};
-pub use wishes::{Hole, Margin, Wish, Wishes};
+pub use self::wishes::{HoleAnswer, JudgedHole};
+pub use candidate::{Candidate, LegSource, Placement};
+pub use wishes::{Hole, Wish, WishMargin, Wishes};
 
 use self::candidate::Scorer;
-use self::pool::{Pattern, patterns};
+use self::pool::{JointPattern, patterns};
 use super::super::components::{Components, PartKind, Reading, SingularKind};
 use crate::manipulator::Manipulator;
 use crate::num::Rng;
@@ -31,7 +31,7 @@ use pool::Pool;
 
 /// How long to search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct SearchOptions {
+pub struct MoveSearchOptions {
     /// Seed of all random numbers.
     pub seed: u64,
     /// Random parameters tried in every pattern.
@@ -44,7 +44,7 @@ pub struct SearchOptions {
     pub count: usize,
 }
 
-impl Default for SearchOptions {
+impl Default for MoveSearchOptions {
     /// Seed 1, 40 samples, 40 starts of 1500 evaluations, 5 platforms.
     fn default() -> Self {
         Self { seed: 1, samples: 40, starts: 40, evaluations: 1500, count: 5 }
@@ -111,7 +111,7 @@ pub struct SearchOutcome {
     /// The best platforms, best first; with another verdict than `Found` they miss a wish.
     pub candidates: Vec<Candidate>,
     /// What can end at each hole.
-    pub holes: Vec<HoleRecord>,
+    pub holes: Vec<JudgedHole>,
     /// Patterns that are independent at generic parameters and reach all holes.
     pub patterns: usize,
     /// Those among them that were searched.
@@ -132,7 +132,7 @@ pub fn search(
     m: &Manipulator,
     found: &Components,
     wishes: &Wishes,
-    options: &SearchOptions,
+    options: &MoveSearchOptions,
 ) -> Result<SearchOutcome, SearchError> {
     if found.leg_rank.value < 6 {
         return Err(SearchError::Dependent(found.leg_rank.value));
@@ -193,8 +193,8 @@ fn climb_all(
     found: &Components,
     m: &Manipulator,
     wishes: &Wishes,
-    options: &SearchOptions,
-    list: &[Pattern],
+    options: &MoveSearchOptions,
+    list: &[JointPattern],
     rng: &mut Rng,
 ) -> Result<Vec<Candidate>, SearchError> {
     let mut starts: Vec<(f64, usize, Vec<f64>)> = Vec::new();

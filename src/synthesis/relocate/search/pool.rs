@@ -1,8 +1,8 @@
 //! The places a leg of an equivalent platform can come from, and the patterns: how many legs come from where, so that six
 //! generic legs are independent.
 
-use super::candidate::Source;
-use super::wishes::{Hole, HoleAnswer, HoleRecord, Wishes};
+use super::candidate::LegSource;
+use super::wishes::{Hole, HoleAnswer, JudgedHole, Wishes};
 use crate::manipulator::{Body, Leg, LegIndex, Manipulator};
 use crate::num::Rng;
 use crate::num::linalg::LinalgError;
@@ -11,7 +11,7 @@ use crate::synthesis::components::{Component, Components, MovingPoint, Parametri
 /// A place, with generic legs from it.
 #[derive(Debug)]
 pub(super) struct Place {
-    pub(super) source: Source,
+    pub(super) source: LegSource,
     pub(super) formulas: Parametrisation,
     /// Holes its legs have an end in.
     fills: Vec<usize>,
@@ -58,7 +58,7 @@ impl<'a> Pool<'a> {
         m: &Manipulator,
         found: &'a Components,
         wishes: &Wishes,
-        records: &[HoleRecord],
+        records: &[JudgedHole],
         rng: &mut Rng,
     ) -> Result<Self, LinalgError> {
         let mut pool = Self { places: Vec::new(), drawn: true, found };
@@ -70,11 +70,11 @@ impl<'a> Pool<'a> {
                 (ends.end(h.body) - h.point).norm() <= limit && (h.legs.is_empty() || h.legs.contains(&leg))
             };
             let fills = wishes.holes.iter().enumerate().filter(fits).map(|(k, _)| k).collect();
-            pool.add(Source::Kept(leg), fixed(&ends), fills, 1, rng)?;
+            pool.add(LegSource::Kept(leg), fixed(&ends), fills, 1, rng)?;
         }
         for (k, hole) in records.iter().enumerate() {
             if let HoleAnswer::Legs { formulas, .. } = &hole.answer {
-                pool.add(Source::Hole(k), formulas.clone(), vec![k], 1, rng)?;
+                pool.add(LegSource::Hole(k), formulas.clone(), vec![k], 1, rng)?;
             }
         }
         // one leg in two holes
@@ -85,30 +85,30 @@ impl<'a> Pool<'a> {
             }
             let leg = Leg { base: a.point, platform: b.point };
             if found.span.distance(&leg) <= found.options.tolerance {
-                pool.add(Source::Holes(k, l), fixed(&leg), vec![k, l], 1, rng)?;
+                pool.add(LegSource::Holes(k, l), fixed(&leg), vec![k, l], 1, rng)?;
             }
         }
         for (k, family) in found.components.iter().enumerate().filter(|(_, c)| c.contained_in.is_empty()) {
-            pool.add(Source::Family(k), family.parametrisation.clone(), Vec::new(), 6, rng)?;
+            pool.add(LegSource::Family(k), family.parametrisation.clone(), Vec::new(), 6, rng)?;
         }
         Ok(pool)
     }
 
     fn add(
         &mut self,
-        source: Source,
+        source: LegSource,
         formulas: Parametrisation,
         fills: Vec<usize>,
         copies: usize,
         rng: &mut Rng,
     ) -> Result<(), LinalgError> {
         let support = match source {
-            Source::Kept(leg) => Some(vec![leg]),
-            Source::Family(k) => {
+            LegSource::Kept(leg) => Some(vec![leg]),
+            LegSource::Family(k) => {
                 let family = self.found.components.get(k).filter(|f| f.exact == Some(true));
                 family.map(|f| f.support.clone())
             }
-            Source::Hole(_) | Source::Holes(..) => None,
+            LegSource::Hole(_) | LegSource::Holes(..) => None,
         };
         let mut place = Place { source, formulas, fills, support, generic: Vec::new() };
         for _ in 0..copies {
@@ -134,9 +134,9 @@ impl<'a> Pool<'a> {
         (0..holes.len()).find(|k| !self.places.iter().any(|p| p.fills.contains(k) && replaces(p, &holes[*k])))
     }
 
-    fn family(&self, source: Source) -> Option<&Component> {
+    fn family(&self, source: LegSource) -> Option<&Component> {
         match source {
-            Source::Family(k) => self.found.components.get(k),
+            LegSource::Family(k) => self.found.components.get(k),
             _ => None,
         }
     }
@@ -149,7 +149,7 @@ impl<'a> Pool<'a> {
     }
 
     /// Random parameters of all legs of a pattern, one after another.
-    pub(super) fn draw(&self, pattern: &Pattern, rng: &mut Rng) -> Result<Vec<f64>, LinalgError> {
+    pub(super) fn draw(&self, pattern: &JointPattern, rng: &mut Rng) -> Result<Vec<f64>, LinalgError> {
         let mut x = Vec::new();
         for k in pattern.places {
             let place = &self.places[k];
@@ -161,12 +161,12 @@ impl<'a> Pool<'a> {
     }
 
     /// Number of parameters of a pattern.
-    pub(super) fn parameters(&self, pattern: &Pattern) -> usize {
+    pub(super) fn parameters(&self, pattern: &JointPattern) -> usize {
         pattern.places.iter().map(|k| self.places[*k].formulas.parameters()).sum()
     }
 
     /// The six legs at the parameters; `None` where one of them does not exist.
-    pub(super) fn legs(&self, pattern: &Pattern, x: &[f64]) -> Result<Option<[Leg; 6]>, LinalgError> {
+    pub(super) fn legs(&self, pattern: &JointPattern, x: &[f64]) -> Result<Option<[Leg; 6]>, LinalgError> {
         let mut out = Vec::with_capacity(6);
         let mut at = 0;
         for k in pattern.places {
@@ -184,7 +184,7 @@ impl<'a> Pool<'a> {
 
 /// Six places, in the order of the pool.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Pattern {
+pub(super) struct JointPattern {
     /// Indices of places.
     pub(super) places: [usize; 6],
     /// Legs that have one base joint whatever the parameters.
@@ -206,14 +206,14 @@ const SAME: f64 = 1e-8;
 #[derive(Debug)]
 pub(super) struct Patterns {
     /// Those that fill every hole.
-    pub(super) list: Vec<Pattern>,
+    pub(super) list: Vec<JointPattern>,
     /// Whether there are no others: none was left out by the limit or by floating point alone, and no two joints were taken for one by nearness alone.
     pub(super) exhaustive: bool,
 }
 
 struct Growing<'a> {
     pool: &'a Pool<'a>,
-    list: Vec<Pattern>,
+    list: Vec<JointPattern>,
     size: f64,
     exhaustive: bool,
 }
@@ -278,7 +278,7 @@ impl Growing<'_> {
             let held = |i: usize| self.pool.places[chosen[i].0].holds_joint(ends);
             self.exhaustive &= (0..6).all(|i| !table[i].contains(&true) || held(i));
         }
-        self.list.push(Pattern {
+        self.list.push(JointPattern {
             places: std::array::from_fn(|i| chosen[i].0),
             shared: shared(&same_base) + shared(&same_platform),
             same_base,

@@ -43,8 +43,8 @@ fn hole(body: Body, point: Point3<f64>) -> Hole {
     Hole { body, point, legs: Vec::new() }
 }
 
-fn quick() -> SearchOptions {
-    SearchOptions { samples: 6, starts: 6, evaluations: 200, ..SearchOptions::default() }
+fn quick() -> MoveSearchOptions {
+    MoveSearchOptions { samples: 6, starts: 6, evaluations: 200, ..MoveSearchOptions::default() }
 }
 
 fn asked(m: &Manipulator, wishes: &Wishes) -> SearchOutcome {
@@ -214,7 +214,7 @@ fn a_hole_on_a_cubic_has_one_leg() {
     w.holes.push(hole(Body::Platform, there.platform));
     let outcome = asked(&m, &w);
     equivalent(&m, &outcome);
-    let both = |c: &Candidate| c.placements.iter().any(|p| p.source == Source::Holes(0, 1));
+    let both = |c: &Candidate| c.placements.iter().any(|p| p.source == LegSource::Holes(0, 1));
     assert!(outcome.candidates.iter().any(both));
 }
 

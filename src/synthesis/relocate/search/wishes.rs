@@ -86,7 +86,7 @@ impl Wish {
 
 /// A wish with the number that decides it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Margin {
+pub struct WishMargin {
     /// The wish.
     pub wish: Wish,
     /// Its value on the platform; design units, a ratio for the conditioning.
@@ -115,7 +115,7 @@ pub enum HoleAnswer {
 
 /// A hole and what was decided about it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct HoleRecord {
+pub struct JudgedHole {
     /// The hole.
     pub hole: Hole,
     /// The answer within the tolerance.
@@ -133,7 +133,7 @@ pub struct HoleRecord {
     pub tolerance: f64,
 }
 
-impl HoleRecord {
+impl JudgedHole {
     /// The proof that the wish cannot be fulfilled, if there is one.
     pub(super) fn impossible(&self, index: usize) -> Option<Impossibility> {
         match self.answer {
@@ -151,7 +151,7 @@ pub(super) fn records(
     m: &Manipulator,
     found: &Components,
     holes: &[Hole],
-) -> Result<Vec<HoleRecord>, LinalgError> {
+) -> Result<Vec<JudgedHole>, LinalgError> {
     let legs = m.legs();
     let mut out = Vec::new();
     for hole in holes {
@@ -162,7 +162,7 @@ pub(super) fn records(
         };
         let named = |i: usize| hole.legs.iter().any(|l| l.get() == i);
         let (all, others) = (among(&|_| true), among(&|i| !named(i)));
-        out.push(HoleRecord {
+        out.push(JudgedHole {
             hole: hole.clone(),
             answer,
             singular_value,
