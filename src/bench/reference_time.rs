@@ -3,7 +3,8 @@
 use std::time::Instant;
 
 use crate::num::Rng;
-use crate::num::linalg::{LinalgError, eigenvalues, generalized_eigenpairs};
+use crate::num::dense::{eigenvalues, generalized_eigenpairs};
+use crate::num::linalg::LinalgError;
 
 const RUNS: usize = 12;
 

@@ -3,14 +3,14 @@
 //! Units: 1 for condition and singular values, the size of the design for lengths, the stiffness of a leg, the greatest
 //! load for forces.
 
-use nalgebra::{Matrix6, SVD, Vector3, Vector4, Vector6};
+use nalgebra::{Matrix6, Vector3, Vector4, Vector6};
 
 use super::problem::DimensionalProblem;
 use super::pull::{Gradient, Pull};
 use super::shape::JointEnds;
 use super::terms::{Gap, HeldPose, LegLines, RequirementTerms, joint_pull, leg_forces};
 use crate::num::linalg::svd;
-use crate::num::small::singular_values;
+use crate::num::small::{bounded_svd, singular_values};
 use crate::requirements::Load;
 use crate::requirements::Objective;
 use crate::synthesis::Normalisation;
@@ -272,7 +272,7 @@ fn decomposed(j: &Matrix6<f64>) -> Option<(Matrix6<f64>, Vector6<f64>, Matrix6<f
     if j.iter().any(|x| !x.is_finite()) {
         return None;
     }
-    let d = SVD::try_new(*j, true, true, f64::EPSILON, 1000)?;
+    let d = bounded_svd(j)?;
     Some((d.u?, d.singular_values, d.v_t?.transpose()))
 }
 

@@ -5,6 +5,7 @@ use num_complex::Complex64;
 
 use crate::geom::ComplexPose;
 use crate::manipulator::{Manipulator, SquaredLegLengths};
+use crate::num::small::{bounded_svd, singular_values};
 
 /// Singular values below this fraction of the largest count as zero on a curve of poses.
 const RANK: f64 = 1e-6;
@@ -111,7 +112,7 @@ pub(super) fn refine_to(
 
 /// The direction in which the leg equations are flattest, of norm one.
 fn flattest(m: &Manipulator, s: &SquaredLegLengths, pose: &ComplexPose) -> Option<Twist> {
-    let v = linearised(m, s, pose).0.try_svd(false, true, f64::EPSILON, 200)?.v_t?;
+    let v = bounded_svd(&linearised(m, s, pose).0)?.v_t?;
     Some(v.row(5).adjoint())
 }
 
@@ -139,13 +140,13 @@ pub(super) fn on_a_curve(m: &Manipulator, s: &SquaredLegLengths, pose: &ComplexP
     let Some(mut here) = displaced(pose, &(v * Complex64::new(STRIDE, 0.0)), size) else { return false };
     for _ in 0..6 {
         let (jacobian, defect) = linearised(m, s, &here);
-        let Some(svd) = jacobian.try_svd(true, true, f64::EPSILON, 200) else { return false };
+        let Some(svd) = bounded_svd(&jacobian) else { return false };
         let Ok(twist) = svd.solve(&defect, RANK * svd.singular_values[0]) else { return false };
         let Some(next) = displaced(&here, &twist, size) else { return false };
         here = next;
     }
-    let singular = linearised(m, s, &here).0.try_svd(false, false, f64::EPSILON, 200);
-    let flat = singular.is_some_and(|svd| svd.singular_values[5] < RANK * svd.singular_values[0]);
+    let singular = singular_values(&linearised(m, s, &here).0);
+    let flat = singular.is_some_and(|values| values[5] < RANK * values[0]);
     let scale = here.position.iter().map(|z| z.norm() / size).fold(1.0, f64::max);
     flat && here.residual(m, s) < 1e-12 * scale * scale && here.distance(pose, size) > 0.1 * STRIDE
 }

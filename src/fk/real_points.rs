@@ -8,6 +8,7 @@ use nalgebra::{Matrix6, Rotation3, SVector, Vector3, Vector6};
 use crate::geom::{Pose, nearest_rotation, random_rotation};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::num::Rng;
+use crate::num::small::bounded_svd;
 
 /// Random poses from which zeros are looked for.
 const STARTS: u64 = 24;
@@ -113,7 +114,7 @@ impl Equations<'_> {
 
     /// Whether another zero is a small step away.
     fn moves(&self, zero: &Pose, rng: &mut Rng) -> bool {
-        let Some(svd) = self.linearised(zero).1.try_svd(false, true, f64::EPSILON, 200) else { return false };
+        let Some(svd) = bounded_svd(&self.linearised(zero).1) else { return false };
         let Some(directions) = svd.v_t else { return false };
         let flat = |k: &usize| svd.singular_values[*k] <= FLAT * svd.singular_values.max();
         let flat: Vec<usize> = (0..6).filter(flat).collect();

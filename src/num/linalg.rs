@@ -1,11 +1,13 @@
-//! Dense linear algebra by faer; no other file names it.
-//!
-//! faer is built without its `rayon` feature, so every call is sequential: equal inputs give equal bytes,
-//! and parallelism is over problems, outside.
+//! Decompositions of matrices given by rows, a few dozen rows at most, in a bounded number of steps.
 
-use faer::{Mat, MatRef};
+use nalgebra::{DMatrix, DVector, Schur};
 use num_complex::Complex64;
 use thiserror::Error;
+
+use super::small::{STEPS, complete, decompose};
+
+/// Subdiagonal entries below this, relative to their neighbours, are zero, as `nalgebra` has it.
+const SETTLED: f64 = 5.0 * f64::EPSILON;
 
 /// A decomposition that did not converge.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -34,8 +36,8 @@ pub struct Svd {
     pub v: Vec<Vec<f64>>,
 }
 
-fn rows_of(m: MatRef<'_, f64>) -> Vec<Vec<f64>> {
-    (0..m.nrows()).map(|i| (0..m.ncols()).map(|j| m[(i, j)]).collect()).collect()
+fn rows_of(m: &DMatrix<f64>) -> Vec<Vec<f64>> {
+    m.row_iter().map(|row| row.iter().copied().collect()).collect()
 }
 
 /// SVD of the matrix with the given rows (all of one length), with full orthogonal `U` and `V`.
@@ -44,11 +46,20 @@ fn rows_of(m: MatRef<'_, f64>) -> Vec<Vec<f64>> {
 /// When the iteration does not converge (non-finite entries).
 pub fn svd(rows: &[Vec<f64>]) -> Result<Svd, LinalgError> {
     let (m, n) = (rows.len(), rows.first().map_or(0, Vec::len));
-    let matrix = Mat::from_fn(m, n, |i, j| rows[i][j]);
     let failed = LinalgError::NoConvergence { decomposition: "SVD", rows: m, columns: n };
-    let d = matrix.svd().map_err(|_| failed)?;
-    let s = (0..m.min(n)).map(|k| d.S()[k]).collect();
-    Ok(Svd { u: rows_of(d.U()), s, v: rows_of(d.V()) })
+    let (long, short) = (m.max(n), m.min(n));
+    let entry = |i: usize, j: usize| if m < n { rows[j][i] } else { rows[i][j] };
+    let mut left = DMatrix::from_fn(long, long, |i, j| if j < short { entry(i, j) } else { 0.0 });
+    let mut right = DMatrix::identity(short, short);
+    let mut s = vec![0.0; short];
+    let columns = &mut left.as_mut_slice()[..long * short];
+    decompose(columns, right.as_mut_slice(), &mut s).ok_or(failed)?;
+    for k in short..long {
+        let (before, from) = left.as_mut_slice().split_at_mut(k * long);
+        complete(before, &mut from[..long]);
+    }
+    let (u, v) = if m < n { (right, left) } else { (left, right) };
+    Ok(Svd { u: rows_of(&u), s, v: rows_of(&v) })
 }
 
 /// Eigenvalues of a real square matrix given by rows.
@@ -57,56 +68,29 @@ pub fn svd(rows: &[Vec<f64>]) -> Result<Svd, LinalgError> {
 /// When the iteration does not converge.
 pub fn eigenvalues(rows: &[Vec<f64>]) -> Result<Vec<Complex64>, LinalgError> {
     let n = rows.len();
-    let matrix = Mat::from_fn(n, n, |i, j| rows[i][j]);
     let failed = LinalgError::NoConvergence { decomposition: "eigendecomposition", rows: n, columns: n };
-    let values = matrix.eigenvalues().map_err(|_| failed)?;
-    Ok(values.iter().map(|z| Complex64::new(z.re, z.im)).collect())
+    if rows.iter().flatten().any(|x| !x.is_finite()) {
+        return Err(failed);
+    }
+    let matrix = DMatrix::from_fn(n, n, |i, j| rows[i][j]);
+    // the shifts of `nalgebra` leave a cyclic permutation as it is; after a reflection it is no permutation any more
+    let of = |m: DMatrix<f64>| Schur::try_new(m, SETTLED, STEPS).map(|d| d.complex_eigenvalues());
+    let values = of(matrix.clone()).or_else(|| of(reflected(&matrix))).ok_or(failed)?;
+    Ok(values.iter().copied().collect())
 }
 
-/// One root `alpha / beta` of `det(A beta - B alpha) = 0` with its right eigenvector.
-///
-/// The ratio is kept as two numbers: `beta` near zero (relative to the pencil's norm) is a root at infinity.
-#[derive(Debug, Clone, PartialEq)]
-pub struct GeneralizedEigenpair {
-    /// Numerator.
-    pub alpha: Complex64,
-    /// Denominator, nonnegative for a regular pencil.
-    pub beta: Complex64,
-    /// `x` with `beta A x = alpha B x`.
-    pub vector: Vec<Complex64>,
-}
-
-/// Eigenvalues and right eigenvectors of the real square pencil `A x = lambda B x`, both given by rows (QZ).
-///
-/// # Errors
-/// When the iteration does not converge.
-pub fn generalized_eigenpairs(
-    a: &[Vec<f64>],
-    b: &[Vec<f64>],
-) -> Result<Vec<GeneralizedEigenpair>, LinalgError> {
-    let n = a.len();
-    let (a, b) = (Mat::from_fn(n, n, |i, j| a[i][j]), Mat::from_fn(n, n, |i, j| b[i][j]));
-    let failed = LinalgError::NoConvergence { decomposition: "QZ decomposition", rows: n, columns: n };
-    let d = a.generalized_eigen(&b).map_err(|_| failed)?;
-    let complex = |z: faer::c64| Complex64::new(z.re, z.im);
-    let pair = |k: usize| GeneralizedEigenpair {
-        alpha: complex(d.S_a()[k]),
-        beta: complex(d.S_b()[k]),
-        vector: (0..n).map(|i| complex(d.U()[(i, k)])).collect(),
-    };
-    Ok((0..n).map(pair).collect())
-}
-
-/// Factor `U` of `P M = L U` (partial pivoting) of a matrix with at least as many columns as rows, by rows.
-#[must_use]
-pub fn upper_factor(rows: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let (m, n) = (rows.len(), rows.first().map_or(0, Vec::len));
-    rows_of(Mat::from_fn(m, n, |i, j| rows[i][j]).partial_piv_lu().U())
+/// `H m H`, with `H` the reflection that turns `(1, 2, .., n)` round: the same eigenvalues.
+fn reflected(m: &DMatrix<f64>) -> DMatrix<f64> {
+    let n = m.nrows();
+    let axis = DVector::from_fn(n, |i, _| (i + 1) as f64).normalize();
+    let h = DMatrix::identity(n, n) - &axis * axis.transpose() * 2.0;
+    &h * m * &h
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::num::Rng;
 
     #[test]
     fn svd_rebuilds_the_matrix_and_eigenvalues_of_a_companion() {
@@ -126,52 +110,87 @@ mod tests {
     }
 
     #[test]
-    fn a_pencil_with_a_root_at_infinity_and_a_conjugate_pair() {
-        // blocks: [0 1; -1 0] - lambda I, 3 - 2 lambda, 5 - 0 lambda, mixed by unimodular matrices
-        let a = [[0.0, 1.0, 0.0, 0.0], [-1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 3.0, 0.0], [0.0, 0.0, 0.0, 5.0]];
-        let b = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 2.0, 0.0], [0.0, 0.0, 0.0, 0.0]];
-        let mix = |m: [[f64; 4]; 4]| -> Vec<Vec<f64>> {
-            let mut m = m;
-            for i in 1..4 {
-                for j in 0..4 {
-                    m[i][j] += 0.5 * m[i - 1][j];
-                }
-            }
-            for row in &mut m {
-                for j in 0..3 {
-                    row[j] -= 2.0 * row[j + 1];
-                }
-            }
-            m.map(Vec::from).to_vec()
-        };
-        let (a, b) = (mix(a), mix(b));
-        let pairs = generalized_eigenpairs(&a, &b).unwrap();
-        let infinite = |p: &&GeneralizedEigenpair| p.beta.norm() < 1e-12 * p.alpha.norm();
-        assert_eq!(pairs.iter().filter(infinite).count(), 1);
-        for expected in [Complex64::I, -Complex64::I, Complex64::new(1.5, 0.0)] {
-            assert!(pairs.iter().any(|p| (p.alpha - p.beta * expected).norm() < 1e-12 * p.beta.norm()));
+    fn svd_has_full_orthogonal_bases_whatever_the_shape_and_rank() {
+        let mut rng = Rng::new(3);
+        for k in 0..300 {
+            let (m, n) = (1 + k % 9, 1 + k / 9 % 17);
+            let rank = 1 + k % m.min(n);
+            let mut factor = |a: usize, b: usize| DMatrix::from_fn(a, b, |_, _| rng.normal());
+            let matrix = factor(m, rank) * factor(rank, n);
+            let d = svd(&rows_of(&matrix)).unwrap();
+            assert_eq!((d.u.len(), d.u[0].len(), d.v.len(), d.v[0].len()), (m, m, n, n));
+            assert_eq!(d.s.len(), m.min(n));
+            assert!(d.s.windows(2).all(|s| s[0] >= s[1]) && d.s.iter().all(|s| *s >= 0.0));
+            let top = d.s[0];
+            assert!(d.s[rank..].iter().all(|s| *s < 1e-14 * top), "{:?}", d.s);
+            let u = DMatrix::from_fn(m, m, |i, j| d.u[i][j]);
+            let v = DMatrix::from_fn(n, n, |i, j| d.v[i][j]);
+            assert!((u.tr_mul(&u) - DMatrix::identity(m, m)).amax() < 1e-13);
+            assert!((v.tr_mul(&v) - DMatrix::identity(n, n)).amax() < 1e-13);
+            let middle = DMatrix::from_fn(m, n, |i, j| if i == j { d.s[i] } else { 0.0 });
+            let off = (u * middle * v.transpose() - matrix).amax();
+            assert!(off < 1e-13 * top, "{m} x {n} of rank {rank}: {off:e} of {top}");
         }
-        for p in &pairs {
-            let size: f64 = p.vector.iter().map(|z| z.norm()).sum();
-            for (ra, rb) in a.iter().zip(&b) {
-                let defect: Complex64 =
-                    ra.iter().zip(rb).zip(&p.vector).map(|((x, y), v)| v * (p.beta * x - p.alpha * y)).sum();
-                assert!(defect.norm() < 1e-12 * size * (p.alpha.norm() + p.beta.norm()));
+        let none = svd(&[vec![0.0; 3], vec![0.0; 3]]).unwrap();
+        assert_eq!((none.s, none.u.len(), none.v.len()), (vec![0.0; 2], 2, 3));
+        // entries from the least to the largest
+        assert!(svd(&[vec![5e-324, 0.0], vec![5e-324, 0.0]]).unwrap().s[0] > 0.0);
+        for scale in [1e-300, 1.0, 1e300] {
+            let d = svd(&[vec![scale, 0.0], vec![scale, 1e-200 * scale]]).unwrap();
+            assert!((d.s[0] / scale - 2.0f64.sqrt()).abs() < 1e-15 && d.s[1] <= 1e-16 * d.s[0]);
+        }
+        assert!(svd(&[vec![f64::NAN, 1.0], vec![0.0, 1.0]]).is_err());
+    }
+
+    #[test]
+    fn eigenvalues_make_the_shifted_matrix_singular_also_where_they_are_multiple() {
+        let mut rng = Rng::new(8);
+        for k in 0..200 {
+            let n = 1 + k % 12;
+            let mut m = DMatrix::from_fn(n, n, |_, _| rng.normal());
+            match k % 4 {
+                1 => m = &m * m.transpose(),
+                2 => m.row_mut(n - 1).fill(0.0),
+                3 => {
+                    m = DMatrix::from_fn(n, n, |i, j| {
+                        f64::from(u8::from(j == i + 1)) + f64::from(u8::from(j == i))
+                    })
+                }
+                _ => {}
+            }
+            let values = eigenvalues(&rows_of(&m)).unwrap();
+            assert_eq!(values.len(), n);
+            let trace: Complex64 = values.iter().sum();
+            assert!((trace - m.trace()).norm() < 1e-12 * (1.0 + m.norm()));
+            for z in values {
+                // a complex matrix as a real one of twice the size
+                let entry = |i: usize, j: usize| {
+                    let unit = f64::from(u8::from(i % n == j % n));
+                    match (i < n, j < n) {
+                        (true, false) => unit * z.im,
+                        (false, true) => -unit * z.im,
+                        _ => m[(i % n, j % n)] - unit * z.re,
+                    }
+                };
+                let shifted = DMatrix::from_fn(2 * n, 2 * n, entry);
+                let least = svd(&rows_of(&shifted)).unwrap().s[2 * n - 1];
+                assert!(least < 1e-13 * (1.0 + m.norm()), "{n}: {least:e}");
             }
         }
     }
 
     #[test]
-    fn upper_factor_of_a_wide_matrix_spans_its_rows() {
-        let rows = vec![vec![1.0, 2.0, 3.0, 4.0], vec![4.0, 5.0, 6.0, -1.0], vec![7.0, 8.0, 1.0, 2.0]];
-        let u = upper_factor(&rows);
-        assert_eq!((u.len(), u[0].len()), (3, 4));
-        assert!(u[1][0] == 0.0 && u[2][0] == 0.0 && u[2][1] == 0.0);
-        // the last row is the only combination of the rows that starts with two zeros, up to scale
-        let det = |c: [usize; 3]| {
-            let m = nalgebra::Matrix3::from_fn(|i, j| rows[i][c[j]]);
-            m.determinant()
-        };
-        assert!((u[2][3] / u[2][2] - det([0, 1, 3]) / det([0, 1, 2])).abs() < 1e-12);
+    fn eigenvalues_of_cyclic_permutations_are_roots_of_one() {
+        for n in 2..9 {
+            let rows: Vec<Vec<f64>> =
+                (0..n).map(|i| (0..n).map(|j| f64::from(u8::from(j == (i + 1) % n))).collect()).collect();
+            let values = eigenvalues(&rows).unwrap();
+            assert_eq!(values.len(), n);
+            for k in 0..n {
+                let root = Complex64::from_polar(1.0, std::f64::consts::TAU * k as f64 / n as f64);
+                assert!(values.iter().any(|z| (z - root).norm() < 1e-12), "{n}: {values:?}");
+            }
+        }
+        assert!(eigenvalues(&[vec![f64::NAN]]).is_err());
     }
 }

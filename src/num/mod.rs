@@ -1,8 +1,10 @@
-//! Numbers with known errors: double-double, interval and exact rational arithmetic, seeded random numbers, and the doors to faer and clarabel.
+//! Numbers with known errors: double-double, interval and exact rational arithmetic, decompositions of small matrices, seeded random numbers, and the doors to faer and clarabel.
 
 pub(crate) mod batch;
 #[cfg(feature = "optimize")]
 pub(crate) mod conic;
+#[cfg(feature = "lab")]
+pub mod dense;
 pub mod disc;
 pub mod double_double;
 pub(crate) mod echelon;

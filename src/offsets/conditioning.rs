@@ -3,10 +3,11 @@
 //! Row `i` of the Jacobian depends on offset `t_i` alone, so `dJ/dt_i` has one row and every derivative of a
 //! singular value is a product of two numbers.
 
-use nalgebra::{Matrix6, SVD, Vector3, Vector6};
+use nalgebra::{Matrix6, Vector3, Vector6};
 
 use crate::geom::Pose;
 use crate::manipulator::Body;
+use crate::num::small::bounded_svd;
 use crate::synthesis::HexagonSide;
 
 /// One leg at one pose: `arm = R b` and `line = R b + p - a` are affine in the offset.
@@ -117,7 +118,7 @@ impl PoseLegs {
         if rows.value.iter().chain(rows.rate.iter()).any(|x| !x.is_finite()) {
             return None;
         }
-        let svd = SVD::try_new(rows.value, true, true, f64::EPSILON, 1000)?;
+        let svd = bounded_svd(&rows.value)?;
         let (u, v_t) = (svd.u?, svd.v_t?);
         let v = v_t.transpose();
         let sigma = std::array::from_fn(|k| svd.singular_values[k]);

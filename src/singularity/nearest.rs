@@ -14,7 +14,7 @@ use nalgebra::{DMatrix, DVector, Matrix3, Point3, Vector3};
 use crate::manipulator::{Body, InvalidManipulator, Manipulator};
 use crate::num::Rng;
 use crate::num::linalg::LinalgError;
-use crate::num::small::symmetric_eigen3;
+use crate::num::small::{bounded_svd, symmetric_eigen3};
 use crate::synthesis::LegSpan;
 
 /// A singular design near a given one.
@@ -122,8 +122,7 @@ impl UnitCoefficients {
     /// The six singular vectors of the relation `c -> sum c_i v_i`, and `random` others.
     pub(super) fn all(m: &Manipulator, seed: u64, random: u64) -> Vec<Self> {
         let problem = NearestProblem::of(m);
-        let singular =
-            problem.vectors(&problem.start).try_svd(false, true, f64::EPSILON, 500).and_then(|d| d.v_t);
+        let singular = bounded_svd(&problem.vectors(&problem.start)).and_then(|d| d.v_t);
         let rows =
             singular.iter().flat_map(|v| (0..6).rev().map(move |k| std::array::from_fn(|i| v[(k, i)])));
         let mut starts: Vec<Self> = rows.map(Self).collect();
@@ -217,7 +216,7 @@ fn project(m: &Manipulator, start: &UnitCoefficients) -> Option<Change> {
         let v = problem.vectors(&x);
         let f = &v * &c;
         let by_x = problem.by_joints(&x, &c);
-        let reached = tangent(&v, &c).try_svd(true, false, f64::EPSILON, 500)?;
+        let reached = bounded_svd(&tangent(&v, &c))?;
         // columns of U with a singular value: what a change of c reaches
         let u = reached.u.as_ref()?;
         let limit = 1e-10 * reached.singular_values.max();
@@ -228,10 +227,10 @@ fn project(m: &Manipulator, start: &UnitCoefficients) -> Option<Change> {
         };
         let y = &x - &problem.start;
         let target = across(&DMatrix::from_column_slice(16, 1, (&by_x * &y - &f).as_slice()));
-        let least = pseudo_solve(across(&by_x), &target)?;
+        let least = pseudo_solve(&across(&by_x), &target)?;
         let mut step = DVector::from_column_slice(least.as_slice()) - &y;
         let left = -(&f + &by_x * &step);
-        let mut turn = pseudo_solve(tangent(&v, &c), &DMatrix::from_column_slice(16, 1, left.as_slice()))?;
+        let mut turn = pseudo_solve(&tangent(&v, &c), &DMatrix::from_column_slice(16, 1, left.as_slice()))?;
         let damping = (STRIDE / step.norm().max(turn.norm())).min(1.0);
         step *= damping;
         turn *= damping;
@@ -260,8 +259,8 @@ fn tangent(v: &DMatrix<f64>, c: &DVector<f64>) -> DMatrix<f64> {
     v * basis_across(c)
 }
 
-fn pseudo_solve(a: DMatrix<f64>, b: &DMatrix<f64>) -> Option<DMatrix<f64>> {
-    let svd = a.try_svd(true, true, f64::EPSILON, 500)?;
+fn pseudo_solve(a: &DMatrix<f64>, b: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    let svd = bounded_svd(a)?;
     let limit = 1e-10 * svd.singular_values.max();
     svd.solve(b, limit).ok()
 }

@@ -20,6 +20,7 @@ use num_complex::Complex64;
 
 use crate::manipulator::{Leg, Manipulator, SquaredLegLengths};
 use crate::num::Rng;
+use crate::num::small::bounded_svd;
 use crate::solve::planar::Planes;
 
 /// Number of quadratic forms.
@@ -214,7 +215,7 @@ impl Sections {
         let real = |s: &Self| SMatrix::<f64, 6, FORMS>::from_fn(|i, k| s.rows[i][k].re);
         let (own, aim) = (real(self), real(other));
         let (own_first, aim_first) = (own.fixed_rows::<5>(0), aim.fixed_rows::<5>(0));
-        let overlap = (aim_first * own_first.transpose()).try_svd(true, true, f64::EPSILON, 100);
+        let overlap = bounded_svd(&(aim_first * own_first.transpose()));
         // without the decomposition the rows stay as they are: any order of them will do
         let Some((u, v_t)) = overlap.and_then(|svd| svd.u.zip(svd.v_t)) else { return *self };
         let turned = u * v_t * own_first;

@@ -4,7 +4,7 @@ use divan::Bencher;
 use equipod::methods::bench::{Class, LengthsFrom, Problem, problem};
 use equipod::methods::fk::{FkOptions, ForwardKinematics, Homotopy, Octic};
 use equipod::methods::num::Rng;
-use equipod::methods::num::linalg::{eigenvalues, generalized_eigenpairs};
+use equipod::methods::num::dense::{eigenvalues, generalized_eigenpairs};
 use equipod::methods::solve::certify::Certifier;
 
 fn main() {

@@ -16,11 +16,12 @@
 //! in every offset alone and hence nowhere above the function that is affine in every offset and agrees with it at the corners. What results is affine in
 //! every offset, and so is every combination with multipliers: its greatest value is at one of the 64 corners, however the functions share offsets.
 
-use nalgebra::{Matrix6, SVD};
+use nalgebra::Matrix6;
 
 use super::ball::{Ball, dot};
 use super::multipliers::game;
 use super::rows::LegRow;
+use crate::num::small::bounded_svd;
 use crate::offsets::conditioning::PoseLegs;
 use crate::offsets::limits::OffsetRanges;
 
@@ -41,7 +42,7 @@ struct Vectors {
 impl Vectors {
     /// Singular vectors of the least and of the greatest singular value; `None` when the decomposition fails.
     fn of(j: &Matrix6<f64>) -> Option<Self> {
-        let svd = SVD::try_new(*j, true, true, f64::EPSILON, 200)?;
+        let svd = bounded_svd(j)?;
         let (u, v_t) = (svd.u?, svd.v_t?);
         let sigma = svd.singular_values;
         let (least, greatest) = (sigma.imin(), sigma.imax());

@@ -20,6 +20,7 @@ use super::conditioning::{PoseLegs, worst_case_above};
 use super::limits::{OffsetLimits, OffsetRanges, point};
 use super::problem::{OffsetModel, OffsetProblem};
 use crate::num::parallel::parallel;
+use crate::num::small::bounded_svd;
 use crate::synthesis::sides;
 
 /// No offsets within the limits of the problem reach more than `upper`.
@@ -263,7 +264,7 @@ const NEAR: f64 = 1.6;
 impl Direction {
     /// `None` when the decomposition fails.
     fn of(j: &Matrix6<f64>) -> Option<Self> {
-        let svd = j.clone_owned().try_svd(false, true, f64::EPSILON, 200)?;
+        let svd = bounded_svd(j)?;
         let v = svd.v_t?;
         let sigma = svd.singular_values;
         let mut order = [0, 1, 2, 3, 4, 5];

@@ -14,6 +14,7 @@ use super::point;
 use crate::geom::Pose;
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::num::Rng;
+use crate::num::small::singular_values;
 
 /// `(e, g)`, `g = p e` with `p` in units of the size.
 pub(super) type Point<T> = SVector<T, 8>;
@@ -294,10 +295,8 @@ pub fn curve_degree(m: &Manipulator, s: &SquaredLegLengths, pose: &Pose, seed: u
 /// Whether the point is on one curve of poses: rank six.
 pub(super) fn is_regular(equations: &LegEquations, y: &Plane) -> bool {
     let jacobian = equations.jacobian(&(y / Z::from(y.norm())));
-    jacobian.try_svd(false, false, f64::EPSILON, 1000).is_some_and(|d| {
-        let values = d.singular_values;
-        values[6] < ON_CURVE * values[0] && values[5] >= OFF_CROSSING * values[0]
-    })
+    singular_values(&jacobian)
+        .is_some_and(|values| values[6] < ON_CURVE * values[0] && values[5] >= OFF_CROSSING * values[0])
 }
 
 pub(super) fn draw(rng: &mut Rng) -> Plane {

@@ -22,7 +22,8 @@ use nalgebra::Vector3;
 
 use super::generic_frame::{GenericProblem, norm_form, rotation_forms};
 use crate::geom::ComplexPose;
-use crate::num::linalg::{GeneralizedEigenpair, LinalgError, generalized_eigenpairs, upper_factor};
+use crate::num::dense::{GeneralizedEigenpair, generalized_eigenpairs, upper_factor};
+use crate::num::linalg::LinalgError;
 use layout::Quotient;
 
 /// The matrix of a problem, 293 x 362, columns excessive, reducible, basic.

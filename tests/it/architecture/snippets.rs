@@ -79,7 +79,7 @@ fn crates_printing_and_files_are_found_where_they_do_not_belong() {
 #[test]
 fn what_is_allowed_passes() {
     for (file, source) in [
-        ("num/linalg.rs", "use faer::Mat;"),
+        ("num/dense.rs", "use faer::Mat;"),
         ("offsets/mod.rs", "pub use crate::num::conic::SolverFailure;"),
         ("num/conic.rs", "use clarabel::solver::DefaultSolver;"),
         ("fk/octic.rs", "use super::collect::collect; use crate::solve::{certify::certify, Frame};"),
