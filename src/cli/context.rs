@@ -1,5 +1,6 @@
 //! What a command is given besides its own arguments.
 
+use std::cell::Cell;
 use std::path::Path;
 
 use super::args::Global;
@@ -9,6 +10,7 @@ use super::files;
 use super::rows::{self, TableName};
 use crate::design::{Design, Format, Warning, parse};
 use crate::geom::{InvalidPose, Pose};
+use crate::records::{DesignSourceRecord, FileSourceRecord, ProvenanceRecord};
 
 /// A warning and the file it is about.
 #[derive(Debug)]
@@ -21,19 +23,51 @@ pub(crate) struct FileWarning {
 #[derive(Debug)]
 pub(crate) struct Context {
     seed: u64,
+    /// The command has asked for the seed: the answer may depend on it.
+    seed_taken: Cell<bool>,
     json: bool,
     quiet: bool,
     warnings: Vec<FileWarning>,
+    /// The designs that were read: name and file.
+    designs: Vec<(String, String)>,
 }
 
 impl Context {
     pub(crate) fn new(global: &Global) -> Self {
-        Self { seed: global.seed, json: global.json, quiet: global.quiet, warnings: Vec::new() }
+        Self {
+            seed: global.seed,
+            seed_taken: Cell::new(false),
+            json: global.json,
+            quiet: global.quiet,
+            warnings: Vec::new(),
+            designs: Vec::new(),
+        }
     }
 
     /// `--seed`: the only source of randomness.
     pub(crate) fn seed(&self) -> u64 {
+        self.seed_taken.set(true);
         self.seed
+    }
+
+    /// What the answer was made from.
+    pub(crate) fn provenance(&self) -> ProvenanceRecord {
+        let texts = files::texts_read();
+        let source = |(name, path): &(String, String)| {
+            let text = texts.iter().find(|text| text.path == *path)?;
+            Some(DesignSourceRecord {
+                name: name.clone(),
+                path: Some(path.clone()),
+                sha256: text.sha256.clone(),
+            })
+        };
+        let is_design = |text: &FileSourceRecord| self.designs.iter().any(|(_, path)| *path == text.path);
+        ProvenanceRecord {
+            seed: self.seed_taken.get().then_some(self.seed),
+            designs: self.designs.iter().filter_map(source).collect(),
+            files: texts.iter().filter(|text| !is_design(text)).cloned().collect(),
+            ..ProvenanceRecord::default()
+        }
     }
 
     /// `--json`: for commands that would do needless work to render what is not shown.
@@ -68,6 +102,7 @@ impl Context {
                 if let Some(trajectory) = &mut design.workspace.trajectory {
                     trajectory.poses = poses_beside(path, &trajectory.file)?;
                 }
+                self.designs.push((design.name.clone(), shown));
                 Ok(design)
             }
             Err(violations) => Err(Failure::bad_design(shown, text, violations)),

@@ -14,6 +14,7 @@ use clap::ArgMatches;
 
 use super::failure::Failure;
 use crate::design::{Design, Format, parse};
+use crate::records::{FileSourceRecord, sha256};
 
 /// Nothing this program reads is larger; a design has some kilobytes.
 const MAX_BYTES: u64 = 4 << 20;
@@ -49,6 +50,7 @@ pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
     if bytes.len() as u64 > MAX_BYTES {
         return Err(too_large());
     }
+    note_text(path, &bytes);
     String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
         let line = error.as_bytes()[..valid].split(|b| *b == b'\n').count();
@@ -113,6 +115,8 @@ impl Identity {
 #[derive(Debug, Default)]
 struct Run {
     read: Vec<Identity>,
+    /// What [`read_text`] read, for the provenance of the answer.
+    texts: Vec<FileSourceRecord>,
     written: Vec<Identity>,
 }
 
@@ -128,6 +132,20 @@ pub(crate) fn begin() {
 
 fn note_input(path: &Path) {
     RUN.with_borrow_mut(|run| run.read.push(Identity::of(path)));
+}
+
+fn note_text(path: &Path, bytes: &[u8]) {
+    let text = FileSourceRecord { path: path.display().to_string(), sha256: sha256(bytes) };
+    RUN.with_borrow_mut(|run| {
+        if !run.texts.contains(&text) {
+            run.texts.push(text);
+        }
+    });
+}
+
+/// The texts that this run has read, in order and each once.
+pub(crate) fn texts_read() -> Vec<FileSourceRecord> {
+    RUN.with_borrow(|run| run.texts.clone())
 }
 
 fn over_input(path: &Path) -> Failure {

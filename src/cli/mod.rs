@@ -46,7 +46,7 @@ fn guarded(json: bool, body: impl FnOnce() -> Exit) -> Exit {
     catch_unwind(AssertUnwindSafe(body)).unwrap_or_else(|payload| {
         let text = payload.downcast_ref::<&str>().map(ToString::to_string);
         let text = text.or_else(|| payload.downcast_ref::<String>().cloned()).unwrap_or_default();
-        Output::new(json).failure(&Failure::internal(format!("the program broke down: {text}")), &[])
+        Output::new(json).failure(&Failure::internal(format!("the program broke down: {text}")), None)
     })
 }
 
@@ -63,17 +63,17 @@ fn run(args: Vec<OsString>, json: bool) -> Exit {
     if let Err(unfit) = check_arithmetic() {
         let help = "a library loaded into this process has switched the processor, as code compiled with `-ffast-math` does: start without it (LD_PRELOAD?)";
         return output
-            .failure(&Failure::new(Exit::Internal, "arithmetic", unfit.to_string()).with_help(help), &[]);
+            .failure(&Failure::new(Exit::Internal, "arithmetic", unfit.to_string()).with_help(help), None);
     }
     files::begin();
     if let Err(failure) = files::check_arguments(&matches) {
-        return output.failure(&failure, &[]);
+        return output.failure(&failure, None);
     }
     let mut context = Context::new(&cli.global);
     let result = cli.command.run(&mut context);
     match result {
-        Ok(answer) => output.answer(&answer, context.warnings()),
-        Err(failure) => output.failure(&failure, context.warnings()),
+        Ok(answer) => output.answer(&answer, &context),
+        Err(failure) => output.failure(&failure, Some(&context)),
     }
 }
 

@@ -5,11 +5,11 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use super::context::FileWarning;
+use super::context::{Context, FileWarning};
 use super::diagnostic;
 use super::exit::Exit;
 use super::failure::Failure;
-use crate::records::{Document, ErrorAnswer, HelpAnswer, WarningRecord};
+use crate::records::{Document, ErrorAnswer, HelpAnswer, ProvenanceRecord, WarningRecord};
 
 /// What a command found: the record that `--json` prints, and the text that people read without it.
 #[derive(Debug)]
@@ -27,12 +27,12 @@ impl Answer {
 
 /// A record of whatever type that can be written as a document.
 trait Written: Debug {
-    fn document(&self, warnings: &[FileWarning]) -> Result<String, Failure>;
+    fn document(&self, context: &Context) -> Result<String, Failure>;
 }
 
 impl<T: Serialize + Debug> Written for T {
-    fn document(&self, warnings: &[FileWarning]) -> Result<String, Failure> {
-        document(self, warnings)
+    fn document(&self, context: &Context) -> Result<String, Failure> {
+        document(self, context.provenance(), context.warnings())
     }
 }
 
@@ -47,22 +47,23 @@ impl Output {
         Self { json }
     }
 
-    pub(crate) fn answer(self, answer: &Answer, warnings: &[FileWarning]) -> Exit {
+    pub(crate) fn answer(self, answer: &Answer, context: &Context) -> Exit {
         if !self.json {
             return write_out(&answer.text, answer.exit);
         }
-        match answer.record.document(warnings) {
+        match answer.record.document(context) {
             Ok(text) => write_out(&text, answer.exit),
-            Err(failure) => self.failure(&failure, warnings),
+            Err(failure) => self.failure(&failure, Some(context)),
         }
     }
 
-    pub(crate) fn failure(self, failure: &Failure, warnings: &[FileWarning]) -> Exit {
+    /// `context`: `None` before the arguments are understood.
+    pub(crate) fn failure(self, failure: &Failure, context: Option<&Context>) -> Exit {
         diagnostic::print_failure(failure);
         if !self.json {
             return failure.exit;
         }
-        write_failure(failure, warnings)
+        write_failure(failure, context)
     }
 
     /// What clap has to say: help and version, or a refusal of the arguments.
@@ -77,12 +78,12 @@ impl Output {
             let message = lines.filter(|l| !l.is_empty()).collect::<Vec<_>>().join(" ");
             let message = message.trim_start_matches("error: ");
             let failure = Failure::refused("usage", message).with_help("see equipod --help");
-            return write_failure(&failure, &[]);
+            return write_failure(&failure, None);
         }
         if self.json {
-            return match document(HelpAnswer { help: error.to_string() }, &[]) {
+            return match document(HelpAnswer { help: error.to_string() }, ProvenanceRecord::default(), &[]) {
                 Ok(text) => write_out(&text, Exit::Yes),
-                Err(failure) => self.failure(&failure, &[]),
+                Err(failure) => self.failure(&failure, None),
             };
         }
         let _ = error.print();
@@ -91,16 +92,21 @@ impl Output {
 }
 
 /// The text of a document.
-pub(crate) fn document(answer: impl Serialize, warnings: &[FileWarning]) -> Result<String, Failure> {
-    let document = Document::new(answer, warnings.iter().map(WarningRecord::from).collect());
+pub(crate) fn document(
+    answer: impl Serialize,
+    provenance: ProvenanceRecord,
+    warnings: &[FileWarning],
+) -> Result<String, Failure> {
+    let document = Document::new(answer, provenance, warnings.iter().map(WarningRecord::from).collect());
     let text = serde_json::to_string(&document);
     text.map(|t| t + "\n")
         .map_err(|e| Failure::internal(format!("the answer cannot be written as JSON: {e}")))
 }
 
 /// A refusal or failure as a document. It is made of texts and numbers of lines alone: when even that cannot be written, standard error has said it.
-fn write_failure(failure: &Failure, warnings: &[FileWarning]) -> Exit {
-    let text = document(ErrorAnswer { error: failure.into() }, warnings).unwrap_or_default();
+fn write_failure(failure: &Failure, context: Option<&Context>) -> Exit {
+    let (provenance, warnings) = context.map_or_else(Default::default, |c| (c.provenance(), c.warnings()));
+    let text = document(ErrorAnswer { error: failure.into() }, provenance, warnings).unwrap_or_default();
     write_out(&text, failure.exit)
 }
 

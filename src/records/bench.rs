@@ -155,8 +155,6 @@ pub struct BenchClassRecord {
     pub ratio_to_reference: ReferenceRecord,
     /// Index of the first problem.
     pub first: u64,
-    /// Seed of the problems.
-    pub seed: u64,
     /// Threads; each problem was solved on one.
     pub threads: usize,
     /// Where lengths come from.
@@ -184,7 +182,7 @@ pub struct BenchClassRecord {
     /// Medians of its parts.
     pub split_us: TimeSplitRecord,
     /// Of the whole run.
-    pub seconds: Number,
+    pub total_s: Number,
     /// Error measure, decimal logarithm.
     pub epsilon: ErrorStatisticsRecord,
     /// Problems whose answer is not right.
@@ -202,7 +200,6 @@ impl BenchClassRecord {
                 eig40: Number(r.median_us / references.eig40),
             },
             first: r.plan.first,
-            seed: r.plan.seed,
             threads: r.plan.threads,
             lengths_from: r.plan.lengths,
             expected_count: r.expected,
@@ -216,7 +213,7 @@ impl BenchClassRecord {
             rechecked: r.rechecked,
             mean_us: Number(r.mean_us),
             split_us: (&r.split).into(),
-            seconds: Number(r.seconds),
+            total_s: Number(r.seconds),
             epsilon: (&r.epsilon).into(),
             failures: r.failures.iter().map(|f| BenchFailureRecord::new(&r.plan, f)).collect(),
         }
@@ -301,7 +298,7 @@ impl From<&ErrorStatistics> for ErrorStatisticsRecord {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BenchFailureRecord {
     /// Index of the problem.
-    pub k: u64,
+    pub problem: u64,
     /// Roots that are missing.
     pub missed: usize,
     /// Claims that are no roots.
@@ -328,7 +325,7 @@ impl BenchFailureRecord {
         let drawn = problem(plan.class, plan.lengths, plan.seed, f.k).ok();
         let point = |p: nalgebra::Point3<f64>| [p.x, p.y, p.z].map(Number);
         Self {
-            k: f.k,
+            problem: f.k,
             missed: f.missed,
             spurious: f.spurious,
             false_certificates: f.false_certificates,
@@ -348,8 +345,6 @@ pub struct NoiseAnswer {
     pub class: String,
     /// Problems of each class.
     pub count: u64,
-    /// Their seed.
-    pub seed: u64,
     /// Threads.
     pub threads: u64,
     /// The classes.
@@ -381,9 +376,9 @@ pub struct NoiseLevelRecord {
     /// Problems without a real pose.
     pub without_real_pose: u64,
     /// Angle of the rotation to the nearest real pose; null: no problem has one.
-    pub rotation: Option<SpreadRecord>,
+    pub rotation_rad: Option<SpreadRecord>,
     /// Angle between the position vectors.
-    pub position: Option<SpreadRecord>,
+    pub position_rad: Option<SpreadRecord>,
 }
 
 impl From<&NoiseLevel> for NoiseLevelRecord {
@@ -391,8 +386,8 @@ impl From<&NoiseLevel> for NoiseLevelRecord {
         Self {
             sigma: Number(l.sigma),
             without_real_pose: l.without_pose,
-            rotation: l.rotation.as_ref().map(SpreadRecord::from),
-            position: l.position.as_ref().map(SpreadRecord::from),
+            rotation_rad: l.rotation.as_ref().map(SpreadRecord::from),
+            position_rad: l.position.as_ref().map(SpreadRecord::from),
         }
     }
 }

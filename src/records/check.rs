@@ -205,7 +205,7 @@ pub struct CaseRecord {
     /// The legs it is about, from 1.
     pub legs: Vec<usize>,
     /// One sentence.
-    pub sentence: String,
+    pub explanation: String,
 }
 
 impl From<&Finding> for CaseRecord {
@@ -214,7 +214,7 @@ impl From<&Finding> for CaseRecord {
             case: f.case.name().into(),
             reason: f.case.reason().into(),
             legs: leg_numbers(&f.legs),
-            sentence: f.case.sentence(),
+            explanation: f.case.sentence(),
         }
     }
 }

@@ -18,8 +18,6 @@ pub struct ComponentsAnswer {
     pub name: String,
     /// What counts as zero, relative to the size of the body.
     pub tolerance: f64,
-    /// The seed of the generic points.
-    pub seed: u64,
     /// Rank of the leg vectors.
     pub leg_rank: usize,
     /// How that was decided.
@@ -521,12 +519,7 @@ impl ComponentRecord {
 impl ComponentsAnswer {
     /// The answer about a design of this name: everything found, and of the families those in `components`.
     #[must_use]
-    pub fn new(
-        name: &str,
-        (tolerance, seed): (f64, u64),
-        found: &Components,
-        components: Vec<ComponentRecord>,
-    ) -> Self {
+    pub fn new(name: &str, tolerance: f64, found: &Components, components: Vec<ComponentRecord>) -> Self {
         let planes = found.planes.iter().map(|p| PlanePairRecord {
             pair: p.pair + 1,
             legs: legs(&found.pairs[p.pair].legs),
@@ -539,7 +532,6 @@ impl ComponentsAnswer {
         Self {
             name: name.to_owned(),
             tolerance,
-            seed,
             leg_rank: found.leg_rank.value,
             leg_rank_decision: (&found.leg_rank).into(),
             count: found.components.len(),

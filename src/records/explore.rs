@@ -8,19 +8,6 @@ use crate::equivalence::Verification;
 use crate::fk::FkSolutions;
 use crate::offsets::OffsetSolution;
 
-/// A file of the folder: the answer of a command with what the run was.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct RunRecord<T> {
-    /// The version of the program.
-    pub version: String,
-    /// The seed of the run; absent where the answer has its own.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub seed: Option<u64>,
-    /// The answer.
-    #[serde(flatten)]
-    pub answer: T,
-}
-
 /// The poses of the original, with the lengths they belong to.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FkRunRecord {
@@ -62,10 +49,6 @@ pub struct ExploreAnswer {
     pub verify: Option<ComparedRecord>,
     /// The poses of the design.
     pub fk: PoseTotalsRecord,
-    /// The version of the program.
-    pub version: String,
-    /// The seed of the run.
-    pub seed: u64,
 }
 
 /// The verdict of `explore`: that of the comparison, or why there was none.
@@ -151,7 +134,7 @@ impl OffsetsFoundRecord {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ComparedRecord {
     /// Sets of lengths at which both designs were solved.
-    pub samples: usize,
+    pub sample_count: usize,
     /// The largest distance of matched poses.
     pub worst_distance: Number,
     /// Of the affine map.
@@ -163,7 +146,7 @@ pub struct ComparedRecord {
 impl From<&Verification> for ComparedRecord {
     fn from(v: &Verification) -> Self {
         Self {
-            samples: v.samples.len(),
+            sample_count: v.samples.len(),
             worst_distance: Number(v.worst_distance()),
             residual: Number(v.map.residual),
             det: Number(v.map.determinant),

@@ -21,7 +21,7 @@ pub struct FamilyAnswer {
     /// Legs along the hexagon, from 1.
     pub cyclic_order: Vec<usize>,
     /// The edge of each side of the hexagon, design units.
-    pub edges: Vec<Number>,
+    pub edge_lengths: Vec<Number>,
     /// How many there are.
     pub counts: CountsRecord,
     /// The patterns, or the one that was asked for.
@@ -41,7 +41,7 @@ impl FamilyAnswer {
         Self {
             name: design.name.clone(),
             cyclic_order: o.order().map(leg_number).to_vec(),
-            edges: edge_lengths(o).map(Number).to_vec(),
+            edge_lengths: edge_lengths(o).map(Number).to_vec(),
             counts: family.counts().into(),
             patterns: members.iter().map(|m| PatternRecord::new(m, &original)).collect(),
             topologies: family.topologies().iter().enumerate().map(FamilyTopologyRecord::from).collect(),

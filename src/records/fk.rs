@@ -119,8 +119,6 @@ pub struct SolvedRecord {
     pub rejected: Vec<RejectedRecord>,
     /// Ends of paths without a certificate, near which there may be one pose, several or none: they are not among the solutions.
     pub unproved: Vec<SolutionRecord>,
-    /// The seed of the generic constants.
-    pub seed: u64,
     /// What null stands for, where a number is not finite.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
@@ -166,7 +164,6 @@ impl From<&FkSolutions> for SolvedRecord {
             paths: s.paths.iter().map(PathRecord::from).collect(),
             rejected: s.rejected.iter().map(RejectedRecord::from).collect(),
             unproved: s.unproved.iter().map(SolutionRecord::from).collect(),
-            seed: s.seed,
             notes: Vec::new(),
         };
         if !record.is_finite() {

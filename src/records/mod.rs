@@ -25,6 +25,7 @@ mod number;
 mod optimize;
 mod pose;
 mod presets;
+mod provenance;
 mod rearrangement;
 mod requirement;
 mod rounding;
@@ -58,6 +59,7 @@ pub use self::number::*;
 pub use self::optimize::*;
 pub use self::pose::*;
 pub use self::presets::*;
+pub use self::provenance::*;
 pub use self::rearrangement::*;
 pub use self::requirement::*;
 pub use self::rounding::*;
@@ -82,13 +84,15 @@ pub struct Document<T> {
     /// The fields of the answer.
     #[serde(flatten)]
     pub answer: T,
+    /// What the answer was made from.
+    pub provenance: ProvenanceRecord,
     /// What was odd about the design files that were read.
     pub warnings: Vec<WarningRecord>,
 }
 
 impl<T> Document<T> {
     /// The document of an answer.
-    pub fn new(answer: T, warnings: Vec<WarningRecord>) -> Self {
-        Self { schema_version: SCHEMA_VERSION, answer, warnings }
+    pub fn new(answer: T, provenance: ProvenanceRecord, warnings: Vec<WarningRecord>) -> Self {
+        Self { schema_version: SCHEMA_VERSION, answer, provenance, warnings }
     }
 }

@@ -147,7 +147,7 @@ pub struct MoveSearchAnswer {
     /// The platforms found, best first.
     pub designs: Vec<CandidateRecord>,
     /// The files written.
-    pub output: Vec<String>,
+    pub paths: Vec<String>,
 }
 
 /// What came of a search.

@@ -13,7 +13,7 @@ use crate::singularity::Regularity;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MarginRecord {
     /// The kind.
-    pub requirement: TermKind,
+    pub name: TermKind,
     /// Least over the poses looked at; a violation below 0.
     pub margin: Number,
     /// Not violated by more than rounding: proved in `assess` (null where it is not), at the poses looked at elsewhere.
@@ -35,7 +35,7 @@ pub struct MarginRecord {
 impl MarginRecord {
     fn new(design: &Design, m: &Margin, met: Option<bool>, status: MarginVerdict, below: f64) -> Self {
         Self {
-            requirement: m.term.kind,
+            name: m.term.kind,
             margin: Number(m.value),
             met,
             at_limit: m.standing == Standing::AtLimit,
@@ -78,7 +78,7 @@ pub struct AssessAnswer {
     /// null: neither.
     pub met: Option<bool>,
     /// The least of each kind.
-    pub margins: Vec<MarginRecord>,
+    pub requirements: Vec<MarginRecord>,
     /// Whether there are singular poses.
     pub regular: RegularityRecord,
     /// Poses looked at.
@@ -94,7 +94,7 @@ impl AssessAnswer {
         let proof = &found.proof;
         Self {
             met: found.met(),
-            margins: proof.bounds.iter().map(|b| MarginRecord::proved(design, b)).collect(),
+            requirements: proof.bounds.iter().map(|b| MarginRecord::proved(design, b)).collect(),
             regular: RegularityRecord::new(&found.regularity, found.regularity_cells),
             poses: proof.poses,
             cells: proof.bounds.iter().map(|b| b.cells).sum(),

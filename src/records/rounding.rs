@@ -96,7 +96,7 @@ pub struct JudgementRecord {
     /// det A; null: there is no leg map.
     pub det: Option<Number>,
     /// The least margin of each requirement.
-    pub margins: Vec<RequirementMarginRecord>,
+    pub requirements: Vec<RequirementMarginRecord>,
     /// No requirement is violated.
     pub met: bool,
 }
@@ -105,7 +105,7 @@ pub struct JudgementRecord {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RequirementMarginRecord {
     /// Which.
-    pub requirement: TermKind,
+    pub name: TermKind,
     /// The margin; a violation below 0.
     pub margin: Number,
 }
@@ -113,7 +113,7 @@ pub struct RequirementMarginRecord {
 impl From<&Judgement> for JudgementRecord {
     fn from(j: &Judgement) -> Self {
         let margin = |(requirement, margin): &(TermKind, f64)| RequirementMarginRecord {
-            requirement: *requirement,
+            name: *requirement,
             margin: Number(*margin),
         };
         Self {
@@ -121,7 +121,7 @@ impl From<&Judgement> for JudgementRecord {
             worst_pose: (&j.worst_pose).into(),
             least_distances: j.least_distances.map(Number),
             det: j.det.map(Number),
-            margins: j.margins.iter().map(margin).collect(),
+            requirements: j.margins.iter().map(margin).collect(),
             met: j.met,
         }
     }

@@ -247,8 +247,6 @@ fn parts(pose: &ComplexPose) -> ComplexRecord<PoseRecord> {
 pub struct SamplingRecord {
     /// How many.
     pub count: usize,
-    /// The seed they were drawn with.
-    pub seed: u64,
     /// The middle of the box.
     pub home_position: [f64; 3],
     /// Half widths of the box of positions, design units.
@@ -261,7 +259,6 @@ impl From<&SamplePlan> for SamplingRecord {
     fn from(plan: &SamplePlan) -> Self {
         Self {
             count: plan.count,
-            seed: plan.seed,
             home_position: plan.home.position.into(),
             translation_half_widths: plan.translation.into(),
             rotation_half_widths_rad: plan.rotation.into(),

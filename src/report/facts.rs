@@ -12,7 +12,7 @@ const ROWS: usize = 24;
 const DEPTH: usize = 3;
 
 /// Fields that the page tells elsewhere.
-const ELSEWHERE: [&str; 5] = ["schema_version", "version", "seed", "explanation", "warnings"];
+const ELSEWHERE: [&str; 4] = ["schema_version", "provenance", "explanation", "warnings"];
 
 /// Nine significant digits; the file has all of them.
 fn number(n: &serde_json::Number) -> String {

@@ -29,7 +29,7 @@ pub(super) fn heading(fields: &Map<String, Value>) -> &'static str {
         () if has("front") => "Optimisation: a front",
         () if has("status") && has("objective") => "Optimisation",
         () if has("patterns") && has("topologies") => "Equivalence class",
-        () if has("margins") && has("met") => "Requirements",
+        () if has("requirements") && has("met") => "Requirements",
         () if has("components") => "Replaceable legs",
         () if has("curves") => "Self-motions",
         () if has("topologies") => "Topologies",

@@ -4,13 +4,13 @@ use std::fmt::Write as _;
 
 use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
 use serde_json::{Map, Value};
-use sha2::{Digest, Sha256};
 
 use super::kind::{ResultVerdict, heading, verdict};
 use super::{Report, ReportFile, facts, inputs};
 use crate::design::{Design, Format, parse};
 use crate::page::policy;
 use crate::plot::escape;
+use crate::records::sha256;
 
 const STYLE: &str = include_str!("style.css");
 
@@ -186,9 +186,11 @@ fn provenance(out: &mut String, contents: &[(&ReportFile, Content)]) {
     );
     for (file, content) in contents {
         let field = |key: &str| match content {
-            Content::Result(fields) => {
-                fields.get(key).map(|v| v.as_str().map_or_else(|| v.to_string(), str::to_owned))
-            }
+            Content::Result(fields) => fields
+                .get("provenance")
+                .and_then(|made_from| made_from.get(key))
+                .filter(|v| !v.is_null())
+                .map(|v| v.as_str().map_or_else(|| v.to_string(), str::to_owned)),
             _ => None,
         };
         let tolerances = match content {
@@ -201,20 +203,13 @@ fn provenance(out: &mut String, contents: &[(&ReportFile, Content)]) {
             "<tr><th scope=\"row\">{}</th><td>{}</td><td class=\"hash\">{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
             link(&file.name),
             file.bytes.len(),
-            hash(&file.bytes),
+            sha256(&file.bytes),
             cell(field("version")),
             cell(field("seed")),
             if tolerances.is_empty() { "\u{2013}".into() } else { tolerances },
         );
     }
     out.push_str("</tbody></table></div></section>\n");
-}
-
-fn hash(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().fold(String::new(), |mut text, byte| {
-        let _ = write!(text, "{byte:02x}");
-        text
-    })
 }
 
 /// What the result calls tolerances, at the top or one level below.

@@ -18,7 +18,7 @@ fn verdicts_stand_at_the_top_with_sign_and_word() {
         file("original.toml", DESIGN),
         file(
             "verify.json",
-            r#"{"schema_version":1,"version":"0.1.0","seed":7,"verdict":"not_equivalent","explanation":"a pose tells them apart",
+            r#"{"schema_version":1,"provenance":{"version":"0.1.0","seed":7,"designs":[],"files":[]},"verdict":"not_equivalent","explanation":"a pose tells them apart",
                 "map":{"det":0.5,"tolerances":{"residual":1e-9}},"samples":[{"matched":16},{"matched":15}],"warnings":[]}"#,
         ),
         file(
@@ -195,7 +195,7 @@ fn foreign_texts_never_become_markup() {
             .replacen("description = ", &format!("description = {} #", toml_text(&hostile())), 1)
             .replacen("name = \"octahedral 12-6\"", &format!("name = {}", toml_text(&hostile())), 1);
         let result = format!(
-            "{{\"schema_version\":1,\"verdict\":{},\"explanation\":{},\"version\":{},\"seed\":{},{}:{},\"list\":[{{{}:{}}}],\"met\":null,\"tolerances\":{{{}:1}}}}",
+            "{{\"schema_version\":1,\"verdict\":{},\"explanation\":{},\"provenance\":{{\"version\":{},\"seed\":{}}},{}:{},\"list\":[{{{}:{}}}],\"met\":null,\"tolerances\":{{{}:1}}}}",
             quoted(hostile()),
             quoted(hostile()),
             quoted(hostile()),

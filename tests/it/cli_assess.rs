@@ -25,9 +25,9 @@ fn margins_come_with_their_worst_poses_and_a_violation_is_a_no() {
     let limits = "[hardware]\nleg_length = [10.0, 25.0]\nplatform_swing_deg = 40.0\n";
     let (code, doc) = assess(&design(folder.path(), limits));
     assert_eq!((code, doc["met"].as_bool()), (Some(0), Some(true)), "{doc}");
-    let margins = doc["margins"].as_array().unwrap();
+    let margins = doc["requirements"].as_array().unwrap();
     // the design asks for a least joint distance too, which needs no pose
-    let codes: Vec<&str> = margins.iter().map(|m| m["requirement"].as_str().unwrap()).collect();
+    let codes: Vec<&str> = margins.iter().map(|m| m["name"].as_str().unwrap()).collect();
     assert_eq!(
         codes,
         ["leg_too_short", "leg_too_long", "platform_swing", "base_spacing", "platform_spacing"]
@@ -40,7 +40,7 @@ fn margins_come_with_their_worst_poses_and_a_violation_is_a_no() {
     let (code, doc) = assess(&design(folder.path(), &limits.replace("25.0", "18.0")));
     assert_eq!((code, doc["met"].as_bool()), (Some(1), Some(false)));
     assert_eq!(
-        (doc["margins"][1]["met"].as_bool(), doc["margins"][0]["met"].as_bool()),
+        (doc["requirements"][1]["met"].as_bool(), doc["requirements"][0]["met"].as_bool()),
         (Some(false), Some(true))
     );
 }
@@ -60,7 +60,7 @@ fn a_distance_equal_to_the_least_one_is_at_its_limit() {
         path
     };
     let platform = |doc: &Value| {
-        let margin = doc["margins"].as_array().unwrap().last().unwrap().clone();
+        let margin = doc["requirements"].as_array().unwrap().last().unwrap().clone();
         (margin["met"].as_bool(), margin["at_limit"].as_bool())
     };
     let (code, doc) = assess(&with("6.0"));
@@ -106,8 +106,8 @@ fn a_worst_pose_that_searches_miss_is_found_by_cells() {
     let out = equipod(&["assess", path, "--points", "0", "--searches", "0", "--cells", "1500", "--json"]);
     let doc = document(&out);
     assert_eq!((out.status.code(), doc["met"].as_bool()), (Some(1), Some(false)), "{doc}");
-    let margins = doc["margins"].as_array().unwrap();
-    let swing = margins.iter().find(|m| m["requirement"] == "platform_swing").unwrap();
+    let margins = doc["requirements"].as_array().unwrap();
+    let swing = margins.iter().find(|m| m["name"] == "platform_swing").unwrap();
     assert_eq!((swing["status"].as_str(), swing["met"].as_bool()), (Some("violated"), Some(false)));
     assert!(swing["margin"].as_f64().unwrap() < -0.15, "{swing}");
     // six degrees more are enough, and these few cells prove it
@@ -118,8 +118,8 @@ fn a_worst_pose_that_searches_miss_is_found_by_cells() {
         .unwrap();
     let out = equipod(&["assess", wider.to_str().unwrap(), "--points", "50", "--json"]);
     let doc = document(&out);
-    let margins = doc["margins"].as_array().unwrap();
-    let swing = margins.iter().find(|m| m["requirement"] == "platform_swing").unwrap();
+    let margins = doc["requirements"].as_array().unwrap();
+    let swing = margins.iter().find(|m| m["name"] == "platform_swing").unwrap();
     assert_eq!(swing["status"], "met", "{swing}");
     let bound = swing["proved_margin"].as_f64().unwrap();
     assert!(bound >= 0.0 && bound <= swing["margin"].as_f64().unwrap());

@@ -43,8 +43,8 @@ fn noise_gives_a_table_and_a_picture() {
     let levels = doc["rows"][0]["levels"].as_array().unwrap();
     assert!(levels.len() > 10 && levels[0]["sigma"] == 0.0);
     for key in ["lower_quartile", "median", "upper_quartile", "p99", "max"] {
-        assert!(levels[3]["rotation"][key].as_f64().unwrap() > 0.0, "{key}");
-        assert!(levels[3]["position"][key].as_f64().unwrap() > 0.0, "{key}");
+        assert!(levels[3]["rotation_rad"][key].as_f64().unwrap() > 0.0, "{key}");
+        assert!(levels[3]["position_rad"][key].as_f64().unwrap() > 0.0, "{key}");
     }
     let picture = std::fs::read_to_string(&svg).unwrap();
     assert!(picture.contains("6P-6") && !picture.contains("NaN"));

@@ -142,7 +142,7 @@ fn the_search_finds_proves_and_leaves_open() {
         (Some(true), Some(0), Some("equivalent"))
     );
     assert!(first["margins"].as_array().unwrap().iter().all(|m| number(&m["slack"]) >= 0.0));
-    let file = doc["output"][0].as_str().unwrap();
+    let file = doc["paths"][0].as_str().unwrap();
     let map = equipod(&["map", "designs/rbt-octahedral.toml", file, "--json"]);
     assert_eq!(document(&map)["relation"], "equivalent");
     // a joint 3 along the first edge, by name

@@ -114,7 +114,7 @@ variables = [\"symmetric_offsets\", \"home_height\"]
     assert_eq!(d["verify"]["verdict"], "equivalent");
     assert!(d["objective"].as_f64().unwrap() > 0.0);
     let margins = d["constraint_margins"].as_array().unwrap();
-    assert!(margins.iter().any(|m| m["requirement"] == "leg_too_long"));
+    assert!(margins.iter().any(|m| m["name"] == "leg_too_long"));
     assert!(margins.iter().all(|m| m["margin"].as_f64().unwrap() >= 0.0));
     let checked = Command::new(env!("CARGO_BIN_EXE_equipod"))
         .current_dir(folder.path())
@@ -139,7 +139,7 @@ variables = [\"home_height\"]
         .as_array()
         .unwrap()
         .iter()
-        .map(|r| r["requirement"].as_str().unwrap())
+        .map(|r| r["name"].as_str().unwrap())
         .collect();
     assert_eq!(codes, ["leg_too_short", "leg_too_long"]);
     assert!(d["conflict"]["requirements"][1]["alone"].as_f64().unwrap() > 0.0);

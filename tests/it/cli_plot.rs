@@ -91,7 +91,8 @@ fn a_front_is_read_from_a_result() {
         )
     };
     let write = |members: &[String]| {
-        std::fs::write(&file, format!(r#"{{"front":[{}],"seed":7}}"#, members.join(","))).unwrap();
+        std::fs::write(&file, format!(r#"{{"front":[{}],"provenance":{{"seed":7}}}}"#, members.join(",")))
+            .unwrap();
     };
     write(&[member(0.2, 30.0), member(0.3, 50.0), member(0.4, 90.0)]);
     let text = svg(&["pareto", path]);

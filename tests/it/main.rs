@@ -22,6 +22,7 @@ mod cli_move;
 mod cli_near;
 mod cli_optimize;
 mod cli_plot;
+mod cli_provenance;
 mod cli_round;
 mod cli_singularities;
 mod cli_synthesis;

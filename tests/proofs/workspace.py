@@ -267,8 +267,8 @@ def refutes(design, kind, proved, x):
 
 def check_assess(rng, design, found, tally, where):
     complaints = []
-    for record in found["margins"]:
-        kind, proved = record["requirement"], record["proved_margin"]
+    for record in found["requirements"]:
+        kind, proved = record["name"], record["proved_margin"]
         if kind not in KINDS:
             continue
         x = worst(rng, design, lambda x: min(margins(DOUBLES, design, x)[kind]))
@@ -327,8 +327,8 @@ def run(program, options, tally):
 
 def plant(rng, design, found, scaled, tally, where):
     """Bounds that are not true have to be refuted."""
-    for record in found["margins"]:
-        kind = record["requirement"]
+    for record in found["requirements"]:
+        kind = record["name"]
         if kind not in KINDS or record["margin"] is None:
             continue
         x = worst(rng, design, lambda x: min(margins(DOUBLES, design, x)[kind]), points=600, steps=600, starts=8)

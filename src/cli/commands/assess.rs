@@ -73,7 +73,7 @@ fn text(name: &str, found: &AssessAnswer) -> String {
         "{:<17} {:<9} {:>14} {:>14} {:<8} {:<24} worst pose x,y,z,qw,qx,qy,qz",
         "requirement", "status", "least margin", "proved margin", "unit", "of"
     );
-    for m in &found.margins {
+    for m in &found.requirements {
         let pose = m.pose.as_ref().map_or_else(|| "any".to_string(), shown);
         let (mark, value) = match () {
             () if m.at_limit => ('=', 0.0),
@@ -88,7 +88,7 @@ fn text(name: &str, found: &AssessAnswer) -> String {
         let _ = writeln!(
             out,
             "{:<17}{mark}{:<9} {value:>14.6} {below:>14} {:<8} {:<24} {pose}",
-            m.requirement.code(),
+            m.name.code(),
             m.status.name(),
             m.unit,
             m.between.join(", ")

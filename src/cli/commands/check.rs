@@ -50,7 +50,7 @@ fn text(c: &CheckAnswer, size: f64, units: &str) -> String {
     let _ = writeln!(text, "generic rank of the lines   {}", c.jacobian_rank);
     let _ = writeln!(text, "proof: {}", c.proof_explanation);
     for f in c.cases.iter().skip(1) {
-        let _ = writeln!(text, "also: {} ({})", f.sentence, list(&f.legs));
+        let _ = writeln!(text, "also: {} ({})", f.explanation, list(&f.legs));
     }
     for d in &c.dependencies {
         dependency(&mut text, d);

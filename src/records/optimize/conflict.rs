@@ -32,7 +32,7 @@ impl ConflictRecord {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct GiveRecord {
     /// Which.
-    pub requirement: DemandWord,
+    pub name: DemandWord,
     /// In which it gives.
     pub unit: String,
     /// By how much it would have to give alone; null: cannot make room.
@@ -54,7 +54,7 @@ impl GiveRecord {
             None => format!("{what} cannot make room alone, whatever it gives"),
         };
         Self {
-            requirement: g.demand.into(),
+            name: g.demand.into(),
             unit,
             alone: g.alone.map(Number),
             together: Number(g.together),

@@ -26,8 +26,6 @@ pub struct DimensionalAnswer {
     pub conflict: Option<ConflictRecord>,
     /// How the search went.
     pub search: SearchRecord,
-    /// Its seed.
-    pub seed: u64,
     /// The platform; null: there is none.
     pub design: Option<DesignRecord>,
     /// The file written.
@@ -56,7 +54,6 @@ impl DimensionalAnswer {
                 feasible: report.feasible,
                 polished: report.polished.iter().map(|g| g.map(Number)).collect(),
             },
-            seed: report.seed,
             design: checked.map(|c| (&c.design).into()),
             output: output.map(str::to_owned),
         }
@@ -221,7 +218,7 @@ pub struct VerifiedRecord {
     /// The largest distance of matched poses.
     pub worst_distance: Number,
     /// Sets of lengths at which both were solved.
-    pub samples: usize,
+    pub sample_count: usize,
 }
 
 impl From<&Verification> for VerifiedRecord {
@@ -229,7 +226,7 @@ impl From<&Verification> for VerifiedRecord {
         Self {
             verdict: (&v.verdict).into(),
             worst_distance: Number(v.worst_distance()),
-            samples: v.samples.len(),
+            sample_count: v.samples.len(),
         }
     }
 }

@@ -23,8 +23,6 @@ pub struct FrontAnswer {
     /// When infeasible.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub conflict: Option<ConflictRecord>,
-    /// The seed of the search.
-    pub seed: u64,
 }
 
 impl FrontAnswer {
@@ -35,7 +33,6 @@ impl FrontAnswer {
         report: &ParetoReport,
         members: &[Checked],
         written: &[Option<String>],
-        seed: u64,
     ) -> Self {
         let member = |((point, c), output): ((&crate::dimensional::ParetoPoint, _), &Option<String>)| {
             let c: &Checked = c;
@@ -58,7 +55,6 @@ impl FrontAnswer {
                 Some(DimensionalOutcome::Infeasible(c)) => Some(ConflictRecord::new(design, c)),
                 _ => None,
             },
-            seed,
         }
     }
 }

@@ -58,8 +58,6 @@ pub struct OffsetsAnswer {
     pub runners_up: Vec<BranchRecord>,
     /// All branches: a zone for each offset.
     pub branches: Vec<BranchRecord>,
-    /// The seed of the starting points.
-    pub seed: u64,
     /// The platform; null: there is none.
     pub design: Option<DesignRecord>,
     /// The file written.
@@ -92,7 +90,6 @@ impl OffsetsAnswer {
             tolerance: r.tolerance,
             runners_up: r.runners_up.iter().take(RUNNERS_UP).map(|k| (&r.branches[*k]).into()).collect(),
             branches: r.branches.iter().map(BranchRecord::from).collect(),
-            seed: r.seed,
             design: found.optimised.map(DesignRecord::from),
             output: output.map(str::to_owned),
         }
@@ -106,7 +103,6 @@ pub enum OffsetsStatus {
     /// No offsets exceed the objective by more than the tolerance: proved.
     Optimal,
     /// None near do, by evidence, and the proved gap is wider or there is none.
-    #[serde(rename = "local optimum")]
     LocalOptimum,
     /// The limits are met; better offsets may be near.
     Feasible,

@@ -125,7 +125,14 @@ const LINES: &[Line] = &[
             "equivalents",
             "entrance",
         ],
-        &[MATRICES, COMPLEX, ("serde", None), ("serde_json", None), ("schemars", None)],
+        &[
+            MATRICES,
+            COMPLEX,
+            ("serde", None),
+            ("serde_json", None),
+            ("schemars", None),
+            ("sha2", Some("provenance.rs")),
+        ],
     ),
     (
         "export",
@@ -172,8 +179,8 @@ const LINES: &[Line] = &[
     ("plot", &["geom", "manipulator", "topology", "distance"], &[MATRICES]),
     (
         "report",
-        &["design", "page", "plot"],
-        &[MATRICES, ("percent_encoding", None), ("serde_json", None), ("sha2", None)],
+        &["design", "page", "plot", "records"],
+        &[MATRICES, ("percent_encoding", None), ("serde_json", None)],
     ),
     (
         "bench",

@@ -19,10 +19,10 @@ const SLOWEST: Duration = Duration::from_secs(60);
 const OCTAHEDRAL: &str = include_str!("../../../designs/rbt-octahedral.toml");
 const LENGTHS: &str = "l1,l2,l3,l4,l5,l6\n# home\n17,16,15,17,16,15\n16.5,16.25,15.75,17,16,15.5\n";
 const POSES: &str = "x,y,z,roll,pitch,yaw\n3,5,15,0,0,0\n3,5,16,1,-2,3\n3,5,16.5,1,0,0,0\n";
-const FRONT: &str = r#"{"schema_version":1,"seed":7,"front":[
+const FRONT: &str = r#"{"schema_version":1,"provenance":{"version":"0.2.0","seed":7,"designs":[],"files":[]},"front":[
 {"objectives":[{"name":"worst_conditioning","value":0.25,"unit":""},{"name":"stiffness","value":1200.5,"unit":"N/mm"}],"design":{"name":"a front"}},
 {"objectives":[{"name":"worst_conditioning","value":0.5,"unit":""},{"name":"stiffness","value":800.25,"unit":"N/mm"}],"design":{"name":"a front"}}],"warnings":[]}"#;
-const ANSWER: &str = r#"{"schema_version":1,"version":"0.2.0","seed":7,"verdict":"not_equivalent","explanation":"a pose tells them apart","offsets":[0.25,0.5,0.25,0.5,0.25,0.5],
+const ANSWER: &str = r#"{"schema_version":1,"provenance":{"version":"0.2.0","seed":7,"designs":[],"files":[]},"verdict":"not_equivalent","explanation":"a pose tells them apart","offsets":[0.25,0.5,0.25,0.5,0.25,0.5],
 "relation":"regular","determinant":22.1,"solutions":[{"real":true,"certified":true,"p":[1.0,2.0,3.0]}],"warnings":[]}"#;
 const PICTURE: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 10 10"><title>a &amp; b</title><desc>c</desc><path d="M0 0L1 1"/></svg>"#;
 

@@ -102,7 +102,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let exit = if reports.iter().all(BenchReport::passed) { Exit::Yes } else { Exit::No };
     let name = args.method.to_possible_value().map(|v| v.get_name().to_string()).unwrap_or_default();
     let rows: Vec<_> = reports.iter().map(|r| BenchClassRecord::new(r, &references)).collect();
-    let text = render::text(&rows, &references);
+    let text = render::text(&rows, &references, context.seed());
     Ok(Answer::new(exit, BenchAnswer::new(&args.class, &name, rows, &references), text))
 }
 

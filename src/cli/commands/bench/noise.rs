@@ -42,10 +42,9 @@ pub(super) fn run(
         let levels = levels.map_err(|e| Failure::new(Exit::Inconclusive, "bench::not_run", e.to_string()))?;
         rows.push(NoiseRowRecord::new(*class, &levels));
     }
-    let record =
-        NoiseAnswer { class: args.class.clone(), count: args.count, seed, threads: args.threads, rows };
+    let record = NoiseAnswer { class: args.class.clone(), count: args.count, threads: args.threads, rows };
     if let Some(path) = &args.svg {
-        files::write_text(path, &noise_chart(&figure(&record)))?;
+        files::write_text(path, &noise_chart(&figure(&record, seed)))?;
     }
     let text = text(&record.rows);
     Ok(Answer::new(Exit::Yes, BenchAnswer::Noise(record), text))
@@ -59,7 +58,7 @@ fn text(rows: &[NoiseRowRecord]) -> String {
     for row in rows {
         for l in &row.levels {
             let _ = write!(out, "{:<14} {:>7.0e} {:>7}", row.class, l.sigma.0, l.without_real_pose);
-            for s in [&l.rotation, &l.position] {
+            for s in [&l.rotation_rad, &l.position_rad] {
                 match s {
                     Some(s) => {
                         for value in [s.lower_quartile, s.median, s.upper_quartile, s.p99] {
@@ -76,11 +75,11 @@ fn text(rows: &[NoiseRowRecord]) -> String {
     out
 }
 
-fn figure(noise: &NoiseAnswer) -> NoiseFigure {
-    let (count, seed) = (noise.count, noise.seed);
+fn figure(noise: &NoiseAnswer, seed: u64) -> NoiseFigure {
+    let count = noise.count;
     let quartiles = |s: &SpreadRecord| [s.lower_quartile.0, s.median.0, s.upper_quartile.0];
     let point = |l: &NoiseLevelRecord| {
-        let (rotation, position) = (l.rotation.as_ref()?, l.position.as_ref()?);
+        let (rotation, position) = (l.rotation_rad.as_ref()?, l.position_rad.as_ref()?);
         Some(NoisePoint { sigma: l.sigma.0, quartiles: [quartiles(rotation), quartiles(position)] })
     };
     let curve = |row: &NoiseRowRecord| NoiseCurve {

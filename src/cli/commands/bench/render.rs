@@ -9,7 +9,7 @@ use crate::records::{BenchClassRecord, Histogram};
 const LISTED: usize = 20;
 
 /// What people read.
-pub(super) fn text(rows: &[BenchClassRecord], references: &ReferenceTimes) -> String {
+pub(super) fn text(rows: &[BenchClassRecord], references: &ReferenceTimes, seed: u64) -> String {
     let mut out = format!(
         "{:<14} {:>7} {:>5} {:>8} {:>9} {:>7} {:>6} {:>8} {:>5} {:>10} {:>10} {:>8}\n",
         "class",
@@ -64,7 +64,7 @@ pub(super) fn text(rows: &[BenchClassRecord], references: &ReferenceTimes) -> St
             r.split_us.solve.0,
             r.split_us.certify.0,
             r.split_us.validate.0,
-            r.seconds.0
+            r.total_s.0
         );
         let _ = writeln!(out, "  finite: {}  real: {}", line(&r.finite_counts), line(&r.real_counts));
         for f in r.failures.iter().take(LISTED) {
@@ -72,8 +72,8 @@ pub(super) fn text(rows: &[BenchClassRecord], references: &ReferenceTimes) -> St
                 out,
                 "  WRONG --class {} --seed {} --first {}: missed {}, spurious {}, false certificates {}, found {} of {}; {}",
                 r.counts.class,
-                r.seed,
-                f.k,
+                seed,
+                f.problem,
                 f.missed,
                 f.spurious,
                 f.false_certificates,

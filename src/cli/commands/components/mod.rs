@@ -84,7 +84,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     }
     let list = wanted.iter().zip(&samples);
     let list = list.map(|(k, s)| ComponentRecord::new(*k, &found.components[*k], s)).collect();
-    let answer = ComponentsAnswer::new(&design.name, (options.tolerance, options.seed), &found, list);
+    let answer = ComponentsAnswer::new(&design.name, options.tolerance, &found, list);
     let exit = if found.doubts.is_empty() { Exit::Yes } else { Exit::Inconclusive };
     let text = text::table(&design, &found, &wanted, &samples);
     Ok(Answer::new(exit, answer, text))

@@ -8,8 +8,6 @@ use std::fmt::Write as _;
 use std::io::IsTerminal;
 use std::path::PathBuf;
 
-use serde::Serialize;
-
 use self::folder::Folder;
 use super::optimize::{Choices, Done};
 use super::report::page;
@@ -30,7 +28,7 @@ use crate::manipulator::{LegLengths, Octahedral};
 use crate::offsets;
 use crate::records::{
     ComparedRecord, ExploreAnswer, ExploreVerdict, FamilyAnswer, FamilySizeRecord, FkRunRecord, FramesRecord,
-    LengthsOrigin, OffsetsFoundRecord, PoseTotalsRecord, RunRecord, VerdictWord, VerifyAnswer,
+    LengthsOrigin, OffsetsFoundRecord, PoseTotalsRecord, ProvenanceRecord, VerdictWord, VerifyAnswer,
 };
 use crate::synthesis::{Family, FamilyMember};
 
@@ -118,6 +116,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let mut folder = Folder::prepare(&args.output)?;
     let mut progress = ProgressLine::new(context.quiet());
     let seed = context.seed();
+    let provenance = context.provenance();
     let options = FkOptions { seed, pose_count: PoseCounting::Never, ..FkOptions::default() };
     folder.write(folder::ORIGINAL, &original(&design, seed).to_toml())?;
 
@@ -126,7 +125,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let members: Vec<&FamilyMember> = family.members().iter().collect();
     folder.write(
         folder::FAMILY,
-        &framed(FamilyAnswer::new(&design, &octahedral, &family, &members), Some(seed))?,
+        &document(FamilyAnswer::new(&design, &octahedral, &family, &members), provenance.clone(), &[])?,
     )?;
 
     progress.stage(2, "offsets");
@@ -148,7 +147,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         // the same pose, seen by the new legs
         new.lengths = design.lengths.and_then(|l| s.map.apply(&l.squared()).ok()).map(|s| s.lengths());
     }
-    folder.write(folder::OPTIMIZE, &framed(done.record(&design, None), None)?)?;
+    folder.write(folder::OPTIMIZE, &document(done.record(&design, None), provenance.clone(), &[])?)?;
     if let Some(new) = &done.optimised {
         folder.write(folder::OPTIMISED, &new.to_toml())?;
     }
@@ -158,12 +157,12 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let verified = done
         .optimised
         .as_ref()
-        .map(|new| verification(&design, new, args.samples, &options, &mut folder))
+        .map(|new| verification(&design, new, args.samples, &options, &provenance, &mut folder))
         .transpose()?;
 
     progress.stage(4, "forward kinematics");
     let poses = solve(&design, &options)?;
-    folder.write(folder::FK, &framed(fk_record(&poses), None)?)?;
+    folder.write(folder::FK, &document(fk_record(&poses), provenance, &[])?)?;
     folder.write(folder::MODES, &figures::modes(&design, &poses))?;
 
     progress.stage(5, "report");
@@ -188,16 +187,12 @@ fn original(design: &Design, seed: u64) -> Design {
     copy
 }
 
-/// A record as a document of its own.
-fn framed(record: impl Serialize, seed: Option<u64>) -> Result<String, Failure> {
-    document(RunRecord { version: env!("CARGO_PKG_VERSION").into(), seed, answer: record }, &[])
-}
-
 fn verification(
     design: &Design,
     new: &Design,
     samples: usize,
     options: &FkOptions,
+    provenance: &ProvenanceRecord,
     folder: &mut Folder,
 ) -> Result<Verified, Failure> {
     let plan = sample_plan(design, samples, options.seed);
@@ -205,7 +200,7 @@ fn verification(
         .map_err(|e| verify_command::failure_of(&e))?;
     let record = VerifyAnswer::new(&found, &plan, FramesRecord::default());
     let explanation = record.explanation.clone();
-    folder.write(folder::VERIFY, &framed(record, Some(options.seed))?)?;
+    folder.write(folder::VERIFY, &document(record, provenance.clone(), &[])?)?;
     Ok(Verified { found, plan, explanation })
 }
 
@@ -246,8 +241,6 @@ fn record(r: &Results, folder: &Folder) -> ExploreAnswer {
         optimize: r.done.report.solution().map(|s| OffsetsFoundRecord::new(s, converged)),
         verify: r.verified.as_ref().map(|v| ComparedRecord::from(&v.found)),
         fk: PoseTotalsRecord::new(r.poses.from, &r.poses.solutions),
-        version: env!("CARGO_PKG_VERSION").into(),
-        seed: r.options.seed,
     }
 }
 

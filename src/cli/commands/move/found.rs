@@ -148,7 +148,7 @@ impl Report<'_> {
             wishes: (&o.wishes).into(),
             holes: o.holes.iter().map(HoleRecord::from).collect(),
             designs: candidates.collect::<Result<_, _>>()?,
-            output: written,
+            paths: written,
         })
     }
 

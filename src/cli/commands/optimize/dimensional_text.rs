@@ -52,7 +52,7 @@ fn solution_text(out: &mut String, s: &DimensionalSolutionRecord) {
             out,
             "{} to the design (poses of {} samples differ by at most {:.1e})",
             v.verdict.as_str(),
-            v.samples,
+            v.sample_count,
             v.worst_distance.0
         );
     }
@@ -60,7 +60,7 @@ fn solution_text(out: &mut String, s: &DimensionalSolutionRecord) {
     for m in &s.constraint_margins {
         let mark = if m.margin.0 >= 0.0 { ' ' } else { '!' };
         let of = m.between.join(", ");
-        let _ = writeln!(out, "  {:<17}{mark}{:>14.6} {:<8} {of}", m.requirement.code(), m.margin.0, m.unit);
+        let _ = writeln!(out, "  {:<17}{mark}{:>14.6} {:<8} {of}", m.name.code(), m.margin.0, m.unit);
     }
 }
 
@@ -75,7 +75,7 @@ pub(super) fn conflict_text(out: &mut String, c: &ConflictRecord) {
         "the sum of the violations, each in its scale, is least where these give, and the others hold:"
     );
     for g in c.requirements.iter().filter(|g| g.together.0 > 0.0) {
-        let _ = writeln!(out, "  {:<17} {:>14} {}", g.requirement.code(), g.amount(), g.unit);
+        let _ = writeln!(out, "  {:<17} {:>14} {}", g.name.code(), g.amount(), g.unit);
     }
 }
 

@@ -51,7 +51,7 @@ pub(super) fn run(
         written.push(super::write(path.as_deref(), Some(&member.design))?);
         members.push(member);
     }
-    let record = FrontAnswer::new(design, &report, &members, &written, context.seed());
+    let record = FrontAnswer::new(design, &report, &members, &written);
     let text = text(&design.name, &record);
     Ok(Answer::new(exit_of(record.status), OptimizeAnswer::Front(record), text))
 }
@@ -105,7 +105,7 @@ mod tests {
             ParetoReport { front: Vec::new(), dominated: 0, unmet: 0, failure: None, interrupted: true };
         let said = FrontStatus::of(&report, true);
         assert_eq!((said.as_str(), exit_of(said)), ("interrupted", Exit::Inconclusive));
-        let answer = |report: &ParetoReport| FrontAnswer::new(&design, report, &[], &[], 0);
+        let answer = |report: &ParetoReport| FrontAnswer::new(&design, report, &[], &[]);
         assert_eq!(answer(&report).status, said);
         assert!(text(&design.name, &answer(&report)).contains("as far as it was found"));
         report.interrupted = false;

@@ -38,7 +38,10 @@ pub(super) fn draw(args: &Args) -> Result<String, Failure> {
     let values = members.iter().map(values).collect::<Option<Vec<_>>>();
     let members = values.ok_or_else(|| refused(args, "a member lacks values"))?;
     let name = first.get("design").and_then(|d| d.get("name")).and_then(Value::as_str);
-    let seed = document.get("seed").and_then(Value::as_u64).map_or(String::new(), |s| format!(", seed {s}"));
+    let seed = document
+        .pointer("/provenance/seed")
+        .and_then(Value::as_u64)
+        .map_or(String::new(), |s| format!(", seed {s}"));
     Ok(pareto_front(&FrontFigure {
         title: name.map_or("Front".into(), |n| format!("Front of \u{201c}{n}\u{201d}")),
         note: format!(
