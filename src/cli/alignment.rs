@@ -1,4 +1,4 @@
-//! `--align` and `--exchange` of `map` and `verify`: the second design in the frames of the first.
+//! `--align` and `--exchange` of `equivalents map` and `verify`: the second design in the frames of the first.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;

@@ -12,18 +12,20 @@ mod exit;
 mod failure;
 mod files;
 mod freedoms;
+mod guide;
 mod numbers;
 mod output;
 mod poses;
 mod progress;
 mod reference;
 mod rows;
+mod usage;
 
 use std::ffi::OsString;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
 
-use clap::{CommandFactory, FromArgMatches};
+use clap::FromArgMatches;
 
 use self::args::Cli;
 use self::context::Context;
@@ -51,13 +53,14 @@ fn guarded(json: bool, body: impl FnOnce() -> Exit) -> Exit {
 }
 
 fn run(args: Vec<OsString>, json: bool) -> Exit {
-    let matches = match Cli::command().try_get_matches_from(args) {
+    let words: Vec<String> = args.iter().map(|a| a.to_string_lossy().into_owned()).collect();
+    let matches = match guide::program().try_get_matches_from(args) {
         Ok(matches) => matches,
-        Err(error) => return Output::new(json).usage(&error),
+        Err(error) => return Output::new(json).usage(&error, &words),
     };
     let cli = match Cli::from_arg_matches(&matches) {
         Ok(cli) => cli,
-        Err(error) => return Output::new(json).usage(&error.format(&mut Cli::command())),
+        Err(error) => return Output::new(json).usage(&error.format(&mut guide::program()), &words),
     };
     let output = Output::new(cli.global.json);
     if let Err(unfit) = check_arithmetic() {

@@ -9,6 +9,7 @@ use super::context::{Context, FileWarning};
 use super::diagnostic;
 use super::exit::Exit;
 use super::failure::Failure;
+use super::usage;
 use crate::records::{Document, ErrorAnswer, HelpAnswer, ProvenanceRecord, WarningRecord};
 
 /// What a command found: the record that `--json` prints, and the text that people read without it.
@@ -66,19 +67,10 @@ impl Output {
         write_failure(failure, context)
     }
 
-    /// What clap has to say: help and version, or a refusal of the arguments.
-    pub(crate) fn usage(self, error: &clap::Error) -> Exit {
+    /// What clap has to say about `args`: help and version, or a refusal of the arguments.
+    pub(crate) fn usage(self, error: &clap::Error, args: &[String]) -> Exit {
         if error.use_stderr() {
-            let _ = error.print(); // standard error may be closed; nothing is lost that JSON does not say
-            if !self.json {
-                return Exit::Refused;
-            }
-            let text = error.to_string();
-            let lines = text.lines().take_while(|l| !l.starts_with("Usage:")).map(str::trim);
-            let message = lines.filter(|l| !l.is_empty()).collect::<Vec<_>>().join(" ");
-            let message = message.trim_start_matches("error: ");
-            let failure = Failure::refused("usage", message).with_help("see equipod --help");
-            return write_failure(&failure, None);
+            return self.failure(&usage::refusal(error, args), None);
         }
         if self.json {
             return match document(HelpAnswer { help: error.to_string() }, ProvenanceRecord::default(), &[]) {

@@ -3,12 +3,12 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use clap::{Arg, Command, CommandFactory};
+use clap::{Arg, Command};
 
-use super::args::Cli;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::files;
+use super::guide;
 use super::output::Answer;
 use crate::records::ReferenceAnswer;
 
@@ -85,12 +85,12 @@ fn block(command: &Command, global: bool) -> String {
     out
 }
 
-/// The page with the blocks of this program. Every command that is not hidden has to have its mark, and every mark a command.
+/// The page with the blocks of this program. Every command of the guide has to have its mark, or its group has one for all, and every mark a command.
 fn written(page: &str) -> Result<String, Failure> {
     let bad = |message: String| Failure::refused("reference::bad_page", message);
-    let mut program = Cli::command().disable_help_subcommand(true);
+    let mut program = guide::program().disable_help_subcommand(true);
     program.build();
-    let mut open: Vec<&Command> = program.get_subcommands().filter(|c| !c.is_hide_set()).collect();
+    let mut open: Vec<&str> = guide::entries().map(|e| e.path).collect();
     let mut program_open = true;
     let mut out = String::new();
     let mut skipping = false;
@@ -107,18 +107,21 @@ fn written(page: &str) -> Result<String, Failure> {
         if name == "equipod" && program_open {
             program_open = false;
             out.push_str(&block(&program, true));
-        } else if let Some(k) = open.iter().position(|c| c.get_name() == name) {
-            out.push_str(&block(open.remove(k), false));
-        } else {
-            return Err(bad(format!("`{name}` is not a command, or is there twice")));
+            continue;
+        }
+        let before = open.len();
+        open.retain(|path| *path != name && !path.starts_with(&format!("{name} ")));
+        let command = name.split(' ').try_fold(&program, |c, word| c.find_subcommand(word));
+        match command.filter(|_| open.len() < before) {
+            Some(command) => out.push_str(&block(command, false)),
+            None => return Err(bad(format!("`{name}` is not a command, or is there twice"))),
         }
     }
     if skipping {
         return Err(bad(format!("a mark without `{END}`")));
     }
     if program_open || !open.is_empty() {
-        let names: Vec<&str> = open.iter().map(|c| c.get_name()).collect();
-        return Err(bad(format!("the page lacks marks: {}", names.join(", "))));
+        return Err(bad(format!("the page lacks marks: {}", open.join(", "))));
     }
     Ok(out)
 }

@@ -22,7 +22,7 @@ pub enum PresetClass {
 }
 
 impl PresetClass {
-    /// Stable name, as in `equipod presets`.
+    /// Stable name, as in `equipod design presets`.
     #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {

@@ -11,7 +11,7 @@ use crate::synthesis::components::{
     Parametrisation, PlaneCurve, SampledLeg, flat_name,
 };
 
-/// The answer of `components`.
+/// The answer of `equivalents components`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ComponentsAnswer {
     /// The name of the design.

@@ -13,7 +13,7 @@ use crate::synthesis::{
     edge_lengths,
 };
 
-/// The answer of `family`.
+/// The answer of `equivalents family`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FamilyAnswer {
     /// The name of the octahedral design.

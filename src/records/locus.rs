@@ -7,7 +7,7 @@ use super::Number;
 use crate::fk::Method;
 use crate::plot::LocusMeeting;
 
-/// The answer of `locus`.
+/// The answer of `plot locus`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LocusAnswer {
     /// The leg that varies, from 1.

@@ -9,7 +9,7 @@ use crate::synthesis::alignment::{
 };
 use crate::synthesis::{AffineLegMap, LegCorrespondence, LegMapOutcome, Relation};
 
-/// The answer of `map`.
+/// The answer of `equivalents map`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MapAnswer {
     /// The map.

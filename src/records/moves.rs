@@ -11,7 +11,7 @@ use crate::synthesis::relocate::search::{
     self, Hole, HoleAnswer, Impossibility, SearchVerdict, WishMargin, Wishes,
 };
 
-/// The answer of `move`.
+/// The answer of `equivalents move`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum MoveAnswer {

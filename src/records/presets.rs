@@ -1,11 +1,11 @@
-//! Answers of `presets`.
+//! Answers of `design presets`.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::design::{Design, Preset, PresetClass};
 
-/// The answer of `presets`.
+/// The answer of `design presets`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum PresetsAnswer {

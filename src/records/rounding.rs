@@ -11,7 +11,7 @@ use crate::manipulator::Body;
 use crate::manufacture::{ExactRounding, Grid, Judgement, NearestRounding, NoRounding, RoundedJoint};
 use crate::requirements::TermKind;
 
-/// The answer of `round`.
+/// The answer of `build round`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RoundAnswer {
     /// The grids asked for.

@@ -11,37 +11,37 @@ use super::{
     SelfmotionAnswer, SingularitiesAnswer, TolerancesAnswer, TopologiesAnswer, VerifyAnswer, ViewAnswer,
 };
 
-/// Names of answers with the function that writes their schema: commands by their own name, `error` for refusals, `help` for --help.
+/// Names of answers with the function that writes their schema: commands by their own names, those of a group as `singular-poses`, `error` for refusals, `help` for --help.
 type Table = &'static [(&'static str, fn(&mut SchemaGenerator) -> schemars::Schema)];
 
 const ANSWERS: Table = &[
     ("assess", Document::<AssessAnswer>::json_schema),
     #[cfg(feature = "lab")]
     ("bench", Document::<super::BenchAnswer>::json_schema),
+    ("build-round", Document::<RoundAnswer>::json_schema),
+    ("build-tolerances", Document::<TolerancesAnswer>::json_schema),
     ("check", Document::<CheckAnswer>::json_schema),
-    ("completions", Document::<CompletionsAnswer>::json_schema),
-    ("components", Document::<ComponentsAnswer>::json_schema),
-    ("convert", Document::<ConvertAnswer>::json_schema),
+    ("design-convert", Document::<ConvertAnswer>::json_schema),
+    ("design-presets", Document::<PresetsAnswer>::json_schema),
+    ("design-schema", Document::<SchemaAnswer>::json_schema),
+    ("equivalents-components", Document::<ComponentsAnswer>::json_schema),
+    ("equivalents-family", Document::<FamilyAnswer>::json_schema),
+    ("equivalents-map", Document::<MapAnswer>::json_schema),
+    ("equivalents-move", Document::<MoveAnswer>::json_schema),
+    ("equivalents-topologies", Document::<TopologiesAnswer>::json_schema),
     ("error", Document::<ErrorAnswer>::json_schema),
     ("explore", Document::<ExploreAnswer>::json_schema),
     ("export", Document::<ExportAnswer>::json_schema),
-    ("family", Document::<FamilyAnswer>::json_schema),
     ("fk", Document::<FkAnswer>::json_schema),
     ("help", Document::<HelpAnswer>::json_schema),
-    ("locus", Document::<LocusAnswer>::json_schema),
-    ("man", Document::<ManAnswer>::json_schema),
-    ("map", Document::<MapAnswer>::json_schema),
-    ("move", Document::<MoveAnswer>::json_schema),
     ("optimize", Document::<OptimizeAnswer>::json_schema),
     ("plot", Document::<PlotAnswer>::json_schema),
-    ("presets", Document::<PresetsAnswer>::json_schema),
+    ("plot-locus", Document::<LocusAnswer>::json_schema),
     ("report", Document::<ReportAnswer>::json_schema),
-    ("round", Document::<RoundAnswer>::json_schema),
-    ("schema", Document::<SchemaAnswer>::json_schema),
-    ("selfmotion", Document::<SelfmotionAnswer>::json_schema),
-    ("singularities", Document::<SingularitiesAnswer>::json_schema),
-    ("tolerances", Document::<TolerancesAnswer>::json_schema),
-    ("topologies", Document::<TopologiesAnswer>::json_schema),
+    ("shell-completions", Document::<CompletionsAnswer>::json_schema),
+    ("shell-man", Document::<ManAnswer>::json_schema),
+    ("singular-motion", Document::<SelfmotionAnswer>::json_schema),
+    ("singular-poses", Document::<SingularitiesAnswer>::json_schema),
     ("verify", Document::<VerifyAnswer>::json_schema),
     ("view", Document::<ViewAnswer>::json_schema),
 ];
@@ -66,7 +66,7 @@ pub fn schema(of: &str) -> Option<Map<String, Value>> {
                 docs/cli.md says what the fields mean.";
     let mut root = Map::new();
     root.insert("$schema".into(), "https://json-schema.org/draft/2020-12/schema".into());
-    root.insert("title".into(), format!("Answer of equipod {name} --json").into());
+    root.insert("title".into(), format!("Answer of equipod {} --json", name.replace('-', " ")).into());
     root.insert("description".into(), open.into());
     root.insert("$ref".into(), format!("#/$defs/{name}").into());
     root.insert("$defs".into(), Value::Object(definitions));

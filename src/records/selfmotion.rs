@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{CompletenessWord, Number, PoseQuaternionRecord};
 use crate::singularity::{CriticalPoses, CurveDegree, MotionCurve};
 
-/// The answer of `selfmotion`.
+/// The answer of `singular motion`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SelfmotionAnswer {
     /// The name of the design.

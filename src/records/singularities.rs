@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{Number, PoseQuaternionRecord};
 use crate::singularity::{PathPiece, Sign, SignsAlong, Way};
 
-/// The answer of `singularities`.
+/// The answer of `singular poses`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SingularitiesAnswer {
     /// The name of the design.

@@ -8,7 +8,7 @@ use crate::design::Design;
 use crate::manipulator::Body;
 use crate::manufacture::{ErrorKind, Joint, JointBudget, LimitedAllowance, Trials};
 
-/// The answer of `tolerances`.
+/// The answer of `build tolerances`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TolerancesAnswer {
     /// The greatest error allowed.

@@ -7,7 +7,7 @@ use super::{RearrangementRecord, TrilaterationStepRecord};
 use crate::distance::ClosureDegrees;
 use crate::topology::{JointIndex, NamedTopology, Sequence};
 
-/// The answer of `topologies`.
+/// The answer of `equivalents topologies`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TopologiesAnswer {
     /// How many topologies can hold a platform.

@@ -6,7 +6,7 @@ use serde_json::{Map, Value};
 
 use crate::design::Format;
 
-/// The answer of `completions`.
+/// The answer of `shell completions`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct CompletionsAnswer {
     /// The shell.
@@ -15,7 +15,7 @@ pub struct CompletionsAnswer {
     pub script: String,
 }
 
-/// The answer of `convert`.
+/// The answer of `design convert`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct ConvertAnswer {
     /// The name of the design.
@@ -26,7 +26,7 @@ pub struct ConvertAnswer {
     pub format: Format,
 }
 
-/// The answer of `man`.
+/// The answer of `shell man`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct ManAnswer {
     /// The files written.
@@ -59,7 +59,7 @@ pub enum PictureRecord {
     },
 }
 
-/// What `plot` draws.
+/// What `plot` draws; the answer of `plot locus` is its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum FigureWord {
@@ -69,16 +69,14 @@ pub enum FigureWord {
     Components,
     /// det A over two offsets.
     Det,
-    /// The squared length of a virtual leg at all poses.
-    Locus,
     /// Two designs at the same pose.
     Pair,
     /// A front of `optimize`.
     Pareto,
     /// A curve of poses with constant leg lengths.
-    Selfmotion,
+    SelfMotion,
     /// Where det J vanishes over two freedoms.
-    Singularities,
+    SingularPoses,
     /// Ways to share joints.
     Topologies,
     /// Poses within all limits over two freedoms.
@@ -101,7 +99,7 @@ pub struct ReportAnswer {
     pub files: usize,
 }
 
-/// The answer of `schema`.
+/// The answer of `design schema`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SchemaAnswer {
     /// What the schema describes.

@@ -1,4 +1,4 @@
-"""Answers of all commands in their different outcomes against `equipod schema`, every object closed, and with planted faults."""
+"""Answers of all commands in their different outcomes against `equipod design schema`, every object closed, and with planted faults."""
 
 import json
 import re
@@ -128,11 +128,11 @@ def fixtures(program, folder, root):
 
     def family(name, offsets):
         made[name] = folder / f"{name}.toml"
-        run(program, "family", octahedral, "--pattern", "S123456", f"--offsets={offsets}", "-o", made[name])
+        run(program, "equivalents", "family", octahedral, "--pattern", "S123456", f"--offsets={offsets}", "-o", made[name])
 
     def design(name, source, change):
         path = folder / f"{name}.json"
-        run(program, "convert", source, "-o", path)
+        run(program, "design", "convert", source, "-o", path)
         data = json.loads(path.read_text())
         change(data)
         path.write_text(json.dumps(data))
@@ -185,7 +185,7 @@ def fixtures(program, folder, root):
     design("crowded", made["outer"], lambda data: required({}, joint_diameter=30.0)(data))
     table("rows", "l1,l2,l3,l4,l5,l6", "18,18,17,16,15,19", "1,1,1,1,1,1")
     # a trajectory needs lengths near those of home
-    home = json.loads(run(program, "singularities", octahedral, "--regions", 500, "--json"))["lengths"]
+    home = json.loads(run(program, "singular", "poses", octahedral, "--regions", 500, "--json"))["lengths"]
     table("way", *(",".join(str(x + d) for x in home) for d in (0.0, 0.01)), "1,1,1,1,1,1")
     return made
 
@@ -208,24 +208,24 @@ def asked(folder, root, made):
         (1, "check", made["longer"]),
         (1, "check", made["star"]),
         (0, "check", gd),
-        (0, "completions", "bash"),
-        (0, "components", octahedral, "--sample", 1),
-        (0, "components", gd, "--sample", 1),
-        (0, "components", hexapod, "--component", 1),
-        (0, "components", general),
-        (0, "components", midline),
-        (0, "convert", octahedral, "-o", folder / "converted.json"),
+        (0, "shell-completions", "bash"),
+        (0, "equivalents-components", octahedral, "--sample", 1),
+        (0, "equivalents-components", gd, "--sample", 1),
+        (0, "equivalents-components", hexapod, "--component", 1),
+        (0, "equivalents-components", general),
+        (0, "equivalents-components", midline),
+        (0, "design-convert", octahedral, "-o", folder / "converted.json"),
         (2, "error", "fk", "no-such.toml"),
         (2, "error", "fk", root / "Cargo.toml"),
         (2, "error", "fk"),
         (2, "error", "fk", general, "--method", "octic"),
-        (1, "error", "topologies", made["star"]),
+        (1, "error", "equivalents", "topologies", made["star"]),
         (0, "explore", octahedral, "--samples", 1, "-o", folder / "explored"),
         (1, "explore", made["apart"], "--samples", 1, "-o", folder / "none"),
         (0, "export", octahedral, "--to", "csv,svg", "-o", folder / "exported"),
         (1, "export", octahedral, "--to", "all", "--hole", 20, "--ball", 25, "--margin", 30, "-o", folder / "exported"),
-        (0, "family", octahedral),
-        (0, "family", octahedral, "--pattern", "S123456", "--offsets=0.2,0.21,0.22,0.2,0.2,0.23"),
+        (0, "equivalents-family", octahedral),
+        (0, "equivalents-family", octahedral, "--pattern", "S123456", "--offsets=0.2,0.21,0.22,0.2,0.2,0.23"),
         (0, "fk", octahedral),
         (0, "fk", octahedral, "--near", "home"),
         (3, "fk", octahedral, "--near", "home", "--lengths", "1,1,1,1,1,1"),
@@ -242,20 +242,20 @@ def asked(folder, root, made):
         (3, "fk", octahedral, "--near", "home", "--lengths", made["way"]),
         (0, "help", "fk", "--help"),
         (0, "help", "--version"),
-        (0, "locus", innocenti, "--leg", 6, "--from", 3, "--to", 7, "--steps", 21),
-        (0, "man", "-o", folder / "man"),
-        (0, "map", octahedral, free),
-        (1, "map", octahedral, midline),
-        (1, "map", octahedral, gd, "--exchange", "-o", folder / "exchanged.toml"),
-        (0, "map", general, made["turned"], "--align", "-o", folder / "aligned.toml"),
-        (1, "map", general, made["off"], "--align"),
-        (0, "move", octahedral, "--leg", 1, "--along", 1, "--to", 0.1),
-        (0, "move", octahedral, "--move", "1:1:0.1", "--move", "2:P2:P4-P5:0.2", "--together"),
-        (1, "move", octahedral, *(x for m in ("1:P1-P2:P4", "2:P2:P4-P5", "3:P2-P3:P5", "4:P3:P5-P6", "5:P3-P1:P6", "6:P1:P6-P4", "1:P1-P2:P4") for x in ("--move", f"{m}:0.5"))),
-        (0, "move", octahedral, "--search", "--no-shared-joints", "--no-crossing", "--hole", "base:1.5,2.598076211353316,0"),
-        (1, "move", innocenti, "--search", "--no-shared-joints", "-o", folder / "found"),
-        (1, "move", octahedral, "--search", "--hole", "base:5,5,40"),
-        (3, "move", octahedral, "--search", "--spacing", 1000),
+        (0, "plot-locus", innocenti, "--leg", 6, "--from", 3, "--to", 7, "--steps", 21),
+        (0, "shell-man", "-o", folder / "man"),
+        (0, "equivalents-map", octahedral, free),
+        (1, "equivalents-map", octahedral, midline),
+        (1, "equivalents-map", octahedral, gd, "--exchange", "-o", folder / "exchanged.toml"),
+        (0, "equivalents-map", general, made["turned"], "--align", "-o", folder / "aligned.toml"),
+        (1, "equivalents-map", general, made["off"], "--align"),
+        (0, "equivalents-move", octahedral, "--leg", 1, "--along", 1, "--to", 0.1),
+        (0, "equivalents-move", octahedral, "--move", "1:1:0.1", "--move", "2:P2:P4-P5:0.2", "--together"),
+        (1, "equivalents-move", octahedral, *(x for m in ("1:P1-P2:P4", "2:P2:P4-P5", "3:P2-P3:P5", "4:P3:P5-P6", "5:P3-P1:P6", "6:P1:P6-P4", "1:P1-P2:P4") for x in ("--move", f"{m}:0.5"))),
+        (0, "equivalents-move", octahedral, "--search", "--no-shared-joints", "--no-crossing", "--hole", "base:1.5,2.598076211353316,0"),
+        (1, "equivalents-move", innocenti, "--search", "--no-shared-joints", "-o", folder / "found"),
+        (1, "equivalents-move", octahedral, "--search", "--hole", "base:5,5,40"),
+        (3, "equivalents-move", octahedral, "--search", "--spacing", 1000),
         (0, "optimize", octahedral, "-o", folder / "optimised.toml"),
         (1, "optimize", made["apart"]),
         (0, "optimize", made["lifted"]),
@@ -265,25 +265,25 @@ def asked(folder, root, made):
         (1, "optimize", made["no-front"]),
         (0, "plot", "modes", octahedral),
         (0, "plot", "det", octahedral, "-o", folder / "det.svg"),
-        (0, "presets"),
-        (0, "presets", "bench-l16"),
-        (0, "presets", "bench-l16", "-o", folder / "l16.toml"),
+        (0, "design-presets"),
+        (0, "design-presets", "bench-l16"),
+        (0, "design-presets", "bench-l16", "-o", folder / "l16.toml"),
         (0, "report", folder / "explored"),
-        (0, "round", octahedral, "--grid", 1, "--trials", 10),
-        (0, "round", made["outer"], "--grid", 0.25, "--trials", 10, "--free-grid", "-o", folder / "rounded.toml"),
-        (1, "round", made["crowded"], "--grid", 0.25, "--trials", 10),
-        (0, "round", hexapod, "--grid", 1, "--trials", 10),
-        (0, "schema", "fk"),
-        (0, "selfmotion", midline, "--searches", 0),
-        (1, "selfmotion", octahedral),
-        (1, "selfmotion", midline, "--lengths", "18,18,17,16,15,19"),
-        (0, "singularities", octahedral, *box, "--between", "--samples", 20, "--path", "1,2"),
-        (3, "singularities", midline, *box),
-        (0, "tolerances", octahedral, "--bound", "0.1,0.1", "--trials", 10),
-        (0, "tolerances", made["twins"], "--bound", "0.1,0.1", "--trials", 10, "--points", 20),
-        (0, "topologies", octahedral, "--rearrangements"),
-        (0, "topologies", hexapod, "--members", 1),
-        (0, "topologies", "--members", 1),
+        (0, "build-round", octahedral, "--grid", 1, "--trials", 10),
+        (0, "build-round", made["outer"], "--grid", 0.25, "--trials", 10, "--free-grid", "-o", folder / "rounded.toml"),
+        (1, "build-round", made["crowded"], "--grid", 0.25, "--trials", 10),
+        (0, "build-round", hexapod, "--grid", 1, "--trials", 10),
+        (0, "design-schema", "fk"),
+        (0, "singular-motion", midline, "--searches", 0),
+        (1, "singular-motion", octahedral),
+        (1, "singular-motion", midline, "--lengths", "18,18,17,16,15,19"),
+        (0, "singular-poses", octahedral, *box, "--between", "--samples", 20, "--path", "1,2"),
+        (3, "singular-poses", midline, *box),
+        (0, "build-tolerances", octahedral, "--bound", "0.1,0.1", "--trials", 10),
+        (0, "build-tolerances", made["twins"], "--bound", "0.1,0.1", "--trials", 10, "--points", 20),
+        (0, "equivalents-topologies", octahedral, "--rearrangements"),
+        (0, "equivalents-topologies", hexapod, "--members", 1),
+        (0, "equivalents-topologies", "--members", 1),
         (0, "verify", octahedral, free, "--samples", 1),
         (1, "verify", octahedral, midline, "--samples", 1),
         (1, "verify", general, made["off"], "--samples", 1),
@@ -294,7 +294,7 @@ def asked(folder, root, made):
 
 
 def check_one(program, schema, seen, exit_code, name, *args):
-    call = list(map(str, args if name in ("error", "help") else (name, *args)))
+    call = list(map(str, args if name in ("error", "help") else (*name.split("-"), *args)))
     out = subprocess.run([program, *call, "--json"], capture_output=True, text=True)
     document = json.loads(out.stdout)
     title = " ".join(re.sub(r".*/", "", a) for a in call)
@@ -320,12 +320,12 @@ def check_answers(program, folder, root, designs, schema_of):
         if name not in schemas:
             schemas[name], seen[name] = schema_of(name, closed_document), set()
         document = check_one(program, schemas[name], seen[name], exit_code, name, *args)
-        if isinstance(document.get("design"), dict) and name in ("optimize", "round", "move"):
+        if isinstance(document.get("design"), dict) and name in ("optimize", "build-round", "equivalents-move"):
             why = complaints(designs, document["design"])
             report(f"schema of designs: the design {name} answers", not why, "; ".join(why))
     # the files of `explore` are answers with what docs/cli.md says is added
-    for name in ("family", "optimize", "verify", "fk"):
-        document = json.loads((folder / "explored" / f"{name}.json").read_text())
+    for file, name in (("family", "equivalents-family"), ("optimize", "optimize"), ("verify", "verify"), ("fk", "fk")):
+        document = json.loads((folder / "explored" / f"{file}.json").read_text())
         added = ["lengths", "lengths_from"] if name == "fk" else []
         why = complaints(schemas[name], {k: v for k, v in document.items() if k not in added}) + [f"no {k}" for k in added if k not in document]
-        report(f"schema of answers: {name}.json of explore", not why, "; ".join(why))
+        report(f"schema of answers: {file}.json of explore", not why, "; ".join(why))

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks the files of `equipod export`, and the schemas of `equipod schema`, with programs that are not ours. `tests/exports/run` installs them and calls this.
+"""Checks the files of `equipod export`, and the schemas of `equipod design schema`, with programs that are not ours. `tests/exports/run` installs them and calls this.
 
     python tests/exports/check.py target/debug/equipod
 
@@ -25,7 +25,7 @@ from texts import check_csv, check_hal, check_json, check_matlab
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 # design, options, time for a move over the square root of the size: shared joints and separate ones, flat bodies and not, limits of lengths, a unit
 # that has to be named. Without a time no pose is asked for: lengths do not hold the platform of rbt-midline (architecturally singular), and the default
-# workspace of innocenti-6-4 holds singular poses (`equipod singularities` proves it). general-6-6 settles slowly.
+# workspace of innocenti-6-4 holds singular poses (`equipod singular poses` proves it). general-6-6 settles slowly.
 DESIGNS = [
     ("rbt-octahedral", [], 2.0),
     ("rbt-midline", [], None),

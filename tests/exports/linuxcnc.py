@@ -156,7 +156,7 @@ def check_preset(program, folder):
     if linuxcnc is None:
         return
     folder.mkdir(exist_ok=True)
-    run(program, "presets", "linuxcnc-hexapod", "-o", folder / "preset.toml")
+    run(program, "design", "presets", "linuxcnc-hexapod", "-o", folder / "preset.toml")
     run(program, "export", folder / "preset.toml", "--to", "hal", "-o", folder)
     def good(path):
         why = linuxcnc.load(path)

@@ -96,8 +96,8 @@ def check_equivalent(program, folder, original):
         return
     moving = trajectory(folder, original, folder / "path.csv")
     free = folder / "free.toml"
-    run(program, "family", original, "--pattern", "S123456", "--offsets=0.2,0.21,0.22,0.2,0.2,0.23", "-o", free)
-    leg_map = json.loads(run(program, "map", original, free, "--json"))
+    run(program, "equivalents", "family", original, "--pattern", "S123456", "--offsets=0.2,0.21,0.22,0.2,0.2,0.23", "-o", free)
+    leg_map = json.loads(run(program, "equivalents", "map", original, free, "--json"))
     a, c = np.array(leg_map["A"]), np.array(leg_map["c"])
     for key, design in (("octahedral", moving), ("free", free)):
         run(program, "export", design, "--to", "mjcf,csv,json", "-o", folder / key, "--gravity-compensation")

@@ -1,4 +1,4 @@
-"""`equipod schema`: shipped designs and answers of commands against the schemas, by a validator that is not ours."""
+"""`equipod design schema`: shipped designs and answers of commands against the schemas, by a validator that is not ours."""
 
 import json
 import subprocess
@@ -60,7 +60,7 @@ def check_designs(program, folder, root, validator):
         why = complaints(validator, tomllib.loads(path.read_text()))
         report(f"schema of designs: {path.relative_to(root)}", not why, "; ".join(why[:2]))
     as_json = folder / "good.json"
-    run(program, "convert", root / "designs/rbt-octahedral.toml", "-o", as_json)
+    run(program, "design", "convert", root / "designs/rbt-octahedral.toml", "-o", as_json)
     good = json.loads(as_json.read_text())
     if "rotation" in good["home"]:
         report("schema of designs: a converted design", not complaints(validator, good))
@@ -68,7 +68,7 @@ def check_designs(program, folder, root, validator):
         bad = without(good, path) if value is None else changed(good, path, value)
         file = folder / "bad.json"
         file.write_text(json.dumps(bad))
-        ours = subprocess.run([program, "convert", str(file), "-o", str(folder / "out.json")], capture_output=True).returncode
+        ours = subprocess.run([program, "design", "convert", str(file), "-o", str(folder / "out.json")], capture_output=True).returncode
         report(f"schema of designs: {'.'.join(map(str, path))} = {value} is refused by schema and program", bool(complaints(validator, bad)) and ours == 2)
 
 
@@ -77,7 +77,7 @@ def check_schemas(program, folder, root):
         return
     from jsonschema import Draft202012Validator
     def schema_of(name, change=lambda schema: schema):
-        schema = json.loads(run(program, "schema", name))
+        schema = json.loads(run(program, "design", "schema", name))
         Draft202012Validator.check_schema(schema)
         return Draft202012Validator(change(schema))
     designs = schema_of("design")

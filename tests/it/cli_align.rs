@@ -1,4 +1,4 @@
-//! `--align` and `--exchange` of `equipod map` and `equipod verify` as a process.
+//! `--align` and `--exchange` of `equipod equivalents map` and `equipod verify` as a process.
 
 use std::path::Path;
 
@@ -29,7 +29,10 @@ impl Moved<'_> {
     fn write(&self, path: &Path) {
         let json = path.with_extension("copy.json");
         let from = format!("designs/{}", self.design);
-        assert_eq!(equipod(&["convert", &from, "-o", json.to_str().unwrap()]).status.code(), Some(0));
+        assert_eq!(
+            equipod(&["design", "convert", &from, "-o", json.to_str().unwrap()]).status.code(),
+            Some(0)
+        );
         let mut file: Value = serde_json::from_str(&std::fs::read_to_string(&json).unwrap()).unwrap();
         for (body, motion) in [("base", self.base), ("platform", self.platform)] {
             for joint in file[body].as_object_mut().unwrap().values_mut() {
@@ -49,7 +52,8 @@ impl Moved<'_> {
 
 fn run(command: &str, a: &str, b: &Path, more: &[&str]) -> (i32, Value) {
     let a = format!("designs/{a}");
-    let out = equipod(&[&[command, &a, b.to_str().unwrap(), "--json"], more].concat());
+    let words: Vec<&str> = command.split(' ').collect();
+    let out = equipod(&[&words[..], &[&a, b.to_str().unwrap(), "--json"], more].concat());
     (out.status.code().unwrap(), document(&out))
 }
 
@@ -60,7 +64,7 @@ fn legs_in_another_order_need_no_option_and_are_named() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("b.json");
     Moved { design: "general-6-6.toml", base: AS_IT_IS, platform: AS_IT_IS, order: ORDER }.write(&path);
-    let (code, map) = run("map", "general-6-6.toml", &path, &[]);
+    let (code, map) = run("equivalents map", "general-6-6.toml", &path, &[]);
     assert_eq!((code, map["relation"].as_str()), (0, Some("equivalent")));
     assert_eq!(map["correspondence"]["legs"], serde_json::json!([5, 3, 1, 6, 2, 4]));
     assert_eq!(
@@ -70,7 +74,7 @@ fn legs_in_another_order_need_no_option_and_are_named() {
     let (code, verdict) = run("verify", "general-6-6.toml", &path, &["--samples", "1"]);
     assert_eq!((code, verdict["verdict"].as_str()), (0, Some("equivalent")));
     assert_eq!(verdict["samples"][0]["matched"], 40);
-    let text = equipod(&["map", "designs/general-6-6.toml", path.to_str().unwrap()]);
+    let text = equipod(&["equivalents", "map", "designs/general-6-6.toml", path.to_str().unwrap()]);
     let text = String::from_utf8(text.stdout).unwrap();
     assert!(text.contains("the legs of TO are legs 5, 3, 1, 6, 2, 4 of FROM"), "{text}");
 }
@@ -101,7 +105,7 @@ fn a_member_of_the_octahedral_class_in_other_frames_is_verified() {
         assert_eq!((s["matched"].as_u64(), s["agrees"].as_bool()), (Some(16), Some(true)));
     }
     // the file that was written needs no option any more
-    let (code, again) = run("map", octahedral, &out, &[]);
+    let (code, again) = run("equivalents map", octahedral, &out, &[]);
     assert_eq!((code, again["relation"].as_str()), (0, Some("equivalent")));
 }
 
@@ -120,7 +124,7 @@ fn a_joint_off_by_a_millionth_has_no_motion_and_says_why() {
     assert!(d["gap"].as_f64().unwrap() > 100.0 * d["bound"].as_f64().unwrap(), "{d}");
     assert!(v["alignment"]["nearest"]["residual"].as_f64().unwrap() > 1e-8);
     assert!(v["explanation"].as_str().unwrap().contains("no rigid motions"));
-    let (code, m) = run("map", "general-6-6.toml", &path, &["--align"]);
+    let (code, m) = run("equivalents map", "general-6-6.toml", &path, &["--align"]);
     assert_eq!((code, m["relation"].as_str()), (1, Some("unrelated")));
     let (code, other) =
         run("verify", "rbt-octahedral.toml", Path::new("designs/rbt-midline.toml"), &["--align"]);
@@ -133,6 +137,7 @@ fn upside_down_is_found_with_exchange_and_mentioned_without() {
     let (path, turned) = (folder.path().join("b.json"), folder.path().join("turned.json"));
     Moved { design: "general-6-6.toml", base: TURN, platform: HALF_TURN, order: ORDER }.write(&path);
     let arguments = [
+        "equivalents",
         "map",
         "designs/general-6-6.toml",
         path.to_str().unwrap(),
@@ -155,7 +160,8 @@ fn a_symmetric_hexapod_meets_itself_six_times() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("b.json");
     Moved { design: "symmetric-hexapod.toml", base: TURN, platform: TURN, order: ORDER }.write(&path);
-    let out = equipod(&["map", "designs/symmetric-hexapod.toml", path.to_str().unwrap(), "--align"]);
+    let out =
+        equipod(&["equivalents", "map", "designs/symmetric-hexapod.toml", path.to_str().unwrap(), "--align"]);
     let text = String::from_utf8(out.stdout).unwrap();
     // its coordinates are rounded to a micrometre: of the six symmetries two are exact
     assert_eq!(out.status.code(), Some(0), "{text}");

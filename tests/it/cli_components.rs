@@ -1,4 +1,4 @@
-//! The process `equipod components`.
+//! The process `equipod equivalents components`.
 
 use serde_json::Value;
 
@@ -6,7 +6,7 @@ use super::cli_frame::{document, equipod};
 
 fn of(design: &str, more: &[&str]) -> Value {
     let path = format!("designs/{design}.toml");
-    let mut args = vec!["components", path.as_str(), "--json"];
+    let mut args = vec!["equivalents", "components", path.as_str(), "--json"];
     args.extend(more);
     let out = equipod(&args);
     assert_eq!(out.status.code(), Some(0), "{design}: {}", String::from_utf8_lossy(&out.stderr));
@@ -101,6 +101,7 @@ fn one_family_and_a_picture() {
     of("symmetric-hexapod", &["--svg", one.to_str().unwrap(), "--pair", &pair]);
     assert!(std::fs::read_to_string(one).unwrap().contains(&format!("base plane of pair {pair}")));
     let out = equipod(&[
+        "equivalents",
         "components",
         "designs/symmetric-hexapod.toml",
         "--json",
@@ -110,11 +111,12 @@ fn one_family_and_a_picture() {
         "99",
     ]);
     assert_eq!(document(&out)["error"]["code"], "components::no_planes");
-    let out = equipod(&["components", "designs/dietmaier.toml", "--json", "--svg", "x.svg"]);
+    let out = equipod(&["equivalents", "components", "designs/dietmaier.toml", "--json", "--svg", "x.svg"]);
     assert_eq!(document(&out)["error"]["code"], "components::no_planes");
-    let out = equipod(&["components", "designs/dietmaier.toml", "--json", "--component", "1"]);
+    let out = equipod(&["equivalents", "components", "designs/dietmaier.toml", "--json", "--component", "1"]);
     assert_eq!(document(&out)["error"]["code"], "components::no_such_family");
-    let out = equipod(&["components", "designs/dietmaier.toml", "--json", "--tolerance", "0.5"]);
+    let out =
+        equipod(&["equivalents", "components", "designs/dietmaier.toml", "--json", "--tolerance", "0.5"]);
     assert_eq!(
         (out.status.code(), document(&out)["error"]["code"].as_str()),
         (Some(2), Some("components::bad_tolerance"))

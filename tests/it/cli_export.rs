@@ -27,7 +27,7 @@ fn all_formats_of_shared_joints_and_of_a_joint_free_design() {
     let free = free.to_str().unwrap();
     let offsets = "--offsets=-0.2,0.21,-0.22,0.2,-0.2,0.23";
     let original = "designs/rbt-octahedral.toml";
-    let made = equipod(&["family", original, "--pattern", "S123456", offsets, "-o", free]);
+    let made = equipod(&["equivalents", "family", original, "--pattern", "S123456", offsets, "-o", free]);
     assert_eq!(made.status.code(), Some(0));
     for (design, joints) in [(original, 3), (free, 6)] {
         let out = folder.path().join(joints.to_string());
@@ -130,7 +130,10 @@ fn refusals() {
     assert!(doc["formats"][1]["refused"].as_str().unwrap().contains("overlap"), "{doc}");
     // a design that one of the files would replace stays
     let own = folder.path().join("platform.json");
-    assert_eq!(equipod(&["convert", octahedral, "-o", own.to_str().unwrap()]).status.code(), Some(0));
+    assert_eq!(
+        equipod(&["design", "convert", octahedral, "-o", own.to_str().unwrap()]).status.code(),
+        Some(0)
+    );
     let before = read(folder.path(), "platform.json");
     let (code, doc) = run(&[own.to_str().unwrap(), "--to", "json", "-o", to]);
     assert_eq!((code, doc["error"]["code"].as_str()), (Some(2), Some("file::overwrites_input")));

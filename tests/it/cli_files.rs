@@ -79,7 +79,10 @@ fn another_design_gives_way_to_a_design_only() {
         &["plot", "modes", "designs/dietmaier.toml", "-o", &other],
         "file::overwrites_design",
     );
-    assert_eq!(equipod(&["convert", "designs/dietmaier.toml", "-o", &other]).status.code(), Some(0));
+    assert_eq!(
+        equipod(&["design", "convert", "designs/dietmaier.toml", "-o", &other]).status.code(),
+        Some(0)
+    );
     assert!(
         std::fs::read_to_string(&other).unwrap().contains("dietmaier") || !temp.path().join("x").exists()
     );

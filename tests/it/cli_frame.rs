@@ -121,12 +121,12 @@ fn warnings_go_to_standard_error_and_into_the_document() {
     let path = path.to_str().unwrap();
     let json = folder.path().join("out.json");
     let json = json.to_str().unwrap();
-    let out = equipod(&["convert", path, "-o", json, "--json"]);
+    let out = equipod(&["design", "convert", path, "-o", json, "--json"]);
     assert_eq!(out.status.code(), Some(0));
     let answer = document(&out);
     assert_eq!(answer["warnings"][0]["code"], "design::unused_joint");
     assert!(String::from_utf8(out.stderr).unwrap().contains("warning[design::unused_joint]"));
-    assert!(equipod(&["-q", "convert", path, "-o", json]).stderr.is_empty());
+    assert!(equipod(&["-q", "design", "convert", path, "-o", json]).stderr.is_empty());
 }
 
 #[test]
@@ -134,17 +134,18 @@ fn convert_there_and_back_keeps_the_design() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name).to_str().unwrap().to_string();
     assert_eq!(
-        equipod(&["convert", "designs/symmetric-hexapod.toml", "-o", &at("a.json")]).status.code(),
+        equipod(&["design", "convert", "designs/symmetric-hexapod.toml", "-o", &at("a.json")]).status.code(),
         Some(0)
     );
-    assert_eq!(equipod(&["convert", &at("a.json"), "-o", &at("b.toml")]).status.code(), Some(0));
-    assert_eq!(equipod(&["convert", &at("b.toml"), "-o", &at("c.json")]).status.code(), Some(0));
+    assert_eq!(equipod(&["design", "convert", &at("a.json"), "-o", &at("b.toml")]).status.code(), Some(0));
+    assert_eq!(equipod(&["design", "convert", &at("b.toml"), "-o", &at("c.json")]).status.code(), Some(0));
     let read = |name: &str| std::fs::read_to_string(at(name)).unwrap();
     assert_eq!(read("a.json"), read("c.json"));
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 3, "no temporary file is left");
-    let out = equipod(&["convert", "designs/dietmaier.toml", "-o", &at("d.txt"), "--json"]);
+    let out = equipod(&["design", "convert", "designs/dietmaier.toml", "-o", &at("d.txt"), "--json"]);
     assert_eq!(document(&out)["error"]["code"], "convert::unknown_format");
-    let out = equipod(&["convert", "designs/dietmaier.toml", "-o", &at("no/such/d.toml"), "--json"]);
+    let out =
+        equipod(&["design", "convert", "designs/dietmaier.toml", "-o", &at("no/such/d.toml"), "--json"]);
     assert_eq!(
         (out.status.code(), &document(&out)["error"]["code"]),
         (Some(2), &Value::from("file::not_writable"))

@@ -6,33 +6,39 @@ use serde_json::{Value, json};
 
 use super::cli_frame::{document, equipod};
 
-/// Commands that are shown in the help.
+/// Commands that are shown in the help, `equivalents family` for one of a group; the figures of `plot` are one of them.
 fn commands() -> Vec<String> {
     let help = String::from_utf8(equipod(&["--help"]).stdout).unwrap();
-    let list = help.split("Commands:\n").nth(1).unwrap().split("\n\n").next().unwrap();
+    let list = help.split("Options:").next().unwrap();
     let names = list.lines().filter_map(|l| l.strip_prefix("  ")).filter(|l| !l.starts_with(' '));
-    let names: Vec<String> = names.map(|l| l.split_whitespace().next().unwrap().to_string()).collect();
-    assert!(
-        names.len() > 20 && names.contains(&"fk".to_string()) && !names.contains(&"reference".to_string())
-    );
-    names.into_iter().filter(|n| n != "help").collect()
+    let names: Vec<String> = names.map(|l| l.split("  ").next().unwrap().replace(" FIGURE", "")).collect();
+    let has = |name: &str| names.iter().any(|n| n == name);
+    assert!(names.len() > 20 && has("fk") && has("plot") && has("equivalents family") && !has("reference"));
+    names
+}
+
+/// As files and schemas call it.
+fn in_one_word(command: &str) -> String {
+    command.replace(' ', "-")
 }
 
 #[test]
 fn completions_know_every_command() {
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
-        let out = equipod(&["completions", shell]);
+        let out = equipod(&["shell", "completions", shell]);
         assert_eq!(out.status.code(), Some(0));
         let script = String::from_utf8(out.stdout).unwrap();
         for command in commands() {
-            assert!(script.contains(&command), "{shell} lacks {command}");
+            for word in command.split(' ') {
+                assert!(script.contains(word), "{shell} lacks {command}");
+            }
         }
         assert!(script.contains("free-grid") || script.contains("grid-platform"), "{shell}: options too");
-        assert_eq!(document(&equipod(&["completions", shell, "--json"]))["script"], script);
+        assert_eq!(document(&equipod(&["shell", "completions", shell, "--json"]))["script"], script);
     }
-    assert_eq!(equipod(&["completions", "cobol"]).status.code(), Some(2));
+    assert_eq!(equipod(&["shell", "completions", "cobol"]).status.code(), Some(2));
     // a shell reads it
-    let script = equipod(&["completions", "bash"]).stdout;
+    let script = equipod(&["shell", "completions", "bash"]).stdout;
     let check = |text: &[u8]| {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("equipod.bash");
@@ -50,7 +56,7 @@ fn there_is_a_manual_page_for_every_command() {
     let folder = tempfile::tempdir().unwrap();
     let read = |to: &str| {
         let to = folder.path().join(to);
-        let doc = document(&equipod(&["man", "-o", to.to_str().unwrap(), "--json"]));
+        let doc = document(&equipod(&["shell", "man", "-o", to.to_str().unwrap(), "--json"]));
         let paths = doc["paths"].as_array().unwrap();
         paths.iter().map(|p| std::fs::read_to_string(p.as_str().unwrap()).unwrap()).collect::<Vec<_>>()
     };
@@ -58,30 +64,33 @@ fn there_is_a_manual_page_for_every_command() {
     assert_eq!(pages, read("two"), "no date, no path");
     assert!(pages.iter().any(|p| p.contains(".TH equipod-plot-modes 1")), "commands of commands too");
     for command in commands() {
-        let title = format!(".TH equipod-{command} 1");
+        let title = format!(".TH equipod-{} 1", in_one_word(&command));
         assert!(pages.iter().any(|p| p.contains(&title)), "no page for {command}: {}", &pages[1][..200]);
     }
     let file = folder.path().join("file");
     std::fs::write(&file, "").unwrap();
-    let refused = equipod(&["man", "-o", file.join("under").to_str().unwrap(), "--json"]);
+    let refused = equipod(&["shell", "man", "-o", file.join("under").to_str().unwrap(), "--json"]);
     assert_eq!(document(&refused)["error"]["code"], "file::not_writable");
 }
 
-/// `equipod schema OF`.
+/// `equipod design schema OF`.
 fn schema(of: &str) -> Value {
-    let out = equipod(&["schema", of]).stdout;
+    let out = equipod(&["design", "schema", of]).stdout;
     serde_json::from_slice(&out).unwrap_or_else(|_| panic!("{of} lacks its schema: src/records/schema.rs"))
 }
 
 #[test]
 fn schemas_are_json_and_every_answer_has_one() {
-    assert_eq!(document(&equipod(&["schema", "--json"]))["schema"], schema("design"));
-    for command in commands().iter().map(String::as_str).chain(["error", "help"]) {
+    assert_eq!(document(&equipod(&["design", "schema", "--json"]))["schema"], schema("design"));
+    for command in
+        commands().iter().map(|c| in_one_word(c)).chain(["plot-locus", "error", "help"].map(String::from))
+    {
+        let command = command.as_str();
         let schema = schema(command);
         assert_eq!(schema["$ref"], format!("#/$defs/{command}"));
         assert!(schema["$defs"][command].is_object(), "{command} lacks its answer in src/records/schema.rs");
     }
-    assert_eq!(equipod(&["schema", "nothing"]).status.code(), Some(2));
+    assert_eq!(equipod(&["design", "schema", "nothing"]).status.code(), Some(2));
 }
 
 /// Places of a schema that say `object`, `array` or nothing at all, but not of what.
@@ -120,8 +129,10 @@ fn shallow(schema: &Value, place: &str) -> Vec<String> {
 #[test]
 fn schemas_go_down_to_the_last_number() {
     let all = commands();
-    for of in all.iter().map(String::as_str).chain(["design", "error", "help"]) {
-        assert_eq!(shallow(&schema(of), of), [""; 0], "{of}");
+    for of in
+        all.iter().map(|c| in_one_word(c)).chain(["plot-locus", "design", "error", "help"].map(String::from))
+    {
+        assert_eq!(shallow(&schema(&of), &of), [""; 0], "{of}");
     }
     // it finds what is left open
     for bare in [
@@ -157,7 +168,10 @@ fn the_tables_of_options_in_the_manual_are_fresh() {
     assert_ne!(stale, page);
     assert_eq!(with("stale.md", &stale).stdout, page.as_bytes());
     assert_eq!(with("lacks.md", &page.replacen("<!-- options of fk -->", "", 1)).status.code(), Some(2));
-    assert_eq!(with("twice.md", &page.replacen("options of fk", "options of map", 1)).status.code(), Some(2));
+    assert_eq!(
+        with("twice.md", &page.replacen("options of fk", "options of verify", 1)).status.code(),
+        Some(2)
+    );
 }
 
 #[test]
@@ -182,8 +196,8 @@ fn colours_only_where_they_are_wanted() {
 fn long_texts_end_quietly_when_nobody_reads() {
     let design = "designs/rbt-octahedral.toml";
     for args in [
-        &["completions", "bash"][..],
-        &["schema", "fk"],
+        &["shell", "completions", "bash"][..],
+        &["design", "schema", "fk"],
         &["--help"],
         &["fk", design],
         &["fk", design, "--json"],

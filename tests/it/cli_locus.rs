@@ -1,11 +1,11 @@
-//! The process `equipod locus`.
+//! The process `equipod plot locus`.
 
 use serde_json::Value;
 
 use super::cli_frame::{document, equipod};
 
 const INNOCENTI: [&str; 9] =
-    ["locus", "designs/innocenti-6-4.toml", "--leg", "6", "--from", "4.3", "--to", "4.7", "--json"];
+    ["plot", "locus", "designs/innocenti-6-4.toml", "--leg", "6", "--from", "4.3", "--to", "4.7", "--json"];
 
 fn values(row: &Value) -> Vec<(f64, f64)> {
     let list = row["values"].as_array().unwrap().iter();
@@ -17,7 +17,7 @@ fn the_values_of_the_second_example_and_its_two_double_values() {
     let folder = tempfile::tempdir().unwrap();
     let [svg, csv] = ["l.svg", "l.csv"].map(|n| folder.path().join(n));
     let files =
-        ["--between", "b,e", "--steps", "11", "--svg", svg.to_str().unwrap(), "--csv", csv.to_str().unwrap()];
+        ["--between", "b,e", "--steps", "11", "-o", svg.to_str().unwrap(), "--csv", csv.to_str().unwrap()];
     let out = equipod(&[&INNOCENTI[..], &files].concat());
     assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stderr));
     let doc = document(&out);
@@ -94,6 +94,7 @@ fn lengths_without_isolated_poses_say_so() {
     let [file, csv] = ["d.toml", "l.csv"].map(|n| folder.path().join(n));
     std::fs::write(&file, design).unwrap();
     let out = equipod(&[
+        "plot",
         "locus",
         file.to_str().unwrap(),
         "--lengths",
@@ -119,7 +120,7 @@ fn lengths_without_isolated_poses_say_so() {
 #[test]
 fn what_cannot_be_asked_is_refused() {
     let design = "designs/innocenti-6-4.toml";
-    let base = ["locus", design, "--leg", "6", "--from", "1", "--to", "2", "--json"];
+    let base = ["plot", "locus", design, "--leg", "6", "--from", "1", "--to", "2", "--json"];
     for (more, code) in [
         (["--between", "b,a"].as_slice(), "locus::is_a_leg"),
         (&["--between", "a,b"], "locus::unknown_joint"),
@@ -131,6 +132,6 @@ fn what_cannot_be_asked_is_refused() {
         let out = equipod(&[&base[..], more].concat());
         assert_eq!((out.status.code(), document(&out)["error"]["code"].as_str()), (Some(2), Some(code)));
     }
-    let out = equipod(&["locus", design, "--leg", "6", "--from=-1", "--to", "2", "--json"]);
+    let out = equipod(&["plot", "locus", design, "--leg", "6", "--from=-1", "--to", "2", "--json"]);
     assert_eq!(document(&out)["error"]["code"], "locus::bad_lengths");
 }

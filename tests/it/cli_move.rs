@@ -1,4 +1,4 @@
-//! The process `equipod move`.
+//! The process `equipod equivalents move`.
 
 use serde_json::Value;
 
@@ -6,7 +6,7 @@ use super::cli_frame::{document, equipod};
 
 fn of(design: &str, more: &[&str], code: i32) -> Value {
     let path = format!("designs/{design}.toml");
-    let mut args = vec!["move", path.as_str(), "--json"];
+    let mut args = vec!["equivalents", "move", path.as_str(), "--json"];
     args.extend(more);
     let out = equipod(&args);
     assert_eq!(out.status.code(), Some(code), "{more:?}: {}", String::from_utf8_lossy(&out.stderr));
@@ -49,7 +49,7 @@ fn one_leg_by_number_or_by_the_joints_of_its_family_and_verify_agrees() {
     let names: Vec<&String> = doc["design"]["base"].as_object().unwrap().keys().collect();
     assert_eq!(names, ["P1", "P2", "P3", "P1a"]);
     assert_eq!(doc["design"]["legs"][0], serde_json::json!(["P1a", "P4"]));
-    let map = equipod(&["map", "designs/rbt-octahedral.toml", to, "--json"]);
+    let map = equipod(&["equivalents", "map", "designs/rbt-octahedral.toml", to, "--json"]);
     assert_eq!(document(&map)["A"], doc["A"]);
     let verify = equipod(&["verify", "designs/rbt-octahedral.toml", to, "--samples", "1", "--json"]);
     assert_eq!(document(&verify)["verdict"], "equivalent");
@@ -143,7 +143,7 @@ fn the_search_finds_proves_and_leaves_open() {
     );
     assert!(first["margins"].as_array().unwrap().iter().all(|m| number(&m["slack"]) >= 0.0));
     let file = doc["paths"][0].as_str().unwrap();
-    let map = equipod(&["map", "designs/rbt-octahedral.toml", file, "--json"]);
+    let map = equipod(&["equivalents", "map", "designs/rbt-octahedral.toml", file, "--json"]);
     assert_eq!(document(&map)["relation"], "equivalent");
     // a joint 3 along the first edge, by name
     let doc = of("rbt-octahedral", &["--search", "--joint", "P1=1.5,2.598076211353316,0", "--count", "1"], 0);

@@ -67,15 +67,20 @@ fn the_other_figures_are_those_of_their_commands() {
         assert!(equipod(&[args, &["--svg", path]].concat()).status.success());
         std::fs::read_to_string(&file).unwrap()
     };
-    let locus: &[&str] = &[OCTAHEDRAL, "--leg", "1", "--from", "10", "--to", "14", "--steps", "5"];
-    assert_eq!(svg(&[&["locus"], locus].concat()), by_command(&[&["locus"], locus].concat()));
+    let locus = ["plot", "locus", OCTAHEDRAL, "--leg", "1", "--from", "10", "--to", "14", "--steps", "5"];
+    let out = equipod(&[&locus[..], &["-o", path]].concat());
+    assert_eq!(svg(&locus[1..]), std::fs::read_to_string(&file).unwrap());
+    assert!(String::from_utf8(out.stdout).unwrap().starts_with(path), "and the values as text");
     let griffis_duffy = "designs/rbt-griffis-duffy.toml";
-    assert_eq!(svg(&["components", griffis_duffy]), by_command(&["components", griffis_duffy]));
-    assert_eq!(svg(&["topologies", OCTAHEDRAL]), by_command(&["topologies", OCTAHEDRAL]));
-    let out = equipod(&["singularities", OCTAHEDRAL, "--regions", "10", "--slice", "x,z", "--svg", path]);
+    assert_eq!(
+        svg(&["components", griffis_duffy]),
+        by_command(&["equivalents", "components", griffis_duffy])
+    );
+    assert_eq!(svg(&["topologies", OCTAHEDRAL]), by_command(&["equivalents", "topologies", OCTAHEDRAL]));
+    let out = equipod(&["singular", "poses", OCTAHEDRAL, "--regions", "10", "--slice", "x,z", "--svg", path]);
     assert!(out.status.code().is_some_and(|c| c < 4));
     assert_eq!(
-        svg(&["singularities", OCTAHEDRAL, "--slice", "x,z"]),
+        svg(&["singular-poses", OCTAHEDRAL, "--slice", "x,z"]),
         std::fs::read_to_string(&file).unwrap()
     );
 }

@@ -1,4 +1,4 @@
-//! `equipod round` as a process: both roundings, the design it writes, refusals.
+//! `equipod build round` as a process: both roundings, the design it writes, refusals.
 
 use std::path::Path;
 
@@ -10,6 +10,7 @@ use super::cli_frame::{document, equipod};
 fn design(folder: &Path) -> String {
     let path = folder.join("free.toml");
     let out = equipod(&[
+        "equivalents",
         "family",
         "designs/rbt-octahedral.toml",
         "--pattern",
@@ -27,7 +28,7 @@ fn design(folder: &Path) -> String {
 }
 
 fn round(args: &[&str]) -> (Option<i32>, Value) {
-    let mut all = vec!["round"];
+    let mut all = vec!["build", "round"];
     all.extend(args);
     all.extend(["--json", "--trials", "50"]);
     let out = equipod(&all);

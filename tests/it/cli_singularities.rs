@@ -1,4 +1,4 @@
-//! The processes `equipod selfmotion` and `equipod singularities`.
+//! The processes `equipod singular motion` and `equipod singular poses`.
 
 use super::cli_frame::{document, equipod};
 
@@ -7,7 +7,8 @@ fn the_midline_platform_moves_on_two_closed_curves() {
     let folder = tempfile::tempdir().unwrap();
     let file = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     let (csv, svg) = (file("m.csv"), file("m.svg"));
-    let out = equipod(&["selfmotion", "designs/rbt-midline.toml", "--csv", &csv, "--svg", &svg, "--json"]);
+    let out =
+        equipod(&["singular", "motion", "designs/rbt-midline.toml", "--csv", &csv, "--svg", &svg, "--json"]);
     let doc = document(&out);
     assert_eq!(out.status.code(), Some(0), "{doc}");
     assert_eq!(doc["dimension"], 1);
@@ -28,14 +29,21 @@ fn the_midline_platform_moves_on_two_closed_curves() {
 
 #[test]
 fn lengths_alone_give_the_curves_that_the_pose_gives() {
-    let start = equipod(&["selfmotion", "designs/rbt-midline.toml", "--searches", "0", "--json"]);
+    let start = equipod(&["singular", "motion", "designs/rbt-midline.toml", "--searches", "0", "--json"]);
     let start = document(&start);
     assert_eq!(
         (start["curves"].as_array().unwrap().len(), &start["components_accounted"]),
         (1, &serde_json::Value::Null)
     );
     let lengths: Vec<String> = start["lengths"].as_array().unwrap().iter().map(ToString::to_string).collect();
-    let out = equipod(&["selfmotion", "designs/rbt-midline.toml", "--lengths", &lengths.join(","), "--json"]);
+    let out = equipod(&[
+        "singular",
+        "motion",
+        "designs/rbt-midline.toml",
+        "--lengths",
+        &lengths.join(","),
+        "--json",
+    ]);
     let doc = document(&out);
     assert_eq!((out.status.code(), doc["dimension"].as_u64()), (Some(0), Some(1)), "{doc}");
     assert_eq!(
@@ -47,21 +55,27 @@ fn lengths_alone_give_the_curves_that_the_pose_gives() {
     degrees.sort_unstable();
     assert_eq!(degrees, [4, 24]);
     // lengths that contradict the relation of the legs: proved, no pose at all
-    let out =
-        equipod(&["selfmotion", "designs/rbt-midline.toml", "--lengths", "10,10,10,10,10,11", "--json"]);
+    let out = equipod(&[
+        "singular",
+        "motion",
+        "designs/rbt-midline.toml",
+        "--lengths",
+        "10,10,10,10,10,11",
+        "--json",
+    ]);
     let doc = document(&out);
     assert_eq!((out.status.code(), doc["dimension"].as_u64()), (Some(1), Some(0)));
-    let out = equipod(&["selfmotion", "designs/rbt-midline.toml", "--lengths", "1,2", "--json"]);
-    assert_eq!(document(&out)["error"]["code"], "selfmotion::bad_lengths");
+    let out = equipod(&["singular", "motion", "designs/rbt-midline.toml", "--lengths", "1,2", "--json"]);
+    assert_eq!(document(&out)["error"]["code"], "motion::bad_lengths");
 }
 
 #[test]
 fn a_regular_platform_has_no_self_motion() {
-    let out = equipod(&["selfmotion", "designs/rbt-octahedral.toml", "--json"]);
+    let out = equipod(&["singular", "motion", "designs/rbt-octahedral.toml", "--json"]);
     let doc = document(&out);
     assert_eq!((out.status.code(), doc["dimension"].as_u64()), (Some(1), Some(0)));
-    let out = equipod(&["selfmotion", "designs/rbt-octahedral.toml", "--pose", "1,2", "--json"]);
-    assert_eq!(document(&out)["error"]["code"], "selfmotion::bad_pose");
+    let out = equipod(&["singular", "motion", "designs/rbt-octahedral.toml", "--pose", "1,2", "--json"]);
+    assert_eq!(document(&out)["error"]["code"], "motion::bad_pose");
 }
 
 #[test]
@@ -71,7 +85,8 @@ fn equivalent_platforms_have_the_same_regular_box() {
     let run = |design: &str| {
         let pose = "0,0,9,0,0,25";
         let shape = "2,2,2,10,10,10";
-        let args = ["singularities", design, "--pose", pose, "--box", shape, "--regions", "4000", "--json"];
+        let args =
+            ["singular", "poses", design, "--pose", pose, "--box", shape, "--regions", "4000", "--json"];
         let out = equipod(&[&args[..], &["--svg", svg.to_str().unwrap()]].concat());
         let doc = document(&out);
         assert_eq!(out.status.code(), Some(0), "{doc}");
@@ -105,7 +120,7 @@ fn assembly_modes_of_one_sign_are_joined_and_equivalent_platforms_agree() {
     let pose = "0,0,9,0,0,25";
     let base = ["--pose", pose, "--regions", "1", "--box", "0.1,0.1,0.1,1,1,1", "--json"];
     let run = |design: &str, more: &[&str]| {
-        let out = equipod(&[&["singularities", design][..], &base, more].concat());
+        let out = equipod(&[&["singular", "poses", design][..], &base, more].concat());
         document(&out)
     };
     let one = run("designs/rbt-octahedral.toml", &["--between", "--samples", "300"]);
@@ -147,7 +162,7 @@ fn assembly_modes_of_one_sign_are_joined_and_equivalent_platforms_agree() {
     assert_eq!(std::fs::read_to_string(csv).unwrap().lines().count(), 102);
     assert!(std::fs::read_to_string(svg).unwrap().contains("</svg>"));
     let bad = run("designs/rbt-octahedral.toml", &["--path", "1,99"]);
-    assert_eq!(bad["error"]["code"], "singularities::bad_path");
+    assert_eq!(bad["error"]["code"], "poses::bad_path");
 }
 
 #[test]
@@ -156,8 +171,9 @@ fn the_forty_modes_of_dietmaiers_platform_are_two_groups_of_twenty() {
     let line = text.lines().find(|l| l.starts_with("lengths = [")).unwrap();
     let lengths = line.trim_start_matches("lengths = [").trim_end_matches(']').replace(' ', "");
     let more = ["--regions", "1", "--box", "0.1,0.1,0.1,1,1,1", "--between", "--json"];
-    let out =
-        equipod(&[&["singularities", "designs/dietmaier.toml", "--lengths", &lengths], &more[..]].concat());
+    let out = equipod(
+        &[&["singular", "poses", "designs/dietmaier.toml", "--lengths", &lengths], &more[..]].concat(),
+    );
     let between = &document(&out)["between"];
     let groups: Vec<usize> =
         between["groups"].as_array().unwrap().iter().map(|g| g.as_array().unwrap().len()).collect();
@@ -172,7 +188,7 @@ fn the_forty_modes_of_dietmaiers_platform_are_two_groups_of_twenty() {
 #[test]
 fn the_proved_box_is_one_of_rotation_vectors() {
     let design = "tests/fixtures/adversarial/REP_box.toml";
-    let doc = document(&equipod(&["singularities", design, "--regions", "3000", "--json"]));
+    let doc = document(&equipod(&["singular", "poses", design, "--regions", "3000", "--json"]));
     let largest = (47.0066_f64).max(47.6845).max(45.4840) / 47.71;
     let (proved, refuted) = (&doc["box"]["proved_scale"], &doc["box"]["singular_within"]["scale"]);
     assert!(

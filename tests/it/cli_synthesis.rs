@@ -1,4 +1,4 @@
-//! The processes `equipod map` and `equipod family`.
+//! The processes `equipod equivalents map` and `equipod equivalents family`.
 
 use std::process::{Command, Output};
 
@@ -21,15 +21,15 @@ const OCTAHEDRAL: &str = "designs/rbt-octahedral.toml";
 
 #[test]
 fn map_tells_equivalent_singular_and_unrelated_apart() {
-    let (code, doc) = json(&["map", OCTAHEDRAL, "designs/rbt-griffis-duffy.toml"]);
+    let (code, doc) = json(&["equivalents", "map", OCTAHEDRAL, "designs/rbt-griffis-duffy.toml"]);
     assert_eq!((code, doc["relation"].as_str()), (Some(0), Some("equivalent")));
     assert!((doc["det"].as_f64().unwrap() - 0.26208).abs() < 1e-12);
     assert!((doc["A"][5][0].as_f64().unwrap() - 0.2).abs() < 1e-12);
     assert!((doc["c"][0].as_f64().unwrap() + 23.04).abs() < 1e-11);
     assert!(doc["residual"].as_f64().unwrap() < 1e-14);
-    let (code, doc) = json(&["map", OCTAHEDRAL, "designs/rbt-midline.toml"]);
+    let (code, doc) = json(&["equivalents", "map", OCTAHEDRAL, "designs/rbt-midline.toml"]);
     assert_eq!((code, doc["relation"].as_str()), (Some(1), Some("singular")));
-    let (code, doc) = json(&["map", "designs/rbt-midline.toml", OCTAHEDRAL]);
+    let (code, doc) = json(&["equivalents", "map", "designs/rbt-midline.toml", OCTAHEDRAL]);
     assert_eq!((code, doc["relation"].as_str()), (Some(1), Some("unrelated")));
     assert_eq!(doc["leg_rank"], 5);
 }
@@ -43,7 +43,7 @@ fn the_published_designs_carry_lengths_of_one_pose() {
         line.split(", ").map(|x| x.parse().unwrap()).collect()
     };
     for to in ["designs/rbt-griffis-duffy.toml", "designs/rbt-midline.toml"] {
-        let (_, doc) = json(&["map", OCTAHEDRAL, to]);
+        let (_, doc) = json(&["equivalents", "map", OCTAHEDRAL, to]);
         let (l, m) = (read(OCTAHEDRAL), read(to));
         for i in 0..6 {
             let a = |j: usize| doc["A"][i][j].as_f64().unwrap();
@@ -59,13 +59,13 @@ fn different_units_are_refused() {
     let path = folder.path().join("metres.toml");
     let text = std::fs::read_to_string(OCTAHEDRAL).unwrap().replace("\"mm\"", "\"m\"");
     std::fs::write(&path, text).unwrap();
-    let (code, doc) = json(&["map", OCTAHEDRAL, path.to_str().unwrap()]);
+    let (code, doc) = json(&["equivalents", "map", OCTAHEDRAL, path.to_str().unwrap()]);
     assert_eq!((code, doc["error"]["code"].as_str()), (Some(2), Some("map::different_units")));
 }
 
 #[test]
 fn family_lists_every_pattern_with_its_counts() {
-    let (code, doc) = json(&["family", OCTAHEDRAL]);
+    let (code, doc) = json(&["equivalents", "family", OCTAHEDRAL]);
     assert_eq!(code, Some(0));
     let count = |key: &str| doc["counts"][key].as_u64().unwrap();
     assert_eq!(doc["patterns"].as_array().unwrap().len() as u64, count("patterns"));
@@ -91,9 +91,10 @@ fn a_pattern_is_written_as_a_design_that_maps_back() {
     let path = folder.path().join("moved.toml");
     let file = path.to_str().unwrap();
     let offsets = "--offsets=0.25,-0.1,0.4";
-    let (code, doc) = json(&["family", OCTAHEDRAL, "--pattern", "V456S112", offsets, "-o", file]);
+    let (code, doc) =
+        json(&["equivalents", "family", OCTAHEDRAL, "--pattern", "V456S112", offsets, "-o", file]);
     assert_eq!(code, Some(0), "{doc}");
-    let (code, map) = json(&["map", OCTAHEDRAL, file]);
+    let (code, map) = json(&["equivalents", "map", OCTAHEDRAL, file]);
     assert_eq!(code, Some(0));
     let (x, y) = (map["det"].as_f64().unwrap(), doc["instance"]["det"].as_f64().unwrap());
     assert!((x - y).abs() < 1e-12, "{x} {y}");
@@ -101,14 +102,14 @@ fn a_pattern_is_written_as_a_design_that_maps_back() {
         (["--pattern", "V346S112", "--offsets", "0.1,0.2,0.3"], "family::bad_pattern"),
         (["--pattern", "V456S112", "--offsets", "0.1,0.2"], "family::bad_offsets"),
     ] {
-        let (code, doc) = json(&[&["family", OCTAHEDRAL], args.as_slice()].concat());
+        let (code, doc) = json(&[&["equivalents", "family", OCTAHEDRAL], args.as_slice()].concat());
         assert_eq!((code, doc["error"]["code"].as_str()), (Some(2), Some(error)));
     }
 }
 
 #[test]
 fn other_designs_are_refused_with_the_reason() {
-    let (code, doc) = json(&["family", "designs/rbt-griffis-duffy.toml"]);
+    let (code, doc) = json(&["equivalents", "family", "designs/rbt-griffis-duffy.toml"]);
     assert_eq!((code, doc["error"]["code"].as_str()), (Some(2), Some("family::not_octahedral")));
     assert!(doc["error"]["message"].as_str().unwrap().contains("6 joints in use"));
 }
@@ -117,8 +118,15 @@ fn other_designs_are_refused_with_the_reason() {
 fn graph_and_drawing_hold_every_topology() {
     let folder = tempfile::tempdir().unwrap();
     let (dot, svg) = (folder.path().join("a.dot"), folder.path().join("a.svg"));
-    let out =
-        equipod(&["family", OCTAHEDRAL, "--dot", dot.to_str().unwrap(), "--svg", svg.to_str().unwrap()]);
+    let out = equipod(&[
+        "equivalents",
+        "family",
+        OCTAHEDRAL,
+        "--dot",
+        dot.to_str().unwrap(),
+        "--svg",
+        svg.to_str().unwrap(),
+    ]);
     assert_eq!(out.status.code(), Some(0));
     let dot = std::fs::read_to_string(dot).unwrap();
     assert_eq!((dot.matches("[label=\"").count(), dot.matches("style=dashed").count()), (20, 1));

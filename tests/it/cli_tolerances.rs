@@ -1,11 +1,11 @@
-//! `equipod tolerances` as a process: the budget, its trial, refusals.
+//! `equipod build tolerances` as a process: the budget, its trial, refusals.
 
 use serde_json::Value;
 
 use super::cli_frame::{document, equipod};
 
 fn run(design: &str, more: &[&str]) -> (Option<i32>, Value) {
-    let mut args = vec!["tolerances", design, "--json", "--points", "40", "--trials", "200"];
+    let mut args = vec!["build", "tolerances", design, "--json", "--points", "40", "--trials", "200"];
     args.extend(more);
     let out = equipod(&args);
     (out.status.code(), document(&out))
@@ -41,6 +41,7 @@ fn the_budget_holds_for_random_errors_and_breaks_beyond() {
 #[test]
 fn the_text_names_the_most_critical_joint_first() {
     let args = [
+        "build",
         "tolerances",
         "designs/rbt-octahedral.toml",
         "--bound",

@@ -1,4 +1,4 @@
-//! The process `equipod topologies`.
+//! The process `equipod equivalents topologies`.
 
 use super::cli_frame::{document, equipod};
 
@@ -6,13 +6,14 @@ use super::cli_frame::{document, equipod};
 fn the_document_has_the_fields_of_the_contract() {
     let folder = tempfile::tempdir().unwrap();
     let svg = folder.path().join("all.svg");
-    let out = equipod(&["topologies", "--members", "1", "--json", "--svg", svg.to_str().unwrap()]);
+    let out =
+        equipod(&["equivalents", "topologies", "--members", "1", "--json", "--svg", svg.to_str().unwrap()]);
     assert_eq!(out.status.code(), Some(0));
     let shown = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/theory/topologies.svg");
     let [new, shown] = [svg.as_path(), shown.as_ref()].map(|p| std::fs::read_to_string(p).unwrap());
     assert!(
         new == shown,
-        "write the picture of the documentation again: equipod topologies --svg docs/theory/topologies.svg"
+        "write the picture of the documentation again: equipod equivalents topologies --svg docs/theory/topologies.svg"
     );
     let doc = document(&out);
     assert_eq!(doc["count"], 34);
@@ -42,7 +43,7 @@ fn designs_are_recognised_and_written_designs_are_recognised_as_themselves() {
         [("rbt-octahedral", "T34", false), ("dietmaier", "T01", false), ("porta-thomas-1", "T03", false)]
     {
         let path = format!("designs/{design}.toml");
-        let doc = document(&equipod(&["topologies", &path, "--members", "1", "--json"]));
+        let doc = document(&equipod(&["equivalents", "topologies", &path, "--members", "1", "--json"]));
         assert_eq!(
             (doc["design"]["id"].as_str(), doc["topologies"].as_array().unwrap().len()),
             (Some(id), 1)
@@ -51,9 +52,19 @@ fn designs_are_recognised_and_written_designs_are_recognised_as_themselves() {
     }
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().to_str().unwrap();
-    assert_eq!(equipod(&["topologies", "designs/innocenti-6-4.toml", "-o", path]).status.code(), Some(0));
+    assert_eq!(
+        equipod(&["equivalents", "topologies", "designs/innocenti-6-4.toml", "-o", path]).status.code(),
+        Some(0)
+    );
     let written = folder.path().join("T04.toml");
-    let doc = document(&equipod(&["topologies", written.to_str().unwrap(), "--members", "1", "--json"]));
+    let doc = document(&equipod(&[
+        "equivalents",
+        "topologies",
+        written.to_str().unwrap(),
+        "--members",
+        "1",
+        "--json",
+    ]));
     assert_eq!(doc["design"]["id"], "T04");
     let svg = std::fs::read_to_string(folder.path().join("T04.svg")).unwrap();
     assert!(svg.starts_with("<svg") && svg.matches("class=\"leg\"").count() == 6);
@@ -70,7 +81,7 @@ fn a_design_that_is_always_singular_has_no_topology() {
         [base]\nA1 = [0.0,0.0,0.0]\nA2 = [1.0,0.0,0.0]\nA3 = [0.0,1.0,0.2]\n\
         [platform]\nB1 = [1.0,0.1,0.0]\nB2 = [0.0,1.0,0.3]\nB3 = [0.5,0.2,1.0]\nB4 = [2.0,1.0,0.1]\nB5 = [0.3,0.3,0.0]\nB6 = [1.0,1.0,1.0]\n";
     std::fs::write(&file, text).unwrap();
-    let out = equipod(&["topologies", file.to_str().unwrap(), "--json"]);
+    let out = equipod(&["equivalents", "topologies", file.to_str().unwrap(), "--json"]);
     let doc = document(&out);
     assert_eq!(out.status.code(), Some(1), "{doc}");
     assert_eq!(doc["error"]["code"], "topologies::always_singular");
@@ -81,7 +92,7 @@ fn rearrangements_come_with_designs_that_the_map_confirms() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().to_str().unwrap();
     let design = "designs/rbt-octahedral.toml";
-    let common = ["topologies", design, "--members", "1", "--json"];
+    let common = ["equivalents", "topologies", design, "--members", "1", "--json"];
     let plain = document(&equipod(&common));
     let doc = document(&equipod(&[&common[..], &["--rearrangements", "-o", path]].concat()));
     assert_eq!((plain.get("rearrangements"), &plain["topologies"]), (None, &doc["topologies"]));
@@ -94,6 +105,10 @@ fn rearrangements_come_with_designs_that_the_map_confirms() {
     assert_eq!(line["families"].as_array().unwrap().len(), 6);
     let file = |name: &str| format!("{path}/T34-plane-plane-{name}.toml");
     for to in ["fewest", "octahedral"] {
-        assert_eq!(equipod(&["map", &file("member"), &file(to)]).status.code(), Some(0), "{to}");
+        assert_eq!(
+            equipod(&["equivalents", "map", &file("member"), &file(to)]).status.code(),
+            Some(0),
+            "{to}"
+        );
     }
 }

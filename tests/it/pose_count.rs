@@ -160,7 +160,7 @@ fn bodies_that_turn_freely_are_seen_and_a_real_pose_is_given() {
 fn designs_that_were_answered_wrongly() {
     let run = |name: &str, command: &[&str]| {
         let file = format!("tests/fixtures/adversarial/REP_{name}.toml");
-        let out = equipod(&[&[command[0], &file, "--json"], &command[1..]].concat());
+        let out = equipod(&[command, &[&file, "--json"]].concat());
         (out.status.code(), document(&out))
     };
     let (code, sphere) = run("congruent", &["fk"]);
@@ -168,7 +168,7 @@ fn designs_that_were_answered_wrongly() {
         (code, &sphere["solution_set"], &sphere["dimension"]),
         (Some(3), &"positive_dimensional".into(), &2.into())
     );
-    let (code, motion) = run("congruent", &["selfmotion", "--lengths", "3,3,3,3,3,3"]);
+    let (code, motion) = run("congruent", &["singular", "motion", "--lengths", "3,3,3,3,3,3"]);
     assert_eq!((code, &motion["dimension"]), (Some(0), &2.into()));
     assert!(!motion["real_poses"].as_array().unwrap().is_empty());
     let (code, lines) = run("similar", &["fk"]);

@@ -139,26 +139,26 @@ fn the_page_has_a_row_for_every_preset_with_its_lengths() {
 
 #[test]
 fn the_command_lists_writes_and_refuses() {
-    let doc = document(&equipod(&["presets", "--json"]));
+    let doc = document(&equipod(&["design", "presets", "--json"]));
     let listed = doc["presets"].as_array().unwrap();
     assert_eq!(listed.len(), PRESETS.len());
     assert!(listed.iter().all(|p| p["source"].as_str().unwrap().contains("https://")), "{doc}");
 
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("mine.toml");
-    let out = equipod(&["presets", "rubin-camera-hexapod", "-o", path.to_str().unwrap()]);
+    let out = equipod(&["design", "presets", "rubin-camera-hexapod", "-o", path.to_str().unwrap()]);
     assert_eq!(out.status.code(), Some(0));
     let written = std::fs::read_to_string(&path).unwrap();
     assert!(PRESETS.iter().any(|p| p.text == written), "with its comments");
     let out = equipod(&["assess", path.to_str().unwrap(), "--points", "100"]);
     assert_eq!(out.status.code(), Some(0));
 
-    let shown = equipod(&["presets", "bench-l16"]);
+    let shown = equipod(&["design", "presets", "bench-l16"]);
     assert_eq!(String::from_utf8(shown.stdout).unwrap(), PRESETS[0].text);
-    let refused = equipod(&["presets", "bench-l61", "--json"]);
+    let refused = equipod(&["design", "presets", "bench-l61", "--json"]);
     let doc = document(&refused);
     assert_eq!((refused.status.code(), doc["error"]["code"].as_str()), (Some(2), Some("presets::unknown")));
     assert!(doc["error"]["help"].as_str().unwrap().contains("bench-l16"));
-    let refused = equipod(&["presets", "bench-l16", "-o", "x.json", "--json"]);
+    let refused = equipod(&["design", "presets", "bench-l16", "-o", "x.json", "--json"]);
     assert_eq!(document(&refused)["error"]["code"].as_str(), Some("presets::unknown_format"));
 }

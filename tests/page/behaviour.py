@@ -12,7 +12,7 @@ def numbers(text):
 
 
 def slider_moves_det(shown, program, folder):
-    """Keys on a slider; the page's det A is that of the two designs it offers, by `map`, and that of the class, by `family`."""
+    """Keys on a slider; the page's det A is that of the two designs it offers, by `equivalents map`, and that of the class, by `equivalents family`."""
     page = shown.page
     before = shown.det()
     page.focus("#offset-t2")
@@ -25,11 +25,11 @@ def slider_moves_det(shown, program, folder):
     assert abs(det - before) > 1e-6, "the slider changes nothing"
     original = shown.download("original, TOML", folder / "original.toml")
     equivalent = shown.download("equivalent, TOML", folder / "equivalent.toml")
-    answer = program.json("map", original, equivalent)
+    answer = program.json("equivalents", "map", original, equivalent)
     assert close(answer["det"], det), (answer["det"], det)
     offsets = shown.offsets()
     pattern = page.input_value("#pattern")
-    instance = program.json("family", original, "--pattern", pattern, f"--offsets={numbers(offsets)}")["instance"]
+    instance = program.json("equivalents", "family", original, "--pattern", pattern, f"--offsets={numbers(offsets)}")["instance"]
     assert instance["offsets"] == offsets and len(offsets) == 6
     # the original is read back: its cycle may begin elsewhere, |det A| is the same
     assert close(abs(instance["det"]), abs(det)) or pattern != "S123456", (instance["det"], det)

@@ -1,7 +1,7 @@
 """Margins and sets of regular poses that the program proves over workspaces, against poses drawn here.
 
 The statement of `assess`: no pose `R = exp([w]x) R_0, p = p_0 + d` of the region (|d_k| <= D_k and |w_k| <= theta_k, or the two ellipsoids with these half axes) has a margin below `proved_margin`, whatever the
-requirement; where `regular` is `proved`, det J has one sign. Of `singularities`: det J has one sign over the region scaled by `proved_scale`, and the opposite one at the pose `singular_within`, which lies in the region scaled by its `scale`.
+requirement; where `regular` is `proved`, det J has one sign. Of `singular poses`: det J has one sign over the region scaled by `proved_scale`, and the opposite one at the pose `singular_within`, which lies in the region scaled by its `scale`.
 
 How it is checked. Poses are drawn in the region, most of them on its boundary, and moved towards worse ones by random steps; the worst is evaluated once more in balls of 200 bits (python-flint), from the definitions of the margins. Such a check refutes and does not
 prove: it would find the faults of version 0.1.0, which proved a set of other coordinates and missed worst poses.
@@ -314,7 +314,7 @@ def run(program, options, tally):
                 tally.fault(f"{where}: exit {code} with met {found['met']}")
             for complaint in check_assess(rng, design, found, tally, where):
                 tally.fault(complaint)
-            scaled, _ = answer(program, "singularities", path, "--regions", 1500)
+            scaled, _ = answer(program, "singular", "poses", path, "--regions", 1500)
             proved = scaled["box"]["proved_scale"]
             if proved > 0:
                 tally.count("proved sets")

@@ -1,11 +1,12 @@
-//! One file per command.
+//! One file or folder per command, in folders as the commands are grouped.
 //!
 //! To add the command `foo`:
 //! 1. write `commands/foo.rs` with `#[derive(Debug, clap::Args)] pub(crate) struct Args` (doc comments are
 //!    the help texts) and `pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>`;
-//!    `convert.rs` is the smallest example;
-//! 2. add `mod foo;`, one line to [`Command`] and one to [`Command::run`] below;
-//! 3. describe it in `docs/cli.md` and test the process in `tests/it/cli_foo.rs`.
+//!    `design/convert.rs` is the smallest example. A command of a group is a file of its folder;
+//! 2. add `mod foo;`, one line to [`Command`] and one to [`Command::run`] below, or to those of the group;
+//! 3. give it a place and an example in `cli/guide.rs`, from which `--help` is made;
+//! 4. describe it in `docs/cli.md` and test the process in `tests/it/cli_foo.rs`.
 //!
 //! Load designs with [`Context::load`], take the seed from [`Context::seed`], write files with
 //! `files::write_text`. What the command found is a record (`src/records`), from which its text is made; numbers
@@ -14,28 +15,18 @@
 
 mod assess;
 mod bench;
+mod build;
 mod check;
-mod completions;
-mod components;
-mod convert;
+mod design;
+mod equivalents;
 mod explore;
 mod export;
-mod family;
 mod fk;
-mod locus;
-mod man;
-mod map;
-mod r#move;
 mod optimize;
 mod plot;
-mod presets;
 mod report;
-mod round;
-mod schema;
-mod selfmotion;
-mod singularities;
-mod tolerances;
-mod topologies;
+mod shell;
+mod singular;
 mod verify;
 mod view;
 
@@ -46,97 +37,72 @@ use super::failure::Failure;
 use super::output::Answer;
 use super::reference;
 
-/// The commands.
+/// The commands, in the order of the guide.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Whether a design meets its requirements: lengths, swing, clearances, forces, speeds over all its poses
-    Assess(assess::Args),
-    /// Random problems of a class: solved, validated by independent code, counted, timed
-    Bench(bench::Args),
-    /// Whether a design is architecturally singular: decided exactly, explained, how far away
-    Check(check::Args),
-    /// Completion script for a shell
-    Completions(completions::Args),
-    /// The families of legs that can be moved without changing the platform, of any design
-    Components(components::Args),
-    /// Write a design in the other notation (TOML or JSON)
-    Convert(convert::Args),
-    /// Everything about an octahedral design: class, best joint-free platform, verdict, poses, pictures, report
-    Explore(explore::Args),
-    /// Files for CAD, simulators, machine controls, tables and drawings
-    Export(export::Args),
-    /// Every platform equivalent to an octahedral design
-    Family(family::Args),
-    /// All poses, real and complex, for given leg lengths
+    /// Find all poses, real and complex, for given leg lengths
     Fk(fk::Args),
-    /// The squared length of a virtual leg at all poses, in the complex plane, while one leg length varies
-    Locus(locus::Args),
-    /// Manual pages of all commands
-    Man(man::Args),
-    /// The affine map between the squared leg lengths of two designs
-    Map(map::Args),
-    /// Move legs without changing the platform, or search an equivalent one that fulfils wishes
-    Move(r#move::Args),
-    /// The best joint-free platform equivalent to an octahedral design
+    /// Compute and change the platforms equivalent to a design
+    #[command(subcommand)]
+    Equivalents(equivalents::Command),
+    /// Decide whether two designs are kinematically equivalent, with evidence
+    Verify(verify::Args),
+    /// Run the whole analysis of an octahedral design into a folder: class, best platform without shared joints, verdict, poses, report
+    Explore(explore::Args),
+    /// Decide whether a design meets its requirements: lengths, swing, clearances, forces and speeds over all its poses
+    Assess(assess::Args),
+    /// Find the best platform under the requirements of a design, without shared joints
     Optimize(optimize::Args),
-    /// One picture as SVG: assembly modes, det A, replaceable joints, workspace, fronts, singular poses
+    /// Decide exactly whether a design is architecturally singular, and explain why
+    Check(check::Args),
+    /// Find singular poses and self-motions
+    #[command(subcommand)]
+    Singular(singular::Command),
+    /// Round joints to a grid of holes and budget their tolerances
+    #[command(subcommand)]
+    Build(build::Command),
+    /// Write files for CAD, simulators, machine controls, tables and drawings
+    Export(export::Args),
+    /// Convert design files, start from real hardware, print schemas
+    #[command(subcommand)]
+    Design(design::Command),
+    /// Draw one picture as SVG
     Plot(plot::Args),
-    /// Designs of real hardware with sources, as a start for one's own
-    Presets(presets::Args),
-    /// The options of all commands written into the manual
+    /// Write a design as one live HTML page: 3D, assembly modes, equivalents side by side
+    View(view::Args),
+    /// Write a folder of results as one HTML page: designs, verdicts with their evidence, pictures, hashes
+    Report(report::Args),
+    /// Solve random problems of a class, validate them by independent code, count and time them
+    Bench(bench::Args),
+    /// Print completion scripts and write manual pages
+    #[command(subcommand)]
+    Shell(shell::Command),
+    /// Write the options of all commands into the manual
     #[command(hide = true)]
     Reference(reference::Args),
-    /// A folder of results as one HTML page: designs, verdicts with their evidence, pictures, hashes
-    Report(report::Args),
-    /// The joints of a design on a grid of holes: exactly equivalent to an octahedral platform, or as near as the grid allows
-    Round(round::Args),
-    /// JSON Schema of design files, or of the answers with --json
-    Schema(schema::Args),
-    /// The curves of poses with constant leg lengths through a pose
-    Selfmotion(selfmotion::Args),
-    /// Sign of det J at a pose, at all assembly modes and over a slice of positions; the largest box of poses without singularity
-    Singularities(singularities::Args),
-    /// How far joints may be off for the pose by the nominal formula to stay within a bound
-    Tolerances(tolerances::Args),
-    /// The ways to share joints that can hold a platform, and which one a design has
-    Topologies(topologies::Args),
-    /// Whether two designs are kinematically equivalent, with evidence
-    Verify(verify::Args),
-    /// A design as one HTML page: 3D, assembly modes, equivalents side by side, live offsets
-    View(view::Args),
 }
 
 impl Command {
     /// Runs the command.
     pub(crate) fn run(&self, context: &mut Context) -> Result<Answer, Failure> {
         match self {
-            Self::Assess(args) => assess::run(args, context),
-            Self::Bench(args) => bench::run(args, context),
-            Self::Check(args) => check::run(args, context),
-            Self::Completions(args) => Ok(completions::run(args)),
-            Self::Components(args) => components::run(args, context),
-            Self::Convert(args) => convert::run(args, context),
-            Self::Explore(args) => explore::run(args, context),
-            Self::Export(args) => export::run(args, context),
-            Self::Family(args) => family::run(args, context),
             Self::Fk(args) => fk::run(args, context),
-            Self::Locus(args) => locus::run(args, context),
-            Self::Man(args) => man::run(args),
-            Self::Map(args) => map::run(args, context),
-            Self::Move(args) => r#move::run(args, context),
-            Self::Optimize(args) => optimize::run(args, context),
-            Self::Plot(args) => plot::run(args, context),
-            Self::Presets(args) => presets::run(args, context),
-            Self::Reference(args) => reference::run(args),
-            Self::Report(args) => report::run(args, context),
-            Self::Round(args) => round::run(args, context),
-            Self::Schema(args) => schema::run(args),
-            Self::Selfmotion(args) => selfmotion::run(args, context),
-            Self::Singularities(args) => singularities::run(args, context),
-            Self::Tolerances(args) => tolerances::run(args, context),
-            Self::Topologies(args) => topologies::run(args, context),
+            Self::Equivalents(command) => command.run(context),
             Self::Verify(args) => verify::run(args, context),
+            Self::Explore(args) => explore::run(args, context),
+            Self::Assess(args) => assess::run(args, context),
+            Self::Optimize(args) => optimize::run(args, context),
+            Self::Check(args) => check::run(args, context),
+            Self::Singular(command) => command.run(context),
+            Self::Build(command) => command.run(context),
+            Self::Export(args) => export::run(args, context),
+            Self::Design(command) => command.run(context),
+            Self::Plot(args) => plot::run(args, context),
             Self::View(args) => view::run(args, context),
+            Self::Report(args) => report::run(args, context),
+            Self::Bench(args) => bench::run(args, context),
+            Self::Shell(command) => command.run(),
+            Self::Reference(args) => reference::run(args),
         }
     }
 }

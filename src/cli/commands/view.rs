@@ -36,7 +36,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         let id = args.pattern.as_deref().unwrap_or("S123456");
         let pattern = id.parse().map_err(|e| {
             Failure::refused("view::bad_pattern", format!("`{id}`: {e}"))
-                .with_help("take an \"id\" from the patterns of `equipod family DESIGN --json`")
+                .with_help("take an \"id\" from the patterns of `equipod equivalents family DESIGN --json`")
         })?;
         session = session
             .starting_with(pattern, offsets.clone())

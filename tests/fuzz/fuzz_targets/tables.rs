@@ -19,7 +19,7 @@ fuzz_target!(|bytes: &[u8]| {
         let text = DESIGN.replace("[workspace]", "[workspace]\ntrajectory = \"table.csv\"");
         std::fs::write(&design, text).expect("a writable folder");
         std::fs::write(&table, bytes).expect("a writable folder");
-        program::equipod(&["convert", &design, "-o", &out]);
+        program::equipod(&["design", "convert", &design, "-o", &out]);
         program::equipod(&["fk", &design, "--lengths", &table]);
     });
 });

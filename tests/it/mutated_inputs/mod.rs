@@ -144,7 +144,7 @@ fn designs_are_read_or_refused() {
     let out = place.path("out.toml");
     sound(first_fault(&files, 60, |bytes, draw| {
         let design = place.write(["d.toml", "d.json"][draw.below(2)], bytes);
-        program(&["convert", &design, "-o", out.to_str().unwrap()])
+        program(&["design", "convert", &design, "-o", out.to_str().unwrap()])
     }));
 }
 
@@ -161,7 +161,7 @@ fn tables_of_lengths_and_of_poses_are_read_or_refused() {
     let out = place.path("out.toml");
     sound(first_fault(&[POSES.as_bytes()], 30, |bytes, _| {
         place.write("path.csv", bytes);
-        program(&["convert", &design, "-o", out.to_str().unwrap()])
+        program(&["design", "convert", &design, "-o", out.to_str().unwrap()])
     }));
 }
 

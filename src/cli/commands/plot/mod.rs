@@ -2,13 +2,15 @@
 
 mod determinant;
 mod front;
+mod locus;
 mod modes;
 mod pair;
 mod workspace;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use super::{components, locus, selfmotion, singularities, topologies};
+use super::equivalents::{components, topologies};
+use super::singular::{motion, poses as singular_poses};
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
@@ -38,7 +40,7 @@ enum Figure {
     Components {
         /// Design file (.toml or .json)
         design: PathBuf,
-        /// Only this pair of planes: its number in the list of `components`, counted from 1
+        /// Only this pair of planes: its number in the list of `equivalents components`, counted from 1
         #[arg(long, value_name = "K")]
         pair: Option<usize>,
         /// What counts as zero, relative to the size of the body
@@ -48,15 +50,15 @@ enum Figure {
     /// det A over two of the six offsets, with the line on which it vanishes
     Det(determinant::Args),
     /// The squared length of a virtual leg at all poses, in the complex plane, while one leg length varies
-    Locus(locus::Question),
+    Locus(locus::Args),
     /// Two designs at the same pose side by side, with their leg map
     Pair(pair::Args),
     /// The front that `optimize` found with `mode = "pareto"`
     Pareto(front::Args),
     /// The longest curve of poses with constant leg lengths, animated
-    Selfmotion(selfmotion::Question),
+    SelfMotion(motion::Question),
     /// Where det J vanishes over two freedoms of the platform
-    Singularities {
+    SingularPoses {
         /// Design file (.toml or .json)
         design: PathBuf,
         /// The pose in the middle
@@ -78,53 +80,50 @@ enum Figure {
     Workspace(workspace::Args),
 }
 
-impl Figure {
-    fn word(&self) -> FigureWord {
-        match self {
-            Self::Modes(_) => FigureWord::Modes,
-            Self::Components { .. } => FigureWord::Components,
-            Self::Det(_) => FigureWord::Det,
-            Self::Locus(_) => FigureWord::Locus,
-            Self::Pair(_) => FigureWord::Pair,
-            Self::Pareto(_) => FigureWord::Pareto,
-            Self::Selfmotion(_) => FigureWord::Selfmotion,
-            Self::Singularities { .. } => FigureWord::Singularities,
-            Self::Topologies { .. } => FigureWord::Topologies,
-            Self::Workspace(_) => FigureWord::Workspace,
-        }
-    }
+/// What drawing gives: most figures are the picture alone, some come with their values.
+enum Drawn {
+    Picture(FigureWord, String),
+    Answer(Answer),
+}
 
-    fn draw(&self, context: &mut Context) -> Result<String, Failure> {
+impl Figure {
+    fn draw(&self, output: Option<&Path>, context: &mut Context) -> Result<Drawn, Failure> {
         let seed = context.seed();
-        match self {
-            Self::Modes(args) => modes::draw(args, context),
+        let (word, svg) = match self {
+            Self::Locus(args) => return locus::run(args, output, context).map(Drawn::Answer),
+            Self::Modes(args) => (FigureWord::Modes, modes::draw(args, context)?),
             Self::Components { design, pair, tolerance } => {
-                components::drawing(&context.load(design)?, *pair, *tolerance, seed)
+                let svg = components::drawing(&context.load(design)?, *pair, *tolerance, seed)?;
+                (FigureWord::Components, svg)
             }
-            Self::Det(args) => determinant::draw(args, context),
-            Self::Locus(question) => locus::drawing(question, context),
-            Self::Pair(args) => pair::draw(args, context),
-            Self::Pareto(args) => front::draw(args),
-            Self::Selfmotion(question) => selfmotion::drawing(question, context),
-            Self::Singularities { design, pose, slice } => {
+            Self::Det(args) => (FigureWord::Det, determinant::draw(args, context)?),
+            Self::Pair(args) => (FigureWord::Pair, pair::draw(args, context)?),
+            Self::Pareto(args) => (FigureWord::Pareto, front::draw(args)?),
+            Self::SelfMotion(question) => (FigureWord::SelfMotion, motion::drawing(question, context)?),
+            Self::SingularPoses { design, pose, slice } => {
                 let design = context.load(design)?;
                 let pose = poses::parse(pose, &design, "--pose", "plot::bad_pose")?;
                 // the picture needs the shape of the box only
-                let options = singularities::box_options(None, 0, &design, seed)?;
-                Ok(singular_slice(&singularities::slice::figure(&design, *slice, &pose, &options)))
+                let options = singular_poses::box_options(None, 0, &design, seed)?;
+                let figure = singular_poses::slice::figure(&design, *slice, &pose, &options);
+                (FigureWord::SingularPoses, singular_slice(&figure))
             }
             Self::Topologies { design, members } => {
                 let design = design.as_deref().map(|path| context.load(path)).transpose()?;
-                topologies::drawing(design.as_ref(), *members, seed)
+                (FigureWord::Topologies, topologies::drawing(design.as_ref(), *members, seed)?)
             }
-            Self::Workspace(args) => workspace::draw(args, context),
-        }
+            Self::Workspace(args) => (FigureWord::Workspace, workspace::draw(args, context)?),
+        };
+        Ok(Drawn::Picture(word, svg))
     }
 }
 
 /// Draws, and writes the file or the picture itself.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
-    let svg = args.figure.draw(context)?;
+    let (figure, svg) = match args.figure.draw(args.output.as_deref(), context)? {
+        Drawn::Answer(answer) => return Ok(answer),
+        Drawn::Picture(figure, svg) => (figure, svg),
+    };
     let (picture, text) = if let Some(path) = &args.output {
         files::write_text(path, &svg)?;
         let output = path.display().to_string();
@@ -133,5 +132,5 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     } else {
         (PictureRecord::Given { svg: svg.clone() }, svg)
     };
-    Ok(Answer::new(Exit::Yes, PlotAnswer { figure: args.figure.word(), picture }, text))
+    Ok(Answer::new(Exit::Yes, PlotAnswer { figure, picture }, text))
 }

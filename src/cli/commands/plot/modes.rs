@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::cli::commands::explore;
+use crate::cli::commands::{explore, fk};
 use crate::cli::context::Context;
 use crate::cli::failure::Failure;
 use crate::fk::FkOptions;
@@ -20,7 +20,7 @@ pub(super) struct Args {
 pub(super) fn draw(args: &Args, context: &mut Context) -> Result<String, Failure> {
     let mut design = context.load(&args.design)?;
     if let Some(text) = &args.lengths {
-        let six = super::super::fk::lengths::six(text);
+        let six = fk::lengths::six(text);
         design.lengths = Some(six.map_err(|m| {
             Failure::refused("plot::bad_lengths", format!("--lengths: {m}"))
                 .with_help("give six lengths separated by commas")

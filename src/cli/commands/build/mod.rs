@@ -1,0 +1,29 @@
+//! `equipod build`: from the design on paper to the workshop.
+
+mod round;
+mod tolerances;
+
+use clap::Subcommand;
+
+use crate::cli::context::Context;
+use crate::cli::failure::Failure;
+use crate::cli::output::Answer;
+
+/// Commands about building a design.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Put the joints on a grid of holes, exactly equivalent to an octahedral platform or as near as the grid allows
+    Round(round::Args),
+    /// Compute how far joints may be off for the error of the pose to stay within a bound
+    Tolerances(tolerances::Args),
+}
+
+impl Command {
+    /// Runs the command.
+    pub(crate) fn run(&self, context: &mut Context) -> Result<Answer, Failure> {
+        match self {
+            Self::Round(args) => round::run(args, context),
+            Self::Tolerances(args) => tolerances::run(args, context),
+        }
+    }
+}

@@ -1,0 +1,201 @@
+//! `equipod build round`: joints on a grid of holes.
+
+mod render;
+
+use std::path::PathBuf;
+
+use nalgebra::Point3;
+
+use super::tolerances::numbers;
+use crate::cli::context::Context;
+use crate::cli::exit::Exit;
+use crate::cli::failure::Failure;
+use crate::cli::files::{self, OutputPath};
+use crate::cli::output::Answer;
+use crate::cli::poses;
+use crate::design::Design;
+use crate::equivalence::{Verdict, Verification};
+use crate::manipulator::Manipulator;
+use crate::manufacture::{Grid, NoRounding, Rounding, RoundingProblem, equivalent_octahedral, round_to_grid};
+use crate::records::VariantWord;
+
+/// Arguments of `build round`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Design with planar bodies (.toml or .json); its home, workspace and requirements judge the roundings
+    design: PathBuf,
+    /// Distance of neighbouring holes
+    #[arg(long, value_name = "PITCH")]
+    grid: f64,
+    /// The same for the platform, where it differs
+    #[arg(long, value_name = "PITCH")]
+    grid_platform: Option<f64>,
+    /// A hole of the base, in the plane of its joints
+    #[arg(long, value_name = "X,Y", default_value = "0,0", allow_hyphen_values = true)]
+    origin: String,
+    /// A hole of the platform
+    #[arg(long, value_name = "X,Y", default_value = "0,0", allow_hyphen_values = true)]
+    origin_platform: String,
+    /// Turn of the grid of the base, degrees
+    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_hyphen_values = true)]
+    angle: f64,
+    /// Turn of the grid of the platform, degrees
+    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_hyphen_values = true)]
+    angle_platform: f64,
+    /// Choose the origins and angles of the grids too; those given take part
+    #[arg(long)]
+    free_grid: bool,
+    /// Which rounding is written
+    #[arg(long, value_enum, default_value_t = Variant::Rule)]
+    variant: Variant,
+    /// The exact rounding is chosen when it keeps this share of the inverse condition number
+    #[arg(long, value_name = "SHARE", default_value_t = 0.9)]
+    keep: f64,
+    /// Triangles of each body that are combined in the first search
+    #[arg(long, value_name = "N", default_value_t = 40, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    candidates: u32,
+    /// Tool point at which errors of the pose are measured, platform frame
+    #[arg(long, value_name = "X,Y,Z", default_value = "0,0,0", allow_hyphen_values = true)]
+    tool: String,
+    /// Random poses for the error of the nearest rounding
+    #[arg(long, value_name = "N", default_value_t = 500, value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
+    trials: u32,
+    /// Write the rounded design; .json gives JSON, anything else TOML
+    #[arg(short, long, value_name = "OUT")]
+    output: Option<OutputPath>,
+}
+
+/// Which rounding is meant.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(super) enum Variant {
+    /// By rule: exact when it meets the requirements and keeps the share, else nearest, else exact
+    Rule,
+    /// All joints exactly on the sides of two triangles
+    Exact,
+    /// All joints on grid points next to where they are wanted
+    Nearest,
+}
+
+/// A rounding that may be written.
+#[derive(Debug, Clone, Copy)]
+struct Choice<'a> {
+    variant: VariantWord,
+    manipulator: &'a Manipulator,
+    grids: &'a [Grid; 2],
+}
+
+fn chosen(found: &Rounding, variant: Variant, keep: f64) -> Option<Choice<'_>> {
+    let exact = found.exact.as_ref().ok();
+    let exact =
+        exact.map(|e| Choice { variant: VariantWord::Exact, manipulator: &e.manipulator, grids: &e.grids });
+    let nearest = found.nearest.as_ref().ok();
+    let nearest = nearest.map(|n| Choice {
+        variant: VariantWord::Nearest,
+        manipulator: &n.manipulator,
+        grids: &n.grids,
+    });
+    match variant {
+        Variant::Exact => exact,
+        Variant::Nearest => nearest,
+        Variant::Rule => {
+            let choice = found.choice(keep)?;
+            [exact, nearest].into_iter().flatten().find(|c| std::ptr::eq(c.manipulator, choice))
+        }
+    }
+}
+
+/// A grid in words.
+fn in_words(grid: &Grid) -> String {
+    let Grid { pitch, origin: [x, y], angle_deg } = grid;
+    format!("pitch {pitch}, a hole at ({x}, {y}), turned by {angle_deg} deg")
+}
+
+fn rounded_design(design: &Design, choice: &Choice<'_>) -> Design {
+    let name = format!("{}, rounded", design.name);
+    let plain = Design::new(name, design.units.clone(), choice.manipulator.clone());
+    let (base, platform) = (design.base_names().to_vec(), design.platform_names().to_vec());
+    let mut out = plain.clone().with_joint_names(base, platform).unwrap_or(plain);
+    out.description = Some(format!(
+        "Joints of the design \"{}\" on grids by equipod {}, variant {}; base: {}; platform: {}",
+        design.name,
+        env!("CARGO_PKG_VERSION"),
+        choice.variant.as_str(),
+        in_words(&choice.grids[0]),
+        in_words(&choice.grids[1])
+    ));
+    out.with_tables_of(design)
+}
+
+/// Rounds, judges both roundings and writes the chosen one.
+pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+    let design = context.load(&args.design)?;
+    let (origin, origin_platform) = (
+        numbers(&args.origin, "--origin", "round::bad_grid")?,
+        numbers(&args.origin_platform, "--origin-platform", "round::bad_grid")?,
+    );
+    let pitch = [args.grid, args.grid_platform.unwrap_or(args.grid)];
+    let tool = Point3::from(numbers::<3>(&args.tool, "--tool", "round::bad_tool")?);
+    if !(args.keep >= 0.0 && args.keep.is_finite()) {
+        return Err(Failure::refused(
+            "round::bad_share",
+            format!("--keep is {}, not a share of 0 or more", args.keep),
+        ));
+    }
+    let (space, _) = poses::space(&design);
+    let poses = poses::judged(&design);
+    let required = design.requirements();
+    let m = design.manipulator();
+    // that of `optimize`: RMS radius of the platform triangle, of the leg ends where there is none
+    let radius = equivalent_octahedral(m).as_ref().unwrap_or(m).platform_rms_radius();
+    let problem = RoundingProblem {
+        manipulator: m,
+        grids: [
+            Grid { pitch: pitch[0], origin, angle_deg: args.angle },
+            Grid { pitch: pitch[1], origin: origin_platform, angle_deg: args.angle_platform },
+        ],
+        free: args.free_grid,
+        requirements: &required,
+        space: &space,
+        poses: &poses,
+        characteristic_length: design.optimize.characteristic_length.unwrap_or(radius),
+        min_abs_det: design.optimize.min_abs_det,
+        tool,
+        candidates: args.candidates as usize,
+        keep: args.keep,
+        trials: args.trials as usize,
+        seed: context.seed(),
+    };
+    let found = round_to_grid(&problem).map_err(|why| {
+        let code =
+            if matches!(why, NoRounding::NotPlanar(_)) { "round::not_planar" } else { "round::bad_grid" };
+        Failure::refused(code, why.to_string())
+    })?;
+    let choice = chosen(&found, args.variant, args.keep);
+    let rounded = choice.map(|c| (c.variant, rounded_design(&design, &c)));
+    let mut written = None;
+    if let (Some(path), Some((_, rounded))) = (&args.output, &rounded) {
+        files::write_design(path, rounded)?;
+        written = Some(path.display().to_string());
+    }
+    let rounded = rounded.as_ref().map(|(variant, d)| (*variant, d));
+    // an exact rounding that is not equivalent would be a fault of the search
+    let contradicted = found.exact.as_ref().is_ok_and(|e| {
+        let refuted = |v: &Verification| matches!(v.verdict, Verdict::NotEquivalent(_) | Verdict::Singular);
+        !e.proved || e.verification.as_ref().is_ok_and(refuted)
+    });
+    let exit = match rounded {
+        _ if contradicted => Exit::Inconclusive,
+        Some(_) => Exit::Yes,
+        None => Exit::No,
+    };
+    let report = render::Report {
+        design: &design,
+        problem: &problem,
+        found: &found,
+        rounded,
+        written: written.as_deref(),
+    };
+    let record = report.record();
+    let text = report.text(&record);
+    Ok(Answer::new(exit, record, text))
+}

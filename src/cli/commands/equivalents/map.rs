@@ -1,0 +1,80 @@
+//! `equipod equivalents map`: the affine map between the squared leg lengths of two designs.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use crate::cli::alignment::FrameArgs;
+use crate::cli::context::Context;
+use crate::cli::exit::Exit;
+use crate::cli::failure::Failure;
+use crate::cli::output::Answer;
+use crate::manipulator::LegIndex;
+use crate::records::MapAnswer;
+use crate::synthesis::{LegCorrespondence, LegMapOutcome, LegMapTolerances, Relation, leg_map};
+
+/// Arguments of `equivalents map`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Design whose squared lengths are given (.toml or .json)
+    from: PathBuf,
+    /// Design whose squared lengths are wanted, in the same units and, without --align, the same two frames
+    to: PathBuf,
+    #[command(flatten)]
+    frames: FrameArgs,
+}
+
+/// Decides whether s(TO) = A s(FROM) + c holds at every pose.
+pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+    let (from, to) = (context.load(&args.from)?, context.load(&args.to)?);
+    if from.units != to.units {
+        let message = format!("{} is in {}, {} is in {}", from.name, from.units, to.name, to.units);
+        return Err(Failure::refused("map::different_units", message)
+            .with_help("write both designs in the same unit: c has the unit squared"));
+    }
+    let second = args.frames.apply(&from, &to, context.seed())?;
+    let outcome = leg_map(from.manipulator(), &second.manipulator, LegMapTolerances::default())
+        .map_err(|e| Failure::new(Exit::Inconclusive, "map::breakdown", e.to_string()))?;
+    let exit = match (outcome.relation, second.refuted()) {
+        (Relation::Equivalent, _) => Exit::Yes,
+        (Relation::Unrelated, Some(false)) | (Relation::Undecided, _) => Exit::Inconclusive,
+        _ => Exit::No,
+    };
+    let legs = LegCorrespondence::between(from.manipulator(), &second.manipulator);
+    let record =
+        MapAnswer { map: (&outcome).into(), correspondence: (&legs).into(), frames: second.record() };
+    let mut text = second.text();
+    text.push_str(&table(&outcome, &from.name, &to.name));
+    text.push_str(&same_legs(&legs));
+    Ok(Answer::new(exit, record, text))
+}
+
+fn same_legs(c: &LegCorrespondence) -> String {
+    let named: Vec<(LegIndex, LegIndex)> =
+        LegIndex::all().filter_map(|i| c.legs[i.get()].map(|old| (i, old))).collect();
+    let worst = named.iter().map(|(i, _)| c.distances[i.get()]).fold(0.0, f64::max);
+    let nearly = if c.is_exact() { String::new() } else { format!(", up to {worst:.1e} of the size") };
+    if c.is_permutation() {
+        let order: Vec<String> = named.iter().map(|(_, old)| (old.get() + 1).to_string()).collect();
+        return format!("the legs of TO are legs {} of FROM{nearly}\n", order.join(", "));
+    }
+    let list: Vec<String> = named.iter().map(|(i, old)| format!("{i} of TO is {old} of FROM")).collect();
+    if list.is_empty() { String::new() } else { format!("{}{nearly}\n", list.join(", ")) }
+}
+
+pub(super) fn table(o: &LegMapOutcome, from: &str, to: &str) -> String {
+    let mut text = format!("{from} -> {to}: {}\n{}\n\n", o.relation.as_str(), o.explanation());
+    text.push_str("s(TO) = A s(FROM) + c\n        A");
+    text.push_str(&" ".repeat(60));
+    text.push_str("c            residual\n");
+    for leg in LegIndex::all() {
+        let i = leg.get();
+        let _ = write!(text, "{leg}  ");
+        for j in 0..6 {
+            let shown = (o.closest.a[(i, j)] * 1e5).round() / 1e5 + 0.0; // + 0.0: no "-0.00000"
+            let _ = write!(text, "{shown:>9.5} ");
+        }
+        let _ = writeln!(text, "{:>14.6}  {:>10.1e}", o.closest.c[i], o.residuals[i]);
+    }
+    let _ = writeln!(text, "\ndet A = {}", o.determinant);
+    text
+}

@@ -1,0 +1,29 @@
+//! `equipod singular`: singular poses and self-motions of a design.
+
+pub(in crate::cli::commands) mod motion;
+pub(in crate::cli::commands) mod poses;
+
+use clap::Subcommand;
+
+use crate::cli::context::Context;
+use crate::cli::failure::Failure;
+use crate::cli::output::Answer;
+
+/// Commands about singular poses.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Find the sign of det J at a pose, at all assembly modes and along paths, and a box of poses without a singular one
+    Poses(poses::Args),
+    /// Follow the self-motions: curves of poses with constant leg lengths
+    Motion(motion::Args),
+}
+
+impl Command {
+    /// Runs the command.
+    pub(crate) fn run(&self, context: &mut Context) -> Result<Answer, Failure> {
+        match self {
+            Self::Poses(args) => poses::run(args, context),
+            Self::Motion(args) => motion::run(args, context),
+        }
+    }
+}

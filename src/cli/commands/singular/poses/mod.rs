@@ -1,0 +1,167 @@
+//! `equipod singular poses`: det J at poses, over a slice, and the box of poses in which it is proved not to vanish.
+
+mod paths;
+mod render;
+pub(in crate::cli::commands) mod slice;
+
+use std::path::PathBuf;
+
+use crate::cli::context::Context;
+use crate::cli::exit::Exit;
+use crate::cli::failure::Failure;
+use crate::cli::files::{self, OutputPath};
+use crate::cli::freedoms::Freedoms;
+use crate::cli::output::Answer;
+use crate::cli::poses;
+use crate::design::Design;
+use crate::fk::{Automatic, FkOptions, ForwardKinematics};
+use crate::geom::{Pose, Region};
+use crate::manipulator::{LegLengths, Manipulator, Octahedral, inverse_condition, jacobian, leg_determinant};
+use crate::plot::singular_slice;
+use crate::singularity::{BoxOptions, RegularBox, four_planes, regular_box};
+
+/// Arguments of `singular poses`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// The design (.toml or .json)
+    design: PathBuf,
+    /// The pose in the middle: `home`, six numbers (position, then roll, pitch, yaw in degrees) or seven (position,
+    /// then quaternion, scalar first)
+    #[arg(long, value_name = "POSE", allow_hyphen_values = true, default_value = "home")]
+    pose: String,
+    /// Leg lengths of which all assembly modes are judged; without them those of the pose
+    #[arg(long, value_name = "L1,..,L6")]
+    lengths: Option<String>,
+    /// Shape of the box: half widths of translations (design units) and components of the rotation vector (degrees); without it
+    /// the workspace of the design, box or ellipsoid, else half its size and 30 degrees
+    #[arg(long = "box", value_name = "X,Y,Z,RX,RY,RZ")]
+    shape: Option<String>,
+    /// Most regions tested for the box
+    #[arg(long, value_name = "N", default_value_t = 30_000)]
+    regions: usize,
+    /// Write a picture of the singular poses over two of the six freedoms
+    #[arg(long, value_name = "FILE")]
+    svg: Option<OutputPath>,
+    /// The two freedoms of that picture: x, y, z (positions), rx, ry, rz (rotation vector in the base frame)
+    #[arg(long, value_name = "A,B", default_value = "rx,rz", value_parser = Freedoms::parse)]
+    slice: Freedoms,
+    /// det J along the straight path between two assembly modes, by their numbers in the list; 0 is POSE
+    #[arg(long, value_name = "I,J")]
+    path: Option<String>,
+    /// A pose that path passes; may be repeated, in order
+    #[arg(long, value_name = "POSE", allow_hyphen_values = true, requires = "path")]
+    via: Vec<String>,
+    /// Write det J along that path, as a table
+    #[arg(long, value_name = "FILE", requires = "path")]
+    csv: Option<OutputPath>,
+    /// Write a picture of det J along that path
+    #[arg(long, value_name = "FILE", requires = "path")]
+    path_svg: Option<OutputPath>,
+    /// det J along the straight paths between all assembly modes, and which modes other paths join without a singular pose
+    #[arg(long)]
+    between: bool,
+    /// Random poses drawn in the search for such paths, for each sign of det J
+    #[arg(long, value_name = "N", default_value_t = 1000, requires = "between")]
+    samples: usize,
+}
+
+/// Figures of one pose.
+struct Judged {
+    pose: Pose,
+    /// `det J` of the leg lines, lengths over the size.
+    determinant: f64,
+    /// Of the Jacobian with unit lines and the size as characteristic length.
+    inverse_condition: f64,
+    four_planes: Option<[f64; 2]>,
+}
+
+/// What was found, for [`render`].
+struct Found {
+    middle: Judged,
+    modes: Vec<Judged>,
+    modes_complete: bool,
+    options: BoxOptions,
+    regular: RegularBox,
+    path: Option<paths::Path>,
+    between: Option<paths::Between>,
+    exit: Exit,
+}
+
+/// Judges the poses, proves the box, draws the slice.
+pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+    let design = context.load(&args.design)?;
+    let m = design.manipulator();
+    let pose = poses::parse(&args.pose, &design, "--pose", "poses::bad_pose")?;
+    let lengths = match &args.lengths {
+        Some(text) => Some(six(text, "--lengths").and_then(|l| {
+            LegLengths::try_new(l).map_err(|e| Failure::refused("poses::bad_lengths", e.to_string()))
+        })?),
+        None => pose.lengths(m),
+    };
+    let lengths = lengths.ok_or_else(|| {
+        Failure::refused("poses::bad_pose", "the leg lengths at this pose are not finite positive numbers")
+    })?;
+    let octahedral = Octahedral::recognise(m).ok();
+    let options = FkOptions { seed: context.seed(), ..FkOptions::default() };
+    let solutions = Automatic
+        .solve(m, &lengths.squared(), &options)
+        .map_err(|e| Failure::internal(format!("assembly modes: {e}")))?;
+    let modes: Vec<Judged> =
+        solutions.assembly_modes().map(|r| judged(m, octahedral.as_ref(), r.pose.real_part())).collect();
+    let options = box_options(args.shape.as_deref(), args.regions, &design, context.seed())?;
+    let regular = regular_box(m, &pose, &options);
+    let exit = match regular.proved {
+        p if p > 0.0 => Exit::Yes,
+        _ => Exit::Inconclusive,
+    };
+    if let Some(path) = &args.svg {
+        files::write_text(path, &singular_slice(&slice::figure(&design, args.slice, &pose, &options)))?;
+    }
+    let middle = judged(m, octahedral.as_ref(), pose);
+    let path = paths::path(args, &design, &pose, &modes)?;
+    let between = paths::all_pairs(args, &design, &modes, context.seed());
+    let modes_complete = solutions.all_accounted();
+    let found = Found { middle, modes, modes_complete, options, regular, path, between, exit };
+    Ok(render::answer(&design, &lengths, &found))
+}
+
+fn judged(m: &Manipulator, octahedral: Option<&Octahedral>, pose: Pose) -> Judged {
+    let unit = m.size();
+    Judged {
+        pose,
+        determinant: leg_determinant(m, &pose),
+        inverse_condition: inverse_condition(&jacobian(m, &pose, unit)),
+        four_planes: octahedral.map(|o| four_planes(o, &pose).map(|d| d / unit.powi(9))),
+    }
+}
+
+fn six(text: &str, option: &str) -> Result<[f64; 6], Failure> {
+    crate::cli::numbers::parse(text).ok_or_else(|| {
+        Failure::refused("poses::bad_numbers", format!("{option}: `{text}` is not six finite numbers"))
+    })
+}
+
+pub(in crate::cli::commands) fn box_options(
+    shape: Option<&str>,
+    regions: usize,
+    design: &Design,
+    seed: u64,
+) -> Result<BoxOptions, Failure> {
+    let size = design.manipulator().size();
+    let (region, translation, rotation_deg) = match shape {
+        Some(text) => {
+            let v = six(text, "--box")?;
+            if v.iter().any(|x| *x < 0.0) || v.iter().all(|x| *x == 0.0) {
+                let message = "--box: half widths are not negative, and not all zero";
+                return Err(Failure::refused("poses::bad_numbers", message));
+            }
+            (Region::Box, [v[0], v[1], v[2]], [v[3], v[4], v[5]])
+        }
+        None if design.workspace.has_box() => {
+            let w = &design.workspace;
+            (w.region, w.translation.into(), w.rotation_deg.into())
+        }
+        None => (Region::Box, [0.5 * size; 3], [30.0; 3]),
+    };
+    Ok(BoxOptions { region, translation, rotation_deg, regions, enough: 0.9, seed })
+}

@@ -1,0 +1,324 @@
+//! Which command is for what job: the order and the examples of `--help`.
+//!
+//! The table below is the only list of commands beside their definitions. A test holds that it names every command once, and another one runs every
+//! example on the designs of the project.
+
+use std::fmt::Write as _;
+
+use clap::builder::Styles;
+use clap::{Command, CommandFactory};
+
+use super::args::Cli;
+
+/// Commands that serve one job.
+struct Job {
+    heading: &'static str,
+    commands: &'static [Entry],
+}
+
+/// A command with its place in the help.
+pub(crate) struct Entry {
+    /// The words after `equipod`.
+    pub(crate) path: &'static str,
+    /// Command lines after `equipod` that work on the designs of the project; the first one stands in the help of the program and of the group.
+    pub(crate) examples: &'static [&'static str],
+    /// Other words under which a reader may look for it: it is named when they are typed.
+    pub(crate) words: &'static [&'static str],
+}
+
+const fn entry(
+    path: &'static str,
+    examples: &'static [&'static str],
+    words: &'static [&'static str],
+) -> Entry {
+    Entry { path, examples, words }
+}
+
+const JOBS: [Job; 8] = [
+    Job {
+        heading: "Solve",
+        commands: &[entry(
+            "fk",
+            &[
+                "fk designs/rbt-octahedral.toml",
+                "fk designs/rbt-octahedral.toml --method trilateration",
+                "fk designs/rbt-octahedral.toml --lengths 11,11,11,11,11,11 --json",
+            ],
+            &["forward", "forward-kinematics", "kinematics", "solve", "poses"],
+        )],
+    },
+    Job {
+        heading: "Equivalent designs",
+        commands: &[
+            entry(
+                "equivalents family",
+                &[
+                    "equivalents family designs/rbt-octahedral.toml",
+                    "equivalents family designs/rbt-octahedral.toml --pattern S123456 --offsets 0.2,0.3,0.2,0.3,0.2,0.3 -o equivalent.toml",
+                ],
+                &["patterns", "class"],
+            ),
+            entry(
+                "equivalents components",
+                &["equivalents components designs/symmetric-hexapod.toml"],
+                &["families", "replaceable"],
+            ),
+            entry(
+                "equivalents topologies",
+                &["equivalents topologies designs/innocenti-6-4.toml"],
+                &["topology"],
+            ),
+            entry(
+                "equivalents move",
+                &["equivalents move designs/rbt-octahedral.toml --move 1:1:0.25"],
+                &["relocate", "rearrange"],
+            ),
+            entry(
+                "equivalents map",
+                &["equivalents map designs/rbt-octahedral.toml designs/rbt-griffis-duffy.toml"],
+                &["leg-map", "affine"],
+            ),
+            entry(
+                "verify",
+                &["verify designs/rbt-octahedral.toml designs/rbt-griffis-duffy.toml"],
+                &["compare", "equivalent"],
+            ),
+            entry("explore", &["explore designs/rbt-octahedral.toml -o out"], &["analyse", "analyze"]),
+        ],
+    },
+    Job {
+        heading: "Requirements",
+        commands: &[
+            entry("assess", &["assess designs/worked/bench-octahedral.toml"], &["requirements", "margins"]),
+            entry(
+                "optimize",
+                &["optimize designs/rbt-octahedral.toml -o best.toml"],
+                &["optimise", "optimum", "improve"],
+            ),
+        ],
+    },
+    Job {
+        heading: "Singular designs and poses",
+        commands: &[
+            entry("check", &["check designs/rbt-midline.toml"], &["architecture", "singular-design"]),
+            entry(
+                "singular poses",
+                &["singular poses designs/rbt-octahedral.toml"],
+                &["singularities", "singularity", "singular-poses"],
+            ),
+            entry(
+                "singular motion",
+                &["singular motion designs/rbt-midline.toml"],
+                &["selfmotion", "self-motion"],
+            ),
+        ],
+    },
+    Job {
+        heading: "Build",
+        commands: &[
+            entry(
+                "build round",
+                &["build round designs/rbt-octahedral.toml --grid 0.25 -o rounded.toml"],
+                &["rounding", "grid", "holes"],
+            ),
+            entry(
+                "build tolerances",
+                &["build tolerances designs/rbt-octahedral.toml --bound 0.1,0.5"],
+                &["tolerance", "budget"],
+            ),
+            entry(
+                "export",
+                &["export designs/rbt-octahedral.toml --to step,dxf --unit mm -o files"],
+                &["cad"],
+            ),
+        ],
+    },
+    Job {
+        heading: "Design files",
+        commands: &[
+            entry(
+                "design convert",
+                &["design convert designs/rbt-octahedral.toml -o octahedral.json"],
+                &["format"],
+            ),
+            entry(
+                "design presets",
+                &["design presets", "design presets hexa-pi-330 -o mine.toml"],
+                &["preset", "hardware", "new"],
+            ),
+            entry("design schema", &["design schema", "design schema equivalents-family"], &["json-schema"]),
+        ],
+    },
+    Job {
+        heading: "See and share",
+        commands: &[
+            entry(
+                "plot modes",
+                &["plot modes designs/rbt-octahedral.toml -o modes.svg"],
+                &["assembly-modes"],
+            ),
+            entry(
+                "plot components",
+                &["plot components designs/rbt-griffis-duffy.toml -o curves.svg"],
+                &["curves"],
+            ),
+            entry("plot det", &["plot det designs/rbt-octahedral.toml -o det.svg"], &["determinant"]),
+            entry(
+                "plot locus",
+                &["plot locus designs/innocenti-6-4.toml --leg 1 --from 1 --to 2 --steps 11 -o locus.svg"],
+                &["root-locus"],
+            ),
+            entry(
+                "plot pair",
+                &["plot pair designs/rbt-octahedral.toml designs/rbt-griffis-duffy.toml -o pair.svg"],
+                &[],
+            ),
+            entry("plot pareto", &["plot pareto front.json -o front.svg"], &["front"]),
+            entry(
+                "plot self-motion",
+                &["plot self-motion designs/rbt-midline.toml -o motion.svg"],
+                &["animation"],
+            ),
+            entry(
+                "plot singular-poses",
+                &["plot singular-poses designs/rbt-octahedral.toml -o singular.svg"],
+                &["slice"],
+            ),
+            entry("plot topologies", &["plot topologies designs/innocenti-6-4.toml -o topology.svg"], &[]),
+            entry(
+                "plot workspace",
+                &["plot workspace designs/worked/bench-octahedral.toml --slice x,z -o workspace.svg"],
+                &["reachable"],
+            ),
+            entry("view", &["view designs/rbt-octahedral.toml -o page.html"], &["show", "page", "html"]),
+            entry("report", &["report out"], &["results"]),
+        ],
+    },
+    Job {
+        heading: "Measure and install",
+        commands: &[
+            entry("bench", &["bench --class 6-6 --count 10"], &["benchmark", "time"]),
+            entry("shell completions", &["shell completions bash"], &["completion", "complete"]),
+            entry("shell man", &["shell man -o man"], &["manual", "manpage"]),
+        ],
+    },
+];
+
+/// All commands, in the order of the help.
+pub(crate) fn entries() -> impl Iterator<Item = &'static Entry> {
+    JOBS.iter().flat_map(|job| job.commands)
+}
+
+/// The definition of the program with the examples and the order of this guide.
+pub(crate) fn program() -> Command {
+    let mut program = Cli::command();
+    for entry in entries() {
+        program = with_examples(program, &entry.path.split(' ').collect::<Vec<_>>(), entry.examples);
+    }
+    let groups: Vec<String> =
+        program.get_subcommands().filter(|c| c.has_subcommands()).map(|c| c.get_name().to_string()).collect();
+    for group in groups {
+        let listed = entries().filter(|e| e.path.split(' ').next() == Some(&group));
+        let body = list("Commands", listed.map(|e| line(&program, e.path, e.path, e.examples[0])));
+        program = program.mut_subcommand(group, |c| c.help_template(template(&body)));
+    }
+    let body = JOBS.iter().map(|job| list(job.heading, lines(&program, job))).collect::<String>();
+    program.help_template(template(&body))
+}
+
+fn with_examples(command: Command, path: &[&str], examples: &[&str]) -> Command {
+    let Some((first, rest)) = path.split_first() else {
+        let lines: Vec<String> = examples.iter().map(|e| format!("  equipod {e}")).collect();
+        let heading = if examples.len() == 1 { "Example" } else { "Examples" };
+        return command.after_help(format!("{}\n{}", styled(heading), lines.join("\n")));
+    };
+    command.mut_subcommand(first, |c| with_examples(c, rest, examples))
+}
+
+/// The help of the program or of a group of commands around its list of commands.
+fn template(commands: &str) -> String {
+    let options = styled("Options");
+    format!(
+        "{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{commands}{options}\n{{options}}{{after-help}}"
+    )
+}
+
+fn styled(heading: &str) -> String {
+    let styles = Styles::default();
+    let style = styles.get_header();
+    format!("{style}{heading}:{style:#}")
+}
+
+/// A command, what it is for and an example of it.
+struct Line {
+    name: String,
+    about: String,
+    example: &'static str,
+}
+
+/// The lines of a job. The figures of `plot` share one.
+fn lines<'a>(program: &'a Command, job: &'a Job) -> impl Iterator<Item = Line> + 'a {
+    let first_figure = job.commands.iter().position(|e| e.path.starts_with("plot "));
+    job.commands.iter().enumerate().filter_map(move |(k, e)| match e.path.strip_prefix("plot ") {
+        None => Some(line(program, e.path, e.path, e.examples[0])),
+        Some(_) if Some(k) == first_figure => {
+            let mut all = line(program, "plot", "plot FIGURE", e.examples[0]);
+            let figures = job.commands.iter().filter_map(|e| e.path.strip_prefix("plot "));
+            let _ = write!(all.about, ": {}", figures.collect::<Vec<_>>().join(", "));
+            Some(all)
+        }
+        Some(_) => None,
+    })
+}
+
+fn line(program: &Command, path: &str, name: &str, example: &'static str) -> Line {
+    let found = path.split(' ').try_fold(program, |c, word| c.find_subcommand(word));
+    let about = found.and_then(Command::get_about).map(ToString::to_string).unwrap_or_default();
+    Line { name: name.into(), about, example }
+}
+
+/// Width of the names in the lists of commands.
+const NAMES: usize = 24;
+
+fn list(heading: &str, lines: impl Iterator<Item = Line>) -> String {
+    let styles = Styles::default();
+    let literal = styles.get_literal();
+    let mut out = styled(heading) + "\n";
+    for Line { name, about, example } in lines {
+        // writing to a string cannot fail
+        let _ = writeln!(out, "  {literal}{name:<NAMES$}{literal:#}{about}");
+        let _ = writeln!(out, "  {:<NAMES$}$ equipod {example}", "");
+    }
+    out + "\n"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn leaves(command: &Command, path: &str, out: &mut Vec<String>) {
+        for c in command.get_subcommands().filter(|c| !c.is_hide_set()) {
+            let path = format!("{path} {}", c.get_name());
+            if c.has_subcommands() {
+                leaves(c, &path, out);
+            } else {
+                out.push(path.trim().to_string());
+            }
+        }
+    }
+
+    #[test]
+    fn every_command_has_its_place_once() {
+        let mut defined = Vec::new();
+        leaves(&Cli::command(), "", &mut defined);
+        let mut listed: Vec<String> = entries().map(|e| e.path.to_string()).collect();
+        defined.sort();
+        listed.sort();
+        assert_eq!(defined, listed);
+        for e in entries() {
+            assert!(!e.examples.is_empty(), "{}", e.path);
+            let own = format!("{} ", e.path);
+            assert!(e.examples.iter().all(|x| format!("{x} ").starts_with(&own)), "{}", e.path);
+        }
+    }
+}
