@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use nalgebra::{UnitQuaternion, Vector3};
 
+use super::context::Context;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::files::{self, OutputPath};
@@ -17,13 +18,13 @@ use crate::synthesis::alignment::{Alignment, align, exchanged, mirrored, transfo
 /// Options about the frames of the second design.
 #[derive(Debug, clap::Args)]
 pub(crate) struct FrameArgs {
-    /// The second design is in other base and platform frames: find all rigid motions that make it equivalent to the first
+    /// Find all rigid motions of the base and platform frames of the second design that make it equivalent to the first
     #[arg(long)]
     align: bool,
-    /// Exchange base and platform of the second design first: its poses become the inverse poses
+    /// Exchange base and platform of the second design first, so that its poses become the inverse poses
     #[arg(long)]
     exchange: bool,
-    /// Write the second design, in the frames of the first, to FILE (.toml or .json)
+    /// Write the second design, in the frames of the first, to this file (.toml or .json)
     #[arg(short, long, value_name = "FILE")]
     output: Option<OutputPath>,
 }
@@ -51,7 +52,10 @@ struct Aligned {
 
 impl FrameArgs {
     /// Exchanges, aligns and writes the second design as asked.
-    pub(crate) fn apply(&self, a: &Design, b: &Design, seed: u64) -> Result<Second, Failure> {
+    pub(crate) fn apply(&self, a: &Design, b: &Design, context: &Context) -> Result<Second, Failure> {
+        if !(self.align || self.exchange) {
+            context.no_effect("output", "the second design stays as it is without --align and --exchange")?;
+        }
         let broken = |e: &dyn std::fmt::Display| {
             Failure::new(Exit::Inconclusive, "align::breakdown", format!("no motion could be computed: {e}"))
                 .with_help("coordinates of this magnitude are beyond what the search computes with; use a larger unit")
@@ -62,7 +66,7 @@ impl FrameArgs {
         } else {
             (b.manipulator().clone(), upside_down)
         };
-        let find = |m: &Manipulator| align(a.manipulator(), m, seed).map_err(|e| broken(&e));
+        let find = |m: &Manipulator| align(a.manipulator(), m, context.seed()).map_err(|e| broken(&e));
         let mut second = Second { manipulator: given, aligned: None, exchange: self.exchange, written: None };
         let mut motion = None;
         if self.align {

@@ -28,10 +28,10 @@ pub(crate) struct Global {
     /// Write exactly one JSON document to standard output, errors included
     #[arg(long, global = true)]
     pub(crate) json: bool,
-    /// Seed of all random numbers: same input and seed, same output
+    /// Seed of all random numbers; the same input and seed give the same output
     #[arg(long, global = true, value_name = "N", default_value_t = 1)]
     pub(crate) seed: u64,
-    /// No warnings on standard error
+    /// Write no warnings and no progress to standard error
     #[arg(short, long, global = true)]
     pub(crate) quiet: bool,
 }

@@ -3,6 +3,9 @@
 use std::cell::Cell;
 use std::path::Path;
 
+use clap::ArgMatches;
+use clap::parser::ValueSource;
+
 use super::args::Global;
 use super::diagnostic;
 use super::failure::Failure;
@@ -27,21 +30,39 @@ pub(crate) struct Context {
     seed_taken: Cell<bool>,
     json: bool,
     quiet: bool,
+    /// Options that were typed, by their identifiers.
+    typed: Vec<String>,
     warnings: Vec<FileWarning>,
     /// The designs that were read: name and file.
     designs: Vec<(String, String)>,
 }
 
 impl Context {
-    pub(crate) fn new(global: &Global) -> Self {
+    pub(crate) fn new(global: &Global, matches: &ArgMatches) -> Self {
+        let Global { json, seed, quiet } = *global;
         Self {
-            seed: global.seed,
+            seed,
             seed_taken: Cell::new(false),
-            json: global.json,
-            quiet: global.quiet,
+            json,
+            quiet,
+            typed: typed(matches),
             warnings: Vec::new(),
             designs: Vec::new(),
         }
+    }
+
+    /// Refuses an option that was typed although it has no effect for `reason`: nothing that was asked for is passed over.
+    ///
+    /// # Errors
+    /// Exit 2, `usage::no_effect`.
+    pub(crate) fn no_effect(&self, option: &str, reason: &str) -> Result<(), Failure> {
+        if !self.typed.iter().any(|id| id == option) {
+            return Ok(());
+        }
+        let option = option.replace('_', "-");
+        let failure =
+            Failure::refused("usage::no_effect", format!("--{option} has no effect here: {reason}"));
+        Err(failure.with_help(format!("leave out --{option}")))
     }
 
     /// `--seed`: the only source of randomness.
@@ -108,6 +129,15 @@ impl Context {
             Err(violations) => Err(Failure::bad_design(shown, text, violations)),
         }
     }
+}
+
+/// The options that were typed after the last command.
+fn typed(matches: &ArgMatches) -> Vec<String> {
+    if let Some((_, below)) = matches.subcommand() {
+        return typed(below);
+    }
+    let given = |id: &&clap::Id| matches.value_source(id.as_str()) == Some(ValueSource::CommandLine);
+    matches.ids().filter(given).map(ToString::to_string).collect()
 }
 
 /// The poses of a table whose name is relative to the folder of the design.

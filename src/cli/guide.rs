@@ -143,7 +143,7 @@ const JOBS: [Job; 8] = [
             ),
             entry(
                 "design presets",
-                &["design presets", "design presets hexa-pi-330 -o mine.toml"],
+                &["design presets", "design presets bench-l16 -o mine.toml"],
                 &["preset", "hardware", "new"],
             ),
             entry("design schema", &["design schema", "design schema equivalents-family"], &["json-schema"]),
@@ -293,32 +293,4 @@ fn list(heading: &str, lines: impl Iterator<Item = Line>) -> String {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn leaves(command: &Command, path: &str, out: &mut Vec<String>) {
-        for c in command.get_subcommands().filter(|c| !c.is_hide_set()) {
-            let path = format!("{path} {}", c.get_name());
-            if c.has_subcommands() {
-                leaves(c, &path, out);
-            } else {
-                out.push(path.trim().to_string());
-            }
-        }
-    }
-
-    #[test]
-    fn every_command_has_its_place_once() {
-        let mut defined = Vec::new();
-        leaves(&Cli::command(), "", &mut defined);
-        let mut listed: Vec<String> = entries().map(|e| e.path.to_string()).collect();
-        defined.sort();
-        listed.sort();
-        assert_eq!(defined, listed);
-        for e in entries() {
-            assert!(!e.examples.is_empty(), "{}", e.path);
-            let own = format!("{} ", e.path);
-            assert!(e.examples.iter().all(|x| format!("{x} ").starts_with(&own)), "{}", e.path);
-        }
-    }
-}
+mod tests;

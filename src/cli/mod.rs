@@ -72,7 +72,7 @@ fn run(args: Vec<OsString>, json: bool) -> Exit {
     if let Err(failure) = files::check_arguments(&matches) {
         return output.failure(&failure, None);
     }
-    let mut context = Context::new(&cli.global);
+    let mut context = Context::new(&cli.global, &matches);
     let result = cli.command.run(&mut context);
     match result {
         Ok(answer) => output.answer(&answer, &context),

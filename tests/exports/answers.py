@@ -185,7 +185,7 @@ def fixtures(program, folder, root):
     design("crowded", made["outer"], lambda data: required({}, joint_diameter=30.0)(data))
     table("rows", "l1,l2,l3,l4,l5,l6", "18,18,17,16,15,19", "1,1,1,1,1,1")
     # a trajectory needs lengths near those of home
-    home = json.loads(run(program, "singular", "poses", octahedral, "--regions", 500, "--json"))["lengths"]
+    home = json.loads(run(program, "singular", "poses", octahedral, "--cells", 500, "--json"))["lengths"]
     table("way", *(",".join(str(x + d) for x in home) for d in (0.0, 0.01)), "1,1,1,1,1,1")
     return made
 
@@ -195,7 +195,7 @@ def asked(folder, root, made):
     shipped = {p.stem: p for p in (root / "designs").rglob("*.toml")}
     octahedral, general, midline, hexapod, gd = (shipped[n] for n in ("rbt-octahedral", "general-6-6", "rbt-midline", "symmetric-hexapod", "rbt-griffis-duffy"))
     innocenti, bench, free = shipped["innocenti-6-4"], shipped["bench-octahedral"], made["free"]
-    box = ("--regions", 500)
+    box = ("--cells", 500)
     return [
         (0, "assess", bench, "--points", 50),
         (1, "assess", made["conflict"], "--points", 50),
@@ -209,9 +209,9 @@ def asked(folder, root, made):
         (1, "check", made["star"]),
         (0, "check", gd),
         (0, "shell-completions", "bash"),
-        (0, "equivalents-components", octahedral, "--sample", 1),
-        (0, "equivalents-components", gd, "--sample", 1),
-        (0, "equivalents-components", hexapod, "--component", 1),
+        (0, "equivalents-components", octahedral, "--samples", 1),
+        (0, "equivalents-components", gd, "--samples", 1),
+        (0, "equivalents-components", hexapod, "--family", 1),
         (0, "equivalents-components", general),
         (0, "equivalents-components", midline),
         (0, "design-convert", octahedral, "-o", folder / "converted.json"),
@@ -223,7 +223,7 @@ def asked(folder, root, made):
         (0, "explore", octahedral, "--samples", 1, "-o", folder / "explored"),
         (1, "explore", made["apart"], "--samples", 1, "-o", folder / "none"),
         (0, "export", octahedral, "--to", "csv,svg", "-o", folder / "exported"),
-        (1, "export", octahedral, "--to", "all", "--hole", 20, "--ball", 25, "--margin", 30, "-o", folder / "exported"),
+        (1, "export", octahedral, "--to", "all", "--hole-diameter", 20, "--ball-diameter", 25, "--margin", 30, "-o", folder / "exported"),
         (0, "equivalents-family", octahedral),
         (0, "equivalents-family", octahedral, "--pattern", "S123456", "--offsets=0.2,0.21,0.22,0.2,0.2,0.23"),
         (0, "fk", octahedral),
@@ -274,7 +274,7 @@ def asked(folder, root, made):
         (1, "build-round", made["crowded"], "--grid", 0.25, "--trials", 10),
         (0, "build-round", hexapod, "--grid", 1, "--trials", 10),
         (0, "design-schema", "fk"),
-        (0, "singular-motion", midline, "--searches", 0),
+        (0, "singular-motion", midline, "--sections", 0),
         (1, "singular-motion", octahedral),
         (1, "singular-motion", midline, "--lengths", "18,18,17,16,15,19"),
         (0, "singular-poses", octahedral, *box, "--between", "--samples", 20, "--path", "1,2"),

@@ -19,7 +19,7 @@ fn types(doc: &Value) -> Vec<&str> {
 
 #[test]
 fn the_octahedral_platform_has_the_six_sides_of_the_hexagon() {
-    let doc = of("rbt-octahedral", &["--sample", "3"]);
+    let doc = of("rbt-octahedral", &["--samples", "3"]);
     assert_eq!(types(&doc), ["point-line"; 6]);
     assert_eq!(
         (doc["count"].as_u64(), doc["complete"].as_bool(), doc["leg_rank"].as_u64()),
@@ -59,7 +59,7 @@ fn every_shipped_design() {
         ("innocenti-6-4", vec!["point-line"; 2]),
         ("symmetric-hexapod", vec!["plane-plane"]),
     ] {
-        let doc = of(design, &["--sample", "2"]);
+        let doc = of(design, &["--samples", "2"]);
         assert_eq!(types(&doc), wanted, "{design}");
     }
     // rounded to a micrometre the hexapod's cubic is smooth, which is proved
@@ -86,7 +86,7 @@ fn every_shipped_design() {
 fn one_family_and_a_picture() {
     let folder = tempfile::tempdir().unwrap();
     let svg = folder.path().join("curves.svg");
-    let more = ["--component", "1", "--sample", "2", "--svg", svg.to_str().unwrap()];
+    let more = ["--family", "1", "--samples", "2", "--svg", svg.to_str().unwrap()];
     let doc = of("symmetric-hexapod", &more);
     assert_eq!(
         (doc["components"].as_array().unwrap().len(), doc["components"][0]["component"].as_u64()),
@@ -113,7 +113,7 @@ fn one_family_and_a_picture() {
     assert_eq!(document(&out)["error"]["code"], "components::no_planes");
     let out = equipod(&["equivalents", "components", "designs/dietmaier.toml", "--json", "--svg", "x.svg"]);
     assert_eq!(document(&out)["error"]["code"], "components::no_planes");
-    let out = equipod(&["equivalents", "components", "designs/dietmaier.toml", "--json", "--component", "1"]);
+    let out = equipod(&["equivalents", "components", "designs/dietmaier.toml", "--json", "--family", "1"]);
     assert_eq!(document(&out)["error"]["code"], "components::no_such_family");
     let out =
         equipod(&["equivalents", "components", "designs/dietmaier.toml", "--json", "--tolerance", "0.5"]);

@@ -123,7 +123,7 @@ fn refusals() {
     assert_eq!((code, doc["error"]["code"].as_str()), (Some(2), Some("export::bad_size")));
     assert_eq!(run(&[octahedral, "--to", "iges", "-o", to]).0, Some(2));
     // one format cannot, the other can: the answer is no, and what can be written is
-    let wide = ["--hole", "4", "--ball", "5", "--margin", "5"];
+    let wide = ["--hole-diameter", "4", "--ball-diameter", "5", "--margin", "5"];
     let (code, doc) = run(&[&["designs/rbt-midline.toml", "--to", "dxf,csv", "-o", to], &wide[..]].concat());
     assert_eq!(code, Some(1));
     assert!(doc["formats"][0]["files"].as_array().unwrap().len() == 3, "{doc}");

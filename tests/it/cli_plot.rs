@@ -26,7 +26,7 @@ fn modes_are_drawn_for_any_design() {
 
 #[test]
 fn det_a_changes_its_sign_on_the_published_line() {
-    let text = svg(&["det", OCTAHEDRAL, "--at", "0.2,0.3,0.2,0.3,0.2,0.3"]);
+    let text = svg(&["det", OCTAHEDRAL, "--offsets", "0.2,0.3,0.2,0.3,0.2,0.3"]);
     // t1 + t2 = 1 from (-0.5, 1.5) to (1.5, -0.5): corner to corner of the frame
     let line = text.split("class=\"singular\" points=\"").nth(1).unwrap().split('"').next().unwrap();
     for point in line.split(' ') {
@@ -36,16 +36,16 @@ fn det_a_changes_its_sign_on_the_published_line() {
         assert!((share - 1.0).abs() < 1e-4, "{point}");
     }
     assert!(text.contains("det A = 0.175400"), "(0.8 * 0.7)^3 - (0.2 * 0.3)^3");
-    let two = svg(&["det", OCTAHEDRAL, "--offsets", "1,4", "--at", "0,0.5,0.5,0,0.5,0.5"]);
+    let two = svg(&["det", OCTAHEDRAL, "--slice", "1,4", "--offsets", "0,0.5,0.5,0,0.5,0.5"]);
     assert!(two.contains("offset t1 [edge]") && two.contains("offset t4 [edge]"));
     assert_eq!(refusal(&["det", "designs/lee-shim.toml"]), (2, "plot::not_octahedral".into()));
-    assert_eq!(refusal(&["det", OCTAHEDRAL, "--offsets", "1,7"]).1, "usage");
+    assert_eq!(refusal(&["det", OCTAHEDRAL, "--slice", "1,7"]).1, "usage");
 }
 
 #[test]
 fn a_workspace_ends_at_the_limits_of_the_design() {
     let design = "designs/worked/bench-octahedral.toml";
-    let at = |slice: &str| svg(&["workspace", design, "--slice", slice, "--points", "61"]);
+    let at = |slice: &str| svg(&["workspace", design, "--slice", slice, "--resolution", "61"]);
     let (positions, orientations) = (at("x,z"), at("rx,ry"));
     for text in [&positions, &orientations] {
         assert!(text.contains("class=\"boundary\"") && text.contains(">reachable<"));
@@ -53,7 +53,7 @@ fn a_workspace_ends_at_the_limits_of_the_design() {
     assert!(positions.contains(">leg too long<") && positions.contains("[mm]"));
     assert!(orientations.contains("rx [degrees]"));
     // a design without limits of its own ends at singular poses only, and says so
-    let free = svg(&["workspace", "designs/lee-shim.toml", "--slice", "rx,rz", "--points", "61"]);
+    let free = svg(&["workspace", "designs/lee-shim.toml", "--slice", "rx,rz", "--resolution", "61"]);
     assert!(free.contains("no limits of its own") && !free.contains("leg too long"));
     assert!(free.contains(">beyond a singular pose<"));
 }
@@ -77,7 +77,7 @@ fn the_other_figures_are_those_of_their_commands() {
         by_command(&["equivalents", "components", griffis_duffy])
     );
     assert_eq!(svg(&["topologies", OCTAHEDRAL]), by_command(&["equivalents", "topologies", OCTAHEDRAL]));
-    let out = equipod(&["singular", "poses", OCTAHEDRAL, "--regions", "10", "--slice", "x,z", "--svg", path]);
+    let out = equipod(&["singular", "poses", OCTAHEDRAL, "--cells", "10", "--slice", "x,z", "--svg", path]);
     assert!(out.status.code().is_some_and(|c| c < 4));
     assert_eq!(
         svg(&["singular-poses", OCTAHEDRAL, "--slice", "x,z"]),

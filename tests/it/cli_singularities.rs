@@ -29,7 +29,7 @@ fn the_midline_platform_moves_on_two_closed_curves() {
 
 #[test]
 fn lengths_alone_give_the_curves_that_the_pose_gives() {
-    let start = equipod(&["singular", "motion", "designs/rbt-midline.toml", "--searches", "0", "--json"]);
+    let start = equipod(&["singular", "motion", "designs/rbt-midline.toml", "--sections", "0", "--json"]);
     let start = document(&start);
     assert_eq!(
         (start["curves"].as_array().unwrap().len(), &start["components_accounted"]),
@@ -85,8 +85,7 @@ fn equivalent_platforms_have_the_same_regular_box() {
     let run = |design: &str| {
         let pose = "0,0,9,0,0,25";
         let shape = "2,2,2,10,10,10";
-        let args =
-            ["singular", "poses", design, "--pose", pose, "--box", shape, "--regions", "4000", "--json"];
+        let args = ["singular", "poses", design, "--pose", pose, "--box", shape, "--cells", "4000", "--json"];
         let out = equipod(&[&args[..], &["--svg", svg.to_str().unwrap()]].concat());
         let doc = document(&out);
         assert_eq!(out.status.code(), Some(0), "{doc}");
@@ -118,7 +117,7 @@ fn assembly_modes_of_one_sign_are_joined_and_equivalent_platforms_agree() {
     let file = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     let (csv, svg) = (file("p.csv"), file("p.svg"));
     let pose = "0,0,9,0,0,25";
-    let base = ["--pose", pose, "--regions", "1", "--box", "0.1,0.1,0.1,1,1,1", "--json"];
+    let base = ["--pose", pose, "--cells", "1", "--box", "0.1,0.1,0.1,1,1,1", "--json"];
     let run = |design: &str, more: &[&str]| {
         let out = equipod(&[&["singular", "poses", design][..], &base, more].concat());
         document(&out)
@@ -170,7 +169,7 @@ fn the_forty_modes_of_dietmaiers_platform_are_two_groups_of_twenty() {
     let text = std::fs::read_to_string("designs/dietmaier.toml").unwrap();
     let line = text.lines().find(|l| l.starts_with("lengths = [")).unwrap();
     let lengths = line.trim_start_matches("lengths = [").trim_end_matches(']').replace(' ', "");
-    let more = ["--regions", "1", "--box", "0.1,0.1,0.1,1,1,1", "--between", "--json"];
+    let more = ["--cells", "1", "--box", "0.1,0.1,0.1,1,1,1", "--between", "--json"];
     let out = equipod(
         &[&["singular", "poses", "designs/dietmaier.toml", "--lengths", &lengths], &more[..]].concat(),
     );
@@ -188,7 +187,7 @@ fn the_forty_modes_of_dietmaiers_platform_are_two_groups_of_twenty() {
 #[test]
 fn the_proved_box_is_one_of_rotation_vectors() {
     let design = "tests/fixtures/adversarial/REP_box.toml";
-    let doc = document(&equipod(&["singular", "poses", design, "--regions", "3000", "--json"]));
+    let doc = document(&equipod(&["singular", "poses", design, "--cells", "3000", "--json"]));
     let largest = (47.0066_f64).max(47.6845).max(45.4840) / 47.71;
     let (proved, refuted) = (&doc["box"]["proved_scale"], &doc["box"]["singular_within"]["scale"]);
     assert!(

@@ -17,6 +17,7 @@ mod cli_files;
 mod cli_fk;
 mod cli_frame;
 mod cli_generated;
+mod cli_guide;
 mod cli_locus;
 mod cli_move;
 mod cli_near;

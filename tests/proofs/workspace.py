@@ -314,7 +314,7 @@ def run(program, options, tally):
                 tally.fault(f"{where}: exit {code} with met {found['met']}")
             for complaint in check_assess(rng, design, found, tally, where):
                 tally.fault(complaint)
-            scaled, _ = answer(program, "singular", "poses", path, "--regions", 1500)
+            scaled, _ = answer(program, "singular", "poses", path, "--cells", 1500)
             proved = scaled["box"]["proved_scale"]
             if proved > 0:
                 tally.count("proved sets")

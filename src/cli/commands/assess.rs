@@ -14,18 +14,18 @@ use crate::requirements::{AssessOptions, MarginVerdict};
 /// Arguments of `assess`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// Design file (.toml or .json) with home, workspace and hardware
+    /// Design file (.toml or .json) with the tables home, workspace and hardware
     design: PathBuf,
-    /// Points of a Halton sequence in the region of poses, and as many random ones
+    /// Number of poses of a Halton sequence in the region of poses, and as many random ones
     #[arg(long, value_name = "N", default_value_t = 5000, value_parser = clap::value_parser!(u32).range(0..=10_000_000))]
     points: u32,
-    /// Steps between two poses of a trajectory
+    /// Number of steps between two poses of a trajectory
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     steps: u32,
-    /// Local searches for the worst pose of each requirement
+    /// Number of local searches for the worst pose of each requirement
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(0..=1000))]
     searches: u32,
-    /// Most cells of the workspace over which the margins of one kind of requirement, and det J, are bounded for a proof
+    /// Greatest number of cells of the workspace over which the margins of one kind of requirement, and det J, are bounded for a proof
     #[arg(long, value_name = "N", default_value_t = 6000, value_parser = clap::value_parser!(u32).range(0..=100_000_000))]
     cells: u32,
 }
@@ -33,6 +33,9 @@ pub(crate) struct Args {
 /// Evaluates the requirements.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
+    if design.workspace.trajectory.is_none() {
+        context.no_effect("steps", "the workspace of the design has no trajectory")?;
+    }
     let options = AssessOptions::new()
         .points(args.points as usize)
         .steps(args.steps as usize)

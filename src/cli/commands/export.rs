@@ -25,7 +25,7 @@ pub(crate) struct Args {
     /// Folder to write into; it is made where it does not exist
     #[arg(short, long, value_name = "DIR")]
     output: OutputPath,
-    /// What one unit of the design is, where its label is not a length unit: um, mm, cm, m, in, ft
+    /// Unit of length of the design, where its label is not one: um, mm, cm, m, in, ft
     #[arg(long, value_name = "UNIT")]
     unit: Option<String>,
     /// Thickness of the plates, design units
@@ -36,10 +36,10 @@ pub(crate) struct Args {
     margin: Option<f64>,
     /// Diameter of the holes under the joints, design units
     #[arg(long, value_name = "LENGTH")]
-    hole: Option<f64>,
+    hole_diameter: Option<f64>,
     /// Diameter of the balls, design units
     #[arg(long, value_name = "LENGTH")]
-    ball: Option<f64>,
+    ball_diameter: Option<f64>,
     /// Mass of the platform with its payload in the simulation, kilograms
     #[arg(long, value_name = "KG")]
     mass: Option<f64>,
@@ -60,8 +60,8 @@ fn model(args: &Args, design: &Design) -> Result<Export, Failure> {
         unit,
         thickness: args.thickness,
         margin: args.margin,
-        hole: args.hole,
-        ball: args.ball,
+        hole: args.hole_diameter,
+        ball: args.ball_diameter,
         mass: args.mass,
         gravity_compensation: args.gravity_compensation,
     };
@@ -88,6 +88,11 @@ fn write(folder: &Path, file: &ExportedFile) -> Result<String, Failure> {
 /// Writes every format that can hold the design; exit 1 when one cannot.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
+    if !args.to.iter().any(|t| t == "all" || t == ExportFormat::Mjcf.name()) {
+        for option in ["mass", "gravity_compensation"] {
+            context.no_effect(option, "only the simulator's format, mjcf, holds masses")?;
+        }
+    }
     let export = model(args, &design)?;
     files::make_folder(&args.output)?;
     let (mut exit, mut formats, mut text) = (Exit::Yes, Vec::new(), String::new());

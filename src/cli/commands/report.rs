@@ -25,10 +25,10 @@ const MOST_BYTES: u64 = 64 << 20;
 pub(crate) struct Args {
     /// Folder with designs (.toml, .json), results of equipod (.json) and pictures (.svg); folders in it are not read
     folder: PathBuf,
-    /// The page; report.html in the folder when absent
+    /// Write the page to this file; report.html in the folder when absent
     #[arg(short, long, value_name = "FILE")]
     output: Option<OutputPath>,
-    /// Title; the name of the first design when absent
+    /// Title of the page; the name of the first design when absent
     #[arg(long, value_name = "TEXT")]
     title: Option<String>,
 }

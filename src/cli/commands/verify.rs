@@ -17,11 +17,11 @@ use crate::synthesis::{LegMapTolerances, Relation, leg_map};
 /// Arguments of `verify`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// Design A (.toml or .json); its home pose and workspace give the sample poses
+    /// Design file (.toml or .json); its home pose and workspace give the sample poses
     a: PathBuf,
-    /// Design B, in the same units and, without --align, the same two frames
+    /// Design file to compare with, in the same units and, without --align, in the same two frames
     b: PathBuf,
-    /// Sets of leg lengths at which both are solved and compared
+    /// Number of sets of leg lengths at which both designs are solved and compared
     #[arg(long, default_value_t = SAMPLES, value_name = "N", value_parser = at_least_one)]
     samples: usize,
     #[command(flatten)]
@@ -43,7 +43,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         return Err(Failure::refused("verify::different_units", message)
             .with_help("write both designs in the same unit"));
     }
-    let second = args.frames.apply(&a, &b, context.seed())?;
+    let second = args.frames.apply(&a, &b, context)?;
     if let Some(none) = second.refuted() {
         let map = leg_map(a.manipulator(), &second.manipulator, LegMapTolerances::default())
             .map_err(|e| failure_of(&e.into()))?;

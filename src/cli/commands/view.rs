@@ -15,16 +15,16 @@ use crate::records::ViewAnswer;
 pub(crate) struct Args {
     /// Design file (.toml or .json)
     design: PathBuf,
-    /// The page; the name of the design file with .html when absent
+    /// Write the page to this file; the name of the design file with .html when absent
     #[arg(short, long, value_name = "FILE")]
     output: Option<OutputPath>,
     /// The equivalent platform shown first, for instance S123456 (no shared joint) or V23456S1
     #[arg(long, value_name = "ID", requires = "offsets")]
     pattern: Option<String>,
-    /// Its offsets, fractions of the edges; without --pattern those of S123456
+    /// Offsets of that platform, in fractions of the edges; those of S123456 without --pattern
     #[arg(long, value_name = "T1,..", value_delimiter = ',', allow_hyphen_values = true)]
     offsets: Option<Vec<f64>>,
-    /// Another core in WebAssembly, plain or compressed by gzip, instead of the one in this program; `none`: recorded data only
+    /// Use another WebAssembly core, plain or compressed by gzip, instead of the one in this program; `none` gives a page with recorded data only
     #[arg(long, value_name = "FILE|none")]
     core: Option<PathBuf>,
 }

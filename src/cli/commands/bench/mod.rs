@@ -22,31 +22,31 @@ pub(crate) struct Args {
     /// -both-planar), or topologies for the 34; several with commas between
     #[arg(long, value_name = "CLASS", default_value = "6-6")]
     class: String,
-    /// Number of problems (of each class)
+    /// Number of problems of each class
     #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u64).range(1..=10_000_000))]
     count: u64,
-    /// Index of the first problem: to repeat one that failed, with --count 1
+    /// Index of the first problem; with --count 1 it repeats one that failed
     #[arg(long, value_name = "K", default_value_t = 0)]
     first: u64,
-    /// Threads; each problem is solved and timed on one
+    /// Worker threads; each problem is solved and timed on one of them
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1024))]
     threads: u64,
-    /// Method; auto takes the best one for the design
+    /// Method of solution; auto takes the best one for the design
     #[arg(long, value_enum, default_value_t = MethodArg::Auto)]
     method: MethodArg,
     /// Squared lengths uniform in [0.5, 3], or those of a random real pose; the former where the class allows it when absent
     #[arg(long, value_enum, value_name = "SOURCE")]
     lengths_from: Option<Source>,
-    /// Every so many problems, look for missed roots from two other starts; 0 for never
+    /// Look for missed roots from two other starts once in so many problems; 0 means never
     #[arg(long, value_name = "N", default_value_t = 10)]
     recheck_every: u64,
-    /// Count the poses modulo random primes where completeness is not proved, as fk does: some milliseconds a problem
+    /// Count the poses modulo random primes where completeness is not proved, as fk does; this takes some milliseconds per problem
     #[arg(long)]
     count_poses: bool,
-    /// Instead of the proof: disturb the leg lengths of random poses by relative errors from 1e-12 to 1e-1 and measure how far the poses move
-    #[arg(long, conflicts_with_all = ["first", "lengths_from", "recheck_every"])]
+    /// Measure noise instead: disturb the leg lengths of random poses by relative errors from 1e-12 to 1e-1 and measure how far the poses move
+    #[arg(long, conflicts_with_all = ["first", "lengths_from", "recheck_every", "count_poses"])]
     noise: bool,
-    /// Write a picture of what noise does
+    /// Write a picture of how noise moves the poses
     #[arg(long, value_name = "FILE", requires = "noise")]
     svg: Option<OutputPath>,
 }

@@ -16,7 +16,7 @@ pub(crate) struct Args {
     /// Design file (.toml or .json)
     design: PathBuf,
     /// File to write; .json gives JSON, .toml gives TOML
-    #[arg(short, long, value_name = "OUT")]
+    #[arg(short, long, value_name = "FILE")]
     output: OutputPath,
 }
 

@@ -12,10 +12,10 @@ use crate::records::{PresetAnswer, PresetFile, PresetRecord, PresetsAnswer};
 /// Arguments of `design presets`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// Name of a preset; without it all are listed
+    /// Name of a preset; all are listed when absent
     name: Option<String>,
-    /// Write the design file, TOML with the sources in its comments
-    #[arg(short, long, value_name = "OUT", requires = "name")]
+    /// Write the design file in TOML, with the sources in its comments
+    #[arg(short, long, value_name = "FILE", requires = "name")]
     output: Option<OutputPath>,
 }
 

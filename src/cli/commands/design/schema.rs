@@ -12,7 +12,7 @@ use crate::records::{self, SchemaAnswer};
 /// Arguments of `design schema`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// `design` for design files, `error` for refusals, `help` for --help, a command for its answer with --json
+    /// `design` for design files, `error` for refusals, `help` for --help, or a command for its answer with --json
     #[arg(default_value = "design", value_parser = PossibleValuesParser::new(names()))]
     of: String,
 }

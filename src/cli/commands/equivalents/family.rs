@@ -17,7 +17,7 @@ use crate::synthesis::{Factor, Family, FamilyCounts, FamilyMember, HexagonPoint,
 /// Arguments of `equivalents family`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// Octahedral design file (.toml or .json)
+    /// Octahedral design (.toml or .json)
     design: PathBuf,
     /// Write the graph of topologies for Graphviz
     #[arg(long, value_name = "FILE")]
@@ -25,7 +25,7 @@ pub(crate) struct Args {
     /// Write a drawing of the topologies
     #[arg(long, value_name = "FILE")]
     svg: Option<OutputPath>,
-    /// Only this pattern, for instance S123456 (no shared joint) or V23456S1
+    /// Report only this pattern, for instance S123456 (no shared joint) or V23456S1
     #[arg(long, value_name = "ID")]
     pattern: Option<String>,
     /// Fractions of the edges at which the moved joints sit, one for each inner point

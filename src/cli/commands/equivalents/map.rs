@@ -15,9 +15,9 @@ use crate::synthesis::{LegCorrespondence, LegMapOutcome, LegMapTolerances, Relat
 /// Arguments of `equivalents map`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// Design whose squared lengths are given (.toml or .json)
+    /// Design file (.toml or .json) whose squared lengths are given
     from: PathBuf,
-    /// Design whose squared lengths are wanted, in the same units and, without --align, the same two frames
+    /// Design file whose squared lengths are wanted, in the same units and, without --align, in the same two frames
     to: PathBuf,
     #[command(flatten)]
     frames: FrameArgs,
@@ -31,7 +31,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         return Err(Failure::refused("map::different_units", message)
             .with_help("write both designs in the same unit: c has the unit squared"));
     }
-    let second = args.frames.apply(&from, &to, context.seed())?;
+    let second = args.frames.apply(&from, &to, context)?;
     let outcome = leg_map(from.manipulator(), &second.manipulator, LegMapTolerances::default())
         .map_err(|e| Failure::new(Exit::Inconclusive, "map::breakdown", e.to_string()))?;
     let exit = match (outcome.relation, second.refuted()) {

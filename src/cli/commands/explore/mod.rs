@@ -37,13 +37,13 @@ use crate::synthesis::{Family, FamilyMember};
 pub(crate) struct Args {
     /// Octahedral design (.toml or .json)
     design: PathBuf,
-    /// Folder for the results; made when absent, the files of an earlier run are replaced
+    /// Folder for the results; it is made where it does not exist, and the files of an earlier run are replaced
     #[arg(short, long, value_name = "DIR")]
     output: OutputPath,
-    /// Sets of leg lengths at which the design and the optimised one are solved and compared
+    /// Number of sets of leg lengths at which the design and the optimised one are solved and compared
     #[arg(long, default_value_t = SAMPLES, value_name = "N", value_parser = verify_command::at_least_one)]
     samples: usize,
-    /// How far a joint may sit out on the extension of its edge, in edge lengths
+    /// How far a joint may lie outside its edge, on its extension, in edge lengths
     #[arg(long, value_name = "X", default_value_t = EXTENSION)]
     extension: f64,
 }

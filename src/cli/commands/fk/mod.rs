@@ -27,16 +27,16 @@ use self::lengths::Given;
 pub(crate) struct Args {
     /// Design file (.toml or .json)
     design: PathBuf,
-    /// Six lengths l1,..,l6, or a CSV file with six columns; the design's own lengths when absent
+    /// Six lengths, or a CSV file with six columns; those of the design when absent
     #[arg(long, value_name = "L1,..,L6|FILE")]
     lengths: Option<String>,
-    /// Method; auto takes the best one for the design
+    /// Method of solution; auto takes the best one for the design
     #[arg(long, value_enum, default_value_t = MethodArg::Auto)]
     method: MethodArg,
-    /// Threads for the rows of a CSV file; all cores when absent. The answer does not depend on it
+    /// Worker threads for the rows of a CSV file, one for each processor when absent; the answer does not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
-    /// Follow one real pose from this one: `x,y,z,roll_deg,pitch_deg,yaw_deg`, `x,y,z,qw,qx,qy,qz` or `home`; a CSV file row by row
+    /// Follow one real pose from this one, row by row for a CSV file: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`
     #[arg(long, value_name = "POSE", allow_hyphen_values = true, conflicts_with = "method")]
     near: Option<String>,
 }
@@ -72,6 +72,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let design = context.load(&args.design)?;
     let given = lengths::given(args.lengths.as_deref(), design.lengths)?;
     if let Some(text) = &args.near {
+        context.no_effect("threads", "a pose is followed row by row, each from the last one")?;
         let start = poses::parse(text, &design, "--near", "fk::bad_pose")?;
         return Ok(near::run(&design, &given, start, context.seed()));
     }
@@ -79,6 +80,10 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let options = FkOptions { seed: context.seed(), ..FkOptions::default() };
     match given {
         Given::One(l) => {
+            context.no_effect(
+                "threads",
+                "one set of lengths is solved on one thread, the rows of a CSV file on many",
+            )?;
             let solutions = solve(method, m, &l, &options)?;
             let exit = exit_of(&solutions);
             let mut answer = FkOneAnswer::from(SolvedRecord::from(&solutions));

@@ -49,9 +49,11 @@ pub(super) fn refusal(why: &InvalidProblem) -> Failure {
 
 /// Threads and seed of the command line.
 pub(super) fn options(args: &super::Args, context: &Context) -> ShapeSearchOptions {
-    let processors = || std::thread::available_parallelism().map_or(1, usize::from);
-    let threads = args.threads.unwrap_or_else(processors).clamp(1, 256);
-    ShapeSearchOptions { seed: context.seed(), threads, ..ShapeSearchOptions::default() }
+    ShapeSearchOptions {
+        seed: context.seed(),
+        threads: super::workers(args.threads),
+        ..ShapeSearchOptions::default()
+    }
 }
 
 /// Optimises and checks.

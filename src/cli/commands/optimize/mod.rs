@@ -30,23 +30,23 @@ pub(crate) struct Args {
     /// Octahedral design (.toml or .json); its tables home, workspace and optimize set poses and limits
     design: PathBuf,
     /// Write the optimised design; .json gives JSON, anything else TOML
-    #[arg(short, long, value_name = "OUT")]
+    #[arg(short, long, value_name = "FILE")]
     output: Option<OutputPath>,
-    /// How far a joint may sit out on the extension of its edge, in edge lengths
+    /// How far a joint may lie outside its edge, on its extension, in edge lengths
     #[arg(long, value_name = "X", default_value_t = EXTENSION)]
     extension: f64,
-    /// Search every branch for its own best, which takes ten times as long
+    /// Search every branch for its own best platform, which takes ten times as long
     #[arg(long)]
     survey: bool,
-    /// Greatest relative gap between the answer and the proved upper bound over all offsets at which the answer counts as optimal
+    /// Greatest relative gap between the answer and the proved upper bound over all offsets at which the answer is called optimal
     #[arg(long, value_name = "X", default_value_t = 1e-2)]
     gap: f64,
     /// Write the steps of the run that found the answer: .svg a picture, anything else CSV
     #[arg(long, value_name = "FILE")]
     history: Option<OutputPath>,
-    /// Worker threads; the answer does not depend on it (default: one for each processor)
-    #[arg(long, value_name = "N")]
-    threads: Option<usize>,
+    /// Worker threads, one for each processor when absent; the answer does not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
 }
 
 /// How the search is to go.
@@ -55,7 +55,7 @@ pub(super) struct Choices {
     pub(super) extension: f64,
     pub(super) survey: bool,
     pub(super) gap: f64,
-    pub(super) threads: Option<usize>,
+    pub(super) threads: Option<u16>,
 }
 
 impl Choices {
@@ -63,6 +63,11 @@ impl Choices {
     pub(super) fn plain(extension: f64) -> Self {
         Self { extension, survey: false, gap: OffsetSearchOptions::default().gap, threads: None }
     }
+}
+
+/// How many threads work where so many were asked for.
+pub(super) fn workers(asked: Option<u16>) -> usize {
+    asked.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from)
 }
 
 /// The poses the worst case is taken over, and where they come from.
@@ -90,7 +95,17 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     check_extension(args.extension)?;
     let design = context.load(&args.design)?;
     if asks_for_more(&design) {
+        let why = "no bound over all offsets is proved for a design that asks for more than the best offsets";
+        context.no_effect("gap", why)?;
+        context.no_effect(
+            "survey",
+            "the branches of the offsets are not searched for a design that asks for more",
+        )?;
+        if design.search.offset_bounds.is_some() {
+            context.no_effect("extension", "the design says how far its offsets may go (offset_bounds)")?;
+        }
         if let Some(Combination::Pareto { points }) = design.search.mode {
+            context.no_effect("history", "a front is the result of many runs")?;
             return front::run(&design, points, args, context);
         }
         let done = dimensional::run(&design, args, context)?;
@@ -213,11 +228,9 @@ pub(super) fn search(
 ) -> Result<Done, Failure> {
     let set = pose_set(design);
     let problem = offset_problem(design, octahedral, set.poses.clone(), choices.extension);
-    let processors = || std::thread::available_parallelism().map_or(1, usize::from);
-    let threads = choices.threads.unwrap_or_else(processors).clamp(1, 256);
     let options = OffsetSearchOptions {
         seed,
-        threads,
+        threads: workers(choices.threads),
         survey: choices.survey,
         gap: choices.gap,
         ..OffsetSearchOptions::default()

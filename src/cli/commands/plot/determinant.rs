@@ -17,14 +17,14 @@ const SIDE: usize = 201;
 pub(super) struct Args {
     /// Octahedral design (.toml or .json)
     design: PathBuf,
-    /// The two offsets on the axes, 1 to 6 in the order of the legs around the octahedron; `equal`: the three of the base and the three of
-    /// the platform
+    /// Two offsets on the axes, 1 to 6 in the order of the legs around the octahedron, or `equal` for the three of the base and the three of the
+    /// platform
     #[arg(long, value_name = "I,J", default_value = "equal", value_parser = Plane::parse)]
-    offsets: Plane,
-    /// The six offsets of the marked design, in edges of the triangles; the others than I, J stay at these
+    slice: Plane,
+    /// Six offsets of the marked design, in edges of the triangles; those that are not on the axes keep these values
     #[arg(long, value_name = "T1,..,T6", allow_hyphen_values = true, default_value = "0,0,0,0,0,0", value_parser = six)]
-    at: Offsets,
-    /// Least and greatest offset shown
+    offsets: Offsets,
+    /// Least and greatest offset in the picture
     #[arg(long, value_name = "A,B", allow_hyphen_values = true, default_value = "-0.5,1.5", value_parser = range)]
     range: (f64, f64),
 }
@@ -95,25 +95,25 @@ pub(super) fn draw(args: &Args, context: &mut Context) -> Result<String, Failure
     let (low, high) = args.range;
     let step = |k: usize| low + (high - low) * k as f64 / (SIDE as f64 - 1.0);
     let value = |k: usize| {
-        let mut t = args.at.0;
-        args.offsets.put(&mut t, step(k % SIDE), step(k / SIDE));
+        let mut t = args.offsets.0;
+        args.slice.put(&mut t, step(k % SIDE), step(k / SIDE));
         offset_determinant(&t)
     };
-    let [across, up] = args.offsets.labels().map(|label| SliceAxis { label, low, high });
-    let det = offset_determinant(&args.at.0);
+    let [across, up] = args.slice.labels().map(|label| SliceAxis { label, low, high });
+    let det = offset_determinant(&args.offsets.0);
     let list = |t: &[f64; 6]| t.map(|x| x.to_string()).join(", ");
-    let rest = match args.offsets {
+    let rest = match args.slice {
         Plane::Equal => "equal offsets on each body".to_string(),
-        Plane::Two(..) => format!("the other offsets as in ({})", list(&args.at.0)),
+        Plane::Two(..) => format!("the other offsets as in ({})", list(&args.offsets.0)),
     };
     Ok(singular_slice(&SliceFigure {
         title: format!("det A of the joint-free platforms of \u{201c}{}\u{201d}", design.name),
         quantity: "det A".into(),
-        note: format!("{rest}; det A = {det:.6} at ({})", list(&args.at.0)),
+        note: format!("{rest}; det A = {det:.6} at ({})", list(&args.offsets.0)),
         across,
         up,
         side: SIDE,
         values: (0..SIDE * SIDE).map(value).collect(),
-        mark: args.offsets.place(&args.at.0).map(|at| (at, "det A = ".to_string() + &format!("{det:.4}"))),
+        mark: args.slice.place(&args.offsets.0).map(|at| (at, "det A = ".to_string() + &format!("{det:.4}"))),
     }))
 }

@@ -12,7 +12,7 @@ use crate::requirements::Objective;
 /// Arguments of `plot pareto`.
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
-    /// What `equipod --json optimize DESIGN` wrote for a design with `mode = "pareto"`
+    /// Result that `equipod optimize DESIGN --json` wrote for a design with `mode = "pareto"`
     front: PathBuf,
 }
 

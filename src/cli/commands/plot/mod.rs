@@ -26,7 +26,7 @@ use crate::records::{FigureWord, PictureRecord, PlotAnswer};
 pub(crate) struct Args {
     #[command(subcommand)]
     figure: Figure,
-    /// Write the picture there; without it it goes to standard output
+    /// Write the picture to this file; it goes to standard output when absent
     #[arg(short, long, value_name = "FILE", global = true)]
     output: Option<OutputPath>,
 }
@@ -40,20 +40,20 @@ enum Figure {
     Components {
         /// Design file (.toml or .json)
         design: PathBuf,
-        /// Only this pair of planes: its number in the list of `equivalents components`, counted from 1
+        /// Draw only this pair of planes: its number in the answer of `equivalents components`, counted from 1
         #[arg(long, value_name = "K")]
         pair: Option<usize>,
         /// What counts as zero, relative to the size of the body
         #[arg(long, value_name = "X", default_value_t = 1e-9)]
         tolerance: f64,
     },
-    /// det A over two of the six offsets, with the line on which it vanishes
+    /// The sign of det A over two of the six offsets, with the line on which it vanishes
     Det(determinant::Args),
     /// The squared length of a virtual leg at all poses, in the complex plane, while one leg length varies
     Locus(locus::Args),
     /// Two designs at the same pose side by side, with their leg map
     Pair(pair::Args),
-    /// The front that `optimize` found with `mode = "pareto"`
+    /// A front that `optimize` found with `mode = "pareto"`
     Pareto(front::Args),
     /// The longest curve of poses with constant leg lengths, animated
     SelfMotion(motion::Question),
@@ -61,18 +61,18 @@ enum Figure {
     SingularPoses {
         /// Design file (.toml or .json)
         design: PathBuf,
-        /// The pose in the middle
+        /// Pose in the middle of the picture
         #[arg(long, value_name = "POSE", allow_hyphen_values = true, default_value = "home")]
         pose: String,
-        /// The two freedoms: x, y, z (positions), rx, ry, rz (rotation vector in the base frame)
+        /// Two freedoms on the axes: x, y, z (positions), rx, ry, rz (rotation vector in the base frame)
         #[arg(long, value_name = "A,B", default_value = "rx,rz", value_parser = Freedoms::parse)]
         slice: Freedoms,
     },
-    /// The ways to share joints: that of a design, or all
+    /// The ways to share joints: that of a design, or all of them
     Topologies {
-        /// Only the topology of this design (.toml or .json)
+        /// Design file (.toml or .json): name its topology only
         design: Option<PathBuf>,
-        /// Random members of each topology solved to count its poses
+        /// Number of random members of each topology that are solved to count its poses
         #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u64).range(1..=1000))]
         members: u64,
     },

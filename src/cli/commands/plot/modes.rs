@@ -12,7 +12,7 @@ use crate::fk::FkOptions;
 pub(super) struct Args {
     /// Design file (.toml or .json)
     design: PathBuf,
-    /// Six lengths; the design's own when absent, else those of its home pose
+    /// Six lengths; those of the design when absent, else those of its home pose
     #[arg(long, value_name = "L1,..,L6")]
     lengths: Option<String>,
 }

@@ -13,9 +13,9 @@ use crate::synthesis::{LegMapTolerances, Relation, leg_map};
 pub(super) struct Args {
     /// Design file (.toml or .json)
     first: PathBuf,
-    /// The other design, in the same frames
+    /// Design file (.toml or .json) of the other design, in the same frames
     second: PathBuf,
-    /// The pose of both
+    /// Pose of both designs
     #[arg(long, value_name = "POSE", allow_hyphen_values = true, default_value = "home")]
     pose: String,
 }

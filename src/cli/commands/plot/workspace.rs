@@ -17,21 +17,21 @@ const DEGREES: f64 = 90.0;
 /// Arguments of `plot workspace`.
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
-    /// Design file (.toml or .json) with its limits in the table `hardware`
+    /// Design file (.toml or .json) with its limits in the table hardware
     design: PathBuf,
-    /// The two freedoms: x, y, z (reachable positions at a fixed orientation), rx, ry, rz (reachable orientations at a position; rotation
+    /// Two freedoms on the axes: x, y, z (reachable positions at a fixed orientation), rx, ry, rz (reachable orientations at a position; rotation
     /// vector in the base frame)
     #[arg(long, value_name = "A,B", default_value = "x,y", value_parser = Freedoms::parse)]
     slice: Freedoms,
-    /// The pose in the middle, which fixes the other four freedoms; the legs are mounted for the home pose of the design
+    /// Pose in the middle of the picture, which fixes the other four freedoms; the legs are mounted for the home pose of the design
     #[arg(long, value_name = "POSE", allow_hyphen_values = true, default_value = "home")]
     pose: String,
-    /// Half widths of the picture, design units or degrees (default: the size of the design, 90 degrees)
+    /// Half widths of the picture, design units or degrees; the size of the design and 90 degrees when absent
     #[arg(long, value_name = "A,B", value_parser = half_widths)]
-    half: Option<[f64; 2]>,
-    /// Points a side
+    half_widths: Option<[f64; 2]>,
+    /// Number of poses along each side of the picture
     #[arg(long, value_name = "N", default_value_t = 181, value_parser = clap::value_parser!(u16).range(2..=1001))]
-    points: u16,
+    resolution: u16,
 }
 
 fn half_widths(text: &str) -> Result<[f64; 2], String> {
@@ -47,8 +47,8 @@ pub(super) fn draw(args: &Args, context: &mut Context) -> Result<String, Failure
     let grid = PoseGrid {
         freedoms: args.slice,
         middle: pose,
-        half: args.half.unwrap_or_else(default),
-        side: usize::from(args.points),
+        half: args.half_widths.unwrap_or_else(default),
+        side: usize::from(args.resolution),
     };
     let required = design.requirements();
     let limits = Limits::new(m, &required, &poses::home(&design));

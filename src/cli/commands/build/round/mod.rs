@@ -22,57 +22,57 @@ use crate::records::VariantWord;
 /// Arguments of `build round`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// Design with planar bodies (.toml or .json); its home, workspace and requirements judge the roundings
+    /// Design file (.toml or .json) with planar bodies; its home pose, workspace and requirements judge the roundings
     design: PathBuf,
-    /// Distance of neighbouring holes
+    /// Distance between neighbouring holes
     #[arg(long, value_name = "PITCH")]
     grid: f64,
-    /// The same for the platform, where it differs
+    /// Distance between neighbouring holes of the platform; that of the base when absent
     #[arg(long, value_name = "PITCH")]
     grid_platform: Option<f64>,
-    /// A hole of the base, in the plane of its joints
+    /// Position of one hole of the base grid, in the plane of the base joints
     #[arg(long, value_name = "X,Y", default_value = "0,0", allow_hyphen_values = true)]
     origin: String,
-    /// A hole of the platform
+    /// Position of one hole of the platform grid
     #[arg(long, value_name = "X,Y", default_value = "0,0", allow_hyphen_values = true)]
     origin_platform: String,
-    /// Turn of the grid of the base, degrees
+    /// Angle by which the base grid is turned, degrees
     #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_hyphen_values = true)]
     angle: f64,
-    /// Turn of the grid of the platform, degrees
+    /// Angle by which the platform grid is turned, degrees
     #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_hyphen_values = true)]
     angle_platform: f64,
-    /// Choose the origins and angles of the grids too; those given take part
+    /// Choose the origins and angles of the grids too; the given ones are candidates
     #[arg(long)]
     free_grid: bool,
-    /// Which rounding is written
+    /// Rounding that is written
     #[arg(long, value_enum, default_value_t = Variant::Rule)]
     variant: Variant,
-    /// The exact rounding is chosen when it keeps this share of the inverse condition number
+    /// Share of the inverse condition number that the exact rounding has to keep to be chosen
     #[arg(long, value_name = "SHARE", default_value_t = 0.9)]
     keep: f64,
-    /// Triangles of each body that are combined in the first search
+    /// Number of triangles of each body that are combined in the first search
     #[arg(long, value_name = "N", default_value_t = 40, value_parser = clap::value_parser!(u32).range(1..=1000))]
     candidates: u32,
     /// Tool point at which errors of the pose are measured, platform frame
     #[arg(long, value_name = "X,Y,Z", default_value = "0,0,0", allow_hyphen_values = true)]
     tool: String,
-    /// Random poses for the error of the nearest rounding
+    /// Number of random poses for the error of the nearest rounding
     #[arg(long, value_name = "N", default_value_t = 500, value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
     trials: u32,
     /// Write the rounded design; .json gives JSON, anything else TOML
-    #[arg(short, long, value_name = "OUT")]
+    #[arg(short, long, value_name = "FILE")]
     output: Option<OutputPath>,
 }
 
 /// Which rounding is meant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub(super) enum Variant {
-    /// By rule: exact when it meets the requirements and keeps the share, else nearest, else exact
+    /// The exact rounding when it meets the requirements and keeps the share of --keep, else the nearest, else the exact one
     Rule,
-    /// All joints exactly on the sides of two triangles
+    /// All joints lie exactly on the sides of two triangles
     Exact,
-    /// All joints on grid points next to where they are wanted
+    /// All joints lie on grid points next to where they are wanted
     Nearest,
 }
 
@@ -135,6 +135,9 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     );
     let pitch = [args.grid, args.grid_platform.unwrap_or(args.grid)];
     let tool = Point3::from(numbers::<3>(&args.tool, "--tool", "round::bad_tool")?);
+    if args.variant != Variant::Rule {
+        context.no_effect("keep", "the rounding is chosen by --variant, not by rule")?;
+    }
     if !(args.keep >= 0.0 && args.keep.is_finite()) {
         return Err(Failure::refused(
             "round::bad_share",

@@ -20,21 +20,21 @@ use crate::manufacture::{
 /// Arguments of `build tolerances`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// Design file (.toml or .json); its home and workspace give the poses
+    /// Design file (.toml or .json); its home pose and workspace give the poses
     design: PathBuf,
-    /// Greatest error of the tool point and of the orientation
+    /// Greatest allowed error of the tool point and of the orientation
     #[arg(long, value_name = "LENGTH,DEG")]
     bound: String,
-    /// Tool point whose position counts, platform frame (default: the platform origin)
+    /// Tool point whose position counts, platform frame
     #[arg(long, value_name = "X,Y,Z", default_value = "0,0,0", allow_hyphen_values = true)]
     tool: String,
-    /// Points of a Halton sequence in the region of poses, and as many random ones
+    /// Number of poses of a Halton sequence in the region of poses, and as many random ones
     #[arg(long, value_name = "N", default_value_t = 300, value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
     points: u32,
-    /// Local searches for every worst pose
+    /// Number of local searches for every worst pose
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(0..=1000))]
     searches: u32,
-    /// Random joint errors and poses that are solved
+    /// Number of random joint errors and poses that are solved
     #[arg(long, value_name = "N", default_value_t = 2000, value_parser = clap::value_parser!(u32).range(0..=10_000_000))]
     trials: u32,
 }

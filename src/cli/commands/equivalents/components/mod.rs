@@ -22,16 +22,16 @@ use crate::synthesis::components::{
 pub(crate) struct Args {
     /// Design file (.toml or .json)
     design: PathBuf,
-    /// Only this family, counted from 1
+    /// Report only this family, counted from 1
     #[arg(long, value_name = "K")]
-    component: Option<usize>,
-    /// Random legs drawn from each family
+    family: Option<usize>,
+    /// Number of random legs drawn from each family
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=10_000))]
-    sample: u64,
-    /// Write a picture of the curves in two planes, of all pairs of planes
+    samples: u64,
+    /// Write a picture of the curves in two planes, for all pairs of planes
     #[arg(long, value_name = "FILE")]
     svg: Option<OutputPath>,
-    /// Only this pair of planes in the picture: its number in `pairs`, counted from 1
+    /// Draw only this pair of planes: its number in the answer, counted from 1
     #[arg(long, value_name = "K", requires = "svg")]
     pair: Option<usize>,
     /// What counts as zero, relative to the size of the body
@@ -67,7 +67,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let options = ComponentOptions { tolerance: args.tolerance, seed: context.seed() };
     let found = search(&design, options)?;
     let count = found.components.len();
-    if let Some(k) = args.component.filter(|k| *k == 0 || *k > count) {
+    if let Some(k) = args.family.filter(|k| *k == 0 || *k > count) {
         let message = format!("{} has {count} families, there is no number {k}", design.name);
         return Err(Failure::refused("components::no_such_family", message));
     }
@@ -77,10 +77,10 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         files::write_text(path, &picture(&design, &found, args.pair, context.seed()).map_err(failure)?)?;
     }
     let wanted: Vec<usize> =
-        (0..count).filter(|k| args.component.is_none_or(|wanted| wanted == k + 1)).collect();
+        (0..count).filter(|k| args.family.is_none_or(|wanted| wanted == k + 1)).collect();
     let mut samples = Vec::new();
     for k in &wanted {
-        samples.push(draw(&found, &found.components[*k], args.sample, context.seed(), *k)?);
+        samples.push(draw(&found, &found.components[*k], args.samples, context.seed(), *k)?);
     }
     let list = wanted.iter().zip(&samples);
     let list = list.map(|(k, s)| ComponentRecord::new(*k, &found.components[*k], s)).collect();
@@ -90,7 +90,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     Ok(Answer::new(exit, answer, text))
 }
 
-/// Family `k` draws from a stream of its own: `--component` does not change what is drawn.
+/// Family `k` draws from a stream of its own: `--family` does not change what is drawn.
 fn draw(
     found: &Components,
     component: &Component,

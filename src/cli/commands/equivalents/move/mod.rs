@@ -26,28 +26,28 @@ use request::{Request, requests};
 pub(crate) struct Args {
     /// Design file (.toml or .json)
     design: PathBuf,
-    /// The leg to move, 1 to 6
+    /// Number of the leg to move, 1 to 6
     #[arg(long, value_name = "LEG", requires_all = ["along", "to"])]
     leg: Option<String>,
-    /// The family: its number in `equipod equivalents components`, or the joints that span it, P1:P4-P5 for the legs from P1 to the line P4 P5
+    /// Family of the leg: its number in `equipod equivalents components`, or the joints that span it, for instance P1:P4-P5 for the legs from P1 to the line P4 P5
     #[arg(long, value_name = "FAMILY", requires = "leg")]
     along: Option<String>,
-    /// Parameters of the new leg on the family
+    /// Parameters of the new leg in the family
     #[arg(long, value_name = "T[,U,..]", allow_hyphen_values = true, requires = "leg")]
     to: Option<String>,
-    /// Leg, family and parameters in one word, 1:3:0.25 or 1:P1:P4-P5:0.25; repeat it for several moves
+    /// Leg, family and parameters in one word, for instance 1:3:0.25 or 1:P1:P4-P5:0.25; repeat the option for several moves
     #[arg(long = "move", value_name = "LEG:FAMILY:T[,U,..]", conflicts_with = "leg")]
     moves: Vec<String>,
-    /// All moves at once, along families of the given design (default: one after another)
+    /// Make all moves at once, along families of the given design, instead of one after another
     #[arg(long)]
     together: bool,
-    /// Write the new design; with --search a folder for the designs found
-    #[arg(short, long, value_name = "OUT")]
+    /// Write the new design to this file; with --search, write the designs found into this folder
+    #[arg(short, long, value_name = "PATH")]
     output: Option<OutputPath>,
     /// What counts as zero when the families are found, relative to the size of the body
     #[arg(long, value_name = "X", default_value_t = 1e-9)]
     tolerance: f64,
-    /// Look for equivalent platforms that fulfil the wishes
+    /// Search for equivalent platforms that fulfil the wishes below
     #[arg(long, conflicts_with_all = ["leg", "moves", "together"])]
     search: bool,
     #[command(flatten)]
@@ -59,6 +59,9 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let design = context.load(&args.design)?;
     let options = ComponentOptions { tolerance: args.tolerance, seed: context.seed() };
     if args.search {
+        if design.workspace.is_empty() {
+            context.no_effect("workspace", "the design has no workspace")?;
+        }
         return found::run(args.output.as_deref(), &args.wishes, &design, options);
     }
     if let Some(option) = args.wishes.first_given() {
@@ -70,6 +73,9 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         let families = families(&design, options)?;
         let failure = Failure::refused("move::nothing_asked", "no leg is to be moved");
         return Err(failure.with_help(list_families(&design, &families)?));
+    }
+    if wanted.len() < 2 {
+        context.no_effect("together", "a single leg is moved")?;
     }
     let done = if args.together {
         vec![one_step(&design, &design, &wanted, options)?]

@@ -11,34 +11,34 @@ use crate::synthesis::relocate::search::{Hole, MoveSearchOptions, Wishes};
 /// What an equivalent platform is to fulfil.
 #[derive(Debug, clap::Args)]
 pub(super) struct WishArgs {
-    /// Search: one leg at every joint
+    /// Search: every joint holds one leg
     #[arg(long)]
     no_shared_joints: bool,
-    /// Search: no two legs meet, as straight segments at the home pose
+    /// Search: no two legs meet, taken as straight segments at the home pose
     #[arg(long)]
     no_crossing: bool,
-    /// Search: least distance of two legs (default: the leg diameter of the design, else 0)
+    /// Search: least distance between two legs; the leg diameter of the design when absent, else 0
     #[arg(long, value_name = "D", requires = "no_crossing")]
     clearance: Option<f64>,
-    /// Search: a joint of this body is here: base:X,Y,Z or platform:X,Y,Z; repeat it
+    /// Search: a joint of the body lies here, base:X,Y,Z or platform:X,Y,Z; repeat the option for several
     #[arg(long, value_name = "BODY:X,Y,Z")]
     hole: Vec<String>,
-    /// Search: the joint of this name is moved here, with one of its legs; repeat it
+    /// Search: the joint of this name moves here, with one of its legs; repeat the option for several
     #[arg(long, value_name = "NAME=X,Y,Z")]
     joint: Vec<String>,
-    /// Search: least distance of two joints of one body (default: the design's, else a hundredth of the size)
+    /// Search: least distance between two joints of one body; that of the design when absent, else a hundredth of its size
     #[arg(long, value_name = "D")]
     spacing: Option<f64>,
-    /// Search: least inverse condition number of the Jacobian (default: a tenth of the design's)
+    /// Search: least inverse condition number of the Jacobian; a tenth of the design's when absent
     #[arg(long, value_name = "X")]
     conditioning: Option<f64>,
-    /// Search: how far from the centre of its body a joint may be, in sizes of the design (default 1.5)
+    /// Search: greatest distance of a joint from the centre of its body, in sizes of the design; 1.5 when absent
     #[arg(long, value_name = "X")]
     reach: Option<f64>,
-    /// Search: look at all poses of the design's workspace, not only at home
+    /// Search: judge all poses of the workspace of the design, not only the home pose
     #[arg(long)]
     workspace: bool,
-    /// Search: how many platforms are listed (default 5)
+    /// Search: number of platforms that are listed; 5 when absent
     #[arg(long, value_name = "N")]
     count: Option<usize>,
 }

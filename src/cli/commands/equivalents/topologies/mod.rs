@@ -29,18 +29,18 @@ use crate::topology::{NamedTopology, Recognised, Sequence, catalogue, recognise}
 /// Arguments of `equivalents topologies`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// Only the topology of this design (.toml or .json)
+    /// Design file (.toml or .json): name its topology only
     design: Option<PathBuf>,
-    /// Random members of each topology solved to count its poses
+    /// Number of random members of each topology that are solved to count its poses
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u64).range(1..=1000))]
     members: u64,
-    /// Write a picture of all that are listed
+    /// Write a picture of all topologies that are listed
     #[arg(long, value_name = "FILE")]
     svg: Option<OutputPath>,
     /// Write a representative design (T01.toml, ...) and a picture (T01.svg, ...) of each into this folder
     #[arg(short, long, value_name = "DIR")]
     output: Option<OutputPath>,
-    /// Also what equivalent rearrangement can do for each, bodies in space or in a plane: fewest shared joints, octahedral or not; with -o the designs that show it
+    /// Say also what equivalent rearrangement can do for each, with bodies in space or in a plane: the fewest shared joints, octahedral or not; with -o, write the designs that show it
     #[arg(long)]
     rearrangements: bool,
 }

@@ -24,25 +24,25 @@ use crate::topology::Topology;
 pub(crate) struct Args {
     /// Design file (.toml or .json)
     design: PathBuf,
-    /// Six lengths; the design's own when absent. That of the leg that varies is not used
+    /// Six lengths, those of the design when absent; that of the leg that varies is not used
     #[arg(long, value_name = "L1,..,L6")]
     lengths: Option<String>,
-    /// The leg whose length varies, 1 to 6
+    /// Number of the leg whose length varies, 1 to 6
     #[arg(long, value_name = "K", value_parser = clap::value_parser!(u8).range(1..=6))]
     leg: u8,
-    /// Its first length
+    /// First length of that leg
     #[arg(long, value_name = "L")]
     from: f64,
-    /// Its last length
+    /// Last length of that leg
     #[arg(long, value_name = "L")]
     to: f64,
-    /// How many lengths, both ends included
+    /// Number of lengths, both ends included
     #[arg(long, value_name = "N", default_value_t = 201, value_parser = clap::value_parser!(u32).range(2..=100_000))]
     steps: u32,
-    /// The virtual leg, by its joints; the first that trilateration needs (else the first that is not a leg) when absent
+    /// Virtual leg, named by its joints; the first that trilateration needs when absent, else the first pair that no leg joins
     #[arg(long, value_name = "BASE,PLATFORM")]
     between: Option<String>,
-    /// Method; auto takes the best one for the design
+    /// Method of solution; auto takes the best one for the design
     #[arg(long, value_enum, default_value_t = MethodArg::Auto)]
     method: MethodArg,
     /// Write the values as a table

@@ -38,18 +38,17 @@ pub(crate) struct Args {
 /// Which curves.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Question {
-    /// The design (.toml or .json)
+    /// Design file (.toml or .json)
     design: PathBuf,
-    /// The pose to start from: `home`, six numbers (position, then roll, pitch, yaw in degrees) or seven (position,
-    /// then quaternion, scalar first)
+    /// Pose to start from: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`
     #[arg(long, value_name = "POSE", allow_hyphen_values = true, default_value = "home")]
     pose: String,
-    /// Six leg lengths, instead of a pose: all real components of the poses with these lengths
+    /// Six lengths instead of a pose: find all real components of the poses with these lengths
     #[arg(long, value_name = "L1,..,L6", conflicts_with = "pose")]
     lengths: Option<String>,
-    /// Times to cut all curves over the complex numbers by random sections; 0: only what hangs together with the pose
+    /// Number of random sections by which all curves over the complex numbers are cut; 0 follows only what hangs together with the pose
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(0..=100))]
-    searches: u64,
+    sections: u64,
     /// Largest turn of the tangent from point to point, radians
     #[arg(long, value_name = "RAD", default_value_t = 0.05, value_parser = turn)]
     turn: f64,
@@ -111,7 +110,14 @@ fn trace(args: &Question, context: &mut Context) -> Result<(Design, Found), Fail
     let mut starts: Vec<(Pose, OriginWord)> = given.iter().map(|p| (*p, OriginWord::Pose)).collect();
     let mut dimension = motion.dimension;
     let (mut critical, mut accounted) = (None, None);
-    let searches = if start.is_none() { args.searches.max(1) } else { args.searches };
+    if start.is_none() && args.sections == 0 {
+        let message =
+            "--sections 0 leaves no pose to start from: with --lengths the curves are found by sections";
+        return Err(
+            Failure::refused("motion::no_start", message).with_help("give --pose, or --sections 1 or more")
+        );
+    }
+    let searches = args.sections;
     if searches > 0 && (start.is_none() || dimension == 1) {
         let sections = sections(m, &squares, searches, context.seed())?;
         dimension = if start.is_none() { sections.dimension } else { dimension };

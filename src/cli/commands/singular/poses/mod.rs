@@ -23,44 +23,43 @@ use crate::singularity::{BoxOptions, RegularBox, four_planes, regular_box};
 /// Arguments of `singular poses`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// The design (.toml or .json)
+    /// Design file (.toml or .json)
     design: PathBuf,
-    /// The pose in the middle: `home`, six numbers (position, then roll, pitch, yaw in degrees) or seven (position,
-    /// then quaternion, scalar first)
+    /// Pose in the middle: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`
     #[arg(long, value_name = "POSE", allow_hyphen_values = true, default_value = "home")]
     pose: String,
-    /// Leg lengths of which all assembly modes are judged; without them those of the pose
+    /// Six lengths at which all assembly modes are judged; those of the pose when absent
     #[arg(long, value_name = "L1,..,L6")]
     lengths: Option<String>,
     /// Shape of the box: half widths of translations (design units) and components of the rotation vector (degrees); without it
     /// the workspace of the design, box or ellipsoid, else half its size and 30 degrees
     #[arg(long = "box", value_name = "X,Y,Z,RX,RY,RZ")]
     shape: Option<String>,
-    /// Most regions tested for the box
+    /// Greatest number of cells of the region of poses over which det J is bounded to prove the box
     #[arg(long, value_name = "N", default_value_t = 30_000)]
-    regions: usize,
+    cells: usize,
     /// Write a picture of the singular poses over two of the six freedoms
     #[arg(long, value_name = "FILE")]
     svg: Option<OutputPath>,
-    /// The two freedoms of that picture: x, y, z (positions), rx, ry, rz (rotation vector in the base frame)
-    #[arg(long, value_name = "A,B", default_value = "rx,rz", value_parser = Freedoms::parse)]
+    /// Two freedoms of that picture: x, y, z (positions), rx, ry, rz (rotation vector in the base frame)
+    #[arg(long, value_name = "A,B", default_value = "rx,rz", value_parser = Freedoms::parse, requires = "svg")]
     slice: Freedoms,
-    /// det J along the straight path between two assembly modes, by their numbers in the list; 0 is POSE
+    /// Compute det J along the straight path between two assembly modes, by their numbers in the list; 0 is the pose of --pose
     #[arg(long, value_name = "I,J")]
     path: Option<String>,
-    /// A pose that path passes; may be repeated, in order
+    /// A pose that the path passes through; repeat the option for several, in order
     #[arg(long, value_name = "POSE", allow_hyphen_values = true, requires = "path")]
     via: Vec<String>,
-    /// Write det J along that path, as a table
+    /// Write det J along that path as a table
     #[arg(long, value_name = "FILE", requires = "path")]
     csv: Option<OutputPath>,
     /// Write a picture of det J along that path
     #[arg(long, value_name = "FILE", requires = "path")]
     path_svg: Option<OutputPath>,
-    /// det J along the straight paths between all assembly modes, and which modes other paths join without a singular pose
+    /// Compute det J along the straight paths between all assembly modes, and find which modes other paths join without a singular pose
     #[arg(long)]
     between: bool,
-    /// Random poses drawn in the search for such paths, for each sign of det J
+    /// Number of random poses drawn in the search for such paths, for each sign of det J
     #[arg(long, value_name = "N", default_value_t = 1000, requires = "between")]
     samples: usize,
 }
@@ -108,7 +107,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         .map_err(|e| Failure::internal(format!("assembly modes: {e}")))?;
     let modes: Vec<Judged> =
         solutions.assembly_modes().map(|r| judged(m, octahedral.as_ref(), r.pose.real_part())).collect();
-    let options = box_options(args.shape.as_deref(), args.regions, &design, context.seed())?;
+    let options = box_options(args.shape.as_deref(), args.cells, &design, context.seed())?;
     let regular = regular_box(m, &pose, &options);
     let exit = match regular.proved {
         p if p > 0.0 => Exit::Yes,
