@@ -20,7 +20,7 @@ fn hash(path: &str) -> String {
 fn designs_have_name_path_and_the_hash_of_their_bytes_in_the_order_given() {
     let of = |args: &[&str]| answer(args)["provenance"].clone();
     let design = |name: &str, path: &str| json!({"name": name, "path": path, "sha256": hash(path)});
-    let made = of(&["map", MIDLINE, OCTAHEDRAL]);
+    let made = of(&["equivalents", "map", MIDLINE, OCTAHEDRAL]);
     let both = json!([
         design("midline Griffis-Duffy 12-6 (singular)", MIDLINE),
         design("octahedral 12-6", OCTAHEDRAL)
@@ -31,7 +31,7 @@ fn designs_have_name_path_and_the_hash_of_their_bytes_in_the_order_given() {
     let folder = tempfile::tempdir().unwrap();
     let other = folder.path().join("other.json");
     let other = other.to_str().unwrap();
-    assert_eq!(equipod(&["convert", OCTAHEDRAL, "-o", other]).status.code(), Some(0));
+    assert_eq!(equipod(&["design", "convert", OCTAHEDRAL, "-o", other]).status.code(), Some(0));
     assert_eq!(of(&["check", other])["designs"], json!([design("octahedral 12-6", other)]));
 }
 
@@ -39,7 +39,7 @@ fn designs_have_name_path_and_the_hash_of_their_bytes_in_the_order_given() {
 fn the_seed_is_there_where_a_computation_was_given_one() {
     let seed = |args: &[&str]| answer(args)["provenance"]["seed"].clone();
     assert_eq!(seed(&["fk", OCTAHEDRAL, "--seed", "9"]), 9);
-    assert_eq!(seed(&["presets", "--seed", "9"]), Value::Null);
+    assert_eq!(seed(&["design", "presets", "--seed", "9"]), Value::Null);
 }
 
 #[test]
