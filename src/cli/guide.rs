@@ -165,7 +165,9 @@ const JOBS: [Job; 8] = [
             entry("plot det", &["plot det designs/rbt-octahedral.toml -o det.svg"], &["determinant"]),
             entry(
                 "plot locus",
-                &["plot locus designs/innocenti-6-4.toml --leg 6 --from 4.3 --to 4.7 --steps 11 -o locus.svg"],
+                &[
+                    "plot locus designs/innocenti-6-4.toml --leg 6 --from 4.3 --to 4.7 --steps 11 -o locus.svg",
+                ],
                 &["root-locus"],
             ),
             entry(

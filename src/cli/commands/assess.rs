@@ -45,7 +45,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         Error::NothingRequired => {
             let help =
                 "add [hardware] with lengths, swing, diameters or greatest forces; see docs/design-files.md";
-            Failure::refused("assess::nothing_required", "the design requires nothing").with_help(help)
+            Failure::refused("assess::nothing_required", "the design has no requirements").with_help(help)
         }
         other => Failure::internal(other.to_string()),
     })?;

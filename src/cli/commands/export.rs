@@ -66,8 +66,10 @@ fn model(args: &Args, design: &Design) -> Result<Export, Failure> {
         gravity_compensation: args.gravity_compensation,
     };
     Export::of(design, &options).map_err(|why| match why {
-        NoExport::Unit(e) => Failure::refused("export::unknown_unit", format!("units of the design: {e}"))
-            .with_help("`--unit mm` says what one unit of the design is"),
+        NoExport::Unit(e) => {
+            Failure::refused("export::unknown_unit", format!("the units of the design cannot be used: {e}"))
+                .with_help("`--unit mm` says what one unit of the design is")
+        }
         other => Failure::refused("export::bad_size", other.to_string()),
     })
 }

@@ -83,7 +83,7 @@ fn fault(words: &[String]) -> Option<String> {
     program().try_get_matches_from(line).err().map(|e| e.to_string())
 }
 
-/// Command lines in a text: between backticks, and lines of code.
+/// Command lines in a text: pieces of code in a sentence, and lines of code.
 fn command_lines(text: &str) -> Vec<String> {
     let mut out: Vec<String> = Vec::new();
     for line in text.lines() {

@@ -13,7 +13,7 @@ use crate::records::{self, SchemaAnswer};
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// `design` for design files, `error` for refusals, `help` for --help, or a command for its answer with --json
-    #[arg(default_value = "design", value_parser = PossibleValuesParser::new(names()))]
+    #[arg(value_name = "ANSWER", default_value = "design", value_parser = PossibleValuesParser::new(names()))]
     of: String,
 }
 

@@ -47,7 +47,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let design = context.load(&args.design)?;
     let o = Octahedral::recognise(design.manipulator()).map_err(|e| {
         Failure::refused("family::not_octahedral", format!("{} is not octahedral: {e}", design.name))
-            .with_help("three joints on each body, two legs at each, in one closed zigzag")
+            .with_help("an octahedral design has three joints on each body and two legs at each joint, and the legs make one closed zigzag")
     })?;
     let family = Family::octahedral();
     if let Some(path) = &args.dot {

@@ -110,7 +110,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     optimize::check_extension(args.extension)?;
     let design = context.load(&args.design)?;
     let octahedral = Octahedral::recognise(design.manipulator()).map_err(|why| {
-        Failure::refused("explore::not_octahedral", format!("not an octahedral platform: {why}"))
+        Failure::refused("explore::not_octahedral", format!("the design is not octahedral: {why}"))
             .with_help("explore starts from a 3-3 octahedral design; verify compares any two designs")
     })?;
     let mut folder = Folder::prepare(&args.output)?;

@@ -126,7 +126,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         ));
     }
     let octahedral = Octahedral::recognise(design.manipulator()).map_err(|why| {
-        Failure::refused("optimize::not_octahedral", format!("not an octahedral platform: {why}"))
+        Failure::refused("optimize::not_octahedral", format!("the design is not octahedral: {why}"))
             .with_help("optimize spreads the shared joints of a 3-3 octahedral design")
     })?;
     if !(args.gap > 0.0 && args.gap.is_finite()) {

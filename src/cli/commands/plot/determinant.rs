@@ -89,7 +89,8 @@ fn range(text: &str) -> Result<(f64, f64), String> {
 pub(super) fn draw(args: &Args, context: &mut Context) -> Result<String, Failure> {
     let design = context.load(&args.design)?;
     if let Err(why) = Octahedral::recognise(design.manipulator()) {
-        let failure = Failure::refused("plot::not_octahedral", format!("not an octahedral platform: {why}"));
+        let failure =
+            Failure::refused("plot::not_octahedral", format!("the design is not octahedral: {why}"));
         return Err(failure.with_help("offsets along edges belong to an octahedral design"));
     }
     let (low, high) = args.range;

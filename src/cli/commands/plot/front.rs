@@ -18,25 +18,25 @@ pub(super) struct Args {
 
 fn refused(args: &Args, message: &str) -> Failure {
     Failure::refused("plot::not_a_front", format!("{}: {message}", args.front.display()))
-        .with_help("give the output of `equipod --json optimize DESIGN` for a design with mode = \"pareto\"")
+        .with_help("give the output of `equipod optimize DESIGN --json` for a design with mode = \"pareto\"")
 }
 
 pub(super) fn draw(args: &Args) -> Result<String, Failure> {
     let text = files::read_text(&args.front)?;
-    let document: Value =
-        serde_json::from_str(&text).map_err(|e| refused(args, &format!("not a JSON document: {e}")))?;
+    let document: Value = serde_json::from_str(&text)
+        .map_err(|e| refused(args, &format!("the file is not a JSON document: {e}")))?;
     let members = document.get("front").and_then(Value::as_array);
-    let members = members.ok_or_else(|| refused(args, "no list `front`"))?;
-    let first = members.first().ok_or_else(|| refused(args, "the front has no member"))?;
+    let members = members.ok_or_else(|| refused(args, "the document has no list `front`"))?;
+    let first = members.first().ok_or_else(|| refused(args, "the front has no members"))?;
     let axes = objectives(first).iter().map(axis).collect::<Option<Vec<FrontAxis>>>();
     let axes = axes.filter(|a| (2..=3).contains(&a.len()));
-    let axes = axes.ok_or_else(|| refused(args, "the members have no two or three objectives"))?;
+    let axes = axes.ok_or_else(|| refused(args, "the members do not have two or three objectives"))?;
     let values = |member: &Value| {
         let all: Option<Vec<f64>> = objectives(member).iter().map(|o| o.get("value")?.as_f64()).collect();
         all.filter(|v| v.len() == axes.len())
     };
     let values = members.iter().map(values).collect::<Option<Vec<_>>>();
-    let members = values.ok_or_else(|| refused(args, "a member lacks values"))?;
+    let members = values.ok_or_else(|| refused(args, "a member has no values"))?;
     let name = first.get("design").and_then(|d| d.get("name")).and_then(Value::as_str);
     let seed = document
         .pointer("/provenance/seed")

@@ -31,9 +31,8 @@ pub(super) fn run(
     let outcome = search(design.manipulator(), &families, &wishes, &args.options(options.seed)).map_err(
         |e| match e {
             SearchError::Linalg(_) => Failure::internal(e.to_string()),
-            SearchError::Dependent(_) => {
-                Failure::refused("move::singular_design", e.to_string()).with_help("see equipod check DESIGN")
-            }
+            SearchError::Dependent(_) => Failure::refused("move::singular_design", e.to_string())
+                .with_help("`equipod check DESIGN` says why"),
             _ => Failure::refused("move::bad_wish", e.to_string()),
         },
     )?;

@@ -71,7 +71,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let wanted = requests(args.leg.as_deref(), args.along.as_deref(), args.to.as_deref(), &args.moves)?;
     if wanted.is_empty() {
         let families = families(&design, options)?;
-        let failure = Failure::refused("move::nothing_asked", "no leg is to be moved");
+        let failure = Failure::refused("move::nothing_asked", "no move is asked for");
         return Err(failure.with_help(list_families(&design, &families)?));
     }
     if wanted.len() < 2 {

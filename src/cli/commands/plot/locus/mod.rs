@@ -124,8 +124,11 @@ fn solve(args: &Args, context: &mut Context) -> Result<Locus, Failure> {
     let method = args.method.method();
     let design = context.load(&args.design)?;
     let lengths::Given::One(given) = lengths::given(args.lengths.as_deref(), design.lengths)? else {
-        return Err(Failure::refused("locus::one_row", "--lengths is a table")
-            .with_help("give six lengths separated by commas"));
+        return Err(Failure::refused(
+            "locus::one_row",
+            "--lengths names a table, but one set of lengths is wanted",
+        )
+        .with_help("give six lengths separated by commas"));
     };
     let m = design.manipulator();
     let between = match &args.between {

@@ -100,7 +100,7 @@ fn text(design: &Design, found: &Found) -> String {
     }
     let _ = writeln!(
         out,
-        "  no singular pose for t <= {:.4}, proved on {} regions; the same for every equivalent platform",
+        "  no singular pose for t <= {:.4}, proved over {} cells; the same for every equivalent platform",
         regular.proved, regular.regions
     );
     let _ = match regular.refuted {
