@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use super::cli_frame::{document, equipod};
 
-const INNOCENTI: [&str; 9] =
+const INNOCENTI: [&str; 10] =
     ["plot", "locus", "designs/innocenti-6-4.toml", "--leg", "6", "--from", "4.3", "--to", "4.7", "--json"];
 
 fn values(row: &Value) -> Vec<(f64, f64)> {
