@@ -269,7 +269,7 @@ impl<'m, 'a> Judging<'m, 'a> {
             self.so_far.gains[m] = self.so_far.gains[m].min(model.merit.at_pose(o, &model.terms, &l));
         }
         model.terms.visit(&l, &ends, self.x, &mut |item: Item<()>| {
-            self.hold(ConstraintGroup::Term(item.id.0), item.value)
+            self.hold(ConstraintGroup::Term(item.id.0), item.value);
         });
         self.lengths = l.length.iter().fold(self.lengths, |r, x| (r.0.min(*x), r.1.max(*x)));
     }

@@ -8,6 +8,7 @@ use crate::singularity::{
     Architecture, Assembly, Conditioning, NearestSingular, Regularity, assembly, conditioning,
     nearest_singular, regular_workspace, singular_distance_at_least,
 };
+use crate::solve::pose_count::{CountOptions, PoseCount, count_generic_poses};
 
 /// Whether a design is architecturally singular, and why.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +26,8 @@ pub struct CheckReport {
     pub assembly: Option<Assembly>,
     /// How well the legs hold the platform at random poses.
     pub conditioning: Conditioning,
+    /// Finite poses, real and complex, for generic leg lengths: no lengths have more isolated ones.
+    pub pose_count: PoseCount,
 }
 
 impl CheckReport {
@@ -128,7 +131,9 @@ impl Design {
             (Some(g), Some(l)) => Some(assembly(g, m, &l.squared())?),
             _ => None,
         };
-        Ok(CheckReport { design: self.clone(), architecture, nearest, at_least, assembly, conditioning })
+        let pose_count = count_generic_poses(m, &CountOptions { seed, ..CountOptions::default() });
+        let design = self.clone();
+        Ok(CheckReport { design, architecture, nearest, at_least, assembly, conditioning, pose_count })
     }
 
     /// By how much the design meets its requirements over its whole workspace, and whether that is proved.

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::fk::PoseCountRecord;
 use super::pose::leg_numbers;
 use super::{NamedPoints, Number, PoseRecord};
 use crate::design::Design;
@@ -48,6 +49,8 @@ pub struct CheckAnswer {
     pub griffis_duffy: Option<GriffisDuffyRecord>,
     /// The nearest singular design that was found; null for a singular one.
     pub nearest_singular: Option<NearestSingularRecord>,
+    /// Finite poses, real and complex, for generic leg lengths.
+    pub pose_count: PoseCountRecord,
     /// Singular values of the normalised leg vectors.
     pub singular_values: [Number; 6],
     /// How well conditioned the Jacobian is at random poses.
@@ -82,6 +85,7 @@ impl From<&CheckReport> for CheckAnswer {
                 .nearest
                 .as_ref()
                 .map(|n| NearestSingularRecord::new(n, c.at_least, &c.design)),
+            pose_count: (&c.pose_count).into(),
             singular_values: f.leg_vectors.map(Number),
             jacobian_inverse_condition: ConditioningRecord {
                 poses: f.poses,

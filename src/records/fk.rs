@@ -16,7 +16,7 @@ use crate::num::disc::Disc;
 use crate::poly::{Dyadic, RealRoot};
 use crate::solve::certify::octahedral::OctahedralCertificate;
 use crate::solve::certify::{CentrePrecision, Certificate, PoseEnclosure, ProvedReality, RootCertificate};
-use crate::solve::pose_count::{CountUndecided, PoseSet};
+use crate::solve::pose_count::{CountUndecided, PoseCount, PoseSet};
 use crate::topology::{JointIndex, Step};
 
 /// The answer of `fk`.
@@ -269,21 +269,30 @@ pub enum EvidenceWord {
 
 impl PoseCountRecord {
     fn of(s: &FkSolutions) -> Option<Self> {
-        let mut record = Self {
+        match &s.pose_count {
+            Some(count) => Some(count.into()),
+            None => matches!(s.completeness, Completeness::Proved { .. })
+                .then(|| Self { finite: Some(s.certified_count()), ..Self::without(EvidenceWord::Proved) }),
+        }
+    }
+
+    fn without(evidence: EvidenceWord) -> Self {
+        Self {
             finite: None,
             by_degree: None,
             dimension: None,
             degree: None,
             undecided: None,
-            evidence: EvidenceWord::Modular,
+            evidence,
             error_probability: None,
             primes: Vec::new(),
-        };
-        let Some(c) = &s.pose_count else {
-            record.finite = Some(s.certified_count());
-            record.evidence = EvidenceWord::Proved;
-            return matches!(s.completeness, Completeness::Proved { .. }).then_some(record);
-        };
+        }
+    }
+}
+
+impl From<&PoseCount> for PoseCountRecord {
+    fn from(c: &PoseCount) -> Self {
+        let mut record = Self::without(EvidenceWord::Modular);
         match &c.set {
             PoseSet::Finite { count, by_degree } => {
                 record.finite = Some(*count);
@@ -297,7 +306,7 @@ impl PoseCountRecord {
         }
         record.error_probability = record.undecided.is_none().then_some(c.error_probability);
         record.primes = c.primes.iter().map(u64::to_string).collect();
-        Some(record)
+        record
     }
 }
 

@@ -59,6 +59,27 @@ fn the_midline_platform_is_singular_with_its_dependency_and_condition() {
 }
 
 #[test]
+fn the_finite_poses_for_generic_lengths_are_counted() {
+    for (path, by_degree) in [
+        ("designs/rbt-octahedral.toml", &[1, 10, 5][..]),
+        ("designs/general-6-6.toml", &[1, 10, 18, 10, 1][..]),
+        // rounded joints: a general platform, with 24 poses far out
+        ("designs/rbt-griffis-duffy.toml", &[1, 10, 18, 10, 1][..]),
+        // generic lengths contradict the relation of the legs
+        ("designs/rbt-midline.toml", &[][..]),
+    ] {
+        let (_, answer) = check(path);
+        let count = &answer["pose_count"];
+        let found: Vec<usize> = serde_json::from_value(count["by_degree"].clone()).unwrap();
+        assert_eq!(found, by_degree, "{path}");
+        assert_eq!(count["finite"], by_degree.iter().sum::<usize>());
+        assert_eq!(count["evidence"], "modular");
+        let error = count["error_probability"].as_f64().unwrap();
+        assert!(error > 0.0 && error < 1e-9, "{path}: {error:e}");
+    }
+}
+
+#[test]
 fn people_are_told_the_same_in_words() {
     let out = equipod(&["check", "designs/rbt-midline.toml"]);
     let text = String::from_utf8(out.stdout).unwrap();

@@ -9,6 +9,7 @@ use crate::cli::failure::Failure;
 use crate::cli::output::Answer;
 use crate::records::{
     AssemblyRecord, CheckAnswer, DependencyRecord, GriffisDuffyRecord, NearestSingularRecord, Number,
+    PoseCountRecord,
 };
 
 /// Arguments of `check`.
@@ -61,6 +62,7 @@ fn text(c: &CheckAnswer, size: f64, units: &str) -> String {
     if let Some(n) = &c.nearest_singular {
         nearest(&mut text, n, size, units);
     }
+    pose_count(&mut text, &c.pose_count);
     let f = &c.jacobian_inverse_condition;
     let values: Vec<String> = c.singular_values.iter().map(|x| format!("{:.3e}", x.0)).collect();
     let _ = writeln!(text, "\nsingular values of the normalised leg vectors: {}", values.join(", "));
@@ -70,6 +72,22 @@ fn text(c: &CheckAnswer, size: f64, units: &str) -> String {
         f.poses, f.best.0, f.median.0, f.worst.0
     );
     text
+}
+
+fn pose_count(text: &mut String, c: &PoseCountRecord) {
+    let error = c.error_probability.map(|p| {
+        format!("counted modulo {} random primes, wrong with probability {p:.1e} at most", c.primes.len())
+    });
+    let error = error.unwrap_or_default();
+    let _ = match (c.finite, c.dimension) {
+        (Some(n), _) => {
+            writeln!(text, "\nfinite poses, real and complex, for generic leg lengths: {n} ({error})")
+        }
+        (None, Some(d)) => {
+            writeln!(text, "\nfor generic leg lengths the poses form a set of dimension {d} ({error})")
+        }
+        (None, None) => writeln!(text, "\nthe finite poses for generic leg lengths are not counted"),
+    };
 }
 
 fn sum(coefficients: &[Number; 6], letter: char) -> String {

@@ -133,6 +133,9 @@ pub fn count_poses(m: &Manipulator, squares: &ExactSquares, options: &CountOptio
 }
 
 /// Counts the finite poses of `m` for generic squared lengths: no lengths have more isolated poses, counted with multiplicity (Sommese, Wampler 2005, theorem 7.1.1).
+///
+/// The lengths are random integers below `2^60`; the bound on the probability of error includes that they are special (Schwartz 1980, lemma 1: the minors
+/// that decide are polynomials in the squared lengths, of degree one in each row).
 #[must_use]
 pub fn count_generic_poses(m: &Manipulator, options: &CountOptions) -> PoseCount {
     counted(m, Lengths::Generic, options)
@@ -158,10 +161,14 @@ fn counted(m: &Manipulator, lengths: Lengths<'_>, options: &CountOptions) -> Pos
         sections: std::array::from_fn(|_| std::array::from_fn(|_| integer())),
     };
     let mut out: Option<PoseCount> = None;
+    let mut special: f64 = 0.0;
     for _ in 0..options.primes.max(1) {
         let field = Field::drawn(&mut rng);
         let (set, depth) = set_modulo(field, m, lengths, &draws);
         let error = error_probability(m, lengths, depth);
+        if matches!(lengths, Lengths::Generic) {
+            special = special.max(minors(depth) / 2f64.powi(60));
+        }
         let count = out.get_or_insert_with(|| PoseCount {
             set: set.clone(),
             primes: Vec::new(),
@@ -177,7 +184,11 @@ fn counted(m: &Manipulator, lengths: Lengths<'_>, options: &CountOptions) -> Pos
             break;
         }
     }
-    out.unwrap_or(PoseCount::undecided(CountUndecided::DegreeTooLow))
+    let mut count = out.unwrap_or(PoseCount::undecided(CountUndecided::DegreeTooLow));
+    if !matches!(count.set, PoseSet::Undecided { .. }) {
+        count.error_probability += special;
+    }
+    count
 }
 
 /// The set modulo one prime, and the degree of the multiples used.
@@ -252,10 +263,13 @@ fn leg_equation(field: Field, leg: &Leg, square: u64) -> Linear {
 /// `2^61` (Rosser, Schoenfeld 1962, (3.9)).
 fn error_probability(m: &Manipulator, lengths: Lengths<'_>, depth: usize) -> f64 {
     let bits = leg_bits(m, lengths).max(SECTION_BITS);
-    // all depths up to the one that was needed, which is not known before the prime is drawn
-    let minors: f64 = (1..=depth + 1).map(|t| (DEGREE + 2) as f64 * monomials(t) * bits).sum();
     let primes = 3.0 * 2f64.powi(60) / (5.0 * 60.0 * std::f64::consts::LN_2);
-    (minors / 60.0 / primes).min(1.0)
+    (minors(depth) * bits / 60.0 / primes).min(1.0)
+}
+
+/// Rows, at most, of all minors that decide: for all depths up to the one that was needed, which is not known before the prime is drawn.
+fn minors(depth: usize) -> f64 {
+    (1..=depth + 1).map(|t| (DEGREE + 2) as f64 * monomials(t)).sum()
 }
 
 /// Number of monomials of degree `t` or less in sixteen unknowns.

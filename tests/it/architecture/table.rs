@@ -150,6 +150,7 @@ const LINES: &[Line] = &[
             "requirements",
             "synthesis",
             "singularity",
+            "solve",
             "fk",
             "offsets",
             "dimensional",

@@ -135,7 +135,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
             match p {
                 offsets::OffsetProgress::Ranking { done, total, .. } => progress.part("ranking", done, total),
                 offsets::OffsetProgress::Polishing { done, total, .. } => {
-                    progress.part("polishing", done, total)
+                    progress.part("polishing", done, total);
                 }
                 offsets::OffsetProgress::Bounding { boxes, open, .. } => {
                     progress.part("bounding", boxes, boxes + open);
