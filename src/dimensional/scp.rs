@@ -16,13 +16,13 @@ use crate::num::conic::{ConicAnswer, ConicPoint, ConicProgram, ConicRow, SolverF
 
 /// How hard to try.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Effort {
+pub(crate) struct ShapeEffort {
     pub(crate) iterations: usize,
     /// Stop when the model promises less.
     pub(crate) tolerance: f64,
 }
 
-impl Effort {
+impl ShapeEffort {
     /// Enough to compare starts.
     pub(crate) const RANK: Self = Self { iterations: 30, tolerance: 1e-5 };
     /// To the accuracy of the conic solver.
@@ -171,7 +171,7 @@ pub(crate) fn climb(
     poses: &[HeldPose],
     task: &Task,
     start: &[f64],
-    effort: Effort,
+    effort: ShapeEffort,
 ) -> ShapeRun {
     let n = start.len();
     let sign = model.sign(start);

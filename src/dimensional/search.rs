@@ -7,7 +7,7 @@ use super::model::{Model, Task};
 use super::outcome::{ConstraintConflict, DimensionalOutcome, DimensionalReport, outcome};
 use super::population::{Judge, Worth, evolve, offspring};
 use super::problem::{DimensionalProblem, InvalidProblem, Mode};
-use super::scp::{Effort, PENALTY, ShapeRun, climb};
+use super::scp::{PENALTY, ShapeEffort, ShapeRun, climb};
 use super::streams;
 use super::terms::HeldPose;
 use super::worst_pose::worse_poses;
@@ -113,7 +113,7 @@ pub(crate) fn refine(
     mut poses: Vec<HeldPose>,
     seed: u64,
 ) -> RefinedRun {
-    let mut run = climb(model, &poses, task, start, Effort::POLISH);
+    let mut run = climb(model, &poses, task, start, ShapeEffort::POLISH);
     // more poses only make worse what misses a requirement already
     let hopeless = task.weights.iter().any(|w| *w > 0.0) && !run.is_feasible(model);
     let mut complete = false;
@@ -128,7 +128,7 @@ pub(crate) fn refine(
             break;
         }
         poses.extend(worse);
-        run = climb(model, &poses, task, &run.x, Effort::POLISH).after(run.history);
+        run = climb(model, &poses, task, &run.x, ShapeEffort::POLISH).after(run.history);
     }
     RefinedRun { run, poses, complete }
 }
@@ -195,7 +195,7 @@ pub(crate) struct SearchedShape {
 /// A short climb over few poses, and again with those at which its end is worse.
 fn rank(model: &Model<'_>, task: &Task, start: &SearchStart) -> ShapeRun {
     let mut few = start.few.clone();
-    let mut run = climb(model, &few, task, &start.x, Effort::RANK);
+    let mut run = climb(model, &few, task, &start.x, ShapeEffort::RANK);
     let judge = Judge::new(model, task);
     for _ in 0..SHORT_ROUNDS {
         let mut more = judge.worst(&run.x, FEW_POSES);
@@ -204,7 +204,7 @@ fn rank(model: &Model<'_>, task: &Task, start: &SearchStart) -> ShapeRun {
             break;
         }
         few.extend(more);
-        run = climb(model, &few, task, &run.x, Effort::RANK).after(run.history);
+        run = climb(model, &few, task, &run.x, ShapeEffort::RANK).after(run.history);
     }
     run
 }

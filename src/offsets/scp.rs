@@ -14,13 +14,13 @@ use crate::synthesis::{determinant_gradient, determinant_hessian, offset_determi
 
 /// How hard to try.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Effort {
+pub(crate) struct OffsetEffort {
     max_iterations: usize,
     /// Stop when the model promises less than this, relative to the value.
     pub(crate) tolerance: f64,
 }
 
-impl Effort {
+impl OffsetEffort {
     /// Enough to rank a cell.
     pub(crate) const RANK: Self = Self { max_iterations: 12, tolerance: 1e-3 };
     /// To the solver's accuracy.
@@ -152,7 +152,12 @@ fn lowest_poses(m: &OffsetModel, t: &[f64; 6], count: usize) -> Vec<usize> {
 }
 
 /// Climbs from `start` within the cell.
-pub(crate) fn climb(m: &OffsetModel, cell: &BranchCell, start: [f64; 6], effort: Effort) -> LocalResult {
+pub(crate) fn climb(
+    m: &OffsetModel,
+    cell: &BranchCell,
+    start: [f64; 6],
+    effort: OffsetEffort,
+) -> LocalResult {
     let (value, worst) = worst_case(&m.poses, &start);
     let mut run = OffsetRun {
         m,

@@ -12,7 +12,7 @@ const SHARES: [f64; 12] = [0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.65, 0.7, 0.75, 0.8
 const BETTER: f64 = 1e-9;
 
 /// What regular offsets make: requirements that are violated, those at their limit, and the inverse condition number at home.
-type Worth = ([usize; 2], f64);
+type StartWorth = ([usize; 2], f64);
 
 impl Session {
     /// Regular offsets of a pattern: one value on the edges of the base, one on those of the platform, a second joint of an edge as far from its
@@ -22,11 +22,11 @@ impl Session {
         let original = self.original.as_ref().ok_or(InvalidStart::NoOriginal)?;
         let mut required = self.design.requirements();
         required.min_joint_distance.get_or_insert(self.limits.0);
-        let mut best: Option<(Worth, Vec<f64>)> = None;
+        let mut best: Option<(StartWorth, Vec<f64>)> = None;
         for (base, platform) in SHARES.into_iter().flat_map(|b| SHARES.map(|p| (b, p))) {
             let offsets = regular(pattern, base, platform);
             let (trouble, conditioning) = self.worth(original, &required, pattern, &offsets)?;
-            let better = |((other, least), _): &(Worth, Vec<f64>)| {
+            let better = |((other, least), _): &(StartWorth, Vec<f64>)| {
                 trouble < *other || (trouble == *other && conditioning > least * (1.0 + BETTER))
             };
             if best.as_ref().is_none_or(better) {
@@ -42,7 +42,7 @@ impl Session {
         required: &Requirements,
         pattern: &Pattern,
         offsets: &[f64],
-    ) -> Result<Worth, InvalidStart> {
+    ) -> Result<StartWorth, InvalidStart> {
         let m = pattern.instantiate(&original.octahedral, offsets)?;
         let terms = Terms::new(&m, required, &self.home);
         let fixed = terms.fixed().into_iter().map(|(term, x)| terms.standing(term.kind, x, None));

@@ -228,7 +228,7 @@ const STARTS: usize = 8;
 pub(super) fn general_poses(legs: &[HiddenLeg; 6], roles: &GeneralRoles) -> HiddenPoses {
     let mut platform = Platform::new(legs, *roles);
     let mut search =
-        Search { zeros: vec![Complex64::ZERO; DEGREE], settled: [false; DEGREE], poses: Vec::new() };
+        BlockSearch { zeros: vec![Complex64::ZERO; DEGREE], settled: [false; DEGREE], poses: Vec::new() };
     let (zeros, excess) = search.interpolate(&mut platform);
     search.begin(&platform, zeros);
     for _ in 0..SWEEPS {
@@ -248,13 +248,13 @@ pub(super) fn general_poses(legs: &[HiddenLeg; 6], roles: &GeneralRoles) -> Hidd
 }
 
 /// Zeros of the polynomial, from its coefficients at first, and the poses found at them.
-struct Search {
+struct BlockSearch {
     zeros: Vec<Complex64>,
     settled: [bool; DEGREE],
     poses: Vec<ComplexPose>,
 }
 
-impl Search {
+impl BlockSearch {
     /// Zeros by interpolation on one ellipse or several, and the excess; points of an ellipse when some platform cannot be solved or all poses are
     /// found on the way.
     fn interpolate(&mut self, platform: &mut Platform<'_>) -> (Vec<Complex64>, f64) {

@@ -249,7 +249,7 @@ pub(super) fn limit(w: &Wanted) -> f64 {
 }
 
 /// The best pair of triangles on grids that are laid, and how it was found.
-struct Found {
+struct BestTriangles {
     laying: Laying,
     pools: [Pool; 2],
     best: TrianglePair,
@@ -258,7 +258,11 @@ struct Found {
     met: bool,
 }
 
-fn search(problem: &RoundingProblem<'_>, laying: &Laying, roles: &Roles) -> Result<Found, NoRounding> {
+fn search(
+    problem: &RoundingProblem<'_>,
+    laying: &Laying,
+    roles: &Roles,
+) -> Result<BestTriangles, NoRounding> {
     let m = problem.manipulator;
     let count = problem.candidates.max(1);
     let pools = [0, 1].map(|body| {
@@ -276,7 +280,7 @@ fn search(problem: &RoundingProblem<'_>, laying: &Laying, roles: &Roles) -> Resu
     search.strict = false;
     let found = strict.or_else(|| search.run(&pools, count));
     let (best, replacements) = found.ok_or(NoRounding::Singular)?;
-    Ok(Found { laying: *laying, pools, best, replacements, met })
+    Ok(BestTriangles { laying: *laying, pools, best, replacements, met })
 }
 
 /// The best answer on any of the grids, the first ones where several are equally good; what stands against the first where there is none.
@@ -285,12 +289,16 @@ pub(super) fn round(
     layings: &[Laying],
     roles: &Roles,
 ) -> Result<ExactRounding, NoRounding> {
-    let better = |a: &Found, b: &Found| (a.met, a.best.objective) > (b.met, b.best.objective);
+    let better = |a: &BestTriangles, b: &BestTriangles| (a.met, a.best.objective) > (b.met, b.best.objective);
     let found = best_of(layings.iter().map(|laying| search(problem, laying, roles)), better);
     finish(problem, roles, &found.unwrap_or(Err(NoRounding::Singular))?)
 }
 
-fn finish(problem: &RoundingProblem<'_>, roles: &Roles, found: &Found) -> Result<ExactRounding, NoRounding> {
+fn finish(
+    problem: &RoundingProblem<'_>,
+    roles: &Roles,
+    found: &BestTriangles,
+) -> Result<ExactRounding, NoRounding> {
     let (m, best, grids, pools) = (problem.manipulator, &found.best, &found.laying.bodies, &found.pools);
     let list = joints(m);
     let cells = cells(roles, &list, &best.triangles);

@@ -77,7 +77,7 @@ fn around(grid: &BodyGrid, m: &Manipulator, joint: Joint) -> [GridHole; 4] {
 }
 
 /// The holes on grids that are laid.
-struct Found {
+struct NearestHoles {
     laying: Laying,
     /// For every joint its hole, and where it is next to the nearest.
     cells: Vec<GridHole>,
@@ -89,7 +89,7 @@ struct Found {
     nearest_errors: (f64, f64),
 }
 
-impl Found {
+impl NearestHoles {
     /// What is lowered.
     fn cost(&self, length: f64) -> f64 {
         self.errors.0.max(length * self.errors.1)
@@ -100,7 +100,7 @@ fn search(
     problem: &RoundingProblem<'_>,
     laying: &Laying,
     sensitivities: &[Sensitivity],
-) -> Result<Found, NoRounding> {
+) -> Result<NearestHoles, NoRounding> {
     let m = problem.manipulator;
     let list = joints(m);
     let grids = &laying.bodies;
@@ -141,7 +141,7 @@ fn search(
         }
     }
     let rounded = on_cells(m, grids, &state.cells).ok_or(NoRounding::Singular)?;
-    Ok(Found {
+    Ok(NearestHoles {
         laying: *laying,
         not_nearest: state.cells.iter().zip(&choices).filter(|(cell, c)| **cell != c[0]).count(),
         judgement: judge(&rounded, problem, None),
@@ -164,8 +164,9 @@ pub(super) fn round(
         problem.poses.iter().map(|pose| Sensitivity::at(m, pose, &problem.tool)).collect();
     let sensitivities = sensitivities.ok_or(NoRounding::SingularPose)?;
     let length = problem.characteristic_length;
-    let better =
-        |a: &Found, b: &Found| (a.judgement.met, -a.cost(length)) > (b.judgement.met, -b.cost(length));
+    let better = |a: &NearestHoles, b: &NearestHoles| {
+        (a.judgement.met, -a.cost(length)) > (b.judgement.met, -b.cost(length))
+    };
     let all = layings.iter().map(|laying| search(problem, laying, &sensitivities));
     let found = best_of(all, better).unwrap_or(Err(NoRounding::Singular))?;
     let rounded = found.rounded;

@@ -137,7 +137,7 @@ fn planar_kernel(
 
 /// A family before it is compared with the others.
 #[derive(Debug, Clone)]
-pub(super) struct Found {
+pub(super) struct FoundComponents {
     pub(super) shape: FamilyShape,
     pub(super) kind: FamilyKind,
     pub(super) base_span: usize,
@@ -190,13 +190,13 @@ impl View<'_> {
         kind: FamilyKind,
         spans: (usize, usize),
         decisions: Vec<Decision>,
-    ) -> Found {
+    ) -> FoundComponents {
         let (base_span, platform_span) = if self.over_platform { (spans.1, spans.0) } else { spans };
-        Found { shape, kind, base_span, platform_span, exact: None, decisions }
+        FoundComponents { shape, kind, base_span, platform_span, exact: None, decisions }
     }
 
     /// All legs between a flat of the carrying body and a flat of the other.
-    pub(super) fn all_pairs(&self, carrier: Flat, other: Flat, decisions: Vec<Decision>) -> Found {
+    pub(super) fn all_pairs(&self, carrier: Flat, other: Flat, decisions: Vec<Decision>) -> FoundComponents {
         let spans = (carrier.dimension(), other.dimension());
         let near = spanning_points(&carrier, self.near, self.tolerance);
         let far = spanning_points(&other, self.far, self.tolerance);
@@ -213,7 +213,7 @@ impl View<'_> {
         &self,
         point: &Vector3<f64>,
         rank: Option<usize>,
-    ) -> Result<Option<Found>, LinalgError> {
+    ) -> Result<Option<FoundComponents>, LinalgError> {
         let s = self.product.spectrum(&self.product.base.local(point))?;
         let mut decision = Decision::rank(self.question(), &s.values, 1.0, self.tolerance);
         if let Some(rank) = rank {
@@ -234,7 +234,7 @@ impl View<'_> {
         q: &[f64],
         most: Option<usize>,
         rng: &mut Rng,
-    ) -> Result<Option<Found>, LinalgError> {
+    ) -> Result<Option<FoundComponents>, LinalgError> {
         let along = |rng: &mut Rng| {
             let t = rng.uniform(-1.0, 2.0);
             p.iter().zip(q).map(|(x, y)| x + t * (y - x)).collect()
@@ -253,7 +253,7 @@ impl View<'_> {
         form: &Form,
         most: usize,
         rng: &mut Rng,
-    ) -> Result<Option<Found>, LinalgError> {
+    ) -> Result<Option<FoundComponents>, LinalgError> {
         let curve = Curve::Conic { frame: conic_frame(form), form: form.clone() };
         let polynomial = curve.polynomial();
         let along = |rng: &mut Rng| value(&polynomial, rng.uniform(-1.0, 1.0), 1.0);
@@ -268,7 +268,7 @@ impl View<'_> {
         decision: Decision,
         kind: FamilyKind,
         span: usize,
-    ) -> Result<Option<Found>, LinalgError> {
+    ) -> Result<Option<FoundComponents>, LinalgError> {
         let dimension = self.width() - decision.value;
         if dimension == 0 {
             return Ok(None);
@@ -306,7 +306,7 @@ impl View<'_> {
     }
 
     /// One partner for every point of the carrying plane, when `M` has rank one less than its columns there.
-    pub(super) fn over_plane(&self, decision: Decision) -> Result<Option<Found>, LinalgError> {
+    pub(super) fn over_plane(&self, decision: Decision) -> Result<Option<FoundComponents>, LinalgError> {
         let tolerance = COMPUTED * self.tolerance;
         let Some((degree, map)) = planar_kernel(&self.product.equations, self.width(), tolerance)? else {
             return Ok(None);

@@ -10,7 +10,7 @@ use super::form::{
     index, line_basis, on_line, power, random_minor, random_vector, same_point, singular_kind,
     singular_point, split,
 };
-use super::found::{Found, View};
+use super::found::{FoundComponents, View};
 use super::shape::frame;
 use super::spectrum::{
     APART, AT_INFINITY, COMPUTED, Decision, NO_DIMENSION, Question, SAME, Spectrum, dot, least_squares,
@@ -31,7 +31,7 @@ pub(super) struct PlaneSide {
     pub(super) split: Split,
     pub(super) decisions: Vec<Decision>,
     /// Families with the index of their part; `None` for one over the whole plane.
-    pub(super) families: Vec<(Option<usize>, Found)>,
+    pub(super) families: Vec<(Option<usize>, FoundComponents)>,
     /// Whether every part was understood.
     pub(super) complete: bool,
     /// The curve of the exact data.

@@ -11,7 +11,7 @@ use super::exact_curve::{ExactCurve, NoExactCurve, meeting, place};
 use super::exact_form::ExactKind;
 use super::flats::{BothReadings, ClosedPair, Flat, Reading};
 use super::form::{Form, PartKind};
-use super::found::{Found, View};
+use super::found::{FoundComponents, View};
 use super::planes::{PlaneSide, joints_on_line, line_points, plane_side, points_of};
 use super::shape::FamilyShape;
 use super::spectrum::{APART, AT_INFINITY, COMPUTED, Question, SAME, nearness, unit};
@@ -30,7 +30,7 @@ pub(super) struct Search<'a> {
     pub(super) ends: &'a BothReadings,
     pub(super) span: &'a LegSpan,
     pub(super) rng: Rng,
-    pub(super) found: Vec<(Found, Component)>,
+    pub(super) found: Vec<(FoundComponents, Component)>,
     /// Two planes: the closed pair and what was found over each.
     pub(super) planes: Vec<(usize, PlaneSide, PlaneSide)>,
     /// What could not be shown to be complete.
@@ -202,7 +202,7 @@ impl Search<'_> {
             platform: curve.cloned(),
             centre: centre.clone(),
         };
-        let found = Found {
+        let found = FoundComponents {
             shape,
             kind: FamilyKind::OverCubic,
             base_span: 2,
@@ -295,7 +295,7 @@ fn names(legs: &[usize]) -> String {
 
 impl Search<'_> {
     /// Whether a flat of partners of one point lies in a family of larger dimension.
-    fn inside_larger(&self, found: &Found) -> bool {
+    fn inside_larger(&self, found: &FoundComponents) -> bool {
         let FamilyShape::Product { base, platform, .. } = &found.shape else { return false };
         let mut rng = self.rng.clone();
         let mut random =
@@ -308,7 +308,7 @@ impl Search<'_> {
     /// Adds a family unless it is there already.
     pub(super) fn add(
         &mut self,
-        mut found: Found,
+        mut found: FoundComponents,
         pair: &ClosedPair,
         exact: Option<bool>,
     ) -> Result<(), LinalgError> {
