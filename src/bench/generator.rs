@@ -5,7 +5,7 @@ use thiserror::Error;
 
 use super::singular::{close_pair, double_root};
 use super::{Class, Planar};
-use crate::geom::{Pose, random_rotation};
+use crate::geom::{Pose, any_pose};
 use crate::manipulator::{InvalidManipulator, Leg, Manipulator, SquaredLegLengths};
 use crate::num::Rng;
 use crate::topology::NamedTopology;
@@ -96,11 +96,6 @@ fn sharing(t: NamedTopology, planar: Planar, rng: &mut Rng) -> Result<Manipulato
     let base = points(t.base_joints(), matches!(planar, Planar::Base | Planar::Both));
     let platform = points(t.platform_joints(), matches!(planar, Planar::Platform | Planar::Both));
     Manipulator::try_new(base, platform, t.legs())
-}
-
-pub(super) fn any_pose(rng: &mut Rng) -> Pose {
-    let rotation = random_rotation(rng);
-    Pose { rotation, position: Vector3::from_fn(|_, _| rng.normal()) }
 }
 
 fn at_pose(manipulator: Manipulator, pose: Pose) -> Result<Problem, NotDrawn> {

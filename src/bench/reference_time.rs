@@ -2,9 +2,9 @@
 
 use std::time::Instant;
 
-use crate::num::Rng;
 use crate::num::dense::{eigenvalues, generalized_eigenpairs};
 use crate::num::linalg::LinalgError;
+use crate::num::{Purpose, Rng};
 
 const RUNS: usize = 12;
 
@@ -39,7 +39,7 @@ fn median_of_runs(mut once: impl FnMut() -> Result<(), LinalgError>) -> Result<f
 /// # Errors
 /// When an iteration does not converge, which does not happen for random matrices.
 pub fn reference_times(seed: u64) -> Result<ReferenceTimes, LinalgError> {
-    let mut rng = Rng::stream(seed, 69);
+    let mut rng = Purpose::REFERENCE_MATRICES.rng(seed);
     let (a, b) = (random_matrix(69, &mut rng), random_matrix(69, &mut rng));
     let square = random_matrix(40, &mut rng);
     let keep = |n: usize| {

@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
-use super::generator::{NotDrawn, Problem, any_pose, body, legs};
-use crate::geom::Pose;
+use super::generator::{NotDrawn, Problem, body, legs};
+use crate::geom::{Pose, any_pose};
 use crate::manipulator::{Leg, Manipulator, SquaredLegLengths};
 use crate::num::Rng;
 

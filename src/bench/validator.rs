@@ -4,7 +4,7 @@ use num_complex::Complex64;
 
 use crate::fk::Reality;
 use crate::geom::ComplexPose;
-use crate::num::disc::Disc;
+use crate::num::ball::Disc;
 use crate::num::double_double::ComplexDoubleDouble;
 
 use super::generator::Problem;

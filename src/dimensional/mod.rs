@@ -17,7 +17,6 @@ mod scp;
 mod search;
 mod shape;
 mod skeleton;
-mod streams;
 mod terms;
 #[cfg(test)]
 mod tests;

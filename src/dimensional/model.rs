@@ -7,8 +7,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use super::merit::Merit;
 use super::problem::{DimensionalProblem, InvalidProblem, Variables};
 use super::shape::Shape;
-use super::streams;
 use super::terms::{HeldPose, RequirementTerms};
+use crate::num::Rng;
 use crate::requirements::Objective;
 use crate::requirements::TermKind;
 
@@ -62,8 +62,12 @@ pub(crate) struct Model<'a> {
 
 /// Points of the Halton sequence, and random ones, in the sample of the mean.
 const SAMPLE: usize = 24;
+/// Seed of these poses: they are part of the problem, the same for every seed of the search.
+const AVERAGED: u64 = 1;
 /// Points between, of either kind, that every run starts with.
 const BETWEEN: usize = 12;
+/// Seed of these points, the same for every seed of the search.
+const BETWEEN_CORNERS: u64 = 2;
 /// Spare relative to the size (or the limit) where poses lie between those that are held, and where none do.
 const BACKOFF: (f64, f64) = (1e-6, 2e-8);
 
@@ -93,7 +97,7 @@ impl<'a> Model<'a> {
             }
         }
         let mut sample = listed(problem);
-        let points = problem.space.cube_points(SAMPLE, &mut streams::sample());
+        let points = problem.space.cube_points(SAMPLE, &mut Rng::new(AVERAGED));
         sample.extend(points.iter().map(|x| HeldPose { pose: problem.space.pose(x), follows: true }));
         let continuous = !problem.space.axes().is_empty() || problem.space.trajectory.len() > 1;
         Ok(Self {
@@ -122,7 +126,7 @@ impl<'a> Model<'a> {
     /// The poses that every run starts with: home, corners, the ends of the axes, a few points between, and those that are listed.
     pub(crate) fn first_poses(&self) -> Vec<HeldPose> {
         let (mut out, space) = (listed(self.problem), &self.problem.space);
-        let mut points = space.cube_points(BETWEEN, &mut streams::between_corners());
+        let mut points = space.cube_points(BETWEEN, &mut Rng::new(BETWEEN_CORNERS));
         for (k, sign) in space.axes().into_iter().flat_map(|k| [(k, 1.0), (k, -1.0)]) {
             let mut x = nalgebra::Vector6::zeros();
             x[k] = sign;

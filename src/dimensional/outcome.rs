@@ -6,10 +6,10 @@ use super::model::{Model, Task};
 use super::problem::DimensionalProblem;
 use super::scp::HistoryStep;
 use super::search::RefinedRun;
-use super::streams;
 use super::terms::LegLines;
 use crate::geom::Pose;
 use crate::manipulator::{Manipulator, inverse_condition, jacobian};
+use crate::num::Purpose;
 use crate::num::conic::SolverFailure;
 use crate::num::linalg::svd;
 use crate::requirements::{Hardware, Objective, PoseSpace, Requirements, TermKind, Terms, leg_forces};
@@ -187,7 +187,7 @@ pub fn evaluate(
 ) -> Vec<f64> {
     let mut poses = also.to_vec();
     poses.extend(space.listed(10));
-    let cube = space.cube_points(points, &mut streams::evaluation(seed));
+    let cube = space.cube_points(points, &mut Purpose::EVALUATED_POSES.rng(seed));
     poses.extend(cube.iter().map(|x| space.pose(x)));
     p.objectives.iter().map(|(o, _)| value(p, m, (&poses, also.len()), *o)).collect()
 }

@@ -8,9 +8,9 @@ use super::outcome::{ConstraintConflict, DimensionalOutcome, DimensionalReport, 
 use super::population::{Judge, Worth, evolve, offspring};
 use super::problem::{DimensionalProblem, InvalidProblem, Mode};
 use super::scp::{PENALTY, ShapeEffort, ShapeRun, climb};
-use super::streams;
 use super::terms::HeldPose;
 use super::worst_pose::worse_poses;
+use crate::num::Purpose;
 use crate::num::parallel::parallel;
 
 /// Options of the search; none of them changes what is feasible.
@@ -122,7 +122,7 @@ pub(crate) fn refine(
             break;
         }
         let sign = model.sign(&run.x);
-        let worse = worse_poses(model, &run.x, task, &poses, sign, streams::of_round(seed, round));
+        let worse = worse_poses(model, &run.x, task, &poses, sign, seed.wrapping_add(round as u64));
         complete = worse.is_empty();
         if complete {
             break;
@@ -150,7 +150,7 @@ pub(crate) fn population(
     let mut judge = Judge::new(model, task);
     let is_long = k % LONG_EVERY == LONG_EVERY - 1;
     let generations = if is_long { LONG_FACTOR * o.generations } else { o.generations };
-    let members = evolve(&mut judge, given, generations, &mut streams::population(o.seed, k));
+    let members = evolve(&mut judge, given, generations, &mut Purpose::POPULATIONS.item(o.seed, k as u64));
     let few: Vec<HeldPose> = judge.poses().iter().take(FEW_POSES).copied().collect();
     let mut out: Vec<SearchStart> = Vec::new();
     for m in members {
@@ -359,7 +359,7 @@ impl Search<'_, '_> {
         let mixtures = starts.len().div_ceil(STARTS_PER_MIXTURE);
         let total = starts.len() + GENERATIONS_OF_ENDS * mixtures;
         let mut runs = self.climbs(starts, (0, total), watch);
-        let mut rng = streams::mixtures(self.options.seed);
+        let mut rng = Purpose::MIXTURES.rng(self.options.seed);
         for _ in 0..GENERATIONS_OF_ENDS {
             let mut judge = Judge::new(self.coarse, self.task);
             let ends: Vec<&[f64]> = runs.iter().map(|r| r.x.as_slice()).collect();

@@ -9,9 +9,8 @@ use nalgebra::Vector6;
 use super::merit::{Merit, MeritPiece};
 use super::model::{ConstraintGroup, Model, Task};
 use super::shape::JointEnds;
-use super::streams;
 use super::terms::{HeldPose, Item, LegLines};
-use crate::num::Rng;
+use crate::num::{Purpose, Rng};
 use crate::requirements::Objective;
 
 /// Points looked at.
@@ -167,7 +166,7 @@ pub(crate) fn worse_poses(
     let look = Look { model, ends: model.shape.ends(x), x, task };
     let judged = model.judge(held, x, task, sign);
     let mut seen: BTreeMap<PoseQuantity, Seen> = BTreeMap::new();
-    for cube in space.cube_points(POINTS, &mut streams::look(seed)) {
+    for cube in space.cube_points(POINTS, &mut Purpose::WORSE_POSES.rng(seed)) {
         for (q, value) in look.all(&look.lines(&cube)) {
             let of = seen.entry(q).or_insert(Seen { greatest: value, worst: Vec::new() });
             of.greatest = of.greatest.max(value);
@@ -177,7 +176,7 @@ pub(crate) fn worse_poses(
         }
     }
     let lengths = [false, true].map(|longest| look.least_length(held, longest));
-    let (mut out, mut rng): (Vec<HeldPose>, Rng) = (Vec::new(), streams::descent(seed));
+    let (mut out, mut rng): (Vec<HeldPose>, Rng) = (Vec::new(), Purpose::DESCENT.rng(seed));
     for (q, Seen { greatest, worst }) in seen {
         // what the held poses guarantee
         let known = match q {

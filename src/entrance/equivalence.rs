@@ -2,33 +2,22 @@
 
 use std::ops::ControlFlow;
 
-use nalgebra::Vector3;
-
 use super::Error;
 use crate::design::Design;
-use crate::equivalence::{Sample, SamplePlan, Verification, VerifyError, VerifyRun, verify_each};
+use crate::equivalence::{Sample, Verification, VerifyError, VerifyRun, verify_each};
 use crate::fk::{FkOptions, Threads};
+use crate::geom::SamplePlan;
 use crate::num::Cancel;
 use crate::synthesis::{LegMapOutcome, LegMapTolerances};
 
-/// Half width of the box of positions where the design has no workspace box, in sizes of the design.
-const TRANSLATION: f64 = 0.25;
-/// Half width of the box of rotation vectors where the design has no workspace box, degrees.
-const ROTATION_DEG: f64 = 20.0;
 /// Sample poses where nothing is said.
 pub(crate) const SAMPLES: usize = 10;
 
 /// Random poses in the workspace box of the design about its home pose; where it has neither, about the
 /// default home pose, a quarter of the size and 20 degrees each way.
 pub(crate) fn sample_plan(design: &Design, count: usize, seed: u64) -> SamplePlan {
-    let m = design.manipulator();
-    let home = design.home_or_default();
-    let (translation, rotation) = if design.workspace.has_box() {
-        (design.workspace.translation, design.workspace.rotation_deg.map(f64::to_radians))
-    } else {
-        (Vector3::repeat(TRANSLATION * m.size()), Vector3::repeat(ROTATION_DEG.to_radians()))
-    };
-    SamplePlan { home, translation, rotation, count, seed }
+    let widths = (design.workspace.translation, design.workspace.rotation_deg);
+    SamplePlan::about(design.manipulator(), design.home_or_default(), widths, (count, seed))
 }
 
 type OnSample<'a> = Box<dyn FnMut(&Sample) -> ControlFlow<()> + 'a>;

@@ -9,7 +9,7 @@ mod sample;
 mod verdict;
 
 pub use matching::{PoseMatching, match_poses};
-pub use sample::{Sample, SamplePlan};
+pub use sample::Sample;
 pub use verdict::{
     Counterexample, InconclusiveReason, SAME_POSE, Verdict, Verification, VerifyError, VerifyRun, verify,
     verify_each,

@@ -7,11 +7,11 @@ use thiserror::Error;
 
 use super::determined::{ROUNDED, is_beyond_precision};
 use super::matching::{PoseMatching, match_poses};
-use super::sample::{Sample, SamplePlan};
+use super::sample::Sample;
 use crate::fk::{
     FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, PoseCounting, Threads, solver,
 };
-use crate::geom::ComplexPose;
+use crate::geom::{ComplexPose, SamplePlan};
 use crate::manipulator::{LegIndex, Manipulator};
 use crate::num::Cancel;
 use crate::num::linalg::LinalgError;

@@ -10,7 +10,7 @@ use super::{
 };
 use crate::geom::{ComplexPose, Pose};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
-use crate::num::Rng;
+use crate::num::Purpose;
 use crate::solve::ScaledFrames;
 use crate::solve::homotopy::{EndKind, HomotopyPath, StartKind, solve_sections};
 use crate::solve::pose_count::PoseSet;
@@ -125,7 +125,7 @@ fn cut(
     let breakdown = |what: &str| FkError::Breakdown { what: what.to_owned() };
     let mut best: Option<Cuts> = None;
     for slice in 0..SLICES {
-        let mut rng = Rng::stream(o.seed, 1000 + slice);
+        let mut rng = Purpose::SLICES.item(o.seed, slice);
         let (sections, dimension) = frame
             .sliced_sections(m, s, RANK, least, &mut rng)
             .ok_or_else(|| breakdown("the leg equations have no rank"))?;

@@ -7,8 +7,8 @@ use nalgebra::{Matrix6, Rotation3, SVector, Vector3, Vector6};
 
 use crate::geom::{Pose, nearest_rotation, random_rotation};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
-use crate::num::Rng;
 use crate::num::small::bounded_svd;
+use crate::num::{Purpose, Rng};
 
 /// Random poses from which zeros are looked for.
 const STARTS: u64 = 24;
@@ -35,7 +35,7 @@ pub(super) fn real_points(m: &Manipulator, s: &SquaredLegLengths, seed: u64) -> 
     let equations = Equations { m, squares: s.get(), size: m.size() };
     let mut found: Vec<Pose> = Vec::new();
     for k in 0..STARTS {
-        let mut rng = Rng::stream(seed ^ 0x7ea1, k);
+        let mut rng = Purpose::REAL_POINTS.item(seed, k);
         let Some(zero) = equations.zero_from(&equations.start(&mut rng)) else { continue };
         if equations.moves(&zero, &mut rng) && !found.iter().any(|f| equations.are_joined(f, &zero)) {
             found.push(zero);

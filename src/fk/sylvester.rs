@@ -4,7 +4,7 @@ use super::elimination::Candidates;
 use super::judge::compared_with_count;
 use super::{FkError, FkOptions, FkSolutions, ForwardKinematics, Method};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
-use crate::num::Rng;
+use crate::num::Purpose;
 use crate::solve::generic_frame::GenericProblem;
 use crate::solve::sylvester::Eliminant;
 
@@ -34,7 +34,7 @@ fn eliminated(m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Result<F
     let mut candidates = Candidates::default();
     let mut refusal = None;
     for attempt in 0..ATTEMPTS {
-        let problem = GenericProblem::draw(m, s, &mut Rng::stream(o.seed, attempt));
+        let problem = GenericProblem::draw(m, s, &mut Purpose::GENERIC_FRAMES.item(o.seed, attempt));
         let eliminant = match Eliminant::of(&problem) {
             Ok(eliminant) => eliminant,
             Err(e) => {

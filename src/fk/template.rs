@@ -4,7 +4,7 @@ use super::elimination::Candidates;
 use super::judge::compared_with_count;
 use super::{FkError, FkOptions, FkSolutions, ForwardKinematics, Method};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
-use crate::num::Rng;
+use crate::num::Purpose;
 use crate::solve::generic_frame::GenericProblem;
 use crate::solve::template::TemplateLayout;
 
@@ -43,7 +43,7 @@ fn solve_with(
     let mut candidates = Candidates::default();
     let mut best = 0.0f64;
     for attempt in 0..ATTEMPTS {
-        let problem = GenericProblem::draw(m, s, &mut Rng::stream(o.seed, attempt));
+        let problem = GenericProblem::draw(m, s, &mut Purpose::GENERIC_FRAMES.item(o.seed, attempt));
         let eliminated = layout.fill(&problem).eliminate();
         best = best.max(eliminated.pivot_ratio);
         if !(eliminated.pivot_ratio > PIVOT_LIMIT) {

@@ -1,6 +1,7 @@
 //! Geometry that all layers share: poses, quaternions, distances, and their enclosures in intervals.
 
 mod chart;
+mod draw;
 pub(crate) mod enclosed;
 mod hull;
 mod pose;
@@ -12,12 +13,14 @@ mod trilateration;
 mod turn;
 
 pub(crate) use chart::{Chart, ChartCell, Covered, combination};
+pub(crate) use draw::{Centred, any_pose};
+pub use draw::{SamplePlan, random_rotation};
 pub(crate) use hull::convex_hull;
 pub use pose::{ComplexPose, Pose};
 pub(crate) use pose::{nearest_rotation, reorthogonalised};
 pub use pose_forms::{Angles, InvalidPose};
 pub use pose_set::{PoseSpace, Region};
-pub use quaternion::{random_rotation, rotation_from_quaternion};
+pub use quaternion::rotation_from_quaternion;
 pub use segment::{segment_box_distance, segment_distance};
 pub use trilateration::trilaterate;
 pub(crate) use turn::{TurnCoefficients, arc_cosine, cosine, degrees, radians, sine, turn, turn_slope};

@@ -1,9 +1,6 @@
 //! Rotations from quaternions `e = (e0, e1, e2, e3)`, scalar part first.
 
-use nalgebra::{Quaternion, Rotation3, UnitQuaternion};
 use num_complex::Complex64;
-
-use crate::num::Rng;
 
 /// `R(e)` with `R x = e x e^{-1}`: quadratic in `e`, divided by `N = e.e`. Defined for complex `e` with `N != 0`.
 #[must_use]
@@ -24,19 +21,10 @@ pub fn rotation_from_quaternion(e: [Complex64; 4]) -> nalgebra::Matrix3<Complex6
     ) / n
 }
 
-/// A rotation uniform on SO(3).
-pub fn random_rotation(rng: &mut Rng) -> Rotation3<f64> {
-    loop {
-        let q = Quaternion::new(rng.normal(), rng.normal(), rng.normal(), rng.normal());
-        if q.norm() > 1e-6 {
-            return UnitQuaternion::from_quaternion(q).to_rotation_matrix();
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nalgebra::UnitQuaternion;
 
     #[test]
     fn agrees_with_the_rotation_of_nalgebra() {

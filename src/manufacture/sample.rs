@@ -6,7 +6,7 @@ use thiserror::Error;
 use super::sensitivity::Sensitivity;
 use crate::geom::Pose;
 use crate::manipulator::{Manipulator, jacobian};
-use crate::num::Rng;
+use crate::num::Purpose;
 use crate::requirements::PoseSpace;
 
 /// How far the pose that is computed may be off.
@@ -131,7 +131,7 @@ impl<'a> PoseSample<'a> {
         search: &PoseSearch,
     ) -> Result<Self, ToleranceError> {
         bound.validate()?;
-        let mut rng = Rng::stream(search.seed, 0x706f);
+        let mut rng = Purpose::TOLERANCE_POSES.rng(search.seed);
         let cube = space.cube_points(search.points, &mut rng);
         let poses = cube.into_iter().map(|x| (Some(x), space.pose(&x)));
         let poses = poses.chain(space.listed(search.steps).into_iter().map(|p| (None, p)));

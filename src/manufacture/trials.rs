@@ -1,6 +1,6 @@
 //! Random joint errors, poses solved, compared with the first order.
 
-use nalgebra::{Point3, Vector3, Vector6};
+use nalgebra::{Point3, Vector3};
 
 use super::joint::{displaced, joints};
 use super::sample::ErrorBound;
@@ -8,7 +8,7 @@ use super::sensitivity::{Sensitivity, pose_error};
 use crate::fk::NearSolver;
 use crate::geom::Pose;
 use crate::manipulator::Manipulator;
-use crate::num::Rng;
+use crate::num::{Purpose, Rng};
 use crate::requirements::PoseSpace;
 
 /// Where the joint errors come from.
@@ -103,14 +103,6 @@ struct Draw {
     corrected: [(f64, f64); 2],
 }
 
-/// A random pose of the space: in the region, or one of the poses listed where there is no region.
-pub(super) fn random_pose(space: &PoseSpace, listed: &[Pose], rng: &mut Rng) -> Pose {
-    if space.axes().is_empty() && !listed.is_empty() {
-        return listed[(rng.next_u64() % listed.len() as u64) as usize];
-    }
-    space.pose(&Vector6::from_fn(|_, _| rng.uniform(-1.0, 1.0)))
-}
-
 fn norms((p, w): (Vector3<f64>, Vector3<f64>)) -> (f64, f64) {
     (p.norm(), w.norm())
 }
@@ -168,8 +160,8 @@ pub fn trials(
     let listed = space.listed(1);
     let found: Vec<Draw> = (0..count)
         .filter_map(|k| {
-            let mut rng = Rng::stream(seed ^ 0x7472, k as u64);
-            let truth = random_pose(space, &listed, &mut rng);
+            let mut rng = Purpose::TRIALS.item(seed, k as u64);
+            let truth = space.draw(&listed, &mut rng);
             draw(m, &nominal, &errors.draw(joints, &mut rng), &truth, tool)
         })
         .collect();

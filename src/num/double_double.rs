@@ -17,6 +17,8 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use num_complex::Complex64;
 
+use super::complex::Complex;
+
 /// An unevaluated sum `hi + lo` with `hi = fl(hi + lo)`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DoubleDouble {
@@ -163,13 +165,7 @@ impl Div for DoubleDouble {
 ///
 /// Sums have relative error [`DoubleDouble::UNIT`] in each part; a product has error at most
 /// `3 UNIT |z| |w|` in each part (two products and one sum).
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct ComplexDoubleDouble {
-    /// Real part.
-    pub re: DoubleDouble,
-    /// Imaginary part.
-    pub im: DoubleDouble,
-}
+pub type ComplexDoubleDouble = Complex<DoubleDouble>;
 
 impl ComplexDoubleDouble {
     /// Zero.
@@ -191,50 +187,6 @@ impl ComplexDoubleDouble {
     #[must_use]
     pub fn scaled(self, power_of_two: f64) -> Self {
         Self { re: self.re.scaled(power_of_two), im: self.im.scaled(power_of_two) }
-    }
-}
-
-impl From<Complex64> for ComplexDoubleDouble {
-    fn from(z: Complex64) -> Self {
-        Self { re: z.re.into(), im: z.im.into() }
-    }
-}
-
-impl Neg for ComplexDoubleDouble {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Self { re: -self.re, im: -self.im }
-    }
-}
-
-impl Add for ComplexDoubleDouble {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        Self { re: self.re + other.re, im: self.im + other.im }
-    }
-}
-
-impl Sub for ComplexDoubleDouble {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        self + -other
-    }
-}
-
-impl Mul for ComplexDoubleDouble {
-    type Output = Self;
-    fn mul(self, other: Self) -> Self {
-        Self { re: self.re * other.re - self.im * other.im, im: self.re * other.im + self.im * other.re }
-    }
-}
-
-impl Div for ComplexDoubleDouble {
-    type Output = Self;
-    /// `z conj(w) / |w|^2`: accurate relative to `|z / w|`, not in each part by itself.
-    fn div(self, other: Self) -> Self {
-        let n = other.re * other.re + other.im * other.im;
-        let z = self * Self { re: other.re, im: -other.im };
-        Self { re: z.re / n, im: z.im / n }
     }
 }
 

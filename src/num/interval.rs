@@ -1,4 +1,4 @@
-//! Intervals of reals with outward-rounded double ends, and rectangles of complex numbers.
+//! Intervals of reals with outward-rounded double ends.
 //!
 //! Every operation encloses the exact result for all choices of the operands within their intervals
 //! (Moore 1966). IEEE 754 rounds `+ - * /` and `sqrt` to nearest, so the exact value lies between the
@@ -10,8 +10,6 @@
 //! There is no empty interval: operations that could yield one return `Option`.
 
 use std::ops::{Add, Mul, Neg, Sub};
-
-use num_complex::Complex64;
 
 /// The closed interval `[lo, hi]` of reals, `lo <= hi`; an infinite end means unbounded on that side.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -205,74 +203,6 @@ impl Mul for Interval {
             lo.into_iter().fold(f64::INFINITY, f64::min),
             hi.into_iter().fold(f64::NEG_INFINITY, f64::max),
         )
-    }
-}
-
-/// A rectangle of complex numbers.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ComplexInterval {
-    /// Real parts.
-    pub re: Interval,
-    /// Imaginary parts.
-    pub im: Interval,
-}
-
-impl ComplexInterval {
-    /// The point zero.
-    pub const ZERO: Self = Self { re: Interval::ZERO, im: Interval::ZERO };
-
-    /// `true` when `z` is a finite number in the rectangle.
-    #[must_use]
-    pub fn contains(self, z: Complex64) -> bool {
-        self.re.contains(z.re) && self.im.contains(z.im)
-    }
-
-    /// `|z|^2` over the rectangle.
-    #[must_use]
-    pub fn norm_squared(self) -> Interval {
-        self.re.square() + self.im.square()
-    }
-
-    /// Encloses `z / w`; `None` when the divisor may be zero.
-    #[must_use]
-    pub fn checked_div(self, divisor: Self) -> Option<Self> {
-        let n = divisor.norm_squared();
-        let z = self * Self { re: divisor.re, im: -divisor.im };
-        Some(Self { re: z.re.checked_div(n)?, im: z.im.checked_div(n)? })
-    }
-}
-
-impl From<Complex64> for ComplexInterval {
-    fn from(z: Complex64) -> Self {
-        Self { re: z.re.into(), im: z.im.into() }
-    }
-}
-
-impl Neg for ComplexInterval {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Self { re: -self.re, im: -self.im }
-    }
-}
-
-impl Add for ComplexInterval {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        Self { re: self.re + other.re, im: self.im + other.im }
-    }
-}
-
-impl Sub for ComplexInterval {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        self + -other
-    }
-}
-
-impl Mul for ComplexInterval {
-    type Output = Self;
-    fn mul(self, other: Self) -> Self {
-        Self { re: self.re * other.re - self.im * other.im, im: self.re * other.im + self.im * other.re }
     }
 }
 

@@ -1,11 +1,12 @@
 //! Numbers with known errors: double-double, interval and exact rational arithmetic, decompositions of small matrices, seeded random numbers, and the doors to faer and clarabel.
 
+pub mod ball;
 pub(crate) mod batch;
+pub mod complex;
 #[cfg(feature = "optimize")]
 pub(crate) mod conic;
 #[cfg(feature = "lab")]
 pub mod dense;
-pub mod disc;
 pub mod double_double;
 pub(crate) mod echelon;
 pub(crate) mod exact;
@@ -22,7 +23,7 @@ pub mod rounding;
 mod seed;
 pub(crate) mod small;
 pub(crate) mod stream;
-pub(crate) mod wide_disc;
 
+pub(crate) use seed::Purpose;
 pub use seed::Rng;
 pub use stream::Cancel;

@@ -7,6 +7,8 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use num_complex::Complex64;
 
+use super::complex::Complex;
+
 const LIMBS: usize = 4;
 const BITS: i64 = 256;
 
@@ -235,11 +237,7 @@ impl Div for Octuple {
 }
 
 /// A complex number with such parts.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct ComplexOctuple {
-    pub(crate) re: Octuple,
-    pub(crate) im: Octuple,
-}
+pub(crate) type ComplexOctuple = Complex<Octuple>;
 
 impl ComplexOctuple {
     pub(crate) const ZERO: Self = Self { re: Octuple::ZERO, im: Octuple::ZERO };
@@ -259,58 +257,9 @@ impl ComplexOctuple {
         self.re.exponent().max(self.im.exponent())
     }
 
-    /// Product with a real number.
-    pub(crate) fn times(self, k: Octuple) -> Self {
-        Self { re: self.re * k, im: self.im * k }
-    }
-
-    /// The complex conjugate.
-    pub(crate) fn conj(self) -> Self {
-        Self { re: self.re, im: -self.im }
-    }
-
-    /// The square of the modulus.
-    pub(crate) fn norm_sqr(self) -> Octuple {
-        self.re * self.re + self.im * self.im
-    }
-
     /// One over the number; zero for zero.
     pub(crate) fn recip(self) -> Self {
         self.conj().times(Octuple::ONE / self.norm_sqr())
-    }
-}
-
-impl From<Complex64> for ComplexOctuple {
-    fn from(z: Complex64) -> Self {
-        Self { re: z.re.into(), im: z.im.into() }
-    }
-}
-
-impl Neg for ComplexOctuple {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Self { re: -self.re, im: -self.im }
-    }
-}
-
-impl Add for ComplexOctuple {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        Self { re: self.re + other.re, im: self.im + other.im }
-    }
-}
-
-impl Sub for ComplexOctuple {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        Self { re: self.re - other.re, im: self.im - other.im }
-    }
-}
-
-impl Mul for ComplexOctuple {
-    type Output = Self;
-    fn mul(self, other: Self) -> Self {
-        Self { re: self.re * other.re - self.im * other.im, im: self.re * other.im + self.im * other.re }
     }
 }
 

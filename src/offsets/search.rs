@@ -17,9 +17,9 @@ use super::outcome::OffsetReport;
 use super::problem::{InvalidOffsetProblem, OffsetModel, OffsetProblem};
 use super::scp::{LocalResult, OffsetEffort, climb, violation};
 use super::verdict::{Conflict, SearchedOffsets, assemble, nothing_fits, vertices_too_close};
-use crate::num::Rng;
 use crate::num::conic::SolverFailure;
 use crate::num::parallel::parallel;
+use crate::num::{Purpose, Rng};
 use crate::synthesis::offset_determinant;
 
 /// Options of the search; none of them changes what is feasible.
@@ -170,7 +170,7 @@ fn rank_cell(
     o: &OffsetSearchOptions,
 ) -> CellResult {
     let m = few;
-    let mut rng = Rng::stream(o.seed, index as u64);
+    let mut rng = Purpose::OFFSETS_OF_CELL.item(o.seed, index as u64);
     let samples = o.samples.max(1);
     let mut best: Option<LocalResult> = None;
     for _ in 0..o.climbs.max(1) {
@@ -298,7 +298,7 @@ fn sample_cells(
     let few = critical_poses(m, cells, o.seed, SAMPLED_POSES, SAMPLED_POSES);
     let few = few.as_ref().unwrap_or(m);
     let draw = |k: usize| {
-        let mut rng = Rng::stream(o.seed, k as u64);
+        let mut rng = Purpose::OFFSETS_OF_CELL.item(o.seed, k as u64);
         match best_sample(few, cells[k], &mut rng, 1, DRAWS_PER_SAMPLE) {
             Some(s) => CellResult::Feasible(LocalResult::drawn(s.t, s.value)),
             None => CellResult::Passed,
@@ -343,7 +343,7 @@ fn critical_poses(
     if count <= wanted || cells.is_empty() {
         return None;
     }
-    let mut rng = Rng::stream(seed, 1 << 40);
+    let mut rng = Purpose::CRITICAL_POSES.rng(seed);
     let mut hits = vec![0usize; count];
     for k in 0..samples {
         let cell = cells[k * cells.len() / samples];
@@ -378,7 +378,7 @@ fn polish_starts(
         if let CellResult::Feasible(r) = &ranked[k] {
             tasks.push((k, r.t));
         }
-        let mut rng = Rng::stream(seed ^ 0x5eed, k as u64);
+        let mut rng = Purpose::FURTHER_OFFSETS.item(seed, k as u64);
         let further = feasible_points(m, cells[k], &mut rng, more, DRAWS_PER_SAMPLE * more);
         tasks.extend(further.into_iter().map(|t| (k, t)));
     }

@@ -10,7 +10,7 @@ use super::outcome::{
 use super::problem::{OffsetModel, OffsetProblem};
 use super::scp::LocalResult;
 use super::search::{CellResult, OffsetSearchOptions, better, pattern_search};
-use crate::num::Rng;
+use crate::num::Purpose;
 use crate::synthesis::joint_free;
 
 /// A pattern search may gain this much (relative) before the solution counts as not converged.
@@ -158,7 +158,7 @@ fn solution(
     run: LocalResult,
     o: &OffsetSearchOptions,
 ) -> Option<(OffsetSolution, bool)> {
-    let mut rng = Rng::stream(o.seed, u64::MAX);
+    let mut rng = Purpose::LAST_DIRECTIONS.rng(o.seed);
     let mut found = pattern_search(m, cell, run.t, run.value, &mut rng);
     let checked = |t: &[f64; 6]| problem.recheck(t).filter(|r| r.margins.all_met());
     let recheck = checked(&found.t).or_else(|| {

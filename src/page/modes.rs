@@ -6,6 +6,7 @@ use serde::Serialize;
 use super::request::Refusal;
 use super::scene::sign;
 use super::wire::PoseRecord;
+use crate::equivalence::match_poses;
 use crate::fk::{Completeness, FkOptions, FkRoot, FkSolutions, PoseCounting, Reality, SolutionSet, solver};
 use crate::geom::{ComplexPose, Pose};
 use crate::manipulator::{LegLengths, Manipulator, SquaredLegLengths, inverse_condition, jacobian};
@@ -65,8 +66,8 @@ fn solve_with(m: &Manipulator, s: SquaredLegLengths, o: &FkOptions) -> Result<Fk
     solver(None).solve(m, &s, o).map_err(|e| Refusal::new("fk", e))
 }
 
-/// All poses of two platforms, real and complex, with their own leg lengths at a pose; `distance` is the largest from a pose of the first to the
-/// nearest of the second, `null` unless each has one of its own.
+/// All poses of two platforms, real and complex, with their own leg lengths at a pose; `distance` is the largest of a pair as [`match_poses`] pairs and
+/// measures them, `null` unless each pose has a partner of its own.
 pub(super) fn confirm(
     first: &Manipulator,
     second: &Manipulator,
@@ -76,17 +77,10 @@ pub(super) fn confirm(
     let options = FkOptions { pose_count: PoseCounting::Never, ..FkOptions::default() };
     let poses = |m: &Manipulator| solve_with(m, at_pose(m, at)?, &options);
     let (a, b) = (poses(first)?, poses(second)?);
-    let mut free: Vec<&FkRoot> = b.roots.iter().collect();
-    let mut worst = Some(0.0_f64);
-    for root in &a.roots {
-        let distance = |k: &usize| free[*k].pose.distance(&root.pose, first.size());
-        let nearest = (0..free.len()).min_by(|x, y| distance(x).total_cmp(&distance(y)));
-        worst = worst.zip(nearest).map(|(w, k)| w.max(distance(&k)));
-        if let Some(k) = nearest {
-            free.swap_remove(k);
-        }
-    }
-    let distance = worst.filter(|_| a.roots.len() == b.roots.len());
+    let all = |s: &FkSolutions| s.roots.iter().map(|r| r.pose).collect::<Vec<_>>();
+    // pairs however far apart: how far is what the page shows
+    let matching = match_poses(&all(&a), &all(&b), first.size(), f64::INFINITY);
+    let distance = matching.is_perfect().then(|| matching.worst_distance());
     let side = |s: &FkSolutions| PosesRecord {
         method: s.method.name(),
         finite: s.roots.len(),

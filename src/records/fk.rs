@@ -12,7 +12,7 @@ use crate::fk::{
     RejectionReason, SolutionSet,
 };
 use crate::geom::ComplexPose;
-use crate::num::disc::Disc;
+use crate::num::ball::Disc;
 use crate::poly::{Dyadic, RealRoot};
 use crate::solve::certify::octahedral::OctahedralCertificate;
 use crate::solve::certify::{CentrePrecision, Certificate, PoseEnclosure, ProvedReality, RootCertificate};

@@ -4,9 +4,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{CompletenessWord, ComplexRecord, FramesRecord, MapRecord, Number, PoseRecord, leg_number};
-use crate::equivalence::{Counterexample, Sample, SamplePlan, Verdict, Verification};
+use crate::equivalence::{Counterexample, Sample, Verdict, Verification};
 use crate::fk::{FkSolutions, Method};
-use crate::geom::ComplexPose;
+use crate::geom::{ComplexPose, SamplePlan};
 use crate::synthesis::LegMapOutcome;
 
 /// The answer of `verify`.

@@ -9,7 +9,7 @@ use super::term::{Term, TermKind, Terms};
 use super::{PoseSpace, Requirements};
 use crate::geom::Pose;
 use crate::manipulator::Manipulator;
-use crate::num::Rng;
+use crate::num::{Purpose, Rng};
 
 /// How densely the poses are looked at.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -119,7 +119,7 @@ fn least(terms: &Terms<'_>, kind: TermKind, pose: &Pose) -> f64 {
 #[must_use]
 pub fn assess(m: &Manipulator, required: &Requirements, space: &PoseSpace, o: &AssessOptions) -> Assessment {
     let terms = Terms::new(m, required, &space.home);
-    let mut rng = Rng::stream(o.seed, 0x6d61);
+    let mut rng = Purpose::ASSESSED_POSES.rng(o.seed);
     let mut found: BTreeMap<TermKind, Least> = BTreeMap::new();
     let mut keep = |list: Vec<(Term, f64)>, pose: Option<Pose>| {
         for (term, value) in list {

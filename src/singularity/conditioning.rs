@@ -1,9 +1,7 @@
 //! Figures that show how near a design is to being singular everywhere.
 
-use nalgebra::Vector3;
-
-use crate::geom::{Pose, random_rotation};
-use crate::manipulator::{Leg, Manipulator, inverse_condition, jacobian};
+use crate::geom::Centred;
+use crate::manipulator::{Manipulator, inverse_condition, jacobian};
 use crate::num::Rng;
 use crate::num::linalg::LinalgError;
 use crate::synthesis::LegSpan;
@@ -32,15 +30,12 @@ const POSES: usize = 200;
 /// When the singular value decomposition does not converge.
 pub fn conditioning(m: &Manipulator, seed: u64) -> Result<Conditioning, LinalgError> {
     let leg_vectors = LegSpan::of(m, 0.0)?.singular_values();
-    let legs = m.legs();
-    let mean = |pick: fn(&Leg) -> Vector3<f64>| legs.iter().map(pick).sum::<Vector3<f64>>() / 6.0;
-    let (base, platform) = (mean(|l| l.base.coords), mean(|l| l.platform.coords));
+    let centred = Centred::new(m);
     let mut rng = Rng::new(seed);
     let mut values: Vec<f64> = (0..POSES)
         .map(|_| {
-            let rotation = random_rotation(&mut rng);
-            let offset = Vector3::from_fn(|_, _| rng.uniform(-m.size(), m.size()));
-            let pose = Pose { rotation, position: base + offset - rotation * platform };
+            let (rotation, offset) = centred.draw(&mut rng);
+            let pose = centred.pose(rotation, offset);
             inverse_condition(&jacobian(m, &pose, m.platform_rms_radius()))
         })
         .collect();

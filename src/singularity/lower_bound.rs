@@ -15,8 +15,8 @@
 use nalgebra::{Matrix6, Vector3, Vector6};
 
 use crate::geom::enclosed::{IntervalMatrix, IntervalVector, apply, cross, exact_rotation, times};
-use crate::geom::{Pose, random_rotation};
-use crate::manipulator::{Leg, Manipulator};
+use crate::geom::{Centred, Pose};
+use crate::manipulator::Manipulator;
 use crate::num::Rng;
 use crate::num::interval::Interval;
 use crate::num::small::singular_values;
@@ -31,16 +31,11 @@ const CLIMB: usize = 300;
 #[must_use]
 pub fn singular_distance_at_least(m: &Manipulator, seed: u64) -> f64 {
     let mut rng = Rng::new(seed);
-    let legs = m.legs();
-    let mean = |pick: fn(&Leg) -> Vector3<f64>| legs.iter().map(pick).sum::<Vector3<f64>>() / 6.0;
-    let (base, platform) = (mean(|l| l.base.coords), mean(|l| l.platform.coords));
-    let centred =
-        |rotation, offset: Vector3<f64>| Pose { rotation, position: base + offset - rotation * platform };
-    let mut best = (0.0, centred(nalgebra::Rotation3::identity(), Vector3::zeros()), Vector3::zeros());
+    let centred = Centred::new(m);
+    let mut best = (0.0, centred.pose(nalgebra::Rotation3::identity(), Vector3::zeros()), Vector3::zeros());
     for _ in 0..POSES {
-        let rotation = random_rotation(&mut rng);
-        let offset = Vector3::from_fn(|_, _| rng.uniform(-m.size(), m.size()));
-        let pose = centred(rotation, offset);
+        let (rotation, offset) = centred.draw(&mut rng);
+        let pose = centred.pose(rotation, offset);
         let bound = at_pose(m, &pose);
         if bound > best.0 {
             best = (bound, pose, offset);
@@ -50,7 +45,7 @@ pub fn singular_distance_at_least(m: &Manipulator, seed: u64) -> f64 {
         let reach = 0.5 * (1.0 - k as f64 / CLIMB as f64);
         let turn = nalgebra::Rotation3::new(Vector3::from_fn(|_, _| reach * rng.normal()));
         let offset = best.2 + Vector3::from_fn(|_, _| reach * m.size() * rng.normal());
-        let pose = centred(turn * best.1.rotation, offset);
+        let pose = centred.pose(turn * best.1.rotation, offset);
         let bound = at_pose(m, &pose);
         if bound > best.0 {
             best = (bound, pose, offset);

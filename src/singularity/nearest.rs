@@ -12,7 +12,7 @@
 use nalgebra::{DMatrix, DVector, Matrix3, Point3, Vector3};
 
 use crate::manipulator::{Body, InvalidManipulator, Manipulator};
-use crate::num::Rng;
+use crate::num::Purpose;
 use crate::num::linalg::LinalgError;
 use crate::num::small::{bounded_svd, symmetric_eigen3};
 use crate::synthesis::LegSpan;
@@ -127,7 +127,7 @@ impl UnitCoefficients {
             singular.iter().flat_map(|v| (0..6).rev().map(move |k| std::array::from_fn(|i| v[(k, i)])));
         let mut starts: Vec<Self> = rows.map(Self).collect();
         for k in 0..random {
-            let mut rng = Rng::stream(seed, k);
+            let mut rng = Purpose::NEAREST_STARTS.item(seed, k);
             starts.push(Self([(); 6].map(|()| rng.normal())));
         }
         starts

@@ -1,8 +1,8 @@
 //! The table of equivalent rearrangements: every design it names by the leg map, by poses, and against the documentation.
 
-use equipod::methods::equivalence::{SamplePlan, Verdict, verify};
+use equipod::methods::equivalence::{Verdict, verify};
 use equipod::methods::fk::FkOptions;
-use equipod::methods::geom::{Pose, random_rotation};
+use equipod::methods::geom::{Pose, SamplePlan, random_rotation};
 use equipod::methods::manipulator::{Manipulator, default_home};
 use equipod::methods::num::Rng;
 use equipod::methods::synthesis::rearrangement::{

@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 
 use equipod::methods::design::{Design, Format, parse};
 use equipod::methods::dimensional::{DimensionalProblem, Mode, Variables, evaluate};
-use equipod::methods::equivalence::{SamplePlan, verify};
+use equipod::methods::equivalence::verify;
 use equipod::methods::fk::FkOptions;
+use equipod::methods::geom::SamplePlan;
 use equipod::methods::manipulator::Manipulator;
 use equipod::methods::requirements::Objective;
 use equipod::methods::requirements::{AssessOptions, Margin, TermKind, assess};

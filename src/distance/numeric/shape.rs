@@ -7,7 +7,7 @@ use num_complex::Complex64;
 use super::chain::{ChainBranch, Exponents, TrilaterationChain};
 use super::each_start;
 use crate::manipulator::Manipulator;
-use crate::num::Rng;
+use crate::num::{Purpose, Rng};
 use crate::poly::approximate_roots;
 use crate::topology::{JointIndex, Sequence};
 
@@ -53,7 +53,7 @@ impl GenericDegrees {
     ) -> Option<Self> {
         let mut seen: Vec<(Self, bool)> = Vec::new();
         for k in 0..INSTANCES.1 {
-            let rng = &mut Rng::stream(0x5ea1, k);
+            let rng = &mut Purpose::GENERIC_DESIGNS.item(0x5ea1, k);
             let random = random_design(m, rng)?;
             let chain = TrilaterationChain::new(&random, s, given, closure)?;
             let complex = |_| Complex64::new(rng.uniform(1.0, 4.0), rng.uniform(-1.0, 1.0));

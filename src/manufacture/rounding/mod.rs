@@ -18,8 +18,7 @@ pub use self::grid::Grid;
 use self::grid::{BodyGrid, GridHole};
 pub use self::nearest::NearestRounding;
 use super::joint::{Joint, joints};
-use crate::equivalence::SamplePlan;
-use crate::geom::Pose;
+use crate::geom::{Pose, SamplePlan};
 use crate::manipulator::{Body, Manipulator, inverse_condition, jacobian};
 use crate::requirements::{PoseSpace, Requirements, TermKind, Terms};
 
@@ -240,12 +239,8 @@ fn grid_of(grids: &[BodyGrid; 2], body: Body) -> &BodyGrid {
 /// Sample poses in the workspace, or a quarter of the size and 20 degrees about home where it has no width.
 fn sample_plan(problem: &RoundingProblem<'_>) -> SamplePlan {
     let space = problem.space;
-    let (mut translation, mut rotation) = (space.translation, space.rotation_deg.map(f64::to_radians));
-    if space.axes().is_empty() {
-        translation = Vector3::repeat(0.25 * problem.manipulator.size());
-        rotation = Vector3::repeat(20f64.to_radians());
-    }
-    SamplePlan { home: space.home, translation, rotation, count: SAMPLES, seed: problem.seed }
+    let widths = (space.translation, space.rotation_deg);
+    SamplePlan::about(problem.manipulator, space.home, widths, (SAMPLES, problem.seed))
 }
 
 /// The numbers by which roundings are compared.

@@ -13,8 +13,8 @@ use crate::fk::FkOptions;
 use crate::manipulator::Manipulator;
 use crate::manufacture::joint::{Joint, joints};
 use crate::manufacture::sensitivity::Sensitivity;
-use crate::manufacture::trials::{ErrorSpread, random_pose, solved_error};
-use crate::num::Rng;
+use crate::manufacture::trials::{ErrorSpread, solved_error};
+use crate::num::Purpose;
 
 /// A rounding whose joints are near their lines, not on them.
 #[derive(Debug, Clone)]
@@ -195,7 +195,7 @@ pub(super) fn round(
 fn solved(problem: &RoundingProblem<'_>, moved: &[Vector3<f64>]) -> (ErrorSpread, usize) {
     let listed = problem.space.listed(1);
     let one = |k: usize| {
-        let pose = random_pose(problem.space, &listed, &mut Rng::stream(problem.seed ^ 0x6772, k as u64));
+        let pose = problem.space.draw(&listed, &mut Purpose::ROUNDED_POSES.item(problem.seed, k as u64));
         let (p, w) = solved_error(problem.manipulator, moved, &pose, &problem.tool)?;
         Some((p.norm(), w.norm()))
     };

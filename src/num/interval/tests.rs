@@ -2,6 +2,8 @@
 
 use super::*;
 use crate::num::Rng;
+use crate::num::complex::Complex;
+use num_complex::Complex64;
 use num_rational::BigRational;
 
 fn exact(x: f64) -> BigRational {
@@ -135,14 +137,17 @@ fn complex_products_and_quotients_enclose() {
         let z: [f64; 4] = std::array::from_fn(|_| rng.normal());
         let (a, b) = (Complex64::new(z[0], z[1]), Complex64::new(z[2], z[3]));
         let q = z.map(exact);
-        let (ia, ib) = (ComplexInterval::from(a), ComplexInterval::from(b));
+        let (ia, ib) = (Complex::<Interval>::from(a), Complex::<Interval>::from(b));
         let (re, im) = (&q[0] * &q[2] - &q[1] * &q[3], &q[0] * &q[3] + &q[1] * &q[2]);
         assert!(holds((ia * ib).re, &re) && holds((ia * ib).im, &im));
         let n = &q[2] * &q[2] + &q[3] * &q[3];
-        let quotient = ia.checked_div(ib).unwrap();
-        assert!(holds(quotient.re, &((&q[0] * &q[2] + &q[1] * &q[3]) / &n)));
-        assert!(holds(quotient.im, &((&q[1] * &q[2] - &q[0] * &q[3]) / &n)));
-        assert!((ia - ib + ib).contains(a) && !(ia * ib).contains(a * b + 1.0));
+        let quotient = |x: Interval| x.checked_div(ib.norm_sqr()).unwrap();
+        let product = ia * ib.conj();
+        assert!(holds(quotient(product.re), &((&q[0] * &q[2] + &q[1] * &q[3]) / &n)));
+        assert!(holds(quotient(product.im), &((&q[1] * &q[2] - &q[0] * &q[3]) / &n)));
+        let back = ia - ib + ib;
+        assert!(back.re.contains(a.re) && back.im.contains(a.im));
+        assert!(!(ia * ib).re.contains((a * b + 1.0).re));
     }
-    assert_eq!(ComplexInterval::from(Complex64::new(1.0, 0.0)).checked_div(ComplexInterval::ZERO), None);
+    assert_eq!(Interval::from(1.0).checked_div(Complex::<Interval>::from(Complex64::ZERO).norm_sqr()), None);
 }

@@ -2,7 +2,6 @@
 //!
 //! A box is left out by a proof that no offsets of it reach the value in question.
 
-mod ball;
 mod corners;
 mod multipliers;
 mod rows;

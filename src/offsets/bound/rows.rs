@@ -2,9 +2,9 @@
 
 use nalgebra::{Matrix3, Point3};
 
-use super::ball::Ball;
 use crate::geom::Pose;
 use crate::manipulator::Body;
+use crate::num::ball::Real;
 use crate::num::interval::Interval;
 use crate::offsets::limits::{Vector, cross, dot, minus, plus, point, vector};
 use crate::synthesis::HexagonSide;
@@ -32,7 +32,7 @@ pub(super) struct LegRow {
 }
 
 /// Constant, rate and squared length once more.
-type Balls = ([Ball; 6], [Ball; 6], [Ball; 3]);
+type Balls = ([Real; 6], [Real; 6], [Real; 3]);
 
 /// The same in plain arithmetic, for choices that prove nothing.
 #[derive(Debug, Clone, Copy)]
@@ -84,7 +84,7 @@ impl LegRow {
         let centre = |x: Interval| x.centre_and_radius().0;
         let plain =
             PlainRow { constant: constant.map(centre), rate: rate.map(centre), square: square.map(centre) };
-        let balls = (constant.map(Ball::from), rate.map(Ball::from), square.map(Ball::from));
+        let balls = (constant.map(Real::from), rate.map(Real::from), square.map(Real::from));
         Some(Self { constant, rate, square, plain, balls })
     }
 

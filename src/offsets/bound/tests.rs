@@ -154,11 +154,11 @@ fn functions_at_the_corners_are_above_what_they_bound() {
         let weight = |corner: usize| -> f64 {
             (0..6).map(|i| if corner >> i & 1 == 1 { share(i) } else { 1.0 - share(i) }).product()
         };
-        let value: f64 = (0..CORNERS).map(|c| weight(c) * (f[c].c + f[c].r)).sum();
+        let value: f64 = (0..CORNERS).map(|c| weight(c) * (f[c].centre + f[c].radius)).sum();
         assert!(value >= 0.0, "{n}: {value}");
         // and a limit well above makes small boxes negative
         let above = at_corners(&tree.poses[k].rows, &m.poses[k], &bounds, reached * 1.05).unwrap();
-        sharp += usize::from(n % 3 == 2 && above.iter().all(|b| b.c + b.r < 0.0));
+        sharp += usize::from(n % 3 == 2 && above.iter().all(|b| b.centre + b.radius < 0.0));
     }
     assert!(sharp >= 15, "{sharp} of 20");
 }

@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BinaryHeap};
 use super::cone::Sector;
 use super::{CellJudge, Function, MarginBound, verdict};
 use crate::geom::{Chart, ChartCell, Covered};
-use crate::num::Rng;
+use crate::num::{Purpose, Rng};
 use crate::requirements::assess::Margin;
 
 /// A cell that waits.
@@ -98,7 +98,7 @@ impl CellJudge<'_> {
             points: BTreeMap::new(),
             searches: BTreeMap::new(),
         };
-        let mut rng = Rng::stream(seed, 0x626e);
+        let mut rng = Purpose::BOUNDED_POSES.rng(seed);
         for chart in 0..self.charts.len() {
             for f in 0..functions.len() {
                 for sector in Sector::all(self.cone(functions[f], &self.charts[chart]).is_some()) {

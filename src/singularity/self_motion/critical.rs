@@ -18,7 +18,7 @@ use super::slices::{
 };
 use crate::geom::{ComplexPose, Pose};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
-use crate::num::Rng;
+use crate::num::{Purpose, Rng};
 
 /// Degree of `D`.
 const FORMS: usize = 7;
@@ -73,7 +73,7 @@ pub fn critical_poses(
     on: &[ComplexPose],
     seed: u64,
 ) -> CriticalPoses {
-    let mut rng = Rng::stream(seed, 0xc7);
+    let mut rng = Purpose::CRITICAL_POINTS.rng(seed);
     let equations = LegEquations::new(m, s);
     let slicer = Slicer::new(&equations, &mut rng);
     let forms: [Plane; FORMS] = std::array::from_fn(|_| draw(&mut rng));

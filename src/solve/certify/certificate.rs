@@ -5,7 +5,7 @@ use thiserror::Error;
 
 use super::octahedral::OctahedralCertificate;
 use crate::geom::ComplexPose;
-use crate::num::disc::Disc;
+use crate::num::ball::Disc;
 use crate::num::rounding::UnfitArithmetic;
 
 /// Signs of `(e, g)` under the mirror in `z = 0`, up to a common one.

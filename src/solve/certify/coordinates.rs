@@ -9,10 +9,10 @@ use super::certificate::{PoseEnclosure, WhyUncertified};
 use super::krawczyk::largest;
 use super::system::Study;
 use crate::geom::ComplexPose;
-use crate::num::disc::{Disc, UP};
+use crate::num::ball::WideDisc;
+use crate::num::ball::{Disc, UP};
 use crate::num::double_double::{ComplexDoubleDouble, DoubleDouble};
 use crate::num::octuple::{ComplexOctuple, Octuple};
-use crate::num::wide_disc::WideDisc;
 
 /// Below this `|e.e| / |e|^2` a pose is computed in double-double.
 const FAR: f64 = 1.0 / 16.0;

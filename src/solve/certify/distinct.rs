@@ -1,8 +1,8 @@
 //! Telling certified roots of one problem apart, whatever patches they were certified on.
 
 use super::certificate::Certificate;
-use crate::num::disc::UP;
-use crate::num::wide_disc::WideDisc;
+use crate::num::ball::UP;
+use crate::num::ball::WideDisc;
 
 /// How two certified roots of the same problem relate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -87,7 +87,7 @@ use num_complex::Complex64;
 
 use crate::geom::ComplexPose;
 use crate::manipulator::Manipulator;
-use crate::num::disc::UP;
+use crate::num::ball::UP;
 use crate::num::double_double::DoubleDouble;
 use crate::num::octuple::ComplexOctuple;
 use coordinates::{

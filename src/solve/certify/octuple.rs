@@ -14,7 +14,7 @@ use num_complex::Complex64;
 use super::certificate::WhyUncertified;
 use super::krawczyk::{KrawczykBounds, largest};
 use super::system::{LegSystem, N, Study};
-use crate::num::disc::UP;
+use crate::num::ball::UP;
 use crate::num::double_double::DoubleDouble;
 use crate::num::octuple::{ComplexOctuple, Octuple, OctupleLu};
 

@@ -31,7 +31,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 use super::certificate::WhyUncertified;
 use super::second_order::SecondOrder;
 use crate::manipulator::{Manipulator, SquaredLegLengths};
-use crate::num::disc::{TINY, UP};
+use crate::num::ball::{TINY, UP};
 use crate::num::double_double::DoubleDouble;
 use crate::num::interval::Interval;
 use crate::num::rounding::check_arithmetic;

@@ -12,7 +12,7 @@ use super::start::{StartError, shipped};
 use super::system::SectionHomotopy;
 use super::tail::{Tail, TailEnd};
 use super::tracker::Tracked;
-use crate::num::Rng;
+use crate::num::Purpose;
 use crate::solve::octuple_sections::OctupleSections;
 use crate::solve::planar::mirror;
 use crate::solve::sections::Sections;
@@ -134,7 +134,7 @@ pub(crate) fn solve_sections(
 
 /// The corner of the way from start to target.
 fn corner(seed: u64) -> Complex64 {
-    let mut rng = Rng::stream(seed, 0);
+    let mut rng = Purpose::GAMMA.rng(seed);
     Complex64::new(0.5, 0.0) + Complex64::from_polar(0.25, rng.uniform(0.6, 2.5))
 }
 

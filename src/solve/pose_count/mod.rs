@@ -8,7 +8,7 @@ mod quadrics;
 mod quotient;
 
 use crate::manipulator::{Leg, Manipulator, SquaredLegLengths};
-use crate::num::Rng;
+use crate::num::Purpose;
 use crate::num::modular::{Field, mantissa_and_exponent};
 use quadrics::{COORDINATES, Cut, Linear, cut};
 use quotient::{Outcome, close};
@@ -154,7 +154,7 @@ struct Draws {
 }
 
 fn counted(m: &Manipulator, lengths: Lengths<'_>, options: &CountOptions) -> PoseCount {
-    let mut rng = Rng::stream(options.seed, 0x9c);
+    let mut rng = Purpose::POSE_COUNT.rng(options.seed);
     let mut integer = || (rng.next_u64() >> 4).cast_signed();
     let draws = Draws {
         squares: std::array::from_fn(|_| integer()),

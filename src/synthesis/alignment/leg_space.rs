@@ -12,7 +12,7 @@ use nalgebra::{Matrix3, SMatrix, Vector3};
 use super::TOLERANCE;
 use super::rotations::{Axes, Candidates, Projector, candidates, turned};
 use crate::manipulator::{Leg, Manipulator};
-use crate::num::Rng;
+use crate::num::Purpose;
 use crate::num::linalg::{LinalgError, svd};
 use crate::synthesis::components::spectrum::{Spectrum, unit, without};
 use crate::synthesis::leg_vector::{Normalisation, leg_vector};
@@ -301,7 +301,7 @@ impl Canonical {
     pub(super) fn sensitivity(&self, seed: u64) -> Result<ShiftSensitivity, LinalgError> {
         let mut most = ShiftSensitivity { values: [0.0; 6], distance: 0.0 };
         for trial in 0..TRIALS {
-            let mut rng = Rng::stream(seed, trial);
+            let mut rng = Purpose::SHIFTS.item(seed, trial);
             let mut change = || Vector3::from_fn(|_, _| rng.normal() * TRIAL);
             let legs =
                 self.legs.map(|leg| Leg { base: leg.base + change(), platform: leg.platform + change() });

@@ -8,8 +8,8 @@ use super::octahedral::{Reduction, from_cubics, from_families, in_space};
 use super::pieces::{Outcome, Piece, PieceKind, PlaneGroups, Split, at_joints, split};
 use super::sample::{Arrangement, DesignSample};
 use crate::manipulator::{Body, ExactLeg};
-use crate::num::Rng;
 use crate::num::exact::{ExactVector, rank};
+use crate::num::{Purpose, Rng};
 use crate::synthesis::components::flat_name;
 use crate::topology::{NamedTopology, catalogue};
 
@@ -158,7 +158,7 @@ pub(super) fn from_seed(
     seed: u64,
 ) -> Result<Rearrangement, NotDecided> {
     let stream = 4 * topology.number() as u64 + 2 * u64::from(planar.base) + u64::from(planar.platform);
-    let mut rng = Rng::stream(seed, stream);
+    let mut rng = Purpose::REARRANGED_MEMBERS.item(seed, stream);
     let flat = (planar.base, planar.platform);
     for _ in 0..60 {
         let sample = DesignSample::draw(topology.topology().legs(), flat, &mut rng);

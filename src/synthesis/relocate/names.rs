@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use nalgebra::{DMatrix, DVector, Point3, Vector3};
 
 use crate::manipulator::Manipulator;
-use crate::num::Rng;
+use crate::num::Purpose;
 use crate::num::linalg::LinalgError;
 use crate::num::small::bounded_svd;
 use crate::synthesis::components::{Component, Components, MovingPoint, Parametrisation};
@@ -46,7 +46,7 @@ impl Through {
 
 /// Four ends of legs of the family on each body: they span what the ends of all its legs span.
 fn samples(found: &Components, family: &Component) -> Result<[Vec<Point3<f64>>; 2], LinalgError> {
-    let mut rng = Rng::stream(found.options.seed, 0xbe);
+    let mut rng = Purpose::FAMILY_ENDS.rng(found.options.seed);
     let mut ends = [Vec::new(), Vec::new()];
     for _ in 0..6 {
         if let Some(s) = family.sample(&found.span, &mut rng)? {

@@ -22,8 +22,9 @@ use crate::cli::progress::{Interrupt, ProgressLine};
 use crate::design::Design;
 use crate::entrance::optimizing::EXTENSION;
 use crate::entrance::{SAMPLES, sample_plan};
-use crate::equivalence::{SamplePlan, Verification, verify};
+use crate::equivalence::{Verification, verify};
 use crate::fk::{self, FkOptions, FkSolutions, PoseCounting};
+use crate::geom::SamplePlan;
 use crate::manipulator::{LegLengths, Octahedral};
 use crate::offsets;
 use crate::records::{

@@ -1,99 +1,30 @@
 //! Arithmetic of the proof: real numbers with an error radius, eight discs of complex numbers side by side, and what a triangle contributes.
 //!
-//! As for discs (`num::disc`): a computed sum, product, quotient or root is off by at most `u` times its modulus, radii are
+//! As for discs (`num::ball`): a computed sum, product, quotient or root is off by at most `u` times its modulus, radii are
 //! sums of products of non-negative numbers, and [`UP`] and [`TINY`] take up their own rounding and underflow.
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
 use std::ops::{Add, Mul, Neg, Sub};
 
+use crate::num::ball::{Real, TINY, UP};
 use crate::num::batch::{ComplexBatch, LANES};
-use crate::num::disc::{TINY, UP};
 
 const U: f64 = f64::EPSILON / 2.0;
 
-/// All reals within `r` of `c`; an infinite or NaN radius says nothing.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Ball {
-    pub(super) c: f64,
-    pub(super) r: f64,
+/// The difference of two doubles.
+pub(super) fn difference(a: f64, b: f64) -> Real {
+    Real::point(a) - Real::point(b)
 }
 
-impl Ball {
-    pub(super) const ZERO: Self = Self { c: 0.0, r: 0.0 };
-
-    /// The number itself.
-    pub(super) fn exact(c: f64) -> Self {
-        Self { c, r: 0.0 }
-    }
-
-    /// The difference of two doubles.
-    pub(super) fn difference(a: f64, b: f64) -> Self {
-        let c = a - b;
-        Self { c, r: (U * c.abs() + TINY) * UP }
-    }
-
-    /// Upper bound of the moduli.
-    pub(super) fn magnitude(self) -> f64 {
-        (self.c.abs() + self.r) * UP
-    }
-
-    /// Product with a power of two, exact barring underflow.
-    pub(super) fn scaled(self, power_of_two: f64) -> Self {
-        Self { c: self.c * power_of_two, r: self.r * power_of_two }
-    }
-
-    /// Encloses `1 / z`; the radius is infinite when the ball may hold zero.
-    pub(super) fn reciprocal(self) -> Self {
-        let c = self.c.recip();
-        let low = (self.c.abs() - self.r * UP) * (2.0 - UP);
-        if low > TINY {
-            return Self { c, r: (self.r / (self.c.abs() * low) + 2.0 * U * c.abs() + TINY) * UP };
-        }
-        Self { c, r: f64::INFINITY }
-    }
-
-    /// Encloses the positive root; the radius is infinite when the ball may hold zero or less.
-    ///
-    /// `|sqrt z - sqrt c| <= |z - c| / sqrt c`.
-    pub(super) fn sqrt(self) -> Self {
-        let c = self.c.sqrt();
-        if self.c > self.r * UP && c > TINY {
-            return Self { c, r: (self.r / c + 2.0 * U * c + TINY) * UP };
-        }
-        Self { c, r: f64::INFINITY }
-    }
+/// Encloses `1 / x`; the radius is infinite when the ball may hold zero.
+pub(super) fn reciprocal(x: Real) -> Real {
+    x.reciprocal().unwrap_or(Real { centre: x.centre.recip(), radius: f64::INFINITY })
 }
 
-impl Neg for Ball {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Self { c: -self.c, r: self.r }
-    }
-}
-
-impl Add for Ball {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        let c = self.c + other.c;
-        Self { c, r: (self.r + other.r + U * c.abs() + TINY) * UP }
-    }
-}
-
-impl Sub for Ball {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        self + -other
-    }
-}
-
-impl Mul for Ball {
-    type Output = Self;
-    fn mul(self, other: Self) -> Self {
-        let c = self.c * other.c;
-        let r = self.c.abs() * other.r + self.r * (other.c.abs() + other.r) + U * c.abs() + TINY;
-        Self { c, r: r * UP }
-    }
+/// Encloses the positive root; the radius is infinite when the ball may hold zero or less.
+pub(super) fn root(x: Real) -> Real {
+    x.sqrt().unwrap_or(Real { centre: x.centre.sqrt(), radius: f64::INFINITY })
 }
 
 /// Eight reals.
@@ -202,8 +133,8 @@ impl Discs {
     }
 
     #[inline(always)]
-    pub(super) fn real(x: Ball) -> Self {
-        Self { c: ComplexBatch::real(x.c), r: Reals::all(x.r) }
+    pub(super) fn real(x: Real) -> Self {
+        Self { c: ComplexBatch::real(x.centre), r: Reals::all(x.radius) }
     }
 
     /// Upper bounds of the moduli.
@@ -213,18 +144,18 @@ impl Discs {
     }
 
     #[inline(always)]
-    pub(super) fn plus(self, x: Ball) -> Self {
-        let c = self.c.plus(x.c);
-        Self { c, r: (self.r.plus(x.r) + sizes(&c).times(U)).up() }
+    pub(super) fn plus(self, x: Real) -> Self {
+        let c = self.c.plus(x.centre);
+        Self { c, r: (self.r.plus(x.radius) + sizes(&c).times(U)).up() }
     }
 
     /// Product with a real ball: two roundings less than a complex product.
     #[inline(always)]
-    pub(super) fn times(self, x: Ball) -> Self {
+    pub(super) fn times(self, x: Real) -> Self {
         let z = sizes(&self.c);
-        let (size, rest) = (x.c.abs(), x.r);
+        let (size, rest) = (x.centre.abs(), x.radius);
         let r = z.times(rest + 2.0 * U * size) + self.r.times(size + rest);
-        Self { c: self.c.times(x.c), r: r.up() }
+        Self { c: self.c.times(x.centre), r: r.up() }
     }
 
     /// Product with a power of two, exact barring underflow.
@@ -330,43 +261,42 @@ impl Mul for Discs {
     }
 }
 
-type BallVector = [Ball; 3];
+type RealVector = [Real; 3];
 
-fn dot(a: &BallVector, b: &BallVector) -> Ball {
+fn dot(a: &RealVector, b: &RealVector) -> Real {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-fn cross(a: &BallVector, b: &BallVector) -> BallVector {
+fn cross(a: &RealVector, b: &RealVector) -> RealVector {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// A triangle `A, B, C`: products of `b = B - A`, `c = C - A`, and a frame with `B = (len, 0)`, `C = (u, v)`.
 #[derive(Debug, Clone)]
 pub(super) struct Triangle {
-    pub(super) bb: Ball,
-    pub(super) bc: Ball,
-    pub(super) cc: Ball,
+    pub(super) bb: Real,
+    pub(super) bc: Real,
+    pub(super) cc: Real,
     /// `|b - c|^2`.
-    pub(super) opposite: Ball,
+    pub(super) opposite: Real,
     /// `bb cc - bc^2 = |b x c|^2`.
-    pub(super) area: Ball,
-    pub(super) len: Ball,
-    pub(super) u: Ball,
-    pub(super) v: Ball,
+    pub(super) area: Real,
+    pub(super) len: Real,
+    pub(super) u: Real,
+    pub(super) v: Real,
     /// Rows: along `b`, in the plane towards `C`, normal.
-    pub(super) axes: [BallVector; 3],
+    pub(super) axes: [RealVector; 3],
 }
 
 impl Triangle {
     /// From exact corners.
     pub(super) fn of(p: [[f64; 3]; 3]) -> Self {
-        let side =
-            |i: usize, j: usize| -> BallVector { [0, 1, 2].map(|k| Ball::difference(p[i][k], p[j][k])) };
+        let side = |i: usize, j: usize| -> RealVector { [0, 1, 2].map(|k| difference(p[i][k], p[j][k])) };
         let (b, c, a) = (side(1, 0), side(2, 0), side(2, 1));
         let normal = cross(&b, &c);
         let (bb, bc, area) = (dot(&b, &b), dot(&b, &c), dot(&normal, &normal));
-        let (len, height) = (bb.sqrt(), area.sqrt());
-        let (inverse, across) = (len.reciprocal(), height.reciprocal());
+        let (len, height) = (root(bb), root(area));
+        let (inverse, across) = (reciprocal(len), reciprocal(height));
         let x = b.map(|z| z * inverse);
         let z = normal.map(|z| z * across);
         let axes = [x, cross(&z, &x), z];
@@ -376,6 +306,6 @@ impl Triangle {
 
     /// Largest radius of an entry of the frame.
     pub(super) fn axes_radius(&self) -> f64 {
-        self.axes.iter().flatten().fold(0.0, |m, z| if z.r <= m { m } else { z.r })
+        self.axes.iter().flatten().fold(0.0, |m, z| if z.radius <= m { m } else { z.radius })
     }
 }

@@ -22,16 +22,16 @@
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
-use super::arithmetic::{Ball, Discs, Reals, Triangle, sizes};
+use super::arithmetic::{Discs, Reals, Triangle, sizes};
+use crate::num::ball::{Real, UP};
 use crate::num::batch::{ComplexBatch, LANES};
-use crate::num::disc::UP;
 
 /// Coefficients of `w[i][j] x^i y^j`, `hu[i] x^i`, `hv[j] y^j`.
 #[derive(Debug, Clone)]
 pub(super) struct ClosureCoefficients {
-    pub(super) w: [[Ball; 2]; 2],
-    pub(super) hu: [Ball; 3],
-    pub(super) hv: [Ball; 3],
+    pub(super) w: [[Real; 2]; 2],
+    pub(super) hu: [Real; 3],
+    pub(super) hv: [Real; 3],
 }
 
 /// `F` and its derivatives at the points of the discs, and bounds of its second derivatives.
@@ -51,10 +51,10 @@ pub(super) struct Curvature {
 impl ClosureCoefficients {
     /// `u = [u_B, u_C]`, `v = [v_A, v_B]`.
     #[inline(always)]
-    pub(super) fn new(t: &Triangle, u: [Ball; 2], v: [Ball; 2], d: Ball) -> Self {
+    pub(super) fn new(t: &Triangle, u: [Real; 2], v: [Real; 2], d: Real) -> Self {
         let (bb, bc, cc, area) = (t.bb, t.bc, t.cc, t.area);
-        let half = |z: Ball| z.scaled(0.5);
-        let quarter = |z: Ball| z.scaled(0.25);
+        let half = |z: Real| z.scaled(0.5);
+        let quarter = |z: Real| z.scaled(0.25);
         let (beta, gamma, kappa) = (bb - u[0], cc - u[1], v[0] + cc);
         let m = half(v[0] + bb - v[1]);
         let along = cc * beta - bc * gamma;
@@ -90,8 +90,8 @@ impl ClosureCoefficients {
     /// Over all `|x| <= big_x`, `|y| <= big_y`.
     #[inline(always)]
     pub(super) fn curvature(&self, x: Reals, y: Reals) -> Curvature {
-        let w = self.w.map(|row| row.map(Ball::magnitude));
-        let (u, v) = (self.hu.map(Ball::magnitude), self.hv.map(Ball::magnitude));
+        let w = self.w.map(|row| row.map(|z| z.magnitude()));
+        let (u, v) = (self.hu.map(|z| z.magnitude()), self.hv.map(|z| z.magnitude()));
         let wx = y.times(w[1][1]).plus(w[1][0]);
         let wy = x.times(w[1][1]).plus(w[0][1]);
         let value = wx * x + y.times(w[0][1]).plus(w[0][0]);
@@ -106,12 +106,12 @@ impl ClosureCoefficients {
 }
 
 #[inline(always)]
-fn quadratic(c: &[Ball; 3], z: Discs) -> Discs {
+fn quadratic(c: &[Real; 3], z: Discs) -> Discs {
     (z.times(c[2]).plus(c[1]) * z).plus(c[0])
 }
 
 #[inline(always)]
-fn derivative(c: &[Ball; 3], z: Discs) -> Discs {
+fn derivative(c: &[Real; 3], z: Discs) -> Discs {
     z.times(c[2].scaled(2.0)).plus(c[1])
 }
 
@@ -182,7 +182,7 @@ pub(super) fn one_root_about(
         for l in 0..2 {
             let product = row[0] * j[0][l] + row[1] * j[1][l];
             let identity = if k == l { 1.0 } else { 0.0 };
-            let defect = product.plus(Ball::exact(-identity)).magnitude();
+            let defect = product.plus(Real::point(-identity)).magnitude();
             kappa = kappa + defect * weights[l] * unweighted;
         }
         norms[k] = [sizes(&y_matrix[k][0]) * unweighted, sizes(&y_matrix[k][1]) * unweighted];

@@ -19,10 +19,10 @@ use super::certificate::{PoseEnclosure, ProvedReality, WhyUncertified};
 use super::system::{SquareData, exact_product, power_of_two_below, scale_point};
 use crate::geom::ComplexPose;
 use crate::manipulator::{LegIndex, Octahedral};
+use crate::num::ball::{Disc, Real, UP};
 use crate::num::batch::{ComplexBatch, LANES};
-use crate::num::disc::{Disc, UP};
 use crate::num::rounding::check_arithmetic;
-use arithmetic::{Ball, Discs, Triangle};
+use arithmetic::{Discs, Triangle};
 use closures::{ClosureCoefficients, RootDiscs, one_root_about};
 use poses::{Data, deviation};
 
@@ -184,12 +184,12 @@ impl OctahedralCertifier {
         let none = OctahedralCertificates { pairs: [None; PAIRS], complete: false };
         let s: SquareData = s.into();
         let scale = (self.unit * self.unit).recip();
-        let mut squares = [Ball::ZERO; 6];
+        let mut squares = [Real::ZERO; 6];
         for (square, i) in squares.iter_mut().zip(self.order) {
             let Some(c) = exact_product(s.middle[i].hi(), scale) else { return none };
             // the radius is only ever too large: it may underflow
             let blur = (s.middle[i].lo().abs() + s.radius[i]) * UP * scale;
-            *square = Ball { c, r: if blur <= 0.0 { 0.0 } else { blur.next_up() } };
+            *square = Real { centre: c, radius: if blur <= 0.0 { 0.0 } else { blur.next_up() } };
         }
         let (mut x, mut y) = (ComplexBatch::ZERO, ComplexBatch::ZERO);
         for (k, pair) in pairs.iter().enumerate() {
@@ -211,7 +211,7 @@ impl OctahedralCertifier {
     #[inline(always)]
     fn prove(
         &self,
-        s: &[Ball; 6],
+        s: &[Real; 6],
         x: &ComplexBatch,
         y: &ComplexBatch,
         poses: &[ComplexPose; 2 * PAIRS],
@@ -257,7 +257,7 @@ impl OctahedralCertifier {
 /// A proof to be made with the vector units that the machine turns out to have; the results are the same on all.
 struct OctahedralProof<'a> {
     certifier: &'a OctahedralCertifier,
-    squares: &'a [Ball; 6],
+    squares: &'a [Real; 6],
     pairs: [&'a ComplexBatch; 2],
     poses: &'a [ComplexPose; 2 * PAIRS],
 }

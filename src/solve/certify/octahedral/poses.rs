@@ -16,9 +16,10 @@
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
-use super::arithmetic::{Ball, Discs, Reals, Triangle, parts, sizes};
+use super::arithmetic::{Discs, Reals, Triangle, parts, reciprocal, sizes};
 use super::{OctahedralCertifier, PAIRS, U};
 use crate::geom::ComplexPose;
+use crate::num::ball::Real;
 use crate::num::batch::{ComplexBatch, LANES};
 
 pub(super) type Points = [Discs; 3];
@@ -47,7 +48,7 @@ fn dot(a: &Points, b: &Points) -> Discs {
 pub(super) struct Data<'a> {
     pub(super) base: &'a Triangle,
     pub(super) platform: &'a Triangle,
-    pub(super) s: &'a [Ball; 6],
+    pub(super) s: &'a [Real; 6],
 }
 
 /// Corners as functions of `x` and `y` over discs: `P4` of `y` and `P5` of `x` alone, by square roots, `P6` of both.
@@ -67,8 +68,8 @@ impl Data<'_> {
     #[inline(always)]
     fn corners(&self, x: Discs, y: Discs) -> Corners {
         let (base, platform, s) = (self.base, self.platform, self.s);
-        let half = |z: Ball| z.scaled(0.5);
-        let (along, up) = (base.len.reciprocal(), base.v.reciprocal());
+        let half = |z: Real| z.scaled(0.5);
+        let (along, up) = (reciprocal(base.len), reciprocal(base.v));
         let p4x = half(s[0] + base.bb - s[1]) * along;
         let p4y = (-y).halved().plus(half(s[0] + base.cc) - base.u * p4x).times(up);
         let p5x = x.plus(base.bb - s[2]).halved().times(along);
@@ -107,11 +108,11 @@ impl Data<'_> {
         let (base, t) = (self.base, self.platform);
         let wide = self.corners(x, y);
         let mut tight = self.corners(Discs::point(x.c), Discs::point(y.c));
-        let (along, up) = (base.len.reciprocal(), base.v.reciprocal());
-        let half = Ball::exact(0.5);
+        let (along, up) = (reciprocal(base.len), reciprocal(base.v));
+        let half = Real::point(0.5);
         let by_y = Discs::real(-(half * up));
         let d4 = [by_y, -(wide.p4[1] * by_y) * wide.p4[2].reciprocal()];
-        let (ax, ay) = (half * along, half * (Ball::exact(1.0) - base.u * along) * up);
+        let (ax, ay) = (half * along, half * (Real::point(1.0) - base.u * along) * up);
         let rise = (-(wide.p5[0].times(ax) + wide.p5[1].times(ay))).plus(half);
         let d5 = [Discs::real(ax), Discs::real(ay), rise * wide.p5[2].reciprocal()];
         let along6 = (-dot(&d5, &wide.p6)).plus(half) * wide.inverse;
@@ -126,7 +127,7 @@ impl Data<'_> {
             tight.p6[k].widen(sx.magnitude() * rx + sy.magnitude() * ry);
         }
         let Corners { p4, p5, p6, .. } = tight;
-        let (side, height) = (t.len.reciprocal(), t.v.reciprocal());
+        let (side, height) = (reciprocal(t.len), reciprocal(t.v));
         let (mut ax, mut ay) = ([Discs::ZERO; 3], [Discs::ZERO; 3]);
         for k in 0..3 {
             ax[k] = (p5[k] - p4[k]).times(side);
@@ -219,7 +220,7 @@ fn first_image(design: &OctahedralCertifier, placed: &Placed, poses: &[ComplexPo
         for j in 0..3 {
             corner = corner + gather(poses, false, |pose| pose.rotation[(i, j)]).times(b4[j]);
         }
-        height = height + corner.times(normal[i].c);
+        height = height + corner.times(normal[i].centre);
     }
     let z = &placed.p4[2].c;
     let (near, far) = ((height - *z).norm_sqr(), (height + *z).norm_sqr());
@@ -267,18 +268,18 @@ impl Nominal {
             // row i of E^T F, split: rows 0 and 1 of F, row 2 of F
             let (mut even, mut odd) = ([ComplexBatch::ZERO; 3], [ComplexBatch::ZERO; 3]);
             for j in 0..3 {
-                let plane = f[j][0].c.times(e[0][i].c) + f[j][1].c.times(e[1][i].c);
-                let normal = f[j][2].c.times(e[2][i].c);
+                let plane = f[j][0].c.times(e[0][i].centre) + f[j][1].c.times(e[1][i].centre);
+                let normal = f[j][2].c.times(e[2][i].centre);
                 (even[j], odd[j]) = if j < 2 { (plane, normal) } else { (normal, plane) };
             }
             for j in 0..3 {
-                let g = [g[0][j].c, g[1][j].c, g[2][j].c];
+                let g = [g[0][j].centre, g[1][j].centre, g[2][j].centre];
                 out.even[i][j] = even[0].times(g[0]) + even[1].times(g[1]) + even[2].times(g[2]);
                 out.odd[i][j] = odd[0].times(g[0]) + odd[1].times(g[1]) + odd[2].times(g[2]);
             }
             let p4 = &placed.p4;
-            out.corner[0][i] = p4[0].c.times(e[0][i].c) + p4[1].c.times(e[1][i].c);
-            out.corner[1][i] = p4[2].c.times(e[2][i].c);
+            out.corner[0][i] = p4[0].c.times(e[0][i].centre) + p4[1].c.times(e[1][i].centre);
+            out.corner[1][i] = p4[2].c.times(e[2][i].centre);
         }
         out
     }

@@ -51,7 +51,7 @@ fn closures_enclose_the_cayley_menger_determinant_over_the_rationals() {
         let t = Triangle::of(p);
         let mut draw = || rng.uniform(0.5, 3.0);
         let (u, v, d) = ([draw(), draw()], [draw(), draw()], draw());
-        let closure = ClosureCoefficients::new(&t, u.map(Ball::exact), v.map(Ball::exact), Ball::exact(d));
+        let closure = ClosureCoefficients::new(&t, u.map(Real::point), v.map(Real::point), Real::point(d));
         let (x, y) = (rng.uniform(0.5, 3.0), rng.uniform(0.5, 3.0));
         let point = |z: f64| Discs::point(ComplexBatch::real(z));
         let values = closure.values(point(x), point(y));

@@ -4,7 +4,7 @@ use nalgebra::{Point3, Vector3};
 
 use crate::design::Design;
 use crate::manipulator::LegIndex;
-use crate::num::Rng;
+use crate::num::Purpose;
 use crate::plot::{CurveFigure, CurveMark, CurvePanel, component_curves};
 use crate::synthesis::components::{Components, FlatPair, PlaneCurve, PlanePair, flat_name};
 
@@ -100,7 +100,7 @@ fn partners(found: &Components, planes: &PlanePair, seed: u64) -> Vec<(Point3<f6
         return out;
     }
     let n = found.span.normalisation();
-    let mut rng = Rng::stream(seed, 0xc0);
+    let mut rng = Purpose::FIGURE_MARKS.rng(seed);
     for k in 0..20 * MARKS {
         if out.len() == MARKS {
             break;

@@ -11,7 +11,7 @@ use crate::cli::failure::Failure;
 use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
 use crate::design::Design;
-use crate::num::Rng;
+use crate::num::Purpose;
 use crate::records::{ComponentRecord, ComponentsAnswer};
 use crate::synthesis::components::{
     Component, ComponentOptions, Components, ComponentsError, SampledLeg, components,
@@ -98,7 +98,7 @@ fn draw(
     seed: u64,
     k: usize,
 ) -> Result<Vec<SampledLeg>, Failure> {
-    let mut rng = Rng::stream(seed, k as u64);
+    let mut rng = Purpose::SAMPLED_LEGS.item(seed, k as u64);
     let mut out = Vec::new();
     for _ in 0..count {
         let leg = component.sample(&found.span, &mut rng);

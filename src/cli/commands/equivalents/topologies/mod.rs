@@ -18,7 +18,7 @@ use crate::design::Design;
 use crate::distance::{ClosureDegrees, generic_degrees};
 use crate::fk::{Completeness, FkOptions, ForwardKinematics, Homotopy, PoseCounting};
 use crate::manipulator::{Manipulator, default_home};
-use crate::num::Rng;
+use crate::num::Purpose;
 use crate::plot::{TopologyFigure, topology_diagram, topology_sheet};
 use crate::records::{
     RearrangementRecord, RecognisedRecord, TopologiesAnswer, TopologyFindings, TopologyRecord,
@@ -213,7 +213,7 @@ fn representative(e: &Entry) -> Result<Design, Failure> {
     let t = e.named.topology();
     let layout = t.layout();
     // the same for every seed: the file belongs to the topology
-    let mut rng = Rng::stream(0x34, e.named.number() as u64);
+    let mut rng = Purpose::REPRESENTATIVES.item(0x34, e.named.number() as u64);
     let mut ring = |angles: &[f64], radius: f64| -> Vec<Point3<f64>> {
         let mut off = || rng.uniform(-0.12, 0.12);
         let joint = |angle: &f64| {
