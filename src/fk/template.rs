@@ -70,6 +70,7 @@ fn solve_with(
 mod tests {
     use super::*;
     use crate::manipulator::Leg;
+    use crate::num::Rng;
     use nalgebra::{Point3, Vector3};
 
     #[test]

@@ -172,6 +172,7 @@ fn is_positive_definite(mut m: IntervalMatrix) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::manipulator::Leg;
     use crate::singularity::nearest_singular;
     use nalgebra::Point3;
 

@@ -1,4 +1,5 @@
 use super::*;
+use crate::num::Rng;
 use nalgebra::Point3;
 
 type Bodies = [[[f64; 3]; 6]; 2];

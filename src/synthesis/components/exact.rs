@@ -1,6 +1,6 @@
 //! Which legs and which partners of a point lie in the span of legs, exactly.
 
-use crate::manipulator::{ExactLeg, ExactLegs, Leg};
+use crate::manipulator::{Body, ExactLeg, ExactLegs, Leg};
 use crate::num::exact::{ExactVector, Rational, product, rank, relations};
 
 /// `sum_k c_k rows_k`, the coefficients being small integers.
@@ -25,39 +25,34 @@ impl ExactLegs {
     }
 
     /// Dimension of the space of `y` in the span of the other ends of `legs` for which `x (x) y` lies in the span of
-    /// the vectors of `legs`; `x` is a base point, a platform point with `over_platform`.
-    pub(super) fn fibre(&self, over_platform: bool, x: &ExactVector, legs: &[usize]) -> usize {
-        self.partners(over_platform, x, legs, independent(&self.other_ends(over_platform, legs)))
+    /// the vectors of `legs`; `x` is a point of `body`.
+    pub(super) fn fibre(&self, body: Body, x: &ExactVector, legs: &[usize]) -> usize {
+        self.partners(body, x, legs, independent(&self.other_ends(body, legs)))
     }
 
     /// The part of [`fibre`](Self::fibre) at infinity: with first entry 0.
-    pub(super) fn fibre_at_infinity(&self, over_platform: bool, x: &ExactVector, legs: &[usize]) -> usize {
-        let ends = independent(&self.other_ends(over_platform, legs));
+    pub(super) fn fibre_at_infinity(&self, body: Body, x: &ExactVector, legs: &[usize]) -> usize {
+        let ends = independent(&self.other_ends(body, legs));
         // all ends have first entry 1: the vectors of their span with first entry 0 are spanned by differences
         let differences = ends.iter().skip(1).map(|e| e.iter().zip(&ends[0]).map(|(x, y)| x - y).collect());
         let differences = differences.collect();
-        self.partners(over_platform, x, legs, differences)
+        self.partners(body, x, legs, differences)
     }
 
-    fn other_ends(&self, over_platform: bool, legs: &[usize]) -> Vec<ExactVector> {
-        let others = if over_platform { &self.base } else { &self.platform };
+    fn other_ends(&self, body: Body, legs: &[usize]) -> Vec<ExactVector> {
+        let others = body.other().of((&self.base, &self.platform));
         legs.iter().map(|i| others[*i].clone()).collect()
     }
 
     /// Dimension of the `y` in the span of independent `directions` for which `x (x) y` lies in the span of the vectors of `legs`.
-    fn partners(
-        &self,
-        over_platform: bool,
-        x: &ExactVector,
-        legs: &[usize],
-        directions: Vec<ExactVector>,
-    ) -> usize {
+    fn partners(&self, body: Body, x: &ExactVector, legs: &[usize], directions: Vec<ExactVector>) -> usize {
         let mut rows = self.vectors_of(legs);
         let leg_rank = rank(&rows);
         let count = directions.len();
-        rows.extend(
-            directions.into_iter().map(|y| if over_platform { product(&y, x) } else { product(x, &y) }),
-        );
+        rows.extend(directions.into_iter().map(|y| match body {
+            Body::Base => product(x, &y),
+            Body::Platform => product(&y, x),
+        }));
         leg_rank + count - rank(&rows)
     }
 }
@@ -77,7 +72,6 @@ fn independent(rows: &[ExactVector]) -> Vec<ExactVector> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::manipulator::Body;
     use nalgebra::Point3;
 
     #[test]
@@ -91,7 +85,7 @@ mod tests {
         assert_eq!(e.dimension(Body::Platform, &[0, 1, 2]), 0);
         // all legs meet the one platform point: every base point of the plane is replaceable
         assert_eq!(e.rank(&[0, 1, 2, 3, 4, 5]), 3);
-        assert_eq!(e.fibre(true, &e.platform[0], &[0, 1, 2, 3, 4, 5]), 3);
-        assert_eq!(e.fibre(false, &e.base[0], &[0, 1, 2, 3, 4, 5]), 1);
+        assert_eq!(e.fibre(Body::Platform, &e.platform[0], &[0, 1, 2, 3, 4, 5]), 3);
+        assert_eq!(e.fibre(Body::Base, &e.base[0], &[0, 1, 2, 3, 4, 5]), 1);
     }
 }

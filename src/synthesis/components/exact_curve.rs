@@ -166,16 +166,13 @@ fn common_minor(m: &[Vec<ExactForm>], order: usize) -> Result<ExactForm, NoExact
 }
 
 impl ExactCurve {
-    /// Over the plane of the base ends (platform ends with `over_platform`) of legs.
-    pub(super) fn of(exact: &ExactLegs, legs: &[usize], over_platform: bool) -> Result<Self, NoExactCurve> {
+    /// Over the plane of the ends of legs on a body.
+    pub(super) fn of(exact: &ExactLegs, legs: &[usize], body: Body) -> Result<Self, NoExactCurve> {
         let pick =
             |list: &[ExactVector]| -> Vec<ExactVector> { legs.iter().map(|i| list[*i].clone()).collect() };
-        let (near, far) = if over_platform {
-            (pick(&exact.platform), pick(&exact.base))
-        } else {
-            (pick(&exact.base), pick(&exact.platform))
-        };
-        let width = exact.dimension(if over_platform { Body::Base } else { Body::Platform }, legs);
+        let ends = |body: Body| pick(body.of((&exact.base, &exact.platform)));
+        let (near, far) = (ends(body), ends(body.other()));
+        let width = exact.dimension(body.other(), legs);
         let chosen = coordinates(&near, 2).zip(coordinates(&far, width));
         let Some(((kept, near), (_, far))) = chosen else { return Err(NoExactCurve::OtherFlats) };
         let m = matrix(&near, &far);
@@ -278,7 +275,7 @@ mod tests {
     use nalgebra::Point3;
 
     fn base(legs: &[Leg; 6]) -> ExactCurve {
-        ExactCurve::of(&ExactLegs::of(legs).unwrap(), &[0, 1, 2, 3, 4, 5], false).unwrap()
+        ExactCurve::of(&ExactLegs::of(legs).unwrap(), &[0, 1, 2, 3, 4, 5], Body::Base).unwrap()
     }
 
     #[test]

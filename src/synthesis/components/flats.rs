@@ -248,18 +248,18 @@ impl BothReadings {
     }
 
     /// Design coordinates of a point: those of the joint where it is one.
-    pub(super) fn design_point(&self, platform: bool, p: &Vector3<f64>, n: &Normalisation) -> Vector3<f64> {
-        let joint = self.side(platform).iter().position(|q| q == p);
-        match (joint, platform) {
-            (Some(k), false) => self.design[k].base.coords,
-            (Some(k), true) => self.design[k].platform.coords,
-            (None, false) => n.base_centre.coords + p * n.base_unit,
-            (None, true) => n.platform_centre.coords + p * n.platform_unit,
+    pub(super) fn design_point(&self, body: Body, p: &Vector3<f64>, n: &Normalisation) -> Vector3<f64> {
+        let joint = self.side(body).iter().position(|q| q == p);
+        match (joint, body) {
+            (Some(k), Body::Base) => self.design[k].base.coords,
+            (Some(k), Body::Platform) => self.design[k].platform.coords,
+            (None, Body::Base) => n.base_centre.coords + p * n.base_unit,
+            (None, Body::Platform) => n.platform_centre.coords + p * n.platform_unit,
         }
     }
 
-    pub(super) fn side(&self, platform: bool) -> &[Vector3<f64>; 6] {
-        if platform { &self.platform } else { &self.base }
+    pub(super) fn side(&self, body: Body) -> &[Vector3<f64>; 6] {
+        body.of((&self.base, &self.platform))
     }
 }
 
@@ -274,11 +274,11 @@ struct Dimensions {
 }
 
 impl Dimensions {
-    fn of(dimension: impl Fn(bool, &[usize]) -> Result<usize, LinalgError>) -> Result<Self, LinalgError> {
+    fn of(dimension: impl Fn(Body, &[usize]) -> Result<usize, LinalgError>) -> Result<Self, LinalgError> {
         let mut out = Self { base: [0; 64], platform: [0; 64] };
         for mask in 1..64 {
-            out.base[mask] = dimension(false, &members(mask))?;
-            out.platform[mask] = dimension(true, &members(mask))?;
+            out.base[mask] = dimension(Body::Base, &members(mask))?;
+            out.platform[mask] = dimension(Body::Platform, &members(mask))?;
         }
         Ok(out)
     }
@@ -302,11 +302,9 @@ impl Dimensions {
 
 /// All closed pairs that can hold a family, see `docs/theory/components.md`: `k' >= i + j + 1`, not both points.
 pub(super) fn closed_pairs(ends: &BothReadings) -> Result<Vec<ClosedPair>, LinalgError> {
-    let exact = Dimensions::of(|platform, legs| {
-        Ok(ends.exact.dimension(if platform { Body::Platform } else { Body::Base }, legs))
-    })?;
-    let numerical = Dimensions::of(|platform, legs| {
-        let points: Vec<Vector3<f64>> = legs.iter().map(|i| ends.side(platform)[*i]).collect();
+    let exact = Dimensions::of(|body, legs| Ok(ends.exact.dimension(body, legs)))?;
+    let numerical = Dimensions::of(|body, legs| {
+        let points: Vec<Vector3<f64>> = legs.iter().map(|i| ends.side(body)[*i]).collect();
         Ok(spread(&points)?.iter().filter(|s| **s > ends.tolerance).count())
     })?;
     // legs, i, j, rank -> (exact, within the tolerance)
@@ -333,11 +331,11 @@ pub(super) fn closed_pairs(ends: &BothReadings) -> Result<Vec<ClosedPair>, Linal
         let legs = members(mask);
         let product = product(ends, &legs, i, j, Some(rank))?;
         let mut decisions = Vec::new();
-        for (on_platform, question, used, by_exact) in [
-            (false, Question::BaseDimension, i, exact.base[mask]),
-            (true, Question::PlatformDimension, j, exact.platform[mask]),
+        for (body, question, used, by_exact) in [
+            (Body::Base, Question::BaseDimension, i, exact.base[mask]),
+            (Body::Platform, Question::PlatformDimension, j, exact.platform[mask]),
         ] {
-            let points: Vec<Vector3<f64>> = legs.iter().map(|k| ends.side(on_platform)[*k]).collect();
+            let points: Vec<Vector3<f64>> = legs.iter().map(|k| ends.side(body)[*k]).collect();
             let decision = Decision::rank(question, &spread(&points)?, 1.0, ends.tolerance);
             decisions.push(decision.taken(used).beside(Some(by_exact)));
         }
@@ -363,10 +361,10 @@ fn product(
 /// All six legs between the flats they span within the tolerance.
 pub(super) fn whole(ends: &BothReadings) -> Result<ClosedPair, LinalgError> {
     let legs: Vec<usize> = (0..6).collect();
-    let dimension = |platform: bool| -> Result<usize, LinalgError> {
-        Ok(spread(ends.side(platform))?.iter().filter(|s| **s > ends.tolerance).count())
+    let dimension = |body: Body| -> Result<usize, LinalgError> {
+        Ok(spread(ends.side(body))?.iter().filter(|s| **s > ends.tolerance).count())
     };
-    let (i, j) = (dimension(false)?, dimension(true)?);
+    let (i, j) = (dimension(Body::Base)?, dimension(Body::Platform)?);
     let product = product(ends, &legs, i, j, None)?;
     let same = ends.exact.dimension(Body::Base, &legs) == i
         && ends.exact.dimension(Body::Platform, &legs) == j

@@ -11,6 +11,7 @@ use super::shape::{Curve, FamilyShape};
 use super::spectrum::{
     APART, COMPUTED, Decision, NO_DIMENSION, Question, Spectrum, nearness, norm, orthonormal, unit, without,
 };
+use crate::manipulator::Body;
 use crate::num::Rng;
 use crate::num::linalg::LinalgError;
 
@@ -146,11 +147,11 @@ pub(super) struct FoundComponents {
     pub(super) decisions: Vec<Decision>,
 }
 
-/// A product of flats seen from one body: `product.base` belongs to the platform when `over_platform`.
+/// A product of flats seen from one body, which carries points over which partners stand: `product.base` belongs to `carrying`.
 #[derive(Debug, Clone)]
 pub(super) struct View<'a> {
     pub(super) product: &'a Product,
-    pub(super) over_platform: bool,
+    pub(super) carrying: Body,
     /// Ends of the legs of the pair on the carrying body and on the other one, normalised.
     pub(super) near: &'a [Vector3<f64>],
     pub(super) far: &'a [Vector3<f64>],
@@ -163,7 +164,7 @@ impl View<'_> {
     }
 
     fn question(&self) -> Question {
-        if self.over_platform { Question::RankOverPlatform } else { Question::RankOverBase }
+        self.carrying.of((Question::RankOverBase, Question::RankOverPlatform))
     }
 
     /// Rank of `M` at the best of four random points of a family of points.
@@ -191,7 +192,7 @@ impl View<'_> {
         spans: (usize, usize),
         decisions: Vec<Decision>,
     ) -> FoundComponents {
-        let (base_span, platform_span) = if self.over_platform { (spans.1, spans.0) } else { spans };
+        let (base_span, platform_span) = self.carrying.of((spans, (spans.1, spans.0)));
         FoundComponents { shape, kind, base_span, platform_span, exact: None, decisions }
     }
 
@@ -200,10 +201,19 @@ impl View<'_> {
         let spans = (carrier.dimension(), other.dimension());
         let near = spanning_points(&carrier, self.near, self.tolerance);
         let far = spanning_points(&other, self.far, self.tolerance);
-        let shape = if self.over_platform {
-            FamilyShape::Product { base: other, platform: carrier, base_points: far, platform_points: near }
-        } else {
-            FamilyShape::Product { base: carrier, platform: other, base_points: near, platform_points: far }
+        let shape = match self.carrying {
+            Body::Base => FamilyShape::Product {
+                base: carrier,
+                platform: other,
+                base_points: near,
+                platform_points: far,
+            },
+            Body::Platform => FamilyShape::Product {
+                base: other,
+                platform: carrier,
+                base_points: far,
+                platform_points: near,
+            },
         };
         self.found(shape, FamilyKind::AllPairs, spans, decisions)
     }
@@ -296,7 +306,7 @@ impl View<'_> {
         let all: Vec<Vec<f64>> = fibre.iter().flatten().cloned().collect();
         let other_span = orthonormal(&all, NO_DIMENSION).len() - 1;
         let shape = FamilyShape::Over {
-            over_platform: self.over_platform,
+            carrying: self.carrying,
             curve,
             carrier: carrier.clone(),
             other: self.product.platform.clone(),
@@ -318,7 +328,7 @@ impl View<'_> {
         }
         let other_span = orthonormal(&map, NO_DIMENSION).len() - 1;
         let shape = FamilyShape::Graph {
-            over_platform: self.over_platform,
+            carrying: self.carrying,
             carrier: self.product.base.clone(),
             other: self.product.platform.clone(),
             degree,

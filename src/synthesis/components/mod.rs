@@ -212,10 +212,9 @@ pub(super) fn exact_partners(
     among: &[usize],
 ) -> Option<ExactPartners> {
     let (exact, x) = (ExactLegs::of(legs)?, homogeneous(point)?);
-    let platform = body == Body::Platform;
     Some(ExactPartners {
-        dimension: exact.fibre(platform, &x, among),
-        at_infinity: exact.fibre_at_infinity(platform, &x, among),
+        dimension: exact.fibre(body, &x, among),
+        at_infinity: exact.fibre_at_infinity(body, &x, among),
     })
 }
 

@@ -521,7 +521,7 @@ mod tests {
             let flats = (Flat::nearest(&near, 2).unwrap(), Flat::nearest(&far, 3).unwrap());
             let product = Product::new(flats.0, flats.1, &ends, None, 1e-9).unwrap();
             let view =
-                View { product: &product, over_platform: false, near: &near, far: &far, tolerance: 1e-9 };
+                View { product: &product, carrying: Body::Base, near: &near, far: &far, tolerance: 1e-9 };
             let (points, complex) = located(&view, &mut Rng::new(42)).unwrap();
             let found = points.iter().any(|x| same_point(x, &product.base.local(&o), 1e-8));
             assert_eq!((found, complex), (!general, 0), "{points:?}");

@@ -15,7 +15,7 @@ use super::found::{FoundComponents, View};
 use super::planes::{PlaneSide, joints_on_line, line_points, plane_side, points_of};
 use super::shape::FamilyShape;
 use super::spectrum::{APART, AT_INFINITY, COMPUTED, Question, SAME, nearness, unit};
-use crate::manipulator::LegIndex;
+use crate::manipulator::{Body, LegIndex};
 use crate::num::Rng;
 use crate::num::exact::ExactVector;
 use crate::num::linalg::LinalgError;
@@ -55,9 +55,9 @@ impl Search<'_> {
         let turned = pair.product.exchanged();
         let tolerance = self.ends.tolerance;
         let over_base =
-            View { product: &pair.product, over_platform: false, near: &base, far: &platform, tolerance };
+            View { product: &pair.product, carrying: Body::Base, near: &base, far: &platform, tolerance };
         let over_platform =
-            View { product: &turned, over_platform: true, near: &platform, far: &base, tolerance };
+            View { product: &turned, carrying: Body::Platform, near: &platform, far: &base, tolerance };
         let full = pair.rank == (pair.base + 1) * (pair.platform + 1);
         if full {
             let (a, b) = (pair.product.base.clone(), pair.product.platform.clone());
@@ -234,15 +234,15 @@ impl Search<'_> {
     pub(super) fn joints(&mut self, whole: &ClosedPair) -> Result<(), LinalgError> {
         let turned = whole.product.exchanged();
         let ends = self.ends;
-        for over_platform in [false, true] {
-            let product = if over_platform { &turned } else { &whole.product };
-            let (near, far) = (ends.side(over_platform), ends.side(!over_platform));
-            let exact_ends = if over_platform { &ends.exact.platform } else { &ends.exact.base };
+        for carrying in Body::BOTH {
+            let product = carrying.of((&whole.product, &turned));
+            let (near, far) = (ends.side(carrying), ends.side(carrying.other()));
+            let exact_ends = carrying.of((&ends.exact.base, &ends.exact.platform));
             for i in (0..6).filter(|i| !exact_ends[..*i].contains(&exact_ends[*i])) {
                 let of_joint: Vec<Vector3<f64>> =
                     (0..6).filter(|k| near[*k] == near[i]).chain(0..6).map(|k| far[k]).collect();
-                let view = View { product, over_platform, near, far: &of_joint, tolerance: ends.tolerance };
-                let exact = ends.exact.fibre(over_platform, &exact_ends[i], &whole.legs);
+                let view = View { product, carrying, near, far: &of_joint, tolerance: ends.tolerance };
+                let exact = ends.exact.fibre(carrying, &exact_ends[i], &whole.legs);
                 if let Some(found) = view.over_point(&near[i], None)? {
                     let dimension = found.shape.dimension();
                     // within a larger family every joint has such a flat, and it says nothing new
@@ -399,11 +399,7 @@ impl Search<'_> {
     /// Centre and unit of the normalised coordinates of the carrying body.
     fn frame(&self, view: &View<'_>) -> (Vector3<f64>, f64) {
         let n = self.normalisation();
-        if view.over_platform {
-            (n.platform_centre.coords, n.platform_unit)
-        } else {
-            (n.base_centre.coords, n.base_unit)
-        }
+        view.carrying.of(((n.base_centre.coords, n.base_unit), (n.platform_centre.coords, n.platform_unit)))
     }
 
     /// Exact dimension of the partners of a generic point of the flat of the carrying body, if asked on an exact pair:
@@ -412,7 +408,7 @@ impl Search<'_> {
         if pair.reading == Reading::ToleranceOnly {
             return Some(usize::MAX);
         }
-        let ends = if view.over_platform { &self.ends.exact.platform } else { &self.ends.exact.base };
+        let ends = view.carrying.of((&self.ends.exact.base, &self.ends.exact.platform));
         let mut kept: Vec<&ExactVector> = Vec::new();
         for i in &pair.legs {
             let mut rows: Vec<ExactVector> = kept.iter().map(|r| (*r).clone()).collect();
@@ -429,7 +425,7 @@ impl Search<'_> {
                 .collect(),
             _ => return None,
         };
-        points.iter().map(|x| self.ends.exact.fibre(view.over_platform, x, &pair.legs)).min()
+        points.iter().map(|x| self.ends.exact.fibre(view.carrying, x, &pair.legs)).min()
     }
 
     /// Whether the exact data have a family over the line through two joints on it.
@@ -445,12 +441,12 @@ impl Search<'_> {
         }
         let joints: Vec<Vec<f64>> = view.near.iter().map(|p| view.product.base.local(p)).collect();
         let on = joints_on_line(line, &joints, self.ends.tolerance);
-        let ends = if view.over_platform { &self.ends.exact.platform } else { &self.ends.exact.base };
+        let ends = view.carrying.of((&self.ends.exact.base, &self.ends.exact.platform));
         let p = &ends[pair.legs[*on.first()?]];
         let q = on.iter().map(|k| &ends[pair.legs[*k]]).find(|q| *q != p)?;
         let generic = generic?;
         let points = [0, 1, 2, 3, 5].map(|s| combination(&[p, q], &[1, s]));
-        let fibres = points.iter().map(|x| self.ends.exact.fibre(view.over_platform, x, &pair.legs));
+        let fibres = points.iter().map(|x| self.ends.exact.fibre(view.carrying, x, &pair.legs));
         Some(fibres.min()? > generic)
     }
 
@@ -459,7 +455,7 @@ impl Search<'_> {
         if pair.reading == Reading::ToleranceOnly {
             return Err(NoExactCurve::OtherFlats);
         }
-        ExactCurve::of(&self.ends.exact, &pair.legs, view.over_platform)
+        ExactCurve::of(&self.ends.exact, &pair.legs, view.carrying)
     }
 
     /// Whether the exact curve has a line or conic where the one within the tolerance has part `k`.
@@ -501,7 +497,7 @@ impl Search<'_> {
         if pair.reading == Reading::ToleranceOnly {
             return Some(false);
         }
-        let ends = if view.over_platform { &self.ends.exact.platform } else { &self.ends.exact.base };
+        let ends = view.carrying.of((&self.ends.exact.base, &self.ends.exact.platform));
         let (centre, unit) = self.frame(view);
         let distance = |p: &ExactVector| place(p).map_or(f64::MAX, |x| ((x - centre) / unit - at).norm());
         let mut best: Option<(f64, ExactVector)> = None;
@@ -520,7 +516,7 @@ impl Search<'_> {
             }
         }
         let (distance, point) = best?;
-        let fibre = self.ends.exact.fibre(view.over_platform, &point, &pair.legs);
+        let fibre = self.ends.exact.fibre(view.carrying, &point, &pair.legs);
         (distance < 1e-6).then_some(fibre == dimension + 1)
     }
 }

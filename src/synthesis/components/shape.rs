@@ -6,7 +6,7 @@ use super::flats::{BothReadings, Flat, Product};
 use super::form::{Form, exponents, power};
 use super::found::{Polynomial, value};
 use super::spectrum::{Spectrum, dot, norm, orthonormal, unit, without};
-use crate::manipulator::Leg;
+use crate::manipulator::{Body, Leg};
 use crate::num::linalg::LinalgError;
 use crate::synthesis::leg_vector::Normalisation;
 
@@ -65,9 +65,9 @@ pub(super) enum FamilyShape {
     /// All legs between two flats.
     Product { base: Flat, platform: Flat, base_points: Vec<Vector3<f64>>, platform_points: Vec<Vector3<f64>> },
     /// A flat of partners for every point of a curve of one body.
-    Over { over_platform: bool, curve: Curve, carrier: Flat, other: Flat, fibre: Vec<Polynomial> },
+    Over { carrying: Body, curve: Curve, carrier: Flat, other: Flat, fibre: Vec<Polynomial> },
     /// One partner for every point of a plane: a vector of forms of the given degree.
-    Graph { over_platform: bool, carrier: Flat, other: Flat, degree: usize, map: Polynomial },
+    Graph { carrying: Body, carrier: Flat, other: Flat, degree: usize, map: Polynomial },
     /// A plane cubic and its partner; `platform` is the platform's curve, `centre` a joint on `base`.
     Cubic { product: Box<Product>, base: Form, platform: Option<Form>, centre: Vec<f64> },
 }
@@ -92,15 +92,15 @@ impl FamilyShape {
     pub(super) fn distance(&self, a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
         match self {
             Self::Product { base, platform, .. } => base.distance(a).max(platform.distance(b)),
-            Self::Over { over_platform, curve, carrier, other, fibre } => {
-                let (x, y) = if *over_platform { (b, a) } else { (a, b) };
+            Self::Over { carrying, curve, carrier, other, fibre } => {
+                let (x, y) = carrying.of(((a, b), (b, a)));
                 let (num, den, off) = curve.locate(&carrier.local(x));
                 let span: Vec<Vec<f64>> = fibre.iter().map(|p| value(p, num, den)).collect();
                 let fibre_off = off_span(&other.local(y), &span);
                 carrier.distance(x).max(other.distance(y)).max(off).max(fibre_off)
             }
-            Self::Graph { over_platform, carrier, other, degree, map } => {
-                let (x, y) = if *over_platform { (b, a) } else { (a, b) };
+            Self::Graph { carrying, carrier, other, degree, map } => {
+                let (x, y) = carrying.of(((a, b), (b, a)));
                 let image = image(*degree, map, &carrier.local(x));
                 let off = off_span(&other.local(y), &[image]);
                 carrier.distance(x).max(other.distance(y)).max(off)
@@ -123,16 +123,16 @@ impl FamilyShape {
         match self {
             Self::Product { base_points, platform_points, .. } => {
                 let first = base_points.len() - 1;
-                let place = |platform: bool, points: &[Vector3<f64>]| -> Vec<Vector3<f64>> {
-                    points.iter().map(|p| ends.design_point(platform, p, n)).collect()
+                let place = |body: Body, points: &[Vector3<f64>]| -> Vec<Vector3<f64>> {
+                    points.iter().map(|p| ends.design_point(body, p, n)).collect()
                 };
                 Parametrisation::Rational {
                     parameters: first + platform_points.len() - 1,
-                    base: affine(&place(false, base_points), 0),
-                    platform: affine(&place(true, platform_points), first),
+                    base: affine(&place(Body::Base, base_points), 0),
+                    platform: affine(&place(Body::Platform, platform_points), first),
                 }
             }
-            Self::Over { over_platform, curve, carrier, other, fibre } => {
+            Self::Over { carrying, curve, carrier, other, fibre } => {
                 let moving = single(&curve.polynomial());
                 let mut partner: Vec<([u8; 3], Vec<f64>)> = Vec::new();
                 for (l, p) in fibre.iter().enumerate() {
@@ -144,16 +144,16 @@ impl FamilyShape {
                         partner.push((exponent, c.clone()));
                     }
                 }
-                two_sides(*over_platform, fibre.len(), (carrier, &moving), (other, &partner), n)
+                two_sides(*carrying, fibre.len(), (carrier, &moving), (other, &partner), n)
             }
-            Self::Graph { over_platform, carrier, other, degree, map } => {
+            Self::Graph { carrying, carrier, other, degree, map } => {
                 let basis = |k: usize| (0..3).map(|i| if i == k { 1.0 } else { 0.0 }).collect::<Vec<f64>>();
                 let moving = vec![([0, 0, 0], basis(0)), ([1, 0, 0], basis(1)), ([0, 1, 0], basis(2))];
                 let partner: Vec<([u8; 3], Vec<f64>)> = exponents(*degree)
                     .zip(map)
                     .map(|(e, c)| ([e[1] as u8, e[2] as u8, 0], c.clone()))
                     .collect();
-                two_sides(*over_platform, 2, (carrier, &moving), (other, &partner), n)
+                two_sides(*carrying, 2, (carrier, &moving), (other, &partner), n)
             }
             Self::Cubic { product, base, centre, .. } => {
                 Parametrisation::Cubic(Box::new(pencil(product, base, centre, n)))
@@ -190,26 +190,29 @@ fn single(p: &Polynomial) -> Vec<([u8; 3], Vec<f64>)> {
 type PolynomialTerms = [([u8; 3], Vec<f64>)];
 
 fn two_sides(
-    over_platform: bool,
+    carrying: Body,
     parameters: usize,
     moving: (&Flat, &PolynomialTerms),
     partner: (&Flat, &PolynomialTerms),
     n: &Normalisation,
 ) -> Parametrisation {
-    let point = |(flat, terms): (&Flat, &PolynomialTerms), on_platform: bool| MovingPoint {
+    let point = |(flat, terms): (&Flat, &PolynomialTerms), body: Body| MovingPoint {
         terms: terms
             .iter()
             .map(|(e, c)| {
                 let h = flat.place(c);
-                (*e, if on_platform { platform_place(n, h) } else { base_place(n, h) })
+                (
+                    *e,
+                    match body {
+                        Body::Base => base_place(n, h),
+                        Body::Platform => platform_place(n, h),
+                    },
+                )
             })
             .collect(),
     };
-    let (base, platform) = if over_platform {
-        (point(partner, false), point(moving, true))
-    } else {
-        (point(moving, false), point(partner, true))
-    };
+    let (base, platform) = carrying.of(((moving, partner), (partner, moving)));
+    let (base, platform) = (point(base, Body::Base), point(platform, Body::Platform));
     Parametrisation::Rational { parameters, base, platform }
 }
 

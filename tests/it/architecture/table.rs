@@ -171,6 +171,7 @@ const LINES: &[Line] = &[
             "synthesis",
             "singularity",
             "offsets",
+            "equivalence",
             "design",
             "plot",
             "equivalents",

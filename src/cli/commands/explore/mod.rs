@@ -134,7 +134,9 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let mut done =
         optimize::search(&design, octahedral.clone(), &Choices::plain(args.extension), seed, &mut |p| {
             match p {
-                offsets::OffsetProgress::Ranking { done, total, .. } => progress.part("ranking", done, total),
+                offsets::OffsetProgress::Ranking { done, total, .. } => {
+                    progress.part("ranking", done, total);
+                }
                 offsets::OffsetProgress::Polishing { done, total, .. } => {
                     progress.part("polishing", done, total);
                 }
