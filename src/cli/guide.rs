@@ -13,11 +13,11 @@ use super::args::Cli;
 /// Commands that serve one job.
 struct Job {
     heading: &'static str,
-    commands: &'static [Entry],
+    commands: &'static [GuideEntry],
 }
 
 /// A command with its place in the help.
-pub(crate) struct Entry {
+pub(crate) struct GuideEntry {
     /// The words after `equipod`.
     pub(crate) path: &'static str,
     /// Command lines after `equipod` that work on the designs of the project; the first one stands in the help of the program and of the group.
@@ -30,8 +30,8 @@ const fn entry(
     path: &'static str,
     examples: &'static [&'static str],
     words: &'static [&'static str],
-) -> Entry {
-    Entry { path, examples, words }
+) -> GuideEntry {
+    GuideEntry { path, examples, words }
 }
 
 const JOBS: [Job; 8] = [
@@ -207,7 +207,7 @@ const JOBS: [Job; 8] = [
 ];
 
 /// All commands, in the order of the help.
-pub(crate) fn entries() -> impl Iterator<Item = &'static Entry> {
+pub(crate) fn entries() -> impl Iterator<Item = &'static GuideEntry> {
     JOBS.iter().flat_map(|job| job.commands)
 }
 

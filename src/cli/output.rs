@@ -16,7 +16,7 @@ use crate::records::{Document, ErrorAnswer, HelpAnswer, ProvenanceRecord, Warnin
 #[derive(Debug)]
 pub(crate) struct Answer {
     pub(crate) exit: Exit,
-    record: Box<dyn Written>,
+    record: Box<dyn ErasedRecord>,
     text: String,
 }
 
@@ -27,11 +27,11 @@ impl Answer {
 }
 
 /// A record of whatever type that can be written as a document.
-trait Written: Debug {
+trait ErasedRecord: Debug {
     fn document(&self, context: &Context) -> Result<String, Failure>;
 }
 
-impl<T: Serialize + Debug> Written for T {
+impl<T: Serialize + Debug> ErasedRecord for T {
     fn document(&self, context: &Context) -> Result<String, Failure> {
         document(self, context.provenance(), context.warnings())
     }

@@ -4,7 +4,7 @@ use clap::Command;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 
 use super::failure::Failure;
-use super::guide::{self, Entry};
+use super::guide::{self, GuideEntry};
 
 /// Words nearer than this to a name are taken for it (similarity of Jaro and Winkler).
 const NEAR: f64 = 0.85;
@@ -152,7 +152,7 @@ fn nearest(word: &str, group: &str) -> Vec<&'static str> {
         return Vec::new(); // no slip of the pen, and the comparison is quadratic
     }
     let word = word.to_lowercase();
-    let likeness = |e: &Entry| {
+    let likeness = |e: &GuideEntry| {
         let leaf = e.path.rsplit(' ').next().unwrap_or(e.path);
         let joined = e.path.replace(' ', "-");
         let named = [leaf, &joined].map(|n| strsim::jaro_winkler(n, &word)).into_iter().fold(0.0, f64::max);

@@ -5,7 +5,7 @@
 //! | comparison of two platforms, roundings ([`SamplePlan`]) | rotation vector uniform in a box about home | uniform in a box about home | [`SamplePlan::count`] |
 //! | trials of joint errors ([`PoseSpace::draw`]) | in the region of the workspace | likewise | as asked |
 //! | requirements, tolerances, the search for a platform ([`PoseSpace::cube_points`]) | centre, corners, Halton points and random ones of the region | likewise | as asked |
-//! | conditioning, lower bound of the distance to a singular design ([`Centred`]) | uniform on SO(3) | middle of the platform within the size of the middle of the base | there |
+//! | conditioning, lower bound of the distance to a singular design ([`CentredPoses`]) | uniform on SO(3) | middle of the platform within the size of the middle of the base | there |
 //! | problems of `bench` ([`any_pose`]) | uniform on SO(3) | normal | one a problem |
 
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3, Vector6};
@@ -37,13 +37,13 @@ pub(crate) fn any_pose(rng: &mut Rng) -> Pose {
 
 /// Poses of a manipulator by the offset of the middle of the platform's leg ends from that of the base's.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Centred {
+pub(crate) struct CentredPoses {
     base: Vector3<f64>,
     platform: Vector3<f64>,
     size: f64,
 }
 
-impl Centred {
+impl CentredPoses {
     pub(crate) fn new(m: &Manipulator) -> Self {
         let legs = m.legs();
         let mean = |pick: fn(&Leg) -> Vector3<f64>| legs.iter().map(pick).sum::<Vector3<f64>>() / 6.0;

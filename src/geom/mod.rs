@@ -13,7 +13,7 @@ mod trilateration;
 mod turn;
 
 pub(crate) use chart::{Chart, ChartCell, Covered, combination};
-pub(crate) use draw::{Centred, any_pose};
+pub(crate) use draw::{CentredPoses, any_pose};
 pub use draw::{SamplePlan, random_rotation};
 pub(crate) use hull::convex_hull;
 pub use pose::{ComplexPose, Pose};

@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Point3, Vector3};
 use super::gauge::Gauge;
 use super::joint::{Joint, joints};
 use super::product::largest_product;
-use super::sample::{Entry, ErrorBound, ErrorKind, PoseSample, PoseSearch, Shares, ToleranceError};
+use super::sample::{ErrorBound, ErrorKind, PoseSample, PoseSearch, SampleEntry, Shares, ToleranceError};
 use crate::geom::Pose;
 use crate::manipulator::Manipulator;
 use crate::num::small::symmetric_eigen3;
@@ -77,7 +77,7 @@ fn index(kind: ErrorKind) -> usize {
 fn limit(
     sample: &PoseSample<'_>,
     gauge: &dyn Fn(&[Matrix3<f64>]) -> Gauge,
-) -> Result<(LimitedAllowance, Entry, Vector3<f64>), ToleranceError> {
+) -> Result<(LimitedAllowance, SampleEntry, Vector3<f64>), ToleranceError> {
     let measure = |s: &Shares| larger([0, 1].map(|k| gauge(&s[k]).search().0)).0;
     let (_, worst) = sample.worst(&measure)?;
     let brackets = [0, 1].map(|k| gauge(&worst.shares[k]).bracket(GAP));

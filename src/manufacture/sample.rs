@@ -105,7 +105,7 @@ pub(super) type Shares = [Vec<Matrix3<f64>>; 2];
 
 /// A pose with what joint errors do there.
 #[derive(Debug, Clone)]
-pub(super) struct Entry {
+pub(super) struct SampleEntry {
     pub(super) pose: Pose,
     cube: Option<Vector6<f64>>,
     pub(super) shares: Shares,
@@ -119,7 +119,7 @@ pub(super) struct PoseSample<'a> {
     tool: Point3<f64>,
     bound: ErrorBound,
     searches: usize,
-    pub(super) entries: Vec<Entry>,
+    pub(super) entries: Vec<SampleEntry>,
 }
 
 impl<'a> PoseSample<'a> {
@@ -144,7 +144,7 @@ impl<'a> PoseSample<'a> {
             if known * sign < 0.0 {
                 return Err(ToleranceError::SingularBetween { poses: Box::new([other, pose]) });
             }
-            out.entries.push(Entry { pose, cube, shares });
+            out.entries.push(SampleEntry { pose, cube, shares });
         }
         Ok(out)
     }
@@ -157,7 +157,10 @@ impl<'a> PoseSample<'a> {
 
     /// The pose where `measure` is greatest: the greatest at the poses of the sample, and what coordinate searches with shrinking steps
     /// find from there.
-    pub(super) fn worst(&self, measure: &dyn Fn(&Shares) -> f64) -> Result<(f64, Entry), ToleranceError> {
+    pub(super) fn worst(
+        &self,
+        measure: &dyn Fn(&Shares) -> f64,
+    ) -> Result<(f64, SampleEntry), ToleranceError> {
         let mut ranked: Vec<(f64, usize)> =
             self.entries.iter().enumerate().map(|(k, e)| (measure(&e.shares), k)).collect();
         ranked.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
@@ -175,8 +178,8 @@ impl<'a> PoseSample<'a> {
         &self,
         measure: &dyn Fn(&Shares) -> f64,
         value: f64,
-        start: &Entry,
-    ) -> Result<(f64, Entry), ToleranceError> {
+        start: &SampleEntry,
+    ) -> Result<(f64, SampleEntry), ToleranceError> {
         let mut best = (value, start.clone());
         let Some(mut x) = start.cube else { return Ok(best) };
         let axes = self.space.axes();
@@ -191,7 +194,7 @@ impl<'a> PoseSample<'a> {
                     let shares = self.shares(&pose).ok_or(ToleranceError::SingularPose { pose })?;
                     let there = measure(&shares);
                     if there > best.0 {
-                        best = (there, Entry { pose, cube: Some(y), shares });
+                        best = (there, SampleEntry { pose, cube: Some(y), shares });
                         (x, better) = (y, true);
                     }
                 }

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::request::Refusal;
 use super::scene::sign;
-use super::wire::PoseRecord;
+use super::wire::PagePose;
 use crate::equivalence::match_poses;
 use crate::fk::{Completeness, FkOptions, FkRoot, FkSolutions, PoseCounting, Reality, SolutionSet, solver};
 use crate::geom::{ComplexPose, Pose};
@@ -45,7 +45,7 @@ pub(super) struct ModesRecord {
 /// A real pose.
 #[derive(Debug, Serialize)]
 struct ModeRecord {
-    pose: PoseRecord,
+    pose: PagePose,
     turn_deg: f64,
     sign: i8,
     inverse_condition: f64,

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::request::Chosen;
 use super::session::{Equivalent, Session};
-use super::wire::PoseRecord;
+use super::wire::PagePose;
 use crate::equivalents::Original;
 use crate::singularity::Architecture;
 use crate::synthesis::{
@@ -24,7 +24,7 @@ pub(super) struct OpeningRecord<'a> {
     singular: bool,
     /// Why it is singular.
     reason: Option<String>,
-    home: PoseRecord,
+    home: PagePose,
     centre: [f64; 3],
     radius: f64,
     trajectory: bool,
@@ -35,7 +35,7 @@ pub(super) struct OpeningRecord<'a> {
     /// Of the octahedral original.
     hexagon: Option<HexagonRecord>,
     /// Equivalents to choose from.
-    patterns: Option<Vec<PatternRecord>>,
+    patterns: Option<Vec<StartPattern>>,
     /// The equivalent the page begins with.
     start: Option<Chosen>,
 }
@@ -76,7 +76,7 @@ struct SideRecord {
 
 /// One of the equivalents.
 #[derive(Debug, Serialize)]
-struct PatternRecord {
+struct StartPattern {
     id: String,
     base_joints: usize,
     platform_joints: usize,
@@ -165,7 +165,7 @@ fn hexagon(o: &Original) -> HexagonRecord {
 }
 
 /// One pattern of every topology, the platform without shared joints first, and the one the page starts with.
-fn patterns(start: &Equivalent, o: &Original) -> Vec<PatternRecord> {
+fn patterns(start: &Equivalent, o: &Original) -> Vec<StartPattern> {
     let mut list: Vec<Pattern> = vec![start.pattern.clone()];
     list.extend(Pattern::new([false; 6], [1; 6]));
     let mut others: Vec<Pattern> =
@@ -181,7 +181,7 @@ fn patterns(start: &Equivalent, o: &Original) -> Vec<PatternRecord> {
     list.iter().map(|p| pattern(p, o)).collect()
 }
 
-fn pattern(p: &Pattern, o: &Original) -> PatternRecord {
+fn pattern(p: &Pattern, o: &Original) -> StartPattern {
     let [base, platform] = p.joints();
     let legs = p.legs().into_iter().enumerate().map(|(k, point)| {
         let (side, offset) = match point {
@@ -201,7 +201,7 @@ fn pattern(p: &Pattern, o: &Original) -> PatternRecord {
         side: t.side,
         joint: o.joint_name(JointLabel::OnEdge(t)),
     });
-    PatternRecord {
+    StartPattern {
         id: p.to_string(),
         base_joints: base.len(),
         platform_joints: platform.len(),

@@ -5,7 +5,7 @@ use serde::Serialize;
 use std::f64::consts::TAU;
 
 use super::session::Session;
-use super::wire::PoseRecord;
+use super::wire::PagePose;
 use crate::geom::Pose;
 
 /// Steps between two poses of a trajectory.
@@ -34,11 +34,11 @@ impl Session {
 
 /// A pose of the round.
 #[derive(Debug, Serialize)]
-pub(super) struct PathRecord {
-    pose: PoseRecord,
+pub(super) struct RoundPose {
+    pose: PagePose,
 }
 
 /// The pose at `at`.
-pub(super) fn record(session: &Session, at: f64) -> PathRecord {
-    PathRecord { pose: (&session.along(at)).into() }
+pub(super) fn record(session: &Session, at: f64) -> RoundPose {
+    RoundPose { pose: (&session.along(at)).into() }
 }

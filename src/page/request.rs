@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::session::{Equivalent, InvalidStart, Session};
-use super::wire::PoseRecord;
+use super::wire::PagePose;
 use super::{modes, motion, opening, path, plane, scene, worst};
 use crate::design::{Format, parse};
 use crate::geom::Pose;
@@ -44,17 +44,17 @@ pub(super) enum Request {
     /// The pose at a share of the way round.
     Path { at: f64 },
     /// Everything about both platforms at a pose.
-    State { pose: PoseRecord, chosen: Option<Chosen> },
+    State { pose: PagePose, chosen: Option<Chosen> },
     /// Worst conditioning over the poses of the workspace.
     Worst { chosen: Option<Chosen> },
     /// All poses with given leg lengths, or with those of a pose.
-    Modes { pose: PoseRecord, lengths: Option<[f64; 6]>, which: Which, chosen: Option<Chosen> },
+    Modes { pose: PagePose, lengths: Option<[f64; 6]>, which: Which, chosen: Option<Chosen> },
     /// All poses of both platforms, each from its own leg lengths, paired.
-    Confirm { pose: PoseRecord, chosen: Chosen },
+    Confirm { pose: PagePose, chosen: Chosen },
     /// `det A` over two offsets.
     Plane { chosen: Chosen, axes: [usize; 2], range: [f64; 2], points: usize },
     /// The curve of poses with the leg lengths of a pose.
-    Motion { pose: PoseRecord, which: Which, chosen: Option<Chosen> },
+    Motion { pose: PagePose, which: Which, chosen: Option<Chosen> },
     /// The platform as a design file.
     Design { which: Which, chosen: Option<Chosen> },
 }
@@ -67,7 +67,7 @@ struct OffsetsRecord {
 
 /// A platform as a design file.
 #[derive(Debug, Serialize)]
-struct DesignRecord {
+struct FileRecord {
     name: String,
     toml: String,
     json: String,
@@ -168,7 +168,7 @@ impl Session {
             Request::Design { which, chosen } => {
                 let design = self.platform(which, equivalent(chosen)?)?;
                 let (toml, json) = (design.to_toml(), design.to_json());
-                Ok(value(DesignRecord { name: design.name, toml, json }))
+                Ok(value(FileRecord { name: design.name, toml, json }))
             }
         }
     }
@@ -191,7 +191,7 @@ impl Session {
 pub(super) struct Opening {
     design: String,
     #[serde(default)]
-    trajectory: Vec<PoseRecord>,
+    trajectory: Vec<PagePose>,
     start: Option<Chosen>,
 }
 
@@ -201,7 +201,7 @@ impl From<&Session> for Opening {
         let trajectory = session.design.workspace.trajectory.as_ref();
         Self {
             design: session.design.to_toml(),
-            trajectory: trajectory.map_or_else(Vec::new, |t| t.poses.iter().map(PoseRecord::from).collect()),
+            trajectory: trajectory.map_or_else(Vec::new, |t| t.poses.iter().map(PagePose::from).collect()),
             start: session.start.as_ref().map(Chosen::from),
         }
     }

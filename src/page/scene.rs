@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::request::Refusal;
 use super::session::{Equivalent, Session};
-use super::wire::PoseRecord;
+use super::wire::PagePose;
 use crate::design::Design;
 use crate::geom::Pose;
 use crate::manipulator::{SquaredLegLengths, inverse_condition, jacobian};
@@ -20,7 +20,7 @@ const ROUNDING: f64 = 1e-13;
 /// Both platforms at a pose.
 #[derive(Debug, Serialize)]
 pub(super) struct SceneRecord {
-    pose: PoseRecord,
+    pose: PagePose,
     platforms: Vec<PlatformRecord>,
     /// From the lengths of the first to those of the second.
     map: Option<RelationRecord>,
@@ -39,7 +39,7 @@ struct PlatformRecord {
     inverse_condition: f64,
     sign: i8,
     spacing: BodySpacings,
-    margins: Vec<MarginRecord>,
+    margins: Vec<SceneMargin>,
 }
 
 /// A joint and where it is, base frame.
@@ -65,7 +65,7 @@ struct SpacingRecord {
 
 /// By how much a kind of requirement is met at the pose.
 #[derive(Debug, Serialize)]
-struct MarginRecord {
+struct SceneMargin {
     requirement: &'static str,
     margin: f64,
     met: bool,
@@ -165,7 +165,7 @@ fn spacing(names: &[String], joints: &[Point3<f64>], used: &[usize; 6]) -> Optio
 }
 
 /// The least margin of every kind of requirement at the pose.
-fn margins(session: &Session, design: &Design, at: &Pose) -> Vec<MarginRecord> {
+fn margins(session: &Session, design: &Design, at: &Pose) -> Vec<SceneMargin> {
     let required = design.requirements();
     let terms = Terms::new(design.manipulator(), &required, &session.home);
     let mut least: BTreeMap<TermKind, (Term, f64)> = BTreeMap::new();
@@ -178,7 +178,7 @@ fn margins(session: &Session, design: &Design, at: &Pose) -> Vec<MarginRecord> {
     let row = |(term, margin): (Term, f64)| {
         let pose = (!term.kind.is_fixed()).then_some(at);
         let standing = terms.standing(term.kind, margin, pose);
-        MarginRecord {
+        SceneMargin {
             requirement: term.kind.code(),
             margin,
             met: standing.is_met(),

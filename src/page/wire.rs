@@ -7,20 +7,20 @@ use crate::geom::{Pose, nearest_rotation};
 
 /// A pose as the page sends and gets it: rows of `R`, and `p` in design units.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub(super) struct PoseRecord {
+pub(super) struct PagePose {
     #[serde(rename = "R")]
     rotation: [[f64; 3]; 3],
     p: [f64; 3],
 }
 
-impl From<&PoseRecord> for Pose {
-    fn from(record: &PoseRecord) -> Self {
+impl From<&PagePose> for Pose {
+    fn from(record: &PagePose) -> Self {
         let rows = Matrix3::from_fn(|i, j| record.rotation[i][j]);
         Self { rotation: nearest_rotation(&rows), position: Vector3::from(record.p) }
     }
 }
 
-impl From<&Pose> for PoseRecord {
+impl From<&Pose> for PagePose {
     fn from(p: &Pose) -> Self {
         Self { rotation: [0, 1, 2].map(|i| [0, 1, 2].map(|j| p.rotation[(i, j)])), p: p.position.into() }
     }

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::request::Refusal;
 use super::session::{Equivalent, Session};
-use super::wire::PoseRecord;
+use super::wire::PagePose;
 use crate::design::Design;
 use crate::geom::Pose;
 use crate::manipulator::{inverse_condition, jacobian};
@@ -22,7 +22,7 @@ pub(super) struct WorstRecord {
 #[derive(Debug, Serialize)]
 struct LeastRecord {
     inverse_condition: f64,
-    pose: PoseRecord,
+    pose: PagePose,
 }
 
 impl Session {

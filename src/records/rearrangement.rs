@@ -107,7 +107,7 @@ impl From<&Rearrangement> for RearrangementRecord {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct FamilyRecord {
     /// Its kind.
-    pub kind: FamilyKind,
+    pub kind: FamilyKindWord,
     /// Dimension of its flat of the base.
     pub base_dimension: usize,
     /// Dimension of its flat of the platform.
@@ -131,7 +131,7 @@ pub struct FamilyRecord {
 /// The kind of a family.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum FamilyKind {
+pub enum FamilyKindWord {
     /// Every point of one flat with every point of the other.
     AllPairs,
     /// Every point with its partner.
@@ -143,8 +143,8 @@ impl From<&Piece> for FamilyRecord {
         let [base, platform] = p.points();
         Self {
             kind: match p.kind {
-                PieceKind::AllPairs => FamilyKind::AllPairs,
-                PieceKind::Pairing => FamilyKind::Pairing,
+                PieceKind::AllPairs => FamilyKindWord::AllPairs,
+                PieceKind::Pairing => FamilyKindWord::Pairing,
             },
             base_dimension: p.base_dimension(),
             platform_dimension: p.platform_dimension(),

@@ -1,6 +1,6 @@
 //! Figures that show how near a design is to being singular everywhere.
 
-use crate::geom::Centred;
+use crate::geom::CentredPoses;
 use crate::manipulator::{Manipulator, inverse_condition, jacobian};
 use crate::num::Rng;
 use crate::num::linalg::LinalgError;
@@ -30,7 +30,7 @@ const POSES: usize = 200;
 /// When the singular value decomposition does not converge.
 pub fn conditioning(m: &Manipulator, seed: u64) -> Result<Conditioning, LinalgError> {
     let leg_vectors = LegSpan::of(m, 0.0)?.singular_values();
-    let centred = Centred::new(m);
+    let centred = CentredPoses::new(m);
     let mut rng = Rng::new(seed);
     let mut values: Vec<f64> = (0..POSES)
         .map(|_| {

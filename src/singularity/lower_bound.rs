@@ -15,7 +15,7 @@
 use nalgebra::{Matrix6, Vector3, Vector6};
 
 use crate::geom::enclosed::{IntervalMatrix, IntervalVector, apply, cross, exact_rotation, times};
-use crate::geom::{Centred, Pose};
+use crate::geom::{CentredPoses, Pose};
 use crate::manipulator::Manipulator;
 use crate::num::Rng;
 use crate::num::interval::Interval;
@@ -31,7 +31,7 @@ const CLIMB: usize = 300;
 #[must_use]
 pub fn singular_distance_at_least(m: &Manipulator, seed: u64) -> f64 {
     let mut rng = Rng::new(seed);
-    let centred = Centred::new(m);
+    let centred = CentredPoses::new(m);
     let mut best = (0.0, centred.pose(nalgebra::Rotation3::identity(), Vector3::zeros()), Vector3::zeros());
     for _ in 0..POSES {
         let (rotation, offset) = centred.draw(&mut rng);

@@ -6,7 +6,7 @@ use super::sections::{FORMS, ScaledFrames, Sections};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::num::octuple::{ComplexOctuple, Octuple};
 
-/// A row of real coefficients, see [`Row`](super::sections::Row).
+/// A row of real coefficients, see [`FormRow`](super::sections::FormRow).
 type OctupleRow = [Octuple; FORMS];
 
 /// Rows whose length falls below this when earlier ones are taken off are dependent but for accidents of design data.

@@ -18,7 +18,7 @@ pub(super) trait Quadrics<const F: usize> {
     fn gradient<S: Simd>(row: &[Lanes<S>; F], x: &Vec8<S>) -> Vec8<S>;
 }
 
-/// All 17 forms, in the order of [`Row`](crate::solve::sections::Row).
+/// All 17 forms, in the order of [`FormRow`](crate::solve::sections::FormRow).
 impl Quadrics<FORMS> for Forms<FORMS> {
     #[inline(always)]
     fn polar<S: Simd>(x: &Vec8<S>, y: &Vec8<S>) -> ([Lanes<S>; FORMS], Lanes<S>) {

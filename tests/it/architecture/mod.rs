@@ -86,6 +86,55 @@ fn modules_that_check_each_other_do_not_reach_each_other() {
     assert!(reach(&table, "cli").contains(&"num") && reach(&table, "offsets").contains(&"geom"));
 }
 
+/// Names of types that stand at the beginning of a line of code, each with whether others than its own module can see it.
+fn types(source: &str) -> Vec<(String, bool)> {
+    let mut out = Vec::new();
+    for line in source.lines() {
+        let inner = line.starts_with(char::is_whitespace);
+        let mut words = line.split_whitespace().peekable();
+        let visibility = words.next_if(|w| w.starts_with("pub"));
+        let Some(kind) = words.next().filter(|w| ["struct", "enum", "trait", "type"].contains(w)) else {
+            continue;
+        };
+        // an associated type has the name that its trait gives it
+        if kind == "type" && inner {
+            continue;
+        }
+        let name: String = words.next().unwrap_or("").chars().take_while(|c| c.is_alphanumeric()).collect();
+        if name.starts_with(char::is_uppercase) {
+            out.push((name, matches!(visibility, Some("pub" | "pub(crate)"))));
+        }
+    }
+    out
+}
+
+/// What clap wants of every command has the same name in all of them.
+const OF_COMMANDS: [&str; 2] = ["Args", "Command"];
+
+#[test]
+fn the_name_of_a_type_that_is_seen_outside_of_its_module_stands_for_one_thing() {
+    assert_eq!(
+        types("pub struct A<T>;\n    type Output = A;\npub(super) enum B {\nstructure\n"),
+        [("A".to_owned(), true), ("B".to_owned(), false)]
+    );
+    let src = root().join("src");
+    let mut places: std::collections::BTreeMap<String, (bool, Vec<String>)> =
+        std::collections::BTreeMap::new();
+    for file in rust_files(&src) {
+        for (name, seen) in types(&without_comments(&read(&src.join(&file)))) {
+            if file.starts_with("cli/") && OF_COMMANDS.contains(&name.as_str()) {
+                continue;
+            }
+            let place = places.entry(name).or_default();
+            place.0 |= seen;
+            place.1.push(file.clone());
+        }
+    }
+    assert!(places.len() > 500, "only {} types were found", places.len());
+    let twice: Vec<_> = places.iter().filter(|(_, (seen, files))| *seen && files.len() > 1).collect();
+    assert!(twice.is_empty(), "{twice:#?}");
+}
+
 /// `fk` attaches certificates: that direction alone is allowed.
 fn from_may_use(from: &str, to: &[&str]) -> bool {
     from == "fk" && to == ["solve::certify"]

@@ -52,7 +52,7 @@ fn forbidden_edges_are_found() {
         ("solve/certify/mod.rs", "use super::Frame;"),
         ("solve/certify/a/b.rs", "use super::super::super::sections::split;"),
         ("solve/homotopy/paths.rs", "use crate::solve::certify::Certifier;"),
-        ("num/disc.rs", "use crate::geom::Pose;"),
+        ("num/ball.rs", "use crate::geom::Pose;"),
         ("brand_new.rs", ""),
     ] {
         assert_eq!(judged(file, source).len(), 1, "{file}: {source}");

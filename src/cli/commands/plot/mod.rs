@@ -56,7 +56,7 @@ enum Figure {
     /// A front that `optimize` found with `mode = "pareto"`
     Pareto(front::Args),
     /// The longest curve of poses with constant leg lengths, animated
-    SelfMotion(motion::Question),
+    SelfMotion(motion::CurveQuestion),
     /// Where det J vanishes over two freedoms of the platform
     SingularPoses {
         /// Design file (.toml or .json)

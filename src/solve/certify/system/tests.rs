@@ -8,26 +8,26 @@ use crate::num::Rng;
 use crate::num::interval::Interval;
 use nalgebra::Point3;
 
-type Complex = (BigRational, BigRational);
-type Quaternion = [Complex; 4];
+type ExactComplex = (BigRational, BigRational);
+type Quaternion = [ExactComplex; 4];
 
 fn exact(x: f64) -> BigRational {
     BigRational::from_float(x).unwrap()
 }
 
-fn zero() -> Complex {
+fn zero() -> ExactComplex {
     (exact(0.0), exact(0.0))
 }
 
-fn add(a: &Complex, b: &Complex, sign: f64) -> Complex {
+fn add(a: &ExactComplex, b: &ExactComplex, sign: f64) -> ExactComplex {
     (&a.0 + exact(sign) * &b.0, &a.1 + exact(sign) * &b.1)
 }
 
-fn mul(a: &Complex, b: &Complex) -> Complex {
+fn mul(a: &ExactComplex, b: &ExactComplex) -> ExactComplex {
     (&a.0 * &b.0 - &a.1 * &b.1, &a.0 * &b.1 + &a.1 * &b.0)
 }
 
-fn norm_squared(a: &Complex) -> BigRational {
+fn norm_squared(a: &ExactComplex) -> BigRational {
     &a.0 * &a.0 + &a.1 * &a.1
 }
 
@@ -42,7 +42,7 @@ fn product(a: &Quaternion, b: &Quaternion) -> Quaternion {
     TABLE.map(|terms| terms.iter().fold(zero(), |sum, &(i, j, sign)| add(&sum, &mul(&a[i], &b[j]), sign)))
 }
 
-fn dot(a: &[Complex], b: &[Complex]) -> Complex {
+fn dot(a: &[ExactComplex], b: &[ExactComplex]) -> ExactComplex {
     a.iter().zip(b).fold(zero(), |sum, (x, y)| add(&sum, &mul(x, y), 1.0))
 }
 
@@ -52,7 +52,7 @@ fn pure(p: &[f64; 3]) -> Quaternion {
 }
 
 /// `F(x)` from the definition.
-fn truth(system: &LegSystem, x: &[Complex; 8]) -> [Complex; N] {
+fn truth(system: &LegSystem, x: &[ExactComplex; 8]) -> [ExactComplex; N] {
     let (e, g): (Quaternion, Quaternion) =
         (std::array::from_fn(|j| x[j].clone()), std::array::from_fn(|j| x[j + 4].clone()));
     std::array::from_fn(|i| {
@@ -92,12 +92,12 @@ fn random_point(rng: &mut Rng) -> Study<DoubleDouble> {
     Study { re, im, patch: 2 }
 }
 
-fn lift(x: &Study<DoubleDouble>) -> [Complex; 8] {
+fn lift(x: &Study<DoubleDouble>) -> [ExactComplex; 8] {
     let value = |d: DoubleDouble| exact(d.hi()) + exact(d.lo());
     std::array::from_fn(|j| (value(x.re[j]), value(x.im[j])))
 }
 
-fn assert_within(computed: &Complex, truth: &Complex, bound: f64, what: &str) {
+fn assert_within(computed: &ExactComplex, truth: &ExactComplex, bound: f64, what: &str) {
     let error = norm_squared(&add(computed, truth, -1.0));
     assert!(error <= exact(bound) * exact(bound), "{what}: {bound:e}");
 }
@@ -212,7 +212,7 @@ fn far_point(rng: &mut Rng) -> Study<DoubleDouble> {
     x
 }
 
-fn apart(f: &[Complex; N]) -> [Complex; N] {
+fn apart(f: &[ExactComplex; N]) -> [ExactComplex; N] {
     std::array::from_fn(|i| if (1..6).contains(&i) { add(&f[i], &f[0], -1.0) } else { f[i].clone() })
 }
 

@@ -191,7 +191,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         Some(_) => Exit::Yes,
         None => Exit::No,
     };
-    let report = render::Report {
+    let report = render::RoundReport {
         design: &design,
         problem: &problem,
         found: &found,

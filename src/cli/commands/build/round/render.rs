@@ -12,7 +12,7 @@ use crate::records::{
 
 /// Everything there is to tell.
 #[derive(Debug)]
-pub(super) struct Report<'a> {
+pub(super) struct RoundReport<'a> {
     pub(super) design: &'a Design,
     pub(super) problem: &'a RoundingProblem<'a>,
     pub(super) found: &'a Rounding,
@@ -20,7 +20,7 @@ pub(super) struct Report<'a> {
     pub(super) written: Option<&'a str>,
 }
 
-impl Report<'_> {
+impl RoundReport<'_> {
     pub(super) fn record(&self) -> RoundAnswer {
         RoundAnswer {
             grids: (&self.problem.grids).into(),

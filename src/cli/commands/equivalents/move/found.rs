@@ -56,7 +56,7 @@ pub(super) fn run(
         SearchVerdict::Impossible(_) => Exit::No,
         SearchVerdict::Undecided => Exit::Inconclusive,
     };
-    let report = Report { design, families: &families, outcome: &outcome };
+    let report = MoveReport { design, families: &families, outcome: &outcome };
     let text = report.text(&written)?;
     let record = report.record(&designs, written)?;
     Ok(Answer::new(exit, MoveAnswer::Search(Box::new(record)), text))
@@ -78,13 +78,13 @@ fn built(design: &Design, c: &Candidate, number: usize) -> Option<Design> {
     Some(out)
 }
 
-struct Report<'a> {
+struct MoveReport<'a> {
     design: &'a Design,
     families: &'a Components,
     outcome: &'a SearchOutcome,
 }
 
-impl Report<'_> {
+impl MoveReport<'_> {
     fn source(&self, source: LegSource) -> Result<String, Failure> {
         Ok(match source {
             LegSource::Kept(leg) => leg.to_string(),

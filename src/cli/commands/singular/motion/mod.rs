@@ -26,7 +26,7 @@ use crate::singularity::{
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
-    question: Question,
+    question: CurveQuestion,
     /// Write the poses as a table
     #[arg(long, value_name = "FILE")]
     csv: Option<OutputPath>,
@@ -37,7 +37,7 @@ pub(crate) struct Args {
 
 /// Which curves.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Question {
+pub(crate) struct CurveQuestion {
     /// Design file (.toml or .json)
     design: PathBuf,
     /// Pose to start from: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`
@@ -93,14 +93,14 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
 
 /// The picture alone.
 pub(in crate::cli::commands) fn drawing(
-    question: &Question,
+    question: &CurveQuestion,
     context: &mut Context,
 ) -> Result<String, Failure> {
     let (design, found) = trace(question, context)?;
     picture(&design, &found)
 }
 
-fn trace(args: &Question, context: &mut Context) -> Result<(Design, Found), Failure> {
+fn trace(args: &CurveQuestion, context: &mut Context) -> Result<(Design, Found), Failure> {
     let design = context.load(&args.design)?;
     let m = design.manipulator();
     let (start, squares) = beginning(args, &design)?;
@@ -162,7 +162,7 @@ fn trace(args: &Question, context: &mut Context) -> Result<(Design, Found), Fail
 }
 
 /// The pose, if it is one, and the leg lengths.
-fn beginning(args: &Question, design: &Design) -> Result<(Option<Pose>, SquaredLegLengths), Failure> {
+fn beginning(args: &CurveQuestion, design: &Design) -> Result<(Option<Pose>, SquaredLegLengths), Failure> {
     if let Some(text) = &args.lengths {
         let bad = |message: String| Failure::refused("motion::bad_lengths", format!("--lengths: {message}"));
         let lengths = six(text).map_err(bad)?;
