@@ -263,12 +263,7 @@ fn lines<'a>(program: &'a Command, job: &'a Job) -> impl Iterator<Item = Line> +
     let first_figure = job.commands.iter().position(|e| e.path.starts_with("plot "));
     job.commands.iter().enumerate().filter_map(move |(k, e)| match e.path.strip_prefix("plot ") {
         None => Some(line(program, e.path, e.path, e.examples[0])),
-        Some(_) if Some(k) == first_figure => {
-            let mut all = line(program, "plot", "plot FIGURE", e.examples[0]);
-            let figures = job.commands.iter().filter_map(|e| e.path.strip_prefix("plot "));
-            let _ = write!(all.about, ": {}", figures.collect::<Vec<_>>().join(", "));
-            Some(all)
-        }
+        Some(_) if Some(k) == first_figure => Some(line(program, "plot", "plot FIGURE", e.examples[0])),
         Some(_) => None,
     })
 }

@@ -94,13 +94,28 @@ fn every_design_is_in_the_table_of_its_folder_and_of_the_readme() {
     }
 }
 
+/// The commands as the folders say: `fk`, and `equivalents family` for a file in the folder of a group.
+fn commands() -> Vec<String> {
+    let stem = |path: &PathBuf| path.file_stem().unwrap().to_string_lossy().into_owned();
+    let mut out = Vec::new();
+    for path in names_in("src/cli/commands", "") {
+        let group = path.is_dir() && read(&path.join("mod.rs")).contains("pub(crate) enum Command");
+        if group {
+            let below = names_in(&format!("src/cli/commands/{}", stem(&path)), "");
+            out.extend(below.iter().map(|p| format!("{} {}", stem(&path), stem(p))));
+        } else {
+            out.push(stem(&path));
+        }
+    }
+    out.retain(|c| c.rsplit(' ').next() != Some("mod"));
+    out
+}
+
 #[test]
 fn every_command_is_in_the_readme_and_in_its_manual() {
-    for path in names_in("src/cli/commands", "") {
-        let command = path.file_stem().unwrap().to_string_lossy().into_owned();
-        if command == "mod" {
-            continue;
-        }
+    let all = commands();
+    assert!(all.len() > 20 && all.contains(&"equivalents family".to_string()), "{all:?}");
+    for command in all {
         for page in ["README.md", "docs/cli.md"] {
             assert!(
                 read(&root().join(page)).contains(&format!("`equipod {command}")),

@@ -45,15 +45,15 @@ pub(crate) enum Command {
     /// Compute and change the platforms equivalent to a design
     #[command(subcommand)]
     Equivalents(equivalents::Command),
-    /// Decide whether two designs are kinematically equivalent, with evidence
+    /// Decide whether two designs are kinematically equivalent
     Verify(verify::Args),
-    /// Run the whole analysis of an octahedral design into a folder: class, best platform without shared joints, verdict, poses, report
+    /// Run the whole analysis of an octahedral design and write it into a folder
     Explore(explore::Args),
-    /// Decide whether a design meets its requirements: lengths, swing, clearances, forces and speeds over all its poses
+    /// Decide whether a design meets its requirements at all poses of its workspace
     Assess(assess::Args),
-    /// Find the best platform under the requirements of a design, without shared joints
+    /// Find the best platform under the requirements of a design
     Optimize(optimize::Args),
-    /// Decide exactly whether a design is architecturally singular, and explain why
+    /// Decide whether a design is architecturally singular, and explain why
     Check(check::Args),
     /// Find singular poses and self-motions
     #[command(subcommand)]
@@ -63,16 +63,16 @@ pub(crate) enum Command {
     Build(build::Command),
     /// Write files for CAD, simulators, machine controls, tables and drawings
     Export(export::Args),
-    /// Convert design files, start from real hardware, print schemas
+    /// Convert design files, start from designs of real hardware, print schemas
     #[command(subcommand)]
     Design(design::Command),
-    /// Draw one picture as SVG
+    /// Draw one picture as SVG; `equipod plot --help` lists the figures
     Plot(plot::Args),
-    /// Write a design as one live HTML page: 3D, assembly modes, equivalents side by side
+    /// Write a design as one live HTML page
     View(view::Args),
-    /// Write a folder of results as one HTML page: designs, verdicts with their evidence, pictures, hashes
+    /// Write a folder of results as one HTML page
     Report(report::Args),
-    /// Solve random problems of a class, validate them by independent code, count and time them
+    /// Solve random problems, validate the answers by independent code, count and time them
     Bench(bench::Args),
     /// Print completion scripts and write manual pages
     #[command(subcommand)]

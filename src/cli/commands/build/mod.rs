@@ -12,9 +12,9 @@ use crate::cli::output::Answer;
 /// Commands about building a design.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Put the joints on a grid of holes, exactly equivalent to an octahedral platform or as near as the grid allows
+    /// Put the joints on a grid of holes, exactly equivalent or as near as the grid allows
     Round(round::Args),
-    /// Compute how far joints may be off for the error of the pose to stay within a bound
+    /// Compute how far joints may be off while the error of the pose stays within a bound
     Tolerances(tolerances::Args),
 }
 

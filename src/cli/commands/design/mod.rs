@@ -15,7 +15,7 @@ use crate::cli::output::Answer;
 pub(crate) enum Command {
     /// Write a design in the other notation, TOML or JSON
     Convert(convert::Args),
-    /// List designs of real hardware with their sources, or write one as a start for one's own
+    /// List designs of real hardware with their sources, or write one of them
     Presets(presets::Args),
     /// Print the JSON Schema of design files, or of the answers with --json
     Schema(schema::Args),

@@ -15,13 +15,13 @@ use crate::cli::output::Answer;
 /// Commands about equivalent designs.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// List every platform equivalent to an octahedral design, and write one of them as a design
+    /// List every platform equivalent to an octahedral design, or write one of them
     Family(family::Args),
-    /// List the families of legs that can be moved without changing the platform, for any design
+    /// List the families of legs that can be moved without changing the platform
     Components(components::Args),
     /// List the ways to share joints that can hold a platform, or name that of a design
     Topologies(topologies::Args),
-    /// Move legs along their families without changing the platform, or search for an equivalent platform with given properties
+    /// Move legs along their families, or search for an equivalent platform with given properties
     Move(r#move::Args),
     /// Compute the affine map between the squared leg lengths of two designs
     Map(map::Args),

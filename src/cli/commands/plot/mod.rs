@@ -34,9 +34,9 @@ pub(crate) struct Args {
 /// What is drawn.
 #[derive(Debug, clap::Subcommand)]
 enum Figure {
-    /// All assembly modes at the design's leg lengths, mirror images side by side
+    /// Draw all assembly modes at given leg lengths, mirror images side by side
     Modes(modes::Args),
-    /// The curves of replaceable joints in two planes (conics, cubics, lines)
+    /// Draw the curves of replaceable joints in two planes (conics, cubics, lines)
     Components {
         /// Design file (.toml or .json)
         design: PathBuf,
@@ -47,17 +47,17 @@ enum Figure {
         #[arg(long, value_name = "X", default_value_t = 1e-9)]
         tolerance: f64,
     },
-    /// The sign of det A over two of the six offsets, with the line on which it vanishes
+    /// Draw the sign of det A over two of the six offsets
     Det(determinant::Args),
-    /// The squared length of a virtual leg at all poses, in the complex plane, while one leg length varies
+    /// Draw how the squared length of a virtual leg moves at all poses while one leg length varies
     Locus(locus::Args),
-    /// Two designs at the same pose side by side, with their leg map
+    /// Draw two designs at the same pose side by side, with their leg map
     Pair(pair::Args),
-    /// A front that `optimize` found with `mode = "pareto"`
+    /// Draw a front that `optimize` found with `mode = "pareto"`
     Pareto(front::Args),
-    /// The longest curve of poses with constant leg lengths, animated
+    /// Draw the longest self-motion, animated
     SelfMotion(motion::CurveQuestion),
-    /// Where det J vanishes over two freedoms of the platform
+    /// Draw where det J vanishes over two freedoms of the platform
     SingularPoses {
         /// Design file (.toml or .json)
         design: PathBuf,
@@ -68,7 +68,7 @@ enum Figure {
         #[arg(long, value_name = "A,B", default_value = "rx,rz", value_parser = Freedoms::parse)]
         slice: Freedoms,
     },
-    /// The ways to share joints: that of a design, or all of them
+    /// Draw the ways to share joints: that of a design, or all of them
     Topologies {
         /// Design file (.toml or .json): name its topology only
         design: Option<PathBuf>,
@@ -76,7 +76,7 @@ enum Figure {
         #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u64).range(1..=1000))]
         members: u64,
     },
-    /// Poses within all limits over two freedoms, and the limit that ends them, in colour
+    /// Draw the poses within all limits over two freedoms, and the limits that end them
     Workspace(workspace::Args),
 }
 

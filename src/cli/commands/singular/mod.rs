@@ -12,9 +12,9 @@ use crate::cli::output::Answer;
 /// Commands about singular poses.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Find the sign of det J at a pose, at all assembly modes and along paths, and a box of poses without a singular one
+    /// Find the sign of det J at poses and along paths, and a box without singular poses
     Poses(poses::Args),
-    /// Follow the self-motions: curves of poses with constant leg lengths
+    /// Follow self-motions, which are curves of poses with constant leg lengths
     Motion(motion::Args),
 }
 
