@@ -231,8 +231,12 @@ pub(crate) fn program() -> Command {
 fn with_examples(command: Command, path: &[&str], examples: &[&str]) -> Command {
     let Some((first, rest)) = path.split_first() else {
         let lines: Vec<String> = examples.iter().map(|e| format!("  equipod {e}")).collect();
-        let heading = if examples.len() == 1 { "Example" } else { "Examples" };
-        return command.after_help(format!("{}\n{}", styled(heading), lines.join("\n")));
+        let heading = styled(if examples.len() == 1 { "Example" } else { "Examples" });
+        let lines = lines.join("\n");
+        // a template is not wrapped: a command line stays whole; manual pages take the text after the help
+        return command.after_help(format!("{heading}\n{lines}")).help_template(format!(
+            "{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{{all-args}}\n\n{heading}\n{lines}\n"
+        ));
     };
     command.mut_subcommand(first, |c| with_examples(c, rest, examples))
 }

@@ -7,7 +7,7 @@ use super::failure::Failure;
 use super::guide::{self, GuideEntry};
 
 /// Words nearer than this to a name are taken for it (similarity of Jaro and Winkler).
-const NEAR: f64 = 0.85;
+const NEAR: f64 = 0.9;
 
 /// Options that other programs have, and what this one calls them.
 const OPTIONS: [(&str, &str); 8] = [

@@ -24,6 +24,7 @@ const MOST_BYTES: u64 = 64 << 20;
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// Folder with designs (.toml, .json), results of equipod (.json) and pictures (.svg); folders in it are not read
+    #[arg(value_name = "DIR")]
     folder: PathBuf,
     /// Write the page to this file; report.html in the folder when absent
     #[arg(short, long, value_name = "FILE")]

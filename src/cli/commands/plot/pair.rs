@@ -12,8 +12,10 @@ use crate::synthesis::{LegMapTolerances, Relation, leg_map};
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
     /// Design file (.toml or .json)
+    #[arg(value_name = "A")]
     first: PathBuf,
     /// Design file (.toml or .json) of the other design, in the same frames
+    #[arg(value_name = "B")]
     second: PathBuf,
     /// Pose of both designs
     #[arg(long, value_name = "POSE", allow_hyphen_values = true, default_value = "home")]
