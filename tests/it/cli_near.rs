@@ -1,4 +1,4 @@
-//! `equipod fk --near`: forms of the pose, trajectories, refusals, exit codes.
+//! `equipod fk DESIGN --near POSE`: forms of the pose, trajectories, refusals, exit codes.
 
 use std::fmt::Write as _;
 

@@ -39,7 +39,10 @@ mod tests {
     #[test]
     fn an_answer_carries_the_definitions_it_needs_and_no_others() {
         let of = |name| records::schema(name).unwrap()["$defs"].as_object().unwrap().clone();
-        assert_eq!(of("shell-man").keys().collect::<Vec<_>>(), ["shell-man", "WarningRecord"]);
+        assert_eq!(
+            of("shell-man").keys().collect::<Vec<_>>(),
+            ["shell-man", "ProvenanceRecord", "DesignSourceRecord", "FileSourceRecord", "WarningRecord"]
+        );
         let round = of("build-round");
         assert!(round.contains_key("design") && round.contains_key("design_pose"));
         assert!(round["design"].get("additionalProperties").is_none(), "open");

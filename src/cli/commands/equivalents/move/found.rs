@@ -1,4 +1,4 @@
-//! `equipod equivalents move --search`: what was found.
+//! `equipod equivalents move DESIGN --search`: what was found.
 
 use std::fmt::Write as _;
 use std::path::Path;
