@@ -55,27 +55,11 @@ pub struct ExploreAnswer {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ExploreVerdict {
-    /// The designs are equivalent.
-    Equivalent,
-    /// They are not.
-    NotEquivalent,
-    /// One of them is architecturally singular.
-    Singular,
-    /// Not decided.
-    Inconclusive,
     /// Every branch of offsets is proved to violate the limits.
     Infeasible,
-}
-
-impl From<VerdictWord> for ExploreVerdict {
-    fn from(verdict: VerdictWord) -> Self {
-        match verdict {
-            VerdictWord::Equivalent => Self::Equivalent,
-            VerdictWord::NotEquivalent => Self::NotEquivalent,
-            VerdictWord::Singular => Self::Singular,
-            VerdictWord::Inconclusive => Self::Inconclusive,
-        }
-    }
+    /// What the comparison says; `inconclusive` too where no offsets were found and some branches are not proved empty.
+    #[serde(untagged)]
+    Compared(VerdictWord),
 }
 
 impl ExploreVerdict {
@@ -83,11 +67,8 @@ impl ExploreVerdict {
     #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
-            Self::Equivalent => "equivalent",
-            Self::NotEquivalent => "not_equivalent",
-            Self::Singular => "singular",
-            Self::Inconclusive => "inconclusive",
             Self::Infeasible => "infeasible",
+            Self::Compared(verdict) => verdict.as_str(),
         }
     }
 }

@@ -636,6 +636,12 @@ pub struct TrilaterationStepRecord {
     pub rigid: bool,
 }
 
+impl TrilaterationStepRecord {
+    pub(super) fn new(step: &Step, name: impl Fn(JointIndex) -> String) -> Self {
+        Self { from: step.from.map(&name), place: name(step.place), rigid: step.rigid }
+    }
+}
+
 /// A factor of the closure condition that belongs to degenerate trilaterations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct SingularFactorRecord {
@@ -667,16 +673,11 @@ impl ClosureRecord {
             JointIndex::Platform(k) => design.platform_names()[k].clone(),
         };
         let ends = |(a, b): &(usize, usize)| [name(JointIndex::Base(*a)), name(JointIndex::Platform(*b))];
-        let step = |s: &Step| TrilaterationStepRecord {
-            from: s.from.map(name),
-            place: name(s.place),
-            rigid: s.rigid,
-        };
         Self::Polynomial(Box::new(ClosurePolynomialRecord {
             virtual_leg: p.sequence.virtual_legs.first().map(ends),
             unknown: p.unknown.map(name),
             start: p.sequence.start.map(name),
-            sequence: p.sequence.steps.iter().map(step).collect(),
+            sequence: p.sequence.steps.iter().map(|s| TrilaterationStepRecord::new(s, name)).collect(),
             degree_before: c.degrees.before,
             degree: p.polynomial.degree(),
             distinct_roots: p.distinct,

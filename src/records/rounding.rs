@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::tolerances::joint_name;
-use super::{DesignRecord, Number, PoseErrorRecord, PoseErrorsRecord, PoseQuaternionRecord};
+use super::{DesignRecord, Number, PoseErrorRecord, PoseErrorsRecord, PoseQuaternionRecord, VerdictWord};
 use crate::design::Design;
 use crate::equivalence::{Verification, VerifyError};
 use crate::manipulator::Body;
@@ -14,6 +14,10 @@ use crate::requirements::TermKind;
 /// The answer of `build round`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RoundAnswer {
+    /// The name of the design.
+    pub name: String,
+    /// The unit of its lengths.
+    pub units: String,
     /// The grids asked for.
     pub grids: GridsRecord,
     /// Origins and angles of the grids are chosen too.
@@ -199,16 +203,11 @@ impl From<NoRounding> for NoRoundingRecord {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum RoundingVerdict {
-    /// The designs are equivalent.
-    Equivalent,
-    /// They are not.
-    NotEquivalent,
-    /// One of them is architecturally singular.
-    Singular,
-    /// Not decided.
-    Inconclusive,
     /// It could not be computed.
     NotComputed,
+    /// What it says.
+    #[serde(untagged)]
+    Computed(VerdictWord),
 }
 
 impl RoundingVerdict {
@@ -216,25 +215,15 @@ impl RoundingVerdict {
     #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
-            Self::Equivalent => "equivalent",
-            Self::NotEquivalent => "not_equivalent",
-            Self::Singular => "singular",
-            Self::Inconclusive => "inconclusive",
             Self::NotComputed => "not_computed",
+            Self::Computed(verdict) => verdict.as_str(),
         }
     }
 }
 
 impl From<&Result<Verification, VerifyError>> for RoundingVerdict {
     fn from(v: &Result<Verification, VerifyError>) -> Self {
-        use crate::equivalence::Verdict;
-        match v.as_ref().map(|v| &v.verdict) {
-            Ok(Verdict::Equivalent) => Self::Equivalent,
-            Ok(Verdict::NotEquivalent(_)) => Self::NotEquivalent,
-            Ok(Verdict::Singular) => Self::Singular,
-            Ok(Verdict::Inconclusive(_)) => Self::Inconclusive,
-            Err(_) => Self::NotComputed,
-        }
+        v.as_ref().map_or(Self::NotComputed, |v| Self::Computed((&v.verdict).into()))
     }
 }
 

@@ -63,7 +63,7 @@ pub struct RegularBoxRecord {
     /// Up to this scale a change of sign was looked for.
     pub searched_scale: Number,
     /// Cells the proof took.
-    pub regions: usize,
+    pub cells: usize,
 }
 
 /// The shape of a region of poses.
@@ -170,7 +170,7 @@ impl SignPartRecord {
             outcome: s.into(),
             changes: s.changes().count(),
             doubtful: s.doubtful().count(),
-            pieces: s.pieces.iter().map(SignPieceRecord::from).collect(),
+            pieces: s.pieces.iter().map(|p| SignPieceRecord::new(p, s.changes().any(|c| c == *p))).collect(),
             values,
         }
     }
@@ -185,11 +185,13 @@ pub struct SignPieceRecord {
     pub to: Number,
     /// The sign of det J on it.
     pub sign: SignRecord,
+    /// It holds a singular pose: det J has proved signs before and after it, and they differ.
+    pub singular: bool,
 }
 
-impl From<&PathPiece> for SignPieceRecord {
-    fn from(p: &PathPiece) -> Self {
-        Self { from: Number(p.from), to: Number(p.to), sign: p.sign.into() }
+impl SignPieceRecord {
+    fn new(p: &PathPiece, singular: bool) -> Self {
+        Self { from: Number(p.from), to: Number(p.to), sign: p.sign.into(), singular }
     }
 }
 

@@ -140,11 +140,6 @@ pub struct TopologyFindings<'a> {
 impl From<&TopologyFindings<'_>> for TopologyRecord {
     fn from(f: &TopologyFindings<'_>) -> Self {
         let t = f.named.topology();
-        let step = |s: &crate::topology::Step| TrilaterationStepRecord {
-            from: s.from.map(joint_name),
-            place: joint_name(s.place),
-            rigid: s.rigid,
-        };
         Self {
             id: f.named.id(),
             name: f.named.name(),
@@ -156,7 +151,7 @@ impl From<&TopologyFindings<'_>> for TopologyRecord {
             virtual_leg_joints: joint_pairs(&f.sequence.virtual_legs),
             decoupled: f.decoupled,
             start: f.sequence.start.map(joint_name),
-            sequence: f.sequence.steps.iter().map(step).collect(),
+            sequence: f.sequence.steps.iter().map(|s| TrilaterationStepRecord::new(s, joint_name)).collect(),
             finite_roots: f.poses,
             finite_roots_proved: f.proved,
             closure_degree: f.closure.map(|c| c.after),

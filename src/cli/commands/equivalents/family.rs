@@ -8,11 +8,10 @@ use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
-use crate::design::Design;
 use crate::equivalents::Original;
 use crate::manipulator::{Body, Octahedral};
-use crate::records::{FamilyAnswer, InstanceRecord};
-use crate::synthesis::{Factor, Family, FamilyCounts, FamilyMember, HexagonPoint, Pattern, edge_lengths};
+use crate::records::{FamilyAnswer, InstanceRecord, PatternPlace, PatternRecord};
+use crate::synthesis::{Family, FamilyMember, Pattern};
 
 /// Arguments of `equivalents family`.
 #[derive(Debug, clap::Args)]
@@ -59,18 +58,21 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let wanted = args.pattern.as_deref().map(parse_pattern).transpose()?;
     let members: Vec<&FamilyMember> =
         family.members().iter().filter(|m| wanted.as_ref().is_none_or(|p| m.pattern == *p)).collect();
-    let c = family.counts();
     let mut answer = FamilyAnswer::new(&design, &o, &family, &members);
-    let mut text = summary(&design, c);
-    match wanted {
-        Some(pattern) => {
-            let original = Original::octahedral(&design, o);
-            describe(&mut text, &pattern, &original);
-            if let Some(offsets) = &args.offsets {
-                answer.instance = Some(realise(args, &pattern, &original, offsets, &mut text)?);
-            }
-        }
-        None => list_topologies(&mut text, &family),
+    if let (Some(pattern), Some(offsets)) = (&wanted, &args.offsets) {
+        answer.instance = Some(realise(args, pattern, &Original::octahedral(&design, o), offsets)?);
+    }
+    let mut text = summary(&answer);
+    if wanted.is_some() {
+        answer.patterns.iter().for_each(|p| describe(&mut text, p, &answer));
+    } else {
+        list_topologies(&mut text, &answer);
+    }
+    if let Some(r) = &answer.instance {
+        let _ = writeln!(text, "\nat these offsets det A = {}", r.determinant.0);
+    }
+    if let Some(path) = &args.output {
+        let _ = writeln!(text, "wrote {}", path.display());
     }
     Ok(Answer::new(Exit::Yes, answer, text))
 }
@@ -88,21 +90,18 @@ fn realise(
     pattern: &Pattern,
     original: &Original,
     offsets: &[f64],
-    text: &mut String,
 ) -> Result<InstanceRecord, Failure> {
     let refused = |e: &dyn std::fmt::Display| Failure::refused("family::bad_offsets", e.to_string());
     let (built, map) = original.equivalent(pattern, offsets).map_err(|e| refused(&e))?;
     let record = InstanceRecord::new(pattern, offsets, &built, &map).map_err(|e| refused(&e))?;
-    let _ = writeln!(text, "\nat these offsets det A = {}", record.determinant.0);
     if let Some(path) = &args.output {
         files::write_design(path, &built)?;
-        let _ = writeln!(text, "wrote {}", path.display());
     }
     Ok(record)
 }
 
-fn summary(design: &Design, c: FamilyCounts) -> String {
-    let mut text = format!("platforms equivalent to {}\n\n", design.name);
+fn summary(r: &FamilyAnswer) -> String {
+    let (mut text, c) = (format!("platforms equivalent to {}\n\n", r.name), &r.counts);
     let lines = [
         ("patterns", c.patterns, None),
         ("patterns up to symmetry", c.classes, Some(c.classes_exchange)),
@@ -119,49 +118,39 @@ fn summary(design: &Design, c: FamilyCounts) -> String {
     text
 }
 
-fn list_topologies(text: &mut String, family: &Family) {
+fn list_topologies(text: &mut String, r: &FamilyAnswer) {
     text.push_str("\ntopology  base  platform  shared  patterns  sequential  example\n");
-    for (k, t) in family.topologies().iter().enumerate() {
-        let patterns = family.members().iter().filter(|m| m.topology == k).count();
+    for t in &r.topologies {
+        let patterns = r.patterns.iter().filter(|p| p.topology == t.topology).count();
         let _ = writeln!(
             text,
             "{:>8}  {:>4}  {:>8}  {:>6}  {patterns:>8}  {:<10}  {}",
-            k + 1,
-            t.topology.base_joints(),
-            t.topology.platform_joints(),
-            t.topology.shared_joints(),
+            t.topology,
+            t.base_joints,
+            t.platform_joints,
+            t.shared_joints,
             if t.sequential { "yes" } else { "no" },
             t.example
         );
     }
 }
 
-fn describe(text: &mut String, pattern: &Pattern, original: &Original) {
-    let o = &original.octahedral;
-    let _ = writeln!(text, "\npattern {pattern}");
-    let mut lines: Vec<(usize, String)> = Vec::new();
-    for (slot, point) in o.order().iter().zip(pattern.legs()) {
-        let [a, b] = original.leg_names(point);
-        let formula = match point {
-            HexagonPoint::Vertex(_) => format!("s{}", slot.get() + 1),
-            HexagonPoint::Inner(t) => {
-                let (k, n) = (o.order()[t.side].get() + 1, o.order()[(t.side + 1) % 6].get() + 1);
-                format!("(1 - {t}) s{k} + {t} s{n} - {t} (1 - {t}) d{}^2", t.side + 1)
+fn describe(text: &mut String, pattern: &PatternRecord, r: &FamilyAnswer) {
+    let _ = writeln!(text, "\npattern {}", pattern.id);
+    for (k, leg) in pattern.legs.iter().enumerate() {
+        let formula = match &leg.place {
+            PatternPlace::Vertex {} => format!("s{}", k + 1),
+            PatternPlace::Inner { side, offset: t, between: [k, n] } => {
+                format!("(1 - {t}) s{k} + {t} s{n} - {t} (1 - {t}) d{side}^2")
             }
         };
-        lines.push((slot.get(), format!("  {slot}  {a:<4} {b:<4}  s' = {formula}\n")));
+        let _ = writeln!(text, "  leg {}  {:<4} {:<4}  s' = {formula}", k + 1, leg.base, leg.platform);
     }
-    lines.sort_unstable();
-    text.extend(lines.into_iter().map(|l| l.1));
-    for (k, d) in edge_lengths(o).iter().enumerate() {
+    for (k, d) in r.edge_lengths.iter().enumerate() {
         let body = if k % 2 == 0 { Body::Base } else { Body::Platform };
-        let _ = writeln!(text, "  d{} = {d} ({body})", k + 1);
+        let _ = writeln!(text, "  d{} = {} ({body})", k + 1, d.0);
     }
-    let zeros: Vec<String> = pattern.factors().iter().map(|f| Factor::zero(*f)).collect();
-    let _ = writeln!(text, "  det A = {}", pattern.determinant_formula());
-    let _ = writeln!(
-        text,
-        "  singular where {}",
-        if zeros.is_empty() { "never".into() } else { zeros.join(" or ") }
-    );
+    let _ = writeln!(text, "  det A = {}", pattern.determinant);
+    let zeros = if pattern.zeros.is_empty() { "never".into() } else { pattern.zeros.join(" or ") };
+    let _ = writeln!(text, "  singular where {zeros}");
 }

@@ -8,9 +8,8 @@ use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::output::Answer;
-use crate::manipulator::LegIndex;
-use crate::records::MapAnswer;
-use crate::synthesis::{LegCorrespondence, LegMapOutcome, LegMapTolerances, Relation, leg_map};
+use crate::records::{CorrespondenceRecord, MapAnswer, MapRecord};
+use crate::synthesis::{LegCorrespondence, LegMapTolerances, Relation, leg_map};
 
 /// Arguments of `equivalents map`.
 #[derive(Debug, clap::Args)]
@@ -43,38 +42,40 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let record =
         MapAnswer { map: (&outcome).into(), correspondence: (&legs).into(), frames: second.record() };
     let mut text = second.text();
-    text.push_str(&table(&outcome, &from.name, &to.name));
-    text.push_str(&same_legs(&legs));
+    text.push_str(&table(&record.map, &from.name, &to.name));
+    text.push_str(&same_legs(&record.correspondence));
     Ok(Answer::new(exit, record, text))
 }
 
-fn same_legs(c: &LegCorrespondence) -> String {
-    let named: Vec<(LegIndex, LegIndex)> =
-        LegIndex::all().filter_map(|i| c.legs[i.get()].map(|old| (i, old))).collect();
-    let worst = named.iter().map(|(i, _)| c.distances[i.get()]).fold(0.0, f64::max);
-    let nearly = if c.is_exact() { String::new() } else { format!(", up to {worst:.1e} of the size") };
-    if c.is_permutation() {
-        let order: Vec<String> = named.iter().map(|(_, old)| (old.get() + 1).to_string()).collect();
+fn same_legs(c: &CorrespondenceRecord) -> String {
+    let named: Vec<(usize, usize)> =
+        c.legs.iter().enumerate().filter_map(|(i, leg)| leg.map(|old| (i + 1, old))).collect();
+    let worst = named.iter().map(|(i, _)| c.distances[i - 1].0).fold(0.0, f64::max);
+    let nearly = if c.exact { String::new() } else { format!(", up to {worst:.1e} of the size") };
+    if c.permutation {
+        let order: Vec<String> = named.iter().map(|(_, old)| old.to_string()).collect();
         return format!("the legs of TO are legs {} of FROM{nearly}\n", order.join(", "));
     }
-    let list: Vec<String> = named.iter().map(|(i, old)| format!("{i} of TO is {old} of FROM")).collect();
+    let list: Vec<String> =
+        named.iter().map(|(i, old)| format!("leg {i} of TO is leg {old} of FROM")).collect();
     if list.is_empty() { String::new() } else { format!("{}{nearly}\n", list.join(", ")) }
 }
 
-pub(super) fn table(o: &LegMapOutcome, from: &str, to: &str) -> String {
-    let mut text = format!("{from} -> {to}: {}\n{}\n\n", o.relation.as_str(), o.explanation());
+/// A map with its evidence, in words.
+pub(super) fn table(r: &MapRecord, from: &str, to: &str) -> String {
+    let relation = r.relation.unwrap_or(Relation::Undecided).as_str();
+    let mut text = format!("{from} -> {to}: {relation}\n{}\n\n", r.explanation);
     text.push_str("s(TO) = A s(FROM) + c\n        A");
     text.push_str(&" ".repeat(60));
     text.push_str("c            residual\n");
-    for leg in LegIndex::all() {
-        let i = leg.get();
-        let _ = write!(text, "{leg}  ");
-        for j in 0..6 {
-            let shown = (o.closest.a[(i, j)] * 1e5).round() / 1e5 + 0.0; // + 0.0: no "-0.00000"
+    for (i, row) in r.matrix.iter().enumerate() {
+        let _ = write!(text, "leg {}  ", i + 1);
+        for x in row {
+            let shown = (x.0 * 1e5).round() / 1e5 + 0.0; // + 0.0: no "-0.00000"
             let _ = write!(text, "{shown:>9.5} ");
         }
-        let _ = writeln!(text, "{:>14.6}  {:>10.1e}", o.closest.c[i], o.residuals[i]);
+        let _ = writeln!(text, "{:>14.6}  {:>10.1e}", r.constants[i].0, r.residuals[i].0);
     }
-    let _ = writeln!(text, "\ndet A = {}", o.determinant);
+    let _ = writeln!(text, "\ndet A = {}", r.determinant.0);
     text
 }

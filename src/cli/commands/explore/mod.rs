@@ -83,9 +83,9 @@ impl Results {
     /// The word for the whole run.
     fn verdict(&self) -> ExploreVerdict {
         match (&self.verified, self.done.exit()) {
-            (Some(v), _) => VerdictWord::from(&v.found.verdict).into(),
+            (Some(v), _) => ExploreVerdict::Compared((&v.found.verdict).into()),
             (None, Exit::No) => ExploreVerdict::Infeasible,
-            (None, _) => ExploreVerdict::Inconclusive,
+            (None, _) => ExploreVerdict::Compared(VerdictWord::Inconclusive),
         }
     }
 

@@ -17,7 +17,7 @@ use crate::design::Design;
 use crate::equivalence::{Verdict, Verification};
 use crate::manipulator::Manipulator;
 use crate::manufacture::{Grid, NoRounding, Rounding, RoundingProblem, equivalent_octahedral, round_to_grid};
-use crate::records::VariantWord;
+use crate::records::{GridsRecord, VariantWord};
 
 /// Arguments of `build round`.
 #[derive(Debug, clap::Args)]
@@ -105,23 +105,19 @@ fn chosen(found: &Rounding, variant: Variant, keep: f64) -> Option<Choice<'_>> {
 }
 
 /// A grid in words.
-fn in_words(grid: &Grid) -> String {
-    let Grid { pitch, origin: [x, y], angle_deg } = grid;
-    format!("pitch {pitch}, a hole at ({x}, {y}), turned by {angle_deg} deg")
-}
-
 fn rounded_design(design: &Design, choice: &Choice<'_>) -> Design {
     let name = format!("{}, rounded", design.name);
     let plain = Design::new(name, design.units.clone(), choice.manipulator.clone());
     let (base, platform) = (design.base_names().to_vec(), design.platform_names().to_vec());
     let mut out = plain.clone().with_joint_names(base, platform).unwrap_or(plain);
+    let grids = GridsRecord::from(choice.grids);
     out.description = Some(format!(
         "Joints of the design \"{}\" on grids by equipod {}, variant {}; base: {}; platform: {}",
         design.name,
         env!("CARGO_PKG_VERSION"),
         choice.variant.as_str(),
-        in_words(&choice.grids[0]),
-        in_words(&choice.grids[1])
+        render::in_words(&grids.base),
+        render::in_words(&grids.platform)
     ));
     out.with_tables_of(design)
 }
@@ -199,6 +195,6 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         written: written.as_deref(),
     };
     let record = report.record();
-    let text = report.text(&record);
+    let text = render::text(&record);
     Ok(Answer::new(exit, record, text))
 }

@@ -57,8 +57,8 @@ pub(super) fn run(
         SearchVerdict::Undecided => Exit::Inconclusive,
     };
     let report = MoveReport { design, families: &families, outcome: &outcome };
-    let text = report.text(&written)?;
     let record = report.record(&designs, written)?;
+    let text = text(&record);
     Ok(Answer::new(exit, MoveAnswer::Search(Box::new(record)), text))
 }
 
@@ -173,57 +173,46 @@ impl MoveReport<'_> {
             design: design.map(DesignRecord::from),
         })
     }
+}
 
-    fn text(&self, written: &[String]) -> Result<String, Failure> {
-        let o = self.outcome;
-        let mut text = format!("{}\n", self.explanation());
+fn text(r: &MoveSearchAnswer) -> String {
+    let mut text = format!("{}\n", r.explanation);
+    let _ = writeln!(
+        text,
+        "{} patterns of six independent legs, {} searched; fewest shared joints {}{}",
+        r.patterns,
+        r.patterns_searched,
+        r.least_shared_joints.map_or("unknown".to_string(), |n| n.to_string()),
+        if r.complete { "" } else { " (the list of replaceable legs is not proved complete)" }
+    );
+    for (k, c) in r.designs.iter().enumerate() {
         let _ = writeln!(
             text,
-            "{} patterns of six independent legs, {} searched; fewest shared joints {}{}",
-            o.patterns,
-            o.searched,
-            o.least_shared.map_or("unknown".to_string(), |n| n.to_string()),
-            if o.complete { "" } else { " (the list of replaceable legs is not proved complete)" }
+            "\n{}. {}, det A = {:.6}, sigma_min/sigma_max of A {:.3e}, shared joints {}",
+            k + 1,
+            if c.fulfilled { "every wish fulfilled" } else { "not every wish fulfilled" },
+            c.map.determinant.0,
+            c.map.inverse_condition.0,
+            c.shared_joints
         );
-        for (k, c) in o.candidates.iter().enumerate() {
+        for m in &c.margins {
             let _ = writeln!(
                 text,
-                "\n{}. {}, det A = {:.6}, sigma_min/sigma_max of A {:.3e}, shared joints {}",
-                k + 1,
-                if c.fulfilled { "every wish fulfilled" } else { "not every wish fulfilled" },
-                c.map.determinant,
-                c.map.inverse_condition,
-                c.shared_joints
+                "   {:<13} {:>12.6}  required {:>12.6}  slack {:>9.5}",
+                m.wish, m.value.0, m.required.0, m.slack.0
             );
-            for m in &c.margins {
-                let _ = writeln!(
-                    text,
-                    "   {:<13} {:>12.6}  required {:>12.6}  slack {:>9.5}",
-                    m.wish.as_str(),
-                    m.value,
-                    m.required,
-                    m.slack
-                );
-            }
-            for p in &c.placements {
-                let l = &c.assembled.legs[p.leg.get()];
-                let _ = writeln!(
-                    text,
-                    "   {}  {}  [{:.6}, {:.6}, {:.6}] - [{:.6}, {:.6}, {:.6}]",
-                    p.leg,
-                    self.source(p.source)?,
-                    l.base.x,
-                    l.base.y,
-                    l.base.z,
-                    l.platform.x,
-                    l.platform.y,
-                    l.platform.z
-                );
-            }
         }
-        for path in written {
-            let _ = writeln!(text, "wrote {path}");
+        for p in &c.moves {
+            let (a, b) = (p.to.base.map(|x| x.0), p.to.platform.map(|x| x.0));
+            let _ = writeln!(
+                text,
+                "   leg {}  {}  [{:.6}, {:.6}, {:.6}] - [{:.6}, {:.6}, {:.6}]",
+                p.leg, p.from, a[0], a[1], a[2], b[0], b[1], b[2]
+            );
         }
-        Ok(text)
     }
+    for path in &r.paths {
+        let _ = writeln!(text, "wrote {path}");
+    }
+    text
 }

@@ -5,10 +5,12 @@ use std::fmt::Write as _;
 use super::Done;
 use crate::cli::commands::equivalents::map;
 use crate::design::Design;
-use crate::manipulator::Leg;
-use crate::records::{DesignRecord, LegMoveRecord, MoveMode, MoveStepRecord, MovesAnswer, Number};
+use crate::records::{
+    DesignRecord, LegEndsRecord, LegMoveRecord, MoveMode, MoveStepRecord, MovesAnswer, Number,
+    SingularParametersRecord,
+};
 use crate::synthesis::Relation;
-use crate::synthesis::relocate::{Chain, MovedLeg, Relocation, SingularParameters};
+use crate::synthesis::relocate::{Chain, MovedLeg, Relocation};
 
 /// Moves of one run.
 pub(super) struct Record<'a> {
@@ -20,14 +22,6 @@ pub(super) struct Record<'a> {
 }
 
 impl Record<'_> {
-    fn regular(&self) -> bool {
-        self.done.iter().all(|s| s.relocation.is_regular())
-    }
-
-    fn undecided(&self) -> bool {
-        self.done.iter().any(|s| s.relocation.map.relation == Relation::Undecided)
-    }
-
     pub(super) fn record(&self, built: Option<&Design>, written: Option<&str>) -> MovesAnswer {
         MovesAnswer {
             name: self.design.name.clone(),
@@ -51,50 +45,51 @@ impl Record<'_> {
     fn made(&self) -> usize {
         self.moved().count()
     }
+}
 
-    pub(super) fn text(&self, written: Option<&str>) -> String {
-        let mut text = String::new();
-        for (k, s) in self.done.iter().enumerate() {
-            for (moved, (type_name, name)) in s.relocation.moved.iter().zip(&s.families) {
-                if self.done.len() > 1 {
-                    let _ = write!(text, "{}. ", k + 1);
-                }
-                describe(&mut text, moved, type_name, name.as_deref());
+/// What the moves came to, in words.
+pub(super) fn text(r: &MovesAnswer) -> String {
+    let mut text = String::new();
+    let regular = r.steps.iter().all(|s| s.outcome == Some(Relation::Equivalent));
+    let undecided = r.steps.iter().any(|s| s.outcome.is_none());
+    for (k, s) in r.steps.iter().enumerate() {
+        for moved in &s.moves {
+            if r.steps.len() > 1 {
+                let _ = write!(text, "{}. ", k + 1);
             }
-            if s.relocation.moved.len() > 1 || !s.relocation.is_regular() {
-                let _ = writeln!(text, "   det A = {}", s.relocation.map.determinant);
-            }
+            describe(&mut text, moved);
         }
-        if self.made() < self.wanted {
-            let _ = writeln!(
-                text,
-                "this move is {}; {} further moves were not made",
-                if self.undecided() { "not decided to be regular" } else { "singular" },
-                self.wanted - self.made()
-            );
+        if s.moves.len() > 1 || s.outcome != Some(Relation::Equivalent) {
+            let _ = writeln!(text, "   det A = {}", s.det.0);
         }
-        if self.moved().any(|m| !m.exact) {
-            text.push_str(
-                "the new coordinates are rounded: the span condition holds to the residuals given\n",
-            );
-        }
-        text.push('\n');
-        text.push_str(&map::table(&self.chain.direct, &self.design.name, "legs moved"));
-        if self.done.len() > 1 {
-            let _ =
-                writeln!(text, "composed from the steps, A and c differ by {:.1e}", self.chain.disagreement);
-        }
-        if let Some(path) = written {
-            let _ = writeln!(text, "wrote {path}");
-        } else if !self.regular() {
-            text.push_str(if self.undecided() {
-                "no design is written: the platform may be architecturally singular\n"
-            } else {
-                "no design is written: the platform is architecturally singular\n"
-            });
-        }
-        text
     }
+    if r.moves_left_out > 0 {
+        let _ = writeln!(
+            text,
+            "this move is {}; {} further moves were not made",
+            if undecided { "not decided to be regular" } else { "singular" },
+            r.moves_left_out
+        );
+    }
+    if !r.exact {
+        text.push_str("the new coordinates are rounded: the span condition holds to the residuals given\n");
+    }
+    text.push('\n');
+    text.push_str(&map::table(&r.map, &r.name, "legs moved"));
+    if r.steps.len() > 1 {
+        let difference = r.composition_difference.0;
+        let _ = writeln!(text, "composed from the steps, A and c differ by {difference:.1e}");
+    }
+    if let Some(path) = &r.output {
+        let _ = writeln!(text, "wrote {path}");
+    } else if !regular {
+        text.push_str(if undecided {
+            "no design is written: the platform may be architecturally singular\n"
+        } else {
+            "no design is written: the platform is architecturally singular\n"
+        });
+    }
+    text
 }
 
 fn step(s: &Done) -> MoveStepRecord {
@@ -120,35 +115,35 @@ fn step(s: &Done) -> MoveStepRecord {
     }
 }
 
-fn describe(text: &mut String, m: &MovedLeg, type_name: &str, name: Option<&str>) {
-    let k = m.request.leg.get();
-    let parameters: Vec<String> = m.request.parameters.iter().map(f64::to_string).collect();
-    let name = name.map_or(String::new(), |n| format!(" {n}"));
+fn describe(text: &mut String, m: &LegMoveRecord) {
+    let parameters: Vec<String> = m.parameters.iter().map(|t| t.0.to_string()).collect();
+    let name = m.along.as_ref().map_or(String::new(), |n| format!(" {n}"));
     let _ = writeln!(
         text,
-        "{} along family {} ({type_name}{name}) to {}",
-        m.request.leg,
-        m.request.family + 1,
+        "leg {} along family {} ({}{name}) to {}",
+        m.leg,
+        m.component,
+        m.type_name,
         parameters.join(", ")
     );
-    let place = |l: &Leg| {
-        let (a, b) = (l.base, l.platform);
-        format!("[{}, {}, {}] - [{}, {}, {}]", a.x, a.y, a.z, b.x, b.y, b.z)
+    let place = |l: &LegEndsRecord| {
+        let (a, b) = (l.base.map(|x| x.0), l.platform.map(|x| x.0));
+        format!("[{}, {}, {}] - [{}, {}, {}]", a[0], a[1], a[2], b[0], b[1], b[2])
     };
     let _ = writeln!(text, "   from {}\n   to   {}", place(&m.from), place(&m.to));
-    let singular = match &m.singular {
-        SingularParameters::Everywhere => "det A = 0 all along the family".to_string(),
-        SingularParameters::At(list) if list.is_empty() => "nowhere singular on the family".to_string(),
-        SingularParameters::At(list) => {
+    let singular = match &m.singular_parameters {
+        SingularParametersRecord::Everywhere(_) => "det A = 0 all along the family".to_string(),
+        SingularParametersRecord::At(list) if list.is_empty() => "nowhere singular on the family".to_string(),
+        SingularParametersRecord::At(list) => {
             // nine decimals: the parameters are roots, their last digits are rounding
             let list: Vec<String> =
-                list.iter().map(|t| ((t * 1e9).round() / 1e9 + 0.0).to_string()).collect();
+                list.iter().map(|t| ((t.0 * 1e9).round() / 1e9 + 0.0).to_string()).collect();
             format!("singular at t = {}", list.join(", "))
         }
     };
     let _ = writeln!(
         text,
-        "   coefficient of the old {} {}, residual {:.1e}; {singular}",
-        m.request.leg, m.coefficients[k], m.residual
+        "   coefficient of the old leg {} {}, residual {:.1e}; {singular}",
+        m.leg, m.coefficient.0, m.residual.0
     );
 }

@@ -58,16 +58,12 @@ struct Entry {
 
 /// Lists the catalogue, or the topology of one design.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
-    let mut text = String::new();
     let mut wanted = catalogue();
     let count = wanted.len();
     let (mut of_design, mut by_virtual_legs) = (None, None);
     if let Some(path) = &args.design {
         let design = context.load(path)?;
         let found = recognised(&design)?;
-        let turned = if found.exchanged { ", base and platform exchanged" } else { "" };
-        let _ =
-            writeln!(text, "{}: {} {}{turned}\n", design.name, found.topology.id(), found.topology.name());
         of_design = Some(RecognisedRecord {
             name: design.name.clone(),
             id: found.topology.id(),
@@ -81,10 +77,8 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let moved = if args.rearrangements { Some(rearrangements::cases(&wanted)?) } else { None };
     let entries = wanted.into_iter().map(|t| entry(t, args.members, context.seed()));
     let entries = entries.collect::<Result<Vec<Entry>, Failure>>()?;
-    table(&mut text, &entries);
     write_files(args, &entries)?;
     if let Some(list) = &moved {
-        rearrangements::table(&mut text, list);
         args.output.iter().try_for_each(|folder| rearrangements::write(folder, list))?;
     }
     let exit = if entries.iter().all(|e| e.proved) { Exit::Yes } else { Exit::Inconclusive };
@@ -96,6 +90,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         topologies: entries.iter().map(record).collect(),
         rearrangements: moved.map(|list| list.iter().map(RearrangementRecord::from).collect()),
     };
+    let text = text(&answer);
     Ok(Answer::new(exit, answer, text))
 }
 
@@ -134,28 +129,36 @@ fn record(e: &Entry) -> TopologyRecord {
         .into()
 }
 
-fn table(text: &mut String, entries: &[Entry]) {
+fn text(r: &TopologiesAnswer) -> String {
+    let mut text = String::new();
+    if let Some(d) = &r.design {
+        let turned = if d.exchanged { ", base and platform exchanged" } else { "" };
+        let _ = writeln!(text, "{}: {} {}{turned}\n", d.name, d.id, d.topology);
+    }
     text.push_str(
         "id   name  legs                                    poses  proved  closure degree  virtual legs\n",
     );
-    for e in entries {
-        let name = |(a, b): &(usize, usize)| format!("A{}B{}", a + 1, b + 1);
-        let legs: Vec<String> = e.named.topology().legs().iter().map(name).collect();
-        let chosen: Vec<String> = e.sequence.virtual_legs.iter().map(name).collect();
-        let kind = if e.decoupled { " (decoupled)" } else { "" };
+    for t in &r.topologies {
+        let joined = |pairs: &[[String; 2]]| pairs.iter().map(|p| p.concat()).collect::<Vec<_>>().join(" ");
+        let closure = t.closure_degree.zip(t.closure_degree_before);
         let _ = writeln!(
             text,
-            "{:<4} {:<5} {:<39} {:>5}  {:<6}  {:<14}  {}{}{kind}",
-            e.named.id(),
-            e.named.name(),
-            legs.join(" "),
-            e.poses,
-            if e.proved { "yes" } else { "no" },
-            e.closure.as_ref().map_or("-".to_string(), |c| format!("{} from {}", c.after, c.before)),
-            chosen.len(),
-            if chosen.is_empty() { String::new() } else { format!(": {}", chosen.join(" ")) }
+            "{:<4} {:<5} {:<39} {:>5}  {:<6}  {:<14}  {}{}{}",
+            t.id,
+            t.name,
+            joined(&t.legs),
+            t.finite_roots,
+            if t.finite_roots_proved { "yes" } else { "no" },
+            closure.map_or("-".to_string(), |(degree, before)| format!("{degree} from {before}")),
+            t.virtual_legs,
+            if t.virtual_legs == 0 { String::new() } else { format!(": {}", joined(&t.virtual_leg_joints)) },
+            if t.decoupled { " (decoupled)" } else { "" },
         );
     }
+    if let Some(list) = &r.rearrangements {
+        rearrangements::table(&mut text, list);
+    }
+    text
 }
 
 fn figure(e: &Entry) -> TopologyFigure {

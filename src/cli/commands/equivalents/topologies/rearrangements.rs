@@ -7,6 +7,7 @@ use crate::cli::failure::Failure;
 use crate::cli::files;
 use crate::design::Design;
 use crate::manipulator::default_home;
+use crate::records::RearrangementRecord;
 use crate::synthesis::rearrangement::{Arrangement, PlanarBodies, Rearrangement, Reduction, rearrangement};
 use crate::topology::NamedTopology;
 
@@ -16,27 +17,21 @@ pub(super) fn cases(list: &[NamedTopology]) -> Result<Vec<Rearrangement>, Failur
     all.map(|(t, planar)| rearrangement(t, planar).map_err(|e| Failure::internal(e.to_string()))).collect()
 }
 
-fn octahedral(r: &Rearrangement) -> &'static str {
-    match &r.octahedral {
-        Reduction::Octahedral(_) => "yes",
-        Reduction::Not(why) => why.as_str(),
-    }
-}
-
 /// The table in words.
-pub(super) fn table(text: &mut String, list: &[Rearrangement]) {
+pub(super) fn table(text: &mut String, list: &[RearrangementRecord]) {
     text.push_str("\nid   name  base   platform  shared joints  merged ends  octahedral         families of replaceable legs\n");
     for r in list {
-        let [base, platform] = r.planar.names();
         let _ = writeln!(
             text,
-            "{:<4} {:<5} {base:<6} {platform:<9} {:<14} {:<12} {:<18} {}",
-            r.topology.id(),
-            r.topology.name(),
-            format!("{} -> {}", r.topology.topology().shared_joints(), r.fewest_shared),
-            format!("{} -> {}", r.member.merged_ends(), r.fewest_merged),
-            octahedral(r),
-            r.family_names(),
+            "{:<4} {:<5} {:<6} {:<9} {:<14} {:<12} {:<18} {}",
+            r.id,
+            r.name,
+            r.base,
+            r.platform,
+            format!("{} -> {}", r.shared_joints, r.fewest_shared_joints),
+            format!("{} -> {}", r.merged_ends, r.fewest_merged_ends),
+            r.octahedral_reason.as_deref().unwrap_or("yes"),
+            r.family_names,
         );
     }
 }

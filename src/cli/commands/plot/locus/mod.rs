@@ -109,15 +109,16 @@ pub(super) fn run(args: &Args, output: Option<&Path>, context: &mut Context) -> 
         files::write_text(path, &found.picture())?;
     }
     let Locus { name, leg, between, rows, steps } = &found;
+    let record = render::record(*leg, between, rows, steps);
     if let Some(path) = &args.csv {
-        files::write_text(path, &render::csv(rows))?;
+        files::write_text(path, &render::csv(&record))?;
     }
     let exit = if rows.iter().all(Row::complete) { Exit::Yes } else { Exit::Inconclusive };
     let text = match output {
-        Some(path) => format!("{}\n{}", path.display(), render::text(name, *leg, between, rows, steps)),
+        Some(path) => format!("{}\n{}", path.display(), render::text(name, &record)),
         None => found.picture(),
     };
-    Ok(Answer::new(exit, render::record(*leg, between, rows, steps), text))
+    Ok(Answer::new(exit, record, text))
 }
 
 fn solve(args: &Args, context: &mut Context) -> Result<Locus, Failure> {

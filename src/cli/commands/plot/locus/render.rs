@@ -28,35 +28,17 @@ pub(super) fn picture(name: &str, leg: u8, between: &Between, rows: &[Row], step
     })
 }
 
-fn reality(r: Reality) -> &'static str {
-    match r {
-        Reality::Real => "true",
-        Reality::NonReal => "false",
-        Reality::Undecided => "undecided",
-    }
-}
-
 /// One line a pose; lengths without isolated poses have one line with their status and no value.
-pub(super) fn csv(rows: &[Row]) -> String {
+pub(super) fn csv(answer: &LocusAnswer) -> String {
     let mut out = String::from("step,length,status,re,im,real,certified\n");
-    for (k, row) in rows.iter().enumerate() {
-        let poses = row.found.iter().flat_map(|f| f.solutions.roots.iter().zip(&f.values));
-        let mut any = false;
-        for (root, v) in poses {
-            any = true;
-            let _ = writeln!(
-                out,
-                "{k},{},{},{},{},{},{}",
-                row.length,
-                row.status().as_str(),
-                v.re,
-                v.im,
-                reality(root.reality),
-                root.certified()
-            );
+    for row in &answer.rows {
+        let (k, length, status) = (row.step, row.length.0, row.status.as_str());
+        for v in &row.values {
+            let real = v.real.map_or_else(|| "undecided".to_string(), |real| real.to_string());
+            let _ = writeln!(out, "{k},{length},{status},{},{},{real},{}", v.re.0, v.im.0, v.certified);
         }
-        if !any {
-            let _ = writeln!(out, "{k},{},{},,,,", row.length, row.status().as_str());
+        if row.values.is_empty() {
+            let _ = writeln!(out, "{k},{length},{status},,,,");
         }
     }
     out
@@ -94,20 +76,21 @@ pub(super) fn record(leg: u8, between: &Between, rows: &[Row], steps: &[LocusSte
     }
 }
 
-pub(super) fn text(name: &str, leg: u8, between: &Between, rows: &[Row], steps: &[LocusStep]) -> String {
+pub(super) fn text(name: &str, r: &LocusAnswer) -> String {
+    let [base, platform] = &r.between;
     let mut out = format!(
-        "{name}: squared distance of {} and {} while the length of leg {leg} varies\n\nlengths              poses  real  status\n",
-        between.base, between.platform
+        "{name}: squared distance of {base} and {platform} while the length of leg {} varies\n\n\
+         lengths              poses  real  status\n",
+        r.leg
     );
     // lengths in a row with the same numbers are one line
-    let key = |r: &Row| {
-        let roots = r.found.as_ref().map_or(&[][..], |f| &f.solutions.roots);
-        let real = roots.iter().filter(|x| x.reality == Reality::Real).count();
-        (roots.len(), real, r.status(), r.complete())
+    let key = |r: &LocusRowRecord| {
+        let real = r.values.iter().filter(|v| v.real == Some(true)).count();
+        (r.values.len(), real, r.status, r.all_paths_accounted)
     };
-    for group in rows.chunk_by(|a, b| key(a) == key(b)) {
+    for group in r.rows.chunk_by(|a, b| key(a) == key(b)) {
         let (poses, real, status, complete) = key(&group[0]);
-        let ends = (group[0].length, group[group.len() - 1].length);
+        let ends = (group[0].length.0, group[group.len() - 1].length.0);
         let doubt = if complete { "" } else { " (poses may be missing)" };
         let _ = writeln!(
             out,
@@ -117,11 +100,10 @@ pub(super) fn text(name: &str, leg: u8, between: &Between, rows: &[Row], steps: 
             status.as_str()
         );
     }
-    let meetings = locus_meetings(steps);
-    if !meetings.is_empty() {
+    if !r.meetings.is_empty() {
         out.push_str("\ndouble values on the real axis, about:\n   length      value\n");
-        for m in meetings {
-            let _ = writeln!(out, "{:>9.5}  {:>9.5}", m.length, m.value);
+        for m in &r.meetings {
+            let _ = writeln!(out, "{:>9.5}  {:>9.5}", m.length.0, m.value.0);
         }
     }
     out

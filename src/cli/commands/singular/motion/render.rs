@@ -34,25 +34,24 @@ pub(super) fn answer(design: &Design, found: &Found) -> Answer {
             .map(|(c, d)| MotionCurveRecord::new(c, d.as_ref(), found.origins.get(c.start).copied()))
             .collect(),
     };
-    Answer::new(found.exit, record, text(design, found))
+    let text = text(&record);
+    Answer::new(found.exit, record, text)
 }
 
-fn text(design: &Design, found: &Found) -> String {
-    let motion = &found.motion;
-    let s = motion.singular_values;
-    let mut out = format!("{}\n", design.name);
-    match found.dimension {
-        0 if found.start.is_none() => {
+fn text(r: &SelfmotionAnswer) -> String {
+    let mut out = format!("{}\n", r.name);
+    match r.dimension {
+        0 if r.start.is_none() => {
             let _ = writeln!(out, "no curve of poses with these lengths was found");
         }
         0 => {
             let _ = writeln!(
                 out,
                 "no self-motion at this pose: the smallest singular value of the leg equations is {:.1e} of the largest",
-                s[7] / s[0]
+                r.singular_values[7].0 / r.singular_values[0].0
             );
         }
-        1 if motion.curves.is_empty() => {
+        1 if r.curves.is_empty() => {
             let _ = writeln!(
                 out,
                 "the complex poses with these lengths form curves; no real pose on them was found"
@@ -63,51 +62,53 @@ fn text(design: &Design, found: &Found) -> String {
             let _ = writeln!(out, "the platform has {d} freedoms: no curve was followed");
         }
     }
-    if found.dimension > 1 && found.start.is_none() {
-        let count = found.real_poses.len();
+    if r.dimension > 1 && r.start.is_none() {
+        let count = r.real_poses.len();
         let _ = writeln!(
             out,
             "real poses found on the set of dimension {}: {count}; it was not followed",
-            found.dimension
+            r.dimension
         );
-        for pose in &found.real_poses {
-            let (p, q) = (&pose.position, pose.quaternion());
+        for pose in &r.real_poses {
+            let (p, q) = (pose.position.map(|x| x.0), pose.quaternion.map(|x| x.0));
             let _ = writeln!(
                 out,
                 "  p = [{:.6}, {:.6}, {:.6}]  q = [{:.6}, {:.6}, {:.6}, {:.6}]",
-                p.x, p.y, p.z, q[0], q[1], q[2], q[3]
+                p[0], p[1], p[2], q[0], q[1], q[2], q[3]
             );
         }
     }
-    for (k, (curve, degree)) in motion.curves.iter().zip(&found.degrees).enumerate() {
-        let arc = curve.points.last().map_or(0.0, |p| p.arc);
+    for (k, curve) in r.curves.iter().enumerate() {
+        let arc = curve.points.last().map_or(0.0, |p| p.arc.0);
         let _ = write!(
             out,
             "curve {}: {} poses, length {arc:.6} in (e, g / size), {}, {} crossings",
             k + 1,
             curve.points.len(),
-            curve.end.name(),
+            curve.end,
             curve.crossings.len()
         );
-        let _ = match degree {
-            Some(d) if d.complete => write!(out, ", degree {} (trace test {:.1e})", d.degree, d.defect),
+        let _ = match &curve.degree {
+            Some(d) if d.complete => {
+                write!(out, ", degree {} (trace test {:.1e})", d.degree, d.trace_defect.0)
+            }
             Some(d) => write!(out, ", degree at least {}", d.degree),
             None => Ok(()),
         };
-        let origin = found.origins.get(curve.start).map_or("", |o| o.as_str());
+        let origin = curve.found_by.map_or("", OriginWord::as_str);
         let _ = writeln!(out, ", found from a {}", origin.replace('_', " "));
     }
-    if !motion.curves.is_empty() {
+    if !r.curves.is_empty() {
         let _ = writeln!(
             out,
             "leg lengths constant to {:.1e} of the size; {} crossings; {} further starting poses tried",
-            motion.worst_length_error,
-            motion.crossings.len(),
-            further(found)
+            r.worst_length_error.0,
+            r.crossings.len(),
+            r.further_starts
         );
     }
-    if let Some(c) = &found.critical {
-        let degrees: Vec<String> = c.components.iter().map(|d| d.degree.to_string()).collect();
+    if let (Some(c), Some(components)) = (&r.critical_points, &r.complex_components) {
+        let degrees: Vec<String> = components.iter().map(|d| d.degree.to_string()).collect();
         let _ = writeln!(
             out,
             "over the complex numbers: irreducible curves of degrees {}; {} paths to critical points, {} lost",
@@ -116,7 +117,7 @@ fn text(design: &Design, found: &Found) -> String {
             c.lost
         );
     }
-    match found.accounted {
+    match r.components_accounted {
         Some(true) => out.push_str("every real component is accounted for (numerically, no proof)\n"),
         Some(false) => out.push_str("real components may be missing\n"),
         None => {}

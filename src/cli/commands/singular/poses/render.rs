@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::{Found, Judged};
+use super::{Found, Judged, paths};
 use crate::cli::output::Answer;
 use crate::design::Design;
 use crate::geom::Region;
@@ -47,65 +47,65 @@ pub(super) fn answer(design: &Design, lengths: &LegLengths, found: &Found) -> An
                 .refuted
                 .map(|s| ScaledPoseRecord { pose: (&s.pose).into(), scale: Number(s.scale) }),
             searched_scale: Number(regular.searched),
-            regions: regular.regions,
+            cells: regular.regions,
         },
-        path: found.path.as_ref().map(super::paths::Path::record),
-        between: found.between.as_ref().map(super::paths::Between::record),
+        path: found.path.as_ref().map(paths::Path::record),
+        between: found.between.as_ref().map(paths::Between::record),
     };
-    Answer::new(found.exit, record, text(design, found))
+    let text = text(&record);
+    Answer::new(found.exit, record, text)
 }
 
-fn text(design: &Design, found: &Found) -> String {
-    let mut out = format!("{}\n", design.name);
-    let line = |out: &mut String, name: &str, j: &Judged| {
-        let p = &j.pose.position;
+fn text(r: &SingularitiesAnswer) -> String {
+    let mut out = format!("{}\n", r.name);
+    let line = |out: &mut String, name: &str, j: &JudgedPoseRecord| {
+        let p = j.pose.position.map(|x| x.0);
         let _ = writeln!(
             out,
             "{name:<8} [{:.4}, {:.4}, {:.4}]  det J {:+.6e}  inverse condition {:.3e}",
-            p.x, p.y, p.z, j.determinant, j.inverse_condition
+            p[0], p[1], p[2], j.determinant.0, j.inverse_condition.0
         );
     };
-    line(&mut out, "pose", &found.middle);
-    for (k, mode) in found.modes.iter().enumerate() {
+    line(&mut out, "pose", &r.pose);
+    for (k, mode) in r.assembly_modes.iter().enumerate() {
         line(&mut out, &format!("mode {}", k + 1), mode);
     }
-    let negative = found.modes.iter().filter(|m| m.determinant < 0.0).count();
+    let negative = r.assembly_modes.iter().filter(|m| m.determinant.0 < 0.0).count();
     let _ = writeln!(
         out,
         "{} assembly modes, {} with det J > 0 and {negative} with det J < 0{}",
-        found.modes.len(),
-        found.modes.len() - negative,
-        if found.modes_complete { "" } else { "; some may be missing" }
+        r.assembly_modes.len(),
+        r.assembly_modes.len() - negative,
+        if r.assembly_modes_accounted { "" } else { "; some may be missing" }
     );
-    out.extend(found.path.iter().map(super::paths::Path::text));
-    out.extend(found.between.iter().map(super::paths::Between::text));
-    let o = &found.options;
-    let degrees = o.rotation_deg;
+    out.extend(r.path.iter().map(paths::path_text));
+    out.extend(r.between.iter().map(paths::pairs_text));
+    let b = &r.regular_box;
+    let (widths, degrees) = (b.translation, b.rotation_deg);
     let _ = writeln!(
         out,
         "{} of half widths t x ({:.4}, {:.4}, {:.4}) {} and t x ({:.4}, {:.4}, {:.4}) degrees of the rotation vector about the pose:",
-        region(o).as_str(),
-        o.translation[0],
-        o.translation[1],
-        o.translation[2],
-        design.units,
+        b.region.as_str(),
+        widths[0],
+        widths[1],
+        widths[2],
+        r.units,
         degrees[0],
         degrees[1],
         degrees[2]
     );
-    let regular = &found.regular;
-    if !(regular.proved > 0.0) {
+    if !(b.proved_scale.0 > 0.0) {
         out.push_str("  nothing is proved: the pose itself may be singular\n");
         return out;
     }
     let _ = writeln!(
         out,
         "  no singular pose for t <= {:.4}, proved over {} cells; the same for every equivalent platform",
-        regular.proved, regular.regions
+        b.proved_scale.0, b.cells
     );
-    let _ = match regular.refuted {
-        Some(s) => writeln!(out, "  a singular pose within t = {:.4}, proved by a change of sign", s.scale),
-        None => writeln!(out, "  no change of sign found up to t = {:.4}", regular.searched),
+    let _ = match &b.singular_within {
+        Some(s) => writeln!(out, "  a singular pose within t = {:.4}, proved by a change of sign", s.scale.0),
+        None => writeln!(out, "  no change of sign found up to t = {:.4}", b.searched_scale.0),
     };
     out
 }
