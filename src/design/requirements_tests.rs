@@ -13,8 +13,8 @@ fn every_key_is_read_and_written_back_to_the_bit() {
     let (design, warnings) = parse(GOOD, Format::Toml).unwrap();
     assert_eq!(warnings, []);
     let h = design.hardware;
-    assert_eq!(h.housing(false), Some(Housing::Box(nalgebra::Vector3::new(1.0, 2.0, 3.0))));
-    assert_eq!(h.housing(true), Some(Housing::Sphere(0.5)));
+    assert_eq!(h.housing(Body::Base), Some(Housing::Box(nalgebra::Vector3::new(1.0, 2.0, 3.0))));
+    assert_eq!(h.housing(Body::Platform), Some(Housing::Sphere(0.5)));
     assert_eq!(h.leg_body.unwrap().rod, Some((5.0, 0.2)));
     assert_eq!(h.leg_length, Some(LengthLimits::Stroke { dead: 4.0, stroke: 3.0 }));
     assert_eq!(h.platform_swing.unwrap().axes, JointAxes::Optimize);

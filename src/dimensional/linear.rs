@@ -8,6 +8,7 @@ use super::pull::{Gradient, Pull, Rate};
 use super::shape::JointEnds;
 use super::skeleton::Room;
 use super::terms::{ConvexForm, HeldPose, Item, LegLines, TermId};
+use crate::manipulator::Body;
 use crate::requirements::Objective;
 use crate::requirements::TermKind;
 
@@ -191,14 +192,13 @@ impl Model<'_> {
                 cone: None,
             });
         }
-        for Room { leg, platform, value, gradient } in self.shape.rooms(&ends) {
+        for Room { leg, body, value, gradient } in self.shape.rooms(&ends) {
             let mut pull = Pull::none();
-            if platform {
-                pull.arm[leg] = gradient;
-            } else {
-                pull.base[leg] = gradient;
+            match body {
+                Body::Base => pull.base[leg] = gradient,
+                Body::Platform => pull.arm[leg] = gradient,
             }
-            let id = (NO_POSE, (TermKind::PlatformSpacing, leg, NO_POSE, usize::from(platform)));
+            let id = (NO_POSE, (TermKind::PlatformSpacing, leg, NO_POSE, body.index()));
             let gradient = pull.gradient(&rates, &identity, false, &home);
             out.items.push(LinearItem { group: ConstraintGroup::Reach, id, value, gradient, cone: None });
         }

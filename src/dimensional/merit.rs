@@ -9,6 +9,7 @@ use super::problem::DimensionalProblem;
 use super::pull::{Gradient, Pull};
 use super::shape::JointEnds;
 use super::terms::{Gap, HeldPose, LegLines, RequirementTerms, joint_pull, leg_forces};
+use crate::manipulator::Body;
 use crate::num::linalg::svd;
 use crate::num::small::{bounded_svd, singular_values};
 use crate::requirements::Load;
@@ -186,12 +187,12 @@ impl<'a> Merit<'a> {
     ) {
         match o {
             Objective::JointSpacing => {
-                for platform in [false, true] {
-                    for (i, j) in terms.separate_joints(platform) {
-                        let at = if platform { &ends.platform } else { &ends.base };
+                for body in Body::BOTH {
+                    for (i, j) in terms.separate_joints(body) {
+                        let at = body.of((&ends.base, &ends.platform));
                         let d = at[j] - at[i];
                         let n = d.try_normalize(0.0).unwrap_or_else(Vector3::x) / self.size;
-                        see(MeritPiece::Linear(d.norm() / self.size, joint_pull(platform, i, j, &n)));
+                        see(MeritPiece::Linear(d.norm() / self.size, joint_pull(body, i, j, &n)));
                     }
                 }
             }

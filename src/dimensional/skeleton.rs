@@ -7,7 +7,7 @@ use nalgebra::{Matrix6, Point3, SMatrix, Vector3};
 use super::problem::{InvalidProblem, Triangles, Variables};
 use super::pull::Rate;
 use super::shape::{JointId, LegJoints, VariableLayout, joints_of};
-use crate::manipulator::{Leg, LegIndex, Manipulator, Octahedral};
+use crate::manipulator::{Body, Leg, LegIndex, Manipulator, Octahedral};
 use crate::num::linalg::svd;
 use crate::synthesis::components::{
     Component, ComponentOptions, ComponentsError, MovingPoint, Parametrisation, components,
@@ -54,7 +54,7 @@ pub(crate) trait Skeleton: Debug + Send + Sync {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Room {
     pub(crate) leg: usize,
-    pub(crate) platform: bool,
+    pub(crate) body: Body,
     pub(crate) value: f64,
     /// By the end.
     pub(crate) gradient: Vector3<f64>,
@@ -277,8 +277,8 @@ impl Sliding {
     }
 
     /// Whether an end never moves.
-    fn is_fixed(&self, platform: bool) -> bool {
-        let end = if platform { &self.platform } else { &self.base };
+    fn is_fixed(&self, body: Body) -> bool {
+        let end = body.of((&self.base, &self.platform));
         end.terms.iter().all(|(e, _)| *e == [0; 3])
     }
 }
@@ -423,13 +423,10 @@ impl OnFamilies {
     }
 
     /// How far an end may still go out, in reaches, and the gradient.
-    fn room_of(&self, platform: bool, end: &Vector3<f64>) -> (f64, Vector3<f64>) {
+    fn room_of(&self, body: Body, end: &Vector3<f64>) -> (f64, Vector3<f64>) {
         let n = &self.normalisation;
-        let (centre, unit) = if platform {
-            (n.platform_centre.coords, n.platform_unit)
-        } else {
-            (n.base_centre.coords, n.base_unit)
-        };
+        let (centre, unit) =
+            body.of(((n.base_centre.coords, n.base_unit), (n.platform_centre.coords, n.platform_unit)));
         let out = (end - centre) / unit;
         (REACH - out.norm(), -out.try_normalize(0.0).unwrap_or_else(Vector3::x) / unit)
     }
@@ -441,13 +438,13 @@ impl Skeleton for OnFamilies {
         let mut out = joints_of(m);
         for s in &self.sliding {
             let (ends, size) = (s.ends(&vec![0.0; s.parameters]), m.size());
-            let joint = |platform: bool, joints: &[Point3<f64>]| {
-                let end = Point3::from(ends[usize::from(platform)].0);
+            let joint = |body: Body, joints: &[Point3<f64>]| {
+                let end = Point3::from(ends[body.index()].0);
                 let same = |p: &Point3<f64>| (p - end).norm() <= SAME_JOINT * size;
-                let stays = s.is_fixed(platform).then(|| joints.iter().position(same)).flatten();
+                let stays = s.is_fixed(body).then(|| joints.iter().position(same)).flatten();
                 stays.map_or(JointId::OfLeg(s.leg), JointId::OfDesign)
             };
-            out[s.leg] = (joint(false, m.base_joints()), joint(true, m.platform_joints()));
+            out[s.leg] = (joint(Body::Base, m.base_joints()), joint(Body::Platform, m.platform_joints()));
         }
         out
     }
@@ -484,10 +481,10 @@ impl Skeleton for OnFamilies {
     fn rooms(&self, base: &[Vector3<f64>; 6], platform: &[Vector3<f64>; 6]) -> Vec<Room> {
         let mut out = Vec::new();
         for s in &self.sliding {
-            for (on_platform, ends) in [(false, base), (true, platform)] {
-                if !s.is_fixed(on_platform) {
-                    let (value, gradient) = self.room_of(on_platform, &ends[s.leg]);
-                    out.push(Room { leg: s.leg, platform: on_platform, value, gradient });
+            for (body, ends) in [(Body::Base, base), (Body::Platform, platform)] {
+                if !s.is_fixed(body) {
+                    let (value, gradient) = self.room_of(body, &ends[s.leg]);
+                    out.push(Room { leg: s.leg, body, value, gradient });
                 }
             }
         }

@@ -285,17 +285,18 @@ impl<'a> RequirementTerms<'a> {
 
     /// Requirements without a pose: gaps of housings and distances of joint centres.
     pub(crate) fn fixed<P: Gradient>(&self, ends: &JointEnds, see: &mut impl FnMut(Item<P>)) {
-        for (kind, platform) in [(TermKind::BaseSpacing, false), (TermKind::PlatformSpacing, true)] {
-            let housing = self.required.hardware.housing(platform);
-            for (i, j) in self.separate_joints(platform) {
-                let d =
-                    if platform { ends.platform[j] - ends.platform[i] } else { ends.base[j] - ends.base[i] };
+        for (kind, body) in [(TermKind::BaseSpacing, Body::Base), (TermKind::PlatformSpacing, Body::Platform)]
+        {
+            let housing = self.required.hardware.housing(body);
+            for (i, j) in self.separate_joints(body) {
+                let at = body.of((&ends.base, &ends.platform));
+                let d = at[j] - at[i];
                 let gaps = [
                     self.required.min_joint_distance.map(|least| sphere_gap(&d, least)),
                     housing.map(|h| housing_gap(&h, &d)),
                 ];
                 for (part, (value, g)) in gaps.into_iter().enumerate().filter_map(|(k, g)| Some((k, g?))) {
-                    let pull = joint_pull(platform, i, j, &(g / self.size));
+                    let pull = joint_pull(body, i, j, &(g / self.size));
                     see(Item { id: (kind, i, j, part), value: value / self.size, pull, exact: None });
                 }
             }
@@ -303,8 +304,8 @@ impl<'a> RequirementTerms<'a> {
     }
 
     /// Pairs of legs that stand for pairs of different joints of a body, each pair of joints once.
-    pub(crate) fn separate_joints(&self, platform: bool) -> Vec<(usize, usize)> {
-        let joint = self.joints.map(|p| if platform { p.1 } else { p.0 });
+    pub(crate) fn separate_joints(&self, body: Body) -> Vec<(usize, usize)> {
+        let joint = self.joints.map(|p| body.of(p));
         let firsts: Vec<usize> = (0..6).filter(|&i| !joint[..i].contains(&joint[i])).collect();
         let pairs = firsts.iter().enumerate();
         pairs.flat_map(|(n, &i)| firsts[n + 1..].iter().map(move |&j| (i, j))).collect()
@@ -312,10 +313,13 @@ impl<'a> RequirementTerms<'a> {
 }
 
 /// Gradient of the difference of joints `j - i` of a body at the identity rotation.
-pub(crate) fn joint_pull<P: Gradient>(platform: bool, i: usize, j: usize, g: &Vector3<f64>) -> P {
+pub(crate) fn joint_pull<P: Gradient>(body: Body, i: usize, j: usize, g: &Vector3<f64>) -> P {
     let mut pull = P::none();
     for (leg, g) in [(i, -g), (j, *g)] {
-        if platform { pull.at_arm(leg, &g) } else { pull.at_base(leg, &g) }
+        match body {
+            Body::Base => pull.at_base(leg, &g),
+            Body::Platform => pull.at_arm(leg, &g),
+        }
     }
     pull
 }

@@ -154,15 +154,16 @@ impl Export {
         let shortest = lengths.iter().copied().filter(|l| *l > 1e-9 * size).fold(f64::INFINITY, f64::min);
         let towards: Vector3<f64> = ends.iter().map(|(a, b)| b - a).sum();
         let mut choices = Vec::new();
-        let mut seated = |platform: bool, joints: &[ExportedJoint], towards: &Vector3<f64>| {
+        let mut seated = |body: Body, joints: &[ExportedJoint], towards: &Vector3<f64>| {
             let normal = plate::normal(joints, towards, size);
             let distance = least_distance(joints, &normal, size);
             let ball = (0.05 * size).min(0.4 * distance).min(0.1 * shortest);
-            let sizes = Sizes::of(platform, hardware, options, ball, &mut choices)?;
+            let sizes = Sizes::of(body, hardware, options, ball, &mut choices)?;
             Ok::<_, NoExport>((sizes.ball, Plate::under(joints, &normal, towards, &sizes, size)))
         };
-        let (base_ball, base_plate) = seated(false, &base, &towards)?;
-        let (platform_ball, platform_plate) = seated(true, &platform, &-(home.rotation.inverse() * towards))?;
+        let (base_ball, base_plate) = seated(Body::Base, &base, &towards)?;
+        let (platform_ball, platform_plate) =
+            seated(Body::Platform, &platform, &-(home.rotation.inverse() * towards))?;
         let sizes = LegSizes::of(hardware, base_ball.min(platform_ball), shortest, &mut choices);
         let mass = mass(options.mass, size * unit.metres, &mut choices)?;
         let bodies = [

@@ -5,6 +5,7 @@ use thiserror::Error;
 
 use super::model::ExportedJoint;
 use super::units::{LengthUnit, UnknownUnit};
+use crate::manipulator::Body;
 use crate::requirements::{Hardware, Housing};
 
 /// What the user may choose; lengths in design units. What is absent comes from `[hardware]` or from a rule that [`Export::choices`](super::Export::choices) states.
@@ -136,8 +137,8 @@ pub enum NoExport {
 const RULE_BALL: &str = "rule: the least of 0.05 of the size, 0.4 of the least distance of seats, 0.1 of the shortest leg at home";
 
 /// Edge of the housing that a ball can have.
-fn housing_width(hardware: &Hardware, platform: bool) -> Option<f64> {
-    hardware.housing(platform).map(|h| match h {
+fn housing_width(hardware: &Hardware, body: Body) -> Option<f64> {
+    hardware.housing(body).map(|h| match h {
         Housing::Sphere(diameter) => diameter,
         Housing::Box(edges) => edges.min(),
     })
@@ -176,17 +177,16 @@ pub(super) fn positive(what: &'static str, value: f64) -> Result<(), NoExport> {
 
 impl Sizes {
     pub(super) fn of(
-        platform: bool,
+        body: Body,
         hardware: &Hardware,
         options: &ExportOptions,
         rule_ball: f64,
         choices: &mut Vec<SizeChoice>,
     ) -> Result<Self, NoExport> {
-        let body = if platform { "platform" } else { "base" };
         let ball = choose(
             choices,
             &format!("ball diameter, {body}"),
-            [(options.ball, "option"), (housing_width(hardware, platform), "[hardware]")],
+            [(options.ball, "option"), (housing_width(hardware, body), "[hardware]")],
             (rule_ball, RULE_BALL),
         );
         let hole = choose(

@@ -60,12 +60,6 @@ impl Interval {
         self.lo <= other.lo && other.hi <= self.hi
     }
 
-    /// Common numbers, `None` when there are none.
-    #[must_use]
-    pub fn intersection(self, other: Self) -> Option<Self> {
-        Self::new(self.lo.max(other.lo), self.hi.min(other.hi))
-    }
-
     /// A double `m` and a radius `r >= 0` with `[lo, hi]` inside `[m - r, m + r]`; `r` is infinite for unbounded intervals.
     #[must_use]
     pub fn centre_and_radius(self) -> (f64, f64) {

@@ -1,5 +1,6 @@
 //! Sizes and limits of joints, legs and drives.
 
+use crate::manipulator::Body;
 use nalgebra::{Unit, Vector3};
 
 /// The room a joint takes up, centred at the joint.
@@ -117,8 +118,8 @@ pub struct Hardware {
 impl Hardware {
     /// Housing of the joints of a body, [`Hardware::joint_diameter`] as a sphere when it has none of its own.
     #[must_use]
-    pub fn housing(&self, platform: bool) -> Option<Housing> {
-        let own = if platform { self.platform_housing } else { self.base_housing };
+    pub fn housing(&self, body: Body) -> Option<Housing> {
+        let own = body.of((self.base_housing, self.platform_housing));
         own.or(self.joint_diameter.map(Housing::Sphere))
     }
 }

@@ -152,12 +152,12 @@ impl<'a> Terms<'a> {
     pub fn fixed(&self) -> Vec<(Term, f64)> {
         let m = self.manipulator;
         let bodies = [
-            (TermKind::BaseSpacing, m.base_joints(), m.pairs().map(|p| p.0)),
-            (TermKind::PlatformSpacing, m.platform_joints(), m.pairs().map(|p| p.1)),
+            (TermKind::BaseSpacing, Body::Base, m.base_joints(), m.pairs().map(|p| p.0)),
+            (TermKind::PlatformSpacing, Body::Platform, m.platform_joints(), m.pairs().map(|p| p.1)),
         ];
         let mut out = Vec::new();
-        for (kind, joints, used) in bodies {
-            let housing = self.required.hardware.housing(kind == TermKind::PlatformSpacing);
+        for (kind, body, joints, used) in bodies {
+            let housing = self.required.hardware.housing(body);
             let is_used = |i: &usize| used.contains(i);
             for i in (0..joints.len()).filter(is_used) {
                 for j in (i + 1..joints.len()).filter(is_used) {

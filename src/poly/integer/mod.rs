@@ -168,23 +168,6 @@ impl IntPoly {
         rest.iter().all(Zero::is_zero).then(|| Self::new(quotient))
     }
 
-    /// Divided by every coefficient of `divisor`'s integer: `None` unless all are divisible.
-    #[must_use]
-    pub fn exact_div_integer(&self, divisor: &BigInt) -> Option<Self> {
-        if divisor.is_zero() {
-            return None;
-        }
-        let mut out = Vec::with_capacity(self.0.len());
-        for c in &self.0 {
-            let (q, r) = c.div_rem(divisor);
-            if !r.is_zero() {
-                return None;
-            }
-            out.push(q);
-        }
-        Some(Self(out))
-    }
-
     /// The sign of the value at a dyadic number, exactly.
     #[must_use]
     pub fn sign_at(&self, x: &Dyadic) -> Sign {

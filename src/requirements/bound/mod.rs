@@ -24,7 +24,7 @@ use super::hardware::Housing;
 use super::term::{Term, TermKind, Terms};
 use crate::geom::enclosed::{IntervalVector, dot};
 use crate::geom::{Chart, ChartCell, PoseSpace, arc_cosine, degrees, radians};
-use crate::manipulator::Manipulator;
+use crate::manipulator::{Body, Manipulator};
 use crate::num::interval::Interval;
 use crate::num::jet::Jet;
 
@@ -475,9 +475,9 @@ impl CellJudge<'_> {
     /// Distances of joints, which no pose changes.
     fn fixed(&self, found: Margin) -> MarginBound {
         let kind = found.term.kind;
-        let platform = kind == TermKind::PlatformSpacing;
-        let joints = if platform { self.m.platform_joints() } else { self.m.base_joints() };
-        let housing = self.required.hardware.housing(platform);
+        let body = if kind == TermKind::PlatformSpacing { Body::Platform } else { Body::Base };
+        let joints = body.of((self.m.base_joints(), self.m.platform_joints()));
+        let housing = self.required.hardware.housing(body);
         let (mut below, mut upper) = (f64::INFINITY, f64::INFINITY);
         for (term, _) in self.terms.fixed().iter().filter(|(t, _)| t.kind == kind) {
             let (a, b) = (enclosed(&joints[term.first]), enclosed(&joints[term.second]));
