@@ -8,9 +8,10 @@
 use nalgebra::{Matrix6, UnitQuaternion, Vector3};
 
 use crate::geom::Pose;
-use crate::manipulator::{Leg, Manipulator, inverse_condition, plucker_matrix};
+use crate::manipulator::{Leg, Manipulator, plucker_matrix};
 use crate::num::Rng;
 use crate::num::modular::{Field, PRIME_BITS, fields, mantissa_and_exponent};
+use crate::num::small::singular_values;
 
 /// A pose whose numbers are integers: `R` of the quaternion `(q0, q1, q2, q3)`, `p` in powers of two of the design unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -80,7 +81,7 @@ pub(crate) fn generic_rank(m: &Manipulator, chosen: &[usize], leg_rank: usize) -
     let rank_at = |pose: &RationalPose| rank(first, &legs, pose, 0);
     let (mut best, mut witness) = (0, RationalPose { quaternion: [1, 0, 0, 0], steps: [0; 3], unit: 0 });
     let unit = unit_of(m);
-    for pose in candidates(m, unit).into_iter().chain(lattice(unit)) {
+    for pose in candidates(m, unit, leg_rank).into_iter().chain(lattice(unit)) {
         let r = rank_at(&pose);
         if r > best {
             (best, witness) = (r, pose);
@@ -132,8 +133,9 @@ pub(crate) fn lattice(unit: i32) -> impl Iterator<Item = RationalPose> {
     })
 }
 
-/// Poses with small numbers around the middle of the design, best conditioned first.
-fn candidates(m: &Manipulator, unit: i32) -> Vec<RationalPose> {
+/// Poses with small numbers around the middle of the design, first those whose lines are the furthest from having a rank below `leg_rank`, by singular
+/// values: those beyond that rank are rounding errors.
+fn candidates(m: &Manipulator, unit: i32, leg_rank: usize) -> Vec<RationalPose> {
     let mut rng = Rng::new(0);
     let mut digit = |reach: i64| (rng.next_u64() % (2 * reach.cast_unsigned() + 1)).cast_signed() - reach;
     let legs = m.legs();
@@ -153,7 +155,9 @@ fn candidates(m: &Manipulator, unit: i32) -> Vec<RationalPose> {
             }
         }
         let j: Matrix6<f64> = plucker_matrix(m, &pose.pose(), m.platform_rms_radius());
-        list.push((inverse_condition(&j), pose));
+        let quality =
+            singular_values(&j).filter(|s| s[0] > 0.0).map_or(0.0, |s| s[leg_rank.clamp(1, 6) - 1] / s[0]);
+        list.push((quality, pose));
     }
     list.sort_by(|x, y| y.0.total_cmp(&x.0));
     list.into_iter().map(|(_, pose)| pose).collect()
