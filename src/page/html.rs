@@ -7,9 +7,9 @@ use sha2::{Digest, Sha256};
 use super::base64;
 use super::request::{Chosen, Opening, Request, Which};
 use super::session::Session;
-use super::wire::PagePose;
 use crate::geom::Pose;
 use crate::plot::escape;
+use crate::records::PoseRecord;
 
 /// The core compiled to WebAssembly, compressed by gzip; `tests/page/README.md` says how it is made and compared with its sources.
 #[cfg(not(target_arch = "wasm32"))]
@@ -120,8 +120,9 @@ struct RecordedDesigns {
 
 fn recorded(session: &Session) -> Recorded {
     let chosen = session.start.as_ref().map(Chosen::from);
-    let state = |p: Pose| session.reply(Request::State { pose: PagePose::from(&p), chosen: chosen.clone() });
-    let home = PagePose::from(&session.home);
+    let state =
+        |p: Pose| session.reply(Request::State { pose: PoseRecord::from(&p), chosen: chosen.clone() });
+    let home = PoseRecord::from(&session.home);
     let two = session.start.as_ref().filter(|s| s.offsets.len() > 1);
     let plane = |chosen| Request::Plane { chosen, axes: [0, 1], range: [-0.5, 1.5], points: PLANE };
     let moving = if chosen.is_some() { Which::Second } else { Which::First };

@@ -19,7 +19,6 @@ mod session;
 mod start;
 #[cfg(test)]
 mod tests;
-mod wire;
 mod worst;
 
 #[cfg(not(target_arch = "wasm32"))]

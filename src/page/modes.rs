@@ -5,11 +5,11 @@ use serde::Serialize;
 
 use super::request::Refusal;
 use super::scene::sign;
-use super::wire::PagePose;
 use crate::equivalence::match_poses;
 use crate::fk::{Completeness, FkOptions, FkRoot, FkSolutions, PoseCounting, Reality, SolutionSet, solver};
 use crate::geom::{ComplexPose, Pose};
 use crate::manipulator::{LegLengths, Manipulator, SquaredLegLengths, inverse_condition, jacobian};
+use crate::records::PoseRecord;
 
 /// All poses of two platforms.
 #[derive(Debug, Serialize)]
@@ -45,7 +45,7 @@ pub(super) struct ModesRecord {
 /// A real pose.
 #[derive(Debug, Serialize)]
 struct ModeRecord {
-    pose: PagePose,
+    pose: PoseRecord,
     turn_deg: f64,
     sign: i8,
     inverse_condition: f64,

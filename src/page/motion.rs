@@ -3,9 +3,9 @@
 use serde::Serialize;
 
 use super::request::Refusal;
-use super::wire::PagePose;
 use crate::geom::Pose;
 use crate::manipulator::Manipulator;
+use crate::records::PoseRecord;
 use crate::singularity::{CurveEnd, MotionCurve, MotionOptions, self_motion};
 
 /// Most poses of an animation.
@@ -21,7 +21,7 @@ pub(super) struct SelfMotionRecord {
     closed: bool,
     end: Option<&'static str>,
     length_error: f64,
-    poses: Vec<PagePose>,
+    poses: Vec<PoseRecord>,
 }
 
 /// The curve of poses with constant leg lengths on which the pose lies, the longest where several cross.
@@ -37,7 +37,7 @@ pub(super) fn record(m: &Manipulator, at: &Pose) -> Result<SelfMotionRecord, Ref
         closed: longest.is_some_and(|c| c.end == CurveEnd::Closed),
         end: longest.map(|c| c.end.name()),
         length_error: found.worst_length_error,
-        poses: poses.iter().map(PagePose::from).collect(),
+        poses: poses.iter().map(PoseRecord::from).collect(),
     })
 }
 

@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use super::request::Chosen;
 use super::session::{Equivalent, Session};
-use super::wire::PagePose;
 use crate::equivalents::Original;
+use crate::records::PoseRecord;
 use crate::singularity::Architecture;
 use crate::synthesis::{
     Factor, Family, HexagonPoint, JointLabel, Pattern, corner, edge_lengths, sliding_body,
@@ -24,7 +24,7 @@ pub(super) struct OpeningRecord<'a> {
     singular: bool,
     /// Why it is singular.
     reason: Option<String>,
-    home: PagePose,
+    home: PoseRecord,
     centre: [f64; 3],
     radius: f64,
     trajectory: bool,

@@ -5,8 +5,8 @@ use serde::Serialize;
 use std::f64::consts::TAU;
 
 use super::session::Session;
-use super::wire::PagePose;
 use crate::geom::Pose;
+use crate::records::PoseRecord;
 
 /// Steps between two poses of a trajectory.
 const STEPS: usize = 24;
@@ -35,7 +35,7 @@ impl Session {
 /// A pose of the round.
 #[derive(Debug, Serialize)]
 pub(super) struct RoundPose {
-    pose: PagePose,
+    pose: PoseRecord,
 }
 
 /// The pose at `at`.

@@ -4,10 +4,10 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::session::{Equivalent, InvalidStart, Session};
-use super::wire::PagePose;
 use super::{modes, motion, opening, path, plane, scene, worst};
 use crate::design::{Format, parse};
 use crate::geom::Pose;
+use crate::records::PoseRecord;
 use crate::synthesis::Pattern;
 
 /// Which platform of the page.
@@ -44,17 +44,17 @@ pub(super) enum Request {
     /// The pose at a share of the way round.
     Path { at: f64 },
     /// Everything about both platforms at a pose.
-    State { pose: PagePose, chosen: Option<Chosen> },
+    State { pose: PoseRecord, chosen: Option<Chosen> },
     /// Worst conditioning over the poses of the workspace.
     Worst { chosen: Option<Chosen> },
     /// All poses with given leg lengths, or with those of a pose.
-    Modes { pose: PagePose, lengths: Option<[f64; 6]>, which: Which, chosen: Option<Chosen> },
+    Modes { pose: PoseRecord, lengths: Option<[f64; 6]>, which: Which, chosen: Option<Chosen> },
     /// All poses of both platforms, each from its own leg lengths, paired.
-    Confirm { pose: PagePose, chosen: Chosen },
+    Confirm { pose: PoseRecord, chosen: Chosen },
     /// `det A` over two offsets.
     Plane { chosen: Chosen, axes: [usize; 2], range: [f64; 2], points: usize },
     /// The curve of poses with the leg lengths of a pose.
-    Motion { pose: PagePose, which: Which, chosen: Option<Chosen> },
+    Motion { pose: PoseRecord, which: Which, chosen: Option<Chosen> },
     /// The platform as a design file.
     Design { which: Which, chosen: Option<Chosen> },
 }
@@ -191,7 +191,7 @@ impl Session {
 pub(super) struct Opening {
     design: String,
     #[serde(default)]
-    trajectory: Vec<PagePose>,
+    trajectory: Vec<PoseRecord>,
     start: Option<Chosen>,
 }
 
@@ -201,7 +201,7 @@ impl From<&Session> for Opening {
         let trajectory = session.design.workspace.trajectory.as_ref();
         Self {
             design: session.design.to_toml(),
-            trajectory: trajectory.map_or_else(Vec::new, |t| t.poses.iter().map(PagePose::from).collect()),
+            trajectory: trajectory.map_or_else(Vec::new, |t| t.poses.iter().map(PoseRecord::from).collect()),
             start: session.start.as_ref().map(Chosen::from),
         }
     }

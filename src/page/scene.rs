@@ -7,11 +7,11 @@ use serde::Serialize;
 
 use super::request::Refusal;
 use super::session::{Equivalent, Session};
-use super::wire::PagePose;
 use crate::design::Design;
 use crate::geom::Pose;
 use crate::manipulator::{SquaredLegLengths, inverse_condition, jacobian};
-use crate::requirements::{Standing, Term, TermKind, Terms};
+use crate::records::{MarginRecord, PoseRecord};
+use crate::requirements::{Margin, Term, TermKind, Terms};
 use crate::synthesis::AffineLegMap;
 
 /// Below this a singular value is not told from zero.
@@ -20,7 +20,7 @@ const ROUNDING: f64 = 1e-13;
 /// Both platforms at a pose.
 #[derive(Debug, Serialize)]
 pub(super) struct SceneRecord {
-    pose: PagePose,
+    pose: PoseRecord,
     platforms: Vec<PlatformRecord>,
     /// From the lengths of the first to those of the second.
     map: Option<RelationRecord>,
@@ -39,7 +39,8 @@ struct PlatformRecord {
     inverse_condition: f64,
     sign: i8,
     spacing: BodySpacings,
-    margins: Vec<SceneMargin>,
+    /// The least of each kind of requirement at the pose.
+    margins: Vec<MarginRecord>,
 }
 
 /// A joint and where it is, base frame.
@@ -61,17 +62,6 @@ struct BodySpacings {
 struct SpacingRecord {
     distance: f64,
     joints: [String; 2],
-}
-
-/// By how much a kind of requirement is met at the pose.
-#[derive(Debug, Serialize)]
-struct SceneMargin {
-    requirement: &'static str,
-    margin: f64,
-    met: bool,
-    at_limit: bool,
-    unit: String,
-    between: Vec<String>,
 }
 
 /// `s' = A s + c`, and how well it holds at the pose.
@@ -165,7 +155,7 @@ fn spacing(names: &[String], joints: &[Point3<f64>], used: &[usize; 6]) -> Optio
 }
 
 /// The least margin of every kind of requirement at the pose.
-fn margins(session: &Session, design: &Design, at: &Pose) -> Vec<SceneMargin> {
+fn margins(session: &Session, design: &Design, at: &Pose) -> Vec<MarginRecord> {
     let required = design.requirements();
     let terms = Terms::new(design.manipulator(), &required, &session.home);
     let mut least: BTreeMap<TermKind, (Term, f64)> = BTreeMap::new();
@@ -175,17 +165,10 @@ fn margins(session: &Session, design: &Design, at: &Pose) -> Vec<SceneMargin> {
             *entry = (term, value);
         }
     }
-    let row = |(term, margin): (Term, f64)| {
-        let pose = (!term.kind.is_fixed()).then_some(at);
-        let standing = terms.standing(term.kind, margin, pose);
-        SceneMargin {
-            requirement: term.kind.code(),
-            margin,
-            met: standing.is_met(),
-            at_limit: standing == Standing::AtLimit,
-            unit: design.unit_of(term.kind.quantity()),
-            between: design.names_of(term),
-        }
+    let row = |(term, value): (Term, f64)| {
+        let pose = (!term.kind.is_fixed()).then_some(*at);
+        let standing = terms.standing(term.kind, value, pose.as_ref());
+        MarginRecord::found(design, &Margin { term, value, pose, standing })
     };
     least.into_values().map(row).collect()
 }

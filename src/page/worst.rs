@@ -4,10 +4,10 @@ use serde::Serialize;
 
 use super::request::Refusal;
 use super::session::{Equivalent, Session};
-use super::wire::PagePose;
 use crate::design::Design;
 use crate::geom::Pose;
 use crate::manipulator::{inverse_condition, jacobian};
+use crate::records::PoseRecord;
 
 /// The worst conditioning of the platforms.
 #[derive(Debug, Serialize)]
@@ -22,7 +22,7 @@ pub(super) struct WorstRecord {
 #[derive(Debug, Serialize)]
 struct LeastRecord {
     inverse_condition: f64,
-    pose: PagePose,
+    pose: PoseRecord,
 }
 
 impl Session {

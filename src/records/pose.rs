@@ -3,13 +3,13 @@
 use std::borrow::Cow;
 use std::fmt;
 
-use nalgebra::Point3;
+use nalgebra::{Matrix3, Point3, Vector3};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::Number;
-use crate::geom::Pose;
+use crate::geom::{Pose, nearest_rotation};
 use crate::manipulator::LegIndex;
 
 /// A pose: a platform point x is at R x + p in the base frame.
@@ -31,6 +31,15 @@ impl From<&Pose> for PoseRecord {
             rotation: [0, 1, 2].map(|i| [0, 1, 2].map(|j| Number(m[(i, j)]))),
             position: [p.x, p.y, p.z].map(Number),
         }
+    }
+}
+
+/// The pose with the rotation next to the matrix, whose digits another program may have rounded.
+impl From<&PoseRecord> for Pose {
+    fn from(record: &PoseRecord) -> Self {
+        let rows = Matrix3::from_fn(|i, j| record.rotation[i][j].0);
+        let position = record.position.map(|x| x.0);
+        Self { rotation: nearest_rotation(&rows), position: Vector3::from(position) }
     }
 }
 

@@ -56,12 +56,15 @@ impl MarginRecord {
     /// Margins that were looked for and not proved: `met` says that no violation was found.
     #[must_use]
     pub fn searched(design: &Design, found: &Assessment) -> Vec<Self> {
-        let record = |m: &Margin| {
-            let met = m.standing.is_met();
-            let status = if met { MarginVerdict::Searched } else { MarginVerdict::Violated };
-            Self::new(design, m, Some(met), status, f64::NEG_INFINITY)
-        };
-        found.margins.iter().map(record).collect()
+        found.margins.iter().map(|m| Self::found(design, m)).collect()
+    }
+
+    /// A margin that was found at some pose.
+    #[must_use]
+    pub fn found(design: &Design, m: &Margin) -> Self {
+        let met = m.standing.is_met();
+        let status = if met { MarginVerdict::Searched } else { MarginVerdict::Violated };
+        Self::new(design, m, Some(met), status, f64::NEG_INFINITY)
     }
 
     /// Whether the margin found is one of a violation.

@@ -37,7 +37,7 @@ const Tables = {
 
   margins(state) {
     const [first, second] = state.platforms;
-    const find = (p, r) => p && p.margins.find((m) => m.requirement === r.requirement);
+    const find = (p, r) => p && p.margins.find((m) => m.name === r.name);
     const own = first.margins.length > 0 || !second;
     const all = [...first.margins, ...(second ? second.margins.filter((m) => !find(first, m)) : [])];
     $("margins-card").hidden = false;
@@ -50,7 +50,7 @@ const Tables = {
     const units = (r) => (r.unit === "force" ? " [force units]" : inUnits(r.unit));
     const rows = all.map((r) => {
       const [a, b] = [find(first, r), find(second, r)];
-      const cells = [`${REQUIREMENTS[r.requirement] || r.requirement.replaceAll("_", " ")}${units(r)}`, cell(a), a ? a.between.join(", ") : "–"];
+      const cells = [`${REQUIREMENTS[r.name] || r.name.replaceAll("_", " ")}${units(r)}`, cell(a), a ? a.between.join(", ") : "–"];
       const other = [cell(b), b ? b.between.join(", ") : "–"];
       return row(!second ? cells : own ? [...cells, ...other] : [cells[0], ...other]);
     });
