@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use super::small::{STEPS, complete, decompose};
 
-/// Subdiagonal entries below this, relative to their neighbours, are zero, as `nalgebra` has it.
+/// Entries below the diagonal that are smaller than this, relative to their neighbours, are zero, as `nalgebra` has it.
 const SETTLED: f64 = 5.0 * f64::EPSILON;
 
 /// A decomposition that did not converge.
@@ -152,9 +152,8 @@ mod tests {
                 1 => m = &m * m.transpose(),
                 2 => m.row_mut(n - 1).fill(0.0),
                 3 => {
-                    m = DMatrix::from_fn(n, n, |i, j| {
-                        f64::from(u8::from(j == i + 1)) + f64::from(u8::from(j == i))
-                    })
+                    let unit = |is: bool| f64::from(u8::from(is));
+                    m = DMatrix::from_fn(n, n, |i, j| unit(j == i + 1) + unit(j == i));
                 }
                 _ => {}
             }

@@ -123,7 +123,7 @@ impl Command {
         }
         let mut missed = Vec::new();
         let mut places = Vec::new();
-        walk(&document, &mut Vec::new(), String::new(), &mut places);
+        walk(&document, &mut Vec::new(), "", &mut places);
         for (path, kind) in places {
             // a schema is any object
             if path.first().is_some_and(|k| k == "schema") && path.len() > 1 || !self.kinds.insert(kind) {
@@ -164,7 +164,7 @@ fn short(value: &Value) -> Value {
 }
 
 /// All places in a document, each with its kind: indices of lists do not count, the keys of objects in them do.
-fn walk(value: &Value, path: &mut Vec<String>, kind: String, out: &mut Vec<(Vec<String>, String)>) {
+fn walk(value: &Value, path: &mut Vec<String>, kind: &str, out: &mut Vec<(Vec<String>, String)>) {
     let shape = |v: &Value| match v {
         Value::Object(fields) => fields.keys().cloned().collect::<Vec<_>>().join(","),
         Value::Array(_) => "list".into(),
@@ -174,7 +174,7 @@ fn walk(value: &Value, path: &mut Vec<String>, kind: String, out: &mut Vec<(Vec<
         Value::String(_) => "text".into(),
     };
     if !path.is_empty() {
-        out.push((path.clone(), kind.clone()));
+        out.push((path.clone(), kind.to_owned()));
     }
     let inner: Vec<(String, &Value)> = match value {
         Value::Object(fields) => fields.iter().map(|(k, v)| (k.clone(), v)).collect(),
@@ -185,7 +185,7 @@ fn walk(value: &Value, path: &mut Vec<String>, kind: String, out: &mut Vec<(Vec<
         let step = if value.is_object() { key.as_str() } else { "*" };
         let kind = format!("{kind}/{step}:{}", shape(part));
         path.push(key);
-        walk(part, path, kind, out);
+        walk(part, path, &kind, out);
         path.pop();
     }
 }
@@ -257,8 +257,9 @@ fn compare(wanted: impl Fn(&str) -> bool) -> (Files, Vec<String>) {
             continue;
         };
         // what the program wrote, not only what is read from it
-        if document.to_string() != text {
-            complaints.push(format!("{title}: {}", difference(text, &document.to_string())));
+        let written = document.to_string();
+        if written != text {
+            complaints.push(format!("{title}: {}", difference(text, &written)));
         }
         let faults = command.faults(&document);
         let found = if faults.is_empty() { command.overlooked(&document) } else { faults };
