@@ -1,7 +1,7 @@
 //! Balls of real and complex numbers: a centre and a radius that takes up every rounding error.
 //!
-//! One type serves reals ([`Ball<f64>`], within the crate `Real`), complex numbers ([`Disc`]) and complex numbers about a centre in double-double ([`WideDisc`]); the centre says by
-//! [`BallCentre`] what its own operations cost. An [`Interval`](super::interval::Interval) encloses reals too, by its two ends: it is the one to take where
+//! One type serves reals ([`Ball<f64>`], within the crate `Real`), complex numbers ([`Disc`]) and complex numbers about a centre in double-double (`WideDisc`); the centre says by
+//! [`BallCentre`] what its own operations cost. An [`Interval`] encloses reals too, by its two ends: it is the one to take where
 //! signs and ends matter (ranges, bisection, square roots near zero), a ball where many products and sums follow each other, at half of the price.
 //!
 //! Error analysis, with the unit `u = 2^-53` of double or [`DoubleDouble::UNIT`] in its place, and `|z|_1 = |re z| + |im z|`, which is computed without
@@ -38,7 +38,7 @@ pub trait BallCentre:
     /// Bound of the rounding error of [`inverse`](Self::inverse), as a multiple of its size.
     const INVERSE: f64;
 
-    /// The modulus or more, up to the rounding that [`UP`] takes up.
+    /// The modulus or more, up to the rounding that `UP` takes up.
     fn size(self) -> f64;
     /// Below the modulus although computed.
     fn lower_modulus(self) -> f64;
