@@ -3,10 +3,11 @@
 use nalgebra::Point3;
 use thiserror::Error;
 
-use super::tree::{Entry, Value, find};
+use super::model::NotBuilt;
+use super::tree::{Entry, Node, Span, Value, find};
 use super::violation::Findings;
 use super::{Design, Format, Warning, parse, toml_text};
-use crate::manipulator::{InvalidManipulator, Manipulator};
+use crate::manipulator::{Body, InvalidManipulator, Manipulator};
 
 /// The text a design was read from, and what is slippery in it. Two designs that say the same are equal however they are written.
 #[derive(Clone, Default)]
@@ -41,11 +42,15 @@ impl Written {
     /// Puts other coordinates at a joint of the text. A text in which it is not found is not kept.
     fn set_joint(&mut self, body: &str, name: &str, point: [f64; 3]) {
         let edited = self.toml.take().and_then(|text| {
-            let spans = coordinates(&text, body, name)?;
             let mut out = text;
-            // from the last to the first, so that the places of the others stay
-            for (span, x) in spans.into_iter().zip(point).rev() {
-                out.replace_range(span, &format!("{x:?}"));
+            match given(&out, body, name)? {
+                Given::Coordinates(spans) => {
+                    // from the last to the first, so that the places of the others stay
+                    for (span, x) in spans.into_iter().zip(point).rev() {
+                        out.replace_range(span, &format!("{x:?}"));
+                    }
+                }
+                Given::Construction(span) => out.replace_range(span, &format!("{point:?}")),
             }
             Some(out)
         });
@@ -53,15 +58,26 @@ impl Written {
     }
 }
 
-/// Where the three coordinates of a joint stand, in this order.
-fn coordinates(text: &str, body: &str, name: &str) -> Option<[std::ops::Range<usize>; 3]> {
+/// Where it stands what a joint is.
+enum Given {
+    /// The three coordinates, in this order.
+    Coordinates([Span; 3]),
+    /// A table.
+    Construction(Span),
+}
+
+fn given(text: &str, body: &str, name: &str) -> Option<Given> {
     let root = toml_text::read(text, &mut Findings::new(text))?;
-    let table = |value: &Value, key: &str| -> Option<Value> {
-        let Value::Table(entries) = value else { return None };
-        find(entries, key).map(|e: &Entry| e.node.value.clone())
+    let inside = |node: &Node, key: &str| -> Option<Node> {
+        let Value::Table(entries) = &node.value else { return None };
+        find(entries, key).map(|e: &Entry| e.node.clone())
     };
-    let Value::Array(list) = table(&table(&root.value, body)?, name)? else { return None };
-    <[_; 3]>::try_from(list).ok().map(|l| l.map(|node| node.span))
+    let joint = inside(&inside(&root, body)?, name)?;
+    match joint.value {
+        Value::Array(list) => <[_; 3]>::try_from(list).ok().map(|l| Given::Coordinates(l.map(|node| node.span))),
+        Value::Table(_) => Some(Given::Construction(joint.span)),
+        _ => None,
+    }
 }
 
 /// Why a joint cannot be changed. The design is then as it was.
@@ -85,11 +101,27 @@ pub enum JointError {
     /// The joints would make no manipulator.
     #[error(transparent)]
     Invalid(#[from] InvalidManipulator),
+    /// Another joint is constructed from this one, which is then impossible: a line through two equal points for instance.
+    #[error("{message}")]
+    Construction {
+        /// What is wrong.
+        message: String,
+    },
+}
+
+impl From<NotBuilt> for JointError {
+    fn from(why: NotBuilt) -> Self {
+        match why {
+            NotBuilt::Construction(fault) => Self::Construction { message: fault.to_string() },
+            NotBuilt::Manipulator(invalid) => Self::Invalid(invalid),
+        }
+    }
 }
 
 impl Design {
     /// Moves a joint: its name, with the body before it where both have one of this name (`"base.P1"`), and its new coordinates in the frame of its body.
-    /// Everything else stays, lengths included, and so do the comments of the [`text`](Self::text).
+    /// Everything else stays, lengths included, and so do the comments of the [`text`](Self::text). A construction of this joint gives way to the three numbers; joints that
+    /// are constructed from this one follow it.
     ///
     /// ```
     /// use equipod::prelude::*;
@@ -110,10 +142,15 @@ impl Design {
         joints[body][index] = point;
         let [base, platform] = joints;
         let moved = Manipulator::try_new(base, platform, m.pairs())?;
+        let mut constructions = self.constructions.clone();
+        constructions.forget(Body::BOTH[body], index);
+        let mut changed = self.clone();
+        changed.manipulator = moved;
+        let changed = changed.with_constructions(constructions)?;
         let names = [("base", self.base_names()), ("platform", self.platform_names())];
         let (body, name) = (names[body].0, names[body].1[index].clone());
+        (self.manipulator, self.constructions) = (changed.manipulator, changed.constructions);
         self.written.set_joint(body, &name, point.coords.into());
-        self.manipulator = moved;
         Ok(())
     }
 

@@ -3,6 +3,7 @@
 //! Everything here is pure: text in, [`Design`] or a list of [`Violation`]s out, and back to text. The
 //! format is described key by key in `docs/design-files.md`.
 
+mod construction;
 mod edit;
 #[cfg(test)]
 mod fixtures;
@@ -22,6 +23,8 @@ mod validate;
 mod violation;
 mod workspace;
 
+pub use construction::{ExactJoint, Exactness};
+pub(crate) use construction::{Along, Construction, Constructions, Quantity};
 pub use edit::JointError;
 pub(crate) use edit::Written;
 pub use model::{Combination, Design, NameCount, OptimizeTable, SearchTable};

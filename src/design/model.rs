@@ -2,10 +2,12 @@
 
 use thiserror::Error;
 
-use super::{Workspace, Written};
+use super::construction::ExactPoint;
+use super::construction::resolve::{Fault, Joints};
+use super::{Constructions, ExactJoint, Workspace, Written};
 use crate::geom::Pose;
 use crate::manipulator::Body;
-use crate::manipulator::{LegLengths, Manipulator};
+use crate::manipulator::{InvalidManipulator, LegLengths, Manipulator};
 use crate::requirements::{Hardware, KeepOut, Load, PlatformSpeed, Quantity, Requirements, Term, TermKind};
 use crate::requirements::{Objective, VariableKind};
 
@@ -41,6 +43,7 @@ pub struct Design {
     /// The text it was read from.
     pub(crate) written: Written,
     pub(super) manipulator: Manipulator,
+    pub(super) constructions: Constructions,
     base_names: Vec<String>,
     platform_names: Vec<String>,
 }
@@ -68,6 +71,27 @@ pub struct NameCount {
     pub joints: usize,
 }
 
+/// Why constructions make no design.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub(crate) enum NotBuilt {
+    /// One of them gives no point.
+    #[error("{0}")]
+    Construction(Fault),
+    /// The points make no manipulator.
+    #[error(transparent)]
+    Manipulator(#[from] InvalidManipulator),
+}
+
+impl From<Vec<Fault>> for NotBuilt {
+    fn from(mut faults: Vec<Fault>) -> Self {
+        if faults.is_empty() {
+            // what is not said to be at fault are coordinates that are not finite
+            return Self::Manipulator(InvalidManipulator::NoSize);
+        }
+        Self::Construction(faults.swap_remove(0))
+    }
+}
+
 impl Design {
     /// A design with the joint names `A1, A2, ...` on the base and `B1, B2, ...` on the platform and
     /// nothing optional.
@@ -92,6 +116,7 @@ impl Design {
             platform_names: names('B', manipulator.platform_joints().len()),
             written: Written::default(),
             manipulator,
+            constructions: Constructions::default(),
         }
     }
 
@@ -141,6 +166,67 @@ impl Design {
     #[must_use]
     pub fn platform_names(&self) -> &[String] {
         &self.platform_names
+    }
+
+    /// Names of the joints of a body, in joint order.
+    pub(crate) fn joint_names(&self, body: Body) -> &[String] {
+        body.of((&self.base_names, &self.platform_names))
+    }
+
+    /// The joints of a body as exactly as they are known, in joint order.
+    ///
+    /// A joint of three plain numbers is the three doubles. One that is constructed is what its construction says: fractions, sums of square roots, or bounds; the
+    /// coordinates in [`Self::manipulator`] are the doubles nearest to them.
+    ///
+    /// ```
+    /// use equipod::methods::design::{Exactness, Format, parse};
+    /// use equipod::prelude::Body;
+    /// let text = r#"
+    /// name = "triangles"
+    /// units = "m"
+    /// legs = [["A", "D"], ["B", "D"], ["B", "E"], ["C", "E"], ["C", "F"], ["A", "F"]]
+    /// [parameters]
+    /// r = 6
+    /// [base]
+    /// A = { radius = "r", angle_deg = 30 }
+    /// B = { turn = "A", deg = 120 }
+    /// C = { turn = "B", deg = 120 }
+    /// [platform]
+    /// D = [1, 0, 0]
+    /// E = ["1/3", "sqrt(2)", 0]
+    /// F = { mirror = "E", plane = "xz" }
+    /// "#;
+    /// let (design, _) = parse(text, Format::Toml).unwrap();
+    /// let base = design.exact_joints(Body::Base);
+    /// assert_eq!(base[0].coordinates, ["3*sqrt(3)", "3", "0"]);
+    /// assert_eq!(base[1].coordinates, ["-3*sqrt(3)", "3", "0"]);
+    /// assert_eq!((base[0].exactness, base[2].exactness), (Exactness::Field, Exactness::Rational));
+    /// ```
+    #[must_use]
+    pub fn exact_joints(&self, body: Body) -> Vec<ExactJoint> {
+        self.exact_points(body).iter().map(ExactJoint::of).collect()
+    }
+
+    /// The numbers behind [`Self::exact_joints`].
+    pub(crate) fn exact_points(&self, body: Body) -> Vec<ExactPoint> {
+        let m = &self.manipulator;
+        self.constructions.exact(body, body.of((m.base_joints(), m.platform_joints())))
+    }
+
+    /// How the joints are given.
+    pub(crate) fn constructions(&self) -> &Constructions {
+        &self.constructions
+    }
+
+    /// The same with other constructions, and the coordinates that follow from them.
+    pub(crate) fn with_constructions(mut self, mut constructions: Constructions) -> Result<Self, NotBuilt> {
+        let m = &self.manipulator;
+        let names = [self.base_names.as_slice(), &self.platform_names];
+        let given = Joints { names, points: [m.base_joints(), m.platform_joints()], unread: &[] };
+        let [base, platform] = constructions.resolve(given)?;
+        self.manipulator = Manipulator::try_new(base, platform, m.pairs())?;
+        self.constructions = constructions;
+        Ok(self)
     }
 
     /// Base and platform joint name of every leg, in leg order.

@@ -4,8 +4,10 @@ use nalgebra::{Point3, Vector3};
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 
-use super::{Combination, Design, OptimizeTable, SearchTable};
+use super::construction::Spelling;
+use super::{Along, Combination, Construction, Design, OptimizeTable, Quantity, SearchTable};
 use crate::geom::Pose;
+use crate::manipulator::Body;
 use crate::requirements::{
     Hardware, Housing, JointAxes, KeepOut, KeepOutShape, LengthLimits, Load, Region, Swing,
 };
@@ -13,6 +15,21 @@ use crate::requirements::{
 /// The structure of a file, in the order it is written.
 #[derive(Serialize)]
 struct DesignFile<'a> {
+    #[serde(flatten)]
+    head: Head<'a>,
+    #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "as_map")]
+    parameters: Vec<(&'a str, &'a Quantity)>,
+    #[serde(serialize_with = "as_map")]
+    base: Vec<(&'a str, JointFile<'a>)>,
+    #[serde(serialize_with = "as_map")]
+    platform: Vec<(&'a str, JointFile<'a>)>,
+    #[serde(flatten)]
+    tail: Tail<'a>,
+}
+
+/// What stands above the first table.
+#[derive(Serialize)]
+struct Head<'a> {
     name: &'a str,
     units: &'a str,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -22,8 +39,11 @@ struct DesignFile<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     lengths: Option<[f64; 6]>,
     legs: [[&'a str; 2]; 6],
-    base: Joints<'a>,
-    platform: Joints<'a>,
+}
+
+/// The tables after those of the joints.
+#[derive(Serialize)]
+struct Tail<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     home: Option<PoseTable>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -40,16 +60,122 @@ struct DesignFile<'a> {
     keep_out: Vec<KeepOutTable<'a>>,
 }
 
-struct Joints<'a>(Vec<(&'a str, [f64; 3])>);
+fn as_map<S: Serializer>(list: &[(&str, impl Serialize)], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(list.iter().map(|(name, value)| (name, value)))
+}
 
-impl Serialize for Joints<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(Some(self.0.len()))?;
-        for (name, point) in &self.0 {
-            map.serialize_entry(name, point)?;
-        }
-        map.end()
+/// A joint, as it is written.
+enum JointFile<'a> {
+    Numbers([f64; 3]),
+    Coordinates(&'a [Quantity; 3]),
+    /// A table of keys.
+    Form(Vec<(&'static str, Field<'a>)>),
+}
+
+/// A value in the table of a joint.
+enum Field<'a> {
+    Quantity(&'a Quantity),
+    Text(&'a str),
+    Pair([&'a str; 2]),
+}
+
+impl<'a> JointFile<'a> {
+    fn of(made: &'a Construction, names: &'a [String]) -> Self {
+        let name = |j: usize| names[j].as_str();
+        let form = match made {
+            Construction::Coordinates(list) => return Self::Coordinates(list),
+            Construction::OnLine { through, at } => {
+                let (key, value) = match at {
+                    Along::Share(value) => ("t", value),
+                    Along::Offset(value) => ("offset", value),
+                };
+                vec![("on", Field::Pair(through.map(name))), (key, Field::Quantity(value))]
+            }
+            Construction::Polar { radius, angle_deg, z } => {
+                let mut form =
+                    vec![("radius", Field::Quantity(radius)), ("angle_deg", Field::Quantity(angle_deg))];
+                form.extend(z.as_ref().map(|z| ("z", Field::Quantity(z))));
+                form
+            }
+            Construction::Turned { joint, deg } => {
+                vec![("turn", Field::Text(name(*joint))), ("deg", Field::Quantity(deg))]
+            }
+            Construction::Mirrored { joint, plane } => {
+                vec![("mirror", Field::Text(name(*joint))), ("plane", Field::Text(plane.name()))]
+            }
+        };
+        Self::Form(form)
     }
+
+    fn to_toml(&self) -> String {
+        match self {
+            Self::Numbers(p) => format!("[{}]", p.map(toml_number).join(", ")),
+            Self::Coordinates(list) => format!("[{}]", list.each_ref().map(toml_quantity).join(", ")),
+            Self::Form(fields) => {
+                let field = |(key, value): &(&str, Field<'_>)| {
+                    let value = match value {
+                        Field::Quantity(q) => toml_quantity(q),
+                        Field::Text(text) => toml_text(text),
+                        Field::Pair(pair) => format!("[{}]", pair.map(toml_text).join(", ")),
+                    };
+                    format!("{key} = {value}")
+                };
+                format!("{{ {} }}", fields.iter().map(field).collect::<Vec<_>>().join(", "))
+            }
+        }
+    }
+}
+
+impl Serialize for JointFile<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Numbers(p) => p.serialize(serializer),
+            Self::Coordinates(list) => list.serialize(serializer),
+            Self::Form(fields) => {
+                let mut map = serializer.serialize_map(Some(fields.len()))?;
+                for (key, value) in fields {
+                    match value {
+                        Field::Quantity(q) => map.serialize_entry(key, q)?,
+                        Field::Text(text) => map.serialize_entry(key, text)?,
+                        Field::Pair(pair) => map.serialize_entry(key, pair)?,
+                    }
+                }
+                map.end()
+            }
+        }
+    }
+}
+
+impl Serialize for Quantity {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self.written() {
+            Spelling::Number(x) => serializer.serialize_f64(*x),
+            Spelling::Text(text) => serializer.serialize_str(text),
+        }
+    }
+}
+
+fn toml_number(x: f64) -> String {
+    toml::Value::Float(x).to_string()
+}
+
+/// In quotes, on one line.
+fn toml_text(text: &str) -> String {
+    // what JSON writes is a basic string of TOML, but for one character
+    serde_json::to_string(text).unwrap_or_default().replace('\u{7f}', "\\u007f")
+}
+
+fn toml_quantity(q: &Quantity) -> String {
+    match q.written() {
+        Spelling::Number(x) => toml_number(*x),
+        Spelling::Text(text) => toml_text(text),
+    }
+}
+
+/// `key = value`, the key in quotes where it has to be.
+fn toml_line(key: &str, value: &str) -> String {
+    let pair = toml::to_string(&std::collections::BTreeMap::from([(key, 0)])).unwrap_or_default();
+    format!("{}= {value}\n", pair.trim_end().trim_end_matches('0').trim_end_matches("= "))
 }
 
 #[derive(Serialize)]
@@ -83,8 +209,22 @@ impl Design {
     /// The design as TOML. Reading it back gives an equal design, bit for bit.
     #[must_use]
     pub fn to_toml(&self) -> String {
+        let file = self.file();
         // strings, arrays and maps with string keys: nothing TOML could refuse
-        toml::to_string(&self.file()).unwrap_or_default()
+        let text = |part: Result<String, _>| part.unwrap_or_default();
+        let mut tables = Vec::new();
+        tables.push(text(toml::to_string(&file.head)));
+        if !file.parameters.is_empty() {
+            let lines = file.parameters.iter().map(|(name, q)| toml_line(name, &toml_quantity(q)));
+            tables.push(format!("[parameters]\n{}", lines.collect::<String>()));
+        }
+        for (body, joints) in [("base", &file.base), ("platform", &file.platform)] {
+            let lines = joints.iter().map(|(name, joint)| toml_line(name, &joint.to_toml()));
+            tables.push(format!("[{body}]\n{}", lines.collect::<String>()));
+        }
+        tables.push(text(toml::to_string(&file.tail)));
+        tables.retain(|table| !table.is_empty());
+        tables.join("\n")
     }
 
     /// The design as indented JSON. Reading it back gives an equal design, bit for bit.
@@ -96,21 +236,15 @@ impl Design {
     }
 
     fn file(&self) -> DesignFile<'_> {
-        let m = self.manipulator();
-        let coordinates = |points: &[nalgebra::Point3<f64>]| -> Vec<[f64; 3]> {
-            points.iter().map(|p| p.coords.into()).collect()
-        };
-        let base = coordinates(m.base_joints());
-        let platform = coordinates(m.platform_joints());
-        DesignFile {
+        let head = Head {
             name: &self.name,
             units: &self.units,
             source: self.source.as_deref(),
             description: self.description.as_deref(),
             lengths: self.lengths.map(|l| l.get()),
             legs: self.leg_names().map(|(a, b)| [a, b]),
-            base: Joints(self.base_names().iter().map(String::as_str).zip(base).collect()),
-            platform: Joints(self.platform_names().iter().map(String::as_str).zip(platform).collect()),
+        };
+        let tail = Tail {
             home: self.home.as_ref().map(PoseTable::from),
             workspace: self.workspace_table(),
             optimize: OptimizeFile::of(&self.optimize, &self.search),
@@ -118,7 +252,24 @@ impl Design {
             speed: self.speed.map(|s| SpeedTable { linear: s.linear, angular_deg: s.angular_deg }),
             loads: self.loads.iter().map(LoadTable::from).collect(),
             keep_out: self.keep_outs.iter().map(KeepOutTable::from).collect(),
+        };
+        DesignFile {
+            head,
+            parameters: self.constructions.parameters.iter().map(|(n, q)| (n.as_str(), q)).collect(),
+            base: self.joint_files(Body::Base),
+            platform: self.joint_files(Body::Platform),
+            tail,
         }
+    }
+
+    fn joint_files(&self, body: Body) -> Vec<(&str, JointFile<'_>)> {
+        let (m, names) = (self.manipulator(), self.joint_names(body));
+        let points = body.of((m.base_joints(), m.platform_joints()));
+        let file = |j: usize, p: &Point3<f64>| match self.constructions.of(body, j) {
+            None => JointFile::Numbers(p.coords.into()),
+            Some(made) => JointFile::of(made, names),
+        };
+        names.iter().zip(points).enumerate().map(|(j, (name, p))| (name.as_str(), file(j, p))).collect()
     }
 
     fn workspace_table(&self) -> Option<WorkspaceTable> {

@@ -57,6 +57,20 @@ pub enum Code {
     ConflictingKeys,
     /// A grid with other than 1 to 5 points an axis.
     Grid,
+    /// A text that is no arithmetic expression.
+    Expression,
+    /// An expression or a construction names what does not exist.
+    UnknownName,
+    /// Parameters or joints that follow from one another in a circle.
+    Cycle,
+    /// An expression divides by zero, or by what cannot be told from it.
+    DivisionByZero,
+    /// A square root of a number that is negative, or may be.
+    NegativeRoot,
+    /// The line through two joints that are the same point.
+    NoLine,
+    /// Expressions or constructions longer or more than any design needs.
+    TooComplex,
     /// More violations than are worth listing.
     TooMany,
 }
@@ -90,6 +104,13 @@ impl Code {
             Self::MissingHome => "design::missing_home",
             Self::ConflictingKeys => "design::conflicting_keys",
             Self::Grid => "design::grid",
+            Self::Expression => "design::expression",
+            Self::UnknownName => "design::unknown_name",
+            Self::Cycle => "design::cycle",
+            Self::DivisionByZero => "design::division_by_zero",
+            Self::NegativeRoot => "design::negative_root",
+            Self::NoLine => "design::no_line",
+            Self::TooComplex => "design::too_complex",
             Self::TooMany => "design::too_many",
         }
     }
@@ -244,7 +265,7 @@ impl<'t> Findings<'t> {
         message: impl Into<String>,
         help: impl Into<String>,
     ) {
-        if self.violations.len() >= MAX_VIOLATIONS {
+        if self.is_full() {
             self.unlisted += 1;
             return;
         }
@@ -257,6 +278,16 @@ impl<'t> Findings<'t> {
         if self.warnings.len() < MAX_VIOLATIONS {
             self.warnings.push(warning);
         }
+    }
+
+    /// The text at a place.
+    pub(super) fn source(&self, span: &Span) -> &'t str {
+        self.text.get(span.clone()).unwrap_or_default()
+    }
+
+    /// Whether further violations are only counted.
+    pub(super) fn is_full(&self) -> bool {
+        self.violations.len() >= MAX_VIOLATIONS
     }
 
     pub(super) fn is_clean(&self) -> bool {

@@ -114,6 +114,23 @@ pub(crate) fn primitive(list: &[Rational]) -> Vec<Rational> {
     list.iter().map(|x| x * &factor).collect()
 }
 
+/// The nearest double, halves to even; overflow gives an infinity, and what is below the smallest normal double may be rounded twice.
+#[cfg(feature = "files")]
+pub(crate) fn nearest(x: &Rational) -> f64 {
+    let (n, d) = (x.numer(), x.denom());
+    // 64 or 65 leading bits of the quotient, and one that says whether anything is left
+    let shift = 64 + d.bits().cast_signed() - n.bits().cast_signed();
+    let (n, d) = if shift >= 0 { (n << shift, d.clone()) } else { (n.clone(), d << -shift) };
+    let (quotient, rest) = n.div_rem(&d);
+    let (_, digits) = quotient.to_u64_digits();
+    let leading = digits.iter().rev().fold(0u128, |sum, digit| (sum << 64) | u128::from(*digit));
+    let rounded = ((leading << 1) | u128::from(rest != BigInt::ZERO)) as f64;
+    let exponent = (-shift - 1).clamp(-4000, 4000) as i32;
+    let half = exponent / 2;
+    let scaled = rounded * 2f64.powi(half) * 2f64.powi(exponent - half);
+    if *x < zero() { -scaled } else { scaled }
+}
+
 /// The value as a double, within one unit in the last place; overflow gives an infinity, underflow zero.
 pub(crate) fn approximate(x: &Rational) -> f64 {
     let (n, d) = (x.numer(), x.denom());
@@ -145,6 +162,28 @@ mod tests {
         assert!((approximate(&third) - 1.0 / 3.0).abs() <= f64::EPSILON / 3.0);
         let huge = rational(1e200).unwrap();
         assert!(approximate(&(&huge * &huge)).is_infinite());
+    }
+
+    #[cfg(feature = "files")]
+    #[test]
+    fn nearest_doubles_are_those_that_decimals_are_read_to() {
+        let ten = |n: u32| BigInt::from(10).pow(n);
+        for (digits, scale) in [(1i64, 1), (15, 1), (173_205_080_756_887_729, 17), (123_456_789_012_345_678, 3)] {
+            for sign in [1, -1] {
+                let x = Rational::new((sign * digits).into(), ten(scale));
+                let read: f64 = format!("{}e-{scale}", sign * digits).parse().unwrap();
+                assert_eq!(nearest(&x).to_bits(), read.to_bits(), "{x}");
+            }
+        }
+        // half way between two doubles, and a trace above
+        let one = rational(1.0).unwrap();
+        let half = rational(f64::EPSILON / 2.0).unwrap();
+        assert_eq!(nearest(&(&one + &half)).to_bits(), 1f64.to_bits());
+        let trace = rational(1e-300).unwrap();
+        assert_eq!(nearest(&(one + half + trace)).to_bits(), (1.0 + f64::EPSILON).to_bits());
+        for x in [0.0, 1e300, -2.5e-308, f64::MAX] {
+            assert!((nearest(&rational(x).unwrap()) - x).abs() <= 0.0, "{x}");
+        }
     }
 
     #[test]

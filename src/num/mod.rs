@@ -19,10 +19,14 @@ pub mod linalg;
 pub(crate) mod modular;
 pub(crate) mod octuple;
 pub(crate) mod parallel;
+#[cfg(feature = "files")]
+pub(crate) mod real;
 pub mod rounding;
 mod seed;
 pub(crate) mod small;
 pub(crate) mod stream;
+#[cfg(feature = "files")]
+pub(crate) mod surd;
 
 pub(crate) use seed::Purpose;
 pub use seed::Rng;

@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 
 use nalgebra::Point3;
 
+use super::constructions::{self, Places};
 use super::{nearest, numbers, shown};
+use crate::design::construction::Construction;
 use crate::design::tree::{Entry, Node, Span, Value};
 use crate::design::violation::Findings;
 use crate::design::{Code, Warning};
@@ -15,8 +17,12 @@ use crate::manipulator::{Body, is_collinear};
 pub(super) struct FileJoint {
     pub(super) name: String,
     pub(super) point: [f64; 3],
-    intact: bool,
+    pub(super) intact: bool,
     span: Span,
+    /// It is given by other than three numbers, rightly or wrongly.
+    pub(super) constructed: bool,
+    construction: Option<Construction>,
+    pub(super) places: Places,
 }
 
 /// The joints of the base or of the platform.
@@ -38,6 +44,18 @@ impl NamedJoints {
     pub(super) fn names(&self) -> Vec<String> {
         self.joints.iter().map(|j| j.name.clone()).collect()
     }
+
+    /// Not finite where they could not be read.
+    pub(super) fn points(&self) -> Vec<Point3<f64>> {
+        let point = |j: &FileJoint| if j.intact { j.point } else { [f64::NAN; 3] };
+        self.joints.iter().map(|j| Point3::from(point(j))).collect()
+    }
+
+    /// One entry a joint, or none when no joint is constructed.
+    pub(super) fn constructions(&self) -> Vec<Option<Construction>> {
+        let list: Vec<_> = self.joints.iter().map(|j| j.construction.clone()).collect();
+        if list.iter().all(Option::is_none) { Vec::new() } else { list }
+    }
 }
 
 /// `legs` of a file looks like `[["P1", "P4"], ...]`.
@@ -50,26 +68,38 @@ pub(super) fn body(report: &mut Findings<'_>, which: Body, entry: &Entry) -> Opt
     let entries = super::table(report, &entry.node, &format!("[{which}]"))?;
     let mut body =
         NamedJoints { body: which, span: entry.key_span.clone(), joints: Vec::new(), index: BTreeMap::new() };
-    for e in entries.iter().filter(|e| e.key != "legs" || !is_list_of_pairs(&e.node)) {
+    let is_joint = |e: &&Entry| e.key != "legs" || !is_list_of_pairs(&e.node);
+    let names = entries.iter().filter(is_joint).enumerate();
+    body.index = names.map(|(i, e)| (e.key.clone(), i)).collect();
+    for e in entries.iter().filter(is_joint) {
         if e.key.trim().is_empty() {
             let message = format!("a joint of the {which} has an empty name");
             report.refuse(Code::EmptyName, &e.key_span, message, "give the joint a name");
         }
         let what = format!("{which} joint {}", shown(&e.key));
-        let point = numbers::<3>(report, &e.node, &what, Code::CoordinateCount, "coordinates x, y, z");
-        body.index.insert(e.key.clone(), body.joints.len());
+        let constructed = constructions::is_constructed(&e.node);
+        let (mut point, mut construction, mut places) = (None, None, Places::default());
+        if constructed {
+            if let Some(made) = constructions::joint(report, &e.node, &what, &body.index) {
+                (construction, places) = (Some(made.0), made.1);
+            }
+        } else {
+            point = numbers::<3>(report, &e.node, &what, Code::CoordinateCount, "coordinates x, y, z");
+        }
         body.joints.push(FileJoint {
             name: e.key.clone(),
             point: point.unwrap_or_default(),
-            intact: point.is_some(),
+            intact: point.is_some() || construction.is_some(),
             span: e.key_span.clone(),
+            constructed,
+            construction,
+            places,
         });
     }
-    warn_coincident(report, &body);
     Some(body)
 }
 
-fn warn_coincident(report: &mut Findings<'_>, body: &NamedJoints) {
+pub(super) fn warn_coincident(report: &mut Report<'_>, body: &NamedJoints) {
     let mut seen: BTreeMap<[u64; 3], &str> = BTreeMap::new();
     for joint in body.joints.iter().filter(|j| j.intact) {
         let key = joint.point.map(|x| (x + 0.0).to_bits()); // -0 + 0 = 0: one place, one key

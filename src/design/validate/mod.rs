@@ -1,5 +1,6 @@
 //! One walk over the tree that collects every violation, and the reading of keys, texts and numbers.
 
+mod constructions;
 mod joints;
 #[cfg(test)]
 mod schema_tests;
@@ -14,13 +15,14 @@ use super::violation::Findings;
 use super::{Code, Design, Warning};
 use crate::manipulator::{Body, InvalidManipulator, LegLengths, Manipulator};
 
-const TOP_LEVEL: [&str; 15] = [
+const TOP_LEVEL: [&str; 16] = [
     "name",
     "units",
     "source",
     "description",
     "lengths",
     "legs",
+    "parameters",
     "base",
     "platform",
     "home",
@@ -51,9 +53,15 @@ pub(super) fn design(root: &Node, report: &mut Findings<'_>) -> Option<Design> {
     let source = text_or_absent(report, entries, "source");
     let description = text_or_absent(report, entries, "description");
     let legs_entry = legs_entry(report, root, entries);
-    let base = required(report, root, entries, "base").and_then(|e| joints::body(report, Body::Base, e));
-    let platform =
+    let parameters = constructions::parameters(report, entries);
+    let mut base = required(report, root, entries, "base").and_then(|e| joints::body(report, Body::Base, e));
+    let mut platform =
         required(report, root, entries, "platform").and_then(|e| joints::body(report, Body::Platform, e));
+    let constructions = match (&mut base, &mut platform) {
+        (Some(base), Some(platform)) => constructions::resolve(report, parameters, base, platform),
+        _ => None,
+    };
+    [&base, &platform].into_iter().flatten().for_each(|body| joints::warn_coincident(report, body));
     let legs = match (legs_entry, &base, &platform) {
         (Some(entry), Some(base), Some(platform)) => joints::legs(report, entry, base, platform),
         _ => None,
@@ -73,6 +81,7 @@ pub(super) fn design(root: &Node, report: &mut Findings<'_>) -> Option<Design> {
     let manipulator = manipulator(report, &root.span, &base, &platform, &legs?)?;
     let mut design =
         Design::new(name?, units?, manipulator).with_joint_names(base.names(), platform.names()).ok()?;
+    design.constructions = constructions?;
     design.source = source;
     design.description = description;
     design.lengths = lengths;
@@ -191,14 +200,20 @@ const SMALLEST: f64 = 1e-60;
 fn check_keys(report: &mut Findings<'_>, entries: &[Entry], known: &[&str], place: &str) {
     for entry in entries.iter().filter(|e| !known.contains(&e.key.as_str())) {
         let message = format!("`{}` is not a key of {place}", shown(&entry.key));
-        report.refuse(Code::UnknownKey, &entry.key_span, message, nearest_help(&entry.key, known));
+        let help =
+            if report.is_full() { String::new() } else { nearest_help("known keys", &entry.key, known) };
+        report.refuse(Code::UnknownKey, &entry.key_span, message, help);
     }
 }
 
-/// "did you mean ..." when something is near, else the list.
-fn nearest_help(given: &str, known: &[&str]) -> String {
-    nearest(given, known)
-        .map_or_else(|| format!("known keys: {}", known.join(", ")), |key| format!("did you mean `{key}`?"))
+/// "did you mean ..." when something is near, else the list, `what` said before.
+pub(super) fn nearest_help(what: &str, given: &str, known: &[&str]) -> String {
+    let near = nearest(given, known).map(|near| format!("did you mean `{}`?", shown(near)));
+    near.unwrap_or_else(|| {
+        let more = if known.len() > 20 { ", and more" } else { "" };
+        let names: Vec<String> = known.iter().take(20).map(|k| shown(k)).collect();
+        format!("{what}: {}{more}", names.join(", "))
+    })
 }
 
 /// The candidate with the highest Jaro-Winkler similarity to `given`, if it is above 0.7.

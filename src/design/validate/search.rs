@@ -52,7 +52,7 @@ fn named<T: Copy>(
     let found = all.iter().find(|a| a.0 == text).map(|a| a.1);
     if found.is_none() {
         let message = format!("`{}` is not {what}", shown(text));
-        report.refuse(Code::UnknownKey, &node.span, message, nearest_help(text, &names));
+        report.refuse(Code::UnknownKey, &node.span, message, nearest_help("known keys", text, &names));
     }
     found
 }

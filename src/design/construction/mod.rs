@@ -1,0 +1,258 @@
+//! How a design says where a joint is: coordinates as expressions, points on lines, polar coordinates, copies turned and mirrored.
+
+pub(super) mod expression;
+pub(super) mod resolve;
+#[cfg(test)]
+mod tests;
+
+use std::fmt;
+
+use nalgebra::Point3;
+
+use self::expression::{Expression, Slip};
+use crate::manipulator::Body;
+use crate::num::exact::rational;
+use crate::num::real::Real;
+
+/// How well the coordinates of a joint are known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(
+    feature = "files",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
+pub enum Exactness {
+    /// They are fractions.
+    Rational,
+    /// They are sums of rational multiples of square roots of integers.
+    Field,
+    /// At least one is known between two close bounds only.
+    Interval,
+}
+
+impl Exactness {
+    /// The name: `"rational"`, `"field"` or `"interval"`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Rational => "rational",
+            Self::Field => "field",
+            Self::Interval => "interval",
+        }
+    }
+
+    fn of(point: &ExactPoint) -> Self {
+        let one = |x: &Real| match x.exact() {
+            None => Self::Interval,
+            Some(x) if x.as_rational().is_some() => Self::Rational,
+            Some(_) => Self::Field,
+        };
+        point.iter().map(one).max().unwrap_or(Self::Rational)
+    }
+}
+
+impl fmt::Display for Exactness {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// Coordinates of a joint, as exact as they are known.
+pub(crate) type ExactPoint = [Real; 3];
+
+/// A number of a design file: a decimal or an expression, as it is written.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Quantity {
+    written: Spelling,
+    tree: Expression,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Spelling {
+    /// A number without quotes, of which the double is written with the same digits.
+    Number(f64),
+    /// A text.
+    Text(String),
+}
+
+impl Quantity {
+    /// An expression.
+    pub(super) fn text(text: &str) -> Result<Self, Slip> {
+        Ok(Self { written: Spelling::Text(text.to_string()), tree: Expression::parse(text)? })
+    }
+
+    /// A number as it stands in a file, which is the decimal that is written.
+    pub(super) fn decimal(digits: &str, double: f64) -> Result<Self, Slip> {
+        let tree = Expression::parse(digits)?;
+        // more digits than the double keeps are kept as a text
+        let same = Expression::parse(&format!("{double:?}")).is_ok_and(|short| short.decimal() == tree.decimal());
+        let written = if same { Spelling::Number(double) } else { Spelling::Text(digits.to_string()) };
+        Ok(Self { written, tree })
+    }
+
+    /// The decimal with the fewest digits that is read to a finite double.
+    pub(crate) fn shortest(x: f64) -> Option<Self> {
+        Some(Self { written: Spelling::Number(x), tree: Expression::parse(&format!("{x:?}")).ok()? })
+    }
+
+    pub(super) fn written(&self) -> &Spelling {
+        &self.written
+    }
+
+    pub(super) fn expression(&self) -> &Expression {
+        &self.tree
+    }
+}
+
+/// Where on a line.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Along {
+    /// As a share of the way from the first joint to the second.
+    Share(Quantity),
+    /// As a length from the first joint, towards the second.
+    Offset(Quantity),
+}
+
+/// A plane of two axes of the frame of the body.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Plane {
+    Xy,
+    Xz,
+    Yz,
+}
+
+impl Plane {
+    pub(super) const ALL: [Self; 3] = [Self::Xy, Self::Xz, Self::Yz];
+
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Xy => "xy",
+            Self::Xz => "xz",
+            Self::Yz => "yz",
+        }
+    }
+
+    /// The axis that changes its sign.
+    fn normal(self) -> usize {
+        match self {
+            Self::Xy => 2,
+            Self::Xz => 1,
+            Self::Yz => 0,
+        }
+    }
+}
+
+/// How a joint is given, in other ways than by three numbers. Joints are named by their index in the same body.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Construction {
+    /// `["1/3", "6*sqrt(3)", 0]`.
+    Coordinates([Quantity; 3]),
+    /// `{ on = ["P1", "P2"], t = "1/5" }`, `{ on = ["P1", "P2"], offset = 2.4 }`.
+    OnLine { through: [usize; 2], at: Along },
+    /// `{ radius = "r", angle_deg = 30, z = 0 }`: the angle from the x axis towards the y axis.
+    Polar { radius: Quantity, angle_deg: Quantity, z: Option<Quantity> },
+    /// `{ turn = "A1", deg = 120 }`: about the z axis.
+    Turned { joint: usize, deg: Quantity },
+    /// `{ mirror = "A1", plane = "xz" }`.
+    Mirrored { joint: usize, plane: Plane },
+}
+
+impl Construction {
+    /// The joints it starts from.
+    pub(super) fn joints(&self) -> &[usize] {
+        match self {
+            Self::Coordinates(_) | Self::Polar { .. } => &[],
+            Self::OnLine { through, .. } => through,
+            Self::Turned { joint, .. } | Self::Mirrored { joint, .. } => std::slice::from_ref(joint),
+        }
+    }
+
+    /// The numbers in it, with their parts: the place among what is written.
+    pub(super) fn quantities(&self) -> Vec<(usize, &Quantity)> {
+        match self {
+            Self::Coordinates(list) => list.iter().enumerate().collect(),
+            Self::OnLine { at: Along::Share(q) | Along::Offset(q), .. } => vec![(2, q)],
+            Self::Polar { radius, angle_deg, z } => {
+                [(0, Some(radius)), (1, Some(angle_deg)), (2, z.as_ref())]
+                    .into_iter()
+                    .filter_map(|(i, q)| Some((i, q?)))
+                    .collect()
+            }
+            Self::Turned { deg, .. } => vec![(1, deg)],
+            Self::Mirrored { .. } => Vec::new(),
+        }
+    }
+}
+
+/// What a design says about its joints beside three numbers each, with the exact coordinates that follow.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Constructions {
+    /// Names and values of `[parameters]`, in the order of the file.
+    pub(super) parameters: Vec<(String, Quantity)>,
+    /// For each body one entry a joint, or none at all: `None` for joints given by three numbers.
+    pub(super) joints: [Vec<Option<Construction>>; 2],
+    /// Exact coordinates of all joints of a body that has constructions.
+    exact: [Vec<ExactPoint>; 2],
+}
+
+impl Constructions {
+    /// How a joint is given, when not by three numbers.
+    pub(crate) fn of(&self, body: Body, joint: usize) -> Option<&Construction> {
+        self.joints[body.index()].get(joint)?.as_ref()
+    }
+
+    /// The joint is given by three numbers from now on.
+    pub(super) fn forget(&mut self, body: Body, joint: usize) {
+        if let Some(own) = self.joints[body.index()].get_mut(joint) {
+            *own = None;
+        }
+        self.tidy();
+    }
+
+    /// No list where no joint is constructed.
+    fn tidy(&mut self) {
+        for list in self.joints.iter_mut().filter(|list| list.iter().all(Option::is_none)) {
+            list.clear();
+        }
+    }
+
+    /// Whether nothing is said beside three numbers a joint.
+    pub(super) fn is_empty(&self) -> bool {
+        self.parameters.is_empty() && self.joints.iter().flatten().all(Option::is_none)
+    }
+
+    /// The exact coordinates, those of the doubles where the body has no constructions.
+    pub(super) fn exact(&self, body: Body, joints: &[Point3<f64>]) -> Vec<ExactPoint> {
+        let exact = &self.exact[body.index()];
+        if exact.len() == joints.len() { exact.clone() } else { joints.iter().map(exact_double).collect() }
+    }
+}
+
+/// The rational numbers that the coordinates are.
+pub(super) fn exact_double(p: &Point3<f64>) -> ExactPoint {
+    let one = |x: f64| rational(x).and_then(|x| Real::rational(&x).ok()).unwrap_or_else(|| Real::integer(0));
+    [one(p.x), one(p.y), one(p.z)]
+}
+
+/// A joint of a design as exactly as it is known.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExactJoint {
+    /// Whether its coordinates are fractions, sums of square roots, or known between bounds.
+    pub exactness: Exactness,
+    /// The three coordinates in the frame of the body, as expressions such as `"6*sqrt(3)"`; one that is known between bounds is `"[low, high]"`, rounded outward to doubles.
+    pub coordinates: [String; 3],
+}
+
+impl ExactJoint {
+    pub(super) fn of(point: &ExactPoint) -> Self {
+        let shown = |x: &Real| match x {
+            Real::Exact(x) => x.to_string(),
+            Real::Within(e) => {
+                let (low, high) = e.ends();
+                let ends = (crate::num::exact::nearest(low), crate::num::exact::nearest(high));
+                format!("[{:?}, {:?}]", ends.0.next_down(), ends.1.next_up())
+            }
+        };
+        Self { exactness: Exactness::of(point), coordinates: point.each_ref().map(shown) }
+    }
+}

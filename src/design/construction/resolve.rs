@@ -1,0 +1,378 @@
+//! Coordinates from constructions: values in the order in which they follow from one another.
+
+use std::ops::Range;
+
+use nalgebra::Point3;
+use thiserror::Error;
+
+use super::expression::{Expression, Unsolved};
+use super::{Along, Construction, Constructions, ExactPoint, Plane, Quantity, exact_double};
+use crate::design::Code;
+use crate::design::validate::nearest_help;
+use crate::manipulator::Body;
+use crate::num::real::{NoReal, Real};
+
+/// Most operations of all constructions of a design, square roots counted as twenty.
+const MAX_WORK: usize = 4000;
+
+/// What a fault belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::design) enum Owner {
+    Parameter(usize),
+    Joint(Body, usize),
+}
+
+/// Why a construction gives no point.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("{message}; {help}")]
+pub(crate) struct Fault {
+    pub(in crate::design) owner: Owner,
+    /// Which of the things that are written for it: a coordinate, a key.
+    pub(in crate::design) part: Option<usize>,
+    /// The place in the expression.
+    pub(in crate::design) within: Option<Range<usize>>,
+    pub(in crate::design) code: Code,
+    pub(in crate::design) message: String,
+    pub(in crate::design) help: String,
+}
+
+/// Names of the joints, and their coordinates where they are three numbers: not finite where they could not be read.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::design) struct Joints<'a> {
+    pub(in crate::design) names: [&'a [String]; 2],
+    pub(in crate::design) points: [&'a [Point3<f64>]; 2],
+    /// Parameters whose values could not be read.
+    pub(in crate::design) unread: &'a [String],
+}
+
+impl Constructions {
+    /// The exact coordinates of all joints, which are kept, and the doubles nearest to them.
+    ///
+    /// Every fault is reported once: what depends on a faulty value is silent.
+    pub(in crate::design) fn resolve(
+        &mut self,
+        given: Joints<'_>,
+    ) -> Result<[Vec<Point3<f64>>; 2], Vec<Fault>> {
+        let mut faults = Vec::new();
+        self.limit_work(&mut faults);
+        if !faults.is_empty() {
+            return Err(faults);
+        }
+        let parameters = self.parameters(given.unread, &mut faults);
+        let mut complete = true;
+        let mut points = [Vec::new(), Vec::new()];
+        for body in Body::BOTH {
+            let k = body.index();
+            if self.joints[k].is_empty() {
+                points[k] = given.points[k].to_vec();
+                self.exact[k] = Vec::new();
+                continue;
+            }
+            let found = self.body(body, given, &parameters, &mut faults);
+            points[k] = found.iter().flatten().map(|p| p.each_ref().map(Real::nearest).into()).collect();
+            for (j, p) in given.points[k].iter().enumerate() {
+                // what is given by three doubles stays what it is, the sign of zero too
+                if let (None, Some(own)) = (&self.joints[k][j], points[k].get_mut(j)) {
+                    *own = *p;
+                }
+            }
+            complete &= found.iter().all(Option::is_some);
+            self.exact[k] = found.into_iter().flatten().collect();
+        }
+        if faults.is_empty() && complete { Ok(points) } else { Err(faults) }
+    }
+
+    fn limit_work(&self, faults: &mut Vec<Fault>) {
+        let parameters = self.parameters.iter().enumerate();
+        let parameters = parameters.map(|(i, (_, q))| (Owner::Parameter(i), q.expression().work()));
+        let joints = Body::BOTH.into_iter().flat_map(|body| {
+            self.joints[body.index()].iter().enumerate().filter_map(move |(j, c)| {
+                let own = c.as_ref()?.quantities().iter().map(|(_, q)| q.expression().work()).sum::<usize>();
+                Some((Owner::Joint(body, j), own + 20))
+            })
+        });
+        let mut sum = 0;
+        for (owner, work) in parameters.chain(joints) {
+            sum += work;
+            if sum > MAX_WORK {
+                faults.push(Fault {
+                    owner,
+                    part: None,
+                    within: None,
+                    code: Code::TooComplex,
+                    message: format!("up to here the constructions take more than {MAX_WORK} operations"),
+                    help: "write the coordinates of joints that no leg uses as numbers, or leave them out".into(),
+                });
+                return;
+            }
+        }
+    }
+
+    fn parameters(&self, unread: &[String], faults: &mut Vec<Fault>) -> Vec<Option<Real>> {
+        let place = |name: &str| self.parameters.iter().position(|(n, _)| n == name);
+        let needs: Vec<Vec<usize>> = self
+            .parameters
+            .iter()
+            .map(|(_, q)| q.expression().names().into_iter().filter_map(place).collect())
+            .collect();
+        let mut values = vec![None; self.parameters.len()];
+        let (order, cycles) = ordered(&needs);
+        for i in order {
+            let owner = (Owner::Parameter(i), None);
+            values[i] = self.quantity(owner, &self.parameters[i].1, (&values, unread), faults);
+        }
+        for cycle in cycles {
+            let name = |i: &usize| self.parameters[*i].0.as_str();
+            faults.push(circle(Owner::Parameter(cycle[0]), "parameters", cycle.iter().map(name)));
+        }
+        values
+    }
+
+    fn quantity(
+        &self,
+        (owner, part): (Owner, Option<usize>),
+        quantity: &Quantity,
+        (values, unread): (&[Option<Real>], &[String]),
+        faults: &mut Vec<Fault>,
+    ) -> Option<Real> {
+        let named = |name: &str| {
+            let i = self.parameters.iter().position(|(n, _)| n == name);
+            match i {
+                Some(i) => values[i].clone().ok_or(Unsolved::Poisoned),
+                None if unread.iter().any(|n| n == name) => Err(Unsolved::Poisoned),
+                None => Err(Unsolved::Name(name.to_string())),
+            }
+        };
+        let expression: &Expression = quantity.expression();
+        let stuck = match expression.value(&named) {
+            Ok(value) => return Some(value),
+            Err(stuck) => stuck,
+        };
+        let (code, message, help) = match stuck.why {
+            Unsolved::Poisoned => return None,
+            Unsolved::Name(name) => {
+                let known: Vec<&str> = self.parameters.iter().map(|(n, _)| n.as_str()).collect();
+                let message = format!("`{name}` is not one of [parameters]");
+                (Code::UnknownName, message, known_names(&name, &known))
+            }
+            Unsolved::NoReal(why) => no_real(why),
+        };
+        faults.push(Fault { owner, part, within: Some(stuck.place), code, message, help });
+        None
+    }
+
+    fn body(
+        &self,
+        body: Body,
+        given: Joints<'_>,
+        parameters: &[Option<Real>],
+        faults: &mut Vec<Fault>,
+    ) -> Vec<Option<ExactPoint>> {
+        let (list, names) = (&self.joints[body.index()], given.names[body.index()]);
+        let needs: Vec<Vec<usize>> =
+            list.iter().map(|c| c.as_ref().map_or_else(Vec::new, |c| c.joints().to_vec())).collect();
+        let mut found: Vec<Option<ExactPoint>> = vec![None; list.len()];
+        let (order, cycles) = ordered(&needs);
+        for i in order {
+            found[i] = match &list[i] {
+                None => {
+                    let p = &given.points[body.index()][i];
+                    p.iter().all(|x| x.is_finite()).then(|| exact_double(p))
+                }
+                Some(c) => {
+                    let values = (parameters, given.unread);
+                    self.point((body, i), c, names, &found, values, faults)
+                }
+            };
+        }
+        for cycle in cycles {
+            let name = |i: &usize| names[*i].as_str();
+            faults.push(circle(Owner::Joint(body, cycle[0]), &format!("{body} joints"), cycle.iter().map(name)));
+        }
+        found
+    }
+
+    fn point(
+        &self,
+        (body, joint): (Body, usize),
+        construction: &Construction,
+        names: &[String],
+        found: &[Option<ExactPoint>],
+        parameters: (&[Option<Real>], &[String]),
+        faults: &mut Vec<Fault>,
+    ) -> Option<ExactPoint> {
+        let owner = Owner::Joint(body, joint);
+        let quantities = construction.quantities();
+        // all of them, so that each fault is reported
+        let values: Vec<Option<Real>> = quantities
+            .iter()
+            .map(|(part, q)| self.quantity((owner, Some(*part)), q, parameters, faults))
+            .collect();
+        let values: Vec<Real> = values.into_iter().collect::<Option<_>>()?;
+        let points: Vec<&ExactPoint> =
+            construction.joints().iter().map(|j| found[*j].as_ref()).collect::<Option<_>>()?;
+        let made = match construction {
+            Construction::Coordinates(_) => return <[Real; 3]>::try_from(values).ok(),
+            Construction::OnLine { at, through } => {
+                let (a, b) = (points[0], points[1]);
+                on_line(a, b, at, &values[0]).unwrap_or_else(|| {
+                    let [a, b] = through.map(|j| &names[j]);
+                    faults.push(Fault {
+                        owner,
+                        part: Some(0),
+                        within: None,
+                        code: Code::NoLine,
+                        message: format!("{a} and {b} are the same point, through which there is no one line"),
+                        help: "name two joints that are apart".into(),
+                    });
+                    Ok(None)
+                })
+            }
+            Construction::Polar { .. } => {
+                let z = values.get(2).cloned().unwrap_or_else(|| Real::integer(0));
+                values[1].turn().and_then(|(c, s)| {
+                    Ok(Some([values[0].times(&c)?, values[0].times(&s)?, z]))
+                })
+            }
+            Construction::Turned { .. } => values[0].turn().and_then(|(c, s)| turned(points[0], &c, &s)),
+            Construction::Mirrored { plane, .. } => Ok(Some(mirrored(points[0], *plane))),
+        };
+        made.unwrap_or_else(|why| {
+            let (code, message, help) = no_real(why);
+            faults.push(Fault { owner, part: None, within: None, code, message, help });
+            None
+        })
+    }
+}
+
+/// `None` when the points are the same, or cannot be told apart.
+fn on_line(
+    a: &ExactPoint,
+    b: &ExactPoint,
+    at: &Along,
+    value: &Real,
+) -> Option<Result<Option<ExactPoint>, NoReal>> {
+    let share = || -> Result<Option<ExactPoint>, NoReal> {
+        let way = [0, 1, 2].map(|i| b[i].minus(&a[i]));
+        let [x, y, z] = way;
+        let way = [x?, y?, z?];
+        let [x, y, z] = way.each_ref().map(|x| x.times(x));
+        let square = x?.plus(&y?)?.plus(&z?)?;
+        let share = match at {
+            Along::Share(_) => {
+                if square.may_be_zero() {
+                    return Err(NoReal::DivisionByZero);
+                }
+                value.clone()
+            }
+            Along::Offset(_) => value.over(&square.sqrt()?)?,
+        };
+        let [x, y, z] = [0, 1, 2].map(|i| a[i].plus(&way[i].times(&share)?));
+        Ok(Some([x?, y?, z?]))
+    };
+    match share() {
+        Err(NoReal::DivisionByZero | NoReal::DivisorNearZero | NoReal::RootNearZero) => None,
+        other => Some(other),
+    }
+}
+
+fn turned(p: &ExactPoint, c: &Real, s: &Real) -> Result<Option<ExactPoint>, NoReal> {
+    let [x, y, z] = p;
+    let along = x.times(c)?.minus(&y.times(s)?)?;
+    let across = x.times(s)?.plus(&y.times(c)?)?;
+    Ok(Some([along, across, z.clone()]))
+}
+
+fn mirrored(p: &ExactPoint, plane: Plane) -> ExactPoint {
+    let mut image = p.clone();
+    image[plane.normal()] = image[plane.normal()].negated();
+    image
+}
+
+fn no_real(why: NoReal) -> (Code, String, String) {
+    let (code, help) = match why {
+        NoReal::DivisionByZero => (Code::DivisionByZero, "the divisor is exactly zero"),
+        NoReal::DivisorNearZero => {
+            (Code::DivisionByZero, "write the divisor so that it is a number of a field, without nested roots")
+        }
+        NoReal::NegativeRoot => (Code::NegativeRoot, "coordinates are real numbers"),
+        NoReal::RootNearZero => {
+            (Code::NegativeRoot, "write what is under the root so that it is a number of a field")
+        }
+        NoReal::TooLong => (Code::OutOfRange, "coordinates stay below 1e60"),
+    };
+    (code, why.to_string(), help.to_string())
+}
+
+/// "did you mean", or all names.
+pub(in crate::design) fn known_names(given: &str, known: &[&str]) -> String {
+    if known.is_empty() {
+        return format!("add [parameters] with `{given} = ...`");
+    }
+    nearest_help("known names", given, &known[..known.len().min(200)])
+}
+
+fn circle<'a>(owner: Owner, what: &str, names: impl Iterator<Item = &'a str>) -> Fault {
+    let mut names: Vec<&str> = names.take(20).collect();
+    names.extend(names.first().copied());
+    Fault {
+        owner,
+        part: None,
+        within: None,
+        code: Code::Cycle,
+        message: format!("{what} follow from one another in a circle: {}", names.join(" -> ")),
+        help: "give one of them by numbers".into(),
+    }
+}
+
+/// An order in which everything comes after what it needs, and the circles, each from its first member on, that keep the rest from having one.
+fn ordered(needs: &[Vec<usize>]) -> (Vec<usize>, Vec<Vec<usize>>) {
+    #[derive(Clone, Copy, PartialEq)]
+    enum State {
+        New,
+        Open,
+        Done,
+    }
+    let mut state = vec![State::New; needs.len()];
+    let (mut order, mut cycles) = (Vec::new(), Vec::new());
+    // members of a circle and what needs them: without a place in the order
+    let mut lost = vec![false; needs.len()];
+    for start in 0..needs.len() {
+        if state[start] != State::New {
+            continue;
+        }
+        let mut path = vec![(start, 0)];
+        state[start] = State::Open;
+        while let Some((i, next)) = path.last_mut() {
+            let i = *i;
+            let Some(&need) = needs[i].get(*next) else {
+                state[i] = State::Done;
+                path.pop();
+                lost[i] |= needs[i].iter().any(|n| lost[*n]);
+                if !lost[i] {
+                    order.push(i);
+                }
+                continue;
+            };
+            *next += 1;
+            match state[need] {
+                State::Done => {}
+                State::New => {
+                    state[need] = State::Open;
+                    path.push((need, 0));
+                }
+                State::Open => {
+                    let from = path.iter().position(|(j, _)| *j == need).unwrap_or(0);
+                    let mut members: Vec<usize> = path[from..].iter().map(|(j, _)| *j).collect();
+                    for j in &members {
+                        lost[*j] = true;
+                    }
+                    let first = members.iter().enumerate().min_by_key(|(_, j)| **j).map_or(0, |(k, _)| k);
+                    members.rotate_left(first);
+                    cycles.push(members);
+                }
+            }
+        }
+    }
+    (order, cycles)
+}
