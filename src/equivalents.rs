@@ -1,10 +1,10 @@
 //! The octahedral platform behind a design, and its equivalents as designs with names.
 
-use crate::design::Design;
+use crate::design::{Design, Origin};
 use crate::manipulator::{Body, LegIndex, Manipulator, NotOctahedral, Octahedral};
 use crate::singularity::GriffisDuffy;
 use crate::synthesis::{
-    AffineLegMap, Family, HexagonPoint, InstantiateError, JointLabel, Offset, Pattern, corner,
+    AffineLegMap, Family, HexagonPoint, InstantiateError, JointLabel, Offset, Pattern, corner, edge,
 };
 
 /// An octahedral platform with the names of its corners and of the joints on its edges.
@@ -115,10 +115,29 @@ impl Original {
         let own = &self.design;
         let plain = Design::new(format!("{} {pattern}", self.name), &own.units, m);
         // a pattern has a name for each joint it has
-        let mut built = plain.clone().with_joint_names(base, platform).unwrap_or(plain).with_tables_of(own);
+        let built = plain.clone().with_joint_names(base, platform).unwrap_or(plain).with_tables_of(own);
+        let [on_base, on_platform] = self.origins(pattern, offsets);
+        let mut built = built.constructed_from(own, [&on_base, &on_platform]);
         built.description = Some(format!("{pattern} of {}, offsets {offsets:?}", own.name));
         built.lengths = own.lengths.and_then(|l| map.apply(&l.squared()).ok()).map(|s| s.lengths());
         Ok((built, map))
+    }
+
+    /// Where the joints of a pattern come from: corners, and points between two of them.
+    fn origins(&self, pattern: &Pattern, offsets: &[f64]) -> [Vec<Origin>; 2] {
+        let o = &self.octahedral;
+        let corner = |i: usize| if i < 3 { o.base_indices()[i] } else { o.platform_indices()[i - 3] };
+        let order = pattern.offsets();
+        pattern.joints().map(|list| {
+            let origin = |joint: &JointLabel| match *joint {
+                JointLabel::Corner(i) => Origin::Kept(corner(i)),
+                JointLabel::OnEdge(offset) => {
+                    let value = order.iter().position(|x| *x == offset).and_then(|k| offsets.get(k));
+                    value.map_or(Origin::New, |t| Origin::Between(edge(offset.side).map(corner), *t))
+                }
+            };
+            list.iter().map(origin).collect()
+        })
     }
 }
 

@@ -24,7 +24,9 @@ mod violation;
 mod workspace;
 
 pub use construction::{ExactJoint, Exactness};
-pub(crate) use construction::{Along, Construction, Constructions, Quantity};
+#[cfg(feature = "synthesis")]
+pub(crate) use construction::Origin;
+use construction::{Along, Construction, Constructions, Quantity};
 pub use edit::JointError;
 pub(crate) use edit::Written;
 pub use model::{Combination, Design, NameCount, OptimizeTable, SearchTable};

@@ -213,11 +213,6 @@ impl Design {
         self.constructions.exact(body, body.of((m.base_joints(), m.platform_joints())))
     }
 
-    /// How the joints are given.
-    pub(crate) fn constructions(&self) -> &Constructions {
-        &self.constructions
-    }
-
     /// The same with other constructions, and the coordinates that follow from them.
     pub(crate) fn with_constructions(mut self, mut constructions: Constructions) -> Result<Self, NotBuilt> {
         let m = &self.manipulator;

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use super::Error;
 use super::equivalence::sample_plan;
-use crate::design::{Combination, Design};
+use crate::design::{Combination, Design, Origin};
 use crate::dimensional::{
     self, DimensionalOutcome, DimensionalProblem, DimensionalReport, DimensionalSolution, Mode,
     ShapeSearchOptions, Variables, evaluate,
@@ -349,7 +349,7 @@ pub(crate) fn optimised_design(
     s: &OffsetSolution,
     seed: u64,
 ) -> Design {
-    let mut out = joint_free_design(design, &problem.octahedral, &s.manipulator);
+    let mut out = joint_free_design(design, &problem.octahedral, &s.manipulator, s.offsets);
     out.source.clone_from(&design.source);
     out.description = Some(format!(
         "Offsets optimised by equipod {} (seed {seed}) from the design \"{}\": worst inverse condition number {}",
@@ -360,27 +360,35 @@ pub(crate) fn optimised_design(
     out.with_tables_of(design)
 }
 
-/// The platform with names: vertices keep theirs, an edge joint is named after its edge.
-fn joint_free_design(design: &Design, o: &Octahedral, m: &Manipulator) -> Design {
+/// The platform with names: vertices keep theirs, an edge joint is named after its edge and given by its offset on it.
+fn joint_free_design(design: &Design, o: &Octahedral, m: &Manipulator, t: [f64; 6]) -> Design {
     let (base, platform) = (design.base_names(), design.platform_names());
     let base_name = |k: usize| base[o.base_indices()[k % 3]].clone();
     let platform_name = |k: usize| platform[o.platform_indices()[k % 3]].clone();
     // names belong to joints, whose order need not be that of the legs
     let (mut a, mut b) =
         (vec![String::new(); m.base_joints().len()], vec![String::new(); m.platform_joints().len()]);
+    let mut origins = [vec![Origin::New; a.len()], vec![Origin::New; b.len()]];
     for (i, leg) in o.order().into_iter().enumerate() {
         let k = i / 2;
         let (on_base, on_platform) = m.pairs()[leg.get()];
+        let corner = |of: [usize; 3], k: usize| of[k % 3];
+        let edge = |of: [usize; 3]| Origin::Between([corner(of, k), corner(of, k + 1)], t[i]);
+        let (first, second) = (o.base_indices(), o.platform_indices());
         (a[on_base], b[on_platform]) = match sliding_body(i) {
             Body::Base => (format!("{}_{}", base_name(k), base_name(k + 1)), platform_name(k)),
             Body::Platform => (base_name(k + 1), format!("{}_{}", platform_name(k), platform_name(k + 1))),
+        };
+        (origins[0][on_base], origins[1][on_platform]) = match sliding_body(i) {
+            Body::Base => (edge(first), Origin::Kept(corner(second, k))),
+            Body::Platform => (Origin::Kept(corner(first, k + 1)), edge(second)),
         };
     }
     let plain = Design::new(format!("{}, joint-free", design.name), design.units.clone(), m.clone());
     let distinct = |v: &[String]| v.iter().enumerate().all(|(i, x)| !v[..i].contains(x));
     let named =
         if distinct(&a) && distinct(&b) { plain.clone().with_joint_names(a, b) } else { Ok(plain.clone()) };
-    named.unwrap_or(plain)
+    named.unwrap_or(plain).constructed_from(design, [&origins[0], &origins[1]])
 }
 
 /// A platform with the evidence gathered by other code.
@@ -463,9 +471,9 @@ pub(crate) fn checked(
 
 /// The platform with the tables of the design, its axes and its home.
 fn optimised(design: &Design, problem: &DimensionalProblem, s: &DimensionalSolution, seed: u64) -> Design {
-    let octahedral = Octahedral::recognise(design.manipulator()).ok().filter(|_| s.offsets.is_some());
-    let mut out = if let Some(o) = octahedral {
-        joint_free_design(design, &o, &s.manipulator)
+    let octahedral = Octahedral::recognise(design.manipulator()).ok().zip(s.offsets);
+    let mut out = if let Some((o, t)) = octahedral {
+        joint_free_design(design, &o, &s.manipulator, t)
     } else {
         let name = format!("{}, optimised", design.name);
         let plain = Design::new(name, design.units.clone(), s.manipulator.clone());
@@ -521,7 +529,7 @@ mod tests {
             let o = Octahedral::recognise(design.manipulator()).unwrap();
             let t: [f64; 6] = std::array::from_fn(|_| rng.uniform(-1.0, 2.0));
             let (platform, _) = joint_free(&o, t).unwrap();
-            let built = joint_free_design(&design, &o, &platform);
+            let built = joint_free_design(&design, &o, &platform, t);
             let mut on_edges = 0;
             let old_joints = [design.manipulator().base_joints(), design.manipulator().platform_joints()];
             let old_names = [design.base_names(), design.platform_names()];

@@ -114,6 +114,15 @@ pub(crate) fn primitive(list: &[Rational]) -> Vec<Rational> {
     list.iter().map(|x| x * &factor).collect()
 }
 
+/// `digits * 10^exponent`; `None` for other texts than digits, and exponents of more than a thousand.
+#[cfg(feature = "files")]
+pub(crate) fn decimal(digits: &str, exponent: i64) -> Option<Rational> {
+    let digits: BigInt = digits.parse().ok()?;
+    let power = u32::try_from(exponent.unsigned_abs()).ok().filter(|n| *n <= 1000)?;
+    let power = BigInt::from(10).pow(power);
+    Some(if exponent < 0 { Rational::new(digits, power) } else { Rational::from(digits * power) })
+}
+
 /// The nearest double, halves to even; overflow gives an infinity, and what is below the smallest normal double may be rounded twice.
 #[cfg(feature = "files")]
 pub(crate) fn nearest(x: &Rational) -> f64 {

@@ -28,7 +28,7 @@ pub(crate) use determinant::{determinant_gradient, determinant_hessian, offset_p
 pub use enumerate::{Symmetry, enumerate, representative};
 pub use family::{Family, FamilyCounts, FamilyMember, FamilyTopology};
 pub use hexagon::{HexagonPoint, JointLabel, Offset, edge_lengths, offsets_from_distances, sliding_body};
-pub(crate) use hexagon::{HexagonSide, corner, sides};
+pub(crate) use hexagon::{HexagonSide, corner, edge, sides};
 pub use leg_map::{
     AffineLegMap, LegMapOutcome, LegMapTolerances, NotRealizable, Relation, SingularMap, leg_map,
 };

@@ -10,9 +10,7 @@
 
 use std::ops::Range;
 
-use num_bigint::BigInt;
-
-use crate::num::exact::Rational;
+use crate::num::exact::{Rational, decimal};
 use crate::num::real::{NoReal, Real};
 
 /// Most bytes of an expression.
@@ -346,12 +344,10 @@ impl<'t> Reader<'t> {
             };
             exponent = if negative { -i64::from(n) } else { i64::from(n) };
         }
-        let Ok(digits) = format!("{whole}{fraction}").parse::<BigInt>() else {
+        let exponent = exponent - i64::try_from(fraction.len()).unwrap_or(0);
+        let Some(value) = decimal(&format!("{whole}{fraction}"), exponent) else {
             return self.slip(from, "this is not a decimal number");
         };
-        let exponent = exponent - i64::try_from(fraction.len()).unwrap_or(0);
-        let power = BigInt::from(10).pow(u32::try_from(exponent.unsigned_abs()).unwrap_or(0));
-        let value = if exponent < 0 { Rational::new(digits, power) } else { Rational::from(digits * power) };
         Ok(Expression { place: from..self.at, part: Part::Decimal(value) })
     }
 }

@@ -1,6 +1,8 @@
 //! How a design says where a joint is: coordinates as expressions, points on lines, polar coordinates, copies turned and mirrored.
 
 pub(super) mod expression;
+#[cfg(feature = "synthesis")]
+mod origins;
 pub(super) mod resolve;
 #[cfg(test)]
 mod tests;
@@ -10,17 +12,14 @@ use std::fmt;
 use nalgebra::Point3;
 
 use self::expression::{Expression, Slip};
+#[cfg(feature = "synthesis")]
+pub(crate) use self::origins::Origin;
 use crate::manipulator::Body;
 use crate::num::exact::rational;
 use crate::num::real::Real;
 
 /// How well the coordinates of a joint are known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-#[cfg_attr(
-    feature = "files",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
-)]
 pub enum Exactness {
     /// They are fractions.
     Rational,
@@ -91,6 +90,7 @@ impl Quantity {
     }
 
     /// The decimal with the fewest digits that is read to a finite double.
+    #[cfg(feature = "synthesis")]
     pub(crate) fn shortest(x: f64) -> Option<Self> {
         Some(Self { written: Spelling::Number(x), tree: Expression::parse(&format!("{x:?}")).ok()? })
     }

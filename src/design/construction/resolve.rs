@@ -246,7 +246,7 @@ impl Constructions {
 }
 
 /// `None` when the points are the same, or cannot be told apart.
-fn on_line(
+pub(super) fn on_line(
     a: &ExactPoint,
     b: &ExactPoint,
     at: &Along,

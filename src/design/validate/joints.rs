@@ -99,7 +99,7 @@ pub(super) fn body(report: &mut Findings<'_>, which: Body, entry: &Entry) -> Opt
     Some(body)
 }
 
-pub(super) fn warn_coincident(report: &mut Report<'_>, body: &NamedJoints) {
+pub(super) fn warn_coincident(report: &mut Findings<'_>, body: &NamedJoints) {
     let mut seen: BTreeMap<[u64; 3], &str> = BTreeMap::new();
     for joint in body.joints.iter().filter(|j| j.intact) {
         let key = joint.point.map(|x| (x + 0.0).to_bits()); // -0 + 0 = 0: one place, one key

@@ -26,9 +26,10 @@ const LINES: &[Line] = &[
         &[
             ("faer", Some("dense.rs")),
             ("clarabel", Some("conic.rs")),
-            ("num_bigint", Some("exact.rs")),
-            ("num_integer", Some("exact.rs")),
+            INTEGERS,
+            ("num_integer", None),
             ("num_rational", Some("exact.rs")),
+            ("num_traits", None),
             MATRICES,
             COMPLEX,
             ERRORS,
@@ -87,7 +88,7 @@ const LINES: &[Line] = &[
     ),
     (
         "design",
-        &["geom", "manipulator", "requirements", "names"],
+        &["num", "geom", "manipulator", "requirements", "names"],
         &[
             MATRICES,
             ("serde", None),

@@ -1,0 +1,196 @@
+//! The leg map between platforms whose joints are known exactly, as exact numbers.
+//!
+//! A leg `(a, b)` is the vector `(1, a) (x) (1, b)` of `R^16`; `A` writes the vectors of TO as combinations of those of FROM, and
+//! `c_i = |a'_i|^2 + |b'_i|^2 - sum_k A_ik (|a_k|^2 + |b_k|^2)`. Both platforms are equivalent if and only if `det A` is not zero.
+
+use crate::num::surd::Surd;
+
+/// A leg by the exact coordinates of its ends, on the base and on the platform.
+pub(crate) type ExactEnds = [[Surd; 3]; 2];
+
+/// `s(TO) = A s(FROM) + c` with exact numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ExactMap {
+    /// `A`, by rows.
+    pub(crate) a: Vec<Vec<Surd>>,
+    /// `c`.
+    pub(crate) c: Vec<Surd>,
+    /// `det A`.
+    pub(crate) determinant: Surd,
+}
+
+/// Why there is no map, decided without rounding.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum NoExactMap {
+    /// The legs of FROM are dependent.
+    FromDependent,
+    /// A leg of TO, from 0, is not in the span of those of FROM.
+    OutOfSpan(usize),
+    /// Numbers become too long: nothing is decided.
+    TooLong,
+}
+
+impl ExactMap {
+    /// The map from six legs to six others.
+    pub(crate) fn between(from: &[ExactEnds; 6], to: &[ExactEnds; 6]) -> Result<Self, NoExactMap> {
+        let [old, new] = [from, to].map(|legs| legs.iter().map(vector).collect::<Option<Vec<_>>>());
+        let (old, new) = (old.ok_or(NoExactMap::TooLong)?, new.ok_or(NoExactMap::TooLong)?);
+        // one row for each of the 16 coordinates: the six of FROM, then the six of TO
+        let mut rows: Vec<Vec<Surd>> =
+            (0..16).map(|k| old.iter().chain(&new).map(|v| v[k].clone()).collect()).collect();
+        if eliminate(&mut rows, 6).ok_or(NoExactMap::TooLong)? < 6 {
+            return Err(NoExactMap::FromDependent);
+        }
+        if let Some(leg) = (0..6).find(|i| rows[6..].iter().any(|row| !row[6 + i].is_zero())) {
+            return Err(NoExactMap::OutOfSpan(leg));
+        }
+        let a: Vec<Vec<Surd>> = (0..6).map(|i| (0..6).map(|k| rows[k][6 + i].clone()).collect()).collect();
+        let map = || -> Option<Self> {
+            let c = (0..6).map(|i| {
+                let taken = combination(&a[i], &from.each_ref().map(|leg| squares(leg)).into_iter().collect::<Option<Vec<_>>>()?)?;
+                squares(&to[i])?.minus(&taken)
+            });
+            Some(Self { c: c.collect::<Option<_>>()?, determinant: determinant(&a)?, a: a.clone() })
+        };
+        let map = map().ok_or(NoExactMap::TooLong)?;
+        let holds = map.holds(&old, &new).ok_or(NoExactMap::TooLong)?;
+        // elimination and this sum are different ways to the same identity
+        if holds { Ok(map) } else { Err(NoExactMap::TooLong) }
+    }
+
+    /// Whether every vector of TO is the sum that `A` says, entry by entry.
+    fn holds(&self, old: &[Vec<Surd>], new: &[Vec<Surd>]) -> Option<bool> {
+        for (row, w) in self.a.iter().zip(new) {
+            for (k, entry) in w.iter().enumerate() {
+                let column: Vec<Surd> = old.iter().map(|v| v[k].clone()).collect();
+                if combination(row, &column)? != *entry {
+                    return Some(false);
+                }
+            }
+        }
+        Some(true)
+    }
+}
+
+/// `(1, a) (x) (1, b)`.
+fn vector(leg: &ExactEnds) -> Option<Vec<Surd>> {
+    let [a, b] = leg.each_ref().map(|p| [Surd::integer(1), p[0].clone(), p[1].clone(), p[2].clone()]);
+    a.iter().flat_map(|x| b.iter().map(move |y| x.times(y))).collect()
+}
+
+/// `|a|^2 + |b|^2`.
+fn squares(leg: &ExactEnds) -> Option<Surd> {
+    leg.iter().flatten().try_fold(Surd::zero(), |sum, x| sum.plus(&x.times(x)?))
+}
+
+fn combination(weights: &[Surd], values: &[Surd]) -> Option<Surd> {
+    weights.iter().zip(values).try_fold(Surd::zero(), |sum, (w, x)| sum.plus(&w.times(x)?))
+}
+
+/// Brings the first `width` columns to the identity above zeros as far as they go; the rank. `None` when numbers become too long.
+fn eliminate(rows: &mut [Vec<Surd>], width: usize) -> Option<usize> {
+    let mut rank = 0;
+    for column in 0..width {
+        let Some(pivot) = (rank..rows.len()).find(|i| !rows[*i][column].is_zero()) else { continue };
+        rows.swap(rank, pivot);
+        let inverse = rows[rank][column].inverse()?;
+        let head: Vec<Surd> = rows[rank].iter().map(|x| x.times(&inverse)).collect::<Option<_>>()?;
+        for (i, row) in rows.iter_mut().enumerate() {
+            let factor = row[column].clone();
+            if i != rank && !factor.is_zero() {
+                for (x, h) in row.iter_mut().zip(&head) {
+                    *x = x.minus(&factor.times(h)?)?;
+                }
+            }
+        }
+        rows[rank] = head;
+        rank += 1;
+    }
+    Some(rank)
+}
+
+fn determinant(a: &[Vec<Surd>]) -> Option<Surd> {
+    let mut rows = a.to_vec();
+    let mut product = Surd::integer(1);
+    for column in 0..rows.len() {
+        let Some(pivot) = (column..rows.len()).find(|i| !rows[*i][column].is_zero()) else {
+            return Some(Surd::zero());
+        };
+        if pivot != column {
+            rows.swap(pivot, column);
+            product = product.negated();
+        }
+        product = product.times(&rows[column][column])?;
+        let inverse = rows[column][column].inverse()?;
+        let (above, below) = rows.split_at_mut(column + 1);
+        for row in below {
+            let factor = row[column].times(&inverse)?;
+            for (x, h) in row.iter_mut().zip(&above[column]).skip(column) {
+                *x = x.minus(&factor.times(h)?)?;
+            }
+        }
+    }
+    Some(product)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn surd(n: i64, d: i64) -> Surd {
+        Surd::integer(n).times(&Surd::integer(d).inverse().unwrap()).unwrap()
+    }
+
+    fn between(a: &[Surd; 3], b: &[Surd; 3], t: &Surd) -> [Surd; 3] {
+        [0, 1, 2].map(|i| a[i].plus(&t.times(&b[i].minus(&a[i]).unwrap()).unwrap()).unwrap())
+    }
+
+    /// Corners of the paper's octahedral platform, with `h = sqrt 3`.
+    fn corners() -> [[Surd; 3]; 6] {
+        let h = Surd::integer(3).sqrt().unwrap();
+        let point = |x: i64, y: i64| [Surd::integer(x), h.times(&Surd::integer(y)).unwrap(), Surd::zero()];
+        [point(0, 0), point(6, 6), point(12, 0), point(0, 0), point(6, 0), point(3, -3)]
+    }
+
+    /// Legs `P1P4, P2P4, P2P5, P3P5, P3P6, P1P6`, each moved along its side by its offset.
+    fn slid(t: [Surd; 6]) -> [ExactEnds; 6] {
+        let p = corners();
+        let ends = [(0, 3), (1, 3), (1, 4), (2, 4), (2, 5), (0, 5), (0, 3)];
+        std::array::from_fn(|k| {
+            let ((a, b), (c, d)) = (ends[k], ends[k + 1]);
+            [between(&p[a], &p[c], &t[k]), between(&p[b], &p[d], &t[k])]
+        })
+    }
+
+    #[test]
+    fn the_determinant_of_the_joint_free_platform_is_a_fraction() {
+        let octahedral = slid(std::array::from_fn(|_| Surd::zero()));
+        let t = [1, 2, 3, 1, 2, 4].map(|n| surd(n, 5));
+        let map = ExactMap::between(&octahedral, &slid(t.clone())).unwrap();
+        let one = Surd::integer(1);
+        let product = |list: Vec<Surd>| list.iter().fold(one.clone(), |p, x| p.times(x).unwrap());
+        let complement = t.iter().map(|t| one.minus(t).unwrap()).collect();
+        let expected = product(complement).minus(&product(t.to_vec())).unwrap();
+        assert_eq!(map.determinant, expected);
+        for k in 0..6 {
+            assert_eq!(map.a[k][k], one.minus(&t[k]).unwrap());
+            assert_eq!(map.a[k][(k + 1) % 6], t[k]);
+            // -t (1 - t) d^2 with the edges 12 and 6
+            let d = Surd::integer(if k % 2 == 0 { 144 } else { 36 });
+            let c = t[k].times(&one.minus(&t[k]).unwrap()).unwrap().times(&d).unwrap().negated();
+            assert_eq!(map.c[k], c);
+        }
+    }
+
+    #[test]
+    fn singular_and_unrelated_platforms_are_told_exactly() {
+        let octahedral = slid(std::array::from_fn(|_| Surd::zero()));
+        let half = slid(std::array::from_fn(|_| surd(1, 2)));
+        let map = ExactMap::between(&octahedral, &half).unwrap();
+        assert!(map.determinant.is_zero());
+        assert_eq!(ExactMap::between(&half, &octahedral), Err(NoExactMap::FromDependent));
+        let mut off = slid([1, 2, 3, 1, 2, 4].map(|n| surd(n, 5)));
+        off[4][0][2] = surd(1, 1_000_000_000_000);
+        assert_eq!(ExactMap::between(&octahedral, &off), Err(NoExactMap::OutOfSpan(4)));
+    }
+}
