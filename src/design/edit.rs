@@ -74,7 +74,9 @@ fn given(text: &str, body: &str, name: &str) -> Option<Given> {
     };
     let joint = inside(&inside(&root, body)?, name)?;
     match joint.value {
-        Value::Array(list) => <[_; 3]>::try_from(list).ok().map(|l| Given::Coordinates(l.map(|node| node.span))),
+        Value::Array(list) => {
+            <[_; 3]>::try_from(list).ok().map(|l| Given::Coordinates(l.map(|node| node.span)))
+        }
         Value::Table(_) => Some(Given::Construction(joint.span)),
         _ => None,
     }

@@ -23,10 +23,10 @@ mod validate;
 mod violation;
 mod workspace;
 
-pub use construction::{ExactJoint, Exactness};
 #[cfg(feature = "synthesis")]
 pub(crate) use construction::Origin;
 use construction::{Along, Construction, Constructions, Quantity};
+pub use construction::{ExactJoint, Exactness};
 pub use edit::JointError;
 pub(crate) use edit::Written;
 pub use model::{Combination, Design, NameCount, OptimizeTable, SearchTable};

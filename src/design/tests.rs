@@ -68,8 +68,7 @@ fn keys_texts_and_numbers() {
         6:15 design::non_finite: number 3 of base joint P1 is -inf, not a finite number | write a finite number
         6:6 design::coordinate_count: base joint P1 has 2 numbers instead of 3 | give 3 coordinates x, y, z
         6:6 design::coordinate_count: base joint P1 has 4 numbers instead of 3 | give 3 coordinates x, y, z
-        6:10 design::wrong_type: number 2 of base joint P1 is a string, not a number | write a number without quotes
-        6:15 design::wrong_type: number 3 of base joint P1 is a boolean, not a number | write a number without quotes
+        6:15 design::wrong_type: coordinate 3 of base joint P1 is a boolean, not a number | write a number, or an expression in quotes such as "6*sqrt(3)"
         6:10 design::out_of_range: number 2 of base joint P1 is 1e300, which is too large to compute with | stay below 1e60; use a larger unit
         6:17 design::non_finite: number 3 of base joint P1 is inf, not a finite number | write a finite number
         6:6 design::wrong_type: base joint P1 is a number, not an array | write an array of 3 coordinates x, y, z

@@ -177,7 +177,9 @@ mod tests {
     #[test]
     fn nearest_doubles_are_those_that_decimals_are_read_to() {
         let ten = |n: u32| BigInt::from(10).pow(n);
-        for (digits, scale) in [(1i64, 1), (15, 1), (173_205_080_756_887_729, 17), (123_456_789_012_345_678, 3)] {
+        for (digits, scale) in
+            [(1i64, 1), (15, 1), (173_205_080_756_887_729, 17), (123_456_789_012_345_678, 3)]
+        {
             for sign in [1, -1] {
                 let x = Rational::new((sign * digits).into(), ten(scale));
                 let read: f64 = format!("{}e-{scale}", sign * digits).parse().unwrap();

@@ -251,7 +251,8 @@ fn root_bound(x: &Rational, up: bool) -> Rational {
 /// Cosine and sine of 0 to 90 degrees, give or take the slack.
 fn acute(angle: &Rational, slack: &Rational) -> Result<(Real, Real), NoReal> {
     let integer = |n: i64| Rational::from_integer(n.into());
-    let degrees = if slack.is_zero() && angle.is_integer() { i64::try_from(angle.to_integer()).ok() } else { None };
+    let degrees =
+        if slack.is_zero() && angle.is_integer() { i64::try_from(angle.to_integer()).ok() } else { None };
     let known = |degrees: i64| degrees_cosine(degrees).map(Real::Exact);
     let cosine = degrees.and_then(known);
     let sine = degrees.and_then(|d| known(90 - d));
@@ -345,7 +346,10 @@ mod tests {
             // a slack of zero width forces the series
             let angle = Rational::new((degrees * 1_000_000_000 + 1).into(), 1_000_000_000.into());
             let near = acute(&angle, &Rational::zero()).unwrap().0;
-            let wide = acute(&Rational::from_integer(degrees.into()), &Rational::new(1.into(), BigInt::one() << 200));
+            let wide = acute(
+                &Rational::from_integer(degrees.into()),
+                &Rational::new(1.into(), BigInt::one() << 200),
+            );
             let wide = wide.unwrap().0.enclosure().unwrap();
             let (low, high) = exact.between(300);
             assert!(wide.low <= low && high <= wide.high, "{degrees}");

@@ -330,7 +330,8 @@ mod tests {
     }
 
     fn value(x: &Surd) -> f64 {
-        let terms = x.terms.iter().map(|(r, c)| nearest(&Rational::from_integer(c.clone())) * (*r as f64).sqrt());
+        let terms =
+            x.terms.iter().map(|(r, c)| nearest(&Rational::from_integer(c.clone())) * (*r as f64).sqrt());
         terms.sum::<f64>() / nearest(&Rational::from_integer(x.denominator.clone()))
     }
 

@@ -430,7 +430,8 @@ mod tests {
 
     #[test]
     fn hostile_texts_are_refused_before_they_cost_anything() {
-        for text in ["(".repeat(190), "-".repeat(190), "1+".repeat(4000), format!("{}2", "sqrt(".repeat(35))] {
+        for text in ["(".repeat(190), "-".repeat(190), "1+".repeat(4000), format!("{}2", "sqrt(".repeat(35))]
+        {
             let slip = Expression::parse(&text).unwrap_err();
             assert!(slip.too_complex, "{}", slip.message);
         }

@@ -83,10 +83,13 @@ impl Quantity {
     /// A number as it stands in a file, which is the decimal that is written.
     pub(super) fn decimal(digits: &str, double: f64) -> Result<Self, Slip> {
         let tree = Expression::parse(digits)?;
-        // more digits than the double keeps are kept as a text
-        let same = Expression::parse(&format!("{double:?}")).is_ok_and(|short| short.decimal() == tree.decimal());
-        let written = if same { Spelling::Number(double) } else { Spelling::Text(digits.to_string()) };
-        Ok(Self { written, tree })
+        Ok(match Expression::parse(&format!("{double:?}")) {
+            Ok(short) if short.decimal() == tree.decimal() => {
+                Self { written: Spelling::Number(double), tree: short }
+            }
+            // more digits than the double keeps are kept as a text
+            _ => Self { written: Spelling::Text(digits.to_string()), tree },
+        })
     }
 
     /// The decimal with the fewest digits that is read to a finite double.

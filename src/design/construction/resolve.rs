@@ -101,7 +101,8 @@ impl Constructions {
                     within: None,
                     code: Code::TooComplex,
                     message: format!("up to here the constructions take more than {MAX_WORK} operations"),
-                    help: "write the coordinates of joints that no leg uses as numbers, or leave them out".into(),
+                    help: "write the coordinates of joints that no leg uses as numbers, or leave them out"
+                        .into(),
                 });
                 return;
             }
@@ -187,7 +188,11 @@ impl Constructions {
         }
         for cycle in cycles {
             let name = |i: &usize| names[*i].as_str();
-            faults.push(circle(Owner::Joint(body, cycle[0]), &format!("{body} joints"), cycle.iter().map(name)));
+            faults.push(circle(
+                Owner::Joint(body, cycle[0]),
+                &format!("{body} joints"),
+                cycle.iter().map(name),
+            ));
         }
         found
     }
@@ -222,7 +227,9 @@ impl Constructions {
                         part: Some(0),
                         within: None,
                         code: Code::NoLine,
-                        message: format!("{a} and {b} are the same point, through which there is no one line"),
+                        message: format!(
+                            "{a} and {b} are the same point, through which there is no one line"
+                        ),
                         help: "name two joints that are apart".into(),
                     });
                     Ok(None)
@@ -230,9 +237,7 @@ impl Constructions {
             }
             Construction::Polar { .. } => {
                 let z = values.get(2).cloned().unwrap_or_else(|| Real::integer(0));
-                values[1].turn().and_then(|(c, s)| {
-                    Ok(Some([values[0].times(&c)?, values[0].times(&s)?, z]))
-                })
+                values[1].turn().and_then(|(c, s)| Ok(Some([values[0].times(&c)?, values[0].times(&s)?, z])))
             }
             Construction::Turned { .. } => values[0].turn().and_then(|(c, s)| turned(points[0], &c, &s)),
             Construction::Mirrored { plane, .. } => Ok(Some(mirrored(points[0], *plane))),
@@ -292,9 +297,10 @@ fn mirrored(p: &ExactPoint, plane: Plane) -> ExactPoint {
 fn no_real(why: NoReal) -> (Code, String, String) {
     let (code, help) = match why {
         NoReal::DivisionByZero => (Code::DivisionByZero, "the divisor is exactly zero"),
-        NoReal::DivisorNearZero => {
-            (Code::DivisionByZero, "write the divisor so that it is a number of a field, without nested roots")
-        }
+        NoReal::DivisorNearZero => (
+            Code::DivisionByZero,
+            "write the divisor so that it is a number of a field, without nested roots",
+        ),
         NoReal::NegativeRoot => (Code::NegativeRoot, "coordinates are real numbers"),
         NoReal::RootNearZero => {
             (Code::NegativeRoot, "write what is under the root so that it is a number of a field")

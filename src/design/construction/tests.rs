@@ -85,7 +85,10 @@ odd = { radius = 1, angle_deg = 20, z = 0.5 }
 
 #[test]
 fn an_equilateral_triangle_is_equilateral() {
-    let d = read("r = \"1/3\"", "A = { radius = \"r\", angle_deg = 15 }\nB = { turn = \"A\", deg = 120 }\nC = { turn = \"B\", deg = 120 }");
+    let d = read(
+        "r = \"1/3\"",
+        "A = { radius = \"r\", angle_deg = 15 }\nB = { turn = \"A\", deg = 120 }\nC = { turn = \"B\", deg = 120 }",
+    );
     let points = d.exact_points(Body::Base);
     let square = |i: usize, j: usize| {
         (0..3).fold(crate::num::real::Real::integer(0), |sum, k| {
@@ -140,7 +143,13 @@ fn faults_are_named_at_their_places() {
         ("r = 1", "X = [0, 0, \"1/(r - 1)\"]", Code::DivisionByZero, (10, 15), "division by zero"),
         ("r = 1", "X = [\"sqrt(r - 2)\", 0, 0]", Code::NegativeRoot, (10, 7), "negative"),
         ("", "X = { on = [\"A\", \"A\"], t = 1 }", Code::NoLine, (10, 12), "A and A are the same point"),
-        ("", "X = { on = [\"A\", \"Q\"], t = 1 }", Code::UnknownName, (10, 18), "not a joint of the same body"),
+        (
+            "",
+            "X = { on = [\"A\", \"Q\"], t = 1 }",
+            Code::UnknownName,
+            (10, 18),
+            "not a joint of the same body",
+        ),
         ("", "X = { on = [\"A\"], t = 1 }", Code::CoordinateCount, (10, 12), "instead of two"),
         ("", "X = { on = [\"A\", \"B\"] }", Code::MissingKey, (10, 5), "neither"),
         ("", "X = { on = [\"A\", \"B\"], t = 1, offset = 1 }", Code::ConflictingKeys, (10, 5), "both"),

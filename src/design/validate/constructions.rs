@@ -67,7 +67,8 @@ fn quantity(report: &mut Findings<'_>, node: &Node, what: &str) -> Option<Quanti
         Ok(quantity) => Some(quantity),
         Err(Slip { place, message, too_complex }) => {
             let code = if too_complex { Code::TooComplex } else { Code::Expression };
-            let help = "write numbers, names of [parameters], + - * / ^, parentheses, sqrt(), sin_deg(), cos_deg()";
+            let help =
+                "write numbers, names of [parameters], + - * / ^, parentheses, sqrt(), sin_deg(), cos_deg()";
             let span = inner(report, &node.span, Some(&place));
             report.refuse(code, &span, format!("{what}: {message}"), help);
             None
@@ -239,7 +240,12 @@ fn reference(
 ) -> Option<usize> {
     let Value::Text(name) = &node.value else {
         let message = format!("{what} starts from {}, not from a joint", node.value.kind());
-        report.refuse(Code::WrongType, &node.span, message, "write the name of a joint of the same body in quotes");
+        report.refuse(
+            Code::WrongType,
+            &node.span,
+            message,
+            "write the name of a joint of the same body in quotes",
+        );
         return None;
     };
     let found = names.get(name).copied();
