@@ -89,6 +89,11 @@ impl FrameArgs {
 }
 
 impl Second {
+    /// Whether it is the second design as it is given.
+    pub(crate) fn is_given(&self) -> bool {
+        self.aligned.is_none() && !self.exchange
+    }
+
     /// Some rigid motion was asked for and not found: there is none (`Some(true)`), or it is not decided (`Some(false)`).
     pub(crate) fn refuted(&self) -> Option<bool> {
         match self.aligned.as_ref()?.given {

@@ -103,7 +103,7 @@ pub enum JointError {
     /// The joints would make no manipulator.
     #[error(transparent)]
     Invalid(#[from] InvalidManipulator),
-    /// Another joint is constructed from this one, which is then impossible: a line through two equal points for instance.
+    /// Another joint is constructed from this one and has no place then: a line through two equal points for instance.
     #[error("{message}")]
     Construction {
         /// What is wrong.

@@ -8,6 +8,8 @@ use super::{Constructions, ExactJoint, Workspace, Written};
 use crate::geom::Pose;
 use crate::manipulator::Body;
 use crate::manipulator::{InvalidManipulator, LegLengths, Manipulator};
+#[cfg(feature = "synthesis")]
+use crate::num::surd::Surd;
 use crate::requirements::{Hardware, KeepOut, Load, PlatformSpeed, Quantity, Requirements, Term, TermKind};
 use crate::requirements::{Objective, VariableKind};
 
@@ -207,10 +209,29 @@ impl Design {
         self.exact_points(body).iter().map(ExactJoint::of).collect()
     }
 
+    /// Whether a joint is given by other than three numbers.
+    #[cfg(feature = "synthesis")]
+    pub(crate) fn is_constructed(&self) -> bool {
+        !self.constructions.is_empty()
+    }
+
     /// The numbers behind [`Self::exact_joints`].
     pub(crate) fn exact_points(&self, body: Body) -> Vec<ExactPoint> {
         let m = &self.manipulator;
         self.constructions.exact(body, body.of((m.base_joints(), m.platform_joints())))
+    }
+
+    /// The six legs by their exact ends, on the base and on the platform; `None` when one of them is known between bounds only.
+    #[cfg(feature = "synthesis")]
+    pub(crate) fn exact_legs(&self) -> Option<[[[Surd; 3]; 2]; 6]> {
+        let [base, platform] = Body::BOTH.map(|body| self.exact_points(body));
+        let point = |p: &ExactPoint| -> Option<[Surd; 3]> {
+            let [x, y, z] = p;
+            Some([x.exact()?.clone(), y.exact()?.clone(), z.exact()?.clone()])
+        };
+        let ends = |(a, b): (usize, usize)| Some([point(&base[a])?, point(&platform[b])?]);
+        let legs: Vec<_> = self.manipulator.pairs().into_iter().map(ends).collect::<Option<_>>()?;
+        legs.try_into().ok()
     }
 
     /// The same with other constructions, and the coordinates that follow from them.

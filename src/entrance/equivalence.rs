@@ -8,6 +8,7 @@ use crate::equivalence::{Sample, Verification, VerifyError, VerifyRun, verify_ea
 use crate::fk::{FkOptions, Threads};
 use crate::geom::SamplePlan;
 use crate::num::Cancel;
+use crate::synthesis::exact_map::ExactMap;
 use crate::synthesis::{LegMapOutcome, LegMapTolerances};
 
 /// Sample poses where nothing is said.
@@ -119,10 +120,23 @@ pub fn verify_with(a: &Design, b: &Design, options: VerifyOptions<'_>) -> Result
     let plan = sample_plan(a, samples, seed);
     let fk = FkOptions::new().seed(seed);
     let mut look = on_sample.unwrap_or_else(|| Box::new(|_| ControlFlow::Continue(())));
-    verify_each(a.manipulator(), b.manipulator(), &plan, &fk, &run, &mut look).map_err(|e| match e {
+    let found = verify_each(a.manipulator(), b.manipulator(), &plan, &fk, &run, &mut look);
+    let found = found.map_err(|e| match e {
         VerifyError::Cancelled => Error::Cancelled,
         other => other.into(),
+    })?;
+    Ok(match exact_map(a, b) {
+        Some(map) => found.with_exact_map(&map),
+        None => found,
     })
+}
+
+/// The leg map between the joints as the designs say them, where one of them has constructions, all joints are known exactly and the map exists exactly.
+pub(crate) fn exact_map(from: &Design, to: &Design) -> Option<ExactMap> {
+    if !(from.is_constructed() || to.is_constructed()) {
+        return None; // doubles decide as well
+    }
+    ExactMap::between(&from.exact_legs()?, &to.exact_legs()?).ok()
 }
 
 /// The affine map between the squared leg lengths of two platforms, `s(to) = A s(from) + c`, or which legs have none.
@@ -131,7 +145,11 @@ pub fn verify_with(a: &Design, b: &Design, options: VerifyOptions<'_>) -> Result
 /// Designs in different units; a decomposition that does not converge.
 pub fn leg_map(from: &Design, to: &Design) -> Result<LegMapOutcome, Error> {
     same_units(from, to)?;
-    Ok(crate::synthesis::leg_map(from.manipulator(), to.manipulator(), LegMapTolerances::default())?)
+    let found = crate::synthesis::leg_map(from.manipulator(), to.manipulator(), LegMapTolerances::default())?;
+    Ok(match exact_map(from, to) {
+        Some(map) => found.decided_exactly(&map),
+        None => found,
+    })
 }
 
 fn same_units(a: &Design, b: &Design) -> Result<(), Error> {

@@ -185,11 +185,31 @@ pub struct Verification {
 }
 
 impl Verification {
+    /// The same with the exact map of the joints that the two designs say.
+    #[cfg(feature = "files")]
+    #[must_use]
+    pub(crate) fn with_exact_map(self, map: &crate::synthesis::exact_map::ExactMap) -> Self {
+        Self { map: self.map.decided_exactly(map), ..self }
+    }
+
+    /// Whether the map was proved: an identity of leg vectors that was checked in exact arithmetic, on exact joints.
+    #[must_use]
+    pub fn proved(&self) -> bool {
+        self.map.determinant_exact.is_some()
+    }
+
     /// One sentence with the numbers that decided.
     #[must_use]
     pub fn explanation(&self) -> String {
         let (v, n) = (self, self.samples.len());
         match &v.verdict {
+            Verdict::Equivalent if v.proved() => format!(
+                "proved: every leg vector of B is exactly a combination of those of A, and det A = {} is not zero; forward kinematics of both, solved \
+                 independently, agrees at {n} of {n} sets of lengths; worst distance of matched poses {:.1e}{}",
+                v.map.determinant_exact.as_deref().unwrap_or_default(),
+                v.worst_distance(),
+                set_aside(v)
+            ),
             Verdict::Equivalent => format!(
                 "the leg map is regular (det A = {:.6}), and forward kinematics of both, solved independently, agrees \
                  at {n} of {n} sets of lengths; worst distance of matched poses {:.1e}{}",

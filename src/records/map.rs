@@ -38,6 +38,8 @@ pub struct MapRecord {
     /// The determinant of A.
     #[serde(rename = "det")]
     pub determinant: Number,
+    /// The determinant as an exact number, such as 64/243, where the identity of leg vectors was checked in exact arithmetic on exact joints; null elsewhere.
+    pub det_exact: Option<String>,
     /// The largest of the residuals.
     pub residual: Number,
     /// Relative distance of each leg of TO from the span of the legs of FROM.
@@ -78,6 +80,7 @@ impl From<&LegMapOutcome> for MapRecord {
             matrix: matrix(&o.closest),
             constants: c.map(Number),
             determinant: Number(o.determinant),
+            det_exact: o.determinant_exact.clone(),
             residual: Number(o.residual),
             residuals: o.residuals.map(Number),
             leg_rank: o.leg_rank,

@@ -16,6 +16,8 @@ pub struct VerifyAnswer {
     pub verdict: VerdictWord,
     /// One sentence with the numbers that decided.
     pub explanation: String,
+    /// Whether the map is proved: every leg vector of B is a combination of those of A, checked in exact arithmetic on exact joints.
+    pub proved: bool,
     /// The algebraic side; that of the designs as they are given where no motion was found.
     pub map: MapRecord,
     /// The largest distance of matched poses over all samples; null where none were compared.
@@ -82,6 +84,7 @@ impl VerifyAnswer {
         Self {
             verdict: (&v.verdict).into(),
             explanation: v.explanation(),
+            proved: v.proved(),
             map: (&v.map).into(),
             worst_distance: Some(Number(v.worst_distance())),
             beyond_precision: Some(BeyondPrecisionRecord { a, b }),
@@ -101,6 +104,7 @@ impl VerifyAnswer {
         Self {
             verdict: if refuted { VerdictWord::NotEquivalent } else { VerdictWord::Inconclusive },
             explanation,
+            proved: false,
             map: map.into(),
             worst_distance: None,
             beyond_precision: None,

@@ -47,7 +47,10 @@ impl ExactMap {
         let a: Vec<Vec<Surd>> = (0..6).map(|i| (0..6).map(|k| rows[k][6 + i].clone()).collect()).collect();
         let map = || -> Option<Self> {
             let c = (0..6).map(|i| {
-                let taken = combination(&a[i], &from.each_ref().map(|leg| squares(leg)).into_iter().collect::<Option<Vec<_>>>()?)?;
+                let taken = combination(
+                    &a[i],
+                    &from.each_ref().map(|leg| squares(leg)).into_iter().collect::<Option<Vec<_>>>()?,
+                )?;
                 squares(&to[i])?.minus(&taken)
             });
             Some(Self { c: c.collect::<Option<_>>()?, determinant: determinant(&a)?, a: a.clone() })

@@ -201,11 +201,36 @@ pub struct LegMapOutcome {
     /// Whether the map is exact: every leg vector of TO lies in the span of those of FROM as rational numbers, not within a tolerance. Looked at
     /// only where doubles do not decide.
     pub exact: bool,
+    /// `det A` as an exact number, such as `64/243` or `1/2 + sqrt(3)/6`, where the joints of both designs are known exactly and the identity of their leg vectors
+    /// was checked in exact arithmetic; `None` where it was not looked at, and where it does not hold.
+    pub determinant_exact: Option<String>,
     /// The tolerances asked for.
     pub tolerances: LegMapTolerances,
 }
 
 impl LegMapOutcome {
+    /// The same with what the exact joints say, of which the doubles are rounded values.
+    #[cfg(feature = "files")]
+    #[must_use]
+    pub(crate) fn decided_exactly(self, map: &super::exact_map::ExactMap) -> Self {
+        let a = Matrix6::from_fn(|i, j| map.a[i][j].nearest());
+        let c = Vector6::from_fn(|i, _| map.c[i].nearest());
+        let relation = if map.determinant.is_zero() { Relation::Singular } else { Relation::Equivalent };
+        Self {
+            relation,
+            closest: AffineLegMap { a, c },
+            determinant: map.determinant.nearest(),
+            residuals: [0.0; 6],
+            residual: 0.0,
+            leg_rank: 6,
+            inverse_condition: inverse_condition(&a),
+            singular_limit: 0.0,
+            exact: true,
+            determinant_exact: Some(map.determinant.to_string()),
+            ..self
+        }
+    }
+
     /// One sentence: what was decided and by which number.
     #[must_use]
     pub fn explanation(&self) -> String {
@@ -235,6 +260,11 @@ impl LegMapOutcome {
                 "neither platform is architecturally singular as the numbers they are, but the smallest singular value of A, {:.3e} of the largest, is not above \
                  the {:.1e} that rounding and the residual {:.1e} leave open",
                 o.inverse_condition, o.singular_limit, o.residual
+            ),
+            Relation::Equivalent if o.determinant_exact.is_some() => format!(
+                "proved: same poses for corresponding lengths, same singularities, since every leg vector of TO is a combination of those of FROM and \
+                 det A = {} is not zero, both in exact arithmetic on the exact joints",
+                o.determinant_exact.as_deref().unwrap_or_default()
             ),
             Relation::Equivalent if o.exact => format!(
                 "same poses for corresponding lengths, same singularities: every leg vector of TO is a combination of those of FROM and both are \
@@ -346,6 +376,7 @@ pub(super) fn leg_map_to_legs(
         inverse_condition,
         singular_limit: tolerances.singular.max(error),
         exact: false,
+        determinant_exact: None,
         tolerances,
     };
     // the span itself is known to `rounding` only

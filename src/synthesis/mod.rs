@@ -11,6 +11,8 @@ mod dot;
 mod drawing;
 mod enumerate;
 mod exact_leg_map;
+#[cfg(feature = "files")]
+pub(crate) mod exact_map;
 mod family;
 mod hexagon;
 mod leg_map;

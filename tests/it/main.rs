@@ -39,6 +39,7 @@ mod documents;
 mod eliminations;
 mod entrance;
 mod exact_decisions;
+mod exact_designs;
 mod examples;
 mod fk_laws;
 mod hidden_lengths;

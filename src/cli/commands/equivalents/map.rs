@@ -8,6 +8,7 @@ use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::output::Answer;
+use crate::entrance::exact_map;
 use crate::records::{CorrespondenceRecord, MapAnswer, MapRecord};
 use crate::synthesis::{LegCorrespondence, LegMapTolerances, Relation, leg_map};
 
@@ -33,6 +34,10 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let second = args.frames.apply(&from, &to, context)?;
     let outcome = leg_map(from.manipulator(), &second.manipulator, LegMapTolerances::default())
         .map_err(|e| Failure::new(Exit::Inconclusive, "map::breakdown", e.to_string()))?;
+    let outcome = match exact_map(&from, &to).filter(|_| second.is_given()) {
+        Some(map) => outcome.decided_exactly(&map),
+        None => outcome,
+    };
     let exit = match (outcome.relation, second.refuted()) {
         (Relation::Equivalent, _) => Exit::Yes,
         (Relation::Unrelated, Some(false)) | (Relation::Undecided, _) => Exit::Inconclusive,
@@ -77,5 +82,11 @@ pub(super) fn table(r: &MapRecord, from: &str, to: &str) -> String {
         let _ = writeln!(text, "{:>14.6}  {:>10.1e}", r.constants[i].0, r.residuals[i].0);
     }
     let _ = writeln!(text, "\ndet A = {}", r.determinant.0);
+    if let Some(exact) = &r.det_exact {
+        let _ = writeln!(
+            text,
+            "      = {exact} exactly; A and c hold exactly for the joints as the designs say them"
+        );
+    }
     text
 }
