@@ -53,12 +53,12 @@ fn folder() -> tempfile::TempDir {
 fn the_joint_free_platform_of_an_exact_design_is_proved_equivalent() {
     let folder = folder();
     let args = [
+        "equivalents",
         "family",
         "octahedral.toml",
         "--pattern",
         "S123456",
-        "--offsets",
-        "0.2,0.4,0.6,0.2,0.4,0.8",
+        "--offsets=0.2,0.4,0.6,0.2,0.4,0.8",
         "-o",
         "free.toml",
     ];
@@ -74,7 +74,7 @@ fn the_joint_free_platform_of_an_exact_design_is_proved_equivalent() {
     for body in [Body::Base, Body::Platform] {
         assert!(free.exact_joints(body).iter().all(|joint| joint.exactness != Exactness::Interval));
     }
-    let (code, map) = run(folder.path(), &["map", "octahedral.toml", "free.toml"]);
+    let (code, map) = run(folder.path(), &["equivalents", "map", "octahedral.toml", "free.toml"]);
     // (1 - t) of all less t of all: 0.8 0.6 0.4 0.8 0.6 0.2 - 0.2 0.4 0.6 0.2 0.4 0.8
     assert_eq!(
         (code, map["det_exact"].as_str(), map["relation"].as_str()),
@@ -86,7 +86,7 @@ fn the_joint_free_platform_of_an_exact_design_is_proved_equivalent() {
     // rounded joints are another platform
     let rounded: String = OCTAHEDRAL.replace("\"height\"", "10.3923").replace("\"-height/2\"", "-5.19615");
     std::fs::write(folder.path().join("rounded.toml"), rounded).unwrap();
-    let (_, map) = run(folder.path(), &["map", "rounded.toml", "free.toml"]);
+    let (_, map) = run(folder.path(), &["equivalents", "map", "rounded.toml", "free.toml"]);
     assert_eq!((map["det_exact"].as_str(), map["relation"].as_str()), (None, Some("unrelated")));
 }
 
@@ -95,9 +95,9 @@ fn conversion_keeps_what_a_design_says() {
     let folder = folder();
     let text = OCTAHEDRAL.replace("P6 = [\"edge/4\", \"-height/2\", 0]", "P6 = { mirror = \"M\", plane = \"xz\" }\nM = { on = [\"P4\", \"P7\"], offset = 6 }\nP7 = { turn = \"P5\", deg = 60 }");
     std::fs::write(folder.path().join("octahedral.toml"), &text).unwrap();
-    let (code, _) = run(folder.path(), &["convert", "octahedral.toml", "-o", "a.json"]);
+    let (code, _) = run(folder.path(), &["design", "convert", "octahedral.toml", "-o", "a.json"]);
     assert_eq!(code, Some(0));
-    let (code, _) = run(folder.path(), &["convert", "a.json", "-o", "b.toml"]);
+    let (code, _) = run(folder.path(), &["design", "convert", "a.json", "-o", "b.toml"]);
     assert_eq!(code, Some(0));
     let read = |name: &str, format| {
         parse(&std::fs::read_to_string(folder.path().join(name)).unwrap(), format).unwrap().0
@@ -118,7 +118,7 @@ fn the_optimised_platform_has_its_joints_on_the_edges() {
     assert!(matches!(code, Some(0 | 3)), "{answer}");
     let text = std::fs::read_to_string(folder.path().join("best.toml")).unwrap();
     assert_eq!(text.matches("{ on = [").count(), 6, "{text}");
-    let (_, map) = run(folder.path(), &["map", "octahedral.toml", "best.toml"]);
+    let (_, map) = run(folder.path(), &["equivalents", "map", "octahedral.toml", "best.toml"]);
     assert_eq!(map["relation"], "equivalent");
     assert!(map["det_exact"].is_string(), "{}", map["explanation"]);
 }

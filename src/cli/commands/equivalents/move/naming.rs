@@ -4,7 +4,7 @@ use nalgebra::Point3;
 
 use super::request::Along;
 use crate::cli::failure::Failure;
-use crate::design::Design;
+use crate::design::{Design, Origin};
 use crate::num::linalg::LinalgError;
 use crate::synthesis::components::{Components, Parametrisation};
 use crate::synthesis::relocate::{Assembled, JointOrigin, counted_from, family_between, spanning_joints};
@@ -146,7 +146,15 @@ pub(super) fn moved_design(design: &Design, new: &Assembled) -> Option<Design> {
     let on_platform = names(&new.platform_joints, design.platform_names());
     let built =
         Design::new(design.name.clone(), design.units.clone(), platform).with_joint_names(base, on_platform);
-    built.ok().map(|d| d.with_tables_of(design))
+    let origins = |of: &[JointOrigin]| -> Vec<Origin> {
+        let origin = |o: &JointOrigin| match o {
+            JointOrigin::Kept(k) => Origin::Kept(*k),
+            JointOrigin::Displaced(_) | JointOrigin::Split(_) => Origin::New,
+        };
+        of.iter().map(origin).collect()
+    };
+    let kept = [origins(&new.base), origins(&new.platform_joints)];
+    built.ok().map(|d| d.with_tables_of(design).constructed_from(design, [&kept[0], &kept[1]]))
 }
 
 fn fresh(name: &str, taken: &mut Vec<String>) -> String {
