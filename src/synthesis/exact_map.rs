@@ -49,7 +49,7 @@ impl ExactMap {
             let c = (0..6).map(|i| {
                 let taken = combination(
                     &a[i],
-                    &from.each_ref().map(|leg| squares(leg)).into_iter().collect::<Option<Vec<_>>>()?,
+                    &from.each_ref().map(squares).into_iter().collect::<Option<Vec<_>>>()?,
                 )?;
                 squares(&to[i])?.minus(&taken)
             });
