@@ -25,7 +25,7 @@ mod workspace;
 
 #[cfg(feature = "synthesis")]
 pub(crate) use construction::Origin;
-use construction::{Along, Construction, Constructions, Quantity};
+use construction::{Construction, Constructions, LinePlace, WrittenNumber};
 pub use construction::{ExactJoint, Exactness};
 pub use edit::JointError;
 pub(crate) use edit::Written;

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::construction::ExactPoint;
+use super::construction::RealPoint;
 use super::construction::resolve::{Fault, Joints};
 use super::{Constructions, ExactJoint, Workspace, Written};
 use crate::geom::Pose;
@@ -216,7 +216,7 @@ impl Design {
     }
 
     /// The numbers behind [`Self::exact_joints`].
-    pub(crate) fn exact_points(&self, body: Body) -> Vec<ExactPoint> {
+    pub(crate) fn exact_points(&self, body: Body) -> Vec<RealPoint> {
         let m = &self.manipulator;
         self.constructions.exact(body, body.of((m.base_joints(), m.platform_joints())))
     }
@@ -225,7 +225,7 @@ impl Design {
     #[cfg(feature = "synthesis")]
     pub(crate) fn exact_legs(&self) -> Option<[[[Surd; 3]; 2]; 6]> {
         let [base, platform] = Body::BOTH.map(|body| self.exact_points(body));
-        let point = |p: &ExactPoint| -> Option<[Surd; 3]> {
+        let point = |p: &RealPoint| -> Option<[Surd; 3]> {
             let [x, y, z] = p;
             Some([x.exact()?.clone(), y.exact()?.clone(), z.exact()?.clone()])
         };

@@ -5,7 +5,7 @@ use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 
 use super::construction::Spelling;
-use super::{Along, Combination, Construction, Design, OptimizeTable, Quantity, SearchTable};
+use super::{Combination, Construction, Design, LinePlace, OptimizeTable, SearchTable, WrittenNumber};
 use crate::geom::Pose;
 use crate::manipulator::Body;
 use crate::requirements::{
@@ -18,7 +18,7 @@ struct DesignFile<'a> {
     #[serde(flatten)]
     head: Head<'a>,
     #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "as_map")]
-    parameters: Vec<(&'a str, &'a Quantity)>,
+    parameters: Vec<(&'a str, &'a WrittenNumber)>,
     #[serde(serialize_with = "as_map")]
     base: Vec<(&'a str, JointFile<'a>)>,
     #[serde(serialize_with = "as_map")]
@@ -67,14 +67,14 @@ fn as_map<S: Serializer>(list: &[(&str, impl Serialize)], serializer: S) -> Resu
 /// A joint, as it is written.
 enum JointFile<'a> {
     Numbers([f64; 3]),
-    Coordinates(&'a [Quantity; 3]),
+    Coordinates(&'a [WrittenNumber; 3]),
     /// A table of keys.
-    Form(Vec<(&'static str, Field<'a>)>),
+    Form(Vec<(&'static str, FormValue<'a>)>),
 }
 
 /// A value in the table of a joint.
-enum Field<'a> {
-    Quantity(&'a Quantity),
+enum FormValue<'a> {
+    WrittenNumber(&'a WrittenNumber),
     Text(&'a str),
     Pair([&'a str; 2]),
 }
@@ -86,22 +86,24 @@ impl<'a> JointFile<'a> {
             Construction::Coordinates(list) => return Self::Coordinates(list),
             Construction::OnLine { through, at } => {
                 let (key, value) = match at {
-                    Along::Share(value) => ("t", value),
-                    Along::Offset(value) => ("offset", value),
+                    LinePlace::Share(value) => ("t", value),
+                    LinePlace::Offset(value) => ("offset", value),
                 };
-                vec![("on", Field::Pair(through.map(name))), (key, Field::Quantity(value))]
+                vec![("on", FormValue::Pair(through.map(name))), (key, FormValue::WrittenNumber(value))]
             }
             Construction::Polar { radius, angle_deg, z } => {
-                let mut form =
-                    vec![("radius", Field::Quantity(radius)), ("angle_deg", Field::Quantity(angle_deg))];
-                form.extend(z.as_ref().map(|z| ("z", Field::Quantity(z))));
+                let mut form = vec![
+                    ("radius", FormValue::WrittenNumber(radius)),
+                    ("angle_deg", FormValue::WrittenNumber(angle_deg)),
+                ];
+                form.extend(z.as_ref().map(|z| ("z", FormValue::WrittenNumber(z))));
                 form
             }
             Construction::Turned { joint, deg } => {
-                vec![("turn", Field::Text(name(*joint))), ("deg", Field::Quantity(deg))]
+                vec![("turn", FormValue::Text(name(*joint))), ("deg", FormValue::WrittenNumber(deg))]
             }
             Construction::Mirrored { joint, plane } => {
-                vec![("mirror", Field::Text(name(*joint))), ("plane", Field::Text(plane.name()))]
+                vec![("mirror", FormValue::Text(name(*joint))), ("plane", FormValue::Text(plane.name()))]
             }
         };
         Self::Form(form)
@@ -112,11 +114,11 @@ impl<'a> JointFile<'a> {
             Self::Numbers(p) => format!("[{}]", p.map(toml_number).join(", ")),
             Self::Coordinates(list) => format!("[{}]", list.each_ref().map(toml_quantity).join(", ")),
             Self::Form(fields) => {
-                let field = |(key, value): &(&str, Field<'_>)| {
+                let field = |(key, value): &(&str, FormValue<'_>)| {
                     let value = match value {
-                        Field::Quantity(q) => toml_quantity(q),
-                        Field::Text(text) => toml_text(text),
-                        Field::Pair(pair) => format!("[{}]", pair.map(toml_text).join(", ")),
+                        FormValue::WrittenNumber(q) => toml_quantity(q),
+                        FormValue::Text(text) => toml_text(text),
+                        FormValue::Pair(pair) => format!("[{}]", pair.map(toml_text).join(", ")),
                     };
                     format!("{key} = {value}")
                 };
@@ -135,9 +137,9 @@ impl Serialize for JointFile<'_> {
                 let mut map = serializer.serialize_map(Some(fields.len()))?;
                 for (key, value) in fields {
                     match value {
-                        Field::Quantity(q) => map.serialize_entry(key, q)?,
-                        Field::Text(text) => map.serialize_entry(key, text)?,
-                        Field::Pair(pair) => map.serialize_entry(key, pair)?,
+                        FormValue::WrittenNumber(q) => map.serialize_entry(key, q)?,
+                        FormValue::Text(text) => map.serialize_entry(key, text)?,
+                        FormValue::Pair(pair) => map.serialize_entry(key, pair)?,
                     }
                 }
                 map.end()
@@ -146,7 +148,7 @@ impl Serialize for JointFile<'_> {
     }
 }
 
-impl Serialize for Quantity {
+impl Serialize for WrittenNumber {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self.written() {
             Spelling::Number(x) => serializer.serialize_f64(*x),
@@ -165,7 +167,7 @@ fn toml_text(text: &str) -> String {
     serde_json::to_string(text).unwrap_or_default().replace('\u{7f}', "\\u007f")
 }
 
-fn toml_quantity(q: &Quantity) -> String {
+fn toml_quantity(q: &WrittenNumber) -> String {
     match q.written() {
         Spelling::Number(x) => toml_number(*x),
         Spelling::Text(text) => toml_text(text),

@@ -14,7 +14,7 @@ const BITS: u64 = 192;
 
 /// A real number.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Real {
+pub(crate) enum RealNumber {
     /// It is this number.
     Exact(Surd),
     /// It is one of these numbers.
@@ -77,7 +77,7 @@ fn rounded(x: &Rational, up: bool) -> Result<Rational, NoReal> {
     Ok(if shift >= 0 { whole / two } else { whole * two })
 }
 
-impl Real {
+impl RealNumber {
     pub(crate) fn integer(x: i64) -> Self {
         Self::Exact(Surd::integer(x))
     }
@@ -249,11 +249,11 @@ fn root_bound(x: &Rational, up: bool) -> Rational {
 }
 
 /// Cosine and sine of 0 to 90 degrees, give or take the slack.
-fn acute(angle: &Rational, slack: &Rational) -> Result<(Real, Real), NoReal> {
+fn acute(angle: &Rational, slack: &Rational) -> Result<(RealNumber, RealNumber), NoReal> {
     let integer = |n: i64| Rational::from_integer(n.into());
     let degrees =
         if slack.is_zero() && angle.is_integer() { i64::try_from(angle.to_integer()).ok() } else { None };
-    let known = |degrees: i64| degrees_cosine(degrees).map(Real::Exact);
+    let known = |degrees: i64| degrees_cosine(degrees).map(RealNumber::Exact);
     let cosine = degrees.and_then(known);
     let sine = degrees.and_then(|d| known(90 - d));
     if let (Some(c), Some(s)) = (&cosine, &sine) {
@@ -265,12 +265,12 @@ fn acute(angle: &Rational, slack: &Rational) -> Result<(Real, Real), NoReal> {
     let pi: BigInt = digits.parse().map_err(|_| NoReal::TooLong)?;
     let (pi_low, pi_high) = (Rational::new(pi.clone(), ten.clone()), Rational::new(pi + 1, ten));
     let (low, high) = (angle * pi_low / integer(180), angle * pi_high / integer(180));
-    let series = |first: u32| -> Result<Real, NoReal> {
+    let series = |first: u32| -> Result<RealNumber, NoReal> {
         let (l, h) = (taylor(&low, first), taylor(&high, first));
         // rounding in the series, and that of pi
         let margin = Rational::new(BigInt::one(), BigInt::one() << 230) + slack;
         let (low, high) = if l < h { (l, h) } else { (h, l) };
-        Ok(Real::Within(Enclosure::outward(&(low - &margin), &(high + margin))?))
+        Ok(RealNumber::Within(Enclosure::outward(&(low - &margin), &(high + margin))?))
     };
     Ok((cosine.map_or_else(|| series(0), Ok)?, sine.map_or_else(|| series(1), Ok)?))
 }
@@ -314,11 +314,11 @@ fn degrees_cosine(degrees: i64) -> Option<Surd> {
 mod tests {
     use super::*;
 
-    fn fraction(n: i64, d: i64) -> Real {
-        Real::rational(&Rational::new(n.into(), d.into())).unwrap()
+    fn fraction(n: i64, d: i64) -> RealNumber {
+        RealNumber::rational(&Rational::new(n.into(), d.into())).unwrap()
     }
 
-    fn holds(x: &Real, value: &Rational) -> bool {
+    fn holds(x: &RealNumber, value: &Rational) -> bool {
         let e = x.enclosure().unwrap();
         e.low <= *value && *value <= e.high
     }
@@ -366,22 +366,22 @@ mod tests {
         assert!((y.nearest() - (2.0 + 2f64.sqrt()).sqrt()).abs() < 1e-15);
         let back = y.times(&y).unwrap().minus(&x).unwrap();
         assert!(holds(&back, &Rational::from_integer(2.into())));
-        assert_eq!(y.times(&Real::integer(0)), Ok(Real::integer(0)));
-        let third = Real::integer(1).over(&y.negated()).unwrap();
+        assert_eq!(y.times(&RealNumber::integer(0)), Ok(RealNumber::integer(0)));
+        let third = RealNumber::integer(1).over(&y.negated()).unwrap();
         assert!((third.nearest() + 1.0 / y.nearest()).abs() < 1e-15);
     }
 
     #[test]
     fn impossible_operations_are_named() {
-        let zero = Real::integer(0);
-        assert_eq!(Real::integer(1).over(&zero), Err(NoReal::DivisionByZero));
-        assert_eq!(Real::integer(-1).sqrt(), Err(NoReal::NegativeRoot));
+        let zero = RealNumber::integer(0);
+        assert_eq!(RealNumber::integer(1).over(&zero), Err(NoReal::DivisionByZero));
+        assert_eq!(RealNumber::integer(-1).sqrt(), Err(NoReal::NegativeRoot));
         let s = fraction(2, 1).sqrt().unwrap().plus(&fraction(2, 1)).unwrap().sqrt().unwrap();
-        assert_eq!(Real::integer(1).over(&s.minus(&s).unwrap()), Err(NoReal::DivisorNearZero));
+        assert_eq!(RealNumber::integer(1).over(&s.minus(&s).unwrap()), Err(NoReal::DivisorNearZero));
         assert_eq!(s.minus(&s).unwrap().sqrt(), Err(NoReal::RootNearZero));
         assert_eq!(zero.power(-2), Err(NoReal::DivisionByZero));
         assert_eq!(fraction(2, 3).power(-3), Ok(fraction(27, 8)));
-        let long = Real::integer(10).power(600).unwrap();
+        let long = RealNumber::integer(10).power(600).unwrap();
         assert!(long.exact().is_some());
         let longer = long.times(&long).unwrap();
         assert!(longer.exact().is_none());

@@ -11,7 +11,7 @@
 use std::ops::Range;
 
 use crate::num::exact::{Rational, decimal};
-use crate::num::real::{NoReal, Real};
+use crate::num::real::{NoReal, RealNumber};
 
 /// Most bytes of an expression.
 const MAX_LENGTH: usize = 200;
@@ -145,12 +145,12 @@ impl Expression {
     /// The value, with that of the names from outside.
     pub(in crate::design) fn value(
         &self,
-        named: &dyn Fn(&str) -> Result<Real, Unsolved>,
-    ) -> Result<Real, Stuck> {
+        named: &dyn Fn(&str) -> Result<RealNumber, Unsolved>,
+    ) -> Result<RealNumber, Stuck> {
         let stuck = |place: &Range<usize>, why| Stuck { place: place.clone(), why };
         let here = |why: NoReal| stuck(&self.place, Unsolved::NoReal(why));
         match &self.part {
-            Part::Decimal(x) => Real::rational(x).map_err(here),
+            Part::Decimal(x) => RealNumber::rational(x).map_err(here),
             Part::Name(name) => named(name).map_err(|why| stuck(&self.place, why)),
             Part::Negative(x) => Ok(x.value(named)?.negated()),
             Part::Power(x, n) => x.value(named)?.power(*n).map_err(here),
@@ -358,11 +358,11 @@ mod tests {
 
     use super::*;
 
-    fn value(text: &str) -> Result<Real, String> {
+    fn value(text: &str) -> Result<RealNumber, String> {
         let parsed = Expression::parse(text).map_err(|slip| format!("{:?} {}", slip.place, slip.message))?;
         let named = |name: &str| match name {
-            "r" => Ok(Real::integer(6)),
-            "h_1" => Ok(Real::integer(-2)),
+            "r" => Ok(RealNumber::integer(6)),
+            "h_1" => Ok(RealNumber::integer(-2)),
             _ => Err(Unsolved::Name(name.to_string())),
         };
         parsed.value(&named).map_err(|stuck| format!("{:?} {:?}", stuck.place, stuck.why))
@@ -370,8 +370,8 @@ mod tests {
 
     fn shown(text: &str) -> String {
         match value(text) {
-            Ok(Real::Exact(x)) => x.to_string(),
-            Ok(Real::Within(_)) => "within".to_string(),
+            Ok(RealNumber::Exact(x)) => x.to_string(),
+            Ok(RealNumber::Within(_)) => "within".to_string(),
             Err(why) => why,
         }
     }

@@ -16,7 +16,7 @@ use self::expression::{Expression, Slip};
 pub(crate) use self::origins::Origin;
 use crate::manipulator::Body;
 use crate::num::exact::rational;
-use crate::num::real::Real;
+use crate::num::real::RealNumber;
 
 /// How well the coordinates of a joint are known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -40,8 +40,8 @@ impl Exactness {
         }
     }
 
-    fn of(point: &ExactPoint) -> Self {
-        let one = |x: &Real| match x.exact() {
+    fn of(point: &RealPoint) -> Self {
+        let one = |x: &RealNumber| match x.exact() {
             None => Self::Interval,
             Some(x) if x.as_rational().is_some() => Self::Rational,
             Some(_) => Self::Field,
@@ -57,11 +57,11 @@ impl fmt::Display for Exactness {
 }
 
 /// Coordinates of a joint, as exact as they are known.
-pub(crate) type ExactPoint = [Real; 3];
+pub(crate) type RealPoint = [RealNumber; 3];
 
 /// A number of a design file: a decimal or an expression, as it is written.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Quantity {
+pub(crate) struct WrittenNumber {
     written: Spelling,
     tree: Expression,
 }
@@ -74,7 +74,7 @@ pub(super) enum Spelling {
     Text(String),
 }
 
-impl Quantity {
+impl WrittenNumber {
     /// An expression.
     pub(super) fn text(text: &str) -> Result<Self, Slip> {
         Ok(Self { written: Spelling::Text(text.to_string()), tree: Expression::parse(text)? })
@@ -109,22 +109,22 @@ impl Quantity {
 
 /// Where on a line.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Along {
+pub(crate) enum LinePlace {
     /// As a share of the way from the first joint to the second.
-    Share(Quantity),
+    Share(WrittenNumber),
     /// As a length from the first joint, towards the second.
-    Offset(Quantity),
+    Offset(WrittenNumber),
 }
 
 /// A plane of two axes of the frame of the body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Plane {
+pub(crate) enum CoordinatePlane {
     Xy,
     Xz,
     Yz,
 }
 
-impl Plane {
+impl CoordinatePlane {
     pub(super) const ALL: [Self; 3] = [Self::Xy, Self::Xz, Self::Yz];
 
     pub(super) fn name(self) -> &'static str {
@@ -149,15 +149,15 @@ impl Plane {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Construction {
     /// `["1/3", "6*sqrt(3)", 0]`.
-    Coordinates([Quantity; 3]),
+    Coordinates([WrittenNumber; 3]),
     /// `{ on = ["P1", "P2"], t = "1/5" }`, `{ on = ["P1", "P2"], offset = 2.4 }`.
-    OnLine { through: [usize; 2], at: Along },
+    OnLine { through: [usize; 2], at: LinePlace },
     /// `{ radius = "r", angle_deg = 30, z = 0 }`: the angle from the x axis towards the y axis.
-    Polar { radius: Quantity, angle_deg: Quantity, z: Option<Quantity> },
+    Polar { radius: WrittenNumber, angle_deg: WrittenNumber, z: Option<WrittenNumber> },
     /// `{ turn = "A1", deg = 120 }`: about the z axis.
-    Turned { joint: usize, deg: Quantity },
+    Turned { joint: usize, deg: WrittenNumber },
     /// `{ mirror = "A1", plane = "xz" }`.
-    Mirrored { joint: usize, plane: Plane },
+    Mirrored { joint: usize, plane: CoordinatePlane },
 }
 
 impl Construction {
@@ -171,10 +171,10 @@ impl Construction {
     }
 
     /// The numbers in it, with their parts: the place among what is written.
-    pub(super) fn quantities(&self) -> Vec<(usize, &Quantity)> {
+    pub(super) fn quantities(&self) -> Vec<(usize, &WrittenNumber)> {
         match self {
             Self::Coordinates(list) => list.iter().enumerate().collect(),
-            Self::OnLine { at: Along::Share(q) | Along::Offset(q), .. } => vec![(2, q)],
+            Self::OnLine { at: LinePlace::Share(q) | LinePlace::Offset(q), .. } => vec![(2, q)],
             Self::Polar { radius, angle_deg, z } => {
                 [(0, Some(radius)), (1, Some(angle_deg)), (2, z.as_ref())]
                     .into_iter()
@@ -191,11 +191,11 @@ impl Construction {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Constructions {
     /// Names and values of `[parameters]`, in the order of the file.
-    pub(super) parameters: Vec<(String, Quantity)>,
+    pub(super) parameters: Vec<(String, WrittenNumber)>,
     /// For each body one entry a joint, or none at all: `None` for joints given by three numbers.
     pub(super) joints: [Vec<Option<Construction>>; 2],
     /// Exact coordinates of all joints of a body that has constructions.
-    exact: [Vec<ExactPoint>; 2],
+    exact: [Vec<RealPoint>; 2],
 }
 
 impl Constructions {
@@ -225,15 +225,17 @@ impl Constructions {
     }
 
     /// The exact coordinates, those of the doubles where the body has no constructions.
-    pub(super) fn exact(&self, body: Body, joints: &[Point3<f64>]) -> Vec<ExactPoint> {
+    pub(super) fn exact(&self, body: Body, joints: &[Point3<f64>]) -> Vec<RealPoint> {
         let exact = &self.exact[body.index()];
         if exact.len() == joints.len() { exact.clone() } else { joints.iter().map(exact_double).collect() }
     }
 }
 
 /// The rational numbers that the coordinates are.
-pub(super) fn exact_double(p: &Point3<f64>) -> ExactPoint {
-    let one = |x: f64| rational(x).and_then(|x| Real::rational(&x).ok()).unwrap_or_else(|| Real::integer(0));
+pub(super) fn exact_double(p: &Point3<f64>) -> RealPoint {
+    let one = |x: f64| {
+        rational(x).and_then(|x| RealNumber::rational(&x).ok()).unwrap_or_else(|| RealNumber::integer(0))
+    };
     [one(p.x), one(p.y), one(p.z)]
 }
 
@@ -247,10 +249,10 @@ pub struct ExactJoint {
 }
 
 impl ExactJoint {
-    pub(super) fn of(point: &ExactPoint) -> Self {
-        let shown = |x: &Real| match x {
-            Real::Exact(x) => x.to_string(),
-            Real::Within(e) => {
+    pub(super) fn of(point: &RealPoint) -> Self {
+        let shown = |x: &RealNumber| match x {
+            RealNumber::Exact(x) => x.to_string(),
+            RealNumber::Within(e) => {
                 let (low, high) = e.ends();
                 let ends = (crate::num::exact::nearest(low), crate::num::exact::nearest(high));
                 format!("[{:?}, {:?}]", ends.0.next_down(), ends.1.next_up())

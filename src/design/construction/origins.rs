@@ -1,10 +1,10 @@
 //! Constructions of a design whose joints come from those of another.
 
 use super::resolve::on_line;
-use super::{Along, Construction, Constructions, ExactPoint, Quantity};
+use super::{Construction, Constructions, LinePlace, RealPoint, WrittenNumber};
 use crate::design::Design;
 use crate::manipulator::Body;
-use crate::num::real::Real;
+use crate::num::real::RealNumber;
 
 /// Where a joint comes from, in the joints of the same body of the design before.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,7 +28,7 @@ impl Design {
             let list = self.carried(old, body, origins[body.index()]);
             made.joints[body.index()] = if list.iter().all(Option::is_none) { Vec::new() } else { list };
         }
-        let used = |q: &Quantity| !q.expression().names().is_empty();
+        let used = |q: &WrittenNumber| !q.expression().names().is_empty();
         let all = made.joints.iter().flatten().flatten();
         if all.flat_map(Construction::quantities).any(|(_, q)| used(q)) {
             made.parameters.clone_from(&old.constructions.parameters);
@@ -59,14 +59,14 @@ impl Design {
                     own.moved(&place).or_else(|| coordinates(&exact[joint]))
                 }
                 Origin::Between(ends, t) => {
-                    let share = Along::Share(Quantity::shortest(t)?);
+                    let share = LinePlace::Share(WrittenNumber::shortest(t)?);
                     let [a, b] = ends.map(|joint| origins.iter().position(|o| *o == Origin::Kept(joint)));
                     if let (Some(a), Some(b)) = (a, b) {
                         return Some(Construction::OnLine { through: [a, b], at: share });
                     }
                     let [a, b] = ends.map(|joint| &exact[joint]);
-                    let Along::Share(q) = &share else { return None };
-                    let t = Real::rational(&q.expression().decimal()?).ok()?;
+                    let LinePlace::Share(q) = &share else { return None };
+                    let t = RealNumber::rational(&q.expression().decimal()?).ok()?;
                     coordinates(&on_line(a, b, &share, &t)?.ok()??)
                 }
             }
@@ -93,8 +93,8 @@ impl Construction {
 }
 
 /// Exact coordinates as expressions; `None` when they are not known or long.
-fn coordinates(point: &ExactPoint) -> Option<Construction> {
-    let one = |x: &Real| Quantity::text(&x.exact()?.to_string()).ok();
+fn coordinates(point: &RealPoint) -> Option<Construction> {
+    let one = |x: &RealNumber| WrittenNumber::text(&x.exact()?.to_string()).ok();
     let [x, y, z] = point;
     Some(Construction::Coordinates([one(x)?, one(y)?, one(z)?]))
 }

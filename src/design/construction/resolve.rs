@@ -6,11 +6,13 @@ use nalgebra::Point3;
 use thiserror::Error;
 
 use super::expression::{Expression, Unsolved};
-use super::{Along, Construction, Constructions, ExactPoint, Plane, Quantity, exact_double};
+use super::{
+    Construction, Constructions, CoordinatePlane, LinePlace, RealPoint, WrittenNumber, exact_double,
+};
 use crate::design::Code;
 use crate::design::validate::nearest_help;
 use crate::manipulator::Body;
-use crate::num::real::{NoReal, Real};
+use crate::num::real::{NoReal, RealNumber};
 
 /// Most operations of all constructions of a design, square roots counted as twenty.
 const MAX_WORK: usize = 4000;
@@ -69,7 +71,8 @@ impl Constructions {
                 continue;
             }
             let found = self.body(body, given, &parameters, &mut faults);
-            points[k] = found.iter().flatten().map(|p| p.each_ref().map(Real::nearest).into()).collect();
+            points[k] =
+                found.iter().flatten().map(|p| p.each_ref().map(RealNumber::nearest).into()).collect();
             for (j, p) in given.points[k].iter().enumerate() {
                 // what is given by three doubles stays what it is, the sign of zero too
                 if let (None, Some(own)) = (&self.joints[k][j], points[k].get_mut(j)) {
@@ -109,7 +112,7 @@ impl Constructions {
         }
     }
 
-    fn parameters(&self, unread: &[String], faults: &mut Vec<Fault>) -> Vec<Option<Real>> {
+    fn parameters(&self, unread: &[String], faults: &mut Vec<Fault>) -> Vec<Option<RealNumber>> {
         let place = |name: &str| self.parameters.iter().position(|(n, _)| n == name);
         let needs: Vec<Vec<usize>> = self
             .parameters
@@ -132,10 +135,10 @@ impl Constructions {
     fn quantity(
         &self,
         (owner, part): (Owner, Option<usize>),
-        quantity: &Quantity,
-        (values, unread): (&[Option<Real>], &[String]),
+        quantity: &WrittenNumber,
+        (values, unread): (&[Option<RealNumber>], &[String]),
         faults: &mut Vec<Fault>,
-    ) -> Option<Real> {
+    ) -> Option<RealNumber> {
         let named = |name: &str| {
             let i = self.parameters.iter().position(|(n, _)| n == name);
             match i {
@@ -166,13 +169,13 @@ impl Constructions {
         &self,
         body: Body,
         given: Joints<'_>,
-        parameters: &[Option<Real>],
+        parameters: &[Option<RealNumber>],
         faults: &mut Vec<Fault>,
-    ) -> Vec<Option<ExactPoint>> {
+    ) -> Vec<Option<RealPoint>> {
         let (list, names) = (&self.joints[body.index()], given.names[body.index()]);
         let needs: Vec<Vec<usize>> =
             list.iter().map(|c| c.as_ref().map_or_else(Vec::new, |c| c.joints().to_vec())).collect();
-        let mut found: Vec<Option<ExactPoint>> = vec![None; list.len()];
+        let mut found: Vec<Option<RealPoint>> = vec![None; list.len()];
         let (order, cycles) = ordered(&needs);
         for i in order {
             found[i] = match &list[i] {
@@ -202,22 +205,22 @@ impl Constructions {
         (body, joint): (Body, usize),
         construction: &Construction,
         names: &[String],
-        found: &[Option<ExactPoint>],
-        parameters: (&[Option<Real>], &[String]),
+        found: &[Option<RealPoint>],
+        parameters: (&[Option<RealNumber>], &[String]),
         faults: &mut Vec<Fault>,
-    ) -> Option<ExactPoint> {
+    ) -> Option<RealPoint> {
         let owner = Owner::Joint(body, joint);
         let quantities = construction.quantities();
         // all of them, so that each fault is reported
-        let values: Vec<Option<Real>> = quantities
+        let values: Vec<Option<RealNumber>> = quantities
             .iter()
             .map(|(part, q)| self.quantity((owner, Some(*part)), q, parameters, faults))
             .collect();
-        let values: Vec<Real> = values.into_iter().collect::<Option<_>>()?;
-        let points: Vec<&ExactPoint> =
+        let values: Vec<RealNumber> = values.into_iter().collect::<Option<_>>()?;
+        let points: Vec<&RealPoint> =
             construction.joints().iter().map(|j| found[*j].as_ref()).collect::<Option<_>>()?;
         let made = match construction {
-            Construction::Coordinates(_) => return <[Real; 3]>::try_from(values).ok(),
+            Construction::Coordinates(_) => return <[RealNumber; 3]>::try_from(values).ok(),
             Construction::OnLine { at, through } => {
                 let (a, b) = (points[0], points[1]);
                 on_line(a, b, at, &values[0]).unwrap_or_else(|| {
@@ -236,7 +239,7 @@ impl Constructions {
                 })
             }
             Construction::Polar { .. } => {
-                let z = values.get(2).cloned().unwrap_or_else(|| Real::integer(0));
+                let z = values.get(2).cloned().unwrap_or_else(|| RealNumber::integer(0));
                 values[1].turn().and_then(|(c, s)| Ok(Some([values[0].times(&c)?, values[0].times(&s)?, z])))
             }
             Construction::Turned { .. } => values[0].turn().and_then(|(c, s)| turned(points[0], &c, &s)),
@@ -252,25 +255,25 @@ impl Constructions {
 
 /// `None` when the points are the same, or cannot be told apart.
 pub(super) fn on_line(
-    a: &ExactPoint,
-    b: &ExactPoint,
-    at: &Along,
-    value: &Real,
-) -> Option<Result<Option<ExactPoint>, NoReal>> {
-    let share = || -> Result<Option<ExactPoint>, NoReal> {
+    a: &RealPoint,
+    b: &RealPoint,
+    at: &LinePlace,
+    value: &RealNumber,
+) -> Option<Result<Option<RealPoint>, NoReal>> {
+    let share = || -> Result<Option<RealPoint>, NoReal> {
         let way = [0, 1, 2].map(|i| b[i].minus(&a[i]));
         let [x, y, z] = way;
         let way = [x?, y?, z?];
         let [x, y, z] = way.each_ref().map(|x| x.times(x));
         let square = x?.plus(&y?)?.plus(&z?)?;
         let share = match at {
-            Along::Share(_) => {
+            LinePlace::Share(_) => {
                 if square.may_be_zero() {
                     return Err(NoReal::DivisionByZero);
                 }
                 value.clone()
             }
-            Along::Offset(_) => value.over(&square.sqrt()?)?,
+            LinePlace::Offset(_) => value.over(&square.sqrt()?)?,
         };
         let [x, y, z] = [0, 1, 2].map(|i| a[i].plus(&way[i].times(&share)?));
         Ok(Some([x?, y?, z?]))
@@ -281,14 +284,14 @@ pub(super) fn on_line(
     }
 }
 
-fn turned(p: &ExactPoint, c: &Real, s: &Real) -> Result<Option<ExactPoint>, NoReal> {
+fn turned(p: &RealPoint, c: &RealNumber, s: &RealNumber) -> Result<Option<RealPoint>, NoReal> {
     let [x, y, z] = p;
     let along = x.times(c)?.minus(&y.times(s)?)?;
     let across = x.times(s)?.plus(&y.times(c)?)?;
     Ok(Some([along, across, z.clone()]))
 }
 
-fn mirrored(p: &ExactPoint, plane: Plane) -> ExactPoint {
+fn mirrored(p: &RealPoint, plane: CoordinatePlane) -> RealPoint {
     let mut image = p.clone();
     image[plane.normal()] = image[plane.normal()].negated();
     image

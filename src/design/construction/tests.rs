@@ -91,7 +91,7 @@ fn an_equilateral_triangle_is_equilateral() {
     );
     let points = d.exact_points(Body::Base);
     let square = |i: usize, j: usize| {
-        (0..3).fold(crate::num::real::Real::integer(0), |sum, k| {
+        (0..3).fold(crate::num::real::RealNumber::integer(0), |sum, k| {
             let x = points[i][k].minus(&points[j][k]).unwrap();
             sum.plus(&x.times(&x).unwrap()).unwrap()
         })

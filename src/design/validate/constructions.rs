@@ -7,7 +7,7 @@ use super::{LARGEST, check_keys, nearest_help, number, shown, table};
 use crate::design::Code;
 use crate::design::construction::expression::{Slip, function_names, is_name};
 use crate::design::construction::resolve::{Joints, Owner};
-use crate::design::construction::{Along, Construction, Constructions, Plane, Quantity};
+use crate::design::construction::{Construction, Constructions, CoordinatePlane, LinePlace, WrittenNumber};
 use crate::design::tree::{Entry, Node, Span, Value, find};
 use crate::design::violation::Findings;
 
@@ -24,7 +24,7 @@ pub(super) struct Places {
 }
 
 /// `[parameters]` with their places; those without a value could not be read.
-pub(super) type Parameters = Vec<(String, Option<Quantity>, Places)>;
+pub(super) type Parameters = Vec<(String, Option<WrittenNumber>, Places)>;
 
 pub(super) fn parameters(report: &mut Findings<'_>, top: &[Entry]) -> Parameters {
     let Some(entries) = find(top, "parameters").and_then(|e| table(report, &e.node, "[parameters]")) else {
@@ -48,13 +48,13 @@ pub(super) fn parameters(report: &mut Findings<'_>, top: &[Entry]) -> Parameters
 }
 
 /// A number, which is the decimal that is written, or an expression in quotes.
-fn quantity(report: &mut Findings<'_>, node: &Node, what: &str) -> Option<Quantity> {
+fn quantity(report: &mut Findings<'_>, node: &Node, what: &str) -> Option<WrittenNumber> {
     let read = match &node.value {
-        Value::Text(text) => Quantity::text(text),
+        Value::Text(text) => WrittenNumber::text(text),
         Value::Number(_) => {
             let x = number(report, node, what)?;
             let digits = report.source(&node.span).replace('_', "");
-            Quantity::decimal(digits.trim_start_matches('+'), x)
+            WrittenNumber::decimal(digits.trim_start_matches('+'), x)
         }
         other => {
             let message = format!("{what} is {}, not a number", other.kind());
@@ -178,8 +178,8 @@ fn form(
             let (t, offset) = (number_of("t", true), number_of("offset", true));
             let through = line(report, &find(entries, "on")?.node, what, names);
             let (at, place) = match (t?, offset?) {
-                (Some(t), None) => (Along::Share(t), span("t")),
-                (None, Some(offset)) => (Along::Offset(offset), span("offset")),
+                (Some(t), None) => (LinePlace::Share(t), span("t")),
+                (None, Some(offset)) => (LinePlace::Offset(offset), span("offset")),
                 (both, _) => {
                     let (code, says) = if both.is_some() {
                         (Code::ConflictingKeys, "both `t` and `offset`")
@@ -196,13 +196,13 @@ fn form(
     })
 }
 
-fn plane(report: &mut Findings<'_>, node: &Node, entries: &[Entry], what: &str) -> Option<Plane> {
+fn plane(report: &mut Findings<'_>, node: &Node, entries: &[Entry], what: &str) -> Option<CoordinatePlane> {
     let help = "write plane = \"xy\", \"xz\" or \"yz\"";
     let Some(entry) = find(entries, "plane") else {
         report.refuse(Code::MissingKey, &node.span, format!("`plane` of {what} is missing"), help);
         return None;
     };
-    let known = |text: &str| Plane::ALL.into_iter().find(|p| p.name() == text);
+    let known = |text: &str| CoordinatePlane::ALL.into_iter().find(|p| p.name() == text);
     let plane = if let Value::Text(text) = &entry.node.value { known(text) } else { None };
     if plane.is_none() {
         let message = format!("`plane` of {what} is no plane of two axes");
