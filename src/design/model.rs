@@ -1,5 +1,6 @@
 //! The design: what a file holds once it is valid, with its requirements and what the optimiser may choose.
 
+use nalgebra::Point3;
 use thiserror::Error;
 
 use super::construction::RealPoint;
@@ -7,9 +8,7 @@ use super::construction::resolve::{Fault, Joints};
 use super::{Constructions, ExactJoint, Workspace, Written};
 use crate::geom::Pose;
 use crate::manipulator::Body;
-use crate::manipulator::{InvalidManipulator, LegLengths, Manipulator};
-#[cfg(feature = "synthesis")]
-use crate::num::surd::Surd;
+use crate::manipulator::{ExactPoint, InvalidManipulator, JointValues, LegLengths, Manipulator};
 use crate::requirements::{Hardware, KeepOut, Load, PlatformSpeed, Quantity, Requirements, Term, TermKind};
 use crate::requirements::{Objective, VariableKind};
 
@@ -221,17 +220,25 @@ impl Design {
         self.constructions.exact(body, body.of((m.base_joints(), m.platform_joints())))
     }
 
-    /// The six legs by their exact ends, on the base and on the platform; `None` when one of them is known between bounds only.
-    #[cfg(feature = "synthesis")]
-    pub(crate) fn exact_legs(&self) -> Option<[[[Surd; 3]; 2]; 6]> {
-        let [base, platform] = Body::BOTH.map(|body| self.exact_points(body));
-        let point = |p: &RealPoint| -> Option<[Surd; 3]> {
-            let [x, y, z] = p;
-            Some([x.exact()?.clone(), y.exact()?.clone(), z.exact()?.clone()])
+    /// Files what is said of the joints beside three numbers each, and with it what they are where they are not the doubles.
+    ///
+    /// The constructions have been resolved, and the coordinates of the manipulator follow from them.
+    pub(super) fn set_constructions(&mut self, constructions: Constructions) {
+        self.constructions = constructions;
+        let points = Body::BOTH.map(|body| self.exact_points(body));
+        let whole = |list: &[RealPoint]| list.iter().map(exact_point).collect::<Option<Vec<_>>>();
+        let exact = match points.each_ref().map(|list| whole(list)) {
+            [Some(base), Some(platform)] => Some([base, platform]),
+            _ => None,
         };
-        let ends = |(a, b): (usize, usize)| Some([point(&base[a])?, point(&platform[b])?]);
-        let legs: Vec<_> = self.manipulator.pairs().into_iter().map(ends).collect::<Option<_>>()?;
-        legs.try_into().ok()
+        let radius = Body::BOTH.map(|body| {
+            let doubles = self.manipulator.joints(body);
+            let one = |(p, d): (&RealPoint, &Point3<f64>)| {
+                p.iter().zip(d.iter()).map(|(x, d)| x.distance_from(*d)).fold(0.0, f64::max)
+            };
+            points[body.index()].iter().zip(doubles).map(one).collect()
+        });
+        self.manipulator = self.manipulator.clone().with_values(JointValues { exact, radius });
     }
 
     /// The same with other constructions, and the coordinates that follow from them.
@@ -241,7 +248,7 @@ impl Design {
         let given = Joints { names, points: [m.base_joints(), m.platform_joints()], unread: &[] };
         let [base, platform] = constructions.resolve(given)?;
         self.manipulator = Manipulator::try_new(base, platform, m.pairs())?;
-        self.constructions = constructions;
+        self.set_constructions(constructions);
         Ok(self)
     }
 
@@ -322,4 +329,10 @@ pub struct SearchTable {
     pub stretch_bounds: Option<(f64, f64)>,
     /// Least and greatest change of the height of home, in sizes of the design.
     pub height_bounds: Option<(f64, f64)>,
+}
+
+/// The coordinates when all three are known exactly.
+fn exact_point(p: &RealPoint) -> Option<ExactPoint> {
+    let [x, y, z] = p;
+    Some([x.exact()?.clone(), y.exact()?.clone(), z.exact()?.clone()])
 }

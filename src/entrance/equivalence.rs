@@ -136,7 +136,7 @@ pub(crate) fn exact_map(from: &Design, to: &Design) -> Option<ExactMap> {
     if !(from.is_constructed() || to.is_constructed()) {
         return None; // doubles decide as well
     }
-    ExactMap::between(&from.exact_legs()?, &to.exact_legs()?).ok()
+    ExactMap::between(&from.manipulator().exact_ends()?, &to.manipulator().exact_ends()?).ok()
 }
 
 /// The affine map between the squared leg lengths of two platforms, `s(to) = A s(from) + c`, or which legs have none.

@@ -3,7 +3,10 @@
 use nalgebra::{Point3, Vector3};
 use thiserror::Error;
 
+use std::sync::Arc;
+
 use super::body::Body;
+use super::values::JointValues;
 
 /// A leg number, 0-based in code and printed 1-based ("leg 3") as the papers count.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -83,6 +86,8 @@ pub struct Manipulator {
     platform: Vec<Point3<f64>>,
     legs: [(usize, usize); 6],
     size: f64,
+    /// What the joints are where they are not the doubles.
+    pub(super) values: Option<Arc<JointValues>>,
 }
 
 /// Why joints and legs do not make a manipulator.
@@ -185,7 +190,7 @@ impl Manipulator {
         if !(size * size).is_normal() {
             return Err(InvalidManipulator::TooSmall);
         }
-        Ok(Self { base, platform, legs, size })
+        Ok(Self { base, platform, legs, size, values: None })
     }
 
     /// Builds a manipulator from six legs; joints with exactly equal coordinates become one shared joint.
@@ -270,7 +275,8 @@ impl Manipulator {
             let index = order[leg.get()];
             return Err(InvalidManipulator::MissingJoint { leg, body: Body::Base, index, count: 6 });
         }
-        Self::try_new(self.base.clone(), self.platform.clone(), order.map(|i| self.legs[i]))
+        let same = Self::try_new(self.base.clone(), self.platform.clone(), order.map(|i| self.legs[i]))?;
+        Ok(Self { values: self.values.clone(), ..same })
     }
 }
 

@@ -11,6 +11,7 @@ mod jacobian;
 mod leg;
 mod lengths;
 mod octahedral;
+mod values;
 
 pub use body::{Body, NoSuchBody};
 pub(crate) use exact_legs::{ExactLeg, ExactLegs, flat_dimension, homogeneous};
@@ -22,3 +23,6 @@ pub use leg::{BaseJoint, InvalidManipulator, Leg, LegIndex, Manipulator, Platfor
 pub use lengths::{InvalidLengths, LegLengths, SquaredLegLengths};
 pub(crate) use octahedral::is_collinear;
 pub use octahedral::{NotOctahedral, Octahedral};
+pub(crate) use values::{ExactEnds, JointKnowledge};
+#[cfg(feature = "files")]
+pub(crate) use values::{ExactPoint, JointValues};

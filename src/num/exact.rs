@@ -124,7 +124,10 @@ pub(crate) fn decimal(digits: &str, exponent: i64) -> Option<Rational> {
 }
 
 /// The nearest double, halves to even; overflow gives an infinity, and what is below the smallest normal double may be rounded twice.
-#[cfg(feature = "files")]
+#[cfg_attr(
+    not(feature = "files"),
+    allow(dead_code, reason = "without design files exact numbers are doubles")
+)]
 pub(crate) fn nearest(x: &Rational) -> f64 {
     let (n, d) = (x.numer(), x.denom());
     // 64 or 65 leading bits of the quotient, and one that says whether anything is left

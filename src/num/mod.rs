@@ -25,7 +25,10 @@ pub mod rounding;
 mod seed;
 pub(crate) mod small;
 pub(crate) mod stream;
-#[cfg(feature = "files")]
+#[cfg_attr(
+    not(feature = "files"),
+    allow(dead_code, reason = "without design files exact numbers are doubles")
+)]
 pub(crate) mod surd;
 
 pub(crate) use seed::Purpose;

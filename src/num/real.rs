@@ -6,7 +6,7 @@ use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
 use thiserror::Error;
 
-use super::exact::{Rational, nearest};
+use super::exact::{Rational, approximate, nearest};
 use super::surd::Surd;
 
 /// Bits to which the ends of an enclosure are rounded outward.
@@ -109,6 +109,16 @@ impl RealNumber {
             Self::Exact(x) => x.nearest(),
             Self::Within(e) => nearest(&((&e.low + &e.high) / Rational::from_integer(2.into()))),
         }
+    }
+
+    /// An upper bound of how far it is from a finite double; zero where it is the double.
+    pub(crate) fn distance_from(&self, double: f64) -> f64 {
+        let (Some(double), Ok(e)) = (super::exact::rational(double), self.enclosure()) else {
+            return f64::INFINITY;
+        };
+        let far = (&double - &e.low).abs().max((&e.high - &double).abs());
+        // the approximation is off by one unit in the last place at most
+        if far.is_zero() { 0.0 } else { approximate(&far).next_up().next_up() }
     }
 
     /// The exact result, or that of the enclosures.

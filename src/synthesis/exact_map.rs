@@ -3,10 +3,8 @@
 //! A leg `(a, b)` is the vector `(1, a) (x) (1, b)` of `R^16`; `A` writes the vectors of TO as combinations of those of FROM, and
 //! `c_i = |a'_i|^2 + |b'_i|^2 - sum_k A_ik (|a_k|^2 + |b_k|^2)`. Both platforms are equivalent if and only if `det A` is not zero.
 
+use crate::manipulator::ExactEnds;
 use crate::num::surd::Surd;
-
-/// A leg by the exact coordinates of its ends, on the base and on the platform.
-pub(crate) type ExactEnds = [[Surd; 3]; 2];
 
 /// `s(TO) = A s(FROM) + c` with exact numbers.
 #[derive(Debug, Clone, PartialEq)]

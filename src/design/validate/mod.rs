@@ -81,7 +81,7 @@ pub(super) fn design(root: &Node, report: &mut Findings<'_>) -> Option<Design> {
     let manipulator = manipulator(report, &root.span, &base, &platform, &legs?)?;
     let mut design =
         Design::new(name?, units?, manipulator).with_joint_names(base.names(), platform.names()).ok()?;
-    design.constructions = constructions?;
+    design.set_constructions(constructions?);
     design.source = source;
     design.description = description;
     design.lengths = lengths;

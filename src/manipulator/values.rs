@@ -1,0 +1,80 @@
+//! What the coordinates of joints are, where a double only comes near.
+
+use std::sync::Arc;
+
+use super::{Body, Leg, Manipulator};
+use crate::num::surd::Surd;
+
+/// The coordinates of a joint as numbers of one field of square roots.
+pub(crate) type ExactPoint = [Surd; 3];
+
+/// A leg by the exact coordinates of its ends, on the base and on the platform.
+pub(crate) type ExactEnds = [ExactPoint; 2];
+
+/// The joints behind the doubles of a [`Manipulator`].
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct JointValues {
+    /// For base and platform the coordinates of every joint; `None` when one of them is known between bounds only.
+    pub(crate) exact: Option<[Vec<ExactPoint>; 2]>,
+    /// For base and platform how far, at most, a coordinate of a joint is from its double.
+    pub(crate) radius: [Vec<f64>; 2],
+}
+
+/// How the joints of a [`Manipulator`] are known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum JointKnowledge {
+    /// They are the doubles as written.
+    Doubles,
+    /// They are numbers of a field of square roots, near the doubles.
+    Exact,
+    /// They are somewhere near the doubles.
+    Enclosed,
+}
+
+impl Manipulator {
+    /// The same doubles with what they stand for.
+    ///
+    /// `values` belong to the joints of this manipulator, in their order.
+    #[cfg(any(feature = "files", test))]
+    pub(crate) fn with_values(mut self, values: JointValues) -> Self {
+        let counts = [self.base_joints().len(), self.platform_joints().len()];
+        debug_assert_eq!(values.radius.each_ref().map(Vec::len), counts);
+        let plain = values.radius.iter().flatten().all(|r| *r <= 0.0);
+        self.values = (!plain).then(|| Arc::new(values));
+        self
+    }
+
+    /// How the joints are known.
+    pub(crate) fn joint_knowledge(&self) -> JointKnowledge {
+        match &self.values {
+            None => JointKnowledge::Doubles,
+            Some(values) if values.exact.is_some() => JointKnowledge::Exact,
+            Some(_) => JointKnowledge::Enclosed,
+        }
+    }
+
+    /// How far, at most, the coordinates of the ends of leg `i` on `body` are from their doubles.
+    pub(crate) fn end_radius(&self, leg: usize, body: Body) -> f64 {
+        let joint = body.of(self.pairs()[leg]);
+        self.values.as_ref().map_or(0.0, |v| v.radius[body.index()][joint])
+    }
+
+    /// The ends of the legs as exact numbers; `None` when one of them is known between bounds only.
+    pub(crate) fn exact_ends(&self) -> Option<[ExactEnds; 6]> {
+        let ends: Vec<ExactEnds> = match &self.values {
+            None => self.legs().iter().map(exact_doubles).collect::<Option<_>>()?,
+            Some(values) => {
+                let [base, platform] = values.exact.as_ref()?;
+                self.pairs().iter().map(|(a, b)| [base[*a].clone(), platform[*b].clone()]).collect()
+            }
+        };
+        ends.try_into().ok()
+    }
+}
+
+/// The doubles of a leg as the rational numbers they are.
+fn exact_doubles(leg: &Leg) -> Option<ExactEnds> {
+    let one = |x: f64| crate::num::exact::rational(x).and_then(|x| Surd::rational(&x));
+    let point = |p: &nalgebra::Point3<f64>| Some([one(p.x)?, one(p.y)?, one(p.z)?]);
+    Some([point(&leg.base)?, point(&leg.platform)?])
+}
