@@ -24,6 +24,7 @@ pub(crate) mod real;
 pub mod rounding;
 mod seed;
 pub(crate) mod small;
+pub(crate) mod split;
 pub(crate) mod stream;
 #[cfg_attr(
     not(feature = "files"),

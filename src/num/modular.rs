@@ -104,6 +104,39 @@ impl Field {
         self.pow(x, self.0 - 2)
     }
 
+    /// A square root, if there is one (Tonelli 1891, Shanks 1973).
+    pub(crate) fn square_root(self, x: u64) -> Option<u64> {
+        let p = self.0;
+        if x == 0 {
+            return Some(0);
+        }
+        let is_square = |x: u64| self.pow(x, (p - 1) / 2) == 1;
+        if !is_square(x) {
+            return None;
+        }
+        let twos = (p - 1).trailing_zeros();
+        let odd = (p - 1) >> twos;
+        let other = (2..p).find(|z| !is_square(*z))?;
+        // root^2 = x rest, and the order of rest is a power of two below 2^order
+        let (mut root, mut rest) = (self.pow(x, odd.div_ceil(2)), self.pow(x, odd));
+        let (mut generator, mut order) = (self.pow(other, odd), twos);
+        while rest != 1 {
+            let (mut k, mut square) = (0, rest);
+            while square != 1 {
+                square = self.mul(square, square);
+                k += 1;
+            }
+            for _ in 0..order - k - 1 {
+                generator = self.mul(generator, generator);
+            }
+            root = self.mul(root, generator);
+            generator = self.mul(generator, generator);
+            rest = self.mul(rest, generator);
+            order = k;
+        }
+        Some(root)
+    }
+
     /// Determinant by expansion along the first row: for tests, nothing in common with [`rank`](Self::rank).
     #[cfg(test)]
     pub(crate) fn determinant<const N: usize>(self, rows: &[[u64; N]]) -> u64 {
@@ -193,6 +226,24 @@ mod tests {
         );
         let found = fields(3).into_iter().map(|f| (1u64 << 61) - f.prime()).collect::<Vec<_>>();
         assert_eq!(found, [1, 31, 45]); // 2^61 - 1, - 31, - 45 (Caldwell's list of primes just below powers of two)
+    }
+
+    #[test]
+    fn square_roots_are_found_where_they_exist() {
+        let mut rng = Rng::new(4);
+        for field in fields(5).into_iter().chain((0..5).map(|_| Field::drawn(&mut rng))) {
+            let mut squares = 0;
+            for x in 1..60u64 {
+                let y = field.mul(x, x);
+                assert!([x, field.prime() - x].contains(&field.square_root(y).unwrap()));
+                if let Some(root) = field.square_root(x) {
+                    assert_eq!(field.mul(root, root), x);
+                    squares += 1;
+                }
+            }
+            assert!((10..59).contains(&squares));
+        }
+        assert_eq!(Field::MERSENNE.square_root(0), Some(0));
     }
 
     #[test]

@@ -85,6 +85,16 @@ impl Surd {
         self.terms.keys().copied().filter(|r| *r > 1)
     }
 
+    /// Radicands, squarefree and from 1 on, with the numerators that belong to them.
+    pub(crate) fn terms(&self) -> impl Iterator<Item = (u64, &BigInt)> {
+        self.terms.iter().map(|(r, c)| (*r, c))
+    }
+
+    /// The common denominator, positive.
+    pub(crate) fn denominator(&self) -> &BigInt {
+        &self.denominator
+    }
+
     pub(crate) fn negated(&self) -> Self {
         let terms = self.terms.iter().map(|(r, c)| (*r, -c)).collect();
         Self { terms, denominator: self.denominator.clone() }
