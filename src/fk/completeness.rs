@@ -59,6 +59,19 @@ pub enum Theorem {
         /// The construction that proves it, see `docs/theory/completeness.md`.
         construction: &'static str,
     },
+    /// Five legs end on a line of one body: three quadrics for the line, then an angle.
+    FiveOnALine,
+    /// Four legs end on a line of one body: a curve of degree eight for the line, then an angle.
+    FourOnALine,
+    /// Planar bodies whose joints are affine images of each other: a quartic, two signs, a quadric.
+    AffineHexagons,
+    /// Points at infinity that the legs have in common whatever their lengths are.
+    PointsAtInfinity {
+        /// Pairs of lines, one of each body, on which all legs end: each takes eight poses away.
+        butterflies: usize,
+        /// Projections of planar bodies that a linear fractional map relates: each takes four poses away.
+        inversions: usize,
+    },
 }
 
 impl Theorem {
@@ -67,9 +80,13 @@ impl Theorem {
     pub fn bound(self) -> usize {
         match self {
             Self::ContradictoryLengths => 0,
-            Self::Octahedral => 16,
+            Self::Octahedral | Self::FiveOnALine | Self::AffineHexagons => 16,
             Self::SixLegs => 40,
             Self::SharedJoints { poses, .. } => poses,
+            Self::FourOnALine => 32,
+            Self::PointsAtInfinity { butterflies, inversions } => {
+                40usize.saturating_sub(8 * butterflies + 4 * inversions)
+            }
         }
     }
 }
@@ -93,6 +110,28 @@ impl fmt::Display for Theorem {
                 f,
                 "{poses} certified distinct poses, and no more than {poses} are possible: {construction}"
             ),
+            Self::FiveOnALine => f.write_str(
+                "16 certified distinct poses, and no more are possible with five joints of one body on a line: three quadrics for the place of the line, two \
+                 angles about it (docs/theory/completeness.md)",
+            ),
+            Self::FourOnALine => f.write_str(
+                "32 certified distinct poses, and no more are possible with four joints of one body on a line: a closure condition of degree four on a \
+                 curve of degree eight (docs/theory/completeness.md)",
+            ),
+            Self::AffineHexagons => f.write_str(
+                "16 certified distinct poses, and no more are possible with planar bodies whose joints are affine images of each other: a quartic, two mirror \
+                 images, two translations (docs/theory/completeness.md)",
+            ),
+            Self::PointsAtInfinity { butterflies, inversions } => {
+                let bound = self.bound();
+                write!(f, "{bound} certified distinct poses, and no more are possible: of 40 common points of the six legs ")?;
+                match (butterflies, inversions) {
+                    (b, 0) => write!(f, "{} are at infinity for every set of lengths, {b} pairs of lines on which all legs end", 8 * b)?,
+                    (0, i) => write!(f, "{} are at infinity for every set of lengths, {i} pairs of projections of the planar bodies that a linear fractional map relates", 4 * i)?,
+                    (b, i) => write!(f, "{} are at infinity for every set of lengths, {b} pairs of lines on which all legs end and {i} pairs of projections of the planar bodies that a linear fractional map relates", 8 * b + 4 * i)?,
+                }
+                f.write_str(" (docs/theory/completeness.md)")
+            }
         }
     }
 }

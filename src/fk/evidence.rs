@@ -1,6 +1,6 @@
 //! Certificates for the roots of a method, and completeness when they reach a proved bound.
 
-use super::bounds::class_bound;
+use super::bounds::{class_bound, special_bound};
 use super::{Completeness, FkRoot, FkSolutions, Reality, Reason, Rejected, RejectionReason, Theorem};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::solve::certify::{
@@ -79,7 +79,10 @@ pub(super) fn conclude(
     let distinct = distinct(certificates);
     let reached = |theorem: &Theorem| theorem.bound() == certificates.len();
     if distinct == Distinctness::AllDistinct
-        && let Some(theorem) = Some(theorem).filter(reached).or_else(|| class_bound(m).filter(reached))
+        && let Some(theorem) = Some(theorem)
+            .filter(reached)
+            .or_else(|| class_bound(m).filter(reached))
+            .or_else(|| special_bound(m).filter(reached))
     {
         solutions.completeness.learn(Completeness::Proved { theorem });
         reject_others(solutions);

@@ -23,6 +23,8 @@ pub use leg::{BaseJoint, InvalidManipulator, Leg, LegIndex, Manipulator, Platfor
 pub use lengths::{InvalidLengths, LegLengths, SquaredLegLengths};
 pub(crate) use octahedral::is_collinear;
 pub use octahedral::{NotOctahedral, Octahedral};
-pub(crate) use values::{ExactEnds, JointKnowledge};
 #[cfg(feature = "files")]
-pub(crate) use values::{ExactPoint, JointValues};
+pub(crate) use values::ExactPoint;
+#[cfg(any(feature = "files", test))]
+pub(crate) use values::JointValues;
+pub(crate) use values::{ExactEnds, JointKnowledge};

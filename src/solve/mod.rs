@@ -10,6 +10,7 @@ mod octuple_sections;
 mod planar;
 pub mod pose_count;
 mod sections;
+pub(crate) mod special;
 #[cfg(feature = "lab")]
 pub mod sylvester;
 #[cfg(feature = "lab")]

@@ -4,13 +4,15 @@
 //! algebra is built degree by degree (`quotient.rs`) from the joints and squared lengths as the dyadic numbers they are, modulo a random prime of 61 bits. The method shares nothing with
 //! those that find poses, nor with their certificates. Theorem, bound on the probability of error and sources: `docs/theory/completeness.md`.
 
+mod infinity;
 mod quadrics;
 mod quotient;
 
 use crate::manipulator::{Leg, Manipulator, SquaredLegLengths};
 use crate::num::Purpose;
 use crate::num::modular::{Field, mantissa_and_exponent};
-use quadrics::{COORDINATES, Cut, Linear, cut};
+pub(crate) use infinity::points_at_infinity;
+use quadrics::{COORDINATES, Cut, Linear, Part, cut};
 use quotient::{Outcome, close};
 
 /// Squared lengths, each the exact sum of two doubles.
@@ -215,7 +217,7 @@ fn set_modulo(field: Field, m: &Manipulator, lengths: Lengths<'_>, draws: &Draws
         if dimension > relations {
             equations.push(section(dimension - 1));
         }
-        let (unknowns, polynomials) = match cut(field, &equations) {
+        let (unknowns, polynomials) = match cut(field, &equations, Part::Finite) {
             Cut::Empty => return (PoseSet::Finite { count: 0, by_degree: Vec::new() }, deepest),
             Cut::Quadrics { unknowns, polynomials } => (unknowns, polynomials),
         };

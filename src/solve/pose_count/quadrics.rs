@@ -83,8 +83,17 @@ pub(super) enum Cut {
     },
 }
 
+/// Where the quadrics are taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Part {
+    /// Where the homogeneous coordinate `h` is one.
+    Finite,
+    /// Where it is zero: what has degree two is left.
+    AtInfinity,
+}
+
 /// Solves the linear equations and puts the solution into the quadrics.
-pub(super) fn cut(field: Field, equations: &[Linear]) -> Cut {
+pub(super) fn cut(field: Field, equations: &[Linear], part: Part) -> Cut {
     let (mut rows, mut pivots): (Vec<Linear>, Vec<usize>) = (equations.to_vec(), Vec::new());
     // r first: it has the coefficient one in every leg
     for column in (0..COORDINATES).rev() {
@@ -115,7 +124,13 @@ pub(super) fn cut(field: Field, equations: &[Linear]) -> Cut {
         terms.map(|(monomial, x)| (monomial, field.sub(0, x))).collect()
     };
     let forms: Vec<Polynomial> = (0..COORDINATES).map(form).collect();
-    let polynomials = quadrics().iter().map(|terms| substituted(field, terms, &forms)).collect();
+    let mut quadrics = quadrics();
+    if part == Part::AtInfinity {
+        for terms in &mut quadrics {
+            terms.retain(|t| t.1.len() == 2);
+        }
+    }
+    let polynomials = quadrics.iter().map(|terms| substituted(field, terms, &forms)).collect();
     Cut::Quadrics { unknowns: left.len(), polynomials }
 }
 

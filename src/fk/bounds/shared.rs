@@ -1,10 +1,10 @@
 //! Proved upper bounds on the number of isolated finite poses of platforms with shared joints.
 //!
-//! Statements and proofs: `docs/theory/completeness.md`. A bound proved for generic platforms of a topology holds for every
+//! A bound proved for generic platforms of a topology holds for every
 //! platform of it and of its mergers; which joints coincide is decided exactly, on the doubles as they are.
 
-use super::Theorem;
-use crate::manipulator::Manipulator;
+use crate::fk::Theorem;
+use crate::manipulator::{Body, JointKnowledge, Manipulator};
 use crate::topology::Topology;
 
 /// A topology with a count of its own, base and platform joint of every leg.
@@ -85,10 +85,18 @@ const PROVED: [Row; 10] = [
     ),
 ];
 
-/// The smallest bound known for this platform below 40, if any.
-pub(super) fn class_bound(m: &Manipulator) -> Option<Theorem> {
-    let legs = m.legs();
-    let (base, platform) = (places(legs.map(|l| l.base.into())), places(legs.map(|l| l.platform.into())));
+/// The smallest bound below 40 that shared joints give, if any.
+pub(in crate::fk) fn class_bound(m: &Manipulator) -> Option<Theorem> {
+    let bodies = match m.joint_knowledge() {
+        JointKnowledge::Doubles => Body::BOTH.map(|body| places(m.legs().map(|l| l.end(body).into()))),
+        JointKnowledge::Exact => {
+            let ends = m.exact_ends()?;
+            Body::BOTH.map(|body| first_of(&ends.each_ref().map(|leg| &leg[body.index()])))
+        }
+        // two joints within the same bounds need not be one
+        JointKnowledge::Enclosed => Body::BOTH.map(|body| first_of(&m.pairs().map(|pair| body.of(pair)))),
+    };
+    let [base, platform] = bodies;
     bound_of(Topology::unordered(base, platform))
 }
 
@@ -106,7 +114,12 @@ fn bound_of(t: Topology) -> Option<Theorem> {
 fn places(ends: [[f64; 3]; 6]) -> [usize; 6] {
     // adding zero makes -0 and 0 one number
     let bits = ends.map(|p: [f64; 3]| p.map(|x| (x + 0.0).to_bits()));
-    bits.map(|p| bits.iter().position(|q| *q == p).unwrap_or(0))
+    first_of(&bits)
+}
+
+/// For each leg the first one with the same end.
+fn first_of<T: PartialEq>(ends: &[T; 6]) -> [usize; 6] {
+    std::array::from_fn(|i| ends.iter().position(|q| *q == ends[i]).unwrap_or(i))
 }
 
 #[cfg(test)]
