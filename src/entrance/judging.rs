@@ -3,6 +3,7 @@
 use super::Error;
 use crate::design::Design;
 use crate::equivalents::Equivalents;
+use crate::fk::{Theorem, pose_bound};
 use crate::requirements::{AssessOptions, MarginProof, prove};
 use crate::singularity::{
     Architecture, Assembly, Conditioning, NearestSingular, Regularity, assembly, conditioning,
@@ -28,6 +29,8 @@ pub struct CheckReport {
     pub conditioning: Conditioning,
     /// Finite poses, real and complex, for generic leg lengths: no lengths have more isolated ones.
     pub pose_count: PoseCount,
+    /// The theorem with the smallest bound on the isolated finite poses, for all lengths.
+    pub pose_bound: Theorem,
 }
 
 impl CheckReport {
@@ -133,7 +136,17 @@ impl Design {
         };
         let pose_count = count_generic_poses(m, &CountOptions { seed, ..CountOptions::default() });
         let design = self.clone();
-        Ok(CheckReport { design, architecture, nearest, at_least, assembly, conditioning, pose_count })
+        let pose_bound = pose_bound(m);
+        Ok(CheckReport {
+            design,
+            architecture,
+            nearest,
+            at_least,
+            assembly,
+            conditioning,
+            pose_count,
+            pose_bound,
+        })
     }
 
     /// By how much the design meets its requirements over its whole workspace, and whether that is proved.

@@ -89,49 +89,69 @@ impl Theorem {
             }
         }
     }
+
+    /// Why there are not more, in one clause.
+    #[must_use]
+    pub fn statement(self) -> String {
+        match self {
+            Self::ContradictoryLengths => {
+                "the leg vectors satisfy a linear relation, exactly, and the squared lengths do not: the same combination of \
+                 the leg equations is a nonzero multiple of e.e, which no pose annuls"
+            }
+            Self::Octahedral => {
+                "an octahedral platform never has more than 16 isolated ones (degree of the octic, two mirror poses a root)"
+            }
+            Self::SixLegs => {
+                "six leg equations never have more than 40 isolated ones (Ronga, Vust 1992; Lazard 1993; Mourrain 1993)"
+            }
+            Self::SharedJoints { poses, construction } => {
+                return format!("no more than {poses} are possible: {construction}");
+            }
+            Self::FiveOnALine => {
+                "no more than 16 are possible with five joints of one body on a line: three quadrics for the place of the line, two angles about it"
+            }
+            Self::FourOnALine => {
+                "no more than 32 are possible with four joints of one body on a line: a closure condition of degree four on a curve of degree eight"
+            }
+            Self::AffineHexagons => {
+                "no more than 16 are possible with planar bodies whose joints are affine images of each other: a quartic, two mirror images, two translations"
+            }
+            Self::PointsAtInfinity { butterflies, inversions } => {
+                let causes = [
+                    (butterflies, "pairs of lines on which all legs end"),
+                    (inversions, "pairs of projections of the planar bodies that a linear fractional map relates"),
+                ];
+                let causes: Vec<String> =
+                    causes.iter().filter(|c| c.0 > 0).map(|c| format!("{} {}", c.0, c.1)).collect();
+                return format!(
+                    "no more than {} are possible: of the 40 common points of six legs {} are at infinity for every set of lengths ({})",
+                    self.bound(),
+                    40 - self.bound(),
+                    causes.join(" and ")
+                );
+            }
+        }
+        .to_owned()
+    }
 }
 
 impl fmt::Display for Theorem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let statement = self.statement();
         match self {
-            Self::ContradictoryLengths => f.write_str(
-                "the leg vectors satisfy a linear relation, exactly, and the squared lengths do not: the same combination of \
-                 the leg equations is a nonzero multiple of e.e, which no pose annuls (docs/theory/completeness.md)",
-            ),
-            Self::Octahedral => f.write_str(
-                "16 certified distinct poses, and an octahedral platform never has more than 16 isolated ones \
-                 (degree of the octic, two mirror poses a root)",
-            ),
-            Self::SixLegs => f.write_str(
-                "40 certified distinct poses, and six leg equations never have more than 40 isolated ones \
-                 (Ronga, Vust 1992; Lazard 1993; Mourrain 1993)",
-            ),
-            Self::SharedJoints { poses, construction } => write!(
-                f,
-                "{poses} certified distinct poses, and no more than {poses} are possible: {construction}"
-            ),
-            Self::FiveOnALine => f.write_str(
-                "16 certified distinct poses, and no more are possible with five joints of one body on a line: three quadrics for the place of the line, two \
-                 angles about it (docs/theory/completeness.md)",
-            ),
-            Self::FourOnALine => f.write_str(
-                "32 certified distinct poses, and no more are possible with four joints of one body on a line: a closure condition of degree four on a \
-                 curve of degree eight (docs/theory/completeness.md)",
-            ),
-            Self::AffineHexagons => f.write_str(
-                "16 certified distinct poses, and no more are possible with planar bodies whose joints are affine images of each other: a quartic, two mirror \
-                 images, two translations (docs/theory/completeness.md)",
-            ),
-            Self::PointsAtInfinity { butterflies, inversions } => {
-                let bound = self.bound();
-                write!(f, "{bound} certified distinct poses, and no more are possible: of 40 common points of the six legs ")?;
-                match (butterflies, inversions) {
-                    (b, 0) => write!(f, "{} are at infinity for every set of lengths, {b} pairs of lines on which all legs end", 8 * b)?,
-                    (0, i) => write!(f, "{} are at infinity for every set of lengths, {i} pairs of projections of the planar bodies that a linear fractional map relates", 4 * i)?,
-                    (b, i) => write!(f, "{} are at infinity for every set of lengths, {b} pairs of lines on which all legs end and {i} pairs of projections of the planar bodies that a linear fractional map relates", 8 * b + 4 * i)?,
-                }
-                f.write_str(" (docs/theory/completeness.md)")
+            Self::ContradictoryLengths => write!(f, "{statement} (docs/theory/completeness.md)"),
+            // the construction is told in full
+            Self::SharedJoints { poses, .. } => {
+                write!(f, "{poses} certified distinct poses, and {statement}")
             }
+            Self::SixLegs | Self::Octahedral => {
+                write!(f, "{} certified distinct poses, and {statement}", self.bound())
+            }
+            _ => write!(
+                f,
+                "{} certified distinct poses, and {statement} (docs/theory/completeness.md)",
+                self.bound()
+            ),
         }
     }
 }

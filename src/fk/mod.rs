@@ -32,6 +32,8 @@ mod trilateration;
 
 pub(crate) use batch::in_order;
 pub use batch::{BatchProblem, BatchResult, Threads, solve_batch, solve_problems};
+#[cfg(feature = "synthesis")]
+pub(crate) use bounds::pose_bound;
 pub use choose::{Automatic, solver};
 pub use closure::{Closure, NoClosure, closure};
 pub use closure_poses::closure_candidates;

@@ -8,6 +8,7 @@ use super::pose::leg_numbers;
 use super::{NamedPoints, Number, PoseRecord};
 use crate::design::Design;
 use crate::entrance::CheckReport;
+use crate::fk::Theorem;
 use crate::manipulator::LegLengths;
 use crate::singularity::{
     Architecture, Assembly, CornerLengths, Dependency, Finding, GriffisDuffy, NearestSingular, RankBound,
@@ -51,6 +52,8 @@ pub struct CheckAnswer {
     pub nearest_singular: Option<NearestSingularRecord>,
     /// Finite poses, real and complex, for generic leg lengths.
     pub pose_count: PoseCountRecord,
+    /// How many isolated finite poses no lengths exceed, by a theorem.
+    pub pose_bound: PoseBoundRecord,
     /// Singular values of the normalised leg vectors.
     pub singular_values: [Number; 6],
     /// How well conditioned the Jacobian is at random poses.
@@ -86,6 +89,7 @@ impl From<&CheckReport> for CheckAnswer {
                 .as_ref()
                 .map(|n| NearestSingularRecord::new(n, c.at_least, &c.design)),
             pose_count: (&c.pose_count).into(),
+            pose_bound: c.pose_bound.into(),
             singular_values: f.leg_vectors.map(Number),
             jacobian_inverse_condition: ConditioningRecord {
                 poses: f.poses,
@@ -94,6 +98,21 @@ impl From<&CheckReport> for CheckAnswer {
                 worst: Number(f.worst),
             },
         }
+    }
+}
+
+/// A proved bound on the number of isolated finite poses, counted with multiplicity.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct PoseBoundRecord {
+    /// The bound.
+    pub poses: usize,
+    /// Why there are not more.
+    pub theorem: String,
+}
+
+impl From<Theorem> for PoseBoundRecord {
+    fn from(theorem: Theorem) -> Self {
+        Self { poses: theorem.bound(), theorem: theorem.statement() }
     }
 }
 

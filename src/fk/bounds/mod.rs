@@ -10,6 +10,12 @@ use super::Theorem;
 use crate::manipulator::Manipulator;
 use crate::solve::special::special_position;
 
+/// The smallest proved bound on the number of isolated finite poses of a design, for all lengths.
+pub(crate) fn pose_bound(m: &Manipulator) -> Theorem {
+    let special = [class_bound(m), special_bound(m)];
+    special.into_iter().flatten().min_by_key(|theorem| theorem.bound()).unwrap_or(Theorem::SixLegs)
+}
+
 /// The smallest bound below 40 that the position of the joints gives beside those that legs share ([`class_bound`]), if any.
 ///
 /// The work of some milliseconds where there is one, of a fraction of one where there is none.
