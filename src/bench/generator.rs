@@ -1,8 +1,9 @@
 //! Problem `k` of a class: joints, lengths and, where the lengths come from one, a pose.
 
-use nalgebra::{Matrix2, Point3, Rotation3, Vector3};
+use nalgebra::{Point3, Rotation3, Vector3};
 use thiserror::Error;
 
+use super::exact_members::{self, ExactMember};
 use super::singular::{close_pair, double_root};
 use super::{Class, Planar};
 use crate::geom::{Pose, any_pose};
@@ -48,6 +49,9 @@ pub enum NotDrawn {
     /// No leg of the drawn direction has a length.
     #[error("the drawn legs have no length")]
     NoLeg,
+    /// A coordinate has too many digits to be exact.
+    #[error("the exact coordinates of the joints are too long")]
+    TooLong,
     /// The class is about real poses.
     #[error("the class {0} takes its lengths from real poses")]
     NeedsPose(Class),
@@ -77,6 +81,11 @@ pub fn problem(class: Class, lengths: LengthsFrom, seed: u64, k: u64) -> Result<
     }
     let manipulator = match class {
         Class::Topology { topology, planar } => sharing(topology, planar, rng)?,
+        Class::GriffisDuffy => exact(exact_members::griffis_duffy(rng))?,
+        Class::Similar => exact(exact_members::images(rng, exact_members::scaling))?,
+        Class::Congruent => exact(exact_members::images(rng, |_| exact_members::identity()))?,
+        Class::Affine => exact(exact_members::images(rng, exact_members::linear))?,
+        Class::Collinear => exact(exact_members::collinear(rng))?,
         _ => Manipulator::from_legs(joints(class, rng))?,
     };
     match lengths {
@@ -87,6 +96,11 @@ pub fn problem(class: Class, lengths: LengthsFrom, seed: u64, k: u64) -> Result<
             Ok(Problem { manipulator, squares, pose: None })
         }
     }
+}
+
+/// The platform of exact legs.
+fn exact(legs: ExactMember) -> Result<Manipulator, NotDrawn> {
+    Ok(Manipulator::from_exact_ends(&legs.ok_or(NotDrawn::TooLong)?)?)
 }
 
 /// A random member of a topology; its joints are all in use.
@@ -127,6 +141,11 @@ fn joints(class: Class, rng: &mut Rng) -> [Leg; 6] {
         | Class::DoubleRoot
         | Class::Hexapod
         | Class::HexapodHome
+        | Class::GriffisDuffy
+        | Class::Similar
+        | Class::Congruent
+        | Class::Affine
+        | Class::Collinear
         | Class::Topology { .. } => legs(body(rng, false), body(rng, false)),
         Class::SharedPlatformJoint => {
             let (base, mut platform) = (body(rng, false), body(rng, false));
@@ -143,68 +162,24 @@ fn joints(class: Class, rng: &mut Rng) -> [Leg; 6] {
             };
             legs(tilt(base), tilt(platform))
         }
-        Class::Octahedral => zigzag(rng, [0.0; 6]),
-        Class::GriffisDuffy => {
-            let parts = std::array::from_fn(|_| rng.uniform(0.1, 0.45));
-            zigzag(rng, parts)
-        }
-        Class::Similar => images(rng, |rng| Matrix2::identity() * rng.uniform(0.4, 0.8)),
-        Class::Congruent => images(rng, |_| Matrix2::identity()),
-        Class::Affine => images(rng, |rng| Matrix2::from_fn(|_, _| rng.uniform(-1.0, 1.0))),
-        Class::Collinear => {
-            let (mut base, mut platform) = (body(rng, false), body(rng, false));
-            base[2] = base[0] + (base[1] - base[0]) * rng.uniform(-1.0, 2.0);
-            platform[5] = platform[3] + (platform[4] - platform[3]) * rng.uniform(-1.0, 2.0);
-            legs(base, platform)
+        Class::Octahedral => {
+            let mut triangle = || [(); 3].map(|()| point(rng, false));
+            let (b, p) = (triangle(), triangle());
+            let pairs = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
+            pairs.map(|(i, j)| Leg { base: b[i], platform: p[j] })
         }
     }
-}
-
-/// Octahedral legs `P1P4, P2P4, P2P5, P3P5, P3P6, P1P6`; the end of leg `i` that differs from leg `i + 1` is moved towards the
-/// latter's by `parts[i]` of the edge.
-fn zigzag(rng: &mut Rng, parts: [f64; 6]) -> [Leg; 6] {
-    let mut triangle = || [(); 3].map(|()| point(rng, false));
-    let (b, p) = (triangle(), triangle());
-    let pairs = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
-    std::array::from_fn(|i| {
-        let ((a, c), (a2, c2)) = (pairs[i], pairs[(i + 1) % 6]);
-        let between =
-            |from: Point3<f64>, to: Point3<f64>, t: f64| if t == 0.0 { from } else { from + (to - from) * t };
-        Leg { base: between(b[a], b[a2], parts[i]), platform: between(p[c], p[c2], parts[i]) }
-    })
-}
-
-/// A planar hexagon as base and its image under a linear map of the plane, turned in the plane, as platform.
-fn images(rng: &mut Rng, map: impl Fn(&mut Rng) -> Matrix2<f64>) -> [Leg; 6] {
-    let base = [(); 6].map(|()| point(rng, true));
-    let map = map(rng);
-    let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), rng.uniform(0.0, std::f64::consts::TAU));
-    let image = |p: Point3<f64>| {
-        let q = map * p.coords.xy();
-        turn * Point3::new(q.x, q.y, 0.0)
-    };
-    legs(base, base.map(image))
 }
 
 /// Pairs of joints on circles, threefold symmetric, base pairs between platform pairs; at most `off` times 20 degrees and
 /// a fifth of the base radius off home.
 fn hexapod(rng: &mut Rng, off: f64) -> Result<Problem, NotDrawn> {
-    let (radius, half) = (rng.uniform(0.4, 0.9), [rng.uniform(5.0, 25.0), rng.uniform(5.0, 25.0)]);
-    let on_circle = |r: f64, degrees: f64| {
-        let (sine, cosine) = degrees.to_radians().sin_cos();
-        Point3::new(r * cosine, r * sine, 0.0)
-    };
-    let legs = std::array::from_fn(|i| {
-        let (third, side) = (120.0 * (i / 2) as f64, if i % 2 == 0 { -1.0 } else { 1.0 });
-        // the platform pairs sit between the base pairs, so that legs zigzag
-        let platform = on_circle(radius, third + side * (60.0 - half[1]));
-        Leg { base: on_circle(1.0, third + side * half[0]), platform }
-    });
+    let manipulator = exact(exact_members::hexapod(rng))?;
     let axis = nalgebra::Unit::new_normalize(Vector3::from_fn(|_, _| rng.normal()));
     let rotation = Rotation3::from_axis_angle(&axis, off * rng.uniform(0.0, 20.0).to_radians());
     let height = Vector3::new(0.0, 0.0, rng.uniform(0.8, 1.4));
     let position = height + Vector3::from_fn(|_, _| off * rng.uniform(-0.2, 0.2));
-    at_pose(Manipulator::from_legs(legs)?, Pose { rotation, position })
+    at_pose(manipulator, Pose { rotation, position })
 }
 
 fn spread(rng: &mut Rng) -> Result<Problem, NotDrawn> {

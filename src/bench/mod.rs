@@ -10,6 +10,7 @@
 mod classes;
 mod dual;
 mod error_metric;
+mod exact_members;
 mod expectation;
 mod generator;
 mod newton;

@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use super::{Body, Leg, Manipulator};
+use nalgebra::Point3;
+
+use super::{Body, InvalidManipulator, Leg, Manipulator};
 use crate::num::surd::Surd;
 
 /// The coordinates of a joint as numbers of one field of square roots.
@@ -32,10 +34,32 @@ pub(crate) enum JointKnowledge {
 }
 
 impl Manipulator {
+    /// Six legs between exact ends; equal ends of a body are one joint, with the nearest doubles as coordinates.
+    ///
+    /// # Errors
+    /// As [`Manipulator::try_new`].
+    pub(crate) fn from_exact_ends(ends: &[ExactEnds; 6]) -> Result<Self, InvalidManipulator> {
+        let (mut exact, mut radius) = ([Vec::<ExactPoint>::new(), Vec::new()], [Vec::new(), Vec::new()]);
+        let mut points = [Vec::new(), Vec::new()];
+        let mut joint = |body: Body, end: &ExactPoint| {
+            let k = body.index();
+            exact[k].iter().position(|p| p == end).unwrap_or_else(|| {
+                let double = end.each_ref().map(Surd::nearest);
+                let distance = end.iter().zip(double).map(|(x, d)| x.distance_from(d));
+                radius[k].push(distance.fold(0.0, f64::max));
+                points[k].push(Point3::from(double));
+                exact[k].push(end.clone());
+                exact[k].len() - 1
+            })
+        };
+        let pairs = ends.each_ref().map(|[a, b]| (joint(Body::Base, a), joint(Body::Platform, b)));
+        let [base, platform] = points;
+        Ok(Self::try_new(base, platform, pairs)?.with_values(JointValues { exact: Some(exact), radius }))
+    }
+
     /// The same doubles with what they stand for.
     ///
     /// `values` belong to the joints of this manipulator, in their order.
-    #[cfg(any(feature = "files", test))]
     pub(crate) fn with_values(mut self, values: JointValues) -> Self {
         let counts = [self.base_joints().len(), self.platform_joints().len()];
         debug_assert_eq!(values.radius.each_ref().map(Vec::len), counts);
@@ -75,6 +99,6 @@ impl Manipulator {
 /// The doubles of a leg as the rational numbers they are.
 fn exact_doubles(leg: &Leg) -> Option<ExactEnds> {
     let one = |x: f64| crate::num::exact::rational(x).and_then(|x| Surd::rational(&x));
-    let point = |p: &nalgebra::Point3<f64>| Some([one(p.x)?, one(p.y)?, one(p.z)?]);
+    let point = |p: &Point3<f64>| Some([one(p.x)?, one(p.y)?, one(p.z)?]);
     Some([point(&leg.base)?, point(&leg.platform)?])
 }

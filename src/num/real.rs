@@ -113,12 +113,15 @@ impl RealNumber {
 
     /// An upper bound of how far it is from a finite double; zero where it is the double.
     pub(crate) fn distance_from(&self, double: f64) -> f64 {
-        let (Some(double), Ok(e)) = (super::exact::rational(double), self.enclosure()) else {
-            return f64::INFINITY;
-        };
-        let far = (&double - &e.low).abs().max((&e.high - &double).abs());
-        // the approximation is off by one unit in the last place at most
-        if far.is_zero() { 0.0 } else { approximate(&far).next_up().next_up() }
+        match self {
+            Self::Exact(x) => x.distance_from(double),
+            Self::Within(e) => {
+                let Some(double) = super::exact::rational(double) else { return f64::INFINITY };
+                let far = (&double - &e.low).abs().max((&e.high - &double).abs());
+                // the approximation is off by one unit in the last place at most
+                approximate(&far).next_up().next_up()
+            }
+        }
     }
 
     /// The exact result, or that of the enclosures.

@@ -1,7 +1,4 @@
-use nalgebra::Point3;
-
 use super::*;
-use crate::manipulator::{JointValues, Leg};
 use crate::num::Rng;
 
 /// A rational number of few digits that is no double.
@@ -26,16 +23,9 @@ fn mixed(p: &[Surd; 3], q: &[Surd; 3], t: &Surd) -> [Surd; 3] {
 
 /// A platform with exact joints.
 fn exact(base: [[Surd; 3]; 6], platform: [[Surd; 3]; 6]) -> Manipulator {
-    let double = |p: &[Surd; 3]| Point3::new(p[0].nearest(), p[1].nearest(), p[2].nearest());
-    let legs: [Leg; 6] =
-        std::array::from_fn(|i| Leg { base: double(&base[i]), platform: double(&platform[i]) });
-    let m = Manipulator::from_legs(legs).unwrap();
-    let of = |joints: &[Point3<f64>], ends: &[[Surd; 3]; 6]| -> Vec<[Surd; 3]> {
-        joints.iter().map(|j| ends.iter().find(|e| double(e) == *j).unwrap().clone()).collect()
-    };
-    let exact = [of(m.base_joints(), &base), of(m.platform_joints(), &platform)];
-    let radius = exact.each_ref().map(|list| vec![1e-12; list.len()]);
-    m.with_values(JointValues { exact: Some(exact), radius })
+    let mut platform = platform.into_iter();
+    let ends = base.map(|a| [a, platform.next().unwrap()]);
+    Manipulator::from_exact_ends(&ends).unwrap()
 }
 
 fn isolated_points(m: &Manipulator, seed: u64) -> Option<PointsAtInfinity> {
