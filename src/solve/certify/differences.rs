@@ -17,6 +17,8 @@
 //!   `5U (|u| |w| + |s_i - s_0| P)` as for `F_i`; doubled below.
 //! * Rows of the Jacobian: an entry by `g` `5U tau E`; one by `e` at most `13U` times the sum `M` of its terms' bounds
 //!   `tau G + t_i tau E + tau t_0 E + |s_i - s_0| E`; a row of eight less than `128U (tau E + M)` in `|.|_1`. Row 0 alike with `G + t_0 E` for `tau E`.
+//!
+//! Radii of joints change `F_i - F_0` and its gradient by at most what they change those of `F_i` and `F_0`.
 
 use num_complex::Complex64;
 
@@ -50,6 +52,11 @@ fn plus<S: RealScalar>(x: &[S; 4], y: &[S; 4]) -> [S; 4] {
 fn dot<S: RealScalar>(x: &[[S; 4]; 2], y: &[[S; 4]; 2]) -> [S; 2] {
     let part = |a: &[S; 4], b: &[S; 4]| (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]);
     [part(&x[0], &y[0]) + -part(&x[1], &y[1]), part(&x[0], &y[1]) + part(&x[1], &y[0])]
+}
+
+/// What a leg contributes to `F_i - F_0`, or to `F_0` itself.
+fn with_first(i: usize, of_leg: impl Fn(usize) -> f64) -> f64 {
+    of_leg(0) + if i == 0 { 0.0 } else { of_leg(i) }
 }
 
 impl LegSystem {
@@ -108,7 +115,7 @@ impl LegSystem {
         (out[0], out[1])
     }
 
-    /// Bounds of the rounding of [`values_apart`](Self::values_apart), and of the change over the intervals for `s`.
+    /// Bounds of the rounding of [`values_apart`](Self::values_apart), and of the change over the radii of the data.
     pub(super) fn value_bounds_apart(&self, x: &Study<f64>) -> ([f64; N], [f64; N]) {
         let (e, g, p) = x.magnitudes();
         let (mut rounding, mut width) = ([0.0; N], [0.0; N]);
@@ -126,7 +133,8 @@ impl LegSystem {
             let own = 5.0 * UNIT * (u * w + s * p);
             rounding[i] = (2.0 * (u * beta + w * alpha + 2.0 * alpha * beta + own) + TINY) * UP;
             let radius = self.s_radius[0] + if i == 0 { 0.0 } else { self.s_radius[i] };
-            width[i] = 0.5 * radius * p * UP;
+            let joints = |k: usize| self.joint_width_of_value(k, e, 2.0 * (g + self.t[k] * e));
+            width[i] = (0.5 * radius * p + with_first(i, joints)) * UP;
         }
         rounding[6] = (32.0 * UNIT * e * g + TINY) * UP;
         (rounding, width)
@@ -167,7 +175,7 @@ impl LegSystem {
         parts
     }
 
-    /// Bounds of the rounding of a row of the Jacobian in double-double, width of the `s` included, in `|.|_1`.
+    /// Bounds of the rounding of a row of the Jacobian in double-double, width of the data included, in `|.|_1`.
     pub(super) fn jacobian_bounds_apart(&self, x: &Study<f64>) -> [f64; N] {
         let (e, g, _) = x.magnitudes();
         let mut out = [0.0; N];
@@ -181,7 +189,9 @@ impl LegSystem {
                 let s = self.s[i].abs() + self.s[0].abs();
                 (tau * e, tau * (g + (t + self.t[0]) * e), s, self.s_radius[i] + self.s_radius[0])
             };
-            out[i] = (128.0 * UNIT * (by_g + by_e + s * e) + 8.0 * radius * e + TINY) * UP;
+            let joints = |k: usize| self.joint_width_of_gradient(k, e, 2.0 * (g + self.t[k] * e));
+            let width = 8.0 * radius * e + with_first(i, joints);
+            out[i] = (128.0 * UNIT * (by_g + by_e + s * e) + width + TINY) * UP;
         }
         out
     }

@@ -8,6 +8,7 @@
 //! sums of products in which no term passes through more than 200 roundings, so that errors are below [`ERROR`] `= 2^-240` times the sum of the
 //! terms' moduli (Higham 2002, lemma 3.1), which the quantities `m_i` (values) and `j_i` (rows of the Jacobian) bound by modulus, notation of the `system` module:
 //! `m_i = 8 (G + t_i E)^2 + 8 |s_i| P`, `j_i = 16 (1 + t_i) (G + t_i E) + 8 |s_i| E`; for `e.g` `8 E G` and `8 (E + G)`. Moduli are those of both parts added.
+//! Radii of squared lengths and joints add what they add in the `system` module, with `V_i = 2 (G + t_i E)`.
 
 use num_complex::Complex64;
 
@@ -109,6 +110,12 @@ pub(super) fn bounds(system: &LegSystem, x: &Study<DoubleDouble>) -> Result<Kraw
         let weights = y.map(modulus);
         let along = |term: &dyn Fn(usize) -> f64| (0..N).map(|i| weights[i] * term(i)).sum::<f64>();
         let radius = |i: usize| if i < 6 { system.s_radius[i] } else { 0.0 };
+        let joints = |i: usize, width: &dyn Fn(usize, f64) -> f64| {
+            if i < 6 { width(i, 2.0 * size(i).0) } else { 0.0 }
+        };
+        let value_width = |i: usize| 0.5 * radius(i) * p + joints(i, &|i, v| system.joint_width_of_value(i, e, v));
+        let row_width = |i: usize| 4.0 * radius(i) * e + joints(i, &|i, v| system.joint_width_of_gradient(i, e, v));
+        let second_order_width = |i: usize| 1.5 * radius(i) + joints(i, &|i, _| system.joint_width_of_second_order(i));
         let step = dot(&y, &values);
         out.step[if k == x.patch { 7 } else { k }] = step.rounded();
         let centre = modulus(step) + ERROR * along(&value_size);
@@ -120,10 +127,10 @@ pub(super) fn bounds(system: &LegSystem, x: &Study<DoubleDouble>) -> Result<Kraw
             })
             .sum();
         let beta =
-            second_order(&legs, &y, x.patch) + ERROR * along(&|i| system.q[i]) + along(&|i| 1.5 * radius(i));
+            second_order(&legs, &y, x.patch) + ERROR * along(&|i| system.q[i]) + along(&second_order_width);
         out.eta_centre = largest(out.eta_centre, centre);
-        out.eta = largest(out.eta, centre + along(&|i| 0.5 * radius(i) * p));
-        out.kappa = largest(out.kappa, defect + ERROR * along(&row_size) + along(&|i| 4.0 * radius(i) * e));
+        out.eta = largest(out.eta, centre + along(&value_width));
+        out.kappa = largest(out.kappa, defect + ERROR * along(&row_size) + along(&row_width));
         out.beta = largest(out.beta, beta);
     }
     Ok(out.rounded_up())

@@ -24,13 +24,23 @@
 //! * `F_7`: five roundings, two parts: `sqrt 2 * 5 U * 4 E G < 32 U E G`.
 //! * gradient (always in double): `delta_i` by each `g_j`; `t_i delta_i + 5u (t_i sqrt W + s E)` by each `e_j`.
 //!
+//! **Joints within radii.** The coordinates of `a_i` and `b_i` may be any within radii of the doubles. Then `d` and `c` change by at most the sum of both radii a coordinate, and
+//! the absolute row sums of `T_i` by at most three times that, `tau_i`. With `V_i >= |v_i|` at the centre:
+//!
+//! * `v`: `omega = tau_i E` a component; `F_i`: `(1/2) sum |dv| (2|v| + |dv|) <= 2 omega V_i + 2 omega^2`, as above;
+//! * gradient: `omega` by each `g_j`; `T v` by `dT v + T dv + dT dv`, `tau_i V_i + (t_i + tau_i) omega` by each `e_j`;
+//! * `Q_i(h, k) = (w(h).w(k) - s h_e.k_e) / 2`, `w = h_g + T_i h_e`, on the unit polydisc: `|w_r| <= 1 + t_i`, `|dw_r| <= tau_i`, so
+//!   `(1/2) sum_r (2 (1 + t_i) tau_i + tau_i^2) = 4 (1 + t_i) tau_i + 2 tau_i^2`.
+//!
+//! These are widths of the data, as those of the squared lengths are: what is proved is proved for every choice.
+//!
 //! `gamma_n < nU (1 + 2^-44)` and the rounding of the bounds themselves are covered by the factor [`UP`], underflow by [`TINY`].
 
 use std::ops::{Add, Mul, Neg, Sub};
 
 use super::certificate::WhyUncertified;
 use super::second_order::SecondOrder;
-use crate::manipulator::{Manipulator, SquaredLegLengths};
+use crate::manipulator::{Body, Manipulator, SquaredLegLengths};
 use crate::num::ball::{TINY, UP};
 use crate::num::double_double::DoubleDouble;
 use crate::num::interval::Interval;
@@ -132,7 +142,7 @@ pub(super) struct Values<S> {
 pub(super) struct Jacobian {
     pub(super) re: [[f64; 8]; N],
     pub(super) im: [[f64; 8]; N],
-    /// Bound of a row's sum of error moduli, width of the `s` interval included.
+    /// Bound of a row's sum of error moduli, width of the data included.
     pub(super) error: [f64; N],
 }
 
@@ -151,6 +161,8 @@ pub(super) struct LegSystem {
     /// How far from the middles the data may be.
     pub(super) s_radius: [f64; 6],
     pub(super) t: [f64; 6],
+    /// `tau_i`: how much the radii of the joints may change the absolute row sums of `T_i`; zero for joints that are their doubles.
+    pub(super) turn_radius: [f64; 6],
     /// `|Q_i(h, k)| <= q_i` for all `h`, `k` with coordinates of modulus at most 1 and `h_patch = k_patch = 0`.
     pub(super) q: [f64; N],
     second_order: SecondOrder,
@@ -169,6 +181,11 @@ pub(super) fn exact_product(x: f64, factor: f64) -> Option<f64> {
 
 pub(super) fn scale_point(p: [f64; 3], factor: f64) -> Option<[f64; 3]> {
     Some([exact_product(p[0], factor)?, exact_product(p[1], factor)?, exact_product(p[2], factor)?])
+}
+
+/// At least `radius * factor`, zero only for zero.
+fn scaled_radius(radius: f64, factor: f64) -> f64 {
+    if radius <= 0.0 { 0.0 } else { (radius * factor).next_up() }
 }
 
 /// Sums of absolute values in the four rows of `T`.
@@ -204,22 +221,30 @@ impl LegSystem {
         let legs = m.legs();
         let largest = |p: &nalgebra::Point3<f64>| p.iter().fold(0.0_f64, |x, y| x.max(y.abs()));
         let joints = legs.iter().map(|l| largest(&l.base).max(largest(&l.platform))).fold(0.0, f64::max);
+        let radii = std::array::from_fn(|i| m.end_radius(i, Body::Base) + m.end_radius(i, Body::Platform));
         let largest = |i: usize| (s.middle[i].hi().abs() + s.radius[i]).sqrt();
         let size = (0..6).map(largest).fold(joints, f64::max);
         // outside these limits squares of the unit, or of scaled data, may leave the range of doubles
         if size > 1e-120 && size < 1e120 {
-            Self::scaled(&legs, s, power_of_two_below(size)).ok_or(WhyUncertified::OutOfRange)
+            Self::scaled(&legs, &radii, s, power_of_two_below(size)).ok_or(WhyUncertified::OutOfRange)
         } else {
             Err(WhyUncertified::OutOfRange)
         }
     }
 
-    fn scaled(legs: &[crate::manipulator::Leg; 6], s: &SquareData, unit: f64) -> Option<Self> {
+    /// `radii` are the sums of the radii of both ends of the legs.
+    fn scaled(
+        legs: &[crate::manipulator::Leg; 6],
+        radii: &[f64; 6],
+        s: &SquareData,
+        unit: f64,
+    ) -> Option<Self> {
         let (inverse, mut system) = (unit.recip(), Self::empty(unit));
         for (i, leg) in legs.iter().enumerate() {
             system.a[i] = scale_point(leg.base.coords.into(), inverse)?;
             system.b[i] = scale_point(leg.platform.coords.into(), inverse)?;
             system.set_square(i, s.middle[i], s.radius[i], inverse * inverse)?;
+            system.set_turn_radius(i, 3.0 * radii[i] * UP, inverse)?;
             system.prepare_leg(i);
         }
         Some(system)
@@ -233,6 +258,7 @@ impl LegSystem {
             system.b[i] = scale_point(self.b[i], inverse)?;
             let middle = DoubleDouble::from_sum(self.s[i], self.s_low[i]);
             system.set_square(i, middle, self.s_radius[i], inverse * inverse)?;
+            system.set_turn_radius(i, self.turn_radius[i], inverse)?;
             system.prepare_leg(i);
         }
         Some(system)
@@ -245,9 +271,14 @@ impl LegSystem {
         let low = exact_product(middle.lo(), factor);
         self.s_low[i] = low.unwrap_or(0.0);
         let lost = if low.is_some() { 0.0 } else { (middle.lo().abs() * factor).next_up() };
-        let scaled = if radius <= 0.0 { 0.0 } else { (radius * factor).next_up() };
-        self.s_radius[i] = (scaled + lost) * UP;
+        self.s_radius[i] = (scaled_radius(radius, factor) + lost) * UP;
         self.s_radius[i].is_finite().then_some(())
+    }
+
+    /// `tau` of leg `i` times a power of two, `None` when nothing is known of a joint.
+    fn set_turn_radius(&mut self, i: usize, radius: f64, factor: f64) -> Option<()> {
+        self.turn_radius[i] = scaled_radius(radius, factor);
+        self.turn_radius[i].is_finite().then_some(())
     }
 
     /// How far the squared length of leg `i` may be from the double that stands for it.
@@ -264,7 +295,26 @@ impl LegSystem {
         let rows = row_sums(&self.d[i], &self.c[i]);
         self.t[i] = rows.into_iter().fold(0.0, f64::max) * UP;
         let squares: f64 = rows.iter().map(|r| (1.0 + r) * (1.0 + r)).sum();
-        self.q[i] = 0.5 * (squares + 3.0 * (self.s[i].abs() + self.s_blur(i))) * UP;
+        let own = 0.5 * (squares + 3.0 * (self.s[i].abs() + self.s_blur(i)));
+        self.q[i] = (own + self.joint_width_of_second_order(i)) * UP;
+    }
+
+    /// How far `F_i` changes over the joints' radii at a point with coordinates `e` of modulus at most `e` and a leg vector of norm at most `v`.
+    pub(super) fn joint_width_of_value(&self, i: usize, e: f64, v: f64) -> f64 {
+        let omega = self.turn_radius[i] * e;
+        2.0 * omega * (v + omega)
+    }
+
+    /// The same of the gradient of `F_i`: a bound of the sum over all eight coordinates.
+    pub(super) fn joint_width_of_gradient(&self, i: usize, e: f64, v: f64) -> f64 {
+        let (tau, omega) = (self.turn_radius[i], self.turn_radius[i] * e);
+        4.0 * (omega + tau * v + (self.t[i] + tau) * omega)
+    }
+
+    /// The same of `Q_i(h, k)` on the unit polydisc.
+    pub(super) fn joint_width_of_second_order(&self, i: usize) -> f64 {
+        let tau = self.turn_radius[i];
+        tau * (4.0 * (1.0 + self.t[i]) + 2.0 * tau)
     }
 
     fn empty(unit: f64) -> Self {
@@ -281,6 +331,7 @@ impl LegSystem {
             s_low: six,
             s_radius: six,
             t: six,
+            turn_radius: six,
             q: [3.0; N],
             second_order: SecondOrder::ZERO,
         }
@@ -319,7 +370,7 @@ impl LegSystem {
     }
 
     /// Bounds of the error of `F` computed in the arithmetic with unit `unit`, and of the change of `F` over
-    /// the intervals for `s`.
+    /// the radii of squared lengths and joints.
     pub(super) fn value_bounds(
         &self,
         x: &Study<f64>,
@@ -337,7 +388,7 @@ impl LegSystem {
             let own = 5.0 * unit * (slack * slack + self.s[i].abs() * p);
             let low = if unit < U { 0.0 } else { 0.5 * self.s_low[i].abs() * p };
             rounding[i] = (2.0 * delta * slack + 2.0 * delta * delta + own + low + TINY) * UP;
-            width[i] = 0.5 * self.s_radius[i] * p * UP;
+            width[i] = (0.5 * self.s_radius[i] * p + self.joint_width_of_value(i, e, slack)) * UP;
         }
         rounding[6] = (32.0 * unit * e * g + TINY) * UP;
         (rounding, width)
@@ -354,7 +405,9 @@ impl LegSystem {
         let (mut coarse, mut width) = (0.0, 0.0);
         for i in 0..N {
             coarse += weights[i] * self.q[i];
-            width += if i < 6 { weights[i] * 1.5 * self.s_blur(i) } else { 0.0 };
+            if i < 6 {
+                width += weights[i] * 1.5 * self.s_blur(i) + weights[i] * self.joint_width_of_second_order(i);
+            }
         }
         (self.second_order.bound(y_re, y_im, patch) + width + 32.0 * U * coarse + TINY) * UP
     }
@@ -377,7 +430,10 @@ impl LegSystem {
             let w = square_sum(&values.v_re[i], &values.v_im[i]);
             let (delta, s) = (self.delta(i, e, g, U), self.s[i].abs());
             let by_e = self.t[i] * delta + 5.0 * U * (self.t[i] * w.sqrt() + s * e) + self.s_blur(i) * e;
-            out.error[i] = (4.0 * delta + 3.0 * by_e + TINY) * UP;
+            // as for values: off by rounding, and by what a centre has beyond doubles
+            let v = w.sqrt() + 6.0 * delta;
+            let width = self.joint_width_of_gradient(i, e, v);
+            out.error[i] = (4.0 * delta + 3.0 * by_e + width + TINY) * UP;
         }
         for (row, x) in [(&mut out.re[6], &x.re), (&mut out.im[6], &x.im)] {
             row[..4].copy_from_slice(&x[4..]); // exact
