@@ -17,6 +17,8 @@ pub struct Octahedral {
     platform: [usize; 3],
     base_points: [Point3<f64>; 3],
     platform_points: [Point3<f64>; 3],
+    /// How far, at most, a coordinate of each corner is from its double, on base and platform.
+    radii: [[f64; 3]; 2],
 }
 
 /// Why a manipulator is not octahedral.
@@ -112,7 +114,11 @@ impl Octahedral {
         }
         let order =
             cycle.map(|i| LegIndex::new(i).unwrap_or_else(|| unreachable!("cycle indices are below 6")));
-        Ok(Self { order, base, platform, base_points, platform_points })
+        let radii = [
+            [cycle[0], cycle[1], cycle[3]].map(|leg| m.end_radius(leg, Body::Base)),
+            [cycle[0], cycle[2], cycle[4]].map(|leg| m.end_radius(leg, Body::Platform)),
+        ];
+        Ok(Self { order, base, platform, base_points, platform_points, radii })
     }
 
     /// Cyclic order: leg `order()[k]` of the design is leg `k` of the cycle.
@@ -143,6 +149,11 @@ impl Octahedral {
     #[must_use]
     pub fn platform(&self) -> [Point3<f64>; 3] {
         self.platform_points
+    }
+
+    /// How far, at most, the coordinates of the corners of `body` are from those of [`base`](Self::base) or [`platform`](Self::platform).
+    pub(crate) fn corner_radii(&self, body: Body) -> [f64; 3] {
+        self.radii[body.index()]
     }
 }
 

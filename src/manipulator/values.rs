@@ -13,6 +13,17 @@ pub(crate) type ExactPoint = [Surd; 3];
 /// A leg by the exact coordinates of its ends, on the base and on the platform.
 pub(crate) type ExactEnds = [ExactPoint; 2];
 
+/// `(1, a) (x) (1, b)`; `None` when it becomes too long.
+pub(crate) fn vector_of_ends(leg: &ExactEnds) -> Option<Vec<Surd>> {
+    let [a, b] = leg.each_ref().map(|p| [Surd::integer(1), p[0].clone(), p[1].clone(), p[2].clone()]);
+    a.iter().flat_map(|x| b.iter().map(move |y| x.times(y))).collect()
+}
+
+/// `|a|^2 + |b|^2`; `None` when it becomes too long.
+pub(crate) fn squares_of_ends(leg: &ExactEnds) -> Option<Surd> {
+    leg.iter().flatten().try_fold(Surd::zero(), |sum, x| sum.plus(&x.times(x)?))
+}
+
 /// The joints behind the doubles of a [`Manipulator`].
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct JointValues {

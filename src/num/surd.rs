@@ -246,6 +246,33 @@ impl Surd {
     }
 }
 
+/// The sum of products; `None` when it becomes too long.
+pub(crate) fn combination(weights: &[Surd], values: &[Surd]) -> Option<Surd> {
+    weights.iter().zip(values).try_fold(Surd::zero(), |sum, (w, x)| sum.plus(&w.times(x)?))
+}
+
+/// Brings the first `width` columns to the identity above zeros as far as they go; the rank. `None` when numbers become too long.
+pub(crate) fn eliminate(rows: &mut [Vec<Surd>], width: usize) -> Option<usize> {
+    let mut rank = 0;
+    for column in 0..width {
+        let Some(pivot) = (rank..rows.len()).find(|i| !rows[*i][column].is_zero()) else { continue };
+        rows.swap(rank, pivot);
+        let inverse = rows[rank][column].inverse()?;
+        let head: Vec<Surd> = rows[rank].iter().map(|x| x.times(&inverse)).collect::<Option<_>>()?;
+        for (i, row) in rows.iter_mut().enumerate() {
+            let factor = row[column].clone();
+            if i != rank && !factor.is_zero() {
+                for (x, h) in row.iter_mut().zip(&head) {
+                    *x = x.minus(&factor.times(h)?)?;
+                }
+            }
+        }
+        rows[rank] = head;
+        rank += 1;
+    }
+    Some(rank)
+}
+
 /// `c sqrt(r) 2^k`, rounded towards zero.
 fn scaled_root(c: &BigInt, r: u64, k: u64) -> BigInt {
     let root = ((c * c * r) << (2 * k)).sqrt();

@@ -4,9 +4,15 @@
 //! `<v, W(pose)> + |a|^2 + |b|^2 - s = 0` (multiplied by `e.e`). A relation `sum c_i v_i = 0` leaves
 //! `e.e sum c_i (|a_i|^2 + |b_i|^2 - s_i) = 0`: either the lengths satisfy the relation as well, and one
 //! equation says nothing, or `e.e = 0` and there is no finite pose.
+//!
+//! Joints that are their doubles are decided over the rationals, exact ones in their field of square roots. Of joints known between bounds only nothing is decided
+//! beyond their being far from any relation.
 
-use crate::manipulator::{ExactLeg, Manipulator, SquaredLegLengths};
+use crate::manipulator::{
+    Body, ExactLeg, JointKnowledge, Manipulator, SquaredLegLengths, squares_of_ends, vector_of_ends,
+};
 use crate::num::exact::{ExactVector, Rational, rational, relations};
+use crate::num::surd::{Surd, combination, eliminate};
 
 /// Below this (sine of the angle to the span of the others) exact arithmetic is asked.
 const SUSPECT: f64 = 1e-9;
@@ -19,7 +25,7 @@ const ROUNDING: f64 = 1.0 / (1u64 << 49) as f64;
 pub(crate) enum LegDependence {
     /// Independent, far from any relation.
     Independent,
-    /// Independent as the doubles are, but a relation holds nearly.
+    /// A relation holds nearly; not exactly, or that is not known.
     Nearly,
     /// Proved: a relation holds exactly and the lengths contradict it by more than rounding.
     Incompatible,
@@ -32,9 +38,19 @@ pub(crate) enum LegDependence {
 
 /// Decides the dependence of the legs of `m` with squared lengths `s`.
 pub(crate) fn dependence(m: &Manipulator, s: &SquaredLegLengths) -> LegDependence {
-    if least_sine(m) > SUSPECT {
+    let radius = (0..6).flat_map(|i| Body::BOTH.map(|body| m.end_radius(i, body))).fold(0.0, f64::max);
+    // a vector of scaled coordinates changes by less than sixteen times their radius
+    if least_sine(m) > SUSPECT + 32.0 * radius / m.size() {
         return LegDependence::Independent;
     }
+    match m.joint_knowledge() {
+        JointKnowledge::Doubles => dependence_of_doubles(m, s),
+        JointKnowledge::Exact => dependence_of_exact(m, s).unwrap_or(LegDependence::Nearly),
+        JointKnowledge::Enclosed => LegDependence::Nearly,
+    }
+}
+
+fn dependence_of_doubles(m: &Manipulator, s: &SquaredLegLengths) -> LegDependence {
     let Some(rows) = exact_rows(m, s) else { return LegDependence::Nearly };
     let vectors: Vec<ExactVector> = rows.iter().map(|r| r.vector.clone()).collect();
     let found = relations(&vectors);
@@ -55,6 +71,37 @@ pub(crate) fn dependence(m: &Manipulator, s: &SquaredLegLengths) -> LegDependenc
     }
 }
 
+/// The same for exact joints; `None` when numbers become too long.
+fn dependence_of_exact(m: &Manipulator, s: &SquaredLegLengths) -> Option<LegDependence> {
+    let ends = m.exact_ends()?;
+    let rounding = rational(ROUNDING)?;
+    let number = |x: &Rational| Surd::rational(x);
+    let (mut rows, mut constants, mut slacks) = (Vec::new(), Vec::new(), Vec::new());
+    for (i, leg) in ends.iter().enumerate() {
+        let mut row = vector_of_ends(leg)?;
+        row.extend((0..6).map(|k| Surd::integer(i64::from(k == i))));
+        rows.push(row);
+        let (squares, length) = (squares_of_ends(leg)?, number(&rational(s.get()[i])?)?);
+        constants.push(squares.minus(&length)?);
+        let slack = squares.plus(&length)?.times(&number(&rounding)?)?;
+        slacks.push(slack.plus(&number(&rational(s.radius()[i])?)?)?);
+    }
+    let rank = eliminate(&mut rows, 16)?;
+    if rank == 6 {
+        return Some(LegDependence::Nearly);
+    }
+    let modulus = |x: &Surd| if x.sign().is_lt() { x.negated() } else { x.clone() };
+    for row in &rows[rank..] {
+        let c = &row[16..];
+        let defect = modulus(&combination(c, &constants)?);
+        let slack = combination(&c.iter().map(modulus).collect::<Vec<_>>(), &slacks)?;
+        if defect.minus(&slack)?.sign().is_gt() {
+            return Some(LegDependence::Incompatible);
+        }
+    }
+    Some(LegDependence::Compatible { relations: 6 - rank })
+}
+
 struct ExactRow {
     vector: ExactVector,
     /// `|a|^2 + |b|^2 - s`.
@@ -65,13 +112,13 @@ struct ExactRow {
 fn exact_rows(m: &Manipulator, s: &SquaredLegLengths) -> Option<Vec<ExactRow>> {
     let rounding = rational(ROUNDING)?;
     let mut rows = Vec::new();
-    for (leg, s) in m.legs().iter().zip(s.get()) {
-        let (leg, s) = (ExactLeg::of(leg)?, rational(s)?);
+    for ((leg, square), radius) in m.legs().iter().zip(s.get()).zip(s.radius()) {
+        let (leg, square) = (ExactLeg::of(leg)?, rational(square)?);
         let squares = leg.squares();
         rows.push(ExactRow {
             vector: leg.vector(),
-            constant: &squares - &s,
-            slack: (squares + s) * &rounding,
+            constant: &squares - &square,
+            slack: (squares + square) * &rounding + rational(radius)?,
         });
     }
     Some(rows)

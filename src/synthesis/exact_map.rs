@@ -3,8 +3,8 @@
 //! A leg `(a, b)` is the vector `(1, a) (x) (1, b)` of `R^16`; `A` writes the vectors of TO as combinations of those of FROM, and
 //! `c_i = |a'_i|^2 + |b'_i|^2 - sum_k A_ik (|a_k|^2 + |b_k|^2)`. Both platforms are equivalent if and only if `det A` is not zero.
 
-use crate::manipulator::ExactEnds;
-use crate::num::surd::Surd;
+use crate::manipulator::{ExactEnds, squares_of_ends, vector_of_ends};
+use crate::num::surd::{Surd, combination, eliminate};
 
 /// `s(TO) = A s(FROM) + c` with exact numbers.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,7 +31,7 @@ pub(crate) enum NoExactMap {
 impl ExactMap {
     /// The map from six legs to six others.
     pub(crate) fn between(from: &[ExactEnds; 6], to: &[ExactEnds; 6]) -> Result<Self, NoExactMap> {
-        let [old, new] = [from, to].map(|legs| legs.iter().map(vector).collect::<Option<Vec<_>>>());
+        let [old, new] = [from, to].map(|legs| legs.iter().map(vector_of_ends).collect::<Option<Vec<_>>>());
         let (old, new) = (old.ok_or(NoExactMap::TooLong)?, new.ok_or(NoExactMap::TooLong)?);
         // one row for each of the 16 coordinates: the six of FROM, then the six of TO
         let mut rows: Vec<Vec<Surd>> =
@@ -47,9 +47,9 @@ impl ExactMap {
             let c = (0..6).map(|i| {
                 let taken = combination(
                     &a[i],
-                    &from.each_ref().map(squares).into_iter().collect::<Option<Vec<_>>>()?,
+                    &from.each_ref().map(squares_of_ends).into_iter().collect::<Option<Vec<_>>>()?,
                 )?;
-                squares(&to[i])?.minus(&taken)
+                squares_of_ends(&to[i])?.minus(&taken)
             });
             Some(Self { c: c.collect::<Option<_>>()?, determinant: determinant(&a)?, a: a.clone() })
         };
@@ -71,43 +71,6 @@ impl ExactMap {
         }
         Some(true)
     }
-}
-
-/// `(1, a) (x) (1, b)`.
-fn vector(leg: &ExactEnds) -> Option<Vec<Surd>> {
-    let [a, b] = leg.each_ref().map(|p| [Surd::integer(1), p[0].clone(), p[1].clone(), p[2].clone()]);
-    a.iter().flat_map(|x| b.iter().map(move |y| x.times(y))).collect()
-}
-
-/// `|a|^2 + |b|^2`.
-fn squares(leg: &ExactEnds) -> Option<Surd> {
-    leg.iter().flatten().try_fold(Surd::zero(), |sum, x| sum.plus(&x.times(x)?))
-}
-
-fn combination(weights: &[Surd], values: &[Surd]) -> Option<Surd> {
-    weights.iter().zip(values).try_fold(Surd::zero(), |sum, (w, x)| sum.plus(&w.times(x)?))
-}
-
-/// Brings the first `width` columns to the identity above zeros as far as they go; the rank. `None` when numbers become too long.
-fn eliminate(rows: &mut [Vec<Surd>], width: usize) -> Option<usize> {
-    let mut rank = 0;
-    for column in 0..width {
-        let Some(pivot) = (rank..rows.len()).find(|i| !rows[*i][column].is_zero()) else { continue };
-        rows.swap(rank, pivot);
-        let inverse = rows[rank][column].inverse()?;
-        let head: Vec<Surd> = rows[rank].iter().map(|x| x.times(&inverse)).collect::<Option<_>>()?;
-        for (i, row) in rows.iter_mut().enumerate() {
-            let factor = row[column].clone();
-            if i != rank && !factor.is_zero() {
-                for (x, h) in row.iter_mut().zip(&head) {
-                    *x = x.minus(&factor.times(h)?)?;
-                }
-            }
-        }
-        rows[rank] = head;
-        rank += 1;
-    }
-    Some(rank)
 }
 
 fn determinant(a: &[Vec<Surd>]) -> Option<Surd> {

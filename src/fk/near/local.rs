@@ -199,10 +199,10 @@ const U: f64 = f64::EPSILON / 2.0;
 
 /// How far the numbers of a [`Local`] may be from those of the exact problem, leg by leg, Euclidean norms.
 ///
-/// The exact problem has the joints of the design, moved by the doubles `origin` and `centre` and divided by the double `unit`, the rotation nearest to the matrix of the
+/// The exact problem has the joints of the design, any within their radii, moved by the doubles `origin` and `centre` and divided by the double `unit`, the rotation nearest to the matrix of the
 /// place, and target squares within `target_error` of the numbers given. With `u = 2^-53`, to first order, and constants rounded up:
 ///
-/// * joints: a difference and a quotient, `2 u |a|`, `2 u |b|`;
+/// * joints: a difference and a quotient, `2 u |a|`, `2 u |b|`, and how far the joints may be from their doubles;
 /// * rotation: the singular values of `R` are off 1 by at most `|R^T R - I|`, so the nearest rotation is that near (entries of `R^T R` are computed to `3 u`);
 /// * `B = R b`: `(|R^T R - I| + 9 u) |b|`; `A = a - q`: `2 u |a| + u |A|`; `D = B - A`: both and `u |D|`;
 /// * `f = (D.D - s) / 2`: `|D| d + d^2 / 2`, six roundings of `|D|^2`, one of `f`, half of `target_error`.
@@ -228,8 +228,9 @@ impl Blur {
         let mut out = Self { a: [0.0; 6], b: [0.0; 6], d: [0.0; 6], f: [0.0; 6] };
         for i in 0..6 {
             let length = norm(&here.d[i]);
-            let b = (turn + 10.0 * U) * norm(&solver.platform[i]) * UP;
-            let a = (2.5 * U * norm(&solver.base[i]) + 1.5 * U * norm(&here.a[i])) * UP;
+            let [loose_a, loose_b] = [solver.loose[0][i], solver.loose[1][i]];
+            let b = ((turn + 10.0 * U) * norm(&solver.platform[i]) + loose_b) * UP;
+            let a = (2.5 * U * norm(&solver.base[i]) + 1.5 * U * norm(&here.a[i]) + loose_a) * UP;
             let d = (a + b + 1.5 * U * length) * UP;
             let own = 6.0 * U * here.squares[i] + 2.0 * U * here.f[i].abs();
             let f = (length * d + 0.5 * d * d + own + 0.5 * target_error[i]) * UP;

@@ -3,7 +3,7 @@
 //! The known pose `P0` is an exact solution for its own squared lengths `s(P0)`. The solver moves the squared lengths
 //! along the straight line from `s(P0)` to those asked for and follows the pose, in segments so short that a Kantorovich
 //! test, with bounds of every rounding, proves each of them free of singularities: the answer is the continuous continuation of `P0`, never
-//! another assembly mode. Theory: `docs/theory/near-pose.md`.
+//! another assembly mode, for every choice of joints and lengths within their radii. Theory: `docs/theory/near-pose.md`.
 
 mod local;
 mod outcome;
@@ -14,7 +14,7 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::{FkError, FkOptions, FkSolutions, ForwardKinematics, Method};
 use crate::geom::Pose;
-use crate::manipulator::{Manipulator, SquaredLegLengths};
+use crate::manipulator::{Body, Manipulator, SquaredLegLengths};
 use local::{Blur, Local, Newton, SegmentStart};
 
 /// `4 (beta + eta) eta` aimed at for every segment; the theorem needs 1.
@@ -67,6 +67,8 @@ pub struct NearSolver {
     /// Base joints relative to `origin` and platform joints relative to `centre`, in units of `unit`.
     base: [[f64; 3]; 6],
     platform: [[f64; 3]; 6],
+    /// How far, at most, the ends of the legs are from their doubles, Euclidean norms in units of `unit`: on the base and on the platform.
+    loose: [[f64; 6]; 2],
     origin: Vector3<f64>,
     centre: Vector3<f64>,
     /// Twice the RMS radius of the platform, design units.
@@ -108,9 +110,12 @@ impl NearSolver {
         let mean = |points: [Vector3<f64>; 6]| points.iter().sum::<Vector3<f64>>() / 6.0;
         let origin = mean(legs.map(|l| l.base.coords));
         let centre = mean(legs.map(|l| l.platform.coords));
+        // a coordinate is within the radius, three of them within sqrt 3 times it
+        let loose = |body: Body| -> [f64; 6] { std::array::from_fn(|i| 1.75 * m.end_radius(i, body) / unit) };
         Self {
             base: legs.map(|l| ((l.base.coords - origin) / unit).into()),
             platform: legs.map(|l| ((l.platform.coords - centre) / unit).into()),
+            loose: [loose(Body::Base), loose(Body::Platform)],
             origin,
             centre,
             unit,

@@ -184,7 +184,7 @@ pub(super) fn scale_point(p: [f64; 3], factor: f64) -> Option<[f64; 3]> {
 }
 
 /// At least `radius * factor`, zero only for zero.
-fn scaled_radius(radius: f64, factor: f64) -> f64 {
+pub(super) fn scaled_radius(radius: f64, factor: f64) -> f64 {
     if radius <= 0.0 { 0.0 } else { (radius * factor).next_up() }
 }
 

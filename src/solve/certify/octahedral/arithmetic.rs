@@ -12,11 +12,6 @@ use crate::num::batch::{ComplexBatch, LANES};
 
 const U: f64 = f64::EPSILON / 2.0;
 
-/// The difference of two doubles.
-pub(super) fn difference(a: f64, b: f64) -> Real {
-    Real::point(a) - Real::point(b)
-}
-
 /// Encloses `1 / x`; the radius is infinite when the ball may hold zero.
 pub(super) fn reciprocal(x: Real) -> Real {
     x.reciprocal().unwrap_or(Real { centre: x.centre.recip(), radius: f64::INFINITY })
@@ -261,7 +256,8 @@ impl Mul for Discs {
     }
 }
 
-type RealVector = [Real; 3];
+/// A point or vector, coordinate by coordinate.
+pub(super) type RealVector = [Real; 3];
 
 fn dot(a: &RealVector, b: &RealVector) -> Real {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
@@ -289,9 +285,9 @@ pub(super) struct Triangle {
 }
 
 impl Triangle {
-    /// From exact corners.
-    pub(super) fn of(p: [[f64; 3]; 3]) -> Self {
-        let side = |i: usize, j: usize| -> RealVector { [0, 1, 2].map(|k| difference(p[i][k], p[j][k])) };
+    /// From enclosed corners.
+    pub(super) fn of(p: [RealVector; 3]) -> Self {
+        let side = |i: usize, j: usize| -> RealVector { [0, 1, 2].map(|k| p[i][k] - p[j][k]) };
         let (b, c, a) = (side(1, 0), side(2, 0), side(2, 1));
         let normal = cross(&b, &c);
         let (bb, bc, area) = (dot(&b, &b), dot(&b, &c), dot(&normal, &normal));

@@ -4,7 +4,7 @@
 //! `x = s15`, `y = s34` that satisfy two closures (`closures.rs`): Cayley-Menger determinants of the points 1 2 3 4 5 and 1 3 4 5 6. A regular zero
 //! of both at which `P4` (or `P5`) is off the base plane and 1 3 4 5 is not a flat tetrahedron belongs to exactly two poses, regular and mirror
 //! images in the base plane; theorem and proof: `docs/theory/certificates.md`. So a test in two unknowns certifies two poses, and their
-//! places follow by disc arithmetic (`poses.rs`). Coefficients are enclosed from the joints as the exact doubles they are and from squared
+//! places follow by disc arithmetic (`poses.rs`). Coefficients are enclosed from the joints, each coordinate within its radius of a double, and from squared
 //! lengths as intervals. Nothing is shared with the solver but the order of the legs.
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
@@ -16,13 +16,13 @@ mod poses;
 use num_complex::Complex64;
 
 use super::certificate::{PoseEnclosure, ProvedReality, WhyUncertified};
-use super::system::{SquareData, exact_product, power_of_two_below, scale_point};
+use super::system::{SquareData, exact_product, power_of_two_below, scale_point, scaled_radius};
 use crate::geom::ComplexPose;
-use crate::manipulator::{LegIndex, Octahedral};
+use crate::manipulator::{Body, LegIndex, Octahedral};
 use crate::num::ball::{Disc, Real, UP};
 use crate::num::batch::{ComplexBatch, LANES};
 use crate::num::rounding::check_arithmetic;
-use arithmetic::{Discs, Triangle};
+use arithmetic::{Discs, RealVector, Triangle};
 use closures::{ClosureCoefficients, RootDiscs, one_root_about};
 use poses::{Data, deviation};
 
@@ -39,7 +39,7 @@ pub struct OctahedralCertifier {
     /// The platform triangle as `P5 P6 P4`.
     turned: Triangle,
     /// `P1` in the base frame and `P4` in the platform frame, over the unit.
-    origins: [[f64; 3]; 2],
+    origins: [RealVector; 2],
 }
 
 /// Proof that exactly one pair `(s15, s34)` lies near a point, and that two given poses approximate its two poses.
@@ -131,15 +131,18 @@ impl OctahedralCertifier {
             return Err(WhyUncertified::OutOfRange);
         }
         let unit = power_of_two_below(size);
-        let scaled = |p: nalgebra::Point3<f64>| {
+        let scaled = |p: nalgebra::Point3<f64>, radius: f64| -> Result<RealVector, WhyUncertified> {
+            let radius = scaled_radius(radius, unit.recip());
             scale_point(p.coords.into(), unit.recip())
-                .filter(|p| p.iter().all(|x| x.abs() < LARGEST))
+                .map(|p| p.map(|centre| Real { centre, radius }))
+                .filter(|p| p.iter().all(|x| x.centre.abs() + x.radius < LARGEST))
                 .ok_or(WhyUncertified::OutOfRange)
         };
-        let corners = |t: [nalgebra::Point3<f64>; 3]| -> Result<[[f64; 3]; 3], WhyUncertified> {
-            Ok([scaled(t[0])?, scaled(t[1])?, scaled(t[2])?])
+        let corners = |t: [nalgebra::Point3<f64>; 3], body: Body| -> Result<[RealVector; 3], WhyUncertified> {
+            let radii = design.corner_radii(body);
+            Ok([scaled(t[0], radii[0])?, scaled(t[1], radii[1])?, scaled(t[2], radii[2])?])
         };
-        let (p, q) = (corners(base)?, corners(platform)?);
+        let (p, q) = (corners(base, Body::Base)?, corners(platform, Body::Platform)?);
         Ok(Self {
             unit,
             order: design.order().map(LegIndex::get),

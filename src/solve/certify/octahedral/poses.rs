@@ -12,7 +12,8 @@
 //!
 //! * `|E'^T F' G' - E^T F G| <= 3 rho + 9 M (r_E + r_G) (1 + 3 r_G)`;
 //! * rounding: each term passes 7 roundings, column sums of `|E|`, `|G|` are at most `sqrt 3 (1 + 2^-8)`, two parts: below `40 u M`;
-//! * `p`: `2 rho_4 + 3 r_E M_4 + (bound of R) |b4|_1`, rounding `12 u (|a1| + 2 M_4 + M_R |b4|_1)`.
+//! * `p`: `2 rho_4 + 3 r_E M_4 + (bound of R) |b4|_1`, rounding `12 u (|a1| + 2 M_4 + M_R |b4|_1)`, and where the corners `a1`, `b4` are known within radii `r_a`, `r_b` a
+//!   coordinate `r_a + 3 r_b (M_R + bound of R)`.
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
@@ -176,8 +177,9 @@ pub(super) fn deviation(
     let (rho4, m4) = extremes(&[placed.p4]);
     let turn = (rho.times(3.0) + m.times(10.0 * (re + rg) + 40.0 * U)).up();
     let [a1, b4] = design.origins;
-    let arm: f64 = b4.iter().map(|b| b.abs()).sum();
-    let far = a1.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
+    let arm: f64 = b4.iter().map(|b| b.centre.abs()).sum();
+    let far = a1.iter().fold(0.0_f64, |m, a| m.max(a.centre.abs()));
+    let loose = [a1, b4].map(|corner| corner.iter().fold(0.0_f64, |m, x| m.max(x.radius)));
     let nominal = Nominal::of(design, placed);
     let first = first_image(design, placed, poses);
     let (mut worst, mut scale) = ([Reals::ZERO; 2], [Reals::all(1.0); 2]);
@@ -191,9 +193,9 @@ pub(super) fn deviation(
                 let given = gather(poses, mirrored, |pose| pose.rotation[(i, j)]);
                 worst[0] = worst[0].largest(sizes(&(given - r)));
                 (scale[0], largest_entry) = (scale[0].largest(parts(&r)), largest_entry.largest(sizes(&r)));
-                p = p - r.times(b4[j]);
+                p = p - r.times(b4[j].centre);
             }
-            p = p.plus(a1[i]);
+            p = p.plus(a1[i].centre);
             let unit = design.unit.recip();
             let given = gather(poses, mirrored, |pose| pose.position[i] * unit);
             worst[1] = worst[1].largest(sizes(&(given - p)));
@@ -201,10 +203,11 @@ pub(super) fn deviation(
         }
     }
     let shift = rho4.times(2.0) + m4.times(3.0 * re) + turn.times(arm);
+    let corners = (largest_entry + turn).times(3.0 * loose[1]).plus(loose[0]);
     let rounding = (m4.times(2.0) + largest_entry.times(arm)).plus(far).times(12.0 * U);
     let usable = if re <= FRAME && rg <= FRAME { 1.0 } else { f64::NAN };
     let rotation = (worst[0] + turn).up().times(usable);
-    let position = (worst[1] + shift + rounding).up().times(usable);
+    let position = (worst[1] + shift + rounding + corners).up().times(usable);
     let relative = rotation.zip(scale[0], |b, s| b / s).largest(position.zip(scale[1], |b, s| b / s)).up();
     Deviation { rotation, position, relative, first }
 }
@@ -216,9 +219,9 @@ fn first_image(design: &OctahedralCertifier, placed: &Placed, poses: &[ComplexPo
     let mut height = ComplexBatch::ZERO;
     let unit = design.unit.recip();
     for i in 0..3 {
-        let mut corner = gather(poses, false, |pose| pose.position[i] * unit).plus(-a1[i]);
+        let mut corner = gather(poses, false, |pose| pose.position[i] * unit).plus(-a1[i].centre);
         for j in 0..3 {
-            corner = corner + gather(poses, false, |pose| pose.rotation[(i, j)]).times(b4[j]);
+            corner = corner + gather(poses, false, |pose| pose.rotation[(i, j)]).times(b4[j].centre);
         }
         height = height + corner.times(normal[i].centre);
     }
