@@ -222,6 +222,15 @@ impl Surd {
         if far.is_zero() { 0.0 } else { approximate(&far).next_up().next_up() }
     }
 
+    /// All conjugates are below two to this power.
+    pub(crate) fn magnitude_bits(&self) -> i64 {
+        // a square root has at most half the bits of its radicand, rounded up
+        let bits = |(r, c): (&u64, &BigInt)| c.bits() + u64::from(u64::BITS - r.leading_zeros()).div_ceil(2);
+        let largest = self.terms.iter().map(bits).max().unwrap_or(0);
+        let terms = self.terms.len().next_power_of_two().trailing_zeros();
+        (largest + u64::from(terms) + 1).cast_signed() - self.denominator.bits().cast_signed()
+    }
+
     /// Compared with zero.
     pub(crate) fn sign(&self) -> Ordering {
         if self.is_zero() {

@@ -1,17 +1,19 @@
 //! Counts the finite poses of a design and lengths exactly as written without finding them, by linear algebra modulo a prime.
 //!
 //! In the sixteen coordinates of the group a leg is a linear equation (`quadrics.rs`), so that the finite poses are the zeros of quadrics in ten unknowns. Their
-//! algebra is built degree by degree (`quotient.rs`) from the joints and squared lengths as the dyadic numbers they are, modulo a random prime of 61 bits. The method shares nothing with
+//! algebra is built degree by degree (`quotient.rs`) from the squared lengths as the dyadic numbers and the joints as the dyadic or algebraic numbers (`joints.rs`) they are, modulo a random prime of 61 bits. The method shares nothing with
 //! those that find poses, nor with their certificates. Theorem, bound on the probability of error and sources: `docs/theory/completeness.md`.
 
 mod infinity;
+mod joints;
 mod quadrics;
 mod quotient;
 
-use crate::manipulator::{Leg, Manipulator, SquaredLegLengths};
+use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::num::Purpose;
-use crate::num::modular::{Field, mantissa_and_exponent};
+use crate::num::modular::Field;
 pub(crate) use infinity::points_at_infinity;
+use joints::{CountedJoints, EndResidues};
 use quadrics::{COORDINATES, Cut, Linear, Part, cut};
 use quotient::{Outcome, close};
 
@@ -84,8 +86,10 @@ pub enum CountUndecided {
     DegreeTooLow,
     /// The primes disagree: one of them at least divides a number it should not.
     PrimesDisagree,
-    /// The squared lengths are not known exactly: they have been computed with rounding.
-    LengthsNotExact,
+    /// Joints are known between bounds only.
+    JointsNotExact,
+    /// The joints are made of square roots, and none of the primes drawn has these.
+    NoPrimeDrawn,
 }
 
 impl CountUndecided {
@@ -95,9 +99,24 @@ impl CountUndecided {
         match self {
             Self::DegreeTooLow => "degree_too_low",
             Self::PrimesDisagree => "primes_disagree",
-            Self::LengthsNotExact => "lengths_not_exact",
+            Self::JointsNotExact => "joints_not_exact",
+            Self::NoPrimeDrawn => "no_prime_drawn",
         }
     }
+}
+
+/// The squared lengths for which poses are counted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "files",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
+)]
+pub enum CountedLengths {
+    /// Those given, as they stand.
+    Given,
+    /// Generic ones: no lengths have more isolated poses, multiplicity included.
+    Generic,
 }
 
 /// The set and what speaks for it.
@@ -105,7 +124,9 @@ impl CountUndecided {
 pub struct PoseCount {
     /// The set.
     pub set: PoseSet,
-    /// The primes, drawn uniformly from those between `2^60` and `2^61`.
+    /// Whether it is the set of the lengths given.
+    pub lengths: CountedLengths,
+    /// The primes, drawn uniformly from those between `2^60` and `2^61`; for joints made of square roots the first of several draws that has these.
     pub primes: Vec<u64>,
     /// Bound on the probability that primes drawn so lead to another set than exact arithmetic does; zero when the set is undecided.
     pub error_probability: f64,
@@ -115,7 +136,12 @@ impl PoseCount {
     /// No count.
     #[must_use]
     pub fn undecided(why: CountUndecided) -> Self {
-        Self { set: PoseSet::Undecided { why }, primes: Vec::new(), error_probability: 0.0 }
+        Self {
+            set: PoseSet::Undecided { why },
+            lengths: CountedLengths::Given,
+            primes: Vec::new(),
+            error_probability: 0.0,
+        }
     }
 
     /// The number of finite poses with multiplicity, where there are finitely many.
@@ -128,7 +154,7 @@ impl PoseCount {
     }
 }
 
-/// Counts the finite poses of `m` with the squared lengths given, both exactly as they stand.
+/// Counts the finite poses of `m` with the squared lengths given, both exactly as they are: joints that a design gives exactly are these, not the doubles next to them.
 #[must_use]
 pub fn count_poses(m: &Manipulator, squares: &ExactSquares, options: &CountOptions) -> PoseCount {
     counted(m, Lengths::Given(squares), options)
@@ -162,17 +188,27 @@ fn counted(m: &Manipulator, lengths: Lengths<'_>, options: &CountOptions) -> Pos
         squares: std::array::from_fn(|_| integer()),
         sections: std::array::from_fn(|_| std::array::from_fn(|_| integer())),
     };
+    let joints = match CountedJoints::of(m) {
+        Ok(joints) => joints,
+        Err(why) => return PoseCount::undecided(why),
+    };
     let mut out: Option<PoseCount> = None;
     let mut special: f64 = 0.0;
     for _ in 0..options.primes.max(1) {
-        let field = Field::drawn(&mut rng);
-        let (set, depth) = set_modulo(field, m, lengths, &draws);
-        let error = error_probability(m, lengths, depth);
+        let Some((field, ends)) = joints.drawn(&mut rng) else {
+            return PoseCount::undecided(CountUndecided::NoPrimeDrawn);
+        };
+        let (set, depth) = set_modulo(field, &ends, lengths, &draws);
+        let error = error_probability(&joints, lengths, depth);
         if matches!(lengths, Lengths::Generic) {
             special = special.max(minors(depth) / 2f64.powi(60));
         }
         let count = out.get_or_insert_with(|| PoseCount {
             set: set.clone(),
+            lengths: match lengths {
+                Lengths::Given(_) => CountedLengths::Given,
+                Lengths::Generic => CountedLengths::Generic,
+            },
             primes: Vec::new(),
             error_probability: 1.0,
         });
@@ -194,8 +230,12 @@ fn counted(m: &Manipulator, lengths: Lengths<'_>, options: &CountOptions) -> Pos
 }
 
 /// The set modulo one prime, and the degree of the multiples used.
-fn set_modulo(field: Field, m: &Manipulator, lengths: Lengths<'_>, draws: &Draws) -> (PoseSet, usize) {
-    let legs = m.legs();
+fn set_modulo(
+    field: Field,
+    ends: &EndResidues,
+    lengths: Lengths<'_>,
+    draws: &Draws,
+) -> (PoseSet, usize) {
     let mut equations: Vec<Linear> = (0..6)
         .map(|i| {
             let square = match lengths {
@@ -204,7 +244,7 @@ fn set_modulo(field: Field, m: &Manipulator, lengths: Lengths<'_>, draws: &Draws
                 }
                 Lengths::Generic => field.integer(draws.squares[i]),
             };
-            leg_equation(field, &legs[i], square)
+            leg_equation(field, &ends[i], square)
         })
         .collect();
     let relations = 6 - field
@@ -238,9 +278,7 @@ fn set_modulo(field: Field, m: &Manipulator, lengths: Lengths<'_>, draws: &Draws
 }
 
 /// `r - 2 a.y - 2 b.x - 2 a.(M b) + |a|^2 + |b|^2 - s = 0`.
-fn leg_equation(field: Field, leg: &Leg, square: u64) -> Linear {
-    let residues = |p: &nalgebra::Point3<f64>| [p.x, p.y, p.z].map(|x| field.scaled(x, 0));
-    let (a, b) = (residues(&leg.base), residues(&leg.platform));
+fn leg_equation(field: Field, [a, b]: &[[u64; 3]; 2], square: u64) -> Linear {
     let minus_two = field.integer(-2);
     let mut row = [0; COORDINATES + 1];
     for i in 0..3 {
@@ -252,7 +290,7 @@ fn leg_equation(field: Field, leg: &Leg, square: u64) -> Linear {
         row[12 + i] = field.mul(minus_two, b[i]);
     }
     row[15] = 1;
-    let squares = a.iter().chain(&b).fold(0, |sum, x| field.add(sum, field.mul(*x, *x)));
+    let squares = a.iter().chain(b).fold(0, |sum, x| field.add(sum, field.mul(*x, *x)));
     row[16] = field.sub(squares, square);
     row
 }
@@ -262,11 +300,12 @@ fn leg_equation(field: Field, leg: &Leg, square: u64) -> Linear {
 /// A bad prime divides a minor, not zero, of the integer matrix of all multiples of some degree `<= depth + 1` of the quadrics and linear equations in sixteen unknowns, or of its columns above one of the
 /// degrees `0..=DEGREE`. Hadamard: a minor is at most
 /// the product of the norms of its rows. It has as many prime factors above `2^60` as sixty goes into its bits, of more than `3 2^60 / (5 ln 2^60)` primes between `2^60` and
-/// `2^61` (Rosser, Schoenfeld 1962, (3.9)).
-fn error_probability(m: &Manipulator, lengths: Lengths<'_>, depth: usize) -> f64 {
-    let bits = leg_bits(m, lengths).max(SECTION_BITS);
+/// `2^61` (Rosser, Schoenfeld 1962, (3.9)). Minors of joints made of square roots are algebraic integers: a bad prime divides their norm, and any of the primes
+/// drawn may be bad.
+fn error_probability(joints: &CountedJoints, lengths: Lengths<'_>, depth: usize) -> f64 {
+    let bits = joints.bits(lengths).max(SECTION_BITS);
     let primes = 3.0 * 2f64.powi(60) / (5.0 * 60.0 * std::f64::consts::LN_2);
-    (minors(depth) * bits / 60.0 / primes).min(1.0)
+    (minors(depth) * bits / 60.0 / primes * joints.chances()).min(1.0)
 }
 
 /// Rows, at most, of all minors that decide: for all depths up to the one that was needed, which is not known before the prime is drawn.
@@ -277,29 +316,6 @@ fn minors(depth: usize) -> f64 {
 /// Number of monomials of degree `t` or less in sixteen unknowns.
 fn monomials(t: usize) -> f64 {
     (1..=t).map(|k| (COORDINATES + k) as f64 / k as f64).product()
-}
-
-/// Bits of the norm of a leg equation with integer coefficients: numbers below `2^high` that are multiples of `2^low`, in products of two.
-fn leg_bits(m: &Manipulator, lengths: Lengths<'_>) -> f64 {
-    let (mut high, mut low) = (1, 0);
-    let mut take = |x: f64, halves: i32| {
-        let (mantissa, exponent) = mantissa_and_exponent(x);
-        if mantissa != 0 {
-            let length = 64 - mantissa.unsigned_abs().leading_zeros().cast_signed();
-            // a squared length counts as a product of two numbers
-            high = high.max((exponent + length + halves - 1).div_euclid(halves));
-            low = low.min(exponent.div_euclid(halves));
-        }
-    };
-    for leg in m.legs() {
-        leg.base.iter().chain(leg.platform.iter()).for_each(|x| take(*x, 1));
-    }
-    match lengths {
-        Lengths::Given(squares) => squares.iter().flatten().for_each(|x| take(*x, 2)),
-        Lengths::Generic => take(2f64.powi(60), 2),
-    }
-    // seventeen coefficients, of which the largest is a sum of six squares and two parts of a length
-    2.0 * f64::from(high - low) + 6.0
 }
 
 #[cfg(test)]
