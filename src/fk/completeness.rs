@@ -19,6 +19,8 @@
 
 use std::fmt;
 
+use crate::solve::pose_count::CountedLengths;
+
 /// Whether the set of roots is known to be all of them.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Completeness {
@@ -32,6 +34,9 @@ pub enum Completeness {
     Modular {
         /// Certified distinct poses.
         poses: usize,
+        /// Whether the poses of the lengths given are counted, or, where these are known within radii only, those of generic lengths: then all isolated poses are listed, and sets of
+        /// poses of positive dimension beside them are not excluded.
+        lengths: CountedLengths,
         /// Bound on the probability that the count is wrong.
         error_probability: f64,
     },
@@ -181,6 +186,16 @@ pub enum Reason {
     /// Modulo random primes there are more poses than are certified, or those certified are not proved distinct.
     PosesMissing {
         /// Finite poses of the design and lengths as written, multiplicity included.
+        counted: usize,
+        /// Certified ones.
+        certified: usize,
+        /// Bound on the probability that the count is wrong.
+        error_probability: f64,
+    },
+    /// Modulo random primes there are more poses for generic lengths than are certified, or those certified are not proved distinct; the lengths at hand are known within radii only and
+    /// may have fewer.
+    FewerThanGeneric {
+        /// Finite poses for generic lengths.
         counted: usize,
         /// Certified ones.
         certified: usize,
@@ -352,6 +367,7 @@ impl Reason {
             // a fact about the last digits: the motion within rounding has a reason of its own
             Self::NoMotionAsWritten { .. } => true,
             Self::PosesMissing { .. }
+            | Self::FewerThanGeneric { .. }
             | Self::Sectioned { .. }
             | Self::CandidatesEliminated { .. }
             | Self::CurvesSeen { .. }
@@ -406,6 +422,11 @@ impl fmt::Display for Reason {
                 "the design and lengths as written have {counted} finite poses, multiplicity included (modulo random primes, probability of error below {error_probability:.0e}), \
                  {certified} are certified, {} are missing or not certified",
                 counted.saturating_sub(*certified)
+            ),
+            Self::FewerThanGeneric { counted, certified, error_probability } => write!(
+                f,
+                "the design has {counted} finite poses for generic lengths (modulo random primes, probability of error below {error_probability:.0e}), \
+                 {certified} are certified for the lengths at hand, which are known to rounding; poses may be missing or multiple"
             ),
             Self::DependentLegs { established, dimension, points, real } => {
                 let relation = if *established {
@@ -503,9 +524,13 @@ impl Completeness {
             (Self::Proved { theorem: a }, Self::Proved { theorem: b }) => Self::Proved { theorem: a.min(b) },
             (proved @ Self::Proved { .. }, _) | (_, proved @ Self::Proved { .. }) => proved,
             (
-                Self::Modular { poses, error_probability: a },
-                Self::Modular { poses: other, error_probability: b },
-            ) => Self::Modular { poses: poses.max(other), error_probability: a.min(b) },
+                Self::Modular { poses, lengths, error_probability: a },
+                Self::Modular { poses: other, lengths: others, error_probability: b },
+            ) => Self::Modular {
+                poses: poses.max(other),
+                lengths: lengths.min(others),
+                error_probability: a.min(b),
+            },
             (modular @ Self::Modular { .. }, _) | (_, modular @ Self::Modular { .. }) => modular,
             (Self::Unproved { reasons: a }, Self::Unproved { reasons: b }) => {
                 Self::Unproved { reasons: a.join(b) }
@@ -555,7 +580,12 @@ impl fmt::Display for Completeness {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Proved { theorem } => theorem.fmt(f),
-            Self::Modular { poses, error_probability } => write!(
+            Self::Modular { poses, lengths: CountedLengths::Generic, error_probability } => write!(
+                f,
+                "{poses} certified distinct poses, and no lengths of the design have more isolated poses, by the algebra of generic lengths modulo random primes \
+                 (probability of error below {error_probability:.0e})"
+            ),
+            Self::Modular { poses, lengths: CountedLengths::Given, error_probability } => write!(
                 f,
                 "{poses} certified distinct poses, and the design and lengths as written have as many finite poses, all isolated, by their algebra modulo random primes \
                  (probability of error below {error_probability:.0e})"
@@ -584,10 +614,11 @@ mod tests {
             Completeness::unproved([]),
             proved(Theorem::SixLegs),
             proved(Theorem::SharedJoints { poses: 8, construction: "three trilaterations" }),
-            Completeness::Modular { poses: 12, error_probability: 1e-20 },
+            Completeness::Modular { poses: 12, lengths: CountedLengths::Given, error_probability: 1e-20 },
             reason(Reason::LegsNearlyDependent),
             reason(Reason::PosesUncertified { poses: 2 }),
             reason(Reason::PosesUncertified { poses: 3 }),
+            reason(Reason::FewerThanGeneric { counted: 40, certified: 38, error_probability: 1e-19 }),
             reason(Reason::PosesMissing { counted: 40, certified: 38, error_probability: 1e-19 }),
             reason(Reason::OnePoseFollowed { found: true }),
         ]

@@ -1,14 +1,15 @@
 //! Whether the poses found are all there are, by their number: the design and lengths as written have so many finite poses, modulo random primes.
 //!
 //! The count shares nothing with what finds the poses. Certified roots are distinct zeros of the same equations: as many as the count are all, each is simple and isolated; fewer
-//! are not all; more contradict it.
+//! are not all; more contradict it. Where the lengths are known within radii only, those of generic lengths are counted, which are as many or more: as many certified roots are all isolated ones,
+//! fewer may be all.
 
 use super::evidence::reject_others;
 use super::{Completeness, FkError, FkOptions, FkRoot, FkSolutions, PoseCounting, Reason, SolutionSet};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::solve::certify::{Certificate, Distinctness, RootCertificate, distinct};
 use crate::solve::pose_count::{
-    CountOptions, CountUndecided, PoseCount, PoseSet, count_poses, exact_squares,
+    CountOptions, CountedLengths, PoseCount, PoseSet, count_generic_poses, count_poses, exact_squares,
 };
 
 /// What the number says.
@@ -35,7 +36,8 @@ pub(super) fn counted(m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> 
     let options = CountOptions { seed: o.seed, ..CountOptions::default() };
     Some(match exact_squares(s) {
         Some(squares) => count_poses(m, &squares, &options),
-        None => PoseCount::undecided(CountUndecided::LengthsNotExact),
+        // no lengths within the radii have more isolated poses than generic ones
+        None => count_generic_poses(m, &options),
     })
 }
 
@@ -57,8 +59,13 @@ pub(super) fn judge(found: &mut FkSolutions, count: &PoseCount) -> Result<Realit
     let distinct = are_distinct(found);
     let certified = found.certified_count();
     let error_probability = count.error_probability;
+    let given = count.lengths == CountedLengths::Given;
     let counted = match &count.set {
         PoseSet::Undecided { .. } => return Ok(RealityJudgement::Silent),
+        // nothing follows for the lengths at hand, but that isolated poses are not more
+        PoseSet::PositiveDimensional { .. } | PoseSet::Finite { count: 0, .. } if !given => {
+            return Ok(RealityJudgement::Silent);
+        }
         PoseSet::PositiveDimensional { dimension, .. } => {
             found.completeness.learn(set_counted(count, false));
             return Ok(RealityJudgement::PositiveDimensional { dimension: *dimension });
@@ -71,10 +78,18 @@ pub(super) fn judge(found: &mut FkSolutions, count: &PoseCount) -> Result<Realit
         PoseSet::Finite { count, .. } => *count,
     };
     if !distinct || certified != counted {
-        found.completeness.doubt(Reason::PosesMissing { counted, certified, error_probability });
+        found.completeness.doubt(if given {
+            Reason::PosesMissing { counted, certified, error_probability }
+        } else {
+            Reason::FewerThanGeneric { counted, certified, error_probability }
+        });
         return Ok(RealityJudgement::Short);
     }
-    found.completeness.learn(Completeness::Modular { poses: certified, error_probability });
+    found.completeness.learn(Completeness::Modular {
+        poses: certified,
+        lengths: count.lengths,
+        error_probability,
+    });
     if counted == 0 {
         found.solution_set = SolutionSet::Empty;
     }

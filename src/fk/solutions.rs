@@ -6,7 +6,7 @@ use super::Completeness;
 use crate::geom::{ComplexPose, Pose};
 use crate::names::{UnknownName, named};
 use crate::solve::certify::RootCertificate;
-use crate::solve::pose_count::PoseCount;
+use crate::solve::pose_count::{CountedLengths, PoseCount};
 
 /// A forward-kinematics method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -337,7 +337,8 @@ impl FkSolutions {
     /// Finite poses that exist, multiplicity included, and are not among the certified roots, where their number is known.
     #[must_use]
     pub fn missing(&self) -> Option<usize> {
-        self.pose_count.as_ref()?.finite()?.checked_sub(self.certified_count())
+        let count = self.pose_count.as_ref().filter(|c| c.lengths == CountedLengths::Given)?;
+        count.finite()?.checked_sub(self.certified_count())
     }
 
     /// The answer is whole: all poses are listed, by proof or modulo random primes, or a motion is established of which they are points.

@@ -12,8 +12,10 @@ use super::Rng;
 use super::modular::Field;
 use super::surd::Surd;
 
-/// Primes drawn before it is said that there is none; every square root halves the primes.
-const DRAWS: usize = 4096;
+/// Primes drawn for every one that is expected to have all square roots, before it is said that there is none.
+const PATIENCE: usize = 16;
+/// Most independent square roots for which primes are drawn: each halves the primes.
+const MOST_ROOTS: usize = 8;
 
 /// The field of a prime, with square roots of some numbers.
 #[derive(Debug, Clone)]
@@ -28,7 +30,10 @@ impl SplitField {
     pub(crate) fn drawn<'a>(rng: &mut Rng, numbers: impl IntoIterator<Item = &'a Surd>) -> Option<Self> {
         let radicands: BTreeSet<u64> = numbers.into_iter().flat_map(Surd::radicands).collect();
         let base = coprime_base(&radicands);
-        (0..DRAWS).find_map(|_| {
+        if base.len() > MOST_ROOTS {
+            return None;
+        }
+        (0..PATIENCE << base.len()).find_map(|_| {
             let field = Field::drawn(rng);
             let roots = base.iter().map(|n| Some((*n, field.square_root(n % field.prime())?)));
             Some(Self { field, roots: roots.collect::<Option<_>>()? })
@@ -43,6 +48,15 @@ impl SplitField {
     /// Number of independent square roots: a prime has them all with a chance of one in two for each.
     pub(crate) fn independent_roots(&self) -> usize {
         self.roots.len()
+    }
+
+    /// Bound of how many times more likely the prime divides an integer of the field that is not zero than a single prime, drawn uniformly, divides an ordinary integer of as
+    /// many digits: any of the primes drawn may divide it, and it divides the norm, a product of as many conjugates as the field has automorphisms.
+    ///
+    /// 1 without square roots: the first prime is taken. Nothing needs to be known of the number of primes that have the square roots.
+    pub(crate) fn chances(&self) -> f64 {
+        let roots = self.independent_roots();
+        if roots == 0 { 1.0 } else { (PATIENCE << (2 * roots)) as f64 }
     }
 
     /// The residue of a number whose radicands were given; `None` when the prime divides its denominator.

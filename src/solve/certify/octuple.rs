@@ -113,9 +113,12 @@ pub(super) fn bounds(system: &LegSystem, x: &Study<DoubleDouble>) -> Result<Kraw
         let joints = |i: usize, width: &dyn Fn(usize, f64) -> f64| {
             if i < 6 { width(i, 2.0 * size(i).0) } else { 0.0 }
         };
-        let value_width = |i: usize| 0.5 * radius(i) * p + joints(i, &|i, v| system.joint_width_of_value(i, e, v));
-        let row_width = |i: usize| 4.0 * radius(i) * e + joints(i, &|i, v| system.joint_width_of_gradient(i, e, v));
-        let second_order_width = |i: usize| 1.5 * radius(i) + joints(i, &|i, _| system.joint_width_of_second_order(i));
+        let value_width =
+            |i: usize| 0.5 * radius(i) * p + joints(i, &|i, v| system.joint_width_of_value(i, e, v));
+        let row_width =
+            |i: usize| 4.0 * radius(i) * e + joints(i, &|i, v| system.joint_width_of_gradient(i, e, v));
+        let second_order_width =
+            |i: usize| 1.5 * radius(i) + joints(i, &|i, _| system.joint_width_of_second_order(i));
         let step = dot(&y, &values);
         out.step[if k == x.patch { 7 } else { k }] = step.rounded();
         let centre = modulus(step) + ERROR * along(&value_size);

@@ -13,7 +13,7 @@ use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::num::Purpose;
 use crate::num::modular::Field;
 pub(crate) use infinity::points_at_infinity;
-use joints::{CountedJoints, EndResidues};
+use joints::{CountedJoints, DrawnPrime, EndResidues};
 use quadrics::{COORDINATES, Cut, Linear, Part, cut};
 use quotient::{Outcome, close};
 
@@ -106,7 +106,7 @@ impl CountUndecided {
 }
 
 /// The squared lengths for which poses are counted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(
     feature = "files",
     derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
@@ -195,11 +195,11 @@ fn counted(m: &Manipulator, lengths: Lengths<'_>, options: &CountOptions) -> Pos
     let mut out: Option<PoseCount> = None;
     let mut special: f64 = 0.0;
     for _ in 0..options.primes.max(1) {
-        let Some((field, ends)) = joints.drawn(&mut rng) else {
+        let Some(prime) = joints.drawn(&mut rng) else {
             return PoseCount::undecided(CountUndecided::NoPrimeDrawn);
         };
-        let (set, depth) = set_modulo(field, &ends, lengths, &draws);
-        let error = error_probability(&joints, lengths, depth);
+        let (set, depth) = set_modulo(prime.field, &prime.ends, lengths, &draws);
+        let error = error_probability(&joints, &prime, lengths, depth);
         if matches!(lengths, Lengths::Generic) {
             special = special.max(minors(depth) / 2f64.powi(60));
         }
@@ -212,7 +212,7 @@ fn counted(m: &Manipulator, lengths: Lengths<'_>, options: &CountOptions) -> Pos
             primes: Vec::new(),
             error_probability: 1.0,
         });
-        count.primes.push(field.prime());
+        count.primes.push(prime.field.prime());
         count.error_probability *= error;
         if count.set != set {
             count.set = PoseSet::Undecided { why: CountUndecided::PrimesDisagree };
@@ -230,12 +230,7 @@ fn counted(m: &Manipulator, lengths: Lengths<'_>, options: &CountOptions) -> Pos
 }
 
 /// The set modulo one prime, and the degree of the multiples used.
-fn set_modulo(
-    field: Field,
-    ends: &EndResidues,
-    lengths: Lengths<'_>,
-    draws: &Draws,
-) -> (PoseSet, usize) {
+fn set_modulo(field: Field, ends: &EndResidues, lengths: Lengths<'_>, draws: &Draws) -> (PoseSet, usize) {
     let mut equations: Vec<Linear> = (0..6)
         .map(|i| {
             let square = match lengths {
@@ -302,10 +297,10 @@ fn leg_equation(field: Field, [a, b]: &[[u64; 3]; 2], square: u64) -> Linear {
 /// the product of the norms of its rows. It has as many prime factors above `2^60` as sixty goes into its bits, of more than `3 2^60 / (5 ln 2^60)` primes between `2^60` and
 /// `2^61` (Rosser, Schoenfeld 1962, (3.9)). Minors of joints made of square roots are algebraic integers: a bad prime divides their norm, and any of the primes
 /// drawn may be bad.
-fn error_probability(joints: &CountedJoints, lengths: Lengths<'_>, depth: usize) -> f64 {
+fn error_probability(joints: &CountedJoints, prime: &DrawnPrime, lengths: Lengths<'_>, depth: usize) -> f64 {
     let bits = joints.bits(lengths).max(SECTION_BITS);
     let primes = 3.0 * 2f64.powi(60) / (5.0 * 60.0 * std::f64::consts::LN_2);
-    (minors(depth) * bits / 60.0 / primes * joints.chances()).min(1.0)
+    (minors(depth) * bits / 60.0 / primes * prime.chances).min(1.0)
 }
 
 /// Rows, at most, of all minors that decide: for all depths up to the one that was needed, which is not known before the prime is drawn.

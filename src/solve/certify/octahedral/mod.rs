@@ -138,10 +138,11 @@ impl OctahedralCertifier {
                 .filter(|p| p.iter().all(|x| x.centre.abs() + x.radius < LARGEST))
                 .ok_or(WhyUncertified::OutOfRange)
         };
-        let corners = |t: [nalgebra::Point3<f64>; 3], body: Body| -> Result<[RealVector; 3], WhyUncertified> {
-            let radii = design.corner_radii(body);
-            Ok([scaled(t[0], radii[0])?, scaled(t[1], radii[1])?, scaled(t[2], radii[2])?])
-        };
+        let corners =
+            |t: [nalgebra::Point3<f64>; 3], body: Body| -> Result<[RealVector; 3], WhyUncertified> {
+                let radii = design.corner_radii(body);
+                Ok([scaled(t[0], radii[0])?, scaled(t[1], radii[1])?, scaled(t[2], radii[2])?])
+            };
         let (p, q) = (corners(base, Body::Base)?, corners(platform, Body::Platform)?);
         Ok(Self {
             unit,
