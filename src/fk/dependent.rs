@@ -13,7 +13,7 @@ use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::num::Purpose;
 use crate::solve::ScaledFrames;
 use crate::solve::homotopy::{EndKind, HomotopyPath, StartKind, solve_sections};
-use crate::solve::pose_count::PoseSet;
+use crate::solve::pose_count::{CountedLengths, PoseSet};
 
 /// Leg equations count as dependent below this sine when curves are looked for.
 const RANK: f64 = 1e-9;
@@ -53,7 +53,8 @@ pub(super) fn curves(
     proved: usize,
 ) -> Result<FkSolutions, FkError> {
     let count = counted(m, s, o);
-    let least = match count.as_ref().map(|c| &c.set) {
+    let given = count.as_ref().filter(|c| c.lengths == CountedLengths::Given);
+    let least = match given.map(|c| &c.set) {
         Some(PoseSet::PositiveDimensional { dimension, .. }) => *dimension,
         _ => 0,
     };

@@ -100,6 +100,10 @@ pub(super) fn judge(found: &mut FkSolutions, count: &PoseCount) -> Result<Realit
 /// What the count says where poses form a set of positive dimension, or seem to within rounding; nothing when it is undecided.
 pub(super) fn set_counted(count: &PoseCount, established: bool) -> Completeness {
     let error_probability = count.error_probability;
+    // of lengths known within radii nothing is counted
+    if count.lengths == CountedLengths::Generic {
+        return Completeness::unproved([]);
+    }
     let reason = match count.set {
         PoseSet::PositiveDimensional { dimension, degree } => {
             Some(Reason::SetCounted { dimension, degree, error_probability, established })

@@ -16,7 +16,7 @@ use crate::num::ball::Disc;
 use crate::poly::{Dyadic, RealRoot};
 use crate::solve::certify::octahedral::OctahedralCertificate;
 use crate::solve::certify::{CentrePrecision, Certificate, PoseEnclosure, ProvedReality, RootCertificate};
-use crate::solve::pose_count::{CountUndecided, PoseCount, PoseSet};
+use crate::solve::pose_count::{CountUndecided, CountedLengths, PoseCount, PoseSet};
 use crate::topology::{JointIndex, Step};
 
 /// The answer of `fk`.
@@ -222,7 +222,12 @@ impl From<&FkSolutions> for SolutionSetRecord {
             SolutionSet::Empty => Self::Empty {},
             SolutionSet::PositiveDimensional { dimension, witnesses, established } => {
                 Self::PositiveDimensional {
-                    dimension: match s.pose_count.as_ref().map(|c| &c.set) {
+                    dimension: match s
+                        .pose_count
+                        .as_ref()
+                        .filter(|c| c.lengths == CountedLengths::Given)
+                        .map(|c| &c.set)
+                    {
                         Some(PoseSet::PositiveDimensional { dimension, .. }) => Some(*dimension),
                         _ => None,
                     },
@@ -236,7 +241,7 @@ impl From<&FkSolutions> for SolutionSetRecord {
     }
 }
 
-/// The finite poses of the design and lengths as written, counted without finding them.
+/// The finite poses of the design, counted without finding them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PoseCountRecord {
     /// Their number with multiplicity; null: not finite, or undecided.
@@ -249,6 +254,9 @@ pub struct PoseCountRecord {
     pub degree: Option<usize>,
     /// Why there is no count.
     pub undecided: Option<CountUndecided>,
+    /// The lengths it is the count of: those given, exactly as they stand, or generic ones, which have as many isolated poses as any or more. Where the lengths are known to
+    /// rounding only, as images under a leg map are, the latter are counted.
+    pub lengths: CountedLengths,
     /// By a theorem and certificates, or modulo random primes.
     pub evidence: EvidenceWord,
     /// A bound; null: proved, or undecided.
@@ -283,6 +291,7 @@ impl PoseCountRecord {
             dimension: None,
             degree: None,
             undecided: None,
+            lengths: CountedLengths::Given,
             evidence,
             error_probability: None,
             primes: Vec::new(),
@@ -304,6 +313,7 @@ impl From<&PoseCount> for PoseCountRecord {
             }
             PoseSet::Undecided { why } => record.undecided = Some(*why),
         }
+        record.lengths = c.lengths;
         record.error_probability = record.undecided.is_none().then_some(c.error_probability);
         record.primes = c.primes.iter().map(u64::to_string).collect();
         record

@@ -210,3 +210,64 @@ fn poses_called_proved_are_the_roots_to_the_accuracy_stated() {
     // and the poses are not perfect, so that the test can fail
     assert!(worst > 1e-13, "{worst:e}");
 }
+
+/// Joints known within a radius: the discs hold the pairs and the poses of every choice of joints, and those of joints further away are not all held.
+#[test]
+fn certificates_of_joints_within_radii_hold_for_every_choice() {
+    let radius = 1e-13;
+    let (mut held, mut closest, mut lost) = (0, 0.0_f64, 0);
+    for k in 0..40 {
+        let Some(c) = case(k) else { continue };
+        let enclosed = c.m.clone().enclosed_within(radius);
+        let certifier = OctahedralCertifier::new(&Octahedral::recognise(&enclosed).unwrap()).unwrap();
+        let wide = certifier.certify(&c.s, &c.found.pairs, &c.found.poses);
+        let mut rng = Rng::stream(79, k);
+        for far in [1.0, 1.0, 1.0, 1000.0] {
+            let mut moved = |joints: &[Point3<f64>]| -> Vec<Point3<f64>> {
+                let mut side = || if rng.next_u64().is_multiple_of(2) { 1.0 } else { -1.0 };
+                joints.iter().map(|p| p.map(|x| x + 0.999 * far * radius * side())).collect()
+            };
+            let (base, platform) = (moved(c.m.base_joints()), moved(c.m.platform_joints()));
+            let m = Manipulator::try_new(base, platform, c.m.pairs()).unwrap();
+            let Some(found) = OcticSolver::new(&m).unwrap().solve(&c.s) else { continue };
+            let own = OctahedralCertifier::new(&Octahedral::recognise(&m).unwrap()).unwrap();
+            let own = own.certify(&c.s, &found.pairs, &found.poses);
+            for (i, pair) in wide.pairs.iter().enumerate() {
+                let Some(pair) = pair else { continue };
+                let inside = |p: &PairCertificate| {
+                    let ratio = |j: usize| {
+                        let (outer, inner) = (pair.squared_distances[j], p.squared_distances[j]);
+                        ((outer.centre - inner.centre).norm() + inner.radius) / outer.radius
+                    };
+                    ratio(0).max(ratio(1))
+                };
+                let certified = || own.pairs.iter().enumerate().filter_map(|(l, p)| Some((l, p.as_ref()?)));
+                let nearest = certified().min_by(|a, b| inside(a.1).total_cmp(&inside(b.1)));
+                let Some((l, other)) = nearest.filter(|_| own.complete) else { continue };
+                let ratio = inside(other);
+                if far > 1.0 {
+                    lost += usize::from(ratio > 1.0);
+                    continue;
+                }
+                assert!(ratio <= 1.0, "{k} {i}: {ratio}");
+                (held, closest) = (held + 1, closest.max(ratio));
+                // one of the two poses of the one is the pose of the other
+                let given = &c.found.poses[2 * i];
+                let near = |pose: &crate::geom::ComplexPose| {
+                    let turn = (pose.rotation - given.rotation).iter().map(|z| z.norm()).fold(0.0, f64::max);
+                    let shift = (pose.position - given.position).iter().map(|z| z.norm()).fold(0.0, f64::max);
+                    turn <= pair.distances[0] + other.distances[0]
+                        && shift <= pair.distances[1] + other.distances[1]
+                };
+                assert!(found.poses[2 * l..2 * l + 2].iter().any(near), "{k} {i}");
+                let sure = [pair.reality, other.reality].map(|r| r != ProvedReality::Undecided);
+                assert!(sure != [true, true] || pair.reality == other.reality);
+            }
+        }
+        // what nothing is known of is refused
+        let unknown = c.m.clone().enclosed_within(f64::INFINITY);
+        assert!(OctahedralCertifier::new(&Octahedral::recognise(&unknown).unwrap()).is_err());
+        assert!(Certifier::new(&unknown, &c.s).is_err());
+    }
+    assert!(held > 300 && closest > 0.01 && lost > 100, "{held} {closest} {lost}");
+}

@@ -69,6 +69,8 @@ mod inverse;
 mod krawczyk;
 pub mod octahedral;
 mod octuple;
+#[cfg(test)]
+mod radii_tests;
 mod refine;
 mod second_order;
 mod system;

@@ -171,14 +171,19 @@ mod tests {
     use crate::solve::certify::coordinates::study_of;
     use crate::solve::certify::krawczyk::{Centre, Digits, RootBall, one_root_about};
     use crate::solve::certify::refine::refine_study;
+    use crate::solve::certify::system::RealScalar;
     use nalgebra::{Point3, Vector3};
 
-    /// A platform with a root known to the digits of double-double.
-    fn known_root(rng: &mut Rng) -> (LegSystem, Study<DoubleDouble>) {
+    fn known_pose(rng: &mut Rng) -> (Manipulator, Pose) {
         let mut point = || Point3::new(rng.normal(), rng.normal(), rng.normal());
         let m = Manipulator::from_legs(std::array::from_fn(|_| Leg { base: point(), platform: point() }))
             .unwrap();
-        let pose = Pose { rotation: random_rotation(rng), position: Vector3::new(0.3, -0.4, 1.2) };
+        (m, Pose { rotation: random_rotation(rng), position: Vector3::new(0.3, -0.4, 1.2) })
+    }
+
+    /// A platform with a root known to the digits of double-double.
+    fn known_root(rng: &mut Rng) -> (LegSystem, Study<DoubleDouble>) {
+        let (m, pose) = known_pose(rng);
         let s = pose.squared_lengths(&m).unwrap();
         let system = LegSystem::new(&m, &(&s).into()).unwrap();
         let start = study_of(&pose.into(), system.unit()).unwrap();
@@ -214,5 +219,36 @@ mod tests {
             centre.re[5] = centre.re[5] + DoubleDouble::from(1e-3);
             assert!(one_root(&system, &centre).is_err());
         }
+    }
+
+    #[test]
+    fn the_ball_for_joints_within_radii_holds_the_root_of_every_choice() {
+        let rng = &mut Rng::new(0x9ed);
+        let mut widest = 0.0_f64;
+        for _ in 0..8 {
+            let (m, pose) = known_pose(rng);
+            let s = pose.squared_lengths(&m).unwrap();
+            let radius = 1e-20;
+            let plain = LegSystem::new(&m, &(&s).into()).unwrap();
+            let start = study_of(&pose.into(), plain.unit()).unwrap();
+            let root = refine_study(&plain, &start, f64::INFINITY).unwrap().x;
+            let enclosed = LegSystem::new(&m.clone().enclosed_within(radius), &(&s).into()).unwrap();
+            let ball = one_root(&enclosed, &root).unwrap();
+            // a squared length off by so much changes its equation by less than the joints may
+            let (e, g, p) = root.rounded().magnitudes();
+            for i in 0..6 {
+                let mut other = plain.clone();
+                other.s_low[i] += enclosed.joint_width_of_value(i, e, g) / p;
+                let moved = refine_study(&other, &start, f64::INFINITY).unwrap().x;
+                let gap = |k: usize| {
+                    (moved.re[k] - root.re[k]).rounded().hypot((moved.im[k] - root.im[k]).rounded())
+                };
+                let distance = (0..8).map(gap).fold(0.0, f64::max);
+                assert!(distance <= ball.radius, "{distance:e} {ball:?}");
+                widest = widest.max(distance / ball.radius);
+            }
+            assert!(ball.centre_radius < 1e-26 && ball.radius > 1e-21 && ball.radius < 1e-15, "{ball:?}");
+        }
+        assert!(widest > 1e-4, "{widest}");
     }
 }

@@ -1,5 +1,7 @@
 use super::*;
+use crate::manipulator::{ExactEnds, ExactPoint, Leg};
 use crate::num::Rng;
+use crate::num::surd::Surd;
 use nalgebra::Point3;
 
 type Bodies = [[[f64; 3]; 6]; 2];
@@ -214,4 +216,119 @@ fn multiple_poses_count_with_their_multiplicity() {
     let mut rng = Rng::new(10);
     let joints = bodies(&mut rng, true);
     assert_eq!(finite(&joints, &at_home(&joints, [2.0, 1.0, 0.0]), 1), Some(40));
+}
+
+fn surd(n: i64, d: i64) -> Surd {
+    Surd::integer(n).times(&Surd::integer(d).inverse().unwrap()).unwrap()
+}
+
+fn root(n: i64) -> Surd {
+    Surd::integer(n).sqrt().unwrap()
+}
+
+/// `x u + y v`.
+fn mixed(x: &Surd, u: &ExactPoint, y: &Surd, v: &ExactPoint) -> ExactPoint {
+    [0, 1, 2].map(|k| x.times(&u[k]).unwrap().plus(&y.times(&v[k]).unwrap()).unwrap())
+}
+
+/// The octahedral platform with equilateral base of edge 12 and platform of edge 6, each joint slid along the side to the next by its part.
+fn slid(parts: &[Surd; 6]) -> [ExactEnds; 6] {
+    let h = root(3);
+    let point = |x: i64, y: i64| [Surd::integer(x), h.times(&Surd::integer(y)).unwrap(), Surd::zero()];
+    let corners = [[point(0, 0), point(6, 6), point(12, 0)], [point(0, 0), point(6, 0), point(3, -3)]];
+    let one = Surd::integer(1);
+    std::array::from_fn(|i| {
+        let (t, rest) = (&parts[i], one.minus(&parts[i]).unwrap());
+        let end = |k: usize| {
+            let next = HEXAGON[k][(i + 1) % 6];
+            mixed(&rest, &corners[k][HEXAGON[k][i]], t, &corners[k][next])
+        };
+        [end(0), end(1)]
+    })
+}
+
+/// The same doubles, taken as they are.
+fn rounded(m: &Manipulator) -> Manipulator {
+    Manipulator::from_legs(m.legs()).unwrap()
+}
+
+const SQUARES: ExactSquares =
+    [[250.0, 0.0], [260.0, 0.0], [240.0, 0.0], [255.0, 0.0], [245.0, 0.0], [270.0, 0.0]];
+
+/// A Griffis-Duffy platform with irrational joints has sixteen poses; the one with rounded joints has more.
+#[test]
+fn exact_joints_are_counted_as_they_are_and_rounded_ones_as_others() {
+    let options = CountOptions::default();
+    let thirds = [1, 2, 3, 1, 2, 4].map(|n| surd(n, 7));
+    let mut odd = thirds.clone();
+    // half the diagonal of a square, a number that is in no field of the others
+    odd[2] = root(2).times(&surd(1, 2)).unwrap();
+    for parts in [std::array::from_fn(|_| Surd::zero()), thirds, odd] {
+        let m = Manipulator::of_exact_ends(&slid(&parts));
+        let given = count_poses(&m, &SQUARES, &options);
+        assert_eq!(given.set, PoseSet::Finite { count: 16, by_degree: vec![1, 10, 5] });
+        assert!(given.error_probability < 1e-11 && given.error_probability > 1e-20, "{given:?}");
+        let generic = count_generic_poses(&m, &options);
+        assert_eq!((generic.finite(), generic.lengths), (Some(16), CountedLengths::Generic));
+        let shared = m.base_joints().len() == 3;
+        let other = count_poses(&rounded(&m), &SQUARES, &options).finite();
+        // joints with coordinates that are doubles stay on their side
+        assert!(other.is_some_and(|n| if shared { n == 16 } else { n >= 24 }), "{other:?}");
+    }
+}
+
+/// Two mirror-symmetric hexagons with a threefold axis: 28 poses, rounded more.
+#[test]
+fn an_exact_symmetric_hexapod_has_28_poses() {
+    let (half, h) = (surd(1, 2), root(3).times(&surd(1, 2)).unwrap());
+    let turned = |p: &ExactPoint, times: usize| {
+        (0..times).fold(p.clone(), |[x, y, z], _| {
+            let by = |a: &Surd, u: &Surd, b: &Surd, v: &Surd| {
+                a.times(u).unwrap().plus(&b.times(v).unwrap()).unwrap()
+            };
+            let back = half.negated();
+            [by(&back, &x, &h.negated(), &y), by(&h, &x, &back, &y), z]
+        })
+    };
+    let point = |x: i64, y: i64| [Surd::integer(x), Surd::integer(y), Surd::zero()];
+    let ends: [ExactEnds; 6] = std::array::from_fn(|i| {
+        let side = if i % 2 == 0 { 1 } else { -1 };
+        [turned(&point(9, 2 * side), i / 2), turned(&point(4, 3 * side), i / 2)]
+    });
+    let m = Manipulator::of_exact_ends(&ends);
+    assert_eq!(count_generic_poses(&m, &CountOptions::default()).finite(), Some(28));
+    assert!(count_generic_poses(&rounded(&m), &CountOptions::default()).finite().is_some_and(|n| n > 28));
+}
+
+/// Thirds and fifths need no square roots; the prime is the first one drawn, as for doubles.
+#[test]
+fn fractions_are_counted_as_doubles_are() {
+    let mut rng = Rng::new(12);
+    let mut point =
+        || [0, 1, 2].map(|k| if k == 2 { Surd::zero() } else { surd((rng.next_u64() % 90) as i64, 15) });
+    let base: [ExactPoint; 6] = std::array::from_fn(|_| point());
+    let two = Surd::integer(2);
+    let m = Manipulator::of_exact_ends(&base.map(|p| [p.clone(), mixed(&two, &p, &Surd::zero(), &p)]));
+    let count = count_poses(&m, &SQUARES, &CountOptions::default());
+    assert_eq!(count.finite(), Some(16));
+    assert_eq!(count.primes, count_poses(&rounded(&m), &SQUARES, &CountOptions::default()).primes);
+    assert!(count.error_probability < 1e-17);
+}
+
+#[test]
+fn joints_known_between_bounds_and_in_too_large_fields_are_not_counted() {
+    let m = Manipulator::of_exact_ends(&slid(&[1, 2, 3, 1, 2, 4].map(|n| surd(n, 7))));
+    let undecided = |m: &Manipulator| match count_generic_poses(m, &CountOptions::default()).set {
+        PoseSet::Undecided { why } => Some(why),
+        _ => None,
+    };
+    assert_eq!(undecided(&m), None);
+    assert_eq!(undecided(&rounded(&m).enclosed_within(1e-15)), Some(CountUndecided::JointsNotExact));
+    let mut wide = slid(&[1, 2, 3, 1, 2, 4].map(|n| surd(n, 7)));
+    let primes = [2, 5, 7, 11, 13, 17, 19, 23, 29];
+    for (k, p) in primes.into_iter().enumerate() {
+        let x = &mut wide[k % 6][k / 6][0];
+        *x = x.plus(&root(p)).unwrap();
+    }
+    assert_eq!(undecided(&Manipulator::of_exact_ends(&wide)), Some(CountUndecided::NoPrimeDrawn));
 }

@@ -129,7 +129,13 @@ fn the_exact_problem_is_within_the_blur() {
             Leg { base: p(), platform: p() }
         });
         let m = Manipulator::from_legs(legs).unwrap();
-        let solver = NearSolver::new(&m);
+        // joints that are not the doubles but somewhere near them
+        let loose = if seed % 3 == 0 { 2f64.powi(-30) } else { 0.0 };
+        let solver = NearSolver::new(&if loose > 0.0 { m.enclosed_within(loose) } else { m });
+        let legs = legs.map(|l| {
+            let mut moved = |p: Point3<f64>| p.map(|x| x + 0.999 * rng.uniform(-loose, loose));
+            Leg { base: moved(l.base), platform: moved(l.platform) }
+        });
         // a rational rotation, rounded
         let q: [Exact; 4] = std::array::from_fn(|_| exact((rng.normal() * 64.0).round()));
         let [w, x, y, z] = &q;
@@ -171,7 +177,7 @@ fn the_exact_problem_is_within_the_blur() {
             let f = (square - wanted) / exact(2.0);
             assert!(within([f - exact(here.f[i]), exact(0.0), exact(0.0)], blur.f[i]), "{seed} {i}");
             assert!(
-                blur.f[i] < 1e-13 * (1.0 + far) * (1.0 + target[i]),
+                blur.f[i] < (1e-13 + 10.0 * loose) * (1.0 + far) * (1.0 + target[i]),
                 "the bound is of use: {:e}",
                 blur.f[i]
             );

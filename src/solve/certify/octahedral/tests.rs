@@ -48,7 +48,7 @@ fn closures_enclose_the_cayley_menger_determinant_over_the_rationals() {
     for _ in 0..20 {
         let corner = |rng: &mut Rng| [rng.normal(), rng.normal(), rng.normal()];
         let p = [corner(&mut rng), corner(&mut rng), corner(&mut rng)];
-        let t = Triangle::of(p);
+        let t = Triangle::of(p.map(|corner| corner.map(Real::point)));
         let mut draw = || rng.uniform(0.5, 3.0);
         let (u, v, d) = ([draw(), draw()], [draw(), draw()], draw());
         let closure = ClosureCoefficients::new(&t, u.map(Real::point), v.map(Real::point), Real::point(d));

@@ -69,11 +69,17 @@ fn truth(system: &LegSystem, x: &[ExactComplex; 8]) -> [ExactComplex; N] {
 }
 
 fn random_system(rng: &mut Rng) -> LegSystem {
+    system_within(rng, 0.0)
+}
+
+/// A random system of joints known within a radius.
+fn system_within(rng: &mut Rng, radius: f64) -> LegSystem {
     let mut point = || Point3::new(rng.normal(), rng.normal(), rng.normal()) * 3.0;
     let legs = std::array::from_fn(|_| Leg { base: point(), platform: point() });
     let lengths = LegLengths::try_new(std::array::from_fn(|_| rng.uniform(0.7, 3.0))).unwrap();
-    let system =
-        LegSystem::new(&Manipulator::from_legs(legs).unwrap(), &(&lengths.squared()).into()).unwrap();
+    let m = Manipulator::from_legs(legs).unwrap();
+    let m = if radius > 0.0 { m.enclosed_within(radius) } else { m };
+    let system = LegSystem::new(&m, &(&lengths.squared()).into()).unwrap();
     assert!(system.s_low.iter().all(|low| low.abs() > 0.0), "squares of lengths have digits beyond double");
     system
 }
@@ -267,4 +273,86 @@ fn a_larger_unit_is_the_same_problem() {
         assert!((coarse.unit() - 1024.0 * system.unit()).abs() < 1e-300);
     }
     assert!(random_system(&mut rng).coarser(2f64.powi(1070)).is_none());
+}
+
+#[test]
+fn joints_that_are_their_doubles_have_no_width() {
+    let mut rng = Rng::new(86);
+    for _ in 0..10 {
+        let system = random_system(&mut rng);
+        for i in 0..6 {
+            let widths = [
+                system.joint_width_of_value(i, 2.0, 30.0),
+                system.joint_width_of_gradient(i, 2.0, 30.0),
+                system.joint_width_of_second_order(i),
+                system.turn_radius[i],
+            ];
+            // added to bounds that are not negative, such a zero changes no bit of them
+            assert!(widths.iter().all(|w| w.to_bits() == 0), "{widths:?}");
+        }
+    }
+    assert!(random_system(&mut rng).coarser(1024.0).unwrap().turn_radius.iter().all(|t| t.to_bits() == 0));
+}
+
+/// The system of joints moved within their radii, coordinate by coordinate.
+fn moved(system: &LegSystem, radius: f64, rng: &mut Rng) -> LegSystem {
+    let mut out = system.clone();
+    let mut side = || if rng.next_u64().is_multiple_of(2) { radius } else { -radius };
+    for i in 0..6 {
+        out.a[i] = system.a[i].map(|x| x + side());
+        out.b[i] = system.b[i].map(|x| x + side());
+        out.prepare_leg(i);
+    }
+    out
+}
+
+fn difference<const M: usize>(x: &[f64; M], y: &[f64; M]) -> [f64; M] {
+    std::array::from_fn(|k| x[k] - y[k])
+}
+
+#[test]
+fn what_joints_within_their_radii_change_is_within_the_widths_and_nearly_attains_them() {
+    let mut rng = Rng::new(87);
+    let mut closest = [0.0_f64; 6];
+    for round in 0..400 {
+        let radius = 2f64.powi(-6 - (round % 10));
+        let system = system_within(&mut rng, radius);
+        let x = if round % 2 == 0 { random_point(&mut rng) } else { far_point(&mut rng) }.rounded();
+        let values = system.values(&x);
+        let (_, width) = system.value_bounds(&x, &values, U);
+        let (_, width_apart) = system.value_bounds_apart(&x);
+        let j = system.jacobian(&x, &values);
+        let [j_re, j_im] = system.jacobian_apart::<f64>(&x);
+        let j_bounds = system.jacobian_bounds_apart(&x);
+        let lifted = x.lifted();
+        let (f_re, f_im) = system.values_apart(&lifted);
+        for _ in 0..20 {
+            // less than the radius by more than what rounding can add
+            let other = moved(&system, 0.999 * radius / system.unit(), &mut rng);
+            let there = other.values(&x);
+            let (g_re, g_im) = other.values_apart(&lifted);
+            let k = other.jacobian(&x, &there);
+            let [k_re, k_im] = other.jacobian_apart::<f64>(&x);
+            let h = Study { patch: x.patch, ..random_point(&mut rng).rounded() };
+            let mut h = Study { re: h.re.map(f64::signum), im: [0.0; 8], patch: x.patch };
+            h.re[x.patch] = 0.0;
+            let (q, r) = (system.values(&h), other.values(&h));
+            for i in 0..6 {
+                let row = |re: [f64; 8], im: [f64; 8]| (0..8).map(|k| re[k].hypot(im[k])).sum::<f64>();
+                let changes = [
+                    ((there.f_re[i] - values.f_re[i]).hypot(there.f_im[i] - values.f_im[i]), width[i]),
+                    ((g_re[i] - f_re[i]).rounded().hypot((g_im[i] - f_im[i]).rounded()), width_apart[i]),
+                    (row(difference(&k.re[i], &j.re[i]), difference(&k.im[i], &j.im[i])), j.error[i]),
+                    (row(difference(&k_re[i], &j_re[i]), difference(&k_im[i], &j_im[i])), j_bounds[i]),
+                    ((r.f_re[i] - q.f_re[i]).abs(), system.joint_width_of_second_order(i)),
+                    (r.f_re[i].abs(), system.q[i]),
+                ];
+                for (closest, (change, bound)) in closest.iter_mut().zip(changes) {
+                    assert!(change <= bound, "{round} {i}: {change:e} {bound:e}");
+                    *closest = closest.max(change / bound);
+                }
+            }
+        }
+    }
+    assert!(closest.iter().all(|c| *c > 0.1), "{closest:?}");
 }
