@@ -304,8 +304,9 @@ fn an_exact_symmetric_hexapod_has_28_poses() {
 #[test]
 fn fractions_are_counted_as_doubles_are() {
     let mut rng = Rng::new(12);
-    let mut point =
-        || [0, 1, 2].map(|k| if k == 2 { Surd::zero() } else { surd((rng.next_u64() % 90) as i64, 15) });
+    let mut point = || {
+        [0, 1, 2].map(|k| if k == 2 { Surd::zero() } else { surd((rng.next_u64() % 90).cast_signed(), 15) })
+    };
     let base: [ExactPoint; 6] = std::array::from_fn(|_| point());
     let two = Surd::integer(2);
     let m = Manipulator::of_exact_ends(&base.map(|p| [p.clone(), mixed(&two, &p, &Surd::zero(), &p)]));
