@@ -132,3 +132,56 @@ pub(super) fn compared_with_count(
     }
     Ok(found)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fk::{ForwardKinematics, Homotopy, SolutionSet};
+    use crate::manipulator::LegLengths;
+    use crate::num::double_double::DoubleDouble;
+    use nalgebra::Point3;
+
+    /// Sixteen certified poses of lengths known within radii, of which nothing is known yet.
+    fn sixteen() -> (Manipulator, SquaredLegLengths, FkSolutions) {
+        let triangle = |r: f64| {
+            vec![[r, 0.0, 0.0], [-r, r, 0.0], [-r, -r, 0.25]].into_iter().map(Point3::from).collect()
+        };
+        let hexagon = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
+        let m = Manipulator::try_new(triangle(2.0), triangle(1.0), hexagon).unwrap();
+        let l = LegLengths::try_new([3.0, 3.25, 2.875, 3.125, 3.0625, 2.9375]).unwrap();
+        let s = SquaredLegLengths::try_within(l.squared().get().map(DoubleDouble::from), [1e-14; 6]).unwrap();
+        let mut found = Homotopy.solve(&m, &s, &FkOptions::default()).unwrap();
+        assert_eq!((found.certified_count(), found.completeness.is_proved()), (16, true));
+        found.completeness = Completeness::unproved([]);
+        (m, s, found)
+    }
+
+    #[test]
+    fn generic_lengths_bound_the_isolated_poses_of_lengths_within_radii() {
+        let (m, s, found) = sixteen();
+        let count = counted(&m, &s, &FkOptions::default()).unwrap();
+        assert_eq!((count.finite(), count.lengths), (Some(16), CountedLengths::Generic));
+        let judged = |n: usize| {
+            let (mut found, mut count) = (found.clone(), count.clone());
+            count.set = PoseSet::Finite { count: n, by_degree: vec![n] };
+            judge(&mut found, &count).map(|j| (j, found))
+        };
+        let (judgement, complete) = judged(16).unwrap();
+        assert_eq!(judgement, RealityJudgement::Complete);
+        let generic =
+            matches!(complete.completeness, Completeness::Modular { lengths: CountedLengths::Generic, .. });
+        assert!(generic && complete.is_complete() && complete.missing().is_none());
+        // more for generic lengths: nothing is said to be missing
+        let (judgement, fewer) = judged(20).unwrap();
+        assert_eq!(judgement, RealityJudgement::Short);
+        assert!(!fewer.is_complete() && !fewer.all_accounted() && fewer.missing().is_none());
+        assert!(fewer.completeness.to_string().contains("may be missing"), "{}", fewer.completeness);
+        assert!(judged(15).is_err());
+        // no pose for generic lengths does not say that there is none for these
+        let (mut none, mut count) = (found.clone(), count.clone());
+        none.roots.clear();
+        count.set = PoseSet::Finite { count: 0, by_degree: Vec::new() };
+        assert_eq!(judge(&mut none, &count).unwrap(), RealityJudgement::Silent);
+        assert!(!none.is_complete() && none.solution_set != SolutionSet::Empty);
+    }
+}

@@ -109,32 +109,6 @@ impl Manipulator {
 
 #[cfg(test)]
 impl Manipulator {
-    /// The platform with these joints; joints at one place become one.
-    pub(crate) fn of_exact_ends(ends: &[ExactEnds; 6]) -> Self {
-        let place = |list: &mut Vec<ExactPoint>, p: &ExactPoint| {
-            list.iter().position(|q| q == p).unwrap_or_else(|| {
-                list.push(p.clone());
-                list.len() - 1
-            })
-        };
-        let mut joints = [Vec::new(), Vec::new()];
-        let pairs = ends.each_ref().map(|[a, b]| (place(&mut joints[0], a), place(&mut joints[1], b)));
-        let doubles = |list: &Vec<ExactPoint>| -> Vec<nalgebra::Point3<f64>> {
-            list.iter().map(|p| p.each_ref().map(Surd::nearest).into()).collect()
-        };
-        let radius = |list: &Vec<ExactPoint>| -> Vec<f64> {
-            let far = |x: &Surd| {
-                let ((low, high), double) =
-                    (x.between(120), crate::num::exact::rational(x.nearest()).unwrap());
-                let gap = crate::num::exact::approximate(&(&high - &double).max(&double - &low));
-                if low == high && gap <= 0.0 { 0.0 } else { gap.next_up().next_up() }
-            };
-            list.iter().map(|p| p.iter().map(far).fold(0.0, f64::max)).collect()
-        };
-        let m = Self::try_new(doubles(&joints[0]), doubles(&joints[1]), pairs).unwrap();
-        m.with_values(JointValues { radius: joints.each_ref().map(radius), exact: Some(joints) })
-    }
-
     /// The same doubles, of which nothing is known but that the joints are within a radius of them.
     pub(crate) fn enclosed_within(self, radius: f64) -> Self {
         let radius = [self.base_joints(), self.platform_joints()].map(|joints| vec![radius; joints.len()]);

@@ -247,6 +247,10 @@ fn slid(parts: &[Surd; 6]) -> [ExactEnds; 6] {
     })
 }
 
+fn exact(ends: &[ExactEnds; 6]) -> Manipulator {
+    Manipulator::from_exact_ends(ends).unwrap()
+}
+
 /// The same doubles, taken as they are.
 fn rounded(m: &Manipulator) -> Manipulator {
     Manipulator::from_legs(m.legs()).unwrap()
@@ -264,7 +268,7 @@ fn exact_joints_are_counted_as_they_are_and_rounded_ones_as_others() {
     // half the diagonal of a square, a number that is in no field of the others
     odd[2] = root(2).times(&surd(1, 2)).unwrap();
     for parts in [std::array::from_fn(|_| Surd::zero()), thirds, odd] {
-        let m = Manipulator::of_exact_ends(&slid(&parts));
+        let m = exact(&slid(&parts));
         let given = count_poses(&m, &SQUARES, &options);
         assert_eq!(given.set, PoseSet::Finite { count: 16, by_degree: vec![1, 10, 5] });
         assert!(given.error_probability < 1e-11 && given.error_probability > 1e-20, "{given:?}");
@@ -295,7 +299,7 @@ fn an_exact_symmetric_hexapod_has_28_poses() {
         let side = if i % 2 == 0 { 1 } else { -1 };
         [turned(&point(9, 2 * side), i / 2), turned(&point(4, 3 * side), i / 2)]
     });
-    let m = Manipulator::of_exact_ends(&ends);
+    let m = exact(&ends);
     assert_eq!(count_generic_poses(&m, &CountOptions::default()).finite(), Some(28));
     assert!(count_generic_poses(&rounded(&m), &CountOptions::default()).finite().is_some_and(|n| n > 28));
 }
@@ -309,7 +313,7 @@ fn fractions_are_counted_as_doubles_are() {
     };
     let base: [ExactPoint; 6] = std::array::from_fn(|_| point());
     let two = Surd::integer(2);
-    let m = Manipulator::of_exact_ends(&base.map(|p| [p.clone(), mixed(&two, &p, &Surd::zero(), &p)]));
+    let m = exact(&base.map(|p| [p.clone(), mixed(&two, &p, &Surd::zero(), &p)]));
     let count = count_poses(&m, &SQUARES, &CountOptions::default());
     assert_eq!(count.finite(), Some(16));
     assert_eq!(count.primes, count_poses(&rounded(&m), &SQUARES, &CountOptions::default()).primes);
@@ -318,7 +322,7 @@ fn fractions_are_counted_as_doubles_are() {
 
 #[test]
 fn joints_known_between_bounds_and_in_too_large_fields_are_not_counted() {
-    let m = Manipulator::of_exact_ends(&slid(&[1, 2, 3, 1, 2, 4].map(|n| surd(n, 7))));
+    let m = exact(&slid(&[1, 2, 3, 1, 2, 4].map(|n| surd(n, 7))));
     let undecided = |m: &Manipulator| match count_generic_poses(m, &CountOptions::default()).set {
         PoseSet::Undecided { why } => Some(why),
         _ => None,
@@ -331,5 +335,5 @@ fn joints_known_between_bounds_and_in_too_large_fields_are_not_counted() {
         let x = &mut wide[k % 6][k / 6][0];
         *x = x.plus(&root(p)).unwrap();
     }
-    assert_eq!(undecided(&Manipulator::of_exact_ends(&wide)), Some(CountUndecided::NoPrimeDrawn));
+    assert_eq!(undecided(&exact(&wide)), Some(CountUndecided::NoPrimeDrawn));
 }
