@@ -50,6 +50,16 @@ struct Aligned {
     mirrored: Alignment,
 }
 
+/// Refuses two designs in different units with this code.
+pub(crate) fn same_units(a: &Design, b: &Design, code: &str) -> Result<(), Failure> {
+    if a.units == b.units {
+        return Ok(());
+    }
+    let message = format!("{} is in {}, {} is in {}", a.name, a.units, b.name, b.units);
+    Err(Failure::refused(code, message)
+        .with_help("write both designs in the same unit: the c of their leg map has the unit squared"))
+}
+
 impl FrameArgs {
     /// Exchanges, aligns and writes the second design as asked.
     pub(crate) fn apply(&self, a: &Design, b: &Design, context: &Context) -> Result<Second, Failure> {

@@ -28,6 +28,12 @@ pub(crate) fn judged(design: &Design) -> Vec<Pose> {
     workspace(design).0.sample(Some(&home(design)))
 }
 
+/// The seven fields of a CSV file in which a pose is written: position and quaternion, scalar part first.
+pub(crate) fn csv_fields(pose: &Pose) -> String {
+    let numbers = pose.position.iter().copied().chain(pose.quaternion());
+    numbers.map(|x| x.to_string()).collect::<Vec<_>>().join(",")
+}
+
 /// `home`, six or seven numbers, as the value of `option`.
 ///
 /// # Errors

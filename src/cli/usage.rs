@@ -5,6 +5,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 
 use super::failure::Failure;
 use super::guide::{self, GuideEntry};
+use crate::design::{likeness, nearest_word};
 
 /// Words nearer than this to a name are taken for it (similarity of Jaro and Winkler).
 const NEAR: f64 = 0.9;
@@ -123,12 +124,10 @@ impl<'a> Place<'a> {
         let own = options(self.command);
         let known = OPTIONS.iter().find(|(other, name)| *other == word && own.iter().any(|o| o == name));
         let near = || {
-            let likeness =
-                |o: &&String| strsim::jaro_winkler(o.trim_start_matches('-'), word.trim_start_matches('-'));
-            let best = own.iter().max_by(|a, b| likeness(a).total_cmp(&likeness(b)))?;
-            (likeness(&best) >= NEAR).then_some(best.as_str())
+            let names: Vec<&str> = own.iter().map(|o| o.trim_start_matches('-')).collect();
+            nearest_word(word.trim_start_matches('-'), &names, NEAR).map(|name| format!("--{name}"))
         };
-        if let Some(option) = known.map(|(_, name)| *name).or_else(near) {
+        if let Some(option) = known.map(|(_, name)| (*name).to_string()).or_else(near) {
             return Some(format!("did you mean `{option}`?"));
         }
         let others = guide::entries()
@@ -148,24 +147,20 @@ fn find<'a>(program: &'a Command, path: &str) -> Option<&'a Command> {
 
 /// The commands that a word stands for: by the last word of their name, by other words for them, or nearly so. Those of `group` come before others.
 fn nearest(word: &str, group: &str) -> Vec<&'static str> {
-    if word.len() > 100 {
-        return Vec::new(); // no slip of the pen, and the comparison is quadratic
-    }
-    let word = word.to_lowercase();
-    let likeness = |e: &GuideEntry| {
+    let meant = |e: &GuideEntry| {
         let leaf = e.path.rsplit(' ').next().unwrap_or(e.path);
         let joined = e.path.replace(' ', "-");
-        let named = [leaf, &joined].map(|n| strsim::jaro_winkler(n, &word)).into_iter().fold(0.0, f64::max);
+        let named = [leaf, &joined].map(|n| likeness(word, n)).into_iter().fold(0.0, f64::max);
         // another word for a command counts less than its name
-        let other = e.words.iter().map(|n| 0.999 * strsim::jaro_winkler(n, &word)).fold(0.0, f64::max);
+        let other = e.words.iter().map(|n| 0.999 * likeness(word, n)).fold(0.0, f64::max);
         let nearby = if !group.is_empty() && e.path.starts_with(group) { 1e-3 } else { 0.0 };
         named.max(other) + nearby
     };
-    let best = guide::entries().map(likeness).fold(0.0, f64::max);
+    let best = guide::entries().map(meant).fold(0.0, f64::max);
     if best < NEAR {
         return Vec::new();
     }
-    guide::entries().filter(|e| best - likeness(e) < 1e-9).map(|e| e.path).collect()
+    guide::entries().filter(|e| best - meant(e) < 1e-9).map(|e| e.path).collect()
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ mod edit;
 #[cfg(test)]
 mod fixtures;
 mod json_text;
+mod likeness;
 mod model;
 mod presets;
 #[cfg(test)]
@@ -29,6 +30,9 @@ use construction::{Construction, Constructions, LinePlace, WrittenNumber};
 pub use construction::{ExactJoint, Exactness};
 pub use edit::JointError;
 pub(crate) use edit::Written;
+#[cfg(feature = "cli")]
+pub(crate) use likeness::likeness;
+pub(crate) use likeness::nearest_word;
 pub use model::{Combination, Design, NameCount, OptimizeTable, SearchTable};
 pub use presets::{PRESETS, Preset, PresetClass};
 pub(crate) use rows::table_rows;

@@ -270,9 +270,6 @@ impl<'a> Merit<'a> {
 }
 
 fn decomposed(j: &Matrix6<f64>) -> Option<(Matrix6<f64>, Vector6<f64>, Matrix6<f64>)> {
-    if j.iter().any(|x| !x.is_finite()) {
-        return None;
-    }
     let d = bounded_svd(j)?;
     Some((d.u?, d.singular_values, d.v_t?.transpose()))
 }

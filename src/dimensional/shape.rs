@@ -83,7 +83,7 @@ pub(crate) struct JointEnds {
 /// Unit normal of the plane that fits the base joints best, towards the platform at home.
 fn upwards(m: &Manipulator, home: &Pose) -> Vector3<f64> {
     let legs = m.legs();
-    let centre = legs.iter().map(|l| l.base.coords).sum::<Vector3<f64>>() / 6.0;
+    let [centre, _] = m.mean_leg_ends();
     let moments =
         legs.iter().map(|l| l.base.coords - centre).map(|v| v * v.transpose()).sum::<Matrix3<f64>>();
     let (values, vectors) = symmetric_eigen3(&moments);

@@ -11,7 +11,7 @@
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3, Vector6};
 
 use super::{Pose, PoseSpace};
-use crate::manipulator::{Leg, Manipulator};
+use crate::manipulator::Manipulator;
 use crate::num::{Purpose, Rng};
 
 /// Half width of the box of positions where no workspace is given, in sizes of the manipulator.
@@ -45,9 +45,8 @@ pub(crate) struct CentredPoses {
 
 impl CentredPoses {
     pub(crate) fn new(m: &Manipulator) -> Self {
-        let legs = m.legs();
-        let mean = |pick: fn(&Leg) -> Vector3<f64>| legs.iter().map(pick).sum::<Vector3<f64>>() / 6.0;
-        Self { base: mean(|l| l.base.coords), platform: mean(|l| l.platform.coords), size: m.size() }
+        let [base, platform] = m.mean_leg_ends();
+        Self { base, platform, size: m.size() }
     }
 
     pub(crate) fn pose(&self, rotation: Rotation3<f64>, offset: Vector3<f64>) -> Pose {

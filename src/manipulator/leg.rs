@@ -254,6 +254,13 @@ impl Manipulator {
         self.size
     }
 
+    /// Means of the six leg ends on the base and on the platform, each in the frame of its body: a joint with two legs counts twice.
+    pub(crate) fn mean_leg_ends(&self) -> [Vector3<f64>; 2] {
+        let legs = self.legs();
+        let mean = |end: fn(&Leg) -> Vector3<f64>| legs.iter().map(end).sum::<Vector3<f64>>() / 6.0;
+        [mean(|l| l.base.coords), mean(|l| l.platform.coords)]
+    }
+
     /// RMS distance of the platform leg ends from their centroid, design units: the default
     /// characteristic length of [`jacobian`](super::jacobian()). Falls back to [`size`](Self::size) when
     /// all platform joints coincide.

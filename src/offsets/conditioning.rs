@@ -115,8 +115,8 @@ impl PoseLegs {
     /// `None` when an entry is not finite or the decomposition does not converge.
     pub(crate) fn spectrum(&self, t: &[f64; 6]) -> Option<PoseSpectrum> {
         let rows = self.rows(t);
-        if rows.value.iter().chain(rows.rate.iter()).any(|x| !x.is_finite()) {
-            return None;
+        if rows.rate.iter().any(|x| !x.is_finite()) {
+            return None; // the entries themselves are looked at below
         }
         let svd = bounded_svd(&rows.value)?;
         let (u, v_t) = (svd.u?, svd.v_t?);

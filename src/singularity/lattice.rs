@@ -138,9 +138,7 @@ pub(crate) fn lattice(unit: i32) -> impl Iterator<Item = RationalPose> {
 fn candidates(m: &Manipulator, unit: i32, leg_rank: usize) -> Vec<RationalPose> {
     let mut rng = Rng::new(0);
     let mut digit = |reach: i64| (rng.next_u64() % (2 * reach.cast_unsigned() + 1)).cast_signed() - reach;
-    let legs = m.legs();
-    let mean = |pick: fn(&Leg) -> Vector3<f64>| legs.iter().map(pick).sum::<Vector3<f64>>() / 6.0;
-    let (base, platform) = (mean(|l| l.base.coords), mean(|l| l.platform.coords));
+    let [base, platform] = m.mean_leg_ends();
     let step = 2f64.powi(unit);
     let mut list = Vec::new();
     for _ in 0..CANDIDATES {

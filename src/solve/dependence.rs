@@ -127,13 +127,9 @@ fn exact_rows(m: &Manipulator, s: &SquaredLegLengths) -> Option<Vec<ExactRow>> {
 /// Smallest sine of the angle of a leg vector to the span of the earlier ones, frames at the centroids and
 /// scaled to the size.
 fn least_sine(m: &Manipulator) -> f64 {
-    let legs = m.legs();
-    let mean = |pick: fn(&crate::manipulator::Leg) -> nalgebra::Vector3<f64>| {
-        legs.iter().map(pick).sum::<nalgebra::Vector3<f64>>() / 6.0
-    };
-    let (base, platform) = (mean(|l| l.base.coords), mean(|l| l.platform.coords));
+    let [base, platform] = m.mean_leg_ends();
     let size = m.size();
-    let mut rows: [nalgebra::SVector<f64, 16>; 6] = legs.map(|l| {
+    let mut rows: [nalgebra::SVector<f64, 16>; 6] = m.legs().map(|l| {
         let (a, b) = ((l.base.coords - base) / size, (l.platform.coords - platform) / size);
         let (a, b) = ([1.0, a.x, a.y, a.z], [1.0, b.x, b.y, b.z]);
         nalgebra::SVector::from_fn(|k, _| a[k / 4] * b[k % 4])

@@ -15,10 +15,10 @@
 //! vectors matters: they are made orthonormal, which removes the scale of each equation and the
 //! dependence on the leg order up to rounding.
 
-use nalgebra::{Matrix3, Point3, Rotation3, SMatrix, SVector, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Rotation3, SMatrix, SVector, UnitQuaternion, Vector3};
 use num_complex::Complex64;
 
-use crate::manipulator::{Leg, Manipulator, SquaredLegLengths};
+use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::num::Rng;
 use crate::num::small::bounded_svd;
 use crate::solve::planar::Planes;
@@ -49,16 +49,9 @@ pub(crate) struct ScaledFrames {
 impl ScaledFrames {
     /// Centroids as origins; the scale is the larger of the design's size and its RMS leg length.
     pub(crate) fn of(m: &Manipulator, s: &SquaredLegLengths) -> Self {
-        let legs = m.legs();
-        let mean =
-            |pick: fn(&Leg) -> Point3<f64>| legs.iter().map(|l| pick(l).coords).sum::<Vector3<f64>>() / 6.0;
+        let [base_origin, platform_origin] = m.mean_leg_ends();
         let rms = (s.get().iter().sum::<f64>() / 6.0).sqrt();
-        Self {
-            base_origin: mean(|l| l.base),
-            platform_origin: mean(|l| l.platform),
-            scale: m.size().max(rms),
-            planes: None,
-        }
+        Self { base_origin, platform_origin, scale: m.size().max(rms), planes: None }
     }
 
     /// [`ScaledFrames::of`] with the joints of base and platform in `z = 0`; `None` unless both are coplanar to rounding.

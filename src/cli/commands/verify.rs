@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use crate::cli::alignment::FrameArgs;
+use crate::cli::alignment::{FrameArgs, same_units};
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
@@ -38,11 +38,7 @@ pub(super) fn at_least_one(text: &str) -> Result<usize, String> {
 /// The leg map, forward kinematics of both at the samples, and the verdict.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let (a, b) = (context.load(&args.a)?, context.load(&args.b)?);
-    if a.units != b.units {
-        let message = format!("{} is in {}, {} is in {}", a.name, a.units, b.name, b.units);
-        return Err(Failure::refused("verify::different_units", message)
-            .with_help("write both designs in the same unit"));
-    }
+    same_units(&a, &b, "verify::different_units")?;
     let second = args.frames.apply(&a, &b, context)?;
     if let Some(none) = second.refuted() {
         let map = leg_map(a.manipulator(), &second.manipulator, LegMapTolerances::default())

@@ -12,8 +12,11 @@ use nalgebra::Point3;
 use self::joints::{Legs, NamedJoints};
 use super::tree::{Entry, Node, Span, Value, find};
 use super::violation::Findings;
-use super::{Code, Design, Warning};
+use super::{Code, Design, Warning, nearest_word};
 use crate::manipulator::{Body, InvalidManipulator, LegLengths, Manipulator};
+
+/// Words less similar than this are no help.
+const NEAR: f64 = 0.7;
 
 const TOP_LEVEL: [&str; 16] = [
     "name",
@@ -216,14 +219,9 @@ pub(super) fn nearest_help(what: &str, given: &str, known: &[&str]) -> String {
     })
 }
 
-/// The candidate with the highest Jaro-Winkler similarity to `given`, if it is above 0.7.
-fn nearest<'a>(given: &str, candidates: &[&'a str]) -> Option<&'a str> {
-    if given.len() > 100 {
-        return None; // no slip of the pen, and the comparison is quadratic
-    }
-    let similarity = |c: &str| strsim::jaro_winkler(&given.to_lowercase(), &c.to_lowercase());
-    let best = candidates.iter().max_by(|a, b| similarity(a).total_cmp(&similarity(b)));
-    best.copied().filter(|c| similarity(c) > 0.7)
+/// The word that was meant, where one is near.
+fn nearest<'a>(given: &str, known: &[&'a str]) -> Option<&'a str> {
+    nearest_word(given, known, NEAR)
 }
 
 /// A name as it is put into messages: control characters escaped, cut after 60 characters.

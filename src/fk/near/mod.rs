@@ -107,9 +107,7 @@ impl NearSolver {
     pub fn with_options(m: &Manipulator, options: NearOptions) -> Self {
         let legs = m.legs();
         let unit = 2.0 * m.platform_rms_radius();
-        let mean = |points: [Vector3<f64>; 6]| points.iter().sum::<Vector3<f64>>() / 6.0;
-        let origin = mean(legs.map(|l| l.base.coords));
-        let centre = mean(legs.map(|l| l.platform.coords));
+        let [origin, centre] = m.mean_leg_ends();
         // a coordinate is within the radius, three of them within sqrt 3 times it
         let loose = |body: Body| -> [f64; 6] { std::array::from_fn(|i| 1.75 * m.end_radius(i, body) / unit) };
         Self {

@@ -179,7 +179,7 @@ fn determinant(m: &Manipulator, from: &Pose, to: &Pose) -> Vec<Interval> {
 /// Rows `N [n_i, a_i x n_i]`, about the mean base joint in units of the size.
 fn rows(m: &Manipulator, from: &Pose, to: &Pose) -> Vec<[Form; 6]> {
     let legs = m.legs();
-    let mean = legs.iter().map(|l| l.base.coords).sum::<Vector3<f64>>() / 6.0;
+    let [mean, _] = m.mean_leg_ends();
     let unit = Interval::from(m.size());
     let place = |x: f64, origin: f64| {
         (Interval::from(x) - Interval::from(origin)).checked_div(unit).unwrap_or(Interval::WHOLE)

@@ -283,7 +283,7 @@ struct LegsOverChart<'a> {
 impl<'a> LegsOverChart<'a> {
     fn new(manipulator: &'a Manipulator, chart: &'a Chart) -> Self {
         let legs = manipulator.legs();
-        let mean = legs.iter().map(|l| l.base.coords).sum::<Vector3<f64>>() / 6.0;
+        let [mean, _] = manipulator.mean_leg_ends();
         let unit = Interval::from(manipulator.size());
         // rounded away before anything is proved: the origin of moments is free
         let over = |x: Interval| x.checked_div(unit).unwrap_or(Interval::WHOLE);

@@ -232,7 +232,6 @@ const LINES: &[Line] = &[
             ("ctrlc", None),
             ("anstream", None),
             ("anstyle", None),
-            ("strsim", None),
             ERRORS,
         ],
     ),

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use crate::cli::alignment::FrameArgs;
+use crate::cli::alignment::{FrameArgs, same_units};
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
@@ -26,11 +26,7 @@ pub(crate) struct Args {
 /// Decides whether s(TO) = A s(FROM) + c holds at every pose.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let (from, to) = (context.load(&args.from)?, context.load(&args.to)?);
-    if from.units != to.units {
-        let message = format!("{} is in {}, {} is in {}", from.name, from.units, to.name, to.units);
-        return Err(Failure::refused("map::different_units", message)
-            .with_help("write both designs in the same unit: c has the unit squared"));
-    }
+    same_units(&from, &to, "map::different_units")?;
     let second = args.frames.apply(&from, &to, context)?;
     let outcome = leg_map(from.manipulator(), &second.manipulator, LegMapTolerances::default())
         .map_err(|e| Failure::new(Exit::Inconclusive, "map::breakdown", e.to_string()))?;

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use super::Found;
 use crate::cli::output::Answer;
+use crate::cli::poses;
 use crate::design::Design;
 use crate::records::{
     CompletenessWord, CriticalPointsRecord, CurveDegreeRecord, MotionCurveRecord, Number, OriginWord,
@@ -135,23 +136,9 @@ pub(super) fn csv(found: &Found) -> String {
     let mut out = String::from("curve,point,arc,px,py,pz,qw,qx,qy,qz,length_error,gap\n");
     for (k, curve) in found.motion.curves.iter().enumerate() {
         for (i, point) in curve.points.iter().enumerate() {
-            let (p, q) = (&point.pose.position, point.pose.quaternion());
-            let _ = writeln!(
-                out,
-                "{},{},{},{},{},{},{},{},{},{},{},{}",
-                k + 1,
-                i + 1,
-                point.arc,
-                p.x,
-                p.y,
-                p.z,
-                q[0],
-                q[1],
-                q[2],
-                q[3],
-                point.length_error,
-                point.gap
-            );
+            let pose = poses::csv_fields(&point.pose);
+            let (arc, error, gap) = (point.arc, point.length_error, point.gap);
+            let _ = writeln!(out, "{},{},{arc},{pose},{error},{gap}", k + 1, i + 1);
         }
     }
     out

@@ -100,19 +100,7 @@ impl Path {
     fn csv(&self) -> String {
         let mut out = String::from("part,u,x,y,z,qw,qx,qy,qz,det\n");
         for (part, u, pose, det) in &self.values {
-            let (p, q) = (pose.position, pose.quaternion());
-            let _ = writeln!(
-                out,
-                "{},{u},{},{},{},{},{},{},{},{det}",
-                part + 1,
-                p.x,
-                p.y,
-                p.z,
-                q[0],
-                q[1],
-                q[2],
-                q[3]
-            );
+            let _ = writeln!(out, "{},{u},{},{det}", part + 1, poses::csv_fields(pose));
         }
         out
     }
