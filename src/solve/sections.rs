@@ -290,6 +290,7 @@ pub(crate) fn forms(x: [Complex64; 8]) -> FormRow {
 mod tests {
     use super::*;
     use crate::geom::{Pose, random_rotation};
+    use crate::manipulator::Leg;
 
     #[test]
     fn aligned_rows_span_the_same_sections_and_are_nearer() {
