@@ -69,7 +69,12 @@ impl Original {
         });
         let [first, second] = names.clone().map(Vec::from);
         let named = Design::new(format!("{}, octahedral original", design.name), &design.units, original);
-        let mut named = named.with_joint_names(first, second).ok()?.with_tables_of(design);
+        let corners = [base, platform].map(|list| list.map(Origin::Kept));
+        let mut named = named
+            .with_joint_names(first, second)
+            .ok()?
+            .with_tables_of(design)
+            .constructed_from(design, [&corners[0], &corners[1]]);
         let [[p1, p2, p3], [p4, p5, p6]] = names;
         let pattern = Pattern::new([false; 6], [1; 6])?;
         let back = pattern.leg_map(&octahedral, &found.t).ok()?.invert().ok();

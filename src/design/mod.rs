@@ -27,7 +27,7 @@ mod workspace;
 #[cfg(feature = "synthesis")]
 pub(crate) use construction::Origin;
 use construction::{Construction, Constructions, LinePlace, WrittenNumber};
-pub use construction::{ExactJoint, Exactness};
+pub use construction::{DesignExactness, ExactJoint, Exactness};
 pub use edit::JointError;
 pub(crate) use edit::Written;
 #[cfg(feature = "cli")]

@@ -5,7 +5,7 @@ use thiserror::Error;
 
 use super::construction::RealPoint;
 use super::construction::resolve::{Fault, Joints};
-use super::{Constructions, ExactJoint, Workspace, Written};
+use super::{Constructions, DesignExactness, ExactJoint, Workspace, Written};
 use crate::geom::Pose;
 use crate::manipulator::Body;
 use crate::manipulator::{ExactPoint, InvalidManipulator, JointValues, LegLengths, Manipulator};
@@ -206,6 +206,23 @@ impl Design {
     #[must_use]
     pub fn exact_joints(&self, body: Body) -> Vec<ExactJoint> {
         self.exact_points(body).iter().map(ExactJoint::of).collect()
+    }
+
+    /// How exactly all joints are known.
+    ///
+    /// ```
+    /// use equipod::prelude::*;
+    /// let design = Design::load("designs/rbt-octahedral.toml")?;
+    /// assert_eq!(design.exactness().to_string(), "exact numbers of Q(sqrt(3))");
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[must_use]
+    pub fn exactness(&self) -> DesignExactness {
+        let constructed = Body::BOTH.iter().any(|body| {
+            (0..self.joint_names(*body).len()).any(|j| self.constructions.of(*body, j).is_some())
+        });
+        let known = |body| (body, self.joint_names(body), self.exact_points(body));
+        DesignExactness::of(constructed, Body::BOTH.map(known))
     }
 
     /// Whether a joint is given by other than three numbers.

@@ -7,7 +7,7 @@ use super::equivalence::sample_plan;
 use crate::design::{Combination, Design, Origin};
 use crate::dimensional::{
     self, DimensionalOutcome, DimensionalProblem, DimensionalReport, DimensionalSolution, Mode,
-    ShapeSearchOptions, Variables, evaluate,
+    ShapeSearchOptions, Triangles, Variables, evaluate,
 };
 use crate::equivalence::{Verification, VerifyError, verify};
 use crate::fk::{FkOptions, Threads};
@@ -18,7 +18,7 @@ use crate::offsets::{self, OffsetOutcome, OffsetProblem, OffsetReport, OffsetSol
 use crate::requirements::{
     AssessOptions, Assessment, JointAxes, Objective, Requirements, VariableKind, assess,
 };
-use crate::synthesis::sliding_body;
+use crate::synthesis::{joint_free, sliding_body};
 
 /// Points of the dense evaluation, and as many random ones.
 const POINTS: usize = 5000;
@@ -453,16 +453,17 @@ pub(crate) fn checked(
     let space = crate::requirements::PoseSpace { home: s.home, ..problem.space.clone() };
     let requirements = Requirements { hardware: out.hardware, ..problem.requirements.clone() };
     let options = AssessOptions { points: POINTS, seed, ..AssessOptions::default() };
-    let assessment = assess(&s.manipulator, &requirements, &space, &options);
-    let values = evaluate(problem, &s.manipulator, &space, &s.poses, POINTS, seed);
+    // the platform that is written, which may differ from that of the search by rounding
+    let platform = out.manipulator();
+    let assessment = assess(platform, &requirements, &space, &options);
+    let values = evaluate(problem, platform, &space, &s.poses, POINTS, seed);
     let objectives = problem.objectives.iter().map(|o| o.0).zip(values).collect();
     let v = &problem.variables;
-    let keeps_class =
-        (v.offsets || v.components) && problem.variables.triangles == crate::dimensional::Triangles::Fixed;
+    let keeps_class = (v.offsets || v.components) && problem.variables.triangles == Triangles::Fixed;
     let verification = if keeps_class {
         let plan = sample_plan(design, SAMPLES, seed);
         let options = FkOptions::new().seed(seed);
-        Some(verify(design.manipulator(), &s.manipulator, &plan, &options)?)
+        Some(verify(design.manipulator(), platform, &plan, &options)?)
     } else {
         None
     };
@@ -473,12 +474,18 @@ pub(crate) fn checked(
 fn optimised(design: &Design, problem: &DimensionalProblem, s: &DimensionalSolution, seed: u64) -> Design {
     let octahedral = Octahedral::recognise(design.manipulator()).ok().zip(s.offsets);
     let mut out = if let Some((o, t)) = octahedral {
-        joint_free_design(design, &o, &s.manipulator, t)
+        // triangles that are not chosen are those of the design, to the last digit
+        let fixed = problem.variables.triangles == Triangles::Fixed;
+        let own = if fixed { joint_free(&o, t).ok() } else { None };
+        joint_free_design(design, &o, own.as_ref().map_or(&s.manipulator, |(m, _)| m), t)
     } else {
         let name = format!("{}, optimised", design.name);
         let plain = Design::new(name, design.units.clone(), s.manipulator.clone());
         let (base, platform) = (design.base_names().to_vec(), design.platform_names().to_vec());
-        plain.clone().with_joint_names(base, platform).unwrap_or(plain)
+        let kept = [base.len(), platform.len()].map(|n| (0..n).map(Origin::Kept).collect::<Vec<_>>());
+        let named = plain.clone().with_joint_names(base, platform);
+        // joints that have stayed where they were
+        named.map_or(plain, |named| named.constructed_from(design, [&kept[0], &kept[1]]))
     };
     out.source.clone_from(&design.source);
     let best: Vec<String> = s.objectives.iter().map(|(o, v)| format!("{} {v}", o.code())).collect();
@@ -508,7 +515,6 @@ mod tests {
 
     use super::*;
     use crate::num::Rng;
-    use crate::synthesis::joint_free;
 
     /// Over random triangles, leg orders and offsets: the joint `X` is where the design has it, the joint `X_Y` on the line of `X` and `Y` and on no vertex.
     #[test]

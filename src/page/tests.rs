@@ -60,6 +60,25 @@ fn the_original_of_a_design_without_shared_joints_is_found_with_its_offsets() {
     }
 }
 
+/// What the page offers for saving says where the joints are: the original keeps its exact corners, the equivalent platform is on their edges.
+#[test]
+fn saved_designs_keep_constructions() {
+    let chosen = json!({"pattern": "S123456", "offsets": [0.25, 0.5, 0.25, 0.5, 0.25, 0.75]});
+    for text in [OCTAHEDRAL, EQUIVALENT] {
+        let session = session(text);
+        let open = |which: &str| ask(&session, &json!({"op": "design", "which": which, "chosen": chosen}));
+        for (which, edges) in [("first", 0), ("second", 6)] {
+            let answer = open(which);
+            let saved = answer["toml"].as_str().unwrap();
+            assert!(saved.contains("\"6*sqrt(3)\""), "{which}: {saved}");
+            assert_eq!(saved.matches("{ on = [").count(), edges, "{which}: {saved}");
+            assert_eq!(built(&answer).exactness().to_string(), "exact numbers of Q(sqrt(3))");
+            let (json, _) = parse(answer["json"].as_str().unwrap(), Format::Json).unwrap();
+            assert_eq!(json, built(&answer));
+        }
+    }
+}
+
 #[test]
 fn lengths_are_those_of_the_pose_and_the_map_holds_on_the_whole_way() {
     let session = session(OCTAHEDRAL);

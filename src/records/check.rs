@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::fk::PoseCountRecord;
 use super::pose::leg_numbers;
 use super::{NamedPoints, Number, PoseRecord};
-use crate::design::Design;
+use crate::design::{Design, DesignExactness, Exactness};
 use crate::entrance::CheckReport;
 use crate::fk::Theorem;
 use crate::manipulator::LegLengths;
@@ -20,6 +20,8 @@ use crate::singularity::{
 pub struct CheckAnswer {
     /// The name of the design.
     pub name: String,
+    /// How exactly its joints are known.
+    pub joints: JointsRecord,
     /// Null: the design as written is regular, and a singular one lies within rounding of it.
     pub architecturally_singular: Option<bool>,
     /// Decided exactly, for the joints as the numbers they are.
@@ -67,6 +69,7 @@ impl From<&CheckReport> for CheckAnswer {
         let dependencies: Vec<_> = a.dependencies.iter().map(|d| DependencyRecord::new(d, lengths)).collect();
         Self {
             name: c.design.name.clone(),
+            joints: (&c.design.exactness()).into(),
             architecturally_singular: c.is_singular(),
             singular_as_written: a.is_singular(),
             reason: c.reason().map(str::to_owned),
@@ -158,6 +161,49 @@ fn proof_explanation(a: &Architecture) -> String {
             j.rank
         ),
     }
+}
+
+/// How exactly the joints of a design are known, all together.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct JointsRecord {
+    /// The least exact of the joints decides.
+    pub exactness: ExactnessWord,
+    /// The integers whose square roots generate the field of the exact coordinates; empty for fractions.
+    pub radicands: Vec<u64>,
+    /// Joints known between bounds only, with their bodies: `base.A2`.
+    pub enclosed: Vec<String>,
+    /// The same in words.
+    pub explanation: String,
+}
+
+impl From<&DesignExactness> for JointsRecord {
+    fn from(e: &DesignExactness) -> Self {
+        Self {
+            exactness: match e.exactness {
+                None => ExactnessWord::Doubles,
+                Some(Exactness::Rational) => ExactnessWord::Rational,
+                Some(Exactness::Field) => ExactnessWord::Field,
+                Some(Exactness::Interval) => ExactnessWord::Interval,
+            },
+            radicands: e.radicands.clone(),
+            enclosed: e.enclosed.clone(),
+            explanation: e.to_string(),
+        }
+    }
+}
+
+/// How exactly the joints of a design are known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ExactnessWord {
+    /// All are three plain numbers: the doubles nearest to what is written.
+    Doubles,
+    /// Fractions.
+    Rational,
+    /// Sums of rational multiples of square roots of integers.
+    Field,
+    /// At least one is known between two close bounds only.
+    Interval,
 }
 
 /// What proves a design regular or singular.

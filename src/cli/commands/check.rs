@@ -47,6 +47,7 @@ fn text(c: &CheckAnswer, size: f64, units: &str) -> String {
         None => "regular as written, singular within rounding",
     };
     let mut text = format!("{}: {verdict}\n{}\n", c.name, c.explanation);
+    let _ = writeln!(text, "joints: {}", c.joints.explanation);
     let _ = writeln!(text, "\nrank of the leg vectors     {}", c.leg_rank);
     let _ = writeln!(text, "generic rank of the lines   {}", c.jacobian_rank);
     let _ = writeln!(text, "proof: {}", c.proof_explanation);

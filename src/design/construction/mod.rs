@@ -10,6 +10,7 @@ mod tests;
 use std::fmt;
 
 use nalgebra::Point3;
+use num_integer::Integer as _;
 
 use self::expression::{Expression, Slip};
 #[cfg(feature = "synthesis")]
@@ -17,6 +18,7 @@ pub(crate) use self::origins::Origin;
 use crate::manipulator::Body;
 use crate::num::exact::rational;
 use crate::num::real::RealNumber;
+use crate::num::surd::Surd;
 
 /// How well the coordinates of a joint are known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -260,4 +262,74 @@ impl ExactJoint {
         };
         Self { exactness: Exactness::of(point), coordinates: point.each_ref().map(shown) }
     }
+}
+
+/// How exactly the joints of a design are known, all together.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct DesignExactness {
+    /// The least exact of its joints; `None` where every joint is given by three plain numbers and so is the three doubles that are read.
+    pub exactness: Option<Exactness>,
+    /// The integers whose square roots generate, with the fractions, the field in which all exact coordinates lie; none for fractions.
+    pub radicands: Vec<u64>,
+    /// The joints that are known between bounds only, with their bodies: `"base.A2"`.
+    pub enclosed: Vec<String>,
+}
+
+impl DesignExactness {
+    /// `constructed`: whether any joint is given by other than three plain numbers.
+    pub(super) fn of(constructed: bool, bodies: [(Body, &[String], Vec<RealPoint>); 2]) -> Self {
+        let mut all = Vec::new();
+        let (mut exactness, mut enclosed) = (Exactness::Rational, Vec::new());
+        for (body, names, points) in bodies {
+            for (name, point) in names.iter().zip(&points) {
+                let own = Exactness::of(point);
+                exactness = exactness.max(own);
+                if own == Exactness::Interval {
+                    enclosed.push(format!("{body}.{name}"));
+                }
+                all.extend(point.iter().filter_map(RealNumber::exact).flat_map(Surd::radicands));
+            }
+        }
+        all.sort_unstable();
+        all.dedup();
+        Self { exactness: constructed.then_some(exactness), radicands: generators(&all), enclosed }
+    }
+}
+
+impl fmt::Display for DesignExactness {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let field = || {
+            let roots: Vec<String> = self.radicands.iter().map(|r| format!("sqrt({r})")).collect();
+            format!("numbers of Q({})", roots.join(", "))
+        };
+        match self.exactness {
+            None => f.write_str("doubles as written"),
+            Some(Exactness::Rational) => f.write_str("exact fractions"),
+            Some(Exactness::Field) => write!(f, "exact {}", field()),
+            Some(Exactness::Interval) => {
+                write!(f, "between close bounds ({}), the others exact", self.enclosed.join(", "))?;
+                if self.radicands.is_empty() { Ok(()) } else { write!(f, " {}", field()) }
+            }
+        }
+    }
+}
+
+/// Squarefree integers, in ascending order, without those whose square roots are products of a fraction and two or three roots before them.
+fn generators(radicands: &[u64]) -> Vec<u64> {
+    // the squarefree part of a product of squarefree integers
+    let product = |a: u64, b: u64| {
+        let g = a.gcd(&b);
+        (a / g).checked_mul(b / g)
+    };
+    let mut kept: Vec<u64> = Vec::new();
+    for r in radicands {
+        let rest: Vec<u64> = kept.iter().filter_map(|k| product(*k, *r)).collect();
+        let two = rest.iter().any(|x| kept.contains(x));
+        let three =
+            kept.iter().flat_map(|k| rest.iter().filter_map(|x| product(*k, *x))).any(|x| kept.contains(&x));
+        if !(two || three) {
+            kept.push(*r);
+        }
+    }
+    kept
 }

@@ -40,6 +40,28 @@ impl Design {
         self.clone().with_constructions(made).unwrap_or(self)
     }
 
+    /// The same with the joints of a body at these decimals, in their order; a body without a list stays as it is.
+    pub(crate) fn at_decimals(self, decimals: [Option<&[[String; 3]]>; 2]) -> Self {
+        let mut made = self.constructions.clone();
+        for (own, list) in made.joints.iter_mut().zip(decimals) {
+            let number = |text: &String| WrittenNumber::text(text).ok();
+            let joint = |[x, y, z]: &[String; 3]| {
+                Some(Construction::Coordinates([number(x)?, number(y)?, number(z)?]))
+            };
+            if let Some(list) = list {
+                *own = list.iter().map(joint).collect();
+            }
+        }
+        self.clone().with_constructions(made).unwrap_or(self)
+    }
+
+    /// The design with base and platform exchanged, as which this one has been built: joints keep their constructions.
+    pub(crate) fn exchanged_from(self, old: &Self) -> Self {
+        let mut made = old.constructions.clone();
+        made.joints.swap(0, 1);
+        self.clone().with_constructions(made).unwrap_or(self)
+    }
+
     fn carried(&self, old: &Self, body: Body, origins: &[Origin]) -> Vec<Option<Construction>> {
         let (m, before) = (self.manipulator(), old.manipulator());
         let points = body.of((m.base_joints(), m.platform_joints()));

@@ -174,6 +174,67 @@ fn faults_are_named_at_their_places() {
 }
 
 #[test]
+fn faults_are_the_same_in_json() {
+    let text = |parameters: &str, joint: &str| {
+        format!(
+            r#"{{ "name": "constructed", "units": "mm",
+"legs": [["A", "D"], ["B", "D"], ["B", "E"], ["C", "E"], ["C", "F"], ["A", "F"]],
+"parameters": {{ {parameters} }},
+"base": {{ "A": [0, 0, 0], "B": ["6", "6*sqrt(3)", 0], "C": [12, 0, 0], "O": ["0", 0, 0],
+"X": {joint} }},
+"platform": {{ "D": [0, 0, 0], "E": [6, 0, 0], "F": [3, 5, 0] }} }}"#
+        )
+    };
+    assert!(parse(&text("\"r\": 2", "{ \"turn\": \"B\", \"deg\": \"15*r\" }"), Format::Json).is_ok());
+    // the joint is on line 5, from column 6 on
+    for (parameters, joint, code, column, says) in [
+        ("", r#"["1 +", 0, 0]"#, Code::Expression, 11, "missing before the end"),
+        ("", r#"[0, "2*s", 0]"#, Code::UnknownName, 13, "`s` is not one of [parameters]"),
+        (r#""r": 1"#, r#"[0, 0, "1/(r - 1)"]"#, Code::DivisionByZero, 16, "division by zero"),
+        (r#""r": 1"#, r#"["sqrt(r - 2)", 0, 0]"#, Code::NegativeRoot, 8, "negative"),
+        ("", r#"{ "on": ["A", "A"], "t": 1 }"#, Code::NoLine, 14, "A and A are the same point"),
+        ("", r#"{ "on": ["A", "O"], "t": 1 }"#, Code::NoLine, 14, "A and O are the same point"),
+        ("", r#"{ "on": ["A", "Q"], "t": 1 }"#, Code::UnknownName, 20, "not a joint of the same body"),
+        ("", r#"{ "turn": "X", "deg": 2 }"#, Code::Cycle, 6, "X -> X"),
+        ("", r#"{ "turn": "A", "deg": true }"#, Code::WrongType, 28, "a boolean"),
+        ("", r#"{ "radius": [1], "angle_deg": 2 }"#, Code::WrongType, 18, "an array"),
+        ("", r#"{ "mirror": 1, "plane": "xz" }"#, Code::WrongType, 18, "a number"),
+    ] {
+        let found = parse(&text(parameters, joint), Format::Json).unwrap_err();
+        assert_eq!(found.len(), 1, "{joint}: {found:?}");
+        let v = &found[0];
+        assert_eq!((v.code, v.line, v.column), (code, 5, column), "{joint}: {} {}", v.message, v.help);
+        assert!(format!("{}; {}", v.message, v.help).contains(says), "{joint}: {} {}", v.message, v.help);
+    }
+    let found = parse(&text(r#""a": "b", "b": "2*a""#, "[1, 2, 3]"), Format::Json).unwrap_err();
+    assert_eq!((found.len(), found[0].code, found[0].line), (1, Code::Cycle, 3));
+}
+
+#[test]
+fn a_design_says_how_exactly_its_joints_are_known() {
+    let known =
+        |lines: &str| read("r = 2", &format!("{lines}\nC = [12, 1, 0]\nX = [0.1, 0.2, 0.3]")).exactness();
+    let text = |lines: &str| known(lines).to_string();
+    assert_eq!(text("A = [0, 0, 0]\nB = [6.0, 10.4, 0.0]"), "doubles as written");
+    assert_eq!(text("A = [0, 0, 0]\nB = [\"6.1\", 10.4, 0.0]"), "exact fractions");
+    assert_eq!(text("A = [0, 0, 0]\nB = { radius = \"r\", angle_deg = 60 }"), "exact numbers of Q(sqrt(3))");
+    let two = known("A = { radius = 1, angle_deg = 45 }\nB = { radius = \"r\", angle_deg = 15 }");
+    assert_eq!(
+        (two.exactness, two.radicands.as_slice()),
+        (Some(Exactness::Field), &[2, 3][..]),
+        "sqrt(6) follows"
+    );
+    let between = known("A = { radius = \"sqrt(5)\", angle_deg = 0 }\nB = { radius = 1, angle_deg = 20 }");
+    assert_eq!(
+        (between.exactness, between.enclosed.as_slice()),
+        (Some(Exactness::Interval), &["base.B".to_string()][..])
+    );
+    assert_eq!(between.to_string(), "between close bounds (base.B), the others exact numbers of Q(sqrt(5))");
+    let three = known("A = [\"sqrt(2)\", \"sqrt(3)\", \"sqrt(5)\"]\nB = [\"sqrt(30)\", \"sqrt(7)\", 0]");
+    assert_eq!(three.radicands, [2, 3, 5, 7]);
+}
+
+#[test]
 fn all_faults_are_shown_and_what_follows_from_them_is_not() {
     let found = refused(
         "a = \"1/0\"\nb = \"a + 1\"\nc = \"sqrt(-2)\"\nd = \"(\"\ne = \"d\"",

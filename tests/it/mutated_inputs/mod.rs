@@ -127,6 +127,9 @@ fn designs() -> Vec<Vec<u8>> {
     let mut paths: Vec<_> = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();
     paths.retain(|p| p.extension().is_some_and(|e| e == "toml"));
     paths.sort();
+    // joints in all the ways there are
+    let fixtures = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures");
+    paths.extend(["constructed.toml", "constructed.json"].map(|name| fixtures.join(name)));
     paths.iter().map(|p| std::fs::read(p).unwrap()).collect()
 }
 

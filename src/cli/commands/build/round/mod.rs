@@ -15,7 +15,7 @@ use crate::cli::output::Answer;
 use crate::cli::poses;
 use crate::design::Design;
 use crate::equivalence::{Verdict, Verification};
-use crate::manipulator::Manipulator;
+use crate::manipulator::{Body, Manipulator};
 use crate::manufacture::{Grid, NoRounding, Rounding, RoundingProblem, equivalent_octahedral, round_to_grid};
 use crate::records::{GridsRecord, VariantWord};
 
@@ -119,7 +119,28 @@ fn rounded_design(design: &Design, choice: &Choice<'_>) -> Design {
         render::in_words(&grids.base),
         render::in_words(&grids.platform)
     ));
-    out.with_tables_of(design)
+    let decimals =
+        [0, 1].map(|body| decimals(&choice.grids[body], choice.manipulator.joints(Body::BOTH[body])));
+    out.with_tables_of(design).at_decimals(decimals.each_ref().map(Option::as_deref))
+}
+
+/// The joints of a body as the decimals that the holes of the grid are, of which doubles are only near: the third hole of pitch 0.1 is at 0.3.
+///
+/// `None` where doubles are the holes (whole pitches), where the pitch is no short decimal, and where the axes of the grid are not those of the body, so
+/// that the coordinates are no decimals.
+fn decimals(grid: &Grid, joints: &[Point3<f64>]) -> Option<Vec<[String; 3]>> {
+    // without an exponent, with the fewest digits
+    let places = |x: f64| x.to_string().split_once('.').map_or(0, |(_, digits)| digits.len());
+    let digits = grid.origin.into_iter().chain([grid.pitch]).map(places).max().unwrap_or(0);
+    let height = joints.first()?.z;
+    let level = joints.iter().all(|p| p.z.total_cmp(&height).is_eq());
+    let unturned = grid.angle_deg == 0.0;
+    // below this every decimal with so many places has its own double, with room for errors of rounding
+    let largest = 10f64.powi(14 - i32::try_from(digits).ok()?);
+    let apart = joints.iter().all(|p| p.x.abs().max(p.y.abs()) < largest);
+    let shown =
+        |p: &Point3<f64>| [format!("{:.digits$}", p.x), format!("{:.digits$}", p.y), height.to_string()];
+    (digits > 0 && level && unturned && apart).then(|| joints.iter().map(shown).collect())
 }
 
 /// Rounds, judges both roundings and writes the chosen one.
