@@ -364,6 +364,27 @@ impl fmt::Display for Surd {
     }
 }
 
+/// Squarefree integers, in ascending order, without those whose square roots are products of a fraction and two or three roots before them.
+#[cfg(feature = "files")]
+pub(crate) fn generators(radicands: &[u64]) -> Vec<u64> {
+    // the squarefree part of a product of squarefree integers
+    let product = |a: u64, b: u64| {
+        let g = a.gcd(&b);
+        (a / g).checked_mul(b / g)
+    };
+    let mut kept: Vec<u64> = Vec::new();
+    for r in radicands {
+        let rest: Vec<u64> = kept.iter().filter_map(|k| product(*k, *r)).collect();
+        let two = rest.iter().any(|x| kept.contains(x));
+        let three =
+            kept.iter().flat_map(|k| rest.iter().filter_map(|x| product(*k, *x))).any(|x| kept.contains(&x));
+        if !(two || three) {
+            kept.push(*r);
+        }
+    }
+    kept
+}
+
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use equipod::prelude::{Body, Design};
 use serde_json::Value;
 
 use crate::cli_frame::{document, equipod};
@@ -34,16 +35,17 @@ impl Moved<'_> {
             Some(0)
         );
         let mut file: Value = serde_json::from_str(&std::fs::read_to_string(&json).unwrap()).unwrap();
-        for (body, motion) in [("base", self.base), ("platform", self.platform)] {
-            for joint in file[body].as_object_mut().unwrap().values_mut() {
-                let x: [f64; 3] = std::array::from_fn(|k| joint[k].as_f64().unwrap());
-                *joint = serde_json::json!(motion(x));
+        let design = Design::load(&from).unwrap();
+        for (body, motion) in [(Body::Base, self.base), (Body::Platform, self.platform)] {
+            let joints = file[body.name()].as_object_mut().unwrap();
+            for (joint, x) in joints.values_mut().zip(design.manipulator().joints(body)) {
+                *joint = serde_json::json!(motion(x.coords.into()));
             }
         }
         let legs = file["legs"].clone();
         file["legs"] = self.order.iter().map(|k| legs[*k].clone()).collect();
         let fields = file.as_object_mut().unwrap();
-        for key in ["home", "workspace", "lengths"] {
+        for key in ["home", "workspace", "lengths", "parameters"] {
             fields.remove(key);
         }
         std::fs::write(path, file.to_string()).unwrap();

@@ -87,6 +87,7 @@ fn people_are_told_the_same_in_words() {
     let wanted = "\
 midline Griffis-Duffy 12-6 (singular): architecturally singular
 the joints lie on the sides of two triangles (Griffis-Duffy type) with prod t_i = prod (1 - t_i) (legs 1, 2, 3, 4, 5, 6)
+joints: exact numbers of Q(sqrt(3))
 
 rank of the leg vectors     5
 generic rank of the lines   5

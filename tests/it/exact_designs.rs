@@ -217,3 +217,185 @@ fn an_exact_symmetric_hexapod_has_its_28_poses() {
     assert_eq!((&count["finite"], &count["lengths"]), (&28.into(), &"generic".into()));
     assert!(count["error_probability"].as_f64() < Some(1e-11));
 }
+
+const DESIGNS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/designs");
+
+fn shipped(name: &str) -> equipod::prelude::Design {
+    equipod::prelude::Design::load(format!("{DESIGNS}/{name}.toml")).unwrap()
+}
+
+#[test]
+fn shipped_designs_say_how_exactly_their_joints_are_known() {
+    for (name, known) in [
+        ("rbt-octahedral", "exact numbers of Q(sqrt(3))"),
+        ("rbt-griffis-duffy", "exact numbers of Q(sqrt(3))"),
+        ("rbt-midline", "exact numbers of Q(sqrt(3))"),
+        ("symmetric-hexapod", "exact numbers of Q(sqrt(3))"),
+        ("presets/bench-l16", "exact numbers of Q(sqrt(3))"),
+        ("presets/motion-base-6dof2000e", "exact numbers of Q(sqrt(3))"),
+        ("worked/bench-octahedral", "exact numbers of Q(sqrt(3))"),
+        ("worked/simulator-octahedral", "exact numbers of Q(sqrt(3))"),
+        ("worked/positioner-octahedral", "exact numbers of Q(sqrt(3))"),
+        ("worked/isolator-octahedral", "exact numbers of Q(sqrt(2), sqrt(3))"),
+        ("worked/linuxcnc-octahedral", "exact fractions"),
+        // published numbers
+        ("dietmaier", "doubles as written"),
+        ("porta-thomas-1", "doubles as written"),
+    ] {
+        assert_eq!(shipped(name).exactness().to_string(), known, "{name}");
+    }
+    for folder in ["", "presets", "worked"] {
+        for file in std::fs::read_dir(format!("{DESIGNS}/{folder}")).unwrap() {
+            let path = file.unwrap().path();
+            if path.extension().is_some_and(|e| e == "toml") {
+                let known = equipod::prelude::Design::load(&path).unwrap().exactness();
+                assert!(known.enclosed.is_empty(), "{}: {known}", path.display());
+            }
+        }
+    }
+    let (code, answer) = run(Path::new(DESIGNS), &["check", "symmetric-hexapod.toml"]);
+    let joints = &answer["joints"];
+    assert_eq!(
+        (code, &joints["exactness"], &joints["radicands"], &joints["enclosed"]),
+        (Some(0), &"field".into(), &serde_json::json!([3]), &serde_json::json!([]))
+    );
+}
+
+#[test]
+fn shipped_equivalent_platforms_are_exactly_equivalent() {
+    for (from, to, det) in [
+        ("rbt-octahedral", "rbt-griffis-duffy", Some("819/3125")),
+        ("worked/bench-octahedral", "worked/bench-joint-free", None),
+        ("worked/linuxcnc-octahedral", "worked/linuxcnc-griffis-duffy", None),
+        ("worked/positioner-octahedral", "worked/positioner-joint-free", None),
+        ("worked/isolator-octahedral", "worked/isolator-1", None),
+        ("worked/isolator-octahedral", "worked/isolator-3", None),
+        ("worked/isolator-octahedral", "worked/isolator-6", None),
+    ] {
+        let files = [from, to].map(|name| format!("{name}.toml"));
+        let (code, map) = run(Path::new(DESIGNS), &["equivalents", "map", &files[0], &files[1]]);
+        assert_eq!((code, map["relation"].as_str()), (Some(0), Some("equivalent")), "{to}: {map}");
+        let found = map["det_exact"].as_str();
+        assert!(found.is_some() && det.is_none_or(|det| found == Some(det)), "{to}: {map}");
+    }
+    let (_, map) =
+        run(Path::new(DESIGNS), &["equivalents", "map", "rbt-octahedral.toml", "rbt-midline.toml"]);
+    assert_eq!((map["relation"].as_str(), map["det_exact"].as_str()), (Some("singular"), Some("0")), "{map}");
+}
+
+#[test]
+fn the_symmetric_hexapod_is_symmetric() {
+    let design = shipped("symmetric-hexapod");
+    for body in [Body::Base, Body::Platform] {
+        let joints = design.exact_joints(body);
+        let mirrored = |text: &str| text.strip_prefix('-').map_or(format!("-{text}"), str::to_owned);
+        let [first, second] = [&joints[0].coordinates, &joints[1].coordinates];
+        assert_eq!((first[0].clone(), first[1].clone()), (second[0].clone(), mirrored(&second[1])));
+        // images in the mirror of the planes that the turn by 120 degrees makes of the first
+        let x = |i: usize| joints[i].coordinates[0].clone();
+        assert_eq!((x(2), x(3)), (x(5), x(4)));
+    }
+    let lengths = design.home.unwrap().lengths(design.manipulator()).unwrap().get();
+    assert!(lengths.iter().all(|l| (l - lengths[0]).abs() < 1e-12), "{lengths:?}");
+}
+
+/// Corners that an optimiser does not choose are those of the design, constructions and all.
+#[test]
+fn a_platform_optimised_under_requirements_keeps_the_triangles_of_its_design() {
+    let folder = folder();
+    let asks = "[optimize]\nvariables = [\"offsets\", \"home_height\"]\nobjective = \"worst_conditioning\"\n\n[workspace]\ngrid = 1";
+    let text = OCTAHEDRAL.replace("[workspace]", asks);
+    std::fs::write(folder.path().join("asked.toml"), text).unwrap();
+    let (code, answer) = run(folder.path(), &["optimize", "asked.toml", "-o", "best.toml"]);
+    assert!(matches!(code, Some(0 | 3)), "{answer}");
+    let best = std::fs::read_to_string(folder.path().join("best.toml")).unwrap();
+    assert_eq!(best.matches("{ on = [").count(), 6, "{best}");
+    let (code, map) = run(folder.path(), &["equivalents", "map", "asked.toml", "best.toml"]);
+    assert_eq!((code, map["relation"].as_str()), (Some(0), Some("equivalent")));
+    assert!(map["det_exact"].is_string(), "{}", map["explanation"]);
+}
+
+#[test]
+fn holes_of_a_grid_are_decimals() {
+    let folder = folder();
+    let free = format!("{DESIGNS}/worked/bench-joint-free.toml");
+    let args = [
+        "build",
+        "round",
+        &free,
+        "--grid",
+        "2.54",
+        "--variant",
+        "exact",
+        "--trials",
+        "0",
+        "-o",
+        "holes.toml",
+    ];
+    let (code, answer) = run(folder.path(), &args);
+    assert_eq!(code, Some(0), "{answer}");
+    let (holes, _) =
+        parse(&std::fs::read_to_string(folder.path().join("holes.toml")).unwrap(), Format::Toml).unwrap();
+    assert_eq!(holes.exactness().to_string(), "exact fractions");
+    for (body, joints) in [(Body::Base, "base"), (Body::Platform, "platform")] {
+        for (joint, cell) in holes.exact_joints(body).iter().zip(cells(&answer, joints)) {
+            for axis in 0..2 {
+                let pitches = fraction(&joint.coordinates[axis]) * 50.0 / 127.0;
+                assert!((pitches - cell[axis]).abs() < 1e-9, "{joint:?} {cell:?}");
+            }
+        }
+    }
+    // a turned grid has no decimals
+    let turned = [&args[..5], &["--angle", "10"], &args[5..]].concat();
+    let (code, _) = run(folder.path(), &turned);
+    assert_eq!(code, Some(0));
+    let text = std::fs::read_to_string(folder.path().join("holes.toml")).unwrap();
+    let (_, base) = text.split_once("[base]").unwrap();
+    let (base, platform) = base.split_once("[platform]").unwrap();
+    assert!(!base.contains('"') && platform.contains("[\""), "{text}");
+}
+
+/// The holes of a body in the order of its joints.
+fn cells(answer: &Value, body: &str) -> Vec<[f64; 2]> {
+    let joints = answer["exact"]["joints"].as_array().unwrap().iter().filter(|j| j["body"] == body);
+    joints.map(|j| [0, 1].map(|axis| j["cell"][axis].as_f64().unwrap())).collect()
+}
+
+fn fraction(text: &str) -> f64 {
+    let (n, d) = text.split_once('/').unwrap_or((text, "1"));
+    n.parse::<f64>().unwrap() / d.parse::<f64>().unwrap()
+}
+
+#[test]
+fn an_exchanged_design_keeps_its_constructions_and_a_moved_one_has_numbers() {
+    let folder = folder();
+    let args =
+        ["verify", "octahedral.toml", "octahedral.toml", "--samples", "1", "--exchange", "-o", "other.toml"];
+    run(folder.path(), &args);
+    let text = std::fs::read_to_string(folder.path().join("other.toml")).unwrap();
+    assert!(text.contains("P2 = [\"edge/2\", \"height\", 0.0]"), "{text}");
+    let (exchanged, _) = parse(&text, Format::Toml).unwrap();
+    let (given, _) = parse(OCTAHEDRAL, Format::Toml).unwrap();
+    assert_eq!(exchanged.exact_joints(Body::Platform), given.exact_joints(Body::Base));
+    assert_eq!(exchanged.exact_joints(Body::Base), given.exact_joints(Body::Platform));
+    let args =
+        ["verify", "octahedral.toml", "octahedral.toml", "--samples", "1", "--align", "-o", "moved.toml"];
+    run(folder.path(), &args);
+    let text = std::fs::read_to_string(folder.path().join("moved.toml")).unwrap();
+    assert_eq!(parse(&text, Format::Toml).unwrap().0.exactness().exactness, None, "{text}");
+}
+
+#[test]
+fn the_constructed_fixtures_say_the_same_in_both_notations() {
+    let fixture = |name: &str, format| {
+        let path = format!("{}/tests/fixtures/{name}", env!("CARGO_MANIFEST_DIR"));
+        parse(&std::fs::read_to_string(path).unwrap(), format).unwrap().0
+    };
+    let (toml, json) = (fixture("constructed.toml", Format::Toml), fixture("constructed.json", Format::Json));
+    for body in [Body::Base, Body::Platform] {
+        assert_eq!(toml.exact_joints(body), json.exact_joints(body));
+    }
+    let known = toml.exactness();
+    assert_eq!(known.exactness, Some(Exactness::Interval));
+    assert_eq!(known.enclosed, ["platform.D", "platform.F"]);
+}

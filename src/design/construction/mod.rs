@@ -10,7 +10,6 @@ mod tests;
 use std::fmt;
 
 use nalgebra::Point3;
-use num_integer::Integer as _;
 
 use self::expression::{Expression, Slip};
 #[cfg(feature = "synthesis")]
@@ -18,7 +17,7 @@ pub(crate) use self::origins::Origin;
 use crate::manipulator::Body;
 use crate::num::exact::rational;
 use crate::num::real::RealNumber;
-use crate::num::surd::Surd;
+use crate::num::surd::{Surd, generators};
 
 /// How well the coordinates of a joint are known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -312,24 +311,4 @@ impl fmt::Display for DesignExactness {
             }
         }
     }
-}
-
-/// Squarefree integers, in ascending order, without those whose square roots are products of a fraction and two or three roots before them.
-fn generators(radicands: &[u64]) -> Vec<u64> {
-    // the squarefree part of a product of squarefree integers
-    let product = |a: u64, b: u64| {
-        let g = a.gcd(&b);
-        (a / g).checked_mul(b / g)
-    };
-    let mut kept: Vec<u64> = Vec::new();
-    for r in radicands {
-        let rest: Vec<u64> = kept.iter().filter_map(|k| product(*k, *r)).collect();
-        let two = rest.iter().any(|x| kept.contains(x));
-        let three =
-            kept.iter().flat_map(|k| rest.iter().filter_map(|x| product(*k, *x))).any(|x| kept.contains(&x));
-        if !(two || three) {
-            kept.push(*r);
-        }
-    }
-    kept
 }

@@ -204,6 +204,7 @@ fn plain(keyword: &str, rule: &Value, value: &Value) -> Result<(), String> {
         "exclusiveMinimum" => number(value).is_none_or(|x| x > limit()),
         "exclusiveMaximum" => number(value).is_none_or(|x| x < limit()),
         "minLength" => value.as_str().is_none_or(|s| s.chars().count() >= count()),
+        "maxLength" => value.as_str().is_none_or(|s| s.chars().count() <= count()),
         "minItems" => value.as_array().is_none_or(|l| l.len() >= count()),
         "maxItems" => value.as_array().is_none_or(|l| l.len() <= count()),
         "minProperties" => value.as_object().is_none_or(|o| o.len() >= count()),

@@ -17,6 +17,7 @@ use mutate::{Draw, mutated};
 
 const SLOWEST: Duration = Duration::from_secs(60);
 const OCTAHEDRAL: &str = include_str!("../../../designs/rbt-octahedral.toml");
+const CONSTRUCTED: &str = include_str!("../../fixtures/constructed.toml");
 const LENGTHS: &str = "l1,l2,l3,l4,l5,l6\n# home\n17,16,15,17,16,15\n16.5,16.25,15.75,17,16,15.5\n";
 const POSES: &str = "x,y,z,roll,pitch,yaw\n3,5,15,0,0,0\n3,5,16,1,-2,3\n3,5,16.5,1,0,0,0\n";
 const FRONT: &str = r#"{"schema_version":1,"provenance":{"version":"0.2.0","seed":7,"designs":[],"files":[]},"front":[
@@ -267,7 +268,7 @@ fn planted_faults_are_found() {
         .iter()
         .filter(|(_, reader)| {
             let read = |bytes: &[u8], _: &mut Draw| quiet(|| reader(&String::from_utf8_lossy(bytes)));
-            first_fault(&[OCTAHEDRAL.as_bytes(), LENGTHS.as_bytes()], 120, read).is_none()
+            first_fault(&[OCTAHEDRAL, CONSTRUCTED, LENGTHS].map(str::as_bytes), 150, read).is_none()
         })
         .map(|(name, _)| *name)
         .collect();
