@@ -62,7 +62,7 @@ fn every_shipped_design() {
         let doc = of(design, &["--samples", "2"]);
         assert_eq!(types(&doc), wanted, "{design}");
     }
-    // rounded to a micrometre the hexapod's cubic is smooth, which is proved
+    // the hexapod's cubic is smooth, which is proved
     let doc = of("symmetric-hexapod", &[]);
     assert_eq!(doc["planes"][0]["smooth"], true);
     assert_eq!(doc["planes"][0]["base"]["parts"][0]["kind"], "cubic");
