@@ -25,7 +25,8 @@ fn table(seed: u64) -> Result<String, Box<dyn Error>> {
     )?;
     for (name, family) in FAMILIES {
         let (base, platform) = family(&mut Draw(seed));
-        let (design, _) = parse(&text(name, &base, &platform), Format::Toml)?;
+        let text = text(name, &base, &platform);
+        let (design, _) = parse(&text, Format::Toml).map_err(|violations| format!("{violations:?}"))?;
         let checked = design.check()?;
         let bound = checked.pose_bound.bound();
         match &checked.pose_count.set {
