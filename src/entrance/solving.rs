@@ -150,7 +150,7 @@ impl Solver {
     #[must_use]
     pub fn new(manipulator: Manipulator, options: FkOptions) -> Self {
         let method = solver(options.method);
-        let prepared = method.prepare(&manipulator).map(Arc::from);
+        let prepared = method.prepare(&manipulator, &options).map(Arc::from);
         Self {
             manipulator: Arc::new(manipulator),
             method: method.into(),

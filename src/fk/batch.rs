@@ -68,7 +68,7 @@ pub fn solve_batch(
     options: &FkOptions,
     threads: Threads,
 ) -> Vec<BatchResult> {
-    let prepared = solver.prepare(m);
+    let prepared = solver.prepare(m, options);
     in_order(lengths.len(), threads, &|i| match &prepared {
         Some(design) => design.solve(&lengths[i], options),
         None => solver.solve(m, &lengths[i], options),

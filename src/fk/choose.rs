@@ -42,8 +42,8 @@ impl ForwardKinematics for Automatic {
         }
     }
 
-    fn prepare(&self, m: &Manipulator) -> Option<Box<dyn PreparedDesign>> {
-        let octic = Octic.prepare(m)?;
+    fn prepare(&self, m: &Manipulator, o: &FkOptions) -> Option<Box<dyn PreparedDesign>> {
+        let Some(octic) = Octic.prepare(m, o) else { return Homotopy.prepare(m, o) };
         Some(Box::new(PreparedAutomatic { octic, manipulator: m.clone() }))
     }
 }

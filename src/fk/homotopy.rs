@@ -1,5 +1,7 @@
 //! The general method: parameter homotopy for any six legs, knowing nothing of leg maps.
 
+mod prepared;
+
 use num_complex::Complex64;
 
 use super::dependent::{curves, detect_curves, incompatible, positive_dimensional};
@@ -8,7 +10,7 @@ use super::harvest::{End, Harvest, PreciseEnd, harvest};
 use super::judge::{RealityJudgement, counted, judge, set_counted};
 use super::{
     Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, PathEnd, PathReport,
-    PathsEnded, PoseCounting, Reason, SolutionSet, Theorem,
+    PathsEnded, PoseCounting, PreparedDesign, Reason, SolutionSet, Theorem,
 };
 use crate::geom::{ComplexPose, rotation_from_quaternion};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
@@ -17,6 +19,7 @@ use crate::solve::homotopy::{
     EndKind, GENERIC_COUNT, HomotopyPath, StartError, StartKind, TailEnd, follow_finely, solve_sections,
 };
 use crate::solve::pose_count::PoseCount;
+use prepared::PreparedHomotopy;
 use crate::solve::{LegDependence, ScaledFrames, Sections, dependence, mirror, quaternion_product, split};
 
 /// Times the whole problem is tracked again with another gamma when paths fail.
@@ -104,6 +107,10 @@ impl ForwardKinematics for Homotopy {
         }
         best.ok_or_else(|| FkError::Breakdown { what: "no attempt was made".to_owned() })
     }
+
+    fn prepare(&self, m: &Manipulator, o: &FkOptions) -> Option<Box<dyn PreparedDesign>> {
+        Some(Box::new(PreparedHomotopy::new(m, o)?))
+    }
 }
 
 /// Lengths of a motion, rounded, are lengths of no motion: the design as written has the poses that are certified and no others, and next to it are designs that move. That is said, and nothing is called complete.
@@ -164,7 +171,7 @@ impl SectionProblem {
                 found = harvest(m, s, &o.tolerances, &ends_of(self, &paths), &precise);
             }
         }
-        Ok(assemble(o, self, &paths, found))
+        Ok(assemble(o, self, &paths, self.kind.count(), found))
     }
 
     /// Puts what the precise continuation of paths found in the place of what doubles had; the finite ends with all their digits.
@@ -281,6 +288,7 @@ fn assemble(
     o: &FkOptions,
     problem: &SectionProblem,
     paths: &[HomotopyPath],
+    expected: usize,
     found: Harvest,
 ) -> (FkSolutions, Vec<Certificate>) {
     let mut reports: Vec<PathReport> =
@@ -298,7 +306,7 @@ fn assemble(
     }
     let count = |end| reports.iter().filter(|p| p.end == end).count();
     let ends = PathsEnded {
-        paths: problem.kind.count(),
+        paths: expected,
         mirrored: problem.kind == StartKind::Planar,
         finite: count(PathEnd::Finite),
         isotropic: count(PathEnd::IsotropicRotation),
@@ -307,7 +315,7 @@ fn assemble(
         blurred: reports.iter().zip(paths).filter(|(r, p)| r.root.is_none() && is_blurred(p)).count(),
         rejected: collected.rejected.len(),
         ambiguous: collected.doubtful,
-        unreported: problem.kind.count().abs_diff(reports.len()),
+        unreported: expected.abs_diff(reports.len()),
     };
     let solutions = FkSolutions {
         method: Method::Homotopy,

@@ -188,8 +188,9 @@ pub trait ForwardKinematics: Send + Sync {
 
     /// The method with what depends on the design alone done, for many lengths of one design. Results are those of [`solve`](Self::solve).
     /// `None` when there is nothing to prepare, or when the method does not apply: then [`solve`](Self::solve) says so.
-    fn prepare(&self, m: &Manipulator) -> Option<Box<dyn PreparedDesign>> {
-        let _ = m;
+    /// Preparation takes the seed and the way of counting from the options.
+    fn prepare(&self, m: &Manipulator, o: &FkOptions) -> Option<Box<dyn PreparedDesign>> {
+        let _ = (m, o);
         None
     }
 }

@@ -138,7 +138,7 @@ impl ForwardKinematics for Trilateration {
         }
     }
 
-    fn prepare(&self, m: &Manipulator) -> Option<Box<dyn PreparedDesign>> {
+    fn prepare(&self, m: &Manipulator, _: &FkOptions) -> Option<Box<dyn PreparedDesign>> {
         Some(Box::new(self.prepared(m).ok()?))
     }
 }

@@ -76,6 +76,8 @@ impl Purpose {
     pub(crate) const REAL_POINTS: Self = Self::family(0x7ea1);
     /// Integers with which poses are counted modulo primes.
     pub(crate) const POSE_COUNT: Self = Self::single(0x9c);
+    /// Squared lengths at which a design is solved to be prepared for others.
+    pub(crate) const START_LENGTHS: Self = Self::single(0x51e6);
     /// Complex designs of a topology, the same for every seed; one stream a design.
     pub(crate) const GENERIC_DESIGNS: Self = Self::single(0);
     /// Poses and joint errors of trials; one stream a trial.

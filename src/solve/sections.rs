@@ -63,10 +63,25 @@ impl ScaledFrames {
     /// `|g|`, rounding in `g.g` would drown what the others say about `e`. `None` when the six leg equations are
     /// linearly dependent to rounding (relative `1e-13`), so that they do not span six dimensions.
     pub(crate) fn sections(&self, m: &Manipulator, s: &SquaredLegLengths) -> Option<Sections> {
+        self.moving_sections(m, s, &[Complex64::ZERO; 6]).map(|(sections, _)| sections)
+    }
+
+    /// The same, and for each section the factor of `e.e` by which it changes when the squared lengths change by `change` (design units
+    /// squared) and the legs are combined as they are here.
+    pub(crate) fn moving_sections(
+        &self,
+        m: &Manipulator,
+        s: &SquaredLegLengths,
+        change: &[Complex64; 6],
+    ) -> Option<(Sections, [Complex64; 6])> {
         let [first, others @ ..] = self.leg_rows(m, s);
         let apart = others.map(|row| std::array::from_fn(|k| row[k] - first[k]));
         let [a, b, c, d, e] = apart;
-        Sections { rows: [a, b, c, d, e, first] }.orthonormalised()
+        let [first_moves, others_move @ ..] = change.map(|z| -z / (self.scale * self.scale));
+        let [p, q, r, u, v] = others_move.map(|z| z - first_moves);
+        let mut moves = [p, q, r, u, v, first_moves];
+        let sections = Sections { rows: [a, b, c, d, e, first] }.orthonormalised_beside(&mut moves)?;
+        Some((sections, moves))
     }
 
     fn leg_rows(&self, m: &Manipulator, s: &SquaredLegLengths) -> [FormRow; 6] {
@@ -131,13 +146,8 @@ impl ScaledFrames {
     pub(crate) fn to_design(self, x: [Complex64; 8]) -> [Complex64; 8] {
         let (mut e, mut g) = split(x);
         if let Some(planes) = &self.planes {
-            let quaternion = |turn: &Rotation3<f64>| {
-                let q = UnitQuaternion::from_rotation_matrix(turn);
-                [q.w, q.i, q.j, q.k].map(Complex64::from)
-            };
-            let [w, i, j, k] = quaternion(&planes.base);
-            let right = quaternion(&planes.platform);
-            let turned = |y| quaternion_product(quaternion_product([w, -i, -j, -k], y), right);
+            let (left, right) = (conjugated(turn(&planes.base)), turn(&planes.platform));
+            let turned = |y| quaternion_product(quaternion_product(left, y), right);
             (e, g) = (turned(e), turned(g));
         }
         let left = quaternion_product(pure(&self.base_origin), e);
@@ -149,6 +159,43 @@ impl ScaledFrames {
         }
         out
     }
+
+    /// The inverse of [`to_design`](Self::to_design).
+    pub(crate) fn from_design(self, x: [Complex64; 8]) -> [Complex64; 8] {
+        let (mut e, mut g) = split(x);
+        let left = quaternion_product(pure(&self.base_origin), e);
+        let right = quaternion_product(e, pure(&self.platform_origin));
+        for k in 0..4 {
+            g[k] = (g[k] - left[k] + right[k]) / self.scale;
+        }
+        if let Some(planes) = &self.planes {
+            let (left, right) = (turn(&planes.base), conjugated(turn(&planes.platform)));
+            let turned = |y| quaternion_product(quaternion_product(left, y), right);
+            (e, g) = (turned(e), turned(g));
+        }
+        [e[0], e[1], e[2], e[3], g[0], g[1], g[2], g[3]]
+    }
+
+    /// Coordinates of this frame from those of the same frame with another scale.
+    pub(crate) fn rescaled(&self, x: &[Complex64; 8], scale: f64) -> [Complex64; 8] {
+        let ratio = scale / self.scale;
+        std::array::from_fn(|k| if k < 4 { x[k] } else { x[k] * ratio })
+    }
+
+    /// Design units a unit of this frame.
+    pub(crate) fn scale(&self) -> f64 {
+        self.scale
+    }
+}
+
+/// The quaternion of a turn.
+fn turn(turn: &Rotation3<f64>) -> [Complex64; 4] {
+    let q = UnitQuaternion::from_rotation_matrix(turn);
+    [q.w, q.i, q.j, q.k].map(Complex64::from)
+}
+
+fn conjugated([w, i, j, k]: [Complex64; 4]) -> [Complex64; 4] {
+    [w, -i, -j, -k]
 }
 
 fn pure(v: &Vector3<f64>) -> [Complex64; 4] {
@@ -237,6 +284,11 @@ impl Sections {
 
     /// Modified Gram-Schmidt with re-orthogonalisation; `None` when a row depends on the earlier ones.
     pub(crate) fn orthonormalised(&self) -> Option<Self> {
+        self.orthonormalised_beside(&mut [Complex64::ZERO; 6])
+    }
+
+    /// The same, with one more number a row that is combined as the rows are and has no part in what is orthonormal.
+    fn orthonormalised_beside(&self, beside: &mut [Complex64; 6]) -> Option<Self> {
         let mut rows: [SVector<Complex64, FORMS>; 6] = self.rows.map(SVector::from);
         for i in 0..6 {
             let before = rows[i].norm();
@@ -245,6 +297,8 @@ impl Sections {
                     let overlap = rows[j].dotc(&rows[i]);
                     let parallel = rows[j] * overlap;
                     rows[i] -= parallel;
+                    let parallel = beside[j] * overlap;
+                    beside[i] -= parallel;
                 }
             }
             let after = rows[i].norm();
@@ -252,10 +306,14 @@ impl Sections {
                 return None;
             }
             rows[i] /= Complex64::new(after, 0.0);
+            beside[i] /= after;
         }
         Some(Self { rows: rows.map(Into::into) })
     }
 }
+
+/// `e.e` among the 17 forms.
+pub(crate) const NORM_FORMS: [usize; 4] = [0, 4, 7, 9];
 
 /// The 17 forms at `x`, such that `q(x) = sum_k row_k forms_k`.
 pub(crate) fn forms(x: [Complex64; 8]) -> FormRow {

@@ -54,7 +54,7 @@ fn trilateration() -> Result<(), Box<dyn std::error::Error>> {
         let [mut bare, mut checked, mut certified] = [const { Vec::new() }; 3];
         for k in 0..PROBLEMS / 10 {
             let p = problem(class, LengthsFrom::Pose, 4, k)?;
-            let Some(prepared) = method.prepare(&p.manipulator) else { continue };
+            let Some(prepared) = method.prepare(&p.manipulator, &FkOptions::default()) else { continue };
             let list = plans(&p.manipulator, 1)?;
             let evaluator = list.iter().find_map(|s| {
                 let e = Evaluator::new(&p.manipulator, s, &[], s.closures.first().copied())?;

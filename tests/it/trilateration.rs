@@ -64,7 +64,7 @@ fn preparation_changes_nothing_and_the_order_of_designs_neither() {
     for (p, before) in problems.iter().zip(forth).rev() {
         let fresh = Trilateration::default();
         assert_eq!(fresh.solve(&p.manipulator, &p.squares, &o).unwrap(), before);
-        let prepared = fresh.prepare(&p.manipulator).unwrap();
+        let prepared = fresh.prepare(&p.manipulator, &FkOptions::default()).unwrap();
         assert_eq!(prepared.solve(&p.squares, &o).unwrap(), before);
     }
 }

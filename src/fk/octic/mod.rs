@@ -56,7 +56,7 @@ impl ForwardKinematics for Octic {
         compared_with_count(OcticSolver::new(m)?.records(s, o)?, m, s, o)
     }
 
-    fn prepare(&self, m: &Manipulator) -> Option<Box<dyn PreparedDesign>> {
+    fn prepare(&self, m: &Manipulator, _: &FkOptions) -> Option<Box<dyn PreparedDesign>> {
         let solver = OcticSolver::new(m).ok()?;
         Some(Box::new(solver))
     }

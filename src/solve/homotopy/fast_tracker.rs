@@ -15,7 +15,7 @@ use super::limits::{CORRECTION_RATIO, FastTrackerLimits, STEP_GROWTH, STEP_REDUC
 use super::lu::{eliminate, substitute};
 use super::predictor::{choose_step, predicted};
 use super::quadrics::{Forms, Quadrics};
-use super::system::{ORDER, SectionHomotopy, derivative_matrix, taylor, values};
+use super::system::{Line, ORDER, taylor, values};
 
 /// What became of one path.
 #[derive(Debug, Clone, Copy)]
@@ -37,14 +37,15 @@ pub(super) struct FastPath {
 }
 
 /// One problem for the fast tracker.
-pub(super) struct FastTracker<'a, const F: usize> {
-    pub(super) homotopy: &'a SectionHomotopy<f64, F>,
+pub(super) struct FastTracker<'a, L, const F: usize> {
+    pub(super) homotopy: &'a L,
     pub(super) starts: &'a [[Complex64; 8]],
+    /// One where the way is straight.
     pub(super) corner: Complex64,
     pub(super) limits: FastTrackerLimits,
 }
 
-impl<const F: usize> FastTracker<'_, F>
+impl<L: Line<F>, const F: usize> FastTracker<'_, L, F>
 where
     Forms<F>: Quadrics<F>,
 {
@@ -54,7 +55,7 @@ where
     }
 }
 
-impl<const F: usize> WithSimd for FastTracker<'_, F>
+impl<L: Line<F>, const F: usize> WithSimd for FastTracker<'_, L, F>
 where
     Forms<F>: Quadrics<F>,
 {
@@ -110,7 +111,7 @@ fn lane_of<S: Simd>(x: &Vec8<S>, l: usize) -> [Complex64; 8] {
 
 impl<S: Simd> PathBatch<S> {
     #[inline(always)]
-    fn new<const F: usize>(simd: S, tracker: &FastTracker<'_, F>) -> Self {
+    fn new<L, const F: usize>(simd: S, tracker: &FastTracker<'_, L, F>) -> Self {
         let zero = Lanes::zero(simd);
         let mut x = [zero; 8];
         x[0] = Lanes::splat(simd, Complex64::ONE);
@@ -143,7 +144,7 @@ impl<S: Simd> PathBatch<S> {
     }
 
     #[inline(always)]
-    fn refill<const F: usize>(&mut self, l: usize, tracker: &FastTracker<'_, F>) {
+    fn refill<L, const F: usize>(&mut self, l: usize, tracker: &FastTracker<'_, L, F>) {
         self.path_of_lane[l] = (self.next < tracker.starts.len()).then_some(self.next);
         self.next += 1;
         if let Some(index) = self.path_of_lane[l] {
@@ -160,7 +161,7 @@ impl<S: Simd> PathBatch<S> {
 
     /// One correction of every lane, then a step from those that are accurate enough.
     #[inline(always)]
-    fn iterate<const F: usize>(&mut self, tracker: &FastTracker<'_, F>)
+    fn iterate<L: Line<F>, const F: usize>(&mut self, tracker: &FastTracker<'_, L, F>)
     where
         Forms<F>: Quadrics<F>,
     {
@@ -191,11 +192,11 @@ impl<S: Simd> PathBatch<S> {
 
     /// Accepts, repeats or rejects every lane by its correction; which lanes go on.
     #[inline(always)]
-    fn accept_or_reject<const F: usize>(
+    fn accept_or_reject<L: Line<F>, const F: usize>(
         &mut self,
         size: &PerLane,
         curvature: &PerLane,
-        tracker: &FastTracker<'_, F>,
+        tracker: &FastTracker<'_, L, F>,
     ) -> [bool; MOST_LANES] {
         let limits = &tracker.limits;
         let mut advance = [false; MOST_LANES];
@@ -265,7 +266,7 @@ impl<S: Simd> PathBatch<S> {
 
     /// Records the last good point of a path that goes no further.
     #[inline(always)]
-    fn retire<const F: usize>(&mut self, l: usize, index: usize, tracker: &FastTracker<'_, F>) {
+    fn retire<L, const F: usize>(&mut self, l: usize, index: usize, tracker: &FastTracker<'_, L, F>) {
         let path = &mut self.out[index];
         if path.steps > 0 {
             path.x = lane_of(&self.accepted_x, l);
@@ -302,12 +303,12 @@ impl<S: Simd> PathBatch<S> {
 
 /// Newton's method at the target for all paths that arrived there, and a condition estimate.
 #[inline(always)]
-fn polish<S: Simd, const F: usize>(simd: S, homotopy: &SectionHomotopy<f64, F>, paths: &mut [FastPath])
+fn polish<S: Simd, L: Line<F>, const F: usize>(simd: S, homotopy: &L, paths: &mut [FastPath])
 where
     Forms<F>: Quadrics<F>,
 {
     let arrived: Vec<usize> = (0..paths.len()).filter(|&i| paths[i].remaining == Some(0.0)).collect();
-    let rows = homotopy.rows_at(Lanes::zero(simd));
+    let zero = Lanes::zero(simd);
     for batch in arrived.chunks(S::F64_LANES) {
         let mut x = [Lanes::zero(simd); 8];
         for l in 0..S::F64_LANES {
@@ -323,7 +324,7 @@ where
         let mut sizes = [f64::INFINITY; MOST_LANES];
         let mut condition = [f64::INFINITY; MOST_LANES];
         for round in 0..4 {
-            let mut matrix = derivative_matrix(&rows, &x, &patch);
+            let mut matrix: Matrix8<S> = homotopy.derivative_at(zero, &x, &patch);
             let mut delta = values(&matrix, &x);
             let mut frobenius = simd.splat_f64s(0.0);
             for row in &matrix {

@@ -59,6 +59,10 @@ pub(super) const FAST: FastTrackerLimits = FastTrackerLimits {
     small_rotation: 1e-5,
 };
 
+/// For paths in the lengths alone: they have no end but a regular one at the target.
+pub(super) const LENGTHS: FastTrackerLimits =
+    FastTrackerLimits { endgame_at: f64::MIN_POSITIVE, infinity_at: 0.0, ..FAST };
+
 /// For paths that the fast tracker left without an end.
 pub(super) const BRISK: TrackerLimits = TrackerLimits {
     step: StepLimits { truncation: 1e-2, radius_fraction: 0.8, first_correction: 5e-2, accuracy: 1e-5 },

@@ -10,6 +10,7 @@ mod dispatch;
 mod endgame;
 mod fast_tracker;
 mod lanes;
+mod lengths;
 mod limits;
 mod lu;
 mod monodromy;
@@ -25,5 +26,7 @@ mod tracker;
 pub use monodromy::{GENERIC_COUNT, StartKind};
 pub use start::{SHIPPED_SEED, StartError, start_system_text};
 
+pub(crate) use endgame::projective_distance;
+pub(crate) use lengths::LengthStart;
 pub(crate) use paths::{EndKind, HomotopyPath, follow_finely, solve_sections};
 pub(crate) use tail::TailEnd;

@@ -4,7 +4,7 @@ use num_complex::Complex64;
 
 use super::dispatch::track_all;
 use super::endgame::{end_path, projective_distance};
-use super::fast_tracker::FastTracker;
+use super::fast_tracker::{FastPath, FastTracker};
 use super::limits::{BRISK, CAREFUL, FAST, TrackerLimits, VERY_CAREFUL};
 use super::monodromy::StartKind;
 use super::polish::{PolishedRoot, polish};
@@ -18,7 +18,7 @@ use crate::solve::planar::mirror;
 use crate::solve::sections::Sections;
 
 /// A last Newton correction below this needs no further polishing.
-const SETTLED: f64 = 1e-13;
+pub(super) const SETTLED: f64 = 1e-13;
 /// Paths to be tracked again are stopped here and always go through the endgame.
 const CAREFUL_ENDGAME_AT: f64 = 1e-2;
 /// Paths are followed with 256 bits from here.
@@ -32,7 +32,7 @@ const ISOTROPIC_MEAN: f64 = 1e-4;
 /// Newton's method confirms the mean of an endgame loop when it moves it by less than this.
 const SAME_MEAN: f64 = 1e-3;
 /// Two regular ends closer than this are one root reached twice.
-const SAME_END: f64 = 1e-7;
+pub(super) const SAME_END: f64 = 1e-7;
 
 /// A regular end with a smaller pivot ratio may be one of two roots that coincide nearly.
 const NEARLY_SINGULAR: f64 = 1e-5;
@@ -68,6 +68,23 @@ pub(crate) struct HomotopyPath {
     pub(crate) precise: bool,
 }
 
+impl HomotopyPath {
+    /// What the fast tracker knows; no end yet.
+    pub(super) fn under_way(p: &FastPath) -> Self {
+        Self {
+            x: p.x,
+            kind: EndKind::Failed,
+            steps: p.steps,
+            rejections: p.rejections,
+            winding: 0,
+            retracked: 0,
+            split: None,
+            pivot_ratio: 1.0 / p.condition,
+            precise: false,
+        }
+    }
+}
+
 fn isotropy(x: &[Complex64; 8]) -> (f64, f64) {
     let e = &x[..4];
     let size: f64 = e.iter().map(num_complex::Complex::norm_sqr).sum();
@@ -100,17 +117,7 @@ pub(crate) fn solve_sections(
     let mut paths: Vec<HomotopyPath> = tracked_fast
         .iter()
         .map(|p| {
-            let blank = HomotopyPath {
-                x: p.x,
-                kind: EndKind::Failed,
-                steps: p.steps,
-                rejections: p.rejections,
-                winding: 0,
-                retracked: 0,
-                split: None,
-                pivot_ratio: 1.0 / p.condition,
-                precise: false,
-            };
+            let blank = HomotopyPath::under_way(p);
             match p.remaining {
                 None => blank,
                 Some(t) if t > 0.0 => settle_by_endgame(&homotopy, blank, t),
@@ -163,7 +170,7 @@ pub(crate) fn follow_finely(
     Ok(at_corner.iter().zip(&near_end).map(follow).collect())
 }
 
-fn settle_arrived(homotopy: &SectionHomotopy, path: &HomotopyPath) -> HomotopyPath {
+pub(super) fn settle_arrived(homotopy: &SectionHomotopy, path: &HomotopyPath) -> HomotopyPath {
     settle_polished(*path, &polish(homotopy, &path.x))
 }
 
@@ -173,7 +180,7 @@ fn settle_polished(mut path: HomotopyPath, end: &PolishedRoot) -> HomotopyPath {
 }
 
 /// A path whose end point Newton's method has settled.
-fn settle(mut path: HomotopyPath, x: &[Complex64; 8]) -> HomotopyPath {
+pub(super) fn settle(mut path: HomotopyPath, x: &[Complex64; 8]) -> HomotopyPath {
     let (iso, finite) = isotropy(x);
     path.x = *x;
     path.winding = 1;
@@ -302,7 +309,7 @@ fn nearly_parallel(x: &[Complex64; 8], y: &[Complex64; 8]) -> bool {
     close(0) && close(1)
 }
 
-fn unit(x: &[Complex64; 8]) -> [Complex64; 8] {
+pub(super) fn unit(x: &[Complex64; 8]) -> [Complex64; 8] {
     let norm = x.iter().map(num_complex::Complex::norm_sqr).sum::<f64>().sqrt();
     x.map(|z| z / norm)
 }

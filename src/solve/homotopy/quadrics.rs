@@ -4,7 +4,8 @@ use pulp::Simd;
 
 use super::lanes::{Lanes, Vec8};
 use crate::solve::planar::PLANAR_FORMS;
-use crate::solve::sections::FORMS;
+use super::system::Coefficient;
+use crate::solve::sections::{FORMS, NORM_FORMS};
 
 /// A set of `F` quadratic forms in `x = (e, g)`; [`Quadrics`] says which.
 pub(super) struct Forms<const F: usize>;
@@ -16,6 +17,12 @@ pub(super) trait Quadrics<const F: usize> {
 
     /// Gradient of `row . forms` at `x`.
     fn gradient<S: Simd>(row: &[Lanes<S>; F], x: &Vec8<S>) -> Vec8<S>;
+
+    /// [`gradient`](Self::gradient) of a real row.
+    fn real_gradient<S: Simd>(row: &[f64; F], x: &Vec8<S>) -> Vec8<S>;
+
+    /// `e.e` from the values of the forms.
+    fn norm<S: Simd>(forms: &[Lanes<S>; F]) -> Lanes<S>;
 }
 
 /// All 17 forms, in the order of [`FormRow`](crate::solve::sections::FormRow).
@@ -75,6 +82,44 @@ impl Quadrics<FORMS> for Forms<FORMS> {
         }
         out
     }
+
+    #[inline(always)]
+    fn real_gradient<S: Simd>(r: &[f64; FORMS], x: &Vec8<S>) -> Vec8<S> {
+        let zero = Lanes::zero(x[0].simd);
+        let sym = [
+            [r[0], r[1], r[2], r[3]],
+            [r[1], r[4], r[5], r[6]],
+            [r[2], r[5], r[7], r[8]],
+            [r[3], r[6], r[8], r[9]],
+        ];
+        let (m, n, c) = ([r[10], r[11], r[12]], [r[13], r[14], r[15]], 2.0 * r[16]);
+        // the rows of T, skew
+        let skew = [
+            [0.0, -m[0], -m[1], -m[2]],
+            [m[0], 0.0, -n[2], n[1]],
+            [m[1], n[2], 0.0, -n[0]],
+            [m[2], -n[1], n[0], 0.0],
+        ];
+        let mut out = [zero; 8];
+        for p in 0..4 {
+            let (mut top, mut bottom) = (zero, x[4 + p].times(c));
+            for q in 0..4 {
+                top = (2.0 * sym[p][q]).add_times(top, x[q]);
+                if q != p {
+                    top = (-skew[p][q]).add_times(top, x[4 + q]);
+                    bottom = skew[p][q].add_times(bottom, x[q]);
+                }
+            }
+            (out[p], out[4 + p]) = (top, bottom);
+        }
+        out
+    }
+
+    #[inline(always)]
+    fn norm<S: Simd>(forms: &[Lanes<S>; FORMS]) -> Lanes<S> {
+        let [a, b, c, d] = NORM_FORMS.map(|k| forms[k]);
+        (a + b) + (c + d)
+    }
 }
 
 /// The ten forms of doubly planar platforms, in the order of [`PlanarRow`](crate::solve::planar::PlanarRow).
@@ -120,6 +165,29 @@ impl Quadrics<PLANAR_FORMS> for Forms<PLANAR_FORMS> {
             (c * g2).mul_add(my, e0).mul_sub(nx, e3),
             (c * g3).mul_add(nx, e2).mul_sub(ny, e1),
         ]
+    }
+
+    #[inline(always)]
+    fn real_gradient<S: Simd>(row: &[f64; PLANAR_FORMS], x: &Vec8<S>) -> Vec8<S> {
+        let [e0, e1, e2, e3, g0, g1, g2, g3] = *x;
+        let (norm, outer, inner) = (2.0 * row[0], 2.0 * row[1], 2.0 * row[2]);
+        let (w03, w12, c) = (2.0 * row[3], 2.0 * row[4], 2.0 * row[9]);
+        let (mx, my, nx, ny) = (row[5], row[6], row[7], row[8]);
+        [
+            my.add_times(mx.add_times(w03.add_times(e0.times(norm + outer), e3), g1), g2),
+            (-ny).add_times((-mx).add_times(w12.add_times(e1.times(norm + inner), e2), g0), g3),
+            nx.add_times((-my).add_times(w12.add_times(e2.times(norm - inner), e1), g0), g3),
+            ny.add_times((-nx).add_times(w03.add_times(e3.times(norm - outer), e0), g2), g1),
+            (-my).add_times((-mx).add_times(g0.times(c), e1), e2),
+            ny.add_times(mx.add_times(g1.times(c), e0), e3),
+            (-nx).add_times(my.add_times(g2.times(c), e0), e3),
+            (-ny).add_times(nx.add_times(g3.times(c), e2), e1),
+        ]
+    }
+
+    #[inline(always)]
+    fn norm<S: Simd>(forms: &[Lanes<S>; PLANAR_FORMS]) -> Lanes<S> {
+        forms[0]
     }
 }
 

@@ -50,6 +50,15 @@ impl Coefficient for Complex64 {
     }
 }
 
+/// A path of six linear sections that is straight in a complex parameter, as the trackers need it.
+pub(super) trait Line<const F: usize> {
+    /// The 8 x 8 matrix of derivatives at one parameter value per lane: six sections, `e.g`, patch.
+    fn derivative_at<S: Simd>(&self, t: Lanes<S>, x: &Vec8<S>, patch: &Vec8<S>) -> Matrix8<S>;
+
+    /// `target forms + slope moved`, one value a row.
+    fn combine<S: Simd>(&self, forms: Option<&[Lanes<S>; F]>, moved: &[Lanes<S>; F]) -> [Lanes<S>; 6];
+}
+
 /// A straight line of linear sections, `target + t slope`, in the `F` forms of [`Quadrics`].
 #[derive(Debug, Clone)]
 pub(crate) struct SectionHomotopy<K = Complex64, const F: usize = FORMS> {
@@ -125,13 +134,15 @@ impl<K: Coefficient, const F: usize> SectionHomotopy<K, F> {
         }
         row
     }
+}
 
+impl<K: Coefficient, const F: usize> Line<F> for SectionHomotopy<K, F>
+where
+    Forms<F>: Quadrics<F>,
+{
     /// [`derivative_matrix`] at one parameter value per lane; the rows, 13 kB of them in the widest unit, are not kept.
     #[inline(always)]
-    pub(super) fn derivative_at<S: Simd>(&self, t: Lanes<S>, x: &Vec8<S>, patch: &Vec8<S>) -> Matrix8<S>
-    where
-        Forms<F>: Quadrics<F>,
-    {
+    fn derivative_at<S: Simd>(&self, t: Lanes<S>, x: &Vec8<S>, patch: &Vec8<S>) -> Matrix8<S> {
         let mut j = bordered(x, patch);
         for i in 0..6 {
             j[i] = Forms::gradient(&self.row_at(i, t), x);
@@ -139,7 +150,6 @@ impl<K: Coefficient, const F: usize> SectionHomotopy<K, F> {
         j
     }
 
-    /// `target forms + slope moved`, one value a row.
     #[inline(always)]
     fn combine<S: Simd>(&self, forms: Option<&[Lanes<S>; F]>, moved: &[Lanes<S>; F]) -> [Lanes<S>; 6] {
         let mut out = [Lanes::zero(moved[0].simd); 6];
@@ -179,7 +189,7 @@ where
 
 /// The last two rows, of `e.g` and the patch.
 #[inline(always)]
-fn bordered<S: Simd>(x: &Vec8<S>, patch: &Vec8<S>) -> Matrix8<S> {
+pub(super) fn bordered<S: Simd>(x: &Vec8<S>, patch: &Vec8<S>) -> Matrix8<S> {
     let mut j = [*patch; 8];
     j[6][..4].copy_from_slice(&x[4..]);
     j[6][4..].copy_from_slice(&x[..4]);
@@ -211,8 +221,8 @@ pub(super) fn values<S: Simd>(j: &Matrix8<S>, x: &Vec8<S>) -> Vec8<S> {
 /// polar forms `F` (halved where `i = j`): one factorisation serves all orders. With `C(t) = C_0 + t C'` the
 /// right-hand side is `C_0 u_k + C' (t u_k + w_{k-1})`, products with constant matrices only.
 #[inline(always)]
-pub(super) fn taylor<S: Simd, K: Coefficient, const F: usize>(
-    homotopy: &SectionHomotopy<K, F>,
+pub(super) fn taylor<S: Simd, const F: usize>(
+    homotopy: &impl Line<F>,
     t: Lanes<S>,
     x: &Vec8<S>,
     solve: impl Fn(&mut Vec8<S>),

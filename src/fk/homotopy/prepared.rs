@@ -1,0 +1,116 @@
+//! The homotopy prepared for one design: its poses at generic lengths, once, and from there paths in the lengths alone.
+//!
+//! Generic lengths have as many poses, `N`, as isolated poses can be at any. `N` certified distinct poses at the lengths asked for
+//! are all there are, and no pose lies on a curve of poses besides: a curve would have isolated poses of generic lengths near it, which would have more than `N`
+//! (docs/theory/completeness.md).
+
+use num_complex::Complex64;
+
+use super::{SectionProblem, assemble, ends_of};
+use crate::fk::evidence::attach;
+use crate::fk::harvest::harvest;
+use crate::fk::judge::{RealityJudgement, judge};
+use crate::fk::{
+    FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, PoseCounting, PreparedDesign, Theorem,
+};
+use crate::manipulator::{Manipulator, SquaredLegLengths, default_home};
+use crate::num::Purpose;
+use crate::solve::homotopy::{LengthStart, StartKind, projective_distance};
+use crate::solve::pose_count::{CountOptions, PoseCount, count_generic_poses};
+use crate::solve::{ScaledFrames, mirror};
+
+/// Two start poses closer than this are not told apart.
+const SAME_POSE: f64 = 1e-9;
+
+/// [`Homotopy`] for one design.
+#[derive(Debug)]
+pub(super) struct PreparedHomotopy {
+    manipulator: Manipulator,
+    start: LengthStart,
+    /// The number of start poses by the count, where no theorem proves it.
+    count: Option<PoseCount>,
+}
+
+impl PreparedHomotopy {
+    /// `None` unless the start poses are known to be all: as many certified ones as a theorem allows, or as the count says.
+    pub(super) fn new(m: &Manipulator, o: &FkOptions) -> Option<Self> {
+        let (from, to) = generic_lengths(m, o.seed)?;
+        let quick = o.pose_count(PoseCounting::Never);
+        let found = Homotopy.solve(m, &from, &quick).ok()?;
+        let mut count = None;
+        if !found.completeness.is_proved() {
+            if o.pose_count == PoseCounting::Never || !found.all_accounted() {
+                return None;
+            }
+            let options = CountOptions { seed: o.seed, ..CountOptions::default() };
+            let generic = count_generic_poses(m, &options);
+            let confirmed = judge(&mut found.clone(), &generic).ok()? == RealityJudgement::Complete;
+            count = confirmed.then_some(Some(generic))?;
+        }
+        let poses: Option<Vec<[Complex64; 8]>> = found.roots.iter().map(|r| r.dual_quaternion).collect();
+        let poses = poses?;
+        let flat = ScaledFrames::planar(m, &from).and_then(|frame| {
+            let points = poses.iter().map(|x| frame.from_design(*x)).collect();
+            Some((StartKind::Planar, frame, one_of_each_pair(points)?))
+        });
+        let (kind, frame, points) = flat.unwrap_or_else(|| {
+            let frame = ScaledFrames::of(m, &from);
+            (StartKind::Generic, frame, poses.iter().map(|x| frame.from_design(*x)).collect())
+        });
+        let start = LengthStart::new(kind, &frame, m, &from, &points, to)?;
+        Some(Self { manipulator: m.clone(), start, count })
+    }
+
+    /// The answer where it is whole, `None` where anything is left over.
+    fn whole(&self, s: &SquaredLegLengths, o: &FkOptions) -> Result<Option<FkSolutions>, FkError> {
+        let (m, kind) = (&self.manipulator, self.start.kind());
+        let frame = match kind {
+            StartKind::Generic => Some(ScaledFrames::of(m, s)),
+            StartKind::Planar => ScaledFrames::planar(m, s),
+        };
+        let followed = frame.and_then(|frame| Some((frame, self.start.follow(&frame, m, s)?)));
+        let Some((frame, (sections, paths))) = followed else { return Ok(None) };
+        let problem = SectionProblem { frame, sections, kind, fine: false };
+        let found = harvest(m, s, &o.tolerances, &ends_of(&problem, &paths), &[]);
+        let (mut found, certificates) = assemble(o, &problem, &paths, self.start.paths(), found);
+        attach(&mut found, m, s, Theorem::SixLegs, certificates);
+        if found.completeness.is_proved() {
+            return Ok(Some(found));
+        }
+        let Some(count) = &self.count else { return Ok(None) };
+        let complete = judge(&mut found, count)? == RealityJudgement::Complete;
+        Ok(complete.then_some(found))
+    }
+}
+
+impl PreparedDesign for PreparedHomotopy {
+    fn solve(&self, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
+        match self.whole(s, o)? {
+            Some(found) => Ok(found),
+            None => Homotopy.solve(&self.manipulator, s, o),
+        }
+    }
+}
+
+/// Real squared lengths about those of the home pose, and complex ones next to them.
+fn generic_lengths(m: &Manipulator, seed: u64) -> Option<(SquaredLegLengths, [Complex64; 6])> {
+    let mut rng = Purpose::START_LENGTHS.rng(seed);
+    let home = default_home(m).squared_lengths(m)?.get();
+    let real = home.map(|s| s * rng.uniform(0.5, 2.0));
+    let mean = real.iter().sum::<f64>() / 6.0;
+    let complex = real.map(|s| Complex64::new(s, mean * rng.uniform(-1.0, 1.0)));
+    Some((SquaredLegLengths::try_new(real).ok()?, complex))
+}
+
+/// One of each two points that are mirror images; `None` when they are not pairs.
+fn one_of_each_pair(points: Vec<[Complex64; 8]>) -> Option<Vec<[Complex64; 8]>> {
+    let mut open = points;
+    let mut out = Vec::with_capacity(open.len() / 2);
+    while let Some(x) = open.pop() {
+        let image = mirror(x);
+        let partner = open.iter().position(|y| projective_distance(y, &image) < SAME_POSE)?;
+        open.swap_remove(partner);
+        out.push(x);
+    }
+    Some(out)
+}

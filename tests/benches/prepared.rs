@@ -1,0 +1,129 @@
+//! What a design costs that is solved again and again: preparation, and a solve with certificates, on one thread.
+//!
+//! Run with `cargo bench --bench prepared -- [CLASS ...]`. Times of a solve are medians over designs and lengths, each solved once, in microseconds and in units of
+//! `eig40`, the eigenvalues of a random 40 x 40 matrix, measured in the same run.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use equipod::methods::bench::{Class, LengthsFrom, Problem, problem, reference_times};
+use equipod::methods::fk::{Automatic, FkOptions, FkSolutions, ForwardKinematics};
+use equipod::methods::geom::{Pose, random_rotation};
+use equipod::methods::manipulator::{Manipulator, SquaredLegLengths};
+use equipod::methods::num::Rng;
+use nalgebra::{Rotation3, Vector3};
+
+const DESIGNS: u64 = 10;
+const LENGTHS: usize = 20;
+const SEED: u64 = 6;
+
+/// Lengths of poses as the class has them: near home for hexapods, otherwise any.
+fn lengths(p: &Problem, class: Class, rng: &mut Rng) -> Option<SquaredLegLengths> {
+    let random = Vector3::from_fn(|_, _| rng.normal());
+    let pose = match (&p.pose, class) {
+        (Some(drawn), Class::Hexapod) => {
+            let turn = Rotation3::new(random * 0.1);
+            let shift = Vector3::from_fn(|_, _| rng.uniform(-0.2, 0.2));
+            Pose { rotation: turn * drawn.rotation, position: drawn.position + shift }
+        }
+        _ => Pose { rotation: random_rotation(rng), position: random },
+    };
+    pose.squared_lengths(&p.manipulator)
+}
+
+#[derive(Default)]
+struct Times {
+    first: Vec<f64>,
+    preparation: Vec<f64>,
+    solve: Vec<f64>,
+    unprepared: usize,
+    poses: Vec<usize>,
+    complete: usize,
+    different: usize,
+}
+
+fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
+    let start = Instant::now();
+    let out = black_box(work());
+    (out, start.elapsed().as_secs_f64() * 1e6)
+}
+
+fn quantile(times: &mut [f64], q: f64) -> f64 {
+    times.sort_by(f64::total_cmp);
+    let last = times.len().saturating_sub(1);
+    times.get((q * last as f64).round() as usize).copied().unwrap_or(f64::NAN)
+}
+
+/// Whether both have the same certified poses.
+fn same(m: &Manipulator, a: &FkSolutions, b: &FkSolutions) -> bool {
+    let scale = |r: &FkSolutions, k: usize| {
+        r.roots[k].pose.rotation.iter().map(|z| z.norm()).fold(1.0, f64::max)
+    };
+    a.roots.len() == b.roots.len()
+        && (0..a.roots.len()).all(|k| {
+            let near = |r: &&_| {
+                let r: &equipod::methods::fk::FkRoot = r;
+                r.pose.distance(&a.roots[k].pose, m.size()) < 1e-6 * scale(a, k)
+            };
+            b.roots.iter().filter(near).count() == 1
+        })
+}
+
+fn class_times(class: Class) -> Result<Times, Box<dyn std::error::Error>> {
+    let options = FkOptions::default();
+    let mut times = Times::default();
+    for k in 0..DESIGNS {
+        let p = problem(class, LengthsFrom::Pose, SEED, k)?;
+        let m = &p.manipulator;
+        let (first, time) = timed(|| Automatic.solve(m, &p.squares, &options));
+        times.first.push(time);
+        let (prepared, time) = timed(|| Automatic.prepare(m, &options));
+        times.preparation.push(time);
+        let Some(prepared) = prepared else {
+            times.unprepared += 1;
+            continue;
+        };
+        times.different += usize::from(!same(m, &first?, &prepared.solve(&p.squares, &options)?));
+        let mut rng = Rng::stream(SEED, k);
+        for _ in 0..LENGTHS {
+            let Some(s) = lengths(&p, class, &mut rng) else { continue };
+            let (found, time) = timed(|| prepared.solve(&s, &options));
+            times.solve.push(time);
+            let found = found?;
+            times.complete += usize::from(found.is_complete());
+            times.poses.push(found.roots.len());
+        }
+    }
+    Ok(times)
+}
+
+#[allow(clippy::print_stdout, reason = "a table for people")]
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let names: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
+    let classes: Vec<Class> = if names.is_empty() {
+        Class::ALL.into_iter().chain(Class::topologies()).collect()
+    } else {
+        names.iter().filter_map(|n| Class::from_name(n)).collect()
+    };
+    println!("times in microseconds, [eig40]");
+    for class in classes {
+        let unit = reference_times(1)?.eig40;
+        let mut t = class_times(class)?;
+        t.poses.sort_unstable();
+        let poses = t.poses.get(t.poses.len() / 2).copied().unwrap_or(0);
+        let (median, late) = (quantile(&mut t.solve, 0.5), quantile(&mut t.solve, 0.99));
+        println!(
+            "{:<16} {poses:>2} poses, first {:>7.0}, preparation {:>7.0}, solve {median:>7.1} [{:.3}], 99 % {late:>8.1}; eig40 {unit:.0}; complete {} of {}, other roots {} of {}, not prepared {}",
+            class.name(),
+            quantile(&mut t.first, 0.5),
+            quantile(&mut t.preparation, 0.5),
+            median / unit,
+            t.complete,
+            t.poses.len(),
+            t.different,
+            DESIGNS as usize - t.unprepared,
+            t.unprepared
+        );
+    }
+    Ok(())
+}
