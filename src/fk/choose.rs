@@ -1,5 +1,8 @@
 //! Chooses the method that solves a problem.
 
+use std::sync::OnceLock;
+
+use super::bounds::class_bound;
 use super::{
     FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, Method, NeedsStart, Octic, PreparedDesign,
     Trilateration,
@@ -24,11 +27,14 @@ pub fn solver(method: Option<Method>) -> Box<dyn ForwardKinematics> {
     }
 }
 
-/// The octic where it applies and accounts for all sixteen poses, otherwise the homotopy.
+/// The fastest method that applies and accounts for all poses: the octic, trilateration for designs with few poses, otherwise the homotopy.
 ///
 /// The result names the method that was used.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Automatic;
+
+/// Designs with more poses take the homotopy as long as trilateration, whose sequences are worked out first.
+const FEW_POSES: usize = 16;
 
 impl ForwardKinematics for Automatic {
     fn method(&self) -> Method {
@@ -36,29 +42,49 @@ impl ForwardKinematics for Automatic {
     }
 
     fn solve(&self, m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
-        match Octic.solve(m, s, o) {
-            Ok(found) if found.all_accounted() => Ok(found),
-            _ => Homotopy.solve(m, s, o),
+        let by_octic = || Octic.solve(m, s, o);
+        let few = class_bound(m).is_some_and(|t| t.bound() <= FEW_POSES);
+        let by_trilateration = || few.then(|| Trilateration::default().solve(m, s, o));
+        match by_octic() {
+            Ok(found) if found.is_complete() => Ok(found),
+            Ok(_) => Homotopy.solve(m, s, o),
+            Err(_) => match by_trilateration() {
+                Some(Ok(found)) if found.is_complete() => Ok(found),
+                _ => Homotopy.solve(m, s, o),
+            },
         }
     }
 
     fn prepare(&self, m: &Manipulator, o: &FkOptions) -> Option<Box<dyn PreparedDesign>> {
-        let Some(octic) = Octic.prepare(m, o) else { return Homotopy.prepare(m, o) };
-        Some(Box::new(PreparedAutomatic { octic, manipulator: m.clone() }))
+        let by_distances = Octic
+            .prepare(m, o)
+            .or_else(|| class_bound(m).and_then(|_| Trilateration::default().prepare(m, o)));
+        let Some(quick) = by_distances else { return Homotopy.prepare(m, o) };
+        let paths = OnceLock::new();
+        Some(Box::new(PreparedAutomatic { quick, manipulator: m.clone(), options: *o, paths }))
     }
 }
 
-/// [`Automatic`] for an octahedral design.
+/// [`Automatic`] for a design that the octic or trilateration applies to.
 struct PreparedAutomatic {
-    octic: Box<dyn PreparedDesign>,
+    quick: Box<dyn PreparedDesign>,
     manipulator: Manipulator,
+    /// Those of the preparation.
+    options: FkOptions,
+    /// The homotopy, prepared for the first lengths that need it.
+    paths: OnceLock<Option<Box<dyn PreparedDesign>>>,
 }
 
 impl PreparedDesign for PreparedAutomatic {
     fn solve(&self, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
-        match self.octic.solve(s, o) {
-            Ok(found) if found.all_accounted() => Ok(found),
-            _ => Homotopy.solve(&self.manipulator, s, o),
+        match self.quick.solve(s, o) {
+            Ok(found) if found.is_complete() => return Ok(found),
+            Ok(_) | Err(_) => {}
+        }
+        let prepare = || Homotopy.prepare(&self.manipulator, &self.options);
+        match self.paths.get_or_init(prepare) {
+            Some(paths) => paths.solve(s, o),
+            None => Homotopy.solve(&self.manipulator, s, o),
         }
     }
 }

@@ -19,8 +19,8 @@ use crate::solve::homotopy::{
     EndKind, GENERIC_COUNT, HomotopyPath, StartError, StartKind, TailEnd, follow_finely, solve_sections,
 };
 use crate::solve::pose_count::PoseCount;
-use prepared::PreparedHomotopy;
 use crate::solve::{LegDependence, ScaledFrames, Sections, dependence, mirror, quaternion_product, split};
+use prepared::PreparedHomotopy;
 
 /// Times the whole problem is tracked again with another gamma when paths fail.
 const ATTEMPTS: u64 = 3;

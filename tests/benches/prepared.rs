@@ -1,13 +1,13 @@
 //! What a design costs that is solved again and again: preparation, and a solve with certificates, on one thread.
 //!
-//! Run with `cargo bench --bench prepared -- [CLASS ...]`. Times of a solve are medians over designs and lengths, each solved once, in microseconds and in units of
+//! Run with `cargo bench --bench prepared -- [method=METHOD] [CLASS ...]`. Times of a solve are medians over designs and lengths, each solved once, in microseconds and in units of
 //! `eig40`, the eigenvalues of a random 40 x 40 matrix, measured in the same run.
 
 use std::hint::black_box;
 use std::time::Instant;
 
 use equipod::methods::bench::{Class, LengthsFrom, Problem, problem, reference_times};
-use equipod::methods::fk::{Automatic, FkOptions, FkSolutions, ForwardKinematics};
+use equipod::methods::fk::{FkOptions, FkSolutions, ForwardKinematics, Method, solver};
 use equipod::methods::geom::{Pose, random_rotation};
 use equipod::methods::manipulator::{Manipulator, SquaredLegLengths};
 use equipod::methods::num::Rng;
@@ -39,6 +39,7 @@ struct Times {
     unprepared: usize,
     poses: Vec<usize>,
     complete: usize,
+    steps: Vec<f64>,
     different: usize,
 }
 
@@ -56,9 +57,8 @@ fn quantile(times: &mut [f64], q: f64) -> f64 {
 
 /// Whether both have the same certified poses.
 fn same(m: &Manipulator, a: &FkSolutions, b: &FkSolutions) -> bool {
-    let scale = |r: &FkSolutions, k: usize| {
-        r.roots[k].pose.rotation.iter().map(|z| z.norm()).fold(1.0, f64::max)
-    };
+    let scale =
+        |r: &FkSolutions, k: usize| r.roots[k].pose.rotation.iter().map(|z| z.norm()).fold(1.0, f64::max);
     a.roots.len() == b.roots.len()
         && (0..a.roots.len()).all(|k| {
             let near = |r: &&_| {
@@ -69,15 +69,15 @@ fn same(m: &Manipulator, a: &FkSolutions, b: &FkSolutions) -> bool {
         })
 }
 
-fn class_times(class: Class) -> Result<Times, Box<dyn std::error::Error>> {
+fn class_times(class: Class, method: &dyn ForwardKinematics) -> Result<Times, Box<dyn std::error::Error>> {
     let options = FkOptions::default();
     let mut times = Times::default();
     for k in 0..DESIGNS {
         let p = problem(class, LengthsFrom::Pose, SEED, k)?;
         let m = &p.manipulator;
-        let (first, time) = timed(|| Automatic.solve(m, &p.squares, &options));
+        let (first, time) = timed(|| method.solve(m, &p.squares, &options));
         times.first.push(time);
-        let (prepared, time) = timed(|| Automatic.prepare(m, &options));
+        let (prepared, time) = timed(|| method.prepare(m, &options));
         times.preparation.push(time);
         let Some(prepared) = prepared else {
             times.unprepared += 1;
@@ -90,6 +90,8 @@ fn class_times(class: Class) -> Result<Times, Box<dyn std::error::Error>> {
             let (found, time) = timed(|| prepared.solve(&s, &options));
             times.solve.push(time);
             let found = found?;
+            let steps: u32 = found.paths.iter().map(|p| p.steps + p.rejections).sum();
+            times.steps.push(f64::from(steps) / found.paths.len().max(1) as f64);
             times.complete += usize::from(found.is_complete());
             times.poses.push(found.roots.len());
         }
@@ -99,7 +101,9 @@ fn class_times(class: Class) -> Result<Times, Box<dyn std::error::Error>> {
 
 #[allow(clippy::print_stdout, reason = "a table for people")]
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let names: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
+    let words: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
+    let (methods, names): (Vec<&String>, Vec<&String>) = words.iter().partition(|w| w.starts_with("method="));
+    let method: Option<Method> = methods.first().map(|w| w.replace("method=", "").parse()).transpose()?;
     let classes: Vec<Class> = if names.is_empty() {
         Class::ALL.into_iter().chain(Class::topologies()).collect()
     } else {
@@ -108,16 +112,17 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("times in microseconds, [eig40]");
     for class in classes {
         let unit = reference_times(1)?.eig40;
-        let mut t = class_times(class)?;
+        let mut t = class_times(class, solver(method).as_ref())?;
         t.poses.sort_unstable();
         let poses = t.poses.get(t.poses.len() / 2).copied().unwrap_or(0);
         let (median, late) = (quantile(&mut t.solve, 0.5), quantile(&mut t.solve, 0.99));
         println!(
-            "{:<16} {poses:>2} poses, first {:>7.0}, preparation {:>7.0}, solve {median:>7.1} [{:.3}], 99 % {late:>8.1}; eig40 {unit:.0}; complete {} of {}, other roots {} of {}, not prepared {}",
+            "{:<16} {poses:>2} poses, first {:>7.0}, preparation {:>7.0}, solve {median:>7.1} [{:.3}], 99 % {late:>8.1}; eig40 {unit:.0}; {:.1} steps a path, complete {} of {}, other roots {} of {}, not prepared {}",
             class.name(),
             quantile(&mut t.first, 0.5),
             quantile(&mut t.preparation, 0.5),
             median / unit,
+            quantile(&mut t.steps, 0.5),
             t.complete,
             t.poses.len(),
             t.different,

@@ -11,7 +11,8 @@ use crate::fk::evidence::attach;
 use crate::fk::harvest::harvest;
 use crate::fk::judge::{RealityJudgement, judge};
 use crate::fk::{
-    FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, PoseCounting, PreparedDesign, Theorem,
+    FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, PoseCounting, PreparedDesign, SolutionSet,
+    Theorem,
 };
 use crate::manipulator::{Manipulator, SquaredLegLengths, default_home};
 use crate::num::Purpose;
@@ -37,9 +38,12 @@ impl PreparedHomotopy {
         let (from, to) = generic_lengths(m, o.seed)?;
         let quick = o.pose_count(PoseCounting::Never);
         let found = Homotopy.solve(m, &from, &quick).ok()?;
+        if found.roots.is_empty() || found.solution_set != SolutionSet::Isolated {
+            return None;
+        }
         let mut count = None;
         if !found.completeness.is_proved() {
-            if o.pose_count == PoseCounting::Never || !found.all_accounted() {
+            if o.pose_count == PoseCounting::Never {
                 return None;
             }
             let options = CountOptions { seed: o.seed, ..CountOptions::default() };
@@ -96,7 +100,7 @@ impl PreparedDesign for PreparedHomotopy {
 fn generic_lengths(m: &Manipulator, seed: u64) -> Option<(SquaredLegLengths, [Complex64; 6])> {
     let mut rng = Purpose::START_LENGTHS.rng(seed);
     let home = default_home(m).squared_lengths(m)?.get();
-    let real = home.map(|s| s * rng.uniform(0.5, 2.0));
+    let real = home.map(|s| s * rng.uniform(0.8, 1.25));
     let mean = real.iter().sum::<f64>() / 6.0;
     let complex = real.map(|s| Complex64::new(s, mean * rng.uniform(-1.0, 1.0)));
     Some((SquaredLegLengths::try_new(real).ok()?, complex))

@@ -95,3 +95,106 @@ fn a_flat_pose_is_named_as_eightfold_and_not_listed() {
         assert_eq!(found.paths.iter().filter(|p| p.root == p.mirror_root).count(), 4);
     }
 }
+
+/// The same certified poses, however they were found.
+fn same_roots(m: &Manipulator, a: &FkSolutions, b: &FkSolutions) -> bool {
+    let partner = |r: &FkRoot| {
+        let spread = r.pose.rotation.iter().map(|z| z.norm()).fold(1.0, f64::max);
+        let near = |q: &&FkRoot| q.pose.distance(&r.pose, m.size()) < 1e-6 * spread;
+        b.roots.iter().filter(near).map(|q| (q.reality, q.certified())).collect::<Vec<_>>()
+    };
+    a.roots.len() == b.roots.len() && a.roots.iter().all(|r| partner(r) == [(r.reality, r.certified())])
+}
+
+/// Prepared and unprepared answers for lengths of random poses; how many were paths in the lengths alone.
+fn compared(m: &Manipulator, rng: &mut Rng, rows: usize) -> usize {
+    let o = FkOptions::default();
+    let prepared = PreparedHomotopy::new(m, &o).unwrap();
+    let mut followed = 0;
+    for row in 0..rows {
+        let s = lengths(m, rng);
+        let (one, other) = (prepared.solve(&s, &o).unwrap(), Homotopy.solve(m, &s, &o).unwrap());
+        assert!(one.is_complete() && same_roots(m, &one, &other), "row {row}: {}", one.completeness);
+        followed += usize::from(prepared.whole(&s, &o).unwrap().is_some());
+    }
+    followed
+}
+
+#[test]
+fn prepared_designs_have_the_poses_of_unprepared_ones() {
+    let mut rng = Rng::new(80);
+    let mut followed = 0;
+    for k in 0..3 {
+        let mut point = || Point3::from(Vector3::from_fn(|_, _| rng.uniform(-2.0, 2.0)));
+        let mut legs = std::array::from_fn(|_| Leg { base: point(), platform: point() });
+        // general, 32 poses, 16 poses of a joint with three legs
+        if k > 0 {
+            legs[1].platform = legs[0].platform;
+            legs[3].platform = legs[2].platform;
+        }
+        if k > 1 {
+            legs[5].platform = legs[4].platform;
+        }
+        followed += compared(&Manipulator::from_legs(legs).unwrap(), &mut rng, 4);
+    }
+    for tilt in [false, true] {
+        followed += compared(&planar(&mut rng, tilt), &mut rng, 4);
+    }
+    assert!(followed >= 18, "{followed} of 20 without the general treatment");
+}
+
+/// A Griffis-Duffy platform whose joints are doubles exactly: zigzag between two triangles, joints moved along the edges.
+fn griffis_duffy(rng: &mut Rng) -> Manipulator {
+    let mut triangle = || {
+        [(); 3]
+            .map(|()| Point3::from(Vector3::from_fn(|_, _| (rng.uniform(-2.0, 2.0) * 256.0).round() / 256.0)))
+    };
+    let (b, p) = (triangle(), triangle());
+    let pairs = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
+    let legs = std::array::from_fn(|i| {
+        let ((a, c), (a2, c2)) = (pairs[i], pairs[(i + 1) % 6]);
+        let t = [0.25, 0.125, 0.375, 0.1875, 0.3125, 0.4375][i];
+        Leg { base: b[a] + (b[a2] - b[a]) * t, platform: p[c] + (p[c2] - p[c]) * t }
+    });
+    Manipulator::from_legs(legs).unwrap()
+}
+
+#[test]
+fn a_griffis_duffy_platform_takes_sixteen_paths_once_it_is_prepared() {
+    let mut rng = Rng::new(81);
+    let m = griffis_duffy(&mut rng);
+    assert_eq!(compared(&m, &mut rng, 3), 3);
+    let o = FkOptions::default();
+    let found = PreparedHomotopy::new(&m, &o).unwrap().solve(&lengths(&m, &mut rng), &o).unwrap();
+    assert_eq!((found.paths.len(), found.roots.len()), (16, 16));
+    assert!(found.paths.iter().all(|p| p.end == PathEnd::Finite && p.root.is_some()));
+    assert!(matches!(found.completeness, Completeness::Modular { poses: 16, .. }));
+}
+
+/// Without the count nobody knows that sixteen are all.
+#[test]
+fn a_start_that_is_not_known_to_be_whole_is_none() {
+    let mut rng = Rng::new(82);
+    let m = griffis_duffy(&mut rng);
+    assert!(Homotopy.prepare(&m, &FkOptions::default().pose_count(PoseCounting::Never)).is_none());
+    // dependent legs: generic lengths have no pose, special ones a curve
+    let legs = m.legs();
+    let again = Manipulator::from_legs([legs[0], legs[1], legs[2], legs[3], legs[4], legs[0]]).unwrap();
+    assert!(Homotopy.prepare(&again, &FkOptions::default()).is_none());
+}
+
+/// Where paths in the lengths lead to coinciding or missing poses the answer is that of an unprepared solve.
+#[test]
+fn special_lengths_get_the_general_treatment() {
+    let mut rng = Rng::new(83);
+    let m = planar(&mut rng, false);
+    let flat = Pose {
+        rotation: Rotation3::from_axis_angle(&Vector3::z_axis(), 0.3),
+        position: Vector3::new(0.2, 0.1, 0.0),
+    };
+    let s = flat.squared_lengths(&m).unwrap();
+    let o = FkOptions::default().pose_count(PoseCounting::Never);
+    let prepared = PreparedHomotopy::new(&m, &o).unwrap();
+    assert!(prepared.whole(&s, &o).unwrap().is_none());
+    assert_eq!(prepared.solve(&s, &o).unwrap(), Homotopy.solve(&m, &s, &o).unwrap());
+}

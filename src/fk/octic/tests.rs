@@ -150,3 +150,58 @@ fn refuses_platforms_that_are_not_octahedral() {
     let error = Octic.solve(&m, &s, &FkOptions::default()).unwrap_err();
     assert!(matches!(error, FkError::NotApplicable { method: Method::Octic, .. }));
 }
+
+#[test]
+#[ignore]
+fn explore_translations() {
+    let design: [(f64, f64); 3] = [(0.0, 0.0), (6.0, 108f64.sqrt()), (12.0, 0.0)];
+    let _ = design;
+    let (m, _) = published();
+    let mut rng = Rng::new(5);
+    for k in 0..6 {
+        let p = Vector3::new(3.0 + rng.normal(), 5.0 + rng.normal(), 12.0 + rng.normal());
+        let p = if k == 0 { Vector3::new(3.0, 27f64.sqrt() / 2.0, 14.0) } else { p };
+        let s = Pose { rotation: nalgebra::Rotation3::identity(), position: p }.squared_lengths(&m).unwrap();
+        let solver = OcticSolver::new(&m).unwrap();
+        println!("case {k} quick {}", solver.solve(&s).is_some());
+        let problem = solver.problem(&s);
+        let pairs = problem.distance_pairs().unwrap();
+        println!("pairs {}", pairs.len());
+        let b = Homotopy.solve(&m, &s, &FkOptions::default()).unwrap();
+        println!("homotopy {} {}", b.roots.len(), b.completeness);
+        let base = problem.base;
+        let plat = problem.platform;
+        for r in b.roots.iter() {
+            let at = |i: usize| {
+                r.pose.rotation * plat[i].map(Complex64::from) + r.pose.position / Complex64::from(m.size())
+            };
+            let d = |i: usize, j: usize| {
+                let v = at(j) - base[i].map(Complex64::from);
+                v.dot(&v)
+            };
+            let (x, y, z) = (d(0, 1), d(2, 0), d(1, 2));
+            let pm = |a: usize, b: usize, c: usize, e: usize| {
+                // coplanarity P1 P3 P4 P5
+                let pts = [
+                    base[0].map(Complex64::from),
+                    base[1].map(Complex64::from),
+                    base[2].map(Complex64::from),
+                    at(0),
+                    at(1),
+                    at(2),
+                ];
+                let (u, v, w) = (pts[b] - pts[a], pts[c] - pts[a], pts[e] - pts[a]);
+                u.cross(&v).dot(&w).norm()
+            };
+            println!(
+                "s15 {x:.8} s34 {y:.8} s26 {z:.8} | 1345 {:.2e} 1245 {:.2e} 2356 {:.2e}  1346 {:.2e} h4 {:.2e} h5 {:.2e}",
+                pm(0, 2, 3, 4),
+                pm(0, 1, 3, 4),
+                pm(1, 2, 4, 5),
+                pm(0, 2, 3, 5),
+                at(0).z.norm(),
+                at(1).z.norm()
+            );
+        }
+    }
+}

@@ -14,7 +14,7 @@ use super::fast_tracker::{FastPath, FastTracker};
 use super::lanes::{Lanes, Matrix8, Vec8};
 use super::limits::{BRISK, CAREFUL, LENGTHS, VERY_CAREFUL};
 use super::monodromy::StartKind;
-use super::paths::{EndKind, HomotopyPath, SETTLED, SAME_END, settle, settle_arrived, suspects, unit};
+use super::paths::{EndKind, HomotopyPath, SAME_END, SETTLED, settle, settle_arrived, suspects, unit};
 use super::polish::polish;
 use super::quadrics::{Forms, Quadrics};
 use super::system::{Coefficient, Line, SectionHomotopy, bordered};

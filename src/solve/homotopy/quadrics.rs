@@ -3,8 +3,8 @@
 use pulp::Simd;
 
 use super::lanes::{Lanes, Vec8};
-use crate::solve::planar::PLANAR_FORMS;
 use super::system::Coefficient;
+use crate::solve::planar::PLANAR_FORMS;
 use crate::solve::sections::{FORMS, NORM_FORMS};
 
 /// A set of `F` quadratic forms in `x = (e, g)`; [`Quadrics`] says which.
