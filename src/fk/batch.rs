@@ -43,7 +43,7 @@ pub struct BatchProblem<'a> {
 /// Result of one problem.
 pub type BatchResult = Result<FkSolutions, FkError>;
 
-/// Solves one design for many leg lengths; result `i` belongs to `lengths[i]`. A problem that fails leaves the others as they are.
+/// Solves one design, [prepared](ForwardKinematics::prepare) where there are several leg lengths; result `i` belongs to `lengths[i]`. A problem that fails leaves the others as they are.
 ///
 /// ```
 /// use equipod::methods::fk::{Automatic, FkOptions, Threads, solve_batch};
@@ -68,7 +68,8 @@ pub fn solve_batch(
     options: &FkOptions,
     threads: Threads,
 ) -> Vec<BatchResult> {
-    let prepared = solver.prepare(m, options);
+    // preparation pays from the second row on
+    let prepared = if lengths.len() > 1 { solver.prepare(m, options) } else { None };
     in_order(lengths.len(), threads, &|i| match &prepared {
         Some(design) => design.solve(&lengths[i], options),
         None => solver.solve(m, &lengths[i], options),
@@ -172,6 +173,27 @@ mod tests {
         assert_eq!(one, text(5));
         let single: Vec<BatchResult> = squares.iter().map(|s| Automatic.solve(&m, s, &options)).collect();
         assert_eq!(one, format!("{single:?}"), "prepared or not");
+    }
+
+    #[test]
+    fn rows_of_a_design_followed_in_the_lengths_do_not_depend_on_threads_either() {
+        let mut rng = Rng::new(12);
+        let mut point = || Point3::from(Vector3::from_fn(|_, _| rng.uniform(-2.0, 2.0)));
+        let legs: [Leg; 6] = std::array::from_fn(|_| Leg { base: point(), platform: point() });
+        let m = Manipulator::from_legs(legs).unwrap();
+        let mut draw = || {
+            let position = Vector3::from_fn(|_, _| rng.normal());
+            Pose { rotation: random_rotation(&mut rng), position }.squared_lengths(&m).unwrap()
+        };
+        let squares: Vec<_> = (0..6).map(|_| draw()).collect();
+        let options = FkOptions::default();
+        let text = |n: usize| format!("{:?}", solve_batch(&Automatic, &m, &squares, &options, threads(n)));
+        let one = text(1);
+        assert_eq!(one, text(2));
+        assert_eq!(one, text(5));
+        let single = Automatic.solve(&m, &squares[0], &options);
+        let alone = solve_batch(&Automatic, &m, &squares[..1], &options, threads(1));
+        assert_eq!(format!("{alone:?}"), format!("{:?}", [single]), "one row is not worth preparation");
     }
 
     #[test]

@@ -161,7 +161,7 @@ impl ScaledFrames {
     }
 
     /// The inverse of [`to_design`](Self::to_design).
-    pub(crate) fn from_design(self, x: [Complex64; 8]) -> [Complex64; 8] {
+    pub(crate) fn to_frame(self, x: [Complex64; 8]) -> [Complex64; 8] {
         let (mut e, mut g) = split(x);
         let left = quaternion_product(pure(&self.base_origin), e);
         let right = quaternion_product(e, pure(&self.platform_origin));

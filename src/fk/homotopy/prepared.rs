@@ -21,7 +21,7 @@ use crate::solve::pose_count::{CountOptions, PoseCount, count_generic_poses};
 use crate::solve::{ScaledFrames, mirror};
 
 /// Two start poses closer than this are not told apart.
-const SAME_POSE: f64 = 1e-9;
+const SAME_POSE: f64 = 1e-6;
 
 /// [`Homotopy`] for one design.
 #[derive(Debug)]
@@ -54,19 +54,19 @@ impl PreparedHomotopy {
         let poses: Option<Vec<[Complex64; 8]>> = found.roots.iter().map(|r| r.dual_quaternion).collect();
         let poses = poses?;
         let flat = ScaledFrames::planar(m, &from).and_then(|frame| {
-            let points = poses.iter().map(|x| frame.from_design(*x)).collect();
+            let points = poses.iter().map(|x| frame.to_frame(*x)).collect();
             Some((StartKind::Planar, frame, one_of_each_pair(points)?))
         });
         let (kind, frame, points) = flat.unwrap_or_else(|| {
             let frame = ScaledFrames::of(m, &from);
-            (StartKind::Generic, frame, poses.iter().map(|x| frame.from_design(*x)).collect())
+            (StartKind::Generic, frame, poses.iter().map(|x| frame.to_frame(*x)).collect())
         });
         let start = LengthStart::new(kind, &frame, m, &from, &points, to)?;
         Some(Self { manipulator: m.clone(), start, count })
     }
 
     /// The answer where it is whole, `None` where anything is left over.
-    fn whole(&self, s: &SquaredLegLengths, o: &FkOptions) -> Result<Option<FkSolutions>, FkError> {
+    pub(super) fn whole(&self, s: &SquaredLegLengths, o: &FkOptions) -> Result<Option<FkSolutions>, FkError> {
         let (m, kind) = (&self.manipulator, self.start.kind());
         let frame = match kind {
             StartKind::Generic => Some(ScaledFrames::of(m, s)),
