@@ -81,7 +81,9 @@ impl PreparedHomotopy {
         if found.completeness.is_proved() {
             return Ok(Some(found));
         }
-        let Some(count) = &self.count else { return Ok(None) };
+        // what has no certificate may be a sign of a motion: the general treatment looks at it
+        let open = found.roots.iter().any(|r| !r.certified());
+        let Some(count) = self.count.as_ref().filter(|_| !open) else { return Ok(None) };
         let complete = judge(&mut found, count)? == RealityJudgement::Complete;
         Ok(complete.then_some(found))
     }
