@@ -6,7 +6,7 @@ use super::{Completeness, FkSolutions, SolutionSet};
 use crate::distance::{
     ClosureDegrees, ClosureError, ClosurePolynomial, NoPlan, closure_degrees, closure_polynomial, plans,
 };
-use crate::manipulator::{Manipulator, SquaredLegLengths};
+use crate::manipulator::{JointKnowledge, Manipulator, SquaredLegLengths};
 
 /// Sequences tried until one tells the number of real poses.
 const ATTEMPTS: usize = 4;
@@ -50,7 +50,9 @@ pub enum NoClosure {
 /// # Errors
 /// [`NoClosure`].
 pub fn closure(m: &Manipulator, s: &SquaredLegLengths, found: &FkSolutions) -> Result<Closure, NoClosure> {
-    let complete = matches!(found.completeness, Completeness::Proved { .. });
+    // the polynomial is that of the doubles
+    let complete = matches!(found.completeness, Completeness::Proved { .. })
+        && m.joint_knowledge() == JointKnowledge::Doubles;
     let isolated = found.solution_set == SolutionSet::Isolated;
     let simple = found.roots.iter().all(|r| r.certified() && r.multiplicity == 1);
     let poses = (complete && isolated && simple).then_some(found.roots.len());

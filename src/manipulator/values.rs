@@ -5,6 +5,7 @@ use std::sync::Arc;
 use nalgebra::Point3;
 
 use super::{Body, InvalidManipulator, Leg, Manipulator};
+use crate::num::interval::Interval;
 use crate::num::surd::Surd;
 
 /// The coordinates of a joint as numbers of one field of square roots.
@@ -79,6 +80,28 @@ impl Manipulator {
         self
     }
 
+    /// The same legs with ends that are at one place at one joint: by their doubles where these are the joints, by their exact coordinates where these are known, and
+    /// not at all where joints are known between bounds only.
+    ///
+    /// # Errors
+    /// [`InvalidManipulator::IdenticalLegs`].
+    pub(crate) fn with_merged_joints(&self) -> Result<Self, InvalidManipulator> {
+        let first = |body: Body, joint: usize| {
+            let doubles = self.joints(body);
+            let same = |other: &usize| match &self.values {
+                None => doubles[*other] == doubles[joint],
+                Some(values) => values.exact.as_ref().is_some_and(|exact| {
+                    let points = &exact[body.index()];
+                    points[*other] == points[joint]
+                }),
+            };
+            (0..joint).find(same).unwrap_or(joint)
+        };
+        let pairs = self.pairs().map(|(a, b)| (first(Body::Base, a), first(Body::Platform, b)));
+        let merged = Self::try_new(self.base_joints().to_vec(), self.platform_joints().to_vec(), pairs)?;
+        Ok(Self { values: self.values.clone(), ..merged })
+    }
+
     /// How the joints are known.
     pub(crate) fn joint_knowledge(&self) -> JointKnowledge {
         match &self.values {
@@ -92,6 +115,19 @@ impl Manipulator {
     pub(crate) fn end_radius(&self, leg: usize, body: Body) -> f64 {
         let joint = body.of(self.pairs()[leg]);
         self.values.as_ref().map_or(0.0, |v| v.radius[body.index()][joint])
+    }
+
+    /// The ends of leg `i` on base and platform, coordinate by coordinate: the doubles where these are the joints, else intervals that hold the joints.
+    pub(crate) fn enclosed_ends(&self, leg: usize) -> [[Interval; 3]; 2] {
+        Body::BOTH.map(|body| {
+            let (end, radius) = (self.joints(body)[body.of(self.pairs()[leg])], self.end_radius(leg, body));
+            [end.x, end.y, end.z].map(|x| {
+                if radius <= 0.0 {
+                    return Interval::from(x);
+                }
+                Interval::new((x - radius).next_down(), (x + radius).next_up()).unwrap_or(Interval::WHOLE)
+            })
+        })
     }
 
     /// The ends of the legs as exact numbers; `None` when one of them is known between bounds only.

@@ -90,9 +90,10 @@ fn proved_at_pose(m: &Manipulator, pose: &Pose) -> f64 {
     let origin = middle(&m.legs().map(|l| (l.base.coords, pose.transform(&l.platform).coords)));
     let origin = point(&origin);
     let from_origin = |v: IntervalVector| -> IntervalVector { std::array::from_fn(|k| v[k] - origin[k]) };
-    let ends = m.legs().map(|l| {
-        let turned = apply(&rotation, &point(&l.platform.coords));
-        (from_origin(point(&l.base.coords)), from_origin(std::array::from_fn(|k| turned[k] + place[k])))
+    let ends: [(IntervalVector, IntervalVector); 6] = std::array::from_fn(|i| {
+        let [base, platform] = m.enclosed_ends(i);
+        let turned = apply(&rotation, &platform);
+        (from_origin(base), from_origin(std::array::from_fn(|k| turned[k] + place[k])))
     });
     let square = |v: &IntervalVector| v[0].square() + v[1].square() + v[2].square();
     let reach = ends.iter().map(|(a, e)| (square(a) + square(e)).hi()).fold(0.0, f64::max).sqrt().next_up();

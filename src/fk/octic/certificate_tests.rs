@@ -221,6 +221,8 @@ fn certificates_of_joints_within_radii_hold_for_every_choice() {
         let enclosed = c.m.clone().enclosed_within(radius);
         let certifier = OctahedralCertifier::new(&Octahedral::recognise(&enclosed).unwrap()).unwrap();
         let wide = certifier.certify(&c.s, &c.found.pairs, &c.found.poses);
+        // the solver's certificates are these
+        assert_eq!(OcticSolver::new(&enclosed).unwrap().certify(&c.s, &c.found), wide, "{k}");
         let mut rng = Rng::stream(79, k);
         for far in [1.0, 1.0, 1.0, 1000.0] {
             let mut moved = |joints: &[Point3<f64>]| -> Vec<Point3<f64>> {
@@ -270,4 +272,29 @@ fn certificates_of_joints_within_radii_hold_for_every_choice() {
         assert!(Certifier::new(&unknown, &c.s).is_err());
     }
     assert!(held > 300 && closest > 0.01 && lost > 100, "{held} {closest} {lost}");
+}
+
+/// Two joints next to the same double are two joints: merged they would be another platform, with its own sixteen poses.
+#[test]
+fn joints_are_merged_by_what_they_are() {
+    use crate::num::surd::Surd;
+    let c = (0..).find_map(case).unwrap();
+    let mut ends = c.m.exact_ends().unwrap();
+    assert!(OcticSolver::new(&Manipulator::from_exact_ends(&ends).unwrap()).is_ok());
+    // below what a double next to one can tell
+    let trace = Surd::rational(&crate::num::exact::rational(1e-40).unwrap()).unwrap();
+    let x = &mut ends[0][0][0];
+    *x = x.plus(&trace).unwrap();
+    let split = Manipulator::from_exact_ends(&ends).unwrap();
+    assert_eq!(split.legs(), c.m.legs());
+    assert!(OcticSolver::new(&split).is_err());
+    // and what is known between bounds only is one joint when it is named as one
+    assert!(OcticSolver::new(&c.m.clone().enclosed_within(1e-14)).is_ok());
+    let apart = Manipulator::try_new(
+        c.m.legs().map(|l| l.base).to_vec(),
+        c.m.legs().map(|l| l.platform).to_vec(),
+        std::array::from_fn(|i| (i, i)),
+    );
+    let apart = apart.unwrap();
+    assert!(OcticSolver::new(&apart).is_ok() && OcticSolver::new(&apart.enclosed_within(1e-14)).is_err());
 }

@@ -108,13 +108,13 @@ impl pulp::WithSimd for Solve<'_> {
 }
 
 impl OcticSolver {
-    /// Prepares an octahedral design; only coordinates count, not whether joints are named as shared.
+    /// Prepares an octahedral design; only coordinates count, not whether joints are named as shared (unless they are known between bounds only).
     ///
     /// # Errors
     /// [`FkError::NotApplicable`] when it is not octahedral.
     pub fn new(m: &Manipulator) -> Result<Self, FkError> {
         let refuse = |reason: String| FkError::NotApplicable { method: Method::Octic, reason };
-        let merged = Manipulator::from_legs(m.legs()).map_err(|e| refuse(e.to_string()))?;
+        let merged = m.with_merged_joints().map_err(|e| refuse(e.to_string()))?;
         let octahedral = Octahedral::recognise(&merged).map_err(|e| refuse(e.to_string()))?;
         let size = m.size();
         let base_corners = octahedral.base().map(|p| p.coords / size);

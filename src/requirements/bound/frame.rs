@@ -86,10 +86,10 @@ impl<'a> CellFrame<'a> {
 
     /// The legs of a manipulator.
     pub(super) fn leg(&self, m: &Manipulator, i: usize) -> LegOverCell {
-        let joints = m.legs()[i];
-        let arm = self.turned(&enclosed(&joints.platform));
+        let [base, platform] = m.enclosed_ends(i);
+        let arm = self.turned(&platform);
         let origin = self.origin();
-        let base = self.fixed(&enclosed(&joints.base));
+        let base = self.fixed(&base);
         let line: JetVector = std::array::from_fn(|k| arm[k] + (origin[k] - base[k]));
         LegOverCell { base, arm, line, square: norm_squared(&line) }
     }

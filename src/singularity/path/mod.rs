@@ -181,20 +181,21 @@ fn rows(m: &Manipulator, from: &Pose, to: &Pose) -> Vec<[Form; 6]> {
     let legs = m.legs();
     let [mean, _] = m.mean_leg_ends();
     let unit = Interval::from(m.size());
-    let place = |x: f64, origin: f64| {
-        (Interval::from(x) - Interval::from(origin)).checked_div(unit).unwrap_or(Interval::WHOLE)
-    };
+    let place =
+        |x: Interval, origin: f64| (x - Interval::from(origin)).checked_div(unit).unwrap_or(Interval::WHOLE);
     let (e0, e1) = quaternions(from, to);
     let e: [Form; 4] = std::array::from_fn(|k| vec![Interval::from(e0[k]), Interval::from(e1[k])]);
     let squares = e.each_ref().map(|x| times(x, x));
     let vector = plus(&plus(&squares[1], &squares[2]), &squares[3]);
     let norm = plus(&squares[0], &vector);
-    let row = |leg: &crate::manipulator::Leg| {
-        let base: [Interval; 3] = std::array::from_fn(|k| place(leg.base[k], mean[k]));
-        let arm: [Interval; 3] = std::array::from_fn(|k| place(leg.platform[k], 0.0));
+    let row = |leg: usize| {
+        let [a, b] = m.enclosed_ends(leg);
+        let base: [Interval; 3] = std::array::from_fn(|k| place(a[k], mean[k]));
+        let arm: [Interval; 3] = b.map(|x| place(x, 0.0));
         let turned = turned(&e, &minus(&squares[0], &vector), &arm);
         let direction: [Form; 3] = std::array::from_fn(|k| {
-            let line = [from, to].map(|pose| place(pose.position[k], mean[k]) - base[k]).to_vec();
+            let line =
+                [from, to].map(|pose| place(Interval::from(pose.position[k]), mean[k]) - base[k]).to_vec();
             // the quadratic form of the rotation times (1 - u) + u, which is one
             plus(&times(&turned[k], &vec![Interval::from(1.0); 2]), &times(&norm, &line))
         });
@@ -204,7 +205,7 @@ fn rows(m: &Manipulator, from: &Pose, to: &Pose) -> Vec<[Form; 6]> {
         let [u, v, w] = direction;
         [u, v, w, x, y, z]
     };
-    legs.iter().map(row).collect()
+    (0..6).map(row).collect()
 }
 
 /// `N R(e) b = (w^2 - v.v) b + 2 (v.b) v + 2 w v x b` with `e = (w, v)`.

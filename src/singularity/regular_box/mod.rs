@@ -287,9 +287,9 @@ impl<'a> LegsOverChart<'a> {
         let unit = Interval::from(manipulator.size());
         // rounded away before anything is proved: the origin of moments is free
         let over = |x: Interval| x.checked_div(unit).unwrap_or(Interval::WHOLE);
-        let scaled = |x: f64, from: f64| over(Interval::from(x) - Interval::from(from));
-        let base = legs.map(|l| std::array::from_fn(|k| scaled(l.base[k], mean[k])));
-        let arm = legs.map(|l| apply(&chart.rotation, &std::array::from_fn(|k| scaled(l.platform[k], 0.0))));
+        let ends: [[IntervalVector; 2]; 6] = std::array::from_fn(|i| manipulator.enclosed_ends(i));
+        let base = ends.map(|[a, _]| std::array::from_fn(|k| over(a[k] - Interval::from(mean[k]))));
+        let arm = ends.map(|[_, b]| apply(&chart.rotation, &b.map(over)));
         let home = std::array::from_fn(|k| over(chart.position[k] - Interval::from(mean[k])));
         let column = |c: &[Interval; 6]| std::array::from_fn(|k| if k < 3 { over(c[k]) } else { c[k] });
         let columns = chart.columns.iter().map(column).collect();

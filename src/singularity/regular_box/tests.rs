@@ -224,3 +224,26 @@ fn singular_poses_between_the_poses_of_a_trajectory_are_found() {
     space.trajectory.push(turned(120.0));
     assert!(matches!(regular_workspace(&m, &space, 1000, 1).0, Regularity::ChangesSign(_)));
 }
+
+#[test]
+fn joints_known_between_bounds_leave_less_that_is_proved() {
+    let m = hexapod();
+    let home = home(&m);
+    let options = BoxOptions { regions: 1000, ..OPTIONS };
+    let proved = |m: &Manipulator| regular_box(m, &home, &options).proved;
+    let scales = [1e-12, 5.0, f64::INFINITY].map(|radius| proved(&m.clone().enclosed_within(radius)));
+    let plain = proved(&m);
+    assert!(scales[0] > 0.9 * plain && scales[0] <= plain, "{scales:?} {plain}");
+    assert!(scales[1] < scales[0] && scales[2] <= 0.0, "{scales:?}");
+    // what is proved holds for joints anywhere between the bounds
+    let mut rng = Rng::new(77);
+    for _ in 0..20 {
+        let mut moved = |p: Point3<f64>| p.map(|x| x + rng.uniform(-5.0, 5.0));
+        let legs = m.legs().map(|l| Leg { base: moved(l.base), platform: moved(l.platform) });
+        let other = Manipulator::from_legs(legs).unwrap();
+        let sign = leg_determinant(&other, &home).signum();
+        for pose in poses_within(&home, &options, scales[1], 200, &mut rng) {
+            assert!(leg_determinant(&other, &pose) * sign > 0.0);
+        }
+    }
+}
