@@ -98,8 +98,9 @@ impl Manipulator {
             (0..joint).find(same).unwrap_or(joint)
         };
         let pairs = self.pairs().map(|(a, b)| (first(Body::Base, a), first(Body::Platform, b)));
-        let merged = Self::try_new(self.base_joints().to_vec(), self.platform_joints().to_vec(), pairs)?;
-        Ok(Self { values: self.values.clone(), ..merged })
+        let mut merged = Self::try_new(self.base_joints().to_vec(), self.platform_joints().to_vec(), pairs)?;
+        merged.values.clone_from(&self.values);
+        Ok(merged)
     }
 
     /// How the joints are known.
