@@ -34,8 +34,7 @@ pub enum Completeness {
     Modular {
         /// Certified distinct poses.
         poses: usize,
-        /// Whether the poses of the lengths given are counted, or, where these are known within radii only, those of generic lengths: then all isolated poses are listed, and sets of
-        /// poses of positive dimension beside them are not excluded.
+        /// Whether the poses of the lengths given are counted, or those of generic lengths: when these are as many as the certified poses, there are no others.
         lengths: CountedLengths,
         /// Bound on the probability that the count is wrong.
         error_probability: f64,

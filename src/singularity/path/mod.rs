@@ -178,7 +178,6 @@ fn determinant(m: &Manipulator, from: &Pose, to: &Pose) -> Vec<Interval> {
 
 /// Rows `N [n_i, a_i x n_i]`, about the mean base joint in units of the size.
 fn rows(m: &Manipulator, from: &Pose, to: &Pose) -> Vec<[Form; 6]> {
-    let legs = m.legs();
     let [mean, _] = m.mean_leg_ends();
     let unit = Interval::from(m.size());
     let place =

@@ -282,7 +282,6 @@ struct LegsOverChart<'a> {
 
 impl<'a> LegsOverChart<'a> {
     fn new(manipulator: &'a Manipulator, chart: &'a Chart) -> Self {
-        let legs = manipulator.legs();
         let [mean, _] = manipulator.mean_leg_ends();
         let unit = Interval::from(manipulator.size());
         // rounded away before anything is proved: the origin of moments is free
