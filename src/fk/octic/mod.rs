@@ -25,7 +25,7 @@ use super::{
     SolutionSet, Theorem,
 };
 use crate::geom::{ComplexPose, trilaterate};
-use crate::manipulator::{Manipulator, Octahedral, SquaredLegLengths};
+use crate::manipulator::{Leg, Manipulator, Octahedral, SquaredLegLengths};
 use crate::num::batch::LANES;
 use crate::poly::roots;
 use crate::solve::certify::Certifier;
@@ -380,7 +380,8 @@ fn others(skip: usize) -> [usize; 3] {
 /// [`FkError::NotApplicable`] when the manipulator is not octahedral.
 pub fn octic(m: &Manipulator, s: &SquaredLegLengths) -> Result<[f64; 9], FkError> {
     let refuse = |reason: String| FkError::NotApplicable { method: Method::Octic, reason };
-    let merged = m.with_merged_joints().map_err(|e| refuse(e.to_string()))?;
+    let legs: [Leg; 6] = m.legs();
+    let merged = Manipulator::from_legs(legs).map_err(|e| refuse(e.to_string()))?;
     let octahedral = Octahedral::recognise(&merged).map_err(|e| refuse(e.to_string()))?;
     let problem = OcticProblem {
         base: octahedral.base().map(|p| p.coords),

@@ -1,7 +1,7 @@
 use super::*;
 use crate::fk::Homotopy;
 use crate::geom::{Pose, random_rotation};
-use crate::manipulator::{Leg, LegLengths};
+use crate::manipulator::LegLengths;
 use crate::num::Rng;
 use nalgebra::Point3;
 
