@@ -1,6 +1,6 @@
 //! Members of the classes whose joints satisfy relations: drawn as exact numbers, so that they are of the class.
 //!
-//! Numbers drawn are multiples of `2^-12`, which keeps those that follow short.
+//! Numbers drawn are multiples of `2^-12`, which keeps those that follow short: but for the thirds of a turn of hexapods they are doubles.
 
 use crate::manipulator::ExactEnds;
 use crate::num::Rng;
@@ -72,17 +72,13 @@ pub(super) fn linear(rng: &mut Rng) -> PlaneMap {
     std::array::from_fn(|_| number(rng, -1.0, 1.0))
 }
 
-/// A planar hexagon as base and its image under a linear map of the plane, turned in the plane, as platform.
+/// A planar hexagon as base and its image under a linear map of the plane as platform: a turn of the platform's frame would change coordinates, not the platform.
 pub(super) fn images(rng: &mut Rng, map: impl FnOnce(&mut Rng) -> PlaneMap) -> ExactMember {
     let base = [(); 6].map(|()| point(rng, true));
     let map = map(rng);
-    // a turn with rational cosine and sine
-    let (c, s) = turn(&number(rng, -3.0, 3.0))?;
-    let row = |x: &Surd, y: &Surd, p: [&Surd; 2]| x.times(p[0])?.plus(&y.times(p[1])?);
+    let row = |x: &Surd, y: &Surd, p: &ExactPoint| x.times(&p[0])?.plus(&y.times(&p[1])?);
     let image = |p: &ExactPoint| -> Option<ExactPoint> {
-        let x = row(&map[0], &map[1], [&p[0], &p[1]])?;
-        let y = row(&map[2], &map[3], [&p[0], &p[1]])?;
-        Some([row(&c, &s.negated(), [&x, &y])?, row(&s, &c, [&x, &y])?, Surd::zero()])
+        Some([row(&map[0], &map[1], p)?, row(&map[2], &map[3], p)?, Surd::zero()])
     };
     let platform: Vec<ExactPoint> = base.iter().map(image).collect::<Option<_>>()?;
     Some(zip(base, platform.try_into().ok()?))

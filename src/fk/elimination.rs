@@ -3,7 +3,8 @@
 use super::collect::{PoseCandidate, collect};
 use super::evidence::{certify, conclude, reject_others};
 use super::{
-    Completeness, FkOptions, FkSolutions, Method, Reason, Rejected, RejectionReason, SolutionSet, Theorem,
+    Completeness, FkError, FkOptions, FkSolutions, Method, Reason, Rejected, RejectionReason, SolutionSet,
+    Theorem,
 };
 use crate::geom::ComplexPose;
 use crate::manipulator::{Manipulator, SquaredLegLengths};
@@ -42,7 +43,7 @@ impl Candidates {
         m: &Manipulator,
         s: &SquaredLegLengths,
         o: &FkOptions,
-    ) -> FkSolutions {
+    ) -> Result<FkSolutions, FkError> {
         let collected = collect(m, s, &o.tolerances, &self.poses);
         let mut rejected = collected.rejected;
         let at_infinity = Rejected { reason: RejectionReason::NotFinite, residual: f64::INFINITY };
@@ -70,8 +71,8 @@ impl Candidates {
             certified,
             uncertified: refined - certified,
         });
-        conclude(&mut solutions, m, &certificates, Theorem::SixLegs);
-        solutions
+        conclude(&mut solutions, m, &certificates, Theorem::SixLegs)?;
+        Ok(solutions)
     }
 }
 
@@ -104,7 +105,7 @@ mod tests {
         // with no tolerance at all only certificates tell that the two are one
         let tolerances = FkTolerances { distinct: 0.0, ..FkTolerances::default() };
         let o = FkOptions { tolerances, ..FkOptions::default() };
-        let found = candidates.solutions(Method::Template, &m, &s, &o);
+        let found = candidates.solutions(Method::Template, &m, &s, &o).unwrap();
         assert_eq!((found.roots.len(), found.rejected.len()), (1, 1));
         let said = found.completeness.to_string();
         assert!(said.contains("2 candidates of 1 elimination(s) gave 1 certified poses"), "{said}");

@@ -1,7 +1,9 @@
 //! Certificates for the roots of a method, and completeness when they reach a proved bound.
 
 use super::bounds::{class_bound, special_bound};
-use super::{Completeness, FkRoot, FkSolutions, Reality, Reason, Rejected, RejectionReason, Theorem};
+use super::{
+    Completeness, FkError, FkRoot, FkSolutions, Reality, Reason, Rejected, RejectionReason, Theorem,
+};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::solve::certify::{
     Certificate, CertifiedPose, Certifier, Distinctness, NewtonStart, ProvedReality, RootRelation, distinct,
@@ -53,9 +55,10 @@ pub(super) fn attach(
     s: &SquaredLegLengths,
     theorem: Theorem,
     known: Vec<Certificate>,
-) {
-    if let Some(certificates) = certify(solutions, m, s, known) {
-        conclude(solutions, m, &certificates, theorem);
+) -> Result<(), FkError> {
+    match certify(solutions, m, s, known) {
+        Some(certificates) => conclude(solutions, m, &certificates, theorem),
+        None => Ok(()),
     }
 }
 
@@ -69,24 +72,30 @@ pub(super) fn proved(reality: ProvedReality) -> Reality {
 }
 
 /// When the certified roots are pairwise distinct and as many as the theorem allows, or as that of the platform's class does,
-/// completeness is proved. Otherwise regular roots without a certificate, and certificates that may be of one root, are doubts.
+/// completeness is proved; more are a contradiction. Otherwise regular roots without a certificate, and certificates that may be of one root, are doubts.
 pub(super) fn conclude(
     solutions: &mut FkSolutions,
     m: &Manipulator,
     certificates: &[Certificate],
     theorem: Theorem,
-) {
+) -> Result<(), FkError> {
     let distinct = distinct(certificates);
-    let reached = |theorem: &Theorem| theorem.bound() == certificates.len();
-    if distinct == Distinctness::AllDistinct
-        && let Some(theorem) = Some(theorem)
-            .filter(reached)
-            .or_else(|| class_bound(m).filter(reached))
-            .or_else(|| special_bound(m).filter(reached))
-    {
-        solutions.completeness.learn(Completeness::Proved { theorem });
-        reject_others(solutions);
-        return;
+    if distinct == Distinctness::AllDistinct {
+        let count = certificates.len();
+        // the work for a bound is done only where the one before is not met
+        let bounds: [&dyn Fn() -> Option<Theorem>; 3] =
+            [&|| Some(theorem), &|| class_bound(m), &|| special_bound(m)];
+        for theorem in bounds.iter().filter_map(|bound| bound()) {
+            if theorem.bound() == count {
+                solutions.completeness.learn(Completeness::Proved { theorem });
+                reject_others(solutions);
+                return Ok(());
+            }
+            if theorem.bound() < count {
+                let what = format!("{count} distinct poses are certified, but {}", theorem.statement());
+                return Err(FkError::Contradiction { what });
+            }
+        }
     }
     let unproved = solutions.roots.iter().filter(|r| !r.certified() && r.multiplicity == 1).count();
     if unproved > 0 {
@@ -96,6 +105,7 @@ pub(super) fn conclude(
         let equal = pairs.iter().filter(|p| p.2 == RootRelation::Same).count();
         solutions.completeness.doubt(Reason::PairsNotDistinct { pairs: pairs.len(), equal });
     }
+    Ok(())
 }
 
 /// With as many certified roots as there can be, what has no certificate is no further root.

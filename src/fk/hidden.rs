@@ -3,7 +3,7 @@
 use super::bounds::class_bound;
 use super::harvest::End;
 use super::trilateration::{ends_at, judged};
-use super::{FkOptions, FkSolutions, Theorem, Tried};
+use super::{FkError, FkOptions, FkSolutions, Theorem, Tried};
 use crate::distance::HiddenLengths;
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 
@@ -16,7 +16,11 @@ const BUDGET: usize = 150_000;
 /// All poses of a design that needs two or three virtual legs, `None` for others.
 ///
 /// Complete only when as many distinct poses are certified as the topology can have; those that several ways find count together.
-pub(super) fn solve(m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Option<FkSolutions> {
+pub(super) fn solve(
+    m: &Manipulator,
+    s: &SquaredLegLengths,
+    o: &FkOptions,
+) -> Option<Result<FkSolutions, FkError>> {
     let hidden = HiddenLengths::of(m)?;
     let most = WAYS.iter().find(|w| w.0 == hidden.virtual_legs()).map_or(1, |w| w.1);
     let usual = class_bound(m).unwrap_or(Theorem::SixLegs).bound();
@@ -30,9 +34,9 @@ pub(super) fn solve(m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Op
         }
         let tried = Tried::HiddenLengths { ways: way + 1, values: evaluations };
         let found = judged(m, s, o, &ends, usual, tried);
-        let proved = found.completeness.is_proved();
+        let settled = found.as_ref().is_ok_and(|f| f.completeness.is_proved()) || found.is_err();
         answer = Some(found);
-        if proved || evaluations > BUDGET {
+        if settled || evaluations > BUDGET {
             break;
         }
     }

@@ -63,7 +63,7 @@ impl ForwardKinematics for Homotopy {
         for (problem, attempt) in planar.into_iter().chain(plans) {
             let seed = o.seed.wrapping_add(attempt.wrapping_mul(0x9e37_79b9));
             let (mut found, certificates) = problem.solve(m, s, o, seed)?;
-            attach(&mut found, m, s, Theorem::SixLegs, certificates);
+            attach(&mut found, m, s, Theorem::SixLegs, certificates)?;
             if found.completeness.is_proved() {
                 return Ok(found);
             }

@@ -43,7 +43,7 @@ fn eliminated(m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Result<F
             }
         };
         candidates.add(eliminant.poses(&problem));
-        let found = candidates.solutions(Method::Sylvester, m, s, o);
+        let found = candidates.solutions(Method::Sylvester, m, s, o)?;
         if attempt + 1 == ATTEMPTS || found.completeness.is_proved() {
             return Ok(found);
         }
@@ -52,6 +52,6 @@ fn eliminated(m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Result<F
         Some(e) if candidates.is_empty() => {
             Err(FkError::NotApplicable { method: Method::Sylvester, reason: e.to_string() })
         }
-        _ => Ok(candidates.solutions(Method::Sylvester, m, s, o)),
+        _ => candidates.solutions(Method::Sylvester, m, s, o),
     }
 }

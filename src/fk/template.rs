@@ -51,7 +51,7 @@ fn solve_with(
         }
         let pairs = eliminated.eigenpairs().map_err(|e| FkError::Breakdown { what: e.to_string() })?;
         candidates.add(pairs.iter().map(|pair| layout.pose(&problem, pair)));
-        let found = candidates.solutions(Method::Template, m, s, o);
+        let found = candidates.solutions(Method::Template, m, s, o)?;
         if attempt + 1 == ATTEMPTS || found.completeness.is_proved() {
             return Ok(found);
         }
@@ -63,7 +63,7 @@ fn solve_with(
         );
         return Err(FkError::NotApplicable { method: Method::Template, reason });
     }
-    Ok(candidates.solutions(Method::Template, m, s, o))
+    candidates.solutions(Method::Template, m, s, o)
 }
 
 #[cfg(test)]

@@ -133,7 +133,7 @@ impl ForwardKinematics for Trilateration {
 
     fn solve(&self, m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
         match hidden::solve(m, s, o) {
-            Some(found) => compared_with_count(found, m, s, o),
+            Some(found) => compared_with_count(found?, m, s, o),
             None => self.prepared(m)?.solve(s, o),
         }
     }
@@ -157,7 +157,7 @@ impl PreparedDesign for Prepared {
             let configurations = evaluator.configurations(&squares, radius);
             ends.extend(ends_at(configurations.found.iter().map(|c| c.pose)));
             let tried = Tried::Evaluations(attempt + 1);
-            let found = judged(&self.manipulator, s, o, &ends, configurations.expected, tried);
+            let found = judged(&self.manipulator, s, o, &ends, configurations.expected, tried)?;
             if found.completeness.is_proved() {
                 return Ok(found);
             }
@@ -169,7 +169,7 @@ impl PreparedDesign for Prepared {
             if !exact.is_empty() {
                 ends.extend(ends_at(exact));
                 let tried = Tried::Evaluations(*attempts);
-                *found = judged(&self.manipulator, s, o, &ends, *expected, tried);
+                *found = judged(&self.manipulator, s, o, &ends, *expected, tried)?;
             }
         }
         let found = answer.map(|a| a.0);
@@ -201,7 +201,7 @@ pub(super) fn judged(
     ends: &[End],
     expected: usize,
     tried: Tried,
-) -> FkSolutions {
+) -> Result<FkSolutions, FkError> {
     let Harvest { collected, certificates } = harvest(m, s, &o.tolerances, ends, &[]);
     let (roots, others): (Vec<_>, Vec<_>) = collected.roots.into_iter().partition(FkRoot::certified);
     let mut rejected = collected.rejected;
@@ -220,6 +220,6 @@ pub(super) fn judged(
         unproved: Vec::new(),
         seed: o.seed,
     };
-    attach(&mut solutions, m, s, Theorem::SixLegs, certificates);
-    solutions
+    attach(&mut solutions, m, s, Theorem::SixLegs, certificates)?;
+    Ok(solutions)
 }

@@ -11,8 +11,8 @@ use crate::fk::evidence::attach;
 use crate::fk::harvest::harvest;
 use crate::fk::judge::{RealityJudgement, judge};
 use crate::fk::{
-    FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, PoseCounting, PreparedDesign, SolutionSet,
-    Theorem,
+    Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, PoseCounting, PreparedDesign,
+    SolutionSet, Theorem,
 };
 use crate::manipulator::{Manipulator, SquaredLegLengths, default_home};
 use crate::num::Purpose;
@@ -28,6 +28,8 @@ const SAME_POSE: f64 = 1e-6;
 pub(super) struct PreparedHomotopy {
     manipulator: Manipulator,
     start: LengthStart,
+    /// The bound that the start poses reach, which does not depend on the lengths; that of any six legs where they reach none.
+    theorem: Theorem,
     /// The number of start poses by the count, where no theorem proves it.
     count: Option<PoseCount>,
 }
@@ -42,7 +44,10 @@ impl PreparedHomotopy {
             return None;
         }
         let mut count = None;
-        if !found.completeness.is_proved() {
+        let mut theorem = Theorem::SixLegs;
+        if let Completeness::Proved { theorem: proved } = found.completeness {
+            theorem = proved;
+        } else {
             if o.pose_count == PoseCounting::Never {
                 return None;
             }
@@ -62,7 +67,7 @@ impl PreparedHomotopy {
             (StartKind::Generic, frame, poses.iter().map(|x| frame.to_frame(*x)).collect())
         });
         let start = LengthStart::new(kind, &frame, m, &from, &points, to)?;
-        Some(Self { manipulator: m.clone(), start, count })
+        Some(Self { manipulator: m.clone(), start, theorem, count })
     }
 
     /// The answer where it is whole, `None` where anything is left over.
@@ -77,7 +82,7 @@ impl PreparedHomotopy {
         let problem = SectionProblem { frame, sections, kind, fine: false };
         let found = harvest(m, s, &o.tolerances, &ends_of(&problem, &paths), &[]);
         let (mut found, certificates) = assemble(o, &problem, &paths, self.start.paths(), found);
-        attach(&mut found, m, s, Theorem::SixLegs, certificates);
+        attach(&mut found, m, s, self.theorem, certificates)?;
         if found.completeness.is_proved() {
             return Ok(Some(found));
         }

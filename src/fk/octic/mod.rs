@@ -97,7 +97,7 @@ impl OcticSolver {
             unproved: Vec::new(),
             seed: o.seed,
         };
-        attach(&mut solutions, m, s, Theorem::Octahedral, Vec::new());
+        attach(&mut solutions, m, s, Theorem::Octahedral, Vec::new())?;
         Ok(solutions)
     }
 }
