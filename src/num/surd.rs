@@ -364,7 +364,8 @@ impl fmt::Display for Surd {
     }
 }
 
-/// Squarefree integers, in ascending order, without those whose square roots are products of a fraction and two or three roots before them.
+/// Integers whose square roots generate the same field as those of squarefree integers in ascending order: a root that is a fraction times a product of two or
+/// three before it is left out.
 #[cfg(feature = "files")]
 pub(crate) fn generators(radicands: &[u64]) -> Vec<u64> {
     // the squarefree part of a product of squarefree integers
@@ -379,7 +380,8 @@ pub(crate) fn generators(radicands: &[u64]) -> Vec<u64> {
         let three =
             kept.iter().flat_map(|k| rest.iter().filter_map(|x| product(*k, *x))).any(|x| kept.contains(&x));
         if !(two || three) {
-            kept.push(*r);
+            // sqrt(6) beside sqrt(2) is as good as sqrt(3)
+            kept.push(rest.into_iter().fold(*r, u64::min));
         }
     }
     kept
