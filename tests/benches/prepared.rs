@@ -1,6 +1,6 @@
 //! What a design costs that is solved again and again: preparation, and a solve with certificates, on one thread.
 //!
-//! Run with `cargo bench --bench prepared -- [method=METHOD] [CLASS ...]`. Times of a solve are medians over designs and lengths, each solved once, in microseconds and in units of
+//! Run with `cargo bench --bench prepared -- [method=METHOD] [CLASS | translations ...]`. Times of a solve are medians over designs and lengths, each solved once, in microseconds and in units of
 //! `eig40`, the eigenvalues of a random 40 x 40 matrix, measured in the same run.
 
 use std::hint::black_box;
@@ -11,17 +11,18 @@ use equipod::methods::fk::{FkOptions, FkSolutions, ForwardKinematics, Method, so
 use equipod::methods::geom::{Pose, random_rotation};
 use equipod::methods::manipulator::{Manipulator, SquaredLegLengths};
 use equipod::methods::num::Rng;
-use nalgebra::{Rotation3, Vector3};
+use nalgebra::{Point3, Rotation3, Vector3};
 
 const DESIGNS: u64 = 10;
 const LENGTHS: usize = 20;
 const SEED: u64 = 6;
 
 /// Lengths of poses as the class has them: near home for hexapods, otherwise any.
-fn lengths(p: &Problem, class: Class, rng: &mut Rng) -> Option<SquaredLegLengths> {
+fn lengths(p: &Problem, row: Row, rng: &mut Rng) -> Option<SquaredLegLengths> {
     let random = Vector3::from_fn(|_, _| rng.normal());
-    let pose = match (&p.pose, class) {
-        (Some(drawn), Class::Hexapod) => {
+    let pose = match (&p.pose, row) {
+        (Some(drawn), Row::Translations) => Pose { position: drawn.position + random * 0.3, ..*drawn },
+        (Some(drawn), Row::Of(Class::Hexapod)) => {
             let turn = Rotation3::new(random * 0.1);
             let shift = Vector3::from_fn(|_, _| rng.uniform(-0.2, 0.2));
             Pose { rotation: turn * drawn.rotation, position: drawn.position + shift }
@@ -69,11 +70,55 @@ fn same(m: &Manipulator, a: &FkSolutions, b: &FkSolutions) -> bool {
         })
 }
 
-fn class_times(class: Class, method: &dyn ForwardKinematics) -> Result<Times, Box<dyn std::error::Error>> {
+/// What is measured: a class, or octahedral designs of parallel triangles at pure translations.
+#[derive(Clone, Copy)]
+enum Row {
+    Of(Class),
+    Translations,
+}
+
+impl Row {
+    const TRANSLATIONS: &str = "translations";
+
+    fn name(self) -> String {
+        match self {
+            Self::Of(class) => class.name().into_owned(),
+            Self::Translations => Self::TRANSLATIONS.to_owned(),
+        }
+    }
+
+    fn from_name(name: &str) -> Option<Self> {
+        let class = || Class::from_name(name).map(Self::Of);
+        if name == Self::TRANSLATIONS { Some(Self::Translations) } else { class() }
+    }
+
+    fn problem(self, k: u64) -> Result<Problem, Box<dyn std::error::Error>> {
+        match self {
+            Self::Of(class) => Ok(problem(class, LengthsFrom::Pose, SEED, k)?),
+            Self::Translations => {
+                let mut rng = Rng::stream(SEED, k);
+                let mut point = || Point3::new(rng.uniform(-2.0, 2.0), rng.uniform(-2.0, 2.0), 0.0);
+                let base = [point(), point(), point()];
+                let ratio = rng.uniform(0.3, 1.3);
+                let middle =
+                    |i: usize, j: usize| Point3::from((base[i].coords + base[j].coords) * (0.5 * ratio));
+                let legs = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
+                let platform = vec![middle(0, 1), middle(1, 2), middle(2, 0)];
+                let manipulator = Manipulator::try_new(base.to_vec(), platform, legs)?;
+                let position = Vector3::new(0.0, 0.0, 2.0);
+                let pose = Pose { rotation: Rotation3::identity(), position };
+                let squares = pose.squared_lengths(&manipulator).ok_or("overflow")?;
+                Ok(Problem { manipulator, squares, pose: Some(pose) })
+            }
+        }
+    }
+}
+
+fn row_times(row: Row, method: &dyn ForwardKinematics) -> Result<Times, Box<dyn std::error::Error>> {
     let options = FkOptions::default();
     let mut times = Times::default();
     for k in 0..DESIGNS {
-        let p = problem(class, LengthsFrom::Pose, SEED, k)?;
+        let p = row.problem(k)?;
         let m = &p.manipulator;
         let (first, time) = timed(|| method.solve(m, &p.squares, &options));
         times.first.push(time);
@@ -86,7 +131,7 @@ fn class_times(class: Class, method: &dyn ForwardKinematics) -> Result<Times, Bo
         times.different += usize::from(!same(m, &first?, &prepared.solve(&p.squares, &options)?));
         let mut rng = Rng::stream(SEED, k);
         for _ in 0..LENGTHS {
-            let Some(s) = lengths(&p, class, &mut rng) else { continue };
+            let Some(s) = lengths(&p, row, &mut rng) else { continue };
             let (found, time) = timed(|| prepared.solve(&s, &options));
             times.solve.push(time);
             let found = found?;
@@ -104,21 +149,22 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let words: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
     let (methods, names): (Vec<&String>, Vec<&String>) = words.iter().partition(|w| w.starts_with("method="));
     let method: Option<Method> = methods.first().map(|w| w.replace("method=", "").parse()).transpose()?;
-    let classes: Vec<Class> = if names.is_empty() {
-        Class::ALL.into_iter().chain(Class::topologies()).collect()
+    let rows: Vec<Row> = if names.is_empty() {
+        let classes = Class::ALL.into_iter().chain(Class::topologies());
+        classes.map(Row::Of).chain([Row::Translations]).collect()
     } else {
-        names.iter().filter_map(|n| Class::from_name(n)).collect()
+        names.iter().filter_map(|n| Row::from_name(n)).collect()
     };
     println!("times in microseconds, [eig40]");
-    for class in classes {
+    for row in rows {
         let unit = reference_times(1)?.eig40;
-        let mut t = class_times(class, solver(method).as_ref())?;
+        let mut t = row_times(row, solver(method).as_ref())?;
         t.poses.sort_unstable();
         let poses = t.poses.get(t.poses.len() / 2).copied().unwrap_or(0);
         let (median, late) = (quantile(&mut t.solve, 0.5), quantile(&mut t.solve, 0.99));
         println!(
             "{:<16} {poses:>2} poses, first {:>7.0}, preparation {:>7.0}, solve {median:>7.1} [{:.3}], 99 % {late:>8.1}; eig40 {unit:.0}; {:.1} steps a path, complete {} of {}, other roots {} of {}, not prepared {}",
-            class.name(),
+            row.name(),
             quantile(&mut t.first, 0.5),
             quantile(&mut t.preparation, 0.5),
             median / unit,

@@ -43,6 +43,8 @@ impl<const F: usize> Line<F> for LengthHomotopy<F>
 where
     Forms<F>: Quadrics<F>,
 {
+    type Moved<S: Simd> = Lanes<S>;
+
     #[inline(always)]
     fn derivative_at<S: Simd>(&self, t: Lanes<S>, x: &Vec8<S>, patch: &Vec8<S>) -> Matrix8<S> {
         let mut j = bordered(x, patch);
@@ -60,8 +62,23 @@ where
     }
 
     #[inline(always)]
-    fn combine<S: Simd>(&self, forms: Option<&[Lanes<S>; F]>, moved: &[Lanes<S>; F]) -> [Lanes<S>; 6] {
-        let norm = Forms::norm(moved);
+    fn moved<S: Simd>(forms: &[Lanes<S>; F]) -> Lanes<S> {
+        Forms::norm(forms)
+    }
+
+    #[inline(always)]
+    fn moved_polar<S: Simd>(x: &Vec8<S>, y: &Vec8<S>) -> Lanes<S> {
+        (x[0] * y[0]).mul_add(x[1], y[1]).mul_add(x[2], y[2]).mul_add(x[3], y[3]).times(2.0)
+    }
+
+    #[inline(always)]
+    fn moved_sum<S: Simd>(a: &Lanes<S>, t: Lanes<S>, b: &Lanes<S>) -> Lanes<S> {
+        a.mul_add(t, *b)
+    }
+
+    #[inline(always)]
+    fn combine<S: Simd>(&self, forms: Option<&[Lanes<S>; F]>, moved: &Lanes<S>) -> [Lanes<S>; 6] {
+        let norm = *moved;
         let mut out = [norm; 6];
         for i in 0..6 {
             out[i] = self.slope[i].add_times(Lanes::zero(norm.simd), norm);

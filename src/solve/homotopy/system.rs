@@ -52,11 +52,23 @@ impl Coefficient for Complex64 {
 
 /// A path of six linear sections that is straight in a complex parameter, as the trackers need it.
 pub(super) trait Line<const F: usize> {
+    /// Values of those forms whose coefficients change.
+    type Moved<S: Simd>: Copy;
+
     /// The 8 x 8 matrix of derivatives at one parameter value per lane: six sections, `e.g`, patch.
     fn derivative_at<S: Simd>(&self, t: Lanes<S>, x: &Vec8<S>, patch: &Vec8<S>) -> Matrix8<S>;
 
+    /// Of all forms those whose coefficients change.
+    fn moved<S: Simd>(forms: &[Lanes<S>; F]) -> Self::Moved<S>;
+
+    /// Polar forms of those.
+    fn moved_polar<S: Simd>(x: &Vec8<S>, y: &Vec8<S>) -> Self::Moved<S>;
+
+    /// `a + t b`.
+    fn moved_sum<S: Simd>(a: &Self::Moved<S>, t: Lanes<S>, b: &Self::Moved<S>) -> Self::Moved<S>;
+
     /// `target forms + slope moved`, one value a row.
-    fn combine<S: Simd>(&self, forms: Option<&[Lanes<S>; F]>, moved: &[Lanes<S>; F]) -> [Lanes<S>; 6];
+    fn combine<S: Simd>(&self, forms: Option<&[Lanes<S>; F]>, moved: &Self::Moved<S>) -> [Lanes<S>; 6];
 }
 
 /// A straight line of linear sections, `target + t slope`, in the `F` forms of [`Quadrics`].
@@ -140,6 +152,8 @@ impl<K: Coefficient, const F: usize> Line<F> for SectionHomotopy<K, F>
 where
     Forms<F>: Quadrics<F>,
 {
+    type Moved<S: Simd> = [Lanes<S>; F];
+
     /// [`derivative_matrix`] at one parameter value per lane; the rows, 13 kB of them in the widest unit, are not kept.
     #[inline(always)]
     fn derivative_at<S: Simd>(&self, t: Lanes<S>, x: &Vec8<S>, patch: &Vec8<S>) -> Matrix8<S> {
@@ -148,6 +162,25 @@ where
             j[i] = Forms::gradient(&self.row_at(i, t), x);
         }
         j
+    }
+
+    #[inline(always)]
+    fn moved<S: Simd>(forms: &[Lanes<S>; F]) -> [Lanes<S>; F] {
+        *forms
+    }
+
+    #[inline(always)]
+    fn moved_polar<S: Simd>(x: &Vec8<S>, y: &Vec8<S>) -> [Lanes<S>; F] {
+        Forms::polar(x, y).0
+    }
+
+    #[inline(always)]
+    fn moved_sum<S: Simd>(a: &[Lanes<S>; F], t: Lanes<S>, b: &[Lanes<S>; F]) -> [Lanes<S>; F] {
+        let mut out = *a;
+        for n in 0..F {
+            out[n] = out[n].mul_add(t, b[n]);
+        }
+        out
     }
 
     #[inline(always)]
@@ -221,8 +254,8 @@ pub(super) fn values<S: Simd>(j: &Matrix8<S>, x: &Vec8<S>) -> Vec8<S> {
 /// polar forms `F` (halved where `i = j`): one factorisation serves all orders. With `C(t) = C_0 + t C'` the
 /// right-hand side is `C_0 u_k + C' (t u_k + w_{k-1})`, products with constant matrices only.
 #[inline(always)]
-pub(super) fn taylor<S: Simd, const F: usize>(
-    homotopy: &impl Line<F>,
+pub(super) fn taylor<S: Simd, L: Line<F>, const F: usize>(
+    homotopy: &L,
     t: Lanes<S>,
     x: &Vec8<S>,
     solve: impl Fn(&mut Vec8<S>),
@@ -232,10 +265,10 @@ where
 {
     let zero = Lanes::zero(t.simd);
     let mut series = [[zero; 8]; ORDER];
-    let (mut full, _) = Forms::polar(x, x);
-    for z in &mut full {
-        *z = z.times(0.5);
-    }
+    let half = Lanes::splat(t.simd, Complex64::new(-0.5, 0.0));
+    // F(x, x) is halved
+    let twice = L::moved_polar(x, x);
+    let mut full = L::moved_sum(&twice, half, &twice);
     for k in 1..=ORDER {
         let mut inner = [zero; F];
         let mut study = zero;
@@ -250,9 +283,7 @@ where
         let sections = if k == 1 {
             homotopy.combine(None, &full)
         } else {
-            for n in 0..F {
-                full[n] = full[n].mul_add(t, inner[n]);
-            }
+            full = L::moved_sum(&full, t, &L::moved(&inner));
             homotopy.combine(Some(&inner), &full)
         };
         let rhs = &mut series[k - 1];
@@ -262,10 +293,8 @@ where
         rhs[6] = -study;
         solve(rhs);
         if k < ORDER {
-            let (f, _) = Forms::polar(x, &series[k - 1]);
-            for n in 0..F {
-                full[n] = inner[n] + f[n];
-            }
+            let one = Lanes::splat(t.simd, Complex64::ONE);
+            full = L::moved_sum(&L::moved(&inner), one, &L::moved_polar(x, &series[k - 1]));
         }
     }
     series
