@@ -33,8 +33,10 @@ pub fn solver(method: Option<Method>) -> Box<dyn ForwardKinematics> {
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Automatic;
 
-/// Designs with more poses take the homotopy as long as trilateration, whose sequences are worked out first.
+/// Designs with more poses take the homotopy no longer than trilateration, whose sequences are worked out first.
 const FEW_POSES: usize = 16;
+/// The same of prepared designs.
+const PREPARED_POSES: usize = 24;
 
 impl ForwardKinematics for Automatic {
     fn method(&self) -> Method {
@@ -56,9 +58,9 @@ impl ForwardKinematics for Automatic {
     }
 
     fn prepare(&self, m: &Manipulator, o: &FkOptions) -> Option<Box<dyn PreparedDesign>> {
-        let by_distances = Octic
-            .prepare(m, o)
-            .or_else(|| class_bound(m).and_then(|_| Trilateration::default().prepare(m, o)));
+        let few = class_bound(m).is_some_and(|t| t.bound() <= PREPARED_POSES);
+        let by_trilateration = || if few { Trilateration::default().prepare(m, o) } else { None };
+        let by_distances = Octic.prepare(m, o).or_else(by_trilateration);
         let Some(quick) = by_distances else { return Homotopy.prepare(m, o) };
         let paths = OnceLock::new();
         Some(Box::new(PreparedAutomatic { quick, manipulator: m.clone(), options: *o, paths }))
