@@ -205,15 +205,17 @@ impl Verification {
         match &v.verdict {
             Verdict::Equivalent if v.proved() => format!(
                 "proved: every leg vector of B is exactly a combination of those of A, and det A = {} is not zero; forward kinematics of both, solved \
-                 independently, agrees at {n} of {n} sets of lengths; worst distance of matched poses {:.1e}{}",
+                 independently, agrees at {n} of {n} sets of lengths, {}; worst distance of matched poses {:.1e}{}",
                 v.map.determinant_exact.as_deref().unwrap_or_default(),
+                lists_proved(v),
                 v.worst_distance(),
                 set_aside(v)
             ),
             Verdict::Equivalent => format!(
                 "the leg map is regular (det A = {:.6}), and forward kinematics of both, solved independently, agrees \
-                 at {n} of {n} sets of lengths; worst distance of matched poses {:.1e}{}",
+                 at {n} of {n} sets of lengths, {}; worst distance of matched poses {:.1e}{}",
                 v.map.determinant,
+                lists_proved(v),
                 v.worst_distance(),
                 set_aside(v)
             ),
@@ -247,6 +249,17 @@ impl Verification {
     pub fn beyond_precision(&self) -> [usize; 2] {
         let count = |of: fn(&Sample) -> usize| self.samples.iter().map(of).sum();
         [count(|s| s.matching.beyond_a.len()), count(|s| s.matching.beyond_b.len())]
+    }
+}
+
+/// At how many sets of lengths both lists of poses are proved to be complete.
+fn lists_proved(v: &Verification) -> String {
+    let proved =
+        |s: &&Sample| [&s.solutions_a, &s.solutions_b].iter().all(|found| found.completeness.is_proved());
+    match v.samples.iter().filter(proved).count() {
+        count if count == v.samples.len() => "all poses of both proved to be found".to_owned(),
+        0 => "without a proof that all poses of both are found".to_owned(),
+        count => format!("all poses of both proved to be found at {count} of them"),
     }
 }
 

@@ -83,6 +83,15 @@ fn the_joint_free_platform_of_an_exact_design_is_proved_equivalent() {
     let (code, verified) = run(folder.path(), &["verify", "octahedral.toml", "free.toml", "--samples", "2"]);
     assert_eq!((code, verified["proved"].as_bool()), (Some(0), Some(true)), "{verified}");
     assert_eq!(verified["map"]["det_exact"], "48/3125");
+    for sample in verified["samples"].as_array().unwrap() {
+        for side in ["a", "b"] {
+            assert_eq!(
+                (&sample[side]["completeness"], &sample[side]["certified_count"]),
+                (&"proved".into(), &16.into()),
+                "{sample}"
+            );
+        }
+    }
     // rounded joints are another platform
     let rounded: String = OCTAHEDRAL.replace("\"height\"", "10.3923").replace("\"-height/2\"", "-5.19615");
     std::fs::write(folder.path().join("rounded.toml"), rounded).unwrap();
@@ -142,13 +151,10 @@ fn poses_of_exact_designs_are_certified_and_counted_and_rounded_joints_are_anoth
         assert_eq!(code, Some(0), "{design}: {answer}");
         let certified = answer["solutions"].as_array().unwrap().iter().filter(|r| r["certified"] == true);
         assert_eq!(certified.count(), 16, "{design}");
-        assert!(["proved", "modular"].contains(&answer["completeness"].as_str().unwrap()), "{design}");
-        if answer["completeness"] == "modular" {
-            assert_eq!(
-                (&answer["pose_count"]["finite"], &answer["pose_count"]["lengths"]),
-                (&16.into(), &"given".into())
-            );
-        }
+        assert_eq!(answer["completeness"], "proved", "{design}");
+        let (_, check) = run(folder.path(), &["check", design]);
+        let (count, bound) = (&check["pose_count"], &check["pose_bound"]);
+        assert_eq!((&count["finite"], &bound["poses"]), (&16.into(), &16.into()), "{design}");
     }
     // the joints of the same platform as the nearest doubles
     let (exact, _) =
@@ -211,11 +217,13 @@ fn an_exact_symmetric_hexapod_has_its_28_poses() {
     let (code, answer) = solved(folder.path(), "hexapod.toml", LENGTHS);
     let certified = answer["solutions"].as_array().unwrap().iter().filter(|r| r["certified"] == true);
     assert_eq!((code, certified.count()), (Some(0), 28), "{answer}");
-    assert!(["proved", "modular"].contains(&answer["completeness"].as_str().unwrap()));
+    assert_eq!(answer["completeness"], "proved");
     let (_, check) = run(folder.path(), &["check", "hexapod.toml"]);
     let count = &check["pose_count"];
     assert_eq!((&count["finite"], &count["lengths"]), (&28.into(), &"generic".into()));
     assert!(count["error_probability"].as_f64() < Some(1e-11));
+    assert_eq!(check["pose_bound"]["poses"], 28);
+    assert!(check["pose_bound"]["theorem"].as_str().unwrap().contains("12 are at infinity"));
 }
 
 const DESIGNS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/designs");
