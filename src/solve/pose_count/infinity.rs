@@ -1,7 +1,7 @@
 //! Points at infinity that all legs have in common.
 
 use super::DEGREE;
-use super::quadrics::{COORDINATES, Cut, Linear, Part, cut};
+use super::quadrics::{COORDINATES, Cut, Linear, QuadricPart, cut};
 use super::quotient::{Outcome, close};
 use crate::manipulator::ExactEnds;
 use crate::num::Rng;
@@ -28,7 +28,7 @@ pub(crate) fn points_at_infinity(split: &SplitField, ends: &[ExactEnds; 6], rng:
         equations.push(row);
     }
     equations.push(std::array::from_fn(|_| rng.next_u64() >> 4));
-    let Cut::Quadrics { unknowns, polynomials } = cut(field, &equations, Part::AtInfinity) else {
+    let Cut::Quadrics { unknowns, polynomials } = cut(field, &equations, QuadricPart::AtInfinity) else {
         return Some(0);
     };
     match close(field, unknowns, polynomials, DEGREE) {

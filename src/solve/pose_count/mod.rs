@@ -14,7 +14,7 @@ use crate::num::Purpose;
 use crate::num::modular::Field;
 pub(crate) use infinity::points_at_infinity;
 use joints::{CountedJoints, DrawnPrime, EndResidues};
-use quadrics::{COORDINATES, Cut, Linear, Part, cut};
+use quadrics::{COORDINATES, Cut, Linear, QuadricPart, cut};
 use quotient::{Outcome, close};
 
 /// Squared lengths, each the exact sum of two doubles.
@@ -252,7 +252,7 @@ fn set_modulo(field: Field, ends: &EndResidues, lengths: Lengths<'_>, draws: &Dr
         if dimension > relations {
             equations.push(section(dimension - 1));
         }
-        let (unknowns, polynomials) = match cut(field, &equations, Part::Finite) {
+        let (unknowns, polynomials) = match cut(field, &equations, QuadricPart::Finite) {
             Cut::Empty => return (PoseSet::Finite { count: 0, by_degree: Vec::new() }, deepest),
             Cut::Quadrics { unknowns, polynomials } => (unknowns, polynomials),
         };

@@ -85,7 +85,7 @@ pub(super) enum Cut {
 
 /// Where the quadrics are taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Part {
+pub(super) enum QuadricPart {
     /// Where the homogeneous coordinate `h` is one.
     Finite,
     /// Where it is zero: what has degree two is left.
@@ -93,7 +93,7 @@ pub(super) enum Part {
 }
 
 /// Solves the linear equations and puts the solution into the quadrics.
-pub(super) fn cut(field: Field, equations: &[Linear], part: Part) -> Cut {
+pub(super) fn cut(field: Field, equations: &[Linear], part: QuadricPart) -> Cut {
     let (mut rows, mut pivots): (Vec<Linear>, Vec<usize>) = (equations.to_vec(), Vec::new());
     // r first: it has the coefficient one in every leg
     for column in (0..COORDINATES).rev() {
@@ -125,7 +125,7 @@ pub(super) fn cut(field: Field, equations: &[Linear], part: Part) -> Cut {
     };
     let forms: Vec<Polynomial> = (0..COORDINATES).map(form).collect();
     let mut quadrics = quadrics();
-    if part == Part::AtInfinity {
+    if part == QuadricPart::AtInfinity {
         for terms in &mut quadrics {
             terms.retain(|t| t.1.len() == 2);
         }

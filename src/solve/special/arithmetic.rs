@@ -16,9 +16,9 @@ pub(super) trait Arithmetic {
 }
 
 /// Sums of square roots.
-pub(super) struct Exact;
+pub(super) struct SurdArithmetic;
 
-impl Arithmetic for Exact {
+impl Arithmetic for SurdArithmetic {
     type Number = Surd;
     fn zero(&self) -> Surd {
         Surd::zero()

@@ -13,7 +13,7 @@
 //! be wrong to the other side. Every zero stands for two isotropic `u` with projection `pi` and two `v` with `pi'`.
 
 use super::Residues;
-use super::arithmetic::{Arithmetic, Exact, Rows, eliminate, kernel};
+use super::arithmetic::{Arithmetic, Rows, SurdArithmetic, eliminate, kernel};
 use crate::manipulator::ExactEnds;
 use crate::num::Rng;
 use crate::num::modular::Field;
@@ -35,7 +35,7 @@ const CUBIC: [[usize; 3]; 10] = [
 ];
 
 /// Affine coordinates of both planes; `None` when a body is not planar, or on a line.
-pub(super) fn charts(residues: &Residues) -> Option<[Chart; 2]> {
+pub(super) fn charts(residues: &Residues) -> Option<[PlaneChart; 2]> {
     let field = residues.split.field();
     Some([chart(field, residues, 0)?, chart(field, residues, 1)?])
 }
@@ -44,7 +44,7 @@ pub(super) fn charts(residues: &Residues) -> Option<[Chart; 2]> {
 pub(super) fn are_affine_images(
     residues: &Residues,
     ends: &[ExactEnds; 6],
-    charts: &[Chart; 2],
+    charts: &[PlaneChart; 2],
 ) -> Option<bool> {
     let field = residues.split.field();
     // (1, x, y, x', y') has no larger rank than the coordinates of one plane: 3
@@ -62,21 +62,21 @@ pub(super) fn are_affine_images(
     };
     let mut rows: Vec<Vec<Surd>> = (0..6).map(row).collect();
     let planar = (0..2).all(|body| is_planar(ends, body, charts[body].corners).unwrap_or(false));
-    Some(planar && eliminate(&Exact, &mut rows)?.len() == 3)
+    Some(planar && eliminate(&SurdArithmetic, &mut rows)?.len() == 3)
 }
 
 /// How many inversions there are beside `butterflies`, which are such matrices of rank one; `None` when numbers become too long and when a prime is unlucky.
 pub(super) fn inversions(
     residues: &Residues,
     ends: &[ExactEnds; 6],
-    charts: &[Chart; 2],
+    charts: &[PlaneChart; 2],
     butterflies: usize,
     rng: &mut Rng,
 ) -> Option<usize> {
     let field = residues.split.field();
     let plane = |leg: usize, body: usize| charts[body].axes.map(|k| residues.ends[leg][body][k]);
     let legs: Vec<[[u64; 2]; 2]> = (0..6).map(|i| [plane(i, 0), plane(i, 1)]).collect();
-    let forms = Forms::of(&field, &legs)?;
+    let forms = MatrixOfForms::of(&field, &legs)?;
     let zeros = CUBIC.len() - forms.cubics(&field)?.0.len();
     if zeros <= butterflies || zeros > 3 || !forms.distinct_zeros(field, charts, zeros, rng) {
         return None;
@@ -87,12 +87,12 @@ pub(super) fn inversions(
     }
     let plane = |leg: usize, body: usize| charts[body].axes.map(|k| ends[leg][body][k].clone());
     let legs: Vec<[[Surd; 2]; 2]> = (0..6).map(|i| [plane(i, 0), plane(i, 1)]).collect();
-    let rank = Forms::of(&Exact, &legs)?.cubics(&Exact)?.0.len();
+    let rank = MatrixOfForms::of(&SurdArithmetic, &legs)?.cubics(&SurdArithmetic)?.0.len();
     (rank + zeros == CUBIC.len()).then(|| zeros - butterflies)
 }
 
 /// Affine coordinates of the plane of a body: two of the three coordinates.
-pub(super) struct Chart {
+pub(super) struct PlaneChart {
     axes: [usize; 2],
     /// Legs whose ends are not on a line.
     corners: [usize; 3],
@@ -101,7 +101,7 @@ pub(super) struct Chart {
 }
 
 /// Modulo the prime: `None` when the ends are not on one plane, or all on a line.
-fn chart(field: Field, residues: &Residues, body: usize) -> Option<Chart> {
+fn chart(field: Field, residues: &Residues, body: usize) -> Option<PlaneChart> {
     let end = |leg: usize| residues.ends[leg][body];
     let difference =
         |i: usize, j: usize| -> [u64; 3] { std::array::from_fn(|k| field.sub(end(j)[k], end(i)[k])) };
@@ -129,7 +129,7 @@ fn chart(field: Field, residues: &Residues, body: usize) -> Option<Chart> {
                 let h = field.mul(minor(&d, &e, axes[0], third), over);
                 let one = |x: u64| field.add(1, field.mul(x, x));
                 let twice = field.mul(field.integer(-2), field.mul(g, h));
-                return Some(Chart { axes, corners: [0, k, j], ramification: [one(h), twice, one(g)] });
+                return Some(PlaneChart { axes, corners: [0, k, j], ramification: [one(h), twice, one(g)] });
             }
         }
     }
@@ -144,13 +144,13 @@ fn is_planar(ends: &[ExactEnds; 6], body: usize, corners: [usize; 3]) -> Option<
     };
     let mut rows = (0..6).map(difference).collect::<Option<Vec<_>>>()?;
     rows.retain(|row| row.iter().any(|x| !x.is_zero()));
-    Some(eliminate(&Exact, &mut rows)?.len() == 2)
+    Some(eliminate(&SurdArithmetic, &mut rows)?.len() == 2)
 }
 
 /// `W` as a matrix of linear forms in three unknowns.
-struct Forms<A: Arithmetic>([[[A::Number; 3]; 3]; 3]);
+struct MatrixOfForms<A: Arithmetic>([[[A::Number; 3]; 3]; 3]);
 
-impl<A: Arithmetic> Forms<A> {
+impl<A: Arithmetic> MatrixOfForms<A> {
     /// `None` when the legs are dependent.
     fn of(field: &A, legs: &[[[A::Number; 2]; 2]]) -> Option<Self> {
         let homogeneous = |p: &[A::Number; 2]| [field.one(), p[0].clone(), p[1].clone()];
@@ -210,9 +210,9 @@ fn cubic([i, j]: [usize; 2], k: usize) -> usize {
     CUBIC.iter().position(|m| *m == sorted).unwrap_or(0)
 }
 
-impl Forms<Field> {
+impl MatrixOfForms<Field> {
     /// Whether the `zeros` common zeros of the conics are different from each other, with projections that are not ramified.
-    fn distinct_zeros(&self, field: Field, charts: &[Chart; 2], zeros: usize, rng: &mut Rng) -> bool {
+    fn distinct_zeros(&self, field: Field, charts: &[PlaneChart; 2], zeros: usize, rng: &mut Rng) -> bool {
         self.coordinates(field, zeros, rng).is_some_and(|[x, y, z]| {
             let form = |f: &[u64; 3]| x.times(f[0]).plus(&y.times(f[1])).plus(&z.times(f[2]));
             let mut random = || rng.next_u64() >> 4;
@@ -220,7 +220,7 @@ impl Forms<Field> {
             let weights = [random(), random()];
             let c = |j: usize, k: usize| form(&self.0[j][k]);
             // a multiple of pi at every zero, and one of pi'
-            let mixed = |a: Operator, b: Operator| a.times(weights[0]).plus(&b.times(weights[1]));
+            let mixed = |a: ResidueMatrix, b: ResidueMatrix| a.times(weights[0]).plus(&b.times(weights[1]));
             let pi = [mixed(c(1, 1), c(1, 2)), mixed(c(2, 1), c(2, 2))];
             let other = [mixed(c(1, 1), c(2, 1)), mixed(c(1, 2), c(2, 2))];
             distinct
@@ -233,7 +233,7 @@ impl Forms<Field> {
     }
 
     /// Multiplication by the three unknowns, divided by a random linear form, on the ring of the common zeros.
-    fn coordinates(&self, field: Field, zeros: usize, rng: &mut Rng) -> Option<[Operator; 3]> {
+    fn coordinates(&self, field: Field, zeros: usize, rng: &mut Rng) -> Option<[ResidueMatrix; 3]> {
         let (_, conics_lead) = self.conics(&field)?;
         let (cubics, cubics_lead) = self.cubics(&field)?;
         let standard =
@@ -250,7 +250,7 @@ impl Forms<Field> {
                     None => to.iter().map(|c| u64::from(*c == at)).collect(),
                 }
             };
-            Operator { field, columns: from.iter().map(column).collect() }
+            ResidueMatrix { field, columns: from.iter().map(column).collect() }
         };
         let all = [0, 1, 2].map(multiplication);
         let mut divisor = all[0].times(rng.next_u64() >> 4);
@@ -264,12 +264,12 @@ impl Forms<Field> {
 
 /// A square matrix modulo a prime, by columns.
 #[derive(Debug, Clone)]
-struct Operator {
+struct ResidueMatrix {
     field: Field,
     columns: Vec<Vec<u64>>,
 }
 
-impl Operator {
+impl ResidueMatrix {
     fn map(&self, f: impl Fn(usize, usize) -> u64) -> Self {
         let n = self.columns.len();
         Self { field: self.field, columns: (0..n).map(|c| (0..n).map(|r| f(r, c)).collect()).collect() }

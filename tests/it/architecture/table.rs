@@ -38,7 +38,11 @@ const LINES: &[Line] = &[
     ("geom", &["num", "manipulator"], &[MATRICES, COMPLEX, ERRORS]),
     ("poly", &["num"], &[INTEGERS, COMPLEX, ("num_integer", None), ("num_traits", None), ERRORS]),
     ("manipulator", &["num", "geom"], &[MATRICES, ERRORS]),
-    ("solve", &["num", "geom", "poly", "manipulator"], &[MATRICES, COMPLEX, ERRORS]),
+    (
+        "solve",
+        &["num", "geom", "poly", "manipulator"],
+        &[MATRICES, COMPLEX, INTEGERS, ("num_integer", None), ERRORS],
+    ),
     ("solve::certify", &["num", "geom", "manipulator"], &[MATRICES, COMPLEX, ("pulp", None), ERRORS]),
     (
         "solve::homotopy",
