@@ -6,7 +6,7 @@ use crate::manipulator::ExactEnds;
 use crate::num::Rng;
 use crate::num::surd::Surd;
 
-type ExactPoint = [Surd; 3];
+type Coordinates = [Surd; 3];
 
 /// Multiples of `2^-12` are drawn.
 const GRID: f64 = 4096.0;
@@ -22,18 +22,18 @@ fn number(rng: &mut Rng, low: f64, high: f64) -> Surd {
 }
 
 /// A point of `[-2, 2]^3`, or of the same square in `z = 0`.
-fn point(rng: &mut Rng, planar: bool) -> ExactPoint {
+fn point(rng: &mut Rng, planar: bool) -> Coordinates {
     let (x, y) = (number(rng, -2.0, 2.0), number(rng, -2.0, 2.0));
     [x, y, if planar { Surd::zero() } else { number(rng, -2.0, 2.0) }]
 }
 
 /// `p + t (q - p)`.
-fn between(p: &ExactPoint, q: &ExactPoint, t: &Surd) -> Option<ExactPoint> {
+fn between(p: &Coordinates, q: &Coordinates, t: &Surd) -> Option<Coordinates> {
     let one = |k: usize| p[k].plus(&q[k].minus(&p[k])?.times(t)?);
     Some([one(0)?, one(1)?, one(2)?])
 }
 
-fn zip(base: [ExactPoint; 6], platform: [ExactPoint; 6]) -> [ExactEnds; 6] {
+fn zip(base: [Coordinates; 6], platform: [Coordinates; 6]) -> [ExactEnds; 6] {
     let mut platform = platform.into_iter();
     base.map(|a| [a, platform.next().unwrap_or_else(|| [Surd::zero(), Surd::zero(), Surd::zero()])])
 }
@@ -76,11 +76,11 @@ pub(super) fn linear(rng: &mut Rng) -> PlaneMap {
 pub(super) fn images(rng: &mut Rng, map: impl FnOnce(&mut Rng) -> PlaneMap) -> ExactMember {
     let base = [(); 6].map(|()| point(rng, true));
     let map = map(rng);
-    let row = |x: &Surd, y: &Surd, p: &ExactPoint| x.times(&p[0])?.plus(&y.times(&p[1])?);
-    let image = |p: &ExactPoint| -> Option<ExactPoint> {
+    let row = |x: &Surd, y: &Surd, p: &Coordinates| x.times(&p[0])?.plus(&y.times(&p[1])?);
+    let image = |p: &Coordinates| -> Option<Coordinates> {
         Some([row(&map[0], &map[1], p)?, row(&map[2], &map[3], p)?, Surd::zero()])
     };
-    let platform: Vec<ExactPoint> = base.iter().map(image).collect::<Option<_>>()?;
+    let platform: Vec<Coordinates> = base.iter().map(image).collect::<Option<_>>()?;
     Some(zip(base, platform.try_into().ok()?))
 }
 
@@ -93,7 +93,7 @@ fn turn(q: &Surd) -> Option<(Surd, Surd)> {
 
 /// Three base joints of legs 1-3 on a line, three platform joints of legs 4-6 on a line; the first joints at the origin.
 pub(super) fn collinear(rng: &mut Rng) -> ExactMember {
-    let mut body = || -> [ExactPoint; 6] {
+    let mut body = || -> [Coordinates; 6] {
         std::array::from_fn(|i| {
             if i == 0 { [Surd::zero(), Surd::zero(), Surd::zero()] } else { point(rng, false) }
         })

@@ -8,7 +8,7 @@ use super::construction::resolve::{Fault, Joints};
 use super::{Constructions, DesignExactness, ExactJoint, Workspace, Written};
 use crate::geom::Pose;
 use crate::manipulator::Body;
-use crate::manipulator::{ExactPoint, InvalidManipulator, JointValues, LegLengths, Manipulator};
+use crate::manipulator::{InvalidManipulator, JointValues, LegLengths, Manipulator, SurdPoint};
 use crate::requirements::{Hardware, KeepOut, Load, PlatformSpeed, Quantity, Requirements, Term, TermKind};
 use crate::requirements::{Objective, VariableKind};
 
@@ -255,7 +255,9 @@ impl Design {
             };
             points[body.index()].iter().zip(doubles).map(one).collect()
         });
-        self.manipulator = self.manipulator.clone().with_values(JointValues { exact, radius });
+        let doubles = Body::BOTH.map(|body| self.manipulator.joints(body));
+        let values = JointValues::new(exact, radius, doubles);
+        self.manipulator = self.manipulator.clone().with_values(values);
     }
 
     /// The same with other constructions, and the coordinates that follow from them.
@@ -349,7 +351,7 @@ pub struct SearchTable {
 }
 
 /// The coordinates when all three are known exactly.
-fn exact_point(p: &RealPoint) -> Option<ExactPoint> {
+fn exact_point(p: &RealPoint) -> Option<SurdPoint> {
     let [x, y, z] = p;
     Some([x.exact()?.clone(), y.exact()?.clone(), z.exact()?.clone()])
 }

@@ -25,4 +25,4 @@ pub(crate) use octahedral::is_collinear;
 pub use octahedral::{NotOctahedral, Octahedral};
 pub(crate) use values::{ExactEnds, JointKnowledge, squares_of_ends, vector_of_ends};
 #[cfg(any(feature = "files", test))]
-pub(crate) use values::{ExactPoint, JointValues};
+pub(crate) use values::{JointValues, SurdPoint};

@@ -9,10 +9,10 @@ use crate::num::interval::Interval;
 use crate::num::surd::Surd;
 
 /// The coordinates of a joint as numbers of one field of square roots.
-pub(crate) type ExactPoint = [Surd; 3];
+pub(crate) type SurdPoint = [Surd; 3];
 
 /// A leg by the exact coordinates of its ends, on the base and on the platform.
-pub(crate) type ExactEnds = [ExactPoint; 2];
+pub(crate) type ExactEnds = [SurdPoint; 2];
 
 /// `(1, a) (x) (1, b)`; `None` when it becomes too long.
 pub(crate) fn vector_of_ends(leg: &ExactEnds) -> Option<Vec<Surd>> {
@@ -29,9 +29,47 @@ pub(crate) fn squares_of_ends(leg: &ExactEnds) -> Option<Surd> {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct JointValues {
     /// For base and platform the coordinates of every joint; `None` when one of them is known between bounds only.
-    pub(crate) exact: Option<[Vec<ExactPoint>; 2]>,
+    pub(crate) exact: Option<[Vec<SurdPoint>; 2]>,
     /// For base and platform how far, at most, a coordinate of a joint is from its double.
     pub(crate) radius: [Vec<f64>; 2],
+    /// For base and platform what the doubles leave of the coordinates of every joint, as the nearest doubles again; zeros where that is not known.
+    low: [Vec<[f64; 3]>; 2],
+    /// How far, at most, a coordinate is from both doubles together.
+    rest: [Vec<f64>; 2],
+}
+
+impl JointValues {
+    /// The joints of which `doubles` are the nearest doubles, or the middles.
+    pub(crate) fn new(
+        exact: Option<[Vec<SurdPoint>; 2]>,
+        radius: [Vec<f64>; 2],
+        doubles: [&[Point3<f64>]; 2],
+    ) -> Self {
+        let mut values = Self {
+            low: radius.each_ref().map(|list| vec![[0.0; 3]; list.len()]),
+            rest: radius.clone(),
+            exact,
+            radius,
+        };
+        let Some(exact) = &values.exact else { return values };
+        for body in 0..2 {
+            for (joint, (point, double)) in exact[body].iter().zip(doubles[body]).enumerate() {
+                let parts: Option<Vec<(f64, f64)>> =
+                    point.iter().zip(double.iter()).map(|(x, d)| low_part(x, *d)).collect();
+                let Some(parts) = parts else { continue };
+                values.low[body][joint] = std::array::from_fn(|k| parts[k].0);
+                values.rest[body][joint] = parts.iter().map(|part| part.1).fold(0.0, f64::max);
+            }
+        }
+        values
+    }
+}
+
+/// What a double leaves of a number, as a double, and an upper bound of what both leave.
+fn low_part(x: &Surd, double: f64) -> Option<(f64, f64)> {
+    let left = x.minus(&Surd::rational(&crate::num::exact::rational(double)?)?)?;
+    let low = left.nearest();
+    Some((low, left.distance_from(low)))
 }
 
 /// How the joints of a [`Manipulator`] are known.
@@ -51,9 +89,9 @@ impl Manipulator {
     /// # Errors
     /// As [`Manipulator::try_new`].
     pub(crate) fn from_exact_ends(ends: &[ExactEnds; 6]) -> Result<Self, InvalidManipulator> {
-        let (mut exact, mut radius) = ([Vec::<ExactPoint>::new(), Vec::new()], [Vec::new(), Vec::new()]);
+        let (mut exact, mut radius) = ([Vec::<SurdPoint>::new(), Vec::new()], [Vec::new(), Vec::new()]);
         let mut points = [Vec::new(), Vec::new()];
-        let mut joint = |body: Body, end: &ExactPoint| {
+        let mut joint = |body: Body, end: &SurdPoint| {
             let k = body.index();
             exact[k].iter().position(|p| p == end).unwrap_or_else(|| {
                 let double = end.each_ref().map(Surd::nearest);
@@ -65,8 +103,9 @@ impl Manipulator {
             })
         };
         let pairs = ends.each_ref().map(|[a, b]| (joint(Body::Base, a), joint(Body::Platform, b)));
+        let values = JointValues::new(Some(exact), radius, [&points[0], &points[1]]);
         let [base, platform] = points;
-        Ok(Self::try_new(base, platform, pairs)?.with_values(JointValues { exact: Some(exact), radius }))
+        Ok(Self::try_new(base, platform, pairs)?.with_values(values))
     }
 
     /// The same doubles with what they stand for.
@@ -118,6 +157,14 @@ impl Manipulator {
         self.values.as_ref().map_or(0.0, |v| v.radius[body.index()][joint])
     }
 
+    /// What the doubles leave of the coordinates of the end of leg `i` on `body`, and how far the coordinates are, at most, from both together.
+    pub(crate) fn end_low(&self, leg: usize, body: Body) -> ([f64; 3], f64) {
+        let joint = body.of(self.pairs()[leg]);
+        self.values
+            .as_ref()
+            .map_or(([0.0; 3], 0.0), |v| (v.low[body.index()][joint], v.rest[body.index()][joint]))
+    }
+
     /// The ends of leg `i` on base and platform, coordinate by coordinate: the doubles where these are the joints, else intervals that hold the joints.
     pub(crate) fn enclosed_ends(&self, leg: usize) -> [[Interval; 3]; 2] {
         Body::BOTH.map(|body| {
@@ -149,7 +196,8 @@ impl Manipulator {
     /// The same doubles, of which nothing is known but that the joints are within a radius of them.
     pub(crate) fn enclosed_within(self, radius: f64) -> Self {
         let radius = [self.base_joints(), self.platform_joints()].map(|joints| vec![radius; joints.len()]);
-        self.with_values(JointValues { exact: None, radius })
+        let doubles = [self.base_joints().to_vec(), self.platform_joints().to_vec()];
+        self.with_values(JointValues::new(None, radius, [&doubles[0], &doubles[1]]))
     }
 }
 

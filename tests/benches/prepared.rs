@@ -53,7 +53,9 @@ fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
 fn quantile(times: &mut [f64], q: f64) -> f64 {
     times.sort_by(f64::total_cmp);
     let last = times.len().saturating_sub(1);
-    times.get((q * last as f64).round() as usize).copied().unwrap_or(f64::NAN)
+    // the first that has the share of all before it
+    let found = times.iter().enumerate().find(|(k, _)| *k as f64 >= (q * last as f64).round());
+    found.map_or(f64::NAN, |(_, time)| *time)
 }
 
 /// Whether both have the same certified poses.

@@ -102,7 +102,7 @@ fn the_command_shows_the_closure_polynomial() {
         assert!(low < high && high - low < 1e-13 * high);
     }
     // both bodies planar: mirror pairs, told apart by the height
-    let out = equipod(&["fk", "designs/rbt-octahedral.toml", "--method", "trilateration", "--json"]);
+    let out = equipod(&["fk", "tests/fixtures/planar-doubles.toml", "--method", "trilateration", "--json"]);
     let doc = document(&out);
     assert_eq!(
         (doc["finite_count"].as_u64(), doc["closure"]["poses_real_proved"].as_u64()),

@@ -69,20 +69,26 @@ fn assert_on(m: &Manipulator, s: &SquaredLegLengths, poses: &[Pose]) {
     }
 }
 
-/// Similar bodies, one twice the other: sixteen poses, no theorem of this library says so, the count does.
+/// Similar bodies, one twice the other: sixteen poses of planar ones by a theorem, twenty-four of spatial ones by the count alone.
 #[test]
 fn special_platforms_of_exact_joints_are_complete_modulo_primes() {
     for seed in 0..6 {
-        let rng = &mut Rng::stream(0x51, seed);
-        let base = joints(rng, true);
-        let m = platform(base, base.map(|p| p * 2.0));
-        let pose = Pose { rotation: random_rotation(rng), position: Vector3::new(0.3, -0.2, 2.5) };
-        let found = solve(&m, &pose.squared_lengths(&m).unwrap());
-        holds_to_its_count(&found);
-        assert_eq!(found.pose_count.as_ref().and_then(PoseCount::finite), Some(16));
-        let modular = matches!(found.completeness, Completeness::Modular { .. });
-        assert!(modular, "seed {seed}: {}", found.completeness);
-        assert_eq!(found.roots.len(), 16);
+        for (planar, poses) in [(true, 16), (false, 24)] {
+            let rng = &mut Rng::stream(0x51, seed);
+            let base = joints(rng, planar);
+            let m = platform(base, base.map(|p| p * 2.0));
+            let pose = Pose { rotation: random_rotation(rng), position: Vector3::new(0.3, -0.2, 2.5) };
+            let found = solve(&m, &pose.squared_lengths(&m).unwrap());
+            assert_eq!((found.roots.len(), found.certified_count()), (poses, poses));
+            if planar {
+                assert!(found.completeness.is_proved(), "seed {seed}: {}", found.completeness);
+                continue;
+            }
+            holds_to_its_count(&found);
+            assert_eq!(found.pose_count.as_ref().and_then(PoseCount::finite), Some(poses));
+            let modular = matches!(found.completeness, Completeness::Modular { .. });
+            assert!(modular, "seed {seed}: {}", found.completeness);
+        }
     }
 }
 

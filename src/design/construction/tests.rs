@@ -256,17 +256,26 @@ fn all_faults_are_shown_and_what_follows_from_them_is_not() {
 
 #[test]
 fn hostile_constructions_end_quickly() {
-    let many: String = (0..3000).map(|i| format!("p{i} = \"sqrt({i} + sqrt(2))\"\n")).collect();
+    let many = (0..3000).map(|i| format!("p{i} = \"sqrt({i} + sqrt(2))\"\n")).collect::<Vec<_>>().concat();
     assert_eq!(refused(&many, TRIANGLE)[0].code, Code::TooComplex);
-    let tower: String = (1..150).map(|i| format!("p{i} = \"p{}^100*p{}\"\n", i - 1, i - 1)).collect();
+    let tower =
+        (1..150).map(|i| format!("p{i} = \"p{}^100*p{}\"\n", i - 1, i - 1)).collect::<Vec<_>>().concat();
     assert_eq!(refused(&format!("p0 = \"sqrt(2) + sqrt(3)\"\n{tower}"), TRIANGLE)[0].code, Code::OutOfRange);
-    let chain: String = (1..5000).map(|i| format!("t{i} = {{ turn = \"t{}\", deg = 1 }}\n", i - 1)).collect();
+    let chain = (1..5000)
+        .map(|i| format!("t{i} = {{ turn = \"t{}\", deg = 1 }}\n", i - 1))
+        .collect::<Vec<_>>()
+        .concat();
     assert_eq!(refused("", &format!("{TRIANGLE}t0 = [1, 0, 0]\n{chain}"))[0].code, Code::TooComplex);
-    let circle: String =
-        (0..150).map(|i| format!("t{i} = {{ turn = \"t{}\", deg = 7 }}\n", (i + 1) % 150)).collect();
+    let circle = (0..150)
+        .map(|i| format!("t{i} = {{ turn = \"t{}\", deg = 7 }}\n", (i + 1) % 150))
+        .collect::<Vec<_>>()
+        .concat();
     let found = refused("", &format!("{TRIANGLE}{circle}"));
     assert_eq!((found.len(), found[0].code), (1, Code::Cycle));
-    let chain: String = (1..150).map(|i| format!("t{i} = {{ turn = \"t{}\", deg = 7 }}\n", i - 1)).collect();
+    let chain = (1..150)
+        .map(|i| format!("t{i} = {{ turn = \"t{}\", deg = 7 }}\n", i - 1))
+        .collect::<Vec<_>>()
+        .concat();
     let d = read("", &format!("{TRIANGLE}t0 = [1, 0, 0]\n{chain}"));
     let turned = base(&d, "t149").2;
     let angle = (149.0 * 7.0f64).to_radians();

@@ -60,13 +60,6 @@ fn with_first(i: usize, of_leg: impl Fn(usize) -> f64) -> f64 {
 }
 
 impl LegSystem {
-    fn turn<S: RealScalar>(&self, i: usize) -> Turn<S> {
-        (
-            std::array::from_fn(|k| S::sum(self.b[i][k], -self.a[i][k])),
-            std::array::from_fn(|k| S::sum(self.b[i][k], self.a[i][k])),
-        )
-    }
-
     /// The middle of the squared length, rounded in double.
     fn square<S: RealScalar>(&self, i: usize) -> S {
         S::sum(self.s[i], self.s_low[i])
@@ -84,7 +77,8 @@ impl LegSystem {
         let (d, c) = self.gap::<f64>(i);
         // the computed differences are off by roundings of their terms
         let terms: f64 = [0, i].iter().map(|k| self.t[*k]).sum();
-        (row_sums(&d, &c).into_iter().fold(0.0, f64::max) + 8.0 * f64::EPSILON * terms) * UP
+        let low: f64 = [0, i].iter().map(|k| self.turn_radius[*k]).sum();
+        (row_sums(&d, &c).into_iter().fold(0.0, f64::max) + 8.0 * f64::EPSILON * terms + low) * UP
     }
 
     /// Values at `x`, real and imaginary parts.
@@ -133,7 +127,7 @@ impl LegSystem {
             let own = 5.0 * UNIT * (u * w + s * p);
             rounding[i] = (2.0 * (u * beta + w * alpha + 2.0 * alpha * beta + own) + TINY) * UP;
             let radius = self.s_radius[0] + if i == 0 { 0.0 } else { self.s_radius[i] };
-            let joints = |k: usize| self.joint_width_of_value(k, e, 2.0 * (g + self.t[k] * e));
+            let joints = |k: usize| self.low_joint_width_of_value(k, e, 2.0 * (g + self.t[k] * e));
             width[i] = (0.5 * radius * p + with_first(i, joints)) * UP;
         }
         rounding[6] = (32.0 * UNIT * e * g + TINY) * UP;

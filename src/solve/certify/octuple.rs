@@ -36,9 +36,13 @@ fn dot(a: &[ComplexOctuple], b: &[ComplexOctuple]) -> ComplexOctuple {
 }
 
 /// Rows of `T = [0 -d^T; d -[c]x]`.
-fn turns(a: &[f64; 3], b: &[f64; 3]) -> [[Octuple; 4]; 4] {
-    let d: [Octuple; 3] = std::array::from_fn(|k| Octuple::from(b[k]) - Octuple::from(a[k]));
-    let c: [Octuple; 3] = std::array::from_fn(|k| Octuple::from(b[k]) + Octuple::from(a[k]));
+fn turns(system: &LegSystem, i: usize) -> [[Octuple; 4]; 4] {
+    let whole = |high: &[f64; 3], low: &[f64; 3]| -> [Octuple; 3] {
+        std::array::from_fn(|k| Octuple::from(high[k]) + Octuple::from(low[k]))
+    };
+    let (a, b) = (whole(&system.a[i], &system.a_low[i]), whole(&system.b[i], &system.b_low[i]));
+    let d: [Octuple; 3] = std::array::from_fn(|k| b[k] - a[k]);
+    let c: [Octuple; 3] = std::array::from_fn(|k| b[k] + a[k]);
     let zero = Octuple::ZERO;
     [
         [zero, -d[0], -d[1], -d[2]],
@@ -57,7 +61,7 @@ struct LegAt {
 }
 
 fn leg_at(system: &LegSystem, i: usize, x: &[ComplexOctuple; 8]) -> LegAt {
-    let turn = turns(&system.a[i], &system.b[i]);
+    let turn = turns(system, i);
     let s = Octuple::from(system.s[i]) + Octuple::from(system.s_low[i]);
     let (e, g) = x.split_at(4);
     let image = |r: usize| (0..4).fold(ComplexOctuple::ZERO, |sum, k| sum + e[k].times(turn[r][k]));
@@ -114,7 +118,7 @@ pub(super) fn bounds(system: &LegSystem, x: &Study<DoubleDouble>) -> Result<Kraw
             if i < 6 { width(i, 2.0 * size(i).0) } else { 0.0 }
         };
         let value_width =
-            |i: usize| 0.5 * radius(i) * p + joints(i, &|i, v| system.joint_width_of_value(i, e, v));
+            |i: usize| 0.5 * radius(i) * p + joints(i, &|i, v| system.low_joint_width_of_value(i, e, v));
         let row_width =
             |i: usize| 4.0 * radius(i) * e + joints(i, &|i, v| system.joint_width_of_gradient(i, e, v));
         let second_order_width =

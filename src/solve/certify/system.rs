@@ -19,6 +19,7 @@
 //! * `v`: four terms with at most five roundings (entry of `T`, product, three sums): `delta_i = 5U (G + t_i E)`.
 //! * `F_i`: from `v`, `(1/2) sum |dv| (2|v| + |dv|) <= 2 delta sqrt W + 2 delta^2`; its own at most seven roundings in each part, factor
 //!   `sqrt 2` for two parts: `(sqrt 2 / 2) 7 U (W + s P) < 5U (W + s P)`.
+//! * joints known exactly have low parts as squared lengths have: data in double-double and with 256 bits, within the radii in double.
 //! * data: in double the squared length is the double nearest to its middle; what that leaves, `|s_low| P / 2` in `F_i` and `|s_low| e` in its
 //!   gradient, counts as rounding. In double-double it is part of the data.
 //! * `F_7`: five roundings, two parts: `sqrt 2 * 5 U * 4 E G < 32 U E G`.
@@ -57,12 +58,17 @@ pub(super) trait RealScalar:
 {
     /// `a + b`, with the relative error of the type.
     fn sum(a: f64, b: f64) -> Self;
+    /// `a + b + low`, likewise, where `low` is below the error of doubles: these leave it out.
+    fn sum_with(a: f64, b: f64, low: f64) -> Self;
     /// The nearest double.
     fn rounded(self) -> f64;
 }
 
 impl RealScalar for f64 {
     fn sum(a: f64, b: f64) -> Self {
+        a + b
+    }
+    fn sum_with(a: f64, b: f64, _low: f64) -> Self {
         a + b
     }
     fn rounded(self) -> f64 {
@@ -73,6 +79,10 @@ impl RealScalar for f64 {
 impl RealScalar for DoubleDouble {
     fn sum(a: f64, b: f64) -> Self {
         Self::from_sum(a, b)
+    }
+    fn sum_with(a: f64, b: f64, low: f64) -> Self {
+        // exact without a low part, so that plain joints cost no rounding
+        if low.to_bits() << 1 == 0 { Self::from_sum(a, b) } else { Self::from_sum(a, b) + Self::from(low) }
     }
     fn rounded(self) -> f64 {
         self.hi()
@@ -161,8 +171,13 @@ pub(super) struct LegSystem {
     /// How far from the middles the data may be.
     pub(super) s_radius: [f64; 6],
     pub(super) t: [f64; 6],
+    /// What the doubles leave of the joints: part of the data in double-double and with 256 bits, within the radii in double.
+    pub(super) a_low: [[f64; 3]; 6],
+    pub(super) b_low: [[f64; 3]; 6],
     /// `tau_i`: how much the radii of the joints may change the absolute row sums of `T_i`; zero for joints that are their doubles.
     pub(super) turn_radius: [f64; 6],
+    /// The same beside the low parts.
+    pub(super) low_turn_radius: [f64; 6],
     /// `|Q_i(h, k)| <= q_i` for all `h`, `k` with coordinates of modulus at most 1 and `h_patch = k_patch = 0`.
     pub(super) q: [f64; N],
     second_order: SecondOrder,
@@ -226,10 +241,31 @@ impl LegSystem {
         let size = (0..6).map(largest).fold(joints, f64::max);
         // outside these limits squares of the unit, or of scaled data, may leave the range of doubles
         if size > 1e-120 && size < 1e120 {
-            Self::scaled(&legs, &radii, s, power_of_two_below(size)).ok_or(WhyUncertified::OutOfRange)
+            let mut system =
+                Self::scaled(&legs, &radii, s, power_of_two_below(size)).ok_or(WhyUncertified::OutOfRange)?;
+            if radii.iter().any(|r| *r > 0.0) {
+                system.set_low_parts(m).ok_or(WhyUncertified::OutOfRange)?;
+            }
+            Ok(system)
         } else {
             Err(WhyUncertified::OutOfRange)
         }
+    }
+
+    /// What the doubles leave of the joints, and the radii that are left then.
+    fn set_low_parts(&mut self, m: &Manipulator) -> Option<()> {
+        let inverse = self.unit.recip();
+        for i in 0..6 {
+            let [(a, rest_a), (b, rest_b)] = Body::BOTH.map(|body| m.end_low(i, body));
+            self.a_low[i] = scale_point(a, inverse)?;
+            self.b_low[i] = scale_point(b, inverse)?;
+            // the low parts of `d` and `c` are sums of two, rounded once
+            let largest = |p: &[f64; 3]| p.iter().fold(0.0_f64, |x, y| x.max(y.abs()));
+            let rounding = U * (largest(&a) + largest(&b));
+            let rest = 3.0 * (rest_a + rest_b + rounding) * UP;
+            self.low_turn_radius[i] = scaled_radius(rest, inverse).min(self.turn_radius[i]);
+        }
+        Some(())
     }
 
     /// `radii` are the sums of the radii of both ends of the legs.
@@ -259,6 +295,9 @@ impl LegSystem {
             let middle = DoubleDouble::from_sum(self.s[i], self.s_low[i]);
             system.set_square(i, middle, self.s_radius[i], inverse * inverse)?;
             system.set_turn_radius(i, self.turn_radius[i], inverse)?;
+            system.a_low[i] = scale_point(self.a_low[i], inverse)?;
+            system.b_low[i] = scale_point(self.b_low[i], inverse)?;
+            system.low_turn_radius[i] = scaled_radius(self.low_turn_radius[i], inverse);
             system.prepare_leg(i);
         }
         Some(system)
@@ -278,6 +317,7 @@ impl LegSystem {
     /// `tau` of leg `i` times a power of two, `None` when nothing is known of a joint.
     fn set_turn_radius(&mut self, i: usize, radius: f64, factor: f64) -> Option<()> {
         self.turn_radius[i] = scaled_radius(radius, factor);
+        self.low_turn_radius[i] = self.turn_radius[i];
         self.turn_radius[i].is_finite().then_some(())
     }
 
@@ -293,10 +333,17 @@ impl LegSystem {
         self.c[i] = std::array::from_fn(|j| b[j] + a[j]);
         self.second_order.set_leg(i, &self.d[i], &self.c[i], self.s[i]);
         let rows = row_sums(&self.d[i], &self.c[i]);
-        self.t[i] = rows.into_iter().fold(0.0, f64::max) * UP;
+        // with the low parts of the joints
+        self.t[i] = (rows.into_iter().fold(0.0, f64::max) + self.turn_radius[i]) * UP;
         let squares: f64 = rows.iter().map(|r| (1.0 + r) * (1.0 + r)).sum();
         let own = 0.5 * (squares + 3.0 * (self.s[i].abs() + self.s_blur(i)));
         self.q[i] = (own + self.joint_width_of_second_order(i)) * UP;
+    }
+
+    /// [`joint_width_of_value`](Self::joint_width_of_value) where the low parts of the joints are part of the data.
+    pub(super) fn low_joint_width_of_value(&self, i: usize, e: f64, v: f64) -> f64 {
+        let omega = self.low_turn_radius[i] * e;
+        2.0 * omega * (v + omega)
     }
 
     /// How far `F_i` changes over the joints' radii at a point with coordinates `e` of modulus at most `e` and a leg vector of norm at most `v`.
@@ -331,7 +378,10 @@ impl LegSystem {
             s_low: six,
             s_radius: six,
             t: six,
+            a_low: points,
+            b_low: points,
             turn_radius: six,
+            low_turn_radius: six,
             q: [3.0; N],
             second_order: SecondOrder::ZERO,
         }
@@ -340,6 +390,15 @@ impl LegSystem {
     /// The power of two all lengths are divided by.
     pub(super) fn unit(&self) -> f64 {
         self.unit
+    }
+
+    /// `d` and `c` of leg `i`, of which `T_i` is made.
+    pub(super) fn turn<S: RealScalar>(&self, i: usize) -> ([S; 3], [S; 3]) {
+        let (a, b, low_a, low_b) = (&self.a[i], &self.b[i], &self.a_low[i], &self.b_low[i]);
+        (
+            std::array::from_fn(|k| S::sum_with(b[k], -a[k], low_b[k] - low_a[k])),
+            std::array::from_fn(|k| S::sum_with(b[k], a[k], low_b[k] + low_a[k])),
+        )
     }
 
     /// `F` for the middles of the `s`; in double for the doubles nearest to these.
@@ -354,8 +413,7 @@ impl LegSystem {
         };
         let (n_re, n_half_im) = square(&x.re[..4], &x.im[..4]);
         for i in 0..6 {
-            let d: [S; 3] = std::array::from_fn(|j| S::sum(self.b[i][j], -self.a[i][j]));
-            let c: [S; 3] = std::array::from_fn(|j| S::sum(self.b[i][j], self.a[i][j]));
+            let (d, c) = self.turn(i);
             let (v_re, v_im) = (leg_vector(&d, &c, &x.re), leg_vector(&d, &c, &x.im));
             let (w_re, w_half_im) = square(&v_re, &v_im);
             let s = S::sum(self.s[i], self.s_low[i]);
@@ -388,7 +446,12 @@ impl LegSystem {
             let own = 5.0 * unit * (slack * slack + self.s[i].abs() * p);
             let low = if unit < U { 0.0 } else { 0.5 * self.s_low[i].abs() * p };
             rounding[i] = (2.0 * delta * slack + 2.0 * delta * delta + own + low + TINY) * UP;
-            width[i] = (0.5 * self.s_radius[i] * p + self.joint_width_of_value(i, e, slack)) * UP;
+            let joints = if unit < U {
+                self.low_joint_width_of_value(i, e, slack)
+            } else {
+                self.joint_width_of_value(i, e, slack)
+            };
+            width[i] = (0.5 * self.s_radius[i] * p + joints) * UP;
         }
         rounding[6] = (32.0 * unit * e * g + TINY) * UP;
         (rounding, width)

@@ -1,5 +1,5 @@
 use super::*;
-use crate::manipulator::{ExactEnds, ExactPoint, Leg};
+use crate::manipulator::{ExactEnds, Leg, SurdPoint};
 use crate::num::Rng;
 use crate::num::surd::Surd;
 use nalgebra::Point3;
@@ -227,7 +227,7 @@ fn root(n: i64) -> Surd {
 }
 
 /// `x u + y v`.
-fn mixed(x: &Surd, u: &ExactPoint, y: &Surd, v: &ExactPoint) -> ExactPoint {
+fn mixed(x: &Surd, u: &SurdPoint, y: &Surd, v: &SurdPoint) -> SurdPoint {
     [0, 1, 2].map(|k| x.times(&u[k]).unwrap().plus(&y.times(&v[k]).unwrap()).unwrap())
 }
 
@@ -285,7 +285,7 @@ fn exact_joints_are_counted_as_they_are_and_rounded_ones_as_others() {
 #[test]
 fn an_exact_symmetric_hexapod_has_28_poses() {
     let (half, h) = (surd(1, 2), root(3).times(&surd(1, 2)).unwrap());
-    let turned = |p: &ExactPoint, times: usize| {
+    let turned = |p: &SurdPoint, times: usize| {
         (0..times).fold(p.clone(), |[x, y, z], _| {
             let by = |a: &Surd, u: &Surd, b: &Surd, v: &Surd| {
                 a.times(u).unwrap().plus(&b.times(v).unwrap()).unwrap()
@@ -311,7 +311,7 @@ fn fractions_are_counted_as_doubles_are() {
     let mut point = || {
         [0, 1, 2].map(|k| if k == 2 { Surd::zero() } else { surd((rng.next_u64() % 90).cast_signed(), 15) })
     };
-    let base: [ExactPoint; 6] = std::array::from_fn(|_| point());
+    let base: [SurdPoint; 6] = std::array::from_fn(|_| point());
     let two = Surd::integer(2);
     let m = exact(&base.map(|p| [p.clone(), mixed(&two, &p, &Surd::zero(), &p)]));
     let count = count_poses(&m, &SQUARES, &CountOptions::default());

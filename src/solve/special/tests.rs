@@ -3,7 +3,7 @@ use crate::num::Rng;
 
 /// A rational number of few digits that is no double.
 fn small(rng: &mut Rng) -> Surd {
-    let n = (rng.next_u64() % 96) as i64 - 48;
+    let n = (rng.next_u64() % 96).cast_signed() - 48;
     let d = [7, 11, 13][(rng.next_u64() % 3) as usize];
     let n = if n % d == 0 { n + 1 } else { n };
     Surd::integer(n).times(&Surd::integer(d).inverse().unwrap()).unwrap()
