@@ -41,8 +41,8 @@ fn real(x: f64) -> Z {
     Z { re: DoubleDouble::from(x), im: DoubleDouble::ZERO }
 }
 
-fn pure_real(v: &[f64; 3]) -> Quaternion {
-    pure(v.map(real))
+fn pure_real(v: &[DoubleDouble; 3]) -> Quaternion {
+    pure(v.map(|re| Z { re, im: DoubleDouble::ZERO }))
 }
 
 fn unit(k: usize) -> Quaternion {

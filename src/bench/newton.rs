@@ -9,7 +9,7 @@ use num_complex::Complex64;
 
 use super::dual::refine_dual;
 use crate::geom::ComplexPose;
-use crate::manipulator::{Manipulator, SquaredLegLengths};
+use crate::manipulator::{Body, Manipulator, SquaredLegLengths};
 use crate::num::double_double::{ComplexDoubleDouble as Z, DoubleDouble};
 
 const N: usize = 12;
@@ -48,8 +48,9 @@ impl Point {
 /// The equations of one problem.
 #[derive(Debug, Clone)]
 pub(super) struct LegEquations {
-    pub(super) base: [[f64; 3]; 6],
-    pub(super) platform: [[f64; 3]; 6],
+    /// Joints in double-double: those that are known exactly are no doubles.
+    pub(super) base: [[DoubleDouble; 3]; 6],
+    pub(super) platform: [[DoubleDouble; 3]; 6],
     pub(super) squares: [f64; 6],
     unit: f64,
 }
@@ -71,11 +72,16 @@ pub(super) struct NewtonEnd {
 impl LegEquations {
     pub(super) fn new(m: &Manipulator, s: &SquaredLegLengths) -> Self {
         let unit = 2f64.powi(m.size().log2().floor() as i32);
-        let scaled = |p: nalgebra::Point3<f64>| [p.x / unit, p.y / unit, p.z / unit];
         let legs = m.legs();
+        let ends = |body: Body| {
+            std::array::from_fn(|i| {
+                let (double, low) = (legs[i].end(body), m.end_low(i, body).0);
+                std::array::from_fn(|k| DoubleDouble::from_sum(double[k] / unit, low[k] / unit))
+            })
+        };
         Self {
-            base: legs.map(|l| scaled(l.base)),
-            platform: legs.map(|l| scaled(l.platform)),
+            base: ends(Body::Base),
+            platform: ends(Body::Platform),
             squares: s.get().map(|s| s / (unit * unit)),
             unit,
         }
@@ -98,7 +104,7 @@ impl LegEquations {
         let (a, b) = (self.base[i], self.platform[i]);
         std::array::from_fn(|k| {
             let turned = (0..3).map(|j| times(x.0[3 * k + j], b[j])).fold(x.0[9 + k], |s, z| s + z);
-            Z { re: turned.re - DoubleDouble::from(a[k]), im: turned.im }
+            Z { re: turned.re - a[k], im: turned.im }
         })
     }
 
@@ -139,7 +145,7 @@ impl LegEquations {
 
     /// Largest equation error over the square of the point's scale.
     pub(super) fn residual(&self, x: &Point) -> f64 {
-        let reach = self.base.iter().flatten().fold(1.0f64, |m, v| m.max(v.abs()));
+        let reach = self.base.iter().flatten().fold(1.0f64, |m, v| m.max(v.hi().abs()));
         let scale = x.scale().max(reach).powi(2);
         self.values(x).iter().map(|z| z.hi().norm() / scale).fold(0.0, f64::max)
     }
@@ -204,8 +210,7 @@ fn iterate(start: &Point, step: impl Fn(&Point) -> Option<[Z; N]>) -> (Point, f6
 
 const PAIRS: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
 
-fn times(z: Z, x: f64) -> Z {
-    let x = DoubleDouble::from(x);
+fn times(z: Z, x: DoubleDouble) -> Z {
     Z { re: z.re * x, im: z.im * x }
 }
 

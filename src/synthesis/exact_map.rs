@@ -153,7 +153,7 @@ mod tests {
         let map = ExactMap::between(&octahedral, &half).unwrap();
         assert!(map.determinant.is_zero());
         assert_eq!(ExactMap::between(&half, &octahedral), Err(NoExactMap::FromDependent));
-        let mut off = slid([1, 2, 3, 1, 2, 4].map(|n| surd(n, 5)));
+        let mut off = slid(&[1, 2, 3, 1, 2, 4].map(|n| surd(n, 5)));
         off[4][0][2] = surd(1, 1_000_000_000_000);
         assert_eq!(ExactMap::between(&octahedral, &off), Err(NoExactMap::OutOfSpan(4)));
     }
