@@ -24,6 +24,8 @@ use crate::synthesis::{LegMapOutcome, LegMapTolerances, NotRealizable, Relation,
 /// Roots come out at `1e-12` or better unless they are nearly double; a joint `1e-6` of the size off its
 /// place moves poses by about `1e-6`.
 pub const SAME_POSE: f64 = 1e-8;
+/// Longest exact number that a sentence takes.
+const SHORT: usize = 24;
 /// A counterexample must miss the lengths of the other platform by this many times the rounding to expect.
 const CLEAR_MISS: f64 = 1e3;
 
@@ -204,9 +206,9 @@ impl Verification {
         let (v, n) = (self, self.samples.len());
         match &v.verdict {
             Verdict::Equivalent if v.proved() => format!(
-                "proved: every leg vector of B is exactly a combination of those of A, and det A = {} is not zero; forward kinematics of both, solved \
+                "proved: every leg vector of B is exactly a combination of those of A, and {} is not zero; forward kinematics of both, solved \
                  independently, agrees at {n} of {n} sets of lengths, {}; worst distance of matched poses {:.1e}{}",
-                v.map.determinant_exact.as_deref().unwrap_or_default(),
+                exact_determinant(v),
                 lists_proved(v),
                 v.worst_distance(),
                 set_aside(v)
@@ -249,6 +251,18 @@ impl Verification {
     pub fn beyond_precision(&self) -> [usize; 2] {
         let count = |of: fn(&Sample) -> usize| self.samples.iter().map(of).sum();
         [count(|s| s.matching.beyond_a.len()), count(|s| s.matching.beyond_b.len())]
+    }
+}
+
+/// `det A` as an exact number where that is short, otherwise rounded.
+fn exact_determinant(v: &Verification) -> String {
+    match v.map.determinant_exact.as_deref() {
+        Some(exact) if exact.len() <= SHORT => format!("det A = {exact}"),
+        Some(exact) => {
+            let digits = exact.chars().filter(char::is_ascii_digit).count();
+            format!("det A = {:.6} (an exact number of {digits} digits)", v.map.determinant)
+        }
+        None => format!("det A = {:.6}", v.map.determinant),
     }
 }
 
