@@ -221,7 +221,7 @@ fn the_page_of_a_run_is_that_of_the_command_report() {
     assert_eq!(String::from_utf8(again.stdout).unwrap().trim(), out.join("report.html").to_str().unwrap());
     assert_eq!(first, read(&out, "report.html"));
     // the verdict, both designs, both pictures, and no reference to anything outside the folder
-    assert!(first.contains("</span> equivalent</strong>: the leg map is regular"));
+    assert!(first.contains("</span> equivalent</strong>: proved: every leg vector of B is exactly"));
     assert_eq!(
         (first.matches("<section class=\"card\"><h3>").count(), first.matches("<figure").count()),
         (2, 2)
