@@ -154,12 +154,13 @@ fn text(name: &str, base: &[Joint], platform: &[Joint]) -> String {
     let place = |list: &[Joint], k: usize| list.iter().position(|p| *p == list[k]).unwrap_or(k);
     let legs: Vec<String> =
         (0..base.len()).map(|k| format!("[\"B{}\", \"P{}\"]", place(base, k), place(platform, k))).collect();
-    out += &format!("legs = [{}]\n", legs.join(", "));
+    out = [out, "legs = [".to_owned(), legs.join(", "), "]\n".to_owned()].concat();
     for (table, letter, list) in [("base", 'B', base), ("platform", 'P', platform)] {
-        out += &format!("[{table}]\n");
+        out = [&out, "[", table, "]\n"].concat();
         for k in (0..list.len()).filter(|k| place(list, *k) == *k) {
             let [x, y, z] = &list[k];
-            out += &format!("{letter}{k} = [\"{x}\", \"{y}\", \"{z}\"]\n");
+            let line = format!("{letter}{k} = [\"{x}\", \"{y}\", \"{z}\"]\n");
+            out.push_str(&line);
         }
     }
     out

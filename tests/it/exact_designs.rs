@@ -162,7 +162,9 @@ fn poses_of_exact_designs_are_certified_and_counted_and_rounded_joints_are_anoth
     let m = exact.manipulator();
     let names = |body: &str| -> Vec<String> { (0..6).map(|i| format!("{body}{i}")).collect() };
     let list = |names: &[String], joints: &[nalgebra::Point3<f64>]| -> String {
-        names.iter().zip(joints).map(|(n, p)| format!("{n} = [{:?}, {:?}, {:?}]\n", p.x, p.y, p.z)).collect()
+        let line =
+            |(n, p): (&String, &nalgebra::Point3<f64>)| format!("{n} = [{:?}, {:?}, {:?}]\n", p.x, p.y, p.z);
+        names.iter().zip(joints).map(line).collect::<Vec<_>>().concat()
     };
     let pairs: Vec<String> = m.pairs().iter().map(|(a, b)| format!("[\"A{a}\", \"B{b}\"]")).collect();
     let text = format!(
