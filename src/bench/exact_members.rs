@@ -33,9 +33,8 @@ fn between(p: &Coordinates, q: &Coordinates, t: &Surd) -> Option<Coordinates> {
     Some([one(0)?, one(1)?, one(2)?])
 }
 
-fn zip(base: [Coordinates; 6], platform: [Coordinates; 6]) -> [ExactEnds; 6] {
-    let mut platform = platform.into_iter();
-    base.map(|a| [a, platform.next().unwrap_or_else(|| [Surd::zero(), Surd::zero(), Surd::zero()])])
+fn zip(base: &[Coordinates; 6], platform: &[Coordinates; 6]) -> [ExactEnds; 6] {
+    std::array::from_fn(|i| [base[i].clone(), platform[i].clone()])
 }
 
 /// Octahedral legs `P1P4, P2P4, P2P5, P3P5, P3P6, P1P6`; the end of leg `i` that differs from leg `i + 1` is moved towards the
@@ -81,7 +80,7 @@ pub(super) fn images(rng: &mut Rng, map: impl FnOnce(&mut Rng) -> PlaneMap) -> E
         Some([row(&map[0], &map[1], p)?, row(&map[2], &map[3], p)?, Surd::zero()])
     };
     let platform: Vec<Coordinates> = base.iter().map(image).collect::<Option<_>>()?;
-    Some(zip(base, platform.try_into().ok()?))
+    Some(zip(&base, &platform.try_into().ok()?))
 }
 
 /// `((1 - q^2) / (1 + q^2), 2 q / (1 + q^2))`: cosine and sine of twice the angle with tangent `q`.
@@ -101,7 +100,7 @@ pub(super) fn collinear(rng: &mut Rng) -> ExactMember {
     let (mut base, mut platform) = (body(), body());
     base[2] = between(&base[0], &base[1], &number(rng, -1.0, 2.0))?;
     platform[5] = between(&platform[3], &platform[4], &number(rng, -1.0, 2.0))?;
-    Some(zip(base, platform))
+    Some(zip(&base, &platform))
 }
 
 /// Pairs of joints on circles of radius 1 and `radius` with half the angle of a pair in `[5, 25]` degrees, threefold symmetric, base pairs between platform pairs.

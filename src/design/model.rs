@@ -242,6 +242,9 @@ impl Design {
     /// The constructions have been resolved, and the coordinates of the manipulator follow from them.
     pub(super) fn set_constructions(&mut self, constructions: Constructions) {
         self.constructions = constructions;
+        if !self.constructions.any_joint() {
+            return; // the doubles as written
+        }
         let points = Body::BOTH.map(|body| self.exact_points(body));
         let whole = |list: &[RealPoint]| list.iter().map(exact_point).collect::<Option<Vec<_>>>();
         let exact = match points.each_ref().map(|list| whole(list)) {

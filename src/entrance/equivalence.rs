@@ -125,18 +125,29 @@ pub fn verify_with(a: &Design, b: &Design, options: VerifyOptions<'_>) -> Result
         VerifyError::Cancelled => Error::Cancelled,
         other => other.into(),
     })?;
-    Ok(match exact_map(a, b) {
-        Some(map) => found.with_exact_map(&map),
-        None => found,
-    })
+    Ok(verified_exactly(found, a, b))
 }
 
 /// The leg map between the joints as the designs say them, where one of them has constructions, all joints are known exactly and the map exists exactly.
-pub(crate) fn exact_map(from: &Design, to: &Design) -> Option<ExactMap> {
+fn exact_map(from: &Design, to: &Design) -> Option<ExactMap> {
     if !(from.is_constructed() || to.is_constructed()) {
         return None; // doubles decide as well
     }
     ExactMap::between(&from.manipulator().exact_ends()?, &to.manipulator().exact_ends()?).ok()
+}
+
+/// What was found of the map between two designs, with what their exact joints say of it.
+pub(crate) fn decided_exactly(found: LegMapOutcome, from: &Design, to: &Design) -> LegMapOutcome {
+    match exact_map(from, to) {
+        Some(map) => found.decided_exactly(&map),
+        None => found,
+    }
+}
+
+/// The same of a verification.
+pub(crate) fn verified_exactly(mut found: Verification, a: &Design, b: &Design) -> Verification {
+    found.map = decided_exactly(found.map, a, b);
+    found
 }
 
 /// The affine map between the squared leg lengths of two platforms, `s(to) = A s(from) + c`, or which legs have none.
@@ -146,10 +157,7 @@ pub(crate) fn exact_map(from: &Design, to: &Design) -> Option<ExactMap> {
 pub fn leg_map(from: &Design, to: &Design) -> Result<LegMapOutcome, Error> {
     same_units(from, to)?;
     let found = crate::synthesis::leg_map(from.manipulator(), to.manipulator(), LegMapTolerances::default())?;
-    Ok(match exact_map(from, to) {
-        Some(map) => found.decided_exactly(&map),
-        None => found,
-    })
+    Ok(decided_exactly(found, from, to))
 }
 
 fn same_units(a: &Design, b: &Design) -> Result<(), Error> {

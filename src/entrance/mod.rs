@@ -16,7 +16,7 @@ pub(crate) mod optimizing;
 mod solving;
 
 #[cfg(all(feature = "files", feature = "synthesis"))]
-pub(crate) use equivalence::{SAMPLES, exact_map, sample_plan};
+pub(crate) use equivalence::{SAMPLES, decided_exactly, sample_plan, verified_exactly};
 #[cfg(all(feature = "files", feature = "synthesis"))]
 pub use equivalence::{VerifyOptions, leg_map, verify, verify_with};
 pub use error::Error;

@@ -187,13 +187,6 @@ pub struct Verification {
 }
 
 impl Verification {
-    /// The same with the exact map of the joints that the two designs say.
-    #[cfg(feature = "files")]
-    #[must_use]
-    pub(crate) fn with_exact_map(self, map: &crate::synthesis::exact_map::ExactMap) -> Self {
-        Self { map: self.map.decided_exactly(map), ..self }
-    }
-
     /// Whether the map was proved: an identity of leg vectors that was checked in exact arithmetic, on exact joints.
     #[must_use]
     pub fn proved(&self) -> bool {

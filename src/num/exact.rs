@@ -143,6 +143,15 @@ pub(crate) fn nearest(x: &Rational) -> f64 {
     if *x < zero() { -scaled } else { scaled }
 }
 
+/// An upper bound of how far a double is from the numbers between `low` and `high`; zero where they are the double.
+pub(crate) fn farthest(double: f64, low: &Rational, high: &Rational) -> f64 {
+    let Some(double) = rational(double) else { return f64::INFINITY };
+    let modulus = |x: Rational| if x < zero() { -x } else { x };
+    let far = modulus(&double - low).max(modulus(high - &double));
+    // the approximation is off by one unit in the last place at most
+    if far == zero() { 0.0 } else { approximate(&far).next_up().next_up() }
+}
+
 /// The value as a double, within one unit in the last place; overflow gives an infinity, underflow zero.
 pub(crate) fn approximate(x: &Rational) -> f64 {
     let (n, d) = (x.numer(), x.denom());

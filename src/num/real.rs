@@ -6,7 +6,7 @@ use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
 use thiserror::Error;
 
-use super::exact::{Rational, approximate, nearest};
+use super::exact::{Rational, farthest, nearest};
 use super::surd::Surd;
 
 /// Bits to which the ends of an enclosure are rounded outward.
@@ -115,12 +115,7 @@ impl RealNumber {
     pub(crate) fn distance_from(&self, double: f64) -> f64 {
         match self {
             Self::Exact(x) => x.distance_from(double),
-            Self::Within(e) => {
-                let Some(double) = super::exact::rational(double) else { return f64::INFINITY };
-                let far = (&double - &e.low).abs().max((&e.high - &double).abs());
-                // the approximation is off by one unit in the last place at most
-                approximate(&far).next_up().next_up()
-            }
+            Self::Within(e) => farthest(double, &e.low, &e.high),
         }
     }
 

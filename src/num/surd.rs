@@ -12,7 +12,7 @@ use num_bigint::BigInt;
 use num_integer::Integer as _;
 use num_traits::{One, Signed, Zero};
 
-use super::exact::{Rational, approximate, nearest, rational};
+use super::exact::{Rational, farthest, nearest};
 
 /// Most terms of a sum: the degree of a field with four square roots.
 const MAX_TERMS: usize = 16;
@@ -215,11 +215,8 @@ impl Surd {
 
     /// An upper bound of how far it is from a finite double; zero where it is the double.
     pub(crate) fn distance_from(&self, double: f64) -> f64 {
-        let Some(double) = rational(double) else { return f64::INFINITY };
         let (low, high) = self.between(160);
-        let far = (&double - &low).abs().max((&high - &double).abs());
-        // the approximation is off by one unit in the last place at most
-        if far.is_zero() { 0.0 } else { approximate(&far).next_up().next_up() }
+        farthest(double, &low, &high)
     }
 
     /// All conjugates are below two to this power.

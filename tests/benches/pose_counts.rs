@@ -149,21 +149,24 @@ fn quotient(m: &[String], p: &Joint, spatial: bool) -> Joint {
 }
 
 fn text(name: &str, base: &[Joint], platform: &[Joint]) -> String {
-    let mut out = format!("name = \"{name}\"\nunits = \"m\"\n");
     // equal joints are one joint, and two legs never join the same two
     let place = |list: &[Joint], k: usize| list.iter().position(|p| *p == list[k]).unwrap_or(k);
     let legs: Vec<String> =
         (0..base.len()).map(|k| format!("[\"B{}\", \"P{}\"]", place(base, k), place(platform, k))).collect();
-    out = [out, "legs = [".to_owned(), legs.join(", "), "]\n".to_owned()].concat();
-    for (table, letter, list) in [("base", 'B', base), ("platform", 'P', platform)] {
-        out = [&out, "[", table, "]\n"].concat();
-        for k in (0..list.len()).filter(|k| place(list, *k) == *k) {
+    let joints = |letter: char, list: &[Joint]| {
+        let own = (0..list.len()).filter(|k| place(list, *k) == *k);
+        let line = |k: usize| {
             let [x, y, z] = &list[k];
-            let line = format!("{letter}{k} = [\"{x}\", \"{y}\", \"{z}\"]\n");
-            out.push_str(&line);
-        }
-    }
-    out
+            format!("{letter}{k} = [\"{x}\", \"{y}\", \"{z}\"]")
+        };
+        own.map(line).collect::<Vec<_>>().join("\n")
+    };
+    format!(
+        "name = \"{name}\"\nunits = \"m\"\nlegs = [{}]\n[base]\n{}\n[platform]\n{}\n",
+        legs.join(", "),
+        joints('B', base),
+        joints('P', platform)
+    )
 }
 
 /// A linear congruential generator (Knuth's MMIX constants).

@@ -8,7 +8,7 @@ use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::output::Answer;
-use crate::entrance::{SAMPLES, exact_map, sample_plan};
+use crate::entrance::{SAMPLES, sample_plan, verified_exactly};
 use crate::equivalence::{Verdict, VerifyError, verify};
 use crate::fk::FkOptions;
 use crate::records::{SampleRecord, VerifyAnswer};
@@ -54,10 +54,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let plan = sample_plan(&a, args.samples, context.seed());
     let options = FkOptions { seed: context.seed(), ..FkOptions::default() };
     let found = verify(a.manipulator(), &second.manipulator, &plan, &options).map_err(|e| failure_of(&e))?;
-    let found = match exact_map(&a, &b).filter(|_| second.is_given()) {
-        Some(map) => found.with_exact_map(&map),
-        None => found,
-    };
+    let found = if second.is_given() { verified_exactly(found, &a, &b) } else { found };
     let record = VerifyAnswer::new(&found, &plan, second.record());
     let text = second.text() + &text(&record, &a.name, &b.name);
     Ok(Answer::new(exit_of(&found.verdict), record, text))

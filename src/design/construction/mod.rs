@@ -220,9 +220,14 @@ impl Constructions {
         }
     }
 
+    /// Whether a joint is given by other than three numbers.
+    pub(super) fn any_joint(&self) -> bool {
+        self.joints.iter().flatten().any(Option::is_some)
+    }
+
     /// Whether nothing is said beside three numbers a joint.
     pub(super) fn is_empty(&self) -> bool {
-        self.parameters.is_empty() && self.joints.iter().flatten().all(Option::is_none)
+        self.parameters.is_empty() && !self.any_joint()
     }
 
     /// The exact coordinates, those of the doubles where the body has no constructions.

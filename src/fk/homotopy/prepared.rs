@@ -43,19 +43,18 @@ impl PreparedHomotopy {
         if found.roots.is_empty() || found.solution_set != SolutionSet::Isolated {
             return None;
         }
-        let mut count = None;
-        let mut theorem = Theorem::SixLegs;
-        if let Completeness::Proved { theorem: proved } = found.completeness {
-            theorem = proved;
-        } else {
-            if o.pose_count == PoseCounting::Never {
-                return None;
+        let (theorem, count) = match found.completeness {
+            Completeness::Proved { theorem } => (theorem, None),
+            _ if o.pose_count == PoseCounting::Never => return None,
+            _ => {
+                let options = CountOptions { seed: o.seed, ..CountOptions::default() };
+                let generic = count_generic_poses(m, &options);
+                if judge(&mut found.clone(), &generic).ok()? != RealityJudgement::Complete {
+                    return None;
+                }
+                (Theorem::SixLegs, Some(generic))
             }
-            let options = CountOptions { seed: o.seed, ..CountOptions::default() };
-            let generic = count_generic_poses(m, &options);
-            let confirmed = judge(&mut found.clone(), &generic).ok()? == RealityJudgement::Complete;
-            count = confirmed.then_some(Some(generic))?;
-        }
+        };
         let poses: Option<Vec<[Complex64; 8]>> = found.roots.iter().map(|r| r.dual_quaternion).collect();
         let poses = poses?;
         let flat = ScaledFrames::planar(m, &from).and_then(|frame| {

@@ -229,6 +229,12 @@ fn rotation_gradient(d: &[f64; 3], c: &[f64; 3], s: f64, v: &[f64; 4], e: &[f64]
     ]
 }
 
+/// How far `F_i` changes when `T_i` does by row sums of `tau` at most.
+fn width_of_value(tau: f64, e: f64, v: f64) -> f64 {
+    let omega = tau * e;
+    2.0 * omega * (v + omega)
+}
+
 impl LegSystem {
     /// Scales the data by a power of two, exactly, so that they are of order one.
     pub(super) fn new(m: &Manipulator, s: &SquareData) -> Result<Self, WhyUncertified> {
@@ -340,16 +346,14 @@ impl LegSystem {
         self.q[i] = (own + self.joint_width_of_second_order(i)) * UP;
     }
 
-    /// [`joint_width_of_value`](Self::joint_width_of_value) where the low parts of the joints are part of the data.
-    pub(super) fn low_joint_width_of_value(&self, i: usize, e: f64, v: f64) -> f64 {
-        let omega = self.low_turn_radius[i] * e;
-        2.0 * omega * (v + omega)
-    }
-
     /// How far `F_i` changes over the joints' radii at a point with coordinates `e` of modulus at most `e` and a leg vector of norm at most `v`.
     pub(super) fn joint_width_of_value(&self, i: usize, e: f64, v: f64) -> f64 {
-        let omega = self.turn_radius[i] * e;
-        2.0 * omega * (v + omega)
+        width_of_value(self.turn_radius[i], e, v)
+    }
+
+    /// The same where the low parts of the joints are part of the data.
+    pub(super) fn low_joint_width_of_value(&self, i: usize, e: f64, v: f64) -> f64 {
+        width_of_value(self.low_turn_radius[i], e, v)
     }
 
     /// The same of the gradient of `F_i`: a bound of the sum over all eight coordinates.

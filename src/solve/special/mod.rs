@@ -66,7 +66,8 @@ pub(crate) fn special_position(m: &Manipulator, seed: u64) -> Option<SpecialPosi
     let inversions = |rng: &mut Rng| planes::inversions(&residues, &ends, planes.as_ref()?, butterflies, rng);
     let found = PointsAtInfinity { butterflies, inversions: inversions(&mut rng).unwrap_or(0) };
     // a set that is finite modulo a prime is finite
-    let isolated = found.weight() > 0 && points_at_infinity(&split, &ends, &mut rng).is_some();
+    let isolated =
+        found.weight() > 0 && points_at_infinity(split.field(), &residues.ends, &mut rng).is_some();
     Some(SpecialPosition {
         on_a_line: lines::most(&lines),
         affine_hexagons,

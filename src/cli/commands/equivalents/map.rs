@@ -8,7 +8,7 @@ use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::output::Answer;
-use crate::entrance::exact_map;
+use crate::entrance::decided_exactly;
 use crate::records::{CorrespondenceRecord, MapAnswer, MapRecord};
 use crate::synthesis::{LegCorrespondence, LegMapTolerances, Relation, leg_map};
 
@@ -30,10 +30,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let second = args.frames.apply(&from, &to, context)?;
     let outcome = leg_map(from.manipulator(), &second.manipulator, LegMapTolerances::default())
         .map_err(|e| Failure::new(Exit::Inconclusive, "map::breakdown", e.to_string()))?;
-    let outcome = match exact_map(&from, &to).filter(|_| second.is_given()) {
-        Some(map) => outcome.decided_exactly(&map),
-        None => outcome,
-    };
+    let outcome = if second.is_given() { decided_exactly(outcome, &from, &to) } else { outcome };
     let exit = match (outcome.relation, second.refuted()) {
         (Relation::Equivalent, _) => Exit::Yes,
         (Relation::Unrelated, Some(false)) | (Relation::Undecided, _) => Exit::Inconclusive,

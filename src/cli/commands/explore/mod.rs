@@ -21,7 +21,7 @@ use crate::cli::poses;
 use crate::cli::progress::{Interrupt, ProgressLine};
 use crate::design::Design;
 use crate::entrance::optimizing::EXTENSION;
-use crate::entrance::{SAMPLES, exact_map, sample_plan};
+use crate::entrance::{SAMPLES, sample_plan, verified_exactly};
 use crate::equivalence::{Verification, verify};
 use crate::fk::{self, FkOptions, FkSolutions, PoseCounting};
 use crate::geom::SamplePlan;
@@ -201,10 +201,7 @@ fn verification(
     let plan = sample_plan(design, samples, options.seed);
     let found = verify(design.manipulator(), new.manipulator(), &plan, options)
         .map_err(|e| verify_command::failure_of(&e))?;
-    let found = match exact_map(design, new) {
-        Some(map) => found.with_exact_map(&map),
-        None => found,
-    };
+    let found = verified_exactly(found, design, new);
     let record = VerifyAnswer::new(&found, &plan, FramesRecord::default());
     let explanation = record.explanation.clone();
     folder.write(folder::VERIFY, &document(record, provenance.clone(), &[])?)?;
