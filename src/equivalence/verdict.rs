@@ -190,7 +190,7 @@ impl Verification {
     /// Whether the map was proved: an identity of leg vectors that was checked in exact arithmetic, on exact joints.
     #[must_use]
     pub fn proved(&self) -> bool {
-        self.map.determinant_exact.is_some()
+        self.map.exact_numbers.is_some()
     }
 
     /// One sentence with the numbers that decided.
@@ -249,7 +249,7 @@ impl Verification {
 
 /// `det A` as an exact number where that is short, otherwise rounded.
 fn exact_determinant(v: &Verification) -> String {
-    match v.map.determinant_exact.as_deref() {
+    match v.map.exact_numbers.as_ref().map(|numbers| &numbers.determinant) {
         Some(exact) if exact.len() <= SHORT => format!("det A = {exact}"),
         Some(exact) => {
             let digits = exact.chars().filter(char::is_ascii_digit).count();

@@ -40,6 +40,15 @@ pub struct MapRecord {
     pub determinant: Number,
     /// The determinant as an exact number, such as 64/243, where the identity of leg vectors was checked in exact arithmetic on exact joints; null elsewhere.
     pub det_exact: Option<String>,
+    /// Rows of A as exact numbers; null where `det_exact` is.
+    #[serde(rename = "A_exact")]
+    pub matrix_exact: Option<[[String; 6]; 6]>,
+    /// The constant terms as exact numbers; null where `det_exact` is.
+    #[serde(rename = "c_exact")]
+    pub constants_exact: Option<[String; 6]>,
+    /// For each leg of TO whose row of A is 1 - t and t beside zeros (its ends on edges of FROM at the share t), the t at which det A vanishes while the other legs stay, as an exact number;
+    /// null for other legs and where there is none; null as a whole where `det_exact` is.
+    pub singular_shares: Option<[Option<String>; 6]>,
     /// The largest of the residuals.
     pub residual: Number,
     /// Relative distance of each leg of TO from the span of the legs of FROM.
@@ -73,14 +82,17 @@ pub(super) fn matrix(map: &AffineLegMap) -> [[Number; 6]; 6] {
 
 impl From<&LegMapOutcome> for MapRecord {
     fn from(o: &LegMapOutcome) -> Self {
-        let c: [f64; 6] = o.closest.c.into();
+        let (c, exact): ([f64; 6], _) = (o.closest.c.into(), o.exact_numbers.as_ref());
         Self {
             relation: o.relation.decided(),
             explanation: o.explanation(),
             matrix: matrix(&o.closest),
             constants: c.map(Number),
             determinant: Number(o.determinant),
-            det_exact: o.determinant_exact.clone(),
+            det_exact: exact.map(|numbers| numbers.determinant.clone()),
+            matrix_exact: exact.map(|numbers| numbers.a.clone()),
+            constants_exact: exact.map(|numbers| numbers.c.clone()),
+            singular_shares: exact.map(|numbers| numbers.singular_shares.clone()),
             residual: Number(o.residual),
             residuals: o.residuals.map(Number),
             leg_rank: o.leg_rank,

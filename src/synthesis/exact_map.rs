@@ -59,6 +59,25 @@ impl ExactMap {
         if holds { Ok(map) } else { Err(NoExactMap::TooLong) }
     }
 
+    /// The share `t` for which the determinant vanishes when row `i` is `1 - t` and `t` beside zeros: `det A` is affine in `t`.
+    pub(crate) fn singular_share(&self, i: usize) -> Option<Surd> {
+        let (zero, one) = (Surd::zero(), Surd::integer(1));
+        let filled: Vec<usize> = (0..6).filter(|k| self.a[i][*k] != zero).collect();
+        let (first, second) = match filled[..] {
+            [j, k] if self.a[i][j].plus(&self.a[i][k])? == one => (j, k),
+            _ => return None,
+        };
+        // in the circulant order of the legs a leg has its own number first
+        let (own, other) = if second == i { (second, first) } else { (first, second) };
+        let at = |k: usize| {
+            let mut a = self.a.clone();
+            a[i] = (0..6).map(|l| Surd::integer(i64::from(l == k))).collect();
+            determinant(&a)
+        };
+        let start = at(own)?;
+        start.times(&start.minus(&at(other)?)?.inverse()?)
+    }
+
     /// Whether every vector of TO is the sum that `A` says, entry by entry.
     fn holds(&self, old: &[Vec<Surd>], new: &[Vec<Surd>]) -> Option<bool> {
         for (row, w) in self.a.iter().zip(new) {
@@ -143,6 +162,12 @@ mod tests {
             let d = Surd::integer(if k % 2 == 0 { 144 } else { 36 });
             let c = t[k].times(&one.minus(&t[k]).unwrap()).unwrap().times(&d).unwrap().negated();
             assert_eq!(map.c[k], c);
+            // (1 - x) prod (1 - t) = x prod t over the other legs
+            let others =
+                |f: &dyn Fn(&Surd) -> Surd| product((0..6).filter(|l| *l != k).map(|l| f(&t[l])).collect());
+            let (stay, pass) = (others(&|t| one.minus(t).unwrap()), others(&Surd::clone));
+            let singular = stay.times(&stay.plus(&pass).unwrap().inverse().unwrap()).unwrap();
+            assert_eq!(map.singular_share(k), Some(singular));
         }
     }
 

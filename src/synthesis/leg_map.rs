@@ -1,5 +1,7 @@
 //! Affine maps between the squared leg lengths of two platforms: `s(TO) = A s(FROM) + c`.
 
+use std::array::from_fn;
+
 use nalgebra::{Matrix6, Vector6};
 use thiserror::Error;
 
@@ -201,11 +203,25 @@ pub struct LegMapOutcome {
     /// Whether the map is exact: every leg vector of TO lies in the span of those of FROM as rational numbers, not within a tolerance. Looked at
     /// only where doubles do not decide.
     pub exact: bool,
-    /// `det A` as an exact number, such as `64/243` or `1/2 + sqrt(3)/6`, where the joints of both designs are known exactly and the identity of their leg vectors
+    /// The map in exact numbers, where the joints of both designs are known exactly and the identity of their leg vectors
     /// was checked in exact arithmetic; `None` where it was not looked at, and where it does not hold.
-    pub determinant_exact: Option<String>,
+    pub exact_numbers: Option<ExactNumbers>,
     /// The tolerances asked for.
     pub tolerances: LegMapTolerances,
+}
+
+/// A leg map in exact numbers, each as an expression such as `64/243` or `1/2 + sqrt(3)/6`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ExactNumbers {
+    /// `A`, by rows.
+    pub a: [[String; 6]; 6],
+    /// `c`, units squared.
+    pub c: [String; 6],
+    /// `det A`.
+    pub determinant: String,
+    /// For each leg of TO whose row of `A` is `1 - t` and `t` beside zeros, the number `t` for which `det A` vanishes while the other legs stay; `None` for other rows, and where
+    /// there is no such number. A leg end at the share `t` of an edge has such a row.
+    pub singular_shares: [Option<String>; 6],
 }
 
 impl LegMapOutcome {
@@ -226,7 +242,12 @@ impl LegMapOutcome {
             inverse_condition: inverse_condition(&a),
             singular_limit: 0.0,
             exact: true,
-            determinant_exact: Some(map.determinant.to_string()),
+            exact_numbers: Some(ExactNumbers {
+                a: from_fn(|i| from_fn(|j| map.a[i][j].to_string())),
+                c: from_fn(|i| map.c[i].to_string()),
+                determinant: map.determinant.to_string(),
+                singular_shares: from_fn(|i| map.singular_share(i).map(|share| share.to_string())),
+            }),
             ..self
         }
     }
@@ -261,21 +282,23 @@ impl LegMapOutcome {
                  the {:.1e} that rounding and the residual {:.1e} leave open",
                 o.inverse_condition, o.singular_limit, o.residual
             ),
-            Relation::Equivalent if o.determinant_exact.is_some() => format!(
-                "proved: same poses for corresponding lengths, same singularities, since every leg vector of TO is a combination of those of FROM and \
-                 det A = {} is not zero, both in exact arithmetic on the exact joints",
-                o.determinant_exact.as_deref().unwrap_or_default()
-            ),
-            Relation::Equivalent if o.exact => format!(
-                "same poses for corresponding lengths, same singularities: every leg vector of TO is a combination of those of FROM and both are \
-                 independent, in exact arithmetic; smallest singular value of A {:.3e} of the largest",
-                o.inverse_condition
-            ),
-            Relation::Equivalent => format!(
-                "same poses for corresponding lengths, same singularities: residual {:.1e} (tolerance {:.0e}), smallest \
-                 singular value of A {:.3e} of the largest (limit {:.1e})",
-                o.residual, t.residual, o.inverse_condition, o.singular_limit
-            ),
+            Relation::Equivalent => match &o.exact_numbers {
+                Some(numbers) => format!(
+                    "proved: same poses for corresponding lengths, same singularities, since every leg vector of TO is a combination of those of FROM and \
+                     det A = {} is not zero, both in exact arithmetic on the exact joints",
+                    numbers.determinant
+                ),
+                None if o.exact => format!(
+                    "same poses for corresponding lengths, same singularities: every leg vector of TO is a combination of those of FROM and both are \
+                     independent, in exact arithmetic; smallest singular value of A {:.3e} of the largest",
+                    o.inverse_condition
+                ),
+                None => format!(
+                    "same poses for corresponding lengths, same singularities: residual {:.1e} (tolerance {:.0e}), smallest \
+                     singular value of A {:.3e} of the largest (limit {:.1e})",
+                    o.residual, t.residual, o.inverse_condition, o.singular_limit
+                ),
+            },
         }
     }
 
@@ -376,7 +399,7 @@ pub(super) fn leg_map_to_legs(
         inverse_condition,
         singular_limit: tolerances.singular.max(error),
         exact: false,
-        determinant_exact: None,
+        exact_numbers: None,
         tolerances,
     };
     // the span itself is known to `rounding` only

@@ -32,7 +32,8 @@ pub use family::{Family, FamilyCounts, FamilyMember, FamilyTopology};
 pub use hexagon::{HexagonPoint, JointLabel, Offset, edge_lengths, offsets_from_distances, sliding_body};
 pub(crate) use hexagon::{HexagonSide, corner, edge, sides};
 pub use leg_map::{
-    AffineLegMap, LegMapOutcome, LegMapTolerances, NotRealizable, Relation, SingularMap, leg_map,
+    AffineLegMap, ExactNumbers, LegMapOutcome, LegMapTolerances, NotRealizable, Relation, SingularMap,
+    leg_map,
 };
 pub use leg_vector::{LegSpan, Normalisation, leg_vector};
 pub use moves::{Move, moves, reachable};

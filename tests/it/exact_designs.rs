@@ -80,6 +80,19 @@ fn the_joint_free_platform_of_an_exact_design_is_proved_equivalent() {
         (code, map["det_exact"].as_str(), map["relation"].as_str()),
         (Some(0), Some("48/3125"), Some("equivalent"))
     );
+    assert_eq!(
+        (&map["A_exact"][0], &map["c_exact"][0]),
+        (&serde_json::json!(["4/5", "1/5", "0", "0", "0", "0"]), &"-576/25".into())
+    );
+    // (1 - x) 0.6 0.4 0.8 0.6 0.2 = x 0.4 0.6 0.2 0.4 0.8
+    assert_eq!(map["singular_shares"][0], "9/14");
+    let table = Command::new(env!("CARGO_BIN_EXE_equipod"))
+        .args(["equivalents", "map", "octahedral.toml", "free.toml"])
+        .current_dir(folder.path())
+        .output()
+        .unwrap();
+    let row = "s1' = 4/5 s1 + 1/5 s2 - 576/25    (det A = 0 with t = 9/14 in this row)";
+    assert!(String::from_utf8(table.stdout).unwrap().contains(row));
     let (code, verified) = run(folder.path(), &["verify", "octahedral.toml", "free.toml", "--samples", "2"]);
     assert_eq!((code, verified["proved"].as_bool()), (Some(0), Some(true)), "{verified}");
     assert_eq!(verified["map"]["det_exact"], "48/3125");
@@ -97,6 +110,7 @@ fn the_joint_free_platform_of_an_exact_design_is_proved_equivalent() {
     std::fs::write(folder.path().join("rounded.toml"), rounded).unwrap();
     let (_, map) = run(folder.path(), &["equivalents", "map", "rounded.toml", "free.toml"]);
     assert_eq!((map["det_exact"].as_str(), map["relation"].as_str()), (None, Some("unrelated")));
+    assert!(map["A_exact"].is_null() && map["singular_shares"].is_null());
 }
 
 #[test]

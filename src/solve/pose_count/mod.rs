@@ -12,7 +12,7 @@ mod quotient;
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::num::Purpose;
 use crate::num::modular::Field;
-pub(crate) use infinity::points_at_infinity;
+pub(crate) use infinity::are_points_at_infinity_finite;
 use joints::{CountedJoints, DrawnPrime, EndResidues};
 use quadrics::{COORDINATES, Cut, Linear, QuadricPart, cut};
 use quotient::{Outcome, close};

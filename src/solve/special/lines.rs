@@ -27,20 +27,20 @@ pub(super) fn lines(residues: &Residues, ends: &[ExactEnds; 6], body: usize) -> 
     let mut out: Vec<Members> = Vec::new();
     for j in 0..6 {
         for i in 0..j {
-            if ends[i][body] == ends[j][body] {
+            let pair = 1 << i | 1 << j;
+            // two different ends are on one line
+            if out.iter().any(|line| line & pair == pair) || ends[i][body] == ends[j][body] {
                 continue;
             }
             let on = |k: usize| {
                 let near = collinear_modulo(field, &[i, j, k].map(|l| residues.ends[l][body]));
                 if near { collinear(&[i, j, k].map(|l| &ends[l][body])) } else { Some(false) }
             };
-            let mut members = 0;
-            for k in 0..6 {
+            let mut members = pair;
+            for k in (0..6).filter(|k| *k != i && *k != j) {
                 members |= Members::from(on(k)?) << k;
             }
-            if !out.contains(&members) {
-                out.push(members);
-            }
+            out.push(members);
         }
     }
     Some(out)

@@ -21,7 +21,7 @@ use crate::num::split::SplitField;
 use crate::num::surd::Surd;
 use crate::num::{Purpose, Rng};
 
-use super::pose_count::points_at_infinity;
+use super::pose_count::are_points_at_infinity_finite;
 
 /// Points at infinity common to all legs, whatever the lengths, and isolated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -67,7 +67,7 @@ pub(crate) fn special_position(m: &Manipulator, seed: u64) -> Option<SpecialPosi
     let found = PointsAtInfinity { butterflies, inversions: inversions(&mut rng).unwrap_or(0) };
     // a set that is finite modulo a prime is finite
     let isolated =
-        found.weight() > 0 && points_at_infinity(split.field(), &residues.ends, &mut rng).is_some();
+        found.weight() > 0 && are_points_at_infinity_finite(split.field(), &residues.ends, &mut rng);
     Some(SpecialPosition {
         on_a_line: lines::most(&lines),
         affine_hexagons,

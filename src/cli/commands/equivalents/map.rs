@@ -76,10 +76,38 @@ pub(super) fn table(r: &MapRecord, from: &str, to: &str) -> String {
     }
     let _ = writeln!(text, "\ndet A = {}", r.determinant.0);
     if let Some(exact) = &r.det_exact {
-        let _ = writeln!(
-            text,
-            "      = {exact} exactly; A and c hold exactly for the joints as the designs say them"
-        );
+        let _ = writeln!(text, "      = {exact} exactly");
+    }
+    text.push_str(&exact_rows(r));
+    text
+}
+
+/// Longest number of a row that is written out: the decimals of an optimised offset take a line each.
+const WRITTEN: usize = 24;
+
+/// The map in exact numbers, a formula a leg.
+fn exact_rows(r: &MapRecord) -> String {
+    let (Some(a), Some(c), Some(shares)) = (&r.matrix_exact, &r.constants_exact, &r.singular_shares) else {
+        return String::new();
+    };
+    let mut text = String::from("\nexactly, for the joints as the designs say them:\n");
+    if a.iter().flatten().chain(c).any(|x| x.len() > WRITTEN) {
+        text.push_str("  numbers too long for a table; --json has them as A_exact and c_exact\n");
+        return text;
+    }
+    for i in 0..6 {
+        let terms = (0..6).filter(|k| a[i][*k] != "0").map(|k| match a[i][k].as_str() {
+            "1" => format!("s{}", k + 1),
+            "-1" => format!("-s{}", k + 1),
+            number if number.contains(' ') => format!("({number}) s{}", k + 1),
+            number => format!("{number} s{}", k + 1),
+        });
+        let constant = (c[i] != "0").then(|| c[i].clone());
+        let row = terms.chain(constant).collect::<Vec<_>>().join(" + ").replace("+ -", "- ");
+        let singular = shares[i].as_ref().filter(|share| share.len() <= WRITTEN);
+        let singular =
+            singular.map_or_else(String::new, |t| format!("    (det A = 0 with t = {t} in this row)"));
+        let _ = writeln!(text, "  s{}' = {row}{singular}", i + 1);
     }
     text
 }
