@@ -16,6 +16,7 @@ mod requirements_tests;
 mod rows;
 mod save;
 mod schema;
+mod table;
 #[cfg(test)]
 mod tests;
 mod toml_text;
@@ -37,6 +38,7 @@ pub use model::{Combination, Design, NameCount, OptimizeTable, SearchTable};
 pub use presets::{PRESETS, Preset, PresetClass};
 pub(crate) use rows::table_rows;
 pub use schema::SCHEMA;
+pub(crate) use table::{InvalidPointTable, InvalidSheet, PointTable, Sheet, SheetRow};
 pub use violation::{Code, Violation, Warning};
 pub use workspace::{Trajectory, Workspace};
 

@@ -1,0 +1,11 @@
+//! Tables of numbers as people have them: exports of spreadsheets, of CAD programs and of scripts.
+//!
+//! Nothing says how such a table is written, so that its form is guessed from its text, and every guess is a sentence that the reader of the answer sees.
+//! What cannot be read is refused; no cell is passed over without a word.
+
+mod points;
+mod sheet;
+mod text;
+
+pub(crate) use points::{InvalidPointTable, PointTable};
+pub(crate) use sheet::{InvalidSheet, Sheet, SheetRow};

@@ -1,0 +1,187 @@
+use super::*;
+
+const BASE: [[f64; 3]; 6] = [
+    [293.444, -62.374, 0.0],
+    [293.444, 62.374, 0.0],
+    [-92.704, 285.317, 0.0],
+    [-200.74, 222.943, 0.0],
+    [-200.74, -222.943, 0.0],
+    [-92.704, -285.317, 0.0],
+];
+const PLATFORM: [[f64; 3]; 6] = [
+    [133.826, -148.629, 0.0],
+    [133.826, 148.629, 0.0],
+    [61.804, 190.211, 0.0],
+    [-195.63, 41.582, 0.0],
+    [-195.63, -41.582, 0.0],
+    [61.804, -190.211, 0.0],
+];
+
+/// The design of the two lists, in a table of six rows with these separators.
+fn six(separator: &str, header: &str, number: fn(f64) -> String) -> String {
+    let mut text = header.to_string();
+    for (a, b) in BASE.iter().zip(PLATFORM) {
+        let cells: Vec<String> = a.iter().chain(&b).map(|x| number(*x)).collect();
+        text.push_str(&cells.join(separator));
+        text.push('\n');
+    }
+    text
+}
+
+fn twelve(row: impl Fn(Body, usize, [String; 3]) -> String) -> String {
+    let of = |body: Body, list: [[f64; 3]; 6]| -> String {
+        list.iter().enumerate().map(|(i, p)| row(body, i, p.map(|x| x.to_string())) + "\n").collect()
+    };
+    of(Body::Base, BASE) + &of(Body::Platform, PLATFORM)
+}
+
+fn read(text: &str) -> PointTable {
+    PointTable::read(text.as_bytes()).unwrap_or_else(|why| panic!("{why}\n{text}"))
+}
+
+fn refusal(text: &str) -> String {
+    PointTable::read(text.as_bytes()).unwrap_err().to_string()
+}
+
+fn is_meant(table: &PointTable) -> bool {
+    let legs: Vec<[[f64; 3]; 2]> =
+        table.legs.iter().map(|l| [l.base.coords.into(), l.platform.coords.into()]).collect();
+    let meant: Vec<[[f64; 3]; 2]> = BASE.iter().zip(PLATFORM).map(|(a, b)| [*a, b]).collect();
+    legs == meant
+}
+
+#[test]
+fn six_rows_of_two_points_are_read_under_all_usual_names() {
+    let plain = |x: f64| x.to_string();
+    let comma = |x: f64| x.to_string().replace('.', ",");
+    for header in [
+        "",
+        "bx,by,bz,px,py,pz\n",
+        "Ax,Ay,Az,Bx,By,Bz\n",
+        "base_x,base_y,base_z,platform_x,platform_y,platform_z\n",
+        "x_base,y_base,z_base,x_platform,y_platform,z_platform\n",
+        "x1 (mm),y1 (mm),z1 (mm),x2 (mm),y2 (mm),z2 (mm)\n",
+        "x,y,z,x,y,z\n",
+        "Lower X,Lower Y,Lower Z,Upper X,Upper Y,Upper Z\n",
+        "# exported\nfirst,second,third,fourth,fifth,sixth\n",
+    ] {
+        assert!(is_meant(&read(&six(",", header, plain))), "{header}");
+    }
+    assert!(is_meant(&read(&six(";", "bx;by;bz;px;py;pz\n", comma))));
+    assert!(is_meant(&read(&six("\t", "", comma))));
+    assert!(is_meant(&read(&six(" ", "", plain))));
+    let utf16: Vec<u8> =
+        [0xfeff].into_iter().chain(six("\t", "", comma).encode_utf16()).flat_map(u16::to_le_bytes).collect();
+    assert!(is_meant(&PointTable::read(&utf16).unwrap()));
+}
+
+#[test]
+fn the_platform_may_come_first_and_the_legs_in_any_order() {
+    let mut rows: Vec<String> = BASE
+        .iter()
+        .zip(PLATFORM)
+        .enumerate()
+        .map(|(i, (a, b))| format!("{},{},{},{},{},{},{}", i + 1, b[0], b[1], b[2], a[0], a[1], a[2]))
+        .collect();
+    rows.reverse();
+    let table = read(&format!("leg,top x,top y,top z,bottom x,bottom y,bottom z\n{}", rows.join("\n")));
+    assert!(is_meant(&table), "{:?}", table.guesses);
+    assert!(table.guesses.iter().any(|g| g.contains("order of their numbers")));
+}
+
+#[test]
+fn twelve_rows_of_one_point_find_their_bodies() {
+    let joined = |p: [String; 3]| p.join(",");
+    let letter = |body: Body, i: usize| format!("{}{}", body.of(("A", "B")), i + 1);
+    for text in [
+        twelve(|_, _, p| joined(p)),
+        twelve(|_, i, p| format!("{},{}", i + 1, joined(p))),
+        twelve(|body, i, p| format!("{},{}", letter(body, i), joined(p))),
+        twelve(|body, _, p| format!("{},{body}", joined(p))),
+        format!("name,x,y,z\n{}", twelve(|body, i, p| format!("{},{}", letter(body, i), joined(p)))),
+        format!(
+            "No;Body;X [mm];Y [mm];Z [mm]\n{}",
+            twelve(|body, i, p| format!("{};{body};{}", i + 1, p.join(";")))
+        ),
+        twelve(|body, i, p| if i == 0 { format!("{body}\nx,y,z\n{}", joined(p)) } else { joined(p) }),
+        twelve(|_, _, p| format!("[{}],", joined(p))),
+        twelve(|body, i, p| {
+            if i == 0 {
+                format!("{body} = [\n[{}],", joined(p))
+            } else {
+                format!("[{}],{}", joined(p), if i == 5 { "]" } else { "" })
+            }
+        }),
+        twelve(|_, _, p| format!("{},{}", p[0], p[1])),
+    ] {
+        let table = read(&text);
+        assert!(is_meant(&table), "{text}\n{:?}", table.guesses);
+        assert!(table.home.is_none());
+    }
+    let (base, platform) = (0..6, 0..6);
+    let swapped: String = platform
+        .map(|i| format!("platform,{},{},0\n", PLATFORM[i][0], PLATFORM[i][1]))
+        .chain(base.map(|i| format!("base,{},{},0\n", BASE[i][0], BASE[i][1])))
+        .collect();
+    assert!(is_meant(&read(&swapped)));
+}
+
+#[test]
+fn names_and_units_of_the_table_are_those_of_the_design() {
+    let text = twelve(|body, i, p| format!("{}{};{}", body.of(("A", "B")), i + 1, p.join(";")));
+    let mut table = read(&format!("joint;x [in];y [in];z [in]\n{text}"));
+    assert_eq!(table.units.as_deref(), Some("in"));
+    let design = table.design("mine", "in").unwrap();
+    assert_eq!(design.base_names(), ["A1", "A2", "A3", "A4", "A5", "A6"]);
+    assert_eq!(design.leg_names()[5], ("A6", "B6"));
+    assert_eq!(design.manipulator().base_joints()[1], Point3::from(BASE[1]));
+}
+
+#[test]
+fn points_of_one_drawing_have_their_home_where_they_stand() {
+    let lifted = twelve(|body, _, p| format!("{},{},{}", p[0], p[1], body.of(("12.5", "412.5"))));
+    let table = read(&lifted);
+    let home = table.home.unwrap();
+    assert_eq!((home.position.z, table.legs[3].platform.z, table.legs[3].base.z), (412.5, 0.0, 12.5));
+    assert!(table.guesses.iter().any(|g| g.contains("above those of the base")), "{:?}", table.guesses);
+}
+
+#[test]
+fn ends_at_one_place_are_one_joint() {
+    let corners = [[0.0, 0.0], [6.0, 10.0], [12.0, 0.0]];
+    let text: String = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)]
+        .map(|(a, b)| {
+            format!("{},{},0,{},{},0\n", corners[a][0], corners[a][1], corners[b][0], -corners[b][1])
+        })
+        .concat();
+    let mut table = read(&text);
+    let design = table.design("octahedral", "mm").unwrap();
+    assert_eq!((design.base_names().len(), design.platform_names().len()), (3, 3));
+    assert_eq!(
+        table.guesses.iter().filter(|g| g.contains("share a joint")).count(),
+        2,
+        "{:?}",
+        table.guesses
+    );
+}
+
+#[test]
+fn what_is_not_twelve_points_is_refused_with_its_reason() {
+    let points = twelve(|_, _, p| p.join(","));
+    let first = |n: usize| points.lines().take(n).collect::<Vec<_>>().join("\n");
+    for (text, part) in [
+        (first(9), "9 rows of one point instead of twelve"),
+        ("1,2,3,4,5,6\n2,3,4,5,6,7\n".into(), "2 rows with both ends of a leg"),
+        (first(11) + "\n1,x,3\n", "line 12, column 2: `x` is not a number"),
+        (format!("x,y,z\n{}\n1,x,3\n", first(11)), "line 13, column 2: `x` is not a number"),
+        (format!("x,y,z\n{}\n1,?,-\n", first(11)), "fewer than two numbers"),
+        (String::new(), "no line has 2 numbers"),
+        (
+            twelve(|_, i, p| format!("{},{}", if i < 4 { "base" } else { "platform" }, p.join(","))),
+            "8 rows are joints of the base",
+        ),
+    ] {
+        let why = refusal(&text);
+        assert!(why.contains(part), "{why}");
+    }
+}
