@@ -14,7 +14,7 @@ use crate::poly::octic_roots;
 /// Relative accuracy asked of the octic's roots before both closures take over.
 const COARSE: f64 = 1e-6;
 /// Newton steps on both closures; from `COARSE` two reach rounding.
-const POLISHES: usize = 3;
+pub(super) const POLISHES: usize = 3;
 /// Pairs closer than this, relative to their size, are left to the general treatment.
 pub(super) const SEPARATE: f64 = 1e-5;
 
@@ -23,7 +23,7 @@ pub(super) type Points = [ComplexBatch; 3];
 const ORIGIN: Points = [ComplexBatch::ZERO; 3];
 
 #[inline(always)]
-fn dot(a: &Points, b: &Points) -> ComplexBatch {
+pub(super) fn dot(a: &Points, b: &Points) -> ComplexBatch {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
@@ -41,16 +41,20 @@ fn horner(c: &[f64; 5], x: ComplexBatch) -> ComplexBatch {
     out
 }
 
-/// The eight pairs `(s15, s34)`, `None` when they are not eight well separated ones.
+/// The eight pairs `(s15, s34)`, and whether these are eight well separated ones, known to rounding.
 #[inline(always)]
-pub(super) fn pairs(first: &Factors, second: &Factors) -> Option<(ComplexBatch, ComplexBatch)> {
+pub(super) fn pairs(
+    first: &Factors,
+    second: &Factors,
+    polishes: usize,
+) -> Option<(ComplexBatch, ComplexBatch, bool)> {
     let (a, b) = (first.expanded(), second.expanded());
     let mut x = octic_roots(&resultant(&a, &b), COARSE)?;
     // the common root of both quadratics in y: y = -(a2 b0 - a0 b2) / (a2 b1 - a1 b2)
     let denominator = horner(&minor(&a, &b, 2, 1), x);
     let mut y = (horner(&minor(&a, &b, 2, 0), x) * denominator.reciprocal()).times(-1.0);
     let mut moved = [0.0; LANES];
-    for _ in 0..POLISHES {
+    for _ in 0..polishes {
         let (f, g) = (first.values(x, y), second.values(x, y));
         let inverse = (f[1] * g[2] - f[2] * g[1]).reciprocal();
         let dx = (f[0] * g[2] - f[2] * g[0]) * inverse;
@@ -66,24 +70,31 @@ pub(super) fn pairs(first: &Factors, second: &Factors) -> Option<(ComplexBatch, 
     for k in 0..LANES {
         settled &= moved[k] <= 1e-20 * (nx[k] + ny[k]);
     }
-    (settled && separate(&x, &y)).then_some((x, y))
+    Some((x, y, settled && separate(&[x, y])))
 }
 
+/// Whether every two lanes are apart, relative to their size.
 #[inline(always)]
-fn separate(x: &ComplexBatch, y: &ComplexBatch) -> bool {
+pub(super) fn separate<const N: usize>(numbers: &[ComplexBatch; N]) -> bool {
     let mut nearest = f64::INFINITY;
     for shift in 1..=LANES / 2 {
         for k in 0..LANES {
             let l = (k + shift) % LANES;
-            let (xr, xi) = (x.re[k] - x.re[l], x.im[k] - x.im[l]);
-            let (yr, yi) = (y.re[k] - y.re[l], y.im[k] - y.im[l]);
-            let size = x.re[k] * x.re[k] + x.im[k] * x.im[k] + y.re[k] * y.re[k] + y.im[k] * y.im[k];
-            let ratio = (xr * xr + xi * xi + yr * yr + yi * yi) / size;
+            let (mut distance, mut size) = (0.0, 0.0);
+            for z in numbers {
+                let (re, im) = (z.re[k] - z.re[l], z.im[k] - z.im[l]);
+                distance += re * re + im * im;
+                size += z.re[k] * z.re[k] + z.im[k] * z.im[k];
+            }
+            let ratio = distance / size;
             nearest = if ratio < nearest || ratio.is_nan() { ratio } else { nearest };
         }
     }
     nearest > SEPARATE * SEPARATE
 }
+
+/// `P4, P5, P6` in the frame of the base triangle, one of the two mirror images, and the pairs `(s15, s34)`.
+pub(super) type Corners = ([Points; 3], ComplexBatch, ComplexBatch);
 
 /// Poses in units of the design, with what is known of their accuracy.
 pub(super) struct Placed {

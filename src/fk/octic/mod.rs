@@ -7,6 +7,7 @@
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
+mod beside;
 mod factors;
 mod lanes;
 mod records;
@@ -77,6 +78,9 @@ impl OcticSolver {
             let certificates = solver.certify(s, found);
             if certificates.complete {
                 return Ok(records::proved(solver, found, &certificates, o.seed));
+            }
+            if let Some(whole) = records::proved_one_by_one(solver, found, &certificates, s, o.seed) {
+                return Ok(whole);
             }
         }
         let (candidates, pairs, unplaced) = match quick {

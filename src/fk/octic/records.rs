@@ -4,9 +4,12 @@ use super::{OcticPoses, OcticSolver};
 use crate::fk::collect::sort_key;
 use crate::fk::evidence::proved as proved_reality;
 use crate::fk::{Completeness, FkRoot, FkSolutions, Method, SolutionSet, Theorem};
+use crate::manipulator::SquaredLegLengths;
 use crate::num::batch::LANES;
-use crate::solve::certify::RootCertificate;
-use crate::solve::certify::octahedral::OctahedralCertificates;
+use crate::solve::certify::octahedral::{OctahedralCertificates, PairCertificate};
+use crate::solve::certify::{
+    Certificate, CertifiedPose, Certifier, Distinctness, NewtonStart, RootCertificate, distinct,
+};
 
 /// The answer for poses all of which are certified and distinct.
 pub(super) fn proved(
@@ -15,20 +18,84 @@ pub(super) fn proved(
     certificates: &OctahedralCertificates,
     seed: u64,
 ) -> FkSolutions {
-    let size = solver.manipulator().size();
-    let mut roots: Vec<FkRoot> = Vec::with_capacity(2 * LANES);
-    let pairs = certificates.pairs.iter().flatten();
-    for ((pair, poses), residuals) in pairs.zip(found.poses.chunks(2)).zip(found.residuals.chunks(2)) {
-        roots.extend(poses.iter().zip(residuals).enumerate().map(|(image, (pose, residual))| FkRoot {
-            pose: *pose,
+    let pairs = certificates.pairs.iter().enumerate();
+    let roots = pairs.filter_map(|(k, pair)| Some(of_pair(solver, found, k, pair.as_ref()?))).flatten();
+    answer(solver, roots.collect(), seed)
+}
+
+/// Both roots of pair `k`.
+fn of_pair(solver: &OcticSolver, found: &OcticPoses, k: usize, pair: &PairCertificate) -> [FkRoot; 2] {
+    [0, 1].map(|image| {
+        let pose = found.poses[2 * k + image];
+        FkRoot {
+            pose,
             reality: proved_reality(pair.reality),
-            certificate: solver.certificate(pair, pose, image == 1).map(RootCertificate::Octahedral),
+            certificate: solver.certificate(pair, &pose, image == 1).map(RootCertificate::Octahedral),
             multiplicity: 1,
-            residual: *residual,
+            residual: found.residuals[2 * k + image],
             condition: pair.condition,
             dual_quaternion: None,
-        }));
+        }
+    })
+}
+
+/// The same where two poses share `(s15, s34)`, so that no pair of distances proves them: these get certificates of their own. `None` unless all sixteen are certified
+/// and distinct.
+pub(super) fn proved_one_by_one(
+    solver: &OcticSolver,
+    found: &OcticPoses,
+    certificates: &OctahedralCertificates,
+    s: &SquaredLegLengths,
+    seed: u64,
+) -> Option<FkSolutions> {
+    let m = solver.manipulator();
+    let certifier = Certifier::new(m, s).ok()?;
+    let mut roots: Vec<FkRoot> = Vec::with_capacity(2 * LANES);
+    let mut pairs: Vec<&PairCertificate> = Vec::with_capacity(LANES);
+    let mut single: Vec<Certificate> = Vec::new();
+    for (k, pair) in certificates.pairs.iter().enumerate() {
+        if let Some(pair) = pair {
+            pairs.push(pair);
+            roots.extend(of_pair(solver, found, k, pair));
+            continue;
+        }
+        for pose in &found.poses[2 * k..2 * k + 2] {
+            let CertifiedPose { pose, certificate } = certifier.root_near(NewtonStart::Pose(pose)).ok()?;
+            single.push(certificate);
+            roots.push(FkRoot {
+                pose,
+                reality: proved_reality(certificate.reality()),
+                certificate: Some(certificate.into()),
+                multiplicity: 1,
+                residual: pose.residual(m, s),
+                condition: 1.0,
+                dual_quaternion: Some(certificate.point()),
+            });
+        }
     }
+    // two poses of a pair are distinct by the theorem of pairs, those of different pairs by their distances
+    let different = |p: &PairCertificate, q: &PairCertificate| {
+        p.squared_distances.iter().zip(&q.squared_distances).any(|(x, y)| x.is_disjoint(y))
+    };
+    let pairs_apart = pairs.iter().enumerate().all(|(i, p)| pairs[..i].iter().all(|q| different(p, q)));
+    let enclosure = |r: &FkRoot| r.certificate.map(|c| *c.enclosure());
+    let by_pair = |r: &&FkRoot| matches!(r.certificate, Some(RootCertificate::Octahedral(_)));
+    let apart = |c: &Certificate| {
+        roots
+            .iter()
+            .filter(by_pair)
+            .filter_map(enclosure)
+            .all(|known| known.discs().zip(c.enclosure().discs()).any(|(x, y)| x.is_disjoint(y)))
+    };
+    let whole = roots.len() == 2 * LANES
+        && pairs_apart
+        && distinct(&single) == Distinctness::AllDistinct
+        && single.iter().all(apart);
+    whole.then(|| answer(solver, roots, seed))
+}
+
+fn answer(solver: &OcticSolver, mut roots: Vec<FkRoot>, seed: u64) -> FkSolutions {
+    let size = solver.manipulator().size();
     roots.sort_by_cached_key(|root| sort_key(root, size));
     FkSolutions {
         method: Method::Octic,

@@ -7,13 +7,13 @@ use num_complex::Complex64;
 
 use super::OcticProblem;
 use super::factors::{Factors, Gram};
-use super::lanes::{Placed, SEPARATE, pairs};
+use super::lanes::{Corners, POLISHES, Placed, SEPARATE, pairs};
 use crate::fk::collect::pose_scale;
 use crate::fk::newton::refine;
 use crate::fk::{FkError, Method};
 use crate::geom::{ComplexPose, reorthogonalised};
 use crate::manipulator::{Manipulator, Octahedral, SquaredLegLengths};
-use crate::num::batch::LANES;
+use crate::num::batch::{ComplexBatch, LANES};
 use crate::solve::certify::octahedral::{
     OctahedralCertificate, OctahedralCertificates, OctahedralCertifier, PairCertificate,
 };
@@ -154,7 +154,7 @@ impl OcticSolver {
     }
 
     /// All sixteen finite complex poses, or `None` where these lengths need the general treatment of
-    /// [`Octic`](super::Octic): coinciding or nearly coinciding roots, roots at infinity, poses whose corners lie in one
+    /// [`Octic`](super::Octic): coinciding or nearly coinciding poses, roots at infinity, poses whose corners lie in one
     /// plane, or a residual above `1e-12`.
     #[must_use]
     pub fn solve(&self, s: &SquaredLegLengths) -> Option<OcticPoses> {
@@ -166,15 +166,23 @@ impl OcticSolver {
         let scale = (self.size * self.size).recip();
         let given = s.get();
         let scaled = self.order.map(|i| given[i] * scale);
-        // legs: s14 s24 s25 s35 s36 s16
-        let [s14, s24, s25, s35, s36, s16] = scaled;
-        let short = self.platform.b * self.platform.b;
-        let first = Factors::new(&self.base_gram, [s25, s35], [s14, s24], short);
-        let second = Factors::new(&self.turned_gram, [s16, s14], [s35, s36], self.base_gram.cc);
-        let (x, y) = pairs(&first, &second)?;
-        let corners = self.corners(&scaled, x, y);
-        let frame = self.frame(&corners);
-        let Placed { mut poses, mut residuals, scales } = self.place(&scaled, &corners[0], &frame);
+        if let Some((x, y, true)) = self.pairs(&scaled, POLISHES) {
+            let found = self.placed(s, &scaled, &(self.corners(&scaled, x, y), x, y));
+            if found.is_some() {
+                return found;
+            }
+        }
+        // where two poses share a pair, or nearly so
+        let beside = self.corners_from_beside(&scaled)?;
+        self.placed(s, &scaled, &beside)
+    }
+
+    /// The poses of corners and pairs, where their residuals are small.
+    #[inline(always)]
+    fn placed(&self, s: &SquaredLegLengths, scaled: &[f64; 6], found: &Corners) -> Option<OcticPoses> {
+        let (corners, x, y) = found;
+        let frame = self.frame(corners);
+        let Placed { mut poses, mut residuals, scales } = self.place(scaled, &corners[0], &frame);
         let mut worst = 0.0;
         for k in 0..2 * LANES {
             let square = scales[k] * scales[k];
@@ -186,6 +194,20 @@ impl OcticSolver {
         let unit = self.size * self.size;
         let pairs = std::array::from_fn(|k| [x.lane(k) * unit, y.lane(k) * unit]);
         Some(OcticPoses { poses, pairs, residuals, residual: worst })
+    }
+
+    /// The pairs `(s15, s34)`, see [`pairs`], for squared lengths in the order s14 s24 s25 s35 s36 s16.
+    #[inline(always)]
+    pub(super) fn pairs(
+        &self,
+        scaled: &[f64; 6],
+        polishes: usize,
+    ) -> Option<(ComplexBatch, ComplexBatch, bool)> {
+        let [s14, s24, s25, s35, s36, s16] = *scaled;
+        let short = self.platform.b * self.platform.b;
+        let first = Factors::new(&self.base_gram, [s25, s35], [s14, s24], short);
+        let second = Factors::new(&self.turned_gram, [s16, s14], [s35, s36], self.base_gram.cc);
+        pairs(&first, &second, polishes)
     }
 
     /// Newton's method on the leg equations; the residual then, or `None` when it stays too large or the pose was not near its

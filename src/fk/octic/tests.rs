@@ -150,3 +150,53 @@ fn refuses_platforms_that_are_not_octahedral() {
     let error = Octic.solve(&m, &s, &FkOptions::default()).unwrap_err();
     assert!(matches!(error, FkError::NotApplicable { method: Method::Octic, .. }));
 }
+
+/// Base triangle, and as platform the triangle of the midpoints of its sides times `ratio`: sides parallel, legs from the ends of a side to the corner at its middle.
+fn parallel(triangle: [Point3<f64>; 3], ratio: f64) -> Manipulator {
+    let middle = |i: usize, j: usize| Point3::from((triangle[i].coords + triangle[j].coords) * (0.5 * ratio));
+    let platform = vec![middle(0, 1), middle(1, 2), middle(2, 0)];
+    Manipulator::try_new(triangle.to_vec(), platform, [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)])
+        .unwrap()
+}
+
+/// Sixteen proved poses by the octic, the same as those of the general solver; `pose` is one of them.
+fn proved_by_the_octic(m: &Manipulator, pose: &Pose, compare: bool) {
+    let s = pose.squared_lengths(m).unwrap();
+    let o = FkOptions::default();
+    let found = Octic.solve(m, &s, &o).unwrap();
+    assert!(OcticSolver::new(m).unwrap().solve(&s).is_some(), "without the general treatment");
+    assert!(found.completeness.is_proved() && found.roots.len() == 16, "{}", found.completeness);
+    let distance = |p: &ComplexPose, q: &ComplexPose| p.distance(q, m.size()) / pose_scale(p, m.size());
+    let near = |p: &ComplexPose| found.roots.iter().map(|r| distance(&r.pose, p)).fold(f64::MAX, f64::min);
+    assert!(near(&ComplexPose::from(*pose)) < 1e-9);
+    if compare {
+        let general = Homotopy.solve(m, &s, &o).unwrap();
+        assert_eq!(general.roots.len(), 16);
+        assert!(general.roots.iter().all(|r| near(&r.pose) < 1e-6));
+    }
+}
+
+#[test]
+fn at_home_and_at_pure_translations_the_octic_finds_all_sixteen() {
+    let h = 108f64.sqrt();
+    let equilateral = [Point3::origin(), Point3::new(6.0, h, 0.0), Point3::new(12.0, 0.0, 0.0)];
+    let scalene = [Point3::new(0.3, -1.0, 0.0), Point3::new(4.0, 5.5, 0.0), Point3::new(9.0, -2.0, 0.0)];
+    let tilted = scalene.map(|p| random_rotation(&mut Rng::new(3)) * p + Vector3::new(1.0, 2.0, -3.0));
+    let mut rng = Rng::new(26);
+    for (triangle, ratio) in
+        [(equilateral, 1.0), (equilateral, 0.7), (scalene, 1.0), (scalene, 1.3), (tilted, 0.8)]
+    {
+        let m = parallel(triangle, ratio);
+        let normal = (triangle[1] - triangle[0]).cross(&(triangle[2] - triangle[0])).normalize();
+        let centre = triangle.iter().map(|p| p.coords).sum::<Vector3<f64>>() * ((1.0 - ratio) / 3.0);
+        for k in 0..12 {
+            let off = if k == 0 { Vector3::zeros() } else { Vector3::from_fn(|_, _| rng.uniform(-2.0, 2.0)) };
+            let rotation = nalgebra::Rotation3::identity();
+            let position = centre + normal * 13.0 + off;
+            proved_by_the_octic(&m, &Pose { rotation, position }, k < 2);
+            // nearly so, too
+            let rotation = nalgebra::Rotation3::new(Vector3::new(0.3, -0.5, 0.4) * 10f64.powi(-k));
+            proved_by_the_octic(&m, &Pose { rotation, position }, false);
+        }
+    }
+}
