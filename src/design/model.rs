@@ -239,6 +239,13 @@ impl Design {
 
     /// Files what is said of the joints beside three numbers each, and with it what they are where they are not the doubles.
     ///
+    /// The length that rotations are multiplied with where they are compared with translations, as in every inverse condition number of the Jacobian: that of `[optimize]`, else the RMS distance
+    /// of the platform's leg ends from their centroid.
+    #[must_use]
+    pub fn characteristic_length(&self) -> f64 {
+        self.optimize.characteristic_length.unwrap_or_else(|| self.manipulator.platform_rms_radius())
+    }
+
     /// The constructions have been resolved, and the coordinates of the manipulator follow from them.
     pub(super) fn set_constructions(&mut self, constructions: Constructions) {
         self.constructions = constructions;

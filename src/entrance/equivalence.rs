@@ -147,6 +147,9 @@ pub(crate) fn decided_exactly(found: LegMapOutcome, from: &Design, to: &Design) 
 /// The same of a verification.
 pub(crate) fn verified_exactly(mut found: Verification, a: &Design, b: &Design) -> Verification {
     found.map = decided_exactly(found.map, a, b);
+    if found.proved() {
+        found.deviation_bounds = None;
+    }
     found
 }
 

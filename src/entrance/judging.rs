@@ -4,7 +4,7 @@ use super::Error;
 use crate::design::Design;
 use crate::equivalents::Equivalents;
 use crate::fk::{Theorem, pose_bound};
-use crate::requirements::{AssessOptions, MarginProof, prove};
+use crate::requirements::{AssessOptions, LeastConditioning, MarginProof, least_conditioning, prove};
 use crate::singularity::{
     Architecture, Assembly, Conditioning, NearestSingular, Regularity, assembly, conditioning,
     nearest_singular, regular_workspace, singular_distance_at_least,
@@ -74,6 +74,8 @@ pub struct AssessReport {
     pub regularity: Regularity,
     /// Cells looked at for that.
     pub regularity_cells: usize,
+    /// Where the Jacobian is conditioned worst among the poses looked at.
+    pub conditioning: LeastConditioning,
 }
 
 impl AssessReport {
@@ -168,7 +170,8 @@ impl Design {
             return Err(Error::NothingRequired);
         }
         let (regularity, regularity_cells) = regular_workspace(m, &space, cells, options.seed);
-        Ok(AssessReport { proof, regularity, regularity_cells })
+        let conditioning = least_conditioning(m, &space, options, self.characteristic_length());
+        Ok(AssessReport { proof, regularity, regularity_cells, conditioning })
     }
 
     /// Every platform equivalent to this one: the class of the octahedral platform that the design is, or is made of.

@@ -431,7 +431,7 @@ pub(crate) fn dimensional_problem(design: &Design, extension: f64) -> Dimensiona
         _ => Mode::Weighted,
     };
     DimensionalProblem {
-        characteristic_length: table.characteristic_length.unwrap_or_else(|| m.platform_rms_radius()),
+        characteristic_length: design.characteristic_length(),
         min_abs_det: table.min_abs_det.unwrap_or(crate::offsets::DEFAULT_MIN_ABS_DET),
         manipulator: m.clone(),
         requirements,

@@ -182,6 +182,9 @@ pub struct Verification {
     pub verdict: Verdict,
     /// The algebraic side.
     pub map: LegMapOutcome,
+    /// For each leg of B a bound of how far its squared length is from `A s + c` over the box of the sample poses, units squared, for the joints as doubles; `None` where the map is
+    /// proved, so that there is no difference, and where it is singular.
+    pub deviation_bounds: Option<[f64; 6]>,
     /// The numerical side; empty for a singular map, where forward kinematics has nothing to compare.
     pub samples: Vec<Sample>,
 }
@@ -208,25 +211,27 @@ impl Verification {
             ),
             Verdict::Equivalent => format!(
                 "the leg map is regular (det A = {:.6}), and forward kinematics of both, solved independently, agrees \
-                 at {n} of {n} sets of lengths, {}; worst distance of matched poses {:.1e}{}",
+                 at {n} of {n} sets of lengths, {}; worst distance of matched poses {:.1e}{}{}",
                 v.map.determinant,
                 lists_proved(v),
                 v.worst_distance(),
-                set_aside(v)
+                set_aside(v),
+                deviation(v)
             ),
             Verdict::Singular => v.map.explanation(),
             Verdict::NotEquivalent(c) => {
                 let other = if c.solves == "A" { "B" } else { "A" };
                 format!(
                     "no leg map exists (residual {:.1e}); at sample {} a {}pose of {} misses the squared length of {} of {other} \
-                     by {:.1e} of the squared size (rounding {:.1e})",
+                     by {:.1e} of the squared size (rounding {:.1e}){}",
                     v.map.residual,
                     c.sample + 1,
                     if c.certified() { "certified " } else { "" },
                     c.solves,
                     c.leg,
                     c.miss,
-                    c.rounding
+                    c.rounding,
+                    deviation(v)
                 )
             }
             Verdict::Inconclusive(reason) => reason.sentence().to_owned(),
@@ -268,6 +273,16 @@ fn lists_proved(v: &Verification) -> String {
         0 => "without a proof that all poses of both are found".to_owned(),
         count => format!("all poses of both proved to be found at {count} of them"),
     }
+}
+
+/// How far the squared lengths are from the map where it is not exact.
+fn deviation(v: &Verification) -> String {
+    let worst = v.deviation_bounds.map(|bounds| bounds.into_iter().fold(0.0, f64::max));
+    worst.map_or_else(String::new, |worst| {
+        format!(
+            "; at all poses of the box of samples the squared lengths of B are within {worst:.1e} of A s + c"
+        )
+    })
 }
 
 /// What is said about poses beyond precision, after the sentence.
@@ -330,7 +345,7 @@ pub fn verify_each(
         _ => None,
     };
     if let Some(verdict) = at_once {
-        return Ok(Verification { verdict, map, samples: Vec::new() });
+        return Ok(Verification { verdict, map, deviation_bounds: None, samples: Vec::new() });
     }
     let mut samples = Vec::with_capacity(plan.count);
     let job = {
@@ -364,7 +379,8 @@ pub fn verify_each(
             Verdict::NotEquivalent(Box::new(c))
         })
     };
-    Ok(Verification { verdict, map, samples })
+    let deviation_bounds = Some(map.closest.deviation_bounds(a, b, plan));
+    Ok(Verification { verdict, map, deviation_bounds, samples })
 }
 
 fn take_sample(

@@ -22,7 +22,7 @@ pub struct NearRecord {
     pub fraction: f64,
     /// Largest error of the leg equations over the squared size.
     pub residual: Number,
-    /// 1 at best, 0 at a singularity.
+    /// Of the Jacobian at the pose reached, as in `assess`: 1 at best, 0 at a singularity.
     pub inverse_condition: Number,
     /// Segments the line was divided into.
     pub segments: u32,
@@ -49,9 +49,9 @@ pub enum NearWord {
 }
 
 impl NearRecord {
-    /// The record of an outcome that began at `start`.
+    /// The record of an outcome that began at `start` and reached a pose with this inverse condition number of the Jacobian.
     #[must_use]
-    pub fn new(start: &Pose, outcome: &NearOutcome) -> Self {
+    pub fn new(start: &Pose, outcome: &NearOutcome, inverse_condition: f64) -> Self {
         let e = outcome.evidence();
         let (word, fraction, reason) = match outcome {
             NearOutcome::Tracked { .. } => (NearWord::Tracked, 1.0, None),
@@ -67,7 +67,7 @@ impl NearRecord {
             reached: outcome.pose().into(),
             fraction,
             residual: Number(e.residual),
-            inverse_condition: Number(e.inverse_condition),
+            inverse_condition: Number(inverse_condition),
             segments: e.segments,
             newton_steps: e.newton_steps,
             kantorovich: Number(e.kantorovich),

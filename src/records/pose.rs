@@ -54,6 +54,14 @@ pub struct PoseQuaternionRecord {
     pub quaternion: [Number; 4],
 }
 
+impl PoseQuaternionRecord {
+    /// `x,y,z,qw,qx,qy,qz` with four decimals, for people.
+    pub(crate) fn short(&self) -> String {
+        let values = self.position.iter().chain(&self.quaternion);
+        values.map(|x| format!("{:.4}", x.0)).collect::<Vec<_>>().join(",")
+    }
+}
+
 impl From<&Pose> for PoseQuaternionRecord {
     fn from(pose: &Pose) -> Self {
         let p = &pose.position;

@@ -84,6 +84,8 @@ pub struct AssessAnswer {
     pub requirements: Vec<MarginRecord>,
     /// Whether there are singular poses.
     pub regular: RegularityRecord,
+    /// Where the Jacobian is conditioned worst among the poses looked at: a number found, without a limit and without a proof.
+    pub conditioning: LeastConditioningRecord,
     /// Poses looked at.
     pub poses: usize,
     /// Cells over which margins were bounded.
@@ -99,10 +101,26 @@ impl AssessAnswer {
             met: found.met(),
             requirements: proof.bounds.iter().map(|b| MarginRecord::proved(design, b)).collect(),
             regular: RegularityRecord::new(&found.regularity, found.regularity_cells),
+            conditioning: LeastConditioningRecord {
+                inverse_condition: Number(found.conditioning.value),
+                pose: (&found.conditioning.pose).into(),
+                characteristic_length: design.characteristic_length(),
+            },
             poses: proof.poses,
             cells: proof.bounds.iter().map(|b| b.cells).sum(),
         }
     }
+}
+
+/// The worst conditioned pose.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct LeastConditioningRecord {
+    /// Smallest over largest singular value of the Jacobian with unit lines and moments over the characteristic length: 1 at best, 0 at a singular pose.
+    pub inverse_condition: Number,
+    /// Where.
+    pub pose: PoseQuaternionRecord,
+    /// Design units.
+    pub characteristic_length: f64,
 }
 
 /// Whether det J vanishes at no pose of the workspace.
@@ -131,7 +149,9 @@ pub enum RegularityWord {
 }
 
 impl RegularityRecord {
-    fn new(regularity: &Regularity, cells: usize) -> Self {
+    /// What is known, and the number of cells it took.
+    #[must_use]
+    pub fn new(regularity: &Regularity, cells: usize) -> Self {
         let (status, pose) = match regularity {
             Regularity::Regular => (RegularityWord::Proved, None),
             Regularity::ChangesSign(pose) => (RegularityWord::ChangesSign, Some(pose)),

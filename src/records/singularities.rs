@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Number, PoseQuaternionRecord};
+use super::{Number, PoseQuaternionRecord, RegularityRecord};
 use crate::singularity::{PathPiece, Sign, SignsAlong, Way};
 
 /// The answer of `singular poses`.
@@ -13,6 +13,8 @@ pub struct SingularitiesAnswer {
     pub name: String,
     /// The unit of its lengths.
     pub units: String,
+    /// Whether the workspace of the design, or the region of `--box`, about the pose is free of singular poses; null where neither is given.
+    pub regular: Option<RegularityRecord>,
     /// The pose asked about.
     pub pose: JudgedPoseRecord,
     /// The leg lengths, design units.

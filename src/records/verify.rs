@@ -20,6 +20,9 @@ pub struct VerifyAnswer {
     pub proved: bool,
     /// The algebraic side; that of the designs as they are given where no motion was found.
     pub map: MapRecord,
+    /// For each leg of B a bound of how far its squared length is from A s + c at all poses of `sampling`, design units squared, whatever the tolerance of the map; null where the map is proved, so that
+    /// there is no difference, where it is singular, and where no motion was found.
+    pub deviation_bounds: Option<[Number; 6]>,
     /// The largest distance of matched poses over all samples; null where none were compared.
     pub worst_distance: Option<Number>,
     /// Poses without partner that were set aside: the rounding of the joints decides whether they exist. Absent where no motion was found.
@@ -86,6 +89,7 @@ impl VerifyAnswer {
             explanation: v.explanation(),
             proved: v.proved(),
             map: (&v.map).into(),
+            deviation_bounds: v.deviation_bounds.map(|bounds| bounds.map(Number)),
             worst_distance: Some(Number(v.worst_distance())),
             beyond_precision: Some(BeyondPrecisionRecord { a, b }),
             samples: v.samples.iter().map(SampleRecord::from).collect(),
@@ -106,6 +110,7 @@ impl VerifyAnswer {
             explanation,
             proved: false,
             map: map.into(),
+            deviation_bounds: None,
             worst_distance: None,
             beyond_precision: None,
             samples: Vec::new(),

@@ -6,6 +6,7 @@
 
 mod assess;
 mod bound;
+mod conditioning;
 mod goal;
 mod hardware;
 mod keep_out;
@@ -19,6 +20,7 @@ mod tests;
 pub use crate::geom::{PoseSpace, Region};
 pub use assess::{AssessOptions, Assessment, Margin, assess};
 pub use bound::{MarginBound, MarginProof, MarginVerdict, prove};
+pub use conditioning::{LeastConditioning, least_conditioning};
 pub use goal::{Objective, VariableKind};
 pub use hardware::{Hardware, Housing, JointAxes, LegBody, LengthLimits, Swing};
 pub use keep_out::{KeepOut, KeepOutShape};

@@ -67,7 +67,8 @@ impl Terms<'_> {
             Quantity::Angle => turn().to_degrees(),
             Quantity::Speed => turn() * hardware.max_leg_speed.unwrap_or(0.0),
             Quantity::Force => {
-                let conditioning = pose.map_or(1.0, |p| inverse_condition(&jacobian(m, p, m.size())));
+                let conditioning =
+                    pose.map_or(1.0, |p| inverse_condition(&jacobian(m, p, m.platform_rms_radius())));
                 (SHARE / conditioning).min(MOST) * hardware.max_leg_force.unwrap_or(0.0)
             }
         }

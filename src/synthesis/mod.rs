@@ -17,6 +17,7 @@ mod family;
 mod hexagon;
 mod leg_map;
 mod leg_vector;
+mod map_deviation;
 mod moves;
 mod pattern;
 pub mod rearrangement;

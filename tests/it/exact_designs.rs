@@ -96,6 +96,7 @@ fn the_joint_free_platform_of_an_exact_design_is_proved_equivalent() {
     let (code, verified) = run(folder.path(), &["verify", "octahedral.toml", "free.toml", "--samples", "2"]);
     assert_eq!((code, verified["proved"].as_bool()), (Some(0), Some(true)), "{verified}");
     assert_eq!(verified["map"]["det_exact"], "48/3125");
+    assert!(verified["deviation_bounds"].is_null(), "no difference");
     for sample in verified["samples"].as_array().unwrap() {
         for side in ["a", "b"] {
             assert_eq!(
@@ -111,6 +112,12 @@ fn the_joint_free_platform_of_an_exact_design_is_proved_equivalent() {
     let (_, map) = run(folder.path(), &["equivalents", "map", "rounded.toml", "free.toml"]);
     assert_eq!((map["det_exact"].as_str(), map["relation"].as_str()), (None, Some("unrelated")));
     assert!(map["A_exact"].is_null() && map["singular_shares"].is_null());
+    let (code, verified) = run(folder.path(), &["verify", "rounded.toml", "free.toml", "--samples", "2"]);
+    assert_eq!((code, verified["proved"].as_bool()), (Some(1), Some(false)));
+    // joints that differ by 5e-5 beside a platform of size 12
+    let bounds: Vec<f64> =
+        verified["deviation_bounds"].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect();
+    assert!(bounds.iter().all(|x| *x < 2e-2) && bounds.iter().any(|x| *x > 1e-5), "{bounds:?}");
 }
 
 #[test]

@@ -19,6 +19,7 @@ mod cli_fk;
 mod cli_frame;
 mod cli_generated;
 mod cli_guide;
+mod cli_judgements;
 mod cli_locus;
 mod cli_move;
 mod cli_near;

@@ -59,11 +59,6 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     Ok(Answer::new(exit, record, text))
 }
 
-fn shown(pose: &PoseQuaternionRecord) -> String {
-    let values = pose.position.iter().chain(&pose.quaternion);
-    values.map(|x| format!("{:.4}", x.0)).collect::<Vec<_>>().join(",")
-}
-
 fn text(name: &str, found: &AssessAnswer) -> String {
     let word = match found.met {
         Some(true) => "meets all its requirements, proved for every pose of its workspace",
@@ -77,7 +72,7 @@ fn text(name: &str, found: &AssessAnswer) -> String {
         "requirement", "status", "least margin", "proved margin", "unit", "of"
     );
     for m in &found.requirements {
-        let pose = m.pose.as_ref().map_or_else(|| "any".to_string(), shown);
+        let pose = m.pose.as_ref().map_or_else(|| "any".to_string(), PoseQuaternionRecord::short);
         let (mark, value) = match () {
             () if m.at_limit => ('=', 0.0),
             () if m.violates() => ('!', m.margin.0),
@@ -97,7 +92,21 @@ fn text(name: &str, found: &AssessAnswer) -> String {
             m.between.join(", ")
         );
     }
-    let at = found.regular.pose.as_ref().map(shown).unwrap_or_default();
+    // rows without a margin: the sign of det J, and a number that has no limit
+    let mut row = |name: &str, mark: char, status: &str, [value, unit, of]: [&str; 3], pose: &str| {
+        let _ =
+            writeln!(out, "{name:<17}{mark}{status:<9} {value:>14} {:>14} {unit:<8} {of:<24} {pose}", "-");
+    };
+    let at = found.regular.pose.as_ref().map_or_else(|| "any".to_owned(), PoseQuaternionRecord::short);
+    let (mark, status) = match found.regular.status {
+        RegularityWord::Proved => (' ', "met"),
+        RegularityWord::ChangesSign => ('!', "violated"),
+        RegularityWord::Undecided => (' ', "undecided"),
+    };
+    row("singularity", mark, status, ["-", "", "sign of det J"], &at);
+    let c = &found.conditioning;
+    let value = format!("{:.6}", c.inverse_condition.0);
+    row("conditioning", ' ', "no limit", [&value, "", "least found, 1 at best"], &c.pose.short());
     let _ = match found.regular.status {
         RegularityWord::Proved => writeln!(out, "\nNo singular pose in the workspace: proved."),
         RegularityWord::ChangesSign => {

@@ -16,7 +16,7 @@ use crate::fk::{
 };
 use crate::manipulator::{Manipulator, SquaredLegLengths, default_home};
 use crate::num::Purpose;
-use crate::solve::homotopy::{LengthStart, StartKind, projective_distance};
+use crate::solve::homotopy::{LengthStart, StartKind, projective_distance, unit};
 use crate::solve::pose_count::{CountOptions, PoseCount, count_generic_poses};
 use crate::solve::{ScaledFrames, mirror};
 
@@ -27,7 +27,7 @@ const SAME_POSE: f64 = 1e-6;
 #[derive(Debug)]
 pub(super) struct PreparedHomotopy {
     manipulator: Manipulator,
-    start: LengthStart,
+    pub(super) start: LengthStart,
     /// The bound that the start poses reach, which does not depend on the lengths; that of any six legs where they reach none.
     theorem: Theorem,
     /// The number of start poses by the count, where no theorem proves it.
@@ -58,12 +58,12 @@ impl PreparedHomotopy {
         let poses: Option<Vec<[Complex64; 8]>> = found.roots.iter().map(|r| r.dual_quaternion).collect();
         let poses = poses?;
         let flat = ScaledFrames::planar(m, &from).and_then(|frame| {
-            let points = poses.iter().map(|x| frame.to_frame(*x)).collect();
+            let points = poses.iter().map(|x| unit(&frame.to_frame(*x))).collect();
             Some((StartKind::Planar, frame, one_of_each_pair(points)?))
         });
         let (kind, frame, points) = flat.unwrap_or_else(|| {
             let frame = ScaledFrames::of(m, &from);
-            (StartKind::Generic, frame, poses.iter().map(|x| frame.to_frame(*x)).collect())
+            (StartKind::Generic, frame, poses.iter().map(|x| unit(&frame.to_frame(*x))).collect())
         });
         let start = LengthStart::new(kind, &frame, m, &from, &points, to)?;
         Some(Self { manipulator: m.clone(), start, theorem, count })
@@ -112,7 +112,7 @@ fn generic_lengths(m: &Manipulator, seed: u64) -> Option<(SquaredLegLengths, [Co
     Some((SquaredLegLengths::try_new(real).ok()?, complex))
 }
 
-/// One of each two points that are mirror images; `None` when they are not pairs.
+/// One of each two unit points that are mirror images; `None` when they are not pairs.
 fn one_of_each_pair(points: Vec<[Complex64; 8]>) -> Option<Vec<[Complex64; 8]>> {
     let mut open = points;
     let mut out = Vec::with_capacity(open.len() / 2);

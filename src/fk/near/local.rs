@@ -271,7 +271,7 @@ pub(super) struct SegmentStart {
     pub(super) beta: f64,
     /// Weight of `g0` in the norm.
     pub(super) epsilon: f64,
-    pub(super) inverse_condition: f64,
+    pub(super) frobenius_ratio: f64,
 }
 
 impl SegmentStart {
@@ -285,7 +285,7 @@ impl SegmentStart {
         invert(&mut work, &mut y)?;
         let step: [f64; 6] = std::array::from_fn(|k| -(0..6).map(|i| y[k][i] * here.f[i]).sum::<f64>());
         let frobenius = |m: &Matrix6| m.iter().flatten().map(|x| x * x).sum::<f64>().sqrt();
-        let inverse_condition = 6.0 / (frobenius(&j) * frobenius(&y));
+        let frobenius_ratio = 6.0 / (frobenius(&j) * frobenius(&y));
         let rows: [f64; 6] = std::array::from_fn(|i| blur.row(here, i));
         let (mut steps, mut defects) = ([0.0; 6], [0.0; 6]);
         for k in 0..6 {
@@ -305,8 +305,8 @@ impl SegmentStart {
         let eta = Newton { step }.size() * UP / room + slack;
         let (beta, epsilon) = second_order(here, &y, blur);
         let beta = beta * UP / room;
-        let sound = eta.is_finite() && beta.is_finite() && inverse_condition.is_finite() && kappa < 0.5;
-        sound.then_some(Self { step, eta, slack, beta, epsilon, inverse_condition })
+        let sound = eta.is_finite() && beta.is_finite() && frobenius_ratio.is_finite() && kappa < 0.5;
+        sound.then_some(Self { step, eta, slack, beta, epsilon, frobenius_ratio })
     }
 }
 

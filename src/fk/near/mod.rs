@@ -27,7 +27,7 @@ const CORRECTIONS: u32 = 12;
 /// Limits of a [`NearSolver`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NearOptions {
-    /// Below this [`NearEvidence::inverse_condition`] the pose counts as singular.
+    /// Below this [`NearEvidence::frobenius_ratio`] the pose counts as singular.
     pub singular: f64,
     /// Most segments the way to the new lengths is divided into. With 1 only starts in the Kantorovich ball of the new
     /// lengths are accepted.
@@ -156,7 +156,7 @@ impl NearSolver {
         };
         self.measure(&target, &from, &place, &mut evidence);
         let pose = self.pose_of(&place);
-        let singular = !(evidence.inverse_condition >= self.options.singular);
+        let singular = !(evidence.frobenius_ratio >= self.options.singular);
         match reason {
             Some(reason) if !singular => NearOutcome::Lost { pose, reason, fraction, evidence },
             None if !singular => NearOutcome::Tracked { pose, evidence },
@@ -197,7 +197,7 @@ impl NearSolver {
         let here = Local::at(self, place, target);
         let blur = Blur::of(self, place, &here, target_error);
         let Some(start) = SegmentStart::of(&here, &blur) else { return Segment::Singular };
-        if !(start.inverse_condition >= self.options.singular) {
+        if !(start.frobenius_ratio >= self.options.singular) {
             return Segment::Singular;
         }
         let number = 4.0 * (start.beta + start.eta) * start.eta;
@@ -262,7 +262,7 @@ impl NearSolver {
         let here = Local::at(self, place, target);
         evidence.residual = here.largest_defect() * self.residual_scale;
         let blur = Blur::of(self, place, &here, &[0.0; 6]);
-        evidence.inverse_condition = SegmentStart::of(&here, &blur).map_or(0.0, |s| s.inverse_condition);
+        evidence.frobenius_ratio = SegmentStart::of(&here, &blur).map_or(0.0, |s| s.frobenius_ratio);
         let (angle, shift) = local::motion(from, place);
         evidence.angle = angle;
         evidence.distance = shift * self.unit;

@@ -30,7 +30,7 @@ fn regular_start(m: &Manipulator, rng: &mut Rng) -> Pose {
     loop {
         let pose = moved(&default_home(m), rng, 0.3);
         let s = pose.squared_lengths(m).unwrap();
-        if NearSolver::new(m).solve(&s, &pose).evidence().inverse_condition > 0.02 {
+        if NearSolver::new(m).solve(&s, &pose).evidence().frobenius_ratio > 0.02 {
             return pose;
         }
     }
@@ -106,7 +106,7 @@ fn rigid_motions_scale_and_leg_order_change_nothing() {
         assert_eq!(plain.name(), other.name());
         let (a, b) = (plain.evidence(), other.evidence());
         assert_eq!((a.segments, a.newton_steps), (b.segments, b.newton_steps));
-        assert!((a.inverse_condition / b.inverse_condition - 1.0).abs() < 1e-8);
+        assert!((a.frobenius_ratio / b.frobenius_ratio - 1.0).abs() < 1e-8);
         assert!((a.distance * scale - b.distance).abs() < 1e-8 * scale && (a.angle - b.angle).abs() < 1e-8);
         assert!(gap(&m2, &carry(plain.pose()), other.pose()) < 1e-9);
     }
@@ -150,7 +150,7 @@ fn a_way_through_a_singularity_ends_before_it() {
         }
         if let NearOutcome::NearSingularity { pose, fraction, evidence } = outcome {
             stopped += 1;
-            assert!((0.0..1.0).contains(&fraction) && evidence.inverse_condition < 1e-5, "{evidence:?}");
+            assert!((0.0..1.0).contains(&fraction) && evidence.frobenius_ratio < 1e-5, "{evidence:?}");
             // the pose stopped at lies on the straight line of squared lengths
             let (from, to) =
                 (start.squared_lengths(&m).unwrap().get(), goal.squared_lengths(&m).unwrap().get());

@@ -309,7 +309,7 @@ fn nearly_parallel(x: &[Complex64; 8], y: &[Complex64; 8]) -> bool {
     close(0) && close(1)
 }
 
-pub(super) fn unit(x: &[Complex64; 8]) -> [Complex64; 8] {
+pub(crate) fn unit(x: &[Complex64; 8]) -> [Complex64; 8] {
     let norm = x.iter().map(num_complex::Complex::norm_sqr).sum::<f64>().sqrt();
     x.map(|z| z / norm)
 }

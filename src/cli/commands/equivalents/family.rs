@@ -8,10 +8,12 @@ use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
+use crate::design::Design;
+use crate::entrance::leg_map;
 use crate::equivalents::Original;
 use crate::manipulator::{Body, Octahedral};
 use crate::records::{FamilyAnswer, InstanceRecord, PatternPlace, PatternRecord};
-use crate::synthesis::{Family, FamilyMember, Pattern};
+use crate::synthesis::{Family, FamilyMember, Pattern, Relation};
 
 /// Arguments of `equivalents family`.
 #[derive(Debug, clap::Args)]
@@ -59,8 +61,10 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let members: Vec<&FamilyMember> =
         family.members().iter().filter(|m| wanted.as_ref().is_none_or(|p| m.pattern == *p)).collect();
     let mut answer = FamilyAnswer::new(&design, &o, &family, &members);
+    let mut relation = None;
     if let (Some(pattern), Some(offsets)) = (&wanted, &args.offsets) {
-        answer.instance = Some(realise(args, pattern, &Original::octahedral(&design, o), offsets)?);
+        let (record, found) = realise(args, pattern, &design, o, offsets)?;
+        (answer.instance, relation) = (Some(record), Some(found));
     }
     let mut text = summary(&answer);
     if wanted.is_some() {
@@ -71,10 +75,19 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     if let Some(r) = &answer.instance {
         let _ = writeln!(text, "\nat these offsets det A = {}", r.determinant.0);
     }
+    let exit = match relation {
+        None | Some(Relation::Equivalent) => Exit::Yes,
+        Some(Relation::Singular) => Exit::No,
+        Some(_) => Exit::Inconclusive,
+    };
     if let Some(path) = &args.output {
-        let _ = writeln!(text, "wrote {}", path.display());
+        let _ = match exit {
+            Exit::Yes => writeln!(text, "wrote {}", path.display()),
+            Exit::No => writeln!(text, "no design is written: the platform is architecturally singular"),
+            _ => writeln!(text, "no design is written: the platform may be architecturally singular"),
+        };
     }
-    Ok(Answer::new(Exit::Yes, answer, text))
+    Ok(Answer::new(exit, answer, text))
 }
 
 fn parse_pattern(text: &str) -> Result<Pattern, Failure> {
@@ -84,20 +97,25 @@ fn parse_pattern(text: &str) -> Result<Pattern, Failure> {
     })
 }
 
-/// Builds the platform and writes it where asked.
+/// Builds the platform and writes it where asked, unless it is singular.
 fn realise(
     args: &Args,
     pattern: &Pattern,
-    original: &Original,
+    design: &Design,
+    octahedral: Octahedral,
     offsets: &[f64],
-) -> Result<InstanceRecord, Failure> {
+) -> Result<(InstanceRecord, Relation), Failure> {
+    let original = Original::octahedral(design, octahedral);
     let refused = |e: &dyn std::fmt::Display| Failure::refused("family::bad_offsets", e.to_string());
     let (built, map) = original.equivalent(pattern, offsets).map_err(|e| refused(&e))?;
     let record = InstanceRecord::new(pattern, offsets, &built, &map).map_err(|e| refused(&e))?;
-    if let Some(path) = &args.output {
+    let relation = leg_map(design, &built)
+        .map_err(|e| Failure::new(Exit::Inconclusive, "family::breakdown", e.to_string()))?
+        .relation;
+    if let (Some(path), Relation::Equivalent) = (&args.output, relation) {
         files::write_design(path, &built)?;
     }
-    Ok(record)
+    Ok((record, relation))
 }
 
 fn summary(r: &FamilyAnswer) -> String {

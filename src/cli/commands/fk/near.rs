@@ -11,26 +11,26 @@ use crate::fk::{
     Completeness, FkRoot, FkSolutions, Method, NearOutcome, NearSolver, Reality, Reason, SolutionSet,
 };
 use crate::geom::{ComplexPose, Pose};
-use crate::manipulator::{LegLengths, Manipulator};
+use crate::manipulator::{LegLengths, inverse_condition, jacobian};
 use crate::records::{FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, NearRecord};
 use crate::solve::certify::{Certifier, ProvedReality, RootCertificate};
 
 /// Follows one pose. A row that is not tracked leaves the next to start from the last tracked pose.
 pub(super) fn run(design: &Design, given: &Given, start: Pose, seed: u64) -> Answer {
-    let m = design.manipulator();
-    let solver = NearSolver::new(m);
+    let solver = NearSolver::new(design.manipulator());
     match given {
         Given::One(l) => {
             let outcome = solver.solve(&l.squared(), &start);
-            let record = record(m, l, &start, &outcome, seed);
-            let text = format!("{}{}", sentence(&outcome), render::text(&design.name, &record.solved));
+            let record = record(design, l, &start, &outcome, seed);
+            let text =
+                format!("{}{}", sentence(design, &outcome), render::text(&design.name, &record.solved));
             Answer::new(exit_of(&outcome), FkAnswer::One(Box::new(record)), text)
         }
-        Given::Rows(rows) => trajectory(m, &solver, rows, start, seed),
+        Given::Rows(rows) => trajectory(design, &solver, rows, start, seed),
     }
 }
 
-fn trajectory(m: &Manipulator, solver: &NearSolver, rows: &[Row], start: Pose, seed: u64) -> Answer {
+fn trajectory(design: &Design, solver: &NearSolver, rows: &[Row], start: Pose, seed: u64) -> Answer {
     let (mut exit, mut from) = (Exit::Yes, start);
     let mut text = String::from("line  outcome           segments  inverse condition  position\n");
     let mut records = Vec::with_capacity(rows.len());
@@ -40,7 +40,7 @@ fn trajectory(m: &Manipulator, solver: &NearSolver, rows: &[Row], start: Pose, s
         records.push(FkRowRecord {
             line: row.line,
             lengths: row.lengths.get(),
-            outcome: FkRowOutcome::Solved(Box::new(record(m, &row.lengths, &from, &outcome, seed))),
+            outcome: FkRowOutcome::Solved(Box::new(record(design, &row.lengths, &from, &outcome, seed))),
         });
         let (e, p) = (outcome.evidence(), outcome.pose().position);
         let _ = writeln!(
@@ -49,7 +49,7 @@ fn trajectory(m: &Manipulator, solver: &NearSolver, rows: &[Row], start: Pose, s
             row.line,
             outcome.name(),
             e.segments,
-            e.inverse_condition,
+            conditioning(design, &outcome),
             p.x,
             p.y,
             p.z
@@ -65,20 +65,20 @@ fn exit_of(outcome: &NearOutcome) -> Exit {
 
 /// The record of `fk` with at most one solution, and `near` with the evidence.
 fn record(
-    m: &Manipulator,
+    design: &Design,
     lengths: &LegLengths,
     start: &Pose,
     outcome: &NearOutcome,
     seed: u64,
 ) -> FkOneAnswer {
-    let s = lengths.squared();
+    let (m, s) = (design.manipulator(), lengths.squared());
     let proved = |pose: &ComplexPose| {
         let certifier = Certifier::new(m, &s).ok()?;
         certifier.certify(pose).certificate().copied()
     };
     let root = outcome.tracked().map(|pose| {
         let pose = ComplexPose::from(*pose);
-        let condition = 1.0 / outcome.evidence().inverse_condition;
+        let condition = 1.0 / outcome.evidence().frobenius_ratio;
         let certificate = proved(&pose);
         // only the certificate knows whether the root near the pose is real
         let reality = match certificate.map(|c| c.reality()) {
@@ -108,11 +108,20 @@ fn record(
         unproved: Vec::new(),
         seed,
     };
-    FkOneAnswer { solved: (&solutions).into(), near: Some(NearRecord::new(start, outcome)), closure: None }
+    FkOneAnswer {
+        solved: (&solutions).into(),
+        near: Some(NearRecord::new(start, outcome, conditioning(design, outcome))),
+        closure: None,
+    }
+}
+
+/// The inverse condition number of the Jacobian at the pose reached.
+fn conditioning(design: &Design, outcome: &NearOutcome) -> f64 {
+    inverse_condition(&jacobian(design.manipulator(), outcome.pose(), design.characteristic_length()))
 }
 
 /// One line for people, before the list of poses.
-fn sentence(outcome: &NearOutcome) -> String {
+fn sentence(design: &Design, outcome: &NearOutcome) -> String {
     let e = outcome.evidence();
     match outcome {
         NearOutcome::Tracked { .. } => format!(
@@ -121,12 +130,12 @@ fn sentence(outcome: &NearOutcome) -> String {
             e.newton_steps,
             e.distance,
             e.angle.to_degrees(),
-            e.inverse_condition
+            conditioning(design, outcome)
         ),
         NearOutcome::NearSingularity { fraction, .. } => format!(
             "NEAR A SINGULARITY: stopped after {:.4} % of the way, inverse condition {:.2e}\n",
             100.0 * fraction,
-            e.inverse_condition
+            conditioning(design, outcome)
         ),
         NearOutcome::Lost { fraction, reason, .. } => {
             format!("LOST after {:.4} % of the way: {reason}\n", 100.0 * fraction)

@@ -15,10 +15,10 @@ use crate::cli::output::Answer;
 use crate::cli::poses;
 use crate::design::Design;
 use crate::fk::{Automatic, FkOptions, ForwardKinematics};
-use crate::geom::{Pose, Region};
-use crate::manipulator::{LegLengths, Manipulator, Octahedral, inverse_condition, jacobian, leg_determinant};
+use crate::geom::{Pose, PoseSpace, Region};
+use crate::manipulator::{LegLengths, Octahedral, inverse_condition, jacobian, leg_determinant};
 use crate::plot::singular_slice;
-use crate::singularity::{BoxOptions, RegularBox, four_planes, regular_box};
+use crate::singularity::{BoxOptions, RegularBox, Regularity, four_planes, regular_box, regular_workspace};
 
 /// Arguments of `singular poses`.
 #[derive(Debug, clap::Args)]
@@ -69,7 +69,7 @@ struct Judged {
     pose: Pose,
     /// `det J` of the leg lines, lengths over the size.
     determinant: f64,
-    /// Of the Jacobian with unit lines and the size as characteristic length.
+    /// Of the Jacobian with unit lines and the characteristic length of the design.
     inverse_condition: f64,
     four_planes: Option<[f64; 2]>,
 }
@@ -81,6 +81,10 @@ struct Found {
     modes_complete: bool,
     options: BoxOptions,
     regular: RegularBox,
+    /// Whether the workspace, or the region asked about, is free of singular poses, and the cells that took.
+    safe: Option<(Regularity, usize)>,
+    /// Whether that is the workspace of the design.
+    of_the_design: bool,
     path: Option<paths::Path>,
     between: Option<paths::Between>,
     exit: Exit,
@@ -105,31 +109,55 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let solutions = Automatic
         .solve(m, &lengths.squared(), &options)
         .map_err(|e| Failure::internal(format!("assembly modes: {e}")))?;
-    let modes: Vec<Judged> =
-        solutions.assembly_modes().map(|r| judged(m, octahedral.as_ref(), r.pose.real_part())).collect();
+    let modes: Vec<Judged> = solutions
+        .assembly_modes()
+        .map(|r| judged(&design, octahedral.as_ref(), r.pose.real_part()))
+        .collect();
     let options = box_options(args.shape.as_deref(), args.cells, &design, context.seed())?;
     let regular = regular_box(m, &pose, &options);
-    let exit = match regular.proved {
-        p if p > 0.0 => Exit::Yes,
-        _ => Exit::Inconclusive,
+    let safe = asked_space(args, &design, &pose, &options)
+        .map(|space| regular_workspace(m, &space, args.cells, context.seed()));
+    let exit = match safe.as_ref().map(|(regularity, _)| regularity.is_regular()) {
+        Some(Some(true)) => Exit::Yes,
+        Some(Some(false)) => Exit::No,
+        Some(None) => Exit::Inconclusive,
+        // a box of no particular size: the answer is how large the regular one is
+        None if regular.proved > 0.0 => Exit::Yes,
+        None => Exit::Inconclusive,
     };
     if let Some(path) = &args.svg {
         files::write_text(path, &singular_slice(&slice::figure(&design, args.slice, &pose, &options)))?;
     }
-    let middle = judged(m, octahedral.as_ref(), pose);
+    let middle = judged(&design, octahedral.as_ref(), pose);
     let path = paths::path(args, &design, &pose, &modes)?;
     let between = paths::all_pairs(args, &design, &modes, context.seed());
     let modes_complete = solutions.all_accounted();
-    let found = Found { middle, modes, modes_complete, options, regular, path, between, exit };
+    let of_the_design = args.shape.is_none();
+    let found =
+        Found { middle, modes, modes_complete, options, regular, safe, of_the_design, path, between, exit };
     Ok(render::answer(&design, &lengths, &found))
 }
 
-fn judged(m: &Manipulator, octahedral: Option<&Octahedral>, pose: Pose) -> Judged {
+/// The region of `--box`, else the workspace of the design, about the pose.
+fn asked_space(args: &Args, design: &Design, pose: &Pose, options: &BoxOptions) -> Option<PoseSpace> {
+    if args.shape.is_some() {
+        return Some(PoseSpace {
+            region: options.region,
+            translation: options.translation.into(),
+            rotation_deg: options.rotation_deg.into(),
+            ..PoseSpace::at(*pose)
+        });
+    }
+    (!design.workspace.is_empty()).then(|| design.workspace.space(pose))
+}
+
+fn judged(design: &Design, octahedral: Option<&Octahedral>, pose: Pose) -> Judged {
+    let m = design.manipulator();
     let unit = m.size();
     Judged {
         pose,
         determinant: leg_determinant(m, &pose),
-        inverse_condition: inverse_condition(&jacobian(m, &pose, unit)),
+        inverse_condition: inverse_condition(&jacobian(m, &pose, design.characteristic_length())),
         four_planes: octahedral.map(|o| four_planes(o, &pose).map(|d| d / unit.powi(9))),
     }
 }

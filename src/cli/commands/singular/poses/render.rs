@@ -8,7 +8,8 @@ use crate::design::Design;
 use crate::geom::Region;
 use crate::manipulator::LegLengths;
 use crate::records::{
-    JudgedPoseRecord, Number, RegionWord, RegularBoxRecord, ScaledPoseRecord, SingularitiesAnswer,
+    JudgedPoseRecord, Number, PoseQuaternionRecord, RegionWord, RegularBoxRecord, RegularityRecord,
+    RegularityWord, ScaledPoseRecord, SingularitiesAnswer,
 };
 use crate::singularity::BoxOptions;
 
@@ -34,6 +35,7 @@ pub(super) fn answer(design: &Design, lengths: &LegLengths, found: &Found) -> An
     let record = SingularitiesAnswer {
         name: design.name.clone(),
         units: design.units.clone(),
+        regular: found.safe.as_ref().map(|(regularity, cells)| RegularityRecord::new(regularity, *cells)),
         pose: judged(&found.middle),
         lengths: lengths.get(),
         assembly_modes: found.modes.iter().map(judged).collect(),
@@ -52,12 +54,31 @@ pub(super) fn answer(design: &Design, lengths: &LegLengths, found: &Found) -> An
         path: found.path.as_ref().map(paths::Path::record),
         between: found.between.as_ref().map(paths::Between::record),
     };
-    let text = text(&record);
+    let text = text(&record, found.of_the_design);
     Answer::new(found.exit, record, text)
 }
 
-fn text(r: &SingularitiesAnswer) -> String {
+fn text(r: &SingularitiesAnswer, of_the_design: bool) -> String {
     let mut out = format!("{}\n", r.name);
+    if let Some(regular) = &r.regular {
+        let region = if of_the_design { "workspace" } else { "region of --box" };
+        let at = regular.pose.as_ref().map(PoseQuaternionRecord::short).unwrap_or_default();
+        let _ = match regular.status {
+            RegularityWord::Proved => writeln!(out, "The {region} is free of singular poses: proved."),
+            RegularityWord::ChangesSign => {
+                writeln!(
+                    out,
+                    "The {region} holds a singular pose: det J changes its sign on the way to {at}."
+                )
+            }
+            RegularityWord::Undecided => {
+                writeln!(
+                    out,
+                    "It is undecided whether the {region} holds a singular pose, near {at}; more --cells may decide."
+                )
+            }
+        };
+    }
     let line = |out: &mut String, name: &str, j: &JudgedPoseRecord| {
         let p = j.pose.position.map(|x| x.0);
         let _ = writeln!(

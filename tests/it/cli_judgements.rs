@@ -1,0 +1,132 @@
+//! Judgements that a script can ask for: is the workspace safe, how well is a pose conditioned, is a platform singular, are all poses of a path found.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use equipod::prelude::*;
+use serde_json::Value;
+
+use super::cli_frame::{document, equipod};
+
+/// The octahedral example with a workspace of its own.
+fn with_workspace(folder: &Path, name: &str, widths: [f64; 6]) -> String {
+    let text = std::fs::read_to_string("designs/rbt-octahedral.toml").unwrap();
+    let (head, tail) = text.split_once("[workspace]").unwrap();
+    let rest = tail.split_once("[optimize]").unwrap().1;
+    let [x, y, z, rx, ry, rz] = widths;
+    let workspace = format!(
+        "[workspace]\ntranslation = [{x:?}, {y:?}, {z:?}]\nrotation_deg = [{rx:?}, {ry:?}, {rz:?}]\n"
+    );
+    let path = folder.join(name);
+    std::fs::write(&path, format!("{head}{workspace}\n[optimize]{rest}")).unwrap();
+    path.to_str().unwrap().to_owned()
+}
+
+#[test]
+fn singular_poses_says_whether_the_workspace_is_safe() {
+    let folder = tempfile::tempdir().unwrap();
+    let cases = [
+        ("small.toml", [1.0, 1.0, 1.0, 5.0, 5.0, 5.0], 0, "is free of singular poses: proved"),
+        ("large.toml", [10.0, 10.0, 10.0, 60.0, 60.0, 100.0], 1, "holds a singular pose"),
+    ];
+    for (name, widths, code, sentence) in cases {
+        let path = with_workspace(folder.path(), name, widths);
+        let out = equipod(&["singular", "poses", &path]);
+        let text = String::from_utf8(out.stdout).unwrap();
+        assert_eq!(out.status.code(), Some(code), "{text}");
+        let second = text.lines().nth(1).unwrap();
+        assert!(second.starts_with("The workspace ") && second.contains(sentence), "{second}");
+        let doc = document(&equipod(&["singular", "poses", &path, "--json"]));
+        assert_eq!(doc["regular"]["met"], Value::Bool(code == 0));
+        // assess has a row for it and agrees
+        let out = equipod(&["assess", &path, "--points", "50"]);
+        let text = String::from_utf8(out.stdout).unwrap();
+        assert_eq!(out.status.code(), Some(code), "{text}");
+        let row = text.lines().find(|l| l.starts_with("singularity")).unwrap();
+        assert!(row.contains(if code == 0 { "met" } else { "!violated" }), "{row}");
+        assert_eq!(text.lines().next().unwrap().contains("meets all"), code == 0);
+    }
+    // the region asked about goes before the workspace of the file
+    let small = with_workspace(folder.path(), "again.toml", [1.0, 1.0, 1.0, 5.0, 5.0, 5.0]);
+    let out = equipod(&["singular", "poses", &small, "--box", "10,10,10,60,60,100"]);
+    assert_eq!(out.status.code(), Some(1));
+    assert!(String::from_utf8(out.stdout).unwrap().contains("The region of --box holds a singular pose"));
+}
+
+#[test]
+fn a_pose_has_one_conditioning_whatever_command_is_asked() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = with_workspace(folder.path(), "home.toml", [0.0; 6]);
+    let design = Design::load(&path).unwrap();
+    let m = design.manipulator();
+    let home = design.home_or_default();
+    let j = equipod::methods::manipulator::jacobian(m, &home, design.characteristic_length());
+    let expected = equipod::methods::manipulator::inverse_condition(&j);
+    let assess = document(&equipod(&["assess", &path, "--points", "0", "--json"]));
+    let poses = document(&equipod(&["singular", "poses", &path, "--cells", "10", "--json"]));
+    let lengths = home.lengths(m).unwrap().get().map(|l| l.to_string()).join(",");
+    let near = document(&equipod(&["fk", &path, "--near", "home", "--lengths", &lengths, "--json"]));
+    for found in [
+        &assess["conditioning"]["inverse_condition"],
+        &poses["pose"]["inverse_condition"],
+        &near["near"]["inverse_condition"],
+    ] {
+        let found = found.as_f64().unwrap();
+        assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
+    }
+}
+
+#[test]
+fn a_singular_member_of_the_family_is_refused_as_by_move() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("member.toml");
+    let path = file.to_str().unwrap();
+    let member = |offsets: &str| {
+        let design = "designs/rbt-octahedral.toml";
+        let offsets = format!("--offsets={offsets}");
+        equipod(&["equivalents", "family", design, "--pattern", "S123456", &offsets, "-o", path])
+    };
+    // all midpoints, and a zero of det A that doubles do not show
+    for offsets in ["0.5,0.5,0.5,0.5,0.5,0.5", "0.2,0.8,0.3,0.7,0.1,0.9"] {
+        let out = member(offsets);
+        let text = String::from_utf8(out.stdout).unwrap();
+        assert_eq!(out.status.code(), Some(1), "{text}");
+        assert!(text.contains("no design is written: the platform is architecturally singular"));
+        assert!(!file.exists());
+    }
+    assert_eq!(member("0.2,0.8,0.3,0.7,0.1,0.8").status.code(), Some(0));
+    assert!(file.exists());
+}
+
+#[test]
+fn all_rows_of_a_smooth_path_of_the_symmetric_hexapod_are_proved() {
+    let design = Design::load("designs/symmetric-hexapod.toml").unwrap();
+    let mut table = String::from("l1,l2,l3,l4,l5,l6\n");
+    for k in 0..1000 {
+        let t = std::f64::consts::TAU * f64::from(k) / 1000.0;
+        let position = [60.0 * t.sin(), 60.0 * (2.0 * t + 0.3).sin(), 350.0 + 50.0 * t.cos()];
+        let angle = |x: f64| 10f64.to_radians() * x.sin();
+        let pose = Pose {
+            rotation: nalgebra::Rotation3::from_euler_angles(angle(t), angle(t + 1.0), angle(3.0 * t)),
+            position: position.into(),
+        };
+        let lengths = pose.lengths(design.manipulator()).unwrap().get().map(|l| l.to_string());
+        writeln!(table, "{}", lengths.join(",")).unwrap();
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("path.csv");
+    std::fs::write(&path, table).unwrap();
+    let out =
+        equipod(&["fk", "designs/symmetric-hexapod.toml", "--lengths", path.to_str().unwrap(), "--json"]);
+    assert_eq!(out.status.code(), Some(0));
+    let rows = document(&out)["rows"].as_array().unwrap().clone();
+    assert_eq!(rows.len(), 1000);
+    for row in rows {
+        assert_eq!(
+            (&row["completeness"], &row["finite_count_with_multiplicity"]),
+            (&"proved".into(), &28.into()),
+            "line {}",
+            row["line"]
+        );
+    }
+}
