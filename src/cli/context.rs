@@ -10,9 +10,9 @@ use super::args::Global;
 use super::diagnostic;
 use super::failure::Failure;
 use super::files;
-use super::rows::{self, TableName};
+use super::rows;
 use crate::design::{Design, Format, Warning, parse};
-use crate::geom::{InvalidPose, Pose};
+use crate::geom::Pose;
 use crate::records::{DesignSourceRecord, FileSourceRecord, ProvenanceRecord};
 
 /// A warning and the file it is about.
@@ -49,6 +49,12 @@ impl Context {
             warnings: Vec::new(),
             designs: Vec::new(),
         }
+    }
+
+    /// That of a command without arguments, for tests.
+    #[cfg(test)]
+    pub(crate) fn silent() -> Self {
+        Self::new(&Global { json: false, seed: 1, quiet: true }, &ArgMatches::default())
     }
 
     /// Refuses an option that was typed although it has no effect for `reason`: nothing that was asked for is passed over.
@@ -105,30 +111,50 @@ impl Context {
         &self.warnings
     }
 
-    /// Reads and checks a design file; its warnings are shown and kept for the JSON document.
+    /// Tells people what was guessed about a table.
+    pub(crate) fn note_guesses(&self, table: &str, guesses: &[String]) {
+        for guess in guesses.iter().filter(|_| !self.quiet) {
+            diagnostic::print_note(&format!("{table}: {guess}"));
+        }
+    }
+
+    /// Reads and checks a design file, `-` for standard input; its warnings are shown and kept for the JSON document.
     ///
     /// # Errors
     /// Exit 2 with all violations, or because the file cannot be read.
     pub(crate) fn load(&mut self, path: &Path) -> Result<Design, Failure> {
         let text = files::read_text(path)?;
-        let shown = path.display().to_string();
-        match parse(&text, Format::of_path(path)) {
+        let shown = files::shown(path);
+        match parse(&text, format_of(path, &text)) {
             Ok((mut design, warnings)) => {
                 for warning in warnings {
                     if !self.quiet {
                         diagnostic::print_warning(&shown, &text, &warning);
                     }
-                    self.warnings.push(FileWarning { path: shown.clone(), warning });
+                    self.warnings.push(FileWarning { path: path.display().to_string(), warning });
                 }
                 if let Some(trajectory) = &mut design.workspace.trajectory {
-                    trajectory.poses = poses_beside(path, &trajectory.file)?;
+                    trajectory.poses = self.poses_beside(path, &trajectory.file)?;
                 }
-                self.designs.push((design.name.clone(), shown));
+                self.designs.push((design.name.clone(), path.display().to_string()));
                 Ok(design)
             }
             Err(violations) => Err(Failure::bad_design(shown, text, violations)),
         }
     }
+
+    /// The poses of a table whose name is relative to the folder of the design.
+    fn poses_beside(&self, design: &Path, file: &str) -> Result<Vec<Pose>, Failure> {
+        let path = design.parent().unwrap_or(Path::new("")).join(file);
+        let table = rows::poses(&path, "design::bad_trajectory", self)?;
+        Ok(table.rows.into_iter().map(|row| row.value).collect())
+    }
+}
+
+/// The notation of a design: by the name of the file or, on standard input, by its first character.
+fn format_of(path: &Path, text: &str) -> Format {
+    let begins = text.trim_start_matches('\u{feff}').trim_start();
+    if files::is_standard(path) && begins.starts_with('{') { Format::Json } else { Format::of_path(path) }
 }
 
 /// The options that were typed after the last command.
@@ -138,19 +164,4 @@ fn typed(matches: &ArgMatches) -> Vec<String> {
     }
     let given = |id: &&clap::Id| matches.value_source(id.as_str()) == Some(ValueSource::CommandLine);
     matches.ids().filter(given).map(ToString::to_string).collect()
-}
-
-/// The poses of a table whose name is relative to the folder of the design.
-fn poses_beside(design: &Path, file: &str) -> Result<Vec<Pose>, Failure> {
-    let path = design.parent().unwrap_or(Path::new("")).join(file);
-    let shown = path.display().to_string();
-    let table = TableName {
-        path: &shown,
-        code: "design::bad_trajectory",
-        form: "a pose a line: x,y,z,roll_deg,pitch_deg,yaw_deg or x,y,z,qw,qx,qy,qz",
-    };
-    let rows = rows::read(&files::read_text(&path)?, table, |line| {
-        line.parse().map_err(|e: InvalidPose| e.to_string())
-    })?;
-    Ok(rows.into_iter().map(|(_, pose)| pose).collect())
 }

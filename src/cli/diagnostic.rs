@@ -108,9 +108,29 @@ fn printable_lines(text: &str) -> String {
 fn printable_char(c: char) -> char {
     match c {
         '\t' => ' ',
-        c if c.is_control() => '\u{fffd}',
+        c if steers(c) => '\u{fffd}',
         c => c,
     }
+}
+
+/// Whether a character moves the cursor of a terminal, or changes the direction of the text after it.
+fn steers(c: char) -> bool {
+    c.is_control()
+        || matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
+/// A text whose characters that could steer a terminal are spelled by `spell`; ends of lines and tabulators stay.
+pub(crate) fn escaped(text: &str, spell: impl Fn(char) -> String) -> String {
+    let plain = |c: char| !steers(c) || matches!(c, '\n' | '\r' | '\t');
+    if text.chars().all(plain) {
+        return text.to_string();
+    }
+    text.chars().map(|c| if plain(c) { c.to_string() } else { spell(c) }).collect()
+}
+
+/// An answer for people: names of files and joints in it cannot steer the terminal.
+pub(crate) fn harmless(text: &str) -> String {
+    escaped(text, |c| c.escape_unicode().to_string())
 }
 
 #[cfg(test)]
@@ -137,5 +157,7 @@ mod tests {
     #[test]
     fn control_characters_of_a_file_do_not_reach_the_terminal() {
         assert_eq!(printable("a\u{1b}[31mb\tc"), "a\u{fffd}[31mb c");
+        assert_eq!(printable("a\u{202e}b"), "a\u{fffd}b");
+        assert_eq!(harmless("a\u{202e}b\u{9b}c\td\n"), "a\\u{202e}b\\u{9b}c\td\n");
     }
 }

@@ -6,12 +6,13 @@
 use std::cell::RefCell;
 use std::ffi::{OsStr, OsString};
 use std::fs::{File, OpenOptions};
-use std::io::{Read, Write};
+use std::io::{ErrorKind, Read, Write};
 use std::ops::Deref;
 use std::path::{Path, PathBuf};
 
 use clap::ArgMatches;
 
+use super::exit::Exit;
 use super::failure::Failure;
 use crate::design::{Design, Format, parse};
 use crate::records::{FileSourceRecord, sha256};
@@ -19,12 +20,38 @@ use crate::records::{FileSourceRecord, sha256};
 /// Nothing this program reads is larger; a design has some kilobytes.
 const MAX_BYTES: u64 = 4 << 20;
 
-/// The text of a file of at most 4 MiB.
+/// The name for standard input and standard output.
+const STANDARD: &str = "-";
+
+/// Whether a path stands for standard input or standard output.
+pub(crate) fn is_standard(path: &Path) -> bool {
+    path.as_os_str() == STANDARD
+}
+
+/// An input as people are told of it.
+pub(crate) fn shown(path: &Path) -> String {
+    if is_standard(path) { "standard input".into() } else { path.display().to_string() }
+}
+
+/// The text of a file of at most 4 MiB, or of standard input.
 ///
 /// # Errors
-/// Exit 2: `file::not_readable`, `file::is_directory`, `file::too_large`, `file::not_utf8`.
+/// Exit 2: `file::not_readable`, `file::is_directory`, `file::too_large`, `file::not_utf8`, `file::read_twice`.
 pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
-    let shown = path.display();
+    String::from_utf8(read_table(path)?).map_err(|error| {
+        let valid = error.utf8_error().valid_up_to();
+        let line = error.as_bytes()[..valid].split(|b| *b == b'\n').count();
+        let message = format!("{} is not UTF-8 text: line {line} has other bytes", shown(path));
+        Failure::refused("file::not_utf8", message).with_help("save the file as UTF-8")
+    })
+}
+
+/// The bytes of a table of at most 4 MiB, whatever its encoding.
+///
+/// # Errors
+/// Exit 2: `file::not_readable`, `file::is_directory`, `file::too_large`, `file::read_twice`.
+pub(crate) fn read_table(path: &Path) -> Result<Vec<u8>, Failure> {
+    let shown = shown(path);
     let unreadable = |error: &std::io::Error| {
         Failure::refused("file::not_readable", format!("{shown} cannot be read: {error}"))
             .with_help("check the path and its permissions")
@@ -34,29 +61,34 @@ pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
             "a design has some kilobytes, a table of leg lengths about 100 bytes a row; split the table",
         )
     };
-    let metadata = std::fs::metadata(path).map_err(|e| unreadable(&e))?;
-    if metadata.is_dir() {
-        let failure = Failure::refused("file::is_directory", format!("{shown} is a directory"));
-        return Err(failure.with_help("name a file in it"));
-    }
-    if metadata.len() > MAX_BYTES {
-        return Err(too_large());
-    }
-    // a pipe or device has no size to go by, and a file may grow: the read itself is limited too
     let mut bytes = Vec::new();
-    let file = File::open(path).map_err(|e| unreadable(&e))?;
-    note_input(path);
-    file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(|e| unreadable(&e))?;
+    if is_standard(path) {
+        if texts_read().iter().any(|text| text.path == STANDARD) {
+            let message = "standard input is named for two inputs of this command";
+            return Err(
+                Failure::refused("file::read_twice", message).with_help("name a file for one of them")
+            );
+        }
+        std::io::stdin().lock().take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(|e| unreadable(&e))?;
+    } else {
+        let metadata = std::fs::metadata(path).map_err(|e| unreadable(&e))?;
+        if metadata.is_dir() {
+            let failure = Failure::refused("file::is_directory", format!("{shown} is a directory"));
+            return Err(failure.with_help("name a file in it"));
+        }
+        if metadata.len() > MAX_BYTES {
+            return Err(too_large());
+        }
+        // a pipe or device has no size to go by, and a file may grow: the read itself is limited too
+        let file = File::open(path).map_err(|e| unreadable(&e))?;
+        note_input(path);
+        file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(|e| unreadable(&e))?;
+    }
     if bytes.len() as u64 > MAX_BYTES {
         return Err(too_large());
     }
     note_text(path, &bytes);
-    String::from_utf8(bytes).map_err(|error| {
-        let valid = error.utf8_error().valid_up_to();
-        let line = error.as_bytes()[..valid].split(|b| *b == b'\n').count();
-        Failure::refused("file::not_utf8", format!("{shown} is not UTF-8 text: line {line} has other bytes"))
-            .with_help("save the file as UTF-8")
-    })
+    Ok(bytes)
 }
 
 /// A path that a command writes to, file or folder: the type tells outputs from inputs among the arguments.
@@ -118,6 +150,8 @@ struct Run {
     /// What [`read_text`] read, for the provenance of the answer.
     texts: Vec<FileSourceRecord>,
     written: Vec<Identity>,
+    /// What goes to standard output instead of the text of the answer.
+    standard: Option<String>,
 }
 
 thread_local! {
@@ -148,6 +182,11 @@ pub(crate) fn texts_read() -> Vec<FileSourceRecord> {
     RUN.with_borrow(|run| run.texts.clone())
 }
 
+/// What this run has written to standard output as a file, if anything.
+pub(crate) fn standard_output() -> Option<String> {
+    RUN.with_borrow_mut(|run| run.standard.take())
+}
+
 fn over_input(path: &Path) -> Failure {
     let message = format!("{} is an input of this command and would be overwritten", path.display());
     Failure::refused("file::overwrites_input", message).with_help("name another file")
@@ -161,8 +200,8 @@ fn written_twice(path: &Path) -> Failure {
 /// Refuses before anything is computed: outputs among the arguments that are inputs among them, or the same as other outputs.
 ///
 /// # Errors
-/// Exit 2: `file::overwrites_input`, `file::written_twice`.
-pub(crate) fn check_arguments(matches: &ArgMatches) -> Result<(), Failure> {
+/// Exit 2: `file::overwrites_input`, `file::written_twice`, `file::standard_output`.
+pub(crate) fn check_arguments(matches: &ArgMatches, json: bool) -> Result<(), Failure> {
     let (mut inputs, mut outputs) = (Vec::new(), Vec::new());
     let mut level = Some(matches);
     while let Some(matches) = level {
@@ -177,8 +216,19 @@ pub(crate) fn check_arguments(matches: &ArgMatches) -> Result<(), Failure> {
         }
         level = matches.subcommand().map(|(_, below)| below);
     }
+    let standard = outputs.iter().filter(|(_, path)| is_standard(path)).count();
+    if standard > 1 {
+        return Err(written_twice(Path::new("standard output")));
+    }
+    if standard == 1 && json {
+        let message = "standard output cannot hold a file beside the document of --json";
+        return Err(
+            Failure::refused("file::standard_output", message).with_help("name a file, or leave out --json")
+        );
+    }
     let files: Vec<(Identity, &OutputPath)> = outputs
         .iter()
+        .filter(|(_, path)| !is_standard(path))
         .filter(|(_, p)| !p.is_dir() && !is_device(p))
         .map(|(_, p)| (Identity::of(p), p))
         .collect();
@@ -203,6 +253,10 @@ fn is_device(path: &Path) -> bool {
 /// # Errors
 /// Exit 2: `file::not_writable`.
 pub(crate) fn make_folder(path: &Path) -> Result<(), Failure> {
+    if is_standard(path) {
+        let message = "this command writes several files, and standard output is one";
+        return Err(Failure::refused("file::standard_output", message).with_help("name a folder"));
+    }
     std::fs::create_dir_all(path).map_err(|error| {
         Failure::refused("file::not_writable", format!("{} cannot be made: {error}", path.display()))
             .with_help("check the folder and its permissions")
@@ -267,6 +321,20 @@ fn check_target(path: &Path, text: &str) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Why something could not be written: where there is no room it is no fault of the arguments.
+pub(crate) fn not_written(shown: &str, error: &std::io::Error) -> Failure {
+    let message = format!("{shown} cannot be written: {error}");
+    match error.kind() {
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
+            Failure::new(Exit::Internal, "file::disk_full", message)
+                .with_help("make room, or write elsewhere")
+        }
+        _ => {
+            Failure::refused("file::not_writable", message).with_help("check the folder and its permissions")
+        }
+    }
+}
+
 /// The beginning and the end of the name under which a file is written before it gets its own.
 const PART: (&str, &str) = (".", ".part");
 
@@ -279,17 +347,22 @@ pub(crate) fn is_part(name: &OsStr, of: &str) -> bool {
     })
 }
 
-/// Writes a file whole: first beside it, then renamed, so that a half-written file never stands there.
+/// Writes a file whole: first beside it, then renamed, so that a half-written file never stands there. `-` is standard output.
 ///
 /// # Errors
-/// Exit 2: `file::overwrites_input`, `file::written_twice`, `file::overwrites_design`, `file::not_writable`.
+/// Exit 2: `file::overwrites_input`, `file::written_twice`, `file::overwrites_design`, `file::not_writable`. Exit 4: `file::disk_full`.
 pub(crate) fn write_text(path: &Path, text: &str) -> Result<(), Failure> {
-    let failed = |error: std::io::Error| {
-        Failure::refused("file::not_writable", format!("{} cannot be written: {error}", path.display()))
-            .with_help("check the folder and its permissions")
-    };
+    let failed = |error: std::io::Error| not_written(&path.display().to_string(), &error);
+    if is_standard(path) {
+        RUN.with_borrow_mut(|run| run.standard.get_or_insert_default().push_str(text));
+        return Ok(());
+    }
     if is_device(path) {
-        return std::fs::write(path, text).map_err(failed); // nothing to rename over
+        // nothing to rename over; who reads from a pipe may have read enough
+        return match std::fs::write(path, text) {
+            Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+            done => done.map_err(failed),
+        };
     }
     if path.is_dir() {
         return Err(failed(std::io::ErrorKind::IsADirectory.into()));

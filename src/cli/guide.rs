@@ -34,18 +34,40 @@ const fn entry(
     GuideEntry { path, examples, words }
 }
 
-const JOBS: [Job; 8] = [
+const JOBS: [Job; 9] = [
+    Job {
+        heading: "Start",
+        commands: &[entry(
+            "new",
+            &[
+                "new --base-radius 500 --platform-radius 300 --base-spread 20 --platform-spread 20 --height 400 -o hexapod.toml",
+                "new --corners 0,0/12,0/6,10.4 0,0/6,0/3,5.2 --height 9 -o octahedral.toml",
+                "new --points designs/tables/hexapod.csv -o mine.toml",
+            ],
+            &["init", "create", "import", "start"],
+        )],
+    },
     Job {
         heading: "Solve",
-        commands: &[entry(
-            "fk",
-            &[
-                "fk designs/rbt-octahedral.toml",
-                "fk designs/rbt-octahedral.toml --method trilateration",
-                "fk designs/rbt-octahedral.toml --lengths 11,11,11,11,11,11 --json",
-            ],
-            &["forward", "forward-kinematics", "kinematics", "solve", "poses"],
-        )],
+        commands: &[
+            entry(
+                "fk",
+                &[
+                    "fk designs/rbt-octahedral.toml",
+                    "fk designs/rbt-octahedral.toml --method trilateration",
+                    "fk designs/rbt-octahedral.toml --lengths 11,11,11,11,11,11 --json",
+                ],
+                &["forward", "forward-kinematics", "kinematics", "solve", "poses"],
+            ),
+            entry(
+                "ik",
+                &[
+                    "ik designs/symmetric-hexapod.toml --pose 0,0,360,5,0,0",
+                    "ik designs/presets/bench-l16.toml --json",
+                ],
+                &["inverse", "inverse-kinematics", "lengths", "leg-lengths"],
+            ),
+        ],
     },
     Job {
         heading: "Equivalent designs",
@@ -144,7 +166,7 @@ const JOBS: [Job; 8] = [
             entry(
                 "design presets",
                 &["design presets", "design presets bench-l16 -o mine.toml"],
-                &["preset", "hardware", "new"],
+                &["preset", "hardware"],
             ),
             entry("design schema", &["design schema", "design schema equivalents-family"], &["json-schema"]),
         ],

@@ -19,6 +19,7 @@ mod poses;
 mod progress;
 mod reference;
 mod rows;
+mod table;
 mod usage;
 
 use std::ffi::OsString;
@@ -53,6 +54,11 @@ fn guarded(json: bool, body: impl FnOnce() -> Exit) -> Exit {
 }
 
 fn run(args: Vec<OsString>, json: bool) -> Exit {
+    let mut args = args;
+    if args.len() < 2 {
+        // nothing was asked: say what can be
+        args.push("--help".into());
+    }
     let words: Vec<String> = args.iter().map(|a| a.to_string_lossy().into_owned()).collect();
     let matches = match guide::program().try_get_matches_from(args) {
         Ok(matches) => matches,
@@ -69,7 +75,7 @@ fn run(args: Vec<OsString>, json: bool) -> Exit {
             .failure(&Failure::new(Exit::Internal, "arithmetic", unfit.to_string()).with_help(help), None);
     }
     files::begin();
-    if let Err(failure) = files::check_arguments(&matches) {
+    if let Err(failure) = files::check_arguments(&matches, output.is_json()) {
         return output.failure(&failure, None);
     }
     let mut context = Context::new(&cli.global, &matches);

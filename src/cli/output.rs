@@ -9,6 +9,7 @@ use super::context::{Context, FileWarning};
 use super::diagnostic;
 use super::exit::Exit;
 use super::failure::Failure;
+use super::files;
 use super::usage;
 use crate::records::{Document, ErrorAnswer, HelpAnswer, ProvenanceRecord, WarningRecord};
 
@@ -48,9 +49,26 @@ impl Output {
         Self { json }
     }
 
+    pub(crate) fn is_json(self) -> bool {
+        self.json
+    }
+
     pub(crate) fn answer(self, answer: &Answer, context: &Context) -> Exit {
         if !self.json {
-            return write_out(&answer.text, answer.exit);
+            let Some(file) = files::standard_output() else {
+                return write_out(&diagnostic::harmless(&answer.text), answer.exit);
+            };
+            // a file on standard output leaves what there is to say to standard error
+            if !context.quiet() {
+                let said = answer
+                    .text
+                    .lines()
+                    .filter(|line| !["wrote -", "-"].contains(line))
+                    .collect::<Vec<_>>()
+                    .join("\n");
+                diagnostic::print_note(&said);
+            }
+            return write_out(&file, answer.exit);
         }
         match answer.record.document(context) {
             Ok(text) => write_out(&text, answer.exit),
@@ -78,8 +96,10 @@ impl Output {
                 Err(failure) => self.failure(&failure, None),
             };
         }
-        let _ = error.print();
-        Exit::Yes
+        let styled = error.render().ansi().to_string();
+        let shown = anstream::adapter::strip_str(&styled).to_string();
+        let coloured = anstream::AutoStream::choice(&io::stdout()) != anstream::ColorChoice::Never;
+        write_out(if coloured { &styled } else { &shown }, Exit::Yes)
     }
 }
 
@@ -91,8 +111,13 @@ pub(crate) fn document(
 ) -> Result<String, Failure> {
     let document = Document::new(answer, provenance, warnings.iter().map(WarningRecord::from).collect());
     let text = serde_json::to_string(&document);
-    text.map(|t| t + "\n")
-        .map_err(|e| Failure::internal(format!("the answer cannot be written as JSON: {e}")))
+    // what could steer a terminal stands in strings alone, where JSON has another spelling for it
+    text.map(|t| {
+        diagnostic::escaped(&t, |c| {
+            c.encode_utf16(&mut [0; 2]).iter().fold(String::new(), |t, u| format!("{t}\\u{u:04x}"))
+        }) + "\n"
+    })
+    .map_err(|e| Failure::internal(format!("the answer cannot be written as JSON: {e}")))
 }
 
 /// A refusal or failure as a document. It is made of texts and numbers of lines alone: when even that cannot be written, standard error has said it.
@@ -114,7 +139,7 @@ impl From<&FileWarning> for WarningRecord {
     }
 }
 
-/// Writes to standard output. A closed pipe (`| head`) ends quietly, any other failure is exit 4.
+/// Writes to standard output. A closed pipe (`| head`) ends quietly with the exit code of the answer, any other failure is exit 4.
 fn write_out(text: &str, exit: Exit) -> Exit {
     let mut out = io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {

@@ -1,48 +1,53 @@
-//! Tables of numbers: one record a line.
+//! Tables of leg lengths and poses, one record a line.
 
+use std::path::Path;
+
+use super::context::Context;
 use super::failure::Failure;
-use crate::design::table_rows;
-
-/// At most so many bad lines are quoted.
-const SHOWN: usize = 20;
+use super::files;
+use crate::design::{InvalidSeries, Series, SeriesKind};
+use crate::geom::{InvalidPose, Pose};
 
 /// What a table is called when it is refused.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct TableName<'a> {
     /// Its file.
-    pub(crate) path: &'a str,
+    pub(crate) path: &'a Path,
     /// Code of the refusal.
     pub(crate) code: &'static str,
     /// What a line holds: "six lengths a line: l1,..".
     pub(crate) form: &'static str,
 }
 
-/// Lines read by `record`, with their numbers from 1. A first line without any number is a header; blank lines and lines that
-/// begin with `#` are passed over.
+/// Rows read by `record` from a table in any usual notation; what was guessed about it goes to standard error.
 ///
 /// # Errors
 /// Exit 2: all bad lines are named; a table without a record is refused too.
 pub(crate) fn read<T>(
-    text: &str,
+    kind: SeriesKind,
     table: TableName<'_>,
+    context: &Context,
     record: impl Fn(&str) -> Result<T, String>,
-) -> Result<Vec<(usize, T)>, Failure> {
-    let (rows, bad) = match table_rows(text, record) {
-        Ok(rows) => (rows, Vec::new()),
-        Err(bad) => (Vec::new(), bad),
-    };
-    let path = table.path;
-    let refused = |message: String| {
-        Err(Failure::refused(table.code, message).with_help(format!("write {}", table.form)))
-    };
-    if !bad.is_empty() {
-        let shown = bad.iter().take(SHOWN).cloned().collect::<Vec<_>>().join("; ");
-        let more =
-            if bad.len() > SHOWN { format!("; and {} more", bad.len() - SHOWN) } else { String::new() };
-        return refused(format!("{path}: {shown}{more}"));
-    }
-    if rows.is_empty() {
-        return refused(format!("{path} has no line of numbers"));
-    }
-    Ok(rows)
+) -> Result<Series<T>, Failure> {
+    let shown = files::shown(table.path);
+    let series = kind.read(&files::read_table(table.path)?, record).map_err(|why| {
+        let message = match why {
+            InvalidSeries::Empty => format!("{shown} has no line of numbers"),
+            why => format!("{shown}: {why}"),
+        };
+        Failure::refused(table.code, message).with_help(format!("write {}", table.form))
+    })?;
+    context.note_guesses(&shown, &series.guesses);
+    Ok(series)
+}
+
+/// The poses of a table.
+///
+/// # Errors
+/// As [`read`].
+pub(crate) fn poses(path: &Path, code: &'static str, context: &Context) -> Result<Series<Pose>, Failure> {
+    let form = "a pose a line: x,y,z,roll_deg,pitch_deg,yaw_deg or x,y,z,qw,qx,qy,qz";
+    read(SeriesKind::Poses, TableName { path, code, form }, context, |line| {
+        line.parse().map_err(|e: InvalidPose| e.to_string())
+    })
 }

@@ -10,10 +10,10 @@ mod fixtures;
 mod json_text;
 mod likeness;
 mod model;
+mod outline;
 mod presets;
 #[cfg(test)]
 mod requirements_tests;
-mod rows;
 mod save;
 mod schema;
 mod table;
@@ -35,10 +35,10 @@ pub(crate) use edit::Written;
 pub(crate) use likeness::likeness;
 pub(crate) use likeness::nearest_word;
 pub use model::{Combination, Design, NameCount, OptimizeTable, SearchTable};
+pub(crate) use outline::{HexapodSizes, octahedral_toml, with_lengths};
 pub use presets::{PRESETS, Preset, PresetClass};
-pub(crate) use rows::table_rows;
 pub use schema::SCHEMA;
-pub(crate) use table::{InvalidPointTable, InvalidSheet, PointTable, Sheet, SheetRow};
+pub(crate) use table::{InvalidSeries, PointTable, Series, SeriesKind, SeriesRow};
 pub use violation::{Code, Violation, Warning};
 pub use workspace::{Trajectory, Workspace};
 

@@ -4,7 +4,8 @@ use std::io::Write as _;
 use std::path::Path;
 
 use super::Error;
-use crate::design::{Design, Format, Warning, parse, table_rows};
+use crate::design::{Design, Format, SeriesKind, Warning, parse};
+use crate::geom::InvalidPose;
 
 impl Design {
     /// Reads a design file, TOML or, where the name ends in `.json`, JSON, and the table of its trajectory where it names one. What is allowed but
@@ -25,11 +26,11 @@ impl Design {
             .map_err(|violations| Error::Design { file: Some(path.to_path_buf()), violations })?;
         if let Some(trajectory) = &mut design.workspace.trajectory {
             let file = path.parent().unwrap_or(Path::new("")).join(&trajectory.file);
-            let rows = table_rows(&read(&file)?, |line| {
-                line.parse().map_err(|e: crate::geom::InvalidPose| e.to_string())
-            });
-            let rows = rows.map_err(|bad| Error::Trajectory { file, bad })?;
-            trajectory.poses = rows.into_iter().map(|(_, pose)| pose).collect();
+            let bytes = std::fs::read(&file).map_err(|source| Error::File { path: file.clone(), source })?;
+            let read =
+                SeriesKind::Poses.read(&bytes, |row| row.parse().map_err(|e: InvalidPose| e.to_string()));
+            let table = read.map_err(|why| Error::Trajectory { file, bad: why.sentences() })?;
+            trajectory.poses = table.rows.into_iter().map(|row| row.value).collect();
         }
         Ok(design)
     }

@@ -85,6 +85,14 @@ pub fn default_home(m: &Manipulator) -> Pose {
     Pose { rotation, position: base_centre + normal * height - rotation * platform_centre }
 }
 
+/// Height of the centre of the platform above the base, design units: with `n` the normal of the best-fit plane of the base leg ends, which points to positive z of the base
+/// frame, and the means `a`, `b` of the leg ends, it is `n . (R b + p - a)`.
+pub(crate) fn height_above_base(m: &Manipulator, pose: &Pose) -> f64 {
+    let (base_centre, a) = centred(m.legs().map(|l| l.base.coords));
+    let (platform_centre, _) = centred(m.legs().map(|l| l.platform.coords));
+    plane_normal(&a, m.size()).dot(&(pose.rotation * platform_centre + pose.position - base_centre))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -16,6 +16,7 @@ mod values;
 pub use body::{Body, NoSuchBody};
 pub(crate) use exact_legs::{ExactLeg, ExactLegs, flat_dimension, homogeneous};
 pub use home::default_home;
+pub(crate) use home::height_above_base;
 pub(crate) use jacobian::jacobian_of_legs;
 pub(crate) use jacobian::leg_determinant;
 pub use jacobian::{inverse_condition, jacobian, plucker_matrix};

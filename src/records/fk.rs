@@ -11,7 +11,8 @@ use crate::fk::{
     Closure, Completeness, FkRoot, FkSolutions, Method, NoClosure, PathEnd, PathReport, Reality, Rejected,
     RejectionReason, SolutionSet,
 };
-use crate::geom::ComplexPose;
+use crate::geom::{ComplexPose, Pose};
+use crate::manipulator::{Manipulator, height_above_base};
 use crate::num::ball::Disc;
 use crate::poly::{Dyadic, RealRoot};
 use crate::solve::certify::octahedral::OctahedralCertificate;
@@ -41,6 +42,9 @@ pub struct FkRowsAnswer {
 pub struct FkRowRecord {
     /// The line of the CSV file, from 1.
     pub line: usize,
+    /// The time of the row, where the file has a column of times.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time: Option<f64>,
     /// The six lengths, design units.
     pub lengths: [f64; 6],
     /// The poses, or why there are none.
@@ -174,6 +178,34 @@ impl From<&FkSolutions> for SolvedRecord {
 }
 
 impl SolvedRecord {
+    /// Adds to the real poses what they are in real numbers, and how they stand to home.
+    #[must_use]
+    pub fn with_real_poses(mut self, m: &Manipulator, home: &Pose) -> Self {
+        let of_home = height_above_base(m, home);
+        let place = ComplexPose::from(*home);
+        for solution in self.solutions.iter_mut().filter(|s| s.real == Some(true)) {
+            let pose = ComplexPose::from(&solution.pose).real_part();
+            let height = height_above_base(m, &pose);
+            // in the plane of the base to rounding there are no sides
+            let level = [height, of_home].iter().any(|h| !(h.abs() > 1e-12 * m.size()));
+            let side = if height * of_home > 0.0 { SideWord::Above } else { SideWord::Below };
+            solution.real_pose = Some(RealPoseRecord {
+                position: pose.position.into(),
+                rotation: [0, 1, 2].map(|i| [0, 1, 2].map(|j| pose.rotation.matrix()[(i, j)])),
+                rpy_deg: pose.angles().degrees(),
+                quat_wxyz: pose.quaternion(),
+                mode: if level { None } else { Some(side) },
+                distance_from_home: ComplexPose::from(pose).distance(&place, m.size()),
+                nearest_home: false,
+            });
+        }
+        let real = self.solutions.iter_mut().filter_map(|s| s.real_pose.as_mut());
+        if let Some(nearest) = real.min_by(|a, b| a.distance_from_home.total_cmp(&b.distance_from_home)) {
+            nearest.nearest_home = true;
+        }
+        self
+    }
+
     fn is_finite(&self) -> bool {
         self.solutions.iter().chain(&self.unproved).all(SolutionRecord::is_finite)
             && self.paths.iter().all(|p| p.isotropy.0.is_finite())
@@ -349,6 +381,35 @@ impl From<&ComplexPoseRecord> for ComplexPose {
     }
 }
 
+/// A real pose in real numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct RealPoseRecord {
+    /// Position of the platform origin, base frame, design units.
+    pub position: [f64; 3],
+    /// Rows of the rotation matrix.
+    pub rotation: [[f64; 3]; 3],
+    /// Roll, pitch and yaw in degrees, R = Rz(yaw) Ry(pitch) Rx(roll).
+    pub rpy_deg: [f64; 3],
+    /// Unit quaternion, scalar part first.
+    pub quat_wxyz: [f64; 4],
+    /// On which side of the base the platform is; null: its centre is in the plane of the base, there or at home.
+    pub mode: Option<SideWord>,
+    /// Largest difference from home of an entry of the rotation matrix, or of a coordinate of the position over the size of the design.
+    pub distance_from_home: f64,
+    /// Whether none of the other real poses listed is nearer to home.
+    pub nearest_home: bool,
+}
+
+/// A side of the plane of the base.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SideWord {
+    /// The side where the platform is at home.
+    Above,
+    /// The other side.
+    Below,
+}
+
 /// One pose with its evidence.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SolutionRecord {
@@ -357,6 +418,9 @@ pub struct SolutionRecord {
     pub pose: ComplexPoseRecord,
     /// Null: undecided.
     pub real: Option<bool>,
+    /// The pose in real numbers, where it is real.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub real_pose: Option<RealPoseRecord>,
     /// Whether there is a certificate.
     pub certified: bool,
     /// The proof; null where there is none.
@@ -380,6 +444,7 @@ impl From<&FkRoot> for SolutionRecord {
                 Reality::NonReal => Some(false),
                 Reality::Undecided => None,
             },
+            real_pose: None,
             certified: r.certified(),
             certificate: r.certificate.as_ref().map(CertificateRecord::from),
             multiplicity: r.multiplicity,

@@ -6,9 +6,10 @@ use serde_json::{Map, Value};
 
 use super::{
     AssessAnswer, CheckAnswer, CompletionsAnswer, ComponentsAnswer, ConvertAnswer, Document, ErrorAnswer,
-    ExploreAnswer, ExportAnswer, FamilyAnswer, FkAnswer, HelpAnswer, LocusAnswer, ManAnswer, MapAnswer,
-    MoveAnswer, OptimizeAnswer, PlotAnswer, PresetsAnswer, ReportAnswer, RoundAnswer, SchemaAnswer,
-    SelfmotionAnswer, SingularitiesAnswer, TolerancesAnswer, TopologiesAnswer, VerifyAnswer, ViewAnswer,
+    ExploreAnswer, ExportAnswer, FamilyAnswer, FkAnswer, HelpAnswer, IkAnswer, LocusAnswer, ManAnswer,
+    MapAnswer, MoveAnswer, NewAnswer, OptimizeAnswer, PlotAnswer, PresetsAnswer, ReportAnswer, RoundAnswer,
+    SchemaAnswer, SelfmotionAnswer, SingularitiesAnswer, TolerancesAnswer, TopologiesAnswer, VerifyAnswer,
+    ViewAnswer,
 };
 
 /// Names of answers with the function that writes their schema: commands by their own names, those of a group as `singular-poses`, `error` for refusals, `help` for --help.
@@ -34,6 +35,8 @@ const ANSWERS: Table = &[
     ("export", Document::<ExportAnswer>::json_schema),
     ("fk", Document::<FkAnswer>::json_schema),
     ("help", Document::<HelpAnswer>::json_schema),
+    ("ik", Document::<IkAnswer>::json_schema),
+    ("new", Document::<NewAnswer>::json_schema),
     ("optimize", Document::<OptimizeAnswer>::json_schema),
     ("plot", Document::<PlotAnswer>::json_schema),
     ("plot-locus", Document::<LocusAnswer>::json_schema),

@@ -22,6 +22,8 @@ mod equivalents;
 mod explore;
 mod export;
 mod fk;
+mod ik;
+mod new;
 mod optimize;
 mod plot;
 mod report;
@@ -40,8 +42,12 @@ use super::reference;
 /// The commands, in the order of the guide.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
+    /// Write a design from a few sizes, from corners or from a table of points
+    New(new::Args),
     /// Find all poses, real and complex, for given leg lengths
     Fk(fk::Args),
+    /// Compute the leg lengths at given poses
+    Ik(ik::Args),
     /// Compute and change the platforms equivalent to a design
     #[command(subcommand)]
     Equivalents(equivalents::Command),
@@ -86,7 +92,9 @@ impl Command {
     /// Runs the command.
     pub(crate) fn run(&self, context: &mut Context) -> Result<Answer, Failure> {
         match self {
+            Self::New(args) => new::run(args, context),
             Self::Fk(args) => fk::run(args, context),
+            Self::Ik(args) => ik::run(args, context),
             Self::Equivalents(command) => command.run(context),
             Self::Verify(args) => verify::run(args, context),
             Self::Explore(args) => explore::run(args, context),

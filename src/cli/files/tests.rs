@@ -50,9 +50,9 @@ fn needed(words: &[String], output: &str) -> Vec<&'static str> {
 }
 
 /// Outputs of commands that read no file.
-const WITHOUT_INPUT: [&str; 3] = ["bench", "shell man", "design presets"];
+const WITHOUT_INPUT: [&str; 4] = ["bench", "shell man", "design presets", "new"];
 /// Options with a path that is read.
-const READ: [&str; 1] = ["core"];
+const READ: [&str; 3] = ["core", "points", "poses"];
 
 #[test]
 fn no_command_writes_over_its_input() {
@@ -97,7 +97,7 @@ fn no_command_writes_over_its_input() {
                 let line: Vec<OsString> = line.chain([flag.into(), alias.clone().into_os_string()]).collect();
                 let matches =
                     Cli::command().try_get_matches_from(line).unwrap_or_else(|e| panic!("{words:?}: {e}"));
-                let refused = check_arguments(&matches).unwrap_err();
+                let refused = check_arguments(&matches, false).unwrap_err();
                 assert_eq!(refused.code, "file::overwrites_input", "{words:?} --{name} {}", alias.display());
                 checked += 1;
             }
@@ -161,7 +161,7 @@ fn two_outputs_are_two_files() {
         "./x",
     ];
     let matches = Cli::command().try_get_matches_from(line).unwrap();
-    assert_eq!(check_arguments(&matches).unwrap_err().code, "file::written_twice");
+    assert_eq!(check_arguments(&matches, false).unwrap_err().code, "file::written_twice");
 }
 
 #[test]

@@ -3,9 +3,11 @@
 //! Nothing says how such a table is written, so that its form is guessed from its text, and every guess is a sentence that the reader of the answer sees.
 //! What cannot be read is refused; no cell is passed over without a word.
 
+mod header;
 mod points;
+mod series;
 mod sheet;
 mod text;
 
-pub(crate) use points::{InvalidPointTable, PointTable};
-pub(crate) use sheet::{InvalidSheet, Sheet, SheetRow};
+pub(crate) use points::PointTable;
+pub(crate) use series::{InvalidSeries, Series, SeriesKind, SeriesRow};

@@ -3,6 +3,7 @@
 use nalgebra::Point3;
 use thiserror::Error;
 
+use super::header::{UNITS, plain};
 use super::sheet::{InvalidSheet, Sheet, SheetRow};
 use crate::design::{Design, NameCount};
 use crate::geom::Pose;
@@ -43,7 +44,7 @@ pub(crate) enum InvalidPointTable {
 impl PointTable {
     /// Reads six rows of two points, base end first, or twelve rows of one point, in whatever notation.
     ///
-    /// PointColumns are taken by their names where the header has names for coordinates, else by their order. Rows of one point belong to the body that a cell, a title above them
+    /// Columns are taken by their names where the header has names for coordinates, else by their order. Rows of one point belong to the body that a cell, a title above them
     /// or their name says, else the first six to the base.
     ///
     /// # Errors
@@ -179,7 +180,7 @@ fn data_rows<'a>(
     Ok(rows)
 }
 
-/// PointColumns of the coordinates of one end of a leg; a missing z is zero.
+/// Columns of the coordinates of one end of a leg; a missing z is zero.
 type CoordinateColumns = (usize, usize, Option<usize>);
 
 /// Which columns hold what.
@@ -190,47 +191,6 @@ struct PointColumns {
     /// The column with the number of the leg.
     leg: Option<usize>,
 }
-
-/// Letters and digits of a name, in lower case, without what stands in brackets.
-fn plain(name: &str) -> String {
-    let mut depth = 0_usize;
-    let kept = name.chars().filter(|c| match c {
-        '[' | '(' => {
-            depth += 1;
-            false
-        }
-        ']' | ')' => {
-            depth = depth.saturating_sub(1);
-            false
-        }
-        c => depth == 0 && c.is_alphanumeric(),
-    });
-    let plain = kept.collect::<String>().to_lowercase();
-    // `x_mm`: the unit is no part of the name, unless it is all of it
-    let less = UNITS.iter().find_map(|(suffix, _)| {
-        let separated = name.trim().to_lowercase();
-        let head = separated.strip_suffix(suffix)?;
-        head.ends_with(['_', ' ', '/'])
-            .then(|| head.chars().filter(|c| c.is_alphanumeric()).collect::<String>())
-    });
-    less.unwrap_or(plain)
-}
-
-/// How the length units are spelled in headers, and their labels.
-const UNITS: [(&str, &str); 12] = [
-    ("mm", "mm"),
-    ("millimeter", "mm"),
-    ("millimetre", "mm"),
-    ("cm", "cm"),
-    ("um", "um"),
-    ("\u{b5}m", "um"),
-    ("\u{3bc}m", "um"),
-    ("inches", "in"),
-    ("inch", "in"),
-    ("in", "in"),
-    ("ft", "ft"),
-    ("m", "m"),
-];
 
 /// The one unit that the columns of coordinates name.
 fn unit_of(header: &[String]) -> Option<String> {

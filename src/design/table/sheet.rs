@@ -126,6 +126,14 @@ impl Sheet {
     pub(crate) fn number(&self, cell: &str) -> Option<f64> {
         number(cell, self.decimal)
     }
+
+    /// The cell with a point for the decimals, where it is a number.
+    pub(super) fn with_point(&self, cell: &str) -> String {
+        match number(cell, self.decimal) {
+            Some(_) => cell.replace(',', ".").replace('\u{2212}', "-"),
+            None => cell.replace(',', " "),
+        }
+    }
 }
 
 /// Digits with at most one mark for the decimals, in whatever way they are signed.

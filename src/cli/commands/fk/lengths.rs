@@ -2,30 +2,27 @@
 
 use std::path::Path;
 
+use crate::cli::context::Context;
 use crate::cli::failure::Failure;
-use crate::cli::files;
 use crate::cli::rows::{self, TableName};
+use crate::design::{Series, SeriesKind, SeriesRow};
 use crate::manipulator::LegLengths;
 
-/// Lengths of one line of a CSV file.
-#[derive(Debug, Clone, PartialEq)]
-pub(in crate::cli::commands) struct Row {
-    /// Line in the file, 1-based.
-    pub(in crate::cli::commands) line: usize,
-    pub(in crate::cli::commands) lengths: LegLengths,
-}
+/// Lengths of one line of a table.
+pub(in crate::cli::commands) type Row = SeriesRow<LegLengths>;
 
 /// One problem or many.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::cli::commands) enum Given {
     One(LegLengths),
-    Rows(Vec<Row>),
+    Rows(Series<LegLengths>),
 }
 
 /// `--lengths`, else the lengths of the design.
 pub(in crate::cli::commands) fn given(
     option: Option<&str>,
     of_design: Option<LegLengths>,
+    context: &Context,
 ) -> Result<Given, Failure> {
     let Some(text) = option else {
         return of_design.map(Given::One).ok_or_else(|| {
@@ -39,7 +36,7 @@ pub(in crate::cli::commands) fn given(
                 .with_help("give six lengths separated by commas, or a CSV file")
         });
     }
-    rows(&files::read_text(Path::new(text))?, text).map(Given::Rows)
+    rows(Path::new(text), context).map(Given::Rows)
 }
 
 /// Six comma-separated lengths.
@@ -54,33 +51,36 @@ pub(in crate::cli::commands) fn six(text: &str) -> Result<LegLengths, String> {
     LegLengths::try_new(values).map_err(|e| e.to_string())
 }
 
-/// A CSV file: six numbers a line.
-fn rows(text: &str, path: &str) -> Result<Vec<Row>, Failure> {
-    let table = TableName { path, code: "fk::bad_lengths", form: "six lengths a line: l1,l2,l3,l4,l5,l6" };
-    let rows = rows::read(text, table, six)?;
-    Ok(rows.into_iter().map(|(line, lengths)| Row { line, lengths }).collect())
+/// A table with six lengths a line.
+fn rows(path: &Path, context: &Context) -> Result<Series<LegLengths>, Failure> {
+    let form = "six lengths a line: l1,l2,l3,l4,l5,l6";
+    rows::read(SeriesKind::Lengths, TableName { path, code: "fk::bad_lengths", form }, context, six)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::design::InvalidSeries;
 
     #[test]
     fn csv_takes_a_header_comments_and_names_all_bad_lines() {
         let good = "l1,l2,l3,l4,l5,l6\n\n# note\n1,2,3,4,5,6\n 6, 5,4,3,2,1.5 \r\n";
-        let found = rows(good, "x.csv").unwrap();
+        let found = SeriesKind::Lengths.read(good.as_bytes(), six).unwrap().rows;
         assert_eq!(found.iter().map(|r| r.line).collect::<Vec<_>>(), [4, 5]);
-        assert!((found[1].lengths.get()[5] - 1.5).abs() < 1e-15);
+        assert!((found[1].value.get()[5] - 1.5).abs() < 1e-15);
         let bad = "1,2,3,4,5,6\n1,2,3\n1,2,x,4,5,6\n1,2,3,4,5,-6\n1,2,3,4,5,inf\n";
-        let failure = rows(bad, "x.csv").unwrap_err();
+        let why = SeriesKind::Lengths.read(bad.as_bytes(), six).unwrap_err().to_string();
         for line in ["line 2: 3 values", "line 3: value 3, `x`", "line 4: ", "line 5: "] {
-            assert!(failure.message.contains(line), "{}", failure.message);
+            assert!(why.contains(line), "{why}");
         }
-        assert!(rows("a,b\n", "x.csv").is_err(), "a header alone is no data");
+        let header_alone = SeriesKind::Lengths.read(b"a,b\n", six);
+        assert_eq!(header_alone, Err(InvalidSeries::Empty), "a header alone is no data");
     }
 
     #[test]
     fn the_design_provides_lengths_when_the_option_is_absent() {
+        let context = Context::silent();
+        let given = |option, of_design| given(option, of_design, &context);
         let l = LegLengths::try_new([1.0; 6]).unwrap();
         assert_eq!(given(None, Some(l)).unwrap(), Given::One(l));
         assert_eq!(given(None, None).unwrap_err().code, "fk::no_lengths");

@@ -1,5 +1,6 @@
 //! `equipod fk`: all poses for given leg lengths.
 
+mod csv;
 pub(super) mod lengths;
 mod near;
 mod render;
@@ -15,19 +16,21 @@ use crate::cli::failure::Failure;
 use crate::cli::output::Answer;
 use crate::cli::poses;
 use crate::fk::{self, BatchResult, FkError, FkOptions, FkSolutions, Method, Threads};
+use crate::geom::Pose;
 use crate::manipulator::{LegLengths, Manipulator};
 use crate::records::{
     ClosureRecord, FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, RowFailure, SolvedRecord,
 };
 
+use self::csv::Table;
 use self::lengths::Given;
 
 /// Arguments of `fk`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// Design file (.toml or .json)
+    /// Design file (.toml or .json), or `-` for standard input
     design: PathBuf,
-    /// Six lengths, or a CSV file with six columns; those of the design when absent
+    /// Six lengths, or a table with six columns (`-` for standard input) and times where it has them; those of the design when absent
     #[arg(long, value_name = "L1,..,L6|FILE")]
     lengths: Option<String>,
     /// Method of solution; auto takes the best one for the design
@@ -39,6 +42,12 @@ pub(crate) struct Args {
     /// Follow one real pose from this one, row by row for a CSV file: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`
     #[arg(long, value_name = "POSE", allow_hyphen_values = true, conflicts_with = "method")]
     near: Option<String>,
+    /// Write a CSV table with one real pose a row, the one nearest to home first
+    #[arg(long, conflicts_with = "json")]
+    csv: bool,
+    /// With --csv, write the complex poses as well
+    #[arg(long, requires = "csv")]
+    all: bool,
 }
 
 /// `--method`.
@@ -70,13 +79,14 @@ impl MethodArg {
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let method = args.method.method();
     let design = context.load(&args.design)?;
-    let given = lengths::given(args.lengths.as_deref(), design.lengths)?;
+    let given = lengths::given(args.lengths.as_deref(), design.lengths, context)?;
+    let table = Table { wanted: args.csv, all: args.all, time_name: None };
     if let Some(text) = &args.near {
         context.no_effect("threads", "a pose is followed row by row, each from the last one")?;
         let start = poses::parse(text, &design, "--near", "fk::bad_pose")?;
-        return Ok(near::run(&design, &given, start, context.seed()));
+        return Ok(near::run(&design, &given, start, context.seed(), &table));
     }
-    let m = design.manipulator();
+    let (m, home) = (design.manipulator(), poses::home(&design));
     let options = FkOptions { seed: context.seed(), ..FkOptions::default() };
     match given {
         Given::One(l) => {
@@ -86,16 +96,24 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
             )?;
             let solutions = solve(method, m, &l, &options)?;
             let exit = exit_of(&solutions);
-            let mut answer = FkOneAnswer::from(SolvedRecord::from(&solutions));
+            let mut answer = FkOneAnswer::from(SolvedRecord::from(&solutions).with_real_poses(m, &home));
             let mut text = render::text(&design.name, &answer.solved);
             if args.method == MethodArg::Trilateration {
                 let found = ClosureRecord::new(&design, &fk::closure(m, &l.squared(), &solutions));
                 text.push_str(&render::closure(&found));
                 answer.closure = Some(found);
             }
-            Ok(Answer::new(exit, FkAnswer::One(Box::new(answer)), text))
+            let answer = FkAnswer::One(Box::new(answer));
+            let text = table.text(&design, &answer).unwrap_or(text);
+            Ok(Answer::new(exit, answer, text))
         }
-        Given::Rows(rows) => Ok(many(method, m, &rows, &options, threads(args.threads))),
+        Given::Rows(series) => {
+            let table = Table { time_name: series.time_name, ..table };
+            let (exit, answer, text) =
+                many(method, (m, &home), &series.rows, &options, threads(args.threads));
+            let text = table.text(&design, &answer).unwrap_or(text);
+            Ok(Answer::new(exit, answer, text))
+        }
     }
 }
 
@@ -106,33 +124,40 @@ fn threads(asked: Option<u16>) -> Threads {
 /// Every row for itself: one that cannot be solved carries an `"error"` and does not stop the others.
 fn many(
     method: Option<Method>,
-    m: &Manipulator,
+    (m, home): (&Manipulator, &Pose),
     rows: &[lengths::Row],
     options: &FkOptions,
     threads: Threads,
-) -> Answer {
-    let squares: Vec<_> = rows.iter().map(|row| row.lengths.squared()).collect();
+) -> (Exit, FkAnswer, String) {
+    let squares: Vec<_> = rows.iter().map(|row| row.value.squared()).collect();
     let solver = fk::solver(method);
     let results = fk::solve_batch(solver.as_ref(), m, &squares, options, threads);
     // forty poses with all their numbers take as long to put into records as to find
-    let solved = fk::in_order(rows.len(), threads, &|i| solved_row(&rows[i], &results[i]));
+    let solved = fk::in_order(rows.len(), threads, &|i| solved_row(&rows[i], &results[i], (m, home)));
     let exit = solved.iter().map(|(exit, _)| *exit).fold(Exit::Yes, Exit::max);
     let rows: Vec<FkRowRecord> = solved.into_iter().map(|(_, record)| record).collect();
     let mut text = String::from("line  method         finite  real  complete\n");
     text.extend(rows.iter().map(render::table_row));
-    Answer::new(exit, FkAnswer::Rows(FkRowsAnswer { rows }), text)
+    (exit, FkAnswer::Rows(FkRowsAnswer { rows }), text)
 }
 
 /// Exit code and record of one row.
-fn solved_row(row: &lengths::Row, result: &BatchResult) -> (Exit, FkRowRecord) {
+fn solved_row(
+    row: &lengths::Row,
+    result: &BatchResult,
+    (m, home): (&Manipulator, &Pose),
+) -> (Exit, FkRowRecord) {
     let (exit, outcome) = match result {
-        Ok(s) => (exit_of(s), FkRowOutcome::Solved(Box::new(SolvedRecord::from(s).into()))),
+        Ok(s) => {
+            let solved = SolvedRecord::from(s).with_real_poses(m, home);
+            (exit_of(s), FkRowOutcome::Solved(Box::new(solved.into())))
+        }
         Err(error) => {
             let failure = failure_of(error);
             (failure.exit, FkRowOutcome::Failed(RowFailure { error: (&failure).into() }))
         }
     };
-    (exit, FkRowRecord { line: row.line, lengths: row.lengths.get(), outcome })
+    (exit, FkRowRecord { line: row.line, time: row.time, lengths: row.value.get(), outcome })
 }
 
 fn solve(

@@ -3,20 +3,23 @@
 use std::fmt::Write as _;
 
 use super::lengths::{Given, Row};
-use super::render;
+use super::{Table, render};
 use crate::cli::exit::Exit;
 use crate::cli::output::Answer;
+use crate::cli::poses;
 use crate::design::Design;
 use crate::fk::{
     Completeness, FkRoot, FkSolutions, Method, NearOutcome, NearSolver, Reality, Reason, SolutionSet,
 };
 use crate::geom::{ComplexPose, Pose};
 use crate::manipulator::{LegLengths, inverse_condition, jacobian};
-use crate::records::{FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, NearRecord};
+use crate::records::{
+    FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, NearRecord, SolvedRecord,
+};
 use crate::solve::certify::{Certifier, ProvedReality, RootCertificate};
 
 /// Follows one pose. A row that is not tracked leaves the next to start from the last tracked pose.
-pub(super) fn run(design: &Design, given: &Given, start: Pose, seed: u64) -> Answer {
+pub(super) fn run(design: &Design, given: &Given, start: Pose, seed: u64, table: &Table) -> Answer {
     let solver = NearSolver::new(design.manipulator());
     match given {
         Given::One(l) => {
@@ -24,23 +27,37 @@ pub(super) fn run(design: &Design, given: &Given, start: Pose, seed: u64) -> Ans
             let record = record(design, l, &start, &outcome, seed);
             let text =
                 format!("{}{}", sentence(design, &outcome), render::text(&design.name, &record.solved));
-            Answer::new(exit_of(&outcome), FkAnswer::One(Box::new(record)), text)
+            let record = FkAnswer::One(Box::new(record));
+            let text = table.text(design, &record).unwrap_or(text);
+            Answer::new(exit_of(&outcome), record, text)
         }
-        Given::Rows(rows) => trajectory(design, &solver, rows, start, seed),
+        Given::Rows(series) => {
+            let (exit, record, text) = trajectory(design, &solver, &series.rows, start, seed);
+            let table = Table { time_name: series.time_name.clone(), ..*table };
+            let text = table.text(design, &record).unwrap_or(text);
+            Answer::new(exit, record, text)
+        }
     }
 }
 
-fn trajectory(design: &Design, solver: &NearSolver, rows: &[Row], start: Pose, seed: u64) -> Answer {
+fn trajectory(
+    design: &Design,
+    solver: &NearSolver,
+    rows: &[Row],
+    start: Pose,
+    seed: u64,
+) -> (Exit, FkAnswer, String) {
     let (mut exit, mut from) = (Exit::Yes, start);
     let mut text = String::from("line  outcome           segments  inverse condition  position\n");
     let mut records = Vec::with_capacity(rows.len());
     for row in rows {
-        let outcome = solver.solve(&row.lengths.squared(), &from);
+        let outcome = solver.solve(&row.value.squared(), &from);
         exit = exit.max(exit_of(&outcome));
         records.push(FkRowRecord {
             line: row.line,
-            lengths: row.lengths.get(),
-            outcome: FkRowOutcome::Solved(Box::new(record(design, &row.lengths, &from, &outcome, seed))),
+            time: row.time,
+            lengths: row.value.get(),
+            outcome: FkRowOutcome::Solved(Box::new(record(design, &row.value, &from, &outcome, seed))),
         });
         let (e, p) = (outcome.evidence(), outcome.pose().position);
         let _ = writeln!(
@@ -56,7 +73,7 @@ fn trajectory(design: &Design, solver: &NearSolver, rows: &[Row], start: Pose, s
         );
         from = outcome.tracked().copied().unwrap_or(from);
     }
-    Answer::new(exit, FkAnswer::Rows(FkRowsAnswer { rows: records }), text)
+    (exit, FkAnswer::Rows(FkRowsAnswer { rows: records }), text)
 }
 
 fn exit_of(outcome: &NearOutcome) -> Exit {
@@ -109,7 +126,7 @@ fn record(
         seed,
     };
     FkOneAnswer {
-        solved: (&solutions).into(),
+        solved: SolvedRecord::from(&solutions).with_real_poses(m, &poses::home(design)),
         near: Some(NearRecord::new(start, outcome, conditioning(design, outcome))),
         closure: None,
     }

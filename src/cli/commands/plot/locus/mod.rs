@@ -124,7 +124,7 @@ pub(super) fn run(args: &Args, output: Option<&Path>, context: &mut Context) -> 
 fn solve(args: &Args, context: &mut Context) -> Result<Locus, Failure> {
     let method = args.method.method();
     let design = context.load(&args.design)?;
-    let lengths::Given::One(given) = lengths::given(args.lengths.as_deref(), design.lengths)? else {
+    let lengths::Given::One(given) = lengths::given(args.lengths.as_deref(), design.lengths, context)? else {
         return Err(Failure::refused(
             "locus::one_row",
             "--lengths names a table, but one set of lengths is wanted",

@@ -1,0 +1,290 @@
+//! Leg lengths or poses row by row, with their times.
+
+use thiserror::Error;
+
+use super::header::plain;
+use super::sheet::{InvalidSheet, Sheet, SheetRow};
+
+/// A row with fewer numbers is none.
+const LEAST_NUMBERS: usize = 2;
+/// At most so many bad lines are quoted.
+const QUOTED: usize = 20;
+
+/// What the rows of a table hold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum SeriesKind {
+    /// Six leg lengths.
+    Lengths,
+    /// Position with roll, pitch and yaw, or with a quaternion.
+    Poses,
+}
+
+/// A row that was read.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct SeriesRow<T> {
+    /// Its line in the text, from 1.
+    pub(crate) line: usize,
+    /// Its time, where the table has a column for it; the unit is that of the table.
+    pub(crate) time: Option<f64>,
+    /// What it holds.
+    pub(crate) value: T,
+}
+
+/// A table of rows.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Series<T> {
+    /// The name of the column of times.
+    pub(crate) time_name: Option<String>,
+    /// In the order of the text; at least one.
+    pub(crate) rows: Vec<SeriesRow<T>>,
+    /// What was guessed, a sentence each.
+    pub(crate) guesses: Vec<String>,
+}
+
+/// Why a text is no such table.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub(crate) enum InvalidSeries {
+    /// It is no table.
+    #[error("{0}")]
+    Sheet(InvalidSheet),
+    /// It has no row of numbers.
+    #[error("there is no line of numbers")]
+    Empty,
+    /// Rows that cannot be read, each with its line.
+    #[error("{}", quoted(.0))]
+    Rows(Vec<String>),
+}
+
+fn quoted(rows: &[String]) -> String {
+    let shown = rows.iter().take(QUOTED).cloned().collect::<Vec<_>>().join("; ");
+    if rows.len() > QUOTED { format!("{shown}; and {} more", rows.len() - QUOTED) } else { shown }
+}
+
+impl InvalidSeries {
+    /// What is wrong, a sentence for each line that is.
+    pub(crate) fn sentences(&self) -> Vec<String> {
+        match self {
+            Self::Rows(rows) => rows.clone(),
+            other => vec![other.to_string()],
+        }
+    }
+}
+
+/// Where the values of a row stand.
+struct SeriesColumns {
+    time: Option<usize>,
+    /// The columns of the values in their order; `None`: all that are not the time.
+    values: Option<Vec<usize>>,
+    /// Columns of angles in radians.
+    radians: Vec<usize>,
+}
+
+impl SeriesKind {
+    /// Reads a table in any usual notation; `record` reads the values of a row, written with decimal points and separated by commas.
+    ///
+    /// A header may name a column of times and, in any order, those of the values; without names the values are all columns but the time, in their order. Lines without
+    /// numbers before the first row are titles.
+    ///
+    /// # Errors
+    /// [`InvalidSeries`].
+    pub(crate) fn read<T>(
+        self,
+        bytes: &[u8],
+        record: impl Fn(&str) -> Result<T, String>,
+    ) -> Result<Series<T>, InvalidSeries> {
+        let mut sheet = match Sheet::read(bytes, LEAST_NUMBERS) {
+            Ok(sheet) => sheet,
+            Err(InvalidSheet::NoNumbers(_)) => return Err(InvalidSeries::Empty),
+            Err(why) => return Err(InvalidSeries::Sheet(why)),
+        };
+        let mut guesses = std::mem::take(&mut sheet.guesses);
+        let header = sheet.header.clone().unwrap_or_default();
+        let columns = self.columns(&header, &mut guesses);
+        let (mut rows, mut bad) = (Vec::new(), Vec::new());
+        for row in &sheet.rows {
+            let has_numbers = row.cells.iter().any(|c| sheet.number(c).is_some());
+            if rows.is_empty() && bad.is_empty() && !has_numbers {
+                guesses.push(format!(
+                    "Line {}, `{}`, has no numbers and is passed over.",
+                    row.line,
+                    row.cells.join(" ")
+                ));
+                continue;
+            }
+            match columns.read(&sheet, row, &record) {
+                Ok((time, value)) => rows.push(SeriesRow { line: row.line, time, value }),
+                Err(why) => bad.push(format!("line {}: {why}", row.line)),
+            }
+        }
+        if !bad.is_empty() {
+            return Err(InvalidSeries::Rows(bad));
+        }
+        if rows.is_empty() {
+            return Err(InvalidSeries::Empty);
+        }
+        Ok(Series { time_name: columns.time.and_then(|c| header.get(c).cloned()), rows, guesses })
+    }
+
+    fn columns(self, header: &[String], guesses: &mut Vec<String>) -> SeriesColumns {
+        let names: Vec<String> = header.iter().map(|name| plain(name)).collect();
+        let time = names.iter().position(|name| is_time(name));
+        let values = match self {
+            Self::Lengths => numbered_columns(&names),
+            Self::Poses => pose_columns(&names),
+        };
+        guesses.extend(time.map(|c| format!("The column `{}` holds times.", header[c])));
+        let radians: Vec<usize> = match (&values, self) {
+            (Some(list), Self::Poses) => {
+                list[3..].iter().copied().filter(|c| names[*c].ends_with("rad")).collect()
+            }
+            _ => Vec::new(),
+        };
+        if !radians.is_empty() {
+            guesses.push("The angles are in radians, as the header says.".into());
+        }
+        let unused = (0..header.len())
+            .filter(|c| Some(*c) != time && values.as_ref().is_some_and(|list| !list.contains(c)));
+        let unused: Vec<String> = unused.map(|c| format!("`{}`", header[c])).collect();
+        if !unused.is_empty() {
+            guesses.push(format!("These columns are not used: {}.", unused.join(", ")));
+        }
+        SeriesColumns { time, values, radians }
+    }
+}
+
+impl SeriesColumns {
+    fn read<T>(
+        &self,
+        sheet: &Sheet,
+        row: &SheetRow,
+        record: impl Fn(&str) -> Result<T, String>,
+    ) -> Result<(Option<f64>, T), String> {
+        let cell = |column: usize| row.cells.get(column).map_or("", String::as_str);
+        let time = match self.time {
+            None => None,
+            Some(c) => Some(sheet.number(cell(c)).ok_or_else(|| format!("`{}` is not a time", cell(c)))?),
+        };
+        let columns: Vec<usize> = match &self.values {
+            Some(list) => list.clone(),
+            None => (0..row.cells.len()).filter(|c| Some(*c) != self.time).collect(),
+        };
+        let value = |c: usize| match sheet.number(cell(c)) {
+            Some(angle) if self.radians.contains(&c) => format!("{:?}", angle.to_degrees()),
+            _ => sheet.with_point(cell(c)),
+        };
+        let values: Vec<String> = columns.into_iter().map(value).collect();
+        Ok((time, record(&values.join(","))?))
+    }
+}
+
+fn is_time(name: &str) -> bool {
+    name.starts_with("time") || ["t", "ts", "tms", "sec", "seconds", "zeit", "zeits"].contains(&name)
+}
+
+/// The six columns that have the same word and the numbers 1 to 6 after it, in the order of the numbers.
+fn numbered_columns(names: &[String]) -> Option<Vec<usize>> {
+    let parted: Vec<(&str, &str)> =
+        names.iter().map(|n| n.split_at(n.trim_end_matches(|c: char| c.is_ascii_digit()).len())).collect();
+    let of = |word: &str| -> Option<Vec<usize>> {
+        let column = |k: usize| {
+            let mut found =
+                (0..parted.len()).filter(|c| parted[*c].0 == word && parted[*c].1.parse() == Ok(k));
+            let one = found.next()?;
+            if found.next().is_none() { Some(one) } else { None }
+        };
+        (1..=6).map(column).collect()
+    };
+    // of several lists, such as lengths beside speeds, the one that is called so
+    let words = parted.iter().map(|(word, _)| *word).filter(|word| !word.is_empty());
+    let called = |word: &str| ["leg", "len", "l"].iter().any(|name| word == *name || word.contains("len"));
+    let mut words: Vec<&str> = words.collect();
+    words.sort_by_key(|word| !called(word));
+    words.into_iter().find_map(of)
+}
+
+/// The columns of x, y and z with those of the angles, or of the quaternion.
+fn pose_columns(names: &[String]) -> Option<Vec<usize>> {
+    let less = |name: &str| {
+        let ends = ["degrees", "degree", "deg", "radians", "rad"];
+        ends.iter().find_map(|end| name.strip_suffix(end)).unwrap_or(name).to_string()
+    };
+    let names: Vec<String> = names.iter().map(|n| less(n)).collect();
+    let column = |accepted: &[&str]| names.iter().position(|n| accepted.contains(&n.as_str()));
+    let position = [
+        column(&["x", "px", "posx", "tx"]),
+        column(&["y", "py", "posy", "ty"]),
+        column(&["z", "pz", "posz", "tz"]),
+    ];
+    let angles = vec![column(&["roll"]), column(&["pitch"]), column(&["yaw"])];
+    let quaternion = vec![column(&["qw"]), column(&["qx"]), column(&["qy"]), column(&["qz"])];
+    let whole =
+        |rotation: Vec<Option<usize>>| position.into_iter().chain(rotation).collect::<Option<Vec<usize>>>();
+    whole(angles).or_else(|| whole(quaternion))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn numbers(text: &str) -> Result<Vec<f64>, String> {
+        let fields: Vec<&str> = text.split(',').collect();
+        if !(6..=7).contains(&fields.len()) {
+            return Err(format!("{} values", fields.len()));
+        }
+        fields.into_iter().map(|f| f.parse().map_err(|_| format!("`{f}` is not a number"))).collect()
+    }
+
+    fn read(kind: SeriesKind, text: &str) -> Series<Vec<f64>> {
+        kind.read(text.as_bytes(), numbers).unwrap_or_else(|why| panic!("{why}\n{text}"))
+    }
+
+    #[test]
+    fn times_and_names_are_recognised_in_any_order() {
+        let meant = vec![1.5, 2.0, 3.0, 4.0, 5.0, 6.0];
+        for (text, time) in [
+            ("1.5,2,3,4,5,6\n", None),
+            ("l1,l2,l3,l4,l5,l6\n1.5,2,3,4,5,6\n", None),
+            ("t;a;b;c;d;e;f\n0,25;1,5;2;3;4;5;6\n", Some(0.25)),
+            (
+                "leg_6_mm,leg_5_mm,leg_4_mm,leg_3_mm,leg_2_mm,leg_1_mm,time_s\n6,5,4,3,2,1.5,0.25\n",
+                Some(0.25),
+            ),
+            (
+                "Time [s]\tv1\tv2\tv3\tv4\tv5\tv6\tL1\tL2\tL3\tL4\tL5\tL6\n0.25\t9\t9\t9\t9\t9\t9\t1.5\t2\t3\t4\t5\t6\n",
+                Some(0.25),
+            ),
+            ("# t l1 l2 l3 l4 l5 l6\n0.25 1.5 2 3 4 5 6\n", Some(0.25)),
+            ("Log of May\n1.5 2 3 4 5 6", None),
+        ] {
+            let found = read(SeriesKind::Lengths, text);
+            assert_eq!((&found.rows[0].value, found.rows[0].time), (&meant, time), "{text}");
+        }
+    }
+
+    #[test]
+    fn poses_are_read_by_their_names() {
+        let found =
+            read(SeriesKind::Poses, "time,yaw_rad,pitch_rad,roll_rad,x_mm,y_mm,z_mm\n1,0,0,1,10,20,30\n");
+        assert_eq!(found.rows[0].value, [10.0, 20.0, 30.0, 1f64.to_degrees(), 0.0, 0.0]);
+        assert!(found.guesses.iter().any(|g| g.contains("radians")), "{:?}", found.guesses);
+        let found = read(SeriesKind::Poses, "qw,qx,qy,qz,x,y,z,note\n1,0,0,0,10,20,30,\"a, b\"\n");
+        assert_eq!(found.rows[0].value, [10.0, 20.0, 30.0, 1.0, 0.0, 0.0, 0.0]);
+        assert!(found.guesses.iter().any(|g| g.contains("`note`")), "{:?}", found.guesses);
+    }
+
+    #[test]
+    fn every_bad_row_is_named() {
+        let text = "t,1,2,3,4,5,6\n0,1,2,3,4,5,6\n1,2,3\n?,1,2,3,4,5,6\n3,1,2,x,4,5,6\n";
+        let Err(why) =
+            SeriesKind::Lengths.read(text.replace("1,2,3,4,5,6\n0", "a,b,c,d,e,f\n0").as_bytes(), numbers)
+        else {
+            panic!()
+        };
+        let sentences = why.sentences();
+        assert_eq!(
+            sentences,
+            ["line 3: 2 values", "line 4: `?` is not a time", "line 5: `x` is not a number"]
+        );
+        assert_eq!(SeriesKind::Lengths.read(b"a,b\n", numbers), Err(InvalidSeries::Empty));
+    }
+}

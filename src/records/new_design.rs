@@ -1,0 +1,26 @@
+//! The answer of `new`.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{PoseRecord, PresetFile};
+
+/// The answer of `new`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct NewAnswer {
+    /// The name of the design.
+    pub name: String,
+    /// The label of the length unit.
+    pub units: String,
+    /// The design file, or where it was written.
+    #[serde(flatten)]
+    pub file: PresetFile,
+    /// The pose the platform is built for.
+    pub home: PoseRecord,
+    /// The leg lengths at home, design units.
+    pub lengths: [f64; 6],
+    /// Whether the leg lines are dependent at every pose, decided exactly for the joints as they are written.
+    pub architecturally_singular: bool,
+    /// What was guessed about the table, a sentence each.
+    pub guesses: Vec<String>,
+}
