@@ -5,6 +5,9 @@ use clap::{Args, Parser};
 use super::commands::Command;
 
 const AFTER_HELP: &str = "\
+The files in designs/ come with the sources; `equipod new` and `equipod design presets` write designs without them.
+A design or a table named - comes from standard input, an output named - goes to standard output.
+
 Exit codes:
   0  yes, solved, done
   1  it ran and the answer is no (not equivalent, singular, infeasible)

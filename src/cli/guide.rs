@@ -51,6 +51,14 @@ const JOBS: [Job; 9] = [
         heading: "Solve",
         commands: &[
             entry(
+                "ik",
+                &[
+                    "ik designs/symmetric-hexapod.toml --pose 0,0,360,5,0,0",
+                    "ik designs/presets/bench-l16.toml --json",
+                ],
+                &["inverse", "inverse-kinematics", "lengths", "leg-lengths"],
+            ),
+            entry(
                 "fk",
                 &[
                     "fk designs/rbt-octahedral.toml",
@@ -58,14 +66,6 @@ const JOBS: [Job; 9] = [
                     "fk designs/rbt-octahedral.toml --lengths 11,11,11,11,11,11 --json",
                 ],
                 &["forward", "forward-kinematics", "kinematics", "solve", "poses"],
-            ),
-            entry(
-                "ik",
-                &[
-                    "ik designs/symmetric-hexapod.toml --pose 0,0,360,5,0,0",
-                    "ik designs/presets/bench-l16.toml --json",
-                ],
-                &["inverse", "inverse-kinematics", "lengths", "leg-lengths"],
             ),
         ],
     },
@@ -160,8 +160,11 @@ const JOBS: [Job; 9] = [
         commands: &[
             entry(
                 "design convert",
-                &["design convert designs/rbt-octahedral.toml -o octahedral.json"],
-                &["format"],
+                &[
+                    "design convert designs/rbt-octahedral.toml -o octahedral.json",
+                    "design convert designs/symmetric-hexapod.toml --units in -o inches.toml",
+                ],
+                &["format", "units"],
             ),
             entry(
                 "design presets",
@@ -250,11 +253,17 @@ pub(crate) fn program() -> Command {
     program.help_template(template(&body))
 }
 
+/// For those who have the program alone.
+const WITHOUT_REPOSITORY: &str = "\n\nThe files in designs/ come with the sources; `equipod new` and `equipod design presets` write designs without them.";
+
 fn with_examples(command: Command, path: &[&str], examples: &[&str]) -> Command {
     let Some((first, rest)) = path.split_first() else {
         let lines: Vec<String> = examples.iter().map(|e| format!("  equipod {e}")).collect();
         let heading = styled(if examples.len() == 1 { "Example" } else { "Examples" });
-        let lines = lines.join("\n");
+        let mut lines = lines.join("\n");
+        if examples.iter().any(|e| e.contains("designs/")) {
+            lines.push_str(WITHOUT_REPOSITORY);
+        }
         // a template is not wrapped: a command line stays whole; manual pages take the text after the help
         return command.after_help(format!("{heading}\n{lines}")).help_template(format!(
             "{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{{all-args}}\n\n{heading}\n{lines}\n"

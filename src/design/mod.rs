@@ -15,6 +15,7 @@ mod presets;
 #[cfg(test)]
 mod requirements_tests;
 mod save;
+mod scale;
 mod schema;
 mod table;
 #[cfg(test)]
@@ -37,6 +38,8 @@ pub(crate) use likeness::nearest_word;
 pub use model::{Combination, Design, NameCount, OptimizeTable, SearchTable};
 pub(crate) use outline::{HexapodSizes, octahedral_toml, with_lengths};
 pub use presets::{PRESETS, Preset, PresetClass};
+#[cfg(test)]
+pub(crate) use scale::micrometres;
 pub use schema::SCHEMA;
 pub(crate) use table::{InvalidSeries, PointTable, Series, SeriesKind, SeriesRow};
 pub use violation::{Code, Violation, Warning};

@@ -51,3 +51,17 @@ impl LengthUnit {
         KNOWN.map(|u| u.label).join(", ")
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::micrometres;
+
+    #[test]
+    fn files_and_designs_know_the_same_units() {
+        for unit in KNOWN {
+            let whole = micrometres(unit.label).unwrap() as f64;
+            assert!((whole - 1000.0 * unit.millimetres).abs() < 1e-9, "{}", unit.label);
+        }
+    }
+}

@@ -39,6 +39,9 @@ use super::failure::Failure;
 use super::output::Answer;
 use super::reference;
 
+/// What can be done with a design that is not octahedral.
+const GENERAL: &str = "every design is taken by `equipod check`, `equipod assess`, `equipod fk` and `equipod view`; `equipod equivalents components` finds its replaceable legs, and `equipod equivalents move` with --search and a wish such as --spacing finds equivalents of it";
+
 /// The commands, in the order of the guide.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {

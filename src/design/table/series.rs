@@ -77,6 +77,8 @@ struct SeriesColumns {
     values: Option<Vec<usize>>,
     /// Columns of angles in radians.
     radians: Vec<usize>,
+    /// How many columns have names; 0 where none has.
+    named: usize,
 }
 
 impl SeriesKind {
@@ -148,7 +150,7 @@ impl SeriesKind {
         if !unused.is_empty() {
             guesses.push(format!("These columns are not used: {}.", unused.join(", ")));
         }
-        SeriesColumns { time, values, radians }
+        SeriesColumns { time, values, radians, named: header.len() }
     }
 }
 
@@ -159,13 +161,17 @@ impl SeriesColumns {
         row: &SheetRow,
         record: impl Fn(&str) -> Result<T, String>,
     ) -> Result<(Option<f64>, T), String> {
+        if self.named > 0 && row.cells.len() > self.named {
+            return Err(format!("{} cells below {} names of columns", row.cells.len(), self.named));
+        }
         let cell = |column: usize| row.cells.get(column).map_or("", String::as_str);
         let time = match self.time {
             None => None,
             Some(c) => Some(sheet.number(cell(c)).ok_or_else(|| format!("`{}` is not a time", cell(c)))?),
         };
         let columns: Vec<usize> = match &self.values {
-            Some(list) => list.clone(),
+            // what is missing at the end of a line is not there, rather than blank
+            Some(list) => list.iter().copied().filter(|c| *c < row.cells.len()).collect(),
             None => (0..row.cells.len()).filter(|c| Some(*c) != self.time).collect(),
         };
         let value = |c: usize| match sheet.number(cell(c)) {
@@ -285,6 +291,9 @@ mod tests {
             sentences,
             ["line 3: 2 values", "line 4: `?` is not a time", "line 5: `x` is not a number"]
         );
+        let named = "l1,l2,l3,l4,l5,l6\n1,2,3,4,5\n1,2,3,4,5,6,7\n";
+        let why = SeriesKind::Lengths.read(named.as_bytes(), numbers).unwrap_err();
+        assert_eq!(why.to_string(), "line 2: 5 values; line 3: 7 cells below 6 names of columns");
         assert_eq!(SeriesKind::Lengths.read(b"a,b\n", numbers), Err(InvalidSeries::Empty));
     }
 }

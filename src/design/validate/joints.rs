@@ -65,6 +65,15 @@ pub(super) fn is_list_of_pairs(node: &Node) -> bool {
 
 /// Reads `[base]` or `[platform]`.
 pub(super) fn body(report: &mut Findings<'_>, which: Body, entry: &Entry) -> Option<NamedJoints> {
+    if matches!(entry.node.value, Value::Array(_)) {
+        let letter = which.of(("A", "B"));
+        let message = format!("`{which}` is a list of points without names");
+        let help = format!(
+            "name the joints, a line each below [{which}]: {letter}1 = [100, 0, 0]; `equipod new --points FILE` makes a design of twelve points in a table"
+        );
+        report.refuse(Code::WrongType, &entry.node.span, message, help);
+        return None;
+    }
     let entries = super::table(report, &entry.node, &format!("[{which}]"))?;
     let mut body =
         NamedJoints { body: which, span: entry.key_span.clone(), joints: Vec::new(), index: BTreeMap::new() };

@@ -30,6 +30,7 @@ const CALLS: &[(i32, &str, &str)] = &[
     (0, "equivalents-components", "{general-6-6}"),
     (0, "equivalents-components", "{rbt-midline}"),
     (0, "design-convert", "{rbt-octahedral} -o {converted.json}"),
+    (0, "design-convert", "{rbt-octahedral} --units in -o {inches.toml}"),
     (2, "error", "fk no-such.toml"),
     (2, "error", "fk Cargo.toml"),
     (2, "error", "fk"),
@@ -60,6 +61,11 @@ const CALLS: &[(i32, &str, &str)] = &[
     (0, "fk", "{rbt-midline} --lengths {rows}"),
     (2, "fk", "{general-6-6} --method octic --lengths {rows}"),
     (3, "fk", "{rbt-octahedral} --near home --lengths {way}"),
+    (0, "ik", "{bench-octahedral}"),
+    (0, "ik", "{rbt-octahedral} --pose home --pose 3,5,9,0,0,90"),
+    (0, "ik", "{rbt-octahedral} --poses {places}"),
+    (0, "new", "--base-radius 500 --platform-radius 300 --base-spread 20 --platform-spread 20 --height 400"),
+    (0, "new", "--points designs/tables/hexapod.csv -o {imported.toml}"),
     (0, "help", "fk --help"),
     (0, "help", "--version"),
     (0, "plot-locus", "{innocenti-6-4} --leg 6 --from 3 --to 7 --steps 21"),
@@ -209,6 +215,7 @@ impl Files {
                 let hardware = json!({"joint_diameter": 30.0});
                 self.design(name, outer.to_str().unwrap(), |d| require(d, json!({}), hardware))
             }
+            "places" => self.table(name, &["3,5,9,0,0,90".into(), "3,5,9.5,0,10,90".into()]),
             "rows" => self.table(name, &["18,18,17,16,15,19".into(), "1,1,1,1,1,1".into()]),
             "way" => {
                 // a trajectory needs lengths near those of home

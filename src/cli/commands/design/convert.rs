@@ -1,4 +1,4 @@
-//! `equipod design convert`: a design in the other notation.
+//! `equipod design convert`: a design in the other notation, or in another unit of length.
 
 use std::path::PathBuf;
 
@@ -13,27 +13,36 @@ use crate::records::ConvertAnswer;
 /// Arguments of `design convert`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// Design file (.toml or .json)
+    /// Design file (.toml or .json), or `-` for standard input
     design: PathBuf,
-    /// File to write; .json gives JSON, .toml gives TOML
+    /// File to write; .json gives JSON, .toml and `-` (standard output) give TOML
     #[arg(short, long, value_name = "FILE")]
     output: OutputPath,
+    /// Write all lengths in this unit: um, mm, cm, m, in or ft
+    #[arg(long, value_name = "UNIT")]
+    units: Option<String>,
 }
 
 /// Reads, checks and writes the design. Comments of the input are not kept.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let extension = args.output.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
-    let Some(format) = extension.and_then(|e| match e.as_str() {
-        "toml" => Some(Format::Toml),
-        "json" => Some(Format::Json),
-        _ => None,
-    }) else {
-        let message = format!("{}: the extension does not tell the format", args.output.display());
-        return Err(
-            Failure::refused("convert::unknown_format", message).with_help("end the name in .toml or .json")
-        );
+    let format = match extension.as_deref() {
+        _ if files::is_standard(&args.output) => Format::Toml,
+        Some("toml") => Format::Toml,
+        Some("json") => Format::Json,
+        _ => {
+            let message = format!("{}: the extension does not tell the format", args.output.display());
+            let failure = Failure::refused("convert::unknown_format", message);
+            return Err(failure.with_help("end the name in .toml or .json"));
+        }
     };
-    let design = context.load(&args.design)?;
+    let mut design = context.load(&args.design)?;
+    if let Some(units) = &args.units {
+        design = design.in_units(units).map_err(|why| {
+            Failure::refused("convert::units", why.to_string())
+                .with_help("`units` of the design and --units each name one of um, mm, cm, m, in, ft")
+        })?;
+    }
     files::write_design(&args.output, &design)?;
     let output = args.output.display().to_string();
     let text = format!("wrote {output}\n");

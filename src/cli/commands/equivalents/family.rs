@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
+use crate::cli::commands::GENERAL;
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
@@ -48,7 +49,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let design = context.load(&args.design)?;
     let o = Octahedral::recognise(design.manipulator()).map_err(|e| {
         Failure::refused("family::not_octahedral", format!("{} is not octahedral: {e}", design.name))
-            .with_help("an octahedral design has three joints on each body and two legs at each joint, and the legs make one closed zigzag")
+            .with_help(format!("the class is that of a design with three joints on each body and two legs at each joint; {GENERAL}"))
     })?;
     let family = Family::octahedral();
     if let Some(path) = &args.dot {

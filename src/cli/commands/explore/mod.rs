@@ -12,6 +12,7 @@ use self::folder::Folder;
 use super::optimize::{Choices, Done};
 use super::report::page;
 use super::{fk as fk_command, optimize, verify as verify_command};
+use crate::cli::commands::GENERAL;
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
@@ -112,7 +113,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let design = context.load(&args.design)?;
     let octahedral = Octahedral::recognise(design.manipulator()).map_err(|why| {
         Failure::refused("explore::not_octahedral", format!("the design is not octahedral: {why}"))
-            .with_help("explore starts from a 3-3 octahedral design; verify compares any two designs")
+            .with_help(GENERAL)
     })?;
     let mut folder = Folder::prepare(&args.output)?;
     let mut progress = ProgressLine::new(context.quiet());

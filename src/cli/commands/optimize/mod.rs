@@ -9,6 +9,7 @@ mod render;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
+use crate::cli::commands::GENERAL;
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
@@ -127,7 +128,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     }
     let octahedral = Octahedral::recognise(design.manipulator()).map_err(|why| {
         Failure::refused("optimize::not_octahedral", format!("the design is not octahedral: {why}"))
-            .with_help("optimize spreads the shared joints of a 3-3 octahedral design")
+            .with_help(format!("without [optimize] the shared joints of a 3-3 octahedral design are spread; set variables = [\"components\"] in [optimize] to move replaceable legs, or \"home_height\"; {GENERAL}"))
     })?;
     if !(args.gap > 0.0 && args.gap.is_finite()) {
         return Err(Failure::refused(

@@ -1,0 +1,109 @@
+//! `equipod ik`, and the tables of `equipod fk --csv`: what one writes the other reads.
+
+use super::cli_frame::{document, equipod};
+
+const DESIGN: &str = "designs/symmetric-hexapod.toml";
+/// A design whose legs have limits.
+const LIMITED: &str = "designs/presets/bench-l16.toml";
+
+fn table(args: &[&str]) -> Vec<Vec<String>> {
+    let out = equipod(args);
+    assert_eq!(out.status.code(), Some(0), "{args:?}: {}", String::from_utf8_lossy(&out.stderr));
+    let text = String::from_utf8(out.stdout).unwrap();
+    let rows: Vec<Vec<String>> = text.lines().map(|l| l.split(',').map(str::to_string).collect()).collect();
+    assert!(rows.iter().all(|row| row.len() == rows[0].len()), "{text}");
+    rows
+}
+
+fn column<'a>(rows: &'a [Vec<String>], name: &str) -> Vec<&'a str> {
+    let place = rows[0].iter().position(|n| n == name).unwrap_or_else(|| panic!("{name} in {:?}", rows[0]));
+    rows[1..].iter().map(|row| row[place].as_str()).collect()
+}
+
+#[test]
+fn lengths_of_poses_are_a_table_without_preamble() {
+    let rows = table(&["ik", DESIGN]);
+    assert_eq!(rows[0], ["leg_1_mm", "leg_2_mm", "leg_3_mm", "leg_4_mm", "leg_5_mm", "leg_6_mm"]);
+    assert_eq!(rows.len(), 2);
+    // the design has the lengths of its home pose
+    let home: f64 = rows[1][0].parse().unwrap();
+    assert!((home - 394.230_682_404_350_66).abs() < 1e-9);
+    let rows = table(&["ik", DESIGN, "--pose", "home", "--pose", "0,0,360,0,0,0", "--pose=-5,0,360,5,0,0"]);
+    assert_eq!(rows.len(), 4);
+    let limited = table(&["ik", LIMITED, "--pose", "home", "--pose", "0,0,1000,0,0,0"]);
+    assert_eq!(column(&limited, "within_limits"), ["true", "false"]);
+}
+
+#[test]
+fn the_record_has_one_pose_or_rows() {
+    let one = document(&equipod(&["ik", DESIGN, "--json"]));
+    assert_eq!(one["lengths"].as_array().unwrap().len(), 6);
+    assert!(one.get("within_limits").is_none() && one["pose"]["R"][0][0] == 1.0);
+    let two = document(&equipod(&["ik", LIMITED, "--pose", "home", "--pose", "0,0,1000,0,0,0", "--json"]));
+    assert_eq!(two["rows"].as_array().unwrap().len(), 2);
+    assert_eq!(two["rows"][1]["within_limits"], false);
+    assert_eq!(two["rows"][1]["outside"], serde_json::json!([1, 2, 3, 4, 5, 6]));
+    let bad = document(&equipod(&["ik", DESIGN, "--pose", "1,2,3", "--json"]));
+    assert_eq!(bad["error"]["code"], "ik::bad_pose");
+}
+
+#[test]
+fn poses_become_lengths_and_lengths_the_poses_again_with_their_times() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_string();
+    let (poses, lengths, back) = (path("poses.csv"), path("lengths.csv"), path("back.csv"));
+    // as a spreadsheet of another country writes it
+    std::fs::write(&poses, "Zeit;x;y;z;roll;pitch;yaw\r\n0;0;0;350;0;0;0\r\n0,5;10;-5;355;2;-3;4,25\r\n")
+        .unwrap();
+    let rows = table(&["ik", DESIGN, "--poses", &poses]);
+    assert_eq!(column(&rows, "Zeit"), ["0.0", "0.5"]);
+    let text: String = rows.iter().map(|row| row.join(",") + "\n").collect();
+    std::fs::write(&lengths, text).unwrap();
+    let found = table(&["fk", DESIGN, "--lengths", &lengths, "--csv"]);
+    assert_eq!(found[0][..5], ["row", "Zeit", "pose", "nearest_home", "mode"].map(String::from));
+    let nearest: Vec<&Vec<String>> = found.iter().filter(|row| row[3] == "true").collect();
+    assert_eq!(nearest.len(), 2, "one for each row");
+    assert_eq!((nearest[1][0].as_str(), nearest[1][1].as_str(), nearest[1][2].as_str()), ("2", "0.5", "1"));
+    assert_eq!(nearest[1][4], "above");
+    let value = |row: &[String], name: &str| -> f64 {
+        row[found[0].iter().position(|n| n == name).unwrap()].parse().unwrap()
+    };
+    for (name, meant) in [
+        ("x_mm", 10.0),
+        ("y_mm", -5.0),
+        ("z_mm", 355.0),
+        ("roll_deg", 2.0),
+        ("pitch_deg", -3.0),
+        ("yaw_deg", 4.25),
+    ] {
+        assert!((value(nearest[1], name) - meant).abs() < 1e-6, "{name}: {}", value(nearest[1], name));
+    }
+    assert!(column(&found, "mode").contains(&"below"), "the mirror images under the base are told apart");
+    // the table of poses is read as it was written
+    let text: String = [&found[0], nearest[0], nearest[1]].iter().map(|row| row.join(",") + "\n").collect();
+    std::fs::write(&back, text).unwrap();
+    let again = table(&["ik", DESIGN, "--poses", &back]);
+    assert_eq!(column(&again, "Zeit"), ["0.0", "0.5"]);
+    let (a, b): (f64, f64) = (again[2][3].parse().unwrap(), rows[2][3].parse().unwrap());
+    assert!((a - b).abs() < 1e-9);
+}
+
+#[test]
+fn complex_poses_are_rows_on_demand_and_json_has_real_numbers() {
+    let octahedral = "designs/rbt-octahedral.toml";
+    let doc = document(&equipod(&["fk", octahedral, "--json"]));
+    let real = doc["real_count"].as_u64().unwrap() as usize;
+    let all = doc["finite_count"].as_u64().unwrap() as usize;
+    assert_eq!(table(&["fk", octahedral, "--csv"]).len(), 1 + real);
+    let rows = table(&["fk", octahedral, "--csv", "--all"]);
+    assert_eq!(rows.len(), 1 + all);
+    assert_eq!(column(&rows, "real").iter().filter(|word| **word == "false").count(), all - real);
+    let solutions = doc["solutions"].as_array().unwrap();
+    let poses: Vec<_> = solutions.iter().filter_map(|s| s.get("real_pose")).collect();
+    assert_eq!(poses.len(), real);
+    assert_eq!(poses.iter().filter(|p| p["nearest_home"] == true).count(), 1);
+    for (pose, solution) in poses.iter().zip(solutions) {
+        assert_eq!(pose["position"], solution["p"]["re"]);
+        assert_eq!(pose["rpy_deg"].as_array().unwrap().len(), 3);
+    }
+}

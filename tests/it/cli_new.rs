@@ -1,0 +1,163 @@
+//! `equipod new`: designs from sizes, corners and tables, and `design convert --units`.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::cli_frame::{document, equipod};
+
+const SIZES: [&str; 10] = [
+    "--base-radius",
+    "500",
+    "--platform-radius",
+    "300",
+    "--base-spread",
+    "20",
+    "--platform-spread",
+    "20",
+    "--height",
+    "400",
+];
+
+fn new(args: &[&str]) -> Value {
+    let out = equipod(&[&["new"], args, &["--json"]].concat());
+    assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stderr));
+    document(&out)
+}
+
+fn refusal(args: &[&str]) -> (String, String) {
+    let out = equipod(&[&["new"], args, &["--json"]].concat());
+    assert_eq!(out.status.code(), Some(2), "{}", String::from_utf8_lossy(&out.stderr));
+    let error = document(&out)["error"].clone();
+    (error["code"].as_str().unwrap().into(), format!("{} {}", error["message"], error["help"]))
+}
+
+#[test]
+fn sizes_make_a_design_that_every_command_takes() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("hexapod.toml");
+    let file = path.to_str().unwrap();
+    let out = equipod(&[&["new"], &SIZES[..], &["-o", file]].concat());
+    let said = String::from_utf8(out.stdout).unwrap();
+    assert_eq!(out.status.code(), Some(0));
+    assert!(said.contains("z 400.000 mm") && said.contains("leg lengths at home: "), "{said}");
+    let text = std::fs::read_to_string(&path).unwrap();
+    assert!(
+        text.contains("base_radius = 500") && text.contains("mirror = ") && text.contains("turn = "),
+        "{text}"
+    );
+    let lengths = document(&equipod(&["ik", file, "--json"]))["lengths"].clone();
+    assert!(
+        lengths
+            .as_array()
+            .unwrap()
+            .iter()
+            .all(|l| (l.as_f64().unwrap() - lengths[0].as_f64().unwrap()).abs() < 1e-9)
+    );
+    for command in [&["check", file][..], &["fk", file, "--csv"]] {
+        assert_eq!(equipod(command).status.code(), Some(0), "{command:?}");
+    }
+    // one joint for two legs on both bodies is the octahedral design
+    let octahedral = folder.path().join("octahedral.json");
+    let sizes = [
+        "--base-radius=500",
+        "--platform-radius=300",
+        "--base-spread=0",
+        "--platform-spread=0",
+        "--height=400",
+    ];
+    new(&[&sizes[..], &["-o", octahedral.to_str().unwrap()]].concat());
+    let found = equipod(&["equivalents", "family", octahedral.to_str().unwrap()]);
+    assert_eq!(found.status.code(), Some(0), "{}", String::from_utf8_lossy(&found.stderr));
+}
+
+#[test]
+fn corners_make_an_octahedral_design() {
+    let made = new(&["--corners", "0,0/12,0/6,10.4", "-3,0/3,0/0,5.2,0", "--height", "9", "--units", "in"]);
+    assert_eq!((&made["units"], &made["home"]["p"][2]), (&Value::from("in"), &Value::from(9.0)));
+    assert_eq!(made["architecturally_singular"], false);
+    assert!(made["text"].as_str().unwrap().contains("A2 = [12.0, 0.0, 0.0]"), "{made}");
+    assert_eq!(refusal(&["--corners", "0,0/12,0", "1,1/2,2/3,4", "--height", "9"]).0, "new::bad_corners");
+}
+
+#[test]
+fn a_spreadsheet_makes_a_design_and_every_guess_is_said() {
+    let out = equipod(&["new", "--points", "designs/tables/hexapod.csv"]);
+    let said = String::from_utf8(out.stderr).unwrap();
+    assert!(said.contains("separated by semicolons") && said.contains("comma marks the decimals"), "{said}");
+    let made = new(&["--points", "designs/tables/hexapod.csv"]);
+    let guesses = made["guesses"].as_array().unwrap();
+    assert!(guesses.iter().all(|g| said.contains(g.as_str().unwrap())), "{said}");
+    assert_eq!((&made["home"]["p"][2], &made["units"]), (&Value::from(350.0), &Value::from("mm")));
+    // it is the platform of the collection, in decimals
+    let meant = document(&equipod(&["ik", "designs/symmetric-hexapod.toml", "--json"]))["lengths"].clone();
+    for leg in 0..6 {
+        let (a, b) = (meant[leg].as_f64().unwrap(), made["lengths"][leg].as_f64().unwrap());
+        assert!((a - b).abs() < 1e-3, "leg {}: {a} {b}", leg + 1);
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("points.csv");
+    std::fs::write(&path, "1,2,3\n4,5,x\n").unwrap();
+    assert_eq!(refusal(&["--points", path.to_str().unwrap()]).0, "new::bad_table");
+}
+
+#[test]
+fn what_is_missing_is_named() {
+    let (code, said) = refusal(&[]);
+    assert_eq!(code, "new::nothing_given");
+    assert!(["--base-radius", "--corners", "--points"].iter().all(|option| said.contains(option)), "{said}");
+    let (code, said) = refusal(&SIZES[..8]);
+    assert!(code == "new::missing" && said.contains("--height"), "{said}");
+    let similar =
+        [&SIZES[..4], &["--base-spread", "100", "--platform-spread", "20", "--height", "400"]].concat();
+    let (code, said) = refusal(&similar);
+    assert!(code == "new::bad_sizes" && said.contains("architecturally singular"), "{said}");
+}
+
+#[test]
+fn a_list_of_points_in_a_design_is_refused_with_an_example() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("list.toml");
+    std::fs::write(
+        &path,
+        "name = \"x\"\nunits = \"mm\"\nbase = [[1, 0, 0], [2, 0, 0]]\nplatform = [[1, 0, 0]]\n",
+    )
+    .unwrap();
+    let out = equipod(&["check", path.to_str().unwrap()]);
+    let said = String::from_utf8(out.stderr).unwrap();
+    assert!(said.contains("A1 = [100, 0, 0]") && said.contains("B1 = [100, 0, 0]"), "{said}");
+}
+
+#[test]
+fn a_design_is_converted_to_another_unit() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_string();
+    let (inches, back) = (path("inches.toml"), path("back.json"));
+    let design = "designs/symmetric-hexapod.toml";
+    let run = |args: &[&str]| assert_eq!(equipod(args).status.code(), Some(0), "{args:?}");
+    run(&["design", "convert", design, "--units", "in", "-o", &inches]);
+    run(&["design", "convert", &inches, "--units", "mm", "-o", &back]);
+    let lengths = |file: &str| document(&equipod(&["ik", file, "--json"]))["lengths"][0].as_f64().unwrap();
+    assert!((lengths(design) / lengths(&inches) - 25.4).abs() < 1e-12);
+    assert!((lengths(design) - lengths(&back)).abs() < 1e-9);
+    let exact =
+        |file: &str| document(&equipod(&["check", file, "--json"]))["architecturally_singular"].clone();
+    assert_eq!(exact(design), exact(&inches));
+    let out = equipod(&["design", "convert", design, "--units", "parsec", "-o", &back, "--json"]);
+    assert_eq!(document(&out)["error"]["code"], "convert::units");
+    assert!(Path::new(&inches).exists());
+}
+
+#[test]
+fn refusals_of_general_designs_name_what_takes_them() {
+    for args in [
+        &["explore", "designs/symmetric-hexapod.toml", "-o", "not-made"][..],
+        &["equivalents", "family", "designs/symmetric-hexapod.toml"],
+        &["optimize", "designs/general-6-6.toml"],
+    ] {
+        let out = equipod(args);
+        let said = String::from_utf8(out.stderr).unwrap();
+        assert_eq!(out.status.code(), Some(2));
+        assert!(said.contains("`equipod equivalents components`") && said.contains("--search"), "{said}");
+    }
+}
