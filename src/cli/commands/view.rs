@@ -57,8 +57,11 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     Ok(Answer::new(Exit::Yes, record, text))
 }
 
-/// `designs/a.toml` gives `a.html`.
+/// `designs/a.toml` gives `a.html`, and a design from standard input `design.html`.
 fn beside(design: &Path) -> PathBuf {
+    if files::is_standard(design) {
+        return "design.html".into();
+    }
     PathBuf::from(design.file_name().unwrap_or_default()).with_extension("html")
 }
 

@@ -30,7 +30,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let record = record(preset)?;
     let (file, text) = if let Some(path) = &args.output {
         let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
-        if !extension.eq_ignore_ascii_case("toml") {
+        if !extension.eq_ignore_ascii_case("toml") && !files::is_standard(path) {
             let message = format!("{}: presets are written as TOML, with their comments", path.display());
             return Err(Failure::refused("presets::unknown_format", message)
                 .with_help("end the name in .toml; `equipod design convert` makes JSON of it"));
