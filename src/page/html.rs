@@ -18,7 +18,7 @@ pub const CORE: &[u8] = include_bytes!("core.wasm.gz");
 const TEMPLATE: &str = include_str!("web/page.html");
 const STYLE: [&str; 2] = [include_str!("web/layout.css"), include_str!("web/parts.css")];
 /// In the order in which they need each other.
-const SCRIPTS: [&str; 12] = [
+const SCRIPTS: [&str; 15] = [
     include_str!("web/core.js"),
     include_str!("web/task.js"),
     include_str!("web/words.js"),
@@ -29,7 +29,10 @@ const SCRIPTS: [&str; 12] = [
     include_str!("web/sliders.js"),
     include_str!("web/tables.js"),
     include_str!("web/player.js"),
+    include_str!("web/pose.js"),
+    include_str!("web/limits.js"),
     include_str!("web/app.js"),
+    include_str!("web/share.js"),
     include_str!("web/actions.js"),
 ];
 

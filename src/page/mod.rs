@@ -8,6 +8,7 @@ mod base64;
 #[cfg(all(target_arch = "wasm32", feature = "page-core"))]
 mod exports;
 mod html;
+mod limits;
 mod modes;
 mod motion;
 mod opening;

@@ -38,6 +38,8 @@ pub(super) struct ModesRecord {
     reason: String,
     /// Index of the mode of the pose asked about.
     here: Option<usize>,
+    /// Index of the mode nearest to the pose asked about, whatever its lengths.
+    nearest: Option<usize>,
     modes: Vec<ModeRecord>,
     complex: usize,
 }
@@ -110,8 +112,8 @@ pub(super) fn record(
     let distance = |r: &FkRoot| r.pose.distance(&from, m.size());
     // poses of a curve are samples of it: the nearest one is another pose
     let listed = lengths.is_none() && !matches!(found.solution_set, SolutionSet::PositiveDimensional { .. });
-    let here =
-        (0..real.len()).filter(|_| listed).min_by(|a, b| distance(real[*a]).total_cmp(&distance(real[*b])));
+    let nearest = (0..real.len()).min_by(|a, b| distance(real[*a]).total_cmp(&distance(real[*b])));
+    let here = nearest.filter(|_| listed);
     let proved = matches!(found.completeness, Completeness::Proved { .. });
     Ok(ModesRecord {
         method: found.method.name(),
@@ -120,6 +122,7 @@ pub(super) fn record(
         proved,
         reason: found.completeness.to_string(),
         here,
+        nearest,
         modes: real.iter().map(|r| mode(m, home, r)).collect(),
         complex: roots.iter().filter(|r| r.reality != Reality::Real).count(),
     })

@@ -4,8 +4,11 @@ use serde::Serialize;
 
 use super::request::Chosen;
 use super::session::{Equivalent, Session};
+use crate::design::Design;
 use crate::equivalents::Original;
+use crate::manipulator::Body;
 use crate::records::PoseRecord;
+use crate::requirements::{Hardware, Housing};
 use crate::singularity::Architecture;
 use crate::synthesis::{
     Factor, Family, HexagonPoint, JointLabel, Pattern, corner, edge_lengths, sliding_body,
@@ -21,6 +24,7 @@ pub(super) struct OpeningRecord<'a> {
     /// `"octahedral"`, `"equivalent"` or `"general"`.
     kind: &'static str,
     size: f64,
+    /// Whether the platform shown first is: the octahedral original, or the design where there is none.
     singular: bool,
     /// Why it is singular.
     reason: Option<String>,
@@ -31,6 +35,8 @@ pub(super) struct OpeningRecord<'a> {
     workspace: bool,
     lengths: Option<[f64; 6]>,
     limits: LimitsRecord,
+    hardware: HardwareRecord,
+    slides: SlidesRecord,
     characteristic_length: f64,
     /// Of the octahedral original.
     hexagon: Option<HexagonRecord>,
@@ -47,6 +53,61 @@ struct LimitsRecord {
     spacing: f64,
     /// Of `|det A|`.
     det: f64,
+}
+
+/// How thick the parts are, design units; `null` where the design does not say.
+#[derive(Debug, Serialize)]
+struct HardwareRecord {
+    /// Widths of the joints of base and platform.
+    joints: [Option<f64>; 2],
+    /// Diameter of the leg, of its cylinder where it has a rod.
+    leg: Option<f64>,
+    /// Length of the cylinder and diameter of the rod.
+    rod: Option<[f64; 2]>,
+    /// Least and greatest leg length.
+    lengths: Option<[f64; 2]>,
+}
+
+impl HardwareRecord {
+    fn of(hardware: &Hardware) -> Self {
+        let width = |body| {
+            hardware.housing(body).map(|h| match h {
+                Housing::Sphere(diameter) => diameter,
+                Housing::Box(edges) => edges.max(),
+            })
+        };
+        Self {
+            joints: Body::BOTH.map(width),
+            leg: hardware.leg_body.map(|l| l.diameter),
+            rod: hardware.leg_body.and_then(|l| l.rod).map(|(length, diameter)| [length, diameter]),
+            lengths: hardware.leg_length.map(|l| l.range().into()),
+        }
+    }
+}
+
+/// How far the sliders of the pose go to either side of home.
+#[derive(Debug, Serialize)]
+struct SlidesRecord {
+    /// Design units.
+    position: [f64; 3],
+    /// Roll, pitch, yaw.
+    rpy_deg: [f64; 3],
+}
+
+/// Sliders go further than the workspace by this factor: what is beyond it has to be seen too.
+const BEYOND: f64 = 1.5;
+/// Least reach of a slider: as a share of the size of the design, and in degrees.
+const LEAST_SLIDE: (f64, f64) = (0.25, 30.0);
+
+impl SlidesRecord {
+    fn of(design: &Design) -> Self {
+        let workspace = design.workspace_or_default();
+        let least = LEAST_SLIDE.0 * design.manipulator().size();
+        Self {
+            position: workspace.translation.map(|x| (BEYOND * x).max(least)).into(),
+            rpy_deg: workspace.rotation_deg.map(|x| (BEYOND * x).max(LEAST_SLIDE.1)).into(),
+        }
+    }
 }
 
 /// Legs (vertices) and what slides on the sides between them.
@@ -111,7 +172,7 @@ struct LegRecord {
 /// The design, the original's hexagon, and the patterns to choose from.
 pub(super) fn record(session: &Session) -> OpeningRecord<'_> {
     let design = &session.design;
-    let architecture = Architecture::of(design.manipulator());
+    let architecture = Architecture::of(session.first().manipulator());
     let finding = architecture.findings.first();
     let (centre, radius) = session.reach();
     let kind = match &session.original {
@@ -136,6 +197,8 @@ pub(super) fn record(session: &Session) -> OpeningRecord<'_> {
         workspace: !design.workspace.is_empty(),
         lengths: session.first().lengths.map(|l| l.get()),
         limits: LimitsRecord { spacing: session.limits.0, det: session.limits.1 },
+        hardware: HardwareRecord::of(&design.hardware),
+        slides: SlidesRecord::of(design),
         characteristic_length: session.characteristic_length,
         hexagon: original.map(hexagon),
         patterns: session.start.as_ref().zip(original).map(|(s, o)| patterns(s, o)),

@@ -32,13 +32,19 @@ impl Session {
     }
 }
 
-/// A pose of the round.
+/// A pose to show.
 #[derive(Debug, Serialize)]
-pub(super) struct RoundPose {
+pub(super) struct PathPose {
     pose: PoseRecord,
 }
 
+impl From<&Pose> for PathPose {
+    fn from(pose: &Pose) -> Self {
+        Self { pose: pose.into() }
+    }
+}
+
 /// The pose at `at`.
-pub(super) fn record(session: &Session, at: f64) -> RoundPose {
-    RoundPose { pose: (&session.along(at)).into() }
+pub(super) fn record(session: &Session, at: f64) -> PathPose {
+    (&session.along(at)).into()
 }

@@ -4,10 +4,11 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::session::{Equivalent, InvalidStart, Session};
-use super::{modes, motion, opening, path, plane, scene, worst};
+use super::{limits, modes, motion, opening, path, plane, scene, worst};
 use crate::design::{Format, parse};
-use crate::geom::Pose;
+use crate::geom::{Angles, Pose};
 use crate::records::PoseRecord;
+use crate::requirements::AssessOptions;
 use crate::synthesis::Pattern;
 
 /// Which platform of the page.
@@ -43,10 +44,16 @@ pub(super) enum Request {
     Start { pattern: String },
     /// The pose at a share of the way round.
     Path { at: f64 },
+    /// The pose at a position with roll, pitch and yaw.
+    Place { position: [f64; 3], rpy_deg: [f64; 3] },
+    /// The pose at a position with a unit quaternion, scalar part first: how other answers name their worst poses.
+    Quaternion { p: [f64; 3], q: [f64; 4] },
     /// Everything about both platforms at a pose.
     State { pose: PoseRecord, chosen: Option<Chosen> },
     /// Worst conditioning over the poses of the workspace.
     Worst { chosen: Option<Chosen> },
+    /// The requirements of a platform over its whole workspace, as `assess` answers with these numbers.
+    Assess { which: Which, chosen: Option<Chosen>, points: usize, searches: usize, cells: usize },
     /// All poses with given leg lengths, or with those of a pose.
     Modes { pose: PoseRecord, lengths: Option<[f64; 6]>, which: Which, chosen: Option<Chosen> },
     /// All poses of both platforms, each from its own leg lengths, paired.
@@ -145,10 +152,23 @@ impl Session {
                 Ok(value(OffsetsRecord { offsets: self.first_offsets(&pattern)? }))
             }
             Request::Path { at } => Ok(value(path::record(self, at))),
+            Request::Place { position, rpy_deg } => {
+                let pose = Pose::new(position, Angles::from_degrees(rpy_deg));
+                Ok(value(path::PathPose::from(&pose)))
+            }
+            Request::Quaternion { p, q } => {
+                let pose = Pose::from_quaternion(p, q).map_err(|e| Refusal::new("pose", e))?;
+                Ok(value(path::PathPose::from(&pose)))
+            }
             Request::State { pose, chosen } => {
                 scene::record(self, &Pose::from(&pose), equivalent(chosen)?.as_ref()).map(value)
             }
             Request::Worst { chosen } => worst::record(self, equivalent(chosen)?.as_ref()).map(value),
+            Request::Assess { which, chosen, points, searches, cells } => {
+                let design = self.platform(which, equivalent(chosen)?)?;
+                let options = AssessOptions::new().points(points).searches(searches);
+                limits::record(&design, &options, cells).map(value)
+            }
             Request::Modes { pose, lengths, which, chosen } => {
                 let design = self.platform(which, equivalent(chosen)?)?;
                 modes::record(design.manipulator(), &self.home, &Pose::from(&pose), lengths).map(value)

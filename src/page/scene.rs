@@ -21,6 +21,8 @@ const ROUNDING: f64 = 1e-13;
 #[derive(Debug, Serialize)]
 pub(super) struct SceneRecord {
     pose: PoseRecord,
+    /// Roll, pitch and yaw of the pose.
+    rpy_deg: [f64; 3],
     platforms: Vec<PlatformRecord>,
     /// From the lengths of the first to those of the second.
     map: Option<RelationRecord>,
@@ -93,7 +95,7 @@ pub(super) fn record(session: &Session, at: &Pose, e: Option<&Equivalent>) -> Re
         platforms.push(platform(session, &second, at, &own, true));
         map = Some(relation(e, &a, &s, &own)?);
     }
-    Ok(SceneRecord { pose: at.into(), platforms, map })
+    Ok(SceneRecord { pose: at.into(), rpy_deg: at.angles().degrees(), platforms, map })
 }
 
 fn squares(design: &Design, at: &Pose) -> Result<SquaredLegLengths, Refusal> {

@@ -1,5 +1,8 @@
 // What the page does when asked: paths, modes, self-motions, files.
 
+/** Milliseconds without a movement after which the modes are looked for. */
+const RESTED = 300;
+
 Object.assign(App.prototype, {
   /** The player stands at a share of the way. */
   move(at) {
@@ -10,9 +13,39 @@ Object.assign(App.prototype, {
     } else {
       this.pose = this.core.ask({ op: "path", at }).pose;
     }
+    this.moved();
+  },
+
+  /** The platform stands at another pose. */
+  moved() {
     this.shown = -1;
+    this.legFields.typed = false;
     this.stale();
     this.soon();
+  },
+
+  /** The pose at a position with roll, pitch and yaw; `null` where the core refuses it. */
+  place(values) {
+    const { pose, error } = this.core.ask({ op: "place", position: values.slice(0, 3), rpy_deg: values.slice(3) });
+    if (error) return null;
+    this.stand(pose);
+    return pose;
+  },
+
+  /** Another pose, asked for by itself and not by the player. */
+  stand(pose) {
+    this.player.rest(this.player.at);
+    this.leaveMotion();
+    this.pose = pose;
+    this.moved();
+  },
+
+  /** The worst pose of a requirement. */
+  stopAt({ p, q }) {
+    const { pose } = this.core.ask({ op: "quaternion", p, q });
+    if (!pose) return;
+    this.stand(pose);
+    $("stage").scrollIntoView({ block: "nearest" });
   },
 
   /** The modes listed belong to other leg lengths once the platform has moved. */
@@ -22,15 +55,25 @@ Object.assign(App.prototype, {
       this.listed = "stale";
       this.listModes();
     }
+    this.rested();
+  },
+
+  /** When the platform has come to rest, its modes are looked for. */
+  rested() {
+    if (this.listed === "stale" && !this.player.running && this.core.live) this.findModes(RESTED);
+  },
+
+  /** The lengths of the pose shown in the fields, whatever was typed there. */
+  showLengths() {
+    this.legFields.typed = false;
+    this.soon();
   },
 
   goHome() {
     this.player.rest(0);
     this.pose = this.open.home;
     this.leaveMotion();
-    this.shown = -1;
-    this.stale();
-    this.soon();
+    this.moved();
   },
 
   choosePath(path) {
@@ -89,12 +132,30 @@ Object.assign(App.prototype, {
       this.soon();
       if (said) this.speak();
     });
+    this.assess();
     if (this.pattern && this.pattern.offsets.length > 1) {
       const { low, high, points } = PLANE;
       const plane = this.core.ask({ op: "plane", chosen: this.chosen, axes: this.plane.axes, range: [low, high], points });
       this.planeAnswer = plane;
     }
     this.soon();
+  },
+
+  /** The requirements over the workspace: a quick look, then what `equipod assess` does. */
+  assess() {
+    this.limits = null;
+    if (!this.core.live) return;
+    const request = { op: "assess", which: this.pattern ? "second" : "first", chosen: this.chosen };
+    const { core } = this;
+    this.tasks.limits.ask(core, { ...request, ...ROUGH }, (rough) => {
+      this.limits = { ...rough, whole: false };
+      this.soon();
+      if (rough.error) return;
+      this.tasks.limits.ask(core, { ...request, ...THOROUGH }, (found) => {
+        this.limits = { ...found, whole: true };
+        this.soon();
+      });
+    });
   },
 
   /** The numbers after a change, for those who do not see them. */
@@ -104,38 +165,44 @@ Object.assign(App.prototype, {
     if (!state.error) $("live").textContent = `det A ${show(state.map.det, 4)}, worst conditioning of the equivalent ${show(this.worst.second ? this.worst.second.inverse_condition : null, 3)}`;
   },
 
-  findModes() {
+  findModes(after = 0) {
     const { pose } = this;
     this.tasks.modes.ask(this.core, { op: "modes", pose, which: "first" }, (found) => {
       this.modes = found;
+      this.modesOf = "first";
       this.compared = -1;
       this.shown = -1;
       this.listed = this.pose === pose ? "here" : "stale";
       this.listModes();
       this.soon();
-    });
+    }, after);
   },
 
-  /** All poses for lengths that somebody typed; the first real one is shown. */
-  findFor(text) {
-    const lengths = text.split(/[\s,;]+/).filter(Boolean).map(Number);
-    if (lengths.length !== 6 || !lengths.every((l) => Number.isFinite(l) && l > 0)) {
-      $("modes-words").textContent = "Give six positive numbers.";
+  /** All poses for lengths that somebody typed; the real one nearest to the pose shown is shown. */
+  findFor(lengths) {
+    if (!lengths) {
+      $("lengths-state").textContent = "Give six positive numbers.";
       return;
     }
     this.player.rest(0);
     this.leaveMotion();
     const { pose } = this;
-    this.tasks.modes.ask(this.core, { op: "modes", pose, lengths, which: "first" }, (found) => {
+    const which = this.pattern ? this.whose : "first";
+    this.tasks.modes.ask(this.core, { op: "modes", pose, lengths, which, chosen: this.chosen }, (found) => {
       this.modes = found;
+      this.modesOf = which;
       this.compared = -1;
       this.shown = -1;
       this.listed = "stale";
       // who has moved the platform meanwhile is not taken from there
       if (!found.error && found.modes.length && this.pose === pose) {
-        this.shown = 0;
+        this.shown = found.nearest;
         this.listed = "here";
-        this.pose = found.modes[0].pose;
+        this.pose = found.modes[found.nearest].pose;
+        this.legFields.typed = false;
+      } else if (!found.error && !found.modes.length) {
+        this.listed = "typed";
+        $("lengths-state").textContent = "No real pose with these lengths was found.";
       }
       this.listModes();
       this.soon();
@@ -161,7 +228,7 @@ Object.assign(App.prototype, {
     const { modes } = this;
     if (!modes) return "";
     if (modes.error) return modes.error.message;
-    const of = this.pattern ? "the original" : "the platform";
+    const of = !this.pattern ? "the platform" : this.modesOf === "second" ? "the equivalent" : "the original";
     const count = modes.solution_set === "positive_dimensional"
       ? `For exactly these lengths ${of} has a whole curve of complex poses; ${modes.modes.length ? `${modes.modes.length} real ones on it are listed` : "no real one was found on it"}. Isolated poses beside the curve (the one shown may be one) are not listed: move the platform a little and ask again.`
       : `${modes.modes.length} real of ${modes.finite} finite complex poses of ${of}, by the ${modes.method} method; the list is ${modes.proved ? "proved complete" : "not proved complete"}, ${modes.modes.filter((m) => m.certified).length} real ones are certified.`;
@@ -179,9 +246,11 @@ Object.assign(App.prototype, {
     } else {
       this.player.rest(0);
       this.leaveMotion();
+      this.tasks.modes.drop();
       this.shown = k;
       this.listed = "here";
       this.pose = this.modes.modes[k].pose;
+      this.legFields.typed = false;
       this.listModes();
       document.querySelectorAll("#modes input[name=mode]")[k].focus();
     }
@@ -221,26 +290,56 @@ Object.assign(App.prototype, {
 
   async replace(file) {
     try {
-      this.core = this.core.replace({ design: await file.text(), trajectory: [], start: null });
+      this.reopen({ design: await file.text(), trajectory: [], start: null });
     } catch (error) {
       $("files-words").textContent = `${file.name}: ${error.message}`;
       return;
     }
+    $("files-words").textContent = `${file.name} is open.`;
+  },
+
+  /** Another design in the place of this one; throws the reason when the core refuses it. */
+  reopen(opening) {
+    this.core = this.core.replace(opening);
     this.player.rest(0);
     Object.values(this.tasks).forEach((task) => task.drop());
     this.begin();
     this.views.forEach((v) => { v.scene = this.scene; });
     this.rebuild();
-    $("files-words").textContent = `${file.name} is open.`;
+  },
+
+  /** The design, the equivalent chosen and the pose in a link. */
+  async share() {
+    const { pose, rpy_deg } = this.state;
+    const hash = await Share.pack({ ...this.core.opening, start: this.chosen, at: { position: pose.p, rpy_deg } });
+    $("link").value = location.href.split("#")[0] + hash;
+    $("link").hidden = false;
+    $("link").select();
+    $("files-words").textContent = `The link has ${$("link").value.length} characters and holds the design, the offsets and the pose; it opens wherever this page is.`;
+  },
+
+  /** Opens what the link of the page holds. */
+  async follow() {
+    try {
+      const held = await Share.unpack(location.hash);
+      if (!held) return;
+      const { at, ...opening } = held;
+      this.reopen(opening);
+      if (at) this.place([...at.position, ...at.rpy_deg]);
+    } catch (error) {
+      $("note").hidden = false;
+      $("note").textContent = `The link holds no design that can be opened: ${error.message}.`;
+    }
   },
 });
 
-openCore().then((core) => {
+openCore().then(async (core) => {
   if (!core.live) {
     $("note").hidden = false;
     $("note").textContent = `This page shows recorded data: ${core.why}. It has one round of poses, the assembly modes at home and det A over two offsets; sliders need the core in WebAssembly.`;
   }
   $("about").textContent = `equipod ${data.version}. ${core.live ? "Every number is computed here by its core, compiled to WebAssembly; nothing is sent anywhere." : "Recorded data."}`;
-  new App(core);
+  const app = new App(core);
+  if (core.live) await app.follow();
   document.documentElement.dataset.ready = core.live ? "live" : "recorded";
 });

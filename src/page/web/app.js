@@ -5,7 +5,9 @@ class App {
     this.core = core;
     this.camera = new Camera(() => this.soon());
     this.begin();
-    this.player = new Player((at) => this.move(at));
+    this.player = new Player((at) => this.move(at), () => this.rested());
+    this.poseFields = new PoseFields($("pose-sliders"), (values) => this.place(values));
+    this.legFields = new LegFields($("leg-fields"), $("lengths-state"));
     this.sliders = new Sliders($("sliders"), (changes) => this.change(changes));
     this.hexagon = new Hexagon($("hexagon"), (k, t) => this.change([[k, t]]));
     this.plane = new Plane($("plane"), $("plane-words"), (changes) => this.change(changes));
@@ -17,6 +19,7 @@ class App {
       confirm: new Task(say("modes-words", "Solving for both platforms …")),
       motion: new Task(say("motion-words", "Looking for a self-motion through this pose …")),
       worst: new Task(() => { this.worst = null; this.soon(); }),
+      limits: new Task(() => this.soon()),
     };
     this.listen();
     this.rebuild();
@@ -35,6 +38,8 @@ class App {
     this.listed = "here";
     this.modes = null;
     this.worst = null;
+    this.limits = null;
+    this.whose = "first";
     this.pattern = open.patterns ? open.patterns.find((p) => p.id === open.start.pattern) : null;
     this.offsets = open.start ? [...open.start.offsets] : [];
     this.remembered = { [open.start ? open.start.pattern : ""]: this.offsets };
@@ -56,8 +61,16 @@ class App {
     $("find").addEventListener("click", () => this.findModes());
     $("by-lengths").addEventListener("submit", (e) => {
       e.preventDefault();
-      this.findFor($("six").value);
+      this.findFor(this.legFields.read());
     });
+    $("as-shown").addEventListener("click", () => this.showLengths());
+    $("of-file").addEventListener("click", () => this.legFields.take(this.open.lengths));
+    $("whose").addEventListener("change", () => {
+      this.whose = $("whose").value;
+      this.showLengths();
+    });
+    $("share").addEventListener("click", () => this.share());
+    window.addEventListener("hashchange", () => this.follow());
     $("confirm").addEventListener("click", () => this.confirm());
     $("open").addEventListener("change", (e) => e.target.files[0] && this.replace(e.target.files[0]));
     // what is printed has the light colours
@@ -78,10 +91,8 @@ class App {
       general: "Six legs without octahedral original",
     };
     $("kind").textContent = kinds[open.kind];
-    $("badge").textContent = open.singular ? "architecturally singular" : "architecturally regular";
-    $("badge").className = `badge ${open.singular ? "bad" : "good"}`;
-    $("badge").title = open.reason || "some pose holds the platform: proved in exact arithmetic";
-    $("caption-first").replaceChildren(el("b", {}, pattern ? "Original" : "Platform"), ` ${pattern ? "octahedral" : open.name}`);
+    $("caption-first").replaceChildren(el("b", {}, pattern ? "Original" : "Platform"), ` ${pattern ? "octahedral" : open.name} `, el("span", { class: "chip", id: "regular-first" }));
+    $("regular-first").title = open.reason || "some pose holds the platform: proved in exact arithmetic";
     $("figure-second").hidden = !pattern;
     document.querySelector(".views").classList.toggle("one", !pattern);
     document.querySelector("main").classList.toggle("plain", !pattern);
@@ -90,23 +101,40 @@ class App {
     const [skip] = document.getElementsByClassName("skip");
     skip.href = pattern ? "#offsets" : "#modes-card";
     skip.textContent = `Skip to the ${pattern ? "offsets" : "assembly modes"}`;
-    $("by-lengths-label").textContent = `Six leg lengths${pattern ? " of the original" : ""}${inUnits(open.units)}`;
-    $("six").value = open.lengths ? open.lengths.join(", ") : "";
-    for (const id of ["find", "confirm", "six", "solve", "pattern", "restart", "linked", "open", "axis-x", "axis-y"]) $(id).disabled = !enabled;
+    this.poseFields.build(open, this.home(), enabled);
+    this.legFields.build(open, enabled);
+    $("lengths-units").textContent = inUnits(open.units);
+    $("whose-label").hidden = !pattern;
+    $("whose").value = this.whose;
+    $("of-file").hidden = !open.lengths;
+    for (const id of ["find", "confirm", "solve", "as-shown", "of-file", "whose", "share", "pattern", "restart", "linked", "open", "axis-x", "axis-y"]) $(id).disabled = !enabled;
     const paths = [["workspace", open.trajectory ? "trajectory of the design" : "through the workspace"], ["motion", "self-motion"]];
     $("path").replaceChildren(...paths.map(([value, words]) => el("option", { value, selected: value === this.path }, words)));
     if (pattern) this.rebuildPattern();
     this.downloads();
+    this.lookAround();
     this.listModes();
     this.findModes();
     this.slow();
     this.soon();
   }
 
+  /** Position and roll, pitch, yaw of home. */
+  home() {
+    const state = this.core.ask({ op: "state", pose: this.open.home, chosen: this.chosen });
+    return [...this.open.home.p, ...(state.rpy_deg || [0, 0, 0])];
+  }
+
+  /** The first direction of view. */
+  lookAround() {
+    const state = this.core.ask({ op: "state", pose: this.open.home, chosen: this.chosen });
+    if (!state.error) this.camera.look(state.platforms, this.open);
+  }
+
   rebuildPattern() {
     const words = (p) => `${p.id}: ${p.base_joints}-${p.platform_joints}, ${p.shared_joints ? `${p.shared_joints} shared` : "none shared"}`;
     $("pattern").replaceChildren(...this.open.patterns.map((p) => el("option", { value: p.id, selected: p === this.pattern }, words(p))));
-    $("caption-second").replaceChildren(el("b", {}, "Equivalent"), ` ${this.pattern.id}, ${this.pattern.base_joints}-${this.pattern.platform_joints}; dotted: triangles of the original`);
+    $("caption-second").replaceChildren(el("b", {}, "Equivalent"), ` ${this.pattern.id}, ${this.pattern.base_joints}-${this.pattern.platform_joints}; dotted: triangles of the original `, el("span", { class: "chip", id: "regular-second" }));
     $("formula").textContent = `det A = ${this.pattern.det}`;
     this.sliders.build(this.open, this.pattern, this.core.live);
     this.hexagon.build(this.open.hexagon, this.pattern, this.core.live);
@@ -181,8 +209,9 @@ class App {
     const names = $("names").checked;
     const ghosts = this.ghosts();
     this.frame([...state.platforms, ...ghosts].filter(Boolean));
-    this.views[0].draw(first, { ghost: ghosts[0], names });
-    if (second) this.views[1].draw(second, { original: first, ghost: ghosts[1], names });
+    const { hardware } = this.open;
+    this.views[0].draw(first, { ghost: ghosts[0], names, hardware });
+    if (second) this.views[1].draw(second, { original: first, ghost: ghosts[1], names, hardware });
     const place = (p) => `3D view of ${p.name}: leg lengths ${p.lengths.map((x) => show(x, 4)).join(", ")}${unit(this.open.units)}. Arrow keys turn it.`;
     this.views.forEach((v, k) => state.platforms[k] && v.canvas.setAttribute("aria-label", place(state.platforms[k])));
     if (this.pattern) {
@@ -190,12 +219,30 @@ class App {
       this.hexagon.update(this.offsets, state.map.zeros);
       this.plane.draw(this.planeAnswer, this.pattern, this.offsets, state.map.det);
     }
+    this.poseFields.update(this.pose, state);
+    this.legFields.update(this.platformOfLengths().lengths);
     Tables.lengths(state, this.open.units);
-    Tables.margins(state);
+    Tables.margins(this, state);
     this.tiles();
+    this.badges();
     const p = state.pose.p.map((x) => fixed(x, 3)).join(", ");
     $("pose-words").textContent = `p = (${p})${unit(this.open.units)}, R = [${state.pose.R.map((r) => r.map((x) => fixed(x, 3)).join(" ")).join("; ")}]`;
     document.documentElement.dataset.shown = JSON.stringify(this.offsets);
+  }
+
+  /** The platform whose lengths are in the fields. */
+  platformOfLengths() {
+    return this.state.platforms[this.whose === "second" && this.pattern ? 1 : 0];
+  }
+
+  badges() {
+    const about = { app: this, state: this.state };
+    const put = (node, [tone, words]) => {
+      node.className = `${node.id === "badge" ? "badge" : "chip"} ${tone}`;
+      if (node.textContent !== words) node.textContent = words;
+    };
+    put($("badge"), Limits.verdict(about));
+    this.state.platforms.forEach((_, k) => put($(k ? "regular-second" : "regular-first"), Limits.regularity({ ...about, k })));
   }
 
   /** What both pictures hold: the platform at home, and more when something is far from it. */

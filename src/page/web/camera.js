@@ -2,17 +2,63 @@
 
 const START = { azimuth: -0.95, elevation: 0.42, zoom: 1 };
 
+/** Directions among which the first one is chosen. */
+const AROUND = { azimuths: 48, elevations: [0.3, 0.42, 0.55] };
+/** Points of a leg that are looked at, and the distance, as a share of the picture, at which two legs no longer hide each other. */
+const [ALONG, APART] = [[0.15, 0.3, 0.45, 0.6, 0.75, 0.85], 0.035];
+
+/** The distance of a point from a line between two points of the page. */
+function fromLine(p, a, b) {
+  const [dx, dy] = [b.x - a.x, b.y - a.y];
+  const t = Math.max(0, Math.min(1, ((p.x - a.x) * dx + (p.y - a.y) * dy) / (dx * dx + dy * dy || 1)));
+  return Math.hypot(p.x - a.x - t * dx, p.y - a.y - t * dy);
+}
+
 class Camera {
   constructor(changed) {
-    Object.assign(this, START);
+    this.start = { ...START };
+    Object.assign(this, this.start);
     this.changed = changed;
     this.pointers = new Map();
     this.spread = 0;
   }
 
   reset() {
-    Object.assign(this, START);
+    Object.assign(this, this.start);
     this.changed();
+  }
+
+  /** Begins where the legs of all these platforms hide each other least. */
+  look(platforms, scene) {
+    let best = -1;
+    for (let k = 0; k < AROUND.azimuths; k += 1) {
+      for (const elevation of AROUND.elevations) {
+        const azimuth = START.azimuth + (2 * Math.PI * k) / AROUND.azimuths;
+        Object.assign(this, { azimuth, elevation, zoom: START.zoom });
+        const project = this.projection(scene.centre, scene.radius, 1, 1);
+        const seen = Math.min(...platforms.map((p) => Camera.seen(p, project)));
+        if (seen > best + 1e-3) {
+          best = seen;
+          this.start = { azimuth, elevation, zoom: START.zoom };
+        }
+      }
+    }
+    this.reset();
+  }
+
+  /** How much is seen of the leg that is hidden most, and a little of all. */
+  static seen(platform, project) {
+    const legs = platform.legs.map(([a, b]) => [platform.base[a].at, platform.platform[b].at]);
+    const flat = legs.map((ends) => ends.map(project));
+    const shares = legs.map(([a, b], k) => {
+      const free = ALONG.map((t) => {
+        const p = project(a.map((x, i) => x + t * (b[i] - x)));
+        const gap = Math.min(...flat.map(([c, d], j) => (j === k ? Infinity : fromLine(p, c, d))));
+        return Math.min(1, gap / APART);
+      });
+      return free.reduce((sum, x) => sum + x, 0) / free.length;
+    });
+    return Math.min(...shares) + 0.05 * shares.reduce((sum, x) => sum + x, 0);
   }
 
   turn(azimuth, elevation) {

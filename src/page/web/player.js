@@ -3,9 +3,9 @@
 const ROUND_SECONDS = 14;
 
 class Player {
-  /** `moved(at)` is called with the share of the way, in [0, 1). */
-  constructor(moved) {
-    this.moved = moved;
+  /** `moved(at)` is called with the share of the way, in [0, 1), `paused()` when the platform comes to rest. */
+  constructor(moved, paused) {
+    Object.assign(this, { moved, paused });
     this.at = 0;
     this.running = false;
     this.speed = 1;
@@ -16,7 +16,9 @@ class Player {
   }
 
   toggle(on = !this.running) {
+    const before = this.running;
     this.running = on;
+    if (before && !on) this.paused();
     $("play").textContent = on ? "Pause" : "Play";
     this.last = performance.now();
     if (on) requestAnimationFrame((now) => this.frame(now));

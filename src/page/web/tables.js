@@ -13,15 +13,13 @@ const Tables = {
   lengths(state, units) {
     const [first, second] = state.platforms;
     const map = state.map;
-    const joints = (p, k) => `${p.base[p.legs[k][0]].name} – ${p.platform[p.legs[k][1]].name}`;
+    const joints = (p, k) => el("small", {}, `${p.base[p.legs[k][0]].name} – ${p.platform[p.legs[k][1]].name}`);
     const rows = first.lengths.map((length, k) => {
-      const cells = [legName(k + 1), joints(first, k), show(length, 8)];
-      if (map) cells.push(joints(second, k), show(second.lengths[k], 8), show(Math.sqrt(map.image[k]), 8));
+      const cells = [legName(k + 1), [show(length, 8), joints(first, k)]];
+      if (map) cells.push([show(second.lengths[k], 8), joints(second, k)], show(Math.sqrt(map.image[k]), 8));
       return row(cells);
     });
-    const heads = map
-      ? ["", "original", `length${inUnits(units)}`, "equivalent", `length${inUnits(units)}`, "√(A s + c)"]
-      : ["", "joints", `length${inUnits(units)}`];
+    const heads = map ? ["", `original${inUnits(units)}`, `equivalent${inUnits(units)}`, "√(A s + c)"] : ["", `length${inUnits(units)}`];
     $("lengths").replaceChildren(heading(heads), el("tbody", {}, ...rows));
     $("lengths-words").textContent = map
       ? `At every pose the squared lengths of the equivalent are s′ = A s + c. The last column is computed from the original's lengths; it differs from the geometry by ${show(map.error, 2)} of the largest squared length.`
@@ -35,27 +33,35 @@ const Tables = {
     $("map").replaceChildren(heading(["", ...map.A.map((_, j) => `s${j + 1}`), "c"]), el("tbody", {}, ...rows));
   },
 
-  margins(state) {
+  /** The requirements over the workspace, for the design shown, and at the pose shown. */
+  margins(app, state) {
     const [first, second] = state.platforms;
-    const find = (p, r) => p && p.margins.find((m) => m.name === r.name);
-    const own = first.margins.length > 0 || !second;
-    const all = [...first.margins, ...(second ? second.margins.filter((m) => !find(first, m)) : [])];
-    $("margins-card").hidden = false;
-    $("margins-words").textContent = all.length
-      ? "The least margin of each requirement at the pose shown; below zero the requirement is violated."
-      : "The design requires nothing: it has no [hardware], loads or keep-outs.";
+    const { limits } = app;
+    const go = (pose) => app.stopAt(pose);
+    const whole = limits && !limits.error ? limits : null;
+    const find = (list, name) => list?.find((m) => m.name === name);
+    const names = [...new Set([...(whole ? whole.requirements : []), ...first.margins, ...(second ? second.margins : [])].map((m) => m.name))];
+    $("margins-words").textContent = Limits.words({ app, state });
+    // the table is made anew only when something in it has changed, so that its buttons keep the focus
+    const key = JSON.stringify([whole, first.margins, second?.margins]);
+    if (key === Tables.margin) return;
+    Tables.margin = key;
     // what rounding does not tell from zero is not written as a number
     const words = (m) => (m.at_limit ? "0, at the limit" : `${show(m.margin, 4)}${m.met ? "" : " violated"}`);
-    const cell = (m) => (m ? [el("span", { class: m.met ? "good" : "bad" }, words(m))] : "–");
+    const here = (m) => (m ? [el("span", { class: m.met ? null : "bad" }, words(m)), el("small", {}, m.between.join(", "))] : "–");
     const units = (r) => (r.unit === "force" ? " [force units]" : inUnits(r.unit));
-    const rows = all.map((r) => {
-      const [a, b] = [find(first, r), find(second, r)];
-      const cells = [`${REQUIREMENTS[r.name] || r.name.replaceAll("_", " ")}${units(r)}`, cell(a), a ? a.between.join(", ") : "–"];
-      const other = [cell(b), b ? b.between.join(", ") : "–"];
-      return row(!second ? cells : own ? [...cells, ...other] : [cells[0], ...other]);
+    const own = first.margins.length > 0 || !second;
+    const rows = names.map((name) => {
+      const [w, a, b] = [find(whole?.requirements, name), find(first.margins, name), find(second?.margins, name)];
+      const cells = [`${REQUIREMENTS[name] || name.replaceAll("_", " ")}${units(w || a || b)}`];
+      if (whole) cells.push(Limits.cell(w, go));
+      if (own) cells.push(here(a));
+      if (second) cells.push(here(b));
+      return row(cells);
     });
-    const heads = second && own ? ["requirement", "original", "of", "equivalent", "of"] : ["requirement", second ? "equivalent" : "margin", "of"];
-    $("margins").replaceChildren(...(all.length ? [heading(heads), el("tbody", {}, ...rows)] : []));
+    if (whole) rows.push(row(["singular poses", Limits.regular(whole.regular, go), ...(own ? ["–"] : []), ...(second ? ["–"] : [])]));
+    const heads = ["requirement", ...(whole ? [second ? "workspace, equivalent" : "workspace"] : []), ...(own ? [second ? "here, original" : "here"] : []), ...(second ? ["here, equivalent"] : [])];
+    $("margins").replaceChildren(...(names.length ? [heading(heads), el("tbody", {}, ...rows)] : []));
   },
 
   /** One row a mode: which is shown, which is the ghost. */

@@ -21,20 +21,22 @@ class Task {
     this.worker = null;
   }
 
-  /** Asks, and forgets what was asked before: `done(answer)` is called for the newest request only. */
-  ask(core, request, done) {
+  /** Asks, at once or after some milliseconds, and forgets what was asked before: `done(answer)` is called for the newest request only. */
+  ask(core, request, done, after = 0) {
     this.drop();
     if (this.core !== core) this.close();
     this.core = core;
-    this.job = { number: this.number += 1, request, done };
-    this.told = setTimeout(() => this.wait(), TOLD_AFTER);
+    this.job = { number: this.number += 1, request, done, sent: false };
     Task.working.add(this);
     Task.mark();
-    this.send();
+    if (after) this.asked = setTimeout(() => this.send(), after);
+    else this.send();
   }
 
   send() {
     const { number, request } = this.job;
+    this.job.sent = true;
+    this.told = setTimeout(() => this.wait(), TOLD_AFTER);
     if (this.open()) {
       this.worker.postMessage({ number, request });
       return;
@@ -53,7 +55,7 @@ class Task {
   drop() {
     const had = this.job !== null;
     if (had) {
-      this.close();
+      if (this.job.sent) this.close();
       this.over();
     }
     return had;
@@ -62,6 +64,7 @@ class Task {
   over() {
     this.job = null;
     clearTimeout(this.told);
+    clearTimeout(this.asked);
     Task.working.delete(this);
     Task.mark();
   }
@@ -95,7 +98,7 @@ class Task {
   without() {
     Task.possible = false;
     this.close();
-    if (this.job) this.send();
+    if (this.job?.sent) this.send();
   }
 
   /** Says on the root element whether something is being computed, and where. */

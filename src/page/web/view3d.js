@@ -22,12 +22,13 @@ class View {
   }
 
   /** Draws a platform of the core, thin lines of the original's triangles, and a ghost to compare with. */
-  draw(platform, { original, ghost, names } = {}) {
+  draw(platform, { original, ghost, names, hardware } = {}) {
     const { context, width, height } = fitted(this.canvas);
     if (!width || !platform) return;
     this.c = context;
     this.project = this.camera.projection(this.scene.centre, this.scene.radius, width, height);
     this.unit = this.scene.radius / 100;
+    this.hardware = hardware;
     context.clearRect(0, 0, width, height);
     this.floor(platform);
     if (ghost) {
@@ -75,9 +76,9 @@ class View {
       const ends = [platform.base[a].at, platform.platform[b].at];
       parts.push({ depth: mean(ends.map(this.project)), draw: () => this.leg(ends, k + 1, plain) });
     });
-    for (const [list, colour] of plates) {
-      for (const p of list) parts.push({ depth: p.depth - 4 * this.unit, draw: () => this.ball(p, style(colour), plain) });
-    }
+    plates.forEach(([list, colour], body) => {
+      for (const p of list) parts.push({ depth: p.depth - 4 * this.unit, draw: () => this.ball(p, style(colour), plain, this.hardware.joints[body]) });
+    });
     parts.sort((p, q) => q.depth - p.depth).forEach((p) => p.draw());
   }
 
@@ -106,21 +107,25 @@ class View {
     }
   }
 
-  /** Cylinder and rod. */
+  /** Cylinder and rod, as long and as thick as the design says, else by a share of the picture. */
   leg([a, b], leg, plain) {
-    const mid = a.map((x, k) => x + 0.52 * (b[k] - x));
+    const { leg: diameter, rod } = this.hardware;
+    const whole = Math.hypot(...a.map((x, k) => b[k] - x));
+    const share = rod ? Math.min(1, rod[0] / whole) : diameter ? 1 : 0.52;
+    const mid = a.map((x, k) => x + share * (b[k] - x));
     const [p, m, q] = [a, mid, b].map(this.project);
     if (plain) {
       this.line(p, q, style("--ghost"), 1.4, [5, 4]);
       return;
     }
     const colour = style(`--leg-${leg}`);
-    const thick = Math.max(2.5, 4.6 * this.unit * m.pixels);
-    this.line(m, q, style("--halo"), 0.55 * thick + 2);
+    const thick = Math.max(1.5, diameter ? diameter * m.pixels : Math.max(2.5, 4.6 * this.unit * m.pixels));
+    const thin = rod ? Math.max(1, rod[1] * m.pixels) : 0.5 * thick;
+    this.line(m, q, style("--halo"), thin + 2);
     this.line(p, m, style("--halo"), thick + 2);
-    this.line(m, q, colour, 0.5 * thick);
+    this.line(m, q, colour, thin);
     this.line(p, m, colour, thick);
-    this.number(leg, { x: p.x + 0.62 * (m.x - p.x), y: p.y + 0.62 * (m.y - p.y) }, Math.max(9, 0.95 * thick + 4));
+    this.number(leg, { x: p.x + 0.32 * (q.x - p.x), y: p.y + 0.32 * (q.y - p.y) }, Math.min(22, Math.max(9, 0.95 * thick + 4)));
   }
 
   number(leg, p, size) {
@@ -135,9 +140,9 @@ class View {
     c.fillText(leg, p.x, p.y);
   }
 
-  ball(p, colour, plain) {
+  ball(p, colour, plain, diameter) {
     if (plain) return;
-    const r = Math.max(2.6, 3.4 * this.unit * p.pixels);
+    const r = Math.max(2.6, diameter ? (diameter / 2) * p.pixels : 3.4 * this.unit * p.pixels);
     const shade = this.c.createRadialGradient(p.x - r / 3, p.y - r / 3, r / 6, p.x, p.y, r);
     shade.addColorStop(0, "#ffffff");
     shade.addColorStop(0.45, colour);

@@ -180,6 +180,7 @@ const LINES: &[Line] = &[
             "plot",
             "equivalents",
             "records",
+            "entrance",
         ],
         &[MATRICES, ("serde", None), ("serde_json", None), ("sha2", Some("html.rs")), ERRORS],
     ),

@@ -1,0 +1,22 @@
+//! What a platform has to satisfy over its whole workspace: the answer of `assess`.
+
+use super::request::Refusal;
+use crate::design::Design;
+use crate::entrance::Error;
+use crate::records::AssessAnswer;
+use crate::requirements::AssessOptions;
+
+/// What [`Design::assess_with`] finds; a design that requires nothing is refused as there.
+pub(super) fn record(
+    design: &Design,
+    options: &AssessOptions,
+    cells: usize,
+) -> Result<AssessAnswer, Refusal> {
+    match design.assess_with(options, cells) {
+        Ok(found) => Ok(AssessAnswer::new(design, &found)),
+        Err(Error::NothingRequired) => {
+            Err(Refusal::new("nothing_required", "the design has no requirements"))
+        }
+        Err(other) => Err(Refusal::new("assess", other)),
+    }
+}

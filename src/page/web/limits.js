@@ -1,0 +1,65 @@
+// The requirements over the whole workspace: what `equipod assess` answers for the design shown.
+
+/** A quick look first; then the numbers of poses, searches and cells that `equipod assess` takes. */
+const ROUGH = { points: 500, searches: 1, cells: 0 };
+const THOROUGH = { points: 5000, searches: 3, cells: 6000 };
+
+/** What is known of a margin over the workspace, in a word. */
+const VERDICTS = { met: "proved", at_limit: "at the limit", violated: "violated", searched: "not proved" };
+
+const Limits = {
+  /** The badge of the page: class and words for the design shown. */
+  verdict({ app, state }) {
+    const { open, limits } = app;
+    const second = state.platforms.length > 1;
+    if (second ? Limits.nearlyZero(state.map.det) : open.singular) return ["bad", "architecturally singular"];
+    if (!limits) return ["", app.core.live ? "workspace: being looked at" : "workspace: not looked at"];
+    if (limits.error) return limits.error.code === "nothing_required" ? ["", "no requirements"] : ["", "workspace: not looked at"];
+    if (limits.regular.met === false) return ["bad", "singular pose in the workspace"];
+    if (limits.met === false || limits.requirements.some((m) => m.met === false)) return ["bad", "violates requirements"];
+    if (limits.met) return ["good", "meets all requirements"];
+    return ["", limits.whole ? "no violation found, not all proved" : "no violation found so far"];
+  },
+
+  nearlyZero: (det) => Math.abs(det) < 1e-12,
+
+  /** What the figures say of each platform by itself. */
+  regularity({ app, state, k }) {
+    const { open } = app;
+    if (k === 0) return open.singular ? ["bad", "architecturally singular"] : ["good", "architecturally regular"];
+    const { det } = state.map;
+    if (open.singular || Limits.nearlyZero(det)) return ["bad", "architecturally singular"];
+    return Math.abs(det) < open.limits.det ? ["bad", "close to singular"] : ["good", "architecturally regular"];
+  },
+
+  /** The sentence above the table. */
+  words({ app, state }) {
+    const { limits } = app;
+    const whose = state.platforms.length > 1 ? "the equivalent" : "the platform";
+    if (!app.core.live) return "The least margin of each requirement at the pose shown, not over the workspace; below zero the requirement is violated.";
+    if (!limits) return `Margins at the pose shown; the workspace of ${whose} is being looked at.`;
+    if (limits.error) return limits.error.code === "nothing_required" ? "The design requires nothing: it has no [hardware], loads or keep-outs." : limits.error.message;
+    const over = `over ${limits.poses} poses of the workspace`;
+    if (!limits.whole) return `Least margins of ${whose} ${over}; more poses and a proof are on their way.`;
+    const proof = limits.met ? "proved for all poses between them" : limits.met === false ? "with a violation" : "not all proved for the poses between them";
+    return `Least margins of ${whose} ${over}, ${proof}; below zero a requirement is violated.`;
+  },
+
+  /** The cell of a requirement over the workspace. */
+  cell(m, go) {
+    if (!m) return ["–"];
+    const number = m.at_limit ? "0" : show(m.margin, 4);
+    const tone = m.met ? "good" : m.met === false ? "bad" : null;
+    const word = VERDICTS[m.status] || m.status;
+    const where = m.pose ? [el("button", { type: "button", class: "plain", click: () => go(m.pose) }, "show pose")] : [];
+    return [el("span", { class: tone }, `${number} ${word}`), el("small", {}, m.between.join(", ")), ...where];
+  },
+
+  /** The row of the singular poses. */
+  regular(found, go) {
+    const words = { proved: ["good", "none: proved"], changes_sign: ["bad", "det J changes its sign"], undecided: [null, "not decided"] };
+    const [tone, text] = words[found.status] || [null, found.status];
+    const where = found.pose ? [el("button", { type: "button", class: "plain", click: () => go(found.pose) }, "show pose")] : [];
+    return [el("span", { class: tone }, text), ...where];
+  },
+};
