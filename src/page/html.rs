@@ -18,7 +18,7 @@ pub const CORE: &[u8] = include_bytes!("core.wasm.gz");
 const TEMPLATE: &str = include_str!("web/page.html");
 const STYLE: [&str; 2] = [include_str!("web/layout.css"), include_str!("web/parts.css")];
 /// In the order in which they need each other.
-const SCRIPTS: [&str; 15] = [
+const SCRIPTS: [&str; 16] = [
     include_str!("web/core.js"),
     include_str!("web/task.js"),
     include_str!("web/words.js"),
@@ -33,6 +33,7 @@ const SCRIPTS: [&str; 15] = [
     include_str!("web/limits.js"),
     include_str!("web/app.js"),
     include_str!("web/share.js"),
+    include_str!("web/begin.js"),
     include_str!("web/actions.js"),
 ];
 
@@ -69,8 +70,12 @@ const PLANE: usize = 41;
 /// that refuse it, the page shows recorded answers: one round of poses, the assembly modes at home, `det A` over two offsets, and the first self-motion.
 #[must_use]
 pub fn page(session: &Session, core: Option<&[u8]>) -> String {
-    let data =
-        PageData { opening: session.into(), recorded: recorded(session), version: env!("CARGO_PKG_VERSION") };
+    let data = PageData {
+        opening: session.into(),
+        recorded: recorded(session),
+        begin: session.without_design,
+        version: env!("CARGO_PKG_VERSION"),
+    };
     // texts, numbers, lists and fields can be written
     let data = serde_json::to_string(&data).unwrap_or_default();
     let title = escape(&session.design.name);
@@ -99,6 +104,8 @@ pub fn page(session: &Session, core: Option<&[u8]>) -> String {
 struct PageData {
     opening: Opening,
     recorded: Recorded,
+    /// Whether it is for those who have no design yet.
+    begin: bool,
     version: &'static str,
 }
 

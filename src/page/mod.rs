@@ -5,6 +5,7 @@
 //! Text in, text out: nothing here reads or writes files.
 
 mod base64;
+mod begin;
 #[cfg(all(target_arch = "wasm32", feature = "page-core"))]
 mod exports;
 mod html;

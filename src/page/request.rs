@@ -2,9 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
+use thiserror::Error;
 
 use super::session::{Equivalent, InvalidStart, Session};
-use super::{limits, modes, motion, opening, path, plane, scene, worst};
+use super::{begin, limits, modes, motion, opening, path, plane, scene, worst};
 use crate::design::{Format, parse};
 use crate::geom::{Angles, Pose};
 use crate::records::PoseRecord;
@@ -62,6 +63,14 @@ pub(super) enum Request {
     Plane { chosen: Chosen, axes: [usize; 2], range: [f64; 2], points: usize },
     /// The curve of poses with the leg lengths of a pose.
     Motion { pose: PoseRecord, which: Which, chosen: Option<Chosen> },
+    /// Names of the presets.
+    Presets,
+    /// A preset as a design file.
+    Preset { name: String },
+    /// Twelve points out of a table, as a design file.
+    Points { text: String, units: String },
+    /// A hexapod with the numbers of a data sheet, as a design file.
+    Sheet(begin::DataSheet),
     /// The platform as a design file.
     Design { which: Which, chosen: Option<Chosen> },
 }
@@ -92,7 +101,8 @@ fn value(record: impl Serialize) -> Value {
 }
 
 /// Why there is no answer.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, Error)]
+#[error("{message}")]
 pub(super) struct Refusal {
     code: &'static str,
     message: String,
@@ -185,6 +195,10 @@ impl Session {
                 motion::record(self.platform(which, equivalent(chosen)?)?.manipulator(), &Pose::from(&pose))
                     .map(value)
             }
+            Request::Presets => Ok(value(begin::presets())),
+            Request::Preset { name } => begin::preset(&name).map(value),
+            Request::Points { text, units } => begin::points(&text, &units).map(value),
+            Request::Sheet(sheet) => sheet.made().map(value),
             Request::Design { which, chosen } => {
                 let design = self.platform(which, equivalent(chosen)?)?;
                 let (toml, json) = (design.to_toml(), design.to_json());

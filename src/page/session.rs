@@ -20,6 +20,8 @@ pub struct Session {
     pub(super) characteristic_length: f64,
     /// Least distance of joint centres and least `|det A|` asked for.
     pub(super) limits: (f64, f64),
+    /// Whether the page is for those who have no design yet.
+    pub(super) without_design: bool,
 }
 
 /// One of the equivalent platforms.
@@ -41,6 +43,9 @@ pub enum InvalidStart {
     /// The offsets do not fit the pattern.
     #[error(transparent)]
     Offsets(#[from] InstantiateError),
+    /// The design to begin with is none.
+    #[error("the page without a design has none to begin with: {0}")]
+    Design(String),
 }
 
 impl Session {
@@ -62,6 +67,7 @@ impl Session {
             limits: (table.min_joint_distance.unwrap_or(spacing), table.min_abs_det.unwrap_or(least)),
             original,
             design,
+            without_design: false,
         };
         session.start = session.first_equivalent();
         session

@@ -73,6 +73,18 @@ def narrow(shown):
     assert width[0] <= width[1], f"the page scrolls sideways: {width}"
 
 
+def fitting(shown):
+    """Tables that are open need no scrolling sideways."""
+    wide = shown.page.eval_on_selector_all(".scroll", "list => list.filter((n) => n.checkVisibility() && n.scrollWidth > n.clientWidth + 1).map((n) => `${n.getAttribute('aria-label')}: ${n.scrollWidth} in ${n.clientWidth}`)")
+    assert not wide, wide
+
+
+def stacked(shown):
+    """The two views are one above the other, each as wide as the card."""
+    first, second = [shown.page.locator(f"#view-{name}").bounding_box() for name in ("first", "second")]
+    assert second["y"] >= first["y"] + first["height"] and first["width"] > 0.8 * shown.page.viewport_size["width"], (first, second)
+
+
 def spoken(shown):
     """The live region says the new value after a change."""
     page = shown.page

@@ -46,6 +46,11 @@ def singular_at_the_mark(shown, program, folder):
     assert answer["architecturally_singular"] is not False, answer["explanation"]
 
 
+def shown_lengths(page, platform=1):
+    """Lengths in the table: of the original (1) or of the equivalent (2)."""
+    return page.eval_on_selector_all("#lengths tbody tr", "(rows, k) => rows.map(r => r.cells[k].firstChild.textContent)", platform)
+
+
 def modes_are_all(shown, program, folder, which="original"):
     """As many assembly modes as `fk` finds for the lengths in the table."""
     page = shown.page
@@ -53,7 +58,7 @@ def modes_are_all(shown, program, folder, which="original"):
     page.click("#find")
     shown.settle()
     design = shown.download(f"{which}, TOML", folder / "modes.toml")
-    lengths = page.eval_on_selector_all("#lengths tbody tr", "rows => rows.map(r => r.cells[2].textContent)")
+    lengths = shown_lengths(page)
     answer = program.json("fk", design, "--lengths", ",".join(lengths), exits=(0, 1, 3))
     listed = page.locator("#modes input[name=mode]").count()
     assert listed == answer["real_count"] and listed > 0, (listed, answer["real_count"])
@@ -64,12 +69,13 @@ def modes_are_all(shown, program, folder, which="original"):
         page.locator("#modes input[name=ghost]").first.check()
         shown.settle()
         assert page.text_content("#pose-words") != before, "choosing a mode moves nothing"
-        again = page.eval_on_selector_all("#lengths tbody tr", "rows => rows.map(r => r.cells[2].textContent)")
+        again = shown_lengths(page)
         assert all(close(float(a), float(b), 1e-6) for a, b in zip(lengths, again)), (lengths, again)
 
 
 def modes_for_the_lengths_of_the_file(shown, program, design):
     """The published lengths in the field give the poses that `fk` gives for the file."""
+    shown.page.click("#of-file")
     shown.page.click("#solve")
     shown.settle()
     answer = program.json("fk", design, exits=(0, 1, 3))
@@ -91,12 +97,11 @@ def self_motion_keeps_the_lengths(shown):
     page.select_option("#path", "motion")
     shown.settle()
     assert "Self-motion" in page.text_content("#motion-words"), page.text_content("#motion-words")
-    read = "rows => rows.map(r => [r.cells[2].textContent, r.cells[4].textContent])"
     rows = []
     for at in ("0", "0.3"):
         page.eval_on_selector("#way", "(way, at) => { way.value = at; way.dispatchEvent(new Event('input')); }", at)
         shown.settle()
-        rows.append(page.eval_on_selector_all("#lengths tbody tr", read))
+        rows.append(list(zip(shown_lengths(page), shown_lengths(page, 2))))
     pairs = [(a, b) for a, b in zip(*rows)]
     assert all(close(float(a[1]), float(b[1]), 1e-6) for a, b in pairs), pairs
     assert any(not close(float(a[0]), float(b[0]), 1e-3) for a, b in pairs), pairs
@@ -108,13 +113,12 @@ def at_the_limit(shown):
         shown.page.fill(f"input[aria-label='t{k} as a number']", "0.2")
         shown.page.keyboard.press("Enter")
     shown.settle()
-    margin = shown.page.text_content("#margins tbody tr:last-child td:nth-child(4)")
-    assert margin == "0, at the limit", margin
+    spacing = shown.page.locator("#margins tbody tr", has_text="gap between platform joints").locator("td").last.locator("span")
+    assert spacing.text_content() == "0, at the limit", spacing.text_content()
     shown.page.fill("input[aria-label='t4 as a number']", "0.199999")
     shown.page.keyboard.press("Enter")
     shown.settle()
-    margin = shown.page.text_content("#margins tbody tr:last-child td:nth-child(4)")
-    assert "violated" in margin, margin
+    assert "violated" in spacing.text_content(), spacing.text_content()
 
 
 def no_motion_when_regular(shown):

@@ -27,7 +27,7 @@ class Program:
         return json.loads(self.run(*args, "--json", exits=exits))
 
     def page(self, design, out, *options):
-        self.run("view", design, "-o", out, "--quiet", *options)
+        self.run("view", *([design] if design else []), "-o", out, "--quiet", *options)
         return out
 
 
@@ -52,7 +52,7 @@ def browser(playwright):
 class Opened:
     """A page in the browser with everything it complained about."""
 
-    def __init__(self, chromium, path, width=1360, height=900, dark=False, script=None, touch=False):
+    def __init__(self, chromium, path, width=1360, height=900, dark=False, script=None, touch=False, fragment=""):
         self.context = chromium.new_context(
             viewport={"width": width, "height": height}, color_scheme="dark" if dark else "light",
             has_touch=touch, accept_downloads=True, reduced_motion="reduce",
@@ -65,7 +65,7 @@ class Opened:
         if script:
             self.page.add_init_script(script)
         self.url = Path(path).resolve().as_uri()
-        self.page.goto(self.url)
+        self.page.goto(self.url + fragment)
         self.page.wait_for_selector("html[data-ready]", timeout=30000)
         self.settle()
 
@@ -88,7 +88,7 @@ class Opened:
     def quiet(self):
         """No error, and nothing asked from anywhere."""
         assert not self.complaints, self.complaints
-        others = [u for u in self.requests if u != self.url and not u.startswith(("blob:", "data:"))]
+        others = [u for u in self.requests if u.split("#")[0] != self.url and not u.startswith(("blob:", "data:"))]
         assert not others, others
 
     def det(self):

@@ -2,6 +2,8 @@
 
 import json
 
+import poses
+
 NO_WORKERS = "delete window.Worker;"
 
 ASK = 'answer = JSON.parse(this.call("equipod_answer", JSON.stringify(request)));'
@@ -57,28 +59,35 @@ def stays_usable(shown):
     assert page.text_content("#pose-words") != before, "a key does nothing while the core computes"
     assert page.get_attribute("html", "data-busy") == "worker", "the answer was there before the key"
     shown.settle()
-    # the poses belong to the place where they were asked for
-    assert "has moved since" in page.text_content("#modes-words")
-    assert [r.split("\t")[2:] for r in table(shown)] == [r.split("\t")[2:] for r in found]
+    # at rest the poses are those of the lengths shown, without being asked for
+    assert "has moved since" not in page.text_content("#modes-words")
+    assert page.locator("#modes input[name=mode]:checked").count() == 1
+    assert [r.split("\t")[2:] for r in table(shown)] != [r.split("\t")[2:] for r in found]
+    page.focus("#way")
+    page.keyboard.press("PageUp")
+    # until they are found the old ones stay, and are marked so
+    page.wait_for_timeout(100)
+    assert page.locator("#modes input[name=mode]:checked").count() == 0
     page.click("#home")
-    page.click("#find")
     shown.settle()
+    assert table(shown) == found
     return found
 
 
 def newest_answer_only(shown):
     """Asked for two sets of lengths, one after the other, the page shows the poses of the second."""
     page = shown.page
-    lengths = [float(x) for x in page.input_value("#six").split(",")]
-    other = ", ".join(str(x * (1 + 0.01 * k)) for k, x in enumerate(lengths))
-    page.fill("#six", other)
+    page.click("#of-file")
+    lengths = poses.lengths(shown)
+    other = [x * (1 + 0.01 * k) for k, x in enumerate(lengths)]
+    poses.type_lengths(shown, other)
     page.click("#solve")
     shown.settle()
     alone = table(shown)
-    page.fill("#six", ", ".join(map(str, lengths)))
+    poses.type_lengths(shown, lengths)
     page.click("#solve")
     page.wait_for_timeout(150)
-    page.fill("#six", other)
+    poses.type_lengths(shown, other)
     page.click("#solve")
     seen = json.loads(page.evaluate("""() => new Promise((done) => {
       const seen = new Set();

@@ -13,16 +13,16 @@ use crate::records::ViewAnswer;
 /// Arguments of `view`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// Design file (.toml or .json)
-    design: PathBuf,
-    /// Write the page to this file; the name of the design file with .html when absent
+    /// Design file (.toml or .json); without it the page asks for a hexapod: from a data sheet, twelve points or an example
+    design: Option<PathBuf>,
+    /// Write the page to this file; the name of the design file with .html when absent, equipod.html without a design
     #[arg(short, long, value_name = "FILE")]
     output: Option<OutputPath>,
     /// The equivalent platform shown first, for instance S123456 (no shared joint) or V23456S1
     #[arg(long, value_name = "ID", requires = "offsets")]
     pattern: Option<String>,
     /// Offsets of that platform, in fractions of the edges; those of S123456 without --pattern
-    #[arg(long, value_name = "T1,..", value_delimiter = ',', allow_hyphen_values = true)]
+    #[arg(long, value_name = "T1,..", value_delimiter = ',', allow_hyphen_values = true, requires = "design")]
     offsets: Option<Vec<f64>>,
     /// Use another WebAssembly core, plain or compressed by gzip, instead of the one in this program; `none` gives a page with recorded data only
     #[arg(long, value_name = "FILE|none")]
@@ -31,7 +31,10 @@ pub(crate) struct Args {
 
 /// Writes the page.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
-    let mut session = Session::new(context.load(&args.design)?);
+    let mut session = match &args.design {
+        Some(path) => Session::new(context.load(path)?),
+        None => Session::without_design().map_err(|e| Failure::internal(e.to_string()))?,
+    };
     if let Some(offsets) = &args.offsets {
         let id = args.pattern.as_deref().unwrap_or("S123456");
         let pattern = id.parse().map_err(|e| {
@@ -44,7 +47,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     }
     let core = core(args.core.as_deref())?;
     let html = page(&session, core.as_deref());
-    let output = args.output.as_deref().map_or_else(|| beside(&args.design), Path::to_path_buf);
+    let output = args.output.as_deref().map_or_else(|| beside(args.design.as_deref()), Path::to_path_buf);
     files::write_text(&output, &html)?;
     let record = ViewAnswer {
         name: session.design().name.clone(),
@@ -57,8 +60,9 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     Ok(Answer::new(Exit::Yes, record, text))
 }
 
-/// `designs/a.toml` gives `a.html`, and a design from standard input `design.html`.
-fn beside(design: &Path) -> PathBuf {
+/// `designs/a.toml` gives `a.html`, a design from standard input `design.html`, and no design `equipod.html`.
+fn beside(design: Option<&Path>) -> PathBuf {
+    let Some(design) = design else { return "equipod.html".into() };
     if files::is_standard(design) {
         return "design.html".into();
     }

@@ -150,7 +150,8 @@ Object.assign(App.prototype, {
     this.tasks.limits.ask(core, { ...request, ...ROUGH }, (rough) => {
       this.limits = { ...rough, whole: false };
       this.soon();
-      if (rough.error) return;
+      // where the page itself would have to compute, it would not respond for too long
+      if (rough.error || !Task.possible) return;
       this.tasks.limits.ask(core, { ...request, ...THOROUGH }, (found) => {
         this.limits = { ...found, whole: true };
         this.soon();
@@ -292,10 +293,10 @@ Object.assign(App.prototype, {
     try {
       this.reopen({ design: await file.text(), trajectory: [], start: null });
     } catch (error) {
-      $("files-words").textContent = `${file.name}: ${error.message}`;
+      Begin.say(`${file.name}: ${error.message}`, [], true);
       return;
     }
-    $("files-words").textContent = `${file.name} is open.`;
+    Begin.say(`${file.name} is open.`, [], false);
   },
 
   /** Another design in the place of this one; throws the reason when the core refuses it. */
@@ -340,6 +341,7 @@ openCore().then(async (core) => {
   }
   $("about").textContent = `equipod ${data.version}. ${core.live ? "Every number is computed here by its core, compiled to WebAssembly; nothing is sent anywhere." : "Recorded data."}`;
   const app = new App(core);
+  Begin.build(app);
   if (core.live) await app.follow();
   document.documentElement.dataset.ready = core.live ? "live" : "recorded";
 });

@@ -107,7 +107,7 @@ class App {
     $("whose-label").hidden = !pattern;
     $("whose").value = this.whose;
     $("of-file").hidden = !open.lengths;
-    for (const id of ["find", "confirm", "solve", "as-shown", "of-file", "whose", "share", "pattern", "restart", "linked", "open", "axis-x", "axis-y"]) $(id).disabled = !enabled;
+    for (const id of ["find", "confirm", "solve", "as-shown", "of-file", "whose", "share", "pattern", "restart", "linked", "axis-x", "axis-y"]) $(id).disabled = !enabled;
     const paths = [["workspace", open.trajectory ? "trajectory of the design" : "through the workspace"], ["motion", "self-motion"]];
     $("path").replaceChildren(...paths.map(([value, words]) => el("option", { value, selected: value === this.path }, words)));
     if (pattern) this.rebuildPattern();
@@ -128,7 +128,7 @@ class App {
   /** The first direction of view. */
   lookAround() {
     const state = this.core.ask({ op: "state", pose: this.open.home, chosen: this.chosen });
-    if (!state.error) this.camera.look(state.platforms, this.open);
+    if (!state.error) this.camera.look(state.platforms, this.open, this.open.hardware.leg || 0);
   }
 
   rebuildPattern() {

@@ -29,14 +29,15 @@ class Camera {
   }
 
   /** Begins where the legs of all these platforms hide each other least. */
-  look(platforms, scene) {
+  look(platforms, scene, thickness) {
     let best = -1;
+    const apart = Math.max(APART, (0.5 * thickness) / scene.radius);
     for (let k = 0; k < AROUND.azimuths; k += 1) {
       for (const elevation of AROUND.elevations) {
         const azimuth = START.azimuth + (2 * Math.PI * k) / AROUND.azimuths;
         Object.assign(this, { azimuth, elevation, zoom: START.zoom });
         const project = this.projection(scene.centre, scene.radius, 1, 1);
-        const seen = Math.min(...platforms.map((p) => Camera.seen(p, project)));
+        const seen = Math.min(...platforms.map((p) => Camera.seen(p, project, apart)));
         if (seen > best + 1e-3) {
           best = seen;
           this.start = { azimuth, elevation, zoom: START.zoom };
@@ -47,14 +48,14 @@ class Camera {
   }
 
   /** How much is seen of the leg that is hidden most, and a little of all. */
-  static seen(platform, project) {
+  static seen(platform, project, apart) {
     const legs = platform.legs.map(([a, b]) => [platform.base[a].at, platform.platform[b].at]);
     const flat = legs.map((ends) => ends.map(project));
     const shares = legs.map(([a, b], k) => {
       const free = ALONG.map((t) => {
         const p = project(a.map((x, i) => x + t * (b[i] - x)));
         const gap = Math.min(...flat.map(([c, d], j) => (j === k ? Infinity : fromLine(p, c, d))));
-        return Math.min(1, gap / APART);
+        return Math.min(1, gap / apart);
       });
       return free.reduce((sum, x) => sum + x, 0) / free.length;
     });

@@ -40,7 +40,7 @@ const Limits = {
     if (!limits) return `Margins at the pose shown; the workspace of ${whose} is being looked at.`;
     if (limits.error) return limits.error.code === "nothing_required" ? "The design requires nothing: it has no [hardware], loads or keep-outs." : limits.error.message;
     const over = `over ${limits.poses} poses of the workspace`;
-    if (!limits.whole) return `Least margins of ${whose} ${over}; more poses and a proof are on their way.`;
+    if (!limits.whole) return `Least margins of ${whose} ${over}; ${Task.possible ? "more poses and a proof are on their way" : "a browser with workers looks at more of them"}.`;
     const proof = limits.met ? "proved for all poses between them" : limits.met === false ? "with a violation" : "not all proved for the poses between them";
     return `Least margins of ${whose} ${over}, ${proof}; below zero a requirement is violated.`;
   },

@@ -1,0 +1,57 @@
+"""The page without a design: a hexapod from a data sheet, from points, from an example."""
+
+import poses
+from program import DESIGNS
+
+
+def numbers(page, **values):
+    for name, value in values.items():
+        page.fill(f"#{name}", str(value))
+    page.locator("#sheet button").click()
+
+
+def from_a_data_sheet(shown, program, folder):
+    page = shown.page
+    assert page.is_visible("#sheet") and page.text_content("#name") == "hexapod"
+    numbers(page, base_radius=250, platform_radius=120, base_spread_deg=30, platform_spread_deg=25.5, height=220)
+    shown.settle()
+    design = shown.download("design, TOML", folder / "sheet.toml")
+    answer = program.json("check", design)
+    assert answer["architecturally_singular"] is False
+    found = poses.lengths(shown)
+    assert max(found) - min(found) < 1e-6, found
+    # the leg from the base joint at 15 degrees to the platform joint at 60 - 12.75 degrees
+    import math
+    turn = math.radians(60 - 12.75 - 15)
+    length = math.sqrt(250**2 + 120**2 - 2 * 250 * 120 * math.cos(turn) + 220**2)
+    assert abs(found[0] - length) < 1e-6, (found[0], length)
+
+
+def shared_joints(shown):
+    """Spreads of 0 are an octahedral hexapod, with all its equivalents."""
+    numbers(shown.page, base_spread_deg=0, platform_spread_deg=0)
+    shown.settle()
+    assert shown.page.is_visible("#offsets") and abs(shown.det()) > 0.05
+
+
+def what_is_no_hexapod(shown):
+    page = shown.page
+    before = page.text_content("#name")
+    numbers(page, base_spread_deg=130)
+    assert "0 to below 120" in page.text_content("#begin-words")
+    numbers(page, base_spread_deg=20, base_radius=0, platform_radius=0)
+    assert page.get_attribute("#begin-words", "class") == "small bad", page.text_content("#begin-words")
+    numbers(page, base_radius="")
+    assert "five numbers" in page.text_content("#begin-words")
+    assert page.text_content("#name") == before
+
+
+def examples(shown):
+    page = shown.page
+    names = page.eval_on_selector_all("#preset option", "list => list.map((o) => o.value).filter(Boolean)")
+    assert len(names) == len(list((DESIGNS / "presets").glob("*.toml"))), names
+    for name in names:
+        page.select_option("#preset", name)
+        shown.settle()
+        assert name in page.text_content("#begin-words")
+        assert "bad" not in page.get_attribute("#begin-words", "class")

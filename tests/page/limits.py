@@ -1,0 +1,63 @@
+"""The requirements over the whole workspace: the page says what `equipod assess` says of the same design."""
+
+from program import DESIGNS
+
+# what the page has to say for the answer `met` of the program
+BADGES = {True: "meets all requirements", None: "no violation found, not all proved"}
+
+
+def as_assess(shown, program, folder, which="equivalent"):
+    """Badge, status and least margins are those of `equipod assess` for the design that the page saves."""
+    page = shown.page
+    page.wait_for_function("!document.documentElement.dataset.busy", timeout=300000)
+    design = shown.download(f"{which}, TOML", folder / "assessed.toml")
+    answer = program.json("assess", design, exits=(0, 1, 3))
+    badge = page.text_content("#badge")
+    regular = answer["regular"]["met"]
+    if regular is False:
+        assert badge == "singular pose in the workspace", badge
+    elif answer["met"] is False:
+        assert badge == "violates requirements", badge
+    else:
+        assert badge == BADGES[answer["met"]], (badge, answer["met"])
+    assert ("good" in page.get_attribute("#badge", "class")) == (answer["met"] is True), page.get_attribute("#badge", "class")
+    assert f"over {answer['poses']} poses of the workspace" in page.text_content("#margins-words"), page.text_content("#margins-words")
+    rows = page.eval_on_selector_all(
+        "#margins tbody tr", "rows => rows.map(r => [r.cells[1].querySelector('span').textContent, r.cells[1].querySelector('span').className])"
+    )
+    assert len(rows) == len(answer["requirements"]) + 1, rows
+    for (text, tone), margin in zip(rows, answer["requirements"]):
+        number = float(text.split(" ")[0].replace("−", "-"))
+        assert abs(number - margin["margin"]) <= 1e-3 * max(abs(number), abs(margin["margin"])) + 1e-9, (text, margin)
+        assert tone == {True: "good", False: "bad", None: ""}[margin["met"]], (text, tone, margin["met"])
+    return answer
+
+
+def small_swing(folder):
+    """A design that meets its requirements at home and violates one at the edge of its workspace."""
+    text = (DESIGNS / "presets" / "bench-l16.toml").read_text()
+    path = folder / "small-swing.toml"
+    lines = ["base_swing_deg = 5.0" if line.startswith("base_swing_deg") else line for line in text.splitlines()]
+    assert lines != text.splitlines(), "the design has no base_swing_deg to change"
+    path.write_text("\n".join(lines) + "\n")
+    return path
+
+
+def wide(folder):
+    """A design whose workspace holds singular poses, and whose home does not."""
+    text = (DESIGNS / "general-6-6.toml").read_text()
+    path = folder / "wide.toml"
+    path.write_text(text + "\n[hardware]\njoint_diameter = 0.001\n\n[workspace]\ntranslation = [0, 0, 0]\nrotation_deg = [170, 170, 170]\n")
+    return path
+
+
+def at_its_worst(shown):
+    """The button beside a violated margin shows the pose where it is violated."""
+    page = shown.page
+    row = page.locator("#margins tbody tr", has=page.locator("td:nth-child(2) .bad")).first
+    assert "violated" not in row.locator("td").last.text_content()
+    row.get_by_role("button", name="show pose").click()
+    shown.settle()
+    page.wait_for_function("!document.documentElement.dataset.busy", timeout=300000)
+    row = page.locator("#margins tbody tr", has=page.locator("td:nth-child(2) .bad")).first
+    assert "violated" in row.locator("td").last.text_content(), row.text_content()
