@@ -22,7 +22,13 @@ pub(crate) struct Args {
     #[arg(long, value_name = "ID", requires = "offsets")]
     pattern: Option<String>,
     /// Offsets of that platform, in fractions of the edges; those of S123456 without --pattern
-    #[arg(long, value_name = "T1,..", value_delimiter = ',', allow_hyphen_values = true, requires = "design")]
+    #[arg(
+        long,
+        value_name = "T1,..",
+        value_delimiter = ',',
+        allow_hyphen_values = true,
+        requires = "design"
+    )]
     offsets: Option<Vec<f64>>,
     /// Use another WebAssembly core, plain or compressed by gzip, instead of the one in this program; `none` gives a page with recorded data only
     #[arg(long, value_name = "FILE|none")]
