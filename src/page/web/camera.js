@@ -3,7 +3,7 @@
 const START = { azimuth: -0.95, elevation: 0.42, zoom: 1 };
 
 /** Directions among which the first one is chosen. */
-const AROUND = { azimuths: 48, elevations: [0.3, 0.42, 0.55] };
+const AROUND = { azimuths: 48, elevations: [0.3, 0.42, 0.55, 0.7, 0.85] };
 /** Points of a leg that are looked at, and the distance, as a share of the picture, at which two legs no longer hide each other. */
 const [ALONG, APART] = [[0.15, 0.3, 0.45, 0.6, 0.75, 0.85], 0.035];
 
@@ -127,7 +127,7 @@ class Camera {
     const [sa, ca] = [Math.sin(this.azimuth), Math.cos(this.azimuth)];
     const [se, ce] = [Math.sin(this.elevation), Math.cos(this.elevation)];
     const eye = 4.2 * radius;
-    const scale = (0.43 * Math.min(width, height * 1.15) * this.zoom) / radius;
+    const scale = (0.43 * Math.min(width, height) * this.zoom) / radius;
     return (p) => {
       const [x, y, z] = [p[0] - centre[0], p[1] - centre[1], p[2] - centre[2]];
       const right = -sa * x + ca * y;

@@ -79,7 +79,9 @@ class View {
     plates.forEach(([list, colour], body) => {
       for (const p of list) parts.push({ depth: p.depth - 4 * this.unit, draw: () => this.ball(p, style(colour), plain, this.hardware.joints[body]) });
     });
+    this.labels = [];
     parts.sort((p, q) => q.depth - p.depth).forEach((p) => p.draw());
+    this.labels.forEach(([leg, p, size]) => this.number(leg, p, size));
   }
 
   plate(points, colour, plain) {
@@ -125,7 +127,7 @@ class View {
     this.line(p, m, style("--halo"), thick + 2);
     this.line(m, q, colour, thin);
     this.line(p, m, colour, thick);
-    this.number(leg, { x: p.x + 0.32 * (q.x - p.x), y: p.y + 0.32 * (q.y - p.y) }, Math.min(22, Math.max(9, 0.95 * thick + 4)));
+    this.labels.push([leg, { x: p.x + 0.32 * (q.x - p.x), y: p.y + 0.32 * (q.y - p.y) }, Math.min(20, Math.max(9, 0.95 * thick + 4))]);
   }
 
   number(leg, p, size) {
