@@ -227,14 +227,13 @@ def printed(chromium, program, folder, pictures):
         ink = shown.page.evaluate("getComputedStyle(document.body).color")
         assert ink == "rgb(23, 25, 28)", ink
         picture(shown, pictures, "printed")
-    for name in ("octahedral", "general-6-6"):
-        path = folder / f"{name}.html"
-        if not path.exists():
-            program.page(DESIGNS / f"{name}.toml", path)
+    for name in ("rbt-octahedral", "general-6-6", "presets/bench-l16"):
+        path = program.page(DESIGNS / f"{name}.toml", folder / "paper.html")
+        name = Path(name).name
         with Opened(chromium, path) as shown:
             paper = shown.page.pdf(format="A4", path=pictures / f"printed-{name}.pdf" if pictures else None)
             pages = len(re.findall(rb"/Type\s*/Page\b", paper))
-            assert pages == 2, f"{name} is printed on {pages} pages"
+            assert 1 <= pages <= 2, f"{name} is printed on {pages} pages"
 
 
 def phone(chromium, program, folder, pictures):
@@ -279,6 +278,8 @@ def faults(chromium, program, folder, pictures):
         "a wrong mode list": ("...rows, last)", "...rows.slice(1), last)", lambda s: behaviour.modes_are_all(s, program, folder)),
         "a control without name": ('<label>Speed', '<label hidden></label><label><select><option>x</option></select></label><label>Speed', access.names),
         "a core of other sources": ('"inverse_condition":', '"inverse_condition":1', fresh.same_answers),
+        "a hidden leg": ("seen > best + 1e-3", "best < 0 || seen < best", lambda s: poses.no_leg_hidden(s, ["view-first", "view-second"])),
+        "a workspace that is not looked at": ("limits.regular.met === false", "true", lambda s: limits.as_assess(s, program, folder)),
         "pale text": ("--soft:#555c66", "--soft:#b5bcc6", access.contrast),
     }
     for name, (good, bad, check) in planted.items():

@@ -137,18 +137,22 @@ def of_the_equivalent(shown):
 
 
 def no_leg_hidden(shown, canvases):
-    """Of each leg about as much is seen as of the others, in its own colour."""
+    """Of each leg much is seen, in its own colour or through a plate, which lets 58 % of it through."""
     for name in canvases:
         counts = shown.page.evaluate("""(id) => {
           const canvas = document.getElementById(id);
           const pixels = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+          const colour = (name) => {
+            const text = getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+            return [1, 3, 5].map((k) => parseInt(text.slice(k, k + 2), 16));
+          };
           return [1, 2, 3, 4, 5, 6].map((leg) => {
-            const text = getComputedStyle(document.documentElement).getPropertyValue(`--leg-${leg}`).trim();
-            const [r, g, b] = [1, 3, 5].map((k) => parseInt(text.slice(k, k + 2), 16));
+            const own = colour(`--leg-${leg}`);
+            const all = [own, ...["--base", "--platform"].map((plate) => colour(plate).map((x, k) => 0.42 * x + 0.58 * own[k]))];
             let seen = 0;
-            for (let i = 0; i < pixels.length; i += 4) seen += pixels[i] === r && pixels[i + 1] === g && pixels[i + 2] === b ? 1 : 0;
+            for (let i = 0; i < pixels.length; i += 4) seen += all.some((c) => c.every((x, k) => Math.abs(x - pixels[i + k]) < 3)) ? 1 : 0;
             return seen;
           });
         }""", name)
         middle = sorted(counts)[3]
-        assert min(counts) >= 0.3 * middle > 0, (name, counts)
+        assert min(counts) >= 0.25 * middle > 0, (name, counts)
