@@ -94,7 +94,7 @@ impl DataSheet {
         // a text in JSON is a text in TOML
         let units = serde_json::to_string(&self.units).map_err(|e| Refusal::new("units", e))?;
         let toml = format!(
-            "name = \"hexapod\"\nunits = {units}\nlegs = [{}]\n\n[parameters]\nbase_radius = {}\nplatform_radius = {}\n\n[base]\n{}\n[platform]\n{}\n[home]\nposition = [0.0, 0.0, {:?}]\n",
+            "name = \"hexapod\"\nunits = {units}\nlegs = [{}]\n\n[parameters]\nbase_radius = {}\nplatform_radius = {}\n\n[base]\n{}\n[platform]\n{}\n[home]\nposition = [0.0, 0.0, {:?}]\nrpy_deg = [0.0, 0.0, 0.0]\n",
             legs.join(", "),
             self.base_radius,
             self.platform_radius,

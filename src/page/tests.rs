@@ -3,7 +3,10 @@
 use serde_json::{Value, json};
 
 use super::{Session, page};
-use crate::design::{Design, Format, parse};
+use crate::design::{Design, Format, PRESETS, parse};
+use crate::geom::{Angles, Pose};
+use crate::records::AssessAnswer;
+use crate::requirements::AssessOptions;
 use crate::synthesis::{LegMapTolerances, leg_map};
 
 const OCTAHEDRAL: &str = include_str!("../../designs/rbt-octahedral.toml");
@@ -250,5 +253,122 @@ fn a_name_is_text_and_not_markup() {
     let html = page(&Session::new(evil), None);
     assert!(
         !html.contains("<script>x") && html.contains("&lt;/title&gt;") && html.contains("\\u003c/script>")
+    );
+}
+
+#[test]
+fn a_pose_by_its_angles_and_by_its_quaternion_has_the_lengths_of_its_rotation() {
+    let session = session(GENERAL);
+    let (position, rpy) = ([0.4, -0.3, 1.9], [12.0, -7.5, 33.0]);
+    let placed = ask(&session, &json!({"op": "place", "position": position, "rpy_deg": rpy}))["pose"].clone();
+    let expected = Pose::new(position, Angles::from_degrees(rpy));
+    let state = ask(&session, &json!({"op": "state", "pose": placed}));
+    let squares = expected.squared_lengths(design(GENERAL).manipulator()).unwrap();
+    let lengths = numbers(&state["platforms"][0]["lengths"]);
+    assert!(lengths.iter().zip(squares.lengths().get()).all(|(a, b)| (a - b).abs() < 1e-12 * b));
+    assert!(numbers(&state["rpy_deg"]).iter().zip(rpy).all(|(a, b)| (a - b).abs() < 1e-12));
+    let again = ask(&session, &json!({"op": "quaternion", "p": position, "q": expected.quaternion()}));
+    let rows = |v: &Value| v["R"].as_array().unwrap().iter().flat_map(numbers).collect::<Vec<_>>();
+    assert!(rows(&again["pose"]).iter().zip(rows(&placed)).all(|(a, b)| (a - b).abs() < 1e-15));
+    let refused = ask(&session, &json!({"op": "quaternion", "p": position, "q": [1.0, 1.0, 0.0, 0.0]}));
+    assert_eq!(refused["error"]["code"], json!("pose"));
+}
+
+/// Lengths that are typed in give the pose they were taken from, as the one nearest to a pose beside it.
+#[test]
+fn the_nearest_mode_of_given_lengths_is_the_pose_they_come_from() {
+    let session = session(OCTAHEDRAL);
+    let start = ask(&session, &json!({"op": "open"}));
+    let pose = ask(&session, &json!({"op": "path", "at": 0.05}))["pose"].clone();
+    let state = ask(&session, &json!({"op": "state", "pose": pose, "chosen": start["start"]}));
+    for (which, k) in [("first", 0), ("second", 1)] {
+        let request = json!({
+            "op": "modes", "pose": start["home"], "lengths": state["platforms"][k]["lengths"],
+            "which": which, "chosen": start["start"],
+        });
+        let modes = ask(&session, &request);
+        assert!(modes["here"].is_null(), "no pose was shown with these lengths");
+        let found = numbers(&modes["modes"][modes["nearest"].as_u64().unwrap() as usize]["pose"]["p"]);
+        assert!(
+            found.iter().zip(numbers(&pose["p"])).all(|(a, b)| (a - b).abs() < 1e-6),
+            "{which}: {found:?}"
+        );
+    }
+}
+
+#[test]
+fn requirements_over_the_workspace_are_those_of_assess() {
+    for text in [OCTAHEDRAL, PRESETS[0].text, GENERAL] {
+        let session = session(text);
+        let request = json!({"op": "assess", "which": "first", "points": 200, "searches": 1, "cells": 100});
+        let answer = ask(&session, &request);
+        let options = AssessOptions::new().points(200).searches(1);
+        match design(text).assess_with(&options, 100) {
+            Ok(found) => {
+                let expected = serde_json::to_value(AssessAnswer::new(session.design(), &found)).unwrap();
+                assert_eq!(answer, expected);
+            }
+            Err(_) => assert_eq!(answer["error"]["code"], json!("nothing_required")),
+        }
+    }
+}
+
+#[test]
+fn a_data_sheet_is_a_symmetric_hexapod() {
+    let session = Session::without_design().unwrap();
+    let sheet = |base: f64, platform: f64| {
+        let request = json!({
+            "op": "sheet", "base_radius": 250.0, "platform_radius": 120.0, "base_spread_deg": base,
+            "platform_spread_deg": platform, "height": 220.0, "units": "mm",
+        });
+        ask(&session, &request)
+    };
+    for (base, platform, joints) in
+        [(30.0, 25.5, [6, 6]), (0.0, 0.0, [3, 3]), (0.0, 10.0, [3, 6]), (10.0, 0.0, [6, 3])]
+    {
+        let made = design(sheet(base, platform)["toml"].as_str().unwrap());
+        let m = made.manipulator();
+        assert_eq!([m.base_joints().len(), m.platform_joints().len()], joints);
+        let lengths = made.home.unwrap().squared_lengths(m).unwrap().lengths().get();
+        // from the base joint to the platform joint next to it
+        let turn = (60.0 - (base + platform) / 2.0_f64).to_radians();
+        let expected = (250.0_f64.powi(2) + 120.0_f64.powi(2) - 2.0 * 250.0 * 120.0 * turn.cos()
+            + 220.0_f64.powi(2))
+        .sqrt();
+        assert!(
+            lengths.iter().all(|l| (l - expected).abs() < 1e-9),
+            "{base}, {platform}: {lengths:?}, {expected}"
+        );
+    }
+    assert_eq!(sheet(120.0, 0.0)["error"]["code"], json!("spread"));
+    assert_eq!(sheet(-1.0, 0.0)["error"]["code"], json!("spread"));
+    assert_eq!(ask(&session, &json!({"op": "open"}))["kind"], json!("general"));
+}
+
+#[test]
+fn presets_and_points_are_designs() {
+    let session = Session::without_design().unwrap();
+    for preset in ask(&session, &json!({"op": "presets"})).as_array().unwrap() {
+        let made = ask(&session, &json!({"op": "preset", "name": preset["name"]}));
+        design(made["toml"].as_str().unwrap());
+    }
+    assert_eq!(ask(&session, &json!({"op": "preset", "name": "none"}))["error"]["code"], json!("preset"));
+    let general = design(GENERAL);
+    let rows: Vec<String> = general
+        .manipulator()
+        .legs()
+        .iter()
+        .map(|l| {
+            let cells = l.base.iter().chain(l.platform.iter()).map(|x| format!("{x:?}").replace('.', ","));
+            cells.collect::<Vec<_>>().join(";")
+        })
+        .collect();
+    let made = ask(&session, &json!({"op": "points", "text": rows.join("\r\n"), "units": "cm"}));
+    let read = built(&made);
+    assert_eq!((read.units.as_str(), read.manipulator().legs()), ("cm", general.manipulator().legs()));
+    assert!(!made["guesses"].as_array().unwrap().is_empty(), "decimal commas are a guess");
+    assert_eq!(
+        ask(&session, &json!({"op": "points", "text": "1 2 3", "units": "mm"}))["error"]["code"],
+        json!("points")
     );
 }
