@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use super::request::Refusal;
 use super::scene::sign;
+use crate::design::Design;
 use crate::equivalence::match_poses;
 use crate::fk::{Completeness, FkOptions, FkRoot, FkSolutions, PoseCounting, Reality, SolutionSet, solver};
 use crate::geom::{ComplexPose, Pose};
@@ -94,11 +95,12 @@ pub(super) fn confirm(
 /// All poses with the lengths given, or with those at a pose; `here` is then the index of the one nearest to that pose, where poses are isolated.
 /// `turn_deg`: by how much the platform is turned from home.
 pub(super) fn record(
-    m: &Manipulator,
+    design: &Design,
     home: &Pose,
     at: &Pose,
     lengths: Option<[f64; 6]>,
 ) -> Result<ModesRecord, Refusal> {
+    let m = design.manipulator();
     let found = match lengths {
         Some(l) => solve(m, LegLengths::try_new(l).map_err(|e| Refusal::new("lengths", e))?.squared())?,
         None => solve(m, at_pose(m, at)?)?,
@@ -123,14 +125,14 @@ pub(super) fn record(
         reason: found.completeness.to_string(),
         here,
         nearest,
-        modes: real.iter().map(|r| mode(m, home, r)).collect(),
+        modes: real.iter().map(|r| mode(design, home, r)).collect(),
         complex: roots.iter().filter(|r| r.reality != Reality::Real).count(),
     })
 }
 
-fn mode(m: &Manipulator, home: &Pose, root: &FkRoot) -> ModeRecord {
+fn mode(design: &Design, home: &Pose, root: &FkRoot) -> ModeRecord {
     let real = root.pose.real_part();
-    let j = jacobian(m, &real, m.platform_rms_radius());
+    let j = jacobian(design.manipulator(), &real, design.characteristic_length());
     // by the quaternion: the arc cosine of the trace loses half of the digits at 0 and may be of more than 1
     let turn = UnitQuaternion::from_rotation_matrix(&(home.rotation.inverse() * real.rotation)).angle();
     ModeRecord {

@@ -37,7 +37,6 @@ pub(super) struct OpeningRecord<'a> {
     limits: LimitsRecord,
     hardware: HardwareRecord,
     slides: SlidesRecord,
-    characteristic_length: f64,
     /// Of the octahedral original.
     hexagon: Option<HexagonRecord>,
     /// Equivalents to choose from.
@@ -199,7 +198,6 @@ pub(super) fn record(session: &Session) -> OpeningRecord<'_> {
         limits: LimitsRecord { spacing: session.limits.0, det: session.limits.1 },
         hardware: HardwareRecord::of(&design.hardware),
         slides: SlidesRecord::of(design),
-        characteristic_length: session.characteristic_length,
         hexagon: original.map(hexagon),
         patterns: session.start.as_ref().zip(original).map(|(s, o)| patterns(s, o)),
         start: session.start.as_ref().map(Chosen::from),

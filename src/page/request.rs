@@ -181,7 +181,7 @@ impl Session {
             }
             Request::Modes { pose, lengths, which, chosen } => {
                 let design = self.platform(which, equivalent(chosen)?)?;
-                modes::record(design.manipulator(), &self.home, &Pose::from(&pose), lengths).map(value)
+                modes::record(&design, &self.home, &Pose::from(&pose), lengths).map(value)
             }
             Request::Confirm { pose, chosen } => {
                 let second = self.second(&chosen.equivalent()?)?.0;

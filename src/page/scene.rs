@@ -122,8 +122,8 @@ fn platform(
         legs: pairs.map(|(a, b)| [a, b]),
         lengths: s.lengths().get(),
         squares: s.get(),
-        inverse_condition: session.inverse_condition(design, at),
-        sign: sign(&jacobian(m, at, session.characteristic_length)),
+        inverse_condition: Session::inverse_condition(design, at),
+        sign: sign(&jacobian(m, at, design.characteristic_length())),
         spacing: BodySpacings {
             base: spacing(design.base_names(), m.base_joints(), &pairs.map(|p| p.0)),
             platform: spacing(design.platform_names(), m.platform_joints(), &pairs.map(|p| p.1)),

@@ -16,8 +16,6 @@ pub struct Session {
     pub(super) original: Option<Original>,
     pub(super) start: Option<Equivalent>,
     pub(super) home: Pose,
-    /// `L` of the conditioning, design units; the same for the original and its equivalents.
-    pub(super) characteristic_length: f64,
     /// Least distance of joint centres and least `|det A|` asked for.
     pub(super) limits: (f64, f64),
     /// Whether the page is for those who have no design yet.
@@ -54,16 +52,14 @@ impl Session {
     #[must_use]
     pub fn new(design: Design) -> Self {
         let original = Original::of(&design);
-        let (table, m) = (&design.optimize, design.manipulator());
+        let table = &design.optimize;
         let defaults =
             original.as_ref().map(|o| OffsetProblem::with_defaults(o.octahedral.clone(), Vec::new()));
-        let radius = defaults.as_ref().map_or(m.platform_rms_radius(), |d| d.characteristic_length);
         let spacing = defaults.as_ref().map_or(0.0, |d| d.min_joint_distance);
         let least = defaults.as_ref().map_or(0.0, |d| d.min_abs_det);
         let mut session = Self {
             start: None,
             home: design.home_or_default(),
-            characteristic_length: table.characteristic_length.unwrap_or(radius),
             limits: (table.min_joint_distance.unwrap_or(spacing), table.min_abs_det.unwrap_or(least)),
             original,
             design,

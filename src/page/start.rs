@@ -52,7 +52,8 @@ impl Session {
         let count = |standing| standings.iter().filter(|s| **s == standing).count();
         let singular = pattern.determinant(offsets)?.abs() < self.limits.1;
         let violated = count(Standing::Violated) + usize::from(singular);
-        let conditioning = inverse_condition(&jacobian(&m, &self.home, self.characteristic_length));
+        let conditioning =
+            inverse_condition(&jacobian(&m, &self.home, original.design.characteristic_length()));
         Ok(([violated, count(Standing::AtLimit)], conditioning))
     }
 }

@@ -27,12 +27,12 @@ struct LeastRecord {
 
 impl Session {
     /// `sigma_min / sigma_max` of the length-normalised Jacobian.
-    pub(super) fn inverse_condition(&self, design: &Design, pose: &Pose) -> f64 {
-        inverse_condition(&jacobian(design.manipulator(), pose, self.characteristic_length))
+    pub(super) fn inverse_condition(design: &Design, pose: &Pose) -> f64 {
+        inverse_condition(&jacobian(design.manipulator(), pose, design.characteristic_length()))
     }
 
-    fn worst(&self, design: &Design, poses: &[Pose]) -> Option<LeastRecord> {
-        let values = poses.iter().map(|p| (self.inverse_condition(design, p), p));
+    fn worst(design: &Design, poses: &[Pose]) -> Option<LeastRecord> {
+        let values = poses.iter().map(|p| (Self::inverse_condition(design, p), p));
         let least = values.min_by(|x, y| x.0.total_cmp(&y.0));
         least.map(|(inverse_condition, p)| LeastRecord { inverse_condition, pose: p.into() })
     }
@@ -42,8 +42,8 @@ impl Session {
 pub(super) fn record(session: &Session, e: Option<&Equivalent>) -> Result<WorstRecord, Refusal> {
     let poses = session.judged();
     let second = match e {
-        Some(e) => session.worst(&session.second(e)?.0, &poses),
+        Some(e) => Session::worst(&session.second(e)?.0, &poses),
         None => None,
     };
-    Ok(WorstRecord { poses: poses.len(), first: session.worst(session.first(), &poses), second })
+    Ok(WorstRecord { poses: poses.len(), first: Session::worst(session.first(), &poses), second })
 }

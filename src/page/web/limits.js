@@ -51,7 +51,7 @@ const Limits = {
     const number = m.at_limit ? "0" : show(m.margin, 4);
     const tone = m.met ? "good" : m.met === false ? "bad" : null;
     const word = VERDICTS[m.status] || m.status;
-    const where = m.pose ? [el("button", { type: "button", class: "plain", click: () => go(m.pose) }, "show pose")] : [];
+    const where = m.pose ? [Limits.button(m.pose, go)] : [];
     return [el("span", { class: tone }, `${number} ${word}`), el("small", {}, m.between.join(", ")), ...where];
   },
 
@@ -59,7 +59,15 @@ const Limits = {
   regular(found, go) {
     const words = { proved: ["good", "none: proved"], changes_sign: ["bad", "det J changes its sign"], undecided: [null, "not decided"] };
     const [tone, text] = words[found.status] || [null, found.status];
-    const where = found.pose ? [el("button", { type: "button", class: "plain", click: () => go(found.pose) }, "show pose")] : [];
-    return [el("span", { class: tone }, text), ...where];
+    return [el("span", { class: tone }, text), ...(found.pose ? [Limits.button(found.pose, go)] : [])];
+  },
+
+  /** The cell of the worst conditioning found; nothing limits it. */
+  conditioning(found, go) {
+    return [el("span", {}, `${show(found.inverse_condition, 3)} least found`), Limits.button(found.pose, go)];
+  },
+
+  button(pose, go) {
+    return el("button", { type: "button", class: "plain", click: () => go(pose) }, "show pose");
   },
 };

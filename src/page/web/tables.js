@@ -43,7 +43,7 @@ const Tables = {
     const names = [...new Set([...(whole ? whole.requirements : []), ...first.margins, ...(second ? second.margins : [])].map((m) => m.name))];
     $("margins-words").textContent = Limits.words({ app, state });
     // the table is made anew only when something in it has changed, so that its buttons keep the focus
-    const key = JSON.stringify([whole, first.margins, second?.margins]);
+    const key = JSON.stringify([whole, first.margins, second?.margins, first.inverse_condition, second?.inverse_condition]);
     if (key === Tables.margin) return;
     Tables.margin = key;
     // what rounding does not tell from zero is not written as a number
@@ -59,7 +59,11 @@ const Tables = {
       if (second) cells.push(here(b));
       return row(cells);
     });
-    if (whole) rows.push(row(["singular poses", Limits.regular(whole.regular, go), ...(own ? ["–"] : []), ...(second ? ["–"] : [])]));
+    const blank = [...(own ? ["–"] : []), ...(second ? ["–"] : [])];
+    if (whole) {
+      rows.push(row(["singular poses", Limits.regular(whole.regular, go), ...blank]));
+      rows.push(row(["conditioning σ₆/σ₁", Limits.conditioning(whole.conditioning, go), ...(own ? [show(first.inverse_condition, 3)] : []), ...(second ? [show(second.inverse_condition, 3)] : [])]));
+    }
     const heads = ["requirement", ...(whole ? [second ? "workspace, equivalent" : "workspace"] : []), ...(own ? [second ? "here, original" : "here"] : []), ...(second ? ["here, equivalent"] : [])];
     $("margins").replaceChildren(...(names.length ? [heading(heads), el("tbody", {}, ...rows)] : []));
   },
