@@ -2,7 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
-use thiserror::Error;
 
 use super::session::{Equivalent, InvalidStart, Session};
 use super::{begin, limits, modes, motion, opening, path, plane, scene, worst};
@@ -101,8 +100,7 @@ fn value(record: impl Serialize) -> Value {
 }
 
 /// Why there is no answer.
-#[derive(Debug, Serialize, Error)]
-#[error("{message}")]
+#[derive(Debug, Serialize)]
 pub(super) struct Refusal {
     code: &'static str,
     message: String,

@@ -340,8 +340,8 @@ fn a_data_sheet_is_a_symmetric_hexapod() {
             "{base}, {platform}: {lengths:?}, {expected}"
         );
     }
-    assert_eq!(sheet(120.0, 0.0)["error"]["code"], json!("spread"));
-    assert_eq!(sheet(-1.0, 0.0)["error"]["code"], json!("spread"));
+    assert_eq!(sheet(120.0, 0.0)["error"]["code"], json!("sizes"));
+    assert_eq!(sheet(-1.0, 0.0)["error"]["code"], json!("sizes"));
     assert_eq!(ask(&session, &json!({"op": "open"}))["kind"], json!("general"));
 }
 

@@ -38,9 +38,10 @@ def what_is_no_hexapod(shown):
     page = shown.page
     before = page.text_content("#name")
     numbers(page, base_spread_deg=130)
-    assert "0 to below 120" in page.text_content("#begin-words")
+    assert "from 0 to less than 120" in page.text_content("#begin-words")
     numbers(page, base_spread_deg=20, base_radius=0, platform_radius=0)
-    assert page.get_attribute("#begin-words", "class") == "small bad", page.text_content("#begin-words")
+    assert "not a positive length" in page.text_content("#begin-words"), page.text_content("#begin-words")
+    assert page.get_attribute("#begin-words", "class") == "small bad"
     numbers(page, base_radius="")
     assert "five numbers" in page.text_content("#begin-words")
     assert page.text_content("#name") == before
