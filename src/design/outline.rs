@@ -30,10 +30,6 @@ impl HexapodSizes {
     ///
     /// # Errors
     /// The first size that cannot be; spreads that make the hexagons similar are no size at fault, but give no hexapod that its legs hold.
-    #[expect(
-        clippy::float_cmp,
-        reason = "spreads are typed; nearly similar hexagons are a design, if a bad one"
-    )]
     pub(crate) fn check(&self) -> Result<(), InvalidOutline> {
         let [base, platform] = self.radius;
         for (what, x) in
@@ -182,7 +178,7 @@ mod tests {
     #[test]
     fn lengths_stand_in_the_file_and_impossible_sizes_are_refused() {
         let text = with_lengths(&sizes([20.0, 20.0]).to_toml("mine", "mm"), [1.5; 6]);
-        assert_eq!(design(&text).lengths.unwrap().get(), [1.5; 6]);
+        assert_eq!(design(&text).lengths.unwrap().get().map(f64::to_bits), [1.5f64.to_bits(); 6]);
         for bad in [
             HexapodSizes { radius: [0.0, 1.0], ..sizes([1.0, 1.0]) },
             HexapodSizes { height: f64::NAN, ..sizes([1.0, 1.0]) },

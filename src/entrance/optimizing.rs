@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::Error;
-use super::equivalence::sample_plan;
+use super::equivalence::{sample_plan, verified_exactly};
 use crate::design::{Combination, Design, Origin};
 use crate::dimensional::{
     self, DimensionalOutcome, DimensionalProblem, DimensionalReport, DimensionalSolution, Mode,
@@ -463,7 +463,7 @@ pub(crate) fn checked(
     let verification = if keeps_class {
         let plan = sample_plan(design, SAMPLES, seed);
         let options = FkOptions::new().seed(seed);
-        Some(verify(design.manipulator(), platform, &plan, &options)?)
+        Some(verified_exactly(verify(design.manipulator(), platform, &plan, &options)?, design, &out))
     } else {
         None
     };

@@ -117,12 +117,14 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let regular = regular_box(m, &pose, &options);
     let safe = asked_space(args, &design, &pose, &options)
         .map(|space| regular_workspace(m, &space, args.cells, context.seed()));
-    let exit = match safe.as_ref().map(|(regularity, _)| regularity.is_regular()) {
-        Some(Some(true)) => Exit::Yes,
-        Some(Some(false)) => Exit::No,
-        Some(None) => Exit::Inconclusive,
+    let found = match &safe {
+        Some((regularity, _)) => regularity.is_regular(),
         // a box of no particular size: the answer is how large the regular one is
-        None if regular.proved > 0.0 => Exit::Yes,
+        None => (regular.proved > 0.0).then_some(true),
+    };
+    let exit = match found {
+        Some(true) => Exit::Yes,
+        Some(false) => Exit::No,
         None => Exit::Inconclusive,
     };
     if let Some(path) = &args.svg {
