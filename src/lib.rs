@@ -312,7 +312,8 @@ pub mod methods {
     }
 }
 
-/// The code of the README is compiled and run as a documentation test.
+/// The code of the README and of the guide for controllers is compiled as documentation tests; that of the README is run too.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
+#[doc = include_str!("../docs/guides/controller.md")]
 struct ReadmeExamples;

@@ -1,4 +1,4 @@
-//! Inverse condition number of the joint-free platform over the poses, with analytic derivatives.
+//! Inverse condition number of the platform without shared joints over the poses, with analytic derivatives.
 //!
 //! Row `i` of the Jacobian depends on offset `t_i` alone, so `dJ/dt_i` has one row and every derivative of a
 //! singular value is a product of two numbers.

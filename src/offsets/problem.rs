@@ -14,7 +14,7 @@ pub const DEFAULT_MIN_ABS_DET: f64 = 0.05;
 /// Default bounds of an offset: at most one edge length out on either extension of the edge.
 pub const DEFAULT_BOUNDS: (f64, f64) = (-1.0, 2.0);
 
-/// Which six offsets make the best joint-free platform equivalent to an octahedral one?
+/// Which six offsets make the best platform without shared joints equivalent to an octahedral one?
 ///
 /// Maximise over `t` in `R^6`, leg `i` being `(1 - t_i) leg_i + t_i leg_(i+1)` of the cyclic octahedral legs,
 ///

@@ -201,7 +201,7 @@ pub(crate) fn better(a: &LocalResult, b: &LocalResult) -> bool {
     a.is_feasible() && (!b.is_feasible() || a.value > b.value)
 }
 
-/// Finds the best joint-free platform; see [`OffsetProblem`] for the problem, the theory page for the method.
+/// Finds the best platform without shared joints; see [`OffsetProblem`] for the problem, the theory page for the method.
 ///
 /// The best of several climbs is compared with all offsets there are by branch and bound ([`OffsetReport::bound`]), which also leads to better
 /// starts when there are any. `progress` may break the search off; the best until then is returned. With [`OffsetSearchOptions::survey`], with few cells, or when no feasible point is drawn, every branch is searched.

@@ -1,4 +1,4 @@
-//! `det A` of the joint-free platform over the two offsets of equal-offset platforms.
+//! `det A` of the platform without shared joints over the two offsets of equal-offset platforms.
 
 use super::contour::ValueGrid;
 use super::style::{Axis, Svg};

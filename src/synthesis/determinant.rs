@@ -16,9 +16,9 @@ where
         .fold((one.clone(), one.clone()), |(rest, own), t| (rest * (one.clone() - t.clone()), own * t))
 }
 
-/// `det A = prod(1 - t_i) - prod(t_i)` of the map from the octahedral to the joint-free platform.
+/// `det A = prod(1 - t_i) - prod(t_i)` of the map from the octahedral to the platform without shared joints.
 ///
-/// The joint-free platform is singular exactly where it vanishes, whatever the two triangles.
+/// The platform without shared joints is singular exactly where it vanishes, whatever the two triangles.
 /// Source: expansion of the cyclic bidiagonal matrix of the six one-offset relations (Rojas, Borras,
 /// Thomas, sec. 6, for two distinct values of `t`).
 #[must_use]
@@ -27,7 +27,7 @@ pub fn offset_determinant(t: &[f64; 6]) -> f64 {
     rest - own
 }
 
-/// The offset `t_k` that makes the joint-free platform with the five others singular: `t_k = Q / (P + Q)`, `P = prod t_j`,
+/// The offset `t_k` that makes the platform without shared joints with the five others singular: `t_k = Q / (P + Q)`, `P = prod t_j`,
 /// `Q = prod (1 - t_j)` over `j != k`.
 ///
 /// `None` where `P + Q = 0`: either no finite `t_k` does, or (`P = Q = 0`, two coincident legs or the like) every one.

@@ -90,7 +90,7 @@ def trajectory(folder, design, path):
 
 
 def check_equivalent(program, folder, original):
-    """The octahedral platform with lengths l and its joint-free equivalent with m = sqrt(A l^2 + c) along a trajectory."""
+    """The octahedral platform with lengths l and its equivalent without shared joints with m = sqrt(A l^2 + c) along a trajectory."""
     np = module("numpy")
     if np is None:
         return
@@ -119,7 +119,7 @@ def check_equivalent(program, folder, original):
         return alike, right, gap
     for kind in installed():
         alike, right, gap = along(kind, a)
-        what = f"octahedral platform and joint-free equivalent, m = sqrt(A l^2 + c), move alike at {len(poses)} poses along a trajectory ({kind.__name__})"
+        what = f"octahedral platform and equivalent without shared joints, m = sqrt(A l^2 + c), move alike at {len(poses)} poses along a trajectory ({kind.__name__})"
         report(what, len(poses) > 50 and max(alike, right, gap) < 1e-6, f"apart {alike:.1e}, from ours {right:.1e}, loops open {gap:.1e} of the size")
         spoilt = a.copy()
         spoilt[0, 0] += 1e-3

@@ -72,7 +72,7 @@ fn every_shipped_design() {
     let integer = |c: &Value| c.as_str().unwrap().trim_start_matches('-').chars().all(|d| d.is_ascii_digit());
     assert!(exact["coefficients"].as_array().unwrap().iter().all(integer));
     assert_eq!(exact["parts"][0]["kind"], "cubic");
-    // the joint-free platform has the six sides again, over corners that are not joints of it, within the tolerance
+    // the platform without shared joints has the six sides again, over corners that are not joints of it, within the tolerance
     let doc = of("rbt-griffis-duffy", &[]);
     let lines = doc["components"].as_array().unwrap().iter().filter(|c| c["type"] == "point-line");
     assert_eq!(lines.count(), 6);

@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use super::cli_frame::{document, equipod};
 
-/// The joint-free platform of the shipped octahedral design with outer offsets, with its workspace.
+/// The platform without shared joints of the shipped octahedral design with outer offsets, with its workspace.
 fn design(folder: &Path) -> String {
     let path = folder.join("free.toml");
     let out = equipod(&[

@@ -18,7 +18,7 @@ fn names_in(folder: &str, ending: &str) -> Vec<PathBuf> {
 }
 
 fn pages() -> Vec<PathBuf> {
-    [".", "docs", "docs/theory", "designs"].iter().flat_map(|f| names_in(f, ".md")).collect()
+    [".", "docs", "docs/guides", "docs/theory", "designs"].iter().flat_map(|f| names_in(f, ".md")).collect()
 }
 
 /// `[file, function]` of every test a conformance page names; `::name` alone is in the file named before.

@@ -15,7 +15,7 @@ from spellchecker import SpellChecker
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-MARKDOWN = ["*.md", "docs/*.md", "docs/theory/*.md", "designs/*.md", "tests/*/README.md"]
+MARKDOWN = ["*.md", "docs/*.md", "docs/guides/*.md", "docs/theory/*.md", "designs/*.md", "tests/*/README.md"]
 SOURCES = ["src/**/*.rs", "examples/*.rs"]
 PAGE = ["src/page/web/*.js", "src/page/web/*.html"]
 

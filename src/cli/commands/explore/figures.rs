@@ -47,7 +47,7 @@ pub(super) fn determinant(design: &Design, octahedral: &Octahedral, done: &Done)
     };
     let (points, note) = points(octahedral, done);
     determinant_plane(&OffsetPlane {
-        title: format!("det A of the joint-free platforms of \u{201c}{}\u{201d}", design.name),
+        title: format!("det A of the platforms without shared joints of \u{201c}{}\u{201d}", design.name),
         note,
         base: axis("base", "1", equal.map(|e| e.0)),
         platform: axis("platform", "2", equal.map(|e| e.1)),

@@ -91,7 +91,7 @@ fn class(out: &mut String, r: &Results) {
 
 fn offsets(out: &mut String, r: &Results) {
     let n = r.done.report.counts();
-    let _ = writeln!(out, "## Offsets of the joint-free platform\n");
+    let _ = writeln!(out, "## Offsets of the platform without shared joints\n");
     if let Some(s) = r.done.report.solution() {
         let _ = writeln!(out, "Optimised design: [{0}]({0}).\n", folder::OPTIMISED);
         solution(out, r, s);

@@ -1,4 +1,4 @@
-//! `equipod optimize`: the best joint-free platform equivalent to an octahedral design.
+//! `equipod optimize`: the best platform without shared joints equivalent to an octahedral design.
 
 mod dimensional;
 mod dimensional_text;

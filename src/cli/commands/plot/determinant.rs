@@ -108,7 +108,7 @@ pub(super) fn draw(args: &Args, context: &mut Context) -> Result<String, Failure
         Plane::Two(..) => format!("the other offsets as in ({})", list(&args.offsets.0)),
     };
     Ok(singular_slice(&SliceFigure {
-        title: format!("det A of the joint-free platforms of \u{201c}{}\u{201d}", design.name),
+        title: format!("det A of the platforms without shared joints of \u{201c}{}\u{201d}", design.name),
         quantity: "det A".into(),
         note: format!("{rest}; det A = {det:.6} at ({})", list(&args.offsets.0)),
         across,

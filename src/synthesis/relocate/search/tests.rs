@@ -220,7 +220,7 @@ fn a_hole_on_a_cubic_has_one_leg() {
 
 #[test]
 fn legs_that_cross_are_moved_apart() {
-    // legs 1 and 4 of a joint-free platform, moved along the edges until they meet at home, then searched from there
+    // legs 1 and 4 of a platform without shared joints, moved along the edges until they meet at home, then searched from there
     let m = octahedral();
     let mut w = wishes(&m);
     w.clearance = Some(0.05 * m.size());
