@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use super::facts::digits;
 use crate::design::Design;
 use crate::plot::escape;
 
@@ -16,19 +17,25 @@ pub(super) fn section(name: &str, text: &str, design: &Design) -> String {
     if let Some(text) = &design.source {
         let _ = writeln!(out, "<p class=\"note\">Source: {}</p>", escape(text));
     }
+    let m = design.manipulator();
+    let at_home = || design.home.as_ref().and_then(|home| home.lengths(m));
+    let (title, lengths) = match design.lengths {
+        Some(lengths) => ("length", Some(lengths)),
+        None => ("length at home", at_home()),
+    };
+    let head = lengths.map_or_else(String::new, |_| format!("<th scope=\"col\">{title}</th>"));
     let _ = writeln!(
         out,
         "<div class=\"wide\"><table><caption>Legs; joint centres in {units}, base joints in the base frame, platform joints in the platform frame</caption>\n\
          <thead><tr><th scope=\"col\">leg</th><th scope=\"col\">base joint</th><th scope=\"col\">x, y, z</th>\
-         <th scope=\"col\">platform joint</th><th scope=\"col\">x, y, z</th><th scope=\"col\">length</th></tr></thead><tbody>"
+         <th scope=\"col\">platform joint</th><th scope=\"col\">x, y, z</th>{head}</tr></thead><tbody>"
     );
-    let m = design.manipulator();
-    let at = |p: &nalgebra::Point3<f64>| format!("{}, {}, {}", p.x, p.y, p.z);
+    let at = |p: &nalgebra::Point3<f64>| [p.x, p.y, p.z].map(digits).join(", ");
     for (k, (a, b)) in m.pairs().into_iter().enumerate() {
-        let length = design.lengths.map_or_else(|| "\u{2013}".to_owned(), |l| l.get()[k].to_string());
+        let length = lengths.map_or_else(String::new, |l| format!("<td>{}</td>", digits(l.get()[k])));
         let _ = writeln!(
             out,
-            "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{length}</td></tr>",
+            "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td>{length}</tr>",
             k + 1,
             escape(&design.base_names()[a]),
             at(&m.base_joints()[a]),

@@ -47,6 +47,9 @@ pub(super) fn verdict(fields: &Map<String, Value>) -> Option<ResultVerdict> {
         let word = if met { "met" } else { "violated" };
         return Some(ResultVerdict { word: word.into(), holds: Some(met), explanation });
     }
+    if fields.contains_key("met") && fields.get("requirements").is_some_and(Value::is_array) {
+        return Some(ResultVerdict { word: "undecided".into(), holds: None, explanation });
+    }
     let word = ["verdict", "status", "relation"].iter().find_map(|key| text(key)).or_else(|| {
         let count = |key: &str| fields.get(key).and_then(Value::as_u64);
         Some(format!("{} finite poses, {} real", count("finite_count")?, count("real_count")?))

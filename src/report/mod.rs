@@ -7,6 +7,7 @@ mod facts;
 mod inputs;
 mod kind;
 mod page;
+mod requirements;
 
 pub use kind::ResultVerdict;
 pub use page::html;

@@ -6,7 +6,7 @@ use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
 use serde_json::{Map, Value};
 
 use super::kind::{ResultVerdict, heading, verdict};
-use super::{Report, ReportFile, facts, inputs};
+use super::{Report, ReportFile, facts, inputs, requirements};
 use crate::design::{Design, Format, parse};
 use crate::page::policy;
 use crate::plot::escape;
@@ -59,19 +59,10 @@ pub fn html(report: &Report) -> String {
     verdicts(&mut out, &contents);
     section(
         &mut out,
-        "inputs",
-        "Designs",
+        "requirements",
+        "Requirements",
         contents.iter().filter_map(|(file, content)| match content {
-            Content::Design(design, text) => Some(inputs::section(&file.name, text, design)),
-            _ => None,
-        }),
-    );
-    section(
-        &mut out,
-        "results",
-        "Results",
-        contents.iter().filter_map(|(file, content)| match content {
-            Content::Result(fields) => Some(result(&file.name, fields)),
+            Content::Result(fields) => requirements::section(&link(&file.name), fields),
             _ => None,
         }),
     );
@@ -91,6 +82,24 @@ pub fn html(report: &Report) -> String {
             escape(view)
         );
     }
+    section(
+        &mut out,
+        "inputs",
+        "Designs",
+        contents.iter().filter_map(|(file, content)| match content {
+            Content::Design(design, text) => Some(inputs::section(&file.name, text, design)),
+            _ => None,
+        }),
+    );
+    section(
+        &mut out,
+        "results",
+        "Results",
+        contents.iter().filter_map(|(file, content)| match content {
+            Content::Result(fields) => Some(result(&file.name, fields)),
+            _ => None,
+        }),
+    );
     provenance(&mut out, &contents);
     out.push_str("</main></body></html>\n");
     out
@@ -104,7 +113,7 @@ fn section(out: &mut String, id: &str, title: &str, parts: impl Iterator<Item = 
 }
 
 /// The class and the sign that stand for a verdict, in colour and without.
-fn badge(v: &ResultVerdict) -> String {
+pub(super) fn badge(v: &ResultVerdict) -> String {
     let (class, sign) = match v.holds {
         Some(true) => ("yes", "\u{2713}"),
         Some(false) => ("no", "\u{2717}"),
@@ -141,12 +150,13 @@ fn link(name: &str) -> String {
     format!("<a href=\"{}\">{}</a>", utf8_percent_encode(name, NON_ALPHANUMERIC), escape(name))
 }
 
+/// A result folded away: its answer is among the verdicts, and whoever doubts it unfolds the numbers.
 fn result(name: &str, fields: &Map<String, Value>) -> String {
     let verdict = verdict(fields).map_or_else(String::new, |v| format!(" {}", badge(&v)));
     let sentence = fields.get("explanation").and_then(Value::as_str);
     let sentence = sentence.map_or_else(String::new, |s| format!("<p>{}</p>\n", escape(s)));
     format!(
-        "<section class=\"card\" id=\"{}\"><h3>{}{verdict}</h3>\n{sentence}{}<p class=\"note\">From {}</p></section>\n",
+        "<details class=\"card\" id=\"{}\"><summary><h3>{}{verdict}</h3></summary>\n{sentence}{}<p class=\"note\">From {}</p></details>\n",
         anchor(name),
         heading(fields),
         facts::tables(fields),
@@ -181,7 +191,7 @@ fn picture(name: &str, svg: &str) -> String {
 /// Every file with its size, hash, version and seed.
 fn provenance(out: &mut String, contents: &[(&ReportFile, Content)]) {
     out.push_str(
-        "<section id=\"files\"><h2>Files</h2>\n<div class=\"wide\"><table><thead><tr><th scope=\"col\">file</th><th scope=\"col\">bytes</th>\
+        "<section id=\"files\"><h2>Files</h2>\n<details class=\"card\"><summary>Names, sizes and hashes of all files</summary>\n<div class=\"wide\"><table><thead><tr><th scope=\"col\">file</th><th scope=\"col\">bytes</th>\
          <th scope=\"col\">SHA-256</th><th scope=\"col\">equipod</th><th scope=\"col\">seed</th><th scope=\"col\">tolerances</th></tr></thead><tbody>\n",
     );
     for (file, content) in contents {
@@ -209,7 +219,7 @@ fn provenance(out: &mut String, contents: &[(&ReportFile, Content)]) {
             if tolerances.is_empty() { "\u{2013}".into() } else { tolerances },
         );
     }
-    out.push_str("</tbody></table></div></section>\n");
+    out.push_str("</tbody></table></div></details></section>\n");
 }
 
 /// What the result calls tolerances, at the top or one level below.
