@@ -53,16 +53,24 @@ pub(super) fn section(link: &str, fields: &Map<String, Value>) -> Option<String>
             if position.is_empty() { "any" } else { &position },
         );
     }
-    let singular = match record.get("regular").and_then(|r| r.get("status")).and_then(Value::as_str) {
-        Some("proved") => "<p>No singular pose in the workspace: proved.</p>\n",
-        _ => match record.get("regular").and_then(|r| r.get("met")).and_then(Value::as_bool) {
-            Some(false) => "<p>There is a singular pose in the workspace.</p>\n",
-            _ => "",
-        },
+    let regular = |key: &str| record.get("regular").and_then(|r| r.get(key));
+    let singular = match (regular("status").and_then(Value::as_str), regular("met").and_then(Value::as_bool))
+    {
+        (Some("proved"), _) => "<p>No singular pose in the workspace: proved.</p>\n",
+        (_, Some(false)) => "<p>There is a singular pose in the workspace.</p>\n",
+        _ => "",
     };
+    let conditioning =
+        record.get("conditioning").and_then(|c| c.get("inverse_condition")).and_then(Value::as_f64);
+    let conditioning = conditioning.map_or_else(String::new, |x| {
+        format!(
+            "<p>The least conditioning of the poses looked at is {}; 1 is the best, 0 a singular pose.</p>\n",
+            digits(x)
+        )
+    });
     let _ = writeln!(
         out,
-        "</tbody></table></div>\n{singular}<p class=\"note\">A margin below 0 is a violation. From {link}</p>"
+        "</tbody></table></div>\n{singular}{conditioning}<p class=\"note\">A margin below 0 is a violation. From {link}</p>"
     );
     Some(out)
 }
@@ -76,7 +84,7 @@ mod tests {
         let fields: Map<String, Value> = serde_json::from_str(
             r#"{"met":false,"requirements":[{"name":"leg_too_short","margin":-25.156342123,"met":false,"status":"violated",
                 "proved_margin":null,"unit":"mm","between":["leg <1>"],"pose":{"p":[32.4443,14.3,371.8],"q":[1,0,0,0]}}],
-                "regular":{"met":true,"status":"proved","pose":null}}"#,
+                "regular":{"met":true,"status":"proved","pose":null},"conditioning":{"inverse_condition":0.3359123,"pose":null}}"#,
         )
         .unwrap();
         let text = section("<a>x</a>", &fields).unwrap();
@@ -90,7 +98,7 @@ mod tests {
         ] {
             assert!(text.contains(shown), "{shown}: {text}");
         }
-        assert!(text.contains("No singular pose in the workspace: proved."));
+        assert!(text.contains("No singular pose in the workspace: proved.") && text.contains("is 0.335912;"));
         let carried: Map<String, Value> =
             [("assessment".to_owned(), Value::Object(fields))].into_iter().collect();
         assert_eq!(section("<a>x</a>", &carried).unwrap(), text);

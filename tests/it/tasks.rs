@@ -76,7 +76,7 @@ fn faults(page: &str, folder: &Path) -> Vec<String> {
                     ));
                 }
                 let written = command.split_once(" -o ").and_then(|(_, rest)| rest.split(' ').next());
-                if let Some(file) = written.filter(|f| *f != "-" && code != 2)
+                if let Some(file) = written.filter(|f| *f != "-" && code == 0)
                     && !folder.join(file).exists()
                 {
                     faults.push(format!("{command}: wrote no {file}"));
