@@ -1,4 +1,4 @@
-//! The guides and the first five minutes of the README: every command is run as it stands there, in an empty folder.
+//! The tasks of a newcomer, `docs/tasks.md`, and the guides: every command is run as it stands there, in an empty folder.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -98,6 +98,14 @@ fn runs_as_it_stands(page: &str) {
 }
 
 #[test]
+fn thirty_tasks_are_done_with_one_command_each() {
+    let page = read("docs/tasks.md");
+    let tasks = steps(&page).into_iter().filter(|s| matches!(s, Step::Run { .. })).count();
+    assert!(tasks >= 30, "{tasks}");
+    runs_as_it_stands(&page);
+}
+
+#[test]
 fn the_guides_run_as_they_stand() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/guides");
     let mut pages: Vec<PathBuf> = fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();
@@ -114,7 +122,7 @@ fn the_guides_run_as_they_stand() {
 fn the_first_five_minutes_of_the_readme_run_as_they_stand() {
     let text = read("README.md");
     let part = text.split("\n## Your own hexapod").nth(1).unwrap().split("\n## ").next().unwrap();
-    assert!(steps(part).len() > 4, "{part}");
+    assert!(steps(part).len() > 5, "{part}");
     runs_as_it_stands(part);
 }
 
