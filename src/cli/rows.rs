@@ -5,7 +5,7 @@ use std::path::Path;
 use super::context::Context;
 use super::failure::Failure;
 use super::files;
-use crate::design::{InvalidSeries, Series, SeriesKind};
+use crate::design::{InvalidSeries, SeriesKind, TimeSeries};
 use crate::geom::{InvalidPose, Pose};
 
 /// What a table is called when it is refused.
@@ -28,7 +28,7 @@ pub(crate) fn read<T>(
     table: TableName<'_>,
     context: &Context,
     record: impl Fn(&str) -> Result<T, String>,
-) -> Result<Series<T>, Failure> {
+) -> Result<TimeSeries<T>, Failure> {
     let shown = files::shown(table.path);
     let series = kind.read(&files::read_table(table.path)?, record).map_err(|why| {
         let message = match why {
@@ -45,7 +45,7 @@ pub(crate) fn read<T>(
 ///
 /// # Errors
 /// As [`read`].
-pub(crate) fn poses(path: &Path, code: &'static str, context: &Context) -> Result<Series<Pose>, Failure> {
+pub(crate) fn poses(path: &Path, code: &'static str, context: &Context) -> Result<TimeSeries<Pose>, Failure> {
     let form = "a pose a line: x,y,z,roll_deg,pitch_deg,yaw_deg or x,y,z,qw,qx,qy,qz";
     read(SeriesKind::Poses, TableName { path, code, form }, context, |line| {
         line.parse().map_err(|e: InvalidPose| e.to_string())

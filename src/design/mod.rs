@@ -41,7 +41,7 @@ pub use presets::{PRESETS, Preset, PresetClass};
 #[cfg(test)]
 pub(crate) use scale::micrometres;
 pub use schema::SCHEMA;
-pub(crate) use table::{InvalidSeries, PointTable, Series, SeriesKind, SeriesRow};
+pub(crate) use table::{InvalidSeries, PointTable, SeriesKind, SeriesRow, TimeSeries};
 pub use violation::{Code, Violation, Warning};
 pub use workspace::{Trajectory, Workspace};
 

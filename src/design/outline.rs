@@ -65,16 +65,36 @@ impl HexapodSizes {
         let mut out = String::from(
             "# A hexapod with threefold symmetry. The joints of each body stand in three pairs on a circle; the spread is the angle\n# between the two joints of a pair, seen from the centre.\n",
         );
+        let _ = writeln!(
+            out,
+            "# The spread is {} degrees on the base and {} degrees on the platform.",
+            self.spread_deg[0], self.spread_deg[1]
+        );
         let _ = writeln!(out, "name = {}\nunits = {}", quoted(name), quoted(units));
         let _ = writeln!(out, "legs = [{}]\n\n[parameters]", legs.join(", "));
         for (body, k) in [("base", 0), ("platform", 1)] {
             let _ = writeln!(out, "{body}_radius = {}", self.radius[k]);
-            if self.spread_deg[k] > 0.0 {
-                let _ = writeln!(out, "{body}_spread_deg = {}", self.spread_deg[k]);
+            if let Some(degrees) = self.inexact_angle(k) {
+                let (sin, cos) = degrees.to_radians().sin_cos();
+                let _ = writeln!(out, "{body}_cos = {cos:?} # cosine and sine of {degrees} degrees");
+                let _ = writeln!(out, "{body}_sin = {sin:?}");
             }
         }
         let _ = write!(out, "\n[base]\n{base}\n[platform]\n{platform}\n");
         out + &home(self.height)
+    }
+
+    /// Where the second joint of a body is on its circle, degrees from the x axis.
+    fn angle(self, k: usize) -> f64 {
+        let half = self.spread_deg[k] / 2.0;
+        if k == 0 { half } else { PLATFORM_TURN_DEG - half }
+    }
+
+    /// This angle, where its cosine and sine are no sums of square roots: they are then written as decimals, since poses of joints that are known between bounds only are not
+    /// counted.
+    fn inexact_angle(self, k: usize) -> Option<f64> {
+        let angle = self.angle(k);
+        (self.spread_deg[k] > 0.0 && angle % 15.0 != 0.0).then_some(angle)
     }
 
     /// The joints of a body, whose first pair is around `turn` degrees, and the joints at the ends of the six legs.
@@ -83,13 +103,12 @@ impl HexapodSizes {
         let joint = |n: u8| format!("{letter}{n}");
         let mut out = String::new();
         if self.spread_deg[k] > 0.0 {
-            let half = if turn > 0.0 {
-                format!("{turn} - {body}_spread_deg/2")
-            } else {
-                format!("{body}_spread_deg/2")
-            };
             let _ = writeln!(out, "{letter}1 = {{ mirror = \"{letter}2\", plane = \"xz\" }}");
-            let _ = writeln!(out, "{letter}2 = {{ radius = \"{body}_radius\", angle_deg = \"{half}\" }}");
+            let second = match self.inexact_angle(k) {
+                Some(_) => format!("[\"{body}_radius*{body}_cos\", \"{body}_radius*{body}_sin\", 0]"),
+                None => format!("{{ radius = \"{body}_radius\", angle_deg = {} }}", self.angle(k)),
+            };
+            let _ = writeln!(out, "{letter}2 = {second}");
             for n in 3..=6_u8 {
                 let (from, deg) = (joint(2 - n % 2), PAIRS_DEG * f64::from((n - 1) / 2));
                 let _ = writeln!(out, "{letter}{n} = {{ turn = \"{from}\", deg = {deg} }}");
@@ -140,7 +159,7 @@ pub(crate) fn with_lengths(text: &str, lengths: [f64; 6]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::design::{Design, Format, parse};
+    use crate::design::{Design, Exactness, Format, parse};
     use crate::manipulator::Octahedral;
 
     fn sizes(spread_deg: [f64; 2]) -> HexapodSizes {
@@ -153,8 +172,9 @@ mod tests {
 
     #[test]
     fn joints_stand_where_the_sizes_say_and_all_legs_are_equal_at_home() {
-        for spread in [[20.0, 20.0], [0.0, 20.0], [20.0, 0.0], [0.0, 0.0], [119.5, 0.25]] {
+        for spread in [[20.0, 20.0], [0.0, 20.0], [20.0, 0.0], [0.0, 0.0], [119.5, 0.25], [30.0, 60.0]] {
             let design = design(&sizes(spread).to_toml("mine \"x\"", "mm"));
+            assert!(design.exactness().exactness < Some(Exactness::Interval), "{spread:?}");
             let m = design.manipulator();
             let home = design.home.unwrap();
             let lengths = home.lengths(m).unwrap().get();

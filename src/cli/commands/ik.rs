@@ -8,7 +8,7 @@ use crate::cli::failure::Failure;
 use crate::cli::output::Answer;
 use crate::cli::table::{column_unit, csv_line, number};
 use crate::cli::{poses, rows};
-use crate::design::{Design, Series, SeriesRow};
+use crate::design::{Design, SeriesRow, TimeSeries};
 use crate::geom::Pose;
 use crate::records::{IkAnswer, IkRecord, IkRowsAnswer};
 
@@ -46,14 +46,18 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
 }
 
 /// The poses of the options, home when there are none.
-fn named(texts: &[String], design: &Design) -> Result<Series<Pose>, Failure> {
+fn named(texts: &[String], design: &Design) -> Result<TimeSeries<Pose>, Failure> {
     let pose = |text: &String| poses::parse(text, design, "--pose", BAD_POSE);
     let mut all = texts.iter().map(pose).collect::<Result<Vec<_>, _>>()?;
     if all.is_empty() {
         all.push(poses::home(design));
     }
     let row = |(k, value): (usize, Pose)| SeriesRow { line: k + 1, time: None, value };
-    Ok(Series { time_name: None, rows: all.into_iter().enumerate().map(row).collect(), guesses: Vec::new() })
+    Ok(TimeSeries {
+        time_name: None,
+        rows: all.into_iter().enumerate().map(row).collect(),
+        guesses: Vec::new(),
+    })
 }
 
 fn record(design: &Design, row: &SeriesRow<Pose>, from_table: bool) -> Result<IkRecord, Failure> {

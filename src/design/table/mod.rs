@@ -10,4 +10,4 @@ mod sheet;
 mod text;
 
 pub(crate) use points::PointTable;
-pub(crate) use series::{InvalidSeries, Series, SeriesKind, SeriesRow};
+pub(crate) use series::{InvalidSeries, SeriesKind, SeriesRow, TimeSeries};

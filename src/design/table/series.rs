@@ -32,7 +32,7 @@ pub(crate) struct SeriesRow<T> {
 
 /// A table of rows.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Series<T> {
+pub(crate) struct TimeSeries<T> {
     /// The name of the column of times.
     pub(crate) time_name: Option<String>,
     /// In the order of the text; at least one.
@@ -93,7 +93,7 @@ impl SeriesKind {
         self,
         bytes: &[u8],
         record: impl Fn(&str) -> Result<T, String>,
-    ) -> Result<Series<T>, InvalidSeries> {
+    ) -> Result<TimeSeries<T>, InvalidSeries> {
         let mut sheet = match Sheet::read(bytes, LEAST_NUMBERS) {
             Ok(sheet) => sheet,
             Err(InvalidSheet::NoNumbers(_)) => return Err(InvalidSeries::Empty),
@@ -124,7 +124,7 @@ impl SeriesKind {
         if rows.is_empty() {
             return Err(InvalidSeries::Empty);
         }
-        Ok(Series { time_name: columns.time.and_then(|c| header.get(c).cloned()), rows, guesses })
+        Ok(TimeSeries { time_name: columns.time.and_then(|c| header.get(c).cloned()), rows, guesses })
     }
 
     fn columns(self, header: &[String], guesses: &mut Vec<String>) -> SeriesColumns {
@@ -240,7 +240,7 @@ mod tests {
         fields.into_iter().map(|f| f.parse().map_err(|_| format!("`{f}` is not a number"))).collect()
     }
 
-    fn read(kind: SeriesKind, text: &str) -> Series<Vec<f64>> {
+    fn read(kind: SeriesKind, text: &str) -> TimeSeries<Vec<f64>> {
         kind.read(text.as_bytes(), numbers).unwrap_or_else(|why| panic!("{why}\n{text}"))
     }
 

@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::cli::context::Context;
 use crate::cli::failure::Failure;
 use crate::cli::rows::{self, TableName};
-use crate::design::{Series, SeriesKind, SeriesRow};
+use crate::design::{SeriesKind, SeriesRow, TimeSeries};
 use crate::manipulator::LegLengths;
 
 /// Lengths of one line of a table.
@@ -15,7 +15,7 @@ pub(in crate::cli::commands) type Row = SeriesRow<LegLengths>;
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::cli::commands) enum Given {
     One(LegLengths),
-    Rows(Series<LegLengths>),
+    Rows(TimeSeries<LegLengths>),
 }
 
 /// `--lengths`, else the lengths of the design.
@@ -52,7 +52,7 @@ pub(in crate::cli::commands) fn six(text: &str) -> Result<LegLengths, String> {
 }
 
 /// A table with six lengths a line.
-fn rows(path: &Path, context: &Context) -> Result<Series<LegLengths>, Failure> {
+fn rows(path: &Path, context: &Context) -> Result<TimeSeries<LegLengths>, Failure> {
     let form = "six lengths a line: l1,l2,l3,l4,l5,l6";
     rows::read(SeriesKind::Lengths, TableName { path, code: "fk::bad_lengths", form }, context, six)
 }
