@@ -44,3 +44,18 @@ fn what_cannot_be_shown_first_is_refused() {
     assert_eq!(refused(design, &["--core", "no/such.wasm"]), "file::not_readable");
     assert!(!out.exists());
 }
+
+/// Without a design the page begins with an ordinary hexapod.
+#[test]
+fn without_a_design_the_page_asks_for_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("start.html");
+    let output = equipod(&["view", "-o", path.to_str().unwrap(), "--json"]);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let doc = document(&output);
+    assert_eq!((doc["name"].as_str(), doc["live"].as_bool()), (Some("hexapod"), Some(true)));
+    let html = std::fs::read_to_string(&path).unwrap();
+    assert!(html.contains("\"begin\":true") && html.contains("base_spread_deg"));
+    let refused = equipod(&["view", "--offsets", "0.2,0.2,0.2,0.2,0.2,0.2"]);
+    assert_eq!(refused.status.code(), Some(2), "offsets of nothing");
+}

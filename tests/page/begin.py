@@ -1,5 +1,8 @@
 """The page without a design: a hexapod from a data sheet, from points, from an example."""
 
+import math
+import tomllib
+
 import poses
 from program import DESIGNS
 
@@ -21,7 +24,6 @@ def from_a_data_sheet(shown, program, folder):
     found = poses.lengths(shown)
     assert max(found) - min(found) < 1e-6, found
     # the leg from the base joint at 15 degrees to the platform joint at 60 - 12.75 degrees
-    import math
     turn = math.radians(60 - 12.75 - 15)
     length = math.sqrt(250**2 + 120**2 - 2 * 250 * 120 * math.cos(turn) + 220**2)
     assert abs(found[0] - length) < 1e-6, (found[0], length)
@@ -56,3 +58,22 @@ def examples(shown):
         shown.settle()
         assert name in page.text_content("#begin-words")
         assert "bad" not in page.get_attribute("#begin-words", "class")
+
+
+def from_points(shown, folder):
+    """Twelve points as a spreadsheet with decimal commas exports them; what was guessed is listed, what is no table is refused."""
+    page = shown.page
+    design = tomllib.loads((DESIGNS / "general-6-6.toml").read_text())
+    rows = [[*design["base"][a], *design["platform"][b]] for a, b in design["legs"]]
+    page.fill("#points", "\r\n".join(";".join(repr(float(x)).replace(".", ",") for x in row) for row in rows))
+    page.select_option("#points-units", "cm")
+    page.locator("#points-form button").click()
+    shown.settle()
+    assert "shown below" in page.text_content("#begin-words"), page.text_content("#begin-words")
+    assert page.locator("#guesses li").count() > 0
+    read = tomllib.loads(shown.download("design, TOML", folder / "points.toml").read_text())
+    assert read["units"] == "cm"
+    assert [[*read["base"][a], *read["platform"][b]] for a, b in read["legs"]] == rows
+    page.fill("#points", "one two three")
+    page.locator("#points-form button").click()
+    assert "bad" in page.get_attribute("#begin-words", "class") and page.locator("#guesses li").count() == 0

@@ -136,7 +136,7 @@ def lengths(chromium, program, folder, pictures):
 
 def whole(chromium, program, folder, pictures):
     """What the page says of the workspace is what `assess` says: met, violated away from home, a singular pose, nothing required."""
-    cases = [(DESIGNS / "presets" / "mdx-chair-v3.toml", None), (limits.small_swing(folder), False), (limits.wide(folder), False)]
+    cases = [(DESIGNS / "presets" / "mdx-chair-v3.toml", None), (limits.short_legs(folder), False), (limits.wide(folder), False)]
     for path, met in cases:
         page = program.page(path, folder / "whole.html")
         with Opened(chromium, page) as shown:
@@ -144,7 +144,7 @@ def whole(chromium, program, folder, pictures):
             answer = limits.as_assess(shown, program, folder, which)
             assert met is None or answer["met"] is met, (path, answer["met"])
             picture(shown, pictures, f"whole-{path.stem}")
-            if path.stem == "small-swing":
+            if path.stem == "short-legs":
                 limits.at_its_worst(shown)
             shown.quiet()
     with Opened(chromium, folder / "octahedral.html") as shown:
@@ -178,6 +178,7 @@ def start(chromium, program, folder, pictures):
         begin.from_a_data_sheet(shown, program, folder)
         begin.shared_joints(shown)
         begin.what_is_no_hexapod(shown)
+        begin.from_points(shown, folder)
         begin.examples(shown)
         shown.quiet()
     with Opened(chromium, path, width=390, height=780, touch=True) as shown:

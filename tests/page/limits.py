@@ -39,21 +39,24 @@ def as_assess(shown, program, folder, which="equivalent"):
     return answer
 
 
-def small_swing(folder):
+def short_legs(folder):
     """A design that meets its requirements at home and violates one at the edge of its workspace."""
-    text = (DESIGNS / "presets" / "bench-l16.toml").read_text()
-    path = folder / "small-swing.toml"
-    lines = ["base_swing_deg = 5.0" if line.startswith("base_swing_deg") else line for line in text.splitlines()]
-    assert lines != text.splitlines(), "the design has no base_swing_deg to change"
-    path.write_text("\n".join(lines) + "\n")
+    text = (DESIGNS / "presets" / "mdx-chair-v3.toml").read_text()
+    path = folder / "short-legs.toml"
+    limits = "leg_length = [800.0, 1000.0]"
+    assert limits in text, "the design has other limits of its legs"
+    path.write_text(text.replace(limits, "leg_length = [812.0, 1000.0]"))
     return path
 
 
 def wide(folder):
     """A design whose workspace holds singular poses, and whose home does not."""
-    text = (DESIGNS / "general-6-6.toml").read_text()
+    text = (DESIGNS / "symmetric-hexapod.toml").read_text()
     path = folder / "wide.toml"
-    path.write_text(text + "\n[hardware]\njoint_diameter = 0.001\n\n[workspace]\ntranslation = [0, 0, 0]\nrotation_deg = [170, 170, 170]\n")
+    turns = "rotation_deg = [10.0, 10.0, 10.0]"
+    assert turns in text, "the design turns otherwise"
+    # turned by 90 degrees about its axis such a hexapod is singular
+    path.write_text(text.replace(turns, "rotation_deg = [0.0, 0.0, 100.0]").replace("leg_diameter = 25.0", "leg_diameter = 1.0"))
     return path
 
 
