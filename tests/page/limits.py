@@ -30,8 +30,8 @@ def as_assess(shown, program, folder, which="equivalent"):
     )
     assert len(rows) == len(answer["requirements"]) + 2, rows
     # beside the margins the singular poses and the conditioning
-    least = float(rows[-1][0].split(" ")[0])
-    assert abs(least - answer["conditioning"]["inverse_condition"]) < 0.02 * least, (rows[-1], answer["conditioning"])
+    least = float(rows[-1][0].split(" ")[0].replace("−", "-"))
+    assert abs(least - answer["conditioning"]["inverse_condition"]) < 0.02 * max(least, 0.01), (rows[-1], answer["conditioning"])
     for (text, tone), margin in zip(rows, answer["requirements"]):
         number = float(text.split(" ")[0].replace("−", "-"))
         assert abs(number - margin["margin"]) <= 1e-3 * max(abs(number), abs(margin["margin"])) + 1e-9, (text, margin)
