@@ -384,7 +384,7 @@ fn joint_free_design(design: &Design, o: &Octahedral, m: &Manipulator, t: [f64; 
             Body::Platform => (Origin::Kept(corner(first, k + 1)), edge(second)),
         };
     }
-    let plain = Design::new(format!("{}, joint-free", design.name), design.units.clone(), m.clone());
+    let plain = Design::new(format!("{}, separate joints", design.name), design.units.clone(), m.clone());
     let distinct = |v: &[String]| v.iter().enumerate().all(|(i, x)| !v[..i].contains(x));
     let named =
         if distinct(&a) && distinct(&b) { plain.clone().with_joint_names(a, b) } else { Ok(plain.clone()) };

@@ -331,7 +331,7 @@ fn a_data_sheet_is_a_symmetric_hexapod() {
         assert_eq!([m.base_joints().len(), m.platform_joints().len()], joints);
         let lengths = made.home.unwrap().squared_lengths(m).unwrap().lengths().get();
         // from the base joint to the platform joint next to it
-        let turn = (60.0 - (base + platform) / 2.0_f64).to_radians();
+        let turn = (60.0 - f64::midpoint(base, platform)).to_radians();
         let expected = (250.0_f64.powi(2) + 120.0_f64.powi(2) - 2.0 * 250.0 * 120.0 * turn.cos()
             + 220.0_f64.powi(2))
         .sqrt();
