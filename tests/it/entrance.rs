@@ -89,7 +89,10 @@ fn a_trajectory_is_read_from_beside_the_design() {
     std::fs::write(&table, "x,y,z,roll,pitch,yaw\n1,2,3,0,0,90\n0,0,17,1,0,0,x\n").unwrap();
     let bad = Design::load(&path).unwrap_err().to_string();
     assert!(bad.contains("way.csv") && bad.contains("line 3"), "{bad}");
+    // below names of six columns a row of seven has a number too many; without names a row is what its length says
     std::fs::write(&table, "x,y,z,roll,pitch,yaw\n1,2,3,0,0,90\n0,0,17,1,0,0,0\n").unwrap();
+    assert!(Design::load(&path).unwrap_err().to_string().contains("line 3"));
+    std::fs::write(&table, "1,2,3,0,0,90\n0,0,17,1,0,0,0\n").unwrap();
     let design = Design::load(&path).unwrap();
     let poses = &design.workspace.trajectory.as_ref().unwrap().poses;
     assert!((poses[0].angles().degrees()[2] - 90.0).abs() < 1e-12 && poses.len() == 2);

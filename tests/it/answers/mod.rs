@@ -71,6 +71,7 @@ const OPTIONAL: &[&str] = &[
     "alignment",
     "output",
     "counterexample",
+    "real_pose",
     "sampling",
     "beyond_precision",
     "instance",
@@ -273,6 +274,8 @@ fn compare(wanted: impl Fn(&str) -> bool) -> (Files, Vec<String>) {
 const GROUPS: [&[&str]; 4] = [
     &[
         "fk",
+        "ik",
+        "new",
         "bench",
         "help",
         "error",
