@@ -25,8 +25,7 @@ pub struct IkRowsAnswer {
 /// The lengths at a pose.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct IkRecord {
-    /// The line of the table, from 1.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// The line of the table, from 1; null: no table.
     pub line: Option<usize>,
     /// The time of the row, where the table has a column of times.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -35,8 +34,7 @@ pub struct IkRecord {
     pub pose: PoseRecord,
     /// The six lengths in leg order, design units.
     pub lengths: [f64; 6],
-    /// Whether all lengths are within `leg_length`, the ends included; absent: the design limits none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// Whether all lengths are within `leg_length`, the ends included; null: the design limits none.
     pub within_limits: Option<bool>,
     /// The legs that are too short or too long, from 1.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

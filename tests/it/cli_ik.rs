@@ -38,7 +38,7 @@ fn lengths_of_poses_are_a_table_without_preamble() {
 fn the_record_has_one_pose_or_rows() {
     let one = document(&equipod(&["ik", DESIGN, "--json"]));
     assert_eq!(one["lengths"].as_array().unwrap().len(), 6);
-    assert!(one.get("within_limits").is_none() && one["pose"]["R"][0][0] == 1.0);
+    assert!(one["within_limits"].is_null() && one["pose"]["R"][0][0] == 1.0);
     let two = document(&equipod(&["ik", LIMITED, "--pose", "home", "--pose", "0,0,1000,0,0,0", "--json"]));
     assert_eq!(two["rows"].as_array().unwrap().len(), 2);
     assert_eq!(two["rows"][1]["within_limits"], false);

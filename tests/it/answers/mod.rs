@@ -8,10 +8,10 @@ use std::fs;
 
 use equipod::records::{
     AssessAnswer, BenchAnswer, CheckAnswer, CompletionsAnswer, ComponentsAnswer, ConvertAnswer, Document,
-    ErrorAnswer, ExploreAnswer, ExportAnswer, FamilyAnswer, FkAnswer, FkRunRecord, HelpAnswer, LocusAnswer,
-    ManAnswer, MapAnswer, MoveAnswer, OptimizeAnswer, PlotAnswer, PresetsAnswer, ReportAnswer, RoundAnswer,
-    SchemaAnswer, SelfmotionAnswer, SingularitiesAnswer, TolerancesAnswer, TopologiesAnswer, VerifyAnswer,
-    ViewAnswer, schema, schema_names,
+    ErrorAnswer, ExploreAnswer, ExportAnswer, FamilyAnswer, FkAnswer, FkRunRecord, HelpAnswer, IkAnswer,
+    LocusAnswer, ManAnswer, MapAnswer, MoveAnswer, NewAnswer, OptimizeAnswer, PlotAnswer, PresetsAnswer,
+    ReportAnswer, RoundAnswer, SchemaAnswer, SelfmotionAnswer, SingularitiesAnswer, TolerancesAnswer,
+    TopologiesAnswer, VerifyAnswer, ViewAnswer, schema, schema_names,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -48,6 +48,8 @@ const TYPES: &[(&str, Reread)] = &[
     ("export", reread::<ExportAnswer>),
     ("fk", reread::<FkAnswer>),
     ("help", reread::<HelpAnswer>),
+    ("ik", reread::<IkAnswer>),
+    ("new", reread::<NewAnswer>),
     ("optimize", reread::<OptimizeAnswer>),
     ("plot", reread::<PlotAnswer>),
     ("plot-locus", reread::<LocusAnswer>),
