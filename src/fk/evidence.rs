@@ -6,8 +6,8 @@ use super::{
 };
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::solve::certify::{
-    Certificate, CertifiedPose, Certifier, Distinctness, NewtonStart, ProvedReality, RootRelation, distinct,
-    relation,
+    Certificate, CertifiedPose, Certifier, Distinctness, DoubleCertificate, NewtonStart, ProvedReality,
+    RootCertificate, RootRelation, distinct, relation,
 };
 
 /// Tries to certify every root that is not yet; a certified root takes its reality from the proof. `known` are the
@@ -20,9 +20,11 @@ pub(super) fn certify(
 ) -> Option<Vec<Certificate>> {
     let certifier = Certifier::new(m, s).ok()?;
     let mut repeated = vec![false; solutions.roots.len()];
+    let mut doubtful: Vec<&mut FkRoot> = Vec::new();
     for (root, repeated) in solutions.roots.iter_mut().zip(&mut repeated).filter(|(r, _)| !r.certified()) {
         let Ok(CertifiedPose { pose, certificate }) = certifier.root_near(NewtonStart::Pose(&root.pose))
         else {
+            doubtful.push(root);
             continue;
         };
         let same = |k: &Certificate| relation(k, &certificate) == RootRelation::Same;
@@ -38,6 +40,7 @@ pub(super) fn certify(
         root.multiplicity = 1;
         known.push(certificate);
     }
+    certify_double(doubtful, &certifier, m, s);
     if repeated.contains(&true) {
         let mut repeated = repeated.iter();
         let duplicates = withdraw(solutions, |_| repeated.next() == Some(&true));
@@ -46,6 +49,49 @@ pub(super) fn certify(
         solutions.completeness.doubt(Reason::CandidatesRepeated { candidates: duplicates.len() });
     }
     Some(known)
+}
+
+/// Two poses that are one, or too close to be told apart, are proved together. Of two candidates in one such pair the first has it.
+fn certify_double(roots: Vec<&mut FkRoot>, certifier: &Certifier, m: &Manipulator, s: &SquaredLegLengths) {
+    let mut known: Vec<DoubleCertificate> = Vec::new();
+    for root in roots {
+        let Ok((pose, certificate)) = certifier.two_roots_near(&root.pose) else { continue };
+        if !known.iter().all(|k| k.enclosure().is_disjoint(certificate.enclosure())) {
+            continue;
+        }
+        root.pose = pose;
+        root.residual = pose.residual(m, s);
+        root.reality = proved(certificate.reality());
+        root.dual_quaternion = Some(certificate.point());
+        root.certificate = Some(RootCertificate::Double(certificate));
+        root.multiplicity = 2;
+        known.push(certificate);
+    }
+}
+
+/// The certificates of pairs of poses that are close or one.
+pub(super) fn double_certificates(solutions: &FkSolutions) -> Vec<DoubleCertificate> {
+    let double = |r: &FkRoot| match r.certificate {
+        Some(RootCertificate::Double(c)) => Some(c),
+        _ => None,
+    };
+    solutions.roots.iter().filter_map(double).collect()
+}
+
+/// Whether all certified poses are proved to be different ones, those of pairs apart from all others.
+pub(super) fn all_distinct(certificates: &[Certificate], pairs: &[DoubleCertificate]) -> Distinctness {
+    let enclosures =
+        certificates.iter().map(Certificate::enclosure).chain(pairs.iter().map(DoubleCertificate::enclosure));
+    let mut doubtful = match distinct(certificates) {
+        Distinctness::AllDistinct => Vec::new(),
+        Distinctness::NotAll(pairs) => pairs,
+    };
+    for (j, pair) in pairs.iter().enumerate().map(|(k, p)| (certificates.len() + k, p)) {
+        let others = enclosures.clone().take(j).enumerate();
+        let near = others.filter(|(_, e)| !e.is_disjoint(pair.enclosure()));
+        doubtful.extend(near.map(|(i, _)| (i, j, RootRelation::Undecided)));
+    }
+    if doubtful.is_empty() { Distinctness::AllDistinct } else { Distinctness::NotAll(doubtful) }
 }
 
 /// [`certify`], then [`conclude`].
@@ -79,9 +125,10 @@ pub(super) fn conclude(
     certificates: &[Certificate],
     theorem: Theorem,
 ) -> Result<(), FkError> {
-    let distinct = distinct(certificates);
+    let pairs = double_certificates(solutions);
+    let distinct = all_distinct(certificates, &pairs);
     if distinct == Distinctness::AllDistinct {
-        let count = certificates.len();
+        let count = certificates.len() + 2 * pairs.len();
         // the work for a bound is done only where the one before is not met
         let bounds: [&dyn Fn() -> Option<Theorem>; 3] =
             [&|| Some(theorem), &|| class_bound(m), &|| special_bound(m)];
@@ -92,7 +139,10 @@ pub(super) fn conclude(
                 return Ok(());
             }
             if theorem.bound() < count {
-                let what = format!("{count} distinct poses are certified, but {}", theorem.statement());
+                let what = format!(
+                    "{count} poses are certified, multiplicities counted, but {}",
+                    theorem.statement()
+                );
                 return Err(FkError::Contradiction { what });
             }
         }

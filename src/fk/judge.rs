@@ -4,10 +4,10 @@
 //! are not all; more contradict it. Where the lengths are known within radii only, those of generic lengths are counted, which are as many or more: as many certified roots are all isolated ones,
 //! fewer may be all.
 
-use super::evidence::reject_others;
+use super::evidence::{all_distinct, double_certificates, reject_others};
 use super::{Completeness, FkError, FkOptions, FkRoot, FkSolutions, PoseCounting, Reason, SolutionSet};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
-use crate::solve::certify::{Certificate, Distinctness, RootCertificate, distinct};
+use crate::solve::certify::{Certificate, Distinctness, RootCertificate};
 use crate::solve::pose_count::{
     CountOptions, CountedLengths, PoseCount, PoseSet, count_generic_poses, count_poses, exact_squares,
 };
@@ -48,9 +48,10 @@ fn are_distinct(found: &FkSolutions) -> bool {
         _ => None,
     };
     let certificates: Vec<Certificate> = found.roots.iter().filter_map(study).collect();
-    // those of the other kind are not compared
-    certificates.len() == found.roots.iter().filter(|r| r.certified()).count()
-        && distinct(&certificates) == Distinctness::AllDistinct
+    let pairs = double_certificates(found);
+    // those of octahedral platforms are not compared
+    certificates.len() + pairs.len() == found.roots.iter().filter(|r| r.certified()).count()
+        && all_distinct(&certificates, &pairs) == Distinctness::AllDistinct
 }
 
 /// Compares the certified roots with the count and files both.

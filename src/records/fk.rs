@@ -16,7 +16,9 @@ use crate::manipulator::{Manipulator, height_above_base};
 use crate::num::ball::Disc;
 use crate::poly::{Dyadic, RealRoot};
 use crate::solve::certify::octahedral::OctahedralCertificate;
-use crate::solve::certify::{CentrePrecision, Certificate, PoseEnclosure, ProvedReality, RootCertificate};
+use crate::solve::certify::{
+    CentrePrecision, Certificate, DoubleCertificate, PoseEnclosure, ProvedReality, RootCertificate,
+};
 use crate::solve::pose_count::{CountUndecided, CountedLengths, PoseCount, PoseSet};
 use crate::topology::{JointIndex, Step};
 
@@ -490,6 +492,27 @@ pub enum CertificateRecord {
         /// What holds the pose of the root.
         enclosure: Box<EnclosureRecord>,
     },
+    /// Two roots in the coordinates (e, g / unit) with e[patch] = 1 that are close or one: both lie on a curve through the centre, parametrised by t with |t| below `reach`.
+    Double {
+        /// The coordinate that is 1.
+        patch: usize,
+        /// Design units.
+        unit: Number,
+        /// e0..e3, g0..g3 over the unit.
+        centre: ComplexRecord<[Number; 8]>,
+        /// What the doubles of the centre leave of it.
+        centre_low: ComplexRecord<[Number; 8]>,
+        /// Both roots lie within this distance of the centre.
+        radius: Number,
+        /// Radius of the disc of t.
+        reach: Number,
+        /// What is left beside the square of t over it, on the circle; below 1.
+        dominance: Number,
+        /// `non_real` when neither is real; else it is undecided.
+        reality: ProvedReality,
+        /// What holds both poses.
+        enclosure: Box<EnclosureRecord>,
+    },
     /// In the squared distances (s15, s34); distances are `max(|x| / weights[0], |y| / weights[1])`.
     Octahedral {
         /// Legs 14 24 25 35 36 16, from 0.
@@ -520,6 +543,7 @@ impl From<&RootCertificate> for CertificateRecord {
         match c {
             RootCertificate::Study(c) => c.into(),
             RootCertificate::Octahedral(c) => c.into(),
+            RootCertificate::Double(c) => c.into(),
         }
     }
 }
@@ -535,6 +559,22 @@ impl From<&Certificate> for CertificateRecord {
             uniqueness_radius: Number(c.uniqueness_radius()),
             contraction: Number(c.contraction()),
             precision: c.precision(),
+            reality: c.reality(),
+            enclosure: Box::new(c.enclosure().into()),
+        }
+    }
+}
+
+impl From<&DoubleCertificate> for CertificateRecord {
+    fn from(c: &DoubleCertificate) -> Self {
+        Self::Double {
+            patch: c.patch(),
+            unit: Number(c.unit()),
+            centre: (*c.centre()).into(),
+            centre_low: (*c.low()).into(),
+            radius: Number(c.radius()),
+            reach: Number(c.reach()),
+            dominance: Number(c.dominance()),
             reality: c.reality(),
             enclosure: Box::new(c.enclosure().into()),
         }

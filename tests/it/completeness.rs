@@ -148,7 +148,7 @@ fn a_self_motion_without_dependent_leg_vectors_is_flagged_and_not_called_a_root(
 /// Trilaterable platform whose triple joint lies in the plane of its three base joints: with exact integers the
 /// two places of the joint coincide, and every pose is double.
 #[test]
-fn an_exact_double_root_is_named_unproved_and_not_listed() {
+fn exact_double_roots_are_proved_and_counted_twice() {
     let base = [[3.0, 4.0], [-5.0, 0.0], [0.0, -5.0], [7.0, 1.0], [-4.0, 6.0], [2.0, -6.0]];
     let heights = [0.0, 0.0, 0.0, 2.0, -1.0, 3.0];
     let base: [Point3<f64>; 6] = std::array::from_fn(|i| Point3::new(base[i][0], base[i][1], heights[i]));
@@ -165,19 +165,18 @@ fn an_exact_double_root_is_named_unproved_and_not_listed() {
     // at the identity with the triple joint in the origin, which is in the plane of the first three
     let s = std::array::from_fn(|i| (feet[i] - base[i]).norm_squared());
     let found = solve(&m, &SquaredLegLengths::try_new(s).unwrap());
-    assert_eq!(found.roots, [], "there is no proof of a multiple root");
-    assert_eq!(found.unproved.iter().map(|r| r.multiplicity).sum::<u32>(), 16, "{:?}", found.completeness);
-    assert!(found.unproved.iter().all(|r| !r.certified()));
+    // sixteen poses with multiplicity, and no octahedral platform has more
+    assert!(found.completeness.is_proved(), "{found}");
+    assert_eq!((found.roots.len(), found.certified_count(), found.unproved.len()), (8, 16, 0));
+    assert!(found.roots.iter().all(|r| r.certified() && r.multiplicity == 2));
     assert!(
-        found.unproved.iter().all(|r| r.reality != Reality::Real),
+        found.roots.iter().all(|r| r.reality != Reality::Real),
         "a double root may part into complex ones"
     );
-    // sixteen poses with multiplicity, none of them proved
-    assert!(!found.is_complete() && found.pose_count.as_ref().and_then(PoseCount::finite) == Some(16));
     let near = |r: &equipod::methods::fk::FkRoot| {
         r.pose.position.iter().map(|z| z.norm()).fold(0.0, f64::max) < 1e-5
     };
-    assert!(found.unproved.iter().all(near), "the joint is in the origin in all of them");
+    assert!(found.roots.iter().all(near), "the joint is in the origin in all of them");
 }
 
 #[test]

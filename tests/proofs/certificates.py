@@ -11,6 +11,9 @@ certified ones to 2^-26; far out, where the enclosure is wider (2^-10 at most), 
 
 How it is checked. Newton's method from the centre, then Krawczyk's test in balls about its end, proves a root and says where it is. Uniqueness: F(x) - F(y) = J((x + y) / 2) (x - y) for
 quadrics, and for the closures the second derivatives over the ball bound what J(c) leaves; with Y the inverse of J at the centre, |1 - Y J| < 1 is checked.
+
+Of kind `double`: exactly two roots, counted with multiplicity, lie within `radius` of the centre, and R and p of both in `enclosure`. How it is checked: bordered equations of this file's own, a
+Newton map that contracts for all t in a disc, the smallest that does, and Rouche's theorem for the quadratic term on its circle.
 """
 
 import json
@@ -234,6 +237,82 @@ def check_study(legs, lengths, solution, record):
     rotation, position = pose_of(system.whole(box), unit)
     size = max(abs(x) for leg in legs for joint in leg for x in joint)
     check_pose(rotation, position, power_of_two(max(size, *lengths)), solution, record)
+    return (patch, unit, system.whole(box))
+
+
+# --- kind `double` -----------------------------------------------------------------------------------------------------------------------------------
+
+
+def flat_directions(matrix):
+    """The column that the image of a 7 x 7 matrix lacks and the row that its kernel needs, to the digits of doubles."""
+    import numpy
+
+    values = numpy.array([[complex(matrix[i, j]) for j in range(7)] for i in range(7)])
+    u, _, v = numpy.linalg.svd(values)
+    return [acb(z.real, z.imag) for z in u[:, 6]], [acb(z.real, z.imag) for z in v[6, :]]
+
+
+def check_double(legs, lengths, solution, record):
+    unit, patch = exact(record["unit"]), record["patch"]
+    need(0 <= patch < 4 and bool(unit > 0), "no patch or unit")
+    system = Study(legs, lengths, patch, unit)
+    centre = [complex_of(record["centre"], k) + complex_of(record["centre_low"], k) for k in range(8)]
+    need(bool(abs(centre[patch] - 1) == 0), "the patch is not 1 at the centre")
+    centre = [centre[k] for k in system.free]
+    radius = exact(record["radius"])
+    j = system.jacobian(centre)
+    w, l = flat_directions(j)
+    bordered = acb_mat([[j[i, k] for k in range(7)] + [-w[i]] for i in range(7)] + [l + [acb(0)]])
+    y = middle_inverse(bordered)
+    defect = y * bordered
+    rows = [sum((upper(defect[i, k] - (1 if i == k else 0)) for k in range(8)), arb(0)) for i in range(8)]
+    kappa = largest(rows)
+    f = system.values(centre)
+    steps = [upper(sum((y[i, k] * f[k] for k in range(7)), acb(0))) for i in range(8)]
+    curved = []
+    for i in range(8):
+        combined = None
+        for k, m in enumerate(system.matrices):
+            part = m * y[i, k]
+            combined = part if combined is None else combined + part
+        curved.append(sum((upper(combined[p, q]) for p in system.free for q in system.free), arb(0)))
+    eta, beta = largest(steps), largest(curved)
+    direction = [y[i, 7] for i in range(7)]
+    v, z = largest(direction), largest(direction + [y[7, 7]])
+    column = acb_mat([[x] for x in direction[:patch] + [acb(0)] + direction[patch:]])
+    bend = acb(0)
+    for k, m in enumerate(system.matrices):
+        image = m * column
+        bend = bend + y[7, k] * sum((column[i, 0] * image[i, 0] for i in range(8)), acb(0))
+    bend = abs(bend).lower()
+    for exponent in range(-140, -3):
+        rho = arb(2) ** exponent
+        rest = 3 * (eta + kappa * rho * z + beta * (rho * v) ** 2)
+        away = rho * v + rest
+        inside = below(kappa * (rest + rho * z) + eta + beta * away**2, rest)
+        contracts = below(kappa + 2 * beta * away, arb(1))
+        other = rho * upper(y[7, 7]) + rows[7] * (rest + rho * z) + steps[7] + curved[7] * (2 * rho * v * rest + rest**2)
+        if inside and contracts and below(other, bend * rho**2):
+            break
+    else:
+        raise Refuted("no disc in which there are two roots")
+    need(bool(away <= radius), f"the roots are within {away.str(5)} of the centre, not {radius.str(5)}")
+    box = [ball(x, away) for x in centre]
+    stated = record["reality"]
+    need(stated in ("undecided", "non_real"), f"two roots are said to be {stated}")
+    need(stated == "undecided" or any(not x.imag.contains(0) for x in box), "said to be not real without proof")
+    need(solution["real"] is {"undecided": None, "non_real": False}[stated], "`real` is not what is proved")
+    need(solution["multiplicity"] == 2, "two roots that do not count twice")
+    rotation, position = pose_of(system.whole(box), unit)
+    e = record["enclosure"]
+    for i in range(3):
+        for k in range(3):
+            disc = ball(acb(exact(e["R"]["re"][i][k]), exact(e["R"]["im"][i][k])), exact(e["R"]["radius"][i][k]))
+            need(disc.contains(rotation[i][k]), f"R[{i}][{k}] is not in its disc")
+            given = acb(exact(solution["R"]["re"][i][k]), exact(solution["R"]["im"][i][k]))
+            need(disc.contains(given), f"R[{i}][{k}] of the pose is not in its disc")
+        disc = ball(acb(exact(e["p"]["re"][i]), exact(e["p"]["im"][i])), exact(e["p"]["radius"][i]))
+        need(disc.contains(position[i]), f"p[{i}] is not in its disc")
     return (patch, unit, system.whole(box))
 
 
@@ -470,6 +549,8 @@ def check(legs, lengths, solution):
     try:
         if record["kind"] == "study":
             return "", check_study(legs, lengths, solution, record)
+        if record["kind"] == "double":
+            return "", check_double(legs, lengths, solution, record)
         if record["kind"] == "octahedral":
             return "", check_octahedral(legs, lengths, solution, record)
         return f"unknown kind {record['kind']}", None
@@ -502,7 +583,7 @@ FAULTS = {
         shifted(s), s["certificate"]["centre"]["re"][shifted(s)] * (1 + 1e-3) + 1e-3
     ),
     "radius too small": lambda s, l: s["certificate"].__setitem__("radius", s["certificate"]["radius"] * 2.0**-40),
-    "uniqueness radius too large": lambda s, l: s["certificate"].__setitem__("uniqueness_radius", s["certificate"]["uniqueness_radius"] * 1e6),
+    "uniqueness radius too large": lambda s, l: wider(s),
     "reality turned round": lambda s, l: turn_reality(s),
     "a length off by 1e-6": lambda s, l: l.__setitem__(2, l[2] * (1 + 1e-6)),
     "an enclosure beside the root": lambda s, l: s["certificate"]["enclosure"]["p"]["re"].__setitem__(
@@ -514,7 +595,16 @@ FAULTS = {
 
 def shifted(s):
     record = s["certificate"]
-    return (record["patch"] + 1) % 4 if record["kind"] == "study" else 0
+    return (record["patch"] + 1) % 4 if record["kind"] in ("study", "double") else 0
+
+
+def wider(s):
+    """More is said to be free of other roots than is; of two roots, that there are three."""
+    record = s["certificate"]
+    if record["kind"] == "double":
+        s["multiplicity"] = 3
+    else:
+        record["uniqueness_radius"] *= 1e6
 
 
 def rotation_size(s):

@@ -210,3 +210,45 @@ fn special_lengths_get_the_general_treatment() {
     assert!(prepared.whole(&s, &o).unwrap().is_none());
     assert_eq!(prepared.solve(&s, &o).unwrap(), Homotopy.solve(&m, &s, &o).unwrap());
 }
+
+/// Legs with joints in whole numbers that are perpendicular to the velocities of one twist at the identity: the pose is singular exactly.
+fn exactly_singular(
+    rng: &mut Rng,
+    base: [usize; 6],
+    platform: [usize; 6],
+) -> Option<(Manipulator, SquaredLegLengths)> {
+    let mut vector = |most: f64| Vector3::from_fn(|_, _| rng.uniform(-most, most).round());
+    let (velocity, turn, position) = (vector(4.0), vector(4.0), vector(3.0) + Vector3::z() * 8.0);
+    let joints: [Vector3<f64>; 6] = std::array::from_fn(|_| vector(6.0));
+    let legs: [Vector3<f64>; 6] =
+        std::array::from_fn(|i| (velocity + turn.cross(&joints[platform[i]])).cross(&vector(3.0)));
+    let six = |i: usize| Leg {
+        base: Point3::from(joints[platform[i]] + position - legs[base[i]]),
+        platform: Point3::from(joints[platform[i]]),
+    };
+    let m = Manipulator::from_legs(std::array::from_fn(six)).ok()?;
+    let s = Pose { rotation: Rotation3::identity(), position }.squared_lengths(&m)?;
+    Some((m, s))
+}
+
+#[test]
+fn simple_poses_and_a_proved_double_one_are_a_complete_answer() {
+    let mut rng = Rng::new(0xdd);
+    let own = [0, 1, 2, 3, 4, 5];
+    let mut whole = 0;
+    for k in 0..10 {
+        let Some((m, s)) = exactly_singular(&mut rng, own, own) else { continue };
+        let found = Homotopy.solve(&m, &s, &FkOptions::default()).unwrap();
+        let double: Vec<&FkRoot> = found.roots.iter().filter(|r| r.multiplicity == 2).collect();
+        if !found.completeness.is_proved() {
+            println!("{k}: {found}");
+            continue;
+        }
+        whole += 1;
+        assert_eq!((found.roots.len(), double.len(), found.certified_count()), (39, 1, 40), "{k}");
+        assert!(double[0].certified() && double[0].reality == crate::fk::Reality::Undecided);
+        let identity = double[0].pose.rotation - Matrix3::identity();
+        assert!(identity.iter().all(|z| z.norm() < 1e-9), "{k}");
+    }
+    assert!(whole >= 8, "{whole}");
+}

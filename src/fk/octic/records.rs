@@ -81,11 +81,7 @@ pub(super) fn proved_one_by_one(
     let enclosure = |r: &FkRoot| r.certificate.map(|c| *c.enclosure());
     let by_pair = |r: &&FkRoot| matches!(r.certificate, Some(RootCertificate::Octahedral(_)));
     let apart = |c: &Certificate| {
-        roots
-            .iter()
-            .filter(by_pair)
-            .filter_map(enclosure)
-            .all(|known| known.discs().zip(c.enclosure().discs()).any(|(x, y)| x.is_disjoint(y)))
+        roots.iter().filter(by_pair).filter_map(enclosure).all(|known| known.is_disjoint(c.enclosure()))
     };
     let whole = roots.len() == 2 * LANES
         && pairs_apart

@@ -3,6 +3,7 @@
 use num_complex::Complex64;
 use thiserror::Error;
 
+use super::double::DoubleCertificate;
 use super::octahedral::OctahedralCertificate;
 use crate::geom::ComplexPose;
 use crate::num::ball::Disc;
@@ -54,6 +55,11 @@ impl PoseEnclosure {
     /// The twelve discs, `R` row by row, then `p`.
     pub fn discs(&self) -> impl Iterator<Item = &Disc> {
         self.rotation.iter().flatten().chain(&self.position)
+    }
+
+    /// Proves that no pose is in both.
+    pub(crate) fn is_disjoint(&self, other: &Self) -> bool {
+        self.discs().zip(other.discs()).any(|(x, y)| x.is_disjoint(y))
     }
 
     /// The centres of the discs.
@@ -224,7 +230,7 @@ impl CertifiedPose {
     }
 }
 
-/// A certificate of either kind.
+/// A certificate of any kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[allow(clippy::large_enum_variant)] // plain values, kept with roots that are as large
 pub enum RootCertificate {
@@ -232,6 +238,8 @@ pub enum RootCertificate {
     Study(Certificate),
     /// In two squared distances; octahedral platforms.
     Octahedral(OctahedralCertificate),
+    /// Of two roots that are close or one; any six legs.
+    Double(DoubleCertificate),
 }
 
 impl RootCertificate {
@@ -241,6 +249,7 @@ impl RootCertificate {
         match self {
             Self::Study(c) => c.enclosure(),
             Self::Octahedral(c) => c.enclosure(),
+            Self::Double(c) => c.enclosure(),
         }
     }
 
@@ -250,6 +259,7 @@ impl RootCertificate {
         match self {
             Self::Study(c) => c.reality(),
             Self::Octahedral(c) => c.pair().reality,
+            Self::Double(c) => c.reality(),
         }
     }
 }

@@ -30,7 +30,7 @@ pub enum Distinctness {
 /// (`e.e` near 0) two poses may agree in all the leading digits of `R` and `p` and still have quite different `g`.
 #[must_use]
 pub fn relation(a: &Certificate, b: &Certificate) -> RootRelation {
-    if a.enclosure.discs().zip(b.enclosure.discs()).any(|(x, y)| x.is_disjoint(y)) {
+    if a.enclosure.is_disjoint(&b.enclosure) {
         return RootRelation::Distinct;
     }
     let seen = [(a, b), (b, a)].map(|(inner, outer)| (on_patch_of(inner, outer), outer));

@@ -34,6 +34,7 @@
 //! | `certificate_about` | does a ball about the centre hold exactly one root, with finite `R` and `p` in known discs? is the root real? | `one_root_about`; disc arithmetic over the ball, in which `e.e` must not vanish; conjugation for reality | as above; reality has an [`Undecided`](ProvedReality::Undecided) of its own |
 //! | `one_root_about` | does a ball about the centre hold exactly one root? | the contraction theorem of `krawczyk.rs`; the centre is finite, on its patch, with a Newton step of at most [`NEAR`] | no ball contracts: no root, two close ones, or data or digits that are not good enough |
 //! | `pose_is_the_root` | has the pose the digits of the certified root? | the distance from all points of the enclosure is at most [`NEAR`] | the root is proved, but is not shown to be this pose |
+//! | [`Certifier::two_roots_near`] | do exactly two roots, counted with multiplicity, lie near this pose? | the bordered equations and Rouche's theorem of `double.rs`; the Jacobian has one small singular value | as above |
 //! | [`relation()`], [`distinct()`] | are two certified roots different, or one? | different where enclosures are disjoint, one where an enclosure lies in the other's ball of uniqueness; certificates of one problem | [`RootRelation::Undecided`]: enclosures overlap |
 //!
 //! [`Certifier::refine`] proves nothing: it is Newton's method in double-double. Octahedral platforms have a certificate of all sixteen poses
@@ -65,6 +66,7 @@ mod certificate;
 mod coordinates;
 mod differences;
 mod distinct;
+mod double;
 mod inverse;
 mod krawczyk;
 pub mod octahedral;
@@ -82,6 +84,7 @@ pub use certificate::{
 };
 pub(crate) use coordinates::dual_quaternion;
 pub use distinct::{Distinctness, RootRelation, distinct, relation};
+pub use double::DoubleCertificate;
 pub use refine::RefinedPose;
 pub use system::SquareData;
 
@@ -96,6 +99,7 @@ use coordinates::{
     PrecisePoint, deviation, enclose_pose, enclose_pose_widely, pose_in_double, pose_of, rotation_distance,
     rounded_pose, study_at, study_of,
 };
+use double::two_roots_near;
 use krawczyk::{Centre, Digits, RootBall, one_root_about};
 use refine::refine_study;
 use system::{LegSystem, RealScalar, Study};
@@ -291,6 +295,18 @@ impl Certifier {
         let is_middle = || deviation(pose, &enclosure, unit, true) <= ROUNDED;
         let far_out = distance <= FAR_OUT && c.precision == CentrePrecision::DoubleDouble && is_middle();
         if distance <= NEAR || far_out { Ok(()) } else { Err(WhyUncertified::Deviation { distance }) }
+    }
+
+    /// Decides whether exactly two roots, counted with multiplicity, lie near the pose: two close ones or a double one. The pose of the answer is the middle
+    /// between them.
+    ///
+    /// # Errors
+    /// [`WhyUncertified`]: not that there are no two.
+    pub fn two_roots_near(
+        &self,
+        pose: &ComplexPose,
+    ) -> Result<(ComplexPose, DoubleCertificate), WhyUncertified> {
+        two_roots_near(&self.0, pose)
     }
 
     /// Newton in double-double from the pose, as far as it leads: about `2^-102` times the condition of the root.
