@@ -142,6 +142,8 @@ mod page;
 #[cfg(feature = "files")]
 mod plot;
 mod poly;
+#[cfg(feature = "python")]
+mod python;
 #[cfg(feature = "page")]
 pub mod records;
 #[cfg(feature = "page")]

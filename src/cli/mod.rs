@@ -37,10 +37,15 @@ use crate::num::rounding::check_arithmetic;
 
 /// Runs the program on its arguments and returns its exit code. Panics inside are caught and reported.
 pub fn main(args: impl IntoIterator<Item = OsString>) -> ExitCode {
+    ExitCode::from(status(args))
+}
+
+/// As [`main`]; the exit code as a number.
+pub fn status(args: impl IntoIterator<Item = OsString>) -> u8 {
     let args: Vec<OsString> = args.into_iter().collect();
     // clap knows about --json only when it understood everything, but its refusals must obey it too
     let json = args.iter().skip(1).take_while(|a| *a != "--").any(|a| a == "--json");
-    guarded(json, || run(args, json)).into()
+    guarded(json, || run(args, json)).code()
 }
 
 /// Runs `body`; a panic in it becomes a failure with exit 4, in JSON when asked.

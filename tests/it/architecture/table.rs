@@ -240,6 +240,31 @@ const LINES: &[Line] = &[
             ERRORS,
         ],
     ),
+    (
+        "python",
+        &[
+            "names",
+            "num",
+            "geom",
+            "manipulator",
+            "requirements",
+            "fk",
+            "synthesis",
+            "design",
+            "records",
+            "entrance",
+            "cli",
+        ],
+        &[
+            MATRICES,
+            COMPLEX,
+            ("ndarray", None),
+            ("numpy", None),
+            ("pyo3", None),
+            ("serde", None),
+            ("serde_json", None),
+        ],
+    ),
     ("main", &["cli"], &[]),
 ];
 

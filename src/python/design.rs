@@ -1,0 +1,365 @@
+//! Designs, and what is asked of them.
+
+use std::num::NonZeroUsize;
+use std::sync::{Arc, OnceLock};
+
+use ndarray::{Array2, Array3};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray2, PyReadonlyArray3};
+use pyo3::prelude::*;
+
+use super::answers::document;
+use super::arrays::{lengths_in, matrices, poses_in, rows};
+use super::failure::{raised, refused};
+use super::solutions::{NativeSolutions, SolutionArrays, SolutionColumns};
+use super::tracker::NativeTracker;
+use crate::design::{self, Format, PRESETS, parse};
+use crate::entrance::{Error, Solver};
+use crate::fk::{FkOptions, Method, Threads};
+use crate::manipulator::{Body, Manipulator, NoSuchBody, jacobian};
+use crate::nalgebra::Point3;
+use crate::num::Cancel;
+use crate::records::{AssessAnswer, CheckAnswer};
+use crate::requirements::{AssessOptions, Terms};
+
+/// A platform with names, units, home pose and requirements.
+#[pyclass(frozen, name = "Design", module = "equipod._core")]
+pub(super) struct NativeDesign {
+    design: Arc<design::Design>,
+    /// Prepared with the default options, for batches.
+    solver: OnceLock<Solver>,
+}
+
+impl NativeDesign {
+    pub(super) fn of(design: design::Design) -> Self {
+        Self { design: Arc::new(design), solver: OnceLock::new() }
+    }
+
+    pub(super) fn inner(&self) -> &design::Design {
+        &self.design
+    }
+
+    fn body(py: Python<'_>, name: &str) -> PyResult<Body> {
+        name.parse().map_err(|e: NoSuchBody| refused(py, "unknown_name", &e.to_string()))
+    }
+}
+
+/// Rows of a batch between two looks for a signal, milliseconds where rows take longest.
+const SIGNALS: usize = 64;
+
+/// How many threads; `None` is one for each processor.
+pub(super) fn threads_of(py: Python<'_>, threads: Option<usize>) -> PyResult<Threads> {
+    match threads {
+        None => Ok(Threads::All),
+        Some(n) => NonZeroUsize::new(n)
+            .map(Threads::Count)
+            .ok_or_else(|| refused(py, "threads", "threads counts from 1; None is one for each processor")),
+    }
+}
+
+fn points(py: Python<'_>, joints: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<Point3<f64>>> {
+    let joints = joints.as_array();
+    if joints.shape()[1] != 3 {
+        return Err(refused(py, "shape", &format!("joints are (n, 3), not {:?}", joints.shape())));
+    }
+    Ok(joints.rows().into_iter().map(|r| Point3::new(r[0], r[1], r[2])).collect())
+}
+
+fn options(py: Python<'_>, seed: u64, method: Option<&str>) -> PyResult<FkOptions> {
+    let options = FkOptions::new().seed(seed);
+    match method {
+        None => Ok(options),
+        Some(name) => {
+            let method: Method = name.parse().map_err(|e: crate::names::UnknownName| raised(py, e.into()))?;
+            Ok(options.method(method))
+        }
+    }
+}
+
+#[pymethods]
+impl NativeDesign {
+    /// Reads a file.
+    #[staticmethod]
+    fn load(py: Python<'_>, path: std::path::PathBuf) -> PyResult<Self> {
+        design::Design::load(path).map(Self::of).map_err(|e| raised(py, e))
+    }
+
+    /// Reads a text, TOML or JSON.
+    #[staticmethod]
+    fn loads(py: Python<'_>, text: &str, json: bool) -> PyResult<Self> {
+        let format = if json { Format::Json } else { Format::Toml };
+        let read = parse(text, format).map_err(|violations| Error::Design { file: None, violations });
+        read.map(|(design, _)| Self::of(design)).map_err(|e| raised(py, e))
+    }
+
+    /// A preset by its name.
+    #[staticmethod]
+    fn preset(py: Python<'_>, name: &str) -> PyResult<Self> {
+        match PRESETS.iter().find(|p| p.name == name) {
+            Some(preset) => Self::loads(py, preset.text, false),
+            None => {
+                let known: Vec<&str> = PRESETS.iter().map(|p| p.name).collect();
+                let message = format!("there is no preset `{name}`; there are {}", known.join(", "));
+                Err(refused(py, "unknown_name", &message))
+            }
+        }
+    }
+
+    /// Joints, and which of them each leg joins.
+    #[staticmethod]
+    fn from_arrays(
+        py: Python<'_>,
+        base: PyReadonlyArray2<'_, f64>,
+        platform: PyReadonlyArray2<'_, f64>,
+        legs: [(usize, usize); 6],
+        name: &str,
+        units: &str,
+    ) -> PyResult<Self> {
+        let made = Manipulator::try_new(points(py, &base)?, points(py, &platform)?, legs);
+        let manipulator = made.map_err(|e| raised(py, e.into()))?;
+        Ok(Self::of(design::Design::new(name, units, manipulator)))
+    }
+
+    /// The design with another home pose.
+    fn with_home(&self, py: Python<'_>, pose: PyReadonlyArray3<'_, f64>) -> PyResult<Self> {
+        let home = poses_in(py, &pose.as_array())?.into_iter().next();
+        let mut design = design::Design::clone(&self.design);
+        design.home = home;
+        Ok(Self::of(design))
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        &self.design.name
+    }
+
+    #[getter]
+    fn units(&self) -> &str {
+        &self.design.units
+    }
+
+    /// Whether the design says where home is.
+    #[getter]
+    fn has_home(&self) -> bool {
+        self.design.home.is_some()
+    }
+
+    /// Home, or a pose above the base where the design says none; float64, shape (4, 4).
+    fn home<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        let home = matrices(&[self.design.home_or_default()]);
+        home.index_axis_move(ndarray::Axis(0), 0).into_pyarray(py)
+    }
+
+    /// The joints of a body, float64, shape (n, 3).
+    fn joints<'py>(&self, py: Python<'py>, body: &str) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let joints = self.design.manipulator().joints(Self::body(py, body)?);
+        Ok(Array2::from_shape_fn((joints.len(), 3), |(i, k)| joints[i][k]).into_pyarray(py))
+    }
+
+    /// The names of the joints of a body.
+    fn joint_names(&self, py: Python<'_>, body: &str) -> PyResult<Vec<String>> {
+        Ok(Self::body(py, body)?.of((self.design.base_names(), self.design.platform_names())).to_vec())
+    }
+
+    /// Which joint of the base and of the platform each leg joins, int64, shape (6, 2).
+    fn legs<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<i64>> {
+        let pairs = self.design.manipulator().pairs().map(|(a, b)| [a as i64, b as i64]);
+        Array2::from_shape_fn((6, 2), |(i, k)| pairs[i][k]).into_pyarray(py)
+    }
+
+    /// What is allowed in the file but often a slip.
+    fn warnings(&self) -> Vec<String> {
+        self.design.warnings().iter().map(ToString::to_string).collect()
+    }
+
+    /// The text of the design.
+    fn dumps(&self, json: bool) -> String {
+        if json { self.design.to_json() } else { self.design.text() }
+    }
+
+    /// Writes a file.
+    fn save(&self, py: Python<'_>, path: std::path::PathBuf) -> PyResult<()> {
+        self.design.save(path).map_err(|e| raised(py, e))
+    }
+
+    /// Leg lengths, float64, shape (n, 6), of poses (n, 4, 4).
+    fn ik<'py>(
+        &self,
+        py: Python<'py>,
+        poses: PyReadonlyArray3<'py, f64>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let poses = poses_in(py, &poses.as_array())?;
+        let m = self.design.manipulator();
+        let lengths = py.detach(|| {
+            poses
+                .iter()
+                .map(|pose| pose.lengths(m).map(|l| l.get()).ok_or(Error::Overflow))
+                .collect::<Result<Vec<_>, _>>()
+        });
+        Ok(rows(&lengths.map_err(|e| raised(py, e))?).into_pyarray(py))
+    }
+
+    /// Leg speeds by velocity and angular velocity, float64, shape (n, 6, 6), at poses (n, 4, 4).
+    fn jacobian<'py>(
+        &self,
+        py: Python<'py>,
+        poses: PyReadonlyArray3<'py, f64>,
+        characteristic_length: f64,
+    ) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        let poses = poses_in(py, &poses.as_array())?;
+        let m = self.design.manipulator();
+        let all = py.detach(|| {
+            let mut all = Array3::zeros((poses.len(), 6, 6));
+            for (k, pose) in poses.iter().enumerate() {
+                let j = jacobian(m, pose, characteristic_length);
+                for (i, row) in j.row_iter().enumerate() {
+                    for (l, value) in row.iter().enumerate() {
+                        all[[k, i, l]] = *value;
+                    }
+                }
+            }
+            all
+        });
+        Ok(all.into_pyarray(py))
+    }
+
+    /// The length that moments are divided by in conditioning numbers.
+    fn characteristic_length(&self) -> f64 {
+        self.design.characteristic_length()
+    }
+
+    /// All finite poses with six lengths.
+    fn fk(
+        &self,
+        py: Python<'_>,
+        lengths: [f64; 6],
+        seed: u64,
+        method: Option<&str>,
+    ) -> PyResult<NativeSolutions> {
+        let options = options(py, seed, method)?;
+        let found = py.detach(|| self.design.fk_with(lengths, options)).map_err(|e| raised(py, e))?;
+        Ok(NativeSolutions::new(found, &self.design))
+    }
+
+    /// All finite poses with each row of lengths (n, 6).
+    fn fk_batch<'py>(
+        &self,
+        py: Python<'py>,
+        lengths: PyReadonlyArray2<'py, f64>,
+        threads: Option<usize>,
+    ) -> PyResult<SolutionArrays<'py>> {
+        let rows = lengths_in(py, &lengths.as_array())?;
+        let threads = threads_of(py, threads)?;
+        let cancel = Cancel::new();
+        let found = py.detach(|| {
+            let prepared = self.solver.get_or_init(|| self.design.solver(FkOptions::new()));
+            let solver = prepared.clone().threads(threads).cancel(&cancel);
+            let mut found = SolutionColumns::default();
+            for (k, row) in solver.solve_all(rows).enumerate() {
+                found.push(&row);
+                if k % SIGNALS == 0 && Python::attach(|py| py.check_signals()).is_err() {
+                    cancel.cancel();
+                    return Err(Error::Cancelled);
+                }
+            }
+            Ok(found)
+        });
+        found.map_err(|e| raised(py, e))?.into_arrays(py)
+    }
+
+    /// Real poses followed from `start` (1, 4, 4).
+    fn tracker(&self, py: Python<'_>, start: PyReadonlyArray3<'_, f64>) -> PyResult<NativeTracker> {
+        let start = poses_in(py, &start.as_array())?;
+        let first = start.first().ok_or_else(|| refused(py, "shape", "a tracker starts at one pose"))?;
+        Ok(NativeTracker(self.design.tracker(*first)))
+    }
+
+    /// The margins of all requirements at poses (n, 4, 4): names, units and legs or joints of the columns, and float64 of shape (n, columns).
+    #[allow(clippy::type_complexity)]
+    fn margins<'py>(
+        &self,
+        py: Python<'py>,
+        poses: PyReadonlyArray3<'py, f64>,
+    ) -> PyResult<(Vec<(String, String, Vec<String>)>, Bound<'py, PyArray2<f64>>)> {
+        let poses = poses_in(py, &poses.as_array())?;
+        let required = self.design.requirements();
+        let home = self.design.home_or_default();
+        let terms = Terms::new(self.design.manipulator(), &required, &home);
+        let fixed = terms.fixed();
+        let columns: Vec<_> = terms.at(&home).into_iter().chain(fixed.iter().copied()).map(|t| t.0).collect();
+        let names = columns
+            .iter()
+            .map(|t| {
+                let unit = self.design.unit_of(t.kind.quantity());
+                (t.kind.code().to_owned(), unit, self.design.names_of(*t))
+            })
+            .collect();
+        let mut out = Array2::zeros((poses.len(), columns.len()));
+        for (k, pose) in poses.iter().enumerate() {
+            for (j, (_, margin)) in terms.at(pose).iter().chain(&fixed).enumerate() {
+                out[[k, j]] = *margin;
+            }
+        }
+        Ok((names, out.into_pyarray(py)))
+    }
+
+    /// The answer of `equipod check`.
+    fn check(&self, py: Python<'_>, seed: u64) -> PyResult<String> {
+        let found = py.detach(|| self.design.check_with(seed)).map_err(|e| raised(py, e))?;
+        document(CheckAnswer::from(&found), &[&self.design], Some(seed))
+    }
+
+    /// The answer of `equipod assess`.
+    fn assess(
+        &self,
+        py: Python<'_>,
+        points: usize,
+        steps: usize,
+        searches: usize,
+        cells: usize,
+        seed: u64,
+    ) -> PyResult<String> {
+        let options = AssessOptions::new().points(points).steps(steps).searches(searches).seed(seed);
+        let found = py.detach(|| self.design.assess_with(&options, cells)).map_err(|e| raised(py, e))?;
+        document(AssessAnswer::new(&self.design, &found), &[&self.design], Some(seed))
+    }
+
+    /// An equivalent of the class: a pattern by its name (`None`: separate joints) and offsets; the design, `A` and `c`.
+    #[allow(clippy::type_complexity)]
+    fn equivalent<'py>(
+        &self,
+        py: Python<'py>,
+        pattern: Option<&str>,
+        offsets: Vec<f64>,
+    ) -> PyResult<(Self, Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>)> {
+        let built = || -> Result<_, Error> {
+            let class = self.design.equivalents()?;
+            match pattern {
+                Some(name) => Ok(class.build(&name.parse()?, &offsets)?),
+                None => {
+                    let six: [f64; 6] = offsets.as_slice().try_into().map_err(|_| {
+                        Error::from(crate::synthesis::InstantiateError::OffsetCount {
+                            expected: 6,
+                            given: offsets.len(),
+                        })
+                    })?;
+                    Ok(class.joint_free(six)?)
+                }
+            }
+        };
+        let (design, map) = built().map_err(|e| raised(py, e))?;
+        let a = Array2::from_shape_fn((6, 6), |(i, j)| map.a[(i, j)]).into_pyarray(py);
+        let c = ndarray::Array1::from_iter(map.c.iter().copied()).into_pyarray(py);
+        Ok((Self::of(design), a, c))
+    }
+
+    /// The files of a format: names and texts.
+    fn export(&self, py: Python<'_>, format: &str) -> PyResult<Vec<(String, String)>> {
+        let format = format.parse().map_err(|e: crate::names::UnknownName| raised(py, e.into()))?;
+        let files = py.detach(|| self.design.export(format)).map_err(|e| raised(py, e))?;
+        Ok(files.into_iter().map(|f| (f.name, f.text)).collect())
+    }
+
+    fn __eq__(&self, other: &Self) -> bool {
+        self.design == other.design
+    }
+}

@@ -1,0 +1,47 @@
+"""Gough-Stewart platforms: all poses from leg lengths with certificates, equivalent platforms without shared joints, designs that can be built.
+
+>>> import equipod
+>>> design = equipod.Design.preset("bench-l16")
+>>> lengths = design.ik(design.home)
+>>> found = design.fk(lengths)
+>>> found.complete, int(found.real.sum()) > 0
+(True, True)
+
+Poses are 4 x 4 homogeneous matrices ``[[R, p], [0, 1]]`` of float64, batch first ``(..., 4, 4)``, from platform to base frame; leg lengths have the shape
+``(..., 6)``; lengths are in the unit of the design, angles in radians unless an argument says degrees. The tour is ``docs/python.md`` of the sources.
+"""
+
+from __future__ import annotations
+
+from ._core import __version__
+from ._design import Design, Equivalent, Joints, LegMap, Margins, Track, Tracker, leg_map, presets, verify
+from ._display import Figure, Page
+from ._errors import CommandError, DesignError, Fault
+from ._poses import PoseLike, pose, quaternion, rpy
+from ._solutions import BatchSolutions, Solution, Solutions
+
+__all__ = [
+    "BatchSolutions",
+    "CommandError",
+    "Design",
+    "DesignError",
+    "Equivalent",
+    "Fault",
+    "Figure",
+    "Joints",
+    "LegMap",
+    "Margins",
+    "Page",
+    "PoseLike",
+    "Solution",
+    "Solutions",
+    "Track",
+    "Tracker",
+    "__version__",
+    "leg_map",
+    "pose",
+    "presets",
+    "quaternion",
+    "rpy",
+    "verify",
+]

@@ -1,0 +1,653 @@
+"""Designs, and what is asked of them."""
+
+from __future__ import annotations
+
+import os
+import pathlib
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._display import Figure, Page
+from ._errors import DesignError
+from ._poses import Floats, PoseLike, as_matrices
+from ._program import Progress, Workshop, ask, text_of
+from ._solutions import BatchSolutions, Solutions
+
+if TYPE_CHECKING:
+    from .records import (
+        AssessAnswer,
+        CheckAnswer,
+        MapAnswer,
+        OptimizeAnswer,
+        RoundAnswer,
+        TolerancesAnswer,
+        VerifyAnswer,
+    )
+
+_LEGS = ((0, 0), (1, 1), (2, 2), (3, 3), (4, 4), (5, 5))
+
+
+def presets() -> tuple[str, ...]:
+    """The names that `Design.preset` takes."""
+    return tuple(_core.preset_names())
+
+
+def _lengths(lengths: npt.ArrayLike) -> Floats:
+    array = np.ascontiguousarray(lengths, dtype=np.float64)
+    if array.ndim < 1 or array.shape[-1] != 6:
+        raise DesignError(f"leg lengths have the shape (..., 6), not {array.shape}", code="shape")
+    return array
+
+
+@dataclass(frozen=True)
+class Joints:
+    """The joints of a design.
+
+    Attributes
+    ----------
+    base : ndarray, float64, shape (n, 3)
+        Base joints in the base frame.
+    platform : ndarray, float64, shape (m, 3)
+        Platform joints in the platform frame.
+    legs : ndarray, int64, shape (6, 2)
+        Row of `base` and row of `platform` that each leg joins.
+    base_names, platform_names : tuple of str
+        The names of the rows.
+    """
+
+    base: Floats
+    platform: Floats
+    legs: npt.NDArray[np.int64]
+    base_names: tuple[str, ...]
+    platform_names: tuple[str, ...]
+
+    @property
+    def base_ends(self) -> Floats:
+        """The base end of each leg, shape (6, 3)."""
+        return self.base[self.legs[:, 0]]
+
+    @property
+    def platform_ends(self) -> Floats:
+        """The platform end of each leg, shape (6, 3)."""
+        return self.platform[self.legs[:, 1]]
+
+
+@dataclass(frozen=True)
+class LegMap:
+    """The affine map between the squared leg lengths of two designs, ``s(b) = A s(a) + c``.
+
+    Attributes
+    ----------
+    A : ndarray, float64, shape (6, 6), or None
+        None where there is no map.
+    c : ndarray, float64, shape (6,), or None
+        In squared units of length.
+    record : MapAnswer
+        All that is known of it: whether it is exact, ``det A``, which legs have none.
+    """
+
+    A: Floats | None
+    c: Floats | None
+    record: MapAnswer
+
+    def lengths(self, lengths: npt.ArrayLike) -> Floats:
+        """The lengths of the second design at the poses of these lengths of the first.
+
+        Parameters
+        ----------
+        lengths : array_like, shape (..., 6)
+
+        Returns
+        -------
+        ndarray, float64, shape (..., 6)
+
+        Raises
+        ------
+        DesignError
+            Where there is no map, or a squared length comes out negative: no pose has these lengths.
+        """
+        if self.A is None or self.c is None:
+            raise DesignError("there is no leg map between these designs", code="map")
+        squares = _lengths(lengths) ** 2 @ self.A.T + self.c
+        if not np.all(squares >= 0):
+            raise DesignError("no pose has these lengths: a squared length of the other design is negative", code="lengths")
+        return np.sqrt(squares)
+
+
+@dataclass(frozen=True)
+class Equivalent:
+    """A platform of the class of an octahedral one, and its map: ``s(design) = A s(original) + c``.
+
+    Attributes
+    ----------
+    design : Design
+    A : ndarray, float64, shape (6, 6)
+    c : ndarray, float64, shape (6,)
+    """
+
+    design: Design
+    A: Floats
+    c: Floats
+
+
+@dataclass(frozen=True)
+class Margins:
+    """By how much requirements are met at poses; a violation below zero.
+
+    Attributes
+    ----------
+    names : tuple of str
+        The kind of requirement of each column.
+    of : tuple of str
+        Legs, joints or load of each column.
+    units : tuple of str
+    values : ndarray, float64, shape (..., columns)
+    """
+
+    names: tuple[str, ...]
+    of: tuple[str, ...]
+    units: tuple[str, ...]
+    values: Floats
+
+    @property
+    def least(self) -> dict[str, float]:
+        """The least margin of each kind over all poses."""
+        out: dict[str, float] = {}
+        for k, name in enumerate(self.names):
+            value = float(np.min(self.values[..., k]))
+            out[name] = min(out.get(name, value), value)
+        return out
+
+
+@dataclass(frozen=True)
+class Track:
+    """What became of following poses through lengths.
+
+    Attributes
+    ----------
+    status : str
+        ``tracked``, ``near_singularity`` or ``lost``.
+    T : ndarray, float64, shape (4, 4) or (n, 4, 4)
+        The pose reached; of several lengths the poses of those that were reached.
+    residual : float or ndarray, shape (n,)
+        Largest errors of the leg equations over the squared size.
+    fraction : float
+        How far on the straight line of squared lengths to the last ones, 1 where they were reached.
+    reason : str or None
+        Why the pose was lost.
+    """
+
+    status: str
+    T: Floats
+    residual: float | Floats
+    fraction: float
+    reason: str | None
+
+
+class Tracker:
+    """Follows one real pose from lengths to lengths, never to another assembly mode; where a singularity is in the way it stays where it was."""
+
+    def __init__(self, native: _core.Tracker) -> None:
+        self._native = native
+
+    @property
+    def T(self) -> Floats:
+        """Where the platform is, shape (4, 4)."""
+        return self._native.transform()
+
+    def step(self, lengths: npt.ArrayLike) -> Track:
+        """Continues to six lengths.
+
+        Parameters
+        ----------
+        lengths : array_like, shape (6,)
+
+        Returns
+        -------
+        Track
+        """
+        if not isinstance(lengths, list):
+            lengths = np.asarray(lengths, dtype=np.float64).tolist()
+        status, pose, fraction, residual, _, reason = self._native.step(lengths)  # type: ignore[arg-type]
+        return Track(status, pose, residual, fraction, reason)
+
+    def follow(self, lengths: npt.ArrayLike) -> Track:
+        """Continues through rows of lengths until one is not reached.
+
+        Parameters
+        ----------
+        lengths : array_like, shape (n, 6)
+
+        Returns
+        -------
+        Track
+            ``T`` has as many poses as rows were reached; `status` speaks of the row after these, or of the last.
+        """
+        poses, residual, status, fraction, reason = self._native.follow(_lengths(lengths).reshape(-1, 6))
+        return Track(status, poses, residual, fraction, reason)
+
+    def __repr__(self) -> str:
+        return f"Tracker(at {np.array2string(self.T[:3, 3], precision=6)})"
+
+
+class Design:
+    """A platform with six legs: joints, units, home pose and requirements.
+
+    Made by `load`, `loads`, `preset` or `from_arrays`; a design does not change.
+    """
+
+    def __init__(self, native: _core.Design) -> None:
+        self._native = native
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> Design:
+        """Reads a design file, TOML or JSON.
+
+        Raises
+        ------
+        DesignError
+            With everything that is wrong with the file, and where.
+        OSError
+            A file that cannot be read.
+        """
+        return cls(_core.Design.load(path))
+
+    @classmethod
+    def loads(cls, text: str, format: str = "toml") -> Design:
+        """Reads the text of a design, ``"toml"`` or ``"json"``."""
+        return cls(_core.Design.loads(text, _is_json(format)))
+
+    @classmethod
+    def preset(cls, name: str) -> Design:
+        """One of `equipod.presets`."""
+        return cls(_core.Design.preset(name))
+
+    @classmethod
+    def from_arrays(
+        cls,
+        base: npt.ArrayLike,
+        platform: npt.ArrayLike,
+        legs: Iterable[tuple[int, int]] | None = None,
+        *,
+        home: PoseLike | None = None,
+        name: str = "platform",
+        units: str = "mm",
+    ) -> Design:
+        """A design from its joints.
+
+        Parameters
+        ----------
+        base : array_like, shape (n, 3)
+            Base joints, base frame.
+        platform : array_like, shape (m, 3)
+            Platform joints, platform frame.
+        legs : six pairs of int, optional
+            Rows of `base` and of `platform` that each leg joins; leg ``i`` joins row ``i`` of both when absent.
+        home : array_like, shape (4, 4), optional
+        name, units : str
+        """
+        pairs = list(_LEGS if legs is None else ((int(a), int(b)) for a, b in legs))
+        if len(pairs) != 6:
+            raise DesignError(f"a platform has six legs, not {len(pairs)}", code="legs")
+        points = [np.ascontiguousarray(np.atleast_2d(np.asarray(x, dtype=np.float64))) for x in (base, platform)]
+        made = _core.Design.from_arrays(points[0], points[1], pairs, name, units)
+        return cls(made if home is None else made.with_home(as_matrices(home).reshape(1, 4, 4)))
+
+    def dumps(self, format: str = "toml") -> str:
+        """The text of the design: with the comments of its file as ``"toml"``, or ``"json"``."""
+        return self._native.dumps(_is_json(format))
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the design; the file must not exist."""
+        if pathlib.Path(path).exists():
+            raise FileExistsError(f"{os.fspath(path)} exists, and nothing overwrites a file")
+        self._native.save(path)
+
+    @property
+    def name(self) -> str:
+        """The name of the design."""
+        return self._native.name
+
+    @property
+    def units(self) -> str:
+        """The unit of all lengths."""
+        return self._native.units
+
+    @property
+    def home(self) -> Floats:
+        """The home pose, shape (4, 4); above the base where the design names none."""
+        return self._native.home()
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What is allowed in the file but often a slip."""
+        return tuple(self._native.warnings())
+
+    @property
+    def joints(self) -> Joints:
+        """The joints and which of them each leg joins."""
+        return Joints(
+            base=self._native.joints("base"),
+            platform=self._native.joints("platform"),
+            legs=self._native.legs(),
+            base_names=tuple(self._native.joint_names("base")),
+            platform_names=tuple(self._native.joint_names("platform")),
+        )
+
+    @property
+    def characteristic_length(self) -> float:
+        """The length that moments are divided by in conditioning numbers: the RMS radius of the platform joints."""
+        return self._native.characteristic_length()
+
+    def ik(self, poses: PoseLike) -> Floats:
+        """Inverse kinematics: leg lengths ``|R b_i + p - a_i|``.
+
+        Parameters
+        ----------
+        poses : array_like, shape (..., 4, 4)
+
+        Returns
+        -------
+        ndarray, float64, shape (..., 6)
+
+        Raises
+        ------
+        DesignError
+            Matrices that are no poses.
+        """
+        array = as_matrices(poses)
+        return self._native.ik(array.reshape(-1, 4, 4)).reshape(*array.shape[:-2], 6)
+
+    def jacobian(self, poses: PoseLike, *, characteristic_length: float = 1.0) -> Floats:
+        """Leg speeds by the velocity of the platform origin and the angular velocity, base frame.
+
+        Parameters
+        ----------
+        poses : array_like, shape (..., 4, 4)
+        characteristic_length : float
+            Moments are divided by it, so that rows map ``(v, L omega)``; 1 gives ``(v, omega)``.
+
+        Returns
+        -------
+        ndarray, float64, shape (..., 6, 6)
+            Row ``i`` is ``[u_i, ((R b_i) x u_i) / L]`` with the unit vector ``u_i`` of leg ``i`` (Merlet 2006, sec. 5.3).
+        """
+        array = as_matrices(poses)
+        rows = self._native.jacobian(array.reshape(-1, 4, 4), characteristic_length)
+        return rows.reshape(*array.shape[:-2], 6, 6)
+
+    def fk(self, lengths: npt.ArrayLike, *, seed: int = 1, method: str | None = None) -> Solutions:
+        """Forward kinematics: all finite poses, real and complex, each with its certificate where there is one.
+
+        Parameters
+        ----------
+        lengths : array_like, shape (6,)
+        seed : int
+            Of generic constants; the same input and seed give the same answer.
+        method : str, optional
+            ``"octic"``, ``"homotopy"``, ``"trilateration"``; the one that fits when absent.
+
+        Returns
+        -------
+        Solutions
+        """
+        array = _lengths(lengths)
+        if array.shape != (6,):
+            raise DesignError(f"fk takes six lengths, not {array.shape}: use fk_batch for many", code="shape")
+        return Solutions(self._native.fk(array.tolist(), seed, method))
+
+    def fk_batch(self, lengths: npt.ArrayLike, *, threads: int | None = None) -> BatchSolutions:
+        """Forward kinematics of many sets of lengths; the design is prepared once.
+
+        Parameters
+        ----------
+        lengths : array_like, shape (n, 6)
+        threads : int, optional
+            One for each processor when absent; the answer does not depend on it.
+
+        Returns
+        -------
+        BatchSolutions
+            Ragged: rows have as many poses as they have.
+        """
+        array = _lengths(lengths)
+        if array.ndim != 2:
+            raise DesignError(f"fk_batch takes rows of six lengths, not {array.shape}", code="shape")
+        return BatchSolutions(self._native.fk_batch(array, threads))
+
+    def tracker(self, start: PoseLike | None = None) -> Tracker:
+        """Follows one real pose from lengths to lengths, from `start` (home when absent)."""
+        pose = self.home if start is None else as_matrices(start)
+        return Tracker(self._native.tracker(np.ascontiguousarray(pose).reshape(1, 4, 4)))
+
+    def margins(self, poses: PoseLike) -> Margins:
+        """By how much the requirements are met at poses; for the whole workspace, with proof, there is `assess`.
+
+        Parameters
+        ----------
+        poses : array_like, shape (..., 4, 4)
+
+        Returns
+        -------
+        Margins
+        """
+        array = as_matrices(poses)
+        columns, values = self._native.margins(array.reshape(-1, 4, 4))
+        return Margins(
+            names=tuple(name for name, _, _ in columns),
+            of=tuple(", ".join(of) for _, _, of in columns),
+            units=tuple(unit for _, unit, _ in columns),
+            values=values.reshape(*array.shape[:-2], len(columns)),
+        )
+
+    def check(self, *, seed: int = 1) -> CheckAnswer:
+        """Whether the design is architecturally singular, why, and how far away a singular design is."""
+        from .records import CheckAnswer
+
+        return CheckAnswer.from_json(self._native.check(seed))
+
+    def assess(
+        self, *, points: int = 5000, steps: int = 10, searches: int = 3, cells: int = 6000, seed: int = 1
+    ) -> AssessAnswer:
+        """By how much the requirements of the design are met over its whole workspace.
+
+        ``met`` is True where that is proved, False where a violation is, None where neither is.
+        """
+        from .records import AssessAnswer
+
+        return AssessAnswer.from_json(self._native.assess(points, steps, searches, cells, seed))
+
+    def equivalent(self, offsets: Sequence[float], *, pattern: str | None = None) -> Equivalent:
+        """The equivalent platform of an octahedral design with these offsets.
+
+        Parameters
+        ----------
+        offsets : sequence of float
+            Shares of the edges: six for the platform without shared joints, as many as the pattern has otherwise.
+        pattern : str, optional
+            A pattern of ``equipod equivalents family``; without it the one with no shared joint.
+
+        Returns
+        -------
+        Equivalent
+        """
+        design, a, c = self._native.equivalent(pattern, [float(x) for x in offsets])
+        return Equivalent(Design(design), a, c)
+
+    def optimize(
+        self,
+        *,
+        seed: int = 1,
+        threads: int | None = None,
+        extension: float | None = None,
+        progress: Progress | bool | None = None,
+    ) -> tuple[Design | None, OptimizeAnswer]:
+        """The best platform under the requirements of the design.
+
+        Parameters
+        ----------
+        seed : int
+        threads : int, optional
+        extension : float, optional
+            How far a joint may lie out on the extension of its edge, in edge lengths.
+        progress : callable or bool, optional
+            Is given lines of text; True writes them on one line.
+
+        Returns
+        -------
+        design : Design or None
+            The best platform found, None where there is none.
+        answer : OptimizeAnswer
+            What became of the search: ``answer.status``. After an interrupt it is the best so far.
+        """
+        from .records import OptimizeAnswer
+
+        options = ["--seed", str(seed)]
+        if threads is not None:
+            options += ["--threads", str(threads)]
+        if extension is not None:
+            options += ["--extension", repr(float(extension))]
+        design, document = self._made("optimize", options, progress)
+        return design, OptimizeAnswer(document)
+
+    def round(
+        self, grid: float, *, options: Sequence[str] = (), progress: Progress | bool | None = None
+    ) -> tuple[Design | None, RoundAnswer]:
+        """The joints on a grid of holes, exactly equivalent or as near as the grid allows.
+
+        Parameters
+        ----------
+        grid : float
+            Distance between neighbouring holes.
+        options : sequence of str
+            Further options of ``equipod build round``.
+        progress : callable or bool, optional
+
+        Returns
+        -------
+        design : Design or None
+        answer : RoundAnswer
+        """
+        from .records import RoundAnswer
+
+        arguments = ["--grid", repr(float(grid)), *options]
+        design, document = self._made(("build", "round"), arguments, progress)
+        return design, RoundAnswer(document)
+
+    def tolerances(
+        self, length: float, degrees: float, *, options: Sequence[str] = (), progress: Progress | bool | None = None
+    ) -> TolerancesAnswer:
+        """How far joints may be off while the pose stays within `length` and `degrees`.
+
+        Parameters
+        ----------
+        length : float
+            Greatest error of the tool point.
+        degrees : float
+            Greatest error of the orientation.
+        options : sequence of str
+            Further options of ``equipod build tolerances``.
+        progress : callable or bool, optional
+        """
+        from .records import TolerancesAnswer
+
+        with Workshop() as shop:
+            bound = f"{float(length)!r},{float(degrees)!r}"
+            file = shop.file("design.toml", self._native)
+            return TolerancesAnswer(ask(["build", "tolerances", file, "--bound", bound, *options], progress))
+
+    def export(self, format: str) -> dict[str, str]:
+        """The files of ``csv``, ``drawing``, ``dxf``, ``hal``, ``json``, ``matlab``, ``mjcf``, ``step`` or ``stl``: texts by names."""
+        return dict(self._native.export(format))
+
+    def plot(self, figure: str = "modes", *options: str) -> Figure:
+        """A picture of ``equipod plot``: ``modes``, ``workspace``, ``singular-poses``, ``det`` and others, with its options."""
+        with Workshop() as shop:
+            file = shop.file("design.toml", self._native)
+            return Figure(text_of(["plot", figure, file, *options]))
+
+    def view(self) -> Page:
+        """The live page of the design."""
+        with Workshop() as shop:
+            file = shop.file("design.toml", self._native)
+            page = shop.path / "page.html"
+            ask(["view", file, "-o", str(page)])
+            return Page(page.read_text(encoding="utf-8"))
+
+    def _made(
+        self, command: str | tuple[str, ...], options: Sequence[str], progress: Progress | bool | None
+    ) -> tuple[Design | None, dict[str, Any]]:
+        """What a command that writes a design makes, with its answer."""
+        words = [command] if isinstance(command, str) else list(command)
+        with Workshop() as shop:
+            file, out = shop.file("design.toml", self._native), shop.path / "out.toml"
+            document = ask([*words, file, "-o", str(out), *options], progress)
+            return (Design.load(out) if out.exists() else None), document
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Design) and self._native == other._native
+
+    __hash__ = object.__hash__
+
+    def __repr__(self) -> str:
+        joints = self.joints
+        return f"Design({self.name!r}, {len(joints.base)} base joints, {len(joints.platform)} platform joints, {self.units})"
+
+    def _repr_html_(self) -> str:
+        return self.view()._repr_html_()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (Design.loads, (self.dumps("json"), "json"))
+
+
+def _is_json(format: str) -> bool:
+    if format not in ("toml", "json"):
+        raise DesignError(f"a design is written as 'toml' or 'json', not {format!r}", code="format")
+    return format == "json"
+
+
+def leg_map(a: Design, b: Design) -> LegMap:
+    """The affine map between the squared leg lengths of two designs, ``s(b) = A s(a) + c``.
+
+    Parameters
+    ----------
+    a, b : Design
+        In the same units and the same two frames.
+
+    Returns
+    -------
+    LegMap
+        ``A`` is None where there is no map; ``record`` says which legs have none.
+    """
+    from .records import MapAnswer
+
+    found, record = _core.leg_map(a._native, b._native)
+    numbers = (None, None) if found is None else found
+    return LegMap(numbers[0], numbers[1], MapAnswer.from_json(record))
+
+
+def verify(a: Design, b: Design, *, samples: int = 10, seed: int = 1, threads: int | None = None) -> VerifyAnswer:
+    """Whether two designs are kinematically equivalent: by their leg map, and by forward kinematics of both, which knows nothing of the map.
+
+    Parameters
+    ----------
+    a, b : Design
+    samples : int
+        At how many sets of lengths both are solved.
+    seed : int
+    threads : int, optional
+
+    Returns
+    -------
+    VerifyAnswer
+        ``verdict`` is ``equivalent``, ``not_equivalent``, ``singular`` or ``inconclusive``.
+    """
+    from .records import VerifyAnswer
+
+    return VerifyAnswer.from_json(_core.verify(a._native, b._native, samples, seed, threads))
+

@@ -1,0 +1,108 @@
+"""Questions that take long, asked of the program in a process of its own: its answers are those of the command line, and an interrupt ends it with the best so far."""
+
+from __future__ import annotations
+
+import json
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from . import _core
+from ._errors import CommandError, DesignError
+
+#: What progress is reported to: a line of text at a time.
+Progress = Callable[[str], None]
+
+
+def shown(line: str) -> None:
+    """Progress on one line of standard error, which is written over."""
+    sys.stderr.write("\r\x1b[K" + line[:160])
+    sys.stderr.flush()
+
+
+class Workshop:
+    """A folder for the files of one question, gone afterwards."""
+
+    def __init__(self) -> None:
+        self._folder = tempfile.TemporaryDirectory(prefix="equipod-")
+        self.path = pathlib.Path(self._folder.name)
+
+    def __enter__(self) -> Workshop:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._folder.cleanup()
+
+    def file(self, name: str, design: _core.Design) -> str:
+        """A design as a file."""
+        path = self.path / name
+        path.write_text(design.dumps(False), encoding="utf-8")
+        return str(path)
+
+
+def ask(arguments: Sequence[str], progress: Progress | bool | None = None, folder: str | None = None) -> dict[str, Any]:
+    """The JSON document of a command.
+
+    Answers of no (exit code 1) and of not known (3) are documents as those of yes. An interrupt is handed on to the program, which answers with the best so
+    far where it has any.
+    """
+    command = [sys.executable, "-m", "equipod", *arguments, "--json"]
+    look = shown if progress is True else progress or None
+    if look is None:
+        command.append("--quiet")
+    child = subprocess.Popen(
+        command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=folder
+    )
+    said: list[str] = []
+
+    def read() -> None:
+        assert child.stderr is not None
+        for line in child.stderr:
+            said.append(line)
+            if look is not None:
+                look(line.rstrip("\n"))
+
+    reader = threading.Thread(target=read, daemon=True)
+    reader.start()
+    assert child.stdout is not None
+    interrupted = False
+    while True:
+        try:
+            text = child.stdout.read()
+            code = child.wait()
+            break
+        except KeyboardInterrupt:
+            if interrupted:
+                child.kill()
+                raise
+            interrupted = True
+            child.send_signal(signal.SIGINT)
+    reader.join()
+    if look is shown:
+        sys.stderr.write("\r\x1b[K")
+    try:
+        document: dict[str, Any] = json.loads(text)
+    except ValueError:
+        if interrupted:
+            raise KeyboardInterrupt from None
+        raise CommandError("".join(said[-5:]) or f"the program ended with exit code {code}") from None
+    error = document.get("error")
+    if error is not None:
+        kind = DesignError if code == 2 else CommandError
+        message = error["message"] + (f"; {error['help']}" if error.get("help") else "")
+        raise kind(message, code=error["code"])
+    return document
+
+
+def text_of(arguments: Sequence[str]) -> str:
+    """What a command writes to standard output."""
+    command = [sys.executable, "-m", "equipod", *arguments, "--quiet"]
+    done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+    if done.returncode in (2, 4):
+        raise (DesignError if done.returncode == 2 else CommandError)(done.stderr.strip(), code="command")
+    return done.stdout

@@ -1,0 +1,357 @@
+"""All poses with given leg lengths: for one set of lengths, and for many."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, overload
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._errors import DesignError
+from ._poses import Floats, PoseLike, as_matrices
+
+if TYPE_CHECKING:
+    import pyarrow  # type: ignore[import-untyped]
+
+    from .records import CertificateRecord, FkAnswer
+
+COMPLETENESS = {2: "proved", 1: "modular", 0: "unproved", -1: "failed"}
+
+
+@dataclass(frozen=True, repr=False)
+class Solution:
+    """One pose with its evidence.
+
+    Attributes
+    ----------
+    T : ndarray, complex128, shape (4, 4)
+        The pose, ``[[R, p], [0, 1]]``.
+    real : bool or None
+        Whether the pose is real; None where that is not decided.
+    certified : bool
+        Whether a pose is proved to be there.
+    residual : float
+        Largest error of the leg equations over the squared size of the design.
+    multiplicity : int
+        How often the pose counts.
+    """
+
+    T: npt.NDArray[np.complex128]
+    real: bool | None
+    certified: bool
+    residual: float
+    multiplicity: int
+
+    @property
+    def transform(self) -> Floats:
+        """The real pose, float64, shape (4, 4); DesignError where the pose is not real."""
+        if self.real is not True:
+            raise DesignError("the pose is not real, or not known to be", code="pose")
+        return np.ascontiguousarray(self.T.real)
+
+    def __repr__(self) -> str:
+        kind = {True: "real", False: "not real", None: "real or not: undecided"}[self.real]
+        p = self.T[:3, 3]
+        position = ", ".join(f"{z.real:.6g}" if self.real else f"{z:.4g}" for z in p)
+        return f"Solution({kind}, {'certified' if self.certified else 'no certificate'}, p=({position}))"
+
+
+class Solutions(Sequence[Solution]):
+    """All finite poses, real and complex, with one set of leg lengths; real ones first.
+
+    Attributes
+    ----------
+    T : ndarray, complex128, shape (n, 4, 4)
+        The poses.
+    real : ndarray, bool, shape (n,)
+        Which of them are real; those that are not decided count as not real, see `reality`.
+    reality : ndarray, int8, shape (n,)
+        1 real, 0 not real, -1 undecided.
+    certified : ndarray, bool, shape (n,)
+        Which have a proof.
+    residual : ndarray, float64, shape (n,)
+        Largest errors of the leg equations over the squared size of the design.
+    multiplicity : ndarray, uint32, shape (n,)
+        How often each pose counts.
+    """
+
+    def __init__(self, native: _core.Solutions) -> None:
+        self._native = native
+        self.T = native.transforms()
+        self.reality = native.reality()
+        self.real: npt.NDArray[np.bool_] = self.reality == 1
+        self.certified = native.certified()
+        self.residual = native.residual()
+        self.multiplicity = native.multiplicity()
+
+    @property
+    def complete(self) -> bool:
+        """Whether all poses are listed: by proof, or by a count modulo random primes (see `completeness`)."""
+        return self._native.is_complete()
+
+    @property
+    def completeness(self) -> str:
+        """``proved``, ``modular`` (by a count with a bound on the probability of error) or ``unproved``."""
+        return self._native.completeness()
+
+    @property
+    def reason(self) -> str:
+        """One sentence on what is known of completeness."""
+        return self._native.reason()
+
+    @property
+    def method(self) -> str:
+        """The method that found the poses."""
+        return self._native.method()
+
+    @property
+    def real_transforms(self) -> Floats:
+        """The real poses, float64, shape (m, 4, 4)."""
+        return np.ascontiguousarray(self.T[self.real].real)
+
+    def nearest(self, pose: PoseLike, *, length: float | None = None) -> Solution | None:
+        """The real pose nearest to another one.
+
+        Parameters
+        ----------
+        pose : array_like, shape (4, 4)
+        length : float, optional
+            What a turn of one radian weighs as, in units of length; the largest ``|p|`` of the real poses when absent.
+
+        Returns
+        -------
+        Solution or None
+            None where there is no real pose.
+        """
+        there = self.real_transforms
+        if len(there) == 0:
+            return None
+        target = as_matrices(pose)
+        shift = np.linalg.norm(there[:, :3, 3] - target[:3, 3], axis=1)
+        turn = np.linalg.norm(there[:, :3, :3] - target[:3, :3], axis=(1, 2)) / np.sqrt(2)
+        weight = float(np.max(np.linalg.norm(there[:, :3, 3], axis=1))) if length is None else length
+        return self[int(np.flatnonzero(self.real)[np.argmin(shift + weight * turn)])]
+
+    @cached_property
+    def record(self) -> FkAnswer:
+        """The answer of ``equipod fk --json`` as typed record, certificates included."""
+        from .records import FkAnswer
+
+        return FkAnswer.from_json(self._native.json())
+
+    @property
+    def certificates(self) -> tuple[CertificateRecord | None, ...]:
+        """The certificate of each pose, with all numbers of its proof."""
+        return tuple(solution.certificate for solution in self.record.solutions or ())
+
+    def to_dict(self) -> dict[str, Any]:
+        """The fields of ``equipod fk --json``."""
+        document: dict[str, Any] = json.loads(self._native.json())
+        return document
+
+    def __len__(self) -> int:
+        return len(self.reality)
+
+    @overload
+    def __getitem__(self, index: int) -> Solution: ...
+    @overload
+    def __getitem__(self, index: slice) -> list[Solution]: ...
+    def __getitem__(self, index: int | slice) -> Solution | list[Solution]:
+        if isinstance(index, slice):
+            return [self[k] for k in range(*index.indices(len(self)))]
+        k = range(len(self))[index]
+        known = {1: True, 0: False, -1: None}
+        return Solution(
+            T=self.T[k],
+            real=known[int(self.reality[k])],
+            certified=bool(self.certified[k]),
+            residual=float(self.residual[k]),
+            multiplicity=int(self.multiplicity[k]),
+        )
+
+    def __repr__(self) -> str:
+        return (
+            f"Solutions({len(self)} poses, {int(self.real.sum())} real, {int(self.certified.sum())} certified, "
+            f"{self.completeness})"
+        )
+
+    def _repr_html_(self) -> str:
+        rows = "".join(
+            f"<tr><td>{k}</td><td>{ {1: 'yes', 0: 'no', -1: 'undecided'}[int(self.reality[k])] }</td>"
+            + "".join(f"<td>{z.real:.6g}{'' if self.real[k] else f' {z.imag:+.3g}i'}</td>" for z in self.T[k, :3, 3])
+            + f"<td>{'yes' if self.certified[k] else 'no'}</td></tr>"
+            for k in range(len(self))
+        )
+        head = "".join(f"<th>{name}</th>" for name in ("", "real", "x", "y", "z", "certified"))
+        return f"<table><caption>{len(self)} poses, {self.reason}</caption><tr>{head}</tr>{rows}</table>"
+
+
+class BatchSolutions(Sequence["RowPoses"]):
+    """All poses with many sets of leg lengths, ragged: row ``k`` has the poses from ``offsets[k]`` to ``offsets[k + 1]``.
+
+    Attributes
+    ----------
+    T : ndarray, complex128, shape (n, 4, 4)
+        The poses of all rows.
+    offsets : ndarray, int64, shape (rows + 1,)
+        Where the poses of each row begin, and the end.
+    reality : ndarray, int8, shape (n,)
+        1 real, 0 not real, -1 undecided.
+    real, certified : ndarray, bool, shape (n,)
+    residual : ndarray, float64, shape (n,)
+    multiplicity : ndarray, uint32, shape (n,)
+    completeness : ndarray, int8, shape (rows,)
+        2 proved, 1 modular, 0 unproved, -1 the row failed.
+    """
+
+    def __init__(
+        self,
+        arrays: tuple[
+            npt.NDArray[np.complex128],
+            npt.NDArray[np.int8],
+            npt.NDArray[np.bool_],
+            npt.NDArray[np.float64],
+            npt.NDArray[np.uint32],
+            npt.NDArray[np.int64],
+            npt.NDArray[np.int8],
+            npt.NDArray[np.int64],
+            list[str],
+        ],
+    ) -> None:
+        (
+            self.T,
+            self.reality,
+            self.certified,
+            self.residual,
+            self.multiplicity,
+            self.offsets,
+            self.completeness,
+            self._reason,
+            self._reasons,
+        ) = arrays
+        self.real: npt.NDArray[np.bool_] = self.reality == 1
+
+    @property
+    def complete(self) -> npt.NDArray[np.bool_]:
+        """Which rows have all their poses, by proof or modulo random primes; bool, shape (rows,)."""
+        return self.completeness >= 1
+
+    @property
+    def failed(self) -> npt.NDArray[np.int64]:
+        """The rows that could not be solved; `reason` says why."""
+        return np.flatnonzero(self.completeness == -1)
+
+    def reason(self, row: int) -> str:
+        """What is known of completeness in a row, or why it failed."""
+        return self._reasons[int(self._reason[row])]
+
+    def counts(self, *, real: bool = False) -> npt.NDArray[np.int64]:
+        """How many poses each row has, int64, shape (rows,); with `real` the real ones."""
+        if not real:
+            return np.diff(self.offsets)
+        total = np.concatenate([[0], np.cumsum(self.real, dtype=np.int64)])
+        counts: npt.NDArray[np.int64] = np.diff(total[self.offsets])
+        return counts
+
+    def __len__(self) -> int:
+        return len(self.completeness)
+
+    @overload
+    def __getitem__(self, index: int) -> RowPoses: ...
+    @overload
+    def __getitem__(self, index: slice) -> list[RowPoses]: ...
+    def __getitem__(self, index: int | slice) -> RowPoses | list[RowPoses]:
+        if isinstance(index, slice):
+            return [self[k] for k in range(*index.indices(len(self)))]
+        k = range(len(self))[index]
+        part = slice(int(self.offsets[k]), int(self.offsets[k + 1]))
+        return RowPoses(
+            T=self.T[part],
+            reality=self.reality[part],
+            certified=self.certified[part],
+            residual=self.residual[part],
+            multiplicity=self.multiplicity[part],
+            completeness=COMPLETENESS[int(self.completeness[k])],
+            reason=self.reason(k),
+        )
+
+    def __iter__(self) -> Iterator[RowPoses]:
+        return (self[k] for k in range(len(self)))
+
+    def __repr__(self) -> str:
+        words = ", ".join(
+            f"{int((self.completeness == code).sum())} {word}"
+            for code, word in COMPLETENESS.items()
+            if (self.completeness == code).any()
+        )
+        return f"BatchSolutions({len(self)} rows, {len(self.reality)} poses; rows {words})"
+
+    def to_arrow(self) -> pyarrow.Table:
+        """The poses as an Arrow table, one row a pose, which polars, pandas and duckdb read.
+
+        Columns: ``row``, ``reality``, ``certified``, ``residual``, ``multiplicity``, and ``x y z`` with the nine entries ``r11..r33`` of the
+        rotation as real and imaginary parts (``x_re``, ``x_im``, ..). Needs pyarrow (``pip install equipod[tables]``).
+        """
+        import pyarrow as pa
+
+        columns: dict[str, Any] = {
+            "row": np.repeat(np.arange(len(self)), self.counts()),
+            "reality": self.reality,
+            "certified": self.certified,
+            "residual": self.residual,
+            "multiplicity": self.multiplicity,
+        }
+        for k, name in enumerate("xyz"):
+            columns[f"{name}_re"], columns[f"{name}_im"] = self.T[:, k, 3].real.copy(), self.T[:, k, 3].imag.copy()
+        for i in range(3):
+            for j in range(3):
+                entry = self.T[:, i, j]
+                columns[f"r{i + 1}{j + 1}_re"], columns[f"r{i + 1}{j + 1}_im"] = entry.real.copy(), entry.imag.copy()
+        return pa.table(columns)
+
+
+@dataclass(frozen=True, repr=False)
+class RowPoses:
+    """The poses of one row of a batch, as views of its arrays; certificates are not kept.
+
+    Attributes
+    ----------
+    T : ndarray, complex128, shape (n, 4, 4)
+    reality : ndarray, int8, shape (n,)
+    certified : ndarray, bool, shape (n,)
+    residual : ndarray, float64, shape (n,)
+    multiplicity : ndarray, uint32, shape (n,)
+    completeness : str
+        ``proved``, ``modular``, ``unproved`` or ``failed``.
+    reason : str
+        What is known of completeness, or why the row failed.
+    """
+
+    T: npt.NDArray[np.complex128]
+    reality: npt.NDArray[np.int8]
+    certified: npt.NDArray[np.bool_]
+    residual: npt.NDArray[np.float64]
+    multiplicity: npt.NDArray[np.uint32]
+    completeness: str
+    reason: str
+
+    @property
+    def complete(self) -> bool:
+        """Whether all poses are there."""
+        return self.completeness in ("proved", "modular")
+
+    @property
+    def real_transforms(self) -> Floats:
+        """The real poses, float64, shape (m, 4, 4)."""
+        return np.ascontiguousarray(self.T[self.reality == 1].real)
+
+    def __len__(self) -> int:
+        return len(self.reality)
+
+    def __repr__(self) -> str:
+        return f"RowPoses({len(self)} poses, {int((self.reality == 1).sum())} real, {self.completeness})"

@@ -1,0 +1,2366 @@
+"""Answers as typed records: the fields of `equipod COMMAND --json`, by the same names.
+
+Made from the schemas of the answers by `tests/python/generate_records.py`; do not edit. What may be absent from a document is None, and so is what is null in it.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Literal, Union
+
+from ._record import Record
+
+AlignmentUndecided = Literal["no_axes", "unclear_dimension", "within_errors"]
+AlignmentWord = Literal["found", "none", "undecided"]
+Body = Literal["base", "platform"]
+BranchWord = Literal["best", "bounded", "dominated", "infeasible", "solver_failure", "unproved"]
+CentrePrecision = Literal["double", "double_double"]
+CompletenessWord = Literal["modular", "proved", "unproved"]
+CountUndecided = Literal["degree_too_low", "joints_not_exact", "no_prime_drawn", "primes_disagree"]
+CountedLengths = Literal["generic", "given"]
+DesignFixedTo = Literal["base", "platform"]
+DesignObjective = Literal[
+    "joint_spacing",
+    "leg_clearance",
+    "leg_force",
+    "mean_conditioning",
+    "singularity_distance",
+    "smallest_singular_value",
+    "stiffness",
+    "stroke",
+    "worst_conditioning",
+]
+DimensionalStatus = Literal["feasible", "infeasible", "interrupted", "optimal", "undecided"]
+ErrorKind = Literal["position", "rotation"]
+EvidenceWord = Literal["modular", "proved"]
+ExactnessWord = Literal["doubles", "field", "interval", "rational"]
+FrontStatus = Literal["front", "infeasible", "interrupted", "undecided"]
+Invariant = Literal[
+    "base_principal_value",
+    "canonical_distance",
+    "joint_rank",
+    "leg_rank",
+    "open_translations",
+    "platform_principal_value",
+]
+LengthsOrigin = Literal["design", "home"]
+MarginVerdict = Literal["at_limit", "met", "searched", "violated"]
+Method = Literal["homotopy", "near", "octic", "sylvester", "template", "trilateration"]
+NearWord = Literal["lost", "near_singularity", "tracked"]
+NoRoundingWord = Literal[
+    "bad_grid",
+    "joints_coincide",
+    "no_triangle_near",
+    "no_triangles",
+    "singular",
+    "singular_pose",
+]
+Objective = Literal[
+    "joint_spacing",
+    "leg_clearance",
+    "leg_force",
+    "mean_conditioning",
+    "singularity_distance",
+    "smallest_singular_value",
+    "stiffness",
+    "stroke",
+    "worst_conditioning",
+]
+OffsetsStatus = Literal["feasible", "infeasible", "interrupted", "local_optimum", "optimal", "undecided"]
+PathEnd = Literal["at_infinity", "failed", "finite", "isotropic"]
+ProofWord = Literal["leg_vectors", "pose_lattice", "regular_pose"]
+ProvedReality = Literal["non_real", "real", "undecided"]
+RegularityWord = Literal["changes_sign", "proved", "undecided"]
+RejectionReason = Literal["duplicate", "not_certified", "not_finite", "residual_too_large"]
+Relation = Literal["equivalent", "singular", "undecided", "unrelated"]
+SideWord = Literal["above", "below"]
+SourceWord = Literal["default", "design"]
+SpecialDemand = Literal["abs_det", "reach"]
+TermKind = Literal[
+    "base_spacing",
+    "base_swing",
+    "keep_out",
+    "leg_clearance",
+    "leg_force",
+    "leg_speed",
+    "leg_too_long",
+    "leg_too_short",
+    "platform_spacing",
+    "platform_swing",
+]
+VariantWord = Literal["exact", "nearest"]
+VerdictWord = Literal["equivalent", "inconclusive", "not_equivalent", "singular"]
+WorkspaceWord = Literal["default", "design"]
+
+
+class AlignmentRecord(Record):
+    """The rigid motions that make one design equivalent to another."""
+
+    #: One sentence with the numbers that decided.
+    explanation: str
+    #: The same with base and platform of the second design exchanged.
+    exchanged: OtherAlignmentRecord
+    #: The same with the mirror image of the second design.
+    mirrored: OtherAlignmentRecord
+    status: Union[Literal["found", "none", "undecided"], None]
+    #: Nearest to no motion first.
+    motions: Union[tuple[MotionRecord, ...], None]
+    #: There are no others.
+    all: Union[bool, None]
+    #: Dimension of the families the motions lie in.
+    freedom: Union[int, None]
+    #: The number that shows it.
+    difference: Union[DifferenceRecord, None]
+    #: How near a motion comes.
+    nearest: Union[NearestMotionRecord, None]
+    #: Why not.
+    reason: Union[AlignmentUndecided, None]
+
+
+class AssemblyRecord(Record):
+    """Whether a singular platform can be assembled."""
+
+    verdict: Union[Literal["incompatible", "no_real_pose", "undecided", "real"], None]
+    #: By how much, relative.
+    defect: Union[float, None]
+    #: Squared lengths of the octahedral platforms.
+    octahedral_squared_lengths: Union[CornerLengthsRecord, None]
+    #: The pose.
+    pose: Union[PoseRecord, None]
+    #: Its residual.
+    residual: Union[float, None]
+
+
+class AssessAnswer(Record):
+    """One JSON document: an answer between what all answers have."""
+
+    #: Always 1: the version of these definitions.
+    schema_version: int
+    #: True: every margin and det J are proved, for every pose of the workspace; false: a violation or a
+    #: change of sign of det J is proved by its pose; null: neither.
+    met: Union[bool, None]
+    #: The least of each kind.
+    requirements: tuple[MarginRecord, ...]
+    #: Whether there are singular poses.
+    regular: RegularityRecord
+    #: Where the Jacobian is conditioned worst among the poses looked at: a number found, without a limit
+    #: and without a proof.
+    conditioning: LeastConditioningRecord
+    #: Poses looked at.
+    poses: int
+    #: Cells over which margins were bounded.
+    cells: int
+    #: What the answer was made from.
+    provenance: ProvenanceRecord
+    #: What was odd about the design files that were read.
+    warnings: tuple[WarningRecord, ...]
+
+
+class BeyondPrecisionRecord(Record):
+    """Numbers of poses that were set aside."""
+
+    #: Of A.
+    a: int
+    #: Of B.
+    b: int
+
+
+class BranchConflictRecord(Record):
+    """Why a branch or a part of it is empty."""
+
+    #: A short stable code.
+    code: Literal["vertices_too_close", "outside_bounds", "no_room", "pair_too_close", "det_too_small", "combination"]
+    #: One sentence with the numbers.
+    message: str
+
+
+class BranchCountsRecord(Record):
+    """What became of the branches."""
+
+    #: All of them.
+    total: int
+    #: Feasible ones.
+    feasible: int
+    #: Proved empty: nothing of a zone lies within the bounds.
+    infeasible_bounds: int
+    #: Proved empty: no room for the joints.
+    infeasible_spacing: int
+    #: Proved empty: |det A| is too small.
+    infeasible_det: int
+    #: Covered by the bound over all offsets, not searched.
+    bounded: int
+    #: Not decided.
+    unproved: int
+    #: The conic solver failed.
+    solver_failure: int
+
+
+class BranchRecord(Record):
+    """A branch: a zone for each offset."""
+
+    #: Zone of each offset: before, inside, beyond its edge.
+    branch: str
+    #: What became of it.
+    verdict: BranchWord
+    #: Its own best, where it is dominated.
+    objective: Union[float, None]
+    #: Where that is reached.
+    offsets: Union[tuple[Union[float, None], ...], None]
+    #: Parts of the branch searched.
+    cells: int
+    #: Proved conflicts of the branch or of parts of it.
+    conflicts: tuple[BranchConflictRecord, ...]
+
+
+class BudgetPosesRecord(Record):
+    """The poses looked at."""
+
+    #: How many.
+    count: int
+    #: Whether the workspace is that of the design.
+    workspace: WorkspaceWord
+
+
+class CaseRecord(Record):
+    """A known kind of singular design."""
+
+    #: Which.
+    case: str
+    #: The short code of the reason.
+    reason: str
+    #: The legs it is about, from 1.
+    legs: tuple[int, ...]
+    #: One sentence.
+    explanation: str
+
+
+class CertificateRecord(Record):
+    """The proof that a root exists and is alone, with all its numbers."""
+
+    kind: Union[Literal["study", "double", "octahedral"], None]
+    #: Index of the coordinate that is 1.
+    patch: Union[int, None]
+    #: A power of two, design units.
+    unit: Union[float, None]
+    #: The centre.
+    centre: Union[ComplexRecord3, ComplexRecord4, None]
+    #: To be added to the centre.
+    centre_low: Union[ComplexRecord3, None]
+    #: One root lies within this distance of the centre.
+    radius: Union[float, None]
+    #: No other root lies within this distance.
+    uniqueness_radius: Union[float, None]
+    #: Contraction of the simplified Newton map on the ball of the radius, below 1.
+    contraction: Union[float, None]
+    #: Precision of the centre.
+    precision: Union[CentrePrecision, None]
+    #: Proved for all squared lengths that the data can mean.
+    reality: Union[ProvedReality, None]
+    #: What holds the pose of the root.
+    enclosure: Union[EnclosureRecord, None]
+    #: Radius of the disc of t.
+    reach: Union[float, None]
+    #: What is left beside the square of t over it, on the circle; below 1.
+    dominance: Union[float, None]
+    #: Legs 14 24 25 35 36 16, from 0.
+    order: Union[tuple[int, ...], None]
+    #: Design units squared.
+    weights: tuple[Union[float, None], ...]
+    #: Near the distance of P4 from the base plane along (P2 - P1) x (P3 - P1), design units: which pose of
+    #: the pair it is.
+    height: Union[ComplexRecord5, None]
+
+
+class CheckAnswer(Record):
+    """One JSON document: an answer between what all answers have."""
+
+    #: Always 1: the version of these definitions.
+    schema_version: int
+    #: The name of the design.
+    name: str
+    #: How exactly its joints are known.
+    joints: JointsRecord
+    #: Null: the design as written is regular, and a singular one lies within rounding of it.
+    architecturally_singular: Union[bool, None]
+    #: Decided exactly, for the joints as the numbers they are.
+    singular_as_written: bool
+    #: A short code of the reason; null: regular.
+    reason: Union[str, None]
+    #: One sentence.
+    explanation: str
+    #: What proves the answer for the joints as written.
+    proof: ProofWord
+    #: One sentence on the proof.
+    proof_explanation: str
+    #: Rank of the leg vectors.
+    leg_rank: int
+    #: Rank of the leg lines at almost every pose.
+    jacobian_rank: int
+    #: A pose with that rank.
+    witness: WitnessRecord
+    #: The first of the dependencies.
+    dependency: Union[DependencyRecord, None]
+    #: Dependencies of leg vectors.
+    dependencies: tuple[DependencyRecord, ...]
+    #: The legs of the first case.
+    guilty_legs: Union[tuple[int, ...], None]
+    #: The cases that apply, most telling first.
+    cases: tuple[CaseRecord, ...]
+    #: The Griffis-Duffy type, where the joints lie on the sides of two triangles.
+    griffis_duffy: Union[GriffisDuffyRecord, None]
+    #: The nearest singular design that was found; null for a singular one.
+    nearest_singular: Union[NearestSingularRecord, None]
+    #: Finite poses, real and complex, for generic leg lengths.
+    pose_count: PoseCountRecord
+    #: How many isolated finite poses no lengths exceed, by a theorem.
+    pose_bound: PoseBoundRecord
+    #: Singular values of the normalised leg vectors.
+    singular_values: tuple[Union[float, None], ...]
+    #: How well conditioned the Jacobian is at random poses.
+    jacobian_inverse_condition: ConditioningRecord
+    #: What the answer was made from.
+    provenance: ProvenanceRecord
+    #: What was odd about the design files that were read.
+    warnings: tuple[WarningRecord, ...]
+
+
+class ClosurePolynomialRecord(Record):
+    """The closure polynomial in one squared distance, with what it says about the number of real poses."""
+
+    #: The joints of the virtual leg; null where none is needed.
+    virtual_leg: Union[tuple[str, ...], None]
+    #: The joints whose squared distance is the unknown.
+    unknown: tuple[str, ...]
+    #: The joints of the first triangle.
+    start: tuple[str, ...]
+    #: The trilaterations after it.
+    sequence: tuple[TrilaterationStepRecord, ...]
+    #: The degree before singular factors are removed.
+    degree_before: int
+    #: The degree; null for the zero polynomial.
+    degree: Union[int, None]
+    #: Different complex roots.
+    distinct_roots: int
+    #: Singular factors.
+    factors: tuple[SingularFactorRecord, ...]
+    #: The coefficients of the primitive integer polynomial as decimal text, the constant one first.
+    coefficients: tuple[str, ...]
+    #: Real roots as [low, high], rounded outwards.
+    real_roots: tuple[tuple[Union[float, None], ...], ...]
+    #: How often each of them is a root.
+    real_root_multiplicities: tuple[int, ...]
+    #: Real poses at each of them; null where that does not follow.
+    real_poses_at_roots: Union[tuple[int, ...], None]
+    #: Real poses in all, proved; null where that does not follow.
+    poses_real_proved: Union[int, None]
+
+
+class ClosureRecord(Record):
+    """The exact closure polynomial beside the poses."""
+
+    #: The joints of the virtual leg; null where none is needed.
+    virtual_leg: Union[tuple[str, ...], None]
+    #: The joints whose squared distance is the unknown.
+    unknown: Union[tuple[str, ...], None]
+    #: The joints of the first triangle.
+    start: Union[tuple[str, ...], None]
+    #: The trilaterations after it.
+    sequence: Union[tuple[TrilaterationStepRecord, ...], None]
+    #: The degree before singular factors are removed.
+    degree_before: Union[int, None]
+    #: The degree; null for the zero polynomial.
+    degree: Union[int, None]
+    #: Different complex roots.
+    distinct_roots: Union[int, None]
+    #: Singular factors.
+    factors: Union[tuple[SingularFactorRecord, ...], None]
+    #: The coefficients of the primitive integer polynomial as decimal text, the constant one first.
+    coefficients: Union[tuple[str, ...], None]
+    #: Real roots as [low, high], rounded outwards.
+    real_roots: tuple[tuple[Union[float, None], ...], ...]
+    #: How often each of them is a root.
+    real_root_multiplicities: Union[tuple[int, ...], None]
+    #: Real poses at each of them; null where that does not follow.
+    real_poses_at_roots: Union[tuple[int, ...], None]
+    #: Real poses in all, proved; null where that does not follow.
+    poses_real_proved: Union[int, None]
+    #: Why not.
+    error: Union[str, None]
+
+
+class ComparedRecord(Record):
+    """A verification in short."""
+
+    #: Sets of lengths at which both designs were solved.
+    sample_count: int
+    #: The largest distance of matched poses.
+    worst_distance: Union[float, None]
+    #: Of the affine map.
+    residual: Union[float, None]
+    #: Its determinant.
+    det: Union[float, None]
+
+
+class ComplexRecord(Record):
+    """Complex numbers in some arrangement: real and imaginary parts, each in that arrangement."""
+
+    #: Real parts.
+    re: tuple[tuple[Union[float, None], ...], ...]
+    #: Imaginary parts.
+    im: tuple[tuple[Union[float, None], ...], ...]
+
+
+class ComplexRecord2(Record):
+    """Complex numbers in some arrangement: real and imaginary parts, each in that arrangement."""
+
+    #: Real parts.
+    re: tuple[Union[float, None], ...]
+    #: Imaginary parts.
+    im: tuple[Union[float, None], ...]
+
+
+class ComplexRecord3(Record):
+    """Complex numbers in some arrangement: real and imaginary parts, each in that arrangement."""
+
+    #: Real parts.
+    re: tuple[Union[float, None], ...]
+    #: Imaginary parts.
+    im: tuple[Union[float, None], ...]
+
+
+class ComplexRecord4(Record):
+    """Complex numbers in some arrangement: real and imaginary parts, each in that arrangement."""
+
+    #: Real parts.
+    re: tuple[Union[float, None], ...]
+    #: Imaginary parts.
+    im: tuple[Union[float, None], ...]
+
+
+class ComplexRecord5(Record):
+    """Complex numbers in some arrangement: real and imaginary parts, each in that arrangement."""
+
+    #: Real parts.
+    re: tuple[Union[float, None], ...]
+    #: Imaginary parts.
+    im: tuple[Union[float, None], ...]
+
+
+class ConditioningRecord(Record):
+    """The inverse condition number of the Jacobian at random poses."""
+
+    #: How many poses.
+    poses: int
+    #: The best.
+    best: Union[float, None]
+    #: The median.
+    median: Union[float, None]
+    #: The worst.
+    worst: Union[float, None]
+
+
+class ConflictRecord(Record):
+    """Requirements that cannot be met together; without any one of them the others were met."""
+
+    #: The set is proved to be in conflict.
+    proved: bool
+    #: What would have to give.
+    requirements: tuple[GiveRecord, ...]
+
+
+class CornerLengthsRecord(Record):
+    """Squared lengths origin + x direction with x in the interval."""
+
+    #: For x = 0.
+    origin: tuple[Union[float, None], ...]
+    #: What x multiplies.
+    direction: tuple[Union[float, None], ...]
+    #: Where x may be.
+    interval: tuple[Union[float, None], ...]
+
+
+class CorrespondenceRecord(Record):
+    """Which leg of FROM each leg of TO is."""
+
+    #: The leg of FROM, from 1; null: none of them.
+    legs: tuple[Union[int, None], ...]
+    #: Its distance from the leg of TO, over the size.
+    distances: tuple[Union[float, None], ...]
+    #: Every leg of FROM is one leg of TO.
+    permutation: bool
+    #: All distances are zero.
+    exact: bool
+
+
+class CounterexampleRecord(Record):
+    """A pose that belongs to the lengths of one design and not to those of the other."""
+
+    #: Index into `samples`, from 0.
+    sample: int
+    #: The design whose lengths the pose has: A or B.
+    solves: Literal["A", "B"]
+    #: The pose.
+    pose: ComplexRecord
+    #: Whether a certificate proves the pose a solution of the one.
+    certified: bool
+    #: The leg of the other design that is missed most, from 1.
+    leg: int
+    #: By how much its squared length is missed, relative to the squared size.
+    miss: Union[float, None]
+    #: Rounding to expect in this number.
+    rounding: Union[float, None]
+
+
+class DependencyRecord(Record):
+    """A dependency of leg vectors: `sum c_i v_i = 0`."""
+
+    #: The legs in it, from 1.
+    legs: tuple[int, ...]
+    #: The numbers `c_i`.
+    coefficients: tuple[Union[float, None], ...]
+    #: `sum c_i s_i` of the squared lengths of every pose.
+    constant: Union[float, None]
+    #: Dimension of the span of the base ends.
+    base_dimension: int
+    #: Dimension of the span of the platform ends.
+    platform_dimension: int
+    #: By how much the lengths of the design miss the constant, relative; null without lengths.
+    lengths_defect: Union[float, None]
+
+
+class Design(Record):
+    """A design file of equipod, as JSON; a TOML file has the same structure. What no schema can say (joints of legs exist, axes are not zero, rotations are rotations) is checked by the program."""
+
+    name: str
+    #: label of the length unit; every length of the file is in it
+    units: str
+    #: [base joint, platform joint] in leg order
+    legs: tuple[tuple[str, ...], ...]
+    base: DesignBody
+    platform: DesignBody
+    #: where the numbers come from
+    source: Union[str, None]
+    description: Union[str, None]
+    #: leg lengths in leg order
+    lengths: Union[tuple[DesignNotNegative, ...], None]
+    #: numbers and expressions that expressions of joints and of other parameters name
+    parameters: Union[dict[str, DesignQuantity], None]
+    #: the pose the platform is built for
+    home: Union[DesignPose, None]
+    workspace: Union[dict[str, Any], None]
+    optimize: Union[dict[str, Any], None]
+    hardware: Union[dict[str, Any], None]
+    speed: Union[dict[str, Any], None]
+    loads: Union[tuple[dict[str, Any], ...], None]
+    keep_out: Union[tuple[Any, ...], None]
+
+
+class DesignBox(Record):
+    """DesignBox"""
+
+    center: DesignVector
+    size: DesignEdges
+
+
+class DesignCapsule(Record):
+    """DesignCapsule"""
+
+    from_: DesignVector
+    to: DesignVector
+    diameter: DesignPositive
+
+
+class DesignPose(Record):
+    """DesignPose"""
+
+    #: of the platform origin, base frame
+    position: DesignVector
+    #: roll, pitch, yaw in degrees, R = Rz(yaw) Ry(pitch) Rx(roll)
+    rpy_deg: Union[DesignVector, None]
+    #: scalar part first, of norm 1 within 1e-3
+    quat_wxyz: Union[tuple[DesignNumber, ...], None]
+    #: rows of R, orthonormal within 1e-9 and right-handed
+    rotation: Union[tuple[DesignVector, ...], None]
+
+
+class DesignSourceRecord(Record):
+    """A design that an answer is about."""
+
+    #: The name of the design.
+    name: str
+    #: The file it was read from, as it was named; null: it was made in memory, and its text is what it
+    #: would be saved as.
+    path: Union[str, None]
+    #: SHA-256 of the bytes of that file or text, hexadecimal.
+    sha256: str
+
+
+class DesignSphere(Record):
+    """DesignSphere"""
+
+    center: DesignVector
+    diameter: DesignPositive
+
+
+class DifferenceRecord(Record):
+    """An invariant that tells two designs apart."""
+
+    #: Which.
+    invariant: Invariant
+    #: Its value for the first design.
+    a: Union[float, None]
+    #: Its value for the second.
+    b: Union[float, None]
+    #: By how much they differ.
+    gap: Union[float, None]
+    #: What a difference has to exceed.
+    bound: Union[float, None]
+
+
+class DimensionalAnswer(Record):
+    """The answer of `optimize` about a design that asks for more than offsets."""
+
+    #: What came of the search.
+    status: DimensionalStatus
+    #: How the search went.
+    search: SearchRecord
+    #: The platform; null: there is none.
+    design: Union[Design, None]
+    #: The file written.
+    output: Union[str, None]
+    #: When infeasible.
+    conflict: Union[ConflictRecord, None]
+    #: Value of the first objective.
+    objective: Union[float, None]
+    #: All of them.
+    objectives: Union[tuple[ObjectiveRecord, ...], None]
+    #: What was chosen, axes left out.
+    variables: Union[tuple[VariableRecord, ...], None]
+    #: In cyclic order; null: not chosen.
+    offsets: Union[tuple[Union[float, None], ...], None]
+    #: Home, lifted when its height was chosen.
+    home: Union[PoseQuaternionRecord, None]
+    #: The axes chosen.
+    joint_axes: Union[JointAxesRecord, None]
+    #: The requirements, over many poses and by other code.
+    constraint_margins: Union[tuple[MarginRecord, ...], None]
+    #: None of them is violated.
+    requirements_met: Union[bool, None]
+    #: Whether it is equivalent to the design; null: the variables do not keep the class.
+    verify: Union[VerifiedRecord, None]
+    #: Steps of the run that found it; absent in a front.
+    history: Union[tuple[DimensionalStepRecord, ...], None]
+    #: Evidence of local optimality.
+    local_optimality: Union[StationarityRecord, None]
+    #: Numbers of poses.
+    poses: Union[HeldPosesRecord, None]
+
+
+class DimensionalSolutionRecord(Record):
+    """A platform found by a search."""
+
+    #: Value of the first objective.
+    objective: Union[float, None]
+    #: All of them.
+    objectives: tuple[ObjectiveRecord, ...]
+    #: What was chosen, axes left out.
+    variables: tuple[VariableRecord, ...]
+    #: In cyclic order; null: not chosen.
+    offsets: Union[tuple[Union[float, None], ...], None]
+    #: Home, lifted when its height was chosen.
+    home: PoseQuaternionRecord
+    #: The axes chosen.
+    joint_axes: JointAxesRecord
+    #: The requirements, over many poses and by other code.
+    constraint_margins: tuple[MarginRecord, ...]
+    #: None of them is violated.
+    requirements_met: bool
+    #: Whether it is equivalent to the design; null: the variables do not keep the class.
+    verify: Union[VerifiedRecord, None]
+    #: Evidence of local optimality.
+    local_optimality: StationarityRecord
+    #: Numbers of poses.
+    poses: HeldPosesRecord
+    #: Steps of the run that found it; absent in a front.
+    history: Union[tuple[DimensionalStepRecord, ...], None]
+
+
+class DimensionalStepRecord(Record):
+    """A step of the run that found a platform."""
+
+    #: Weighted gain.
+    objective: Union[float, None]
+    #: In the scale of its constraint.
+    violation: Union[float, None]
+    #: Of the trust region.
+    radius: Union[float, None]
+    #: Held.
+    poses: int
+    #: The step was taken.
+    accepted: bool
+
+
+class DiscsRecord(Record):
+    """Discs in the complex plane, in some arrangement."""
+
+    #: Real parts of the centres.
+    re: tuple[tuple[Union[float, None], ...], ...]
+    #: Imaginary parts of the centres.
+    im: tuple[tuple[Union[float, None], ...], ...]
+    #: Radii.
+    radius: tuple[tuple[Union[float, None], ...], ...]
+
+
+class DiscsRecord2(Record):
+    """Discs in the complex plane, in some arrangement."""
+
+    #: Real parts of the centres.
+    re: tuple[Union[float, None], ...]
+    #: Imaginary parts of the centres.
+    im: tuple[Union[float, None], ...]
+    #: Radii.
+    radius: tuple[Union[float, None], ...]
+
+
+class EnclosureRecord(Record):
+    """Discs that hold the entries of R and p of a root."""
+
+    #: The entries of the rotation matrix, rows.
+    R: DiscsRecord
+    #: The entries of the position, design units.
+    p: DiscsRecord2
+
+
+class ExactRoundingOutcome(Record):
+    """The exact rounding, or why there is none."""
+
+    #: The grids used.
+    grids: Union[GridsRecord, None]
+    #: Equivalence with its own octahedral platform is proved in exact arithmetic.
+    proved: Union[bool, None]
+    #: What leg map and forward kinematics say of it.
+    verdict: Union[RoundingVerdict, None]
+    #: Round the hexagon: [m, g] for t = m / g.
+    fractions: Union[tuple[tuple[int, ...], ...], None]
+    #: The joints.
+    joints: Union[tuple[RoundedJointRecord, ...], None]
+    #: How good it is.
+    judgement: Union[JudgementRecord, None]
+    #: How it was found.
+    search: Union[RoundingSearchRecord, None]
+    #: What stands against it.
+    error: Union[NoRoundingError, None]
+
+
+class ExactRoundingRecord(Record):
+    """All joints exactly on the sides of two triangles whose corners are holes."""
+
+    #: The grids used.
+    grids: GridsRecord
+    #: Equivalence with its own octahedral platform is proved in exact arithmetic.
+    proved: bool
+    #: What leg map and forward kinematics say of it.
+    verdict: RoundingVerdict
+    #: Round the hexagon: [m, g] for t = m / g.
+    fractions: Union[tuple[tuple[int, ...], ...], None]
+    #: The joints.
+    joints: tuple[RoundedJointRecord, ...]
+    #: How good it is.
+    judgement: JudgementRecord
+    #: How it was found.
+    search: RoundingSearchRecord
+
+
+class ExploreAnswer(Record):
+    """One JSON document: an answer between what all answers have."""
+
+    #: Always 1: the version of these definitions.
+    schema_version: int
+    #: Of the whole run.
+    verdict: ExploreVerdict
+    #: One sentence with the numbers that decided.
+    explanation: str
+    #: The name of the design.
+    name: str
+    #: The files written.
+    paths: tuple[str, ...]
+    #: The equivalence class.
+    family: FamilySizeRecord
+    #: The offsets; null: none were found.
+    optimize: Union[OffsetsFoundRecord, None]
+    #: The comparison of the design with the optimised one; null: there is none.
+    verify: Union[ComparedRecord, None]
+    #: The poses of the design.
+    fk: PoseTotalsRecord
+    #: What the answer was made from.
+    provenance: ProvenanceRecord
+    #: What was odd about the design files that were read.
+    warnings: tuple[WarningRecord, ...]
+
+
+class FailureRecord(Record):
+    """A refusal or a failure."""
+
+    #: A stable short code, `fk::not_applicable` for example.
+    code: str
+    #: One sentence.
+    message: str
+    #: What is wrong with the design file; empty where the failure is not about one.
+    violations: tuple[ViolationRecord, ...]
+    #: What to do about it.
+    help: Union[str, None]
+    #: The design file.
+    path: Union[str, None]
+
+
+class FamilySizeRecord(Record):
+    """How many platforms are equivalent to an octahedral one."""
+
+    #: Patterns of legs.
+    patterns: int
+    #: Ways to share joints.
+    topologies: int
+
+
+class FileSourceRecord(Record):
+    """A file that is no design."""
+
+    #: The file, as it was named.
+    path: str
+    #: SHA-256 of its bytes, hexadecimal.
+    sha256: str
+
+
+class FkAnswer(Record):
+    """One JSON document: an answer between what all answers have."""
+
+    #: Always 1: the version of these definitions.
+    schema_version: int
+    #: What the answer was made from.
+    provenance: ProvenanceRecord
+    #: What was odd about the design files that were read.
+    warnings: tuple[WarningRecord, ...]
+    #: In the order of the file.
+    rows: Union[tuple[FkRowRecord, ...], None]
+    #: The method that found them.
+    method: Union[Method, None]
+    #: Whether these are known to be all.
+    completeness: Union[CompletenessWord, None]
+    #: One sentence on what is known.
+    completeness_reason: Union[str, None]
+    #: False: roots may be missing.
+    all_paths_accounted: Union[bool, None]
+    #: The number of `solutions`.
+    finite_count: Union[int, None]
+    #: The same, each pose counted as often as it stands for.
+    finite_count_with_multiplicity: Union[int, None]
+    #: Real poses among them.
+    real_count: Union[int, None]
+    #: Poses of which it is not decided whether they are real.
+    undecided_count: Union[int, None]
+    #: Finite poses, multiplicity included, that are not among the certified ones; null: not counted.
+    missing_count: Union[int, None]
+    #: The number of poses, by theorem or counted without finding them; null: not known.
+    pose_count: Union[PoseCountRecord, None]
+    #: Real ones first.
+    solutions: Union[tuple[SolutionRecord, ...], None]
+    #: The paths of the homotopy.
+    paths: Union[tuple[PathRecord, ...], None]
+    #: Candidates that are no roots.
+    rejected: Union[tuple[RejectedRecord, ...], None]
+    #: Ends of paths without a certificate, near which there may be one pose, several or none: they are not
+    #: among the solutions.
+    unproved: Union[tuple[SolutionRecord, ...], None]
+    #: What null stands for, where a number is not finite.
+    notes: Union[tuple[str, ...], None]
+    #: How the pose was followed, with `--near`.
+    near: Union[NearRecord, None]
+    #: The exact closure polynomial, with `--method trilateration`.
+    closure: Union[ClosureRecord, None]
+    solution_set: Union[Literal["isolated", "empty", "positive_dimensional"], None]
+    #: Counted modulo random primes; null: not counted.
+    dimension: Union[int, None]
+    #: What was seen numerically.
+    dimension_at_least: Union[int, None]
+    #: Whether a relation between the legs proves it.
+    dimension_established: Union[bool, None]
+    #: Null: not established.
+    degree: Union[int, None]
+    #: Points of a general section, and real points found by a search.
+    witness_points: Union[tuple[SolutionRecord, ...], None]
+
+
+class FkOneAnswer(Record):
+    """The poses with one set of lengths, and what was asked for besides."""
+
+    #: The method that found them.
+    method: Method
+    #: Whether these are known to be all.
+    completeness: CompletenessWord
+    #: One sentence on what is known.
+    completeness_reason: str
+    #: False: roots may be missing.
+    all_paths_accounted: bool
+    #: The number of `solutions`.
+    finite_count: int
+    #: The same, each pose counted as often as it stands for.
+    finite_count_with_multiplicity: int
+    #: Real poses among them.
+    real_count: int
+    #: Poses of which it is not decided whether they are real.
+    undecided_count: int
+    #: Finite poses, multiplicity included, that are not among the certified ones; null: not counted.
+    missing_count: Union[int, None]
+    #: The number of poses, by theorem or counted without finding them; null: not known.
+    pose_count: Union[PoseCountRecord, None]
+    #: Real ones first.
+    solutions: tuple[SolutionRecord, ...]
+    #: The paths of the homotopy.
+    paths: tuple[PathRecord, ...]
+    #: Candidates that are no roots.
+    rejected: tuple[RejectedRecord, ...]
+    #: Ends of paths without a certificate, near which there may be one pose, several or none: they are not
+    #: among the solutions.
+    unproved: tuple[SolutionRecord, ...]
+    #: What null stands for, where a number is not finite.
+    notes: Union[tuple[str, ...], None]
+    #: How the pose was followed, with `--near`.
+    near: Union[NearRecord, None]
+    #: The exact closure polynomial, with `--method trilateration`.
+    closure: Union[ClosureRecord, None]
+    solution_set: Union[Literal["isolated", "empty", "positive_dimensional"], None]
+    #: Counted modulo random primes; null: not counted.
+    dimension: Union[int, None]
+    #: What was seen numerically.
+    dimension_at_least: Union[int, None]
+    #: Whether a relation between the legs proves it.
+    dimension_established: Union[bool, None]
+    #: Null: not established.
+    degree: Union[int, None]
+    #: Points of a general section, and real points found by a search.
+    witness_points: Union[tuple[SolutionRecord, ...], None]
+
+
+class FkRowRecord(Record):
+    """One row of a file of lengths."""
+
+    #: The line of the CSV file, from 1.
+    line: int
+    #: The six lengths, design units.
+    lengths: tuple[float, ...]
+    #: The time of the row, where the file has a column of times.
+    time: Union[float, None]
+    #: The method that found them.
+    method: Union[Method, None]
+    #: Whether these are known to be all.
+    completeness: Union[CompletenessWord, None]
+    #: One sentence on what is known.
+    completeness_reason: Union[str, None]
+    #: False: roots may be missing.
+    all_paths_accounted: Union[bool, None]
+    #: The number of `solutions`.
+    finite_count: Union[int, None]
+    #: The same, each pose counted as often as it stands for.
+    finite_count_with_multiplicity: Union[int, None]
+    #: Real poses among them.
+    real_count: Union[int, None]
+    #: Poses of which it is not decided whether they are real.
+    undecided_count: Union[int, None]
+    #: Finite poses, multiplicity included, that are not among the certified ones; null: not counted.
+    missing_count: Union[int, None]
+    #: The number of poses, by theorem or counted without finding them; null: not known.
+    pose_count: Union[PoseCountRecord, None]
+    #: Real ones first.
+    solutions: Union[tuple[SolutionRecord, ...], None]
+    #: The paths of the homotopy.
+    paths: Union[tuple[PathRecord, ...], None]
+    #: Candidates that are no roots.
+    rejected: Union[tuple[RejectedRecord, ...], None]
+    #: Ends of paths without a certificate, near which there may be one pose, several or none: they are not
+    #: among the solutions.
+    unproved: Union[tuple[SolutionRecord, ...], None]
+    #: What null stands for, where a number is not finite.
+    notes: Union[tuple[str, ...], None]
+    #: How the pose was followed, with `--near`.
+    near: Union[NearRecord, None]
+    #: The exact closure polynomial, with `--method trilateration`.
+    closure: Union[ClosureRecord, None]
+    solution_set: Union[Literal["isolated", "empty", "positive_dimensional"], None]
+    #: Counted modulo random primes; null: not counted.
+    dimension: Union[int, None]
+    #: What was seen numerically.
+    dimension_at_least: Union[int, None]
+    #: Whether a relation between the legs proves it.
+    dimension_established: Union[bool, None]
+    #: Null: not established.
+    degree: Union[int, None]
+    #: Points of a general section, and real points found by a search.
+    witness_points: Union[tuple[SolutionRecord, ...], None]
+    #: The failure, as the command would have reported it for this row alone.
+    error: Union[FailureRecord, None]
+
+
+class FkRowsAnswer(Record):
+    """The poses with the lengths of each row of a file."""
+
+    #: In the order of the file.
+    rows: tuple[FkRowRecord, ...]
+
+
+class FrontAnswer(Record):
+    """The answer of `optimize` with mode = "pareto"."""
+
+    #: What came of the search.
+    status: FrontStatus
+    #: The members, by falling gain of the first objective.
+    front: tuple[FrontMemberRecord, ...]
+    #: Runs that met their bounds, and were dominated by others or equal to one.
+    dominated: int
+    #: Bounds that no run met.
+    unmet: int
+    #: When infeasible.
+    conflict: Union[ConflictRecord, None]
+
+
+class FrontMemberRecord(Record):
+    """A member of a front."""
+
+    #: Value of the first objective.
+    objective: Union[float, None]
+    #: All of them.
+    objectives: tuple[ObjectiveRecord, ...]
+    #: What was chosen, axes left out.
+    variables: tuple[VariableRecord, ...]
+    #: In cyclic order; null: not chosen.
+    offsets: Union[tuple[Union[float, None], ...], None]
+    #: Home, lifted when its height was chosen.
+    home: PoseQuaternionRecord
+    #: The axes chosen.
+    joint_axes: JointAxesRecord
+    #: The requirements, over many poses and by other code.
+    constraint_margins: tuple[MarginRecord, ...]
+    #: None of them is violated.
+    requirements_met: bool
+    #: Whether it is equivalent to the design; null: the variables do not keep the class.
+    verify: Union[VerifiedRecord, None]
+    #: Evidence of local optimality.
+    local_optimality: StationarityRecord
+    #: Numbers of poses.
+    poses: HeldPosesRecord
+    #: The platform as a design.
+    design: Union[Design, None]
+    #: The file written.
+    output: Union[str, None]
+    #: The objectives in the evaluation that compared the members.
+    non_dominated_at: tuple[Union[float, None], ...]
+    #: Steps of the run that found it; absent in a front.
+    history: Union[tuple[DimensionalStepRecord, ...], None]
+
+
+class GiveRecord(Record):
+    """A requirement of a conflict."""
+
+    #: Which.
+    name: DemandWord
+    #: In which it gives.
+    unit: str
+    #: By how much it would have to give alone; null: cannot make room.
+    alone: Union[float, None]
+    #: Its violation where the sum of all, each in its scale, is least.
+    together: Union[float, None]
+    #: One sentence.
+    message: str
+
+
+class GlobalBoundRecord(Record):
+    """What no offsets can exceed."""
+
+    #: No offsets within the limits reach more.
+    upper: Union[float, None]
+    #: By how much that is above the solution, relative.
+    gap: Union[float, None]
+    #: Boxes of offsets that were looked at.
+    boxes: int
+
+
+class GridRecord(Record):
+    """A grid of holes in the plane of a body."""
+
+    #: Distance of neighbouring holes.
+    pitch: Union[float, None]
+    #: A hole.
+    origin: tuple[Union[float, None], ...]
+    #: The turn of the grid.
+    angle_deg: Union[float, None]
+
+
+class GridsRecord(Record):
+    """The grids of both bodies."""
+
+    #: Of the base.
+    base: GridRecord
+    #: Of the platform.
+    platform: GridRecord
+
+
+class GriffisDuffyRecord(Record):
+    """Joints on the sides of two triangles."""
+
+    #: The legs going round the hexagon, from 1.
+    order: tuple[int, ...]
+    #: Where each joint lies on its side, from 0 to 1.
+    t: tuple[Union[float, None], ...]
+    #: Lengths of the sides, design units.
+    side_lengths: tuple[Union[float, None], ...]
+    #: prod (1 - t) - prod t: singular where it is zero.
+    det: Union[float, None]
+    #: It is zero, exactly.
+    exactly_singular: bool
+    #: How far joints are off their sides, relative.
+    deviation: Union[float, None]
+    #: Up to which deviation the type is recognised.
+    deviation_limit: Union[float, None]
+    #: The dependency of the legs where `det` is zero.
+    coefficients: tuple[Union[float, None], ...]
+    #: `sum c_i s_i` of the squared lengths of every pose.
+    constant: Union[float, None]
+    #: By how much the lengths of the design miss the constant, relative; null without lengths.
+    lengths_defect: Union[float, None]
+    #: Whether the platform can be assembled with the lengths of the design.
+    assembly: Union[AssemblyRecord, None]
+
+
+class HeldPosesRecord(Record):
+    """Numbers of poses."""
+
+    #: Where the optimiser kept the requirements.
+    held: int
+    #: Of the dense evaluation.
+    checked: int
+
+
+class JointAxesRecord(Record):
+    """Axes of joints: unit vectors, frame of the body; null: not chosen."""
+
+    #: Of the base ends of the legs.
+    base: Union[tuple[tuple[Union[float, None], ...], ...], None]
+    #: Of their platform ends.
+    platform: Union[tuple[tuple[Union[float, None], ...], ...], None]
+
+
+class JointBudgetRecord(Record):
+    """How far one joint may be off while the others are where they should be."""
+
+    #: Its body.
+    body: Body
+    #: Its name.
+    joint: str
+    #: In any direction.
+    alone: JointLimitRecord
+    #: The worst direction, frame of the body.
+    direction: tuple[Union[float, None], ...]
+    #: Error of the tool point for each unit of error in the worst direction.
+    position_per_unit: Union[float, None]
+    #: Error of the orientation for each unit of error in the worst direction.
+    rotation_deg_per_unit: Union[float, None]
+    #: Along x, y and z of the body; null: no influence.
+    along_axes: tuple[Union[float, None], ...]
+    #: Half widths of the box of largest volume for all joints together; null: no influence.
+    largest_product: tuple[Union[float, None], ...]
+
+
+class JointLimitRecord(Record):
+    """How far joints may be off."""
+
+    #: Keeps the bound to first order, design units.
+    value: Union[float, None]
+    #: Uses the bound up to first order.
+    reached: Union[float, None]
+    #: Which bound it is.
+    limited_by: ErrorKind
+    #: The pose at which it is.
+    pose: PoseQuaternionRecord
+
+
+class JointsRecord(Record):
+    """How exactly the joints of a design are known, all together."""
+
+    #: The least exact of the joints decides.
+    exactness: ExactnessWord
+    #: The integers whose square roots generate the field of the exact coordinates; empty for fractions.
+    radicands: tuple[int, ...]
+    #: Joints known between bounds only, with their bodies: `base.A2`.
+    enclosed: tuple[str, ...]
+    #: The same in words.
+    explanation: str
+
+
+class JudgementRecord(Record):
+    """How good a design is."""
+
+    #: The worst inverse condition number over the poses.
+    objective: Union[float, None]
+    #: Where it is.
+    worst_pose: PoseQuaternionRecord
+    #: Least distances of two joints, base and platform.
+    least_distances: tuple[Union[float, None], ...]
+    #: det A; null: there is no leg map.
+    det: Union[float, None]
+    #: The least margin of each requirement.
+    requirements: tuple[RequirementMarginRecord, ...]
+    #: No requirement is violated.
+    met: bool
+
+
+class LeastConditioningRecord(Record):
+    """The worst conditioned pose."""
+
+    #: Smallest over largest singular value of the Jacobian with unit lines and moments over the
+    #: characteristic length: 1 at best, 0 at a singular pose.
+    inverse_condition: Union[float, None]
+    #: Where.
+    pose: PoseQuaternionRecord
+    #: Design units.
+    characteristic_length: float
+
+
+class LocalOptimalityRecord(Record):
+    """Evidence of local optimality."""
+
+    #: The model promised no further gain.
+    converged: bool
+    #: Gain still promised for a unit of offset.
+    stationarity: Union[float, None]
+    #: Gained by a pattern search from there.
+    pattern_gain: Union[float, None]
+    #: Points it tried.
+    pattern_trials: int
+
+
+class MapAnswer(Record):
+    """One JSON document: an answer between what all answers have."""
+
+    #: Always 1: the version of these definitions.
+    schema_version: int
+    #: What the designs have to do with each other; null: undecided, exit 3.
+    relation: Union[Relation, None]
+    #: One sentence with the numbers that decided.
+    explanation: str
+    #: Rows of A: s(TO) = A s(FROM) + c of squared leg lengths.
+    A: tuple[tuple[Union[float, None], ...], ...]
+    #: The constant terms, design units squared.
+    c: tuple[Union[float, None], ...]
+    #: The determinant of A.
+    det: Union[float, None]
+    #: The determinant as an exact number, such as 64/243, where the identity of leg vectors was checked in
+    #: exact arithmetic on exact joints; null elsewhere.
+    det_exact: Union[str, None]
+    #: Rows of A as exact numbers; null where `det_exact` is.
+    A_exact: Union[tuple[tuple[str, ...], ...], None]
+    #: The constant terms as exact numbers; null where `det_exact` is.
+    c_exact: Union[tuple[str, ...], None]
+    #: For each leg of TO whose row of A is 1 - t and t beside zeros (its ends on edges of FROM at the
+    #: share t), the t at which det A vanishes while the other legs stay, as an exact number; null for
+    #: other legs and where there is none; null as a whole where `det_exact` is.
+    singular_shares: Union[tuple[Union[str, None], ...], None]
+    #: The largest of the residuals.
+    residual: Union[float, None]
+    #: Relative distance of each leg of TO from the span of the legs of FROM.
+    residuals: tuple[Union[float, None], ...]
+    #: Rank of the leg vectors of FROM.
+    leg_rank: int
+    #: Singular values of the normalised leg vectors of FROM.
+    singular_values: tuple[Union[float, None], ...]
+    #: Smallest over largest singular value of A.
+    inverse_condition: Union[float, None]
+    #: What the numbers were compared with.
+    tolerances: MapTolerancesRecord
+    #: Which leg is which.
+    correspondence: CorrespondenceRecord
+    #: What the answer was made from.
+    provenance: ProvenanceRecord
+    #: What was odd about the design files that were read.
+    warnings: tuple[WarningRecord, ...]
+    #: Base and platform of the second design were exchanged first.
+    exchanged: Union[bool, None]
+    #: The rigid motions that make the second design equivalent to the first, with `--align`.
+    alignment: Union[AlignmentRecord, None]
+    #: The file written.
+    output: Union[str, None]
+
+
+class MapRecord(Record):
+    """The affine map s(TO) = A s(FROM) + c between the squared leg lengths of two designs."""
+
+    #: What the designs have to do with each other; null: undecided, exit 3.
+    relation: Union[Relation, None]
+    #: One sentence with the numbers that decided.
+    explanation: str
+    #: Rows of A: s(TO) = A s(FROM) + c of squared leg lengths.
+    A: tuple[tuple[Union[float, None], ...], ...]
+    #: The constant terms, design units squared.
+    c: tuple[Union[float, None], ...]
+    #: The determinant of A.
+    det: Union[float, None]
+    #: The determinant as an exact number, such as 64/243, where the identity of leg vectors was checked in
+    #: exact arithmetic on exact joints; null elsewhere.
+    det_exact: Union[str, None]
+    #: Rows of A as exact numbers; null where `det_exact` is.
+    A_exact: Union[tuple[tuple[str, ...], ...], None]
+    #: The constant terms as exact numbers; null where `det_exact` is.
+    c_exact: Union[tuple[str, ...], None]
+    #: For each leg of TO whose row of A is 1 - t and t beside zeros (its ends on edges of FROM at the
+    #: share t), the t at which det A vanishes while the other legs stay, as an exact number; null for
+    #: other legs and where there is none; null as a whole where `det_exact` is.
+    singular_shares: Union[tuple[Union[str, None], ...], None]
+    #: The largest of the residuals.
+    residual: Union[float, None]
+    #: Relative distance of each leg of TO from the span of the legs of FROM.
+    residuals: tuple[Union[float, None], ...]
+    #: Rank of the leg vectors of FROM.
+    leg_rank: int
+    #: Singular values of the normalised leg vectors of FROM.
+    singular_values: tuple[Union[float, None], ...]
+    #: Smallest over largest singular value of A.
+    inverse_condition: Union[float, None]
+    #: What the numbers were compared with.
+    tolerances: MapTolerancesRecord
+
+
+class MapTolerancesRecord(Record):
+    """Limits of the decision about a map."""
+
+    #: Of `residual`.
+    residual: float
+    #: Of the singular values, relative to the largest.
+    rank: float
+    #: Of `inverse_condition`.
+    inverse_condition: float
+
+
+class MarginRecord(Record):
+    """The least margin of a kind of requirement."""
+
+    #: The kind.
+    name: TermKind
+    #: Least over the poses looked at; a violation below 0.
+    margin: Union[float, None]
+    #: Not violated by more than rounding: proved in `assess` (null where it is not), at the poses looked
+    #: at elsewhere.
+    met: Union[bool, None]
+    #: Rounding does not tell the margin from 0.
+    at_limit: bool
+    #: What is known of it.
+    status: MarginVerdict
+    #: No pose of the workspace has a smaller margin; null where nothing is proved.
+    proved_margin: Union[float, None]
+    #: Of the margins.
+    unit: str
+    #: Legs, joints, keep-out or load.
+    between: tuple[str, ...]
+    #: Where it is least; null where the pose has no influence.
+    pose: Union[PoseQuaternionRecord, None]
+
+
+class MotionRecord(Record):
+    """A pair of rigid motions of the second design."""
+
+    #: Of its base.
+    base: PoseRecord
+    #: Of its platform.
+    platform: PoseRecord
+    #: The residual of the map to the moved design.
+    residual: Union[float, None]
+    #: The determinant of that map.
+    det: Union[float, None]
+    #: What the moved design has to do with the first; null: undecided.
+    relation: Union[Relation, None]
+
+
+class NearRecord(Record):
+    """The way from the start to the pose reached, with the numbers that prove it free of singularities."""
+
+    #: What came of it.
+    outcome: NearWord
+    #: Why it was lost.
+    reason: Union[str, None]
+    #: The pose at the beginning.
+    start: PoseRecord
+    #: The pose at the end.
+    reached: PoseRecord
+    #: How far on the straight line of squared lengths; 1 at its end.
+    fraction: float
+    #: Largest error of the leg equations over the squared size.
+    residual: Union[float, None]
+    #: Of the Jacobian at the pose reached, as in `assess`: 1 at best, 0 at a singularity.
+    inverse_condition: Union[float, None]
+    #: Segments the line was divided into.
+    segments: int
+    #: Newton steps in all.
+    newton_steps: int
+    #: The largest Kantorovich number; below 1 every segment is free of singularities.
+    kantorovich: Union[float, None]
+    #: How far the centroid of the platform moved, design units.
+    distance: Union[float, None]
+    #: The angle the platform turned by.
+    angle_deg: Union[float, None]
+
+
+class NearestMotionRecord(Record):
+    """The pair of rigid motions that comes nearest."""
+
+    #: Of the base of the second design.
+    base: PoseRecord
+    #: Of its platform.
+    platform: PoseRecord
+    #: The residual it leaves.
+    residual: Union[float, None]
+
+
+class NearestRoundingOutcome(Record):
+    """The nearest rounding, or why there is none."""
+
+    #: The grids used.
+    grids: Union[GridsRecord, None]
+    #: What leg map and forward kinematics say of it and the wanted design.
+    verdict: Union[RoundingVerdict, None]
+    #: The residual of the leg map; null where it could not be computed.
+    map_residual: Union[float, None]
+    #: The joints.
+    joints: Union[tuple[RoundedJointRecord, ...], None]
+    #: How good it is.
+    judgement: Union[JudgementRecord, None]
+    #: The error of the pose by the formula of the wanted design.
+    pose_error: Union[RoundingErrorRecord, None]
+    #: Joints that are not on the nearest hole.
+    not_nearest: Union[int, None]
+    #: What stands against it.
+    error: Union[NoRoundingError, None]
+
+
+class NearestRoundingRecord(Record):
+    """All joints on holes next to where they are wanted."""
+
+    #: The grids used.
+    grids: GridsRecord
+    #: What leg map and forward kinematics say of it and the wanted design.
+    verdict: RoundingVerdict
+    #: The residual of the leg map; null where it could not be computed.
+    map_residual: Union[float, None]
+    #: The joints.
+    joints: tuple[RoundedJointRecord, ...]
+    #: How good it is.
+    judgement: JudgementRecord
+    #: The error of the pose by the formula of the wanted design.
+    pose_error: RoundingErrorRecord
+    #: Joints that are not on the nearest hole.
+    not_nearest: int
+
+
+class NearestSingularRecord(Record):
+    """The nearest singular design that was found."""
+
+    #: Norm of the change of all joints, design units.
+    distance: Union[float, None]
+    #: The distance found is an upper bound of the least one.
+    bound: Literal["upper"]
+    #: No singular design is nearer.
+    distance_at_least: Union[float, None]
+    #: What becomes singular.
+    kind: str
+    #: The legs in it, from 1.
+    legs: tuple[int, ...]
+    #: The dependency of their leg vectors.
+    coefficients: Union[tuple[Union[float, None], ...], None]
+    #: What is left of the dependency.
+    residual: Union[float, None]
+    #: Rounding of the file may be the only difference.
+    within_rounding: bool
+    #: Its base joints by name, base frame.
+    base: dict[str, tuple[Union[float, None], ...]]
+    #: Its platform joints by name, platform frame.
+    platform: dict[str, tuple[Union[float, None], ...]]
+
+
+class NoRoundingError(Record):
+    """What stands against a rounding."""
+
+    #: A short code.
+    code: NoRoundingWord
+    #: One sentence.
+    message: str
+
+
+class NoRoundingRecord(Record):
+    """Why there is no rounding."""
+
+    #: What stands against it.
+    error: NoRoundingError
+
+
+class ObjectiveRecord(Record):
+    """An objective and its value."""
+
+    #: Which.
+    name: Objective
+    #: By the dense evaluation.
+    value: Union[float, None]
+    #: Over the poses at which the optimiser kept the requirements.
+    at_held_poses: Union[float, None]
+    #: Empty for a pure number.
+    unit: str
+
+
+class OffsetLimitsRecord(Record):
+    """What was required of offsets."""
+
+    #: Of joint centres of a body, design units.
+    min_joint_distance: float
+    #: The least |det A|.
+    min_abs_det: float
+    #: By which the lengths in the Jacobian are divided.
+    characteristic_length: float
+    #: Of the offsets, edge lengths.
+    bounds: tuple[tuple[Union[float, None], ...], ...]
+    #: Label of the length unit.
+    units: str
+
+
+class OffsetMarginsRecord(Record):
+    """By how much limits of offsets are met."""
+
+    #: Least distance of two base joints less the required one, design units.
+    base_spacing: Union[float, None]
+    #: The same on the platform.
+    platform_spacing: Union[float, None]
+    #: |det A| less the required value.
+    abs_det: Union[float, None]
+    #: Least distance of an offset from its bounds.
+    bounds: Union[float, None]
+
+
+class OffsetSolutionRecord(Record):
+    """Offsets with their evidence."""
+
+    #: Worst inverse condition number.
+    objective: Union[float, None]
+    #: Zone of each offset: before, inside, beyond its edge.
+    branch: str
+    #: The numbers `t_i`, cyclic order.
+    offsets: tuple[Union[float, None], ...]
+    #: `t_i d_i`, design units.
+    shifts: tuple[Union[float, None], ...]
+    #: `d_i`, design units.
+    edge_lengths: tuple[Union[float, None], ...]
+    #: The legs of the cycle, from 1.
+    cyclic_order: tuple[int, ...]
+    #: det A by the product formula.
+    det: Union[float, None]
+    #: det A of the matrix.
+    det_of_matrix: Union[float, None]
+    #: s' = A s + c, legs in the order of the design; rows.
+    A: tuple[tuple[Union[float, None], ...], ...]
+    #: The constant terms, design units squared.
+    c: tuple[Union[float, None], ...]
+    #: By how much the limits are met.
+    constraint_margins: OffsetMarginsRecord
+    #: Where the objective is reached.
+    worst_pose: WorstPoseRecord
+    #: Evidence of local optimality.
+    local_optimality: LocalOptimalityRecord
+    #: Steps of the run that found it.
+    history: tuple[OffsetStepRecord, ...]
+
+
+class OffsetStepRecord(Record):
+    """A step of the run that found the offsets."""
+
+    #: Worst inverse condition number after the step.
+    objective: Union[float, None]
+    #: Lengths relative to the size.
+    violation: Union[float, None]
+    #: Of the trust region.
+    radius: Union[float, None]
+    #: Gain the model promised, relative.
+    predicted: Union[float, None]
+    #: Gain found, relative.
+    actual: Union[float, None]
+    #: The step was taken.
+    accepted: bool
+
+
+class OffsetsAnswer(Record):
+    """The answer of `optimize` about the offsets of an octahedral design."""
+
+    #: What came of the search.
+    status: OffsetsStatus
+    #: What was required.
+    requirements: OffsetLimitsRecord
+    #: The poses the worst case is taken over.
+    poses: PoseSetRecord
+    #: What became of the branches.
+    branch_counts: BranchCountsRecord
+    #: What no offsets can exceed; null: not proved, or there is no solution.
+    global_bound: Union[GlobalBoundRecord, None]
+    #: Greatest gap at which the answer counts as optimal.
+    tolerance: float
+    #: The best other branches.
+    runners_up: tuple[BranchRecord, ...]
+    #: All branches: a zone for each offset.
+    branches: tuple[BranchRecord, ...]
+    #: The platform; null: there is none.
+    design: Union[Design, None]
+    #: The file written.
+    output: Union[str, None]
+    #: Worst inverse condition number.
+    objective: Union[float, None]
+    #: Zone of each offset: before, inside, beyond its edge.
+    branch: Union[str, None]
+    #: The numbers `t_i`, cyclic order.
+    offsets: tuple[Union[float, None], ...]
+    #: `t_i d_i`, design units.
+    shifts: tuple[Union[float, None], ...]
+    #: `d_i`, design units.
+    edge_lengths: tuple[Union[float, None], ...]
+    #: The legs of the cycle, from 1.
+    cyclic_order: Union[tuple[int, ...], None]
+    #: det A by the product formula.
+    det: Union[float, None]
+    #: det A of the matrix.
+    det_of_matrix: Union[float, None]
+    #: s' = A s + c, legs in the order of the design; rows.
+    A: tuple[tuple[Union[float, None], ...], ...]
+    #: The constant terms, design units squared.
+    c: tuple[Union[float, None], ...]
+    #: By how much the limits are met.
+    constraint_margins: Union[OffsetMarginsRecord, None]
+    #: Where the objective is reached.
+    worst_pose: Union[WorstPoseRecord, None]
+    #: Evidence of local optimality.
+    local_optimality: Union[LocalOptimalityRecord, None]
+    #: Steps of the run that found it.
+    history: Union[tuple[OffsetStepRecord, ...], None]
+
+
+class OffsetsFoundRecord(Record):
+    """Offsets in short."""
+
+    #: No offsets exceed the objective by more than the tolerance: proved.
+    converged: bool
+    #: Worst inverse condition number.
+    objective: Union[float, None]
+    #: The numbers `t_i`, cyclic order.
+    offsets: tuple[Union[float, None], ...]
+    #: `t_i d_i`, design units.
+    shifts: tuple[Union[float, None], ...]
+    #: det A.
+    det: Union[float, None]
+
+
+class OptimizeAnswer(Record):
+    """One JSON document: an answer between what all answers have."""
+
+    #: Always 1: the version of these definitions.
+    schema_version: int
+    #: What the answer was made from.
+    provenance: ProvenanceRecord
+    #: What was odd about the design files that were read.
+    warnings: tuple[WarningRecord, ...]
+    #: What came of the search.
+    status: Union[FrontStatus, OffsetsStatus, DimensionalStatus, None]
+    #: The members, by falling gain of the first objective.
+    front: Union[tuple[FrontMemberRecord, ...], None]
+    #: Runs that met their bounds, and were dominated by others or equal to one.
+    dominated: Union[int, None]
+    #: Bounds that no run met.
+    unmet: Union[int, None]
+    #: When infeasible.
+    conflict: Union[ConflictRecord, None]
+    #: What was required.
+    requirements: Union[OffsetLimitsRecord, None]
+    #: The poses the worst case is taken over.
+    poses: Union[PoseSetRecord, HeldPosesRecord, None]
+    #: What became of the branches.
+    branch_counts: Union[BranchCountsRecord, None]
+    #: What no offsets can exceed; null: not proved, or there is no solution.
+    global_bound: Union[GlobalBoundRecord, None]
+    #: Greatest gap at which the answer counts as optimal.
+    tolerance: Union[float, None]
+    #: The best other branches.
+    runners_up: Union[tuple[BranchRecord, ...], None]
+    #: All branches: a zone for each offset.
+    branches: Union[tuple[BranchRecord, ...], None]
+    #: The platform; null: there is none.
+    design: Union[Design, None]
+    #: The file written.
+    output: Union[str, None]
+    #: Worst inverse condition number.
+    objective: Union[float, None]
+    #: Zone of each offset: before, inside, beyond its edge.
+    branch: Union[str, None]
+    #: The numbers `t_i`, cyclic order.
+    offsets: Union[tuple[Union[float, None], ...], None]
+    #: `t_i d_i`, design units.
+    shifts: tuple[Union[float, None], ...]
+    #: `d_i`, design units.
+    edge_lengths: tuple[Union[float, None], ...]
+    #: The legs of the cycle, from 1.
+    cyclic_order: Union[tuple[int, ...], None]
+    #: det A by the product formula.
+    det: Union[float, None]
+    #: det A of the matrix.
+    det_of_matrix: Union[float, None]
+    #: s' = A s + c, legs in the order of the design; rows.
+    A: tuple[tuple[Union[float, None], ...], ...]
+    #: The constant terms, design units squared.
+    c: tuple[Union[float, None], ...]
+    #: By how much the limits are met.
+    constraint_margins: Union[OffsetMarginsRecord, tuple[MarginRecord, ...], None]
+    #: Where the objective is reached.
+    worst_pose: Union[WorstPoseRecord, None]
+    #: Evidence of local optimality.
+    local_optimality: Union[LocalOptimalityRecord, StationarityRecord, None]
+    #: Steps of the run that found it.
+    history: Union[tuple[OffsetStepRecord, ...], tuple[DimensionalStepRecord, ...], None]
+    #: How the search went.
+    search: Union[SearchRecord, None]
+    #: All of them.
+    objectives: Union[tuple[ObjectiveRecord, ...], None]
+    #: What was chosen, axes left out.
+    variables: Union[tuple[VariableRecord, ...], None]
+    #: Home, lifted when its height was chosen.
+    home: Union[PoseQuaternionRecord, None]
+    #: The axes chosen.
+    joint_axes: Union[JointAxesRecord, None]
+    #: None of them is violated.
+    requirements_met: Union[bool, None]
+    #: Whether it is equivalent to the design; null: the variables do not keep the class.
+    verify: Union[VerifiedRecord, None]
+
+
+class OtherAlignmentRecord(Record):
+    """What was found for the second design taken otherwise."""
+
+    #: Whether there are motions.
+    status: AlignmentWord
+    #: How many.
+    motions: int
+
+
+class PathRecord(Record):
+    """What a path of the homotopy did."""
+
+    #: Index of the start point.
+    start: int
+    #: Where it ended.
+    end: PathEnd
+    #: Index into `solutions`, from 0.
+    root: Union[int, None]
+    #: Index of the mirror image, where one path stands for two.
+    mirror_root: Union[int, None]
+    #: Accepted steps.
+    steps: int
+    #: Rejected steps.
+    rejections: int
+    #: Winding number, 1 for a regular end, 0 where it is not determined.
+    winding: int
+    #: |e.e| / |e|^2 at the end.
+    isotropy: Union[float, None]
+    #: How often it had to be tracked again with smaller steps.
+    retracked: int
+
+
+class PoseBoundRecord(Record):
+    """A proved bound on the number of isolated finite poses, counted with multiplicity."""
+
+    #: The bound.
+    poses: int
+    #: Why there are not more.
+    theorem: str
+
+
+class PoseCountRecord(Record):
+    """The finite poses of the design, counted without finding them."""
+
+    #: Their number with multiplicity; null: not finite, or undecided.
+    finite: Union[int, None]
+    #: Standard monomials of each degree.
+    by_degree: Union[tuple[int, ...], None]
+    #: Dimension of a set of positive dimension.
+    dimension: Union[int, None]
+    #: Degree of a set of positive dimension, in the 16 coordinates of a pose, with multiplicity.
+    degree: Union[int, None]
+    #: Why there is no count.
+    undecided: Union[CountUndecided, None]
+    #: The lengths it is the count of: those given, exactly as they stand, or generic ones, which have as
+    #: many isolated poses as any or more. Where the lengths are known to rounding only, as images under a
+    #: leg map are, the latter are counted.
+    lengths: CountedLengths
+    #: By a theorem and certificates, or modulo random primes.
+    evidence: EvidenceWord
+    #: A bound; null: proved, or undecided.
+    error_probability: Union[float, None]
+    #: In decimal, as text: they have more digits than a double.
+    primes: tuple[str, ...]
+
+
+class PoseErrorRecord(Record):
+    """The error of a pose."""
+
+    #: Of the tool point, design units.
+    position: Union[float, None]
+    #: Of the orientation.
+    rotation_deg: Union[float, None]
+
+
+class PoseErrorsRecord(Record):
+    """How the errors of poses spread."""
+
+    #: Of the tool point, design units.
+    position: QuantilesRecord
+    #: Of the orientation.
+    rotation_deg: QuantilesRecord
+
+
+class PoseQuaternionRecord(Record):
+    """A pose by its quaternion: a platform point x is at R(q) x + p in the base frame."""
+
+    #: Position of the platform origin, base frame, design units.
+    p: tuple[Union[float, None], ...]
+    #: Unit quaternion, scalar part first.
+    q: tuple[Union[float, None], ...]
+
+
+class PoseRecord(Record):
+    """A pose: a platform point x is at R x + p in the base frame."""
+
+    #: Rows of the rotation matrix.
+    R: tuple[tuple[Union[float, None], ...], ...]
+    #: Position of the platform origin, base frame, design units.
+    p: tuple[Union[float, None], ...]
+
+
+class PoseSetRecord(Record):
+    """The poses the worst case is taken over."""
+
+    #: How many.
+    count: int
+    #: Where home comes from.
+    home: SourceWord
+    #: Its position.
+    home_position: tuple[Union[float, None], ...]
+    #: Where the workspace comes from.
+    workspace: SourceWord
+
+
+class PoseTotalsRecord(Record):
+    """Poses counted."""
+
+    #: Where the lengths come from.
+    lengths_from: LengthsOrigin
+    #: Finite poses, real and complex.
+    finite_count: int
+    #: Real ones.
+    real_count: int
+    #: Poses with a certificate.
+    certified_count: int
+    #: False: poses may be missing.
+    all_paths_accounted: bool
+
+
+class ProvenanceRecord(Record):
+    """What it takes to make an answer again: the program, the seed and the files. There is no clock and no name of a machine in it."""
+
+    #: The version of the program.
+    version: str
+    #: The seed that was handed to the computation; null where it takes none.
+    seed: Union[int, None]
+    #: The designs, in the order in which they were given.
+    designs: tuple[DesignSourceRecord, ...]
+    #: Other texts that were read: tables of lengths or poses, fronts.
+    files: tuple[FileSourceRecord, ...]
+
+
+class QuantilesRecord(Record):
+    """How values spread."""
+
+    #: Half of the values is at most this.
+    median: Union[float, None]
+    #: 90 of a hundred.
+    p90: Union[float, None]
+    #: 99 of a hundred.
+    p99: Union[float, None]
+    #: All.
+    max: Union[float, None]
+
+
+class RealPoseRecord(Record):
+    """A real pose in real numbers."""
+
+    #: Position of the platform origin, base frame, design units.
+    position: tuple[float, ...]
+    #: Rows of the rotation matrix.
+    rotation: tuple[tuple[float, ...], ...]
+    #: Roll, pitch and yaw in degrees, R = Rz(yaw) Ry(pitch) Rx(roll).
+    rpy_deg: tuple[float, ...]
+    #: Unit quaternion, scalar part first.
+    quat_wxyz: tuple[float, ...]
+    #: On which side of the base the platform is; null: its centre is in the plane of the base, there or at
+    #: home.
+    mode: Union[SideWord, None]
+    #: Largest difference from home of an entry of the rotation matrix, or of a coordinate of the position
+    #: over the size of the design.
+    distance_from_home: float
+    #: Whether none of the other real poses listed is nearer to home.
+    nearest_home: bool
+
+
+class RegularityRecord(Record):
+    """Whether det J vanishes at no pose of the workspace."""
+
+    #: Null: undecided.
+    met: Union[bool, None]
+    #: The same in a word.
+    status: RegularityWord
+    #: Where det J has the other sign than at home, or where it is undecided.
+    pose: Union[PoseQuaternionRecord, None]
+    #: Cells of the workspace that were looked at.
+    cells: int
+
+
+class RejectedRecord(Record):
+    """A candidate that is no root."""
+
+    #: Why.
+    reason: RejectionReason
+    #: Its error in the leg equations, over the squared size.
+    residual: Union[float, None]
+
+
+class RequirementMarginRecord(Record):
+    """The least margin of a requirement."""
+
+    #: Which.
+    name: TermKind
+    #: The margin; a violation below 0.
+    margin: Union[float, None]
+
+
+class RoundAnswer(Record):
+    """One JSON document: an answer between what all answers have."""
+
+    #: Always 1: the version of these definitions.
+    schema_version: int
+    #: The name of the design.
+    name: str
+    #: The unit of its lengths.
+    units: str
+    #: The grids asked for.
+    grids: GridsRecord
+    #: Origins and angles of the grids are chosen too.
+    free_grid: bool
+    #: The design as it is wanted.
+    wanted: JudgementRecord
+    #: The best rounding that is exactly equivalent to an octahedral platform.
+    exact: ExactRoundingOutcome
+    #: The rounding with every joint next to where it is wanted.
+    nearest: NearestRoundingOutcome
+    #: Which of them the rule takes; null: none meets the requirements.
+    chosen: Union[VariantWord, None]
+    #: The rounded design.
+    design: Union[Design, None]
+    #: The file written.
+    output: Union[str, None]
+    #: What the answer was made from.
+    provenance: ProvenanceRecord
+    #: What was odd about the design files that were read.
+    warnings: tuple[WarningRecord, ...]
+
+
+class RoundedJointRecord(Record):
+    """A joint on a hole."""
+
+    #: Its body.
+    body: Body
+    #: Its name.
+    joint: str
+    #: The hole, counted along the axes of the grid.
+    cell: tuple[int, ...]
+    #: How it moved, frame of the body.
+    moved: tuple[Union[float, None], ...]
+    #: How far.
+    distance: Union[float, None]
+    #: Distance from the line of its side; null for corners.
+    off_line: Union[float, None]
+
+
+class RoundingErrorRecord(Record):
+    """The error of the pose when a rounded platform is controlled as the wanted one."""
+
+    #: To first order.
+    first_order: PoseErrorRecord
+    #: The same with every joint on the nearest hole.
+    first_order_nearest_points: PoseErrorRecord
+    #: Solved at random poses.
+    solved: PoseErrorsRecord
+    #: How many.
+    solved_poses: int
+
+
+class RoundingSearchRecord(Record):
+    """How an exact rounding was found."""
+
+    #: Triangles of base and platform that were combined.
+    triangles: tuple[int, ...]
+    #: All triangles up to this distance were.
+    complete_to: tuple[Union[float, None], ...]
+    #: Improvements by replacing one triangle.
+    replacements: int
+
+
+class RowFailure(Record):
+    """Why a row has no poses."""
+
+    #: The failure, as the command would have reported it for this row alone.
+    error: FailureRecord
+
+
+class SampleRecord(Record):
+    """Both designs at one set of corresponding leg lengths."""
+
+    #: Leg lengths of A, design units.
+    lengths_a: tuple[Union[float, None], ...]
+    #: Leg lengths of B.
+    lengths_b: tuple[Union[float, None], ...]
+    #: The poses of A.
+    a: SolvedSampleRecord
+    #: The poses of B.
+    b: SolvedSampleRecord
+    #: Pairs of poses.
+    matched: int
+    #: Poses of A without partner.
+    only_a: int
+    #: Poses of B without partner.
+    only_b: int
+    #: Poses of A that were set aside.
+    beyond_precision_a: int
+    #: Poses of B that were set aside.
+    beyond_precision_b: int
+    #: The largest distance of a pair.
+    worst_distance: Union[float, None]
+    #: Whether this sample speaks for equivalence.
+    agrees: bool
+
+
+class SamplingRecord(Record):
+    """The random poses at which designs were compared."""
+
+    #: How many.
+    count: int
+    #: The middle of the box.
+    home_position: tuple[float, ...]
+    #: Half widths of the box of positions, design units.
+    translation_half_widths: tuple[float, ...]
+    #: Half widths of the box of rotation vectors.
+    rotation_half_widths_rad: tuple[float, ...]
+
+
+class SearchRecord(Record):
+    """How a search went."""
+
+    #: Starts that were climbed from.
+    starts: int
+    #: Starts that led to a feasible point.
+    feasible: int
+    #: Gains; null: not feasible.
+    polished: tuple[Union[float, None], ...]
+
+
+class SingularFactorRecord(Record):
+    """A factor of the closure condition that belongs to degenerate trilaterations."""
+
+    #: Unoriented steps, from 0.
+    step: int
+    #: Its degree.
+    degree: int
+    #: How often it was removed.
+    removed: int
+
+
+class SolutionRecord(Record):
+    """One pose with its evidence."""
+
+    #: Rotation matrix, rows.
+    R: ComplexRecord
+    #: Position, base frame, design units.
+    p: ComplexRecord2
+    #: Null: undecided.
+    real: Union[bool, None]
+    #: Whether there is a certificate.
+    certified: bool
+    #: The proof; null where there is none.
+    certificate: Union[CertificateRecord, None]
+    #: Paths, or roots of a polynomial, that end here.
+    multiplicity: int
+    #: Largest error of the leg equations over the squared size.
+    residual: Union[float, None]
+    #: Estimate of the condition number.
+    condition: Union[float, None]
+    #: (e, g), scalar part of e first, g = p e in design units, `max |e_k| = 1`.
+    dual_quaternion: Union[ComplexRecord3, None]
+    #: The pose in real numbers, where it is real.
+    real_pose: Union[RealPoseRecord, None]
+
+
+class SolvedBudgetRecord(Record):
+    """What solving says about the radius, which is of first order."""
+
+    #: No error looked at in the budget goes beyond the bound when its pose is solved.
+    within_bound: bool
+    #: The largest share of the bound that was used up; null: a pose was lost.
+    largest_share: Union[float, None]
+    #: The worst errors of this length at their pose keep the bound when they are solved.
+    radius: Union[float, None]
+
+
+class SolvedSampleRecord(Record):
+    """What forward kinematics found for one design at one set of lengths."""
+
+    #: The method.
+    method: Method
+    #: Whether these are known to be all poses.
+    completeness: CompletenessWord
+    #: One sentence on what is known.
+    completeness_reason: str
+    #: False: poses may be missing.
+    all_paths_accounted: bool
+    #: Finite poses, real and complex.
+    finite_count: int
+    #: Real poses.
+    real_count: int
+    #: Poses with a certificate.
+    certified_count: int
+
+
+class StationarityRecord(Record):
+    """Evidence of local optimality."""
+
+    #: Gain still promised for a unit of the variables.
+    stationarity: Union[float, None]
+
+
+class TolerancesAnswer(Record):
+    """One JSON document: an answer between what all answers have."""
+
+    #: Always 1: the version of these definitions.
+    schema_version: int
+    #: The greatest error allowed.
+    bound: PoseErrorRecord
+    #: The tool point, platform frame.
+    tool: tuple[Union[float, None], ...]
+    #: The unit of lengths.
+    units: str
+    #: How far every joint may be off in any direction, to first order.
+    all_joints_radius: JointLimitRecord
+    #: How far every coordinate may be off, to first order.
+    all_coordinates: JointLimitRecord
+    #: The joints, the most critical first.
+    joints: tuple[JointBudgetRecord, ...]
+    #: Errors of the pose with the joints off in the worst way, solved.
+    worst_errors: WorstErrorsRecord
+    #: What solving says about the radius.
+    solved: SolvedBudgetRecord
+    #: Random errors in the budget.
+    trials: TrialsRecord
+    #: The poses looked at.
+    poses: BudgetPosesRecord
+    #: What the answer was made from.
+    provenance: ProvenanceRecord
+    #: What was odd about the design files that were read.
+    warnings: tuple[WarningRecord, ...]
+
+
+class TrialsRecord(Record):
+    """Random errors in the budget."""
+
+    #: How many.
+    count: int
+    #: Poses that were lost.
+    lost: int
+    #: Poses within the bound.
+    within_bound: int
+    #: Poses beyond it.
+    beyond_bound: int
+    #: Errors of the pose by the nominal formula.
+    formula: PoseErrorsRecord
+    #: By how much their first order is off.
+    first_order_discrepancy: PoseErrorsRecord
+    #: Errors after one Newton step with the joints as they are.
+    after_one_step: PoseErrorsRecord
+    #: Errors after two.
+    after_two_steps: PoseErrorsRecord
+
+
+class TrilaterationStepRecord(Record):
+    """One trilateration: a joint placed by its distances from three others."""
+
+    #: Three joints in place.
+    from_: tuple[str, ...]
+    #: The joint placed.
+    place: str
+    #: All four are on one body: one place instead of two.
+    rigid: bool
+
+
+class VariableRecord(Record):
+    """A quantity that was chosen."""
+
+    #: Which.
+    name: str
+    #: Its value.
+    value: Union[float, None]
+
+
+class VerifiedRecord(Record):
+    """A verification in short."""
+
+    #: The verdict.
+    verdict: VerdictWord
+    #: The largest distance of matched poses.
+    worst_distance: Union[float, None]
+    #: Sets of lengths at which both were solved.
+    sample_count: int
+
+
+class VerifyAnswer(Record):
+    """One JSON document: an answer between what all answers have."""
+
+    #: Always 1: the version of these definitions.
+    schema_version: int
+    #: The verdict.
+    verdict: VerdictWord
+    #: One sentence with the numbers that decided.
+    explanation: str
+    #: Whether the map is proved: every leg vector of B is a combination of those of A, checked in exact
+    #: arithmetic on exact joints.
+    proved: bool
+    #: The algebraic side; that of the designs as they are given where no motion was found.
+    map: MapRecord
+    #: For each leg of B a bound of how far its squared length is from A s + c at all poses of `sampling`,
+    #: design units squared, whatever the tolerance of the map; null where the map is proved, so that there
+    #: is no difference, where it is singular, and where no motion was found.
+    deviation_bounds: Union[tuple[Union[float, None], ...], None]
+    #: The largest distance of matched poses over all samples; null where none were compared.
+    worst_distance: Union[float, None]
+    #: The numerical side.
+    samples: tuple[SampleRecord, ...]
+    #: What the answer was made from.
+    provenance: ProvenanceRecord
+    #: What was odd about the design files that were read.
+    warnings: tuple[WarningRecord, ...]
+    #: Poses without partner that were set aside: the rounding of the joints decides whether they exist.
+    #: Absent where no motion was found.
+    beyond_precision: Union[BeyondPrecisionRecord, None]
+    #: A pose that tells the designs apart.
+    counterexample: Union[CounterexampleRecord, None]
+    #: The box of random poses; absent where no motion was found.
+    sampling: Union[SamplingRecord, None]
+    #: Base and platform of the second design were exchanged first.
+    exchanged: Union[bool, None]
+    #: The rigid motions that make the second design equivalent to the first, with `--align`.
+    alignment: Union[AlignmentRecord, None]
+    #: The file written.
+    output: Union[str, None]
+
+
+class ViolationRecord(Record):
+    """One thing that is wrong with a design file."""
+
+    #: A stable short code.
+    code: str
+    #: The line, from 1.
+    line: int
+    #: The column, from 1.
+    column: int
+    #: What is wrong.
+    message: str
+    #: What to write instead.
+    help: str
+
+
+class WarningRecord(Record):
+    """Something odd about a design file that does not keep it from being used."""
+
+    #: A stable short code.
+    code: str
+    #: The design file.
+    path: str
+    #: The line it is about, from 1.
+    line: int
+    #: What is odd.
+    message: str
+    #: What to do about it.
+    help: str
+
+
+class WitnessRecord(Record):
+    """A pose with rational coordinates."""
+
+    #: Rows of the rotation matrix.
+    R: tuple[tuple[Union[float, None], ...], ...]
+    #: Position of the platform origin, base frame, design units.
+    p: tuple[Union[float, None], ...]
+    #: A quaternion of any norm, scalar part first.
+    quaternion: tuple[int, ...]
+
+
+class WorstErrorsRecord(Record):
+    """Errors of the pose with all joints off in the worst way, solved."""
+
+    #: By the radius; null: the pose was lost.
+    in_budget: Union[PoseErrorRecord, None]
+    #: By one and a half times the radius; null: the pose was lost.
+    times_1_5: Union[PoseErrorRecord, None]
+    #: The pose.
+    pose: PoseQuaternionRecord
+
+
+class WorstPoseRecord(Record):
+    """The pose with the worst conditioning."""
+
+    #: Its place among the poses, from 0.
+    index: int
+    #: Rows of the rotation matrix.
+    R: tuple[tuple[Union[float, None], ...], ...]
+    #: Position of the platform origin, base frame, design units.
+    p: tuple[Union[float, None], ...]
+
+
+DemandWord = Union[TermKind, Objective, SpecialDemand]
+
+DesignNotNegative = float
+
+DesignNumber = float
+
+DesignPositive = float
+
+ExploreVerdict = Union[Literal["infeasible"], VerdictWord]
+
+RoundingVerdict = Union[Literal["not_computed"], VerdictWord]
+
+DesignEdges = tuple[DesignPositive, ...]
+
+DesignHalfWidths = tuple[DesignNotNegative, ...]
+
+DesignQuantity = Union[DesignNumber, str]
+
+DesignRange = tuple[DesignNumber, ...]
+
+DesignVector = tuple[DesignNumber, ...]
+
+DesignAxes = Union[Literal["home", "optimize"], tuple[DesignVector, ...]]
+
+DesignHousing = Union[DesignPositive, DesignEdges]
+
+DesignJoint = Union[tuple[DesignQuantity, ...], Any, dict[str, Any]]
+
+DesignBody = dict[str, DesignJoint]

@@ -1,0 +1,69 @@
+//! Errors of the library as Python exceptions, with code, place and help.
+
+use pyo3::exceptions::{PyKeyboardInterrupt, PyOSError, PyRuntimeError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::entrance::Error;
+
+/// What is wrong with one place of a design.
+type TextFault = (String, usize, usize, String, String);
+
+/// The exception for an error: `DesignError` for bad input, `OSError` for files, `KeyboardInterrupt` for what was interrupted.
+pub(super) fn raised(py: Python<'_>, error: Error) -> PyErr {
+    match error {
+        Error::Cancelled => PyKeyboardInterrupt::new_err("interrupted"),
+        Error::File { path, source } => PyOSError::new_err((
+            source.raw_os_error().unwrap_or(0),
+            source.to_string(),
+            path.display().to_string(),
+        )),
+        other => {
+            let faults: Vec<TextFault> = other
+                .violations()
+                .iter()
+                .map(|v| (v.code.as_str().to_owned(), v.line, v.column, v.message.clone(), v.help.clone()))
+                .collect();
+            design_error(py, code_of(&other), &other.to_string(), &faults)
+        }
+    }
+}
+
+/// Bad input that the library does not see: shapes and names of arguments.
+pub(super) fn refused(py: Python<'_>, code: &str, message: &str) -> PyErr {
+    design_error(py, code, message, &[])
+}
+
+fn design_error(py: Python<'_>, code: &str, message: &str, faults: &[TextFault]) -> PyErr {
+    let made = || -> PyResult<PyErr> {
+        let class = py.import("equipod._errors")?.getattr("DesignError")?;
+        let words = PyDict::new(py);
+        words.set_item("code", code)?;
+        words.set_item("faults", faults.to_vec())?;
+        Ok(PyErr::from_value(class.call((message,), Some(&words))?))
+    };
+    made().unwrap_or_else(|_| PyRuntimeError::new_err(message.to_owned()))
+}
+
+/// A stable name of the kind of error.
+fn code_of(error: &Error) -> &'static str {
+    match error {
+        Error::Design { violations, .. } => violations.first().map_or("design", |v| v.code.as_str()),
+        Error::Trajectory { .. } => "trajectory",
+        Error::Joint(_) => "joint",
+        Error::Name(_) => "unknown_name",
+        Error::Manipulator(_) => "manipulator",
+        Error::Lengths(_) => "lengths",
+        Error::Pose(_) => "pose",
+        Error::Overflow => "overflow",
+        Error::NotOctahedral(_) => "not_octahedral",
+        Error::Fk(_) => "fk",
+        Error::Units(_) => "different_units",
+        Error::Verify(_) => "verify",
+        Error::Pattern(_) => "pattern",
+        Error::Offsets(_) => "offsets",
+        Error::NothingRequired => "nothing_required",
+        Error::Export(_) | Error::Format(_) => "export",
+        _ => "computation",
+    }
+}

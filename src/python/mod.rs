@@ -1,0 +1,39 @@
+//! The native module of the Python package: arrays in, arrays and answers out.
+//!
+//! Nothing is computed here. SolutionArrays become poses and lengths, questions go to the front page of the library, and answers leave as arrays or, where they are
+//! records, as the JSON that the command line prints. The Python sources beside this folder's Rust ones make typed objects of both.
+
+mod answers;
+mod arrays;
+mod design;
+mod failure;
+mod solutions;
+mod tracker;
+
+use pyo3::prelude::*;
+
+/// Runs the program `equipod` on its arguments; the exit code.
+#[pyfunction]
+fn main(py: Python<'_>, args: Vec<String>) -> u8 {
+    py.detach(|| crate::cli::status(args.into_iter().map(Into::into)))
+}
+
+/// The native part of the package `equipod`.
+#[pymodule(gil_used = true)]
+#[pyo3(name = "_core")]
+mod core {
+    #[pymodule_export]
+    use super::answers::{leg_map, preset_names, verify};
+    #[pymodule_export]
+    use super::design::NativeDesign;
+    #[pymodule_export]
+    use super::main;
+    #[pymodule_export]
+    use super::solutions::NativeSolutions;
+    #[pymodule_export]
+    use super::tracker::NativeTracker;
+
+    #[pymodule_export]
+    #[allow(non_upper_case_globals, reason = "the name that Python packages have for it")]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
+}

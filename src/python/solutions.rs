@@ -1,0 +1,199 @@
+//! Answers of forward kinematics as arrays.
+
+use std::sync::Arc;
+
+use ndarray::{Array1, Array3};
+use num_complex::Complex64;
+use numpy::{IntoPyArray, PyArray1, PyArray3};
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+
+use super::answers::document;
+use super::arrays::complex_matrices;
+use crate::design::Design;
+use crate::entrance::Error;
+use crate::fk::{Completeness, FkRoot, FkSolutions, Reality};
+use crate::records::{FkOneAnswer, SolvedRecord};
+
+/// 1 for a real pose, 0 for one that is not, -1 where it is not decided.
+fn reality(root: &FkRoot) -> i8 {
+    match root.reality {
+        Reality::Real => 1,
+        Reality::NonReal => 0,
+        Reality::Undecided => -1,
+    }
+}
+
+/// 2 proved, 1 modular, 0 unproved.
+fn completeness(found: &FkSolutions) -> i8 {
+    match found.completeness {
+        Completeness::Proved { .. } => 2,
+        Completeness::Modular { .. } => 1,
+        Completeness::Unproved { .. } => 0,
+    }
+}
+
+/// All finite poses, real and complex, with one set of leg lengths.
+#[pyclass(frozen, name = "Solutions", module = "equipod._core")]
+pub(super) struct NativeSolutions {
+    found: FkSolutions,
+    design: Arc<Design>,
+}
+
+impl NativeSolutions {
+    pub(super) fn new(found: FkSolutions, design: &Arc<Design>) -> Self {
+        Self { found, design: Arc::clone(design) }
+    }
+}
+
+#[pymethods]
+impl NativeSolutions {
+    fn __len__(&self) -> usize {
+        self.found.roots.len()
+    }
+
+    /// Poses, complex128, shape (n, 4, 4).
+    fn transforms<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray3<Complex64>> {
+        complex_matrices(self.found.roots.iter().map(|r| &r.pose)).into_pyarray(py)
+    }
+
+    /// 1 real, 0 not real, -1 undecided; int8, shape (n,).
+    fn reality<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i8>> {
+        self.column(py, reality)
+    }
+
+    /// Whether each pose has a certificate; bool, shape (n,).
+    fn certified<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
+        self.column(py, FkRoot::certified)
+    }
+
+    /// Largest errors of the leg equations over the squared size; float64, shape (n,).
+    fn residual<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.column(py, |r| r.residual)
+    }
+
+    /// How often each pose counts; uint32, shape (n,).
+    fn multiplicity<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<u32>> {
+        self.column(py, |r| r.multiplicity)
+    }
+
+    /// `proved`, `modular` or `unproved`.
+    fn completeness(&self) -> &'static str {
+        self.found.completeness.name()
+    }
+
+    /// One sentence on what is known of completeness.
+    fn reason(&self) -> String {
+        self.found.completeness.to_string()
+    }
+
+    /// Whether all poses are listed, by proof or modulo random primes.
+    fn is_complete(&self) -> bool {
+        self.found.is_complete()
+    }
+
+    /// The method that found the poses.
+    fn method(&self) -> &'static str {
+        self.found.method.name()
+    }
+
+    /// The answer as `equipod fk --json` gives it, certificates included.
+    fn json(&self) -> PyResult<String> {
+        let home = self.design.home_or_default();
+        let solved = SolvedRecord::from(&self.found).with_real_poses(self.design.manipulator(), &home);
+        document(FkOneAnswer::from(solved), &[&self.design], Some(self.found.seed))
+    }
+}
+
+impl NativeSolutions {
+    fn column<'py, T: numpy::Element>(
+        &self,
+        py: Python<'py>,
+        of: impl Fn(&FkRoot) -> T,
+    ) -> Bound<'py, PyArray1<T>> {
+        Array1::from_iter(self.found.roots.iter().map(of)).into_pyarray(py)
+    }
+}
+
+/// The poses with many sets of leg lengths, one after the other, as columns.
+#[derive(Default)]
+pub(super) struct SolutionColumns {
+    /// Row by row, complex 4 x 4.
+    transforms: Vec<Complex64>,
+    reality: Vec<i8>,
+    certified: Vec<bool>,
+    residual: Vec<f64>,
+    multiplicity: Vec<u32>,
+    /// Where the poses of each row end.
+    ends: Vec<i64>,
+    completeness: Vec<i8>,
+    /// Which of the reasons each row has.
+    reason: Vec<i64>,
+    reasons: Vec<String>,
+}
+
+/// Transforms, reality, certified, residual, multiplicity; offsets, completeness, reason of each row; the reasons.
+pub(super) type SolutionArrays<'py> = (
+    Bound<'py, PyArray3<Complex64>>,
+    Bound<'py, PyArray1<i8>>,
+    Bound<'py, PyArray1<bool>>,
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray1<u32>>,
+    Bound<'py, PyArray1<i64>>,
+    Bound<'py, PyArray1<i8>>,
+    Bound<'py, PyArray1<i64>>,
+    Vec<String>,
+);
+
+impl SolutionColumns {
+    /// Takes in the answer of the next row; certificates are dropped.
+    pub(super) fn push(&mut self, row: &Result<FkSolutions, Error>) {
+        let (word, reason) = match row {
+            Ok(found) => {
+                for root in &found.roots {
+                    self.push_root(root);
+                }
+                (completeness(found), found.completeness.to_string())
+            }
+            Err(error) => (-1, error.to_string()),
+        };
+        self.ends.push(self.reality.len() as i64);
+        self.completeness.push(word);
+        let known = self.reasons.iter().rposition(|r| *r == reason);
+        let place = known.unwrap_or_else(|| {
+            self.reasons.push(reason);
+            self.reasons.len() - 1
+        });
+        self.reason.push(place as i64);
+    }
+
+    fn push_root(&mut self, root: &FkRoot) {
+        let (r, p) = (&root.pose.rotation, &root.pose.position);
+        for i in 0..3 {
+            self.transforms.extend([r[(i, 0)], r[(i, 1)], r[(i, 2)], p[i]]);
+        }
+        self.transforms.extend([0.0, 0.0, 0.0, 1.0].map(Complex64::from));
+        self.reality.push(reality(root));
+        self.certified.push(root.certified());
+        self.residual.push(root.residual);
+        self.multiplicity.push(root.multiplicity);
+    }
+
+    pub(super) fn into_arrays(self, py: Python<'_>) -> PyResult<SolutionArrays<'_>> {
+        let count = self.reality.len();
+        let transforms = Array3::from_shape_vec((count, 4, 4), self.transforms)
+            .map_err(|e| PyRuntimeError::new_err(e.to_string()))?;
+        let offsets: Vec<i64> = std::iter::once(0).chain(self.ends).collect();
+        Ok((
+            transforms.into_pyarray(py),
+            self.reality.into_pyarray(py),
+            self.certified.into_pyarray(py),
+            self.residual.into_pyarray(py),
+            self.multiplicity.into_pyarray(py),
+            offsets.into_pyarray(py),
+            self.completeness.into_pyarray(py),
+            self.reason.into_pyarray(py),
+            self.reasons,
+        ))
+    }
+}

@@ -1,0 +1,81 @@
+//! One real pose followed from lengths to lengths.
+
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray2};
+use pyo3::prelude::*;
+
+use super::arrays::{lengths_in, matrices};
+use super::failure::raised;
+use crate::entrance;
+use crate::fk::NearOutcome;
+use crate::manipulator::LegLengths;
+
+/// Follows one real pose, never to another assembly mode.
+#[pyclass(name = "Tracker", module = "equipod._core")]
+pub(super) struct NativeTracker(pub(super) entrance::Tracker);
+
+/// `tracked`, `near_singularity` or `lost`, and how far on the straight line of squared lengths.
+fn said(outcome: &NearOutcome) -> (&'static str, f64, Option<String>) {
+    match outcome {
+        NearOutcome::Tracked { .. } => (outcome.name(), 1.0, None),
+        NearOutcome::NearSingularity { fraction, .. } => (outcome.name(), *fraction, None),
+        NearOutcome::Lost { fraction, reason, .. } => (outcome.name(), *fraction, Some(reason.to_string())),
+    }
+}
+
+#[pymethods]
+impl NativeTracker {
+    /// The pose where the platform is, float64, shape (4, 4).
+    fn transform<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        matrices(&[self.0.pose()]).index_axis_move(ndarray::Axis(0), 0).into_pyarray(py)
+    }
+
+    /// Continues to six lengths: status, the pose reached, fraction of the way, residual, Kantorovich number, reason.
+    #[allow(clippy::type_complexity)]
+    fn step<'py>(
+        &mut self,
+        py: Python<'py>,
+        lengths: [f64; 6],
+    ) -> PyResult<(&'static str, Bound<'py, PyArray2<f64>>, f64, f64, f64, Option<String>)> {
+        let outcome = self.0.step(lengths).map_err(|e| raised(py, e))?;
+        let (status, fraction, reason) = said(&outcome);
+        let pose = matrices(&[*outcome.pose()]).index_axis_move(ndarray::Axis(0), 0).into_pyarray(py);
+        let evidence = outcome.evidence();
+        Ok((status, pose, fraction, evidence.residual, evidence.kantorovich, reason))
+    }
+
+    /// Continues through rows of lengths until one is not reached: the poses of those that were, and what became of the next.
+    #[allow(clippy::type_complexity)]
+    fn follow<'py>(
+        &mut self,
+        py: Python<'py>,
+        lengths: PyReadonlyArray2<'py, f64>,
+    ) -> PyResult<(Bound<'py, PyArray3<f64>>, Bound<'py, PyArray1<f64>>, &'static str, f64, Option<String>)>
+    {
+        let rows = lengths_in(py, &lengths.as_array())?;
+        let checked = rows.into_iter().map(LegLengths::try_new).collect::<Result<Vec<_>, _>>();
+        let rows = checked.map_err(|e| raised(py, e.into()))?;
+        let tracker = &mut self.0;
+        let (poses, residuals, end) = py.detach(move || {
+            let (mut poses, mut residuals) = (Vec::with_capacity(rows.len()), Vec::with_capacity(rows.len()));
+            for row in &rows {
+                match tracker.step(row) {
+                    Ok(NearOutcome::Tracked { pose, evidence }) => {
+                        poses.push(pose);
+                        residuals.push(evidence.residual);
+                    }
+                    Ok(other) => return (poses, residuals, Ok(said(&other))),
+                    Err(error) => return (poses, residuals, Err(error)),
+                }
+            }
+            (poses, residuals, Ok(("tracked", 1.0, None)))
+        });
+        let (status, fraction, reason) = end.map_err(|e| raised(py, e))?;
+        Ok((
+            matrices(&poses).into_pyarray(py),
+            ndarray::Array1::from(residuals).into_pyarray(py),
+            status,
+            fraction,
+            reason,
+        ))
+    }
+}

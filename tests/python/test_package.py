@@ -1,0 +1,348 @@
+"""The installed package: arrays in and out, evidence, errors, long work."""
+
+import json
+import pathlib
+import pickle
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import equipod
+
+DESIGNS = pathlib.Path(__file__).parents[2] / "designs"
+
+
+@pytest.fixture(scope="module")
+def octahedral():
+    return equipod.Design.load(DESIGNS / "rbt-octahedral.toml")
+
+
+def rotations(rng, n):
+    return equipod.pose(np.zeros((n, 3)), rpy=rng.uniform(-0.3, 0.3, (n, 3)))[:, :3, :3]
+
+
+def poses_about(design, rng, n):
+    home = design.home
+    size = np.linalg.norm(home[:3, 3])
+    return equipod.pose(home[:3, 3] + rng.uniform(-0.1, 0.1, (n, 3)) * size, rotation=rotations(rng, n))
+
+
+def test_the_package_is_the_installed_one():
+    sources = pathlib.Path(__file__).parents[2] / "src"
+    assert sources not in pathlib.Path(equipod.__file__).parents
+
+
+def test_lengths_are_those_of_numpy_whatever_the_batch(octahedral):
+    poses = poses_about(octahedral, np.random.default_rng(1), 12)
+    joints = octahedral.joints
+    tips = np.einsum("nij,kj->nki", poses[:, :3, :3], joints.platform_ends) + poses[:, None, :3, 3]
+    expected = np.linalg.norm(tips - joints.base_ends, axis=2)
+    assert np.allclose(octahedral.ik(poses), expected, rtol=1e-14)
+    assert octahedral.ik(poses.reshape(3, 4, 4, 4)).shape == (3, 4, 6)
+    assert octahedral.ik(poses[0]).shape == (6,)
+    assert octahedral.ik(poses[:0]).shape == (0, 6)
+    # strided and other types are taken too
+    assert np.array_equal(octahedral.ik(poses[::2]), octahedral.ik(poses)[::2])
+    assert np.allclose(octahedral.ik(np.asfortranarray(poses)), expected)
+    assert octahedral.ik(np.eye(4).tolist()).shape == (6,)
+
+
+def test_the_jacobian_is_the_derivative_of_the_lengths(octahedral):
+    pose = poses_about(octahedral, np.random.default_rng(2), 1)[0]
+    j = octahedral.jacobian(pose)
+    h = 1e-6
+    for k in range(6):
+        step = np.zeros(6)
+        step[k] = h
+        turn = np.array([[0, -step[5], step[4]], [step[5], 0, -step[3]], [-step[4], step[3], 0]])
+        q, _ = np.linalg.qr(np.eye(3) + turn)
+        q = q * np.sign(np.diag(q))
+        moved = equipod.pose(pose[:3, 3] + step[:3], rotation=q @ pose[:3, :3])
+        slope = (octahedral.ik(moved) - octahedral.ik(pose)) / h
+        assert np.allclose(slope, j[:, k], atol=1e-4)
+    length = 3.0
+    assert np.allclose(octahedral.jacobian(pose, characteristic_length=length)[:, 3:] * length, j[:, 3:])
+
+
+def test_all_poses_are_found_with_certificates(octahedral):
+    pose = poses_about(octahedral, np.random.default_rng(3), 1)[0]
+    found = octahedral.fk(octahedral.ik(pose))
+    assert (len(found), found.complete, found.completeness) == (16, True, "proved")
+    assert found.T.dtype == np.complex128 and found.T.shape == (16, 4, 4)
+    assert found.certified.all() and (found.residual < 1e-10).all()
+    near = found.nearest(pose)
+    assert near is not None and near.real is True and np.allclose(near.transform, pose, atol=1e-9)
+    # sequence and arrays say the same, real ones first
+    assert [s.real for s in found] == [bool(x) for x in found.real]
+    assert found[-1].T.shape == (4, 4) and len(found[2:5]) == 3
+    # each complex pose satisfies the leg equations
+    joints = octahedral.joints
+    tips = np.einsum("nij,kj->nki", found.T[:, :3, :3], joints.platform_ends.astype(complex)) + found.T[:, None, :3, 3]
+    squares = ((tips - joints.base_ends) ** 2).sum(axis=2)
+    assert np.allclose(squares, octahedral.ik(pose) ** 2)
+    record = found.record
+    assert record.finite_count == 16 and record.solutions[0].certificate.kind in ("octahedral", "study")
+    assert found.to_dict()["finite_count"] == 16
+    with pytest.raises(equipod.DesignError):
+        next(s for s in found if s.real is False).transform
+
+
+def test_batches_are_the_single_answers_and_do_not_depend_on_threads(octahedral):
+    rng = np.random.default_rng(4)
+    lengths = octahedral.ik(poses_about(octahedral, rng, 40))
+    lengths[7] = 1e-3  # no real pose, sixteen complex ones or none
+    one, two = (octahedral.fk_batch(lengths, threads=n) for n in (1, 2))
+    assert np.array_equal(one.offsets, two.offsets) and np.array_equal(one.T, two.T)
+    assert one.offsets[0] == 0 and one.offsets[-1] == len(one.T) and len(one) == 40
+    for k in (0, 7, 39):
+        single = octahedral.fk(lengths[k])
+        assert len(one[k]) == len(single) and one[k].complete == single.complete
+        assert np.isclose(np.sort(abs(one[k].T[:, 0, 3])), np.sort(abs(single.T[:, 0, 3])), rtol=1e-6).all()
+    assert np.array_equal(one.counts(), np.diff(one.offsets))
+    assert one.counts(real=True).sum() == one.real.sum()
+    bad = lengths.copy()
+    bad[3, 2] = -1.0
+    bad[5, 0] = np.nan
+    part = octahedral.fk_batch(bad)
+    assert part.failed.tolist() == [3, 5] and "length" in part.reason(3)
+    assert len(part[3]) == 0 and len(part[4]) == 16
+
+
+def test_a_tracker_keeps_its_mode_and_stops_at_singularities(octahedral):
+    rng = np.random.default_rng(5)
+    ends = poses_about(octahedral, rng, 2)
+    t = np.linspace(0, 1, 50)[:, None]
+    path = equipod.pose((1 - t) * ends[0, :3, 3] + t * ends[1, :3, 3], rotation=ends[0, :3, :3])
+    lengths = octahedral.ik(path)
+    tracker = octahedral.tracker(path[0])
+    track = tracker.follow(lengths)
+    assert track.status == "tracked" and np.allclose(track.T, path, atol=1e-9)
+    assert np.array_equal(tracker.T, track.T[-1])
+    one = octahedral.tracker(path[0])
+    for row in lengths:
+        assert one.step(row).status == "tracked"
+    assert np.allclose(one.T, tracker.T, atol=1e-12)
+    # lengths that no pose has: the tracker stays
+    lost = tracker.step([1.0, 100.0, 1.0, 100.0, 1.0, 100.0])
+    assert lost.status != "tracked" and 0 <= lost.fraction < 1
+    assert np.array_equal(tracker.T, track.T[-1])
+
+
+def test_forms_of_poses_agree_with_scipy():
+    spatial = pytest.importorskip("scipy.spatial.transform")
+    rng = np.random.default_rng(6)
+    r = spatial.Rotation.random(50, random_state=7)
+    p = rng.normal(size=(50, 3))
+    given = equipod.pose(p, rotation=r)
+    assert np.allclose(equipod.pose(p, quat=r.as_quat(), scalar_first=False), given)
+    rpy = equipod.rpy(given)
+    assert np.allclose(rpy, r.as_euler("ZYX")[:, ::-1])
+    assert np.allclose(equipod.pose(p, rpy=rpy), given)
+    q = equipod.quaternion(given, scalar_first=False)
+    assert np.allclose(spatial.Rotation.from_quat(q).as_matrix(), r.as_matrix())
+    assert (q[:, 3] >= 0).all()
+    if hasattr(spatial, "RigidTransform"):
+        rigid = spatial.RigidTransform.from_components(p[0], r[0])
+        design = equipod.Design.preset("bench-l16")
+        assert np.allclose(design.ik(rigid), design.ik(given[0]))
+
+
+def test_bad_input_is_refused_with_code_place_and_help(octahedral):
+    with pytest.raises(equipod.DesignError) as caught:
+        equipod.Design.loads("name = 'slip'\nunit = 'mm'\n")
+    error = caught.value
+    assert isinstance(error, ValueError) and error.code == "design::unknown_key" or error.faults
+    assert any(f.code == "design::unknown_key" and f.line == 2 for f in error.faults)
+    assert any("units" in f.help + f.message for f in error.faults)
+    for poses in (np.zeros((4, 4)), np.ones((3, 3)), np.eye(4) * 2, np.full((4, 4), np.nan), np.zeros((2, 4, 5))):
+        with pytest.raises(equipod.DesignError):
+            octahedral.ik(poses)
+    with pytest.raises(equipod.DesignError):
+        octahedral.ik(octahedral.fk(octahedral.ik(octahedral.home)).T)
+    for lengths in ([1, 2, 3], [[18.0] * 6], [-1.0] * 6, [np.inf] * 6):
+        with pytest.raises(equipod.DesignError):
+            octahedral.fk(lengths)
+    with pytest.raises(equipod.DesignError):
+        octahedral.fk([18.0] * 6, method="magic")
+    with pytest.raises(equipod.DesignError, match="preset"):
+        equipod.Design.preset("nothing")
+    with pytest.raises(equipod.DesignError):
+        equipod.pose([0, 0, 0], rpy=[0, 0, 0], quat=[1, 0, 0, 0])
+    with pytest.raises(OSError):
+        equipod.Design.load("no-such-file.toml")
+    with pytest.raises(equipod.DesignError):
+        octahedral.fk_batch(np.ones((2, 6)), threads=0)
+    hexapod = equipod.Design.load(DESIGNS / "symmetric-hexapod.toml")
+    with pytest.raises(equipod.DesignError) as caught:
+        hexapod.equivalent([0.2] * 6)
+    assert caught.value.code == "not_octahedral"
+
+
+def test_designs_from_arrays_texts_and_files(tmp_path, octahedral):
+    joints = octahedral.joints
+    made = equipod.Design.from_arrays(joints.base, joints.platform, joints.legs.tolist(), home=octahedral.home, name="own", units="m")
+    assert (made.name, made.units) == ("own", "m") and np.allclose(made.home, octahedral.home)
+    assert np.allclose(made.ik(made.home), octahedral.ik(octahedral.home))
+    for form in ("toml", "json"):
+        assert equipod.Design.loads(octahedral.dumps(form), form) == octahedral
+    octahedral.save(tmp_path / "copy.toml")
+    assert equipod.Design.load(tmp_path / "copy.toml") == octahedral
+    with pytest.raises(FileExistsError):
+        octahedral.save(tmp_path / "copy.toml")
+    assert pickle.loads(pickle.dumps(octahedral)) == octahedral
+    assert made != octahedral and "own" in repr(made)
+    assert len(equipod.presets()) >= 6
+    for name in equipod.presets():
+        assert equipod.Design.preset(name).joints.legs.shape == (6, 2)
+
+
+def test_an_equivalent_has_the_lengths_of_its_map_and_is_verified(octahedral):
+    free = octahedral.equivalent([0.2, 0.21, 0.22, 0.2, 0.2, 0.23])
+    assert len(free.design.joints.base) == 6 and len(free.design.joints.platform) == 6
+    poses = poses_about(octahedral, np.random.default_rng(8), 20)
+    squares = octahedral.ik(poses) ** 2 @ free.A.T + free.c
+    assert np.allclose(np.sqrt(squares), free.design.ik(poses))
+    found = equipod.leg_map(octahedral, free.design)
+    assert np.allclose(found.A, free.A) and np.allclose(found.lengths(octahedral.ik(poses)), free.design.ik(poses))
+    answer = equipod.verify(octahedral, free.design, samples=3)
+    assert answer.verdict == "equivalent" and len(answer.samples) == 3
+    other = equipod.Design.load(DESIGNS / "general-6-6.toml")
+    assert equipod.verify(other, other, samples=1).verdict == "equivalent"
+    unrelated = equipod.leg_map(equipod.Design.preset("bench-l16"), equipod.Design.preset("bench-l16"))
+    assert unrelated.A is not None and np.allclose(unrelated.A, np.eye(6))
+
+
+def test_answers_are_those_of_the_program(octahedral):
+    """The same fields with the same values as `equipod --json`, but for how the design was handed over."""
+
+    def program(*arguments):
+        done = subprocess.run([sys.executable, "-m", "equipod", *map(str, arguments), "--json", "--quiet"], capture_output=True, text=True)
+        document = json.loads(done.stdout)
+        document.pop("provenance"), document.pop("warnings")
+        return document
+
+    def own(answer):
+        document = answer.to_dict() if not isinstance(answer, dict) else answer
+        document.pop("provenance"), document.pop("warnings")
+        return document
+
+    file = DESIGNS / "rbt-octahedral.toml"
+    assert own(octahedral.check()) == program("check", file)
+    worked = DESIGNS / "worked/bench-joint-free.toml"
+    options = dict(points=200, searches=1, cells=300)
+    flags = [x for k, v in options.items() for x in (f"--{k}", v)]
+    assert own(equipod.Design.load(worked).assess(**options)) == program("assess", worked, *flags)
+    griffis = DESIGNS / "rbt-griffis-duffy.toml"
+    assert own(equipod.leg_map(octahedral, equipod.Design.load(griffis)).record) == program("equivalents", "map", file, griffis)
+    assert own(equipod.verify(octahedral, equipod.Design.load(griffis), samples=2)) == program("verify", file, griffis, "--samples", 2)
+    lengths = octahedral.ik(octahedral.home)
+    given = program("fk", file, "--lengths", ",".join(map(repr, lengths.tolist())))
+    assert own(octahedral.fk(lengths).to_dict()) == given
+
+
+def test_margins_at_a_pose_are_signed_distances_to_limits():
+    design = equipod.Design.load(DESIGNS / "worked/bench-joint-free.toml")
+    margins = design.margins(design.home)
+    assert margins.values.shape == (len(margins.names),) and set(margins.units)
+    assert set(margins.least) <= set(margins.names)
+    lengths = design.ik(design.home)
+    short = [k for k, name in enumerate(margins.names) if name == "leg_too_short"]
+    long = [k for k, name in enumerate(margins.names) if name == "leg_too_long"]
+    room = margins.values[short] + margins.values[long]
+    assert np.allclose(room, room[0]) and len(lengths) == len(short)
+    batch = design.margins(np.stack([design.home] * 3))
+    assert batch.values.shape == (3, len(margins.names))
+
+
+def test_long_work_answers_reports_and_can_be_interrupted(octahedral):
+    lines = []
+    best, answer = octahedral.optimize(progress=lines.append)
+    assert best is not None and answer.status in ("optimal", "local_optimum", "feasible")
+    assert equipod.verify(octahedral, best, samples=2).verdict == "equivalent"
+    tolerances = octahedral.tolerances(0.1, 0.5, options=["--trials", "50", "--points", "20", "--searches", "0"])
+    assert tolerances.units == octahedral.units and len(tolerances.joints) == 6
+    with pytest.raises(equipod.DesignError):
+        octahedral.optimize(extension=-1.0)
+
+
+def test_computations_release_the_interpreter_lock(octahedral):
+    lengths = np.tile(octahedral.ik(octahedral.home), (20000, 1))
+    ticks, stop = [], threading.Event()
+
+    def tick():
+        while not stop.is_set():
+            ticks.append(time.perf_counter())
+            time.sleep(0.001)
+
+    clock = threading.Thread(target=tick)
+    clock.start()
+    octahedral.fk_batch(lengths, threads=1)
+    stop.set()
+    clock.join()
+    # a lock that was held through the computation would have let through a handful
+    assert len(ticks) > 20
+
+
+def test_an_interrupt_ends_a_batch():
+    code = (
+        "import equipod, numpy as np\n"
+        "d = equipod.Design.preset('linuxcnc-hexapod')\n"
+        "l = np.tile(d.ik(d.home), (2_000_000, 1))\n"
+        "print('go', flush=True)\n"
+        "try:\n    d.fk_batch(l)\nexcept KeyboardInterrupt:\n    print('interrupted')\n"
+    )
+    child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
+    assert child.stdout.readline() == "go\n"
+    time.sleep(1.0)
+    child.send_signal(signal.SIGINT)
+    assert child.communicate(timeout=120)[0] == "interrupted\n"
+
+
+def test_what_notebooks_show(octahedral, tmp_path):
+    picture = octahedral.plot("modes")
+    assert picture._repr_svg_().lstrip().startswith("<svg") or "<svg" in picture.svg
+    picture.save(tmp_path / "modes.svg")
+    with pytest.raises(FileExistsError):
+        picture.save(tmp_path / "modes.svg")
+    page = octahedral.view()
+    assert "<iframe" in page._repr_html_() and page.html.startswith("<!")
+    found = octahedral.fk(octahedral.ik(octahedral.home))
+    assert found._repr_html_().count("<tr>") == 17 and "<table" in octahedral.check()._repr_html_()
+    assert "16 poses" in repr(found)
+
+
+def test_exports_are_texts_by_name(octahedral):
+    files = octahedral.export("mjcf")
+    assert all("<mujoco" in text for text in files.values()) and files
+    with pytest.raises(equipod.DesignError):
+        octahedral.export("paper")
+
+
+def test_tables_are_read_by_arrow(octahedral):
+    pytest.importorskip("pyarrow")
+    batch = octahedral.fk_batch(octahedral.ik(poses_about(octahedral, np.random.default_rng(9), 5)))
+    table = batch.to_arrow()
+    assert table.num_rows == len(batch.T) and table.column("row").to_pylist()[-1] == 4
+    assert np.allclose(table.column("x_re").to_numpy(), batch.T[:, 0, 3].real)
+
+
+def test_the_types_of_answers_are_those_of_the_schemas():
+    script = pathlib.Path(__file__).with_name("generate_records.py")
+    subprocess.run([sys.executable, script, sys.executable, "-m", "equipod", "--check"], check=True)
+
+
+def test_every_public_thing_says_what_it_is():
+    for name in equipod.__all__:
+        if name.startswith("__") or name == "PoseLike":
+            continue
+        thing = getattr(equipod, name)
+        assert thing.__doc__, name
+        for member, value in vars(thing).items() if isinstance(thing, type) else ():
+            if not member.startswith("_") and (callable(value) or isinstance(value, (property, classmethod))):
+                doc = value.__func__.__doc__ if isinstance(value, classmethod) else value.__doc__
+                assert doc, f"{name}.{member}"
