@@ -12,6 +12,8 @@ import time
 import numpy as np
 import pytest
 
+from scipy.spatial import transform as spatial
+
 import equipod
 
 DESIGNS = pathlib.Path(__file__).parents[2] / "designs"
@@ -134,7 +136,6 @@ def test_a_tracker_keeps_its_mode_and_stops_at_singularities(octahedral):
 
 
 def test_forms_of_poses_agree_with_scipy():
-    spatial = pytest.importorskip("scipy.spatial.transform")
     rng = np.random.default_rng(6)
     r = spatial.Rotation.random(50, random_state=7)
     p = rng.normal(size=(50, 3))
@@ -324,11 +325,16 @@ def test_exports_are_texts_by_name(octahedral):
 
 
 def test_tables_are_read_by_arrow(octahedral):
-    pytest.importorskip("pyarrow")
     batch = octahedral.fk_batch(octahedral.ik(poses_about(octahedral, np.random.default_rng(9), 5)))
     table = batch.to_arrow()
     assert table.num_rows == len(batch.T) and table.column("row").to_pylist()[-1] == 4
     assert np.allclose(table.column("x_re").to_numpy(), batch.T[:, 0, 3].real)
+    worked = equipod.Design.load(DESIGNS / "worked/bench-joint-free.toml")
+    judged = worked.assess(points=100, searches=0, cells=50)
+    rows = equipod.table(judged.requirements)
+    assert rows.num_rows == len(judged.requirements) and "margin" in rows.column_names
+    margins = worked.margins(np.stack([worked.home] * 4)).to_arrow()
+    assert margins.num_rows == 4 and len(set(margins.column_names)) == margins.num_columns
 
 
 def test_the_types_of_answers_are_those_of_the_schemas():

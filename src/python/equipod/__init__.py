@@ -18,6 +18,7 @@ from ._design import Design, Equivalent, Joints, LegMap, Margins, Track, Tracker
 from ._display import Figure, Page
 from ._errors import CommandError, DesignError, Fault
 from ._poses import PoseLike, pose, quaternion, rpy
+from ._record import Record, table
 from ._solutions import BatchSolutions, Solution, Solutions
 
 __all__ = [
@@ -33,6 +34,7 @@ __all__ = [
     "Margins",
     "Page",
     "PoseLike",
+    "Record",
     "Solution",
     "Solutions",
     "Track",
@@ -43,5 +45,6 @@ __all__ = [
     "presets",
     "quaternion",
     "rpy",
+    "table",
     "verify",
 ]

@@ -19,6 +19,8 @@ from ._program import Progress, Workshop, ask, text_of
 from ._solutions import BatchSolutions, Solutions
 
 if TYPE_CHECKING:
+    import pyarrow  # type: ignore[import-untyped]
+
     from .records import (
         AssessAnswer,
         CheckAnswer,
@@ -162,6 +164,14 @@ class Margins:
             value = float(np.min(self.values[..., k]))
             out[name] = min(out.get(name, value), value)
         return out
+
+    def to_arrow(self) -> pyarrow.Table:
+        """One row a pose, one column a requirement, named ``kind of``; needs pyarrow."""
+        import pyarrow as pa
+
+        values = self.values.reshape(-1, len(self.names))
+        titles = [f"{name} {of}".strip() for name, of in zip(self.names, self.of)]
+        return pa.table({title: np.ascontiguousarray(values[:, k]) for k, title in enumerate(titles)})
 
 
 @dataclass(frozen=True)

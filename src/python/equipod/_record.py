@@ -6,7 +6,11 @@ import html
 import json
 import types
 import typing
-from typing import Any, Callable, ClassVar, TypeVar
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any, Callable, ClassVar, TypeVar
+
+if TYPE_CHECKING:
+    import pyarrow  # type: ignore[import-untyped]
 
 R = TypeVar("R", bound="Record")
 Reader = Callable[[Any], Any]
@@ -108,3 +112,10 @@ def _one_of(records: list[type[Record]], others: list[Reader], value: Any) -> An
 
 def _keys(record: type[Record]) -> set[str]:
     return {name[:-1] if name.endswith("_") else name for name in record._fields()}
+
+
+def table(records: Iterable[Record]) -> pyarrow.Table:
+    """Records of one type, the requirements of an assessment for instance, as an Arrow table with a row each; needs pyarrow."""
+    import pyarrow as pa
+
+    return pa.Table.from_pylist([record.to_dict() for record in records])
