@@ -4,7 +4,8 @@ use crate::design::{Design, Origin};
 use crate::manipulator::{Body, LegIndex, Manipulator, NotOctahedral, Octahedral};
 use crate::singularity::GriffisDuffy;
 use crate::synthesis::{
-    AffineLegMap, Family, HexagonPoint, InstantiateError, JointLabel, Offset, Pattern, corner, edge,
+    AffineLegMap, Family, HexagonPoint, InstantiateError, JointLabel, LegEnd, NearestOctahedral,
+    NearestOptions, Offset, Pattern, corner, edge, nearest_octahedral,
 };
 
 /// An octahedral platform with the names of its corners and of the joints on its edges.
@@ -209,4 +210,95 @@ impl Equivalents {
             .unwrap_or_else(|| unreachable!("one inner point on each side is a pattern"));
         self.build(&pattern, &offsets)
     }
+}
+
+/// The octahedral platform nearest to a design, as designs.
+#[derive(Debug, Clone)]
+pub(crate) struct NearestDesigns {
+    pub(crate) found: NearestOctahedral,
+    /// The octahedral platform; its corners have the names of the joints that moved there.
+    pub(crate) octahedral: Design,
+    /// The platform equivalent to it with every leg next to that of the design; its joints on sides are constructed from the corners.
+    pub(crate) beside: Design,
+}
+
+impl NearestDesigns {
+    /// The nearest octahedral platform of a design; `None` where no way to lay its legs round a hexagon gives a regular platform.
+    pub(crate) fn of(design: &Design, options: &NearestOptions) -> Option<Self> {
+        let found = nearest_octahedral(design.manipulator(), options)?;
+        let ends = found.ends();
+        let names = [Body::Base, Body::Platform].map(|body| joint_names(design, &ends, body));
+        let corner_names = |body: Body| -> Vec<String> {
+            let first = 3 * body.index();
+            let name = |c: usize| names[body.index()].iter().find(|(end, _)| *end == LegEnd::Corner(c));
+            // a corner that no leg ends at has a name of its own
+            (first..first + 3)
+                .map(|c| name(c).map_or_else(|| format!("P{}", c + 1), |n| n.1.clone()))
+                .collect()
+        };
+        let note = |what: &str| {
+            Some(format!(
+                "{what} \"{}\" by equipod {}: leg ends moved by at most {} {}",
+                design.name,
+                env!("CARGO_PKG_VERSION"),
+                found.largest_displacement(),
+                design.units
+            ))
+        };
+        let plain = Design::new(
+            format!("{}, nearest octahedral platform", design.name),
+            &design.units,
+            found.octahedral().ok()?,
+        );
+        let mut octahedral = plain
+            .with_joint_names(corner_names(Body::Base), corner_names(Body::Platform))
+            .ok()?
+            .with_tables_of(design);
+        octahedral.description = note("The octahedral platform nearest to");
+
+        let listed =
+            |body: Body| -> Vec<LegEnd> { names[body.index()].iter().map(|(end, _)| *end).collect() };
+        let (base, platform) = (listed(Body::Base), listed(Body::Platform));
+        let index = |list: &[LegEnd], end: LegEnd| list.iter().position(|e| *e == end);
+        let mut pairs = [(0, 0); 6];
+        for (pair, [a, b]) in pairs.iter_mut().zip(ends) {
+            *pair = (index(&base, a)?, index(&platform, b)?);
+        }
+        let points = |list: &[LegEnd]| list.iter().map(|end| found.point(*end)).collect();
+        let origins = |list: &[LegEnd]| -> Vec<Origin> {
+            let origin = |end: &LegEnd| match *end {
+                LegEnd::Corner(c) => Origin::Kept(c % 3),
+                LegEnd::OnSide(k) => Origin::Between(edge(k).map(|c| c % 3), found.offsets[k]),
+            };
+            list.iter().map(origin).collect()
+        };
+        let m = Manipulator::try_new(points(&base), points(&platform), pairs).ok()?;
+        let [first, second] = names.map(|list| list.into_iter().map(|(_, name)| name).collect());
+        let mut beside =
+            Design::new(format!("{}, moved onto an octahedral platform", design.name), &design.units, m)
+                .with_joint_names(first, second)
+                .ok()?
+                .with_tables_of(design)
+                .constructed_from(&octahedral, [&origins(&base), &origins(&platform)]);
+        beside.description = note("Equivalent to an octahedral platform and nearest to");
+        Some(Self { found, octahedral, beside })
+    }
+}
+
+/// The joints of one body in the order of the legs, each once, with the name of the joint it is next to.
+fn joint_names(design: &Design, ends: &[[LegEnd; 2]; 6], body: Body) -> Vec<(LegEnd, String)> {
+    let mut out: Vec<(LegEnd, String)> = Vec::new();
+    for (pair, own) in ends.iter().zip(design.leg_names()) {
+        let end = pair[body.index()];
+        if out.iter().any(|(known, _)| *known == end) {
+            continue;
+        }
+        // legs that shared a joint may have one each now
+        let mut name = body.of(own).to_owned();
+        while out.iter().any(|(_, known)| *known == name) {
+            name.push_str("_2");
+        }
+        out.push((end, name));
+    }
+    out
 }

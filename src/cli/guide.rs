@@ -96,6 +96,11 @@ const JOBS: [Job; 9] = [
                 &["relocate", "rearrange"],
             ),
             entry(
+                "equivalents nearest",
+                &["equivalents nearest designs/symmetric-hexapod.toml -o octahedral.toml"],
+                &["closest", "octahedral", "approximate"],
+            ),
+            entry(
                 "equivalents map",
                 &["equivalents map designs/rbt-octahedral.toml designs/rbt-griffis-duffy.toml"],
                 &["leg-map", "affine"],

@@ -7,13 +7,13 @@ use crate::manipulator::{Manipulator, NotOctahedral};
 use crate::requirements::{JointAxes, Objective, PoseSpace, Requirements, VariableKind};
 use crate::synthesis::components::ComponentsError;
 
-/// What may change about the two triangles of an octahedral design; their centroids and planes stay.
+/// What may change about base and platform: the triangles of an octahedral design, whose centroids and planes stay, or the sizes of any design.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Triangles {
     /// Nothing.
     #[default]
     Fixed,
-    /// One factor for each triangle.
+    /// One factor for each body, about the mean of its leg ends: for a triangle its centroid.
     Sizes,
     /// A symmetric stretch of the plane for each triangle: every shape and size.
     Shapes,
@@ -25,7 +25,7 @@ pub enum Triangles {
 pub struct Variables {
     /// The six offsets of an octahedral design.
     pub offsets: bool,
-    /// The triangles of an octahedral design.
+    /// The triangles of an octahedral design, or the sizes of base and platform of any other.
     pub triangles: Triangles,
     /// The legs on the rational families of replaceable legs they belong to; not with offsets or triangles.
     pub components: bool,

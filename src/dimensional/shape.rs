@@ -6,9 +6,9 @@ use nalgebra::{Matrix3, Point3, Vector3};
 
 use super::problem::{InvalidProblem, Triangles, Variables};
 use super::pull::Rate;
-use super::skeleton::{Fixed, OctahedralSides, OnFamilies, Room, Skeleton};
+use super::skeleton::{Fixed, OctahedralSides, OnFamilies, Room, ScaledBodies, Skeleton};
 use crate::geom::Pose;
-use crate::manipulator::{InvalidManipulator, Manipulator};
+use crate::manipulator::{InvalidManipulator, Manipulator, Octahedral};
 use crate::num::small::symmetric_eigen3;
 
 /// Variables of the joint axes of one body: three components for each leg.
@@ -98,6 +98,11 @@ fn skeleton(
     v: &Variables,
     layout: &mut VariableLayout,
 ) -> Result<Arc<dyn Skeleton>, InvalidProblem> {
+    if (v.offsets, v.components, v.triangles) == (false, false, Triangles::Sizes)
+        && Octahedral::recognise(m).is_err()
+    {
+        return Ok(Arc::new(ScaledBodies::of(m, v, layout)));
+    }
     let octahedral = v.offsets || v.triangles != Triangles::Fixed;
     Ok(match (octahedral, v.components) {
         (false, false) => Arc::new(Fixed::of(m)),

@@ -76,6 +76,48 @@ impl Skeleton for Fixed {
     }
 }
 
+/// Base and platform of any design, each scaled about the mean of its leg ends: `p -> c + (1 + s) (p - c)`.
+#[derive(Debug)]
+pub(crate) struct ScaledBodies {
+    legs: [Leg; 6],
+    /// Of the base, base frame, and of the platform, platform frame.
+    centres: [Vector3<f64>; 2],
+    /// Variables of the two sizes.
+    sizes: [usize; 2],
+}
+
+impl ScaledBodies {
+    /// Lays out the two sizes.
+    pub(crate) fn of(m: &Manipulator, v: &Variables, layout: &mut VariableLayout) -> Self {
+        let sizes = ["base size", "platform size"].map(|name| layout.add(name.into(), v.stretch_bounds, 0.0));
+        Self { legs: m.legs(), centres: m.mean_leg_ends(), sizes }
+    }
+
+    /// The end of a leg seen from the mean of all ends on its body.
+    fn arm(&self, body: usize, leg: usize) -> Vector3<f64> {
+        let end = [self.legs[leg].base, self.legs[leg].platform][body];
+        end.coords - self.centres[body]
+    }
+}
+
+impl Skeleton for ScaledBodies {
+    fn ends(&self, x: &[f64]) -> [[Vector3<f64>; 6]; 2] {
+        [0, 1].map(|body| {
+            let factor = 1.0 + x[self.sizes[body]];
+            [0, 1, 2, 3, 4, 5].map(|leg| self.centres[body] + self.arm(body, leg) * factor)
+        })
+    }
+
+    fn rates(&self, x: &[f64]) -> Vec<Rate> {
+        let mut out = vec![Rate::default(); x.len()];
+        for leg in 0..6 {
+            out[self.sizes[0]].ends.push((leg, self.arm(0, leg), Vector3::zeros()));
+            out[self.sizes[1]].ends.push((leg, Vector3::zeros(), self.arm(1, leg)));
+        }
+        out
+    }
+}
+
 /// A triangle that is stretched in its plane about its centroid.
 #[derive(Debug, Clone)]
 struct Triangle {
@@ -493,5 +535,38 @@ impl Skeleton for OnFamilies {
 
     fn is_affine(&self) -> bool {
         false
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scaled_bodies_keep_their_means_and_move_at_their_rates() {
+        let points =
+            |k: f64| (0..6).map(|i| Point3::new(k + f64::from(i), k * f64::from(i * i), 0.3 * k)).collect();
+        let m = Manipulator::try_new(points(1.0), points(0.5), [0, 1, 2, 3, 4, 5].map(|i| (i, i))).unwrap();
+        let mut layout = VariableLayout::default();
+        let bodies = ScaledBodies::of(&m, &Variables::default(), &mut layout);
+        assert_eq!(layout.next(), 2);
+        let mean = |ends: [Vector3<f64>; 6]| ends.iter().sum::<Vector3<f64>>() / 6.0;
+        let (before, after) = (bodies.ends(&[0.0, 0.0]), bodies.ends(&[0.5, -0.25]));
+        for body in 0..2 {
+            let factor = [1.5, 0.75][body];
+            assert!((mean(after[body]) - mean(before[body])).norm() < 1e-12);
+            for i in 0..6 {
+                let legs = m.legs().map(|l| [l.base.coords, l.platform.coords][body]);
+                assert!((before[body][i] - legs[i]).norm() < 1e-12);
+                let spread = |ends: [Vector3<f64>; 6]| (ends[i] - ends[0]).norm();
+                assert!((spread(after[body]) - factor * spread(before[body])).abs() < 1e-12);
+            }
+        }
+        let rates = bodies.rates(&[0.5, -0.25]);
+        let moved = bodies.ends(&[0.5 + 1.0, -0.25]);
+        for (leg, base, platform) in &rates[0].ends {
+            assert!((moved[0][*leg] - after[0][*leg] - base).norm() < 1e-12 && platform.norm() < 1e-12);
+        }
+        assert_eq!((rates[0].ends.len(), rates[1].ends.len()), (6, 6));
     }
 }

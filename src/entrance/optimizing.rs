@@ -317,11 +317,14 @@ pub(crate) fn dimensional_status(report: &DimensionalReport, checked: Option<&Ch
     }
 }
 
-/// Whether a design asks for anything besides offsets with the best worst-case conditioning.
+/// Whether a design asks for anything besides offsets with the best worst-case conditioning: requirements, other variables or objectives, or legs moved on families
+/// because it has no offsets.
 pub(crate) fn asks_for_more(design: &Design) -> bool {
     let plain =
         Requirements { min_joint_distance: design.optimize.min_joint_distance, ..Requirements::default() };
-    design.search != crate::design::SearchTable::default() || design.requirements() != plain
+    design.search != crate::design::SearchTable::default()
+        || design.requirements() != plain
+        || Octahedral::recognise(design.manipulator()).is_err()
 }
 
 /// The offsets of an octahedral design over these poses, within the limits of its `[optimize]`.
@@ -410,7 +413,10 @@ pub(crate) fn dimensional_problem(design: &Design, extension: f64) -> Dimensiona
     let (m, table, search) = (design.manipulator(), &design.optimize, &design.search);
     let home = design.home_or_default();
     let space = design.workspace_or_default().space(&home);
-    let kinds = if search.variables.is_empty() { &[VariableKind::Offsets] } else { &search.variables[..] };
+    let usual =
+        if Octahedral::recognise(m).is_ok() { VariableKind::Offsets } else { VariableKind::Components };
+    let kinds =
+        if search.variables.is_empty() { std::slice::from_ref(&usual) } else { &search.variables[..] };
     let mut variables = Variables::of(kinds);
     variables.offset_bounds = [search.offset_bounds.unwrap_or((-extension, 1.0 + extension)); 6];
     variables.stretch_bounds = search.stretch_bounds.unwrap_or(variables.stretch_bounds);

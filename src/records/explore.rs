@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Number, SolvedRecord, VerdictWord};
+use super::{NearestRecord, Number, SearchWord, SolvedRecord, VerdictWord};
 use crate::equivalence::Verification;
 use crate::fk::FkSolutions;
 use crate::offsets::OffsetSolution;
@@ -32,7 +32,131 @@ pub enum LengthsOrigin {
 
 /// The answer of `explore`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ExploreAnswer {
+#[serde(untagged)]
+pub enum ExploreAnswer {
+    /// About an octahedral design.
+    Octahedral(Box<ExploreOctahedralAnswer>),
+    /// About another design.
+    General(Box<ExploreGeneralAnswer>),
+}
+
+/// The answer of `explore` about a design that is not octahedral.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ExploreGeneralAnswer {
+    /// Of the whole run.
+    pub verdict: ExploreVerdict,
+    /// One sentence with the numbers that decided.
+    pub explanation: String,
+    /// The name of the design.
+    pub name: String,
+    /// The files written.
+    pub paths: Vec<String>,
+    /// What was done, in order.
+    pub stages: Vec<StageRecord>,
+    /// The families of replaceable legs.
+    pub components: FamiliesFoundRecord,
+    /// The search for an equivalent platform without shared joints; null: no leg can be moved.
+    pub moves: Option<MovesFoundRecord>,
+    /// The nearest octahedral platform; null: none was found.
+    pub nearest: Option<NearestErrorRecord>,
+    /// Whether the platform equivalent to the nearest octahedral one meets the requirements of the design: true and false are proved; null: undecided, not looked at, or
+    /// nothing is required.
+    pub nearest_meets_requirements: Option<bool>,
+    /// The comparison of the design with the equivalent found, else of the nearest octahedral platform with its equivalent; null: there is neither.
+    pub verify: Option<ComparedRecord>,
+    /// The poses of the design.
+    pub fk: PoseTotalsRecord,
+}
+
+/// What a stage of `explore` did.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct StageRecord {
+    /// Which.
+    pub stage: StageWord,
+    /// What came out, a sentence.
+    pub explanation: String,
+}
+
+/// The stages of `explore` for a design that is not octahedral.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum StageWord {
+    /// The families of replaceable legs.
+    Components,
+    /// The search for equivalent platforms by moves of legs.
+    Moves,
+    /// The nearest octahedral platform.
+    Nearest,
+    /// Its equivalent under the requirements of the design.
+    Assess,
+    /// Two designs compared.
+    Verify,
+    /// The poses of the design.
+    Fk,
+}
+
+impl StageWord {
+    /// A heading.
+    #[must_use]
+    pub fn heading(self) -> &'static str {
+        match self {
+            Self::Components => "Replaceable legs",
+            Self::Moves => "Equivalent platforms",
+            Self::Nearest => "Nearest octahedral platform",
+            Self::Assess => "Requirements at its equivalent",
+            Self::Verify => "Comparison",
+            Self::Fk => "Assembly modes",
+        }
+    }
+}
+
+/// The families of replaceable legs in short.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct FamiliesFoundRecord {
+    /// How many.
+    pub count: usize,
+    /// There are no others.
+    pub complete: bool,
+}
+
+/// A search for equivalent platforms in short.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct MovesFoundRecord {
+    /// What came out.
+    pub outcome: SearchWord,
+    /// Legs of the platform written that are not legs of the design, from 1; null: none is written.
+    pub moved_legs: Option<Vec<usize>>,
+    /// det A of the map to it; null: none is written.
+    pub det: Option<Number>,
+}
+
+/// The nearest octahedral platform in short.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct NearestErrorRecord {
+    /// The largest displacement of a leg end, design units.
+    pub largest_displacement: Number,
+    /// The same over the size of the design.
+    pub relative_displacement: Number,
+    /// The largest difference of leg lengths over the poses of the workspace.
+    pub largest_length_deviation: Number,
+    /// det A of the map from the octahedral platform to the one beside the design.
+    pub det: Number,
+}
+
+impl From<&NearestRecord> for NearestErrorRecord {
+    fn from(n: &NearestRecord) -> Self {
+        Self {
+            largest_displacement: n.largest_displacement,
+            relative_displacement: n.relative_displacement,
+            largest_length_deviation: n.largest_length_deviation,
+            det: n.det,
+        }
+    }
+}
+
+/// The answer of `explore` about an octahedral design.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ExploreOctahedralAnswer {
     /// Of the whole run.
     pub verdict: ExploreVerdict,
     /// One sentence with the numbers that decided.
@@ -57,6 +181,8 @@ pub struct ExploreAnswer {
 pub enum ExploreVerdict {
     /// Every branch of offsets is proved to violate the limits.
     Infeasible,
+    /// No platform without shared joints other than the design itself is equivalent to it: no leg can be replaced, or every platform that its replaceable legs make shares joints.
+    None,
     /// What the comparison says; `inconclusive` too where no offsets were found and some branches are not proved empty.
     #[serde(untagged)]
     Compared(VerdictWord),
@@ -68,6 +194,7 @@ impl ExploreVerdict {
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Infeasible => "infeasible",
+            Self::None => "none",
             Self::Compared(verdict) => verdict.as_str(),
         }
     }

@@ -7,7 +7,7 @@ use super::map::matrix;
 use super::{Number, leg_number};
 use crate::design::Design;
 use crate::equivalents::Original;
-use crate::manipulator::{Body, Octahedral};
+use crate::manipulator::Body;
 use crate::synthesis::{
     AffineLegMap, Family, FamilyCounts, FamilyMember, HexagonPoint, InstantiateError, JointLabel, Pattern,
     edge_lengths,
@@ -16,7 +16,7 @@ use crate::synthesis::{
 /// The answer of `equivalents family`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FamilyAnswer {
-    /// The name of the octahedral design.
+    /// The name of the design.
     pub name: String,
     /// Legs along the hexagon, from 1.
     pub cyclic_order: Vec<usize>,
@@ -34,16 +34,16 @@ pub struct FamilyAnswer {
 }
 
 impl FamilyAnswer {
-    /// The answer about a design, with these members of its class.
+    /// The answer about a design that is made from this octahedral platform or is it, with these members of its class.
     #[must_use]
-    pub fn new(design: &Design, o: &Octahedral, family: &Family, members: &[&FamilyMember]) -> Self {
-        let original = Original::octahedral(design, o.clone());
+    pub(crate) fn new(name: &str, original: &Original, family: &Family, members: &[&FamilyMember]) -> Self {
+        let o = &original.octahedral;
         Self {
-            name: design.name.clone(),
+            name: name.into(),
             cyclic_order: o.order().map(leg_number).to_vec(),
             edge_lengths: edge_lengths(o).map(Number).to_vec(),
             counts: family.counts().into(),
-            patterns: members.iter().map(|m| PatternRecord::new(m, &original)).collect(),
+            patterns: members.iter().map(|m| PatternRecord::new(m, original)).collect(),
             topologies: family.topologies().iter().enumerate().map(FamilyTopologyRecord::from).collect(),
             instance: None,
         }

@@ -7,9 +7,9 @@ use serde_json::{Map, Value};
 use super::{
     AssessAnswer, CheckAnswer, CompletionsAnswer, ComponentsAnswer, ConvertAnswer, Document, ErrorAnswer,
     ExploreAnswer, ExportAnswer, FamilyAnswer, FkAnswer, HelpAnswer, IkAnswer, LocusAnswer, ManAnswer,
-    MapAnswer, MoveAnswer, NewAnswer, OptimizeAnswer, PlotAnswer, PresetsAnswer, ReportAnswer, RoundAnswer,
-    SchemaAnswer, SelfmotionAnswer, SingularitiesAnswer, TolerancesAnswer, TopologiesAnswer, VerifyAnswer,
-    ViewAnswer,
+    MapAnswer, MoveAnswer, NearestAnswer, NewAnswer, OptimizeAnswer, PlotAnswer, PresetsAnswer, ReportAnswer,
+    RoundAnswer, SchemaAnswer, SelfmotionAnswer, SingularitiesAnswer, TolerancesAnswer, TopologiesAnswer,
+    VerifyAnswer, ViewAnswer,
 };
 
 /// Names of answers with the function that writes their schema: commands by their own names, those of a group as `singular-poses`, `error` for refusals, `help` for --help.
@@ -29,6 +29,7 @@ const ANSWERS: Table = &[
     ("equivalents-family", Document::<FamilyAnswer>::json_schema),
     ("equivalents-map", Document::<MapAnswer>::json_schema),
     ("equivalents-move", Document::<MoveAnswer>::json_schema),
+    ("equivalents-nearest", Document::<NearestAnswer>::json_schema),
     ("equivalents-topologies", Document::<TopologiesAnswer>::json_schema),
     ("error", Document::<ErrorAnswer>::json_schema),
     ("explore", Document::<ExploreAnswer>::json_schema),

@@ -10,7 +10,7 @@ pub enum VariableKind {
     Offsets,
     /// One offset for the three edges of the base and one for those of the platform.
     SymmetricOffsets,
-    /// A factor for each triangle.
+    /// A factor for each triangle, or for base and platform of a design that is not octahedral.
     TriangleSizes,
     /// Shapes and sizes of the triangles.
     Triangles,

@@ -25,7 +25,7 @@ use crate::geom::Pose;
 use crate::manipulator::{ExactLegs, Manipulator, SquaredLegLengths, flat_dimension, is_collinear};
 use crate::num::exact::Rational;
 use crate::num::linalg::{LinalgError, svd};
-use crate::synthesis::{offset_determinant, offset_products};
+use crate::synthesis::{hexagon_orders, offset_determinant, offset_products};
 
 /// A platform recognised as one of Griffis-Duffy type.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,7 +54,7 @@ impl GriffisDuffy {
     pub fn recognise(m: &Manipulator) -> Option<Self> {
         let limit = Self::limit(m);
         let mut best: Option<Self> = None;
-        for order in orders() {
+        for order in hexagon_orders() {
             let Some(found) = Self::along(m, order) else { continue };
             if found.deviation <= limit && best.as_ref().is_none_or(|b| found.deviation < b.deviation) {
                 best = Some(found);
@@ -150,20 +150,6 @@ impl GriffisDuffy {
         let (sum, moduli) = terms.fold((0.0, constant.abs()), |(x, y), t| (x + t, y + f64::abs(t)));
         (sum - constant) / moduli
     }
-}
-
-/// Orders of the legs up to turning the hexagon by two sides and reflecting it.
-fn orders() -> impl Iterator<Item = [usize; 6]> {
-    (0..46656_usize).filter_map(|n| {
-        let mut rest = n;
-        let order: [usize; 6] = std::array::from_fn(|_| {
-            let digit = rest % 6;
-            rest /= 6;
-            digit
-        });
-        let all = order.iter().fold(0u8, |set, i| set | 1 << i) == 0b11_1111;
-        (all && order[0] < order[2] && order[0] < order[4] && order[1] < order[5]).then_some(order)
-    })
 }
 
 fn exactly_singular(legs: &ExactLegs, order: [usize; 6]) -> bool {

@@ -19,6 +19,7 @@ mod leg_map;
 mod leg_vector;
 mod map_deviation;
 mod moves;
+mod nearest;
 mod pattern;
 pub mod rearrangement;
 pub mod relocate;
@@ -38,4 +39,8 @@ pub use leg_map::{
 };
 pub use leg_vector::{LegSpan, Normalisation, leg_vector};
 pub use moves::{Move, moves, reachable};
+pub(crate) use nearest::hexagon_orders;
+pub use nearest::{
+    LegEnd, LengthDeviation, NearestOctahedral, NearestOptions, length_deviation, nearest_octahedral,
+};
 pub use pattern::{InstantiateError, ParsePatternError, Pattern, joint_free};

@@ -138,14 +138,57 @@ fn optimised_design_has_the_lengths_of_the_same_poses(folder: &Path) {
 }
 
 #[test]
-fn what_is_not_octahedral_is_refused_before_anything_is_written() {
+fn a_general_design_has_no_equivalent_and_a_nearest_octahedral_platform() {
     let temp = tempfile::tempdir().unwrap();
     let folder = temp.path().join("out");
-    let out = explore(&shipped("lee-shim"), &folder, &["--json"]);
-    assert_eq!(out.status.code(), Some(2));
+    let out = explore(&shipped("general-6-6"), &folder, &["--json"]);
     let d: Value = serde_json::from_slice(&out.stdout).unwrap();
-    assert_eq!(d["error"]["code"], "explore::not_octahedral");
-    assert!(!folder.exists());
+    // the families are complete, and there are none
+    assert_eq!((out.status.code(), &d["verdict"]), (Some(1), &"none".into()), "{d}");
+    assert_eq!(d["components"], serde_json::json!({"count": 0, "complete": true}));
+    assert!(d["moves"].is_null() && d["nearest_meets_requirements"].is_null());
+    let paths = d["paths"].as_array().unwrap().len();
+    assert_eq!(std::fs::read_dir(&folder).unwrap().count(), paths, "what is listed is what is written");
+    let stages: Vec<&str> =
+        d["stages"].as_array().unwrap().iter().map(|s| s["stage"].as_str().unwrap()).collect();
+    assert_eq!(stages, ["components", "moves", "nearest", "assess", "verify", "fk"]);
+    let nearest: Value = serde_json::from_str(&read(&folder, "nearest.json")).unwrap();
+    assert_eq!(d["nearest"]["largest_displacement"], nearest["nearest"]["largest_displacement"]);
+    assert!(d["nearest"]["largest_displacement"].as_f64().unwrap() > 0.1);
+    for name in ["nearest-octahedral.toml", "nearest-equivalent.toml"] {
+        let format = equipod::methods::design::Format::Toml;
+        assert!(
+            equipod::methods::design::parse(&read(&folder, name), format).unwrap().1.is_empty(),
+            "{name}"
+        );
+    }
+    let report = read(&folder, "report.md");
+    for needle in ["general 6-6: none", "Nearest octahedral platform", "a joint moves by up to"] {
+        assert!(report.contains(needle), "{needle}");
+    }
+    assert!(read(&folder, "report.html").contains("nearest-octahedral.toml"));
+}
+
+#[test]
+fn a_design_without_shared_joints_has_its_legs_moved_and_is_compared_with_the_result() {
+    let temp = tempfile::tempdir().unwrap();
+    let out = explore(&shipped("rbt-griffis-duffy"), temp.path(), &["--json"]);
+    let d: Value = serde_json::from_slice(&out.stdout).unwrap();
+    assert_eq!((out.status.code(), &d["verdict"]), (Some(0), &"equivalent".into()), "{d}");
+    assert!(!d["moves"]["moved_legs"].as_array().unwrap().is_empty());
+    assert!(
+        d["nearest"]["largest_displacement"].as_f64().unwrap() < 1e-9,
+        "it is made from an octahedral platform"
+    );
+    assert!(read(temp.path(), "equivalent.toml").contains("rearranged 1"));
+}
+
+#[test]
+fn a_singular_design_is_said_to_be_so() {
+    let temp = tempfile::tempdir().unwrap();
+    let out = explore(&shipped("rbt-midline"), temp.path(), &["--json"]);
+    let d: Value = serde_json::from_slice(&out.stdout).unwrap();
+    assert_eq!((out.status.code(), &d["verdict"]), (Some(1), &"singular".into()), "{d}");
 }
 
 #[test]

@@ -130,7 +130,7 @@ fn a_wrong_word_is_told_what_was_meant() {
         (
             "equivalents",
             "`equipod equivalents` needs one of its commands",
-            "family, components, topologies, move, map",
+            "family, components, topologies, move, nearest, map",
         ),
         ("fk x.toml --length 1,2", "unexpected argument '--length'", "did you mean `--lengths`?"),
         ("fk x.toml --gap 1", "unexpected argument '--gap'", "--gap is an option of `equipod optimize`"),

@@ -151,13 +151,16 @@ fn a_design_is_converted_to_another_unit() {
 #[test]
 fn refusals_of_general_designs_name_what_takes_them() {
     for args in [
-        &["explore", "designs/symmetric-hexapod.toml", "-o", "not-made"][..],
-        &["equivalents", "family", "designs/symmetric-hexapod.toml"],
+        &["equivalents", "family", "designs/symmetric-hexapod.toml"][..],
         &["optimize", "designs/general-6-6.toml"],
     ] {
         let out = equipod(args);
         let said = String::from_utf8(out.stderr).unwrap();
         assert_eq!(out.status.code(), Some(2));
-        assert!(said.contains("`equipod equivalents components`") && said.contains("--search"), "{said}");
+        for named in
+            ["`equipod equivalents components`", "--search", "`equipod equivalents nearest DESIGN -o FILE`"]
+        {
+            assert!(said.contains(named), "{named}: {said}");
+        }
     }
 }

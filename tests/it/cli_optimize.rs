@@ -79,9 +79,9 @@ fn an_impossible_joint_distance_is_infeasible_with_the_reason() {
 }
 
 #[test]
-fn a_design_that_is_not_octahedral_is_refused() {
+fn offsets_of_a_design_that_is_not_octahedral_are_refused() {
     let design = DESIGN.replace(r#"["P1","P6"]"#, r#"["P2","P6"]"#);
-    let (out, _folder) = optimize(&design, &[]);
+    let (out, _folder) = optimize(&format!("{design}\n[optimize]\nvariables = [\"offsets\"]\n"), &[]);
     assert_eq!(out.status.code(), Some(2));
     assert_eq!(document(&out)["error"]["code"], "optimize::not_octahedral");
 }
@@ -154,12 +154,12 @@ fn a_slip_in_the_name_of_a_variable_is_refused_with_the_nearest_one() {
 
 #[test]
 fn a_design_that_is_not_octahedral_is_told_what_can_be_chosen() {
-    // [hardware] without variables asks for offsets, which it has not
+    // without variables its legs are to move along families, and it has none that is rational
     let design = concat!(env!("CARGO_MANIFEST_DIR"), "/designs/symmetric-hexapod.toml");
     let out = Command::new(env!("CARGO_BIN_EXE_equipod")).args(["optimize", design]).output().unwrap();
     assert_eq!(out.status.code(), Some(2));
     let text = String::from_utf8_lossy(&out.stderr);
-    assert!(text.contains("octahedral designs") && text.contains("\"components\""), "{text}");
+    assert!(text.contains("rational family") && text.contains("\"triangle_sizes\""), "{text}");
 }
 
 /// The worst-case inverse condition number of a 6-4 platform with legs 1 to 4 moved along their point-line families. Both platform joints that two legs share stay shared: the families of

@@ -108,8 +108,57 @@ fn a_pattern_is_written_as_a_design_that_maps_back() {
 }
 
 #[test]
+fn a_design_made_from_an_octahedral_platform_has_its_class() {
+    let made = "designs/rbt-griffis-duffy.toml";
+    let (code, doc) = json(&["equivalents", "family", made]);
+    assert_eq!((code, doc["counts"]["patterns"].as_u64()), (Some(0), Some(728)));
+    // its own offsets give itself back
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("same.toml");
+    let offsets = ["--pattern", "S123456", "--offsets=0.2,0.2,0.2,0.2,0.2,0.2", "-o", path.to_str().unwrap()];
+    let (code, _) = json(&[&["equivalents", "family", made][..], &offsets].concat());
+    assert_eq!(code, Some(0));
+    let (code, map) = json(&["equivalents", "map", made, path.to_str().unwrap()]);
+    let det = map["det"].as_f64().unwrap();
+    assert!(code == Some(0) && (det - 1.0).abs() < 1e-9, "{det}");
+    // one that is singular is equivalent to no octahedral platform
+    let (code, doc) = json(&["equivalents", "family", "designs/rbt-midline.toml"]);
+    assert_eq!((code, doc["error"]["code"].as_str()), (Some(2), Some("family::singular")));
+}
+
+#[test]
+fn the_nearest_octahedral_platform_is_written_with_its_error() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let (octahedral, beside) = (path("octahedral.toml"), path("beside.toml"));
+    let design = "designs/symmetric-hexapod.toml";
+    let (code, doc) = json(&["equivalents", "nearest", design, "-o", &octahedral, "--beside", &beside]);
+    let near = &doc["nearest"];
+    let number = |key: &str| near[key].as_f64().unwrap();
+    assert_eq!((code, near["settled"].as_bool()), (Some(0), Some(true)));
+    // joining the joints of each pair half-way moves them by half of their distance, 62.4 and 41.6 mm
+    let joined = (0.5 * (62.374_f64.powi(2) + 41.6_f64.powi(2))).sqrt();
+    assert!(number("rms_displacement") < joined, "{}", number("rms_displacement"));
+    assert!(number("largest_length_deviation") <= 2.0 * number("largest_displacement"));
+    // every command for octahedral designs takes the one, which is exactly equivalent to the other
+    let (code, map) = json(&["equivalents", "map", &octahedral, &beside]);
+    assert_eq!((code, map["relation"].as_str()), (Some(0), Some("equivalent")));
+    assert!(map["det_exact"].is_string(), "its joints are constructed");
+    assert!((map["det"].as_f64().unwrap() - number("det")).abs() < 1e-9);
+    assert_eq!(json(&["equivalents", "family", &octahedral]).0, Some(0));
+    // a design that is octahedral is its own nearest
+    let (_, own) = json(&["equivalents", "nearest", OCTAHEDRAL]);
+    assert!(own["nearest"]["largest_displacement"].as_f64().unwrap() < 1e-9);
+    // no way is regular enough
+    let text = std::fs::read_to_string("designs/general-6-6.toml").unwrap();
+    std::fs::write(path("never.toml"), format!("{text}\n[optimize]\nmin_abs_det = 1e9\n")).unwrap();
+    let (code, doc) = json(&["equivalents", "nearest", &path("never.toml")]);
+    assert_eq!((code, &doc["nearest"]), (Some(3), &serde_json::Value::Null));
+}
+
+#[test]
 fn other_designs_are_refused_with_the_reason() {
-    let (code, doc) = json(&["equivalents", "family", "designs/rbt-griffis-duffy.toml"]);
+    let (code, doc) = json(&["equivalents", "family", "designs/general-6-6.toml"]);
     assert_eq!((code, doc["error"]["code"].as_str()), (Some(2), Some("family::not_octahedral")));
     assert!(doc["error"]["message"].as_str().unwrap().contains("6 joints in use"));
 }

@@ -39,8 +39,11 @@ use super::failure::Failure;
 use super::output::Answer;
 use super::reference;
 
+/// Where a command for octahedral designs can go on from another one.
+const NEAREST: &str = "`equipod equivalents nearest DESIGN -o FILE` writes the nearest octahedral platform, with the error it would make, and this command takes that file;";
+
 /// What can be done with a design that is not octahedral.
-const GENERAL: &str = "every design is taken by `equipod check`, `equipod assess`, `equipod fk` and `equipod view`; `equipod equivalents components` finds its replaceable legs, and `equipod equivalents move` with --search and a wish such as --spacing finds equivalents of it";
+const GENERAL: &str = "every design is taken by `equipod explore`, `equipod check`, `equipod assess`, `equipod fk` and `equipod view`; `equipod equivalents components` finds its replaceable legs, and `equipod equivalents move` with --search and a wish such as --spacing finds equivalents of it";
 
 /// The commands, in the order of the guide.
 #[derive(Debug, Subcommand)]
@@ -56,7 +59,7 @@ pub(crate) enum Command {
     Equivalents(equivalents::Command),
     /// Decide whether two designs are kinematically equivalent
     Verify(verify::Args),
-    /// Run the whole analysis of an octahedral design and write it into a folder
+    /// Run the whole analysis of a design and write it into a folder
     Explore(explore::Args),
     /// Decide whether a design meets its requirements at all poses of its workspace
     Assess(assess::Args),

@@ -38,6 +38,9 @@ const CALLS: &[(i32, &str, &str)] = &[
     (1, "error", "equivalents topologies {star}"),
     (0, "explore", "{rbt-octahedral} --samples 1 -o {explored}"),
     (1, "explore", "{apart} --samples 1 -o {none}"),
+    (1, "explore", "{general-6-6} --samples 1 -o {general}"),
+    (0, "explore", "{rbt-griffis-duffy} --samples 1 -o {made}"),
+    (0, "equivalents-nearest", "{general-6-6} -o {nearest.toml}"),
     (0, "report", "{explored}"),
     (0, "export", "{rbt-octahedral} --to csv,svg -o {exported}"),
     (

@@ -9,9 +9,9 @@ use std::fs;
 use equipod::records::{
     AssessAnswer, BenchAnswer, CheckAnswer, CompletionsAnswer, ComponentsAnswer, ConvertAnswer, Document,
     ErrorAnswer, ExploreAnswer, ExportAnswer, FamilyAnswer, FkAnswer, FkRunRecord, HelpAnswer, IkAnswer,
-    LocusAnswer, ManAnswer, MapAnswer, MoveAnswer, NewAnswer, OptimizeAnswer, PlotAnswer, PresetsAnswer,
-    ReportAnswer, RoundAnswer, SchemaAnswer, SelfmotionAnswer, SingularitiesAnswer, TolerancesAnswer,
-    TopologiesAnswer, VerifyAnswer, ViewAnswer, schema, schema_names,
+    LocusAnswer, ManAnswer, MapAnswer, MoveAnswer, NearestAnswer, NewAnswer, OptimizeAnswer, PlotAnswer,
+    PresetsAnswer, ReportAnswer, RoundAnswer, SchemaAnswer, SelfmotionAnswer, SingularitiesAnswer,
+    TolerancesAnswer, TopologiesAnswer, VerifyAnswer, ViewAnswer, schema, schema_names,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -42,6 +42,7 @@ const TYPES: &[(&str, Reread)] = &[
     ("equivalents-family", reread::<FamilyAnswer>),
     ("equivalents-map", reread::<MapAnswer>),
     ("equivalents-move", reread::<MoveAnswer>),
+    ("equivalents-nearest", reread::<NearestAnswer>),
     ("equivalents-topologies", reread::<TopologiesAnswer>),
     ("error", reread::<ErrorAnswer>),
     ("explore", reread::<ExploreAnswer>),
@@ -288,7 +289,15 @@ const GROUPS: [&[&str]; 4] = [
         "design-convert",
     ],
     &["optimize", "assess", "build-round", "view", "export", "shell-completions", "shell-man"],
-    &["explore", "report", "verify", "equivalents-map", "equivalents-family", "build-tolerances"],
+    &[
+        "explore",
+        "report",
+        "verify",
+        "equivalents-map",
+        "equivalents-family",
+        "equivalents-nearest",
+        "build-tolerances",
+    ],
     &[
         "check",
         "equivalents-components",

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use crate::cli::commands::GENERAL;
+use crate::cli::commands::{GENERAL, NEAREST};
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
@@ -19,7 +19,7 @@ use crate::synthesis::{Family, FamilyMember, Pattern, Relation};
 /// Arguments of `equivalents family`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// Octahedral design (.toml or .json)
+    /// Design (.toml or .json) that is octahedral, or made from an octahedral platform by offsets along the sides of its triangles
     design: PathBuf,
     /// Write the graph of topologies for Graphviz
     #[arg(long, value_name = "FILE")]
@@ -47,10 +47,27 @@ pub(crate) struct Args {
 /// Lists the class, or one pattern of it.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
-    let o = Octahedral::recognise(design.manipulator()).map_err(|e| {
-        Failure::refused("family::not_octahedral", format!("{} is not octahedral: {e}", design.name))
-            .with_help(format!("the class is that of a design with three joints on each body and two legs at each joint; {GENERAL}"))
+    let original = Original::of(&design).ok_or_else(|| {
+        let why = Octahedral::recognise(design.manipulator()).err().map_or_else(String::new, |e| format!(": {e}"));
+        Failure::refused(
+            "family::not_octahedral",
+            format!("{} is neither octahedral nor made from an octahedral platform{why}", design.name),
+        )
+        .with_help(format!(
+            "the class is that of a design with three joints on each body and two legs at each joint, or with its joints on the sides of two triangles; {NEAREST} {GENERAL}"
+        ))
     })?;
+    if original.seen.is_some()
+        && !leg_map(&original.design, &design).is_ok_and(|m| m.relation == Relation::Equivalent)
+    {
+        let message = format!(
+            "{} is made from an octahedral platform, but singular: it is equivalent to none",
+            design.name
+        );
+        return Err(
+            Failure::refused("family::singular", message).with_help("`equipod check DESIGN` says why")
+        );
+    }
     let family = Family::octahedral();
     if let Some(path) = &args.dot {
         files::write_text(path, &family.to_dot())?;
@@ -61,10 +78,10 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let wanted = args.pattern.as_deref().map(parse_pattern).transpose()?;
     let members: Vec<&FamilyMember> =
         family.members().iter().filter(|m| wanted.as_ref().is_none_or(|p| m.pattern == *p)).collect();
-    let mut answer = FamilyAnswer::new(&design, &o, &family, &members);
+    let mut answer = FamilyAnswer::new(&design.name, &original, &family, &members);
     let mut relation = None;
     if let (Some(pattern), Some(offsets)) = (&wanted, &args.offsets) {
-        let (record, found) = realise(args, pattern, &design, o, offsets)?;
+        let (record, found) = realise(args, pattern, &design, &original, offsets)?;
         (answer.instance, relation) = (Some(record), Some(found));
     }
     let mut text = summary(&answer);
@@ -103,10 +120,9 @@ fn realise(
     args: &Args,
     pattern: &Pattern,
     design: &Design,
-    octahedral: Octahedral,
+    original: &Original,
     offsets: &[f64],
 ) -> Result<(InstanceRecord, Relation), Failure> {
-    let original = Original::octahedral(design, octahedral);
     let refused = |e: &dyn std::fmt::Display| Failure::refused("family::bad_offsets", e.to_string());
     let (built, map) = original.equivalent(pattern, offsets).map_err(|e| refused(&e))?;
     let record = InstanceRecord::new(pattern, offsets, &built, &map).map_err(|e| refused(&e))?;

@@ -3,7 +3,8 @@
 pub(in crate::cli::commands) mod components;
 mod family;
 mod map;
-mod r#move;
+pub(in crate::cli::commands) mod r#move;
+pub(in crate::cli::commands) mod nearest;
 pub(in crate::cli::commands) mod topologies;
 
 use clap::Subcommand;
@@ -23,6 +24,8 @@ pub(crate) enum Command {
     Topologies(topologies::Args),
     /// Move legs along their families, or search for an equivalent platform with given properties
     Move(r#move::Args),
+    /// Find the octahedral platform nearest to a design, with the error it would make
+    Nearest(nearest::Args),
     /// Compute the affine map between the squared leg lengths of two designs
     Map(map::Args),
 }
@@ -35,6 +38,7 @@ impl Command {
             Self::Components(args) => components::run(args, context),
             Self::Topologies(args) => topologies::run(args, context),
             Self::Move(args) => r#move::run(args, context),
+            Self::Nearest(args) => nearest::run(args, context),
             Self::Map(args) => map::run(args, context),
         }
     }

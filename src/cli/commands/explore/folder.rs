@@ -18,11 +18,51 @@ pub(super) const FK: &str = "fk.json";
 pub(super) const MODES: &str = "assembly-modes.svg";
 pub(super) const REPORT: &str = "report.md";
 pub(super) const PAGE: &str = report::PAGE;
-const ALL: [&str; 10] = [ORIGINAL, FAMILY, OPTIMIZE, OPTIMISED, DETERMINANT, VERIFY, FK, MODES, REPORT, PAGE];
+pub(super) const COMPONENTS: &str = "components.json";
+pub(super) const MOVES: &str = "moves.json";
+pub(super) const EQUIVALENT: &str = "equivalent.toml";
+pub(super) const NEAREST: &str = "nearest.json";
+pub(super) const NEAREST_OCTAHEDRAL: &str = "nearest-octahedral.toml";
+pub(super) const BESIDE: &str = "nearest-equivalent.toml";
+pub(super) const ASSESS: &str = "nearest-assess.json";
+const ALL: [&str; 17] = [
+    ORIGINAL,
+    FAMILY,
+    OPTIMIZE,
+    OPTIMISED,
+    DETERMINANT,
+    COMPONENTS,
+    MOVES,
+    EQUIVALENT,
+    NEAREST,
+    NEAREST_OCTAHEDRAL,
+    BESIDE,
+    ASSESS,
+    VERIFY,
+    FK,
+    MODES,
+    REPORT,
+    PAGE,
+];
 
 /// What stands first in a report of the folder.
-pub(in crate::cli::commands) const FIRST: [&str; 8] =
-    [ORIGINAL, OPTIMISED, VERIFY, OPTIMIZE, FK, FAMILY, DETERMINANT, MODES];
+pub(in crate::cli::commands) const FIRST: [&str; 15] = [
+    ORIGINAL,
+    OPTIMISED,
+    EQUIVALENT,
+    NEAREST_OCTAHEDRAL,
+    BESIDE,
+    VERIFY,
+    OPTIMIZE,
+    MOVES,
+    NEAREST,
+    ASSESS,
+    FK,
+    FAMILY,
+    COMPONENTS,
+    DETERMINANT,
+    MODES,
+];
 
 /// The folder and what has been written into it.
 #[derive(Debug)]

@@ -1,7 +1,8 @@
-//! `equipod explore`: everything about an octahedral design in one folder.
+//! `equipod explore`: everything about a design in one folder. This file is about octahedral designs, [`general`] about the others.
 
 mod figures;
 pub(super) mod folder;
+mod general;
 mod report;
 
 use std::fmt::Write as _;
@@ -12,7 +13,6 @@ use self::folder::Folder;
 use super::optimize::{Choices, Done};
 use super::report::page;
 use super::{fk as fk_command, optimize, verify as verify_command};
-use crate::cli::commands::GENERAL;
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
@@ -24,25 +24,27 @@ use crate::design::Design;
 use crate::entrance::optimizing::EXTENSION;
 use crate::entrance::{SAMPLES, sample_plan, verified_exactly};
 use crate::equivalence::{Verification, verify};
+use crate::equivalents::Original;
 use crate::fk::{self, FkOptions, FkSolutions, PoseCounting};
 use crate::geom::SamplePlan;
 use crate::manipulator::{LegLengths, Octahedral};
 use crate::offsets;
 use crate::records::{
-    ComparedRecord, ExploreAnswer, ExploreVerdict, FamilyAnswer, FamilySizeRecord, FkRunRecord, FramesRecord,
-    LengthsOrigin, OffsetsFoundRecord, PoseTotalsRecord, ProvenanceRecord, VerdictWord, VerifyAnswer,
+    ComparedRecord, ExploreAnswer, ExploreOctahedralAnswer, ExploreVerdict, FamilyAnswer, FamilySizeRecord,
+    FkRunRecord, FramesRecord, LengthsOrigin, OffsetsFoundRecord, PoseTotalsRecord, ProvenanceRecord,
+    VerdictWord, VerifyAnswer,
 };
 use crate::synthesis::{Family, FamilyMember};
 
 /// Arguments of `explore`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// Octahedral design (.toml or .json)
+    /// Design file (.toml or .json)
     design: PathBuf,
     /// Folder for the results; it is made where it does not exist, and the files of an earlier run are replaced
     #[arg(short, long, value_name = "DIR")]
     output: OutputPath,
-    /// Number of sets of leg lengths at which the design and the optimised one are solved and compared
+    /// Number of sets of leg lengths at which two designs are solved and compared: an octahedral design with the optimised one, another with the equivalent found, or its nearest octahedral platform with that one's equivalent
     #[arg(long, default_value_t = SAMPLES, value_name = "N", value_parser = verify_command::at_least_one)]
     samples: usize,
     /// How far a joint may lie outside its edge, on its extension, in edge lengths
@@ -111,10 +113,9 @@ impl Results {
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     optimize::check_extension(args.extension)?;
     let design = context.load(&args.design)?;
-    let octahedral = Octahedral::recognise(design.manipulator()).map_err(|why| {
-        Failure::refused("explore::not_octahedral", format!("the design is not octahedral: {why}"))
-            .with_help(GENERAL)
-    })?;
+    let Ok(octahedral) = Octahedral::recognise(design.manipulator()) else {
+        return general::run(args, &design, context);
+    };
     let mut folder = Folder::prepare(&args.output)?;
     let mut progress = ProgressLine::new(context.quiet());
     let seed = context.seed();
@@ -127,7 +128,16 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let members: Vec<&FamilyMember> = family.members().iter().collect();
     folder.write(
         folder::FAMILY,
-        &document(FamilyAnswer::new(&design, &octahedral, &family, &members), provenance.clone(), &[])?,
+        &document(
+            FamilyAnswer::new(
+                &design.name,
+                &Original::octahedral(&design, octahedral.clone()),
+                &family,
+                &members,
+            ),
+            provenance.clone(),
+            &[],
+        )?,
     )?;
 
     progress.stage(2, "offsets");
@@ -176,8 +186,8 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let files = folder.results()?;
     folder.write(folder::PAGE, &page(files, None))?;
     let record = record(&results, &folder);
-    let text = text(&record);
-    Ok(Answer::new(results.exit(), record, text))
+    let text = text(&record.name, record.verdict, &record.explanation, &record.paths);
+    Ok(Answer::new(results.exit(), ExploreAnswer::Octahedral(Box::new(record)), text))
 }
 
 /// The design as it was read, with a word on where the copy comes from.
@@ -234,10 +244,10 @@ fn fk_record(poses: &Poses) -> FkRunRecord {
 }
 
 /// What `--json` writes to standard output.
-fn record(r: &Results, folder: &Folder) -> ExploreAnswer {
+fn record(r: &Results, folder: &Folder) -> ExploreOctahedralAnswer {
     let c = r.family.counts();
     let converged = r.done.exit() == Exit::Yes;
-    ExploreAnswer {
+    ExploreOctahedralAnswer {
         verdict: r.verdict(),
         explanation: r.explanation().into(),
         name: r.design.name.clone(),
@@ -250,12 +260,12 @@ fn record(r: &Results, folder: &Folder) -> ExploreAnswer {
 }
 
 /// The paths, for programs; before them the verdict, for people.
-fn text(r: &ExploreAnswer) -> String {
+fn text(name: &str, verdict: ExploreVerdict, explanation: &str, paths: &[String]) -> String {
     let mut out = String::new();
     if std::io::stdout().is_terminal() {
-        let _ = writeln!(out, "{}: {}\n{}", r.name, r.verdict.as_str(), r.explanation);
+        let _ = writeln!(out, "{name}: {}\n{explanation}", verdict.as_str());
     }
-    for path in &r.paths {
+    for path in paths {
         let _ = writeln!(out, "{path}");
     }
     out

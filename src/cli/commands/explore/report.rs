@@ -32,7 +32,7 @@ pub(super) fn markdown(r: &Results) -> String {
 }
 
 /// Text of a design cannot become markup.
-fn plain(text: &str) -> String {
+pub(super) fn plain(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match c {

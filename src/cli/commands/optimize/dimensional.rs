@@ -1,6 +1,7 @@
 //! `equipod optimize` for designs that ask for more than the offsets with the best conditioning.
 
 use crate::cli::commands::verify::failure_of;
+use crate::cli::commands::{GENERAL, NEAREST};
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
@@ -37,13 +38,17 @@ pub(super) fn exit_of(status: DimensionalStatus) -> Exit {
 
 /// A problem that cannot be asked, with what could be asked instead.
 pub(super) fn refusal(why: &InvalidProblem) -> Failure {
-    let failure = Failure::refused("optimize::invalid_problem", why.to_string());
+    let failed = |code| Failure::refused(code, why.to_string());
     match why {
-        InvalidProblem::NotOctahedral(_) => failure.with_help(
+        InvalidProblem::NotOctahedral(_) => failed("optimize::not_octahedral").with_help(format!(
             "for other designs set variables = [\"components\"] in [optimize] (legs move in their families of replaceable legs), \
-             or \"home_height\", \"joint_axes\"",
-        ),
-        _ => failure,
+             [\"triangle_sizes\"] (sizes of base and platform), or \"home_height\", \"joint_axes\"; {NEAREST} {GENERAL}"
+        )),
+        InvalidProblem::NoFamily => failed("optimize::invalid_problem").with_help(format!(
+            "variables = [\"triangle_sizes\"] (sizes of base and platform), [\"home_height\"] or [\"joint_axes\"] in [optimize] need no family, \
+             and make other platforms than equivalent ones; {NEAREST} {GENERAL}"
+        )),
+        _ => failed("optimize::invalid_problem"),
     }
 }
 

@@ -1,4 +1,4 @@
-//! `equipod optimize`: the best platform without shared joints equivalent to an octahedral design.
+//! `equipod optimize`: the best platform equivalent to a design, or the best under its requirements.
 
 mod dimensional;
 mod dimensional_text;
@@ -9,7 +9,6 @@ mod render;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
-use crate::cli::commands::GENERAL;
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
@@ -18,6 +17,7 @@ use crate::cli::output::Answer;
 use crate::cli::poses;
 use crate::cli::progress::{Interrupt, ProgressLine};
 use crate::design::{Combination, Design};
+use crate::dimensional::InvalidProblem;
 use crate::entrance::optimizing::{EXTENSION, asks_for_more, offset_problem, optimised_design};
 use crate::geom::Pose;
 use crate::manipulator::Octahedral;
@@ -28,7 +28,7 @@ use crate::records::{OffsetsAnswer, OffsetsFound, OffsetsStatus, OptimizeAnswer,
 /// Arguments of `optimize`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// Octahedral design (.toml or .json); its tables home, workspace and optimize set poses and limits
+    /// Design (.toml or .json); its tables home, workspace, hardware and optimize set poses and limits. Of an octahedral design the shared joints are spread along the sides, of others the legs are moved along their families of replaceable legs, unless the design names other variables
     design: PathBuf,
     /// Write the optimised design; .json gives JSON, anything else TOML
     #[arg(short, long, value_name = "FILE")]
@@ -126,10 +126,9 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
             text,
         ));
     }
-    let octahedral = Octahedral::recognise(design.manipulator()).map_err(|why| {
-        Failure::refused("optimize::not_octahedral", format!("the design is not octahedral: {why}"))
-            .with_help(format!("without [optimize] the shared joints of a 3-3 octahedral design are spread; set variables = [\"components\"] in [optimize] to move replaceable legs, or \"home_height\"; {GENERAL}"))
-    })?;
+    // a design that is not octahedral asks for more
+    let octahedral = Octahedral::recognise(design.manipulator())
+        .map_err(|why| dimensional::refusal(&InvalidProblem::NotOctahedral(why)))?;
     if !(args.gap > 0.0 && args.gap.is_finite()) {
         return Err(Failure::refused(
             "optimize::bad_gap",

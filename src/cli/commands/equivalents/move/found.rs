@@ -16,7 +16,8 @@ use crate::records::{
 };
 use crate::synthesis::components::{ComponentOptions, Components};
 use crate::synthesis::relocate::search::{
-    Candidate, Impossibility, LegSource, Placement, SearchError, SearchOutcome, SearchVerdict, search,
+    Candidate, Impossibility, LegSource, MoveSearchOptions, Placement, SearchError, SearchOutcome,
+    SearchVerdict, Wishes, search,
 };
 
 /// Searches, and writes the designs found.
@@ -28,38 +29,58 @@ pub(super) fn run(
 ) -> Result<Answer, Failure> {
     let wishes = args.wishes(design)?;
     let families = super::families(design, options)?;
-    let outcome = search(design.manipulator(), &families, &wishes, &args.options(options.seed)).map_err(
-        |e| match e {
-            SearchError::Linalg(_) => Failure::internal(e.to_string()),
-            SearchError::Dependent(_) => Failure::refused("move::singular_design", e.to_string())
-                .with_help("`equipod check DESIGN` says why"),
-            _ => Failure::refused("move::bad_wish", e.to_string()),
-        },
-    )?;
-    let mut designs = Vec::new();
-    for (k, c) in outcome.candidates.iter().enumerate() {
-        designs.push(built(design, c, k + 1));
-    }
-    let mut written = Vec::new();
+    let Found { mut record, designs, exit, .. } =
+        platforms(design, &families, &wishes, &args.options(options.seed))?;
     if let Some(folder) = output {
         files::make_folder(folder)?;
         for (k, d) in designs.iter().enumerate() {
             let path = folder.join(format!("{}.toml", k + 1));
             if let Some(d) = d {
                 files::write_design(&path, d)?;
-                written.push(path.display().to_string());
+                record.paths.push(path.display().to_string());
             }
         }
     }
+    let text = text(&record);
+    Ok(Answer::new(exit, MoveAnswer::Search(Box::new(record)), text))
+}
+
+/// What a search found, with the platforms as designs.
+#[derive(Debug)]
+pub(in crate::cli::commands) struct Found {
+    pub(in crate::cli::commands) record: MoveSearchAnswer,
+    /// One for each platform of the record; absent where it makes no design.
+    pub(in crate::cli::commands) designs: Vec<Option<Design>>,
+    /// Legs of each platform that are not legs of the design, from 1.
+    pub(in crate::cli::commands) moved: Vec<Vec<usize>>,
+    pub(in crate::cli::commands) exit: Exit,
+}
+
+/// The equivalent platforms that fulfil the wishes.
+pub(in crate::cli::commands) fn platforms(
+    design: &Design,
+    families: &Components,
+    wishes: &Wishes,
+    options: &MoveSearchOptions,
+) -> Result<Found, Failure> {
+    let outcome = search(design.manipulator(), families, wishes, options).map_err(|e| match e {
+        SearchError::Linalg(_) => Failure::internal(e.to_string()),
+        SearchError::Dependent(_) => Failure::refused("move::singular_design", e.to_string())
+            .with_help("`equipod check DESIGN` says why"),
+        _ => Failure::refused("move::bad_wish", e.to_string()),
+    })?;
+    let designs: Vec<Option<Design>> =
+        outcome.candidates.iter().enumerate().map(|(k, c)| built(design, c, k + 1)).collect();
     let exit = match outcome.verdict {
         SearchVerdict::Found => Exit::Yes,
         SearchVerdict::Impossible(_) => Exit::No,
         SearchVerdict::Undecided => Exit::Inconclusive,
     };
-    let report = MoveReport { design, families: &families, outcome: &outcome };
-    let record = report.record(&designs, written)?;
-    let text = text(&record);
-    Ok(Answer::new(exit, MoveAnswer::Search(Box::new(record)), text))
+    let record = MoveReport { design, families, outcome: &outcome }.record(&designs)?;
+    let new = |p: &&Placement| !matches!(p.source, LegSource::Kept(_));
+    let numbers = |c: &Candidate| c.placements.iter().filter(new).map(|p| p.leg.get() + 1).collect();
+    let moved = outcome.candidates.iter().map(numbers).collect();
+    Ok(Found { record, designs, moved, exit })
 }
 
 /// A platform of the search as a design.
@@ -130,7 +151,7 @@ impl MoveReport<'_> {
         }
     }
 
-    fn record(&self, designs: &[Option<Design>], written: Vec<String>) -> Result<MoveSearchAnswer, Failure> {
+    fn record(&self, designs: &[Option<Design>]) -> Result<MoveSearchAnswer, Failure> {
         let o = self.outcome;
         let (outcome, reason) = SearchWord::of(o.verdict);
         let candidates = o.candidates.iter().zip(designs).map(|(c, d)| self.candidate(c, d.as_ref()));
@@ -147,7 +168,7 @@ impl MoveReport<'_> {
             wishes: (&o.wishes).into(),
             holes: o.holes.iter().map(HoleRecord::from).collect(),
             designs: candidates.collect::<Result<_, _>>()?,
-            paths: written,
+            paths: Vec::new(),
         })
     }
 

@@ -1,10 +1,10 @@
 //! `equipod equivalents move`: legs moved along families of replaceable legs, and the search for an equivalent platform.
 
-mod found;
+pub(in crate::cli::commands) mod found;
 mod naming;
 mod render;
 mod request;
-mod wishes;
+pub(in crate::cli::commands) mod wishes;
 
 use std::path::PathBuf;
 

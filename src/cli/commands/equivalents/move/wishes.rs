@@ -9,8 +9,8 @@ use crate::manipulator::{Body, LegIndex, inverse_condition, jacobian};
 use crate::synthesis::relocate::search::{Hole, MoveSearchOptions, Wishes};
 
 /// What an equivalent platform is to fulfil.
-#[derive(Debug, clap::Args)]
-pub(super) struct WishArgs {
+#[derive(Debug, Default, clap::Args)]
+pub(in crate::cli::commands) struct WishArgs {
     /// Search: every joint holds one leg
     #[arg(long)]
     no_shared_joints: bool,
@@ -67,8 +67,13 @@ impl WishArgs {
         given.into_iter().find(|(is, _)| *is).map(|(_, name)| name)
     }
 
+    /// The one wish that no joint is shared, everything else by default.
+    pub(in crate::cli::commands) fn no_shared_joints() -> Self {
+        Self { no_shared_joints: true, ..Self::default() }
+    }
+
     /// The wishes, with defaults from the design.
-    pub(super) fn wishes(&self, design: &Design) -> Result<Wishes, Failure> {
+    pub(in crate::cli::commands) fn wishes(&self, design: &Design) -> Result<Wishes, Failure> {
         let asked =
             self.no_shared_joints || self.no_crossing || !self.hole.is_empty() || !self.joint.is_empty();
         if !asked && self.spacing.is_none() && self.conditioning.is_none() && self.reach.is_none() {
@@ -104,7 +109,7 @@ impl WishArgs {
         })
     }
 
-    pub(super) fn options(&self, seed: u64) -> MoveSearchOptions {
+    pub(in crate::cli::commands) fn options(&self, seed: u64) -> MoveSearchOptions {
         let default = MoveSearchOptions::default();
         MoveSearchOptions { seed, count: self.count.unwrap_or(default.count), ..default }
     }
