@@ -37,6 +37,7 @@ pub use noise::{NoiseCurve, NoiseFigure, NoisePoint, noise_chart};
 pub use pair::{PairFigure, platform_pair};
 pub use slice::{SliceAxis, SliceFigure, singular_slice};
 pub use steps::{SearchStep, StepsFigure, steps_chart};
+pub use style::LIMIT_FILLS;
 pub use three_view::{ThreeViewBody, ThreeViewFigure, three_views};
 pub use topologies::{TopologyFigure, topology_diagram, topology_sheet};
-pub use workspace::{WorkspaceFigure, workspace_slice};
+pub use workspace::{RequiredSection, SectionOutline, WorkspaceFigure, WorkspaceLimit, workspace_slice};

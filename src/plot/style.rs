@@ -9,7 +9,6 @@ text{font-family:Helvetica,Arial,'Liberation Sans','DejaVu Sans',sans-serif;font
 .note{font-size:11px;fill:#444}\
 .mid{text-anchor:middle}\
 .end{text-anchor:end}\
-.halo{stroke:#fff;stroke-width:4px;paint-order:stroke;stroke-linejoin:round}\
 .frame{fill:none;stroke:#1a1a1a;stroke-width:1}\
 .tick{stroke:#1a1a1a;stroke-width:1}\
 .edge{stroke:#8a8a8a;stroke-width:0.8;stroke-dasharray:1 3;fill:none}\
@@ -27,7 +26,27 @@ text{font-family:Helvetica,Arial,'Liberation Sans','DejaVu Sans',sans-serif;font
 .small{font-size:9px;fill:#444}\
 .first{stroke:#b00020;stroke-width:2.4;stroke-linecap:round}\
 .plate{fill:#fff;fill-opacity:.9}\
-.pair{fill:none;stroke:#c4c4c4;stroke-width:1}";
+.pair{fill:none;stroke:#c4c4c4;stroke-width:1}\
+text.halo{fill:#fff;stroke:#fff;stroke-width:4px;stroke-linejoin:round}";
+
+/// The class of text that stands on a white outline of itself.
+const HALO: &str = "halo";
+
+/// Fills of the limits that end a workspace, one for each kind, by its code: the same in every picture. Pale tones after a palette for colour-blind readers (P. Tol,
+/// 2021), dark and light by turns so that neighbours differ in grey print too.
+pub const LIMIT_FILLS: [(&str, &str); 11] = [
+    ("leg_too_short", "#4477aa"),
+    ("leg_too_long", "#ee9988"),
+    ("base_swing", "#228833"),
+    ("platform_swing", "#e8d98a"),
+    ("leg_clearance", "#aa3377"),
+    ("keep_out", "#bfe3ee"),
+    ("leg_force", "#cc6611"),
+    ("leg_speed", "#d5b8d8"),
+    ("base_spacing", "#667722"),
+    ("platform_spacing", "#cbb9a0"),
+    ("singular", "#777777"),
+];
 
 /// Text of an XML or HTML node or attribute: the only door of foreign text to either.
 pub(crate) fn escape(text: &str) -> String {
@@ -78,25 +97,26 @@ impl Svg {
         let _ = writeln!(self.out, "<style>{css}</style>");
     }
 
+    /// Text; with the class `halo` on a white outline, which is a text of its own below it: some viewers do not know `paint-order`.
     pub(super) fn text(&mut self, class: &str, at: (f64, f64), text: &str) {
-        let _ = writeln!(
-            self.out,
-            "<text class=\"{class}\" x=\"{}\" y=\"{}\">{}</text>",
-            px(at.0),
-            px(at.1),
-            escape(text)
-        );
+        self.placed_text(class, at, "", text);
+    }
+
+    fn placed_text(&mut self, class: &str, at: (f64, f64), transform: &str, text: &str) {
+        let (x, y, text) = (px(at.0), px(at.1), escape(text));
+        let without: Vec<&str> = class.split(' ').filter(|c| *c != HALO).collect();
+        let outline = format!("{class}\" aria-hidden=\"true");
+        let classes = [class.split(' ').any(|c| c == HALO).then_some(outline), Some(without.join(" "))];
+        for class in classes.into_iter().flatten() {
+            let _ =
+                writeln!(self.out, "<text class=\"{class}\" x=\"{x}\" y=\"{y}\"{transform}>{text}</text>");
+        }
     }
 
     /// Text turned by `degrees` about its anchor, clockwise on the page.
     pub(super) fn turned_text(&mut self, class: &str, at: (f64, f64), degrees: f64, text: &str) {
-        let (x, y) = (px(at.0), px(at.1));
-        let _ = writeln!(
-            self.out,
-            "<text class=\"{class}\" x=\"{x}\" y=\"{y}\" transform=\"rotate({} {x} {y})\">{}</text>",
-            px(degrees),
-            escape(text)
-        );
+        let turn = format!(" transform=\"rotate({} {} {})\"", px(degrees), px(at.0), px(at.1));
+        self.placed_text(class, at, &turn, text);
     }
 
     pub(super) fn line(&mut self, class: &str, a: (f64, f64), b: (f64, f64)) {
@@ -262,6 +282,31 @@ mod tests {
     fn text_cannot_break_out_of_the_document() {
         assert_eq!(escape("a<b> & \"c\"\u{1}"), "a&lt;b&gt; &amp; &quot;c&quot;\u{fffd}");
         assert_eq!((px(-0.001), px(1.005)), ("0.00".into(), "1.00".into()));
+    }
+
+    #[test]
+    fn a_halo_is_a_text_below_the_text_in_any_viewer() {
+        let mut svg = Svg::new(10.0, 10.0, "t", "d");
+        svg.turned_text("small halo mid", (1.0, 2.0), 30.0, "home");
+        svg.text("small", (1.0, 2.0), "plain");
+        let text = svg.finish();
+        let lines: Vec<&str> = text.lines().filter(|l| l.starts_with("<text")).collect();
+        assert_eq!(
+            lines[..2],
+            [
+                "<text class=\"small halo mid\" aria-hidden=\"true\" x=\"1.00\" y=\"2.00\" transform=\"rotate(30.00 1.00 2.00)\">home</text>",
+                "<text class=\"small mid\" x=\"1.00\" y=\"2.00\" transform=\"rotate(30.00 1.00 2.00)\">home</text>"
+            ]
+        );
+        assert_eq!(lines.len(), 3, "no halo, one text");
+        assert!(!text.contains("paint-order"));
+    }
+
+    #[test]
+    fn every_limit_has_a_colour_of_its_own() {
+        for (k, (code, fill)) in LIMIT_FILLS.iter().enumerate() {
+            assert!(LIMIT_FILLS[..k].iter().all(|(c, f)| c != code && f != fill), "{code}");
+        }
     }
 
     #[test]

@@ -2,7 +2,34 @@
 
 use super::contour::ValueGrid;
 use super::slice::SliceAxis;
-use super::style::{Axis, Svg};
+use super::style::{Axis, LIMIT_FILLS, Svg};
+
+/// A limit that ends the workspace.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct WorkspaceLimit {
+    /// Its code, by which it has its colour ([`LIMIT_FILLS`]).
+    pub code: &'static str,
+    /// Its name in the legend.
+    pub name: String,
+}
+
+/// What of a required workspace lies in the slice.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RequiredSection {
+    /// The section of its region; absent where there is no region, or none in the slice.
+    pub outline: Option<SectionOutline>,
+    /// Single poses that lie in the slice.
+    pub poses: Vec<(f64, f64)>,
+}
+
+/// The boundary of a section.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SectionOutline {
+    /// A closed line through these points, which may be a segment or one point.
+    Through(Vec<(f64, f64)>),
+    /// Where a function with these values at the grid points is zero.
+    Zero(Vec<f64>),
+}
 
 /// What the picture shows.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,8 +48,10 @@ pub struct WorkspaceFigure {
     pub margins: Vec<f64>,
     /// Which of the limits is met worst at the grid points.
     pub worst: Vec<Option<usize>>,
-    /// Names of the limits; more than nine repeat the colours.
-    pub limits: Vec<String>,
+    /// The limits that are met worst somewhere.
+    pub limits: Vec<WorkspaceLimit>,
+    /// The workspace that is required, where one is.
+    pub required: Option<RequiredSection>,
     /// The pose in the middle of the workspace and its label.
     pub home: ((f64, f64), String),
 }
@@ -34,12 +63,9 @@ const LEFT: f64 = 84.0;
 const RIGHT: f64 = 604.0;
 const TOP: f64 = 56.0;
 const BOTTOM: f64 = 576.0;
-/// Fills of the limits: pale tones of a palette for colour-blind readers (P. Tol, 2021), dark to light so that neighbours differ in grey print too.
-const FILLS: [&str; 9] =
-    ["#4477aa", "#ee9988", "#228833", "#e8d98a", "#aa3377", "#bfe3ee", "#777777", "#ddaa33", "#d5b8d8"];
 
 /// Regions beyond the workspace in the colour of the limit that is missed most, the workspace white, its boundary a heavy line. What lies inside all limits but
-/// does not hang together with home within the slice is dotted.
+/// does not hang together with home within the slice is dotted; the workspace required is a dashed line over it.
 #[must_use]
 pub fn workspace_slice(figure: &WorkspaceFigure) -> String {
     let x = Axis { low: figure.across.low, high: figure.across.high, from: LEFT, to: RIGHT };
@@ -50,7 +76,7 @@ pub fn workspace_slice(figure: &WorkspaceFigure) -> String {
         "Reachable poses over {} and {}: {share:.0} % of the slice. Beyond them the limit that is missed most: {}.",
         figure.across.label,
         figure.up.label,
-        figure.limits.join(", ")
+        figure.limits.iter().map(|l| l.name.as_str()).collect::<Vec<_>>().join(", ")
     );
     let mut svg = Svg::new(WIDTH, HEIGHT, &figure.title, &description);
     svg.style(&css());
@@ -65,6 +91,7 @@ pub fn workspace_slice(figure: &WorkspaceFigure) -> String {
         let points: Vec<(f64, f64)> = line.into_iter().map(|(i, j)| (place(&x, i), place(&y, j))).collect();
         svg.polyline("boundary", &points);
     }
+    required(&mut svg, figure, &grid, (&x, &y), &|i, j| (place(&x, i), place(&y, j)));
     let (at, label) = &figure.home;
     let at = (x.at(at.0), y.at(at.1));
     svg.circle("mark", at, 5.0);
@@ -75,16 +102,42 @@ pub fn workspace_slice(figure: &WorkspaceFigure) -> String {
 }
 
 fn css() -> String {
-    let fills = FILLS
+    let fills = LIMIT_FILLS
         .iter()
-        .enumerate()
-        .map(|(k, fill)| format!(".limit{k}{{fill:{fill};fill-opacity:.62;shape-rendering:crispEdges}}"));
+        .map(|(code, fill)| format!(".{code}{{fill:{fill};fill-opacity:.62;shape-rendering:crispEdges}}"));
     fills.collect::<String>()
-        + ".boundary{fill:none;stroke:#1a1a1a;stroke-width:2.2;stroke-linejoin:round}.apart{fill:#8a8a8a}.sample{stroke:#555;stroke-width:.6}"
+        + ".under{fill:none;stroke:#fff;stroke-width:5;stroke-linejoin:round}.required{fill:none;stroke:#00429d;stroke-width:2.4;stroke-dasharray:8 4;stroke-linejoin:round}.asked{fill:#fff;stroke:#00429d;stroke-width:2}.boundary{fill:none;stroke:#1a1a1a;stroke-width:2.2;stroke-linejoin:round}.apart{fill:#8a8a8a}.sample{stroke:#555;stroke-width:.6}"
 }
 
-fn class(limit: usize) -> String {
-    format!("limit{}", limit % FILLS.len())
+/// The section of the required workspace, on a white line so that it is seen on every colour.
+fn required(
+    svg: &mut Svg,
+    figure: &WorkspaceFigure,
+    grid: &ValueGrid,
+    (x, y): (&Axis, &Axis),
+    place: &impl Fn(f64, f64) -> (f64, f64),
+) {
+    let Some(required) = &figure.required else { return };
+    let within = |p: &(f64, f64)| {
+        let inside = |axis: &SliceAxis, v: f64| v.clamp(axis.low, axis.high);
+        (x.at(inside(&figure.across, p.0)), y.at(inside(&figure.up, p.1)))
+    };
+    let lines: Vec<Vec<(f64, f64)>> = match &required.outline {
+        None => Vec::new(),
+        Some(SectionOutline::Through(points)) => {
+            vec![points.iter().chain(points.first()).map(within).collect()]
+        }
+        Some(SectionOutline::Zero(values)) => {
+            let grid = ValueGrid { values: values.clone(), ..grid.clone() };
+            grid.contour(0.0).into_iter().map(|l| l.into_iter().map(|(i, j)| place(i, j)).collect()).collect()
+        }
+    };
+    for class in ["under", "required"] {
+        lines.iter().for_each(|line| svg.polyline(class, line));
+    }
+    for pose in &required.poses {
+        svg.circle("asked", (x.at(pose.0), y.at(pose.1)), 4.0);
+    }
 }
 
 /// Strips of grid points with the same limit, half a cell to either side.
@@ -106,7 +159,7 @@ fn cells(
             let run = (i..n).take_while(|i| missed(j * n + i) == own).count();
             if let Some(limit) = own {
                 let (from, to) = (x(within(i as f64 - 0.5)), x(within((i + run) as f64 - 0.5)));
-                svg.rect(&class(limit), (from, high), (to - from, low - high));
+                svg.rect(figure.limits[limit].code, (from, high), (to - from, low - high));
             }
             i += run;
         }
@@ -159,8 +212,20 @@ fn legend(svg: &mut Svg, figure: &WorkspaceFigure, joined: &[bool]) {
         line += 22.0;
     };
     entry(svg, "plate", "reachable");
-    for (k, name) in figure.limits.iter().enumerate() {
-        entry(svg, &class(k), name);
+    for limit in &figure.limits {
+        entry(svg, limit.code, &limit.name);
+    }
+    if let Some(required) = &figure.required {
+        if required.outline.is_some() {
+            svg.line("required", (left, line - 5.0), (left + 18.0, line - 5.0));
+            svg.text("", (left + 26.0, line), "required workspace");
+            line += 22.0;
+        }
+        if !required.poses.is_empty() {
+            svg.circle("asked", (left + 9.0, line - 5.0), 4.0);
+            svg.text("", (left + 26.0, line), "required pose");
+            line += 22.0;
+        }
     }
     if figure.margins.iter().zip(joined).any(|(m, joined)| *m > 0.0 && !joined) {
         svg.circle("apart", (left + 5.0, line - 5.0), 0.9);
@@ -174,6 +239,10 @@ fn legend(svg: &mut Svg, figure: &WorkspaceFigure, joined: &[bool]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn limit(code: &'static str, name: &str) -> WorkspaceLimit {
+        WorkspaceLimit { code, name: name.into() }
+    }
 
     /// A strip around home and a second one apart from it; limit 1 to the left, limit 0 elsewhere.
     fn figure() -> WorkspaceFigure {
@@ -189,7 +258,8 @@ mod tests {
             side,
             margins: (0..side * side).map(|k| if inside(column(k)) { 0.1 } else { -0.1 }).collect(),
             worst: (0..side * side).map(|k| Some(usize::from(column(k) < 10))).collect(),
-            limits: vec!["leg too long".into(), "leg <2> too short".into()],
+            limits: vec![limit("leg_too_long", "leg too long"), limit("leg_too_short", "leg <2> too short")],
+            required: None,
             home: ((0.0, 0.0), "home".into()),
         }
     }
@@ -198,10 +268,35 @@ mod tests {
     fn every_limit_has_its_region_and_its_line_in_the_legend() {
         let text = workspace_slice(&figure());
         // a strip a row for each, and one in the legend
-        assert_eq!(text.matches("class=\"limit0\"").count(), 32);
-        assert_eq!(text.matches("class=\"limit1\"").count(), 32);
+        assert_eq!(text.matches("class=\"leg_too_long\"").count(), 32);
+        assert_eq!(text.matches("class=\"leg_too_short\"").count(), 32);
         assert_eq!(text.matches("class=\"boundary\"").count(), 3);
         assert!(text.contains(">leg &lt;2&gt; too short</text>"));
+    }
+
+    #[test]
+    fn the_required_workspace_is_drawn_over_the_reachable_one() {
+        let mut f = figure();
+        assert!(!workspace_slice(&f).contains("required workspace"));
+        let square = vec![(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)];
+        f.required = Some(RequiredSection {
+            outline: Some(SectionOutline::Through(square)),
+            poses: vec![(0.25, 0.0)],
+        });
+        let text = workspace_slice(&f);
+        // a quarter of the plot from either end, closed
+        let line = "points=\"214.00,446.00 474.00,446.00 474.00,186.00 214.00,186.00 214.00,446.00\"";
+        assert!(text.contains(&format!("class=\"required\" {line}")), "{text}");
+        assert!(text.find("class=\"boundary\"") < text.find("class=\"required\" points"));
+        assert!(text.contains(">required workspace</text>") && text.contains(">required pose</text>"));
+        let column = |k: usize| (k % 31) as f64;
+        f.required = Some(RequiredSection {
+            outline: Some(SectionOutline::Zero(
+                (0..31 * 31).map(|k| 5.0 - (column(k) - 15.0).abs()).collect(),
+            )),
+            poses: Vec::new(),
+        });
+        assert_eq!(workspace_slice(&f).matches("class=\"required\" points").count(), 2, "two vertical lines");
     }
 
     #[test]

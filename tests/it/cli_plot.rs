@@ -132,7 +132,32 @@ fn a_pair_shows_the_leg_map() {
         (7, 13)
     );
     assert!(text.contains("A s + c") && text.contains("det A = "));
-    assert!(svg(&["pair", OCTAHEDRAL, "designs/lee-shim.toml"]).contains("no leg map"));
+    // no map, no picture: the answer is no
+    assert_eq!(refusal(&["pair", OCTAHEDRAL, "designs/lee-shim.toml"]), (1, "plot::no_leg_map".into()));
+}
+
+#[test]
+fn the_required_workspace_is_drawn_over_the_reachable_one() {
+    let design = "designs/worked/bench-octahedral.toml";
+    let picture = |more: &[&str]| svg(&[&["workspace", design, "--resolution", "21"], more].concat());
+    let colour =
+        |text: &str, code: &str| text.split(&format!(".{code}{{fill:")).nth(1).unwrap()[..7].to_owned();
+    let (places, tilts) = (picture(&[]), picture(&["--slice", "rx,ry"]));
+    for text in [&places, &tilts] {
+        assert!(text.contains(">required workspace</text>") && text.contains("<polyline class=\"required\""));
+        assert!(!text.contains("paint-order"), "some viewers do not know it");
+    }
+    // one colour for a limit in every slice
+    for (code, _) in equipod::methods::plot::LIMIT_FILLS {
+        assert_eq!(colour(&places, code), colour(&tilts, code), "{code}");
+    }
+    // at another pose it is the section there: smaller for a position that is turned, none outside of the region
+    let lines = |more: &[&str]| picture(more).matches("<polyline class=\"required\"").count();
+    assert_eq!(lines(&["--pose", "1,2,211,1,0,0"]), 1);
+    assert_eq!(lines(&["--pose", "0,0,900,0,0,0"]), 0);
+    // without a workspace nothing is required
+    let free = svg(&["workspace", "designs/lee-shim.toml", "--resolution", "11"]);
+    assert!(!free.contains("required workspace"));
 }
 
 #[test]

@@ -8,8 +8,9 @@ use crate::cli::freedoms::{Freedoms, PoseGrid};
 use crate::cli::numbers;
 use crate::cli::poses;
 use crate::design::Design;
-use crate::plot::{WorkspaceFigure, workspace_slice};
-use crate::requirements::{Limit, Limits};
+use crate::geom::Pose;
+use crate::plot::{RequiredSection, SectionOutline, WorkspaceFigure, WorkspaceLimit, workspace_slice};
+use crate::requirements::{Limit, Limits, Region};
 
 /// Rotations shown each way where neither option nor design says more, degrees.
 const DEGREES: f64 = 90.0;
@@ -67,7 +68,8 @@ pub(super) fn draw(args: &Args, context: &mut Context) -> Result<String, Failure
         side: grid.side,
         margins: found.iter().map(|p| p.share).collect(),
         worst: found.iter().map(|p| p.limit.and_then(|l| names.binary_search(&Kind::of(l)).ok())).collect(),
-        limits: names.iter().map(|k| k.words()).collect(),
+        limits: names.iter().map(|k| WorkspaceLimit { code: k.code(), name: k.words() }).collect(),
+        required: required_section(&design, &grid),
         home: (grid.centre(), if args.pose == "home" { "home".into() } else { "pose".into() }),
     }))
 }
@@ -87,12 +89,94 @@ impl Kind {
         }
     }
 
+    fn code(self) -> &'static str {
+        match self {
+            Self::Requirement(kind) => kind.code(),
+            Self::Singular => "singular",
+        }
+    }
+
     fn words(self) -> String {
         match self {
             Self::Requirement(kind) => kind.code().replace('_', " "),
             Self::Singular => "beyond a singular pose".into(),
         }
     }
+}
+
+/// Freedoms of a pose that differ by less, in shares of the half widths of the picture, are the same.
+const SAME: f64 = 1e-6;
+/// Corners of the line that stands for an ellipse.
+const ELLIPSE: usize = 96;
+
+/// Translation and rotation vector (radians) from home to a pose, base frame.
+fn from_home(home: &Pose, pose: &Pose) -> [f64; 6] {
+    let d = pose.position - home.position;
+    let w = (pose.rotation * home.rotation.inverse()).scaled_axis();
+    [d.x, d.y, d.z, w.x, w.y, w.z]
+}
+
+/// What of the workspace of the design lies in the slice; `None` where it asks for none.
+fn required_section(design: &Design, grid: &PoseGrid) -> Option<RequiredSection> {
+    if design.workspace.is_empty() {
+        return None;
+    }
+    let home = poses::home(design);
+    let space = design.workspace.space(&home);
+    let widths: [f64; 6] = std::array::from_fn(|k| {
+        if k < 3 { space.translation[k] } else { space.rotation_deg[k - 3].to_radians() }
+    });
+    let [across, up] = grid.freedoms.places();
+    let middle = from_home(&home, &grid.middle);
+    let at_home = middle.iter().all(|x| *x == 0.0);
+    let outline = match () {
+        () if !design.workspace.has_box() => None,
+        () if at_home => Some(SectionOutline::Through(section_at_home(space.region, &widths, grid))),
+        // a rotation vector and a rotation about another pose do not add: the section is the zero line of a function
+        () => Some(SectionOutline::Zero(
+            grid.poses().map(|pose| inside(space.region, &widths, &from_home(&home, &pose))).collect(),
+        )),
+    };
+    let scale = |k: usize| if k < 3 { design.manipulator().size() } else { 1.0 };
+    let in_slice = |pose: &Pose| {
+        let x = from_home(&grid.middle, pose);
+        let fixed = (0..6).filter(|k| *k != across && *k != up).all(|k| x[k].abs() <= SAME * scale(k));
+        let centre = grid.centre();
+        let place = |k: usize, middle: f64| middle + if k < 3 { x[k] } else { x[k].to_degrees() };
+        let at = (place(across, centre.0), place(up, centre.1));
+        let shown = (at.0 - centre.0).abs() <= grid.half[0] && (at.1 - centre.1).abs() <= grid.half[1];
+        (fixed && shown).then_some(at)
+    };
+    let poses = space.poses.iter().chain(&space.trajectory).filter_map(in_slice).collect();
+    Some(RequiredSection { outline, poses })
+}
+
+/// The section of the region through home: a rectangle, or an ellipse where both freedoms belong to one ellipsoid.
+fn section_at_home(region: Region, widths: &[f64; 6], grid: &PoseGrid) -> Vec<(f64, f64)> {
+    let [across, up] = grid.freedoms.places();
+    let shown = |k: usize| if k < 3 { widths[k] } else { widths[k].to_degrees() };
+    let (a, b, centre) = (shown(across), shown(up), grid.centre());
+    let round = region == Region::Ellipsoid && (across < 3) == (up < 3);
+    let corners: Vec<(f64, f64)> = if round {
+        (0..ELLIPSE).map(|k| (std::f64::consts::TAU * k as f64 / ELLIPSE as f64).sin_cos()).collect()
+    } else {
+        vec![(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
+    };
+    corners.into_iter().map(|(s, t)| (centre.0 + a * s, centre.1 + b * t)).collect()
+}
+
+/// Positive inside the region; a freedom without a width is inside at home only.
+fn inside(region: Region, widths: &[f64; 6], x: &[f64; 6]) -> f64 {
+    let share = |k: usize| match widths[k] {
+        w if w > 0.0 => (x[k] / w).abs(),
+        _ if x[k].abs() <= SAME * widths.iter().fold(0.0, |m: f64, w| m.max(*w)) => 0.0,
+        _ => f64::MAX.sqrt(),
+    };
+    let norm = |range: std::ops::Range<usize>| match region {
+        Region::Ellipsoid => range.map(|k| share(k).powi(2)).sum::<f64>().sqrt(),
+        _ => range.map(share).fold(0.0, f64::max),
+    };
+    1.0 - norm(0..3).max(norm(3..6))
 }
 
 fn notes(design: &Design, limits: &Limits<'_>) -> Vec<String> {
@@ -109,4 +193,57 @@ fn notes(design: &Design, limits: &Limits<'_>) -> Vec<String> {
         );
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Rotation3, Vector3};
+
+    use super::*;
+    use crate::cli::freedoms::Freedoms;
+    use crate::requirements::TermKind;
+
+    #[test]
+    fn every_limit_has_its_colour() {
+        let known = |code: &str| crate::plot::LIMIT_FILLS.iter().any(|(c, _)| *c == code);
+        let kinds = [
+            TermKind::LegTooShort,
+            TermKind::LegTooLong,
+            TermKind::BaseSwing,
+            TermKind::PlatformSwing,
+            TermKind::LegClearance,
+            TermKind::KeepOut,
+            TermKind::LegForce,
+            TermKind::LegSpeed,
+            TermKind::BaseSpacing,
+            TermKind::PlatformSpacing,
+        ];
+        assert!(kinds.into_iter().map(Kind::Requirement).chain([Kind::Singular]).all(|k| known(k.code())));
+        assert_eq!(kinds.len() + 1, crate::plot::LIMIT_FILLS.len());
+    }
+
+    /// The zero line of the function for other poses is the section that is drawn at home.
+    #[test]
+    fn the_boundary_of_the_region_is_where_the_function_is_zero() {
+        let widths = [2.0, 3.0, 0.0, 0.1, 0.2, 0.3];
+        let middle = Pose { rotation: Rotation3::identity(), position: Vector3::new(5.0, 6.0, 7.0) };
+        for region in [Region::Box, Region::Ellipsoid] {
+            for (slice, half) in [("x,y", [4.0, 4.0]), ("y,rz", [4.0, 30.0]), ("rx,ry", [20.0, 20.0])] {
+                let freedoms = Freedoms::parse(slice).unwrap();
+                let grid = PoseGrid { freedoms, middle, half, side: 3 };
+                let (centre, places) = (grid.centre(), freedoms.places());
+                for (a, b) in section_at_home(region, &widths, &grid) {
+                    for (share, sign) in [(0.98, 1.0), (1.02, -1.0)] {
+                        let mut x = [0.0; 6];
+                        for (k, d) in places.into_iter().zip([a - centre.0, b - centre.1]) {
+                            x[k] = share * if k < 3 { d } else { d.to_radians() };
+                        }
+                        assert!(inside(region, &widths, &x) * sign > 0.0, "{region:?} {slice} {a} {b}");
+                    }
+                }
+            }
+        }
+        // a freedom without a width is not left
+        assert!(inside(Region::Box, &widths, &[0.0, 0.0, 0.1, 0.0, 0.0, 0.0]) < 0.0);
+    }
 }
