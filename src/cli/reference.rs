@@ -1,4 +1,4 @@
-//! `equipod reference`, hidden: the options of all commands written into the manual, from the definitions they are read by.
+//! `equipod reference`, hidden: what each command is for, its options and its examples written into the manual, from the definitions they are read by.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -62,12 +62,27 @@ fn meaning(arg: &Arg) -> String {
     out
 }
 
-/// Usage and table of one command and of its own commands; the options all commands take stand at the program alone.
+/// The examples of a command as its `--help` has them; none for groups.
+fn examples(command: &Command) -> String {
+    let name = command.get_bin_name().unwrap_or_default();
+    let path = name.strip_prefix("equipod ").unwrap_or_default();
+    let Some(entry) = guide::entries().find(|e| e.path == path) else { return String::new() };
+    let heading = if entry.examples.len() == 1 { "Example" } else { "Examples" };
+    let lines: Vec<String> = entry.examples.iter().map(|e| format!("    equipod {e}\n")).collect();
+    format!("{heading}:\n\n{}\n", lines.concat())
+}
+
+/// What one command and its own commands are for, usage, table and examples; the options all commands take stand at the program alone.
 fn block(command: &Command, global: bool) -> String {
     let usage = command.clone().render_usage().to_string();
-    let mut out = format!("\n    {}\n\n", cell(usage.trim_start_matches("Usage:")));
+    let mut out = String::from("\n");
+    if let (Some(about), false) = (command.get_about(), global) {
+        let _ = writeln!(out, "{}.\n", cell(&about.to_string()));
+    }
+    let _ = writeln!(out, "    {}\n", cell(usage.trim_start_matches("Usage:")));
     let shown = |a: &&Arg| {
-        !a.is_hide_set() && a.is_global_set() == global && !["help", "version"].contains(&a.get_id().as_str())
+        let own = global || !a.is_global_set();
+        !a.is_hide_set() && own && !["help", "version"].contains(&a.get_id().as_str())
     };
     let (first, rest): (Vec<&Arg>, Vec<&Arg>) =
         command.get_arguments().filter(shown).partition(|a| a.is_positional());
@@ -79,6 +94,7 @@ fn block(command: &Command, global: bool) -> String {
     }
     out.push('\n');
     if !global {
+        out.push_str(&examples(command));
         let parts = command.get_subcommands().filter(|c| !c.is_hide_set());
         out.extend(parts.map(|c| block(c, false).trim_start_matches('\n').to_string()));
     }
