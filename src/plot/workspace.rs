@@ -133,7 +133,9 @@ fn required(
         }
     };
     for class in ["under", "required"] {
-        lines.iter().for_each(|line| svg.polyline(class, line));
+        for line in &lines {
+            svg.polyline(class, line);
+        }
     }
     for pose in &required.poses {
         svg.circle("asked", (x.at(pose.0), y.at(pose.1)), 4.0);

@@ -12,7 +12,7 @@
 //! the lines of whose sides are near three others. Each is solved by Gauss-Newton steps over the corners (the nearest `t_k` are projections, and `F` with these
 //! has the gradient that it has with fixed `t_k`), from six starts without random numbers.
 //!
-//! What is found is a local minimum for each way and the least of them; that there is no smaller one is not proved. Ways whose minimum has triangles without area,
+//! What is found is a local minimum for each way and the least of them; there may be a smaller one. Ways whose minimum has triangles without area,
 //! or `|det A|` below the limit, are set aside and counted.
 
 use nalgebra::{Point3, SMatrix, SVector, Vector3};

@@ -174,7 +174,7 @@ fn inside(region: Region, widths: &[f64; 6], x: &[f64; 6]) -> f64 {
     };
     let norm = |range: std::ops::Range<usize>| match region {
         Region::Ellipsoid => range.map(|k| share(k).powi(2)).sum::<f64>().sqrt(),
-        _ => range.map(share).fold(0.0, f64::max),
+        Region::Box => range.map(share).fold(0.0, f64::max),
     };
     1.0 - norm(0..3).max(norm(3..6))
 }
