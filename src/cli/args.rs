@@ -21,6 +21,9 @@ Exit codes:
 pub(crate) struct Cli {
     #[command(flatten)]
     pub(crate) global: Global,
+    /// Print the licence notices of the software that is compiled into the program
+    #[arg(long)]
+    pub(crate) licences: bool,
     #[command(subcommand)]
     pub(crate) command: Command,
 }

@@ -58,6 +58,15 @@ fn guarded(json: bool, body: impl FnOnce() -> Exit) -> Exit {
     })
 }
 
+/// The notices of everything that is compiled in, as they come with the sources.
+const LICENCES: &str = include_str!("../../THIRD-PARTY-LICENCES.txt");
+
+/// Whether `--licences` is all that is asked: like `--version` it needs no command.
+fn asks_for_licences(words: &[String]) -> bool {
+    let own = |w: &String| ["--json", "-q", "--quiet"].contains(&w.as_str());
+    words.iter().skip(1).filter(|w| !own(w)).eq(["--licences"])
+}
+
 fn run(args: Vec<OsString>, json: bool) -> Exit {
     let mut args = args;
     if args.len() < 2 {
@@ -65,6 +74,9 @@ fn run(args: Vec<OsString>, json: bool) -> Exit {
         args.push("--help".into());
     }
     let words: Vec<String> = args.iter().map(|a| a.to_string_lossy().into_owned()).collect();
+    if asks_for_licences(&words) {
+        return Output::new(json).notices(LICENCES);
+    }
     let matches = match guide::program().try_get_matches_from(args) {
         Ok(matches) => matches,
         Err(error) => return Output::new(json).usage(&error, &words),
@@ -74,6 +86,10 @@ fn run(args: Vec<OsString>, json: bool) -> Exit {
         Err(error) => return Output::new(json).usage(&error.format(&mut guide::program()), &words),
     };
     let output = Output::new(cli.global.json);
+    if cli.licences {
+        let failure = Failure::refused("usage", "--licences is asked of the program, without a command");
+        return output.failure(&failure.with_help("`equipod --licences`"), None);
+    }
     if let Err(unfit) = check_arithmetic() {
         let help = "a library loaded into this process has switched the processor, as code compiled with `-ffast-math` does: start without it (LD_PRELOAD?)";
         return output

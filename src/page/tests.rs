@@ -234,6 +234,13 @@ fn what_cannot_be_answered_is_said() {
 fn the_page_opens_the_same_session_and_holds_no_address() {
     let session = session(EQUIVALENT);
     let html = page(&session, Some(b"\0asm"));
+    let licences = html.split("<details id=\"licences\"").nth(1).unwrap().split("</details>").next().unwrap();
+    assert!(
+        licences.contains("nalgebra ")
+            && licences.contains("Apache License")
+            && licences.contains("&#58;//")
+            && !licences.contains("clap ")
+    );
     // the name of the language of pictures is the only address, and nobody follows it
     let html = html.replace("http://www.w3.org/2000/svg", "");
     assert!(!html.contains("{{") && !html.contains("http:") && !html.contains("https:"));
@@ -251,6 +258,7 @@ fn a_name_is_text_and_not_markup() {
     let mut evil = design(OCTAHEDRAL);
     evil.name = "</title></script><script>x</script>&".into();
     let html = page(&Session::new(evil), None);
+    assert!(!html.contains("id=\"licences\""), "nothing is compiled in");
     assert!(
         !html.contains("<script>x") && html.contains("&lt;/title&gt;") && html.contains("\\u003c/script>")
     );

@@ -57,7 +57,7 @@ pub struct ViolationRecord {
     pub help: String,
 }
 
-/// What `--help` and `--version` print.
+/// What `--help`, `--version` and `--licences` print.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct HelpAnswer {
     /// The text.

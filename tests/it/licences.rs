@@ -41,6 +41,16 @@ fn compiled() -> BTreeSet<String> {
 }
 
 #[test]
+fn the_program_prints_the_notices() {
+    let equipod = |words: &[&str]| Command::new(env!("CARGO_BIN_EXE_equipod")).args(words).output().unwrap();
+    let out = equipod(&["--licences"]);
+    assert_eq!((out.status.code(), String::from_utf8(out.stdout).unwrap()), (Some(0), NOTICES.to_string()));
+    // like --version it is asked without a command
+    let refused = equipod(&["--licences", "design", "presets"]);
+    assert_eq!((refused.status.code(), refused.stdout.len()), (Some(2), 0));
+}
+
+#[test]
 fn every_crate_that_is_compiled_in_has_its_licence_in_the_notices() {
     let listed = listed();
     let names = |page: bool| -> BTreeSet<String> {

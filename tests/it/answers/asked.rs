@@ -71,6 +71,7 @@ const CALLS: &[(i32, &str, &str)] = &[
     (0, "new", "--points designs/tables/hexapod.csv -o {imported.toml}"),
     (0, "help", "fk --help"),
     (0, "help", "--version"),
+    (0, "help", "--licences"),
     (0, "plot-locus", "{innocenti-6-4} --leg 6 --from 3 --to 7 --steps 21"),
     (0, "shell-man", "-o {man}"),
     (0, "equivalents-map", "{rbt-octahedral} {free}"),
