@@ -129,7 +129,8 @@ impl Second {
         (design.source, design.description) = (b.source.clone(), b.description.clone());
         (design.lengths, design.optimize, design.hardware) = (b.lengths, b.optimize, b.hardware);
         design.home = b.home.as_ref().map(moved);
-        design.workspace.poses = b.workspace.poses.iter().map(moved).collect();
+        // in the base frame: home is not the same pose in the new frames
+        design.workspace.poses = b.workspace.space(&b.home_or_default()).poses.iter().map(moved).collect();
         // a motion that is found numerically leaves no exact joint: three numbers each
         Ok(if motion.is_none() { design.exchanged_from(b) } else { design })
     }

@@ -18,6 +18,7 @@ mod output;
 mod poses;
 mod progress;
 mod reference;
+mod requirements;
 mod rows;
 mod table;
 mod usage;

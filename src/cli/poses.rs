@@ -25,7 +25,7 @@ pub(crate) fn space(design: &Design) -> (PoseSpace, bool) {
 
 /// The poses of the grid of that workspace, home first.
 pub(crate) fn judged(design: &Design) -> Vec<Pose> {
-    workspace(design).0.sample(Some(&home(design)))
+    workspace(design).0.sample(&home(design))
 }
 
 /// The seven fields of a CSV file in which a pose is written: position and quaternion, scalar part first.

@@ -315,6 +315,21 @@ impl Design {
         }
     }
 
+    /// The legs that a requirement is about, counted from 1.
+    pub(crate) fn legs_of(&self, term: Term) -> Vec<usize> {
+        let pairs = self.manipulator.pairs();
+        let at = |body: Body| {
+            let holds = |i: &usize| [term.first, term.second].contains(&body.of(pairs[*i]));
+            (0..6).filter(holds).map(|i| i + 1).collect()
+        };
+        match term.kind {
+            TermKind::BaseSpacing => at(Body::Base),
+            TermKind::PlatformSpacing => at(Body::Platform),
+            TermKind::LegClearance => vec![term.first + 1, term.second + 1],
+            _ => vec![term.first + 1],
+        }
+    }
+
     /// The unit of a margin.
     pub(crate) fn unit_of(&self, quantity: Quantity) -> String {
         match quantity {

@@ -9,7 +9,7 @@ use super::{Combination, Construction, Design, LinePlace, OptimizeTable, SearchT
 use crate::geom::Pose;
 use crate::manipulator::Body;
 use crate::requirements::{
-    Hardware, Housing, JointAxes, KeepOut, KeepOutShape, LengthLimits, Load, Region, Swing,
+    Hardware, Housing, JointAxes, KeepOut, KeepOutShape, LengthLimits, ListedFrom, Load, Region, Swing,
 };
 
 /// The structure of a file, in the order it is written.
@@ -203,6 +203,8 @@ struct WorkspaceTable {
     region: Option<&'static str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     trajectory: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    relative_to: Option<&'static str>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     poses: Vec<PoseTable>,
 }
@@ -282,6 +284,7 @@ impl Design {
             grid: w.grid,
             region: (w.region == Region::Ellipsoid).then_some("ellipsoid"),
             trajectory: w.trajectory.as_ref().map(|t| t.file.clone()),
+            relative_to: (w.listed_from == ListedFrom::Home).then_some(ListedFrom::Home.name()),
             poses: w.poses.iter().map(PoseTable::from).collect(),
         })
     }

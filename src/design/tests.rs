@@ -33,7 +33,7 @@ fn a_good_design_is_read_whole() {
     assert_eq!(design.lengths.unwrap().get(), [9.0; 6]);
     let home = design.home.unwrap();
     assert!((home.rotation * nalgebra::Vector3::x() - nalgebra::Vector3::y()).norm() < 1e-15);
-    assert_eq!(design.workspace.sample(Some(&home)).len(), 9);
+    assert_eq!(design.workspace.sample(&home).len(), 9);
     assert_eq!(design.optimize.min_abs_det, Some(0.1));
     assert_eq!(design.hardware.joint_diameter, Some(0.5));
 }

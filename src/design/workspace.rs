@@ -5,7 +5,7 @@ use nalgebra::{Vector3, Vector6};
 use super::Design;
 use crate::geom::Pose;
 use crate::manipulator::default_home;
-use crate::requirements::{PoseSpace, Region};
+use crate::requirements::{ListedFrom, PoseSpace, Region};
 
 /// Half width of the default box of translations, as a share of the design's size.
 const TRANSLATION_SHARE: f64 = 0.15;
@@ -26,10 +26,12 @@ pub struct Workspace {
     pub grid: usize,
     /// Box or ellipsoids with these half axes.
     pub region: Region,
-    /// Single poses.
+    /// Single poses, as they are listed.
     pub poses: Vec<Pose>,
     /// Poses passed one after the other.
     pub trajectory: Option<Trajectory>,
+    /// What single poses and those of the trajectory are measured from.
+    pub listed_from: ListedFrom,
 }
 
 /// A trajectory in a table of its own.
@@ -37,7 +39,7 @@ pub struct Workspace {
 pub struct Trajectory {
     /// The table, as the design names it.
     pub file: String,
-    /// Its poses. A design that was only parsed has none: reading files is for the program.
+    /// Its poses, as they are listed. A design that was only parsed has none: reading files is for the program.
     pub poses: Vec<Pose>,
 }
 
@@ -51,6 +53,7 @@ impl Default for Workspace {
             region: Region::Box,
             poses: Vec::new(),
             trajectory: None,
+            listed_from: ListedFrom::Base,
         }
     }
 }
@@ -76,25 +79,28 @@ impl Workspace {
             region: self.region,
             translation: self.translation,
             rotation_deg: self.rotation_deg,
-            poses: self.poses.clone(),
-            trajectory: self.trajectory.as_ref().map(|t| t.poses.clone()).unwrap_or_default(),
+            poses: self.poses.iter().map(|p| self.listed_from.in_base_frame(p, home)).collect(),
+            trajectory: self
+                .trajectory
+                .iter()
+                .flat_map(|t| &t.poses)
+                .map(|p| self.listed_from.in_base_frame(p, home))
+                .collect(),
+            listed_from: self.listed_from,
         }
     }
 
     /// All sampled poses: the home pose (the centre) first, then the grid with the last axis fastest, then the
     /// single poses, then those of the trajectory. `grid` points are spread evenly from -1 to 1 on each axis of the cube
     /// ([`PoseSpace::pose`]) that has a half width above 0; two points are the corners, one point is the centre alone. The centre is
-    /// not repeated. Without `home` only the poses listed.
+    /// not repeated.
     #[must_use]
-    pub fn sample(&self, home: Option<&Pose>) -> Vec<Pose> {
-        let mut poses: Vec<Pose> = Vec::new();
-        if let Some(home) = home {
-            poses.push(*home);
-            let space = self.space(home);
-            poses.extend(self.grid_points(&space.axes()).iter().map(|x| space.pose(x)));
-        }
-        poses.extend_from_slice(&self.poses);
-        poses.extend(self.trajectory.iter().flat_map(|t| t.poses.iter().copied()));
+    pub fn sample(&self, home: &Pose) -> Vec<Pose> {
+        let space = self.space(home);
+        let mut poses = vec![*home];
+        poses.extend(self.grid_points(&space.axes()).iter().map(|x| space.pose(x)));
+        poses.extend_from_slice(&space.poses);
+        poses.extend_from_slice(&space.trajectory);
         poses
     }
 
@@ -157,15 +163,17 @@ mod tests {
             poses: vec![far],
             ..Workspace::default()
         };
-        let poses = box_.sample(Some(&home));
+        let poses = box_.sample(&home);
         assert_eq!(poses.len(), 1 + 8 + 1);
         assert_eq!((poses[0], poses[9]), (home, far));
         assert!((poses[1].position - Vector3::new(-1.0, 0.0, 3.0)).norm() < 1e-15);
         let turned = poses[2].rotation * Vector3::x();
         assert!((turned - Vector3::y()).norm() < 1e-15, "last axis fastest, degrees");
         box_.grid = 3;
-        assert_eq!(box_.sample(Some(&home)).len(), 27 + 1, "the centre is counted once");
-        assert_eq!(box_.sample(None), [far]);
-        assert_eq!(Workspace::default().sample(Some(&home)), [home]);
+        assert_eq!(box_.sample(&home).len(), 27 + 1, "the centre is counted once");
+        assert_eq!(Workspace::default().sample(&home), [home]);
+        box_.listed_from = ListedFrom::Home;
+        let moved = box_.sample(&home)[27].position;
+        assert!((moved - (home.position + far.position)).norm() < 1e-15, "counted from home");
     }
 }

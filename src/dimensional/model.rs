@@ -9,8 +9,7 @@ use super::problem::{DimensionalProblem, InvalidProblem, Variables};
 use super::shape::Shape;
 use super::terms::{HeldPose, RequirementTerms};
 use crate::num::Rng;
-use crate::requirements::Objective;
-use crate::requirements::TermKind;
+use crate::requirements::{ListedFrom, Objective, TermKind};
 
 /// Constraints that share one slack.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -159,5 +158,6 @@ impl<'a> Model<'a> {
 }
 
 fn listed(problem: &DimensionalProblem) -> Vec<HeldPose> {
-    problem.listed().into_iter().map(|pose| HeldPose { pose, follows: false }).collect()
+    let follows = problem.space.listed_from == ListedFrom::Home;
+    problem.listed().into_iter().map(|pose| HeldPose { pose, follows }).collect()
 }

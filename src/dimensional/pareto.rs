@@ -7,7 +7,6 @@ use super::outcome::{DimensionalOutcome, DimensionalSolution, evaluate, outcome}
 use super::problem::{DimensionalProblem, InvalidProblem};
 use super::search::{Progress, RefinedRun, ShapeSearchOptions, Stage, Watch, better, refine, search_task};
 use crate::num::parallel::parallel;
-use crate::requirements::PoseSpace;
 
 /// Points of the dense evaluation, and as many random ones.
 const POINTS: usize = 1000;
@@ -138,7 +137,7 @@ fn front(
         if let DimensionalOutcome::Optimal(s) | DimensionalOutcome::NotConverged(s) =
             outcome(model, &task, refined)
         {
-            let space = PoseSpace { home: s.home, ..p.space.clone() };
+            let space = p.space.with_home(s.home);
             let dense = evaluate(p, &s.manipulator, &space, &s.poses, POINTS, seed);
             members.push(ParetoPoint { solution: *s, dense });
         }

@@ -232,7 +232,7 @@ impl DimensionalProblem {
         [wanted(0, h.base_swing), wanted(1, h.platform_swing)]
     }
 
-    /// Poses that do not move with home.
+    /// The single poses, and those along the trajectory.
     pub(crate) fn listed(&self) -> Vec<Pose> {
         self.space.listed(4)
     }

@@ -104,6 +104,9 @@ impl std::fmt::Display for AssessReport {
 /// Cells of the workspace over which [`Design::assess`] bounds the margins of one kind of requirement, and `det J`, at most.
 pub(crate) const ASSESS_CELLS: usize = 6000;
 
+/// The same in answers that are about something else than the requirements: a tenth of a second where the whole proof takes seconds.
+const BRIEF_CELLS: usize = 300;
+
 impl Design {
     /// Whether the design is architecturally singular, so that no pose can hold the platform: decided exactly, explained, and how far away a singular
     /// design is.
@@ -172,6 +175,18 @@ impl Design {
         let (regularity, regularity_cells) = regular_workspace(m, &space, cells, options.seed);
         let conditioning = least_conditioning(m, &space, options, self.characteristic_length());
         Ok(AssessReport { proof, regularity, regularity_cells, conditioning })
+    }
+
+    /// What [`assess`](Self::assess) decides, with this seed: what every answer that judges a design begins with. `None` where the design requires nothing.
+    ///
+    /// Proofs end where they decide: the proved margins may be smaller than those of `assess`.
+    pub(crate) fn assessed(&self, seed: u64) -> Option<AssessReport> {
+        self.assess_with(&AssessOptions::new().seed(seed).close(false), ASSESS_CELLS).ok()
+    }
+
+    /// The same with few cells, for answers that are about something else: the same poses are looked at, and less is proved between them.
+    pub(crate) fn assessed_briefly(&self, seed: u64) -> Option<AssessReport> {
+        self.assess_with(&AssessOptions::new().seed(seed).close(false), BRIEF_CELLS).ok()
     }
 
     /// Every platform equivalent to this one: the class of the octahedral platform that the design is, or is made of.

@@ -2,8 +2,8 @@
 
 use std::ops::ControlFlow;
 
-use super::Error;
 use super::equivalence::{sample_plan, verified_exactly};
+use super::{AssessReport, Error};
 use crate::design::{Combination, Design, Origin};
 use crate::dimensional::{
     self, DimensionalOutcome, DimensionalProblem, DimensionalReport, DimensionalSolution, Mode,
@@ -166,6 +166,8 @@ pub enum OptimizeStatus {
     Infeasible,
     /// Nothing feasible was found, and that there is nothing is not known.
     Undecided,
+    /// A platform was found that misses requirements between the poses at which the search held them: `assess` names them.
+    Violated,
     /// Told to end; the answer is the best until then.
     Interrupted,
 }
@@ -179,6 +181,7 @@ impl OptimizeStatus {
             Self::Feasible => "feasible",
             Self::Infeasible => "infeasible",
             Self::Undecided => "undecided",
+            Self::Violated => "violated",
             Self::Interrupted => "interrupted",
         }
     }
@@ -283,22 +286,25 @@ impl Design {
             gap: options.gap,
             ..offsets::OffsetSearchOptions::default()
         };
-        let poses = self.workspace_or_default().sample(Some(&self.home_or_default()));
+        let poses = self.workspace_or_default().sample(&self.home_or_default());
         let problem = offset_problem(self, octahedral, poses, options.extension);
         let report =
             offsets::optimize(&problem, &search, &mut |p| options.flow(OptimizeProgress::Offsets(p)))?;
+        let design = report.solution().map(|s| optimised_design(self, &problem, s, seed));
+        let assessed = design.as_ref().and_then(|d| d.assessed(seed));
         Ok(OptimizeReport {
-            status: offset_status(&report),
-            design: report.solution().map(|s| optimised_design(self, &problem, s, seed)),
+            status: offset_status(&report, met_or_nothing_required(assessed.as_ref())),
+            design,
             evidence: OptimizeEvidence::Offsets(Box::new(report)),
         })
     }
 }
 
-/// What became of a search for offsets.
-pub(crate) fn offset_status(report: &OffsetReport) -> OptimizeStatus {
+/// What became of a search for offsets; `met`: what [`Design::assess`] says of the platform found, `Some(true)` where nothing is required.
+pub(crate) fn offset_status(report: &OffsetReport, met: Option<bool>) -> OptimizeStatus {
     match report.outcome {
         _ if report.interrupted => OptimizeStatus::Interrupted,
+        _ if report.solution().is_some() && met != Some(true) => missed(met),
         OffsetOutcome::Optimal(_) => OptimizeStatus::Optimal,
         OffsetOutcome::LocalOptimum(_) | OffsetOutcome::NotConverged(_) => OptimizeStatus::Feasible,
         OffsetOutcome::Infeasible => OptimizeStatus::Infeasible,
@@ -311,10 +317,23 @@ pub(crate) fn dimensional_status(report: &DimensionalReport, checked: Option<&Ch
     match (&report.outcome, checked) {
         _ if report.interrupted => OptimizeStatus::Interrupted,
         (DimensionalOutcome::Infeasible(_), _) => OptimizeStatus::Infeasible,
-        (DimensionalOutcome::Optimal(_), Some(c)) if c.assessment.all_met() => OptimizeStatus::Optimal,
-        (_, Some(c)) if c.assessment.all_met() => OptimizeStatus::Feasible,
-        _ => OptimizeStatus::Undecided,
+        (_, None) => OptimizeStatus::Undecided,
+        (outcome, Some(c)) => match (c.met(), outcome) {
+            (Some(true), DimensionalOutcome::Optimal(_)) => OptimizeStatus::Optimal,
+            (Some(true), _) => OptimizeStatus::Feasible,
+            (met, _) => missed(met),
+        },
     }
+}
+
+/// A platform that is not proved to meet its requirements is not called optimal or feasible.
+fn missed(met: Option<bool>) -> OptimizeStatus {
+    if met == Some(false) { OptimizeStatus::Violated } else { OptimizeStatus::Undecided }
+}
+
+/// What is known of the requirements; `Some(true)` where there are none.
+pub(crate) fn met_or_nothing_required(assessed: Option<&AssessReport>) -> Option<bool> {
+    assessed.map_or(Some(true), AssessReport::met)
 }
 
 /// Whether a design asks for anything besides offsets with the best worst-case conditioning: requirements, other variables or objectives, or legs moved on families
@@ -400,12 +419,26 @@ fn joint_free_design(design: &Design, o: &Octahedral, m: &Manipulator, t: [f64; 
 pub struct Checked {
     /// The platform as a design.
     pub design: Design,
-    /// Requirements, densely.
+    /// Requirements of the search, densely: those of the design, and the room of joints that offsets separate.
     pub assessment: Assessment,
+    /// What [`Design::assess`] says of the design; `None` where it requires nothing.
+    pub assessed: Option<AssessReport>,
     /// Objectives, densely.
     pub objectives: Vec<(Objective, f64)>,
     /// Equivalence with the design, where the variables keep it.
     pub verification: Option<Verification>,
+}
+
+impl Checked {
+    /// Whether the platform meets the requirements: proved by [`Design::assess`] either way, or `None`.
+    #[must_use]
+    pub fn met(&self) -> Option<bool> {
+        if self.assessment.all_met() {
+            self.assessed.as_ref().map_or(Some(true), AssessReport::met)
+        } else {
+            Some(false)
+        }
+    }
 }
 
 /// The problem of a design.
@@ -456,7 +489,7 @@ pub(crate) fn checked(
     seed: u64,
 ) -> Result<Checked, VerifyError> {
     let out = optimised(design, problem, s, seed);
-    let space = crate::requirements::PoseSpace { home: s.home, ..problem.space.clone() };
+    let space = problem.space.with_home(s.home);
     let requirements = Requirements { hardware: out.hardware, ..problem.requirements.clone() };
     let options = AssessOptions { points: POINTS, seed, ..AssessOptions::default() };
     // the platform that is written, which may differ from that of the search by rounding
@@ -473,7 +506,8 @@ pub(crate) fn checked(
     } else {
         None
     };
-    Ok(Checked { design: out, assessment, objectives, verification })
+    let assessed = out.assessed(seed);
+    Ok(Checked { design: out, assessment, assessed, objectives, verification })
 }
 
 /// The platform with the tables of the design, its axes and its home.

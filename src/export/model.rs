@@ -124,7 +124,7 @@ impl Export {
         let mut path = workspace.space(&home);
         path.poses.clear();
         workspace.trajectory = None;
-        let listed = (workspace.sample(Some(&home)), path.listed(STEPS));
+        let listed = (workspace.sample(&home), path.listed(STEPS));
         Self::new(design, home, listed, options)
     }
 

@@ -19,7 +19,7 @@ pub(crate) use hull::convex_hull;
 pub use pose::{ComplexPose, Pose};
 pub(crate) use pose::{nearest_rotation, reorthogonalised};
 pub use pose_forms::{Angles, InvalidPose};
-pub use pose_set::{PoseSpace, Region};
+pub use pose_set::{ListedFrom, PoseSpace, Region};
 pub use quaternion::rotation_from_quaternion;
 pub use segment::{segment_box_distance, segment_distance};
 pub use trilateration::trilaterate;

@@ -16,6 +16,51 @@ pub enum Region {
     Ellipsoid,
 }
 
+/// What the listed poses of a workspace are measured from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ListedFrom {
+    /// The base frame: they stay where they are when home moves.
+    #[default]
+    Base,
+    /// Home: they move with it, as the region does.
+    Home,
+}
+
+impl ListedFrom {
+    /// The word in design files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Base => "base",
+            Self::Home => "home",
+        }
+    }
+
+    /// The pose in the base frame of one that is listed as `(R, p)`: itself, or `(R R0, p0 + p)` from home `(R0, p0)`.
+    ///
+    /// Displacements from home have the axes of the base frame, as those of the region have.
+    #[must_use]
+    pub fn in_base_frame(self, listed: &Pose, home: &Pose) -> Pose {
+        match self {
+            Self::Base => *listed,
+            Self::Home => {
+                Pose { rotation: listed.rotation * home.rotation, position: home.position + listed.position }
+            }
+        }
+    }
+
+    /// The inverse of [`in_base_frame`](Self::in_base_frame).
+    fn as_listed(self, pose: &Pose, home: &Pose) -> Pose {
+        match self {
+            Self::Base => *pose,
+            Self::Home => Pose {
+                rotation: pose.rotation * home.rotation.inverse(),
+                position: pose.position - home.position,
+            },
+        }
+    }
+}
+
 /// All poses a platform has to reach.
 ///
 /// The region around home `(R0, p0)` holds the poses `(exp([w]x) R0, p0 + d)` (base frame), with `(d, w)` the image of a point
@@ -31,10 +76,12 @@ pub struct PoseSpace {
     pub translation: Vector3<f64>,
     /// Half widths of the rotation vector, degrees.
     pub rotation_deg: Vector3<f64>,
-    /// Single poses.
+    /// Single poses, base frame.
     pub poses: Vec<Pose>,
-    /// Poses passed one after the other, on straight lines and turning about fixed axes between them.
+    /// Poses passed one after the other, on straight lines and turning about fixed axes between them, base frame.
     pub trajectory: Vec<Pose>,
+    /// Whether the single poses and the trajectory move with home.
+    pub listed_from: ListedFrom,
 }
 
 /// Prime bases of the Halton sequence (Halton 1960).
@@ -67,6 +114,21 @@ impl PoseSpace {
             rotation_deg: Vector3::zeros(),
             poses: Vec::new(),
             trajectory: Vec::new(),
+            listed_from: ListedFrom::Base,
+        }
+    }
+
+    /// The same around another home: the region moves with it, and so do the listed poses that are measured from it.
+    #[must_use]
+    pub fn with_home(&self, home: Pose) -> Self {
+        let moved = |pose: &Pose| {
+            self.listed_from.in_base_frame(&self.listed_from.as_listed(pose, &self.home), &home)
+        };
+        Self {
+            home,
+            poses: self.poses.iter().map(moved).collect(),
+            trajectory: self.trajectory.iter().map(moved).collect(),
+            ..self.clone()
         }
     }
 
@@ -188,6 +250,25 @@ mod tests {
             }
             assert!(reached > 1.0 - 1e-12);
         }
+    }
+
+    #[test]
+    fn poses_listed_from_home_move_with_it_and_those_from_the_base_stay() {
+        let mut s = space(Region::Box);
+        let at = Pose { rotation: Rotation3::new(Vector3::x()), position: Vector3::new(1.0, 2.0, 10.0) };
+        (s.poses, s.trajectory) = (vec![at], vec![at]);
+        let home = Pose {
+            rotation: Rotation3::new(Vector3::z()) * s.home.rotation,
+            position: s.home.position + Vector3::new(0.0, 0.0, 4.0),
+        };
+        let stay = s.with_home(home);
+        assert_eq!((stay.home, &stay.poses, &stay.trajectory), (home, &s.poses, &s.trajectory));
+        s.listed_from = ListedFrom::Home;
+        let moved = s.with_home(home).poses[0];
+        assert!((moved.position - Vector3::new(1.0, 2.0, 14.0)).norm() < 1e-14);
+        // turned by as much about the same axes of the base frame as before
+        let turn = |pose: &Pose, from: &Pose| (pose.rotation * from.rotation.inverse()).scaled_axis();
+        assert!((turn(&moved, &home) - turn(&at, &s.home)).norm() < 1e-14);
     }
 
     #[test]

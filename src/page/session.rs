@@ -98,6 +98,13 @@ impl Session {
         &self.design
     }
 
+    /// The platform that the page opens with: the equivalent where there is one to begin with, else the design.
+    #[must_use]
+    pub fn shown(&self) -> Design {
+        let equivalent = self.start.as_ref().and_then(|e| self.second(e).ok());
+        equivalent.map_or_else(|| self.design.clone(), |(design, _)| design)
+    }
+
     /// The octahedral original, or the design itself where there is none.
     pub(super) fn first(&self) -> &Design {
         self.original.as_ref().map_or(&self.design, |o| &o.design)
@@ -116,7 +123,7 @@ impl Session {
 
     /// The poses by which conditioning is judged: those of the workspace, home first.
     pub(super) fn judged(&self) -> Vec<Pose> {
-        self.design.workspace_or_default().sample(Some(&self.home))
+        self.design.workspace_or_default().sample(&self.home)
     }
 
     /// Size of both bodies at home: what a picture has to hold.

@@ -20,6 +20,14 @@ impl From<&Design> for DesignRecord {
     }
 }
 
+impl DesignRecord {
+    /// Its name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        self.0.get("name").and_then(Value::as_str).unwrap_or_default()
+    }
+}
+
 const DEFINITIONS: &str = "#/$defs/";
 
 impl JsonSchema for DesignRecord {

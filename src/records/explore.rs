@@ -3,7 +3,11 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{NearestRecord, Number, SearchWord, SolvedRecord, VerdictWord};
+use super::{
+    AssessAnswer, DimensionalStatus, NearestRecord, Number, SearchWord, SolvedRecord, VariableRecord, VerdictWord,
+};
+use crate::dimensional::{DimensionalReport, DimensionalSolution};
+use crate::entrance::optimizing::{Checked, dimensional_status};
 use crate::equivalence::Verification;
 use crate::fk::FkSolutions;
 use crate::offsets::OffsetSolution;
@@ -167,8 +171,10 @@ pub struct ExploreOctahedralAnswer {
     pub paths: Vec<String>,
     /// The equivalence class.
     pub family: FamilySizeRecord,
-    /// The offsets; null: none were found.
-    pub optimize: Option<OffsetsFoundRecord>,
+    /// What `assess` says of the platform found; null: there is none, or the design requires nothing.
+    pub assessment: Option<AssessAnswer>,
+    /// The platform; null: none was found.
+    pub optimize: Option<OptimizedRecord>,
     /// The comparison of the design with the optimised one; null: there is none.
     pub verify: Option<ComparedRecord>,
     /// The poses of the design.
@@ -179,10 +185,14 @@ pub struct ExploreOctahedralAnswer {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ExploreVerdict {
-    /// Every branch of offsets is proved to violate the limits.
+    /// Every branch of offsets is proved to violate the limits, or no start met the requirements together.
     Infeasible,
     /// No platform without shared joints other than the design itself is equivalent to it: no leg can be replaced, or every platform that its replaceable legs make shares joints.
     None,
+    /// The platform found misses requirements.
+    Violated,
+    /// The platform meets its requirements; its triangles were chosen too, so that it is not equivalent to the design.
+    NewKinematics,
     /// What the comparison says; `inconclusive` too where no offsets were found and some branches are not proved empty.
     #[serde(untagged)]
     Compared(VerdictWord),
@@ -195,6 +205,8 @@ impl ExploreVerdict {
         match self {
             Self::Infeasible => "infeasible",
             Self::None => "none",
+            Self::Violated => "violated",
+            Self::NewKinematics => "new_kinematics",
             Self::Compared(verdict) => verdict.as_str(),
         }
     }
@@ -209,10 +221,50 @@ pub struct FamilySizeRecord {
     pub topologies: usize,
 }
 
+/// The platform in short.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum OptimizedRecord {
+    /// Offsets alone, for a design that requires nothing else.
+    Offsets(OffsetsFoundRecord),
+    /// A platform under requirements.
+    Platform(PlatformFoundRecord),
+}
+
+/// A platform under requirements in short.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PlatformFoundRecord {
+    /// What came of the search.
+    pub status: DimensionalStatus,
+    /// Value of the first objective.
+    pub objective: Number,
+    /// What was chosen, axes left out.
+    pub variables: Vec<VariableRecord>,
+}
+
+impl PlatformFoundRecord {
+    /// The status of a search.
+    #[must_use]
+    pub fn status_of(report: &DimensionalReport, checked: Option<&Checked>) -> DimensionalStatus {
+        dimensional_status(report, checked).into()
+    }
+
+    /// The solution of a search, checked.
+    #[must_use]
+    pub fn new(c: &Checked, s: &DimensionalSolution, report: &DimensionalReport) -> Self {
+        let variable = |(name, x): &(String, f64)| VariableRecord { name: name.clone(), value: Number(*x) };
+        Self {
+            status: Self::status_of(report, Some(c)),
+            objective: c.objectives.first().map_or(Number(f64::NAN), |o| Number(o.1)),
+            variables: s.variables.iter().map(variable).collect(),
+        }
+    }
+}
+
 /// Offsets in short.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct OffsetsFoundRecord {
-    /// No offsets exceed the objective by more than the tolerance: proved.
+    /// No offsets exceed the objective by more than the tolerance, and the platform meets its requirements: proved.
     pub converged: bool,
     /// Worst inverse condition number.
     pub objective: Number,

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Number;
+use super::{AssessAnswer, Number};
 use crate::export::{Export, ExportFormat, SizeChoice};
 
 /// The answer of `export`.
@@ -13,6 +13,8 @@ pub struct ExportAnswer {
     pub name: String,
     /// The folder.
     pub output: String,
+    /// What `assess` says of the design; null: it requires nothing.
+    pub assessment: Option<AssessAnswer>,
     /// What one unit of the design is.
     pub design_unit: LengthUnitRecord,
     /// What became of each format.
@@ -24,10 +26,16 @@ pub struct ExportAnswer {
 impl ExportAnswer {
     /// The answer of a model whose files stand in a folder.
     #[must_use]
-    pub fn new(export: &Export, output: String, formats: Vec<FormatRecord>) -> Self {
+    pub fn new(
+        export: &Export,
+        assessment: Option<AssessAnswer>,
+        output: String,
+        formats: Vec<FormatRecord>,
+    ) -> Self {
         Self {
             name: export.name.clone(),
             output,
+            assessment,
             design_unit: LengthUnitRecord { label: export.unit.label.into(), mm: export.unit.millimetres },
             formats,
             sizes: export.choices.iter().map(SizeRecord::from).collect(),

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{DesignRecord, LegEndsRecord, MapRecord, Number};
+use super::{AssessAnswer, DesignRecord, LegEndsRecord, MapRecord, Number};
 use crate::manipulator::Body;
 use crate::synthesis::Relation;
 use crate::synthesis::relocate::SingularParameters;
@@ -154,8 +154,10 @@ pub struct MoveSearchAnswer {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SearchWord {
-    /// A platform that fulfils every wish.
+    /// A platform that fulfils every wish and meets the requirements of the design.
     Found,
+    /// Platforms that fulfil every wish were found, and each of them violates requirements of the design.
+    Violated,
     /// There is none.
     Impossible,
     /// None was found, which proves nothing.
@@ -269,8 +271,12 @@ impl From<&search::JudgedHole> for HoleRecord {
 /// An equivalent platform.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CandidateRecord {
-    /// It fulfils every wish.
+    /// It fulfils every wish, and is proved to meet the requirements of the design.
     pub fulfilled: bool,
+    /// It fulfils every wish.
+    pub wishes_fulfilled: bool,
+    /// What `assess` says of it; null: the design requires nothing, or the legs make no platform.
+    pub assessment: Option<AssessAnswer>,
     /// The least slack of a wish.
     pub worst: Number,
     /// Its shared joints.

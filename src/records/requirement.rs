@@ -28,6 +28,8 @@ pub struct MarginRecord {
     pub unit: String,
     /// Legs, joints, keep-out or load.
     pub between: Vec<String>,
+    /// The legs among them, from 1; those of a joint where the requirement is about joints.
+    pub legs: Vec<usize>,
     /// Where it is least; null where the pose has no influence.
     pub pose: Option<PoseQuaternionRecord>,
 }
@@ -43,6 +45,7 @@ impl MarginRecord {
             proved_margin: Number(below),
             unit: design.unit_of(m.term.kind.quantity()),
             between: design.names_of(m.term),
+            legs: design.legs_of(m.term),
             pose: m.pose.as_ref().map(PoseQuaternionRecord::from),
         }
     }
@@ -93,6 +96,18 @@ pub struct AssessAnswer {
 }
 
 impl AssessAnswer {
+    /// The table of requirements of a design: the same for every command. `None` for a design that requires nothing.
+    #[must_use]
+    pub fn of(design: &Design, seed: u64) -> Option<Self> {
+        design.assessed(seed).map(|found| Self::new(design, &found))
+    }
+
+    /// The table in an answer that is about something else: the same poses are looked at, and less is proved between them.
+    #[must_use]
+    pub fn briefly(design: &Design, seed: u64) -> Option<Self> {
+        design.assessed_briefly(seed).map(|found| Self::new(design, &found))
+    }
+
     /// What is proved of a design.
     #[must_use]
     pub fn new(design: &Design, found: &AssessReport) -> Self {

@@ -4,7 +4,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::tolerances::joint_name;
-use super::{DesignRecord, Number, PoseErrorRecord, PoseErrorsRecord, PoseQuaternionRecord, VerdictWord};
+use super::{
+    AssessAnswer, DesignRecord, Number, PoseErrorRecord, PoseErrorsRecord, PoseQuaternionRecord, VerdictWord,
+};
 use crate::design::Design;
 use crate::equivalence::{Verification, VerifyError};
 use crate::manipulator::Body;
@@ -28,6 +30,8 @@ pub struct RoundAnswer {
     pub exact: ExactRoundingOutcome,
     /// The rounding with every joint next to where it is wanted.
     pub nearest: NearestRoundingOutcome,
+    /// What `assess` says of the rounded design; null: there is none, or the design requires nothing.
+    pub assessment: Option<AssessAnswer>,
     /// Which of them the rule takes; null: none meets the requirements.
     pub chosen: Option<VariantWord>,
     /// The rounded design.

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Number, PoseErrorRecord, PoseErrorsRecord, PoseQuaternionRecord};
+use super::{AssessAnswer, Number, PoseErrorRecord, PoseErrorsRecord, PoseQuaternionRecord};
 use crate::design::Design;
 use crate::manipulator::Body;
 use crate::manufacture::{ErrorKind, Joint, JointBudget, LimitedAllowance, Trials};
@@ -11,6 +11,8 @@ use crate::manufacture::{ErrorKind, Joint, JointBudget, LimitedAllowance, Trials
 /// The answer of `build tolerances`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TolerancesAnswer {
+    /// What `assess` says of the design; null: it requires nothing.
+    pub assessment: Option<AssessAnswer>,
     /// The greatest error allowed.
     pub bound: PoseErrorRecord,
     /// The tool point, platform frame.

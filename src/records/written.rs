@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
+use super::AssessAnswer;
 use crate::design::Format;
 
 /// The answer of `shell completions`.
@@ -91,12 +92,14 @@ pub struct ReferenceAnswer {
 }
 
 /// The answer of `report`.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ReportAnswer {
     /// The page.
     pub output: String,
     /// How many files it shows.
     pub files: usize,
+    /// What `assess` says of the design that the page shows; null: there is none, or it requires nothing.
+    pub assessment: Option<AssessAnswer>,
 }
 
 /// The answer of `design schema`.
@@ -109,7 +112,7 @@ pub struct SchemaAnswer {
 }
 
 /// The answer of `view`.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ViewAnswer {
     /// The name of the design.
     pub name: String,
@@ -119,4 +122,6 @@ pub struct ViewAnswer {
     pub bytes: usize,
     /// The page has the core in WebAssembly.
     pub live: bool,
+    /// What `assess` says of the platform that the page shows first; null: it requires nothing.
+    pub assessment: Option<AssessAnswer>,
 }

@@ -23,11 +23,13 @@ pub struct AssessOptions {
     pub searches: usize,
     /// Seed of the random points and of the searches.
     pub seed: u64,
+    /// Whether proved margins come close to the least ones found; without it a proof ends where it decides that a margin is met or violated.
+    pub close: bool,
 }
 
 impl Default for AssessOptions {
     fn default() -> Self {
-        Self { points: 5000, steps: 10, searches: 3, seed: 0 }
+        Self { points: 5000, steps: 10, searches: 3, seed: 0, close: true }
     }
 }
 
@@ -56,6 +58,13 @@ impl AssessOptions {
     #[must_use]
     pub fn searches(mut self, searches: usize) -> Self {
         self.searches = searches;
+        self
+    }
+
+    /// Whether proved margins come close to the least ones found, which takes longer than to decide on them.
+    #[must_use]
+    pub fn close(mut self, close: bool) -> Self {
+        self.close = close;
         self
     }
 

@@ -17,7 +17,7 @@ mod term;
 #[cfg(test)]
 mod tests;
 
-pub use crate::geom::{PoseSpace, Region};
+pub use crate::geom::{ListedFrom, PoseSpace, Region};
 pub use assess::{AssessOptions, Assessment, Margin, assess};
 pub use bound::{MarginBound, MarginProof, MarginVerdict, prove};
 pub use conditioning::{LeastConditioning, least_conditioning};

@@ -4,12 +4,12 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use crate::cli::context::Context;
-use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::output::Answer;
+use crate::cli::requirements;
 use crate::entrance::Error;
 use crate::records::{AssessAnswer, PoseQuaternionRecord, RegularityWord};
-use crate::requirements::{AssessOptions, MarginVerdict};
+use crate::requirements::AssessOptions;
 
 /// Arguments of `assess`.
 #[derive(Debug, clap::Args)]
@@ -50,63 +50,13 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         other => Failure::internal(other.to_string()),
     })?;
     let record = AssessAnswer::new(&design, &found);
-    let exit = match record.met {
-        Some(true) => Exit::Yes,
-        Some(false) => Exit::No,
-        None => Exit::Inconclusive,
-    };
     let text = text(&design.name, &record);
-    Ok(Answer::new(exit, record, text))
+    Ok(Answer::new(requirements::exit_of(record.met), record, text))
 }
 
 fn text(name: &str, found: &AssessAnswer) -> String {
-    let word = match found.met {
-        Some(true) => "meets all its requirements, proved for every pose of its workspace",
-        Some(false) => "violates requirements",
-        None => "violates no requirement at the poses looked at; not all is proved",
-    };
-    let mut out = format!("{name} {word} ({} poses looked at)\n\n", found.poses);
-    let _ = writeln!(
-        out,
-        "{:<17} {:<9} {:>14} {:>14} {:<8} {:<24} worst pose x,y,z,qw,qx,qy,qz",
-        "requirement", "status", "least margin", "proved margin", "unit", "of"
-    );
-    for m in &found.requirements {
-        let pose = m.pose.as_ref().map_or_else(|| "any".to_string(), PoseQuaternionRecord::short);
-        let (mark, value) = match () {
-            () if m.at_limit => ('=', 0.0),
-            () if m.violates() => ('!', m.margin.0),
-            () => (' ', m.margin.0),
-        };
-        let below = match m.proved_margin.0 {
-            x if m.status == MarginVerdict::AtLimit || x == 0.0 => format!("{:.6}", 0.0),
-            x if x.is_finite() => format!("{x:.6}"),
-            _ => "none".into(),
-        };
-        let _ = writeln!(
-            out,
-            "{:<17}{mark}{:<9} {value:>14.6} {below:>14} {:<8} {:<24} {pose}",
-            m.name.code(),
-            m.status.name(),
-            m.unit,
-            m.between.join(", ")
-        );
-    }
-    // rows without a margin: the sign of det J, and a number that has no limit
-    let mut row = |name: &str, mark: char, status: &str, [value, unit, of]: [&str; 3], pose: &str| {
-        let _ =
-            writeln!(out, "{name:<17}{mark}{status:<9} {value:>14} {:>14} {unit:<8} {of:<24} {pose}", "-");
-    };
+    let mut out = requirements::lead(name, Some(found));
     let at = found.regular.pose.as_ref().map_or_else(|| "any".to_owned(), PoseQuaternionRecord::short);
-    let (mark, status) = match found.regular.status {
-        RegularityWord::Proved => (' ', "met"),
-        RegularityWord::ChangesSign => ('!', "violated"),
-        RegularityWord::Undecided => (' ', "undecided"),
-    };
-    row("singularity", mark, status, ["-", "", "sign of det J"], &at);
-    let c = &found.conditioning;
-    let value = format!("{:.6}", c.inverse_condition.0);
-    row("conditioning", ' ', "no limit", [&value, "", "least found, 1 at best"], &c.pose.short());
     let _ = match found.regular.status {
         RegularityWord::Proved => writeln!(out, "\nNo singular pose in the workspace: proved."),
         RegularityWord::ChangesSign => {

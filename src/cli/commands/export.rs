@@ -10,9 +10,10 @@ use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
+use crate::cli::requirements;
 use crate::design::Design;
 use crate::export::{Export, ExportFormat, ExportOptions, ExportedFile, LengthUnit, NoExport, Writer};
-use crate::records::{ExportAnswer, FormatOutcome, FormatRecord, Number};
+use crate::records::{AssessAnswer, ExportAnswer, FormatOutcome, FormatRecord, Number};
 
 /// Arguments of `export`.
 #[derive(Debug, clap::Args)]
@@ -120,7 +121,10 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         let (name, purpose) = (format.name().into(), format.purpose().into());
         formats.push(FormatRecord { format: name, purpose, files, outcome });
     }
-    let record = ExportAnswer::new(&export, args.output.display().to_string(), formats);
+    let assessment = AssessAnswer::briefly(&design, context.seed());
+    let text = format!("{}\n{text}", requirements::lead(&design.name, assessment.as_ref()));
+    let mut text = text;
+    let record = ExportAnswer::new(&export, assessment, args.output.display().to_string(), formats);
     text.push_str("sizes\n");
     for c in &record.sizes {
         let Number(x) = c.value;

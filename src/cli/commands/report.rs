@@ -1,5 +1,6 @@
 //! `equipod report`: a folder of results as one HTML page.
 
+use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
@@ -10,9 +11,10 @@ use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
+use crate::cli::requirements;
 use crate::design::{Design, Format, parse};
 use crate::page::{CORE, Session, page as view};
-use crate::records::ReportAnswer;
+use crate::records::{AssessAnswer, ReportAnswer};
 use crate::report::{Report, ReportFile, html};
 use crate::synthesis::Pattern;
 
@@ -35,7 +37,7 @@ pub(crate) struct Args {
 }
 
 /// Writes the page.
-pub(crate) fn run(args: &Args, _: &mut Context) -> Result<Answer, Failure> {
+pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let output = args.output.as_deref().map_or_else(|| args.folder.join(PAGE), Path::to_path_buf);
     let found = gather(&args.folder, &output)?;
     if found.is_empty() {
@@ -45,9 +47,14 @@ pub(crate) fn run(args: &Args, _: &mut Context) -> Result<Answer, Failure> {
         );
     }
     let files = found.len();
+    let first = found.iter().find_map(design_of);
+    let assessment = first.as_ref().and_then(|d| AssessAnswer::briefly(d, context.seed()));
+    // the path, for programs; before it the requirements, for people
+    let shown = first.as_ref().filter(|_| std::io::stdout().is_terminal());
+    let lead = shown.map(|d| requirements::lead(&d.name, assessment.as_ref()));
     files::write_text(&output, &page(found, args.title.clone()))?;
-    let record = ReportAnswer { output: output.display().to_string(), files };
-    let text = format!("{}\n", record.output);
+    let record = ReportAnswer { output: output.display().to_string(), files, assessment };
+    let text = format!("{}{}\n", lead.map_or_else(String::new, |lead| lead + "\n"), record.output);
     Ok(Answer::new(Exit::Yes, record, text))
 }
 

@@ -7,8 +7,9 @@ use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
+use crate::cli::requirements;
 use crate::page::{CORE, Session, page};
-use crate::records::ViewAnswer;
+use crate::records::{AssessAnswer, ViewAnswer};
 
 /// Arguments of `view`.
 #[derive(Debug, clap::Args)]
@@ -55,14 +56,20 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let html = page(&session, core.as_deref());
     let output = args.output.as_deref().map_or_else(|| beside(args.design.as_deref()), Path::to_path_buf);
     files::write_text(&output, &html)?;
+    let shown = session.shown();
+    let assessment = args.design.as_ref().and_then(|_| AssessAnswer::briefly(&shown, context.seed()));
     let record = ViewAnswer {
         name: session.design().name.clone(),
         output: output.display().to_string(),
         bytes: html.len(),
         live: core.is_some(),
+        assessment,
     };
     let how = if record.live { "" } else { ", with recorded data only" };
-    let text = format!("wrote {}{how}\n", record.output);
+    let wrote = format!("wrote {}{how}\n", record.output);
+    // the page without a design has only an example
+    let lead = args.design.as_ref().map(|_| requirements::lead(&shown.name, record.assessment.as_ref()));
+    let text = lead.map_or_else(|| wrote.clone(), |lead| format!("{lead}\n{wrote}"));
     Ok(Answer::new(Exit::Yes, record, text))
 }
 

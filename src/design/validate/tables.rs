@@ -10,13 +10,13 @@ use crate::design::{Code, OptimizeTable, SearchTable, Trajectory, Workspace};
 use crate::geom::Pose;
 use crate::manipulator::Body;
 use crate::requirements::{
-    Hardware, Housing, JointAxes, KeepOut, KeepOutShape, LegBody, LengthLimits, Load, PlatformSpeed, Region,
-    Swing,
+    Hardware, Housing, JointAxes, KeepOut, KeepOutShape, LegBody, LengthLimits, ListedFrom, Load,
+    PlatformSpeed, Region, Swing,
 };
 
 pub(super) const POSE_KEYS: [&str; 4] = ["position", "rpy_deg", "quat_wxyz", "rotation"];
-pub(super) const WORKSPACE_KEYS: [&str; 6] =
-    ["translation", "rotation_deg", "region", "grid", "poses", "trajectory"];
+pub(super) const WORKSPACE_KEYS: [&str; 7] =
+    ["translation", "rotation_deg", "region", "grid", "poses", "trajectory", "relative_to"];
 /// The keys of `[optimize]` that are not a search.
 pub(super) const LIMIT_KEYS: [&str; 3] = ["min_joint_distance", "min_abs_det", "characteristic_length"];
 const ROTATION_HELP: &str =
@@ -145,6 +145,20 @@ pub(super) fn workspace(report: &mut Findings<'_>, top: &[Entry]) -> Workspace {
     if let Some(poses) = find(entries, "poses") {
         result.poses = single_poses(report, &poses.node);
     }
+    if let Some(relative) = find(entries, "relative_to") {
+        result.listed_from = listed_from(report, relative).unwrap_or_default();
+        if result.poses.is_empty() && result.trajectory.is_none() {
+            let help =
+                "list `poses` or name a `trajectory`, or remove `relative_to`: the box is always around home";
+            let message = "`relative_to` says what listed poses are measured from, and none are listed";
+            report.refuse(Code::MissingKey, &relative.key_span, message, help);
+        }
+        if result.listed_from == ListedFrom::Home && find(top, "home").is_none() {
+            let help = "add [home] with position and rpy_deg, or write relative_to = \"base\"";
+            let message = "the poses are measured from [home], which is missing";
+            report.refuse(Code::MissingHome, &relative.key_span, message, help);
+        }
+    }
     if result.has_box() && find(top, "home").is_none() {
         let help = "add [home] with position and rpy_deg, or list single poses";
         report.refuse(
@@ -155,6 +169,16 @@ pub(super) fn workspace(report: &mut Findings<'_>, top: &[Entry]) -> Workspace {
         );
     }
     result
+}
+
+fn listed_from(report: &mut Findings<'_>, entry: &Entry) -> Option<ListedFrom> {
+    let word = text(report, entry)?;
+    let known = [ListedFrom::Base, ListedFrom::Home].into_iter().find(|from| from.name() == word);
+    if known.is_none() {
+        let message = format!("`relative_to` is \"{}\"", shown(&word));
+        report.refuse(Code::WrongType, &entry.node.span, message, "write \"home\" or \"base\"");
+    }
+    known
 }
 
 fn region(report: &mut Findings<'_>, entry: &Entry) -> Option<Region> {

@@ -10,7 +10,9 @@ use crate::dimensional::{DimensionalOutcome, DimensionalReport, DimensionalSolut
 use crate::entrance::OptimizeStatus;
 use crate::entrance::optimizing::{Checked, dimensional_status};
 use crate::equivalence::Verification;
-use crate::records::{AllOrNone, DesignRecord, MarginRecord, Number, PoseQuaternionRecord, VerdictWord};
+use crate::records::{
+    AllOrNone, AssessAnswer, DesignRecord, MarginRecord, Number, PoseQuaternionRecord, VerdictWord,
+};
 use crate::requirements::Objective;
 
 /// The answer of `optimize` about a design that asks for more than offsets.
@@ -70,8 +72,10 @@ pub enum DimensionalStatus {
     Feasible,
     /// No start met the requirements.
     Infeasible,
-    /// Neither.
+    /// Neither: nothing that meets the requirements was found, or what was found is not proved to meet them.
     Undecided,
+    /// A platform was found that misses requirements; the assessment names them.
+    Violated,
     /// The search was told to end.
     Interrupted,
 }
@@ -83,6 +87,7 @@ impl From<OptimizeStatus> for DimensionalStatus {
             OptimizeStatus::Feasible => Self::Feasible,
             OptimizeStatus::Infeasible => Self::Infeasible,
             OptimizeStatus::Undecided => Self::Undecided,
+            OptimizeStatus::Violated => Self::Violated,
             OptimizeStatus::Interrupted => Self::Interrupted,
         }
     }
@@ -97,6 +102,7 @@ impl DimensionalStatus {
             Self::Feasible => "feasible",
             Self::Infeasible => "infeasible",
             Self::Undecided => "undecided",
+            Self::Violated => "violated",
             Self::Interrupted => "interrupted",
         }
     }
@@ -130,8 +136,10 @@ pub struct DimensionalSolutionRecord {
     pub joint_axes: JointAxesRecord,
     /// The requirements, over many poses and by other code.
     pub constraint_margins: Vec<MarginRecord>,
-    /// None of them is violated.
-    pub requirements_met: bool,
+    /// Whether the platform meets its requirements, proved by the assessment; null: not all is proved.
+    pub requirements_met: Option<bool>,
+    /// What `assess` says of the platform; null: the design requires nothing.
+    pub assessment: Option<AssessAnswer>,
     /// Whether it is equivalent to the design; null: the variables do not keep the class.
     pub verify: Option<VerifiedRecord>,
     /// Steps of the run that found it; absent in a front.
@@ -170,7 +178,8 @@ impl DimensionalSolutionRecord {
             home: (&s.home).into(),
             joint_axes: JointAxesRecord { base: axes(&s.axes[0]), platform: axes(&s.axes[1]) },
             constraint_margins: MarginRecord::searched(&c.design, &c.assessment),
-            requirements_met: c.assessment.all_met(),
+            requirements_met: c.met(),
+            assessment: c.assessed.as_ref().map(|found| AssessAnswer::new(&c.design, found)),
             verify: c.verification.as_ref().map(VerifiedRecord::from),
             history: Some(s.history.iter().map(DimensionalStepRecord::from).collect()),
             local_optimality: StationarityRecord { stationarity: Number(s.stationarity) },

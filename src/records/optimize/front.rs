@@ -47,7 +47,7 @@ impl FrontAnswer {
             }
         };
         Self {
-            status: FrontStatus::of(report, members.iter().all(|c| c.assessment.all_met())),
+            status: FrontStatus::of(report, members.iter().all(|c| c.met() == Some(true))),
             front: report.front.iter().zip(members).zip(written).map(member).collect(),
             dominated: report.dominated,
             unmet: report.unmet,
@@ -77,7 +77,7 @@ pub struct FrontMemberRecord {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum FrontStatus {
-    /// A front whose members meet their requirements.
+    /// A front whose members are proved to meet their requirements.
     Front,
     /// The search for the first objective alone met no requirements.
     Infeasible,

@@ -4,15 +4,15 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::design::Design;
-use crate::entrance::OptimizeStatus;
-use crate::entrance::optimizing::offset_status;
+use crate::entrance::optimizing::{met_or_nothing_required, offset_status};
+use crate::entrance::{AssessReport, OptimizeStatus};
 use crate::geom::Pose;
 use crate::offsets::{
     BranchReport, BranchVerdict, Conflict, GlobalBound, OffsetHistoryStep, OffsetOutcome, OffsetProblem,
     OffsetReport, OffsetSolution,
 };
 use crate::records::map::matrix;
-use crate::records::{AllOrNone, DesignRecord, Number, PoseRecord, SourceWord, leg_number};
+use crate::records::{AllOrNone, AssessAnswer, DesignRecord, Number, PoseRecord, SourceWord, leg_number};
 
 /// Runners-up that are listed.
 const RUNNERS_UP: usize = 5;
@@ -34,6 +34,8 @@ pub struct OffsetsFound<'a> {
     pub workspace_origin: SourceWord,
     /// The optimised platform, when there is one.
     pub optimised: Option<&'a Design>,
+    /// What `assess` says of it; `None` where nothing is required.
+    pub assessed: Option<&'a AssessReport>,
 }
 
 /// The answer of `optimize` about the offsets of an octahedral design.
@@ -48,6 +50,8 @@ pub struct OffsetsAnswer {
     pub requirements: OffsetLimitsRecord,
     /// The poses the worst case is taken over.
     pub poses: PoseSetRecord,
+    /// What `assess` says of the platform; null: there is none, or the design requires nothing.
+    pub assessment: Option<AssessAnswer>,
     /// What became of the branches.
     pub branch_counts: BranchCountsRecord,
     /// What no offsets can exceed; null: not proved, or there is no solution.
@@ -70,7 +74,7 @@ impl OffsetsAnswer {
     pub fn new(found: &OffsetsFound<'_>, output: Option<&str>) -> Self {
         let (p, r) = (found.problem, found.report);
         Self {
-            status: r.into(),
+            status: OffsetsStatus::of(r, met_or_nothing_required(found.assessed)),
             solution: r.solution().map(|s| OffsetSolutionRecord::new(p, s)).into(),
             requirements: OffsetLimitsRecord {
                 min_joint_distance: p.min_joint_distance,
@@ -85,6 +89,10 @@ impl OffsetsAnswer {
                 home_position: <[f64; 3]>::from(found.home.position).map(Number),
                 workspace: found.workspace_origin,
             },
+            assessment: found
+                .assessed
+                .zip(found.optimised)
+                .map(|(assessed, design)| AssessAnswer::new(design, assessed)),
             branch_counts: r.into(),
             global_bound: r.bound.as_ref().map(GlobalBoundRecord::from),
             tolerance: r.tolerance,
@@ -108,15 +116,19 @@ pub enum OffsetsStatus {
     Feasible,
     /// Every branch is proved to violate the limits.
     Infeasible,
-    /// Nothing was found, and some branches are not proved empty.
+    /// Nothing was found, and some branches are not proved empty; or what was found is not proved to meet its requirements.
     Undecided,
+    /// The platform found misses requirements; the assessment names them.
+    Violated,
     /// The search was told to end.
     Interrupted,
 }
 
-impl From<&OffsetReport> for OffsetsStatus {
-    fn from(r: &OffsetReport) -> Self {
-        match offset_status(r) {
+impl OffsetsStatus {
+    /// The status of a search; `met`: what is known of the requirements of the platform found.
+    #[must_use]
+    pub fn of(r: &OffsetReport, met: Option<bool>) -> Self {
+        match offset_status(r, met) {
             OptimizeStatus::Optimal => Self::Optimal,
             OptimizeStatus::Feasible if matches!(r.outcome, OffsetOutcome::LocalOptimum(_)) => {
                 Self::LocalOptimum
@@ -124,6 +136,7 @@ impl From<&OffsetReport> for OffsetsStatus {
             OptimizeStatus::Feasible => Self::Feasible,
             OptimizeStatus::Infeasible => Self::Infeasible,
             OptimizeStatus::Undecided => Self::Undecided,
+            OptimizeStatus::Violated => Self::Violated,
             OptimizeStatus::Interrupted => Self::Interrupted,
         }
     }
@@ -139,6 +152,7 @@ impl OffsetsStatus {
             Self::Feasible => "feasible",
             Self::Infeasible => "infeasible",
             Self::Undecided => "undecided",
+            Self::Violated => "violated",
             Self::Interrupted => "interrupted",
         }
     }

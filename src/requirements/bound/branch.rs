@@ -117,7 +117,7 @@ impl CellJudge<'_> {
         while let Some(open) = state.heap.pop() {
             below = open.below;
             let upper = state.upper;
-            let close = below >= CLOSE * upper.abs() || below >= upper - slack;
+            let close = !self.close || below >= CLOSE * upper.abs() || below >= upper - slack;
             let decided = (upper < -slack && state.cells >= enough) || (close && below >= -slack);
             if decided || state.cells >= most {
                 break;

@@ -124,7 +124,8 @@ pub fn prove(
     let terms = Terms::new(m, required, &space.home);
     let charts = Chart::all(space);
     let home = Chart::of_pose(&space.home);
-    let judge = CellJudge { m, required, terms: &terms, axes: axes(m, required, &home), charts };
+    let axes = axes(m, required, &home);
+    let judge = CellJudge { m, required, terms: &terms, axes, charts, close: o.close };
     let bounds = margins.into_iter().map(|found| {
         if found.term.kind.is_fixed() {
             return judge.fixed(found);
@@ -194,6 +195,8 @@ struct CellJudge<'a> {
     terms: &'a Terms<'a>,
     axes: Axes,
     charts: Vec<Chart>,
+    /// Whether bounds go on when they have decided.
+    close: bool,
 }
 
 /// What is known of a cell.

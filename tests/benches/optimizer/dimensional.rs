@@ -109,7 +109,7 @@ impl DimensionalJudge {
     }
 
     fn space(&self, home: Pose) -> PoseSpace {
-        PoseSpace { home, ..self.problem.space.clone() }
+        self.problem.space.with_home(home)
     }
 
     /// Poses that are looked at: listed ones, and those of the held points.

@@ -50,7 +50,7 @@ fn problem(number: u64, seed: u64) -> Result<OffsetProblem, Failure> {
     let hexagon = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
     let m = Manipulator::try_new(base, platform, hexagon)?;
     let design = Design::new("pair".to_owned(), "m".to_owned(), m.clone());
-    let poses = design.workspace_or_default().sample(Some(&design.home_or_default()));
+    let poses = design.workspace_or_default().sample(&design.home_or_default());
     let octahedral = Octahedral::recognise(&m).map_err(|_| "two triangles are not octahedral")?;
     Ok(OffsetProblem::with_defaults(octahedral, poses))
 }

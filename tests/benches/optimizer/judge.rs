@@ -108,7 +108,7 @@ pub(crate) fn offset_problem(design: &Design, extension: f64) -> Option<OffsetPr
         workspace.translation = Vector3::repeat(0.15 * design.manipulator().size());
         workspace.rotation_deg = Vector3::repeat(10.0);
     }
-    let default = OffsetProblem::with_defaults(octahedral, workspace.sample(Some(&home)));
+    let default = OffsetProblem::with_defaults(octahedral, workspace.sample(&home));
     let table = &design.optimize;
     Some(OffsetProblem {
         characteristic_length: table.characteristic_length.unwrap_or(default.characteristic_length),

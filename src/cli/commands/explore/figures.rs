@@ -3,12 +3,13 @@
 use std::fmt::Write as _;
 
 use super::Poses;
-use crate::cli::commands::optimize::Done;
+use super::search::Search;
 use crate::design::Design;
 use crate::fk::Reality;
 use crate::manipulator::Octahedral;
 use crate::plot::{ModesFigure, OffsetPlane, PlaneAxis, PlanePoint, assembly_modes, determinant_plane};
 use crate::records::LengthsOrigin;
+use crate::synthesis::edge_lengths;
 
 /// Edges or offsets that agree this well are equal for a picture.
 const SAME: f64 = 1e-9;
@@ -28,8 +29,14 @@ fn common(edges: [f64; 3]) -> Option<f64> {
 }
 
 /// `det A` over the offsets, in the design's unit where all edges of a body are equal, else in fractions.
-pub(super) fn determinant(design: &Design, octahedral: &Octahedral, done: &Done) -> String {
-    let d = done.problem.edge_lengths();
+///
+/// `None` for a platform with other triangles, or with other variables than offsets.
+pub(super) fn determinant(design: &Design, octahedral: &Octahedral, search: &Search) -> Option<String> {
+    let has_plane = search.keeps_class() && (search.optimised().is_none() || search.offsets().is_some());
+    if !has_plane {
+        return None;
+    }
+    let d = edge_lengths(octahedral);
     let units = &design.units;
     let equal = common([d[0], d[2], d[4]]).zip(common([d[1], d[3], d[5]]));
     let axis = |body: &str, name: &str, scale: Option<f64>| match scale {
@@ -45,23 +52,23 @@ pub(super) fn determinant(design: &Design, octahedral: &Octahedral, done: &Done)
         Some((b, p)) => format!("\u{394}1/{} + \u{394}2/{} = 1", short(b), short(p)),
         None => "t1 + t2 = 1".to_owned(),
     };
-    let (points, note) = points(octahedral, done);
-    determinant_plane(&OffsetPlane {
+    let (points, note) = points(octahedral, search);
+    Some(determinant_plane(&OffsetPlane {
         title: format!("det A of the platforms without shared joints of \u{201c}{}\u{201d}", design.name),
         note,
         base: axis("base", "1", equal.map(|e| e.0)),
         platform: axis("platform", "2", equal.map(|e| e.1)),
         singular_label,
         points,
-    })
+    }))
 }
 
 /// The chosen offsets, a base and a platform offset at a time; equal pairs are one mark.
-fn points(octahedral: &Octahedral, done: &Done) -> (Vec<PlanePoint>, String) {
-    let Some(s) = done.report.solution() else {
+fn points(octahedral: &Octahedral, search: &Search) -> (Vec<PlanePoint>, String) {
+    let Some((t, det)) = search.offsets() else {
         return (Vec::new(), "no offsets were found that keep the limits".to_owned());
     };
-    let (t, order) = (s.offsets, octahedral.order());
+    let order = octahedral.order();
     let mut groups: Vec<(f64, f64, Vec<usize>)> = Vec::new();
     for k in [0, 2, 4] {
         let legs = [order[k].get() + 1, order[k + 1].get() + 1];
@@ -72,7 +79,6 @@ fn points(octahedral: &Octahedral, done: &Done) -> (Vec<PlanePoint>, String) {
             None => groups.push((t[k], t[k + 1], legs.to_vec())),
         }
     }
-    let det = s.recheck.det;
     let note = if groups.len() == 1 {
         format!("mark: the chosen offsets, det A = {det:.6}")
     } else {

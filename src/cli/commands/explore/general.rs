@@ -107,7 +107,7 @@ pub(super) fn run(args: &Args, design: &Design, context: &Context) -> Result<Ans
     let files = folder.results()?;
     folder.write(folder::PAGE, &page(files, None))?;
     answer.paths = folder.written().map(|(_, path)| path).collect();
-    let text = text(&answer.name, answer.verdict, &answer.explanation, &answer.paths);
+    let text = text(&answer.name, answer.verdict, &answer.explanation, &answer.paths, None);
     Ok(Answer::new(exit, ExploreAnswer::General(Box::new(answer)), text))
 }
 
@@ -271,6 +271,9 @@ fn judged(
             v.explanation.clone(),
             exit_of(&v.found.verdict),
         ),
+        (_, _, SearchWord::Violated) => {
+            (ExploreVerdict::Violated, moves.found.record.explanation.clone(), Exit::No)
+        }
         (_, _, SearchWord::Impossible) => {
             (ExploreVerdict::None, moves.found.record.explanation.clone(), Exit::No)
         }

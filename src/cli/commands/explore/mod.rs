@@ -4,13 +4,14 @@ mod figures;
 pub(super) mod folder;
 mod general;
 mod report;
+mod search;
 
 use std::fmt::Write as _;
 use std::io::IsTerminal;
 use std::path::PathBuf;
 
 use self::folder::Folder;
-use super::optimize::{Choices, Done};
+use self::search::Search;
 use super::report::page;
 use super::{fk as fk_command, optimize, verify as verify_command};
 use crate::cli::context::Context;
@@ -19,7 +20,8 @@ use crate::cli::failure::Failure;
 use crate::cli::files::OutputPath;
 use crate::cli::output::{Answer, document};
 use crate::cli::poses;
-use crate::cli::progress::{Interrupt, ProgressLine};
+use crate::cli::progress::ProgressLine;
+use crate::cli::requirements;
 use crate::design::Design;
 use crate::entrance::optimizing::EXTENSION;
 use crate::entrance::{SAMPLES, sample_plan, verified_exactly};
@@ -28,11 +30,10 @@ use crate::equivalents::Original;
 use crate::fk::{self, FkOptions, FkSolutions, PoseCounting};
 use crate::geom::SamplePlan;
 use crate::manipulator::{LegLengths, Octahedral};
-use crate::offsets;
 use crate::records::{
-    ComparedRecord, ExploreAnswer, ExploreOctahedralAnswer, ExploreVerdict, FamilyAnswer, FamilySizeRecord,
-    FkRunRecord, FramesRecord, LengthsOrigin, OffsetsFoundRecord, PoseTotalsRecord, ProvenanceRecord,
-    VerdictWord, VerifyAnswer,
+    AssessAnswer, ComparedRecord, ExploreAnswer, ExploreOctahedralAnswer, ExploreVerdict, FamilyAnswer,
+    FamilySizeRecord, FkRunRecord, FramesRecord, LengthsOrigin, PoseTotalsRecord, ProvenanceRecord, VerdictWord,
+    VerifyAnswer,
 };
 use crate::synthesis::{Family, FamilyMember};
 
@@ -74,8 +75,10 @@ struct Results {
     design: Design,
     octahedral: Octahedral,
     family: Family,
-    done: Done,
-    /// Absent when no offsets were found.
+    search: Search,
+    /// What `assess` says of the platform found.
+    assessment: Option<AssessAnswer>,
+    /// Absent when no platform was found, or one with other triangles.
     verified: Option<Verified>,
     poses: Poses,
     options: FkOptions,
@@ -83,30 +86,83 @@ struct Results {
 }
 
 impl Results {
+    /// What the platform found is judged by: its requirements first, then the comparison.
+    fn judgement(&self) -> Judged<'_> {
+        match (self.search.optimised(), self.search.met(), &self.verified) {
+            (None, ..) if self.search.exit() == Exit::No => Judged::Infeasible,
+            (None, ..) => Judged::NotFound,
+            (Some(design), Some(false), _) => Judged::Violated(design),
+            (Some(design), None, _) => Judged::Unproved(design),
+            (Some(_), Some(true), Some(v)) => Judged::Compared(v),
+            (Some(_), Some(true), None) => Judged::New,
+        }
+    }
+
     /// The word for the whole run.
     fn verdict(&self) -> ExploreVerdict {
-        match (&self.verified, self.done.exit()) {
-            (Some(v), _) => ExploreVerdict::Compared((&v.found.verdict).into()),
-            (None, Exit::No) => ExploreVerdict::Infeasible,
-            (None, _) => ExploreVerdict::Compared(VerdictWord::Inconclusive),
+        match self.judgement() {
+            Judged::Infeasible => ExploreVerdict::Infeasible,
+            Judged::Violated(_) => ExploreVerdict::Violated,
+            Judged::New => ExploreVerdict::NewKinematics,
+            Judged::Compared(v) => ExploreVerdict::Compared((&v.found.verdict).into()),
+            Judged::NotFound | Judged::Unproved(_) => ExploreVerdict::Compared(VerdictWord::Inconclusive),
         }
     }
 
     fn exit(&self) -> Exit {
-        match &self.verified {
-            Some(v) => verify_command::exit_of(&v.found.verdict),
-            None => self.done.exit(),
+        match self.judgement() {
+            Judged::Infeasible | Judged::Violated(_) => Exit::No,
+            Judged::NotFound | Judged::Unproved(_) => Exit::Inconclusive,
+            Judged::Compared(v) => verify_command::exit_of(&v.found.verdict),
+            Judged::New => self.search.exit(),
         }
     }
 
-    /// One sentence with the numbers that decided.
-    fn explanation(&self) -> &str {
-        match (&self.verified, self.done.exit()) {
-            (Some(v), _) => &v.explanation,
-            (None, Exit::No) => "every branch of offsets is proved to violate the limits",
-            (None, _) => "no offsets were found that keep the limits, but some branches are not proved empty",
+    /// One sentence with what decided.
+    fn explanation(&self) -> String {
+        let judged = |design: &Design| {
+            let sentence = self.assessment.as_ref().map(|a| requirements::sentence(&design.name, a));
+            sentence.map_or_else(
+                || format!("{} does not have the room that separate joints need", design.name),
+                |text| text.trim_end().to_owned(),
+            )
+        };
+        match (self.judgement(), &self.search) {
+            (Judged::Infeasible, Search::Offsets(_)) => {
+                "every branch of offsets is proved to violate the limits".into()
+            }
+            (Judged::Infeasible, Search::Dimensions(_)) => {
+                "no start met the requirements together; the conflict stands in optimize.json".into()
+            }
+            (Judged::NotFound, Search::Offsets(_)) => {
+                "no offsets were found that keep the limits, but some branches are not proved empty".into()
+            }
+            (Judged::NotFound, Search::Dimensions(_)) => {
+                "no platform that meets the requirements was found, and no conflict".into()
+            }
+            (Judged::Violated(design) | Judged::Unproved(design), _) => judged(design),
+            (Judged::Compared(v), _) => v.explanation.clone(),
+            (Judged::New, _) => {
+                "the platform meets its requirements; its triangles were chosen too, so that its kinematics are new".into()
+            }
         }
     }
+}
+
+/// What decides about the platform found.
+enum Judged<'a> {
+    /// There is none, and that is known.
+    Infeasible,
+    /// None was found.
+    NotFound,
+    /// It misses requirements.
+    Violated(&'a Design),
+    /// It is not proved to meet its requirements.
+    Unproved(&'a Design),
+    /// It meets its requirements, and this is how it compares with the design.
+    Compared(&'a Verified),
+    /// It meets its requirements, and is not meant to have the kinematics of the design.
+    New,
 }
 
 /// Runs all stages; each file is written when its stage is finished.
@@ -116,6 +172,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let Ok(octahedral) = Octahedral::recognise(design.manipulator()) else {
         return general::run(args, &design, context);
     };
+    search::refuse_front(&design)?;
     let mut folder = Folder::prepare(&args.output)?;
     let mut progress = ProgressLine::new(context.quiet());
     let seed = context.seed();
@@ -140,37 +197,21 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         )?,
     )?;
 
-    progress.stage(2, "offsets");
-    let interrupt = Interrupt::watch();
-    let mut done =
-        optimize::search(&design, octahedral.clone(), &Choices::plain(args.extension), seed, &mut |p| {
-            match p {
-                offsets::OffsetProgress::Ranking { done, total, .. } => {
-                    progress.part("ranking", done, total);
-                }
-                offsets::OffsetProgress::Polishing { done, total, .. } => {
-                    progress.part("polishing", done, total);
-                }
-                offsets::OffsetProgress::Bounding { boxes, open, .. } => {
-                    progress.part("bounding", boxes, boxes + open);
-                }
-            }
-            interrupt.flow()
-        })?;
-    if let (Some(new), Some(s)) = (&mut done.optimised, done.report.solution()) {
-        // the same pose, seen by the new legs
-        new.lengths = design.lengths.and_then(|l| s.map.apply(&l.squared()).ok()).map(|s| s.lengths());
-    }
-    folder.write(folder::OPTIMIZE, &document(done.record(&design, None), provenance.clone(), &[])?)?;
-    if let Some(new) = &done.optimised {
+    progress.stage(2, "the best platform");
+    let found = search::search(&design, octahedral.clone(), args.extension, context, &mut progress)?;
+    let found = found.with_lengths_of(&design);
+    found.write(&design, provenance.clone(), &mut folder)?;
+    if let Some(new) = found.optimised() {
         folder.write(folder::OPTIMISED, &new.to_toml())?;
     }
-    folder.write(folder::DETERMINANT, &figures::determinant(&design, &octahedral, &done))?;
+    if let Some(picture) = figures::determinant(&design, &octahedral, &found) {
+        folder.write(folder::DETERMINANT, &picture)?;
+    }
 
     progress.stage(3, "verification");
-    let verified = done
-        .optimised
-        .as_ref()
+    let verified = found
+        .optimised()
+        .filter(|_| found.keeps_class())
         .map(|new| verification(&design, new, args.samples, &options, &provenance, &mut folder))
         .transpose()?;
 
@@ -180,13 +221,25 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     folder.write(folder::MODES, &figures::modes(&design, &poses))?;
 
     progress.stage(5, "report");
-    let results =
-        Results { design, octahedral, family, done, verified, poses, options, extension: args.extension };
+    let (assessment, extension) = (found.assessment(), args.extension);
+    let results = Results {
+        design,
+        octahedral,
+        family,
+        search: found,
+        assessment,
+        verified,
+        poses,
+        options,
+        extension,
+    };
     folder.write(folder::REPORT, &report::markdown(&results))?;
     let files = folder.results()?;
     folder.write(folder::PAGE, &page(files, None))?;
     let record = record(&results, &folder);
-    let text = text(&record.name, record.verdict, &record.explanation, &record.paths);
+    let lead = results.search.optimised().zip(record.assessment.as_ref());
+    let lead = lead.map(|(design, a)| requirements::lead(&design.name, Some(a)));
+    let text = text(&record.name, record.verdict, &record.explanation, &record.paths, lead.as_deref());
     Ok(Answer::new(results.exit(), ExploreAnswer::Octahedral(Box::new(record)), text))
 }
 
@@ -246,23 +299,32 @@ fn fk_record(poses: &Poses) -> FkRunRecord {
 /// What `--json` writes to standard output.
 fn record(r: &Results, folder: &Folder) -> ExploreOctahedralAnswer {
     let c = r.family.counts();
-    let converged = r.done.exit() == Exit::Yes;
     ExploreOctahedralAnswer {
         verdict: r.verdict(),
-        explanation: r.explanation().into(),
+        explanation: r.explanation(),
+        assessment: r.assessment.clone(),
         name: r.design.name.clone(),
         paths: folder.written().map(|(_, path)| path).collect(),
         family: FamilySizeRecord { patterns: c.patterns, topologies: c.topologies },
-        optimize: r.done.report.solution().map(|s| OffsetsFoundRecord::new(s, converged)),
+        optimize: r.search.key_figures(),
         verify: r.verified.as_ref().map(|v| ComparedRecord::from(&v.found)),
         fk: PoseTotalsRecord::new(r.poses.from, &r.poses.solutions),
     }
 }
 
-/// The paths, for programs; before them the verdict, for people.
-fn text(name: &str, verdict: ExploreVerdict, explanation: &str, paths: &[String]) -> String {
+/// The paths, for programs; before them the requirements and the verdict, for people.
+fn text(
+    name: &str,
+    verdict: ExploreVerdict,
+    explanation: &str,
+    paths: &[String],
+    lead: Option<&str>,
+) -> String {
     let mut out = String::new();
     if std::io::stdout().is_terminal() {
+        if let Some(lead) = lead {
+            let _ = writeln!(out, "{lead}");
+        }
         let _ = writeln!(out, "{name}: {}\n{explanation}", verdict.as_str());
     }
     for path in paths {

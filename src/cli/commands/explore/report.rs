@@ -2,12 +2,15 @@
 
 use std::fmt::Write as _;
 
+use super::search::Search;
 use super::{Results, Verified, folder};
+use crate::cli::commands::optimize::{Done, dimensional};
+use crate::cli::requirements as table;
 use crate::equivalence::SAME_POSE;
 use crate::fk::{Completeness, FkSolutions};
 use crate::manipulator::LegIndex;
 use crate::offsets::OffsetSolution;
-use crate::records::{LengthsOrigin, SourceWord};
+use crate::records::{AssessAnswer, LengthsOrigin, SourceWord};
 use crate::synthesis::AffineLegMap;
 
 /// The whole report. Writing to a string cannot fail, so the results of `write!` are dropped.
@@ -18,11 +21,17 @@ pub(super) fn markdown(r: &Results) -> String {
         "# {}: {}\n\nEvidence: {}.\n",
         plain(&r.design.name),
         r.verdict().as_str().replace('_', " "),
-        plain(r.explanation())
+        plain(&r.explanation())
     );
+    if let (Some(design), Some(a)) = (r.search.optimised(), &r.assessment) {
+        requirements(&mut out, &design.name, a);
+    }
     inputs(&mut out, r);
     class(&mut out, r);
-    offsets(&mut out, r);
+    match &r.search {
+        Search::Offsets(done) => offsets(&mut out, r, done),
+        Search::Dimensions(done) => platform(&mut out, r, done),
+    }
     if let Some(v) = &r.verified {
         verification(&mut out, v);
     }
@@ -45,7 +54,7 @@ pub(super) fn plain(text: &str) -> String {
 }
 
 fn inputs(out: &mut String, r: &Results) {
-    let (d, p) = (&r.design, &r.done.problem);
+    let d = &r.design;
     let _ = writeln!(out, "## Input\n");
     let _ = writeln!(out, "Design: [{0}]({0}), lengths in {1}.", folder::ORIGINAL, plain(&d.units));
     if let Some(source) = &d.source {
@@ -55,14 +64,19 @@ fn inputs(out: &mut String, r: &Results) {
     for (leg, (a, b)) in LegIndex::all().zip(d.leg_names()) {
         let _ = writeln!(out, "| {} | {} | {} |", leg.get() + 1, plain(a), plain(b));
     }
+    let Search::Offsets(done) = &r.search else {
+        out.push('\n');
+        return;
+    };
+    let p = &done.problem;
     let given = |origin| if origin == SourceWord::Design { "of the design" } else { "default" };
     let _ = writeln!(
         out,
         "\nHome pose: {}. Worst case over {} poses, workspace: {}. Joints of one body at least {} {} apart, \
          |det A| at least {}, characteristic length {} {}.\n",
-        given(r.done.set.home_origin),
+        given(done.set.home_origin),
         p.poses.len(),
-        given(r.done.set.workspace_origin),
+        given(done.set.workspace_origin),
         p.min_joint_distance,
         plain(&d.units),
         p.min_abs_det,
@@ -89,12 +103,71 @@ fn class(out: &mut String, r: &Results) {
     );
 }
 
-fn offsets(out: &mut String, r: &Results) {
-    let n = r.done.report.counts();
+/// The table of `assess`, which says what the platform is worth.
+fn requirements(out: &mut String, name: &str, found: &AssessAnswer) {
+    let _ = writeln!(
+        out,
+        "## Requirements\n\n{}\n\n| requirement | status | least margin | proved margin | of | position at the worst pose |\n|---|---|---|---|---|---|",
+        plain(table::sentence(name, found).trim_end())
+    );
+    for m in &found.requirements {
+        let number = |x: f64| {
+            if x.is_finite() { format!("{x:.6} {}", plain(&m.unit)) } else { "none".to_owned() }
+        };
+        let place = m
+            .pose
+            .as_ref()
+            .map_or_else(|| "any".to_owned(), |pose| pose.position.map(|x| format!("{:.4}", x.0)).join(", "));
+        let _ = writeln!(
+            out,
+            "| {} | {} | {} | {} | {} | {place} |",
+            plain(m.name.code()),
+            plain(m.status.name()),
+            number(if m.at_limit { 0.0 } else { m.margin.0 }),
+            number(m.proved_margin.0),
+            plain(&m.between.join(", "))
+        );
+    }
+    let singular = match found.regular.met {
+        Some(true) => "No pose of the workspace is singular: proved.",
+        Some(false) => "The workspace holds a singular pose.",
+        None => "That no pose of the workspace is singular is not proved.",
+    };
+    let _ = writeln!(out, "\n{singular}\n");
+}
+
+/// What was chosen under the requirements.
+fn platform(out: &mut String, r: &Results, done: &dimensional::Done) {
+    let _ = writeln!(out, "## The best platform under the requirements\n");
+    let Some((s, c)) = done.report.solution().zip(done.checked.as_ref()) else {
+        let _ = writeln!(out, "No platform was found. Details: [{0}]({0}).\n", folder::OPTIMIZE);
+        return;
+    };
+    let _ = writeln!(
+        out,
+        "Optimised design: [{0}]({0}). Details: [{1}]({1}).\n\n| quantity | value |\n|---|---|",
+        folder::OPTIMISED,
+        folder::OPTIMIZE
+    );
+    for (objective, value) in &c.objectives {
+        let unit = objective.quantity().map_or_else(String::new, |q| r.design.unit_of(q));
+        let _ = writeln!(out, "| {} | {value:.6} {} |", plain(objective.code()), plain(&unit));
+    }
+    for (name, value) in &s.variables {
+        let _ = writeln!(out, "| {} | {value:.6} |", plain(name));
+    }
+    out.push('\n');
+    if r.search.keeps_class() && r.search.offsets().is_some() {
+        let _ = writeln!(out, "![det A over the two offsets]({})\n", folder::DETERMINANT);
+    }
+}
+
+fn offsets(out: &mut String, r: &Results, done: &Done) {
+    let n = done.report.counts();
     let _ = writeln!(out, "## Offsets of the platform without shared joints\n");
-    if let Some(s) = r.done.report.solution() {
+    if let Some(s) = done.report.solution() {
         let _ = writeln!(out, "Optimised design: [{0}]({0}).\n", folder::OPTIMISED);
-        solution(out, r, s);
+        solution(out, r, done, s);
         map(out, &s.map, &r.design.units);
     } else {
         let _ = writeln!(out, "No offsets were found.\n");
@@ -115,8 +188,8 @@ fn offsets(out: &mut String, r: &Results) {
     );
 }
 
-fn solution(out: &mut String, r: &Results, s: &OffsetSolution) {
-    let (units, p) = (plain(&r.design.units), &r.done.problem);
+fn solution(out: &mut String, r: &Results, done: &Done, s: &OffsetSolution) {
+    let (units, p) = (plain(&r.design.units), &done.problem);
     let (order, edges, bodies) = (r.octahedral.order(), p.edge_lengths(), p.sliding_bodies());
     let _ = writeln!(
         out,

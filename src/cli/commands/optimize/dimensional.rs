@@ -1,5 +1,7 @@
 //! `equipod optimize` for designs that ask for more than the offsets with the best conditioning.
 
+use std::ops::ControlFlow;
+
 use crate::cli::commands::verify::failure_of;
 use crate::cli::commands::{GENERAL, NEAREST};
 use crate::cli::context::Context;
@@ -7,29 +9,36 @@ use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::progress::{Interrupt, ProgressLine};
 use crate::design::Design;
-use crate::dimensional::{DimensionalReport, InvalidProblem, ShapeSearchOptions, optimize};
+use crate::dimensional::{
+    DimensionalProblem, DimensionalReport, InvalidProblem, Progress, ShapeSearchOptions, optimize,
+};
 use crate::entrance::optimizing::{Checked, checked, dimensional_problem};
 use crate::records::{DimensionalAnswer, DimensionalStatus};
 
 /// What was asked and what came out.
 #[derive(Debug)]
-pub(super) struct Done {
-    pub(super) report: DimensionalReport,
-    pub(super) checked: Option<Checked>,
+pub(in crate::cli::commands) struct Done {
+    pub(in crate::cli::commands) problem: DimensionalProblem,
+    pub(in crate::cli::commands) report: DimensionalReport,
+    pub(in crate::cli::commands) checked: Option<Checked>,
 }
 
 impl Done {
     /// The answer about it.
-    pub(super) fn record(&self, design: &Design, written: Option<&str>) -> DimensionalAnswer {
+    pub(in crate::cli::commands) fn record(
+        &self,
+        design: &Design,
+        written: Option<&str>,
+    ) -> DimensionalAnswer {
         DimensionalAnswer::new(design, &self.report, self.checked.as_ref(), written)
     }
 }
 
 /// What the status means for the exit code.
-pub(super) fn exit_of(status: DimensionalStatus) -> Exit {
+pub(in crate::cli::commands) fn exit_of(status: DimensionalStatus) -> Exit {
     match status {
         DimensionalStatus::Optimal => Exit::Yes,
-        DimensionalStatus::Infeasible => Exit::No,
+        DimensionalStatus::Infeasible | DimensionalStatus::Violated => Exit::No,
         DimensionalStatus::Feasible | DimensionalStatus::Undecided | DimensionalStatus::Interrupted => {
             Exit::Inconclusive
         }
@@ -61,20 +70,29 @@ pub(super) fn options(args: &super::Args, context: &Context) -> ShapeSearchOptio
     }
 }
 
-/// Optimises and checks.
-pub(super) fn run(design: &Design, args: &super::Args, context: &Context) -> Result<Done, Failure> {
-    let problem = dimensional_problem(design, args.extension);
-    let options = options(args, context);
-    let (mut progress, interrupt) = (ProgressLine::new(context.quiet()), Interrupt::watch());
-    let report = optimize(&problem, &[], &options, &mut |p| {
-        progress.note(&p.to_string());
-        interrupt.flow()
-    })
-    .map_err(|why| refusal(&why))?;
-    progress.end();
+/// Optimises and checks; `progress` is told how far the search is.
+pub(in crate::cli::commands) fn search(
+    design: &Design,
+    extension: f64,
+    options: &ShapeSearchOptions,
+    progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+) -> Result<Done, Failure> {
+    let problem = dimensional_problem(design, extension);
+    let report = optimize(&problem, &[], options, progress).map_err(|why| refusal(&why))?;
     let checked = match report.solution() {
-        Some(s) => Some(checked(design, &problem, s, context.seed()).map_err(|e| failure_of(&e))?),
+        Some(s) => Some(checked(design, &problem, s, options.seed).map_err(|e| failure_of(&e))?),
         None => None,
     };
-    Ok(Done { report, checked })
+    Ok(Done { problem, report, checked })
+}
+
+/// The search with the options of the command.
+pub(super) fn run(design: &Design, args: &super::Args, context: &Context) -> Result<Done, Failure> {
+    let (mut progress, interrupt) = (ProgressLine::new(context.quiet()), Interrupt::watch());
+    let done = search(design, args.extension, &options(args, context), &mut |p| {
+        progress.note(&p.to_string());
+        interrupt.flow()
+    })?;
+    progress.end();
+    Ok(done)
 }

@@ -2,8 +2,12 @@
 
 use std::fmt::Write as _;
 
+use crate::cli::requirements;
 use crate::dimensional::DimensionalOutcome;
-use crate::records::{ConflictRecord, DimensionalAnswer, DimensionalSolutionRecord};
+use crate::records::{
+    ConflictRecord, DesignRecord, DimensionalAnswer, DimensionalSolutionRecord, DimensionalStatus,
+    MarginRecord,
+};
 
 /// For people.
 pub(super) fn text(name: &str, a: &DimensionalAnswer, outcome: &DimensionalOutcome) -> String {
@@ -12,10 +16,15 @@ pub(super) fn text(name: &str, a: &DimensionalAnswer, outcome: &DimensionalOutco
     // writing to a string cannot fail
     let _ = writeln!(out, "{} starts, {} of them feasible in the first pass", r.starts, r.feasible);
     if let Some(s) = a.solution.as_option() {
+        let found = a.design.as_ref().map_or(name, DesignRecord::name);
+        let _ = writeln!(out, "\n{}", requirements::lead(found, s.assessment.as_ref()));
         solution_text(&mut out, s);
     }
     if let Some(c) = &a.conflict {
         conflict_text(&mut out, c);
+    }
+    if a.status == DimensionalStatus::Violated {
+        out.push_str("the platform misses requirements and is not called optimal\n");
     }
     if let DimensionalOutcome::Undecided(why) = outcome {
         let reason = why.map_or_else(String::new, |w| format!(": {w}"));
@@ -56,8 +65,11 @@ fn solution_text(out: &mut String, s: &DimensionalSolutionRecord) {
             v.worst_distance.0
         );
     }
-    let _ = writeln!(out, "margins over {} poses, by other code:", s.poses.checked);
-    for m in &s.constraint_margins {
+    // the room that offsets need where the design says nothing is required of the search alone
+    let listed = |m: &&MarginRecord| {
+        !s.assessment.iter().flat_map(|a| &a.requirements).any(|known| known.name == m.name)
+    };
+    for m in s.constraint_margins.iter().filter(listed) {
         let mark = if m.margin.0 >= 0.0 { ' ' } else { '!' };
         let of = m.between.join(", ");
         let _ = writeln!(out, "  {:<17}{mark}{:>14.6} {:<8} {of}", m.name.code(), m.margin.0, m.unit);

@@ -11,10 +11,11 @@ use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::output::Answer;
 use crate::cli::progress::{Interrupt, ProgressLine};
+use crate::cli::requirements;
 use crate::design::Design;
 use crate::dimensional::pareto;
 use crate::entrance::optimizing::{checked, dimensional_problem};
-use crate::records::{FrontAnswer, FrontStatus, OptimizeAnswer};
+use crate::records::{DesignRecord, FrontAnswer, FrontStatus, OptimizeAnswer};
 
 /// `out.toml` as `out-1.toml`, `out-2.toml`, ...
 fn numbered(path: &Path, k: usize) -> PathBuf {
@@ -81,9 +82,18 @@ fn text(name: &str, a: &FrontAnswer) -> String {
     for (k, member) in a.front.iter().enumerate() {
         let s = &member.solution;
         let values = s.objectives.iter().map(|o| format!("{} {:.6} {}", o.name.code(), o.value.0, o.unit));
-        let met = if s.requirements_met { "" } else { "  (violates requirements)" };
+        let met = match s.requirements_met {
+            Some(true) => "",
+            Some(false) => "  (violates requirements)",
+            None => "  (not all requirements proved)",
+        };
         let path = member.output.as_ref().map_or_else(String::new, |p| format!("  {p}"));
         let _ = writeln!(out, "  {:>3}  {}{met}{path}", k + 1, values.collect::<Vec<_>>().join("  "));
+    }
+    for (k, member) in a.front.iter().enumerate() {
+        let found = member.design.as_ref().map_or(name, DesignRecord::name);
+        let lead = requirements::lead(found, member.solution.assessment.as_ref());
+        let _ = writeln!(out, "\n{}. {lead}", k + 1);
     }
     if let Some(c) = &a.conflict {
         conflict_text(&mut out, c);

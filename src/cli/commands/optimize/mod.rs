@@ -1,6 +1,6 @@
 //! `equipod optimize`: the best platform equivalent to a design, or the best under its requirements.
 
-mod dimensional;
+pub(super) mod dimensional;
 mod dimensional_text;
 mod front;
 mod history;
@@ -18,7 +18,10 @@ use crate::cli::poses;
 use crate::cli::progress::{Interrupt, ProgressLine};
 use crate::design::{Combination, Design};
 use crate::dimensional::InvalidProblem;
-use crate::entrance::optimizing::{EXTENSION, asks_for_more, offset_problem, optimised_design};
+use crate::entrance::AssessReport;
+use crate::entrance::optimizing::{
+    EXTENSION, asks_for_more, met_or_nothing_required, offset_problem, optimised_design,
+};
 use crate::geom::Pose;
 use crate::manipulator::Octahedral;
 use crate::offsets::{self, OffsetProblem, OffsetReport, OffsetSearchOptions, optimize};
@@ -82,7 +85,7 @@ pub(crate) struct WorstCasePoses {
 
 fn pose_set(design: &Design) -> WorstCasePoses {
     let (home, (workspace, workspace_given)) = (poses::home(design), poses::workspace(design));
-    let poses = workspace.sample(Some(&home));
+    let poses = workspace.sample(&home);
     WorstCasePoses {
         poses,
         home,
@@ -184,6 +187,8 @@ pub(super) struct Done {
     pub(super) report: OffsetReport,
     /// The optimised platform, when there is one.
     pub(super) optimised: Option<Design>,
+    /// What `assess` says of it; `None` where nothing is required.
+    pub(super) assessed: Option<AssessReport>,
 }
 
 impl Done {
@@ -197,12 +202,22 @@ impl Done {
             home_origin: self.set.home_origin,
             workspace_origin: self.set.workspace_origin,
             optimised: self.optimised.as_ref(),
+            assessed: self.assessed.as_ref(),
         };
         OffsetsAnswer::new(&found, written)
     }
 
+    fn status(&self) -> OffsetsStatus {
+        OffsetsStatus::of(&self.report, met_or_nothing_required(self.assessed.as_ref()))
+    }
+
+    /// Whether the offsets are proved to be the best, on a platform that meets its requirements.
+    pub(super) fn is_optimal(&self) -> bool {
+        self.status() == OffsetsStatus::Optimal
+    }
+
     pub(super) fn exit(&self) -> Exit {
-        exit_of((&self.report).into())
+        exit_of(self.status())
     }
 }
 
@@ -210,7 +225,7 @@ impl Done {
 fn exit_of(status: OffsetsStatus) -> Exit {
     match status {
         OffsetsStatus::Optimal => Exit::Yes,
-        OffsetsStatus::Infeasible => Exit::No,
+        OffsetsStatus::Infeasible | OffsetsStatus::Violated => Exit::No,
         OffsetsStatus::LocalOptimum
         | OffsetsStatus::Feasible
         | OffsetsStatus::Undecided
@@ -238,5 +253,6 @@ pub(super) fn search(
     let report = optimize(&problem, &options, progress)
         .map_err(|why| Failure::refused("optimize::invalid_problem", why.to_string()))?;
     let optimised = report.solution().map(|s| optimised_design(design, &problem, s, report.seed));
-    Ok(Done { problem, set, report, optimised })
+    let assessed = optimised.as_ref().and_then(|d| d.assessed(seed));
+    Ok(Done { problem, set, report, optimised, assessed })
 }

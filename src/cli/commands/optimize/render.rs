@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
+use crate::cli::requirements;
 use crate::design::Design;
 use crate::offsets::{OffsetProblem, OffsetSolution};
 use crate::records::{BranchRecord, BranchWord, OffsetSolutionRecord, OffsetsAnswer, OffsetsStatus};
@@ -37,6 +38,9 @@ pub(super) fn text(
         p.min_abs_det,
         p.characteristic_length
     );
+    if let (Some(found), Some(assessment)) = (&a.design, &a.assessment) {
+        let _ = writeln!(out, "\n{}", requirements::lead(found.name(), Some(assessment)));
+    }
     if let (Some(r), Some(s)) = (a.solution.as_option(), solution) {
         solution_text(&mut out, r, problem, s, units);
     }
@@ -47,6 +51,9 @@ pub(super) fn text(
                 "no better offsets are near; that none are anywhere is not proved to within the gap of {} asked for",
                 a.tolerance
             );
+        }
+        OffsetsStatus::Violated => {
+            out.push_str("the platform misses requirements and is not called optimal\n");
         }
         OffsetsStatus::Feasible => out.push_str("the limits are met; better offsets may be near\n"),
         _ => {}

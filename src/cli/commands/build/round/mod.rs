@@ -13,11 +13,12 @@ use crate::cli::failure::Failure;
 use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
 use crate::cli::poses;
+use crate::cli::requirements;
 use crate::design::Design;
 use crate::equivalence::{Verdict, Verification};
 use crate::manipulator::{Body, Manipulator};
 use crate::manufacture::{Grid, NoRounding, Rounding, RoundingProblem, equivalent_octahedral, round_to_grid};
-use crate::records::{GridsRecord, VariantWord};
+use crate::records::{AssessAnswer, GridsRecord, VariantWord};
 
 /// Arguments of `build round`.
 #[derive(Debug, clap::Args)]
@@ -197,6 +198,8 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         files::write_design(path, rounded)?;
         written = Some(path.display().to_string());
     }
+    let assessment = rounded.as_ref().and_then(|(_, d)| AssessAnswer::of(d, context.seed()));
+    let met = assessment.as_ref().map_or(Some(true), |a| a.met);
     let rounded = rounded.as_ref().map(|(variant, d)| (*variant, d));
     // an exact rounding that is not equivalent would be a fault of the search
     let contradicted = found.exact.as_ref().is_ok_and(|e| {
@@ -205,7 +208,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     });
     let exit = match rounded {
         _ if contradicted => Exit::Inconclusive,
-        Some(_) => Exit::Yes,
+        Some(_) => requirements::exit_of(met),
         None => Exit::No,
     };
     let report = render::RoundReport {
@@ -213,6 +216,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         problem: &problem,
         found: &found,
         rounded,
+        assessment,
         written: written.as_deref(),
     };
     let record = report.record();

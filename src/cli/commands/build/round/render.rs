@@ -2,11 +2,12 @@
 
 use std::fmt::Write as _;
 
+use crate::cli::requirements;
 use crate::design::Design;
 use crate::manufacture::{Rounding, RoundingProblem};
 use crate::records::{
-    ExactRoundingOutcome, GridRecord, GridsRecord, JudgementRecord, NearestRoundingOutcome, RoundAnswer,
-    RoundedJointRecord, VariantWord,
+    AssessAnswer, ExactRoundingOutcome, GridRecord, GridsRecord, JudgementRecord, NearestRoundingOutcome,
+    RoundAnswer, RoundedJointRecord, VariantWord,
 };
 
 /// Everything there is to tell.
@@ -16,6 +17,7 @@ pub(super) struct RoundReport<'a> {
     pub(super) problem: &'a RoundingProblem<'a>,
     pub(super) found: &'a Rounding,
     pub(super) rounded: Option<(VariantWord, &'a Design)>,
+    pub(super) assessment: Option<AssessAnswer>,
     pub(super) written: Option<&'a str>,
 }
 
@@ -29,6 +31,7 @@ impl RoundReport<'_> {
             wanted: (&self.found.wanted).into(),
             exact: ExactRoundingOutcome::new(self.design, &self.found.exact),
             nearest: NearestRoundingOutcome::new(self.design, &self.found.nearest),
+            assessment: self.assessment.clone(),
             chosen: self.rounded.map(|r| r.0),
             design: self.rounded.map(|r| r.1.into()),
             output: self.written.map(str::to_owned),
@@ -79,7 +82,11 @@ fn table(out: &mut String, joints: &[RoundedJointRecord]) {
 
 pub(super) fn text(r: &RoundAnswer) -> String {
     let units = &r.units;
-    let mut out = format!("{}\n", r.name);
+    let mut out = String::new();
+    if let Some(design) = &r.design {
+        out = requirements::lead(design.name(), r.assessment.as_ref()) + "\n";
+    }
+    let _ = writeln!(out, "{}", r.name);
     judged(&mut out, "wanted", &r.wanted, units);
     match &r.exact {
         ExactRoundingOutcome::Found(e) => {

@@ -152,7 +152,7 @@ fn find(design: &Design, args: &Args, seed: u64) -> Result<Found, Failure> {
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
     let found = find(&design, args, context.seed())?;
-    let record = render::record(&design, &found);
+    let record = render::record(&design, &found, context.seed());
     let text = render::text(&design, &found, &record);
     Ok(Answer::new(Exit::Yes, record, text))
 }

@@ -3,16 +3,18 @@
 use std::fmt::Write as _;
 
 use super::Found;
+use crate::cli::requirements;
 use crate::design::Design;
 use crate::records::{
-    BudgetPosesRecord, JointBudgetRecord, Number, PoseErrorRecord, SolvedBudgetRecord, TolerancesAnswer,
-    WorkspaceWord, WorstErrorsRecord,
+    AssessAnswer, BudgetPosesRecord, JointBudgetRecord, Number, PoseErrorRecord, SolvedBudgetRecord,
+    TolerancesAnswer, WorkspaceWord, WorstErrorsRecord,
 };
 
 /// The record of the answer.
-pub(super) fn record(design: &Design, f: &Found) -> TolerancesAnswer {
+pub(super) fn record(design: &Design, f: &Found, seed: u64) -> TolerancesAnswer {
     let b = &f.budget;
     TolerancesAnswer {
+        assessment: AssessAnswer::briefly(design, seed),
         bound: (f.bound.position, f.bound.rotation_deg).into(),
         tool: [f.tool.x, f.tool.y, f.tool.z].map(Number),
         units: design.units.clone(),
@@ -59,8 +61,10 @@ fn sentence(f: &Found, units: &str) -> String {
 
 pub(super) fn text(design: &Design, f: &Found, r: &TolerancesAnswer) -> String {
     let (b, t, units) = (&f.budget, &f.trials, &design.units);
-    let mut out = format!(
-        "{}: error of the tool point at most {} {units}, of the orientation {} deg ({} poses, {} workspace)\n\n",
+    let mut out = requirements::lead(&design.name, r.assessment.as_ref());
+    let _ = writeln!(
+        out,
+        "\n{}: error of the tool point at most {} {units}, of the orientation {} deg ({} poses, {} workspace)\n",
         design.name,
         f.bound.position,
         f.bound.rotation_deg,

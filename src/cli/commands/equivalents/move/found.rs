@@ -9,10 +9,11 @@ use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::files;
 use crate::cli::output::Answer;
+use crate::cli::requirements;
 use crate::design::Design;
 use crate::records::{
-    CandidateRecord, DesignRecord, HoleRecord, MoveAnswer, MoveSearchAnswer, Number, PlacementRecord,
-    SearchWord, WishMarginRecord,
+    AssessAnswer, CandidateRecord, DesignRecord, HoleRecord, MoveAnswer, MoveSearchAnswer, Number,
+    PlacementRecord, SearchWord, WishMarginRecord,
 };
 use crate::synthesis::components::{ComponentOptions, Components};
 use crate::synthesis::relocate::search::{
@@ -69,40 +70,94 @@ pub(in crate::cli::commands) fn platforms(
             .with_help("`equipod check DESIGN` says why"),
         _ => Failure::refused("move::bad_wish", e.to_string()),
     })?;
-    let designs: Vec<Option<Design>> =
-        outcome.candidates.iter().enumerate().map(|(k, c)| built(design, c, k + 1)).collect();
-    let exit = match outcome.verdict {
-        SearchVerdict::Found => Exit::Yes,
-        SearchVerdict::Impossible(_) => Exit::No,
-        SearchVerdict::Undecided => Exit::Inconclusive,
+    let found = judged(design, &outcome, options.seed);
+    let record = MoveReport { design, families, outcome: &outcome, found: &found }.record()?;
+    let exit = match record.outcome {
+        SearchWord::Found => Exit::Yes,
+        SearchWord::Impossible | SearchWord::Violated => Exit::No,
+        SearchWord::Undecided => Exit::Inconclusive,
     };
-    let record = MoveReport { design, families, outcome: &outcome }.record(&designs)?;
     let new = |p: &&Placement| !matches!(p.source, LegSource::Kept(_));
     let numbers = |c: &Candidate| c.placements.iter().filter(new).map(|p| p.leg.get() + 1).collect();
-    let moved = outcome.candidates.iter().map(numbers).collect();
+    let moved = found.iter().map(|f| numbers(f.candidate)).collect();
+    let designs = found.into_iter().map(|f| f.design).collect();
     Ok(Found { record, designs, moved, exit })
 }
 
-/// A platform of the search as a design.
-fn built(design: &Design, c: &Candidate, number: usize) -> Option<Design> {
-    let mut out = moved_design(design, &c.assembled)?;
+/// A platform of the search with what `assess` says of it.
+struct JudgedPlatform<'a> {
+    candidate: &'a Candidate,
+    /// `None` where the legs make no platform.
+    design: Option<Design>,
+    /// `None` where nothing is required.
+    assessment: Option<AssessAnswer>,
+}
+
+impl JudgedPlatform<'_> {
+    /// Whether the requirements of the design are met; `Some(true)` where there are none.
+    fn met(&self) -> Option<bool> {
+        self.assessment.as_ref().map_or(Some(true), |a| a.met)
+    }
+
+    /// Every wish, and every requirement proved.
+    fn is_fulfilled(&self) -> bool {
+        self.candidate.fulfilled && self.met() == Some(true)
+    }
+}
+
+/// The platforms as designs with their requirements; those that fulfil everything come first, in the order of the search.
+fn judged<'a>(design: &Design, outcome: &'a SearchOutcome, seed: u64) -> Vec<JudgedPlatform<'a>> {
+    let judge = |candidate: &'a Candidate| {
+        let built = moved_design(design, &candidate.assembled);
+        // what misses a wish is not fulfilled whatever is proved of its requirements
+        let assess = if candidate.fulfilled { AssessAnswer::of } else { AssessAnswer::briefly };
+        let assessment = built.as_ref().and_then(|d| assess(d, seed));
+        JudgedPlatform { candidate, design: built, assessment }
+    };
+    let mut found: Vec<JudgedPlatform<'a>> = outcome.candidates.iter().map(judge).collect();
+    found.sort_by_key(|f| !f.is_fulfilled());
+    for (k, f) in found.iter_mut().enumerate() {
+        let words = in_words(f.candidate.fulfilled, f.assessment.as_ref());
+        if let Some(d) = &mut f.design {
+            finish(d, design, f.candidate, k + 1, &words);
+        }
+    }
+    found
+}
+
+/// What a platform fulfils and what it misses.
+fn in_words(wishes: bool, assessment: Option<&AssessAnswer>) -> String {
+    let names = |a: &AssessAnswer, met: Option<bool>| {
+        let kinds = a.requirements.iter().filter(|m| m.met == met).map(|m| m.name.code());
+        kinds.chain((a.regular.met == met).then_some("singularity")).collect::<Vec<_>>().join(", ")
+    };
+    let wishes = if wishes { "every wish fulfilled" } else { "not every wish fulfilled" };
+    match assessment.map(|a| (a, a.met)) {
+        None => wishes.to_owned(),
+        Some((_, Some(true))) => format!("{wishes}, all requirements met"),
+        Some((a, Some(false))) => format!("{wishes}, requirements violated: {}", names(a, Some(false))),
+        Some((a, None)) => format!("{wishes}, requirements not proved: {}", names(a, None)),
+    }
+}
+
+/// Name, description and lengths of a platform of the search.
+fn finish(out: &mut Design, design: &Design, c: &Candidate, number: usize, words: &str) {
     out.name = format!("{}, rearranged {number}", design.name);
-    let wishes = if c.fulfilled { "wishes fulfilled" } else { "not all wishes fulfilled" };
     out.description = Some(format!(
-        "Equivalent to \"{}\" by equipod {}: det A = {}, {wishes}",
+        "Equivalent to \"{}\" by equipod {}: det A = {}, {words}",
         design.name,
         env!("CARGO_PKG_VERSION"),
         c.map.determinant
     ));
     let lengths = design.lengths.and_then(|l| c.map.closest.apply(&l.squared()).ok());
     out.lengths = lengths.map(|s| s.lengths());
-    Some(out)
 }
 
 struct MoveReport<'a> {
     design: &'a Design,
     families: &'a Components,
     outcome: &'a SearchOutcome,
+    found: &'a [JudgedPlatform<'a>],
 }
 
 impl MoveReport<'_> {
@@ -118,13 +173,39 @@ impl MoveReport<'_> {
         })
     }
 
+    /// What came of it, the requirements of the design included.
+    fn word(&self) -> (SearchWord, Option<String>) {
+        let (word, reason) = SearchWord::of(self.outcome.verdict);
+        let wished = || self.found.iter().filter(|f| f.candidate.fulfilled);
+        let word = match word {
+            SearchWord::Found if wished().any(JudgedPlatform::is_fulfilled) => SearchWord::Found,
+            SearchWord::Found if wished().all(|f| f.met() == Some(false)) => SearchWord::Violated,
+            SearchWord::Found => SearchWord::Undecided,
+            other => other,
+        };
+        (word, reason)
+    }
+
     /// The verdict in a sentence.
     fn explanation(&self) -> String {
         let o = self.outcome;
         match o.verdict {
             SearchVerdict::Found => {
-                let count = o.candidates.iter().filter(|c| c.fulfilled).count();
-                format!("{count} equivalent platform(s) fulfil every wish")
+                let wished = self.found.iter().filter(|f| f.candidate.fulfilled).count();
+                let count = self.found.iter().filter(|f| f.is_fulfilled()).count();
+                let judged = self.found.iter().any(|f| f.assessment.is_some());
+                match self.word().0 {
+                    SearchWord::Found if judged => {
+                        format!("{count} equivalent platform(s) fulfil every wish and meet the requirements of the design")
+                    }
+                    SearchWord::Found => format!("{count} equivalent platform(s) fulfil every wish"),
+                    SearchWord::Violated => format!(
+                        "{wished} equivalent platform(s) fulfil every wish, and each of them violates requirements of the design"
+                    ),
+                    _ => format!(
+                        "{wished} equivalent platform(s) fulfil every wish, and none of them is proved to meet the requirements of the design"
+                    ),
+                }
             }
             SearchVerdict::Impossible(Impossibility::NoLegAtHole(h)) => format!(
                 "impossible, proved: no leg of any equivalent platform ends at hole {} (exact rank; smallest singular value {:.2e})",
@@ -151,10 +232,10 @@ impl MoveReport<'_> {
         }
     }
 
-    fn record(&self, designs: &[Option<Design>]) -> Result<MoveSearchAnswer, Failure> {
+    fn record(&self) -> Result<MoveSearchAnswer, Failure> {
         let o = self.outcome;
-        let (outcome, reason) = SearchWord::of(o.verdict);
-        let candidates = o.candidates.iter().zip(designs).map(|(c, d)| self.candidate(c, d.as_ref()));
+        let (outcome, reason) = self.word();
+        let candidates = self.found.iter().map(|f| self.candidate(f));
         Ok(MoveSearchAnswer {
             name: self.design.name.clone(),
             mode: "search".into(),
@@ -172,7 +253,8 @@ impl MoveReport<'_> {
         })
     }
 
-    fn candidate(&self, c: &Candidate, design: Option<&Design>) -> Result<CandidateRecord, Failure> {
+    fn candidate(&self, f: &JudgedPlatform<'_>) -> Result<CandidateRecord, Failure> {
+        let c = f.candidate;
         let place = |p: &Placement| {
             let k = p.leg.get();
             Ok(PlacementRecord {
@@ -185,13 +267,15 @@ impl MoveReport<'_> {
             })
         };
         Ok(CandidateRecord {
-            fulfilled: c.fulfilled,
+            fulfilled: f.is_fulfilled(),
+            wishes_fulfilled: c.fulfilled,
+            assessment: f.assessment.clone(),
             worst: Number(c.worst),
             shared_joints: c.shared_joints,
             margins: c.margins.iter().map(WishMarginRecord::from).collect(),
             moves: c.placements.iter().map(place).collect::<Result<_, Failure>>()?,
             map: (&c.map).into(),
-            design: design.map(DesignRecord::from),
+            design: f.design.as_ref().map(DesignRecord::from),
         })
     }
 }
@@ -211,11 +295,14 @@ fn text(r: &MoveSearchAnswer) -> String {
             text,
             "\n{}. {}, det A = {:.6}, sigma_min/sigma_max of A {:.3e}, shared joints {}",
             k + 1,
-            if c.fulfilled { "every wish fulfilled" } else { "not every wish fulfilled" },
+            in_words(c.wishes_fulfilled, c.assessment.as_ref()),
             c.map.determinant.0,
             c.map.inverse_condition.0,
             c.shared_joints
         );
+        if let Some(found) = &c.assessment {
+            text.push_str(&requirements::table(found));
+        }
         for m in &c.margins {
             let _ = writeln!(
                 text,

@@ -84,7 +84,7 @@ impl WishArgs {
         let m = design.manipulator();
         let (size, hardware) = (m.size(), design.hardware);
         let home = poses::home(design);
-        let poses = if self.workspace { design.workspace.sample(Some(&home)) } else { vec![home] };
+        let poses = if self.workspace { design.workspace.sample(&home) } else { vec![home] };
         let length = design.characteristic_length();
         let own = poses.iter().map(|p| inverse_condition(&jacobian(m, p, length))).fold(f64::MAX, f64::min);
         let spacing = self.spacing.or(hardware.joint_diameter).or(design.optimize.min_joint_distance);

@@ -1,0 +1,184 @@
+//! The best platform for the design, under whatever it requires: one of two searches, and what the other stages need of either.
+
+use super::folder::Folder;
+use crate::cli::commands::optimize::{self, Choices, Done, dimensional};
+use crate::cli::context::Context;
+use crate::cli::exit::Exit;
+use crate::cli::failure::Failure;
+use crate::cli::output::document;
+use crate::cli::progress::{Interrupt, ProgressLine};
+use crate::design::{Combination, Design};
+use crate::dimensional::{ShapeSearchOptions, Stage, Triangles};
+use crate::entrance::AssessReport;
+use crate::entrance::optimizing::{asks_for_more, met_or_nothing_required};
+use crate::equivalence::Verdict;
+use crate::manipulator::Octahedral;
+use crate::offsets;
+use crate::records::{
+    AssessAnswer, OffsetsFoundRecord, OptimizedRecord, PlatformFoundRecord, ProvenanceRecord,
+};
+
+/// What was searched, and what came out.
+#[derive(Debug)]
+pub(super) enum Search {
+    /// Offsets alone, for a design that requires nothing else.
+    Offsets(Box<Done>),
+    /// A platform under all requirements of the design.
+    Dimensions(Box<dimensional::Done>),
+}
+
+/// A design whose answer is no single platform.
+pub(super) fn refuse_front(design: &Design) -> Result<(), Failure> {
+    if matches!(design.search.mode, Some(Combination::Pareto { .. })) {
+        let message = "mode = \"pareto\" asks for many platforms, and the folder is about one";
+        return Err(Failure::refused("explore::front", message).with_help(
+            "`equipod optimize` gives the front; explore one of its members, or set another mode",
+        ));
+    }
+    Ok(())
+}
+
+/// Searches as `optimize` does.
+pub(super) fn search(
+    design: &Design,
+    octahedral: Octahedral,
+    extension: f64,
+    context: &Context,
+    progress: &mut ProgressLine,
+) -> Result<Search, Failure> {
+    let (interrupt, seed) = (Interrupt::watch(), context.seed());
+    if asks_for_more(design) {
+        let threads = optimize::workers(None);
+        let options = ShapeSearchOptions { seed, threads, ..ShapeSearchOptions::default() };
+        let done = dimensional::search(design, extension, &options, &mut |p| {
+            let what = match p.stage {
+                Stage::Populations => "populations",
+                Stage::Climbs => "climbs",
+                Stage::Polishing => "polishing",
+            };
+            progress.part(what, p.done, p.total);
+            interrupt.flow()
+        })?;
+        return Ok(Search::Dimensions(Box::new(done)));
+    }
+    let done = optimize::search(design, octahedral, &Choices::plain(extension), seed, &mut |p| {
+        match p {
+            offsets::OffsetProgress::Ranking { done, total, .. } => progress.part("ranking", done, total),
+            offsets::OffsetProgress::Polishing { done, total, .. } => progress.part("polishing", done, total),
+            offsets::OffsetProgress::Bounding { boxes, open, .. } => {
+                progress.part("bounding", boxes, boxes + open);
+            }
+        }
+        interrupt.flow()
+    })?;
+    Ok(Search::Offsets(Box::new(done)))
+}
+
+impl Search {
+    /// The platform found, with the leg lengths of the pose at which the design has its own.
+    pub(super) fn with_lengths_of(mut self, design: &Design) -> Self {
+        let lengths = design.lengths.map(|l| l.squared());
+        match &mut self {
+            Self::Offsets(done) => {
+                if let (Some(new), Some(s)) = (&mut done.optimised, done.report.solution()) {
+                    new.lengths = lengths.and_then(|l| s.map.apply(&l).ok()).map(|s| s.lengths());
+                }
+            }
+            Self::Dimensions(done) => {
+                if let Some(c) = &mut done.checked {
+                    let kept = c.verification.as_ref().filter(|v| v.verdict == Verdict::Equivalent);
+                    let map = kept.map(|v| &v.map.closest);
+                    c.design.lengths =
+                        map.zip(lengths).and_then(|(m, l)| m.apply(&l).ok()).map(|s| s.lengths());
+                }
+            }
+        }
+        self
+    }
+
+    /// The platform found.
+    pub(super) fn optimised(&self) -> Option<&Design> {
+        match self {
+            Self::Offsets(done) => done.optimised.as_ref(),
+            Self::Dimensions(done) => done.checked.as_ref().map(|c| &c.design),
+        }
+    }
+
+    fn assessed(&self) -> Option<&AssessReport> {
+        match self {
+            Self::Offsets(done) => done.assessed.as_ref(),
+            Self::Dimensions(done) => done.checked.as_ref().and_then(|c| c.assessed.as_ref()),
+        }
+    }
+
+    /// What `assess` says of the platform found; `None` without one, or where nothing is required.
+    pub(super) fn assessment(&self) -> Option<AssessAnswer> {
+        Some(AssessAnswer::new(self.optimised()?, self.assessed()?))
+    }
+
+    /// Whether the platform found meets what is required; `Some(true)` where nothing is.
+    pub(super) fn met(&self) -> Option<bool> {
+        match self {
+            Self::Offsets(done) => met_or_nothing_required(done.assessed.as_ref()),
+            Self::Dimensions(done) => done.checked.as_ref().map_or(Some(true), |c| c.met()),
+        }
+    }
+
+    /// Whether the platform has the kinematics of the design by its making: with other triangles it has not.
+    pub(super) fn keeps_class(&self) -> bool {
+        match self {
+            Self::Offsets(_) => true,
+            Self::Dimensions(done) => done.problem.variables.triangles == Triangles::Fixed,
+        }
+    }
+
+    /// What the search alone means for the exit code.
+    pub(super) fn exit(&self) -> Exit {
+        match self {
+            Self::Offsets(done) => done.exit(),
+            Self::Dimensions(done) => {
+                dimensional::exit_of(PlatformFoundRecord::status_of(&done.report, done.checked.as_ref()))
+            }
+        }
+    }
+
+    /// The offsets and `det A` of the map from the design, where there are both.
+    pub(super) fn offsets(&self) -> Option<([f64; 6], f64)> {
+        match self {
+            Self::Offsets(done) => done.report.solution().map(|s| (s.offsets, s.recheck.det)),
+            Self::Dimensions(done) => {
+                let offsets = done.report.solution()?.offsets?;
+                let map = &done.checked.as_ref()?.verification.as_ref()?.map;
+                Some((offsets, map.determinant))
+            }
+        }
+    }
+
+    /// The key figures.
+    pub(super) fn key_figures(&self) -> Option<OptimizedRecord> {
+        match self {
+            Self::Offsets(done) => done
+                .report
+                .solution()
+                .map(|s| OptimizedRecord::Offsets(OffsetsFoundRecord::new(s, done.is_optimal()))),
+            Self::Dimensions(done) => {
+                let (s, c) = (done.report.solution()?, done.checked.as_ref()?);
+                Some(OptimizedRecord::Platform(PlatformFoundRecord::new(c, s, &done.report)))
+            }
+        }
+    }
+
+    /// Writes the answer of `optimize`.
+    pub(super) fn write(
+        &self,
+        design: &Design,
+        provenance: ProvenanceRecord,
+        folder: &mut Folder,
+    ) -> Result<(), Failure> {
+        let text = match self {
+            Self::Offsets(done) => document(done.record(design, None), provenance, &[])?,
+            Self::Dimensions(done) => document(done.record(design, None), provenance, &[])?,
+        };
+        folder.write(super::folder::OPTIMIZE, &text)
+    }
+}

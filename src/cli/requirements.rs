@@ -1,0 +1,93 @@
+//! The table of requirements, which leads every answer that judges a design.
+
+use std::fmt::Write as _;
+
+use super::exit::Exit;
+use crate::records::{AssessAnswer, MarginRecord, PoseQuaternionRecord, RegularityWord};
+use crate::requirements::MarginVerdict;
+
+/// What the answer about the requirements means for the exit code.
+pub(crate) fn exit_of(met: Option<bool>) -> Exit {
+    match met {
+        Some(true) => Exit::Yes,
+        Some(false) => Exit::No,
+        None => Exit::Inconclusive,
+    }
+}
+
+/// The sentence and the table; a design that requires nothing is told so in a line.
+pub(crate) fn lead(name: &str, found: Option<&AssessAnswer>) -> String {
+    found.map_or_else(
+        || format!("{name} requires nothing: it has no limits of lengths, swing, room, forces or speeds\n"),
+        |found| format!("{}\n{}", sentence(name, found), table(found)),
+    )
+}
+
+/// The answer in a sentence that names what is missed.
+pub(crate) fn sentence(name: &str, found: &AssessAnswer) -> String {
+    let missed = |wanted: Option<bool>| {
+        let of = found.requirements.iter().filter(|m| m.met == wanted).map(|m| m.name.code());
+        let singular = (found.regular.met == wanted).then_some("singularity");
+        of.chain(singular).collect::<Vec<_>>().join(", ")
+    };
+    let says = match found.met {
+        Some(true) => "meets all its requirements, proved for every pose of its workspace".to_owned(),
+        Some(false) => format!("violates requirements: {}", missed(Some(false))),
+        None => {
+            format!("violates no requirement at the poses looked at; not all is proved: {}", missed(None))
+        }
+    };
+    format!("{name} {says} ({} poses looked at)\n", found.poses)
+}
+
+/// A row for each kind of requirement with the pose and the legs where it binds, then singularity and conditioning.
+pub(crate) fn table(found: &AssessAnswer) -> String {
+    let mut out = String::new();
+    // writing to a string cannot fail
+    let _ = writeln!(
+        out,
+        "{:<17} {:<9} {:>14} {:>14} {:<8} {:<24} worst pose x,y,z,qw,qx,qy,qz",
+        "requirement", "status", "least margin", "proved margin", "unit", "of"
+    );
+    for m in &found.requirements {
+        row(&mut out, m);
+    }
+    // rows without a margin: the sign of det J, and a number that has no limit
+    let mut plain = |name: &str, mark: char, status: &str, [value, unit, of]: [&str; 3], pose: &str| {
+        let _ =
+            writeln!(out, "{name:<17}{mark}{status:<9} {value:>14} {:>14} {unit:<8} {of:<24} {pose}", "-");
+    };
+    let at = found.regular.pose.as_ref().map_or_else(|| "any".to_owned(), PoseQuaternionRecord::short);
+    let (mark, status) = match found.regular.status {
+        RegularityWord::Proved => (' ', "met"),
+        RegularityWord::ChangesSign => ('!', "violated"),
+        RegularityWord::Undecided => (' ', "undecided"),
+    };
+    plain("singularity", mark, status, ["-", "", "sign of det J"], &at);
+    let c = &found.conditioning;
+    let value = format!("{:.6}", c.inverse_condition.0);
+    plain("conditioning", ' ', "no limit", [&value, "", "least found, 1 at best"], &c.pose.short());
+    out
+}
+
+fn row(out: &mut String, m: &MarginRecord) {
+    let pose = m.pose.as_ref().map_or_else(|| "any".to_string(), PoseQuaternionRecord::short);
+    let (mark, value) = match () {
+        () if m.at_limit => ('=', 0.0),
+        () if m.violates() => ('!', m.margin.0),
+        () => (' ', m.margin.0),
+    };
+    let below = match m.proved_margin.0 {
+        x if m.status == MarginVerdict::AtLimit || x == 0.0 => format!("{:.6}", 0.0),
+        x if x.is_finite() => format!("{x:.6}"),
+        _ => "none".into(),
+    };
+    let _ = writeln!(
+        out,
+        "{:<17}{mark}{:<9} {value:>14.6} {below:>14} {:<8} {:<24} {pose}",
+        m.name.code(),
+        m.status.name(),
+        m.unit,
+        m.between.join(", ")
+    );
+}
