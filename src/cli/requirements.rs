@@ -37,25 +37,46 @@ pub(crate) fn sentence(name: &str, found: &AssessAnswer) -> String {
             format!("violates no requirement at the poses looked at; not all is proved: {}", missed(None))
         }
     };
-    format!("{name} {says} ({} poses looked at)\n", found.poses)
+    let short = |wanted: Option<bool>| {
+        let of = found.requirements.iter().filter(|m| m.reserve_kept == wanted).map(|m| m.name.code());
+        of.collect::<Vec<_>>().join(", ")
+    };
+    let reserve = match found.reserve_kept {
+        _ if !has_reserve(found) => String::new(),
+        Some(true) => "; every reserve is kept".to_owned(),
+        Some(false) => format!("; the reserve is not kept: {}", short(Some(false))),
+        None => format!("; that the reserve is kept is not proved: {}", short(None)),
+    };
+    format!("{name} {says}{reserve} ({} poses looked at)\n", found.poses)
+}
+
+/// Whether the design asks for a reserve on any limit.
+fn has_reserve(found: &AssessAnswer) -> bool {
+    found.requirements.iter().any(|m| m.reserve.0 > 0.0)
 }
 
 /// A row for each kind of requirement with the pose and the legs where it binds, then singularity and conditioning.
 pub(crate) fn table(found: &AssessAnswer) -> String {
     let mut out = String::new();
+    let with_reserve = has_reserve(found);
+    let column = if with_reserve { format!(" {:>14}", "less reserve") } else { String::new() };
     // writing to a string cannot fail
     let _ = writeln!(
         out,
-        "{:<17} {:<9} {:>14} {:>14} {:<8} {:<24} worst pose x,y,z,qw,qx,qy,qz",
+        "{:<17} {:<9} {:>14}{column} {:>14} {:<8} {:<24} worst pose x,y,z,qw,qx,qy,qz",
         "requirement", "status", "least margin", "proved margin", "unit", "of"
     );
     for m in &found.requirements {
-        row(&mut out, m);
+        row(&mut out, m, with_reserve);
     }
+    let blank = if with_reserve { format!(" {:>14}", "-") } else { String::new() };
     // rows without a margin: the sign of det J, and a number that has no limit
     let mut plain = |name: &str, mark: char, status: &str, [value, unit, of]: [&str; 3], pose: &str| {
-        let _ =
-            writeln!(out, "{name:<17}{mark}{status:<9} {value:>14} {:>14} {unit:<8} {of:<24} {pose}", "-");
+        let _ = writeln!(
+            out,
+            "{name:<17}{mark}{status:<9} {value:>14}{blank} {:>14} {unit:<8} {of:<24} {pose}",
+            "-"
+        );
     };
     let at = found.regular.pose.as_ref().map_or_else(|| "any".to_owned(), PoseQuaternionRecord::short);
     let (mark, status) = match found.regular.status {
@@ -70,7 +91,7 @@ pub(crate) fn table(found: &AssessAnswer) -> String {
     out
 }
 
-fn row(out: &mut String, m: &MarginRecord) {
+fn row(out: &mut String, m: &MarginRecord, with_reserve: bool) {
     let pose = m.pose.as_ref().map_or_else(|| "any".to_string(), PoseQuaternionRecord::short);
     let (mark, value) = match () {
         () if m.at_limit => ('=', 0.0),
@@ -82,9 +103,14 @@ fn row(out: &mut String, m: &MarginRecord) {
         x if x.is_finite() => format!("{x:.6}"),
         _ => "none".into(),
     };
+    let mut left = String::new();
+    if with_reserve {
+        let short = if m.reserve_kept == Some(false) { '!' } else { ' ' };
+        left = format!("{short}{:>14.6}", m.margin_with_reserve.0);
+    }
     let _ = writeln!(
         out,
-        "{:<17}{mark}{:<9} {value:>14.6} {below:>14} {:<8} {:<24} {pose}",
+        "{:<17}{mark}{:<9} {value:>14.6}{left} {below:>14} {:<8} {:<24} {pose}",
         m.name.code(),
         m.status.name(),
         m.unit,

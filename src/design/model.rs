@@ -9,7 +9,10 @@ use super::{Constructions, DesignExactness, ExactJoint, Workspace, Written};
 use crate::geom::Pose;
 use crate::manipulator::Body;
 use crate::manipulator::{InvalidManipulator, JointValues, LegLengths, Manipulator, SurdPoint};
-use crate::requirements::{Hardware, KeepOut, Load, PlatformSpeed, Quantity, Requirements, Term, TermKind};
+use crate::requirements::{
+    Envelopes, ForceUnit, Hardware, KeepOut, Load, MassUnit, Payload, PlatformSpeed, Quantity, Requirements,
+    Reserves, Term, TermKind,
+};
 use crate::requirements::{Objective, VariableKind};
 
 /// A manipulator with names and everything else a design file may carry.
@@ -41,6 +44,16 @@ pub struct Design {
     pub loads: Vec<Load>,
     /// Bodies that the legs must not touch.
     pub keep_outs: Vec<KeepOut>,
+    /// What the platform carries.
+    pub payload: Option<Payload>,
+    /// Room that plates and machine may take up.
+    pub envelopes: Envelopes,
+    /// What has to remain of each limit.
+    pub reserves: Reserves,
+    /// Unit of forces; `None` where the file names none.
+    pub force_units: Option<ForceUnit>,
+    /// Unit of masses; `None` where the file names none.
+    pub mass_units: Option<MassUnit>,
     /// The text it was read from.
     pub(crate) written: Written,
     pub(super) manipulator: Manipulator,
@@ -113,6 +126,11 @@ impl Design {
             speed: None,
             loads: Vec::new(),
             keep_outs: Vec::new(),
+            payload: None,
+            envelopes: Envelopes::default(),
+            reserves: Reserves::default(),
+            force_units: None,
+            mass_units: None,
             base_names: names('A', manipulator.base_joints().len()),
             platform_names: names('B', manipulator.platform_joints().len()),
             written: Written::default(),
@@ -148,6 +166,9 @@ impl Design {
             (other.home, other.workspace.clone(), other.search.clone());
         (self.optimize, self.hardware, self.speed) = (other.optimize, other.hardware, other.speed);
         (self.loads, self.keep_outs) = (other.loads.clone(), other.keep_outs.clone());
+        (self.payload, self.envelopes, self.reserves) =
+            (other.payload, other.envelopes, other.reserves.clone());
+        (self.force_units, self.mass_units) = (other.force_units, other.mass_units);
         self
     }
 
@@ -293,10 +314,24 @@ impl Design {
         Requirements {
             hardware: self.hardware,
             keep_outs: self.keep_outs.clone(),
-            loads: self.loads.clone(),
+            loads: self.all_loads(),
             platform_speed: self.speed,
             min_joint_distance: self.optimize.min_joint_distance,
+            envelopes: self.envelopes,
+            reserves: self.reserves.clone(),
         }
+    }
+
+    /// The weight of the payload, where there is one, and the loads of the file.
+    ///
+    /// Without names of units forces are newtons and masses kilograms.
+    #[must_use]
+    pub fn all_loads(&self) -> Vec<Load> {
+        let weight = self.payload.map(|p| {
+            let (mass, force) = (self.mass_units, self.force_units);
+            p.weight(mass.unwrap_or(MassUnit::Kilogram), force.unwrap_or(ForceUnit::Newton))
+        });
+        weight.into_iter().chain(self.loads.iter().cloned()).collect()
     }
 }
 
@@ -310,7 +345,13 @@ impl Design {
             TermKind::PlatformSpacing => joints(self.platform_names()),
             TermKind::LegClearance => vec![leg(term.first), leg(term.second)],
             TermKind::KeepOut => vec![leg(term.first), self.keep_outs[term.second].name.clone()],
-            TermKind::LegForce => vec![leg(term.first), self.loads[term.second].name.clone()],
+            TermKind::LegForce => vec![leg(term.first), self.all_loads()[term.second].name.clone()],
+            TermKind::BaseEnvelope => vec![self.base_names()[term.first].clone()],
+            TermKind::PlatformEnvelope => vec![self.platform_names()[term.first].clone()],
+            TermKind::MachineEnvelope => {
+                let (base, platform) = self.leg_names()[term.first];
+                vec![if term.second == 0 { base } else { platform }.to_owned()]
+            }
             _ => vec![leg(term.first)],
         }
     }
@@ -323,8 +364,8 @@ impl Design {
             (0..6).filter(holds).map(|i| i + 1).collect()
         };
         match term.kind {
-            TermKind::BaseSpacing => at(Body::Base),
-            TermKind::PlatformSpacing => at(Body::Platform),
+            TermKind::BaseSpacing | TermKind::BaseEnvelope => at(Body::Base),
+            TermKind::PlatformSpacing | TermKind::PlatformEnvelope => at(Body::Platform),
             TermKind::LegClearance => vec![term.first + 1, term.second + 1],
             _ => vec![term.first + 1],
         }
@@ -335,7 +376,7 @@ impl Design {
         match quantity {
             Quantity::Length => self.units.clone(),
             Quantity::Angle => "deg".to_string(),
-            Quantity::Force => "force".to_string(),
+            Quantity::Force => self.force_units.map_or("force", ForceUnit::label).to_string(),
             Quantity::Speed => format!("{}/s", self.units),
         }
     }

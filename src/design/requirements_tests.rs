@@ -6,7 +6,9 @@ use std::fmt::Write as _;
 use super::fixtures::REQUIRED as GOOD;
 use super::*;
 use crate::manipulator::Body;
-use crate::requirements::{Housing, JointAxes, KeepOutShape, LengthLimits, Region};
+use crate::requirements::{
+    Envelope, GRAVITY, Housing, JointAxes, KeepOutShape, LengthLimits, Quantity, Region, TermKind,
+};
 
 #[test]
 fn every_key_is_read_and_written_back_to_the_bit() {
@@ -62,6 +64,8 @@ fn what_contradicts_itself_is_refused() {
         ("box = { center = [0, 0, -5], size = [40, 40, 1] }", "fixed_to = \"base\""),
         ("region = \"ellipsoid\"", "region = \"ball\""),
         ("trajectory = \"path.csv\"", "trajectory = 3"),
+        ("trajectory = \"path.csv\"", "trajectory = \"path.csv\"\nrelative_to = \"tool\""),
+        ("trajectory = \"path.csv\"", "relative_to = \"home\""),
         ("[speed]", "[[speed]]"),
     ] {
         assert!(GOOD.contains(from), "{from}");
@@ -101,6 +105,108 @@ fn what_contradicts_itself_is_refused() {
         45:3 design::missing_key: table has 0 shapes | give one of box = { center, size }, sphere = { center, diameter }, capsule = { from, to, diameter }
         17:10 design::wrong_type: `region` is neither box nor ellipsoid | write "box" or "ellipsoid"
         18:14 design::wrong_type: `trajectory` is a number, not a string | write `trajectory = "..."`
+        19:15 design::wrong_type: `relative_to` is "tool" | write "home" or "base"
+        18:1 design::missing_key: `relative_to` says what listed poses are measured from, and none are listed | list `poses` or name a `trajectory`, or remove `relative_to`: the box is always around home
         35:1 design::wrong_type: [speed] is an array, not a table | write [speed] as a table
     "#);
+}
+
+/// The tables of what is wanted besides limits.
+const WANTED: &str = r#"
+[payload]
+mass = 300
+center = [0, 0, 40]
+inertia = [[3, 0.1, 0], [0.1, 4, 0], [0, 0, 5]]
+[envelope]
+base = { radius = 90 }
+platform = { radius = 50, center = [1, 2] }
+machine = { min = [-90, -90, -5], max = [90, 90, 180] }
+[limits.reserve]
+all = "5%"
+leg_force = "10%"
+leg_too_long = 0.5
+"#;
+
+#[test]
+fn payload_envelopes_and_reserves_are_read_and_written_back_to_the_bit() {
+    let named =
+        GOOD.replacen("units = \"mm\"", "units = \"mm\"\nforce_units = \"kN\"\nmass_units = \"t\"", 1);
+    let (design, _) = parse(&format!("{named}{WANTED}"), Format::Toml).unwrap();
+    let required = design.requirements();
+    assert_eq!((required.loads.len(), required.loads[0].name.as_str()), (3, "payload"));
+    assert!((required.loads[0].force.z + 300.0 * GRAVITY).abs() < 1e-9, "tonnes weigh kilonewtons");
+    assert_eq!(design.unit_of(Quantity::Force), "kN");
+    assert_eq!(required.reserve(TermKind::LegTooLong), 0.5);
+    assert!((required.reserve(TermKind::LegForce) - 50.0).abs() < 1e-12);
+    assert!((required.reserve(TermKind::LegTooShort) - 0.15).abs() < 1e-12, "5 percent of the travel");
+    assert!((required.reserve(TermKind::BaseEnvelope) - 4.5).abs() < 1e-12);
+    assert!(matches!(required.envelopes.machine, Some(Envelope::Box { .. })));
+    for (text, format) in [(design.to_toml(), Format::Toml), (design.to_json(), Format::Json)] {
+        assert_eq!(parse(&text, format).unwrap().0, design, "{text}");
+    }
+    // one percentage for everything
+    let all = format!("{GOOD}[limits]\nreserve = \"2.5%\"\n");
+    let (design, _) = parse(&all, Format::Toml).unwrap();
+    assert_eq!((design.reserves.all, design.reserves.kinds.len()), (Some(2.5), 0));
+    assert_eq!(parse(&design.to_toml(), Format::Toml).unwrap().0, design);
+    // lengths follow the unit, percentages and newtons do not
+    let (design, _) =
+        parse(&format!("{}{WANTED}", GOOD.replacen("trajectory = \"path.csv\"\n", "", 1)), Format::Toml)
+            .unwrap();
+    let metres = design.in_units("m").unwrap();
+    assert_eq!(metres.requirements().reserve(TermKind::LegTooLong), 0.0005);
+    assert_eq!(
+        metres.requirements().reserve(TermKind::LegForce),
+        design.requirements().reserve(TermKind::LegForce)
+    );
+    let Some(Envelope::Cylinder { radius, center }) = metres.envelopes.platform else { panic!("a cylinder") };
+    assert_eq!((radius, center), (0.05, [0.001, 0.002]));
+    let payload = metres.payload.unwrap();
+    assert!(
+        (payload.center.z - 0.04).abs() < 1e-15 && (payload.inertia.unwrap()[(2, 2)] - 5e-6).abs() < 1e-18
+    );
+}
+
+#[test]
+fn payloads_envelopes_and_reserves_that_are_none_are_refused() {
+    let mut all = String::new();
+    for (from, to) in [
+        ("mass = 300", "weight = 300"),
+        ("mass = 300", "mass = 0"),
+        ("inertia = [[3, 0.1, 0], [0.1, 4, 0], [0, 0, 5]]", "inertia = [1, 1, 9]"),
+        (
+            "inertia = [[3, 0.1, 0], [0.1, 4, 0], [0, 0, 5]]",
+            "inertia = [[3, 0.2, 0], [0.1, 4, 0], [0, 0, 5]]",
+        ),
+        ("base = { radius = 90 }", "base = { diameter = 90 }"),
+        ("base = { radius = 90 }", "base = { radius = 90, min = [0, 0, 0] }"),
+        ("max = [90, 90, 180]", "max = [90, -90, 180]"),
+        ("all = \"5%\"", "all = 5"),
+        ("leg_force = \"10%\"", "leg_force = \"110%\""),
+        ("leg_too_long = 0.5", "leg_long = 0.5"),
+        ("leg_too_long = 0.5", "leg_too_long = -0.5"),
+    ] {
+        assert!(WANTED.contains(from), "{from}");
+        match parse(&format!("{GOOD}{}", WANTED.replacen(from, to, 1)), Format::Toml) {
+            Ok(_) => panic!("accepted: {to}"),
+            Err(violations) => {
+                let _ = writeln!(all, "{to}: {}", violations[0].code);
+            }
+        }
+    }
+    insta::assert_snapshot!(all, @r#"
+    weight = 300: design::missing_key
+    mass = 0: design::not_positive
+    inertia = [1, 1, 9]: design::out_of_range
+    inertia = [[3, 0.2, 0], [0.1, 4, 0], [0, 0, 5]]: design::out_of_range
+    base = { diameter = 90 }: design::missing_key
+    base = { radius = 90, min = [0, 0, 0] }: design::missing_key
+    max = [90, -90, 180]: design::out_of_range
+    all = 5: design::wrong_type
+    leg_force = "110%": design::out_of_range
+    leg_long = 0.5: design::unknown_key
+    leg_too_long = -0.5: design::not_positive
+    "#);
+    let units = GOOD.replacen("units = \"mm\"", "units = \"mm\"\nforce_units = \"newton\"", 1);
+    assert!(parse(&units, Format::Toml).is_err());
 }

@@ -9,7 +9,8 @@ use super::{Combination, Construction, Design, LinePlace, OptimizeTable, SearchT
 use crate::geom::Pose;
 use crate::manipulator::Body;
 use crate::requirements::{
-    Hardware, Housing, JointAxes, KeepOut, KeepOutShape, LengthLimits, ListedFrom, Load, Region, Swing,
+    Envelope, Envelopes, ForceUnit, Hardware, Housing, JointAxes, KeepOut, KeepOutShape, LengthLimits,
+    ListedFrom, Load, MassUnit, Payload, Region, Reserve, Reserves, Swing, TermKind,
 };
 
 /// The structure of a file, in the order it is written.
@@ -33,6 +34,10 @@ struct Head<'a> {
     name: &'a str,
     units: &'a str,
     #[serde(skip_serializing_if = "Option::is_none")]
+    force_units: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    mass_units: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     source: Option<&'a str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     description: Option<&'a str>,
@@ -53,7 +58,13 @@ struct Tail<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     hardware: Option<HardwareTable>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    limits: Option<LimitsFile>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    envelope: Option<EnvelopesTable>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     speed: Option<SpeedTable>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    payload: Option<PayloadTable>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     loads: Vec<LoadTable<'a>>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -243,6 +254,8 @@ impl Design {
         let head = Head {
             name: &self.name,
             units: &self.units,
+            force_units: self.force_units.map(ForceUnit::label),
+            mass_units: self.mass_units.map(MassUnit::label),
             source: self.source.as_deref(),
             description: self.description.as_deref(),
             lengths: self.lengths.map(|l| l.get()),
@@ -253,6 +266,9 @@ impl Design {
             workspace: self.workspace_table(),
             optimize: OptimizeFile::of(&self.optimize, &self.search),
             hardware: HardwareTable::of(&self.hardware),
+            limits: LimitsFile::of(&self.reserves),
+            envelope: EnvelopesTable::of(&self.envelopes),
+            payload: self.payload.as_ref().map(PayloadTable::from),
             speed: self.speed.map(|s| SpeedTable { linear: s.linear, angular_deg: s.angular_deg }),
             loads: self.loads.iter().map(LoadTable::from).collect(),
             keep_out: self.keep_outs.iter().map(KeepOutTable::from).collect(),
@@ -287,6 +303,110 @@ impl Design {
             relative_to: (w.listed_from == ListedFrom::Home).then_some(ListedFrom::Home.name()),
             poses: w.poses.iter().map(PoseTable::from).collect(),
         })
+    }
+}
+
+/// A percentage, or an amount.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum ReserveValue {
+    Percent(String),
+    Amount(f64),
+}
+
+impl ReserveValue {
+    fn percent(x: f64) -> Self {
+        Self::Percent(format!("{x}%"))
+    }
+}
+
+/// `[limits]`.
+#[derive(Serialize)]
+struct LimitsFile {
+    reserve: ReservesTable,
+}
+
+/// One for every limit, or a table.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum ReservesTable {
+    All(ReserveValue),
+    Kinds(std::collections::BTreeMap<&'static str, ReserveValue>),
+}
+
+impl LimitsFile {
+    fn of(reserves: &Reserves) -> Option<Self> {
+        if reserves.is_empty() {
+            return None;
+        }
+        if let (Some(all), true) = (reserves.all, reserves.kinds.is_empty()) {
+            return Some(Self { reserve: ReservesTable::All(ReserveValue::percent(all)) });
+        }
+        let own = reserves.kinds.iter().map(|(kind, r)| {
+            let value = match r {
+                Reserve::Percent(x) => ReserveValue::percent(*x),
+                Reserve::Amount(x) => ReserveValue::Amount(*x),
+            };
+            (TermKind::code(*kind), value)
+        });
+        let all = reserves.all.map(|x| ("all", ReserveValue::percent(x)));
+        Some(Self { reserve: ReservesTable::Kinds(own.chain(all).collect()) })
+    }
+}
+
+/// A shape of `[envelope]`.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum EnvelopeValue {
+    Cylinder { radius: f64, center: [f64; 2] },
+    Box { min: [f64; 3], max: [f64; 3] },
+}
+
+/// `[envelope]`.
+#[derive(Serialize)]
+struct EnvelopesTable {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    base: Option<EnvelopeValue>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    platform: Option<EnvelopeValue>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    machine: Option<EnvelopeValue>,
+}
+
+impl EnvelopesTable {
+    fn of(e: &Envelopes) -> Option<Self> {
+        let value = |e: Envelope| match e {
+            Envelope::Cylinder { radius, center } => EnvelopeValue::Cylinder { radius, center },
+            Envelope::Box { min, max } => {
+                EnvelopeValue::Box { min: min.coords.into(), max: max.coords.into() }
+            }
+        };
+        (*e != Envelopes::default()).then(|| Self {
+            base: e.base.map(value),
+            platform: e.platform.map(value),
+            machine: e.machine.map(value),
+        })
+    }
+}
+
+/// `[payload]`.
+#[derive(Serialize)]
+struct PayloadTable {
+    mass: f64,
+    center: [f64; 3],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    inertia: Option<[[f64; 3]; 3]>,
+    gravity: [f64; 3],
+}
+
+impl From<&Payload> for PayloadTable {
+    fn from(p: &Payload) -> Self {
+        Self {
+            mass: p.mass,
+            center: p.center.coords.into(),
+            inertia: p.inertia.map(|m| std::array::from_fn(|i| std::array::from_fn(|j| m[(i, j)]))),
+            gravity: p.gravity.into(),
+        }
     }
 }
 

@@ -6,7 +6,7 @@ use thiserror::Error;
 use super::model::NotBuilt;
 use super::{Construction, Design, LinePlace, WrittenNumber};
 use crate::manipulator::{Body, InvalidLengths, InvalidManipulator, LegLengths, Manipulator};
-use crate::requirements::{Housing, KeepOutShape, LegBody, LengthLimits};
+use crate::requirements::{Envelope, Housing, KeepOutShape, LegBody, LengthLimits, Quantity, Reserve};
 
 /// Units by label with their lengths in micrometres, which are whole numbers; the inch is 25.4 mm exactly.
 const UNITS: [(&str, u64); 6] =
@@ -157,6 +157,24 @@ impl Design {
         });
         if let Some(speed) = &mut self.speed {
             speed.linear = ratio.of(speed.linear);
+        }
+        for envelope in [&mut self.envelopes.base, &mut self.envelopes.platform, &mut self.envelopes.machine]
+        {
+            *envelope = envelope.map(|e| match e {
+                Envelope::Cylinder { radius, center } => {
+                    Envelope::Cylinder { radius: ratio.of(radius), center: center.map(|x| ratio.of(x)) }
+                }
+                Envelope::Box { min, max } => Envelope::Box { min: ratio.point(min), max: ratio.point(max) },
+            });
+        }
+        for (kind, reserve) in &mut self.reserves.kinds {
+            if let (Quantity::Length | Quantity::Speed, Reserve::Amount(x)) = (kind.quantity(), reserve) {
+                *x = ratio.of(*x);
+            }
+        }
+        if let Some(payload) = &mut self.payload {
+            payload.center = ratio.point(payload.center);
+            payload.inertia = payload.inertia.map(|m| m.map(|x| ratio.of(ratio.of(x))));
         }
         for load in &mut self.loads {
             load.torque = ratio.vector(load.torque);

@@ -157,6 +157,7 @@ fn others_hold(model: &Model<'_>, refined: &RefinedRun, group: ConstraintGroup) 
 /// Violations in the units of the requirements.
 fn amounts(model: &Model<'_>, poses: &[HeldPose], x: &[f64], task: &Task) -> BTreeMap<ConstraintGroup, f64> {
     let h = &model.problem.requirements.hardware;
+    let reserve = |kind| model.problem.requirements.reserve(kind);
     let ends = model.shape.ends(x);
     let mut out: BTreeMap<ConstraintGroup, f64> = BTreeMap::new();
     for at in poses {
@@ -168,8 +169,10 @@ fn amounts(model: &Model<'_>, poses: &[HeldPose], x: &[f64], task: &Task) -> BTr
                 cos.clamp(-1.0, 1.0).acos().to_degrees() - limit
             };
             let miss = match kind {
-                TermKind::BaseSwing => h.base_swing.map_or(0.0, |s| lean(s.limit_deg)),
-                TermKind::PlatformSwing => h.platform_swing.map_or(0.0, |s| lean(s.limit_deg)),
+                TermKind::BaseSwing => h.base_swing.map_or(0.0, |s| lean(s.limit_deg - reserve(kind))),
+                TermKind::PlatformSwing => {
+                    h.platform_swing.map_or(0.0, |s| lean(s.limit_deg - reserve(kind)))
+                }
                 TermKind::LegForce => -item.value * h.max_leg_force.unwrap_or(1.0),
                 TermKind::LegSpeed => -item.value * h.max_leg_speed.unwrap_or(1.0),
                 _ => -item.value * model.terms.size,

@@ -10,7 +10,9 @@ use super::shape::{JointEnds, LegJoints, Shape};
 use crate::geom::Pose;
 use crate::manipulator::Body;
 use crate::requirements;
-use crate::requirements::{Housing, JointAxes, KeepOut, LegBody, Load, Requirements, Swing, TermKind};
+use crate::requirements::{
+    Envelope, Housing, JointAxes, KeepOut, LegBody, Load, Requirements, Swing, TermKind,
+};
 
 /// A pose at which the requirements are held.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -134,11 +136,14 @@ impl<'a> RequirementTerms<'a> {
         self.clearances(l, see);
         self.forces(l, see);
         self.speeds(l, see);
+        self.machine(l, see);
     }
 
     fn lengths<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(Item<P>)) {
         let Some(limits) = self.required.hardware.leg_length else { return };
         let (least, greatest) = limits.range();
+        let least = least + self.required.reserve(TermKind::LegTooShort);
+        let greatest = greatest - self.required.reserve(TermKind::LegTooLong);
         for i in 0..6 {
             let mut pull = P::none();
             pull.line(i, l.direction[i] / self.size);
@@ -169,7 +174,7 @@ impl<'a> RequirementTerms<'a> {
         (body, kind, i): (usize, TermKind, usize),
         swing: &Swing,
     ) -> Item<P> {
-        let cos = swing.limit_deg.to_radians().cos();
+        let cos = (swing.limit_deg - self.required.reserve(kind)).to_radians().cos();
         let here = |c: &Vector3<f64>| if body == 0 { *c } else { l.rotation * c };
         let back = |g: &Vector3<f64>| if body == 0 { *g } else { l.rotation.inverse() * g };
         let mut pull = P::none();
@@ -207,7 +212,7 @@ impl<'a> RequirementTerms<'a> {
     fn clearances<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(Item<P>)) {
         let h = &self.required.hardware;
         let Some(body) = h.leg_body else { return };
-        let clearance = h.leg_clearance.unwrap_or(0.0);
+        let clearance = h.leg_clearance.unwrap_or(0.0) + self.required.reserve(TermKind::LegClearance);
         for (i, j) in self.separate_legs() {
             l.leg_gaps(&body, i, j, &mut |gap: Gap<P>| {
                 see(Item {
@@ -218,6 +223,7 @@ impl<'a> RequirementTerms<'a> {
                 });
             });
         }
+        let clearance = h.leg_clearance.unwrap_or(0.0) + self.required.reserve(TermKind::KeepOut);
         for (k, keep_out) in self.required.keep_outs.iter().enumerate() {
             for i in 0..6 {
                 l.keep_out_gaps(&body, i, keep_out, &mut |gap: Gap<P>| {
@@ -242,6 +248,7 @@ impl<'a> RequirementTerms<'a> {
 
     fn forces<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(Item<P>)) {
         let Some(greatest) = self.required.hardware.max_leg_force else { return };
+        let kept = 1.0 - self.required.reserve(TermKind::LegForce) / greatest;
         for (k, load) in self.required.loads.iter().enumerate() {
             let forces = leg_forces(l, load, self.size);
             for i in 0..6 {
@@ -252,7 +259,7 @@ impl<'a> RequirementTerms<'a> {
                         let factor = -value.signum() / greatest;
                         Item {
                             id,
-                            value: 1.0 - value.abs() / greatest,
+                            value: kept - value.abs() / greatest,
                             pull: pull.scaled(factor),
                             exact: None,
                         }
@@ -271,6 +278,7 @@ impl<'a> RequirementTerms<'a> {
             return;
         };
         let rate = speed.angular_deg.to_radians();
+        let kept = 1.0 - self.required.reserve(TermKind::LegSpeed) / greatest;
         for i in 0..6 {
             let moment = l.arm[i].cross(&l.direction[i]);
             let mut pull = P::none();
@@ -278,7 +286,7 @@ impl<'a> RequirementTerms<'a> {
                 let g = Vector6::from_fn(|k, _| if k < 3 { 0.0 } else { -rate / greatest * n[k - 3] });
                 l.pull_row(&mut pull, i, 1.0, &g);
             }
-            let value = 1.0 - (speed.linear + rate * moment.norm()) / greatest;
+            let value = kept - (speed.linear + rate * moment.norm()) / greatest;
             see(Item { id: (TermKind::LegSpeed, i, i, 0), value, pull, exact: None });
         }
     }
@@ -288,6 +296,7 @@ impl<'a> RequirementTerms<'a> {
         for (kind, body) in [(TermKind::BaseSpacing, Body::Base), (TermKind::PlatformSpacing, Body::Platform)]
         {
             let housing = self.required.hardware.housing(body);
+            let reserve = self.required.reserve(kind);
             for (i, j) in self.separate_joints(body) {
                 let at = body.of((&ends.base, &ends.platform));
                 let d = at[j] - at[i];
@@ -297,8 +306,61 @@ impl<'a> RequirementTerms<'a> {
                 ];
                 for (part, (value, g)) in gaps.into_iter().enumerate().filter_map(|(k, g)| Some((k, g?))) {
                     let pull = joint_pull(body, i, j, &(g / self.size));
-                    see(Item { id: (kind, i, j, part), value: value / self.size, pull, exact: None });
+                    let value = (value - reserve) / self.size;
+                    see(Item { id: (kind, i, j, part), value, pull, exact: None });
                 }
+            }
+        }
+        self.plates(ends, see);
+    }
+
+    /// Joints inside the envelope of their body.
+    fn plates<P: Gradient>(&self, ends: &JointEnds, see: &mut impl FnMut(Item<P>)) {
+        let envelopes = &self.required.envelopes;
+        let bodies = [
+            (TermKind::BaseEnvelope, Body::Base, envelopes.base),
+            (TermKind::PlatformEnvelope, Body::Platform, envelopes.platform),
+        ];
+        for (kind, body, envelope) in bodies {
+            let Some(envelope) = envelope else { continue };
+            let (half, ball) = requirements::room(self.required.hardware.housing(body));
+            let reserve = self.required.reserve(kind);
+            let (joint, at) = (self.joints.map(|p| body.of(p)), body.of((&ends.base, &ends.platform)));
+            for i in (0..6).filter(|&i| !joint[..i].contains(&joint[i])) {
+                room_inside(&envelope, &at[i], &half, &mut |part, value, g| {
+                    let mut pull = P::none();
+                    match body {
+                        Body::Base => pull.at_base(i, &(g / self.size)),
+                        Body::Platform => pull.at_arm(i, &(g / self.size)),
+                    }
+                    let value = (value - ball - reserve) / self.size;
+                    see(Item { id: (kind, i, i, part), value, pull, exact: None });
+                });
+            }
+        }
+    }
+
+    /// Both ends of each leg inside the envelope of the machine.
+    fn machine<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(Item<P>)) {
+        let Some(envelope) = self.required.envelopes.machine else { return };
+        let kind = TermKind::MachineEnvelope;
+        let reserve = self.required.reserve(kind);
+        for i in 0..6 {
+            for body in Body::BOTH {
+                let ball = requirements::ball(self.required.hardware.housing(body));
+                let at = body.of((l.base[i], l.base[i] + l.line[i]));
+                room_inside(&envelope, &at, &Vector3::zeros(), &mut |part, value, g| {
+                    let (mut pull, g) = (P::none(), g / self.size);
+                    match body {
+                        Body::Base => pull.at_base(i, &g),
+                        Body::Platform => {
+                            pull.at_arm(i, &g);
+                            pull.at_position(&g);
+                        }
+                    }
+                    let value = (value - ball - reserve) / self.size;
+                    see(Item { id: (kind, i, body.index(), part), value, pull, exact: None });
+                });
             }
         }
     }
@@ -322,6 +384,29 @@ pub(crate) fn joint_pull<P: Gradient>(body: Body, i: usize, j: usize, g: &Vector
         }
     }
     pull
+}
+
+/// Room of a point with half extents along the axes to a cylinder, or to each side of a box, and its gradient.
+fn room_inside(
+    envelope: &Envelope,
+    at: &Vector3<f64>,
+    half: &Vector3<f64>,
+    see: &mut impl FnMut(usize, f64, Vector3<f64>),
+) {
+    match envelope {
+        Envelope::Cylinder { radius, center } => {
+            let d = Vector3::new(at.x - center[0], at.y - center[1], 0.0);
+            let corner = Vector3::new(d.x.abs() + half.x, d.y.abs() + half.y, 0.0);
+            let out = corner.try_normalize(0.0).unwrap_or_default();
+            see(0, radius - corner.norm(), Vector3::new(-out.x * d.x.signum(), -out.y * d.y.signum(), 0.0));
+        }
+        Envelope::Box { min, max } => {
+            for k in 0..3 {
+                see(2 * k, at[k] - min[k] - half[k], Vector3::ith(k, 1.0));
+                see(2 * k + 1, max[k] - at[k] - half[k], Vector3::ith(k, -1.0));
+            }
+        }
+    }
 }
 
 fn sphere_gap(d: &Vector3<f64>, diameter: f64) -> (f64, Vector3<f64>) {

@@ -15,8 +15,8 @@ use crate::geom::Pose;
 use crate::manipulator::{Body, Manipulator};
 use crate::num::Rng;
 use crate::requirements::{
-    AssessOptions, Housing, JointAxes, KeepOut, KeepOutShape, LegBody, LengthLimits, Load, Objective,
-    PlatformSpeed, PoseSpace, Requirements, Swing, VariableKind, assess,
+    AssessOptions, Envelope, Envelopes, Housing, JointAxes, KeepOut, KeepOutShape, LegBody, LengthLimits,
+    Load, Objective, PlatformSpeed, PoseSpace, Requirements, Swing, VariableKind, assess,
 };
 
 fn octahedral() -> (Manipulator, Pose) {
@@ -79,6 +79,13 @@ fn crowded(kinds: &[VariableKind], axes: JointAxes) -> DimensionalProblem {
         },
         KeepOutShape::Box { center: Point3::new(150.0, 20.0, 60.0), size: Vector3::new(80.0, 90.0, 70.0) },
     ];
+    let corner = Point3::new(400.0, 380.0, 420.0);
+    p.requirements.envelopes = Envelopes {
+        base: Some(Envelope::Cylinder { radius: 260.0, center: [5.0, -3.0] }),
+        platform: Some(Envelope::Cylinder { radius: 190.0, center: [2.0, 1.0] }),
+        machine: Some(Envelope::Box { min: Point3::from(-corner.coords), max: corner }),
+    };
+    p.requirements.reserves.all = Some(3.0);
     for (k, shape) in shapes.into_iter().enumerate() {
         let fixed_to = if k == 1 { Body::Platform } else { Body::Base };
         p.requirements.keep_outs.push(KeepOut { name: String::new(), fixed_to, shape });
@@ -112,7 +119,7 @@ fn gradients_are_those_of_differences() {
         let at = |x: &[f64]| model.linearise(&poses, x, &task, 1.0, 100.0).unwrap();
         let here = at(&x);
         let kinds: std::collections::BTreeSet<ConstraintGroup> = here.items.iter().map(|i| i.group).collect();
-        assert_eq!(kinds.len(), 11, "every kind of requirement and the determinant: {kinds:?}");
+        assert_eq!(kinds.len(), 14, "every kind of requirement and the determinant: {kinds:?}");
         let h = 1e-6;
         for j in 0..x.len() {
             let moved = |s: f64| {

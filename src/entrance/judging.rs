@@ -88,6 +88,16 @@ impl AssessReport {
             _ => None,
         }
     }
+
+    /// The same with the reserve on every limit: what a search has to reach.
+    #[must_use]
+    pub fn met_with_reserve(&self) -> Option<bool> {
+        match (self.met(), self.proof.all_reserved()) {
+            (Some(false), _) | (_, Some(false)) => Some(false),
+            (Some(true), Some(true)) => Some(true),
+            _ => None,
+        }
+    }
 }
 
 /// The verdict in a sentence.

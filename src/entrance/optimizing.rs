@@ -331,9 +331,9 @@ fn missed(met: Option<bool>) -> OptimizeStatus {
     if met == Some(false) { OptimizeStatus::Violated } else { OptimizeStatus::Undecided }
 }
 
-/// What is known of the requirements; `Some(true)` where there are none.
+/// What is known of the requirements with their reserves; `Some(true)` where there are none.
 pub(crate) fn met_or_nothing_required(assessed: Option<&AssessReport>) -> Option<bool> {
-    assessed.map_or(Some(true), AssessReport::met)
+    assessed.map_or(Some(true), AssessReport::met_with_reserve)
 }
 
 /// Whether a design asks for anything besides offsets with the best worst-case conditioning: requirements, other variables or objectives, or legs moved on families
@@ -430,14 +430,10 @@ pub struct Checked {
 }
 
 impl Checked {
-    /// Whether the platform meets the requirements: proved by [`Design::assess`] either way, or `None`.
+    /// Whether the platform meets the requirements with the reserve on each: proved by [`Design::assess`] either way, or `None`.
     #[must_use]
     pub fn met(&self) -> Option<bool> {
-        if self.assessment.all_met() {
-            self.assessed.as_ref().map_or(Some(true), AssessReport::met)
-        } else {
-            Some(false)
-        }
+        if self.assessment.all_met() { met_or_nothing_required(self.assessed.as_ref()) } else { Some(false) }
     }
 }
 

@@ -24,7 +24,7 @@ impl Writer for Mjcf {
     }
 
     fn leaves_out(&self) -> &'static str {
-        "contacts, friction, limits of forces, speeds and swing"
+        "contacts, friction, limits of speeds and swing"
     }
 
     fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
@@ -124,14 +124,19 @@ fn shape(out: &mut String, scale: &Scale, body: &ExportBody, indent: &str) {
     }
 }
 
+/// Where the design limits lengths: the least and the greatest one less that at home, metres.
+fn range_of(export: &Export, leg: &ExportLeg, name: &str) -> String {
+    export.leg_range.map_or_else(String::new, |(least, greatest)| {
+        let [from, to] = [least, greatest].map(|l| real((l - leg.length()) * export.unit.metres));
+        format!(" {name}=\"{from} {to}\"")
+    })
+}
+
 fn leg(out: &mut String, scale: &Scale, export: &Export, leg: &ExportLeg) -> Result<(), Unsupported> {
     let frame = leg_frame(leg)?;
     let (i, length) = (leg.number, leg.length());
     let (thick, thin) = leg.diameters;
-    let range = export.leg_range.map_or(String::new(), |(least, greatest)| {
-        let [from, to] = [least, greatest].map(|l| real((l - length) * scale.metres));
-        format!(" range=\"{from} {to}\"")
-    });
+    let range = range_of(export, leg, "range");
     let tip = Vector3::new(0.0, 0.0, length);
     let half = 0.5 * length;
     let mass = LEG_MASS * scale.mass;
@@ -180,7 +185,17 @@ fn platform(out: &mut String, scale: &Scale, export: &Export, leg: &ExportLeg, f
     let turn = frame.rotation.inverse() * export.home.rotation;
     let in_tip = Pose { rotation: turn, position: -(turn * joint) };
     let count = body.joints.len() as f64;
-    let centre: Vector3<f64> = body.joints.iter().map(|j| j.at.coords).sum::<Vector3<f64>>() / count;
+    let middle: Vector3<f64> = body.joints.iter().map(|j| j.at.coords).sum::<Vector3<f64>>() / count;
+    let centre = export.center_of_mass.map_or(middle, |c| c.coords);
+    let inertial = match &export.inertia {
+        None => scale.inertial(scale.mass, &centre, 0.5 * scale.size),
+        Some(i) => format!(
+            "<inertial pos=\"{}\" mass=\"{}\" fullinertia=\"{}\"/>",
+            scale.at(&centre),
+            real(scale.mass),
+            reals([i[(0, 0)], i[(1, 1)], i[(2, 2)], i[(0, 1)], i[(0, 2)], i[(1, 2)]], " ")
+        ),
+    };
     let _ = writeln!(
         out,
         "            <body name=\"platform\" pos=\"{}\" quat=\"{}\"{}>\n              \
@@ -190,7 +205,7 @@ fn platform(out: &mut String, scale: &Scale, export: &Export, leg: &ExportLeg, f
         quat(&in_tip),
         scale.gravity,
         scale.at(&joint),
-        scale.inertial(scale.mass, &centre, 0.5 * scale.size),
+        inertial,
         real(0.01 * scale.size),
     );
     shape(out, scale, body, "              ");
@@ -206,7 +221,7 @@ fn model(export: &Export) -> Result<String, Unsupported> {
     let lengths = reals(export.legs.map(|l| l.length() * scale.metres), " ");
     let _ = writeln!(
         out,
-        "  World frame: the base frame, gravity along its negative z. Site platform_frame: the platform frame.\n  \
+        "  World frame: the base frame, gravity as in the option below. Site platform_frame: the platform frame.\n  \
          Kilograms and seconds; quaternions scalar first. Slide leg N and its actuator hold the length minus the home length.\n  \
          Home lengths: {lengths}\n  \
          Assumed: platform with payload {} kg, each cylinder and rod {} of it, each yoke {} of it; time step and gains follow from mass and size\n  \
@@ -219,7 +234,7 @@ fn model(export: &Export) -> Result<String, Unsupported> {
         let [least, greatest] = [least, greatest].map(|l| real(l * scale.metres));
         let _ = writeln!(
             out,
-            "  Lengths from {least} to {greatest}, as the design limits them: the range of each slide."
+            "  Lengths from {least} to {greatest}, as the design limits them: the range of each slide and of its control."
         );
     }
     out.push_str("-->\n");
@@ -227,11 +242,12 @@ fn model(export: &Export) -> Result<String, Unsupported> {
     let _ = writeln!(
         out,
         "<mujoco model=\"{}\">\n  <compiler angle=\"radian\" autolimits=\"true\"/>\n  \
-         <option timestep=\"{step}\" gravity=\"0 0 -9.81\" integrator=\"implicitfast\" solver=\"Newton\" tolerance=\"1e-12\" iterations=\"200\"/>\n  \
+         <option timestep=\"{step}\" gravity=\"{}\" integrator=\"implicitfast\" solver=\"Newton\" tolerance=\"1e-12\" iterations=\"200\"/>\n  \
          <default>\n    <geom contype=\"0\" conaffinity=\"0\" mass=\"0\"/>\n    \
          <equality solref=\"{} 1\" solimp=\"0.9999 0.99999 0.0001\"/>\n  </default>\n  \
          <worldbody>\n    <light pos=\"0 0 {}\" dir=\"0 0 -1\"/>\n    <body name=\"base\">",
         escape(&one_line(&export.name)),
+        reals(export.gravity.iter().copied(), " "),
         real(2.0 * scale.step),
         real(10.0 * scale.size),
     );
@@ -248,13 +264,17 @@ fn model(export: &Export) -> Result<String, Unsupported> {
         );
     }
     out.push_str("  </equality>\n  <actuator>\n");
+    let force = export
+        .greatest_force
+        .map_or_else(String::new, |f| format!(" forcerange=\"{0} {1}\"", real(-f), real(f)));
     for l in &export.legs {
         let _ = writeln!(
             out,
-            "    <position name=\"actuator{0}\" joint=\"leg{0}\" kp=\"{1}\" kv=\"{2}\"/>",
+            "    <position name=\"actuator{0}\" joint=\"leg{0}\" kp=\"{1}\" kv=\"{2}\"{3}{force}/>",
             l.number,
             real(scale.kp),
-            real(scale.kv)
+            real(scale.kv),
+            range_of(export, l, "ctrlrange")
         );
     }
     out.push_str("  </actuator>\n  <keyframe>\n");

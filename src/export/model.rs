@@ -1,6 +1,6 @@
 //! What all formats need, worked out once.
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Matrix3, Point3, Vector3};
 
 use super::Unsupported;
 use super::plate::{self, Plate};
@@ -9,6 +9,7 @@ use super::units::LengthUnit;
 use crate::design::Design;
 use crate::geom::Pose;
 use crate::manipulator::Body;
+use crate::requirements::{ForceUnit, MassUnit};
 
 /// A joint of a body.
 #[derive(Debug, Clone, PartialEq)]
@@ -105,6 +106,14 @@ pub struct Export {
     pub trajectory: Vec<Pose>,
     /// Mass of the platform with its payload, kilograms.
     pub mass: f64,
+    /// Centre of mass of the platform with its payload, platform frame, design units, where the design says it.
+    pub center_of_mass: Option<Point3<f64>>,
+    /// Inertia about the centre of mass, axes of the platform frame, kg m^2, where the design says it.
+    pub inertia: Option<Matrix3<f64>>,
+    /// Gravity, base frame, m/s^2.
+    pub gravity: Vector3<f64>,
+    /// Greatest force of a drive, newtons, where the design limits it.
+    pub greatest_force: Option<f64>,
     /// Whether simulators are told to carry the weight of all bodies.
     pub gravity_compensation: bool,
     /// The sizes and where they come from.
@@ -165,7 +174,14 @@ impl Export {
         let (platform_ball, platform_plate) =
             seated(Body::Platform, &platform, &-(home.rotation.inverse() * towards))?;
         let sizes = LegSizes::of(hardware, base_ball.min(platform_ball), shortest, &mut choices);
-        let mass = mass(options.mass, size * unit.metres, &mut choices)?;
+        let in_kilograms = design.mass_units.unwrap_or(MassUnit::Kilogram).kilograms();
+        let payload = design.payload.map(|p| p.mass * in_kilograms);
+        let mass = mass(options.mass, payload, size * unit.metres, &mut choices)?;
+        // a body of another mass with the same shape
+        let share = payload.map_or(1.0, |own| mass / own);
+        let inertia = design.payload.and_then(|p| p.inertia);
+        let inertia = inertia.map(|i| i * (in_kilograms * unit.metres * unit.metres * share));
+        let newtons = design.force_units.unwrap_or(ForceUnit::Newton).newtons();
         let bodies = [
             ExportBody { body: Body::Base, joints: base, ball_diameter: base_ball, plate: base_plate },
             ExportBody {
@@ -198,6 +214,10 @@ impl Export {
             workspace,
             trajectory,
             mass,
+            center_of_mass: design.payload.map(|p| p.center),
+            inertia,
+            gravity: design.payload.map_or_else(|| Vector3::new(0.0, 0.0, -9.81), |p| p.gravity),
+            greatest_force: hardware.max_leg_force.map(|f| f * newtons),
             gravity_compensation: options.gravity_compensation,
             choices,
         })

@@ -254,14 +254,20 @@ impl LegSizes {
     }
 }
 
-/// Mass of the platform. Without one, Froude scaling: with masses as lengths cubed and times as their square roots, platforms of all sizes move alike.
+/// Mass of the platform: as chosen, else that of `[payload]`. Without one, Froude scaling: with masses as lengths cubed and times as their square roots, platforms of all sizes move alike.
 ///
 /// # Errors
 /// [`NoExport::BadSize`].
-pub(super) fn mass(given: Option<f64>, metres: f64, choices: &mut Vec<SizeChoice>) -> Result<f64, NoExport> {
-    let value = given.unwrap_or(20.0 * metres.powi(3));
+pub(super) fn mass(
+    given: Option<f64>,
+    payload: Option<f64>,
+    metres: f64,
+    choices: &mut Vec<SizeChoice>,
+) -> Result<f64, NoExport> {
+    let value = given.or(payload).unwrap_or(20.0 * metres.powi(3));
     positive("the mass", value)?;
-    let rule = "rule: 20 kg times the cube of the size in metres";
+    let rule =
+        if payload.is_some() { "[payload]" } else { "rule: 20 kg times the cube of the size in metres" };
     choices.push(SizeChoice {
         what: "mass of the platform with payload".to_string(),
         value,

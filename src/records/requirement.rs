@@ -16,6 +16,12 @@ pub struct MarginRecord {
     pub name: TermKind,
     /// Least over the poses looked at; a violation below 0.
     pub margin: Number,
+    /// What has to remain of the limit, in the unit of the margin; 0: no reserve is asked for.
+    pub reserve: Number,
+    /// The margin less the reserve.
+    pub margin_with_reserve: Number,
+    /// The reserve is kept: proved in `assess` (null where it is not), at the poses looked at elsewhere.
+    pub reserve_kept: Option<bool>,
     /// Not violated by more than rounding: proved in `assess` (null where it is not), at the poses looked at elsewhere.
     pub met: Option<bool>,
     /// Rounding does not tell the margin from 0.
@@ -35,11 +41,21 @@ pub struct MarginRecord {
 }
 
 impl MarginRecord {
-    fn new(design: &Design, m: &Margin, met: Option<bool>, status: MarginVerdict, below: f64) -> Self {
+    fn new(
+        design: &Design,
+        m: &Margin,
+        met: Option<bool>,
+        (status, below): (MarginVerdict, f64),
+        reserve_kept: Option<bool>,
+    ) -> Self {
+        let reserve = design.requirements().reserve(m.term.kind);
         Self {
             name: m.term.kind,
             margin: Number(m.value),
             met,
+            reserve: Number(reserve),
+            margin_with_reserve: Number(m.value - reserve),
+            reserve_kept,
             at_limit: m.standing == Standing::AtLimit,
             status,
             proved_margin: Number(below),
@@ -53,7 +69,8 @@ impl MarginRecord {
     /// With what is proved of it.
     #[must_use]
     pub fn proved(design: &Design, bound: &MarginBound) -> Self {
-        Self::new(design, &bound.found, bound.verdict.is_met(), bound.verdict, bound.below)
+        let proved = (bound.verdict, bound.below);
+        Self::new(design, &bound.found, bound.verdict.is_met(), proved, bound.keeps_reserve())
     }
 
     /// Margins that were looked for and not proved: `met` says that no violation was found.
@@ -67,7 +84,8 @@ impl MarginRecord {
     pub fn found(design: &Design, m: &Margin) -> Self {
         let met = m.standing.is_met();
         let status = if met { MarginVerdict::Searched } else { MarginVerdict::Violated };
-        Self::new(design, m, Some(met), status, f64::NEG_INFINITY)
+        let kept = m.value >= design.requirements().reserve(m.term.kind) || m.standing == Standing::AtLimit;
+        Self::new(design, m, Some(met), (status, f64::NEG_INFINITY), Some(kept))
     }
 
     /// Whether the margin found is one of a violation.
@@ -83,6 +101,8 @@ pub struct AssessAnswer {
     /// True: every margin and det J are proved, for every pose of the workspace; false: a violation or a change of sign of det J is proved by its pose;
     /// null: neither.
     pub met: Option<bool>,
+    /// The same of the reserves: true: every margin is proved to keep its reserve; false: one does not, at the pose given; null: neither.
+    pub reserve_kept: Option<bool>,
     /// The least of each kind.
     pub requirements: Vec<MarginRecord>,
     /// Whether there are singular poses.
@@ -114,6 +134,7 @@ impl AssessAnswer {
         let proof = &found.proof;
         Self {
             met: found.met(),
+            reserve_kept: proof.all_reserved(),
             requirements: proof.bounds.iter().map(|b| MarginRecord::proved(design, b)).collect(),
             regular: RegularityRecord::new(&found.regularity, found.regularity_cells),
             conditioning: LeastConditioningRecord {

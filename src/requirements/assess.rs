@@ -77,7 +77,7 @@ impl AssessOptions {
 }
 
 /// The least margin found of one kind of requirement.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Margin {
     /// The requirement that is met least (or violated most).
     pub term: Term,

@@ -7,11 +7,14 @@
 mod assess;
 mod bound;
 mod conditioning;
+mod envelope;
 mod goal;
 mod hardware;
 mod keep_out;
 mod limit;
 mod load;
+mod payload;
+mod reserve;
 mod standing;
 mod term;
 #[cfg(test)]
@@ -21,11 +24,15 @@ pub use crate::geom::{ListedFrom, PoseSpace, Region};
 pub use assess::{AssessOptions, Assessment, Margin, assess};
 pub use bound::{MarginBound, MarginProof, MarginVerdict, prove};
 pub use conditioning::{LeastConditioning, least_conditioning};
+pub use envelope::{Envelope, Envelopes};
+pub(crate) use envelope::{ball, room};
 pub use goal::{Objective, VariableKind};
 pub use hardware::{Hardware, Housing, JointAxes, LegBody, LengthLimits, Swing};
 pub use keep_out::{KeepOut, KeepOutShape};
 pub use limit::{Limit, Limits, PoseLimit};
 pub use load::{Load, leg_forces};
+pub use payload::{ForceUnit, GRAVITY, MassUnit, Payload};
+pub use reserve::{Reserve, Reserves};
 pub use standing::Standing;
 pub use term::{Quantity, Term, TermKind, Terms};
 
@@ -51,4 +58,8 @@ pub struct Requirements {
     pub platform_speed: Option<PlatformSpeed>,
     /// Least distance of two joint centres of a body, design units.
     pub min_joint_distance: Option<f64>,
+    /// Room that plates and machine may take up.
+    pub envelopes: Envelopes,
+    /// What has to remain of each limit.
+    pub reserves: Reserves,
 }

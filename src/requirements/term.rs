@@ -3,6 +3,7 @@
 use nalgebra::{Point3, Unit, Vector3};
 
 use super::Requirements;
+use super::envelope::{ball, room};
 use super::hardware::{JointAxes, LegBody, Swing};
 use super::keep_out::KeepOut;
 use super::load::leg_forces;
@@ -38,6 +39,12 @@ pub enum TermKind {
     BaseSpacing,
     /// The same on the platform.
     PlatformSpacing,
+    /// How far a base joint with its housing stays inside the envelope of the base.
+    BaseEnvelope,
+    /// The same on the platform.
+    PlatformEnvelope,
+    /// How far a joint with its housing stays inside the envelope of the whole machine.
+    MachineEnvelope,
 }
 
 /// What a margin is measured in.
@@ -54,6 +61,23 @@ pub enum Quantity {
 }
 
 impl TermKind {
+    /// Every kind.
+    pub const ALL: [Self; 13] = [
+        Self::LegTooShort,
+        Self::LegTooLong,
+        Self::BaseSwing,
+        Self::PlatformSwing,
+        Self::LegClearance,
+        Self::KeepOut,
+        Self::LegForce,
+        Self::LegSpeed,
+        Self::BaseSpacing,
+        Self::PlatformSpacing,
+        Self::BaseEnvelope,
+        Self::PlatformEnvelope,
+        Self::MachineEnvelope,
+    ];
+
     /// A short stable code.
     #[must_use]
     pub fn code(self) -> &'static str {
@@ -68,6 +92,9 @@ impl TermKind {
             Self::LegSpeed => "leg_speed",
             Self::BaseSpacing => "base_spacing",
             Self::PlatformSpacing => "platform_spacing",
+            Self::BaseEnvelope => "base_envelope",
+            Self::PlatformEnvelope => "platform_envelope",
+            Self::MachineEnvelope => "machine_envelope",
         }
     }
 
@@ -85,7 +112,10 @@ impl TermKind {
     /// `true` when the pose does not matter.
     #[must_use]
     pub fn is_fixed(self) -> bool {
-        matches!(self, Self::BaseSpacing | Self::PlatformSpacing)
+        matches!(
+            self,
+            Self::BaseSpacing | Self::PlatformSpacing | Self::BaseEnvelope | Self::PlatformEnvelope
+        )
     }
 }
 
@@ -96,7 +126,7 @@ pub struct Term {
     pub kind: TermKind,
     /// The leg, or the joint of the body, counted from 0.
     pub first: usize,
-    /// The other leg, joint, keep-out or load, counted from 0; equal to `first` where there is no other.
+    /// The other leg, joint, keep-out or load, counted from 0; equal to `first` where there is no other. For the envelope of the machine 0 for the base joint of the leg, 1 for its platform joint.
     pub second: usize,
 }
 
@@ -155,7 +185,7 @@ impl<'a> Terms<'a> {
             (TermKind::BaseSpacing, Body::Base, m.base_joints(), m.pairs().map(|p| p.0)),
             (TermKind::PlatformSpacing, Body::Platform, m.platform_joints(), m.pairs().map(|p| p.1)),
         ];
-        let mut out = Vec::new();
+        let mut out = self.plates();
         for (kind, body, joints, used) in bodies {
             let housing = self.required.hardware.housing(body);
             let is_used = |i: &usize| used.contains(i);
@@ -173,6 +203,39 @@ impl<'a> Terms<'a> {
         out
     }
 
+    /// How far the joints of a body stay inside its envelope.
+    fn plates(&self) -> Vec<(Term, f64)> {
+        let envelopes = &self.required.envelopes;
+        let bodies = [
+            (TermKind::BaseEnvelope, Body::Base, envelopes.base),
+            (TermKind::PlatformEnvelope, Body::Platform, envelopes.platform),
+        ];
+        let mut out = Vec::new();
+        for (kind, body, envelope) in bodies {
+            let Some(envelope) = envelope else { continue };
+            let (half, radius) = room(self.required.hardware.housing(body));
+            let used = self.manipulator.pairs().map(|p| body.of(p));
+            for (i, joint) in
+                self.manipulator.joints(body).iter().enumerate().filter(|(i, _)| used.contains(i))
+            {
+                out.push((Term { kind, first: i, second: i }, envelope.margin(joint, &half, radius)));
+            }
+        }
+        out
+    }
+
+    /// How far the joints of both ends of each leg stay inside the envelope of the machine.
+    fn machine(&self, ends: &[(Point3<f64>, Point3<f64>); 6], out: &mut Vec<(Term, f64)>) {
+        let Some(envelope) = self.required.envelopes.machine else { return };
+        for (i, (a, b)) in ends.iter().enumerate() {
+            for (second, (body, at)) in [(Body::Base, a), (Body::Platform, b)].into_iter().enumerate() {
+                let ball = ball(self.required.hardware.housing(body));
+                let margin = envelope.margin(at, &Vector3::zeros(), ball);
+                out.push((Term { kind: TermKind::MachineEnvelope, first: i, second }, margin));
+            }
+        }
+    }
+
     /// Margins of all requirements at a pose: positive where they are met. Forces at a singular pose have the margin minus infinity.
     #[must_use]
     pub fn at(&self, pose: &Pose) -> Vec<(Term, f64)> {
@@ -182,6 +245,7 @@ impl<'a> Terms<'a> {
         self.lengths_and_swing(&ends, pose, &mut out);
         self.clearances(&ends, pose, &mut out);
         self.drives(pose, &mut out);
+        self.machine(&ends, &mut out);
         out
     }
 

@@ -136,3 +136,32 @@ fn without_cells_the_design_is_not_called_met() {
     assert_eq!((out.status.code(), doc["met"].is_null()), (Some(3), true), "{doc}");
     assert_eq!(doc["regular"]["status"], "undecided");
 }
+
+/// The same excursions listed from the base frame and from home are the same; when home is elsewhere only the latter move.
+#[test]
+fn poses_listed_from_home_move_with_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = std::fs::read_to_string("designs/rbt-octahedral.toml").unwrap();
+    let margin = |home: &str, workspace: &str| {
+        let start = text.find("[home]").unwrap();
+        let path = folder.path().join("listed.toml");
+        let tables = format!(
+            "[home]\nposition = {home}\nrpy_deg = [0.0, 0.0, 0.0]\n[workspace]\n{workspace}\n[hardware]\nleg_length = [1.0, 40.0]\n"
+        );
+        std::fs::write(&path, format!("{}{tables}", &text[..start])).unwrap();
+        let (code, doc) = assess(path.to_str().unwrap());
+        assert_eq!(code, Some(0), "{doc}");
+        doc["requirements"][1]["margin"].as_f64().unwrap()
+    };
+    let pose = |z: f64| format!("poses = [{{ position = [3.0, 5.0, {z:?}], rpy_deg = [0.0, 0.0, 0.0] }}]");
+    let from_home =
+        "relative_to = \"home\"\nposes = [{ position = [0.0, 0.0, 4.0], rpy_deg = [0.0, 0.0, 0.0] }]";
+    let (low, high) = ("[3.0, 5.0, 15.0]", "[3.0, 5.0, 18.0]");
+    assert!((margin(low, &pose(19.0)) - margin(low, from_home)).abs() < 1e-9);
+    assert!((margin(high, &pose(22.0)) - margin(high, from_home)).abs() < 1e-9);
+    assert!(
+        (margin(high, &pose(19.0)) - margin(low, &pose(19.0))).abs() < 1e-9,
+        "those of the base frame stay"
+    );
+    assert!((margin(high, from_home) - margin(low, from_home)).abs() > 1.0);
+}

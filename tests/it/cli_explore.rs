@@ -293,3 +293,63 @@ fn the_report_of_a_run_is_about_what_the_run_wrote() {
     let page = read(&out, "report.html");
     assert!(!page.contains("foreign.toml") && !page.contains("huge.json") && page.contains("fk.json"));
 }
+
+/// The octahedral design with limits of its own that offsets and height have to meet.
+const LIMITED: &str = r#"name = "limited"
+units = "mm"
+legs = [["P1","P4"], ["P2","P4"], ["P2","P5"], ["P3","P5"], ["P3","P6"], ["P1","P6"]]
+[base]
+P1 = [0.0, 0.0, 0.0]
+P2 = [6, "6*sqrt(3)", 0]
+P3 = [12.0, 0.0, 0.0]
+[platform]
+P4 = [0.0, 0.0, 0.0]
+P5 = [6.0, 0.0, 0.0]
+P6 = [3, "-3*sqrt(3)", 0]
+[home]
+position = [3.0, 1.7320508075688772, 12.0]
+rpy_deg = [0.0, 0.0, 0.0]
+[workspace]
+translation = [0.5, 0.5, 0.5]
+[hardware]
+leg_length = [9.0, 18.0]
+[optimize]
+variables = ["symmetric_offsets", "home_height"]
+"#;
+
+#[test]
+fn the_platform_is_searched_under_the_requirements_and_judged_as_assess_does() {
+    let temp = tempfile::tempdir().unwrap();
+    let design = temp.path().join("limited.toml");
+    let run = |text: &str, to: &str| {
+        std::fs::write(&design, text).unwrap();
+        let folder = temp.path().join(to);
+        let out = command(design.to_str().unwrap(), &folder, &["--json"]).output().unwrap();
+        let d: Value = serde_json::from_slice(&out.stdout).unwrap();
+        (out.status.code(), d, folder)
+    };
+    let (code, d, folder) = run(LIMITED, "met");
+    assert_eq!((code, d["verdict"].as_str()), (Some(0), Some("equivalent")), "{d}");
+    assert_eq!((&d["assessment"]["met"], &d["optimize"]["status"]), (&true.into(), &"optimal".into()));
+    let new = folder.join("optimised.toml");
+    let out = Command::new(env!("CARGO_BIN_EXE_equipod"))
+        .args(["assess", new.to_str().unwrap(), "--json"])
+        .output()
+        .unwrap();
+    let assessed: Value = serde_json::from_slice(&out.stdout).unwrap();
+    assert_eq!((out.status.code(), &assessed["met"]), (Some(0), &Value::from(true)));
+    let least = |of: &Value| of["requirements"][1]["margin"].as_f64().unwrap();
+    assert!((least(&assessed) - least(&d["assessment"])).abs() < 1e-6);
+    assert!(read(&folder, "report.md").contains("## Requirements\n\nlimited, separate joints meets all"));
+    assert!(read(&folder, "report.html").contains("leg too long"));
+    // limits that nothing can meet: no platform, and no green word
+    let (code, d, folder) = run(&LIMITED.replace("[9.0, 18.0]", "[9.0, 9.1]"), "unmet");
+    assert_eq!((code, d["verdict"].as_str()), (Some(1), Some("infeasible")), "{d}");
+    assert!(d["assessment"].is_null() && !folder.join("optimised.toml").exists());
+    let front = LIMITED.replace(
+        "[optimize]",
+        "[optimize]\nobjectives = [\"stroke\", \"worst_conditioning\"]\nmode = \"pareto\"",
+    );
+    let (code, d, _) = run(&front, "front");
+    assert_eq!((code, d["error"]["code"].as_str()), (Some(2), Some("explore::front")));
+}

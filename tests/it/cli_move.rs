@@ -169,3 +169,40 @@ fn the_search_finds_proves_and_leaves_open() {
         (Some("undecided"), Some(false))
     );
 }
+
+/// Wishes are not all: a platform that fulfils them and is too long for the file is not called fulfilled.
+#[test]
+fn a_platform_that_misses_a_requirement_is_not_called_fulfilled() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = std::fs::read_to_string("designs/rbt-octahedral.toml").unwrap();
+    let search = |greatest: f64| {
+        let path = folder.path().join("limited.toml");
+        std::fs::write(&path, format!("{text}\n[hardware]\nleg_length = [1.0, {greatest}]\n")).unwrap();
+        let out = equipod(&[
+            "equivalents",
+            "move",
+            path.to_str().unwrap(),
+            "--search",
+            "--no-shared-joints",
+            "--count",
+            "2",
+            "--json",
+        ]);
+        (out.status.code(), document(&out))
+    };
+    let (code, doc) = search(1000.0);
+    assert_eq!((code, doc["outcome"].as_str()), (Some(0), Some("found")), "{doc}");
+    let first = &doc["designs"][0];
+    assert_eq!((&first["fulfilled"], &first["assessment"]["met"]), (&true.into(), &true.into()));
+    // no platform of this size has legs so short
+    let (code, doc) = search(10.0);
+    assert_eq!((code, doc["outcome"].as_str()), (Some(1), Some("violated")), "{doc}");
+    for found in doc["designs"].as_array().unwrap() {
+        assert_eq!((&found["fulfilled"], &found["wishes_fulfilled"]), (&false.into(), &true.into()));
+        let rows = found["assessment"]["requirements"].as_array().unwrap();
+        let long = rows.iter().find(|m| m["name"] == "leg_too_long").unwrap();
+        assert_eq!((&long["met"], long["legs"].as_array().unwrap().len()), (&false.into(), 1));
+        assert!(found["design"]["description"].as_str().unwrap().contains("requirements violated"));
+    }
+    assert!(doc["explanation"].as_str().unwrap().contains("violates requirements"));
+}

@@ -3,7 +3,7 @@
 use equipod::methods::design::{Code, Design, Format, OptimizeTable, Workspace, parse};
 use equipod::methods::geom::Pose;
 use equipod::methods::manipulator::{LegLengths, Manipulator};
-use equipod::methods::requirements::{Hardware, JointAxes, LegBody, Region, Swing};
+use equipod::methods::requirements::{Hardware, JointAxes, LegBody, ListedFrom, Region, Swing};
 use nalgebra::{Point3, Rotation3, Vector3};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -102,6 +102,7 @@ prop_compose! {
             translation: Vector3::new(widths[0], widths[1], widths[2]),
             rotation_deg: Vector3::new(widths[3], widths[4], widths[5]),
             grid,
+            listed_from: if grid > 2 && !poses.is_empty() { ListedFrom::Home } else { ListedFrom::Base },
             poses,
             region: if grid > 3 { Region::Ellipsoid } else { Region::Box },
             trajectory: None,

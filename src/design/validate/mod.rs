@@ -2,6 +2,7 @@
 
 mod constructions;
 mod joints;
+mod limits;
 #[cfg(test)]
 mod schema_tests;
 mod search;
@@ -18,9 +19,11 @@ use crate::manipulator::{Body, InvalidManipulator, LegLengths, Manipulator};
 /// Words less similar than this are no help.
 const NEAR: f64 = 0.7;
 
-const TOP_LEVEL: [&str; 16] = [
+const TOP_LEVEL: [&str; 21] = [
     "name",
     "units",
+    "force_units",
+    "mass_units",
     "source",
     "description",
     "lengths",
@@ -35,6 +38,9 @@ const TOP_LEVEL: [&str; 16] = [
     "speed",
     "loads",
     "keep_out",
+    "payload",
+    "envelope",
+    "limits",
 ];
 
 /// The design, or `None` with the reasons in the report. Later checks run on whatever earlier ones left
@@ -77,6 +83,10 @@ pub(super) fn design(root: &Node, report: &mut Findings<'_>) -> Option<Design> {
     let speed = tables::speed(report, entries);
     let loads = tables::loads(report, entries);
     let keep_outs = tables::keep_outs(report, entries);
+    let (force_units, mass_units) = limits::units(report, entries);
+    let payload = limits::payload(report, entries);
+    let envelopes = limits::envelopes(report, entries);
+    let reserves = limits::reserves(report, entries);
     if !report.is_clean() {
         return None;
     }
@@ -96,6 +106,8 @@ pub(super) fn design(root: &Node, report: &mut Findings<'_>) -> Option<Design> {
     design.speed = speed;
     design.loads = loads;
     design.keep_outs = keep_outs;
+    (design.payload, design.envelopes, design.reserves) = (payload, envelopes, reserves);
+    (design.force_units, design.mass_units) = (force_units, mass_units);
     Some(design)
 }
 

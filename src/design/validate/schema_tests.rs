@@ -2,10 +2,11 @@
 
 use serde_json::Value;
 
+use super::limits::{ENVELOPE_KEYS, PAYLOAD_KEYS};
 use super::search::SEARCH_KEYS;
 use super::tables::{HARDWARE_KEYS, LIMIT_KEYS, POSE_KEYS, WORKSPACE_KEYS};
 use crate::design::SCHEMA;
-use crate::requirements::{Objective, VariableKind};
+use crate::requirements::{Objective, TermKind, VariableKind};
 
 fn sorted<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
     let mut names: Vec<&str> = names.into_iter().collect();
@@ -26,6 +27,10 @@ fn the_schema_has_the_keys_of_the_reader() {
     assert_eq!(keys("/properties/hardware"), sorted(HARDWARE_KEYS));
     assert_eq!(keys("/properties/optimize"), sorted(SEARCH_KEYS.into_iter().chain(LIMIT_KEYS)));
     assert_eq!(keys("/$defs/pose"), sorted(POSE_KEYS));
+    assert_eq!(keys("/properties/envelope"), sorted(ENVELOPE_KEYS));
+    assert_eq!(keys("/properties/payload"), sorted(PAYLOAD_KEYS));
+    let reserved = TermKind::ALL.map(TermKind::code).into_iter().chain(["all"]);
+    assert_eq!(keys("/properties/limits/properties/reserve/oneOf/1"), sorted(reserved));
     let names = |place: &str| {
         let list = schema.pointer(place).unwrap().as_array().unwrap();
         sorted(list.iter().map(|v| v.as_str().unwrap()))

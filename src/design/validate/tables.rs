@@ -273,7 +273,7 @@ pub(super) fn positive(report: &mut Findings<'_>, entries: &[Entry], key: &str) 
 }
 
 /// A number of a table that is not negative.
-fn not_negative(report: &mut Findings<'_>, entries: &[Entry], key: &str) -> Option<f64> {
+pub(super) fn not_negative(report: &mut Findings<'_>, entries: &[Entry], key: &str) -> Option<f64> {
     let node = &find(entries, key)?.node;
     let x = number(report, node, &format!("`{key}`"))?;
     if x < 0.0 {
@@ -283,7 +283,7 @@ fn not_negative(report: &mut Findings<'_>, entries: &[Entry], key: &str) -> Opti
 }
 
 /// Three numbers of a table.
-fn vector(report: &mut Findings<'_>, entries: &[Entry], key: &str) -> Option<Vector3<f64>> {
+pub(super) fn vector(report: &mut Findings<'_>, entries: &[Entry], key: &str) -> Option<Vector3<f64>> {
     let node = &find(entries, key)?.node;
     numbers::<3>(report, node, &format!("`{key}`"), Code::CoordinateCount, "coordinates x, y, z")
         .map(Vector3::from)

@@ -89,6 +89,9 @@ fn words(design: &Design, d: Demand) -> (String, String) {
                 TermKind::LegSpeed => "the greatest leg speed",
                 TermKind::BaseSpacing => "the room between base joints",
                 TermKind::PlatformSpacing => "the room between platform joints",
+                TermKind::BaseEnvelope => "the envelope of the base",
+                TermKind::PlatformEnvelope => "the envelope of the platform",
+                TermKind::MachineEnvelope => "the envelope of the machine",
             };
             (sentence.to_string(), design.unit_of(kind.quantity()))
         }

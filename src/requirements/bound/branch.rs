@@ -78,8 +78,8 @@ impl CellJudge<'_> {
         all.iter().filter(|(t, _)| function.has(t)).map(|(_, v)| *v).fold(f64::INFINITY, f64::min)
     }
 
-    /// The least margin of a kind over all charts.
-    pub(super) fn bound(&self, mut found: Margin, cells: usize, seed: u64) -> MarginBound {
+    /// The least margin of a kind over all charts, decided against `reserve`; the bound below is that of the margin less the reserve.
+    pub(super) fn bound(&self, mut found: Margin, cells: usize, seed: u64, reserve: f64) -> MarginBound {
         let kind = found.term.kind;
         let functions = self.functions(kind);
         // the worst pose found so far, for a proof that it is one
@@ -115,8 +115,8 @@ impl CellJudge<'_> {
         let (most, enough) = (state.cells + cells, state.cells + cells.min(WORSE));
         let mut below = f64::INFINITY;
         while let Some(open) = state.heap.pop() {
-            below = open.below;
-            let upper = state.upper;
+            below = open.below - reserve;
+            let upper = state.upper - reserve;
             let close = !self.close || below >= CLOSE * upper.abs() || below >= upper - slack;
             let decided = (upper < -slack && state.cells >= enough) || (close && below >= -slack);
             if decided || state.cells >= most {
@@ -145,8 +145,8 @@ impl CellJudge<'_> {
                 found = Margin { term, value, pose: Some(pose), standing };
             }
         }
-        let verdict = verdict(below, state.upper, slack);
-        MarginBound { found, below, verdict, cells: state.cells }
+        let verdict = verdict(below, state.upper - reserve, slack);
+        MarginBound { found, below, verdict, cells: state.cells, reserve: None }
     }
 
     /// Bounds a cell and keeps it, unless it cannot hold a least margin.

@@ -20,6 +20,7 @@ use self::frame::{CellFrame, enclosed};
 use self::local::Bounded;
 use super::Requirements;
 use super::assess::{AssessOptions, Assessment, Margin, assess};
+use super::envelope::Envelope;
 use super::hardware::Housing;
 use super::term::{Term, TermKind, Terms};
 use crate::geom::enclosed::{IntervalVector, dot};
@@ -86,6 +87,25 @@ pub struct MarginBound {
     pub verdict: MarginVerdict,
     /// Cells bounded.
     pub cells: usize,
+    /// The reserve on this limit and what is known of it; `None` where none is asked for.
+    pub reserve: Option<ReserveBound>,
+}
+
+/// A reserve, and whether the margin keeps it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ReserveBound {
+    /// What has to remain, in the unit of the margin.
+    pub reserve: f64,
+    /// Proved either way, or `None`.
+    pub kept: Option<bool>,
+}
+
+impl MarginBound {
+    /// Whether the reserve is kept; `Some(true)` where there is none.
+    #[must_use]
+    pub fn keeps_reserve(&self) -> Option<bool> {
+        self.reserve.map_or(Some(true), |r| r.kept)
+    }
 }
 
 /// The least margins of all kinds with what is proved of them.
@@ -102,6 +122,16 @@ impl MarginProof {
     #[must_use]
     pub fn all_met(&self) -> Option<bool> {
         let each = || self.bounds.iter().map(|b| b.verdict.is_met());
+        if each().any(|x| x == Some(false)) {
+            return Some(false);
+        }
+        each().all(|x| x == Some(true)).then_some(true)
+    }
+
+    /// The same of the reserves.
+    #[must_use]
+    pub fn all_reserved(&self) -> Option<bool> {
+        let each = || self.bounds.iter().map(MarginBound::keeps_reserve);
         if each().any(|x| x == Some(false)) {
             return Some(false);
         }
@@ -127,10 +157,13 @@ pub fn prove(
     let axes = axes(m, required, &home);
     let judge = CellJudge { m, required, terms: &terms, axes, charts, close: o.close };
     let bounds = margins.into_iter().map(|found| {
-        if found.term.kind.is_fixed() {
-            return judge.fixed(found);
+        let fixed = found.term.kind.is_fixed();
+        let bound = if fixed { judge.fixed(found) } else { judge.bound(found, cells, o.seed, 0.0) };
+        let reserve = required.reserve(bound.found.term.kind);
+        if reserve == 0.0 {
+            return bound;
         }
-        judge.bound(found, cells, o.seed)
+        MarginBound { reserve: Some(judge.reserved(&bound, reserve, cells, o.seed)), ..bound }
     });
     MarginProof { bounds: bounds.collect(), poses }
 }
@@ -176,6 +209,19 @@ enum Function {
     Body(usize, usize),
     /// All leg forces under a load.
     Load(usize),
+    /// A side of the envelope of the machine, or its cylinder, and the joint at an end (0 base, 1 platform) of a leg.
+    Joint { leg: usize, end: usize, side: Side },
+}
+
+/// A part of an envelope.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Side {
+    /// The cylinder.
+    Round,
+    /// The side of a box with the least value of a coordinate.
+    Least(usize),
+    /// The side with the greatest.
+    Greatest(usize),
 }
 
 impl Function {
@@ -185,6 +231,9 @@ impl Function {
             Self::Pair(i, j) => term.kind == TermKind::LegClearance && (term.first, term.second) == (i, j),
             Self::Body(i, k) => term.kind == TermKind::KeepOut && (term.first, term.second) == (i, k),
             Self::Load(k) => term.kind == TermKind::LegForce && term.second == k,
+            Self::Joint { leg, end, .. } => {
+                term.kind == TermKind::MachineEnvelope && (term.first, term.second) == (leg, end)
+            }
         }
     }
 }
@@ -249,6 +298,20 @@ impl CellJudge<'_> {
                 .flat_map(|i| (0..self.required.keep_outs.len()).map(move |k| Function::Body(i, k)))
                 .collect(),
             TermKind::LegForce => (0..self.required.loads.len()).map(Function::Load).collect(),
+            TermKind::MachineEnvelope => {
+                let sides: Vec<Side> = match self.required.envelopes.machine {
+                    None => Vec::new(),
+                    Some(Envelope::Cylinder { .. }) => vec![Side::Round],
+                    Some(Envelope::Box { .. }) => {
+                        (0..3).flat_map(|k| [Side::Least(k), Side::Greatest(k)]).collect()
+                    }
+                };
+                let ends = (0..6).flat_map(|leg| [(leg, 0), (leg, 1)]);
+                ends.flat_map(|(leg, end)| {
+                    sides.iter().map(move |side| Function::Joint { leg, end, side: *side })
+                })
+                .collect()
+            }
             _ => (0..6).map(|i| Function::Leg(kind, i)).collect(),
         }
     }
@@ -354,6 +417,15 @@ impl CellJudge<'_> {
                 let (upper, rest) = (self.margin(kind, at.value).hi(), shrunk(chart, cell, &over));
                 AtPoint { bounded, upper, rest, slope: slopes(&at), ..nothing }
             }
+            Function::Joint { leg, end, side } => {
+                let value = |frame: &CellFrame<'_>| self.joint_value(leg, end, side, frame);
+                let (Some(at), Some(over)) = (value(frames.0), value(frames.1)) else { return nothing };
+                let mut bounded = local::below(chart, cell, z, &at, &over);
+                bounded.below = self.room_left(end, side, Interval::from(bounded.below)).lo();
+                let upper = self.room_left(end, side, at.value).hi();
+                let slope = std::array::from_fn(|k| at.slope(k).centre_and_radius().0);
+                AtPoint { bounded, upper, slope: Some(slope), ..nothing }
+            }
             Function::Load(k) => {
                 let greatest = self.required.hardware.max_leg_force.unwrap_or(f64::INFINITY);
                 let load = &self.required.loads[k];
@@ -427,6 +499,39 @@ impl CellJudge<'_> {
         SwingCone::new(self.m, leg, body == 1, axis, *length, swing.limit_deg)
     }
 
+    /// A function of a joint that grows with the room left to a side of the envelope: the negative square of the distance from the axis of a cylinder, the distance from a side
+    /// of a box.
+    fn joint_value(&self, leg: usize, end: usize, side: Side, frame: &CellFrame<'_>) -> Option<Jet> {
+        let leg = frame.leg(self.m, leg);
+        let at = |k: usize| if end == 0 { leg.base[k] } else { leg.line[k] + leg.base[k] };
+        let constant = |x: f64| frame.constant(Interval::from(x));
+        Some(match (self.required.envelopes.machine?, side) {
+            (Envelope::Cylinder { center, .. }, Side::Round) => {
+                let (x, y) = (at(0) - constant(center[0]), at(1) - constant(center[1]));
+                -(x * x + y * y)
+            }
+            (Envelope::Box { min, .. }, Side::Least(k)) => at(k) - constant(min[k]),
+            (Envelope::Box { max, .. }, Side::Greatest(k)) => constant(max[k]) - at(k),
+            _ => return None,
+        })
+    }
+
+    /// The margin for a value of the function of a joint, which it increases with.
+    fn room_left(&self, end: usize, side: Side, value: Interval) -> Interval {
+        let housing = self.required.hardware.housing(Body::BOTH[end]);
+        // the same double as in the evaluation of a pose; its rounding is part of what the housing is
+        let ball = Interval::from(super::envelope::ball(housing));
+        match (self.required.envelopes.machine, side) {
+            (Some(Envelope::Cylinder { radius, .. }), Side::Round) => {
+                let square = -value;
+                let positive =
+                    Interval::new(square.lo().max(0.0), square.hi().max(0.0)).unwrap_or(Interval::WHOLE);
+                Interval::from(radius) - ball - positive.sqrt().unwrap_or(Interval::WHOLE)
+            }
+            _ => value - ball,
+        }
+    }
+
     /// The function of a leg whose least value gives the least margin ([`CellJudge::margin`]).
     fn leg_value(&self, kind: TermKind, i: usize, frame: &CellFrame<'_>) -> Option<Jet> {
         let leg = frame.leg(self.m, i);
@@ -475,9 +580,47 @@ impl CellJudge<'_> {
         }
     }
 
+    /// Whether a margin keeps a reserve: by what is proved of it already, else by bounds of their own.
+    fn reserved(&self, bound: &MarginBound, reserve: f64, cells: usize, seed: u64) -> ReserveBound {
+        let rounding = self.terms.rounding(bound.found.term.kind, bound.found.pose.as_ref());
+        let kept = if bound.found.value < reserve - rounding {
+            Some(false)
+        } else if bound.below >= reserve - rounding {
+            Some(true)
+        } else {
+            // what no pose changes is decided by its enclosure alone
+            let poses = !bound.found.term.kind.is_fixed();
+            (poses && self.bound(bound.found, cells, seed, reserve).below >= -rounding).then_some(true)
+        };
+        ReserveBound { reserve, kept }
+    }
+
+    /// Joints in the envelope of their body.
+    fn plate(&self, found: Margin) -> MarginBound {
+        let kind = found.term.kind;
+        let (body, envelope) = if kind == TermKind::PlatformEnvelope {
+            (Body::Platform, self.required.envelopes.platform)
+        } else {
+            (Body::Base, self.required.envelopes.base)
+        };
+        let (half, radius) = super::envelope::room(self.required.hardware.housing(body));
+        let (mut below, mut upper) = (f64::INFINITY, f64::INFINITY);
+        let joints = self.m.joints(body);
+        for (term, _) in self.terms.fixed().iter().filter(|(t, _)| t.kind == kind) {
+            let at = enclosed(&joints[term.first]);
+            let margin = envelope.map_or(Interval::WHOLE, |e| room_inside(&e, &at, &half, radius));
+            (below, upper) = (below.min(margin.lo()), upper.min(margin.hi()));
+        }
+        let verdict = verdict(below, upper, self.terms.rounding(kind, None));
+        MarginBound { found, below, verdict, cells: 0, reserve: None }
+    }
+
     /// Distances of joints, which no pose changes.
     fn fixed(&self, found: Margin) -> MarginBound {
         let kind = found.term.kind;
+        if matches!(kind, TermKind::BaseEnvelope | TermKind::PlatformEnvelope) {
+            return self.plate(found);
+        }
         let body = if kind == TermKind::PlatformSpacing { Body::Platform } else { Body::Base };
         let joints = body.of((self.m.base_joints(), self.m.platform_joints()));
         let housing = self.required.hardware.housing(body);
@@ -492,7 +635,41 @@ impl CellJudge<'_> {
             }
         }
         let verdict = verdict(below, upper, self.terms.rounding(kind, None));
-        MarginBound { found, below, verdict, cells: 0 }
+        MarginBound { found, below, verdict, cells: 0, reserve: None }
+    }
+}
+
+/// The absolute values of an interval.
+fn magnitudes(x: Interval) -> Interval {
+    let least = if x.lo() <= 0.0 && x.hi() >= 0.0 { 0.0 } else { x.lo().abs().min(x.hi().abs()) };
+    Interval::new(least, x.magnitude()).unwrap_or(Interval::WHOLE)
+}
+
+/// Room inside an envelope, enclosed: [`Envelope::margin`].
+fn room_inside(
+    envelope: &Envelope,
+    at: &IntervalVector,
+    half: &nalgebra::Vector3<f64>,
+    ball: f64,
+) -> Interval {
+    let ball = Interval::from(ball);
+    match envelope {
+        Envelope::Cylinder { radius, center } => {
+            let reach = |k: usize| magnitudes(at[k] - Interval::from(center[k])) + Interval::from(half[k]);
+            let away = (reach(0).square() + reach(1).square()).sqrt().unwrap_or(Interval::WHOLE);
+            Interval::from(*radius) - ball - away
+        }
+        Envelope::Box { min, max } => {
+            let sides = (0..3).flat_map(|k| {
+                let own = Interval::from(half[k]) + ball;
+                [at[k] - Interval::from(min[k]) - own, Interval::from(max[k]) - at[k] - own]
+            });
+            let least = |side: fn(&Interval) -> f64, all: &[Interval]| {
+                all.iter().map(side).fold(f64::INFINITY, f64::min)
+            };
+            let all: Vec<Interval> = sides.collect();
+            Interval::new(least(|x| x.lo(), &all), least(|x| x.hi(), &all)).unwrap_or(Interval::WHOLE)
+        }
     }
 }
 

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use crate::geom::{Pose, Region};
 use crate::num::Rng;
 use crate::requirements::{
-    Hardware, JointAxes, KeepOut, KeepOutShape, LegBody, LengthLimits, Load, PlatformSpeed, Swing,
+    Envelopes, Hardware, JointAxes, KeepOut, KeepOutShape, LegBody, LengthLimits, Load, PlatformSpeed, Swing,
 };
 
 fn random_platform(rng: &mut Rng) -> (Manipulator, Pose) {
@@ -99,6 +99,11 @@ fn everything() -> Requirements {
         loads: vec![load(Body::Base), load(Body::Platform)],
         platform_speed: Some(PlatformSpeed { linear: 3.0, angular_deg: 60.0 }),
         min_joint_distance: Some(0.1),
+        envelopes: Envelopes {
+            machine: Some(Envelope::Cylinder { radius: 15.0, center: [0.1, -0.2] }),
+            ..Envelopes::default()
+        },
+        ..Requirements::default()
     }
 }
 
@@ -143,7 +148,7 @@ fn no_sampled_pose_is_below_a_proved_margin_and_bounds_come_close() {
             all += 1;
             close += usize::from(bound.below > 0.7 * bound.found.value);
         }
-        assert_eq!(proof.bounds.len(), 10);
+        assert_eq!(proof.bounds.len(), 11);
     }
     assert!(close > all * 3 / 4, "{close} of {all}");
 }
@@ -278,6 +283,76 @@ fn gaps_of_housings_are_enclosed() {
             let (gap, found) = (housing.gap(&d), housing_gap(&housing, &enclosed, norm));
             assert!(
                 found.lo() - 1e-14 <= gap && gap <= found.hi() + 1e-14 && found.hi() - found.lo() < 1e-13
+            );
+        }
+    }
+}
+
+/// Six vertical legs again: their platform joints sweep a box, and reserves move the limits.
+#[test]
+fn envelopes_and_reserves_of_upright_legs_are_those_by_hand() {
+    let ring = || -> Vec<Point3<f64>> {
+        let at = |i: usize| (i as f64 * std::f64::consts::FRAC_PI_3).sin_cos();
+        (0..6).map(|i| Point3::new(4.0 * at(i).1, 4.0 * at(i).0, 0.0)).collect()
+    };
+    let m = Manipulator::try_new(ring(), ring(), std::array::from_fn(|i| (i, i))).unwrap();
+    let home = Pose { rotation: Rotation3::identity(), position: Vector3::new(0.0, 0.0, 10.0) };
+    let space = PoseSpace { translation: Vector3::new(3.0, 0.0, 2.0), ..PoseSpace::at(home) };
+    let mut r = Requirements::default();
+    r.hardware.joint_diameter = Some(1.0);
+    let of = |r: &Requirements, kind: TermKind| {
+        let proof = prove(&m, r, &space, &quick(), 4000);
+        proof.bounds.into_iter().find(|b| b.found.term.kind == kind).unwrap()
+    };
+    r.envelopes.base = Some(Envelope::Cylinder { radius: 5.0, center: [0.0, 0.0] });
+    let base = of(&r, TermKind::BaseEnvelope);
+    assert!(base.verdict == MarginVerdict::Met && (base.found.value - 0.5).abs() < 1e-12, "{base:?}");
+    // the joint at (4, 0) goes 3 along x, and half a housing with it
+    r.envelopes.machine = Some(Envelope::Cylinder { radius: 8.0, center: [0.0, 0.0] });
+    let round = of(&r, TermKind::MachineEnvelope);
+    assert!(round.verdict == MarginVerdict::Met && (round.found.value - 0.5).abs() < 1e-9, "{round:?}");
+    assert!(round.below > 0.0 && round.below <= 0.5 + 1e-12);
+    assert_eq!(round.found.term.second, 1, "at the platform");
+    let mut upright = |least: f64, greatest: f64| {
+        let (min, max) = (Point3::new(-9.0, -9.0, least), Point3::new(9.0, 9.0, greatest));
+        r.envelopes.machine = Some(Envelope::Box { min, max });
+        of(&r, TermKind::MachineEnvelope)
+    };
+    let high = upright(-1.0, 12.6);
+    assert!(high.verdict == MarginVerdict::Met && (high.found.value - 0.1).abs() < 1e-9, "{high:?}");
+    assert_eq!(upright(-1.0, 12.4).verdict, MarginVerdict::Violated);
+    let low = upright(-0.4, 13.0);
+    assert!(low.verdict == MarginVerdict::Violated && low.found.term.second == 0, "at the base: {low:?}");
+    // lengths from 8 to sqrt(12^2 + 3^2)
+    let longest = 153f64.sqrt();
+    r.hardware.leg_length = Some(LengthLimits::Range(7.0, longest + 1.0));
+    let kept = |r: &Requirements, kind| of(r, kind).keeps_reserve();
+    assert_eq!(kept(&r, TermKind::LegTooLong), Some(true), "none is asked for");
+    for (amount, expected) in [(0.9, Some(true)), (1.1, Some(false))] {
+        for kind in [TermKind::LegTooShort, TermKind::LegTooLong] {
+            r.reserves.kinds.insert(kind, crate::requirements::Reserve::Amount(amount));
+            let bound = of(&r, kind);
+            assert_eq!((bound.verdict, bound.keeps_reserve()), (MarginVerdict::Met, expected), "{bound:?}");
+        }
+    }
+}
+
+/// Rooms of joints inside round and square envelopes, enclosed.
+#[test]
+fn rooms_inside_envelopes_are_enclosed() {
+    let mut rng = Rng::new(35);
+    for _ in 0..200 {
+        let at = Point3::from(Vector3::from_fn(|_, _| rng.uniform(-3.0, 3.0)));
+        let half = Vector3::from_fn(|_, _| rng.uniform(0.0, 1.0));
+        let shapes = [
+            Envelope::Cylinder { radius: 4.0, center: [0.5, -0.2] },
+            Envelope::Box { min: Point3::new(-2.0, -3.0, -1.0), max: Point3::new(3.0, 2.0, 2.0) },
+        ];
+        for shape in shapes {
+            let (room, found) =
+                (shape.margin(&at, &half, 0.3), room_inside(&shape, &enclosed(&at), &half, 0.3));
+            assert!(
+                found.lo() - 1e-14 <= room && room <= found.hi() + 1e-14 && found.hi() - found.lo() < 1e-13
             );
         }
     }

@@ -1,0 +1,100 @@
+//! The room that plates and machine may take up, housings of the joints counted.
+
+use nalgebra::{Point3, Vector3};
+
+use super::hardware::Housing;
+
+/// A region that joints have to stay in with their housings, in the frame of the body, or the base frame for the whole machine.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Envelope {
+    /// Everything within this radius of a line along the z axis.
+    Cylinder {
+        /// Radius, design units.
+        radius: f64,
+        /// Where the line passes the xy plane.
+        center: [f64; 2],
+    },
+    /// A box along the axes of the frame.
+    Box {
+        /// Its corner with the least coordinates.
+        min: Point3<f64>,
+        /// The opposite corner.
+        max: Point3<f64>,
+    },
+}
+
+/// The envelopes of a design. What is absent limits nothing.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Envelopes {
+    /// Of the base joints, base frame.
+    pub base: Option<Envelope>,
+    /// Of the platform joints, platform frame.
+    pub platform: Option<Envelope>,
+    /// Of all joints at every pose of the workspace, base frame.
+    pub machine: Option<Envelope>,
+}
+
+impl Envelope {
+    /// The radius, or half the shortest edge.
+    #[must_use]
+    pub fn half_width(&self) -> f64 {
+        match self {
+            Self::Cylinder { radius, .. } => *radius,
+            Self::Box { min, max } => 0.5 * (max - min).min(),
+        }
+    }
+
+    /// By how much a joint with half extents `half` along the axes (a box), and `ball` in every direction, stays inside: negative outside.
+    ///
+    /// Cylinder: `radius - ball - |(|x - c| + half_x, |y - c| + half_y)|`, the farthest corner of the box. Box: the least over both sides of the three axes of the distance of
+    /// the centre from the side less `half_k + ball`.
+    #[must_use]
+    pub fn margin(&self, at: &Point3<f64>, half: &Vector3<f64>, ball: f64) -> f64 {
+        match self {
+            Self::Cylinder { radius, center } => {
+                let (x, y) = ((at.x - center[0]).abs() + half.x, (at.y - center[1]).abs() + half.y);
+                radius - ball - x.hypot(y)
+            }
+            Self::Box { min, max } => (0..3)
+                .map(|k| (at[k] - min[k]).min(max[k] - at[k]) - half[k] - ball)
+                .fold(f64::INFINITY, f64::min),
+        }
+    }
+}
+
+/// Half extents along the axes of its frame and radius of the room of a joint in the frame of its body: one of them is 0.
+#[must_use]
+pub(crate) fn room(housing: Option<Housing>) -> (Vector3<f64>, f64) {
+    match housing {
+        None => (Vector3::zeros(), 0.0),
+        Some(Housing::Sphere(diameter)) => (Vector3::zeros(), 0.5 * diameter),
+        Some(Housing::Box(edges)) => (0.5 * edges, 0.0),
+    }
+}
+
+/// Radius of the ball that holds the room of a joint however it is turned.
+#[must_use]
+pub(crate) fn ball(housing: Option<Housing>) -> f64 {
+    let (half, radius) = room(housing);
+    half.norm() + radius
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn margins_of_cylinders_and_boxes_by_hand() {
+        let circle = Envelope::Cylinder { radius: 10.0, center: [1.0, 0.0] };
+        let at = Point3::new(4.0, 4.0, 99.0);
+        let none = Vector3::zeros();
+        assert!((circle.margin(&at, &none, 0.0) - 5.0).abs() < 1e-15, "3, 4, 5");
+        assert!((circle.margin(&at, &none, 2.0) - 3.0).abs() < 1e-15);
+        // the corner of a housing 4 by 8: (3 + 2, 4 + 4)
+        let corner = circle.margin(&at, &Vector3::new(2.0, 4.0, 1.0), 0.0);
+        assert!((corner - (10.0 - 89f64.sqrt())).abs() < 1e-14);
+        let room = Envelope::Box { min: Point3::new(0.0, 0.0, 0.0), max: Point3::new(5.0, 9.0, 100.0) };
+        assert!((room.margin(&at, &none, 0.0) - 1.0).abs() < 1e-15);
+        assert!((room.margin(&at, &none, 1.5) + 0.5).abs() < 1e-15, "outside is negative");
+    }
+}
