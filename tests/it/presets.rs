@@ -51,7 +51,18 @@ fn unexplained(text: &str) -> Vec<String> {
         if line.starts_with('[') {
             explained = says(line) || (line.starts_with("[[") && explained);
         } else if line.starts_with(|c: char| c.is_ascii_lowercase()) {
-            let plain = ["name", "units", "source", "description", "legs", "region", "grid", "rpy_deg"];
+            let plain = [
+                "name",
+                "units",
+                "force_units",
+                "mass_units",
+                "source",
+                "description",
+                "legs",
+                "region",
+                "grid",
+                "rpy_deg",
+            ];
             let key = line.split([' ', '=']).next().unwrap();
             if !plain.contains(&key) && !explained && !says(line) && !says(before) {
                 out.push(line.to_string());
