@@ -359,7 +359,7 @@ fn answers_about_legs_and_singular_poses() {
 #[test]
 fn a_document_that_is_not_of_its_schema_is_found() {
     let command = Command::new("report");
-    let good = json!({"schema_version": 1, "output": "a", "files": 3, "provenance": {"version": "0", "seed": null, "designs": [], "files": []}, "warnings": []});
+    let good = json!({"schema_version": 1, "output": "a", "files": 3, "assessment": null, "provenance": {"version": "0", "seed": null, "designs": [], "files": []}, "warnings": []});
     assert_eq!(command.faults(&good), [""; 0]);
     for (path, bad) in [
         ("/schema_version", json!(2)),

@@ -10,7 +10,7 @@ use crate::cli::progress::{Interrupt, ProgressLine};
 use crate::design::{Combination, Design};
 use crate::dimensional::{ShapeSearchOptions, Stage, Triangles};
 use crate::entrance::AssessReport;
-use crate::entrance::optimizing::{asks_for_more, met_or_nothing_required};
+use crate::entrance::optimizing::{Checked, asks_for_more, met_or_nothing_required};
 use crate::equivalence::Verdict;
 use crate::manipulator::Octahedral;
 use crate::offsets;
@@ -120,7 +120,7 @@ impl Search {
     pub(super) fn met(&self) -> Option<bool> {
         match self {
             Self::Offsets(done) => met_or_nothing_required(done.assessed.as_ref()),
-            Self::Dimensions(done) => done.checked.as_ref().map_or(Some(true), |c| c.met()),
+            Self::Dimensions(done) => done.checked.as_ref().map_or(Some(true), Checked::met),
         }
     }
 
