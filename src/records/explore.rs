@@ -4,7 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    AssessAnswer, DimensionalStatus, NearestRecord, Number, SearchWord, SolvedRecord, VariableRecord, VerdictWord,
+    AssessAnswer, DimensionalStatus, NearestRecord, Number, SearchWord, SolvedRecord, VariableRecord,
+    VerdictWord,
 };
 use crate::dimensional::{DimensionalReport, DimensionalSolution};
 use crate::entrance::optimizing::{Checked, dimensional_status};

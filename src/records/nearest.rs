@@ -92,7 +92,7 @@ impl NearestAnswer {
     /// What was found for a design.
     #[must_use]
     pub(crate) fn new(design: &Design, options: &NearestOptions, near: Option<&NearestDesigns>) -> Self {
-        let poses = design.workspace_or_default().sample(Some(&design.home_or_default()));
+        let poses = design.workspace_or_default().sample(&design.home_or_default());
         let nearest = near.and_then(|near| {
             let (own, beside) = (design.manipulator().legs(), near.beside.manipulator().legs());
             Some(NearestRecord::new(design, near, &poses, length_deviation(&own, &beside, &poses)?))

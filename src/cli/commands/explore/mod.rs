@@ -32,8 +32,8 @@ use crate::geom::SamplePlan;
 use crate::manipulator::{LegLengths, Octahedral};
 use crate::records::{
     AssessAnswer, ComparedRecord, ExploreAnswer, ExploreOctahedralAnswer, ExploreVerdict, FamilyAnswer,
-    FamilySizeRecord, FkRunRecord, FramesRecord, LengthsOrigin, PoseTotalsRecord, ProvenanceRecord, VerdictWord,
-    VerifyAnswer,
+    FamilySizeRecord, FkRunRecord, FramesRecord, LengthsOrigin, PoseTotalsRecord, ProvenanceRecord,
+    VerdictWord, VerifyAnswer,
 };
 use crate::synthesis::{Family, FamilyMember};
 
