@@ -29,7 +29,7 @@ DesignObjective = Literal[
     "stroke",
     "worst_conditioning",
 ]
-DimensionalStatus = Literal["feasible", "infeasible", "interrupted", "optimal", "undecided"]
+DimensionalStatus = Literal["feasible", "infeasible", "interrupted", "optimal", "undecided", "violated"]
 ErrorKind = Literal["position", "rotation"]
 EvidenceWord = Literal["modular", "proved"]
 ExactnessWord = Literal["doubles", "field", "interval", "rational"]
@@ -65,17 +65,28 @@ Objective = Literal[
     "stroke",
     "worst_conditioning",
 ]
-OffsetsStatus = Literal["feasible", "infeasible", "interrupted", "local_optimum", "optimal", "undecided"]
+OffsetsStatus = Literal[
+    "feasible",
+    "infeasible",
+    "interrupted",
+    "local_optimum",
+    "optimal",
+    "undecided",
+    "violated",
+]
 PathEnd = Literal["at_infinity", "failed", "finite", "isotropic"]
 ProofWord = Literal["leg_vectors", "pose_lattice", "regular_pose"]
 ProvedReality = Literal["non_real", "real", "undecided"]
 RegularityWord = Literal["changes_sign", "proved", "undecided"]
 RejectionReason = Literal["duplicate", "not_certified", "not_finite", "residual_too_large"]
 Relation = Literal["equivalent", "singular", "undecided", "unrelated"]
+SearchWord = Literal["found", "impossible", "undecided", "violated"]
 SideWord = Literal["above", "below"]
 SourceWord = Literal["default", "design"]
 SpecialDemand = Literal["abs_det", "reach"]
+StageWord = Literal["assess", "components", "fk", "moves", "nearest", "verify"]
 TermKind = Literal[
+    "base_envelope",
     "base_spacing",
     "base_swing",
     "keep_out",
@@ -84,6 +95,8 @@ TermKind = Literal[
     "leg_speed",
     "leg_too_long",
     "leg_too_short",
+    "machine_envelope",
+    "platform_envelope",
     "platform_spacing",
     "platform_swing",
 ]
@@ -131,13 +144,16 @@ class AssemblyRecord(Record):
 
 
 class AssessAnswer(Record):
-    """One JSON document: an answer between what all answers have."""
+    """The answer of `assess`."""
 
     #: Always 1: the version of these definitions.
     schema_version: int
     #: True: every margin and det J are proved, for every pose of the workspace; false: a violation or a
     #: change of sign of det J is proved by its pose; null: neither.
     met: Union[bool, None]
+    #: The same of the reserves: true: every margin is proved to keep its reserve; false: one does not, at
+    #: the pose given; null: neither.
+    reserve_kept: Union[bool, None]
     #: The least of each kind.
     requirements: tuple[MarginRecord, ...]
     #: Whether there are singular poses.
@@ -537,6 +553,10 @@ class Design(Record):
     legs: tuple[tuple[str, ...], ...]
     base: DesignBody
     platform: DesignBody
+    #: unit of all forces; torques are in it times the length unit
+    force_units: Union[Literal["N", "kN", "kgf", "lbf"], None]
+    #: unit of all masses
+    mass_units: Union[Literal["g", "kg", "t", "lb"], None]
     #: where the numbers come from
     source: Union[str, None]
     description: Union[str, None]
@@ -547,6 +567,9 @@ class Design(Record):
     #: the pose the platform is built for
     home: Union[DesignPose, None]
     workspace: Union[dict[str, Any], None]
+    payload: Union[dict[str, Any], None]
+    envelope: Union[dict[str, Any], None]
+    limits: Union[dict[str, Any], None]
     optimize: Union[dict[str, Any], None]
     hardware: Union[dict[str, Any], None]
     speed: Union[dict[str, Any], None]
@@ -567,6 +590,15 @@ class DesignCapsule(Record):
     from_: DesignVector
     to: DesignVector
     diameter: DesignPositive
+
+
+class DesignEnvelope(Record):
+    """DesignEnvelope"""
+
+    radius: Union[DesignPositive, None]
+    center: Union[tuple[DesignNumber, ...], None]
+    min: Union[DesignVector, None]
+    max: Union[DesignVector, None]
 
 
 class DesignPose(Record):
@@ -643,8 +675,10 @@ class DimensionalAnswer(Record):
     joint_axes: Union[JointAxesRecord, None]
     #: The requirements, over many poses and by other code.
     constraint_margins: Union[tuple[MarginRecord, ...], None]
-    #: None of them is violated.
+    #: Whether the platform meets its requirements, proved by the assessment; null: not all is proved.
     requirements_met: Union[bool, None]
+    #: What `assess` says of the platform; null: the design requires nothing.
+    assessment: Union[AssessAnswer, None]
     #: Whether it is equivalent to the design; null: the variables do not keep the class.
     verify: Union[VerifiedRecord, None]
     #: Steps of the run that found it; absent in a front.
@@ -672,8 +706,10 @@ class DimensionalSolutionRecord(Record):
     joint_axes: JointAxesRecord
     #: The requirements, over many poses and by other code.
     constraint_margins: tuple[MarginRecord, ...]
-    #: None of them is violated.
-    requirements_met: bool
+    #: Whether the platform meets its requirements, proved by the assessment; null: not all is proved.
+    requirements_met: Union[bool, None]
+    #: What `assess` says of the platform; null: the design requires nothing.
+    assessment: Union[AssessAnswer, None]
     #: Whether it is equivalent to the design; null: the variables do not keep the class.
     verify: Union[VerifiedRecord, None]
     #: Evidence of local optimality.
@@ -775,6 +811,73 @@ class ExploreAnswer(Record):
 
     #: Always 1: the version of these definitions.
     schema_version: int
+    #: What the answer was made from.
+    provenance: ProvenanceRecord
+    #: What was odd about the design files that were read.
+    warnings: tuple[WarningRecord, ...]
+    #: Of the whole run.
+    verdict: Union[ExploreVerdict, None]
+    #: One sentence with the numbers that decided.
+    explanation: Union[str, None]
+    #: The name of the design.
+    name: Union[str, None]
+    #: The files written.
+    paths: Union[tuple[str, ...], None]
+    #: The equivalence class.
+    family: Union[FamilySizeRecord, None]
+    #: What `assess` says of the platform found; null: there is none, or the design requires nothing.
+    assessment: Union[AssessAnswer, None]
+    #: The platform; null: none was found.
+    optimize: Union[OptimizedRecord, None]
+    #: The comparison of the design with the optimised one; null: there is none.
+    verify: Union[ComparedRecord, None]
+    #: The poses of the design.
+    fk: Union[PoseTotalsRecord, None]
+    #: What was done, in order.
+    stages: Union[tuple[StageRecord, ...], None]
+    #: The families of replaceable legs.
+    components: Union[FamiliesFoundRecord, None]
+    #: The search for an equivalent platform without shared joints; null: no leg can be moved.
+    moves: Union[MovesFoundRecord, None]
+    #: The nearest octahedral platform; null: none was found.
+    nearest: Union[NearestErrorRecord, None]
+    #: Whether the platform equivalent to the nearest octahedral one meets the requirements of the design:
+    #: true and false are proved; null: undecided, not looked at, or nothing is required.
+    nearest_meets_requirements: Union[bool, None]
+
+
+class ExploreGeneralAnswer(Record):
+    """The answer of `explore` about a design that is not octahedral."""
+
+    #: Of the whole run.
+    verdict: ExploreVerdict
+    #: One sentence with the numbers that decided.
+    explanation: str
+    #: The name of the design.
+    name: str
+    #: The files written.
+    paths: tuple[str, ...]
+    #: What was done, in order.
+    stages: tuple[StageRecord, ...]
+    #: The families of replaceable legs.
+    components: FamiliesFoundRecord
+    #: The search for an equivalent platform without shared joints; null: no leg can be moved.
+    moves: Union[MovesFoundRecord, None]
+    #: The nearest octahedral platform; null: none was found.
+    nearest: Union[NearestErrorRecord, None]
+    #: Whether the platform equivalent to the nearest octahedral one meets the requirements of the design:
+    #: true and false are proved; null: undecided, not looked at, or nothing is required.
+    nearest_meets_requirements: Union[bool, None]
+    #: The comparison of the design with the equivalent found, else of the nearest octahedral platform with
+    #: its equivalent; null: there is neither.
+    verify: Union[ComparedRecord, None]
+    #: The poses of the design.
+    fk: PoseTotalsRecord
+
+
+class ExploreOctahedralAnswer(Record):
+    """The answer of `explore` about an octahedral design."""
+
     #: Of the whole run.
     verdict: ExploreVerdict
     #: One sentence with the numbers that decided.
@@ -785,16 +888,14 @@ class ExploreAnswer(Record):
     paths: tuple[str, ...]
     #: The equivalence class.
     family: FamilySizeRecord
-    #: The offsets; null: none were found.
-    optimize: Union[OffsetsFoundRecord, None]
+    #: What `assess` says of the platform found; null: there is none, or the design requires nothing.
+    assessment: Union[AssessAnswer, None]
+    #: The platform; null: none was found.
+    optimize: Union[OptimizedRecord, None]
     #: The comparison of the design with the optimised one; null: there is none.
     verify: Union[ComparedRecord, None]
     #: The poses of the design.
     fk: PoseTotalsRecord
-    #: What the answer was made from.
-    provenance: ProvenanceRecord
-    #: What was odd about the design files that were read.
-    warnings: tuple[WarningRecord, ...]
 
 
 class FailureRecord(Record):
@@ -810,6 +911,15 @@ class FailureRecord(Record):
     help: Union[str, None]
     #: The design file.
     path: Union[str, None]
+
+
+class FamiliesFoundRecord(Record):
+    """The families of replaceable legs in short."""
+
+    #: How many.
+    count: int
+    #: There are no others.
+    complete: bool
 
 
 class FamilySizeRecord(Record):
@@ -1038,8 +1148,10 @@ class FrontMemberRecord(Record):
     joint_axes: JointAxesRecord
     #: The requirements, over many poses and by other code.
     constraint_margins: tuple[MarginRecord, ...]
-    #: None of them is violated.
-    requirements_met: bool
+    #: Whether the platform meets its requirements, proved by the assessment; null: not all is proved.
+    requirements_met: Union[bool, None]
+    #: What `assess` says of the platform; null: the design requires nothing.
+    assessment: Union[AssessAnswer, None]
     #: Whether it is equivalent to the design; null: the variables do not keep the class.
     verify: Union[VerifiedRecord, None]
     #: Evidence of local optimality.
@@ -1344,6 +1456,12 @@ class MarginRecord(Record):
     name: TermKind
     #: Least over the poses looked at; a violation below 0.
     margin: Union[float, None]
+    #: What has to remain of the limit, in the unit of the margin; 0: no reserve is asked for.
+    reserve: Union[float, None]
+    #: The margin less the reserve.
+    margin_with_reserve: Union[float, None]
+    #: The reserve is kept: proved in `assess` (null where it is not), at the poses looked at elsewhere.
+    reserve_kept: Union[bool, None]
     #: Not violated by more than rounding: proved in `assess` (null where it is not), at the poses looked
     #: at elsewhere.
     met: Union[bool, None]
@@ -1357,6 +1475,8 @@ class MarginRecord(Record):
     unit: str
     #: Legs, joints, keep-out or load.
     between: tuple[str, ...]
+    #: The legs among them, from 1; those of a joint where the requirement is about joints.
+    legs: tuple[int, ...]
     #: Where it is least; null where the pose has no influence.
     pose: Union[PoseQuaternionRecord, None]
 
@@ -1374,6 +1494,17 @@ class MotionRecord(Record):
     det: Union[float, None]
     #: What the moved design has to do with the first; null: undecided.
     relation: Union[Relation, None]
+
+
+class MovesFoundRecord(Record):
+    """A search for equivalent platforms in short."""
+
+    #: What came out.
+    outcome: SearchWord
+    #: Legs of the platform written that are not legs of the design, from 1; null: none is written.
+    moved_legs: Union[tuple[int, ...], None]
+    #: det A of the map to it; null: none is written.
+    det: Union[float, None]
 
 
 class NearRecord(Record):
@@ -1403,6 +1534,19 @@ class NearRecord(Record):
     distance: Union[float, None]
     #: The angle the platform turned by.
     angle_deg: Union[float, None]
+
+
+class NearestErrorRecord(Record):
+    """The nearest octahedral platform in short."""
+
+    #: The largest displacement of a leg end, design units.
+    largest_displacement: Union[float, None]
+    #: The same over the size of the design.
+    relative_displacement: Union[float, None]
+    #: The largest difference of leg lengths over the poses of the workspace.
+    largest_length_deviation: Union[float, None]
+    #: det A of the map from the octahedral platform to the one beside the design.
+    det: Union[float, None]
 
 
 class NearestMotionRecord(Record):
@@ -1597,6 +1741,8 @@ class OffsetsAnswer(Record):
     requirements: OffsetLimitsRecord
     #: The poses the worst case is taken over.
     poses: PoseSetRecord
+    #: What `assess` says of the platform; null: there is none, or the design requires nothing.
+    assessment: Union[AssessAnswer, None]
     #: What became of the branches.
     branch_counts: BranchCountsRecord
     #: What no offsets can exceed; null: not proved, or there is no solution.
@@ -1644,7 +1790,8 @@ class OffsetsAnswer(Record):
 class OffsetsFoundRecord(Record):
     """Offsets in short."""
 
-    #: No offsets exceed the objective by more than the tolerance: proved.
+    #: No offsets exceed the objective by more than the tolerance, and the platform meets its requirements:
+    #: proved.
     converged: bool
     #: Worst inverse condition number.
     objective: Union[float, None]
@@ -1679,6 +1826,8 @@ class OptimizeAnswer(Record):
     requirements: Union[OffsetLimitsRecord, None]
     #: The poses the worst case is taken over.
     poses: Union[PoseSetRecord, HeldPosesRecord, None]
+    #: What `assess` says of the platform; null: there is none, or the design requires nothing.
+    assessment: Union[AssessAnswer, None]
     #: What became of the branches.
     branch_counts: Union[BranchCountsRecord, None]
     #: What no offsets can exceed; null: not proved, or there is no solution.
@@ -1731,10 +1880,30 @@ class OptimizeAnswer(Record):
     home: Union[PoseQuaternionRecord, None]
     #: The axes chosen.
     joint_axes: Union[JointAxesRecord, None]
-    #: None of them is violated.
+    #: Whether the platform meets its requirements, proved by the assessment; null: not all is proved.
     requirements_met: Union[bool, None]
     #: Whether it is equivalent to the design; null: the variables do not keep the class.
     verify: Union[VerifiedRecord, None]
+
+
+class OptimizedRecord(Record):
+    """The platform in short."""
+
+    #: No offsets exceed the objective by more than the tolerance, and the platform meets its requirements:
+    #: proved.
+    converged: Union[bool, None]
+    #: Worst inverse condition number.
+    objective: Union[float, None]
+    #: The numbers `t_i`, cyclic order.
+    offsets: tuple[Union[float, None], ...]
+    #: `t_i d_i`, design units.
+    shifts: tuple[Union[float, None], ...]
+    #: det A.
+    det: Union[float, None]
+    #: What came of the search.
+    status: Union[DimensionalStatus, None]
+    #: What was chosen, axes left out.
+    variables: Union[tuple[VariableRecord, ...], None]
 
 
 class OtherAlignmentRecord(Record):
@@ -1767,6 +1936,17 @@ class PathRecord(Record):
     isotropy: Union[float, None]
     #: How often it had to be tracked again with smaller steps.
     retracked: int
+
+
+class PlatformFoundRecord(Record):
+    """A platform under requirements in short."""
+
+    #: What came of the search.
+    status: DimensionalStatus
+    #: Value of the first objective.
+    objective: Union[float, None]
+    #: What was chosen, axes left out.
+    variables: tuple[VariableRecord, ...]
 
 
 class PoseBoundRecord(Record):
@@ -1964,6 +2144,8 @@ class RoundAnswer(Record):
     exact: ExactRoundingOutcome
     #: The rounding with every joint next to where it is wanted.
     nearest: NearestRoundingOutcome
+    #: What `assess` says of the rounded design; null: there is none, or the design requires nothing.
+    assessment: Union[AssessAnswer, None]
     #: Which of them the rule takes; null: none meets the requirements.
     chosen: Union[VariantWord, None]
     #: The rounded design.
@@ -2141,6 +2323,15 @@ class SolvedSampleRecord(Record):
     certified_count: int
 
 
+class StageRecord(Record):
+    """What a stage of `explore` did."""
+
+    #: Which.
+    stage: StageWord
+    #: What came out, a sentence.
+    explanation: str
+
+
 class StationarityRecord(Record):
     """Evidence of local optimality."""
 
@@ -2153,6 +2344,8 @@ class TolerancesAnswer(Record):
 
     #: Always 1: the version of these definitions.
     schema_version: int
+    #: What `assess` says of the design; null: it requires nothing.
+    assessment: Union[AssessAnswer, None]
     #: The greatest error allowed.
     bound: PoseErrorRecord
     #: The tool point, platform frame.
@@ -2341,9 +2534,11 @@ DesignNotNegative = float
 
 DesignNumber = float
 
+DesignPercent = str
+
 DesignPositive = float
 
-ExploreVerdict = Union[Literal["infeasible"], VerdictWord]
+ExploreVerdict = Union[Literal["infeasible", "none", "violated", "new_kinematics"], VerdictWord]
 
 RoundingVerdict = Union[Literal["not_computed"], VerdictWord]
 
@@ -2354,6 +2549,8 @@ DesignHalfWidths = tuple[DesignNotNegative, ...]
 DesignQuantity = Union[DesignNumber, str]
 
 DesignRange = tuple[DesignNumber, ...]
+
+DesignReserve = Union[DesignNotNegative, DesignPercent]
 
 DesignVector = tuple[DesignNumber, ...]
 
