@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use serde::Serialize;
 
 use super::design::{NativeDesign, threads_of};
-use super::failure::raised;
+use super::failure::{interrupted, raised};
 use crate::design::{self, PRESETS};
 use crate::entrance::{self, VerifyOptions, sample_plan};
 use crate::records::{Document, FramesRecord, MapAnswer, ProvenanceRecord, VerifyAnswer};
@@ -64,10 +64,7 @@ pub(super) fn verify(
     let (a, b) = (a.inner(), b.inner());
     let threads = threads_of(py, threads)?;
     let found = py.detach(|| {
-        let look = |_: &_| match Python::attach(|py| py.check_signals()) {
-            Ok(()) => ControlFlow::Continue(()),
-            Err(_) => ControlFlow::Break(()),
-        };
+        let look = |_: &_| if interrupted() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
         let options = VerifyOptions::new().samples(samples).seed(seed).threads(threads).on_sample(look);
         entrance::verify_with(a, b, options)
     });

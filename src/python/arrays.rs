@@ -1,5 +1,6 @@
 //! Between numpy arrays and poses and lengths. Poses are 4 x 4 matrices `(R p; 0 1)`, lengths rows of six; the first axis counts.
 
+use nalgebra::Matrix4;
 use ndarray::{Array2, Array3, ArrayView2, ArrayView3};
 use num_complex::Complex64;
 use pyo3::prelude::*;
@@ -7,7 +8,6 @@ use pyo3::prelude::*;
 use super::failure::{raised, refused};
 use crate::entrance::Error;
 use crate::geom::{ComplexPose, Pose};
-use crate::nalgebra::Matrix4;
 
 /// The pose in row `k` of matrices, errors with the row.
 pub(super) fn pose_in(py: Python<'_>, poses: &ArrayView3<'_, f64>, k: usize) -> PyResult<Pose> {

@@ -3,23 +3,24 @@
 use std::num::NonZeroUsize;
 use std::sync::{Arc, OnceLock};
 
+use nalgebra::Point3;
 use ndarray::{Array2, Array3};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
 
 use super::answers::document;
 use super::arrays::{lengths_in, matrices, poses_in, rows};
-use super::failure::{raised, refused};
+use super::failure::{interrupted, raised, refused};
 use super::solutions::{NativeSolutions, SolutionArrays, SolutionColumns};
 use super::tracker::NativeTracker;
 use crate::design::{self, Format, PRESETS, parse};
 use crate::entrance::{Error, Solver};
 use crate::fk::{FkOptions, Method, Threads};
 use crate::manipulator::{Body, Manipulator, NoSuchBody, jacobian};
-use crate::nalgebra::Point3;
 use crate::num::Cancel;
 use crate::records::{AssessAnswer, CheckAnswer};
 use crate::requirements::{AssessOptions, Terms};
+use crate::synthesis::InstantiateError;
 
 /// A platform with names, units, home pose and requirements.
 #[pyclass(frozen, name = "Design", module = "equipod._core")]
@@ -94,14 +95,12 @@ impl NativeDesign {
     /// A preset by its name.
     #[staticmethod]
     fn preset(py: Python<'_>, name: &str) -> PyResult<Self> {
-        match PRESETS.iter().find(|p| p.name == name) {
-            Some(preset) => Self::loads(py, preset.text, false),
-            None => {
-                let known: Vec<&str> = PRESETS.iter().map(|p| p.name).collect();
-                let message = format!("there is no preset `{name}`; there are {}", known.join(", "));
-                Err(refused(py, "unknown_name", &message))
-            }
+        if let Some(preset) = PRESETS.iter().find(|p| p.name == name) {
+            return Self::loads(py, preset.text, false);
         }
+        let known: Vec<&str> = PRESETS.iter().map(|p| p.name).collect();
+        let message = format!("there is no preset `{name}`; there are {}", known.join(", "));
+        Err(refused(py, "unknown_name", &message))
     }
 
     /// Joints, and which of them each leg joins.
@@ -256,7 +255,7 @@ impl NativeDesign {
             let mut found = SolutionColumns::default();
             for (k, row) in solver.solve_all(rows).enumerate() {
                 found.push(&row);
-                if k % SIGNALS == 0 && Python::attach(|py| py.check_signals()).is_err() {
+                if k % SIGNALS == 0 && interrupted() {
                     cancel.cancel();
                     return Err(Error::Cancelled);
                 }
@@ -333,18 +332,14 @@ impl NativeDesign {
     ) -> PyResult<(Self, Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>)> {
         let built = || -> Result<_, Error> {
             let class = self.design.equivalents()?;
-            match pattern {
-                Some(name) => Ok(class.build(&name.parse()?, &offsets)?),
-                None => {
-                    let six: [f64; 6] = offsets.as_slice().try_into().map_err(|_| {
-                        Error::from(crate::synthesis::InstantiateError::OffsetCount {
-                            expected: 6,
-                            given: offsets.len(),
-                        })
-                    })?;
-                    Ok(class.joint_free(six)?)
-                }
+            if let Some(name) = pattern {
+                return Ok(class.build(&name.parse()?, &offsets)?);
             }
+            let six: [f64; 6] = offsets
+                .as_slice()
+                .try_into()
+                .map_err(|_| InstantiateError::OffsetCount { expected: 6, given: offsets.len() })?;
+            Ok(class.joint_free(six)?)
         };
         let (design, map) = built().map_err(|e| raised(py, e))?;
         let a = Array2::from_shape_fn((6, 6), |(i, j)| map.a[(i, j)]).into_pyarray(py);

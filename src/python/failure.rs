@@ -29,6 +29,12 @@ pub(super) fn raised(py: Python<'_>, error: Error) -> PyErr {
     }
 }
 
+/// Whether a signal asks for an end; without the lock of the interpreter.
+#[allow(clippy::redundant_closure_for_method_calls, reason = "the method itself is not general enough")]
+pub(super) fn interrupted() -> bool {
+    Python::attach(|py| py.check_signals()).is_err()
+}
+
 /// Bad input that the library does not see: shapes and names of arguments.
 pub(super) fn refused(py: Python<'_>, code: &str, message: &str) -> PyErr {
     design_error(py, code, message, &[])

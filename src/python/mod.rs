@@ -1,7 +1,10 @@
 //! The native module of the Python package: arrays in, arrays and answers out.
 //!
-//! Nothing is computed here. SolutionArrays become poses and lengths, questions go to the front page of the library, and answers leave as arrays or, where they are
+//! Nothing is computed here. Arrays become poses and lengths, questions go to the front page of the library, and answers leave as arrays or, where they are
 //! records, as the JSON that the command line prints. The Python sources beside this folder's Rust ones make typed objects of both.
+
+#![allow(clippy::needless_pass_by_value, reason = "arguments of functions that Python calls are handed over")]
+#![allow(clippy::cast_possible_wrap, reason = "counts that fit in memory, as the integers that numpy has")]
 
 mod answers;
 mod arrays;

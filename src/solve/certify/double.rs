@@ -132,7 +132,7 @@ impl DoubleCertificate {
 struct BorderedSystem {
     b: BorderedMatrix,
     y: BorderedMatrix,
-    /// TwoRootBounds of the error of a row of `J`, width of the data included.
+    /// Bounds of the error of a row of `J`, width of the data included.
     j_error: [f64; N],
 }
 
