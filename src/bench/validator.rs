@@ -77,7 +77,12 @@ pub fn validate(problem: &Problem, claims: &[Claim], others: &[ComplexPose]) -> 
         let refined = equations.refine_from(&start, claim.dual_quaternion.as_ref());
         verdict.worst_residual = verdict.worst_residual.max(refined.residual);
         let regular = is_regular(&start, &refined) || encloses(claim, &start, &refined, equations.unit());
-        if claim.certified && !(regular && is_as_claimed(claim, &refined, equations.unit())) {
+        let proper_claim = if claim.multiplicity == 2 {
+            is_double(&equations, claim, &start)
+        } else {
+            regular && is_as_claimed(claim, &refined, equations.unit())
+        };
+        if claim.certified && !proper_claim {
             verdict.false_certificates += 1;
         }
         // a double root is found to about the root of rounding: its residual is small all the same
@@ -105,6 +110,16 @@ pub fn validate(problem: &Problem, claims: &[Claim], others: &[ComplexPose]) -> 
 /// The iteration converged near where it started.
 fn is_regular(start: &Point, refined: &NewtonEnd) -> bool {
     refined.converged && start.distance(&refined.point) <= MOVED * start.scale()
+}
+
+/// Steps of Newton's method from beside it halve, once the directions in which the root is simple are settled; the claimed discs hold the pose.
+fn is_double(equations: &LegEquations, claim: &Claim, start: &Point) -> bool {
+    let steps = equations.steps_from_beside(start);
+    let ratios: Vec<f64> = steps.windows(2).skip(3).map(|pair| pair[1] / pair[0]).collect();
+    let halved = ratios.len() >= 4 && ratios.iter().all(|r| (r - 0.5).abs() < 0.05);
+    let held =
+        claim.enclosure.as_deref().is_some_and(|discs| in_discs(discs, start, 1e-28, equations.unit()));
+    halved && held
 }
 
 /// The claimed discs hold both what is claimed and the root the iteration converged to. Far out, where discs are wider than

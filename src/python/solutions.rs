@@ -97,7 +97,7 @@ impl NativeSolutions {
         self.found.method.name()
     }
 
-    /// The answer as `equipod fk --json` gives it, certificates included.
+    /// The document of one set of lengths, certificates included.
     fn json(&self) -> PyResult<String> {
         let home = self.design.home_or_default();
         let solved = SolvedRecord::from(&self.found).with_real_poses(self.design.manipulator(), &home);

@@ -67,8 +67,8 @@ fn special_classes_are_complete() {
         (Class::Collinear, 32),
         (Class::ClosePair, 40),
         (Class::Spread, 40),
-        // the double pose has no proof and is not listed
-        (Class::DoubleRoot, 38),
+        // the double pose counts twice
+        (Class::DoubleRoot, 40),
     ] {
         let report = short(class, 100);
         assert_eq!((report.expected, report.complete), (poses, 100), "{class}");

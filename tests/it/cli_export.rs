@@ -70,6 +70,9 @@ fn what_is_written_and_left_out_is_told() {
     ]);
     assert_eq!(out.status.code(), Some(0));
     let text = String::from_utf8(out.stdout).unwrap().replace(folder.path().to_str().unwrap(), "DIR");
+    // whether the design meets its requirements stands first
+    let (judged, text) = text.split_once("\n\nwrote").map(|(a, b)| (a, format!("wrote{b}"))).unwrap();
+    assert!(judged.starts_with("octahedral 12-6 meets all its requirements, proved"), "{judged}");
     insta::assert_snapshot!(text, @r#"
     wrote DIR/base-plate.dxf
     wrote DIR/platform-plate.dxf

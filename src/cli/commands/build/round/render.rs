@@ -53,7 +53,7 @@ fn judged(out: &mut String, what: &str, j: &JudgementRecord, units: &str) {
         j.objective.0,
         j.least_distances[0].0,
         j.least_distances[1].0,
-        if j.met { "met" } else { "violated" }
+        if j.met { "met at the sampled poses" } else { "violated" }
     );
 }
 
