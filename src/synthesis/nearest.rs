@@ -396,7 +396,7 @@ mod tests {
 
     const OPTIONS: NearestOptions = NearestOptions { extension: 1.0, min_abs_det: 0.05 };
 
-    fn platform_of(legs: [Leg; 6]) -> Manipulator {
+    fn platform_of(legs: &[Leg; 6]) -> Manipulator {
         let pairs = [0, 1, 2, 3, 4, 5].map(|i| (i, i));
         Manipulator::try_new(legs.map(|l| l.base).to_vec(), legs.map(|l| l.platform).to_vec(), pairs).unwrap()
     }
@@ -446,10 +446,10 @@ mod tests {
                     squares += by.norm_squared();
                 }
             }
-            let found = nearest_octahedral(&platform_of(legs), &OPTIONS).unwrap();
+            let found = nearest_octahedral(&platform_of(&legs), &OPTIONS).unwrap();
             let rms = found.rms_displacement();
             assert!(12.0 * rms * rms <= squares && rms > 0.01 * size, "{size}: {rms}");
-            let (octahedral, near) = (found.octahedral().unwrap(), platform_of(found.legs()));
+            let (octahedral, near) = (found.octahedral().unwrap(), platform_of(&found.legs()));
             let map = leg_map(&octahedral, &near, LegMapTolerances::default()).unwrap();
             assert_eq!(map.relation, Relation::Equivalent);
             assert!((map.determinant.abs() - found.determinant.abs()).abs() < 1e-9);
@@ -462,7 +462,7 @@ mod tests {
         let point = |rng: &mut Rng| Point3::from(Vector3::from_fn(|_, _| rng.uniform(-2.0, 2.0)));
         let legs: [Leg; 6] =
             std::array::from_fn(|_| Leg { base: point(&mut rng), platform: point(&mut rng) });
-        let found = nearest_octahedral(&platform_of(legs), &OPTIONS).unwrap();
+        let found = nearest_octahedral(&platform_of(&legs), &OPTIONS).unwrap();
         assert!(found.settled && found.largest_displacement() > 0.1, "{found:?}");
         let squares = |n: &NearestOctahedral| -> f64 {
             let ends = n.legs().into_iter().zip(legs);
@@ -483,7 +483,7 @@ mod tests {
         }
         // in millimetres it is the same platform
         let scaled = legs.map(|l| Leg { base: l.base * 1e3, platform: l.platform * 1e3 });
-        let again = nearest_octahedral(&platform_of(scaled), &OPTIONS).unwrap();
+        let again = nearest_octahedral(&platform_of(&scaled), &OPTIONS).unwrap();
         assert_eq!(again.order, found.order);
         assert!((again.largest_displacement() / 1e3 - found.largest_displacement()).abs() < 1e-7);
     }

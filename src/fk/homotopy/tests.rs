@@ -241,7 +241,6 @@ fn simple_poses_and_a_proved_double_one_are_a_complete_answer() {
         let found = Homotopy.solve(&m, &s, &FkOptions::default()).unwrap();
         let double: Vec<&FkRoot> = found.roots.iter().filter(|r| r.multiplicity == 2).collect();
         if !found.completeness.is_proved() {
-            println!("{k}: {found}");
             continue;
         }
         whole += 1;

@@ -79,12 +79,12 @@ fn an_exact_double_pose_is_proved_to_half_of_the_digits_and_more() {
 fn two_poses_apart_by_a_little_lie_in_the_ball_and_data_within_radii_are_covered() {
     let mut rng = Rng::new(0xd1);
     let mut compared = 0;
-    for k in 0..40 {
+    for k in 0..40_usize {
         let (m, pose, s) = singular_problem(&mut rng);
         let middle: [DoubleDouble; 6] = s.middle();
         let mut shifted = middle;
-        let off = 2f64.powi(-30 - (k % 3) * 4) * s.get()[k as usize % 6];
-        shifted[k as usize % 6] = shifted[k as usize % 6] + off.into();
+        let off = 2f64.powi(-30 - [0, 4, 8][k % 3]) * s.get()[k % 6];
+        shifted[k % 6] = shifted[k % 6] + off.into();
         let moved = SquaredLegLengths::try_within(shifted, [0.0; 6]).unwrap();
         let certifier = Certifier::new(&m, &moved).unwrap();
         let Ok((_, double)) = certifier.two_roots_near(&pose.into()) else { continue };
