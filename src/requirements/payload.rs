@@ -13,7 +13,7 @@ pub const GRAVITY: f64 = 9.806_65;
 pub enum ForceUnit {
     /// Newton.
     Newton,
-    /// Kilonewton.
+    /// Thousand newtons.
     Kilonewton,
     /// Kilogram-force.
     KilogramForce,

@@ -116,7 +116,7 @@ fn envelope(report: &mut Findings<'_>, entry: &Entry) -> Option<Envelope> {
     let entries = table(report, &entry.node, &place)?;
     check_keys(report, entries, &SHAPE_KEYS, &place);
     let has = |key: &str| find(entries, key).is_some();
-    let help = "give { radius = R } with center = [x, y] where it is not the origin, or { min = [x, y, z], max = [x, y, z] }";
+    let help = "give `{ radius = R }`, with `center = [x, y]` where it is not the origin, or `{ min = [x, y, z], max = [x, y, z] }`";
     if has("radius") == (has("min") || has("max"))
         || has("min") != has("max")
         || (has("center") && has("min"))
