@@ -157,8 +157,7 @@ impl LegEquations {
         self.refine_from(start, None)
     }
 
-    /// [`refine`](Self::refine), with the digits that a dual quaternion has and the pose has not.
-    /// Lengths of the first Newton steps from beside a point, relative to its scale, in double-double: they halve where the root is a double one (Reddien 1978), shrink by two
+    /// Lengths of the first Newton steps from beside a point, relative to its scale, in double-double: they halve where the root is a double one (Reddien 1978), shrink to two
     /// thirds where it is threefold, and quadratically where it is simple.
     pub(super) fn steps_from_beside(&self, point: &Point) -> Vec<f64> {
         let scale = point.scale();
@@ -175,6 +174,7 @@ impl LegEquations {
         out
     }
 
+    /// [`refine`](Self::refine), with the digits that a dual quaternion has and the pose has not.
     pub(super) fn refine_from(&self, start: &Point, dual: Option<&[Complex64; 8]>) -> NewtonEnd {
         let residual = self.residual(start);
         let (point, error) = iterate(start, |x| {

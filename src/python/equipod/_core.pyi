@@ -1,5 +1,5 @@
 from os import PathLike
-from typing import final
+from typing import TypeAlias, final
 
 import numpy as np
 import numpy.typing as npt
@@ -7,6 +7,18 @@ import numpy.typing as npt
 __all__ = ["Design", "Solutions", "Tracker", "leg_map", "main", "preset_names", "verify", "__version__"]
 
 __version__: str
+
+_BatchArrays: TypeAlias = tuple[
+    npt.NDArray[np.complex128],
+    npt.NDArray[np.int8],
+    npt.NDArray[np.bool_],
+    npt.NDArray[np.float64],
+    npt.NDArray[np.uint32],
+    npt.NDArray[np.int64],
+    npt.NDArray[np.int8],
+    npt.NDArray[np.int64],
+    list[str],
+]
 
 def main(args: list[str]) -> int: ...
 def preset_names() -> list[str]: ...
@@ -52,17 +64,7 @@ class Design:
     def fk(self, lengths: list[float], seed: int, method: str | None) -> Solutions: ...
     def fk_batch(
         self, lengths: npt.NDArray[np.float64], threads: int | None
-    ) -> tuple[
-        npt.NDArray[np.complex128],
-        npt.NDArray[np.int8],
-        npt.NDArray[np.bool_],
-        npt.NDArray[np.float64],
-        npt.NDArray[np.uint32],
-        npt.NDArray[np.int64],
-        npt.NDArray[np.int8],
-        npt.NDArray[np.int64],
-        list[str],
-    ]: ...
+    ) -> _BatchArrays: ...
     def tracker(self, start: npt.NDArray[np.float64]) -> Tracker: ...
     def margins(
         self, poses: npt.NDArray[np.float64]

@@ -221,9 +221,7 @@ class Tracker:
         -------
         Track
         """
-        if not isinstance(lengths, list):
-            lengths = np.asarray(lengths, dtype=np.float64).tolist()
-        status, pose, fraction, residual, _, reason = self._native.step(lengths)  # type: ignore[arg-type]
+        status, pose, fraction, residual, _, reason = self._native.step(np.asarray(lengths, dtype=np.float64).tolist())
         return Track(status, pose, residual, fraction, reason)
 
     def follow(self, lengths: npt.ArrayLike) -> Track:

@@ -8,6 +8,11 @@ import webbrowser
 from dataclasses import dataclass
 
 
+def _write_new(path: str | pathlib.Path, text: str) -> None:
+    with open(path, "x", encoding="utf-8") as file:
+        file.write(text)
+
+
 @dataclass(frozen=True)
 class Figure:
     """A picture as SVG text; a notebook shows it.
@@ -22,8 +27,7 @@ class Figure:
 
     def save(self, path: str | pathlib.Path) -> None:
         """Writes the picture; the file must not exist."""
-        with open(path, "x", encoding="utf-8") as file:
-            file.write(self.svg)
+        _write_new(path, self.svg)
 
     def _repr_svg_(self) -> str:
         return self.svg
@@ -46,8 +50,7 @@ class Page:
 
     def save(self, path: str | pathlib.Path) -> None:
         """Writes the page; the file must not exist."""
-        with open(path, "x", encoding="utf-8") as file:
-            file.write(self.html)
+        _write_new(path, self.html)
 
     def open(self) -> pathlib.Path:
         """Writes the page to a temporary file and opens it in the browser; the file."""

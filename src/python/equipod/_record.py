@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import html
 import json
 import types
@@ -47,7 +48,7 @@ class Record:
 
     def to_dict(self) -> dict[str, Any]:
         """The document as dictionaries and lists, as ``equipod --json`` prints it."""
-        return typing.cast("dict[str, Any]", json.loads(json.dumps(self._document)))
+        return copy.deepcopy(self._document)
 
     def __eq__(self, other: object) -> bool:
         return type(self) is type(other) and self._document == typing.cast(Record, other)._document

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -151,8 +150,7 @@ class Solutions(Sequence[Solution]):
 
     def to_dict(self) -> dict[str, Any]:
         """The fields of ``equipod fk --json``."""
-        document: dict[str, Any] = json.loads(self._native.json())
-        return document
+        return self.record.to_dict()
 
     def __len__(self) -> int:
         return len(self.reality)
@@ -209,20 +207,7 @@ class BatchSolutions(Sequence["RowPoses"]):
         2 proved, 1 modular, 0 unproved, -1 the row failed.
     """
 
-    def __init__(
-        self,
-        arrays: tuple[
-            npt.NDArray[np.complex128],
-            npt.NDArray[np.int8],
-            npt.NDArray[np.bool_],
-            npt.NDArray[np.float64],
-            npt.NDArray[np.uint32],
-            npt.NDArray[np.int64],
-            npt.NDArray[np.int8],
-            npt.NDArray[np.int64],
-            list[str],
-        ],
-    ) -> None:
+    def __init__(self, arrays: _core._BatchArrays) -> None:
         (
             self.T,
             self.reality,
