@@ -54,6 +54,11 @@ pub(super) fn matrices(poses: &[Pose]) -> Array3<f64> {
     out
 }
 
+/// The rotation matrices of poses, shape (n, 3, 3).
+pub(super) fn rotations(poses: &[Pose]) -> Array3<f64> {
+    Array3::from_shape_fn((poses.len(), 3, 3), |(k, i, j)| poses[k].rotation.matrix()[(i, j)])
+}
+
 /// The matrices of complex poses.
 pub(super) fn complex_matrices<'a>(
     poses: impl ExactSizeIterator<Item = &'a ComplexPose>,

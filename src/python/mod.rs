@@ -10,6 +10,7 @@ mod answers;
 mod arrays;
 mod design;
 mod failure;
+mod forms;
 mod solutions;
 mod tracker;
 
@@ -29,6 +30,8 @@ mod core {
     use super::answers::{leg_map, preset_names, verify};
     #[pymodule_export]
     use super::design::NativeDesign;
+    #[pymodule_export]
+    use super::forms::{angles_of, quaternions_of, rotations_of_angles, rotations_of_quaternions};
     #[pymodule_export]
     use super::main;
     #[pymodule_export]

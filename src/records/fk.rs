@@ -492,7 +492,7 @@ pub enum CertificateRecord {
         /// What holds the pose of the root.
         enclosure: Box<EnclosureRecord>,
     },
-    /// Two roots in the coordinates (e, g / unit) with e[patch] = 1 that are close or one: both lie on a curve through the centre, parametrised by t with |t| below `reach`.
+    /// Two roots in the coordinates (e, g / unit), with coordinate `patch` of e equal to 1, that are close or one: both lie on a curve through the centre, parametrised by t with |t| below `reach`.
     Double {
         /// The coordinate that is 1.
         patch: usize,

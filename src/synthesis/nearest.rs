@@ -1,6 +1,6 @@
 //! The octahedral platform nearest to a platform: six legs moved as little as possible onto the sides of two triangles.
 //!
-//! A platform with one leg on each side of the hexagon of an octahedral platform ([`edge`](super::hexagon::edge)) is equivalent to the octahedral platform where
+//! A platform with one leg on each side of the hexagon of an octahedral platform ([`edge`]) is equivalent to the octahedral platform where
 //! `det A = prod (1 - t_k) - prod t_k` is not zero; with all `t_k = 0` it is the octahedral platform. Of these platforms the one is sought whose leg ends are nearest:
 //!
 //! ```text

@@ -4,7 +4,20 @@ from typing import TypeAlias, final
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["Design", "Solutions", "Tracker", "leg_map", "main", "preset_names", "verify", "__version__"]
+__all__ = [
+    "Design",
+    "Solutions",
+    "Tracker",
+    "angles_of",
+    "leg_map",
+    "main",
+    "preset_names",
+    "quaternions_of",
+    "rotations_of_angles",
+    "rotations_of_quaternions",
+    "verify",
+    "__version__",
+]
 
 __version__: str
 
@@ -20,6 +33,10 @@ _BatchArrays: TypeAlias = tuple[
     list[str],
 ]
 
+def angles_of(poses: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]: ...
+def quaternions_of(poses: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]: ...
+def rotations_of_angles(angles: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]: ...
+def rotations_of_quaternions(quaternions: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]: ...
 def main(args: list[str]) -> int: ...
 def preset_names() -> list[str]: ...
 def leg_map(

@@ -7,6 +7,7 @@ from typing import Any, Protocol, Union, runtime_checkable
 import numpy as np
 import numpy.typing as npt
 
+from . import _core
 from ._errors import DesignError
 
 Floats = npt.NDArray[np.float64]
@@ -103,32 +104,19 @@ def pose(
 
 
 def _from_rpy(rpy: Floats, degrees: bool) -> Floats:
-    if rpy.shape[-1:] != (3,):
-        raise DesignError(f"angles have the shape (..., 3), not {rpy.shape}", code="shape")
     angles = np.deg2rad(rpy) if degrees else rpy
-    c, s = np.cos(angles), np.sin(angles)
-    (cr, cp, cy), (sr, sp, sy) = np.moveaxis(c, -1, 0), np.moveaxis(s, -1, 0)
-    rows = [
-        [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
-        [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
-        [-sp, cp * sr, cp * cr],
-    ]
-    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+    return _core.rotations_of_angles(_rows(angles, 3, "angles")).reshape(*rpy.shape[:-1], 3, 3)
 
 
 def _from_quaternion(quat: Floats, scalar_first: bool) -> Floats:
-    if quat.shape[-1:] != (4,):
-        raise DesignError(f"quaternions have the shape (..., 4), not {quat.shape}", code="shape")
-    norm = np.linalg.norm(quat, axis=-1, keepdims=True)
-    if not np.all(np.abs(norm - 1.0) <= 1e-3):
-        raise DesignError("a quaternion of a rotation has norm 1", code="pose")
-    w, x, y, z = np.moveaxis(quat / norm if scalar_first else np.roll(quat / norm, 1, axis=-1), -1, 0)
-    rows = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-    ]
-    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+    rows = _rows(quat if scalar_first else np.roll(quat, 1, axis=-1), 4, "quaternions")
+    return _core.rotations_of_quaternions(rows).reshape(*quat.shape[:-1], 3, 3)
+
+
+def _rows(array: Floats, width: int, what: str) -> Floats:
+    if array.shape[-1:] != (width,):
+        raise DesignError(f"{what} have the shape (..., {width}), not {array.shape}", code="shape")
+    return np.ascontiguousarray(array).reshape(-1, width)
 
 
 def rpy(poses: PoseLike, *, degrees: bool = False) -> Floats:
@@ -143,15 +131,11 @@ def rpy(poses: PoseLike, *, degrees: bool = False) -> Floats:
     Returns
     -------
     ndarray, float64, shape (..., 3)
-        Pitch is in [-90, 90] degrees; where it is plus or minus 90, yaw is 0.
+        Pitch is in [-90, 90] degrees; where it is plus or minus 90, only the sum or difference of roll and yaw is
+        determined: yaw is then as the rounding of the matrix has it, and roll belongs to it.
     """
-    r = as_matrices(poses)[..., :3, :3]
-    level = np.hypot(r[..., 0, 0], r[..., 1, 0])
-    pitch = np.arctan2(-r[..., 2, 0], level)
-    locked = level < 1e-12
-    roll = np.where(locked, np.arctan2(-r[..., 1, 2], r[..., 1, 1]), np.arctan2(r[..., 2, 1], r[..., 2, 2]))
-    yaw = np.where(locked, 0.0, np.arctan2(r[..., 1, 0], r[..., 0, 0]))
-    out = np.stack([roll, pitch, yaw], axis=-1)
+    array = as_matrices(poses)
+    out = _core.angles_of(array.reshape(-1, 4, 4)).reshape(*array.shape[:-2], 3)
     return np.rad2deg(out) if degrees else out
 
 
@@ -168,22 +152,6 @@ def quaternion(poses: PoseLike, *, scalar_first: bool = True) -> Floats:
     -------
     ndarray, float64, shape (..., 4)
     """
-    r = as_matrices(poses)[..., :3, :3]
-    d0, d1, d2 = r[..., 0, 0], r[..., 1, 1], r[..., 2, 2]
-    # 4 q q^T, column by column; the one with the largest diagonal loses no digits (Shepperd 1978)
-    a, b, c = r[..., 2, 1] - r[..., 1, 2], r[..., 0, 2] - r[..., 2, 0], r[..., 1, 0] - r[..., 0, 1]
-    e, f, g = r[..., 1, 0] + r[..., 0, 1], r[..., 0, 2] + r[..., 2, 0], r[..., 2, 1] + r[..., 1, 2]
-    columns = np.stack(
-        [
-            np.stack([1 + d0 + d1 + d2, a, b, c], axis=-1),
-            np.stack([a, 1 + d0 - d1 - d2, e, f], axis=-1),
-            np.stack([b, e, 1 - d0 + d1 - d2, g], axis=-1),
-            np.stack([c, f, g, 1 - d0 - d1 + d2], axis=-1),
-        ],
-        axis=-2,
-    )
-    best = np.argmax(np.diagonal(columns, axis1=-2, axis2=-1), axis=-1)
-    q: Floats = np.take_along_axis(columns, best[..., None, None], axis=-2)[..., 0, :]
-    q = q / np.linalg.norm(q, axis=-1, keepdims=True)
-    q = np.where(q[..., :1] < 0, -q, q)
+    array = as_matrices(poses)
+    q = _core.quaternions_of(array.reshape(-1, 4, 4)).reshape(*array.shape[:-2], 4)
     return q if scalar_first else np.roll(q, -1, axis=-1)

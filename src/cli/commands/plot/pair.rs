@@ -28,23 +28,22 @@ pub(super) fn draw(args: &Args, context: &mut Context) -> Result<String, Failure
     let pose = poses::parse(&args.pose, &a, "--pose", "plot::bad_pose")?;
     let found = leg_map(a.manipulator(), b.manipulator(), LegMapTolerances::default())
         .map_err(|e| Failure::internal(e.to_string()))?;
-    if found.relation == Relation::Unrelated {
-        let message = format!(
-            "no affine map leads from the squared leg lengths of {} to those of {}: {}",
-            a.name,
-            b.name,
-            found.explanation()
-        );
-        return Err(Failure::new(Exit::No, "plot::no_leg_map", message)
-            .with_help("`equipod equivalents map A B --align` looks for other frames of the second design"));
-    }
     let between = match found.relation {
         Relation::Equivalent => {
             vec!["s\u{2032} = A s + c".into(), format!("det A = {:.3}", found.determinant)]
         }
         Relation::Singular => vec!["s\u{2032} = A s + c".into(), "singular".into()],
-        Relation::Undecided | Relation::Unrelated => {
-            vec!["s\u{2032} = A s + c".into(), "undecided".into()]
+        Relation::Undecided => vec!["s\u{2032} = A s + c".into(), "undecided".into()],
+        Relation::Unrelated => {
+            let message = format!(
+                "no affine map leads from the squared leg lengths of {} to those of {}: {}",
+                a.name,
+                b.name,
+                found.explanation()
+            );
+            return Err(Failure::new(Exit::No, "plot::no_leg_map", message).with_help(
+                "`equipod equivalents map A B --align` looks for other frames of the second design",
+            ));
         }
     };
     let note = match found.relation {
