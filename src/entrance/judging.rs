@@ -9,7 +9,9 @@ use crate::singularity::{
     Architecture, Assembly, Conditioning, NearestSingular, Regularity, assembly, conditioning,
     nearest_singular, regular_workspace, singular_distance_at_least,
 };
-use crate::solve::pose_count::{CountOptions, PoseCount, count_generic_poses};
+use crate::solve::pose_count::{
+    CommonPoints, CountOptions, PoseCount, count_common_points, count_generic_poses,
+};
 
 /// Whether a design is architecturally singular, and why.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,6 +31,8 @@ pub struct CheckReport {
     pub conditioning: Conditioning,
     /// Finite poses, real and complex, for generic leg lengths: no lengths have more isolated ones.
     pub pose_count: PoseCount,
+    /// The common points of the legs for generic lengths, by where they are; `None` where the poses are not isolated or not counted.
+    pub common_points: Option<CommonPoints>,
     /// The theorem with the smallest bound on the isolated finite poses, for all lengths.
     pub pose_bound: Theorem,
 }
@@ -114,6 +118,9 @@ impl std::fmt::Display for AssessReport {
 /// Cells of the workspace over which [`Design::assess`] bounds the margins of one kind of requirement, and `det J`, at most.
 pub(crate) const ASSESS_CELLS: usize = 6000;
 
+/// The same where a search has found what is judged, and fewer do not decide.
+const PATIENT_CELLS: usize = 60_000;
+
 /// The same in answers that are about something else than the requirements: a tenth of a second where the whole proof takes seconds.
 const BRIEF_CELLS: usize = 300;
 
@@ -149,7 +156,9 @@ impl Design {
             (Some(g), Some(l)) => Some(assembly(g, m, &l.squared())?),
             _ => None,
         };
-        let pose_count = count_generic_poses(m, &CountOptions { seed, ..CountOptions::default() });
+        let counting = CountOptions { seed, ..CountOptions::default() };
+        let pose_count = count_generic_poses(m, &counting);
+        let common_points = pose_count.finite().and_then(|_| count_common_points(m, &counting));
         let design = self.clone();
         let pose_bound = pose_bound(m);
         Ok(CheckReport {
@@ -160,6 +169,7 @@ impl Design {
             assembly,
             conditioning,
             pose_count,
+            common_points,
             pose_bound,
         })
     }
@@ -189,9 +199,11 @@ impl Design {
 
     /// What [`assess`](Self::assess) decides, with this seed: what every answer that judges a design begins with. `None` where the design requires nothing.
     ///
-    /// Proofs end where they decide: the proved margins may be smaller than those of `assess`.
+    /// Proofs end where they decide: the proved margins may be smaller than those of `assess`. A search drives margins to zero, where proofs need more cells: they get them.
     pub(crate) fn assessed(&self, seed: u64) -> Option<AssessReport> {
-        self.assess_with(&AssessOptions::new().seed(seed).close(false), ASSESS_CELLS).ok()
+        let with = |cells| self.assess_with(&AssessOptions::new().seed(seed).close(false), cells).ok();
+        let found = with(ASSESS_CELLS)?;
+        if found.met_with_reserve().is_some() { Some(found) } else { with(PATIENT_CELLS) }
     }
 
     /// The same with few cells, for answers that are about something else: the same poses are looked at, and less is proved between them.

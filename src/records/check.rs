@@ -14,6 +14,7 @@ use crate::singularity::{
     Architecture, Assembly, CornerLengths, Dependency, Finding, GriffisDuffy, NearestSingular, RankBound,
     RationalPose,
 };
+use crate::solve::pose_count::CommonPoints;
 
 /// The answer of `check`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -54,6 +55,8 @@ pub struct CheckAnswer {
     pub nearest_singular: Option<NearestSingularRecord>,
     /// Finite poses, real and complex, for generic leg lengths.
     pub pose_count: PoseCountRecord,
+    /// The points that six legs have in common, for generic lengths, by where they are; null where the poses are not isolated or not counted.
+    pub common_points: Option<CommonPointsRecord>,
     /// How many isolated finite poses no lengths exceed, by a theorem.
     pub pose_bound: PoseBoundRecord,
     /// Singular values of the normalised leg vectors.
@@ -92,6 +95,7 @@ impl From<&CheckReport> for CheckAnswer {
                 .as_ref()
                 .map(|n| NearestSingularRecord::new(n, c.at_least, &c.design)),
             pose_count: (&c.pose_count).into(),
+            common_points: c.common_points.map(CommonPointsRecord::from),
             pose_bound: c.pose_bound.into(),
             singular_values: f.leg_vectors.map(Number),
             jacobian_inverse_condition: ConditioningRecord {
@@ -101,6 +105,26 @@ impl From<&CheckReport> for CheckAnswer {
                 worst: Number(f.worst),
             },
         }
+    }
+}
+
+/// Common points of six legs in the closure of the group, each with its multiplicity, counted modulo random primes.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CommonPointsRecord {
+    /// Finite poses.
+    pub finite: usize,
+    /// Limits of poses whose quaternion e becomes isotropic: e.e = 0, e not 0. Null: not isolated, or not counted.
+    pub isotropic: Option<usize>,
+    /// Limits of poses with e = 0: the position goes to infinity. Null: points at infinity are not isolated, or not counted.
+    pub at_infinity: Option<usize>,
+    /// A bound on the probability that the numbers are others.
+    pub error_probability: f64,
+}
+
+impl From<CommonPoints> for CommonPointsRecord {
+    fn from(c: CommonPoints) -> Self {
+        let CommonPoints { finite, isotropic, at_infinity, error_probability } = c;
+        Self { finite, isotropic, at_infinity, error_probability }
     }
 }
 

@@ -21,7 +21,7 @@ fn table(seed: u64) -> Result<String, Box<dyn Error>> {
     let mut out = String::new();
     writeln!(
         out,
-        "| family | finite poses | by degree | at infinity | proved bound |\n|---|--:|---|--:|--:|"
+        "| family | finite poses | by degree | e.e = 0 | at infinity | proved bound |\n|---|--:|---|--:|--:|--:|"
     )?;
     for (name, family) in FAMILIES {
         let (base, platform) = family(&mut Draw(seed));
@@ -32,12 +32,16 @@ fn table(seed: u64) -> Result<String, Box<dyn Error>> {
         match &checked.pose_count.set {
             PoseSet::Finite { count, by_degree } => {
                 let degrees: Vec<String> = by_degree.iter().map(ToString::to_string).collect();
-                writeln!(out, "| {name} | {count} | {} | {} | {bound} |", degrees.join(", "), 40 - count)?;
+                let number = |n: Option<usize>| n.map_or("not isolated".into(), |n| n.to_string());
+                let (isotropic, far) =
+                    checked.common_points.map_or((None, None), |p| (p.isotropic, p.at_infinity));
+                let (degrees, isotropic, far) = (degrees.join(", "), number(isotropic), number(far));
+                writeln!(out, "| {name} | {count} | {degrees} | {isotropic} | {far} | {bound} |")?;
             }
             PoseSet::PositiveDimensional { dimension, degree } => {
-                writeln!(out, "| {name} | dimension {dimension}, degree {degree} | | | {bound} |")?;
+                writeln!(out, "| {name} | dimension {dimension}, degree {degree} | | | | {bound} |")?;
             }
-            PoseSet::Undecided { .. } => writeln!(out, "| {name} | undecided | | | {bound} |")?,
+            PoseSet::Undecided { .. } => writeln!(out, "| {name} | undecided | | | | {bound} |")?,
         }
     }
     Ok(out)

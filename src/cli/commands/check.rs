@@ -9,7 +9,6 @@ use crate::cli::failure::Failure;
 use crate::cli::output::Answer;
 use crate::records::{
     AssemblyRecord, CheckAnswer, DependencyRecord, GriffisDuffyRecord, NearestSingularRecord, Number,
-    PoseBoundRecord, PoseCountRecord,
 };
 
 /// Arguments of `check`.
@@ -63,7 +62,7 @@ fn text(c: &CheckAnswer, size: f64, units: &str) -> String {
     if let Some(n) = &c.nearest_singular {
         nearest(&mut text, n, size, units);
     }
-    pose_count(&mut text, &c.pose_count, &c.pose_bound);
+    pose_count(&mut text, c);
     let f = &c.jacobian_inverse_condition;
     let values: Vec<String> = c.singular_values.iter().map(|x| format!("{:.3e}", x.0)).collect();
     let _ = writeln!(text, "\nsingular values of the normalised leg vectors: {}", values.join(", "));
@@ -75,7 +74,8 @@ fn text(c: &CheckAnswer, size: f64, units: &str) -> String {
     text
 }
 
-fn pose_count(text: &mut String, c: &PoseCountRecord, bound: &PoseBoundRecord) {
+fn pose_count(text: &mut String, answer: &CheckAnswer) {
+    let (c, bound) = (&answer.pose_count, &answer.pose_bound);
     let error = c.error_probability.map(|p| {
         format!("counted modulo {} random primes, wrong with probability {p:.1e} at most", c.primes.len())
     });
@@ -89,13 +89,18 @@ fn pose_count(text: &mut String, c: &PoseCountRecord, bound: &PoseBoundRecord) {
         }
         (None, None) => writeln!(text, "\nthe finite poses for generic leg lengths are not counted"),
     };
-    if let (Some(count), Some(degrees)) = (c.finite, &c.by_degree) {
+    if let Some(degrees) = &c.by_degree {
         let degrees: Vec<String> = degrees.iter().map(ToString::to_string).collect();
+        let _ = writeln!(text, "  by degree {}", degrees.join(" + "));
+    }
+    if let Some(p) = &answer.common_points {
+        let number = |n: Option<usize>| n.map_or("those not isolated".into(), |n| n.to_string());
         let _ = writeln!(
             text,
-            "  by degree {}; the other {} of the 40 common points of six legs are at infinity",
-            degrees.join(" + "),
-            40usize.saturating_sub(count)
+            "  common points of six legs: {} finite, with e.e = 0 {}, at infinity {}",
+            p.finite,
+            number(p.isotropic),
+            number(p.at_infinity)
         );
     }
     let _ = writeln!(text, "  proved for all lengths: {}", bound.theorem);

@@ -14,7 +14,7 @@ use crate::num::Purpose;
 use crate::num::modular::Field;
 pub(crate) use infinity::are_points_at_infinity_finite;
 use joints::{CountedJoints, DrawnPrime, EndResidues};
-use quadrics::{COORDINATES, Cut, Linear, QuadricPart, cut};
+use quadrics::{COORDINATES, Cut, H, Linear, M, cut};
 use quotient::{Outcome, close};
 
 /// Squared lengths, each the exact sum of two doubles.
@@ -154,6 +154,41 @@ impl PoseCount {
     }
 }
 
+/// The points that the six leg equations have in common in the closure of the group, for generic lengths, by where they are; each with its multiplicity. They are forty where all are isolated.
+///
+/// In the coordinates `(M, y, x, r, h)` a pose has `h = e.e` and `M = h R` with its quaternion `e`, which vanishes where both do.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CommonPoints {
+    /// Poses: `h != 0`.
+    pub finite: usize,
+    /// Limits of poses whose quaternion becomes isotropic: `h = e.e = 0`, `M != 0`. `None` where they are not isolated, or the computation does not tell.
+    pub isotropic: Option<usize>,
+    /// Limits of poses whose position goes to infinity: `h = 0`, `M = 0`. `None` where one of all points at infinity is not isolated, or the computation does not tell.
+    pub at_infinity: Option<usize>,
+    /// Bound on the probability that the numbers are others.
+    pub error_probability: f64,
+}
+
+/// Counts the common points of the legs of `m` for generic lengths; `None` when the finite ones are not isolated or not counted.
+#[must_use]
+pub fn count_common_points(m: &Manipulator, options: &CountOptions) -> Option<CommonPoints> {
+    let mut error_probability: f64 = 0.0;
+    let mut count = |chart| {
+        let found = counted_in(m, Lengths::Generic, chart, options);
+        error_probability += found.error_probability;
+        found.finite()
+    };
+    let finite = count(Chart::Finite)?;
+    let rotating = count(Chart::Rotating);
+    let all = rotating.and_then(|_| count(Chart::All));
+    Some(CommonPoints {
+        finite,
+        isotropic: rotating.and_then(|n| n.checked_sub(finite)),
+        at_infinity: all.zip(rotating).and_then(|(n, m)| n.checked_sub(m)),
+        error_probability: error_probability.min(1.0),
+    })
+}
+
 /// Counts the finite poses of `m` with the squared lengths given, both exactly as they are: joints that a design gives exactly are these, not the doubles next to them.
 #[must_use]
 pub fn count_poses(m: &Manipulator, squares: &ExactSquares, options: &CountOptions) -> PoseCount {
@@ -175,18 +210,39 @@ enum Lengths<'a> {
     Generic,
 }
 
-/// Random coefficients, the same for all primes: squared lengths of generic legs, linear sections.
+/// What is one in the affine coordinates that are counted in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Chart {
+    /// `h`: poses.
+    Finite,
+    /// A random linear form of `M` and `h`: all points where these are not all zero.
+    Rotating,
+    /// A random linear form of all coordinates: all points.
+    All,
+}
+
+/// Random coefficients, the same for all primes: squared lengths of generic legs, linear sections, the form of the chart.
 struct Draws {
     squares: [i64; 6],
-    sections: [[i64; COORDINATES + 1]; 6],
+    sections: [[i64; COORDINATES]; 6],
+    chart: [i64; COORDINATES],
 }
 
 fn counted(m: &Manipulator, lengths: Lengths<'_>, options: &CountOptions) -> PoseCount {
+    counted_in(m, lengths, Chart::Finite, options)
+}
+
+fn counted_in(m: &Manipulator, lengths: Lengths<'_>, chart: Chart, options: &CountOptions) -> PoseCount {
     let mut rng = Purpose::POSE_COUNT.rng(options.seed);
     let mut integer = || (rng.next_u64() >> 4).cast_signed();
     let draws = Draws {
         squares: std::array::from_fn(|_| integer()),
         sections: std::array::from_fn(|_| std::array::from_fn(|_| integer())),
+        chart: match chart {
+            Chart::Finite => std::array::from_fn(|k| i64::from(k == H)),
+            Chart::Rotating => std::array::from_fn(|k| if k == H || M.contains(&k) { integer() } else { 0 }),
+            Chart::All => std::array::from_fn(|_| integer()),
+        },
     };
     let joints = match CountedJoints::of(m) {
         Ok(joints) => joints,
@@ -199,9 +255,9 @@ fn counted(m: &Manipulator, lengths: Lengths<'_>, options: &CountOptions) -> Pos
             return PoseCount::undecided(CountUndecided::NoPrimeDrawn);
         };
         let (set, depth) = set_modulo(prime.field, &prime.ends, lengths, &draws);
-        let error = error_probability(&joints, &prime, lengths, depth);
+        let error = error_probability(&joints, &prime, lengths, (chart, depth));
         if matches!(lengths, Lengths::Generic) {
-            special = special.max(minors(depth) / 2f64.powi(60));
+            special = special.max(minors(chart, depth) / 2f64.powi(60));
         }
         let count = out.get_or_insert_with(|| PoseCount {
             set: set.clone(),
@@ -242,9 +298,13 @@ fn set_modulo(field: Field, ends: &EndResidues, lengths: Lengths<'_>, draws: &Dr
             leg_equation(field, &ends[i], square)
         })
         .collect();
-    let relations = 6 - field
-        .rank(equations.iter().map(|e| std::array::from_fn::<_, COORDINATES, _>(|k| e[k])).collect());
-    let section = |k: usize| draws.sections[k].map(|x| field.integer(x));
+    let relations =
+        6 - field.rank(equations.iter().map(|e| std::array::from_fn::<_, H, _>(|k| e[k])).collect());
+    let form = |coefficients: &[i64; COORDINATES], value: u64| -> Linear {
+        std::array::from_fn(|k| coefficients.get(k).map_or(value, |x| field.integer(*x)))
+    };
+    let section = |k: usize| form(&draws.sections[k], 0);
+    equations.push(form(&draws.chart, field.integer(-1)));
     equations.extend((0..relations).map(section));
     let mut deepest = 2;
     // every component has at least the dimension of the relations
@@ -252,7 +312,7 @@ fn set_modulo(field: Field, ends: &EndResidues, lengths: Lengths<'_>, draws: &Dr
         if dimension > relations {
             equations.push(section(dimension - 1));
         }
-        let (unknowns, polynomials) = match cut(field, &equations, QuadricPart::Finite) {
+        let (unknowns, polynomials) = match cut(field, &equations) {
             Cut::Empty => return (PoseSet::Finite { count: 0, by_degree: Vec::new() }, deepest),
             Cut::Quadrics { unknowns, polynomials } => (unknowns, polynomials),
         };
@@ -272,7 +332,7 @@ fn set_modulo(field: Field, ends: &EndResidues, lengths: Lengths<'_>, draws: &Dr
     (PoseSet::Undecided { why: CountUndecided::DegreeTooLow }, deepest)
 }
 
-/// `r - 2 a.y - 2 b.x - 2 a.(M b) + |a|^2 + |b|^2 - s = 0`.
+/// `r - 2 a.y - 2 b.x - 2 a.(M b) + (|a|^2 + |b|^2 - s) h = 0`.
 fn leg_equation(field: Field, [a, b]: &[[u64; 3]; 2], square: u64) -> Linear {
     let minus_two = field.integer(-2);
     let mut row = [0; COORDINATES + 1];
@@ -286,31 +346,37 @@ fn leg_equation(field: Field, [a, b]: &[[u64; 3]; 2], square: u64) -> Linear {
     }
     row[15] = 1;
     let squares = a.iter().chain(b).fold(0, |sum, x| field.add(sum, field.mul(*x, *x)));
-    row[16] = field.sub(squares, square);
+    row[H] = field.sub(squares, square);
     row
 }
 
 /// Bound on the probability that a prime is bad: see "The probability of error" in `docs/theory/completeness.md`.
 ///
 /// A bad prime divides a minor, not zero, of the integer matrix of all multiples of some degree `<= depth + 1` of the quadrics and linear equations in sixteen unknowns, or of its columns above one of the
-/// degrees `0..=DEGREE`. Hadamard: a minor is at most
+/// degrees `0..=DEGREE`, of seventeen where the chart is not `h = 1`. Hadamard: a minor is at most
 /// the product of the norms of its rows. It has as many prime factors above `2^60` as sixty goes into its bits, of more than `3 2^60 / (5 ln 2^60)` primes between `2^60` and
 /// `2^61` (Rosser, Schoenfeld 1962, (3.9)). Minors of joints made of square roots are algebraic integers: a bad prime divides their norm, and any of the primes
 /// drawn may be bad.
-fn error_probability(joints: &CountedJoints, prime: &DrawnPrime, lengths: Lengths<'_>, depth: usize) -> f64 {
+fn error_probability(
+    joints: &CountedJoints,
+    prime: &DrawnPrime,
+    lengths: Lengths<'_>,
+    (chart, depth): (Chart, usize),
+) -> f64 {
     let bits = joints.bits(lengths).max(SECTION_BITS);
     let primes = 3.0 * 2f64.powi(60) / (5.0 * 60.0 * std::f64::consts::LN_2);
-    (minors(depth) * bits / 60.0 / primes * prime.chances).min(1.0)
+    (minors(chart, depth) * bits / 60.0 / primes * prime.chances).min(1.0)
 }
 
 /// Rows, at most, of all minors that decide: for all depths up to the one that was needed, which is not known before the prime is drawn.
-fn minors(depth: usize) -> f64 {
-    (1..=depth + 1).map(|t| (DEGREE + 2) as f64 * monomials(t)).sum()
+fn minors(chart: Chart, depth: usize) -> f64 {
+    let unknowns = if chart == Chart::Finite { H } else { COORDINATES };
+    (1..=depth + 1).map(|t| (DEGREE + 2) as f64 * monomials(unknowns, t)).sum()
 }
 
-/// Number of monomials of degree `t` or less in sixteen unknowns.
-fn monomials(t: usize) -> f64 {
-    (1..=t).map(|k| (COORDINATES + k) as f64 / k as f64).product()
+/// Number of monomials of degree `t` or less.
+fn monomials(unknowns: usize, t: usize) -> f64 {
+    (1..=t).map(|k| (unknowns + k) as f64 / k as f64).product()
 }
 
 #[cfg(test)]

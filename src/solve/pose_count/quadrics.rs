@@ -6,11 +6,16 @@
 use super::quotient::{Monomial, Polynomial, UNIT, variable};
 use crate::num::modular::Field;
 
-/// Coordinates of a pose.
-pub(super) const COORDINATES: usize = 16;
+/// Homogeneous coordinates of a pose: the sixteen, and `h`.
+pub(super) const COORDINATES: usize = 17;
 
 /// A linear equation: coefficients of the coordinates, then the constant.
 pub(super) type Linear = [u64; COORDINATES + 1];
+
+/// Entries of `M`.
+pub(super) const M: std::ops::Range<usize> = 0..9;
+/// The coordinate that is one for poses and zero at infinity.
+pub(super) const H: usize = 16;
 
 const Y: usize = 9;
 const X: usize = 12;
@@ -20,7 +25,7 @@ fn m(i: usize, j: usize) -> usize {
     3 * i + j
 }
 
-/// Terms of a quadric: coefficient and up to two coordinates.
+/// Terms of a quadric: coefficient and two coordinates.
 type QuadricTerms = Vec<(i64, Vec<usize>)>;
 
 /// The sign of the permutation `(i, j, k)`, 0 when two are equal.
@@ -32,14 +37,14 @@ fn sign(i: usize, j: usize, k: usize) -> i64 {
     }
 }
 
-/// `M M^T = 1`, `M^T M = 1`, `cof M = M`, `M^T y = -x`, `M x = -y`, `y.y = r`, `x.x = r`, `[y]_x M = -M [x]_x`: integer coefficients, at most 2 in absolute value.
+/// `M M^T = h^2`, `M^T M = h^2`, `cof M = h M`, `M^T y = -h x`, `M x = -h y`, `y.y = h r`, `x.x = h r`, `[y]_x M = -M [x]_x`: integer coefficients, at most 2 in absolute value.
 pub(super) fn quadrics() -> Vec<QuadricTerms> {
     let mut out: Vec<QuadricTerms> = Vec::new();
     for i in 0..3 {
         for j in i..3 {
             let one = |mut t: QuadricTerms| {
                 if i == j {
-                    t.push((-1, vec![]));
+                    t.push((-1, vec![H, H]));
                 }
                 t
             };
@@ -49,7 +54,7 @@ pub(super) fn quadrics() -> Vec<QuadricTerms> {
         for j in 0..3 {
             let ((i1, i2), (j1, j2)) = (((i + 1) % 3, (i + 2) % 3), ((j + 1) % 3, (j + 2) % 3));
             let cofactor = [(1, vec![m(i1, j1), m(i2, j2)]), (-1, vec![m(i1, j2), m(i2, j1)])];
-            out.push(cofactor.into_iter().chain([(-1, vec![m(i, j)])]).collect());
+            out.push(cofactor.into_iter().chain([(-1, vec![H, m(i, j)])]).collect());
             // (y x M)_ij + (M [x])_ij
             let mut turned = Vec::new();
             for k in 0..3 {
@@ -61,11 +66,11 @@ pub(super) fn quadrics() -> Vec<QuadricTerms> {
             turned.retain(|t| t.0 != 0);
             out.push(turned);
         }
-        out.push((0..3).map(|k| (1, vec![m(k, i), Y + k])).chain([(1, vec![X + i])]).collect());
-        out.push((0..3).map(|k| (1, vec![m(i, k), X + k])).chain([(1, vec![Y + i])]).collect());
+        out.push((0..3).map(|k| (1, vec![m(k, i), Y + k])).chain([(1, vec![H, X + i])]).collect());
+        out.push((0..3).map(|k| (1, vec![m(i, k), X + k])).chain([(1, vec![H, Y + i])]).collect());
     }
     for first in [Y, X] {
-        out.push((0..3).map(|k| (1, vec![first + k, first + k])).chain([(-1, vec![R])]).collect());
+        out.push((0..3).map(|k| (1, vec![first + k, first + k])).chain([(-1, vec![H, R])]).collect());
     }
     out
 }
@@ -83,19 +88,10 @@ pub(super) enum Cut {
     },
 }
 
-/// Where the quadrics are taken.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum QuadricPart {
-    /// Where the homogeneous coordinate `h` is one.
-    Finite,
-    /// Where it is zero: what has degree two is left.
-    AtInfinity,
-}
-
-/// Solves the linear equations and puts the solution into the quadrics.
-pub(super) fn cut(field: Field, equations: &[Linear], part: QuadricPart) -> Cut {
+/// Solves the linear equations and puts the solution into the quadrics. One of them is not homogeneous: what it names is one, `h` for finite poses.
+pub(super) fn cut(field: Field, equations: &[Linear]) -> Cut {
     let (mut rows, mut pivots): (Vec<Linear>, Vec<usize>) = (equations.to_vec(), Vec::new());
-    // r first: it has the coefficient one in every leg
+    // h is known or depends on the others; then r, which has the coefficient one in every leg
     for column in (0..COORDINATES).rev() {
         let rank = pivots.len();
         let Some(at) = (rank..rows.len()).find(|i| rows[*i][column] != 0) else { continue };
@@ -124,13 +120,7 @@ pub(super) fn cut(field: Field, equations: &[Linear], part: QuadricPart) -> Cut 
         terms.map(|(monomial, x)| (monomial, field.sub(0, x))).collect()
     };
     let forms: Vec<Polynomial> = (0..COORDINATES).map(form).collect();
-    let mut quadrics = quadrics();
-    if part == QuadricPart::AtInfinity {
-        for terms in &mut quadrics {
-            terms.retain(|t| t.1.len() == 2);
-        }
-    }
-    let polynomials = quadrics.iter().map(|terms| substituted(field, terms, &forms)).collect();
+    let polynomials = quadrics().iter().map(|terms| substituted(field, terms, &forms)).collect();
     Cut::Quadrics { unknowns: left.len(), polynomials }
 }
 
@@ -171,7 +161,11 @@ mod tests {
             let x = -(r.inverse() * p);
             let coordinates = |s: f64| -> Vec<f64> {
                 let turned = (0..9).map(|k| s * r.matrix()[(k / 3, k % 3)]);
-                turned.chain(p.iter().copied()).chain(x.iter().copied()).chain([p.norm_squared()]).collect()
+                turned
+                    .chain(p.iter().copied())
+                    .chain(x.iter().copied())
+                    .chain([p.norm_squared(), 1.0])
+                    .collect()
             };
             let value = |c: &[f64]| {
                 let term = |t: &(i64, Vec<usize>)| t.0 as f64 * t.1.iter().map(|k| c[*k]).product::<f64>();

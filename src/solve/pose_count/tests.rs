@@ -108,6 +108,34 @@ fn generic_lengths_have_the_count_of_the_class() {
     assert_eq!(count(&similar), Some(16));
 }
 
+/// Nothing is lost without being counted: 40 points, and those of octahedral platforms that are no poses have an isotropic quaternion (butterflies). Similar planar bodies have
+/// curves of points with `M = 0`, so that these have no number.
+#[test]
+fn common_points_are_finite_isotropic_or_at_infinity() {
+    let mut rng = Rng::new(11);
+    let options = CountOptions { seed: 5, primes: 1 };
+    let split = |joints: &Bodies| {
+        let p = count_common_points(&design(joints), &options).unwrap();
+        assert!(p.error_probability < 1e-2, "{p:?}");
+        (p.finite, p.isotropic, p.at_infinity)
+    };
+    assert_eq!(split(&bodies(&mut rng, false)), (40, Some(0), Some(0)));
+    assert_eq!(split(&bodies(&mut rng, true)), (40, Some(0), Some(0)));
+    let shared = octahedral(&mut rng);
+    assert_eq!(split(&shared), (16, Some(24), Some(0)));
+    assert_eq!(
+        split(&griffis_duffy(&shared, [0.25, 0.5, 0.125, 0.375, 0.75, 0.625])),
+        (16, Some(24), Some(0))
+    );
+    let mut similar = bodies(&mut rng, true);
+    similar[1] = similar[0].map(|p| p.map(|x| 2.0 * x));
+    let (finite, _, at_infinity) = split(&similar);
+    assert_eq!((finite, at_infinity), (16, None));
+    // the legs of a singular platform depend on each other: no pose for generic lengths
+    let singular = griffis_duffy(&shared, [0.5; 6]);
+    assert!(count_common_points(&design(&singular), &options).is_none_or(|p| p.finite == 0));
+}
+
 /// Parallel legs of equal length: the platform may be anywhere on a sphere.
 #[test]
 fn congruent_bodies_with_equal_lengths_have_a_surface_of_poses() {
