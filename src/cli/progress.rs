@@ -4,6 +4,7 @@ use std::io::{IsTerminal, Write};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 
 /// Writes nothing unless standard error is a terminal.
 #[derive(Debug)]
@@ -53,13 +54,35 @@ impl ProgressLine {
     }
 }
 
-/// Ctrl-C asks a search to stop and to show what it has; the second one ends the process.
+/// A time after which a search ends, positive seconds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct TimeLimit(Duration);
+
+impl std::str::FromStr for TimeLimit {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let seconds: f64 = text.parse().map_err(|_| "not a number of seconds".to_string())?;
+        let limit = Duration::try_from_secs_f64(seconds).ok().filter(|d| !d.is_zero());
+        limit.map(Self).ok_or_else(|| "seconds have to be positive".to_string())
+    }
+}
+
+/// Ctrl-C, a request to terminate and a limit of time ask a search to stop and to show what it has; the second key or request ends the process.
 #[derive(Debug, Clone)]
-pub(crate) struct Interrupt(Arc<AtomicBool>);
+pub(crate) struct Interrupt {
+    asked: Arc<AtomicBool>,
+    end: Option<Instant>,
+}
 
 impl Interrupt {
     /// Takes over Ctrl-C from now on. Where that is not possible the key ends the process as ever.
     pub(crate) fn watch() -> Self {
+        Self::watch_for(None)
+    }
+
+    /// The same, and after a limit of time the search is to end as well.
+    pub(crate) fn watch_for(limit: Option<TimeLimit>) -> Self {
         let flag = Arc::new(AtomicBool::new(false));
         let seen = Arc::clone(&flag);
         let handler = move || {
@@ -69,12 +92,14 @@ impl Interrupt {
         };
         // an error means that somebody else has the key: the search then cannot be interrupted gently
         let _ = ctrlc::set_handler(handler);
-        Self(flag)
+        let end = limit.and_then(|TimeLimit(time)| Instant::now().checked_add(time));
+        Self { asked: flag, end }
     }
 
     /// What a search is told.
     pub(crate) fn flow(&self) -> ControlFlow<()> {
-        if self.0.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        let late = self.end.is_some_and(|end| Instant::now() >= end);
+        if late || self.asked.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 }
 

@@ -133,7 +133,8 @@ pub(crate) fn conflict(model: &Model<'_>, settled: &[RefinedRun], o: &ShapeSearc
     Clash::Conflict(ConstraintConflict { demands, proved })
 }
 
-fn demand(model: &Model<'_>, group: ConstraintGroup) -> Demand {
+/// The constraint of a group, as answers name it.
+pub(crate) fn demand(model: &Model<'_>, group: ConstraintGroup) -> Demand {
     match group {
         ConstraintGroup::Term(kind) => Demand::Requirement(kind),
         ConstraintGroup::Determinant => Demand::Determinant,

@@ -53,6 +53,18 @@ pub enum Demand {
     Level(Objective),
 }
 
+/// The code of the requirement, or what is held besides.
+impl std::fmt::Display for Demand {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Requirement(kind) => kind.code(),
+            Self::Determinant => "|det A|",
+            Self::Reach => "the reach of sliding joints",
+            Self::Level(objective) => objective.code(),
+        })
+    }
+}
+
 /// A constraint that takes part in a conflict.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Give {
@@ -96,6 +108,8 @@ pub struct DimensionalReport {
     pub starts: usize,
     /// Starts that led to a feasible point in the first pass.
     pub feasible: usize,
+    /// Where nothing that meets the requirements was found: the platform with the least violation. It misses some.
+    pub nearest: Option<Box<DimensionalSolution>>,
     /// Weighted gains of the polished runs, best first; `None` when infeasible.
     pub polished: Vec<Option<f64>>,
     /// Seed of the populations.
@@ -129,7 +143,8 @@ pub(crate) fn outcome(model: &Model<'_>, task: &Task, refined: &RefinedRun) -> D
     }
 }
 
-fn solution(model: &Model<'_>, task: &Task, refined: &RefinedRun) -> Option<DimensionalSolution> {
+/// A refined run as a platform, whether or not it meets the requirements; `None` where its legs make none.
+pub(crate) fn solution(model: &Model<'_>, task: &Task, refined: &RefinedRun) -> Option<DimensionalSolution> {
     let x = &refined.run.x;
     let manipulator = model.shape.manipulator(x).ok()?;
     let home = model.terms.home;

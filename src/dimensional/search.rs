@@ -2,9 +2,11 @@
 
 use std::ops::ControlFlow;
 
-use super::conflict::{Clash, conflict, elastic};
+use super::conflict::{Clash, conflict, demand, elastic};
 use super::model::{Model, Task};
-use super::outcome::{ConstraintConflict, DimensionalOutcome, DimensionalReport, outcome};
+use super::outcome::{
+    ConstraintConflict, Demand, DimensionalOutcome, DimensionalReport, DimensionalSolution, outcome, solution,
+};
 use super::population::{Judge, Worth, evolve, offspring};
 use super::problem::{DimensionalProblem, InvalidProblem, Mode};
 use super::scp::{PENALTY, ShapeEffort, ShapeRun, climb};
@@ -59,13 +61,19 @@ pub struct Progress {
     pub total: usize,
     /// Best value of the first objective so far among runs that meet the requirements, in its unit.
     pub best: Option<f64>,
+    /// The least violation so far at the poses that were held, in the scale of the constraint that is missed most, and that constraint; `None` before the first run.
+    pub violation: Option<(Demand, f64)>,
 }
 
 /// In words for people.
 impl std::fmt::Display for Progress {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        if let Some(best) = self.best {
-            write!(f, "best {best:.6}; ")?;
+        match (self.best, self.violation) {
+            (Some(best), _) => write!(f, "best {best:.6}; ")?,
+            (None, Some((demand, x))) if x > 0.0 => {
+                write!(f, "nothing meets the requirements yet, {demand} is missed by {x:.1e} of its scale; ")?;
+            }
+            _ => {}
         }
         let stage = match self.stage {
             Stage::Populations => "population",
@@ -213,6 +221,7 @@ fn rank(model: &Model<'_>, task: &Task, start: &SearchStart) -> ShapeRun {
 pub(crate) struct Watch<'w, 'm, 'a> {
     model: &'m Model<'a>,
     best: Option<f64>,
+    violation: Option<(Demand, f64)>,
     progress: &'w mut dyn FnMut(Progress) -> ControlFlow<()>,
 }
 
@@ -221,7 +230,15 @@ impl<'w, 'm, 'a> Watch<'w, 'm, 'a> {
         model: &'m Model<'a>,
         progress: &'w mut dyn FnMut(Progress) -> ControlFlow<()>,
     ) -> Self {
-        Self { model, best: None, progress }
+        Self { model, best: None, violation: None, progress }
+    }
+
+    /// Learns what a run misses.
+    fn see(&mut self, run: &ShapeRun) {
+        let worst = run.judged.violations.iter().max_by(|a, b| a.1.total_cmp(b.1));
+        let missed = worst.map(|(group, x)| (demand(self.model, *group), *x));
+        let is_less = |x: f64| self.violation.is_none_or(|(_, least)| x < least);
+        self.violation = missed.filter(|(_, x)| is_less(*x)).or(self.violation);
     }
 
     pub(crate) fn tell(&mut self, stage: Stage, (done, total): (usize, usize), run: Option<&ShapeRun>) {
@@ -234,7 +251,8 @@ impl<'w, 'm, 'a> Watch<'w, 'm, 'a> {
                 _ => value,
             });
         }
-        self.model.heed((self.progress)(Progress { stage, done, total, best: self.best }));
+        let Self { best, violation, .. } = *self;
+        self.model.heed((self.progress)(Progress { stage, done, total, best, violation }));
     }
 }
 
@@ -379,7 +397,10 @@ impl Search<'_, '_> {
         watch: &mut Watch<'_, '_, '_>,
     ) -> Vec<ShapeRun> {
         let climbed = |k: usize| rank(self.coarse, self.task, &starts[k]);
-        let tick = &mut |done: usize, _: &ShapeRun| watch.tell(Stage::Climbs, (known + done, total), None);
+        let tick = &mut |done: usize, run: &ShapeRun| {
+            watch.see(run);
+            watch.tell(Stage::Climbs, (known + done, total), None);
+        };
         parallel(starts.len(), self.options.threads, climbed, tick)
     }
 
@@ -431,39 +452,42 @@ pub fn optimize(
     let SearchedShape { refined, starts, feasible } = search_task(&model, &task, given, options, &mut watch);
     let polished =
         refined.iter().map(|r| r.run.is_feasible(&model).then(|| r.run.judged.gain(&task))).collect();
-    let outcome = concluded(&model, task, refined, options, &mut watch);
+    let (outcome, nearest) = concluded(&model, task, refined, options, &mut watch);
     let interrupted = model.is_stopped();
-    Ok(DimensionalReport { outcome, starts, feasible, polished, seed: options.seed, interrupted })
+    Ok(DimensionalReport { outcome, starts, feasible, nearest, polished, seed: options.seed, interrupted })
 }
 
-/// The answer that the polished runs of the first task lead to.
+/// The answer that the polished runs of the first task lead to, and the platform with the least violation where none meets the requirements.
 fn concluded(
     model: &Model<'_>,
     task: Task,
     mut refined: Vec<RefinedRun>,
     options: &ShapeSearchOptions,
     watch: &mut Watch<'_, '_, '_>,
-) -> DimensionalOutcome {
+) -> (DimensionalOutcome, Option<Box<DimensionalSolution>>) {
     let is_met = |refined: &[RefinedRun]| refined.first().is_some_and(|r| r.run.is_feasible(model));
+    let nearest =
+        |refined: &[RefinedRun]| refined.first().and_then(|r| solution(model, &task, r)).map(Box::new);
     if refined.is_empty() || !is_met(&refined) && model.is_stopped() {
-        return DimensionalOutcome::Undecided(None);
+        return (DimensionalOutcome::Undecided(None), nearest(&refined));
     }
     if !is_met(&refined)
         && let Some(conflict) = met_or_conflict(model, &task, &mut refined, options)
     {
-        return DimensionalOutcome::Infeasible(conflict);
+        return (DimensionalOutcome::Infeasible(conflict), nearest(&refined));
     }
     if !is_met(&refined) {
-        return DimensionalOutcome::Undecided(refined[0].run.failure);
+        return (DimensionalOutcome::Undecided(refined[0].run.failure), nearest(&refined));
     }
     let (last_task, refined) = match model.problem.mode {
         Mode::Lexicographic { slack } => through_levels(model, task, refined, slack, options, watch),
         Mode::Weighted => (task, refined),
     };
-    outcome(model, &last_task, &refined[0])
+    (outcome(model, &last_task, &refined[0]), None)
 }
 
-/// Where no run meets the requirements: runs without an objective that do are climbed from again, or the conflict is returned.
+/// Where no run meets the requirements: runs without an objective that do are climbed from again, or the conflict is returned. Runs that only lessen the violation
+/// take their places among the others.
 fn met_or_conflict(
     model: &Model<'_>,
     task: &Task,
@@ -474,9 +498,12 @@ fn met_or_conflict(
     let mut met = settled.iter().find(|r| r.run.is_feasible(model)).cloned();
     if met.is_none() {
         match conflict(model, &settled, options) {
-            Clash::Conflict(conflict) => return Some(conflict),
+            Clash::Conflict(conflict) => {
+                among(model, task, refined, settled);
+                return Some(conflict);
+            }
             Clash::Met(refined) => met = Some(*refined),
-            Clash::Unsettled => {}
+            Clash::Unsettled => among(model, task, refined, settled),
         }
     }
     if let Some(met) = met {
@@ -484,6 +511,12 @@ fn met_or_conflict(
         refined.sort_by(|a, b| better(model, task, &a.run, &b.run));
     }
     None
+}
+
+/// Puts runs among others, best first.
+fn among(model: &Model<'_>, task: &Task, refined: &mut Vec<RefinedRun>, more: Vec<RefinedRun>) {
+    refined.extend(more);
+    refined.sort_by(|a, b| better(model, task, &a.run, &b.run));
 }
 
 /// One objective after the other, each run giving up no more than a share `slack` of those before; the last task and its runs.

@@ -201,6 +201,8 @@ pub struct OptimizeReport {
     pub status: OptimizeStatus,
     /// The platform, with the tables of the design it is from.
     pub design: Option<Design>,
+    /// Where nothing that meets the requirements was found: the platform that misses them least, as the search sees it.
+    pub nearest: Option<Box<Checked>>,
     /// What was found on the way.
     pub evidence: OptimizeEvidence,
 }
@@ -268,10 +270,13 @@ impl Design {
             let report = dimensional::optimize(&problem, &[], &search, &mut |p| {
                 options.flow(OptimizeProgress::Dimensions(p))
             })?;
-            let checked = report.solution().map(|s| checked(self, &problem, s, seed)).transpose()?;
+            let of = |s: &DimensionalSolution| checked(self, &problem, s, seed);
+            let checked = report.solution().map(of).transpose()?;
+            let nearest = report.nearest.as_deref().map(of).transpose()?;
             return Ok(OptimizeReport {
                 status: dimensional_status(&report, checked.as_ref()),
                 design: checked.as_ref().map(|c| c.design.clone()),
+                nearest: nearest.map(Box::new),
                 evidence: OptimizeEvidence::Dimensions {
                     report: Box::new(report),
                     checked: checked.map(Box::new),
@@ -295,6 +300,7 @@ impl Design {
         Ok(OptimizeReport {
             status: offset_status(&report, met_or_nothing_required(assessed.as_ref())),
             design,
+            nearest: None,
             evidence: OptimizeEvidence::Offsets(Box::new(report)),
         })
     }

@@ -230,7 +230,7 @@ fn an_interrupted_run_leaves_finished_files_only_and_does_not_disturb_the_next()
     std::fs::write(folder.join("report.md"), "of an older run").unwrap();
     let mut child = command(&shipped("rbt-octahedral"), folder, &[]).stdout(Stdio::null()).spawn().unwrap();
     let start = Instant::now();
-    while !folder.join("family.json").exists() && start.elapsed() < Duration::from_secs(60) {
+    while !folder.join("family.json").exists() && start.elapsed() < Duration::from_secs(600) {
         std::thread::sleep(Duration::from_millis(1));
     }
     child.kill().unwrap();

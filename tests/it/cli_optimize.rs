@@ -131,10 +131,21 @@ leg_length = [14.0, 14.1]
 [optimize]
 variables = [\"home_height\"]
 ";
-    let (out, _folder) = optimize(&required(more), &[]);
+    let (out, folder) = optimize(&required(more), &["-o", "out.toml"]);
     assert_eq!(out.status.code(), Some(1), "{}", String::from_utf8_lossy(&out.stdout));
     let d = document(&out);
     assert_eq!(d["status"], "infeasible");
+    // what comes nearest is shown with what it misses, and written
+    let nearest = &d["nearest"];
+    assert_eq!(nearest["variables"][0]["name"], "home height");
+    assert_eq!(nearest["assessment"]["met"], false);
+    assert!(d["design"].is_null() && d["output"] == "out.toml");
+    let assessed = Command::new(env!("CARGO_BIN_EXE_equipod"))
+        .current_dir(folder.path())
+        .args(["assess", "out.toml"])
+        .output()
+        .unwrap();
+    assert_eq!(assessed.status.code(), Some(1));
     let codes: Vec<&str> = d["conflict"]["requirements"]
         .as_array()
         .unwrap()
@@ -143,6 +154,50 @@ variables = [\"home_height\"]
         .collect();
     assert_eq!(codes, ["leg_too_short", "leg_too_long"]);
     assert!(d["conflict"]["requirements"][1]["alone"].as_f64().unwrap() > 0.0);
+}
+
+/// A search of many seconds: offsets, triangles and height under many requirements.
+fn long_search() -> String {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/designs/worked/simulator-octahedral.toml");
+    std::fs::read_to_string(file).unwrap()
+}
+
+#[test]
+fn a_limit_of_time_ends_a_search_with_what_it_has() {
+    let (out, _folder) = optimize(&long_search(), &["--time-limit", "0.2"]);
+    assert_eq!(out.status.code(), Some(3), "{}", String::from_utf8_lossy(&out.stderr));
+    assert_eq!(document(&out)["status"], "interrupted");
+    for wrong in ["0", "-1", "soon", "nan", "inf"] {
+        let (out, _folder) = optimize(DESIGN, &[&format!("--time-limit={wrong}")]);
+        assert_eq!(out.status.code(), Some(2), "{wrong}");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_request_to_terminate_ends_a_search_with_what_it_has() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("in.toml"), long_search()).unwrap();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_equipod"))
+        .current_dir(folder.path())
+        .args(["optimize", "in.toml", "--json", "--history", "steps.csv"])
+        .stdout(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    // the kernel says when the process has a handler for the signal
+    let status = format!("/proc/{}/status", child.id());
+    let is_caught = |text: &str| {
+        let mask = text.lines().find_map(|l| l.strip_prefix("SigCgt:")).map(str::trim);
+        mask.and_then(|m| u64::from_str_radix(m, 16).ok()).is_some_and(|m| m >> 14 & 1 == 1)
+    };
+    while std::fs::read_to_string(&status).is_ok_and(|text| !is_caught(&text)) {
+        assert!(child.try_wait().unwrap().is_none(), "it ended before it could be asked to");
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    Command::new("kill").arg(child.id().to_string()).status().unwrap();
+    let out = child.wait_with_output().unwrap();
+    assert_eq!(out.status.code(), Some(3));
+    assert_eq!(document(&out)["status"], "interrupted");
 }
 
 #[test]

@@ -493,6 +493,7 @@ class Design:
         seed: int = 1,
         threads: int | None = None,
         extension: float | None = None,
+        time_limit: float | None = None,
         progress: Progress | bool | None = None,
     ) -> tuple[Design | None, OptimizeAnswer]:
         """The best platform under the requirements of the design.
@@ -503,13 +504,15 @@ class Design:
         threads : int, optional
         extension : float, optional
             How far a joint may lie out on the extension of its edge, in edge lengths.
+        time_limit : float, optional
+            Seconds after which the search ends with the best so far.
         progress : callable or bool, optional
             Is given lines of text; True writes them on one line.
 
         Returns
         -------
         design : Design or None
-            The best platform found, None where there is none.
+            The best platform found. Where none that meets the requirements was found, it is the one that misses them least; None where there is neither.
         answer : OptimizeAnswer
             What became of the search: ``answer.status``. After an interrupt it is the best so far.
         """
@@ -520,6 +523,8 @@ class Design:
             options += ["--threads", str(threads)]
         if extension is not None:
             options += ["--extension", repr(float(extension))]
+        if time_limit is not None:
+            options += ["--time-limit", repr(float(time_limit))]
         design, document = self._made("optimize", options, progress)
         return design, OptimizeAnswer(document)
 

@@ -23,6 +23,9 @@ pub struct DimensionalAnswer {
     /// The best platform found.
     #[serde(flatten)]
     pub solution: AllOrNone<DimensionalSolutionRecord>,
+    /// Where none that meets the requirements was found: the one with the least violation, which misses some of them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub nearest: Option<Box<NearestPlatformRecord>>,
     /// When infeasible.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub conflict: Option<ConflictRecord>,
@@ -30,12 +33,36 @@ pub struct DimensionalAnswer {
     pub search: SearchRecord,
     /// The platform; null: there is none.
     pub design: Option<DesignRecord>,
-    /// The file written.
+    /// The file written, with the platform or the one that comes nearest.
     pub output: Option<String>,
 }
 
+/// The platform that comes nearest to its requirements.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct NearestPlatformRecord {
+    /// What was chosen, axes left out.
+    pub variables: Vec<VariableRecord>,
+    /// The requirements, over many poses and by other code.
+    pub constraint_margins: Vec<MarginRecord>,
+    /// What `assess` says of it; null: the design requires nothing.
+    pub assessment: Option<AssessAnswer>,
+    /// The platform.
+    pub design: DesignRecord,
+}
+
+impl NearestPlatformRecord {
+    fn new(s: &DimensionalSolution, c: &Checked) -> Self {
+        Self {
+            variables: VariableRecord::all(s),
+            constraint_margins: MarginRecord::searched(&c.design, &c.assessment),
+            assessment: c.assessed.as_ref().map(|found| AssessAnswer::new(&c.design, found)),
+            design: (&c.design).into(),
+        }
+    }
+}
+
 impl DimensionalAnswer {
-    /// The answer of a search from a design; `checked` is its solution, if there is one.
+    /// The answer of a search from a design; `checked` is its solution or its nearest platform, if there is one.
     #[must_use]
     pub fn new(
         design: &Design,
@@ -44,9 +71,12 @@ impl DimensionalAnswer {
         output: Option<&str>,
     ) -> Self {
         let solution = report.solution().zip(checked);
+        let nearest = report.nearest.as_deref().zip(checked);
+        let checked = solution.map(|(_, c)| c);
         Self {
             status: dimensional_status(report, checked).into(),
             solution: solution.map(|(s, c)| DimensionalSolutionRecord::new(design, s, c)).into(),
+            nearest: nearest.map(|(s, c)| Box::new(NearestPlatformRecord::new(s, c))),
             conflict: match &report.outcome {
                 DimensionalOutcome::Infeasible(c) => Some(ConflictRecord::new(design, c)),
                 _ => None,
@@ -169,11 +199,7 @@ impl DimensionalSolutionRecord {
         Self {
             objective: objectives.first().map_or(Number(f64::NAN), |o| o.value),
             objectives,
-            variables: s
-                .variables
-                .iter()
-                .map(|(name, x)| VariableRecord { name: name.clone(), value: Number(*x) })
-                .collect(),
+            variables: VariableRecord::all(s),
             offsets: s.offsets.map(|t| t.map(Number)),
             home: (&s.home).into(),
             joint_axes: JointAxesRecord { base: axes(&s.axes[0]), platform: axes(&s.axes[1]) },
@@ -208,6 +234,12 @@ pub struct VariableRecord {
     pub name: String,
     /// Its value.
     pub value: Number,
+}
+
+impl VariableRecord {
+    fn all(s: &DimensionalSolution) -> Vec<Self> {
+        s.variables.iter().map(|(name, x)| Self { name: name.clone(), value: Number(*x) }).collect()
+    }
 }
 
 /// Axes of joints: unit vectors, frame of the body; null: not chosen.

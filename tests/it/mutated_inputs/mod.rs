@@ -15,7 +15,7 @@ use serde_json::Value;
 mod mutate;
 use mutate::{Draw, mutated};
 
-const SLOWEST: Duration = Duration::from_secs(60);
+const SLOWEST: Duration = Duration::from_secs(600);
 const OCTAHEDRAL: &str = include_str!("../../../designs/rbt-octahedral.toml");
 const CONSTRUCTED: &str = include_str!("../../fixtures/constructed.toml");
 const LENGTHS: &str = "l1,l2,l3,l4,l5,l6\n# home\n17,16,15,17,16,15\n16.5,16.25,15.75,17,16,15.5\n";

@@ -10,7 +10,7 @@ use crate::cli::failure::Failure;
 use crate::cli::progress::{Interrupt, ProgressLine};
 use crate::design::Design;
 use crate::dimensional::{
-    DimensionalProblem, DimensionalReport, InvalidProblem, Progress, ShapeSearchOptions, optimize,
+    DimensionalProblem, DimensionalReport, DimensionalSolution, InvalidProblem, Progress, ShapeSearchOptions, optimize,
 };
 use crate::entrance::optimizing::{Checked, checked, dimensional_problem};
 use crate::records::{DimensionalAnswer, DimensionalStatus};
@@ -21,6 +21,8 @@ pub(in crate::cli::commands) struct Done {
     pub(in crate::cli::commands) problem: DimensionalProblem,
     pub(in crate::cli::commands) report: DimensionalReport,
     pub(in crate::cli::commands) checked: Option<Checked>,
+    /// The platform that misses the requirements least, where none that meets them was found.
+    pub(in crate::cli::commands) nearest: Option<Checked>,
 }
 
 impl Done {
@@ -30,7 +32,13 @@ impl Done {
         design: &Design,
         written: Option<&str>,
     ) -> DimensionalAnswer {
-        DimensionalAnswer::new(design, &self.report, self.checked.as_ref(), written)
+        let found = self.checked.as_ref().or(self.nearest.as_ref());
+        DimensionalAnswer::new(design, &self.report, found, written)
+    }
+
+    /// The platform to write: the one found, or the one that comes nearest.
+    pub(super) fn platform(&self) -> Option<&Design> {
+        self.checked.as_ref().or(self.nearest.as_ref()).map(|c| &c.design)
     }
 }
 
@@ -79,16 +87,18 @@ pub(in crate::cli::commands) fn search(
 ) -> Result<Done, Failure> {
     let problem = dimensional_problem(design, extension);
     let report = optimize(&problem, &[], options, progress).map_err(|why| refusal(&why))?;
-    let checked = match report.solution() {
-        Some(s) => Some(checked(design, &problem, s, options.seed).map_err(|e| failure_of(&e))?),
-        None => None,
+    let of = |s: &DimensionalSolution| {
+        checked(design, &problem, s, options.seed).map_err(|e| failure_of(&e))
     };
-    Ok(Done { problem, report, checked })
+    let found = report.solution().map(of).transpose()?;
+    let nearest = report.nearest.as_deref().map(of).transpose()?;
+    Ok(Done { checked: found, nearest, problem, report })
 }
 
 /// The search with the options of the command.
 pub(super) fn run(design: &Design, args: &super::Args, context: &Context) -> Result<Done, Failure> {
-    let (mut progress, interrupt) = (ProgressLine::new(context.quiet()), Interrupt::watch());
+    let (mut progress, interrupt) =
+        (ProgressLine::new(context.quiet()), Interrupt::watch_for(args.time_limit));
     let done = search(design, args.extension, &options(args, context), &mut |p| {
         progress.note(&p.to_string());
         interrupt.flow()

@@ -6,7 +6,7 @@ use crate::cli::requirements;
 use crate::dimensional::DimensionalOutcome;
 use crate::records::{
     ConflictRecord, DesignRecord, DimensionalAnswer, DimensionalSolutionRecord, DimensionalStatus,
-    MarginRecord,
+    MarginRecord, NearestPlatformRecord,
 };
 
 /// For people.
@@ -23,6 +23,9 @@ pub(super) fn text(name: &str, a: &DimensionalAnswer, outcome: &DimensionalOutco
     if let Some(c) = &a.conflict {
         conflict_text(&mut out, c);
     }
+    if let Some(n) = &a.nearest {
+        nearest_text(&mut out, n);
+    }
     if a.status == DimensionalStatus::Violated {
         out.push_str("the platform misses requirements and is not called optimal\n");
     }
@@ -34,6 +37,15 @@ pub(super) fn text(name: &str, a: &DimensionalAnswer, outcome: &DimensionalOutco
         let _ = writeln!(out, "wrote {path}");
     }
     out
+}
+
+/// What comes nearest misses something: the table of its requirements says what.
+fn nearest_text(out: &mut String, n: &NearestPlatformRecord) {
+    let _ = writeln!(out, "\nthe platform with the least violation that was found; it is no answer, and shows what is missed:");
+    let _ = writeln!(out, "{}", requirements::lead(n.design.name(), n.assessment.as_ref()));
+    for v in &n.variables {
+        let _ = writeln!(out, "  {:<20} {:>12.6}", v.name, v.value.0);
+    }
 }
 
 fn solution_text(out: &mut String, s: &DimensionalSolutionRecord) {

@@ -36,7 +36,8 @@ pub(super) fn run(
 ) -> Result<Answer, Failure> {
     let problem = dimensional_problem(design, args.extension);
     let options = options(args, context);
-    let (mut progress, interrupt) = (ProgressLine::new(context.quiet()), Interrupt::watch());
+    let (mut progress, interrupt) =
+        (ProgressLine::new(context.quiet()), Interrupt::watch_for(args.time_limit));
     let report = pareto(&problem, points, &options, &mut |p| {
         progress.note(&p.to_string());
         interrupt.flow()

@@ -15,7 +15,7 @@ use crate::cli::failure::Failure;
 use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
 use crate::cli::poses;
-use crate::cli::progress::{Interrupt, ProgressLine};
+use crate::cli::progress::{Interrupt, ProgressLine, TimeLimit};
 use crate::design::{Combination, Design};
 use crate::dimensional::InvalidProblem;
 use crate::entrance::AssessReport;
@@ -51,6 +51,9 @@ pub(crate) struct Args {
     /// Worker threads, one for each processor when absent; the answer does not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
+    /// End the search after so many seconds, as Ctrl-C does: the answer is the best until then, and its status is `interrupted`
+    #[arg(long, value_name = "SECONDS", value_parser = clap::value_parser!(TimeLimit))]
+    time_limit: Option<TimeLimit>,
 }
 
 /// How the search is to go.
@@ -120,7 +123,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
             let rows: Vec<history::Row> = s.history.iter().map(of).collect();
             history::write(path, &design, "sum of the weighted objectives", &rows)?;
         }
-        let written = write(args.output.as_deref(), done.checked.as_ref().map(|c| &c.design))?;
+        let written = write(args.output.as_deref(), done.platform())?;
         let record = done.record(&design, written.as_deref());
         let text = dimensional_text::text(&design.name, &record, &done.report.outcome);
         return Ok(Answer::new(
@@ -140,7 +143,8 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     }
     let choices =
         Choices { extension: args.extension, survey: args.survey, gap: args.gap, threads: args.threads };
-    let (mut progress, interrupt) = (ProgressLine::new(context.quiet()), Interrupt::watch());
+    let (mut progress, interrupt) =
+        (ProgressLine::new(context.quiet()), Interrupt::watch_for(args.time_limit));
     let done = search(&design, octahedral, &choices, context.seed(), &mut |p| {
         progress.note(&p.to_string());
         interrupt.flow()
