@@ -2,7 +2,35 @@
 
 use super::Error;
 use crate::design::Design;
-use crate::export::{Export, ExportFormat, ExportOptions, ExportedFile};
+use crate::export::{EquivalentOctahedral, Export, ExportFormat, ExportOptions, ExportedFile};
+#[cfg(feature = "synthesis")]
+use crate::manipulator::{Manipulator, Octahedral};
+#[cfg(feature = "synthesis")]
+use crate::manufacture::equivalent_octahedral;
+#[cfg(feature = "synthesis")]
+use crate::synthesis::{LegMapTolerances, Relation, leg_map};
+
+/// The octahedral platform that controllers may compute the poses of a design by: that of a design with one joint on each side of two triangles. `None` for a
+/// design that is octahedral itself, for others, and in a library without synthesis.
+pub(crate) fn octahedral_of_controllers(design: &Design) -> Option<EquivalentOctahedral> {
+    #[cfg(feature = "synthesis")]
+    {
+        let m = design.manipulator();
+        if Octahedral::recognise(&Manipulator::from_legs(m.legs()).ok()?).is_ok() {
+            return None;
+        }
+        let octahedral = equivalent_octahedral(m)?;
+        let found = leg_map(&octahedral, m, LegMapTolerances::default()).ok()?;
+        let back = found.map().filter(|_| found.relation == Relation::Equivalent)?.invert().ok()?;
+        let a = std::array::from_fn(|i| std::array::from_fn(|j| back.a[(i, j)]));
+        Some(EquivalentOctahedral { manipulator: octahedral, a, c: back.c.into() })
+    }
+    #[cfg(not(feature = "synthesis"))]
+    {
+        let _ = design;
+        None
+    }
+}
 
 impl Design {
     /// The files of a format: names and texts, nothing is written.
@@ -30,6 +58,10 @@ impl Design {
         format: ExportFormat,
         options: &ExportOptions,
     ) -> Result<Vec<ExportedFile>, Error> {
-        Ok(format.writer().files(&Export::of(self, options)?)?)
+        let mut export = Export::of(self, options)?;
+        if format == ExportFormat::C {
+            export = export.with_octahedral(octahedral_of_controllers(self));
+        }
+        Ok(format.writer().files(&export)?)
     }
 }

@@ -6,7 +6,7 @@
 mod equivalence;
 mod error;
 #[cfg(feature = "files")]
-mod exporting;
+pub(crate) mod exporting;
 #[cfg(feature = "files")]
 mod files;
 #[cfg(all(feature = "files", feature = "synthesis"))]

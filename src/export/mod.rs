@@ -9,6 +9,7 @@
 //! normal of the plate, which points to positive z of the body; where the plate is parallel to the x-y plane of the body, plate coordinates
 //! `(u, v)` are the body's `(x, y)`.
 
+mod controller;
 mod csv;
 mod drawing;
 mod dxf;
@@ -33,6 +34,7 @@ use thiserror::Error;
 use crate::manipulator::Body;
 use crate::names::{UnknownName, named};
 
+pub use controller::EquivalentOctahedral;
 pub use model::{Export, ExportBody, ExportLeg, ExportedJoint};
 pub use outline::{Outline, OutlinePart};
 pub use plate::{Plate, PlateHole};
@@ -120,6 +122,8 @@ pub trait Writer: std::fmt::Debug + Sync {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ExportFormat {
+    /// C99 for controllers.
+    C,
     /// Joints, lengths at home, workspace and trajectory as tables.
     Csv,
     /// Hole plans of both plates.
@@ -142,7 +146,8 @@ pub enum ExportFormat {
 
 impl ExportFormat {
     /// Every format, by name.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
+        Self::C,
         Self::Csv,
         Self::Dxf,
         Self::Hal,
@@ -158,6 +163,7 @@ impl ExportFormat {
     #[must_use]
     pub fn writer(self) -> &'static dyn Writer {
         match self {
+            Self::C => &controller::C,
             Self::Csv => &csv::Csv,
             Self::Dxf => &dxf::Dxf,
             Self::Hal => &hal::Hal,

@@ -3,13 +3,14 @@
 use nalgebra::{Matrix3, Point3, Vector3};
 
 use super::Unsupported;
+use super::controller::EquivalentOctahedral;
 use super::plate::{self, Plate};
 use super::sizes::{ExportOptions, LegSizes, NoExport, SizeChoice, Sizes, least_distance, mass};
 use super::units::LengthUnit;
 use crate::design::Design;
 use crate::geom::Pose;
-use crate::manipulator::Body;
-use crate::requirements::{ForceUnit, MassUnit};
+use crate::manipulator::{Body, Manipulator};
+use crate::requirements::{ForceUnit, Hardware, MassUnit};
 
 /// A joint of a body.
 #[derive(Debug, Clone, PartialEq)]
@@ -90,6 +91,12 @@ pub struct Export {
     pub program: String,
     /// What one design unit is.
     pub unit: LengthUnit,
+    /// The platform, design units.
+    pub manipulator: Manipulator,
+    /// Limits of its joints, legs and drives.
+    pub hardware: Hardware,
+    /// The octahedral platform it is equivalent to, where one is known that is not the platform itself.
+    pub octahedral: Option<EquivalentOctahedral>,
     /// Size of the manipulator, design units.
     pub size: f64,
     /// Home pose, design units.
@@ -206,6 +213,9 @@ impl Export {
             source: design.source.clone(),
             program: concat!("equipod ", env!("CARGO_PKG_VERSION")).to_string(),
             unit,
+            manipulator: m.clone(),
+            hardware: *hardware,
+            octahedral: None,
             size,
             home,
             bodies,
@@ -221,6 +231,12 @@ impl Export {
             gravity_compensation: options.gravity_compensation,
             choices,
         })
+    }
+
+    /// With the octahedral platform that controllers may compute poses of.
+    #[must_use]
+    pub fn with_octahedral(self, octahedral: Option<EquivalentOctahedral>) -> Self {
+        Self { octahedral, ..self }
     }
 
     /// Names of base and platform joint of a leg.

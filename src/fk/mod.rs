@@ -39,6 +39,7 @@ pub use closure::{Closure, NoClosure, closure};
 pub use closure_poses::closure_candidates;
 pub use completeness::{Completeness, PathsEnded, Reason, Reasons, Theorem, Tried};
 pub use homotopy::Homotopy;
+pub(crate) use near::NearNumbers;
 use near::NeedsStart;
 pub use near::{NearEvidence, NearOptions, NearOutcome, NearSolver, WhyLost};
 pub use octic::{Octic, OcticPoses, OcticSolver, octic};

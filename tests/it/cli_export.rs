@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use super::cli_frame::{document, equipod};
 
-const FORMATS: [&str; 9] = ["csv", "dxf", "hal", "json", "matlab", "mjcf", "step", "stl", "svg"];
+const FORMATS: [&str; 10] = ["c", "csv", "dxf", "hal", "json", "matlab", "mjcf", "step", "stl", "svg"];
 
 fn run(args: &[&str]) -> (Option<i32>, Value) {
     let mut all = vec!["export"];
@@ -141,4 +141,69 @@ fn refusals() {
     let (code, doc) = run(&[own.to_str().unwrap(), "--to", "json", "-o", to]);
     assert_eq!((code, doc["error"]["code"].as_str()), (Some(2), Some("file::overwrites_input")));
     assert_eq!(read(folder.path(), "platform.json"), before);
+}
+
+/// Files of the format `c`, in the order in which they are told.
+const C_FILES: [&str; 8] = [
+    "equipod.h",
+    "equipod.c",
+    "equipod_design.h",
+    "equipod_design.c",
+    "equipod_vectors.h",
+    "equipod_selftest.c",
+    "CMakeLists.txt",
+    "equipodkins.c",
+];
+
+/// The program's own folder of C for a design, as texts.
+fn c_files(design: &str, options: &[&str], folder: &Path) -> Vec<String> {
+    let to = folder.to_str().unwrap();
+    let (code, doc) = run(&[&[design, "--to", "c", "-o", to], options].concat());
+    assert_eq!(code, Some(0), "{doc}");
+    let told: Vec<&str> =
+        doc["formats"][0]["files"].as_array().unwrap().iter().map(|f| f.as_str().unwrap()).collect();
+    let names: Vec<&str> = told.iter().map(|f| f.rsplit('/').next().unwrap()).collect();
+    assert_eq!(names, C_FILES);
+    C_FILES.map(|name| read(folder, name)).to_vec()
+}
+
+#[test]
+fn c_for_controllers_is_the_same_every_time_and_only_its_numbers_are_those_of_the_design() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let design = "designs/rbt-griffis-duffy.toml";
+    let first = c_files(design, &[], &at("first"));
+    assert_eq!(first, c_files(design, &[], &at("second")));
+    let other = c_files("designs/general-6-6.toml", &["--unit", "m"], &at("other"));
+    // the algorithm does not depend on the design, its numbers do
+    for (i, name) in C_FILES.into_iter().enumerate() {
+        let of_design = ["equipod_design.h", "equipod_design.c", "equipod_vectors.h"].contains(&name);
+        assert_eq!(first[i] != other[i], of_design, "{name}");
+    }
+    // the octahedral platform behind it, only where there is one
+    assert!(first[2].contains("EQUIPOD_HAS_OCTAHEDRAL") && first[4].contains("map_vectors"));
+    assert!(!other[2].contains("EQUIPOD_HAS_OCTAHEDRAL") && !other[4].contains("map_vectors"));
+    // one comment at most begins and ends in the heading, and no other bytes than ASCII stand in the texts
+    for (text, name) in first.iter().zip(C_FILES) {
+        assert!(text.is_ascii(), "{name}");
+        assert_eq!(text.matches("/*").count(), text.matches("*/").count(), "{name}");
+    }
+    // what controllers must not have
+    for forbidden in ["malloc", "alloca", "setjmp", "static double", "goto"] {
+        assert!(!first[1].contains(forbidden), "{forbidden}");
+    }
+    let includes: Vec<&str> = first[1].lines().filter(|l| l.starts_with("#include <")).collect();
+    assert_eq!(includes, ["#include <float.h>", "#include <math.h>"]);
+}
+
+#[test]
+fn names_of_designs_cannot_end_comments_of_c() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = std::fs::read_to_string("designs/symmetric-hexapod.toml").unwrap();
+    let named = text.replacen("name = \"", "name = \"a */ int x; /* b \\\\ ", 1);
+    assert_ne!(text, named);
+    let design = folder.path().join("named.toml");
+    std::fs::write(&design, named).unwrap();
+    let files = c_files(design.to_str().unwrap(), &[], &folder.path().join("out"));
+    assert!(files[3].contains("a * / int x; / * b"), "{}", &files[3][..200]);
 }

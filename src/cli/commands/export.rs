@@ -12,6 +12,7 @@ use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
 use crate::cli::requirements;
 use crate::design::Design;
+use crate::entrance::exporting::octahedral_of_controllers;
 use crate::export::{Export, ExportFormat, ExportOptions, ExportedFile, LengthUnit, NoExport, Writer};
 use crate::records::{AssessAnswer, ExportAnswer, FormatOutcome, FormatRecord, Number};
 
@@ -96,7 +97,10 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
             context.no_effect(option, "only the simulator's format, mjcf, holds masses")?;
         }
     }
-    let export = model(args, &design)?;
+    let mut export = model(args, &design)?;
+    if wanted(args).iter().any(|f| f.name() == ExportFormat::C.name()) {
+        export = export.with_octahedral(octahedral_of_controllers(&design));
+    }
     files::make_folder(&args.output)?;
     let (mut exit, mut formats, mut text) = (Exit::Yes, Vec::new(), String::new());
     for format in wanted(args) {

@@ -85,6 +85,18 @@ struct Place {
     position: [f64; 3],
 }
 
+/// The numbers of a solver, for programs that compute the same elsewhere: those of [`NearSolver`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct NearNumbers {
+    pub(crate) base: [[f64; 3]; 6],
+    pub(crate) platform: [[f64; 3]; 6],
+    pub(crate) loose: [[f64; 6]; 2],
+    pub(crate) origin: [f64; 3],
+    pub(crate) centre: [f64; 3],
+    pub(crate) unit: f64,
+    pub(crate) residual_scale: f64,
+}
+
 /// What one segment came to.
 enum Segment {
     /// At the end of the way.
@@ -119,6 +131,19 @@ impl NearSolver {
             unit,
             residual_scale: (unit / m.size()).powi(2),
             options,
+        }
+    }
+
+    /// The numbers worked out for the design.
+    pub(crate) fn numbers(&self) -> NearNumbers {
+        NearNumbers {
+            base: self.base,
+            platform: self.platform,
+            loose: self.loose,
+            origin: self.origin.into(),
+            centre: self.centre.into(),
+            unit: self.unit,
+            residual_scale: self.residual_scale,
         }
     }
 
@@ -159,7 +184,8 @@ impl NearSolver {
         let singular = !(evidence.frobenius_ratio >= self.options.singular);
         match reason {
             Some(reason) if !singular => NearOutcome::Lost { pose, reason, fraction, evidence },
-            None if !singular => NearOutcome::Tracked { pose, evidence },
+            // bounds without end, of squares that nothing is known of, stop a segment where the pose itself is regular
+            None if !singular && fraction >= 1.0 => NearOutcome::Tracked { pose, evidence },
             _ => NearOutcome::NearSingularity { pose, fraction, evidence },
         }
     }

@@ -230,6 +230,17 @@ fn singular_starts_and_starts_that_are_no_poses() {
 }
 
 #[test]
+fn squares_of_which_nothing_is_known_are_not_reached() {
+    let mut rng = Rng::new(11);
+    let m = hexapod(&mut rng);
+    let start = regular_start(&m, &mut rng);
+    let squares = start.squared_lengths(&m).unwrap();
+    let unknown = SquaredLegLengths::try_within(squares.middle(), [f64::INFINITY; 6]).unwrap();
+    assert!(NearSolver::new(&m).solve(&unknown, &start).tracked().is_none());
+    assert!(NearSolver::new(&m).solve(&squares, &start).tracked().is_some());
+}
+
+#[test]
 fn as_a_general_method_it_does_not_apply() {
     let mut rng = Rng::new(9);
     let m = hexapod(&mut rng);

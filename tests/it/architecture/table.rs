@@ -140,7 +140,7 @@ const LINES: &[Line] = &[
     ),
     (
         "export",
-        &["geom", "manipulator", "requirements", "design", "plot", "names"],
+        &["num", "geom", "manipulator", "requirements", "fk", "design", "plot", "names"],
         &[MATRICES, ("serde", Some("json.rs")), ("serde_json", Some("json.rs")), ERRORS],
     ),
     ("equivalents", &["manipulator", "singularity", "synthesis", "design"], &[MATRICES]),
@@ -159,6 +159,7 @@ const LINES: &[Line] = &[
             "offsets",
             "dimensional",
             "equivalence",
+            "manufacture",
             "design",
             "export",
             "equivalents",

@@ -1,0 +1,317 @@
+/* LinuxCNC kinematics of the design in equipod_design.c, for the module interface of LinuxCNC 2.9.
+ *
+ *     halcompile --install equipodkins.c         (or --compile)
+ *     [KINS] KINEMATICS = equipodkins, JOINTS = 6; LINEAR_UNITS = mm, ANGULAR_UNITS = degree
+ *
+ * The machine position X Y Z A B C is the pose: p = (X, Y, Z), R = Rz(C) Ry(B) Rx(A), degrees. Joint N is the length of leg N, from 0, in
+ * millimetres. Pins, with N from 0 to 5 (in: read at every call, what is written into them is what the machine was measured to have):
+ *
+ *     equipodkins.base.N.x .y .z, .platform.N.x .y .z      joints, millimetres; those of the design before anything is set
+ *     equipodkins.base-n.N.x .y .z, .platform-n.N.x .y .z  axes of the joints next to base and platform, base and platform frame
+ *     equipodkins.screw-lead                               travel of a turn of the screws, right-hand positive; 0: no correction
+ *     equipodkins.spindle-offset, .tool-offset             added to z of all joints, as genhexkins has them
+ *     equipodkins.octahedral                               1: poses by the octahedral platform, corrected on the joints above
+ * out:
+ *     equipodkins.correction.N                             what the screws add to leg N at the last inverse kinematics
+ *     equipodkins.fwd-kins-fail, .status, .last-iterations 1: no pose; 0 tracked, 1 near a singularity, 2 lost; Newton steps
+ *     equipodkins.condition, .position-error               6 / (|J| |J^-1|), 0 at a singularity; bound of the error, millimetres
+ *
+ * Screws that are not kept from turning change their length as their joints turn against each other. With u along the leg, n the axis at the
+ * base and m = R n' that at the platform, and the parts of n and m across u: correction = lead asin(u . (n x m)) / (2 pi).
+ *
+ * The forward kinematics continues the pose it is given. Where that is no start (LinuxCNC begins with all zeros) it continues the last pose it
+ * found, or the home pose of the design. */
+#include <rtapi.h>
+#include <rtapi_app.h>
+#include <rtapi_math.h>
+#include <hal.h>
+#include <kinematics.h>
+
+#include "equipod.c"
+#include "equipod_design.c"
+
+#ifdef EQUIPOD_FLOAT
+#error "equipodkins.c computes in double"
+#endif
+
+MODULE_LICENSE("GPL");
+MODULE_DESCRIPTION("Kinematics of a Gough-Stewart platform, each pose with a test that it is the continuation of the last");
+
+#define NAME "equipodkins"
+#define LEGS 6
+/* Segments of a way, and rounds in which the turn of the screws is taken into account. */
+#define SEGMENTS 200u
+#define ROUNDS 30
+#define DEGREE 0.017453292519943295
+#define TWO_PI 6.283185307179586
+
+typedef struct {
+    hal_float_t *base[LEGS][3], *platform[LEGS][3];
+    hal_float_t *base_axis[LEGS][3], *platform_axis[LEGS][3];
+    hal_float_t *correction[LEGS];
+    hal_float_t *screw_lead, *spindle_offset, *tool_offset;
+    hal_bit_t *octahedral, *failed;
+    hal_u32_t *status, *iterations;
+    hal_float_t *condition, *position_error;
+} pins_t;
+
+static pins_t *pins;
+static int component;
+static equipod_legs machine;
+static equipod_pose last;
+static int has_last;
+
+/* The joints as the pins have them, in the unit of the design. */
+static int read_joints(void)
+{
+    double base[LEGS][3], platform[LEGS][3];
+    const double offset = *pins->spindle_offset + *pins->tool_offset;
+    int i, k;
+    for (i = 0; i < LEGS; i++) {
+        for (k = 0; k < 3; k++) {
+            const double more = k == 2 ? offset : 0;
+            base[i][k] = (*pins->base[i][k] + more) / EQUIPOD_UNIT_MILLIMETRES;
+            platform[i][k] = (*pins->platform[i][k] + more) / EQUIPOD_UNIT_MILLIMETRES;
+        }
+    }
+    return equipod_prepare(base, platform, &machine);
+}
+
+/* What the screws add to each leg at a pose, in the unit of the design; 0 where an axis points along its leg. */
+static int corrections(const equipod_pose *pose, double out[LEGS])
+{
+    const double lead = *pins->screw_lead / EQUIPOD_UNIT_MILLIMETRES;
+    int i, k;
+    for (i = 0; i < LEGS; i++) {
+        double arm[3], u[3], n[3], m[3], own[3], across[3], along_n, along_m, length, sine;
+        out[i] = 0;
+        if (lead == 0) {
+            continue;
+        }
+        leg_line(&machine, pose, i, arm, u);
+        length = norm(u);
+        for (k = 0; k < 3; k++) {
+            u[k] /= length;
+            n[k] = *pins->base_axis[i][k];
+            own[k] = *pins->platform_axis[i][k];
+        }
+        for (k = 0; k < 3; k++) {
+            m[k] = dot(pose->rotation[k], own);
+        }
+        along_n = dot(n, u);
+        along_m = dot(m, u);
+        for (k = 0; k < 3; k++) {
+            n[k] -= along_n * u[k];
+            m[k] -= along_m * u[k];
+        }
+        cross(n, m, across);
+        sine = dot(u, across) / (norm(n) * norm(m));
+        if (!(fabs(sine) <= 1 + 1e-12)) {
+            return 0;
+        }
+        out[i] = lead * asin(sine > 1 ? 1 : sine < -1 ? -1 : sine) / TWO_PI;
+    }
+    return 1;
+}
+
+static void pose_of_world(const EmcPose *world, equipod_pose *pose)
+{
+    double position[3], angles[3];
+    position[0] = world->tran.x / EQUIPOD_UNIT_MILLIMETRES;
+    position[1] = world->tran.y / EQUIPOD_UNIT_MILLIMETRES;
+    position[2] = world->tran.z / EQUIPOD_UNIT_MILLIMETRES;
+    angles[0] = world->a * DEGREE;
+    angles[1] = world->b * DEGREE;
+    angles[2] = world->c * DEGREE;
+    equipod_pose_from_angles(position, angles, pose);
+}
+
+/* The angle of the same turn next to the one before. */
+static double next_to(double angle, double before)
+{
+    return angle + 360 * floor((before - angle) / 360 + 0.5);
+}
+
+static void world_of_pose(const equipod_pose *pose, EmcPose *world)
+{
+    double angles[3];
+    equipod_angles(pose, angles);
+    world->tran.x = pose->position[0] * EQUIPOD_UNIT_MILLIMETRES;
+    world->tran.y = pose->position[1] * EQUIPOD_UNIT_MILLIMETRES;
+    world->tran.z = pose->position[2] * EQUIPOD_UNIT_MILLIMETRES;
+    world->a = next_to(angles[0] / DEGREE, world->a);
+    world->b = next_to(angles[1] / DEGREE, world->b);
+    world->c = next_to(angles[2] / DEGREE, world->c);
+}
+
+/* The pose whose legs, with what the screws add, have the lengths of the joints: the corrections of a pose shorten the legs of the next. */
+static equipod_status pose_from(const double joints[LEGS], const equipod_pose *start, equipod_result *result)
+{
+    double add[LEGS], s[LEGS], change, before[LEGS];
+    equipod_pose from = *start;
+    unsigned steps = 0;
+    int round, i;
+    if (!corrections(start, add)) {
+        return EQUIPOD_LOST;
+    }
+    for (round = 0; round < ROUNDS; round++) {
+        for (i = 0; i < LEGS; i++) {
+            const double length = joints[i] / EQUIPOD_UNIT_MILLIMETRES - add[i];
+            if (!(length > 0)) {
+                return EQUIPOD_LOST;
+            }
+            s[i] = length * length;
+            before[i] = add[i];
+        }
+#ifdef EQUIPOD_HAS_OCTAHEDRAL
+        if (*pins->octahedral) {
+            equipod_track_mapped(&equipod_to_octahedral, &equipod_octahedral, &machine, s, &from, EQUIPOD_SINGULAR, SEGMENTS, 3, result);
+        } else
+#endif
+        {
+            equipod_track(&machine, s, 0, &from, EQUIPOD_SINGULAR, SEGMENTS, result);
+        }
+        steps += result->newton_steps;
+        result->newton_steps = steps;
+        if (result->status != EQUIPOD_TRACKED) {
+            return result->status;
+        }
+        from = result->pose;
+        if (!corrections(&from, add)) {
+            return EQUIPOD_LOST;
+        }
+        change = 0;
+        for (i = 0; i < LEGS; i++) {
+            change = fmax(change, fabs(add[i] - before[i]));
+        }
+        if (change <= 1e-13 * machine.unit) {
+            return EQUIPOD_TRACKED;
+        }
+    }
+    return EQUIPOD_LOST;
+}
+
+int kinematicsForward(const double *joints, struct EmcPose *world, const KINEMATICS_FORWARD_FLAGS *fflags, KINEMATICS_INVERSE_FLAGS *iflags)
+{
+    equipod_pose start;
+    equipod_result result;
+    equipod_status status;
+    (void)fflags;
+    (void)iflags;
+    *pins->failed = 1;
+    if (!read_joints()) {
+        return -1;
+    }
+    result.newton_steps = 0;
+    result.frobenius_ratio = 0;
+    result.position_error = 0;
+    pose_of_world(world, &start);
+    status = pose_from(joints, &start, &result);
+    if (status != EQUIPOD_TRACKED) {
+        status = pose_from(joints, has_last ? &last : &equipod_home, &result);
+    }
+    *pins->status = (hal_u32_t)status;
+    *pins->iterations = result.newton_steps;
+    *pins->condition = result.frobenius_ratio;
+    *pins->position_error = result.position_error * EQUIPOD_UNIT_MILLIMETRES;
+    if (status != EQUIPOD_TRACKED) {
+        return -1;
+    }
+    last = result.pose;
+    has_last = 1;
+    world_of_pose(&result.pose, world);
+    *pins->failed = 0;
+    return 0;
+}
+
+int kinematicsInverse(const struct EmcPose *world, double *joints, const KINEMATICS_INVERSE_FLAGS *iflags, KINEMATICS_FORWARD_FLAGS *fflags)
+{
+    equipod_pose pose;
+    double add[LEGS];
+    int i;
+    (void)iflags;
+    (void)fflags;
+    pose_of_world(world, &pose);
+    if (!read_joints() || !corrections(&pose, add)) {
+        return -1;
+    }
+    equipod_lengths(&machine, &pose, joints);
+    for (i = 0; i < LEGS; i++) {
+        if (!(joints[i] > 0)) {
+            return -1;
+        }
+        joints[i] = (joints[i] + add[i]) * EQUIPOD_UNIT_MILLIMETRES;
+        *pins->correction[i] = add[i] * EQUIPOD_UNIT_MILLIMETRES;
+    }
+    return 0;
+}
+
+KINEMATICS_TYPE kinematicsType(void)
+{
+    return KINEMATICS_BOTH;
+}
+
+KINS_NOT_SWITCHABLE
+EXPORT_SYMBOL(kinematicsType);
+EXPORT_SYMBOL(kinematicsForward);
+EXPORT_SYMBOL(kinematicsInverse);
+
+static int vector_pin(hal_float_t **pin, const char *what, int leg, const double value[3])
+{
+    static const char axis[3] = {'x', 'y', 'z'};
+    int k, failed = 0;
+    for (k = 0; k < 3; k++) {
+        failed |= hal_pin_float_newf(HAL_IN, &pin[k], component, NAME ".%s.%d.%c", what, leg, axis[k]);
+        if (!failed) {
+            *pin[k] = value[k];
+        }
+    }
+    return failed;
+}
+
+static int make_pins(void)
+{
+    int i, k, failed = 0;
+    for (i = 0; i < LEGS && !failed; i++) {
+        double base[3], platform[3];
+        for (k = 0; k < 3; k++) {
+            base[k] = equipod_nominal.base[i][k] * EQUIPOD_UNIT_MILLIMETRES;
+            platform[k] = equipod_nominal.platform[i][k] * EQUIPOD_UNIT_MILLIMETRES;
+        }
+        failed |= vector_pin(pins->base[i], "base", i, base);
+        failed |= vector_pin(pins->platform[i], "platform", i, platform);
+        failed |= vector_pin(pins->base_axis[i], "base-n", i, equipod_across_base[i]);
+        failed |= vector_pin(pins->platform_axis[i], "platform-n", i, equipod_across_platform[i]);
+        failed |= hal_pin_float_newf(HAL_OUT, &pins->correction[i], component, NAME ".correction.%d", i);
+    }
+    failed |= hal_pin_float_newf(HAL_IN, &pins->screw_lead, component, NAME ".screw-lead");
+    failed |= hal_pin_float_newf(HAL_IN, &pins->spindle_offset, component, NAME ".spindle-offset");
+    failed |= hal_pin_float_newf(HAL_IN, &pins->tool_offset, component, NAME ".tool-offset");
+    failed |= hal_pin_bit_newf(HAL_IN, &pins->octahedral, component, NAME ".octahedral");
+    failed |= hal_pin_bit_newf(HAL_OUT, &pins->failed, component, NAME ".fwd-kins-fail");
+    failed |= hal_pin_u32_newf(HAL_OUT, &pins->status, component, NAME ".status");
+    failed |= hal_pin_u32_newf(HAL_OUT, &pins->iterations, component, NAME ".last-iterations");
+    failed |= hal_pin_float_newf(HAL_OUT, &pins->condition, component, NAME ".condition");
+    failed |= hal_pin_float_newf(HAL_OUT, &pins->position_error, component, NAME ".position-error");
+    return failed;
+}
+
+int rtapi_app_main(void)
+{
+    component = hal_init(NAME);
+    if (component < 0) {
+        return component;
+    }
+    pins = hal_malloc(sizeof *pins);
+    if (!pins || make_pins()) {
+        hal_exit(component);
+        return -1;
+    }
+    hal_ready(component);
+    return 0;
+}
+
+void rtapi_app_exit(void)
+{
+    hal_exit(component);
+}

@@ -1,0 +1,230 @@
+//! Numbers of the library for the self-test of the C: poses about home, ways between them, and inputs that must be refused.
+
+use std::fmt::Write as _;
+
+use nalgebra::{Matrix3, Rotation3, Vector3};
+
+use super::{EquivalentOctahedral, braces, heading, number};
+use crate::export::Export;
+use crate::fk::{NearOptions, NearOutcome, NearSolver, WhyLost};
+use crate::geom::Pose;
+use crate::manipulator::{SquaredLegLengths, jacobian};
+use crate::num::Rng;
+use crate::num::double_double::DoubleDouble;
+use crate::requirements::{Requirements, TermKind, Terms};
+
+/// Seed of the poses.
+const SEED: u64 = 21;
+/// Poses about home: this far turned, radians, and moved, over the size.
+const AWAY: f64 = 0.12;
+/// Poses for inverse kinematics besides those of the workspace.
+const POSES: usize = 16;
+/// Poses of the workspace taken at most.
+const OF_WORKSPACE: usize = 9;
+/// Lengths of ways, turns in radians and shifts over the size.
+const WAYS: [f64; 6] = [1e-4, 1e-3, 1e-2, 0.05, 0.2, 0.5];
+/// Ways of each length.
+const REPEATS: usize = 6;
+/// Segments allowed: the value of `EQUIPOD_SEGMENTS`.
+const SEGMENTS: u32 = 8;
+/// Newton steps that correct a mapped pose.
+const CORRECTIONS: u32 = 2;
+
+pub(super) fn text(export: &Export) -> String {
+    let mut rng = Rng::new(SEED);
+    let about: Vec<Pose> = (0..POSES).map(|_| moved(&export.home, AWAY, export.size, &mut rng)).collect();
+    let mut out = heading(export);
+    let mut poses: Vec<Pose> = export.workspace.iter().take(OF_WORKSPACE).copied().collect();
+    poses.extend(&about);
+    list(&mut out, "inverse_vector", "inverse_vectors", poses.iter().filter_map(|p| inverse(export, p)));
+    list(&mut out, "track_vector", "track_vectors", ways(export, &mut rng).iter().map(|w| track(export, w)));
+    list(&mut out, "newton_vector", "newton_vectors", newton(export, &about, &mut rng));
+    if let Some(octahedral) = &export.octahedral {
+        let starts = about.iter().filter_map(|start| {
+            let end = moved(start, 1e-2, export.size, &mut rng);
+            mapped(export, octahedral, start, &end)
+        });
+        let starts: Vec<String> = starts.collect();
+        list(&mut out, "map_vector", "map_vectors", starts);
+    }
+    out
+}
+
+fn list(out: &mut String, kind: &str, name: &str, entries: impl IntoIterator<Item = String>) {
+    let entries: Vec<String> = entries.into_iter().collect();
+    let _ = writeln!(out, "\nstatic const {kind} {name}[] = {{\n    {}\n}};", entries.join(",\n    "));
+}
+
+/// The pose moved at random by about `far`.
+fn moved(pose: &Pose, far: f64, size: f64, rng: &mut Rng) -> Pose {
+    let mut vector = || Vector3::from_fn(|_, _| rng.uniform(-far, far));
+    let (turn, shift) = (vector(), vector() * size);
+    Pose { rotation: Rotation3::new(turn) * pose.rotation, position: pose.position + shift }
+}
+
+fn row(values: &[f64]) -> String {
+    braces(values.iter().map(|x| number(*x)))
+}
+
+fn pose_numbers(pose: &Pose) -> String {
+    let r = pose.rotation.matrix();
+    let rows = (0..3).map(|i| row(&[r[(i, 0)], r[(i, 1)], r[(i, 2)]]));
+    braces([braces(rows), row(pose.position.as_slice())])
+}
+
+/// Lengths, Jacobian and margins at a pose; `None` where a leg has no direction or lengths overflow.
+fn inverse(export: &Export, pose: &Pose) -> Option<String> {
+    let m = &export.manipulator;
+    let squares = pose.squared_lengths(m)?;
+    let lengths = squares.lengths().get();
+    if !lengths.iter().all(|l| *l > 0.0) {
+        return None;
+    }
+    let j = jacobian(m, pose, 1.0);
+    let rows = (0..6).map(|i| row(&std::array::from_fn::<f64, 6, _>(|k| j[(i, k)])));
+    let required = Requirements { hardware: export.hardware, ..Requirements::default() };
+    let margins = Terms::new(m, &required, &export.home).at(pose);
+    let kinds = [TermKind::LegTooShort, TermKind::LegTooLong, TermKind::BaseSwing, TermKind::PlatformSwing];
+    let margins = kinds.map(|kind| {
+        let of_leg = |leg: usize| margins.iter().find(|(t, _)| t.kind == kind && t.first == leg);
+        row(&std::array::from_fn::<f64, 6, _>(|leg| of_leg(leg).map_or(f64::INFINITY, |m| m.1)))
+    });
+    let entries = [pose_numbers(pose), row(&squares.get()), row(&lengths), braces(rows)];
+    Some(braces(entries.into_iter().chain(margins)))
+}
+
+/// Where a tracked pose begins and which squared lengths it goes to.
+struct TrackedWay {
+    start: Pose,
+    squares: SquaredLegLengths,
+    segments: u32,
+}
+
+/// Ways of all lengths about home, and those that end at a singularity, are too far, or begin at what is no pose.
+fn ways(export: &Export, rng: &mut Rng) -> Vec<TrackedWay> {
+    let (m, home) = (&export.manipulator, &export.home);
+    let mut out = Vec::new();
+    let mut push = |start: Pose, squares: Option<SquaredLegLengths>, segments: u32| {
+        out.extend(squares.map(|squares| TrackedWay { start, squares, segments }));
+    };
+    for far in WAYS {
+        for _ in 0..REPEATS {
+            let start = moved(home, AWAY, export.size, rng);
+            let end = moved(&start, far, export.size, rng);
+            push(start, end.squared_lengths(m), SEGMENTS);
+        }
+    }
+    let far = moved(home, 1.0, export.size, rng);
+    push(*home, home.squared_lengths(m), SEGMENTS);
+    push(*home, far.squared_lengths(m), 1);
+    push(*home, far.squared_lengths(m), 1000);
+    for (leg, factor) in [(0, 0.01), (3, 4.0)] {
+        let squares = home.squared_lengths(m).and_then(|s| {
+            let mut s = s.get();
+            s[leg] *= factor;
+            SquaredLegLengths::try_new(s).ok()
+        });
+        push(*home, squares, 1000);
+    }
+    let turned = home.rotation.matrix();
+    for factor in [1.1, -1.0] {
+        let matrix: Matrix3<f64> = turned * factor;
+        let start = Pose { rotation: Rotation3::from_matrix_unchecked(matrix), ..*home };
+        push(start, home.squared_lengths(m), SEGMENTS);
+    }
+    out
+}
+
+fn track(export: &Export, way: &TrackedWay) -> String {
+    let options = NearOptions { segments: way.segments, ..NearOptions::default() };
+    let outcome = NearSolver::with_options(&export.manipulator, options).solve(&way.squares, &way.start);
+    let (status, reason, fraction) = told(&outcome);
+    let evidence = outcome.evidence();
+    braces([
+        pose_numbers(&way.start),
+        row(&way.squares.get()),
+        way.segments.to_string(),
+        status.to_string(),
+        reason.to_string(),
+        pose_numbers(outcome.pose()),
+        number(fraction),
+        evidence.segments.to_string(),
+        evidence.newton_steps.to_string(),
+        number(evidence.kantorovich),
+        number(evidence.frobenius_ratio),
+        number(evidence.residual),
+        number(evidence.distance),
+    ])
+}
+
+/// The names of C for an outcome, and how far it got.
+fn told(outcome: &NearOutcome) -> (&'static str, &'static str, f64) {
+    match outcome {
+        NearOutcome::Tracked { .. } => ("EQUIPOD_TRACKED", "EQUIPOD_NO_REASON", 1.0),
+        NearOutcome::NearSingularity { fraction, .. } => {
+            ("EQUIPOD_NEAR_SINGULAR", "EQUIPOD_NO_REASON", *fraction)
+        }
+        NearOutcome::Lost { reason, fraction, .. } => {
+            let reason = match reason {
+                WhyLost::StartIsNoPose => "EQUIPOD_START_IS_NO_POSE",
+                WhyLost::SegmentsExhausted => "EQUIPOD_SEGMENTS_EXHAUSTED",
+                WhyLost::NoConvergence => "EQUIPOD_NO_CONVERGENCE",
+            };
+            ("EQUIPOD_LOST", reason, *fraction)
+        }
+    }
+}
+
+fn newton(export: &Export, about: &[Pose], rng: &mut Rng) -> Vec<String> {
+    let solver = NearSolver::new(&export.manipulator);
+    let entry = |(k, start): (usize, &Pose)| {
+        let steps = u32::try_from(k % 4).unwrap_or(0);
+        let squares = moved(start, 1e-2, export.size, rng).squared_lengths(&export.manipulator)?;
+        let found = solver.newton_steps(&squares, start, steps);
+        Some(braces([
+            pose_numbers(start),
+            row(&squares.get()),
+            steps.to_string(),
+            u8::from(found.is_some()).to_string(),
+            pose_numbers(&found.unwrap_or(*start)),
+        ]))
+    };
+    about.iter().take(8).enumerate().filter_map(entry).collect()
+}
+
+/// The map as the C computes it: plain doubles, and a bound of their rounding.
+fn image(octahedral: &EquivalentOctahedral, s: &[f64; 6]) -> ([f64; 6], [f64; 6]) {
+    let (mut to, mut radius) = ([0.0; 6], [0.0; 6]);
+    for i in 0..6 {
+        let (mut sum, mut size) = (octahedral.c[i], octahedral.c[i].abs());
+        for (a, s) in octahedral.a[i].iter().zip(s) {
+            let term = a * s;
+            sum += term;
+            size += term.abs();
+        }
+        to[i] = sum;
+        radius[i] = 12.0 * (f64::EPSILON / 2.0) * size + f64::MIN_POSITIVE;
+    }
+    (to, radius)
+}
+
+/// `None` where the octahedral platform has no such lengths.
+fn mapped(export: &Export, octahedral: &EquivalentOctahedral, start: &Pose, end: &Pose) -> Option<String> {
+    let squares = end.squared_lengths(&export.manipulator)?;
+    let (to, radius) = image(octahedral, &squares.get());
+    let target = SquaredLegLengths::try_within(to.map(DoubleDouble::from), radius).ok()?;
+    let options = NearOptions { segments: SEGMENTS, ..NearOptions::default() };
+    let outcome = NearSolver::with_options(&octahedral.manipulator, options).solve(&target, start);
+    let own = NearSolver::new(&export.manipulator);
+    let corrected = outcome.tracked().and_then(|pose| own.newton_steps(&squares, pose, CORRECTIONS));
+    Some(braces([
+        pose_numbers(start),
+        row(&squares.get()),
+        row(&to),
+        row(&radius),
+        told(&outcome).0.to_string(),
+        pose_numbers(outcome.pose()),
+        CORRECTIONS.to_string(),
+        pose_numbers(&corrected.unwrap_or(*outcome.pose())),
+    ]))
+}

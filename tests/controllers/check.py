@@ -1,0 +1,220 @@
+#!/usr/bin/env python3
+"""Compilers that are not ours take the files of `equipod export --to c`, and the self-test in them runs. `tests/controllers/run` calls this.
+
+    python tests/controllers/check.py target/debug/equipod [--allow-missing] [--table]
+
+On the host: gcc and clang, double and float, with all warnings as errors and with sanitizers. For microcontrollers: arm-none-eabi-gcc for Cortex-M4F and M7,
+run by qemu-system-arm. Every compiler also has to find a planted fault: a self-test with one wrong number has to fail.
+`--table` prints what docs/controllers.md holds: code, stack, instructions, operations.
+"""
+
+import argparse
+import itertools
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+# shared joints and separate ones, limits of lengths and swing, a design equivalent to an octahedral platform, a unit that has to be named
+DESIGNS = [
+    ("rbt-octahedral", []),
+    ("worked/bench-joint-free", []),
+    ("worked/chair", []),
+    ("presets/linuxcnc-hexapod", []),
+    ("general-6-6", ["--unit", "m"]),
+]
+STRICT = ["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-Wconversion", "-Wdouble-promotion"]
+SANITIZE = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
+SOURCES = ["equipod.c", "equipod_design.c"]
+# name, options of the compiler, machine of QEMU, real_t
+BOARDS = [
+    ("Cortex-M4F, float", ["-mcpu=cortex-m4", "-mfpu=fpv4-sp-d16"], ("mps2-an386", "cortex-m4"), True),
+    ("Cortex-M7, float", ["-mcpu=cortex-m7", "-mfpu=fpv5-d16"], ("mps2-an500", "cortex-m7"), True),
+    ("Cortex-M7, double", ["-mcpu=cortex-m7", "-mfpu=fpv5-d16"], ("mps2-an500", "cortex-m7"), False),
+]
+ARM = ["-mthumb", "-mfloat-abi=hard", "-O2", "-fno-math-errno", "-ffp-contract=off", "-ffunction-sections", "-fdata-sections"]
+
+failed, passed, missing = [], [], []
+
+
+def told(good, what, why=""):
+    (passed if good else failed).append(what)
+    if not good:
+        print(f"FAILED {what}: {why.strip()[-2000:]}")
+    return good
+
+
+def run(*args, cwd=None, timeout=300):
+    out = subprocess.run([str(a) for a in args], capture_output=True, text=True, cwd=cwd, timeout=timeout)
+    return out.returncode, out.stdout + out.stderr
+
+
+def has(program):
+    if shutil.which(program) is None:
+        if program not in missing:
+            missing.append(program)
+        return False
+    return True
+
+
+def export(program, design, options, folder):
+    code, out = run(program, "export", ROOT / f"designs/{design}.toml", "--to", "c", "-o", folder, *options)
+    if code != 0:
+        sys.exit(f"the program does not export {design}: {out}")
+
+
+def faulty(folder, to):
+    """The same files with one expected number, a squared length, off by a hundredth."""
+    shutil.copytree(folder, to)
+    path = to / "equipod_vectors.h"
+    text = path.read_text()
+    # a vector begins with its pose, {{rotation}, {position}}, and its squared lengths come next
+    number = re.search(r"\}\}, \{[^}]*\}\}, \{([\d.e+-]+)", text).group(1)
+    wrong = repr(float(number) * 1.01)
+    path.write_text(text.replace(number, wrong, 1))
+
+
+def host(folder, wrong, name):
+    for compiler, real in itertools.product(["gcc", "clang"], [[], ["-DEQUIPOD_FLOAT"]]):
+        if not has(compiler):
+            continue
+        for options in (["-O2"], ["-O1", "-g", *SANITIZE]):
+            label = f"{name}: {compiler} {' '.join(real + options)}"
+            for place, good in ((folder, True), (wrong, False)):
+                if not good and options != ["-O2"]:
+                    continue
+                binary = place / "selftest"
+                sources = [place / s for s in [*SOURCES, "equipod_selftest.c"]]
+                code, out = run(compiler, *STRICT, "-ffp-contract=off", *real, *options, *sources, "-lm", "-o", binary)
+                if not told(code == 0, f"{label} compiles", out):
+                    continue
+                code, out = run(binary)
+                told((code == 0) == good, f"{label} {'agrees' if good else 'finds the planted fault'}", out)
+                if good and options == ["-O2"] and compiler == "gcc":
+                    print(f"  {name} {'float' if real else 'double'}: {' / '.join(out.strip().splitlines())}")
+
+
+def cmake(folder):
+    if has("cmake"):
+        code, out = run("cmake", "-S", folder, "-B", folder / "build")
+        code, out = run("cmake", "--build", folder / "build") if code == 0 else (code, out)
+        code, out = run("ctest", cwd=folder / "build") if code == 0 else (code, out)
+        told(code == 0 and "100% tests passed" in out, "cmake and ctest", out)
+
+
+def qemu(board, binary):
+    machine, cpu = board
+    return run("qemu-system-arm", "-M", machine, "-cpu", cpu, "-icount", "shift=0", "-semihosting", "-display", "none", "-serial", "null", "-monitor", "none",
+               "-kernel", binary)
+
+
+def worst_stack(info):
+    """The greatest sum of frames along calls from each public function; functions of other libraries are not in it, and named."""
+    frames, calls = {}, {}
+    for path in info:
+        for match in re.finditer(r'node: \{ title: "([^"]+)" label: "([^"]*)"', path.read_text()):
+            size = re.search(r"(\d+) bytes \((\w+)\)", match.group(2))
+            frames[match.group(1)] = int(size.group(1)) if size else None
+            if size and size.group(2) != "static":
+                sys.exit(f"the stack of {match.group(1)} has no bound")
+        for match in re.finditer(r'edge: \{ sourcename: "([^"]+)" targetname: "([^"]+)"', path.read_text()):
+            calls.setdefault(match.group(1), set()).add(match.group(2))
+    def depth(name, above=()):
+        if name in above:
+            sys.exit(f"{name} calls itself")
+        deepest, outside = 0, set()
+        for callee in calls.get(name, ()):
+            if frames.get(callee) is None:
+                outside.add(callee)
+                continue
+            below, more = depth(callee, (*above, name))
+            deepest, outside = max(deepest, below), outside | more
+        return frames[name] + deepest, outside
+    return {name: depth(name) for name in frames if frames[name] is not None and name.startswith("equipod_")}
+
+
+def board(folder, wrong, name, table):
+    if not (has("arm-none-eabi-gcc") and has("qemu-system-arm")):
+        return
+    for label, options, machine, is_float in BOARDS:
+        real = ["-DEQUIPOD_FLOAT"] if is_float else []
+        options = [*options, *ARM, *real]
+        link = ["--specs=rdimon.specs", "-nostartfiles", "-T", HERE / "firmware/mps2.ld", HERE / "firmware/start.c", "-Wl,--gc-sections", "-lm"]
+        binaries = {}
+        for place, main in ((folder, folder / "equipod_selftest.c"), (wrong, wrong / "equipod_selftest.c"), (folder, HERE / "firmware/count.c")):
+            binary = place / f"{main.stem}.elf"
+            code, out = run("arm-none-eabi-gcc", "-std=c99", "-Wall", "-Wextra", "-Werror", *options, "-I", place, *[place / s for s in SOURCES], main, *link, "-o", binary)
+            if told(code == 0, f"{name}: {label}: {main.stem} compiles", out):
+                binaries[(place, main.stem)] = binary
+        if len(binaries) < 3:
+            continue
+        code, out = qemu(machine, binaries[(folder, "equipod_selftest")])
+        told(code == 0 and " 0 failed" in out, f"{name}: {label}: agrees", out)
+        print(f"  {name} {label}: {' / '.join(out.strip().splitlines())}")
+        code, out = qemu(machine, binaries[(wrong, "equipod_selftest")])
+        told(code == 1, f"{name}: {label}: finds the planted fault", out)
+        if not table:
+            continue
+        code, out = qemu(machine, binaries[(folder, "count")])
+        counts = dict(line.split() for line in out.splitlines() if len(line.split()) == 2)
+        objects = []
+        for source in SOURCES:
+            run("arm-none-eabi-gcc", "-std=c99", *options, "-fcallgraph-info=su", "-c", folder / source, "-o", folder / f"{source[:-2]}.o", cwd=folder)
+            objects.append(folder / f"{source[:-2]}.o")
+        _, sizes = run("arm-none-eabi-size", *objects)
+        text = [int(line.split()[0]) for line in sizes.splitlines()[1:]]
+        data = [int(line.split()[1]) + int(line.split()[2]) for line in sizes.splitlines()[1:]]
+        stacks = worst_stack([folder / "equipod.ci"])
+        print(f"  TABLE {label}: code {text[0]}, numbers of the design {text[1]}, variables {sum(data)}")
+        print("    stack", {k: v[0] for k, v in stacks.items()}, "outside", sorted(set().union(*(v[1] for v in stacks.values()))))
+        print("    instructions", counts)
+
+
+def operations(folder):
+    """What each part of the tracker takes: sums, products, quotients, roots."""
+    if not has("g++"):
+        return
+    place = folder / "counted"
+    place.mkdir()
+    for name in [*SOURCES, "equipod.h", "equipod_design.h"]:
+        shutil.copy(folder / name, place / name)
+    header = place / "equipod.h"
+    header.write_text(header.read_text().replace("typedef double real_t;", "typedef counted real_t;"))
+    code, out = run("g++", "-std=c++11", "-w", "-I", place, HERE / "operations.cpp", "-o", place / "operations")
+    if told(code == 0, "operations are counted", out):
+        print(run(place / "operations")[1])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", help="the equipod program")
+    parser.add_argument("--allow-missing", action="store_true", help="programs that are not installed are named only")
+    parser.add_argument("--table", action="store_true", help="code, stack, instructions and operations of the second design")
+    args = parser.parse_args()
+    program = pathlib.Path(args.program).resolve()
+    if not (shutil.which("gcc") or shutil.which("clang")):
+        print("there is no C compiler")
+        sys.exit(77)
+    with tempfile.TemporaryDirectory() as top:
+        top = pathlib.Path(top)
+        for number, (design, options) in enumerate(DESIGNS):
+            folder, wrong = top / str(number), top / f"{number}-wrong"
+            export(program, design, options, folder)
+            faulty(folder, wrong)
+            host(folder, wrong, design)
+            if number == 0:
+                cmake(folder)
+            if number == 1:
+                board(folder, wrong, design, args.table)
+                if args.table:
+                    operations(folder)
+    print(f"{len(passed)} passed, {len(failed)} failed" + (f", not installed: {', '.join(missing)}" if missing else ""))
+    sys.exit(1 if failed or (missing and not args.allow_missing) else 0)
+
+
+if __name__ == "__main__":
+    main()
