@@ -99,7 +99,11 @@ impl Interrupt {
     /// What a search is told.
     pub(crate) fn flow(&self) -> ControlFlow<()> {
         let late = self.end.is_some_and(|end| Instant::now() >= end);
-        if late || self.asked.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        if late || self.asked.load(Ordering::Relaxed) {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
     }
 }
 

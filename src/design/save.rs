@@ -10,7 +10,7 @@ use crate::geom::Pose;
 use crate::manipulator::Body;
 use crate::requirements::{
     Envelope, Envelopes, ForceUnit, Hardware, Housing, JointAxes, KeepOut, KeepOutShape, LengthLimits,
-    ListedFrom, Load, MassUnit, Payload, Region, Reserve, Reserves, Swing, TermKind,
+    ListedFrom, Load, MassUnit, Payload, Region, Reserve, Reserves, Swing, Symmetry, TermKind,
 };
 
 /// The structure of a file, in the order it is written.
@@ -428,6 +428,8 @@ pub(super) struct OptimizeFile {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     variables: Vec<&'static str>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    symmetry: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     mode: Option<&'static str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     slack: Option<f64>,
@@ -457,6 +459,7 @@ impl OptimizeFile {
             min_abs_det: limits.min_abs_det,
             characteristic_length: limits.characteristic_length,
             variables: search.variables.iter().map(|v| v.code()).collect(),
+            symmetry: search.symmetry.map(Symmetry::code),
             mode,
             slack,
             points,

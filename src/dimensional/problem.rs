@@ -1,10 +1,11 @@
 //! The problem of dimensional synthesis: variables, objectives, requirements, poses.
 
+use nalgebra::{Point3, Vector3};
 use thiserror::Error;
 
 use crate::geom::Pose;
-use crate::manipulator::{Manipulator, NotOctahedral};
-use crate::requirements::{JointAxes, Objective, PoseSpace, Requirements, VariableKind};
+use crate::manipulator::{Manipulator, NotOctahedral, Octahedral};
+use crate::requirements::{JointAxes, Objective, PoseSpace, Requirements, Symmetry, VariableKind};
 use crate::synthesis::components::ComponentsError;
 
 /// What may change about base and platform: the triangles of an octahedral design, whose centroids and planes stay, or the sizes of any design.
@@ -35,6 +36,8 @@ pub struct Variables {
     pub joint_axes: [bool; 2],
     /// One offset for the three edges of the base and one for those of the platform.
     pub symmetric: bool,
+    /// The symmetry of the whole platform at home that is kept. With [`Symmetry::ThreeFold`] offsets are as with `symmetric`, and triangles change in size alone.
+    pub symmetry: Symmetry,
     /// Least and greatest offset of each side, cyclic order.
     pub offset_bounds: [(f64, f64); 6],
     /// Least and greatest parameter of a family.
@@ -56,6 +59,7 @@ impl Default for Variables {
             home_height: false,
             joint_axes: [false; 2],
             symmetric: false,
+            symmetry: Symmetry::None,
             offset_bounds: [(-1.0, 2.0); 6],
             stretch_bounds: (-0.5, 1.0),
             height_bounds: (-0.5, 1.0),
@@ -177,6 +181,24 @@ pub enum InvalidProblem {
     /// Axes are chosen for swing limits below 90 degrees only.
     #[error("joint axes can be chosen for swing limits below 90 degrees only, and this limit is {0} degrees")]
     SwingTooWide(f64),
+    /// A design without the symmetry that is to be kept.
+    #[error("symmetry = \"three_fold\" needs a design that has it, and {why}")]
+    NotThreeFold {
+        /// What it lacks.
+        why: &'static str,
+    },
+    /// No platform can have what is asked for.
+    #[error(
+        "a platform on the six edges without shared joints that has a mirror plane is architecturally singular: its offsets are 1/2, or in \
+         pairs t and 1 - t, so that det A = prod (1 - t) - prod t = 0"
+    )]
+    MirrorIsSingular,
+    /// A mirror plane where no offsets are chosen.
+    #[error("a mirror plane is not kept by a search that chooses no offsets")]
+    MirrorWithoutOffsets,
+    /// A symmetry of designs that are not octahedral.
+    #[error("symmetry is kept in searches from octahedral designs only")]
+    SymmetryOfGeneral,
     /// A leg has no length at home.
     #[error("a leg has no length at home")]
     NoLegAtHome,
@@ -216,9 +238,42 @@ impl DimensionalProblem {
                 return Err(InvalidProblem::SwingTooWide(swing.limit_deg));
             }
         }
+        self.validate_symmetry()?;
         let home = &self.space.home;
         if self.manipulator.legs().iter().any(|l| !(home.squared_length(l) > 0.0)) {
             return Err(InvalidProblem::NoLegAtHome);
+        }
+        Ok(())
+    }
+
+    /// Whether the design has the symmetry that is to be kept, to a billionth of its size.
+    fn validate_symmetry(&self) -> Result<(), InvalidProblem> {
+        match self.variables.symmetry {
+            Symmetry::None => return Ok(()),
+            Symmetry::Mirror if self.variables.offsets => return Err(InvalidProblem::MirrorIsSingular),
+            Symmetry::Mirror => return Err(InvalidProblem::MirrorWithoutOffsets),
+            Symmetry::ThreeFold => {}
+        }
+        let octahedral =
+            Octahedral::recognise(&self.manipulator).map_err(|_| InvalidProblem::SymmetryOfGeneral)?;
+        let [base, platform] = [octahedral.base(), octahedral.platform()];
+        let near = SYMMETRIC * self.manipulator.size();
+        let sides = |t: &[Point3<f64>; 3]| [0, 1, 2].map(|k| (t[(k + 1) % 3] - t[k]).norm());
+        let is_equilateral = |t: &[Point3<f64>; 3]| {
+            let s = sides(t);
+            (s[0] - s[1]).abs() <= near && (s[1] - s[2]).abs() <= near
+        };
+        if !is_equilateral(&base) || !is_equilateral(&platform) {
+            return Err(InvalidProblem::NotThreeFold { why: "a triangle is not equilateral" });
+        }
+        let platform = platform.map(|p| self.space.home.transform(&p));
+        let centre = |t: &[Point3<f64>; 3]| t.iter().map(|p| p.coords).sum::<Vector3<f64>>() / 3.0;
+        let normal = |t: &[Point3<f64>; 3]| (t[1] - t[0]).cross(&(t[2] - t[0])).normalize();
+        let (axis, between) = (normal(&base), centre(&platform) - centre(&base));
+        let aside = between - axis * axis.dot(&between);
+        let tilt = axis.cross(&normal(&platform)).norm() * self.manipulator.size();
+        if aside.norm() > near || tilt > near {
+            return Err(InvalidProblem::NotThreeFold { why: "at home the triangles have no common axis" });
         }
         Ok(())
     }
@@ -237,6 +292,9 @@ impl DimensionalProblem {
         self.space.listed(4)
     }
 }
+
+/// How exactly a design has a symmetry, in sizes of the design.
+const SYMMETRIC: f64 = 1e-9;
 
 fn positive(quantity: &'static str, value: f64) -> Result<(), InvalidProblem> {
     if value > 0.0 && value.is_finite() {

@@ -9,6 +9,7 @@ use super::pull::Rate;
 use super::shape::{JointId, LegJoints, VariableLayout, joints_of};
 use crate::manipulator::{Body, Leg, LegIndex, Manipulator, Octahedral};
 use crate::num::linalg::svd;
+use crate::requirements::Symmetry;
 use crate::synthesis::components::{
     Component, ComponentOptions, ComponentsError, MovingPoint, Parametrisation, components,
 };
@@ -194,10 +195,14 @@ impl OctahedralSides {
         layout: &mut VariableLayout,
     ) -> Result<Self, InvalidProblem> {
         let o = Octahedral::recognise(m).map_err(InvalidProblem::NotOctahedral)?;
+        let three_fold = v.symmetry == Symmetry::ThreeFold;
+        // an equilateral triangle stays one when its size alone changes
+        let chosen =
+            if three_fold && v.triangles == Triangles::Shapes { Triangles::Sizes } else { v.triangles };
         let offsets = v.offsets.then(|| {
             let mut at = [0; 6];
             for i in 0..6 {
-                at[i] = if v.symmetric && i > 1 {
+                at[i] = if (v.symmetric || three_fold) && i > 1 {
                     at[i % 2]
                 } else {
                     layout.add(format!("t{}", i + 1), v.offset_bounds[i], 0.0)
@@ -208,8 +213,8 @@ impl OctahedralSides {
         let mut triangle = |vertices, body: &str| {
             let first = layout.next();
             let (diagonal, shear) = (v.stretch_bounds, 0.5 * (v.stretch_bounds.1 - v.stretch_bounds.0));
-            match v.triangles {
-                Triangles::Fixed => return Triangle::new(vertices, v.triangles, None),
+            match chosen {
+                Triangles::Fixed => return Triangle::new(vertices, chosen, None),
                 Triangles::Sizes => {
                     layout.add(format!("{body} size"), diagonal, 0.0);
                 }
@@ -219,7 +224,7 @@ impl OctahedralSides {
                     layout.add(format!("{body} stretch yy"), diagonal, 0.0);
                 }
             }
-            Triangle::new(vertices, v.triangles, Some(first))
+            Triangle::new(vertices, chosen, Some(first))
         };
         let triangles = [triangle(o.base(), "base"), triangle(o.platform(), "platform")];
         Ok(Self { order: o.order().map(LegIndex::get), triangles, offsets })

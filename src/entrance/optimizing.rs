@@ -453,6 +453,7 @@ pub(crate) fn dimensional_problem(design: &Design, extension: f64) -> Dimensiona
     let kinds =
         if search.variables.is_empty() { std::slice::from_ref(&usual) } else { &search.variables[..] };
     let mut variables = Variables::of(kinds);
+    variables.symmetry = search.symmetry.unwrap_or_default();
     variables.offset_bounds = [search.offset_bounds.unwrap_or((-extension, 1.0 + extension)); 6];
     variables.stretch_bounds = search.stretch_bounds.unwrap_or(variables.stretch_bounds);
     variables.height_bounds = search.height_bounds.unwrap_or(variables.height_bounds);

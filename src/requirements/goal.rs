@@ -49,6 +49,34 @@ impl VariableKind {
     }
 }
 
+/// The symmetry that a search keeps, by its name in design files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum Symmetry {
+    /// Every leg may differ.
+    #[default]
+    None,
+    /// Turns by 120 degrees about the common axis of base and platform at home: at most two kinds of leg.
+    ThreeFold,
+    /// A mirror plane through a vertex of each triangle.
+    Mirror,
+}
+
+impl Symmetry {
+    /// Every symmetry.
+    pub const ALL: [Self; 3] = [Self::None, Self::ThreeFold, Self::Mirror];
+
+    /// The name in design files.
+    #[must_use]
+    pub fn code(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::ThreeFold => "three_fold",
+            Self::Mirror => "mirror",
+        }
+    }
+}
+
 /// A figure of merit; `docs/theory/dimensional-synthesis.md` has the formulas.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]

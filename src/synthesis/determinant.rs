@@ -221,4 +221,51 @@ mod tests {
         // Griffis-Duffy: all midpoints
         assert!(offset_determinant(&[0.5; 6]).abs() < 1e-16);
     }
+
+    /// Legs of isosceles triangles on both sides of the plane `x = 0`, ends on the edges at `t`: base end, platform end.
+    fn isosceles_legs(t: [f64; 6]) -> [[[f64; 2]; 2]; 6] {
+        let base = [[0.0, 2.0], [-1.5, -1.0], [1.5, -1.0]];
+        let platform = [[-1.0, 0.5], [0.0, -1.0], [1.0, 0.5]];
+        let between = |of: [[f64; 2]; 3], k: usize, t: f64| {
+            let (u, v) = (of[k], of[(k + 1) % 3]);
+            [0, 1].map(|c| u[c] + t * (v[c] - u[c]))
+        };
+        std::array::from_fn(|i| {
+            let k = i / 2;
+            if i % 2 == 0 {
+                [between(base, k, t[i]), platform[k]]
+            } else {
+                [base[(k + 1) % 3], between(platform, k, t[i])]
+            }
+        })
+    }
+
+    fn is_mirror_symmetric(legs: &[[[f64; 2]; 2]; 6]) -> bool {
+        let near = |a: &[[f64; 2]; 2], b: &[[f64; 2]; 2]| {
+            a.iter().flatten().zip(b.iter().flatten()).all(|(x, y)| (x - y).abs() < 1e-12)
+        };
+        legs.iter().all(|leg| {
+            let image = leg.map(|[x, y]| [-x, y]);
+            legs.iter().any(|other| near(other, &image))
+        })
+    }
+
+    /// "Mirror planes" in docs/theory/octahedral-class.md: of platforms without shared joints exactly those with offsets `t, u, 1/2, 1 - u, 1 - t, 1/2` have the mirror plane of
+    /// the triangles, and they are singular.
+    #[test]
+    fn platforms_with_a_mirror_plane_are_singular() {
+        for (t, u) in [(0.25, 0.125), (0.375, -0.5), (1.5, 0.75), (0.5, 0.5)] {
+            let mirrored = [t, u, 0.5, 1.0 - u, 1.0 - t, 0.5];
+            assert!(is_mirror_symmetric(&isosceles_legs(mirrored)), "{mirrored:?}");
+            assert!(offset_determinant(&mirrored).abs() < 1e-15, "{mirrored:?}");
+            for k in 0..6 {
+                let mut moved = mirrored;
+                moved[k] += 0.0625;
+                assert!(!is_mirror_symmetric(&isosceles_legs(moved)), "{moved:?}");
+            }
+        }
+        // three-fold: regular unless t + u = 1
+        assert!(offset_determinant(&[0.25, 0.125, 0.25, 0.125, 0.25, 0.125]).abs() > 0.1);
+        assert!(offset_determinant(&[0.25, 0.75, 0.25, 0.75, 0.25, 0.75]).abs() < 1e-15);
+    }
 }

@@ -200,6 +200,52 @@ fn a_request_to_terminate_ends_a_search_with_what_it_has() {
     assert_eq!(document(&out)["status"], "interrupted");
 }
 
+/// Both triangles equilateral, one above the other.
+#[test]
+fn three_fold_symmetry_is_kept_or_refused() {
+    let equilateral = r#"
+name = "equilateral"
+legs = [["P1","P4"], ["P2","P4"], ["P2","P5"], ["P3","P5"], ["P3","P6"], ["P1","P6"]]
+[base]
+P1 = { radius = 10, angle_deg = 0 }
+P2 = { radius = 10, angle_deg = 120 }
+P3 = { radius = 10, angle_deg = 240 }
+[platform]
+P4 = { radius = 6, angle_deg = 60 }
+P5 = { radius = 6, angle_deg = 180 }
+P6 = { radius = 6, angle_deg = 300 }
+[home]
+position = [0.0, 0.0, 9.0]
+rpy_deg = [0.0, 0.0, 0.0]
+[workspace]
+translation = [0.5, 0.5, 0.5]
+[hardware]
+leg_length = [4.0, 30.0]
+[optimize]
+variables = ["offsets", "triangles"]
+"#;
+    let (out, _folder) = optimize(&format!("{equilateral}symmetry = \"three_fold\"\n"), &[]);
+    assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stdout));
+    let d = document(&out);
+    let t: Vec<f64> = (0..6).map(|k| d["offsets"][k].as_f64().unwrap()).collect();
+    assert!((0..4).all(|k| t[k].total_cmp(&t[k + 2]).is_eq()), "{t:?}");
+    let names: Vec<&str> =
+        d["variables"].as_array().unwrap().iter().map(|v| v["name"].as_str().unwrap()).collect();
+    assert!(names.contains(&"base size") && names.contains(&"platform size"), "{names:?}");
+
+    let refused = |text: &str, words: &str| {
+        let (out, _folder) = optimize(text, &[]);
+        assert_eq!(out.status.code(), Some(2), "{words}");
+        let message = document(&out)["error"]["message"].as_str().unwrap().to_owned();
+        assert!(message.contains(words), "{message}");
+    };
+    refused(&format!("{equilateral}symmetry = \"mirror\"\n"), "architecturally singular");
+    let aside = equilateral.replace("position = [0.0, 0.0, 9.0]", "position = [0.5, 0.0, 9.0]");
+    refused(&format!("{aside}symmetry = \"three_fold\"\n"), "no common axis");
+    let uneven = equilateral.replace("radius = 6, angle_deg = 60", "radius = 5, angle_deg = 60");
+    refused(&format!("{uneven}symmetry = \"three_fold\"\n"), "not equilateral");
+}
+
 #[test]
 fn a_slip_in_the_name_of_a_variable_is_refused_with_the_nearest_one() {
     let (out, _folder) = optimize(&required("[optimize]\nvariables = [\"ofsets\"]\n"), &[]);

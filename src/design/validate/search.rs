@@ -5,11 +5,12 @@ use super::{check_keys, nearest_help, number, numbers, shown, table};
 use crate::design::tree::{Entry, Node, Value, find};
 use crate::design::violation::Findings;
 use crate::design::{Code, Combination, SearchTable};
-use crate::requirements::{Objective, VariableKind};
+use crate::requirements::{Objective, Symmetry, VariableKind};
 
 /// The keys read here.
-pub(super) const SEARCH_KEYS: [&str; 9] = [
+pub(super) const SEARCH_KEYS: [&str; 10] = [
     "variables",
+    "symmetry",
     "objective",
     "objectives",
     "mode",
@@ -28,6 +29,7 @@ const POINTS: (usize, usize) = (10, 100);
 pub(super) fn search(report: &mut Findings<'_>, entries: &[Entry]) -> SearchTable {
     SearchTable {
         variables: variables(report, entries),
+        symmetry: symmetry(report, entries),
         objectives: objectives(report, entries),
         mode: mode(report, entries),
         offset_bounds: bounds(report, entries, "offset_bounds"),
@@ -71,6 +73,11 @@ fn variables(report: &mut Findings<'_>, entries: &[Entry]) -> Vec<VariableKind> 
     let all = VariableKind::ALL.map(|v| (v.code(), v));
     let names = list(report, entry);
     names.iter().filter_map(|node| named(report, node, "a variable", &all)).collect()
+}
+
+fn symmetry(report: &mut Findings<'_>, entries: &[Entry]) -> Option<Symmetry> {
+    let all = Symmetry::ALL.map(|s| (s.code(), s));
+    find(entries, "symmetry").and_then(|entry| named(report, &entry.node, "a symmetry", &all))
 }
 
 fn objectives(report: &mut Findings<'_>, entries: &[Entry]) -> Vec<(Objective, f64)> {

@@ -11,7 +11,8 @@ use serde::{Deserialize, Serialize};
 pub use self::conflict::{ConflictRecord, DemandWord, GiveRecord, SpecialDemand};
 pub use self::dimensional::{
     DimensionalAnswer, DimensionalSolutionRecord, DimensionalStatus, DimensionalStepRecord, HeldPosesRecord,
-    JointAxesRecord, NearestPlatformRecord, ObjectiveRecord, SearchRecord, StationarityRecord, VariableRecord, VerifiedRecord,
+    JointAxesRecord, NearestPlatformRecord, ObjectiveRecord, SearchRecord, StationarityRecord,
+    VariableRecord, VerifiedRecord,
 };
 pub use self::front::{FrontAnswer, FrontMemberRecord, FrontStatus};
 pub use self::offsets::{

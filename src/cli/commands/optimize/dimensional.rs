@@ -10,7 +10,8 @@ use crate::cli::failure::Failure;
 use crate::cli::progress::{Interrupt, ProgressLine};
 use crate::design::Design;
 use crate::dimensional::{
-    DimensionalProblem, DimensionalReport, DimensionalSolution, InvalidProblem, Progress, ShapeSearchOptions, optimize,
+    DimensionalProblem, DimensionalReport, DimensionalSolution, InvalidProblem, Progress, ShapeSearchOptions,
+    optimize,
 };
 use crate::entrance::optimizing::{Checked, checked, dimensional_problem};
 use crate::records::{DimensionalAnswer, DimensionalStatus};
@@ -87,9 +88,7 @@ pub(in crate::cli::commands) fn search(
 ) -> Result<Done, Failure> {
     let problem = dimensional_problem(design, extension);
     let report = optimize(&problem, &[], options, progress).map_err(|why| refusal(&why))?;
-    let of = |s: &DimensionalSolution| {
-        checked(design, &problem, s, options.seed).map_err(|e| failure_of(&e))
-    };
+    let of = |s: &DimensionalSolution| checked(design, &problem, s, options.seed).map_err(|e| failure_of(&e));
     let found = report.solution().map(of).transpose()?;
     let nearest = report.nearest.as_deref().map(of).transpose()?;
     Ok(Done { checked: found, nearest, problem, report })

@@ -41,7 +41,10 @@ pub(super) fn text(name: &str, a: &DimensionalAnswer, outcome: &DimensionalOutco
 
 /// What comes nearest misses something: the table of its requirements says what.
 fn nearest_text(out: &mut String, n: &NearestPlatformRecord) {
-    let _ = writeln!(out, "\nthe platform with the least violation that was found; it is no answer, and shows what is missed:");
+    let _ = writeln!(
+        out,
+        "\nthe platform with the least violation that was found; it is no answer, and shows what is missed:"
+    );
     let _ = writeln!(out, "{}", requirements::lead(n.design.name(), n.assessment.as_ref()));
     for v in &n.variables {
         let _ = writeln!(out, "  {:<20} {:>12.6}", v.name, v.value.0);
