@@ -32,7 +32,7 @@ fn table(seed: u64) -> Result<String, Box<dyn Error>> {
         match &checked.pose_count.set {
             PoseSet::Finite { count, by_degree } => {
                 let degrees: Vec<String> = by_degree.iter().map(ToString::to_string).collect();
-                let number = |n: Option<usize>| n.map_or("not isolated".into(), |n| n.to_string());
+                let number = |n: Option<usize>| n.map_or("-".into(), |n| n.to_string());
                 let (isotropic, far) =
                     checked.common_points.map_or((None, None), |p| (p.isotropic, p.at_infinity));
                 let (degrees, isotropic, far) = (degrees.join(", "), number(isotropic), number(far));

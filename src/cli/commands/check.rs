@@ -94,7 +94,7 @@ fn pose_count(text: &mut String, answer: &CheckAnswer) {
         let _ = writeln!(text, "  by degree {}", degrees.join(" + "));
     }
     if let Some(p) = &answer.common_points {
-        let number = |n: Option<usize>| n.map_or("those not isolated".into(), |n| n.to_string());
+        let number = |n: Option<usize>| n.map_or("not counted".into(), |n| n.to_string());
         let _ = writeln!(
             text,
             "  common points of six legs: {} finite, with e.e = 0 {}, at infinity {}",

@@ -221,11 +221,12 @@ enum Chart {
     All,
 }
 
-/// Random coefficients, the same for all primes: squared lengths of generic legs, linear sections, the form of the chart.
+/// Random coefficients, the same for all primes: squared lengths of generic legs, linear sections, and the form of the chart.
 struct Draws {
     squares: [i64; 6],
     sections: [[i64; COORDINATES]; 6],
-    chart: [i64; COORDINATES],
+    chart: Chart,
+    form: [i64; COORDINATES],
 }
 
 fn counted(m: &Manipulator, lengths: Lengths<'_>, options: &CountOptions) -> PoseCount {
@@ -238,7 +239,8 @@ fn counted_in(m: &Manipulator, lengths: Lengths<'_>, chart: Chart, options: &Cou
     let draws = Draws {
         squares: std::array::from_fn(|_| integer()),
         sections: std::array::from_fn(|_| std::array::from_fn(|_| integer())),
-        chart: match chart {
+        chart,
+        form: match chart {
             Chart::Finite => std::array::from_fn(|k| i64::from(k == H)),
             Chart::Rotating => std::array::from_fn(|k| if k == H || M.contains(&k) { integer() } else { 0 }),
             Chart::All => std::array::from_fn(|_| integer()),
@@ -300,11 +302,15 @@ fn set_modulo(field: Field, ends: &EndResidues, lengths: Lengths<'_>, draws: &Dr
         .collect();
     let relations =
         6 - field.rank(equations.iter().map(|e| std::array::from_fn::<_, H, _>(|k| e[k])).collect());
+    if relations > 0 && draws.chart != Chart::Finite {
+        // points at infinity need not form sets of the dimension that the relations give the poses
+        return (PoseSet::Undecided { why: CountUndecided::DegreeTooLow }, 2);
+    }
     let form = |coefficients: &[i64; COORDINATES], value: u64| -> Linear {
         std::array::from_fn(|k| coefficients.get(k).map_or(value, |x| field.integer(*x)))
     };
     let section = |k: usize| form(&draws.sections[k], 0);
-    equations.push(form(&draws.chart, field.integer(-1)));
+    equations.push(form(&draws.form, field.integer(-1)));
     equations.extend((0..relations).map(section));
     let mut deepest = 2;
     // every component has at least the dimension of the relations
