@@ -121,6 +121,8 @@ mod design;
 #[cfg(feature = "optimize")]
 mod dimensional;
 mod distance;
+#[cfg(any(feature = "files", feature = "synthesis"))]
+mod dynamics;
 mod entrance;
 #[cfg(feature = "synthesis")]
 mod equivalence;
@@ -233,6 +235,11 @@ pub mod methods {
     /// Poses from distances alone: Cayley-Menger determinants, trilateration, closure conditions.
     pub mod distance {
         pub use crate::distance::*;
+    }
+    /// How the legs move and what their drives push when the platform moves: inverse dynamics, stiffness, natural frequencies.
+    #[cfg(any(feature = "files", feature = "synthesis"))]
+    pub mod dynamics {
+        pub use crate::dynamics::*;
     }
     /// Whether two platforms are equivalent: the leg map and forward kinematics, compared.
     #[cfg(feature = "synthesis")]

@@ -118,6 +118,13 @@ const JOBS: [Job; 9] = [
         commands: &[
             entry("assess", &["assess designs/worked/bench-octahedral.toml"], &["requirements", "margins"]),
             entry(
+                "motion",
+                &[
+                    "motion designs/worked/simulator-octahedral.toml --sine z:100:0.5 --accelerate pitch:100",
+                ],
+                &["dynamics", "inverse-dynamics", "drive-forces", "power"],
+            ),
+            entry(
                 "optimize",
                 &["optimize designs/rbt-octahedral.toml -o best.toml"],
                 &["optimise", "optimum", "improve"],

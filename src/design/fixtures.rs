@@ -61,6 +61,12 @@ platform_axes = "optimize"
 max_leg_force = 500
 max_leg_speed = 30
 leg_stiffness = 1e5
+cylinder_mass = 3
+cylinder_center = 2.5
+rod_mass = 1
+rod_center = 1.5
+rod_inertia = 0.9
+reflected_mass = 4
 [speed]
 linear = 20
 angular_deg = 45

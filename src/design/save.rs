@@ -9,8 +9,8 @@ use super::{Combination, Construction, Design, LinePlace, OptimizeTable, SearchT
 use crate::geom::Pose;
 use crate::manipulator::Body;
 use crate::requirements::{
-    Envelope, Envelopes, ForceUnit, Hardware, Housing, JointAxes, KeepOut, KeepOutShape, LengthLimits,
-    ListedFrom, Load, MassUnit, Payload, Region, Reserve, Reserves, Swing, Symmetry, TermKind,
+    Envelope, Envelopes, ForceUnit, Hardware, Housing, JointAxes, KeepOut, KeepOutShape, LegPart,
+    LengthLimits, ListedFrom, Load, MassUnit, Payload, Region, Reserve, Reserves, Swing, Symmetry, TermKind,
 };
 
 /// The structure of a file, in the order it is written.
@@ -532,6 +532,20 @@ pub(super) struct HardwareTable {
     max_leg_speed: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     leg_stiffness: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cylinder_mass: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cylinder_center: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cylinder_inertia: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rod_mass: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rod_center: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rod_inertia: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reflected_mass: Option<f64>,
 }
 
 fn housing(h: Housing) -> HousingValue {
@@ -563,6 +577,9 @@ impl HardwareTable {
             None => (),
         }
         let rod = h.leg_body.and_then(|b| b.rod);
+        let heavy = |part: LegPart| (part.mass > 0.0).then_some(part);
+        let cylinder_body = h.leg_masses.and_then(|m| heavy(m.cylinder));
+        let rod_body = h.leg_masses.and_then(|m| heavy(m.rod));
         Some(Self {
             joint_diameter: h.joint_diameter,
             base_housing: h.base_housing.map(housing),
@@ -581,6 +598,13 @@ impl HardwareTable {
             max_leg_force: h.max_leg_force,
             max_leg_speed: h.max_leg_speed,
             leg_stiffness: h.leg_stiffness,
+            cylinder_mass: cylinder_body.map(|p| p.mass),
+            cylinder_center: cylinder_body.map(|p| p.center),
+            cylinder_inertia: cylinder_body.map(|p| p.inertia),
+            rod_mass: rod_body.map(|p| p.mass),
+            rod_center: rod_body.map(|p| p.center),
+            rod_inertia: rod_body.map(|p| p.inertia),
+            reflected_mass: h.leg_masses.map(|m| m.reflected).filter(|x| *x > 0.0),
         })
     }
 }

@@ -145,6 +145,12 @@ impl Design {
         length(&mut hardware.leg_clearance);
         length(&mut hardware.max_leg_speed);
         hardware.leg_stiffness = hardware.leg_stiffness.map(|k| ratio.inverse().of(k));
+        if let Some(masses) = &mut hardware.leg_masses {
+            for part in [&mut masses.cylinder, &mut masses.rod] {
+                part.center = ratio.of(part.center);
+                part.inertia = ratio.of(ratio.of(part.inertia));
+            }
+        }
         hardware.leg_body = hardware.leg_body.map(|body| LegBody {
             diameter: ratio.of(body.diameter),
             rod: body.rod.map(|(length, diameter)| (ratio.of(length), ratio.of(diameter))),
@@ -250,11 +256,13 @@ mod tests {
     #[test]
     fn requirements_keep_their_meaning() {
         let text = format!(
-            "{TEXT}leg_length = [300, 500]\nleg_stiffness = 50\nmax_leg_speed = 20\n[speed]\nlinear = 100\nangular_deg = 5\n[[loads]]\nname = \"weight\"\nforce = [0, 0, -10]\ntorque = [0, 0, 300]\nat = [0, 0, 50]\n[[keep_out]]\nname = \"ball\"\nsphere = {{ center = [0, 0, 100], diameter = 40 }}\n"
+            "{TEXT}leg_length = [300, 500]\nleg_stiffness = 50\nmax_leg_speed = 20\nrod_mass = 3\nrod_center = 200\nrod_inertia = 5e4\n[speed]\nlinear = 100\nangular_deg = 5\n[[loads]]\nname = \"weight\"\nforce = [0, 0, -10]\ntorque = [0, 0, 300]\nat = [0, 0, 50]\n[[keep_out]]\nname = \"ball\"\nsphere = {{ center = [0, 0, 100], diameter = 40 }}\n"
         );
         let m = design(&text).in_units("m").unwrap();
         assert_eq!(m.hardware.leg_length, Some(LengthLimits::Range(0.3, 0.5)));
         assert_eq!((m.hardware.leg_stiffness, m.hardware.max_leg_speed), (Some(50_000.0), Some(0.02)));
+        let rod = m.hardware.leg_masses.unwrap().rod;
+        assert_eq!((rod.mass, rod.center, rod.inertia), (3.0, 0.2, 0.05));
         assert_eq!((m.loads[0].force.z, m.loads[0].torque.z, m.loads[0].at.z), (-10.0, 0.3, 0.05));
         assert_eq!(m.speed.map(|s| (s.linear, s.angular_deg)), Some((0.1, 5.0)));
         let sphere = KeepOutShape::Sphere { center: Point3::new(0.0, 0.0, 0.1), diameter: 0.04 };

@@ -11,6 +11,8 @@ pub(crate) mod exporting;
 mod files;
 #[cfg(all(feature = "files", feature = "synthesis"))]
 mod judging;
+#[cfg(feature = "files")]
+mod moving;
 #[cfg(all(feature = "files", feature = "optimize"))]
 pub(crate) mod optimizing;
 mod solving;
@@ -22,6 +24,8 @@ pub use equivalence::{VerifyOptions, leg_map, verify, verify_with};
 pub use error::Error;
 #[cfg(all(feature = "files", feature = "synthesis"))]
 pub use judging::{AssessReport, CheckReport};
+#[cfg(feature = "files")]
+pub(crate) use moving::{Motion, MotionMasses, MotionReport, TimedMargin};
 #[cfg(all(feature = "files", feature = "optimize"))]
 pub use optimizing::{OptimizeEvidence, OptimizeOptions, OptimizeProgress, OptimizeReport, OptimizeStatus};
 pub use solving::{Batch, Solver, Tracker};

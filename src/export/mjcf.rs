@@ -9,6 +9,7 @@ use super::text::{one_line, real, reals, scaled, xml_comment};
 use super::{Export, ExportBody, ExportLeg, ExportedFile, Unsupported, Writer};
 use crate::geom::Pose;
 use crate::plot::escape;
+use crate::requirements::LegPart;
 
 /// The format `mjcf`.
 #[derive(Debug)]
@@ -38,9 +39,15 @@ const STIFFNESS: f64 = 173.2;
 const STEP: f64 = 1e-3;
 /// Masses of cylinder and rod over that of the platform.
 const LEG_MASS: f64 = 0.05;
+/// Mass that moves along the leg in place of what turns in its drive, over that of the platform.
+const ARMATURE: f64 = 0.005;
 /// Mass of the yoke of a universal joint over that of the platform. Each hinge has a body of its own: Drake takes the axis of the first of several joints
 /// of a body in the frame of the parent.
 const YOKE_MASS: f64 = 0.005;
+
+/// Mass of a yoke, and moment of inertia of a leg about its own line, over those of the leg, where the design says the masses of its legs: bodies without any are refused, and these
+/// change no force by a millionth.
+const NEARLY_NONE: f64 = 1e-9;
 
 /// What all parts are computed from: SI units.
 #[derive(Debug)]
@@ -73,6 +80,18 @@ impl Scale {
 
     fn at(&self, p: &Vector3<f64>) -> String {
         scaled(p, self.metres, " ")
+    }
+
+    /// A part of a leg, its centre so many metres from the origin of its body along the third axis.
+    fn part(part: &LegPart, center: f64) -> String {
+        let across = if part.inertia > 0.0 { part.inertia } else { NEARLY_NONE * part.mass };
+        format!(
+            "<inertial pos=\"0 0 {}\" mass=\"{}\" diaginertia=\"{across} {across} {}\"/>",
+            real(center),
+            real(part.mass),
+            real(NEARLY_NONE * across),
+            across = real(across)
+        )
     }
 
     /// A body that turns like a ball of this mass and radius of gyration.
@@ -150,6 +169,28 @@ fn leg(out: &mut String, scale: &Scale, export: &Export, leg: &ExportLeg) -> Res
             ends[1]
         )
     };
+    let [yoke, cylinder, rod] = match &export.leg_masses {
+        None => [
+            scale.inertial(YOKE_MASS * scale.mass, &Vector3::zeros(), 0.1 * length * scale.metres),
+            scale.inertial(mass, &Vector3::new(0.0, 0.0, 0.5 * half), gyration),
+            scale.inertial(mass, &Vector3::new(0.0, 0.0, -0.5 * half), gyration),
+        ],
+        Some(masses) => {
+            let all = masses.cylinder.mass + masses.rod.mass + masses.reflected;
+            // a part of which nothing is said has next to no mass
+            let heavy = |part: &LegPart| match part.mass {
+                0.0 => LegPart { mass: NEARLY_NONE * all, ..*part },
+                _ => *part,
+            };
+            let (cylinder, rod) = (heavy(&masses.cylinder), heavy(&masses.rod));
+            [
+                scale.inertial(NEARLY_NONE * all, &Vector3::zeros(), 0.1 * length * scale.metres),
+                Scale::part(&cylinder, cylinder.center),
+                Scale::part(&rod, -rod.center),
+            ]
+        }
+    };
+    let armature = export.leg_masses.map_or(ARMATURE * scale.mass, |masses| masses.reflected);
     let _ = writeln!(
         out,
         "      <body name=\"yoke{i}\" pos=\"{}\" quat=\"{}\"{}>\n        \
@@ -161,14 +202,14 @@ fn leg(out: &mut String, scale: &Scale, export: &Export, leg: &ExportLeg) -> Res
         scale.at(&frame.position),
         quat(&frame),
         scale.gravity,
-        scale.inertial(YOKE_MASS * scale.mass, &Vector3::zeros(), 0.1 * length * scale.metres),
+        yoke,
         scale.gravity,
-        scale.inertial(mass, &Vector3::new(0.0, 0.0, 0.5 * half), gyration),
+        cylinder,
         capsule(0.0, leg.cylinder.min(length), thick),
         scale.at(&tip),
         scale.gravity,
-        real(0.005 * scale.mass),
-        scale.inertial(mass, &Vector3::new(0.0, 0.0, -0.5 * half), gyration),
+        real(armature),
+        rod,
         capsule(-half.min(length - leg.cylinder.min(length)).max(0.1 * length), 0.0, thin),
     );
     if i == 1 {
@@ -212,6 +253,21 @@ fn platform(out: &mut String, scale: &Scale, export: &Export, leg: &ExportLeg, f
     out.push_str("            </body>\n");
 }
 
+/// The masses in a sentence without its point.
+fn masses(export: &Export, scale: &Scale) -> String {
+    let platform = format!("platform with payload {} kg", real(scale.mass));
+    match &export.leg_masses {
+        None => {
+            let [leg, yoke] = [LEG_MASS, YOKE_MASS].map(real);
+            format!("Assumed: {platform}, each cylinder and rod {leg} of it, each yoke {yoke} of it")
+        }
+        Some(m) => {
+            let [cylinder, rod, reflected] = [m.cylinder.mass, m.rod.mass, m.reflected].map(real);
+            format!("{platform}; of the design: each cylinder {cylinder} kg, rod {rod} kg, armature of the slide {reflected} kg")
+        }
+    }
+}
+
 fn model(export: &Export) -> Result<String, Unsupported> {
     let scale = Scale::of(export);
     let mut out = String::from("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<!--\n");
@@ -224,11 +280,9 @@ fn model(export: &Export) -> Result<String, Unsupported> {
         "  World frame: the base frame, gravity as in the option below. Site platform_frame: the platform frame.\n  \
          Kilograms and seconds; quaternions scalar first. Slide leg N and its actuator hold the length minus the home length.\n  \
          Home lengths: {lengths}\n  \
-         Assumed: platform with payload {} kg, each cylinder and rod {} of it, each yoke {} of it; time step and gains follow from mass and size\n  \
+         {}; time step and gains follow from mass and size\n  \
          so that models of all sizes behave alike. Leg 1 carries the platform in the tree; legs 2 to 6 are closed by connect.",
-        real(scale.mass),
-        real(LEG_MASS),
-        real(YOKE_MASS)
+        masses(export, &scale)
     );
     if let Some((least, greatest)) = export.leg_range {
         let [least, greatest] = [least, greatest].map(|l| real(l * scale.metres));

@@ -10,7 +10,7 @@ use super::units::LengthUnit;
 use crate::design::Design;
 use crate::geom::Pose;
 use crate::manipulator::{Body, Manipulator};
-use crate::requirements::{ForceUnit, Hardware, MassUnit};
+use crate::requirements::{ForceUnit, Hardware, LegMasses, MassUnit};
 
 /// A joint of a body.
 #[derive(Debug, Clone, PartialEq)]
@@ -119,6 +119,8 @@ pub struct Export {
     pub inertia: Option<Matrix3<f64>>,
     /// Gravity, base frame, m/s^2.
     pub gravity: Vector3<f64>,
+    /// Masses of a leg, kilograms and metres, where the design says them.
+    pub leg_masses: Option<LegMasses>,
     /// Greatest force of a drive, newtons, where the design limits it.
     pub greatest_force: Option<f64>,
     /// Whether simulators are told to carry the weight of all bodies.
@@ -227,6 +229,14 @@ impl Export {
             center_of_mass: design.payload.map(|p| p.center),
             inertia,
             gravity: design.payload.map_or_else(|| Vector3::new(0.0, 0.0, -9.81), |p| p.gravity),
+            leg_masses: hardware.leg_masses.map(|masses| {
+                let mut masses = masses.scaled(in_kilograms);
+                for part in [&mut masses.cylinder, &mut masses.rod] {
+                    part.center *= unit.metres;
+                    part.inertia *= unit.metres * unit.metres;
+                }
+                masses
+            }),
             greatest_force: hardware.max_leg_force.map(|f| f * newtons),
             gravity_compensation: options.gravity_compensation,
             choices,

@@ -7,7 +7,7 @@ use serde_json::{Map, Value};
 use super::{
     AssessAnswer, CheckAnswer, CompletionsAnswer, ComponentsAnswer, ConvertAnswer, Document, ErrorAnswer,
     ExploreAnswer, ExportAnswer, FamilyAnswer, FkAnswer, HelpAnswer, IkAnswer, LocusAnswer, ManAnswer,
-    MapAnswer, MoveAnswer, NearestAnswer, NewAnswer, OptimizeAnswer, PlotAnswer, PresetsAnswer, ReportAnswer,
+    MapAnswer, MotionAnswer, MoveAnswer, NearestAnswer, NewAnswer, OptimizeAnswer, PlotAnswer, PresetsAnswer, ReportAnswer,
     RoundAnswer, SchemaAnswer, SelfmotionAnswer, SingularitiesAnswer, TolerancesAnswer, TopologiesAnswer,
     VerifyAnswer, ViewAnswer,
 };
@@ -37,6 +37,7 @@ const ANSWERS: Table = &[
     ("fk", Document::<FkAnswer>::json_schema),
     ("help", Document::<HelpAnswer>::json_schema),
     ("ik", Document::<IkAnswer>::json_schema),
+    ("motion", Document::<MotionAnswer>::json_schema),
     ("new", Document::<NewAnswer>::json_schema),
     ("optimize", Document::<OptimizeAnswer>::json_schema),
     ("plot", Document::<PlotAnswer>::json_schema),

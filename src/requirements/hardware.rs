@@ -88,6 +88,50 @@ pub struct Swing {
     pub axes: JointAxes,
 }
 
+/// A part of a leg as a body: thin, so that it has no inertia about the line of the leg.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct LegPart {
+    /// Mass, mass units.
+    pub mass: f64,
+    /// Distance of the centre of mass from its joint along the leg, design units.
+    pub center: f64,
+    /// Moment of inertia about an axis across the leg through the centre of mass, mass units times design units squared.
+    pub inertia: f64,
+}
+
+impl LegPart {
+    /// Moment of inertia of a thin rod of constant cross-section that begins at the joint and has its middle at the centre of mass: `m (2 c)^2 / 12`.
+    #[must_use]
+    pub fn uniform_inertia(mass: f64, center: f64) -> f64 {
+        mass * center * center / 3.0
+    }
+}
+
+/// Masses of a leg.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct LegMasses {
+    /// What turns about the base joint and does not become longer; its centre is measured from the base joint.
+    pub cylinder: LegPart,
+    /// What moves along the leg; its centre is measured from the platform joint.
+    pub rod: LegPart,
+    /// Mass that moves along the leg in place of what turns in the drive: moments of inertia of motor and spindle over the square of the lead per radian, mass units.
+    pub reflected: f64,
+}
+
+impl LegMasses {
+    /// With masses and inertias multiplied: those of another unit of mass.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        let part =
+            |p: &LegPart| LegPart { mass: p.mass * factor, center: p.center, inertia: p.inertia * factor };
+        Self {
+            cylinder: part(&self.cylinder),
+            rod: part(&self.rod),
+            reflected: self.reflected * factor,
+        }
+    }
+}
+
 /// Sizes and limits of joints, legs and drives. What is absent limits nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Hardware {
@@ -113,6 +157,8 @@ pub struct Hardware {
     pub max_leg_speed: Option<f64>,
     /// Stiffness of a leg along its line, force units per design unit.
     pub leg_stiffness: Option<f64>,
+    /// Masses of a leg; none where the design says none.
+    pub leg_masses: Option<LegMasses>,
 }
 
 impl Hardware {

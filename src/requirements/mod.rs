@@ -27,7 +27,7 @@ pub use conditioning::{LeastConditioning, least_conditioning};
 pub use envelope::{Envelope, Envelopes};
 pub(crate) use envelope::{ball, room};
 pub use goal::{Objective, Symmetry, VariableKind};
-pub use hardware::{Hardware, Housing, JointAxes, LegBody, LengthLimits, Swing};
+pub use hardware::{Hardware, Housing, JointAxes, LegBody, LegMasses, LegPart, LengthLimits, Swing};
 pub use keep_out::{KeepOut, KeepOutShape};
 pub use limit::{Limit, Limits, PoseLimit};
 pub use load::{Load, leg_forces};

@@ -15,6 +15,7 @@ import tempfile
 import tomllib
 
 from common import failed, missing, optional, passed, run
+from dynamics import check_dynamics
 from drawings import check_dxf, check_svg, check_xml
 from linuxcnc import check_linuxcnc, check_preset
 from motion import check_equivalent, check_poses
@@ -66,6 +67,7 @@ def main():
         check_poses(folder, design, time, leg_range(ROOT / f"designs/{design}.toml", doc))
     check_preset(program, top / "preset")
     check_schemas(program, top / "schemas", ROOT)
+    check_dynamics(program, top / "dynamics")
     check_equivalent(program, top, ROOT / "designs/rbt-octahedral.toml")
     if not args.keep:
         shutil.rmtree(top)

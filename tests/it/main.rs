@@ -22,6 +22,7 @@ mod cli_guide;
 mod cli_ik;
 mod cli_judgements;
 mod cli_locus;
+mod cli_motion;
 mod cli_move;
 mod cli_near;
 mod cli_new;

@@ -23,6 +23,7 @@ mod explore;
 mod export;
 mod fk;
 mod ik;
+mod motion;
 mod new;
 mod optimize;
 mod plot;
@@ -63,6 +64,8 @@ pub(crate) enum Command {
     Explore(explore::Args),
     /// Decide whether a design meets its requirements at all poses of its workspace
     Assess(assess::Args),
+    /// Compute forces, speeds and powers of the legs along a trajectory or standard manoeuvres
+    Motion(motion::Args),
     /// Find the best platform under the requirements of a design
     Optimize(optimize::Args),
     /// Decide whether a design is architecturally singular, and explain why
@@ -105,6 +108,7 @@ impl Command {
             Self::Verify(args) => verify::run(args, context),
             Self::Explore(args) => explore::run(args, context),
             Self::Assess(args) => assess::run(args, context),
+            Self::Motion(args) => motion::run(args, context),
             Self::Optimize(args) => optimize::run(args, context),
             Self::Check(args) => check::run(args, context),
             Self::Singular(command) => command.run(context),

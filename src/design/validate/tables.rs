@@ -9,10 +9,7 @@ use crate::design::violation::Findings;
 use crate::design::{Code, OptimizeTable, SearchTable, Trajectory, Workspace};
 use crate::geom::Pose;
 use crate::manipulator::Body;
-use crate::requirements::{
-    Hardware, Housing, JointAxes, KeepOut, KeepOutShape, LegBody, LengthLimits, ListedFrom, Load,
-    PlatformSpeed, Region, Swing,
-};
+use crate::requirements::{Hardware, Housing, JointAxes, KeepOut, KeepOutShape, LegBody, LegMasses, LegPart, LengthLimits, ListedFrom, Load, PlatformSpeed, Region, Swing};
 
 pub(super) const POSE_KEYS: [&str; 4] = ["position", "rpy_deg", "quat_wxyz", "rotation"];
 pub(super) const WORKSPACE_KEYS: [&str; 7] =
@@ -242,7 +239,7 @@ pub(super) fn optimize(report: &mut Findings<'_>, top: &[Entry]) -> (OptimizeTab
     (limits, search(report, entries))
 }
 
-pub(super) const HARDWARE_KEYS: [&str; 17] = [
+pub(super) const HARDWARE_KEYS: [&str; 24] = [
     "joint_diameter",
     "base_housing",
     "platform_housing",
@@ -260,6 +257,13 @@ pub(super) const HARDWARE_KEYS: [&str; 17] = [
     "max_leg_force",
     "max_leg_speed",
     "leg_stiffness",
+    "cylinder_mass",
+    "cylinder_center",
+    "cylinder_inertia",
+    "rod_mass",
+    "rod_center",
+    "rod_inertia",
+    "reflected_mass",
 ];
 
 /// A positive number of a table.
@@ -323,6 +327,12 @@ pub(super) fn hardware(report: &mut Findings<'_>, top: &[Entry]) -> Hardware {
         ("stroke", "dead_length"),
         ("base_axes", "base_swing_deg"),
         ("platform_axes", "platform_swing_deg"),
+        ("cylinder_mass", "cylinder_center"),
+        ("cylinder_center", "cylinder_mass"),
+        ("cylinder_inertia", "cylinder_mass"),
+        ("rod_mass", "rod_center"),
+        ("rod_center", "rod_mass"),
+        ("rod_inertia", "rod_mass"),
     ] {
         needs(report, entries, key, other);
     }
@@ -339,7 +349,33 @@ pub(super) fn hardware(report: &mut Findings<'_>, top: &[Entry]) -> Hardware {
         max_leg_force: positive(report, entries, "max_leg_force"),
         max_leg_speed: positive(report, entries, "max_leg_speed"),
         leg_stiffness: positive(report, entries, "leg_stiffness"),
+        leg_masses: leg_masses(report, entries),
     }
+}
+
+/// Masses of cylinder, rod and drive.
+fn leg_masses(report: &mut Findings<'_>, entries: &[Entry]) -> Option<LegMasses> {
+    let mut part = |[mass, center, inertia]: [&str; 3]| {
+        let mass = positive(report, entries, mass);
+        let center = not_negative(report, entries, center).unwrap_or_default();
+        let inertia = not_negative(report, entries, inertia);
+        mass.map(|mass| LegPart {
+            mass,
+            center,
+            inertia: inertia.unwrap_or_else(|| LegPart::uniform_inertia(mass, center)),
+        })
+    };
+    let cylinder = part(["cylinder_mass", "cylinder_center", "cylinder_inertia"]);
+    let rod = part(["rod_mass", "rod_center", "rod_inertia"]);
+    let reflected = positive(report, entries, "reflected_mass");
+    if cylinder.is_none() && rod.is_none() && reflected.is_none() {
+        return None;
+    }
+    Some(LegMasses {
+        cylinder: cylinder.unwrap_or_default(),
+        rod: rod.unwrap_or_default(),
+        reflected: reflected.unwrap_or_default(),
+    })
 }
 
 fn housing(report: &mut Findings<'_>, entries: &[Entry], key: &str) -> Option<Housing> {

@@ -79,6 +79,9 @@ const CALLS: &[(i32, &str, &str)] = &[
     (1, "equivalents-map", "{rbt-octahedral} {rbt-griffis-duffy} --exchange -o {exchanged.toml}"),
     (0, "equivalents-map", "{general-6-6} {turned} --align -o {aligned.toml}"),
     (1, "equivalents-map", "{general-6-6} {off} --align"),
+    (0, "motion", "{simulator-octahedral} --sine z:0.05:0.5 --accelerate x:1 --csv {motion.csv}"),
+    (1, "motion", "{simulator-octahedral} --sine z:0.05:4"),
+    (0, "motion", "{bench-octahedral} --sine x:1:1"),
     (0, "equivalents-move", "{rbt-octahedral} --leg 1 --along 1 --to 0.1"),
     (0, "equivalents-move", "{rbt-octahedral} --move 1:1:0.1 --move 2:P2:P4-P5:0.2 --together"),
     (

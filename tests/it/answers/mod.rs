@@ -9,7 +9,7 @@ use std::fs;
 use equipod::records::{
     AssessAnswer, BenchAnswer, CheckAnswer, CompletionsAnswer, ComponentsAnswer, ConvertAnswer, Document,
     ErrorAnswer, ExploreAnswer, ExportAnswer, FamilyAnswer, FkAnswer, FkRunRecord, HelpAnswer, IkAnswer,
-    LocusAnswer, ManAnswer, MapAnswer, MoveAnswer, NearestAnswer, NewAnswer, OptimizeAnswer, PlotAnswer,
+    LocusAnswer, ManAnswer, MapAnswer, MotionAnswer, MoveAnswer, NearestAnswer, NewAnswer, OptimizeAnswer, PlotAnswer,
     PresetsAnswer, ReportAnswer, RoundAnswer, SchemaAnswer, SelfmotionAnswer, SingularitiesAnswer,
     TolerancesAnswer, TopologiesAnswer, VerifyAnswer, ViewAnswer, schema, schema_names,
 };
@@ -59,6 +59,7 @@ const TYPES: &[(&str, Reread)] = &[
     ("shell-man", reread::<ManAnswer>),
     ("singular-motion", reread::<SelfmotionAnswer>),
     ("singular-poses", reread::<SingularitiesAnswer>),
+    ("motion", reread::<MotionAnswer>),
     ("verify", reread::<VerifyAnswer>),
     ("view", reread::<ViewAnswer>),
 ];
@@ -291,7 +292,7 @@ const GROUPS: [&[&str]; 4] = [
         "design-presets",
         "design-convert",
     ],
-    &["optimize", "assess", "build-round", "view", "export", "shell-completions", "shell-man"],
+    &["optimize", "assess", "motion", "build-round", "view", "export", "shell-completions", "shell-man"],
     &[
         "explore",
         "report",

@@ -1,0 +1,215 @@
+//! `equipod motion`: forces, speeds, accelerations and powers of the legs along a trajectory or standard manoeuvres.
+
+mod render;
+
+use std::path::{Path, PathBuf};
+
+use crate::cli::context::Context;
+use crate::cli::exit::Exit;
+use crate::cli::failure::Failure;
+use crate::cli::files::{self, OutputPath};
+use crate::cli::output::Answer;
+use crate::cli::{poses, rows};
+use crate::design::Design;
+use crate::dynamics::{InvalidManoeuvre, Manoeuvre, PathEnds, PosePath};
+use crate::entrance::{Motion, MotionMasses, MotionReport};
+use crate::export::LengthUnit;
+use crate::geom::Pose;
+use crate::records::{MotionAnswer, MotionRunRecord};
+use crate::requirements::{ForceUnit, Load};
+
+/// Arguments of `motion`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Design file (.toml or .json) with the tables home, payload and hardware
+    design: PathBuf,
+    /// A table with a time in seconds and a pose a line (`-` for standard input)
+    trajectory: Option<PathBuf>,
+    /// A sine about a pose, as often as there are some: x, y, z (design units), roll, pitch or yaw (degrees), amplitude and frequency
+    #[arg(long, value_name = "AXIS:AMPLITUDE:HERTZ", allow_hyphen_values = true)]
+    sine: Vec<String>,
+    /// An acceleration from rest at a pose, design units or degrees per second squared, as often as there are some
+    #[arg(long, value_name = "AXIS:ACCELERATION", allow_hyphen_values = true)]
+    accelerate: Vec<String>,
+    /// The pose of sines and accelerations: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`
+    #[arg(long, value_name = "POSE", allow_hyphen_values = true, default_value = "home")]
+    about: String,
+    /// A load of the design that acts all the time besides the weight, by its name
+    #[arg(long, value_name = "NAME")]
+    load: Option<String>,
+    /// The platform rests at the first pose of the trajectory and at the last
+    #[arg(long)]
+    at_rest: bool,
+    /// Number of steps between two poses of the trajectory
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    steps: u32,
+    /// Number of instants in the period of a sine
+    #[arg(long, value_name = "N", default_value_t = 360, value_parser = clap::value_parser!(u32).range(4..=1_000_000))]
+    samples: u32,
+    /// Unit of length of the design, where its label is not one: um, mm, cm, m, in, ft
+    #[arg(long, value_name = "UNIT")]
+    unit: Option<String>,
+    /// Write all instants as a table
+    #[arg(long, value_name = "FILE")]
+    csv: Option<OutputPath>,
+}
+
+const BAD_TRAJECTORY: &str = "motion::bad_trajectory";
+
+/// Exit 1 where a limit is exceeded at an instant looked at, or forces are not determined.
+pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
+    let design = context.load(&args.design)?;
+    refuse_without_effect(args, &design, context)?;
+    let motions = motions(args, &design, context)?;
+    let masses = masses(args, &design)?;
+    let found: Vec<(String, MotionReport)> =
+        motions.iter().map(|(name, motion)| (name.clone(), design.along(motion, masses.as_ref()))).collect();
+    if let Some(path) = &args.csv {
+        files::write_text(path, &render::csv(&design, &found))?;
+    }
+    let records: Vec<MotionRunRecord> =
+        found.iter().map(|(name, report)| MotionRunRecord::new(&design, name.clone(), report)).collect();
+    let answer = MotionAnswer {
+        name: design.name.clone(),
+        met: records.iter().all(|r| r.met),
+        length_unit: design.units.clone(),
+        force_unit: force_unit(&design).label().into(),
+        assumptions: assumptions(&design),
+        motions: records,
+        csv: args.csv.as_ref().map(|path| path.display().to_string()),
+    };
+    let exit = if answer.met { Exit::Yes } else { Exit::No };
+    let text = render::text(&answer);
+    Ok(Answer::new(exit, answer, text))
+}
+
+fn force_unit(design: &Design) -> ForceUnit {
+    design.force_units.unwrap_or(ForceUnit::Newton)
+}
+
+fn refuse_without_effect(args: &Args, design: &Design, context: &Context) -> Result<(), Failure> {
+    if args.trajectory.is_none() {
+        context.no_effect("at_rest", "there is no trajectory")?;
+        context.no_effect("steps", "there is no trajectory")?;
+    }
+    if args.sine.is_empty() {
+        context.no_effect("samples", "there is no sine")?;
+    }
+    if args.sine.is_empty() && args.accelerate.is_empty() {
+        context.no_effect("about", "there is neither a sine nor an acceleration")?;
+    }
+    if design.payload.is_none() {
+        for option in ["load", "unit"] {
+            context.no_effect(option, "the design has no payload, so that no forces are computed")?;
+        }
+    }
+    Ok(())
+}
+
+/// The motions with their names, in the order of the answer.
+fn motions(args: &Args, design: &Design, context: &Context) -> Result<Vec<(String, Motion)>, Failure> {
+    let mut out = Vec::new();
+    if let Some(path) = &args.trajectory {
+        let ends = if args.at_rest { PathEnds::AtRest } else { PathEnds::Free };
+        let motion = Motion::Path(trajectory(path, ends, context)?, args.steps as usize);
+        out.push((files::shown(path), motion));
+    }
+    let about = poses::parse(&args.about, design, "--about", "motion::bad_pose")?;
+    for text in &args.sine {
+        let sine = Manoeuvre::sine(text).map_err(|e| no_manoeuvre("--sine", &e))?;
+        out.push((format!("sine {text}"), Motion::Manoeuvre(sine, about, args.samples as usize)));
+    }
+    for text in &args.accelerate {
+        let start = Manoeuvre::acceleration(text).map_err(|e| no_manoeuvre("--accelerate", &e))?;
+        out.push((format!("accelerate {text}"), Motion::Manoeuvre(start, about, 1)));
+    }
+    if out.is_empty() {
+        let help = "give a table of times and poses, --sine z:50:1 or --accelerate x:2000";
+        return Err(Failure::refused("motion::no_motion", "there is no motion to look at").with_help(help));
+    }
+    Ok(out)
+}
+
+fn no_manoeuvre(option: &str, why: &InvalidManoeuvre) -> Failure {
+    let help = "an axis is x, y, z, roll, pitch or yaw: --sine z:50:1, --accelerate yaw:90";
+    Failure::refused("motion::bad_manoeuvre", format!("{option}: {why}")).with_help(help)
+}
+
+/// The motion through the poses of a table.
+fn trajectory(path: &Path, ends: PathEnds, context: &Context) -> Result<PosePath, Failure> {
+    let series = rows::poses(path, BAD_TRAJECTORY, context)?;
+    let shown = files::shown(path);
+    let Some(name) = &series.time_name else {
+        let message = format!("{shown} has no column of times");
+        let help = "name a column `t` or `time_s` in the first line, with times in seconds";
+        return Err(Failure::refused("motion::no_times", message).with_help(help));
+    };
+    let letters: String = name.to_lowercase().chars().filter(char::is_ascii_alphanumeric).collect();
+    let in_milliseconds = letters.ends_with("ms") || letters.ends_with("milliseconds");
+    if in_milliseconds {
+        context.note_guesses(&shown, &["The times are in milliseconds, as the header says.".into()]);
+    }
+    let second = if in_milliseconds { 1e-3 } else { 1.0 };
+    let times: Vec<f64> = series.rows.iter().filter_map(|row| row.time).map(|t| t * second).collect();
+    let all: Vec<Pose> = series.rows.iter().map(|row| row.value).collect();
+    PosePath::through(&times, &all, ends).map_err(|why| {
+        let line = why.row().and_then(|row| series.rows.get(row)).map(|row| format!("line {}: ", row.line));
+        let message = format!("{shown}: {}{why}", line.unwrap_or_default());
+        Failure::refused(BAD_TRAJECTORY, message)
+            .with_help("give poses in the order of time, close enough to each other to follow the motion")
+    })
+}
+
+/// What forces are computed from; none without a payload.
+fn masses(args: &Args, design: &Design) -> Result<Option<MotionMasses>, Failure> {
+    if design.payload.is_none() {
+        return Ok(None);
+    }
+    let unit = match &args.unit {
+        Some(label) => {
+            LengthUnit::of(label).map_err(|e| Failure::refused("motion::unknown_unit", format!("--unit: {e}")))?
+        }
+        None => LengthUnit::of(&design.units).map_err(|e| {
+            let message = format!("the units of the design cannot be used: {e}");
+            Failure::refused("motion::unknown_unit", message)
+                .with_help("`--unit mm` says what one unit of the design is")
+        })?,
+    };
+    let load = args.load.as_deref().map(|name| load(design, name)).transpose()?;
+    Ok(design.motion_masses(unit.metres, load))
+}
+
+fn load(design: &Design, name: &str) -> Result<Load, Failure> {
+    design.loads.iter().find(|l| l.name == name).cloned().ok_or_else(|| {
+        let names: Vec<&str> = design.loads.iter().map(|l| l.name.as_str()).collect();
+        let help = if names.is_empty() {
+            "the design has none: add [[loads]]".to_string()
+        } else {
+            format!("its loads are {}", names.join(", "))
+        };
+        Failure::refused("motion::no_such_load", format!("`{name}` is no load of the design")).with_help(help)
+    })
+}
+
+/// What the file does not say.
+fn assumptions(design: &Design) -> Vec<String> {
+    let mut out = Vec::new();
+    match &design.payload {
+        None => out.push("The design has no [payload]: forces and powers are not computed.".to_string()),
+        Some(payload) => {
+            if payload.inertia.is_none() {
+                out.push("The payload has no inertia: it is taken as a point mass.".into());
+            }
+            if design.hardware.leg_masses.is_none() {
+                out.push("The legs have no masses in [hardware]: they are taken as massless.".into());
+            }
+            if design.mass_units.is_none() {
+                out.push("The design names no unit of mass: masses are taken in kilograms.".into());
+            }
+            if design.force_units.is_none() {
+                out.push("The design names no unit of force: forces are taken in newtons.".into());
+            }
+        }
+    }
+    out
+}

@@ -1,0 +1,167 @@
+//! The legs along motions as text and as a table of all instants.
+
+use std::fmt::Write as _;
+
+use crate::cli::poses;
+use crate::cli::table::{column_unit, csv_line, number};
+use crate::design::Design;
+use crate::entrance::MotionReport;
+use crate::records::{ExtremeRecord, MotionAnswer, MotionRunRecord, TimedMarginRecord};
+
+/// The sentence, and for each motion a table of legs and one of requirements.
+pub(super) fn text(answer: &MotionAnswer) -> String {
+    let mut out = format!("{} {}\n", answer.name, sentence(answer));
+    for line in &answer.assumptions {
+        let _ = writeln!(out, "{line}");
+    }
+    for motion in &answer.motions {
+        let _ = writeln!(
+            out,
+            "\n{}: {} {} in {} s",
+            motion.motion,
+            motion.instants,
+            if motion.instants == 1 { "instant" } else { "instants" },
+            short(motion.duration_s)
+        );
+        legs(&mut out, answer, motion);
+        requirements(&mut out, motion);
+    }
+    if let Some(path) = &answer.csv {
+        let _ = writeln!(out, "wrote {path}");
+    }
+    out
+}
+
+fn sentence(answer: &MotionAnswer) -> String {
+    let missed = |m: &MotionRunRecord| {
+        let of = m.requirements.iter().filter(|r| r.margin.violates()).map(|r| r.margin.name.code());
+        of.chain(m.singular_at_s.map(|_| "singularity")).collect::<Vec<_>>()
+    };
+    let mut all: Vec<&str> = answer.motions.iter().flat_map(missed).collect();
+    all.sort_unstable();
+    all.dedup();
+    if !all.is_empty() {
+        return format!("exceeds its limits: {}", all.join(", "));
+    }
+    let limited = answer.motions.iter().any(|m| !m.requirements.is_empty());
+    if limited { "stays within its limits at the instants looked at" } else { "has no limits along its motions" }
+        .to_string()
+}
+
+/// Six significant digits.
+fn short(x: f64) -> String {
+    if x == 0.0 {
+        return "0".into();
+    }
+    let digits = 5 - x.abs().log10().floor() as i64;
+    match usize::try_from(digits) {
+        Ok(digits) if digits <= 12 => {
+            let text = format!("{x:.digits$}");
+            if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_string() } else { text }
+        }
+        Ok(_) => format!("{x:.5e}"),
+        Err(_) => format!("{x:.0}"),
+    }
+}
+
+fn legs(out: &mut String, answer: &MotionAnswer, motion: &MotionRunRecord) {
+    let (length, force) = (&answer.length_unit, &answer.force_unit);
+    let titles = [
+        format!("least {length}"),
+        format!("greatest {length}"),
+        format!("speed {length}/s"),
+        format!("acc. {length}/s^2"),
+        format!("push {force}"),
+        format!("pull {force}"),
+        format!("rms {force}"),
+        "power W".to_string(),
+    ];
+    let _ = write!(out, "leg");
+    for title in &titles {
+        let _ = write!(out, " {title:>14}");
+    }
+    out.push('\n');
+    for leg in &motion.legs {
+        let _ = write!(out, "{:<3}", leg.leg);
+        let found = |x: &Option<ExtremeRecord>| x.map_or("-".to_string(), |x| short(x.value.0));
+        for cell in [
+            short(leg.shortest.value.0),
+            short(leg.longest.value.0),
+            short(leg.speed.value.0),
+            short(leg.acceleration.value.0),
+            found(&leg.push),
+            found(&leg.pull),
+            leg.rms_force.map_or("-".to_string(), |x| short(x.0)),
+            found(&leg.power_w),
+        ] {
+            let _ = write!(out, " {cell:>14}");
+        }
+        out.push('\n');
+    }
+    if let Some(time) = motion.singular_at_s {
+        let _ = writeln!(out, "At {} s the pose is singular: no forces of the legs give this motion.", short(time));
+    }
+}
+
+fn requirements(out: &mut String, motion: &MotionRunRecord) {
+    if motion.requirements.is_empty() {
+        return;
+    }
+    let reserved = motion.requirements.iter().any(|r| r.margin.reserve.0 > 0.0);
+    let column = if reserved { format!(" {:>14}", "less reserve") } else { String::new() };
+    let _ = writeln!(out, "{:<18} {:>14}{column} {:<8} {:<24} at s", "requirement", "least margin", "unit", "of");
+    for row in &motion.requirements {
+        let TimedMarginRecord { time_s, margin } = row;
+        let mark = if margin.at_limit {
+            '='
+        } else if margin.violates() {
+            '!'
+        } else {
+            ' '
+        };
+        let left = if reserved { format!(" {:>14.6}", margin.margin_with_reserve.0) } else { String::new() };
+        let _ = writeln!(
+            out,
+            "{:<17}{mark} {:>14.6}{left} {:<8} {:<24} {}",
+            margin.name.code(),
+            margin.margin.0,
+            margin.unit,
+            margin.between.join(", "),
+            short(*time_s)
+        );
+    }
+}
+
+/// Every instant of every motion.
+pub(super) fn csv(design: &Design, motions: &[(String, MotionReport)]) -> String {
+    let unit = column_unit(&design.units);
+    let force = super::force_unit(design).label();
+    let mut header: Vec<String> = ["motion", "t_s"].map(String::from).to_vec();
+    header.extend(["x", "y", "z"].map(|axis| format!("{axis}_{unit}")));
+    header.extend(["qw", "qx", "qy", "qz"].map(String::from));
+    for (name, unit) in [
+        ("length", unit.clone()),
+        ("speed", format!("{unit}_per_s")),
+        ("acceleration", format!("{unit}_per_s2")),
+        ("force", force.to_string()),
+        ("power", "W".to_string()),
+    ] {
+        header.extend((1..=6).map(|leg| format!("{name}_{leg}_{unit}")));
+    }
+    let mut out = csv_line(&header);
+    for (name, found) in motions {
+        for at in &found.instants {
+            let mut cells = vec![name.clone(), number(at.time)];
+            cells.extend(poses::csv_fields(&at.state.pose).split(',').map(str::to_string));
+            cells.extend(at.legs.iter().map(|leg| number(leg.length)));
+            cells.extend(at.legs.iter().map(|leg| number(leg.speed)));
+            cells.extend(at.legs.iter().map(|leg| number(leg.acceleration)));
+            match &at.drives {
+                Some((forces, powers)) => cells.extend(forces.iter().chain(powers).map(|x| number(*x))),
+                None => cells.extend(std::iter::repeat_n(String::new(), 12)),
+            }
+            out.push_str(&csv_line(&cells));
+        }
+    }
+    out
+}

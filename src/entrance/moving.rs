@@ -1,0 +1,170 @@
+//! How the legs of a design move and what their drives push along a motion, against the limits of the design.
+
+use std::collections::BTreeMap;
+
+use nalgebra::Vector6;
+
+use crate::design::Design;
+use crate::dynamics::{
+    Bodies, LegExtremes, LegInstant, LegMotion, Manoeuvre, MotionState, PosePath, drive_forces, leg_motions,
+};
+use crate::geom::Pose;
+use crate::requirements::{ForceUnit, Load, Margin, MassUnit, Term, TermKind, Terms};
+
+/// A motion of the platform.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Motion {
+    /// Through poses at given times, looked at `steps` times between two of them.
+    Path(PosePath, usize),
+    /// A standard manoeuvre about a pose, looked at `samples` times.
+    Manoeuvre(Manoeuvre, Pose, usize),
+}
+
+impl Motion {
+    /// The states with their times, seconds.
+    fn states(&self) -> Vec<(f64, MotionState)> {
+        match self {
+            Self::Path(path, steps) => {
+                let pieces = path.times().windows(2);
+                let within = pieces.flat_map(|t| {
+                    (0..*steps).map(move |k| t[0] + (t[1] - t[0]) * (k as f64 / *steps as f64))
+                });
+                within.chain(path.times().last().copied()).map(|t| (t, path.at(t))).collect()
+            }
+            Self::Manoeuvre(manoeuvre, about, samples) => {
+                let duration = manoeuvre.duration();
+                let count = if duration > 0.0 { *samples } else { 0 };
+                let time = |k: usize| duration * k as f64 / count.max(1) as f64;
+                (0..=count).map(|k| (time(k), manoeuvre.at(about, time(k)))).collect()
+            }
+        }
+    }
+}
+
+/// An instant of a motion.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct MotionInstant {
+    /// Seconds.
+    pub(crate) time: f64,
+    /// Where the platform is and how it moves.
+    pub(crate) state: MotionState,
+    /// The legs, design units and seconds.
+    pub(crate) legs: [LegMotion; 6],
+    /// Forces of the drives in force units, and their powers in watts; `None` where no masses are known, and at a singular pose.
+    pub(crate) drives: Option<([f64; 6], [f64; 6])>,
+}
+
+/// A margin with the time at which it is least.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct TimedMargin {
+    pub(crate) margin: Margin,
+    pub(crate) time: f64,
+}
+
+/// What was found along a motion.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct MotionReport {
+    /// In the order of time.
+    pub(crate) instants: Vec<MotionInstant>,
+    /// By leg; empty where a leg has no length.
+    pub(crate) legs: Vec<LegExtremes>,
+    /// The least margin of each kind of requirement over the instants.
+    pub(crate) margins: Vec<TimedMargin>,
+    /// When forces are not determined, for masses that are known.
+    pub(crate) singular: Option<f64>,
+}
+
+/// What forces are computed from.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct MotionMasses {
+    bodies: Bodies,
+    /// Newtons in a force unit.
+    newtons: f64,
+    /// What acts besides the weight.
+    load: Option<Load>,
+}
+
+impl Design {
+    /// What forces are computed from: the payload and the masses of the legs, where one design unit is so many metres. `None` without a payload.
+    pub(crate) fn motion_masses(&self, metres: f64, load: Option<Load>) -> Option<MotionMasses> {
+        let mass = self.mass_units.unwrap_or(MassUnit::Kilogram);
+        let newtons = self.force_units.unwrap_or(ForceUnit::Newton).newtons();
+        let bodies = Bodies::new(&self.payload?, self.hardware.leg_masses.as_ref(), mass, metres);
+        Some(MotionMasses { bodies, newtons, load })
+    }
+
+    /// The legs along a motion. Limits are judged at the instants that are looked at.
+    pub(crate) fn along(&self, motion: &Motion, masses: Option<&MotionMasses>) -> MotionReport {
+        let m = self.manipulator();
+        let instants: Vec<MotionInstant> = motion
+            .states()
+            .into_iter()
+            .map(|(time, state)| {
+                let legs = leg_motions(m, &state);
+                let drives = masses.and_then(|known| known.drives(self, &state, &legs));
+                MotionInstant { time, state, legs, drives }
+            })
+            .collect();
+        let of_leg = |i: usize| -> Option<LegExtremes> {
+            let driven = |at: &MotionInstant| at.drives.as_ref().map(|(f, p)| (f[i], p[i]));
+            let list: Vec<LegInstant> =
+                instants.iter().map(|at| (at.time, at.legs[i], driven(at))).collect();
+            LegExtremes::of(&list)
+        };
+        let legs = (0..6).map_while(of_leg).collect();
+        let singular = instants.iter().find(|at| masses.is_some() && at.drives.is_none()).map(|at| at.time);
+        let margins = self.margins_along(&instants);
+        MotionReport { instants, legs, margins, singular }
+    }
+
+    /// The least margin of each kind: of the pose as `assess` has them, of force and speed by the motion.
+    fn margins_along(&self, instants: &[MotionInstant]) -> Vec<TimedMargin> {
+        let required = self.requirements();
+        let terms = Terms::new(self.manipulator(), &required, &self.home_or_default());
+        let mut least: BTreeMap<TermKind, (Term, f64, &MotionInstant)> = BTreeMap::new();
+        for at in instants {
+            let by_pose = terms.at(&at.state.pose).into_iter();
+            let by_pose = by_pose.filter(|(t, _)| !matches!(t.kind, TermKind::LegForce | TermKind::LegSpeed));
+            for (term, value) in by_pose.chain(self.drive_margins(at)) {
+                let entry = least.entry(term.kind).or_insert((term, value, at));
+                if value < entry.1 || value.is_nan() {
+                    *entry = (term, value, at);
+                }
+            }
+        }
+        let timed = |(term, value, at): (Term, f64, &MotionInstant)| {
+            let pose = Some(at.state.pose);
+            let standing = terms.standing(term.kind, value, pose.as_ref());
+            TimedMargin { margin: Margin { term, value, pose, standing }, time: at.time }
+        };
+        least.into_values().map(timed).collect()
+    }
+
+    /// Greatest speed less speed, greatest force less force.
+    fn drive_margins(&self, at: &MotionInstant) -> Vec<(Term, f64)> {
+        let own = |kind, i| Term { kind, first: i, second: if kind == TermKind::LegForce { 0 } else { i } };
+        let mut out = Vec::new();
+        for i in 0..6 {
+            if let Some(greatest) = self.hardware.max_leg_speed {
+                out.push((own(TermKind::LegSpeed, i), greatest - at.legs[i].speed.abs()));
+            }
+            if let (Some(greatest), Some((forces, _))) = (self.hardware.max_leg_force, &at.drives) {
+                out.push((own(TermKind::LegForce, i), greatest - forces[i].abs()));
+            }
+        }
+        out
+    }
+}
+
+impl MotionMasses {
+    /// Forces in force units and powers in watts.
+    fn drives(&self, design: &Design, state: &MotionState, legs: &[LegMotion; 6]) -> Option<([f64; 6], [f64; 6])> {
+        let bodies = &self.bodies;
+        // of the module's unit of force, kilograms times design units per second squared, in a force unit
+        let in_unit = self.newtons / bodies.metres;
+        let load = self.load.as_ref().map_or_else(Vector6::zeros, |l| l.wrench(&state.pose) * in_unit);
+        let forces = drive_forces(design.manipulator(), bodies, state, &load)?;
+        let powers = std::array::from_fn(|i| bodies.newtons(forces[i]) * legs[i].speed * bodies.metres);
+        Some((forces.map(|f| f / in_unit), powers))
+    }
+}
