@@ -108,7 +108,7 @@ const JOBS: [Job; 9] = [
             entry(
                 "verify",
                 &["verify designs/rbt-octahedral.toml designs/rbt-griffis-duffy.toml"],
-                &["compare", "equivalent"],
+                &["equivalent"],
             ),
             entry("explore", &["explore designs/rbt-octahedral.toml -o out"], &["analyse", "analyze"]),
         ],
@@ -118,10 +118,15 @@ const JOBS: [Job; 9] = [
         commands: &[
             entry("assess", &["assess designs/worked/bench-octahedral.toml"], &["requirements", "margins"]),
             entry(
-                "motion",
+                "compare",
                 &[
-                    "motion designs/worked/simulator-octahedral.toml --sine z:100:0.5 --accelerate pitch:100",
+                    "compare designs/worked/bench-octahedral.toml designs/worked/bench-joint-free.toml --accuracy 0.1,0.05 -o compare.html",
                 ],
+                &["candidates", "side-by-side", "table"],
+            ),
+            entry(
+                "motion",
+                &["motion designs/worked/simulator-octahedral.toml --sine z:100:0.5 --accelerate pitch:100"],
                 &["dynamics", "inverse-dynamics", "drive-forces", "power"],
             ),
             entry(

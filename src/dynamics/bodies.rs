@@ -6,7 +6,7 @@ use crate::requirements::{LegMasses, MassUnit, Payload};
 
 /// Masses, centres and inertias in kilograms and design units.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bodies {
+pub struct MovingBodies {
     /// Mass of the platform with its payload, kilograms.
     pub mass: f64,
     /// Its centre of mass, platform frame.
@@ -21,7 +21,7 @@ pub struct Bodies {
     pub metres: f64,
 }
 
-impl Bodies {
+impl MovingBodies {
     /// The bodies that a design file describes; `metres` is the length of its unit. A payload without inertia is a point mass, legs without masses have none.
     #[must_use]
     pub fn new(payload: &Payload, leg: Option<&LegMasses>, unit: MassUnit, metres: f64) -> Self {

@@ -24,7 +24,7 @@
 
 use nalgebra::{Matrix3, Vector3, Vector6};
 
-use super::{Bodies, MotionState};
+use super::{MotionState, MovingBodies};
 use crate::manipulator::{Leg, Manipulator, jacobian};
 
 /// Length of a leg and its derivatives.
@@ -70,12 +70,12 @@ impl MovingLeg {
     }
 
     /// Distance of the centre of the rod from the base joint.
-    fn rod_at(&self, bodies: &Bodies) -> f64 {
+    fn rod_at(&self, bodies: &MovingBodies) -> f64 {
         self.motion.length - bodies.leg.rod.center
     }
 
     /// `J_1 + J_2`.
-    fn inertia(&self, bodies: &Bodies) -> f64 {
+    fn inertia(&self, bodies: &MovingBodies) -> f64 {
         let (cylinder, rod) = (&bodies.leg.cylinder, &bodies.leg.rod);
         cylinder.inertia
             + cylinder.mass * cylinder.center.powi(2)
@@ -84,7 +84,7 @@ impl MovingLeg {
     }
 
     /// The part of the force of the platform on the head that is across the leg.
-    fn across(&self, bodies: &Bodies) -> Vector3<f64> {
+    fn across(&self, bodies: &MovingBodies) -> Vector3<f64> {
         let (cylinder, rod) = (&bodies.leg.cylinder, &bodies.leg.rod);
         let at = self.rod_at(bodies);
         let moment = self.inertia(bodies) * self.turning_acceleration
@@ -94,7 +94,7 @@ impl MovingLeg {
     }
 
     /// Force of the drive less the push on the platform.
-    fn own(&self, bodies: &Bodies) -> f64 {
+    fn own(&self, bodies: &MovingBodies) -> f64 {
         let rod = &bodies.leg.rod;
         let centripetal = self.rod_at(bodies) * self.turning.norm_squared();
         rod.mass * (self.motion.acceleration - centripetal - self.along.dot(&bodies.gravity))
@@ -109,7 +109,7 @@ pub fn leg_motions(m: &Manipulator, state: &MotionState) -> [LegMotion; 6] {
 }
 
 /// Inertia of platform and payload in the base frame.
-pub(super) fn turned_inertia(bodies: &Bodies, state: &MotionState) -> Matrix3<f64> {
+pub(super) fn turned_inertia(bodies: &MovingBodies, state: &MotionState) -> Matrix3<f64> {
     let r = state.pose.rotation.matrix();
     r * bodies.inertia * r.transpose()
 }
@@ -121,7 +121,7 @@ pub(super) fn turned_inertia(bodies: &Bodies, state: &MotionState) -> Matrix3<f6
 #[must_use]
 pub fn drive_forces(
     m: &Manipulator,
-    bodies: &Bodies,
+    bodies: &MovingBodies,
     state: &MotionState,
     load: &Vector6<f64>,
 ) -> Option<[f64; 6]> {
@@ -131,9 +131,8 @@ pub fn drive_forces(
     let inertia = turned_inertia(bodies, state);
     let turning = state.angular_velocity;
     let mut force = bodies.mass * (acceleration - bodies.gravity);
-    let mut torque = center.cross(&force)
-        + inertia * state.angular_acceleration
-        + turning.cross(&(inertia * turning));
+    let mut torque =
+        center.cross(&force) + inertia * state.angular_acceleration + turning.cross(&(inertia * turning));
     for leg in &legs {
         let across = leg.across(bodies);
         force += across;
@@ -152,7 +151,7 @@ pub fn drive_forces(
 
 /// Kinetic energy of platform, payload and legs, kilograms times design units squared per second squared.
 #[must_use]
-pub fn kinetic_energy(m: &Manipulator, bodies: &Bodies, state: &MotionState) -> f64 {
+pub fn kinetic_energy(m: &Manipulator, bodies: &MovingBodies, state: &MotionState) -> f64 {
     let center = state.pose.rotation * bodies.center.coords;
     let (velocity, _) = state.of_arm(&center);
     let turning = state.angular_velocity;
@@ -168,7 +167,7 @@ pub fn kinetic_energy(m: &Manipulator, bodies: &Bodies, state: &MotionState) -> 
 
 /// Potential energy of the weights, zero for bodies at the origin of the base frame.
 #[must_use]
-pub fn potential_energy(m: &Manipulator, bodies: &Bodies, state: &MotionState) -> f64 {
+pub fn potential_energy(m: &Manipulator, bodies: &MovingBodies, state: &MotionState) -> f64 {
     let center = state.pose.transform(&bodies.center).coords;
     let legs = m.legs().map(|leg| {
         let moving = MovingLeg::new(&leg, state);

@@ -15,7 +15,7 @@ use crate::geom::Pose;
     derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     serde(rename_all = "snake_case")
 )]
-pub enum Freedom {
+pub enum PlatformFreedom {
     /// Along x.
     X,
     /// Along y.
@@ -30,7 +30,7 @@ pub enum Freedom {
     Yaw,
 }
 
-impl Freedom {
+impl PlatformFreedom {
     /// Every freedom.
     pub const ALL: [Self; 6] = [Self::X, Self::Y, Self::Z, Self::Roll, Self::Pitch, Self::Yaw];
 
@@ -78,7 +78,7 @@ pub enum Manoeuvre {
     /// `amplitude sin(2 pi frequency t)` over one period.
     Sine {
         /// What moves.
-        freedom: Freedom,
+        freedom: PlatformFreedom,
         /// Design units or degrees.
         amplitude: f64,
         /// Hertz, positive.
@@ -87,7 +87,7 @@ pub enum Manoeuvre {
     /// At rest with an acceleration: what it takes to start or to stop.
     Acceleration {
         /// What moves.
-        freedom: Freedom,
+        freedom: PlatformFreedom,
         /// Design units or degrees per second squared.
         acceleration: f64,
     },
@@ -107,7 +107,7 @@ pub enum InvalidManoeuvre {
     Number(String, &'static str),
 }
 
-impl FromStr for Freedom {
+impl FromStr for PlatformFreedom {
     type Err = InvalidManoeuvre;
 
     fn from_str(word: &str) -> Result<Self, InvalidManoeuvre> {
@@ -164,7 +164,8 @@ impl Manoeuvre {
     /// The state at a time.
     #[must_use]
     pub fn at(&self, about: &Pose, time: f64) -> MotionState {
-        let in_freedom = |freedom: Freedom, x: f64| if freedom.is_turn() { x.to_radians() } else { x };
+        let in_freedom =
+            |freedom: PlatformFreedom, x: f64| if freedom.is_turn() { x.to_radians() } else { x };
         match *self {
             Self::Sine { freedom, amplitude, frequency } => {
                 let a = in_freedom(freedom, amplitude);

@@ -1,7 +1,7 @@
 //! Says how the legs move and what their drives push when the platform moves with its payload: inverse dynamics, stiffness, natural frequencies.
 //!
 //! All functions take lengths in design units, masses in kilograms and times in seconds; forces are then in kilograms times design units per second squared, which
-//! [`Bodies::newtons`] turns into newtons. `docs/theory/motion.md` derives the formulas and names their sources.
+//! [`MovingBodies::newtons`] turns into newtons. `docs/theory/motion.md` derives the formulas and names their sources.
 
 mod bodies;
 mod extremes;
@@ -12,10 +12,10 @@ mod spline;
 mod tests;
 mod vibration;
 
-pub use bodies::Bodies;
+pub use bodies::MovingBodies;
 pub use extremes::{DriveExtremes, Extreme, LegExtremes, LegInstant};
 pub use inverse::{LegMotion, drive_forces, kinetic_energy, leg_motions, potential_energy};
-pub use manoeuvre::{Freedom, InvalidManoeuvre, Manoeuvre};
+pub use manoeuvre::{InvalidManoeuvre, Manoeuvre, PlatformFreedom};
 pub use spline::{InvalidPath, PathEnds, PosePath};
 pub use vibration::{LeastStiffness, Vibration, least_stiffness, mass_matrix, stiffness_matrix, vibration};
 
@@ -43,13 +43,7 @@ impl MotionState {
     #[must_use]
     pub fn at_rest(pose: Pose) -> Self {
         let none = Vector3::zeros();
-        Self {
-            pose,
-            velocity: none,
-            angular_velocity: none,
-            acceleration: none,
-            angular_acceleration: none,
-        }
+        Self { pose, velocity: none, angular_velocity: none, acceleration: none, angular_acceleration: none }
     }
 
     /// Velocity and acceleration of a point of the platform whose arm from the platform origin is given in the base frame:

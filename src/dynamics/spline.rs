@@ -52,7 +52,9 @@ pub enum InvalidPath {
         before: f64,
     },
     /// The platform turns so far from one pose to the next that the way between them is not told.
-    #[error("the platform turns by {degrees:.1} degrees from the pose before; a quarter turn is the most that a motion is followed over")]
+    #[error(
+        "the platform turns by {degrees:.1} degrees from the pose before; a quarter turn is the most that a motion is followed over"
+    )]
     TurnsTooFar {
         /// The row.
         row: usize,
@@ -161,8 +163,7 @@ fn bends(times: &[f64], rows: &[Row], ends: PathEnds) -> Vec<Row> {
     let h: Vec<f64> = times.windows(2).map(|t| t[1] - t[0]).collect();
     let slope: Vec<Row> = (0..n - 1).map(|k| (rows[k + 1] - rows[k]) / h[k]).collect();
     // h_(k-1) M_(k-1) + 2 (h_(k-1) + h_k) M_k + h_k M_(k+1) = 6 (slope_k - slope_(k-1))
-    let inner =
-        |k: usize| ([h[k - 1], 2.0 * (h[k - 1] + h[k]), h[k]], 6.0 * (slope[k] - slope[k - 1]));
+    let inner = |k: usize| ([h[k - 1], 2.0 * (h[k - 1] + h[k]), h[k]], 6.0 * (slope[k] - slope[k - 1]));
     match ends {
         PathEnds::AtRest => {
             let mut lines = vec![([0.0, 2.0 * h[0], h[0]], 6.0 * slope[0])];

@@ -22,12 +22,14 @@ fn hexapod(rng: &mut Rng) -> Manipulator {
     .unwrap()
 }
 
-fn bodies() -> Bodies {
+fn bodies() -> MovingBodies {
     let turn = Rotation3::from_euler_angles(0.3, 0.2, -0.5);
     let payload = Payload {
         mass: 3.0,
         center: Point3::new(0.2, -0.1, 0.7),
-        inertia: Some(turn.matrix() * Matrix3::from_diagonal(&Vector3::new(2.0, 3.0, 4.0)) * turn.matrix().transpose()),
+        inertia: Some(
+            turn.matrix() * Matrix3::from_diagonal(&Vector3::new(2.0, 3.0, 4.0)) * turn.matrix().transpose(),
+        ),
         gravity: Vector3::new(1.0, -2.0, -9.0),
     };
     let leg = LegMasses {
@@ -35,7 +37,7 @@ fn bodies() -> Bodies {
         rod: LegPart { mass: 0.3, center: 0.5, inertia: 0.02 },
         reflected: 0.7,
     };
-    Bodies::new(&payload, Some(&leg), MassUnit::Kilogram, 1.0)
+    MovingBodies::new(&payload, Some(&leg), MassUnit::Kilogram, 1.0)
 }
 
 /// Poses near home at times that are not evenly spread.
@@ -67,7 +69,7 @@ fn inner_times(path: &PosePath) -> Vec<f64> {
 }
 
 /// Power of the drives less the change of the energy, over the size of both.
-fn imbalance(m: &Manipulator, bodies: &Bodies, of_energy: &Bodies, path: &PosePath) -> f64 {
+fn imbalance(m: &Manipulator, bodies: &MovingBodies, of_energy: &MovingBodies, path: &PosePath) -> f64 {
     let mut worst = 0.0_f64;
     for t in inner_times(path) {
         let state = path.at(t);
@@ -93,7 +95,7 @@ fn drives_give_the_energy_that_the_bodies_gain() {
         let found = imbalance(&m, &bodies, &bodies, &path);
         assert!(found < 1e-7, "{found}");
         // each mass counts: an energy that leaves out a part is not balanced
-        let without: [fn(&mut Bodies); 6] = [
+        let without: [fn(&mut MovingBodies); 6] = [
             |b| b.inertia *= 1.01,
             |b| b.center.x += 0.01,
             |b| b.leg.cylinder.inertia += 0.01,
@@ -122,7 +124,11 @@ fn speeds_and_accelerations_are_derivatives_of_lengths() {
                 let speed = derivative(|t| leg_motions(&m, &path.at(t))[i].length, t);
                 let acceleration = derivative(|t| leg_motions(&m, &path.at(t))[i].speed, t);
                 assert!((leg.speed - speed).abs() < 1e-7, "{} {speed}", leg.speed);
-                assert!((leg.acceleration - acceleration).abs() < 1e-5, "{} {acceleration}", leg.acceleration);
+                assert!(
+                    (leg.acceleration - acceleration).abs() < 1e-5,
+                    "{} {acceleration}",
+                    leg.acceleration
+                );
             }
         }
     }
@@ -188,7 +194,7 @@ fn a_sampled_manoeuvre_converges_to_the_manoeuvre() {
 fn a_manoeuvre_has_the_derivatives_of_its_poses() {
     let mut rng = Rng::new(15);
     let about = Pose { rotation: random_rotation(&mut rng), position: Vector3::new(1.0, 2.0, 3.0) };
-    for freedom in Freedom::ALL {
+    for freedom in PlatformFreedom::ALL {
         let sine = Manoeuvre::sine(&format!("{}:0.4:2", freedom.name())).unwrap();
         assert!((sine.duration() - 0.5).abs() < 1e-15);
         for t in [0.0, 0.11, 0.3] {
@@ -224,10 +230,14 @@ fn a_manoeuvre_has_the_derivatives_of_its_poses() {
 fn at_rest_the_drives_hold_the_weight_as_the_requirements_say() {
     let mut rng = Rng::new(16);
     let m = hexapod(&mut rng);
-    let payload =
-        Payload { mass: 4.0, center: Point3::new(0.1, 0.2, 0.5), inertia: None, gravity: Vector3::new(0.0, 0.0, -9.8) };
+    let payload = Payload {
+        mass: 4.0,
+        center: Point3::new(0.1, 0.2, 0.5),
+        inertia: None,
+        gravity: Vector3::new(0.0, 0.0, -9.8),
+    };
     // a design in millimetres would have the same newtons
-    let bodies = Bodies::new(&payload, None, MassUnit::Kilogram, 1.0);
+    let bodies = MovingBodies::new(&payload, None, MassUnit::Kilogram, 1.0);
     let pose = Pose { rotation: Rotation3::from_euler_angles(0.1, 0.2, 0.3), ..default_home(&m) };
     let found = drive_forces(&m, &bodies, &MotionState::at_rest(pose), &Vector6::zeros()).unwrap();
     let weight = payload.weight(MassUnit::Kilogram, ForceUnit::Newton).wrench(&pose);
@@ -242,10 +252,9 @@ fn at_rest_the_drives_hold_the_weight_as_the_requirements_say() {
 fn newtons_do_not_depend_on_the_unit_of_length() {
     let mut rng = Rng::new(17);
     let m = hexapod(&mut rng);
-    let large = Manipulator::from_legs(m.legs().map(|l| Leg {
-        base: l.base * 1000.0,
-        platform: l.platform * 1000.0,
-    }))
+    let large = Manipulator::from_legs(
+        m.legs().map(|l| Leg { base: l.base * 1000.0, platform: l.platform * 1000.0 }),
+    )
     .unwrap();
     let path = path(&m, &mut rng, PathEnds::Free);
     let metres = bodies();
@@ -320,7 +329,9 @@ fn natural_motions_solve_the_equation_and_springs_give_way_as_they_should() {
     assert!((trace - sum).abs() < 1e-9 * sum);
     // four times the stiffness, twice the frequency
     let stiff = vibration(&m, &pose, 4.0 * k, &mass).unwrap();
-    assert!((0..6).all(|i| (stiff[i].frequency - 2.0 * found[i].frequency).abs() < 1e-9 * stiff[i].frequency));
+    assert!(
+        (0..6).all(|i| (stiff[i].frequency - 2.0 * found[i].frequency).abs() < 1e-9 * stiff[i].frequency)
+    );
     // the least stiffness is that of the worst direction
     let least = least_stiffness(&stiffness).unwrap();
     let compliance: Matrix6<f64> = stiffness.try_inverse().unwrap();
@@ -356,10 +367,11 @@ fn what_is_no_motion_is_refused_with_the_row() {
         through(&[0.0, 1.0, 1.0], &[0.0; 3]),
         Err(InvalidPath::NotLater { row: 2, time: 1.0, before: 1.0 })
     );
-    assert!(matches!(through(&[0.0, 1.0], &[0.0, 91.0]), Err(InvalidPath::TurnsTooFar { row: 1, degrees }) if (degrees - 91.0).abs() < 1e-9));
+    assert!(
+        matches!(through(&[0.0, 1.0], &[0.0, 91.0]), Err(InvalidPath::TurnsTooFar { row: 1, degrees }) if (degrees - 91.0).abs() < 1e-9)
+    );
     // a whole turn and more, in steps
-    let (times, turns): (Vec<f64>, Vec<f64>) =
-        (0..20).map(|k| (f64::from(k), 40.0 * f64::from(k))).unzip();
+    let (times, turns): (Vec<f64>, Vec<f64>) = (0..20).map(|k| (f64::from(k), 40.0 * f64::from(k))).unzip();
     let poses: Vec<Pose> = turns.iter().map(|t| pose(*t)).collect();
     let path = PosePath::through(&times, &poses, PathEnds::Free).unwrap();
     assert!((path.at(9.5).angular_velocity.z - 40.0_f64.to_radians()).abs() < 1e-3);

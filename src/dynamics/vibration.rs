@@ -6,9 +6,10 @@
 
 use nalgebra::{Matrix3, Matrix6, Vector6};
 
-use super::Bodies;
+use super::MovingBodies;
 use crate::geom::Pose;
 use crate::manipulator::{Manipulator, jacobian};
+use crate::num::small::{bounded_svd, symmetric_eigen3};
 
 /// `K = k J^T J`: force units per design unit, times design units for each index of rotation.
 #[must_use]
@@ -20,7 +21,7 @@ pub fn stiffness_matrix(m: &Manipulator, pose: &Pose, leg: f64) -> Matrix6<f64> 
 /// The mass matrix about the platform origin, base frame: kilograms, times design units for each index of rotation. The kinetic energy is half of `x'^T M x'` with the twist
 /// `x' = (v, w)`.
 #[must_use]
-pub fn mass_matrix(m: &Manipulator, bodies: &Bodies, pose: &Pose) -> Matrix6<f64> {
+pub fn mass_matrix(m: &Manipulator, bodies: &MovingBodies, pose: &Pose) -> Matrix6<f64> {
     let r = pose.rotation.matrix();
     let cross = (r * bodies.center.coords).cross_matrix();
     let mut out = Matrix6::zeros();
@@ -73,7 +74,7 @@ pub fn least_stiffness(stiffness: &Matrix6<f64>) -> Option<LeastStiffness> {
     let compliance = stiffness.try_inverse()?;
     let softest = |at: usize| {
         let block: Matrix3<f64> = compliance.fixed_view::<3, 3>(at, at).into();
-        1.0 / (0.5 * (block + block.transpose())).symmetric_eigenvalues().max()
+        1.0 / symmetric_eigen3(&(0.5 * (block + block.transpose()))).0.max()
     };
     let found = LeastStiffness { linear: softest(0), angular: softest(3) };
     [found.linear, found.angular].iter().all(|x| x.is_finite() && *x > 0.0).then_some(found)
@@ -87,9 +88,6 @@ pub struct Vibration {
     /// Its shape: shift of the platform origin (design units) and rotation vector (radians), with `v^T M v = 1`.
     pub shape: Vector6<f64>,
 }
-
-/// Steps of the iteration for singular values; a matrix with finite entries needs a tenth of them.
-const ITERATIONS: usize = 500;
 
 /// The six natural motions, the slowest first: `K v = omega^2 M v`.
 ///
@@ -106,7 +104,7 @@ pub fn vibration(m: &Manipulator, pose: &Pose, leg: f64, mass: &Matrix6<f64>) ->
     if !lines.iter().all(|x| x.is_finite()) {
         return None;
     }
-    let found = lines.try_svd(false, true, f64::EPSILON, ITERATIONS)?;
+    let found = bounded_svd(&lines)?;
     let shapes = found.v_t?;
     let mut order: [usize; 6] = std::array::from_fn(|k| k);
     order.sort_by(|a, b| found.singular_values[*a].total_cmp(&found.singular_values[*b]));

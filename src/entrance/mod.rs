@@ -3,6 +3,8 @@
 //! Nothing is computed here. Each question names the modules that answer it, with their defaults; the command line asks the same questions.
 
 #[cfg(all(feature = "files", feature = "synthesis"))]
+mod comparing;
+#[cfg(all(feature = "files", feature = "synthesis"))]
 mod equivalence;
 mod error;
 #[cfg(feature = "files")]
@@ -18,6 +20,8 @@ pub(crate) mod optimizing;
 mod solving;
 
 #[cfg(all(feature = "files", feature = "synthesis"))]
+pub(crate) use comparing::{DesignFigures, FigureOptions};
+#[cfg(all(feature = "files", feature = "synthesis"))]
 pub(crate) use equivalence::{SAMPLES, decided_exactly, sample_plan, verified_exactly};
 #[cfg(all(feature = "files", feature = "synthesis"))]
 pub use equivalence::{VerifyOptions, leg_map, verify, verify_with};
@@ -25,7 +29,7 @@ pub use error::Error;
 #[cfg(all(feature = "files", feature = "synthesis"))]
 pub use judging::{AssessReport, CheckReport};
 #[cfg(feature = "files")]
-pub(crate) use moving::{Motion, MotionMasses, MotionReport, TimedMargin};
+pub(crate) use moving::{MotionMasses, MotionReport, PlatformMotion, StiffnessReport, TimedMargin};
 #[cfg(all(feature = "files", feature = "optimize"))]
 pub use optimizing::{OptimizeEvidence, OptimizeOptions, OptimizeProgress, OptimizeReport, OptimizeStatus};
 pub use solving::{Batch, Solver, Tracker};

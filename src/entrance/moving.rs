@@ -2,25 +2,26 @@
 
 use std::collections::BTreeMap;
 
-use nalgebra::Vector6;
+use nalgebra::{Matrix6, Vector6};
 
 use crate::design::Design;
 use crate::dynamics::{
-    Bodies, LegExtremes, LegInstant, LegMotion, Manoeuvre, MotionState, PosePath, drive_forces, leg_motions,
+    LeastStiffness, LegExtremes, LegInstant, LegMotion, Manoeuvre, MotionState, MovingBodies, PosePath,
+    Vibration, drive_forces, least_stiffness, leg_motions, mass_matrix, stiffness_matrix, vibration,
 };
 use crate::geom::Pose;
 use crate::requirements::{ForceUnit, Load, Margin, MassUnit, Term, TermKind, Terms};
 
 /// A motion of the platform.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Motion {
+pub(crate) enum PlatformMotion {
     /// Through poses at given times, looked at `steps` times between two of them.
     Path(PosePath, usize),
     /// A standard manoeuvre about a pose, looked at `samples` times.
     Manoeuvre(Manoeuvre, Pose, usize),
 }
 
-impl Motion {
+impl PlatformMotion {
     /// The states with their times, seconds.
     fn states(&self) -> Vec<(f64, MotionState)> {
         match self {
@@ -74,10 +75,22 @@ pub(crate) struct MotionReport {
     pub(crate) singular: Option<f64>,
 }
 
+/// How stiff a platform is at a pose.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct StiffnessReport {
+    pub(crate) pose: Pose,
+    /// `J^T diag(k) J` in force units, design units and radians.
+    pub(crate) matrix: Matrix6<f64>,
+    /// `None` at a singular pose.
+    pub(crate) least: Option<LeastStiffness>,
+    /// `None` where masses are not known, and for a point mass that is not held against turns.
+    pub(crate) natural: Option<[Vibration; 6]>,
+}
+
 /// What forces are computed from.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct MotionMasses {
-    bodies: Bodies,
+    bodies: MovingBodies,
     /// Newtons in a force unit.
     newtons: f64,
     /// What acts besides the weight.
@@ -89,12 +102,22 @@ impl Design {
     pub(crate) fn motion_masses(&self, metres: f64, load: Option<Load>) -> Option<MotionMasses> {
         let mass = self.mass_units.unwrap_or(MassUnit::Kilogram);
         let newtons = self.force_units.unwrap_or(ForceUnit::Newton).newtons();
-        let bodies = Bodies::new(&self.payload?, self.hardware.leg_masses.as_ref(), mass, metres);
+        let bodies = MovingBodies::new(&self.payload?, self.hardware.leg_masses.as_ref(), mass, metres);
         Some(MotionMasses { bodies, newtons, load })
     }
 
+    /// The stiffness at a pose; `None` where the design does not say that of its legs.
+    pub(crate) fn stiffness_at(&self, pose: &Pose, masses: Option<&MotionMasses>) -> Option<StiffnessReport> {
+        let (m, leg) = (self.manipulator(), self.hardware.leg_stiffness?);
+        let matrix = stiffness_matrix(m, pose, leg);
+        let natural = masses.and_then(|known| {
+            vibration(m, pose, known.per_second_squared(leg), &mass_matrix(m, &known.bodies, pose))
+        });
+        Some(StiffnessReport { pose: *pose, matrix, least: least_stiffness(&matrix), natural })
+    }
+
     /// The legs along a motion. Limits are judged at the instants that are looked at.
-    pub(crate) fn along(&self, motion: &Motion, masses: Option<&MotionMasses>) -> MotionReport {
+    pub(crate) fn along(&self, motion: &PlatformMotion, masses: Option<&MotionMasses>) -> MotionReport {
         let m = self.manipulator();
         let instants: Vec<MotionInstant> = motion
             .states()
@@ -107,8 +130,7 @@ impl Design {
             .collect();
         let of_leg = |i: usize| -> Option<LegExtremes> {
             let driven = |at: &MotionInstant| at.drives.as_ref().map(|(f, p)| (f[i], p[i]));
-            let list: Vec<LegInstant> =
-                instants.iter().map(|at| (at.time, at.legs[i], driven(at))).collect();
+            let list: Vec<LegInstant> = instants.iter().map(|at| (at.time, at.legs[i], driven(at))).collect();
             LegExtremes::of(&list)
         };
         let legs = (0..6).map_while(of_leg).collect();
@@ -157,8 +179,23 @@ impl Design {
 }
 
 impl MotionMasses {
+    /// Platform, payload and legs.
+    pub(crate) fn bodies(&self) -> &MovingBodies {
+        &self.bodies
+    }
+
+    /// A stiffness in force units per design unit, in kilograms per second squared.
+    pub(crate) fn per_second_squared(&self, stiffness: f64) -> f64 {
+        stiffness * self.newtons / self.bodies.metres
+    }
+
     /// Forces in force units and powers in watts.
-    fn drives(&self, design: &Design, state: &MotionState, legs: &[LegMotion; 6]) -> Option<([f64; 6], [f64; 6])> {
+    fn drives(
+        &self,
+        design: &Design,
+        state: &MotionState,
+        legs: &[LegMotion; 6],
+    ) -> Option<([f64; 6], [f64; 6])> {
         let bodies = &self.bodies;
         // of the module's unit of force, kilograms times design units per second squared, in a force unit
         let in_unit = self.newtons / bodies.metres;

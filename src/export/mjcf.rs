@@ -263,7 +263,9 @@ fn masses(export: &Export, scale: &Scale) -> String {
         }
         Some(m) => {
             let [cylinder, rod, reflected] = [m.cylinder.mass, m.rod.mass, m.reflected].map(real);
-            format!("{platform}; of the design: each cylinder {cylinder} kg, rod {rod} kg, armature of the slide {reflected} kg")
+            format!(
+                "{platform}; of the design: each cylinder {cylinder} kg, rod {rod} kg, armature of the slide {reflected} kg"
+            )
         }
     }
 }

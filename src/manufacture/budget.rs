@@ -148,6 +148,21 @@ pub fn budget(
     Ok(Budget { radius, half_width, joints: list, worst_errors, poses: sample.entries.len() })
 }
 
+/// How far all joints together may be off, each in a ball of this radius: [`Budget::radius`] alone, without the work for single joints.
+///
+/// # Errors
+/// As [`budget`].
+pub fn joint_allowance(
+    m: &Manipulator,
+    space: &PoseSpace,
+    tool: Point3<f64>,
+    bound: ErrorBound,
+    search: &PoseSearch,
+) -> Result<LimitedAllowance, ToleranceError> {
+    let sample = PoseSample::new(m, space, tool, bound, search)?;
+    limit(&sample, &|g| Gauge::balls(g, 1.0)).map(|(radius, ..)| radius)
+}
+
 /// `|g_jk . n|` of all coordinates.
 fn row(g: &[Matrix3<f64>], n: &Vector3<f64>) -> Vec<f64> {
     g.iter().flat_map(|g| g.tr_mul(n).iter().map(|x| x.abs()).collect::<Vec<_>>()).collect()

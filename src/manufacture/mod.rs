@@ -19,7 +19,7 @@ mod sensitivity;
 mod tests;
 mod trials;
 
-pub use budget::{Budget, JointBudget, LimitedAllowance, budget};
+pub use budget::{Budget, JointBudget, LimitedAllowance, budget, joint_allowance};
 pub use correction::{Controller, NoFormula, equivalent_octahedral, octahedral_of};
 pub use joint::{Joint, displaced, joints};
 pub use rounding::{

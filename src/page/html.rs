@@ -59,6 +59,16 @@ pub fn policy(styles: &[&str]) -> String {
     )
 }
 
+/// The policy of a page without frames, workers and network: one script and one style sheet by their hashes, and images that stand in the page.
+#[must_use]
+pub fn strict_policy(script: &str, style: &str) -> String {
+    format!(
+        "default-src 'none'; script-src {}; style-src {}; img-src data:; base-uri 'none'; form-action 'none'",
+        source(script),
+        source(style)
+    )
+}
+
 /// Recorded poses of one round.
 const FRAMES: usize = 36;
 /// Points a side of the recorded plane.

@@ -27,6 +27,6 @@ mod worst;
 
 #[cfg(not(target_arch = "wasm32"))]
 pub use html::CORE;
-pub use html::{page, policy};
+pub use html::{page, policy, strict_policy};
 #[cfg_attr(not(feature = "cli"), allow(unused_imports, reason = "the command line alone uses it"))]
 pub use session::{InvalidStart, Session};

@@ -19,6 +19,7 @@ mod slice;
 mod steps;
 mod style;
 mod three_view;
+mod thumbnail;
 mod topologies;
 mod workspace;
 
@@ -39,5 +40,6 @@ pub use slice::{SliceAxis, SliceFigure, singular_slice};
 pub use steps::{SearchStep, StepsFigure, steps_chart};
 pub use style::LIMIT_FILLS;
 pub use three_view::{ThreeViewBody, ThreeViewFigure, three_views};
+pub use thumbnail::thumbnail;
 pub use topologies::{TopologyFigure, topology_diagram, topology_sheet};
 pub use workspace::{RequiredSection, SectionOutline, WorkspaceFigure, WorkspaceLimit, workspace_slice};

@@ -10,6 +10,7 @@
 #[cfg(feature = "lab")]
 mod bench;
 mod check;
+mod compare;
 mod components;
 mod design;
 mod explore;
@@ -48,6 +49,7 @@ use serde::{Deserialize, Serialize};
 #[cfg(feature = "lab")]
 pub use self::bench::*;
 pub use self::check::*;
+pub use self::compare::*;
 pub use self::components::*;
 pub use self::design::*;
 pub use self::explore::*;

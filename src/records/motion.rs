@@ -3,10 +3,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{MarginRecord, Number};
+use super::{MarginRecord, Number, PoseQuaternionRecord};
 use crate::design::Design;
-use crate::dynamics::{Extreme, LegExtremes};
-use crate::entrance::{MotionReport, TimedMargin};
+use crate::dynamics::{Extreme, LeastStiffness, LegExtremes, Vibration};
+use crate::entrance::{MotionReport, StiffnessReport, TimedMargin};
 
 /// The answer of `motion`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -23,8 +23,57 @@ pub struct MotionAnswer {
     pub assumptions: Vec<String>,
     /// In the order asked for: the trajectory, sines, accelerations.
     pub motions: Vec<MotionRunRecord>,
+    /// How stiff the platform is at the pose of `--about`; null: it was not asked for.
+    pub stiffness: Option<StiffnessRecord>,
     /// The table of instants that was written; null: none.
     pub csv: Option<String>,
+}
+
+/// Stiffness and natural motions at a pose.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct StiffnessRecord {
+    /// The pose.
+    pub pose: PoseQuaternionRecord,
+    /// `J^T diag(k) J`: force and torque about the platform origin for a shift of it and a small turn, base frame; force units, design units and radians.
+    #[serde(rename = "K")]
+    pub matrix: [[Number; 6]; 6],
+    /// Least stiffness against a force through the platform origin, force units per design unit; 0 at a singular pose.
+    pub linear: Number,
+    /// Least stiffness against a torque, force units times design units per radian; 0 at a singular pose.
+    pub angular: Number,
+    /// The natural motions, the slowest first; null: masses are not known, or a point mass is not held against turns.
+    pub natural: Option<Vec<NaturalMotionRecord>>,
+}
+
+/// A natural motion.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct NaturalMotionRecord {
+    /// Its frequency.
+    pub frequency_hz: Number,
+    /// Its shape: shift of the platform origin in design units and rotation vector in radians, base frame, for which `v^T M v` is 1 in kilograms and design units.
+    pub shape: [Number; 6],
+}
+
+impl StiffnessRecord {
+    /// What was found at a pose.
+    #[must_use]
+    pub(crate) fn new(found: &StiffnessReport) -> Self {
+        let natural = found.natural.as_ref().map(|all| {
+            let record = |v: &Vibration| NaturalMotionRecord {
+                frequency_hz: Number(v.frequency),
+                shape: std::array::from_fn(|k| Number(v.shape[k])),
+            };
+            all.iter().map(record).collect()
+        });
+        let of = |value: fn(&LeastStiffness) -> f64| Number(found.least.as_ref().map_or(0.0, value));
+        Self {
+            pose: (&found.pose).into(),
+            matrix: std::array::from_fn(|i| std::array::from_fn(|j| Number(found.matrix[(i, j)]))),
+            linear: of(|s| s.linear),
+            angular: of(|s| s.angular),
+            natural,
+        }
+    }
 }
 
 /// The legs along a motion.

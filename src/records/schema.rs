@@ -5,11 +5,11 @@ use schemars::{JsonSchema, SchemaGenerator};
 use serde_json::{Map, Value};
 
 use super::{
-    AssessAnswer, CheckAnswer, CompletionsAnswer, ComponentsAnswer, ConvertAnswer, Document, ErrorAnswer,
-    ExploreAnswer, ExportAnswer, FamilyAnswer, FkAnswer, HelpAnswer, IkAnswer, LocusAnswer, ManAnswer,
-    MapAnswer, MotionAnswer, MoveAnswer, NearestAnswer, NewAnswer, OptimizeAnswer, PlotAnswer, PresetsAnswer, ReportAnswer,
-    RoundAnswer, SchemaAnswer, SelfmotionAnswer, SingularitiesAnswer, TolerancesAnswer, TopologiesAnswer,
-    VerifyAnswer, ViewAnswer,
+    AssessAnswer, CheckAnswer, CompareAnswer, CompletionsAnswer, ComponentsAnswer, ConvertAnswer, Document,
+    ErrorAnswer, ExploreAnswer, ExportAnswer, FamilyAnswer, FkAnswer, HelpAnswer, IkAnswer, LocusAnswer,
+    ManAnswer, MapAnswer, MotionAnswer, MoveAnswer, NearestAnswer, NewAnswer, OptimizeAnswer, PlotAnswer,
+    PresetsAnswer, ReportAnswer, RoundAnswer, SchemaAnswer, SelfmotionAnswer, SingularitiesAnswer,
+    TolerancesAnswer, TopologiesAnswer, VerifyAnswer, ViewAnswer,
 };
 
 /// Names of answers with the function that writes their schema: commands by their own names, those of a group as `singular-poses`, `error` for refusals, `help` for --help.
@@ -22,6 +22,7 @@ const ANSWERS: Table = &[
     ("build-round", Document::<RoundAnswer>::json_schema),
     ("build-tolerances", Document::<TolerancesAnswer>::json_schema),
     ("check", Document::<CheckAnswer>::json_schema),
+    ("compare", Document::<CompareAnswer>::json_schema),
     ("design-convert", Document::<ConvertAnswer>::json_schema),
     ("design-presets", Document::<PresetsAnswer>::json_schema),
     ("design-schema", Document::<SchemaAnswer>::json_schema),

@@ -6,13 +6,13 @@ use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
 use serde_json::{Map, Value};
 
 use super::kind::{ResultVerdict, heading, verdict};
-use super::{Report, ReportFile, facts, inputs, requirements};
+use super::{Report, ReportFile, comparison, facts, inputs, requirements};
 use crate::design::{Design, Format, parse};
 use crate::page::policy;
 use crate::plot::escape;
 use crate::records::sha256;
 
-const STYLE: &str = include_str!("style.css");
+const STYLE: &str = concat!(include_str!("style.css"), include_str!("comparison.css"));
 
 /// What a file is.
 enum Content {
@@ -53,7 +53,7 @@ pub fn html(report: &Report) -> String {
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\">\n\
          <meta name=\"color-scheme\" content=\"light dark\">\n<title>{title}</title>\n<style>{STYLE}</style></head>\n<body><main>\n<h1>{title}</h1>\n\
-         <p class=\"note\">Report of equipod {}. Every number stands in one of the files listed at the end.</p>",
+         <p class=\"note\">Report of equipod {}. Every number stands in one of the files listed at the end, or in the comparison, which was computed from the designs among them.</p>",
         env!("CARGO_PKG_VERSION")
     );
     verdicts(&mut out, &contents);
@@ -66,6 +66,9 @@ pub fn html(report: &Report) -> String {
             _ => None,
         }),
     );
+    let side_by_side =
+        report.comparison.iter().map(|c| comparison::notes(&c.answer) + &comparison::table(c, false));
+    section(&mut out, "comparison", "Designs side by side", side_by_side);
     section(
         &mut out,
         "pictures",

@@ -9,7 +9,7 @@ fn file(name: &str, text: &str) -> ReportFile {
 const DESIGN: &str = include_str!("../../designs/rbt-octahedral.toml");
 
 fn report(files: Vec<ReportFile>) -> String {
-    html(&Report { title: "A <test>".into(), files, view: None })
+    html(&Report { title: "A <test>".into(), files, comparison: None, view: None })
 }
 
 #[test]
@@ -54,6 +54,7 @@ fn files_cannot_break_out_of_their_place() {
             file("broken.json", "{"),
             file("broken.toml", "legs = ["),
         ],
+        comparison: None,
         view: Some("<!doctype html><script>let a = \"b\" && 1</script>".into()),
     });
     assert!(!text.contains("<script") && !text.contains("</td>\"") && !text.contains("<b>"));
@@ -214,6 +215,7 @@ fn foreign_texts_never_become_markup() {
                 file(&format!("{}.json", hostile()), &result),
                 file(&hostile(), &hostile()),
             ],
+            comparison: None,
             view: Some(hostile()),
         });
         assert!(text.contains("<h2>Designs</h2>") && text.contains("<h2>Results</h2>"), "round {round}");

@@ -124,11 +124,7 @@ impl LegMasses {
     pub fn scaled(&self, factor: f64) -> Self {
         let part =
             |p: &LegPart| LegPart { mass: p.mass * factor, center: p.center, inertia: p.inertia * factor };
-        Self {
-            cylinder: part(&self.cylinder),
-            rod: part(&self.rod),
-            reflected: self.reflected * factor,
-        }
+        Self { cylinder: part(&self.cylinder), rod: part(&self.rod), reflected: self.reflected * factor }
     }
 }
 

@@ -11,6 +11,7 @@ mod cli_align;
 mod cli_assess;
 mod cli_bench;
 mod cli_check;
+mod cli_compare;
 mod cli_components;
 mod cli_explore;
 mod cli_export;

@@ -17,6 +17,7 @@ mod assess;
 mod bench;
 mod build;
 mod check;
+mod compare;
 mod design;
 mod equivalents;
 mod explore;
@@ -64,6 +65,8 @@ pub(crate) enum Command {
     Explore(explore::Args),
     /// Decide whether a design meets its requirements at all poses of its workspace
     Assess(assess::Args),
+    /// Set designs side by side: margins, forces, stiffness, sizes, tolerances
+    Compare(compare::Args),
     /// Compute forces, speeds and powers of the legs along a trajectory or standard manoeuvres
     Motion(motion::Args),
     /// Find the best platform under the requirements of a design
@@ -108,6 +111,7 @@ impl Command {
             Self::Verify(args) => verify::run(args, context),
             Self::Explore(args) => explore::run(args, context),
             Self::Assess(args) => assess::run(args, context),
+            Self::Compare(args) => compare::run(args, context),
             Self::Motion(args) => motion::run(args, context),
             Self::Optimize(args) => optimize::run(args, context),
             Self::Check(args) => check::run(args, context),

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
+use super::compare::{Asked, compare};
 use super::explore::folder::FIRST;
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
@@ -15,7 +16,7 @@ use crate::cli::requirements;
 use crate::design::{Design, Format, parse};
 use crate::page::{CORE, Session, page as view};
 use crate::records::{AssessAnswer, ReportAnswer};
-use crate::report::{Report, ReportFile, html};
+use crate::report::{Comparison, Report, ReportFile, html};
 use crate::synthesis::Pattern;
 
 /// The page in its folder.
@@ -63,7 +64,19 @@ pub(super) fn page(files: Vec<ReportFile>, title: Option<String>) -> String {
     let first = files.iter().find_map(design_of);
     let title = title.or_else(|| first.as_ref().map(|d| d.name.clone())).unwrap_or_else(|| "Results".into());
     let view = first.map(|design| live(design, &files));
-    html(&Report { title, files, view })
+    let comparison = side_by_side(&files);
+    html(&Report { title, files, comparison, view })
+}
+
+/// Poses looked at for the comparison of the designs of a folder, of each of the two kinds.
+const COMPARED_POSES: usize = 200;
+
+/// The designs among the files, where there are several in the same units.
+fn side_by_side(files: &[ReportFile]) -> Option<Comparison> {
+    let designs: Vec<(String, Design)> =
+        files.iter().filter_map(|f| design_of(f).map(|design| (f.name.clone(), design))).collect();
+    let several = designs.len() > 1;
+    several.then(|| compare(&designs, &Asked::plain(COMPARED_POSES)).ok()).flatten()
 }
 
 /// The live page of a design; it begins with the offsets that a result among the files found.

@@ -9,7 +9,10 @@ use crate::design::violation::Findings;
 use crate::design::{Code, OptimizeTable, SearchTable, Trajectory, Workspace};
 use crate::geom::Pose;
 use crate::manipulator::Body;
-use crate::requirements::{Hardware, Housing, JointAxes, KeepOut, KeepOutShape, LegBody, LegMasses, LegPart, LengthLimits, ListedFrom, Load, PlatformSpeed, Region, Swing};
+use crate::requirements::{
+    Hardware, Housing, JointAxes, KeepOut, KeepOutShape, LegBody, LegMasses, LegPart, LengthLimits,
+    ListedFrom, Load, PlatformSpeed, Region, Swing,
+};
 
 pub(super) const POSE_KEYS: [&str; 4] = ["position", "rpy_deg", "quat_wxyz", "rotation"];
 pub(super) const WORKSPACE_KEYS: [&str; 7] =

@@ -79,6 +79,12 @@ const CALLS: &[(i32, &str, &str)] = &[
     (1, "equivalents-map", "{rbt-octahedral} {rbt-griffis-duffy} --exchange -o {exchanged.toml}"),
     (0, "equivalents-map", "{general-6-6} {turned} --align -o {aligned.toml}"),
     (1, "equivalents-map", "{general-6-6} {off} --align"),
+    (
+        0,
+        "compare",
+        "{rbt-octahedral} {rbt-griffis-duffy} --points 20 --sine z:1:1 --accuracy 0.1,0.05 --csv {compare.csv} -o {compare.html}",
+    ),
+    (0, "compare", "{simulator-octahedral} {simulator-joint-free} --points 20 --accelerate z:1"),
     (0, "motion", "{simulator-octahedral} --sine z:0.05:0.5 --accelerate x:1 --csv {motion.csv}"),
     (1, "motion", "{simulator-octahedral} --sine z:0.05:4"),
     (0, "motion", "{bench-octahedral} --sine x:1:1"),

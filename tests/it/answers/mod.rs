@@ -7,11 +7,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
 use equipod::records::{
-    AssessAnswer, BenchAnswer, CheckAnswer, CompletionsAnswer, ComponentsAnswer, ConvertAnswer, Document,
-    ErrorAnswer, ExploreAnswer, ExportAnswer, FamilyAnswer, FkAnswer, FkRunRecord, HelpAnswer, IkAnswer,
-    LocusAnswer, ManAnswer, MapAnswer, MotionAnswer, MoveAnswer, NearestAnswer, NewAnswer, OptimizeAnswer, PlotAnswer,
-    PresetsAnswer, ReportAnswer, RoundAnswer, SchemaAnswer, SelfmotionAnswer, SingularitiesAnswer,
-    TolerancesAnswer, TopologiesAnswer, VerifyAnswer, ViewAnswer, schema, schema_names,
+    AssessAnswer, BenchAnswer, CheckAnswer, CompareAnswer, CompletionsAnswer, ComponentsAnswer,
+    ConvertAnswer, Document, ErrorAnswer, ExploreAnswer, ExportAnswer, FamilyAnswer, FkAnswer, FkRunRecord,
+    HelpAnswer, IkAnswer, LocusAnswer, ManAnswer, MapAnswer, MotionAnswer, MoveAnswer, NearestAnswer,
+    NewAnswer, OptimizeAnswer, PlotAnswer, PresetsAnswer, ReportAnswer, RoundAnswer, SchemaAnswer,
+    SelfmotionAnswer, SingularitiesAnswer, TolerancesAnswer, TopologiesAnswer, VerifyAnswer, ViewAnswer,
+    schema, schema_names,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -59,6 +60,7 @@ const TYPES: &[(&str, Reread)] = &[
     ("shell-man", reread::<ManAnswer>),
     ("singular-motion", reread::<SelfmotionAnswer>),
     ("singular-poses", reread::<SingularitiesAnswer>),
+    ("compare", reread::<CompareAnswer>),
     ("motion", reread::<MotionAnswer>),
     ("verify", reread::<VerifyAnswer>),
     ("view", reread::<ViewAnswer>),
@@ -292,7 +294,17 @@ const GROUPS: [&[&str]; 4] = [
         "design-presets",
         "design-convert",
     ],
-    &["optimize", "assess", "motion", "build-round", "view", "export", "shell-completions", "shell-man"],
+    &[
+        "optimize",
+        "assess",
+        "compare",
+        "motion",
+        "build-round",
+        "view",
+        "export",
+        "shell-completions",
+        "shell-man",
+    ],
     &[
         "explore",
         "report",

@@ -1,7 +1,7 @@
 //! `equipod build`: from the design on paper to the workshop.
 
 mod round;
-mod tolerances;
+pub(super) mod tolerances;
 
 use clap::Subcommand;
 

@@ -12,10 +12,10 @@ use crate::cli::output::Answer;
 use crate::cli::{poses, rows};
 use crate::design::Design;
 use crate::dynamics::{InvalidManoeuvre, Manoeuvre, PathEnds, PosePath};
-use crate::entrance::{Motion, MotionMasses, MotionReport};
+use crate::entrance::{MotionMasses, MotionReport, PlatformMotion};
 use crate::export::LengthUnit;
 use crate::geom::Pose;
-use crate::records::{MotionAnswer, MotionRunRecord};
+use crate::records::{MotionAnswer, MotionRunRecord, StiffnessRecord};
 use crate::requirements::{ForceUnit, Load};
 
 /// Arguments of `motion`.
@@ -31,7 +31,10 @@ pub(crate) struct Args {
     /// An acceleration from rest at a pose, design units or degrees per second squared, as often as there are some
     #[arg(long, value_name = "AXIS:ACCELERATION", allow_hyphen_values = true)]
     accelerate: Vec<String>,
-    /// The pose of sines and accelerations: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`
+    /// Stiffness matrix and natural frequencies at the pose of --about
+    #[arg(long)]
+    stiffness: bool,
+    /// The pose of sines, accelerations and the stiffness: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`
     #[arg(long, value_name = "POSE", allow_hyphen_values = true, default_value = "home")]
     about: String,
     /// A load of the design that acts all the time besides the weight, by its name
@@ -64,6 +67,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let masses = masses(args, &design)?;
     let found: Vec<(String, MotionReport)> =
         motions.iter().map(|(name, motion)| (name.clone(), design.along(motion, masses.as_ref()))).collect();
+    let stiffness = stiffness(args, &design, masses.as_ref())?;
     if let Some(path) = &args.csv {
         files::write_text(path, &render::csv(&design, &found))?;
     }
@@ -76,6 +80,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         force_unit: force_unit(&design).label().into(),
         assumptions: assumptions(&design),
         motions: records,
+        stiffness,
         csv: args.csv.as_ref().map(|path| path.display().to_string()),
     };
     let exit = if answer.met { Exit::Yes } else { Exit::No };
@@ -92,11 +97,18 @@ fn refuse_without_effect(args: &Args, design: &Design, context: &Context) -> Res
         context.no_effect("at_rest", "there is no trajectory")?;
         context.no_effect("steps", "there is no trajectory")?;
     }
+    if args.trajectory.is_none() && args.sine.is_empty() && args.accelerate.is_empty() {
+        context.no_effect("csv", "there is no motion")?;
+        context.no_effect("load", "there is no motion")?;
+    }
     if args.sine.is_empty() {
         context.no_effect("samples", "there is no sine")?;
     }
-    if args.sine.is_empty() && args.accelerate.is_empty() {
-        context.no_effect("about", "there is neither a sine nor an acceleration")?;
+    if args.sine.is_empty() && args.accelerate.is_empty() && !args.stiffness {
+        context.no_effect(
+            "about",
+            "there is neither a sine nor an acceleration, and no stiffness is asked for",
+        )?;
     }
     if design.payload.is_none() {
         for option in ["load", "unit"] {
@@ -107,27 +119,51 @@ fn refuse_without_effect(args: &Args, design: &Design, context: &Context) -> Res
 }
 
 /// The motions with their names, in the order of the answer.
-fn motions(args: &Args, design: &Design, context: &Context) -> Result<Vec<(String, Motion)>, Failure> {
+fn motions(
+    args: &Args,
+    design: &Design,
+    context: &Context,
+) -> Result<Vec<(String, PlatformMotion)>, Failure> {
     let mut out = Vec::new();
     if let Some(path) = &args.trajectory {
         let ends = if args.at_rest { PathEnds::AtRest } else { PathEnds::Free };
-        let motion = Motion::Path(trajectory(path, ends, context)?, args.steps as usize);
+        let motion = PlatformMotion::Path(trajectory(path, ends, context)?, args.steps as usize);
         out.push((files::shown(path), motion));
     }
-    let about = poses::parse(&args.about, design, "--about", "motion::bad_pose")?;
+    let about = about(args, design)?;
     for text in &args.sine {
         let sine = Manoeuvre::sine(text).map_err(|e| no_manoeuvre("--sine", &e))?;
-        out.push((format!("sine {text}"), Motion::Manoeuvre(sine, about, args.samples as usize)));
+        out.push((format!("sine {text}"), PlatformMotion::Manoeuvre(sine, about, args.samples as usize)));
     }
     for text in &args.accelerate {
         let start = Manoeuvre::acceleration(text).map_err(|e| no_manoeuvre("--accelerate", &e))?;
-        out.push((format!("accelerate {text}"), Motion::Manoeuvre(start, about, 1)));
+        out.push((format!("accelerate {text}"), PlatformMotion::Manoeuvre(start, about, 1)));
     }
-    if out.is_empty() {
+    if out.is_empty() && !args.stiffness {
         let help = "give a table of times and poses, --sine z:50:1 or --accelerate x:2000";
         return Err(Failure::refused("motion::no_motion", "there is no motion to look at").with_help(help));
     }
     Ok(out)
+}
+
+fn about(args: &Args, design: &Design) -> Result<Pose, Failure> {
+    poses::parse(&args.about, design, "--about", "motion::bad_pose")
+}
+
+/// The stiffness at the pose asked for.
+fn stiffness(
+    args: &Args,
+    design: &Design,
+    masses: Option<&MotionMasses>,
+) -> Result<Option<StiffnessRecord>, Failure> {
+    if !args.stiffness {
+        return Ok(None);
+    }
+    let found = design.stiffness_at(&about(args, design)?, masses).ok_or_else(|| {
+        Failure::refused("motion::no_stiffness", "the design does not say how stiff its legs are")
+            .with_help("add leg_stiffness to [hardware], force units per design unit")
+    })?;
+    Ok(Some(StiffnessRecord::new(&found)))
 }
 
 fn no_manoeuvre(option: &str, why: &InvalidManoeuvre) -> Failure {
@@ -166,9 +202,8 @@ fn masses(args: &Args, design: &Design) -> Result<Option<MotionMasses>, Failure>
         return Ok(None);
     }
     let unit = match &args.unit {
-        Some(label) => {
-            LengthUnit::of(label).map_err(|e| Failure::refused("motion::unknown_unit", format!("--unit: {e}")))?
-        }
+        Some(label) => LengthUnit::of(label)
+            .map_err(|e| Failure::refused("motion::unknown_unit", format!("--unit: {e}")))?,
         None => LengthUnit::of(&design.units).map_err(|e| {
             let message = format!("the units of the design cannot be used: {e}");
             Failure::refused("motion::unknown_unit", message)

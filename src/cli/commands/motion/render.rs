@@ -2,11 +2,12 @@
 
 use std::fmt::Write as _;
 
+use crate::cli::numbers::significant as short;
 use crate::cli::poses;
 use crate::cli::table::{column_unit, csv_line, number};
 use crate::design::Design;
 use crate::entrance::MotionReport;
-use crate::records::{ExtremeRecord, MotionAnswer, MotionRunRecord, TimedMarginRecord};
+use crate::records::{ExtremeRecord, MotionAnswer, MotionRunRecord, StiffnessRecord, TimedMarginRecord};
 
 /// The sentence, and for each motion a table of legs and one of requirements.
 pub(super) fn text(answer: &MotionAnswer) -> String {
@@ -26,6 +27,9 @@ pub(super) fn text(answer: &MotionAnswer) -> String {
         legs(&mut out, answer, motion);
         requirements(&mut out, motion);
     }
+    if let Some(found) = &answer.stiffness {
+        stiffness(&mut out, answer, found);
+    }
     if let Some(path) = &answer.csv {
         let _ = writeln!(out, "wrote {path}");
     }
@@ -43,25 +47,16 @@ fn sentence(answer: &MotionAnswer) -> String {
     if !all.is_empty() {
         return format!("exceeds its limits: {}", all.join(", "));
     }
+    if answer.motions.is_empty() {
+        return "at a pose".into();
+    }
     let limited = answer.motions.iter().any(|m| !m.requirements.is_empty());
-    if limited { "stays within its limits at the instants looked at" } else { "has no limits along its motions" }
-        .to_string()
-}
-
-/// Six significant digits.
-fn short(x: f64) -> String {
-    if x == 0.0 {
-        return "0".into();
+    if limited {
+        "stays within its limits at the instants looked at"
+    } else {
+        "has no limits along its motions"
     }
-    let digits = 5 - x.abs().log10().floor() as i64;
-    match usize::try_from(digits) {
-        Ok(digits) if digits <= 12 => {
-            let text = format!("{x:.digits$}");
-            if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_string() } else { text }
-        }
-        Ok(_) => format!("{x:.5e}"),
-        Err(_) => format!("{x:.0}"),
-    }
+    .to_string()
 }
 
 fn legs(out: &mut String, answer: &MotionAnswer, motion: &MotionRunRecord) {
@@ -99,7 +94,45 @@ fn legs(out: &mut String, answer: &MotionAnswer, motion: &MotionRunRecord) {
         out.push('\n');
     }
     if let Some(time) = motion.singular_at_s {
-        let _ = writeln!(out, "At {} s the pose is singular: no forces of the legs give this motion.", short(time));
+        let _ = writeln!(
+            out,
+            "At {} s the pose is singular: no forces of the legs give this motion.",
+            short(time)
+        );
+    }
+}
+
+fn stiffness(out: &mut String, answer: &MotionAnswer, found: &StiffnessRecord) {
+    let (length, force) = (&answer.length_unit, &answer.force_unit);
+    let _ = writeln!(out, "\nstiffness at {}", found.pose.short());
+    let _ = writeln!(
+        out,
+        "least: {} {force}/{length} against a force through the platform origin, {} {force} {length}/rad against a torque",
+        short(found.linear.0),
+        short(found.angular.0)
+    );
+    let _ = writeln!(out, "K (rows: force, torque; columns: shift, turn in radians)");
+    for row in &found.matrix {
+        for x in row {
+            let _ = write!(out, " {:>14}", short(x.0));
+        }
+        out.push('\n');
+    }
+    match &found.natural {
+        None => out.push_str(
+            "No natural frequencies: the payload has no mass, or no inertia that is held against turns.\n",
+        ),
+        Some(all) => {
+            let _ = writeln!(out, "{:>14}  shape: shift of the platform origin, turn", "frequency Hz");
+            for one in all {
+                let _ = write!(out, "{:>14} ", short(one.frequency_hz.0));
+                let most = one.shape.iter().map(|x| x.0.abs()).fold(f64::MIN_POSITIVE, f64::max);
+                for x in &one.shape {
+                    let _ = write!(out, " {:>8.4}", x.0 / most);
+                }
+                out.push('\n');
+            }
+        }
     }
 }
 
@@ -109,7 +142,8 @@ fn requirements(out: &mut String, motion: &MotionRunRecord) {
     }
     let reserved = motion.requirements.iter().any(|r| r.margin.reserve.0 > 0.0);
     let column = if reserved { format!(" {:>14}", "less reserve") } else { String::new() };
-    let _ = writeln!(out, "{:<18} {:>14}{column} {:<8} {:<24} at s", "requirement", "least margin", "unit", "of");
+    let _ =
+        writeln!(out, "{:<18} {:>14}{column} {:<8} {:<24} at s", "requirement", "least margin", "unit", "of");
     for row in &motion.requirements {
         let TimedMarginRecord { time_s, margin } = row;
         let mark = if margin.at_limit {

@@ -1,0 +1,215 @@
+//! The figures by which designs are compared.
+
+use nalgebra::{Point3, Vector3};
+
+use super::judging::AssessReport;
+use super::moving::{MotionMasses, MotionReport, PlatformMotion};
+use crate::design::Design;
+use crate::dynamics::{least_stiffness, mass_matrix, stiffness_matrix, vibration};
+use crate::geom::Pose;
+use crate::manipulator::{Body, inverse_condition, jacobian};
+use crate::manufacture::{ErrorBound, PoseSearch, ToleranceError, joint_allowance};
+use crate::num::Purpose;
+use crate::requirements::{TermKind, Terms, leg_forces};
+
+/// Steps between two poses of a trajectory.
+const STEPS: usize = 10;
+/// Lengths at home that differ by less than this share of the size are one: a drawing does not tell them apart.
+const SAME_LENGTH: f64 = 1e-6;
+
+/// What is looked at.
+#[derive(Debug, Clone)]
+pub(crate) struct FigureOptions<'a> {
+    /// Points of a Halton sequence, and as many random ones, in the region of poses.
+    pub(crate) points: usize,
+    /// Seed of the random poses.
+    pub(crate) seed: u64,
+    /// Motions about home.
+    pub(crate) motions: &'a [PlatformMotion],
+    /// What forces along them are computed from.
+    pub(crate) masses: Option<&'a MotionMasses>,
+    /// The accuracy for which joints are toleranced.
+    pub(crate) accuracy: Option<ErrorBound>,
+}
+
+/// Figures of a design over the poses of its workspace. What a design says nothing about has none; an infinite force stands for a singular pose.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct DesignFigures {
+    /// What `assess` says; `None` where nothing is required.
+    pub(crate) assessment: Option<AssessReport>,
+    /// Poses looked at.
+    pub(crate) poses: usize,
+    /// Least and greatest leg length.
+    pub(crate) lengths: [f64; 2],
+    /// Lengths at home that differ.
+    pub(crate) different_legs: usize,
+    /// Greatest leg force under the loads.
+    pub(crate) force: Option<f64>,
+    /// Greatest leg speed under the speed of the platform.
+    pub(crate) speed: Option<f64>,
+    /// Greatest force, speed and power (watts) of a leg along the motions.
+    pub(crate) motion: MotionFigures,
+    /// Least inverse condition number.
+    pub(crate) conditioning: f64,
+    /// Least stiffness against a force.
+    pub(crate) stiffness: Option<f64>,
+    /// Lowest natural frequency, hertz.
+    pub(crate) frequency: Option<f64>,
+    /// Least distance of two joint centres of base and platform; `None` where a body has one.
+    pub(crate) spacing: [Option<f64>; 2],
+    /// Least gap between two legs.
+    pub(crate) clearance: Option<f64>,
+    /// Greatest distance of a joint of base and platform from the centroid of the joints of its body.
+    pub(crate) radius: [f64; 2],
+    /// How far each joint may be off for the accuracy to be kept: a radius, or why there is none.
+    pub(crate) allowance: Option<Result<f64, ToleranceError>>,
+}
+
+/// The greatest of all legs along all motions.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct MotionFigures {
+    pub(crate) force: Option<f64>,
+    pub(crate) speed: Option<f64>,
+    pub(crate) power: Option<f64>,
+}
+
+impl MotionFigures {
+    fn of(reports: &[MotionReport]) -> Self {
+        let legs = || reports.iter().flat_map(|r| &r.legs);
+        let greatest = |values: Vec<f64>| values.into_iter().map(f64::abs).reduce(f64::max);
+        let drives = || legs().map(|l| l.drive).collect::<Option<Vec<_>>>().unwrap_or_default();
+        Self {
+            force: greatest(drives().iter().flat_map(|d| [d.push.value, d.pull.value]).collect()),
+            speed: greatest(legs().map(|l| l.speed.value).collect()),
+            power: greatest(drives().iter().map(|d| d.power.value).collect()),
+        }
+    }
+}
+
+impl Design {
+    /// The figures of the design.
+    pub(crate) fn figures(&self, options: &FigureOptions<'_>) -> DesignFigures {
+        let m = self.manipulator();
+        let home = self.home_or_default();
+        let space = self.workspace_or_default().space(&home);
+        let mut rng = Purpose::ASSESSED_POSES.rng(options.seed);
+        let region = space.cube_points(options.points, &mut rng).into_iter().map(|x| space.pose(&x));
+        let poses: Vec<Pose> = space.listed(STEPS).into_iter().chain(region).collect();
+        let least = |values: &dyn Fn(&Pose) -> Option<f64>| -> Option<f64> {
+            poses.iter().map(values).collect::<Option<Vec<f64>>>()?.into_iter().reduce(f64::min)
+        };
+        let lengths = |pose: &Pose| m.legs().map(|l| (pose.transform(&l.platform) - l.base).norm());
+        let all = || poses.iter().flat_map(lengths);
+        let moving: Vec<MotionReport> =
+            options.motions.iter().map(|motion| self.along(motion, options.masses)).collect();
+        let required = self.requirements();
+        let terms = Terms::new(m, &required, &home);
+        let clearance = required.hardware.leg_clearance.unwrap_or(0.0);
+        let gap = |pose: &Pose| {
+            let gaps = terms.at(pose).into_iter().filter(|(t, _)| t.kind == TermKind::LegClearance);
+            gaps.map(|(_, margin)| margin + clearance).reduce(f64::min)
+        };
+        let characteristic = self.characteristic_length();
+        let conditioning = |pose: &Pose| Some(inverse_condition(&jacobian(m, pose, characteristic)));
+        let stiffness = self.hardware.leg_stiffness;
+        // a singular pose has none
+        let softest = |pose: &Pose| {
+            least_stiffness(&stiffness_matrix(m, pose, stiffness?)).map_or(Some(0.0), |s| Some(s.linear))
+        };
+        let lowest = |pose: &Pose| self.lowest_frequency(pose, options.masses?);
+        DesignFigures {
+            assessment: self.assessed_briefly(options.seed),
+            poses: poses.len(),
+            lengths: [all().fold(f64::INFINITY, f64::min), all().fold(0.0, f64::max)],
+            different_legs: different(lengths(&home), SAME_LENGTH * m.size()),
+            force: least(&|pose| self.greatest_force(pose).map(|f| -f)).map(|f| -f),
+            speed: least(&|pose| self.greatest_speed(pose).map(|v| -v)).map(|v| -v),
+            motion: MotionFigures::of(&moving),
+            conditioning: least(&conditioning).unwrap_or(f64::NAN),
+            stiffness: least(&softest),
+            frequency: least(&lowest),
+            spacing: Body::BOTH.map(|body| self.least_spacing(body)),
+            clearance: least(&gap),
+            radius: Body::BOTH.map(|body| self.radius(body)),
+            allowance: options.accuracy.map(|bound| {
+                let search = PoseSearch {
+                    points: options.points.min(300),
+                    seed: options.seed,
+                    ..PoseSearch::default()
+                };
+                joint_allowance(m, &space, Point3::origin(), bound, &search).map(|found| found.value)
+            }),
+        }
+    }
+
+    /// The greatest force of a leg under the loads; infinite at a singular pose.
+    fn greatest_force(&self, pose: &Pose) -> Option<f64> {
+        let m = self.manipulator();
+        let each = |wrench| leg_forces(m, pose, &wrench, m.size()).map_or(f64::INFINITY, |f| f.amax());
+        self.all_loads().iter().map(|load| each(load.wrench(pose))).reduce(f64::max)
+    }
+
+    /// The greatest speed of a leg in the worst direction of motion.
+    fn greatest_speed(&self, pose: &Pose) -> Option<f64> {
+        let speed = self.speed?;
+        let rows = jacobian(self.manipulator(), pose, 1.0);
+        let of =
+            |i: usize| speed.linear + rows.fixed_view::<1, 3>(i, 3).norm() * speed.angular_deg.to_radians();
+        (0..6).map(of).reduce(f64::max)
+    }
+
+    /// The lowest natural frequency at a pose, hertz; `None` without the stiffness of the legs, and for a point mass that no inertia holds against turns.
+    pub(crate) fn lowest_frequency(&self, pose: &Pose, masses: &MotionMasses) -> Option<f64> {
+        let m = self.manipulator();
+        let stiffness = masses.per_second_squared(self.hardware.leg_stiffness?);
+        let found = vibration(m, pose, stiffness, &mass_matrix(m, masses.bodies(), pose))?;
+        Some(found[0].frequency)
+    }
+
+    /// Joints of a body that carry legs.
+    fn used_joints(&self, body: Body) -> Vec<Point3<f64>> {
+        let m = self.manipulator();
+        let used = m.pairs().map(|pair| body.of(pair));
+        let joints = m.joints(body).iter().enumerate();
+        joints.filter(|(i, _)| used.contains(i)).map(|(_, p)| *p).collect()
+    }
+
+    fn least_spacing(&self, body: Body) -> Option<f64> {
+        let joints = self.used_joints(body);
+        let pairs =
+            joints.iter().enumerate().flat_map(|(i, a)| joints[i + 1..].iter().map(move |b| (b - a).norm()));
+        pairs.reduce(f64::min)
+    }
+
+    fn radius(&self, body: Body) -> f64 {
+        let joints = self.used_joints(body);
+        let centroid = joints.iter().map(|p| p.coords).sum::<Vector3<f64>>() / joints.len() as f64;
+        joints.iter().map(|p| (p.coords - centroid).norm()).fold(0.0, f64::max)
+    }
+}
+
+/// How many values differ by more than a distance from all before them in their order of size.
+fn different(mut values: [f64; 6], distance: f64) -> usize {
+    values.sort_by(f64::total_cmp);
+    let mut kinds = 1;
+    let mut first = values[0];
+    for value in values {
+        if value - first > distance {
+            (kinds, first) = (kinds + 1, value);
+        }
+    }
+    kinds
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_are_told_apart_by_their_distance() {
+        assert_eq!(different([1.0; 6], 1e-6), 1);
+        assert_eq!(different([1.0, 2.0, 1.0, 2.0, 1.0, 2.0 + 1e-9], 1e-6), 2);
+        assert_eq!(different([6.0, 5.0, 4.0, 3.0, 2.0, 1.0], 1e-6), 6);
+        assert_eq!(different([f64::NAN, 1.0, 1.0, 1.0, 1.0, 1.0], 1e-6), 1);
+    }
+}

@@ -1,0 +1,217 @@
+//! Answers that set designs side by side.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{AssessAnswer, Number};
+use crate::design::Design;
+use crate::entrance::DesignFigures;
+
+/// The answer of `compare`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CompareAnswer {
+    /// Of all designs.
+    pub length_unit: String,
+    /// Of all designs.
+    pub force_unit: String,
+    /// The manoeuvres about home along which forces, speeds and powers are taken.
+    pub manoeuvres: Vec<String>,
+    /// The accuracy for which joints are toleranced; null: none was asked for.
+    pub accuracy: Option<AccuracyRecord>,
+    /// In the order in which they were given.
+    pub designs: Vec<FiguresRecord>,
+    /// The table and the page that were written.
+    pub paths: Vec<String>,
+}
+
+/// How far the pose may be off.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct AccuracyRecord {
+    /// Of the platform origin, design units.
+    pub position: f64,
+    /// Angle of rotation.
+    pub rotation_deg: f64,
+}
+
+/// The figures of a design over the poses of its workspace. Null: the design says nothing about it, or the value is not finite.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct FiguresRecord {
+    /// Name of the design.
+    pub name: String,
+    /// Its file.
+    pub path: String,
+    /// What `assess` says of it; null: it requires nothing.
+    pub assessment: Option<AssessAnswer>,
+    /// Poses looked at.
+    pub poses: usize,
+    /// Least leg length.
+    pub shortest: Number,
+    /// Greatest leg length.
+    pub longest: Number,
+    /// The difference.
+    pub stroke: Number,
+    /// Lengths at home that differ by more than a millionth of the size.
+    pub different_legs: usize,
+    /// Greatest leg force under the payload and the loads, one at a time.
+    pub force: Option<Number>,
+    /// Greatest leg speed under the speed that the platform has to have.
+    pub speed: Option<Number>,
+    /// Greatest leg force along the manoeuvres.
+    pub motion_force: Option<Number>,
+    /// Greatest leg speed along the manoeuvres.
+    pub motion_speed: Option<Number>,
+    /// Greatest power of a drive along the manoeuvres, watts.
+    pub motion_power_w: Option<Number>,
+    /// Least inverse condition number of the Jacobian.
+    pub conditioning: Number,
+    /// Least stiffness against a force through the platform origin, force units per design unit.
+    pub stiffness: Option<Number>,
+    /// Lowest natural frequency.
+    pub frequency_hz: Option<Number>,
+    /// Least distance of two joint centres of the base.
+    pub base_spacing: Option<Number>,
+    /// The same on the platform.
+    pub platform_spacing: Option<Number>,
+    /// Least gap between two legs.
+    pub clearance: Option<Number>,
+    /// Greatest distance of a joint of the base from their centroid.
+    pub base_radius: Number,
+    /// The same on the platform.
+    pub platform_radius: Number,
+    /// How far every joint may be off, in any direction, for the accuracy to be kept to first order.
+    pub joint_tolerance: Option<Number>,
+    /// Why there is no such tolerance; null: there is one, or none was asked for.
+    pub no_tolerance: Option<String>,
+}
+
+impl FiguresRecord {
+    /// The figures of a design.
+    #[must_use]
+    pub(crate) fn new(design: &Design, path: String, found: &DesignFigures) -> Self {
+        let number = |x: Option<f64>| x.map(Number);
+        let [shortest, longest] = found.lengths;
+        let (tolerance, no_tolerance) = match &found.allowance {
+            None => (None, None),
+            Some(Ok(value)) => (Some(*value), None),
+            Some(Err(why)) => (None, Some(why.to_string())),
+        };
+        Self {
+            name: design.name.clone(),
+            path,
+            assessment: found.assessment.as_ref().map(|report| AssessAnswer::new(design, report)),
+            poses: found.poses,
+            shortest: Number(shortest),
+            longest: Number(longest),
+            stroke: Number(longest - shortest),
+            different_legs: found.different_legs,
+            force: number(found.force),
+            speed: number(found.speed),
+            motion_force: number(found.motion.force),
+            motion_speed: number(found.motion.speed),
+            motion_power_w: number(found.motion.power),
+            conditioning: Number(found.conditioning),
+            stiffness: number(found.stiffness),
+            frequency_hz: number(found.frequency),
+            base_spacing: number(found.spacing[0]),
+            platform_spacing: number(found.spacing[1]),
+            clearance: number(found.clearance),
+            base_radius: Number(found.radius[0]),
+            platform_radius: Number(found.radius[1]),
+            joint_tolerance: number(tolerance),
+            no_tolerance,
+        }
+    }
+}
+
+/// A column of the table: a figure of every design.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct FigureColumn {
+    /// What it is.
+    pub(crate) title: String,
+    /// Its unit; empty for numbers without one.
+    pub(crate) unit: String,
+    /// By design; `None` where a design has none.
+    pub(crate) cells: Vec<Option<FigureCell>>,
+}
+
+/// A cell of the table.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum FigureCell {
+    /// A number; `true`: it violates a limit.
+    Number(f64, bool),
+    /// A word.
+    Word(&'static str),
+}
+
+impl CompareAnswer {
+    /// The table: a column for every figure that some design has.
+    pub(crate) fn columns(&self) -> Vec<FigureColumn> {
+        let (length, force) = (self.length_unit.as_str(), self.force_unit.as_str());
+        let speed = format!("{length}/s");
+        let stiffness = format!("{force}/{length}");
+        let mut out = vec![self.words("requirements", |d| {
+            d.assessment.as_ref().map(|a| match a.met {
+                Some(true) => "met",
+                Some(false) => "violated",
+                None => "undecided",
+            })
+        })];
+        out.extend(self.margins());
+        let of = |title: &str, unit: &str, value: &dyn Fn(&FiguresRecord) -> Option<Number>| FigureColumn {
+            title: title.into(),
+            unit: unit.into(),
+            cells: self
+                .designs
+                .iter()
+                .map(|d| value(d).filter(|x| !x.0.is_nan()).map(|x| FigureCell::Number(x.0, false)))
+                .collect(),
+        };
+        out.extend([
+            of("shortest leg", length, &|d| Some(d.shortest)),
+            of("longest leg", length, &|d| Some(d.longest)),
+            of("stroke used", length, &|d| Some(d.stroke)),
+            of("greatest force", force, &|d| d.force),
+            of("greatest speed", &speed, &|d| d.speed),
+            of("force in motion", force, &|d| d.motion_force),
+            of("speed in motion", &speed, &|d| d.motion_speed),
+            of("power in motion", "W", &|d| d.motion_power_w),
+            of("conditioning", "", &|d| Some(d.conditioning)),
+            of("least stiffness", &stiffness, &|d| d.stiffness),
+            of("lowest frequency", "Hz", &|d| d.frequency_hz),
+            of("joint spacing, base", length, &|d| d.base_spacing),
+            of("joint spacing, platform", length, &|d| d.platform_spacing),
+            of("leg clearance", length, &|d| d.clearance),
+            of("radius, base", length, &|d| Some(d.base_radius)),
+            of("radius, platform", length, &|d| Some(d.platform_radius)),
+            of("different legs", "", &|d| Some(Number(d.different_legs as f64))),
+            of("joint tolerance", length, &|d| d.joint_tolerance),
+        ]);
+        out.retain(|column| column.cells.iter().any(Option::is_some));
+        out
+    }
+
+    fn words(&self, title: &str, word: impl Fn(&FiguresRecord) -> Option<&'static str>) -> FigureColumn {
+        let cells = self.designs.iter().map(|d| word(d).map(FigureCell::Word)).collect();
+        FigureColumn { title: title.into(), unit: String::new(), cells }
+    }
+
+    /// A column for every kind of margin that some design has.
+    fn margins(&self) -> Vec<FigureColumn> {
+        let all = || self.designs.iter().filter_map(|d| d.assessment.as_ref()).flat_map(|a| &a.requirements);
+        let mut kinds: Vec<_> = all().map(|m| m.name).collect();
+        kinds.sort_unstable();
+        kinds.dedup();
+        let column = |kind: crate::requirements::TermKind| {
+            let margin = |d: &FiguresRecord| {
+                let found = d.assessment.as_ref()?.requirements.iter().find(|m| m.name == kind)?;
+                Some(FigureCell::Number(found.margin.0, found.violates()))
+            };
+            FigureColumn {
+                title: format!("margin {}", kind.code()),
+                unit: all().find(|m| m.name == kind).map(|m| m.unit.clone()).unwrap_or_default(),
+                cells: self.designs.iter().map(margin).collect(),
+            }
+        };
+        kinds.into_iter().map(column).collect()
+    }
+}
