@@ -10,6 +10,7 @@ run by qemu-system-arm. Every compiler also has to find a planted fault: a self-
 
 import argparse
 import itertools
+import os
 import pathlib
 import re
 import shutil
@@ -189,6 +190,19 @@ def operations(folder):
         print(run(place / "operations")[1])
 
 
+def linuxcnc(program, folder):
+    """The kinematics module with the headers and the HAL of LinuxCNC, where they are."""
+    root = os.environ.get("LINUXCNC_ROOT", "/")
+    if not pathlib.Path(root, "usr/include/linuxcnc/kinematics.h").exists():
+        print("  LinuxCNC's headers are not installed: its kinematics module was not compiled")
+        return
+    import linuxcnc as own
+    export(program, "worked/linuxcnc-griffis-duffy", [], folder)
+    # home of that design, millimetres
+    (folder / "height").write_text("508")
+    own.check(root, folder, told)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", help="the equipod program")
@@ -212,6 +226,7 @@ def main():
                 board(folder, wrong, design, args.table)
                 if args.table:
                     operations(folder)
+        linuxcnc(program, top / "linuxcnc")
     print(f"{len(passed)} passed, {len(failed)} failed" + (f", not installed: {', '.join(missing)}" if missing else ""))
     sys.exit(1 if failed or (missing and not args.allow_missing) else 0)
 
