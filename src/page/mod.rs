@@ -8,6 +8,7 @@ mod base64;
 mod begin;
 #[cfg(all(target_arch = "wasm32", feature = "page-core"))]
 mod exports;
+mod feasible;
 mod html;
 #[cfg(not(target_arch = "wasm32"))]
 mod licences;
@@ -21,6 +22,7 @@ mod request;
 mod scene;
 mod session;
 mod start;
+mod surface;
 #[cfg(test)]
 mod tests;
 mod worst;

@@ -98,14 +98,18 @@ const BEYOND: f64 = 1.5;
 /// Least reach of a slider: as a share of the size of the design, and in degrees.
 const LEAST_SLIDE: (f64, f64) = (0.25, 30.0);
 
+/// How far to either side of home the page looks: positions in design units, and angles in degrees.
+pub(super) fn reach(design: &Design) -> ([f64; 3], [f64; 3]) {
+    let workspace = design.workspace_or_default();
+    let least = LEAST_SLIDE.0 * design.manipulator().size();
+    let position = workspace.translation.map(|x| (BEYOND * x).max(least));
+    (position.into(), workspace.rotation_deg.map(|x| (BEYOND * x).max(LEAST_SLIDE.1)).into())
+}
+
 impl SlidesRecord {
     fn of(design: &Design) -> Self {
-        let workspace = design.workspace_or_default();
-        let least = LEAST_SLIDE.0 * design.manipulator().size();
-        Self {
-            position: workspace.translation.map(|x| (BEYOND * x).max(least)).into(),
-            rpy_deg: workspace.rotation_deg.map(|x| (BEYOND * x).max(LEAST_SLIDE.1)).into(),
-        }
+        let (position, rpy_deg) = reach(design);
+        Self { position, rpy_deg }
     }
 }
 

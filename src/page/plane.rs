@@ -10,8 +10,8 @@ use crate::plot::ValueGrid;
 const MOST: usize = 201;
 
 impl Equivalent {
-    /// `det A` with the offset `k` at `value`.
-    fn with(&self, changes: &[(usize, f64)]) -> Result<f64, Refusal> {
+    /// The offsets with other values of some.
+    fn changed(&self, changes: &[(usize, f64)]) -> Result<Vec<f64>, Refusal> {
         let mut offsets = self.offsets.clone();
         for (k, value) in changes {
             match offsets.get_mut(*k) {
@@ -19,7 +19,17 @@ impl Equivalent {
                 None => return Err(Refusal::new("offsets", format!("there is no offset {}", k + 1))),
             }
         }
-        self.pattern.determinant(&offsets).map_err(|e| Refusal::new("offsets", e))
+        Ok(offsets)
+    }
+
+    /// The platform with other values of some offsets.
+    pub(super) fn moved(&self, changes: &[(usize, f64)]) -> Result<Self, Refusal> {
+        Ok(Self { pattern: self.pattern.clone(), offsets: self.changed(changes)? })
+    }
+
+    /// `det A` with other values of some offsets.
+    pub(super) fn with(&self, changes: &[(usize, f64)]) -> Result<f64, Refusal> {
+        self.pattern.determinant(&self.changed(changes)?).map_err(|e| Refusal::new("offsets", e))
     }
 
     /// For each offset where `det A` vanishes when the others stay: `det A` is affine in every single one. `None` where it does not depend on it.
@@ -47,6 +57,21 @@ pub(super) struct PlaneRecord {
     zero: Vec<Vec<[f64; 2]>>,
 }
 
+/// Where the points of a square of two offsets lie.
+pub(super) fn square(
+    [i, j]: [usize; 2],
+    [low, high]: [f64; 2],
+    points: usize,
+) -> Result<impl Fn(usize) -> f64, Refusal> {
+    if i == j || !(2..=MOST).contains(&points) || !(low < high && high - low < f64::INFINITY) {
+        return Err(Refusal::new(
+            "request",
+            "two different offsets, low < high and 2 to 201 points are needed",
+        ));
+    }
+    Ok(move |k: usize| low + k as f64 / (points as f64 - 1.0) * (high - low))
+}
+
 /// Values on a square of two offsets, row by row with the first offset to the right, and the lines on which they vanish.
 pub(super) fn record(
     e: &Equivalent,
@@ -54,17 +79,12 @@ pub(super) fn record(
     [low, high]: [f64; 2],
     points: usize,
 ) -> Result<PlaneRecord, Refusal> {
-    if i == j || !(2..=MOST).contains(&points) || !(low < high && high - low < f64::INFINITY) {
-        return Err(Refusal::new(
-            "request",
-            "two different offsets, low < high and 2 to 201 points are needed",
-        ));
-    }
+    let at = square([i, j], [low, high], points)?;
     let place = |k: f64| low + k / (points as f64 - 1.0) * (high - low);
     let mut values = Vec::with_capacity(points * points);
     for row in 0..points {
         for column in 0..points {
-            values.push(e.with(&[(i, place(column as f64)), (j, place(row as f64))])?);
+            values.push(e.with(&[(i, at(column)), (j, at(row))])?);
         }
     }
     let grid = ValueGrid { columns: points, rows: points, values };

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::session::{Equivalent, InvalidStart, Session};
-use super::{begin, limits, modes, motion, opening, path, plane, scene, worst};
+use super::{begin, feasible, limits, modes, motion, opening, path, plane, scene, surface, worst};
 use crate::design::{Format, parse};
 use crate::geom::{Angles, Pose};
 use crate::records::PoseRecord;
@@ -60,6 +60,12 @@ pub(super) enum Request {
     Confirm { pose: PoseRecord, chosen: Chosen },
     /// `det A` over two offsets.
     Plane { chosen: Chosen, axes: [usize; 2], range: [f64; 2], points: usize },
+    /// Where over two offsets a requirement is violated in the workspace, at the poses that `assess` with so many points looks at before its searches.
+    Feasible { chosen: Chosen, axes: [usize; 2], range: [f64; 2], points: usize, samples: usize },
+    /// `det A = 0` over three offsets.
+    Surface { chosen: Chosen, axes: [usize; 3], range: [f64; 2], points: usize },
+    /// `det J = 0` over positions with the orientation of a pose.
+    Locus { pose: PoseRecord, which: Which, chosen: Option<Chosen>, points: usize },
     /// The curve of poses with the leg lengths of a pose.
     Motion { pose: PoseRecord, which: Which, chosen: Option<Chosen> },
     /// Names of the presets.
@@ -188,6 +194,17 @@ impl Session {
             }
             Request::Plane { chosen, axes, range, points } => {
                 plane::record(&chosen.equivalent()?, axes, range, points).map(value)
+            }
+            Request::Feasible { chosen, axes, range, points, samples } => {
+                let options = AssessOptions::new().points(samples);
+                feasible::record(self, &chosen.equivalent()?, axes, range, points, &options).map(value)
+            }
+            Request::Surface { chosen, axes, range, points } => {
+                surface::offsets(&chosen.equivalent()?, axes, range, points).map(value)
+            }
+            Request::Locus { pose, which, chosen, points } => {
+                let design = self.platform(which, equivalent(chosen)?)?;
+                surface::locus(&design, &self.home, &Pose::from(&pose), points).map(value)
             }
             Request::Motion { pose, which, chosen } => {
                 motion::record(self.platform(which, equivalent(chosen)?)?.manipulator(), &Pose::from(&pose))

@@ -6,7 +6,7 @@ use super::{Session, page};
 use crate::design::{Design, Format, PRESETS, parse};
 use crate::geom::{Angles, Pose};
 use crate::records::AssessAnswer;
-use crate::requirements::AssessOptions;
+use crate::requirements::{AssessOptions, assess};
 use crate::synthesis::{LegMapTolerances, leg_map};
 
 const OCTAHEDRAL: &str = include_str!("../../designs/rbt-octahedral.toml");
@@ -379,4 +379,131 @@ fn presets_and_points_are_designs() {
         ask(&session, &json!({"op": "points", "text": "1 2 3", "units": "mm"}))["error"]["code"],
         json!("points")
     );
+}
+
+/// What is shaded over two offsets is what `assess` finds for the platform of each point at the same poses.
+#[test]
+fn a_platform_is_shaded_where_a_requirement_is_violated_at_a_pose_of_the_workspace() {
+    let session = session(OCTAHEDRAL);
+    let chosen = ask(&session, &json!({"op": "open"}))["start"].clone();
+    let request = json!({
+        "op": "feasible", "chosen": chosen, "axes": [1, 3], "range": [-0.5, 1.5], "points": 9, "samples": 30,
+    });
+    let answer = ask(&session, &request);
+    let offsets = numbers(&chosen["offsets"]);
+    let shaded = answer["violated"].as_array().unwrap();
+    let mut met = 0;
+    for (k, shade) in shaded.iter().enumerate() {
+        let mut there = offsets.clone();
+        for (axis, place) in [(1, k % 9), (3, k / 9)] {
+            there[axis] = -0.5 + 0.25 * place as f64;
+        }
+        let pattern = &chosen["pattern"];
+        let request =
+            json!({"op": "design", "which": "second", "chosen": {"pattern": pattern, "offsets": there}});
+        let saved = ask(&session, &request);
+        if !saved["error"].is_null() {
+            assert_eq!(shade, &json!("no_platform"), "{there:?}");
+            continue;
+        }
+        let platform = built(&saved);
+        let found = assess(
+            platform.manipulator(),
+            &platform.requirements(),
+            &platform.workspace.space(&platform.home_or_default()),
+            &AssessOptions::new().points(30).searches(0),
+        );
+        assert_eq!(answer["poses"].as_u64().unwrap() as usize, found.poses);
+        let bad: Vec<&str> =
+            found.margins.iter().filter(|m| !m.standing.is_met()).map(|m| m.term.kind.code()).collect();
+        match shade.as_str() {
+            Some(kind) => assert!(bad.contains(&kind), "{there:?}: {kind} is not among {bad:?}"),
+            None => assert!(bad.is_empty(), "{there:?}: {bad:?}"),
+        }
+        met += usize::from(bad.is_empty());
+    }
+    assert!(0 < met && met < shaded.len(), "some of both: {met} of {}", shaded.len());
+    let chosen = ask(&Session::new(design(MIDLINE)), &json!({"op": "open"}))["start"].clone();
+    let bare = Session::new(Design::new("bare", "mm", design(OCTAHEDRAL).manipulator().clone()));
+    let request = json!({"op": "feasible", "chosen": chosen, "axes": [0, 1], "range": [0.0, 1.0], "points": 2, "samples": 1});
+    assert_eq!(ask(&bare, &request)["error"]["code"], json!("nothing_required"));
+    let twice = json!({"op": "feasible", "chosen": chosen, "axes": [1, 1], "range": [0.0, 1.0], "points": 2, "samples": 1});
+    assert_eq!(ask(&session, &twice)["error"]["code"], json!("request"));
+}
+
+#[test]
+fn det_a_vanishes_on_the_surface_over_three_offsets_and_changes_its_sign_across_it() {
+    let session = session(OCTAHEDRAL);
+    let home = ask(&session, &json!({"op": "open"}))["home"].clone();
+    let offsets = [0.1, 0.3, 0.45, 0.6, 0.2, 0.7];
+    let chosen = json!({"pattern": "S123456", "offsets": offsets});
+    let request =
+        json!({"op": "surface", "chosen": chosen, "axes": [0, 2, 5], "range": [-0.5, 1.5], "points": 17});
+    let surface = ask(&session, &request);
+    let vertices = surface["vertices"].as_array().unwrap();
+    assert!(surface["triangles"].as_array().unwrap().len() > 100);
+    let det = |at: &[f64]| {
+        let mut there = offsets;
+        for (axis, value) in [0, 2, 5].into_iter().zip(at) {
+            there[axis] = *value;
+        }
+        let chosen = json!({"pattern": "S123456", "offsets": there});
+        ask(&session, &json!({"op": "state", "pose": home, "chosen": chosen}))["map"]["det"].as_f64().unwrap()
+    };
+    for v in vertices.iter().step_by(97) {
+        let v = numbers(v);
+        // affine on the edges of the grid, cubic on the diagonals of its cells
+        assert!(det(&v).abs() < 0.02, "{v:?}: {}", det(&v));
+        let around = (0..3).flat_map(|k| [-0.1, 0.1].map(|step| (k, step)));
+        let signs: Vec<bool> = around
+            .map(|(k, step)| {
+                let mut beside = v.clone();
+                beside[k] += step;
+                det(&beside) > 0.0
+            })
+            .collect();
+        assert!(signs.contains(&true) && signs.contains(&false), "{v:?}");
+    }
+    let two = json!({"op": "surface", "chosen": chosen, "axes": [0, 2, 2], "range": [0.0, 1.0], "points": 5});
+    assert_eq!(ask(&session, &two)["error"]["code"], json!("request"));
+}
+
+/// Close to the surface `det J` is small and of both signs; a singular design is singular everywhere.
+#[test]
+fn the_surface_of_singular_positions_is_where_the_sign_of_det_j_changes() {
+    let session = session(OCTAHEDRAL);
+    let home = session.design().home_or_default();
+    let request = |pose: &Pose| json!({"op": "locus", "pose": crate::records::PoseRecord::from(pose), "which": "first", "points": 13});
+    let (m, l) = (session.design().manipulator(), session.design().characteristic_length());
+    let mut seen = 0;
+    for yaw in [0.0, 40.0, 70.0, 85.0] {
+        let turned = Pose::new(home.position, Angles::from_degrees([15.0, -25.0, yaw]));
+        let found = ask(&session, &request(&turned));
+        assert_eq!(found["everywhere"], json!(false));
+        let det = |p: nalgebra::Vector3<f64>| {
+            crate::manipulator::jacobian(m, &Pose { position: p, ..turned }, l).determinant()
+        };
+        let [low, high] = ["low", "high"].map(|end| numbers(&found["surface"][end]));
+        let cell: Vec<f64> = low.iter().zip(&high).map(|(a, b)| (b - a) / 12.0).collect();
+        for v in found["surface"]["vertices"].as_array().unwrap() {
+            let p = nalgebra::Vector3::from_column_slice(&numbers(v));
+            let around = (0..3).flat_map(|k| [-1.0, 1.0].map(|sign| (k, sign * cell[k])));
+            let signs: Vec<bool> = around
+                .map(|(k, step)| {
+                    let mut beside = p;
+                    beside[k] += step;
+                    det(beside) > 0.0
+                })
+                .collect();
+            assert!(signs.contains(&true) && signs.contains(&false), "yaw {yaw}: {p}");
+            seen += 1;
+        }
+    }
+    assert!(seen > 50, "{seen} points of a surface");
+    let midline = Session::new(design(MIDLINE));
+    let chosen = ask(&midline, &json!({"op": "open"}))["start"].clone();
+    let mut everywhere = request(&midline.design().home_or_default());
+    (everywhere["which"], everywhere["chosen"]) = (json!("second"), chosen);
+    let found = ask(&midline, &everywhere);
+    assert!(found["everywhere"] == json!(true) && found["surface"]["triangles"] == json!([]));
 }

@@ -18,12 +18,16 @@ mod pair;
 mod slice;
 mod steps;
 mod style;
+#[cfg(feature = "page")]
+mod surface;
 mod three_view;
 mod thumbnail;
 mod topologies;
 mod workspace;
 
 pub(crate) use style::escape;
+#[cfg(feature = "page")]
+pub(crate) use surface::{TriangleSurface, ValueBox};
 
 pub use along::{AlongFigure, AlongPart, sign_along};
 pub use components::{CurveFigure, CurveMark, CurvePanel, component_curves};

@@ -67,9 +67,9 @@ impl<const N: usize, const M: usize> From<[[Complex64; N]; M]> for ComplexRecord
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum AllOrNone<T> {
-    /// All of them.
+    /// There is one.
     All(T),
-    /// None of them.
+    /// There is none.
     #[schemars(extend("properties" = {}))]
     None {},
 }

@@ -212,3 +212,50 @@ fn descend(
     }
     (x, tried)
 }
+
+/// Looks for a requirement that a platform violates, for many platforms with the same workspace one after the other: at the poses that [`assess()`] looks at
+/// before it searches for worse ones, and only until one is found.
+#[derive(Debug, Clone)]
+pub(crate) struct ViolationSearch {
+    home: Pose,
+    poses: Vec<Pose>,
+}
+
+impl ViolationSearch {
+    /// Makes the poses of a space ready.
+    pub(crate) fn new(space: &PoseSpace, o: &AssessOptions) -> Self {
+        let mut rng = Purpose::ASSESSED_POSES.rng(o.seed);
+        let mut poses = space.listed(o.steps);
+        poses.extend(space.cube_points(o.points, &mut rng).iter().map(|x| space.pose(x)));
+        Self { home: space.home, poses }
+    }
+
+    /// The home of the space.
+    pub(crate) fn home(&self) -> &Pose {
+        &self.home
+    }
+
+    /// How many poses are looked at, at most.
+    pub(crate) fn poses(&self) -> usize {
+        self.poses.len()
+    }
+
+    /// A requirement that is violated, those that do not depend on the pose first; `None` when none is at these poses, which is no proof that none is between them.
+    ///
+    /// The pose that shows a violation is the first to be looked at next time: platforms that are much alike are violated at the same poses.
+    pub(crate) fn violated(&mut self, m: &Manipulator, required: &Requirements) -> Option<TermKind> {
+        let terms = Terms::new(m, required, &self.home);
+        let bad = |list: Vec<(Term, f64)>, pose: Option<&Pose>| {
+            let violated = |(term, value): &(Term, f64)| !terms.standing(term.kind, *value, pose).is_met();
+            list.iter().find(|t| violated(t)).map(|(term, _)| term.kind)
+        };
+        if let Some(kind) = bad(terms.fixed(), None) {
+            return Some(kind);
+        }
+        let found = self.poses.iter().enumerate().find_map(|(k, p)| Some((k, bad(terms.at(p), Some(p))?)));
+        found.map(|(k, kind)| {
+            self.poses[..=k].rotate_right(1);
+            kind
+        })
+    }
+}

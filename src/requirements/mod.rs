@@ -21,6 +21,8 @@ mod term;
 mod tests;
 
 pub use crate::geom::{ListedFrom, PoseSpace, Region};
+#[cfg(feature = "page")]
+pub(crate) use assess::ViolationSearch;
 pub use assess::{AssessOptions, Assessment, Margin, assess};
 pub use bound::{MarginBound, MarginProof, MarginVerdict, prove};
 pub use conditioning::{LeastConditioning, least_conditioning};

@@ -149,29 +149,51 @@ fn schemas_go_down_to_the_last_number() {
 }
 
 #[test]
-fn the_tables_of_options_in_the_manual_are_fresh() {
-    let out = equipod(&["reference", "docs/cli.md"]);
-    let page = std::fs::read_to_string("docs/cli.md").unwrap();
-    assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stderr));
-    assert!(
-        out.stdout == page.as_bytes(),
-        "stale; new: equipod reference docs/cli.md > page && mv page docs/cli.md"
-    );
+fn the_tables_of_options_and_fields_in_the_documents_are_fresh() {
+    for path in ["docs/cli.md", "docs/answers.md", "docs/design-files.md"] {
+        let out = equipod(&["reference", path]);
+        let page = std::fs::read_to_string(path).unwrap();
+        assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stderr));
+        assert!(
+            out.stdout == page.as_bytes(),
+            "stale; new: equipod reference {path} > page && mv page {path}"
+        );
+    }
     // it finds a stale table, a command without a table and a table without a command
+    let page = std::fs::read_to_string("docs/cli.md").unwrap();
     let folder = tempfile::tempdir().unwrap();
     let with = |name: &str, text: &str| {
         let path = folder.path().join(name);
         std::fs::write(&path, text).unwrap();
         equipod(&["reference", path.to_str().unwrap()])
     };
-    let stale = page.replacen("| `--lengths", "| `--length", 1);
-    assert_ne!(stale, page);
-    assert_eq!(with("stale.md", &stale).stdout, page.as_bytes());
-    assert_eq!(with("lacks.md", &page.replacen("<!-- options of fk -->", "", 1)).status.code(), Some(2));
-    assert_eq!(
-        with("twice.md", &page.replacen("options of fk", "options of verify", 1)).status.code(),
-        Some(2)
-    );
+    for (good, bad) in [("| `--lengths", "| `--length"), ("| `lengths` |", "| `length` |")] {
+        let stale = page.replacen(good, bad, 1);
+        assert_ne!(stale, page);
+        assert_eq!(with("stale.md", &stale).stdout, page.as_bytes());
+    }
+    for (what, changed) in [
+        ("a command", page.replacen("<!-- options of fk -->", "", 1)),
+        ("another command", page.replacen("options of fk", "options of verify", 1)),
+        ("an answer", page.replacen("<!-- fields of assess -->", "", 1)),
+        ("a record of no answer", page.replacen("fields of assess -->", "fields of assess NoRecord -->", 1)),
+        ("an answer twice", page.replacen("fields of verify -->", "fields of assess -->", 1)),
+        ("an end", page.replace("<!-- end of fields -->", "")),
+        ("a table of design files", format!("{page}<!-- keys of design nothing -->\n<!-- end of keys -->\n")),
+    ] {
+        assert_eq!(with("lacks.md", &changed).status.code(), Some(2), "{what}");
+    }
+}
+
+/// Every key of a design file and every field of an answer is described.
+#[test]
+fn every_field_in_the_tables_has_a_meaning() {
+    for path in ["docs/cli.md", "docs/answers.md", "docs/design-files.md"] {
+        let page = std::fs::read_to_string(path).unwrap();
+        for line in page.lines().filter(|l| l.starts_with("| `") && l.matches(" | ").count() > 1) {
+            assert!(!line.ends_with("|  |") && !line.contains("anything"), "{path}: {line}");
+        }
+    }
 }
 
 #[test]

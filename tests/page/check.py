@@ -20,6 +20,7 @@ import hostile
 import limits
 import links
 import poses
+import surfaces
 import working
 from program import DESIGNS, Opened, Program, browser, unguarded
 
@@ -60,6 +61,26 @@ def equivalent(chromium, program, folder, pictures):
             shown.page.select_option("#pattern", pattern)
         shown.settle()
         access.names(shown)
+        shown.quiet()
+
+
+def spaces(chromium, program, folder, pictures):
+    """Over the offsets what violates a requirement is shaded as `assess` says; singular surfaces in space, of offsets and of positions."""
+    path = folder / "octahedral.html"
+    with Opened(chromium, path) as shown:
+        surfaces.shaded_as_assess(shown, program, folder)
+        surfaces.stays_while_the_mark_moves(shown)
+        surfaces.in_space(shown)
+        surfaces.singular_positions(shown, program, folder)
+        access.names(shown)
+        access.contrast(shown)
+        picture(shown, pictures, "surfaces")
+        shown.quiet()
+    with Opened(chromium, program.page(DESIGNS / "general-6-6.toml", folder / "locus.html"), dark=True) as shown:
+        surfaces.singular_positions(shown, program, folder)
+        shown.page.check("#locus")
+        shown.settle()
+        picture(shown, pictures, "locus-dark")
         shown.quiet()
 
 
@@ -280,6 +301,7 @@ def faults(chromium, program, folder, pictures):
         "a control without name": ('<label>Speed', '<label hidden></label><label><select><option>x</option></select></label><label>Speed', access.names),
         "a core of other sources": ('"inverse_condition":', '"inverse_condition":1', fresh.same_answers),
         "a hidden leg": ("seen > best + 1e-3", "best < 0 || seen < best", lambda s: poses.no_leg_hidden(s, ["view-first", "view-second"])),
+        "a shade that says nothing": ("violated[row * n + column];", "null;", lambda s: surfaces.shaded_as_assess(s, program, folder)),
         "a workspace that is not looked at": ("limits.regular.met === false", "true", lambda s: limits.as_assess(s, program, folder)),
         "pale text": ("--soft:#555c66", "--soft:#b5bcc6", access.contrast),
     }
@@ -311,7 +333,7 @@ def main():
         args.pictures.mkdir(parents=True, exist_ok=True)
     program, failed = Program(args.program), 0
     checks = [
-        octahedral, equivalent, singular, general, required, first, hidden, lengths, whole, shared, start, slow, phone, recorded, printed, foreign, faults,
+        octahedral, equivalent, spaces, singular, general, required, first, hidden, lengths, whole, shared, start, slow, phone, recorded, printed, foreign, faults,
     ]
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright, browser(playwright) as chromium:
         folder = Path(folder)

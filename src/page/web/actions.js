@@ -137,8 +137,70 @@ Object.assign(App.prototype, {
       const { low, high, points } = PLANE;
       const plane = this.core.ask({ op: "plane", chosen: this.chosen, axes: this.plane.axes, range: [low, high], points });
       this.planeAnswer = plane;
+      this.shade();
+      if (this.core.live && this.pattern.offsets.length > 2 && $("space-details").open) {
+        const axes = [...this.plane.axes, this.space.axis];
+        this.surface = this.core.ask({ op: "surface", chosen: this.chosen, axes, range: [low, high], points: SURFACE.points });
+      }
     }
     this.soon();
+  },
+
+  /** Where over the plane of offsets a requirement is violated in the workspace: a quick look, then a finer one. It stays the same while the mark alone moves. */
+  shade() {
+    const { axes } = this.plane;
+    const others = this.offsets.map((t, k) => (axes.includes(k) ? null : t));
+    const key = JSON.stringify([this.pattern.id, axes, others]);
+    if (!this.core.live || this.shaded === key) return;
+    this.shaded = key;
+    this.feasible = null;
+    const { low, high } = PLANE;
+    const request = { op: "feasible", chosen: this.chosen, axes, range: [low, high] };
+    const { core } = this;
+    this.tasks.feasible.ask(core, { ...request, ...SHADE.rough }, (rough) => {
+      this.feasible = rough;
+      this.soon();
+      if (rough.error || !Task.possible) return;
+      this.tasks.feasible.ask(core, { ...request, ...SHADE.fine }, (fine) => {
+        this.feasible = fine;
+        this.soon();
+      });
+    });
+  },
+
+  /** The singular positions with the orientation shown, where they are wanted. */
+  findLocus() {
+    this.located = null;
+    this.locus = null;
+    this.tasks.locus.drop();
+    $("locus-words").textContent = "";
+    this.soon();
+  },
+
+  /** What there is of them to draw; asked for anew when the orientation is another one. */
+  singularPositions(state) {
+    if (!$("locus").checked || !this.core.live) return null;
+    const key = JSON.stringify(state.pose.R);
+    if (this.located !== key) {
+      this.located = key;
+      this.locus = null;
+      this.tasks.locus.ask(this.core, { op: "locus", pose: this.pose, which: "first", points: SURFACE.points }, (found) => {
+        this.locus = found;
+        $("locus-words").textContent = this.locusInWords(found);
+        this.soon();
+      }, RESTED);
+    }
+    const { locus } = this;
+    return locus && !locus.error && !locus.everywhere ? { ...locus, at: state.pose.p } : null;
+  },
+
+  locusInWords(found) {
+    if (found.error) return found.error.message;
+    if (found.everywhere) return "Every position is singular: the platform is architecturally singular.";
+    const both = this.pattern ? " It is the same one for each regular equivalent." : "";
+    return found.surface.triangles.length
+      ? `With this orientation the platform is singular where its origin (the cross) is on the red surface.${both} The dotted box has the positions of the workspace.`
+      : "With this orientation no position about home is singular.";
   },
 
   /** The requirements over the workspace: a quick look, then what `equipod assess` does. */

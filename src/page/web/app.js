@@ -11,6 +11,7 @@ class App {
     this.sliders = new Sliders($("sliders"), (changes) => this.change(changes));
     this.hexagon = new Hexagon($("hexagon"), (k, t) => this.change([[k, t]]));
     this.plane = new Plane($("plane"), $("plane-words"), (changes) => this.change(changes));
+    this.space = new Space($("space"), $("space-words"));
     this.views = ["first", "second"].map((name) => new View($(`view-${name}`), this.camera, this.scene));
     this.settle = later(160, () => this.slow(true));
     const say = (id, words) => () => { $(id).textContent = words; };
@@ -20,6 +21,8 @@ class App {
       motion: new Task(say("motion-words", "Looking for a self-motion through this pose …")),
       worst: new Task(() => { this.worst = null; this.soon(); }),
       limits: new Task(() => this.soon()),
+      feasible: new Task(() => this.soon()),
+      locus: new Task(say("locus-words", "Looking for the singular positions …")),
     };
     this.listen();
     this.rebuild();
@@ -39,6 +42,11 @@ class App {
     this.modes = null;
     this.worst = null;
     this.limits = null;
+    this.feasible = null;
+    this.shaded = null;
+    this.surface = null;
+    this.locus = null;
+    this.located = null;
     this.whose = "first";
     this.pattern = open.patterns ? open.patterns.find((p) => p.id === open.start.pattern) : null;
     this.offsets = open.start ? [...open.start.offsets] : [];
@@ -58,6 +66,12 @@ class App {
     for (const [id, axis] of [["axis-x", 0], ["axis-y", 1]]) {
       $(id).addEventListener("change", () => this.chooseAxis(axis, Number($(id).value)));
     }
+    $("axis-z").addEventListener("change", () => {
+      this.space.axis = Number($("axis-z").value);
+      this.slow();
+    });
+    $("space-details").addEventListener("toggle", () => this.slow());
+    $("locus").addEventListener("change", () => this.findLocus());
     $("find").addEventListener("click", () => this.findModes());
     $("by-lengths").addEventListener("submit", (e) => {
       e.preventDefault();
@@ -107,10 +121,12 @@ class App {
     $("whose-label").hidden = !pattern;
     $("whose").value = this.whose;
     $("of-file").hidden = !open.lengths;
-    for (const id of ["find", "confirm", "solve", "as-shown", "of-file", "whose", "share", "pattern", "restart", "linked", "axis-x", "axis-y"]) $(id).disabled = !enabled;
+    for (const id of ["find", "confirm", "solve", "as-shown", "of-file", "whose", "share", "pattern", "restart", "linked", "axis-x", "axis-y", "axis-z", "locus"]) $(id).disabled = !enabled;
     const paths = [["workspace", open.trajectory ? "trajectory of the design" : "through the workspace"], ["motion", "self-motion"]];
     $("path").replaceChildren(...paths.map(([value, words]) => el("option", { value, selected: value === this.path }, words)));
     if (pattern) this.rebuildPattern();
+    $("locus").checked = false;
+    this.findLocus();
     this.downloads();
     this.lookAround();
     this.listModes();
@@ -141,10 +157,15 @@ class App {
     this.plane.axes = [0, Math.min(1, this.pattern.offsets.length - 1)];
     this.plane.enabled = this.core.live;
     $("plane-card").hidden = this.pattern.offsets.length < 2;
+    $("space-details").hidden = this.pattern.offsets.length < 3 || !this.core.live;
     this.axes();
   }
 
   axes() {
+    // the third axis is one that the plane has not
+    const rest = this.pattern.offsets.map((_, k) => k).filter((k) => !this.plane.axes.includes(k));
+    if (!rest.includes(this.space.axis)) [this.space.axis] = rest;
+    $("axis-z").replaceChildren(...rest.map((k) => el("option", { value: k, selected: k === this.space.axis }, `${this.pattern.offsets[k].name} (${this.pattern.offsets[k].joint})`)));
     [["axis-x", 0], ["axis-y", 1]].forEach(([id, axis]) => {
       const options = this.pattern.offsets.map((o, k) => el("option", { value: k, selected: k === this.plane.axes[axis] }, `${o.name} (${o.joint})`));
       $(id).replaceChildren(...options);
@@ -210,14 +231,21 @@ class App {
     const ghosts = this.ghosts();
     this.frame([...state.platforms, ...ghosts].filter(Boolean));
     const { hardware } = this.open;
-    this.views[0].draw(first, { ghost: ghosts[0], names, hardware });
-    if (second) this.views[1].draw(second, { original: first, ghost: ghosts[1], names, hardware });
+    const locus = this.singularPositions(state);
+    this.views[0].draw(first, { ghost: ghosts[0], names, hardware, locus });
+    // those of a regular equivalent are the same
+    const same = state.map && !Limits.nearlyZero(state.map.det);
+    if (second) this.views[1].draw(second, { original: first, ghost: ghosts[1], names, hardware, locus: same ? locus : null });
     const place = (p) => `3D view of ${p.name}: leg lengths ${p.lengths.map((x) => show(x, 4)).join(", ")}${unit(this.open.units)}. Arrow keys turn it.`;
     this.views.forEach((v, k) => state.platforms[k] && v.canvas.setAttribute("aria-label", place(state.platforms[k])));
     if (this.pattern) {
       this.sliders.update(this.offsets, state.map.zeros);
       this.hexagon.update(this.offsets, state.map.zeros);
-      this.plane.draw(this.planeAnswer, this.pattern, this.offsets, state.map.det);
+      const shown = { pattern: this.pattern, offsets: this.offsets, det: state.map.det };
+      this.plane.draw(this.planeAnswer, this.feasible, shown);
+      if ($("space-details").open) this.space.draw(this.surface, this.pattern, { ...shown, axes: [...this.plane.axes, this.space.axis] });
+      const words = this.core.live ? Plane.words(this.feasible, this.plane.axes.map((k) => this.offsets[k])) : "";
+      if ($("feasible-words").textContent !== words) $("feasible-words").textContent = words;
     }
     this.poseFields.update(this.pose, state);
     this.legFields.update(this.platformOfLengths().lengths);

@@ -1,4 +1,9 @@
-// det A over two offsets: signs as tints, the line on which it vanishes, the current point.
+// det A over two offsets: signs as tints, the line on which it vanishes, where the workspace is not feasible, the current point.
+
+/** Where requirements are violated: points a side and points of the workspace, a quick look first. */
+const SHADE = { rough: { points: 21, samples: 30 }, fine: { points: 61, samples: 250 } };
+/** Pixels between two lines of the hatching. */
+const HATCH = 7;
 
 const PLANE = { low: -0.5, high: 1.5, points: 61, left: 52, right: 10, top: 10, bottom: 36 };
 
@@ -46,14 +51,15 @@ class Plane {
     return Math.max(PLANE.low, Math.min(PLANE.high, t));
   }
 
-  /** Shows an answer of the core. */
-  draw(plane, pattern, offsets, det) {
+  /** Shows answers of the core: det A, and where requirements are violated. */
+  draw(plane, feasible, { pattern, offsets, det }) {
     Object.assign(this, { plane, pattern, offsets });
     const { context: c, width, height } = fitted(this.canvas);
     Object.assign(this, { width, height });
     if (!width || !plane || plane.error) return;
     c.clearRect(0, 0, width, height);
     this.tint(c);
+    if (feasible && !feasible.error) this.hatch(c, feasible);
     this.frame(c);
     c.lineWidth = 2.6;
     c.strokeStyle = style("--bad");
@@ -88,6 +94,70 @@ class Plane {
       }
     }
     c.globalAlpha = 1;
+  }
+
+  /** Lines over the platforms that violate a requirement somewhere in the workspace, and an edge around those that were not found to. */
+  hatch(c, { points: n, violated }) {
+    const [x, y] = [0, 1].map((axis) => this.scaleOf(axis));
+    const step = [0, 1].map((axis) => (this.scaleOf(axis)[1] - this.scaleOf(axis)[0]) / (n - 1));
+    const bad = (column, row) => violated[row * n + column] !== null;
+    const corner = (k, axis) => this.scaleOf(axis)[0] + Math.max(0, Math.min(n - 1, k - 0.5)) * step[axis];
+    c.save();
+    c.beginPath();
+    for (let row = 0; row < n; row += 1) {
+      for (let column = 0; column < n; column += 1) {
+        if (bad(column, row)) c.rect(corner(column, 0), corner(row, 1), corner(column + 1, 0) - corner(column, 0), corner(row + 1, 1) - corner(row, 1));
+      }
+    }
+    c.clip();
+    c.globalAlpha = 0.45;
+    c.fillStyle = style("--card");
+    c.fillRect(x[0], y[1], x[1] - x[0], y[0] - y[1]);
+    c.strokeStyle = style("--soft");
+    c.lineWidth = 1;
+    c.beginPath();
+    const high = y[0] - y[1];
+    for (let from = x[0] - high; from < x[1]; from += HATCH) {
+      c.moveTo(from, y[0]);
+      c.lineTo(from + high, y[1]);
+    }
+    c.stroke();
+    c.restore();
+    c.beginPath();
+    for (let row = 0; row < n; row += 1) {
+      for (let column = 0; column < n; column += 1) {
+        if (column && bad(column, row) !== bad(column - 1, row)) {
+          c.moveTo(corner(column, 0), corner(row, 1));
+          c.lineTo(corner(column, 0), corner(row + 1, 1));
+        }
+        if (row && bad(column, row) !== bad(column, row - 1)) {
+          c.moveTo(corner(column, 0), corner(row, 1));
+          c.lineTo(corner(column + 1, 0), corner(row, 1));
+        }
+      }
+    }
+    c.strokeStyle = style("--good");
+    c.lineWidth = 2;
+    c.stroke();
+  }
+
+  /** What is known of the platforms of the plane, and of the one next to the mark, in words. */
+  static words(feasible, at) {
+    if (!feasible) return "Where the requirements are violated is being looked at.";
+    if (feasible.error) return feasible.error.code === "nothing_required" ? "" : feasible.error.message;
+    const { points: n, low, high, poses, violated } = feasible;
+    const name = (kind) => REQUIREMENTS[kind] || (kind === "no_platform" ? "joints coincide" : kind.replaceAll("_", " "));
+    const looked = `at one of ${poses} poses of the workspace`;
+    const free = violated.some((kind) => kind === null);
+    const kinds = [...new Set(violated)].filter(Boolean).map(name).join(", ");
+    const all = !kinds ? `No requirement is violated ${looked}.` : free
+      ? `Hatched: a requirement (${kinds}) is violated ${looked}; inside the green line none is.`
+      : `Hatched: everywhere in this square a requirement (${kinds}) is violated ${looked}.`;
+    const [column, row] = at.map((t) => Math.round(((t - low) / (high - low)) * (n - 1)));
+    if ([column, row].some((k) => k < 0 || k >= n)) return `${all} The mark is outside.`;
+    const here = violated[row * n + column];
+    const next = here ? `violates: ${name(here)}` : "violates none at these poses; the judgement at the top of the page has the proof for the mark";
+    return `${all} Of those looked at, the platform next to the mark ${next}.`;
   }
 
   pixels(n) {

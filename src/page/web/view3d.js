@@ -21,8 +21,8 @@ class View {
     camera.attach(canvas);
   }
 
-  /** Draws a platform of the core, thin lines of the original's triangles, and a ghost to compare with. */
-  draw(platform, { original, ghost, names, hardware } = {}) {
+  /** Draws a platform of the core, thin lines of the original's triangles, a ghost to compare with, and the singular positions. */
+  draw(platform, { original, ghost, names, hardware, locus } = {}) {
     const { context, width, height } = fitted(this.canvas);
     if (!width || !platform) return;
     this.c = context;
@@ -36,7 +36,7 @@ class View {
       this.body(ghost, { plain: true });
       context.globalAlpha = 1;
     }
-    this.body(platform, { original });
+    this.body(platform, { original, locus });
     if (names) this.names(platform);
   }
 
@@ -65,7 +65,7 @@ class View {
     }
   }
 
-  body(platform, { original, plain }) {
+  body(platform, { original, plain, locus }) {
     const at = (joint) => this.project(joint.at);
     const used = (k) => [...new Set(platform.legs.map((l) => l[k]))];
     const plates = [[used(0).map((i) => at(platform.base[i])), "--base"], [used(1).map((i) => at(platform.platform[i])), "--platform"]];
@@ -79,9 +79,31 @@ class View {
     plates.forEach(([list, colour], body) => {
       for (const p of list) parts.push({ depth: p.depth - 4 * this.unit, draw: () => this.ball(p, style(colour), plain, this.hardware.joints[body]) });
     });
+    if (locus) parts.push(...this.locus(locus));
     this.labels = [];
     parts.sort((p, q) => q.depth - p.depth).forEach((p) => p.draw());
     this.labels.forEach(([leg, p, size]) => this.number(leg, p, size));
+  }
+
+  /** Where the origin of the platform must not be with this orientation, the workspace as a box, and where the origin is. */
+  locus({ surface, workspace, home, at }) {
+    const parts = surfaceParts(surface, this.project, this.c);
+    const ends = [-1, 1].map((sign) => home.map((x, k) => x + sign * workspace[k]));
+    for (const [a, b] of boxEdges(...ends)) {
+      const [p, q] = [a, b].map(this.project);
+      parts.push({ depth: (p.depth + q.depth) / 2, draw: () => this.line(p, q, style("--ink"), 1, [3, 3]) });
+    }
+    const p = this.project(at);
+    parts.push({ depth: p.depth - 4 * this.unit, draw: () => this.origin(p) });
+    return parts;
+  }
+
+  /** The origin of the platform: a cross. */
+  origin(p) {
+    for (const [colour, thickness] of [[style("--halo"), 5], [style("--ink"), 2]]) {
+      this.line({ x: p.x - 6, y: p.y }, { x: p.x + 6, y: p.y }, colour, thickness);
+      this.line({ x: p.x, y: p.y - 6 }, { x: p.x, y: p.y + 6 }, colour, thickness);
+    }
   }
 
   plate(points, colour, plain) {

@@ -1,5 +1,9 @@
-//! `equipod reference`, hidden: what each command is for, its options and its examples written into the manual, from the definitions they are read by.
+//! `equipod reference`, hidden: what each command is for, its options, its examples and the fields of its answer written into the manual, from the
+//! definitions they are read by.
 
+mod fields;
+
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
@@ -10,17 +14,22 @@ use super::failure::Failure;
 use super::files;
 use super::guide;
 use super::output::Answer;
-use crate::records::ReferenceAnswer;
+use crate::records::{ReferenceAnswer, schema_names};
 
 /// Arguments of `reference`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// Page with marks `<!-- options of NAME -->` and `<!-- end of options -->`; what is between them is replaced
+    /// Page with marks `<!-- options of COMMAND -->`, `<!-- fields of ANSWER -->`, `<!-- keys of design -->` or `<!-- all records -->`, each up to `<!-- end of options -->` and so on; what is between them is replaced
     page: PathBuf,
 }
 
-const BEGIN: &str = "<!-- options of ";
-const END: &str = "<!-- end of options -->";
+/// What begins a block: what follows names what stands in it.
+const MARKS: [(&str, &str); 4] = [
+    ("<!-- options of ", "<!-- end of options -->"),
+    ("<!-- fields of ", "<!-- end of fields -->"),
+    ("<!-- keys of ", "<!-- end of keys -->"),
+    ("<!-- all ", "<!-- end of records -->"),
+];
 
 /// Text of a table: on one line, bars escaped.
 fn cell(text: &str) -> String {
@@ -101,43 +110,78 @@ fn block(command: &Command, global: bool) -> String {
     out
 }
 
-/// The page with the blocks of this program. Every command of the guide has to have its mark, or its group has one for all, and every mark a command.
+/// What is still to be described in the manual: commands, and answers.
+struct Open {
+    program: Command,
+    whole: bool,
+    commands: Vec<&'static str>,
+    answers: Vec<&'static str>,
+    /// Marks of fields so far.
+    seen: BTreeSet<String>,
+}
+
+impl Open {
+    fn new() -> Self {
+        let mut program = guide::program().disable_help_subcommand(true);
+        program.build();
+        let commands = guide::entries().map(|e| e.path).collect();
+        Self { program, whole: true, commands, answers: schema_names().collect(), seen: BTreeSet::new() }
+    }
+
+    /// The options of a command, each command once; `None` when there is none to be described.
+    fn options(&mut self, name: &str) -> Option<String> {
+        if name == "equipod" {
+            return std::mem::take(&mut self.whole).then(|| block(&self.program, true));
+        }
+        let before = self.commands.len();
+        self.commands.retain(|path| *path != name && !path.starts_with(&format!("{name} ")));
+        let command = name.split(' ').try_fold(&self.program, |c, word| c.find_subcommand(word))?;
+        (self.commands.len() < before).then(|| block(command, false))
+    }
+
+    /// The fields of an answer or of one of its records, each once; `None` when there are none to be described.
+    fn fields(&mut self, name: &str) -> Option<String> {
+        let answer = name.split(' ').next()?;
+        self.answers.retain(|a| *a != answer);
+        if self.seen.insert(name.to_string()) { fields::of_mark(name) } else { None }
+    }
+}
+
+/// The page with the blocks of this program. In the manual every command of the guide has its mark, or its group has one for all, and so has every answer.
 fn written(page: &str) -> Result<String, Failure> {
     let bad = |message: String| Failure::refused("reference::bad_page", message);
-    let mut program = guide::program().disable_help_subcommand(true);
-    program.build();
-    let mut open: Vec<&str> = guide::entries().map(|e| e.path).collect();
-    let mut program_open = true;
+    let mut open = Open::new();
     let mut out = String::new();
-    let mut skipping = false;
+    let mut until: Option<&str> = None;
     for line in page.lines() {
-        if line == END {
-            skipping = false;
+        if until == Some(line) {
+            until = None;
         }
-        if skipping {
+        if until.is_some() {
             continue;
         }
         let _ = writeln!(out, "{line}");
-        let Some(name) = line.strip_prefix(BEGIN).and_then(|l| l.strip_suffix(" -->")) else { continue };
-        skipping = true;
-        if name == "equipod" && program_open {
-            program_open = false;
-            out.push_str(&block(&program, true));
-            continue;
-        }
-        let before = open.len();
-        open.retain(|path| *path != name && !path.starts_with(&format!("{name} ")));
-        let command = name.split(' ').try_fold(&program, |c, word| c.find_subcommand(word));
-        match command.filter(|_| open.len() < before) {
-            Some(command) => out.push_str(&block(command, false)),
-            None => return Err(bad(format!("`{name}` is not a command, or is there twice"))),
-        }
+        let mark = MARKS.iter().find_map(|(begin, end)| {
+            let name = line.strip_prefix(begin)?.strip_suffix(" -->")?;
+            Some((*begin, name, *end))
+        });
+        let Some((begin, name, end)) = mark else { continue };
+        until = Some(end);
+        let text = match begin {
+            "<!-- options of " => open.options(name),
+            "<!-- fields of " => open.fields(name),
+            "<!-- keys of " => fields::of_design(name),
+            _ => (name == "records").then(fields::all_records),
+        };
+        out.push_str(&text.ok_or_else(|| bad(format!("`{line}` names nothing, or is there twice")))?);
     }
-    if skipping {
-        return Err(bad(format!("a mark without `{END}`")));
+    if let Some(end) = until {
+        return Err(bad(format!("a mark without `{end}`")));
     }
-    if program_open || !open.is_empty() {
-        return Err(bad(format!("the page lacks marks: {}", open.join(", "))));
+    // the manual is the page with the options of the program
+    if !open.whole && !(open.commands.is_empty() && open.answers.is_empty()) {
+        let lacking = [open.commands, open.answers].concat().join(", ");
+        return Err(bad(format!("the page lacks marks: {lacking}")));
     }
     Ok(out)
 }
