@@ -50,6 +50,16 @@ pub(super) fn verdict(fields: &Map<String, Value>) -> Option<ResultVerdict> {
     if fields.contains_key("met") && fields.get("requirements").is_some_and(Value::is_array) {
         return Some(ResultVerdict { word: "undecided".into(), holds: None, explanation });
     }
+    if let Some(singular) =
+        fields.get("architecturally_singular").filter(|_| fields.contains_key("singular_as_written"))
+    {
+        let (word, holds) = match singular.as_bool() {
+            Some(true) => ("architecturally singular", Some(false)),
+            Some(false) => ("regular", Some(true)),
+            None => ("undecided", None),
+        };
+        return Some(ResultVerdict { word: word.into(), holds, explanation });
+    }
     let word = ["verdict", "status", "relation"].iter().find_map(|key| text(key)).or_else(|| {
         let count = |key: &str| fields.get(key).and_then(Value::as_u64);
         Some(format!("{} finite poses, {} real", count("finite_count")?, count("real_count")?))

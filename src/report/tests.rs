@@ -36,6 +36,26 @@ fn verdicts_stand_at_the_top_with_sign_and_word() {
 }
 
 #[test]
+fn the_answer_of_check_is_a_verdict() {
+    let told = |answer: &str| {
+        let text = format!(
+            r#"{{"schema_version":1,"architecturally_singular":{answer},"singular_as_written":false,"explanation":"why"}}"#
+        );
+        report(vec![file("check.json", &text)]).split("id=\"inputs\"").next().unwrap().to_string()
+    };
+    assert!(
+        told("false").contains(
+            "<strong class=\"yes\"><span aria-hidden=\"true\">\u{2713}</span> regular</strong>: why"
+        )
+    );
+    assert!(told("true").contains(
+        "<strong class=\"no\"><span aria-hidden=\"true\">\u{2717}</span> architecturally singular</strong>"
+    ));
+    let undecided = told("null");
+    assert!(undecided.contains("undecided") && !undecided.contains("class=\"yes\""));
+}
+
+#[test]
 fn the_hash_is_that_of_the_bytes() {
     // FIPS 180-4, example of one block
     let text = report(vec![file("abc.txt", "abc")]);

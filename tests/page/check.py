@@ -240,6 +240,33 @@ def foreign(chromium, program, folder, pictures):
     hostile.names(chromium, program, folder)
 
 
+def reported(chromium, program, folder, pictures):
+    """The report of a usual design: readable in light and dark, wide and narrow, and two sheets of paper."""
+    results = folder / "reported"
+    results.mkdir()
+    design = results / "design.toml"
+    design.write_text((DESIGNS / "rbt-octahedral.toml").read_text())
+    for command in ("assess", "fk", "check"):
+        (results / f"{command}.json").write_text(program.run(command, design, "--json"))
+    program.run("plot", "workspace", design, "--resolution", "40", "-o", results / "workspace.svg", "--quiet")
+    program.run("report", results, "--quiet")
+    for width, dark in ((1200, False), (1200, True), (390, False), (390, True)):
+        context = chromium.new_context(viewport={"width": width, "height": 800}, color_scheme="dark" if dark else "light")
+        page = context.new_page()
+        page.goto((results / "report.html").resolve().as_uri())
+        assert page.evaluate("document.documentElement.scrollWidth <= window.innerWidth"), f"the report scrolls sideways at {width}"
+        poor = page.evaluate(access.CONTRAST)
+        assert not poor, poor
+        top = page.text_content("body").split("Pictures")[0]
+        assert all(word in top for word in ("regular", "met", "16 finite poses")), top
+        if pictures:
+            page.screenshot(path=pictures / f"report-{width}-{'dark' if dark else 'light'}.png", full_page=True)
+        if not dark and width > 1000:
+            pages = len(re.findall(rb"/Type\s*/Page\b", page.pdf(format="A4")))
+            assert pages <= 2, f"the report is printed on {pages} pages"
+        context.close()
+
+
 def printed(chromium, program, folder, pictures):
     """Printed from a dark screen the page is dark on white, with all its tables."""
     with Opened(chromium, folder / "octahedral.html", dark=True) as shown:
@@ -333,7 +360,7 @@ def main():
         args.pictures.mkdir(parents=True, exist_ok=True)
     program, failed = Program(args.program), 0
     checks = [
-        octahedral, equivalent, spaces, singular, general, required, first, hidden, lengths, whole, shared, start, slow, phone, recorded, printed, foreign, faults,
+        octahedral, equivalent, spaces, singular, general, required, first, hidden, lengths, whole, shared, start, slow, phone, recorded, printed, reported, foreign, faults,
     ]
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright, browser(playwright) as chromium:
         folder = Path(folder)
