@@ -179,7 +179,8 @@ fn written(page: &str) -> Result<String, Failure> {
         return Err(bad(format!("a mark without `{end}`")));
     }
     // the manual is the page with the options of the program
-    if !open.whole && !(open.commands.is_empty() && open.answers.is_empty()) {
+    let described = open.commands.is_empty() && open.answers.is_empty();
+    if !(open.whole || described) {
         let lacking = [open.commands, open.answers].concat().join(", ");
         return Err(bad(format!("the page lacks marks: {lacking}")));
     }
