@@ -86,7 +86,7 @@ pub(super) fn offsets(
 ) -> Result<SurfaceRecord, Refusal> {
     few(points)?;
     let different = axes[0] != axes[1] && axes[1] != axes[2] && axes[2] != axes[0];
-    if !different || !(low < high && high - low < f64::INFINITY) {
+    if !(different && low < high && high - low < f64::INFINITY) {
         return Err(Refusal::new("request", "three different offsets and low < high are needed"));
     }
     let ends = [[low; 3], [high; 3]];
