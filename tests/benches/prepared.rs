@@ -58,18 +58,15 @@ fn quantile(times: &mut [f64], q: f64) -> f64 {
     found.map_or(f64::NAN, |(_, time)| *time)
 }
 
-/// Whether both have the same certified poses.
+/// Whether both have as many certified poses, and each has those of the other; two that are closer than the comparison sees are near to either.
 fn same(m: &Manipulator, a: &FkSolutions, b: &FkSolutions) -> bool {
-    let scale =
-        |r: &FkSolutions, k: usize| r.roots[k].pose.rotation.iter().map(|z| z.norm()).fold(1.0, f64::max);
-    a.roots.len() == b.roots.len()
-        && (0..a.roots.len()).all(|k| {
-            let near = |r: &&_| {
-                let r: &equipod::methods::fk::FkRoot = r;
-                r.pose.distance(&a.roots[k].pose, m.size()) < 1e-6 * scale(a, k)
-            };
-            b.roots.iter().filter(near).count() == 1
+    let has = |one: &FkSolutions, other: &FkSolutions| {
+        one.roots.iter().all(|r| {
+            let scale = r.pose.rotation.iter().map(|z| z.norm()).fold(1.0, f64::max);
+            other.roots.iter().any(|o| o.pose.distance(&r.pose, m.size()) < 1e-6 * scale)
         })
+    };
+    a.roots.len() == b.roots.len() && has(a, b) && has(b, a)
 }
 
 /// What is measured: a class, or octahedral designs of parallel triangles at pure translations.
