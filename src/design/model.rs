@@ -13,7 +13,7 @@ use crate::requirements::{
     Envelopes, ForceUnit, Hardware, KeepOut, Load, MassUnit, Payload, PlatformSpeed, Quantity, Requirements,
     Reserves, Term, TermKind,
 };
-use crate::requirements::{Objective, Symmetry, VariableKind};
+use crate::requirements::{KeptSymmetry, Objective, VariableKind};
 
 /// A manipulator with names and everything else a design file may carry.
 #[derive(Debug, Clone, PartialEq)]
@@ -405,7 +405,7 @@ pub struct SearchTable {
     /// What may be chosen; empty: the offsets.
     pub variables: Vec<VariableKind>,
     /// The symmetry that the platform has to keep; none when absent.
-    pub symmetry: Option<Symmetry>,
+    pub symmetry: Option<KeptSymmetry>,
     /// Objectives with weights, or in the order of their levels; empty: the worst-case conditioning.
     pub objectives: Vec<(Objective, f64)>,
     /// How objectives are combined, weighted when absent.

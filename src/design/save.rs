@@ -9,8 +9,8 @@ use super::{Combination, Construction, Design, LinePlace, OptimizeTable, SearchT
 use crate::geom::Pose;
 use crate::manipulator::Body;
 use crate::requirements::{
-    Envelope, Envelopes, ForceUnit, Hardware, Housing, JointAxes, KeepOut, KeepOutShape, LegPart,
-    LengthLimits, ListedFrom, Load, MassUnit, Payload, Region, Reserve, Reserves, Swing, Symmetry, TermKind,
+    Envelope, Envelopes, ForceUnit, Hardware, Housing, JointAxes, KeepOut, KeepOutShape, KeptSymmetry,
+    LegPart, LengthLimits, ListedFrom, Load, MassUnit, Payload, Region, Reserve, Reserves, Swing, TermKind,
 };
 
 /// The structure of a file, in the order it is written.
@@ -459,7 +459,7 @@ impl OptimizeFile {
             min_abs_det: limits.min_abs_det,
             characteristic_length: limits.characteristic_length,
             variables: search.variables.iter().map(|v| v.code()).collect(),
-            symmetry: search.symmetry.map(Symmetry::code),
+            symmetry: search.symmetry.map(KeptSymmetry::code),
             mode,
             slack,
             points,

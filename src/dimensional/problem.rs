@@ -5,7 +5,7 @@ use thiserror::Error;
 
 use crate::geom::Pose;
 use crate::manipulator::{Manipulator, NotOctahedral, Octahedral};
-use crate::requirements::{JointAxes, Objective, PoseSpace, Requirements, Symmetry, VariableKind};
+use crate::requirements::{JointAxes, KeptSymmetry, Objective, PoseSpace, Requirements, VariableKind};
 use crate::synthesis::components::ComponentsError;
 
 /// What may change about base and platform: the triangles of an octahedral design, whose centroids and planes stay, or the sizes of any design.
@@ -36,8 +36,8 @@ pub struct Variables {
     pub joint_axes: [bool; 2],
     /// One offset for the three edges of the base and one for those of the platform.
     pub symmetric: bool,
-    /// The symmetry of the whole platform at home that is kept. With [`Symmetry::ThreeFold`] offsets are as with `symmetric`, and triangles change in size alone.
-    pub symmetry: Symmetry,
+    /// The symmetry of the whole platform at home that is kept. With [`KeptSymmetry::ThreeFold`] offsets are as with `symmetric`, and triangles change in size alone.
+    pub symmetry: KeptSymmetry,
     /// Least and greatest offset of each side, cyclic order.
     pub offset_bounds: [(f64, f64); 6],
     /// Least and greatest parameter of a family.
@@ -59,7 +59,7 @@ impl Default for Variables {
             home_height: false,
             joint_axes: [false; 2],
             symmetric: false,
-            symmetry: Symmetry::None,
+            symmetry: KeptSymmetry::None,
             offset_bounds: [(-1.0, 2.0); 6],
             stretch_bounds: (-0.5, 1.0),
             height_bounds: (-0.5, 1.0),
@@ -249,10 +249,10 @@ impl DimensionalProblem {
     /// Whether the design has the symmetry that is to be kept, to a billionth of its size.
     fn validate_symmetry(&self) -> Result<(), InvalidProblem> {
         match self.variables.symmetry {
-            Symmetry::None => return Ok(()),
-            Symmetry::Mirror if self.variables.offsets => return Err(InvalidProblem::MirrorIsSingular),
-            Symmetry::Mirror => return Err(InvalidProblem::MirrorWithoutOffsets),
-            Symmetry::ThreeFold => {}
+            KeptSymmetry::None => return Ok(()),
+            KeptSymmetry::Mirror if self.variables.offsets => return Err(InvalidProblem::MirrorIsSingular),
+            KeptSymmetry::Mirror => return Err(InvalidProblem::MirrorWithoutOffsets),
+            KeptSymmetry::ThreeFold => {}
         }
         let octahedral =
             Octahedral::recognise(&self.manipulator).map_err(|_| InvalidProblem::SymmetryOfGeneral)?;

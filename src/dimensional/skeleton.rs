@@ -9,7 +9,7 @@ use super::pull::Rate;
 use super::shape::{JointId, LegJoints, VariableLayout, joints_of};
 use crate::manipulator::{Body, Leg, LegIndex, Manipulator, Octahedral};
 use crate::num::linalg::svd;
-use crate::requirements::Symmetry;
+use crate::requirements::KeptSymmetry;
 use crate::synthesis::components::{
     Component, ComponentOptions, ComponentsError, MovingPoint, Parametrisation, components,
 };
@@ -195,7 +195,7 @@ impl OctahedralSides {
         layout: &mut VariableLayout,
     ) -> Result<Self, InvalidProblem> {
         let o = Octahedral::recognise(m).map_err(InvalidProblem::NotOctahedral)?;
-        let three_fold = v.symmetry == Symmetry::ThreeFold;
+        let three_fold = v.symmetry == KeptSymmetry::ThreeFold;
         // an equilateral triangle stays one when its size alone changes
         let chosen =
             if three_fold && v.triangles == Triangles::Shapes { Triangles::Sizes } else { v.triangles };

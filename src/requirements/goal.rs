@@ -52,7 +52,7 @@ impl VariableKind {
 /// The symmetry that a search keeps, by its name in design files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
-pub enum Symmetry {
+pub enum KeptSymmetry {
     /// Every leg may differ.
     #[default]
     None,
@@ -62,7 +62,7 @@ pub enum Symmetry {
     Mirror,
 }
 
-impl Symmetry {
+impl KeptSymmetry {
     /// Every symmetry.
     pub const ALL: [Self; 3] = [Self::None, Self::ThreeFold, Self::Mirror];
 

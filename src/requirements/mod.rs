@@ -28,7 +28,7 @@ pub use bound::{MarginBound, MarginProof, MarginVerdict, prove};
 pub use conditioning::{LeastConditioning, least_conditioning};
 pub use envelope::{Envelope, Envelopes};
 pub(crate) use envelope::{ball, room};
-pub use goal::{Objective, Symmetry, VariableKind};
+pub use goal::{KeptSymmetry, Objective, VariableKind};
 pub use hardware::{Hardware, Housing, JointAxes, LegBody, LegMasses, LegPart, LengthLimits, Swing};
 pub use keep_out::{KeepOut, KeepOutShape};
 pub use limit::{Limit, Limits, PoseLimit};

@@ -5,7 +5,7 @@ use super::{check_keys, nearest_help, number, numbers, shown, table};
 use crate::design::tree::{Entry, Node, Value, find};
 use crate::design::violation::Findings;
 use crate::design::{Code, Combination, SearchTable};
-use crate::requirements::{Objective, Symmetry, VariableKind};
+use crate::requirements::{KeptSymmetry, Objective, VariableKind};
 
 /// The keys read here.
 pub(super) const SEARCH_KEYS: [&str; 10] = [
@@ -75,8 +75,8 @@ fn variables(report: &mut Findings<'_>, entries: &[Entry]) -> Vec<VariableKind> 
     names.iter().filter_map(|node| named(report, node, "a variable", &all)).collect()
 }
 
-fn symmetry(report: &mut Findings<'_>, entries: &[Entry]) -> Option<Symmetry> {
-    let all = Symmetry::ALL.map(|s| (s.code(), s));
+fn symmetry(report: &mut Findings<'_>, entries: &[Entry]) -> Option<KeptSymmetry> {
+    let all = KeptSymmetry::ALL.map(|s| (s.code(), s));
     find(entries, "symmetry").and_then(|entry| named(report, &entry.node, "a symmetry", &all))
 }
 

@@ -178,9 +178,9 @@ pub fn count_common_points(m: &Manipulator, options: &CountOptions) -> Option<Co
         error_probability += found.error_probability;
         found.finite()
     };
-    let finite = count(Chart::Finite)?;
-    let rotating = count(Chart::Rotating);
-    let all = rotating.and_then(|_| count(Chart::All));
+    let finite = count(CountedChart::Finite)?;
+    let rotating = count(CountedChart::Rotating);
+    let all = rotating.and_then(|_| count(CountedChart::All));
     Some(CommonPoints {
         finite,
         isotropic: rotating.and_then(|n| n.checked_sub(finite)),
@@ -212,7 +212,7 @@ enum Lengths<'a> {
 
 /// What is one in the affine coordinates that are counted in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Chart {
+enum CountedChart {
     /// `h`: poses.
     Finite,
     /// A random linear form of `M` and `h`: all points where these are not all zero.
@@ -225,15 +225,20 @@ enum Chart {
 struct Draws {
     squares: [i64; 6],
     sections: [[i64; COORDINATES]; 6],
-    chart: Chart,
+    chart: CountedChart,
     form: [i64; COORDINATES],
 }
 
 fn counted(m: &Manipulator, lengths: Lengths<'_>, options: &CountOptions) -> PoseCount {
-    counted_in(m, lengths, Chart::Finite, options)
+    counted_in(m, lengths, CountedChart::Finite, options)
 }
 
-fn counted_in(m: &Manipulator, lengths: Lengths<'_>, chart: Chart, options: &CountOptions) -> PoseCount {
+fn counted_in(
+    m: &Manipulator,
+    lengths: Lengths<'_>,
+    chart: CountedChart,
+    options: &CountOptions,
+) -> PoseCount {
     let mut rng = Purpose::POSE_COUNT.rng(options.seed);
     let mut integer = || (rng.next_u64() >> 4).cast_signed();
     let draws = Draws {
@@ -241,9 +246,11 @@ fn counted_in(m: &Manipulator, lengths: Lengths<'_>, chart: Chart, options: &Cou
         sections: std::array::from_fn(|_| std::array::from_fn(|_| integer())),
         chart,
         form: match chart {
-            Chart::Finite => std::array::from_fn(|k| i64::from(k == H)),
-            Chart::Rotating => std::array::from_fn(|k| if k == H || M.contains(&k) { integer() } else { 0 }),
-            Chart::All => std::array::from_fn(|_| integer()),
+            CountedChart::Finite => std::array::from_fn(|k| i64::from(k == H)),
+            CountedChart::Rotating => {
+                std::array::from_fn(|k| if k == H || M.contains(&k) { integer() } else { 0 })
+            }
+            CountedChart::All => std::array::from_fn(|_| integer()),
         },
     };
     let joints = match CountedJoints::of(m) {
@@ -302,7 +309,7 @@ fn set_modulo(field: Field, ends: &EndResidues, lengths: Lengths<'_>, draws: &Dr
         .collect();
     let relations =
         6 - field.rank(equations.iter().map(|e| std::array::from_fn::<_, H, _>(|k| e[k])).collect());
-    if relations > 0 && draws.chart != Chart::Finite {
+    if relations > 0 && draws.chart != CountedChart::Finite {
         // points at infinity need not form sets of the dimension that the relations give the poses
         return (PoseSet::Undecided { why: CountUndecided::DegreeTooLow }, 2);
     }
@@ -367,7 +374,7 @@ fn error_probability(
     joints: &CountedJoints,
     prime: &DrawnPrime,
     lengths: Lengths<'_>,
-    (chart, depth): (Chart, usize),
+    (chart, depth): (CountedChart, usize),
 ) -> f64 {
     let bits = joints.bits(lengths).max(SECTION_BITS);
     let primes = 3.0 * 2f64.powi(60) / (5.0 * 60.0 * std::f64::consts::LN_2);
@@ -375,8 +382,8 @@ fn error_probability(
 }
 
 /// Rows, at most, of all minors that decide: for all depths up to the one that was needed, which is not known before the prime is drawn.
-fn minors(chart: Chart, depth: usize) -> f64 {
-    let unknowns = if chart == Chart::Finite { H } else { COORDINATES };
+fn minors(chart: CountedChart, depth: usize) -> f64 {
+    let unknowns = if chart == CountedChart::Finite { H } else { COORDINATES };
     (1..=depth + 1).map(|t| (DEGREE + 2) as f64 * monomials(unknowns, t)).sum()
 }
 
