@@ -327,6 +327,9 @@ class CheckAnswer(Record):
     nearest_singular: Union[NearestSingularRecord, None]
     #: Finite poses, real and complex, for generic leg lengths.
     pose_count: PoseCountRecord
+    #: The points that six legs have in common, for generic lengths, by where they are; null where the
+    #: poses are not isolated or not counted.
+    common_points: Union[CommonPointsRecord, None]
     #: How many isolated finite poses no lengths exceed, by a theorem.
     pose_bound: PoseBoundRecord
     #: Singular values of the normalised leg vectors.
@@ -401,6 +404,21 @@ class ClosureRecord(Record):
     poses_real_proved: Union[int, None]
     #: Why not.
     error: Union[str, None]
+
+
+class CommonPointsRecord(Record):
+    """Common points of six legs in the closure of the group, each with its multiplicity, counted modulo random primes."""
+
+    #: Finite poses.
+    finite: int
+    #: Limits of poses whose quaternion e becomes isotropic: e.e = 0, e not 0. Null: not isolated, or not
+    #: counted.
+    isotropic: Union[int, None]
+    #: Limits of poses with e = 0: the position goes to infinity. Null: points at infinity are not
+    #: isolated, or not counted.
+    at_infinity: Union[int, None]
+    #: A bound on the probability that the numbers are others.
+    error_probability: float
 
 
 class ComparedRecord(Record):
@@ -546,34 +564,48 @@ class DependencyRecord(Record):
 class Design(Record):
     """A design file of equipod, as JSON; a TOML file has the same structure. What no schema can say (joints of legs exist, axes are not zero, rotations are rotations) is checked by the program."""
 
+    #: of the design, not blank
     name: str
     #: label of the length unit; every length of the file is in it
     units: str
-    #: [base joint, platform joint] in leg order
+    #: `[base joint, platform joint]` in leg order; in TOML above the first table
     legs: tuple[tuple[str, ...], ...]
+    #: joints in the base frame, each as `[x, y, z]` or as a construction
     base: DesignBody
+    #: joints in the platform frame, each as `[x, y, z]` or as a construction
     platform: DesignBody
-    #: unit of all forces; torques are in it times the length unit
+    #: unit of all forces; torques are in it times the length unit; where none is named a payload and the
+    #: simulator take newtons
     force_units: Union[Literal["N", "kN", "kgf", "lbf"], None]
-    #: unit of all masses
+    #: unit of all masses; kilograms where none is named
     mass_units: Union[Literal["g", "kg", "t", "lb"], None]
     #: where the numbers come from
     source: Union[str, None]
+    #: free text
     description: Union[str, None]
-    #: leg lengths in leg order
+    #: leg lengths in leg order, which `equipod fk` takes without `--lengths`
     lengths: Union[tuple[DesignNotNegative, ...], None]
     #: numbers and expressions that expressions of joints and of other parameters name
     parameters: Union[dict[str, DesignQuantity], None]
     #: the pose the platform is built for
     home: Union[DesignPose, None]
+    #: the poses to reach
     workspace: Union[dict[str, Any], None]
+    #: what the platform carries
     payload: Union[dict[str, Any], None]
+    #: room that plates and machine may take up
     envelope: Union[dict[str, Any], None]
+    #: what has to remain of each limit
     limits: Union[dict[str, Any], None]
+    #: what the optimiser chooses, and by what
     optimize: Union[dict[str, Any], None]
+    #: sizes and limits of joints, legs and drives
     hardware: Union[dict[str, Any], None]
+    #: the platform has to move so fast in every direction
     speed: Union[dict[str, Any], None]
+    #: wrenches the legs have to hold, one at a time
     loads: Union[tuple[dict[str, Any], ...], None]
+    #: bodies the legs must not touch, each a box, a sphere or a capsule
     keep_out: Union[tuple[Any, ...], None]
 
 
@@ -606,11 +638,12 @@ class DesignPose(Record):
 
     #: of the platform origin, base frame
     position: DesignVector
-    #: roll, pitch, yaw in degrees, R = Rz(yaw) Ry(pitch) Rx(roll)
+    #: roll, pitch, yaw in degrees, `R = Rz(yaw) Ry(pitch) Rx(roll)`; exactly one of `rpy_deg`, `quat_wxyz`
+    #: and `rotation` is there
     rpy_deg: Union[DesignVector, None]
-    #: scalar part first, of norm 1 within 1e-3
+    #: scalar part first, of norm 1 within 1e-3; it is normalised
     quat_wxyz: Union[tuple[DesignNumber, ...], None]
-    #: rows of R, orthonormal within 1e-9 and right-handed
+    #: rows of R, orthonormal within 1e-9 and right-handed; taken as it is
     rotation: Union[tuple[DesignVector, ...], None]
 
 
@@ -657,8 +690,11 @@ class DimensionalAnswer(Record):
     search: SearchRecord
     #: The platform; null: there is none.
     design: Union[Design, None]
-    #: The file written.
+    #: The file written, with the platform or the one that comes nearest.
     output: Union[str, None]
+    #: Where none that meets the requirements was found: the one with the least violation, which misses
+    #: some of them.
+    nearest: Union[NearestPlatformRecord, None]
     #: When infeasible.
     conflict: Union[ConflictRecord, None]
     #: Value of the first objective.
@@ -1560,6 +1596,19 @@ class NearestMotionRecord(Record):
     residual: Union[float, None]
 
 
+class NearestPlatformRecord(Record):
+    """The platform that comes nearest to its requirements."""
+
+    #: What was chosen, axes left out.
+    variables: tuple[VariableRecord, ...]
+    #: The requirements, over many poses and by other code.
+    constraint_margins: tuple[MarginRecord, ...]
+    #: What `assess` says of it; null: the design requires nothing.
+    assessment: Union[AssessAnswer, None]
+    #: The platform.
+    design: Design
+
+
 class NearestRoundingOutcome(Record):
     """The nearest rounding, or why there is none."""
 
@@ -1870,6 +1919,9 @@ class OptimizeAnswer(Record):
     local_optimality: Union[LocalOptimalityRecord, StationarityRecord, None]
     #: Steps of the run that found it.
     history: Union[tuple[OffsetStepRecord, ...], tuple[DimensionalStepRecord, ...], None]
+    #: Where none that meets the requirements was found: the one with the least violation, which misses
+    #: some of them.
+    nearest: Union[NearestPlatformRecord, None]
     #: How the search went.
     search: Union[SearchRecord, None]
     #: All of them.
