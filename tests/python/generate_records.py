@@ -18,9 +18,11 @@ ANSWERS = {
     "build-round": "RoundAnswer",
     "build-tolerances": "TolerancesAnswer",
     "check": "CheckAnswer",
+    "compare": "CompareAnswer",
     "equivalents-map": "MapAnswer",
     "explore": "ExploreAnswer",
     "fk": "FkAnswer",
+    "motion": "MotionAnswer",
     "optimize": "OptimizeAnswer",
     "verify": "VerifyAnswer",
 }

@@ -271,6 +271,28 @@ def test_long_work_answers_reports_and_can_be_interrupted(octahedral):
         octahedral.optimize(extension=-1.0)
 
 
+def test_motions_and_designs_side_by_side():
+    design = equipod.Design.load("designs/worked/simulator-octahedral.toml")
+    times = np.linspace(0.0, 1.0, 11)
+    poses = np.tile(design.home, (11, 1, 1))
+    poses[:, 2, 3] += 20.0 * np.sin(2 * np.pi * times)
+    answer = design.motion(times, poses, sine=["z:20:1"])
+    trajectory, sine = answer.motions
+    assert sine.motion == "z:20:1" and len(trajectory.legs) == len(sine.legs) == 6
+    assert isinstance(answer.met, bool) and answer.length_unit == "mm"
+    with pytest.raises(equipod.DesignError):
+        design.motion(times[:5], poses)
+    with pytest.raises(equipod.DesignError):
+        design.motion(times)
+    with pytest.raises(equipod.DesignError):
+        design.motion(sine=["sideways"])
+
+    bench = [equipod.Design.load(f"designs/worked/bench-{kind}.toml") for kind in ("octahedral", "joint-free")]
+    beside = equipod.compare(bench, options=["--points", "20"])
+    assert [row.name for row in beside.designs] == [design.name for design in bench]
+    assert equipod.table(beside.designs).num_rows == 2
+
+
 def test_computations_release_the_interpreter_lock(octahedral):
     lengths = np.tile(octahedral.ik(octahedral.home), (20000, 1))
     ticks, stop = [], threading.Event()

@@ -14,7 +14,7 @@ Poses are 4 x 4 homogeneous matrices ``[[R, p], [0, 1]]`` of float64, batch firs
 from __future__ import annotations
 
 from ._core import __version__
-from ._design import Design, Equivalent, Joints, LegMap, Margins, Track, Tracker, leg_map, presets, verify
+from ._design import Design, Equivalent, Joints, LegMap, Margins, Track, Tracker, compare, leg_map, presets, verify
 from ._display import Figure, Page
 from ._errors import CommandError, DesignError, Fault
 from ._poses import PoseLike, pose, quaternion, rpy
@@ -40,6 +40,7 @@ __all__ = [
     "Track",
     "Tracker",
     "__version__",
+    "compare",
     "leg_map",
     "pose",
     "presets",

@@ -24,7 +24,9 @@ if TYPE_CHECKING:
     from .records import (
         AssessAnswer,
         CheckAnswer,
+        CompareAnswer,
         MapAnswer,
+        MotionAnswer,
         OptimizeAnswer,
         RoundAnswer,
         TolerancesAnswer,
@@ -574,6 +576,48 @@ class Design:
             file = shop.file("design.toml", self._native)
             return TolerancesAnswer(ask(["build", "tolerances", file, "--bound", bound, *options], progress))
 
+    def motion(
+        self,
+        times: npt.ArrayLike | None = None,
+        poses: PoseLike | None = None,
+        *,
+        sine: Sequence[str] = (),
+        accelerate: Sequence[str] = (),
+        options: Sequence[str] = (),
+        progress: Progress | bool | None = None,
+    ) -> MotionAnswer:
+        """Forces, speeds, accelerations and powers of the legs along a motion, by inverse dynamics, against the limits of the design.
+
+        Parameters
+        ----------
+        times : array_like, shape (n,), optional
+            Seconds, increasing, of the poses of a trajectory.
+        poses : pose_like, shape (n, 4, 4), optional
+            Its poses.
+        sine : sequence of str
+            Sines about home, ``"axis:amplitude:hertz"``: ``"z:100:0.5"``, turns in degrees.
+        accelerate : sequence of str
+            Accelerations from rest at home, ``"axis:acceleration"``, design units or degrees per second squared.
+        options : sequence of str
+            Further options of ``equipod motion``.
+        progress : callable or bool, optional
+
+        Returns
+        -------
+        MotionAnswer
+            ``met`` is False where a requirement is violated at an instant looked at.
+        """
+        from .records import MotionAnswer
+
+        with Workshop() as shop:
+            words = ["motion", shop.file("design.toml", self._native)]
+            if times is not None or poses is not None:
+                if times is None or poses is None:
+                    raise DesignError("a trajectory has times and poses", code="shape")
+                words.append(shop.poses("trajectory.csv", times, poses))
+            words += [f"--sine={text}" for text in sine] + [f"--accelerate={text}" for text in accelerate]
+            return MotionAnswer(ask([*words, *options], progress))
+
     def export(self, format: str) -> dict[str, str]:
         """The files of ``csv``, ``drawing``, ``dxf``, ``hal``, ``json``, ``matlab``, ``mjcf``, ``step`` or ``stl``: texts by names."""
         return dict(self._native.export(format))
@@ -642,6 +686,43 @@ def leg_map(a: Design, b: Design) -> LegMap:
     found, record = _core.leg_map(a._native, b._native)
     numbers = (None, None) if found is None else found
     return LegMap(numbers[0], numbers[1], MapAnswer.from_json(record))
+
+
+def compare(
+    designs: Iterable[Design],
+    *,
+    sine: Sequence[str] = (),
+    accelerate: Sequence[str] = (),
+    accuracy: tuple[float, float] | None = None,
+    options: Sequence[str] = (),
+    progress: Progress | bool | None = None,
+) -> CompareAnswer:
+    """Designs in the same units side by side: margins, stroke, force, speed, power, conditioning, stiffness, spacing, clearance, sizes.
+
+    Parameters
+    ----------
+    designs : iterable of Design
+    sine, accelerate : sequence of str
+        Manoeuvres along which forces, speeds and powers are taken, as for `Design.motion`.
+    accuracy : (float, float), optional
+        Accuracy of the pose, length and degrees, for which joints are toleranced.
+    options : sequence of str
+        Further options of ``equipod compare``.
+    progress : callable or bool, optional
+
+    Returns
+    -------
+    CompareAnswer
+        ``designs`` has a record for each, in order; ``equipod.table(answer.designs)`` is an Arrow table.
+    """
+    from .records import CompareAnswer
+
+    with Workshop() as shop:
+        words = ["compare", *(shop.file(f"design-{k}.toml", d._native) for k, d in enumerate(designs))]
+        words += [f"--sine={text}" for text in sine] + [f"--accelerate={text}" for text in accelerate]
+        if accuracy is not None:
+            words.append(f"--accuracy={float(accuracy[0])!r},{float(accuracy[1])!r}")
+        return CompareAnswer(ask([*words, *options], progress))
 
 
 def verify(a: Design, b: Design, *, samples: int = 10, seed: int = 1, threads: int | None = None) -> VerifyAnswer:

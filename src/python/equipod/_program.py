@@ -12,8 +12,12 @@ import threading
 from collections.abc import Callable, Sequence
 from typing import Any
 
+import numpy as np
+import numpy.typing as npt
+
 from . import _core
 from ._errors import CommandError, DesignError
+from ._poses import PoseLike, as_matrices, quaternion
 
 #: What progress is reported to: a line of text at a time.
 Progress = Callable[[str], None]
@@ -42,6 +46,18 @@ class Workshop:
         """A design as a file."""
         path = self.path / name
         path.write_text(design.dumps(False), encoding="utf-8")
+        return str(path)
+
+    def poses(self, name: str, times: npt.ArrayLike, poses: PoseLike) -> str:
+        """Times and poses as a table, to the last digit."""
+        array = as_matrices(poses).reshape(-1, 4, 4)
+        seconds = np.asarray(times, dtype=np.float64).reshape(-1)
+        if len(seconds) != len(array):
+            raise DesignError(f"{len(seconds)} times and {len(array)} poses", code="shape")
+        rows = np.column_stack([seconds, array[:, :3, 3], quaternion(array)])
+        lines = ["time,x,y,z,qw,qx,qy,qz", *(",".join(map(repr, row.tolist())) for row in rows)]
+        path = self.path / name
+        path.write_text("\n".join(lines) + "\n", encoding="utf-8")
         return str(path)
 
 

@@ -105,6 +105,15 @@ VerdictWord = Literal["equivalent", "inconclusive", "not_equivalent", "singular"
 WorkspaceWord = Literal["default", "design"]
 
 
+class AccuracyRecord(Record):
+    """How far the pose may be off."""
+
+    #: Of the platform origin, design units.
+    position: float
+    #: Angle of rotation.
+    rotation_deg: float
+
+
 class AlignmentRecord(Record):
     """The rigid motions that make one design equivalent to another."""
 
@@ -419,6 +428,29 @@ class CommonPointsRecord(Record):
     at_infinity: Union[int, None]
     #: A bound on the probability that the numbers are others.
     error_probability: float
+
+
+class CompareAnswer(Record):
+    """One JSON document: an answer between what all answers have."""
+
+    #: Always 1: the version of these definitions.
+    schema_version: int
+    #: Of all designs.
+    length_unit: str
+    #: Of all designs.
+    force_unit: str
+    #: The manoeuvres about home along which forces, speeds and powers are taken.
+    manoeuvres: tuple[str, ...]
+    #: The accuracy for which joints are toleranced; null: none was asked for.
+    accuracy: Union[AccuracyRecord, None]
+    #: In the order in which they were given.
+    designs: tuple[FiguresRecord, ...]
+    #: The table and the page that were written.
+    paths: tuple[str, ...]
+    #: What the answer was made from.
+    provenance: ProvenanceRecord
+    #: What was odd about the design files that were read.
+    warnings: tuple[WarningRecord, ...]
 
 
 class ComparedRecord(Record):
@@ -934,6 +966,15 @@ class ExploreOctahedralAnswer(Record):
     fk: PoseTotalsRecord
 
 
+class ExtremeRecord(Record):
+    """A value with its time."""
+
+    #: With its sign.
+    value: Union[float, None]
+    #: When.
+    time_s: float
+
+
 class FailureRecord(Record):
     """A refusal or a failure."""
 
@@ -965,6 +1006,57 @@ class FamilySizeRecord(Record):
     patterns: int
     #: Ways to share joints.
     topologies: int
+
+
+class FiguresRecord(Record):
+    """The figures of a design over the poses of its workspace. Null: the design says nothing about it, or the value is not finite."""
+
+    #: Name of the design.
+    name: str
+    #: Its file.
+    path: str
+    #: What `assess` says of it; null: it requires nothing.
+    assessment: Union[AssessAnswer, None]
+    #: Poses looked at.
+    poses: int
+    #: Least leg length.
+    shortest: Union[float, None]
+    #: Greatest leg length.
+    longest: Union[float, None]
+    #: The difference.
+    stroke: Union[float, None]
+    #: Lengths at home that differ by more than a millionth of the size.
+    different_legs: int
+    #: Greatest leg force under the payload and the loads, one at a time.
+    force: Union[float, None]
+    #: Greatest leg speed under the speed that the platform has to have.
+    speed: Union[float, None]
+    #: Greatest leg force along the manoeuvres.
+    motion_force: Union[float, None]
+    #: Greatest leg speed along the manoeuvres.
+    motion_speed: Union[float, None]
+    #: Greatest power of a drive along the manoeuvres, watts.
+    motion_power_w: Union[float, None]
+    #: Least inverse condition number of the Jacobian.
+    conditioning: Union[float, None]
+    #: Least stiffness against a force through the platform origin, force units per design unit.
+    stiffness: Union[float, None]
+    #: Lowest natural frequency.
+    frequency_hz: Union[float, None]
+    #: Least distance of two joint centres of the base.
+    base_spacing: Union[float, None]
+    #: The same on the platform.
+    platform_spacing: Union[float, None]
+    #: Least gap between two legs.
+    clearance: Union[float, None]
+    #: Greatest distance of a joint of the base from their centroid.
+    base_radius: Union[float, None]
+    #: The same on the platform.
+    platform_radius: Union[float, None]
+    #: How far every joint may be off, in any direction, for the accuracy to be kept to first order.
+    joint_tolerance: Union[float, None]
+    #: Why there is no such tolerance; null: there is one, or none was asked for.
+    no_tolerance: Union[str, None]
 
 
 class FileSourceRecord(Record):
@@ -1371,6 +1463,30 @@ class LeastConditioningRecord(Record):
     characteristic_length: float
 
 
+class LegMotionRecord(Record):
+    """A leg along a motion."""
+
+    #: From 1.
+    leg: int
+    #: Least length.
+    shortest: ExtremeRecord
+    #: Greatest length.
+    longest: ExtremeRecord
+    #: Speed of the greatest size, positive where the leg becomes longer.
+    speed: ExtremeRecord
+    #: Acceleration of the greatest size.
+    acceleration: ExtremeRecord
+    #: Greatest force of the drive: its hardest push where it is positive; null: no masses are known, or
+    #: forces are not determined.
+    push: Union[ExtremeRecord, None]
+    #: Least force: its hardest pull where it is negative.
+    pull: Union[ExtremeRecord, None]
+    #: Root of the mean square of the force over time, force units.
+    rms_force: Union[float, None]
+    #: Power of the greatest size, watts; negative where the drive brakes.
+    power_w: Union[ExtremeRecord, None]
+
+
 class LocalOptimalityRecord(Record):
     """Evidence of local optimality."""
 
@@ -1517,6 +1633,33 @@ class MarginRecord(Record):
     pose: Union[PoseQuaternionRecord, None]
 
 
+class MotionAnswer(Record):
+    """One JSON document: an answer between what all answers have."""
+
+    #: Always 1: the version of these definitions.
+    schema_version: int
+    #: The name of the design.
+    name: str
+    #: No requirement is violated and no force is undetermined at the instants looked at.
+    met: bool
+    #: Of lengths; speeds are in it per second, accelerations per second squared.
+    length_unit: str
+    #: Of forces.
+    force_unit: str
+    #: What the file does not say and was taken instead, a sentence each.
+    assumptions: tuple[str, ...]
+    #: In the order asked for: the trajectory, sines, accelerations.
+    motions: tuple[MotionRunRecord, ...]
+    #: How stiff the platform is at the pose of `--about`; null: it was not asked for.
+    stiffness: Union[StiffnessRecord, None]
+    #: The table of instants that was written; null: none.
+    csv: Union[str, None]
+    #: What the answer was made from.
+    provenance: ProvenanceRecord
+    #: What was odd about the design files that were read.
+    warnings: tuple[WarningRecord, ...]
+
+
 class MotionRecord(Record):
     """A pair of rigid motions of the second design."""
 
@@ -1532,6 +1675,25 @@ class MotionRecord(Record):
     relation: Union[Relation, None]
 
 
+class MotionRunRecord(Record):
+    """The legs along a motion."""
+
+    #: The file of the trajectory, or the manoeuvre as it was asked for.
+    motion: str
+    #: Instants looked at.
+    instants: int
+    #: From the first to the last of them.
+    duration_s: float
+    #: As in the answer, of this motion.
+    met: bool
+    #: By leg; empty where a leg has no length at some instant.
+    legs: tuple[LegMotionRecord, ...]
+    #: The least margin of each kind of requirement, force and speed by this motion.
+    requirements: tuple[TimedMarginRecord, ...]
+    #: When forces are not determined, since the pose is singular; null: at no instant.
+    singular_at_s: Union[float, None]
+
+
 class MovesFoundRecord(Record):
     """A search for equivalent platforms in short."""
 
@@ -1541,6 +1703,16 @@ class MovesFoundRecord(Record):
     moved_legs: Union[tuple[int, ...], None]
     #: det A of the map to it; null: none is written.
     det: Union[float, None]
+
+
+class NaturalMotionRecord(Record):
+    """A natural motion."""
+
+    #: Its frequency.
+    frequency_hz: Union[float, None]
+    #: Its shape: shift of the platform origin in design units and rotation vector in radians, base frame,
+    #: for which `v^T M v` is 1 in kilograms and design units.
+    shape: tuple[Union[float, None], ...]
 
 
 class NearRecord(Record):
@@ -2389,6 +2561,33 @@ class StationarityRecord(Record):
 
     #: Gain still promised for a unit of the variables.
     stationarity: Union[float, None]
+
+
+class StiffnessRecord(Record):
+    """Stiffness and natural motions at a pose."""
+
+    #: The pose.
+    pose: PoseQuaternionRecord
+    #: `J^T diag(k) J`: force and torque about the platform origin for a shift of it and a small turn, base
+    #: frame; force units, design units and radians.
+    K: tuple[tuple[Union[float, None], ...], ...]
+    #: Least stiffness against a force through the platform origin, force units per design unit; 0 at a
+    #: singular pose.
+    linear: Union[float, None]
+    #: Least stiffness against a torque, force units times design units per radian; 0 at a singular pose.
+    angular: Union[float, None]
+    #: The natural motions, the slowest first; null: masses are not known, or a point mass is not held
+    #: against turns.
+    natural: Union[tuple[NaturalMotionRecord, ...], None]
+
+
+class TimedMarginRecord(Record):
+    """A margin with its time."""
+
+    #: When the margin is least.
+    time_s: float
+    #: The margin.
+    margin: MarginRecord
 
 
 class TolerancesAnswer(Record):
