@@ -95,19 +95,19 @@ fn what_contradicts_itself_is_refused() {
         29:13 design::wrong_type: `base_axes` is not a choice of axes | write "home", "optimize" or six vectors in leg order
         21:20 design::not_positive: an edge length of -2 | give positive edge lengths
         25:17 design::not_positive: `leg_clearance` is -1 | give 0 or more
-        36:10 design::not_positive: `linear` is -20 | give 0 or more
-        37:1 design::unknown_key: `turn` is not a key of [speed] | known keys: linear, angular_deg
-        39:8 design::empty_name: `name` is empty | write something between the quotes of `name`
-        40:1 design::unknown_key: `forces` is not a key of [[loads]] | did you mean `force`?
-        49:12 design::wrong_type: `fixed_to` is "tool" | write "base" or "platform"
-        50:10 design::missing_key: `center` of `sphere` is missing | `sphere` takes center, diameter
-        50:12 design::unknown_key: `centre` is not a key of `sphere` | did you mean `center`?
-        45:3 design::missing_key: table has 0 shapes | give one of box = { center, size }, sphere = { center, diameter }, capsule = { from, to, diameter }
+        42:10 design::not_positive: `linear` is -20 | give 0 or more
+        43:1 design::unknown_key: `turn` is not a key of [speed] | known keys: linear, angular_deg
+        45:8 design::empty_name: `name` is empty | write something between the quotes of `name`
+        46:1 design::unknown_key: `forces` is not a key of [[loads]] | did you mean `force`?
+        55:12 design::wrong_type: `fixed_to` is "tool" | write "base" or "platform"
+        56:10 design::missing_key: `center` of `sphere` is missing | `sphere` takes center, diameter
+        56:12 design::unknown_key: `centre` is not a key of `sphere` | did you mean `center`?
+        51:3 design::missing_key: table has 0 shapes | give one of box = { center, size }, sphere = { center, diameter }, capsule = { from, to, diameter }
         17:10 design::wrong_type: `region` is neither box nor ellipsoid | write "box" or "ellipsoid"
         18:14 design::wrong_type: `trajectory` is a number, not a string | write `trajectory = "..."`
         19:15 design::wrong_type: `relative_to` is "tool" | write "home" or "base"
         18:1 design::missing_key: `relative_to` says what listed poses are measured from, and none are listed | list `poses` or name a `trajectory`, or remove `relative_to`: the box is always around home
-        35:1 design::wrong_type: [speed] is an array, not a table | write [speed] as a table
+        41:1 design::wrong_type: [speed] is an array, not a table | write [speed] as a table
     "#);
 }
 

@@ -347,7 +347,9 @@ fn the_same_design_gives_the_same_bytes_and_every_file_says_its_unit() {
     for format in ExportFormat::ALL.map(ExportFormat::writer) {
         let (one, two) = (export(OCTAHEDRAL), export(OCTAHEDRAL));
         assert_eq!(format.files(&one), format.files(&two), "{}", format.name());
-        for file in format.files(&one).unwrap() {
+        // of the C for controllers one file says what the numbers of the design are in; the others have no place of their own
+        let says_it = |name: &str| format.name() != "c" || name == "equipod_design.h";
+        for file in format.files(&one).unwrap().iter().filter(|file| says_it(&file.name)) {
             assert!(file.text.contains("mm") || file.text.contains(" m;"), "{}", file.name);
             assert!(file.text.contains("frame"), "{}", file.name);
         }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Compilers that are not ours take the files of `equipod export --to c`, and the self-test in them runs. `tests/controllers/run` calls this.
+"""Compilers that are not ours take the files of `equipod export DESIGN --to c -o FOLDER`, and the self-test in them runs. `tests/controllers/run` calls this.
 
     python tests/controllers/check.py target/debug/equipod [--allow-missing] [--table]
 

@@ -205,6 +205,7 @@ fn a_request_to_terminate_ends_a_search_with_what_it_has() {
 fn three_fold_symmetry_is_kept_or_refused() {
     let equilateral = r#"
 name = "equilateral"
+units = "mm"
 legs = [["P1","P4"], ["P2","P4"], ["P2","P5"], ["P3","P5"], ["P3","P6"], ["P1","P6"]]
 [base]
 P1 = { radius = 10, angle_deg = 0 }

@@ -86,6 +86,7 @@ const OPTIONAL: &[&str] = &[
     "rearrangements",
     "conflict",
     "history",
+    "nearest",
     "base",
     "platform",
     "squared_lengths",
