@@ -275,11 +275,11 @@ def test_motions_and_designs_side_by_side():
     design = equipod.Design.load("designs/worked/simulator-octahedral.toml")
     times = np.linspace(0.0, 1.0, 11)
     poses = np.tile(design.home, (11, 1, 1))
-    poses[:, 2, 3] += 20.0 * np.sin(2 * np.pi * times)
-    answer = design.motion(times, poses, sine=["z:20:1"])
+    poses[:, 2, 3] += 0.02 * np.sin(2 * np.pi * times)
+    answer = design.motion(times, poses, sine=["z:0.02:1"])
     trajectory, sine = answer.motions
-    assert sine.motion == "z:20:1" and len(trajectory.legs) == len(sine.legs) == 6
-    assert isinstance(answer.met, bool) and answer.length_unit == "mm"
+    assert sine.motion == "sine z:0.02:1" and len(trajectory.legs) == len(sine.legs) == 6
+    assert isinstance(answer.met, bool) and answer.length_unit == design.units == "m"
     with pytest.raises(equipod.DesignError):
         design.motion(times[:5], poses)
     with pytest.raises(equipod.DesignError):
@@ -313,7 +313,9 @@ def test_computations_release_the_interpreter_lock(octahedral):
 
 def test_an_interrupt_ends_a_batch():
     code = (
-        "import equipod, numpy as np\n"
+        "import equipod, numpy as np, signal\n"
+        # a shell that starts the tests in the background has the signal ignored, and children inherit it
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
         "d = equipod.Design.preset('linuxcnc-hexapod')\n"
         "l = np.tile(d.ik(d.home), (2_000_000, 1))\n"
         "print('go', flush=True)\n"

@@ -1,7 +1,7 @@
 //! C99 for controllers: the kinematics of one design without dependencies, allocation or recursion.
 //!
 //! `equipod.c` and `equipod.h` are the same for every design and stand beside this file. They compute what
-//! [`NearSolver`](crate::fk::NearSolver) computes, operation by operation, so that in double the poses are those of the library bit for bit;
+//! [`NearSolver`] computes, operation by operation, so that in double the poses are those of the library bit for bit;
 //! `equipod_vectors.h` holds numbers of the library that `equipod_selftest.c` compares. What is written here are the numbers of the design.
 
 mod vectors;
