@@ -371,7 +371,7 @@ class Design:
             Matrices that are no poses.
         """
         array = as_matrices(poses)
-        return self._native.ik(array.reshape(-1, 4, 4)).reshape(*array.shape[:-2], 6)
+        return self._native.ik(array.reshape(-1, 4, 4)).reshape(array.shape[:-2] + (6,))
 
     def jacobian(self, poses: PoseLike, *, characteristic_length: float = 1.0) -> Floats:
         """Leg speeds by the velocity of the platform origin and the angular velocity, base frame.
@@ -389,7 +389,7 @@ class Design:
         """
         array = as_matrices(poses)
         rows = self._native.jacobian(array.reshape(-1, 4, 4), characteristic_length)
-        return rows.reshape(*array.shape[:-2], 6, 6)
+        return rows.reshape(array.shape[:-2] + (6, 6))
 
     def fk(self, lengths: npt.ArrayLike, *, seed: int = 1, method: str | None = None) -> Solutions:
         """Forward kinematics: all finite poses, real and complex, each with its certificate where there is one.

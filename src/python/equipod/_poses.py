@@ -12,6 +12,8 @@ from ._errors import DesignError
 
 Floats = npt.NDArray[np.float64]
 
+_FLOAT64 = np.dtype(np.float64)
+
 
 @runtime_checkable
 class HasMatrix(Protocol):
@@ -26,6 +28,9 @@ PoseLike = Union[npt.ArrayLike, HasMatrix]
 
 def as_matrices(poses: PoseLike) -> Floats:
     """Poses as an array of float64 with shape (..., 4, 4); no copy where it is one already."""
+    # what a loop hands over again and again: the look for `as_matrix` costs more than the mathematics
+    if type(poses) is np.ndarray and poses.dtype == _FLOAT64 and poses.shape[-2:] == (4, 4) and poses.flags.c_contiguous:
+        return poses
     given = poses.as_matrix() if isinstance(poses, HasMatrix) else poses
     array = np.asarray(given)
     if np.iscomplexobj(array):
