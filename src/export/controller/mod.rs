@@ -65,7 +65,7 @@ pub(super) fn number(x: f64) -> String {
     if x.is_nan() {
         "NAN".to_string()
     } else if x.is_infinite() {
-        if x > 0.0 { "INFINITY".to_string() } else { "-INFINITY".to_string() }
+        if x > 0.0 { "HUGE_VAL".to_string() } else { "-HUGE_VAL".to_string() }
     } else {
         format!("{x:?}")
     }
