@@ -246,7 +246,8 @@ static void check_tracked(void)
         tracked += r.status == EQUIPOD_TRACKED;
         check(r.segments <= v->segments_allowed, "segments within their bound", n);
 #ifdef EQUIPOD_FLOAT
-        /* float may need more segments, or refuse where rounding hides a singularity; it must not claim what is not there */
+        /* float may need more segments, or refuse where rounding hides a singularity; it must not claim what is not there.
+           Rounding counts by the square of the ratio in the test, so that float ends where the ratio is some hundredth. */
         if (r.status == EQUIPOD_TRACKED) {
             check(v->status == EQUIPOD_TRACKED || v->reason == EQUIPOD_SEGMENTS_EXHAUSTED, "tracked only what can be", n);
             if (v->status == EQUIPOD_TRACKED) {
@@ -254,7 +255,7 @@ static void check_tracked(void)
             }
         } else if (v->status == EQUIPOD_TRACKED) {
             refused += 1;
-            check(v->frobenius_ratio < 1e-3 || v->segments > v->segments_allowed / 2, "tracked where the library does with room to spare", n);
+            check(v->frobenius_ratio < 1e-2 || v->segments > v->segments_allowed / 2, "tracked where the library does with room to spare", n);
         }
 #else
         check((int)r.status == v->status && (int)r.reason == v->reason, "status", n);
