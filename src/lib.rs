@@ -114,6 +114,10 @@
 
 #[cfg(feature = "lab")]
 mod bench;
+#[cfg(feature = "synthesis")]
+mod calibration;
+#[cfg(feature = "capi")]
+mod capi;
 #[cfg(feature = "cli")]
 pub mod cli;
 #[cfg(feature = "files")]
@@ -146,15 +150,20 @@ mod plot;
 mod poly;
 #[cfg(feature = "python")]
 mod python;
+#[cfg(any(feature = "files", feature = "synthesis"))]
+mod reach;
 #[cfg(feature = "page")]
 pub mod records;
 #[cfg(feature = "page")]
 mod report;
 #[cfg(any(feature = "files", feature = "synthesis"))]
 mod requirements;
+mod rotary;
 #[cfg(feature = "synthesis")]
 mod singularity;
 mod solve;
+#[cfg(feature = "sweep")]
+mod sweep;
 #[cfg(feature = "synthesis")]
 mod synthesis;
 mod topology;
@@ -221,6 +230,11 @@ pub mod methods {
     #[cfg(feature = "lab")]
     pub mod bench {
         pub use crate::bench::*;
+    }
+    /// Joint centres and leg offsets of a machine from measured poses and lengths.
+    #[cfg(feature = "synthesis")]
+    pub mod calibration {
+        pub use crate::calibration::*;
     }
     /// Design files: text in, values out, and back to text.
     #[cfg(feature = "files")]
@@ -291,6 +305,11 @@ pub mod methods {
     pub mod poly {
         pub use crate::poly::*;
     }
+    /// How far the platform may move from a pose before a requirement binds, and the allowed pose nearest to one asked for.
+    #[cfg(any(feature = "files", feature = "synthesis"))]
+    pub mod reach {
+        pub use crate::reach::*;
+    }
     /// A folder of results as one HTML page: files in, HTML text out.
     #[cfg(feature = "page")]
     pub mod report {
@@ -300,6 +319,10 @@ pub mod methods {
     #[cfg(any(feature = "files", feature = "synthesis"))]
     pub mod requirements {
         pub use crate::requirements::*;
+    }
+    /// Platforms on rods of constant length whose cranks turn: angles of poses, poses of angles, speeds, torques.
+    pub mod rotary {
+        pub use crate::rotary::*;
     }
     /// Designs that no pose can hold, singular poses, self-motions.
     #[cfg(feature = "synthesis")]

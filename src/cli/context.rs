@@ -152,7 +152,7 @@ impl Context {
 }
 
 /// The notation of a design: by the name of the file or, on standard input, by its first character.
-fn format_of(path: &Path, text: &str) -> Format {
+pub(crate) fn format_of(path: &Path, text: &str) -> Format {
     let begins = text.trim_start_matches('\u{feff}').trim_start();
     if files::is_standard(path) && begins.starts_with('{') { Format::Json } else { Format::of_path(path) }
 }

@@ -34,7 +34,7 @@ const fn entry(
     GuideEntry { path, examples, words }
 }
 
-const JOBS: [Job; 9] = [
+const JOBS: [Job; 10] = [
     Job {
         heading: "Start",
         commands: &[entry(
@@ -66,6 +66,14 @@ const JOBS: [Job; 9] = [
                     "fk designs/rbt-octahedral.toml --lengths 11,11,11,11,11,11 --json",
                 ],
                 &["forward", "forward-kinematics", "kinematics", "solve", "poses"],
+            ),
+            entry(
+                "limits",
+                &[
+                    "limits designs/presets/bench-l16.toml",
+                    "limits designs/presets/bench-l16.toml --at 0,0,215,3,0,0 --to 10,0,212,0,0,0 --json",
+                ],
+                &["limit", "range", "ranges", "reach", "reachable", "travel"],
             ),
         ],
     },
@@ -166,9 +174,40 @@ const JOBS: [Job; 9] = [
                 &["tolerance", "budget"],
             ),
             entry(
+                "calibrate",
+                &[
+                    "calibrate designs/symmetric-hexapod.toml designs/tables/calibration.csv --sigma-length 0.005 --sigma-position 0.01 --sigma-rotation-deg 0.002 -o calibrated.toml",
+                    "calibrate designs/symmetric-hexapod.toml --sigma-length 0.005 --next 30",
+                ],
+                &["calibration", "identify", "measure", "joint-centres"],
+            ),
+            entry(
                 "export",
                 &["export designs/rbt-octahedral.toml --to step,dxf --unit mm -o files"],
                 &["cad"],
+            ),
+        ],
+    },
+    Job {
+        heading: "Many designs",
+        commands: &[
+            entry(
+                "sweep run",
+                &[
+                    "sweep run designs/sweeps/offsets.toml -o sweep",
+                    "sweep run designs/sweeps/offsets.toml --shard 3/16 -o sweep",
+                    "sweep run designs/sweeps/offsets.toml --estimate",
+                ],
+                &["study", "campaign", "latin-hypercube", "sobol"],
+            ),
+            entry("sweep status", &["sweep status sweep"], &["missing"]),
+            entry("sweep merge", &["sweep merge sweep -o sweep.parquet"], &["concatenate", "parquet"]),
+            entry("sweep verify", &["sweep verify sweep"], &["digests"]),
+            entry("sweep design", &["sweep design sweep --candidate 5 -o candidate.toml"], &["extract"]),
+            entry(
+                "sweep script",
+                &["sweep script designs/sweeps/offsets.toml --slurm --folder sweep -o sweep.sh"],
+                &["slurm", "cluster", "batch"],
             ),
         ],
     },
@@ -228,11 +267,20 @@ const JOBS: [Job; 9] = [
                 &["plot singular-poses designs/rbt-octahedral.toml -o singular.svg"],
                 &["slice"],
             ),
+            entry(
+                "plot sweep",
+                &[
+                    "plot sweep sweep --columns det_a,conditioning,clearance -o cloud.svg",
+                    "plot sweep sweep.parquet --kind front --columns base_spacing,conditioning -o spacing.svg",
+                    "plot sweep sweep --kind histogram --columns conditioning -o histogram.svg",
+                ],
+                &["heat-map", "histogram", "scatter", "parallel-coordinates", "contour"],
+            ),
             entry("plot topologies", &["plot topologies designs/innocenti-6-4.toml -o topology.svg"], &[]),
             entry(
                 "plot workspace",
                 &["plot workspace designs/worked/bench-octahedral.toml --slice x,z -o workspace.svg"],
-                &["reachable"],
+                &["workspace"],
             ),
             entry("view", &["view designs/rbt-octahedral.toml -o page.html"], &["show", "page", "html"]),
             entry("report", &["report out"], &["results"]),

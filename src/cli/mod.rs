@@ -20,6 +20,7 @@ mod progress;
 mod reference;
 mod requirements;
 mod rows;
+mod sweep_folder;
 mod table;
 mod usage;
 
@@ -68,12 +69,35 @@ fn asks_for_licences(words: &[String]) -> bool {
     words.iter().skip(1).filter(|w| !own(w)).eq(["--licences"])
 }
 
+/// `equipod sweep PLAN` is `equipod sweep run PLAN`: what a sweep is asked for most has the shortest name. A plan that is called as a command is `sweep run status`.
+fn sweep_run_in_full(mut args: Vec<OsString>) -> Vec<OsString> {
+    let mut rest = args.iter().enumerate().skip(1);
+    while let Some((at, word)) = rest.next() {
+        if word == "--seed" {
+            rest.next();
+        } else if word == "sweep" {
+            let next = rest.map(|(_, word)| word.to_string_lossy()).find(|word| !word.starts_with('-'));
+            if next.is_some_and(|word| !SWEEP_COMMANDS.contains(&word.as_ref())) {
+                args.insert(at + 1, "run".into());
+            }
+            break;
+        } else if !word.to_string_lossy().starts_with('-') {
+            break;
+        }
+    }
+    args
+}
+
+/// What `sweep` takes beside a plan.
+const SWEEP_COMMANDS: [&str; 7] = ["run", "status", "merge", "verify", "design", "script", "help"];
+
 fn run(args: Vec<OsString>, json: bool) -> Exit {
     let mut args = args;
     if args.len() < 2 {
         // nothing was asked: say what can be
         args.push("--help".into());
     }
+    let args = sweep_run_in_full(args);
     let words: Vec<String> = args.iter().map(|a| a.to_string_lossy().into_owned()).collect();
     if asks_for_licences(&words) {
         return Output::new(json).notices(LICENCES);
@@ -111,6 +135,24 @@ fn run(args: Vec<OsString>, json: bool) -> Exit {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_sweep_of_a_plan_needs_no_further_word() {
+        let full = |line: &str| {
+            let words = std::iter::once("equipod").chain(line.split(' ')).map(Into::into).collect();
+            sweep_run_in_full(words).iter().skip(1).map(|w| w.to_string_lossy()).collect::<Vec<_>>().join(" ")
+        };
+        assert_eq!(full("sweep plan.toml --shard 0/4 -o dir"), "sweep run plan.toml --shard 0/4 -o dir");
+        assert_eq!(full("--seed 5 --json sweep plan.toml"), "--seed 5 --json sweep run plan.toml");
+        for line in
+            ["sweep", "sweep --help", "sweep status dir", "sweep run status", "check sweep", "fk sweep a"]
+        {
+            assert_eq!(full(line), line);
+        }
+        let group = guide::program();
+        let group = group.find_subcommand("sweep").unwrap();
+        assert!(group.get_subcommands().all(|c| SWEEP_COMMANDS.contains(&c.get_name())));
+    }
 
     #[test]
     fn a_panic_is_an_internal_failure() {

@@ -85,5 +85,13 @@ fixed_to = "platform"
 sphere = { center = [0, 0, 2], diameter = 3 }
 [[keep_out]]
 capsule = { from = [0, 0, 0], to = [0, 0, 2], diameter = 3 }
+[calibration]
+offsets = [0.1, -0.2, 0, 0.05, 1e-3, 0.25]
+offset_deviations = [0.01, 0.01, 0.02, 0.01, 0.01, 0.03]
+[calibration.base_deviations]
+P1 = [0.1, 0.2, 0.3]
+P3 = [0, 0.2, 0.3]
+[calibration.platform_deviations]
+P4 = [0.01, 0.02, 0.03]
 "#
 );

@@ -17,6 +17,8 @@ mod requirements_tests;
 mod save;
 mod scale;
 mod schema;
+#[cfg(feature = "sweep")]
+pub(crate) mod spanned;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -35,7 +37,7 @@ pub(crate) use edit::Written;
 #[cfg(feature = "cli")]
 pub(crate) use likeness::likeness;
 pub(crate) use likeness::nearest_word;
-pub use model::{Combination, Design, NameCount, OptimizeTable, SearchTable};
+pub use model::{CalibrationTable, Combination, Design, NameCount, OptimizeTable, SearchTable};
 pub(crate) use outline::{HexapodSizes, octahedral_toml, with_lengths};
 pub use presets::{PRESETS, Preset, PresetClass};
 #[cfg(test)]

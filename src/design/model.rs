@@ -1,6 +1,6 @@
 //! The design: what a file holds once it is valid, with its requirements and what the optimiser may choose.
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 use thiserror::Error;
 
 use super::construction::RealPoint;
@@ -54,6 +54,8 @@ pub struct Design {
     pub force_units: Option<ForceUnit>,
     /// Unit of masses; `None` where the file names none.
     pub mass_units: Option<MassUnit>,
+    /// What measurements of the machine say of it beside its joints.
+    pub calibration: Option<CalibrationTable>,
     /// The text it was read from.
     pub(crate) written: Written,
     pub(super) manipulator: Manipulator,
@@ -71,6 +73,33 @@ pub struct OptimizeTable {
     pub min_abs_det: Option<f64>,
     /// Length that turns angles into lengths, design units, positive.
     pub characteristic_length: Option<f64>,
+}
+
+/// What a calibration says of a machine beside the joints, which stand where all joints do.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct CalibrationTable {
+    /// What the length that each leg shows is longer than the distance of its joints, design units.
+    pub offsets: [f64; 6],
+    /// Standard deviations of the offsets, design units.
+    pub offset_deviations: Option<[f64; 6]>,
+    /// Standard deviations of the coordinates of the base joints, in joint order; `None` for joints about which nothing is said.
+    pub base_deviations: Vec<Option<Vector3<f64>>>,
+    /// Those of the platform joints.
+    pub platform_deviations: Vec<Option<Vector3<f64>>>,
+}
+
+impl CalibrationTable {
+    /// Standard deviations of the coordinates of a joint.
+    #[must_use]
+    pub fn deviation(&self, body: Body, joint: usize) -> Option<Vector3<f64>> {
+        body.of((&self.base_deviations, &self.platform_deviations)).get(joint).copied().flatten()
+    }
+
+    /// Distances of the joints from lengths that the legs show: what every other question about lengths is asked in.
+    #[must_use]
+    pub fn distances(&self, shown: [f64; 6]) -> [f64; 6] {
+        std::array::from_fn(|leg| shown[leg] - self.offsets[leg])
+    }
 }
 
 /// There are not as many names as joints.
@@ -131,6 +160,7 @@ impl Design {
             reserves: Reserves::default(),
             force_units: None,
             mass_units: None,
+            calibration: None,
             base_names: names('A', manipulator.base_joints().len()),
             platform_names: names('B', manipulator.platform_joints().len()),
             written: Written::default(),

@@ -26,6 +26,11 @@ fn every_key_is_read_and_written_back_to_the_bit() {
     assert_eq!(design.workspace.trajectory.as_ref().unwrap().file, "path.csv");
     assert_eq!((design.loads[1].name.as_str(), design.loads[1].fixed_to), ("load 2", Body::Platform));
     assert!(matches!(design.keep_outs[2].shape, KeepOutShape::Capsule { diameter: 3.0, .. }));
+    let table = design.calibration.as_ref().unwrap();
+    assert_eq!(table.distances([1.0; 6])[1], 1.2);
+    let of = |body, joint| table.deviation(body, joint).map(|v| v.z);
+    assert_eq!((of(Body::Base, 0), of(Body::Base, 1), of(Body::Base, 2)), (Some(0.3), None, Some(0.3)));
+    assert_eq!((of(Body::Platform, 0), of(Body::Platform, 2)), (Some(0.03), None));
     let required = design.requirements();
     assert_eq!(
         (required.loads.len(), required.keep_outs.len(), required.platform_speed.unwrap().linear),
@@ -67,6 +72,11 @@ fn what_contradicts_itself_is_refused() {
         ("trajectory = \"path.csv\"", "trajectory = \"path.csv\"\nrelative_to = \"tool\""),
         ("trajectory = \"path.csv\"", "relative_to = \"home\""),
         ("[speed]", "[[speed]]"),
+        ("offsets = [0.1, -0.2", "offset = [0.1, -0.2"),
+        ("offsets = [0.1, -0.2, 0,", "offsets = [0.1,"),
+        ("offset_deviations = [0.01", "offset_deviations = [-0.01"),
+        ("P1 = [0.1, 0.2, 0.3]", "P1 = [0.1, 0.2]"),
+        ("P4 = [0.01, 0.02, 0.03]", "P1 = [0.01, 0.02, 0.03]"),
     ] {
         assert!(GOOD.contains(from), "{from}");
         match parse(&GOOD.replacen(from, to, 1), Format::Toml) {
@@ -108,6 +118,11 @@ fn what_contradicts_itself_is_refused() {
         19:15 design::wrong_type: `relative_to` is "tool" | write "home" or "base"
         18:1 design::missing_key: `relative_to` says what listed poses are measured from, and none are listed | list `poses` or name a `trajectory`, or remove `relative_to`: the box is always around home
         41:1 design::wrong_type: [speed] is an array, not a table | write [speed] as a table
+        60:1 design::unknown_key: `offset` is not a key of [calibration] | did you mean `offsets`?
+        60:11 design::length_count: `offsets` has 4 numbers instead of 6 | give 6 offsets, one for each leg
+        61:22 design::not_positive: a standard deviation of -0.01 | standard deviations are not negative
+        63:6 design::coordinate_count: the deviation of `P1` has 2 numbers instead of 3 | give 3 standard deviations
+        66:1 design::missing_joint: `platform_deviations` of [calibration] names `P1`, which is no joint of the body | its joints are: P4, P5, P6
     "#);
 }
 

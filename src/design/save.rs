@@ -5,7 +5,9 @@ use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 
 use super::construction::Spelling;
-use super::{Combination, Construction, Design, LinePlace, OptimizeTable, SearchTable, WrittenNumber};
+use super::{
+    CalibrationTable, Combination, Construction, Design, LinePlace, OptimizeTable, SearchTable, WrittenNumber,
+};
 use crate::geom::Pose;
 use crate::manipulator::Body;
 use crate::requirements::{
@@ -69,6 +71,8 @@ struct Tail<'a> {
     loads: Vec<LoadTable<'a>>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     keep_out: Vec<KeepOutTable<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    calibration: Option<CalibrationFile<'a>>,
 }
 
 fn as_map<S: Serializer>(list: &[(&str, impl Serialize)], serializer: S) -> Result<S::Ok, S::Error> {
@@ -272,6 +276,7 @@ impl Design {
             speed: self.speed.map(|s| SpeedTable { linear: s.linear, angular_deg: s.angular_deg }),
             loads: self.loads.iter().map(LoadTable::from).collect(),
             keep_out: self.keep_outs.iter().map(KeepOutTable::from).collect(),
+            calibration: self.calibration.as_ref().map(|table| CalibrationFile::of(self, table)),
         };
         DesignFile {
             head,
@@ -303,6 +308,35 @@ impl Design {
             relative_to: (w.listed_from == ListedFrom::Home).then_some(ListedFrom::Home.name()),
             poses: w.poses.iter().map(PoseTable::from).collect(),
         })
+    }
+}
+
+/// `[calibration]`.
+#[derive(Serialize)]
+struct CalibrationFile<'a> {
+    offsets: [f64; 6],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    offset_deviations: Option<[f64; 6]>,
+    #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "as_map")]
+    base_deviations: Vec<(&'a str, [f64; 3])>,
+    #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "as_map")]
+    platform_deviations: Vec<(&'a str, [f64; 3])>,
+}
+
+impl<'a> CalibrationFile<'a> {
+    fn of(design: &'a Design, table: &CalibrationTable) -> Self {
+        let named = |body: Body| {
+            let of = |(joint, name): (usize, &'a String)| {
+                Some((name.as_str(), table.deviation(body, joint)?.into()))
+            };
+            design.joint_names(body).iter().enumerate().filter_map(of).collect()
+        };
+        Self {
+            offsets: table.offsets,
+            offset_deviations: table.offset_deviations,
+            base_deviations: named(Body::Base),
+            platform_deviations: named(Body::Platform),
+        }
     }
 }
 

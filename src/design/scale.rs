@@ -124,6 +124,15 @@ impl Design {
             pose.position = ratio.vector(pose.position);
         }
         out.workspace.translation = ratio.vector(out.workspace.translation);
+        if let Some(table) = &mut out.calibration {
+            for x in table.offsets.iter_mut().chain(table.offset_deviations.iter_mut().flatten()) {
+                *x = ratio.of(*x);
+            }
+            let joints = table.base_deviations.iter_mut().chain(&mut table.platform_deviations);
+            for deviation in joints.flatten() {
+                *deviation = ratio.vector(*deviation);
+            }
+        }
         out.scale_requirements(ratio);
         Ok(out)
     }

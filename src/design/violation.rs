@@ -231,7 +231,7 @@ const MAX_VIOLATIONS: usize = 100;
 
 /// Violations and warnings found so far in one text.
 #[derive(Debug)]
-pub(super) struct Findings<'t> {
+pub(crate) struct Findings<'t> {
     text: &'t str,
     line_starts: Vec<usize>,
     violations: Vec<Violation>,
@@ -240,25 +240,25 @@ pub(super) struct Findings<'t> {
 }
 
 impl<'t> Findings<'t> {
-    pub(super) fn new(text: &'t str) -> Self {
+    pub(crate) fn new(text: &'t str) -> Self {
         let starts = text.bytes().enumerate().filter(|(_, b)| *b == b'\n').map(|(i, _)| i + 1);
         let line_starts = std::iter::once(0).chain(starts).collect();
         Self { text, line_starts, violations: Vec::new(), warnings: Vec::new(), unlisted: 0 }
     }
 
     /// Line of a byte offset, 1-based.
-    pub(super) fn line(&self, offset: usize) -> usize {
+    pub(crate) fn line(&self, offset: usize) -> usize {
         self.line_starts.partition_point(|&start| start <= offset).max(1)
     }
 
     /// Text of a line, 1-based, with its end of line.
-    pub(super) fn line_text(&self, line: usize) -> &'t str {
+    pub(crate) fn line_text(&self, line: usize) -> &'t str {
         let start = self.line_starts.get(line - 1).copied().unwrap_or(self.text.len());
         let end = self.line_starts.get(line).copied().unwrap_or(self.text.len());
         &self.text[start..end]
     }
 
-    pub(super) fn refuse(
+    pub(crate) fn refuse(
         &mut self,
         code: Code,
         span: &Span,
@@ -274,28 +274,28 @@ impl<'t> Findings<'t> {
         self.violations.push(Violation { code, line, column, width, message, help });
     }
 
-    pub(super) fn warn(&mut self, warning: Warning) {
+    pub(crate) fn warn(&mut self, warning: Warning) {
         if self.warnings.len() < MAX_VIOLATIONS {
             self.warnings.push(warning);
         }
     }
 
     /// The text at a place.
-    pub(super) fn source(&self, span: &Span) -> &'t str {
+    pub(crate) fn source(&self, span: &Span) -> &'t str {
         self.text.get(span.clone()).unwrap_or_default()
     }
 
     /// Whether further violations are only counted.
-    pub(super) fn is_full(&self) -> bool {
+    pub(crate) fn is_full(&self) -> bool {
         self.violations.len() >= MAX_VIOLATIONS
     }
 
-    pub(super) fn is_clean(&self) -> bool {
+    pub(crate) fn is_clean(&self) -> bool {
         self.violations.is_empty()
     }
 
     /// The violations in the order of the text, closed by a count of those not listed.
-    pub(super) fn into_violations(mut self) -> Vec<Violation> {
+    pub(crate) fn into_violations(mut self) -> Vec<Violation> {
         self.violations.sort_by_key(|v| (v.line, v.column));
         if self.unlisted > 0 {
             self.violations.push(Violation {
@@ -310,7 +310,7 @@ impl<'t> Findings<'t> {
         self.violations
     }
 
-    pub(super) fn into_warnings(mut self) -> Vec<Warning> {
+    pub(crate) fn into_warnings(mut self) -> Vec<Warning> {
         self.warnings.sort_by_key(Warning::line);
         self.warnings
     }

@@ -110,6 +110,9 @@ pub struct DimensionalReport {
     pub feasible: usize,
     /// Where nothing that meets the requirements was found: the platform with the least violation. It misses some.
     pub nearest: Option<Box<DimensionalSolution>>,
+    /// Other local optima that meet the requirements at the poses that were held, best first: ends of polished runs whose value differs from that of the answer and of
+    /// each other, and so do their variables.
+    pub others: Vec<DimensionalSolution>,
     /// Weighted gains of the polished runs, best first; `None` when infeasible.
     pub polished: Vec<Option<f64>>,
     /// Seed of the populations.

@@ -455,38 +455,68 @@ pub fn optimize(
     let SearchedShape { refined, starts, feasible } = search_task(&model, &task, given, options, &mut watch);
     let polished =
         refined.iter().map(|r| r.run.is_feasible(&model).then(|| r.run.judged.gain(&task))).collect();
-    let (outcome, nearest) = concluded(&model, task, refined, options, &mut watch);
-    let interrupted = model.is_stopped();
-    Ok(DimensionalReport { outcome, starts, feasible, nearest, polished, seed: options.seed, interrupted })
+    let Conclusion { outcome, nearest, others } = concluded(&model, task, refined, options, &mut watch);
+    let (seed, interrupted) = (options.seed, model.is_stopped());
+    Ok(DimensionalReport { outcome, starts, feasible, nearest, others, polished, seed, interrupted })
 }
 
-/// The answer that the polished runs of the first task lead to, and the platform with the least violation where none meets the requirements.
+/// What polished runs lead to.
+struct Conclusion {
+    outcome: DimensionalOutcome,
+    /// The platform with the least violation, where none meets the requirements.
+    nearest: Option<Box<DimensionalSolution>>,
+    /// See [`DimensionalReport::others`].
+    others: Vec<DimensionalSolution>,
+}
+
+/// The answer that the polished runs of the first task lead to.
 fn concluded(
     model: &Model<'_>,
     task: Task,
     mut refined: Vec<RefinedRun>,
     options: &ShapeSearchOptions,
     watch: &mut Watch<'_, '_, '_>,
-) -> (DimensionalOutcome, Option<Box<DimensionalSolution>>) {
+) -> Conclusion {
     let is_met = |refined: &[RefinedRun]| refined.first().is_some_and(|r| r.run.is_feasible(model));
-    let nearest =
-        |refined: &[RefinedRun]| refined.first().and_then(|r| solution(model, &task, r)).map(Box::new);
+    let unmet = |outcome, refined: &[RefinedRun]| {
+        let nearest = refined.first().and_then(|r| solution(model, &task, r)).map(Box::new);
+        Conclusion { outcome, nearest, others: Vec::new() }
+    };
     if refined.is_empty() || !is_met(&refined) && model.is_stopped() {
-        return (DimensionalOutcome::Undecided(None), nearest(&refined));
+        return unmet(DimensionalOutcome::Undecided(None), &refined);
     }
     if !is_met(&refined)
         && let Some(conflict) = met_or_conflict(model, &task, &mut refined, options)
     {
-        return (DimensionalOutcome::Infeasible(conflict), nearest(&refined));
+        return unmet(DimensionalOutcome::Infeasible(conflict), &refined);
     }
     if !is_met(&refined) {
-        return (DimensionalOutcome::Undecided(refined[0].run.failure), nearest(&refined));
+        return unmet(DimensionalOutcome::Undecided(refined[0].run.failure), &refined);
     }
     let (last_task, refined) = match model.problem.mode {
         Mode::Lexicographic { slack } => through_levels(model, task, refined, slack, options, watch),
         Mode::Weighted => (task, refined),
     };
-    (outcome(model, &last_task, &refined[0]), None)
+    let others = other_optima(model, &last_task, &refined);
+    let others = others.into_iter().filter_map(|r| solution(model, &last_task, r)).collect();
+    Conclusion { outcome: outcome(model, &last_task, &refined[0]), nearest: None, others }
+}
+
+/// Runs that meet the requirements, best first, and end elsewhere than the first and each other. Ends with one value count as one, because symmetric platforms have the
+/// same optimum many times, and so do ends with nearly the same variables, which are one optimum approached from two sides.
+fn other_optima<'r>(model: &Model<'_>, task: &Task, refined: &'r [RefinedRun]) -> Vec<&'r RefinedRun> {
+    let gain = |r: &RefinedRun| r.run.judged.gain(task);
+    let is_one = |a: &RefinedRun, b: &RefinedRun| {
+        (gain(a) - gain(b)).abs() <= DISTINCT_GAINS * gain(a).abs().max(gain(b).abs())
+            || are_near(&a.run.x, &b.run.x, DISTINCT_STARTS)
+    };
+    let mut kept: Vec<&RefinedRun> = refined.iter().take(1).collect();
+    for run in refined.iter().skip(1).filter(|r| r.run.is_feasible(model)) {
+        if !kept.iter().any(|k| is_one(k, run)) {
+            kept.push(run);
+        }
+    }
+    kept.split_off(kept.len().min(1))
 }
 
 /// Where no run meets the requirements: runs without an objective that do are climbed from again, or the conflict is returned. Runs that only lessen the violation

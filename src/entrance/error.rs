@@ -5,6 +5,8 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
+#[cfg(feature = "synthesis")]
+use crate::calibration::CalibrationError;
 #[cfg(feature = "files")]
 use crate::design::{JointError, Violation};
 #[cfg(feature = "synthesis")]
@@ -78,6 +80,10 @@ pub enum Error {
     /// A pose so far away that leg lengths overflow.
     #[error("the leg lengths at this pose overflow")]
     Overflow,
+    /// Neither home nor a pose drawn on the way from it meets the requirements.
+    #[cfg(feature = "files")]
+    #[error("no pose was found that meets the requirements")]
+    NoAllowedPose,
     /// A question about the class of octahedral platforms, asked of another design.
     #[error("not an octahedral platform: {0}")]
     NotOctahedral(#[from] NotOctahedral),
@@ -92,6 +98,10 @@ pub enum Error {
     #[cfg(feature = "synthesis")]
     #[error(transparent)]
     Linalg(#[from] LinalgError),
+    /// Nothing could be calibrated.
+    #[cfg(feature = "synthesis")]
+    #[error(transparent)]
+    Calibration(#[from] CalibrationError),
     /// Two designs could not be compared.
     #[cfg(feature = "synthesis")]
     #[error(transparent)]

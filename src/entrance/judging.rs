@@ -158,7 +158,7 @@ impl Design {
         };
         let counting = CountOptions { seed, ..CountOptions::default() };
         let pose_count = count_generic_poses(m, &counting);
-        let common_points = pose_count.finite().and_then(|_| count_common_points(m, &counting));
+        let common_points = count_common_points(m, &pose_count, &counting);
         let design = self.clone();
         let pose_bound = pose_bound(m);
         Ok(CheckReport {

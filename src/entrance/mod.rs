@@ -3,6 +3,8 @@
 //! Nothing is computed here. Each question names the modules that answer it, with their defaults; the command line asks the same questions.
 
 #[cfg(all(feature = "files", feature = "synthesis"))]
+pub(crate) mod calibrating;
+#[cfg(all(feature = "files", feature = "synthesis"))]
 mod comparing;
 #[cfg(all(feature = "files", feature = "synthesis"))]
 mod equivalence;
@@ -17,6 +19,8 @@ mod judging;
 mod moving;
 #[cfg(all(feature = "files", feature = "optimize"))]
 pub(crate) mod optimizing;
+#[cfg(feature = "files")]
+mod reaching;
 mod solving;
 
 #[cfg(all(feature = "files", feature = "synthesis"))]

@@ -57,19 +57,21 @@ pub struct OptimizeOptions<'a> {
     extension: f64,
     survey: bool,
     gap: f64,
+    candidates: bool,
     cancel: Cancel,
     on_progress: Option<OnProgress<'a>>,
 }
 
 impl std::fmt::Debug for OptimizeOptions<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { seed, threads, extension, survey, gap, cancel, on_progress } = self;
+        let Self { seed, threads, extension, survey, gap, candidates, cancel, on_progress } = self;
         f.debug_struct("OptimizeOptions")
             .field("seed", seed)
             .field("threads", threads)
             .field("extension", extension)
             .field("survey", survey)
             .field("gap", gap)
+            .field("candidates", candidates)
             .field("cancel", cancel)
             .field("on_progress", &on_progress.is_some())
             .finish()
@@ -84,6 +86,7 @@ impl Default for OptimizeOptions<'_> {
             extension: EXTENSION,
             survey: false,
             gap: offsets::OffsetSearchOptions::default().gap,
+            candidates: false,
             cancel: Cancel::new(),
             on_progress: None,
         }
@@ -129,6 +132,13 @@ impl<'a> OptimizeOptions<'a> {
     #[must_use]
     pub fn gap(mut self, gap: f64) -> Self {
         self.gap = gap;
+        self
+    }
+
+    /// Whether the other local optima under requirements are judged too, which takes as long for each as for the answer.
+    #[must_use]
+    pub fn candidates(mut self, candidates: bool) -> Self {
+        self.candidates = candidates;
         self
     }
 
@@ -203,6 +213,8 @@ pub struct OptimizeReport {
     pub design: Option<Design>,
     /// Where nothing that meets the requirements was found: the platform that misses them least, as the search sees it.
     pub nearest: Option<Box<Checked>>,
+    /// Where they were asked for: other local optima that meet the requirements at the poses that the search held, best first.
+    pub candidates: Vec<Checked>,
     /// What was found on the way.
     pub evidence: OptimizeEvidence,
 }
@@ -273,10 +285,13 @@ impl Design {
             let of = |s: &DimensionalSolution| checked(self, &problem, s, seed);
             let checked = report.solution().map(of).transpose()?;
             let nearest = report.nearest.as_deref().map(of).transpose()?;
+            let others = if options.candidates { &report.others[..] } else { &[] };
+            let candidates = others.iter().map(of).collect::<Result<Vec<Checked>, VerifyError>>()?;
             return Ok(OptimizeReport {
                 status: dimensional_status(&report, checked.as_ref()),
                 design: checked.as_ref().map(|c| c.design.clone()),
                 nearest: nearest.map(Box::new),
+                candidates,
                 evidence: OptimizeEvidence::Dimensions {
                     report: Box::new(report),
                     checked: checked.map(Box::new),
@@ -301,6 +316,7 @@ impl Design {
             status: offset_status(&report, met_or_nothing_required(assessed.as_ref())),
             design,
             nearest: None,
+            candidates: Vec::new(),
             evidence: OptimizeEvidence::Offsets(Box::new(report)),
         })
     }

@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 use nalgebra::{Point2, Point3, Vector3};
 
 use super::outline::on_circle;
-use super::plate::any_across;
 use super::text::one_line;
 use super::{Export, ExportBody, ExportLeg, ExportedFile, Plate, Unsupported, Writer};
+use crate::geom::any_across;
 use crate::plot::{ThreeViewBody, ThreeViewFigure, three_views};
 
 /// The format `svg`.

@@ -43,6 +43,15 @@ fn settings(export: &Export) -> String {
     let pose = [p.x, p.y, p.z, roll.to_degrees(), pitch.to_degrees(), yaw.to_degrees()].map(real);
     let _ = writeln!(out, "# Home pose X Y Z A B C: {}", pose.join(" "));
     let _ = writeln!(out, "# Strut lengths there: {}", lengths.join(" "));
+    if let Some(offsets) = export.leg_offsets {
+        let offsets = offsets.map(|d| real(d * mm));
+        let _ = writeln!(
+            out,
+            "# Leg offsets of the calibration: {}\n\
+             # A strut shows its length plus its offset; genhexkins has no pin for that: add offset N to HOME_OFFSET of joint N.",
+            offsets.join(" ")
+        );
+    }
     for leg in &export.legs {
         let b = export.bodies[1].joints[leg.platform].at;
         for (body, point) in [(Body::Base, leg.foot), (Body::Platform, b)] {

@@ -108,6 +108,9 @@ struct LegRecord<'a> {
     base_joint: &'a str,
     platform_joint: &'a str,
     home_length: f64,
+    /// Length shown less distance of the joints; absent where the design was not calibrated.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    offset: Option<f64>,
     cylinder_diameter: f64,
     rod_diameter: f64,
     cylinder_length: f64,
@@ -131,6 +134,7 @@ impl<'a> ExportedDocument<'a> {
                 base_joint: a,
                 platform_joint: b,
                 home_length: leg.length() * mm,
+                offset: export.leg_offsets.map(|offsets| offsets[leg.number - 1] * mm),
                 cylinder_diameter: leg.diameters.0 * mm,
                 rod_diameter: leg.diameters.1 * mm,
                 cylinder_length: leg.cylinder * mm,

@@ -4,10 +4,9 @@ use std::fmt::Write as _;
 
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
-use super::plate::any_across;
 use super::text::{one_line, real, reals, scaled, xml_comment};
 use super::{Export, ExportBody, ExportLeg, ExportedFile, Unsupported, Writer};
-use crate::geom::Pose;
+use crate::geom::{Pose, any_across};
 use crate::plot::escape;
 use crate::requirements::LegPart;
 

@@ -105,6 +105,8 @@ pub struct Export {
     pub bodies: [ExportBody; 2],
     /// Legs in leg order.
     pub legs: [ExportLeg; 6],
+    /// What the length that each leg shows is longer than the distance of its joints, design units, where the design was calibrated.
+    pub leg_offsets: Option<[f64; 6]>,
     /// Least and greatest length of a leg, design units, where the design limits them.
     pub leg_range: Option<(f64, f64)>,
     /// Poses of the workspace, home first.
@@ -222,6 +224,7 @@ impl Export {
             home,
             bodies,
             legs,
+            leg_offsets: design.calibration.as_ref().map(|table| table.offsets),
             leg_range: hardware.leg_length.map(|l| l.range()),
             workspace,
             trajectory,

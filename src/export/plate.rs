@@ -8,6 +8,7 @@ use super::Unsupported;
 use super::model::ExportedJoint;
 use super::outline::Outline;
 use super::sizes::Sizes;
+use crate::geom::any_across;
 use crate::manipulator::Body;
 
 /// A hole of a plate under a joint.
@@ -75,15 +76,6 @@ pub(super) fn normal(joints: &[ExportedJoint], along: &Vector3<f64>, size: f64) 
     let n = best.normalize();
     let leading = [n.z, n.y, n.x].into_iter().find(|x| x.abs() > 1e-9);
     if leading.is_some_and(|x| x < 0.0) { -n } else { n }
-}
-
-/// A unit vector across `d`.
-pub(super) fn any_across(d: &Vector3<f64>) -> Vector3<f64> {
-    let axis = d.iamin();
-    let mut e = Vector3::zeros();
-    e[axis] = 1.0;
-    let d = d.try_normalize(0.0).unwrap_or_else(Vector3::z);
-    (e - d * d.dot(&e)).normalize()
 }
 
 /// The axes `(u, v, n)`: `u` the body's x-axis in the plane, or its y-axis where x is along `n`.

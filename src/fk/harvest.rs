@@ -11,7 +11,8 @@ use crate::geom::ComplexPose;
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::num::octuple::ComplexOctuple;
 use crate::solve::certify::{
-    Certificate, CertifiedPose, Certifier, NewtonStart, ProvedReality, RootRelation, relation,
+    Certificate, CertifiedPose, Certifier, NewtonStart, ProvedReality, RootRelation, overlapping_pairs,
+    relation,
 };
 
 /// Regular ends with a larger condition number may belong to a cluster.
@@ -278,6 +279,11 @@ fn precise_pose(x: &[ComplexOctuple; 8]) -> ComplexPose {
 
 /// Merges proofs of one root; their number. A conjugate that has a path after all is no repetition.
 fn drop_repeated(proofs: &mut Vec<CertifiedRoot>) -> usize {
+    let overlapping = overlapping_pairs(proofs.iter().map(|p| p.root.certificate.enclosure()));
+    let certificate = |k: usize| &proofs[k].root.certificate;
+    if overlapping.iter().all(|(i, j)| relation(certificate(*i), certificate(*j)) != RootRelation::Same) {
+        return 0;
+    }
     let mut kept: Vec<CertifiedRoot> = Vec::with_capacity(proofs.len());
     let mut repeated = 0;
     for proof in proofs.drain(..) {

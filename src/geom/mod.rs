@@ -1,5 +1,6 @@
 //! Geometry that all layers share: poses, quaternions, distances, and their enclosures in intervals.
 
+mod across;
 mod chart;
 mod draw;
 pub(crate) mod enclosed;
@@ -12,6 +13,7 @@ mod segment;
 mod trilateration;
 mod turn;
 
+pub(crate) use across::any_across;
 pub(crate) use chart::{Chart, ChartCell, Covered, combination};
 pub(crate) use draw::{CentredPoses, any_pose};
 pub use draw::{SamplePlan, random_rotation};

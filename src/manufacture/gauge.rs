@@ -35,6 +35,11 @@ pub(crate) struct Bracket {
 }
 
 impl Gauge {
+    /// One ellipsoid a matrix, and segments.
+    pub(crate) fn of(balls: Vec<Matrix3<f64>>, segments: Vec<Vector3<f64>>) -> Self {
+        Self { balls, segments }
+    }
+
     /// One ellipsoid a matrix.
     pub(crate) fn balls(blocks: &[Matrix3<f64>], radius: f64) -> Self {
         Self { balls: blocks.iter().map(|b| b * radius).collect(), segments: Vec::new() }

@@ -2,6 +2,7 @@
 //!
 //! * [`budget()`] and [`trials()`]: how far joints may be off for the pose that the nominal formula gives to stay within a bound, to first order and by
 //!   random errors.
+//! * [`error_map()`]: the error of the pose by joints, leg lengths and temperature together, over the workspace.
 //! * [`Controller`]: the octahedral formula and Newton steps on calibrated joints.
 //! * [`round_to_grid`]: joints on a grid, exactly equivalent to an octahedral platform or as near to it as the grid allows.
 //!
@@ -9,6 +10,7 @@
 
 mod budget;
 mod correction;
+mod error_map;
 mod gauge;
 mod joint;
 mod product;
@@ -21,6 +23,7 @@ mod trials;
 
 pub use budget::{Budget, JointBudget, LimitedAllowance, budget, joint_allowance};
 pub use correction::{Controller, NoFormula, equivalent_octahedral, octahedral_of};
+pub use error_map::{ErrorAtPose, ErrorParts, MachineErrors, error_map, errors_at};
 pub use joint::{Joint, displaced, joints};
 pub use rounding::{
     ExactRounding, Grid, Judgement, NearestRounding, NoRounding, RoundedJoint, Rounding, RoundingProblem,

@@ -27,6 +27,10 @@ pub struct Sensitivity {
     pub position: Vec<Matrix3<f64>>,
     /// `G_j` of the rotation vector of the error, base frame, radians per design unit.
     pub rotation: Vec<Matrix3<f64>>,
+    /// Columns of `J^-1`: shift of the tool point per unit by which a length is shown too long, base frame.
+    pub leg_position: [Vector3<f64>; 6],
+    /// The same for the rotation vector, radians per design unit.
+    pub leg_rotation: [Vector3<f64>; 6],
 }
 
 impl Sensitivity {
@@ -39,10 +43,16 @@ impl Sensitivity {
         let inverse = jacobian(m, pose, 1.0).try_inverse()?;
         let turn: nalgebra::Matrix3x6<f64> = inverse.fixed_rows::<3>(3).into();
         let arm = (pose.rotation * tool.coords).cross_matrix();
-        let shift = inverse.fixed_rows::<3>(0) - arm * turn;
+        let shift: nalgebra::Matrix3x6<f64> = inverse.fixed_rows::<3>(0) - arm * turn;
         let list = joints(m);
         let zero = vec![Matrix3::zeros(); list.len()];
-        let mut out = Self { position: zero.clone(), rotation: zero };
+        let column = |m: &nalgebra::Matrix3x6<f64>, i: usize| -> Vector3<f64> { m.column(i).into() };
+        let mut out = Self {
+            position: zero.clone(),
+            rotation: zero,
+            leg_position: std::array::from_fn(|i| column(&shift, i)),
+            leg_rotation: std::array::from_fn(|i| column(&turn, i)),
+        };
         let back = pose.rotation.inverse();
         for (i, (leg, pair)) in m.legs().iter().zip(m.pairs()).enumerate() {
             let u = (pose.transform(&leg.platform) - leg.base).normalize();
@@ -61,6 +71,15 @@ impl Sensitivity {
     pub fn error(&self, errors: &[Vector3<f64>]) -> (Vector3<f64>, Vector3<f64>) {
         let sum = |g: &[Matrix3<f64>]| g.iter().zip(errors).map(|(g, d)| g * d).sum();
         (sum(&self.position), sum(&self.rotation))
+    }
+}
+
+impl Sensitivity {
+    /// The same for lengths that are shown too long by so much, in leg order.
+    #[must_use]
+    pub fn error_of_lengths(&self, errors: &[f64; 6]) -> (Vector3<f64>, Vector3<f64>) {
+        let sum = |columns: &[Vector3<f64>; 6]| columns.iter().zip(errors).map(|(c, e)| c * *e).sum();
+        (sum(&self.leg_position), sum(&self.leg_rotation))
     }
 }
 

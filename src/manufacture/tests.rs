@@ -5,7 +5,7 @@ use nalgebra::{Point3, Rotation3, Vector3};
 use super::*;
 use crate::fk::NearSolver;
 use crate::geom::{Pose, random_rotation};
-use crate::manipulator::{Leg, Manipulator, Octahedral, default_home};
+use crate::manipulator::{Leg, LegLengths, Manipulator, Octahedral, default_home};
 use crate::num::Rng;
 use crate::requirements::PoseSpace;
 use crate::synthesis::joint_free;
@@ -304,4 +304,36 @@ fn designs_that_are_not_equivalent_have_no_formula() {
     let midpoints = joint_free(&Octahedral::recognise(&octahedral()).unwrap(), [0.5; 6]).unwrap().0;
     assert!(equivalent_octahedral(&midpoints).is_none());
     assert_eq!(equivalent_octahedral(&octahedral()).unwrap().legs(), octahedral().legs());
+}
+
+#[test]
+fn errors_of_lengths_and_growth_are_what_solving_says() {
+    let (m, pose, tool) = (free(), home(), TOOL);
+    let s = Sensitivity::at(&m, &pose, &tool).unwrap();
+    // lengths that are shown too long
+    let errors = [1e-6, -2e-6, 1e-6, 3e-6, -1e-6, 2e-6];
+    let lengths = pose.lengths(&m).unwrap().get();
+    let shown = LegLengths::try_new(std::array::from_fn(|i| lengths[i] + errors[i])).unwrap();
+    let found = NearSolver::new(&m).solve(&shown.squared(), &pose).tracked().copied().unwrap();
+    let (v, w) = super::sensitivity::pose_error(&found, &pose, &tool);
+    let (x, y) = s.error_of_lengths(&errors);
+    assert!((v - x).norm() < 1e-4 * v.norm() && (w - y).norm() < 1e-4 * w.norm(), "{v} {x} {w} {y}");
+    // a machine that grows as a whole shows lengths that are too short by the same share: its platform origin is where it was, less that share
+    let grown = MachineErrors { growth: [1e-5; 3], ..MachineErrors::default() };
+    let at = errors_at(&m, &pose, &Point3::origin(), &grown).unwrap();
+    assert!((at.position.growth - 1e-5 * pose.position.norm()).abs() < 1e-12);
+    assert!(at.rotation_deg.growth < 1e-12 && (at.position.total - at.position.growth).abs() < 1e-15);
+    // causes add up in the worst case
+    let all = MachineErrors { joints: 1e-3, lengths: 2e-3, growth: [1e-4, 2e-4, 3e-4] };
+    let at = errors_at(&m, &pose, &tool, &all).unwrap();
+    for part in [at.position, at.rotation_deg] {
+        assert!(part.total <= part.joints + part.lengths + part.growth + 1e-15);
+        assert!(part.total >= part.joints.max(part.lengths).max(part.growth));
+    }
+    let signs = |k: u32| std::array::from_fn(|i| if k >> i & 1 == 0 { -2e-3 } else { 2e-3 });
+    let most = (0..64).map(|k| s.error_of_lengths(&signs(k)).0.norm()).fold(0.0, f64::max);
+    let reached = at.position.lengths / most;
+    assert!(reached < 1.0 + 1e-9 && reached > 0.95, "{reached}");
+    let map = error_map(&m, &space(), &tool, &all, &search()).unwrap();
+    assert!(map.len() > 100 && map.iter().all(|e| e.position.total > 0.0));
 }

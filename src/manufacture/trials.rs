@@ -18,6 +18,8 @@ pub enum JointErrors {
     Balls(f64),
     /// Of each joint uniform in a box with these half widths, in the order of [`joints`].
     Boxes(Vec<Vector3<f64>>),
+    /// Of each coordinate normal with these standard deviations, independent of each other, in the order of [`joints`].
+    Normals(Vec<Vector3<f64>>),
 }
 
 impl JointErrors {
@@ -25,6 +27,7 @@ impl JointErrors {
         match self {
             Self::Balls(radius) => (0..count).map(|_| in_ball(rng) * *radius).collect(),
             Self::Boxes(half) => half.iter().map(|h| h.map(|h| h * rng.uniform(-1.0, 1.0))).collect(),
+            Self::Normals(sigma) => sigma.iter().map(|s| s.map(|s| s * rng.normal())).collect(),
         }
     }
 }

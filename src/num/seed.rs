@@ -88,6 +88,8 @@ impl Purpose {
     pub(crate) const ROUNDED_POSES: Self = Self::family(0x6772);
     /// Poses at which requirements are assessed.
     pub(crate) const ASSESSED_POSES: Self = Self::single(0x6d61);
+    /// Allowed poses from which a search for the one nearest to a pose begins.
+    pub(crate) const NEAREST_POSES: Self = Self::single(0x6e70);
     /// Poses with which the bounds of requirements begin.
     pub(crate) const BOUNDED_POSES: Self = Self::single(0x626e);
     /// Offsets of a cell of the search for the best offsets; one stream a cell.
@@ -106,6 +108,8 @@ impl Purpose {
     pub(crate) const MIXTURES: Self = Self::single(0x4d65);
     /// The evolution of populations; one stream a population.
     pub(crate) const POPULATIONS: Self = Self::single(0x5347);
+    /// Poses among which the next ones to be measured are chosen.
+    pub(crate) const MEASURED_POSES: Self = Self::single(0x6d65);
     /// Poses over which a finished platform is evaluated.
     pub(crate) const EVALUATED_POSES: Self = Self::single(0x6576);
     /// Coefficients at which the search for the nearest singular design begins; one stream a start.
@@ -124,6 +128,12 @@ impl Purpose {
     pub(crate) const FIGURE_MARKS: Self = Self::single(0xc0);
     /// Joints off their circle in the representative of a topology; one stream a topology.
     pub(crate) const REPRESENTATIVES: Self = Self::single(0);
+    /// Values of the candidates of a sweep; one stream a candidate of a block.
+    pub(crate) const SWEPT_VALUES: Self = Self::family(0x5357);
+    /// Permutations and scramblings of the points of a sweep; one stream a dimension of a block.
+    pub(crate) const SWEPT_ORDERS: Self = Self::family(0x5358);
+    /// Candidates of a sweep that are computed again, or first to tell how long it takes.
+    pub(crate) const SWEPT_AGAIN: Self = Self::single(0x5359);
     /// Matrices of the times of reference.
     pub(crate) const REFERENCE_MATRICES: Self = Self::single(69);
 

@@ -20,6 +20,8 @@ mod steps;
 mod style;
 #[cfg(feature = "page")]
 mod surface;
+#[cfg(feature = "sweep")]
+mod sweep;
 mod three_view;
 mod thumbnail;
 mod topologies;
@@ -28,6 +30,8 @@ mod workspace;
 pub(crate) use style::escape;
 #[cfg(feature = "page")]
 pub(crate) use surface::{TriangleSurface, ValueBox};
+#[cfg(feature = "sweep")]
+pub(crate) use sweep::{SweptColumn, SweptFigure, swept_cloud, swept_field, swept_histogram, swept_parallel};
 
 pub use along::{AlongFigure, AlongPart, sign_along};
 pub use components::{CurveFigure, CurveMark, CurvePanel, component_curves};

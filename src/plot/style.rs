@@ -119,6 +119,12 @@ impl Svg {
         self.placed_text(class, at, &turn, text);
     }
 
+    /// An element that is written out: its texts are escaped already.
+    #[cfg(feature = "sweep")]
+    pub(super) fn raw(&mut self, element: &str) {
+        let _ = writeln!(self.out, "{element}");
+    }
+
     pub(super) fn line(&mut self, class: &str, a: (f64, f64), b: (f64, f64)) {
         let _ = writeln!(
             self.out,

@@ -20,6 +20,8 @@ const CELL: (f64, f64) = (168.0, 200.0);
 const COLUMNS: usize = 6;
 const MARGIN: f64 = 20.0;
 const TOP: f64 = 70.0;
+/// Room for the sentence below the title.
+const LEAST_WIDTH: f64 = 640.0;
 /// Half axes of the circles as drawn, and how far their centres are above and below the middle.
 const BASE: (f64, f64) = (62.0, 20.0);
 const PLATFORM: (f64, f64) = (46.0, 15.0);
@@ -137,14 +139,17 @@ pub fn topology_diagram(figure: &TopologyFigure) -> String {
 #[must_use]
 pub fn topology_sheet(title: &str, figures: &[TopologyFigure]) -> String {
     let note = "platform above base; dots are shared joints, dashed red lines the virtual legs of one trilateration sequence";
-    let rows = figures.len().div_ceil(COLUMNS);
-    let (width, height) = (COLUMNS as f64 * CELL.0 + 2.0 * MARGIN, TOP + rows as f64 * CELL.1 + MARGIN);
+    let columns = figures.len().clamp(1, COLUMNS);
+    let rows = figures.len().div_ceil(columns);
+    let cells = columns as f64 * CELL.0;
+    let (width, height) = ((cells + 2.0 * MARGIN).max(LEAST_WIDTH), TOP + rows as f64 * CELL.1 + MARGIN);
+    let left = (width - cells) / 2.0;
     let mut svg = Svg::new(width, height, title, note);
     svg.text("title mid", (width / 2.0, 30.0), title);
     svg.text("note mid", (width / 2.0, 52.0), note);
     for (k, figure) in figures.iter().enumerate() {
-        let (column, row) = (k % COLUMNS, k / COLUMNS);
-        cell(&mut svg, figure, (MARGIN + column as f64 * CELL.0, TOP + row as f64 * CELL.1));
+        let (column, row) = (k % columns, k / columns);
+        cell(&mut svg, figure, (left + column as f64 * CELL.0, TOP + row as f64 * CELL.1));
     }
     svg.finish()
 }
@@ -166,6 +171,9 @@ mod tests {
         assert_eq!(sheet.matches("<circle").count(), joints);
         // 20 topologies with one virtual leg, three with two, one with three
         assert_eq!(sheet.matches("class=\"virtual\"").count(), 20 + 6 + 3);
+        // one alone stands in the middle, on a sheet that is as wide as its text
+        let alone = topology_sheet("one", &figures[..1]);
+        assert!(sheet.contains("viewBox=\"0 0 1048.00") && alone.contains("viewBox=\"0 0 640.00"));
         assert!(sheet.contains("a &lt; b") && topology_diagram(&figures[3]).contains("T04"));
     }
 }

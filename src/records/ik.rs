@@ -3,7 +3,11 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::PoseRecord;
+use super::{Number, PoseRecord};
+use crate::design::Design;
+use crate::geom::Pose;
+use crate::manipulator::{inverse_condition, jacobian};
+use crate::requirements::{JointAngles, TermKind, Terms};
 
 /// The answer of `ik`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -39,4 +43,101 @@ pub struct IkRecord {
     /// The legs that are too short or too long, from 1.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub outside: Vec<usize>,
+    /// How the joints stand at the ends of the legs.
+    pub joints: JointAnglesRecord,
+    /// Rows `[u, (R b) x u]` in leg order: speeds of the legs from the velocity of the platform origin and the angular velocity in radians, base frame; null for a leg of length zero.
+    #[serde(rename = "J")]
+    pub jacobian: [[Number; 6]; 6],
+    /// Smallest over largest singular value of the Jacobian with moments over the characteristic length of the design: 1 at best, 0 at a singular pose.
+    pub inverse_condition: Number,
+    /// The least margin of each kind of requirement at this pose.
+    pub margins: Vec<PoseMarginRecord>,
+}
+
+/// How the joints stand, in leg order, measured from their axes: `base_axes` and `platform_axes` of the design, else the legs at home.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct JointAnglesRecord {
+    /// Angles between legs and the axes of their base joints.
+    pub base_swing_deg: [Number; 6],
+    /// Angles between legs and the axes of their platform joints.
+    pub platform_swing_deg: [Number; 6],
+    /// Both angles of each universal joint at the base: `u = Rx(first) Ry(second) n` in the frame of the joint, with z along its axis n and x across it.
+    pub base_universal_deg: [[Number; 2]; 6],
+    /// The same at the platform, in its frame, for the direction from base to platform.
+    pub platform_universal_deg: [[Number; 2]; 6],
+}
+
+/// By how much a kind of requirement is met at a pose.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PoseMarginRecord {
+    /// The kind.
+    pub name: TermKind,
+    /// The least at this pose; a violation below 0; null: minus infinity.
+    pub margin: Number,
+    /// Of the margin.
+    pub unit: String,
+    /// Legs, joints, keep-out or load for which it is least.
+    pub between: Vec<String>,
+    /// The legs among them, from 1.
+    pub legs: Vec<usize>,
+}
+
+impl JointAnglesRecord {
+    fn new([base, platform]: &[[JointAngles; 6]; 2]) -> Self {
+        let swing = |all: &[JointAngles; 6]| all.map(|j| Number(j.swing_deg));
+        let universal = |all: &[JointAngles; 6]| all.map(|j| j.universal_deg.map(Number));
+        Self {
+            base_swing_deg: swing(base),
+            platform_swing_deg: swing(platform),
+            base_universal_deg: universal(base),
+            platform_universal_deg: universal(platform),
+        }
+    }
+}
+
+impl IkRecord {
+    /// What is known at a pose with these lengths; `terms` are the requirements of the design.
+    #[must_use]
+    pub(crate) fn new(design: &Design, terms: &Terms<'_>, pose: &Pose, lengths: [f64; 6]) -> Self {
+        let m = design.manipulator();
+        let limits = design.hardware.leg_length.map(|limits| limits.range());
+        let outside: Vec<usize> = match limits {
+            Some((least, greatest)) => {
+                (1..=6).filter(|leg| !(least..=greatest).contains(&lengths[leg - 1])).collect()
+            }
+            None => Vec::new(),
+        };
+        let rows = jacobian(m, pose, 1.0);
+        let scaled = jacobian(m, pose, design.characteristic_length());
+        Self {
+            line: None,
+            time: None,
+            pose: pose.into(),
+            lengths,
+            within_limits: limits.map(|_| outside.is_empty()),
+            outside,
+            joints: JointAnglesRecord::new(&terms.joint_angles(pose)),
+            jacobian: std::array::from_fn(|i| std::array::from_fn(|j| Number(rows[(i, j)]))),
+            inverse_condition: Number(inverse_condition(&scaled)),
+            margins: PoseMarginRecord::all(design, terms, pose),
+        }
+    }
+}
+
+impl PoseMarginRecord {
+    /// The least margin of each kind at a pose.
+    fn all(design: &Design, terms: &Terms<'_>, pose: &Pose) -> Vec<Self> {
+        let at = terms.at(pose);
+        let least = |kind: TermKind| {
+            let own = at.iter().filter(|(term, _)| term.kind == kind);
+            own.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(term, margin)| Self {
+                name: kind,
+                margin: Number(*margin),
+                unit: design.unit_of(kind.quantity()),
+                between: design.names_of(*term),
+                legs: design.legs_of(*term),
+            })
+        };
+        TermKind::ALL.into_iter().filter_map(least).collect()
+    }
 }

@@ -9,6 +9,7 @@
 
 #[cfg(feature = "lab")]
 mod bench;
+mod calibrate;
 mod check;
 mod compare;
 mod components;
@@ -19,6 +20,7 @@ mod failure;
 mod family;
 mod fk;
 mod ik;
+mod limits;
 mod locus;
 mod map;
 mod motion;
@@ -38,6 +40,8 @@ mod schema;
 mod selfmotion;
 mod singularities;
 mod statistics;
+#[cfg(feature = "sweep")]
+mod sweep;
 mod tolerances;
 mod topologies;
 mod verify;
@@ -48,6 +52,7 @@ use serde::{Deserialize, Serialize};
 
 #[cfg(feature = "lab")]
 pub use self::bench::*;
+pub use self::calibrate::*;
 pub use self::check::*;
 pub use self::compare::*;
 pub use self::components::*;
@@ -58,6 +63,7 @@ pub use self::failure::*;
 pub use self::family::*;
 pub use self::fk::*;
 pub use self::ik::*;
+pub use self::limits::*;
 pub use self::locus::*;
 pub use self::map::*;
 pub use self::motion::*;
@@ -77,6 +83,8 @@ pub use self::schema::*;
 pub use self::selfmotion::*;
 pub use self::singularities::*;
 pub use self::statistics::*;
+#[cfg(feature = "sweep")]
+pub use self::sweep::*;
 pub use self::tolerances::*;
 pub use self::topologies::*;
 pub use self::verify::*;

@@ -5,11 +5,11 @@ use schemars::{JsonSchema, SchemaGenerator};
 use serde_json::{Map, Value};
 
 use super::{
-    AssessAnswer, CheckAnswer, CompareAnswer, CompletionsAnswer, ComponentsAnswer, ConvertAnswer, Document,
-    ErrorAnswer, ExploreAnswer, ExportAnswer, FamilyAnswer, FkAnswer, HelpAnswer, IkAnswer, LocusAnswer,
-    ManAnswer, MapAnswer, MotionAnswer, MoveAnswer, NearestAnswer, NewAnswer, OptimizeAnswer, PlotAnswer,
-    PresetsAnswer, ReportAnswer, RoundAnswer, SchemaAnswer, SelfmotionAnswer, SingularitiesAnswer,
-    TolerancesAnswer, TopologiesAnswer, VerifyAnswer, ViewAnswer,
+    AssessAnswer, CalibrateAnswer, CheckAnswer, CompareAnswer, CompletionsAnswer, ComponentsAnswer,
+    ConvertAnswer, Document, ErrorAnswer, ExploreAnswer, ExportAnswer, FamilyAnswer, FkAnswer, HelpAnswer,
+    IkAnswer, LimitsAnswer, LocusAnswer, ManAnswer, MapAnswer, MotionAnswer, MoveAnswer, NearestAnswer,
+    NewAnswer, OptimizeAnswer, PlotAnswer, PresetsAnswer, ReportAnswer, RoundAnswer, SchemaAnswer,
+    SelfmotionAnswer, SingularitiesAnswer, TolerancesAnswer, TopologiesAnswer, VerifyAnswer, ViewAnswer,
 };
 
 /// Names of answers with the function that writes their schema: commands by their own names, those of a group as `singular-poses`, `error` for refusals, `help` for --help.
@@ -21,6 +21,7 @@ const ANSWERS: Table = &[
     ("bench", Document::<super::BenchAnswer>::json_schema),
     ("build-round", Document::<RoundAnswer>::json_schema),
     ("build-tolerances", Document::<TolerancesAnswer>::json_schema),
+    ("calibrate", Document::<CalibrateAnswer>::json_schema),
     ("check", Document::<CheckAnswer>::json_schema),
     ("compare", Document::<CompareAnswer>::json_schema),
     ("design-convert", Document::<ConvertAnswer>::json_schema),
@@ -38,6 +39,7 @@ const ANSWERS: Table = &[
     ("fk", Document::<FkAnswer>::json_schema),
     ("help", Document::<HelpAnswer>::json_schema),
     ("ik", Document::<IkAnswer>::json_schema),
+    ("limits", Document::<LimitsAnswer>::json_schema),
     ("motion", Document::<MotionAnswer>::json_schema),
     ("new", Document::<NewAnswer>::json_schema),
     ("optimize", Document::<OptimizeAnswer>::json_schema),
@@ -48,6 +50,18 @@ const ANSWERS: Table = &[
     ("shell-man", Document::<ManAnswer>::json_schema),
     ("singular-motion", Document::<SelfmotionAnswer>::json_schema),
     ("singular-poses", Document::<SingularitiesAnswer>::json_schema),
+    #[cfg(feature = "sweep")]
+    ("sweep-design", Document::<super::SweepDesignAnswer>::json_schema),
+    #[cfg(feature = "sweep")]
+    ("sweep-merge", Document::<super::SweepMergeAnswer>::json_schema),
+    #[cfg(feature = "sweep")]
+    ("sweep-run", Document::<super::SweepRunAnswer>::json_schema),
+    #[cfg(feature = "sweep")]
+    ("sweep-script", Document::<super::SweepScriptAnswer>::json_schema),
+    #[cfg(feature = "sweep")]
+    ("sweep-status", Document::<super::SweepStatusAnswer>::json_schema),
+    #[cfg(feature = "sweep")]
+    ("sweep-verify", Document::<super::SweepVerifyAnswer>::json_schema),
     ("verify", Document::<VerifyAnswer>::json_schema),
     ("view", Document::<ViewAnswer>::json_schema),
 ];

@@ -6,7 +6,9 @@ use serde::{Deserialize, Serialize};
 use super::{AssessAnswer, Number, PoseErrorRecord, PoseErrorsRecord, PoseQuaternionRecord};
 use crate::design::Design;
 use crate::manipulator::Body;
-use crate::manufacture::{ErrorKind, Joint, JointBudget, LimitedAllowance, Trials};
+use crate::manufacture::{
+    ErrorAtPose, ErrorKind, ErrorParts, Joint, JointBudget, LimitedAllowance, MachineErrors, Trials,
+};
 
 /// The answer of `build tolerances`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -31,6 +33,10 @@ pub struct TolerancesAnswer {
     pub solved: SolvedBudgetRecord,
     /// Random errors in the budget.
     pub trials: TrialsRecord,
+    /// Random errors with the standard deviations of the calibration; null: not asked for.
+    pub calibrated: Option<TrialsRecord>,
+    /// The greatest errors by joints, leg lengths and temperature together; null: not asked for.
+    pub map: Option<ErrorMapRecord>,
     /// The poses looked at.
     pub poses: BudgetPosesRecord,
 }
@@ -177,4 +183,73 @@ pub enum WorkspaceWord {
     Design,
     /// A box about home, because the design has none.
     Default,
+}
+
+/// The greatest errors of the pose by all causes together, to first order.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ErrorMapRecord {
+    /// Every joint is off by at most this in any direction.
+    pub joint_error: Number,
+    /// Every leg is longer or shorter than it shows by at most this.
+    pub length_error: Number,
+    /// Growth of base, platform and legs, as shares; with either sign.
+    pub growth: [Number; 3],
+    /// Poses looked at: the corners and a sample of the region, and those that are listed.
+    pub poses: usize,
+    /// Of the tool point, design units.
+    pub position: GreatestErrorRecord,
+    /// Of the orientation, degrees.
+    pub rotation_deg: GreatestErrorRecord,
+    /// The table of all poses that was written; null: none.
+    pub path: Option<String>,
+}
+
+/// The greatest error over the poses of a map.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct GreatestErrorRecord {
+    /// By all causes.
+    pub greatest: Number,
+    /// By joints alone, at the same pose.
+    pub joints: Number,
+    /// By leg lengths alone.
+    pub lengths: Number,
+    /// By growth alone.
+    pub growth: Number,
+    /// The pose.
+    pub pose: PoseQuaternionRecord,
+    /// Half of the poses have at most this by all causes.
+    pub median: Number,
+}
+
+impl GreatestErrorRecord {
+    fn new(map: &[ErrorAtPose], of: fn(&ErrorAtPose) -> &ErrorParts) -> Option<Self> {
+        let worst = map.iter().max_by(|a, b| of(a).total.total_cmp(&of(b).total))?;
+        let mut all: Vec<f64> = map.iter().map(|e| of(e).total).collect();
+        all.sort_by(f64::total_cmp);
+        let parts = of(worst);
+        Some(Self {
+            greatest: Number(parts.total),
+            joints: Number(parts.joints),
+            lengths: Number(parts.lengths),
+            growth: Number(parts.growth),
+            pose: (&worst.pose).into(),
+            median: Number(all[(all.len() - 1) / 2]),
+        })
+    }
+}
+
+impl ErrorMapRecord {
+    /// The record of a map that was written to `path`; `None` for a map without poses.
+    #[must_use]
+    pub fn new(errors: &MachineErrors, map: &[ErrorAtPose], path: Option<String>) -> Option<Self> {
+        Some(Self {
+            joint_error: Number(errors.joints),
+            length_error: Number(errors.lengths),
+            growth: errors.growth.map(Number),
+            poses: map.len(),
+            position: GreatestErrorRecord::new(map, |e| &e.position)?,
+            rotation_deg: GreatestErrorRecord::new(map, |e| &e.rotation_deg)?,
+            path,
+        })
+    }
 }

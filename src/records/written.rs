@@ -78,6 +78,8 @@ pub enum FigureWord {
     SelfMotion,
     /// Where det J vanishes over two freedoms.
     SingularPoses,
+    /// Columns of the table of a sweep.
+    Sweep,
     /// Ways to share joints.
     Topologies,
     /// Poses within all limits over two freedoms.

@@ -157,7 +157,7 @@ fn parts(body: &LegBody, a: Point3<f64>, b: Point3<f64>) -> Vec<Part> {
 }
 
 /// Angle between two vectors, degrees, accurate for small angles too.
-fn angle_deg(u: &Vector3<f64>, v: &Vector3<f64>) -> f64 {
+pub(super) fn angle_deg(u: &Vector3<f64>, v: &Vector3<f64>) -> f64 {
     u.cross(v).norm().atan2(u.dot(v)).to_degrees()
 }
 
@@ -175,6 +175,12 @@ impl<'a> Terms<'a> {
         let base = axes(required.hardware.base_swing, &|u| *u);
         let platform = axes(required.hardware.platform_swing, &|u| home.rotation.inverse() * u);
         Self { manipulator, required, axes: [base, platform] }
+    }
+
+    /// The axes from which swing is measured, unit vectors in leg order that point from base to platform: at the base in the base frame, at the platform in the platform frame.
+    #[must_use]
+    pub fn axes(&self) -> &[[Vector3<f64>; 6]; 2] {
+        &self.axes
     }
 
     /// Margins of the requirements that do not depend on the pose: positive where they are met.

@@ -156,6 +156,38 @@ variables = [\"home_height\"]
     assert!(d["conflict"]["requirements"][1]["alone"].as_f64().unwrap() > 0.0);
 }
 
+/// Each candidate is a file that `assess` judges as the answer says; with other values than the answer, and without the option there are none.
+#[test]
+fn other_local_optima_are_judged_and_written_when_they_are_asked_for() {
+    let more = "[hardware]
+leg_length = [9.0, 18.0]
+base_swing_deg = 60.0
+[optimize]
+variables = [\"offsets\"]
+";
+    let (out, folder) = optimize(&required(more), &["-o", "out.toml", "--candidates", "all"]);
+    let d = document(&out);
+    let candidates = d["candidates"].as_array().unwrap();
+    assert!(!candidates.is_empty(), "a platform with six offsets has more than one optimum");
+    let first = std::fs::read_to_string(folder.path().join("all/candidate-1.toml")).unwrap();
+    assert_eq!(first, std::fs::read_to_string(folder.path().join("out.toml")).unwrap());
+    let mut values = vec![d["objectives"][0]["at_held_poses"].as_f64().unwrap()];
+    for (k, c) in candidates.iter().enumerate() {
+        let path = c["output"].as_str().unwrap();
+        assert_eq!(path, format!("all/candidate-{}.toml", k + 2));
+        values.push(c["objectives"][0]["at_held_poses"].as_f64().unwrap());
+        let assessed = Command::new(env!("CARGO_BIN_EXE_equipod"))
+            .current_dir(folder.path())
+            .args(["assess", path, "--json"])
+            .output()
+            .unwrap();
+        assert_eq!(document(&assessed)["met"], c["assessment"]["met"], "{path}");
+    }
+    assert!(values.windows(2).all(|v| v[0] > v[1]), "{values:?}");
+    let (out, _) = optimize(&required(more), &[]);
+    assert!(document(&out).get("candidates").is_none());
+}
+
 /// A search of many seconds: offsets, triangles and height under many requirements.
 fn long_search() -> String {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/designs/worked/simulator-octahedral.toml");

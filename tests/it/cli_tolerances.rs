@@ -66,3 +66,33 @@ fn bad_bounds_and_singular_workspaces_are_refused_with_a_reason() {
     let (code, doc) = run("designs/rbt-midline.toml", &["--bound", "0.01,0.1"]);
     assert_eq!((code, doc["error"]["code"].as_str()), (Some(1), Some("tolerances::singular_workspace")));
 }
+
+#[test]
+fn the_map_of_errors_has_every_cause_at_every_pose() {
+    let design = "designs/rbt-octahedral.toml";
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("map.csv").to_str().unwrap().to_owned();
+    let more = ["--bound", "0.01,0.1", "--joint-error", "0.001", "--length-error", "0.002"];
+    let (code, doc) = run(design, &[&more[..], &["--growth", "1e-5,1e-5,1e-5", "--map", &path]].concat());
+    assert_eq!(code, Some(0), "{doc}");
+    let (map, number) = (&doc["map"], |v: &Value| v.as_f64().unwrap());
+    let position = &map["position"];
+    let parts: Vec<f64> = ["joints", "lengths", "growth"].iter().map(|k| number(&position[*k])).collect();
+    assert!(number(&position["greatest"]) <= parts.iter().sum::<f64>() * (1.0 + 1e-12));
+    assert!(parts.iter().all(|p| *p > 0.0 && *p <= number(&position["greatest"])));
+    assert!(number(&map["rotation_deg"]["growth"]) < 1e-9, "growth as a whole turns nothing");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!(lines.len(), 1 + map["poses"].as_u64().unwrap() as usize);
+    assert!(
+        lines[0].contains(",position_by_lengths_") && lines[0].ends_with("rotation_by_growth_deg"),
+        "{}",
+        lines[0]
+    );
+    // without errors of its own the map is that of the budget
+    let (_, doc) = run(design, &["--bound", "0.01,0.1", "--length-error", "0"]);
+    assert_eq!(doc["map"]["joint_error"], doc["all_joints_radius"]["value"]);
+    assert!(number(&doc["map"]["position"]["greatest"]) <= 0.01 * (1.0 + 1e-9));
+    let (code, doc) = run(design, &["--bound", "0.01,0.1", "--length-error", "-1"]);
+    assert_eq!((code, doc["error"]["code"].as_str()), (Some(2), Some("tolerances::bad_error")));
+}

@@ -17,6 +17,7 @@ ANSWERS = {
     "assess": "AssessAnswer",
     "build-round": "RoundAnswer",
     "build-tolerances": "TolerancesAnswer",
+    "calibrate": "CalibrateAnswer",
     "check": "CheckAnswer",
     "compare": "CompareAnswer",
     "equivalents-map": "MapAnswer",

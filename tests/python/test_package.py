@@ -271,6 +271,23 @@ def test_long_work_answers_reports_and_can_be_interrupted(octahedral):
         octahedral.optimize(extension=-1.0)
 
 
+def test_a_machine_is_calibrated_from_poses_and_lengths():
+    design = equipod.Design.load("designs/symmetric-hexapod.toml")
+    rng = np.random.default_rng(4)
+    shifts, turns = rng.uniform(-40, 40, (30, 3)), rng.uniform(-20, 20, (30, 3))
+    poses = equipod.pose(design.home[:3, 3] + shifts, rpy=turns, degrees=True)
+    shown = design.ik(poses) + np.arange(6.0)
+    found = design.calibrate(poses, shown, options=["--next", "2"])
+    assert found.record.outcome == "calibrated" and len(found.record.next_poses) == 2
+    assert np.allclose([leg.offset for leg in found.record.calibration.offsets], np.arange(6.0), atol=1e-6)
+    assert found.design is not None
+    assert np.allclose(found.design.joints.base, design.joints.base, atol=1e-6)
+    unseen = design.calibrate(poses[:5], shown[:5], sigma_length=0.01)
+    assert unseen.design is None and unseen.record.outcome == "not_identifiable"
+    with pytest.raises(equipod.DesignError):
+        design.calibrate(poses[:4], shown)
+
+
 def test_motions_and_designs_side_by_side():
     design = equipod.Design.load("designs/worked/simulator-octahedral.toml")
     times = np.linspace(0.0, 1.0, 11)

@@ -10,7 +10,8 @@ use crate::cli::table::{column_unit, csv_line, number};
 use crate::cli::{poses, rows};
 use crate::design::{Design, SeriesRow, TimeSeries};
 use crate::geom::Pose;
-use crate::records::{IkAnswer, IkRecord, IkRowsAnswer};
+use crate::records::{IkAnswer, IkRecord, IkRowsAnswer, Number};
+use crate::requirements::Terms;
 
 /// Arguments of `ik`.
 #[derive(Debug, clap::Args)]
@@ -23,6 +24,9 @@ pub(crate) struct Args {
     /// A table with a pose a line (`-` for standard input), and times where it has them
     #[arg(long, value_name = "FILE", conflicts_with = "pose")]
     poses: Option<PathBuf>,
+    /// Columns for swing and angles of the joints, the inverse condition number and the margins besides the lengths; --json has them anyway
+    #[arg(long)]
+    details: bool,
 }
 
 const BAD_POSE: &str = "ik::bad_pose";
@@ -35,9 +39,11 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         None => (named(&args.pose, &design)?, args.pose.len() < 2),
     };
     let from_table = args.poses.is_some();
-    let record = |row: &SeriesRow<Pose>| record(&design, row, from_table);
+    let required = design.requirements();
+    let terms = Terms::new(design.manipulator(), &required, &poses::home(&design));
+    let record = |row: &SeriesRow<Pose>| record(&design, &terms, row, from_table);
     let mut records = series.rows.iter().map(record).collect::<Result<Vec<_>, _>>()?;
-    let text = table(&design, series.time_name.as_deref(), &records);
+    let text = table(&design, series.time_name.as_deref(), &records, args.details);
     let answer = match records.pop() {
         Some(last) if one => IkAnswer::One(Box::new(last)),
         last => IkAnswer::Rows(IkRowsAnswer { rows: records.into_iter().chain(last).collect() }),
@@ -60,36 +66,56 @@ fn named(texts: &[String], design: &Design) -> Result<TimeSeries<Pose>, Failure>
     })
 }
 
-fn record(design: &Design, row: &SeriesRow<Pose>, from_table: bool) -> Result<IkRecord, Failure> {
+fn record(
+    design: &Design,
+    terms: &Terms<'_>,
+    row: &SeriesRow<Pose>,
+    from_table: bool,
+) -> Result<IkRecord, Failure> {
     let Some(lengths) = row.value.lengths(design.manipulator()) else {
         let message = format!("pose {} is so far away that lengths overflow double precision", row.line);
         return Err(Failure::refused(BAD_POSE, message));
     };
-    let lengths = lengths.get();
-    let limits = design.hardware.leg_length.map(|limits| limits.range());
-    let outside: Vec<usize> = match limits {
-        Some((least, greatest)) => {
-            (1..=6).filter(|leg| !(least..=greatest).contains(&lengths[leg - 1])).collect()
-        }
-        None => Vec::new(),
-    };
     Ok(IkRecord {
         line: from_table.then_some(row.line),
         time: row.time,
-        pose: (&row.value).into(),
-        lengths,
-        within_limits: limits.map(|_| outside.is_empty()),
-        outside,
+        ..IkRecord::new(design, terms, &row.value, lengths.get())
     })
 }
 
+/// What `--details` adds to the lengths: names of columns and values, the same for every pose.
+fn details(record: &IkRecord) -> Vec<(String, f64)> {
+    let mut out = Vec::new();
+    let joints = &record.joints;
+    let mut list = |name: &str, values: &[Number; 6]| {
+        out.extend(values.iter().enumerate().map(|(i, x)| (format!("{name}_{}_deg", i + 1), x.0)));
+    };
+    list("base_swing", &joints.base_swing_deg);
+    list("platform_swing", &joints.platform_swing_deg);
+    for (name, pairs) in [
+        ("base_universal", &joints.base_universal_deg),
+        ("platform_universal", &joints.platform_universal_deg),
+    ] {
+        list(&format!("{name}_x"), &pairs.map(|p| p[0]));
+        list(&format!("{name}_y"), &pairs.map(|p| p[1]));
+    }
+    out.push(("inverse_condition".into(), record.inverse_condition.0));
+    for m in &record.margins {
+        out.push((format!("margin_{}_{}", m.name.code(), column_unit(&m.unit)), m.margin.0));
+    }
+    out
+}
+
 /// The lengths, a pose a line, in the order given.
-fn table(design: &Design, time_name: Option<&str>, records: &[IkRecord]) -> String {
+fn table(design: &Design, time_name: Option<&str>, records: &[IkRecord], with_details: bool) -> String {
     let unit = column_unit(&design.units);
     let limited = design.hardware.leg_length.is_some();
     let mut header: Vec<String> = time_name.map(str::to_string).into_iter().collect();
     header.extend((1..=6).map(|leg| format!("leg_{leg}_{unit}")));
     header.extend(limited.then(|| "within_limits".to_string()));
+    if let Some(first) = records.first().filter(|_| with_details) {
+        header.extend(details(first).into_iter().map(|(name, _)| name));
+    }
     let mut out = csv_line(&header);
     for record in records {
         let mut cells: Vec<String> = Vec::new();
@@ -98,6 +124,9 @@ fn table(design: &Design, time_name: Option<&str>, records: &[IkRecord]) -> Stri
         }
         cells.extend(record.lengths.map(number));
         cells.extend(record.within_limits.map(|within| within.to_string()));
+        if with_details {
+            cells.extend(details(record).into_iter().map(|(_, value)| number(value)));
+        }
         out.push_str(&csv_line(&cells));
     }
     out

@@ -16,6 +16,7 @@
 mod assess;
 mod bench;
 mod build;
+mod calibrate;
 mod check;
 mod compare;
 mod design;
@@ -24,6 +25,7 @@ mod explore;
 mod export;
 mod fk;
 mod ik;
+mod limits;
 mod motion;
 mod new;
 mod optimize;
@@ -31,6 +33,7 @@ mod plot;
 mod report;
 mod shell;
 mod singular;
+mod sweep;
 mod verify;
 mod view;
 
@@ -56,6 +59,8 @@ pub(crate) enum Command {
     Fk(fk::Args),
     /// Compute the leg lengths at given poses
     Ik(ik::Args),
+    /// Compute how far the platform may move from a pose, and the nearest allowed pose
+    Limits(limits::Args),
     /// Compute and change the platforms equivalent to a design
     #[command(subcommand)]
     Equivalents(equivalents::Command),
@@ -79,6 +84,11 @@ pub(crate) enum Command {
     /// Round joints to a grid of holes and budget their tolerances
     #[command(subcommand)]
     Build(build::Command),
+    /// Compute many designs from a plan, in shards that may be interrupted
+    #[command(subcommand)]
+    Sweep(sweep::Command),
+    /// Find the joints and leg offsets of a machine from measured poses and lengths
+    Calibrate(calibrate::Args),
     /// Write files for CAD, simulators, machine controls, tables and drawings
     Export(export::Args),
     /// Convert design files, start from designs of real hardware, print schemas
@@ -107,6 +117,7 @@ impl Command {
             Self::New(args) => new::run(args, context),
             Self::Fk(args) => fk::run(args, context),
             Self::Ik(args) => ik::run(args, context),
+            Self::Limits(args) => limits::run(args, context),
             Self::Equivalents(command) => command.run(context),
             Self::Verify(args) => verify::run(args, context),
             Self::Explore(args) => explore::run(args, context),
@@ -117,6 +128,8 @@ impl Command {
             Self::Check(args) => check::run(args, context),
             Self::Singular(command) => command.run(context),
             Self::Build(command) => command.run(context),
+            Self::Sweep(command) => command.run(context),
+            Self::Calibrate(args) => calibrate::run(args, context),
             Self::Export(args) => export::run(args, context),
             Self::Design(command) => command.run(context),
             Self::Plot(args) => plot::run(args, context),

@@ -3,8 +3,10 @@
 use nalgebra::Point3;
 use thiserror::Error;
 
+use super::hal::HexapodPins;
 use super::header::{UNITS, plain};
 use super::sheet::{InvalidSheet, Sheet, SheetRow};
+use super::text::decode;
 use crate::design::{Design, NameCount};
 use crate::geom::Pose;
 use crate::manipulator::{Body, InvalidManipulator, Leg, Manipulator};
@@ -45,11 +47,15 @@ impl PointTable {
     /// Reads six rows of two points, base end first, or twelve rows of one point, in whatever notation.
     ///
     /// Columns are taken by their names where the header has names for coordinates, else by their order. Rows of one point belong to the body that a cell, a title above them
-    /// or their name says, else the first six to the base.
+    /// or their name says, else the first six to the base. Settings of `genhexkins` are read too.
     ///
     /// # Errors
     /// [`InvalidPointTable`].
     pub(crate) fn read(bytes: &[u8]) -> Result<Self, InvalidPointTable> {
+        if let Some(pins) = decode(bytes).ok().and_then(|decoded| HexapodPins::read(&decoded.text)) {
+            let HexapodPins { legs, home, guesses } = pins?;
+            return Ok(Self { legs, names: None, units: None, home, guesses });
+        }
         let mut sheet = Sheet::read(bytes, LEAST_NUMBERS)?;
         let mut guesses = std::mem::take(&mut sheet.guesses);
         let rows = data_rows(&sheet, &mut guesses)?;

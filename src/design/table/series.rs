@@ -10,6 +10,9 @@ const LEAST_NUMBERS: usize = 2;
 /// At most so many bad lines are quoted.
 const QUOTED: usize = 20;
 
+/// Lengths in a row.
+const LEGS: usize = 6;
+
 /// What the rows of a table hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum SeriesKind {
@@ -17,6 +20,8 @@ pub(crate) enum SeriesKind {
     Lengths,
     /// Position with roll, pitch and yaw, or with a quaternion.
     Poses,
+    /// A pose and six leg lengths after it.
+    PosesWithLengths,
 }
 
 /// A row that was read.
@@ -133,12 +138,17 @@ impl SeriesKind {
         let values = match self {
             Self::Lengths => numbered_columns(&names),
             Self::Poses => pose_columns(&names),
+            Self::PosesWithLengths => {
+                let lengths = numbered_columns(&names);
+                pose_columns(&names).zip(lengths).map(|(pose, lengths)| [pose, lengths].concat())
+            }
         };
         guesses.extend(time.map(|c| format!("The column `{}` holds times.", header[c])));
+        let in_radians =
+            |list: &[usize]| list.iter().copied().filter(|c| names[*c].ends_with("rad")).collect();
         let radians: Vec<usize> = match (&values, self) {
-            (Some(list), Self::Poses) => {
-                list[3..].iter().copied().filter(|c| names[*c].ends_with("rad")).collect()
-            }
+            (Some(list), Self::Poses) => in_radians(&list[3..]),
+            (Some(list), Self::PosesWithLengths) => in_radians(&list[3..list.len() - LEGS]),
             _ => Vec::new(),
         };
         if !radians.is_empty() {
@@ -276,6 +286,23 @@ mod tests {
         let found = read(SeriesKind::Poses, "qw,qx,qy,qz,x,y,z,note\n1,0,0,0,10,20,30,\"a, b\"\n");
         assert_eq!(found.rows[0].value, [10.0, 20.0, 30.0, 1.0, 0.0, 0.0, 0.0]);
         assert!(found.guesses.iter().any(|g| g.contains("`note`")), "{:?}", found.guesses);
+    }
+
+    #[test]
+    fn poses_with_lengths_are_read_by_names_and_by_places() {
+        let numbers = |text: &str| -> Result<Vec<f64>, String> {
+            text.split(',').map(|f| f.parse().map_err(|_| format!("`{f}` is not a number"))).collect()
+        };
+        let read = |text: &str| {
+            let kind = SeriesKind::PosesWithLengths;
+            kind.read(text.as_bytes(), numbers).unwrap_or_else(|why| panic!("{why}")).rows.remove(0).value
+        };
+        let meant = [10.0, 20.0, 30.0, 1f64.to_degrees(), 0.0, 0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
+        let named = "l6,l5,l4,l3,l2,l1,time,yaw_rad,pitch_rad,roll_rad,x_mm,y_mm,z_mm\n6,5,4,3,2,1,9,0,0,1,10,20,30\n";
+        assert_eq!(read(named), meant);
+        assert_eq!(read("1,2,3,4,5,6,7,8,9,10,11,12\n").len(), 12);
+        let quaternion = "x,y,z,qw,qx,qy,qz,leg_1,leg_2,leg_3,leg_4,leg_5,leg_6\n1,2,3,1,0,0,0,4,5,6,7,8,9\n";
+        assert_eq!(read(quaternion), [1.0, 2.0, 3.0, 1.0, 0.0, 0.0, 0.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]);
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! One walk over the tree that collects every violation, and the reading of keys, texts and numbers.
 
+mod calibration;
 mod constructions;
 mod joints;
 mod limits;
@@ -19,7 +20,7 @@ use crate::manipulator::{Body, InvalidManipulator, LegLengths, Manipulator};
 /// Words less similar than this are no help.
 const NEAR: f64 = 0.7;
 
-const TOP_LEVEL: [&str; 21] = [
+const TOP_LEVEL: [&str; 22] = [
     "name",
     "units",
     "force_units",
@@ -41,6 +42,7 @@ const TOP_LEVEL: [&str; 21] = [
     "payload",
     "envelope",
     "limits",
+    "calibration",
 ];
 
 /// The design, or `None` with the reasons in the report. Later checks run on whatever earlier ones left
@@ -87,6 +89,7 @@ pub(super) fn design(root: &Node, report: &mut Findings<'_>) -> Option<Design> {
     let payload = limits::payload(report, entries);
     let envelopes = limits::envelopes(report, entries);
     let reserves = limits::reserves(report, entries);
+    let calibration = calibration::calibration(report, entries, [base.as_ref(), platform.as_ref()]);
     if !report.is_clean() {
         return None;
     }
@@ -108,6 +111,7 @@ pub(super) fn design(root: &Node, report: &mut Findings<'_>) -> Option<Design> {
     design.keep_outs = keep_outs;
     (design.payload, design.envelopes, design.reserves) = (payload, envelopes, reserves);
     (design.force_units, design.mass_units) = (force_units, mass_units);
+    design.calibration = calibration;
     Some(design)
 }
 
@@ -212,7 +216,7 @@ const LARGEST: f64 = 1e60;
 const SMALLEST: f64 = 1e-60;
 
 /// Refuses every key that is not in `known`.
-fn check_keys(report: &mut Findings<'_>, entries: &[Entry], known: &[&str], place: &str) {
+pub(crate) fn check_keys(report: &mut Findings<'_>, entries: &[Entry], known: &[&str], place: &str) {
     for entry in entries.iter().filter(|e| !known.contains(&e.key.as_str())) {
         let message = format!("`{}` is not a key of {place}", shown(&entry.key));
         let help =
@@ -222,7 +226,7 @@ fn check_keys(report: &mut Findings<'_>, entries: &[Entry], known: &[&str], plac
 }
 
 /// "did you mean ..." when something is near, else the list, `what` said before.
-pub(super) fn nearest_help(what: &str, given: &str, known: &[&str]) -> String {
+pub(crate) fn nearest_help(what: &str, given: &str, known: &[&str]) -> String {
     let near = nearest(given, known).map(|near| format!("did you mean `{}`?", shown(near)));
     near.unwrap_or_else(|| {
         let more = if known.len() > 20 { ", and more" } else { "" };
@@ -237,7 +241,7 @@ fn nearest<'a>(given: &str, known: &[&'a str]) -> Option<&'a str> {
 }
 
 /// A name as it is put into messages: control characters escaped, cut after 60 characters.
-fn shown(name: &str) -> String {
+pub(crate) fn shown(name: &str) -> String {
     let mut text: String = name.chars().take(60).flat_map(char::escape_debug).collect();
     if name.chars().nth(60).is_some() {
         text.push_str("...");
@@ -246,7 +250,7 @@ fn shown(name: &str) -> String {
 }
 
 /// A text that is not blank.
-fn text(report: &mut Findings<'_>, entry: &Entry) -> Option<String> {
+pub(crate) fn text(report: &mut Findings<'_>, entry: &Entry) -> Option<String> {
     let key = &entry.key;
     match &entry.node.value {
         Value::Text(s) if !s.trim().is_empty() => Some(s.clone()),
@@ -268,7 +272,7 @@ fn text_or_absent(report: &mut Findings<'_>, entries: &[Entry], key: &str) -> Op
 }
 
 /// A finite number of a magnitude that can be squared.
-fn number(report: &mut Findings<'_>, node: &Node, what: &str) -> Option<f64> {
+pub(crate) fn number(report: &mut Findings<'_>, node: &Node, what: &str) -> Option<f64> {
     match &node.value {
         Value::Number(x) if !x.is_finite() => {
             let message = format!("{what} is {x}, not a finite number");
@@ -335,7 +339,7 @@ fn element_span(node: &Node, i: usize) -> Span {
 }
 
 /// The entries of a table, or a refusal.
-fn table<'a>(report: &mut Findings<'_>, node: &'a Node, what: &str) -> Option<&'a [Entry]> {
+pub(crate) fn table<'a>(report: &mut Findings<'_>, node: &'a Node, what: &str) -> Option<&'a [Entry]> {
     match &node.value {
         Value::Table(entries) => Some(entries),
         other => {

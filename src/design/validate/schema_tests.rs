@@ -2,6 +2,7 @@
 
 use serde_json::Value;
 
+use super::calibration::CALIBRATION_KEYS;
 use super::limits::{ENVELOPE_KEYS, PAYLOAD_KEYS};
 use super::search::SEARCH_KEYS;
 use super::tables::{HARDWARE_KEYS, LIMIT_KEYS, POSE_KEYS, WORKSPACE_KEYS};
@@ -29,6 +30,7 @@ fn the_schema_has_the_keys_of_the_reader() {
     assert_eq!(keys("/$defs/pose"), sorted(POSE_KEYS));
     assert_eq!(keys("/properties/envelope"), sorted(ENVELOPE_KEYS));
     assert_eq!(keys("/properties/payload"), sorted(PAYLOAD_KEYS));
+    assert_eq!(keys("/properties/calibration"), sorted(CALIBRATION_KEYS));
     let reserved = TermKind::ALL.map(TermKind::code).into_iter().chain(["all"]);
     assert_eq!(keys("/properties/limits/properties/reserve/oneOf/1"), sorted(reserved));
     let names = |place: &str| {

@@ -1052,3 +1052,205 @@ void equipod_limit_margins(const equipod_limits *limits, const equipod_legs *leg
                        && margins->base_swing_degrees[i] >= R(0) && margins->platform_swing_degrees[i] >= R(0);
     }
 }
+
+/* p + t velocity, exp(t [turn]) R. */
+static void pose_on_way(const equipod_pose *start, const real_t velocity[3], const real_t turn[3], real_t t, equipod_pose *pose)
+{
+    const real_t rate = norm(turn), angle = t * rate;
+    const real_t s = SIN(angle), half = SIN(angle / R(2)), versed = R(2) * half * half;
+    real_t axis[3];
+    int i, j;
+    for (i = 0; i < 3; i++) {
+        axis[i] = rate > R(0) ? turn[i] / rate : R(0);
+        pose->position[i] = start->position[i] + t * velocity[i];
+    }
+    for (j = 0; j < 3; j++) {
+        real_t column[3], once[3], twice[3];
+        for (i = 0; i < 3; i++) {
+            column[i] = start->rotation[i][j];
+        }
+        cross(axis, column, once);
+        cross(axis, once, twice);
+        for (i = 0; i < 3; i++) {
+            pose->rotation[i][j] = column[i] + s * once[i] + versed * twice[i];
+        }
+    }
+}
+
+/* First root of f + rate t - k t^2 / 2; a negative f is one of rounding. */
+static real_t first_root(real_t f, real_t rate, real_t k)
+{
+    real_t root;
+    f = larger(f, R(0));
+    root = SQRT(rate * rate + R(2) * k * f);
+    if (rate < R(0)) {
+        return R(2) * f / (root - rate);
+    }
+    return k > R(0) ? (rate + root) / k : R(INFINITY);
+}
+
+/* A leg keeps three quarters of its length in a step. */
+#define KEPT 0.75
+
+/* Motion of the line of a leg in the frame of one of its ends: velocity, and bounds of speed and acceleration over a step up to `cap`. */
+typedef struct {
+    real_t velocity[3], speed, acceleration, cap;
+} line_motion;
+
+static real_t cap_of(real_t length, real_t speed)
+{
+    return speed > R(0) ? (R(1) - R(KEPT)) * length / speed : R(INFINITY);
+}
+
+/* The step that the angle between the leg and an axis allows, both in the base frame. */
+static real_t swing_step(const line_motion *motion, const real_t u[3], real_t length, const real_t axis[3], real_t limit_degrees)
+{
+    const real_t kept = R(KEPT) * length, along = dot(u, motion->velocity), speed = motion->speed / kept;
+    real_t across[3];
+    int k;
+    if (limit_degrees >= R(180)) {
+        return R(INFINITY);
+    }
+    for (k = 0; k < 3; k++) {
+        across[k] = motion->velocity[k] - along * u[k];
+    }
+    return smaller(first_root(dot(u, axis) - COS(limit_degrees / R(DEGREES)), dot(across, axis) / length,
+                              motion->acceleration / kept + R(3) * speed * speed),
+                   motion->cap);
+}
+
+/* A step over which no limit of lengths and swing can be reached; docs/theory/reach.md has the bounds. */
+static real_t free_step(const equipod_limits *limits, const equipod_legs *legs, const equipod_pose *pose, const real_t velocity[3], const real_t turn[3])
+{
+    const real_t v = norm(velocity), w = norm(turn);
+    real_t least = R(INFINITY);
+    int i, k;
+    for (i = 0; i < 6; i++) {
+        real_t arm[3], line[3], u[3], q[3], turned[3], axis[3], length, size, first, grown;
+        line_motion base, platform;
+        leg_line(legs, pose, i, arm, line);
+        length = norm(line);
+        cross(turn, arm, turned);
+        size = norm(turned);
+        for (k = 0; k < 3; k++) {
+            u[k] = line[k] / length;
+            q[k] = line[k] - arm[k];
+            base.velocity[k] = velocity[k] + turned[k];
+        }
+        base.speed = v + size;
+        base.acceleration = w * size;
+        base.cap = cap_of(length, base.speed);
+        if (limits->has_length) {
+            const real_t rate = dot(u, base.velocity), bend = base.acceleration + base.speed * base.speed / (R(KEPT) * length);
+            least = smaller(first_root(length - limits->least, rate, base.acceleration), least);
+            least = smaller(smaller(first_root(limits->greatest - length, -rate, bend), base.cap), least);
+        }
+        if (limits->has_base_swing) {
+            least = smaller(swing_step(&base, u, length, limits->base_axis[i], limits->base_swing_degrees), least);
+        }
+        if (limits->has_platform_swing) {
+            cross(turn, q, turned);
+            size = norm(turned);
+            first = cap_of(length, v + size);
+            grown = v * w > R(0) && is_finite(first) ? v * w * first : R(0);
+            for (k = 0; k < 3; k++) {
+                platform.velocity[k] = velocity[k] - turned[k];
+                axis[k] = dot(pose->rotation[k], limits->platform_axis[i]);
+            }
+            platform.speed = v + size + grown;
+            platform.acceleration = w * (size + grown) + R(2) * v * w;
+            platform.cap = smaller(cap_of(length, platform.speed), first);
+            least = smaller(swing_step(&platform, u, length, axis, limits->platform_swing_degrees), least);
+        }
+    }
+    return least;
+}
+
+/* The limit that is violated most, lengths as shares of the unit, angles of a right angle. */
+static void name_binding(const equipod_legs *legs, const equipod_margins *margins, equipod_travel *travel)
+{
+    real_t worst = R(0);
+    int i, k;
+    for (i = 0; i < 6; i++) {
+        const real_t shares[4] = {margins->too_short[i] / legs->unit, margins->too_long[i] / legs->unit,
+                                  margins->base_swing_degrees[i] / R(90), margins->platform_swing_degrees[i] / R(90)};
+        for (k = 0; k < 4; k++) {
+            if (shares[k] < worst) {
+                worst = shares[k];
+                travel->limit = (equipod_limit)k;
+                travel->leg = i;
+            }
+        }
+    }
+}
+
+int equipod_free_way(const equipod_limits *limits, const equipod_legs *legs, const equipod_pose *start, const real_t velocity[3], const real_t turn[3],
+                     real_t most, unsigned poses, equipod_travel *travel)
+{
+    equipod_margins margins;
+    equipod_pose pose;
+    real_t fastest = R(0), shortest, longest, nudge, met = R(0), violated = R(0);
+    int i, outside = 0;
+    travel->amount = R(0);
+    travel->pose = *start;
+    travel->binds = 0;
+    travel->limit = EQUIPOD_TOO_SHORT;
+    travel->leg = -1;
+    travel->poses = 1;
+    equipod_limit_margins(limits, legs, start, &margins);
+    if (!margins.met) {
+        travel->binds = 1;
+        name_binding(legs, &margins, travel);
+        return 0;
+    }
+    for (i = 0; i < 6; i++) {
+        real_t arm[3], line[3], turned[3];
+        leg_line(legs, start, i, arm, line);
+        cross(turn, arm, turned);
+        fastest = larger(fastest, norm(velocity) + norm(turned));
+    }
+    fastest = larger(fastest, R(LEAST));
+    longest = R(0.02) * legs->unit / fastest;
+#ifdef EQUIPOD_FLOAT
+    shortest = R(1e-3) * legs->unit / fastest;
+#else
+    shortest = R(1e-5) * legs->unit / fastest;
+#endif
+    nudge = shortest;
+    while (!outside && met < most && travel->poses < poses) {
+        const real_t safe = free_step(limits, legs, &travel->pose, velocity, turn);
+        const real_t step = larger(smaller(safe, R(50) * longest), nudge);
+        const real_t next = step < most - met ? met + step : most;
+        nudge = safe < nudge ? smaller(R(2) * nudge, longest) : shortest;
+        pose_on_way(start, velocity, turn, next, &pose);
+        equipod_limit_margins(limits, legs, &pose, &margins);
+        travel->poses += 1;
+        if (margins.met) {
+            met = next;
+            travel->pose = pose;
+        } else {
+            outside = 1;
+            violated = next;
+        }
+    }
+    while (outside && travel->poses < poses && violated - met > R(8) * R(EPSILON) * (violated + shortest)) {
+        const real_t middle = R(0.5) * (met + violated);
+        pose_on_way(start, velocity, turn, middle, &pose);
+        equipod_limit_margins(limits, legs, &pose, &margins);
+        travel->poses += 1;
+        if (margins.met) {
+            met = middle;
+            travel->pose = pose;
+        } else {
+            violated = middle;
+        }
+    }
+    if (outside) {
+        pose_on_way(start, velocity, turn, violated, &pose);
+        equipod_limit_margins(limits, legs, &pose, &margins);
+        travel->binds = 1;
+        name_binding(legs, &margins, travel);
+    }
+    travel->amount = met;
+    return 1;
+}

@@ -105,6 +105,16 @@ typedef struct {
     int swing_leg;
 } equipod_margins;
 
+/* How far a way is free. */
+typedef struct {
+    real_t amount;       /* in the unit of the way: at its end every limit is met */
+    equipod_pose pose;   /* the pose there */
+    int binds;           /* 1: a limit is violated just beyond; 0: the way or the number of poses ended before */
+    equipod_limit limit; /* which, and of which leg */
+    int leg;
+    unsigned poses;      /* poses looked at */
+} equipod_travel;
+
 /* Makes six base and six platform joints ready: those measured on the machine, for instance. 0 where they have no size or are not finite. */
 int equipod_prepare(const real_t base[6][3], const real_t platform[6][3], equipod_legs *legs);
 
@@ -143,6 +153,13 @@ equipod_status equipod_track_mapped(const equipod_map *map, const equipod_legs *
 
 /* What remains of each limit at a pose. */
 void equipod_limit_margins(const equipod_limits *limits, const equipod_legs *legs, const equipod_pose *pose, equipod_margins *margins);
+
+/* How far the way p(t) = p + t velocity, R(t) = exp(t [turn]) R is free of violated limits, t from 0 to `most`: unit vectors as velocity or turn move one
+ * axis. Steps are such that neither lengths nor swing can be violated between two poses, but for steps of a hundred-thousandth (float: a
+ * thousandth) of the unit where one of them is nearly zero. `poses` bounds the poses looked at: what is free of the way up to there is the
+ * answer then. 0 where a limit is violated at the start. */
+int equipod_free_way(const equipod_limits *limits, const equipod_legs *legs, const equipod_pose *start, const real_t velocity[3], const real_t turn[3],
+                     real_t most, unsigned poses, equipod_travel *travel);
 
 #ifdef __cplusplus
 }

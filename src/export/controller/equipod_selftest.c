@@ -61,6 +61,13 @@ typedef struct {
     pose_numbers corrected;
 } map_vector;
 
+/* How far a way is free. */
+typedef struct {
+    pose_numbers start;
+    double velocity[3], turn[3], most, amount;
+    int binds;
+} free_vector;
+
 #include "equipod_vectors.h"
 
 #define COUNT(list) (sizeof(list) / sizeof(*(list)))
@@ -330,6 +337,39 @@ static void check_mapped(void)
 }
 #endif
 
+/* A way ends where the library says; in float, where limits are met and beyond are not. */
+static void check_free(void)
+{
+    unsigned n;
+    for (n = 0; n < COUNT(free_vectors); n++) {
+        const free_vector *v = &free_vectors[n];
+        const equipod_pose start = pose_from(&v->start);
+        const real_t most = (real_t)v->most;
+        real_t velocity[3], turn[3];
+        equipod_travel travel;
+        equipod_margins margins;
+        int i;
+        if (!(v->most > 0)) {
+            continue;
+        }
+        for (i = 0; i < 3; i++) {
+            velocity[i] = (real_t)v->velocity[i];
+            turn[i] = (real_t)v->turn[i];
+        }
+        check(equipod_free_way(&equipod_design_limits, &equipod_nominal, &start, velocity, turn, most, 2000, &travel) == 1, "start of a way", n);
+        equipod_limit_margins(&equipod_design_limits, &equipod_nominal, &travel.pose, &margins);
+        check(margins.met, "limits at the end of a way", n);
+        check(travel.poses <= 2000, "poses within their bound", n);
+        check(near(travel.amount, v->amount, (sizeof(real_t) == sizeof(double) ? 1e-6 : 1e-2) * v->most), "free part of a way", n);
+#ifndef EQUIPOD_FLOAT
+        check(travel.binds == v->binds, "end of a way", n);
+#endif
+        check(!travel.binds || travel.leg >= 0, "what binds", n);
+        equipod_free_way(&equipod_design_limits, &equipod_nominal, &start, velocity, turn, most, 3, &travel);
+        check(travel.poses <= 3 && travel.amount <= most, "few poses", n);
+    }
+}
+
 /* The design made ready here is the design made ready by the library, but for rounding. */
 static void check_prepared(void)
 {
@@ -355,6 +395,7 @@ int main(void)
     check_inverse();
     check_tracked();
     check_newton();
+    check_free();
 #ifdef EQUIPOD_HAS_OCTAHEDRAL
     check_mapped();
 #endif

@@ -10,11 +10,10 @@ use std::fmt::Write as _;
 
 use nalgebra::{Point3, Vector3};
 
-use super::plate::any_across;
 use super::text::{ascii, commented};
 use super::{Export, ExportedFile, Unsupported, Writer};
 use crate::fk::{NearNumbers, NearSolver};
-use crate::geom::Pose;
+use crate::geom::{Pose, any_across};
 use crate::manipulator::Manipulator;
 use crate::requirements::{Hardware, JointAxes, Swing};
 
@@ -116,6 +115,12 @@ fn header(export: &Export) -> String {
         "/* Millimetres of a unit of length. */\n#define EQUIPOD_UNIT_MILLIMETRES {}",
         number(export.unit.millimetres)
     );
+    if export.leg_offsets.is_some() {
+        out.push_str(
+            "\n/* Leg offsets of the calibration: the distance of the joints of leg i is the length it shows less equipod_leg_offsets[i]. */\n\
+             #define EQUIPOD_HAS_LEG_OFFSETS 1\nextern const real_t equipod_leg_offsets[6];\n",
+        );
+    }
     if export.octahedral.is_some() {
         out.push_str(
             "\n/* The octahedral platform the design is equivalent to, and the map of squared lengths to its own. */\n\
@@ -145,6 +150,9 @@ fn source(export: &Export) -> String {
     for (name, list) in [("base", across), ("platform", in_platform)] {
         let _ =
             writeln!(out, "const real_t equipod_across_{name}[6][3] = {};", matrix(&list.map(Into::into)));
+    }
+    if let Some(offsets) = export.leg_offsets {
+        let _ = writeln!(out, "\nconst real_t equipod_leg_offsets[6] = {};", reals(offsets));
     }
     if let Some(octahedral) = &export.octahedral {
         out.push('\n');

@@ -11,7 +11,8 @@ use crate::geom::Pose;
 use crate::manipulator::{SquaredLegLengths, jacobian};
 use crate::num::Rng;
 use crate::num::double_double::DoubleDouble;
-use crate::requirements::{Requirements, TermKind, Terms};
+use crate::reach::{PoseAxis, Reach, StraightWay};
+use crate::requirements::{Hardware, Limit, Requirements, TermKind, Terms};
 
 /// Seed of the poses.
 const SEED: u64 = 21;
@@ -27,6 +28,8 @@ const WAYS: [f64; 6] = [1e-4, 1e-3, 1e-2, 0.05, 0.2, 0.5];
 const REPEATS: usize = 6;
 /// Segments allowed: the value of `EQUIPOD_SEGMENTS`.
 const SEGMENTS: u32 = 8;
+/// Poses from which ways are followed to their limits.
+const FREE_WAYS: usize = 3;
 /// Newton steps that correct a mapped pose.
 const CORRECTIONS: u32 = 2;
 
@@ -39,6 +42,7 @@ pub(super) fn text(export: &Export) -> String {
     list(&mut out, "inverse_vector", "inverse_vectors", poses.iter().filter_map(|p| inverse(export, p)));
     list(&mut out, "track_vector", "track_vectors", ways(export, &mut rng).iter().map(|w| track(export, w)));
     list(&mut out, "newton_vector", "newton_vectors", newton(export, &about, &mut rng));
+    list(&mut out, "free_vector", "free_vectors", free(export, &mut rng));
     if let Some(octahedral) = &export.octahedral {
         let starts = about.iter().filter_map(|start| {
             let end = moved(start, 1e-2, export.size, &mut rng);
@@ -190,6 +194,58 @@ fn newton(export: &Export, about: &[Pose], rng: &mut Rng) -> Vec<String> {
         ]))
     };
     about.iter().take(8).enumerate().filter_map(entry).collect()
+}
+
+/// Ways from poses about home and how far lengths and swing leave them free: each axis, and some with both velocities.
+fn free(export: &Export, rng: &mut Rng) -> Vec<String> {
+    let hardware = Hardware {
+        leg_length: export.hardware.leg_length,
+        base_swing: export.hardware.base_swing,
+        platform_swing: export.hardware.platform_swing,
+        ..Hardware::default()
+    };
+    let required = Requirements { hardware, ..Requirements::default() };
+    let reach = Reach::new(&export.manipulator, &required, &export.home, export.size);
+    let mut out = Vec::new();
+    for k in 0..FREE_WAYS {
+        let start = if k == 0 { export.home } else { moved(&export.home, 0.02, export.size, rng) };
+        if !reach.allows(&start) {
+            continue;
+        }
+        let mut vector = |far: f64| Vector3::from_fn(|_, _| rng.uniform(-far, far));
+        let mixed = StraightWay { start, velocity: vector(export.size), turn: vector(1.0) };
+        let far = |axis: PoseAxis| if axis.is_turn() { 1.0 } else { export.size };
+        let axes = PoseAxis::ALL.map(|axis| (StraightWay::axis(&start, axis), far(axis)));
+        for (way, mut most) in axes.into_iter().chain([(mixed, 1.0)]) {
+            let found = reach.along(&way, most);
+            let mut travel = (found.amount, found.binding.is_some());
+            if found.binding == Some(Limit::Singular) {
+                // singular poses are not looked for in the C
+                most = 0.5 * found.amount;
+                travel = (most, false);
+            }
+            out.push(braces([
+                pose_numbers(&start),
+                row(way.velocity.as_slice()),
+                row(way.turn.as_slice()),
+                number(most),
+                number(travel.0),
+                u8::from(travel.1).to_string(),
+            ]));
+        }
+    }
+    if out.is_empty() {
+        // home itself violates a limit; C has no empty lists, and the self-test passes over ways of length zero
+        out.push(braces([
+            pose_numbers(&export.home),
+            row(&[0.0; 3]),
+            row(&[0.0; 3]),
+            number(0.0),
+            number(0.0),
+            "0".to_string(),
+        ]));
+    }
+    out
 }
 
 /// The map as the C computes it: plain doubles, and a bound of their rounding.

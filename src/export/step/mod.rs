@@ -7,9 +7,8 @@ mod solids;
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
 use self::assembly::StepAssembly;
-use super::plate::any_across;
 use super::{Export, ExportedFile, Plate, Unsupported, Writer};
-use crate::geom::Pose;
+use crate::geom::{Pose, any_across};
 
 /// The format `step`.
 #[derive(Debug)]

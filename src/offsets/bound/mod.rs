@@ -52,7 +52,7 @@ pub(crate) struct BoundOptions {
 
 /// A box of offsets that may still hold something better.
 #[derive(Debug, Clone)]
-struct Node {
+struct BoundNode {
     bounds: OffsetRanges,
     /// Poses to look at, the worst of the parent first.
     poses: Vec<usize>,
@@ -146,8 +146,8 @@ impl<'a> Bounding<'a> {
         tick: &mut dyn FnMut(usize, usize, f64) -> ControlFlow<()>,
     ) -> Option<GlobalBound> {
         let first = self.telling_poses(&boxes);
-        let mut open: Vec<Node> =
-            boxes.into_iter().map(|bounds| Node { bounds, poses: first.clone(), depth: 0 }).collect();
+        let mut open: Vec<BoundNode> =
+            boxes.into_iter().map(|bounds| BoundNode { bounds, poses: first.clone(), depth: 0 }).collect();
         // a little below, so that rounding does not carry the last step across the gap asked for
         let (mut gap, mut done, mut budget) = (o.gap * AIM, 0, o.boxes);
         while !open.is_empty() {
@@ -178,7 +178,7 @@ impl<'a> Bounding<'a> {
     }
 
     /// The poses to go on with, `None` when the box is excluded.
-    fn look(&self, node: &Node, limit: f64) -> Option<Vec<usize>> {
+    fn look(&self, node: &BoundNode, limit: f64) -> Option<Vec<usize>> {
         if self.limits.is_empty(&node.bounds) {
             return None;
         }
@@ -222,7 +222,7 @@ impl<'a> Bounding<'a> {
     }
 
     /// The box cut in the middle of the longest range, as measured along the edge.
-    fn halves(&self, node: &Node, poses: &[usize]) -> [Node; 2] {
+    fn halves(&self, node: &BoundNode, poses: &[usize]) -> [BoundNode; 2] {
         let reach = |i: usize| (node.bounds[i].1 - node.bounds[i].0) * self.model.sides[i].edge_length();
         let longest = (1..6).fold(0, |best, i| if reach(i) > reach(best) { i } else { best });
         let (low, high) = node.bounds[longest];
@@ -231,7 +231,7 @@ impl<'a> Bounding<'a> {
         [(low, cut), (cut, high)].map(|range| {
             let mut bounds = node.bounds;
             bounds[longest] = range;
-            Node { bounds, poses: poses.to_vec(), depth: node.depth + 1 }
+            BoundNode { bounds, poses: poses.to_vec(), depth: node.depth + 1 }
         })
     }
 }

@@ -14,7 +14,20 @@ Poses are 4 x 4 homogeneous matrices ``[[R, p], [0, 1]]`` of float64, batch firs
 from __future__ import annotations
 
 from ._core import __version__
-from ._design import Design, Equivalent, Joints, LegMap, Margins, Track, Tracker, compare, leg_map, presets, verify
+from ._design import (
+    Calibrated,
+    Design,
+    Equivalent,
+    Joints,
+    LegMap,
+    Margins,
+    Track,
+    Tracker,
+    compare,
+    leg_map,
+    presets,
+    verify,
+)
 from ._display import Figure, Page
 from ._errors import CommandError, DesignError, Fault
 from ._poses import PoseLike, pose, quaternion, rpy
@@ -23,6 +36,7 @@ from ._solutions import BatchSolutions, Solution, Solutions
 
 __all__ = [
     "BatchSolutions",
+    "Calibrated",
     "CommandError",
     "Design",
     "DesignError",

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
     from .records import (
         AssessAnswer,
+        CalibrateAnswer,
         CheckAnswer,
         CompareAnswer,
         MapAnswer,
@@ -121,6 +122,22 @@ class LegMap:
         if not np.all(squares >= 0):
             raise DesignError("no pose has these lengths: a squared length of the other design is negative", code="lengths")
         return np.sqrt(squares)
+
+
+@dataclass(frozen=True)
+class Calibrated:
+    """A machine calibrated from measurements.
+
+    Attributes
+    ----------
+    design : Design, or None
+        With the calibrated joints; None where they are not identified, or where the measurements refute the model.
+    record : CalibrateAnswer
+        Joints, offsets, deviations, covariance, residuals, outliers, and the poses to measure next.
+    """
+
+    design: Design | None
+    record: CalibrateAnswer
 
 
 @dataclass(frozen=True)
@@ -617,6 +634,50 @@ class Design:
                 words.append(shop.poses("trajectory.csv", times, poses))
             words += [f"--sine={text}" for text in sine] + [f"--accelerate={text}" for text in accelerate]
             return MotionAnswer(ask([*words, *options], progress))
+
+    def calibrate(
+        self,
+        poses: PoseLike,
+        lengths: npt.ArrayLike,
+        *,
+        sigma_length: float | None = None,
+        sigma_position: float | None = None,
+        sigma_rotation_deg: float | None = None,
+        options: Sequence[str] = (),
+        progress: Progress | bool | None = None,
+    ) -> Calibrated:
+        """The joints and leg offsets of the machine built from this design, from measured poses and lengths.
+
+        Parameters
+        ----------
+        poses : pose_like, shape (n, 4, 4)
+            As they were measured.
+        lengths : array_like, shape (n, 6)
+            What the legs showed at them.
+        sigma_length, sigma_position : float, optional
+            Standard deviations of a length and of each coordinate of a position, design units. Without the first one lengths count as equally uncertain and poses as
+            exact, and how much is estimated.
+        sigma_rotation_deg : float, optional
+            Of each component of the rotation vector, degrees.
+        options : sequence of str
+            Further options of ``equipod calibrate``: ``["--loss=huber", "--frames=design"]``.
+        progress : callable or bool, optional
+
+        Returns
+        -------
+        Calibrated
+            With the design, where the machine is identified and nothing refutes it.
+        """
+        from .records import CalibrateAnswer
+
+        with Workshop() as shop:
+            out = shop.path / "calibrated.toml"
+            words = ["calibrate", shop.file("design.toml", self._native)]
+            words += [shop.measurements("measurements.csv", poses, _lengths(lengths)), "-o", str(out)]
+            sigmas = {"length": sigma_length, "position": sigma_position, "rotation-deg": sigma_rotation_deg}
+            words += [f"--sigma-{name}={float(x)!r}" for name, x in sigmas.items() if x is not None]
+            record = CalibrateAnswer(ask([*words, *options], progress))
+            return Calibrated(Design.load(out) if out.exists() else None, record)
 
     def export(self, format: str) -> dict[str, str]:
         """The files of ``csv``, ``drawing``, ``dxf``, ``hal``, ``json``, ``matlab``, ``mjcf``, ``step`` or ``stl``: texts by names."""

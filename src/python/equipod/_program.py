@@ -60,6 +60,17 @@ class Workshop:
         path.write_text("\n".join(lines) + "\n", encoding="utf-8")
         return str(path)
 
+    def measurements(self, name: str, poses: PoseLike, lengths: npt.NDArray[np.float64]) -> str:
+        """Poses with lengths as a table, to the last digit."""
+        array, rows = as_matrices(poses).reshape(-1, 4, 4), lengths.reshape(-1, 6)
+        if len(rows) != len(array):
+            raise DesignError(f"{len(array)} poses and {len(rows)} rows of lengths", code="shape")
+        table = np.column_stack([array[:, :3, 3], quaternion(array), rows])
+        lines = ["x,y,z,qw,qx,qy,qz,l1,l2,l3,l4,l5,l6", *(",".join(map(repr, row.tolist())) for row in table)]
+        path = self.path / name
+        path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+        return str(path)
+
 
 def ask(arguments: Sequence[str], progress: Progress | bool | None = None, folder: str | None = None) -> dict[str, Any]:
     """The JSON document of a command.

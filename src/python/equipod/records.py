@@ -13,6 +13,8 @@ AlignmentUndecided = Literal["no_axes", "unclear_dimension", "within_errors"]
 AlignmentWord = Literal["found", "none", "undecided"]
 Body = Literal["base", "platform"]
 BranchWord = Literal["best", "bounded", "dominated", "infeasible", "solver_failure", "unproved"]
+CalibrateOutcome = Literal["calibrated", "not_identifiable", "planned", "refuted", "undecided"]
+CalibrationFrames = Literal["design", "measured"]
 CentrePrecision = Literal["double", "double_double"]
 CompletenessWord = Literal["modular", "proved", "unproved"]
 CountUndecided = Literal["degree_too_low", "joints_not_exact", "no_prime_drawn", "primes_disagree"]
@@ -43,6 +45,8 @@ Invariant = Literal[
     "platform_principal_value",
 ]
 LengthsOrigin = Literal["design", "home"]
+Loss = Literal["cauchy", "huber", "squares", "tukey"]
+LossUnit = Literal["leg", "pose"]
 MarginVerdict = Literal["at_limit", "met", "searched", "violated"]
 Method = Literal["homotopy", "near", "octic", "sylvester", "template", "trilateration"]
 NearWord = Literal["lost", "near_singularity", "tracked"]
@@ -54,6 +58,7 @@ NoRoundingWord = Literal[
     "singular",
     "singular_pose",
 ]
+NoiseSource = Literal["assumed", "estimated", "given"]
 Objective = Literal[
     "joint_spacing",
     "leg_clearance",
@@ -85,6 +90,7 @@ SideWord = Literal["above", "below"]
 SourceWord = Literal["default", "design"]
 SpecialDemand = Literal["abs_det", "reach"]
 StageWord = Literal["assess", "components", "fk", "moves", "nearest", "verify"]
+StartName = Literal["closed_form", "nominal"]
 TermKind = Literal[
     "base_envelope",
     "base_spacing",
@@ -245,6 +251,106 @@ class BudgetPosesRecord(Record):
     workspace: WorkspaceWord
 
 
+class CalibrateAnswer(Record):
+    """One JSON document: an answer between what all answers have."""
+
+    #: Always 1: the version of these definitions.
+    schema_version: int
+    #: The name of the design.
+    name: str
+    #: The unit of lengths.
+    units: str
+    #: How it ended.
+    outcome: CalibrateOutcome
+    #: Why it ended so, in a sentence.
+    reason: str
+    #: What was found; null: nothing was measured, and poses to measure were asked for.
+    calibration: Union[CalibrationRecord, None]
+    #: The poses at which another measurement says most, the best first.
+    next_poses: tuple[NextPoseRecord, ...]
+    #: The design that was written; null: none.
+    path: Union[str, None]
+    #: What the answer was made from.
+    provenance: ProvenanceRecord
+    #: What was odd about the design files that were read.
+    warnings: tuple[WarningRecord, ...]
+
+
+class CalibratedJointRecord(Record):
+    """A joint."""
+
+    #: Its body.
+    body: Body
+    #: Its name.
+    joint: str
+    #: Where it is, frame of the body.
+    position: tuple[Union[float, None], ...]
+    #: Standard deviations of the coordinates; null: it was held.
+    deviations: Union[tuple[Union[float, None], ...], None]
+    #: From where the design has it.
+    moved: tuple[Union[float, None], ...]
+
+
+class CalibratedOffsetRecord(Record):
+    """The offset of a leg."""
+
+    #: From 1.
+    leg: int
+    #: What the length shown is longer than the distance of the joints, design units.
+    offset: Union[float, None]
+    #: Its standard deviation; null: it was held.
+    deviation: Union[float, None]
+
+
+class CalibrationRecord(Record):
+    """What was found."""
+
+    #: Poses measured.
+    poses: int
+    #: Coordinates and offsets sought.
+    unknowns: int
+    #: The frames of joints, deviations and covariance.
+    frames: CalibrationFrames
+    #: The motions from the frames of the measurements to those of the design; null: joints are in the
+    #: frames of the measurements.
+    motions: Union[FrameMotionsRecord, None]
+    #: How uncertain measurements are.
+    noise: NoiseRecord
+    #: How far measurements cost.
+    loss: LossRecord
+    #: Where the fit began.
+    start: StartRecord
+    #: Whether its steps ended where they must.
+    converged: bool
+    #: Steps in all.
+    steps: int
+    #: The joints that carry legs.
+    joints: tuple[CalibratedJointRecord, ...]
+    #: Leg offsets in leg order: shown length less distance of the joints.
+    offsets: tuple[CalibratedOffsetRecord, ...]
+    #: Covariance of the unknowns, squared design units; directions that are not identified have none.
+    covariance: CovarianceRecord
+    #: How uncertain poses are that are computed with the machine; null: not all unknowns are identified,
+    #: or the design has no pose to look at.
+    computed_poses: Union[ComputedPosesRecord, None]
+    #: Which changes of the machine the measurements see, and how well.
+    observability: ObservabilityRecord
+    #: Residuals of the design as it is.
+    before: ResidualsRecord
+    #: Residuals of the calibrated machine, without outliers.
+    after: ResidualsRecord
+    #: Residuals of each pose for the machine that the other poses give, to first order, without outliers.
+    left_out: ResidualsRecord
+    #: Residuals of the measurements of `--check`; null: there are none.
+    check: Union[ResidualsRecord, None]
+    #: Lines of measurements without which the unknowns are not determined.
+    indispensable: tuple[int, ...]
+    #: Agreement of the residuals with the noise.
+    chi_square: ChiSquareRecord
+    #: Measurements that do not belong to the others, the farthest first.
+    outliers: tuple[OutlierRecord, ...]
+
+
 class CaseRecord(Record):
     """A known kind of singular design."""
 
@@ -349,6 +455,18 @@ class CheckAnswer(Record):
     provenance: ProvenanceRecord
     #: What was odd about the design files that were read.
     warnings: tuple[WarningRecord, ...]
+
+
+class ChiSquareRecord(Record):
+    """Agreement of residuals with the noise."""
+
+    #: Sum of the squares of whitened residuals.
+    value: Union[float, None]
+    #: Numbers less unknowns identified.
+    degrees_of_freedom: int
+    #: The probability of a larger value, were model and noise right; null: the noise is estimated from the
+    #: same residuals.
+    probability: Union[float, None]
 
 
 class ClosurePolynomialRecord(Record):
@@ -511,6 +629,24 @@ class ComplexRecord5(Record):
     im: tuple[Union[float, None], ...]
 
 
+class ComputedPosesRecord(Record):
+    """Standard deviations of poses computed from lengths, by what the calibration does not know, with all correlations; the noise of these lengths comes on top."""
+
+    #: Poses looked at: those of the workspace at which the requirements of the design are met.
+    poses: int
+    #: Root mean square of the distance by which the platform origin of the measurements is off, design
+    #: units: the median over the poses.
+    position_median: Union[float, None]
+    #: The greatest of them.
+    position_greatest: Union[float, None]
+    #: Root mean square of the angle by which the orientation is off, degrees: the median over the poses.
+    rotation_deg_median: Union[float, None]
+    #: The greatest of them.
+    rotation_deg_greatest: Union[float, None]
+    #: The pose with the greatest deviation of the position.
+    pose: PoseQuaternionRecord
+
+
 class ConditioningRecord(Record):
     """The inverse condition number of the Jacobian at random poses."""
 
@@ -576,6 +712,15 @@ class CounterexampleRecord(Record):
     rounding: Union[float, None]
 
 
+class CovarianceRecord(Record):
+    """A covariance matrix."""
+
+    #: Names of rows and columns: `base.A1.x`, `offset.3`.
+    unknowns: tuple[str, ...]
+    #: Rows.
+    matrix: tuple[tuple[Union[float, None], ...], ...]
+
+
 class DependencyRecord(Record):
     """A dependency of leg vectors: `sum c_i v_i = 0`."""
 
@@ -625,6 +770,8 @@ class Design(Record):
     workspace: Union[dict[str, Any], None]
     #: what the platform carries
     payload: Union[dict[str, Any], None]
+    #: what `equipod calibrate` found beside the joints
+    calibration: Union[dict[str, Any], None]
     #: room that plates and machine may take up
     envelope: Union[dict[str, Any], None]
     #: what has to remain of each limit
@@ -729,6 +876,9 @@ class DimensionalAnswer(Record):
     nearest: Union[NearestPlatformRecord, None]
     #: When infeasible.
     conflict: Union[ConflictRecord, None]
+    #: Other local optima that meet the requirements at the poses that were held, best first; absent where
+    #: they were not asked for.
+    candidates: Union[tuple[OptimumRecord, ...], None]
     #: Value of the first objective.
     objective: Union[float, None]
     #: All of them.
@@ -832,6 +982,25 @@ class EnclosureRecord(Record):
     R: DiscsRecord
     #: The entries of the position, design units.
     p: DiscsRecord2
+
+
+class ErrorMapRecord(Record):
+    """The greatest errors of the pose by all causes together, to first order."""
+
+    #: Every joint is off by at most this in any direction.
+    joint_error: Union[float, None]
+    #: Every leg is longer or shorter than it shows by at most this.
+    length_error: Union[float, None]
+    #: Growth of base, platform and legs, as shares; with either sign.
+    growth: tuple[Union[float, None], ...]
+    #: Poses looked at: the corners and a sample of the region, and those that are listed.
+    poses: int
+    #: Of the tool point, design units.
+    position: GreatestErrorRecord
+    #: Of the orientation, degrees.
+    rotation_deg: GreatestErrorRecord
+    #: The table of all poses that was written; null: none.
+    path: Union[str, None]
 
 
 class ExactRoundingOutcome(Record):
@@ -1244,6 +1413,24 @@ class FkRowsAnswer(Record):
     rows: tuple[FkRowRecord, ...]
 
 
+class FrameMotionRecord(Record):
+    """The rigid motion with which measured joints are nearest to those of the design: a point x of the measurements is at R x + p."""
+
+    #: The motion.
+    motion: PoseRecord
+    #: Root mean square of the distances that remain, design units.
+    rms: Union[float, None]
+
+
+class FrameMotionsRecord(Record):
+    """Two rigid motions."""
+
+    #: Of the base.
+    base: FrameMotionRecord
+    #: Of the platform.
+    platform: FrameMotionRecord
+
+
 class FrontAnswer(Record):
     """The answer of `optimize` with mode = "pareto"."""
 
@@ -1320,6 +1507,34 @@ class GlobalBoundRecord(Record):
     gap: Union[float, None]
     #: Boxes of offsets that were looked at.
     boxes: int
+
+
+class GreatestErrorRecord(Record):
+    """The greatest error over the poses of a map."""
+
+    #: By all causes.
+    greatest: Union[float, None]
+    #: By joints alone, at the same pose.
+    joints: Union[float, None]
+    #: By leg lengths alone.
+    lengths: Union[float, None]
+    #: By growth alone.
+    growth: Union[float, None]
+    #: The pose.
+    pose: PoseQuaternionRecord
+    #: Half of the poses have at most this by all causes.
+    median: Union[float, None]
+
+
+class GreatestResidualRecord(Record):
+    """The largest residual."""
+
+    #: Line of the table of measurements.
+    line: int
+    #: From 1.
+    leg: int
+    #: Length measured less that of the model.
+    value: Union[float, None]
 
 
 class GridRecord(Record):
@@ -1421,6 +1636,17 @@ class JointLimitRecord(Record):
     pose: PoseQuaternionRecord
 
 
+class JointShiftRecord(Record):
+    """How a joint moves."""
+
+    #: Its body.
+    body: Body
+    #: Its name.
+    joint: str
+    #: The shift, frame of the body in which the poses were measured.
+    shift: tuple[Union[float, None], ...]
+
+
 class JointsRecord(Record):
     """How exactly the joints of a design are known, all together."""
 
@@ -1498,6 +1724,15 @@ class LocalOptimalityRecord(Record):
     pattern_gain: Union[float, None]
     #: Points it tried.
     pattern_trials: int
+
+
+class LossRecord(Record):
+    """How much far measurements cost."""
+
+    #: The loss.
+    loss: Loss
+    #: What is doubted together.
+    of: LossUnit
 
 
 class MapAnswer(Record):
@@ -1846,6 +2081,22 @@ class NearestSingularRecord(Record):
     platform: dict[str, tuple[Union[float, None], ...]]
 
 
+class NextPoseRecord(Record):
+    """A pose to measure next."""
+
+    #: The pose, in the frames of the design where joints are carried to them, else in those of the
+    #: measurements.
+    pose: PoseQuaternionRecord
+    #: Roll, pitch and yaw of it, degrees.
+    rpy_deg: tuple[Union[float, None], ...]
+    #: By what factor the geometric mean of the deviations along the axes of the error ellipsoid becomes
+    #: smaller with it.
+    shrinks: Union[float, None]
+    #: The greatest standard deviation of a coordinate or offset after it and those before it, design
+    #: units.
+    greatest_deviation: Union[float, None]
+
+
 class NoRoundingError(Record):
     """What stands against a rounding."""
 
@@ -1862,6 +2113,19 @@ class NoRoundingRecord(Record):
     error: NoRoundingError
 
 
+class NoiseRecord(Record):
+    """Standard deviations of measurements."""
+
+    #: Where they come from.
+    source: NoiseSource
+    #: Of a length, design units.
+    length: Union[float, None]
+    #: Of each coordinate of the platform origin, design units.
+    position: Union[float, None]
+    #: Of each component of the rotation vector, degrees.
+    rotation_deg: Union[float, None]
+
+
 class ObjectiveRecord(Record):
     """An objective and its value."""
 
@@ -1873,6 +2137,28 @@ class ObjectiveRecord(Record):
     at_held_poses: Union[float, None]
     #: Empty for a pure number.
     unit: str
+
+
+class ObservabilityRecord(Record):
+    """Which changes of the machine the measurements see, and how well."""
+
+    #: Directions identified.
+    rank: int
+    #: Of the identification matrix, whitened and multiplied by the deviation of a length; largest first,
+    #: without unit.
+    singular_values: tuple[Union[float, None], ...]
+    #: Smaller values are directions that are not identified.
+    tolerance: Union[float, None]
+    #: `(s_1 .. s_m)^(1/m) / sqrt(n)` (Borm, Menq 1991).
+    volume_index: Union[float, None]
+    #: `s_m / s_1` (Driels, Pathre 1990).
+    inverse_condition: Union[float, None]
+    #: `s_m^2 / s_1` (Nahvi, Hollerbach 1996).
+    noise_amplification: Union[float, None]
+    #: `1 / (1/s_1 + .. + 1/s_m)` (Sun, Hollerbach 2008).
+    harmonic_index: Union[float, None]
+    #: Changes of the machine that are not identified, each of norm 1 over all unknowns.
+    unobservable: tuple[UnobservableRecord, ...]
 
 
 class OffsetLimitsRecord(Record):
@@ -1901,6 +2187,15 @@ class OffsetMarginsRecord(Record):
     abs_det: Union[float, None]
     #: Least distance of an offset from its bounds.
     bounds: Union[float, None]
+
+
+class OffsetShiftRecord(Record):
+    """How an offset changes."""
+
+    #: From 1.
+    leg: int
+    #: The change.
+    change: Union[float, None]
 
 
 class OffsetSolutionRecord(Record):
@@ -2094,6 +2389,9 @@ class OptimizeAnswer(Record):
     #: Where none that meets the requirements was found: the one with the least violation, which misses
     #: some of them.
     nearest: Union[NearestPlatformRecord, None]
+    #: Other local optima that meet the requirements at the poses that were held, best first; absent where
+    #: they were not asked for.
+    candidates: Union[tuple[OptimumRecord, ...], None]
     #: How the search went.
     search: Union[SearchRecord, None]
     #: All of them.
@@ -2130,6 +2428,23 @@ class OptimizedRecord(Record):
     variables: Union[tuple[VariableRecord, ...], None]
 
 
+class OptimumRecord(Record):
+    """A local optimum beside the best one."""
+
+    #: All objectives.
+    objectives: tuple[ObjectiveRecord, ...]
+    #: What was chosen, axes left out.
+    variables: tuple[VariableRecord, ...]
+    #: Whether the platform meets its requirements, proved by the assessment; null: not all is proved.
+    requirements_met: Union[bool, None]
+    #: What `assess` says of it; null: the design requires nothing.
+    assessment: Union[AssessAnswer, None]
+    #: The platform.
+    design: Design
+    #: The file it was written to.
+    output: Union[str, None]
+
+
 class OtherAlignmentRecord(Record):
     """What was found for the second design taken otherwise."""
 
@@ -2137,6 +2452,21 @@ class OtherAlignmentRecord(Record):
     status: AlignmentWord
     #: How many.
     motions: int
+
+
+class OutlierRecord(Record):
+    """A measurement that does not belong to the others."""
+
+    #: Line of the table of measurements.
+    line: int
+    #: From 1; null: the whole pose.
+    leg: Union[int, None]
+    #: How far it is from the model, standard deviations.
+    distance: Union[float, None]
+    #: Right measurements are all nearer with a probability of 99 %.
+    threshold: Union[float, None]
+    #: Its weight in the fit.
+    weight: Union[float, None]
 
 
 class PathRecord(Record):
@@ -2349,6 +2679,19 @@ class RequirementMarginRecord(Record):
     margin: Union[float, None]
 
 
+class ResidualsRecord(Record):
+    """Sizes of residuals, design units."""
+
+    #: Root mean square.
+    rms: Union[float, None]
+    #: Of each leg.
+    legs: tuple[Union[float, None], ...]
+    #: The one of the largest size; null: none was counted.
+    greatest: Union[GreatestResidualRecord, None]
+    #: Lengths counted.
+    count: int
+
+
 class RoundAnswer(Record):
     """One JSON document: an answer between what all answers have."""
 
@@ -2556,6 +2899,21 @@ class StageRecord(Record):
     explanation: str
 
 
+class StartRecord(Record):
+    """Where the fit began, and what came of the other start."""
+
+    #: The start whose end was taken.
+    taken: StartName
+    #: Whether both starts ended at the same machine; null: only one was tried.
+    agree: Union[bool, None]
+    #: Sum of the losses, or the estimated deviation of a length, from the nominal joints: the less, the
+    #: better; null: not tried.
+    nominal: Union[float, None]
+    #: The same from the linear equations for squared lengths, which need no design; null: not tried, or
+    #: the poses do not determine them.
+    closed_form: Union[float, None]
+
+
 class StationarityRecord(Record):
     """Evidence of local optimality."""
 
@@ -2615,6 +2973,10 @@ class TolerancesAnswer(Record):
     solved: SolvedBudgetRecord
     #: Random errors in the budget.
     trials: TrialsRecord
+    #: Random errors with the standard deviations of the calibration; null: not asked for.
+    calibrated: Union[TrialsRecord, None]
+    #: The greatest errors by joints, leg lengths and temperature together; null: not asked for.
+    map: Union[ErrorMapRecord, None]
     #: The poses looked at.
     poses: BudgetPosesRecord
     #: What the answer was made from.
@@ -2653,6 +3015,15 @@ class TrilaterationStepRecord(Record):
     place: str
     #: All four are on one body: one place instead of two.
     rigid: bool
+
+
+class UnobservableRecord(Record):
+    """A change of joints and offsets that changes no measured length, or hardly."""
+
+    #: Joints that move, the farthest first.
+    joints: tuple[JointShiftRecord, ...]
+    #: Offsets that change.
+    offsets: tuple[OffsetShiftRecord, ...]
 
 
 class VariableRecord(Record):

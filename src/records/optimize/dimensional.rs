@@ -29,12 +29,47 @@ pub struct DimensionalAnswer {
     /// When infeasible.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub conflict: Option<ConflictRecord>,
+    /// Other local optima that meet the requirements at the poses that were held, best first; absent where they were not asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub candidates: Option<Vec<OptimumRecord>>,
     /// How the search went.
     pub search: SearchRecord,
     /// The platform; null: there is none.
     pub design: Option<DesignRecord>,
     /// The file written, with the platform or the one that comes nearest.
     pub output: Option<String>,
+}
+
+/// A local optimum beside the best one.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct OptimumRecord {
+    /// All objectives.
+    pub objectives: Vec<ObjectiveRecord>,
+    /// What was chosen, axes left out.
+    pub variables: Vec<VariableRecord>,
+    /// Whether the platform meets its requirements, proved by the assessment; null: not all is proved.
+    pub requirements_met: Option<bool>,
+    /// What `assess` says of it; null: the design requires nothing.
+    pub assessment: Option<AssessAnswer>,
+    /// The platform.
+    pub design: DesignRecord,
+    /// The file it was written to.
+    pub output: Option<String>,
+}
+
+impl OptimumRecord {
+    /// The record of a candidate for a design.
+    #[must_use]
+    pub fn new(design: &Design, s: &DimensionalSolution, c: &Checked, output: Option<&str>) -> Self {
+        Self {
+            objectives: ObjectiveRecord::all(design, s, c),
+            variables: VariableRecord::all(s),
+            requirements_met: c.met(),
+            assessment: c.assessed.as_ref().map(|found| AssessAnswer::new(&c.design, found)),
+            design: (&c.design).into(),
+            output: output.map(str::to_owned),
+        }
+    }
 }
 
 /// The platform that comes nearest to its requirements.
@@ -81,6 +116,7 @@ impl DimensionalAnswer {
                 DimensionalOutcome::Infeasible(c) => Some(ConflictRecord::new(design, c)),
                 _ => None,
             },
+            candidates: None,
             search: SearchRecord {
                 starts: report.starts,
                 feasible: report.feasible,
@@ -185,14 +221,7 @@ impl DimensionalSolutionRecord {
     /// The record of a solution for a design.
     #[must_use]
     pub fn new(design: &Design, s: &DimensionalSolution, c: &Checked) -> Self {
-        let objective = |((o, held), (_, dense)): (&(Objective, f64), &(Objective, f64))| ObjectiveRecord {
-            name: *o,
-            value: Number(*dense),
-            at_held_poses: Number(*held),
-            unit: o.quantity().map_or_else(String::new, |q| design.unit_of(q)),
-        };
-        let objectives: Vec<ObjectiveRecord> =
-            s.objectives.iter().zip(&c.objectives).map(objective).collect();
+        let objectives = ObjectiveRecord::all(design, s, c);
         let axes = |list: &Option<[Unit<Vector3<f64>>; 6]>| {
             list.map(|list| list.map(|a| [a.x, a.y, a.z].map(Number)))
         };
@@ -225,6 +254,19 @@ pub struct ObjectiveRecord {
     pub at_held_poses: Number,
     /// Empty for a pure number.
     pub unit: String,
+}
+
+impl ObjectiveRecord {
+    /// All objectives of a platform found for a design.
+    fn all(design: &Design, s: &DimensionalSolution, c: &Checked) -> Vec<Self> {
+        let one = |((o, held), (_, dense)): (&(Objective, f64), &(Objective, f64))| Self {
+            name: *o,
+            value: Number(*dense),
+            at_held_poses: Number(*held),
+            unit: o.quantity().map_or_else(String::new, |q| design.unit_of(q)),
+        };
+        s.objectives.iter().zip(&c.objectives).map(one).collect()
+    }
 }
 
 /// A quantity that was chosen.

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 pub use self::conflict::{ConflictRecord, DemandWord, GiveRecord, SpecialDemand};
 pub use self::dimensional::{
     DimensionalAnswer, DimensionalSolutionRecord, DimensionalStatus, DimensionalStepRecord, HeldPosesRecord,
-    JointAxesRecord, NearestPlatformRecord, ObjectiveRecord, SearchRecord, StationarityRecord,
+    JointAxesRecord, NearestPlatformRecord, ObjectiveRecord, OptimumRecord, SearchRecord, StationarityRecord,
     VariableRecord, VerifiedRecord,
 };
 pub use self::front::{FrontAnswer, FrontMemberRecord, FrontStatus};

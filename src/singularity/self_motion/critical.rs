@@ -14,7 +14,8 @@ use nalgebra::{Matrix4, Vector4};
 
 use super::pose as real_pose;
 use super::slices::{
-    Condition, CurveDegree, LegEquations, Plane, Slicer, Sweep, System, Z, draw, gather, is_regular, same,
+    Condition, CurveDegree, LegEquations, Plane, SliceSweep, Slicer, System, Z, draw, gather, is_regular,
+    same,
 };
 use crate::geom::{ComplexPose, Pose};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
@@ -95,8 +96,8 @@ pub fn critical_poses(
         let mut own = draw(&mut rng);
         own -= slicer.chart * own.dot(&y);
         let start =
-            is_regular(&equations, &y).then(|| slicer.newton(y, &Sweep::new(&own, &own), 0.0)).flatten();
-        let start = start.and_then(|y| slicer.carry(y, &Sweep::new(&own, &forms[0])).ok());
+            is_regular(&equations, &y).then(|| slicer.newton(y, &SliceSweep::new(&own, &own), 0.0)).flatten();
+        let start = start.and_then(|y| slicer.carry(y, &SliceSweep::new(&own, &forms[0])).ok());
         let Some(start) = start else {
             out.unused += 1;
             continue;
@@ -116,7 +117,7 @@ pub fn critical_poses(
         for y in &points {
             for form in &forms {
                 out.paths += 1;
-                match slicer.carry(*y, &Sweep::new(&forms[0], form)) {
+                match slicer.carry(*y, &SliceSweep::new(&forms[0], form)) {
                     Ok(start) => out.end(&slicer, &critical, start, m.size()),
                     Err(_) => out.lost += 1,
                 }

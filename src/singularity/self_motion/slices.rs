@@ -123,18 +123,18 @@ pub(super) trait Condition {
 }
 
 /// A hyperplane that moves from one place to another.
-pub(super) struct Sweep {
+pub(super) struct SliceSweep {
     from: Plane,
     change: Plane,
 }
 
-impl Sweep {
+impl SliceSweep {
     pub(super) fn new(from: &Plane, to: &Plane) -> Self {
         Self { from: *from, change: to - from }
     }
 }
 
-impl Condition for Sweep {
+impl Condition for SliceSweep {
     fn at(&self, t: f64, y: &Plane) -> (Z, Plane, Z) {
         let plane = self.from + self.change * Z::from(t);
         (plane.dot(y), plane, self.change.dot(y))
@@ -239,8 +239,8 @@ impl<'a> Slicer<'a> {
         let mut sums = [Plane::zeros(); 3];
         let mut moved = 0.0;
         for y in points {
-            let up = self.carry(*y, &Sweep::new(home, &(home + shift))).ok()?;
-            let down = self.carry(*y, &Sweep::new(home, &(home - shift))).ok()?;
+            let up = self.carry(*y, &SliceSweep::new(home, &(home + shift))).ok()?;
+            let down = self.carry(*y, &SliceSweep::new(home, &(home - shift))).ok()?;
             sums[0] += up;
             sums[1] += y;
             sums[2] += down;
@@ -314,7 +314,7 @@ pub(super) fn gather(
     home: &Plane,
     rng: &mut Rng,
 ) -> Option<(Vec<Plane>, CurveDegree)> {
-    let mut points = vec![slicer.newton(start, &Sweep::new(home, home), 0.0)?];
+    let mut points = vec![slicer.newton(start, &SliceSweep::new(home, home), 0.0)?];
     let mut quiet = 0;
     let mut defect = f64::INFINITY;
     for _ in 0..LOOPS {
@@ -322,9 +322,9 @@ pub(super) fn gather(
         let mut fresh: Vec<Plane> = Vec::new();
         for y in &points {
             let around = slicer
-                .carry(*y, &Sweep::new(home, &one))
-                .and_then(|y| slicer.carry(y, &Sweep::new(&one, &two)))
-                .and_then(|y| slicer.carry(y, &Sweep::new(&two, home)));
+                .carry(*y, &SliceSweep::new(home, &one))
+                .and_then(|y| slicer.carry(y, &SliceSweep::new(&one, &two)))
+                .and_then(|y| slicer.carry(y, &SliceSweep::new(&two, home)));
             if let Ok(y) = around
                 && !points.iter().chain(&fresh).any(|z| same(z, &y))
             {

@@ -1,6 +1,6 @@
 //! Telling certified roots of one problem apart, whatever patches they were certified on.
 
-use super::certificate::Certificate;
+use super::certificate::{Certificate, PoseEnclosure};
 use crate::num::ball::UP;
 use crate::num::ball::WideDisc;
 
@@ -79,17 +79,80 @@ fn is_captured(x: &[WideDisc; 8], outer: &Certificate) -> bool {
     })
 }
 
-/// Proves the roots of certificates of one problem pairwise distinct, or lists the pairs for which it cannot.
-#[must_use]
-pub fn distinct(certificates: &[Certificate]) -> Distinctness {
-    let mut doubtful = Vec::new();
-    for (i, a) in certificates.iter().enumerate() {
-        for (j, b) in certificates.iter().enumerate().skip(i + 1) {
-            match relation(a, b) {
-                RootRelation::Distinct => {}
-                other => doubtful.push((i, j, other)),
+/// Pairs of enclosures that may have a pose in common, as indices in ascending order; all others are disjoint.
+///
+/// Discs over disjoint intervals of the real axis are disjoint. The intervals of one coordinate are passed from left to right, so that of `n` enclosures not all
+/// `n (n - 1) / 2` pairs are looked at.
+pub(crate) fn overlapping_pairs<'a>(
+    enclosures: impl Iterator<Item = &'a PoseEnclosure>,
+) -> Vec<(usize, usize)> {
+    let whole = [f64::NEG_INFINITY, f64::INFINITY];
+    let interval = |e: &PoseEnclosure| {
+        let disc = e.position[0];
+        let ends = [(disc.centre.re - disc.radius).next_down(), (disc.centre.re + disc.radius).next_up()];
+        if ends.iter().any(|x| x.is_nan()) { whole } else { ends }
+    };
+    let all: Vec<&PoseEnclosure> = enclosures.collect();
+    let ends: Vec<[f64; 2]> = all.iter().map(|e| interval(e)).collect();
+    let mut order: Vec<usize> = (0..all.len()).collect();
+    order.sort_by(|&i, &j| ends[i][0].total_cmp(&ends[j][0]));
+    let mut out = Vec::new();
+    for (place, &i) in order.iter().enumerate() {
+        for &j in order[place + 1..].iter().take_while(|&&j| ends[j][0] <= ends[i][1]) {
+            if !all[i].is_disjoint(all[j]) {
+                out.push((i.min(j), i.max(j)));
             }
         }
     }
+    out.sort_unstable();
+    out
+}
+
+/// Proves the roots of certificates of one problem pairwise distinct, or lists the pairs for which it cannot.
+#[must_use]
+pub fn distinct(certificates: &[Certificate]) -> Distinctness {
+    let overlapping = overlapping_pairs(certificates.iter().map(Certificate::enclosure));
+    let related = |(i, j): (usize, usize)| (i, j, relation(&certificates[i], &certificates[j]));
+    let doubtful: Vec<(usize, usize, RootRelation)> =
+        overlapping.into_iter().map(related).filter(|p| p.2 != RootRelation::Distinct).collect();
     if doubtful.is_empty() { Distinctness::AllDistinct } else { Distinctness::NotAll(doubtful) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::Rng;
+    use crate::num::ball::Disc;
+    use num_complex::Complex64;
+
+    /// The pairs are those that a look at all of them finds, whatever the radii.
+    #[test]
+    fn no_overlapping_pair_is_passed_over() {
+        let mut rng = Rng::new(17);
+        for round in 0..40 {
+            let mut disc = |k: usize| Disc {
+                centre: Complex64::new(rng.uniform(-1.0, 1.0), rng.uniform(-1.0, 1.0)),
+                radius: match k {
+                    3 => f64::INFINITY,
+                    5 if round % 2 == 0 => f64::NAN,
+                    _ => 10f64.powf(rng.uniform(-6.0, 0.3)),
+                },
+            };
+            let mut one = |k: usize| PoseEnclosure {
+                rotation: std::array::from_fn(|_| std::array::from_fn(|_| disc(0))),
+                position: std::array::from_fn(|_| disc(k)),
+            };
+            let mut list: Vec<PoseEnclosure> = (0..12).map(&mut one).collect();
+            // one twice, and one that shares the coordinate that is looked at first
+            list.push(list[2]);
+            list[1].position[0] = list[0].position[0];
+            let brute: Vec<(usize, usize)> = (0..list.len())
+                .flat_map(|i| (i + 1..list.len()).map(move |j| (i, j)))
+                .filter(|&(i, j)| !list[i].is_disjoint(&list[j]))
+                .collect();
+            assert_eq!(overlapping_pairs(list.iter()), brute);
+            assert!(brute.contains(&(2, 12)));
+        }
+        assert!(overlapping_pairs([].iter()).is_empty());
+    }
 }

@@ -83,6 +83,7 @@ pub use certificate::{
     WhyUncertified,
 };
 pub(crate) use coordinates::dual_quaternion;
+pub(crate) use distinct::overlapping_pairs;
 pub use distinct::{Distinctness, RootRelation, distinct, relation};
 pub use double::DoubleCertificate;
 pub use refine::RefinedPose;
@@ -185,7 +186,10 @@ impl Certifier {
                 let study = study_at(x, self.0.unit())?;
                 let double = Centre { hi: &study, full: None };
                 match one_root_about(&self.0, &double, Digits::OfTheCentre) {
-                    Ok(ball) => self.root_in_double(&double, &ball).or_else(|_| far()),
+                    Ok(ball) => self
+                        .root_in_double(&double, &ball)
+                        .or_else(|_| self.root_one_step_on(&study))
+                        .or_else(|_| far()),
                     Err(why) => far().map_err(|_| why),
                 }
             }
@@ -213,11 +217,23 @@ impl Certifier {
 
     /// The root in a ball about a double, with the pose one Newton step on, where doubles are enough for `R` and `p`.
     fn root_in_double(&self, x: &Centre<'_>, ball: &RootBall) -> Result<CertifiedPose, WhyUncertified> {
-        let certificate = certificate_of(&self.0, x, ball)?;
         let better: [Complex64; 8] =
             std::array::from_fn(|j| Complex64::new(x.hi.re[j], x.hi.im[j]) - ball.step[j]);
         let pose = pose_in_double(&better, self.0.unit()).ok_or(WhyUncertified::RotationUndefined)?;
-        self.certified(pose, &certificate)
+        self.certified(pose, &certificate_of(&self.0, x, ball)?)
+    }
+
+    /// The root in a ball about a double where `R` and `p` need more digits than the point has: those of one Newton step with values in double-double, which is all
+    /// that a point as good as doubles can make it needs.
+    fn root_one_step_on(&self, x: &Study<f64>) -> Result<CertifiedPose, WhyUncertified> {
+        let mut better = x.lifted();
+        let ball = one_root_about(&self.0, &Centre { hi: x, full: Some(&better) }, Digits::OfTheCentre)?;
+        for (k, step) in ball.step.iter().enumerate() {
+            better.re[k] = better.re[k] - step.re.into();
+            better.im[k] = better.im[k] - step.im.into();
+        }
+        let certificate = certificate_about_precise(&self.0, &better, Digits::OfTheCentre)?;
+        self.certified(certificate.enclosure.middle(), &certificate)
     }
 
     fn root_near_doubtful_point(

@@ -169,16 +169,20 @@ pub struct CommonPoints {
     pub error_probability: f64,
 }
 
-/// Counts the common points of the legs of `m` for generic lengths; `None` when the finite ones are not isolated or not counted.
+/// Counts the common points of the legs of `m` for generic lengths beside `poses`, which [`count_generic_poses`] counted with the same options; `None` when these are not isolated or not counted.
 #[must_use]
-pub fn count_common_points(m: &Manipulator, options: &CountOptions) -> Option<CommonPoints> {
-    let mut error_probability: f64 = 0.0;
+pub fn count_common_points(
+    m: &Manipulator,
+    poses: &PoseCount,
+    options: &CountOptions,
+) -> Option<CommonPoints> {
+    let finite = poses.finite()?;
+    let mut error_probability = poses.error_probability;
     let mut count = |chart| {
         let found = counted_in(m, Lengths::Generic, chart, options);
         error_probability += found.error_probability;
         found.finite()
     };
-    let finite = count(CountedChart::Finite)?;
     let rotating = count(CountedChart::Rotating);
     let all = rotating.and_then(|_| count(CountedChart::All));
     Some(CommonPoints {

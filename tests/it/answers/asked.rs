@@ -50,6 +50,10 @@ const CALLS: &[(i32, &str, &str)] = &[
     ),
     (0, "equivalents-family", "{rbt-octahedral}"),
     (0, "equivalents-family", "{rbt-octahedral} --pattern S123456 --offsets=0.2,0.21,0.22,0.2,0.2,0.23"),
+    (0, "limits", "{bench-octahedral}"),
+    (0, "limits", "{rbt-octahedral}"),
+    (1, "limits", "{bench-octahedral} --at 0,0,900,0,0,0 --starts 1"),
+    (1, "limits", "{bench-octahedral} --at home --to 0,0,230,0,40,0 --starts 1"),
     (0, "fk", "{rbt-octahedral}"),
     (0, "fk", "{rbt-octahedral} --near home"),
     (3, "fk", "{rbt-octahedral} --near home --lengths 1,1,1,1,1,1"),
@@ -85,6 +89,13 @@ const CALLS: &[(i32, &str, &str)] = &[
         "{rbt-octahedral} {rbt-griffis-duffy} --points 20 --sine z:1:1 --accuracy 0.1,0.05 --csv {compare.csv} -o {compare.html}",
     ),
     (0, "compare", "{simulator-octahedral} {simulator-joint-free} --points 20 --accelerate z:1"),
+    (0, "calibrate", "{symmetric-hexapod} designs/tables/calibration.csv --frames design -o {machine.toml}"),
+    (
+        1,
+        "calibrate",
+        "{symmetric-hexapod} designs/tables/calibration.csv --sigma-length 0.001 --loss huber --check designs/tables/calibration.csv",
+    ),
+    (0, "calibrate", "{symmetric-hexapod} --next 2"),
     (0, "motion", "{simulator-octahedral} --sine z:0.05:0.5 --accelerate x:1 --csv {motion.csv}"),
     (1, "motion", "{simulator-octahedral} --sine z:0.05:4"),
     (0, "motion", "{bench-octahedral} --sine x:1:1"),
@@ -126,6 +137,11 @@ const CALLS: &[(i32, &str, &str)] = &[
     (1, "singular-motion", "{rbt-midline} --lengths 18,18,17,16,15,19"),
     (0, "singular-poses", "{rbt-octahedral} --cells 500 --between --samples 20 --path 1,2"),
     (3, "singular-poses", "{rbt-midline} --cells 500"),
+    (
+        0,
+        "build-tolerances",
+        "{rbt-octahedral} --bound 0.01,0.1 --points 10 --searches 0 --trials 10 --length-error 0.01 --growth 1e-5,1e-5,2e-5 --map {errors.csv}",
+    ),
     (0, "build-tolerances", "{rbt-octahedral} --bound 0.1,0.1 --trials 10"),
     (0, "build-tolerances", "{twins} --bound 0.1,0.1 --trials 10 --points 20"),
     (0, "equivalents-topologies", "{rbt-octahedral} --rearrangements"),
@@ -137,6 +153,15 @@ const CALLS: &[(i32, &str, &str)] = &[
     (0, "verify", "{general-6-6} {turned} --align --samples 1"),
     (1, "verify", "{general-6-6} {off} --align --samples 1"),
     (0, "view", "{rbt-octahedral} -o {view.html}"),
+    (0, "sweep-run", "{small-plan} --estimate"),
+    (0, "sweep-run", "{small-plan} --shards 2 -o {swept}"),
+    (0, "sweep-status", "{swept}"),
+    (0, "sweep-merge", "{swept} -o {merged.parquet}"),
+    (0, "sweep-verify", "{swept} --sample 3"),
+    (0, "sweep-design", "{swept} --candidate 1"),
+    (0, "sweep-design", "{swept} --candidate 1 -o {candidate.toml}"),
+    (0, "sweep-script", "{small-plan} --slurm --folder {swept}"),
+    (0, "sweep-script", "{small-plan} --slurm --folder {swept} -o {swept.sh}"),
 ];
 
 /// The calls with the paths of their files, those of schemas that `wanted` takes.
@@ -238,6 +263,14 @@ impl Files {
                     lengths.map(|x| (x.as_f64().unwrap() + by).to_string()).collect::<Vec<_>>().join(",")
                 };
                 self.table(name, &[near(0.0), near(0.01), "1,1,1,1,1,1".into()])
+            }
+            "small-plan" => {
+                let path = self.beside("small-plan.json");
+                let base = Path::new(env!("CARGO_MANIFEST_DIR")).join(octahedral);
+                let values = json!({"base.P2.y": {"from": 9.0, "to": 11.0, "count": 5}});
+                let plan = json!({"name": "small", "design": base, "compute": ["spacing"], "vary": [{"by": "grid", "values": values}]});
+                fs::write(&path, plan.to_string()).unwrap();
+                path
             }
             _ => self.beside(name),
         }

@@ -7,12 +7,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
 use equipod::records::{
-    AssessAnswer, BenchAnswer, CheckAnswer, CompareAnswer, CompletionsAnswer, ComponentsAnswer,
-    ConvertAnswer, Document, ErrorAnswer, ExploreAnswer, ExportAnswer, FamilyAnswer, FkAnswer, FkRunRecord,
-    HelpAnswer, IkAnswer, LocusAnswer, ManAnswer, MapAnswer, MotionAnswer, MoveAnswer, NearestAnswer,
-    NewAnswer, OptimizeAnswer, PlotAnswer, PresetsAnswer, ReportAnswer, RoundAnswer, SchemaAnswer,
-    SelfmotionAnswer, SingularitiesAnswer, TolerancesAnswer, TopologiesAnswer, VerifyAnswer, ViewAnswer,
-    schema, schema_names,
+    AssessAnswer, BenchAnswer, CalibrateAnswer, CheckAnswer, CompareAnswer, CompletionsAnswer,
+    ComponentsAnswer, ConvertAnswer, Document, ErrorAnswer, ExploreAnswer, ExportAnswer, FamilyAnswer,
+    FkAnswer, FkRunRecord, HelpAnswer, IkAnswer, LimitsAnswer, LocusAnswer, ManAnswer, MapAnswer,
+    MotionAnswer, MoveAnswer, NearestAnswer, NewAnswer, OptimizeAnswer, PlotAnswer, PresetsAnswer,
+    ReportAnswer, RoundAnswer, SchemaAnswer, SelfmotionAnswer, SingularitiesAnswer, SweepDesignAnswer,
+    SweepMergeAnswer, SweepRunAnswer, SweepScriptAnswer, SweepStatusAnswer, SweepVerifyAnswer,
+    TolerancesAnswer, TopologiesAnswer, VerifyAnswer, ViewAnswer, schema, schema_names,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -51,6 +52,7 @@ const TYPES: &[(&str, Reread)] = &[
     ("fk", reread::<FkAnswer>),
     ("help", reread::<HelpAnswer>),
     ("ik", reread::<IkAnswer>),
+    ("limits", reread::<LimitsAnswer>),
     ("new", reread::<NewAnswer>),
     ("optimize", reread::<OptimizeAnswer>),
     ("plot", reread::<PlotAnswer>),
@@ -62,6 +64,13 @@ const TYPES: &[(&str, Reread)] = &[
     ("singular-poses", reread::<SingularitiesAnswer>),
     ("compare", reread::<CompareAnswer>),
     ("motion", reread::<MotionAnswer>),
+    ("sweep-design", reread::<SweepDesignAnswer>),
+    ("sweep-merge", reread::<SweepMergeAnswer>),
+    ("sweep-run", reread::<SweepRunAnswer>),
+    ("sweep-script", reread::<SweepScriptAnswer>),
+    ("sweep-status", reread::<SweepStatusAnswer>),
+    ("sweep-verify", reread::<SweepVerifyAnswer>),
+    ("calibrate", reread::<CalibrateAnswer>),
     ("verify", reread::<VerifyAnswer>),
     ("view", reread::<ViewAnswer>),
 ];
@@ -284,6 +293,7 @@ fn compare(wanted: impl Fn(&str) -> bool) -> (Files, Vec<String>) {
 const GROUPS: [&[&str]; 4] = [
     &[
         "fk",
+        "limits",
         "ik",
         "new",
         "bench",
@@ -300,6 +310,7 @@ const GROUPS: [&[&str]; 4] = [
         "assess",
         "compare",
         "motion",
+        "calibrate",
         "build-round",
         "view",
         "export",
@@ -322,6 +333,12 @@ const GROUPS: [&[&str]; 4] = [
         "equivalents-topologies",
         "singular-motion",
         "singular-poses",
+        "sweep-run",
+        "sweep-status",
+        "sweep-verify",
+        "sweep-merge",
+        "sweep-design",
+        "sweep-script",
     ],
 ];
 

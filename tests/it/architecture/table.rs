@@ -72,7 +72,10 @@ const LINES: &[Line] = &[
     ),
     ("requirements", &["num", "geom", "manipulator"], &[MATRICES]),
     ("dynamics", &["num", "geom", "manipulator", "requirements"], &[MATRICES, ERRORS]),
+    ("reach", &["num", "geom", "manipulator", "requirements"], &[MATRICES]),
+    ("calibration", &["names", "num", "geom", "manipulator"], &[MATRICES, ERRORS]),
     ("topology", &["num", "manipulator"], &[]),
+    ("rotary", &["num", "geom", "manipulator", "fk"], &[MATRICES, ERRORS]),
     (
         "synthesis",
         &["num", "geom", "poly", "manipulator", "topology", "names"],
@@ -114,6 +117,8 @@ const LINES: &[Line] = &[
             "topology",
             "requirements",
             "dynamics",
+            "reach",
+            "calibration",
             "distance",
             "solve",
             "solve::certify",
@@ -142,7 +147,7 @@ const LINES: &[Line] = &[
     ),
     (
         "export",
-        &["num", "geom", "manipulator", "requirements", "fk", "design", "plot", "names"],
+        &["num", "geom", "manipulator", "requirements", "reach", "fk", "design", "plot", "names"],
         &[MATRICES, ("serde", Some("json.rs")), ("serde_json", Some("json.rs")), ERRORS],
     ),
     ("equivalents", &["manipulator", "singularity", "synthesis", "design"], &[MATRICES]),
@@ -155,6 +160,8 @@ const LINES: &[Line] = &[
             "manipulator",
             "requirements",
             "dynamics",
+            "reach",
+            "calibration",
             "synthesis",
             "singularity",
             "solve",
@@ -200,6 +207,30 @@ const LINES: &[Line] = &[
         &[MATRICES, COMPLEX, ERRORS],
     ),
     (
+        "sweep",
+        &[
+            "num",
+            "geom",
+            "manipulator",
+            "requirements",
+            "fk",
+            "synthesis",
+            "design",
+            "equivalents",
+            "entrance",
+            "records",
+        ],
+        &[
+            MATRICES,
+            COMPLEX,
+            ("parquet", Some("part.rs")),
+            ("serde", None),
+            ("serde_json", None),
+            ("sha2", Some("digest.rs")),
+            ERRORS,
+        ],
+    ),
+    (
         "cli",
         &[
             "num",
@@ -209,6 +240,8 @@ const LINES: &[Line] = &[
             "topology",
             "requirements",
             "dynamics",
+            "reach",
+            "calibration",
             "distance",
             "solve",
             "solve::certify",
@@ -229,6 +262,7 @@ const LINES: &[Line] = &[
             "records",
             "equivalents",
             "entrance",
+            "sweep",
         ],
         &[
             MATRICES,
@@ -270,6 +304,7 @@ const LINES: &[Line] = &[
             ("serde_json", None),
         ],
     ),
+    ("capi", &["geom", "manipulator", "requirements", "reach", "fk", "design", "entrance"], &[MATRICES]),
     ("main", &["cli"], &[]),
 ];
 

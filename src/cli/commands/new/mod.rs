@@ -45,7 +45,7 @@ pub(crate) struct Args {
         conflicts_with_all = ["base_radius", "platform_radius", "base_spread", "platform_spread", "points"]
     )]
     corners: Option<Vec<String>>,
-    /// A table of the ends of the legs (`-` for standard input): six rows of two points or twelve rows of one, in any usual notation
+    /// A table of the ends of the legs (`-` for standard input): six rows of two points or twelve rows of one, in any usual notation, or the pins of `genhexkins`
     #[arg(
         long,
         value_name = "FILE",

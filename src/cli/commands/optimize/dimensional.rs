@@ -1,12 +1,14 @@
 //! `equipod optimize` for designs that ask for more than the offsets with the best conditioning.
 
 use std::ops::ControlFlow;
+use std::path::Path;
 
 use crate::cli::commands::verify::failure_of;
 use crate::cli::commands::{GENERAL, NEAREST};
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
+use crate::cli::files;
 use crate::cli::progress::{Interrupt, ProgressLine};
 use crate::design::Design;
 use crate::dimensional::{
@@ -14,7 +16,7 @@ use crate::dimensional::{
     optimize,
 };
 use crate::entrance::optimizing::{Checked, checked, dimensional_problem};
-use crate::records::{DimensionalAnswer, DimensionalStatus};
+use crate::records::{DimensionalAnswer, DimensionalStatus, OptimumRecord};
 
 /// What was asked and what came out.
 #[derive(Debug)]
@@ -24,6 +26,10 @@ pub(in crate::cli::commands) struct Done {
     pub(in crate::cli::commands) checked: Option<Checked>,
     /// The platform that misses the requirements least, where none that meets them was found.
     pub(in crate::cli::commands) nearest: Option<Checked>,
+    /// The other local optima, where they were asked for.
+    candidates: Option<Vec<Checked>>,
+    /// Their files.
+    candidate_paths: Vec<String>,
 }
 
 impl Done {
@@ -34,7 +40,14 @@ impl Done {
         written: Option<&str>,
     ) -> DimensionalAnswer {
         let found = self.checked.as_ref().or(self.nearest.as_ref());
-        DimensionalAnswer::new(design, &self.report, found, written)
+        let of = |((s, c), path): ((&DimensionalSolution, &Checked), &String)| {
+            OptimumRecord::new(design, s, c, Some(path))
+        };
+        let all = |list: &Vec<Checked>| {
+            self.report.others.iter().zip(list).zip(&self.candidate_paths).map(of).collect()
+        };
+        let candidates = self.candidates.as_ref().map(all);
+        DimensionalAnswer { candidates, ..DimensionalAnswer::new(design, &self.report, found, written) }
     }
 
     /// The platform to write: the one found, or the one that comes nearest.
@@ -91,17 +104,45 @@ pub(in crate::cli::commands) fn search(
     let of = |s: &DimensionalSolution| checked(design, &problem, s, options.seed).map_err(|e| failure_of(&e));
     let found = report.solution().map(of).transpose()?;
     let nearest = report.nearest.as_deref().map(of).transpose()?;
-    Ok(Done { checked: found, nearest, problem, report })
+    Ok(Done { checked: found, nearest, problem, report, candidates: None, candidate_paths: Vec::new() })
+}
+
+/// Judges the other local optima as the answer was judged, and writes all of them, the answer first, into a folder; the paths of the others.
+fn write_candidates(
+    done: &mut Done,
+    design: &Design,
+    seed: u64,
+    folder: &Path,
+) -> Result<Vec<String>, Failure> {
+    let of = |s: &DimensionalSolution| checked(design, &done.problem, s, seed).map_err(|e| failure_of(&e));
+    let mut others = done.report.others.iter().map(of).collect::<Result<Vec<Checked>, Failure>>()?;
+    files::make_folder(folder)?;
+    let path = |k: usize| folder.join(format!("candidate-{k}.toml"));
+    if let Some(found) = &done.checked {
+        files::write_design(&path(1), &found.design)?;
+    }
+    let mut paths = Vec::with_capacity(others.len());
+    for (k, other) in others.iter_mut().enumerate() {
+        other.design.name = format!("{}, candidate {}", other.design.name, k + 2);
+        files::write_design(&path(k + 2), &other.design)?;
+        paths.push(path(k + 2).display().to_string());
+    }
+    done.candidates = Some(others);
+    Ok(paths)
 }
 
 /// The search with the options of the command.
 pub(super) fn run(design: &Design, args: &super::Args, context: &Context) -> Result<Done, Failure> {
     let (mut progress, interrupt) =
         (ProgressLine::new(context.quiet()), Interrupt::watch_for(args.time_limit));
-    let done = search(design, args.extension, &options(args, context), &mut |p| {
+    let mut done = search(design, args.extension, &options(args, context), &mut |p| {
         progress.note(&p.to_string());
         interrupt.flow()
     })?;
+    if let Some(folder) = &args.candidates {
+        progress.note("other local optima are judged");
+        done.candidate_paths = write_candidates(&mut done, design, context.seed(), folder)?;
+    }
     progress.end();
     Ok(done)
 }

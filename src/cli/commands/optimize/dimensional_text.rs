@@ -6,7 +6,7 @@ use crate::cli::requirements;
 use crate::dimensional::DimensionalOutcome;
 use crate::records::{
     ConflictRecord, DesignRecord, DimensionalAnswer, DimensionalSolutionRecord, DimensionalStatus,
-    MarginRecord, NearestPlatformRecord,
+    MarginRecord, NearestPlatformRecord, OptimumRecord, VariableRecord,
 };
 
 /// For people.
@@ -25,6 +25,9 @@ pub(super) fn text(name: &str, a: &DimensionalAnswer, outcome: &DimensionalOutco
     }
     if let Some(n) = &a.nearest {
         nearest_text(&mut out, n);
+    }
+    if let Some(list) = &a.candidates {
+        candidates_text(&mut out, list);
     }
     if a.status == DimensionalStatus::Violated {
         out.push_str("the platform misses requirements and is not called optimal\n");
@@ -46,7 +49,30 @@ fn nearest_text(out: &mut String, n: &NearestPlatformRecord) {
         "\nthe platform with the least violation that was found; it is no answer, and shows what is missed:"
     );
     let _ = writeln!(out, "{}", requirements::lead(n.design.name(), n.assessment.as_ref()));
-    for v in &n.variables {
+    variables_text(out, &n.variables);
+}
+
+/// A line for each local optimum beside the answer.
+fn candidates_text(out: &mut String, list: &[OptimumRecord]) {
+    if list.is_empty() {
+        out.push_str("\nno other local optimum that meets the requirements was found\n");
+        return;
+    }
+    out.push_str("\nother local optima that meet the requirements at the poses that were held:\n");
+    for c in list {
+        let met = match c.requirements_met {
+            Some(true) => "requirements met",
+            Some(false) => "requirements missed between those poses",
+            None => "requirements not all proved",
+        };
+        let values: Vec<String> =
+            c.objectives.iter().map(|o| format!("{} {:.6}", o.name.code(), o.value.0)).collect();
+        let _ = writeln!(out, "  {}: {}; {met}", c.output.as_deref().unwrap_or_default(), values.join(", "));
+    }
+}
+
+fn variables_text(out: &mut String, variables: &[VariableRecord]) {
+    for v in variables {
         let _ = writeln!(out, "  {:<20} {:>12.6}", v.name, v.value.0);
     }
 }
@@ -63,9 +89,7 @@ fn solution_text(out: &mut String, s: &DimensionalSolutionRecord) {
             s.poses.held
         );
     }
-    for v in &s.variables {
-        let _ = writeln!(out, "  {:<20} {:>12.6}", v.name, v.value.0);
-    }
+    variables_text(out, &s.variables);
     let _ = writeln!(
         out,
         "gain still promised {:.1e} a unit of the variables",

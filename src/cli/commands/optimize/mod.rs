@@ -48,6 +48,9 @@ pub(crate) struct Args {
     /// Write the steps of the run that found the answer: .svg a picture, anything else CSV
     #[arg(long, value_name = "FILE")]
     history: Option<OutputPath>,
+    /// Write the answer and the other local optima that meet the requirements, which look different, into this folder: `equipod compare` sets them side by side
+    #[arg(long, value_name = "DIR")]
+    candidates: Option<OutputPath>,
     /// Worker threads, one for each processor when absent; the answer does not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
@@ -113,6 +116,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         }
         if let Some(Combination::Pareto { points }) = design.search.mode {
             context.no_effect("history", "a front is the result of many runs")?;
+            context.no_effect("candidates", "a front is a list of platforms already")?;
             return front::run(&design, points, args, context);
         }
         let done = dimensional::run(&design, args, context)?;
@@ -132,6 +136,10 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
             text,
         ));
     }
+    context.no_effect(
+        "candidates",
+        "the search for offsets alone looks for the best of all; --survey gives the best of every branch",
+    )?;
     // a design that is not octahedral asks for more
     let octahedral = Octahedral::recognise(design.manipulator())
         .map_err(|why| dimensional::refusal(&InvalidProblem::NotOctahedral(why)))?;

@@ -5,6 +5,7 @@ mod front;
 mod locus;
 mod modes;
 mod pair;
+mod swept;
 mod workspace;
 
 use std::path::{Path, PathBuf};
@@ -68,6 +69,8 @@ enum Figure {
         #[arg(long, value_name = "A,B", default_value = "rx,rz", value_parser = Freedoms::parse)]
         slice: Freedoms,
     },
+    /// Draw columns of the table of a sweep: colours or lines over two, the distribution of one, parallel axes, points, a front
+    Sweep(swept::Args),
     /// Draw the ways to share joints: that of a design, or all of them
     Topologies {
         /// Design file (.toml or .json): name its topology only
@@ -108,6 +111,7 @@ impl Figure {
                 let figure = singular_poses::slice::figure(&design, *slice, &pose, &options);
                 (FigureWord::SingularPoses, singular_slice(&figure))
             }
+            Self::Sweep(args) => (FigureWord::Sweep, swept::draw(args)?),
             Self::Topologies { design, members } => {
                 let design = design.as_deref().map(|path| context.load(path)).transpose()?;
                 (FigureWord::Topologies, topologies::drawing(design.as_ref(), *members, seed)?)

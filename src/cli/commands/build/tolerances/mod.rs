@@ -4,17 +4,19 @@ mod render;
 
 use std::path::PathBuf;
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
+use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
 use crate::cli::poses;
 use crate::design::Design;
 use crate::manipulator::Manipulator;
 use crate::manufacture::{
-    Budget, ErrorBound, JointErrors, PoseSearch, ToleranceError, Trials, budget, solved_error, trials,
+    Budget, ErrorAtPose, ErrorBound, Joint, JointErrors, MachineErrors, PoseSearch, ToleranceError, Trials,
+    budget, error_map, joints, solved_error, trials,
 };
 
 /// Arguments of `build tolerances`.
@@ -37,6 +39,21 @@ pub(crate) struct Args {
     /// Number of random joint errors and poses that are solved
     #[arg(long, value_name = "N", default_value_t = 2000, value_parser = clap::value_parser!(u32).range(0..=10_000_000))]
     trials: u32,
+    /// Also draw joint errors with the standard deviations of the calibration table of the design
+    #[arg(long)]
+    calibrated: bool,
+    /// Greatest error of each joint in any direction for the map of errors, design units; the radius that keeps the bound when absent
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    joint_error: Option<f64>,
+    /// Greatest difference between the length of a leg and the one it shows, design units: homing, backlash, pitch of the screw
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    length_error: Option<f64>,
+    /// Growth of base, platform and legs by temperature, as shares: degrees times coefficient of expansion
+    #[arg(long, value_name = "BASE,PLATFORM,LEGS", allow_hyphen_values = true)]
+    growth: Option<String>,
+    /// Write the greatest errors by joints, lengths and temperature at all poses looked at as a table
+    #[arg(long, value_name = "FILE")]
+    map: Option<OutputPath>,
 }
 
 /// Everything that was found.
@@ -47,6 +64,10 @@ pub(super) struct Found {
     pub(super) budget: Budget,
     /// Random errors within the radius that all joints may have.
     pub(super) trials: Trials,
+    /// Random errors with the deviations of a calibration, where they were asked for.
+    pub(super) calibrated: Option<Trials>,
+    /// The greatest errors by all causes, where they were asked for.
+    pub(super) map: Option<(MachineErrors, Vec<ErrorAtPose>)>,
     /// Solved errors (length, degrees) with the joints moved in the worst way by the radius, and by 1.5 times it.
     pub(super) worst: [Option<(f64, f64)>; 2],
     /// What solving says about the radius, which is of first order.
@@ -139,20 +160,72 @@ fn find(design: &Design, args: &Args, seed: u64) -> Result<Found, Failure> {
     let budget = budget(m, &space, tool, bound, &search).map_err(|e| failure_of(&e))?;
     let errors = JointErrors::Balls(budget.radius.value);
     let trials = trials(m, &space, &tool, &bound, &errors, (args.trials as usize, seed));
+    let calibrated = if args.calibrated {
+        let deviations = JointErrors::Normals(deviations(design)?);
+        Some(self::trials(m, &space, &tool, &bound, &deviations, (args.trials as usize, seed)))
+    } else {
+        None
+    };
+    let map = machine_errors(args, &budget)?
+        .map(|errors| Ok((errors, error_map(m, &space, &tool, &errors, &search)?)))
+        .transpose()
+        .map_err(|e: ToleranceError| failure_of(&e))?;
     let worst = [1.0, 1.5].map(|scale| {
         let errors: Vec<_> = budget.worst_errors.iter().map(|e| e * scale).collect();
         let (p, w) = solved_error(m, &errors, &budget.radius.pose, &tool)?;
         Some((p.norm(), w.norm().to_degrees()))
     });
     let solved = solved(m, &budget, &trials, &tool, &bound);
-    Ok(Found { bound, tool, budget, trials, worst, solved, workspace_given })
+    Ok(Found { bound, tool, budget, trials, calibrated, map, worst, solved, workspace_given })
+}
+
+/// What the map of errors is about; `None` where it is not asked for.
+fn machine_errors(args: &Args, budget: &Budget) -> Result<Option<MachineErrors>, Failure> {
+    if args.joint_error.is_none()
+        && args.length_error.is_none()
+        && args.growth.is_none()
+        && args.map.is_none()
+    {
+        return Ok(None);
+    }
+    for (option, value) in [("--joint-error", args.joint_error), ("--length-error", args.length_error)] {
+        if value.is_some_and(|x| !(x >= 0.0 && x.is_finite())) {
+            let message = format!("{option} is not a length of 0 or more");
+            return Err(
+                Failure::refused("tolerances::bad_error", message).with_help("give a length in design units")
+            );
+        }
+    }
+    let growth = args.growth.as_deref().map(|text| numbers(text, "--growth", "tolerances::bad_error"));
+    Ok(Some(MachineErrors {
+        joints: args.joint_error.unwrap_or(budget.radius.value),
+        lengths: args.length_error.unwrap_or(0.0),
+        growth: growth.transpose()?.unwrap_or_default(),
+    }))
+}
+
+/// Standard deviations of the joints by the calibration of the design; zero for joints of which it says nothing.
+fn deviations(design: &Design) -> Result<Vec<Vector3<f64>>, Failure> {
+    let table = design.calibration.as_ref();
+    let of = |joint: Joint| table.and_then(|t| t.deviation(joint.body, joint.index));
+    let all: Vec<_> = joints(design.manipulator()).into_iter().map(of).collect();
+    if all.iter().all(Option::is_none) {
+        let message = "the design has no standard deviations of joints in a table [calibration]";
+        return Err(Failure::refused("tolerances::not_calibrated", message)
+            .with_help("`equipod calibrate DESIGN MEASUREMENTS -o FILE` writes a design with them"));
+    }
+    Ok(all.into_iter().map(Option::unwrap_or_default).collect())
 }
 
 /// Computes the budget and tries it.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
     let found = find(&design, args, context.seed())?;
-    let record = render::record(&design, &found, context.seed());
+    if let (Some(path), Some((_, map))) = (&args.map, &found.map) {
+        files::write_text(path, &render::map(&design, map))?;
+    }
+    let path = args.map.as_ref().map(|path| path.display().to_string());
+    let record = render::record(&design, &found, context.seed(), path);
     let text = render::text(&design, &found, &record);
     Ok(Answer::new(Exit::Yes, record, text))
 }

@@ -3,15 +3,18 @@
 use std::fmt::Write as _;
 
 use super::Found;
+use crate::cli::numbers::significant;
 use crate::cli::requirements;
+use crate::cli::table::{column_unit, csv_line, number};
 use crate::design::Design;
+use crate::manufacture::{ErrorAtPose, ErrorParts, Trials};
 use crate::records::{
-    AssessAnswer, BudgetPosesRecord, JointBudgetRecord, Number, PoseErrorRecord, SolvedBudgetRecord,
-    TolerancesAnswer, WorkspaceWord, WorstErrorsRecord,
+    AssessAnswer, BudgetPosesRecord, ErrorMapRecord, JointBudgetRecord, Number, PoseErrorRecord,
+    SolvedBudgetRecord, TolerancesAnswer, TrialsRecord, WorkspaceWord, WorstErrorsRecord,
 };
 
 /// The record of the answer.
-pub(super) fn record(design: &Design, f: &Found, seed: u64) -> TolerancesAnswer {
+pub(super) fn record(design: &Design, f: &Found, seed: u64, path: Option<String>) -> TolerancesAnswer {
     let b = &f.budget;
     TolerancesAnswer {
         assessment: AssessAnswer::briefly(design, seed),
@@ -32,6 +35,8 @@ pub(super) fn record(design: &Design, f: &Found, seed: u64) -> TolerancesAnswer 
             radius: f.solved.radius.map(Number),
         },
         trials: (&f.trials).into(),
+        calibrated: f.calibrated.as_ref().map(TrialsRecord::from),
+        map: f.map.as_ref().and_then(|(errors, map)| ErrorMapRecord::new(errors, map, path)),
         poses: BudgetPosesRecord {
             count: b.poses,
             workspace: if f.workspace_given { WorkspaceWord::Design } else { WorkspaceWord::Default },
@@ -113,10 +118,46 @@ pub(super) fn text(design: &Design, f: &Found, r: &TolerancesAnswer) -> String {
             );
         }
     }
+    let _ = writeln!(out, "\n{}", sentence(f, units));
+    spread(&mut out, "random errors in the budget", t);
+    if let Some(calibrated) = &f.calibrated {
+        spread(&mut out, "random errors with the deviations of the calibration", calibrated);
+    }
+    if let Some(map) = &r.map {
+        let _ = writeln!(
+            out,
+            "\nat {} poses, to first order, the greatest errors by joints off by {} {units}, lengths by {} {units} and growth of {} (base, platform, legs)",
+            map.poses,
+            significant(map.joint_error.0),
+            significant(map.length_error.0),
+            map.growth.map(|x| significant(x.0)).join(", ")
+        );
+        for (what, unit, worst) in
+            [("position", units.as_str(), &map.position), ("orientation", "deg", &map.rotation_deg)]
+        {
+            let _ = writeln!(
+                out,
+                "{what}: {} {unit} at {}; by joints alone {}, by lengths {}, by growth {}; half of the poses stay below {}",
+                significant(worst.greatest.0),
+                worst.pose.short(),
+                significant(worst.joints.0),
+                significant(worst.lengths.0),
+                significant(worst.growth.0),
+                significant(worst.median.0)
+            );
+        }
+        if let Some(path) = &map.path {
+            let _ = writeln!(out, "wrote {path}");
+        }
+    }
+    out
+}
+
+/// What random errors did to the pose.
+fn spread(out: &mut String, what: &str, t: &Trials) {
     let _ = writeln!(
         out,
-        "\n{}\n\n{} random errors in the budget: {} within the bound, {} beyond it, {} lost\n\n{:<28} {:>11} {:>11} {:>11} {:>11}  max [deg]",
-        sentence(f, units),
+        "\n{} {what}: {} within the bound, {} beyond it, {} lost\n\n{:<28} {:>11} {:>11} {:>11} {:>11}  max [deg]",
         t.count,
         t.within,
         t.count - t.lost - t.within,
@@ -140,6 +181,24 @@ pub(super) fn text(design: &Design, f: &Found, r: &TolerancesAnswer) -> String {
             "{what:<28} {:>11.3e} {:>11.3e} {:>11.3e} {:>11.3e}  {:.3e}",
             q.median, q.p90, q.p99, q.max, s.rotation_deg.max
         );
+    }
+}
+
+/// The map of errors as a table, a pose a line.
+pub(super) fn map(design: &Design, map: &[ErrorAtPose]) -> String {
+    let unit = column_unit(&design.units);
+    let mut header: Vec<String> = ["x", "y", "z"].iter().map(|axis| format!("{axis}_{unit}")).collect();
+    header.extend(["roll_deg", "pitch_deg", "yaw_deg"].map(str::to_string));
+    for what in ["position", "rotation"] {
+        let unit = if what == "position" { unit.as_str() } else { "deg" };
+        header.extend(["", "_by_joints", "_by_lengths", "_by_growth"].map(|of| format!("{what}{of}_{unit}")));
+    }
+    let mut out = csv_line(&header);
+    for at in map {
+        let parts = |p: &ErrorParts| [p.total, p.joints, p.lengths, p.growth];
+        let numbers = at.pose.position.iter().copied().chain(at.pose.angles().degrees());
+        let numbers = numbers.chain(parts(&at.position)).chain(parts(&at.rotation_deg));
+        out.push_str(&csv_line(&numbers.map(number).collect::<Vec<_>>()));
     }
     out
 }

@@ -46,7 +46,7 @@ pub(crate) struct Args {
 }
 
 /// A topology with what was computed.
-struct Entry {
+struct TopologyEntry {
     named: NamedTopology,
     sequence: Sequence,
     decoupled: bool,
@@ -76,7 +76,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     }
     let moved = if args.rearrangements { Some(rearrangements::cases(&wanted)?) } else { None };
     let entries = wanted.into_iter().map(|t| entry(t, args.members, context.seed()));
-    let entries = entries.collect::<Result<Vec<Entry>, Failure>>()?;
+    let entries = entries.collect::<Result<Vec<TopologyEntry>, Failure>>()?;
     write_files(args, &entries)?;
     if let Some(list) = &moved {
         args.output.iter().try_for_each(|folder| rearrangements::write(folder, list))?;
@@ -94,7 +94,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     Ok(Answer::new(exit, answer, text))
 }
 
-fn entry(named: NamedTopology, members: u64, seed: u64) -> Result<Entry, Failure> {
+fn entry(named: NamedTopology, members: u64, seed: u64) -> Result<TopologyEntry, Failure> {
     let t = named.topology();
     let mut votes: BTreeMap<u32, (u64, bool)> = BTreeMap::new();
     for k in 0..members {
@@ -114,10 +114,10 @@ fn entry(named: NamedTopology, members: u64, seed: u64) -> Result<Entry, Failure
     let (poses, (_, proved)) = best.unwrap_or_default();
     let sequence = t.trilateration();
     let closure = generic_degrees(&t.legs(), &sequence, seed).ok();
-    Ok(Entry { named, sequence, decoupled: t.is_decoupled(), poses, proved, closure })
+    Ok(TopologyEntry { named, sequence, decoupled: t.is_decoupled(), poses, proved, closure })
 }
 
-fn record(e: &Entry) -> TopologyRecord {
+fn record(e: &TopologyEntry) -> TopologyRecord {
     (&TopologyFindings {
         named: e.named,
         sequence: &e.sequence,
@@ -161,7 +161,7 @@ fn text(r: &TopologiesAnswer) -> String {
     text
 }
 
-fn figure(e: &Entry) -> TopologyFigure {
+fn figure(e: &TopologyEntry) -> TopologyFigure {
     let legs = match e.sequence.virtual_legs.len() {
         0 => "trilaterable".to_string(),
         1 if e.decoupled => "decoupled".to_string(),
@@ -171,7 +171,7 @@ fn figure(e: &Entry) -> TopologyFigure {
     TopologyFigure { topology: e.named, caption: format!("{} poses, {legs}", e.poses) }
 }
 
-fn sheet(entries: &[Entry]) -> String {
+fn sheet(entries: &[TopologyEntry]) -> String {
     let figures: Vec<TopologyFigure> = entries.iter().map(figure).collect();
     topology_sheet("Joint-sharing topologies of six-legged platforms", &figures)
 }
@@ -186,7 +186,8 @@ pub(in crate::cli::commands) fn drawing(
         Some(design) => vec![recognised(design)?.topology],
         None => catalogue(),
     };
-    let entries: Result<Vec<Entry>, Failure> = wanted.into_iter().map(|t| entry(t, members, seed)).collect();
+    let entries: Result<Vec<TopologyEntry>, Failure> =
+        wanted.into_iter().map(|t| entry(t, members, seed)).collect();
     Ok(sheet(&entries?))
 }
 
@@ -197,7 +198,7 @@ fn recognised(design: &Design) -> Result<Recognised, Failure> {
     })
 }
 
-fn write_files(args: &Args, entries: &[Entry]) -> Result<(), Failure> {
+fn write_files(args: &Args, entries: &[TopologyEntry]) -> Result<(), Failure> {
     if let Some(path) = &args.svg {
         files::write_text(path, &sheet(entries))?;
     }
@@ -212,7 +213,7 @@ fn write_files(args: &Args, entries: &[Entry]) -> Result<(), Failure> {
 }
 
 /// A member with its joints near two circles, thousandths of the base radius, at its default home pose.
-fn representative(e: &Entry) -> Result<Design, Failure> {
+fn representative(e: &TopologyEntry) -> Result<Design, Failure> {
     let t = e.named.topology();
     let layout = t.layout();
     // the same for every seed: the file belongs to the topology

@@ -1,0 +1,46 @@
+//! `equipod sweep design`: a candidate as a design file.
+
+use std::path::PathBuf;
+
+use crate::cli::exit::Exit;
+use crate::cli::failure::Failure;
+use crate::cli::files::{self, OutputPath};
+use crate::cli::output::Answer;
+use crate::cli::sweep_folder::SweepFolder;
+use crate::records::{SweepDesignAnswer, SweepDesignFile};
+
+/// Arguments of `sweep design`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Folder of the sweep
+    folder: PathBuf,
+    /// Number of the candidate, as in the column of that name
+    #[arg(long, value_name = "K")]
+    candidate: u64,
+    /// Write the design, as TOML; it goes to standard output when absent
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<OutputPath>,
+}
+
+/// Makes the design again from plan and seed.
+pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
+    let sweep = SweepFolder::open(&args.folder)?.sweep()?;
+    let k = args.candidate;
+    if k >= sweep.count() {
+        let message = format!("there is no candidate {k}: the sweep has {}, counted from 0", sweep.count());
+        return Err(Failure::refused("sweep::no_candidate", message));
+    }
+    let text = sweep.design_text(k).map_err(|why| {
+        Failure::new(Exit::No, "sweep::no_design", format!("candidate {k} makes no design: {why}"))
+    })?;
+    let (file, said) = match &args.output {
+        Some(path) => {
+            files::write_text(path, &text)?;
+            let output = path.display().to_string();
+            let said = format!("wrote {output}\n");
+            (SweepDesignFile::Written { output }, said)
+        }
+        None => (SweepDesignFile::Given { text: text.clone() }, text),
+    };
+    Ok(Answer::new(Exit::Yes, SweepDesignAnswer { candidate: k, file }, said))
+}

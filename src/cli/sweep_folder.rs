@@ -1,0 +1,499 @@
+//! The folder of a sweep: what it is of, its parts, their manifests.
+//!
+//! `sweep.json` holds plan, base design and seed. Each shard has a part and, written after it, a manifest with the digest of the part: a shard is done when both are
+//! there and agree. All files are written under other names and renamed, so that what has its name is whole.
+
+use std::fs::{self, File};
+use std::io::{BufWriter, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use super::context::{Context, format_of};
+use super::exit::Exit;
+use super::failure::Failure;
+use super::files::{self, OutputPath};
+use crate::design::{Format, Violation};
+use crate::records::{
+    DamagedPartRecord, SCHEMA_VERSION, SweepFolderRecord, SweepManifestRecord, SweepStatusAnswer,
+    SweepTextRecord, sha256,
+};
+use crate::sweep::part::{PartError, PartReader, PartWriter};
+use crate::sweep::plan::{self, BaseName, BasePlan, PlanText};
+use crate::sweep::{Digested, Sweep, digest_of};
+
+/// The file that says what the folder is of.
+const SWEEP: &str = "sweep.json";
+
+/// The key under which a part says of which plan it is.
+const PLAN_NOTE: &str = "equipod.plan_sha256";
+
+/// Shards, at most: each has two files.
+pub(crate) const MOST_SHARDS: u64 = 1_000_000;
+
+/// The folder of a sweep.
+#[derive(Debug)]
+pub(crate) struct SweepFolder {
+    pub(crate) path: PathBuf,
+    pub(crate) record: SweepFolderRecord,
+}
+
+/// What is known of a shard.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum ShardState {
+    Done(Box<SweepManifestRecord>),
+    Missing,
+    Damaged(String),
+}
+
+fn json(value: &impl Serialize) -> Result<String, Failure> {
+    let text = serde_json::to_string_pretty(value).map_err(|e| Failure::internal(e.to_string()))?;
+    Ok(text + "\n")
+}
+
+/// Reads a small JSON file; `None` where there is none, or another one.
+fn read_json<T: DeserializeOwned>(path: &Path) -> Option<T> {
+    serde_json::from_slice(&fs::read(path).ok()?).ok()
+}
+
+/// The name under which a file is written before it has its own.
+fn beside(path: &Path) -> PathBuf {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    path.with_file_name(format!(".{name}.{}.part", std::process::id()))
+}
+
+fn failed(path: &Path) -> impl Fn(std::io::Error) -> Failure + '_ {
+    move |error| match error.kind() {
+        // what a limit on the size of files says is no fault of the arguments either
+        ErrorKind::FileTooLarge => {
+            let message = format!("{} cannot be written: {error}", path.display());
+            Failure::new(Exit::Internal, "file::disk_full", message)
+                .with_help("make room, or write elsewhere")
+        }
+        _ => files::not_written(&path.display().to_string(), &error),
+    }
+}
+
+/// Why a part is not written.
+pub(crate) fn part_failed(path: &Path, error: &PartError) -> Failure {
+    match error.system() {
+        Some(system) => failed(path)(std::io::Error::new(system.kind(), system.to_string())),
+        None => Failure::internal(format!("{}: {error}", path.display())),
+    }
+}
+
+/// Writes a file under another name with `write`, makes sure that it is on the disk, and gives it its name.
+pub(crate) fn write_whole<T>(
+    path: &Path,
+    write: impl FnOnce(BufWriter<File>) -> Result<Option<(BufWriter<File>, T)>, Failure>,
+) -> Result<Option<T>, Failure> {
+    let part = beside(path);
+    let done = (|| {
+        let file = File::create(&part).map_err(failed(path))?;
+        let Some((mut writer, value)) = write(BufWriter::with_capacity(1 << 16, file))? else {
+            return Ok(None);
+        };
+        writer.flush().map_err(failed(path))?;
+        writer.get_ref().sync_all().map_err(failed(path))?;
+        fs::rename(&part, path).map_err(failed(path))?;
+        Ok(Some(value))
+    })();
+    if !matches!(done, Ok(Some(_))) {
+        let _ = fs::remove_file(&part); // the error to report is the first one
+    }
+    done
+}
+
+/// Writes a text whole.
+fn write_text(path: &Path, text: &str) -> Result<(), Failure> {
+    write_whole(path, |mut to| {
+        to.write_all(text.as_bytes()).map_err(failed(path))?;
+        Ok(Some((to, ())))
+    })
+    .map(|_| ())
+}
+
+impl SweepFolder {
+    /// Begins a sweep in a folder, or goes on with it.
+    pub(crate) fn begin(
+        path: &Path,
+        texts: &SweepTexts,
+        sweep: &Sweep,
+        shards: Option<u64>,
+    ) -> Result<Self, Failure> {
+        files::make_folder(path)?;
+        let there = path.join(SWEEP).exists().then(|| Self::open(path)).transpose()?;
+        let shards = shards
+            .or(there.as_ref().map(|f| f.record.shards))
+            .unwrap_or_else(|| default_shards(sweep.count()));
+        let record = SweepFolderRecord {
+            schema_version: SCHEMA_VERSION,
+            name: sweep.plan.name.clone(),
+            version: env!("CARGO_PKG_VERSION").into(),
+            seed: sweep.seed,
+            candidates: sweep.count(),
+            shards,
+            plan_sha256: texts.sha256(),
+            plan: texts.plan.clone(),
+            design: texts.design.clone(),
+        };
+        if let Some(there) = there {
+            return there.goes_on(&record);
+        }
+        // of two that begin at the same time both write the same
+        write_text(&path.join(SWEEP), &json(&record)?)?;
+        Ok(Self { path: path.to_path_buf(), record })
+    }
+
+    /// Refuses to go on with another sweep.
+    fn goes_on(self, wanted: &SweepFolderRecord) -> Result<Self, Failure> {
+        let own = &self.record;
+        let differs = [
+            ("the plan or its base design", own.plan_sha256 == wanted.plan_sha256),
+            ("the seed", own.seed == wanted.seed),
+            ("the number of shards", own.shards == wanted.shards),
+            ("the version of the program", own.version == wanted.version),
+        ];
+        let Some((what, _)) = differs.iter().find(|(_, same)| !same) else { return Ok(self) };
+        let message = format!("{} holds another sweep: {what} is another one", self.path.display());
+        let help = format!(
+            "name another folder; this one is of \"{}\", seed {}, {} shards, equipod {}",
+            own.name, own.seed, own.shards, own.version
+        );
+        Err(Failure::refused("sweep::other_sweep", message).with_help(help))
+    }
+
+    /// The sweep in a folder.
+    pub(crate) fn open(path: &Path) -> Result<Self, Failure> {
+        let file = path.join(SWEEP);
+        let Some(record) = read_json::<SweepFolderRecord>(&file) else {
+            let message = format!(
+                "{} is not the folder of a sweep: {SWEEP} is missing or cannot be read",
+                path.display()
+            );
+            return Err(Failure::refused("sweep::no_sweep", message)
+                .with_help("name the folder that `equipod sweep run PLAN -o DIR` was given"));
+        };
+        Ok(Self { path: path.to_path_buf(), record })
+    }
+
+    /// The texts that it was begun with.
+    pub(crate) fn texts(&self) -> SweepTexts {
+        SweepTexts { plan: self.record.plan.clone(), design: self.record.design.clone() }
+    }
+
+    /// The sweep, ready to compute rows again as they were.
+    pub(crate) fn sweep(&self) -> Result<Sweep, Failure> {
+        if self.record.version != env!("CARGO_PKG_VERSION") {
+            let message = format!("{} was computed by equipod {}", self.path.display(), self.record.version);
+            return Err(Failure::refused("sweep::other_sweep", message)
+                .with_help("candidates are computed again by the same version"));
+        }
+        let texts = self.texts();
+        if texts.sha256() != self.record.plan_sha256 {
+            let message = format!(
+                "{}: plan and design do not have the digest that belongs to them",
+                self.path.join(SWEEP).display()
+            );
+            return Err(Failure::refused("sweep::no_sweep", message)
+                .with_help("the file was altered: begin anew in another folder"));
+        }
+        texts.sweep(self.record.seed, &self.path.join(SWEEP).display().to_string())
+    }
+
+    /// Name of the part of a shard, without extension.
+    fn stem(&self, shard: u64) -> String {
+        let wide = self.record.shards.to_string().len().max(5);
+        format!("part-{shard:0wide$}-of-{:0wide$}", self.record.shards)
+    }
+
+    pub(crate) fn part(&self, shard: u64) -> PathBuf {
+        self.path.join(self.stem(shard) + ".parquet")
+    }
+
+    fn manifest(&self, shard: u64) -> PathBuf {
+        self.path.join(self.stem(shard) + ".json")
+    }
+
+    /// What every part says of its origin.
+    pub(crate) fn notes(&self, description: Option<&str>, shard: Option<u64>) -> Vec<(String, String)> {
+        let r = &self.record;
+        let mut notes = vec![
+            ("equipod.name".into(), r.name.clone()),
+            ("equipod.version".into(), r.version.clone()),
+            ("equipod.seed".into(), r.seed.to_string()),
+            ("equipod.candidates".into(), r.candidates.to_string()),
+            (PLAN_NOTE.into(), r.plan_sha256.clone()),
+            ("equipod.plan".into(), r.plan.text.clone()),
+            ("equipod.design".into(), r.design.text.clone()),
+        ];
+        notes.extend(description.map(|text| ("equipod.description".into(), text.to_owned())));
+        notes.extend(shard.map(|s| ("equipod.shard".into(), format!("{s}/{}", r.shards))));
+        notes
+    }
+
+    /// What is known of a shard: its part is read from beginning to end.
+    pub(crate) fn state(&self, shard: u64) -> ShardState {
+        let (part, manifest) = (self.part(shard), self.manifest(shard));
+        if !manifest.exists() {
+            return ShardState::Missing;
+        }
+        let Some(record) = read_json::<SweepManifestRecord>(&manifest) else {
+            return ShardState::Damaged("the manifest cannot be read".into());
+        };
+        let r = &self.record;
+        if (record.shard, record.shards, record.seed) != (shard, r.shards, r.seed)
+            || (&record.plan_sha256, &record.version) != (&r.plan_sha256, &r.version)
+        {
+            return ShardState::Damaged("the manifest is of another sweep".into());
+        }
+        match File::open(&part).and_then(digest_of) {
+            Err(error) if error.kind() == ErrorKind::NotFound => ShardState::Missing,
+            Err(error) => ShardState::Damaged(format!("the part cannot be read: {error}")),
+            Ok((bytes, _)) if bytes != record.bytes => {
+                ShardState::Damaged(format!("the part has {bytes} bytes instead of {}", record.bytes))
+            }
+            Ok((_, sha256)) if sha256 != record.sha256 => {
+                ShardState::Damaged("the part has another digest".into())
+            }
+            Ok(_) => ShardState::Done(Box::new(record)),
+        }
+    }
+
+    /// Opens the part of a shard that is done.
+    pub(crate) fn reader(&self, shard: u64) -> Result<PartReader, Failure> {
+        let path = self.part(shard);
+        let unreadable = |why: String| {
+            Failure::refused("sweep::damaged", format!("{} cannot be read: {why}", path.display()))
+                .with_help("`equipod sweep run` computes it again")
+        };
+        let file = File::open(&path).map_err(|e| unreadable(e.to_string()))?;
+        let reader = PartReader::new(file).map_err(|e| unreadable(e.to_string()))?;
+        if reader.note(PLAN_NOTE).as_ref() != Some(&self.record.plan_sha256) {
+            return Err(unreadable("it is of another plan".into()));
+        }
+        Ok(reader)
+    }
+
+    /// Writes the part of a shard from its rows, then its manifest; `None` where the rows ended early (`rows` says so by an `Err`).
+    pub(crate) fn write_part(
+        &self,
+        sweep: &Sweep,
+        shard: u64,
+        (first, candidates): (u64, u64),
+        rows: impl Iterator<Item = Result<Option<crate::sweep::SweepRow>, ()>>,
+    ) -> Result<Option<SweepManifestRecord>, Failure> {
+        let (path, manifest) = (self.part(shard), self.manifest(shard));
+        // a manifest never speaks of a part that is not there yet
+        match fs::remove_file(&manifest) {
+            Err(error) if error.kind() != ErrorKind::NotFound => return Err(failed(&manifest)(error)),
+            _ => {}
+        }
+        let began = std::time::Instant::now();
+        let error_column = sweep.columns.len() - 1;
+        let written = write_whole(&path, |to| {
+            let mut writer = PartWriter::new(
+                Digested::new(to),
+                &sweep.columns,
+                &self.notes(sweep.plan.description.as_deref(), Some(shard)),
+            )
+            .map_err(|e| part_failed(&path, &e))?;
+            let (mut kept, mut failed) = (0, 0);
+            for row in rows {
+                let Ok(row) = row else { return Ok(None) };
+                let Some(row) = row else { continue };
+                kept += 1;
+                failed += u64::from(row[error_column] != crate::sweep::SweepCell::Empty);
+                writer.push(row).map_err(|e| part_failed(&path, &e))?;
+            }
+            let (to, bytes, sha256) = writer.finish().map_err(|e| part_failed(&path, &e))?.finish();
+            Ok(Some((to, (kept, failed, bytes, sha256))))
+        })?;
+        let Some((rows, failed, bytes, sha256)) = written else { return Ok(None) };
+        let r = &self.record;
+        let record = SweepManifestRecord {
+            schema_version: SCHEMA_VERSION,
+            shard,
+            shards: r.shards,
+            first,
+            candidates,
+            rows,
+            failed,
+            plan_sha256: r.plan_sha256.clone(),
+            seed: r.seed,
+            version: r.version.clone(),
+            part: path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
+            bytes,
+            sha256,
+            seconds: began.elapsed().as_secs_f64().into(),
+        };
+        write_text(&manifest, &json(&record)?)?;
+        Ok(Some(record))
+    }
+
+    /// What is done and what is missing, after `computed` were computed.
+    pub(crate) fn status(&self, computed: Vec<u64>) -> SweepStatusAnswer {
+        let r = &self.record;
+        let (mut done, mut missing, mut damaged, mut rows, mut failed) =
+            (Vec::new(), Vec::new(), Vec::new(), 0, 0);
+        for shard in 0..r.shards {
+            match self.state(shard) {
+                ShardState::Done(manifest) => {
+                    rows += manifest.rows;
+                    failed += manifest.failed;
+                    done.push(shard);
+                }
+                ShardState::Missing => missing.push(shard),
+                ShardState::Damaged(reason) => {
+                    missing.push(shard);
+                    damaged.push(DamagedPartRecord { shard, reason });
+                }
+            }
+        }
+        SweepStatusAnswer {
+            name: r.name.clone(),
+            folder: self.path.display().to_string(),
+            plan_sha256: r.plan_sha256.clone(),
+            seed: r.seed,
+            candidates: r.candidates,
+            shards: r.shards,
+            missing_ranges: ranges(&missing),
+            done,
+            missing,
+            damaged,
+            computed,
+            rows,
+            failed,
+            unfinished: self.unfinished(),
+        }
+    }
+
+    /// Files that were being written when a run ended, or are being written now.
+    fn unfinished(&self) -> Vec<String> {
+        let entries = fs::read_dir(&self.path).into_iter().flatten().flatten();
+        let names = entries.map(|e| e.file_name().to_string_lossy().into_owned());
+        let mut names: Vec<String> =
+            names.filter(|n| n.starts_with(".part-") && n.rsplit('.').next() == Some("part")).collect();
+        names.sort();
+        names
+    }
+
+    /// Removes what ended runs have left, once all shards are done: what others still write is needless then too.
+    pub(crate) fn tidy(&self) {
+        for name in self.unfinished() {
+            let _ = fs::remove_file(self.path.join(name)); // it is in nobody's way
+        }
+    }
+}
+
+/// Opens a table that `sweep` wrote, a part or a merged one.
+pub(crate) fn open_table(path: &Path) -> Result<PartReader, Failure> {
+    let unreadable = |why: String| {
+        Failure::refused("file::not_readable", format!("{} cannot be read: {why}", path.display()))
+            .with_help("name the folder of a sweep, or the file that `equipod sweep merge` wrote")
+    };
+    let file = File::open(path).map_err(|e| unreadable(e.to_string()))?;
+    PartReader::new(file).map_err(|e| unreadable(e.to_string()))
+}
+
+/// As few shards as lose little when one is lost: sixteen, more where one had more than 100 000 candidates.
+pub(crate) fn default_shards(candidates: u64) -> u64 {
+    candidates.div_ceil(100_000).clamp(16, MOST_SHARDS).min(candidates.max(1))
+}
+
+/// Numbers as ranges: `2-5,9`.
+pub(crate) fn ranges(numbers: &[u64]) -> String {
+    let mut out: Vec<(u64, u64)> = Vec::new();
+    for n in numbers {
+        match out.last_mut() {
+            Some((_, last)) if *last + 1 == *n => *last = *n,
+            _ => out.push((*n, *n)),
+        }
+    }
+    let shown = |(a, b): &(u64, u64)| if a == b { a.to_string() } else { format!("{a}-{b}") };
+    out.iter().map(shown).collect::<Vec<_>>().join(",")
+}
+
+/// Refuses an output inside of the folder of the sweep, where it would be taken for a part.
+pub(crate) fn outside(output: &OutputPath) -> Result<(), Failure> {
+    let name = output.file_name().unwrap_or_default().to_string_lossy();
+    if name.starts_with("part-") {
+        let message = format!("{} has the name of a part", output.display());
+        return Err(Failure::refused("sweep::part_name", message).with_help("name another file"));
+    }
+    Ok(())
+}
+
+/// A plan and its base design, as texts.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct SweepTexts {
+    plan: SweepTextRecord,
+    design: SweepTextRecord,
+}
+
+impl SweepTexts {
+    /// Reads a plan, and the design that it names.
+    pub(crate) fn load(path: &Path, context: &mut Context) -> Result<Self, Failure> {
+        let text = files::read_text(path)?;
+        let format = format_of(path, &text);
+        let shown = files::shown(path);
+        let base = plan::base_named(PlanText { text: &text, format })
+            .map_err(|violations| bad_plan(&shown, &text, violations))?;
+        let design = match base {
+            BaseName::Preset(_, text) => SweepTextRecord { text: text.into(), format: Format::Toml },
+            BaseName::File(name) => {
+                let file: PathBuf = path.parent().unwrap_or(Path::new("")).join(name);
+                // warnings are shown, and provenance knows the design
+                let read = context.load(&file)?;
+                if read.workspace.trajectory.is_some() {
+                    let message = format!("{}: the workspace names a table of poses", file.display());
+                    let help = "a sweep is computed from plan and design alone: list the poses in the design, as `[workspace] poses`, or in the plan";
+                    return Err(Failure::refused("sweep::trajectory", message).with_help(help));
+                }
+                SweepTextRecord { text: files::read_text(&file)?, format: Format::of_path(&file) }
+            }
+        };
+        Ok(Self { plan: SweepTextRecord { text, format }, design })
+    }
+
+    /// SHA-256 over both.
+    pub(crate) fn sha256(&self) -> String {
+        let part = |t: &SweepTextRecord| format!("{} {}\n{}", t.format, t.text.len(), t.text);
+        sha256((part(&self.plan) + &part(&self.design)).as_bytes())
+    }
+
+    /// The sweep that they describe; `shown` is where the plan is from.
+    pub(crate) fn sweep(&self, seed: u64, shown: &str) -> Result<Sweep, Failure> {
+        let base = BasePlan::new(PlanText { text: &self.design.text, format: self.design.format }).map_err(
+            |violations| Failure::bad_design("base design".into(), self.design.text.clone(), violations),
+        )?;
+        let text = PlanText { text: &self.plan.text, format: self.plan.format };
+        let plan =
+            plan::read(text, &base).map_err(|violations| bad_plan(shown, &self.plan.text, violations))?;
+        Sweep::new(plan, base, seed).map_err(|why| Failure::refused("sweep::no_candidates", why))
+    }
+}
+
+fn bad_plan(shown: &str, text: &str, violations: Vec<Violation>) -> Failure {
+    let mut failure = Failure::bad_design(shown.to_owned(), text.to_owned(), violations);
+    failure.code = "sweep::bad_plan".into();
+    failure
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_shown_as_ranges() {
+        assert_eq!(ranges(&[]), "");
+        assert_eq!(ranges(&[3]), "3");
+        assert_eq!(ranges(&[0, 1, 2, 5, 7, 8]), "0-2,5,7-8");
+    }
+
+    #[test]
+    fn small_sweeps_have_no_empty_shards_and_large_ones_no_large_shards() {
+        assert_eq!([0, 1, 7, 1000, 10_000_000].map(default_shards), [1, 1, 7, 16, 100]);
+    }
+}

@@ -1,0 +1,127 @@
+//! A machine calibrated from measurements, as a design.
+
+use nalgebra::{DMatrix, Vector3};
+
+use super::Error;
+use crate::calibration::{
+    CalibrateOptions, Calibration, CarriedFrames, LegModel, Measurement, Unknowns, calibrate,
+};
+use crate::design::{CalibrationTable, Design};
+use crate::geom::Pose;
+use crate::manipulator::Body;
+use crate::num::Purpose;
+use crate::requirements::Terms;
+
+impl Design {
+    /// The joints and leg offsets of the machine that was built from this design, from poses and lengths that were measured on it: in the frames of the measured poses,
+    /// with standard deviations, and with what says how far to trust them. Offsets of an earlier calibration are taken as nominal.
+    ///
+    /// ```
+    /// use equipod::methods::calibration::{CalibrateOptions, CalibrationStatus, Measurement};
+    /// use equipod::prelude::*;
+    /// let design = Design::load("designs/symmetric-hexapod.toml")?;
+    /// let home = design.home_or_default();
+    /// let mut rows = Vec::new();
+    /// for k in 0..30 {
+    ///     let turn = |n: f64| 20.0 * (n * f64::from(k)).sin();
+    ///     let at = nalgebra::Vector3::new(turn(1.3), turn(2.7), turn(5.1));
+    ///     let pose = Pose::new(home.position + at, Angles::from_degrees([turn(1.7), turn(3.1), turn(4.3)]));
+    ///     // a machine like the design but for its encoders, which all count from 2.5 mm
+    ///     rows.push(Measurement { pose, lengths: design.ik(&pose)?.get().map(|l| l + 2.5) });
+    /// }
+    /// let found = design.calibrate(&rows, &CalibrateOptions::default())?;
+    /// assert_eq!(found.status, CalibrationStatus::Calibrated);
+    /// assert!(found.model.offsets.iter().all(|d| (d - 2.5).abs() < 1e-6));
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Calibration`]: measurements or options with which nothing can be computed. That measurements do not say everything is an answer.
+    pub fn calibrate(
+        &self,
+        measurements: &[Measurement],
+        options: &CalibrateOptions,
+    ) -> Result<Calibration, Error> {
+        Ok(calibrate(&self.leg_model(), measurements, options)?)
+    }
+
+    /// The joints with the offsets of an earlier calibration, zero where there is none.
+    #[must_use]
+    pub(crate) fn leg_model(&self) -> LegModel {
+        let offsets = self.calibration.as_ref().map_or([0.0; 6], |table| table.offsets);
+        LegModel::new(self.manipulator(), offsets)
+    }
+
+    /// The design with calibrated joints and the table `[calibration]`, in the frames of the measurements or, with `frames`, in its own.
+    ///
+    /// # Errors
+    /// Joints that make no manipulator.
+    pub fn with_calibration(
+        &self,
+        found: &Calibration,
+        frames: Option<&CarriedFrames>,
+    ) -> Result<Self, Error> {
+        let (model, root) = carried(found, frames);
+        let mut out = self.clone();
+        for body in Body::BOTH {
+            let points = body.of((&model.base, &model.platform));
+            for (joint, point) in points.iter().enumerate() {
+                // carried joints move although they were held
+                if found.unknowns.joint(body, joint).is_some() || frames.is_some() {
+                    let name = format!("{body}.{}", self.joint_names(body)[joint]);
+                    out.set_joint(&name, *point)?;
+                }
+            }
+        }
+        let deviation = |column: usize| root.row(column).norm();
+        let of = |body: Body| -> Vec<Option<Vector3<f64>>> {
+            let joints = 0..self.joint_names(body).len();
+            let one = |joint| {
+                let column = found.unknowns.joint(body, joint)?;
+                Some(Vector3::from_fn(|axis, _| deviation(column + axis)))
+            };
+            let all: Vec<_> = joints.map(one).collect();
+            if all.iter().all(Option::is_none) { Vec::new() } else { all }
+        };
+        let offsets: Option<Vec<f64>> = (0..6).map(|leg| found.unknowns.offset(leg).map(deviation)).collect();
+        out.calibration = Some(CalibrationTable {
+            offsets: model.offsets,
+            offset_deviations: offsets.and_then(|list| list.try_into().ok()),
+            base_deviations: of(Body::Base),
+            platform_deviations: of(Body::Platform),
+        });
+        Ok(out)
+    }
+
+    /// Poses that may be measured: those of the workspace at which all requirements of the design are met, about `count` and as many random ones looked at.
+    pub(crate) fn measurable_poses(&self, count: usize, seed: u64) -> Vec<Pose> {
+        let home = self.home_or_default();
+        let space = self.workspace_or_default().space(&home);
+        let required = self.requirements();
+        let terms = Terms::new(self.manipulator(), &required, &home);
+        let mut rng = Purpose::MEASURED_POSES.rng(seed);
+        let region = space.cube_points(count, &mut rng).into_iter().map(|x| space.pose(&x));
+        let met = |pose: &Pose| terms.at(pose).iter().all(|(_, margin)| *margin >= 0.0);
+        region.chain(space.listed(1)).filter(met).collect()
+    }
+}
+
+/// The machine and a root of the covariance of its unknowns, in the frames asked for.
+pub(crate) fn carried(found: &Calibration, frames: Option<&CarriedFrames>) -> (LegModel, DMatrix<f64>) {
+    match frames {
+        None => (found.model.clone(), found.root.clone()),
+        Some(frames) => (frames.carry(&found.model), frames.carry_root(&found.unknowns, &found.root)),
+    }
+}
+
+/// What a column of the unknowns is called: `base.A1.x`, `offset.3`.
+pub(crate) fn unknown_names(design: &Design, unknowns: &Unknowns) -> Vec<String> {
+    use crate::calibration::Unknown;
+    let name = |unknown: &Unknown| match *unknown {
+        Unknown::Joint { body, joint, axis } => {
+            format!("{body}.{}.{}", design.joint_names(body)[joint], ["x", "y", "z"][axis])
+        }
+        Unknown::Offset { leg } => format!("offset.{}", leg + 1),
+    };
+    unknowns.list().iter().map(name).collect()
+}

@@ -1,0 +1,12 @@
+//! Directions across others.
+
+use nalgebra::Vector3;
+
+/// A unit vector across `d`: the coordinate axis that is farthest from `d`, made normal to it.
+pub(crate) fn any_across(d: &Vector3<f64>) -> Vector3<f64> {
+    let axis = d.iamin();
+    let mut e = Vector3::zeros();
+    e[axis] = 1.0;
+    let d = d.try_normalize(0.0).unwrap_or_else(Vector3::z);
+    (e - d * d.dot(&e)).normalize()
+}

@@ -1,0 +1,161 @@
+//! Steps of a way over which no margin can reach zero.
+//!
+//! With `v` and `w` the velocities of the way, `c = R b` and `q = p - a` of a leg with the line `d = c + q`:
+//!
+//! ```text
+//! |d'| <= V = |v| + |w x c|,   |d''| <= A = |w| |w x c|,
+//! ```
+//!
+//! both constant along the way, since `c` turns about `w`. Seen from the platform the line is `b + R^T q`, hence `V = |v| + |w x q|` and `A = |w| |w x q| + 2 |w| |v|`, where
+//! `|w x q|` grows by at most `|w| |v|` in a unit of `t`. With `u = d / |d|`:
+//!
+//! ```text
+//! -A <= |d|'' <= A + V^2 / |d|,   |u''| <= A / |d| + 3 V^2 / |d|^2.
+//! ```
+//!
+//! A margin `f` with `f'' >= -K` is not negative up to the first root of `f + f' t - K t^2 / 2`.
+
+use nalgebra::Vector3;
+
+use super::{Reach, StraightWay};
+use crate::geom::Pose;
+use crate::manipulator::{Body, Leg};
+use crate::requirements::{Limit, Term, TermKind};
+
+/// The steps of a leg are so short that it keeps this share of its length.
+const KEPT: f64 = 0.75;
+
+/// Speed and acceleration of the line of a leg, in the frame of one of its ends.
+#[derive(Debug, Clone, Copy)]
+struct LineMotion {
+    velocity: Vector3<f64>,
+    /// Bounds over the step.
+    speed: f64,
+    acceleration: f64,
+    /// Steps may not be longer.
+    cap: f64,
+}
+
+/// A leg at a place of the way.
+struct LegPlace {
+    arm: Vector3<f64>,
+    /// Unit vector along the leg.
+    u: Vector3<f64>,
+    length: f64,
+    in_base: LineMotion,
+    in_platform: LineMotion,
+}
+
+impl LegPlace {
+    fn of(leg: &Leg, way: &StraightWay, pose: &Pose) -> Self {
+        let (v, w) = (&way.velocity, &way.turn);
+        let arm = pose.rotation * leg.platform.coords;
+        let q = pose.position - leg.base.coords;
+        let line = arm + q;
+        let length = line.norm();
+        let cap = |speed: f64| if speed > 0.0 { (1.0 - KEPT) * length / speed } else { f64::INFINITY };
+        let turned = w.cross(&arm);
+        let speed = v.norm() + turned.norm();
+        let in_base = LineMotion {
+            velocity: v + turned,
+            speed,
+            acceleration: w.norm() * turned.norm(),
+            cap: cap(speed),
+        };
+        let turned = w.cross(&q);
+        let both = w.norm() * v.norm();
+        // with both velocities the speed grows, within the first cap by this much
+        let first = cap(v.norm() + turned.norm());
+        let grown = if both > 0.0 && first.is_finite() { both * first } else { 0.0 };
+        let speed = v.norm() + turned.norm() + grown;
+        let in_platform = LineMotion {
+            velocity: v - turned,
+            speed,
+            acceleration: w.norm() * (turned.norm() + grown) + 2.0 * both,
+            cap: cap(speed).min(first),
+        };
+        Self { arm, u: line / length, length, in_base, in_platform }
+    }
+
+    /// The step that the angle between leg and an axis (base frame) allows, up to a limit.
+    fn swing(&self, motion: &LineMotion, axis: &Vector3<f64>, limit_deg: f64) -> f64 {
+        if limit_deg >= 180.0 {
+            return f64::INFINITY;
+        }
+        let across = motion.velocity - self.u * self.u.dot(&motion.velocity);
+        let short = KEPT * self.length;
+        let margin = self.u.dot(axis) - limit_deg.to_radians().cos();
+        let bend = motion.acceleration / short + 3.0 * (motion.speed / short).powi(2);
+        root(margin, across.dot(axis) / self.length, bend).min(motion.cap)
+    }
+}
+
+/// First root of `f + f' t - k t^2 / 2`; a negative `f` is one of rounding.
+fn root(f: f64, rate: f64, k: f64) -> f64 {
+    let f = f.max(0.0);
+    let discriminant = (rate * rate + 2.0 * k * f).sqrt();
+    match () {
+        () if rate < 0.0 => 2.0 * f / (discriminant - rate),
+        () if k > 0.0 => (rate + discriminant) / k,
+        () => f64::INFINITY,
+    }
+}
+
+/// Time that a margin lasts at a rate.
+fn lasts(margin: f64, rate: f64) -> f64 {
+    if rate > 0.0 { margin.max(0.0) / rate } else { f64::INFINITY }
+}
+
+/// The greatest speed of a platform joint on a way.
+pub(super) fn fastest(way: &StraightWay, legs: &[Leg; 6]) -> f64 {
+    let turned = |leg: &Leg| way.turn.cross(&(way.start.rotation * leg.platform.coords)).norm();
+    way.velocity.norm() + legs.iter().map(turned).fold(0.0, f64::max)
+}
+
+impl Reach<'_> {
+    /// A step from a pose of the way over which no margin whose rate is bounded reaches zero; infinite where all are forces and the sign of `det J`.
+    pub(super) fn safe_step(&self, way: &StraightWay, pose: &Pose, margins: &[(Limit, f64)]) -> f64 {
+        let places: [LegPlace; 6] = std::array::from_fn(|i| LegPlace::of(&self.legs[i], way, pose));
+        let steps = margins.iter().map(|(limit, margin)| match limit {
+            Limit::Term(term) => self.step_of(*term, *margin, &places, pose),
+            Limit::Singular => f64::INFINITY,
+        });
+        let least = steps.fold(f64::INFINITY, f64::min);
+        if least.is_nan() { 0.0 } else { least }
+    }
+
+    fn step_of(&self, term: Term, margin: f64, places: &[LegPlace; 6], pose: &Pose) -> f64 {
+        let hardware = &self.required.hardware;
+        let leg = &places[term.first];
+        let base = &leg.in_base;
+        match term.kind {
+            TermKind::LegTooShort => root(margin, leg.u.dot(&base.velocity), base.acceleration),
+            TermKind::LegTooLong => {
+                let bend = base.acceleration + base.speed.powi(2) / (KEPT * leg.length);
+                root(margin, -leg.u.dot(&base.velocity), bend).min(base.cap)
+            }
+            TermKind::BaseSwing => hardware
+                .base_swing
+                .map_or(f64::INFINITY, |s| leg.swing(base, &self.terms.axes()[0][term.first], s.limit_deg)),
+            TermKind::PlatformSwing => hardware.platform_swing.map_or(f64::INFINITY, |s| {
+                let axis = pose.rotation * self.terms.axes()[1][term.first];
+                leg.swing(&leg.in_platform, &axis, s.limit_deg)
+            }),
+            TermKind::LegClearance => lasts(margin, base.speed + places[term.second].in_base.speed),
+            TermKind::KeepOut => match self.required.keep_outs[term.second].fixed_to {
+                Body::Base => lasts(margin, base.speed),
+                Body::Platform => lasts(margin, leg.in_platform.speed).min(leg.in_platform.cap),
+            },
+            TermKind::LegSpeed => {
+                // |(c x u)'| <= |c'| + |c| |u'|
+                let arm = leg.arm.norm();
+                let rate = base.speed * (1.0 + arm / (KEPT * leg.length));
+                let degrees = self.required.platform_speed.map_or(0.0, |s| s.angular_deg);
+                lasts(margin, rate * degrees.to_radians()).min(base.cap)
+            }
+            TermKind::MachineEnvelope if term.second == 1 => lasts(margin, base.speed),
+            // forces have no bound near singular poses; the others do not depend on the pose
+            _ => f64::INFINITY,
+        }
+    }
+}

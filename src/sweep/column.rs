@@ -1,0 +1,114 @@
+//! Columns of the table of a sweep, and what their cells hold.
+
+/// What the cells of a column hold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum ColumnKind {
+    /// Doubles.
+    Number,
+    /// Integers of 64 bits.
+    Integer,
+    /// Truth values.
+    Truth,
+    /// Texts.
+    Text,
+}
+
+impl ColumnKind {
+    pub(crate) const ALL: [Self; 4] = [Self::Number, Self::Integer, Self::Truth, Self::Text];
+
+    /// The word in plans.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Number => "number",
+            Self::Integer => "integer",
+            Self::Truth => "truth",
+            Self::Text => "text",
+        }
+    }
+}
+
+/// A column.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct SweepColumn {
+    pub(crate) name: String,
+    pub(crate) kind: ColumnKind,
+    /// The unit; `None` for pure numbers and for what has none.
+    pub(crate) unit: Option<String>,
+    /// What it is, in words.
+    pub(crate) meaning: String,
+}
+
+impl SweepColumn {
+    pub(crate) fn new(name: &str, kind: ColumnKind, unit: Option<&str>, meaning: &str) -> Self {
+        Self { name: name.into(), kind, unit: unit.map(Into::into), meaning: meaning.into() }
+    }
+
+    /// A column of doubles.
+    pub(crate) fn number(name: &str, unit: Option<&str>, meaning: &str) -> Self {
+        Self::new(name, ColumnKind::Number, unit, meaning)
+    }
+}
+
+/// What stands in a cell.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum SweepCell {
+    /// Nothing: not decided, not computed, no such thing.
+    Empty,
+    Number(f64),
+    Integer(i64),
+    Truth(bool),
+    Text(String),
+}
+
+impl SweepCell {
+    /// A number of things.
+    pub(crate) fn count(n: usize) -> Self {
+        i64::try_from(n).map_or(Self::Empty, Self::Integer)
+    }
+
+    /// A number, empty where there is none.
+    pub(crate) fn number(x: Option<f64>) -> Self {
+        x.map_or(Self::Empty, Self::Number)
+    }
+
+    /// A truth value, empty where it is undecided.
+    pub(crate) fn truth(x: Option<bool>) -> Self {
+        x.map_or(Self::Empty, Self::Truth)
+    }
+
+    /// A text, empty where there is none.
+    pub(crate) fn text(x: Option<&str>) -> Self {
+        x.map_or(Self::Empty, |x| Self::Text(x.into()))
+    }
+
+    /// The value as a double, for comparisons and pictures.
+    pub(crate) fn as_number(&self) -> Option<f64> {
+        match self {
+            Self::Number(x) => Some(*x),
+            Self::Integer(n) => Some(*n as f64),
+            Self::Truth(b) => Some(f64::from(u8::from(*b))),
+            Self::Empty | Self::Text(_) => None,
+        }
+    }
+
+    /// Whether two cells hold the same bits: numbers that are none are the same as themselves.
+    pub(crate) fn is_same(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Number(a), Self::Number(b)) => a.to_bits() == b.to_bits(),
+            (a, b) => a == b,
+        }
+    }
+}
+
+/// For people.
+impl std::fmt::Display for SweepCell {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Empty => Ok(()),
+            Self::Number(x) => write!(f, "{x}"),
+            Self::Integer(n) => write!(f, "{n}"),
+            Self::Truth(b) => write!(f, "{b}"),
+            Self::Text(text) => f.write_str(text),
+        }
+    }
+}

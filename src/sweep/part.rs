@@ -1,0 +1,358 @@
+//! Parquet: rows written as a file that says what its columns are, and read back.
+
+use std::io::Write;
+use std::sync::Arc;
+
+use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
+use parquet::column::reader::ColumnReader;
+use parquet::column::writer::ColumnWriter;
+use parquet::data_type::{ByteArray, DataType};
+use parquet::errors::ParquetError;
+use parquet::file::metadata::KeyValue;
+use parquet::file::properties::WriterProperties;
+use parquet::file::reader::{ChunkReader, FileReader, SerializedFileReader};
+use parquet::file::writer::SerializedFileWriter;
+use parquet::schema::types::Type;
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use super::column::{ColumnKind, SweepCell, SweepColumn};
+use super::rows::SweepRow;
+
+/// Rows that are held before they are written.
+const ROWS: usize = 1 << 14;
+
+/// The key under which the columns are described.
+const COLUMNS_KEY: &str = "equipod.columns";
+
+/// Why a part cannot be written or read.
+#[derive(Debug, Error)]
+pub(crate) enum PartError {
+    /// Parquet, or the file below it.
+    #[error("{0}")]
+    Parquet(#[from] ParquetError),
+    /// A file that is no part of a sweep.
+    #[error("{0}")]
+    Foreign(String),
+}
+
+impl PartError {
+    /// What the system said, where it was that.
+    pub(crate) fn system(&self) -> Option<&std::io::Error> {
+        match self {
+            Self::Parquet(ParquetError::External(inner)) => inner.downcast_ref(),
+            _ => None,
+        }
+    }
+}
+
+/// A column as it is described in the file.
+#[derive(Debug, Serialize, Deserialize)]
+struct DescribedColumn {
+    name: String,
+    kind: String,
+    unit: Option<String>,
+    meaning: String,
+}
+
+fn described(columns: &[SweepColumn]) -> String {
+    let all: Vec<DescribedColumn> = columns
+        .iter()
+        .map(|c| DescribedColumn {
+            name: c.name.clone(),
+            kind: c.kind.name().into(),
+            unit: c.unit.clone(),
+            meaning: c.meaning.clone(),
+        })
+        .collect();
+    serde_json::to_string(&all).unwrap_or_default()
+}
+
+fn columns_from(text: &str) -> Option<Vec<SweepColumn>> {
+    let all: Vec<DescribedColumn> = serde_json::from_str(text).ok()?;
+    let column = |c: DescribedColumn| {
+        let kind = ColumnKind::ALL.into_iter().find(|k| k.name() == c.kind)?;
+        Some(SweepColumn { name: c.name, kind, unit: c.unit, meaning: c.meaning })
+    };
+    all.into_iter().map(column).collect()
+}
+
+/// Writes rows; what it writes depends on columns, notes and rows alone.
+pub(crate) struct PartWriter<W: Write + Send> {
+    writer: SerializedFileWriter<W>,
+    columns: Vec<SweepColumn>,
+    waiting: Vec<SweepRow>,
+}
+
+impl<W: Write + Send> PartWriter<W> {
+    /// Begins a file with these columns and, as its metadata, these keys and values.
+    ///
+    /// # Errors
+    /// Those of the file.
+    pub(crate) fn new(to: W, columns: &[SweepColumn], notes: &[(String, String)]) -> Result<Self, PartError> {
+        let field = |c: &SweepColumn| {
+            let (physical, logical) = match c.kind {
+                ColumnKind::Number => (Physical::DOUBLE, None),
+                ColumnKind::Integer => (Physical::INT64, None),
+                ColumnKind::Truth => (Physical::BOOLEAN, None),
+                ColumnKind::Text => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
+            };
+            let built = Type::primitive_type_builder(&c.name, physical)
+                .with_repetition(Repetition::OPTIONAL)
+                .with_logical_type(logical)
+                .build();
+            built.map(Arc::new)
+        };
+        let fields = columns.iter().map(field).collect::<Result<Vec<_>, _>>()?;
+        let schema = Arc::new(Type::group_type_builder("sweep").with_fields(fields).build()?);
+        let own = (COLUMNS_KEY.to_owned(), described(columns));
+        let notes = notes.iter().chain([&own]).map(|(k, v)| KeyValue::new(k.clone(), v.clone())).collect();
+        let properties = WriterProperties::builder()
+            .set_compression(Compression::SNAPPY)
+            .set_created_by(format!("equipod {}", env!("CARGO_PKG_VERSION")))
+            .set_key_value_metadata(Some(notes))
+            .build();
+        let writer = SerializedFileWriter::new(to, schema, Arc::new(properties))?;
+        Ok(Self { writer, columns: columns.to_vec(), waiting: Vec::with_capacity(ROWS) })
+    }
+
+    /// Adds a row.
+    ///
+    /// # Errors
+    /// Those of the file.
+    pub(crate) fn push(&mut self, row: SweepRow) -> Result<(), PartError> {
+        self.waiting.push(row);
+        if self.waiting.len() == ROWS { self.write_group() } else { Ok(()) }
+    }
+
+    fn write_group(&mut self) -> Result<(), PartError> {
+        if self.waiting.is_empty() {
+            return Ok(());
+        }
+        let mut group = self.writer.next_row_group()?;
+        let mut k = 0;
+        while let Some(mut column) = group.next_column()? {
+            let cells = || self.waiting.iter().map(|row| &row[k]);
+            let levels: Vec<i16> = cells().map(|c| i16::from(*c != SweepCell::Empty)).collect();
+            match column.untyped() {
+                ColumnWriter::DoubleColumnWriter(to) => {
+                    let values: Vec<f64> = cells().filter_map(SweepCell::as_number).collect();
+                    to.write_batch(&values, Some(&levels), None)?;
+                }
+                ColumnWriter::Int64ColumnWriter(to) => {
+                    let values: Vec<i64> = cells().filter_map(integer).collect();
+                    to.write_batch(&values, Some(&levels), None)?;
+                }
+                ColumnWriter::BoolColumnWriter(to) => {
+                    let values: Vec<bool> = cells().filter_map(truth).collect();
+                    to.write_batch(&values, Some(&levels), None)?;
+                }
+                ColumnWriter::ByteArrayColumnWriter(to) => {
+                    let values: Vec<ByteArray> = cells().filter_map(words).collect();
+                    to.write_batch(&values, Some(&levels), None)?;
+                }
+                _ => return Err(PartError::Foreign(format!("{} has another type", self.columns[k].name))),
+            }
+            column.close()?;
+            k += 1;
+        }
+        group.close()?;
+        self.waiting.clear();
+        Ok(())
+    }
+
+    /// Writes the rest and the end of the file.
+    ///
+    /// # Errors
+    /// Those of the file.
+    pub(crate) fn finish(mut self) -> Result<W, PartError> {
+        self.write_group()?;
+        Ok(self.writer.into_inner()?)
+    }
+}
+
+fn integer(cell: &SweepCell) -> Option<i64> {
+    if let SweepCell::Integer(n) = cell { Some(*n) } else { None }
+}
+
+fn truth(cell: &SweepCell) -> Option<bool> {
+    if let SweepCell::Truth(b) = cell { Some(*b) } else { None }
+}
+
+fn words(cell: &SweepCell) -> Option<ByteArray> {
+    if let SweepCell::Text(text) = cell { Some(text.as_str().into()) } else { None }
+}
+
+/// A part that is read, one group of rows after the other.
+pub(crate) struct PartReader {
+    reader: Box<dyn FileReader>,
+    pub(crate) columns: Vec<SweepColumn>,
+}
+
+impl PartReader {
+    /// Opens a part: its end is read, and what it says of its columns.
+    ///
+    /// # Errors
+    /// A file that is not Parquet, or no part of a sweep.
+    pub(crate) fn new(from: impl ChunkReader + 'static) -> Result<Self, PartError> {
+        let reader: Box<dyn FileReader> = Box::new(SerializedFileReader::new(from)?);
+        let foreign =
+            || PartError::Foreign("this is no table of a sweep: it does not say what its columns are".into());
+        let text = note_of(reader.as_ref(), COLUMNS_KEY).ok_or_else(foreign)?;
+        let columns = columns_from(&text).ok_or_else(foreign)?;
+        if reader.metadata().file_metadata().schema_descr().num_columns() != columns.len() {
+            return Err(foreign());
+        }
+        Ok(Self { reader, columns })
+    }
+
+    /// What the metadata has under a key.
+    pub(crate) fn note(&self, key: &str) -> Option<String> {
+        note_of(self.reader.as_ref(), key)
+    }
+
+    /// Groups of rows.
+    pub(crate) fn groups(&self) -> usize {
+        self.reader.num_row_groups()
+    }
+
+    /// The rows of a group, of some columns or all.
+    ///
+    /// # Errors
+    /// A file that is torn or altered.
+    pub(crate) fn group(&self, group: usize, wanted: &[usize]) -> Result<Vec<SweepRow>, PartError> {
+        let group = self.reader.get_row_group(group)?;
+        let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
+        let mut out = vec![Vec::with_capacity(wanted.len()); rows];
+        for k in wanted {
+            let cells = match group.get_column_reader(*k)? {
+                ColumnReader::DoubleColumnReader(from) => cells_of(from, rows, |x| SweepCell::Number(*x))?,
+                ColumnReader::Int64ColumnReader(from) => cells_of(from, rows, |n| SweepCell::Integer(*n))?,
+                ColumnReader::BoolColumnReader(from) => cells_of(from, rows, |b| SweepCell::Truth(*b))?,
+                ColumnReader::ByteArrayColumnReader(from) => cells_of(from, rows, |bytes: &ByteArray| {
+                    SweepCell::Text(String::from_utf8_lossy(bytes.data()).into_owned())
+                })?,
+                _ => {
+                    return Err(PartError::Foreign(format!(
+                        "column {k} has a type that sweeps do not write"
+                    )));
+                }
+            };
+            if cells.len() != rows {
+                return Err(PartError::Foreign(format!("column {k} has {} of {rows} rows", cells.len())));
+            }
+            for (row, cell) in out.iter_mut().zip(cells) {
+                row.push(cell);
+            }
+        }
+        Ok(out)
+    }
+}
+
+fn note_of(reader: &dyn FileReader, key: &str) -> Option<String> {
+    let notes = reader.metadata().file_metadata().key_value_metadata()?;
+    notes.iter().find(|note| note.key == key)?.value.clone()
+}
+
+fn cells_of<T: DataType>(
+    mut from: parquet::column::reader::ColumnReaderImpl<T>,
+    rows: usize,
+    cell: impl Fn(&T::T) -> SweepCell,
+) -> Result<Vec<SweepCell>, PartError> {
+    let (mut values, mut levels) = (Vec::with_capacity(rows), Vec::with_capacity(rows));
+    while levels.len() < rows {
+        let (read, _, _) = from.read_records(rows - levels.len(), Some(&mut levels), None, &mut values)?;
+        if read == 0 {
+            break;
+        }
+    }
+    let mut values = values.iter();
+    Ok(levels
+        .iter()
+        .map(|level| if *level == 0 { None } else { values.next() }.map_or(SweepCell::Empty, &cell))
+        .collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use parquet::file::reader::Length;
+
+    /// Bytes as a file.
+    fn opened(bytes: &[u8]) -> Result<PartReader, PartError> {
+        let file = tempfile::tempfile().unwrap();
+        (&file).write_all(bytes).unwrap();
+        assert_eq!(file.len(), bytes.len() as u64);
+        PartReader::new(file)
+    }
+
+    fn columns() -> Vec<SweepColumn> {
+        vec![
+            SweepColumn::new("candidate", ColumnKind::Integer, None, "number"),
+            SweepColumn::number("x", Some("mm"), "length"),
+            SweepColumn::new("met", ColumnKind::Truth, None, "met"),
+            SweepColumn::new("word", ColumnKind::Text, None, "a \"word\""),
+        ]
+    }
+
+    fn rows(n: i64) -> Vec<SweepRow> {
+        let row = |k: i64| {
+            vec![
+                SweepCell::Integer(k),
+                if k % 3 == 0 { SweepCell::Empty } else { SweepCell::Number(k as f64 / 7.0) },
+                SweepCell::truth((k % 4 != 1).then_some(k % 2 == 0)),
+                SweepCell::text((k % 5 != 0).then_some(["a", "\u{e9}", ""][(k % 3) as usize])),
+            ]
+        };
+        (0..n).map(row).collect()
+    }
+
+    fn written(n: i64) -> Vec<u8> {
+        let notes = [("equipod.seed".to_owned(), "7".to_owned())];
+        let mut writer = PartWriter::new(Vec::new(), &columns(), &notes).unwrap();
+        for row in rows(n) {
+            writer.push(row).unwrap();
+        }
+        writer.finish().unwrap()
+    }
+
+    #[test]
+    fn what_is_written_is_read_back_with_its_columns_and_notes() {
+        let n = ROWS as i64 + 100;
+        let bytes = written(n);
+        assert_eq!(bytes, written(n), "the same rows make the same bytes");
+        let reader = opened(&bytes).unwrap();
+        assert_eq!((reader.columns.clone(), reader.groups()), (columns(), 2));
+        assert_eq!(reader.note("equipod.seed").as_deref(), Some("7"));
+        let mut back = Vec::new();
+        for group in 0..reader.groups() {
+            back.extend(reader.group(group, &[0, 1, 2, 3]).unwrap());
+        }
+        assert_eq!(back, rows(n));
+        assert_eq!(
+            reader.group(1, &[3, 0]).unwrap()[99],
+            [rows(n)[n as usize - 1][3].clone(), SweepCell::Integer(n - 1)]
+        );
+        assert_eq!(opened(&written(0)).unwrap().groups(), 0);
+    }
+
+    #[test]
+    fn torn_files_and_foreign_ones_are_refused() {
+        let bytes = written(50);
+        assert!(opened(&bytes[..bytes.len() - 3]).is_err() && opened(b"PAR1").is_err());
+        assert!(opened(&[]).is_err());
+    }
+
+    #[test]
+    fn numbers_that_are_none_keep_their_bits() {
+        let column = [SweepColumn::number("x", None, "")];
+        let values = [f64::NAN, f64::INFINITY, -0.0, f64::MIN_POSITIVE / 8.0];
+        let mut writer = PartWriter::new(Vec::new(), &column, &[]).unwrap();
+        for x in values {
+            writer.push(vec![SweepCell::Number(x)]).unwrap();
+        }
+        let reader = opened(&writer.finish().unwrap()).unwrap();
+        let back = reader.group(0, &[0]).unwrap();
+        assert!(back.iter().zip(values).all(|(row, x)| row[0].is_same(&SweepCell::Number(x))));
+    }
+}

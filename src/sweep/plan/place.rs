@@ -1,0 +1,107 @@
+//! The base design of a plan, with the places of its numbers.
+
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+use super::PlanText;
+use crate::design::spanned::{Findings, Node, Value, find, nearest_help, read, shown};
+use crate::design::{Design, Format, Violation, parse};
+use crate::requirements::{TermKind, Terms};
+
+/// A base design and the text it is read from, into which candidates write their numbers.
+#[derive(Debug, Clone)]
+pub(crate) struct BasePlan {
+    pub(crate) text: String,
+    pub(crate) format: Format,
+    pub(crate) design: Design,
+    root: Node,
+}
+
+impl BasePlan {
+    /// Reads the design.
+    ///
+    /// # Errors
+    /// All violations of the design.
+    pub(crate) fn new(plan: PlanText<'_>) -> Result<Self, Vec<Violation>> {
+        let text = plan.text.strip_prefix('\u{feff}').unwrap_or(plan.text).to_owned();
+        let (design, _) = parse(&text, plan.format)?;
+        let mut report = Findings::new(&text);
+        let Some(root) = read(&text, plan.format, &mut report) else { return Err(report.into_violations()) };
+        Ok(Self { format: plan.format, design, root, text })
+    }
+
+    /// Where the number of a path stands: `parameters.r`, `base.P1.x`, `home.position.3`, `hardware.max_leg_force`.
+    ///
+    /// # Errors
+    /// What is not there, and what is.
+    pub(crate) fn place(&self, path: &str) -> Result<Range<usize>, (String, String)> {
+        let mut node = &self.root;
+        let mut walked = String::new();
+        for step in path.split('.') {
+            let missing = |known: &[&str]| {
+                let inside = if walked.is_empty() {
+                    "the base design".to_owned()
+                } else {
+                    format!("`{walked}` of the base design")
+                };
+                let help = if known.is_empty() {
+                    "it holds no further numbers".to_owned()
+                } else {
+                    nearest_help("it has", step, known)
+                };
+                (format!("{inside} has no `{}`", shown(step)), help)
+            };
+            node = match &node.value {
+                Value::Table(entries) => match find(entries, step) {
+                    Some(entry) => &entry.node,
+                    None => return Err(missing(&entries.iter().map(|e| e.key.as_str()).collect::<Vec<_>>())),
+                },
+                Value::Array(list) => {
+                    let axis = ["x", "y", "z"].iter().position(|a| *a == step && list.len() == 3);
+                    let number = axis.or_else(|| step.parse::<usize>().ok()?.checked_sub(1));
+                    match number.and_then(|i| list.get(i)) {
+                        Some(element) => element,
+                        None => return Err(missing(if list.len() == 3 { &["x", "y", "z"] } else { &[] })),
+                    }
+                }
+                _ => return Err(missing(&[])),
+            };
+            if !walked.is_empty() {
+                walked.push('.');
+            }
+            walked.push_str(step);
+        }
+        match &node.value {
+            Value::Number(_) | Value::Text(_) => Ok(node.span.clone()),
+            other => Err((
+                format!("`{}` of the base design is {}, not a number", shown(path), other.kind()),
+                "name a number in it".into(),
+            )),
+        }
+    }
+
+    /// The text with other values at these places, as they are written in a design file.
+    pub(crate) fn with_values(&self, values: &[(Range<usize>, String)]) -> String {
+        let mut sorted: Vec<&(Range<usize>, String)> = values.iter().collect();
+        sorted.sort_by_key(|(span, _)| span.start);
+        let mut out = String::with_capacity(self.text.len() + 32 * values.len());
+        let mut from = 0;
+        for (span, value) in sorted {
+            out.push_str(&self.text[from..span.start]);
+            out.push_str(value);
+            from = span.end;
+        }
+        out.push_str(&self.text[from..]);
+        out
+    }
+
+    /// The kinds of requirements that the design has.
+    pub(crate) fn required_kinds(&self) -> Vec<TermKind> {
+        let (m, required, home) =
+            (self.design.manipulator(), self.design.requirements(), self.design.home_or_default());
+        let terms = Terms::new(m, &required, &home);
+        let kinds: BTreeSet<TermKind> =
+            terms.fixed().into_iter().chain(terms.at(&home)).map(|(term, _)| term.kind).collect();
+        kinds.into_iter().collect()
+    }
+}

@@ -1,0 +1,129 @@
+//! Rows against the figures that the rest of the library has for the same designs.
+
+use std::sync::Arc;
+
+use super::plan::{BasePlan, PlanText, read};
+use super::{Sweep, SweepCell};
+use crate::design::{Format, parse};
+use crate::manipulator::{inverse_condition, jacobian};
+use crate::num::Cancel;
+
+const OCTAHEDRAL: &str = include_str!("../../designs/rbt-octahedral.toml");
+
+fn sweep_of(design: &str, plan: &str) -> Sweep {
+    let base = BasePlan::new(PlanText { text: design, format: Format::Toml }).unwrap();
+    let plan = format!("name = 'p'\ndesign = 'd.toml'\n{plan}");
+    let plan =
+        read(PlanText { text: &plan, format: Format::Toml }, &base).unwrap_or_else(|v| panic!("{v:#?}"));
+    Sweep::new(plan, base, 1).unwrap()
+}
+
+fn cell<'a>(sweep: &Sweep, row: &'a [SweepCell], name: &str) -> &'a SweepCell {
+    &row[sweep.columns.iter().position(|c| c.name == name).unwrap_or_else(|| panic!("{name}"))]
+}
+
+#[test]
+fn figures_are_those_of_the_design_that_the_candidate_is() {
+    let sweep = sweep_of(
+        OCTAHEDRAL,
+        "compute = ['det_a', 'conditioning', 'home_conditioning', 'spacing', 'clearance', 'length_range', 'lengths', 'joints']\n[vary]\nby = 'latin_hypercube'\ncount = 5\nvalues = { offsets = { from = 0.1, to = 0.9 } }\n",
+    );
+    for k in 0..5 {
+        let row = sweep.row(k).unwrap();
+        assert_eq!((row.len(), &row[row.len() - 1]), (sweep.columns.len(), &SweepCell::Empty));
+        let number = |name: &str| cell(&sweep, &row, name).as_number().unwrap();
+        let (design, _) = parse(&sweep.design_text(k).unwrap(), Format::Toml).unwrap();
+        let m = design.manipulator();
+        let home = design.home_or_default();
+        let poses = design.workspace_or_default().sample(&home);
+        assert_eq!(poses.len(), 65);
+        let length = design.characteristic_length();
+        let worst =
+            poses.iter().map(|p| inverse_condition(&jacobian(m, p, length))).fold(f64::INFINITY, f64::min);
+        assert!((number("conditioning") - worst).abs() < 1e-12);
+        let pose = &poses[number("conditioning_pose") as usize];
+        assert!((inverse_condition(&jacobian(m, pose, length)) - worst).abs() < 1e-12);
+        let offsets: [f64; 6] = std::array::from_fn(|i| number(&format!("offsets_{}", i + 1)));
+        assert!((number("det_a") - crate::synthesis::offset_determinant(&offsets)).abs() < 1e-12);
+        assert!(
+            number("base_spacing") > 0.0 && number("platform_spacing") > 0.0 && number("clearance") >= 0.0
+        );
+        let at_home = home.lengths(m).unwrap().get();
+        assert!(number("least_length") <= at_home[0] && at_home[0] <= number("greatest_length"));
+        assert!((number("base_1_x") - m.legs()[0].base.x).abs() < 1e-12);
+        // the lengths of the design are moved along with the map
+        let moved = design.lengths.unwrap().get();
+        assert!((0..6).all(|i| (number(&format!("length_{}", i + 1)) - moved[i]).abs() < 1e-9));
+    }
+}
+
+#[test]
+fn rows_do_not_depend_on_threads_nor_on_the_range() {
+    let sweep = Arc::new(sweep_of(
+        OCTAHEDRAL,
+        "compute = ['det_a', 'conditioning']\nkeep = ['det_a > 0']\n[vary]\nby = 'sobol'\ncount = 200\nvalues = { offsets = { from = 0.1, to = 0.9 } }\n",
+    ));
+    let all = |range, threads| sweep.rows(range, threads, &Cancel::new()).collect::<Vec<_>>();
+    let one = all(0..200, 1);
+    assert_eq!(one.len(), 200);
+    assert!(one.iter().flatten().count() > 50 && one.iter().flatten().count() < 200, "some are kept");
+    assert_eq!(all(0..200, 3), one);
+    assert_eq!([all(0..77, 2), all(77..200, 1)].concat(), one);
+    assert_eq!(all(0..0, 2).len(), 0);
+}
+
+#[test]
+fn numbers_of_the_text_change_and_failures_are_rows() {
+    let sweep = sweep_of(
+        OCTAHEDRAL,
+        "compute = ['home_conditioning', 'spacing']\nkeep = ['home_conditioning > 2']\n[vary]\nby = 'grid'\nvalues = { 'base.P2.y' = [11.0, 0.0], 'base.P1.x' = ['-1/3', 'sqrt(0-1)'] }\n",
+    );
+    // a good candidate that is not kept
+    assert!(sweep.row(0).is_none());
+    let failed = sweep.row(1).unwrap();
+    assert!(cell(&sweep, &failed, "error").to_string().contains("negative"), "{failed:?}");
+    assert_eq!(cell(&sweep, &failed, "base_P1_x"), &SweepCell::Text("sqrt(0-1)".into()));
+    assert_eq!(cell(&sweep, &failed, "base_spacing"), &SweepCell::Empty);
+    let collinear = sweep.row(2).unwrap();
+    assert!(matches!(cell(&sweep, &collinear, "error"), SweepCell::Text(_)));
+    let text = sweep.design_text(0).unwrap();
+    assert!(text.contains("\"-1/3\"") && text.contains("# of P4"), "comments stay: {text}");
+}
+
+#[test]
+fn poses_are_counted_with_their_evidence_and_fields_of_answers_are_columns() {
+    let sweep = sweep_of(
+        OCTAHEDRAL,
+        "compute = ['poses', 'check', { column = 'median', field = 'check.jacobian_inverse_condition.median' }, { column = 'method', field = 'fk.method', as = 'text' }, { column = 'first', field = 'fk.solutions.1.certified', as = 'truth' }]\n[vary]\nby = 'list'\nvalues = { 'lengths.1' = [19.8, 18.1] }\n",
+    );
+    let row = sweep.row(1).unwrap();
+    let of = |name: &str| cell(&sweep, &row, name).clone();
+    assert_eq!((of("finite_poses"), of("certified_poses")), (SweepCell::Integer(16), SweepCell::Integer(16)));
+    assert_eq!(
+        (of("completeness"), of("method")),
+        (SweepCell::Text("proved".into()), SweepCell::Text("octic".into()))
+    );
+    assert_eq!(
+        (of("singular"), of("generic_poses"), of("first")),
+        (SweepCell::Truth(false), SweepCell::Integer(16), SweepCell::Truth(true))
+    );
+    assert!(of("median").as_number().unwrap() > 0.0);
+    assert_eq!(of("error"), SweepCell::Empty);
+}
+
+#[test]
+fn margins_have_a_column_for_each_kind_of_requirement() {
+    let design = include_str!("../../designs/worked/bench-octahedral.toml");
+    let sweep = sweep_of(
+        design,
+        "compute = ['margins']\nassess = { points = 5, searches = 0, cells = 20 }\n[vary]\nby = 'uniform'\ncount = 2\nvalues = { offsets = { from = 0.2, to = 0.3 } }\n",
+    );
+    let row = sweep.row(0).unwrap();
+    assert!(sweep.columns.iter().filter(|c| c.name.starts_with("margin_")).count() > 2);
+    for column in sweep.columns.iter().filter(|c| c.name.starts_with("margin_")) {
+        assert!(
+            cell(&sweep, &row, &column.name).as_number().is_some() && column.unit.is_some(),
+            "{column:?}"
+        );
+    }
+}

@@ -1,0 +1,241 @@
+//! `equipod calibrate` as a process: a table in, joints and offsets out, outcomes, refusals.
+
+use serde_json::Value;
+
+use super::cli_frame::{document, equipod};
+
+const DESIGN: &str = "designs/symmetric-hexapod.toml";
+const TABLE: &str = "designs/tables/calibration.csv";
+const SIGMAS: [&str; 6] =
+    ["--sigma-length", "0.005", "--sigma-position", "0.01", "--sigma-rotation-deg", "0.002"];
+
+fn asked(args: &[&str]) -> (Option<i32>, Value) {
+    let out = equipod(&[&["calibrate"], args, &["--json"]].concat());
+    (out.status.code(), document(&out))
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+/// The measurements as fields; the first row has the names.
+fn table() -> Vec<Vec<String>> {
+    let text = std::fs::read_to_string(TABLE).unwrap();
+    text.lines().map(|line| line.split(',').map(str::to_owned).collect()).collect()
+}
+
+fn write(folder: &tempfile::TempDir, name: &str, rows: &[Vec<String>]) -> String {
+    let path = folder.path().join(name);
+    std::fs::write(&path, rows.iter().map(|r| r.join(",") + "\n").collect::<String>()).unwrap();
+    path.to_str().unwrap().to_owned()
+}
+
+#[test]
+fn measurements_give_joints_offsets_and_a_design_with_their_uncertainty() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let out = path("calibrated.toml");
+    let (code, doc) = asked(&[&[DESIGN, TABLE, "-o", &out], SIGMAS.as_slice()].concat());
+    assert_eq!((code, &doc["outcome"]), (Some(0), &Value::from("calibrated")), "{}", doc["reason"]);
+    let found = &doc["calibration"];
+    assert_eq!((found["unknowns"].as_u64(), found["observability"]["rank"].as_u64()), (Some(42), Some(42)));
+    assert_eq!(
+        (found["start"]["agree"].as_bool(), found["noise"]["source"].as_str()),
+        (Some(true), Some("given"))
+    );
+    assert!(number(&found["before"]["rms"]) > 20.0 * number(&found["after"]["rms"]));
+    assert!(number(&found["left_out"]["rms"]) > number(&found["after"]["rms"]));
+    assert!(number(&found["chi_square"]["probability"]) > 1e-3);
+    let computed = &found["computed_poses"];
+    let off = number(&computed["position_greatest"]);
+    // of the size of the residuals, where single joints are off by ten times as much
+    assert!(off < 2.0 * number(&found["after"]["rms"]), "{computed}");
+    assert!(off > number(&computed["position_median"]), "{computed}");
+    let next = doc["next_poses"].as_array().unwrap();
+    assert!(next.len() == 5 && next.iter().all(|n| number(&n["shrinks"]) < 1.0));
+    // deviations are the roots of the diagonal of the covariance
+    let names = found["covariance"]["unknowns"].as_array().unwrap();
+    let k = names.iter().position(|n| n == "platform.B2.y").unwrap();
+    let joint = found["joints"].as_array().unwrap().iter().find(|j| j["joint"] == "B2").unwrap();
+    let deviation = number(&joint["deviations"][1]);
+    assert!((deviation.powi(2) / number(&found["covariance"]["matrix"][k][k]) - 1.0).abs() < 1e-12);
+
+    // the design has the joints, and the table stays when it is converted
+    let text = std::fs::read_to_string(&out).unwrap();
+    assert!(
+        text.contains("[calibration]\noffsets = [") && text.contains("[calibration.base_deviations]"),
+        "{text}"
+    );
+    let json = path("calibrated.json");
+    assert!(equipod(&["design", "convert", &out, "-o", &json]).status.success());
+    let design: Value = serde_json::from_str(&std::fs::read_to_string(&json).unwrap()).unwrap();
+    assert_eq!(design["platform"]["B2"], joint["position"]);
+    assert_eq!(design["calibration"]["platform_deviations"]["B2"], joint["deviations"]);
+    let micrometres = path("um.json");
+    assert!(equipod(&["design", "convert", &out, "--units", "um", "-o", &micrometres]).status.success());
+    let scaled: Value = serde_json::from_str(&std::fs::read_to_string(&micrometres).unwrap()).unwrap();
+    let offset = |d: &Value| number(&d["calibration"]["offsets"][0]);
+    assert!((offset(&scaled) / offset(&design) - 1000.0).abs() < 1e-6);
+
+    // a second calibration begins at the first one
+    let (code, again) = asked(&[&[&out, TABLE], SIGMAS.as_slice()].concat());
+    assert_eq!(code, Some(0));
+    assert!(number(&again["calibration"]["before"]["rms"]) < 1.01 * number(&found["after"]["rms"]));
+
+    // tolerances by the deviations found, and exports with the offsets
+    let tolerances = |design: &str| {
+        let words =
+            ["build", "tolerances", design, "--bound", "0.1,0.05", "--points", "10", "--searches", "0"];
+        let out = equipod(&[words.as_slice(), &["--trials", "100", "--calibrated", "--json"]].concat());
+        (out.status.code(), document(&out))
+    };
+    let (code, doc) = tolerances(&out);
+    assert_eq!((code, doc["calibrated"]["count"].as_u64()), (Some(0), Some(100)), "{doc}");
+    assert!(number(&doc["calibrated"]["formula"]["position"]["median"]) > 0.0);
+    let (code, doc) = tolerances(DESIGN);
+    assert_eq!((code, doc["error"]["code"].as_str()), (Some(2), Some("tolerances::not_calibrated")));
+    let files = path("files");
+    assert!(equipod(&["export", &out, "--to", "hal,c,json", "-o", &files]).status.success());
+    let read = |name: &str| {
+        let mut found = ["", "hal/", "c/", "json/"].iter().map(|f| format!("{files}/{f}{name}"));
+        found.find_map(|path| std::fs::read_to_string(path).ok()).unwrap_or_else(|| panic!("{name}"))
+    };
+    assert!(read("genhexkins.hal").contains("# Leg offsets of the calibration: "));
+    assert!(read("equipod_design.h").contains("EQUIPOD_HAS_LEG_OFFSETS 1"));
+    assert!(read("equipod_design.c").contains("const real_t equipod_leg_offsets[6] = {R("));
+    assert!(read("platform.json").contains("\"offset\":"));
+}
+
+#[test]
+fn the_noise_is_estimated_and_frames_are_carried() {
+    let (code, doc) = asked(&[DESIGN, TABLE, "--frames", "design", "--next", "0"]);
+    assert_eq!(code, Some(0), "{}", doc["reason"]);
+    let found = &doc["calibration"];
+    assert_eq!(found["noise"]["source"], "estimated");
+    let length = number(&found["noise"]["length"]);
+    assert!(length > 0.005 && length < 0.03, "lengths and poses together: {length}");
+    assert!(found["chi_square"]["probability"].is_null());
+    let motion = &found["motions"]["base"];
+    assert!(number(&motion["rms"]) < 1.0 && number(&motion["motion"]["R"][0][0]) > 0.99);
+    // carried joints are nearer to the design
+    let moved = |doc: &Value| {
+        let joints = doc["calibration"]["joints"].as_array().unwrap().clone();
+        let square = |x: &Value| number(x).powi(2);
+        joints
+            .iter()
+            .flat_map(|j| j["moved"].as_array().unwrap().iter().map(square).collect::<Vec<_>>())
+            .sum::<f64>()
+    };
+    let (_, measured) = asked(&[DESIGN, TABLE, "--next", "0"]);
+    assert!(moved(&doc) < moved(&measured));
+}
+
+#[test]
+fn what_cannot_be_said_is_an_outcome_and_writes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let rows = table();
+    let out = folder.path().join("out.toml").to_str().unwrap().to_owned();
+    // one orientation
+    let level: Vec<Vec<String>> = rows
+        .iter()
+        .enumerate()
+        .map(|(k, row)| {
+            let turn =
+                |c: usize| if k > 0 && (3..6).contains(&c) { "1.0".to_owned() } else { row[c].clone() };
+            (0..row.len()).map(turn).collect()
+        })
+        .collect();
+    let file = write(&folder, "level.csv", &level);
+    let (code, doc) = asked(&[&[DESIGN, &file, "-o", &out], SIGMAS.as_slice()].concat());
+    assert_eq!((code, &doc["outcome"]), (Some(1), &Value::from("not_identifiable")), "{}", doc["reason"]);
+    assert!(doc["path"].is_null() && !std::path::Path::new(&out).exists());
+    let unseen = doc["calibration"]["observability"]["unobservable"].as_array().unwrap();
+    assert!(unseen.len() >= 18, "three a leg, and what such short ways do not tell apart: {unseen:?}");
+    let names = |change: &Value| -> Vec<String> {
+        let joints = change["joints"].as_array().unwrap().iter();
+        joints.map(|j| j["joint"].as_str().unwrap().to_owned()).collect()
+    };
+    let together = |change: &&Value| matches!(&names(change)[..], [a, b] if a[1..] == b[1..] && a != b);
+    assert!(unseen.iter().filter(together).count() >= 12, "{unseen:?}");
+
+    // a wrong measurement refutes the model, unless the loss takes it for possible
+    let mut wrong = rows.clone();
+    wrong[12][0] = format!("{}", wrong[12][0].parse::<f64>().unwrap() + 0.7);
+    let file = write(&folder, "wrong.csv", &wrong);
+    let (code, doc) = asked(&[&[DESIGN, &file], SIGMAS.as_slice()].concat());
+    assert_eq!((code, &doc["outcome"]), (Some(1), &Value::from("refuted")));
+    let (code, doc) = asked(&[&[DESIGN, &file, "--loss", "tukey"], SIGMAS.as_slice()].concat());
+    assert_eq!((code, &doc["outcome"]), (Some(0), &Value::from("calibrated")), "{}", doc["reason"]);
+    let outliers = doc["calibration"]["outliers"].as_array().unwrap();
+    assert_eq!((outliers.len(), outliers[0]["line"].as_u64()), (1, Some(13)));
+
+    // as many numbers as unknowns: nothing speaks for or against
+    let seven = write(&folder, "seven.csv", &rows[..8]);
+    let (code, doc) = asked(&[DESIGN, &seven, "--identified", "10"]);
+    assert_eq!((code, &doc["outcome"]), (Some(3), &Value::from("undecided")), "{}", doc["reason"]);
+    assert_eq!(doc["calibration"]["noise"]["source"], "assumed");
+
+    // a part of the measurements checks the rest
+    let (first, rest) = (write(&folder, "first.csv", &rows[..46]), [&rows[..1], &rows[46..]].concat());
+    let rest = write(&folder, "rest.csv", &rest);
+    let (code, doc) = asked(&[&[DESIGN, &first, "--check", &rest], SIGMAS.as_slice()].concat());
+    assert_eq!(code, Some(0));
+    let check = &doc["calibration"]["check"];
+    assert_eq!(check["count"], 90);
+    assert!(number(&check["rms"]) < 0.06, "{check}");
+}
+
+#[test]
+fn poses_are_planned_before_anything_is_measured() {
+    let (code, doc) = asked(&[DESIGN, "--sigma-length", "0.005", "--next", "12", "--candidates", "60"]);
+    assert_eq!((code, &doc["outcome"]), (Some(0), &Value::from("planned")));
+    let deviations: Vec<f64> =
+        doc["next_poses"].as_array().unwrap().iter().map(|n| number(&n["greatest_deviation"])).collect();
+    assert!(deviations.len() == 12 && deviations[11] < 0.2 * deviations[0], "{deviations:?}");
+    let out = equipod(&["calibrate", DESIGN, "--next", "3"]);
+    let text = String::from_utf8(out.stdout).unwrap();
+    assert!(text.contains("poses to measure first") && text.lines().count() == 6, "{text}");
+}
+
+#[test]
+fn what_is_no_question_is_refused_with_a_code() {
+    let folder = tempfile::tempdir().unwrap();
+    let short =
+        write(&folder, "short.csv", &[vec!["1,2,3,4,5,6,7".into()], vec!["1,2,3,0,0,0,1,2,3,4,5,x".into()]]);
+    for (args, code) in [
+        (vec![DESIGN, &short], "calibrate::bad_measurements"),
+        (vec![DESIGN, "no-such.csv"], "file::not_readable"),
+        (vec![DESIGN, TABLE, "--sigma-length", "-1"], "calibrate::bad_noise"),
+        (vec![DESIGN, "--sigma-length", "0"], "calibrate::bad_noise"),
+        (vec![DESIGN, TABLE, "--identified", "0"], "calibrate::bad_share"),
+        (vec![DESIGN, TABLE, "--hold", "base,platform,offsets"], "calibrate::nothing_unknown"),
+        (vec![DESIGN, TABLE, "--loss-of", "leg"], "usage::no_effect"),
+        (vec![DESIGN, "--loss", "huber"], "usage::no_effect"),
+        (vec![DESIGN, TABLE, "-o", TABLE], "file::overwrites_input"),
+        (vec![DESIGN, TABLE, "-o", DESIGN], "file::overwrites_input"),
+    ] {
+        let (exit, doc) = asked(&args);
+        assert_eq!((exit, &doc["error"]["code"]), (Some(2), &Value::from(code)), "{args:?}: {doc}");
+    }
+    let (_, doc) = asked(&[DESIGN, &short]);
+    assert!(doc["error"]["message"].as_str().unwrap().contains("line 2: length 6, `x`"), "{doc}");
+}
+
+#[test]
+fn the_text_says_what_was_found() {
+    let out = equipod(&[&["calibrate", DESIGN, TABLE, "--loss", "huber"], SIGMAS.as_slice()].concat());
+    let text = String::from_utf8(out.stdout).unwrap();
+    for part in [
+        "symmetric hexapod: calibrated: all 42 unknowns are identified",
+        "noise (given): length 0.005 mm, position 0.01 mm, rotation 0.002 deg",
+        "the other start ends at the same machine",
+        "pose left out",
+        "chi-square",
+        "platform.B6",
+        "offset 6",
+        "observability: volume",
+        "poses to measure next",
+    ] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+}

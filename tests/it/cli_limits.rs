@@ -1,0 +1,93 @@
+//! `equipod limits`: free ranges, ways, nearest allowed poses.
+
+use serde_json::Value;
+
+use super::cli_frame::{document, equipod};
+
+const BENCH: &str = "designs/presets/bench-l16.toml";
+
+fn asked(args: &[&str]) -> (Option<i32>, Value) {
+    let out = equipod(&[&["limits"], args, &["--json"]].concat());
+    (out.status.code(), document(&out))
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+/// The six numbers of a pose, and its exit code of `limits`.
+fn allowed(pose: [f64; 6]) -> bool {
+    let text = pose.map(|x| x.to_string()).join(",");
+    let (code, doc) = asked(&[BENCH, "--at", &text]);
+    assert_eq!(doc["allowed"], Value::from(code == Some(0)), "{doc}");
+    code == Some(0)
+}
+
+#[test]
+fn every_axis_has_its_range_and_what_ends_it() {
+    let (code, doc) = asked(&[BENCH]);
+    assert_eq!((code, &doc["allowed"]), (Some(0), &Value::from(true)), "{doc}");
+    let axes = doc["axes"].as_array().unwrap();
+    let names: Vec<&str> = axes.iter().map(|a| a["axis"].as_str().unwrap()).collect();
+    assert_eq!(names, ["x", "y", "z", "roll", "pitch", "yaw"]);
+    for (k, axis) in axes.iter().enumerate() {
+        assert_eq!(axis["unit"], if k < 3 { "mm" } else { "deg" });
+        for (way, sign) in [("back", -1.0), ("forth", 1.0)] {
+            let travel = &axis[way];
+            let free = number(&travel["free"]);
+            assert!(free > 0.0 && !travel["binds"].is_null(), "{axis}");
+            assert!((number(&axis["value"]) + sign * free - number(&travel["value"])).abs() < 1e-9);
+            let legs = travel["binds"]["legs"].as_array().unwrap();
+            assert!(travel["binds"]["name"].is_null() || !legs.is_empty(), "{travel}");
+            // inside is allowed, beyond is not
+            let mut pose = [0.0, 0.0, 210.0, 0.0, 0.0, 0.0];
+            for (share, meant) in [(1.0 - 1e-6, true), (1.0 + 1e-6, false)] {
+                pose[k] = number(&axis["value"]) + sign * free * share;
+                assert_eq!(allowed(pose), meant, "{names:?} {k} {way}");
+            }
+        }
+    }
+    let text = String::from_utf8(equipod(&["limits", BENCH]).stdout).unwrap();
+    assert!(text.contains("yaw") && text.contains("leg_too_long (leg"), "{text}");
+}
+
+#[test]
+fn a_pose_that_is_not_allowed_has_a_nearest_one_that_is() {
+    let (code, doc) = asked(&[BENCH, "--at", "0,0,900,0,0,0"]);
+    assert_eq!((code, &doc["allowed"]), (Some(1), &Value::from(false)));
+    assert_eq!(doc["violated"][0]["name"], "leg_too_long");
+    assert!(doc["axes"].as_array().unwrap().is_empty());
+    let near = &doc["nearest_allowed"];
+    assert_eq!(near["stationary"], true, "{near}");
+    let numbers = |v: &Value| -> Vec<f64> { v.as_array().unwrap().iter().map(number).collect() };
+    let pose: Vec<f64> = [numbers(&near["position"]), numbers(&near["rpy_deg"])].concat();
+    let text: Vec<String> = pose.iter().map(f64::to_string).collect();
+    let (code, again) = asked(&[BENCH, &format!("--at={}", text.join(","))]);
+    // written as angles the pose is off by rounding: what is violated is so by no more
+    let least =
+        again["violated"].as_array().unwrap().iter().map(|v| number(&v["margin"])).fold(0.0, f64::min);
+    assert!(code == Some(0) || least > -1e-9, "{again}");
+    // straight up the height of the design ends the way
+    let (_, home) = asked(&[BENCH]);
+    let highest = number(&home["axes"][2]["forth"]["value"]);
+    assert!(number(&near["distance"]) <= 900.0 - highest + 1e-6);
+    let text = String::from_utf8(equipod(&["limits", BENCH, "--at", "0,0,900,0,0,0"]).stdout).unwrap();
+    assert!(text.contains("may not be at") && text.contains("nearest allowed pose, locally"), "{text}");
+}
+
+#[test]
+fn the_straight_way_to_another_pose_ends_where_something_binds() {
+    let (code, doc) = asked(&[BENCH, "--at", "0,0,215,3,0,0", "--to", "10,0,212,0,0,0"]);
+    assert_eq!((code, number(&doc["way"]["free"])), (Some(0), 1.0), "{doc}");
+    assert!(doc["way"]["binds"].is_null() && doc["nearest_allowed"].is_null());
+    let (code, doc) = asked(&[BENCH, "--to", "0,0,400,0,0,0"]);
+    assert_eq!((code, &doc["allowed"]), (Some(1), &Value::from(true)));
+    let (_, home) = asked(&[BENCH]);
+    let up = number(&home["axes"][2]["forth"]["free"]);
+    assert!((number(&doc["way"]["free"]) - up / 190.0).abs() < 1e-8);
+    assert_eq!(doc["way"]["binds"]["name"], home["axes"][2]["forth"]["binds"]["name"]);
+    let (code, doc) = asked(&[BENCH, "--at", "1,2"]);
+    assert_eq!((code, &doc["error"]["code"]), (Some(2), &Value::from("limits::bad_pose")));
+    let (code, doc) = asked(&[BENCH, "--starts", "3"]);
+    assert_eq!((code, &doc["error"]["code"]), (Some(2), &Value::from("usage::no_effect")));
+}
