@@ -338,6 +338,14 @@ pub(crate) fn not_written(shown: &str, error: &std::io::Error) -> Failure {
 /// The beginning and the end of the name under which a file is written before it gets its own.
 const PART: (&str, &str) = (".", ".part");
 
+/// The name under which a file is written.
+pub(crate) fn beside(path: &Path) -> PathBuf {
+    let mut name = OsString::from(PART.0);
+    name.push(path.file_name().unwrap_or_default());
+    name.push(format!(".{}{}", std::process::id(), PART.1));
+    path.with_file_name(name)
+}
+
 /// Whether `name` is a file that an interrupted run left beside the file `of`.
 pub(crate) fn is_part(name: &OsStr, of: &str) -> bool {
     let name = name.to_string_lossy();
@@ -370,10 +378,7 @@ pub(crate) fn write_text(path: &Path, text: &str) -> Result<(), Failure> {
     check_target(path, text)?;
     // the file a link points to is replaced, not the link
     let target = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
-    let mut name = OsString::from(PART.0);
-    name.push(target.file_name().unwrap_or_default());
-    name.push(format!(".{}{}", std::process::id(), PART.1));
-    let part = target.with_file_name(name);
+    let part = beside(&target);
     let write = || {
         let mut file = OpenOptions::new().write(true).create_new(true).open(&part)?;
         let done = file.write_all(text.as_bytes()).and_then(|()| {

@@ -47,6 +47,15 @@ pub(crate) enum ShardState {
     Damaged(String),
 }
 
+/// How much of a part is looked at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum PartLook {
+    /// All of it: its digest is that of the manifest.
+    Whole,
+    /// Its size, which shows what was cut off. For the parts of other jobs, because with as many jobs as shards a look at all by each is a square.
+    Size,
+}
+
 fn json(value: &impl Serialize) -> Result<String, Failure> {
     let text = serde_json::to_string_pretty(value).map_err(|e| Failure::internal(e.to_string()))?;
     Ok(text + "\n")
@@ -55,12 +64,6 @@ fn json(value: &impl Serialize) -> Result<String, Failure> {
 /// Reads a small JSON file; `None` where there is none, or another one.
 fn read_json<T: DeserializeOwned>(path: &Path) -> Option<T> {
     serde_json::from_slice(&fs::read(path).ok()?).ok()
-}
-
-/// The name under which a file is written before it has its own.
-fn beside(path: &Path) -> PathBuf {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    path.with_file_name(format!(".{name}.{}.part", std::process::id()))
 }
 
 fn failed(path: &Path) -> impl Fn(std::io::Error) -> Failure + '_ {
@@ -88,7 +91,7 @@ pub(crate) fn write_whole<T>(
     path: &Path,
     write: impl FnOnce(BufWriter<File>) -> Result<Option<(BufWriter<File>, T)>, Failure>,
 ) -> Result<Option<T>, Failure> {
-    let part = beside(path);
+    let part = files::beside(path);
     let done = (|| {
         let file = File::create(&part).map_err(failed(path))?;
         let Some((mut writer, value)) = write(BufWriter::with_capacity(1 << 16, file))? else {
@@ -233,8 +236,8 @@ impl SweepFolder {
         notes
     }
 
-    /// What is known of a shard: its part is read from beginning to end.
-    pub(crate) fn state(&self, shard: u64) -> ShardState {
+    /// What is known of a shard.
+    pub(crate) fn state(&self, shard: u64, look: PartLook) -> ShardState {
         let (part, manifest) = (self.part(shard), self.manifest(shard));
         if !manifest.exists() {
             return ShardState::Missing;
@@ -248,13 +251,19 @@ impl SweepFolder {
         {
             return ShardState::Damaged("the manifest is of another sweep".into());
         }
-        match File::open(&part).and_then(digest_of) {
+        let seen = match look {
+            PartLook::Whole => {
+                File::open(&part).and_then(digest_of).map(|(bytes, sha256)| (bytes, Some(sha256)))
+            }
+            PartLook::Size => fs::metadata(&part).map(|m| (m.len(), None)),
+        };
+        match seen {
             Err(error) if error.kind() == ErrorKind::NotFound => ShardState::Missing,
             Err(error) => ShardState::Damaged(format!("the part cannot be read: {error}")),
             Ok((bytes, _)) if bytes != record.bytes => {
                 ShardState::Damaged(format!("the part has {bytes} bytes instead of {}", record.bytes))
             }
-            Ok((_, sha256)) if sha256 != record.sha256 => {
+            Ok((_, Some(sha256))) if sha256 != record.sha256 => {
                 ShardState::Damaged("the part has another digest".into())
             }
             Ok(_) => ShardState::Done(Box::new(record)),
@@ -332,13 +341,22 @@ impl SweepFolder {
         Ok(Some(record))
     }
 
-    /// What is done and what is missing, after `computed` were computed.
-    pub(crate) fn status(&self, computed: Vec<u64>) -> SweepStatusAnswer {
+    /// What is done and what is missing, with every part read.
+    pub(crate) fn status(&self) -> SweepStatusAnswer {
+        self.status_after(Vec::new(), |shard| self.state(shard, PartLook::Whole))
+    }
+
+    /// What is done and what is missing, by `state`, after `computed` were computed.
+    pub(crate) fn status_after(
+        &self,
+        computed: Vec<u64>,
+        mut state: impl FnMut(u64) -> ShardState,
+    ) -> SweepStatusAnswer {
         let r = &self.record;
         let (mut done, mut missing, mut damaged, mut rows, mut failed) =
             (Vec::new(), Vec::new(), Vec::new(), 0, 0);
         for shard in 0..r.shards {
-            match self.state(shard) {
+            match state(shard) {
                 ShardState::Done(manifest) => {
                     rows += manifest.rows;
                     failed += manifest.failed;

@@ -8,7 +8,7 @@ use super::scp::HistoryStep;
 use super::search::RefinedRun;
 use super::terms::LegLines;
 use crate::geom::Pose;
-use crate::manipulator::{Manipulator, inverse_condition, jacobian};
+use crate::manipulator::{Body, Manipulator, inverse_condition, jacobian};
 use crate::num::Purpose;
 use crate::num::conic::SolverFailure;
 use crate::num::linalg::svd;
@@ -238,7 +238,10 @@ fn value(p: &DimensionalProblem, m: &Manipulator, (poses, apart): (&[Pose], usiz
             });
             -worst.fold(0.0, f64::max)
         }),
-        Objective::JointSpacing => spacing(m),
+        Objective::JointSpacing => {
+            let nearest = Body::BOTH.map(|body| m.nearest_joints(body).map_or(f64::INFINITY, |n| n.0));
+            nearest[0].min(nearest[1])
+        }
         Objective::LegClearance => {
             let hardware = Hardware { leg_body: p.requirements.hardware.leg_body, ..Hardware::default() };
             let alone = Requirements { hardware, ..Requirements::default() };
@@ -258,20 +261,6 @@ fn value(p: &DimensionalProblem, m: &Manipulator, (poses, apart): (&[Pose], usiz
             svd(&rows).map_or(f64::NAN, |d| d.s[5])
         }
     }
-}
-
-/// Least distance of two joint centres of a body that carry legs.
-fn spacing(m: &Manipulator) -> f64 {
-    let mut least = f64::INFINITY;
-    let bodies = [(m.base_joints(), m.pairs().map(|p| p.0)), (m.platform_joints(), m.pairs().map(|p| p.1))];
-    for (joints, used) in bodies {
-        for (k, i) in used.iter().enumerate() {
-            for j in used[..k].iter().filter(|j| *j != i) {
-                least = least.min((joints[*i] - joints[*j]).norm());
-            }
-        }
-    }
-    least
 }
 
 /// Directions within this angle cosine count as inside; about 1e-7 degrees at 45 degrees.

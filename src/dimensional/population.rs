@@ -33,13 +33,17 @@ impl Worth {
 
     /// Whether values and violations agree, relatively.
     pub(crate) fn is_close(&self, other: &Self, within: f64) -> bool {
-        let same = |a: f64, b: f64| (a - b).abs() <= within * a.abs().max(b.abs());
-        same(self.gain, other.gain) && same(self.violation, other.violation)
+        is_close(self.gain, other.gain, within) && is_close(self.violation, other.violation, within)
     }
 
     pub(crate) fn order(&self, other: &Self) -> std::cmp::Ordering {
         self.violation.total_cmp(&other.violation).then(other.gain.total_cmp(&self.gain))
     }
+}
+
+/// Whether two numbers agree, relatively.
+pub(crate) fn is_close(a: f64, b: f64, within: f64) -> bool {
+    (a - b).abs() <= within * a.abs().max(b.abs())
 }
 
 /// A member of a population.

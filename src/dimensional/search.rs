@@ -7,7 +7,7 @@ use super::model::{Model, Task};
 use super::outcome::{
     ConstraintConflict, Demand, DimensionalOutcome, DimensionalReport, DimensionalSolution, outcome, solution,
 };
-use super::population::{Judge, Worth, evolve, offspring};
+use super::population::{Judge, Worth, evolve, is_close, offspring};
 use super::problem::{DimensionalProblem, InvalidProblem, Mode};
 use super::scp::{PENALTY, ShapeEffort, ShapeRun, climb};
 use super::terms::HeldPose;
@@ -507,8 +507,7 @@ fn concluded(
 fn other_optima<'r>(model: &Model<'_>, task: &Task, refined: &'r [RefinedRun]) -> Vec<&'r RefinedRun> {
     let gain = |r: &RefinedRun| r.run.judged.gain(task);
     let is_one = |a: &RefinedRun, b: &RefinedRun| {
-        (gain(a) - gain(b)).abs() <= DISTINCT_GAINS * gain(a).abs().max(gain(b).abs())
-            || are_near(&a.run.x, &b.run.x, DISTINCT_STARTS)
+        is_close(gain(a), gain(b), DISTINCT_GAINS) || are_near(&a.run.x, &b.run.x, DISTINCT_STARTS)
     };
     let mut kept: Vec<&RefinedRun> = refined.iter().take(1).collect();
     for run in refined.iter().skip(1).filter(|r| r.run.is_feasible(model)) {

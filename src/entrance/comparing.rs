@@ -10,7 +10,7 @@ use crate::geom::Pose;
 use crate::manipulator::{Body, inverse_condition, jacobian};
 use crate::manufacture::{ErrorBound, PoseSearch, ToleranceError, joint_allowance};
 use crate::num::Purpose;
-use crate::requirements::{TermKind, Terms, leg_forces};
+use crate::requirements::{Terms, leg_forces};
 
 /// Steps between two poses of a trajectory.
 const STEPS: usize = 10;
@@ -104,11 +104,6 @@ impl Design {
             options.motions.iter().map(|motion| self.along(motion, options.masses)).collect();
         let required = self.requirements();
         let terms = Terms::new(m, &required, &home);
-        let clearance = required.hardware.leg_clearance.unwrap_or(0.0);
-        let gap = |pose: &Pose| {
-            let gaps = terms.at(pose).into_iter().filter(|(t, _)| t.kind == TermKind::LegClearance);
-            gaps.map(|(_, margin)| margin + clearance).reduce(f64::min)
-        };
         let characteristic = self.characteristic_length();
         let conditioning = |pose: &Pose| Some(inverse_condition(&jacobian(m, pose, characteristic)));
         let stiffness = self.hardware.leg_stiffness;
@@ -128,8 +123,8 @@ impl Design {
             conditioning: least(&conditioning).unwrap_or(f64::NAN),
             stiffness: least(&softest),
             frequency: least(&lowest),
-            spacing: Body::BOTH.map(|body| self.least_spacing(body)),
-            clearance: least(&gap),
+            spacing: Body::BOTH.map(|body| m.nearest_joints(body).map(|n| n.0)),
+            clearance: least(&|pose| terms.least_leg_gap(pose)),
             radius: Body::BOTH.map(|body| self.radius(body)),
             allowance: options.accuracy.map(|bound| {
                 let search = PoseSearch {
@@ -167,22 +162,9 @@ impl Design {
     }
 
     /// Joints of a body that carry legs.
-    fn used_joints(&self, body: Body) -> Vec<Point3<f64>> {
-        let m = self.manipulator();
-        let used = m.pairs().map(|pair| body.of(pair));
-        let joints = m.joints(body).iter().enumerate();
-        joints.filter(|(i, _)| used.contains(i)).map(|(_, p)| *p).collect()
-    }
-
-    fn least_spacing(&self, body: Body) -> Option<f64> {
-        let joints = self.used_joints(body);
-        let pairs =
-            joints.iter().enumerate().flat_map(|(i, a)| joints[i + 1..].iter().map(move |b| (b - a).norm()));
-        pairs.reduce(f64::min)
-    }
-
     fn radius(&self, body: Body) -> f64 {
-        let joints = self.used_joints(body);
+        let m = self.manipulator();
+        let joints: Vec<Point3<f64>> = m.used_joints(body).iter().map(|&i| m.joints(body)[i]).collect();
         let centroid = joints.iter().map(|p| p.coords).sum::<Vector3<f64>>() / joints.len() as f64;
         joints.iter().map(|p| (p.coords - centroid).norm()).fold(0.0, f64::max)
     }

@@ -14,8 +14,6 @@ const SINGULAR: f64 = 1e4;
 const RADIUS: f64 = 1e-5;
 /// Distances from the centre of a cluster at which Newton's method is started.
 const STARTS: [f64; 2] = [1e-6, 1e-4];
-/// The same for a double root that shares its cluster with others: their mean is where the equations bend neither way, and tells nothing of the side.
-const DOUBLE_STARTS: [f64; 4] = [1e-6, 1e-5, 1e-4, 1e-3];
 
 /// Candidates sorted into those that stand alone and those proved to be close but distinct.
 pub(super) struct Separated {
@@ -25,8 +23,8 @@ pub(super) struct Separated {
 
 /// Takes clusters of nearly singular candidates apart.
 ///
-/// A cluster of `k` ends with `k` certified distinct roots in it becomes these roots. One of more than two ends with `k - 2` of these and a place where two roots
-/// are proved together becomes these and a double root there. One without any certified root becomes a root of multiplicity `k`. Anything else stays as it is, so that the coincidence is reported.
+/// A cluster of `k` ends with `k` certified distinct roots in it becomes these roots. One without any certified
+/// root becomes a root of multiplicity `k`. Anything else stays as it is, so that the coincidence is reported.
 pub(super) fn separate(m: &Manipulator, s: &SquaredLegLengths, candidates: Vec<PoseCandidate>) -> Separated {
     let size = m.size();
     let (close, mut plain): (Vec<_>, Vec<_>) =
@@ -63,14 +61,6 @@ fn resolve(
     if found.len() == members.len() {
         let roots = members.iter().zip(found);
         proved.extend(roots.map(|(c, (pose, proof))| (PoseCandidate { pose, singular: false, ..*c }, proof)));
-        return;
-    }
-    let one_pair = members.len() > 2 && found.len() + 2 == members.len();
-    if let Some(double) = if one_pair { double_near(m, s, &centre, &found) } else { None } {
-        let (alone, pair) = members.split_at(found.len());
-        let roots = alone.iter().zip(found);
-        proved.extend(roots.map(|(c, (pose, proof))| (PoseCandidate { pose, singular: false, ..*c }, proof)));
-        plain.extend(pair.iter().map(|c| PoseCandidate { pose: double, singular: true, ..*c }));
     } else if found.is_empty() {
         plain.extend(members.iter().map(|c| PoseCandidate { pose: centre, singular: true, ..*c }));
     } else {
@@ -85,23 +75,6 @@ fn mean(members: &[PoseCandidate]) -> ComplexPose {
     out.rotation = members.iter().map(|c| c.pose.rotation * weight).sum();
     out.position = members.iter().map(|c| c.pose.position * weight).sum();
     out
-}
-
-/// The middle of two roots that are proved together near the centre of a cluster, apart from those of `known`.
-fn double_near(
-    m: &Manipulator,
-    s: &SquaredLegLengths,
-    centre: &ComplexPose,
-    known: &[(ComplexPose, Certificate)],
-) -> Option<ComplexPose> {
-    let certifier = Certifier::new(m, s).ok()?;
-    let starts = DOUBLE_STARTS.iter().flat_map(|distance| beside(m, s, centre, *distance));
-    let mut pairs = starts.filter_map(|start| certifier.two_roots_near(&start).ok());
-    let (pose, _) = pairs.find(|(pose, pair)| {
-        let near = pose.distance(centre, m.size()) <= 1e3 * RADIUS;
-        near && known.iter().all(|(_, c)| c.enclosure().is_disjoint(pair.enclosure()))
-    })?;
-    Some(pose)
 }
 
 /// Certified, pairwise distinct roots near the cluster, at most as many as it has members.

@@ -235,6 +235,29 @@ impl Manipulator {
         body.of((&self.base, &self.platform))
     }
 
+    /// Indices of the joints of `body` that carry legs, ascending.
+    #[must_use]
+    pub fn used_joints(&self, body: Body) -> Vec<usize> {
+        let used = self.legs.map(|pair| body.of(pair));
+        (0..self.joints(body).len()).filter(|i| used.contains(i)).collect()
+    }
+
+    /// The least distance of two joints of `body` that carry legs, with the indices of the first two that have it; `None` where one joint carries all legs.
+    #[must_use]
+    pub fn nearest_joints(&self, body: Body) -> Option<(f64, [usize; 2])> {
+        let (used, joints) = (self.used_joints(body), self.joints(body));
+        let mut nearest: Option<(f64, [usize; 2])> = None;
+        for (k, &j) in used.iter().enumerate() {
+            for &i in &used[..k] {
+                let distance = (joints[j] - joints[i]).norm();
+                if nearest.is_none_or(|(least, _)| distance < least) {
+                    nearest = Some((distance, [i, j]));
+                }
+            }
+        }
+        nearest
+    }
+
     /// Base joints, base frame.
     #[must_use]
     pub fn base_joints(&self) -> &[Point3<f64>] {

@@ -6,6 +6,8 @@
 
 mod body;
 mod exact_legs;
+#[cfg(test)]
+pub(crate) mod fixtures;
 mod home;
 mod jacobian;
 mod leg;

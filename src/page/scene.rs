@@ -9,7 +9,7 @@ use super::request::Refusal;
 use super::session::{Equivalent, Session};
 use crate::design::Design;
 use crate::geom::Pose;
-use crate::manipulator::{SquaredLegLengths, inverse_condition, jacobian};
+use crate::manipulator::{Body, Manipulator, SquaredLegLengths, inverse_condition, jacobian};
 use crate::records::{MarginRecord, PoseRecord};
 use crate::requirements::{Margin, Term, TermKind, Terms};
 use crate::synthesis::AffineLegMap;
@@ -125,8 +125,8 @@ fn platform(
         inverse_condition: Session::inverse_condition(design, at),
         sign: sign(&jacobian(m, at, design.characteristic_length())),
         spacing: BodySpacings {
-            base: spacing(design.base_names(), m.base_joints(), &pairs.map(|p| p.0)),
-            platform: spacing(design.platform_names(), m.platform_joints(), &pairs.map(|p| p.1)),
+            base: spacing(m, Body::Base, design.base_names()),
+            platform: spacing(m, Body::Platform, design.platform_names()),
         },
         margins: if required { margins(session, design, at) } else { Vec::new() },
     }
@@ -141,19 +141,9 @@ pub(super) fn sign(j: &Matrix6<f64>) -> i8 {
     }
 }
 
-fn spacing(names: &[String], joints: &[Point3<f64>], used: &[usize; 6]) -> Option<SpacingRecord> {
-    let mut least: Option<(f64, usize, usize)> = None;
-    for i in 0..joints.len() {
-        for j in 0..i {
-            let distance = (joints[i] - joints[j]).norm();
-            let both = used.contains(&i) && used.contains(&j);
-            if both && least.is_none_or(|l| distance < l.0) {
-                least = Some((distance, j, i));
-            }
-        }
-    }
-    let names = |i: usize, j: usize| [names[i].clone(), names[j].clone()];
-    least.map(|(distance, i, j)| SpacingRecord { distance, joints: names(i, j) })
+fn spacing(m: &Manipulator, body: Body, names: &[String]) -> Option<SpacingRecord> {
+    let (distance, nearest) = m.nearest_joints(body)?;
+    Some(SpacingRecord { distance, joints: nearest.map(|i| names[i].clone()) })
 }
 
 /// The least margin of every kind of requirement at the pose.

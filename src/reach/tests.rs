@@ -4,26 +4,13 @@ use nalgebra::{Point3, Rotation3, Unit, Vector3, Vector6};
 
 use super::{NearestPoseOptions, PoseAxis, Reach, StraightWay};
 use crate::geom::Pose;
-use crate::manipulator::{Body, Leg, Manipulator, default_home};
+use crate::manipulator::fixtures::symmetric_hexapod;
+use crate::manipulator::{Body, Manipulator, default_home};
 use crate::num::Rng;
 use crate::requirements::{
     Hardware, JointAxes, KeepOut, KeepOutShape, LegBody, LengthLimits, Limit, Load, PlatformSpeed,
     Requirements, Swing, TermKind,
 };
-
-fn hexapod() -> Manipulator {
-    let at = |deg: f64, r: f64| {
-        let (s, c) = deg.to_radians().sin_cos();
-        Point3::new(r * c, r * s, 0.0)
-    };
-    let base = [-10.0, 10.0, 110.0, 130.0, 230.0, 250.0];
-    let platform = [-50.0, 50.0, 70.0, 170.0, 190.0, 290.0];
-    Manipulator::from_legs(std::array::from_fn(|i| Leg {
-        base: at(base[i], 2.0),
-        platform: at(platform[i], 1.0),
-    }))
-    .unwrap()
-}
 
 /// Everything a pose can violate.
 fn required(m: &Manipulator, home: &Pose) -> Requirements {
@@ -132,7 +119,7 @@ fn ends_of_ways(m: &Manipulator, required: &Requirements, home: &Pose) -> BTreeS
 
 #[test]
 fn the_free_part_of_a_way_is_that_of_a_fine_search() {
-    let m = hexapod();
+    let m = symmetric_hexapod(2.0, 1.0);
     let home = default_home(&m);
     let mut required = required(&m, &home);
     let mut kinds = ends_of_ways(&m, &required, &home);
@@ -151,7 +138,7 @@ fn the_free_part_of_a_way_is_that_of_a_fine_search() {
 
 #[test]
 fn ranges_of_lengths_alone_are_the_roots_of_the_quadratics() {
-    let m = hexapod();
+    let m = symmetric_hexapod(2.0, 1.0);
     let home = default_home(&m);
     let required = only_lengths(&m, &home, 0.2);
     let reach = Reach::new(&m, &required, &home, 1.0);
@@ -186,7 +173,7 @@ fn ranges_of_lengths_alone_are_the_roots_of_the_quadratics() {
 
 #[test]
 fn a_singular_pose_ends_a_way_where_nothing_else_does() {
-    let m = hexapod();
+    let m = symmetric_hexapod(2.0, 1.0);
     let home = default_home(&m);
     let nothing = Requirements::default();
     let reach = Reach::new(&m, &nothing, &home, 1.0);
@@ -199,7 +186,7 @@ fn a_singular_pose_ends_a_way_where_nothing_else_does() {
 
 #[test]
 fn a_way_from_a_limit_goes_inwards_and_not_outwards() {
-    let m = hexapod();
+    let m = symmetric_hexapod(2.0, 1.0);
     let home = default_home(&m);
     let required = required(&m, &home);
     let reach = Reach::new(&m, &required, &home, 1.0);
@@ -230,7 +217,7 @@ fn is_locally_nearest(reach: &Reach<'_>, asked: &Pose, found: &Pose, rng: &mut R
 
 #[test]
 fn the_nearest_pose_meets_the_limits_and_nothing_allowed_beside_it_is_nearer() {
-    let m = hexapod();
+    let m = symmetric_hexapod(2.0, 1.0);
     let home = default_home(&m);
     let mut rng = Rng::new(9);
     for required in [only_lengths(&m, &home, 0.2), required(&m, &home)] {
@@ -266,7 +253,7 @@ fn the_nearest_pose_meets_the_limits_and_nothing_allowed_beside_it_is_nearer() {
 
 #[test]
 fn along_the_axis_of_symmetry_the_nearest_pose_is_the_highest() {
-    let m = hexapod();
+    let m = symmetric_hexapod(2.0, 1.0);
     let home = default_home(&m);
     let required = only_lengths(&m, &home, 0.1);
     let reach = Reach::new(&m, &required, &home, 1.0);
@@ -288,7 +275,7 @@ fn along_the_axis_of_symmetry_the_nearest_pose_is_the_highest() {
 
 #[test]
 fn without_an_allowed_pose_there_is_none_nearest() {
-    let m = hexapod();
+    let m = symmetric_hexapod(2.0, 1.0);
     let home = default_home(&m);
     // a leg can have no length between these
     let hardware = Hardware { leg_length: Some(LengthLimits::Range(1e-9, 2e-9)), ..Hardware::default() };

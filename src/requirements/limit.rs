@@ -87,23 +87,10 @@ impl<'a> Limits<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::manipulator::{Leg, default_home};
+    use crate::manipulator::default_home;
+    use crate::manipulator::fixtures::symmetric_hexapod;
     use crate::requirements::{Hardware, LengthLimits};
-    use nalgebra::{Point3, Rotation3, Vector3};
-
-    fn hexapod() -> Manipulator {
-        let at = |deg: f64, r: f64| {
-            let (s, c) = deg.to_radians().sin_cos();
-            Point3::new(r * c, r * s, 0.0)
-        };
-        let base = [-10.0, 10.0, 110.0, 130.0, 230.0, 250.0];
-        let platform = [-50.0, 50.0, 70.0, 170.0, 190.0, 290.0];
-        Manipulator::from_legs(std::array::from_fn(|i| Leg {
-            base: at(base[i], 2.0),
-            platform: at(platform[i], 1.0),
-        }))
-        .unwrap()
-    }
+    use nalgebra::{Rotation3, Vector3};
 
     fn lifted(home: &Pose, z: f64) -> Pose {
         Pose { position: home.position + Vector3::z() * z, ..*home }
@@ -111,7 +98,7 @@ mod tests {
 
     #[test]
     fn the_worst_requirement_is_named_with_its_share() {
-        let m = hexapod();
+        let m = symmetric_hexapod(2.0, 1.0);
         let home = default_home(&m);
         let length = home.lengths(&m).unwrap().get()[0];
         let limits = LengthLimits::Range(0.8 * length, 1.2 * length);
@@ -131,7 +118,7 @@ mod tests {
 
     #[test]
     fn a_pose_beyond_a_singularity_is_out_of_the_workspace() {
-        let m = hexapod();
+        let m = symmetric_hexapod(2.0, 1.0);
         let home = default_home(&m);
         let nothing = Requirements::default();
         let limits = Limits::new(&m, &nothing, &home);

@@ -183,6 +183,15 @@ impl<'a> Terms<'a> {
         &self.axes
     }
 
+    /// The least gap at the pose of two legs that share no joint, which is the margin of their clearance and the clearance itself; `None` where the legs have
+    /// no diameter or every two share a joint.
+    #[must_use]
+    pub fn least_leg_gap(&self, pose: &Pose) -> Option<f64> {
+        let clearance = self.required.hardware.leg_clearance.unwrap_or(0.0);
+        let gaps = self.at(pose).into_iter().filter(|(term, _)| term.kind == TermKind::LegClearance);
+        gaps.map(|(_, margin)| margin + clearance).reduce(f64::min)
+    }
+
     /// Margins of the requirements that do not depend on the pose: positive where they are met.
     #[must_use]
     pub fn fixed(&self) -> Vec<(Term, f64)> {

@@ -8,7 +8,7 @@ use serde_json::Value;
 use super::candidate::{Ground, SweepCandidate};
 use super::climb::climb;
 use super::column::{ColumnKind, SweepCell, SweepColumn};
-use super::measure::{least_axis_distance, least_spacing, length_range, worst_conditioning};
+use super::measure::{least_axis_distance, length_range, worst_conditioning};
 use super::plan::{AnswerField, AnswerName, AxisValues, BasePlan, FreeQuantity, SweepPlan, SweepTask};
 use crate::entrance::{OptimizeEvidence, OptimizeOptions, Solver};
 use crate::fk::{FkOptions, FkRoot, Threads};
@@ -167,7 +167,9 @@ impl Sweep {
                 let j = jacobian(m, &c.ground.home, c.characteristic_length());
                 vec![SweepCell::Number(inverse_condition(&j))]
             }
-            SweepTask::Spacing => Body::BOTH.map(|body| SweepCell::number(least_spacing(m, body))).to_vec(),
+            SweepTask::Spacing => {
+                Body::BOTH.map(|body| SweepCell::number(m.nearest_joints(body).map(|n| n.0))).to_vec()
+            }
             SweepTask::Clearance => vec![SweepCell::number(self.clearance(c))],
             SweepTask::LengthRange => match length_range(&m.legs(), &c.ground.poses) {
                 Some(range) => range.map(SweepCell::Number).to_vec(),
@@ -239,12 +241,7 @@ impl Sweep {
         }
         let required = c.ground.design.requirements();
         let terms = Terms::new(m, &required, &c.ground.home);
-        let needed = required.hardware.leg_clearance.unwrap_or(0.0);
-        let margins = poses.iter().flat_map(|pose| terms.at(pose));
-        margins
-            .filter(|(t, _)| t.kind == TermKind::LegClearance)
-            .map(|(_, gap)| gap + needed)
-            .reduce(f64::min)
+        poses.iter().filter_map(|pose| terms.least_leg_gap(pose)).reduce(f64::min)
     }
 
     fn optimum(&self, c: &SweepCandidate<'_>) -> Result<Vec<SweepCell>, String> {

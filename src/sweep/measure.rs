@@ -3,7 +3,7 @@
 use nalgebra::{Matrix6, Point3};
 
 use crate::geom::{Pose, segment_distance};
-use crate::manipulator::{Body, Leg, Manipulator, inverse_condition, jacobian_of_legs};
+use crate::manipulator::{Leg, Manipulator, inverse_condition, jacobian_of_legs};
 
 /// What rounding may take from the bounds below, as a share: they are products of some tens of operations.
 const ROUNDING: f64 = 1e-9;
@@ -41,16 +41,6 @@ fn bound(j: &Matrix6<f64>) -> f64 {
     let Some(inverse) = j.try_inverse() else { return 0.0 };
     let bound = (1.0 - ROUNDING) / (j.norm() * inverse.norm());
     if bound.is_finite() { bound } else { 0.0 }
-}
-
-/// The least distance of two joints of a body that carry legs; `None` where there is one joint.
-pub(super) fn least_spacing(m: &Manipulator, body: Body) -> Option<f64> {
-    let mut used = m.pairs().map(|pair| body.of(pair)).to_vec();
-    used.sort_unstable();
-    used.dedup();
-    let joints = m.joints(body);
-    let pairs = used.iter().enumerate().flat_map(|(i, a)| used[i + 1..].iter().map(move |b| (*a, *b)));
-    pairs.map(|(a, b)| (joints[b] - joints[a]).norm()).reduce(f64::min)
 }
 
 /// The least distance over the poses of the axes of two legs that share no joint; `None` where every two share one.

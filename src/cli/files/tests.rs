@@ -42,8 +42,12 @@ fn needed(words: &[String], output: &str) -> Vec<&'static str> {
         }
         (["singular", "poses"], "csv" | "path_svg") => vec!["--path", "home"],
         (["export"], _) => vec!["--to", "csv"],
+        (["build", "tolerances"], "map") => vec!["--bound", "0.1,0.1"],
         (["build", "round"], _) => vec!["--grid", "0.5"],
         (["equivalents", "map"] | ["verify"], "output") => vec!["--align"],
+        (["sweep", "design"], _) => vec!["--candidate", "0"],
+        (["sweep", "script"], "output") => vec!["--folder", "parts"],
+        (["plot", "sweep"], _) => vec!["--columns", "conditioning,det_a"],
         (["plot", "locus"], _) => vec!["--leg", "1", "--from", "1", "--to", "2"],
         _ => vec![],
     }
@@ -52,7 +56,7 @@ fn needed(words: &[String], output: &str) -> Vec<&'static str> {
 /// Outputs of commands that read no file.
 const WITHOUT_INPUT: [&str; 4] = ["bench", "shell man", "design presets", "new"];
 /// Options with a path that is read.
-const READ: [&str; 3] = ["core", "points", "poses"];
+const READ: [&str; 4] = ["check", "core", "points", "poses"];
 
 #[test]
 fn no_command_writes_over_its_input() {

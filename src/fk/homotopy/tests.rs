@@ -251,37 +251,3 @@ fn simple_poses_and_a_proved_double_one_are_a_complete_answer() {
     }
     assert!(whole >= 8, "{whole}");
 }
-
-/// A pose at which the Jacobian of this design is exactly singular, with a third pose so near that all three paths seem to end in one point, where the equations bend neither way.
-#[test]
-fn a_double_pose_with_a_simple_one_beside_it_is_a_complete_answer() {
-    let base = [
-        [-0.125, -0.375, 1.03125],
-        [-2.78125, -1.875, 1.1875],
-        [0.96875, 1.6875, 0.53125],
-        [-4.59375, -5.0, 0.71875],
-        [0.78125, 0.5625, 1.84375],
-        [-1.5, 0.625, -4.5625],
-    ];
-    let platform = [
-        [-0.5, 0.25, -0.375],
-        [0.5, -0.5, -1.25],
-        [0.125, 1.375, -0.625],
-        [-2.25, -1.75, 1.5],
-        [1.25, 2.0, -0.875],
-        [-0.75, -1.375, 2.375],
-    ];
-    let leg = |i: usize| Leg { base: base[i].into(), platform: platform[i].into() };
-    let m = Manipulator::from_legs(std::array::from_fn(leg)).unwrap();
-    let turn = Matrix3::new(0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, -1.0);
-    let rotation = Rotation3::from_matrix_unchecked(turn);
-    let pose = Pose { rotation, position: Vector3::new(-0.125, 0.25, 0.5) };
-    let s = pose.squared_lengths(&m).unwrap();
-    let found = Homotopy.solve(&m, &s, &FkOptions::default().pose_count(PoseCounting::Never)).unwrap();
-    assert!(found.completeness.is_proved(), "{}", found.completeness);
-    let double: Vec<&FkRoot> = found.roots.iter().filter(|r| r.multiplicity == 2).collect();
-    assert_eq!((found.roots.len(), double.len(), found.certified_count()), (39, 1, 40));
-    assert!(double[0].pose.distance(&pose.into(), m.size()) < 1e-9);
-    let near = |r: &&FkRoot| r.pose.distance(&double[0].pose, m.size()) < 1e-2;
-    assert_eq!(found.roots.iter().filter(near).count(), 2, "the third pose is beside it");
-}

@@ -260,16 +260,6 @@ pub struct Judgement {
     pub met: bool,
 }
 
-fn least_distance(joints: &[Point3<f64>], used: &[usize; 6]) -> f64 {
-    let mut least = f64::INFINITY;
-    for i in 0..joints.len() {
-        for j in (0..i).filter(|j| used.contains(&i) && used.contains(j)) {
-            least = least.min((joints[i] - joints[j]).norm());
-        }
-    }
-    least
-}
-
 /// The worst inverse condition number when it is above `floor`, poses from number `hint` on first; `hint` becomes the number of the worst.
 fn objective_above(
     m: &Manipulator,
@@ -311,15 +301,12 @@ fn margins(m: &Manipulator, problem: &RoundingProblem<'_>) -> (Vec<(TermKind, f6
 fn judge(m: &Manipulator, problem: &RoundingProblem<'_>, det: Option<f64>) -> Judgement {
     let mut hint = 0;
     let objective = objective_above(m, problem, -1.0, &mut hint).unwrap_or(0.0);
-    let ((margins, requirements_met), pairs) = (margins(m, problem), m.pairs());
+    let (margins, requirements_met) = margins(m, problem);
     let det_met = problem.min_abs_det.is_none_or(|least| det.is_none_or(|det| det.abs() >= least));
     Judgement {
         objective,
         worst_pose: problem.poses[hint],
-        least_distances: [
-            least_distance(m.base_joints(), &pairs.map(|p| p.0)),
-            least_distance(m.platform_joints(), &pairs.map(|p| p.1)),
-        ],
+        least_distances: Body::BOTH.map(|body| m.nearest_joints(body).map_or(f64::INFINITY, |n| n.0)),
         det,
         met: det_met && requirements_met,
         margins,

@@ -1,21 +1,8 @@
 use super::*;
+use crate::manipulator::fixtures::symmetric_hexapod;
 use crate::manipulator::{Leg, default_home, plucker_matrix};
 use crate::num::Rng;
 use nalgebra::{Point3, Rotation3, Unit, Vector3};
-
-fn hexapod() -> Manipulator {
-    let ring = |radius: f64, degrees: f64, z: f64| {
-        let (s, c) = degrees.to_radians().sin_cos();
-        Point3::new(radius * c, radius * s, z)
-    };
-    let base = [-10.0, 10.0, 110.0, 130.0, 230.0, 250.0];
-    let platform = [-50.0, 50.0, 70.0, 170.0, 190.0, 290.0];
-    Manipulator::from_legs(std::array::from_fn(|i| Leg {
-        base: ring(200.0, base[i], 0.0),
-        platform: ring(120.0, platform[i], 0.0),
-    }))
-    .unwrap()
-}
 
 fn home(m: &Manipulator) -> Pose {
     let mut home = default_home(m);
@@ -57,7 +44,7 @@ fn poses_within(home: &Pose, o: &BoxOptions, scale: f64, count: usize, rng: &mut
 
 #[test]
 fn no_pose_of_the_proved_box_has_the_other_sign_and_the_segment_has_both() {
-    let m = hexapod();
+    let m = symmetric_hexapod(200.0, 120.0);
     let home = home(&m);
     let found = regular_box(&m, &home, &OPTIONS);
     let segment = found.refuted.unwrap();
@@ -76,7 +63,7 @@ fn no_pose_of_the_proved_box_has_the_other_sign_and_the_segment_has_both() {
 
 #[test]
 fn scale_of_the_design_and_moves_of_the_base_change_nothing() {
-    let m = hexapod();
+    let m = symmetric_hexapod(200.0, 120.0);
     let one = regular_box(&m, &home(&m), &OPTIONS);
     let larger =
         Manipulator::from_legs(m.legs().map(|l| Leg { base: l.base * 4.0, platform: l.platform * 4.0 }))
@@ -96,7 +83,7 @@ fn scale_of_the_design_and_moves_of_the_base_change_nothing() {
 #[test]
 fn a_singular_home_proves_nothing() {
     // similar hexagons on circles, parallel: architecturally singular
-    let m = hexapod();
+    let m = symmetric_hexapod(200.0, 120.0);
     let similar = Manipulator::from_legs(
         m.legs().map(|l| Leg { base: l.base, platform: Point3::from(l.base.coords * 0.5) }),
     )
@@ -214,7 +201,7 @@ fn a_workspace_is_judged_as_its_scale_is() {
 /// The half turn between two poses of a trajectory passes a singular pose that neither end shows.
 #[test]
 fn singular_poses_between_the_poses_of_a_trajectory_are_found() {
-    let m = hexapod();
+    let m = symmetric_hexapod(200.0, 120.0);
     let home = home(&m);
     let turned =
         |deg: f64| Pose { rotation: Rotation3::new(Vector3::z() * deg.to_radians()) * home.rotation, ..home };
@@ -227,7 +214,7 @@ fn singular_poses_between_the_poses_of_a_trajectory_are_found() {
 
 #[test]
 fn joints_known_between_bounds_leave_less_that_is_proved() {
-    let m = hexapod();
+    let m = symmetric_hexapod(200.0, 120.0);
     let home = home(&m);
     let options = BoxOptions { regions: 1000, ..OPTIONS };
     let proved = |m: &Manipulator| regular_box(m, &home, &options).proved;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 
 use crate::cli::failure::Failure;
-use crate::cli::sweep_folder::{ShardState, SweepFolder, open_table};
+use crate::cli::sweep_folder::{PartLook, ShardState, SweepFolder, open_table};
 use crate::plot::{SweptColumn, SweptFigure, swept_cloud, swept_field, swept_histogram, swept_parallel};
 use crate::sweep::part::PartReader;
 use crate::sweep::plan::KeepCondition;
@@ -67,7 +67,8 @@ fn tables(path: &Path) -> Result<(String, Vec<PartReader>), Failure> {
         return Ok((name, vec![reader]));
     }
     let folder = SweepFolder::open(path)?;
-    let done = (0..folder.record.shards).filter(|s| matches!(folder.state(*s), ShardState::Done(_)));
+    let done = (0..folder.record.shards)
+        .filter(|s| matches!(folder.state(*s, PartLook::Whole), ShardState::Done(_)));
     let readers = done.map(|s| folder.reader(s)).collect::<Result<Vec<_>, _>>()?;
     Ok((folder.record.name.clone(), readers))
 }

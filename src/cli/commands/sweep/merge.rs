@@ -6,7 +6,9 @@ use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
-use crate::cli::sweep_folder::{ShardState, SweepFolder, outside, part_failed, ranges, write_whole};
+use crate::cli::sweep_folder::{
+    PartLook, ShardState, SweepFolder, outside, part_failed, ranges, write_whole,
+};
 use crate::records::SweepMergeAnswer;
 use crate::sweep::Digested;
 use crate::sweep::part::{PartError, PartWriter};
@@ -35,7 +37,8 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         )
         .with_help("name a file"));
     }
-    let states: Vec<ShardState> = (0..folder.record.shards).map(|s| folder.state(s)).collect();
+    let states: Vec<ShardState> =
+        (0..folder.record.shards).map(|s| folder.state(s, PartLook::Whole)).collect();
     let is_done = |s: &ShardState| matches!(s, ShardState::Done(_));
     let numbers = |wanted: bool| {
         (0..).zip(&states).filter(|(_, s)| is_done(s) == wanted).map(|(k, _)| k).collect::<Vec<u64>>()
@@ -47,8 +50,8 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         return Err(Failure::new(Exit::No, "sweep::incomplete", message)
             .with_help("`equipod sweep run` computes them; --partial leaves them out"));
     }
-    let columns = folder.reader(done[0])?.columns;
-    let description = folder.reader(done[0])?.note("equipod.description");
+    let first = folder.reader(done[0])?;
+    let (description, columns) = (first.note("equipod.description"), first.columns);
     let wanted: Vec<usize> = (0..columns.len()).collect();
     let path = &args.output;
     let failed = |e: PartError| part_failed(path, &e);

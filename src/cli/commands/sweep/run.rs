@@ -2,6 +2,7 @@
 
 #![allow(clippy::cast_sign_loss, reason = "what is cast is a share of a number of things")]
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -14,7 +15,7 @@ use crate::cli::failure::Failure;
 use crate::cli::files::OutputPath;
 use crate::cli::output::Answer;
 use crate::cli::progress::{Interrupt, ProgressLine};
-use crate::cli::sweep_folder::{MOST_SHARDS, ShardState, SweepFolder, SweepTexts, default_shards};
+use crate::cli::sweep_folder::{MOST_SHARDS, PartLook, ShardState, SweepFolder, SweepTexts, default_shards};
 use crate::fk::Threads;
 use crate::num::{Cancel, Purpose};
 use crate::records::{SweepColumnRecord, SweepEstimateAnswer, SweepRunAnswer};
@@ -111,7 +112,11 @@ fn compute(
 ) -> Result<Answer, Failure> {
     let shards = folder.record.shards;
     let all = wanted.map_or(0..shards, |s| s..s + 1);
-    let open: Vec<u64> = all.clone().filter(|s| !matches!(folder.state(*s), ShardState::Done(_))).collect();
+    let mut known: BTreeMap<u64, ShardState> =
+        all.clone().map(|shard| (shard, folder.state(shard, PartLook::Whole))).collect();
+    let is_open =
+        |(shard, state): (&u64, &ShardState)| (!matches!(state, ShardState::Done(_))).then_some(*shard);
+    let open: Vec<u64> = known.iter().filter_map(is_open).collect();
     let range = |shard| shard_range(sweep.count(), shard, shards);
     let (mut progress, interrupt) = (ProgressLine::new(context.quiet()), Interrupt::watch());
     let total: u64 = open.iter().map(|s| range(*s).end - range(*s).start).sum();
@@ -138,18 +143,28 @@ fn compute(
         });
         let written = folder.write_part(sweep, shard, (range.start, range.end - range.start), rows);
         cancel.cancel();
-        let written = match written {
-            // another process has done the same shard meanwhile, and tidied up
-            Err(_) if matches!(folder.state(shard), ShardState::Done(_)) => continue,
-            other => other?,
+        let manifest = match written {
+            Ok(Some(manifest)) => manifest,
+            Ok(None) => {
+                interrupted = true;
+                known.remove(&shard);
+                break;
+            }
+            // another process may have done the same shard meanwhile, and tidied up
+            Err(error) => match folder.state(shard, PartLook::Whole) {
+                ShardState::Done(manifest) => {
+                    known.insert(shard, ShardState::Done(manifest));
+                    continue;
+                }
+                _ => return Err(error),
+            },
         };
-        if written.is_none() {
-            interrupted = true;
-            break;
-        }
+        known.insert(shard, ShardState::Done(Box::new(manifest)));
         computed.push(shard);
     }
-    let mut status = folder.status(computed);
+    let mut status = folder.status_after(computed, |shard| {
+        known.remove(&shard).unwrap_or_else(|| folder.state(shard, PartLook::Size))
+    });
     if status.missing.is_empty() {
         folder.tidy();
         status.unfinished.clear();

@@ -25,7 +25,7 @@ pub(crate) struct Args {
     slurm: bool,
     /// Folder of the parts, which all nodes see
     #[arg(long, value_name = "DIR")]
-    folder: PathBuf,
+    folder: OutputPath,
     /// Write the script; it goes to standard output when absent
     #[arg(short, long, value_name = "FILE")]
     output: Option<OutputPath>,

@@ -18,7 +18,7 @@ pub(crate) struct Args {
 
 /// Reads all parts.
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
-    let status = SweepFolder::open(&args.folder)?.status(Vec::new());
+    let status = SweepFolder::open(&args.folder)?.status();
     let exit = if status.missing.is_empty() { Exit::Yes } else { Exit::No };
     let text = text(&status);
     Ok(Answer::new(exit, status, text))

@@ -29,7 +29,7 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let folder = SweepFolder::open(&args.folder)?;
     let sweep = folder.sweep()?;
-    let status = folder.status(Vec::new());
+    let status = folder.status();
     let sampled = sample(&sweep, args.sample, context.seed());
     let mut different = Vec::new();
     let mut checked = Vec::new();
