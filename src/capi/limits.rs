@@ -4,7 +4,8 @@ use super::design::EqpDesign;
 use super::failure::{CallFault, EqpError, EqpStatus, read, told, write};
 use super::pose::EqpPose;
 use crate::entrance::Error;
-use crate::reach::{NearestPoseOptions, Travel};
+use crate::geom::Pose;
+use crate::reach::{NearestPoseOptions, Reach, Travel};
 
 /// How far one of the six numbers of a pose (x, y, z in design units; roll, pitch, yaw in degrees) may move while the others stay.
 #[repr(C)]
@@ -34,6 +35,20 @@ pub struct EqpNearest {
     pub straight_from_home: bool,
 }
 
+/// The requirements of a design about a pose of the caller, called `name` there.
+///
+/// # Safety
+/// `design` is null or a design, which lives as long as what is given back; `pose` is null or points to a pose.
+unsafe fn reach_and_pose<'a>(
+    design: *const EqpDesign,
+    pose: *const EqpPose,
+    name: &str,
+) -> Result<(Reach<'a>, Pose), CallFault> {
+    // SAFETY: the caller's promises.
+    let (design, pose) = unsafe { (read(design, "design")?, read(pose, name)?) };
+    Ok((design.design.reach(&design.required), pose.checked()?))
+}
+
 /// Whether a pose meets every requirement of the design, and `det J` has the sign that it has at home.
 ///
 /// # Safety
@@ -48,9 +63,8 @@ pub unsafe extern "C" fn eqp_allowed(
     // SAFETY: the caller's promises, here and in the body.
     unsafe {
         told(error, || {
-            let design = read(design, "design")?;
-            let pose = read(pose, "pose")?.checked()?;
-            *write(allowed, "allowed")? = design.design.reach(&design.required).allows(&pose);
+            let (reach, pose) = reach_and_pose(design, pose, "pose")?;
+            *write(allowed, "allowed")? = reach.allows(&pose);
             Ok(())
         })
     }
@@ -70,11 +84,10 @@ pub unsafe extern "C" fn eqp_free_ranges(
     // SAFETY: the caller's promises, here and in the body.
     unsafe {
         told(error, || {
-            let design = read(design, "design")?;
-            let pose = read(pose, "pose")?.checked()?;
-            let found = design.design.reach(&design.required).free_ranges(&pose);
-            let found =
-                found.ok_or_else(|| CallFault::new(EqpStatus::NoAllowedPose, "the pose is not allowed"))?;
+            let (reach, pose) = reach_and_pose(design, pose, "pose")?;
+            let found = reach
+                .free_ranges(&pose)
+                .ok_or_else(|| CallFault::new(EqpStatus::NoAllowedPose, "the pose is not allowed"))?;
             *write(ranges.cast::<[EqpFreeRange; 6]>(), "ranges")? = found.map(|range| {
                 let amount = |t: &Travel| if range.axis.is_turn() { t.amount.to_degrees() } else { t.amount };
                 EqpFreeRange {
@@ -104,10 +117,8 @@ pub unsafe extern "C" fn eqp_nearest_allowed(
     // SAFETY: the caller's promises, here and in the body.
     unsafe {
         told(error, || {
-            let design = read(design, "design")?;
-            let asked = read(asked, "asked")?.checked()?;
+            let (reach, asked) = reach_and_pose(design, asked, "asked")?;
             let options = NearestPoseOptions { seed, ..NearestPoseOptions::default() };
-            let reach = design.design.reach(&design.required);
             let found = reach.nearest(&asked, &options).ok_or(Error::NoAllowedPose)?;
             *write(nearest, "nearest")? = EqpNearest {
                 pose: (&found.pose).into(),

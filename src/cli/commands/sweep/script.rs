@@ -52,7 +52,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let seconds = each * sweep.count() as f64 / args.threads as f64;
     let shards = args.shards.unwrap_or_else(|| {
         let wanted = (seconds / (60.0 * args.minutes as f64)).ceil().clamp(1.0, MOST_SHARDS as f64);
-        (1..=MOST_SHARDS).find(|n| *n as f64 >= wanted).unwrap_or(1).min(sweep.count().max(1))
+        (wanted as u64).min(sweep.count().max(1))
     });
     let script =
         Script { args, seed, shards, minutes: seconds / 60.0 / shards as f64, name: &sweep.plan.name }
