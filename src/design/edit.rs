@@ -144,7 +144,7 @@ impl Design {
         joints[body][index] = point;
         let [base, platform] = joints;
         let moved = Manipulator::try_new(base, platform, m.pairs())?;
-        let mut constructions = self.constructions.clone();
+        let mut constructions = self.current_constructions();
         constructions.forget(Body::BOTH[body], index);
         let mut changed = self.clone();
         changed.manipulator = moved;

@@ -3,8 +3,8 @@
 use nalgebra::{Point3, Vector3};
 use thiserror::Error;
 
-use super::construction::RealPoint;
 use super::construction::resolve::{Fault, Joints};
+use super::construction::{RealPoint, WrittenHome};
 use super::{Constructions, DesignExactness, ExactJoint, Workspace, Written};
 use crate::geom::Pose;
 use crate::manipulator::Body;
@@ -288,8 +288,6 @@ impl Design {
         self.constructions.exact(body, body.of((m.base_joints(), m.platform_joints())))
     }
 
-    /// Files what is said of the joints beside three numbers each, and with it what they are where they are not the doubles.
-    ///
     /// The length that rotations are multiplied with where they are compared with translations, as in every inverse condition number of the Jacobian: that of `[optimize]`, else the RMS distance
     /// of the platform's leg ends from their centroid.
     #[must_use]
@@ -297,9 +295,24 @@ impl Design {
         self.optimize.characteristic_length.unwrap_or_else(|| self.manipulator.platform_rms_radius())
     }
 
-    /// The constructions have been resolved, and the coordinates of the manipulator follow from them.
+    /// What is said of the joints beside three numbers each and of home beside plain numbers, without a home that has been given another pose since.
+    pub(super) fn current_constructions(&self) -> Constructions {
+        let mut constructions = self.constructions.clone();
+        constructions.home = self.written_home().cloned();
+        constructions
+    }
+
+    /// The home pose as it was written, where an expression gives a number of it and no other pose has been given since.
+    pub(super) fn written_home(&self) -> Option<&WrittenHome> {
+        self.constructions.home.as_ref().filter(|written| self.home == Some(written.pose))
+    }
+
+    /// The constructions have been resolved: home follows from them, and so do the coordinates of the manipulator, which get what they are where they are not the doubles.
     pub(super) fn set_constructions(&mut self, constructions: Constructions) {
         self.constructions = constructions;
+        if let Some(home) = &self.constructions.home {
+            self.home = Some(home.pose);
+        }
         if !self.constructions.any_joint() {
             return; // the doubles as written
         }

@@ -4,7 +4,7 @@ use nalgebra::{Point3, Vector3};
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 
-use super::construction::Spelling;
+use super::construction::{Spelling, WrittenHome};
 use super::{
     CalibrationTable, Combination, Construction, Design, LinePlace, OptimizeTable, SearchTable, WrittenNumber,
 };
@@ -52,7 +52,7 @@ struct Head<'a> {
 #[derive(Serialize)]
 struct Tail<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
-    home: Option<PoseTable>,
+    home: Option<HomeTable<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     workspace: Option<WorkspaceTable>,
     #[serde(skip_serializing_if = "OptimizeFile::is_empty")]
@@ -201,6 +201,28 @@ struct PoseTable {
     rotation: [[f64; 3]; 3],
 }
 
+/// `[home]`: numbers, or what they were written as.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum HomeTable<'a> {
+    Numbers(PoseTable),
+    Angles { position: &'a [WrittenNumber; 3], rpy_deg: &'a [WrittenNumber; 3] },
+    Rows { position: &'a [WrittenNumber; 3], rotation: [[f64; 3]; 3] },
+}
+
+impl<'a> HomeTable<'a> {
+    fn of(design: &'a Design) -> Option<Self> {
+        let table = PoseTable::from(design.home.as_ref()?);
+        Some(match design.written_home() {
+            None => Self::Numbers(table),
+            Some(WrittenHome { position, rpy_deg: Some(rpy_deg), .. }) => Self::Angles { position, rpy_deg },
+            Some(WrittenHome { position, rpy_deg: None, .. }) => {
+                Self::Rows { position, rotation: table.rotation }
+            }
+        })
+    }
+}
+
 impl From<&Pose> for PoseTable {
     fn from(pose: &Pose) -> Self {
         let m = pose.rotation.matrix();
@@ -266,7 +288,7 @@ impl Design {
             legs: self.leg_names().map(|(a, b)| [a, b]),
         };
         let tail = Tail {
-            home: self.home.as_ref().map(PoseTable::from),
+            home: HomeTable::of(self),
             workspace: self.workspace_table(),
             optimize: OptimizeFile::of(&self.optimize, &self.search),
             hardware: HardwareTable::of(&self.hardware),

@@ -109,10 +109,14 @@ impl Design {
         let m = self.manipulator();
         let joints = |body: Body| m.joints(body).iter().map(|p| ratio.point(*p)).collect();
         let scaled = Manipulator::try_new(joints(Body::Base), joints(Body::Platform), m.pairs())?;
-        let mut constructions = self.constructions.clone();
+        let mut constructions = self.current_constructions();
         for made in constructions.joints.iter_mut().flatten().flatten() {
             scale_construction(made, ratio)?;
         }
+        for coordinate in constructions.home.iter_mut().flat_map(|home| &mut home.position) {
+            *coordinate = ratio.written(coordinate)?;
+        }
+        let home_is_written = constructions.home.is_some();
         let mut out = self.clone();
         out.units = units.trim().to_string();
         out.manipulator = scaled;
@@ -120,7 +124,8 @@ impl Design {
         if let Some(lengths) = self.lengths {
             out.lengths = Some(LegLengths::try_new(lengths.get().map(|l| ratio.of(l)))?);
         }
-        for pose in out.home.iter_mut().chain(&mut out.workspace.poses) {
+        let home = out.home.iter_mut().filter(|_| !home_is_written);
+        for pose in home.chain(&mut out.workspace.poses) {
             pose.position = ratio.vector(pose.position);
         }
         out.workspace.translation = ratio.vector(out.workspace.translation);

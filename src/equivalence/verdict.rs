@@ -280,7 +280,7 @@ fn deviation(v: &Verification) -> String {
     let worst = v.deviation_bounds.map(|bounds| bounds.into_iter().fold(0.0, f64::max));
     worst.map_or_else(String::new, |worst| {
         format!(
-            "; at all poses of the box of samples the squared lengths of B are within {worst:.1e} of A s + c"
+            "; A s + c is the squared lengths of B up to {worst:.1e} units squared, a bound at every pose of the box about home that the samples are from (the workspace, where the design has one)"
         )
     })
 }

@@ -54,15 +54,19 @@ impl BallCentre for f64 {
     const PRODUCT: f64 = U;
     const INVERSE: f64 = 2.0 * U;
 
+    #[inline]
     fn size(self) -> f64 {
         self.abs()
     }
+    #[inline]
     fn lower_modulus(self) -> f64 {
         self.abs()
     }
+    #[inline]
     fn inverse(self) -> Option<Self> {
         (self.abs() > TINY && self.is_finite()).then(|| self.recip())
     }
+    #[inline]
     fn scaled(self, power_of_two: f64) -> Self {
         self * power_of_two
     }
@@ -73,10 +77,12 @@ impl BallCentre for Complex64 {
     const PRODUCT: f64 = 3.0 * U;
     const INVERSE: f64 = 8.0 * U;
 
+    #[inline]
     fn size(self) -> f64 {
         self.re.abs() + self.im.abs()
     }
     /// The larger part when the squares could underflow, else the norm, less `2^-40` of it.
+    #[inline]
     fn lower_modulus(self) -> f64 {
         let square = self.norm_sqr();
         if square > TINY && square.is_finite() {
@@ -85,10 +91,12 @@ impl BallCentre for Complex64 {
             self.re.abs().max(self.im.abs()) * (2.0 - UP)
         }
     }
+    #[inline]
     fn inverse(self) -> Option<Self> {
         let square = self.norm_sqr();
         (square > TINY && square.is_finite()).then(|| self.conj() / square)
     }
+    #[inline]
     fn scaled(self, power_of_two: f64) -> Self {
         self * power_of_two
     }
@@ -99,17 +107,21 @@ impl BallCentre for ComplexDoubleDouble {
     const PRODUCT: f64 = 4.0 * DoubleDouble::UNIT;
     const INVERSE: f64 = 8.0 * DoubleDouble::UNIT;
 
+    #[inline]
     fn size(self) -> f64 {
         self.hi().size()
     }
+    #[inline]
     fn lower_modulus(self) -> f64 {
         self.hi().lower_modulus()
     }
+    #[inline]
     fn inverse(self) -> Option<Self> {
         let square = self.hi().norm_sqr();
         let n = self.norm_sqr();
         (square > TINY && square.is_finite()).then(|| Self { re: self.re / n, im: -self.im / n })
     }
+    #[inline]
     fn scaled(self, power_of_two: f64) -> Self {
         self.scaled(power_of_two)
     }
@@ -134,18 +146,21 @@ pub(crate) type WideDisc = Ball<ComplexDoubleDouble>;
 impl<C: BallCentre> Ball<C> {
     /// The single number `z`.
     #[must_use]
+    #[inline]
     pub fn point(z: C) -> Self {
         Self { centre: z, radius: 0.0 }
     }
 
     /// Upper bound of the moduli.
     #[must_use]
+    #[inline]
     pub fn magnitude(&self) -> f64 {
         (self.centre.size() + self.radius) * UP
     }
 
     /// Lower bound of the moduli, zero when the ball may hold zero.
     #[must_use]
+    #[inline]
     pub fn mignitude(&self) -> f64 {
         let low = self.centre.lower_modulus() - self.radius * UP;
         if low > 0.0 { low.next_down() } else { 0.0 }
@@ -153,6 +168,7 @@ impl<C: BallCentre> Ball<C> {
 
     /// Proves that no number is in both balls.
     #[must_use]
+    #[inline]
     pub fn is_disjoint(&self, other: &Self) -> bool {
         // the parts of the difference have relative errors far below 2^-40
         (self.centre - other.centre).lower_modulus() > (self.radius + other.radius) * UP
@@ -160,6 +176,7 @@ impl<C: BallCentre> Ball<C> {
 
     /// Encloses `1 / z`, `None` when the ball may hold zero: `|1/z - 1/c| = |z - c| / (|z| |c|)`.
     #[must_use]
+    #[inline]
     pub fn reciprocal(&self) -> Option<Self> {
         let low = self.mignitude();
         if !(low > TINY) {
@@ -172,6 +189,7 @@ impl<C: BallCentre> Ball<C> {
 
     /// Product with a power of two, exact barring overflow and underflow.
     #[must_use]
+    #[inline]
     pub fn scaled(&self, power_of_two: f64) -> Self {
         Self { centre: self.centre.scaled(power_of_two), radius: self.radius * power_of_two }
     }
@@ -183,12 +201,14 @@ impl Real {
 
     /// Upper bound of the numbers.
     #[must_use]
+    #[inline]
     pub fn high(&self) -> f64 {
         (self.centre + self.radius).next_up()
     }
 
     /// Encloses the positive roots, `None` unless all numbers are above zero: `|sqrt z - sqrt c| <= |z - c| / sqrt c`.
     #[must_use]
+    #[inline]
     pub fn sqrt(&self) -> Option<Self> {
         let centre = self.centre.sqrt();
         (self.centre > self.radius * UP && centre > TINY)
@@ -197,6 +217,7 @@ impl Real {
 }
 
 impl From<Interval> for Real {
+    #[inline]
     fn from(x: Interval) -> Self {
         let (centre, radius) = x.centre_and_radius();
         Self { centre, radius }
@@ -206,6 +227,7 @@ impl From<Interval> for Real {
 impl Disc {
     /// Proves that `z` lies in the disc.
     #[must_use]
+    #[inline]
     pub fn contains(&self, z: Complex64) -> bool {
         (z - self.centre).size() * UP <= self.radius || (z - self.centre).norm() * UP <= self.radius
     }
@@ -213,6 +235,7 @@ impl Disc {
 
 impl WideDisc {
     /// All `z` with `|z - hi - low| <= radius`.
+    #[inline]
     pub(crate) fn about(hi: Complex64, low: Complex64, radius: f64) -> Self {
         let centre = ComplexDoubleDouble {
             re: DoubleDouble::from_sum(hi.re, low.re),
@@ -222,6 +245,7 @@ impl WideDisc {
     }
 
     /// A disc about a double that holds this one.
+    #[inline]
     pub(crate) fn rounded(&self) -> Disc {
         Disc { centre: self.centre.hi(), radius: (self.radius + self.centre.lo().size()) * UP }
     }
@@ -229,6 +253,7 @@ impl WideDisc {
 
 impl<C: BallCentre> Neg for Ball<C> {
     type Output = Self;
+    #[inline]
     fn neg(self) -> Self {
         Self { centre: -self.centre, radius: self.radius }
     }
@@ -236,6 +261,7 @@ impl<C: BallCentre> Neg for Ball<C> {
 
 impl<C: BallCentre> Add for Ball<C> {
     type Output = Self;
+    #[inline]
     fn add(self, other: Self) -> Self {
         let centre = self.centre + other.centre;
         Self { centre, radius: (self.radius + other.radius + C::SUM * centre.size() + TINY) * UP }
@@ -244,6 +270,7 @@ impl<C: BallCentre> Add for Ball<C> {
 
 impl<C: BallCentre> Sub for Ball<C> {
     type Output = Self;
+    #[inline]
     fn sub(self, other: Self) -> Self {
         self + -other
     }
@@ -251,6 +278,7 @@ impl<C: BallCentre> Sub for Ball<C> {
 
 impl<C: BallCentre> Mul for Ball<C> {
     type Output = Self;
+    #[inline]
     fn mul(self, other: Self) -> Self {
         let (z, w) = (self.centre.size(), other.centre.size());
         let (r, t) = (self.radius, other.radius);

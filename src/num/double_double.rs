@@ -28,6 +28,7 @@ pub struct DoubleDouble {
 
 /// `a + b = s + t` exactly, `s = fl(a + b)` (Knuth; any order of magnitudes, no overflow).
 #[must_use]
+#[inline]
 pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let s = a + b;
     let bb = s - a;
@@ -35,12 +36,14 @@ pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
 }
 
 /// `a + b = s + t` exactly provided `|a| >= |b|` or `a = 0` (Dekker).
+#[inline]
 fn fast_two_sum(a: f64, b: f64) -> (f64, f64) {
     let s = a + b;
     (s, b - (s - a))
 }
 
 /// Veltkamp's split into two halves of at most 26 bits each; exact for `|a| < 2^996`.
+#[inline]
 fn split(a: f64) -> (f64, f64) {
     const FACTOR: f64 = 134_217_729.0; // 2^27 + 1
     let t = FACTOR * a;
@@ -50,6 +53,7 @@ fn split(a: f64) -> (f64, f64) {
 
 /// `a b = p + e` exactly, `p = fl(a b)`; needs `|a|, |b| < 2^996` and `|a b|` zero or in `[2^-960, 2^1020]`.
 #[must_use]
+#[inline]
 pub fn two_product(a: f64, b: f64) -> (f64, f64) {
     let p = a * b;
     if cfg!(target_feature = "fma") {
@@ -69,6 +73,7 @@ impl DoubleDouble {
 
     /// The exact sum of two doubles.
     #[must_use]
+    #[inline]
     pub fn from_sum(a: f64, b: f64) -> Self {
         let (hi, lo) = two_sum(a, b);
         Self { hi, lo }
@@ -76,6 +81,7 @@ impl DoubleDouble {
 
     /// The exact product of two doubles (in the range of [`two_product`]).
     #[must_use]
+    #[inline]
     pub fn from_product(a: f64, b: f64) -> Self {
         let (hi, lo) = two_product(a, b);
         Self { hi, lo }
@@ -83,30 +89,35 @@ impl DoubleDouble {
 
     /// The nearest double.
     #[must_use]
+    #[inline]
     pub fn hi(self) -> f64 {
         self.hi
     }
 
     /// What the nearest double leaves, at most half a unit in its last place.
     #[must_use]
+    #[inline]
     pub fn lo(self) -> f64 {
         self.lo
     }
 
     /// Product with a power of two: exact barring overflow and underflow.
     #[must_use]
+    #[inline]
     pub fn scaled(self, power_of_two: f64) -> Self {
         Self { hi: self.hi * power_of_two, lo: self.lo * power_of_two }
     }
 
     /// Absolute value, exact.
     #[must_use]
+    #[inline]
     pub fn abs(self) -> Self {
         if self.hi < 0.0 { -self } else { self }
     }
 }
 
 impl From<f64> for DoubleDouble {
+    #[inline]
     fn from(x: f64) -> Self {
         Self { hi: x, lo: 0.0 }
     }
@@ -114,6 +125,7 @@ impl From<f64> for DoubleDouble {
 
 impl Neg for DoubleDouble {
     type Output = Self;
+    #[inline]
     fn neg(self) -> Self {
         Self { hi: -self.hi, lo: -self.lo }
     }
@@ -121,6 +133,7 @@ impl Neg for DoubleDouble {
 
 impl Add for DoubleDouble {
     type Output = Self;
+    #[inline]
     fn add(self, other: Self) -> Self {
         let (sh, sl) = two_sum(self.hi, other.hi);
         let (th, tl) = two_sum(self.lo, other.lo);
@@ -132,6 +145,7 @@ impl Add for DoubleDouble {
 
 impl Sub for DoubleDouble {
     type Output = Self;
+    #[inline]
     fn sub(self, other: Self) -> Self {
         self + -other
     }
@@ -139,6 +153,7 @@ impl Sub for DoubleDouble {
 
 impl Mul for DoubleDouble {
     type Output = Self;
+    #[inline]
     fn mul(self, other: Self) -> Self {
         let (ch, cl) = two_product(self.hi, other.hi);
         let cross = self.hi * other.lo + self.lo * other.hi;
@@ -149,6 +164,7 @@ impl Mul for DoubleDouble {
 
 impl Div for DoubleDouble {
     type Output = Self;
+    #[inline]
     fn div(self, other: Self) -> Self {
         // q1 = first quotient digit, remainder computed with an exact product, q2 = second digit
         let q1 = self.hi / other.hi;
@@ -173,18 +189,21 @@ impl ComplexDoubleDouble {
 
     /// The nearest double in each part.
     #[must_use]
+    #[inline]
     pub fn hi(self) -> Complex64 {
         Complex64::new(self.re.hi, self.im.hi)
     }
 
     /// What [`hi`](Self::hi) leaves.
     #[must_use]
+    #[inline]
     pub fn lo(self) -> Complex64 {
         Complex64::new(self.re.lo, self.im.lo)
     }
 
     /// Product with a power of two: exact barring overflow and underflow.
     #[must_use]
+    #[inline]
     pub fn scaled(self, power_of_two: f64) -> Self {
         Self { re: self.re.scaled(power_of_two), im: self.im.scaled(power_of_two) }
     }

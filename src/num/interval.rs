@@ -26,42 +26,49 @@ impl Interval {
 
     /// `[lo, hi]`, or `None` unless `lo <= hi`, `lo < +inf` and `hi > -inf` (NaN is refused too).
     #[must_use]
+    #[inline]
     pub fn new(lo: f64, hi: f64) -> Option<Self> {
         (lo <= hi && lo < f64::INFINITY && hi > f64::NEG_INFINITY).then_some(Self { lo, hi })
     }
 
     /// The point `x`, or `None` when `x` is not finite.
     #[must_use]
+    #[inline]
     pub fn point(x: f64) -> Option<Self> {
         Self::new(x, x)
     }
 
     /// Lower end.
     #[must_use]
+    #[inline]
     pub fn lo(self) -> f64 {
         self.lo
     }
 
     /// Upper end.
     #[must_use]
+    #[inline]
     pub fn hi(self) -> f64 {
         self.hi
     }
 
     /// `true` when `x` is a real number in the interval.
     #[must_use]
+    #[inline]
     pub fn contains(self, x: f64) -> bool {
         x.is_finite() && self.lo <= x && x <= self.hi
     }
 
     /// `true` when every number of `other` is in `self`.
     #[must_use]
+    #[inline]
     pub fn encloses(self, other: Self) -> bool {
         self.lo <= other.lo && other.hi <= self.hi
     }
 
     /// A double `m` and a radius `r >= 0` with `[lo, hi]` inside `[m - r, m + r]`; `r` is infinite for unbounded intervals.
     #[must_use]
+    #[inline]
     pub fn centre_and_radius(self) -> (f64, f64) {
         if !(self.lo.is_finite() && self.hi.is_finite()) {
             return (0.0, f64::INFINITY);
@@ -73,12 +80,14 @@ impl Interval {
 
     /// Largest modulus of its numbers.
     #[must_use]
+    #[inline]
     pub fn magnitude(self) -> f64 {
         self.lo.abs().max(self.hi.abs())
     }
 
     /// Encloses `x^2`, never below zero.
     #[must_use]
+    #[inline]
     pub fn square(self) -> Self {
         let square = self * self;
         if self.lo > 0.0 || self.hi < 0.0 || self == Self::ZERO {
@@ -90,6 +99,7 @@ impl Interval {
 
     /// Encloses the square roots of the non-negative numbers in it; `None` when it holds none.
     #[must_use]
+    #[inline]
     pub fn sqrt(self) -> Option<Self> {
         if self.hi < 0.0 {
             return None;
@@ -100,6 +110,7 @@ impl Interval {
 
     /// Encloses `x / y`; `None` when the divisor holds zero.
     #[must_use]
+    #[inline]
     pub fn checked_div(self, divisor: Self) -> Option<Self> {
         if divisor.lo <= 0.0 && divisor.hi >= 0.0 {
             return None;
@@ -121,12 +132,14 @@ impl Interval {
         ))
     }
 
+    #[inline]
     fn raw(lo: f64, hi: f64) -> Self {
         Self { lo, hi }
     }
 }
 
 /// Bounds of `x / y` near the corner where both are infinite: between 0 and an infinity of the quotient's sign.
+#[inline]
 fn corner((x, y): (f64, f64), lower: bool) -> f64 {
     let positive = (x > 0.0) == (y > 0.0);
     match (positive, lower) {
@@ -136,25 +149,30 @@ fn corner((x, y): (f64, f64), lower: bool) -> f64 {
     }
 }
 
+#[inline]
 fn down_unless_zero(x: f64, numerator: f64) -> f64 {
     if numerator == 0.0 { 0.0 } else { x.next_down() }
 }
 
+#[inline]
 fn up_unless_zero(x: f64, numerator: f64) -> f64 {
     if numerator == 0.0 { 0.0 } else { x.next_up() }
 }
 
 /// Lower bound of `x y`; zero times infinity is zero because the infinite end is not attained.
+#[inline]
 fn mul_down(x: f64, y: f64) -> f64 {
     if x == 0.0 || y == 0.0 { 0.0 } else { (x * y).next_down() }
 }
 
+#[inline]
 fn mul_up(x: f64, y: f64) -> f64 {
     if x == 0.0 || y == 0.0 { 0.0 } else { (x * y).next_up() }
 }
 
 impl From<f64> for Interval {
     /// The point `x`; a value that is not finite gives [`Interval::WHOLE`], about which nothing can be proved.
+    #[inline]
     fn from(x: f64) -> Self {
         Self::point(x).unwrap_or(Self::WHOLE)
     }
@@ -162,6 +180,7 @@ impl From<f64> for Interval {
 
 impl Neg for Interval {
     type Output = Self;
+    #[inline]
     fn neg(self) -> Self {
         Self::raw(-self.hi, -self.lo)
     }
@@ -169,6 +188,7 @@ impl Neg for Interval {
 
 impl Add for Interval {
     type Output = Self;
+    #[inline]
     fn add(self, other: Self) -> Self {
         if self == Self::ZERO {
             return other;
@@ -182,6 +202,7 @@ impl Add for Interval {
 
 impl Sub for Interval {
     type Output = Self;
+    #[inline]
     fn sub(self, other: Self) -> Self {
         self + -other
     }
@@ -189,6 +210,7 @@ impl Sub for Interval {
 
 impl Mul for Interval {
     type Output = Self;
+    #[inline]
     fn mul(self, other: Self) -> Self {
         let pairs = [(self.lo, other.lo), (self.lo, other.hi), (self.hi, other.lo), (self.hi, other.hi)];
         let lo = pairs.map(|(x, y)| mul_down(x, y));

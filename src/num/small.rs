@@ -141,6 +141,7 @@ where
     Some(())
 }
 
+#[inline]
 fn norm_squared<T: ComplexField<RealField = f64> + Copy>(x: &[T]) -> f64 {
     x.iter().map(|x| x.modulus_squared()).sum()
 }
@@ -202,16 +203,19 @@ fn sweep<T: ComplexField<RealField = f64> + Copy>(
 }
 
 /// The root of `1 + x^2`, which a square that overflows does not spoil.
+#[inline]
 fn beside_one(x: f64) -> f64 {
     if x.abs() > 1e8 { x.abs() } else { (1.0 + x * x).sqrt() }
 }
 
 /// Columns `p < q`.
+#[inline]
 fn pair<T>(m: &mut [T], rows: usize, p: usize, q: usize) -> (&mut [T], &mut [T]) {
     let (before, from) = m.split_at_mut(q * rows);
     (&mut before[p * rows..(p + 1) * rows], &mut from[..rows])
 }
 
+#[inline]
 fn turn<T: ComplexField<RealField = f64> + Copy>(
     a: &mut [T],
     b: &mut [T],

@@ -14,6 +14,7 @@ use nalgebra::Point3;
 use self::expression::{Expression, Slip};
 #[cfg(feature = "synthesis")]
 pub(crate) use self::origins::Origin;
+use crate::geom::Pose;
 use crate::manipulator::Body;
 use crate::num::exact::rational;
 use crate::num::real::RealNumber;
@@ -196,7 +197,24 @@ impl Construction {
     }
 }
 
-/// What a design says about its joints beside three numbers each, with the exact coordinates that follow.
+/// The home pose where an expression gives a number of it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct WrittenHome {
+    pub(crate) position: [WrittenNumber; 3],
+    /// Roll, pitch and yaw in degrees; `None` where the rotation is given in another way, without expressions.
+    pub(crate) rpy_deg: Option<[WrittenNumber; 3]>,
+    /// The pose that follows.
+    pub(crate) pose: Pose,
+}
+
+impl WrittenHome {
+    /// The numbers in it, with their parts.
+    pub(super) fn quantities(&self) -> impl Iterator<Item = (usize, &WrittenNumber)> {
+        self.position.iter().chain(self.rpy_deg.iter().flatten()).enumerate()
+    }
+}
+
+/// What a design says about its joints beside three numbers each, with the exact coordinates that follow; and about its home pose beside plain numbers.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Constructions {
     /// Names and values of `[parameters]`, in the order of the file.
@@ -205,6 +223,8 @@ pub(crate) struct Constructions {
     pub(super) joints: [Vec<Option<Construction>>; 2],
     /// Exact coordinates of all joints of a body that has constructions.
     exact: [Vec<RealPoint>; 2],
+    /// The home pose, where an expression gives a number of it.
+    pub(super) home: Option<WrittenHome>,
 }
 
 impl Constructions {
@@ -233,9 +253,9 @@ impl Constructions {
         self.joints.iter().flatten().any(Option::is_some)
     }
 
-    /// Whether nothing is said beside three numbers a joint.
+    /// Whether nothing is said beside three numbers a joint, and plain numbers of home.
     pub(super) fn is_empty(&self) -> bool {
-        self.parameters.is_empty() && !self.any_joint()
+        self.parameters.is_empty() && !self.any_joint() && self.home.is_none()
     }
 
     /// The exact coordinates, those of the doubles where the body has no constructions.

@@ -1,7 +1,7 @@
 //! Constructions of a design whose joints come from those of another.
 
 use super::resolve::on_line;
-use super::{Construction, Constructions, LinePlace, RealPoint, WrittenNumber};
+use super::{Construction, Constructions, LinePlace, RealPoint, WrittenHome, WrittenNumber};
 use crate::design::Design;
 use crate::manipulator::Body;
 use crate::num::real::RealNumber;
@@ -28,9 +28,10 @@ impl Design {
             let list = self.carried(old, body, origins[body.index()]);
             made.joints[body.index()] = if list.iter().all(Option::is_none) { Vec::new() } else { list };
         }
-        let used = |q: &WrittenNumber| !q.expression().names().is_empty();
-        let all = made.joints.iter().flatten().flatten();
-        if all.flat_map(Construction::quantities).any(|(_, q)| used(q)) {
+        made.home = old.written_home().filter(|written| self.home == Some(written.pose)).cloned();
+        let used = |(_, q): (usize, &WrittenNumber)| !q.expression().names().is_empty();
+        let mut all = made.joints.iter().flatten().flatten().flat_map(Construction::quantities);
+        if all.any(used) || made.home.iter().flat_map(WrittenHome::quantities).any(used) {
             made.parameters.clone_from(&old.constructions.parameters);
         }
         if made.is_empty() {
@@ -42,7 +43,7 @@ impl Design {
 
     /// The same with the joints of a body at these decimals, in their order; a body without a list stays as it is.
     pub(crate) fn at_decimals(self, decimals: [Option<&[[String; 3]]>; 2]) -> Self {
-        let mut made = self.constructions.clone();
+        let mut made = self.current_constructions();
         for (own, list) in made.joints.iter_mut().zip(decimals) {
             let number = |text: &String| WrittenNumber::text(text).ok();
             let joint = |[x, y, z]: &[String; 3]| {
@@ -59,6 +60,7 @@ impl Design {
     pub(crate) fn exchanged_from(self, old: &Self) -> Self {
         let mut made = old.constructions.clone();
         made.joints.swap(0, 1);
+        made.home = None; // of the other body
         self.clone().with_constructions(made).unwrap_or(self)
     }
 

@@ -2,12 +2,13 @@
 
 use std::ops::Range;
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Rotation3, Vector3};
 use thiserror::Error;
 
 use super::expression::{Expression, Unsolved};
 use super::{
-    Construction, Constructions, CoordinatePlane, LinePlace, RealPoint, WrittenNumber, exact_double,
+    Construction, Constructions, CoordinatePlane, LinePlace, RealPoint, WrittenHome, WrittenNumber,
+    exact_double,
 };
 use crate::design::Code;
 use crate::design::validate::nearest_help;
@@ -22,6 +23,7 @@ const MAX_WORK: usize = 4000;
 pub(in crate::design) enum Owner {
     Parameter(usize),
     Joint(Body, usize),
+    Home,
 }
 
 /// Why a construction gives no point.
@@ -48,7 +50,7 @@ pub(in crate::design) struct Joints<'a> {
 }
 
 impl Constructions {
-    /// The exact coordinates of all joints, which are kept, and the doubles nearest to them.
+    /// The exact coordinates of all joints, which are kept, and the doubles nearest to them; and the home pose, which is kept.
     ///
     /// Every fault is reported once: what depends on a faulty value is silent.
     pub(in crate::design) fn resolve(
@@ -82,6 +84,10 @@ impl Constructions {
             complete &= found.iter().all(Option::is_some);
             self.exact[k] = found.into_iter().flatten().collect();
         }
+        if let Some(mut home) = self.home.take() {
+            complete &= self.resolve_home(&mut home, (&parameters, given.unread), &mut faults).is_some();
+            self.home = Some(home);
+        }
         if faults.is_empty() && complete { Ok(points) } else { Err(faults) }
     }
 
@@ -94,8 +100,10 @@ impl Constructions {
                 Some((Owner::Joint(body, j), own + 20))
             })
         });
+        let home = self.home.iter().flat_map(WrittenHome::quantities);
+        let home = home.map(|(_, q)| (Owner::Home, q.expression().work()));
         let mut sum = 0;
-        for (owner, work) in parameters.chain(joints) {
+        for (owner, work) in parameters.chain(joints).chain(home) {
             sum += work;
             if sum > MAX_WORK {
                 faults.push(Fault {
@@ -130,6 +138,30 @@ impl Constructions {
             faults.push(circle(Owner::Parameter(cycle[0]), "parameters", cycle.iter().map(name)));
         }
         values
+    }
+
+    /// The pose of home from its numbers.
+    fn resolve_home(
+        &self,
+        home: &mut WrittenHome,
+        parameters: (&[Option<RealNumber>], &[String]),
+        faults: &mut Vec<Fault>,
+    ) -> Option<()> {
+        // all of them, so that each fault is reported
+        let values: Vec<Option<f64>> = home
+            .quantities()
+            .map(|(part, q)| {
+                let value = self.quantity((Owner::Home, Some(part)), q, parameters, faults);
+                value.as_ref().map(RealNumber::nearest)
+            })
+            .collect();
+        let values: Vec<f64> = values.into_iter().collect::<Option<_>>()?;
+        home.pose.position = Vector3::new(values[0], values[1], values[2]);
+        if let [roll, pitch, yaw] = values[3..] {
+            let [roll, pitch, yaw] = [roll, pitch, yaw].map(f64::to_radians);
+            home.pose.rotation = Rotation3::from_euler_angles(roll, pitch, yaw);
+        }
+        Some(())
     }
 
     fn quantity(

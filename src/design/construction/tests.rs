@@ -173,6 +173,59 @@ fn faults_are_named_at_their_places() {
     assert_eq!((code, line), (Code::Expression, 5));
 }
 
+const HOME: &str = "[home]\nposition = [0, 0.1, \"2*h/3\"]\nrpy_deg = [\"tilt\", 0, -90]\n";
+
+#[test]
+fn home_follows_from_parameters() {
+    let text = text("h = 600\ntilt = \"h/20\"", TRIANGLE) + HOME;
+    let design = parse(&text, Format::Toml).unwrap().0;
+    let home = design.home.unwrap();
+    assert_eq!(bits(home.position.into()), bits([0.0, 0.1, 400.0]));
+    let plain = text.replace("\"2*h/3\"", "400").replace("\"tilt\"", "30");
+    assert_eq!(parse(&plain, Format::Toml).unwrap().0.home, Some(home));
+    // it is saved as it was written, in both notations, and a pose given since as numbers
+    for saved in [parse(&design.to_toml(), Format::Toml), parse(&design.to_json(), Format::Json)] {
+        assert_eq!(saved.unwrap().0, design);
+    }
+    assert!(design.to_toml().contains("position = [0.0, 0.1, \"2*h/3\"]"), "{}", design.to_toml());
+    let mut raised = design.clone();
+    raised.home.as_mut().unwrap().position.z = 450.0;
+    let saved = parse(&raised.to_toml(), Format::Toml).unwrap().0;
+    assert_eq!(saved.home, raised.home);
+    assert!(!raised.to_toml().contains("2*h/3"));
+    // another unit, and a joint that is moved, leave it where it is
+    let metres = design.in_units("m").unwrap();
+    assert!((metres.home.unwrap().position.z - 0.4).abs() < 1e-15);
+    assert_eq!(metres.in_units("mm").unwrap().home, Some(home));
+    raised.set_joint("D", [0.0, 0.0, 1.0]).unwrap();
+    assert_eq!(raised.home.unwrap().position.z.to_bits(), 450f64.to_bits());
+    // with a rotation that has no expressions
+    let matrix = text.replace("rpy_deg = [\"tilt\", 0, -90]", "rotation = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]");
+    let turned = parse(&matrix, Format::Toml).unwrap().0;
+    assert_eq!(parse(&turned.to_toml(), Format::Toml).unwrap().0, turned);
+    assert_eq!(turned.home.unwrap().position, home.position);
+}
+
+#[test]
+fn faults_of_home_are_named_at_their_places() {
+    let one = |from: &str, to: &str| -> (Code, String) {
+        let text = text("h = 600\ntilt = 1", TRIANGLE) + &HOME.replace(from, to);
+        let found = parse(&text, Format::Toml).unwrap_err();
+        assert_eq!(found.len(), 1, "{text}: {found:?}");
+        let line = text.lines().nth(found[0].line - 1).unwrap();
+        assert!(line.contains(to), "{line}: {found:?}");
+        (found[0].code, found[0].message.clone())
+    };
+    assert_eq!(one("2*h/3", "2*hh/3").0, Code::UnknownName);
+    assert_eq!(one("2*h/3", "h/(h-600)").0, one("tilt", "1/0").0);
+    assert_eq!(one("\"2*h/3\"", "\"h\", 1").0, Code::CoordinateCount);
+    assert_eq!(one("2*h/3", "h+").0, Code::Expression);
+    assert_eq!(one("-90", "[]").0, Code::WrongType);
+    // too far out: the place is the whole table
+    let far = text("h = 1e50", TRIANGLE) + &HOME.replace("2*h/3", "h^3").replace("\"tilt\"", "0");
+    assert_eq!(parse(&far, Format::Toml).unwrap_err()[0].code, Code::OutOfRange);
+}
+
 #[test]
 fn faults_are_the_same_in_json() {
     let text = |parameters: &str, joint: &str| {

@@ -7,7 +7,9 @@ use super::{LARGEST, check_keys, nearest_help, number, shown, table};
 use crate::design::Code;
 use crate::design::construction::expression::{Slip, function_names, is_name};
 use crate::design::construction::resolve::{Joints, Owner};
-use crate::design::construction::{Construction, Constructions, CoordinatePlane, LinePlace, WrittenNumber};
+use crate::design::construction::{
+    Construction, Constructions, CoordinatePlane, LinePlace, WrittenHome, WrittenNumber,
+};
 use crate::design::tree::{Entry, Node, Span, Value, find};
 use crate::design::violation::Findings;
 
@@ -115,18 +117,51 @@ pub(super) fn joint(
                 return None;
             };
             let parts = [x, y, z].map(|e| e.span.clone()).to_vec();
-            let mut axis = 0;
-            let read = [x, y, z].map(|e| {
-                axis += 1;
-                quantity(report, e, &format!("coordinate {axis} of {what}"))
-            });
-            let [x, y, z] = read;
-            (Construction::Coordinates([x?, y?, z?]), parts)
+            (Construction::Coordinates(three(report, [x, y, z], "coordinate", what)?), parts)
         }
         Value::Table(entries) => form(report, node, entries, what, names)?,
         _ => return None,
     };
     Some((made, Places { whole: node.span.clone(), parts }))
+}
+
+fn three(
+    report: &mut Findings<'_>,
+    nodes: [&Node; 3],
+    number: &str,
+    what: &str,
+) -> Option<[WrittenNumber; 3]> {
+    let mut place = 0;
+    let [x, y, z] = nodes.map(|e| {
+        place += 1;
+        quantity(report, e, &format!("{number} {place} of {what}"))
+    });
+    Some([x?, y?, z?])
+}
+
+/// Three numbers or expressions, with their places.
+pub(super) fn three_quantities(
+    report: &mut Findings<'_>,
+    node: &Node,
+    what: &str,
+    number: &str,
+) -> Option<([WrittenNumber; 3], Vec<Span>)> {
+    match &node.value {
+        Value::Array(list) if list.len() == 3 => {
+            let read = three(report, [&list[0], &list[1], &list[2]], number, what)?;
+            Some((read, list.iter().map(|e| e.span.clone()).collect()))
+        }
+        Value::Array(list) => {
+            let message = format!("{what} has {} numbers instead of 3", list.len());
+            report.refuse(Code::CoordinateCount, &node.span, message, "give three numbers");
+            None
+        }
+        other => {
+            let message = format!("{what} is {}, not an array of three numbers", other.kind());
+            report.refuse(Code::WrongType, &node.span, message, "give three numbers");
+            None
+        }
+    }
 }
 
 fn form(
@@ -262,10 +297,13 @@ fn reference(
 pub(super) fn resolve(
     report: &mut Findings<'_>,
     parameters: Parameters,
-    base: &mut NamedJoints,
-    platform: &mut NamedJoints,
+    (base, platform): (&mut NamedJoints, &mut NamedJoints),
+    home: Option<(WrittenHome, Places)>,
 ) -> Option<Constructions> {
     let mut constructions = Constructions::default();
+    let (home, home_places) = home.unzip();
+    let home_places = home_places.unwrap_or_default();
+    constructions.home = home;
     let (mut places, mut unread) = (Vec::new(), Vec::new());
     for (name, value, place) in parameters {
         match value {
@@ -302,6 +340,13 @@ pub(super) fn resolve(
                     }
                 }
             }
+            let out = |home: &WrittenHome| home.pose.position.iter().any(|x| !(x.abs() <= LARGEST));
+            if constructions.home.as_ref().is_some_and(out) {
+                let help = format!("stay below {LARGEST:e}; use a larger unit");
+                let message = "[home] is too far out to compute with";
+                report.refuse(Code::OutOfRange, &home_places.whole, message, help);
+                sound = false;
+            }
             sound.then_some(constructions)
         }
         Err(faults) => {
@@ -309,10 +354,11 @@ pub(super) fn resolve(
                 let place = match fault.owner {
                     Owner::Parameter(i) => &places[i],
                     Owner::Joint(body, j) => &body.of((&*base, &*platform)).joints[j].places,
+                    Owner::Home => &home_places,
                 };
                 let part = match fault.owner {
                     Owner::Parameter(_) => fault.within.as_ref().map(|_| 0),
-                    Owner::Joint(..) => fault.part,
+                    Owner::Joint(..) | Owner::Home => fault.part,
                 };
                 let span = part.and_then(|k| place.parts.get(k)).unwrap_or(&place.whole);
                 let span = inner(report, span, fault.within.as_ref());

@@ -68,8 +68,12 @@ pub(super) fn design(root: &Node, report: &mut Findings<'_>) -> Option<Design> {
     let mut base = required(report, root, entries, "base").and_then(|e| joints::body(report, Body::Base, e));
     let mut platform =
         required(report, root, entries, "platform").and_then(|e| joints::body(report, Body::Platform, e));
+    let home = find(entries, "home").and_then(|e| tables::home(report, &e.node));
+    let (home, written_home) = home.unzip();
     let constructions = match (&mut base, &mut platform) {
-        (Some(base), Some(platform)) => constructions::resolve(report, parameters, base, platform),
+        (Some(base), Some(platform)) => {
+            constructions::resolve(report, parameters, (base, platform), written_home.flatten())
+        }
         _ => None,
     };
     [&base, &platform].into_iter().flatten().for_each(|body| joints::warn_coincident(report, body));
@@ -78,7 +82,6 @@ pub(super) fn design(root: &Node, report: &mut Findings<'_>) -> Option<Design> {
         _ => None,
     };
     let lengths = lengths(report, entries);
-    let home = find(entries, "home").and_then(|e| tables::home(report, &e.node));
     let workspace = tables::workspace(report, entries);
     let (optimize, search) = tables::optimize(report, entries);
     let hardware = tables::hardware(report, entries);
@@ -97,11 +100,11 @@ pub(super) fn design(root: &Node, report: &mut Findings<'_>) -> Option<Design> {
     let manipulator = manipulator(report, &root.span, &base, &platform, &legs?)?;
     let mut design =
         Design::new(name?, units?, manipulator).with_joint_names(base.names(), platform.names()).ok()?;
+    design.home = home;
     design.set_constructions(constructions?);
     design.source = source;
     design.description = description;
     design.lengths = lengths;
-    design.home = home;
     design.workspace = workspace;
     design.optimize = optimize;
     design.search = search;

@@ -28,6 +28,7 @@ fn the_schema_has_the_keys_of_the_reader() {
     assert_eq!(keys("/properties/hardware"), sorted(HARDWARE_KEYS));
     assert_eq!(keys("/properties/optimize"), sorted(SEARCH_KEYS.into_iter().chain(LIMIT_KEYS)));
     assert_eq!(keys("/$defs/pose"), sorted(POSE_KEYS));
+    assert_eq!(keys("/$defs/home_pose"), sorted(POSE_KEYS));
     assert_eq!(keys("/properties/envelope"), sorted(ENVELOPE_KEYS));
     assert_eq!(keys("/properties/payload"), sorted(PAYLOAD_KEYS));
     assert_eq!(keys("/properties/calibration"), sorted(CALIBRATION_KEYS));

@@ -2,8 +2,10 @@
 
 use nalgebra::{Matrix3, Point3, Quaternion, Rotation3, Unit, UnitQuaternion, Vector3};
 
+use super::constructions::{Places, is_constructed, three_quantities};
 use super::search::{SEARCH_KEYS, search};
 use super::{check_keys, element_span, number, numbers, shown, table, text};
+use crate::design::construction::WrittenHome;
 use crate::design::tree::{Entry, Node, Value, find};
 use crate::design::violation::Findings;
 use crate::design::{Code, OptimizeTable, SearchTable, Trajectory, Workspace};
@@ -22,30 +24,70 @@ pub(super) const LIMIT_KEYS: [&str; 3] = ["min_joint_distance", "min_abs_det", "
 const ROTATION_HELP: &str =
     "give one of rpy_deg = [roll, pitch, yaw], quat_wxyz = [w, x, y, z], rotation = [[..], [..], [..]]";
 
-/// `[home]`.
-pub(super) fn home(report: &mut Findings<'_>, node: &Node) -> Option<Pose> {
-    pose(report, node, "[home]")
+/// `[home]`, and how its numbers are written where one of them is an expression. Its pose then follows later.
+pub(super) fn home(report: &mut Findings<'_>, node: &Node) -> Option<(Pose, Option<(WrittenHome, Places)>)> {
+    let constructed =
+        |entries: &[Entry], key: &str| find(entries, key).is_some_and(|e| is_constructed(&e.node));
+    let entries = match &node.value {
+        Value::Table(entries) if ["position", "rpy_deg"].iter().any(|key| constructed(entries, key)) => {
+            entries
+        }
+        _ => return Some((pose(report, node, "[home]")?, None)),
+    };
+    check_keys(report, entries, &POSE_KEYS, "[home]");
+    let position = pose_position(report, node, entries, "[home]")
+        .and_then(|e| three_quantities(report, &e.node, "`position` of [home]", "coordinate"));
+    let turned = pose_rotation(report, node, entries, "[home]");
+    let (rotation, angles) = match turned? {
+        e if e.key == "rpy_deg" => {
+            let read = three_quantities(report, &e.node, "`rpy_deg` of [home]", "angle")?;
+            (Rotation3::identity(), Some(read))
+        }
+        e => (rotation(report, e, "[home]")?, None),
+    };
+    let (position, mut parts) = position?;
+    let (rpy_deg, places) = angles.unzip();
+    parts.extend(places.into_iter().flatten());
+    let pose = Pose { rotation, position: Vector3::zeros() };
+    Some((pose, Some((WrittenHome { position, rpy_deg, pose }, Places { whole: node.span.clone(), parts }))))
 }
 
 fn pose(report: &mut Findings<'_>, node: &Node, place: &str) -> Option<Pose> {
     let entries = table(report, node, place)?;
     check_keys(report, entries, &POSE_KEYS, place);
-    let position = if let Some(e) = find(entries, "position") {
-        numbers::<3>(
-            report,
-            &e.node,
-            &format!("`position` of {place}"),
-            Code::CoordinateCount,
-            "coordinates x, y, z",
-        )
-    } else {
+    let position = pose_position(report, node, entries, place).and_then(|e| {
+        let what = format!("`position` of {place}");
+        numbers::<3>(report, &e.node, &what, Code::CoordinateCount, "coordinates x, y, z")
+    });
+    let rotation = pose_rotation(report, node, entries, place).and_then(|e| rotation(report, e, place));
+    Some(Pose { rotation: rotation?, position: Vector3::from(position?) })
+}
+
+/// The entry with the position of a pose.
+fn pose_position<'a>(
+    report: &mut Findings<'_>,
+    node: &Node,
+    entries: &'a [Entry],
+    place: &str,
+) -> Option<&'a Entry> {
+    let found = find(entries, "position");
+    if found.is_none() {
         let message = format!("`position` of {place} is missing");
         report.refuse(Code::MissingKey, &node.span, message, "add position = [x, y, z]");
-        None
-    };
+    }
+    found
+}
+
+/// The one entry with the rotation of a pose.
+fn pose_rotation<'a>(
+    report: &mut Findings<'_>,
+    node: &Node,
+    entries: &'a [Entry],
+    place: &str,
+) -> Option<&'a Entry> {
     let given: Vec<&Entry> = entries.iter().filter(|e| POSE_KEYS[1..].contains(&e.key.as_str())).collect();
-    let rotation = match given.as_slice() {
-        [one] => rotation(report, one, place),
+    match given.as_slice() {
+        [one] => Some(*one),
         [] => {
             report.refuse(Code::Rotation, &node.span, format!("{place} has no rotation"), ROTATION_HELP);
             None
@@ -55,8 +97,7 @@ fn pose(report: &mut Findings<'_>, node: &Node, place: &str) -> Option<Pose> {
             report.refuse(Code::Rotation, &second.key_span, message, ROTATION_HELP);
             None
         }
-    };
-    Some(Pose { rotation: rotation?, position: Vector3::from(position?) })
+    }
 }
 
 fn rotation(report: &mut Findings<'_>, entry: &Entry, place: &str) -> Option<Rotation3<f64>> {
