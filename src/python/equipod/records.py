@@ -765,7 +765,7 @@ class Design(Record):
     #: numbers and expressions that expressions of joints and of other parameters name
     parameters: Union[dict[str, DesignQuantity], None]
     #: the pose the platform is built for
-    home: Union[DesignPose, None]
+    home: Union[DesignHomePose, None]
     #: the poses to reach
     workspace: Union[dict[str, Any], None]
     #: what the platform carries
@@ -812,6 +812,20 @@ class DesignEnvelope(Record):
     max: Union[DesignVector, None]
 
 
+class DesignHomePose(Record):
+    """DesignHomePose"""
+
+    #: of the platform origin, base frame
+    position: DesignQuantities
+    #: roll, pitch, yaw in degrees, `R = Rz(yaw) Ry(pitch) Rx(roll)`; exactly one of `rpy_deg`, `quat_wxyz`
+    #: and `rotation` is there
+    rpy_deg: Union[DesignQuantities, None]
+    #: scalar part first, of norm 1 within 1e-3; it is normalised
+    quat_wxyz: Union[DesignQuaternion, None]
+    #: rows of R, orthonormal within 1e-9 and right-handed; taken as it is
+    rotation: Union[DesignRows, None]
+
+
 class DesignPose(Record):
     """DesignPose"""
 
@@ -821,9 +835,9 @@ class DesignPose(Record):
     #: and `rotation` is there
     rpy_deg: Union[DesignVector, None]
     #: scalar part first, of norm 1 within 1e-3; it is normalised
-    quat_wxyz: Union[tuple[DesignNumber, ...], None]
+    quat_wxyz: Union[DesignQuaternion, None]
     #: rows of R, orthonormal within 1e-9 and right-handed; taken as it is
-    rotation: Union[tuple[DesignVector, ...], None]
+    rotation: Union[DesignRows, None]
 
 
 class DesignSourceRecord(Record):
@@ -3170,6 +3184,8 @@ DesignHalfWidths = tuple[DesignNotNegative, ...]
 
 DesignQuantity = Union[DesignNumber, str]
 
+DesignQuaternion = tuple[DesignNumber, ...]
+
 DesignRange = tuple[DesignNumber, ...]
 
 DesignReserve = Union[DesignNotNegative, DesignPercent]
@@ -3181,5 +3197,9 @@ DesignAxes = Union[Literal["home", "optimize"], tuple[DesignVector, ...]]
 DesignHousing = Union[DesignPositive, DesignEdges]
 
 DesignJoint = Union[tuple[DesignQuantity, ...], Any, dict[str, Any]]
+
+DesignQuantities = tuple[DesignQuantity, ...]
+
+DesignRows = tuple[DesignVector, ...]
 
 DesignBody = dict[str, DesignJoint]
