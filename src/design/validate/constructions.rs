@@ -110,14 +110,9 @@ pub(super) fn joint(
     names: &BTreeMap<String, usize>,
 ) -> Option<(Construction, Places)> {
     let (made, parts) = match &node.value {
-        Value::Array(list) => {
-            let [x, y, z] = list.as_slice() else {
-                let message = format!("{what} has {} coordinates instead of 3", list.len());
-                report.refuse(Code::CoordinateCount, &node.span, message, "give 3 coordinates x, y, z");
-                return None;
-            };
-            let parts = [x, y, z].map(|e| e.span.clone()).to_vec();
-            (Construction::Coordinates(three(report, [x, y, z], "coordinate", what)?), parts)
+        Value::Array(_) => {
+            let (list, parts) = three_quantities(report, node, what, ("coordinate", "coordinates x, y, z"))?;
+            (Construction::Coordinates(list), parts)
         }
         Value::Table(entries) => form(report, node, entries, what, names)?,
         _ => return None,
@@ -125,43 +120,30 @@ pub(super) fn joint(
     Some((made, Places { whole: node.span.clone(), parts }))
 }
 
-fn three(
-    report: &mut Findings<'_>,
-    nodes: [&Node; 3],
-    number: &str,
-    what: &str,
-) -> Option<[WrittenNumber; 3]> {
-    let mut place = 0;
-    let [x, y, z] = nodes.map(|e| {
-        place += 1;
-        quantity(report, e, &format!("{number} {place} of {what}"))
-    });
-    Some([x?, y?, z?])
-}
-
-/// Three numbers or expressions, with their places.
+/// An array of three numbers or expressions, with their places. `number` is one of them, `noun` all three.
 pub(super) fn three_quantities(
     report: &mut Findings<'_>,
     node: &Node,
     what: &str,
-    number: &str,
+    (number, noun): (&str, &str),
 ) -> Option<([WrittenNumber; 3], Vec<Span>)> {
-    match &node.value {
-        Value::Array(list) if list.len() == 3 => {
-            let read = three(report, [&list[0], &list[1], &list[2]], number, what)?;
-            Some((read, list.iter().map(|e| e.span.clone()).collect()))
-        }
-        Value::Array(list) => {
-            let message = format!("{what} has {} numbers instead of 3", list.len());
-            report.refuse(Code::CoordinateCount, &node.span, message, "give three numbers");
-            None
-        }
-        other => {
-            let message = format!("{what} is {}, not an array of three numbers", other.kind());
-            report.refuse(Code::WrongType, &node.span, message, "give three numbers");
-            None
-        }
-    }
+    let Value::Array(list) = &node.value else {
+        let message = format!("{what} is {}, not an array", node.value.kind());
+        report.refuse(Code::WrongType, &node.span, message, format!("write an array of 3 {noun}"));
+        return None;
+    };
+    let [x, y, z] = list.as_slice() else {
+        let message = format!("{what} has {} {number}s instead of 3", list.len());
+        report.refuse(Code::CoordinateCount, &node.span, message, format!("give 3 {noun}"));
+        return None;
+    };
+    let mut place = 0;
+    // all of them, so that each fault is reported
+    let [a, b, c] = [x, y, z].map(|e| {
+        place += 1;
+        quantity(report, e, &format!("{number} {place} of {what}"))
+    });
+    Some(([a?, b?, c?], [x, y, z].map(|e| e.span.clone()).to_vec()))
 }
 
 fn form(

@@ -35,12 +35,14 @@ pub(super) fn home(report: &mut Findings<'_>, node: &Node) -> Option<(Pose, Opti
         _ => return Some((pose(report, node, "[home]")?, None)),
     };
     check_keys(report, entries, &POSE_KEYS, "[home]");
-    let position = pose_position(report, node, entries, "[home]")
-        .and_then(|e| three_quantities(report, &e.node, "`position` of [home]", "coordinate"));
+    let position = pose_position(report, node, entries, "[home]").and_then(|e| {
+        three_quantities(report, &e.node, "`position` of [home]", ("coordinate", "coordinates x, y, z"))
+    });
     let turned = pose_rotation(report, node, entries, "[home]");
     let (rotation, angles) = match turned? {
         e if e.key == "rpy_deg" => {
-            let read = three_quantities(report, &e.node, "`rpy_deg` of [home]", "angle")?;
+            let read =
+                three_quantities(report, &e.node, "`rpy_deg` of [home]", ("angle", "angles in degrees"))?;
             (Rotation3::identity(), Some(read))
         }
         e => (rotation(report, e, "[home]")?, None),
