@@ -1,33 +1,68 @@
 //! Between numpy arrays and poses and lengths. Poses are 4 x 4 matrices `(R p; 0 1)`, lengths rows of six; the first axis counts.
 
 use nalgebra::Matrix4;
-use ndarray::{Array2, Array3, ArrayView2, ArrayView3};
+use ndarray::{Array, Array3, ArrayView2, ArrayView3, Dimension, StrideShape};
 use num_complex::Complex64;
+use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
 use super::failure::{raised, refused};
 use crate::entrance::Error;
-use crate::geom::{ComplexPose, Pose};
+use crate::geom::{ComplexPose, InvalidPose, Pose};
 
-/// The pose in row `k` of matrices, errors with the row.
-pub(super) fn pose_in(py: Python<'_>, poses: &ArrayView3<'_, f64>, k: usize) -> PyResult<Pose> {
-    let matrix = Matrix4::from_fn(|i, j| poses[[k, i, j]]);
-    Pose::try_from(matrix).map_err(|e| {
-        if poses.shape()[0] == 1 {
-            raised(py, Error::Pose(e))
-        } else {
-            refused(py, "pose", &format!("pose {k}: {e}"))
-        }
+/// Why a computation at many poses ended: the matrix of one of them, or what was computed of it.
+pub(super) enum Fault {
+    Pose(usize, InvalidPose),
+    Failed(Error),
+}
+
+impl From<Error> for Fault {
+    fn from(error: Error) -> Self {
+        Self::Failed(error)
+    }
+}
+
+/// Calls `each` with every pose of an array of shape `(n, 4, 4)`, in order and without the interpreter.
+pub(super) fn at_poses(
+    py: Python<'_>,
+    poses: &ArrayView3<'_, f64>,
+    mut each: impl FnMut(Pose) -> Result<(), Fault> + Send,
+) -> PyResult<()> {
+    let shape = poses.shape();
+    if shape[1..] != [4, 4] {
+        return Err(refused(py, "shape", &format!("poses are (n, 4, 4), not {shape:?}")));
+    }
+    let one = shape[0] == 1;
+    let matrices = poses.as_standard_layout();
+    let entries = matrices.as_slice().unwrap_or_default();
+    let done = py.detach(|| {
+        entries.chunks_exact(16).enumerate().try_for_each(|(k, matrix)| {
+            each(Pose::try_from(Matrix4::from_row_slice(matrix)).map_err(|e| Fault::Pose(k, e))?)
+        })
+    });
+    done.map_err(|fault| match fault {
+        Fault::Pose(_, e) if one => raised(py, Error::Pose(e)),
+        Fault::Pose(k, e) => refused(py, "pose", &format!("pose {k}: {e}")),
+        Fault::Failed(error) => raised(py, error),
     })
 }
 
 /// All poses of an array of shape `(n, 4, 4)`.
 pub(super) fn poses_in(py: Python<'_>, poses: &ArrayView3<'_, f64>) -> PyResult<Vec<Pose>> {
-    let shape = poses.shape();
-    if shape[1..] != [4, 4] {
-        return Err(refused(py, "shape", &format!("poses are (n, 4, 4), not {shape:?}")));
-    }
-    (0..shape[0]).map(|k| pose_in(py, poses, k)).collect()
+    let mut out = Vec::with_capacity(poses.len() / 16);
+    at_poses(py, poses, |pose| {
+        out.push(pose);
+        Ok(())
+    })?;
+    Ok(out)
+}
+
+/// An array of shape `shape` with these entries, row by row.
+pub(super) fn shaped<D: Dimension>(
+    shape: impl Into<StrideShape<D>>,
+    entries: Vec<f64>,
+) -> PyResult<Array<f64, D>> {
+    Array::from_shape_vec(shape, entries).map_err(|e| PyRuntimeError::new_err(e.to_string()))
 }
 
 /// The rows of an array of shape `(n, 6)`.
@@ -74,9 +109,4 @@ pub(super) fn complex_matrices<'a>(
         out[[k, 3, 3]] = Complex64::ONE;
     }
     out
-}
-
-/// Rows of six.
-pub(super) fn rows(values: &[[f64; 6]]) -> Array2<f64> {
-    Array2::from_shape_fn((values.len(), 6), |(k, i)| values[k][i])
 }

@@ -4,12 +4,12 @@ use std::num::NonZeroUsize;
 use std::sync::{Arc, OnceLock};
 
 use nalgebra::Point3;
-use ndarray::{Array2, Array3};
+use ndarray::Array2;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
 
 use super::answers::document;
-use super::arrays::{lengths_in, matrices, poses_in, rows};
+use super::arrays::{at_poses, lengths_in, matrices, poses_in, shaped};
 use super::failure::{interrupted, raised, refused};
 use super::solutions::{NativeSolutions, SolutionArrays, SolutionColumns};
 use super::tracker::NativeTracker;
@@ -186,15 +186,13 @@ impl NativeDesign {
         py: Python<'py>,
         poses: PyReadonlyArray3<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let poses = poses_in(py, &poses.as_array())?;
-        let m = self.design.manipulator();
-        let lengths = py.detach(|| {
-            poses
-                .iter()
-                .map(|pose| pose.lengths(m).map(|l| l.get()).ok_or(Error::Overflow))
-                .collect::<Result<Vec<_>, _>>()
-        });
-        Ok(rows(&lengths.map_err(|e| raised(py, e))?).into_pyarray(py))
+        let (poses, m) = (poses.as_array(), self.design.manipulator());
+        let mut lengths = Vec::with_capacity(6 * poses.shape()[0]);
+        at_poses(py, &poses, |pose| {
+            lengths.extend(pose.lengths(m).ok_or(Error::Overflow)?.get());
+            Ok(())
+        })?;
+        Ok(shaped((poses.shape()[0], 6), lengths)?.into_pyarray(py))
     }
 
     /// Leg speeds by velocity and angular velocity, float64, shape (n, 6, 6), at poses (n, 4, 4).
@@ -204,21 +202,14 @@ impl NativeDesign {
         poses: PyReadonlyArray3<'py, f64>,
         characteristic_length: f64,
     ) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        let poses = poses_in(py, &poses.as_array())?;
-        let m = self.design.manipulator();
-        let all = py.detach(|| {
-            let mut all = Array3::zeros((poses.len(), 6, 6));
-            for (k, pose) in poses.iter().enumerate() {
-                let j = jacobian(m, pose, characteristic_length);
-                for (i, row) in j.row_iter().enumerate() {
-                    for (l, value) in row.iter().enumerate() {
-                        all[[k, i, l]] = *value;
-                    }
-                }
-            }
-            all
-        });
-        Ok(all.into_pyarray(py))
+        let (poses, m) = (poses.as_array(), self.design.manipulator());
+        let mut entries = Vec::with_capacity(36 * poses.shape()[0]);
+        at_poses(py, &poses, |pose| {
+            // row by row: the columns of the transposed
+            entries.extend_from_slice(jacobian(m, &pose, characteristic_length).transpose().as_slice());
+            Ok(())
+        })?;
+        Ok(shaped((poses.shape()[0], 6, 6), entries)?.into_pyarray(py))
     }
 
     /// The length that moments are divided by in conditioning numbers.

@@ -118,6 +118,7 @@ fn ends_of_ways(m: &Manipulator, required: &Requirements, home: &Pose) -> BTreeS
 }
 
 #[test]
+#[ignore = "slow evidence"]
 fn the_free_part_of_a_way_is_that_of_a_fine_search() {
     let m = symmetric_hexapod(2.0, 1.0);
     let home = default_home(&m);

@@ -54,6 +54,7 @@ fn the_classes_of_martyushev_are_complete() {
 }
 
 #[test]
+#[ignore = "slow evidence"]
 fn special_classes_are_complete() {
     for (class, poses) in [
         (Class::TiltedPlanes, 40),
@@ -77,6 +78,7 @@ fn special_classes_are_complete() {
 }
 
 #[test]
+#[ignore = "slow evidence"]
 fn topologies_are_complete() {
     for named in catalogue() {
         let report = short(Class::Topology { topology: named, planar: Planar::Neither }, 10);

@@ -102,6 +102,7 @@ fn a_design_that_requires_nothing_is_told_so() {
 
 /// Version 0.1.0 said that the platform joints swing 0.2 degrees less than they may; a pose that its searches missed is 0.2 degrees beyond the limit.
 #[test]
+#[ignore = "slow evidence"]
 fn a_worst_pose_that_searches_miss_is_found_by_cells() {
     let path = "tests/fixtures/adversarial/REP_assess.toml";
     let out = equipod(&["assess", path, "--points", "0", "--searches", "0", "--cells", "1500", "--json"]);

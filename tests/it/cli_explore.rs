@@ -318,6 +318,7 @@ variables = ["symmetric_offsets", "home_height"]
 "#;
 
 #[test]
+#[ignore = "slow evidence"]
 fn the_platform_is_searched_under_the_requirements_and_judged_as_assess_does() {
     let temp = tempfile::tempdir().unwrap();
     let design = temp.path().join("limited.toml");

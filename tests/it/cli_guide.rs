@@ -49,6 +49,7 @@ const FRONT: &str = r#"{"front":[{"objectives":[{"name":"worst_conditioning","va
 const LONG: [&str; 2] = ["explore", "optimize"];
 
 #[test]
+#[ignore = "slow evidence"]
 fn every_example_of_the_help_runs() {
     let folder = tempfile::tempdir().unwrap();
     copy(Path::new("designs"), &folder.path().join("designs"));

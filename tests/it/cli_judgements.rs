@@ -23,6 +23,7 @@ fn with_workspace(folder: &Path, name: &str, widths: [f64; 6]) -> String {
 }
 
 #[test]
+#[ignore = "slow evidence"]
 fn singular_poses_says_whether_the_workspace_is_safe() {
     let folder = tempfile::tempdir().unwrap();
     let cases = [

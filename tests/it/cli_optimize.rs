@@ -158,6 +158,7 @@ variables = [\"home_height\"]
 
 /// Each candidate is a file that `assess` judges as the answer says; with other values than the answer, and without the option there are none.
 #[test]
+#[ignore = "slow evidence"]
 fn other_local_optima_are_judged_and_written_when_they_are_asked_for() {
     let more = "[hardware]
 leg_length = [9.0, 18.0]
@@ -195,6 +196,7 @@ fn long_search() -> String {
 }
 
 #[test]
+#[ignore = "slow evidence"]
 fn a_limit_of_time_ends_a_search_with_what_it_has() {
     let (out, _folder) = optimize(&long_search(), &["--time-limit", "0.2"]);
     assert_eq!(out.status.code(), Some(3), "{}", String::from_utf8_lossy(&out.stderr));
@@ -207,6 +209,7 @@ fn a_limit_of_time_ends_a_search_with_what_it_has() {
 
 #[cfg(target_os = "linux")]
 #[test]
+#[ignore = "slow evidence"]
 fn a_request_to_terminate_ends_a_search_with_what_it_has() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("in.toml"), long_search()).unwrap();
@@ -234,6 +237,7 @@ fn a_request_to_terminate_ends_a_search_with_what_it_has() {
 
 /// Both triangles equilateral, one above the other.
 #[test]
+#[ignore = "slow evidence"]
 fn three_fold_symmetry_is_kept_or_refused() {
     let equilateral = r#"
 name = "equilateral"
@@ -335,6 +339,7 @@ fn a_shipped_6_4_platform_is_improved_within_its_replaceable_legs() {
 /// Version 0.1.0 called the first three infeasible, though each has offsets that meet all limits in exact arithmetic, and "proved" a bound of 0.22362 for the
 /// last, where offsets reach 0.24124.
 #[test]
+#[ignore = "slow evidence"]
 fn problems_that_leave_next_to_nothing_are_never_infeasible_and_bounds_hold() {
     let cases =
         [("inf-ordinary", "0", 0.0), ("inf-small", "1", 0.0), ("inf-tie", "1", 0.0), ("bound", "0", 0.24124)];

@@ -125,6 +125,7 @@ fn extreme(rng: &mut Rng, others: &[f64], singular: bool) -> Manipulator {
 }
 
 #[test]
+#[ignore = "slow evidence"]
 fn coordinates_of_any_magnitude_are_decided() {
     let mut rng = Rng::new(34);
     let mut singular = 0;

@@ -142,6 +142,7 @@ fn conversion_keeps_what_a_design_says() {
 }
 
 #[test]
+#[ignore = "slow evidence"]
 fn the_optimised_platform_has_its_joints_on_the_edges() {
     let folder = folder();
     let (code, answer) = run(folder.path(), &["optimize", "octahedral.toml", "-o", "best.toml"]);
@@ -334,6 +335,7 @@ fn the_symmetric_hexapod_is_symmetric() {
 
 /// Corners that an optimiser does not choose are those of the design, constructions and all.
 #[test]
+#[ignore = "slow evidence"]
 fn a_platform_optimised_under_requirements_keeps_the_triangles_of_its_design() {
     let folder = folder();
     let asks = "[optimize]\nvariables = [\"offsets\", \"home_height\"]\nobjective = \"worst_conditioning\"\n\n[workspace]\ngrid = 1";
@@ -349,6 +351,7 @@ fn a_platform_optimised_under_requirements_keeps_the_triangles_of_its_design() {
 }
 
 #[test]
+#[ignore = "slow evidence"]
 fn holes_of_a_grid_are_decimals() {
     let folder = folder();
     let free = format!("{DESIGNS}/worked/bench-joint-free.toml");

@@ -94,6 +94,7 @@ fn special_platforms_of_exact_joints_are_complete_modulo_primes() {
 
 /// The same with joints rounded after a turn: a general platform as written, with 24 more poses far out. Whatever is found of them, the answer says what is missing.
 #[test]
+#[ignore = "slow evidence"]
 fn rounded_special_platforms_are_not_called_complete_with_the_poses_of_the_exact_ones() {
     for seed in 0..4 {
         let rng = &mut Rng::stream(0x52, seed);

@@ -106,6 +106,7 @@ fn thirty_tasks_are_done_with_one_command_each() {
 }
 
 #[test]
+#[ignore = "slow evidence"]
 fn the_guides_run_as_they_stand() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/guides");
     let mut pages: Vec<PathBuf> = fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();

@@ -90,10 +90,7 @@ fn command_lines(text: &str, markdown: bool) -> Vec<String> {
         fenced ^= line.starts_with("```");
         let pieces = line.split('`').skip(1).step_by(2);
         let code = line.trim_start_matches([' ', '$']);
-        let code = code
-            .strip_prefix("cargo run --release -- ")
-            .map(|c| format!("equipod {c}"))
-            .unwrap_or(code.into());
+        let code = code.strip_prefix("cargo run -- ").map(|c| format!("equipod {c}")).unwrap_or(code.into());
         let whole = (markdown && (fenced || line.starts_with("    "))).then_some(code.as_str());
         let found = pieces.chain(whole).filter_map(|c| c.strip_prefix("equipod "));
         out.extend(found.filter(|c| !c.contains('{')).map(str::to_string));

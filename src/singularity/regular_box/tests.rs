@@ -133,6 +133,7 @@ fn random_platform(rng: &mut Rng, octahedral: bool) -> Manipulator {
 
 /// Workspaces of wide rotations, where a component of the rotation vector is far from the tangent of a half angle: version 0.1.0 proved a set in the wrong coordinates.
 #[test]
+#[ignore = "slow evidence"]
 fn wide_rotations_never_contradict_the_proved_set() {
     let mut rng = Rng::new(77);
     let (mut proved, mut reached) = (0, 0);
@@ -166,6 +167,7 @@ fn wide_rotations_never_contradict_the_proved_set() {
 
 /// The set of scale 1 of `regular_box` and the region of a workspace are one: the two agree at scales to either side of the singular surface.
 #[test]
+#[ignore = "slow evidence"]
 fn a_workspace_is_judged_as_its_scale_is() {
     let mut rng = Rng::new(5);
     let (mut regular, mut singular) = (0, 0);

@@ -6,4 +6,3 @@ mod false_roots;
 mod laws;
 mod reference_roots;
 mod support;
-mod timing;
