@@ -203,6 +203,7 @@ const JOBS: [Job; 10] = [
             entry("sweep status", &["sweep status sweep"], &["missing"]),
             entry("sweep merge", &["sweep merge sweep -o sweep.parquet"], &["concatenate", "parquet"]),
             entry("sweep verify", &["sweep verify sweep"], &["digests"]),
+            entry("sweep best", &["sweep best sweep --by conditioning --count 3 -o best"], &["top", "rank"]),
             entry("sweep design", &["sweep design sweep --candidate 5 -o candidate.toml"], &["extract"]),
             entry(
                 "sweep script",

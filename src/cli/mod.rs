@@ -21,6 +21,7 @@ mod reference;
 mod requirements;
 mod rows;
 mod sweep_folder;
+mod swept_table;
 mod table;
 mod usage;
 
@@ -89,7 +90,7 @@ fn sweep_run_in_full(mut args: Vec<OsString>) -> Vec<OsString> {
 }
 
 /// What `sweep` takes beside a plan.
-const SWEEP_COMMANDS: [&str; 7] = ["run", "status", "merge", "verify", "design", "script", "help"];
+const SWEEP_COMMANDS: [&str; 8] = ["run", "status", "merge", "verify", "best", "design", "script", "help"];
 
 fn run(args: Vec<OsString>, json: bool) -> Exit {
     let mut args = args;

@@ -4,9 +4,10 @@ use super::Error;
 use crate::design::Design;
 use crate::equivalents::Equivalents;
 use crate::fk::{Theorem, pose_bound};
+use crate::geom::Region;
 use crate::requirements::{AssessOptions, LeastConditioning, MarginProof, least_conditioning, prove};
 use crate::singularity::{
-    Architecture, Assembly, Conditioning, NearestSingular, Regularity, assembly, conditioning,
+    Architecture, Assembly, BoxOptions, Conditioning, NearestSingular, Regularity, assembly, conditioning,
     nearest_singular, regular_workspace, singular_distance_at_least,
 };
 use crate::solve::pose_count::{
@@ -115,6 +116,9 @@ impl std::fmt::Display for AssessReport {
     }
 }
 
+/// Cells over which `det J` is bounded in the search for the largest region without singular poses, at most.
+pub(crate) const BOX_CELLS: usize = 30_000;
+
 /// Cells of the workspace over which [`Design::assess`] bounds the margins of one kind of requirement, and `det J`, at most.
 pub(crate) const ASSESS_CELLS: usize = 6000;
 
@@ -209,6 +213,17 @@ impl Design {
     /// The same with few cells, for answers that are about something else: the same poses are looked at, and less is proved between them.
     pub(crate) fn assessed_briefly(&self, seed: u64) -> Option<AssessReport> {
         self.assess_with(&AssessOptions::new().seed(seed).close(false), BRIEF_CELLS).ok()
+    }
+
+    /// The largest region without singular poses is sought in the shape of the box of the workspace, or of one of half the size and 30 degrees either way.
+    pub(crate) fn box_options(&self, regions: usize, seed: u64) -> BoxOptions {
+        let w = &self.workspace;
+        let (region, translation, rotation_deg) = if w.has_box() {
+            (w.region, w.translation.into(), w.rotation_deg.into())
+        } else {
+            (Region::Box, [0.5 * self.manipulator().size(); 3], [30.0; 3])
+        };
+        BoxOptions { region, translation, rotation_deg, regions, enough: 0.9, seed }
     }
 
     /// Every platform equivalent to this one: the class of the octahedral platform that the design is, or is made of.

@@ -31,6 +31,7 @@ pub(crate) use equivalence::{SAMPLES, decided_exactly, sample_plan, verified_exa
 pub use equivalence::{VerifyOptions, leg_map, verify, verify_with};
 pub use error::Error;
 #[cfg(all(feature = "files", feature = "synthesis"))]
+pub(crate) use judging::BOX_CELLS;
 pub use judging::{AssessReport, CheckReport};
 #[cfg(feature = "files")]
 pub(crate) use moving::{MotionMasses, MotionReport, PlatformMotion, StiffnessReport, TimedMargin};

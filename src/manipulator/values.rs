@@ -113,7 +113,7 @@ impl Manipulator {
     /// `values` belong to the joints of this manipulator, in their order.
     pub(crate) fn with_values(mut self, values: JointValues) -> Self {
         let counts = [self.base_joints().len(), self.platform_joints().len()];
-        debug_assert_eq!(values.radius.each_ref().map(Vec::len), counts);
+        assert_eq!(values.radius.each_ref().map(Vec::len), counts);
         let plain = values.radius.iter().flatten().all(|r| *r <= 0.0);
         self.values = (!plain).then(|| Arc::new(values));
         self

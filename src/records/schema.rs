@@ -51,6 +51,7 @@ const ANSWERS: Table = &[
     ("singular-motion", Document::<SelfmotionAnswer>::json_schema),
     ("singular-poses", Document::<SingularitiesAnswer>::json_schema),
     #[cfg(feature = "sweep")]
+    ("sweep-best", Document::<super::SweepBestAnswer>::json_schema),
     ("sweep-design", Document::<super::SweepDesignAnswer>::json_schema),
     #[cfg(feature = "sweep")]
     ("sweep-merge", Document::<super::SweepMergeAnswer>::json_schema),

@@ -203,6 +203,30 @@ pub struct SweepDesignAnswer {
     pub file: SweepDesignFile,
 }
 
+/// The answer of `sweep best`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SweepBestAnswer {
+    /// The column by which candidates are ranked.
+    pub column: String,
+    /// Rows that were kept and ranked.
+    pub rows: u64,
+    /// The best of them, the best one first.
+    pub candidates: Vec<SweepBestRecord>,
+    /// The page that compares them; `null` where there are none.
+    pub page: Option<String>,
+}
+
+/// One of the best candidates of a sweep.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SweepBestRecord {
+    /// The candidate.
+    pub candidate: u64,
+    /// Its value in the column.
+    pub value: Number,
+    /// Its design file.
+    pub output: String,
+}
+
 /// The answer of `sweep script`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SweepScriptAnswer {

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use nalgebra::Point3;
 use serde_json::Value;
 
 use super::candidate::{Ground, SweepCandidate};
@@ -10,12 +11,17 @@ use super::climb::climb;
 use super::column::{ColumnKind, SweepCell, SweepColumn};
 use super::measure::{least_axis_distance, length_range, worst_conditioning};
 use super::plan::{AnswerField, AnswerName, AxisValues, BasePlan, FreeQuantity, SweepPlan, SweepTask};
-use crate::entrance::{OptimizeEvidence, OptimizeOptions, Solver};
+use crate::entrance::{BOX_CELLS, OptimizeEvidence, OptimizeOptions, Solver};
 use crate::fk::{FkOptions, FkRoot, Threads};
 use crate::manipulator::{Body, inverse_condition, jacobian};
+use crate::manufacture::{PoseSearch, joint_allowance};
 use crate::records::{AssessAnswer, CheckAnswer, SolvedRecord};
 use crate::requirements::{TermKind, Terms};
+use crate::singularity::regular_box;
 use crate::synthesis::Pattern;
+
+/// Poses over which joints are toleranced, as of `compare`.
+const TOLERANCE_POSES: usize = 300;
 
 /// A pattern and how many offsets it takes.
 #[derive(Debug, Clone)]
@@ -208,6 +214,12 @@ impl Sweep {
                     found.pose_count.finite().map_or(SweepCell::Empty, SweepCell::count),
                 ]
             }
+            SweepTask::RegularBox => {
+                let options = c.ground.design.box_options(BOX_CELLS, self.seed);
+                let found = regular_box(m, &c.ground.home, &options);
+                vec![SweepCell::Number(found.proved), SweepCell::number(found.refuted.map(|r| r.scale))]
+            }
+            SweepTask::Tolerance => vec![self.tolerance(c)?],
             SweepTask::Optimum => self.optimum(c)?,
             SweepTask::Joints => {
                 let ends = m.legs().map(|leg| [leg.base, leg.platform]);
@@ -242,6 +254,14 @@ impl Sweep {
         let required = c.ground.design.requirements();
         let terms = Terms::new(m, &required, &c.ground.home);
         poses.iter().filter_map(|pose| terms.least_leg_gap(pose)).reduce(f64::min)
+    }
+
+    fn tolerance(&self, c: &SweepCandidate<'_>) -> Result<SweepCell, String> {
+        let Some(bound) = self.plan.accuracy else { return Ok(SweepCell::Empty) };
+        let space = c.ground.design.workspace_or_default().space(&c.ground.home);
+        let search = PoseSearch { points: TOLERANCE_POSES, seed: self.seed, ..PoseSearch::default() };
+        let found = joint_allowance(c.manipulator(), &space, Point3::origin(), bound, &search);
+        found.map(|found| SweepCell::Number(found.value)).map_err(|e| e.to_string())
     }
 
     fn optimum(&self, c: &SweepCandidate<'_>) -> Result<Vec<SweepCell>, String> {

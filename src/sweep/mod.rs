@@ -23,7 +23,7 @@ mod sample;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use column::SweepCell;
+pub(crate) use column::{SweepCell, SweepColumn};
 pub(crate) use digest::{Digested, digest_of};
 pub(crate) use evaluate::Sweep;
 pub(crate) use rows::{SweepRow, shard_range};

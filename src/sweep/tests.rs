@@ -2,10 +2,13 @@
 
 use std::sync::Arc;
 
+use nalgebra::Point3;
+
 use super::plan::{BasePlan, PlanText, read};
 use super::{Sweep, SweepCell};
 use crate::design::{Format, parse};
 use crate::manipulator::{inverse_condition, jacobian};
+use crate::manufacture::{ErrorBound, PoseSearch, joint_allowance};
 use crate::num::Cancel;
 
 const OCTAHEDRAL: &str = include_str!("../../designs/rbt-octahedral.toml");
@@ -124,6 +127,35 @@ fn margins_have_a_column_for_each_kind_of_requirement() {
         assert!(
             cell(&sweep, &row, &column.name).as_number().is_some() && column.unit.is_some(),
             "{column:?}"
+        );
+    }
+}
+
+/// det J of an equivalent platform is that of the original times det A: the same poses are singular, and the two bounds hold one number for all candidates.
+#[test]
+#[ignore = "slow evidence"]
+fn equivalent_platforms_have_one_region_without_singular_poses_and_tolerances_of_their_own() {
+    let sweep = sweep_of(
+        OCTAHEDRAL,
+        "compute = ['regular_box', 'tolerance']\naccuracy = [0.1, 0.5]\n[vary]\nby = 'sobol'\ncount = 3\nvalues = { offsets = { from = 0.1, to = 0.9 } }\n",
+    );
+    let rows: Vec<_> = (0..3).map(|k| sweep.row(k).unwrap()).collect();
+    let all =
+        |name: &str| rows.iter().map(|r| cell(&sweep, r, name).as_number().unwrap()).collect::<Vec<_>>();
+    let (proved, limit) = (all("regular_box"), all("regular_box_limit"));
+    assert!(proved.iter().all(|p| *p > 0.0));
+    let most = proved.iter().copied().fold(0.0, f64::max);
+    assert!(limit.iter().all(|l| *l >= most), "{proved:?} {limit:?}");
+    for (k, tolerance) in all("tolerance").into_iter().enumerate() {
+        let (design, _) = parse(&sweep.design_text(k as u64).unwrap(), Format::Toml).unwrap();
+        let space = design.workspace_or_default().space(&design.home_or_default());
+        let bound = ErrorBound { position: 0.1, rotation_deg: 0.5 };
+        let search = PoseSearch { points: 300, seed: 1, ..PoseSearch::default() };
+        let own = joint_allowance(design.manipulator(), &space, Point3::origin(), bound, &search).unwrap();
+        assert!(
+            tolerance > 0.0 && (tolerance - own.value).abs() < 1e-9 * own.value,
+            "{tolerance} {}",
+            own.value
         );
     }
 }

@@ -278,3 +278,41 @@ fn what_is_refused_says_why() {
     std::fs::write(&lost, "name = 'x'\ndesign = 'no-such.toml'\n").unwrap();
     assert_eq!(code(&[&lost, "-o", &folder]).as_deref(), Some("file::not_readable"));
 }
+
+#[test]
+fn the_best_candidates_are_designs_side_by_side() {
+    let place = Place::new();
+    let (plan, folder, best) = (place.plan("plan.toml", OFFSETS), place.path("sweep"), place.path("best"));
+    assert_eq!(asked(&["run", &plan, "-o", &folder]).0, Some(0));
+    let ranked = |more: &[&str]| {
+        asked(&[&["best", &folder, "--by", "conditioning", "--count", "3", "-o", &best], more].concat())
+    };
+    let values = |doc: &Value| -> Vec<f64> {
+        doc["candidates"].as_array().unwrap().iter().map(|c| c["value"].as_f64().unwrap()).collect()
+    };
+    let (code, high) = ranked(&[]);
+    let (_, all) =
+        asked(&["best", &folder, "--by", "conditioning", "--count", "200", "-o", &place.path("all")]);
+    let (high_values, all_values) = (values(&high), values(&all));
+    assert_eq!((code, high_values.len()), (Some(0), 3));
+    assert!(all["rows"].as_u64().unwrap() > 200, "{}", all["rows"]);
+    assert_eq!(high_values, all_values[..3]);
+    assert!(all_values.windows(2).all(|w| w[0] >= w[1]), "{all_values:?}");
+    // each file is the candidate, and the page holds all of them
+    let page = std::fs::read_to_string(high["page"].as_str().unwrap()).unwrap();
+    for c in high["candidates"].as_array().unwrap() {
+        let file = c["output"].as_str().unwrap();
+        let number = c["candidate"].to_string();
+        let (_, design) = asked(&["design", &folder, "--candidate", &number]);
+        assert_eq!(std::fs::read_to_string(file).unwrap(), design["text"].as_str().unwrap());
+        assert!(page.contains(&format!("candidate-{number}.toml")));
+    }
+    let (_, low) = ranked(&["--better", "low"]);
+    assert!(values(&low).windows(2).all(|w| w[0] <= w[1]) && values(&low)[2] <= all_values[199]);
+    let (_, kept) = ranked(&["--keep", "conditioning<0.1"]);
+    assert!(values(&kept).iter().all(|v| *v < 0.1) && kept["rows"].as_u64() < all["rows"].as_u64());
+    let (code, none) = ranked(&["--keep", "conditioning>2"]);
+    assert_eq!((code, none["page"].is_null(), values(&none).len()), (Some(1), true, 0));
+    let (code, refused) = asked(&["best", &folder, "--by", "conditionin", "-o", &best]);
+    assert_eq!((code, refused["error"]["code"].as_str()), (Some(2), Some("sweep::no_column")));
+}

@@ -60,7 +60,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
 }
 
 /// The page about these files.
-pub(super) fn page(files: Vec<ReportFile>, title: Option<String>) -> String {
+pub(in crate::cli::commands) fn page(files: Vec<ReportFile>, title: Option<String>) -> String {
     let first = files.iter().find_map(design_of);
     let title = title.or_else(|| first.as_ref().map(|d| d.name.clone())).unwrap_or_else(|| "Results".into());
     let view = first.map(|design| live(design, &files));
@@ -124,7 +124,9 @@ fn gather(folder: &Path, page: &Path) -> Result<Vec<ReportFile>, Failure> {
 }
 
 /// Files for the page: those of `explore` first, the others by name.
-pub(super) fn read(paths: impl IntoIterator<Item = PathBuf>) -> Result<Vec<ReportFile>, Failure> {
+pub(in crate::cli::commands) fn read(
+    paths: impl IntoIterator<Item = PathBuf>,
+) -> Result<Vec<ReportFile>, Failure> {
     let mut out = Vec::new();
     for path in paths {
         let bytes = files::read_bytes(&path, MOST_BYTES)?;

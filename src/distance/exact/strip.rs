@@ -222,7 +222,7 @@ impl<'a, R: Ring> Strip<'a, R> {
     /// Before the last step of the closure: a multiple, without the root of that step, of the product of the closure over both signs of it.
     pub(super) fn gram_determinant(&self) -> Result<Fraction<R>, ClosureError> {
         let t = self.closure.steps - 1;
-        debug_assert!(self.placed.len() == t);
+        assert!(self.placed.len() == t);
         if is_zero(&self.singular_factor(self.base_of(t)).numerator) {
             return Err(ClosureError::Collinear { step: t });
         }

@@ -120,6 +120,6 @@ pub fn squarefree_factors(p: &IntPoly) -> Vec<SquarefreeFactor> {
 
 /// Division by a primitive divisor.
 fn quotient(p: &IntPoly, divisor: &IntPoly) -> IntPoly {
-    debug_assert!(divisor.leading().sign() == Sign::Plus);
+    assert!(divisor.leading().sign() == Sign::Plus);
     p.exact_div(divisor).unwrap_or_else(|| unreachable!("a common divisor divides"))
 }

@@ -9,6 +9,7 @@ mod values;
 
 use crate::design::Format;
 use crate::geom::Pose;
+use crate::manufacture::ErrorBound;
 
 pub(crate) use condition::KeepCondition;
 pub(crate) use place::BasePlan;
@@ -32,6 +33,8 @@ pub(crate) struct SweepPlan {
     pub(crate) poses: PoseChoice,
     /// How requirements are assessed.
     pub(crate) assess: AssessEffort,
+    /// The accuracy for which joints are toleranced.
+    pub(crate) accuracy: Option<ErrorBound>,
     /// Steps of searches, at most.
     pub(crate) steps: usize,
     /// What is computed, in this order.
@@ -126,6 +129,10 @@ pub(crate) enum SweepTask {
     Margins,
     /// Architecturally singular or not.
     Check,
+    /// The largest region without singular poses, in the shape of the workspace.
+    RegularBox,
+    /// How far joints may be off for the accuracy of the plan.
+    Tolerance,
     /// The best equivalent or dimensioned platform.
     Optimum,
     /// The joints of the platform, three coordinates for each end of each leg.
@@ -169,7 +176,7 @@ impl AnswerName {
 }
 
 /// The words for what is computed, with what they stand for.
-pub(crate) const TASK_WORDS: [(&str, SweepTask); 14] = [
+pub(crate) const TASK_WORDS: [(&str, SweepTask); 16] = [
     ("det_a", SweepTask::DetA),
     ("conditioning", SweepTask::Conditioning),
     ("home_conditioning", SweepTask::HomeConditioning),
@@ -181,6 +188,8 @@ pub(crate) const TASK_WORDS: [(&str, SweepTask); 14] = [
     ("solutions", SweepTask::Solutions),
     ("margins", SweepTask::Margins),
     ("check", SweepTask::Check),
+    ("regular_box", SweepTask::RegularBox),
+    ("tolerance", SweepTask::Tolerance),
     ("optimum", SweepTask::Optimum),
     ("joints", SweepTask::Joints),
     ("climb", SweepTask::Climb),
@@ -299,6 +308,23 @@ impl SweepTask {
                     "finite poses for generic leg lengths",
                 ),
             ],
+            Self::RegularBox => vec![
+                number(
+                    "regular_box",
+                    None,
+                    "the region of the workspace about home, so many times as large, is proved to have no singular pose",
+                ),
+                number(
+                    "regular_box_limit",
+                    None,
+                    "so many times as large it is proved to have one; null: none was found",
+                ),
+            ],
+            Self::Tolerance => vec![number(
+                "tolerance",
+                Some(units),
+                "how far every joint centre may be off for the accuracy of the plan to be kept over the workspace",
+            )],
             Self::Optimum => vec![
                 SweepColumn::new("optimum_status", ColumnKind::Text, None, "what became of the optimisation"),
                 number("optimum", None, "value of the first objective"),

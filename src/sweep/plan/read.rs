@@ -12,12 +12,24 @@ use crate::design::spanned::{
 use crate::design::{Code, PRESETS, Violation};
 use crate::equivalents::Original;
 use crate::geom::Pose;
+use crate::manufacture::ErrorBound;
 use crate::sweep::column::{ColumnKind, SweepColumn};
 use crate::sweep::sample::{DIMENSIONS, MOST, PointSpread};
 use crate::synthesis::{Family, Pattern};
 
-const TOP_LEVEL: [&str; 10] =
-    ["name", "description", "design", "preset", "poses", "assess", "steps", "compute", "keep", "vary"];
+const TOP_LEVEL: [&str; 11] = [
+    "name",
+    "description",
+    "design",
+    "preset",
+    "poses",
+    "assess",
+    "accuracy",
+    "steps",
+    "compute",
+    "keep",
+    "vary",
+];
 
 const SPREADINGS: [(&str, Spreading); 5] = [
     ("grid", Spreading::Grid),
@@ -150,6 +162,10 @@ impl Reader<'_, '_> {
         base(root, entries, self.report);
         let poses = self.poses(find(entries, "poses"));
         let assess = self.assess(find(entries, "assess"));
+        let accuracy = match find(entries, "accuracy") {
+            Some(entry) => self.accuracy(entry).map(Some),
+            None => Some(None),
+        };
         let steps = find(entries, "steps").map_or(Some(STEPS), |e| self.whole(e, 1_000_000));
         let blocks = self.blocks(root, find(entries, "vary"));
         let tasks = self.tasks(root, find(entries, "compute"));
@@ -162,6 +178,7 @@ impl Reader<'_, '_> {
             blocks: blocks?,
             poses: poses?,
             assess: assess?,
+            accuracy: accuracy?,
             steps: steps? as usize,
             tasks: tasks?,
             keep: Vec::new(),
@@ -285,6 +302,26 @@ impl Reader<'_, '_> {
         let searches = take("searches", 1000, &mut effort.searches);
         let cells = take("cells", 100_000_000, &mut effort.cells);
         points.and(searches).and(cells).map(|()| effort)
+    }
+
+    fn accuracy(&mut self, entry: &Entry) -> Option<ErrorBound> {
+        const FORM: &str = "write accuracy = [0.1, 0.05]: of the position in the unit of the design, of the rotation in degrees";
+        let list = self.list(&entry.node, "`accuracy`", FORM)?;
+        let values: Vec<Option<f64>> = list.iter().map(|n| number(self.report, n, "an accuracy")).collect();
+        match values.into_iter().collect::<Option<Vec<f64>>>()?[..] {
+            [position, rotation_deg] if position > 0.0 && rotation_deg > 0.0 => {
+                Some(ErrorBound { position, rotation_deg })
+            }
+            _ => {
+                self.refuse(
+                    Code::NotPositive,
+                    &entry.node.span,
+                    "`accuracy` is not two positive numbers",
+                    FORM,
+                );
+                None
+            }
+        }
     }
 
     fn blocks(&mut self, root: &Node, entry: Option<&Entry>) -> Option<Vec<PlanBlock>> {
@@ -843,6 +880,14 @@ impl Reader<'_, '_> {
                         place,
                         "`det_a` is that of an equivalent platform",
                         "vary `offsets` or `pattern`, or leave it out",
+                    );
+                }
+                SweepTask::Tolerance if plan.accuracy.is_none() => {
+                    self.refuse(
+                        Code::ConflictingKeys,
+                        place,
+                        "`tolerance` is that for an accuracy, and the plan has none",
+                        "add accuracy = [position, rotation_deg], or leave it out",
                     );
                 }
                 SweepTask::Margins if self.base.required_kinds().is_empty() => {

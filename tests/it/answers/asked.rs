@@ -158,6 +158,8 @@ const CALLS: &[(i32, &str, &str)] = &[
     (0, "sweep-status", "{swept}"),
     (0, "sweep-merge", "{swept} -o {merged.parquet}"),
     (0, "sweep-verify", "{swept} --sample 3"),
+    (0, "sweep-best", "{swept} --by candidate --count 2 -o {best}"),
+    (1, "sweep-best", "{swept} --by candidate --keep candidate<0 -o {best}"),
     (0, "sweep-design", "{swept} --candidate 1"),
     (0, "sweep-design", "{swept} --candidate 1 -o {candidate.toml}"),
     (0, "sweep-script", "{small-plan} --slurm --folder {swept}"),

@@ -11,9 +11,9 @@ use equipod::records::{
     ComponentsAnswer, ConvertAnswer, Document, ErrorAnswer, ExploreAnswer, ExportAnswer, FamilyAnswer,
     FkAnswer, FkRunRecord, HelpAnswer, IkAnswer, LimitsAnswer, LocusAnswer, ManAnswer, MapAnswer,
     MotionAnswer, MoveAnswer, NearestAnswer, NewAnswer, OptimizeAnswer, PlotAnswer, PresetsAnswer,
-    ReportAnswer, RoundAnswer, SchemaAnswer, SelfmotionAnswer, SingularitiesAnswer, SweepDesignAnswer,
-    SweepMergeAnswer, SweepRunAnswer, SweepScriptAnswer, SweepStatusAnswer, SweepVerifyAnswer,
-    TolerancesAnswer, TopologiesAnswer, VerifyAnswer, ViewAnswer, schema, schema_names,
+    ReportAnswer, RoundAnswer, SchemaAnswer, SelfmotionAnswer, SingularitiesAnswer, SweepBestAnswer,
+    SweepDesignAnswer, SweepMergeAnswer, SweepRunAnswer, SweepScriptAnswer, SweepStatusAnswer,
+    SweepVerifyAnswer, TolerancesAnswer, TopologiesAnswer, VerifyAnswer, ViewAnswer, schema, schema_names,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -64,6 +64,7 @@ const TYPES: &[(&str, Reread)] = &[
     ("singular-poses", reread::<SingularitiesAnswer>),
     ("compare", reread::<CompareAnswer>),
     ("motion", reread::<MotionAnswer>),
+    ("sweep-best", reread::<SweepBestAnswer>),
     ("sweep-design", reread::<SweepDesignAnswer>),
     ("sweep-merge", reread::<SweepMergeAnswer>),
     ("sweep-run", reread::<SweepRunAnswer>),
@@ -337,6 +338,7 @@ const GROUPS: [&[&str]; 4] = [
         "sweep-status",
         "sweep-verify",
         "sweep-merge",
+        "sweep-best",
         "sweep-design",
         "sweep-script",
     ],

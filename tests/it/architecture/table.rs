@@ -215,6 +215,8 @@ const LINES: &[Line] = &[
             "requirements",
             "fk",
             "synthesis",
+            "singularity",
+            "manufacture",
             "design",
             "equivalents",
             "entrance",

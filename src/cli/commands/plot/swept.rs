@@ -1,14 +1,12 @@
 //! `equipod plot sweep`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::ValueEnum;
 
 use crate::cli::failure::Failure;
-use crate::cli::sweep_folder::{PartLook, ShardState, SweepFolder, open_table};
+use crate::cli::swept_table::{Better, SweptTable};
 use crate::plot::{SweptColumn, SweptFigure, swept_cloud, swept_field, swept_histogram, swept_parallel};
-use crate::sweep::part::PartReader;
-use crate::sweep::plan::KeepCondition;
 
 /// Arguments of `plot sweep`.
 #[derive(Debug, clap::Args)]
@@ -40,13 +38,6 @@ enum Kind {
     Front,
 }
 
-/// `--better`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Better {
-    High,
-    Low,
-}
-
 impl Kind {
     /// Least and greatest number of columns.
     fn columns(self) -> (usize, usize) {
@@ -57,20 +48,6 @@ impl Kind {
             Self::Heat | Self::Scatter | Self::Front => (2, 3),
         }
     }
-}
-
-/// The tables of the rows, one after the other.
-fn tables(path: &Path) -> Result<(String, Vec<PartReader>), Failure> {
-    if !path.is_dir() {
-        let reader = open_table(path)?;
-        let name = reader.note("equipod.name").unwrap_or_default();
-        return Ok((name, vec![reader]));
-    }
-    let folder = SweepFolder::open(path)?;
-    let done = (0..folder.record.shards)
-        .filter(|s| matches!(folder.state(*s, PartLook::Whole), ShardState::Done(_)));
-    let readers = done.map(|s| folder.reader(s)).collect::<Result<Vec<_>, _>>()?;
-    Ok((folder.record.name.clone(), readers))
 }
 
 pub(super) fn draw(args: &Args) -> Result<String, Failure> {
@@ -84,57 +61,33 @@ pub(super) fn draw(args: &Args) -> Result<String, Failure> {
         let help = if least == most { format!("give {least}") } else { format!("give {least} to {most}") };
         return Err(Failure::refused("plot::columns", message).with_help(help));
     }
-    let (name, readers) = tables(&args.table)?;
-    let Some(first) = readers.first() else {
-        return Err(Failure::refused("plot::no_rows", format!("{}: no shard is done", args.table.display()))
-            .with_help("`equipod sweep status DIR` says what is missing"));
-    };
-    let all = first.columns.clone();
-    let names: Vec<&str> = all.iter().map(|c| c.name.as_str()).collect();
-    let column = |name: &String| {
-        names.iter().position(|n| n == name).ok_or_else(|| {
-            let help = crate::design::spanned::nearest_help("columns", name, &names);
-            Failure::refused("plot::no_column", format!("the table has no column `{name}`")).with_help(help)
-        })
-    };
-    let wanted = args.columns.iter().map(column).collect::<Result<Vec<usize>, _>>()?;
-    let read = |text: &String| {
-        KeepCondition::read(text, &all)
-            .map_err(|(message, help)| Failure::refused("plot::bad_condition", message).with_help(help))
-    };
-    let conditions = args.keep.iter().map(read).collect::<Result<Vec<_>, _>>()?;
-    let every: Vec<usize> = (0..all.len()).collect();
+    let table = SweptTable::open(&args.table, &args.keep)?;
+    let wanted = args.columns.iter().map(|name| table.column(name)).collect::<Result<Vec<usize>, _>>()?;
     let mut candidates = Vec::new();
     let mut values = vec![Vec::new(); wanted.len()];
-    for reader in &readers {
-        for group in 0..reader.groups() {
-            let rows = reader
-                .group(group, &every)
-                .map_err(|e| Failure::refused("sweep::damaged", format!("{}: {e}", args.table.display())))?;
-            for row in rows.iter().filter(|row| conditions.iter().all(|c| c.holds(row))) {
-                candidates.push(row[0].as_number().unwrap_or(-1.0) as i64);
-                for (list, k) in values.iter_mut().zip(&wanted) {
-                    list.push(row[*k].as_number().unwrap_or(f64::NAN));
-                }
-            }
+    table.each_row(|row| {
+        candidates.push(row[0].as_number().unwrap_or(-1.0) as i64);
+        for (list, k) in values.iter_mut().zip(&wanted) {
+            list.push(row[*k].as_number().unwrap_or(f64::NAN));
         }
-    }
+    })?;
+    let all = &table.columns;
     let label = |k: &usize| match &all[*k].unit {
         Some(unit) => format!("{} [{unit}]", all[*k].name),
         None => all[*k].name.clone(),
     };
     let columns =
         wanted.iter().zip(values).map(|(k, values)| SweptColumn { label: label(k), values }).collect();
-    let digest = first.note("equipod.plan_sha256").unwrap_or_default();
+    let digest = table.note("equipod.plan_sha256");
     let filter = if args.keep.is_empty() { String::new() } else { format!(" with {}", args.keep.join(", ")) };
     let note = format!(
         "{} rows{filter}; plan {}, seed {}, equipod {}",
         candidates.len(),
         digest.get(..12).unwrap_or_default(),
-        first.note("equipod.seed").unwrap_or_default(),
-        first.note("equipod.version").unwrap_or_default(),
+        table.note("equipod.seed"),
+        table.note("equipod.version"),
     );
-    let figure = SweptFigure { title: name, note, candidates, columns };
+    let figure = SweptFigure { title: table.name.clone(), note, candidates, columns };
     let gain = [args.better[0], args.better[1]].map(|b| b == Better::High);
     Ok(match args.kind {
         Kind::Heat => swept_field(&figure, false),

@@ -1,5 +1,6 @@
 //! `equipod sweep`: many designs from a plan, as Parquet.
 
+mod best;
 mod design;
 mod merge;
 mod run;
@@ -24,6 +25,8 @@ pub(crate) enum Command {
     Merge(merge::Args),
     /// Check the digests of all parts, and compute a random sample again, bit for bit
     Verify(verify::Args),
+    /// Write the best candidates as design files, with a page that compares them
+    Best(best::Args),
     /// Write a candidate as a design file
     Design(design::Args),
     /// Write a script that hands the shards to a cluster with Slurm
@@ -38,6 +41,7 @@ impl Command {
             Self::Status(args) => status::run(args),
             Self::Merge(args) => merge::run(args),
             Self::Verify(args) => verify::run(args, context),
+            Self::Best(args) => best::run(args),
             Self::Design(args) => design::run(args),
             Self::Script(args) => script::run(args, context),
         }

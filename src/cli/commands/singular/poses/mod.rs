@@ -14,6 +14,7 @@ use crate::cli::freedoms::Freedoms;
 use crate::cli::output::Answer;
 use crate::cli::poses;
 use crate::design::Design;
+use crate::entrance::BOX_CELLS;
 use crate::fk::{Automatic, FkOptions, ForwardKinematics};
 use crate::geom::{Pose, PoseSpace, Region};
 use crate::manipulator::{LegLengths, Octahedral, inverse_condition, jacobian, leg_determinant};
@@ -36,7 +37,7 @@ pub(crate) struct Args {
     #[arg(long = "box", value_name = "X,Y,Z,RX,RY,RZ")]
     shape: Option<String>,
     /// Greatest number of cells of the region of poses over which det J is bounded to prove the box
-    #[arg(long, value_name = "N", default_value_t = 30_000)]
+    #[arg(long, value_name = "N", default_value_t = BOX_CELLS)]
     cells: usize,
     /// Write a picture of the singular poses over two of the six freedoms
     #[arg(long, value_name = "FILE")]
@@ -176,21 +177,13 @@ pub(in crate::cli::commands) fn box_options(
     design: &Design,
     seed: u64,
 ) -> Result<BoxOptions, Failure> {
-    let size = design.manipulator().size();
-    let (region, translation, rotation_deg) = match shape {
-        Some(text) => {
-            let v = six(text, "--box")?;
-            if v.iter().any(|x| *x < 0.0) || v.iter().all(|x| *x == 0.0) {
-                let message = "--box: half widths are not negative, and not all zero";
-                return Err(Failure::refused("poses::bad_numbers", message));
-            }
-            (Region::Box, [v[0], v[1], v[2]], [v[3], v[4], v[5]])
-        }
-        None if design.workspace.has_box() => {
-            let w = &design.workspace;
-            (w.region, w.translation.into(), w.rotation_deg.into())
-        }
-        None => (Region::Box, [0.5 * size; 3], [30.0; 3]),
-    };
-    Ok(BoxOptions { region, translation, rotation_deg, regions, enough: 0.9, seed })
+    let of_the_design = design.box_options(regions, seed);
+    let Some(text) = shape else { return Ok(of_the_design) };
+    let v = six(text, "--box")?;
+    if v.iter().any(|x| *x < 0.0) || v.iter().all(|x| *x == 0.0) {
+        let message = "--box: half widths are not negative, and not all zero";
+        return Err(Failure::refused("poses::bad_numbers", message));
+    }
+    let (translation, rotation_deg) = ([v[0], v[1], v[2]], [v[3], v[4], v[5]]);
+    Ok(BoxOptions { region: Region::Box, translation, rotation_deg, ..of_the_design })
 }
