@@ -41,7 +41,7 @@ pub(super) fn poses() -> Vec<Pose> {
 
 /// Full size: 27 poses, 729 branches, 20,000 random feasible designs. `cargo test --release -- --ignored --nocapture full_size`
 #[test]
-#[ignore = "slow evidence"]
+#[ignore = "takes a minute without optimisation"]
 #[allow(clippy::print_stdout)]
 fn full_size_search_is_not_beaten_by_twenty_thousand_random_designs() {
     for turn in [0.0, std::f64::consts::FRAC_PI_3, std::f64::consts::PI] {

@@ -11,12 +11,12 @@ use crate::entrance::Error;
 use crate::geom::{ComplexPose, InvalidPose, Pose};
 
 /// Why a computation at many poses ended: the matrix of one of them, or what was computed of it.
-pub(super) enum Fault {
+pub(super) enum PoseFault {
     Pose(usize, InvalidPose),
     Failed(Error),
 }
 
-impl From<Error> for Fault {
+impl From<Error> for PoseFault {
     fn from(error: Error) -> Self {
         Self::Failed(error)
     }
@@ -26,7 +26,7 @@ impl From<Error> for Fault {
 pub(super) fn at_poses(
     py: Python<'_>,
     poses: &ArrayView3<'_, f64>,
-    mut each: impl FnMut(Pose) -> Result<(), Fault> + Send,
+    mut each: impl FnMut(Pose) -> Result<(), PoseFault> + Send,
 ) -> PyResult<()> {
     let shape = poses.shape();
     if shape[1..] != [4, 4] {
@@ -37,13 +37,13 @@ pub(super) fn at_poses(
     let entries = matrices.as_slice().unwrap_or_default();
     let done = py.detach(|| {
         entries.chunks_exact(16).enumerate().try_for_each(|(k, matrix)| {
-            each(Pose::try_from(Matrix4::from_row_slice(matrix)).map_err(|e| Fault::Pose(k, e))?)
+            each(Pose::try_from(Matrix4::from_row_slice(matrix)).map_err(|e| PoseFault::Pose(k, e))?)
         })
     });
     done.map_err(|fault| match fault {
-        Fault::Pose(_, e) if one => raised(py, Error::Pose(e)),
-        Fault::Pose(k, e) => refused(py, "pose", &format!("pose {k}: {e}")),
-        Fault::Failed(error) => raised(py, error),
+        PoseFault::Pose(_, e) if one => raised(py, Error::Pose(e)),
+        PoseFault::Pose(k, e) => refused(py, "pose", &format!("pose {k}: {e}")),
+        PoseFault::Failed(error) => raised(py, error),
     })
 }
 

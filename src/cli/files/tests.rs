@@ -45,6 +45,7 @@ fn needed(words: &[String], output: &str) -> Vec<&'static str> {
         (["build", "tolerances"], "map") => vec!["--bound", "0.1,0.1"],
         (["build", "round"], _) => vec!["--grid", "0.5"],
         (["equivalents", "map"] | ["verify"], "output") => vec!["--align"],
+        (["sweep", "best"], _) => vec!["--by", "conditioning"],
         (["sweep", "design"], _) => vec!["--candidate", "0"],
         (["sweep", "script"], "output") => vec!["--folder", "parts"],
         (["plot", "sweep"], _) => vec!["--columns", "conditioning,det_a"],

@@ -17,7 +17,7 @@ use crate::sweep::SweepCell;
 /// The page in the folder.
 const PAGE: &str = "report.html";
 /// Designs written, at most: the page compares all of them.
-const MOST: u64 = 200;
+const MOST: u64 = 50;
 
 /// Arguments of `sweep best`.
 #[derive(Debug, clap::Args)]
