@@ -75,11 +75,12 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     if !ranked.is_empty() {
         files::make_folder(&args.output)?;
     }
-    for (value, k) in ranked {
+    for (place, (value, k)) in (1..).zip(ranked) {
         let text = sweep.design_text(k).map_err(|why| {
             Failure::new(Exit::No, "sweep::no_design", format!("candidate {k} makes no design: {why}"))
         })?;
-        let path = args.output.join(format!("candidate-{k}.toml"));
+        // the page has files in the order of their names
+        let path = args.output.join(format!("{place:02}-candidate-{k}.toml"));
         files::write_text(&path, &text)?;
         let output = path.display().to_string();
         lines.push(format!("{output}  {} {}\n", args.by, significant(value)));
