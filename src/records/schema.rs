@@ -52,6 +52,7 @@ const ANSWERS: Table = &[
     ("singular-poses", Document::<SingularitiesAnswer>::json_schema),
     #[cfg(feature = "sweep")]
     ("sweep-best", Document::<super::SweepBestAnswer>::json_schema),
+    #[cfg(feature = "sweep")]
     ("sweep-design", Document::<super::SweepDesignAnswer>::json_schema),
     #[cfg(feature = "sweep")]
     ("sweep-merge", Document::<super::SweepMergeAnswer>::json_schema),
