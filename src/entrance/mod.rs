@@ -32,6 +32,7 @@ pub use equivalence::{VerifyOptions, leg_map, verify, verify_with};
 pub use error::Error;
 #[cfg(all(feature = "files", feature = "synthesis"))]
 pub(crate) use judging::BOX_CELLS;
+#[cfg(all(feature = "files", feature = "synthesis"))]
 pub use judging::{AssessReport, CheckReport};
 #[cfg(feature = "files")]
 pub(crate) use moving::{MotionMasses, MotionReport, PlatformMotion, StiffnessReport, TimedMargin};
