@@ -20,11 +20,14 @@ ANSWERS = {
     "calibrate": "CalibrateAnswer",
     "check": "CheckAnswer",
     "compare": "CompareAnswer",
+    "equivalents-family": "FamilyAnswer",
     "equivalents-map": "MapAnswer",
     "explore": "ExploreAnswer",
     "fk": "FkAnswer",
+    "limits": "LimitsAnswer",
     "motion": "MotionAnswer",
     "optimize": "OptimizeAnswer",
+    "singular-poses": "SingularPosesAnswer",
     "verify": "VerifyAnswer",
 }
 FILE = pathlib.Path(__file__).parents[2] / "src/python/equipod/records.py"

@@ -218,6 +218,31 @@ def test_an_equivalent_has_the_lengths_of_its_map_and_is_verified(octahedral):
     assert unrelated.A is not None and np.allclose(unrelated.A, np.eye(6))
 
 
+def test_the_class_of_an_octahedral_design_has_all_its_patterns(octahedral):
+    family = octahedral.equivalents()
+    assert (family.counts.patterns, len(family.patterns)) == (728, 728)
+    free = [p for p in family.patterns if not p.shared_joints]
+    assert [leg.kind for leg in free[0].legs] == ["inner"] * 6 and len(free) == 1
+    with pytest.raises(equipod.DesignError):
+        equipod.Design.load(DESIGNS / "general-6-6.toml").equivalents()
+
+
+def test_limits_and_singular_poses_take_poses_as_matrices():
+    design = equipod.Design.preset("bench-l16")
+    pose = design.home.copy()
+    pose[2, 3] += 3.0
+    home, moved = design.limits(), design.limits(pose)
+    assert home.axes != moved.axes
+    assert design.limits(design.home).axes == home.axes
+    # a second way to one number: what is free along x ends where the least margin is zero
+    edge = design.home.copy()
+    edge[0, 3] += home.axes[0].forth.free
+    assert min(design.margins(edge).least.values()) == pytest.approx(0.0, abs=1e-9)
+    assert design.singular_poses(options=["--box=1,1,1,1,1,1"]).regular.met is True
+    with pytest.raises(equipod.DesignError, match="one pose"):
+        design.limits(np.stack([pose, pose]))
+
+
 def test_answers_are_those_of_the_program(octahedral):
     """The same fields with the same values as `equipod --json`, but for how the design was handed over."""
 

@@ -15,7 +15,7 @@ from . import _core
 from ._display import Figure, Page
 from ._errors import DesignError
 from ._poses import Floats, PoseLike, as_matrices
-from ._program import Progress, Workshop, ask, text_of
+from ._program import Progress, Workshop, ask, pose_text, text_of
 from ._solutions import BatchSolutions, Solutions
 
 if TYPE_CHECKING:
@@ -26,10 +26,13 @@ if TYPE_CHECKING:
         CalibrateAnswer,
         CheckAnswer,
         CompareAnswer,
+        FamilyAnswer,
+        LimitsAnswer,
         MapAnswer,
         MotionAnswer,
         OptimizeAnswer,
         RoundAnswer,
+        SingularPosesAnswer,
         TolerancesAnswer,
         VerifyAnswer,
     )
@@ -488,6 +491,51 @@ class Design:
         from .records import AssessAnswer
 
         return AssessAnswer.from_json(self._native.assess(points, steps, searches, cells, seed))
+
+    def limits(self, at: PoseLike | None = None, *, to: PoseLike | None = None, options: Sequence[str] = ()) -> LimitsAnswer:
+        """How far the platform may move from a pose along every axis before a requirement binds, and which one.
+
+        Parameters
+        ----------
+        at : pose_like, shape (4, 4), optional
+            Home when absent.
+        to : pose_like, shape (4, 4), optional
+            Also the straight way to this pose, and the allowed pose nearest to it.
+        options : sequence of str
+            Further options of ``equipod limits``.
+        """
+        from .records import LimitsAnswer
+
+        with Workshop() as shop:
+            words = ["limits", shop.file("design.toml", self._native)]
+            words += [f"--{name}={pose_text(pose)}" for name, pose in (("at", at), ("to", to)) if pose is not None]
+            return LimitsAnswer(ask([*words, *options]))
+
+    def singular_poses(self, pose: PoseLike | None = None, *, options: Sequence[str] = ()) -> SingularPosesAnswer:
+        """Where the platform gives way: signs of det J, and a box of poses proved to have no singular one.
+
+        Parameters
+        ----------
+        pose : pose_like, shape (4, 4), optional
+            In the middle of the box; home when absent.
+        options : sequence of str
+            Further options of ``equipod singular poses``.
+        """
+        from .records import SingularPosesAnswer
+
+        with Workshop() as shop:
+            words = ["singular", "poses", shop.file("design.toml", self._native)]
+            return SingularPosesAnswer(ask([*words, *([] if pose is None else [f"--pose={pose_text(pose)}"]), *options]))
+
+    def equivalents(self) -> FamilyAnswer:
+        """All patterns of the equivalence class of an octahedral design, each with its leg map as polynomials in the offsets.
+
+        ``patterns`` has them, ``counts`` how many there are; `equivalent` makes the platform of a pattern.
+        """
+        from .records import FamilyAnswer
+
+        with Workshop() as shop:
+            return FamilyAnswer(ask(["equivalents", "family", shop.file("design.toml", self._native)]))
 
     def equivalent(self, offsets: Sequence[float], *, pattern: str | None = None) -> Equivalent:
         """The equivalent platform of an octahedral design with these offsets.

@@ -72,6 +72,14 @@ class Workshop:
         return str(path)
 
 
+def pose_text(pose: PoseLike) -> str:
+    """One pose as options take it, to the last digit: ``x,y,z,qw,qx,qy,qz``."""
+    array = as_matrices(pose)
+    if array.shape != (4, 4):
+        raise DesignError(f"one pose is a matrix of shape (4, 4), not {array.shape}", code="shape")
+    return ",".join(map(repr, [*array[:3, 3].tolist(), *quaternion(array).tolist()]))
+
+
 def ask(arguments: Sequence[str], progress: Progress | bool | None = None, folder: str | None = None) -> dict[str, Any]:
     """The JSON document of a command.
 

@@ -80,13 +80,16 @@ OffsetsStatus = Literal[
     "violated",
 ]
 PathEnd = Literal["at_infinity", "failed", "finite", "isotropic"]
+PoseAxis = Literal["pitch", "roll", "x", "y", "yaw", "z"]
 ProofWord = Literal["leg_vectors", "pose_lattice", "regular_pose"]
 ProvedReality = Literal["non_real", "real", "undecided"]
+RegionWord = Literal["box", "ellipsoid"]
 RegularityWord = Literal["changes_sign", "proved", "undecided"]
 RejectionReason = Literal["duplicate", "not_certified", "not_finite", "residual_too_large"]
 Relation = Literal["equivalent", "singular", "undecided", "unrelated"]
 SearchWord = Literal["found", "impossible", "undecided", "violated"]
 SideWord = Literal["above", "below"]
+SignOutcome = Literal["crosses", "keeps_sign", "undecided"]
 SourceWord = Literal["default", "design"]
 SpecialDemand = Literal["abs_det", "reach"]
 StageWord = Literal["assess", "components", "fk", "moves", "nearest", "verify"]
@@ -712,6 +715,29 @@ class CounterexampleRecord(Record):
     rounding: Union[float, None]
 
 
+class CountsRecord(Record):
+    """How many members the class has."""
+
+    #: Patterns of kept and moved legs.
+    patterns: int
+    #: Patterns up to the symmetries of the hexagon that keep base and platform apart.
+    classes: int
+    #: Patterns up to all symmetries of the hexagon.
+    classes_exchange: int
+    #: Ways in which legs share joints, the octahedral one included.
+    topologies: int
+    #: The same where base and platform may be exchanged.
+    topologies_exchange: int
+    #: Topologies that are reached by offsets introduced one at a time.
+    sequential_topologies: int
+    #: The same where base and platform may be exchanged.
+    sequential_topologies_exchange: int
+    #: Patterns that are reached by offsets introduced one at a time.
+    sequential_patterns: int
+    #: Patterns that split joints only.
+    splitting_patterns: int
+
+
 class CovarianceRecord(Record):
     """A covariance matrix."""
 
@@ -1182,6 +1208,31 @@ class FamiliesFoundRecord(Record):
     complete: bool
 
 
+class FamilyAnswer(Record):
+    """One JSON document: an answer between what all answers have."""
+
+    #: Always 1: the version of these definitions.
+    schema_version: int
+    #: The name of the design.
+    name: str
+    #: Legs along the hexagon, from 1.
+    cyclic_order: tuple[int, ...]
+    #: The edge of each side of the hexagon, design units.
+    edge_lengths: tuple[Union[float, None], ...]
+    #: How many there are.
+    counts: CountsRecord
+    #: The patterns, or the one that was asked for.
+    patterns: tuple[PatternRecord, ...]
+    #: The ways in which legs share joints.
+    topologies: tuple[FamilyTopologyRecord, ...]
+    #: What the answer was made from.
+    provenance: ProvenanceRecord
+    #: What was odd about the design files that were read.
+    warnings: tuple[WarningRecord, ...]
+    #: The platform of the pattern at the offsets given, with `--offsets`.
+    instance: Union[InstanceRecord, None]
+
+
 class FamilySizeRecord(Record):
     """How many platforms are equivalent to an octahedral one."""
 
@@ -1189,6 +1240,25 @@ class FamilySizeRecord(Record):
     patterns: int
     #: Ways to share joints.
     topologies: int
+
+
+class FamilyTopologyRecord(Record):
+    """A way in which the legs of equivalent platforms share joints."""
+
+    #: Its number, from 1.
+    topology: int
+    #: Joints of the base.
+    base_joints: int
+    #: Joints of the platform.
+    platform_joints: int
+    #: Joints that hold more than one leg.
+    shared_joints: int
+    #: It is reached by offsets introduced one at a time.
+    sequential: bool
+    #: A pattern that has it.
+    example: str
+    #: Topologies one offset further, from 1.
+    next: tuple[int, ...]
 
 
 class FiguresRecord(Record):
@@ -1445,6 +1515,21 @@ class FrameMotionsRecord(Record):
     platform: FrameMotionRecord
 
 
+class FreeRangeRecord(Record):
+    """How far one of the six numbers of a pose may move."""
+
+    #: Which number, with `R = Rz(yaw) Ry(pitch) Rx(roll)`.
+    axis: PoseAxis
+    #: `deg`, or the unit of length.
+    unit: str
+    #: At the pose.
+    value: float
+    #: Towards smaller values.
+    back: TravelRecord
+    #: Towards greater ones.
+    forth: TravelRecord
+
+
 class FrontAnswer(Record):
     """The answer of `optimize` with mode = "pareto"."""
 
@@ -1607,6 +1692,25 @@ class HeldPosesRecord(Record):
     checked: int
 
 
+class InstanceRecord(Record):
+    """The platform of a pattern at given offsets."""
+
+    #: The pattern.
+    pattern: str
+    #: The offsets, fractions of the edges.
+    offsets: tuple[Union[float, None], ...]
+    #: Rows of A: s' = A s + c of squared leg lengths.
+    A: tuple[tuple[Union[float, None], ...], ...]
+    #: The constant terms, design units squared.
+    c: tuple[Union[float, None], ...]
+    #: det A.
+    det: Union[float, None]
+    #: Joints of the base.
+    base_joints: int
+    #: Joints of the platform.
+    platform_joints: int
+
+
 class JointAxesRecord(Record):
     """Axes of joints: unit vectors, frame of the body; null: not chosen."""
 
@@ -1674,6 +1778,21 @@ class JointsRecord(Record):
     explanation: str
 
 
+class JudgedPoseRecord(Record):
+    """A pose with figures of its Jacobian."""
+
+    #: Position of the platform origin, base frame, design units.
+    p: tuple[Union[float, None], ...]
+    #: Unit quaternion, scalar part first.
+    q: tuple[Union[float, None], ...]
+    #: det J of the leg lines, over the size to the sixth.
+    determinant: Union[float, None]
+    #: 1 at best, 0 at a singular pose.
+    inverse_condition: Union[float, None]
+    #: The two conditions of four planes in one point, of octahedral designs.
+    four_planes: Union[tuple[Union[float, None], ...], None]
+
+
 class JudgementRecord(Record):
     """How good a design is."""
 
@@ -1725,6 +1844,49 @@ class LegMotionRecord(Record):
     rms_force: Union[float, None]
     #: Power of the greatest size, watts; negative where the drive brakes.
     power_w: Union[ExtremeRecord, None]
+
+
+class LimitRecord(Record):
+    """A requirement that binds or is violated."""
+
+    #: The kind; null: a singular pose, where det J vanishes.
+    name: Union[TermKind, None]
+    #: By how much it is met, a violation below 0; of a singular pose det J over that at home.
+    margin: Union[float, None]
+    #: Of the margin; null: a share.
+    unit: Union[str, None]
+    #: Legs, joints, keep-out or load.
+    between: tuple[str, ...]
+    #: The legs among them, from 1.
+    legs: tuple[int, ...]
+
+
+class LimitsAnswer(Record):
+    """One JSON document: an answer between what all answers have."""
+
+    #: Always 1: the version of these definitions.
+    schema_version: int
+    #: The pose of `--at`.
+    pose: PoseQuaternionRecord
+    #: Every requirement is met there, and det J has the sign that it has at home.
+    allowed: bool
+    #: What is violated there, the worst first.
+    violated: tuple[LimitRecord, ...]
+    #: x, y, z, roll, pitch, yaw: how far each may move while the others stay; nothing where the pose is
+    #: not allowed.
+    axes: tuple[FreeRangeRecord, ...]
+    #: The straight way to the pose of `--to`; null: none was asked for, or it begins at a pose that is not
+    #: allowed.
+    way: Union[StraightWayRecord, None]
+    #: The allowed pose nearest to that of `--to`, or to that of `--at` where it is not allowed; null: all
+    #: that was asked for is allowed, or no allowed pose was found.
+    nearest_allowed: Union[NearestAllowedRecord, None]
+    #: Of lengths.
+    length_unit: str
+    #: What the answer was made from.
+    provenance: ProvenanceRecord
+    #: What was odd about the design files that were read.
+    warnings: tuple[WarningRecord, ...]
 
 
 class LocalOptimalityRecord(Record):
@@ -1991,6 +2153,28 @@ class NearRecord(Record):
     distance: Union[float, None]
     #: The angle the platform turned by.
     angle_deg: Union[float, None]
+
+
+class NearestAllowedRecord(Record):
+    """An allowed pose near one that is not."""
+
+    #: The pose.
+    pose: PoseQuaternionRecord
+    #: Its position, design units.
+    position: tuple[float, ...]
+    #: Its roll, pitch and yaw.
+    rpy_deg: tuple[float, ...]
+    #: Distance from the pose asked for, design units: `sqrt(|p - p'|^2 + (L angle)^2)`.
+    distance: float
+    #: The `L` of the distance, design units a radian.
+    characteristic_length: float
+    #: What keeps it from being nearer.
+    binds: tuple[LimitRecord, ...]
+    #: Whether no small step leads nearer, as far as margins are smooth: then it is locally nearest. False:
+    #: the search ended before that was so.
+    stationary: bool
+    #: Whether the straight way from home to it violates nothing.
+    straight_from_home: bool
 
 
 class NearestErrorRecord(Record):
@@ -2506,6 +2690,51 @@ class PathRecord(Record):
     retracked: int
 
 
+class PatternLegRecord(Record):
+    """One leg of a pattern."""
+
+    #: Its base joint.
+    base: str
+    #: Its platform joint.
+    platform: str
+    kind: Union[Literal["vertex", "inner"], None]
+    #: The side, from 1.
+    side: Union[int, None]
+    #: The name of its offset.
+    offset: Union[str, None]
+    #: The legs at the ends of the side, from 1.
+    between: Union[tuple[int, ...], None]
+
+
+class PatternRecord(Record):
+    """Which legs are kept and which are moved along which edge."""
+
+    #: Its name: V and the vertices kept, S and the sides of the moved ones.
+    id: str
+    #: Its class up to symmetry, from 1.
+    class_: int
+    #: Its class up to all symmetries, from 1.
+    class_exchange: int
+    #: Its topology, from 1.
+    topology: int
+    #: It is reached by offsets introduced one at a time.
+    sequential: bool
+    #: The legs, in the order of the design.
+    legs: tuple[PatternLegRecord, ...]
+    #: Names of the offsets.
+    offsets: tuple[str, ...]
+    #: Joints that hold more than one leg.
+    shared_joints: tuple[SharedJointRecord, ...]
+    #: Joints on one line.
+    alignments: tuple[tuple[str, ...], ...]
+    #: Formulas of the entries of A, legs in the order of the design.
+    A: tuple[tuple[str, ...], ...]
+    #: The formula of det A.
+    det: str
+    #: Equations for det A = 0, one a factor.
+    det_zero: tuple[str, ...]
+
+
 class PlatformFoundRecord(Record):
     """A platform under requirements in short."""
 
@@ -2660,6 +2889,25 @@ class RealPoseRecord(Record):
     distance_from_home: float
     #: Whether none of the other real poses listed is nearer to home.
     nearest_home: bool
+
+
+class RegularBoxRecord(Record):
+    """A box of poses about a pose that holds no singular one."""
+
+    #: Half widths of positions at scale 1, design units, base frame.
+    translation: tuple[float, ...]
+    #: Half widths of the rotation vector at scale 1, base frame.
+    rotation_deg: tuple[float, ...]
+    #: Its shape.
+    region: RegionWord
+    #: No singular pose up to this scale, proved.
+    proved_scale: Union[float, None]
+    #: A pose of the smallest box known to hold a singular one.
+    singular_within: Union[ScaledPoseRecord, None]
+    #: Up to this scale a change of sign was looked for.
+    searched_scale: Union[float, None]
+    #: Cells the proof took.
+    cells: int
 
 
 class RegularityRecord(Record):
@@ -2827,6 +3075,17 @@ class SamplingRecord(Record):
     rotation_half_widths_rad: tuple[float, ...]
 
 
+class ScaledPoseRecord(Record):
+    """A pose and the scale of the smallest box that holds it."""
+
+    #: Position of the platform origin, base frame, design units.
+    p: tuple[Union[float, None], ...]
+    #: Unit quaternion, scalar part first.
+    q: tuple[Union[float, None], ...]
+    #: The scale.
+    scale: Union[float, None]
+
+
 class SearchRecord(Record):
     """How a search went."""
 
@@ -2838,6 +3097,86 @@ class SearchRecord(Record):
     polished: tuple[Union[float, None], ...]
 
 
+class SharedJointRecord(Record):
+    """A joint that holds more than one leg."""
+
+    #: The body it is on.
+    body: Body
+    #: Its name.
+    joint: str
+    #: The legs, from 1.
+    legs: tuple[int, ...]
+
+
+class SignPairRecord(Record):
+    """The straight path between two assembly modes."""
+
+    #: Their numbers, from 1.
+    modes: tuple[int, ...]
+    #: What det J does on the straight path.
+    straight: SignOutcome
+    #: Proved changes of sign on it.
+    changes: int
+    #: Whether some path without singular pose joins them; null: none was found.
+    joined: Union[bool, None]
+
+
+class SignPairsRecord(Record):
+    """Which assembly modes paths without singular pose join."""
+
+    #: The sign of det J at each assembly mode.
+    signs: tuple[SignRecord, ...]
+    #: All pairs.
+    pairs: tuple[SignPairRecord, ...]
+    #: Groups of modes that such paths join, from 1.
+    groups: tuple[tuple[int, ...], ...]
+    #: The paths found.
+    ways: tuple[WayRecord, ...]
+
+
+class SignPartRecord(Record):
+    """det J along a straight part of a path, with parameter u from 0 to 1."""
+
+    #: What it does.
+    outcome: SignOutcome
+    #: Proved changes of sign.
+    changes: int
+    #: Pieces where neither a sign nor a change is proved.
+    doubtful: int
+    #: Pieces with their signs.
+    pieces: tuple[SignPieceRecord, ...]
+    #: [u, det J].
+    values: tuple[tuple[Union[float, None], ...], ...]
+
+
+class SignPathRecord(Record):
+    """det J along a path of straight parts."""
+
+    #: Number of the assembly mode it begins at, from 1; 0: the pose.
+    from_: int
+    #: Number of the assembly mode it ends at.
+    to: int
+    #: Its poses.
+    poses: tuple[PoseQuaternionRecord, ...]
+    #: Whether det J keeps its sign: true and false are proved.
+    keeps_sign: Union[bool, None]
+    #: One for each straight part.
+    parts: tuple[SignPartRecord, ...]
+
+
+class SignPieceRecord(Record):
+    """A piece of a straight path."""
+
+    #: Where it begins.
+    from_: Union[float, None]
+    #: Where it ends.
+    to: Union[float, None]
+    #: The sign of det J on it.
+    sign: SignRecord
+    #: It holds a singular pose: det J has proved signs before and after it, and they differ.
+    singular: bool
+
+
 class SingularFactorRecord(Record):
     """A factor of the closure condition that belongs to degenerate trilaterations."""
 
@@ -2847,6 +3186,38 @@ class SingularFactorRecord(Record):
     degree: int
     #: How often it was removed.
     removed: int
+
+
+class SingularPosesAnswer(Record):
+    """One JSON document: an answer between what all answers have."""
+
+    #: Always 1: the version of these definitions.
+    schema_version: int
+    #: The name of the design.
+    name: str
+    #: The unit of its lengths.
+    units: str
+    #: Whether the workspace of the design, or the region of `--box`, about the pose is free of singular
+    #: poses; null where neither is given.
+    regular: Union[RegularityRecord, None]
+    #: The pose asked about.
+    pose: JudgedPoseRecord
+    #: The leg lengths, design units.
+    lengths: tuple[float, ...]
+    #: The real poses with these lengths.
+    assembly_modes: tuple[JudgedPoseRecord, ...]
+    #: False: some may be missing.
+    assembly_modes_accounted: bool
+    #: A box of poses about the pose that holds no singular one.
+    box: RegularBoxRecord
+    #: What the answer was made from.
+    provenance: ProvenanceRecord
+    #: What was odd about the design files that were read.
+    warnings: tuple[WarningRecord, ...]
+    #: det J along a path, with `--path`.
+    path: Union[SignPathRecord, None]
+    #: det J between all assembly modes, with `--between`.
+    between: Union[SignPairsRecord, None]
 
 
 class SolutionRecord(Record):
@@ -2953,6 +3324,19 @@ class StiffnessRecord(Record):
     natural: Union[tuple[NaturalMotionRecord, ...], None]
 
 
+class StraightWayRecord(Record):
+    """The straight way to another pose: the platform origin moves on a line while the platform turns about one axis."""
+
+    #: Where it ends.
+    to: PoseQuaternionRecord
+    #: The share of it that is free from its beginning, 1: all.
+    free: float
+    #: Where that share ends.
+    pose: PoseQuaternionRecord
+    #: What is violated beyond; null: nothing.
+    binds: Union[LimitRecord, None]
+
+
 class TimedMarginRecord(Record):
     """A margin with its time."""
 
@@ -2997,6 +3381,17 @@ class TolerancesAnswer(Record):
     provenance: ProvenanceRecord
     #: What was odd about the design files that were read.
     warnings: tuple[WarningRecord, ...]
+
+
+class TravelRecord(Record):
+    """A free way and its end."""
+
+    #: How far, not negative.
+    free: float
+    #: The value at the end.
+    value: float
+    #: What is violated beyond; null: nothing within half a turn, or ten sizes of the design.
+    binds: Union[LimitRecord, None]
 
 
 class TrialsRecord(Record):
@@ -3131,6 +3526,15 @@ class WarningRecord(Record):
     help: str
 
 
+class WayRecord(Record):
+    """A path without singular pose between two assembly modes."""
+
+    #: Their numbers, from 1.
+    modes: tuple[int, ...]
+    #: Its poses, joined by straight paths.
+    poses: tuple[PoseQuaternionRecord, ...]
+
+
 class WitnessRecord(Record):
     """A pose with rational coordinates."""
 
@@ -3177,6 +3581,8 @@ DesignPositive = float
 ExploreVerdict = Union[Literal["infeasible", "none", "violated", "new_kinematics"], VerdictWord]
 
 RoundingVerdict = Union[Literal["not_computed"], VerdictWord]
+
+SignRecord = Union[int, None]
 
 DesignEdges = tuple[DesignPositive, ...]
 
