@@ -201,6 +201,10 @@ def linuxcnc(program, folder):
     # home of that design, millimetres
     (folder / "height").write_text("508")
     own.check(root, folder, told)
+    if root == "/" and shutil.which("linuxcnc") and shutil.which("halcompile"):
+        # with the Python that LinuxCNC's own module is for
+        code, out = run("/usr/bin/python3", HERE / "program.py", program, ROOT / "designs/worked/linuxcnc-griffis-duffy.toml", timeout=400)
+        told(code == 0, f"a program runs in LinuxCNC: {out.strip()}", out)
 
 
 def main():
