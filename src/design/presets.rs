@@ -19,6 +19,8 @@ pub enum PresetClass {
     /// Carries a spindle.
     #[cfg_attr(feature = "files", serde(rename = "machine tool"))]
     MachineTool,
+    /// Moves a part of a robot.
+    Robot,
 }
 
 impl PresetClass {
@@ -30,6 +32,7 @@ impl PresetClass {
             Self::MotionSimulator => "motion simulator",
             Self::PrecisionPositioner => "precision positioner",
             Self::MachineTool => "machine tool",
+            Self::Robot => "robot",
         }
     }
 }
@@ -63,11 +66,12 @@ macro_rules! preset {
 }
 
 /// All presets, by class and name. `docs/presets.md` has their figures in one table.
-pub const PRESETS: [Preset; 6] = [
+pub const PRESETS: [Preset; 7] = [
     preset!("bench-l16", Bench),
     preset!("mdx-chair-v3", MotionSimulator),
     preset!("motion-base-6dof2000e", MotionSimulator),
     preset!("rubin-camera-hexapod", PrecisionPositioner),
     preset!("rubin-m2-hexapod", PrecisionPositioner),
     preset!("linuxcnc-hexapod", MachineTool),
+    preset!("reachy-mini", Robot),
 ];
