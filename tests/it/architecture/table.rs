@@ -148,7 +148,7 @@ const LINES: &[Line] = &[
     ),
     (
         "export",
-        &["num", "geom", "manipulator", "requirements", "reach", "fk", "design", "plot", "names"],
+        &["num", "geom", "manipulator", "requirements", "reach", "fk", "rotary", "design", "plot", "names"],
         &[MATRICES, ("serde", Some("json.rs")), ("serde_json", Some("json.rs")), ERRORS],
     ),
     ("equivalents", &["manipulator", "singularity", "synthesis", "design"], &[MATRICES]),
