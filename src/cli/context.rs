@@ -13,8 +13,8 @@ use super::files;
 use super::rows;
 use crate::design::{Design, Format, Violation, Warning, parse, parse_with_cranks};
 use crate::geom::Pose;
-use crate::rotary::RotaryPlatform;
 use crate::records::{DesignSourceRecord, FileSourceRecord, ProvenanceRecord};
+use crate::rotary::RotaryPlatform;
 
 /// A warning and the file it is about.
 #[derive(Debug)]

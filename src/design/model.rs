@@ -223,7 +223,8 @@ impl Design {
         let leg = |i: usize| {
             let (a, b) = m.pairs()[i];
             // a crank of which something is missing is refused when the design is read
-            let values = cranks.values.get(a).and_then(|v| v.as_ref().ok()).ok_or(InvalidRotary::BadNumber(i))?;
+            let values =
+                cranks.values.get(a).and_then(|v| v.as_ref().ok()).ok_or(InvalidRotary::BadNumber(i))?;
             Ok::<_, InvalidRotary>(RotaryLeg {
                 crank: Crank {
                     centre: m.base_joints()[a],

@@ -10,11 +10,11 @@ use super::{
 };
 use crate::geom::Pose;
 use crate::manipulator::Body;
-use crate::rotary::Elbow;
 use crate::requirements::{
     Envelope, Envelopes, ForceUnit, Hardware, Housing, JointAxes, KeepOut, KeepOutShape, KeptSymmetry,
     LegPart, LengthLimits, ListedFrom, Load, MassUnit, Payload, Region, Reserve, Reserves, Swing, TermKind,
 };
+use crate::rotary::Elbow;
 
 /// The structure of a file, in the order it is written.
 #[derive(Serialize)]
@@ -126,7 +126,9 @@ impl<'a> CrankFile<'a> {
     fn of(crank: &'a WrittenCrank, names: &'a [String]) -> Self {
         let (mut turn, mut deg, mut mirror, mut plane) = (None, None, None, None);
         match &crank.copy {
-            Some(CrankCopy::Turned { crank, deg: by }) => (turn, deg) = (Some(names[*crank].as_str()), Some(by)),
+            Some(CrankCopy::Turned { crank, deg: by }) => {
+                (turn, deg) = (Some(names[*crank].as_str()), Some(by))
+            }
             Some(CrankCopy::Mirrored { crank, plane: p }) => {
                 (mirror, plane) = (Some(names[*crank].as_str()), Some(p.name()));
             }
@@ -344,7 +346,8 @@ impl Design {
             let lines = joints.iter().map(|(name, joint)| toml_line(name, &joint.to_toml()));
             tables.push(format!("[{body}]\n{}", lines.collect::<String>()));
         }
-        let cranks = file.cranks.as_ref().map(|cranks| std::collections::BTreeMap::from([("cranks", cranks)]));
+        let cranks =
+            file.cranks.as_ref().map(|cranks| std::collections::BTreeMap::from([("cranks", cranks)]));
         tables.push(text(cranks.map_or(Ok(String::new()), |table| toml::to_string(&table))));
         tables.push(text(toml::to_string(&file.tail)));
         tables.retain(|table| !table.is_empty());

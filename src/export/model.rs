@@ -2,16 +2,16 @@
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
-use super::{ExportedFile, Unsupported, Writer};
 use super::controller::EquivalentOctahedral;
 use super::plate::{self, Plate};
 use super::sizes::{ExportOptions, LegSizes, NoExport, SizeChoice, Sizes, least_distance, mass};
 use super::units::LengthUnit;
+use super::{ExportedFile, Unsupported, Writer};
 use crate::design::Design;
 use crate::geom::Pose;
 use crate::manipulator::{Body, Manipulator};
-use crate::rotary::RotaryPlatform;
 use crate::requirements::{ForceUnit, Hardware, LegMasses, MassUnit};
+use crate::rotary::RotaryPlatform;
 
 /// A joint of a body.
 #[derive(Debug, Clone, PartialEq)]
@@ -97,7 +97,9 @@ impl ExportCranks {
     fn of(design: &Design, home: &Pose, torque_unit: f64) -> Result<Option<Self>, NoExport> {
         let unfit = |why: &dyn std::fmt::Display| NoExport::Cranks(why.to_string());
         let Some(platform) = design.rotary().map_err(|why| unfit(&why))? else { return Ok(None) };
-        let home_angles = platform.ik(home).map_err(|why| unfit(&format!("the cranks do not hold the home pose: {why}")))?;
+        let home_angles = platform
+            .ik(home)
+            .map_err(|why| unfit(&format!("the cranks do not hold the home pose: {why}")))?;
         let greatest_torque = design.crank_limits().max_torque.map(|t| t * torque_unit);
         Ok(Some(Self { platform, home_angles, greatest_torque }))
     }

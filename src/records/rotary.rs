@@ -167,8 +167,7 @@ impl RotaryIkRecord {
         match platform.both_angles(pose) {
             Ok(both) => out.add(design, platform, pose, &both),
             Err(missing) => {
-                out.out_of_reach =
-                    Some(OutOfReachRecord { leg: missing.leg + 1, too_short_by: missing.by });
+                out.out_of_reach = Some(OutOfReachRecord { leg: missing.leg + 1, too_short_by: missing.by });
             }
         }
         out
@@ -177,8 +176,7 @@ impl RotaryIkRecord {
     fn add(&mut self, design: &Design, platform: &RotaryPlatform, pose: &Pose, both: &[CrankAngles; 6]) {
         let legs = platform.legs();
         let kept: [f64; 6] = std::array::from_fn(|i| platform.counted(i, both[i].of(legs[i].elbow)));
-        let other: [f64; 6] =
-            std::array::from_fn(|i| platform.counted(i, both[i].of(legs[i].elbow.other())));
+        let other: [f64; 6] = std::array::from_fn(|i| platform.counted(i, both[i].of(legs[i].elbow.other())));
         let (left, transmissions) = (platform.limit_margins(&kept), platform.transmissions(pose, &kept));
         let crank = |i: usize| CrankRecord {
             elbow: legs[i].elbow.into(),
@@ -218,8 +216,7 @@ impl RotaryIkRecord {
         if let (Some(most), Some(speed)) = (drives.max_speed_deg, design.speed) {
             let angular = speed.angular_deg.to_radians();
             let speeds = platform.greatest_speeds(pose, &kept, speed.linear, angular);
-            let left =
-                speeds.map_or((None, f64::NEG_INFINITY), |s| least(&s.map(|s| most - s.to_degrees())));
+            let left = speeds.map_or((None, f64::NEG_INFINITY), |s| least(&s.map(|s| most - s.to_degrees())));
             self.margins.push(CrankMarginRecord::new(CrankLimitWord::CrankSpeed, "deg/s".into(), left, None));
         }
     }

@@ -180,6 +180,12 @@ impl RotaryPlatform {
         &self.legs
     }
 
+    /// Unit vectors along each crank at the angle 0 and at a quarter turn, base frame.
+    #[must_use]
+    pub fn directions(&self) -> &[[Vector3<f64>; 2]; 6] {
+        &self.directions
+    }
+
     /// Where the tip of a crank is at an angle, base frame.
     #[must_use]
     pub fn tip(&self, leg: usize, angle: f64) -> Point3<f64> {

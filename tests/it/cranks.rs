@@ -124,14 +124,29 @@ fn every_slip_in_a_crank_is_refused_at_its_place() {
         ("zero = [0, 1, 0]", "zero = [-2, 0, 0]", Code::OutOfRange, "along its axis"),
         ("max_torque = 1500", "max_torqe = 1500", Code::UnknownKey, "max_torqe"),
         ("[cranks.A6]", "[cranks.A7]", Code::UnknownKey, "A7"),
-        ("mirror = \"A1\"\nplane = \"xz\"\n[cranks.A3]", "mirror = \"A9\"\nplane = \"xz\"\n[cranks.A3]", Code::UnknownName, "A9"),
+        (
+            "mirror = \"A1\"\nplane = \"xz\"\n[cranks.A3]",
+            "mirror = \"A9\"\nplane = \"xz\"\n[cranks.A3]",
+            Code::UnknownName,
+            "A9",
+        ),
         ("plane = \"xz\"\n[cranks.A3]", "[cranks.A3]", Code::MissingKey, "plane"),
-        ("mirror = \"A1\"\nplane = \"xz\"\n[cranks.A3]", "mirror = \"A4\"\nplane = \"xz\"\n[cranks.A3]", Code::Cycle, "circle"),
+        (
+            "mirror = \"A1\"\nplane = \"xz\"\n[cranks.A3]",
+            "mirror = \"A4\"\nplane = \"xz\"\n[cranks.A3]",
+            Code::Cycle,
+            "circle",
+        ),
         ("drive = \"rotary\"", "drive = \"rotative\"", Code::WrongType, "rotative"),
         ("drive = \"rotary\"\n", "", Code::ConflictingKeys, "[cranks]"),
         ("drive = \"rotary\"", "drive = \"prismatic\"", Code::ConflictingKeys, "[cranks]"),
         ("[home]", "[hardware]\nstroke = 5\ndead_length = 3\n[home]", Code::ConflictingKeys, "hardware"),
-        ("drive = \"rotary\"", "drive = \"rotary\"\nlengths = [1, 1, 1, 1, 1, 1]", Code::ConflictingKeys, "lengths"),
+        (
+            "drive = \"rotary\"",
+            "drive = \"rotary\"\nlengths = [1, 1, 1, 1, 1, 1]",
+            Code::ConflictingKeys,
+            "lengths",
+        ),
         ("[\"A6\", \"B6\"]]", "[\"A5\", \"B6\"]]", Code::IdenticalLegs, "A5"),
     ] {
         assert!(SERVOS.contains(from), "{from}");
@@ -220,7 +235,10 @@ fn angles_of_a_pose_and_poses_of_angles_belong_together() {
             }
         });
         let near = near.unwrap_or_else(|| panic!("{fk}"));
-        assert_eq!((&near["certified"], &near["real_pose"]["elbow_kept"]), (&true.into(), &serde_json::json!([true; 6])));
+        assert_eq!(
+            (&near["certified"], &near["real_pose"]["elbow_kept"]),
+            (&true.into(), &serde_json::json!(vec![true; 6]))
+        );
         let rpy = numbers(&near["real_pose"]["rpy_deg"]);
         assert!((rpy[0] - 5.0).abs() + (rpy[1] + 3.0).abs() + (rpy[2] - 8.0).abs() < 1e-8);
         assert_eq!(numbers(&fk["angles_deg"]), angles);
@@ -290,7 +308,8 @@ fn a_rod_that_does_not_reach_is_an_answer_and_not_a_length() {
     assert_eq!((out.status.code(), &doc["angles_deg"]), (Some(1), &Value::Null));
     assert_eq!(doc["out_of_reach"]["leg"], 1);
     assert!(doc["out_of_reach"]["too_short_by"].as_f64().unwrap() > 90.0);
-    let text = String::from_utf8(equipod(&["ik", HEAD, "--pose", "home", "--pose", "0,0,300,0,0,0"]).stdout).unwrap();
+    let text = String::from_utf8(equipod(&["ik", HEAD, "--pose", "home", "--pose", "0,0,300,0,0,0"]).stdout)
+        .unwrap();
     let rows: Vec<Vec<&str>> = text.lines().map(|l| l.split(',').collect()).collect();
     assert!(rows.iter().all(|row| row.len() == 14), "{text}");
     assert_eq!((rows[1][12], rows[1][13], rows[2][0], rows[2][13]), ("true", "", "", "1"));
@@ -300,24 +319,34 @@ fn a_rod_that_does_not_reach_is_an_answer_and_not_a_length() {
     assert!(widths.iter().all(|n| *n == widths[0]) && wide.contains("margin_crank_torque"), "{wide}");
     // the limits of the motors are told from what the rods can reach
     let far = document(&equipod(&["ik", HEAD, "--pose", "0,0,203,0,0,0", "--json"]));
-    assert_eq!((&far["within_limits"], far["outside"].as_array().map(Vec::len)), (&false.into(), Some(3)), "{far}");
+    assert_eq!(
+        (&far["within_limits"], far["outside"].as_array().map(Vec::len)),
+        (&false.into(), Some(3)),
+        "{far}"
+    );
 }
 
 #[test]
-fn the_simulator_gets_hinges_and_every_other_format_is_refused() {
+fn simulators_and_controllers_get_cranks_and_every_other_format_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().to_str().unwrap();
     let done = equipod(&["export", HEAD, "--to", "all", "-o", out, "--json"]);
     assert_eq!(done.status.code(), Some(1), "{}", String::from_utf8_lossy(&done.stderr));
     let doc = document(&done);
     for format in doc["formats"].as_array().unwrap() {
-        let taken = format["format"] == "mjcf";
-        assert_eq!(format["files"].as_array().unwrap().len(), usize::from(taken), "{format}");
-        assert_eq!(format.get("refused").is_some(), !taken, "{format}");
+        let files = match format["format"].as_str().unwrap() {
+            "mjcf" => 1,
+            "c" => 9,
+            _ => 0,
+        };
+        assert_eq!(format["files"].as_array().unwrap().len(), files, "{format}");
+        assert_eq!(format.get("refused").is_some(), files == 0, "{format}");
     }
-    assert_eq!(std::fs::read_dir(out).unwrap().count(), 1);
+    assert_eq!(std::fs::read_dir(out).unwrap().count(), 10);
     let model = std::fs::read_to_string(folder.path().join("platform.xml")).unwrap();
-    for (part, times) in [("<connect ", 5), ("type=\"ball\"", 1), ("type=\"hinge\"", 18), ("<position ", 6), ("\"slide\"", 0)] {
+    for (part, times) in
+        [("<connect ", 5), ("type=\"ball\"", 1), ("type=\"hinge\"", 18), ("<position ", 6), ("\"slide\"", 0)]
+    {
         assert_eq!(model.matches(part).count(), times, "{part}");
     }
     assert!(model.contains("forcerange=\"-0.52 0.52\""), "newton metres");
@@ -325,7 +354,10 @@ fn the_simulator_gets_hinges_and_every_other_format_is_refused() {
     let path = folder.path().join("far.toml");
     std::fs::write(&path, far).unwrap();
     let done = equipod(&["export", path.to_str().unwrap(), "--to", "mjcf", "-o", out, "--json"]);
-    assert_eq!((done.status.code(), &document(&done)["error"]["code"]), (Some(2), &"export::bad_size".into()));
+    assert_eq!(
+        (done.status.code(), &document(&done)["error"]["code"]),
+        (Some(2), &"export::bad_size".into())
+    );
 }
 
 #[test]

@@ -180,8 +180,15 @@ impl Constructions {
             let Ok(values) = values else { continue };
             let along = values.zero.normalize().cross(&values.axis).norm();
             if !(along > 1e-9) {
-                let message = format!("the direction of the angle zero of the crank {} is along its axis", names[j]);
-                faults.push(fault(blamed(j), Some(ZERO), Code::OutOfRange, message, "give a direction across the axis"));
+                let message =
+                    format!("the direction of the angle zero of the crank {} is along its axis", names[j]);
+                faults.push(fault(
+                    blamed(j),
+                    Some(ZERO),
+                    Code::OutOfRange,
+                    message,
+                    "give a direction across the axis",
+                ));
             }
         }
         (faults.len() == before).then_some(())
@@ -220,18 +227,25 @@ impl Constructions {
                 refuse(Code::NotPositive, format!("`{what}` of a crank is {x}"), "give a positive length");
             }
         }
-        let vector = |first: usize| {
-            Some(Vector3::new(doubles[first]?, doubles[first + 1]?, doubles[first + 2]?))
-        };
+        let vector =
+            |first: usize| Some(Vector3::new(doubles[first]?, doubles[first + 1]?, doubles[first + 2]?));
         for (first, key) in [(AXIS, "axis"), (ZERO, "zero")] {
             if vector(first).is_some_and(|v| v.try_normalize(0.0).is_none()) {
                 let message = format!("`{key}` of a crank has no direction");
-                faults.push(fault(joint, Some(first), Code::NotPositive, message, "give a vector that is not zero"));
+                faults.push(fault(
+                    joint,
+                    Some(first),
+                    Code::NotPositive,
+                    message,
+                    "give a vector that is not zero",
+                ));
                 whole = false;
             }
         }
         let limits_deg = doubles[ANGLES].zip(doubles[ANGLES + 1]).map(|(least, most)| [least, most]);
-        if let Some([least, most]) = limits_deg.filter(|[least, most]| !(least < most && most - least <= 360.0)) {
+        if let Some([least, most]) =
+            limits_deg.filter(|[least, most]| !(least < most && most - least <= 360.0))
+        {
             let message = format!("angles of a crank from {least} to {most} degrees");
             let help = "give [least, greatest], at most a whole turn apart";
             faults.push(fault(joint, Some(ANGLES), Code::OutOfRange, message, help));

@@ -66,13 +66,15 @@ pub(super) fn cranks(
         }
     }
     if let (Some(e), false) = (drive, takes_cranks) {
-        let message = "the legs are rods on cranks, and what is asked for is about legs that change their lengths";
+        let message =
+            "the legs are rods on cranks, and what is asked for is about legs that change their lengths";
         let help = "`equipod ik`, `fk`, `export` and `design convert` take cranks; leg maps hold between squared lengths of rods, and nothing follows from them for the angles of cranks";
         report.refuse(Code::Rotary, &e.node.span, message, help);
         return None;
     }
     for e in OF_LENGTHS.iter().filter_map(|key| find(top, key)) {
-        let message = format!("`{}` is about legs that change their lengths, and the drive is \"rotary\"", e.key);
+        let message =
+            format!("`{}` is about legs that change their lengths, and the drive is \"rotary\"", e.key);
         let help = "remove it; [cranks] has the lengths of cranks and rods and the limits of angles, torques and speeds";
         report.refuse(Code::ConflictingKeys, &e.key_span, message, help);
     }
@@ -95,7 +97,8 @@ pub(super) fn cranks(
             (own[j], places.own[j]) = single(report, entry, &names).unzip();
         } else {
             let known: Vec<&str> = all_keys().chain(names.iter().copied()).collect();
-            let message = format!("`{}` is neither a key of [cranks] nor a joint of the base", shown(&entry.key));
+            let message =
+                format!("`{}` is neither a key of [cranks] nor a joint of the base", shown(&entry.key));
             let help = nearest_help("known keys and joints", &entry.key, &known);
             report.refuse(Code::UnknownKey, &entry.key_span, message, help);
         }
@@ -254,8 +257,12 @@ pub(super) fn check_legs(
         let Some(Err(missing)) = cranks.values.get(*joint) else { continue };
         let place = places.own[*joint].as_ref().map_or(&places.key, |own| &own.whole);
         let help = match *missing {
-            "zero" => format!("add zero = [x, y, z], the direction of the tip at the angle zero, to [cranks] or [cranks.{name}]"),
-            "elbow" => format!("add elbow = \"plus\" or \"minus\", the side that the crank stays on, to [cranks] or [cranks.{name}]"),
+            "zero" => format!(
+                "add zero = [x, y, z], the direction of the tip at the angle zero, to [cranks] or [cranks.{name}]"
+            ),
+            "elbow" => format!(
+                "add elbow = \"plus\" or \"minus\", the side that the crank stays on, to [cranks] or [cranks.{name}]"
+            ),
             key => format!("add `{key}` to [cranks] or [cranks.{name}]"),
         };
         report.refuse(Code::MissingKey, place, format!("the crank {name} has no `{missing}`"), help);
@@ -265,6 +272,11 @@ pub(super) fn check_legs(
 /// Tips and joints make a platform at the angles zero.
 pub(super) fn check_platform(report: &mut Findings<'_>, design: &Design, places: &CrankPlaces) {
     if let Err(why) = design.rotary() {
-        report.refuse(Code::OutOfRange, &places.key, why.to_string(), "check centres, axes, `zero` and lengths");
+        report.refuse(
+            Code::OutOfRange,
+            &places.key,
+            why.to_string(),
+            "check centres, axes, `zero` and lengths",
+        );
     }
 }

@@ -77,7 +77,8 @@ pub(super) fn design(root: &Node, report: &mut Findings<'_>, takes_cranks: bool)
     let crank_places = crank_places.unwrap_or_default();
     let constructions = match (&mut base, &mut platform) {
         (Some(base), Some(platform)) => {
-            let written = constructions::Written { home: written_home.flatten(), cranks: (cranks, &crank_places) };
+            let written =
+                constructions::Written { home: written_home.flatten(), cranks: (cranks, &crank_places) };
             constructions::resolve(report, parameters, (base, platform), written)
         }
         _ => None,

@@ -36,7 +36,13 @@ fn frames(cranks: &ExportCranks, leg: usize, end: &Vector3<f64>) -> Result<[Pose
     Ok([turned, Pose { rotation: Rotation3::from_matrix_unchecked(axes), position: tip }])
 }
 
-fn leg(out: &mut String, scale: &Scale, export: &Export, cranks: &ExportCranks, i: usize) -> Result<(), Unsupported> {
+fn leg(
+    out: &mut String,
+    scale: &Scale,
+    export: &Export,
+    cranks: &ExportCranks,
+    i: usize,
+) -> Result<(), Unsupported> {
     let leg = &cranks.platform.legs()[i];
     let end = export.home.transform(&leg.platform).coords;
     let [turned, rod] = frames(cranks, i, &end)?;
@@ -51,7 +57,9 @@ fn leg(out: &mut String, scale: &Scale, export: &Export, cranks: &ExportCranks, 
     };
     let [x, z] = [Vector3::x(), Vector3::z()];
     let (thick, thin) = export.legs[i].diameters;
-    let range = leg.limits.map_or_else(String::new, |(least, most)| format!(" range=\"{} {}\"", real(least), real(most)));
+    let range = leg
+        .limits
+        .map_or_else(String::new, |(least, most)| format!(" range=\"{} {}\"", real(least), real(most)));
     let first = rod.rotation.inverse() * leg.crank.axis.into_inner();
     let (_, damping) = gains(scale, leg.crank.length);
     let _ = writeln!(
@@ -116,9 +124,9 @@ pub(super) fn model(export: &Export, cranks: &ExportCranks) -> Result<String, Un
         .map_or_else(String::new, |t| format!(" forcerange=\"{0} {1}\"", real(-t), real(t)));
     for (i, leg) in cranks.platform.legs().iter().enumerate() {
         let (kp, kv) = gains(&scale, leg.crank.length);
-        let range = leg
-            .limits
-            .map_or_else(String::new, |(least, most)| format!(" ctrlrange=\"{} {}\"", real(least), real(most)));
+        let range = leg.limits.map_or_else(String::new, |(least, most)| {
+            format!(" ctrlrange=\"{} {}\"", real(least), real(most))
+        });
         let _ = writeln!(
             out,
             "    <position name=\"actuator{0}\" joint=\"angle{0}\" kp=\"{1}\" kv=\"{2}\"{range}{force}/>",
@@ -131,9 +139,7 @@ pub(super) fn model(export: &Export, cranks: &ExportCranks) -> Result<String, Un
     // the angle and both swings of each leg; the ball joint after those of leg 1
     let legs = cranks.home_angles.map(|q| format!("{} 0 0", real(q)));
     let qpos = format!("{} 1 0 0 0 {}", legs[0], legs[1..].join(" "));
-    let _ = writeln!(
-        out,
-        "    <key name=\"home\" qpos=\"{qpos}\" ctrl=\"{angles}\"/>\n  </keyframe>\n</mujoco>"
-    );
+    let _ =
+        writeln!(out, "    <key name=\"home\" qpos=\"{qpos}\" ctrl=\"{angles}\"/>\n  </keyframe>\n</mujoco>");
     Ok(out)
 }

@@ -18,7 +18,9 @@ use crate::design::{Design, SeriesKind, SeriesRow, TimeSeries};
 use crate::fk::{self, FkOptions, FkSolutions};
 use crate::geom::Pose;
 use crate::manipulator::Manipulator;
-use crate::records::{FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, RowFailure, SolvedRecord};
+use crate::records::{
+    FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, RowFailure, SolvedRecord,
+};
 use crate::rotary::{RotaryFkError, RotaryPlatform, RotaryTracker};
 
 /// Six angles in degrees.
@@ -29,10 +31,14 @@ const BAD_ANGLES: &str = "fk::bad_angles";
 /// Angles of one line, or of a table.
 fn given(option: Option<&str>, context: &Context) -> Result<TimeSeries<Angles>, Failure> {
     let Some(text) = option else {
-        return Err(Failure::refused("fk::no_angles", "the legs are rods on cranks, and --angles was not given")
-            .with_help("give --angles a1,a2,a3,a4,a5,a6 in degrees, or --angles FILE.csv"));
+        return Err(Failure::refused(
+            "fk::no_angles",
+            "the legs are rods on cranks, and --angles was not given",
+        )
+        .with_help("give --angles a1,a2,a3,a4,a5,a6 in degrees, or --angles FILE.csv"));
     };
-    let six = |line: &str| numbers::parse::<6>(line).ok_or_else(|| format!("`{line}` is not six finite angles"));
+    let six =
+        |line: &str| numbers::parse::<6>(line).ok_or_else(|| format!("`{line}` is not six finite angles"));
     if text.contains(',') || text.parse::<f64>().is_ok() {
         let value = six(text).map_err(|message| {
             Failure::refused(BAD_ANGLES, format!("--angles: {message}"))
@@ -51,7 +57,10 @@ pub(super) fn run(
     (design, platform): (&Design, &RotaryPlatform),
     context: &Context,
 ) -> Result<Answer, Failure> {
-    context.no_effect("lengths", "the rods of a design with cranks have one length; poses are asked for by --angles")?;
+    context.no_effect(
+        "lengths",
+        "the rods of a design with cranks have one length; poses are asked for by --angles",
+    )?;
     let series = given(args.angles.as_deref(), context)?;
     let table = Table { wanted: args.csv, all: args.all, time_name: series.time_name.clone() };
     // a line of the command has no number, those of a table count from 1
@@ -63,7 +72,10 @@ pub(super) fn run(
         machine.follow(&series.rows, &start)?
     } else {
         if one {
-            context.no_effect("threads", "one set of angles is solved on one thread, the rows of a CSV file on many")?;
+            context.no_effect(
+                "threads",
+                "one set of angles is solved on one thread, the rows of a CSV file on many",
+            )?;
         }
         let method = args.method.method();
         let options = FkOptions { seed: machine.seed, method, ..FkOptions::default() };
@@ -144,8 +156,11 @@ impl CrankMachine<'_> {
             let found = tracker.step(&angles);
             let outcome = found.map_err(|why| Failure::refused(BAD_ANGLES, why.to_string()))?;
             let tips = self.tips(&angles)?;
-            let machine =
-                Machine { m: &tips, home: self.home, characteristic_length: self.design.characteristic_length() };
+            let machine = Machine {
+                m: &tips,
+                home: self.home,
+                characteristic_length: self.design.characteristic_length(),
+            };
             let mut record = near::record(&machine, self.platform.rods(), &from, &outcome, self.seed);
             record.angles_deg = Some(row.value);
             record.solved = record.solved.with_elbows(self.platform, &angles);

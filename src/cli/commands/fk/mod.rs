@@ -165,7 +165,10 @@ fn solved_row(
             (failure.exit, FkRowOutcome::Failed(RowFailure { error: (&failure).into() }))
         }
     };
-    (exit, FkRowRecord { line: row.line, time: row.time, lengths: row.value.get(), angles_deg: None, outcome })
+    (
+        exit,
+        FkRowRecord { line: row.line, time: row.time, lengths: row.value.get(), angles_deg: None, outcome },
+    )
 }
 
 fn solve(

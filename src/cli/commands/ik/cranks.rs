@@ -49,7 +49,8 @@ fn details(design: &Design, record: &RotaryIkRecord) -> Vec<(String, Option<f64>
         }
     }
     let drives = design.crank_limits();
-    let limited = design.rotary().is_ok_and(|p| p.is_some_and(|p| p.legs().iter().any(|l| l.limits.is_some())));
+    let limited =
+        design.rotary().is_ok_and(|p| p.is_some_and(|p| p.legs().iter().any(|l| l.limits.is_some())));
     for (name, there) in [
         ("crank_angle", limited),
         ("crank_torque", drives.max_torque.is_some() && !design.all_loads().is_empty()),
