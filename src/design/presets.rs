@@ -1,5 +1,7 @@
 //! Designs of real hardware that come with the library, as text: every figure in them is sourced or marked as chosen.
 
+use super::{Format, parse_with_cranks};
+
 /// What a machine is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
@@ -53,6 +55,14 @@ pub struct Preset {
     pub class: PresetClass,
     /// The design file, TOML with comments.
     pub text: &'static str,
+}
+
+impl Preset {
+    /// Whether its legs are rods on cranks: such a preset is read by [`parse_with_cranks`](super::parse_with_cranks) and refused by [`parse`](super::parse).
+    #[must_use]
+    pub fn has_cranks(&self) -> bool {
+        parse_with_cranks(self.text, Format::Toml).is_ok_and(|(design, _)| design.has_cranks())
+    }
 }
 
 macro_rules! preset {

@@ -293,6 +293,11 @@ impl<'t> Findings<'t> {
         self.violations.len() >= MAX_VIOLATIONS
     }
 
+    /// How many violations there are so far.
+    pub(crate) fn count(&self) -> usize {
+        self.violations.len() + self.unlisted
+    }
+
     pub(crate) fn is_clean(&self) -> bool {
         self.violations.is_empty()
     }

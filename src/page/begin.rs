@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::request::Refusal;
 use super::session::{InvalidStart, Session};
-use crate::design::{Format, HexapodSizes, PRESETS, PointTable, Preset, Violation, parse};
+use crate::design::{Format, HexapodSizes, PRESETS, PointTable, Violation, parse};
 
 /// A hexapod as makers describe it: pairs of joints on two circles.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -47,8 +47,11 @@ pub(super) struct PresetChoice {
 
 /// The presets that the page takes: those whose legs change their lengths.
 pub(super) fn presets() -> Vec<PresetChoice> {
-    let taken = |p: &&Preset| parse(p.text, Format::Toml).is_ok();
-    PRESETS.iter().filter(taken).map(|p| PresetChoice { name: p.name, class: p.class.as_str() }).collect()
+    PRESETS
+        .iter()
+        .filter(|p| !p.has_cranks())
+        .map(|p| PresetChoice { name: p.name, class: p.class.as_str() })
+        .collect()
 }
 
 /// The file of a preset.

@@ -28,6 +28,8 @@ pub(super) struct CrankPlaces {
     key: Span,
     shared: Places,
     own: Vec<Option<Places>>,
+    /// Something in [cranks] could not be read, so that what is missing may be that.
+    unread: bool,
 }
 
 impl CrankPlaces {
@@ -84,12 +86,13 @@ pub(super) fn cranks(
         report.refuse(Code::MissingKey, &span, "`drive` is \"rotary\", and [cranks] is missing", help);
         return None;
     };
+    let before = report.count();
     let entries = table(report, &e.node, "[cranks]")?;
     let base = base?;
     let names: Vec<&str> = base.joints.iter().map(|j| j.name.as_str()).collect();
     let joint = |key: &str| names.iter().position(|name| *name == key);
     let mut places =
-        CrankPlaces { key: e.key_span.clone(), shared: Places::default(), own: vec![None; names.len()] };
+        CrankPlaces { key: e.key_span.clone(), own: vec![None; names.len()], ..CrankPlaces::default() };
     let mut own = vec![None; names.len()];
     let all_keys = || CRANK_KEYS.into_iter().chain(DRIVE_KEYS);
     for entry in entries.iter().filter(|e| !all_keys().any(|key| key == e.key)) {
@@ -110,6 +113,7 @@ pub(super) fn cranks(
         max_torque: positive(report, entries, DRIVE_KEYS[0]),
         max_speed_deg: positive(report, entries, DRIVE_KEYS[1]),
     };
+    places.unread = report.count() > before;
     Some((WrittenCranks { shared, own, drives, values: Vec::new() }, places))
 }
 
@@ -254,7 +258,7 @@ pub(super) fn check_legs(
             report.refuse(Code::IdenticalLegs, &places.key, message, help);
             continue;
         }
-        let Some(Err(missing)) = cranks.values.get(*joint) else { continue };
+        let Some(Err(missing)) = cranks.values.get(*joint).filter(|_| !places.unread) else { continue };
         let place = places.own[*joint].as_ref().map_or(&places.key, |own| &own.whole);
         let help = match *missing {
             "zero" => format!(

@@ -32,7 +32,7 @@ impl Writer for C {
     }
 
     fn leaves_out(&self) -> &'static str {
-        "limits other than leg lengths and swing; exact joints, which are doubles with a radius in the numbers of the tracker"
+        "limits other than leg lengths, swing and angles of cranks; exact joints, which are doubles with a radius in the numbers of the tracker"
     }
 
     fn takes_cranks(&self) -> bool {

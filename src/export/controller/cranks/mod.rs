@@ -86,11 +86,11 @@ fn source(export: &Export, cranks: &ExportCranks) -> String {
     let rows: [[f64; 3]; 3] = std::array::from_fn(|i| [r[(i, 0)], r[(i, 1)], r[(i, 2)]]);
     let _ = writeln!(
         out,
-        "const equipod_pose equipod_home = {{\n    {},\n    {}\n}};\n\nconst real_t equipod_home_angles[6] = {};",
+        "const equipod_pose equipod_home = {{\n    {},\n    {}\n}};\n",
         matrix(&rows),
-        reals(export.home.position.iter().copied()),
-        reals(cranks.home_angles)
+        reals(export.home.position.iter().copied())
     );
+    let _ = writeln!(out, "const real_t equipod_home_angles[6] = {};", reals(cranks.home_angles));
     out
 }
 
@@ -101,7 +101,7 @@ fn vectors(export: &Export, cranks: &ExportCranks) -> String {
     let far = Pose { position: export.home.position * 3.0 + Vector3::repeat(export.size), ..export.home };
     let all = export.workspace.iter().chain(&about).chain(std::iter::once(&far));
     let mut out = heading(export);
-    list(&mut out, "angle_vector", "angle_vectors", all.filter_map(|pose| angles(cranks, pose)));
+    list(&mut out, "angle_vector", "angle_vectors", all.filter_map(|pose| angles(export, cranks, pose)));
     let mut tracker = RotaryTracker::new(cranks.platform.clone(), export.home, cranks.home_angles);
     let steps = about.iter().filter_map(|pose| step(cranks, &mut tracker, pose));
     let steps: Vec<String> = steps.collect();
@@ -109,13 +109,13 @@ fn vectors(export: &Export, cranks: &ExportCranks) -> String {
     out
 }
 
-/// Angles and Jacobian at a pose; `None` where a crank is nearly singular, and rounding decides.
-fn angles(cranks: &ExportCranks, pose: &Pose) -> Option<String> {
+/// Angles and Jacobian at a pose; `None` where a crank is nearly singular, and rounding decides, in `float` too.
+fn angles(export: &Export, cranks: &ExportCranks, pose: &Pose) -> Option<String> {
     let platform = &cranks.platform;
     let zeros = row(&[0.0; 6]);
     let both = match platform.both_angles(pose) {
         Ok(both) => both,
-        Err(missing) if missing.by.abs() < 1e-3 => return None,
+        Err(missing) if missing.by.abs() < 1e-4 * export.size => return None,
         Err(missing) => {
             let none = braces(std::iter::repeat_n(zeros.clone(), 6));
             let leg = (missing.leg + 1).to_string();
