@@ -11,9 +11,10 @@ use super::diagnostic;
 use super::failure::Failure;
 use super::files;
 use super::rows;
-use crate::design::{Design, Format, Warning, parse};
+use crate::design::{Design, Format, Violation, Warning, parse, parse_with_cranks};
 use crate::geom::Pose;
 use crate::records::{DesignSourceRecord, FileSourceRecord, ProvenanceRecord};
+use crate::rotary::RotaryPlatform;
 
 /// A warning and the file it is about.
 #[derive(Debug)]
@@ -118,14 +119,39 @@ impl Context {
         }
     }
 
-    /// Reads and checks a design file, `-` for standard input; its warnings are shown and kept for the JSON document.
+    /// Reads and checks a design file, `-` for standard input; its warnings are shown and kept for the JSON document. Rods on cranks are refused: a command that takes them asks for
+    /// [`Self::load_with_cranks`].
     ///
     /// # Errors
     /// Exit 2 with all violations, or because the file cannot be read.
     pub(crate) fn load(&mut self, path: &Path) -> Result<Design, Failure> {
+        self.read_design(path, parse)
+    }
+
+    /// As [`Self::load`], for commands that know what to do with rods on cranks.
+    ///
+    /// # Errors
+    /// As [`Self::load`].
+    pub(crate) fn load_with_cranks(&mut self, path: &Path) -> Result<Design, Failure> {
+        self.read_design(path, parse_with_cranks)
+    }
+
+    /// The cranks of a design that has some.
+    ///
+    /// # Errors
+    /// Exit 2: cranks and joints that make no platform.
+    pub(crate) fn cranks_of(design: &Design) -> Result<Option<RotaryPlatform>, Failure> {
+        design.rotary().map_err(|why| Failure::refused("design::invalid", format!("{}: {why}", design.name)))
+    }
+
+    fn read_design(
+        &mut self,
+        path: &Path,
+        read: fn(&str, Format) -> Result<(Design, Vec<Warning>), Vec<Violation>>,
+    ) -> Result<Design, Failure> {
         let text = files::read_text(path)?;
         let shown = files::shown(path);
-        match parse(&text, format_of(path, &text)) {
+        match read(&text, format_of(path, &text)) {
             Ok((mut design, warnings)) => {
                 for warning in warnings {
                     if !self.quiet {

@@ -14,7 +14,7 @@ use clap::ArgMatches;
 
 use super::exit::Exit;
 use super::failure::Failure;
-use crate::design::{Design, Format, parse};
+use crate::design::{Design, Format, parse_with_cranks};
 use crate::records::{FileSourceRecord, sha256};
 
 /// Nothing this program reads is larger; a design has some kilobytes.
@@ -311,7 +311,8 @@ fn check_target(path: &Path, text: &str) -> Result<(), Failure> {
         let message = format!("{} cannot be written: it is write-protected", path.display());
         return Err(Failure::refused("file::not_writable", message).with_help("name another file"));
     }
-    let is_design = |text: &str| [Format::Toml, Format::Json].iter().any(|f| parse(text, *f).is_ok());
+    let is_design =
+        |text: &str| [Format::Toml, Format::Json].iter().any(|f| parse_with_cranks(text, *f).is_ok());
     let there = if metadata.len() > MAX_BYTES { None } else { std::fs::read_to_string(path).ok() };
     if there.is_some_and(|old| is_design(&old)) && !is_design(text) {
         let message =

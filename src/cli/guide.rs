@@ -55,8 +55,9 @@ const JOBS: [Job; 10] = [
                 &[
                     "ik designs/symmetric-hexapod.toml --pose 0,0,360,5,0,0",
                     "ik designs/presets/bench-l16.toml --json",
+                    "ik designs/presets/reachy-mini.toml --pose 0,0,180,5,0,0",
                 ],
-                &["inverse", "inverse-kinematics", "lengths", "leg-lengths"],
+                &["inverse", "inverse-kinematics", "lengths", "leg-lengths", "cranks", "servos"],
             ),
             entry(
                 "fk",
@@ -64,6 +65,7 @@ const JOBS: [Job; 10] = [
                     "fk designs/rbt-octahedral.toml",
                     "fk designs/rbt-octahedral.toml --method trilateration",
                     "fk designs/rbt-octahedral.toml --lengths 11,11,11,11,11,11 --json",
+                    "fk designs/presets/reachy-mini.toml --angles 36,-36,36,-36,36,-36 --near home",
                 ],
                 &["forward", "forward-kinematics", "kinematics", "solve", "poses"],
             ),

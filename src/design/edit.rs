@@ -6,7 +6,7 @@ use thiserror::Error;
 use super::model::NotBuilt;
 use super::tree::{Entry, Node, Span, Value, find};
 use super::violation::Findings;
-use super::{Design, Format, Warning, parse, toml_text};
+use super::{Design, Format, Warning, parse_with_cranks, toml_text};
 use crate::manipulator::{Body, InvalidManipulator, Manipulator};
 
 /// The text a design was read from, and what is slippery in it. Two designs that say the same are equal however they are written.
@@ -187,7 +187,7 @@ impl Design {
     #[must_use]
     pub fn text(&self) -> String {
         let kept = self.written.toml.as_ref().filter(|text| {
-            parse(text, Format::Toml).is_ok_and(|(mut read, _)| {
+            parse_with_cranks(text, Format::Toml).is_ok_and(|(mut read, _)| {
                 // the table of a trajectory is a file of its own
                 if let (Some(own), Some(t)) = (&self.workspace.trajectory, &mut read.workspace.trajectory) {
                     t.poses.clone_from(&own.poses);
@@ -202,6 +202,7 @@ impl Design {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::design::parse;
     use crate::manipulator::LegLengths;
 
     const TEXT: &str = r#"# a design with words in it

@@ -31,7 +31,7 @@ mod workspace;
 #[cfg(feature = "synthesis")]
 pub(crate) use construction::Origin;
 use construction::{Construction, Constructions, LinePlace, WrittenNumber};
-pub use construction::{DesignExactness, ExactJoint, Exactness};
+pub use construction::{CrankLimits, DesignExactness, ExactJoint, Exactness};
 pub use edit::JointError;
 pub(crate) use edit::Written;
 #[cfg(feature = "cli")]
@@ -108,8 +108,23 @@ impl std::str::FromStr for Format {
 /// ```
 ///
 /// # Errors
-/// All violations found, in the order of the text: a text with syntax errors is not examined further.
+/// All violations found, in the order of the text: a text with syntax errors is not examined further. A design whose legs are rods on cranks is one ([`Code::Rotary`]): what holds for legs that
+/// change their lengths does not hold for it, and [`parse_with_cranks`] reads it.
 pub fn parse(text: &str, format: Format) -> Result<(Design, Vec<Warning>), Vec<Violation>> {
+    read(text, format, false)
+}
+
+/// Reads a design from text, also one whose legs are rods on cranks (`drive = "rotary"`).
+///
+/// The base joints of such a design are the centres of its cranks: [`Design::manipulator`] joins them to the platform and says nothing of the rods. Ask [`Design::rotary`] for cranks and rods.
+///
+/// # Errors
+/// All violations found.
+pub fn parse_with_cranks(text: &str, format: Format) -> Result<(Design, Vec<Warning>), Vec<Violation>> {
+    read(text, format, true)
+}
+
+fn read(text: &str, format: Format, takes_cranks: bool) -> Result<(Design, Vec<Warning>), Vec<Violation>> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut report = violation::Findings::new(text);
     if text.trim().is_empty() {
@@ -121,7 +136,7 @@ pub fn parse(text: &str, format: Format) -> Result<(Design, Vec<Warning>), Vec<V
         Format::Toml => toml_text::read(text, &mut report),
         Format::Json => json_text::read(text, &mut report),
     };
-    let design = root.and_then(|root| validate::design(&root, &mut report));
+    let design = root.and_then(|root| validate::design(&root, &mut report, takes_cranks));
     match design {
         Some(mut design) if report.is_clean() => {
             let warnings = report.into_warnings();

@@ -5,7 +5,7 @@ use thiserror::Error;
 
 use super::construction::resolve::{Fault, Joints};
 use super::construction::{RealPoint, WrittenHome};
-use super::{Constructions, DesignExactness, ExactJoint, Workspace, Written};
+use super::{Constructions, CrankLimits, DesignExactness, ExactJoint, Workspace, Written};
 use crate::geom::Pose;
 use crate::manipulator::Body;
 use crate::manipulator::{InvalidManipulator, JointValues, LegLengths, Manipulator, SurdPoint};
@@ -14,6 +14,7 @@ use crate::requirements::{
     Reserves, Term, TermKind,
 };
 use crate::requirements::{KeptSymmetry, Objective, VariableKind};
+use crate::rotary::{Crank, InvalidRotary, RotaryLeg, RotaryPlatform};
 
 /// A manipulator with names and everything else a design file may carry.
 #[derive(Debug, Clone, PartialEq)]
@@ -202,7 +203,58 @@ impl Design {
         self
     }
 
-    /// Joints and legs.
+    /// The cranks and rods of a design whose drive is rotary; `None` where legs change their lengths.
+    ///
+    /// ```
+    /// use equipod::methods::design::{Format, PRESETS, parse, parse_with_cranks};
+    /// let preset = PRESETS.iter().find(|p| p.name == "reachy-mini").expect("a preset");
+    /// assert!(parse(preset.text, Format::Toml).is_err(), "its legs do not change their lengths");
+    /// let (design, _) = parse_with_cranks(preset.text, Format::Toml).expect("a design");
+    /// let platform = design.rotary().expect("tips and joints make a platform").expect("it has cranks");
+    /// let angles = platform.ik(&design.home.expect("home")).expect("within reach");
+    /// assert!((angles[0].to_degrees() - 35.9).abs() < 0.05);
+    /// ```
+    ///
+    /// # Errors
+    /// Cranks and joints that make no platform, which can be where joints were [moved](Self::set_joint).
+    pub fn rotary(&self) -> Result<Option<RotaryPlatform>, InvalidRotary> {
+        let Some(cranks) = &self.constructions.cranks else { return Ok(None) };
+        let m = &self.manipulator;
+        let leg = |i: usize| {
+            let (a, b) = m.pairs()[i];
+            // a crank of which something is missing is refused when the design is read
+            let values =
+                cranks.values.get(a).and_then(|v| v.as_ref().ok()).ok_or(InvalidRotary::BadNumber(i))?;
+            Ok::<_, InvalidRotary>(RotaryLeg {
+                crank: Crank {
+                    centre: m.base_joints()[a],
+                    axis: values.axis,
+                    zero: values.zero,
+                    length: values.length,
+                },
+                rod: values.rod,
+                platform: m.platform_joints()[b],
+                elbow: values.elbow,
+                limits: values.limits_deg.map(|[least, most]| (least.to_radians(), most.to_radians())),
+            })
+        };
+        let legs = [leg(0)?, leg(1)?, leg(2)?, leg(3)?, leg(4)?, leg(5)?];
+        RotaryPlatform::try_new(legs).map(Some)
+    }
+
+    /// Whether the legs are rods on cranks.
+    #[must_use]
+    pub fn has_cranks(&self) -> bool {
+        self.constructions.cranks.is_some()
+    }
+
+    /// What the drives of the cranks can do; nothing is said of legs that change their lengths.
+    #[must_use]
+    pub fn crank_limits(&self) -> CrankLimits {
+        self.constructions.cranks.as_ref().map(|cranks| cranks.drives).unwrap_or_default()
+    }
+
+    /// Joints and legs. Where the legs are rods on [cranks](Self::rotary) the base joints are the centres of the cranks.
     #[must_use]
     pub fn manipulator(&self) -> &Manipulator {
         &self.manipulator

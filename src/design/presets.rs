@@ -1,5 +1,7 @@
 //! Designs of real hardware that come with the library, as text: every figure in them is sourced or marked as chosen.
 
+use super::{Format, parse_with_cranks};
+
 /// What a machine is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
@@ -19,6 +21,8 @@ pub enum PresetClass {
     /// Carries a spindle.
     #[cfg_attr(feature = "files", serde(rename = "machine tool"))]
     MachineTool,
+    /// Moves a part of a robot.
+    Robot,
 }
 
 impl PresetClass {
@@ -30,6 +34,7 @@ impl PresetClass {
             Self::MotionSimulator => "motion simulator",
             Self::PrecisionPositioner => "precision positioner",
             Self::MachineTool => "machine tool",
+            Self::Robot => "robot",
         }
     }
 }
@@ -52,6 +57,14 @@ pub struct Preset {
     pub text: &'static str,
 }
 
+impl Preset {
+    /// Whether its legs are rods on cranks: such a preset is read by [`parse_with_cranks`](super::parse_with_cranks) and refused by [`parse`](super::parse).
+    #[must_use]
+    pub fn has_cranks(&self) -> bool {
+        parse_with_cranks(self.text, Format::Toml).is_ok_and(|(design, _)| design.has_cranks())
+    }
+}
+
 macro_rules! preset {
     ($name:literal, $class:ident) => {
         Preset {
@@ -63,11 +76,12 @@ macro_rules! preset {
 }
 
 /// All presets, by class and name. `docs/presets.md` has their figures in one table.
-pub const PRESETS: [Preset; 6] = [
+pub const PRESETS: [Preset; 7] = [
     preset!("bench-l16", Bench),
     preset!("mdx-chair-v3", MotionSimulator),
     preset!("motion-base-6dof2000e", MotionSimulator),
     preset!("rubin-camera-hexapod", PrecisionPositioner),
     preset!("rubin-m2-hexapod", PrecisionPositioner),
     preset!("linuxcnc-hexapod", MachineTool),
+    preset!("reachy-mini", Robot),
 ];

@@ -4,7 +4,7 @@ use nalgebra::{Point3, Vector3};
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 
-use super::construction::{Spelling, WrittenHome};
+use super::construction::{CrankCopy, Spelling, WrittenCrank, WrittenCranks, WrittenHome};
 use super::{
     CalibrationTable, Combination, Construction, Design, LinePlace, OptimizeTable, SearchTable, WrittenNumber,
 };
@@ -14,6 +14,7 @@ use crate::requirements::{
     Envelope, Envelopes, ForceUnit, Hardware, Housing, JointAxes, KeepOut, KeepOutShape, KeptSymmetry,
     LegPart, LengthLimits, ListedFrom, Load, MassUnit, Payload, Region, Reserve, Reserves, Swing, TermKind,
 };
+use crate::rotary::Elbow;
 
 /// The structure of a file, in the order it is written.
 #[derive(Serialize)]
@@ -26,6 +27,8 @@ struct DesignFile<'a> {
     base: Vec<(&'a str, JointFile<'a>)>,
     #[serde(serialize_with = "as_map")]
     platform: Vec<(&'a str, JointFile<'a>)>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cranks: Option<CranksFile<'a>>,
     #[serde(flatten)]
     tail: Tail<'a>,
 }
@@ -43,6 +46,8 @@ struct Head<'a> {
     source: Option<&'a str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     description: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    drive: Option<&'static str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     lengths: Option<[f64; 6]>,
     legs: [[&'a str; 2]; 6],
@@ -77,6 +82,84 @@ struct Tail<'a> {
 
 fn as_map<S: Serializer>(list: &[(&str, impl Serialize)], serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_map(list.iter().map(|(name, value)| (name, value)))
+}
+
+/// `[cranks]`: what is said of all cranks, and of single ones by name.
+#[derive(Serialize)]
+struct CranksFile<'a> {
+    #[serde(flatten)]
+    shared: CrankFile<'a>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    max_torque: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    max_speed_deg: Option<f64>,
+    #[serde(flatten, serialize_with = "as_map")]
+    own: Vec<(&'a str, CrankFile<'a>)>,
+}
+
+/// A crank, as it is written.
+#[derive(Serialize)]
+struct CrankFile<'a> {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    length: Option<&'a WrittenNumber>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rod_length: Option<&'a WrittenNumber>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    axis: Option<&'a [WrittenNumber; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    zero: Option<&'a [WrittenNumber; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    elbow: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    angle_deg: Option<&'a [WrittenNumber; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    turn: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    deg: Option<&'a WrittenNumber>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    mirror: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    plane: Option<&'static str>,
+}
+
+impl<'a> CrankFile<'a> {
+    fn of(crank: &'a WrittenCrank, names: &'a [String]) -> Self {
+        let (mut turn, mut deg, mut mirror, mut plane) = (None, None, None, None);
+        match &crank.copy {
+            Some(CrankCopy::Turned { crank, deg: by }) => {
+                (turn, deg) = (Some(names[*crank].as_str()), Some(by))
+            }
+            Some(CrankCopy::Mirrored { crank, plane: p }) => {
+                (mirror, plane) = (Some(names[*crank].as_str()), Some(p.name()));
+            }
+            None => {}
+        }
+        Self {
+            length: crank.length.as_ref(),
+            rod_length: crank.rod_length.as_ref(),
+            axis: crank.axis.as_ref(),
+            zero: crank.zero.as_ref(),
+            elbow: crank.elbow.map(Elbow::name),
+            angle_deg: crank.angle_deg.as_ref(),
+            turn,
+            deg,
+            mirror,
+            plane,
+        }
+    }
+}
+
+impl<'a> CranksFile<'a> {
+    fn of(cranks: &'a WrittenCranks, names: &'a [String]) -> Self {
+        let own = names.iter().zip(&cranks.own);
+        let own = own.filter_map(|(name, own)| Some((name.as_str(), CrankFile::of(own.as_ref()?, names))));
+        Self {
+            shared: CrankFile::of(&cranks.shared, names),
+            max_torque: cranks.drives.max_torque,
+            max_speed_deg: cranks.drives.max_speed_deg,
+            own: own.collect(),
+        }
+    }
 }
 
 /// A joint, as it is written.
@@ -263,6 +346,9 @@ impl Design {
             let lines = joints.iter().map(|(name, joint)| toml_line(name, &joint.to_toml()));
             tables.push(format!("[{body}]\n{}", lines.collect::<String>()));
         }
+        let cranks =
+            file.cranks.as_ref().map(|cranks| std::collections::BTreeMap::from([("cranks", cranks)]));
+        tables.push(text(cranks.map_or(Ok(String::new()), |table| toml::to_string(&table))));
         tables.push(text(toml::to_string(&file.tail)));
         tables.retain(|table| !table.is_empty());
         tables.join("\n")
@@ -284,6 +370,7 @@ impl Design {
             mass_units: self.mass_units.map(MassUnit::label),
             source: self.source.as_deref(),
             description: self.description.as_deref(),
+            drive: self.has_cranks().then_some("rotary"),
             lengths: self.lengths.map(|l| l.get()),
             legs: self.leg_names().map(|(a, b)| [a, b]),
         };
@@ -305,6 +392,7 @@ impl Design {
             parameters: self.constructions.parameters.iter().map(|(n, q)| (n.as_str(), q)).collect(),
             base: self.joint_files(Body::Base),
             platform: self.joint_files(Body::Platform),
+            cranks: self.constructions.cranks.as_ref().map(|c| CranksFile::of(c, self.base_names())),
             tail,
         }
     }

@@ -116,6 +116,14 @@ impl Design {
         for coordinate in constructions.home.iter_mut().flat_map(|home| &mut home.position) {
             *coordinate = ratio.written(coordinate)?;
         }
+        if let Some(cranks) = &mut constructions.cranks {
+            for crank in std::iter::once(&mut cranks.shared).chain(cranks.own.iter_mut().flatten()) {
+                for length in crank.length.iter_mut().chain(&mut crank.rod_length) {
+                    *length = ratio.written(length)?;
+                }
+            }
+            cranks.drives.max_torque = cranks.drives.max_torque.map(|t| ratio.of(t));
+        }
         let home_is_written = constructions.home.is_some();
         let mut out = self.clone();
         out.units = units.trim().to_string();

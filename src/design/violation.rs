@@ -69,6 +69,8 @@ pub enum Code {
     NegativeRoot,
     /// The line through two joints that are the same point.
     NoLine,
+    /// Rods on cranks where legs that change their lengths are asked for.
+    Rotary,
     /// Expressions or constructions longer or more than any design needs.
     TooComplex,
     /// More violations than are worth listing.
@@ -110,6 +112,7 @@ impl Code {
             Self::DivisionByZero => "design::division_by_zero",
             Self::NegativeRoot => "design::negative_root",
             Self::NoLine => "design::no_line",
+            Self::Rotary => "design::rotary",
             Self::TooComplex => "design::too_complex",
             Self::TooMany => "design::too_many",
         }
@@ -288,6 +291,11 @@ impl<'t> Findings<'t> {
     /// Whether further violations are only counted.
     pub(crate) fn is_full(&self) -> bool {
         self.violations.len() >= MAX_VIOLATIONS
+    }
+
+    /// How many violations there are so far.
+    pub(crate) fn count(&self) -> usize {
+        self.violations.len() + self.unlisted
     }
 
     pub(crate) fn is_clean(&self) -> bool {

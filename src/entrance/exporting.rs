@@ -59,9 +59,9 @@ impl Design {
         options: &ExportOptions,
     ) -> Result<Vec<ExportedFile>, Error> {
         let mut export = Export::of(self, options)?;
-        if format == ExportFormat::C {
+        if format == ExportFormat::C && export.cranks.is_none() {
             export = export.with_octahedral(octahedral_of_controllers(self));
         }
-        Ok(format.writer().files(&export)?)
+        Ok(export.files(format.writer())?)
     }
 }

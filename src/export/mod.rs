@@ -35,7 +35,7 @@ use crate::manipulator::Body;
 use crate::names::{UnknownName, named};
 
 pub use controller::EquivalentOctahedral;
-pub use model::{Export, ExportBody, ExportLeg, ExportedJoint};
+pub use model::{Export, ExportBody, ExportCranks, ExportLeg, ExportedJoint};
 pub use outline::{Outline, OutlinePart};
 pub use plate::{Plate, PlateHole};
 pub use sizes::{ExportOptions, NoExport, SizeChoice};
@@ -90,6 +90,15 @@ pub enum Unsupported {
         /// What the balls and the cylinder take, design units.
         taken: f64,
     },
+    /// The format is about legs that change their lengths.
+    #[error("the format holds legs that change their lengths, and those of the design are rods on cranks")]
+    Cranks,
+    /// A rod is along the axis of its crank at home.
+    #[error("the rod of leg {leg} is along the axis of its crank at home, where the crank does not move it")]
+    RodAlongAxis {
+        /// 1-based number.
+        leg: usize,
+    },
     /// A leg has no direction at home.
     #[error("leg {leg} has length zero at home, and so no direction")]
     NoDirection {
@@ -111,7 +120,12 @@ pub trait Writer: std::fmt::Debug + Sync {
         ""
     }
 
-    /// The files.
+    /// Whether it holds rods on cranks too.
+    fn takes_cranks(&self) -> bool {
+        false
+    }
+
+    /// The files. Where the legs are rods on cranks only formats that [take them](Self::takes_cranks) are asked.
     ///
     /// # Errors
     /// What the format cannot express.

@@ -2,15 +2,16 @@
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
-use super::Unsupported;
 use super::controller::EquivalentOctahedral;
 use super::plate::{self, Plate};
 use super::sizes::{ExportOptions, LegSizes, NoExport, SizeChoice, Sizes, least_distance, mass};
 use super::units::LengthUnit;
+use super::{ExportedFile, Unsupported, Writer};
 use crate::design::Design;
 use crate::geom::Pose;
 use crate::manipulator::{Body, Manipulator};
 use crate::requirements::{ForceUnit, Hardware, LegMasses, MassUnit};
+use crate::rotary::RotaryPlatform;
 
 /// A joint of a body.
 #[derive(Debug, Clone, PartialEq)]
@@ -80,6 +81,30 @@ impl ExportLeg {
     }
 }
 
+/// The cranks of a design whose legs are rods on cranks.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExportCranks {
+    /// Cranks and rods, design units.
+    pub platform: RotaryPlatform,
+    /// Angles at home, radians.
+    pub home_angles: [f64; 6],
+    /// Greatest torque of a crank, newton metres, where the design limits it.
+    pub greatest_torque: Option<f64>,
+}
+
+impl ExportCranks {
+    /// `None` for a design whose legs change their lengths.
+    fn of(design: &Design, home: &Pose, torque_unit: f64) -> Result<Option<Self>, NoExport> {
+        let unfit = |why: &dyn std::fmt::Display| NoExport::Cranks(why.to_string());
+        let Some(platform) = design.rotary().map_err(|why| unfit(&why))? else { return Ok(None) };
+        let home_angles = platform
+            .ik(home)
+            .map_err(|why| unfit(&format!("the cranks do not hold the home pose: {why}")))?;
+        let greatest_torque = design.crank_limits().max_torque.map(|t| t * torque_unit);
+        Ok(Some(Self { platform, home_angles, greatest_torque }))
+    }
+}
+
 /// Everything the formats need.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Export {
@@ -103,8 +128,10 @@ pub struct Export {
     pub home: Pose,
     /// Base and platform.
     pub bodies: [ExportBody; 2],
-    /// Legs in leg order.
+    /// Legs in leg order; where they are rods on cranks, the rods at home from the tips of the cranks, whose centres are the joints of the base.
     pub legs: [ExportLeg; 6],
+    /// The cranks of the legs; `None` where these change their lengths.
+    pub cranks: Option<ExportCranks>,
     /// What the length that each leg shows is longer than the distance of its joints, design units, where the design was calibrated.
     pub leg_offsets: Option<[f64; 6]>,
     /// Least and greatest length of a leg, design units, where the design limits them.
@@ -169,7 +196,14 @@ impl Export {
         };
         let base = joints(design.base_names(), m.base_joints());
         let platform = joints(design.platform_names(), m.platform_joints());
-        let ends = m.pairs().map(|(a, b)| (base[a].at, home.transform(&platform[b].at)));
+        let newtons = design.force_units.unwrap_or(ForceUnit::Newton).newtons();
+        let cranks = ExportCranks::of(design, &home, newtons * unit.metres)?;
+        let mut ends = m.pairs().map(|(a, b)| (base[a].at, home.transform(&platform[b].at)));
+        if let Some(cranks) = &cranks {
+            for (i, end) in ends.iter_mut().enumerate() {
+                end.0 = cranks.platform.tip(i, cranks.home_angles[i]);
+            }
+        }
         let lengths = ends.map(|(a, b)| (b - a).norm());
         let shortest = lengths.iter().copied().filter(|l| *l > 1e-9 * size).fold(f64::INFINITY, f64::min);
         let towards: Vector3<f64> = ends.iter().map(|(a, b)| b - a).sum();
@@ -192,7 +226,6 @@ impl Export {
         let share = payload.map_or(1.0, |own| mass / own);
         let inertia = design.payload.and_then(|p| p.inertia);
         let inertia = inertia.map(|i| i * (in_kilograms * unit.metres * unit.metres * share));
-        let newtons = design.force_units.unwrap_or(ForceUnit::Newton).newtons();
         let bodies = [
             ExportBody { body: Body::Base, joints: base, ball_diameter: base_ball, plate: base_plate },
             ExportBody {
@@ -224,6 +257,7 @@ impl Export {
             home,
             bodies,
             legs,
+            cranks,
             leg_offsets: design.calibration.as_ref().map(|table| table.offsets),
             leg_range: hardware.leg_length.map(|l| l.range()),
             workspace,
@@ -246,6 +280,17 @@ impl Export {
         })
     }
 
+    /// The files of a format.
+    ///
+    /// # Errors
+    /// What the format cannot express: [`Unsupported::Cranks`] for rods on cranks, where it does not [take them](Writer::takes_cranks).
+    pub fn files(&self, writer: &dyn Writer) -> Result<Vec<ExportedFile>, Unsupported> {
+        if self.cranks.is_some() && !writer.takes_cranks() {
+            return Err(Unsupported::Cranks);
+        }
+        writer.files(self)
+    }
+
     /// With the octahedral platform that controllers may compute poses of.
     #[must_use]
     pub fn with_octahedral(self, octahedral: Option<EquivalentOctahedral>) -> Self {
@@ -258,7 +303,7 @@ impl Export {
         (&self.bodies[0].joints[leg.base].name, &self.bodies[1].joints[leg.platform].name)
     }
 
-    /// Leg lengths at a pose, design units.
+    /// Leg lengths at a pose, design units; where the legs are rods on cranks, distances of the tips at home.
     #[must_use]
     pub fn lengths_at(&self, pose: &Pose) -> [f64; 6] {
         self.legs.map(|l| (pose.transform(&self.bodies[1].joints[l.platform].at) - l.foot).norm())

@@ -122,6 +122,9 @@ pub enum NoExport {
     /// The unit of the design is not a length unit.
     #[error(transparent)]
     Unit(#[from] UnknownUnit),
+    /// The legs are rods on cranks, which hold no pose at home, or make no platform.
+    #[error("{0}")]
+    Cranks(String),
     /// A size that nothing can be made of.
     #[error("{what} is {value}: {why}")]
     BadSize {

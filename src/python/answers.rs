@@ -24,10 +24,10 @@ pub(super) fn document(
     serde_json::to_string(&whole).map_err(|e| PyRuntimeError::new_err(e.to_string()))
 }
 
-/// The names of the presets.
+/// The names of the presets whose legs change their lengths.
 #[pyfunction]
 pub(super) fn preset_names() -> Vec<&'static str> {
-    PRESETS.iter().map(|p| p.name).collect()
+    PRESETS.iter().filter(|p| !p.has_cranks()).map(|p| p.name).collect()
 }
 
 /// `A` and `c` of the affine map of squared leg lengths, and the answer of `equipod equivalents map`.

@@ -15,6 +15,7 @@ use crate::geom::{ComplexPose, Pose};
 use crate::manipulator::{Manipulator, height_above_base};
 use crate::num::ball::Disc;
 use crate::poly::{Dyadic, RealRoot};
+use crate::rotary::RotaryPlatform;
 use crate::solve::certify::octahedral::OctahedralCertificate;
 use crate::solve::certify::{
     CentrePrecision, Certificate, DoubleCertificate, PoseEnclosure, ProvedReality, RootCertificate,
@@ -47,8 +48,11 @@ pub struct FkRowRecord {
     /// The time of the row, where the file has a column of times.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub time: Option<f64>,
-    /// The six lengths, design units.
+    /// The six lengths, design units; those of the rods where angles of cranks were given.
     pub lengths: [f64; 6],
+    /// The angles of the cranks, where these were given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub angles_deg: Option<[f64; 6]>,
     /// The poses, or why there are none.
     #[serde(flatten)]
     pub outcome: FkRowOutcome,
@@ -77,6 +81,9 @@ pub struct FkOneAnswer {
     /// The poses.
     #[serde(flatten)]
     pub solved: SolvedRecord,
+    /// The angles of the cranks, where these were given; the legs are then the rods from the tips of the cranks, as doubles, to the platform, and certificates hold for these tips.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub angles_deg: Option<[f64; 6]>,
     /// How the pose was followed, with `--near`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub near: Option<NearRecord>,
@@ -87,7 +94,7 @@ pub struct FkOneAnswer {
 
 impl From<SolvedRecord> for FkOneAnswer {
     fn from(solved: SolvedRecord) -> Self {
-        Self { solved, near: None, closure: None }
+        Self { solved, angles_deg: None, near: None, closure: None }
     }
 }
 
@@ -199,11 +206,24 @@ impl SolvedRecord {
                 mode: if level { None } else { Some(side) },
                 distance_from_home: ComplexPose::from(pose).distance(&place, m.size()),
                 nearest_home: false,
+                elbow_kept: None,
             });
         }
         let real = self.solutions.iter_mut().filter_map(|s| s.real_pose.as_mut());
         if let Some(nearest) = real.min_by(|a, b| a.distance_from_home.total_cmp(&b.distance_from_home)) {
             nearest.nearest_home = true;
+        }
+        self
+    }
+
+    /// Adds to the real poses on which side each crank is.
+    #[must_use]
+    pub fn with_elbows(mut self, platform: &RotaryPlatform, angles: &[f64; 6]) -> Self {
+        for solution in &mut self.solutions {
+            let pose = ComplexPose::from(&solution.pose).real_part();
+            if let Some(real) = &mut solution.real_pose {
+                real.elbow_kept = Some(platform.elbows_kept(&pose, angles));
+            }
         }
         self
     }
@@ -400,6 +420,9 @@ pub struct RealPoseRecord {
     pub distance_from_home: f64,
     /// Whether none of the other real poses listed is nearer to home.
     pub nearest_home: bool,
+    /// Whether each crank is on the side (elbow) that the design names, where the legs are rods on cranks: a machine gets to another side only through a pose with crank and rod in one plane with the axis.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub elbow_kept: Option<[bool; 6]>,
 }
 
 /// A side of the plane of the base.

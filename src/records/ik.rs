@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Number, PoseRecord};
+use super::{Number, PoseRecord, RotaryIkRecord, RotaryIkRowsAnswer};
 use crate::design::Design;
 use crate::geom::Pose;
 use crate::manipulator::{inverse_condition, jacobian};
@@ -17,6 +17,10 @@ pub enum IkAnswer {
     Rows(IkRowsAnswer),
     /// One pose.
     One(Box<IkRecord>),
+    /// Several poses of a design whose legs are rods on cranks.
+    CrankRows(RotaryIkRowsAnswer),
+    /// One pose of such a design.
+    Cranks(Box<RotaryIkRecord>),
 }
 
 /// The lengths at several poses.

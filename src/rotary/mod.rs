@@ -33,6 +33,29 @@ pub enum Elbow {
     Minus,
 }
 
+impl Elbow {
+    /// Both sides.
+    pub const BOTH: [Self; 2] = [Self::Plus, Self::Minus];
+
+    /// The name: `"plus"` or `"minus"`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Plus => "plus",
+            Self::Minus => "minus",
+        }
+    }
+
+    /// The other side.
+    #[must_use]
+    pub fn other(self) -> Self {
+        match self {
+            Self::Plus => Self::Minus,
+            Self::Minus => Self::Plus,
+        }
+    }
+}
+
 /// A crank, in the base frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Crank {
@@ -157,6 +180,12 @@ impl RotaryPlatform {
         &self.legs
     }
 
+    /// Unit vectors along each crank at the angle 0 and at a quarter turn, base frame.
+    #[must_use]
+    pub fn directions(&self) -> &[[Vector3<f64>; 2]; 6] {
+        &self.directions
+    }
+
     /// Where the tip of a crank is at an angle, base frame.
     #[must_use]
     pub fn tip(&self, leg: usize, angle: f64) -> Point3<f64> {
@@ -214,13 +243,21 @@ impl RotaryPlatform {
         Ok(out)
     }
 
-    /// Inverse kinematics: the angle of each crank on its side, from `-pi` to `pi`. Limits are looked at by [`Self::within_limits`].
+    /// Inverse kinematics: the angle of each crank on its side, from `-pi` to `pi` where the crank has no limits, else within half a turn of the middle of its limits. Whether it is
+    /// within them is said by [`Self::within_limits`].
     ///
     /// # Errors
     /// The first leg whose rod does not reach.
     pub fn ik(&self, pose: &Pose) -> Result<[f64; 6], OutOfReach> {
         let both = self.both_angles(pose)?;
-        Ok(std::array::from_fn(|i| both[i].of(self.legs[i].elbow)))
+        Ok(std::array::from_fn(|i| self.counted(i, both[i].of(self.legs[i].elbow))))
+    }
+
+    /// The same angle, counted in the turn in which the limits of the crank are.
+    #[must_use]
+    pub fn counted(&self, leg: usize, angle: f64) -> f64 {
+        let middle = self.legs[leg].limits.map_or(0.0, |(least, most)| 0.5 * (least + most));
+        if middle == 0.0 { wrapped(angle) } else { middle + wrapped(angle - middle) }
     }
 
     /// What remains of the limits of each crank, radians: negative beyond them, infinite where there are none.
@@ -268,6 +305,32 @@ impl RotaryPlatform {
             rows.set_row(i, &scaled);
         }
         rows.iter().all(|x| x.is_finite()).then_some(rows)
+    }
+
+    /// The greatest speed of each crank, radians per second, when the platform origin moves at most so fast in any direction and the platform turns at most so fast (radians per second) about any axis:
+    /// `v |row_v| + w |row_w|` of the [Jacobian](Self::crank_jacobian). `None` where a crank is singular.
+    #[must_use]
+    pub fn greatest_speeds(
+        &self,
+        pose: &Pose,
+        angles: &[f64; 6],
+        linear: f64,
+        angular: f64,
+    ) -> Option<[f64; 6]> {
+        let rows = self.crank_jacobian(pose, angles)?;
+        Some(std::array::from_fn(|i| {
+            linear * rows.fixed_view::<1, 3>(i, 0).norm() + angular * rows.fixed_view::<1, 3>(i, 3).norm()
+        }))
+    }
+
+    /// On which side each crank is at a pose: the sign of its [transmission](Self::transmissions). A crank in line with its rod is on both, and counts as on the side of the machine.
+    #[must_use]
+    pub fn elbows_kept(&self, pose: &Pose, angles: &[f64; 6]) -> [bool; 6] {
+        let transmissions = self.transmissions(pose, angles);
+        std::array::from_fn(|i| match self.legs[i].elbow {
+            Elbow::Plus => transmissions[i] <= 0.0,
+            Elbow::Minus => transmissions[i] >= 0.0,
+        })
     }
 
     /// Torques of the cranks about their axes that hold a wrench (force and torque about the platform origin, base frame) at rest: `J_q^T t = -wrench`. `None` at singular poses and where a crank is singular.

@@ -1,7 +1,9 @@
 //! One pose followed from angles to angles.
 
+use nalgebra::{Point3, Vector3};
+
 use super::RotaryPlatform;
-use crate::fk::{NearOutcome, NearSolver};
+use crate::fk::{NearEvidence, NearOutcome, NearSolver};
 use crate::geom::Pose;
 use crate::manipulator::InvalidManipulator;
 
@@ -32,7 +34,14 @@ impl RotaryTracker {
         self.pose
     }
 
-    /// Continues to other angles; where the pose is lost or a singular one is in the way the tracker stays where it was. `fraction` of the outcome counts within the part of the step that failed.
+    /// The angles of the cranks there.
+    #[must_use]
+    pub fn angles(&self) -> &[f64; 6] {
+        &self.angles
+    }
+
+    /// Continues to other angles; where the pose is lost or a singular one is in the way the tracker stays where it was. `fraction` of the outcome counts from the last angles to the new ones, and the
+    /// evidence is that of all parts: residual and Frobenius ratio at the pose, segments and Newton steps in all, the greatest Kantorovich number.
     ///
     /// # Errors
     /// Angles that are not finite, or tips and joints that make no platform.
@@ -40,22 +49,44 @@ impl RotaryTracker {
         let largest = (0..6).map(|i| (angles[i] - self.angles[i]).abs()).fold(0.0, f64::max);
         let parts = (largest / LONGEST).ceil().clamp(1.0, 1e4);
         let squares = self.platform.rods().squared();
-        let mut pose = self.pose;
-        let mut part = 1.0;
+        let (mut pose, mut part) = (self.pose, 1.0);
+        let mut before: Option<NearEvidence> = None;
         loop {
             let at: [f64; 6] =
                 std::array::from_fn(|i| self.angles[i] + (angles[i] - self.angles[i]) * (part / parts));
             let solver = NearSolver::new(&self.platform.at(&at)?);
-            let outcome = solver.solve(&squares, &pose);
-            match &outcome {
-                NearOutcome::Tracked { pose: next, .. } => pose = *next,
-                _ => return Ok(outcome),
+            let mut outcome = solver.solve(&squares, &pose);
+            let reached = *outcome.pose();
+            match &mut outcome {
+                NearOutcome::Tracked { evidence, .. } => self.add(evidence, before.as_ref(), &reached),
+                NearOutcome::NearSingularity { evidence, fraction, .. }
+                | NearOutcome::Lost { evidence, fraction, .. } => {
+                    self.add(evidence, before.as_ref(), &reached);
+                    *fraction = (part - 1.0 + *fraction) / parts;
+                }
             }
+            if outcome.tracked().is_none() {
+                return Ok(outcome);
+            }
+            (pose, before) = (reached, Some(*outcome.evidence()));
             if part >= parts {
                 (self.pose, self.angles) = (pose, *angles);
                 return Ok(outcome);
             }
             part += 1.0;
         }
+    }
+
+    /// Makes the evidence of a part that of the way from the last pose on.
+    fn add(&self, part: &mut NearEvidence, before: Option<&NearEvidence>, reached: &Pose) {
+        if let Some(before) = before {
+            part.segments += before.segments;
+            part.newton_steps += before.newton_steps;
+            part.kantorovich = part.kantorovich.max(before.kantorovich);
+        }
+        let joints = self.platform.legs().iter().map(|leg| leg.platform.coords);
+        let centroid = Point3::from(joints.sum::<Vector3<f64>>() / 6.0);
+        part.distance = (reached.transform(&centroid) - self.pose.transform(&centroid)).norm();
+        part.angle = reached.rotation.angle_to(&self.pose.rotation);
     }
 }

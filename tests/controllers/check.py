@@ -27,6 +27,8 @@ DESIGNS = [
     ("worked/chair", []),
     ("presets/linuxcnc-hexapod", []),
     ("general-6-6", ["--unit", "m"]),
+    # rods on cranks, with functions of their own
+    ("presets/reachy-mini", []),
 ]
 STRICT = ["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-Wconversion", "-Wdouble-promotion"]
 SANITIZE = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
@@ -69,12 +71,12 @@ def export(program, design, options, folder):
 
 
 def faulty(folder, to):
-    """The same files with one expected number, a squared length, off by a hundredth."""
+    """The same files with one expected number, a squared length or an angle, off by a hundredth."""
     shutil.copytree(folder, to)
     path = to / "equipod_vectors.h"
     text = path.read_text()
-    # a vector begins with its pose, {{rotation}, {position}}, and its squared lengths come next
-    number = re.search(r"\}\}, \{[^}]*\}\}, \{([\d.e+-]+)", text).group(1)
+    # a vector begins with its pose, {{rotation}, {position}}, and its squared lengths come next, or that no rod is too short and its angles
+    number = re.search(r"\}\}, \{[^}]*\}\}, (?:0, )?\{([\d.e+-]+)", text).group(1)
     wrong = repr(float(number) * 1.01)
     path.write_text(text.replace(number, wrong, 1))
 
@@ -89,7 +91,8 @@ def host(folder, wrong, name):
                 if not good and options != ["-O2"]:
                     continue
                 binary = place / "selftest"
-                sources = [place / s for s in [*SOURCES, "equipod_selftest.c"]]
+                cranks = ["equipod_cranks.c"] if (place / "equipod_cranks.c").exists() else []
+                sources = [place / s for s in [*SOURCES, *cranks, "equipod_selftest.c"]]
                 code, out = run(compiler, *STRICT, "-ffp-contract=off", *real, *options, *sources, "-lm", "-o", binary)
                 if not told(code == 0, f"{label} compiles", out):
                     continue
@@ -224,7 +227,7 @@ def main():
             export(program, design, options, folder)
             faulty(folder, wrong)
             host(folder, wrong, design)
-            if number == 0:
+            if number == 0 or design == "presets/reachy-mini":
                 cmake(folder)
             if number == 1:
                 board(folder, wrong, design, args.table)

@@ -15,6 +15,7 @@ import tempfile
 import tomllib
 
 from common import failed, missing, optional, passed, run
+from cranks import check_cranks
 from dynamics import check_dynamics
 from drawings import check_dxf, check_svg, check_xml
 from linuxcnc import check_linuxcnc, check_preset
@@ -68,6 +69,7 @@ def main():
     check_preset(program, top / "preset")
     check_schemas(program, top / "schemas", ROOT)
     check_dynamics(program, top / "dynamics")
+    check_cranks(program, top / "cranks", ROOT / "designs/presets/reachy-mini.toml")
     check_equivalent(program, top, ROOT / "designs/rbt-octahedral.toml")
     if not args.keep:
         shutil.rmtree(top)

@@ -43,6 +43,7 @@ mod cli_verify;
 mod cli_view;
 mod closure;
 mod completeness;
+mod cranks;
 mod design_files;
 mod documents;
 mod eliminations;

@@ -91,20 +91,21 @@ fn write(folder: &Path, file: &ExportedFile) -> Result<String, Failure> {
 
 /// Writes every format that can hold the design; exit 1 when one cannot.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
-    let design = context.load(&args.design)?;
+    let design = context.load_with_cranks(&args.design)?;
     if !args.to.iter().any(|t| t == "all" || t == ExportFormat::Mjcf.name()) {
         for option in ["mass", "gravity_compensation"] {
             context.no_effect(option, "only the simulator's format, mjcf, holds masses")?;
         }
     }
     let mut export = model(args, &design)?;
-    if wanted(args).iter().any(|f| f.name() == ExportFormat::C.name()) {
+    let controller = wanted(args).iter().any(|f| f.name() == ExportFormat::C.name());
+    if controller && export.cranks.is_none() {
         export = export.with_octahedral(octahedral_of_controllers(&design));
     }
     files::make_folder(&args.output)?;
     let (mut exit, mut formats, mut text) = (Exit::Yes, Vec::new(), String::new());
     for format in wanted(args) {
-        let (files, outcome) = match format.files(&export) {
+        let (files, outcome) = match export.files(format) {
             Ok(made) => {
                 let paths = made.iter().map(|f| write(&args.output, f));
                 let paths = paths.collect::<Result<Vec<_>, _>>()?;
@@ -125,8 +126,14 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         let (name, purpose) = (format.name().into(), format.purpose().into());
         formats.push(FormatRecord { format: name, purpose, files, outcome });
     }
-    let assessment = AssessAnswer::briefly(&design, context.seed());
-    let text = format!("{}\n{text}", requirements::lead(&design.name, assessment.as_ref()));
+    // what is assessed are legs that change their lengths
+    let assessment = if design.has_cranks() { None } else { AssessAnswer::briefly(&design, context.seed()) };
+    let lead = if design.has_cranks() {
+        format!("{} has cranks: `equipod ik` says what remains of their limits at a pose\n", design.name)
+    } else {
+        requirements::lead(&design.name, assessment.as_ref())
+    };
+    let text = format!("{lead}\n{text}");
     let mut text = text;
     let record = ExportAnswer::new(&export, assessment, args.output.display().to_string(), formats);
     text.push_str("sizes\n");

@@ -1,5 +1,6 @@
 //! How a design says where a joint is: coordinates as expressions, points on lines, polar coordinates, copies turned and mirrored.
 
+mod cranks;
 pub(super) mod expression;
 #[cfg(feature = "synthesis")]
 mod origins;
@@ -11,6 +12,8 @@ use std::fmt;
 
 use nalgebra::Point3;
 
+pub use self::cranks::CrankLimits;
+pub(super) use self::cranks::{CrankCopy, PARTS, WrittenCrank, WrittenCranks};
 use self::expression::{Expression, Slip};
 #[cfg(feature = "synthesis")]
 pub(crate) use self::origins::Origin;
@@ -225,6 +228,8 @@ pub(crate) struct Constructions {
     exact: [Vec<RealPoint>; 2],
     /// The home pose, where an expression gives a number of it.
     pub(super) home: Option<WrittenHome>,
+    /// The cranks of a design that has some.
+    pub(super) cranks: Option<WrittenCranks>,
 }
 
 impl Constructions {
@@ -255,7 +260,7 @@ impl Constructions {
 
     /// Whether nothing is said beside three numbers a joint, and plain numbers of home.
     pub(super) fn is_empty(&self) -> bool {
-        self.parameters.is_empty() && !self.any_joint() && self.home.is_none()
+        self.parameters.is_empty() && !self.any_joint() && self.home.is_none() && self.cranks.is_none()
     }
 
     /// The exact coordinates, those of the doubles where the body has no constructions.

@@ -24,6 +24,8 @@ pub(in crate::design) enum Owner {
     Parameter(usize),
     Joint(Body, usize),
     Home,
+    /// All cranks, or the one at a base joint.
+    Crank(Option<usize>),
 }
 
 /// Why a construction gives no point.
@@ -88,6 +90,11 @@ impl Constructions {
             complete &= self.resolve_home(&mut home, (&parameters, given.unread), &mut faults).is_some();
             self.home = Some(home);
         }
+        if let Some(mut cranks) = self.cranks.take() {
+            let values = (parameters.as_slice(), given.unread);
+            complete &= self.resolve_cranks(&mut cranks, given.names[0], values, &mut faults).is_some();
+            self.cranks = Some(cranks);
+        }
         if faults.is_empty() && complete { Ok(points) } else { Err(faults) }
     }
 
@@ -102,8 +109,13 @@ impl Constructions {
         });
         let home = self.home.iter().flat_map(WrittenHome::quantities);
         let home = home.map(|(_, q)| (Owner::Home, q.expression().work()));
+        let cranks = self.cranks.iter().flat_map(|cranks| cranks.all());
+        let cranks = cranks.flat_map(|(joint, crank)| {
+            let work = crank.quantities().into_iter().map(|(_, q)| q.expression().work());
+            work.map(move |work| (Owner::Crank(joint), work)).collect::<Vec<_>>()
+        });
         let mut sum = 0;
-        for (owner, work) in parameters.chain(joints).chain(home) {
+        for (owner, work) in parameters.chain(joints).chain(home).chain(cranks) {
             sum += work;
             if sum > MAX_WORK {
                 faults.push(Fault {
@@ -164,7 +176,7 @@ impl Constructions {
         Some(())
     }
 
-    fn quantity(
+    pub(super) fn quantity(
         &self,
         (owner, part): (Owner, Option<usize>),
         quantity: &WrittenNumber,
@@ -367,7 +379,7 @@ fn circle<'a>(owner: Owner, what: &str, names: impl Iterator<Item = &'a str>) ->
 }
 
 /// An order in which everything comes after what it needs, and the circles, each from its first member on, that keep the rest from having one.
-fn ordered(needs: &[Vec<usize>]) -> (Vec<usize>, Vec<Vec<usize>>) {
+pub(super) fn ordered(needs: &[Vec<usize>]) -> (Vec<usize>, Vec<Vec<usize>>) {
     #[derive(Clone, Copy, PartialEq)]
     enum State {
         New,

@@ -18,6 +18,8 @@ const LEGS: usize = 6;
 pub(crate) enum SeriesKind {
     /// Six leg lengths.
     Lengths,
+    /// Six angles of cranks.
+    Angles,
     /// Position with roll, pitch and yaw, or with a quaternion.
     Poses,
     /// A pose and six leg lengths after it.
@@ -136,10 +138,11 @@ impl SeriesKind {
         let names: Vec<String> = header.iter().map(|name| plain(name)).collect();
         let time = names.iter().position(|name| is_time(name));
         let values = match self {
-            Self::Lengths => numbered_columns(&names),
+            Self::Lengths => numbered_columns(&names, &LENGTH_WORDS),
+            Self::Angles => numbered_columns(&without_angle_units(&names), &ANGLE_WORDS),
             Self::Poses => pose_columns(&names),
             Self::PosesWithLengths => {
-                let lengths = numbered_columns(&names);
+                let lengths = numbered_columns(&names, &LENGTH_WORDS);
                 pose_columns(&names).zip(lengths).map(|(pose, lengths)| [pose, lengths].concat())
             }
         };
@@ -147,6 +150,7 @@ impl SeriesKind {
         let in_radians =
             |list: &[usize]| list.iter().copied().filter(|c| names[*c].ends_with("rad")).collect();
         let radians: Vec<usize> = match (&values, self) {
+            (Some(list), Self::Angles) => in_radians(list),
             (Some(list), Self::Poses) => in_radians(&list[3..]),
             (Some(list), Self::PosesWithLengths) => in_radians(&list[3..list.len() - LEGS]),
             _ => Vec::new(),
@@ -197,8 +201,20 @@ fn is_time(name: &str) -> bool {
     name.starts_with("time") || ["t", "ts", "tms", "sec", "seconds", "zeit", "zeits"].contains(&name)
 }
 
-/// The six columns that have the same word and the numbers 1 to 6 after it, in the order of the numbers.
-fn numbered_columns(names: &[String]) -> Option<Vec<usize>> {
+/// What lengths are called in headers.
+const LENGTH_WORDS: [&str; 3] = ["leg", "len", "l"];
+/// What angles of cranks are called in headers.
+const ANGLE_WORDS: [&str; 7] = ["crank", "angle", "motor", "servo", "theta", "alpha", "q"];
+
+/// The names without units of angles at their ends.
+fn without_angle_units(names: &[String]) -> Vec<String> {
+    let ends = ["degrees", "degree", "deg", "radians", "rad"];
+    let less = |name: &String| ends.iter().find_map(|end| name.strip_suffix(end)).unwrap_or(name).to_string();
+    names.iter().map(less).collect()
+}
+
+/// The six columns that have the same word and the numbers 1 to 6 after it, in the order of the numbers; of several lists those with one of the words.
+fn numbered_columns(names: &[String], wanted: &[&str]) -> Option<Vec<usize>> {
     let parted: Vec<(&str, &str)> =
         names.iter().map(|n| n.split_at(n.trim_end_matches(|c: char| c.is_ascii_digit()).len())).collect();
     let of = |word: &str| -> Option<Vec<usize>> {
@@ -212,7 +228,9 @@ fn numbered_columns(names: &[String]) -> Option<Vec<usize>> {
     };
     // of several lists, such as lengths beside speeds, the one that is called so
     let words = parted.iter().map(|(word, _)| *word).filter(|word| !word.is_empty());
-    let called = |word: &str| ["leg", "len", "l"].iter().any(|name| word == *name || word.contains("len"));
+    let called = |word: &str| {
+        wanted.iter().any(|name| word == *name || (name.len() > 1 && *name != "leg" && word.contains(name)))
+    };
     let mut words: Vec<&str> = words.collect();
     words.sort_by_key(|word| !called(word));
     words.into_iter().find_map(of)
@@ -220,11 +238,7 @@ fn numbered_columns(names: &[String]) -> Option<Vec<usize>> {
 
 /// The columns of x, y and z with those of the angles, or of the quaternion.
 fn pose_columns(names: &[String]) -> Option<Vec<usize>> {
-    let less = |name: &str| {
-        let ends = ["degrees", "degree", "deg", "radians", "rad"];
-        ends.iter().find_map(|end| name.strip_suffix(end)).unwrap_or(name).to_string()
-    };
-    let names: Vec<String> = names.iter().map(|n| less(n)).collect();
+    let names = without_angle_units(names);
     let column = |accepted: &[&str]| names.iter().position(|n| accepted.contains(&n.as_str()));
     let position = [
         column(&["x", "px", "posx", "tx"]),
@@ -275,6 +289,21 @@ mod tests {
             let found = read(SeriesKind::Lengths, text);
             assert_eq!((&found.rows[0].value, found.rows[0].time), (&meant, time), "{text}");
         }
+    }
+
+    #[test]
+    fn angles_of_cranks_are_read_by_their_names() {
+        let meant = [1.5, 2.0, 3.0, 4.0, 5.0, 6.0];
+        for text in [
+            "1.5,2,3,4,5,6\n",
+            // what `ik` writes of a design with cranks
+            "crank_1_deg,crank_2_deg,crank_3_deg,crank_4_deg,crank_5_deg,crank_6_deg,other_1_deg,other_2_deg,other_3_deg,other_4_deg,other_5_deg,other_6_deg\n1.5,2,3,4,5,6,9,9,9,9,9,9\n",
+            "other1,other2,other3,other4,other5,other6,servo1,servo2,servo3,servo4,servo5,servo6\n9,9,9,9,9,9,1.5,2,3,4,5,6\n",
+        ] {
+            assert_eq!(read(SeriesKind::Angles, text).rows[0].value, meant, "{text}");
+        }
+        let found = read(SeriesKind::Angles, "q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad\n1,0,0,0,0,0\n");
+        assert_eq!(found.rows[0].value, [1f64.to_degrees(), 0.0, 0.0, 0.0, 0.0, 0.0]);
     }
 
     #[test]

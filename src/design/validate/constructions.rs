@@ -2,13 +2,14 @@
 
 use std::collections::BTreeMap;
 
+use super::cranks::CrankPlaces;
 use super::joints::NamedJoints;
 use super::{LARGEST, check_keys, nearest_help, number, shown, table};
 use crate::design::Code;
 use crate::design::construction::expression::{Slip, function_names, is_name};
 use crate::design::construction::resolve::{Joints, Owner};
 use crate::design::construction::{
-    Construction, Constructions, CoordinatePlane, LinePlace, WrittenHome, WrittenNumber,
+    Construction, Constructions, CoordinatePlane, LinePlace, WrittenCranks, WrittenHome, WrittenNumber,
 };
 use crate::design::tree::{Entry, Node, Span, Value, find};
 use crate::design::violation::Findings;
@@ -50,7 +51,7 @@ pub(super) fn parameters(report: &mut Findings<'_>, top: &[Entry]) -> Parameters
 }
 
 /// A number, which is the decimal that is written, or an expression in quotes.
-fn quantity(report: &mut Findings<'_>, node: &Node, what: &str) -> Option<WrittenNumber> {
+pub(super) fn quantity(report: &mut Findings<'_>, node: &Node, what: &str) -> Option<WrittenNumber> {
     let read = match &node.value {
         Value::Text(text) => WrittenNumber::text(text),
         Value::Number(_) => {
@@ -275,17 +276,23 @@ fn reference(
     found
 }
 
+/// What besides joints has numbers that follow from parameters, with its places.
+pub(super) struct Written<'a> {
+    pub(super) home: Option<(WrittenHome, Places)>,
+    pub(super) cranks: (Option<WrittenCranks>, &'a CrankPlaces),
+}
+
 /// Gives every joint its coordinates; the constructions when all of them have some.
 pub(super) fn resolve(
     report: &mut Findings<'_>,
     parameters: Parameters,
     (base, platform): (&mut NamedJoints, &mut NamedJoints),
-    home: Option<(WrittenHome, Places)>,
+    Written { home, cranks: (cranks, crank_places) }: Written<'_>,
 ) -> Option<Constructions> {
     let mut constructions = Constructions::default();
     let (home, home_places) = home.unzip();
     let home_places = home_places.unwrap_or_default();
-    constructions.home = home;
+    (constructions.home, constructions.cranks) = (home, cranks);
     let (mut places, mut unread) = (Vec::new(), Vec::new());
     for (name, value, place) in parameters {
         match value {
@@ -337,10 +344,11 @@ pub(super) fn resolve(
                     Owner::Parameter(i) => &places[i],
                     Owner::Joint(body, j) => &body.of((&*base, &*platform)).joints[j].places,
                     Owner::Home => &home_places,
+                    Owner::Crank(joint) => crank_places.of(joint),
                 };
                 let part = match fault.owner {
                     Owner::Parameter(_) => fault.within.as_ref().map(|_| 0),
-                    Owner::Joint(..) | Owner::Home => fault.part,
+                    Owner::Joint(..) | Owner::Home | Owner::Crank(_) => fault.part,
                 };
                 let span = part.and_then(|k| place.parts.get(k)).unwrap_or(&place.whole);
                 let span = inner(report, span, fault.within.as_ref());

@@ -2,6 +2,7 @@
 
 mod calibration;
 mod constructions;
+mod cranks;
 mod joints;
 mod limits;
 #[cfg(test)]
@@ -20,18 +21,20 @@ use crate::manipulator::{Body, InvalidManipulator, LegLengths, Manipulator};
 /// Words less similar than this are no help.
 const NEAR: f64 = 0.7;
 
-const TOP_LEVEL: [&str; 22] = [
+const TOP_LEVEL: [&str; 24] = [
     "name",
     "units",
     "force_units",
     "mass_units",
     "source",
     "description",
+    "drive",
     "lengths",
     "legs",
     "parameters",
     "base",
     "platform",
+    "cranks",
     "home",
     "workspace",
     "optimize",
@@ -46,8 +49,8 @@ const TOP_LEVEL: [&str; 22] = [
 ];
 
 /// The design, or `None` with the reasons in the report. Later checks run on whatever earlier ones left
-/// intact, so that one run shows all violations.
-pub(super) fn design(root: &Node, report: &mut Findings<'_>) -> Option<Design> {
+/// intact, so that one run shows all violations. Rods on cranks are refused unless `takes_cranks`.
+pub(super) fn design(root: &Node, report: &mut Findings<'_>, takes_cranks: bool) -> Option<Design> {
     let Value::Table(entries) = &root.value else {
         let help = "write { \"name\": ..., \"units\": ..., \"base\": { ... }, \"platform\": { ... }, \"legs\": [ ... ] }";
         report.refuse(
@@ -70,9 +73,13 @@ pub(super) fn design(root: &Node, report: &mut Findings<'_>) -> Option<Design> {
         required(report, root, entries, "platform").and_then(|e| joints::body(report, Body::Platform, e));
     let home = find(entries, "home").and_then(|e| tables::home(report, &e.node));
     let (home, written_home) = home.unzip();
+    let (cranks, crank_places) = cranks::cranks(report, entries, base.as_ref(), takes_cranks).unzip();
+    let crank_places = crank_places.unwrap_or_default();
     let constructions = match (&mut base, &mut platform) {
         (Some(base), Some(platform)) => {
-            constructions::resolve(report, parameters, (base, platform), written_home.flatten())
+            let written =
+                constructions::Written { home: written_home.flatten(), cranks: (cranks, &crank_places) };
+            constructions::resolve(report, parameters, (base, platform), written)
         }
         _ => None,
     };
@@ -81,6 +88,9 @@ pub(super) fn design(root: &Node, report: &mut Findings<'_>) -> Option<Design> {
         (Some(entry), Some(base), Some(platform)) => joints::legs(report, entry, base, platform),
         _ => None,
     };
+    if let (Some(constructions), Some(base), Some(legs)) = (&constructions, &base, &legs) {
+        cranks::check_legs(report, constructions, &crank_places, (base, legs));
+    }
     let lengths = lengths(report, entries);
     let workspace = tables::workspace(report, entries);
     let (optimize, search) = tables::optimize(report, entries);
@@ -102,6 +112,7 @@ pub(super) fn design(root: &Node, report: &mut Findings<'_>) -> Option<Design> {
         Design::new(name?, units?, manipulator).with_joint_names(base.names(), platform.names()).ok()?;
     design.home = home;
     design.set_constructions(constructions?);
+    cranks::check_platform(report, &design, &crank_places);
     design.source = source;
     design.description = description;
     design.lengths = lengths;

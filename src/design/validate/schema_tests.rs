@@ -3,6 +3,7 @@
 use serde_json::Value;
 
 use super::calibration::CALIBRATION_KEYS;
+use super::cranks::{COPY_KEYS, CRANK_KEYS, DRIVE_KEYS};
 use super::limits::{ENVELOPE_KEYS, PAYLOAD_KEYS};
 use super::search::SEARCH_KEYS;
 use super::tables::{HARDWARE_KEYS, LIMIT_KEYS, POSE_KEYS, WORKSPACE_KEYS};
@@ -32,6 +33,10 @@ fn the_schema_has_the_keys_of_the_reader() {
     assert_eq!(keys("/properties/envelope"), sorted(ENVELOPE_KEYS));
     assert_eq!(keys("/properties/payload"), sorted(PAYLOAD_KEYS));
     assert_eq!(keys("/properties/calibration"), sorted(CALIBRATION_KEYS));
+    assert_eq!(keys("/$defs/crank"), sorted(CRANK_KEYS.into_iter().chain(COPY_KEYS)));
+    let shared = schema.pointer("/properties/cranks/properties").and_then(Value::as_object).unwrap();
+    let known = sorted(CRANK_KEYS.into_iter().chain(DRIVE_KEYS));
+    assert_eq!(sorted(shared.keys().map(String::as_str)), known, "further keys are tables of single cranks");
     let reserved = TermKind::ALL.map(TermKind::code).into_iter().chain(["all"]);
     assert_eq!(keys("/properties/limits/properties/reserve/oneOf/1"), sorted(reserved));
     let names = |place: &str| {

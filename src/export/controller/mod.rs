@@ -4,6 +4,7 @@
 //! [`NearSolver`] computes, operation by operation, so that in double the poses are those of the library bit for bit;
 //! `equipod_vectors.h` holds numbers of the library that `equipod_selftest.c` compares. What is written here are the numbers of the design.
 
+mod cranks;
 mod vectors;
 
 use std::fmt::Write as _;
@@ -31,10 +32,17 @@ impl Writer for C {
     }
 
     fn leaves_out(&self) -> &'static str {
-        "limits other than leg lengths and swing; exact joints, which are doubles with a radius in the numbers of the tracker"
+        "limits other than leg lengths, swing and angles of cranks; exact joints, which are doubles with a radius in the numbers of the tracker"
+    }
+
+    fn takes_cranks(&self) -> bool {
+        true
     }
 
     fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
+        if let Some(cranks) = &export.cranks {
+            return Ok(cranks::files(export, cranks));
+        }
         Ok(vec![
             ExportedFile::new("equipod.h", include_str!("equipod.h").to_string()),
             ExportedFile::new("equipod.c", include_str!("equipod.c").to_string()),

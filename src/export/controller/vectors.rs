@@ -54,23 +54,23 @@ pub(super) fn text(export: &Export) -> String {
     out
 }
 
-fn list(out: &mut String, kind: &str, name: &str, entries: impl IntoIterator<Item = String>) {
+pub(super) fn list(out: &mut String, kind: &str, name: &str, entries: impl IntoIterator<Item = String>) {
     let entries: Vec<String> = entries.into_iter().collect();
     let _ = writeln!(out, "\nstatic const {kind} {name}[] = {{\n    {}\n}};", entries.join(",\n    "));
 }
 
 /// The pose moved at random by about `far`.
-fn moved(pose: &Pose, far: f64, size: f64, rng: &mut Rng) -> Pose {
+pub(super) fn moved(pose: &Pose, far: f64, size: f64, rng: &mut Rng) -> Pose {
     let mut vector = || Vector3::from_fn(|_, _| rng.uniform(-far, far));
     let (turn, shift) = (vector(), vector() * size);
     Pose { rotation: Rotation3::new(turn) * pose.rotation, position: pose.position + shift }
 }
 
-fn row(values: &[f64]) -> String {
+pub(super) fn row(values: &[f64]) -> String {
     braces(values.iter().map(|x| number(*x)))
 }
 
-fn pose_numbers(pose: &Pose) -> String {
+pub(super) fn pose_numbers(pose: &Pose) -> String {
     let r = pose.rotation.matrix();
     let rows = (0..3).map(|i| row(&[r[(i, 0)], r[(i, 1)], r[(i, 2)]]));
     braces([braces(rows), row(pose.position.as_slice())])

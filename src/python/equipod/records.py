@@ -786,10 +786,16 @@ class Design(Record):
     source: Union[str, None]
     #: free text
     description: Union[str, None]
+    #: `prismatic`: legs change their lengths; `rotary`: the legs are rods of constant length on cranks,
+    #: the base joints are the centres of the cranks, and `[cranks]` is required
+    drive: Union[Literal["prismatic", "rotary"], None]
     #: leg lengths in leg order, which `equipod fk` takes without `--lengths`
     lengths: Union[tuple[DesignNotNegative, ...], None]
     #: numbers and expressions that expressions of joints and of other parameters name
     parameters: Union[dict[str, DesignQuantity], None]
+    #: cranks and rods of a design whose drive is rotary: what holds for all, and tables named by base
+    #: joints for what is different at one
+    cranks: Union[dict[str, DesignCrank], None]
     #: the pose the platform is built for
     home: Union[DesignHomePose, None]
     #: the poses to reach
@@ -827,6 +833,33 @@ class DesignCapsule(Record):
     from_: DesignVector
     to: DesignVector
     diameter: DesignPositive
+
+
+class DesignCrank(Record):
+    """DesignCrank"""
+
+    #: as that of all cranks
+    length: Union[DesignQuantity, None]
+    #: as that of all cranks
+    rod_length: Union[DesignQuantity, None]
+    #: as that of all cranks
+    axis: Union[DesignQuantities, None]
+    #: as that of all cranks
+    zero: Union[DesignQuantities, None]
+    #: as that of all cranks
+    elbow: Union[Literal["plus", "minus"], None]
+    #: as that of all cranks
+    angle_deg: Union[DesignQuantityPair, None]
+    #: the base joint of another crank: this one has its values, with axis and zero turned about the z axis
+    #: of the base frame
+    turn: Union[str, None]
+    #: with `turn`
+    deg: Union[DesignQuantity, None]
+    #: the base joint of another crank: this one has its values, with zero mirrored and axis mirrored and
+    #: reversed, so that equal angles are mirror images
+    mirror: Union[str, None]
+    #: with `mirror`
+    plane: Union[Literal["xy", "xz", "yz"], None]
 
 
 class DesignEnvelope(Record):
@@ -1363,6 +1396,9 @@ class FkAnswer(Record):
     unproved: Union[tuple[SolutionRecord, ...], None]
     #: What null stands for, where a number is not finite.
     notes: Union[tuple[str, ...], None]
+    #: The angles of the cranks, where these were given; the legs are then the rods from the tips of the
+    #: cranks, as doubles, to the platform, and certificates hold for these tips.
+    angles_deg: Union[tuple[float, ...], None]
     #: How the pose was followed, with `--near`.
     near: Union[NearRecord, None]
     #: The exact closure polynomial, with `--method trilateration`.
@@ -1414,6 +1450,9 @@ class FkOneAnswer(Record):
     unproved: tuple[SolutionRecord, ...]
     #: What null stands for, where a number is not finite.
     notes: Union[tuple[str, ...], None]
+    #: The angles of the cranks, where these were given; the legs are then the rods from the tips of the
+    #: cranks, as doubles, to the platform, and certificates hold for these tips.
+    angles_deg: Union[tuple[float, ...], None]
     #: How the pose was followed, with `--near`.
     near: Union[NearRecord, None]
     #: The exact closure polynomial, with `--method trilateration`.
@@ -1436,10 +1475,12 @@ class FkRowRecord(Record):
 
     #: The line of the CSV file, from 1.
     line: int
-    #: The six lengths, design units.
+    #: The six lengths, design units; those of the rods where angles of cranks were given.
     lengths: tuple[float, ...]
     #: The time of the row, where the file has a column of times.
     time: Union[float, None]
+    #: The angles of the cranks, where these were given.
+    angles_deg: Union[tuple[float, ...], None]
     #: The method that found them.
     method: Union[Method, None]
     #: Whether these are known to be all.
@@ -2889,6 +2930,9 @@ class RealPoseRecord(Record):
     distance_from_home: float
     #: Whether none of the other real poses listed is nearer to home.
     nearest_home: bool
+    #: Whether each crank is on the side (elbow) that the design names, where the legs are rods on cranks:
+    #: a machine gets to another side only through a pose with crank and rod in one plane with the axis.
+    elbow_kept: Union[tuple[bool, ...], None]
 
 
 class RegularBoxRecord(Record):
@@ -3605,6 +3649,8 @@ DesignHousing = Union[DesignPositive, DesignEdges]
 DesignJoint = Union[tuple[DesignQuantity, ...], Any, dict[str, Any]]
 
 DesignQuantities = tuple[DesignQuantity, ...]
+
+DesignQuantityPair = tuple[DesignQuantity, ...]
 
 DesignRows = tuple[DesignVector, ...]
 

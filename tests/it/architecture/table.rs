@@ -96,7 +96,7 @@ const LINES: &[Line] = &[
     ),
     (
         "design",
-        &["num", "geom", "manipulator", "requirements", "names"],
+        &["num", "geom", "manipulator", "requirements", "rotary", "names"],
         &[
             MATRICES,
             ("serde", None),
@@ -123,6 +123,7 @@ const LINES: &[Line] = &[
             "solve",
             "solve::certify",
             "fk",
+            "rotary",
             "synthesis",
             "singularity",
             "offsets",
@@ -147,7 +148,7 @@ const LINES: &[Line] = &[
     ),
     (
         "export",
-        &["num", "geom", "manipulator", "requirements", "reach", "fk", "design", "plot", "names"],
+        &["num", "geom", "manipulator", "requirements", "reach", "fk", "rotary", "design", "plot", "names"],
         &[MATRICES, ("serde", Some("json.rs")), ("serde_json", Some("json.rs")), ERRORS],
     ),
     ("equivalents", &["manipulator", "singularity", "synthesis", "design"], &[MATRICES]),
@@ -249,6 +250,7 @@ const LINES: &[Line] = &[
             "solve::certify",
             "solve::homotopy",
             "fk",
+            "rotary",
             "synthesis",
             "singularity",
             "offsets",

@@ -36,7 +36,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
             return Err(failure.with_help("end the name in .toml or .json"));
         }
     };
-    let mut design = context.load(&args.design)?;
+    let mut design = context.load_with_cranks(&args.design)?;
     if let Some(units) = &args.units {
         design = design.in_units(units).map_err(|why| {
             Failure::refused("convert::units", why.to_string())

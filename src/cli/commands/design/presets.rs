@@ -6,7 +6,7 @@ use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
-use crate::design::{Design, Format, PRESETS, Preset, parse};
+use crate::design::{Design, Format, PRESETS, Preset, parse_with_cranks};
 use crate::records::{PresetAnswer, PresetFile, PresetRecord, PresetsAnswer};
 
 /// Arguments of `design presets`.
@@ -62,5 +62,5 @@ fn record(preset: &Preset) -> Result<PresetRecord, Failure> {
 
 fn design(preset: &Preset) -> Result<Design, Failure> {
     let unread = |_| Failure::internal(format!("the preset {} is not a design", preset.name));
-    parse(preset.text, Format::Toml).map(|(design, _)| design).map_err(unread)
+    parse_with_cranks(preset.text, Format::Toml).map(|(design, _)| design).map_err(unread)
 }

@@ -1,5 +1,6 @@
-//! `equipod fk`: all poses for given leg lengths.
+//! `equipod fk`: all poses for given leg lengths, or for given angles of cranks.
 
+mod cranks;
 mod csv;
 pub(super) mod lengths;
 mod near;
@@ -33,6 +34,9 @@ pub(crate) struct Args {
     /// Six lengths, or a table with six columns (`-` for standard input) and times where it has them; those of the design when absent
     #[arg(long, value_name = "L1,..,L6|FILE")]
     lengths: Option<String>,
+    /// Six angles of cranks in degrees, or a table with six columns (`-` for standard input), where the legs are rods on cranks
+    #[arg(long, value_name = "A1,..,A6|FILE", allow_hyphen_values = true, conflicts_with = "lengths")]
+    angles: Option<String>,
     /// Method of solution; auto takes the best one for the design
     #[arg(long, value_enum, default_value_t = MethodArg::Auto)]
     method: MethodArg,
@@ -78,7 +82,11 @@ impl MethodArg {
 /// Solves one problem or one for each row.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let method = args.method.method();
-    let design = context.load(&args.design)?;
+    let design = context.load_with_cranks(&args.design)?;
+    if let Some(platform) = Context::cranks_of(&design)? {
+        return cranks::run(args, (&design, &platform), context);
+    }
+    context.no_effect("angles", "the legs change their lengths, and the design has no cranks")?;
     let given = lengths::given(args.lengths.as_deref(), design.lengths, context)?;
     let table = Table { wanted: args.csv, all: args.all, time_name: None };
     if let Some(text) = &args.near {
@@ -157,7 +165,10 @@ fn solved_row(
             (failure.exit, FkRowOutcome::Failed(RowFailure { error: (&failure).into() }))
         }
     };
-    (exit, FkRowRecord { line: row.line, time: row.time, lengths: row.value.get(), outcome })
+    (
+        exit,
+        FkRowRecord { line: row.line, time: row.time, lengths: row.value.get(), angles_deg: None, outcome },
+    )
 }
 
 fn solve(

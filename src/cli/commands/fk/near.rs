@@ -12,27 +12,44 @@ use crate::fk::{
     Completeness, FkRoot, FkSolutions, Method, NearOutcome, NearSolver, Reality, Reason, SolutionSet,
 };
 use crate::geom::{ComplexPose, Pose};
-use crate::manipulator::{LegLengths, inverse_condition, jacobian};
+use crate::manipulator::{LegLengths, Manipulator, inverse_condition, jacobian};
 use crate::records::{
     FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, NearRecord, SolvedRecord,
 };
 use crate::solve::certify::{Certifier, ProvedReality, RootCertificate};
 
+/// What is followed: joints and legs, from where real poses are measured, and the length that turns angles into lengths.
+pub(super) struct Machine<'a> {
+    pub(super) m: &'a Manipulator,
+    pub(super) home: Pose,
+    pub(super) characteristic_length: f64,
+}
+
+impl<'a> Machine<'a> {
+    fn of(design: &'a Design) -> Self {
+        Self {
+            m: design.manipulator(),
+            home: poses::home(design),
+            characteristic_length: design.characteristic_length(),
+        }
+    }
+}
+
 /// Follows one pose. A row that is not tracked leaves the next to start from the last tracked pose.
 pub(super) fn run(design: &Design, given: &Given, start: Pose, seed: u64, table: &Table) -> Answer {
-    let solver = NearSolver::new(design.manipulator());
+    let (solver, machine) = (NearSolver::new(design.manipulator()), Machine::of(design));
     match given {
         Given::One(l) => {
             let outcome = solver.solve(&l.squared(), &start);
-            let record = record(design, l, &start, &outcome, seed);
+            let record = record(&machine, l, &start, &outcome, seed);
             let text =
-                format!("{}{}", sentence(design, &outcome), render::text(&design.name, &record.solved));
+                format!("{}{}", sentence(&machine, &outcome), render::text(&design.name, &record.solved));
             let record = FkAnswer::One(Box::new(record));
             let text = table.text(design, &record).unwrap_or(text);
             Answer::new(exit_of(&outcome), record, text)
         }
         Given::Rows(series) => {
-            let (exit, record, text) = trajectory(design, &solver, &series.rows, start, seed);
+            let (exit, record, text) = trajectory(&machine, &solver, &series.rows, start, seed);
             let table = Table { time_name: series.time_name.clone(), ..*table };
             let text = table.text(design, &record).unwrap_or(text);
             Answer::new(exit, record, text)
@@ -41,7 +58,7 @@ pub(super) fn run(design: &Design, given: &Given, start: Pose, seed: u64, table:
 }
 
 fn trajectory(
-    design: &Design,
+    machine: &Machine<'_>,
     solver: &NearSolver,
     rows: &[Row],
     start: Pose,
@@ -57,38 +74,42 @@ fn trajectory(
             line: row.line,
             time: row.time,
             lengths: row.value.get(),
-            outcome: FkRowOutcome::Solved(Box::new(record(design, &row.value, &from, &outcome, seed))),
+            angles_deg: None,
+            outcome: FkRowOutcome::Solved(Box::new(record(machine, &row.value, &from, &outcome, seed))),
         });
-        let (e, p) = (outcome.evidence(), outcome.pose().position);
-        let _ = writeln!(
-            text,
-            "{:>4}  {:<16}  {:>8}  {:>17.3e}  [{:.6}, {:.6}, {:.6}]",
-            row.line,
-            outcome.name(),
-            e.segments,
-            conditioning(design, &outcome),
-            p.x,
-            p.y,
-            p.z
-        );
+        let _ = writeln!(text, "{}", line(row.line, machine, &outcome));
         from = outcome.tracked().copied().unwrap_or(from);
     }
     (exit, FkAnswer::Rows(FkRowsAnswer { rows: records }), text)
 }
 
-fn exit_of(outcome: &NearOutcome) -> Exit {
+/// One line of the table for many rows.
+pub(super) fn line(number: usize, machine: &Machine<'_>, outcome: &NearOutcome) -> String {
+    let (e, p) = (outcome.evidence(), outcome.pose().position);
+    format!(
+        "{number:>4}  {:<16}  {:>8}  {:>17.3e}  [{:.6}, {:.6}, {:.6}]",
+        outcome.name(),
+        e.segments,
+        conditioning(machine, outcome),
+        p.x,
+        p.y,
+        p.z
+    )
+}
+
+pub(super) fn exit_of(outcome: &NearOutcome) -> Exit {
     if outcome.tracked().is_some() { Exit::Yes } else { Exit::Inconclusive }
 }
 
 /// The record of `fk` with at most one solution, and `near` with the evidence.
-fn record(
-    design: &Design,
+pub(super) fn record(
+    machine: &Machine<'_>,
     lengths: &LegLengths,
     start: &Pose,
     outcome: &NearOutcome,
     seed: u64,
 ) -> FkOneAnswer {
-    let (m, s) = (design.manipulator(), lengths.squared());
+    let (m, s) = (machine.m, lengths.squared());
     let proved = |pose: &ComplexPose| {
         let certifier = Certifier::new(m, &s).ok()?;
         certifier.certify(pose).certificate().copied()
@@ -126,19 +147,20 @@ fn record(
         seed,
     };
     FkOneAnswer {
-        solved: SolvedRecord::from(&solutions).with_real_poses(m, &poses::home(design)),
-        near: Some(NearRecord::new(start, outcome, conditioning(design, outcome))),
+        solved: SolvedRecord::from(&solutions).with_real_poses(m, &machine.home),
+        angles_deg: None,
+        near: Some(NearRecord::new(start, outcome, conditioning(machine, outcome))),
         closure: None,
     }
 }
 
 /// The inverse condition number of the Jacobian at the pose reached.
-fn conditioning(design: &Design, outcome: &NearOutcome) -> f64 {
-    inverse_condition(&jacobian(design.manipulator(), outcome.pose(), design.characteristic_length()))
+fn conditioning(machine: &Machine<'_>, outcome: &NearOutcome) -> f64 {
+    inverse_condition(&jacobian(machine.m, outcome.pose(), machine.characteristic_length))
 }
 
 /// One line for people, before the list of poses.
-fn sentence(design: &Design, outcome: &NearOutcome) -> String {
+pub(super) fn sentence(machine: &Machine<'_>, outcome: &NearOutcome) -> String {
     let e = outcome.evidence();
     match outcome {
         NearOutcome::Tracked { .. } => format!(
@@ -147,12 +169,12 @@ fn sentence(design: &Design, outcome: &NearOutcome) -> String {
             e.newton_steps,
             e.distance,
             e.angle.to_degrees(),
-            conditioning(design, outcome)
+            conditioning(machine, outcome)
         ),
         NearOutcome::NearSingularity { fraction, .. } => format!(
             "NEAR A SINGULARITY: stopped after {:.4} % of the way, inverse condition {:.2e}\n",
             100.0 * fraction,
-            conditioning(design, outcome)
+            conditioning(machine, outcome)
         ),
         NearOutcome::Lost { fraction, reason, .. } => {
             format!("LOST after {:.4} % of the way: {reason}\n", 100.0 * fraction)

@@ -47,6 +47,18 @@ pub(super) fn text(name: &str, s: &SolvedRecord) -> String {
     out
 }
 
+/// Which real poses have all cranks on the sides that the design keeps, by the numbers of [`text`].
+pub(super) fn elbows(s: &SolvedRecord) -> String {
+    let points = s.solution_set.witness_points().iter().chain(&s.solutions).enumerate();
+    let kept = points.filter(|(_, r)| r.real_pose.and_then(|p| p.elbow_kept).is_some_and(|k| k == [true; 6]));
+    let kept: Vec<String> = kept.map(|(i, _)| (i + 1).to_string()).collect();
+    match kept.len() {
+        0 => "no real pose has all cranks on the sides that the design keeps\n".into(),
+        1 => format!("all cranks are on the sides that the design keeps in pose {}\n", kept[0]),
+        _ => format!("all cranks are on the sides that the design keeps in poses {}\n", kept.join(", ")),
+    }
+}
+
 fn count_line(out: &mut String, name: &str, s: &SolvedRecord) {
     let _ = write!(out, "{name}: {} finite poses, {} of them real", s.finite_count, s.real_count);
     if s.undecided_count > 0 {

@@ -1,4 +1,6 @@
-//! `equipod ik`: the leg lengths at given poses.
+//! `equipod ik`: the leg lengths at given poses, or the angles of cranks.
+
+mod cranks;
 
 use std::path::PathBuf;
 
@@ -24,7 +26,7 @@ pub(crate) struct Args {
     /// A table with a pose a line (`-` for standard input), and times where it has them
     #[arg(long, value_name = "FILE", conflicts_with = "pose")]
     poses: Option<PathBuf>,
-    /// Columns for swing and angles of the joints, the inverse condition number and the margins besides the lengths; --json has them anyway
+    /// Columns for swing and angles of the joints (of cranks: transmissions and torques), the inverse condition number and the margins besides; --json has them anyway
     #[arg(long)]
     details: bool,
 }
@@ -33,12 +35,15 @@ const BAD_POSE: &str = "ik::bad_pose";
 
 /// Lengths are distances of joints: every pose has them.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
-    let design = context.load(&args.design)?;
+    let design = context.load_with_cranks(&args.design)?;
     let (series, one) = match &args.poses {
         Some(path) => (rows::poses(path, BAD_POSE, context)?, false),
         None => (named(&args.pose, &design)?, args.pose.len() < 2),
     };
     let from_table = args.poses.is_some();
+    if let Some(platform) = Context::cranks_of(&design)? {
+        return Ok(cranks::run((&design, &platform), &series, (one, from_table), args.details));
+    }
     let required = design.requirements();
     let terms = Terms::new(design.manipulator(), &required, &poses::home(&design));
     let record = |row: &SeriesRow<Pose>| record(&design, &terms, row, from_table);

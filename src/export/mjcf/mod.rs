@@ -1,4 +1,6 @@
-//! `MuJoCo` model: six legs of universal joint (two hinges) and slide, the platform on leg 1, loops closed by `connect`.
+//! `MuJoCo` model: six legs of universal joint (two hinges) and slide, or of crank and rod, the platform on leg 1, loops closed by `connect`.
+
+mod cranks;
 
 use std::fmt::Write as _;
 
@@ -27,8 +29,16 @@ impl Writer for Mjcf {
         "contacts, friction, limits of speeds and swing"
     }
 
+    fn takes_cranks(&self) -> bool {
+        true
+    }
+
     fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
-        Ok(vec![ExportedFile::new("platform.xml", model(export)?)])
+        let text = match &export.cranks {
+            Some(made) => cranks::model(export, made)?,
+            None => model(export)?,
+        };
+        Ok(vec![ExportedFile::new("platform.xml", text)])
     }
 }
 
@@ -212,18 +222,19 @@ fn leg(out: &mut String, scale: &Scale, export: &Export, leg: &ExportLeg) -> Res
         capsule(-half.min(length - leg.cylinder.min(length)).max(0.1 * length), 0.0, thin),
     );
     if i == 1 {
-        platform(out, scale, export, leg, &frame);
+        // the platform frame seen from the tip of the leg
+        let joint = export.bodies[1].joints[leg.platform].at.coords;
+        let turn = frame.rotation.inverse() * export.home.rotation;
+        platform(out, scale, export, leg, &Pose { rotation: turn, position: -(turn * joint) });
     }
     out.push_str("          </body>\n        </body>\n      </body>\n");
     Ok(())
 }
 
-fn platform(out: &mut String, scale: &Scale, export: &Export, leg: &ExportLeg, frame: &Pose) {
+/// The platform on a leg, at a pose in the frame of the body that carries it.
+fn platform(out: &mut String, scale: &Scale, export: &Export, leg: &ExportLeg, place: &Pose) {
     let body = &export.bodies[1];
     let joint = body.joints[leg.platform].at.coords;
-    // the platform frame seen from the tip of leg 1
-    let turn = frame.rotation.inverse() * export.home.rotation;
-    let in_tip = Pose { rotation: turn, position: -(turn * joint) };
     let count = body.joints.len() as f64;
     let middle: Vector3<f64> = body.joints.iter().map(|j| j.at.coords).sum::<Vector3<f64>>() / count;
     let centre = export.center_of_mass.map_or(middle, |c| c.coords);
@@ -241,8 +252,8 @@ fn platform(out: &mut String, scale: &Scale, export: &Export, leg: &ExportLeg, f
         "            <body name=\"platform\" pos=\"{}\" quat=\"{}\"{}>\n              \
          <joint name=\"ball1\" type=\"ball\" pos=\"{}\"/>\n            {}\n              \
          <site name=\"platform_frame\" size=\"{}\"/>",
-        scale.at(&in_tip.position),
-        quat(&in_tip),
+        scale.at(&place.position),
+        quat(place),
         scale.gravity,
         scale.at(&joint),
         inertial,
@@ -269,30 +280,17 @@ fn masses(export: &Export, scale: &Scale) -> String {
     }
 }
 
-fn model(export: &Export) -> Result<String, Unsupported> {
-    let scale = Scale::of(export);
+/// Everything before the bodies, with what is said of this kind of model in the comment, lines indented.
+fn opening(export: &Export, scale: &Scale, text: &str) -> String {
     let mut out = String::from("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<!--\n");
     for line in export.heading("m") {
         let _ = writeln!(out, "  {}", xml_comment(&line));
     }
-    let lengths = reals(export.legs.map(|l| l.length() * scale.metres), " ");
     let _ = writeln!(
         out,
         "  World frame: the base frame, gravity as in the option below. Site platform_frame: the platform frame.\n  \
-         Kilograms and seconds; quaternions scalar first. Slide leg N and its actuator hold the length minus the home length.\n  \
-         Home lengths: {lengths}\n  \
-         {}; time step and gains follow from mass and size\n  \
-         so that models of all sizes behave alike. Leg 1 carries the platform in the tree; legs 2 to 6 are closed by connect.",
-        masses(export, &scale)
+         Kilograms and seconds; quaternions scalar first. {text}-->"
     );
-    if let Some((least, greatest)) = export.leg_range {
-        let [least, greatest] = [least, greatest].map(|l| real(l * scale.metres));
-        let _ = writeln!(
-            out,
-            "  Lengths from {least} to {greatest}, as the design limits them: the range of each slide and of its control."
-        );
-    }
-    out.push_str("-->\n");
     let step = real(scale.step);
     let _ = writeln!(
         out,
@@ -306,6 +304,27 @@ fn model(export: &Export) -> Result<String, Unsupported> {
         real(2.0 * scale.step),
         real(10.0 * scale.size),
     );
+    out
+}
+
+fn model(export: &Export) -> Result<String, Unsupported> {
+    let scale = Scale::of(export);
+    let lengths = reals(export.legs.map(|l| l.length() * scale.metres), " ");
+    let mut text = format!(
+        "Slide leg N and its actuator hold the length minus the home length.\n  \
+         Home lengths: {lengths}\n  \
+         {}; time step and gains follow from mass and size\n  \
+         so that models of all sizes behave alike. Leg 1 carries the platform in the tree; legs 2 to 6 are closed by connect.\n",
+        masses(export, &scale)
+    );
+    if let Some((least, greatest)) = export.leg_range {
+        let [least, greatest] = [least, greatest].map(|l| real(l * scale.metres));
+        let _ = writeln!(
+            text,
+            "  Lengths from {least} to {greatest}, as the design limits them: the range of each slide and of its control."
+        );
+    }
+    let mut out = opening(export, &scale, &text);
     shape(&mut out, &scale, &export.bodies[0], "      ");
     for l in &export.legs {
         leg(&mut out, &scale, export, l)?;
