@@ -4,8 +4,8 @@ use std::sync::OnceLock;
 
 use super::bounds::class_bound;
 use super::{
-    FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, Method, NeedsStart, Octic, PreparedDesign,
-    Trilateration,
+    FkError, FkOptions, FkSolutions, ForwardKinematics, Homotopy, Method, NeedsStart, Octic, OcticSolver,
+    PoseCounting, PreparedDesign, Trilateration,
 };
 #[cfg(feature = "lab")]
 use super::{Sylvester, Template};
@@ -60,16 +60,23 @@ impl ForwardKinematics for Automatic {
     fn prepare(&self, m: &Manipulator, o: &FkOptions) -> Option<Box<dyn PreparedDesign>> {
         let few = class_bound(m).is_some_and(|t| t.bound() <= PREPARED_POSES);
         let by_trilateration = || if few { Trilateration::default().prepare(m, o) } else { None };
-        let by_distances = Octic.prepare(m, o).or_else(by_trilateration);
+        let by_octic = OcticSolver::new(m).ok().map(|solver| QuickDesign::Octic(Box::new(solver)));
+        let by_distances = by_octic.or_else(|| Some(QuickDesign::Trilateration(by_trilateration()?)));
         let Some(quick) = by_distances else { return Homotopy.prepare(m, o) };
         let paths = OnceLock::new();
         Some(Box::new(PreparedAutomatic { quick, manipulator: m.clone(), options: *o, paths }))
     }
 }
 
+/// What is tried before paths.
+enum QuickDesign {
+    Octic(Box<OcticSolver>),
+    Trilateration(Box<dyn PreparedDesign>),
+}
+
 /// [`Automatic`] for a design that the octic or trilateration applies to.
 struct PreparedAutomatic {
-    quick: Box<dyn PreparedDesign>,
+    quick: QuickDesign,
     manipulator: Manipulator,
     /// Those of the preparation.
     options: FkOptions,
@@ -79,9 +86,15 @@ struct PreparedAutomatic {
 
 impl PreparedDesign for PreparedAutomatic {
     fn solve(&self, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
-        match self.quick.solve(s, o) {
-            Ok(found) if found.is_complete() => return Ok(found),
-            Ok(_) | Err(_) => {}
+        // the general treatment, and counting poses, take longer than the paths of the prepared design
+        let proved = match &self.quick {
+            QuickDesign::Octic(solver) => solver.proved(s, o.seed),
+            QuickDesign::Trilateration(design) => {
+                design.solve(s, &o.pose_count(PoseCounting::Never)).ok().filter(FkSolutions::is_complete)
+            }
+        };
+        if let Some(found) = proved {
+            return Ok(found);
         }
         let prepare = || Homotopy.prepare(&self.manipulator, &self.options);
         match self.paths.get_or_init(prepare) {

@@ -138,7 +138,7 @@ pub(super) fn collect_with(
         })
         .chain(certified)
         .collect();
-    order.sort_by_cached_key(|root| sort_key(&root.0, length));
+    order.sort_by_cached_key(|(root, _)| sort_key(root.reality, &root.pose, length));
     let (roots, sources) = order.into_iter().unzip();
     Collected { roots, sources, rejected, doubtful }
 }
@@ -184,15 +184,15 @@ fn ordered(x: f64) -> i64 {
 
 /// Real roots first, then undecided, then non-real ones; within these by the real parts of `z`, `x`, `y` and of the first two entries of the first column of `R`, then by
 /// the imaginary parts of `z` and `x`. Numbers are rounded to `1e-6`, so that rounding errors reorder only where they cross a step of that grid.
-pub(super) fn sort_key(root: &FkRoot, length: f64) -> SortKey {
-    let rank = match root.reality {
+pub(super) fn sort_key(reality: Reality, pose: &ComplexPose, length: f64) -> SortKey {
+    let rank = match reality {
         Reality::Real => 0.0,
         Reality::Undecided => 1.0,
         Reality::NonReal => 2.0,
     };
     let grid = |x: f64| (x * 1e6).round() + 0.0;
-    let p = root.pose.position.map(|z| z / length);
-    let r = &root.pose.rotation;
+    let p = pose.position.map(|z| z / length);
+    let r = &pose.rotation;
     let numbers = [
         rank,
         grid(p.z.re),

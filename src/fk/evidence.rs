@@ -94,14 +94,29 @@ pub(super) fn all_distinct(certificates: &[Certificate], pairs: &[DoubleCertific
     if doubtful.is_empty() { Distinctness::AllDistinct } else { Distinctness::NotAll(doubtful) }
 }
 
+/// What is known of the certificates of certified roots.
+#[derive(Debug)]
+pub(super) enum KnownCertificates {
+    /// All roots are certified, with disjoint enclosures: they are pairwise distinct.
+    AllApart,
+    /// These, to be compared.
+    Listed(Vec<Certificate>),
+}
+
 /// [`certify`], then [`conclude`].
 pub(super) fn attach(
     solutions: &mut FkSolutions,
     m: &Manipulator,
     s: &SquaredLegLengths,
     theorem: Theorem,
-    known: Vec<Certificate>,
+    known: KnownCertificates,
 ) -> Result<(), FkError> {
+    let known = match known {
+        KnownCertificates::AllApart => {
+            return conclude_by_number(solutions, m, solutions.roots.len(), theorem).map(|_| ());
+        }
+        KnownCertificates::Listed(known) => known,
+    };
     match certify(solutions, m, s, known) {
         Some(certificates) => conclude(solutions, m, &certificates, theorem),
         None => Ok(()),
@@ -127,25 +142,9 @@ pub(super) fn conclude(
 ) -> Result<(), FkError> {
     let pairs = double_certificates(solutions);
     let distinct = all_distinct(certificates, &pairs);
-    if distinct == Distinctness::AllDistinct {
-        let count = certificates.len() + 2 * pairs.len();
-        // the work for a bound is done only where the one before is not met
-        let bounds: [&dyn Fn() -> Option<Theorem>; 3] =
-            [&|| Some(theorem), &|| class_bound(m), &|| special_bound(m)];
-        for theorem in bounds.iter().filter_map(|bound| bound()) {
-            if theorem.bound() == count {
-                solutions.completeness.learn(Completeness::Proved { theorem });
-                reject_others(solutions);
-                return Ok(());
-            }
-            if theorem.bound() < count {
-                let what = format!(
-                    "{count} poses are certified, multiplicities counted, but {}",
-                    theorem.statement()
-                );
-                return Err(FkError::Contradiction { what });
-            }
-        }
+    let count = certificates.len() + 2 * pairs.len();
+    if distinct == Distinctness::AllDistinct && conclude_by_number(solutions, m, count, theorem)? {
+        return Ok(());
     }
     let unproved = solutions.roots.iter().filter(|r| !r.certified() && r.multiplicity == 1).count();
     if unproved > 0 {
@@ -156,6 +155,31 @@ pub(super) fn conclude(
         solutions.completeness.doubt(Reason::PairsNotDistinct { pairs: pairs.len(), equal });
     }
     Ok(())
+}
+
+/// Compares the number of certified roots, which are distinct, with what the theorem and those of the platform's class allow; whether completeness is proved.
+fn conclude_by_number(
+    solutions: &mut FkSolutions,
+    m: &Manipulator,
+    count: usize,
+    theorem: Theorem,
+) -> Result<bool, FkError> {
+    // the work for a bound is done only where the one before is not met
+    let bounds: [&dyn Fn() -> Option<Theorem>; 3] =
+        [&|| Some(theorem), &|| class_bound(m), &|| special_bound(m)];
+    for theorem in bounds.iter().filter_map(|bound| bound()) {
+        if theorem.bound() == count {
+            solutions.completeness.learn(Completeness::Proved { theorem });
+            reject_others(solutions);
+            return Ok(true);
+        }
+        if theorem.bound() < count {
+            let what =
+                format!("{count} poses are certified, multiplicities counted, but {}", theorem.statement());
+            return Err(FkError::Contradiction { what });
+        }
+    }
+    Ok(false)
 }
 
 /// With as many certified roots as there can be, what has no certificate is no further root.

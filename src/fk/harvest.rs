@@ -3,20 +3,22 @@
 use num_complex::Complex64;
 
 use super::cluster::separate;
-use super::collect::{Collected, PoseCandidate, Sourced, collect_with};
-use super::evidence::proved;
+use super::collect::{Collected, PoseCandidate, SortKey, Sourced, collect_with, sort_key};
+use super::evidence::{KnownCertificates, proved};
 use super::homotopy::pose_of;
 use super::{FkRoot, FkTolerances, Rejected, RejectionReason};
 use crate::geom::ComplexPose;
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::num::octuple::ComplexOctuple;
 use crate::solve::certify::{
-    Certificate, CertifiedPose, Certifier, NewtonStart, ProvedReality, RootRelation, overlapping_pairs,
-    relation,
+    CertifiedPose, Certifier, MIRROR, NewtonStart, ProvedReality, RootRelation, overlapping_pairs, relation,
 };
 
 /// Regular ends with a larger condition number may belong to a cluster.
 const NEARLY_SINGULAR: f64 = 1e4;
+
+/// Ends this near to images of others are looked at with these, relative to 1 and to themselves.
+const ALIKE: f64 = 1e-7;
 
 /// How far from the mean of an endgame loop a root is looked for, in the size of the point.
 const MEAN: f64 = 1e-3;
@@ -48,7 +50,7 @@ pub(super) struct PreciseEnd {
 /// Roots, and the certificates of those that are certified.
 pub(super) struct Harvest {
     pub(super) collected: Collected,
-    pub(super) certificates: Vec<Certificate>,
+    pub(super) certificates: KnownCertificates,
 }
 
 /// A certified root and the paths that ended there; none where it is known as the conjugate of another only.
@@ -67,13 +69,26 @@ pub(super) fn harvest(
     ends: &[End],
     precise: &[PreciseEnd],
 ) -> Harvest {
-    let (doubtful, ends): (Vec<End>, Vec<End>) = ends.iter().partition(|e| e.doubtful);
-    let (close, mut alone): (Vec<End>, Vec<End>) =
-        ends.into_iter().partition(|e| e.singular || !(e.condition < NEARLY_SINGULAR));
+    let is_close = |e: &End| e.singular || !(e.condition < NEARLY_SINGULAR);
+    let (mut doubtful, mut close, mut others) = (Vec::new(), Vec::new(), Vec::new());
+    let all_plain = !ends.iter().any(|e| e.doubtful || is_close(e));
+    if !all_plain {
+        for end in ends {
+            let list = if end.doubtful {
+                &mut doubtful
+            } else if is_close(end) {
+                &mut close
+            } else {
+                &mut others
+            };
+            list.push(*end);
+        }
+    }
     let clusters = separate(m, s, close.iter().map(candidate).collect());
     let (mut open, plain): (Vec<PoseCandidate>, Vec<PoseCandidate>) =
         clusters.plain.into_iter().partition(|c| c.singular);
-    alone.extend(close.iter().filter(|e| plain.iter().any(|c| c.source == e.source)));
+    others.extend(close.iter().filter(|e| plain.iter().any(|c| c.source == e.source)));
+    let alone = if all_plain { ends } else { &others };
     let mut proofs: Vec<CertifiedRoot> = clusters
         .proved
         .into_iter()
@@ -83,15 +98,20 @@ pub(super) fn harvest(
             sources: vec![c.source],
         })
         .collect();
-    open.extend(certify_all(m, s, &alone, &mut proofs));
+    open.extend(certify_all(m, s, alone, &mut proofs));
     proofs.extend(finite_after_all(m, s, &doubtful));
     open.extend(certify_precise(m, s, precise, &mut proofs));
-    let repeated = drop_repeated(&mut proofs);
-    let certificates = proofs.iter().map(|p| p.root.certificate).collect();
+    let overlapping = overlapping_pairs(proofs.iter().map(|p| p.root.certificate.enclosure()));
+    let repeated = drop_repeated(&mut proofs, &overlapping);
     // a conjugate without a path of its own is a root all the same, but the path that should end there went elsewhere
     let lost = proofs.iter().any(|p| p.sources.is_empty());
-    let roots: Vec<Sourced> = proofs.into_iter().map(|p| record(m, s, p)).collect();
-    let mut collected = collect_with(m, s, t, &open, roots);
+    let (mut collected, certificates) = if open.is_empty() && overlapping.is_empty() {
+        (in_order(m, s, proofs), KnownCertificates::AllApart)
+    } else {
+        let certificates = proofs.iter().map(|p| p.root.certificate).collect();
+        let roots: Vec<Sourced> = proofs.into_iter().map(|p| (record(m, s, &p), p.sources)).collect();
+        (collect_with(m, s, t, &open, roots), KnownCertificates::Listed(certificates))
+    };
     collected.doubtful |= lost || repeated > 0;
     let duplicate = Rejected { reason: RejectionReason::Duplicate, residual: 0.0 };
     collected.rejected.extend(std::iter::repeat_n(duplicate, repeated));
@@ -107,8 +127,8 @@ fn candidate(end: &End) -> PoseCandidate {
     }
 }
 
-fn record(m: &Manipulator, s: &SquaredLegLengths, p: CertifiedRoot) -> Sourced {
-    let root = FkRoot {
+fn record(m: &Manipulator, s: &SquaredLegLengths, p: &CertifiedRoot) -> FkRoot {
+    FkRoot {
         pose: p.root.pose,
         reality: proved(p.root.certificate.reality()),
         certificate: Some(p.root.certificate.into()),
@@ -116,8 +136,20 @@ fn record(m: &Manipulator, s: &SquaredLegLengths, p: CertifiedRoot) -> Sourced {
         residual: p.root.pose.residual(m, s),
         condition: p.condition,
         dual_quaternion: Some(p.root.certificate.point()),
-    };
-    (root, p.sources)
+    }
+}
+
+/// The roots of proofs in the order of [`collect_with`], where there is nothing else: a record has a kilobyte, so that only their keys are sorted.
+fn in_order(m: &Manipulator, s: &SquaredLegLengths, mut proofs: Vec<CertifiedRoot>) -> Collected {
+    let key = |p: &CertifiedRoot| sort_key(proved(p.root.certificate.reality()), &p.root.pose, m.size());
+    let mut order: Vec<(SortKey, usize)> = proofs.iter().enumerate().map(|(k, p)| (key(p), k)).collect();
+    order.sort_unstable();
+    Collected {
+        roots: order.iter().map(|(_, k)| record(m, s, &proofs[*k])).collect(),
+        sources: order.iter().map(|(_, k)| std::mem::take(&mut proofs[*k].sources)).collect(),
+        rejected: Vec::new(),
+        doubtful: false,
+    }
 }
 
 fn is_zero(x: f64) -> bool {
@@ -125,18 +157,41 @@ fn is_zero(x: f64) -> bool {
 }
 
 /// Roots that are certified with this one: the conjugate, and with both bodies flat the mirror images of both.
-fn images(root: &CertifiedPose, flat: bool) -> Vec<CertifiedPose> {
-    let mut out = Vec::with_capacity(3);
-    if root.certificate.reality() == ProvedReality::NonReal {
-        out.push(root.conjugate());
-    }
-    if flat {
-        out.push(root.mirrored());
-        if out.len() == 2 {
-            out.push(root.conjugate().mirrored());
+fn images(root: &CertifiedPose, flat: bool) -> impl Iterator<Item = CertifiedPose> + use<> {
+    let pair = root.certificate.reality() == ProvedReality::NonReal;
+    let conjugate = pair.then(|| root.conjugate());
+    let mirrored = flat.then(|| root.mirrored());
+    let both = mirrored.as_ref().filter(|_| pair).map(CertifiedPose::conjugate);
+    conjugate.into_iter().chain(mirrored).chain(both)
+}
+
+/// One of each set of ends that look like images of each other, the first: the others are certified with it.
+fn representatives(ends: &[End], flat: bool) -> Vec<usize> {
+    let points: Vec<([Complex64; 8], usize)> = ends.iter().map(|e| on_patch(&e.point)).collect();
+    let mut taken = vec![false; ends.len()];
+    let mut out = Vec::with_capacity(ends.len());
+    for (i, (x, patch)) in points.iter().enumerate() {
+        if std::mem::replace(&mut taken[i], true) {
+            continue;
+        }
+        out.push(i);
+        let sign = |k: usize| if flat { MIRROR[k] * MIRROR[*patch] } else { 1.0 };
+        for (j, (y, _)) in points.iter().enumerate().skip(i + 1).filter(|(_, p)| p.1 == *patch) {
+            let alike = |image: &dyn Fn(usize) -> Complex64| {
+                (0..8).all(|k| (y[k] - image(k)).norm_sqr() <= ALIKE * ALIKE * (1.0 + y[k].norm_sqr()))
+            };
+            taken[j] |= alike(&|k| x[k].conj())
+                || (flat && (alike(&|k| x[k] * sign(k)) || alike(&|k| x[k].conj() * sign(k))));
         }
     }
     out
+}
+
+/// The point divided by its largest `e_k`, and `k`.
+fn on_patch(x: &[Complex64; 8]) -> ([Complex64; 8], usize) {
+    let patch = (1..4).fold(0, |best, k| if x[k].norm_sqr() > x[best].norm_sqr() { k } else { best });
+    let inverse = x[patch].inv();
+    (x.map(|z| z * inverse), patch)
 }
 
 /// Certifies what can be; returns the rest.
@@ -149,21 +204,31 @@ fn certify_all(
     let Ok(certifier) = Certifier::new(m, s) else {
         return ends.iter().map(candidate).collect();
     };
+    if ends.is_empty() {
+        return Vec::new();
+    }
     // exactly: what the certificate is about is the joints as they are
     let flat = m.legs().iter().all(|l| is_zero(l.base.z) && is_zero(l.platform.z));
     let mut open = Vec::new();
+    let chosen = representatives(ends, flat);
+    let points: Vec<&[Complex64; 8]> = chosen.iter().map(|i| &ends[*i].point).collect();
+    let mut known = chosen.iter().zip(certifier.roots_near(&points)).peekable();
     let mut done = vec![false; ends.len()];
+    proofs.reserve(ends.len());
     for (i, end) in ends.iter().enumerate() {
+        let quick = known.next_if(|(k, _)| **k == i).and_then(|(_, root)| root);
         if std::mem::replace(&mut done[i], true) {
             continue;
         }
-        let Ok(root) = certifier.root_near(NewtonStart::Point(&end.point)) else {
+        let certified = quick.map_or_else(|| certifier.root_near(NewtonStart::Point(&end.point)), Ok);
+        let Ok(root) = certified else {
             open.push(candidate(end));
             continue;
         };
         let first = proofs.len();
+        let images = images(&root, flat);
         proofs.push(CertifiedRoot { root, condition: end.condition, sources: vec![end.source] });
-        for image in images(&root, flat) {
+        for image in images {
             // an image of an image may be known already; the root may be an image of itself
             let apart = |p: &CertifiedRoot| {
                 relation(&p.root.certificate, &image.certificate) == RootRelation::Distinct
@@ -186,6 +251,9 @@ fn certify_all(
 
 /// Poses so far out, or so close to an end at `e.e = 0`, that the endgame could not tell: a certificate can, it proves `e.e != 0`.
 fn finite_after_all(m: &Manipulator, s: &SquaredLegLengths, ends: &[End]) -> Vec<CertifiedRoot> {
+    if ends.is_empty() {
+        return Vec::new();
+    }
     let Ok(certifier) = Certifier::new(m, s) else { return Vec::new() };
     let mut proofs: Vec<CertifiedRoot> = Vec::new();
     for end in ends {
@@ -232,6 +300,9 @@ fn certify_precise(
     ends: &[PreciseEnd],
     proofs: &mut Vec<CertifiedRoot>,
 ) -> Vec<PoseCandidate> {
+    if ends.is_empty() {
+        return Vec::new();
+    }
     let first = proofs.len();
     let certifier = Certifier::new(m, s);
     let mut open = Vec::new();
@@ -277,9 +348,8 @@ fn precise_pose(x: &[ComplexOctuple; 8]) -> ComplexPose {
     ComplexPose { rotation, position }
 }
 
-/// Merges proofs of one root; their number. A conjugate that has a path after all is no repetition.
-fn drop_repeated(proofs: &mut Vec<CertifiedRoot>) -> usize {
-    let overlapping = overlapping_pairs(proofs.iter().map(|p| p.root.certificate.enclosure()));
+/// Merges proofs of one root, among those that overlap; their number. A conjugate that has a path after all is no repetition.
+fn drop_repeated(proofs: &mut Vec<CertifiedRoot>, overlapping: &[(usize, usize)]) -> usize {
     let certificate = |k: usize| &proofs[k].root.certificate;
     if overlapping.iter().all(|(i, j)| relation(certificate(*i), certificate(*j)) != RootRelation::Same) {
         return 0;

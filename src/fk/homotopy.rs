@@ -5,7 +5,7 @@ mod prepared;
 use num_complex::Complex64;
 
 use super::dependent::{curves, detect_curves, incompatible, positive_dimensional};
-use super::evidence::{attach, set_unproved_apart};
+use super::evidence::{KnownCertificates, attach, set_unproved_apart};
 use super::harvest::{End, Harvest, PreciseEnd, harvest};
 use super::judge::{RealityJudgement, counted, judge, set_counted};
 use super::{
@@ -14,7 +14,6 @@ use super::{
 };
 use crate::geom::{ComplexPose, rotation_from_quaternion};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
-use crate::solve::certify::Certificate;
 use crate::solve::homotopy::{
     EndKind, GENERIC_COUNT, HomotopyPath, StartError, StartKind, TailEnd, follow_finely, solve_sections,
 };
@@ -158,7 +157,7 @@ impl SectionProblem {
         s: &SquaredLegLengths,
         o: &FkOptions,
         seed: u64,
-    ) -> Result<(FkSolutions, Vec<Certificate>), FkError> {
+    ) -> Result<(FkSolutions, KnownCertificates), FkError> {
         let breakdown = |e: StartError| FkError::Breakdown { what: e.to_string() };
         let mut paths = solve_sections(self.kind, &self.sections, seed).map_err(breakdown)?;
         let mut found = harvest(m, s, &o.tolerances, &ends_of(self, &paths), &[]);
@@ -222,7 +221,7 @@ pub(super) fn pose_of(x: [Complex64; 8]) -> ComplexPose {
 
 /// The ends that are or may be finite; where paths stand for two, the mirror images follow with sources counted on.
 fn ends_of(problem: &SectionProblem, paths: &[HomotopyPath]) -> Vec<End> {
-    let mut out = Vec::new();
+    let mut out = Vec::with_capacity(2 * paths.len());
     for (start, path) in paths.iter().enumerate() {
         let finite = matches!(path.kind, EndKind::Regular | EndKind::Singular);
         // ends followed with 256 bits are what they are, finite ones in a list of their own
@@ -290,7 +289,7 @@ fn assemble(
     paths: &[HomotopyPath],
     expected: usize,
     found: Harvest,
-) -> (FkSolutions, Vec<Certificate>) {
+) -> (FkSolutions, KnownCertificates) {
     let mut reports: Vec<PathReport> =
         paths.iter().enumerate().map(|(start, path)| report_of(start, path)).collect();
     let Harvest { mut collected, certificates } = found;

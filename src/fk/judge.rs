@@ -7,7 +7,7 @@
 use super::evidence::{all_distinct, double_certificates, reject_others};
 use super::{Completeness, FkError, FkOptions, FkRoot, FkSolutions, PoseCounting, Reason, SolutionSet};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
-use crate::solve::certify::{Certificate, Distinctness, RootCertificate};
+use crate::solve::certify::{Certificate, Distinctness, PoseEnclosure, RootCertificate, overlapping_pairs};
 use crate::solve::pose_count::{
     CountOptions, CountedLengths, PoseCount, PoseSet, count_generic_poses, count_poses, exact_squares,
 };
@@ -43,6 +43,17 @@ pub(super) fn counted(m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> 
 
 /// Whether the certified roots are proved to be different ones.
 fn are_distinct(found: &FkSolutions) -> bool {
+    let enclosures: Vec<&PoseEnclosure> = found
+        .roots
+        .iter()
+        .filter_map(|r| match &r.certificate {
+            Some(RootCertificate::Study(c)) => Some(c.enclosure()),
+            _ => None,
+        })
+        .collect();
+    if enclosures.len() == found.roots.len() && overlapping_pairs(enclosures.into_iter()).is_empty() {
+        return true;
+    }
     let study = |r: &FkRoot| match &r.certificate {
         Some(RootCertificate::Study(c)) => Some(*c),
         _ => None,

@@ -125,6 +125,14 @@ impl std::ops::Mul for ComplexBatch {
     }
 }
 
+impl std::ops::Neg for ComplexBatch {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        self.map(|re, im| (-re, -im))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

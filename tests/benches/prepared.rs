@@ -1,6 +1,6 @@
 //! What a design costs that is solved again and again: preparation, and a solve with certificates, on one thread.
 //!
-//! Run with `cargo bench --bench prepared -- [method=METHOD] [CLASS | translations ...]`. Times of a solve are medians over designs and lengths, each solved once, in microseconds and in units of
+//! Run with `cargo bench --bench prepared -- [method=METHOD] [lengths=N] [CLASS | translations ...]`. Times of a solve are medians over designs and lengths, each solved once, in microseconds and in units of
 //! `eig40`, the eigenvalues of a random 40 x 40 matrix, measured in the same run.
 
 use std::hint::black_box;
@@ -113,7 +113,11 @@ impl Row {
     }
 }
 
-fn row_times(row: Row, method: &dyn ForwardKinematics) -> Result<Times, Box<dyn std::error::Error>> {
+fn row_times(
+    row: Row,
+    lengths_of_a_design: usize,
+    method: &dyn ForwardKinematics,
+) -> Result<Times, Box<dyn std::error::Error>> {
     let options = FkOptions::default();
     let mut times = Times::default();
     for k in 0..DESIGNS {
@@ -129,7 +133,7 @@ fn row_times(row: Row, method: &dyn ForwardKinematics) -> Result<Times, Box<dyn 
         };
         times.different += usize::from(!same(m, &first?, &prepared.solve(&p.squares, &options)?));
         let mut rng = Rng::stream(SEED, k);
-        for _ in 0..LENGTHS {
+        for _ in 0..lengths_of_a_design {
             let Some(s) = lengths(&p, row, &mut rng) else { continue };
             let (found, time) = timed(|| prepared.solve(&s, &options));
             times.solve.push(time);
@@ -146,8 +150,10 @@ fn row_times(row: Row, method: &dyn ForwardKinematics) -> Result<Times, Box<dyn 
 #[allow(clippy::print_stdout, reason = "a table for people")]
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let words: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
-    let (methods, names): (Vec<&String>, Vec<&String>) = words.iter().partition(|w| w.starts_with("method="));
-    let method: Option<Method> = methods.first().map(|w| w.replace("method=", "").parse()).transpose()?;
+    let value = |key: &str| words.iter().find_map(|w| w.strip_prefix(key));
+    let method: Option<Method> = value("method=").map(str::parse).transpose()?;
+    let lengths_of_a_design = value("lengths=").map(str::parse).transpose()?.unwrap_or(LENGTHS);
+    let names: Vec<&String> = words.iter().filter(|w| !w.contains('=')).collect();
     let rows: Vec<Row> = if names.is_empty() {
         let classes = Class::ALL.into_iter().chain(Class::topologies());
         classes.map(Row::Of).chain([Row::Translations]).collect()
@@ -157,7 +163,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("times in microseconds, [eig40]");
     for row in rows {
         let unit = reference_times(1)?.eig40;
-        let mut t = row_times(row, solver(method).as_ref())?;
+        let mut t = row_times(row, lengths_of_a_design, solver(method).as_ref())?;
         t.poses.sort_unstable();
         let poses = t.poses.get(t.poses.len() / 2).copied().unwrap_or(0);
         let (median, late) = (quantile(&mut t.solve, 0.5), quantile(&mut t.solve, 0.99));

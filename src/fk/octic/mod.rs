@@ -19,7 +19,7 @@ use nalgebra::{Matrix3, Vector3};
 use num_complex::Complex64;
 
 use super::collect::{PoseCandidate, collect, pose_scale};
-use super::evidence::attach;
+use super::evidence::{KnownCertificates, attach};
 use super::judge::compared_with_count;
 use super::{
     Completeness, FkError, FkOptions, FkSolutions, ForwardKinematics, Method, PreparedDesign, Reason,
@@ -70,18 +70,25 @@ impl PreparedDesign for OcticSolver {
 }
 
 impl OcticSolver {
+    /// All sixteen poses, certified; `None` where that takes the general treatment, or another method.
+    pub(in crate::fk) fn proved(&self, s: &SquaredLegLengths, seed: u64) -> Option<FkSolutions> {
+        self.proved_of(&self.solve(s)?, s, seed)
+    }
+
+    fn proved_of(&self, found: &OcticPoses, s: &SquaredLegLengths, seed: u64) -> Option<FkSolutions> {
+        let certificates = self.certify(s, found);
+        if certificates.complete {
+            return Some(records::proved(self, found, &certificates, seed));
+        }
+        records::proved_one_by_one(self, found, &certificates, s, seed)
+    }
+
     /// The poses with their evidence, as [`Octic`] gives them.
     fn records(&self, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
         let (solver, m) = (self, self.manipulator());
         let quick = solver.solve(s);
-        if let Some(found) = &quick {
-            let certificates = solver.certify(s, found);
-            if certificates.complete {
-                return Ok(records::proved(solver, found, &certificates, o.seed));
-            }
-            if let Some(whole) = records::proved_one_by_one(solver, found, &certificates, s, o.seed) {
-                return Ok(whole);
-            }
+        if let Some(whole) = quick.as_ref().and_then(|found| self.proved_of(found, s, o.seed)) {
+            return Ok(whole);
         }
         let (candidates, pairs, unplaced) = match quick {
             Some(found) => (regular(&found), LANES, 0),
@@ -101,7 +108,7 @@ impl OcticSolver {
             unproved: Vec::new(),
             seed: o.seed,
         };
-        attach(&mut solutions, m, s, Theorem::Octahedral, Vec::new())?;
+        attach(&mut solutions, m, s, Theorem::Octahedral, KnownCertificates::Listed(Vec::new()))?;
         Ok(solutions)
     }
 }

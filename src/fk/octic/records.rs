@@ -4,6 +4,7 @@ use super::{OcticPoses, OcticSolver};
 use crate::fk::collect::sort_key;
 use crate::fk::evidence::proved as proved_reality;
 use crate::fk::{Completeness, FkRoot, FkSolutions, Method, SolutionSet, Theorem};
+use crate::geom::ComplexPose;
 use crate::manipulator::SquaredLegLengths;
 use crate::num::batch::LANES;
 use crate::solve::certify::octahedral::{OctahedralCertificates, PairCertificate};
@@ -53,14 +54,19 @@ pub(super) fn proved_one_by_one(
     let mut roots: Vec<FkRoot> = Vec::with_capacity(2 * LANES);
     let mut pairs: Vec<&PairCertificate> = Vec::with_capacity(LANES);
     let mut single: Vec<Certificate> = Vec::new();
+    let mut unpaired: Vec<ComplexPose> = Vec::with_capacity(LANES);
     for (k, pair) in certificates.pairs.iter().enumerate() {
         if let Some(pair) = pair {
             pairs.push(pair);
             roots.extend(of_pair(solver, found, k, pair));
-            continue;
+        } else {
+            unpaired.extend_from_slice(&found.poses[2 * k..2 * k + 2]);
         }
-        for pose in &found.poses[2 * k..2 * k + 2] {
-            let CertifiedPose { pose, certificate } = certifier.root_near(NewtonStart::Pose(pose)).ok()?;
+    }
+    for batch in unpaired.chunks(LANES) {
+        for (root, pose) in certifier.roots_near_poses(batch).into_iter().zip(batch) {
+            let root = root.or_else(|| certifier.root_near(NewtonStart::Pose(pose)).ok());
+            let CertifiedPose { pose, certificate } = root?;
             single.push(certificate);
             roots.push(FkRoot {
                 pose,
@@ -92,7 +98,7 @@ pub(super) fn proved_one_by_one(
 
 fn answer(solver: &OcticSolver, mut roots: Vec<FkRoot>, seed: u64) -> FkSolutions {
     let size = solver.manipulator().size();
-    roots.sort_by_cached_key(|root| sort_key(root, size));
+    roots.sort_by_cached_key(|root| sort_key(root.reality, &root.pose, size));
     FkSolutions {
         method: Method::Octic,
         roots,

@@ -10,7 +10,7 @@ use crate::num::ball::Disc;
 use crate::num::rounding::UnfitArithmetic;
 
 /// Signs of `(e, g)` under the mirror in `z = 0`, up to a common one.
-const MIRROR: [f64; 8] = [1.0, -1.0, -1.0, 1.0, -1.0, 1.0, 1.0, -1.0];
+pub(crate) const MIRROR: [f64; 8] = [1.0, -1.0, -1.0, 1.0, -1.0, 1.0, 1.0, -1.0];
 
 /// What is proved about a root being a real pose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

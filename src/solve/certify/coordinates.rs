@@ -86,6 +86,7 @@ pub(super) fn study_at(x: &[Complex64; 8], unit: f64) -> Result<Study<f64>, WhyU
 }
 
 /// Numerators of `R` (row by row) and `p` over `N = e.e`, and `N`, for anything with ring operations.
+#[inline(always)]
 pub(super) fn pose_numerators<T>(x: &[T; 8]) -> ([T; 9], [T; 3], T)
 where
     T: Copy

@@ -1,6 +1,6 @@
 //! Telling certified roots of one problem apart, whatever patches they were certified on.
 
-use super::certificate::{Certificate, PoseEnclosure};
+use super::certificate::{CentrePrecision, Certificate, PoseEnclosure};
 use crate::num::ball::UP;
 use crate::num::ball::WideDisc;
 
@@ -32,6 +32,9 @@ pub enum Distinctness {
 pub fn relation(a: &Certificate, b: &Certificate) -> RootRelation {
     if a.enclosure.is_disjoint(&b.enclosure) {
         return RootRelation::Distinct;
+    }
+    if is_plainly_captured(a, b) || is_plainly_captured(b, a) {
+        return RootRelation::Same;
     }
     let seen = [(a, b), (b, a)].map(|(inner, outer)| (on_patch_of(inner, outer), outer));
     let any = |holds: &dyn Fn(&[WideDisc; 8], &Certificate) -> bool| {
@@ -77,6 +80,20 @@ fn is_captured(x: &[WideDisc; 8], outer: &Certificate) -> bool {
         let gap = (x[j] - WideDisc::about(outer.centre[j], outer.low[j], 0.0)).rounded();
         (gap.centre.norm() + gap.radius) * UP <= outer.uniqueness_radius
     })
+}
+
+/// [`is_captured`] for centres in doubles on one patch, without balls: a computed difference is off by rounding of itself, which [`UP`] takes up.
+fn is_plainly_captured(inner: &Certificate, outer: &Certificate) -> bool {
+    let in_double = |c: &Certificate| c.precision == CentrePrecision::Double;
+    let alike = inner.patch == outer.patch && inner.unit.to_bits() == outer.unit.to_bits();
+    let gap = |j: usize| {
+        let z = inner.centre[j] - outer.centre[j];
+        z.re.abs() + z.im.abs()
+    };
+    alike
+        && in_double(inner)
+        && in_double(outer)
+        && (0..8).all(|j| (gap(j) + inner.radius) * UP <= outer.uniqueness_radius)
 }
 
 /// Pairs of enclosures that may have a pose in common, as indices in ascending order; all others are disjoint.

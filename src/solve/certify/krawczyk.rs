@@ -175,7 +175,7 @@ fn radii(b: &KrawczykBounds) -> Result<RootBall, WhyUncertified> {
 }
 
 /// The theorem: a ball that holds exactly one root, when the bounds prove one and the Newton step at the centre is at most `near`.
-fn holds_one_root(b: &KrawczykBounds, near: f64) -> Result<RootBall, WhyUncertified> {
+pub(super) fn holds_one_root(b: &KrawczykBounds, near: f64) -> Result<RootBall, WhyUncertified> {
     // a NaN fails every one of these; 2^200 keeps products of bounds in range
     let regular = b.kappa < 1.0 && b.beta < 2f64.powi(200);
     let accurate = b.eta_centre <= near;

@@ -75,13 +75,14 @@ mod octuple;
 mod radii_tests;
 mod refine;
 mod second_order;
+mod side_by_side;
 mod system;
 
-pub(crate) use certificate::CertifiedPose;
 pub use certificate::{
     CentrePrecision, Certificate, CertificateOutcome, PoseEnclosure, ProvedReality, RootCertificate,
     WhyUncertified,
 };
+pub(crate) use certificate::{CertifiedPose, MIRROR};
 pub(crate) use coordinates::dual_quaternion;
 pub(crate) use distinct::overlapping_pairs;
 pub use distinct::{Distinctness, RootRelation, distinct, relation};
@@ -94,6 +95,7 @@ use num_complex::Complex64;
 use crate::geom::ComplexPose;
 use crate::manipulator::Manipulator;
 use crate::num::ball::UP;
+use crate::num::batch::LANES;
 use crate::num::double_double::DoubleDouble;
 use crate::num::octuple::ComplexOctuple;
 use coordinates::{
@@ -103,6 +105,7 @@ use coordinates::{
 use double::two_roots_near;
 use krawczyk::{Centre, Digits, RootBall, one_root_about};
 use refine::refine_study;
+use side_by_side::{EightPoints, FoundInDoubles};
 use system::{LegSystem, RealScalar, Study};
 
 /// How accurate a pose must be to be certified: `2^-26`, half of the digits of a double.
@@ -196,6 +199,33 @@ impl Certifier {
             NewtonStart::DoubtfulPoint(x, reach) => self.root_near_doubtful_point(x, reach),
             NewtonStart::PrecisePoint(x) => self.root_at_precise_point(x),
         }
+    }
+
+    /// [`root_near`](Self::root_near) of points `(e, g)`, eight at a time. Where there is `None` doubles prove nothing: for `root_near` to look at.
+    pub(crate) fn roots_near(&self, points: &[&[Complex64; 8]]) -> Vec<Option<CertifiedPose>> {
+        let nothing = Study { re: [f64::NAN; 8], im: [f64::NAN; 8], patch: 0 };
+        let study = |x: &&[Complex64; 8]| study_at(x, self.0.unit()).unwrap_or(nothing);
+        self.roots_near_studies(&points.iter().map(study).collect::<Vec<_>>())
+    }
+
+    /// [`roots_near`](Self::roots_near) of poses: the best approximations at hand, not the poses themselves.
+    pub(crate) fn roots_near_poses(&self, poses: &[ComplexPose]) -> Vec<Option<CertifiedPose>> {
+        let nothing = Study { re: [f64::NAN; 8], im: [f64::NAN; 8], patch: 0 };
+        let study = |pose: &ComplexPose| study_of(pose, self.0.unit()).unwrap_or(nothing);
+        self.roots_near_studies(&poses.iter().map(study).collect::<Vec<_>>())
+    }
+
+    fn roots_near_studies(&self, points: &[Study<f64>]) -> Vec<Option<CertifiedPose>> {
+        let mut found = Vec::with_capacity(points.len());
+        for batch in points.chunks(LANES) {
+            pulp::Arch::new().dispatch(EightPoints { system: &self.0, points: batch, out: &mut found });
+        }
+        let with_digits = |(root, x): (FoundInDoubles, &Study<f64>)| match root {
+            FoundInDoubles::Root(root) => Some(root),
+            FoundInDoubles::BallOnly => self.root_one_step_on(x).ok(),
+            FoundInDoubles::Nothing => None,
+        };
+        found.into_iter().zip(points).map(with_digits).collect()
     }
 
     fn root_near_pose(&self, pose: &ComplexPose) -> Result<CertifiedPose, WhyUncertified> {

@@ -21,14 +21,19 @@
 //! legs, in each part: error below `16 u sum_i |y_i|_1 |coefficient_i|`, the moduli of all coefficients of leg `i` adding up to at most `q_i`
 //! in the bound. So `32 u sum |y_i|_1 q_i` covers it twice.
 
+#![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
+
 use super::system::N;
 
 /// Coefficients of each leg: `1, d, c`, diagonal of `S`, then `S_01 S_02 S_03 S_12 S_13 S_23`, one lane of padding.
 #[derive(Debug, Clone)]
-pub(super) struct SecondOrder([[f64; 18]; 6]);
+pub(super) struct SecondOrder([[f64; COEFFICIENTS]; 6]);
+
+/// Coefficients of a leg.
+pub(super) const COEFFICIENTS: usize = 18;
 
 /// Upper triangle of a symmetric 4 x 4 matrix without its diagonal, in the order of the coefficients.
-const PAIRS: [(usize, usize); 6] = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)];
+pub(super) const PAIRS: [(usize, usize); 6] = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)];
 
 impl SecondOrder {
     pub(super) const ZERO: Self = Self([[0.0; 18]; 6]);
@@ -52,6 +57,12 @@ impl SecondOrder {
         for (k, (i, j)) in PAIRS.into_iter().enumerate() {
             row[11 + k] = dot(i, j);
         }
+    }
+
+    /// Coefficient `k` of leg `i`.
+    #[inline(always)]
+    pub(super) fn coefficient(&self, i: usize, k: usize) -> f64 {
+        self.0[i][k]
     }
 
     /// The bound of the module's text for the row `y`, rounding apart.

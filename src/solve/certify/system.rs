@@ -162,8 +162,8 @@ pub(super) struct LegSystem {
     unit: f64,
     pub(super) a: [[f64; 3]; 6],
     pub(super) b: [[f64; 3]; 6],
-    d: [[f64; 3]; 6],
-    c: [[f64; 3]; 6],
+    pub(super) d: [[f64; 3]; 6],
+    pub(super) c: [[f64; 3]; 6],
     /// Doubles nearest to the middles of the squared lengths.
     pub(super) s: [f64; 6],
     /// What these leave of the middles: part of the data in double-double, an error of evaluations in double.
@@ -180,7 +180,7 @@ pub(super) struct LegSystem {
     pub(super) low_turn_radius: [f64; 6],
     /// `|Q_i(h, k)| <= q_i` for all `h`, `k` with coordinates of modulus at most 1 and `h_patch = k_patch = 0`.
     pub(super) q: [f64; N],
-    second_order: SecondOrder,
+    pub(super) second_order: SecondOrder,
 }
 
 /// `2^k <= x < 2^(k+1)` for a positive normal `x`.
@@ -328,7 +328,7 @@ impl LegSystem {
     }
 
     /// How far the squared length of leg `i` may be from the double that stands for it.
-    fn s_blur(&self, i: usize) -> f64 {
+    pub(super) fn s_blur(&self, i: usize) -> f64 {
         (self.s_low[i].abs() + self.s_radius[i]) * UP
     }
 

@@ -33,8 +33,15 @@ fn the_fast_tracker_allocates_for_its_results_whatever_the_number_of_steps() {
         let real = homotopy(seed);
         let run = |limits: FastTrackerLimits| {
             let mut out: Vec<FastPath> = Vec::new();
-            let counted =
-                measure(|| out = FastTracker { homotopy: &real, starts, corner: CORNER, limits }.run());
+            let counted = measure(|| {
+                out = FastTracker {
+                    homotopy: &real,
+                    starts,
+                    way: [Complex64::ONE, CORNER, Complex64::ZERO],
+                    limits,
+                }
+                .run()
+            });
             (counted.count_total, out.iter().map(|p| p.steps).sum::<u32>())
         };
         let usual = run(FAST);

@@ -13,16 +13,20 @@ use pulp::{Arch, Simd, WithSimd};
 use super::lanes::{Lanes, MOST_LANES, Matrix8, PerLane, Vec8, load, norm_sqr, store};
 use super::limits::{CORRECTION_RATIO, FastTrackerLimits, STEP_GROWTH, STEP_REDUCTION};
 use super::lu::{eliminate, substitute};
+use super::paths::SETTLED;
 use super::predictor::{choose_step, predicted};
 use super::quadrics::{Forms, Quadrics};
 use super::system::{Line, ORDER, taylor, values};
+
+/// Most Newton corrections at the target.
+const POLISHES: usize = 4;
 
 /// What became of one path.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FastPath {
     /// Last good point, norm one.
     pub(super) x: [Complex64; 8],
-    /// Where it stands: `t / corner` on the second leg, `None` when the path broke off.
+    /// Where it stands: the part of the second leg that is left, `None` when the path broke off.
     pub(super) remaining: Option<f64>,
     /// The point at the corner.
     pub(super) corner: Option<[Complex64; 8]>,
@@ -40,9 +44,18 @@ pub(super) struct FastPath {
 pub(super) struct FastTracker<'a, L, const F: usize> {
     pub(super) homotopy: &'a L,
     pub(super) starts: &'a [[Complex64; 8]],
-    /// One where the way is straight.
-    pub(super) corner: Complex64,
+    /// The parameter at the start, at the corner (again that of the start where the way is straight) and at the end.
+    pub(super) way: [Complex64; 3],
     pub(super) limits: FastTrackerLimits,
+}
+
+impl<L, const F: usize> FastTracker<'_, L, F> {
+    /// The part of the second leg that is left at `t`.
+    #[inline(always)]
+    fn remaining(&self, t: Complex64) -> f64 {
+        let [_, corner, end] = self.way;
+        (t - end).norm() / (corner - end).norm()
+    }
 }
 
 impl<L: Line<F>, const F: usize> FastTracker<'_, L, F>
@@ -64,11 +77,12 @@ where
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Vec<FastPath> {
         let mut batch = PathBatch::new(simd, &self);
+        let mut matrix = [[Lanes::zero(simd); 8]; 8];
         while batch.path_of_lane.iter().any(Option::is_some) {
-            batch.iterate(&self);
+            batch.iterate(&self, &mut matrix);
         }
         let mut out = batch.out;
-        polish(simd, self.homotopy, &mut out);
+        polish(simd, self.homotopy, self.way[2], &mut out);
         out
     }
 }
@@ -151,8 +165,8 @@ impl<S: Simd> PathBatch<S> {
             for (lanes, z) in self.x.iter_mut().zip(&tracker.starts[index]) {
                 lanes.set_lane(l, *z);
             }
-            self.t.set_lane(l, Complex64::ONE);
-            self.goal.set_lane(l, tracker.corner);
+            self.t.set_lane(l, tracker.way[0]);
+            self.goal.set_lane(l, tracker.way[1]);
             self.step_factor[l] = 1.0;
             self.last[l] = f64::INFINITY;
             self.iterations[l] = 0;
@@ -161,8 +175,11 @@ impl<S: Simd> PathBatch<S> {
 
     /// One correction of every lane, then a step from those that are accurate enough.
     #[inline(always)]
-    fn iterate<L: Line<F>, const F: usize>(&mut self, tracker: &FastTracker<'_, L, F>)
-    where
+    fn iterate<L: Line<F>, const F: usize>(
+        &mut self,
+        tracker: &FastTracker<'_, L, F>,
+        matrix: &mut Matrix8<S>,
+    ) where
         Forms<F>: Quadrics<F>,
     {
         let s = self.t.simd;
@@ -172,16 +189,16 @@ impl<S: Simd> PathBatch<S> {
             self.x[p] = self.x[p].scale(inverse_norm);
             patch[p] = self.x[p].conj();
         }
-        let mut matrix: Matrix8<S> = tracker.homotopy.derivative_at(self.t, &self.x, &patch);
-        let mut delta = values(&matrix, &self.x);
+        tracker.homotopy.derivative_at(self.t, &self.x, &patch, matrix);
+        let mut delta = values(matrix, &self.x);
         let mut inverse = patch;
-        eliminate(&mut matrix, &mut inverse);
-        substitute(&matrix, &inverse, &mut delta);
+        eliminate(matrix, &mut inverse);
+        substitute(matrix, &inverse, &mut delta);
         let size = store::<S>(s.sqrt_f64s(norm_sqr(&delta)));
         for p in 0..8 {
             self.x[p] -= delta[p];
         }
-        let series = taylor(tracker.homotopy, self.t, &self.x, |b| substitute(&matrix, &inverse, b));
+        let series = taylor(tracker.homotopy, self.t, &self.x, |b| substitute(matrix, &inverse, b));
         // |x_2| / |x_1|^2 measures the curvature that Newton's method has to cope with: the correction after
         // one of size d will be about that times d^2
         let speed = norm_sqr(&series[0]);
@@ -236,16 +253,16 @@ impl<S: Simd> PathBatch<S> {
             self.out[index].steps += 1;
             self.step_factor[l] = (STEP_GROWTH * self.step_factor[l]).min(1.0);
             let (t, goal) = (self.t.lane(l), self.goal.lane(l));
-            if t == goal && goal != Complex64::ZERO {
+            if t == goal && self.out[index].corner.is_none() {
                 self.out[index].corner = Some(lane_of(&self.x, l));
-                self.goal.set_lane(l, Complex64::ZERO);
+                self.goal.set_lane(l, tracker.way[2]);
             }
             for p in 0..8 {
                 let z = self.x[p].lane(l);
                 self.accepted_x[p].set_lane(l, z);
             }
             self.accepted_t.set_lane(l, t);
-            let remaining = t.norm() / tracker.corner.norm();
+            let remaining = tracker.remaining(t);
             let towards_infinity =
                 remaining < limits.infinity_at && self.rotation_size(l) < limits.small_rotation;
             if self.out[index].corner.is_some() && (remaining < limits.endgame_at || towards_infinity) {
@@ -271,7 +288,7 @@ impl<S: Simd> PathBatch<S> {
         if path.steps > 0 {
             path.x = lane_of(&self.accepted_x, l);
             let t = self.accepted_t.lane(l);
-            path.remaining = path.corner.map(|_| t.norm() / tracker.corner.norm());
+            path.remaining = path.corner.map(|_| tracker.remaining(t));
         }
     }
 
@@ -303,12 +320,13 @@ impl<S: Simd> PathBatch<S> {
 
 /// Newton's method at the target for all paths that arrived there, and a condition estimate.
 #[inline(always)]
-fn polish<S: Simd, L: Line<F>, const F: usize>(simd: S, homotopy: &L, paths: &mut [FastPath])
+fn polish<S: Simd, L: Line<F>, const F: usize>(simd: S, homotopy: &L, end: Complex64, paths: &mut [FastPath])
 where
     Forms<F>: Quadrics<F>,
 {
     let arrived: Vec<usize> = (0..paths.len()).filter(|&i| paths[i].remaining == Some(0.0)).collect();
-    let zero = Lanes::zero(simd);
+    let end = Lanes::splat(simd, end);
+    let mut matrix = [[Lanes::zero(simd); 8]; 8];
     for batch in arrived.chunks(S::F64_LANES) {
         let mut x = [Lanes::zero(simd); 8];
         for l in 0..S::F64_LANES {
@@ -323,8 +341,8 @@ where
         }
         let mut sizes = [f64::INFINITY; MOST_LANES];
         let mut condition = [f64::INFINITY; MOST_LANES];
-        for round in 0..4 {
-            let mut matrix: Matrix8<S> = homotopy.derivative_at(zero, &x, &patch);
+        for round in 0..POLISHES {
+            homotopy.derivative_at(end, &x, &patch, &mut matrix);
             let mut delta = values(&matrix, &x);
             let mut frobenius = simd.splat_f64s(0.0);
             for row in &matrix {
@@ -337,10 +355,12 @@ where
             for p in 0..8 {
                 x[p] -= delta[p];
             }
-            if round == 3 {
+            let settled = sizes[..S::F64_LANES].iter().all(|size| *size < SETTLED);
+            if settled || round + 1 == POLISHES {
                 let mut probe = [Lanes::splat(simd, Complex64::new(0.25, 0.25)); 8];
                 substitute(&matrix, &inverse, &mut probe);
                 condition = store::<S>(simd.sqrt_f64s(simd.mul_f64s(norm_sqr(&probe), frobenius)));
+                break;
             }
         }
         for (l, &index) in batch.iter().enumerate() {

@@ -17,7 +17,7 @@ use super::monodromy::StartKind;
 use super::paths::{EndKind, HomotopyPath, SAME_END, SETTLED, settle, settle_arrived, suspects, unit};
 use super::polish::polish;
 use super::quadrics::{Forms, Quadrics};
-use super::system::{Coefficient, Line, SectionHomotopy, bordered};
+use super::system::{Coefficient, Line, SectionHomotopy, border};
 use crate::manipulator::{Manipulator, SquaredLegLengths};
 use crate::solve::planar::{PLANAR_FORMS, mirror, planar_row};
 use crate::solve::sections::{FORMS, NORM_FORMS, ScaledFrames, Sections};
@@ -46,8 +46,8 @@ where
     type Moved<S: Simd> = Lanes<S>;
 
     #[inline(always)]
-    fn derivative_at<S: Simd>(&self, t: Lanes<S>, x: &Vec8<S>, patch: &Vec8<S>) -> Matrix8<S> {
-        let mut j = bordered(x, patch);
+    fn derivative_at<S: Simd>(&self, t: Lanes<S>, x: &Vec8<S>, patch: &Vec8<S>, j: &mut Matrix8<S>) {
+        border(x, patch, j);
         let mut moved = [t; 4];
         for k in 0..4 {
             moved[k] = (x[k] * t).times(2.0);
@@ -58,7 +58,6 @@ where
                 j[i][k] = self.slope[i].add_times(j[i][k], moved[k]);
             }
         }
-        j
     }
 
     #[inline(always)]
@@ -113,6 +112,14 @@ impl LengthStart {
         let real = from.get();
         let change: [Complex64; 6] = std::array::from_fn(|i| to[i] - real[i]);
         let (sections, slope) = frame.moving_sections(m, from, &change)?;
+        let real_rows = sections.rows.map(|row| row.map(|z| z.re));
+        let way = [Complex64::ZERO, Complex64::ZERO, Complex64::ONE];
+        let tracked = track(kind, &real_rows, slope, points, way);
+        let settled = tracked.iter().all(|p| p.remaining == Some(0.0) && p.correction < SETTLED);
+        let quick: Vec<[Complex64; 8]> = tracked.iter().map(|p| p.x).collect();
+        if settled && all_different(kind, &quick) {
+            return Some(Self { kind, squares: to, scale: frame.scale(), points: quick });
+        }
         let forward = slope_rows(&slope);
         let mut target = sections.rows;
         for (z, d) in target.iter_mut().flatten().zip(forward.iter().flatten()) {
@@ -122,14 +129,9 @@ impl LengthStart {
         let mut ends = Vec::with_capacity(points.len());
         for tracked in track_all(&homotopy, points, &CAREFUL, 0.0) {
             let end = polish(&homotopy, &tracked.x);
-            let x = (tracked.arrived && end.converged).then(|| unit(&end.x))?;
-            let meets = |y: &[Complex64; 8]| projective_distance(&x, y) < SAME_END;
-            if ends.iter().any(|y| meets(y) || (kind == StartKind::Planar && meets(&mirror(*y)))) {
-                return None;
-            }
-            ends.push(x);
+            ends.push((tracked.arrived && end.converged).then(|| unit(&end.x))?);
         }
-        Some(Self { kind, squares: to, scale: frame.scale(), points: ends })
+        all_different(kind, &ends).then(|| Self { kind, squares: to, scale: frame.scale(), points: ends })
     }
 
     /// Paths to each problem.
@@ -156,13 +158,8 @@ impl LengthStart {
         let starts: Vec<[Complex64; 8]> =
             self.points.iter().map(|x| unit(&frame.rescaled(x, self.scale))).collect();
         let target = sections.rows.map(|row| row.map(|z| z.re));
-        let tracked = match self.kind {
-            StartKind::Generic => track(&LengthHomotopy::<FORMS> { target, slope }, &starts),
-            StartKind::Planar => {
-                let target = target.map(planar_row);
-                track(&LengthHomotopy::<PLANAR_FORMS> { target, slope }, &starts)
-            }
-        };
+        let way = [Complex64::ONE, Complex64::ONE, Complex64::ZERO];
+        let tracked = track(self.kind, &target, slope, &starts, way);
         let homotopy = SectionHomotopy::line(&sections.rows, &slope_rows(&slope));
         let mut paths: Vec<HomotopyPath> = tracked
             .iter()
@@ -197,9 +194,30 @@ impl LengthStart {
     }
 }
 
-fn track<L: Line<F>, const F: usize>(homotopy: &L, starts: &[[Complex64; 8]]) -> Vec<FastPath>
-where
-    Forms<F>: Quadrics<F>,
-{
-    FastTracker { homotopy, starts, corner: Complex64::ONE, limits: LENGTHS }.run()
+/// No two points are one, nor for [`StartKind::Planar`] mirror images of each other.
+fn all_different(kind: StartKind, points: &[[Complex64; 8]]) -> bool {
+    points.iter().enumerate().all(|(k, x)| {
+        let meets = |y: &[Complex64; 8]| projective_distance(x, y) < SAME_END;
+        points[..k].iter().all(|y| !meets(y) && !(kind == StartKind::Planar && meets(&mirror(*y))))
+    })
+}
+
+/// The paths of `target + t slope e.e` along a straight way, with the forms of the kind.
+fn track(
+    kind: StartKind,
+    target: &[[f64; FORMS]; 6],
+    slope: [Complex64; 6],
+    starts: &[[Complex64; 8]],
+    way: [Complex64; 3],
+) -> Vec<FastPath> {
+    match kind {
+        StartKind::Generic => {
+            let homotopy = &LengthHomotopy::<FORMS> { target: *target, slope };
+            FastTracker { homotopy, starts, way, limits: LENGTHS }.run()
+        }
+        StartKind::Planar => {
+            let homotopy = &LengthHomotopy::<PLANAR_FORMS> { target: target.map(planar_row), slope };
+            FastTracker { homotopy, starts, way, limits: LENGTHS }.run()
+        }
+    }
 }

@@ -59,9 +59,14 @@ pub(super) const FAST: FastTrackerLimits = FastTrackerLimits {
     small_rotation: 1e-5,
 };
 
-/// For paths in the lengths alone: they have no end but a regular one at the target.
-pub(super) const LENGTHS: FastTrackerLimits =
-    FastTrackerLimits { endgame_at: f64::MIN_POSITIVE, infinity_at: 0.0, ..FAST };
+/// For paths in the lengths alone: they have no end but a regular one at the target. Steps are as long as the next correction can bear.
+pub(super) const LENGTHS: FastTrackerLimits = FastTrackerLimits {
+    step: StepLimits { truncation: 8e-3, accuracy: 2e-2, ..FAST.step },
+    contraction: 0.05,
+    endgame_at: f64::MIN_POSITIVE,
+    infinity_at: 0.0,
+    ..FAST
+};
 
 /// For paths that the fast tracker left without an end.
 pub(super) const BRISK: TrackerLimits = TrackerLimits {

@@ -107,10 +107,10 @@ pub(crate) fn solve_sections(
     let corner = corner(seed);
     let aligned = start.sections.aligned_with(target);
     let real = SectionHomotopy::real(&aligned, target).ok_or(StartError::NotReal)?;
-    let (starts, limits) = (&start.solutions, FAST);
+    let (starts, limits, way) = (&start.solutions, FAST, [Complex64::ONE, corner, Complex64::ZERO]);
     let tracked_fast = match kind {
-        StartKind::Generic => FastTracker { homotopy: &real, starts, corner, limits }.run(),
-        StartKind::Planar => FastTracker { homotopy: &real.planar(), starts, corner, limits }.run(),
+        StartKind::Generic => FastTracker { homotopy: &real, starts, way, limits }.run(),
+        StartKind::Planar => FastTracker { homotopy: &real.planar(), starts, way, limits }.run(),
     };
     // the second leg, from the corner to the target, as a homotopy of its own
     let homotopy = SectionHomotopy::through(&real, corner);
@@ -273,8 +273,17 @@ pub(crate) fn suspects(kind: StartKind, paths: &[HomotopyPath], target: &Section
             ends.push((mirror(ends[i].0), ends[i].1));
         }
     }
-    let same = |x: &[Complex64; 8], y: &[Complex64; 8]| {
-        nearly_parallel(x, y) && projective_distance(x, y) < SAME_END
+    // moduli of two coordinates, whatever the phases: a quick look before the accurate distance
+    let look: Vec<[f64; 2]> = ends.iter().map(|(x, _)| [x[0].norm_sqr(), x[1].norm_sqr()]).collect();
+    let is_reached = |x: &[Complex64; 8], seen: [f64; 2], but: usize| {
+        for (k, other) in look.iter().enumerate() {
+            let gap = (other[0] - seen[0]).abs().max((other[1] - seen[1]).abs());
+            if gap < 10.0 * SAME_END && k != but && ends[k].1 && projective_distance(&ends[k].0, x) < SAME_END
+            {
+                return true;
+            }
+        }
+        false
     };
     let mut doubtful = Vec::new();
     for (i, p) in paths.iter().enumerate() {
@@ -285,9 +294,8 @@ pub(crate) fn suspects(kind: StartKind, paths: &[HomotopyPath], target: &Section
             // close to a multiple root Newton's method may take two ends to one root: not for this test to tell
             EndKind::Regular if p.pivot_ratio < NEARLY_SINGULAR => false,
             EndKind::Regular => {
-                let jumped =
-                    ends.iter().enumerate().any(|(k, (y, regular))| *regular && k != i && same(y, x));
-                jumped || (real && !ends.iter().any(|(y, regular)| *regular && same(y, &mirrored)))
+                // moduli of the conjugate are the same
+                is_reached(x, look[i], i) || (real && !is_reached(&mirrored, look[i], usize::MAX))
             }
             // a point where w sheets meet is the end of w paths: with fewer the circle was round several ends
             EndKind::Singular => {
@@ -301,12 +309,6 @@ pub(crate) fn suspects(kind: StartKind, paths: &[HomotopyPath], target: &Section
         }
     }
     doubtful
-}
-
-/// A quick look before the accurate distance: moduli of two coordinates, whatever the phases.
-fn nearly_parallel(x: &[Complex64; 8], y: &[Complex64; 8]) -> bool {
-    let close = |k: usize| (x[k].norm_sqr() - y[k].norm_sqr()).abs() < 10.0 * SAME_END;
-    close(0) && close(1)
 }
 
 pub(crate) fn unit(x: &[Complex64; 8]) -> [Complex64; 8] {

@@ -117,8 +117,9 @@ impl Quadrics<FORMS> for Forms<FORMS> {
 
     #[inline(always)]
     fn norm<S: Simd>(forms: &[Lanes<S>; FORMS]) -> Lanes<S> {
-        let [a, b, c, d] = NORM_FORMS.map(|k| forms[k]);
-        (a + b) + (c + d)
+        // no closures here: they would be compiled for the baseline and be called
+        let [a, b, c, d] = NORM_FORMS;
+        (forms[a] + forms[b]) + (forms[c] + forms[d])
     }
 }
 

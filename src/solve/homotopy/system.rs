@@ -55,8 +55,8 @@ pub(super) trait Line<const F: usize> {
     /// Values of those forms whose coefficients change.
     type Moved<S: Simd>: Copy;
 
-    /// The 8 x 8 matrix of derivatives at one parameter value per lane: six sections, `e.g`, patch.
-    fn derivative_at<S: Simd>(&self, t: Lanes<S>, x: &Vec8<S>, patch: &Vec8<S>) -> Matrix8<S>;
+    /// The 8 x 8 matrix of derivatives at one parameter value per lane: six sections, `e.g`, patch. It has up to 8 kB, so that it is made where it stays.
+    fn derivative_at<S: Simd>(&self, t: Lanes<S>, x: &Vec8<S>, patch: &Vec8<S>, j: &mut Matrix8<S>);
 
     /// Of all forms those whose coefficients change.
     fn moved<S: Simd>(forms: &[Lanes<S>; F]) -> Self::Moved<S>;
@@ -156,12 +156,11 @@ where
 
     /// [`derivative_matrix`] at one parameter value per lane; the rows, 13 kB of them in the widest unit, are not kept.
     #[inline(always)]
-    fn derivative_at<S: Simd>(&self, t: Lanes<S>, x: &Vec8<S>, patch: &Vec8<S>) -> Matrix8<S> {
-        let mut j = bordered(x, patch);
+    fn derivative_at<S: Simd>(&self, t: Lanes<S>, x: &Vec8<S>, patch: &Vec8<S>, j: &mut Matrix8<S>) {
+        border(x, patch, j);
         for i in 0..6 {
             j[i] = Forms::gradient(&self.row_at(i, t), x);
         }
-        j
     }
 
     #[inline(always)]
@@ -213,7 +212,8 @@ pub(super) fn derivative_matrix<S: Simd, const F: usize>(
 where
     Forms<F>: Quadrics<F>,
 {
-    let mut j = bordered(x, patch);
+    let mut j = [*patch; 8];
+    border(x, patch, &mut j);
     for i in 0..6 {
         j[i] = Forms::gradient(&rows[i], x);
     }
@@ -222,11 +222,12 @@ where
 
 /// The last two rows, of `e.g` and the patch.
 #[inline(always)]
-pub(super) fn bordered<S: Simd>(x: &Vec8<S>, patch: &Vec8<S>) -> Matrix8<S> {
-    let mut j = [*patch; 8];
-    j[6][..4].copy_from_slice(&x[4..]);
-    j[6][4..].copy_from_slice(&x[..4]);
-    j
+pub(super) fn border<S: Simd>(x: &Vec8<S>, patch: &Vec8<S>, j: &mut Matrix8<S>) {
+    for k in 0..4 {
+        j[6][k] = x[4 + k];
+        j[6][4 + k] = x[k];
+    }
+    j[7] = *patch;
 }
 
 /// Values of the eight equations from the derivative matrix at `x`: `q = 1/2 x . grad q` for quadrics.

@@ -69,7 +69,9 @@ impl<S: Simd> PathBatch<S> {
     pub(super) fn step(&mut self, homotopy: &SectionHomotopy, limits: &TrackerLimits) -> StepReport {
         let s = self.t.simd;
         let patch = self.normalise();
-        let lu = Lu::factorise(homotopy.derivative_at(self.t, &self.x, &patch));
+        let mut matrix = [patch; 8];
+        homotopy.derivative_at(self.t, &self.x, &patch, &mut matrix);
+        let lu = Lu::factorise(matrix);
         let series = taylor(homotopy, self.t, &self.x, |b| *b = lu.solve(*b));
         let ends = [self.t, self.goal];
         let step = choose_step(ends, &series, &limits.step, &self.step_factor, &[true; MOST_LANES]);

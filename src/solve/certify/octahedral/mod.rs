@@ -9,7 +9,7 @@
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
-mod arithmetic;
+pub(super) mod arithmetic;
 mod closures;
 mod poses;
 
