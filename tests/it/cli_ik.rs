@@ -91,7 +91,7 @@ fn poses_become_lengths_and_lengths_the_poses_again_with_their_times() {
     // as a spreadsheet of another country writes it
     std::fs::write(&poses, "Zeit;x;y;z;roll;pitch;yaw\r\n0;0;0;350;0;0;0\r\n0,5;10;-5;355;2;-3;4,25\r\n")
         .unwrap();
-    let rows = table(&["ik", DESIGN, "--poses", &poses]);
+    let rows = table(&["ik", DESIGN, &poses]);
     assert_eq!(column(&rows, "Zeit"), ["0.0", "0.5"]);
     let text: String = rows.iter().map(|row| row.join(",") + "\n").collect();
     std::fs::write(&lengths, text).unwrap();
@@ -118,7 +118,7 @@ fn poses_become_lengths_and_lengths_the_poses_again_with_their_times() {
     // the table of poses is read as it was written
     let text: String = [&found[0], nearest[0], nearest[1]].iter().map(|row| row.join(",") + "\n").collect();
     std::fs::write(&back, text).unwrap();
-    let again = table(&["ik", DESIGN, "--poses", &back]);
+    let again = table(&["ik", DESIGN, &back]);
     assert_eq!(column(&again, "Zeit"), ["0.0", "0.5"]);
     let (a, b): (f64, f64) = (again[2][3].parse().unwrap(), rows[2][3].parse().unwrap());
     assert!((a - b).abs() < 1e-9);

@@ -35,13 +35,13 @@ fn designs_and_tables_come_from_standard_input() {
     let path = folder.path().join("d.json");
     equipod(&["design", "convert", DESIGN, "-o", path.to_str().unwrap()]);
     assert_eq!(lengths(&fed(&["ik", "-", "--json"], &std::fs::read(&path).unwrap())), meant, "JSON");
-    let rows = document(&fed(&["ik", DESIGN, "--poses", "-", "--json"], b"0,0,350,0,0,0\n0,0,360,0,0,0\n"));
+    let rows = document(&fed(&["ik", DESIGN, "-", "--json"], b"0,0,350,0,0,0\n0,0,360,0,0,0\n"));
     assert_eq!(rows["rows"][0]["lengths"], meant);
     let out = fed(&["fk", DESIGN, "--lengths", "-", "--csv"], b"395,395,395,395,395,395\n");
     assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stderr));
     let points = std::fs::read("designs/tables/hexapod.csv").unwrap();
     assert_eq!(document(&fed(&["new", "--points", "-", "--json"], &points))["home"]["p"][2], 350.0);
-    let both = document(&fed(&["ik", "-", "--poses", "-", "--json"], &toml));
+    let both = document(&fed(&["ik", "-", "-", "--json"], &toml));
     assert_eq!(both["error"]["code"], "file::read_twice");
 }
 

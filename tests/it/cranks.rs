@@ -285,7 +285,7 @@ fn the_reported_flip_of_the_head_is_seen_among_all_poses_and_avoided_by_followin
         })
         .collect();
     std::fs::write(&poses, &path).unwrap();
-    let out = equipod(&["ik", HEAD, "--poses", poses.to_str().unwrap()]);
+    let out = equipod(&["ik", HEAD, poses.to_str().unwrap()]);
     assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stdout));
     std::fs::write(&table, &out.stdout).unwrap();
     let out = equipod(&["fk", HEAD, "--angles", table.to_str().unwrap(), "--near", "home", "--json"]);

@@ -70,7 +70,7 @@ const CALLS: &[(i32, &str, &str)] = &[
     (3, "fk", "{rbt-octahedral} --near home --lengths {way}"),
     (0, "ik", "{bench-octahedral}"),
     (0, "ik", "{rbt-octahedral} --pose home --pose 3,5,9,0,0,90"),
-    (0, "ik", "{rbt-octahedral} --poses {places}"),
+    (0, "ik", "{rbt-octahedral} {places}"),
     (0, "new", "--base-radius 500 --platform-radius 300 --base-spread 20 --platform-spread 20 --height 400"),
     (0, "new", "--points designs/tables/hexapod.csv -o {imported.toml}"),
     (0, "help", "fk --help"),

@@ -20,12 +20,12 @@ use crate::requirements::Terms;
 pub(crate) struct Args {
     /// Design file (.toml or .json), or `-` for standard input
     design: PathBuf,
+    /// A table with a pose a line (`-` for standard input), and times where it has them
+    #[arg(conflicts_with = "pose")]
+    poses: Option<PathBuf>,
     /// A pose, as often as there are poses: `home`, `x,y,z,roll_deg,pitch_deg,yaw_deg` or `x,y,z,qw,qx,qy,qz`; home when absent
     #[arg(long, value_name = "POSE", allow_hyphen_values = true)]
     pose: Vec<String>,
-    /// A table with a pose a line (`-` for standard input), and times where it has them
-    #[arg(long, value_name = "FILE", conflicts_with = "pose")]
-    poses: Option<PathBuf>,
     /// Columns for swing and angles of the joints (of cranks: transmissions and torques), the inverse condition number and the margins besides; --json has them anyway
     #[arg(long)]
     details: bool,
