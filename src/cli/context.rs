@@ -23,6 +23,9 @@ pub(crate) struct FileWarning {
     pub(crate) warning: Warning,
 }
 
+/// A design with its warnings, or what is wrong with its text.
+type DesignOrViolations = Result<(Design, Vec<Warning>), Vec<Violation>>;
+
 /// Global options and the warnings gathered on the way.
 #[derive(Debug)]
 pub(crate) struct Context {
@@ -147,7 +150,7 @@ impl Context {
     fn read_design(
         &mut self,
         path: &Path,
-        read: fn(&str, Format) -> Result<(Design, Vec<Warning>), Vec<Violation>>,
+        read: fn(&str, Format) -> DesignOrViolations,
     ) -> Result<Design, Failure> {
         let text = files::read_text(path)?;
         let shown = files::shown(path);

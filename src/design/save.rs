@@ -127,7 +127,7 @@ impl<'a> CrankFile<'a> {
         let (mut turn, mut deg, mut mirror, mut plane) = (None, None, None, None);
         match &crank.copy {
             Some(CrankCopy::Turned { crank, deg: by }) => {
-                (turn, deg) = (Some(names[*crank].as_str()), Some(by))
+                (turn, deg) = (Some(names[*crank].as_str()), Some(by));
             }
             Some(CrankCopy::Mirrored { crank, plane: p }) => {
                 (mirror, plane) = (Some(names[*crank].as_str()), Some(p.name()));

@@ -175,20 +175,26 @@ impl Constructions {
             };
         }
         cranks.values = stated.iter().map(|s| complete(s)).collect();
-        let blamed = |j: usize| cranks.own[j].is_some().then_some(j);
+        // what is copied or shared is blamed once, where it is written
+        let states =
+            |j: usize| cranks.own[j].as_ref().is_some_and(|own| own.axis.is_some() || own.zero.is_some());
+        let mut shared_blamed = false;
         for (j, values) in cranks.values.iter().enumerate() {
             let Ok(values) = values else { continue };
-            let along = values.zero.normalize().cross(&values.axis).norm();
-            if !(along > 1e-9) {
+            let blamed = if states(j) {
+                Some(j)
+            } else if source(j).is_some() || std::mem::replace(&mut shared_blamed, true) {
+                continue;
+            } else {
+                None
+            };
+            let across = values.zero.normalize().cross(&values.axis).norm();
+            if !(across > 1e-9) {
+                let name = &names[j];
                 let message =
-                    format!("the direction of the angle zero of the crank {} is along its axis", names[j]);
-                faults.push(fault(
-                    blamed(j),
-                    Some(ZERO),
-                    Code::OutOfRange,
-                    message,
-                    "give a direction across the axis",
-                ));
+                    format!("the direction of the angle zero of the crank {name} is along its axis");
+                let help = "give a direction across the axis";
+                faults.push(fault(blamed, Some(ZERO), Code::OutOfRange, message, help));
             }
         }
         (faults.len() == before).then_some(())

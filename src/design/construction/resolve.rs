@@ -7,8 +7,8 @@ use thiserror::Error;
 
 use super::expression::{Expression, Unsolved};
 use super::{
-    Construction, Constructions, CoordinatePlane, LinePlace, RealPoint, WrittenHome, WrittenNumber,
-    exact_double,
+    Construction, Constructions, CoordinatePlane, LinePlace, RealPoint, WrittenCranks, WrittenHome,
+    WrittenNumber, exact_double,
 };
 use crate::design::Code;
 use crate::design::validate::nearest_help;
@@ -109,7 +109,7 @@ impl Constructions {
         });
         let home = self.home.iter().flat_map(WrittenHome::quantities);
         let home = home.map(|(_, q)| (Owner::Home, q.expression().work()));
-        let cranks = self.cranks.iter().flat_map(|cranks| cranks.all());
+        let cranks = self.cranks.iter().flat_map(WrittenCranks::all);
         let cranks = cranks.flat_map(|(joint, crank)| {
             let work = crank.quantities().into_iter().map(|(_, q)| q.expression().work());
             work.map(move |work| (Owner::Crank(joint), work)).collect::<Vec<_>>()

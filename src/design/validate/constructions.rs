@@ -277,7 +277,7 @@ fn reference(
 }
 
 /// What besides joints has numbers that follow from parameters, with its places.
-pub(super) struct Written<'a> {
+pub(super) struct BesideJoints<'a> {
     pub(super) home: Option<(WrittenHome, Places)>,
     pub(super) cranks: (Option<WrittenCranks>, &'a CrankPlaces),
 }
@@ -287,7 +287,7 @@ pub(super) fn resolve(
     report: &mut Findings<'_>,
     parameters: Parameters,
     (base, platform): (&mut NamedJoints, &mut NamedJoints),
-    Written { home, cranks: (cranks, crank_places) }: Written<'_>,
+    BesideJoints { home, cranks: (cranks, crank_places) }: BesideJoints<'_>,
 ) -> Option<Constructions> {
     let mut constructions = Constructions::default();
     let (home, home_places) = home.unzip();

@@ -78,7 +78,7 @@ pub(super) fn design(root: &Node, report: &mut Findings<'_>, takes_cranks: bool)
     let constructions = match (&mut base, &mut platform) {
         (Some(base), Some(platform)) => {
             let written =
-                constructions::Written { home: written_home.flatten(), cranks: (cranks, &crank_places) };
+                constructions::BesideJoints { home: written_home.flatten(), cranks: (cranks, &crank_places) };
             constructions::resolve(report, parameters, (base, platform), written)
         }
         _ => None,

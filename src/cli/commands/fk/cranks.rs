@@ -24,12 +24,12 @@ use crate::records::{
 use crate::rotary::{RotaryFkError, RotaryPlatform, RotaryTracker};
 
 /// Six angles in degrees.
-type Angles = [f64; 6];
+type AnglesDeg = [f64; 6];
 
 const BAD_ANGLES: &str = "fk::bad_angles";
 
 /// Angles of one line, or of a table.
-fn given(option: Option<&str>, context: &Context) -> Result<TimeSeries<Angles>, Failure> {
+fn given(option: Option<&str>, context: &Context) -> Result<TimeSeries<AnglesDeg>, Failure> {
     let Some(text) = option else {
         return Err(Failure::refused(
             "fk::no_angles",
@@ -117,7 +117,7 @@ struct CrankMachine<'a> {
 }
 
 impl CrankMachine<'_> {
-    fn solve(&self, degrees: &Angles, options: &FkOptions) -> Result<(Exit, FkOneAnswer), Failure> {
+    fn solve(&self, degrees: &AnglesDeg, options: &FkOptions) -> Result<(Exit, FkOneAnswer), Failure> {
         let angles = degrees.map(f64::to_radians);
         let found: FkSolutions = self.platform.fk(&angles, options).map_err(|why| match why {
             RotaryFkError::Fk(why) => failure_of(&why),
@@ -129,14 +129,14 @@ impl CrankMachine<'_> {
         Ok((exit_of(&found), FkOneAnswer { angles_deg: Some(*degrees), ..solved.into() }))
     }
 
-    fn tips(&self, angles: &Angles) -> Result<Manipulator, Failure> {
+    fn tips(&self, angles: &[f64; 6]) -> Result<Manipulator, Failure> {
         self.platform.at(angles).map_err(|why| Failure::refused(BAD_ANGLES, why.to_string()))
     }
 
     /// Follows one pose from the angles that the cranks have there. A row that is not tracked leaves the next to start from the last tracked pose.
     fn follow(
         &self,
-        rows: &[SeriesRow<Angles>],
+        rows: &[SeriesRow<AnglesDeg>],
         start: &Pose,
     ) -> Result<(Vec<Exit>, Vec<FkRowOutcome>, String), Failure> {
         let angles = self.platform.ik(start).map_err(|why| {
@@ -175,8 +175,8 @@ impl CrankMachine<'_> {
         Ok((exits, outcomes, text))
     }
 
-    fn answer(&self, one: bool, rows: &[SeriesRow<Angles>], outcomes: Vec<FkRowOutcome>) -> FkAnswer {
-        let row = |(row, outcome): (&SeriesRow<Angles>, FkRowOutcome)| FkRowRecord {
+    fn answer(&self, one: bool, rows: &[SeriesRow<AnglesDeg>], outcomes: Vec<FkRowOutcome>) -> FkAnswer {
+        let row = |(row, outcome): (&SeriesRow<AnglesDeg>, FkRowOutcome)| FkRowRecord {
             line: row.line,
             time: row.time,
             lengths: self.platform.rods().get(),
