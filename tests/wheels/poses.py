@@ -20,7 +20,7 @@ def found():
         design = equipod.Design.load(DESIGNS / f"{name}.toml")
         solutions = design.fk(design.ik(design.home))
         poses = [[[x.real, x.imag] for x in pose.ravel()] for pose in solutions.T]
-        out[name] = {"certified": sum(solutions.certified), "completeness": str(solutions.completeness), "poses": poses}
+        out[name] = {"certified": int(sum(solutions.certified)), "completeness": str(solutions.completeness), "poses": poses}
     original = equipod.Design.load(DESIGNS / "rbt-octahedral.toml")
     equivalent = original.equivalent([0.2, 0.21, 0.22, 0.2, 0.2, 0.23])
     out["verdict"] = str(equipod.verify(original, equivalent.design).verdict)
