@@ -428,3 +428,112 @@ fn certify(system: &LegSystem, points: &[Study<f64>], out: &mut Vec<FoundInDoubl
         out.push(FoundInDoubles::Root(CertifiedPose { pose, certificate }));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::random_rotation;
+    use crate::manipulator::{Leg, Manipulator};
+    use crate::num::Rng;
+    use crate::num::double_double::DoubleDouble;
+    use crate::solve::certify::refine::refine_study;
+    use crate::solve::certify::system::RealScalar;
+    use crate::solve::certify::{Certifier, NewtonStart, RootRelation, SquareData, relation};
+    use nalgebra::{Point3, Vector3};
+
+    /// Real and complex roots of a random problem to the digits of a double-double, and its certifier.
+    fn roots(rng: &mut Rng, radius: f64) -> (Certifier, Vec<Study<DoubleDouble>>) {
+        let mut point = || Point3::new(rng.normal(), rng.normal(), rng.normal());
+        let legs = std::array::from_fn(|_| Leg { base: point(), platform: point() });
+        let m = Manipulator::from_legs(legs).unwrap();
+        let position = Vector3::new(0.3, -0.4, 1.2);
+        let pose = crate::geom::Pose { rotation: random_rotation(rng), position };
+        let mut data = SquareData::from(&pose.squared_lengths(&m).unwrap());
+        data.radius = [radius; 6];
+        let certifier = Certifier::new(&m, data).unwrap();
+        let mut out: Vec<Study<DoubleDouble>> = Vec::new();
+        for _ in 0..60 {
+            let mut start = Study { re: [0.0; 8], im: [0.0; 8], patch: 2 };
+            for k in 0..8 {
+                (start.re[k], start.im[k]) = (rng.normal(), rng.normal());
+            }
+            (start.re[2], start.im[2]) = (1.0, 0.0);
+            let Ok(found) = refine_study(&certifier.0, &start, f64::INFINITY) else { continue };
+            let apart = |x: &Study<DoubleDouble>| {
+                (0..8).any(|k| (x.re[k].rounded() - found.x.re[k].rounded()).abs() > 1e-6)
+            };
+            if out.iter().all(apart) {
+                out.push(found.x);
+            }
+        }
+        (certifier, out)
+    }
+
+    fn point_of(certifier: &Certifier, x: &Study<DoubleDouble>) -> [Complex64; 8] {
+        let phase = Complex64::new(0.6, -1.7);
+        std::array::from_fn(|k| {
+            let scale = if k < 4 { 1.0 } else { certifier.0.unit() };
+            Complex64::new(x.re[k].rounded(), x.im[k].rounded()) * phase * scale
+        })
+    }
+
+    /// Every lane has the proof that its point has alone, and the ball holds the root.
+    #[test]
+    fn eight_points_have_the_proofs_that_each_has_alone() {
+        let mut rng = Rng::new(0x51de);
+        let (mut proved, mut tried) = (0, 0);
+        for round in 0..6 {
+            let radius = if round % 2 == 0 { 0.0 } else { 1e-10 };
+            let (certifier, roots) = roots(&mut rng, radius);
+            assert!(roots.len() > 8, "more than one batch: {}", roots.len());
+            let points: Vec<[Complex64; 8]> = roots.iter().map(|x| point_of(&certifier, x)).collect();
+            let found = certifier.roots_near(&points.iter().collect::<Vec<_>>());
+            assert_eq!(found.len(), points.len());
+            for ((found, point), x) in found.iter().zip(&points).zip(&roots) {
+                let Ok(alone) = certifier.root_near(NewtonStart::Point(point)) else { continue };
+                tried += 1;
+                let Some(root) = found else { continue };
+                proved += 1;
+                let (own, other) = (&root.certificate, &alone.certificate);
+                assert_eq!(relation(own, other), RootRelation::Same);
+                assert!(root.pose.distance(&alone.pose, certifier.0.unit()) < 1e-7);
+                assert_eq!(own.reality(), other.reality());
+                if own.precision() == other.precision() {
+                    let ratio = own.radius() / other.radius();
+                    assert!((0.2..5.0).contains(&ratio), "{ratio}");
+                }
+                // the root, on the patch of the certificate
+                let one = Complex64::new(x.re[own.patch()].rounded(), x.im[own.patch()].rounded());
+                for k in 0..8 {
+                    let z = Complex64::new(x.re[k].rounded(), x.im[k].rounded()) / one;
+                    let gap = (z - own.centre()[k] - own.low()[k]).norm();
+                    assert!(gap <= own.radius() + 1e-14 * (1.0 + z.norm()), "{gap}");
+                }
+                if radius > 0.0 {
+                    assert!(own.radius() > 0.1 * radius);
+                }
+            }
+        }
+        assert!(tried > 60 && 10 * proved > 9 * tried, "{proved} of {tried}");
+    }
+
+    /// Points beside the roots, points that are none and no numbers have no proof, and do not disturb their neighbours.
+    #[test]
+    fn points_that_are_no_roots_have_no_proof() {
+        let mut rng = Rng::new(0x51df);
+        let (certifier, roots) = roots(&mut rng, 0.0);
+        let good = point_of(&certifier, &roots[0]);
+        let mut points = vec![good; 8];
+        for (k, z) in points[1].iter_mut().enumerate() {
+            *z *= 1.0 + 1e-5 * k as f64;
+        }
+        points[3] = std::array::from_fn(|_| Complex64::new(rng.normal(), rng.normal()));
+        points[4] = [Complex64::new(f64::NAN, 0.0); 8];
+        points[6] = [Complex64::ZERO; 8];
+        let found = certifier.roots_near(&points.iter().collect::<Vec<_>>());
+        for (k, root) in found.iter().enumerate() {
+            assert_eq!(root.is_some(), ![1, 3, 4, 6].contains(&k), "{k}");
+        }
+        assert!(certifier.roots_near(&[]).is_empty());
+    }
+}
