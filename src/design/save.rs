@@ -65,6 +65,7 @@ struct Tail<'a> {
     envelope: Option<EnvelopesTable>,
     #[serde(skip_serializing_if = "Option::is_none")]
     speed: Option<SpeedTable>,
+    stiffness: Option<StiffnessTable>,
     #[serde(skip_serializing_if = "Option::is_none")]
     payload: Option<PayloadTable>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -296,6 +297,11 @@ impl Design {
             envelope: EnvelopesTable::of(&self.envelopes),
             payload: self.payload.as_ref().map(PayloadTable::from),
             speed: self.speed.map(|s| SpeedTable { linear: s.linear, angular_deg: s.angular_deg }),
+            stiffness: self.stiffness.map(|s| StiffnessTable {
+                linear: s.linear,
+                angular: s.angular,
+                natural_frequency: s.natural_frequency,
+            }),
             loads: self.loads.iter().map(LoadTable::from).collect(),
             keep_out: self.keep_outs.iter().map(KeepOutTable::from).collect(),
             calibration: self.calibration.as_ref().map(|table| CalibrationFile::of(self, table)),
@@ -670,6 +676,14 @@ impl HardwareTable {
 pub(super) struct SpeedTable {
     pub(super) linear: f64,
     pub(super) angular_deg: f64,
+}
+
+/// `[stiffness]`.
+#[derive(Serialize)]
+pub(super) struct StiffnessTable {
+    linear: Option<f64>,
+    angular: Option<f64>,
+    natural_frequency: Option<f64>,
 }
 
 /// One of `[[loads]]`.

@@ -17,6 +17,7 @@ mod scp;
 mod search;
 mod shape;
 mod skeleton;
+mod stiffness;
 mod terms;
 #[cfg(test)]
 mod tests;
