@@ -123,6 +123,9 @@ fn what_contradicts_itself_is_refused() {
         19:15 design::wrong_type: `relative_to` is "tool" | write "home" or "base"
         18:1 design::missing_key: `relative_to` says what listed poses are measured from, and none are listed | list `poses` or name a `trajectory`, or remove `relative_to`: the box is always around home
         41:1 design::wrong_type: [speed] is an array, not a table | write [speed] as a table
+        67:2 design::missing_key: [stiffness] needs the stiffness of a leg | add `leg_stiffness` to [hardware], force units per design unit
+        69:11 design::not_positive: `angular` is 0 | give a positive number
+        70:1 design::missing_key: `natural_frequency` of [stiffness] needs the mass that vibrates | add [payload] with its mass, center and inertia
         60:1 design::unknown_key: `offset` is not a key of [calibration] | did you mean `offsets`?
         60:11 design::length_count: `offsets` has 4 numbers instead of 6 | give 6 offsets, one for each leg
         61:22 design::not_positive: a standard deviation of -0.01 | standard deviations are not negative
@@ -246,12 +249,17 @@ fn masses_and_units_give_what_vibrates() {
     let palms = parse(&text.replace("units = \"mm\"", "units = \"palm\""), Format::Toml).unwrap_err();
     assert!(palms[0].message.contains("needs a known unit of length, not \"palm\""), "{palms:?}");
     // in another unit of length the frequency is the same
-    let design = design(&text);
-    let metres = Design { workspace: Default::default(), ..design.clone() }.in_units("m").unwrap();
-    let lowest = |d: &Design| {
-        let masses = d.vibrating().unwrap();
-        crate::requirements::lowest_frequency(d.manipulator(), &d.home_or_default(), &masses)
+    let mut design = design(&text);
+    design.workspace = Workspace::default();
+    let metres = design.in_units("m").unwrap();
+    let lowest = |d: &Design, unit: f64| {
+        let pose = crate::geom::Pose {
+            rotation: nalgebra::Rotation3::from_euler_angles(0.1, -0.2, 0.3),
+            position: nalgebra::Vector3::new(3.0, -2.0, 14.0) * unit,
+        };
+        crate::requirements::lowest_frequency(d.manipulator(), &pose, &d.vibrating().unwrap())
     };
-    assert!((lowest(&design) / lowest(&metres) - 1.0).abs() < 1e-9);
+    let (one, other) = (lowest(&design, 1.0), lowest(&metres, 1e-3));
+    assert!(one > 0.0 && (one / other - 1.0).abs() < 1e-9, "{one} {other}");
     assert!((metres.stiffness.unwrap().linear.unwrap() / 2e7 - 1.0).abs() < 1e-12);
 }

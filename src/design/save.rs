@@ -681,8 +681,11 @@ pub(super) struct SpeedTable {
 /// `[stiffness]`.
 #[derive(Serialize)]
 pub(super) struct StiffnessTable {
+    #[serde(skip_serializing_if = "Option::is_none")]
     linear: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     angular: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     natural_frequency: Option<f64>,
 }
 

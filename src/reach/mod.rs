@@ -5,6 +5,7 @@
 
 mod nearest;
 mod projection;
+mod rays;
 mod step;
 #[cfg(test)]
 mod tests;
@@ -15,6 +16,7 @@ use crate::manipulator::{Leg, Manipulator, leg_determinant};
 use crate::requirements::{Limit, Quantity, Requirements, Terms};
 
 pub use nearest::{NearestPose, NearestPoseOptions};
+pub use rays::{FreeRay, largest_box_within, volume_of_rays};
 pub use way::{PoseAxis, StraightWay};
 
 /// `|det J|` with lengths over the size below which home counts as singular.

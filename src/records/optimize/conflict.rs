@@ -70,7 +70,7 @@ impl GiveRecord {
 }
 
 /// A positive amount with at least four significant digits.
-fn amount(x: f64) -> String {
+pub(super) fn amount(x: f64) -> String {
     if x < 1e-3 { format!("{x:.3e}") } else { format!("{x:.6}") }
 }
 
