@@ -142,7 +142,8 @@ mod tests {
 
     #[test]
     fn numbers_fit_their_column() {
-        let shown = [0.5, -123_456.0, 11_578_664_355.117, 999_999_999_999_999.0, -0.000_000_1, f64::NEG_INFINITY];
+        let shown =
+            [0.5, -123_456.0, 11_578_664_355.117, 999_999_999_999_999.0, -0.000_000_1, f64::NEG_INFINITY];
         let texts = shown.map(decimals);
         assert_eq!(
             texts,

@@ -236,10 +236,9 @@ fn payloads_envelopes_and_reserves_that_are_none_are_refused() {
 
 #[test]
 fn masses_and_units_give_what_vibrates() {
-    let text = GOOD.replace("angular = 3e5", "natural_frequency = 30").replace(
-        "[speed]",
-        "[payload]\nmass = 200\ncenter = [0, 0, 3]\ninertia = [9e2, 8e2, 1e3]\n[speed]",
-    );
+    let text = GOOD
+        .replace("angular = 3e5", "natural_frequency = 30")
+        .replace("[speed]", "[payload]\nmass = 200\ncenter = [0, 0, 3]\ninertia = [9e2, 8e2, 1e3]\n[speed]");
     let design = |text: &str| parse(text, Format::Toml).unwrap().0;
     let plain = design(&text).vibrating().unwrap();
     assert_eq!((plain.leg, plain.bodies.mass, plain.bodies.metres), (1e8, 200.0, 1e-3));

@@ -124,7 +124,8 @@ impl<'a> Merit<'a> {
                 if o == Objective::Stiffness { s * s } else { s }
             }
             Objective::NaturalFrequency => {
-                let least = |all: Vec<Quotient<()>>| all.iter().map(|q| q.value).fold(f64::INFINITY, f64::min);
+                let least =
+                    |all: Vec<Quotient<()>>| all.iter().map(|q| q.value).fold(f64::INFINITY, f64::min);
                 let square = self.slowest(l).map_or(0.0, least);
                 square.max(0.0).sqrt() / self.omega()
             }

@@ -12,7 +12,9 @@ use crate::manipulator::{Body, Manipulator, inverse_condition, jacobian};
 use crate::num::Purpose;
 use crate::num::conic::SolverFailure;
 use crate::num::linalg::svd;
-use crate::requirements::{Hardware, Objective, PoseSpace, Requirements, TermKind, Terms, leg_forces, lowest_frequency};
+use crate::requirements::{
+    Hardware, Objective, PoseSpace, Requirements, TermKind, Terms, leg_forces, lowest_frequency,
+};
 use crate::synthesis::{Normalisation, leg_vector};
 
 /// A platform that meets the requirements.

@@ -27,7 +27,11 @@ const MIXED: usize = 3;
 const SOFT: f64 = 1e-12;
 
 /// Stiffness of legs of stiffness 1 against forces, or against torques, in design units and radians. `None` at a singular pose.
-pub(crate) fn stiffness<P: Gradient>(l: &LegLines, size: f64, against_torques: bool) -> Option<Vec<Quotient<P>>> {
+pub(crate) fn stiffness<P: Gradient>(
+    l: &LegLines,
+    size: f64,
+    against_torques: bool,
+) -> Option<Vec<Quotient<P>>> {
     let inverse = l.jacobian(size).try_inverse()?;
     let by_load = inverse.transpose();
     let (from, unit) = if against_torques { (3, size * size) } else { (0, 1.0) };
@@ -90,7 +94,10 @@ fn mix<P: Gradient, const N: usize>(list: &mut Vec<nalgebra::SVector<f64, N>>, f
     let own: Vec<_> = list.iter().take(first).copied().collect();
     for (i, a) in own.iter().enumerate() {
         for b in &own[i + 1..] {
-            list.extend([(a + b) * std::f64::consts::FRAC_1_SQRT_2, (a - b) * std::f64::consts::FRAC_1_SQRT_2]);
+            list.extend([
+                (a + b) * std::f64::consts::FRAC_1_SQRT_2,
+                (a - b) * std::f64::consts::FRAC_1_SQRT_2,
+            ]);
         }
     }
 }

@@ -87,11 +87,8 @@ fn crowded(kinds: &[VariableKind], axes: JointAxes) -> DimensionalProblem {
         machine: Some(Envelope::Box { min: Point3::from(-corner.coords), max: corner }),
     };
     p.requirements.reserves.all = Some(3.0);
-    p.requirements.platform_stiffness = Some(PlatformStiffness {
-        linear: Some(5.0),
-        angular: Some(9e4),
-        natural_frequency: Some(6.0),
-    });
+    p.requirements.platform_stiffness =
+        Some(PlatformStiffness { linear: Some(5.0), angular: Some(9e4), natural_frequency: Some(6.0) });
     let part = |mass, center| LegPart { mass, center, inertia: 3e4 * mass };
     let leg = LegMasses { cylinder: part(3.0, 70.0), rod: part(2.0, 60.0), reflected: 1.5 };
     let inertia = nalgebra::Matrix3::new(9e4, 2e3, 0.0, 2e3, 8e4, 1e3, 0.0, 1e3, 1.2e5);

@@ -3,11 +3,11 @@
 use nalgebra::{Matrix3, Matrix6, Point3, Rotation3, Vector3, Vector6};
 
 use super::*;
-use crate::requirements::{VibratingMasses, least_stiffness_at, lowest_frequency};
 use crate::geom::random_rotation;
 use crate::manipulator::{Leg, Manipulator, default_home};
 use crate::num::Rng;
 use crate::requirements::{ForceUnit, LegMasses, LegPart, MassUnit, Payload, leg_forces};
+use crate::requirements::{VibratingMasses, least_stiffness_at, lowest_frequency};
 
 fn hexapod(rng: &mut Rng) -> Manipulator {
     let mut at = |deg: f64, r: f64| {

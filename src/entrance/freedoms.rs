@@ -5,8 +5,7 @@ use std::ops::ControlFlow;
 use super::optimizing::{Checked, checked, dimensional_problem};
 use crate::design::Design;
 use crate::dimensional::{
-    Demand, DimensionalOutcome, DimensionalReport, DimensionalSolution, Progress,
-    ShapeSearchOptions, meet,
+    Demand, DimensionalOutcome, DimensionalReport, DimensionalSolution, Progress, ShapeSearchOptions, meet,
 };
 use crate::equivalence::VerifyError;
 use crate::manipulator::Octahedral;
@@ -130,7 +129,8 @@ fn closed(design: &Design, report: &DimensionalReport) -> Vec<Freedom> {
     }
     let DimensionalOutcome::Infeasible(conflict) = &report.outcome else { return out };
     let clashes = |kind: &TermKind| conflict.demands.iter().any(|g| g.demand == Demand::Requirement(*kind));
-    let limits = [Freedom::Stroke, Freedom::BaseEnvelope, Freedom::PlatformEnvelope, Freedom::MachineEnvelope];
+    let limits =
+        [Freedom::Stroke, Freedom::BaseEnvelope, Freedom::PlatformEnvelope, Freedom::MachineEnvelope];
     out.extend(limits.into_iter().filter(|f| f.kinds().iter().any(clashes)));
     out
 }
@@ -178,15 +178,16 @@ fn first_amount(design: &Design, report: &DimensionalReport, freedom: Freedom) -
     let part = |x: f64, whole: f64| if x > 0.0 { x } else { FIRST * whole };
     match freedom {
         Freedom::Stroke => {
-            let (short, long) =
-                (gives(report, TermKind::LegTooShort).max(0.0), gives(report, TermKind::LegTooLong).max(0.0));
             let range = design.hardware.leg_length.map_or((0.0, 0.0), |l| l.range());
+            let [short, long] = [TermKind::LegTooShort, TermKind::LegTooLong].map(|kind| gives(report, kind));
             match design.hardware.leg_length {
                 // the longest leg grows by twice the stroke
-                Some(LengthLimits::Stroke { .. }) => (part(0.5 * long.max(short), range.1 - range.0), [0.0; 2]),
-                _ if short + long > 0.0 => {
-                    (short + long, [short / (short + long), long / (short + long)])
+                Some(LengthLimits::Stroke { .. }) => {
+                    (part(0.5 * long.max(short), range.1 - range.0), [0.0; 2])
                 }
+                // one end suffices where it can give alone
+                _ if long > 0.0 && (long <= short || short <= 0.0) => (long, [0.0, 1.0]),
+                _ if short > 0.0 => (short, [1.0, 0.0]),
                 _ => (FIRST * (range.1 - range.0), [0.5; 2]),
             }
         }

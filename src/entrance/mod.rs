@@ -13,10 +13,10 @@ mod error;
 pub(crate) mod exporting;
 #[cfg(feature = "files")]
 mod files;
-#[cfg(all(feature = "files", feature = "synthesis"))]
-mod judging;
 #[cfg(all(feature = "files", feature = "optimize"))]
 pub(crate) mod freedoms;
+#[cfg(all(feature = "files", feature = "synthesis"))]
+mod judging;
 #[cfg(feature = "files")]
 mod moving;
 #[cfg(all(feature = "files", feature = "optimize"))]

@@ -5,19 +5,19 @@ use nalgebra::Vector3;
 use crate::design::Design;
 use crate::geom::{Pose, PoseSpace, Region};
 use crate::reach::{FreeRay, largest_box_within, volume_of_rays};
-use crate::requirements::{AssessOptions, Limit, Requirements, prove};
+use crate::requirements::{AssessOptions, Limit, Requirements, assess, prove};
 use crate::singularity::regular_workspace;
 
 /// Directions in which ways and turns are followed, where nothing is said.
 pub(crate) const RAYS: usize = 1000;
 /// Rounds in which the size of a region is halved between what is proved and what is violated.
-const ROUNDS: usize = 12;
+const ROUNDS: usize = 8;
 /// The size is known well enough when what is proved and what is violated differ by less, as a share.
-const CLOSE: f64 = 2e-3;
+const CLOSE: f64 = 5e-3;
 /// By how much the first size lies below the one at which a ray ended, as a share.
 const INSIDE: f64 = 5e-4;
 /// Cells over which each kind of requirement is bounded for one size.
-const CELLS: usize = 400;
+const CELLS: usize = 250;
 /// Halton points looked at for one size, and as many random ones.
 const POINTS: usize = 100;
 /// The required region is looked at up to so many times its size.
@@ -152,10 +152,23 @@ impl Around<'_> {
         PoseSpace { region: Region::Ellipsoid, rotation_deg, ..PoseSpace::at(self.home) }
     }
 
+    fn options(&self) -> AssessOptions {
+        AssessOptions::new().points(POINTS).searches(1).seed(self.seed).close(false)
+    }
+
+    /// A violation that poses of a region and searches from the worst of them show.
+    fn shown(&self, space: &PoseSpace) -> Option<(Limit, f64)> {
+        let found = assess(self.design.manipulator(), self.required, space, &self.options());
+        let violated = found.margins.iter().filter(|m| !m.term.kind.is_fixed());
+        violated.filter(|m| !m.standing.is_met()).map(|m| (Limit::Term(m.term), m.value)).next()
+    }
+
     /// All requirements that depend on the pose, and the sign of `det J`.
     fn judge(&self, space: &PoseSpace) -> Judged {
-        let m = self.design.manipulator();
-        let options = AssessOptions::new().points(POINTS).searches(1).seed(self.seed).close(false);
+        if let Some((limit, margin)) = self.shown(space) {
+            return Judged::Violated(limit, margin);
+        }
+        let (m, options) = (self.design.manipulator(), self.options());
         let proof = prove(m, self.required, space, &options, CELLS);
         let bounds = || proof.bounds.iter().filter(|b| !b.found.term.kind.is_fixed());
         let violated = |b: &&crate::requirements::MarginBound| b.verdict.is_met() == Some(false);
@@ -214,11 +227,11 @@ impl Around<'_> {
         let mut first = FreeRay { direction: Vector3::z(), free: most, binding: None };
         let mut factor = 0.5;
         while factor < most {
-            if let Judged::Violated(limit, _) = self.judge(&space(factor)) {
+            if let Some((limit, _)) = self.shown(&space(factor)) {
                 (first.free, first.binding) = (factor, Some(limit));
                 break;
             }
-            factor *= std::f64::consts::SQRT_2;
+            factor *= 1.2;
         }
         let factor = self.largest(&first, &space);
         let parts = own.translation;

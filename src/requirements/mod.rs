@@ -43,7 +43,7 @@ pub use reserve::{Reserve, Reserves};
 pub use standing::Standing;
 pub use term::{Quantity, Term, TermKind, Terms};
 pub use vibration::{
-    LeastStiffness, PlatformStiffness, Vibration, VibratingMasses, least_stiffness, least_stiffness_at,
+    LeastStiffness, PlatformStiffness, VibratingMasses, Vibration, least_stiffness, least_stiffness_at,
     lowest_frequency, mass_matrix, stiffness_matrix, vibration,
 };
 pub(crate) use vibration::{mass_of, scaled_mass};

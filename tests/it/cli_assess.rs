@@ -192,7 +192,10 @@ fn stiffness_and_frequency_have_rows_of_their_own() {
     };
     let (linear, slow) = (row(&doc, "linear_stiffness"), row(&doc, "natural_frequency"));
     assert_eq!((linear["unit"].as_str(), slow["unit"].as_str()), (Some("force/mm"), Some("Hz")));
-    assert_eq!((&linear["between"][0], linear["legs"].as_array().unwrap().len()), (&Value::from("platform"), 6));
+    assert_eq!(
+        (&linear["between"][0], linear["legs"].as_array().unwrap().len()),
+        (&Value::from("platform"), 6)
+    );
     let moved = document(&equipod(&["motion", path, "--stiffness", "--json"]));
     let found = &moved["stiffness"];
     let near = |a: f64, b: &Value| (a / b.as_f64().unwrap() - 1.0).abs() < 1e-9;
@@ -200,5 +203,9 @@ fn stiffness_and_frequency_have_rows_of_their_own() {
     assert!(near(60.0 + slow["margin"].as_f64().unwrap(), &found["natural"][0]["frequency_hz"]), "{found}");
     assert!(row(&doc, "natural_frequency")["proved_margin"].as_f64().unwrap() > 0.0);
     let (code, doc) = with(60000.0, 96.0);
-    assert_eq!((code, row(&doc, "natural_frequency")["status"].as_str()), (Some(1), Some("violated")), "{doc}");
+    assert_eq!(
+        (code, row(&doc, "natural_frequency")["status"].as_str()),
+        (Some(1), Some("violated")),
+        "{doc}"
+    );
 }

@@ -137,11 +137,12 @@ variables = [\"home_height\"]
     assert_eq!(d["status"], "infeasible");
     // which freedom resolves it was tried: other sizes do not, a longer stroke does, as its design shows
     let freedoms = d["freedoms"].as_array().unwrap();
-    let came = |k: usize| (freedoms[k]["freedom"].as_str().unwrap(), freedoms[k]["outcome"].as_str().unwrap());
+    let came =
+        |k: usize| (freedoms[k]["freedom"].as_str().unwrap(), freedoms[k]["outcome"].as_str().unwrap());
     assert_eq!((came(0), came(1)), (("triangle_sizes", "unresolved"), ("stroke", "resolved")));
     assert!(freedoms[0]["design"].is_null() && freedoms[1]["assessment"]["met"] == true);
     let amount = freedoms[1]["amount"].as_f64().unwrap();
-    assert!(freedoms[1]["message"].as_str().unwrap().starts_with("with a longer stroke, by "));
+    assert!(freedoms[1]["message"].as_str().unwrap().starts_with("with a stroke longer by "));
     let opened = std::fs::read_to_string(folder.path().join("opened/with-stroke.toml")).unwrap();
     let range = opened.lines().find(|l| l.starts_with("leg_length")).unwrap();
     let ends: Vec<f64> = range[14..range.len() - 1].split(',').map(|x| x.trim().parse().unwrap()).collect();

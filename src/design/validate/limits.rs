@@ -73,11 +73,24 @@ pub(super) fn vibrating(report: &mut Findings<'_>, top: &[Entry], units: &str) {
     let Some(entry) = find(entries, "natural_frequency") else { return };
     if find(top, "payload").is_none() {
         let message = "`natural_frequency` of [stiffness] needs the mass that vibrates";
-        report.refuse(Code::MissingKey, &entry.key_span, message, "add [payload] with its mass, center and inertia");
+        report.refuse(
+            Code::MissingKey,
+            &entry.key_span,
+            message,
+            "add [payload] with its mass, center and inertia",
+        );
     }
     if micrometres(units).is_none() {
-        let message = format!("`natural_frequency` of [stiffness] needs a known unit of length, not \"{}\"", shown(units));
-        report.refuse(Code::WrongType, &entry.key_span, message, "write units = \"mm\", \"m\" or \"in\", for instance");
+        let message = format!(
+            "`natural_frequency` of [stiffness] needs a known unit of length, not \"{}\"",
+            shown(units)
+        );
+        report.refuse(
+            Code::WrongType,
+            &entry.key_span,
+            message,
+            "write units = \"mm\", \"m\" or \"in\", for instance",
+        );
     }
 }
 

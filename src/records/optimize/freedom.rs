@@ -66,31 +66,37 @@ impl FreedomRecord {
 }
 
 fn message(design: &Design, opened: &OpenedFreedom, outcome: FreedomWord) -> String {
-    let what = match opened.freedom {
-        Freedom::HomeHeight => "another height of home",
-        Freedom::TriangleSizes => "other sizes of base and platform",
-        Freedom::Triangles => "other shapes of the triangles",
-        Freedom::Stroke => "a longer stroke",
-        Freedom::BaseEnvelope => "a wider envelope of the base",
-        Freedom::PlatformEnvelope => "a wider envelope of the platform",
-        Freedom::MachineEnvelope => "a wider envelope of the machine",
-    };
     let by = |x: f64| format!("{} {}", super::conflict::amount(x.abs()), design.units);
-    let amount = match (opened.freedom, opened.amount) {
-        (Freedom::HomeHeight, Some(x)) if x < 0.0 => format!(", lower by {}", by(x)),
-        (Freedom::HomeHeight, Some(x)) => format!(", higher by {}", by(x)),
-        (Freedom::Stroke, Some(x)) => format!(", by {} more,", by(x)),
-        (_, Some(x)) => format!(", by {} more on every side,", by(x)),
-        (_, None) => String::new(),
+    let (tried, amount) = (outcome == FreedomWord::Unresolved, opened.amount);
+    let wider = |body: &str| match amount {
+        Some(x) if tried => format!("an envelope of the {body} wider by up to {} on every side", by(x)),
+        Some(x) => format!("an envelope of the {body} wider by {} on every side", by(x)),
+        None => format!("a wider envelope of the {body}"),
+    };
+    let what = match opened.freedom {
+        Freedom::HomeHeight => match amount {
+            Some(x) if x < 0.0 => format!("home lower by {}", by(x)),
+            Some(x) => format!("home higher by {}", by(x)),
+            None => "another height of home".to_owned(),
+        },
+        Freedom::TriangleSizes => "other sizes of base and platform".to_owned(),
+        Freedom::Triangles => "other shapes of the triangles".to_owned(),
+        Freedom::Stroke => match amount {
+            Some(x) if tried => format!("a stroke longer by up to {}", by(x)),
+            Some(x) => format!("a stroke longer by {}", by(x)),
+            None => "a longer stroke".to_owned(),
+        },
+        Freedom::BaseEnvelope => wider("base"),
+        Freedom::PlatformEnvelope => wider("platform"),
+        Freedom::MachineEnvelope => wider("machine"),
     };
     match outcome {
-        FreedomWord::Resolved => format!("with {what}{amount} the requirements can be met, proved for the platform found"),
-        FreedomWord::Undecided => {
-            format!("with {what}{amount} a platform was found that violates nothing at the poses looked at; not all is proved")
+        FreedomWord::Resolved => {
+            format!("with {what} the requirements can be met, proved for the platform found")
         }
-        FreedomWord::Unresolved if opened.amount.is_some() => {
-            format!("{what} alone{amount} did not resolve it from any start")
-        }
+        FreedomWord::Undecided => format!(
+            "with {what} a platform was found that violates nothing at the poses looked at; not all is proved"
+        ),
         FreedomWord::Unresolved => format!("{what} alone did not resolve it from any start"),
         FreedomWord::NotTried => format!("{what} was not tried: the search was told to end"),
     }

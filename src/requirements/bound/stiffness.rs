@@ -147,16 +147,14 @@ impl<'a> SoftestMotion<'a> {
             let square = frame.leg(self.m, i).square;
             let over = square.inverse_root()?;
             let away: JetVector = std::array::from_fn(|j| origin[j] - frame.constant(base[j]));
-            let e: JetVector = std::array::from_fn(|j| {
-                (dot_jets(&axes[j], &away) + frame.constant(platform[j])) * over
-            });
+            let e: JetVector =
+                std::array::from_fn(|j| (dot_jets(&axes[j], &away) + frame.constant(platform[j])) * over);
             // D_i of each column
             let ends: [IntervalVector; 6] = columns.map(|(v, w)| {
                 let turned = cross(&w, &platform);
                 std::array::from_fn(|j| v[j] + turned[j])
             });
-            let along: [Jet; 6] =
-                ends.map(|c| e[0].times(c[0]) + e[1].times(c[1]) + e[2].times(c[2]));
+            let along: [Jet; 6] = ends.map(|c| e[0].times(c[0]) + e[1].times(c[1]) + e[2].times(c[2]));
             let legs = self.leg_masses(frame, &square);
             for (p, q) in (0..6).flat_map(|p| (p..6).map(move |q| (p, q))) {
                 let product = along[p] * along[q];
@@ -171,7 +169,12 @@ impl<'a> SoftestMotion<'a> {
     }
 
     /// What of `B` no pose changes.
-    fn fixed_part(&self, frame: &CellFrame<'_>, columns: &[(IntervalVector, IntervalVector); 6], b: &mut [Jet]) {
+    fn fixed_part(
+        &self,
+        frame: &CellFrame<'_>,
+        columns: &[(IntervalVector, IntervalVector); 6],
+        b: &mut [Jet],
+    ) {
         let entry = |p: usize, q: usize| {
             let ((v, w), (v2, w2)) = (&columns[p], &columns[q]);
             match self.compared {

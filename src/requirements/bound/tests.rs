@@ -385,14 +385,39 @@ fn elastic(linear: f64, angular: f64, natural_frequency: f64) -> Requirements {
     }
 }
 
+/// A small region: no pose is below a bound, and limits to either side of the least value are decided by few cells.
+#[test]
+fn stiffness_is_bounded_where_it_varies_little() {
+    let mut rng = Rng::new(43);
+    let (m, home) = random_platform(&mut rng);
+    let space = PoseSpace {
+        translation: Vector3::new(0.1, 0.0, 0.1),
+        rotation_deg: Vector3::new(0.0, 1.0, 0.0),
+        ..PoseSpace::at(home)
+    };
+    let with = |worst: [f64; 3], factor: f64| {
+        let limits = worst.map(|x| x * factor);
+        prove(&m, &elastic(limits[0], limits[1], limits[2]), &space, &quick(), 100)
+    };
+    let loose = with([1.0; 3], 1e-3);
+    let required = elastic(1e-3, 1e-3, 1e-3);
+    let least = sampled(&Terms::new(&m, &required, &home), &poses_of(&space, 200, &mut rng));
+    for bound in &loose.bounds {
+        assert!(bound.below <= least[&bound.found.term.kind] * (1.0 + 1e-9), "{bound:?} {least:?}");
+    }
+    let worst = std::array::from_fn(|i| loose.bounds[i].found.value + 1e-3);
+    assert_eq!(with(worst, 0.95).all_met(), Some(true));
+    assert!(with(worst, 1.05).bounds.iter().all(|b| b.verdict == MarginVerdict::Violated));
+}
+
 /// Over regions of several sizes: the values found and the bounds are on their sides of those at many poses, a limit a little lower than the least value is met, proved, and one a little
 /// higher is violated.
 #[test]
+#[ignore = "slow evidence"]
 fn stiffness_and_frequency_are_bounded_and_decided() {
     let mut rng = Rng::new(41);
-    let limits = |worst: &[f64; 3], factor: f64| {
-        elastic(worst[0] * factor, worst[1] * factor, worst[2] * factor)
-    };
+    let limits =
+        |worst: &[f64; 3], factor: f64| elastic(worst[0] * factor, worst[1] * factor, worst[2] * factor);
     for (k, size) in [0.1, 0.12, 1.0].into_iter().enumerate() {
         let (m, home) = random_platform(&mut rng);
         let region = if k == 1 { Region::Ellipsoid } else { Region::Box };
@@ -409,7 +434,10 @@ fn stiffness_and_frequency_are_bounded_and_decided() {
         let worst: [f64; 3] = std::array::from_fn(|i| proof.bounds[i].found.value + 1e-3);
         for bound in &proof.bounds {
             let at_poses = least[&bound.found.term.kind];
-            assert!(bound.below <= at_poses.min(bound.found.value) * (1.0 + 1e-9), "{k}: {bound:?} {at_poses}");
+            assert!(
+                bound.below <= at_poses.min(bound.found.value) * (1.0 + 1e-9),
+                "{k}: {bound:?} {at_poses}"
+            );
             assert!(bound.found.value <= 1.01 * at_poses, "{k}: {bound:?} {at_poses}");
         }
         if k == 2 {

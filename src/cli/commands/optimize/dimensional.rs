@@ -54,7 +54,11 @@ impl Done {
             list.iter().map(|(f, path)| FreedomRecord::new(design, f, path.as_deref())).collect()
         };
         let freedoms = self.freedoms.as_ref().map(opened);
-        DimensionalAnswer { candidates, freedoms, ..DimensionalAnswer::new(design, &self.report, found, written) }
+        DimensionalAnswer {
+            candidates,
+            freedoms,
+            ..DimensionalAnswer::new(design, &self.report, found, written)
+        }
     }
 
     /// The platform to write: the one found, or the one that comes nearest.
