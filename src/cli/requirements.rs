@@ -6,6 +6,9 @@ use super::exit::Exit;
 use crate::records::{AssessAnswer, MarginRecord, PoseQuaternionRecord, RegularityWord};
 use crate::requirements::MarginVerdict;
 
+/// Width of a column of numbers in the table.
+const COLUMN: usize = 14;
+
 /// What the answer about the requirements means for the exit code.
 pub(crate) fn exit_of(met: Option<bool>) -> Exit {
     match met {
@@ -100,20 +103,51 @@ fn row(out: &mut String, m: &MarginRecord, with_reserve: bool) {
     };
     let below = match m.proved_margin.0 {
         x if m.status == MarginVerdict::AtLimit || x == 0.0 => format!("{:.6}", 0.0),
-        x if x.is_finite() => format!("{x:.6}"),
+        x if x.is_finite() => decimals(x),
         _ => "none".into(),
     };
     let mut left = String::new();
     if with_reserve {
         let short = if m.reserve_kept == Some(false) { '!' } else { ' ' };
-        left = format!("{short}{:>14.6}", m.margin_with_reserve.0);
+        left = format!("{short}{:>14}", decimals(m.margin_with_reserve.0));
     }
     let _ = writeln!(
         out,
-        "{:<17}{mark}{:<9} {value:>14.6}{left} {below:>14} {:<8} {:<24} {pose}",
+        "{:<17}{mark}{:<9} {:>14}{left} {below:>14} {:<8} {:<24} {pose}",
         m.name.code(),
         m.status.name(),
+        decimals(value),
         m.unit,
         m.between.join(", ")
     );
+}
+
+/// A number with six decimals, or with as many as the column has room for.
+fn decimals(x: f64) -> String {
+    let plain = format!("{x:.6}");
+    if plain.len() <= COLUMN || !x.is_finite() {
+        return plain;
+    }
+    let whole = format!("{x:.0}");
+    match COLUMN.checked_sub(whole.len() + 1) {
+        Some(digits) if digits > 0 => format!("{x:.digits$}"),
+        _ if whole.len() <= COLUMN => whole,
+        _ => format!("{x:.6e}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_fit_their_column() {
+        let shown =
+            [0.5, -123_456.0, 11_578_664_355.117, 999_999_999_999_999.0, -0.000_000_1, f64::NEG_INFINITY];
+        let texts = shown.map(decimals);
+        assert_eq!(
+            texts,
+            ["0.500000", "-123456.000000", "11578664355.12", "1.000000e15", "-0.000000", "-inf"]
+        );
+    }
 }

@@ -93,5 +93,8 @@ P1 = [0.1, 0.2, 0.3]
 P3 = [0, 0.2, 0.3]
 [calibration.platform_deviations]
 P4 = [0.01, 0.02, 0.03]
+[stiffness]
+linear = 2e4
+angular = 3e5
 "#
 );

@@ -5,13 +5,14 @@ use thiserror::Error;
 
 use super::construction::resolve::{Fault, Joints};
 use super::construction::{RealPoint, WrittenHome};
+use super::scale::micrometres;
 use super::{Constructions, CrankLimits, DesignExactness, ExactJoint, Workspace, Written};
 use crate::geom::Pose;
 use crate::manipulator::Body;
 use crate::manipulator::{InvalidManipulator, JointValues, LegLengths, Manipulator, SurdPoint};
 use crate::requirements::{
-    Envelopes, ForceUnit, Hardware, KeepOut, Load, MassUnit, Payload, PlatformSpeed, Quantity, Requirements,
-    Reserves, Term, TermKind,
+    Envelopes, ForceUnit, Hardware, KeepOut, Load, MassUnit, MovingBodies, Payload, PlatformSpeed,
+    PlatformStiffness, Quantity, Requirements, Reserves, Term, TermKind, VibratingMasses,
 };
 use crate::requirements::{KeptSymmetry, Objective, VariableKind};
 use crate::rotary::{Crank, InvalidRotary, RotaryLeg, RotaryPlatform};
@@ -41,6 +42,8 @@ pub struct Design {
     pub hardware: Hardware,
     /// How fast the platform has to move.
     pub speed: Option<PlatformSpeed>,
+    /// How stiff the platform has to be on its legs.
+    pub stiffness: Option<PlatformStiffness>,
     /// Loads on the platform.
     pub loads: Vec<Load>,
     /// Bodies that the legs must not touch.
@@ -154,6 +157,7 @@ impl Design {
             search: SearchTable::default(),
             hardware: Hardware::default(),
             speed: None,
+            stiffness: None,
             loads: Vec::new(),
             keep_outs: Vec::new(),
             payload: None,
@@ -195,7 +199,8 @@ impl Design {
         self.source.clone_from(&other.source);
         (self.home, self.workspace, self.search) =
             (other.home, other.workspace.clone(), other.search.clone());
-        (self.optimize, self.hardware, self.speed) = (other.optimize, other.hardware, other.speed);
+        (self.optimize, self.hardware) = (other.optimize, other.hardware);
+        (self.speed, self.stiffness) = (other.speed, other.stiffness);
         (self.loads, self.keep_outs) = (other.loads.clone(), other.keep_outs.clone());
         (self.payload, self.envelopes, self.reserves) =
             (other.payload, other.envelopes, other.reserves.clone());
@@ -411,10 +416,24 @@ impl Design {
             keep_outs: self.keep_outs.clone(),
             loads: self.all_loads(),
             platform_speed: self.speed,
+            platform_stiffness: self.stiffness,
+            vibrating: self.vibrating(),
             min_joint_distance: self.optimize.min_joint_distance,
             envelopes: self.envelopes,
             reserves: self.reserves.clone(),
         }
+    }
+
+    /// What vibrates: the payload with the legs, whose unit of length is one that is known; `None` where one of them is not said.
+    ///
+    /// Without names of units forces are newtons and masses kilograms.
+    #[must_use]
+    pub fn vibrating(&self) -> Option<VibratingMasses> {
+        let metres = micrometres(&self.units)? as f64 * 1e-6;
+        let (mass, force) = (self.mass_units.unwrap_or(MassUnit::Kilogram), self.force_units);
+        let newtons = force.unwrap_or(ForceUnit::Newton).newtons();
+        let bodies = MovingBodies::new(&self.payload?, self.hardware.leg_masses.as_ref(), mass, metres);
+        Some(VibratingMasses { bodies, leg: self.hardware.leg_stiffness? * newtons / metres })
     }
 
     /// The weight of the payload, where there is one, and the loads of the file.
@@ -447,11 +466,12 @@ impl Design {
                 let (base, platform) = self.leg_names()[term.first];
                 vec![if term.second == 0 { base } else { platform }.to_owned()]
             }
+            kind if kind.is_of_platform() => vec!["platform".to_owned()],
             _ => vec![leg(term.first)],
         }
     }
 
-    /// The legs that a requirement is about, counted from 1.
+    /// The legs that a requirement is about, counted from 1: all of them for what the platform as a whole has.
     pub(crate) fn legs_of(&self, term: Term) -> Vec<usize> {
         let pairs = self.manipulator.pairs();
         let at = |body: Body| {
@@ -462,6 +482,7 @@ impl Design {
             TermKind::BaseSpacing | TermKind::BaseEnvelope => at(Body::Base),
             TermKind::PlatformSpacing | TermKind::PlatformEnvelope => at(Body::Platform),
             TermKind::LegClearance => vec![term.first + 1, term.second + 1],
+            kind if kind.is_of_platform() => (1..=6).collect(),
             _ => vec![term.first + 1],
         }
     }
@@ -473,6 +494,9 @@ impl Design {
             Quantity::Angle => "deg".to_string(),
             Quantity::Force => self.force_units.map_or("force", ForceUnit::label).to_string(),
             Quantity::Speed => format!("{}/s", self.units),
+            Quantity::LinearStiffness => format!("{}/{}", self.unit_of(Quantity::Force), self.units),
+            Quantity::AngularStiffness => format!("{} {}/rad", self.unit_of(Quantity::Force), self.units),
+            Quantity::Frequency => "Hz".to_string(),
         }
     }
 }

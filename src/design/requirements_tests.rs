@@ -36,6 +36,9 @@ fn every_key_is_read_and_written_back_to_the_bit() {
         (required.loads.len(), required.keep_outs.len(), required.platform_speed.unwrap().linear),
         (2, 3, 20.0)
     );
+    let wanted = required.platform_stiffness.unwrap();
+    assert_eq!((wanted.linear, wanted.angular, wanted.natural_frequency), (Some(2e4), Some(3e5), None));
+    assert_eq!(design.unit_of(Quantity::AngularStiffness), "force mm/rad");
     for format in [Format::Toml, Format::Json] {
         let text = match format {
             Format::Toml => design.to_toml(),
@@ -72,6 +75,8 @@ fn what_contradicts_itself_is_refused() {
         ("trajectory = \"path.csv\"", "trajectory = \"path.csv\"\nrelative_to = \"tool\""),
         ("trajectory = \"path.csv\"", "relative_to = \"home\""),
         ("[speed]", "[[speed]]"),
+        ("leg_stiffness = 1e5", "cylinder_inertia = 1"),
+        ("angular = 3e5", "angular = 0\nnatural_frequency = 30"),
         ("offsets = [0.1, -0.2", "offset = [0.1, -0.2"),
         ("offsets = [0.1, -0.2, 0,", "offsets = [0.1,"),
         ("offset_deviations = [0.01", "offset_deviations = [-0.01"),
@@ -118,6 +123,9 @@ fn what_contradicts_itself_is_refused() {
         19:15 design::wrong_type: `relative_to` is "tool" | write "home" or "base"
         18:1 design::missing_key: `relative_to` says what listed poses are measured from, and none are listed | list `poses` or name a `trajectory`, or remove `relative_to`: the box is always around home
         41:1 design::wrong_type: [speed] is an array, not a table | write [speed] as a table
+        67:2 design::missing_key: [stiffness] needs the stiffness of a leg | add `leg_stiffness` to [hardware], force units per design unit
+        69:11 design::not_positive: `angular` is 0 | give a positive number
+        70:1 design::missing_key: `natural_frequency` of [stiffness] needs the mass that vibrates | add [payload] with its mass, center and inertia
         60:1 design::unknown_key: `offset` is not a key of [calibration] | did you mean `offsets`?
         60:11 design::length_count: `offsets` has 4 numbers instead of 6 | give 6 offsets, one for each leg
         61:22 design::not_positive: a standard deviation of -0.01 | standard deviations are not negative
@@ -224,4 +232,33 @@ fn payloads_envelopes_and_reserves_that_are_none_are_refused() {
     "#);
     let units = GOOD.replacen("units = \"mm\"", "units = \"mm\"\nforce_units = \"newton\"", 1);
     assert!(parse(&units, Format::Toml).is_err());
+}
+
+#[test]
+fn masses_and_units_give_what_vibrates() {
+    let text = GOOD
+        .replace("angular = 3e5", "natural_frequency = 30")
+        .replace("[speed]", "[payload]\nmass = 200\ncenter = [0, 0, 3]\ninertia = [9e2, 8e2, 1e3]\n[speed]");
+    let design = |text: &str| parse(text, Format::Toml).unwrap().0;
+    let plain = design(&text).vibrating().unwrap();
+    assert_eq!((plain.leg, plain.bodies.mass, plain.bodies.metres), (1e8, 200.0, 1e-3));
+    let named = text.replace("units = \"mm\"", "units = \"mm\"\nforce_units = \"kN\"\nmass_units = \"g\"");
+    let named = design(&named).vibrating().unwrap();
+    assert_eq!((named.leg, named.bodies.mass), (1e11, 0.2));
+    let palms = parse(&text.replace("units = \"mm\"", "units = \"palm\""), Format::Toml).unwrap_err();
+    assert!(palms[0].message.contains("needs a known unit of length, not \"palm\""), "{palms:?}");
+    // in another unit of length the frequency is the same
+    let mut design = design(&text);
+    design.workspace = Workspace::default();
+    let metres = design.in_units("m").unwrap();
+    let lowest = |d: &Design, unit: f64| {
+        let pose = crate::geom::Pose {
+            rotation: nalgebra::Rotation3::from_euler_angles(0.1, -0.2, 0.3),
+            position: nalgebra::Vector3::new(3.0, -2.0, 14.0) * unit,
+        };
+        crate::requirements::lowest_frequency(d.manipulator(), &pose, &d.vibrating().unwrap())
+    };
+    let (one, other) = (lowest(&design, 1.0), lowest(&metres, 1e-3));
+    assert!(one > 0.0 && (one / other - 1.0).abs() < 1e-9, "{one} {other}");
+    assert!((metres.stiffness.unwrap().linear.unwrap() / 2e7 - 1.0).abs() < 1e-12);
 }

@@ -70,6 +70,7 @@ struct Tail<'a> {
     envelope: Option<EnvelopesTable>,
     #[serde(skip_serializing_if = "Option::is_none")]
     speed: Option<SpeedTable>,
+    stiffness: Option<StiffnessTable>,
     #[serde(skip_serializing_if = "Option::is_none")]
     payload: Option<PayloadTable>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -383,6 +384,11 @@ impl Design {
             envelope: EnvelopesTable::of(&self.envelopes),
             payload: self.payload.as_ref().map(PayloadTable::from),
             speed: self.speed.map(|s| SpeedTable { linear: s.linear, angular_deg: s.angular_deg }),
+            stiffness: self.stiffness.map(|s| StiffnessTable {
+                linear: s.linear,
+                angular: s.angular,
+                natural_frequency: s.natural_frequency,
+            }),
             loads: self.loads.iter().map(LoadTable::from).collect(),
             keep_out: self.keep_outs.iter().map(KeepOutTable::from).collect(),
             calibration: self.calibration.as_ref().map(|table| CalibrationFile::of(self, table)),
@@ -758,6 +764,17 @@ impl HardwareTable {
 pub(super) struct SpeedTable {
     pub(super) linear: f64,
     pub(super) angular_deg: f64,
+}
+
+/// `[stiffness]`.
+#[derive(Serialize)]
+pub(super) struct StiffnessTable {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    linear: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    angular: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    natural_frequency: Option<f64>,
 }
 
 /// One of `[[loads]]`.

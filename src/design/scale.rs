@@ -186,6 +186,10 @@ impl Design {
         if let Some(speed) = &mut self.speed {
             speed.linear = ratio.of(speed.linear);
         }
+        if let Some(wanted) = &mut self.stiffness {
+            wanted.linear = wanted.linear.map(|k| ratio.inverse().of(k));
+            wanted.angular = wanted.angular.map(|k| ratio.of(k));
+        }
         for envelope in [&mut self.envelopes.base, &mut self.envelopes.platform, &mut self.envelopes.machine]
         {
             *envelope = envelope.map(|e| match e {
@@ -196,8 +200,11 @@ impl Design {
             });
         }
         for (kind, reserve) in &mut self.reserves.kinds {
-            if let (Quantity::Length | Quantity::Speed, Reserve::Amount(x)) = (kind.quantity(), reserve) {
-                *x = ratio.of(*x);
+            let Reserve::Amount(x) = reserve else { continue };
+            match kind.quantity() {
+                Quantity::Length | Quantity::Speed | Quantity::AngularStiffness => *x = ratio.of(*x),
+                Quantity::LinearStiffness => *x = ratio.inverse().of(*x),
+                Quantity::Angle | Quantity::Force | Quantity::Frequency => {}
             }
         }
         if let Some(payload) = &mut self.payload {

@@ -159,6 +159,7 @@ fn others_hold(model: &Model<'_>, refined: &RefinedRun, group: ConstraintGroup) 
 fn amounts(model: &Model<'_>, poses: &[HeldPose], x: &[f64], task: &Task) -> BTreeMap<ConstraintGroup, f64> {
     let h = &model.problem.requirements.hardware;
     let reserve = |kind| model.problem.requirements.reserve(kind);
+    let least = |kind| model.problem.requirements.least_stiffness_of(kind).unwrap_or(1.0);
     let ends = model.shape.ends(x);
     let mut out: BTreeMap<ConstraintGroup, f64> = BTreeMap::new();
     for at in poses {
@@ -176,6 +177,12 @@ fn amounts(model: &Model<'_>, poses: &[HeldPose], x: &[f64], task: &Task) -> BTr
                 }
                 TermKind::LegForce => -item.value * h.max_leg_force.unwrap_or(1.0),
                 TermKind::LegSpeed => -item.value * h.max_leg_speed.unwrap_or(1.0),
+                TermKind::LinearStiffness | TermKind::AngularStiffness => -item.value * least(kind),
+                TermKind::NaturalFrequency => {
+                    let wanted = least(kind) + reserve(kind);
+                    let share = wanted / least(kind);
+                    wanted - least(kind) * (share * share + 2.0 * item.value).max(0.0).sqrt()
+                }
                 _ => -item.value * model.terms.size,
             };
             let worst = out.entry(ConstraintGroup::Term(kind)).or_insert(0.0);

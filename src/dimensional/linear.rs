@@ -156,7 +156,8 @@ impl Model<'_> {
             let n = Near { l: LegLines::new(&ends, at), at, rates: &rates, home };
             self.terms.visit(&n.l, &ends, x, &mut |item: Item<Pull>| {
                 let group = ConstraintGroup::Term(item.id.0);
-                let steep = matches!(item.id.0, TermKind::LegForce | TermKind::LegSpeed);
+                let kind = item.id.0;
+                let steep = matches!(kind, TermKind::LegForce | TermKind::LegSpeed) || kind.is_of_platform();
                 if (steep || item.value < near) && !task.dropped.contains(&group) {
                     let gradient = n.gradient(&item.pull);
                     let cone = item.exact.filter(|_| self.affine).map(|e| self.cone(e, &n));

@@ -1,19 +1,19 @@
 //! The objectives as gains, to be large, in units of their own, with what the subproblems need of them.
 //!
-//! Units: 1 for condition and singular values, the size of the design for lengths, the stiffness of a leg, the greatest
-//! load for forces.
+//! Units: 1 for condition and singular values, the size of the design for lengths, the stiffness of a leg, the frequency
+//! of the payload on a single leg, the greatest load for forces.
 
 use nalgebra::{Matrix6, Vector3, Vector4, Vector6};
 
 use super::problem::DimensionalProblem;
 use super::pull::{Gradient, Pull};
 use super::shape::JointEnds;
+use super::stiffness::{self, Quotient};
 use super::terms::{Gap, HeldPose, LegLines, RequirementTerms, joint_pull, leg_forces};
 use crate::manipulator::Body;
 use crate::num::linalg::svd;
 use crate::num::small::{bounded_svd, singular_values};
-use crate::requirements::Load;
-use crate::requirements::Objective;
+use crate::requirements::{Load, Objective, VibratingMasses};
 use crate::synthesis::Normalisation;
 
 /// Singular values within this factor of the extreme one are modelled together with it.
@@ -59,6 +59,7 @@ pub(crate) struct Merit<'a> {
     length: f64,
     size: f64,
     force_unit: f64,
+    vibrating: Option<VibratingMasses>,
     normalisation: Normalisation,
     /// Poses of the mean.
     pub(crate) sample: Vec<HeldPose>,
@@ -74,6 +75,7 @@ impl<'a> Merit<'a> {
             length: p.characteristic_length,
             size: p.manipulator.size(),
             force_unit: if force_unit > 0.0 { force_unit } else { 1.0 },
+            vibrating: p.requirements.vibrating,
             normalisation: Normalisation::of(&p.manipulator),
             sample,
         }
@@ -86,6 +88,7 @@ impl<'a> Merit<'a> {
             Objective::Stroke => -self.size,
             Objective::JointSpacing | Objective::LegClearance => self.size,
             Objective::Stiffness => stiffness,
+            Objective::NaturalFrequency => self.vibrating.map_or(1.0, |masses| masses.on_one_leg()),
             _ => 1.0,
         }
     }
@@ -101,6 +104,16 @@ impl<'a> Merit<'a> {
         )
     }
 
+    /// The slowest motions, where masses are known.
+    fn slowest<P: Gradient>(&self, l: &LegLines) -> Option<Vec<Quotient<P>>> {
+        stiffness::frequencies(l, self.size, self.vibrating.as_ref()?)
+    }
+
+    /// Unit of angular frequencies.
+    fn omega(&self) -> f64 {
+        self.vibrating.map_or(1.0, |masses| masses.on_one_leg() * std::f64::consts::TAU)
+    }
+
     /// The least gain at one pose, of the objectives over poses.
     pub(crate) fn at_pose(&self, o: Objective, terms: &RequirementTerms<'_>, l: &LegLines) -> f64 {
         match o {
@@ -109,6 +122,12 @@ impl<'a> Merit<'a> {
                 let j = l.jacobian(self.length);
                 let s = singular_values(&j).map_or(0.0, |s| s.min());
                 if o == Objective::Stiffness { s * s } else { s }
+            }
+            Objective::NaturalFrequency => {
+                let least =
+                    |all: Vec<Quotient<()>>| all.iter().map(|q| q.value).fold(f64::INFINITY, f64::min);
+                let square = self.slowest(l).map_or(0.0, least);
+                square.max(0.0).sqrt() / self.omega()
             }
             Objective::LegForce => {
                 let worst = |load| match leg_forces(l, load, self.size) {
@@ -141,6 +160,13 @@ impl<'a> Merit<'a> {
             Objective::WorstConditioning | Objective::SmallestSingularValue | Objective::Stiffness => {
                 if let Some(s) = self.spectral(o, l) {
                     see(MeritPiece::Spectral(Box::new(s)));
+                }
+            }
+            Objective::NaturalFrequency => {
+                for q in self.slowest::<Pull>(l).into_iter().flatten().filter(|q| q.value > 0.0) {
+                    let omega = q.value.sqrt();
+                    let factor = 0.5 / (omega * self.omega());
+                    see(MeritPiece::Linear(omega / self.omega(), q.pull.scaled(factor)));
                 }
             }
             Objective::LegForce => {

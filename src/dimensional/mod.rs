@@ -17,6 +17,7 @@ mod scp;
 mod search;
 mod shape;
 mod skeleton;
+mod stiffness;
 mod terms;
 #[cfg(test)]
 mod tests;
@@ -29,4 +30,5 @@ pub use outcome::{
 pub use pareto::{ParetoPoint, ParetoReport, pareto};
 pub use problem::{DimensionalProblem, InvalidProblem, Mode, Triangles, Variables};
 pub use scp::HistoryStep;
+pub(crate) use search::meet;
 pub use search::{Progress, ShapeSearchOptions, Stage, optimize};

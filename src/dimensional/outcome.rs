@@ -12,7 +12,9 @@ use crate::manipulator::{Body, Manipulator, inverse_condition, jacobian};
 use crate::num::Purpose;
 use crate::num::conic::SolverFailure;
 use crate::num::linalg::svd;
-use crate::requirements::{Hardware, Objective, PoseSpace, Requirements, TermKind, Terms, leg_forces};
+use crate::requirements::{
+    Hardware, Objective, PoseSpace, Requirements, TermKind, Terms, leg_forces, lowest_frequency,
+};
 use crate::synthesis::{Normalisation, leg_vector};
 
 /// A platform that meets the requirements.
@@ -230,6 +232,10 @@ fn value(p: &DimensionalProblem, m: &Manipulator, (poses, apart): (&[Pose], usiz
         Objective::Stiffness => {
             let k = p.requirements.hardware.leg_stiffness.unwrap_or(f64::NAN);
             k * over(&|pose| least_singular(pose).powi(2))
+        }
+        Objective::NaturalFrequency => {
+            let masses = p.requirements.vibrating.as_ref();
+            masses.map_or(f64::NAN, |masses| over(&|pose| lowest_frequency(m, pose, masses)))
         }
         Objective::LegForce => -over(&|pose| {
             let loads = p.requirements.loads.iter();

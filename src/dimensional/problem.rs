@@ -218,7 +218,12 @@ impl DimensionalProblem {
             let needs = match objective {
                 Objective::LegForce if self.requirements.loads.is_empty() => "[[loads]]",
                 Objective::LegClearance if hardware.leg_body.is_none() => "leg_diameter in [hardware]",
-                Objective::Stiffness if hardware.leg_stiffness.is_none() => "leg_stiffness in [hardware]",
+                Objective::Stiffness | Objective::NaturalFrequency if hardware.leg_stiffness.is_none() => {
+                    "leg_stiffness in [hardware]"
+                }
+                Objective::NaturalFrequency if self.requirements.vibrating.is_none() => {
+                    "[payload] and a unit of length that is known"
+                }
                 _ => "",
             };
             if !needs.is_empty() {

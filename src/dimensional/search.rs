@@ -460,6 +460,43 @@ pub fn optimize(
     Ok(DimensionalReport { outcome, starts, feasible, nearest, others, polished, seed, interrupted })
 }
 
+/// A platform that meets the requirements of a problem at the poses that the search holds, the best of the runs; `None` where no run meets them, which is looked for without
+/// an objective too. As [`optimize`], without a search for the conflict.
+///
+/// `known` are values of variables by their names, from which one climb starts: those of a problem with fewer variables, for instance.
+///
+/// # Errors
+/// As [`optimize`].
+pub(crate) fn meet(
+    problem: &DimensionalProblem,
+    known: &[(String, f64)],
+    options: &ShapeSearchOptions,
+    progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+) -> Result<Option<DimensionalSolution>, InvalidProblem> {
+    let model = Model::new(problem)?;
+    let task = first_task(problem);
+    let mut start = model.shape.start.clone();
+    for (x, name) in start.iter_mut().zip(&model.shape.names) {
+        if let Some((_, value)) = known.iter().find(|(n, _)| n == name) {
+            *x = *value;
+        }
+    }
+    let mut watch = Watch::new(&model, progress);
+    let SearchedShape { refined, .. } = search_task(&model, &task, &[start], options, &mut watch);
+    let is_met = |runs: &[RefinedRun]| runs.iter().position(|r| r.run.is_feasible(&model));
+    if let Some(k) = is_met(&refined) {
+        return Ok(solution(&model, &task, &refined[k]));
+    }
+    if refined.is_empty() || model.is_stopped() {
+        return Ok(None);
+    }
+    let settled = elastic(&model, &refined, options.threads);
+    let Some(k) = is_met(&settled) else { return Ok(None) };
+    let again = refine(&model, &task, &settled[k].run.x, settled[k].poses.clone(), options.seed);
+    let best = if again.run.is_feasible(&model) { &again } else { &settled[k] };
+    Ok(solution(&model, &task, best))
+}
+
 /// What polished runs lead to.
 struct Conclusion {
     outcome: DimensionalOutcome,

@@ -7,6 +7,7 @@ use nalgebra::{Matrix6, Rotation3, Vector3, Vector6};
 
 use super::pull::Gradient;
 use super::shape::{JointEnds, LegJoints, Shape};
+use super::stiffness::{self, Quotient};
 use crate::geom::Pose;
 use crate::manipulator::Body;
 use crate::requirements;
@@ -137,6 +138,28 @@ impl<'a> RequirementTerms<'a> {
         self.forces(l, see);
         self.speeds(l, see);
         self.machine(l, see);
+        self.stiffness(l, see);
+    }
+
+    /// Stiffness over the least one asked for, and half of the square of the natural frequency over its least one, each less what it has to be.
+    fn stiffness<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(Item<P>)) {
+        let Some(wanted) = self.required.platform_stiffness else { return };
+        let leg = self.required.hardware.leg_stiffness.unwrap_or(0.0);
+        let of = |kind, least: f64| 1.0 + self.required.reserve(kind) / least;
+        for (kind, least, about_torques) in [
+            (TermKind::LinearStiffness, wanted.linear, false),
+            (TermKind::AngularStiffness, wanted.angular, true),
+        ] {
+            let Some(least) = least else { continue };
+            let found = stiffness::stiffness(l, self.size, about_torques);
+            quotients(kind, found, leg / least, of(kind, least), see);
+        }
+        if let (Some(least), Some(masses)) = (wanted.natural_frequency, &self.required.vibrating) {
+            let kind = TermKind::NaturalFrequency;
+            let found = stiffness::frequencies(l, self.size, masses);
+            let (omega, kept) = (least * std::f64::consts::TAU, of(kind, least));
+            quotients(kind, found, 0.5 / (omega * omega), 0.5 * kept * kept, see);
+        }
     }
 
     fn lengths<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(Item<P>)) {
@@ -371,6 +394,21 @@ impl<'a> RequirementTerms<'a> {
         let firsts: Vec<usize> = (0..6).filter(|&i| !joint[..i].contains(&joint[i])).collect();
         let pairs = firsts.iter().enumerate();
         pairs.flat_map(|(n, &i)| firsts[n + 1..].iter().map(move |&j| (i, j))).collect()
+    }
+}
+
+/// `factor` times each quotient, less what it has to be; without quotients the pose is singular and there is no stiffness.
+fn quotients<P: Gradient>(
+    kind: TermKind,
+    found: Option<Vec<Quotient<P>>>,
+    factor: f64,
+    wanted: f64,
+    see: &mut impl FnMut(Item<P>),
+) {
+    let none = vec![Quotient { value: 0.0, pull: P::none() }];
+    for (part, q) in found.unwrap_or(none).into_iter().enumerate() {
+        let value = q.value * factor - wanted;
+        see(Item { id: (kind, 0, 0, part), value, pull: q.pull.scaled(factor), exact: None });
     }
 }
 

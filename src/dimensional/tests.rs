@@ -15,8 +15,9 @@ use crate::geom::Pose;
 use crate::manipulator::{Body, Manipulator};
 use crate::num::Rng;
 use crate::requirements::{
-    AssessOptions, Envelope, Envelopes, Housing, JointAxes, KeepOut, KeepOutShape, LegBody, LengthLimits,
-    Load, Objective, PlatformSpeed, PoseSpace, Requirements, Swing, VariableKind, assess,
+    AssessOptions, Envelope, Envelopes, Housing, JointAxes, KeepOut, KeepOutShape, LegBody, LegMasses,
+    LegPart, LengthLimits, Load, MovingBodies, Objective, PlatformSpeed, PlatformStiffness, PoseSpace,
+    Requirements, Swing, TermKind, VariableKind, VibratingMasses, assess,
 };
 
 fn octahedral() -> (Manipulator, Pose) {
@@ -86,6 +87,14 @@ fn crowded(kinds: &[VariableKind], axes: JointAxes) -> DimensionalProblem {
         machine: Some(Envelope::Box { min: Point3::from(-corner.coords), max: corner }),
     };
     p.requirements.reserves.all = Some(3.0);
+    p.requirements.platform_stiffness =
+        Some(PlatformStiffness { linear: Some(5.0), angular: Some(9e4), natural_frequency: Some(6.0) });
+    let part = |mass, center| LegPart { mass, center, inertia: 3e4 * mass };
+    let leg = LegMasses { cylinder: part(3.0, 70.0), rod: part(2.0, 60.0), reflected: 1.5 };
+    let inertia = nalgebra::Matrix3::new(9e4, 2e3, 0.0, 2e3, 8e4, 1e3, 0.0, 1e3, 1.2e5);
+    let gravity = Vector3::zeros();
+    let bodies = MovingBodies { mass: 10.0, center: at, inertia, leg, gravity, metres: 1e-3 };
+    p.requirements.vibrating = Some(VibratingMasses { bodies, leg: 12e3 });
     for (k, shape) in shapes.into_iter().enumerate() {
         let fixed_to = if k == 1 { Body::Platform } else { Body::Base };
         p.requirements.keep_outs.push(KeepOut { name: String::new(), fixed_to, shape });
@@ -115,11 +124,11 @@ fn gradients_are_those_of_differences() {
         let model = Model::new(&p).unwrap();
         let mut rng = Rng::new(4);
         let x: Vec<f64> = model.shape.start.iter().map(|x| x + rng.uniform(0.1, 0.3)).collect();
-        let (poses, task) = ([tilted(&p, follows)], everything(9));
+        let (poses, task) = ([tilted(&p, follows)], everything(10));
         let at = |x: &[f64]| model.linearise(&poses, x, &task, 1.0, 100.0).unwrap();
         let here = at(&x);
         let kinds: std::collections::BTreeSet<ConstraintGroup> = here.items.iter().map(|i| i.group).collect();
-        assert_eq!(kinds.len(), 14, "every kind of requirement and the determinant: {kinds:?}");
+        assert_eq!(kinds.len(), 17, "every kind of requirement and the determinant: {kinds:?}");
         let h = 1e-6;
         for j in 0..x.len() {
             let moved = |s: f64| {
@@ -129,6 +138,11 @@ fn gradients_are_those_of_differences() {
             };
             let (up, down) = (moved(1.0), moved(-1.0));
             for (k, item) in here.items.iter().enumerate() {
+                // mixtures are of the motions at the point, which differences do not keep
+                let own = if item.id.1.0 == TermKind::NaturalFrequency { 6 } else { 3 };
+                if item.id.1.0.is_of_platform() && item.id.1.3 >= own {
+                    continue;
+                }
                 let slope = (up.items[k].value - down.items[k].value) / (2.0 * h);
                 let error = (slope - item.gradient[j]).abs();
                 assert!(
@@ -139,6 +153,9 @@ fn gradients_are_those_of_differences() {
                 );
             }
             for (k, piece) in here.pieces.iter().enumerate() {
+                if p.objectives[piece.objective].0 == Objective::NaturalFrequency && piece.id.1 >= 6 {
+                    continue;
+                }
                 let slope = (up.pieces[k].value - down.pieces[k].value) / (2.0 * h);
                 let error = (slope - piece.gradient[j]).abs();
                 let o = p.objectives[piece.objective].0;
@@ -146,6 +163,89 @@ fn gradients_are_those_of_differences() {
             }
         }
     }
+}
+
+/// The least item of each kind at a pose says what the margins of `assess` say, as shares of what is asked for.
+#[test]
+fn stiffness_and_frequency_are_those_of_the_margins() {
+    let p = crowded(&[VariableKind::Offsets], JointAxes::Home);
+    let model = Model::new(&p).unwrap();
+    let x: Vec<f64> = model.shape.start.iter().map(|x| x + 0.2).collect();
+    let (at, ends) = (tilted(&p, true), model.shape.ends(&x));
+    let mut least = std::collections::BTreeMap::new();
+    let l = super::terms::LegLines::new(&ends, &at);
+    model.terms.visit(&l, &ends, &x, &mut |item: super::terms::Item<()>| {
+        let known = least.entry(item.id.0).or_insert(f64::INFINITY);
+        *known = f64::min(*known, item.value);
+    });
+    let m = model.shape.manipulator(&x).unwrap();
+    let margins = crate::requirements::Terms::new(&m, &p.requirements, &p.space.home).at(&at.pose);
+    for kind in [TermKind::LinearStiffness, TermKind::AngularStiffness, TermKind::NaturalFrequency] {
+        let asked = p.requirements.least_stiffness_of(kind).unwrap();
+        let margin = margins.iter().find(|(t, _)| t.kind == kind).unwrap().1;
+        let (share, kept) = (1.0 + margin / asked, 1.0 + p.requirements.reserve(kind) / asked);
+        let wanted = match kind {
+            TermKind::NaturalFrequency => 0.5 * (share * share - kept * kept),
+            _ => share - kept,
+        };
+        assert!((least[&kind] - wanted).abs() < 1e-9 * (1.0 + wanted.abs()), "{kind:?}: {least:?} {wanted}");
+    }
+}
+
+/// The widest joints vibrate more slowly than they need to: a frequency between that and the highest one is met at the price of room, and more than the highest one is in conflict.
+#[test]
+fn a_least_frequency_is_obeyed_and_the_greatest_one_is_sought() {
+    let mut p = crowded(&[VariableKind::SymmetricOffsets, VariableKind::HomeHeight], JointAxes::Home);
+    let own = p.requirements.clone();
+    p.requirements = Requirements {
+        hardware: crate::requirements::Hardware {
+            leg_length: own.hardware.leg_length,
+            leg_stiffness: own.hardware.leg_stiffness,
+            ..Default::default()
+        },
+        min_joint_distance: Some(25.0),
+        vibrating: own.vibrating,
+        ..Requirements::default()
+    };
+    p.objectives = vec![(Objective::JointSpacing, 1.0)];
+    let best = |p: &DimensionalProblem| {
+        let report = optimize(p, &[], &quick(), &mut |_| ControlFlow::Continue(())).unwrap();
+        let s = report.solution().unwrap_or_else(|| panic!("{:?}", report.outcome)).clone();
+        let space = p.space.with_home(s.home);
+        (evaluate(p, &s.manipulator, &space, &s.poses, 300, 1)[0], s, space)
+    };
+    let lowest = |s: &DimensionalSolution, space: &PoseSpace| {
+        let masses = own.vibrating.unwrap();
+        let cube = space.cube_points(200, &mut Rng::new(3));
+        let poses = s.poses.iter().copied().chain(cube.iter().map(|x| space.pose(x)));
+        poses
+            .map(|pose| crate::requirements::lowest_frequency(&s.manipulator, &pose, &masses))
+            .fold(f64::INFINITY, f64::min)
+    };
+    let (spacing, s, space) = best(&p);
+    let without = lowest(&s, &space);
+    let mut fastest = p.clone();
+    fastest.objectives = vec![(Objective::NaturalFrequency, 1.0)];
+    let (greatest, s, space) = best(&fastest);
+    assert!((greatest / lowest(&s, &space) - 1.0).abs() < 1e-3, "{greatest} {}", lowest(&s, &space));
+    assert!(greatest > 1.02 * without, "{greatest} {without}");
+    // half of what can be gained costs room between joints, and is met
+    let asked = 0.5 * (greatest + without);
+    p.requirements.platform_stiffness =
+        Some(PlatformStiffness { natural_frequency: Some(asked), ..PlatformStiffness::default() });
+    let (less, s, space) = best(&p);
+    assert!(lowest(&s, &space) >= asked * (1.0 - 1e-6), "{} {asked}", lowest(&s, &space));
+    assert!(less < spacing, "{less} {spacing}");
+    let assessment = assess(&s.manipulator, &p.requirements, &space, &AssessOptions::default());
+    assert!(assessment.all_met(), "{assessment:?}");
+    // more than the greatest one is refused with the frequency in the conflict
+    p.requirements.platform_stiffness =
+        Some(PlatformStiffness { natural_frequency: Some(1.1 * greatest), ..PlatformStiffness::default() });
+    let report = optimize(&p, &[], &quick(), &mut |_| ControlFlow::Continue(())).unwrap();
+    let DimensionalOutcome::Infeasible(conflict) = report.outcome else { panic!("{:?}", report.outcome) };
+    let gives = conflict.demands.iter().find(|g| g.demand == Demand::Requirement(TermKind::NaturalFrequency));
+    let together = gives.unwrap_or_else(|| panic!("{conflict:?}")).together;
+    assert!(together > 0.0 && together < 0.3 * greatest, "{conflict:?} {greatest}");
 }
 
 #[test]

@@ -3,21 +3,21 @@
 //! All functions take lengths in design units, masses in kilograms and times in seconds; forces are then in kilograms times design units per second squared, which
 //! [`MovingBodies::newtons`] turns into newtons. `docs/theory/motion.md` derives the formulas and names their sources.
 
-mod bodies;
 mod extremes;
 mod inverse;
 mod manoeuvre;
 mod spline;
 #[cfg(test)]
 mod tests;
-mod vibration;
 
-pub use bodies::MovingBodies;
 pub use extremes::{DriveExtremes, Extreme, LegExtremes, LegInstant};
 pub use inverse::{LegMotion, drive_forces, kinetic_energy, leg_motions, potential_energy};
 pub use manoeuvre::{InvalidManoeuvre, Manoeuvre, PlatformFreedom};
 pub use spline::{InvalidPath, PathEnds, PosePath};
-pub use vibration::{LeastStiffness, Vibration, least_stiffness, mass_matrix, stiffness_matrix, vibration};
+
+pub use crate::requirements::{
+    LeastStiffness, MovingBodies, Vibration, least_stiffness, mass_matrix, stiffness_matrix, vibration,
+};
 
 use nalgebra::Vector3;
 

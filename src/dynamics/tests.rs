@@ -7,6 +7,7 @@ use crate::geom::random_rotation;
 use crate::manipulator::{Leg, Manipulator, default_home};
 use crate::num::Rng;
 use crate::requirements::{ForceUnit, LegMasses, LegPart, MassUnit, Payload, leg_forces};
+use crate::requirements::{VibratingMasses, least_stiffness_at, lowest_frequency};
 
 fn hexapod(rng: &mut Rng) -> Manipulator {
     let mut at = |deg: f64, r: f64| {
@@ -375,4 +376,31 @@ fn what_is_no_motion_is_refused_with_the_row() {
     let poses: Vec<Pose> = turns.iter().map(|t| pose(*t)).collect();
     let path = PosePath::through(&times, &poses, PathEnds::Free).unwrap();
     assert!((path.at(9.5).angular_velocity.z - 40.0_f64.to_radians()).abs() < 1e-3);
+}
+
+/// Two formulas of each: inverses of `K` and of `J`, singular values with and without the inverse of `M`.
+#[test]
+fn what_a_requirement_looks_at_is_what_the_stiffness_matrix_says() {
+    let mut rng = Rng::new(23);
+    for _ in 0..20 {
+        let m = hexapod(&mut rng);
+        let pose = path(&m, &mut rng, PathEnds::Free).at(0.3).pose;
+        let leg = 3e4;
+        let by_matrix = least_stiffness(&stiffness_matrix(&m, &pose, leg)).unwrap();
+        let direct = least_stiffness_at(&m, &pose, leg);
+        assert!((direct.linear / by_matrix.linear - 1.0).abs() < 1e-9);
+        assert!((direct.angular / by_matrix.angular - 1.0).abs() < 1e-9);
+        let all = vibration(&m, &pose, leg, &mass_matrix(&m, &bodies(), &pose)).unwrap();
+        let lowest = lowest_frequency(&m, &pose, &VibratingMasses { bodies: bodies(), leg });
+        assert!((lowest / all[0].frequency - 1.0).abs() < 1e-9, "{lowest} {all:?}");
+        // a point mass has a lowest frequency, though no matrix that can be inverted
+        let mut point = bodies();
+        (point.inertia, point.leg) = (nalgebra::Matrix3::zeros(), Default::default());
+        assert_eq!(vibration(&m, &pose, leg, &mass_matrix(&m, &point, &pose)), None);
+        let slow = lowest_frequency(&m, &pose, &VibratingMasses { bodies: point, leg });
+        let small = nalgebra::Matrix3::identity() * 1e-9;
+        point.inertia = small;
+        let near = vibration(&m, &pose, leg, &mass_matrix(&m, &point, &pose)).unwrap()[0].frequency;
+        assert!((slow / near - 1.0).abs() < 1e-6, "{slow} {near}");
+    }
 }

@@ -13,6 +13,8 @@ mod error;
 pub(crate) mod exporting;
 #[cfg(feature = "files")]
 mod files;
+#[cfg(all(feature = "files", feature = "optimize"))]
+pub(crate) mod freedoms;
 #[cfg(all(feature = "files", feature = "synthesis"))]
 mod judging;
 #[cfg(feature = "files")]
@@ -21,6 +23,8 @@ mod moving;
 pub(crate) mod optimizing;
 #[cfg(feature = "files")]
 mod reaching;
+#[cfg(all(feature = "files", feature = "synthesis"))]
+mod reaching_space;
 mod solving;
 
 #[cfg(all(feature = "files", feature = "synthesis"))]
@@ -38,4 +42,6 @@ pub use judging::{AssessReport, CheckReport};
 pub(crate) use moving::{MotionMasses, MotionReport, PlatformMotion, StiffnessReport, TimedMargin};
 #[cfg(all(feature = "files", feature = "optimize"))]
 pub use optimizing::{OptimizeEvidence, OptimizeOptions, OptimizeProgress, OptimizeReport, OptimizeStatus};
+#[cfg(all(feature = "files", feature = "synthesis"))]
+pub(crate) use reaching_space::{FreeSize, FreeTurn, RAYS, WorkspaceSize};
 pub use solving::{Batch, Solver, Tracker};

@@ -34,7 +34,7 @@ const HALO: &str = "halo";
 
 /// Fills of the limits that end a workspace, one for each kind, by its code: the same in every picture. Pale tones after a palette for colour-blind readers (P. Tol,
 /// 2021), dark and light by turns so that neighbours differ in grey print too.
-pub const LIMIT_FILLS: [(&str, &str); 11] = [
+pub const LIMIT_FILLS: [(&str, &str); 17] = [
     ("leg_too_short", "#4477aa"),
     ("leg_too_long", "#ee9988"),
     ("base_swing", "#228833"),
@@ -45,6 +45,12 @@ pub const LIMIT_FILLS: [(&str, &str); 11] = [
     ("leg_speed", "#d5b8d8"),
     ("base_spacing", "#667722"),
     ("platform_spacing", "#cbb9a0"),
+    ("base_envelope", "#335566"),
+    ("platform_envelope", "#99bbcc"),
+    ("machine_envelope", "#117755"),
+    ("linear_stiffness", "#88ccaa"),
+    ("angular_stiffness", "#773322"),
+    ("natural_frequency", "#ddaa55"),
     ("singular", "#777777"),
 ];
 

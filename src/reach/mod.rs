@@ -5,6 +5,7 @@
 
 mod nearest;
 mod projection;
+mod rays;
 mod step;
 #[cfg(test)]
 mod tests;
@@ -15,6 +16,7 @@ use crate::manipulator::{Leg, Manipulator, leg_determinant};
 use crate::requirements::{Limit, Quantity, Requirements, Terms};
 
 pub use nearest::{NearestPose, NearestPoseOptions};
+pub use rays::{FreeRay, largest_box_within, volume_of_rays};
 pub use way::{PoseAxis, StraightWay};
 
 /// `|det J|` with lengths over the size below which home counts as singular.
@@ -113,7 +115,7 @@ impl<'a> Reach<'a> {
         self.margins(pose).iter().all(|(limit, margin)| self.is_met(*limit, *margin, pose))
     }
 
-    /// A margin as a share: over the size (lengths), 90 degrees, the limit (forces, speeds), `det J` at home.
+    /// A margin as a share: over the size (lengths), 90 degrees, the limit (forces, speeds, stiffness, frequency), `det J` at home.
     fn share(&self, (limit, margin): &(Limit, f64)) -> f64 {
         margin / self.scale(*limit)
     }
@@ -127,6 +129,9 @@ impl<'a> Reach<'a> {
                 Quantity::Angle => 90.0,
                 Quantity::Force => hardware.max_leg_force.unwrap_or(1.0),
                 Quantity::Speed => hardware.max_leg_speed.unwrap_or(1.0),
+                Quantity::LinearStiffness | Quantity::AngularStiffness | Quantity::Frequency => {
+                    self.required.least_stiffness_of(term.kind).unwrap_or(1.0)
+                }
             },
         }
     }
@@ -134,7 +139,7 @@ impl<'a> Reach<'a> {
     /// How far the way is free from its start, up to `most`; 0 where the start is not allowed.
     ///
     /// Lengths, swing, clearances, keep-outs, leg speeds and the envelope of the machine cannot be violated between two steps, since their rates are bounded, but for steps of a
-    /// hundred-thousandth of the size where one of them is nearly zero (twice as far at each step that follows while it stays there). Forces and the sign of `det J` are looked at at every step, which are at most
+    /// hundred-thousandth of the size where one of them is nearly zero (twice as far at each step that follows while it stays there). Forces, stiffness, natural frequency and the sign of `det J` are looked at at every step, which are at most
     /// a fiftieth of the size.
     #[must_use]
     pub fn along(&self, way: &StraightWay, most: f64) -> Travel {

@@ -113,7 +113,7 @@ pub(super) fn fastest(way: &StraightWay, legs: &[Leg; 6]) -> f64 {
 }
 
 impl Reach<'_> {
-    /// A step from a pose of the way over which no margin whose rate is bounded reaches zero; infinite where all are forces and the sign of `det J`.
+    /// A step from a pose of the way over which no margin whose rate is bounded reaches zero; infinite where all are forces, stiffness and the sign of `det J`.
     pub(super) fn safe_step(&self, way: &StraightWay, pose: &Pose, margins: &[(Limit, f64)]) -> f64 {
         let places: [LegPlace; 6] = std::array::from_fn(|i| LegPlace::of(&self.legs[i], way, pose));
         let steps = margins.iter().map(|(limit, margin)| match limit {
@@ -154,7 +154,7 @@ impl Reach<'_> {
                 lasts(margin, rate * degrees.to_radians()).min(base.cap)
             }
             TermKind::MachineEnvelope if term.second == 1 => lasts(margin, base.speed),
-            // forces have no bound near singular poses; the others do not depend on the pose
+            // forces and stiffness have no bound near singular poses; the others do not depend on the pose
             _ => f64::INFINITY,
         }
     }

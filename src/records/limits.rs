@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Number, PoseQuaternionRecord};
 use crate::design::Design;
+use crate::entrance::{FreeSize, FreeTurn, WorkspaceSize};
 use crate::geom::Pose;
 use crate::reach::{FreeRange, NearestPose, PoseAxis, Reach, StraightWay, Travel};
 use crate::requirements::{Limit, TermKind};
@@ -24,8 +25,142 @@ pub struct LimitsAnswer {
     pub way: Option<StraightWayRecord>,
     /// The allowed pose nearest to that of `--to`, or to that of `--at` where it is not allowed; null: all that was asked for is allowed, or no allowed pose was found.
     pub nearest_allowed: Option<NearestAllowedRecord>,
+    /// How large the workspace is around home; null: `--workspace` was not given, or home is not allowed.
+    pub workspace: Option<WorkspaceSizeRecord>,
     /// Of lengths.
     pub length_unit: String,
+}
+
+/// How large the workspace is around home.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct WorkspaceSizeRecord {
+    /// Volume of the positions that straight ways from home at its orientation reach, design units cubed; an estimate from the ways that were followed.
+    pub volume: f64,
+    /// The share by which the estimates from every second way and from the others differ.
+    pub volume_doubt: f64,
+    /// Ways that were followed.
+    pub rays: usize,
+    /// What ends them, the most frequent first.
+    pub ends: Vec<RayEndRecord>,
+    /// Radius of the largest ball of positions around home, at the orientation of home, design units.
+    pub ball_radius: FreeSizeRecord,
+    /// Half widths of the largest box of positions found around home, at the orientation of home, along the axes of the base frame, design units: those proved to be free.
+    pub box_proved: [f64; 3],
+    /// The same: those in which no violation was found.
+    pub box_searched: [f64; 3],
+    /// What is violated in a box that is larger by a little; null: nothing that was looked at.
+    pub box_binds: Option<LimitRecord>,
+    /// Turns about x, y and z of the base frame through the platform origin, at home.
+    pub turns: Vec<FreeTurnRecord>,
+    /// Largest angle up to which the platform may turn about every axis of the xy plane of the base at the position of home, degrees.
+    pub tilt_deg: FreeSizeRecord,
+    /// Largest angle up to which it may turn about every axis there, degrees.
+    pub turn_deg: FreeSizeRecord,
+    /// The region that the design asks for; null: none.
+    pub required: Option<RequiredSizeRecord>,
+}
+
+/// What ends ways.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct RayEndRecord {
+    /// The kind of requirement; null: a singular pose, or nothing within ten sizes.
+    pub name: Option<TermKind>,
+    /// The same in a word.
+    pub end: String,
+    /// The share of the ways, which is one of solid angle.
+    pub share: f64,
+}
+
+/// Up to which size a region around home is free.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct FreeSizeRecord {
+    /// Proved: all poses of the region of this size meet all requirements that depend on the pose, and none is singular; 0: nothing is proved.
+    pub proved: f64,
+    /// No violation was found in regions up to this size.
+    pub searched: f64,
+    /// What is violated in a region that is larger by a little; null: nothing that was looked at.
+    pub binds: Option<LimitRecord>,
+}
+
+/// How far the platform may turn about an axis.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct FreeTurnRecord {
+    /// `x`, `y` or `z` of the base frame.
+    pub axis: String,
+    /// Against the axis, degrees, positive.
+    pub back_deg: f64,
+    /// What binds there; null: nothing within half a turn.
+    pub back_binds: Option<LimitRecord>,
+    /// About the axis, degrees.
+    pub forth_deg: f64,
+    /// What binds there; null: nothing within half a turn.
+    pub forth_binds: Option<LimitRecord>,
+}
+
+/// The region that a design asks for.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct RequiredSizeRecord {
+    /// Of its translations, design units cubed.
+    pub volume: f64,
+    /// The same over the volume that straight ways reach at the orientation of home.
+    pub share: Number,
+    /// The factor by which its translations and rotations together may be multiplied; 1 and more: the region is free.
+    pub factor: FreeSizeRecord,
+}
+
+impl WorkspaceSizeRecord {
+    /// The record of what was found.
+    #[must_use]
+    pub(crate) fn new(design: &Design, found: &WorkspaceSize) -> Self {
+        let limit = |l: &(Limit, f64)| LimitRecord::new(design, l.0, l.1);
+        let size = |s: &FreeSize| FreeSizeRecord {
+            proved: s.proved,
+            searched: s.searched,
+            binds: s.binding.as_ref().map(limit),
+        };
+        let turn = |(axis, t): (&str, &FreeTurn)| FreeTurnRecord {
+            axis: axis.to_owned(),
+            back_deg: t.back.free.to_degrees(),
+            back_binds: t.back.binding.map(|l| limit(&(l, 0.0))),
+            forth_deg: t.forth.free.to_degrees(),
+            forth_binds: t.forth.binding.map(|l| limit(&(l, 0.0))),
+        };
+        let times = |factor: f64| found.box_half.map(|h| h * factor);
+        let mut ends: Vec<RayEndRecord> = Vec::new();
+        for ray in &found.rays {
+            let (name, end) = match ray.binding {
+                Some(Limit::Term(term)) => (Some(term.kind), term.kind.code()),
+                Some(Limit::Singular) => (None, "singularity"),
+                None => (None, "nothing"),
+            };
+            match ends.iter_mut().find(|e| e.end == end) {
+                Some(known) => known.share += 1.0,
+                None => ends.push(RayEndRecord { name, end: end.to_owned(), share: 1.0 }),
+            }
+        }
+        let all = found.rays.len().max(1) as f64;
+        ends.iter_mut().for_each(|e| e.share /= all);
+        ends.sort_by(|a, b| b.share.total_cmp(&a.share));
+        let (volume, volume_doubt) = found.volume;
+        Self {
+            volume,
+            volume_doubt,
+            rays: found.rays.len(),
+            ends,
+            ball_radius: size(&found.ball),
+            box_proved: times(found.box_factor.proved),
+            box_searched: times(found.box_factor.searched),
+            box_binds: found.box_factor.binding.as_ref().map(limit),
+            turns: ["x", "y", "z"].into_iter().zip(&found.turns).map(turn).collect(),
+            tilt_deg: size(&found.tilt),
+            turn_deg: size(&found.turn),
+            required: found.required.as_ref().map(|r| RequiredSizeRecord {
+                volume: r.volume,
+                share: Number(r.volume / volume),
+                factor: size(&r.factor),
+            }),
+        }
+    }
 }
 
 /// A requirement that binds or is violated.

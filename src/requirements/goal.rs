@@ -102,13 +102,15 @@ pub enum Objective {
     Stroke,
     /// Least eigenvalue of `k J^T J` over the poses, to be large.
     Stiffness,
+    /// Lowest natural frequency over the poses, to be large.
+    NaturalFrequency,
     /// Distance from architectural singularity: smallest singular value of the leg vectors, to be large.
     SingularityDistance,
 }
 
 impl Objective {
     /// Every objective.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::WorstConditioning,
         Self::MeanConditioning,
         Self::SmallestSingularValue,
@@ -117,6 +119,7 @@ impl Objective {
         Self::LegClearance,
         Self::Stroke,
         Self::Stiffness,
+        Self::NaturalFrequency,
         Self::SingularityDistance,
     ];
 
@@ -132,6 +135,7 @@ impl Objective {
             Self::LegClearance => "leg_clearance",
             Self::Stroke => "stroke",
             Self::Stiffness => "stiffness",
+            Self::NaturalFrequency => "natural_frequency",
             Self::SingularityDistance => "singularity_distance",
         }
     }
@@ -142,6 +146,7 @@ impl Objective {
         match self {
             Self::LegForce => Some(Quantity::Force),
             Self::JointSpacing | Self::LegClearance | Self::Stroke => Some(Quantity::Length),
+            Self::NaturalFrequency => Some(Quantity::Frequency),
             _ => None,
         }
     }

@@ -126,6 +126,20 @@ impl LegMasses {
             |p: &LegPart| LegPart { mass: p.mass * factor, center: p.center, inertia: p.inertia * factor };
         Self { cylinder: part(&self.cylinder), rod: part(&self.rod), reflected: self.reflected * factor }
     }
+
+    /// Mass that moves along the leg with its platform joint.
+    pub(crate) fn lengthwise(&self) -> f64 {
+        self.rod.mass + self.reflected
+    }
+
+    /// Moment of inertia of a leg of this length about an axis across it through its base joint.
+    pub(crate) fn turning(&self, length: f64) -> f64 {
+        let (cylinder, rod) = (&self.cylinder, &self.rod);
+        cylinder.inertia
+            + cylinder.mass * cylinder.center.powi(2)
+            + rod.inertia
+            + rod.mass * (length - rod.center).powi(2)
+    }
 }
 
 /// Sizes and limits of joints, legs and drives. What is absent limits nothing.

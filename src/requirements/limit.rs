@@ -17,7 +17,7 @@ pub enum Limit {
 /// The requirement a pose meets worst.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PoseLimit {
-    /// Its margin as a share: over the size of the manipulator (lengths), 90 degrees (angles), its limit (forces, speeds), `det J` at home
+    /// Its margin as a share: over the size of the manipulator (lengths), 90 degrees (angles), its limit (forces, speeds, stiffness, frequency), `det J` at home
     /// (singularity). Negative where it is violated; infinite where nothing is required.
     pub share: f64,
     /// The requirement; `None` where nothing is required.
@@ -64,6 +64,9 @@ impl<'a> Limits<'a> {
             Quantity::Angle => 90.0,
             Quantity::Force => hardware.max_leg_force.unwrap_or(1.0),
             Quantity::Speed => hardware.max_leg_speed.unwrap_or(1.0),
+            Quantity::LinearStiffness | Quantity::AngularStiffness | Quantity::Frequency => {
+                self.required.least_stiffness_of(term.kind).unwrap_or(1.0)
+            }
         };
         margin / scale
     }

@@ -5,6 +5,7 @@
 //! definition and the unit of every term.
 
 mod assess;
+mod bodies;
 mod bound;
 mod conditioning;
 mod envelope;
@@ -20,11 +21,13 @@ mod standing;
 mod term;
 #[cfg(test)]
 mod tests;
+mod vibration;
 
 pub use crate::geom::{ListedFrom, PoseSpace, Region};
 #[cfg(feature = "page")]
 pub(crate) use assess::ViolationSearch;
 pub use assess::{AssessOptions, Assessment, Margin, assess};
+pub use bodies::MovingBodies;
 pub use bound::{MarginBound, MarginProof, MarginVerdict, prove};
 pub use conditioning::{LeastConditioning, least_conditioning};
 pub use envelope::{Envelope, Envelopes};
@@ -39,6 +42,11 @@ pub use payload::{ForceUnit, GRAVITY, MassUnit, Payload};
 pub use reserve::{Reserve, Reserves};
 pub use standing::Standing;
 pub use term::{Quantity, Term, TermKind, Terms};
+pub use vibration::{
+    LeastStiffness, PlatformStiffness, VibratingMasses, Vibration, least_stiffness, least_stiffness_at,
+    lowest_frequency, mass_matrix, stiffness_matrix, vibration,
+};
+pub(crate) use vibration::{mass_of, scaled_mass};
 
 /// Greatest speed of the platform: every direction of motion up to these rates, together.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -60,10 +68,22 @@ pub struct Requirements {
     pub loads: Vec<Load>,
     /// How fast the platform has to move.
     pub platform_speed: Option<PlatformSpeed>,
+    /// How stiff the platform has to be; [`Hardware::leg_stiffness`] says how stiff a leg is.
+    pub platform_stiffness: Option<PlatformStiffness>,
+    /// What vibrates, where masses and units are known.
+    pub vibrating: Option<VibratingMasses>,
     /// Least distance of two joint centres of a body, design units.
     pub min_joint_distance: Option<f64>,
     /// Room that plates and machine may take up.
     pub envelopes: Envelopes,
     /// What has to remain of each limit.
     pub reserves: Reserves,
+}
+
+impl Requirements {
+    /// The least stiffness or natural frequency asked for, in the unit of its margin; `None` where none is, and for other kinds.
+    #[must_use]
+    pub fn least_stiffness_of(&self, kind: TermKind) -> Option<f64> {
+        self.platform_stiffness.and_then(|wanted| wanted.least(kind))
+    }
 }

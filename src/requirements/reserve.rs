@@ -37,7 +37,7 @@ impl Reserves {
 impl Requirements {
     /// The reserve on a kind of requirement, in the unit of its margin: 0 where none is asked for.
     ///
-    /// A percentage is one of the travel for lengths (greatest less least), of the greatest angle, force or speed, of the leg diameter for clearances, of the housing (or the
+    /// A percentage is one of the travel for lengths (greatest less least), of the greatest angle, force or speed, of the least stiffness or frequency, of the leg diameter for clearances, of the housing (or the
     /// least distance of centres, whichever is greater) for the room between joints, and of the radius or half the shortest edge for envelopes.
     #[must_use]
     pub fn reserve(&self, kind: TermKind) -> f64 {
@@ -75,6 +75,9 @@ impl Requirements {
             TermKind::BaseEnvelope => envelope(self.envelopes.base),
             TermKind::PlatformEnvelope => envelope(self.envelopes.platform),
             TermKind::MachineEnvelope => envelope(self.envelopes.machine),
+            TermKind::LinearStiffness | TermKind::AngularStiffness | TermKind::NaturalFrequency => {
+                self.least_stiffness_of(kind).unwrap_or(0.0)
+            }
         }
     }
 }

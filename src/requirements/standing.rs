@@ -48,8 +48,8 @@ impl Terms<'_> {
     ///
     /// Lengths: `64 eps` (1.4e-14) times `r`, the sum of the greatest distances of a joint from the origin of its body and of the distance of the
     /// platform from the base origin. Angles: the same over the shortest leg. Speeds: `64 eps` times the greatest speed times `r` over the shortest leg.
-    /// Forces: `64 eps` times the greatest force over the inverse condition number of the Jacobian. Never more than `1e-9` radians, or `1e-9` of the greatest speed
-    /// or force.
+    /// Forces: `64 eps` times the greatest force over the inverse condition number of the Jacobian. Stiffness and frequency: that of angles and of forces together, times twice the least one asked for. Never more than `1e-9` radians, or `1e-9` of the greatest speed
+    /// or force, or of twice the least stiffness or frequency.
     #[must_use]
     pub fn rounding(&self, kind: TermKind, pose: Option<&Pose>) -> f64 {
         let m = self.manipulator;
@@ -61,15 +61,17 @@ impl Terms<'_> {
             let lengths = pose.map(|p| m.legs().map(|l| (p.transform(&l.platform) - l.base).norm()));
             (SHARE * reach / lengths.into_iter().flatten().fold(f64::INFINITY, f64::min)).min(MOST)
         };
+        let conditioning =
+            || pose.map_or(1.0, |p| inverse_condition(&jacobian(m, p, m.platform_rms_radius())));
         let hardware = &self.required.hardware;
         match kind.quantity() {
             Quantity::Length => SHARE * reach,
             Quantity::Angle => turn().to_degrees(),
             Quantity::Speed => turn() * hardware.max_leg_speed.unwrap_or(0.0),
-            Quantity::Force => {
-                let conditioning =
-                    pose.map_or(1.0, |p| inverse_condition(&jacobian(m, p, m.platform_rms_radius())));
-                (SHARE / conditioning).min(MOST) * hardware.max_leg_force.unwrap_or(0.0)
+            Quantity::Force => (SHARE / conditioning()).min(MOST) * hardware.max_leg_force.unwrap_or(0.0),
+            Quantity::LinearStiffness | Quantity::AngularStiffness | Quantity::Frequency => {
+                let least = self.required.least_stiffness_of(kind).unwrap_or(0.0);
+                ((SHARE + turn()) / conditioning()).min(MOST) * 2.0 * least
             }
         }
     }

@@ -7,6 +7,7 @@ use super::envelope::{ball, room};
 use super::hardware::{JointAxes, LegBody, Swing};
 use super::keep_out::KeepOut;
 use super::load::leg_forces;
+use super::vibration::{least_stiffness_at, lowest_frequency};
 use crate::geom::{Pose, segment_distance};
 use crate::manipulator::{Body, Manipulator, jacobian};
 
@@ -45,6 +46,12 @@ pub enum TermKind {
     PlatformEnvelope,
     /// How far a joint with its housing stays inside the envelope of the whole machine.
     MachineEnvelope,
+    /// Stiffness of the platform against a force in the softest direction minus the least one.
+    LinearStiffness,
+    /// Stiffness of the platform against a torque about the softest axis minus the least one.
+    AngularStiffness,
+    /// Lowest natural frequency minus the least one.
+    NaturalFrequency,
 }
 
 /// What a margin is measured in.
@@ -58,11 +65,17 @@ pub enum Quantity {
     Force,
     /// Design units per second.
     Speed,
+    /// Force units per design unit.
+    LinearStiffness,
+    /// Force units times design units per radian.
+    AngularStiffness,
+    /// Hertz.
+    Frequency,
 }
 
 impl TermKind {
     /// Every kind.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 16] = [
         Self::LegTooShort,
         Self::LegTooLong,
         Self::BaseSwing,
@@ -76,6 +89,9 @@ impl TermKind {
         Self::BaseEnvelope,
         Self::PlatformEnvelope,
         Self::MachineEnvelope,
+        Self::LinearStiffness,
+        Self::AngularStiffness,
+        Self::NaturalFrequency,
     ];
 
     /// A short stable code.
@@ -95,6 +111,9 @@ impl TermKind {
             Self::BaseEnvelope => "base_envelope",
             Self::PlatformEnvelope => "platform_envelope",
             Self::MachineEnvelope => "machine_envelope",
+            Self::LinearStiffness => "linear_stiffness",
+            Self::AngularStiffness => "angular_stiffness",
+            Self::NaturalFrequency => "natural_frequency",
         }
     }
 
@@ -105,8 +124,17 @@ impl TermKind {
             Self::BaseSwing | Self::PlatformSwing => Quantity::Angle,
             Self::LegForce => Quantity::Force,
             Self::LegSpeed => Quantity::Speed,
+            Self::LinearStiffness => Quantity::LinearStiffness,
+            Self::AngularStiffness => Quantity::AngularStiffness,
+            Self::NaturalFrequency => Quantity::Frequency,
             _ => Quantity::Length,
         }
+    }
+
+    /// `true` for what the platform as a whole has, and no leg or joint of its own.
+    #[must_use]
+    pub fn is_of_platform(self) -> bool {
+        matches!(self, Self::LinearStiffness | Self::AngularStiffness | Self::NaturalFrequency)
     }
 
     /// `true` when the pose does not matter.
@@ -126,7 +154,7 @@ pub struct Term {
     pub kind: TermKind,
     /// The leg, or the joint of the body, counted from 0.
     pub first: usize,
-    /// The other leg, joint, keep-out or load, counted from 0; equal to `first` where there is no other. For the envelope of the machine 0 for the base joint of the leg, 1 for its platform joint.
+    /// The other leg, joint, keep-out or load, counted from 0; equal to `first` where there is no other. Both are 0 for what the platform as a whole has. For the envelope of the machine 0 for the base joint of the leg, 1 for its platform joint.
     pub second: usize,
 }
 
@@ -251,7 +279,7 @@ impl<'a> Terms<'a> {
         }
     }
 
-    /// Margins of all requirements at a pose: positive where they are met. Forces at a singular pose have the margin minus infinity.
+    /// Margins of all requirements at a pose: positive where they are met. Forces at a singular pose have the margin minus infinity, and the platform has no stiffness there.
     #[must_use]
     pub fn at(&self, pose: &Pose) -> Vec<(Term, f64)> {
         let mut out = Vec::new();
@@ -261,7 +289,25 @@ impl<'a> Terms<'a> {
         self.clearances(&ends, pose, &mut out);
         self.drives(pose, &mut out);
         self.machine(&ends, &mut out);
+        self.stiffness(pose, &mut out);
         out
+    }
+
+    /// How stiff the platform is on its legs, and how slowly it vibrates.
+    fn stiffness(&self, pose: &Pose, out: &mut Vec<(Term, f64)>) {
+        let Some(wanted) = self.required.platform_stiffness else { return };
+        let mut keep = |kind, value: f64, least: f64| {
+            out.push((Term { kind, first: 0, second: 0 }, value - least));
+        };
+        if wanted.linear.is_some() || wanted.angular.is_some() {
+            let leg = self.required.hardware.leg_stiffness.unwrap_or(0.0);
+            let found = least_stiffness_at(self.manipulator, pose, leg);
+            let _ = wanted.linear.map(|least| keep(TermKind::LinearStiffness, found.linear, least));
+            let _ = wanted.angular.map(|least| keep(TermKind::AngularStiffness, found.angular, least));
+        }
+        if let (Some(least), Some(masses)) = (wanted.natural_frequency, &self.required.vibrating) {
+            keep(TermKind::NaturalFrequency, lowest_frequency(self.manipulator, pose, masses), least);
+        }
     }
 
     fn lengths_and_swing(

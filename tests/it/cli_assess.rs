@@ -166,3 +166,46 @@ fn poses_listed_from_home_move_with_it() {
     );
     assert!((margin(high, from_home) - margin(low, from_home)).abs() > 1.0);
 }
+
+/// The masses are a payload of 300 kg on legs of 1e5 N/mm; `motion` computes the same numbers at home by its own formulas.
+#[test]
+fn stiffness_and_frequency_have_rows_of_their_own() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = std::fs::read_to_string("designs/worked/positioner-octahedral.toml").unwrap();
+    let path = folder.path().join("design.toml");
+    let path = path.to_str().unwrap();
+    // at home alone, where nothing has to be bounded between poses
+    let (before, after) = text.split_once("[workspace]").unwrap();
+    let hardware = &after[after.find("[hardware]").unwrap()..];
+    let with = |linear: f64, hertz: f64| {
+        let tables = format!(
+            "\n[payload]\nmass = 300\ncenter = [0, 0, -150]\ninertia = [1.2e7, 1.2e7, 1.5e7]\n[stiffness]\nlinear = {linear}\nnatural_frequency = {hertz}\n"
+        );
+        std::fs::write(path, format!("{before}{hardware}{tables}")).unwrap();
+        assess(path)
+    };
+    let (code, doc) = with(60000.0, 60.0);
+    assert_eq!((code, doc["met"].as_bool()), (Some(0), Some(true)), "{doc}");
+    let row = |doc: &Value, name: &str| {
+        let rows = doc["requirements"].as_array().unwrap();
+        rows.iter().find(|r| r["name"] == name).unwrap_or_else(|| panic!("{doc}")).clone()
+    };
+    let (linear, slow) = (row(&doc, "linear_stiffness"), row(&doc, "natural_frequency"));
+    assert_eq!((linear["unit"].as_str(), slow["unit"].as_str()), (Some("force/mm"), Some("Hz")));
+    assert_eq!(
+        (&linear["between"][0], linear["legs"].as_array().unwrap().len()),
+        (&Value::from("platform"), 6)
+    );
+    let moved = document(&equipod(&["motion", path, "--stiffness", "--json"]));
+    let found = &moved["stiffness"];
+    let near = |a: f64, b: &Value| (a / b.as_f64().unwrap() - 1.0).abs() < 1e-9;
+    assert!(near(60000.0 + linear["margin"].as_f64().unwrap(), &found["linear"]), "{found}");
+    assert!(near(60.0 + slow["margin"].as_f64().unwrap(), &found["natural"][0]["frequency_hz"]), "{found}");
+    assert!(row(&doc, "natural_frequency")["proved_margin"].as_f64().unwrap() > 0.0);
+    let (code, doc) = with(60000.0, 96.0);
+    assert_eq!(
+        (code, row(&doc, "natural_frequency")["status"].as_str()),
+        (Some(1), Some("violated")),
+        "{doc}"
+    );
+}

@@ -91,3 +91,53 @@ fn the_straight_way_to_another_pose_ends_where_something_binds() {
     let (code, doc) = asked(&[BENCH, "--starts", "3"]);
     assert_eq!((code, &doc["error"]["code"]), (Some(2), &Value::from("usage::no_effect")));
 }
+
+/// A desk hexapod: every size is one that `assess` meets with the region asked for, and misses with a larger one.
+#[test]
+fn the_workspace_has_its_sizes() {
+    // with lengths and swing alone, which few cells decide
+    let folder = tempfile::tempdir().unwrap();
+    let text = std::fs::read_to_string(BENCH).unwrap();
+    let text = text.split("[speed]").next().unwrap();
+    let kept = text.lines().filter(|l| !l.contains("_diameter") && !l.starts_with("max_"));
+    let text = kept.collect::<Vec<_>>().join("\n");
+    let path = folder.path().join("design.toml");
+    std::fs::write(&path, &text).unwrap();
+    let design = path.to_str().unwrap();
+    let (code, doc) = asked(&[design, "--workspace", "--rays", "100"]);
+    assert_eq!(code, Some(0));
+    let found = &doc["workspace"];
+    let of = |name: &str| (number(&found[name]["proved"]), number(&found[name]["searched"]));
+    for name in ["ball_radius", "tilt_deg", "turn_deg"] {
+        let (proved, searched) = of(name);
+        assert!(proved > 0.9 * searched && proved <= searched, "{name}: {found}");
+        assert!(!found[name]["binds"]["name"].is_null(), "{name}: {found}");
+    }
+    assert!(of("turn_deg").0 <= of("tilt_deg").1);
+    let ball = of("ball_radius").0;
+    let sphere = 4.0 / 3.0 * std::f64::consts::PI * ball.powi(3);
+    assert!(number(&found["volume"]) > sphere && number(&found["volume_doubt"]) < 0.1, "{found}");
+    let half: Vec<f64> = found["box_proved"].as_array().unwrap().iter().map(number).collect();
+    assert!(half.iter().all(|h| *h > 0.0) && 8.0 * half.iter().product::<f64>() < number(&found["volume"]));
+    let shares: f64 = found["ends"].as_array().unwrap().iter().map(|e| number(&e["share"])).sum();
+    assert!((shares - 1.0).abs() < 1e-12);
+    // the preset meets its requirements as it stands
+    assert!(
+        number(&found["required"]["factor"]["proved"]) > 0.5
+            && number(&found["required"]["factor"]["searched"]) >= 1.0
+    );
+    let path = folder.path().join("ball.toml");
+    let assess = |radius: f64| {
+        let region = format!("translation = [{radius}, {radius}, {radius}]");
+        let text = text.replace("translation = [30.0, 30.0, 25.0]", &region);
+        std::fs::write(&path, text.replace("rotation_deg = [10.0, 10.0, 10.0]", "rotation_deg = [0, 0, 0]"))
+            .unwrap();
+        equipod(&["assess", path.to_str().unwrap(), "--points", "500", "--cells", "400"]).status.code()
+    };
+    assert_eq!((assess(ball), assess(of("ball_radius").1 * 1.01)), (Some(0), Some(1)));
+    let text = String::from_utf8(equipod(&["limits", design, "--workspace", "--rays", "50"]).stdout).unwrap();
+    assert!(text.contains("largest ball, radius") && text.contains("tilt, any level axis"), "{text}");
+    // without a workspace asked for there is none, and directions have no effect
+    assert!(asked(&[BENCH]).1["workspace"].is_null());
+    assert_eq!(equipod(&["limits", BENCH, "--rays", "70"]).status.code(), Some(2));
+}

@@ -131,21 +131,33 @@ leg_length = [14.0, 14.1]
 [optimize]
 variables = [\"home_height\"]
 ";
-    let (out, folder) = optimize(&required(more), &["-o", "out.toml"]);
+    let (out, folder) = optimize(&required(more), &["-o", "out.toml", "--candidates", "opened"]);
     assert_eq!(out.status.code(), Some(1), "{}", String::from_utf8_lossy(&out.stdout));
     let d = document(&out);
     assert_eq!(d["status"], "infeasible");
+    // which freedom resolves it was tried: other sizes do not, a longer stroke does, as its design shows
+    let freedoms = d["freedoms"].as_array().unwrap();
+    let came =
+        |k: usize| (freedoms[k]["freedom"].as_str().unwrap(), freedoms[k]["outcome"].as_str().unwrap());
+    assert_eq!((came(0), came(1)), (("triangle_sizes", "unresolved"), ("stroke", "resolved")));
+    assert!(freedoms[0]["design"].is_null() && freedoms[1]["assessment"]["met"] == true);
+    let amount = freedoms[1]["amount"].as_f64().unwrap();
+    assert!(freedoms[1]["message"].as_str().unwrap().starts_with("with a stroke longer by "));
+    let opened = std::fs::read_to_string(folder.path().join("opened/with-stroke.toml")).unwrap();
+    let range = opened.lines().find(|l| l.starts_with("leg_length")).unwrap();
+    let ends: Vec<f64> = range[14..range.len() - 1].split(',').map(|x| x.trim().parse().unwrap()).collect();
+    assert!((ends[1] - ends[0] - 0.1 - amount).abs() < 1e-9, "{range} {amount}");
+    let assessed = |file: &str| {
+        let mut assess = Command::new(env!("CARGO_BIN_EXE_equipod"));
+        assess.current_dir(folder.path()).args(["assess", file]).output().unwrap().status.code()
+    };
+    assert_eq!(assessed("opened/with-stroke.toml"), Some(0));
     // what comes nearest is shown with what it misses, and written
     let nearest = &d["nearest"];
     assert_eq!(nearest["variables"][0]["name"], "home height");
     assert_eq!(nearest["assessment"]["met"], false);
     assert!(d["design"].is_null() && d["output"] == "out.toml");
-    let assessed = Command::new(env!("CARGO_BIN_EXE_equipod"))
-        .current_dir(folder.path())
-        .args(["assess", "out.toml"])
-        .output()
-        .unwrap();
-    assert_eq!(assessed.status.code(), Some(1));
+    assert_eq!(assessed("out.toml"), Some(1));
     let codes: Vec<&str> = d["conflict"]["requirements"]
         .as_array()
         .unwrap()

@@ -9,9 +9,11 @@ use crate::cli::failure::Failure;
 use crate::cli::numbers::significant as short;
 use crate::cli::output::Answer;
 use crate::cli::poses;
+use crate::entrance::RAYS;
 use crate::reach::NearestPoseOptions;
 use crate::records::{
-    FreeRangeRecord, LimitRecord, LimitsAnswer, NearestAllowedRecord, PoseQuaternionRecord, StraightWayRecord,
+    FreeRangeRecord, FreeSizeRecord, LimitRecord, LimitsAnswer, NearestAllowedRecord, PoseQuaternionRecord,
+    StraightWayRecord, WorkspaceSizeRecord,
 };
 
 /// Arguments of `limits`.
@@ -28,6 +30,12 @@ pub(crate) struct Args {
     /// Number of further starts of the search for the nearest allowed pose, besides home
     #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(0..=10_000))]
     starts: u32,
+    /// How large the workspace is around home: volume, largest ball and box of positions, turns, the required region
+    #[arg(long)]
+    workspace: bool,
+    /// Number of directions in which the workspace is followed for its volume and its largest box
+    #[arg(long, value_name = "N", default_value_t = RAYS as u32, value_parser = clap::value_parser!(u32).range(50..=1_000_000))]
+    rays: u32,
 }
 
 const BAD_POSE: &str = "limits::bad_pose";
@@ -37,6 +45,9 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let design = context.load(&args.design)?;
     let at = poses::parse(&args.at, &design, "--at", BAD_POSE)?;
     let to = args.to.as_ref().map(|text| poses::parse(text, &design, "--to", BAD_POSE)).transpose()?;
+    if !args.workspace {
+        context.no_effect("rays", "the size of the workspace is not asked for (--workspace)")?;
+    }
     let required = design.requirements();
     let reach = design.reach(&required);
     let violated = reach.violated(&at);
@@ -64,6 +75,11 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
             .collect(),
         way: to.filter(|_| allowed).map(|to| StraightWayRecord::new(&design, &reach, &at, &to)),
         nearest_allowed: nearest.as_ref().map(|found| NearestAllowedRecord::new(&design, &reach, found)),
+        workspace: args
+            .workspace
+            .then(|| design.workspace_size(args.rays as usize, context.seed()))
+            .flatten()
+            .map(|found| WorkspaceSizeRecord::new(&design, &found)),
         length_unit: design.units.clone(),
     };
     let text = text(&design.name, &answer);
@@ -98,6 +114,9 @@ fn text(name: &str, answer: &LimitsAnswer) -> String {
         nearest(&mut out, answer, found);
     } else if !answer.allowed {
         out.push_str("No allowed pose was found, home among those tried.\n");
+    }
+    if let Some(found) = &answer.workspace {
+        workspace(&mut out, found, &answer.length_unit);
     }
     out
 }
@@ -161,5 +180,64 @@ fn nearest(out: &mut String, answer: &LimitsAnswer, found: &NearestAllowedRecord
     );
     if !found.straight_from_home {
         out.push_str("The straight way from home to it violates a limit.\n");
+    }
+}
+
+fn size(found: &FreeSizeRecord, unit: &str) -> String {
+    let proved = if found.proved > 0.0 {
+        format!("{} {unit} proved", short(found.proved))
+    } else {
+        "nothing proved".to_owned()
+    };
+    let beyond = bound(found.binds.as_ref());
+    format!("{proved}, {} {unit} without a violation found; beyond it {beyond} binds", short(found.searched))
+}
+
+fn workspace(out: &mut String, found: &WorkspaceSizeRecord, unit: &str) {
+    let ends = found.ends.iter().map(|e| format!("{} {:.0} %", e.end, 100.0 * e.share));
+    let ends = ends.collect::<Vec<_>>().join(", ");
+    let half = |h: &[f64; 3]| h.iter().map(|x| format!("+-{}", short(*x))).collect::<Vec<_>>().join(" x ");
+    let mut line = |name: &str, text: &str| {
+        let _ = writeln!(out, "{name:<22} {text}");
+    };
+    line("\nAround home:", "");
+    line(
+        "volume of positions",
+        &format!(
+            "{} {unit}^3 on straight ways at the orientation of home (halves of {} ways differ by {:.1} %)",
+            short(found.volume),
+            found.rays,
+            100.0 * found.volume_doubt
+        ),
+    );
+    line("", &format!("they end at: {ends}"));
+    line("largest ball, radius", &size(&found.ball_radius, unit));
+    line(
+        "largest box found",
+        &format!(
+            "{} {unit} proved, {} without a violation found; beyond it {} binds",
+            half(&found.box_proved),
+            half(&found.box_searched),
+            bound(found.box_binds.as_ref())
+        ),
+    );
+    for turn in &found.turns {
+        line(
+            &format!("turn about {}", turn.axis),
+            &format!(
+                "-{} deg ({}) to {} deg ({})",
+                short(turn.back_deg),
+                bound(turn.back_binds.as_ref()),
+                short(turn.forth_deg),
+                bound(turn.forth_binds.as_ref())
+            ),
+        );
+    }
+    line("tilt, any level axis", &size(&found.tilt_deg, "deg"));
+    line("turn, any axis", &size(&found.turn_deg, "deg"));
+    if let Some(required) = &found.required {
+        let share = format!("its translations are {:.1} % of the volume above", 100.0 * required.share.0);
+        line("required region", &format!("times {}", size(&required.factor, "").replace("  ", " ")));
+        line("", &share);
     }
 }

@@ -5,6 +5,7 @@ use nalgebra::{Matrix3, Point3, Vector3};
 use super::tables::{not_negative, positive, vector};
 use super::{check_keys, number, numbers, shown, table, text};
 use crate::design::Code;
+use crate::design::scale::micrometres;
 use crate::design::tree::{Entry, Node, Value, find};
 use crate::design::violation::Findings;
 use crate::requirements::{
@@ -64,6 +65,33 @@ pub(super) fn payload(report: &mut Findings<'_>, top: &[Entry]) -> Option<Payloa
         inertia,
         gravity: gravity.unwrap_or_else(|| Vector3::new(0.0, 0.0, -GRAVITY)),
     })
+}
+
+/// A natural frequency is one of known masses in known units.
+pub(super) fn vibrating(report: &mut Findings<'_>, top: &[Entry], units: &str) {
+    let Some(Value::Table(entries)) = find(top, "stiffness").map(|e| &e.node.value) else { return };
+    let Some(entry) = find(entries, "natural_frequency") else { return };
+    if find(top, "payload").is_none() {
+        let message = "`natural_frequency` of [stiffness] needs the mass that vibrates";
+        report.refuse(
+            Code::MissingKey,
+            &entry.key_span,
+            message,
+            "add [payload] with its mass, center and inertia",
+        );
+    }
+    if micrometres(units).is_none() {
+        let message = format!(
+            "`natural_frequency` of [stiffness] needs a known unit of length, not \"{}\"",
+            shown(units)
+        );
+        report.refuse(
+            Code::WrongType,
+            &entry.key_span,
+            message,
+            "write units = \"mm\", \"m\" or \"in\", for instance",
+        );
+    }
 }
 
 /// Three principal moments along the axes, or three rows.

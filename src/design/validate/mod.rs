@@ -21,7 +21,7 @@ use crate::manipulator::{Body, InvalidManipulator, LegLengths, Manipulator};
 /// Words less similar than this are no help.
 const NEAR: f64 = 0.7;
 
-const TOP_LEVEL: [&str; 24] = [
+const TOP_LEVEL: [&str; 25] = [
     "name",
     "units",
     "force_units",
@@ -40,6 +40,7 @@ const TOP_LEVEL: [&str; 24] = [
     "optimize",
     "hardware",
     "speed",
+    "stiffness",
     "loads",
     "keep_out",
     "payload",
@@ -96,12 +97,16 @@ pub(super) fn design(root: &Node, report: &mut Findings<'_>, takes_cranks: bool)
     let (optimize, search) = tables::optimize(report, entries);
     let hardware = tables::hardware(report, entries);
     let speed = tables::speed(report, entries);
+    let stiffness = tables::stiffness(report, entries, &hardware);
     let loads = tables::loads(report, entries);
     let keep_outs = tables::keep_outs(report, entries);
     let (force_units, mass_units) = limits::units(report, entries);
     let payload = limits::payload(report, entries);
     let envelopes = limits::envelopes(report, entries);
     let reserves = limits::reserves(report, entries);
+    if let Some(units) = &units {
+        limits::vibrating(report, entries, units);
+    }
     let calibration = calibration::calibration(report, entries, [base.as_ref(), platform.as_ref()]);
     if !report.is_clean() {
         return None;
@@ -121,6 +126,7 @@ pub(super) fn design(root: &Node, report: &mut Findings<'_>, takes_cranks: bool)
     design.search = search;
     design.hardware = hardware;
     design.speed = speed;
+    design.stiffness = stiffness;
     design.loads = loads;
     design.keep_outs = keep_outs;
     (design.payload, design.envelopes, design.reserves) = (payload, envelopes, reserves);

@@ -13,7 +13,7 @@ use crate::geom::Pose;
 use crate::manipulator::Body;
 use crate::requirements::{
     Hardware, Housing, JointAxes, KeepOut, KeepOutShape, LegBody, LegMasses, LegPart, LengthLimits,
-    ListedFrom, Load, PlatformSpeed, Region, Swing,
+    ListedFrom, Load, PlatformSpeed, PlatformStiffness, Region, Swing,
 };
 
 pub(super) const POSE_KEYS: [&str; 4] = ["position", "rpy_deg", "quat_wxyz", "rotation"];
@@ -512,6 +512,26 @@ pub(super) fn speed(report: &mut Findings<'_>, top: &[Entry]) -> Option<Platform
         linear: not_negative(report, entries, "linear").unwrap_or_default(),
         angular_deg: not_negative(report, entries, "angular_deg").unwrap_or_default(),
     })
+}
+
+pub(super) const STIFFNESS_KEYS: [&str; 3] = ["linear", "angular", "natural_frequency"];
+
+/// `[stiffness]`, which is about legs whose stiffness is known.
+pub(super) fn stiffness(
+    report: &mut Findings<'_>,
+    top: &[Entry],
+    hardware: &Hardware,
+) -> Option<PlatformStiffness> {
+    let entry = find(top, "stiffness")?;
+    let entries = table(report, &entry.node, "[stiffness]")?;
+    check_keys(report, entries, &STIFFNESS_KEYS, "[stiffness]");
+    if hardware.leg_stiffness.is_none() {
+        let message = "[stiffness] needs the stiffness of a leg";
+        let help = "add `leg_stiffness` to [hardware], force units per design unit";
+        report.refuse(Code::MissingKey, &entry.key_span, message, help);
+    }
+    let [linear, angular, natural_frequency] = STIFFNESS_KEYS.map(|key| positive(report, entries, key));
+    Some(PlatformStiffness { linear, angular, natural_frequency })
 }
 
 /// The tables of an array of tables.

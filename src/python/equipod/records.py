@@ -25,6 +25,7 @@ DesignObjective = Literal[
     "leg_clearance",
     "leg_force",
     "mean_conditioning",
+    "natural_frequency",
     "singularity_distance",
     "smallest_singular_value",
     "stiffness",
@@ -35,6 +36,16 @@ DimensionalStatus = Literal["feasible", "infeasible", "interrupted", "optimal", 
 ErrorKind = Literal["position", "rotation"]
 EvidenceWord = Literal["modular", "proved"]
 ExactnessWord = Literal["doubles", "field", "interval", "rational"]
+Freedom = Literal[
+    "base_envelope",
+    "home_height",
+    "machine_envelope",
+    "platform_envelope",
+    "stroke",
+    "triangle_sizes",
+    "triangles",
+]
+FreedomWord = Literal["not_tried", "resolved", "undecided", "unresolved"]
 FrontStatus = Literal["front", "infeasible", "interrupted", "undecided"]
 Invariant = Literal[
     "base_principal_value",
@@ -64,6 +75,7 @@ Objective = Literal[
     "leg_clearance",
     "leg_force",
     "mean_conditioning",
+    "natural_frequency",
     "singularity_distance",
     "smallest_singular_value",
     "stiffness",
@@ -95,6 +107,7 @@ SpecialDemand = Literal["abs_det", "reach"]
 StageWord = Literal["assess", "components", "fk", "moves", "nearest", "verify"]
 StartName = Literal["closed_form", "nominal"]
 TermKind = Literal[
+    "angular_stiffness",
     "base_envelope",
     "base_spacing",
     "base_swing",
@@ -104,7 +117,9 @@ TermKind = Literal[
     "leg_speed",
     "leg_too_long",
     "leg_too_short",
+    "linear_stiffness",
     "machine_envelope",
+    "natural_frequency",
     "platform_envelope",
     "platform_spacing",
     "platform_swing",
@@ -814,6 +829,8 @@ class Design(Record):
     hardware: Union[dict[str, Any], None]
     #: the platform has to move so fast in every direction
     speed: Union[dict[str, Any], None]
+    #: the platform has to be so stiff on its legs at every pose; needs `leg_stiffness` of `[hardware]`
+    stiffness: Union[dict[str, Any], None]
     #: wrenches the legs have to hold, one at a time
     loads: Union[tuple[dict[str, Any], ...], None]
     #: bodies the legs must not touch, each a box, a sphere or a capsule
@@ -949,6 +966,9 @@ class DimensionalAnswer(Record):
     nearest: Union[NearestPlatformRecord, None]
     #: When infeasible.
     conflict: Union[ConflictRecord, None]
+    #: Where nothing that meets the requirements was found: the freedoms that the design does not have,
+    #: each with what came of a search that had it; absent where none was looked at.
+    freedoms: Union[tuple[FreedomRecord, ...], None]
     #: Other local optima that meet the requirements at the poses that were held, best first; absent where
     #: they were not asked for.
     candidates: Union[tuple[OptimumRecord, ...], None]
@@ -1569,6 +1589,28 @@ class FreeRangeRecord(Record):
     back: TravelRecord
     #: Towards greater ones.
     forth: TravelRecord
+
+
+class FreedomRecord(Record):
+    """A freedom that the design does not have, and what came of the search with it."""
+
+    #: Which.
+    freedom: Freedom
+    #: What came of it.
+    outcome: FreedomWord
+    #: By how much the limit gave way in the last search, or by how much the platform found is higher;
+    #: null: no such number.
+    amount: Union[float, None]
+    #: Of the amount.
+    unit: str
+    #: One sentence.
+    message: str
+    #: What `assess` says of the platform found; null: none was.
+    assessment: Union[AssessAnswer, None]
+    #: The platform found, with the limit that gave way; null: none was.
+    design: Union[Design, None]
+    #: The file it was written to.
+    output: Union[str, None]
 
 
 class FrontAnswer(Record):
@@ -2628,6 +2670,9 @@ class OptimizeAnswer(Record):
     #: Where none that meets the requirements was found: the one with the least violation, which misses
     #: some of them.
     nearest: Union[NearestPlatformRecord, None]
+    #: Where nothing that meets the requirements was found: the freedoms that the design does not have,
+    #: each with what came of a search that had it; absent where none was looked at.
+    freedoms: Union[tuple[FreedomRecord, ...], None]
     #: Other local optima that meet the requirements at the poses that were held, best first; absent where
     #: they were not asked for.
     candidates: Union[tuple[OptimumRecord, ...], None]

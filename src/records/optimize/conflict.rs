@@ -70,7 +70,7 @@ impl GiveRecord {
 }
 
 /// A positive amount with at least four significant digits.
-fn amount(x: f64) -> String {
+pub(super) fn amount(x: f64) -> String {
     if x < 1e-3 { format!("{x:.3e}") } else { format!("{x:.6}") }
 }
 
@@ -92,6 +92,9 @@ fn words(design: &Design, d: Demand) -> (String, String) {
                 TermKind::BaseEnvelope => "the envelope of the base",
                 TermKind::PlatformEnvelope => "the envelope of the platform",
                 TermKind::MachineEnvelope => "the envelope of the machine",
+                TermKind::LinearStiffness => "the least stiffness against forces",
+                TermKind::AngularStiffness => "the least stiffness against torques",
+                TermKind::NaturalFrequency => "the least natural frequency",
             };
             (sentence.to_string(), design.unit_of(kind.quantity()))
         }

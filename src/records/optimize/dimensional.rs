@@ -4,7 +4,7 @@ use nalgebra::{Unit, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::ConflictRecord;
+use super::{ConflictRecord, FreedomRecord};
 use crate::design::Design;
 use crate::dimensional::{DimensionalOutcome, DimensionalReport, DimensionalSolution, HistoryStep};
 use crate::entrance::OptimizeStatus;
@@ -29,6 +29,9 @@ pub struct DimensionalAnswer {
     /// When infeasible.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub conflict: Option<ConflictRecord>,
+    /// Where nothing that meets the requirements was found: the freedoms that the design does not have, each with what came of a search that had it; absent where none was looked at.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub freedoms: Option<Vec<FreedomRecord>>,
     /// Other local optima that meet the requirements at the poses that were held, best first; absent where they were not asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub candidates: Option<Vec<OptimumRecord>>,
@@ -116,6 +119,7 @@ impl DimensionalAnswer {
                 DimensionalOutcome::Infeasible(c) => Some(ConflictRecord::new(design, c)),
                 _ => None,
             },
+            freedoms: None,
             candidates: None,
             search: SearchRecord {
                 starts: report.starts,

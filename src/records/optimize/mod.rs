@@ -2,6 +2,7 @@
 
 mod conflict;
 mod dimensional;
+mod freedom;
 mod front;
 mod offsets;
 
@@ -14,6 +15,7 @@ pub use self::dimensional::{
     JointAxesRecord, NearestPlatformRecord, ObjectiveRecord, OptimumRecord, SearchRecord, StationarityRecord,
     VariableRecord, VerifiedRecord,
 };
+pub use self::freedom::{FreedomRecord, FreedomWord};
 pub use self::front::{FrontAnswer, FrontMemberRecord, FrontStatus};
 pub use self::offsets::{
     BranchConflictRecord, BranchCountsRecord, BranchRecord, BranchWord, GlobalBoundRecord,

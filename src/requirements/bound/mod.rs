@@ -1,6 +1,6 @@
 //! Proved bounds of the least margins over all poses of a workspace.
 //!
-//! Each requirement of each leg, pair, keep-out and load is a function of the pose. Its margin is bounded from below over cells of the workspace ([`local`], [`gap`], [`force`]) and from above
+//! Each requirement of each leg, pair, keep-out and load is a function of the pose. Its margin is bounded from below over cells of the workspace ([`local`], [`gap`], [`force`], [`stiffness`]) and from above
 //! at points of them; the cell with the least bound is halved next, until the bound decides or a number of cells is used up ([`branch`]). Cells in which the margin has a slope of
 //! one sign across a side of a box hold no least margin but at that side. Where points of cells come out worse than those found before, a local search goes on from them.
 //!
@@ -12,12 +12,14 @@ mod force;
 mod frame;
 mod gap;
 mod local;
+mod stiffness;
 #[cfg(test)]
 mod tests;
 
 use self::cone::{Sector, SwingCone};
 use self::frame::{CellFrame, enclosed};
 use self::local::Bounded;
+use self::stiffness::SoftestMotion;
 use super::Requirements;
 use super::assess::{AssessOptions, Assessment, Margin, assess};
 use super::envelope::Envelope;
@@ -209,6 +211,8 @@ enum Function {
     Body(usize, usize),
     /// All leg forces under a load.
     Load(usize),
+    /// The softest motion of the platform on its legs.
+    Platform(TermKind),
     /// A side of the envelope of the machine, or its cylinder, and the joint at an end (0 base, 1 platform) of a leg.
     Joint { leg: usize, end: usize, side: Side },
 }
@@ -231,6 +235,7 @@ impl Function {
             Self::Pair(i, j) => term.kind == TermKind::LegClearance && (term.first, term.second) == (i, j),
             Self::Body(i, k) => term.kind == TermKind::KeepOut && (term.first, term.second) == (i, k),
             Self::Load(k) => term.kind == TermKind::LegForce && term.second == k,
+            Self::Platform(kind) => term.kind == kind,
             Self::Joint { leg, end, .. } => {
                 term.kind == TermKind::MachineEnvelope && (term.first, term.second) == (leg, end)
             }
@@ -312,6 +317,7 @@ impl CellJudge<'_> {
                 })
                 .collect()
             }
+            kind if kind.is_of_platform() => vec![Function::Platform(kind)],
             _ => (0..6).map(|i| Function::Leg(kind, i)).collect(),
         }
     }
@@ -335,7 +341,7 @@ impl CellJudge<'_> {
                 points.push(near);
             }
         }
-        let second = !matches!(function, Function::Load(_));
+        let second = !matches!(function, Function::Load(_) | Function::Platform(_));
         let over = CellFrame::over(chart, cell, second);
         let mut out = Evaluated {
             bounded: Bounded { below: f64::NEG_INFINITY, ..Bounded::nothing(cell) },
@@ -430,6 +436,11 @@ impl CellJudge<'_> {
                 let greatest = self.required.hardware.max_leg_force.unwrap_or(f64::INFINITY);
                 let load = &self.required.loads[k];
                 let (bounded, upper) = force::force(chart, cell, z, frames, self.m, load, greatest);
+                AtPoint { bounded, upper, ..nothing }
+            }
+            Function::Platform(kind) => {
+                let Some(softest) = SoftestMotion::new(self.m, self.required, kind) else { return nothing };
+                let (bounded, upper) = softest.bounds(chart, cell, z, frames);
                 AtPoint { bounded, upper, ..nothing }
             }
             Function::Pair(i, j) => {

@@ -9,7 +9,8 @@ use std::collections::BTreeMap;
 use crate::geom::{Pose, Region};
 use crate::num::Rng;
 use crate::requirements::{
-    Envelopes, Hardware, JointAxes, KeepOut, KeepOutShape, LegBody, LengthLimits, Load, PlatformSpeed, Swing,
+    Envelopes, Hardware, JointAxes, KeepOut, KeepOutShape, LegBody, LegMasses, LegPart, LengthLimits, Load,
+    MovingBodies, PlatformSpeed, PlatformStiffness, Swing, VibratingMasses,
 };
 
 fn random_platform(rng: &mut Rng) -> (Manipulator, Pose) {
@@ -357,5 +358,102 @@ fn rooms_inside_envelopes_are_enclosed() {
                 found.lo() - 1e-14 <= room && room <= found.hi() + 1e-14 && found.hi() - found.lo() < 1e-13
             );
         }
+    }
+}
+
+/// A stiffness and a frequency on legs that weigh as much as the platform.
+fn elastic(linear: f64, angular: f64, natural_frequency: f64) -> Requirements {
+    let part = |mass, center, inertia| LegPart { mass, center, inertia };
+    let leg = LegMasses { cylinder: part(1.5, 4.0, 8.0), rod: part(0.8, 3.0, 2.0), reflected: 0.7 };
+    let bodies = MovingBodies {
+        mass: 9.0,
+        center: Point3::new(0.4, -0.3, 1.5),
+        inertia: nalgebra::Matrix3::new(20.0, 1.0, 0.5, 1.0, 25.0, -2.0, 0.5, -2.0, 30.0),
+        leg,
+        gravity: Vector3::zeros(),
+        metres: 1.0,
+    };
+    Requirements {
+        hardware: Hardware { leg_stiffness: Some(500.0), ..Hardware::default() },
+        platform_stiffness: Some(PlatformStiffness {
+            linear: Some(linear),
+            angular: Some(angular),
+            natural_frequency: Some(natural_frequency),
+        }),
+        vibrating: Some(VibratingMasses { bodies, leg: 500.0 }),
+        ..Requirements::default()
+    }
+}
+
+/// A small region: no pose is below a bound, and limits to either side of the least value are decided by few cells.
+#[test]
+fn stiffness_is_bounded_where_it_varies_little() {
+    let mut rng = Rng::new(43);
+    let (m, home) = random_platform(&mut rng);
+    let space = PoseSpace {
+        translation: Vector3::new(0.1, 0.0, 0.1),
+        rotation_deg: Vector3::new(0.0, 1.0, 0.0),
+        ..PoseSpace::at(home)
+    };
+    let with = |worst: [f64; 3], factor: f64| {
+        let limits = worst.map(|x| x * factor);
+        prove(&m, &elastic(limits[0], limits[1], limits[2]), &space, &quick(), 100)
+    };
+    let loose = with([1.0; 3], 1e-3);
+    let required = elastic(1e-3, 1e-3, 1e-3);
+    let least = sampled(&Terms::new(&m, &required, &home), &poses_of(&space, 200, &mut rng));
+    for bound in &loose.bounds {
+        assert!(bound.below <= least[&bound.found.term.kind] * (1.0 + 1e-9), "{bound:?} {least:?}");
+    }
+    let worst = std::array::from_fn(|i| loose.bounds[i].found.value + 1e-3);
+    assert_eq!(with(worst, 0.95).all_met(), Some(true));
+    assert!(with(worst, 1.05).bounds.iter().all(|b| b.verdict == MarginVerdict::Violated));
+}
+
+/// Over regions of several sizes: the values found and the bounds are on their sides of those at many poses, a limit a little lower than the least value is met, proved, and one a little
+/// higher is violated.
+#[test]
+#[ignore = "slow evidence"]
+fn stiffness_and_frequency_are_bounded_and_decided() {
+    let mut rng = Rng::new(41);
+    let limits =
+        |worst: &[f64; 3], factor: f64| elastic(worst[0] * factor, worst[1] * factor, worst[2] * factor);
+    for (k, size) in [0.1, 0.12, 1.0].into_iter().enumerate() {
+        let (m, home) = random_platform(&mut rng);
+        let region = if k == 1 { Region::Ellipsoid } else { Region::Box };
+        let wide = random_space(home, &mut rng, region);
+        let space = PoseSpace {
+            translation: wide.translation * size,
+            rotation_deg: wide.rotation_deg * size,
+            ..wide
+        };
+        let small = limits(&[1.0; 3], 1e-3);
+        let proof = prove(&m, &small, &space, &AssessOptions { points: 300, ..quick() }, 40);
+        let terms = Terms::new(&m, &small, &home);
+        let least = sampled(&terms, &poses_of(&space, 1500, &mut rng));
+        let worst: [f64; 3] = std::array::from_fn(|i| proof.bounds[i].found.value + 1e-3);
+        for bound in &proof.bounds {
+            let at_poses = least[&bound.found.term.kind];
+            assert!(
+                bound.below <= at_poses.min(bound.found.value) * (1.0 + 1e-9),
+                "{k}: {bound:?} {at_poses}"
+            );
+            assert!(bound.found.value <= 1.01 * at_poses, "{k}: {bound:?} {at_poses}");
+        }
+        if k == 2 {
+            // too large for few cells
+            continue;
+        }
+        let none = AssessOptions { points: 0, searches: 0, close: false, ..AssessOptions::default() };
+        let met = prove(&m, &limits(&worst, 0.96), &space, &none, 1500);
+        assert_eq!(met.all_met(), Some(true), "{k}: {met:?}");
+        let missed = prove(&m, &limits(&worst, 1.02), &space, &none, 1500);
+        assert!(missed.bounds.iter().all(|b| b.verdict == MarginVerdict::Violated), "{k}: {missed:?}");
+        // a reserve that only just remains, and one that does not
+        let mut reserved = limits(&worst, 0.8);
+        reserved.reserves.all = Some(18.0);
+        assert_eq!(prove(&m, &reserved, &space, &none, 1500).all_reserved(), Some(true), "{k}");
+        reserved.reserves.all = Some(30.0);
+        assert_eq!(prove(&m, &reserved, &space, &none, 1500).all_reserved(), Some(false), "{k}");
     }
 }

@@ -209,6 +209,7 @@ impl DimensionalJudge {
             Quantity::Angle => 90.0,
             Quantity::Force => h.max_leg_force.unwrap_or(1.0),
             Quantity::Speed => h.max_leg_speed.unwrap_or(1.0),
+            _ => self.problem.requirements.least_stiffness_of(term.kind).unwrap_or(1.0),
         };
         margin / scale
     }

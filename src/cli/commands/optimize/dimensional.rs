@@ -15,8 +15,9 @@ use crate::dimensional::{
     DimensionalProblem, DimensionalReport, DimensionalSolution, InvalidProblem, Progress, ShapeSearchOptions,
     optimize,
 };
+use crate::entrance::freedoms::{FreedomOutcome, FreedomSearch, OpenedFreedom};
 use crate::entrance::optimizing::{Checked, checked, dimensional_problem};
-use crate::records::{DimensionalAnswer, DimensionalStatus, OptimumRecord};
+use crate::records::{DimensionalAnswer, DimensionalStatus, FreedomRecord, OptimumRecord};
 
 /// What was asked and what came out.
 #[derive(Debug)]
@@ -30,6 +31,8 @@ pub(in crate::cli::commands) struct Done {
     candidates: Option<Vec<Checked>>,
     /// Their files.
     candidate_paths: Vec<String>,
+    /// What other freedoms came to, where nothing that meets the requirements was found, with the files of the platforms.
+    freedoms: Option<Vec<(OpenedFreedom, Option<String>)>>,
 }
 
 impl Done {
@@ -47,7 +50,15 @@ impl Done {
             self.report.others.iter().zip(list).zip(&self.candidate_paths).map(of).collect()
         };
         let candidates = self.candidates.as_ref().map(all);
-        DimensionalAnswer { candidates, ..DimensionalAnswer::new(design, &self.report, found, written) }
+        let opened = |list: &Vec<(OpenedFreedom, Option<String>)>| {
+            list.iter().map(|(f, path)| FreedomRecord::new(design, f, path.as_deref())).collect()
+        };
+        let freedoms = self.freedoms.as_ref().map(opened);
+        DimensionalAnswer {
+            candidates,
+            freedoms,
+            ..DimensionalAnswer::new(design, &self.report, found, written)
+        }
     }
 
     /// The platform to write: the one found, or the one that comes nearest.
@@ -104,7 +115,8 @@ pub(in crate::cli::commands) fn search(
     let of = |s: &DimensionalSolution| checked(design, &problem, s, options.seed).map_err(|e| failure_of(&e));
     let found = report.solution().map(of).transpose()?;
     let nearest = report.nearest.as_deref().map(of).transpose()?;
-    Ok(Done { checked: found, nearest, problem, report, candidates: None, candidate_paths: Vec::new() })
+    let (candidates, candidate_paths, freedoms) = (None, Vec::new(), None);
+    Ok(Done { checked: found, nearest, problem, report, candidates, candidate_paths, freedoms })
 }
 
 /// Judges the other local optima as the answer was judged, and writes all of them, the answer first, into a folder; the paths of the others.
@@ -131,6 +143,26 @@ fn write_candidates(
     Ok(paths)
 }
 
+/// Writes the platforms that other freedoms led to into a folder, where one is given; each with its path.
+fn write_opened(
+    opened: Vec<OpenedFreedom>,
+    folder: Option<&Path>,
+) -> Result<Vec<(OpenedFreedom, Option<String>)>, Failure> {
+    let write = |f: OpenedFreedom| -> Result<(OpenedFreedom, Option<String>), Failure> {
+        let found = match &f.outcome {
+            FreedomOutcome::Resolved(c) | FreedomOutcome::Undecided(c) => Some(&c.design),
+            FreedomOutcome::Unresolved | FreedomOutcome::NotTried => None,
+        };
+        let (Some(folder), Some(design)) = (folder, found) else { return Ok((f, None)) };
+        files::make_folder(folder)?;
+        let path = folder.join(format!("with-{}.toml", f.freedom.name()));
+        files::write_design(&path, design)?;
+        let shown = path.display().to_string();
+        Ok((f, Some(shown)))
+    };
+    opened.into_iter().map(write).collect()
+}
+
 /// The search with the options of the command.
 pub(super) fn run(design: &Design, args: &super::Args, context: &Context) -> Result<Done, Failure> {
     let (mut progress, interrupt) =
@@ -139,6 +171,21 @@ pub(super) fn run(design: &Design, args: &super::Args, context: &Context) -> Res
         progress.note(&p.to_string());
         interrupt.flow()
     })?;
+    // nothing was found, and what there is of it misses requirements
+    if done.checked.is_none() && !done.report.interrupted {
+        let search = FreedomSearch {
+            design,
+            extension: args.extension,
+            report: &done.report,
+            options: options(args, context),
+            progress: &mut |freedom, p| {
+                progress.note(&format!("with {} open: {p}", freedom.name()));
+                interrupt.flow()
+            },
+        };
+        let opened = search.run().map_err(|e| failure_of(&e))?;
+        done.freedoms = Some(write_opened(opened, args.candidates.as_deref())?);
+    }
     if let Some(folder) = &args.candidates {
         progress.note("other local optima are judged");
         done.candidate_paths = write_candidates(&mut done, design, context.seed(), folder)?;

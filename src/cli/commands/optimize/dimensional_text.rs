@@ -23,6 +23,10 @@ pub(super) fn text(name: &str, a: &DimensionalAnswer, outcome: &DimensionalOutco
     if let Some(c) = &a.conflict {
         conflict_text(&mut out, c);
     }
+    for f in a.freedoms.iter().flatten() {
+        let written = f.output.as_ref().map_or_else(String::new, |path| format!(" ({path})"));
+        let _ = writeln!(out, "{}{written}", f.message);
+    }
     if let Some(n) = &a.nearest {
         nearest_text(&mut out, n);
     }

@@ -48,7 +48,7 @@ pub(crate) struct Args {
     /// Write the steps of the run that found the answer: .svg a picture, anything else CSV
     #[arg(long, value_name = "FILE")]
     history: Option<OutputPath>,
-    /// Write the answer and the other local optima that meet the requirements, which look different, into this folder: `equipod compare` sets them side by side
+    /// Write the answer and the other local optima that meet the requirements, which look different, into this folder: `equipod compare` sets them side by side. Where there is no answer, the platforms that other freedoms lead to
     #[arg(long, value_name = "DIR")]
     candidates: Option<OutputPath>,
     /// Worker threads, one for each processor when absent; the answer does not depend on it

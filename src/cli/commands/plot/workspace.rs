@@ -206,18 +206,7 @@ mod tests {
     #[test]
     fn every_limit_has_its_colour() {
         let known = |code: &str| crate::plot::LIMIT_FILLS.iter().any(|(c, _)| *c == code);
-        let kinds = [
-            TermKind::LegTooShort,
-            TermKind::LegTooLong,
-            TermKind::BaseSwing,
-            TermKind::PlatformSwing,
-            TermKind::LegClearance,
-            TermKind::KeepOut,
-            TermKind::LegForce,
-            TermKind::LegSpeed,
-            TermKind::BaseSpacing,
-            TermKind::PlatformSpacing,
-        ];
+        let kinds = TermKind::ALL;
         assert!(kinds.into_iter().map(Kind::Requirement).chain([Kind::Singular]).all(|k| known(k.code())));
         assert_eq!(kinds.len() + 1, crate::plot::LIMIT_FILLS.len());
     }

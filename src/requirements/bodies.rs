@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
-use crate::requirements::{LegMasses, MassUnit, Payload};
+use super::{LegMasses, MassUnit, Payload};
 
 /// Masses, centres and inertias in kilograms and design units.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -4,12 +4,13 @@
 //! the force and torque `K x`. With the mass matrix `M` of platform, payload and legs at the pose, small free motions are sums of `v sin(omega t)` with `K v = omega^2 M v`. Joints, plates and the
 //! stiffness that preloaded legs add are left out. Sources: Gosselin (1990) for `K`; Merlet, *Parallel Robots* (2006), sec. 8.
 
-use nalgebra::{Matrix3, Matrix6, Vector6};
+use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3, Vector6};
 
-use super::MovingBodies;
+use super::bodies::MovingBodies;
+use super::term::TermKind;
 use crate::geom::Pose;
 use crate::manipulator::{Manipulator, jacobian};
-use crate::num::small::{bounded_svd, symmetric_eigen3};
+use crate::num::small::{bounded_svd, singular_values, symmetric_eigen3};
 
 /// `K = k J^T J`: force units per design unit, times design units for each index of rotation.
 #[must_use]
@@ -22,7 +23,20 @@ pub fn stiffness_matrix(m: &Manipulator, pose: &Pose, leg: f64) -> Matrix6<f64> 
 /// `x' = (v, w)`.
 #[must_use]
 pub fn mass_matrix(m: &Manipulator, bodies: &MovingBodies, pose: &Pose) -> Matrix6<f64> {
-    let r = pose.rotation.matrix();
+    let ends = m.legs().map(|leg| {
+        let arm = pose.rotation * leg.platform.coords;
+        (arm, arm + pose.position - leg.base.coords)
+    });
+    mass_of(bodies, &pose.rotation, &ends)
+}
+
+/// [`mass_matrix`] from the arm `R b` and the line `R b + p - a` of each leg.
+pub(crate) fn mass_of(
+    bodies: &MovingBodies,
+    rotation: &Rotation3<f64>,
+    ends: &[(Vector3<f64>, Vector3<f64>); 6],
+) -> Matrix6<f64> {
+    let r = rotation.matrix();
     let cross = (r * bodies.center.coords).cross_matrix();
     let mut out = Matrix6::zeros();
     let mut add = |mass: &Matrix3<f64>, cross: &Matrix3<f64>| {
@@ -38,18 +52,12 @@ pub fn mass_matrix(m: &Manipulator, bodies: &MovingBodies, pose: &Pose) -> Matri
         corner(&mut out, 3, 3, &(cross.transpose() * coupled));
     };
     add(&(Matrix3::identity() * bodies.mass), &cross);
-    let (cylinder, rod) = (&bodies.leg.cylinder, &bodies.leg.rod);
-    for leg in m.legs() {
-        let arm = pose.rotation * leg.platform.coords;
-        let line = arm + pose.position - leg.base.coords;
+    for (arm, line) in ends {
         let length = line.norm();
         let along = line / length;
-        let turning = cylinder.inertia
-            + cylinder.mass * cylinder.center.powi(2)
-            + rod.inertia
-            + rod.mass * (length - rod.center).powi(2);
+        let turning = bodies.leg.turning(length);
         let lengthwise = along * along.transpose();
-        let at_head = lengthwise * (rod.mass + bodies.leg.reflected)
+        let at_head = lengthwise * bodies.leg.lengthwise()
             + (Matrix3::identity() - lengthwise) * (turning / (length * length));
         add(&at_head, &arm.cross_matrix());
     }
@@ -112,4 +120,81 @@ pub fn vibration(m: &Manipulator, pose: &Pose, leg: f64, mass: &Matrix6<f64>) ->
         frequency: found.singular_values[k] / std::f64::consts::TAU,
         shape: (back * shapes.row(k).transpose()).component_div(&scale),
     }))
+}
+
+/// How stiff the platform has to be on its legs, at every pose. What is absent is not asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PlatformStiffness {
+    /// Least [`LeastStiffness::linear`], force units per design unit.
+    pub linear: Option<f64>,
+    /// Least [`LeastStiffness::angular`], force units times design units per radian.
+    pub angular: Option<f64>,
+    /// Least natural frequency, hertz.
+    pub natural_frequency: Option<f64>,
+}
+
+impl PlatformStiffness {
+    /// What is asked for of a kind of requirement.
+    #[must_use]
+    pub fn least(&self, kind: TermKind) -> Option<f64> {
+        match kind {
+            TermKind::LinearStiffness => self.linear,
+            TermKind::AngularStiffness => self.angular,
+            TermKind::NaturalFrequency => self.natural_frequency,
+            _ => None,
+        }
+    }
+}
+
+/// What vibrates: platform, payload and legs, on legs of a stiffness.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct VibratingMasses {
+    /// The bodies.
+    pub bodies: MovingBodies,
+    /// Stiffness of a leg, kilograms per second squared, which is newtons per metre.
+    pub leg: f64,
+}
+
+impl VibratingMasses {
+    /// Frequency of the mass of platform and payload on a single leg, hertz: a scale for natural frequencies.
+    pub(crate) fn on_one_leg(&self) -> f64 {
+        (self.leg / self.bodies.mass).sqrt() / std::f64::consts::TAU
+    }
+}
+
+/// [`least_stiffness`] of legs of stiffness `leg` at a pose, from the leg forces that hold unit loads: with `F = J^-T (f, t)` the platform gives way to a unit force by
+/// `|F|^2 / leg` along it, so that the least stiffness is `leg` over the square of the greatest singular value of the columns of `J^-T` that belong to forces, or to torques. Zero at a
+/// singular pose.
+#[must_use]
+pub fn least_stiffness_at(m: &Manipulator, pose: &Pose, leg: f64) -> LeastStiffness {
+    let none = LeastStiffness { linear: 0.0, angular: 0.0 };
+    let size = m.size();
+    let Some(inverse) = jacobian(m, pose, size).transpose().try_inverse() else { return none };
+    let softest = |at: usize| -> Option<f64> {
+        let forces = inverse.fixed_columns::<3>(at).into_owned();
+        let greatest = singular_values(&forces)?.max();
+        Some(leg / (greatest * greatest)).filter(|x| x.is_finite())
+    };
+    match (softest(0), softest(3)) {
+        (Some(linear), Some(angular)) => LeastStiffness { linear, angular: angular * size * size },
+        _ => none,
+    }
+}
+
+/// The lowest natural frequency at a pose, hertz: `omega^2 = 1 / max (v^T M v)` over the motions with `v^T K v = 1`, which needs no inverse of `M`: directions without mass have no
+/// frequency. Zero at a singular pose.
+#[must_use]
+pub fn lowest_frequency(m: &Manipulator, pose: &Pose, masses: &VibratingMasses) -> f64 {
+    let size = m.size();
+    let Some(inverse) = jacobian(m, pose, size).try_inverse() else { return 0.0 };
+    let mass = scaled_mass(&mass_matrix(m, &masses.bodies, pose), size);
+    let form = inverse.transpose() * mass * inverse;
+    let greatest = singular_values(&form).map_or(f64::INFINITY, |s| s.max());
+    (masses.leg / greatest).sqrt() / std::f64::consts::TAU
+}
+
+/// A mass matrix for twists `(v, L w)`.
+pub(crate) fn scaled_mass(mass: &Matrix6<f64>, length: f64) -> Matrix6<f64> {
+    let unit = |k: usize| if k < 3 { 1.0 } else { length };
+    Matrix6::from_fn(|i, j| mass[(i, j)] / (unit(i) * unit(j)))
 }
