@@ -21,6 +21,8 @@ mod moving;
 pub(crate) mod optimizing;
 #[cfg(feature = "files")]
 mod reaching;
+#[cfg(all(feature = "files", feature = "synthesis"))]
+pub(crate) mod rounding;
 mod solving;
 
 #[cfg(all(feature = "files", feature = "synthesis"))]

@@ -2,6 +2,7 @@
 
 mod calibration;
 mod constructions;
+mod holes;
 mod joints;
 mod limits;
 #[cfg(test)]
@@ -20,7 +21,7 @@ use crate::manipulator::{Body, InvalidManipulator, LegLengths, Manipulator};
 /// Words less similar than this are no help.
 const NEAR: f64 = 0.7;
 
-const TOP_LEVEL: [&str; 22] = [
+const TOP_LEVEL: [&str; 23] = [
     "name",
     "units",
     "force_units",
@@ -41,6 +42,7 @@ const TOP_LEVEL: [&str; 22] = [
     "keep_out",
     "payload",
     "envelope",
+    "holes",
     "limits",
     "calibration",
 ];
@@ -92,6 +94,7 @@ pub(super) fn design(root: &Node, report: &mut Findings<'_>) -> Option<Design> {
     let payload = limits::payload(report, entries);
     let envelopes = limits::envelopes(report, entries);
     let reserves = limits::reserves(report, entries);
+    let holes = holes::holes(report, entries);
     let calibration = calibration::calibration(report, entries, [base.as_ref(), platform.as_ref()]);
     if !report.is_clean() {
         return None;
@@ -114,6 +117,7 @@ pub(super) fn design(root: &Node, report: &mut Findings<'_>) -> Option<Design> {
     design.keep_outs = keep_outs;
     (design.payload, design.envelopes, design.reserves) = (payload, envelopes, reserves);
     (design.force_units, design.mass_units) = (force_units, mass_units);
+    design.holes = holes;
     design.calibration = calibration;
     Some(design)
 }

@@ -10,7 +10,7 @@ use crate::manipulator::{Leg, inverse_condition, jacobian};
 use crate::manufacture::tests::{free, octahedral, space};
 use crate::requirements::TermKind;
 
-const GRID: Grid = Grid { pitch: 0.25, origin: [0.0, 0.0], angle_deg: 0.0 };
+const GRID: Grid = Grid { pattern: HolePattern::Square, pitch: 0.25, origin: [0.0, 0.0], angle_deg: 0.0 };
 
 fn with<R>(
     m: &Manipulator,
@@ -86,8 +86,11 @@ fn no_other_triangle_of_one_body_is_better() {
             let points: Vec<_> = list.iter().filter(|j| j.body == own).map(|j| place(m, *j)).collect();
             let grid = BodyGrid::new(&points, &GRID, m.size()).unwrap();
             let at = |j: Joint| grid.coordinates(&place(m, j));
-            let wanted =
-                Wanted { corners: roles.corners[body].map(at), inner: roles.inner.map(|i| i[body].map(at)) };
+            let wanted = Wanted {
+                corners: roles.corners[body].map(at),
+                inner: roles.inner.map(|i| i[body].map(at)),
+                skew: 0.0,
+            };
             for t in pool(&wanted, 30, 16.0).triangles {
                 let mut joints =
                     [found.manipulator.base_joints().to_vec(), found.manipulator.platform_joints().to_vec()];
@@ -178,8 +181,8 @@ fn requirements_are_respected_or_the_violation_is_told() {
 
 #[test]
 fn grids_may_be_turned_shifted_and_of_two_pitches() {
-    let base = Grid { pitch: 0.3, origin: [0.11, -0.07], angle_deg: 30.0 };
-    let platform = Grid { pitch: 0.2, origin: [0.0, 0.05], angle_deg: -12.0 };
+    let base = Grid { pitch: 0.3, origin: [0.11, -0.07], angle_deg: 30.0, ..GRID };
+    let platform = Grid { pitch: 0.2, origin: [0.0, 0.05], angle_deg: -12.0, ..GRID };
     let e = round(&free(), [base, platform]).unwrap().exact.unwrap();
     assert!(e.proved);
     assert_eq!(e.verification.unwrap().verdict, Verdict::Equivalent);
@@ -235,7 +238,8 @@ fn hexapod() -> Manipulator {
 #[test]
 fn free_grids_are_never_worse_than_the_given_ones() {
     let cost = |n: &NearestRounding| n.first_order.0.max(2.5 * n.first_order.1.to_radians());
-    let grids = [Grid { pitch: 0.4, ..GRID }, Grid { pitch: 0.3, origin: [0.1, 0.05], angle_deg: 20.0 }];
+    let grids =
+        [Grid { pitch: 0.4, ..GRID }, Grid { pitch: 0.3, origin: [0.1, 0.05], angle_deg: 20.0, ..GRID }];
     for m in [free(), octahedral(), hexapod()] {
         let (fixed, chosen) = (round(&m, grids).unwrap(), round_freely(&m, grids));
         let (a, b) = (fixed.nearest.unwrap(), chosen.nearest.unwrap());
@@ -254,8 +258,8 @@ fn free_grids_are_never_worse_than_the_given_ones() {
 #[test]
 fn joints_that_are_on_some_grid_are_found_to_be_on_it() {
     let grids = [
-        Grid { pitch: 0.4, origin: [0.13, -0.08], angle_deg: 31.0 },
-        Grid { pitch: 0.3, origin: [0.1, 0.05], angle_deg: -17.0 },
+        Grid { pitch: 0.4, origin: [0.13, -0.08], angle_deg: 31.0, ..GRID },
+        Grid { pitch: 0.3, origin: [0.1, 0.05], angle_deg: -17.0, ..GRID },
     ];
     let on = round(&hexapod(), grids).unwrap().nearest.unwrap().manipulator;
     let plain = grids.map(|g| Grid { origin: [0.0; 2], angle_deg: 0.0, ..g });
