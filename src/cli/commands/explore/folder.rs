@@ -15,6 +15,7 @@ pub(super) const OPTIMIZE: &str = "optimize.json";
 pub(super) const OPTIMISED: &str = "optimised.toml";
 pub(super) const CLOSEST: &str = "closest.toml";
 pub(super) const ROUNDED: &str = "rounded.toml";
+pub(super) const ROUNDED_ASSESS: &str = "rounded-assess.json";
 pub(super) const ROUND: &str = "round.json";
 /// Folder of the files for other programs.
 pub(super) const MACHINE: &str = "machine";
@@ -31,13 +32,14 @@ pub(super) const NEAREST: &str = "nearest.json";
 pub(super) const NEAREST_OCTAHEDRAL: &str = "nearest-octahedral.toml";
 pub(super) const BESIDE: &str = "nearest-equivalent.toml";
 pub(super) const ASSESS: &str = "nearest-assess.json";
-const ALL: [&str; 20] = [
+const ALL: [&str; 21] = [
     ORIGINAL,
     FAMILY,
     OPTIMIZE,
     OPTIMISED,
     CLOSEST,
     ROUNDED,
+    ROUNDED_ASSESS,
     ROUND,
     DETERMINANT,
     COMPONENTS,
@@ -55,9 +57,10 @@ const ALL: [&str; 20] = [
 ];
 
 /// What stands first in a report of the folder.
-pub(in crate::cli::commands) const FIRST: [&str; 18] = [
+pub(in crate::cli::commands) const FIRST: [&str; 19] = [
     ORIGINAL,
     ROUNDED,
+    ROUNDED_ASSESS,
     OPTIMISED,
     CLOSEST,
     EQUIVALENT,

@@ -173,9 +173,13 @@ impl Results {
                 "no platform that meets the requirements was found, and no conflict".into()
             }
             (Judged::Violated(design) | Judged::Unproved(design), _) => judged(design),
-            (Judged::OnHoles, _) => {
-                self.built().map_or_else(String::new, judged) + "; its joints are on holes"
-            }
+            (Judged::OnHoles, _) => match (self.built(), &self.assessment) {
+                (Some(design), Some(a)) => {
+                    let sentence = requirements::sentence(&design.name, a);
+                    format!("{}; its joints are on the holes", sentence.trim_end())
+                }
+                _ => "all joints are on the holes; nothing is required besides".into(),
+            },
             (Judged::NoHoles(why), _) => format!("no platform has its joints on the holes: {why}"),
             (Judged::Compared(v), _) => v.explanation.clone(),
             (Judged::New, _) => {
@@ -251,6 +255,13 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     optimize::check_extension(args.extension)?;
     let design = context.load(&args.design)?;
     let Ok(octahedral) = Octahedral::recognise(design.manipulator()) else {
+        if design.holes.is_some() {
+            let message =
+                "the design states [holes], and joints are put on them for octahedral designs alone";
+            return Err(Failure::refused("explore::holes", message).with_help(
+                "`equipod build round` puts the joints of this design on its holes; without [holes] it can be explored",
+            ));
+        }
         return general::run(args, &design, context);
     };
     search::refuse_front(&design)?;
@@ -320,6 +331,10 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
             folder.write(folder::ROUND, &document(answer, context.provenance(), &[])?)?;
             if let Some(new) = new {
                 folder.write(folder::ROUNDED, &new.to_toml())?;
+                if let Some(found) = &assessment {
+                    let text = document(found.clone(), context.provenance(), &[])?;
+                    folder.write(folder::ROUNDED_ASSESS, &text)?;
+                }
                 built = Some(machine(new, &mut folder)?);
             }
         }
