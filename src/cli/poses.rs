@@ -23,11 +23,6 @@ pub(crate) fn space(design: &Design) -> (PoseSpace, bool) {
     (workspace.space(&home(design)), given)
 }
 
-/// The poses of the grid of that workspace, home first.
-pub(crate) fn judged(design: &Design) -> Vec<Pose> {
-    workspace(design).0.sample(&home(design))
-}
-
 /// The seven fields of a CSV file in which a pose is written: position and quaternion, scalar part first.
 pub(crate) fn csv_fields(pose: &Pose) -> String {
     let numbers = pose.position.iter().copied().chain(pose.quaternion());

@@ -11,7 +11,7 @@ use crate::geom::Pose;
 use crate::manipulator::Body;
 use crate::manipulator::{InvalidManipulator, JointValues, LegLengths, Manipulator, SurdPoint};
 use crate::requirements::{
-    Envelopes, ForceUnit, Hardware, KeepOut, Load, MassUnit, MovingBodies, Payload, PlatformSpeed,
+    Envelopes, ForceUnit, Grid, Hardware, KeepOut, Load, MassUnit, MovingBodies, Payload, PlatformSpeed,
     PlatformStiffness, Quantity, Requirements, Reserves, Term, TermKind, VibratingMasses,
 };
 use crate::requirements::{KeptSymmetry, Objective, VariableKind};
@@ -54,6 +54,8 @@ pub struct Design {
     pub envelopes: Envelopes,
     /// What has to remain of each limit.
     pub reserves: Reserves,
+    /// Where the joints of base and platform can be put; `None`: anywhere.
+    pub holes: Option<[Grid; 2]>,
     /// Unit of forces; `None` where the file names none.
     pub force_units: Option<ForceUnit>,
     /// Unit of masses; `None` where the file names none.
@@ -163,6 +165,7 @@ impl Design {
             payload: None,
             envelopes: Envelopes::default(),
             reserves: Reserves::default(),
+            holes: None,
             force_units: None,
             mass_units: None,
             calibration: None,
@@ -205,6 +208,7 @@ impl Design {
         (self.payload, self.envelopes, self.reserves) =
             (other.payload, other.envelopes, other.reserves.clone());
         (self.force_units, self.mass_units) = (other.force_units, other.mass_units);
+        self.holes = other.holes;
         self
     }
 

@@ -7,7 +7,8 @@ use super::fixtures::REQUIRED as GOOD;
 use super::*;
 use crate::manipulator::Body;
 use crate::requirements::{
-    Envelope, GRAVITY, Housing, JointAxes, KeepOutShape, LengthLimits, Quantity, Region, TermKind,
+    Envelope, GRAVITY, Grid, HolePattern, Housing, JointAxes, KeepOutShape, LengthLimits, Quantity, Region,
+    TermKind,
 };
 
 #[test]
@@ -261,4 +262,33 @@ fn masses_and_units_give_what_vibrates() {
     let (one, other) = (lowest(&design, 1.0), lowest(&metres, 1e-3));
     assert!(one > 0.0 && (one / other - 1.0).abs() < 1e-9, "{one} {other}");
     assert!((metres.stiffness.unwrap().linear.unwrap() / 2e7 - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn holes_are_read_and_written_back_and_follow_the_unit() {
+    let text = GOOD.replacen("trajectory = \"path.csv\"\n", "", 1)
+        + "[holes]\nbase = { pitch = 25 }\nplatform = { pattern = \"triangular\", pitch = 10, origin = [5, 2], angle_deg = -30 }\n";
+    let (design, _) = parse(&text, Format::Toml).unwrap();
+    let platform =
+        Grid { pattern: HolePattern::Triangular, pitch: 10.0, origin: [5.0, 2.0], angle_deg: -30.0 };
+    assert_eq!(design.holes, Some([Grid::square(25.0), platform]));
+    for (text, format) in [(design.to_toml(), Format::Toml), (design.to_json(), Format::Json)] {
+        assert_eq!(parse(&text, format).unwrap().0, design, "{text}");
+    }
+    let metres = design.in_units("m").unwrap();
+    let scaled = Grid { pitch: 0.01, origin: [0.005, 0.002], ..platform };
+    assert_eq!(metres.holes, Some([Grid::square(0.025), scaled]));
+    for (from, to, code) in [
+        ("base = { pitch = 25 }\n", "", Code::MissingKey),
+        ("pitch = 25", "pattern = \"square\"", Code::MissingKey),
+        ("pitch = 25", "pitch = 0", Code::NotPositive),
+        ("\"triangular\"", "\"hexagonal\"", Code::UnknownKey),
+        ("origin = [5, 2]", "origin = [5]", Code::CoordinateCount),
+        ("angle_deg = -30", "angle = -30", Code::UnknownKey),
+    ] {
+        let bad = text.replacen(from, to, 1);
+        assert!(bad != text, "{from}");
+        let violations = parse(&bad, Format::Toml).unwrap_err();
+        assert_eq!(violations[0].code, code, "{to}");
+    }
 }

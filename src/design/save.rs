@@ -11,7 +11,7 @@ use super::{
 use crate::geom::Pose;
 use crate::manipulator::Body;
 use crate::requirements::{
-    Envelope, Envelopes, ForceUnit, Hardware, Housing, JointAxes, KeepOut, KeepOutShape, KeptSymmetry,
+    Envelope, Envelopes, ForceUnit, Grid, Hardware, Housing, JointAxes, KeepOut, KeepOutShape, KeptSymmetry,
     LegPart, LengthLimits, ListedFrom, Load, MassUnit, Payload, Region, Reserve, Reserves, Swing, TermKind,
 };
 use crate::rotary::Elbow;
@@ -68,6 +68,8 @@ struct Tail<'a> {
     limits: Option<LimitsFile>,
     #[serde(skip_serializing_if = "Option::is_none")]
     envelope: Option<EnvelopesTable>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    holes: Option<HolesTable>,
     #[serde(skip_serializing_if = "Option::is_none")]
     speed: Option<SpeedTable>,
     stiffness: Option<StiffnessTable>,
@@ -382,6 +384,7 @@ impl Design {
             hardware: HardwareTable::of(&self.hardware),
             limits: LimitsFile::of(&self.reserves),
             envelope: EnvelopesTable::of(&self.envelopes),
+            holes: self.holes.as_ref().map(HolesTable::from),
             payload: self.payload.as_ref().map(PayloadTable::from),
             speed: self.speed.map(|s| SpeedTable { linear: s.linear, angular_deg: s.angular_deg }),
             stiffness: self.stiffness.map(|s| StiffnessTable {
@@ -536,6 +539,34 @@ impl EnvelopesTable {
             platform: e.platform.map(value),
             machine: e.machine.map(value),
         })
+    }
+}
+
+/// A grid of `[holes]`.
+#[derive(Serialize)]
+struct GridTable {
+    pattern: &'static str,
+    pitch: f64,
+    origin: [f64; 2],
+    angle_deg: f64,
+}
+
+/// `[holes]`.
+#[derive(Serialize)]
+struct HolesTable {
+    base: GridTable,
+    platform: GridTable,
+}
+
+impl From<&[Grid; 2]> for HolesTable {
+    fn from(grids: &[Grid; 2]) -> Self {
+        let [base, platform] = grids.map(|g| GridTable {
+            pattern: g.pattern.name(),
+            pitch: g.pitch,
+            origin: g.origin,
+            angle_deg: g.angle_deg,
+        });
+        Self { base, platform }
     }
 }
 

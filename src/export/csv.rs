@@ -1,4 +1,4 @@
-//! Tables: joints, leg lengths over the workspace and along the trajectory.
+//! Tables: joints, parts, leg lengths over the workspace and along the trajectory.
 
 use std::fmt::Write as _;
 
@@ -16,13 +16,14 @@ impl Writer for Csv {
     }
 
     fn purpose(&self) -> &'static str {
-        "tables of joints and leg lengths, for spreadsheets and controllers"
+        "tables of joints, leg lengths and parts, for spreadsheets and controllers"
     }
 
     fn files(&self, export: &Export) -> Result<Vec<ExportedFile>, Unsupported> {
         let mut out = vec![
             ExportedFile::new("joints.csv", joints(export)),
             ExportedFile::new("legs.csv", legs(export)),
+            ExportedFile::new("parts.csv", export.parts_csv()),
             ExportedFile::new("lengths-workspace.csv", lengths(export, &export.workspace)),
         ];
         if !export.trajectory.is_empty() {

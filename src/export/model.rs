@@ -142,6 +142,8 @@ pub struct Export {
     pub trajectory: Vec<Pose>,
     /// Mass of the platform with its payload, kilograms.
     pub mass: f64,
+    /// Whether the design says what the platform carries.
+    pub payload: bool,
     /// Centre of mass of the platform with its payload, platform frame, design units, where the design says it.
     pub center_of_mass: Option<Point3<f64>>,
     /// Inertia about the centre of mass, axes of the platform frame, kg m^2, where the design says it.
@@ -263,6 +265,7 @@ impl Export {
             workspace,
             trajectory,
             mass,
+            payload: payload.is_some(),
             center_of_mass: design.payload.map(|p| p.center),
             inertia,
             gravity: design.payload.map_or_else(|| Vector3::new(0.0, 0.0, -9.81), |p| p.gravity),

@@ -26,7 +26,7 @@ pub use correction::{Controller, NoFormula, equivalent_octahedral, octahedral_of
 pub use error_map::{ErrorAtPose, ErrorParts, MachineErrors, error_map, errors_at};
 pub use joint::{Joint, displaced, joints};
 pub use rounding::{
-    ExactRounding, Grid, Judgement, NearestRounding, NoRounding, RoundedJoint, Rounding, RoundingProblem,
+    ExactRounding, Judgement, NearestRounding, NoRounding, RoundedJoint, Rounding, RoundingProblem,
     round_to_grid,
 };
 pub use sample::{ErrorBound, ErrorKind, PoseSearch, ToleranceError};

@@ -4,13 +4,15 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    AssessAnswer, DimensionalStatus, NearestRecord, Number, SearchWord, SolvedRecord, VariableRecord,
-    VerdictWord,
+    AssessAnswer, DimensionalStatus, NearestRecord, NoRoundingError, NoRoundingRecord, Number, SearchWord,
+    SolvedRecord, VariableRecord, VariantWord, VerdictWord,
 };
 use crate::dimensional::{DimensionalReport, DimensionalSolution};
 use crate::entrance::optimizing::{Checked, dimensional_status};
+use crate::entrance::rounding::{DesignOnHoles, RoundingWay};
 use crate::equivalence::Verification;
 use crate::fk::FkSolutions;
+use crate::manufacture::{NoRounding, RoundedJoint};
 use crate::offsets::OffsetSolution;
 
 /// The poses of the original, with the lengths they belong to.
@@ -178,8 +180,62 @@ pub struct ExploreOctahedralAnswer {
     pub optimize: Option<OptimizedRecord>,
     /// The comparison of the design with the optimised one; null: there is none.
     pub verify: Option<ComparedRecord>,
+    /// The platform with its joints on holes; null: the design states no holes, or no platform was found. The assessment is then that of this platform.
+    pub holes: Option<OnHolesRecord>,
     /// The poses of the design.
     pub fk: PoseTotalsRecord,
+}
+
+/// A platform with its joints on the holes that its design states, in short.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct OnHolesRecord {
+    /// Which rounding was taken; null: there is none.
+    pub variant: Option<VariantWord>,
+    /// Turns by 120 degrees take both triangles with their joints to themselves.
+    pub three_fold: bool,
+    /// The farthest that a joint went to its hole.
+    pub largest_displacement: Option<Number>,
+    /// Variables that were chosen again after rounding.
+    pub refitted: Vec<String>,
+    /// How often a platform was sought and rounded.
+    pub passes: usize,
+    /// Why there is no rounding; null: there is one.
+    pub error: Option<NoRoundingError>,
+}
+
+impl From<&Result<DesignOnHoles, NoRounding>> for OnHolesRecord {
+    fn from(found: &Result<DesignOnHoles, NoRounding>) -> Self {
+        let none = Self {
+            variant: None,
+            three_fold: false,
+            largest_displacement: None,
+            refitted: Vec::new(),
+            passes: 1,
+            error: None,
+        };
+        let error = |why: NoRounding| Some(NoRoundingRecord::from(why).error);
+        let on = match found {
+            Ok(on) => on,
+            Err(why) => return Self { error: error(*why), ..none },
+        };
+        let (exact, nearest) = (on.rounding.exact.as_ref(), on.rounding.nearest.as_ref());
+        let Some((way, _)) = &on.found else {
+            return Self { error: exact.err().copied().and_then(error), passes: on.passes, ..none };
+        };
+        let (joints, three_fold) = match way {
+            RoundingWay::Exact => (exact.map(|e| &e.joints), exact.is_ok_and(|e| e.three_fold)),
+            RoundingWay::Nearest => (nearest.map(|n| &n.joints), false),
+        };
+        let farthest = |list: &Vec<RoundedJoint>| list.iter().map(|j| j.moved.norm()).fold(0.0, f64::max);
+        Self {
+            variant: Some((*way).into()),
+            three_fold,
+            largest_displacement: joints.ok().map(farthest).map(Number),
+            refitted: on.refitted.iter().map(|kind| kind.code().to_owned()).collect(),
+            passes: on.passes,
+            error: None,
+        }
+    }
 }
 
 /// The verdict of `explore`: that of the comparison, or why there was none.
@@ -194,6 +250,8 @@ pub enum ExploreVerdict {
     Violated,
     /// The platform meets its requirements; its triangles were chosen too, so that it is not equivalent to the design.
     NewKinematics,
+    /// The platform meets its requirements with its joints on the holes that the design states.
+    OnHoles,
     /// What the comparison says; `inconclusive` too where no offsets were found and some branches are not proved empty.
     #[serde(untagged)]
     Compared(VerdictWord),
@@ -208,6 +266,7 @@ impl ExploreVerdict {
             Self::None => "none",
             Self::Violated => "violated",
             Self::NewKinematics => "new_kinematics",
+            Self::OnHoles => "on_holes",
             Self::Compared(verdict) => verdict.as_str(),
         }
     }

@@ -8,10 +8,11 @@ use super::{
     AssessAnswer, DesignRecord, Number, PoseErrorRecord, PoseErrorsRecord, PoseQuaternionRecord, VerdictWord,
 };
 use crate::design::Design;
+use crate::entrance::rounding::RoundingWay;
 use crate::equivalence::{Verification, VerifyError};
 use crate::manipulator::Body;
-use crate::manufacture::{ExactRounding, Grid, Judgement, NearestRounding, NoRounding, RoundedJoint};
-use crate::requirements::TermKind;
+use crate::manufacture::{ExactRounding, Judgement, NearestRounding, NoRounding, RoundedJoint};
+use crate::requirements::{Grid, HolePattern, TermKind};
 
 /// The answer of `build round`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -50,6 +51,15 @@ pub enum VariantWord {
     Nearest,
 }
 
+impl From<RoundingWay> for VariantWord {
+    fn from(way: RoundingWay) -> Self {
+        match way {
+            RoundingWay::Exact => Self::Exact,
+            RoundingWay::Nearest => Self::Nearest,
+        }
+    }
+}
+
 impl VariantWord {
     /// The word.
     #[must_use]
@@ -73,6 +83,8 @@ pub struct GridsRecord {
 /// A grid of holes in the plane of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct GridRecord {
+    /// How the holes lie.
+    pub pattern: HolePattern,
     /// Distance of neighbouring holes.
     pub pitch: Number,
     /// A hole.
@@ -84,6 +96,7 @@ pub struct GridRecord {
 impl From<&[Grid; 2]> for GridsRecord {
     fn from([base, platform]: &[Grid; 2]) -> Self {
         let one = |g: &Grid| GridRecord {
+            pattern: g.pattern,
             pitch: Number(g.pitch),
             origin: g.origin.map(Number),
             angle_deg: Number(g.angle_deg),
@@ -107,6 +120,8 @@ pub struct JudgementRecord {
     pub requirements: Vec<RequirementMarginRecord>,
     /// No requirement is violated.
     pub met: bool,
+    /// Every margin keeps its reserve too.
+    pub reserve_kept: bool,
 }
 
 /// The least margin of a requirement.
@@ -131,6 +146,7 @@ impl From<&Judgement> for JudgementRecord {
             det: j.det.map(Number),
             requirements: j.margins.iter().map(margin).collect(),
             met: j.met,
+            reserve_kept: j.reserve_kept,
         }
     }
 }
@@ -185,6 +201,8 @@ pub enum NoRoundingWord {
     JointsCoincide,
     /// A pose becomes singular.
     SingularPose,
+    /// The origin and the angle of a grid can be chosen for square grids alone.
+    FreePattern,
     /// The grid cannot be used.
     BadGrid,
 }
@@ -197,6 +215,7 @@ impl From<NoRounding> for NoRoundingRecord {
             NoRounding::Singular => NoRoundingWord::Singular,
             NoRounding::JointsCoincide(_) => NoRoundingWord::JointsCoincide,
             NoRounding::SingularPose => NoRoundingWord::SingularPose,
+            NoRounding::FreePattern(_) => NoRoundingWord::FreePattern,
             _ => NoRoundingWord::BadGrid,
         };
         Self { error: NoRoundingError { code, message: why.to_string() } }
@@ -240,6 +259,8 @@ pub struct ExactRoundingRecord {
     pub proved: bool,
     /// What leg map and forward kinematics say of it.
     pub verdict: RoundingVerdict,
+    /// Turns by 120 degrees take both triangles with their joints to themselves.
+    pub three_fold: bool,
     /// Round the hexagon: [m, g] for t = m / g.
     pub fractions: Option<[[i64; 2]; 6]>,
     /// The joints.
@@ -334,6 +355,7 @@ impl ExactRoundingOutcome {
             grids: (&e.grids).into(),
             proved: e.proved,
             verdict: (&e.verification).into(),
+            three_fold: e.three_fold,
             fractions: e.fractions.map(|f| f.map(|(k, n)| [k, n])),
             joints: joints(design, &e.joints),
             judgement: (&e.judgement).into(),

@@ -33,6 +33,7 @@ pub(super) fn heading(fields: &Map<String, Value>) -> &'static str {
         () if has("components") => "Replaceable legs",
         () if has("curves") => "Self-motions",
         () if has("topologies") => "Topologies",
+        () if has("exact") && has("nearest") => "Joints on holes",
         () if has("relation") && has("A") => "Leg map",
         () if has("architecturally_singular") => "Architectural singularity",
         () => "Result",

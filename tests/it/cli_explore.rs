@@ -4,6 +4,7 @@ use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
+use equipod::methods::design::{Format, parse};
 use serde_json::Value;
 
 const FILES: [&str; 10] = [
@@ -353,4 +354,102 @@ fn the_platform_is_searched_under_the_requirements_and_judged_as_assess_does() {
     );
     let (code, d, _) = run(&front, "front");
     assert_eq!((code, d["error"]["code"].as_str()), (Some(2), Some("explore::front")));
+}
+
+/// A shipped design with tables added.
+fn with_tables(folder: &Path, design: &str, tables: &str) -> String {
+    let text = std::fs::read_to_string(shipped(design)).unwrap();
+    let path = folder.join("design.toml");
+    std::fs::write(&path, format!("{text}\n{tables}")).unwrap();
+    path.display().to_string()
+}
+
+#[test]
+fn a_design_with_holes_becomes_a_machine_whose_joints_are_on_them() {
+    let temp = tempfile::tempdir().unwrap();
+    let holes = "[holes]\nbase = { pitch = 0.25 }\nplatform = { pitch = 0.5, origin = [0.125, 0] }\n";
+    let design = with_tables(temp.path(), "rbt-octahedral", holes);
+    let folder = temp.path().join("out");
+    let out = explore(&design, &folder, &["--json"]);
+    let d: Value = serde_json::from_slice(&out.stdout).unwrap();
+    assert_eq!(out.status.code(), Some(0), "{d}");
+    assert_eq!((&d["verdict"], &d["holes"]["variant"]), (&Value::from("on_holes"), &Value::from("exact")));
+    let text = read(&folder, "rounded.toml");
+    let (built, _) = parse(&text, Format::Toml).unwrap();
+    let m = built.manipulator();
+    let on_hole = |x: f64, pitch: f64| (x / pitch - (x / pitch).round()).abs() < 1e-9;
+    assert!(m.base_joints().iter().all(|p| on_hole(p.x, 0.25) && on_hole(p.y, 0.25)), "{text}");
+    assert!(m.platform_joints().iter().all(|p| on_hole(p.x - 0.125, 0.5) && on_hole(p.y, 0.5)), "{text}");
+    assert_eq!((m.base_joints().len(), m.platform_joints().len()), (6, 6), "separate joints");
+    for file in ["platform.xml", "platform.step", "parts.csv", "legs.csv"] {
+        assert!(folder.join("machine").join(file).is_file(), "{file}");
+    }
+    let parts = read(&folder, "machine/parts.csv");
+    assert!(parts.contains("\nbase joint,6,"), "{parts}");
+    let report = read(&folder, "report.md");
+    for heading in ["## Bill of materials", "## Joints on holes"] {
+        assert!(report.contains(heading), "{heading}");
+    }
+    // the platform that is written is the one that `build round` would write
+    let round: Value = serde_json::from_str(&read(&folder, "round.json")).unwrap();
+    assert_eq!((&round["chosen"], &round["exact"]["proved"]), (&Value::from("exact"), &Value::from(true)));
+}
+
+#[test]
+fn holes_that_no_platform_fits_are_answered_with_no_and_why() {
+    let temp = tempfile::tempdir().unwrap();
+    let holes = "[holes]\nbase = { pitch = 30 }\nplatform = { pitch = 30 }\n";
+    let design = with_tables(temp.path(), "rbt-octahedral", holes);
+    let folder = temp.path().join("out");
+    let out = explore(&design, &folder, &["--json"]);
+    let d: Value = serde_json::from_slice(&out.stdout).unwrap();
+    assert_eq!((out.status.code(), &d["verdict"]), (Some(1), &Value::from("violated")), "{d}");
+    assert_eq!(d["holes"]["variant"], Value::Null);
+    assert!(d["holes"]["error"]["message"].as_str().is_some_and(|m| m.contains("grid")), "{}", d["holes"]);
+    assert!(folder.join("optimised.toml").is_file() && !folder.join("rounded.toml").is_file());
+}
+
+/// From requirements to a machine: what docs/worked-designs.md promises of the command.
+#[test]
+#[ignore = "slow evidence"]
+fn the_simulator_for_300_kg_comes_out_of_one_command() {
+    let temp = tempfile::tempdir().unwrap();
+    let out = Command::new(env!("CARGO_BIN_EXE_equipod"))
+        .args(["explore", &shipped("worked/simulator-300kg"), "--samples", "2", "--json", "-o"])
+        .arg(temp.path())
+        .output()
+        .unwrap();
+    let d: Value = serde_json::from_slice(&out.stdout).unwrap();
+    assert_eq!(
+        (out.status.code(), &d["verdict"]),
+        (Some(0), &Value::from("on_holes")),
+        "{}",
+        d["explanation"]
+    );
+    for row in d["assessment"]["requirements"].as_array().unwrap() {
+        assert!(row["margin"].as_f64().unwrap() >= 0.0, "{row}");
+    }
+    // `assess` on the file says the same
+    let rounded = temp.path().join("rounded.toml");
+    let again = Command::new(env!("CARGO_BIN_EXE_equipod")).arg("assess").arg(&rounded).output().unwrap();
+    assert_eq!(again.status.code(), Some(0), "{}", String::from_utf8_lossy(&again.stdout));
+    let (built, _) = parse(&read(temp.path(), "rounded.toml"), Format::Toml).unwrap();
+    let m = built.manipulator();
+    assert_eq!((m.base_joints().len(), m.platform_joints().len()), (6, 6), "separate joints");
+    let all = m.base_joints().iter().chain(m.platform_joints());
+    assert!(all.flat_map(|p| [p.x, p.y]).all(|x| (x / 25.0).fract() == 0.0), "on the grid");
+    assert!(m.base_joints().iter().all(|p| p.x.hypot(p.y) + 20.0 <= 900.0), "in the circle");
+    for file in ["platform.step", "platform.xml", "parts.csv", "three-views.svg"] {
+        assert!(temp.path().join("machine").join(file).is_file(), "{file}");
+    }
+}
+
+#[test]
+fn holes_of_a_design_that_is_not_octahedral_are_refused() {
+    let temp = tempfile::tempdir().unwrap();
+    let holes = "[holes]\nbase = { pitch = 25 }\nplatform = { pitch = 25 }\n";
+    let design = with_tables(temp.path(), "general-6-6", holes);
+    let out = explore(&design, &temp.path().join("out"), &["--json"]);
+    let d: Value = serde_json::from_slice(&out.stdout).unwrap();
+    assert_eq!((out.status.code(), &d["error"]["code"]), (Some(2), &Value::from("explore::holes")));
 }

@@ -67,12 +67,27 @@ fn model(args: &Args, design: &Design) -> Result<Export, Failure> {
         mass: args.mass,
         gravity_compensation: args.gravity_compensation,
     };
-    Export::of(design, &options).map_err(|why| match why {
+    Export::of(design, &options).map_err(|why| refusal(&why))
+}
+
+fn refusal(why: &NoExport) -> Failure {
+    match why {
         NoExport::Unit(e) => {
             Failure::refused("export::unknown_unit", format!("the units of the design cannot be used: {e}"))
                 .with_help("`--unit mm` says what one unit of the design is")
         }
         other => Failure::refused("export::bad_size", other.to_string()),
+    }
+}
+
+/// A design for all formats, sizes by the design and by rule.
+///
+/// # Errors
+/// Exit 2: units that are no lengths, sizes that nothing can be made of.
+pub(super) fn plain(design: &Design) -> Result<Export, Failure> {
+    Export::of(design, &ExportOptions::default()).map_err(|why| match why {
+        NoExport::Unit(_) => refusal(&why).with_help("name a unit of length, such as `units = \"mm\"`"),
+        other => refusal(&other),
     })
 }
 

@@ -3,6 +3,7 @@
 mod calibration;
 mod constructions;
 mod cranks;
+mod holes;
 mod joints;
 mod limits;
 #[cfg(test)]
@@ -21,7 +22,7 @@ use crate::manipulator::{Body, InvalidManipulator, LegLengths, Manipulator};
 /// Words less similar than this are no help.
 const NEAR: f64 = 0.7;
 
-const TOP_LEVEL: [&str; 25] = [
+const TOP_LEVEL: [&str; 26] = [
     "name",
     "units",
     "force_units",
@@ -45,6 +46,7 @@ const TOP_LEVEL: [&str; 25] = [
     "keep_out",
     "payload",
     "envelope",
+    "holes",
     "limits",
     "calibration",
 ];
@@ -107,6 +109,7 @@ pub(super) fn design(root: &Node, report: &mut Findings<'_>, takes_cranks: bool)
     if let Some(units) = &units {
         limits::vibrating(report, entries, units);
     }
+    let holes = holes::holes(report, entries);
     let calibration = calibration::calibration(report, entries, [base.as_ref(), platform.as_ref()]);
     if !report.is_clean() {
         return None;
@@ -131,6 +134,7 @@ pub(super) fn design(root: &Node, report: &mut Findings<'_>, takes_cranks: bool)
     design.keep_outs = keep_outs;
     (design.payload, design.envelopes, design.reserves) = (payload, envelopes, reserves);
     (design.force_units, design.mass_units) = (force_units, mass_units);
+    design.holes = holes;
     design.calibration = calibration;
     Some(design)
 }

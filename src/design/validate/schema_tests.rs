@@ -4,11 +4,12 @@ use serde_json::Value;
 
 use super::calibration::CALIBRATION_KEYS;
 use super::cranks::{COPY_KEYS, CRANK_KEYS, DRIVE_KEYS};
+use super::holes::{GRID_KEYS, PLATE_KEYS};
 use super::limits::{ENVELOPE_KEYS, PAYLOAD_KEYS};
 use super::search::SEARCH_KEYS;
 use super::tables::{HARDWARE_KEYS, LIMIT_KEYS, POSE_KEYS, WORKSPACE_KEYS};
 use crate::design::SCHEMA;
-use crate::requirements::{Objective, TermKind, VariableKind};
+use crate::requirements::{HolePattern, Objective, TermKind, VariableKind};
 
 fn sorted<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
     let mut names: Vec<&str> = names.into_iter().collect();
@@ -31,6 +32,8 @@ fn the_schema_has_the_keys_of_the_reader() {
     assert_eq!(keys("/$defs/pose"), sorted(POSE_KEYS));
     assert_eq!(keys("/$defs/home_pose"), sorted(POSE_KEYS));
     assert_eq!(keys("/properties/envelope"), sorted(ENVELOPE_KEYS));
+    assert_eq!(keys("/properties/holes"), sorted(PLATE_KEYS));
+    assert_eq!(keys("/$defs/hole_grid"), sorted(GRID_KEYS));
     assert_eq!(keys("/properties/payload"), sorted(PAYLOAD_KEYS));
     assert_eq!(keys("/properties/calibration"), sorted(CALIBRATION_KEYS));
     assert_eq!(keys("/$defs/crank"), sorted(CRANK_KEYS.into_iter().chain(COPY_KEYS)));
@@ -44,6 +47,8 @@ fn the_schema_has_the_keys_of_the_reader() {
         sorted(list.iter().map(|v| v.as_str().unwrap()))
     };
     assert_eq!(names("/$defs/objective/enum"), sorted(Objective::ALL.map(Objective::code)));
+    let patterns = names("/$defs/hole_grid/properties/pattern/enum");
+    assert_eq!(patterns, sorted(HolePattern::ALL.map(HolePattern::name)));
     let variables = names("/properties/optimize/properties/variables/items/enum");
     assert_eq!(variables, sorted(VariableKind::ALL.map(VariableKind::code)));
 }

@@ -2,6 +2,7 @@
 
 mod cranks;
 
+use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write as _;
 
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
@@ -10,7 +11,7 @@ use super::text::{one_line, real, reals, scaled, xml_comment};
 use super::{Export, ExportBody, ExportLeg, ExportedFile, Unsupported, Writer};
 use crate::geom::{Pose, any_across};
 use crate::plot::escape;
-use crate::requirements::LegPart;
+use crate::requirements::{JointAxes, LegPart};
 
 /// The format `mjcf`.
 #[derive(Debug)]
@@ -26,7 +27,7 @@ impl Writer for Mjcf {
     }
 
     fn leaves_out(&self) -> &'static str {
-        "contacts, friction, limits of speeds and swing"
+        "contacts, friction, limits of speeds and of swing at the platform"
     }
 
     fn takes_cranks(&self) -> bool {
@@ -160,11 +161,28 @@ fn range_of(export: &Export, leg: &ExportLeg, name: &str) -> String {
     })
 }
 
+/// Range of both hinges of the base joint of a leg, radians, where the design limits its swing.
+///
+/// Turned by `a` about the first hinge and by `b` about the second, a leg is `t` from where it is at home with `cos t = cos a cos b`, so that neither turns by more than `t`. A leg
+/// within `s` of the axis of its joint is within `s` plus the angle of the axis and the leg at home: the hinges keep no leg from where the swing lets it go.
+fn swing_of(export: &Export, leg: &ExportLeg) -> Result<Option<f64>, Unsupported> {
+    let Some(swing) = export.hardware.base_swing else { return Ok(None) };
+    let home = leg.direction()?;
+    let off = match swing.axes {
+        JointAxes::Given(axes) => home.angle(&axes[leg.number - 1]),
+        JointAxes::Home | JointAxes::Optimize => 0.0,
+    };
+    let most = swing.limit_deg.to_radians() + off;
+    Ok((most < FRAC_PI_2).then_some(most))
+}
+
 fn leg(out: &mut String, scale: &Scale, export: &Export, leg: &ExportLeg) -> Result<(), Unsupported> {
     let frame = leg_frame(leg)?;
     let (i, length) = (leg.number, leg.length());
     let (thick, thin) = leg.diameters;
     let range = range_of(export, leg, "range");
+    let swing = swing_of(export, leg)?;
+    let swing = swing.map_or_else(String::new, |most| format!(" range=\"{} {}\"", real(-most), real(most)));
     let tip = Vector3::new(0.0, 0.0, length);
     let half = 0.5 * length;
     let mass = LEG_MASS * scale.mass;
@@ -203,9 +221,9 @@ fn leg(out: &mut String, scale: &Scale, export: &Export, leg: &ExportLeg) -> Res
     let _ = writeln!(
         out,
         "      <body name=\"yoke{i}\" pos=\"{}\" quat=\"{}\"{}>\n        \
-         <joint name=\"swing{i}x\" type=\"hinge\" axis=\"1 0 0\"/>\n        {}\n        \
+         <joint name=\"swing{i}x\" type=\"hinge\" axis=\"1 0 0\"{swing}/>\n        {}\n        \
          <body name=\"cylinder{i}\"{}>\n          \
-         <joint name=\"swing{i}y\" type=\"hinge\" axis=\"0 1 0\"/>\n          {}\n          {}\n          \
+         <joint name=\"swing{i}y\" type=\"hinge\" axis=\"0 1 0\"{swing}/>\n          {}\n          {}\n          \
          <body name=\"rod{i}\" pos=\"{}\"{}>\n            \
          <joint name=\"leg{i}\" type=\"slide\" axis=\"0 0 1\" armature=\"{}\"{range}/>\n            {}\n            {}",
         scale.at(&frame.position),
@@ -323,6 +341,9 @@ fn model(export: &Export) -> Result<String, Unsupported> {
             text,
             "  Lengths from {least} to {greatest}, as the design limits them: the range of each slide and of its control."
         );
+    }
+    if export.hardware.base_swing.is_some() {
+        text.push_str("  Ranges of the hinges at the base: boxes around the cones in which the design lets legs swing; at the platform nothing limits them.\n");
     }
     let mut out = opening(export, &scale, &text);
     shape(&mut out, &scale, &export.bodies[0], "      ");

@@ -2,9 +2,9 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::grid::{BodyGrid, GridHole, Pool, Triangle, Wanted, pool};
+use super::grid::{BodyGrid, GridHole, Pool, Triangle, Wanted, length, pool, three_fold_pool};
 use super::{
-    Grid, Judgement, Laying, NoRounding, RoundedJoint, RoundingProblem, best_of, grid_of, judge,
+    Grid, Judgement, Keeping, Laying, NoRounding, RoundedJoint, RoundingProblem, best_of, grid_of, judge,
     objective_above, on_cells, place, sample_plan,
 };
 use crate::equivalence::{Verification, VerifyError, verify};
@@ -98,6 +98,8 @@ pub struct ExactRounding {
     pub judgement: Judgement,
     /// Whether exact rational arithmetic on the holes shows: six independent legs in the span of six independent octahedral legs.
     pub proved: bool,
+    /// Turns by 120 degrees at home take the triangles of both bodies with their joints to themselves: a design of that kind on triangular grids keeps its symmetry.
+    pub three_fold: bool,
     /// Triangles of each body in the search.
     pub pool: [usize; 2],
     /// All triangles with joints within this distance of their places were in the search, base and platform, design units.
@@ -120,8 +122,8 @@ struct Search<'a> {
     grids: [BodyGrid; 2],
     roles: &'a Roles,
     list: Vec<Joint>,
-    /// Whether combinations that violate requirements are passed over.
-    strict: bool,
+    /// Combinations that do not reach it are passed over.
+    least: Keeping,
     hint: usize,
 }
 
@@ -147,15 +149,16 @@ impl Search<'_> {
         on_cells(self.problem.manipulator, &self.grids, &cells(self.roles, &self.list, triangles))
     }
 
-    /// The pair when its objective is above `floor` and, in a strict search, no requirement is violated.
+    /// The pair when its objective is above `floor` and, what it keeps of the requirements is enough.
     fn better(&mut self, triangles: [Triangle; 2], floor: f64) -> Option<TrianglePair> {
         let m = self.build(&triangles)?;
         let mut hint = self.hint;
         let objective = objective_above(&m, self.problem, floor, &mut hint);
         self.hint = hint;
         let objective = objective?;
-        let met = !self.strict || judge(&m, self.problem, Some(self.roles.determinant(&m))).met;
-        met.then_some(TrianglePair { triangles, objective })
+        let reached = self.least == Keeping::Nothing
+            || judge(&m, self.problem, Some(self.roles.determinant(&m))).keeping() >= self.least;
+        reached.then_some(TrianglePair { triangles, objective })
     }
 
     /// The best combination of the first `count` triangles of each body, then replacements of one of them by any of its pool until none is
@@ -236,14 +239,18 @@ pub(super) fn proved(
 /// Where the roles are wanted on a grid.
 pub(super) fn wanted(m: &Manipulator, roles: &Roles, grid: &BodyGrid, body: usize) -> Wanted {
     let at = |j: Joint| grid.coordinates(&place(m, j));
-    Wanted { corners: roles.corners[body].map(at), inner: roles.inner.map(|i| i[body].map(at)) }
+    Wanted {
+        corners: roles.corners[body].map(at),
+        inner: roles.inner.map(|i| i[body].map(at)),
+        skew: grid.skew(),
+    }
 }
 
 /// Greatest reach of a pool, pitches.
 pub(super) fn limit(w: &Wanted) -> f64 {
     let side = |k: usize| {
         let (p, q) = (w.corners[k], w.corners[(k + 1) % 3]);
-        (p[0] - q[0]).hypot(p[1] - q[1])
+        length([p[0] - q[0], p[1] - q[1]], w.skew)
     };
     (REACH_SHARE * side(0).min(side(1)).min(side(2))).min(REACH)
 }
@@ -254,8 +261,9 @@ struct BestTriangles {
     pools: [Pool; 2],
     best: TrianglePair,
     replacements: usize,
-    /// Whether it meets the requirements.
-    met: bool,
+    three_fold: bool,
+    /// What it keeps of the requirements.
+    keeping: Keeping,
 }
 
 fn search(
@@ -265,22 +273,31 @@ fn search(
 ) -> Result<BestTriangles, NoRounding> {
     let m = problem.manipulator;
     let count = problem.candidates.max(1);
-    let pools = [0, 1].map(|body| {
-        let wanted = wanted(m, roles, &laying.bodies[body], body);
-        pool(&wanted, count, limit(&wanted))
-    });
+    let all = [0, 1].map(|body| wanted(m, roles, &laying.bodies[body], body));
+    // a design that turns keeps that where both grids have triangles that do
+    let turning = all.each_ref().map(|w| three_fold_pool(w, limit(w)).filter(|p| !p.triangles.is_empty()));
+    let (pools, three_fold) = match turning {
+        [Some(base), Some(platform)] => ([base, platform], true),
+        _ => (all.each_ref().map(|w| pool(w, count, limit(w))), false),
+    };
     for (body, pool) in Body::BOTH.into_iter().zip(&pools) {
         if pool.triangles.is_empty() {
             return Err(NoRounding::NoTriangleNear(body));
         }
     }
-    let mut search = Search { problem, grids: laying.bodies, roles, list: joints(m), strict: true, hint: 0 };
-    let strict = search.run(&pools, count);
-    let met = strict.is_some();
-    search.strict = false;
-    let found = strict.or_else(|| search.run(&pools, count));
-    let (best, replacements) = found.ok_or(NoRounding::Singular)?;
-    Ok(BestTriangles { laying: *laying, pools, best, replacements, met })
+    let mut search =
+        Search { problem, grids: laying.bodies, roles, list: joints(m), least: Keeping::Reserve, hint: 0 };
+    let mut found = None;
+    let wanted = if problem.requirements.reserves.is_empty() { &Keeping::ALL[1..] } else { &Keeping::ALL };
+    for least in wanted {
+        search.least = *least;
+        found = search.run(&pools, count).map(|(best, replacements)| (best, replacements, *least));
+        if found.is_some() {
+            break;
+        }
+    }
+    let (best, replacements, keeping) = found.ok_or(NoRounding::Singular)?;
+    Ok(BestTriangles { laying: *laying, pools, best, replacements, three_fold, keeping })
 }
 
 /// The best answer on any of the grids, the first ones where several are equally good; what stands against the first where there is none.
@@ -289,7 +306,8 @@ pub(super) fn round(
     layings: &[Laying],
     roles: &Roles,
 ) -> Result<ExactRounding, NoRounding> {
-    let better = |a: &BestTriangles, b: &BestTriangles| (a.met, a.best.objective) > (b.met, b.best.objective);
+    let better =
+        |a: &BestTriangles, b: &BestTriangles| (a.keeping, a.best.objective) > (b.keeping, b.best.objective);
     let found = best_of(layings.iter().map(|laying| search(problem, laying, roles)), better);
     finish(problem, roles, &found.unwrap_or(Err(NoRounding::Singular))?)
 }
@@ -318,6 +336,7 @@ fn finish(
         joints: rounded_joints(m, &rounded, roles, grids, &cells),
         judgement: judge(&rounded, problem, Some(roles.determinant(&rounded))),
         proved: proved(m, &list, &cells, &[best.triangles[0].corners, best.triangles[1].corners]),
+        three_fold: found.three_fold,
         pool: [0, 1].map(|k| pools[k].triangles.len()),
         complete_to: [0, 1].map(|k| pools[k].complete_to * grids[k].pitch()),
         replacements: found.replacements,

@@ -4,7 +4,8 @@ use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::{Rotation2, Vector2};
 
-use super::grid::{BodyGrid, Grid, GridHole, Wanted, pool};
+use super::grid::{BodyGrid, GridHole, Wanted, pool};
+use crate::requirements::Grid;
 
 /// Points within this much of the radius beyond it count as inside a circle.
 const SLIP: f64 = 1e-12;
@@ -175,8 +176,8 @@ pub(super) fn near_triangles(wanted: &Wanted, limit: f64) -> Vec<Laid> {
     for angle in angles {
         // a corner on a hole; the fit shifts it
         let turned = |p: [f64; 2]| -> [f64; 2] { (Rotation2::new(-angle) * (place(p) - first)).into() };
-        let turned =
-            Wanted { corners: wanted.corners.map(turned), inner: wanted.inner.map(|i| i.map(turned)) };
+        let (corners, inner) = (wanted.corners.map(turned), wanted.inner.map(|i| i.map(turned)));
+        let turned = Wanted { corners, inner, skew: 0.0 };
         for t in pool(&turned, TRIANGLES.0, limit).triangles.iter().take(TRIANGLES.1) {
             let mut cells = t.corners.to_vec();
             if wanted.inner.is_some() {
@@ -198,7 +199,7 @@ pub(super) fn as_grid(laid: &Laid, plain: &BodyGrid) -> Grid {
     let turn = Rotation2::new(angle);
     let holes = (turn.inverse() * laid.origin).map(f64::round);
     let origin = (laid.origin - turn * holes) * plain.pitch();
-    Grid { pitch: plain.pitch(), origin: origin.into(), angle_deg: angle.to_degrees() }
+    Grid { origin: origin.into(), angle_deg: angle.to_degrees(), ..Grid::square(plain.pitch()) }
 }
 
 #[cfg(test)]
@@ -278,6 +279,7 @@ mod tests {
         let on = |joint: [f64; 2]| Wanted {
             corners: [[0.0, 0.0], [24.0, 8.0], [6.0, 26.0]].map(to),
             inner: Some([[6.0, 2.0], joint, [3.0, 13.0]].map(to)),
+            skew: 0.0,
         };
         let found = near_triangles(&on([19.0, 13.0]), 8.0)[0];
         assert!(found.worst < 1e-7 && (found.angle - 0.83).abs() < 1e-7, "{found:?}");

@@ -3,34 +3,34 @@
 use nalgebra::{Matrix3, Point3, Vector3};
 
 use crate::num::small::symmetric_eigen3;
+use crate::requirements::{Grid, HolePattern};
 
 /// Joints count as lying in a plane within this times the size of the design.
 const FLAT: f64 = 1e-9;
 /// Cells farther out than this are not counted exactly.
 const FARTHEST: f64 = 1e6;
 
-/// A square grid of holes.
-///
-/// Its axes are the x and y axes of the body frame, projected on the plane of the joints and turned by the angle; its origin is the projection of the
-/// origin of the frame, shifted along these axes.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Grid {
-    /// Distance of neighbouring holes, design units, positive.
-    pub pitch: f64,
-    /// A hole, in the axes of the grid before it is turned, design units.
-    pub origin: [f64; 2],
-    /// Turn about the normal of the plane, degrees.
-    pub angle_deg: f64,
-}
-
 /// A hole, counted from the origin along both axes.
 pub(super) type GridHole = [i64; 2];
+
+/// Sine of the angle between axes with this dot product.
+fn height(skew: f64) -> f64 {
+    (1.0 - skew * skew).sqrt()
+}
+
+/// Length of a displacement in pitches along axes with this dot product.
+pub(super) fn length([x, y]: [f64; 2], skew: f64) -> f64 {
+    (x + skew * y).hypot(y * height(skew))
+}
 
 /// A grid laid into the plane of the joints of a body.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct BodyGrid {
     origin: Point3<f64>,
+    /// Unit vectors along which holes are counted.
     axes: [Vector3<f64>; 2],
+    /// Their dot product.
+    skew: f64,
     pitch: f64,
 }
 
@@ -59,12 +59,22 @@ impl BodyGrid {
         let foot = n * points[0].coords.dot(&n);
         let origin = Point3::from(foot + x * grid.origin[0] + y * grid.origin[1]);
         let (s, c) = grid.angle_deg.to_radians().sin_cos();
-        Some(Self { origin, axes: [x * c + y * s, y * c - x * s], pitch: grid.pitch })
+        let (first, across) = (x * c + y * s, y * c - x * s);
+        let skew = grid.pattern.skew();
+        let second = first * skew + across * height(skew);
+        Some(Self { origin, axes: [first, second], skew, pitch: grid.pitch })
     }
 
-    /// A point of the plane in pitches.
+    /// A point of the plane in pitches along the axes.
     pub(super) fn coordinates(&self, p: &Point3<f64>) -> [f64; 2] {
-        self.axes.map(|axis| (p - self.origin).dot(&axis) / self.pitch)
+        let [u, v] = self.axes.map(|axis| (p - self.origin).dot(&axis) / self.pitch);
+        let g = self.skew;
+        [(u - g * v) / (1.0 - g * g), (v - g * u) / (1.0 - g * g)]
+    }
+
+    /// Cosine of the angle between the axes.
+    pub(super) fn skew(&self) -> f64 {
+        self.skew
     }
 
     /// The hole.
@@ -96,6 +106,8 @@ pub(super) struct Wanted {
     pub(super) corners: [[f64; 2]; 3],
     /// Absent for a body without joints on its sides.
     pub(super) inner: Option<[[f64; 2]; 3]>,
+    /// Cosine of the angle between the axes of the grid.
+    pub(super) skew: f64,
 }
 
 /// A triangle on the grid.
@@ -130,14 +142,16 @@ fn gcd(a: i64, b: i64) -> i64 {
     if b == 0 { a.abs() } else { gcd(b, a % b) }
 }
 
-fn distance(cell: GridHole, wanted: [f64; 2]) -> f64 {
-    (cell[0] as f64 - wanted[0]).hypot(cell[1] as f64 - wanted[1])
+fn distance(cell: GridHole, wanted: [f64; 2], skew: f64) -> f64 {
+    length([cell[0] as f64 - wanted[0], cell[1] as f64 - wanted[1]], skew)
 }
 
-fn cells_within(centre: [f64; 2], reach: f64) -> Vec<GridHole> {
-    let range = |k: usize| (centre[k] - reach).ceil() as i64..=(centre[k] + reach).floor() as i64;
+fn cells_within(centre: [f64; 2], reach: f64, skew: f64) -> Vec<GridHole> {
+    // a circle reaches farther along skew axes
+    let span = reach / height(skew);
+    let range = |k: usize| (centre[k] - span).ceil() as i64..=(centre[k] + span).floor() as i64;
     let all = range(0).flat_map(|i| range(1).map(move |j| [i, j]));
-    all.filter(|c| distance(*c, centre) <= reach).collect()
+    all.filter(|c| distance(*c, centre, skew) <= reach).collect()
 }
 
 /// A side between two cells with its joint: index of the second cell, parts, joint, distance of the joint from where it is wanted.
@@ -154,7 +168,7 @@ fn sides(
     p: GridHole,
     (to, q): (usize, GridHole),
     wanted: Option<[f64; 2]>,
-    reach: f64,
+    (reach, skew): (f64, f64),
     out: &mut Vec<GridSide>,
 ) {
     let d = [q[0] - p[0], q[1] - p[1]];
@@ -167,32 +181,34 @@ fn sides(
         return;
     };
     let step = d.map(|x| (x / parts) as f64);
-    let length = step[0].hypot(step[1]);
+    let length = length(step, skew);
     let from = [wanted[0] - p[0] as f64, wanted[1] - p[1] as f64];
-    let across = (from[0] * step[1] - from[1] * step[0]).abs() / length;
+    let across = (from[0] * step[1] - from[1] * step[0]).abs() * height(skew) / length;
     if across > reach {
         return;
     }
-    let middle = (from[0] * step[0] + from[1] * step[1]) / (length * length);
+    let mixed = skew * (from[0] * step[1] + from[1] * step[0]);
+    let middle = (from[0] * step[0] + from[1] * step[1] + mixed) / (length * length);
     let half = (reach * reach - across * across).sqrt() / length;
     for inner in (middle - half).ceil() as i64..=(middle + half).floor() as i64 {
         if inner != 0 && inner != parts {
             let joint = [0, 1].map(|k| p[k] + d[k] / parts * inner);
-            out.push(GridSide { to, parts, inner, off: distance(joint, wanted) });
+            out.push(GridSide { to, parts, inner, off: distance(joint, wanted, skew) });
         }
     }
 }
 
 /// All triangles whose corners and joints are within `reach` of their places.
 fn within(wanted: &Wanted, reach: f64) -> Vec<Triangle> {
-    let cells = wanted.corners.map(|c| cells_within(c, reach));
+    let skew = wanted.skew;
+    let cells = wanted.corners.map(|c| cells_within(c, reach, skew));
     // sides of each kind by the number of their first cell
     let table = |k: usize| -> Vec<Vec<GridSide>> {
         let next = &cells[(k + 1) % 3];
         let all = |p: &GridHole| {
             let mut out = Vec::new();
             for (to, q) in next.iter().enumerate() {
-                sides(*p, (to, *q), wanted.inner.map(|w| w[k]), reach, &mut out);
+                sides(*p, (to, *q), wanted.inner.map(|w| w[k]), (reach, skew), &mut out);
             }
             out
         };
@@ -213,7 +229,7 @@ fn within(wanted: &Wanted, reach: f64) -> Vec<Triangle> {
                 let from = third[y.to].partition_point(|z| z.to < i);
                 for z in third[y.to][from..].iter().take_while(|z| z.to == i) {
                     let corners = [*a, b, c];
-                    let off = (0..3).map(|k| distance(corners[k], wanted.corners[k]));
+                    let off = (0..3).map(|k| distance(corners[k], wanted.corners[k], skew));
                     out.push(Triangle {
                         deviation: off.chain([x.off, y.off, z.off]).fold(0.0, f64::max),
                         corners,
@@ -235,6 +251,11 @@ pub(super) fn pool(wanted: &Wanted, enough: usize, limit: f64) -> Pool {
         reach *= GROWTH;
         triangles = within(wanted, reach);
     }
+    nearest_first(triangles, reach)
+}
+
+/// The nearest of the triangles within a reach.
+fn nearest_first(mut triangles: Vec<Triangle>, reach: f64) -> Pool {
     let key = |t: &Triangle| (t.corners, t.inner);
     triangles.sort_by(|a, b| a.deviation.total_cmp(&b.deviation).then_with(|| key(a).cmp(&key(b))));
     let mut complete_to = reach;
@@ -245,11 +266,61 @@ pub(super) fn pool(wanted: &Wanted, enough: usize, limit: f64) -> Pool {
     Pool { triangles, complete_to }
 }
 
+/// Corners and joints count as turned into one another within this many pitches.
+const TURNED: f64 = 1e-6;
+
+/// The displacement in pitches of a triangular grid, turned by 120 degrees: its axes `a`, `b` go to `b - a` and `-a`.
+fn turned<T: Copy + std::ops::Neg<Output = T> + std::ops::Sub<Output = T>>([i, j]: [T; 2]) -> [T; 2] {
+    [-i - j, i]
+}
+
+/// The triangles within `limit` (pitches) that turns by 120 degrees about the middle of the wanted one take to themselves with their joints, nearest first; `None` where
+/// the wanted triangle is not of that kind, or the grid does not turn about its middle.
+pub(super) fn three_fold_pool(wanted: &Wanted, limit: f64) -> Option<Pool> {
+    if (wanted.skew - HolePattern::Triangular.skew()).abs() > 0.0 {
+        return None;
+    }
+    let middle = [0, 1].map(|i| wanted.corners.iter().map(|c| c[i]).sum::<f64>() / 3.0);
+    let about = |p: [f64; 2]| {
+        let [x, y] = turned([p[0] - middle[0], p[1] - middle[1]]);
+        [middle[0] + x, middle[1] + y]
+    };
+    let near = |p: [f64; 2], q: [f64; 2]| length([p[0] - q[0], p[1] - q[1]], wanted.skew) <= TURNED;
+    // one turn, or two where the corners follow one another the other way round
+    let turns = if near(about(wanted.corners[0]), wanted.corners[1]) { 1 } else { 2 };
+    let turn = |p: [f64; 2]| (0..turns).fold(p, |p, _| about(p));
+    let symmetric = |list: &[[f64; 2]; 3]| (0..3).all(|k| near(turn(list[k]), list[(k + 1) % 3]));
+    // where the turn takes the hole at the origin
+    let shift = turn([0.0; 2]);
+    let whole = shift.map(f64::round);
+    if !(symmetric(&wanted.corners) && wanted.inner.iter().all(symmetric) && near(shift, whole)) {
+        return None;
+    }
+    let turn = |cell: GridHole| {
+        let [i, j] = (0..turns).fold(cell, |cell, _| turned(cell));
+        [i + whole[0] as i64, j + whole[1] as i64]
+    };
+    let mut triangles = Vec::new();
+    for first in cells_within(wanted.corners[0], limit, wanted.skew) {
+        let second = turn(first);
+        let mut out = Vec::new();
+        sides(first, (0, second), wanted.inner.map(|w| w[0]), (limit, wanted.skew), &mut out);
+        let off = distance(first, wanted.corners[0], wanted.skew);
+        triangles.extend(out.into_iter().map(|side| Triangle {
+            deviation: off.max(side.off),
+            corners: [first, second, turn(second)],
+            parts: [side.parts; 3],
+            inner: [side.inner; 3],
+        }));
+    }
+    Some(nearest_first(triangles, limit))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const GRID: Grid = Grid { pitch: 0.5, origin: [0.0, 0.0], angle_deg: 0.0 };
+    const GRID: Grid = Grid { pattern: HolePattern::Square, pitch: 0.5, origin: [0.0, 0.0], angle_deg: 0.0 };
 
     #[test]
     fn cells_of_a_level_plane_are_multiples_of_the_pitch() {
@@ -265,13 +336,20 @@ mod tests {
         let (u, v) = (Vector3::new(1.0, 0.2, 0.3), Vector3::new(-0.1, 1.0, 2.0));
         let at = |x: f64, y: f64| Point3::new(0.3, 0.1, -2.0) + u * x + v * y;
         let points = [at(0.0, 1.0), at(1.0, 0.0), at(3.0, 2.0), at(-1.0, 4.0)];
-        let grid = Grid { pitch: 0.25, origin: [0.1, 0.2], angle_deg: 17.0 };
-        let g = BodyGrid::new(&points, &grid, 5.0).unwrap();
-        for p in points {
-            let [x, y] = g.coordinates(&p);
-            let back = g.origin + (g.axes[0] * x + g.axes[1] * y) * g.pitch;
-            assert!((back - p).norm() < 1e-12);
+        let square = Grid { pitch: 0.25, origin: [0.1, 0.2], angle_deg: 17.0, ..GRID };
+        for grid in [Grid { pattern: HolePattern::Triangular, ..square }, square] {
+            let g = BodyGrid::new(&points, &grid, 5.0).unwrap();
+            for p in points {
+                let [x, y] = g.coordinates(&p);
+                let back = g.origin + (g.axes[0] * x + g.axes[1] * y) * g.pitch;
+                assert!((back - p).norm() < 1e-12);
+                // lengths in pitches are those in the plane
+                let [u, v] = g.coordinates(&points[0]);
+                let apart = length([x - u, y - v], g.skew()) * g.pitch;
+                assert!((apart - (p - points[0]).norm()).abs() < 1e-12);
+            }
         }
+        let grid = square;
         let mut bent = points;
         bent[0].x += 1e-6;
         assert!(BodyGrid::new(&bent, &grid, 5.0).is_none());
@@ -283,7 +361,7 @@ mod tests {
             let (a, b): ([f64; 2], [f64; 2]) = (corners[k], corners[(k + 1) % 3]);
             [0, 1].map(|i| a[i] + 0.27 * (b[i] - a[i]))
         });
-        Wanted { corners, inner: Some(inner) }
+        Wanted { corners, inner: Some(inner), skew: 0.0 }
     }
 
     #[test]
@@ -295,7 +373,7 @@ mod tests {
                 let (a, b, x) = (t.corners[k], t.corners[(k + 1) % 3], t.joint(k));
                 assert_eq!((b[0] - a[0]) * (x[1] - a[1]), (b[1] - a[1]) * (x[0] - a[0]));
                 assert!(x != a && x != b);
-                assert!(distance(x, wanted().inner.unwrap()[k]) <= t.deviation + 1e-12);
+                assert!(distance(x, wanted().inner.unwrap()[k], 0.0) <= t.deviation + 1e-12);
             }
         }
         assert!(found.triangles.windows(2).all(|w| w[0].deviation <= w[1].deviation));
@@ -303,34 +381,91 @@ mod tests {
 
     #[test]
     fn a_search_of_all_cells_finds_no_nearer_triangle() {
-        let (w, found) = (wanted(), pool(&wanted(), 5, 8.0));
-        let reach = found.complete_to;
-        let mut count = 0;
-        let inner = w.inner.unwrap();
-        for a in cells_within(w.corners[0], reach) {
-            for b in cells_within(w.corners[1], reach) {
-                for c in cells_within(w.corners[2], reach) {
-                    let corners = [a, b, c];
-                    // grid points near the wanted joints that are on the line of their side
-                    let on = |k: usize| {
-                        let (p, q) = (corners[k], corners[(k + 1) % 3]);
-                        let line = move |x: &GridHole| {
-                            (q[0] - p[0]) * (x[1] - p[1]) == (q[1] - p[1]) * (x[0] - p[0])
-                                && *x != p
-                                && *x != q
+        for skew in [0.0, 0.5] {
+            let w = Wanted { skew, ..wanted() };
+            let found = pool(&w, 5, 8.0);
+            let reach = found.complete_to;
+            let mut count = 0;
+            let inner = w.inner.unwrap();
+            for a in cells_within(w.corners[0], reach, w.skew) {
+                for b in cells_within(w.corners[1], reach, w.skew) {
+                    for c in cells_within(w.corners[2], reach, w.skew) {
+                        let corners = [a, b, c];
+                        // grid points near the wanted joints that are on the line of their side
+                        let on = |k: usize| {
+                            let (p, q) = (corners[k], corners[(k + 1) % 3]);
+                            let line = move |x: &GridHole| {
+                                (q[0] - p[0]) * (x[1] - p[1]) == (q[1] - p[1]) * (x[0] - p[0])
+                                    && *x != p
+                                    && *x != q
+                            };
+                            cells_within(inner[k], reach, w.skew).into_iter().filter(line).count()
                         };
-                        cells_within(inner[k], reach).into_iter().filter(line).count()
-                    };
-                    count += on(0) * on(1) * on(2);
+                        count += on(0) * on(1) * on(2);
+                    }
                 }
             }
+            assert_eq!(count, found.triangles.len());
         }
-        assert_eq!(count, found.triangles.len());
     }
 
     #[test]
     fn a_body_without_joints_on_its_sides_is_rounded_corner_by_corner() {
         let found = pool(&Wanted { inner: None, ..wanted() }, 1, 8.0);
         assert_eq!(found.triangles[0].corners, [[0, 0], [24, 1], [11, 21]]);
+    }
+
+    /// A triangle with joints on its sides that turns by 120 degrees take to itself about `middle`, in pitches of a triangular grid.
+    fn three_fold(middle: [f64; 2]) -> Wanted {
+        let turns = |start: [f64; 2]| {
+            let about = |p: [f64; 2]| [middle[0] + p[0], middle[1] + p[1]];
+            [about(start), about(turned(start)), about(turned(turned(start)))]
+        };
+        let corners = turns([14.2, 3.1]);
+        let on = |k: usize| [0, 1].map(|i| corners[k][i] + 0.21 * (corners[(k + 1) % 3][i] - corners[k][i]));
+        Wanted { corners, inner: Some([0, 1, 2].map(on)), skew: 0.5 }
+    }
+
+    #[test]
+    fn three_fold_triangles_of_a_triangular_grid_are_turned_into_themselves() {
+        // about a hole, and about the middle of a triangle of holes
+        for middle in [[0.0, 0.0], [2.0 / 3.0, -1.0 / 3.0]] {
+            for w in [three_fold(middle), mirrored(three_fold(middle))] {
+                let found = three_fold_pool(&w, 4.0).unwrap();
+                assert!(found.triangles.len() > 5, "{}", found.triangles.len());
+                for t in &found.triangles {
+                    let side = |k: usize| {
+                        let (p, q) = (t.corners[k], t.corners[(k + 1) % 3]);
+                        length([(q[0] - p[0]) as f64, (q[1] - p[1]) as f64], 0.5)
+                    };
+                    assert!((side(0) - side(1)).abs() < 1e-12 && (side(0) - side(2)).abs() < 1e-12);
+                    let centre = [0, 1].map(|i| t.corners.iter().map(|c| c[i]).sum::<i64>() as f64 / 3.0);
+                    let about = [0, 1].map(|i| w.corners.iter().map(|c| c[i]).sum::<f64>() / 3.0);
+                    assert!((centre[0] - about[0]).abs() + (centre[1] - about[1]).abs() < 1e-9);
+                }
+                // each of them is among all triangles within the reach, and no other of that kind is
+                let nearest = found.triangles[0].deviation;
+                let all = within(&w, nearest + 1e-9);
+                assert!(all.iter().any(|t| t.corners == found.triangles[0].corners));
+            }
+        }
+    }
+
+    /// The other way round.
+    fn mirrored(w: Wanted) -> Wanted {
+        let [a, b, c] = w.corners;
+        let swapped = [a, c, b];
+        let on = |k: usize| [0, 1].map(|i| swapped[k][i] + 0.21 * (swapped[(k + 1) % 3][i] - swapped[k][i]));
+        Wanted { corners: swapped, inner: Some([0, 1, 2].map(on)), ..w }
+    }
+
+    #[test]
+    fn what_does_not_turn_has_no_three_fold_triangles() {
+        // a middle about which the grid does not turn, joints that do not, a square grid
+        assert!(three_fold_pool(&three_fold([0.25, 0.0]), 4.0).is_none());
+        let mut uneven = three_fold([0.0, 0.0]);
+        uneven.inner.as_mut().unwrap()[1][0] += 0.01;
+        assert!(three_fold_pool(&uneven, 4.0).is_none());
+        assert!(three_fold_pool(&Wanted { skew: 0.0, ..three_fold([0.0, 0.0]) }, 4.0).is_none());
     }
 }

@@ -14,13 +14,12 @@ use thiserror::Error;
 
 pub use self::exact::ExactRounding;
 use self::exact::Roles;
-pub use self::grid::Grid;
 use self::grid::{BodyGrid, GridHole};
 pub use self::nearest::NearestRounding;
 use super::joint::{Joint, joints};
 use crate::geom::{Pose, SamplePlan};
 use crate::manipulator::{Body, Manipulator, inverse_condition, jacobian};
-use crate::requirements::{PoseSpace, Requirements, TermKind, Terms};
+use crate::requirements::{Grid, HolePattern, PoseSpace, Requirements, TermKind, Terms};
 
 /// Sets of leg lengths at which a rounded design is compared with what it should be equivalent to.
 const SAMPLES: usize = 3;
@@ -66,6 +65,9 @@ pub enum NoRounding {
     /// A pitch is not a positive number, or another value of a grid is not finite.
     #[error("the grid of the {0} has no positive finite pitch, or an origin or angle that is not finite")]
     BadGrid(Body),
+    /// Origins and angles are chosen for square grids alone.
+    #[error("the origin and the angle of the grid of the {0} cannot be chosen: its holes lie on no squares")]
+    FreePattern(Body),
     /// The design is neither octahedral nor has it one joint on each side of two triangles.
     #[error(
         "the design is neither octahedral nor has one joint on each side of two triangles, so there are no lines to keep the joints on"
@@ -142,6 +144,9 @@ pub fn round_to_grid(problem: &RoundingProblem<'_>) -> Result<Rounding, NoRoundi
         let finite = grid.origin.iter().chain([&grid.angle_deg]).all(|x| x.is_finite());
         if !(grid.pitch > 0.0 && grid.pitch.is_finite() && finite) {
             return Err(NoRounding::BadGrid(body));
+        }
+        if problem.free && grid.pattern != HolePattern::Square {
+            return Err(NoRounding::FreePattern(body));
         }
         let points = places(m, body);
         let laid = BodyGrid::new(&points, grid, m.size()).ok_or(NoRounding::NotPlanar(body))?;
@@ -258,6 +263,31 @@ pub struct Judgement {
     pub margins: Vec<(TermKind, f64)>,
     /// No margin is below 0 by more than rounding and `|det A|` is as large as required.
     pub met: bool,
+    /// No margin is below the reserve on it either.
+    pub reserve_kept: bool,
+}
+
+/// What a rounding keeps of the requirements at the poses looked at, least first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Keeping {
+    Nothing,
+    Limits,
+    Reserve,
+}
+
+impl Keeping {
+    /// From the most to nothing.
+    const ALL: [Self; 3] = [Self::Reserve, Self::Limits, Self::Nothing];
+}
+
+impl Judgement {
+    fn keeping(&self) -> Keeping {
+        match (self.met, self.reserve_kept) {
+            (true, true) => Keeping::Reserve,
+            (true, false) => Keeping::Limits,
+            (false, _) => Keeping::Nothing,
+        }
+    }
 }
 
 /// The worst inverse condition number when it is above `floor`, poses from number `hint` on first; `hint` becomes the number of the worst.
@@ -281,8 +311,8 @@ fn objective_above(
     Some(worst)
 }
 
-/// Least margins at the poses, and whether none is violated.
-fn margins(m: &Manipulator, problem: &RoundingProblem<'_>) -> (Vec<(TermKind, f64)>, bool) {
+/// Least margins at the poses, whether none is violated, and whether none is below its reserve.
+fn margins(m: &Manipulator, problem: &RoundingProblem<'_>) -> (Vec<(TermKind, f64)>, [bool; 2]) {
     let terms = Terms::new(m, problem.requirements, &problem.space.home);
     let mut least: BTreeMap<TermKind, (f64, Option<&Pose>)> = BTreeMap::new();
     let at = |pose| terms.at(pose).into_iter().map(move |(term, margin)| (term, margin, Some(pose)));
@@ -293,7 +323,12 @@ fn margins(m: &Manipulator, problem: &RoundingProblem<'_>) -> (Vec<(TermKind, f6
             *entry = (margin, pose);
         }
     }
-    let met = least.iter().all(|(kind, (margin, pose))| terms.standing(*kind, *margin, *pose).is_met());
+    let all = |reserve: &dyn Fn(TermKind) -> f64| {
+        least
+            .iter()
+            .all(|(kind, (margin, pose))| terms.standing(*kind, margin - reserve(*kind), *pose).is_met())
+    };
+    let met = [all(&|_| 0.0), all(&|kind| problem.requirements.reserve(kind))];
     (least.into_iter().map(|(kind, (margin, _))| (kind, margin)).collect(), met)
 }
 
@@ -301,7 +336,7 @@ fn margins(m: &Manipulator, problem: &RoundingProblem<'_>) -> (Vec<(TermKind, f6
 fn judge(m: &Manipulator, problem: &RoundingProblem<'_>, det: Option<f64>) -> Judgement {
     let mut hint = 0;
     let objective = objective_above(m, problem, -1.0, &mut hint).unwrap_or(0.0);
-    let (margins, requirements_met) = margins(m, problem);
+    let (margins, [requirements_met, reserve_kept]) = margins(m, problem);
     let det_met = problem.min_abs_det.is_none_or(|least| det.is_none_or(|det| det.abs() >= least));
     Judgement {
         objective,
@@ -309,6 +344,7 @@ fn judge(m: &Manipulator, problem: &RoundingProblem<'_>, det: Option<f64>) -> Ju
         least_distances: Body::BOTH.map(|body| m.nearest_joints(body).map_or(f64::INFINITY, |n| n.0)),
         det,
         met: det_met && requirements_met,
+        reserve_kept: det_met && reserve_kept,
         margins,
     }
 }

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::exact::Roles;
-use super::grid::{BodyGrid, GridHole};
+use super::grid::{BodyGrid, GridHole, length};
 use super::{
     Grid, Judgement, Laying, NoRounding, RoundedJoint, RoundingProblem, best_of, grid_of, judge, on_cells,
     place, sample_plan,
@@ -71,7 +71,7 @@ fn around(grid: &BodyGrid, m: &Manipulator, joint: Joint) -> [GridHole; 4] {
     let at = grid.coordinates(&place(m, joint));
     let low = at.map(|x| x.floor() as i64);
     let mut out = [[0, 0], [1, 0], [0, 1], [1, 1]].map(|d: [i64; 2]| [low[0] + d[0], low[1] + d[1]]);
-    let distance = |c: &GridHole| (c[0] as f64 - at[0]).hypot(c[1] as f64 - at[1]);
+    let distance = |c: &GridHole| length([c[0] as f64 - at[0], c[1] as f64 - at[1]], grid.skew());
     out.sort_by(|a, b| distance(a).total_cmp(&distance(b)).then(a.cmp(b)));
     out
 }

@@ -6,11 +6,12 @@ use super::exact::{proved, rank};
 use super::grid::{Wanted, pool};
 use super::*;
 use crate::equivalence::Verdict;
-use crate::manipulator::{Leg, inverse_condition, jacobian};
+use crate::manipulator::{Leg, Octahedral, inverse_condition, jacobian};
 use crate::manufacture::tests::{free, octahedral, space};
-use crate::requirements::TermKind;
+use crate::requirements::{Reserves, TermKind};
+use crate::synthesis::joint_free;
 
-const GRID: Grid = Grid { pitch: 0.25, origin: [0.0, 0.0], angle_deg: 0.0 };
+const GRID: Grid = Grid { pattern: HolePattern::Square, pitch: 0.25, origin: [0.0, 0.0], angle_deg: 0.0 };
 
 fn with<R>(
     m: &Manipulator,
@@ -86,8 +87,11 @@ fn no_other_triangle_of_one_body_is_better() {
             let points: Vec<_> = list.iter().filter(|j| j.body == own).map(|j| place(m, *j)).collect();
             let grid = BodyGrid::new(&points, &GRID, m.size()).unwrap();
             let at = |j: Joint| grid.coordinates(&place(m, j));
-            let wanted =
-                Wanted { corners: roles.corners[body].map(at), inner: roles.inner.map(|i| i[body].map(at)) };
+            let wanted = Wanted {
+                corners: roles.corners[body].map(at),
+                inner: roles.inner.map(|i| i[body].map(at)),
+                skew: 0.0,
+            };
             for t in pool(&wanted, 30, 16.0).triangles {
                 let mut joints =
                     [found.manipulator.base_joints().to_vec(), found.manipulator.platform_joints().to_vec()];
@@ -178,8 +182,8 @@ fn requirements_are_respected_or_the_violation_is_told() {
 
 #[test]
 fn grids_may_be_turned_shifted_and_of_two_pitches() {
-    let base = Grid { pitch: 0.3, origin: [0.11, -0.07], angle_deg: 30.0 };
-    let platform = Grid { pitch: 0.2, origin: [0.0, 0.05], angle_deg: -12.0 };
+    let base = Grid { pitch: 0.3, origin: [0.11, -0.07], angle_deg: 30.0, ..GRID };
+    let platform = Grid { pitch: 0.2, origin: [0.0, 0.05], angle_deg: -12.0, ..GRID };
     let e = round(&free(), [base, platform]).unwrap().exact.unwrap();
     assert!(e.proved);
     assert_eq!(e.verification.unwrap().verdict, Verdict::Equivalent);
@@ -235,7 +239,8 @@ fn hexapod() -> Manipulator {
 #[test]
 fn free_grids_are_never_worse_than_the_given_ones() {
     let cost = |n: &NearestRounding| n.first_order.0.max(2.5 * n.first_order.1.to_radians());
-    let grids = [Grid { pitch: 0.4, ..GRID }, Grid { pitch: 0.3, origin: [0.1, 0.05], angle_deg: 20.0 }];
+    let grids =
+        [Grid { pitch: 0.4, ..GRID }, Grid { pitch: 0.3, origin: [0.1, 0.05], angle_deg: 20.0, ..GRID }];
     for m in [free(), octahedral(), hexapod()] {
         let (fixed, chosen) = (round(&m, grids).unwrap(), round_freely(&m, grids));
         let (a, b) = (fixed.nearest.unwrap(), chosen.nearest.unwrap());
@@ -254,8 +259,8 @@ fn free_grids_are_never_worse_than_the_given_ones() {
 #[test]
 fn joints_that_are_on_some_grid_are_found_to_be_on_it() {
     let grids = [
-        Grid { pitch: 0.4, origin: [0.13, -0.08], angle_deg: 31.0 },
-        Grid { pitch: 0.3, origin: [0.1, 0.05], angle_deg: -17.0 },
+        Grid { pitch: 0.4, origin: [0.13, -0.08], angle_deg: 31.0, ..GRID },
+        Grid { pitch: 0.3, origin: [0.1, 0.05], angle_deg: -17.0, ..GRID },
     ];
     let on = round(&hexapod(), grids).unwrap().nearest.unwrap().manipulator;
     let plain = grids.map(|g| Grid { origin: [0.0; 2], angle_deg: 0.0, ..g });
@@ -278,4 +283,71 @@ fn same_input_same_rounding() {
         (e.exact.unwrap().joints, e.nearest.unwrap().joints)
     };
     assert_eq!(one(), one());
+}
+
+/// A platform that turns by 120 degrees take to itself, joints on the sides of its triangles.
+fn three_fold() -> Manipulator {
+    let corner = |radius: f64, deg: f64, z: f64| {
+        move |k: usize| {
+            let (s, c) = (deg + 120.0 * k as f64).to_radians().sin_cos();
+            Point3::new(radius * c, radius * s, z)
+        }
+    };
+    let legs = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)];
+    let (base, platform) = (corner(6.1, 85.0, 0.0), corner(4.2, 150.0, 0.0));
+    let m = Manipulator::try_new((0..3).map(base).collect(), (0..3).map(platform).collect(), legs).unwrap();
+    let octahedral = Octahedral::recognise(&m).unwrap();
+    joint_free(&octahedral, [0.2, 0.27, 0.2, 0.27, 0.2, 0.27]).unwrap().0
+}
+
+#[test]
+fn three_fold_platforms_keep_their_symmetry_on_triangular_grids() {
+    let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), 120f64.to_radians());
+    let turns_into_itself =
+        |joints: &[Point3<f64>]| joints.iter().all(|p| joints.iter().any(|q| (turn * p - q).norm() < 1e-9));
+    let symmetric = |m: &Manipulator| Body::BOTH.iter().all(|body| turns_into_itself(m.joints(*body)));
+    // a hole in the middle of the base, three around that of the platform
+    let pitch = 0.25;
+    let triangular = Grid { pattern: HolePattern::Triangular, pitch, ..GRID };
+    let grids = [triangular, Grid { origin: [0.5 * pitch, pitch / 12f64.sqrt()], ..triangular }];
+    assert!(symmetric(&three_fold()));
+    let e = round(&three_fold(), grids).unwrap().exact.unwrap();
+    assert!(e.three_fold && e.proved && symmetric(&e.manipulator), "{:?}", e.joints);
+    assert_eq!(e.verification.unwrap().verdict, Verdict::Equivalent);
+    assert!(e.joints.iter().all(|j| j.off_line.is_none_or(|off| off < 1e-12)));
+    // negative controls: squares, a grid that does not turn about the middle, a platform that does not turn
+    let off = Grid { origin: [0.3 * pitch, 0.0], ..triangular };
+    for (m, grids) in [(three_fold(), [GRID; 2]), (three_fold(), [off; 2]), (free(), [triangular; 2])] {
+        let e = round(&m, grids).unwrap().exact.unwrap();
+        assert!(!e.three_fold && e.proved && !symmetric(&e.manipulator));
+    }
+}
+
+#[test]
+fn a_reserve_is_kept_where_a_rounding_keeps_it() {
+    let reserve = |percent: f64| Requirements {
+        min_joint_distance: Some(0.9),
+        reserves: Reserves { all: Some(percent), ..Reserves::default() },
+        ..Requirements::default()
+    };
+    let least = |percent: f64| {
+        let e = with(&free(), [GRID; 2], &reserve(percent), round_to_grid).unwrap().exact.unwrap();
+        let least = e.judgement.least_distances;
+        (e.judgement.met, e.judgement.reserve_kept, least[0].min(least[1]))
+    };
+    let (met, kept, spacing) = least(30.0);
+    assert!(met && kept && spacing >= 0.9 * 1.3, "{spacing}");
+    // more than any rounding keeps: the limit itself still holds
+    let (met, kept, spacing) = least(99.0);
+    assert!(met && spacing >= 0.9, "{spacing}");
+    assert_eq!(kept, spacing >= 0.9 * 1.99);
+}
+
+#[test]
+fn grids_that_are_not_square_are_not_chosen_freely() {
+    let triangular = Grid::triangular(0.25);
+    let refused = with(&free(), [GRID, triangular], &Requirements::default(), |problem| {
+        round_to_grid(&RoundingProblem { free: true, ..*problem }).err()
+    });
+    assert_eq!(refused, Some(NoRounding::FreePattern(Body::Platform)));
 }

@@ -47,6 +47,7 @@ Freedom = Literal[
 ]
 FreedomWord = Literal["not_tried", "resolved", "undecided", "unresolved"]
 FrontStatus = Literal["front", "infeasible", "interrupted", "undecided"]
+HolePattern = Literal["square", "triangular"]
 Invariant = Literal[
     "base_principal_value",
     "canonical_distance",
@@ -63,6 +64,7 @@ Method = Literal["homotopy", "near", "octic", "sylvester", "template", "trilater
 NearWord = Literal["lost", "near_singularity", "tracked"]
 NoRoundingWord = Literal[
     "bad_grid",
+    "free_pattern",
     "joints_coincide",
     "no_triangle_near",
     "no_triangles",
@@ -821,6 +823,8 @@ class Design(Record):
     calibration: Union[dict[str, Any], None]
     #: room that plates and machine may take up
     envelope: Union[dict[str, Any], None]
+    #: grids of holes that the joints have to be put on
+    holes: Union[dict[str, Any], None]
     #: what has to remain of each limit
     limits: Union[dict[str, Any], None]
     #: what the optimiser chooses, and by what
@@ -886,6 +890,15 @@ class DesignEnvelope(Record):
     center: Union[tuple[DesignNumber, ...], None]
     min: Union[DesignVector, None]
     max: Union[DesignVector, None]
+
+
+class DesignHoleGrid(Record):
+    """DesignHoleGrid"""
+
+    pitch: DesignPositive
+    pattern: Union[Literal["square", "triangular"], None]
+    origin: Union[tuple[DesignNumber, ...], None]
+    angle_deg: Union[DesignNumber, None]
 
 
 class DesignHomePose(Record):
@@ -1105,6 +1118,8 @@ class ExactRoundingOutcome(Record):
     proved: Union[bool, None]
     #: What leg map and forward kinematics say of it.
     verdict: Union[RoundingVerdict, None]
+    #: Turns by 120 degrees take both triangles with their joints to themselves.
+    three_fold: Union[bool, None]
     #: Round the hexagon: [m, g] for t = m / g.
     fractions: Union[tuple[tuple[int, ...], ...], None]
     #: The joints.
@@ -1126,6 +1141,8 @@ class ExactRoundingRecord(Record):
     proved: bool
     #: What leg map and forward kinematics say of it.
     verdict: RoundingVerdict
+    #: Turns by 120 degrees take both triangles with their joints to themselves.
+    three_fold: bool
     #: Round the hexagon: [m, g] for t = m / g.
     fractions: Union[tuple[tuple[int, ...], ...], None]
     #: The joints.
@@ -1161,6 +1178,9 @@ class ExploreAnswer(Record):
     optimize: Union[OptimizedRecord, None]
     #: The comparison of the design with the optimised one; null: there is none.
     verify: Union[ComparedRecord, None]
+    #: The platform with its joints on holes; null: the design states no holes, or no platform was found.
+    #: The assessment is then that of this platform.
+    holes: Union[OnHolesRecord, None]
     #: The poses of the design.
     fk: Union[PoseTotalsRecord, None]
     #: What was done, in order.
@@ -1224,6 +1244,9 @@ class ExploreOctahedralAnswer(Record):
     optimize: Union[OptimizedRecord, None]
     #: The comparison of the design with the optimised one; null: there is none.
     verify: Union[ComparedRecord, None]
+    #: The platform with its joints on holes; null: the design states no holes, or no platform was found.
+    #: The assessment is then that of this platform.
+    holes: Union[OnHolesRecord, None]
     #: The poses of the design.
     fk: PoseTotalsRecord
 
@@ -1722,6 +1745,8 @@ class GreatestResidualRecord(Record):
 class GridRecord(Record):
     """A grid of holes in the plane of a body."""
 
+    #: How the holes lie.
+    pattern: HolePattern
     #: Distance of neighbouring holes.
     pitch: Union[float, None]
     #: A hole.
@@ -1891,6 +1916,8 @@ class JudgementRecord(Record):
     requirements: tuple[RequirementMarginRecord, ...]
     #: No requirement is violated.
     met: bool
+    #: Every margin keeps its reserve too.
+    reserve_kept: bool
 
 
 class LeastConditioningRecord(Record):
@@ -2598,6 +2625,23 @@ class OffsetsFoundRecord(Record):
     shifts: tuple[Union[float, None], ...]
     #: det A.
     det: Union[float, None]
+
+
+class OnHolesRecord(Record):
+    """A platform with its joints on the holes that its design states, in short."""
+
+    #: Which rounding was taken; null: there is none.
+    variant: Union[VariantWord, None]
+    #: Turns by 120 degrees take both triangles with their joints to themselves.
+    three_fold: bool
+    #: The farthest that a joint went to its hole.
+    largest_displacement: Union[float, None]
+    #: Variables that were chosen again after rounding.
+    refitted: tuple[str, ...]
+    #: How often a platform was sought and rounded.
+    passes: int
+    #: Why there is no rounding; null: there is one.
+    error: Union[NoRoundingError, None]
 
 
 class OptimizeAnswer(Record):
@@ -3667,7 +3711,7 @@ DesignPercent = str
 
 DesignPositive = float
 
-ExploreVerdict = Union[Literal["infeasible", "none", "violated", "new_kinematics"], VerdictWord]
+ExploreVerdict = Union[Literal["infeasible", "none", "violated", "new_kinematics", "on_holes"], VerdictWord]
 
 RoundingVerdict = Union[Literal["not_computed"], VerdictWord]
 

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::cli::commands::report;
 use crate::cli::failure::Failure;
 use crate::cli::files;
+use crate::export::ExportedFile;
 use crate::report::ReportFile;
 
 /// Files of a finished run, in the order they appear.
@@ -12,6 +13,12 @@ pub(super) const ORIGINAL: &str = "original.toml";
 pub(super) const FAMILY: &str = "family.json";
 pub(super) const OPTIMIZE: &str = "optimize.json";
 pub(super) const OPTIMISED: &str = "optimised.toml";
+pub(super) const CLOSEST: &str = "closest.toml";
+pub(super) const ROUNDED: &str = "rounded.toml";
+pub(super) const ROUNDED_ASSESS: &str = "rounded-assess.json";
+pub(super) const ROUND: &str = "round.json";
+/// Folder of the files for other programs.
+pub(super) const MACHINE: &str = "machine";
 pub(super) const DETERMINANT: &str = "determinant.svg";
 pub(super) const VERIFY: &str = "verify.json";
 pub(super) const FK: &str = "fk.json";
@@ -25,11 +32,15 @@ pub(super) const NEAREST: &str = "nearest.json";
 pub(super) const NEAREST_OCTAHEDRAL: &str = "nearest-octahedral.toml";
 pub(super) const BESIDE: &str = "nearest-equivalent.toml";
 pub(super) const ASSESS: &str = "nearest-assess.json";
-const ALL: [&str; 17] = [
+const ALL: [&str; 21] = [
     ORIGINAL,
     FAMILY,
     OPTIMIZE,
     OPTIMISED,
+    CLOSEST,
+    ROUNDED,
+    ROUNDED_ASSESS,
+    ROUND,
     DETERMINANT,
     COMPONENTS,
     MOVES,
@@ -46,14 +57,18 @@ const ALL: [&str; 17] = [
 ];
 
 /// What stands first in a report of the folder.
-pub(in crate::cli::commands) const FIRST: [&str; 15] = [
+pub(in crate::cli::commands) const FIRST: [&str; 19] = [
     ORIGINAL,
+    ROUNDED,
+    ROUNDED_ASSESS,
     OPTIMISED,
+    CLOSEST,
     EQUIVALENT,
     NEAREST_OCTAHEDRAL,
     BESIDE,
     VERIFY,
     OPTIMIZE,
+    ROUND,
     MOVES,
     NEAREST,
     ASSESS,
@@ -68,7 +83,7 @@ pub(in crate::cli::commands) const FIRST: [&str; 15] = [
 #[derive(Debug)]
 pub(super) struct Folder {
     path: PathBuf,
-    written: Vec<&'static str>,
+    written: Vec<String>,
 }
 
 fn not_writable(path: &Path, error: &std::io::Error) -> Failure {
@@ -101,10 +116,19 @@ impl Folder {
     ///
     /// # Errors
     /// As [`files::write_text`].
-    pub(super) fn write(&mut self, name: &'static str, text: &str) -> Result<(), Failure> {
+    pub(super) fn write(&mut self, name: &str, text: &str) -> Result<(), Failure> {
         files::write_text(&self.path.join(name), text)?;
-        self.written.push(name);
+        self.written.push(name.to_owned());
         Ok(())
+    }
+
+    /// Writes files for other programs into a folder of their own.
+    ///
+    /// # Errors
+    /// As [`files::write_text`].
+    pub(super) fn write_machine(&mut self, list: &[ExportedFile]) -> Result<(), Failure> {
+        files::make_folder(&self.path.join(MACHINE))?;
+        list.iter().try_for_each(|file| self.write(&format!("{MACHINE}/{}", file.name), &file.text))
     }
 
     /// What has been written, for the page: other files in the folder are none of its business.
@@ -112,11 +136,12 @@ impl Folder {
     /// # Errors
     /// Exit 2: a file cannot be read again.
     pub(super) fn results(&self) -> Result<Vec<ReportFile>, Failure> {
-        report::read(self.written.iter().map(|name| self.path.join(name)))
+        let shown = |name: &&String| !name.starts_with(MACHINE) || name.ends_with(".svg");
+        report::read(self.written.iter().filter(shown).map(|name| self.path.join(name)))
     }
 
     /// What has been written, in order.
-    pub(super) fn written(&self) -> impl Iterator<Item = (&'static str, String)> {
-        self.written.iter().map(|name| (*name, self.path.join(name).display().to_string()))
+    pub(super) fn written(&self) -> impl Iterator<Item = String> {
+        self.written.iter().map(|name| self.path.join(name).display().to_string())
     }
 }

@@ -106,7 +106,7 @@ pub(super) fn run(args: &Args, design: &Design, context: &Context) -> Result<Ans
     folder.write(folder::REPORT, &markdown(&answer, design, &repeat))?;
     let files = folder.results()?;
     folder.write(folder::PAGE, &page(files, None))?;
-    answer.paths = folder.written().map(|(_, path)| path).collect();
+    answer.paths = folder.written().collect();
     let text = text(&answer.name, answer.verdict, &answer.explanation, &answer.paths, None);
     Ok(Answer::new(exit, ExploreAnswer::General(Box::new(answer)), text))
 }

@@ -12,8 +12,9 @@ use std::path::PathBuf;
 
 use self::folder::Folder;
 use self::search::Search;
+use super::build::round::render::RoundReport;
 use super::report::page;
-use super::{fk as fk_command, optimize, verify as verify_command};
+use super::{export, fk as fk_command, optimize, verify as verify_command};
 use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
@@ -23,17 +24,21 @@ use crate::cli::poses;
 use crate::cli::progress::ProgressLine;
 use crate::cli::requirements;
 use crate::design::Design;
+use crate::entrance::exporting::octahedral_of_controllers;
 use crate::entrance::optimizing::EXTENSION;
+use crate::entrance::rounding::DesignOnHoles;
 use crate::entrance::{SAMPLES, sample_plan, verified_exactly};
 use crate::equivalence::{Verification, verify};
 use crate::equivalents::Original;
+use crate::export::{ExportFormat, PartLine};
 use crate::fk::{self, FkOptions, FkSolutions, PoseCounting};
 use crate::geom::SamplePlan;
 use crate::manipulator::{LegLengths, Octahedral};
+use crate::manufacture::NoRounding;
 use crate::records::{
     AssessAnswer, ComparedRecord, ExploreAnswer, ExploreOctahedralAnswer, ExploreVerdict, FamilyAnswer,
-    FamilySizeRecord, FkRunRecord, FramesRecord, LengthsOrigin, PoseTotalsRecord, ProvenanceRecord,
-    VerdictWord, VerifyAnswer,
+    FamilySizeRecord, FkRunRecord, FramesRecord, LengthsOrigin, OnHolesRecord, PoseTotalsRecord,
+    ProvenanceRecord, RoundAnswer, VariantWord, VerdictWord, VerifyAnswer,
 };
 use crate::synthesis::{Family, FamilyMember};
 
@@ -76,8 +81,12 @@ struct Results {
     octahedral: Octahedral,
     family: Family,
     search: Search,
-    /// What `assess` says of the platform found.
+    /// The platform on the holes that the design states; `None` where it states none, or no platform was found.
+    holes: Option<Result<DesignOnHoles, NoRounding>>,
+    /// What `assess` says of the platform found, on its holes where the design states them.
     assessment: Option<AssessAnswer>,
+    /// Parts and files for other programs, where the design states holes.
+    machine: Option<Machine>,
     /// Absent when no platform was found, or one with other triangles.
     verified: Option<Verified>,
     poses: Poses,
@@ -86,8 +95,29 @@ struct Results {
 }
 
 impl Results {
+    /// The platform to build: that on the holes, where the design states them.
+    fn built(&self) -> Option<&Design> {
+        match &self.holes {
+            Some(Ok(on)) => on.found.as_ref().map(|(_, design)| design),
+            Some(Err(_)) => None,
+            None => self.search.optimised(),
+        }
+    }
+
     /// What the platform found is judged by: its requirements first, then the comparison.
     fn judgement(&self) -> Judged<'_> {
+        match &self.holes {
+            Some(Err(why)) => return Judged::NoHoles(why.to_string()),
+            Some(Ok(on)) => {
+                let Some((_, design)) = &on.found else { return Judged::NoHoles(why_none(on)) };
+                return match on.met() {
+                    Some(true) => Judged::OnHoles,
+                    Some(false) => Judged::Violated(design),
+                    None => Judged::Unproved(design),
+                };
+            }
+            None => (),
+        }
         match (self.search.optimised(), self.search.met(), &self.verified) {
             (None, ..) if self.search.exit() == Exit::No => Judged::Infeasible,
             (None, ..) => Judged::NotFound,
@@ -102,7 +132,8 @@ impl Results {
     fn verdict(&self) -> ExploreVerdict {
         match self.judgement() {
             Judged::Infeasible => ExploreVerdict::Infeasible,
-            Judged::Violated(_) => ExploreVerdict::Violated,
+            Judged::Violated(_) | Judged::NoHoles(_) => ExploreVerdict::Violated,
+            Judged::OnHoles => ExploreVerdict::OnHoles,
             Judged::New => ExploreVerdict::NewKinematics,
             Judged::Compared(v) => ExploreVerdict::Compared((&v.found.verdict).into()),
             Judged::NotFound | Judged::Unproved(_) => ExploreVerdict::Compared(VerdictWord::Inconclusive),
@@ -111,7 +142,8 @@ impl Results {
 
     fn exit(&self) -> Exit {
         match self.judgement() {
-            Judged::Infeasible | Judged::Violated(_) => Exit::No,
+            Judged::Infeasible | Judged::Violated(_) | Judged::NoHoles(_) => Exit::No,
+            Judged::OnHoles => Exit::Yes,
             Judged::NotFound | Judged::Unproved(_) => Exit::Inconclusive,
             Judged::Compared(v) => verify_command::exit_of(&v.found.verdict),
             Judged::New => self.search.exit(),
@@ -141,6 +173,14 @@ impl Results {
                 "no platform that meets the requirements was found, and no conflict".into()
             }
             (Judged::Violated(design) | Judged::Unproved(design), _) => judged(design),
+            (Judged::OnHoles, _) => match (self.built(), &self.assessment) {
+                (Some(design), Some(a)) => {
+                    let sentence = requirements::sentence(&design.name, a);
+                    format!("{}; its joints are on the holes", sentence.trim_end())
+                }
+                _ => "all joints are on the holes; nothing is required besides".into(),
+            },
+            (Judged::NoHoles(why), _) => format!("no platform has its joints on the holes: {why}"),
             (Judged::Compared(v), _) => v.explanation.clone(),
             (Judged::New, _) => {
                 "the platform meets its requirements; its triangles were chosen too, so that its kinematics are new".into()
@@ -163,6 +203,51 @@ enum Judged<'a> {
     Compared(&'a Verified),
     /// It meets its requirements, and is not meant to have the kinematics of the design.
     New,
+    /// It meets its requirements with its joints on the holes that the design states.
+    OnHoles,
+    /// No platform has its joints on those holes, and why.
+    NoHoles(String),
+}
+
+/// What stands against both roundings.
+fn why_none(on: &DesignOnHoles) -> String {
+    let exact = on.rounding.exact.as_ref().err().map(ToString::to_string);
+    let nearest = on.rounding.nearest.as_ref().err().map(ToString::to_string);
+    exact.into_iter().chain(nearest).collect::<Vec<_>>().join("; ")
+}
+
+/// The machine in files for other programs.
+#[derive(Debug)]
+struct Machine {
+    parts: Vec<PartLine>,
+    /// Formats that cannot hold it, and why.
+    refused: Vec<(&'static str, String)>,
+}
+
+/// Writes every format that can hold the platform into the folder.
+fn machine(design: &Design, folder: &mut Folder) -> Result<Machine, Failure> {
+    let export = export::plain(design)?.with_octahedral(octahedral_of_controllers(design));
+    let mut refused = Vec::new();
+    for format in ExportFormat::ALL {
+        match format.writer().files(&export) {
+            Ok(list) => folder.write_machine(&list)?,
+            Err(why) => refused.push((format.name(), why.to_string())),
+        }
+    }
+    Ok(Machine { parts: export.parts(), refused })
+}
+
+/// The answer of `build round` about the platform on its holes.
+fn round_record(on: &DesignOnHoles, assessment: Option<AssessAnswer>) -> RoundAnswer {
+    let report = RoundReport {
+        design: &on.wanted,
+        choices: &on.choices,
+        found: &on.rounding,
+        rounded: on.found.as_ref().map(|(way, design)| (VariantWord::from(*way), design)),
+        assessment,
+        written: None,
+    };
+    report.record()
 }
 
 /// Runs all stages; each file is written when its stage is finished.
@@ -170,9 +255,19 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     optimize::check_extension(args.extension)?;
     let design = context.load(&args.design)?;
     let Ok(octahedral) = Octahedral::recognise(design.manipulator()) else {
+        if design.holes.is_some() {
+            let message =
+                "the design states [holes], and joints are put on them for octahedral designs alone";
+            return Err(Failure::refused("explore::holes", message).with_help(
+                "`equipod build round` puts the joints of this design on its holes; without [holes] it can be explored",
+            ));
+        }
         return general::run(args, &design, context);
     };
     search::refuse_front(&design)?;
+    if design.holes.is_some() {
+        export::plain(&design)?; // units that are no lengths: now, and not after the search
+    }
     let mut folder = Folder::prepare(&args.output)?;
     let mut progress = ProgressLine::new(context.quiet());
     let seed = context.seed();
@@ -204,6 +299,9 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     if let Some(new) = found.optimised() {
         folder.write(folder::OPTIMISED, &new.to_toml())?;
     }
+    if let (None, Some(closest)) = (found.optimised(), found.closest()) {
+        folder.write(folder::CLOSEST, &closest.to_toml())?;
+    }
     if let Some(picture) = figures::determinant(&design, &octahedral, &found) {
         folder.write(folder::DETERMINANT, &picture)?;
     }
@@ -220,14 +318,38 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     folder.write(folder::FK, &document(fk_record(&poses), provenance, &[])?)?;
     folder.write(folder::MODES, &figures::modes(&design, &poses))?;
 
-    progress.stage(5, "report");
-    let (assessment, extension) = (found.assessment(), args.extension);
+    let mut holes = None;
+    let mut assessment = found.assessment();
+    let mut built = None;
+    if design.holes.is_some() {
+        progress.stage(5, "joints on holes");
+        holes = found.on_holes(&design, context, &mut progress)?;
+        if let Some(Ok(on)) = &holes {
+            let new = on.found.as_ref().map(|(_, design)| design);
+            assessment = new.zip(on.assessed.as_ref()).map(|(d, a)| AssessAnswer::new(d, a));
+            let answer = round_record(on, assessment.clone());
+            folder.write(folder::ROUND, &document(answer, context.provenance(), &[])?)?;
+            if let Some(new) = new {
+                folder.write(folder::ROUNDED, &new.to_toml())?;
+                if let Some(found) = &assessment {
+                    let text = document(found.clone(), context.provenance(), &[])?;
+                    folder.write(folder::ROUNDED_ASSESS, &text)?;
+                }
+                built = Some(machine(new, &mut folder)?);
+            }
+        }
+    }
+
+    progress.stage(if design.holes.is_some() { 6 } else { 5 }, "report");
+    let extension = args.extension;
     let results = Results {
         design,
         octahedral,
         family,
         search: found,
+        holes,
         assessment,
+        machine: built,
         verified,
         poses,
         options,
@@ -237,7 +359,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let files = folder.results()?;
     folder.write(folder::PAGE, &page(files, None))?;
     let record = record(&results, &folder);
-    let lead = results.search.optimised().zip(record.assessment.as_ref());
+    let lead = results.built().zip(record.assessment.as_ref());
     let lead = lead.map(|(design, a)| requirements::lead(&design.name, Some(a)));
     let text = text(&record.name, record.verdict, &record.explanation, &record.paths, lead.as_deref());
     Ok(Answer::new(results.exit(), ExploreAnswer::Octahedral(Box::new(record)), text))
@@ -304,10 +426,11 @@ fn record(r: &Results, folder: &Folder) -> ExploreOctahedralAnswer {
         explanation: r.explanation(),
         assessment: r.assessment.clone(),
         name: r.design.name.clone(),
-        paths: folder.written().map(|(_, path)| path).collect(),
+        paths: folder.written().collect(),
         family: FamilySizeRecord { patterns: c.patterns, topologies: c.topologies },
         optimize: r.search.key_figures(),
         verify: r.verified.as_ref().map(|v| ComparedRecord::from(&v.found)),
+        holes: r.holes.as_ref().map(OnHolesRecord::from),
         fk: PoseTotalsRecord::new(r.poses.from, &r.poses.solutions),
     }
 }

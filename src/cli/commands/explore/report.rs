@@ -3,10 +3,12 @@
 use std::fmt::Write as _;
 
 use super::search::Search;
-use super::{Results, Verified, folder};
+use super::{Machine, Results, Verified, folder};
 use crate::cli::commands::optimize::{Done, dimensional};
 use crate::cli::requirements as table;
+use crate::entrance::rounding::{DesignOnHoles, RoundingWay};
 use crate::equivalence::SAME_POSE;
+use crate::export::PART_COLUMNS;
 use crate::fk::{Completeness, FkSolutions};
 use crate::manipulator::LegIndex;
 use crate::offsets::OffsetSolution;
@@ -23,8 +25,14 @@ pub(super) fn markdown(r: &Results) -> String {
         r.verdict().as_str().replace('_', " "),
         plain(&r.explanation())
     );
-    if let (Some(design), Some(a)) = (r.search.optimised(), &r.assessment) {
+    if let (Some(design), Some(a)) = (r.built(), &r.assessment) {
         requirements(&mut out, &design.name, a);
+    }
+    if let Some(machine) = &r.machine {
+        parts(&mut out, machine);
+    }
+    if let Some(Ok(on)) = &r.holes {
+        holes(&mut out, on, &r.design.units);
     }
     inputs(&mut out, r);
     class(&mut out, r);
@@ -134,6 +142,72 @@ fn requirements(out: &mut String, name: &str, found: &AssessAnswer) {
         None => "That no pose of the workspace is singular is not proved.",
     };
     let _ = writeln!(out, "\n{singular}\n");
+}
+
+/// The bill of materials and the files of the machine.
+fn parts(out: &mut String, machine: &Machine) {
+    let _ = writeln!(
+        out,
+        "## Bill of materials\n\nMillimetres and kilograms; empty where the design does not say it. The same as a table: [{0}/parts.csv]({0}/parts.csv).\n\n| {1} |\n|{2}",
+        folder::MACHINE,
+        PART_COLUMNS.map(plain).join(" | "),
+        "---|".repeat(PART_COLUMNS.len())
+    );
+    for part in &machine.parts {
+        let _ = writeln!(out, "| {} |", part.fields().map(|f| plain(&f)).join(" | "));
+    }
+    let _ = writeln!(
+        out,
+        "\nSolids, hole plans, simulation, controller and drawing are in [{0}]({0}).",
+        folder::MACHINE
+    );
+    for (format, why) in &machine.refused {
+        let _ = writeln!(out, "The format {format} cannot hold this platform: {}.", plain(why));
+    }
+    out.push('\n');
+}
+
+/// Where the joints went.
+fn holes(out: &mut String, on: &DesignOnHoles, units: &str) {
+    let [base, platform] = on.choices.grids;
+    let _ = writeln!(
+        out,
+        "## Joints on holes\n\nHoles of the base: {base}; of the platform: {platform}. Platforms sought and rounded: {}. Details: [{1}]({1}).\n",
+        on.passes,
+        folder::ROUND
+    );
+    let Some((way, _)) = &on.found else {
+        let _ = writeln!(out, "No platform has its joints on these holes.\n");
+        return;
+    };
+    let (joints, how) = match way {
+        RoundingWay::Exact => (
+            on.rounding.exact.as_ref().map(|e| &e.joints).ok(),
+            "All joints are corners of two triangles of holes or lie exactly on their sides, so that the platform is equivalent to an octahedral one without any error.",
+        ),
+        RoundingWay::Nearest => (
+            on.rounding.nearest.as_ref().map(|n| &n.joints).ok(),
+            "All joints are on holes next to where they were wanted, and not on the lines of the triangles.",
+        ),
+    };
+    let again: Vec<&str> = on.refitted.iter().map(|kind| kind.code()).collect();
+    let after = if again.is_empty() {
+        String::new()
+    } else {
+        format!(" Chosen again after rounding: {}.", plain(&again.join(", ")))
+    };
+    let _ = writeln!(
+        out,
+        "{how}{after} Design: [{0}]({0}).\n\n| body | joint | hole | moved [{1}] |\n|---|---|---|---|",
+        folder::ROUNDED,
+        plain(units)
+    );
+    for j in joints.into_iter().flatten() {
+        let name = &on.wanted.joint_names(j.joint.body)[j.joint.index];
+        let [i, k] = j.cell;
+        let _ = writeln!(out, "| {} | {} | {i}, {k} | {:.3} |", j.joint.body, plain(name), j.moved.norm());
+    }
+    out.push('\n');
 }
 
 /// What was chosen under the requirements.

@@ -8,11 +8,13 @@ use crate::cli::failure::Failure;
 use crate::cli::output::document;
 use crate::cli::progress::{Interrupt, ProgressLine};
 use crate::design::{Combination, Design};
-use crate::dimensional::{ShapeSearchOptions, Stage, Triangles};
+use crate::dimensional::{Progress, ShapeSearchOptions, Stage, Triangles};
 use crate::entrance::AssessReport;
 use crate::entrance::optimizing::{Checked, asks_for_more, met_or_nothing_required};
+use crate::entrance::rounding::{DesignOnHoles, FirstSearch, on_stated_holes};
 use crate::equivalence::Verdict;
 use crate::manipulator::Octahedral;
+use crate::manufacture::NoRounding;
 use crate::offsets;
 use crate::records::{
     AssessAnswer, OffsetsFoundRecord, OptimizedRecord, PlatformFoundRecord, ProvenanceRecord,
@@ -48,15 +50,8 @@ pub(super) fn search(
 ) -> Result<Search, Failure> {
     let (interrupt, seed) = (Interrupt::watch(), context.seed());
     if asks_for_more(design) {
-        let threads = optimize::workers(None);
-        let options = ShapeSearchOptions { seed, threads, ..ShapeSearchOptions::default() };
-        let done = dimensional::search(design, extension, &options, &mut |p| {
-            let what = match p.stage {
-                Stage::Populations => "populations",
-                Stage::Climbs => "climbs",
-                Stage::Polishing => "polishing",
-            };
-            progress.part(what, p.done, p.total);
+        let done = dimensional::search(design, extension, &options(seed), &mut |p| {
+            part(progress, &p);
             interrupt.flow()
         })?;
         return Ok(Search::Dimensions(Box::new(done)));
@@ -72,6 +67,19 @@ pub(super) fn search(
         interrupt.flow()
     })?;
     Ok(Search::Offsets(Box::new(done)))
+}
+
+fn options(seed: u64) -> ShapeSearchOptions {
+    ShapeSearchOptions { seed, threads: optimize::workers(None), ..ShapeSearchOptions::default() }
+}
+
+fn part(progress: &mut ProgressLine, p: &Progress) {
+    let what = match p.stage {
+        Stage::Populations => "populations",
+        Stage::Climbs => "climbs",
+        Stage::Polishing => "polishing",
+    };
+    progress.part(what, p.done, p.total);
 }
 
 impl Search {
@@ -102,6 +110,39 @@ impl Search {
             Self::Offsets(done) => done.optimised.as_ref(),
             Self::Dimensions(done) => done.checked.as_ref().map(|c| &c.design),
         }
+    }
+
+    /// The platform found, or the one that misses the requirements least.
+    pub(super) fn closest(&self) -> Option<&Design> {
+        match self {
+            Self::Offsets(done) => done.optimised.as_ref(),
+            Self::Dimensions(done) => done.checked.as_ref().or(done.nearest.as_ref()).map(|c| &c.design),
+        }
+    }
+
+    /// The closest platform with its joints on the holes that the design states; `None` without such a platform or holes.
+    pub(super) fn on_holes(
+        &self,
+        design: &Design,
+        context: &Context,
+        progress: &mut ProgressLine,
+    ) -> Result<Option<Result<DesignOnHoles, NoRounding>>, Failure> {
+        let Some((grids, wanted)) = design.holes.zip(self.closest()) else { return Ok(None) };
+        let interrupt = Interrupt::watch();
+        let first = match self {
+            Self::Dimensions(done) => done
+                .report
+                .solution()
+                .or(done.report.nearest.as_deref())
+                .map(|s| FirstSearch { design, problem: &done.problem, point: &s.point }),
+            Self::Offsets(_) => None,
+        };
+        let options = options(context.seed());
+        let found = on_stated_holes(wanted, grids, first, &options, &mut |p| {
+            part(progress, &p);
+            interrupt.flow()
+        });
+        found.map(Some).map_err(|why| Failure::internal(why.to_string()))
     }
 
     fn assessed(&self) -> Option<&AssessReport> {

@@ -1,6 +1,6 @@
 //! `equipod build round`: joints on a grid of holes.
 
-mod render;
+pub(in crate::cli::commands) mod render;
 
 use std::path::PathBuf;
 
@@ -12,37 +12,44 @@ use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
-use crate::cli::poses;
 use crate::cli::requirements;
 use crate::design::Design;
+use crate::entrance::rounding::{CANDIDATES, KEEP, RoundingChoices, RoundingWay, TRIALS};
 use crate::equivalence::{Verdict, Verification};
-use crate::manipulator::{Body, Manipulator};
-use crate::manufacture::{Grid, NoRounding, Rounding, RoundingProblem, equivalent_octahedral, round_to_grid};
-use crate::records::{AssessAnswer, GridsRecord, VariantWord};
+use crate::manipulator::Manipulator;
+use crate::manufacture::{NoRounding, Rounding};
+use crate::records::{AssessAnswer, VariantWord};
+use crate::requirements::{Grid, HolePattern};
 
 /// Arguments of `build round`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// Design file (.toml or .json) with planar bodies; its home pose, workspace and requirements judge the roundings
     design: PathBuf,
-    /// Distance between neighbouring holes
+    /// Distance between neighbouring holes, instead of the grids that the design states in [holes]
     #[arg(long, value_name = "PITCH")]
-    grid: f64,
+    grid: Option<f64>,
     /// Distance between neighbouring holes of the platform; that of the base when absent
     #[arg(long, value_name = "PITCH")]
     grid_platform: Option<f64>,
-    /// Position of one hole of the base grid, in the plane of the base joints
-    #[arg(long, value_name = "X,Y", default_value = "0,0", allow_hyphen_values = true)]
-    origin: String,
+    /// How the holes lie; square where neither this nor the design says it
+    #[arg(long, value_enum, value_name = "PATTERN")]
+    pattern: Option<PatternWord>,
+    /// How the holes of the platform lie; as those of --pattern when absent
+    #[arg(long, value_enum, value_name = "PATTERN")]
+    pattern_platform: Option<PatternWord>,
+    /// Position of one hole of the base grid, in the plane of the base joints; 0,0 where neither this nor the design says it
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+    origin: Option<String>,
     /// Position of one hole of the platform grid
-    #[arg(long, value_name = "X,Y", default_value = "0,0", allow_hyphen_values = true)]
-    origin_platform: String,
-    /// Angle by which the base grid is turned, degrees
-    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_hyphen_values = true)]
-    angle: f64,
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+    origin_platform: Option<String>,
+    /// Angle by which the base grid is turned, degrees; 0 where neither this nor the design says it
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    angle: Option<f64>,
     /// Angle by which the platform grid is turned, degrees
-    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_hyphen_values = true)]
-    angle_platform: f64,
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    angle_platform: Option<f64>,
     /// Choose the origins and angles of the grids too; the given ones are candidates
     #[arg(long)]
     free_grid: bool,
@@ -50,20 +57,38 @@ pub(crate) struct Args {
     #[arg(long, value_enum, default_value_t = Variant::Rule)]
     variant: Variant,
     /// Share of the inverse condition number that the exact rounding has to keep to be chosen
-    #[arg(long, value_name = "SHARE", default_value_t = 0.9)]
+    #[arg(long, value_name = "SHARE", default_value_t = KEEP)]
     keep: f64,
     /// Number of triangles of each body that are combined in the first search
-    #[arg(long, value_name = "N", default_value_t = 40, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    #[arg(long, value_name = "N", default_value_t = CANDIDATES, value_parser = clap::value_parser!(u32).range(1..=1000))]
     candidates: u32,
     /// Tool point at which errors of the pose are measured, platform frame
     #[arg(long, value_name = "X,Y,Z", default_value = "0,0,0", allow_hyphen_values = true)]
     tool: String,
     /// Number of random poses for the error of the nearest rounding
-    #[arg(long, value_name = "N", default_value_t = 500, value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = TRIALS, value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
     trials: u32,
     /// Write the rounded design; .json gives JSON, anything else TOML
     #[arg(short, long, value_name = "FILE")]
     output: Option<OutputPath>,
+}
+
+/// How holes lie.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(super) enum PatternWord {
+    /// On squares
+    Square,
+    /// On equilateral triangles
+    Triangular,
+}
+
+impl From<PatternWord> for HolePattern {
+    fn from(word: PatternWord) -> Self {
+        match word {
+            PatternWord::Square => Self::Square,
+            PatternWord::Triangular => Self::Triangular,
+        }
+    }
 }
 
 /// Which rounding is meant.
@@ -80,7 +105,7 @@ pub(super) enum Variant {
 /// A rounding that may be written.
 #[derive(Debug, Clone, Copy)]
 struct Choice<'a> {
-    variant: VariantWord,
+    way: RoundingWay,
     manipulator: &'a Manipulator,
     grids: &'a [Grid; 2],
 }
@@ -88,13 +113,10 @@ struct Choice<'a> {
 fn chosen(found: &Rounding, variant: Variant, keep: f64) -> Option<Choice<'_>> {
     let exact = found.exact.as_ref().ok();
     let exact =
-        exact.map(|e| Choice { variant: VariantWord::Exact, manipulator: &e.manipulator, grids: &e.grids });
+        exact.map(|e| Choice { way: RoundingWay::Exact, manipulator: &e.manipulator, grids: &e.grids });
     let nearest = found.nearest.as_ref().ok();
-    let nearest = nearest.map(|n| Choice {
-        variant: VariantWord::Nearest,
-        manipulator: &n.manipulator,
-        grids: &n.grids,
-    });
+    let nearest =
+        nearest.map(|n| Choice { way: RoundingWay::Nearest, manipulator: &n.manipulator, grids: &n.grids });
     match variant {
         Variant::Exact => exact,
         Variant::Nearest => nearest,
@@ -105,53 +127,39 @@ fn chosen(found: &Rounding, variant: Variant, keep: f64) -> Option<Choice<'_>> {
     }
 }
 
-/// A grid in words.
-fn rounded_design(design: &Design, choice: &Choice<'_>) -> Design {
-    let name = format!("{}, rounded", design.name);
-    let plain = Design::new(name, design.units.clone(), choice.manipulator.clone());
-    let (base, platform) = (design.base_names().to_vec(), design.platform_names().to_vec());
-    let mut out = plain.clone().with_joint_names(base, platform).unwrap_or(plain);
-    let grids = GridsRecord::from(choice.grids);
-    out.description = Some(format!(
-        "Joints of the design \"{}\" on grids by equipod {}, variant {}; base: {}; platform: {}",
-        design.name,
-        env!("CARGO_PKG_VERSION"),
-        choice.variant.as_str(),
-        render::in_words(&grids.base),
-        render::in_words(&grids.platform)
-    ));
-    let decimals =
-        [0, 1].map(|body| decimals(&choice.grids[body], choice.manipulator.joints(Body::BOTH[body])));
-    out.with_tables_of(design).at_decimals(decimals.each_ref().map(Option::as_deref))
-}
-
-/// The joints of a body as the decimals that the holes of the grid are, of which doubles are only near: the third hole of pitch 0.1 is at 0.3.
-///
-/// `None` where doubles are the holes (whole pitches), where the pitch is no short decimal, and where the axes of the grid are not those of the body, so
-/// that the coordinates are no decimals.
-fn decimals(grid: &Grid, joints: &[Point3<f64>]) -> Option<Vec<[String; 3]>> {
-    // without an exponent, with the fewest digits
-    let places = |x: f64| x.to_string().split_once('.').map_or(0, |(_, digits)| digits.len());
-    let digits = grid.origin.into_iter().chain([grid.pitch]).map(places).max().unwrap_or(0);
-    let height = joints.first()?.z;
-    let level = joints.iter().all(|p| p.z.total_cmp(&height).is_eq());
-    let unturned = grid.angle_deg == 0.0;
-    // below this every decimal with so many places has its own double, with room for errors of rounding
-    let largest = 10f64.powi(14 - i32::try_from(digits).ok()?);
-    let apart = joints.iter().all(|p| p.x.abs().max(p.y.abs()) < largest);
-    let shown =
-        |p: &Point3<f64>| [format!("{:.digits$}", p.x), format!("{:.digits$}", p.y), height.to_string()];
-    (digits > 0 && level && unturned && apart).then(|| joints.iter().map(shown).collect())
+/// The grids of the design, or of `--grid`, with what other options say of them.
+fn grids(args: &Args, design: &Design) -> Result<[Grid; 2], Failure> {
+    let pitches = args.grid.map(|base| [base, args.grid_platform.unwrap_or(base)]);
+    let mut grids = match (design.holes, pitches) {
+        (Some(grids), None) => grids,
+        (_, Some(pitches)) => pitches.map(Grid::square),
+        (None, None) => {
+            return Err(Failure::refused("round::no_grid", "the design states no [holes], and --grid is absent")
+                .with_help("name the distance of neighbouring holes, --grid 25, or state the grids of both plates in [holes]"));
+        }
+    };
+    let pattern = [args.pattern, args.pattern_platform.or(args.pattern)];
+    let origin = [(&args.origin, "--origin"), (&args.origin_platform, "--origin-platform")];
+    let angle = [args.angle, args.angle_platform];
+    for (k, grid) in grids.iter_mut().enumerate() {
+        if let Some(pattern) = pattern[k] {
+            grid.pattern = pattern.into();
+        }
+        if let (Some(text), option) = origin[k] {
+            grid.origin = numbers(text, option, "round::bad_grid")?;
+        }
+        grid.angle_deg = angle[k].unwrap_or(grid.angle_deg);
+    }
+    if let (Some(pitch), None) = (args.grid_platform, args.grid) {
+        grids[1].pitch = pitch;
+    }
+    Ok(grids)
 }
 
 /// Rounds, judges both roundings and writes the chosen one.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
-    let (origin, origin_platform) = (
-        numbers(&args.origin, "--origin", "round::bad_grid")?,
-        numbers(&args.origin_platform, "--origin-platform", "round::bad_grid")?,
-    );
-    let pitch = [args.grid, args.grid_platform.unwrap_or(args.grid)];
+    let grids = grids(args, &design)?;
     let tool = Point3::from(numbers::<3>(&args.tool, "--tool", "round::bad_tool")?);
     if args.variant != Variant::Rule {
         context.no_effect("keep", "the rounding is chosen by --variant, not by rule")?;
@@ -162,37 +170,22 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
             format!("--keep is {}, not a share of 0 or more", args.keep),
         ));
     }
-    let (space, _) = poses::space(&design);
-    let poses = poses::judged(&design);
-    let required = design.requirements();
-    let m = design.manipulator();
-    // that of `optimize`: RMS radius of the platform triangle, of the leg ends where there is none
-    let radius = equivalent_octahedral(m).as_ref().unwrap_or(m).platform_rms_radius();
-    let problem = RoundingProblem {
-        manipulator: m,
-        grids: [
-            Grid { pitch: pitch[0], origin, angle_deg: args.angle },
-            Grid { pitch: pitch[1], origin: origin_platform, angle_deg: args.angle_platform },
-        ],
+    let choices = RoundingChoices {
+        grids,
         free: args.free_grid,
-        requirements: &required,
-        space: &space,
-        poses: &poses,
-        characteristic_length: design.optimize.characteristic_length.unwrap_or(radius),
-        min_abs_det: design.optimize.min_abs_det,
-        tool,
-        candidates: args.candidates as usize,
         keep: args.keep,
+        candidates: args.candidates as usize,
+        tool,
         trials: args.trials as usize,
         seed: context.seed(),
     };
-    let found = round_to_grid(&problem).map_err(|why| {
+    let found = design.rounded(&choices).map_err(|why| {
         let code =
             if matches!(why, NoRounding::NotPlanar(_)) { "round::not_planar" } else { "round::bad_grid" };
         Failure::refused(code, why.to_string())
     })?;
     let choice = chosen(&found, args.variant, args.keep);
-    let rounded = choice.map(|c| (c.variant, rounded_design(&design, &c)));
+    let rounded = choice.map(|c| (VariantWord::from(c.way), design.on_holes(c.way, c.manipulator, c.grids)));
     let mut written = None;
     if let (Some(path), Some((_, rounded))) = (&args.output, &rounded) {
         files::write_design(path, rounded)?;
@@ -213,7 +206,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     };
     let report = render::RoundReport {
         design: &design,
-        problem: &problem,
+        choices: &choices,
         found: &found,
         rounded,
         assessment,

@@ -4,30 +4,32 @@ use std::fmt::Write as _;
 
 use crate::cli::requirements;
 use crate::design::Design;
-use crate::manufacture::{Rounding, RoundingProblem};
+use crate::entrance::rounding::RoundingChoices;
+use crate::manufacture::Rounding;
 use crate::records::{
     AssessAnswer, ExactRoundingOutcome, GridRecord, GridsRecord, JudgementRecord, NearestRoundingOutcome,
     RoundAnswer, RoundedJointRecord, VariantWord,
 };
+use crate::requirements::Grid;
 
 /// Everything there is to tell.
 #[derive(Debug)]
-pub(super) struct RoundReport<'a> {
-    pub(super) design: &'a Design,
-    pub(super) problem: &'a RoundingProblem<'a>,
-    pub(super) found: &'a Rounding,
-    pub(super) rounded: Option<(VariantWord, &'a Design)>,
-    pub(super) assessment: Option<AssessAnswer>,
-    pub(super) written: Option<&'a str>,
+pub(in crate::cli::commands) struct RoundReport<'a> {
+    pub(in crate::cli::commands) design: &'a Design,
+    pub(in crate::cli::commands) choices: &'a RoundingChoices,
+    pub(in crate::cli::commands) found: &'a Rounding,
+    pub(in crate::cli::commands) rounded: Option<(VariantWord, &'a Design)>,
+    pub(in crate::cli::commands) assessment: Option<AssessAnswer>,
+    pub(in crate::cli::commands) written: Option<&'a str>,
 }
 
 impl RoundReport<'_> {
-    pub(super) fn record(&self) -> RoundAnswer {
+    pub(in crate::cli::commands) fn record(&self) -> RoundAnswer {
         RoundAnswer {
             name: self.design.name.clone(),
             units: self.design.units.clone(),
-            grids: (&self.problem.grids).into(),
-            free_grid: self.problem.free,
+            grids: (&self.choices.grids).into(),
+            free_grid: self.choices.free,
             wanted: (&self.found.wanted).into(),
             exact: ExactRoundingOutcome::new(self.design, &self.found.exact),
             nearest: NearestRoundingOutcome::new(self.design, &self.found.nearest),
@@ -40,9 +42,9 @@ impl RoundReport<'_> {
 }
 
 /// The grid in words.
-pub(super) fn in_words(grid: &GridRecord) -> String {
-    let GridRecord { pitch, origin: [x, y], angle_deg } = grid;
-    format!("pitch {}, a hole at ({}, {}), turned by {} deg", pitch.0, x.0, y.0, angle_deg.0)
+fn in_words(grid: &GridRecord) -> String {
+    let GridRecord { pattern, pitch, origin, angle_deg } = *grid;
+    Grid { pattern, pitch: pitch.0, origin: origin.map(|x| x.0), angle_deg: angle_deg.0 }.to_string()
 }
 
 fn judged(out: &mut String, what: &str, j: &JudgementRecord, units: &str) {

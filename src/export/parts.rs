@@ -1,0 +1,179 @@
+//! The parts of a machine: what has to be bought or made, how many of each, how long and how heavy.
+
+use std::fmt::Write as _;
+
+use super::text::{commented, csv_field, real};
+use super::{Export, ExportBody};
+use crate::manipulator::Body;
+
+/// Legs whose lengths differ by less than this share of the size are of one kind.
+const SAME_LENGTH: f64 = 1e-6;
+/// Kinds of joint by body.
+const JOINTS: [&str; 2] = ["base joint", "platform joint"];
+
+/// A line of the bill of materials; millimetres and kilograms.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PartLine {
+    /// What it is.
+    pub part: String,
+    /// How many.
+    pub count: usize,
+    /// Mass of one, kilograms, where the design says it.
+    pub mass: Option<f64>,
+    /// Length at home of a leg, or of a cylinder, millimetres.
+    pub length: Option<f64>,
+    /// Least and greatest length over the poses of the workspace, millimetres.
+    pub lengths: Option<[f64; 2]>,
+    /// Diameter, or thickness of a plate, millimetres.
+    pub thickness: Option<f64>,
+    /// Volume of one, cubic centimetres, of plates.
+    pub volume: Option<f64>,
+    /// Where it belongs and what it has to be able to do.
+    pub remark: String,
+}
+
+impl PartLine {
+    fn new(part: impl Into<String>, count: usize, remark: impl Into<String>) -> Self {
+        let (part, remark) = (part.into(), remark.into());
+        let (mass, length, lengths) = (None, None, None);
+        Self { part, count, mass, length, lengths, thickness: None, volume: None, remark }
+    }
+}
+
+/// The names of the columns of a bill of materials.
+pub const PART_COLUMNS: [&str; 10] = [
+    "part",
+    "count",
+    "mass_each_kg",
+    "mass_kg",
+    "home_length_mm",
+    "least_length_mm",
+    "greatest_length_mm",
+    "diameter_or_thickness_mm",
+    "volume_each_cm3",
+    "remark",
+];
+
+impl PartLine {
+    /// Its fields in the order of [`PART_COLUMNS`]; empty where the design says nothing.
+    #[must_use]
+    pub fn fields(&self) -> [String; 10] {
+        let number = |x: Option<f64>| x.map_or_else(String::new, rounded);
+        [
+            self.part.clone(),
+            self.count.to_string(),
+            number(self.mass),
+            number(self.mass.map(|m| m * self.count as f64)),
+            number(self.length),
+            number(self.lengths.map(|l| l[0])),
+            number(self.lengths.map(|l| l[1])),
+            number(self.thickness),
+            number(self.volume),
+            self.remark.clone(),
+        ]
+    }
+}
+
+/// To a thousandth, which is what is meant in millimetres and kilograms.
+fn rounded(x: f64) -> String {
+    real((x * 1e3).round() / 1e3)
+}
+
+impl Export {
+    /// The bill of materials: plates, joints, drives by kind, payload.
+    ///
+    /// Legs are of one kind where their lengths at home agree; the least and greatest lengths are those at the poses of the workspace that are listed, of all legs of the kind.
+    #[must_use]
+    pub fn parts(&self) -> Vec<PartLine> {
+        let mm = self.unit.millimetres;
+        let mut out: Vec<PartLine> = self.bodies.iter().map(|body| plate(body, mm)).collect();
+        for body in &self.bodies {
+            let k = body.body.index();
+            let limit = [self.hardware.base_swing, self.hardware.platform_swing][k].map(|s| s.limit_deg);
+            let swing = limit.map_or_else(String::new, |deg| format!("swings by {} deg; ", real(deg)));
+            let names: Vec<&str> = body.joints.iter().map(|j| j.name.as_str()).collect();
+            let line = PartLine::new(JOINTS[k], names.len(), format!("{swing}{}", names.join(" ")));
+            out.push(PartLine { thickness: Some(body.ball_diameter * mm), ..line });
+        }
+        self.legs_by_kind(&mut out);
+        let [cylinder, rod] = [self.leg_masses.map(|m| m.cylinder.mass), self.leg_masses.map(|m| m.rod.mass)];
+        let known = |mass: Option<f64>| mass.filter(|m| *m > 0.0);
+        let (thick, thin) = self.legs[0].diameters;
+        out.push(PartLine {
+            mass: known(cylinder),
+            length: Some(self.legs[0].cylinder * mm),
+            thickness: Some(thick * mm),
+            ..PartLine::new("cylinder", 6, "one a leg")
+        });
+        out.push(PartLine {
+            mass: known(rod),
+            thickness: Some(thin * mm),
+            ..PartLine::new("rod", 6, "one a leg")
+        });
+        if self.payload {
+            let line = PartLine::new("payload with platform", 1, "carried, not bought");
+            out.push(PartLine { mass: Some(self.mass), ..line });
+        }
+        out
+    }
+
+    fn legs_by_kind(&self, out: &mut Vec<PartLine>) {
+        let mm = self.unit.millimetres;
+        let mut kinds: Vec<(f64, Vec<usize>)> = Vec::new();
+        for (i, leg) in self.legs.iter().enumerate() {
+            let length = leg.length();
+            match kinds.iter_mut().find(|(l, _)| (l - length).abs() <= SAME_LENGTH * self.size) {
+                Some((_, legs)) => legs.push(i),
+                None => kinds.push((length, vec![i])),
+            }
+        }
+        let poses: Vec<[f64; 6]> =
+            self.workspace.iter().chain(&self.trajectory).map(|pose| self.lengths_at(pose)).collect();
+        let name =
+            |k: usize| if kinds.len() == 1 { "leg".to_owned() } else { format!("leg, kind {}", k + 1) };
+        for (k, (length, legs)) in kinds.iter().enumerate() {
+            let all = || poses.iter().flat_map(|l| legs.iter().map(|i| l[*i]));
+            let numbers: Vec<String> = legs.iter().map(|i| (i + 1).to_string()).collect();
+            let mut remark = format!("legs {}", numbers.join(" "));
+            if let Some((least, greatest)) = self.leg_range {
+                let _ =
+                    write!(remark, "; drive from {} to {} mm", rounded(least * mm), rounded(greatest * mm));
+            }
+            if let Some(force) = self.greatest_force {
+                let _ = write!(remark, ", {} N", rounded(force));
+            }
+            out.push(PartLine {
+                length: Some(length * mm),
+                lengths: Some([all().fold(*length, f64::min) * mm, all().fold(*length, f64::max) * mm]),
+                ..PartLine::new(name(k), legs.len(), remark)
+            });
+        }
+    }
+
+    /// The bill of materials as a table.
+    pub(super) fn parts_csv(&self) -> String {
+        let more = "parts; masses, lengths and diameters are empty where the design does not say them";
+        let mut out = commented("#", self.heading("mm").into_iter().chain([more.to_string()]));
+        let _ = writeln!(out, "{}", PART_COLUMNS.join(","));
+        for part in self.parts() {
+            let _ = writeln!(out, "{}", part.fields().map(|f| csv_field(&f)).join(","));
+        }
+        out
+    }
+}
+
+fn plate(body: &ExportBody, mm: f64) -> PartLine {
+    let name = if body.body == Body::Base { "base plate" } else { "platform plate" };
+    match body.plate() {
+        Ok(plate) => PartLine {
+            thickness: Some(plate.thickness * mm),
+            volume: Some(plate.volume() * mm * mm * mm / 1e3),
+            ..PartLine::new(
+                name,
+                1,
+                format!("{} holes of {} mm", plate.holes.len(), rounded(plate.hole_diameter * mm)),
+            )
+        },
+        Err(why) => PartLine::new(name, 1, format!("not drawn: {why}")),
+    }
+}
