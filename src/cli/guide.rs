@@ -74,7 +74,6 @@ const JOBS: [Job; 10] = [
                 &[
                     "limits designs/presets/bench-l16.toml",
                     "limits designs/presets/bench-l16.toml --at 0,0,215,3,0,0 --to 10,0,212,0,0,0 --json",
-                    "limits designs/presets/bench-l16.toml --workspace",
                 ],
                 &["limit", "range", "ranges", "reach", "reachable", "travel"],
             ),

@@ -8,7 +8,7 @@ use nalgebra::{Matrix6, Vector3, Vector4, Vector6};
 use super::problem::DimensionalProblem;
 use super::pull::{Gradient, Pull};
 use super::shape::JointEnds;
-use super::stiffness::{self, Quotient};
+use super::stiffness::{self, RayleighQuotient};
 use super::terms::{Gap, HeldPose, LegLines, RequirementTerms, joint_pull, leg_forces};
 use crate::manipulator::Body;
 use crate::num::linalg::svd;
@@ -105,7 +105,7 @@ impl<'a> Merit<'a> {
     }
 
     /// The slowest motions, where masses are known.
-    fn slowest<P: Gradient>(&self, l: &LegLines) -> Option<Vec<Quotient<P>>> {
+    fn slowest<P: Gradient>(&self, l: &LegLines) -> Option<Vec<RayleighQuotient<P>>> {
         stiffness::frequencies(l, self.size, self.vibrating.as_ref()?)
     }
 
@@ -124,8 +124,9 @@ impl<'a> Merit<'a> {
                 if o == Objective::Stiffness { s * s } else { s }
             }
             Objective::NaturalFrequency => {
-                let least =
-                    |all: Vec<Quotient<()>>| all.iter().map(|q| q.value).fold(f64::INFINITY, f64::min);
+                let least = |all: Vec<RayleighQuotient<()>>| {
+                    all.iter().map(|q| q.value).fold(f64::INFINITY, f64::min)
+                };
                 let square = self.slowest(l).map_or(0.0, least);
                 square.max(0.0).sqrt() / self.omega()
             }

@@ -15,7 +15,7 @@ use crate::requirements::{VibratingMasses, mass_of, scaled_mass};
 
 /// A value no smaller than the one looked for, and equal to it for the softest load or motion.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Quotient<P> {
+pub(crate) struct RayleighQuotient<P> {
     pub(crate) value: f64,
     pub(crate) pull: P,
 }
@@ -31,7 +31,7 @@ pub(crate) fn stiffness<P: Gradient>(
     l: &LegLines,
     size: f64,
     against_torques: bool,
-) -> Option<Vec<Quotient<P>>> {
+) -> Option<Vec<RayleighQuotient<P>>> {
     let inverse = l.jacobian(size).try_inverse()?;
     let by_load = inverse.transpose();
     let (from, unit) = if against_torques { (3, size * size) } else { (0, 1.0) };
@@ -47,9 +47,9 @@ pub(crate) fn stiffness<P: Gradient>(
         for i in (0..6).filter(|_| P::KEPT) {
             l.pull_row(&mut pull, i, size, &(x * (2.0 * unit * forces[i] / (square * square))));
         }
-        Quotient { value: unit / square, pull }
+        RayleighQuotient { value: unit / square, pull }
     };
-    let found: Vec<Quotient<P>> = loads.iter().map(of).collect();
+    let found: Vec<RayleighQuotient<P>> = loads.iter().map(of).collect();
     found.iter().all(|q| q.value.is_finite()).then_some(found)
 }
 
@@ -58,7 +58,7 @@ pub(crate) fn frequencies<P: Gradient>(
     l: &LegLines,
     size: f64,
     masses: &VibratingMasses,
-) -> Option<Vec<Quotient<P>>> {
+) -> Option<Vec<RayleighQuotient<P>>> {
     let rows = l.jacobian(size);
     let inverse = rows.try_inverse()?;
     let ends = std::array::from_fn(|i| (l.arm[i], l.line[i]));
@@ -80,9 +80,9 @@ pub(crate) fn frequencies<P: Gradient>(
             l.pull_row(&mut pull, i, size, &(v * (2.0 * masses.leg * stretched[i] / heavy)));
             leg_mass(l, masses, (i, v, size), -value / heavy, &mut pull);
         }
-        Quotient { value, pull }
+        RayleighQuotient { value, pull }
     };
-    let found: Vec<Quotient<P>> = motions.iter().map(of).collect();
+    let found: Vec<RayleighQuotient<P>> = motions.iter().map(of).collect();
     (!found.is_empty() && found.iter().all(|q| q.value.is_finite())).then_some(found)
 }
 

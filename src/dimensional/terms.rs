@@ -7,7 +7,7 @@ use nalgebra::{Matrix6, Rotation3, Vector3, Vector6};
 
 use super::pull::Gradient;
 use super::shape::{JointEnds, LegJoints, Shape};
-use super::stiffness::{self, Quotient};
+use super::stiffness::{self, RayleighQuotient};
 use crate::geom::Pose;
 use crate::manipulator::Body;
 use crate::requirements;
@@ -400,12 +400,12 @@ impl<'a> RequirementTerms<'a> {
 /// `factor` times each quotient, less what it has to be; without quotients the pose is singular and there is no stiffness.
 fn quotients<P: Gradient>(
     kind: TermKind,
-    found: Option<Vec<Quotient<P>>>,
+    found: Option<Vec<RayleighQuotient<P>>>,
     factor: f64,
     wanted: f64,
     see: &mut impl FnMut(Item<P>),
 ) {
-    let none = vec![Quotient { value: 0.0, pull: P::none() }];
+    let none = vec![RayleighQuotient { value: 0.0, pull: P::none() }];
     for (part, q) in found.unwrap_or(none).into_iter().enumerate() {
         let value = q.value * factor - wanted;
         see(Item { id: (kind, 0, 0, part), value, pull: q.pull.scaled(factor), exact: None });

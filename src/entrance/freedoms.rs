@@ -16,9 +16,10 @@ use crate::requirements::{Envelope, LengthLimits, TermKind, VariableKind};
 #[cfg_attr(
     feature = "files",
     derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
+    serde(rename_all = "snake_case"),
+    schemars(rename = "Freedom")
 )]
-pub enum Freedom {
+pub enum ConflictFreedom {
     /// The height of home is chosen.
     HomeHeight,
     /// The sizes of the triangles, or of base and platform, are chosen.
@@ -35,7 +36,7 @@ pub enum Freedom {
     MachineEnvelope,
 }
 
-impl Freedom {
+impl ConflictFreedom {
     /// The word for it.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -89,7 +90,7 @@ pub(crate) enum FreedomOutcome {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct OpenedFreedom {
     /// Which.
-    pub(crate) freedom: Freedom,
+    pub(crate) freedom: ConflictFreedom,
     /// By how much a limit gave way in the last search, design units; for a variable by how much the platform found differs: its height in design units; `None` where there is no such
     /// number.
     pub(crate) amount: Option<f64>,
@@ -114,23 +115,27 @@ fn smaller(options: &ShapeSearchOptions) -> ShapeSearchOptions {
 }
 
 /// The freedoms that a design does not have, those of its variables first, then the limits of the conflict.
-fn closed(design: &Design, report: &DimensionalReport) -> Vec<Freedom> {
+fn closed(design: &Design, report: &DimensionalReport) -> Vec<ConflictFreedom> {
     let has = |kind| design.search.variables.contains(&kind);
     let mut out = Vec::new();
     if !has(VariableKind::HomeHeight) {
-        out.push(Freedom::HomeHeight);
+        out.push(ConflictFreedom::HomeHeight);
     }
     let octahedral = Octahedral::recognise(design.manipulator()).is_ok();
     match (has(VariableKind::TriangleSizes), has(VariableKind::Triangles)) {
         (_, true) => {}
-        (true, false) if octahedral => out.push(Freedom::Triangles),
+        (true, false) if octahedral => out.push(ConflictFreedom::Triangles),
         (true, false) => {}
-        (false, false) => out.push(Freedom::TriangleSizes),
+        (false, false) => out.push(ConflictFreedom::TriangleSizes),
     }
     let DimensionalOutcome::Infeasible(conflict) = &report.outcome else { return out };
     let clashes = |kind: &TermKind| conflict.demands.iter().any(|g| g.demand == Demand::Requirement(*kind));
-    let limits =
-        [Freedom::Stroke, Freedom::BaseEnvelope, Freedom::PlatformEnvelope, Freedom::MachineEnvelope];
+    let limits = [
+        ConflictFreedom::Stroke,
+        ConflictFreedom::BaseEnvelope,
+        ConflictFreedom::PlatformEnvelope,
+        ConflictFreedom::MachineEnvelope,
+    ];
     out.extend(limits.into_iter().filter(|f| f.kinds().iter().any(clashes)));
     out
 }
@@ -143,7 +148,7 @@ fn gives(report: &DimensionalReport, kind: TermKind) -> f64 {
 }
 
 /// The design with a limit that gives way by an amount; for the stroke `ends` says how much of it is added at the short end and at the long one of a range.
-fn wider(design: &Design, freedom: Freedom, amount: f64, ends: [f64; 2]) -> Design {
+fn wider(design: &Design, freedom: ConflictFreedom, amount: f64, ends: [f64; 2]) -> Design {
     let mut out = design.clone();
     let grown = |e: &mut Option<Envelope>| {
         *e = e.map(|e| match e {
@@ -154,7 +159,7 @@ fn wider(design: &Design, freedom: Freedom, amount: f64, ends: [f64; 2]) -> Desi
         });
     };
     match freedom {
-        Freedom::Stroke => {
+        ConflictFreedom::Stroke => {
             out.hardware.leg_length = design.hardware.leg_length.map(|l| match l {
                 LengthLimits::Range(a, b) => {
                     LengthLimits::Range((a - ends[0] * amount).max(0.0), b + ends[1] * amount)
@@ -164,20 +169,20 @@ fn wider(design: &Design, freedom: Freedom, amount: f64, ends: [f64; 2]) -> Desi
                 }
             });
         }
-        Freedom::BaseEnvelope => grown(&mut out.envelopes.base),
-        Freedom::PlatformEnvelope => grown(&mut out.envelopes.platform),
-        Freedom::MachineEnvelope => grown(&mut out.envelopes.machine),
-        Freedom::HomeHeight | Freedom::TriangleSizes | Freedom::Triangles => {}
+        ConflictFreedom::BaseEnvelope => grown(&mut out.envelopes.base),
+        ConflictFreedom::PlatformEnvelope => grown(&mut out.envelopes.platform),
+        ConflictFreedom::MachineEnvelope => grown(&mut out.envelopes.machine),
+        ConflictFreedom::HomeHeight | ConflictFreedom::TriangleSizes | ConflictFreedom::Triangles => {}
     }
     out
 }
 
 /// The first amounts, and for a stroke how it is shared between the ends.
-fn first_amount(design: &Design, report: &DimensionalReport, freedom: Freedom) -> (f64, [f64; 2]) {
+fn first_amount(design: &Design, report: &DimensionalReport, freedom: ConflictFreedom) -> (f64, [f64; 2]) {
     let half = |e: Option<Envelope>| e.map_or(0.0, |e| e.half_width());
     let part = |x: f64, whole: f64| if x > 0.0 { x } else { FIRST * whole };
     match freedom {
-        Freedom::Stroke => {
+        ConflictFreedom::Stroke => {
             let range = design.hardware.leg_length.map_or((0.0, 0.0), |l| l.range());
             let [short, long] = [TermKind::LegTooShort, TermKind::LegTooLong].map(|kind| gives(report, kind));
             match design.hardware.leg_length {
@@ -191,10 +196,10 @@ fn first_amount(design: &Design, report: &DimensionalReport, freedom: Freedom) -
                 _ => (FIRST * (range.1 - range.0), [0.5; 2]),
             }
         }
-        Freedom::BaseEnvelope => {
+        ConflictFreedom::BaseEnvelope => {
             (part(gives(report, TermKind::BaseEnvelope), half(design.envelopes.base)), [0.0; 2])
         }
-        Freedom::PlatformEnvelope => {
+        ConflictFreedom::PlatformEnvelope => {
             (part(gives(report, TermKind::PlatformEnvelope), half(design.envelopes.platform)), [0.0; 2])
         }
         _ => (part(gives(report, TermKind::MachineEnvelope), half(design.envelopes.machine)), [0.0; 2]),
@@ -202,7 +207,7 @@ fn first_amount(design: &Design, report: &DimensionalReport, freedom: Freedom) -
 }
 
 /// One search; `Break` where it was told to end.
-type Tried = ControlFlow<(), Option<Box<Checked>>>;
+type AttemptFlow = ControlFlow<(), Option<Box<Checked>>>;
 
 /// Searches with one more freedom each.
 pub(crate) struct FreedomSearch<'a, 'p> {
@@ -210,7 +215,7 @@ pub(crate) struct FreedomSearch<'a, 'p> {
     pub(crate) extension: f64,
     pub(crate) report: &'a DimensionalReport,
     pub(crate) options: ShapeSearchOptions,
-    pub(crate) progress: &'p mut dyn FnMut(Freedom, Progress) -> ControlFlow<()>,
+    pub(crate) progress: &'p mut dyn FnMut(ConflictFreedom, Progress) -> ControlFlow<()>,
 }
 
 impl FreedomSearch<'_, '_> {
@@ -231,7 +236,7 @@ impl FreedomSearch<'_, '_> {
     }
 
     /// `None` for a freedom that cannot be asked for.
-    fn open(&mut self, freedom: Freedom) -> Result<Option<OpenedFreedom>, VerifyError> {
+    fn open(&mut self, freedom: ConflictFreedom) -> Result<Option<OpenedFreedom>, VerifyError> {
         let told = |outcome, amount| Some(OpenedFreedom { freedom, amount, outcome });
         if let Some(kind) = freedom.variable() {
             let mut more = self.design.clone();
@@ -251,7 +256,8 @@ impl FreedomSearch<'_, '_> {
                     let lift = |c: &Checked| {
                         c.design.home_or_default().position.z - self.design.home_or_default().position.z
                     };
-                    let amount = found.as_deref().filter(|_| freedom == Freedom::HomeHeight).map(lift);
+                    let amount =
+                        found.as_deref().filter(|_| freedom == ConflictFreedom::HomeHeight).map(lift);
                     told(outcome_of(found), amount)
                 }
             });
@@ -287,7 +293,11 @@ impl FreedomSearch<'_, '_> {
     }
 
     /// The search for a design with more freedom, and what `assess` says of what it finds; `None` where it cannot be asked.
-    fn search(&mut self, freedom: Freedom, design: &Design) -> Result<Option<Tried>, VerifyError> {
+    fn search(
+        &mut self,
+        freedom: ConflictFreedom,
+        design: &Design,
+    ) -> Result<Option<AttemptFlow>, VerifyError> {
         let problem = dimensional_problem(design, self.extension);
         let known = self.report.nearest.as_deref().map_or(&[][..], |s| &s.variables);
         let mut ended = false;

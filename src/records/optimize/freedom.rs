@@ -4,14 +4,14 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::design::Design;
-use crate::entrance::freedoms::{Freedom, FreedomOutcome, OpenedFreedom};
+use crate::entrance::freedoms::{ConflictFreedom, FreedomOutcome, OpenedFreedom};
 use crate::records::{AssessAnswer, DesignRecord, Number};
 
 /// A freedom that the design does not have, and what came of the search with it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FreedomRecord {
     /// Which.
-    pub freedom: Freedom,
+    pub freedom: ConflictFreedom,
     /// What came of it.
     pub outcome: FreedomWord,
     /// By how much the limit gave way in the last search, or by how much the platform found is higher; null: no such number.
@@ -74,21 +74,21 @@ fn message(design: &Design, opened: &OpenedFreedom, outcome: FreedomWord) -> Str
         None => format!("a wider envelope of the {body}"),
     };
     let what = match opened.freedom {
-        Freedom::HomeHeight => match amount {
+        ConflictFreedom::HomeHeight => match amount {
             Some(x) if x < 0.0 => format!("home lower by {}", by(x)),
             Some(x) => format!("home higher by {}", by(x)),
             None => "another height of home".to_owned(),
         },
-        Freedom::TriangleSizes => "other sizes of base and platform".to_owned(),
-        Freedom::Triangles => "other shapes of the triangles".to_owned(),
-        Freedom::Stroke => match amount {
+        ConflictFreedom::TriangleSizes => "other sizes of base and platform".to_owned(),
+        ConflictFreedom::Triangles => "other shapes of the triangles".to_owned(),
+        ConflictFreedom::Stroke => match amount {
             Some(x) if tried => format!("a stroke longer by up to {}", by(x)),
             Some(x) => format!("a stroke longer by {}", by(x)),
             None => "a longer stroke".to_owned(),
         },
-        Freedom::BaseEnvelope => wider("base"),
-        Freedom::PlatformEnvelope => wider("platform"),
-        Freedom::MachineEnvelope => wider("machine"),
+        ConflictFreedom::BaseEnvelope => wider("base"),
+        ConflictFreedom::PlatformEnvelope => wider("platform"),
+        ConflictFreedom::MachineEnvelope => wider("machine"),
     };
     match outcome {
         FreedomWord::Resolved => {
