@@ -3,6 +3,8 @@
 //! `R = X(e) / (e.e)` loses `log10(|e|^2 / |e.e|)` digits in double, and `p e = g` as many on the way back. Far out, where `e.e`
 //! is small, a pose is therefore made from a point in double-double.
 
+#![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
+
 use num_complex::Complex64;
 
 use super::certificate::{PoseEnclosure, WhyUncertified};
