@@ -256,7 +256,10 @@ fn a_simulation_has_six_actuators_and_five_loops() {
     let text = text_of(&limited, "mjcf", "platform.xml");
     let home = limited.legs[0].length();
     let range = format!(" range=\"{} {}\"/>", real((198.0 - home) * 1e-3), real((298.0 - home) * 1e-3));
-    assert_eq!((text.matches(" range=").count(), text.contains(&range)), (6, true));
+    // six slides, and the twelve hinges of base joints that swing by so much from the leg at home
+    assert_eq!((text.matches(" range=").count(), text.contains(&range)), (18, true));
+    let swing = real(limited.hardware.base_swing.unwrap().limit_deg.to_radians());
+    assert_eq!(text.matches(&format!(" range=\"-{swing} {swing}\"")).count(), 12);
 }
 
 #[test]
