@@ -198,7 +198,8 @@ impl LengthStart {
 fn all_different(kind: StartKind, points: &[[Complex64; 8]]) -> bool {
     points.iter().enumerate().all(|(k, x)| {
         let meets = |y: &[Complex64; 8]| projective_distance(x, y) < SAME_END;
-        points[..k].iter().all(|y| !meets(y) && !(kind == StartKind::Planar && meets(&mirror(*y))))
+        let again = |y: &[Complex64; 8]| meets(y) || (kind == StartKind::Planar && meets(&mirror(*y)));
+        !points[..k].iter().any(again)
     })
 }
 

@@ -223,10 +223,8 @@ where
 /// The last two rows, of `e.g` and the patch.
 #[inline(always)]
 pub(super) fn border<S: Simd>(x: &Vec8<S>, patch: &Vec8<S>, j: &mut Matrix8<S>) {
-    for k in 0..4 {
-        j[6][k] = x[4 + k];
-        j[6][4 + k] = x[k];
-    }
+    j[6][..4].copy_from_slice(&x[4..]);
+    j[6][4..].copy_from_slice(&x[..4]);
     j[7] = *patch;
 }
 
