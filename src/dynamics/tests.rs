@@ -395,7 +395,7 @@ fn what_a_requirement_looks_at_is_what_the_stiffness_matrix_says() {
         assert!((lowest / all[0].frequency - 1.0).abs() < 1e-9, "{lowest} {all:?}");
         // a point mass has a lowest frequency, though no matrix that can be inverted
         let mut point = bodies();
-        (point.inertia, point.leg) = (nalgebra::Matrix3::zeros(), Default::default());
+        (point.inertia, point.leg) = (Matrix3::zeros(), LegMasses::default());
         assert_eq!(vibration(&m, &pose, leg, &mass_matrix(&m, &point, &pose)), None);
         let slow = lowest_frequency(&m, &pose, &VibratingMasses { bodies: point, leg });
         let small = nalgebra::Matrix3::identity() * 1e-9;

@@ -123,9 +123,8 @@ fn closed(design: &Design, report: &DimensionalReport) -> Vec<ConflictFreedom> {
     }
     let octahedral = Octahedral::recognise(design.manipulator()).is_ok();
     match (has(VariableKind::TriangleSizes), has(VariableKind::Triangles)) {
-        (_, true) => {}
         (true, false) if octahedral => out.push(ConflictFreedom::Triangles),
-        (true, false) => {}
+        (true, false) | (_, true) => {}
         (false, false) => out.push(ConflictFreedom::TriangleSizes),
     }
     let DimensionalOutcome::Infeasible(conflict) = &report.outcome else { return out };

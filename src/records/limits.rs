@@ -139,7 +139,9 @@ impl WorkspaceSizeRecord {
             }
         }
         let all = found.rays.len().max(1) as f64;
-        ends.iter_mut().for_each(|e| e.share /= all);
+        for end in &mut ends {
+            end.share /= all;
+        }
         ends.sort_by(|a, b| b.share.total_cmp(&a.share));
         let (volume, volume_doubt) = found.volume;
         Self {

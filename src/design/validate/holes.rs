@@ -18,18 +18,14 @@ pub(super) fn holes(report: &mut Findings<'_>, top: &[Entry]) -> Option<[Grid; 2
     let entry = find(top, "holes")?;
     let entries = table(report, &entry.node, place)?;
     check_keys(report, entries, &PLATE_KEYS, place);
-    let [base, platform] = PLATE_KEYS.map(|key| match find(entries, key) {
-        Some(e) => grid(report, e),
-        None => {
-            let message = format!("{place} has no `{key}`");
-            report.refuse(
-                Code::MissingKey,
-                &entry.key_span,
-                message,
-                format!("add {key} = {{ pitch = 25 }}"),
-            );
-            None
-        }
+    let [base, platform] = PLATE_KEYS.map(|key| {
+        let Some(e) = find(entries, key) else {
+            let (message, help) =
+                (format!("{place} has no `{key}`"), format!("add {key} = {{ pitch = 25 }}"));
+            report.refuse(Code::MissingKey, &entry.key_span, message, help);
+            return None;
+        };
+        grid(report, e)
     });
     Some([base?, platform?])
 }

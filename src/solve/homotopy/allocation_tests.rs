@@ -40,7 +40,7 @@ fn the_fast_tracker_allocates_for_its_results_whatever_the_number_of_steps() {
                     way: [Complex64::ONE, CORNER, Complex64::ZERO],
                     limits,
                 }
-                .run()
+                .run();
             });
             (counted.count_total, out.iter().map(|p| p.steps).sum::<u32>())
         };

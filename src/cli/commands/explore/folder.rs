@@ -136,7 +136,8 @@ impl Folder {
     /// # Errors
     /// Exit 2: a file cannot be read again.
     pub(super) fn results(&self) -> Result<Vec<ReportFile>, Failure> {
-        let shown = |name: &&String| !name.starts_with(MACHINE) || name.ends_with(".svg");
+        let picture = |name: &str| Path::new(name).extension().is_some_and(|end| end == "svg");
+        let shown = |name: &&String| !name.starts_with(MACHINE) || picture(name);
         report::read(self.written.iter().filter(shown).map(|name| self.path.join(name)))
     }
 

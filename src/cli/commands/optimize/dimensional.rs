@@ -55,8 +55,8 @@ impl Done {
         };
         let freedoms = self.freedoms.as_ref().map(opened);
         DimensionalAnswer {
-            candidates,
             freedoms,
+            candidates,
             ..DimensionalAnswer::new(design, &self.report, found, written)
         }
     }
