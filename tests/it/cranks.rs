@@ -85,8 +85,9 @@ fn values_are_shared_copied_and_kept() {
     let design = servos();
     let platform = design.rotary().unwrap().unwrap();
     let legs = platform.legs();
-    assert!(legs.iter().all(|leg| leg.crank.length == 20.0 && leg.elbow == Elbow::Plus));
-    assert_eq!(legs.map(|leg| leg.rod), [120.0, 120.0, 120.0, 120.0, 120.0, 120.5]);
+    let bits = |x: f64| x.to_bits();
+    assert!(legs.iter().all(|leg| bits(leg.crank.length) == bits(20.0) && leg.elbow == Elbow::Plus));
+    assert_eq!(legs.map(|leg| bits(leg.rod)), [120.0, 120.0, 120.0, 120.0, 120.0, 120.5].map(bits));
     let limits = legs[3].limits.unwrap();
     assert!((limits.0.to_degrees() + 80.0).abs() < 1e-12 && (limits.1.to_degrees() - 75.0).abs() < 1e-12);
     assert_eq!(design.crank_limits().max_torque, Some(1500.0));
@@ -274,21 +275,15 @@ fn the_reported_flip_of_the_head_is_seen_among_all_poses_and_avoided_by_followin
     // following a path of angles keeps the head upright at every row
     let folder = tempfile::tempdir().unwrap();
     let [poses, table] = ["poses.csv", "angles.csv"].map(|name| folder.path().join(name));
-    let path: String = (0..25)
-        .map(|k| {
-            let t = f64::from(k) / 4.0;
-            let wave = |amplitude: f64, speed: f64| amplitude * (speed * t).sin();
-            format!(
-                "{},{},{},{},{},{}\n",
-                wave(8.0, 1.0),
-                wave(8.0, 1.7),
-                177.0 + wave(8.0, 2.3),
-                wave(15.0, 1.3),
-                wave(15.0, 0.9),
-                wave(20.0, 0.7)
-            )
-        })
-        .collect();
+    let mut path = String::new();
+    for k in 0..25 {
+        let t = f64::from(k) / 4.0;
+        let wave = |amplitude: f64, speed: f64| amplitude * (speed * t).sin();
+        let position = [wave(8.0, 1.0), wave(8.0, 1.7), 177.0 + wave(8.0, 2.3)];
+        let angles = [wave(15.0, 1.3), wave(15.0, 0.9), wave(20.0, 0.7)];
+        path += &position.into_iter().chain(angles).map(|x| x.to_string()).collect::<Vec<_>>().join(",");
+        path.push('\n');
+    }
     std::fs::write(&poses, &path).unwrap();
     let out = equipod(&["ik", HEAD, poses.to_str().unwrap()]);
     assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stdout));
