@@ -72,6 +72,7 @@ struct Tail<'a> {
     holes: Option<HolesTable>,
     #[serde(skip_serializing_if = "Option::is_none")]
     speed: Option<SpeedTable>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     stiffness: Option<StiffnessTable>,
     #[serde(skip_serializing_if = "Option::is_none")]
     payload: Option<PayloadTable>,
