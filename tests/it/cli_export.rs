@@ -129,7 +129,7 @@ fn refusals() {
     let wide = ["--hole-diameter", "4", "--ball-diameter", "5", "--margin", "5"];
     let (code, doc) = run(&[&["designs/rbt-midline.toml", "--to", "dxf,csv", "-o", to], &wide[..]].concat());
     assert_eq!(code, Some(1));
-    assert!(doc["formats"][0]["files"].as_array().unwrap().len() == 3, "{doc}");
+    assert!(doc["formats"][0]["files"].as_array().unwrap().len() == 4, "{doc}");
     assert!(doc["formats"][1]["refused"].as_str().unwrap().contains("overlap"), "{doc}");
     // a design that one of the files would replace stays
     let own = folder.path().join("platform.json");
