@@ -11,6 +11,15 @@ pub(crate) fn parallel<T: Send>(
     f: impl Fn(usize) -> T + Sync,
     tick: &mut dyn FnMut(usize, &T),
 ) -> Vec<T> {
+    if threads.min(total) < 2 {
+        // in a page there are no threads
+        let one = |k| {
+            let value = f(k);
+            tick(k + 1, &value);
+            value
+        };
+        return (0..total).map(one).collect();
+    }
     let next = AtomicUsize::new(0);
     let (send, receive) = mpsc::channel();
     let mut slots: Vec<Option<T>> = (0..total).map(|_| None).collect();

@@ -1,6 +1,7 @@
 //! Margins over all poses, with the poses where they are least.
 
 use std::collections::BTreeMap;
+use std::num::NonZeroUsize;
 
 use nalgebra::Vector6;
 
@@ -25,11 +26,13 @@ pub struct AssessOptions {
     pub seed: u64,
     /// Whether proved margins come close to the least ones found; without it a proof ends where it decides that a margin is met or violated.
     pub close: bool,
+    /// Threads for the proofs; `None`: as many as the process may run at the same time. No answer depends on it.
+    pub threads: Option<NonZeroUsize>,
 }
 
 impl Default for AssessOptions {
     fn default() -> Self {
-        Self { points: 5000, steps: 10, searches: 3, seed: 0, close: true }
+        Self { points: 5000, steps: 10, searches: 3, seed: 0, close: true, threads: None }
     }
 }
 
@@ -58,6 +61,13 @@ impl AssessOptions {
     #[must_use]
     pub fn searches(mut self, searches: usize) -> Self {
         self.searches = searches;
+        self
+    }
+
+    /// Threads for the proofs, on which no answer depends.
+    #[must_use]
+    pub fn threads(mut self, threads: NonZeroUsize) -> Self {
+        self.threads = Some(threads);
         self
     }
 

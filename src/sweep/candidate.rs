@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::cell::OnceCell;
+use std::num::NonZeroUsize;
 
 use super::column::SweepCell;
 use super::evaluate::Sweep;
@@ -192,6 +193,7 @@ impl<'a> SweepCandidate<'a> {
                 .points(effort.points)
                 .searches(effort.searches)
                 .seed(self.sweep.seed)
+                .threads(NonZeroUsize::MIN) // candidates are what threads share
                 .close(false);
             self.design()?.assess_with(&options, effort.cells).map_err(|e| e.to_string())
         };

@@ -16,6 +16,8 @@ mod stiffness;
 #[cfg(test)]
 mod tests;
 
+use std::num::NonZeroUsize;
+
 use self::cone::{Sector, SwingCone};
 use self::frame::{CellFrame, enclosed};
 use self::local::Bounded;
@@ -30,6 +32,7 @@ use crate::geom::{Chart, ChartCell, PoseSpace, arc_cosine, degrees, radians};
 use crate::manipulator::{Body, Manipulator};
 use crate::num::interval::Interval;
 use crate::num::jet::Jet;
+use crate::num::parallel::parallel;
 
 /// What is known of the least margin of a kind of requirement over all poses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -158,7 +161,7 @@ pub fn prove(
     let home = Chart::of_pose(&space.home);
     let axes = axes(m, required, &home);
     let judge = CellJudge { m, required, terms: &terms, axes, charts, close: o.close };
-    let bounds = margins.into_iter().map(|found| {
+    let proved = |found: Margin| {
         let fixed = found.term.kind.is_fixed();
         let bound = if fixed { judge.fixed(found) } else { judge.bound(found, cells, o.seed, 0.0) };
         let reserve = required.reserve(bound.found.term.kind);
@@ -166,8 +169,11 @@ pub fn prove(
             return bound;
         }
         MarginBound { reserve: Some(judge.reserved(&bound, reserve, cells, o.seed)), ..bound }
-    });
-    MarginProof { bounds: bounds.collect(), poses }
+    };
+    let threads =
+        o.threads.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
+    let bounds = parallel(margins.len(), threads, |k| proved(margins[k]), &mut |_, _| ());
+    MarginProof { bounds, poses }
 }
 
 /// Axes from which swing is measured, at the base in the base frame and at the platform in the platform frame, and their lengths.
