@@ -26,7 +26,7 @@ pub struct PartLine {
     pub lengths: Option<[f64; 2]>,
     /// Diameter, or thickness of a plate, millimetres.
     pub thickness: Option<f64>,
-    /// Volume of one, cubic centimetres, of plates.
+    /// Volume of one in cm^3, of plates.
     pub volume: Option<f64>,
     /// Where it belongs and what it has to be able to do.
     pub remark: String,

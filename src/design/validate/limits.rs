@@ -77,7 +77,7 @@ pub(super) fn vibrating(report: &mut Findings<'_>, top: &[Entry], units: &str) {
             Code::MissingKey,
             &entry.key_span,
             message,
-            "add [payload] with its mass, center and inertia",
+            "add [payload] with `mass`, `center` and `inertia`",
         );
     }
     if micrometres(units).is_none() {
