@@ -126,7 +126,7 @@ fn what_contradicts_itself_is_refused() {
         41:1 design::wrong_type: [speed] is an array, not a table | write [speed] as a table
         67:2 design::missing_key: [stiffness] needs the stiffness of a leg | add `leg_stiffness` to [hardware], force units per design unit
         69:11 design::not_positive: `angular` is 0 | give a positive number
-        70:1 design::missing_key: `natural_frequency` of [stiffness] needs the mass that vibrates | add [payload] with its mass, center and inertia
+        70:1 design::missing_key: `natural_frequency` of [stiffness] needs the mass that vibrates | add [payload] with `mass`, `center` and `inertia`
         60:1 design::unknown_key: `offset` is not a key of [calibration] | did you mean `offsets`?
         60:11 design::length_count: `offsets` has 4 numbers instead of 6 | give 6 offsets, one for each leg
         61:22 design::not_positive: a standard deviation of -0.01 | standard deviations are not negative
