@@ -25,6 +25,7 @@ pub(crate) mod optimizing;
 mod reaching;
 #[cfg(all(feature = "files", feature = "synthesis"))]
 mod reaching_space;
+#[cfg(all(feature = "files", feature = "synthesis"))]
 pub(crate) mod rounding;
 mod solving;
 
