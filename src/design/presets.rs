@@ -58,7 +58,7 @@ pub struct Preset {
 }
 
 impl Preset {
-    /// Whether its legs are rods on cranks: such a preset is read by [`parse_with_cranks`](super::parse_with_cranks) and refused by [`parse`](super::parse).
+    /// Whether its legs are rods on cranks: such a preset is read by [`parse_with_cranks`] and refused by [`parse`](super::parse).
     #[must_use]
     pub fn has_cranks(&self) -> bool {
         parse_with_cranks(self.text, Format::Toml).is_ok_and(|(design, _)| design.has_cranks())

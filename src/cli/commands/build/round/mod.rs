@@ -26,7 +26,7 @@ use crate::requirements::{Grid, HolePattern};
 pub(crate) struct Args {
     /// Design file (.toml or .json) with planar bodies; its home pose, workspace and requirements judge the roundings
     design: PathBuf,
-    /// Distance between neighbouring holes, instead of the grids that the design states in [holes]
+    /// Distance between neighbouring holes, instead of the grids that the design states in its table holes
     #[arg(long, value_name = "PITCH")]
     grid: Option<f64>,
     /// Distance between neighbouring holes of the platform; that of the base when absent
