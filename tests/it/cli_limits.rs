@@ -109,9 +109,10 @@ fn the_workspace_has_its_sizes() {
     assert_eq!(code, Some(0));
     let found = &doc["workspace"];
     let of = |name: &str| (number(&found[name]["proved"]), number(&found[name]["searched"]));
-    for name in ["ball_radius", "tilt_deg", "turn_deg"] {
+    // cells of many rotations prove less than those of positions
+    for (name, share) in [("ball_radius", 0.9), ("tilt_deg", 0.7), ("turn_deg", 0.5)] {
         let (proved, searched) = of(name);
-        assert!(proved > 0.9 * searched && proved <= searched, "{name}: {found}");
+        assert!(proved > share * searched && proved <= searched, "{name}: {found}");
         assert!(!found[name]["binds"]["name"].is_null(), "{name}: {found}");
     }
     assert!(of("turn_deg").0 <= of("tilt_deg").1);

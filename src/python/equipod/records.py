@@ -1614,6 +1614,33 @@ class FreeRangeRecord(Record):
     forth: TravelRecord
 
 
+class FreeSizeRecord(Record):
+    """Up to which size a region around home is free."""
+
+    #: Proved: all poses of the region of this size meet all requirements that depend on the pose, and none
+    #: is singular; 0: nothing is proved.
+    proved: float
+    #: No violation was found in regions up to this size.
+    searched: float
+    #: What is violated in a region that is larger by a little; null: nothing that was looked at.
+    binds: Union[LimitRecord, None]
+
+
+class FreeTurnRecord(Record):
+    """How far the platform may turn about an axis."""
+
+    #: `x`, `y` or `z` of the base frame.
+    axis: str
+    #: Against the axis, degrees, positive.
+    back_deg: float
+    #: What binds there; null: nothing within half a turn.
+    back_binds: Union[LimitRecord, None]
+    #: About the axis, degrees.
+    forth_deg: float
+    #: What binds there; null: nothing within half a turn.
+    forth_binds: Union[LimitRecord, None]
+
+
 class FreedomRecord(Record):
     """A freedom that the design does not have, and what came of the search with it."""
 
@@ -1991,6 +2018,8 @@ class LimitsAnswer(Record):
     #: The allowed pose nearest to that of `--to`, or to that of `--at` where it is not allowed; null: all
     #: that was asked for is allowed, or no allowed pose was found.
     nearest_allowed: Union[NearestAllowedRecord, None]
+    #: How large the workspace is around home; null: `--workspace` was not given, or home is not allowed.
+    workspace: Union[WorkspaceSizeRecord, None]
     #: Of lengths.
     length_unit: str
     #: What the answer was made from.
@@ -3000,6 +3029,17 @@ class QuantilesRecord(Record):
     max: Union[float, None]
 
 
+class RayEndRecord(Record):
+    """What ends ways."""
+
+    #: The kind of requirement; null: a singular pose, or nothing within ten sizes.
+    name: Union[TermKind, None]
+    #: The same in a word.
+    end: str
+    #: The share of the ways, which is one of solid angle.
+    share: float
+
+
 class RealPoseRecord(Record):
     """A real pose in real numbers."""
 
@@ -3063,6 +3103,18 @@ class RejectedRecord(Record):
     reason: RejectionReason
     #: Its error in the leg equations, over the squared size.
     residual: Union[float, None]
+
+
+class RequiredSizeRecord(Record):
+    """The region that a design asks for."""
+
+    #: Of its translations, design units cubed.
+    volume: float
+    #: The same over the volume that straight ways reach at the orientation of home.
+    share: Union[float, None]
+    #: The factor by which its translations and rotations together may be multiplied; 1 and more: the
+    #: region is free.
+    factor: FreeSizeRecord
 
 
 class RequirementMarginRecord(Record):
@@ -3677,6 +3729,38 @@ class WitnessRecord(Record):
     p: tuple[Union[float, None], ...]
     #: A quaternion of any norm, scalar part first.
     quaternion: tuple[int, ...]
+
+
+class WorkspaceSizeRecord(Record):
+    """How large the workspace is around home."""
+
+    #: Volume of the positions that straight ways from home at its orientation reach, design units cubed;
+    #: an estimate from the ways that were followed.
+    volume: float
+    #: The share by which the estimates from every second way and from the others differ.
+    volume_doubt: float
+    #: Ways that were followed.
+    rays: int
+    #: What ends them, the most frequent first.
+    ends: tuple[RayEndRecord, ...]
+    #: Radius of the largest ball of positions around home, at the orientation of home, design units.
+    ball_radius: FreeSizeRecord
+    #: Half widths of the largest box of positions found around home, at the orientation of home, along the
+    #: axes of the base frame, design units: those proved to be free.
+    box_proved: tuple[float, ...]
+    #: The same: those in which no violation was found.
+    box_searched: tuple[float, ...]
+    #: What is violated in a box that is larger by a little; null: nothing that was looked at.
+    box_binds: Union[LimitRecord, None]
+    #: Turns about x, y and z of the base frame through the platform origin, at home.
+    turns: tuple[FreeTurnRecord, ...]
+    #: Largest angle up to which the platform may turn about every axis of the xy plane of the base at the
+    #: position of home, degrees.
+    tilt_deg: FreeSizeRecord
+    #: Largest angle up to which it may turn about every axis there, degrees.
+    turn_deg: FreeSizeRecord
+    #: The region that the design asks for; null: none.
+    required: Union[RequiredSizeRecord, None]
 
 
 class WorstErrorsRecord(Record):
