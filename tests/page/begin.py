@@ -52,7 +52,9 @@ def what_is_no_hexapod(shown):
 def examples(shown):
     page = shown.page
     names = page.eval_on_selector_all("#preset option", "list => list.map((o) => o.value).filter(Boolean)")
-    assert len(names) == len(list((DESIGNS / "presets").glob("*.toml"))), names
+    # the page takes no cranks
+    presets = [path for path in (DESIGNS / "presets").glob("*.toml") if 'drive = "rotary"' not in path.read_text()]
+    assert len(names) == len(presets) > 0, names
     for name in names:
         page.select_option("#preset", name)
         shown.settle()
