@@ -102,6 +102,7 @@ const OPTIONAL: &[&str] = &[
     "squared_lengths",
     "between",
     "four_planes",
+    "freedoms",
 ];
 /// Keys of whole designs.
 const DESIGNS: [&str; 3] = ["design", "beside", "octahedral"];
