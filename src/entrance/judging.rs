@@ -122,8 +122,8 @@ pub(crate) const BOX_CELLS: usize = 30_000;
 /// Cells of the workspace over which [`Design::assess`] bounds the margins of one kind of requirement, and `det J`, at most.
 pub(crate) const ASSESS_CELLS: usize = 6000;
 
-/// The same where a search has found what is judged, and fewer do not decide.
-const PATIENT_CELLS: usize = 60_000;
+/// The same for what fewer leave undecided: a search drives margins to zero, where proofs need many.
+pub(crate) const PATIENT_CELLS: usize = 60_000;
 
 /// The same in answers that are about something else than the requirements: a tenth of a second where the whole proof takes seconds.
 const BRIEF_CELLS: usize = 300;
@@ -178,12 +178,12 @@ impl Design {
         })
     }
 
-    /// By how much the design meets its requirements over its whole workspace, and whether that is proved.
+    /// By how much the design meets its requirements over its whole workspace, and whether that is proved. What 6,000 cells of the workspace leave undecided gets 60,000.
     ///
     /// # Errors
     /// [`Error::NothingRequired`] where the design requires nothing.
     pub fn assess(&self) -> Result<AssessReport, Error> {
-        self.assess_with(&AssessOptions::default(), ASSESS_CELLS)
+        self.assess_with(&AssessOptions::default().patient_cells(PATIENT_CELLS), ASSESS_CELLS)
     }
 
     /// As [`assess`](Self::assess), with other numbers of poses and cells looked at.
@@ -203,11 +203,10 @@ impl Design {
 
     /// What [`assess`](Self::assess) decides, with this seed: what every answer that judges a design begins with. `None` where the design requires nothing.
     ///
-    /// Proofs end where they decide: the proved margins may be smaller than those of `assess`. A search drives margins to zero, where proofs need more cells: they get them.
+    /// Proofs end where they decide: the proved margins may be smaller than those of `assess`.
     pub(crate) fn assessed(&self, seed: u64) -> Option<AssessReport> {
-        let with = |cells| self.assess_with(&AssessOptions::new().seed(seed).close(false), cells).ok();
-        let found = with(ASSESS_CELLS)?;
-        if found.met_with_reserve().is_some() { Some(found) } else { with(PATIENT_CELLS) }
+        let options = AssessOptions::new().seed(seed).close(false).patient_cells(PATIENT_CELLS);
+        self.assess_with(&options, ASSESS_CELLS).ok()
     }
 
     /// The same with few cells, for answers that are about something else: the same poses are looked at, and less is proved between them.

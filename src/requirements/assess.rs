@@ -26,13 +26,15 @@ pub struct AssessOptions {
     pub seed: u64,
     /// Whether proved margins come close to the least ones found; without it a proof ends where it decides that a margin is met or violated.
     pub close: bool,
+    /// Cells for the proof of a kind of requirement that the usual number leaves undecided, where more than that; 0: it stays undecided.
+    pub patient_cells: usize,
     /// Threads for the proofs; `None`: as many as the process may run at the same time. No answer depends on it.
     pub threads: Option<NonZeroUsize>,
 }
 
 impl Default for AssessOptions {
     fn default() -> Self {
-        Self { points: 5000, steps: 10, searches: 3, seed: 0, close: true, threads: None }
+        Self { points: 5000, steps: 10, searches: 3, seed: 0, close: true, patient_cells: 0, threads: None }
     }
 }
 
@@ -75,6 +77,13 @@ impl AssessOptions {
     #[must_use]
     pub fn close(mut self, close: bool) -> Self {
         self.close = close;
+        self
+    }
+
+    /// Cells for the proof of a kind of requirement that the usual number leaves undecided; 0, the default: it stays undecided.
+    #[must_use]
+    pub fn patient_cells(mut self, cells: usize) -> Self {
+        self.patient_cells = cells;
         self
     }
 

@@ -7,7 +7,7 @@ use crate::cli::context::Context;
 use crate::cli::failure::Failure;
 use crate::cli::output::Answer;
 use crate::cli::requirements;
-use crate::entrance::Error;
+use crate::entrance::{ASSESS_CELLS, Error, PATIENT_CELLS};
 use crate::records::{AssessAnswer, PoseQuaternionRecord, RegularityWord};
 use crate::requirements::AssessOptions;
 
@@ -25,9 +25,9 @@ pub(crate) struct Args {
     /// Number of local searches for the worst pose of each requirement
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(0..=1000))]
     searches: u32,
-    /// Greatest number of cells of the workspace over which the margins of one kind of requirement, and det J, are bounded for a proof
-    #[arg(long, value_name = "N", default_value_t = 6000, value_parser = clap::value_parser!(u32).range(0..=100_000_000))]
-    cells: u32,
+    /// Greatest number of cells of the workspace over which the margins of one kind of requirement, and det J, are bounded for a proof; default: 6000, and 60000 for a requirement that these leave undecided
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=100_000_000))]
+    cells: Option<u32>,
 }
 
 /// Evaluates the requirements.
@@ -40,8 +40,9 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         .points(args.points as usize)
         .steps(args.steps as usize)
         .searches(args.searches as usize)
-        .seed(context.seed());
-    let found = design.assess_with(&options, args.cells as usize).map_err(|e| match e {
+        .seed(context.seed())
+        .patient_cells(if args.cells.is_none() { PATIENT_CELLS } else { 0 });
+    let found = design.assess_with(&options, args.cells.map_or(ASSESS_CELLS, |n| n as usize)).map_err(|e| match e {
         Error::NothingRequired => {
             let help =
                 "add [hardware] with lengths, swing, diameters or greatest forces; see docs/design-files.md";

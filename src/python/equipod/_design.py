@@ -482,10 +482,11 @@ class Design:
         return CheckAnswer.from_json(self._native.check(seed))
 
     def assess(
-        self, *, points: int = 5000, steps: int = 10, searches: int = 3, cells: int = 6000, seed: int = 1
+        self, *, points: int = 5000, steps: int = 10, searches: int = 3, cells: int | None = None, seed: int = 1
     ) -> AssessAnswer:
         """By how much the requirements of the design are met over its whole workspace.
 
+        ``cells`` is the greatest number of cells of the workspace for the proof of a kind of requirement; by default 6000, and 60,000 where these leave it undecided.
         ``met`` is True where that is proved, False where a violation is, None where neither is.
         """
         from .records import AssessAnswer

@@ -106,6 +106,15 @@ pub struct ReserveBound {
 }
 
 impl MarginBound {
+    /// Whether nothing is left to prove of the margin and of its reserve: a violation decides both.
+    fn is_decided(&self) -> bool {
+        match self.verdict {
+            MarginVerdict::Violated => true,
+            MarginVerdict::Searched => false,
+            MarginVerdict::Met | MarginVerdict::AtLimit => self.keeps_reserve().is_some(),
+        }
+    }
+
     /// Whether the reserve is kept; `Some(true)` where there is none.
     #[must_use]
     pub fn keeps_reserve(&self) -> Option<bool> {
@@ -144,7 +153,7 @@ impl MarginProof {
     }
 }
 
-/// [`assess()`], and proved bounds of the margins it finds, by at most `cells` cells for each kind.
+/// [`assess()`], and proved bounds of the margins it finds, by at most `cells` cells for each kind, and by [`AssessOptions::patient_cells`] more where these leave it undecided.
 ///
 /// Deterministic for a seed. Every pose of [`PoseSpace`] is covered: its region, its single poses, and the straight motions between those of its trajectory, whatever the number of steps.
 #[must_use]
@@ -160,15 +169,16 @@ pub fn prove(
     let charts = Chart::all(space);
     let home = Chart::of_pose(&space.home);
     let axes = axes(m, required, &home);
-    let judge = CellJudge { m, required, terms: &terms, axes, charts, close: o.close };
+    // more cells are for what is undecided, and need not come close
+    let patient = CellJudge { m, required, terms: &terms, axes, charts: charts.clone(), close: false };
+    let judge = CellJudge { charts, close: o.close, ..patient };
     let proved = |found: Margin| {
-        let fixed = found.term.kind.is_fixed();
-        let bound = if fixed { judge.fixed(found) } else { judge.bound(found, cells, o.seed, 0.0) };
-        let reserve = required.reserve(bound.found.term.kind);
-        if reserve == 0.0 {
+        let bound = judge.proved(found, cells, o.seed);
+        if bound.is_decided() || found.term.kind.is_fixed() || o.patient_cells <= cells {
             return bound;
         }
-        MarginBound { reserve: Some(judge.reserved(&bound, reserve, cells, o.seed)), ..bound }
+        let more = patient.proved(bound.found, o.patient_cells, o.seed);
+        MarginBound { below: more.below.max(bound.below), cells: bound.cells + more.cells, ..more }
     };
     let threads =
         o.threads.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
@@ -598,6 +608,17 @@ impl CellJudge<'_> {
     }
 
     /// Whether a margin keeps a reserve: by what is proved of it already, else by bounds of their own.
+    /// A margin and its reserve by at most so many cells for each.
+    fn proved(&self, found: Margin, cells: usize, seed: u64) -> MarginBound {
+        let fixed = found.term.kind.is_fixed();
+        let bound = if fixed { self.fixed(found) } else { self.bound(found, cells, seed, 0.0) };
+        let reserve = self.required.reserve(bound.found.term.kind);
+        if reserve == 0.0 {
+            return bound;
+        }
+        MarginBound { reserve: Some(self.reserved(&bound, reserve, cells, seed)), ..bound }
+    }
+
     fn reserved(&self, bound: &MarginBound, reserve: f64, cells: usize, seed: u64) -> ReserveBound {
         let rounding = self.terms.rounding(bound.found.term.kind, bound.found.pose.as_ref());
         let kept = if bound.found.value < reserve - rounding {

@@ -10,7 +10,7 @@ use crate::geom::{Pose, Region};
 use crate::num::Rng;
 use crate::requirements::{
     Envelopes, Hardware, JointAxes, KeepOut, KeepOutShape, LegBody, LegMasses, LegPart, LengthLimits, Load,
-    MovingBodies, PlatformSpeed, PlatformStiffness, Swing, VibratingMasses,
+    MovingBodies, PlatformSpeed, PlatformStiffness, Reserve, Reserves, Swing, VibratingMasses,
 };
 
 fn random_platform(rng: &mut Rng) -> (Manipulator, Pose) {
@@ -215,6 +215,41 @@ fn limits_to_either_side_of_the_worst_value_are_decided() {
         }
     }
     assert!(proved >= 24 && found * 10 >= planted * 9, "{proved} of 48 proved, {found} of {planted} found");
+}
+
+/// What a few cells leave undecided is decided by more, a reserve too, and nothing else changes.
+#[test]
+fn patient_cells_are_for_what_is_undecided() {
+    let mut rng = Rng::new(33);
+    let (m, home) = random_platform(&mut rng);
+    let space = PoseSpace {
+        translation: Vector3::repeat(3.0),
+        rotation_deg: Vector3::repeat(25.0),
+        ..random_space(home, &mut rng, Region::Box)
+    };
+    let with = |length: f64| Requirements {
+        hardware: Hardware { leg_length: Some(LengthLimits::Range(0.1, length)), ..Hardware::default() },
+        ..Requirements::default()
+    };
+    let longest = |p: &MarginProof| {
+        p.bounds.iter().find(|b| b.found.term.kind == TermKind::LegTooLong).cloned().unwrap()
+    };
+    let sampled = prove(&m, &with(100.0), &space, &quick(), 1);
+    let worst = 100.0 - longest(&sampled).found.value;
+    let patient = quick().patient_cells(2000);
+    let beyond = with(1.0001 * worst);
+    let few = longest(&prove(&m, &beyond, &space, &quick(), 1));
+    let more = longest(&prove(&m, &beyond, &space, &patient, 1));
+    assert_eq!((few.verdict, more.verdict), (MarginVerdict::Searched, MarginVerdict::Met));
+    assert!(more.cells > few.cells && more.below >= few.below);
+    // a margin that is met keeps its reserve only where that is proved
+    let reserve = (TermKind::LegTooLong, Reserve::Amount(0.00005 * worst));
+    let reserves = Reserves { kinds: BTreeMap::from([reserve]), ..Reserves::default() };
+    let reserved = Requirements { reserves, ..with(1.0001 * worst) };
+    assert_eq!(longest(&prove(&m, &reserved, &space, &patient, 1)).keeps_reserve(), Some(true));
+    // and no number of cells proves what is not so
+    let short = longest(&prove(&m, &with(0.999 * worst), &space, &patient, 1));
+    assert_eq!(short.verdict, MarginVerdict::Violated);
 }
 
 /// Six vertical legs over a hexagon: lengths and gaps are known.
