@@ -150,7 +150,7 @@ pub(crate) fn nearest_rotation(m: &Matrix3<f64>) -> Rotation3<f64> {
     let mut x = *m;
     for _ in 0..POLAR_STEPS {
         // what is a rotation up to rounding stays as it is, to the last digit
-        if (x.transpose() * x - Matrix3::identity()).amax() <= 8.0 * f64::EPSILON {
+        if (x.transpose() * x - Matrix3::identity()).amax() <= ROUNDED {
             break;
         }
         let Some(inverse) = x.try_inverse() else { return of_quaternion() };
@@ -158,6 +158,9 @@ pub(crate) fn nearest_rotation(m: &Matrix3<f64>) -> Rotation3<f64> {
     }
     Rotation3::from_matrix_unchecked(x)
 }
+
+/// `R^T R` of a rotation rounded to doubles differs from the identity by no more.
+pub(super) const ROUNDED: f64 = 8.0 * f64::EPSILON;
 
 /// Steps of the polar decomposition: each halves the logarithm of the singular values far from one, and squares the error near it.
 const POLAR_STEPS: usize = 60;

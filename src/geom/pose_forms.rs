@@ -6,7 +6,7 @@ use nalgebra::{Isometry3, Matrix3, Matrix4, Quaternion, Rotation3, Translation3,
 use thiserror::Error;
 
 use super::Pose;
-use super::pose::nearest_rotation;
+use super::pose::{ROUNDED, nearest_rotation};
 
 /// `R^T R` of a matrix may differ from the identity by this much: matrices written with seven digits are still rotations.
 const ORTHOGONAL: f64 = 1e-6;
@@ -161,7 +161,9 @@ impl TryFrom<Matrix4<f64>> for Pose {
         if !(error <= ORTHOGONAL && determinant > 0.0) {
             return Err(InvalidPose::NotARotation { error, determinant });
         }
-        Ok(Self { rotation: nearest_rotation(&r), position: m.fixed_view::<3, 1>(0, 3).into_owned() })
+        let rotation =
+            if error <= ROUNDED { Rotation3::from_matrix_unchecked(r) } else { nearest_rotation(&r) };
+        Ok(Self { rotation, position: m.fixed_view::<3, 1>(0, 3).into_owned() })
     }
 }
 
