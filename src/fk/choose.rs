@@ -44,22 +44,24 @@ impl ForwardKinematics for Automatic {
     }
 
     fn solve(&self, m: &Manipulator, s: &SquaredLegLengths, o: &FkOptions) -> Result<FkSolutions, FkError> {
-        let by_octic = || Octic.solve(m, s, o);
-        let few = class_bound(m).is_some_and(|t| t.bound() <= FEW_POSES);
-        let by_trilateration = || few.then(|| Trilateration::default().solve(m, s, o));
-        match by_octic() {
-            Ok(found) if found.is_complete() => Ok(found),
-            Ok(_) => Homotopy.solve(m, s, o),
-            Err(_) => match by_trilateration() {
-                Some(Ok(found)) if found.is_complete() => Ok(found),
-                _ => Homotopy.solve(m, s, o),
-            },
+        match Octic.solve(m, s, o) {
+            Ok(found) if found.is_complete() => return Ok(found),
+            Ok(_) => return Homotopy.solve(m, s, o),
+            Err(_) => {}
         }
+        // bounding the poses of the class takes longer than the octic
+        if class_bound(m).is_some_and(|t| t.bound() <= FEW_POSES) {
+            match Trilateration::default().solve(m, s, o) {
+                Ok(found) if found.is_complete() => return Ok(found),
+                _ => {}
+            }
+        }
+        Homotopy.solve(m, s, o)
     }
 
     fn prepare(&self, m: &Manipulator, o: &FkOptions) -> Option<Box<dyn PreparedDesign>> {
-        let few = class_bound(m).is_some_and(|t| t.bound() <= PREPARED_POSES);
-        let by_trilateration = || if few { Trilateration::default().prepare(m, o) } else { None };
+        let few = || class_bound(m).is_some_and(|t| t.bound() <= PREPARED_POSES);
+        let by_trilateration = || if few() { Trilateration::default().prepare(m, o) } else { None };
         let by_octic = OcticSolver::new(m).ok().map(|solver| QuickDesign::Octic(Box::new(solver)));
         let by_distances = by_octic.or_else(|| Some(QuickDesign::Trilateration(by_trilateration()?)));
         let Some(quick) = by_distances else { return Homotopy.prepare(m, o) };
