@@ -166,6 +166,13 @@ const JOBS: [Job; 10] = [
         heading: "Build",
         commands: &[
             entry(
+                "build drives",
+                &[
+                    "build drives designs/worked/simulator-300kg-built.toml designs/tables/drives.csv -o driven.toml",
+                ],
+                &["actuators", "actuator", "cylinders", "catalogue"],
+            ),
+            entry(
                 "build round",
                 &["build round designs/rbt-octahedral.toml --grid 0.25 -o rounded.toml"],
                 &["rounding", "grid", "holes"],

@@ -40,10 +40,11 @@ pub(crate) use likeness::nearest_word;
 pub use model::{CalibrationTable, Combination, Design, NameCount, OptimizeTable, SearchTable};
 pub(crate) use outline::{HexapodSizes, octahedral_toml, with_lengths};
 pub use presets::{PRESETS, Preset, PresetClass};
-#[cfg(test)]
 pub(crate) use scale::micrometres;
 pub use schema::SCHEMA;
-pub(crate) use table::{InvalidSeries, PointTable, SeriesKind, SeriesRow, TimeSeries};
+pub(crate) use table::{
+    DesignUnits, Drive, DriveTable, InvalidSeries, PointTable, SeriesKind, SeriesRow, TimeSeries,
+};
 pub use violation::{Code, Violation, Warning};
 pub use workspace::{Trajectory, Workspace};
 

@@ -54,8 +54,8 @@ pub struct Design {
     pub envelopes: Envelopes,
     /// What has to remain of each limit.
     pub reserves: Reserves,
-    /// Where the joints of base and platform can be put; `None`: anywhere.
-    pub holes: Option<[Grid; 2]>,
+    /// Where the joints of base and platform can be put; `None`: anywhere. At least one plate has a grid where holes are stated.
+    pub holes: Option<[Option<Grid>; 2]>,
     /// Unit of forces; `None` where the file names none.
     pub force_units: Option<ForceUnit>,
     /// Unit of masses; `None` where the file names none.

@@ -7,8 +7,8 @@ use super::fixtures::REQUIRED as GOOD;
 use super::*;
 use crate::manipulator::Body;
 use crate::requirements::{
-    Envelope, GRAVITY, Grid, HolePattern, Housing, JointAxes, KeepOutShape, LengthLimits, Quantity, Region,
-    TermKind,
+    Envelope, GRAVITY, Grid, HoleCircle, HoleCircles, Housing, JointAxes, KeepOutShape, LengthLimits,
+    Quantity, Region, TermKind,
 };
 
 #[test]
@@ -269,19 +269,18 @@ fn holes_are_read_and_written_back_and_follow_the_unit() {
     let text = GOOD.replacen("trajectory = \"path.csv\"\n", "", 1)
         + "[holes]\nbase = { pitch = 25 }\nplatform = { pattern = \"triangular\", pitch = 10, origin = [5, 2], angle_deg = -30 }\n";
     let (design, _) = parse(&text, Format::Toml).unwrap();
-    let platform =
-        Grid { pattern: HolePattern::Triangular, pitch: 10.0, origin: [5.0, 2.0], angle_deg: -30.0 };
-    assert_eq!(design.holes, Some([Grid::square(25.0), platform]));
+    let platform = Grid { origin: [5.0, 2.0], angle_deg: -30.0, ..Grid::triangular(10.0) };
+    assert_eq!(design.holes, Some([Some(Grid::square(25.0)), Some(platform)]));
     for (text, format) in [(design.to_toml(), Format::Toml), (design.to_json(), Format::Json)] {
         assert_eq!(parse(&text, format).unwrap().0, design, "{text}");
     }
     let metres = design.in_units("m").unwrap();
     let scaled = Grid { pitch: 0.01, origin: [0.005, 0.002], ..platform };
-    assert_eq!(metres.holes, Some([Grid::square(0.025), scaled]));
+    assert_eq!(metres.holes, Some([Some(Grid::square(0.025)), Some(scaled)]));
     for (from, to, code) in [
-        ("base = { pitch = 25 }\n", "", Code::MissingKey),
         ("pitch = 25", "pattern = \"square\"", Code::MissingKey),
         ("pitch = 25", "pitch = 0", Code::NotPositive),
+        ("pitch = 25", "pitch = 25, radii = [20]", Code::UnknownKey),
         ("\"triangular\"", "\"hexagonal\"", Code::UnknownKey),
         ("origin = [5, 2]", "origin = [5]", Code::CoordinateCount),
         ("angle_deg = -30", "angle = -30", Code::UnknownKey),
@@ -290,5 +289,64 @@ fn holes_are_read_and_written_back_and_follow_the_unit() {
         assert!(bad != text, "{from}");
         let violations = parse(&bad, Format::Toml).unwrap_err();
         assert_eq!(violations[0].code, code, "{to}");
+    }
+}
+
+#[test]
+fn holes_on_circles_and_of_one_plate_are_read_and_written_back() {
+    let text = |holes: &str| GOOD.replacen("trajectory = \"path.csv\"\n", "", 1) + "[holes]\n" + holes;
+    let read = |holes: &str| parse(&text(holes), Format::Toml).unwrap().0;
+    let polar = Grid::polar(HoleCircle { radius: 100.0, holes: 24 }, 25.0);
+    let bolts = |list: &[(f64, u32)]| {
+        let list: Vec<HoleCircle> =
+            list.iter().map(|(radius, holes)| HoleCircle { radius: *radius, holes: *holes }).collect();
+        Some(Grid::bolt_circles(HoleCircles::new(&list).unwrap()))
+    };
+    let common = "pattern = \"polar\"\nfirst_radius = 100\npitch = 25\nstep_deg = 15\n";
+    for (holes, wanted) in [
+        (common.into(), [Some(polar); 2]),
+        (
+            format!("{common}platform = {{ count = 36 }}"),
+            [Some(polar), Some(Grid::polar(HoleCircle { radius: 100.0, holes: 36 }, 25.0))],
+        ),
+        (
+            format!(
+                "{common}platform = {{ pattern = \"bolt_circle\", radii = [80, 120], step_deg = [30, 20] }}"
+            ),
+            [Some(polar), bolts(&[(80.0, 12), (120.0, 18)])],
+        ),
+        (
+            "base = { pattern = \"bolt_circle\", radii = 80, count = 6, angle_deg = 5 }".into(),
+            [bolts(&[(80.0, 6)]).map(|g| Grid { angle_deg: 5.0, ..g }), None],
+        ),
+        ("[holes.platform]\npitch = 10\n".into(), [None, Some(Grid::square(10.0))]),
+    ] {
+        let design = read(&holes);
+        assert_eq!(design.holes, Some(wanted), "{holes}");
+        for (text, format) in [(design.to_toml(), Format::Toml), (design.to_json(), Format::Json)] {
+            assert_eq!(parse(&text, format).unwrap().0, design, "{text}");
+        }
+    }
+    let metres = read(common).in_units("m").unwrap().holes.unwrap()[0].unwrap();
+    let third = metres.circle(2).unwrap();
+    assert!((third.radius - 0.15).abs() < 1e-15 && third.holes == 24);
+    for (holes, code) in [
+        ("", Code::MissingKey),
+        ("pattern = \"polar\"\nfirst_radius = 100\npitch = 25\n", Code::MissingKey),
+        ("pattern = \"polar\"\npitch = 25\ncount = 4\n", Code::MissingKey),
+        ("pattern = \"polar\"\nfirst_radius = 100\npitch = 25\nstep_deg = 7\n", Code::Grid),
+        ("pattern = \"polar\"\nfirst_radius = 100\npitch = 25\ncount = 2.5\n", Code::Grid),
+        (
+            "pattern = \"polar\"\nfirst_radius = 100\npitch = 25\ncount = 4\nstep_deg = 90\n",
+            Code::ConflictingKeys,
+        ),
+        ("pattern = \"bolt_circle\"\ncount = 4\n", Code::MissingKey),
+        ("pattern = \"bolt_circle\"\nradii = [1, 2, 3]\ncount = [4, 5]\n", Code::Grid),
+        ("pattern = \"bolt_circle\"\nradii = [1, -2]\ncount = 4\n", Code::NotPositive),
+        ("pattern = \"bolt_circle\"\nradii = []\ncount = 4\n", Code::Grid),
+        ("pattern = \"bolt_circle\"\nradii = [1]\ncount = 4\npitch = 3\n", Code::UnknownKey),
+    ] {
+        let violations = parse(&text(holes), Format::Toml).unwrap_err();
+        assert_eq!(violations[0].code, code, "{holes}: {violations:?}");
     }
 }

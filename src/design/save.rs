@@ -11,8 +11,9 @@ use super::{
 use crate::geom::Pose;
 use crate::manipulator::Body;
 use crate::requirements::{
-    Envelope, Envelopes, ForceUnit, Grid, Hardware, Housing, JointAxes, KeepOut, KeepOutShape, KeptSymmetry,
-    LegPart, LengthLimits, ListedFrom, Load, MassUnit, Payload, Region, Reserve, Reserves, Swing, TermKind,
+    Envelope, Envelopes, ForceUnit, Grid, Hardware, HolePattern, Housing, JointAxes, KeepOut, KeepOutShape,
+    KeptSymmetry, LegPart, LengthLimits, ListedFrom, Load, MassUnit, Payload, Region, Reserve, Reserves,
+    Swing, TermKind,
 };
 use crate::rotary::Elbow;
 
@@ -547,27 +548,56 @@ impl EnvelopesTable {
 #[derive(Serialize)]
 struct GridTable {
     pattern: &'static str,
-    pitch: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pitch: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    first_radius: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    radii: Option<Vec<f64>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    count: Option<CountFile>,
     origin: [f64; 2],
     angle_deg: f64,
+}
+
+/// Numbers of holes.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum CountFile {
+    Ring(u32),
+    Circles(Vec<u32>),
+}
+
+impl From<&Grid> for GridTable {
+    fn from(g: &Grid) -> Self {
+        let circles = g.circles.as_slice();
+        let first = circles.first().filter(|_| g.pattern == HolePattern::Polar);
+        let bolts = g.pattern == HolePattern::BoltCircle;
+        let counts = || CountFile::Circles(circles.iter().map(|c| c.holes).collect());
+        Self {
+            pattern: g.pattern.name(),
+            pitch: (!bolts).then_some(g.pitch),
+            first_radius: first.map(|c| c.radius),
+            radii: bolts.then(|| circles.iter().map(|c| c.radius).collect()),
+            count: first.map(|c| CountFile::Ring(c.holes)).or_else(|| bolts.then(counts)),
+            origin: g.origin,
+            angle_deg: g.angle_deg,
+        }
+    }
 }
 
 /// `[holes]`.
 #[derive(Serialize)]
 struct HolesTable {
-    base: GridTable,
-    platform: GridTable,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    base: Option<GridTable>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    platform: Option<GridTable>,
 }
 
-impl From<&[Grid; 2]> for HolesTable {
-    fn from(grids: &[Grid; 2]) -> Self {
-        let [base, platform] = grids.map(|g| GridTable {
-            pattern: g.pattern.name(),
-            pitch: g.pitch,
-            origin: g.origin,
-            angle_deg: g.angle_deg,
-        });
-        Self { base, platform }
+impl From<&[Option<Grid>; 2]> for HolesTable {
+    fn from([base, platform]: &[Option<Grid>; 2]) -> Self {
+        Self { base: base.as_ref().map(GridTable::from), platform: platform.as_ref().map(GridTable::from) }
     }
 }
 

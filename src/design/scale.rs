@@ -199,8 +199,9 @@ impl Design {
                 Envelope::Box { min, max } => Envelope::Box { min: ratio.point(min), max: ratio.point(max) },
             });
         }
-        for grid in self.holes.iter_mut().flatten() {
+        for grid in self.holes.iter_mut().flatten().flatten() {
             (grid.pitch, grid.origin) = (ratio.of(grid.pitch), grid.origin.map(|x| ratio.of(x)));
+            grid.circles = grid.circles.scaled(|x| ratio.of(x));
         }
         for (kind, reserve) in &mut self.reserves.kinds {
             let Reserve::Amount(x) = reserve else { continue };

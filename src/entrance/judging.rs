@@ -209,9 +209,14 @@ impl Design {
         self.assess_with(&options, ASSESS_CELLS).ok()
     }
 
+    /// The same with so many cells.
+    pub(crate) fn assess_cells(&self, seed: u64, cells: usize) -> Option<AssessReport> {
+        self.assess_with(&AssessOptions::new().seed(seed).close(false), cells).ok()
+    }
+
     /// The same with few cells, for answers that are about something else: the same poses are looked at, and less is proved between them.
     pub(crate) fn assessed_briefly(&self, seed: u64) -> Option<AssessReport> {
-        self.assess_with(&AssessOptions::new().seed(seed).close(false), BRIEF_CELLS).ok()
+        self.assess_cells(seed, BRIEF_CELLS)
     }
 
     /// The largest region without singular poses is sought in the shape of the box of the workspace, or of one of half the size and 30 degrees either way.

@@ -7,6 +7,8 @@ pub(crate) mod calibrating;
 #[cfg(all(feature = "files", feature = "synthesis"))]
 mod comparing;
 #[cfg(all(feature = "files", feature = "synthesis"))]
+pub(crate) mod driving;
+#[cfg(all(feature = "files", feature = "synthesis"))]
 mod equivalence;
 mod error;
 #[cfg(feature = "files")]

@@ -30,8 +30,8 @@ pub(crate) const TRIALS: u32 = 500;
 /// Grids, and how much is looked at.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RoundingChoices {
-    /// Of base and platform.
-    pub(crate) grids: [Grid; 2],
+    /// Of base and platform; `None` where the joints of the plate stay.
+    pub(crate) grids: [Option<Grid>; 2],
     /// Whether origins and angles are chosen too.
     pub(crate) free: bool,
     /// See [`RoundingProblem::keep`].
@@ -48,7 +48,7 @@ pub(crate) struct RoundingChoices {
 
 impl RoundingChoices {
     /// What is usual on these grids.
-    pub(crate) fn on(grids: [Grid; 2], seed: u64) -> Self {
+    pub(crate) fn on(grids: [Option<Grid>; 2], seed: u64) -> Self {
         let tool = Point3::origin();
         let (candidates, trials) = (CANDIDATES as usize, TRIALS as usize);
         Self { grids, free: false, keep: KEEP, candidates, tool, trials, seed }
@@ -100,7 +100,7 @@ impl Design {
     }
 
     /// This design with its joints on the holes of grids, where a rounding has put them.
-    pub(crate) fn on_holes(&self, way: RoundingWay, m: &Manipulator, grids: &[Grid; 2]) -> Self {
+    pub(crate) fn on_holes(&self, way: RoundingWay, m: &Manipulator, grids: &[Option<Grid>; 2]) -> Self {
         let plain = Self::new(format!("{}, rounded", self.name), self.units.clone(), m.clone());
         let (base, platform) = (self.base_names().to_vec(), self.platform_names().to_vec());
         let mut out = plain.clone().with_joint_names(base, platform).unwrap_or(plain);
@@ -109,12 +109,17 @@ impl Design {
             self.name,
             env!("CARGO_PKG_VERSION"),
             way.name(),
-            grids[0],
-            grids[1]
+            grid_in_words(grids[0].as_ref()),
+            grid_in_words(grids[1].as_ref())
         ));
-        let decimals = [0, 1].map(|body| decimals(&grids[body], m.joints(Body::BOTH[body])));
+        let decimals = [0, 1].map(|body| decimals(grids[body].as_ref()?, m.joints(Body::BOTH[body])));
         out.with_tables_of(self).at_decimals(decimals.each_ref().map(Option::as_deref))
     }
+}
+
+/// A grid in words, or that the joints of the plate stay.
+pub(crate) fn grid_in_words(grid: Option<&Grid>) -> String {
+    grid.map_or_else(|| "no grid, its joints stay".into(), Grid::to_string)
 }
 
 /// The joints of a body as the decimals that the holes of the grid are, of which doubles are only near: the third hole of pitch 0.1 is at 0.3.
@@ -202,7 +207,7 @@ impl DesignOnHoles {
 #[cfg(feature = "optimize")]
 pub(crate) fn on_stated_holes(
     wanted: &Design,
-    grids: [Grid; 2],
+    grids: [Option<Grid>; 2],
     first: Option<FirstSearch<'_>>,
     options: &ShapeSearchOptions,
     progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
@@ -252,7 +257,7 @@ fn widen(required: &mut Requirements, missed: &AssessReport) {
 #[cfg(feature = "optimize")]
 fn round_once(
     wanted: &Design,
-    grids: [Grid; 2],
+    grids: [Option<Grid>; 2],
     options: &ShapeSearchOptions,
     progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<Result<DesignOnHoles, NoRounding>, Error> {

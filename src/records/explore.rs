@@ -224,7 +224,7 @@ impl From<&Result<DesignOnHoles, NoRounding>> for OnHolesRecord {
         };
         let (joints, three_fold) = match way {
             RoundingWay::Exact => (exact.map(|e| &e.joints), exact.is_ok_and(|e| e.three_fold)),
-            RoundingWay::Nearest => (nearest.map(|n| &n.joints), false),
+            RoundingWay::Nearest => (nearest.map(|n| &n.joints), nearest.is_ok_and(|n| n.three_fold)),
         };
         let farthest = |list: &Vec<RoundedJoint>| list.iter().map(|j| j.moved.norm()).fold(0.0, f64::max);
         Self {

@@ -12,7 +12,7 @@ use crate::entrance::rounding::RoundingWay;
 use crate::equivalence::{Verification, VerifyError};
 use crate::manipulator::Body;
 use crate::manufacture::{ExactRounding, Judgement, NearestRounding, NoRounding, RoundedJoint};
-use crate::requirements::{Grid, HolePattern, TermKind};
+use crate::requirements::{Grid, HoleCircle, HoleCircles, HolePattern, TermKind};
 
 /// The answer of `build round`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -72,36 +72,71 @@ impl VariantWord {
 }
 
 /// The grids of both bodies.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct GridsRecord {
-    /// Of the base.
-    pub base: GridRecord,
-    /// Of the platform.
-    pub platform: GridRecord,
+    /// Of the base; null: its joints stay where they are.
+    pub base: Option<GridRecord>,
+    /// Of the platform; null: its joints stay where they are.
+    pub platform: Option<GridRecord>,
 }
 
 /// A grid of holes in the plane of a body.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct GridRecord {
     /// How the holes lie.
     pub pattern: HolePattern,
-    /// Distance of neighbouring holes.
-    pub pitch: Number,
-    /// A hole.
+    /// Distance of neighbouring holes, or of the rings of a polar grid; null for bolt circles.
+    pub pitch: Option<Number>,
+    /// The first ring of a polar grid, or all bolt circles; empty for the other patterns.
+    pub circles: Vec<HoleCircleRecord>,
+    /// A hole, or the centre of the circles.
     pub origin: [Number; 2],
     /// The turn of the grid.
     pub angle_deg: Number,
 }
 
-impl From<&[Grid; 2]> for GridsRecord {
-    fn from([base, platform]: &[Grid; 2]) -> Self {
-        let one = |g: &Grid| GridRecord {
+/// Holes on a circle, equally spaced.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct HoleCircleRecord {
+    /// The radius.
+    pub radius: Number,
+    /// The number of holes.
+    pub holes: u32,
+}
+
+impl From<&Grid> for GridRecord {
+    fn from(g: &Grid) -> Self {
+        let circle = |c: &HoleCircle| HoleCircleRecord { radius: Number(c.radius), holes: c.holes };
+        Self {
             pattern: g.pattern,
-            pitch: Number(g.pitch),
+            pitch: (g.pattern != HolePattern::BoltCircle).then_some(Number(g.pitch)),
+            circles: g.circles.as_slice().iter().map(circle).collect(),
             origin: g.origin.map(Number),
             angle_deg: Number(g.angle_deg),
-        };
-        Self { base: one(base), platform: one(platform) }
+        }
+    }
+}
+
+impl GridRecord {
+    /// The grid in words.
+    #[must_use]
+    pub fn in_words(&self) -> String {
+        let circle = |c: &HoleCircleRecord| HoleCircle { radius: c.radius.0, holes: c.holes };
+        let circles: Vec<HoleCircle> = self.circles.iter().map(circle).collect();
+        Grid {
+            pattern: self.pattern,
+            pitch: self.pitch.map_or(0.0, |x| x.0),
+            circles: HoleCircles::new(&circles).unwrap_or_default(),
+            origin: self.origin.map(|x| x.0),
+            angle_deg: self.angle_deg.0,
+        }
+        .to_string()
+    }
+}
+
+impl From<&[Option<Grid>; 2]> for GridsRecord {
+    fn from([base, platform]: &[Option<Grid>; 2]) -> Self {
+        Self { base: base.as_ref().map(GridRecord::from), platform: platform.as_ref().map(GridRecord::from) }
     }
 }
 
@@ -205,6 +240,8 @@ pub enum NoRoundingWord {
     FreePattern,
     /// The grid cannot be used.
     BadGrid,
+    /// A plate has no lines through many holes.
+    NoLines,
 }
 
 impl From<NoRounding> for NoRoundingRecord {
@@ -216,6 +253,7 @@ impl From<NoRounding> for NoRoundingRecord {
             NoRounding::JointsCoincide(_) => NoRoundingWord::JointsCoincide,
             NoRounding::SingularPose => NoRoundingWord::SingularPose,
             NoRounding::FreePattern(_) => NoRoundingWord::FreePattern,
+            NoRounding::NoLines(_) => NoRoundingWord::NoLines,
             _ => NoRoundingWord::BadGrid,
         };
         Self { error: NoRoundingError { code, message: why.to_string() } }
@@ -299,6 +337,8 @@ pub struct NearestRoundingRecord {
     pub pose_error: RoundingErrorRecord,
     /// Joints that are not on the nearest hole.
     pub not_nearest: usize,
+    /// Turns by 120 degrees take the joints of both bodies to themselves.
+    pub three_fold: bool,
 }
 
 /// The error of the pose when a rounded platform is controlled as the wanted one.
@@ -321,8 +361,8 @@ pub struct RoundedJointRecord {
     pub body: Body,
     /// Its name.
     pub joint: String,
-    /// The hole, counted along the axes of the grid.
-    pub cell: [i64; 2],
+    /// The hole: counted along the axes of the grid, or its circle and its number on it; null: the joint stays where it was.
+    pub cell: Option<[i64; 2]>,
     /// How it moved, frame of the body.
     pub moved: [Number; 3],
     /// How far.
@@ -389,6 +429,7 @@ impl NearestRoundingOutcome {
                 solved_poses: n.solved.1,
             },
             not_nearest: n.not_nearest,
+            three_fold: n.three_fold,
         }))
     }
 }

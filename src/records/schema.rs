@@ -6,10 +6,11 @@ use serde_json::{Map, Value};
 
 use super::{
     AssessAnswer, CalibrateAnswer, CheckAnswer, CompareAnswer, CompletionsAnswer, ComponentsAnswer,
-    ConvertAnswer, Document, ErrorAnswer, ExploreAnswer, ExportAnswer, FamilyAnswer, FkAnswer, HelpAnswer,
-    IkAnswer, LimitsAnswer, LocusAnswer, ManAnswer, MapAnswer, MotionAnswer, MoveAnswer, NearestAnswer,
-    NewAnswer, OptimizeAnswer, PlotAnswer, PresetsAnswer, ReportAnswer, RoundAnswer, SchemaAnswer,
-    SelfmotionAnswer, SingularitiesAnswer, TolerancesAnswer, TopologiesAnswer, VerifyAnswer, ViewAnswer,
+    ConvertAnswer, Document, DrivesAnswer, ErrorAnswer, ExploreAnswer, ExportAnswer, FamilyAnswer, FkAnswer,
+    HelpAnswer, IkAnswer, LimitsAnswer, LocusAnswer, ManAnswer, MapAnswer, MotionAnswer, MoveAnswer,
+    NearestAnswer, NewAnswer, OptimizeAnswer, PlotAnswer, PresetsAnswer, ReportAnswer, RoundAnswer,
+    SchemaAnswer, SelfmotionAnswer, SingularitiesAnswer, TolerancesAnswer, TopologiesAnswer, VerifyAnswer,
+    ViewAnswer,
 };
 
 /// Names of answers with the function that writes their schema: commands by their own names, those of a group as `singular-poses`, `error` for refusals, `help` for --help.
@@ -19,6 +20,7 @@ const ANSWERS: Table = &[
     ("assess", Document::<AssessAnswer>::json_schema),
     #[cfg(feature = "lab")]
     ("bench", Document::<super::BenchAnswer>::json_schema),
+    ("build-drives", Document::<DrivesAnswer>::json_schema),
     ("build-round", Document::<RoundAnswer>::json_schema),
     ("build-tolerances", Document::<TolerancesAnswer>::json_schema),
     ("calibrate", Document::<CalibrateAnswer>::json_schema),

@@ -35,7 +35,7 @@ pub use envelope::{Envelope, Envelopes};
 pub(crate) use envelope::{ball, room};
 pub use goal::{KeptSymmetry, Objective, VariableKind};
 pub use hardware::{Hardware, Housing, JointAxes, LegBody, LegMasses, LegPart, LengthLimits, Swing};
-pub use holes::{Grid, HolePattern};
+pub use holes::{Grid, HoleCircle, HoleCircles, HolePattern};
 pub use joint_angles::JointAngles;
 pub use keep_out::{KeepOut, KeepOutShape};
 pub use limit::{Limit, Limits, PoseLimit};

@@ -14,6 +14,7 @@ mod cli_calibrate;
 mod cli_check;
 mod cli_compare;
 mod cli_components;
+mod cli_drives;
 mod cli_explore;
 mod cli_export;
 mod cli_files;

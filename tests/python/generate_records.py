@@ -15,6 +15,7 @@ import textwrap
 
 ANSWERS = {
     "assess": "AssessAnswer",
+    "build-drives": "DrivesAnswer",
     "build-round": "RoundAnswer",
     "build-tolerances": "TolerancesAnswer",
     "calibrate": "CalibrateAnswer",

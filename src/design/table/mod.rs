@@ -3,6 +3,7 @@
 //! Nothing says how such a table is written, so that its form is guessed from its text, and every guess is a sentence that the reader of the answer sees.
 //! What cannot be read is refused; no cell is passed over without a word.
 
+mod drives;
 mod hal;
 mod header;
 mod points;
@@ -10,5 +11,6 @@ mod series;
 mod sheet;
 mod text;
 
+pub(crate) use drives::{DesignUnits, Drive, DriveTable};
 pub(crate) use points::PointTable;
 pub(crate) use series::{InvalidSeries, SeriesKind, SeriesRow, TimeSeries};

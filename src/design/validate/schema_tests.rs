@@ -32,7 +32,7 @@ fn the_schema_has_the_keys_of_the_reader() {
     assert_eq!(keys("/$defs/pose"), sorted(POSE_KEYS));
     assert_eq!(keys("/$defs/home_pose"), sorted(POSE_KEYS));
     assert_eq!(keys("/properties/envelope"), sorted(ENVELOPE_KEYS));
-    assert_eq!(keys("/properties/holes"), sorted(PLATE_KEYS));
+    assert_eq!(keys("/properties/holes"), sorted(PLATE_KEYS.into_iter().chain(GRID_KEYS)));
     assert_eq!(keys("/$defs/hole_grid"), sorted(GRID_KEYS));
     assert_eq!(keys("/properties/payload"), sorted(PAYLOAD_KEYS));
     assert_eq!(keys("/properties/calibration"), sorted(CALIBRATION_KEYS));

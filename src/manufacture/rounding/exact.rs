@@ -4,8 +4,8 @@ use nalgebra::{Point3, Vector3};
 
 use super::grid::{BodyGrid, GridHole, Pool, Triangle, Wanted, length, pool, three_fold_pool};
 use super::{
-    Grid, Judgement, Keeping, Laying, NoRounding, RoundedJoint, RoundingProblem, best_of, grid_of, judge,
-    objective_above, on_cells, place, sample_plan,
+    Grid, Judgement, Keeping, Laying, NoRounding, PlateHoles, RoundedJoint, RoundingProblem, best_of, judge,
+    objective_above, on_cells, place, plate_of, sample_plan,
 };
 use crate::equivalence::{Verification, VerifyError, verify};
 use crate::fk::FkOptions;
@@ -84,7 +84,7 @@ const REACH: f64 = 12.0;
 #[derive(Debug, Clone)]
 pub struct ExactRounding {
     /// The grids of base and platform, as given or chosen.
-    pub grids: [Grid; 2],
+    pub grids: [Option<Grid>; 2],
     /// The rounded design, joints in the order of the wanted one.
     pub manipulator: Manipulator,
     /// The octahedral platform on its triangles.
@@ -119,7 +119,7 @@ struct TrianglePair {
 
 struct Search<'a> {
     problem: &'a RoundingProblem<'a>,
-    grids: [BodyGrid; 2],
+    plates: [PlateHoles; 2],
     roles: &'a Roles,
     list: Vec<Joint>,
     /// Combinations that do not reach it are passed over.
@@ -146,7 +146,7 @@ impl Search<'_> {
         if self.roles.inner.is_some() && determinant_numerator(triangles) == Some(0) {
             return None;
         }
-        on_cells(self.problem.manipulator, &self.grids, &cells(self.roles, &self.list, triangles))
+        on_cells(self.problem.manipulator, &self.plates, &cells(self.roles, &self.list, triangles))
     }
 
     /// The pair when its objective is above `floor` and, what it keeps of the requirements is enough.
@@ -258,6 +258,7 @@ pub(super) fn limit(w: &Wanted) -> f64 {
 /// The best pair of triangles on grids that are laid, and how it was found.
 struct BestTriangles {
     laying: Laying,
+    pitches: [f64; 2],
     pools: [Pool; 2],
     best: TrianglePair,
     replacements: usize,
@@ -273,7 +274,9 @@ fn search(
 ) -> Result<BestTriangles, NoRounding> {
     let m = problem.manipulator;
     let count = problem.candidates.max(1);
-    let all = [0, 1].map(|body| wanted(m, roles, &laying.bodies[body], body));
+    let lattice = |body: Body| laying.bodies[body.index()].lattice().ok_or(NoRounding::NoLines(body));
+    let grids = [*lattice(Body::Base)?, *lattice(Body::Platform)?];
+    let all = [0, 1].map(|body| wanted(m, roles, &grids[body], body));
     // a design that turns keeps that where both grids have triangles that do
     let turning = all.each_ref().map(|w| three_fold_pool(w, limit(w)).filter(|p| !p.triangles.is_empty()));
     let (pools, three_fold) = match turning {
@@ -286,7 +289,7 @@ fn search(
         }
     }
     let mut search =
-        Search { problem, grids: laying.bodies, roles, list: joints(m), least: Keeping::Reserve, hint: 0 };
+        Search { problem, plates: laying.bodies, roles, list: joints(m), least: Keeping::Reserve, hint: 0 };
     let mut found = None;
     let wanted = if problem.requirements.reserves.is_empty() { &Keeping::ALL[1..] } else { &Keeping::ALL };
     for least in wanted {
@@ -297,7 +300,15 @@ fn search(
         }
     }
     let (best, replacements, keeping) = found.ok_or(NoRounding::Singular)?;
-    Ok(BestTriangles { laying: *laying, pools, best, replacements, three_fold, keeping })
+    Ok(BestTriangles {
+        laying: *laying,
+        pitches: grids.map(|g| g.pitch()),
+        pools,
+        best,
+        replacements,
+        three_fold,
+        keeping,
+    })
 }
 
 /// The best answer on any of the grids, the first ones where several are equally good; what stands against the first where there is none.
@@ -317,10 +328,10 @@ fn finish(
     roles: &Roles,
     found: &BestTriangles,
 ) -> Result<ExactRounding, NoRounding> {
-    let (m, best, grids, pools) = (problem.manipulator, &found.best, &found.laying.bodies, &found.pools);
+    let (m, best, plates, pools) = (problem.manipulator, &found.best, &found.laying.bodies, &found.pools);
     let list = joints(m);
     let cells = cells(roles, &list, &best.triangles);
-    let rounded = on_cells(m, grids, &cells).ok_or(NoRounding::Singular)?;
+    let rounded = on_cells(m, plates, &cells).ok_or(NoRounding::Singular)?;
     let octahedral = match &roles.found {
         Some(found) => octahedral_of(&rounded, found).map_err(|_| NoRounding::Singular)?,
         None => rounded.clone(),
@@ -333,12 +344,12 @@ fn finish(
     Ok(ExactRounding {
         grids: found.laying.grids,
         fractions: roles.inner.is_some().then(|| std::array::from_fn(fraction)),
-        joints: rounded_joints(m, &rounded, roles, grids, &cells),
+        joints: rounded_joints(m, &rounded, roles, plates, &cells),
         judgement: judge(&rounded, problem, Some(roles.determinant(&rounded))),
         proved: proved(m, &list, &cells, &[best.triangles[0].corners, best.triangles[1].corners]),
         three_fold: found.three_fold,
         pool: [0, 1].map(|k| pools[k].triangles.len()),
-        complete_to: [0, 1].map(|k| pools[k].complete_to * grids[k].pitch()),
+        complete_to: [0, 1].map(|k| pools[k].complete_to * found.pitches[k]),
         replacements: found.replacements,
         verification: verify(&octahedral, &rounded, &sample_plan(problem), &options),
         octahedral,
@@ -350,13 +361,13 @@ fn rounded_joints(
     m: &Manipulator,
     rounded: &Manipulator,
     roles: &Roles,
-    grids: &[BodyGrid; 2],
+    plates: &[PlateHoles; 2],
     cells: &[GridHole],
 ) -> Vec<RoundedJoint> {
     let one = |(joint, cell): (Joint, &GridHole)| {
-        let at = grid_of(grids, joint.body).point(*cell);
+        let at = plate_of(plates, joint.body).point(*cell, &place(m, joint));
         let off_line = roles.off_line(rounded, joint, &at);
-        RoundedJoint { joint, cell: *cell, moved: at - place(m, joint), off_line }
+        RoundedJoint { joint, cell: Some(*cell), moved: at - place(m, joint), off_line }
     };
     joints(m).into_iter().zip(cells).map(one).collect()
 }

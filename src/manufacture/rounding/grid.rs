@@ -49,18 +49,48 @@ fn normal(points: &[Point3<f64>], size: f64) -> Option<Vector3<f64>> {
     points.iter().all(|p| (p - first - centre).dot(&n).abs() <= FLAT * size).then_some(n)
 }
 
-impl BodyGrid {
+/// The plane of the joints of a body, with the axes x and y of its frame projected on it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Plane {
+    /// The projection of the origin of the frame.
+    foot: Point3<f64>,
+    x: Vector3<f64>,
+    y: Vector3<f64>,
+}
+
+impl Plane {
     /// `None` when the joints do not lie in a plane.
-    pub(super) fn new(points: &[Point3<f64>], grid: &Grid, size: f64) -> Option<Self> {
+    pub(super) fn of(points: &[Point3<f64>], size: f64) -> Option<Self> {
         let n = normal(points, size)?;
         let along = if n.x.abs() < 0.9 { Vector3::x() } else { Vector3::y() };
         let x = (along - n * n.dot(&along)).normalize();
-        let y = n.cross(&x);
-        let foot = n * points[0].coords.dot(&n);
-        let origin = Point3::from(foot + x * grid.origin[0] + y * grid.origin[1]);
+        Some(Self { foot: Point3::from(n * points[0].coords.dot(&n)), x, y: n.cross(&x) })
+    }
+
+    pub(super) fn normal(&self) -> Vector3<f64> {
+        self.x.cross(&self.y)
+    }
+
+    /// The point with these coordinates from a place with these.
+    pub(super) fn point(&self, [u, v]: [f64; 2], origin: [f64; 2]) -> Point3<f64> {
+        self.foot + self.x * (origin[0] + u) + self.y * (origin[1] + v)
+    }
+
+    /// Coordinates of a point from a place with these.
+    pub(super) fn coordinates(&self, p: &Point3<f64>, origin: [f64; 2]) -> [f64; 2] {
+        let d = p - self.foot;
+        [d.dot(&self.x) - origin[0], d.dot(&self.y) - origin[1]]
+    }
+}
+
+impl BodyGrid {
+    /// `None` when the joints do not lie in a plane, and where the pattern has no axes.
+    pub(super) fn new(points: &[Point3<f64>], grid: &Grid, size: f64) -> Option<Self> {
+        let Plane { foot, x, y } = Plane::of(points, size)?;
+        let origin = foot + x * grid.origin[0] + y * grid.origin[1];
         let (s, c) = grid.angle_deg.to_radians().sin_cos();
         let (first, across) = (x * c + y * s, y * c - x * s);
-        let skew = grid.pattern.skew();
+        let skew = grid.pattern.skew()?;
         let second = first * skew + across * height(skew);
         Some(Self { origin, axes: [first, second], skew, pitch: grid.pitch })
     }
@@ -277,7 +307,7 @@ fn turned<T: Copy + std::ops::Neg<Output = T> + std::ops::Sub<Output = T>>([i, j
 /// The triangles within `limit` (pitches) that turns by 120 degrees about the middle of the wanted one take to themselves with their joints, nearest first; `None` where
 /// the wanted triangle is not of that kind, or the grid does not turn about its middle.
 pub(super) fn three_fold_pool(wanted: &Wanted, limit: f64) -> Option<Pool> {
-    if (wanted.skew - HolePattern::Triangular.skew()).abs() > 0.0 {
+    if HolePattern::Triangular.skew() != Some(wanted.skew) {
         return None;
     }
     let middle = [0, 1].map(|i| wanted.corners.iter().map(|c| c[i]).sum::<f64>() / 3.0);
@@ -319,8 +349,15 @@ pub(super) fn three_fold_pool(wanted: &Wanted, limit: f64) -> Option<Pool> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::requirements::HoleCircles;
 
-    const GRID: Grid = Grid { pattern: HolePattern::Square, pitch: 0.5, origin: [0.0, 0.0], angle_deg: 0.0 };
+    const GRID: Grid = Grid {
+        pattern: HolePattern::Square,
+        pitch: 0.5,
+        circles: HoleCircles::NONE,
+        origin: [0.0, 0.0],
+        angle_deg: 0.0,
+    };
 
     #[test]
     fn cells_of_a_level_plane_are_multiples_of_the_pitch() {

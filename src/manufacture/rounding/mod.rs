@@ -4,6 +4,7 @@ mod exact;
 mod free;
 mod grid;
 mod nearest;
+mod plate;
 #[cfg(test)]
 mod tests;
 
@@ -14,8 +15,9 @@ use thiserror::Error;
 
 pub use self::exact::ExactRounding;
 use self::exact::Roles;
-use self::grid::{BodyGrid, GridHole};
+use self::grid::GridHole;
 pub use self::nearest::NearestRounding;
+use self::plate::PlateHoles;
 use super::joint::{Joint, joints};
 use crate::geom::{Pose, SamplePlan};
 use crate::manipulator::{Body, Manipulator, inverse_condition, jacobian};
@@ -29,8 +31,8 @@ const SAMPLES: usize = 3;
 pub struct RoundingProblem<'a> {
     /// The design as wanted.
     pub manipulator: &'a Manipulator,
-    /// Grids of base and platform.
-    pub grids: [Grid; 2],
+    /// Grids of base and platform; `None` for a plate whose joints stay where they are.
+    pub grids: [Option<Grid>; 2],
     /// Whether origins and angles are chosen too; the grids as they are given then take part, so that the answer is never worse than theirs.
     pub free: bool,
     /// What it has to satisfy.
@@ -62,9 +64,16 @@ pub enum NoRounding {
     /// The joints of a body do not lie in a plane.
     #[error("the joints of the {0} do not lie in a plane, as the holes of a grid do")]
     NotPlanar(Body),
-    /// A pitch is not a positive number, or another value of a grid is not finite.
-    #[error("the grid of the {0} has no positive finite pitch, or an origin or angle that is not finite")]
+    /// A pitch, radius or number of holes is not positive, or another value of a grid is not finite.
+    #[error(
+        "the grid of the {0} has no positive finite pitch, radius or number of holes, or an origin or angle that is not finite"
+    )]
     BadGrid(Body),
+    /// An exact rounding needs lines through many holes.
+    #[error(
+        "the {0} has no square or triangular grid: lines through holes on circles pass no further holes, and joints that stay where they are lie on no holes"
+    )]
+    NoLines(Body),
     /// Origins and angles are chosen for square grids alone.
     #[error("the origin and the angle of the grid of the {0} cannot be chosen: its holes lie on no squares")]
     FreePattern(Body),
@@ -94,8 +103,8 @@ pub enum NoRounding {
 pub struct RoundedJoint {
     /// The joint.
     pub joint: Joint,
-    /// Hole, counted from the origin of the grid along its axes.
-    pub cell: [i64; 2],
+    /// Hole: counted from the origin of the grid along its axes, or circle and number on it; `None` where the joint stays where it was wanted.
+    pub cell: Option<[i64; 2]>,
     /// How far it is from where it was wanted, frame of the body, design units.
     pub moved: Vector3<f64>,
     /// Distance from the line of its side: of the new triangle for the exact rounding, of the wanted one for the nearest; `None` for joints
@@ -139,31 +148,32 @@ impl Rounding {
 /// [`NoRounding::NotPlanar`], [`NoRounding::BadGrid`]; what stands against one of the ways is in its part of the answer.
 pub fn round_to_grid(problem: &RoundingProblem<'_>) -> Result<Rounding, NoRounding> {
     let m = problem.manipulator;
-    let mut grids = Vec::with_capacity(2);
+    let mut bodies = [PlateHoles::AsWanted; 2];
     for (body, grid) in Body::BOTH.into_iter().zip(&problem.grids) {
-        let finite = grid.origin.iter().chain([&grid.angle_deg]).all(|x| x.is_finite());
-        if !(grid.pitch > 0.0 && grid.pitch.is_finite() && finite) {
+        if grid.is_some_and(|grid| !grid.is_usable()) {
             return Err(NoRounding::BadGrid(body));
         }
-        if problem.free && grid.pattern != HolePattern::Square {
+        if problem.free && grid.is_some_and(|grid| grid.pattern != HolePattern::Square) {
             return Err(NoRounding::FreePattern(body));
         }
         let points = places(m, body);
-        let laid = BodyGrid::new(&points, grid, m.size()).ok_or(NoRounding::NotPlanar(body))?;
+        let laid = PlateHoles::new(&points, grid.as_ref(), m.size()).ok_or(NoRounding::NotPlanar(body))?;
         if !laid.reaches(&points) {
             return Err(NoRounding::BadGrid(body));
         }
-        grids.push(laid);
+        bodies[body.index()] = laid;
     }
-    let given = Laying { grids: problem.grids, bodies: [grids[0], grids[1]] };
+    let given = Laying { grids: problem.grids, bodies };
     let roles = Roles::of(m);
     let det = roles.as_ref().map(|r| r.determinant(m));
     let free = |roles| if problem.free { layings(problem, &given, roles) } else { vec![given] };
+    let without_lines = Body::BOTH.into_iter().find(|body| bodies[body.index()].lattice().is_none());
     Ok(Rounding {
         wanted: judge(m, problem, det),
-        exact: match &roles {
-            Some(roles) => exact::round(problem, &free(Some(roles)), roles),
-            None => Err(NoRounding::NoTriangles),
+        exact: match (&roles, without_lines) {
+            (Some(_), Some(body)) => Err(NoRounding::NoLines(body)),
+            (Some(roles), None) => exact::round(problem, &free(Some(roles)), roles),
+            (None, _) => Err(NoRounding::NoTriangles),
         },
         nearest: nearest::round(problem, &free(None), roles.as_ref()),
     })
@@ -172,8 +182,8 @@ pub fn round_to_grid(problem: &RoundingProblem<'_>) -> Result<Rounding, NoRoundi
 /// Grids of both bodies, laid.
 #[derive(Debug, Clone, Copy)]
 struct Laying {
-    grids: [Grid; 2],
-    bodies: [BodyGrid; 2],
+    grids: [Option<Grid>; 2],
+    bodies: [PlateHoles; 2],
 }
 
 /// The grids as given, and those of the same pitches whose holes come nearest to the joints: to triangles that keep the roles, with the best of each body, or
@@ -182,13 +192,15 @@ fn layings(problem: &RoundingProblem<'_>, given: &Laying, roles: Option<&Roles>)
     let m = problem.manipulator;
     let found = Body::BOTH.map(|body| {
         let k = body.index();
-        let plain = Grid { origin: [0.0; 2], angle_deg: 0.0, ..problem.grids[k] };
+        let Some(grid) = problem.grids[k] else { return vec![(None, PlateHoles::AsWanted)] };
+        let plain = Grid { origin: [0.0; 2], angle_deg: 0.0, ..grid };
         let points = places(m, body);
         let lay = |grid: Grid| {
-            let laid = BodyGrid::new(&points, &grid, m.size()).filter(|laid| laid.reaches(&points))?;
-            Some((grid, laid))
+            let laid =
+                PlateHoles::new(&points, Some(&grid), m.size()).filter(|laid| laid.reaches(&points))?;
+            Some((Some(grid), laid))
         };
-        let Some((_, plain)) = lay(plain) else { return Vec::new() };
+        let Some((_, PlateHoles::Lattice(plain))) = lay(plain) else { return Vec::new() };
         let laid = match roles {
             Some(roles) => {
                 let wanted = exact::wanted(m, roles, &plain, k);
@@ -200,9 +212,11 @@ fn layings(problem: &RoundingProblem<'_>, given: &Laying, roles: Option<&Roles>)
         };
         laid.iter().filter_map(|l| lay(free::as_grid(l, &plain))).collect()
     });
-    let [base, platform]: [Vec<(Grid, BodyGrid)>; 2] = found;
-    let pair =
-        |(a, b): (&(Grid, BodyGrid), &(Grid, BodyGrid))| Laying { grids: [a.0, b.0], bodies: [a.1, b.1] };
+    let [base, platform]: [Vec<(Option<Grid>, PlateHoles)>; 2] = found;
+    let pair = |(a, b): (&(Option<Grid>, PlateHoles), &(Option<Grid>, PlateHoles))| Laying {
+        grids: [a.0, b.0],
+        bodies: [a.1, b.1],
+    };
     let all = base.iter().flat_map(|a| platform.iter().map(move |b| (a, b)));
     std::iter::once(*given).chain(all.map(pair)).collect()
 }
@@ -229,16 +243,17 @@ fn place(m: &Manipulator, joint: Joint) -> Point3<f64> {
 }
 
 /// The design with its joints (in the order of [`joints`]) on these holes.
-fn on_cells(m: &Manipulator, grids: &[BodyGrid; 2], cells: &[GridHole]) -> Option<Manipulator> {
+fn on_cells(m: &Manipulator, plates: &[PlateHoles; 2], cells: &[GridHole]) -> Option<Manipulator> {
     let (mut base, mut platform) = (m.base_joints().to_vec(), m.platform_joints().to_vec());
     for (joint, cell) in joints(m).into_iter().zip(cells) {
-        joint.body.of((&mut base, &mut platform))[joint.index] = grid_of(grids, joint.body).point(*cell);
+        let at = plate_of(plates, joint.body).point(*cell, &place(m, joint));
+        joint.body.of((&mut base, &mut platform))[joint.index] = at;
     }
     Manipulator::try_new(base, platform, m.pairs()).ok()
 }
 
-fn grid_of(grids: &[BodyGrid; 2], body: Body) -> &BodyGrid {
-    &grids[body.index()]
+fn plate_of(plates: &[PlateHoles; 2], body: Body) -> &PlateHoles {
+    &plates[body.index()]
 }
 
 /// Sample poses in the workspace, or a quarter of the size and 20 degrees about home where it has no width.

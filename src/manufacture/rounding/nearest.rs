@@ -3,14 +3,15 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::exact::Roles;
-use super::grid::{BodyGrid, GridHole, length};
+use super::grid::GridHole;
+use super::plate::ThreeFold;
 use super::{
-    Grid, Judgement, Laying, NoRounding, RoundedJoint, RoundingProblem, best_of, grid_of, judge, on_cells,
-    place, sample_plan,
+    Grid, Judgement, Laying, NoRounding, PlateHoles, RoundedJoint, RoundingProblem, best_of, judge, on_cells,
+    place, places, plate_of, sample_plan,
 };
 use crate::equivalence::{Verification, VerifyError, verify};
 use crate::fk::FkOptions;
-use crate::manipulator::Manipulator;
+use crate::manipulator::{Body, Manipulator};
 use crate::manufacture::joint::{Joint, joints};
 use crate::manufacture::sensitivity::Sensitivity;
 use crate::manufacture::trials::{ErrorSpread, solved_error};
@@ -20,7 +21,7 @@ use crate::num::Purpose;
 #[derive(Debug, Clone)]
 pub struct NearestRounding {
     /// The grids of base and platform, as given or chosen.
-    pub grids: [Grid; 2],
+    pub grids: [Option<Grid>; 2],
     /// The rounded design, joints in the order of the wanted one.
     pub manipulator: Manipulator,
     /// Every joint, in the order of [`joints`].
@@ -36,6 +37,8 @@ pub struct NearestRounding {
     pub solved: (ErrorSpread, usize),
     /// Joints that are not on the grid point nearest to them.
     pub not_nearest: usize,
+    /// Turns by 120 degrees about the middle of its joints take the joints of both bodies to themselves: a design of that kind keeps its symmetry on holes that turn too.
+    pub three_fold: bool,
     /// Leg map and forward kinematics against the wanted design.
     pub verification: Result<Verification, VerifyError>,
 }
@@ -55,25 +58,58 @@ impl State<'_> {
         norms.fold((0.0, 0.0), |m, (p, w)| (f64::max(m.0, p.norm()), f64::max(m.1, w.norm())))
     }
 
-    /// Greatest over the poses of the larger of both, the angle times the characteristic length, with joint `k` at another place.
-    fn cost(&self, sums: &[(Vector3<f64>, Vector3<f64>)], k: usize, moved: &Vector3<f64>) -> f64 {
-        let change = moved - self.moved[k];
+    /// Greatest over the poses of the larger of both, the angle times the characteristic length, with some joints at other places.
+    fn cost(&self, sums: &[(Vector3<f64>, Vector3<f64>)], moved: &[(usize, Vector3<f64>)]) -> f64 {
         let one = |(s, (p, w)): (&Sensitivity, &(Vector3<f64>, Vector3<f64>))| {
-            let with = |g: &[Matrix3<f64>], sum: &Vector3<f64>| (sum + g[k] * change).norm();
+            let with = |g: &[Matrix3<f64>], sum: &Vector3<f64>| {
+                moved.iter().fold(*sum, |sum, (k, moved)| sum + g[*k] * (moved - self.moved[*k])).norm()
+            };
             with(&s.position, p).max(self.length * with(&s.rotation, w))
         };
         self.sensitivities.iter().zip(sums).map(one).fold(0.0, f64::max)
     }
 }
 
-/// The four cells around a place, nearest first.
-fn around(grid: &BodyGrid, m: &Manipulator, joint: Joint) -> [GridHole; 4] {
-    let at = grid.coordinates(&place(m, joint));
-    let low = at.map(|x| x.floor() as i64);
-    let mut out = [[0, 0], [1, 0], [0, 1], [1, 1]].map(|d: [i64; 2]| [low[0] + d[0], low[1] + d[1]]);
-    let distance = |c: &GridHole| length([c[0] as f64 - at[0], c[1] as f64 - at[1]], grid.skew());
-    out.sort_by(|a, b| distance(a).total_cmp(&distance(b)).then(a.cmp(b)));
-    out
+/// Joints that move together, by their numbers in the list, and the holes that they can have, nearest first.
+struct Orbit {
+    members: Vec<usize>,
+    choices: Vec<Vec<GridHole>>,
+}
+
+/// Every joint by itself; or three at a time, where turns by 120 degrees take the joints of the body to one another and the holes around them to holes.
+fn orbits(m: &Manipulator, list: &[Joint], plates: &[PlateHoles; 2], body: Body) -> (Vec<Orbit>, bool) {
+    let own: Vec<usize> = (0..list.len()).filter(|k| list[*k].body == body).collect();
+    let plate = plate_of(plates, body);
+    if let Some(symmetry) = ThreeFold::of(&places(m, body), m.size()) {
+        let turned = |first: usize| -> Option<Orbit> {
+            let (second, third) = (symmetry.next[first], symmetry.next[symmetry.next[first]]);
+            let members = [first, second, third].map(|k| own[k]);
+            let whole = |cell: &GridHole| -> Option<Vec<GridHole>> {
+                let at = plate.point(*cell, &place(m, list[members[0]]));
+                let next = symmetry.turned(&at);
+                let cells = [
+                    *cell,
+                    plate.hole_at(&next, members[1])?,
+                    plate.hole_at(&symmetry.turned(&next), members[2])?,
+                ];
+                let apart = cells[0] != cells[1] && cells[1] != cells[2] && cells[0] != cells[2];
+                apart.then(|| cells.to_vec())
+            };
+            let around = plate.around(&place(m, list[members[0]]), members[0]);
+            let choices: Vec<Vec<GridHole>> = around.iter().filter_map(whole).collect();
+            (!choices.is_empty()).then(|| Orbit { members: members.to_vec(), choices })
+        };
+        let firsts =
+            (0..own.len()).filter(|k| *k < symmetry.next[*k] && *k < symmetry.next[symmetry.next[*k]]);
+        if let Some(all) = firsts.map(turned).collect::<Option<Vec<Orbit>>>() {
+            return (all, true);
+        }
+    }
+    let one = |k: usize| {
+        let around = plate.around(&place(m, list[k]), k);
+        Orbit { members: vec![k], choices: around.into_iter().map(|cell| vec![cell]).collect() }
+    };
+    (own.into_iter().map(one).collect(), false)
 }
 
 /// The holes on grids that are laid.
@@ -83,6 +119,7 @@ struct NearestHoles {
     cells: Vec<GridHole>,
     moved: Vec<Vector3<f64>>,
     not_nearest: usize,
+    three_fold: bool,
     rounded: Manipulator,
     judgement: Judgement,
     errors: (f64, f64),
@@ -103,36 +140,49 @@ fn search(
 ) -> Result<NearestHoles, NoRounding> {
     let m = problem.manipulator;
     let list = joints(m);
-    let grids = &laying.bodies;
-    let choices: Vec<[GridHole; 4]> = list.iter().map(|j| around(grid_of(grids, j.body), m, *j)).collect();
-    let moved = |k: usize, cell: GridHole| grid_of(grids, list[k].body).point(cell) - place(m, list[k]);
-    let cells: Vec<GridHole> = choices.iter().map(|c| c[0]).collect();
-    let taken = |cells: &[GridHole], k: usize, cell: GridHole| {
-        (0..list.len()).any(|i| i != k && list[i].body == list[k].body && cells[i] == cell)
+    let plates = &laying.bodies;
+    let [(base, base_turns), (platform, platform_turns)] =
+        Body::BOTH.map(|body| orbits(m, &list, plates, body));
+    let orbits: Vec<Orbit> = base.into_iter().chain(platform).collect();
+    let moved = |k: usize, cell: GridHole| {
+        let wanted = place(m, list[k]);
+        plate_of(plates, list[k].body).point(cell, &wanted) - wanted
     };
-    if let Some(k) = (0..list.len()).find(|k| taken(&cells, *k, cells[*k])) {
+    let mut cells = vec![[0, 0]; list.len()];
+    for orbit in &orbits {
+        let nearest = orbit.choices.first().ok_or(NoRounding::JointsCoincide(list[orbit.members[0]].body))?;
+        orbit.members.iter().zip(nearest).for_each(|(k, cell)| cells[*k] = *cell);
+    }
+    let taken = |cells: &[GridHole], members: &[usize], k: usize, cell: GridHole| {
+        (0..list.len())
+            .any(|i| i != k && !members.contains(&i) && list[i].body == list[k].body && cells[i] == cell)
+    };
+    if let Some(k) = (0..list.len()).find(|k| taken(&cells, &[], *k, cells[*k])) {
         return Err(NoRounding::JointsCoincide(list[k].body));
     }
     let start = (0..list.len()).map(|k| moved(k, cells[k])).collect();
     let length = problem.characteristic_length;
     let mut state = State { sensitivities, length, cells, moved: start };
     let nearest_errors = state.errors();
-    // one joint at a time, until no joint can do better
+    // one joint or orbit at a time, until none can do better
     loop {
         let mut better = false;
-        for k in 0..list.len() {
+        for Orbit { members, choices } in &orbits {
             let sums: Vec<_> = sensitivities.iter().map(|s| s.error(&state.moved)).collect();
-            let mut best = state.cost(&sums, k, &state.moved[k]);
-            let mut cell = state.cells[k];
-            for other in choices[k] {
-                let cost = state.cost(&sums, k, &moved(k, other));
-                if cost < best * (1.0 - 1e-12) && !taken(&state.cells, k, other) {
-                    (best, cell) = (cost, other);
+            let mut best = state.cost(&sums, &[]);
+            let mut chosen = None;
+            for choice in choices {
+                let places = || members.iter().copied().zip(choice.iter().copied());
+                let changed: Vec<_> = places().map(|(k, cell)| (k, moved(k, cell))).collect();
+                let cost = state.cost(&sums, &changed);
+                let free = places().all(|(k, cell)| !taken(&state.cells, members, k, cell));
+                if cost < best * (1.0 - 1e-12) && free {
+                    (best, chosen) = (cost, Some((choice, changed)));
                 }
             }
-            if cell != state.cells[k] {
-                state.cells[k] = cell;
-                state.moved[k] = moved(k, cell);
+            if let Some((choice, changed)) = chosen {
+                members.iter().zip(choice).for_each(|(k, cell)| state.cells[*k] = *cell);
+                changed.iter().for_each(|(k, moved)| state.moved[*k] = *moved);
                 better = true;
             }
         }
@@ -140,10 +190,14 @@ fn search(
             break;
         }
     }
-    let rounded = on_cells(m, grids, &state.cells).ok_or(NoRounding::Singular)?;
+    let off_nearest = |orbit: &&Orbit| {
+        orbit.choices.first().is_some_and(|c| c.first() != Some(&state.cells[orbit.members[0]]))
+    };
+    let rounded = on_cells(m, plates, &state.cells).ok_or(NoRounding::Singular)?;
     Ok(NearestHoles {
         laying: *laying,
-        not_nearest: state.cells.iter().zip(&choices).filter(|(cell, c)| **cell != c[0]).count(),
+        not_nearest: orbits.iter().filter(off_nearest).map(|orbit| orbit.members.len()).sum(),
+        three_fold: base_turns && platform_turns,
         judgement: judge(&rounded, problem, None),
         errors: state.errors(),
         nearest_errors,
@@ -172,7 +226,7 @@ pub(super) fn round(
     let rounded = found.rounded;
     let one = |(k, joint): (usize, &Joint)| RoundedJoint {
         joint: *joint,
-        cell: found.cells[k],
+        cell: found.laying.grids[joint.body.index()].map(|_| found.cells[k]),
         moved: found.moved[k],
         off_line: roles.and_then(|r| r.off_line(m, *joint, &place(&rounded, *joint))),
     };
@@ -186,6 +240,7 @@ pub(super) fn round(
         first_order_nearest: degrees(found.nearest_errors),
         solved: solved(problem, &found.moved),
         not_nearest: found.not_nearest,
+        three_fold: found.three_fold,
         verification: verify(m, &rounded, &sample_plan(problem), &options),
         manipulator: rounded,
     })

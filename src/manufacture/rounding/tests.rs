@@ -3,15 +3,21 @@
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::exact::{proved, rank};
-use super::grid::{Wanted, pool};
+use super::grid::{BodyGrid, Wanted, pool};
 use super::*;
 use crate::equivalence::Verdict;
 use crate::manipulator::{Leg, Octahedral, inverse_condition, jacobian};
 use crate::manufacture::tests::{free, octahedral, space};
-use crate::requirements::{Reserves, TermKind};
+use crate::requirements::{HoleCircle, HoleCircles, Reserves, TermKind};
 use crate::synthesis::joint_free;
 
-const GRID: Grid = Grid { pattern: HolePattern::Square, pitch: 0.25, origin: [0.0, 0.0], angle_deg: 0.0 };
+const GRID: Grid = Grid {
+    pattern: HolePattern::Square,
+    pitch: 0.25,
+    circles: HoleCircles::NONE,
+    origin: [0.0, 0.0],
+    angle_deg: 0.0,
+};
 
 fn with<R>(
     m: &Manipulator,
@@ -27,7 +33,7 @@ fn with<R>(
         .collect();
     work(&RoundingProblem {
         manipulator: m,
-        grids,
+        grids: grids.map(Some),
         free: false,
         requirements: required,
         space: &space,
@@ -245,7 +251,12 @@ fn free_grids_are_never_worse_than_the_given_ones() {
         let (fixed, chosen) = (round(&m, grids).unwrap(), round_freely(&m, grids));
         let (a, b) = (fixed.nearest.unwrap(), chosen.nearest.unwrap());
         assert!(cost(&b) <= cost(&a), "{:?}", b.grids);
-        assert!(b.grids.iter().zip(&grids).all(|(found, given)| (found.pitch - given.pitch).abs() <= 0.0));
+        assert!(
+            b.grids
+                .iter()
+                .zip(&grids)
+                .all(|(found, given)| (found.unwrap().pitch - given.pitch).abs() <= 0.0)
+        );
         if let (Ok(a), Ok(b)) = (fixed.exact, chosen.exact) {
             assert!(b.judgement.objective >= a.judgement.objective && b.proved, "{:?}", b.grids);
             assert_eq!(b.verification.unwrap().verdict, Verdict::Equivalent);
@@ -267,7 +278,7 @@ fn joints_that_are_on_some_grid_are_found_to_be_on_it() {
     let n = round_freely(&on, plain).nearest.unwrap();
     assert!(n.joints.iter().all(|j| j.moved.norm() < 1e-6), "{:?}", n.joints);
     assert!(
-        n.grids.iter().zip(&grids).all(|(a, b)| (a.angle_deg - b.angle_deg).abs() < 1e-4),
+        n.grids.iter().zip(&grids).all(|(a, b)| (a.unwrap().angle_deg - b.angle_deg).abs() < 1e-4),
         "{:?}",
         n.grids
     );
@@ -321,6 +332,79 @@ fn three_fold_platforms_keep_their_symmetry_on_triangular_grids() {
         let e = round(&m, grids).unwrap().exact.unwrap();
         assert!(!e.three_fold && e.proved && !symmetric(&e.manipulator));
     }
+}
+
+fn turns_into_itself(joints: &[Point3<f64>]) -> bool {
+    let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), 120f64.to_radians());
+    joints.iter().all(|p| joints.iter().any(|q| (turn * p - q).norm() < 1e-9))
+}
+
+#[test]
+fn three_fold_platforms_keep_their_symmetry_on_circles_and_joints_stand_on_their_holes() {
+    let symmetric = |m: &Manipulator| Body::BOTH.iter().all(|body| turns_into_itself(m.joints(*body)));
+    let polar = Grid { angle_deg: 3.0, ..Grid::polar(HoleCircle { radius: 1.0, holes: 48 }, 0.5) };
+    let list = [4.2, 2.9, 3.3].map(|radius| HoleCircle { radius, holes: 36 });
+    let bolts = Grid::bolt_circles(HoleCircles::new(&list).unwrap());
+    let found = round(&three_fold(), [polar, bolts]).unwrap();
+    assert!(matches!(found.exact, Err(NoRounding::NoLines(Body::Base))));
+    let n = found.nearest.unwrap();
+    assert!(n.three_fold && symmetric(&n.manipulator), "{:?}", n.joints);
+    for (joint, at) in
+        n.joints.iter().zip(joints(&n.manipulator).into_iter().map(|j| place(&n.manipulator, j)))
+    {
+        let [circle, number] = joint.cell.unwrap();
+        let (radius, step, first) = match joint.joint.body {
+            Body::Base => (1.0 + 0.5 * circle as f64, 7.5, 3.0),
+            Body::Platform => (list[circle as usize].radius, 10.0, 0.0),
+        };
+        let (s, c) = (first + step * number as f64).to_radians().sin_cos();
+        assert!((at.x - radius * c).hypot(at.y - radius * s) < 1e-12, "{joint:?}");
+        // the circles of the platform are up to 0.9 apart
+        assert!(joint.moved.norm() < 1.0, "{joint:?}");
+    }
+    // negative controls: a number of holes that 3 does not divide, circles about another place, a platform that does not turn
+    let uneven = Grid::polar(HoleCircle { radius: 1.0, holes: 47 }, 0.5);
+    let off = Grid { origin: [0.1, 0.0], ..polar };
+    for (m, grids) in [(three_fold(), [uneven, bolts]), (three_fold(), [off, bolts]), (free(), [polar; 2])] {
+        let n = round(&m, grids).unwrap().nearest.unwrap();
+        assert!(!n.three_fold && !symmetric(&n.manipulator));
+    }
+}
+
+#[test]
+fn the_nearest_rounding_keeps_symmetry_on_triangular_grids_too() {
+    let triangular = Grid::triangular(0.25);
+    let n = round(&three_fold(), [triangular; 2]).unwrap().nearest.unwrap();
+    assert!(n.three_fold && Body::BOTH.iter().all(|b| turns_into_itself(n.manipulator.joints(*b))));
+    let n = round(&three_fold(), [GRID; 2]).unwrap().nearest.unwrap();
+    assert!(!n.three_fold);
+}
+
+#[test]
+fn a_plate_without_a_grid_keeps_its_joints() {
+    let required = Requirements::default();
+    for grid in [GRID, Grid::polar(HoleCircle { radius: 0.5, holes: 72 }, 0.25)] {
+        let found = with(&free(), [GRID; 2], &required, |problem| {
+            round_to_grid(&RoundingProblem { grids: [Some(grid), None], ..*problem })
+        })
+        .unwrap();
+        assert!(matches!(found.exact, Err(NoRounding::NoLines(_))));
+        let n = found.nearest.unwrap();
+        assert_eq!(n.manipulator.platform_joints(), free().platform_joints());
+        for j in &n.joints {
+            let on_platform = j.joint.body == Body::Platform;
+            assert_eq!(j.cell.is_none(), on_platform);
+            assert_eq!(j.moved.norm() <= 0.0, on_platform, "{j:?}");
+        }
+    }
+    // a body in space may stay as it is
+    let mut legs = free().legs();
+    legs[1].platform.z += 0.5;
+    let bent = Manipulator::from_legs(legs).unwrap();
+    let found = with(&bent, [GRID; 2], &required, |problem| {
+        round_to_grid(&RoundingProblem { grids: [Some(GRID), None], ..*problem })
+    });
+    assert!(found.unwrap().nearest.is_ok());
 }
 
 #[test]

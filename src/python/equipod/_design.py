@@ -26,6 +26,7 @@ if TYPE_CHECKING:
         CalibrateAnswer,
         CheckAnswer,
         CompareAnswer,
+        DrivesAnswer,
         FamilyAnswer,
         LimitsAnswer,
         MapAnswer,
@@ -683,6 +684,41 @@ class Design:
                 words.append(shop.poses("trajectory.csv", times, poses))
             words += [f"--sine={text}" for text in sine] + [f"--accelerate={text}" for text in accelerate]
             return MotionAnswer(ask([*words, *options], progress))
+
+    def drives(
+        self,
+        table: str | os.PathLike[str],
+        *,
+        sine: Sequence[str] = (),
+        accelerate: Sequence[str] = (),
+        options: Sequence[str] = (),
+        progress: Progress | bool | None = None,
+    ) -> DrivesAnswer:
+        """Which drives of a table fit the design, the cheapest first.
+
+        Parameters
+        ----------
+        table : path
+            A drive a line; the first line names the columns: ``name,stroke_mm,dead_length_mm,force_N,speed_mm/s,mass_kg,stiffness_N/mm,price_EUR,source``.
+        sine : sequence of str
+            Sines about home along which the drives have to be fast and strong enough, ``"axis:amplitude:hertz"``.
+        accelerate : sequence of str
+            Accelerations from rest at home, ``"axis:acceleration"``.
+        options : sequence of str
+            Further options of ``equipod build drives``.
+        progress : callable or bool, optional
+
+        Returns
+        -------
+        DrivesAnswer
+            ``met`` is True where a drive is proved to fit, ``chosen`` is its name, and ``design`` the design with it.
+        """
+        from .records import DrivesAnswer
+
+        with Workshop() as shop:
+            words = ["build", "drives", shop.file("design.toml", self._native), os.fspath(table)]
+            words += [f"--sine={text}" for text in sine] + [f"--accelerate={text}" for text in accelerate]
+            return DrivesAnswer(ask([*words, *options], progress))
 
     def calibrate(
         self,

@@ -127,6 +127,9 @@ const CALLS: &[(i32, &str, &str)] = &[
     (0, "design-presets", ""),
     (0, "design-presets", "bench-l16"),
     (0, "design-presets", "bench-l16 -o {l16.toml}"),
+    (0, "build-drives", "{bench-joint-free} {drives} --sine z:1:1 -o {driven.toml}"),
+    (1, "build-drives", "{bench-joint-free} {weak-drives}"),
+    (0, "build-round", "{ringed} --trials 10"),
     (0, "build-round", "{rbt-octahedral} --grid 1 --trials 10"),
     (0, "build-round", "{outer} --grid 0.25 --trials 10 --free-grid -o {rounded.toml}"),
     (1, "build-round", "{crowded} --grid 0.25 --trials 10"),
@@ -254,6 +257,22 @@ impl Files {
                 let outer = self.path("outer");
                 let hardware = json!({"joint_diameter": 30.0});
                 self.design(name, outer.to_str().unwrap(), |d| require(d, json!({}), hardware))
+            }
+            "ringed" => self.design(name, octahedral, |d| {
+                let ring = json!({"pattern": "polar", "first_radius": 0.5, "pitch": 0.25, "step_deg": 2.5});
+                d["holes"] =
+                    json!({"base": ring, "pattern": "bolt_circle", "radii": [3.0, 3.5], "count": [36, 48]});
+            }),
+            "drives" => {
+                let path = self.beside("drives.csv");
+                let head = "name,stroke_mm,dead_length_mm,force_N,speed_mm/s,mass_kg,stiffness_N/mm,price_EUR,source";
+                fs::write(&path, format!("{head}\nfits,100,98,46,10,2,500,90,invented\nshort,40,98,46,10,1,500,50,invented\nsilent,100,98,,,,,,\n")).unwrap();
+                path
+            }
+            "weak-drives" => {
+                let path = self.beside("weak-drives.csv");
+                fs::write(&path, "name,stroke,retracted_length,force\nweak,100,198,1\n").unwrap();
+                path
             }
             "places" => self.table(name, &["3,5,9,0,0,90".into(), "3,5,9.5,0,10,90".into()]),
             "rows" => self.table(name, &["18,18,17,16,15,19".into(), "1,1,1,1,1,1".into()]),

@@ -8,9 +8,9 @@ use std::fs;
 
 use equipod::records::{
     AssessAnswer, BenchAnswer, CalibrateAnswer, CheckAnswer, CompareAnswer, CompletionsAnswer,
-    ComponentsAnswer, ConvertAnswer, Document, ErrorAnswer, ExploreAnswer, ExportAnswer, FamilyAnswer,
-    FkAnswer, FkRunRecord, HelpAnswer, IkAnswer, LimitsAnswer, LocusAnswer, ManAnswer, MapAnswer,
-    MotionAnswer, MoveAnswer, NearestAnswer, NewAnswer, OptimizeAnswer, PlotAnswer, PresetsAnswer,
+    ComponentsAnswer, ConvertAnswer, Document, DrivesAnswer, ErrorAnswer, ExploreAnswer, ExportAnswer,
+    FamilyAnswer, FkAnswer, FkRunRecord, HelpAnswer, IkAnswer, LimitsAnswer, LocusAnswer, ManAnswer,
+    MapAnswer, MotionAnswer, MoveAnswer, NearestAnswer, NewAnswer, OptimizeAnswer, PlotAnswer, PresetsAnswer,
     ReportAnswer, RoundAnswer, SchemaAnswer, SelfmotionAnswer, SingularitiesAnswer, SweepBestAnswer,
     SweepDesignAnswer, SweepMergeAnswer, SweepRunAnswer, SweepScriptAnswer, SweepStatusAnswer,
     SweepVerifyAnswer, TolerancesAnswer, TopologiesAnswer, VerifyAnswer, ViewAnswer, schema, schema_names,
@@ -34,6 +34,7 @@ fn reread<T: Serialize + DeserializeOwned>(text: &str) -> Result<String, String>
 const TYPES: &[(&str, Reread)] = &[
     ("assess", reread::<AssessAnswer>),
     ("bench", reread::<BenchAnswer>),
+    ("build-drives", reread::<DrivesAnswer>),
     ("build-round", reread::<RoundAnswer>),
     ("build-tolerances", reread::<TolerancesAnswer>),
     ("check", reread::<CheckAnswer>),
@@ -313,6 +314,7 @@ const GROUPS: [&[&str]; 4] = [
         "compare",
         "motion",
         "calibrate",
+        "build-drives",
         "build-round",
         "view",
         "export",

@@ -6,7 +6,7 @@ use super::search::Search;
 use super::{Machine, Results, Verified, folder};
 use crate::cli::commands::optimize::{Done, dimensional};
 use crate::cli::requirements as table;
-use crate::entrance::rounding::{DesignOnHoles, RoundingWay};
+use crate::entrance::rounding::{DesignOnHoles, RoundingWay, grid_in_words};
 use crate::equivalence::SAME_POSE;
 use crate::export::PART_COLUMNS;
 use crate::fk::{Completeness, FkSolutions};
@@ -169,7 +169,7 @@ fn parts(out: &mut String, machine: &Machine) {
 
 /// Where the joints went.
 fn holes(out: &mut String, on: &DesignOnHoles, units: &str) {
-    let [base, platform] = on.choices.grids;
+    let [base, platform] = on.choices.grids.map(|grid| grid_in_words(grid.as_ref()));
     let _ = writeln!(
         out,
         "## Joints on holes\n\nHoles of the base: {base}; of the platform: {platform}. Platforms sought and rounded: {}. Details: [{1}]({1}).\n",
@@ -204,8 +204,8 @@ fn holes(out: &mut String, on: &DesignOnHoles, units: &str) {
     );
     for j in joints.into_iter().flatten() {
         let name = &on.wanted.joint_names(j.joint.body)[j.joint.index];
-        let [i, k] = j.cell;
-        let _ = writeln!(out, "| {} | {} | {i}, {k} | {:.3} |", j.joint.body, plain(name), j.moved.norm());
+        let hole = j.cell.map_or_else(|| "as wanted".into(), |[i, k]| format!("{i}, {k}"));
+        let _ = writeln!(out, "| {} | {} | {hole} | {:.3} |", j.joint.body, plain(name), j.moved.norm());
     }
     out.push('\n');
 }

@@ -44,10 +44,10 @@ pub(crate) struct Args {
     #[arg(long)]
     at_rest: bool,
     /// Number of steps between two poses of the trajectory
-    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    #[arg(long, value_name = "N", default_value_t = STEPS, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     steps: u32,
     /// Number of instants in the period of a sine
-    #[arg(long, value_name = "N", default_value_t = 360, value_parser = clap::value_parser!(u32).range(4..=1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = SAMPLES, value_parser = clap::value_parser!(u32).range(4..=1_000_000))]
     samples: u32,
     /// Unit of length of the design, where its label is not one: um, mm, cm, m, in, ft
     #[arg(long, value_name = "UNIT")]
@@ -56,6 +56,55 @@ pub(crate) struct Args {
     #[arg(long, value_name = "FILE")]
     csv: Option<OutputPath>,
 }
+
+/// The motions that another command asks for, about home and with the usual numbers of instants.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::cli::commands) struct ChosenMotions<'a> {
+    pub(in crate::cli::commands) trajectory: Option<&'a Path>,
+    pub(in crate::cli::commands) sine: &'a [String],
+    pub(in crate::cli::commands) accelerate: &'a [String],
+    pub(in crate::cli::commands) unit: Option<&'a str>,
+}
+
+impl ChosenMotions<'_> {
+    /// Whether there is a motion.
+    pub(in crate::cli::commands) fn moves(&self) -> bool {
+        self.trajectory.is_some() || !self.sine.is_empty() || !self.accelerate.is_empty()
+    }
+
+    /// The motions with their names.
+    pub(in crate::cli::commands) fn motions(
+        &self,
+        design: &Design,
+        context: &Context,
+    ) -> Result<Vec<(String, PlatformMotion)>, Failure> {
+        let args = Args {
+            design: PathBuf::new(),
+            trajectory: self.trajectory.map(Path::to_owned),
+            sine: self.sine.to_vec(),
+            accelerate: self.accelerate.to_vec(),
+            stiffness: !self.moves(),
+            about: "home".into(),
+            load: None,
+            at_rest: false,
+            steps: STEPS,
+            samples: SAMPLES,
+            unit: None,
+            csv: None,
+        };
+        motions(&args, design, context)
+    }
+
+    /// Metres in a unit of the design; `None` for a design without a payload, of which no forces are computed along motions.
+    pub(in crate::cli::commands) fn metres(&self, design: &Design) -> Result<Option<f64>, Failure> {
+        design.payload.as_ref().map(|_| metres(self.unit, design)).transpose()
+    }
+}
+
+/// Steps between two poses of a trajectory.
+const STEPS: u32 = 10;
+/// Instants in the period of a sine.
+const SAMPLES: u32 = 360;
 
 const BAD_TRAJECTORY: &str = "motion::bad_trajectory";
 
@@ -201,7 +250,14 @@ fn masses(args: &Args, design: &Design) -> Result<Option<MotionMasses>, Failure>
     if design.payload.is_none() {
         return Ok(None);
     }
-    let unit = match &args.unit {
+    let metres = metres(args.unit.as_deref(), design)?;
+    let load = args.load.as_deref().map(|name| load(design, name)).transpose()?;
+    Ok(design.motion_masses(metres, load))
+}
+
+/// Metres in a unit of the design, or in the one of `--unit`.
+fn metres(label: Option<&str>, design: &Design) -> Result<f64, Failure> {
+    let unit = match label {
         Some(label) => LengthUnit::of(label)
             .map_err(|e| Failure::refused("motion::unknown_unit", format!("--unit: {e}")))?,
         None => LengthUnit::of(&design.units).map_err(|e| {
@@ -210,8 +266,7 @@ fn masses(args: &Args, design: &Design) -> Result<Option<MotionMasses>, Failure>
                 .with_help("`--unit mm` says what one unit of the design is")
         })?,
     };
-    let load = args.load.as_deref().map(|name| load(design, name)).transpose()?;
-    Ok(design.motion_masses(unit.metres, load))
+    Ok(unit.metres)
 }
 
 fn load(design: &Design, name: &str) -> Result<Load, Failure> {

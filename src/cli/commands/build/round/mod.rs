@@ -16,10 +16,10 @@ use crate::cli::requirements;
 use crate::design::Design;
 use crate::entrance::rounding::{CANDIDATES, KEEP, RoundingChoices, RoundingWay, TRIALS};
 use crate::equivalence::{Verdict, Verification};
-use crate::manipulator::Manipulator;
+use crate::manipulator::{Body, Manipulator};
 use crate::manufacture::{NoRounding, Rounding};
 use crate::records::{AssessAnswer, VariantWord};
-use crate::requirements::{Grid, HolePattern};
+use crate::requirements::{Grid, HoleCircles, HolePattern};
 
 /// Arguments of `build round`.
 #[derive(Debug, clap::Args)]
@@ -107,7 +107,7 @@ pub(super) enum Variant {
 struct Choice<'a> {
     way: RoundingWay,
     manipulator: &'a Manipulator,
-    grids: &'a [Grid; 2],
+    grids: &'a [Option<Grid>; 2],
 }
 
 fn chosen(found: &Rounding, variant: Variant, keep: f64) -> Option<Choice<'_>> {
@@ -128,32 +128,54 @@ fn chosen(found: &Rounding, variant: Variant, keep: f64) -> Option<Choice<'_>> {
 }
 
 /// The grids of the design, or of `--grid`, with what other options say of them.
-fn grids(args: &Args, design: &Design) -> Result<[Grid; 2], Failure> {
+fn grids(args: &Args, design: &Design) -> Result<[Option<Grid>; 2], Failure> {
     let pitches = args.grid.map(|base| [base, args.grid_platform.unwrap_or(base)]);
     let mut grids = match (design.holes, pitches) {
         (Some(grids), None) => grids,
-        (_, Some(pitches)) => pitches.map(Grid::square),
+        (_, Some(pitches)) => pitches.map(|pitch| Some(Grid::square(pitch))),
         (None, None) => {
             return Err(Failure::refused("round::no_grid", "the design states no [holes], and --grid is absent")
                 .with_help("name the distance of neighbouring holes, --grid 25, or state the grids of both plates in [holes]"));
         }
     };
+    if let (Some(pitch), None) = (args.grid_platform, args.grid) {
+        // what stands on circles has other lengths than a pitch
+        let lattice = grids[1].filter(|grid| grid.pattern.skew().is_some());
+        grids[1] = Some(Grid { pitch, ..lattice.unwrap_or(Grid::square(pitch)) });
+    }
     let pattern = [args.pattern, args.pattern_platform.or(args.pattern)];
     let origin = [(&args.origin, "--origin"), (&args.origin_platform, "--origin-platform")];
     let angle = [args.angle, args.angle_platform];
     for (k, grid) in grids.iter_mut().enumerate() {
+        let Some(grid) = grid else {
+            if origin[k].0.is_some() || angle[k].is_some() || pattern[k].is_some() {
+                return Err(no_grid_to_change(Body::BOTH[k]));
+            }
+            continue;
+        };
         if let Some(pattern) = pattern[k] {
-            grid.pattern = pattern.into();
+            if grid.pattern == HolePattern::BoltCircle {
+                let message =
+                    format!("[holes] gives the {} bolt circles, which have no pitch", Body::BOTH[k]);
+                return Err(Failure::refused("round::bad_grid", message)
+                    .with_help("name the pitch of the other pattern too, --grid 25"));
+            }
+            *grid = Grid { pattern: pattern.into(), circles: HoleCircles::NONE, ..*grid };
         }
         if let (Some(text), option) = origin[k] {
             grid.origin = numbers(text, option, "round::bad_grid")?;
         }
         grid.angle_deg = angle[k].unwrap_or(grid.angle_deg);
     }
-    if let (Some(pitch), None) = (args.grid_platform, args.grid) {
-        grids[1].pitch = pitch;
-    }
     Ok(grids)
+}
+
+fn no_grid_to_change(body: Body) -> Failure {
+    Failure::refused(
+        "round::no_grid",
+        format!("[holes] has no grid for the {body}, whose joints stay where they are"),
+    )
+    .with_help("name the distance of neighbouring holes, --grid 25, or state the grid in [holes]")
 }
 
 /// Rounds, judges both roundings and writes the chosen one.

@@ -10,7 +10,6 @@ use crate::records::{
     AssessAnswer, ExactRoundingOutcome, GridRecord, GridsRecord, JudgementRecord, NearestRoundingOutcome,
     RoundAnswer, RoundedJointRecord, VariantWord,
 };
-use crate::requirements::Grid;
 
 /// Everything there is to tell.
 #[derive(Debug)]
@@ -41,12 +40,6 @@ impl RoundReport<'_> {
     }
 }
 
-/// The grid in words.
-fn in_words(grid: &GridRecord) -> String {
-    let GridRecord { pattern, pitch, origin, angle_deg } = *grid;
-    Grid { pattern, pitch: pitch.0, origin: origin.map(|x| x.0), angle_deg: angle_deg.0 }.to_string()
-}
-
 fn judged(out: &mut String, what: &str, j: &JudgementRecord, units: &str) {
     let det = j.det.map_or(String::new(), |d| format!(", det A = {:.6}", d.0));
     let _ = writeln!(
@@ -61,7 +54,8 @@ fn judged(out: &mut String, what: &str, j: &JudgementRecord, units: &str) {
 
 fn grids(out: &mut String, grids: &GridsRecord) {
     for (body, grid) in [("base", &grids.base), ("platform", &grids.platform)] {
-        let _ = writeln!(out, "  grid of the {body}: {}", in_words(grid));
+        let words = grid.as_ref().map_or_else(|| "none, its joints stay".into(), GridRecord::in_words);
+        let _ = writeln!(out, "  grid of the {body}: {words}");
     }
 }
 
@@ -69,14 +63,13 @@ fn table(out: &mut String, joints: &[RoundedJointRecord]) {
     let _ =
         writeln!(out, "  {:<8} {:<12} {:>7} {:>7}  {:>10}  off its line", "body", "joint", "i", "j", "moved");
     for j in joints {
+        let [i, k] = j.cell.map_or_else(|| ["-".to_string(), "-".into()], |cell| cell.map(|x| x.to_string()));
         let off = j.off_line.map_or("corner".to_string(), |x| format!("{:.3e}", x.0));
         let _ = writeln!(
             out,
-            "  {:<8} {:<12} {:>7} {:>7}  {:>10.6}  {off}",
+            "  {:<8} {:<12} {i:>7} {k:>7}  {:>10.6}  {off}",
             j.body.to_string(),
             j.joint,
-            j.cell[0],
-            j.cell[1],
             j.distance.0
         );
     }

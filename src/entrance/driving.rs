@@ -1,0 +1,128 @@
+//! Which drives of a table fit a design: every requirement with the lengths, the force and the speed of the drive as limits, and along motions.
+
+use std::cmp::Ordering;
+
+use super::judging::{ASSESS_CELLS, PATIENT_CELLS};
+use super::{AssessReport, MotionMasses, MotionReport, PlatformMotion};
+use crate::design::{Design, DesignUnits, Drive};
+use crate::requirements::{ForceUnit, MassUnit};
+
+/// A drive with what it makes of a design.
+#[derive(Debug, Clone)]
+pub(crate) struct DriveFit {
+    pub(crate) drive: Drive,
+    /// The design with the drive.
+    pub(crate) design: Design,
+    /// What is proved of it.
+    pub(crate) assessed: Option<AssessReport>,
+    /// Along each motion, in the order asked for.
+    pub(crate) motions: Vec<MotionReport>,
+}
+
+impl DriveFit {
+    /// Whether the drive fits: proved for every pose of the workspace and without a violation at the instants of the motions; refuted; or `None`.
+    pub(crate) fn fits(&self) -> Option<bool> {
+        let along =
+            |m: &MotionReport| m.singular.is_none() && m.margins.iter().all(|m| m.margin.standing.is_met());
+        if !self.motions.iter().all(along) {
+            return Some(false);
+        }
+        self.assessed.as_ref().map_or(Some(true), AssessReport::met)
+    }
+
+    /// Whether the reserve on every limit is kept too.
+    pub(crate) fn keeps_reserve(&self) -> Option<bool> {
+        let fits = self.fits();
+        let along = |m: &MotionReport| {
+            let required = self.design.requirements();
+            m.margins.iter().all(|m| m.margin.value >= required.reserve(m.margin.term.kind))
+        };
+        if fits == Some(false) || !self.motions.iter().all(along) {
+            return Some(false);
+        }
+        self.assessed.as_ref().map_or(Some(true), AssessReport::met_with_reserve)
+    }
+
+    /// Drives that fit first, then those that are undecided; among them the cheapest first, then the lightest, then as in the table. What has no price or mass comes last.
+    fn order(&self, other: &Self) -> Ordering {
+        let rank = |fit: &Self| match fit.fits() {
+            Some(true) => 0,
+            None => 1,
+            Some(false) => 2,
+        };
+        let last = |x: Option<f64>| x.unwrap_or(f64::INFINITY);
+        rank(self)
+            .cmp(&rank(other))
+            .then(last(self.drive.price).total_cmp(&last(other.drive.price)))
+            .then(last(self.drive.mass).total_cmp(&last(other.drive.mass)))
+            .then(self.drive.line.cmp(&other.drive.line))
+    }
+}
+
+impl Design {
+    /// What a table of drives has to be read into.
+    pub(crate) fn drive_units(&self) -> DesignUnits<'_> {
+        DesignUnits {
+            length: &self.units,
+            force: self.force_units.unwrap_or(ForceUnit::Newton),
+            mass: self.mass_units.unwrap_or(MassUnit::Kilogram),
+        }
+    }
+
+    /// The design with a drive in each leg: its lengths, and what is known of its force, speed and stiffness, become those of `[hardware]`. Where both the drive and the legs of
+    /// the design have masses, those of cylinder and rod are multiplied alike, so that their sum is the mass of the drive; the mass in place of what turns in it stays.
+    /// Everything else is as it was.
+    pub(crate) fn with_drive(&self, drive: &Drive) -> Self {
+        let mut out = self.clone();
+        let h = &mut out.hardware;
+        h.leg_length = Some(drive.lengths);
+        h.max_leg_force = drive.force.or(h.max_leg_force);
+        h.max_leg_speed = drive.speed.or(h.max_leg_speed);
+        h.leg_stiffness = drive.stiffness.or(h.leg_stiffness);
+        if let (Some(mass), Some(masses)) = (drive.mass, &mut h.leg_masses) {
+            let known = masses.cylinder.mass + masses.rod.mass;
+            if known > 0.0 {
+                let reflected = masses.reflected;
+                *masses = masses.scaled(mass / known);
+                masses.reflected = reflected;
+            }
+        }
+        out
+    }
+
+    /// Every drive of a table, the one to take first: those that fit by price, then mass.
+    ///
+    /// `metres` is the length of a design unit; without it no forces are computed along motions.
+    pub(crate) fn fit_drives(
+        &self,
+        drives: &[Drive],
+        motions: &[PlatformMotion],
+        metres: Option<f64>,
+        seed: u64,
+    ) -> Vec<DriveFit> {
+        let one = |drive: &Drive| {
+            let design = self.with_drive(drive);
+            let masses: Option<MotionMasses> = metres.and_then(|m| design.motion_masses(m, None));
+            // few cells decide most drives: the others have limits near to what is needed
+            let assessed = match design.assessed_briefly(seed) {
+                Some(found) if found.met().is_none() => design.assess_cells(seed, ASSESS_CELLS),
+                found => found,
+            };
+            let motions = motions.iter().map(|m| design.along(m, masses.as_ref())).collect();
+            DriveFit { drive: drive.clone(), design, assessed, motions }
+        };
+        let mut all: Vec<DriveFit> = drives.iter().map(one).collect();
+        all.sort_by(DriveFit::order);
+        // where none is proved to fit, the first undecided ones get what a search gets that drives margins to zero
+        for fit in &mut all {
+            if fit.fits() == Some(true) {
+                break;
+            }
+            if fit.fits().is_none() {
+                fit.assessed = fit.design.assess_cells(seed, PATIENT_CELLS);
+            }
+        }
+        all.sort_by(DriveFit::order);
+        all
+    }
+}
