@@ -20,7 +20,7 @@ use crate::records::{
     SweepTextRecord, sha256,
 };
 use crate::sweep::part::{PartError, PartReader, PartWriter};
-use crate::sweep::plan::{self, BaseName, BasePlan, PlanText};
+use crate::sweep::plan::{self, BaseName, BasePlan, PlanFiles, PlanText};
 use crate::sweep::{Digested, Sweep, digest_of};
 
 /// The file that says what the folder is of.
@@ -140,6 +140,7 @@ impl SweepFolder {
             plan_sha256: texts.sha256(),
             plan: texts.plan.clone(),
             design: texts.design.clone(),
+            drives: texts.drives.clone(),
         };
         if let Some(there) = there {
             return there.goes_on(&record);
@@ -183,7 +184,8 @@ impl SweepFolder {
 
     /// The texts that it was begun with.
     pub(crate) fn texts(&self) -> SweepTexts {
-        SweepTexts { plan: self.record.plan.clone(), design: self.record.design.clone() }
+        let SweepFolderRecord { plan, design, drives, .. } = self.record.clone();
+        SweepTexts { plan, design, drives }
     }
 
     /// The sweep, ready to compute rows again as they were.
@@ -443,25 +445,28 @@ pub(crate) fn outside(output: &OutputPath) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A plan and its base design, as texts.
+/// A plan, its base design and its table of drives, as texts.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct SweepTexts {
     plan: SweepTextRecord,
     design: SweepTextRecord,
+    drives: Option<String>,
 }
 
 impl SweepTexts {
-    /// Reads a plan, and the design that it names.
+    /// Reads a plan, and the files that it names.
     pub(crate) fn load(path: &Path, context: &mut Context) -> Result<Self, Failure> {
         let text = files::read_text(path)?;
         let format = format_of(path, &text);
         let shown = files::shown(path);
-        let base = plan::base_named(PlanText { text: &text, format })
+        let PlanFiles { base, drives } = plan::files_named(PlanText { text: &text, format })
             .map_err(|violations| bad_plan(&shown, &text, violations))?;
+        let beside = |name: String| path.parent().unwrap_or(Path::new("")).join(name);
+        let drives = drives.map(|name| files::read_text(&beside(name))).transpose()?;
         let design = match base {
             BaseName::Preset(_, text) => SweepTextRecord { text: text.into(), format: Format::Toml },
             BaseName::File(name) => {
-                let file: PathBuf = path.parent().unwrap_or(Path::new("")).join(name);
+                let file = beside(name);
                 // warnings are shown, and provenance knows the design
                 let read = context.load(&file)?;
                 if read.workspace.trajectory.is_some() {
@@ -472,13 +477,14 @@ impl SweepTexts {
                 SweepTextRecord { text: files::read_text(&file)?, format: Format::of_path(&file) }
             }
         };
-        Ok(Self { plan: SweepTextRecord { text, format }, design })
+        Ok(Self { plan: SweepTextRecord { text, format }, design, drives })
     }
 
-    /// SHA-256 over both.
+    /// SHA-256 over all of them.
     pub(crate) fn sha256(&self) -> String {
         let part = |t: &SweepTextRecord| format!("{} {}\n{}", t.format, t.text.len(), t.text);
-        sha256((part(&self.plan) + &part(&self.design)).as_bytes())
+        let drives = self.drives.as_ref().map_or_else(String::new, |t| format!("drives {}\n{t}", t.len()));
+        sha256((part(&self.plan) + &part(&self.design) + &drives).as_bytes())
     }
 
     /// The sweep that they describe; `shown` is where the plan is from.
@@ -486,6 +492,13 @@ impl SweepTexts {
         let base = BasePlan::new(PlanText { text: &self.design.text, format: self.design.format }).map_err(
             |violations| Failure::bad_design("base design".into(), self.design.text.clone(), violations),
         )?;
+        let base = match &self.drives {
+            None => base,
+            Some(table) => base.with_drives(table.as_bytes()).map_err(|why| {
+                Failure::refused("drives::bad_table", format!("the table of drives of {shown}: {why}"))
+                    .with_help("docs/guides/choosing-drives.md has the columns; drives of a plan have different names")
+            })?,
+        };
         let text = PlanText { text: &self.plan.text, format: self.plan.format };
         let plan =
             plan::read(text, &base).map_err(|violations| bad_plan(shown, &self.plan.text, violations))?;

@@ -43,7 +43,8 @@ pub use presets::{PRESETS, Preset, PresetClass};
 pub(crate) use scale::micrometres;
 pub use schema::SCHEMA;
 pub(crate) use table::{
-    DesignUnits, Drive, DriveTable, InvalidSeries, PointTable, SeriesKind, SeriesRow, TimeSeries,
+    DesignUnits, Drive, DriveTable, InvalidDriveTable, InvalidSeries, PointTable, SeriesKind, SeriesRow,
+    TimeSeries,
 };
 pub use violation::{Code, Violation, Warning};
 pub use workspace::{Trajectory, Workspace};

@@ -30,13 +30,16 @@ pub struct SweepFolderRecord {
     pub candidates: u64,
     /// Shards that they are divided into.
     pub shards: u64,
-    /// SHA-256 over plan and base design, hexadecimal.
+    /// SHA-256 over plan, base design and table of drives, hexadecimal.
     #[schemars(regex(pattern = "^[0-9a-f]{64}$"))]
     pub plan_sha256: String,
     /// The plan.
     pub plan: SweepTextRecord,
     /// Its base design.
     pub design: SweepTextRecord,
+    /// Its table of drives; absent where it names none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub drives: Option<String>,
 }
 
 /// What the manifest beside a part says.

@@ -7,7 +7,7 @@ use std::num::NonZeroUsize;
 use super::column::SweepCell;
 use super::evaluate::Sweep;
 use super::plan::{FreeQuantity, PoseChoice};
-use crate::design::{Design, parse};
+use crate::design::{Design, Drive, parse};
 use crate::entrance::{AssessReport, CheckReport};
 use crate::equivalents::Original;
 use crate::fk::FkSolutions;
@@ -67,6 +67,8 @@ pub(super) struct SweepCandidate<'a> {
     /// The values of the free quantities.
     values: &'a [SweepCell],
     placed: Option<Placed<'a>>,
+    /// The drive in all legs; `None`: what the design says of its legs.
+    pub(super) drive: Option<&'a Drive>,
     /// `None`: that of the design.
     manipulator: Option<Manipulator>,
     whole: OnceCell<Result<Design, String>>,
@@ -90,8 +92,13 @@ impl<'a> SweepCandidate<'a> {
             }
             _ => None,
         };
+        let drive =
+            sweep.plan.quantities().zip(values).find_map(|(quantity, value)| match (quantity, value) {
+                (FreeQuantity::Drive, SweepCell::Text(name)) => sweep.base.drive(name),
+                _ => None,
+            });
         let (whole, solved, assessed, checked) = Default::default();
-        Ok(Self { sweep, ground, values, placed, manipulator, whole, solved, assessed, checked })
+        Ok(Self { sweep, ground, values, placed, drive, manipulator, whole, solved, assessed, checked })
     }
 
     pub(super) fn manipulator(&self) -> &Manipulator {
@@ -124,7 +131,11 @@ impl<'a> SweepCandidate<'a> {
             }
             _ => Ok(self.ground.design.clone()),
         };
-        self.whole.get_or_init(make).as_ref().map_err(Clone::clone)
+        let driven = |design: Design| match self.drive {
+            Some(drive) => design.with_drive(drive),
+            None => design,
+        };
+        self.whole.get_or_init(|| make().map(driven)).as_ref().map_err(Clone::clone)
     }
 
     /// The squared leg lengths of the candidate: those that vary, those at the pose that varies, those of the design (moved to the equivalent platform), or those at home.
@@ -266,7 +277,7 @@ impl SweepCandidate<'_> {
     /// Why there is none.
     pub(super) fn text(&self) -> Result<String, String> {
         Ok(match (&self.placed, &self.sweep.ground) {
-            (None, None) => self.ground.design.text(),
+            (None, None) if self.drive.is_none() => self.ground.design.text(),
             _ => self.design()?.to_toml(),
         })
     }

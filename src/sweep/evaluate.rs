@@ -11,6 +11,7 @@ use super::climb::climb;
 use super::column::{ColumnKind, SweepCell, SweepColumn};
 use super::measure::{least_axis_distance, length_range, worst_conditioning};
 use super::plan::{AnswerField, AnswerName, AxisValues, BasePlan, FreeQuantity, SweepPlan, SweepTask};
+use crate::design::Drive;
 use crate::entrance::{BOX_CELLS, OptimizeEvidence, OptimizeOptions, Solver};
 use crate::fk::{FkOptions, FkRoot, Threads};
 use crate::manipulator::{Body, inverse_condition, jacobian};
@@ -204,6 +205,10 @@ impl Sweep {
                     SweepCell::number(bound.map(|b| b.found.value))
                 }));
                 cells
+            }
+            SweepTask::Drive => {
+                let of = |figure: fn(&Drive) -> Option<f64>| SweepCell::number(c.drive.and_then(figure));
+                vec![of(|d| Some(d.stroke)), of(|d| d.mass), of(|d| d.price)]
             }
             SweepTask::Check => {
                 let found = c.checked()?;

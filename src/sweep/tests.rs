@@ -61,6 +61,35 @@ fn figures_are_those_of_the_design_that_the_candidate_is() {
 }
 
 #[test]
+fn a_candidate_with_a_drive_is_judged_by_its_limits() {
+    let table = b"name,stroke,dead_length,force,price_EUR\nshort,1,12,1e6,50\nlong,30,1,1e6,90\n";
+    let base = BasePlan::new(PlanText { text: OCTAHEDRAL, format: Format::Toml }).unwrap();
+    let base = base.with_drives(table).unwrap();
+    let text = "name = 'p'\ndesign = 'd.toml'\ndrives = 't.csv'\ncompute = ['drive', 'margins']\n[vary]\nby = 'grid'\nvalues = { drive = ['long', 'short'] }\n";
+    let plan = read(PlanText { text, format: Format::Toml }, &base).unwrap_or_else(|v| panic!("{v:#?}"));
+    let drives: Vec<_> = ["long", "short"].map(|name| base.drive(name).unwrap().clone()).into();
+    let sweep = Sweep::new(plan, base, 1).unwrap();
+    let (original, _) = parse(OCTAHEDRAL, Format::Toml).unwrap();
+    for (k, drive) in drives.iter().enumerate() {
+        let row = sweep.row(k as u64).unwrap();
+        assert_eq!(row[row.len() - 1], SweepCell::Empty);
+        assert_eq!(cell(&sweep, &row, "drive_price").as_number(), drive.price);
+        // the same as the design with these limits says of itself
+        let alone = original.with_drive(drive);
+        let options = crate::requirements::AssessOptions::new().points(200).searches(1).seed(1).close(false);
+        let found = alone.assess_with(&options, 300).unwrap();
+        let too_long = crate::requirements::TermKind::LegTooLong;
+        let bound = found.proof.bounds.iter().find(|b| b.found.term.kind == too_long).unwrap();
+        let said = cell(&sweep, &row, &format!("margin_{}", too_long.code())).as_number().unwrap();
+        assert!((said - bound.found.value).abs() <= 1e-12 * said.abs(), "{said} {}", bound.found.value);
+        let (written, _) = parse(&sweep.design_text(k as u64).unwrap(), Format::Toml).unwrap();
+        assert_eq!(written.hardware.leg_length, Some(drive.lengths));
+    }
+    let margin = |k| cell(&sweep, &sweep.row(k).unwrap(), "margin_leg_too_long").as_number().unwrap();
+    assert!(margin(0) > 0.0 && margin(1) < 0.0, "{} {}", margin(0), margin(1));
+}
+
+#[test]
 fn rows_do_not_depend_on_threads_nor_on_the_range() {
     let sweep = Arc::new(sweep_of(
         OCTAHEDRAL,

@@ -89,6 +89,9 @@ pub(crate) enum InvalidDriveTable {
     /// Cells that cannot be used, a sentence each.
     #[error("{}", .0.join("; "))]
     Cells(Vec<String>),
+    /// Where drives are chosen by their names.
+    #[error("two drives are named `{0}`")]
+    TwoDrives(String),
     /// There is no row.
     #[error("it has no line with a drive")]
     Empty,

@@ -11,6 +11,6 @@ mod series;
 mod sheet;
 mod text;
 
-pub(crate) use drives::{DesignUnits, Drive, DriveTable};
+pub(crate) use drives::{DesignUnits, Drive, DriveTable, InvalidDriveTable};
 pub(crate) use points::PointTable;
 pub(crate) use series::{InvalidSeries, SeriesKind, SeriesRow, TimeSeries};

@@ -69,6 +69,8 @@ def _written(plan: Plan, folder: pathlib.Path) -> str:
     content = dict(plan)
     if "design" in content:
         content["design"] = os.path.abspath(os.fspath(content["design"]))
+    if "drives" in content:
+        content["drives"] = os.path.abspath(os.fspath(content["drives"]))
     path = folder / "plan.json"
     text = json.dumps(content, indent=1, sort_keys=True) + "\n"
     if path.exists() and path.read_text(encoding="utf-8") != text:

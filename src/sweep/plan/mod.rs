@@ -14,7 +14,7 @@ use crate::manufacture::ErrorBound;
 pub(crate) use condition::KeepCondition;
 pub(crate) use place::BasePlan;
 pub(in crate::sweep) use read::pose_of;
-pub(crate) use read::{base_named, read};
+pub(crate) use read::{files_named, read};
 pub(crate) use values::{AxisValues, PlanAxis, PlanBlock, Spreading};
 
 use super::column::{ColumnKind, SweepColumn};
@@ -50,6 +50,14 @@ pub(crate) enum BaseName {
     File(String),
     /// A preset of the program: name, text.
     Preset(&'static str, &'static str),
+}
+
+/// The files that a plan names.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct PlanFiles {
+    pub(crate) base: BaseName,
+    /// A table of drives, relative to the plan.
+    pub(crate) drives: Option<String>,
 }
 
 /// The text of a plan, in its notation.
@@ -91,6 +99,8 @@ impl Default for AssessEffort {
 pub(crate) enum FreeQuantity {
     /// The pattern of the equivalent platform.
     Pattern,
+    /// The drive in all legs, from the table of the plan.
+    Drive,
     /// Offset number so many of the pattern, from 0.
     Offset(usize),
     /// The length of a leg, from 0.
@@ -127,6 +137,8 @@ pub(crate) enum SweepTask {
     Solutions,
     /// Margins of the requirements.
     Margins,
+    /// What the table of drives says of the drive of the candidate.
+    Drive,
     /// Architecturally singular or not.
     Check,
     /// The largest region without singular poses, in the shape of the workspace.
@@ -176,7 +188,7 @@ impl AnswerName {
 }
 
 /// The words for what is computed, with what they stand for.
-pub(crate) const TASK_WORDS: [(&str, SweepTask); 16] = [
+pub(crate) const TASK_WORDS: [(&str, SweepTask); 17] = [
     ("det_a", SweepTask::DetA),
     ("conditioning", SweepTask::Conditioning),
     ("home_conditioning", SweepTask::HomeConditioning),
@@ -187,6 +199,7 @@ pub(crate) const TASK_WORDS: [(&str, SweepTask); 16] = [
     ("poses", SweepTask::Poses),
     ("solutions", SweepTask::Solutions),
     ("margins", SweepTask::Margins),
+    ("drive", SweepTask::Drive),
     ("check", SweepTask::Check),
     ("regular_box", SweepTask::RegularBox),
     ("tolerance", SweepTask::Tolerance),
@@ -291,6 +304,15 @@ impl SweepTask {
                     )
                 }));
                 columns
+            }
+            Self::Drive => {
+                let mass = base.design.drive_units().mass.label();
+                let price = base.drives.as_ref().and_then(|table| table.currency.as_deref());
+                vec![
+                    number("drive_stroke", Some(units), "travel of the drive"),
+                    number("drive_mass", Some(mass), "mass of one drive"),
+                    number("drive_price", price, "price of one drive"),
+                ]
             }
             Self::Check => vec![
                 SweepColumn::new(

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::PlanText;
 use crate::design::spanned::{Findings, Node, Value, find, nearest_help, read, shown};
-use crate::design::{Design, Format, Violation, parse};
+use crate::design::{Design, Drive, DriveTable, Format, InvalidDriveTable, Violation, parse};
 use crate::requirements::{TermKind, Terms};
 
 /// A base design and the text it is read from, into which candidates write their numbers.
@@ -14,6 +14,8 @@ pub(crate) struct BasePlan {
     pub(crate) text: String,
     pub(crate) format: Format,
     pub(crate) design: Design,
+    /// The drives that candidates may have.
+    pub(crate) drives: Option<DriveTable>,
     root: Node,
 }
 
@@ -27,7 +29,26 @@ impl BasePlan {
         let (design, _) = parse(&text, plan.format)?;
         let mut report = Findings::new(&text);
         let Some(root) = read(&text, plan.format, &mut report) else { return Err(report.into_violations()) };
-        Ok(Self { format: plan.format, design, root, text })
+        Ok(Self { format: plan.format, design, drives: None, root, text })
+    }
+
+    /// The same with a table of drives for the candidates.
+    ///
+    /// # Errors
+    /// A text that is no table of drives; two drives with one name, since plans choose them by it.
+    pub(crate) fn with_drives(mut self, table: &[u8]) -> Result<Self, InvalidDriveTable> {
+        let table = DriveTable::read(table, &self.design.drive_units())?;
+        let mut seen = BTreeSet::new();
+        if let Some(twice) = table.drives.iter().find(|d| !seen.insert(d.name.as_str())) {
+            return Err(InvalidDriveTable::TwoDrives(twice.name.clone()));
+        }
+        self.drives = Some(table);
+        Ok(self)
+    }
+
+    /// The drive with a name.
+    pub(crate) fn drive(&self, name: &str) -> Option<&Drive> {
+        self.drives.as_ref()?.drives.iter().find(|d| d.name == name)
     }
 
     /// Where the number of a path stands: `parameters.r`, `base.P1.x`, `home.position.3`, `hardware.max_leg_force`.
@@ -95,13 +116,17 @@ impl BasePlan {
         out
     }
 
-    /// The kinds of requirements that the design has.
+    /// The kinds of requirements that the design has, or has with some drive.
     pub(crate) fn required_kinds(&self) -> Vec<TermKind> {
-        let (m, required, home) =
-            (self.design.manipulator(), self.design.requirements(), self.design.home_or_default());
-        let terms = Terms::new(m, &required, &home);
-        let kinds: BTreeSet<TermKind> =
-            terms.fixed().into_iter().chain(terms.at(&home)).map(|(term, _)| term.kind).collect();
+        let drives = self.drives.iter().flat_map(|table| &table.drives);
+        let designs = std::iter::once(self.design.clone()).chain(drives.map(|d| self.design.with_drive(d)));
+        let kinds: BTreeSet<TermKind> = designs.flat_map(|design| kinds_of(&design)).collect();
         kinds.into_iter().collect()
     }
+}
+
+fn kinds_of(design: &Design) -> Vec<TermKind> {
+    let (m, required, home) = (design.manipulator(), design.requirements(), design.home_or_default());
+    let terms = Terms::new(m, &required, &home);
+    terms.fixed().into_iter().chain(terms.at(&home)).map(|(term, _)| term.kind).collect()
 }

@@ -2,8 +2,8 @@
 
 use super::{
     AnswerField, AnswerName, AssessEffort, AxisValues, BaseName, BasePlan, FreeQuantity, KeepCondition,
-    MOST_CANDIDATES, POSE_COORDINATES, PlanAxis, PlanBlock, PlanText, PoseChoice, Spreading, SweepPlan,
-    SweepTask, TASK_WORDS,
+    MOST_CANDIDATES, POSE_COORDINATES, PlanAxis, PlanBlock, PlanFiles, PlanText, PoseChoice, Spreading,
+    SweepPlan, SweepTask, TASK_WORDS,
 };
 use crate::design::spanned::{
     Entry, Findings, Node, Span, Value, check_keys, find, nearest_help, number, read as read_tree, shown,
@@ -17,11 +17,12 @@ use crate::sweep::column::{ColumnKind, SweepColumn};
 use crate::sweep::sample::{DIMENSIONS, MOST, PointSpread};
 use crate::synthesis::{Family, Pattern};
 
-const TOP_LEVEL: [&str; 11] = [
+const TOP_LEVEL: [&str; 12] = [
     "name",
     "description",
     "design",
     "preset",
+    "drives",
     "poses",
     "assess",
     "accuracy",
@@ -71,17 +72,22 @@ fn tree(plan: PlanText<'_>, report: &mut Findings<'_>) -> Option<Node> {
     read_tree(bare, plan.format, report)
 }
 
-/// The base design that a plan names.
+/// The base design that a plan names, and its table of drives.
 ///
 /// # Errors
-/// The violations of the plan, where it names none.
-pub(crate) fn base_named(plan: PlanText<'_>) -> Result<BaseName, Vec<Violation>> {
+/// The violations of the plan, where it names no design.
+pub(crate) fn files_named(plan: PlanText<'_>) -> Result<PlanFiles, Vec<Violation>> {
     let mut report = Findings::new(plan.text.strip_prefix('\u{feff}').unwrap_or(plan.text));
     let root = tree(plan, &mut report);
     let found = root.as_ref().and_then(|root| {
         let entries = entries(root, &mut report)?;
         check_keys(&mut report, entries, &TOP_LEVEL, "a plan");
-        base(root, entries, &mut report)
+        let base = base(root, entries, &mut report)?;
+        let drives = match find(entries, "drives") {
+            Some(entry) => Some(text(&mut report, entry)?),
+            None => None,
+        };
+        Some(PlanFiles { base, drives })
     });
     // everything else is said once the design is known
     found.ok_or_else(|| report.into_violations())
@@ -521,6 +527,7 @@ impl Reader<'_, '_> {
                 vec![(path.to_owned(), quantity)]
             }
             ("pattern", "") => vec![(path.to_owned(), FreeQuantity::Pattern)],
+            ("drive", "") => vec![(path.to_owned(), FreeQuantity::Drive)],
             ("pose", coordinate) => {
                 let Some(i) = POSE_COORDINATES.iter().position(|c| *c == coordinate) else {
                     let help = nearest_help("coordinates of a pose", coordinate, &POSE_COORDINATES);
@@ -546,6 +553,7 @@ impl Reader<'_, '_> {
         let axis = |(path, quantity): (String, FreeQuantity)| {
             let (unit, meaning) = match &quantity {
                 FreeQuantity::Pattern => (None, "pattern of the equivalent platform".to_owned()),
+                FreeQuantity::Drive => (None, "drive in all legs, from the table of the plan".to_owned()),
                 FreeQuantity::Offset(i) => {
                     (None, format!("offset {} of the pattern, as a fraction of its side", i + 1))
                 }
@@ -583,6 +591,9 @@ impl Reader<'_, '_> {
         let form = "write { from = A, to = B }, with `count` in a grid, or a list of values";
         if *quantity == FreeQuantity::Pattern {
             return self.patterns(&entry.node);
+        }
+        if *quantity == FreeQuantity::Drive {
+            return self.drives(entry);
         }
         match &entry.node.value {
             Value::Table(inner) => {
@@ -706,6 +717,45 @@ impl Reader<'_, '_> {
                 Ok(pattern) => words.push(named(&pattern)),
                 Err(why) => {
                     self.refuse(Code::UnknownName, &node.span, format!("`{}`: {why}", shown(word)), FORM);
+                    return None;
+                }
+            }
+        }
+        Some(AxisValues::Words(words))
+    }
+
+    /// Drives of the table by their names, or the word for all of them.
+    fn drives(&mut self, entry: &Entry) -> Option<AxisValues> {
+        const FORM: &str = "write \"all\", or a list of names of the table";
+        let Some(table) = &self.base.drives else {
+            self.refuse(
+                Code::MissingKey,
+                &entry.key_span,
+                "the drive varies, and the plan names no table of drives",
+                "add `drives = \"FILE.csv\"`, relative to the plan; docs/guides/choosing-drives.md has its columns",
+            );
+            return None;
+        };
+        let known: Vec<&str> = table.drives.iter().map(|d| d.name.as_str()).collect();
+        let list = match &entry.node.value {
+            Value::Text(word) if word == "all" => {
+                return Some(AxisValues::Words(known.into_iter().map(str::to_owned).collect()));
+            }
+            Value::Text(_) => std::slice::from_ref(&entry.node),
+            _ => self.list(&entry.node, "`drive`", FORM)?,
+        };
+        let mut words = Vec::new();
+        for node in list {
+            match &node.value {
+                Value::Text(word) if known.contains(&word.as_str()) => words.push(word.clone()),
+                Value::Text(word) => {
+                    let message = format!("the table has no drive `{}`", shown(word));
+                    self.refuse(Code::UnknownName, &node.span, message, nearest_help("it has", word, &known));
+                    return None;
+                }
+                other => {
+                    let message = format!("a drive is {}, not a string", other.kind());
+                    self.refuse(Code::WrongType, &node.span, message, FORM);
                     return None;
                 }
             }
@@ -840,6 +890,14 @@ impl Reader<'_, '_> {
                 );
             }
         }
+        if self.base.drives.is_some() && has(&|q| *q == FreeQuantity::Drive) == 0 {
+            self.refuse(
+                Code::ConflictingKeys,
+                place,
+                "the plan names a table of drives, and the drive does not vary",
+                "add drive = \"all\" to the values of a block, or leave `drives` out",
+            );
+        }
         let lengths = has(&|q| matches!(q, FreeQuantity::Length(_)));
         let pose = has(&|q| matches!(q, FreeQuantity::Pose(_)));
         if lengths > 0 && pose > 0 {
@@ -888,6 +946,14 @@ impl Reader<'_, '_> {
                         place,
                         "`tolerance` is that for an accuracy, and the plan has none",
                         "add accuracy = [position, rotation_deg], or leave it out",
+                    );
+                }
+                SweepTask::Drive if self.base.drives.is_none() => {
+                    self.refuse(
+                        Code::ConflictingKeys,
+                        place,
+                        "`drive` is what a table says of the drive of a candidate, and the plan names none",
+                        "add `drives = \"FILE.csv\"`, or leave it out",
                     );
                 }
                 SweepTask::Margins if self.base.required_kinds().is_empty() => {

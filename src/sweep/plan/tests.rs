@@ -81,8 +81,37 @@ fn json_says_the_same_as_toml() {
     let text = r#"{"name": "p", "design": "d.toml", "compute": ["conditioning"], "vary": [{"by": "sobol", "count": 8, "values": {"offsets": {"from": 0.1, "to": 0.9}}}]}"#;
     let json = read(PlanText { text, format: Format::Json }, &base()).unwrap();
     assert_eq!(toml.values(3, 5), json.values(3, 5));
-    let named = base_named(PlanText { text, format: Format::Json }).unwrap();
-    assert_eq!(named, BaseName::File("d.toml".into()));
+    let named = files_named(PlanText { text, format: Format::Json }).unwrap();
+    assert_eq!(named, PlanFiles { base: BaseName::File("d.toml".into()), drives: None });
+}
+
+const DRIVES: &[u8] =
+    b"name,stroke,dead_length,force,mass_kg,price_EUR\nshort,4,6,100,1,50\nlong,9,6,80,2,90\n";
+
+#[test]
+fn drives_of_a_table_vary_by_their_names() {
+    let based = || base().with_drives(DRIVES).unwrap();
+    let head = "name = 'p'\ndesign = 'd.toml'\ndrives = 'drives.csv'\ncompute = ['drive']\n";
+    let of = |text: &str| read(PlanText { text, format: Format::Toml }, &based());
+    let named = files_named(PlanText { text: head, format: Format::Toml }).unwrap();
+    assert_eq!(named.drives.as_deref(), Some("drives.csv"));
+    let whole = of(&format!("{head}[vary]\nby = 'grid'\nvalues = {{ drive = 'all' }}\n")).unwrap();
+    let names: Vec<String> = (0..2).map(|k| whole.values(1, k)[0].to_string()).collect();
+    assert_eq!((whole.count(), names), (2, vec!["short".to_string(), "long".to_string()]));
+    let units: Vec<_> = whole.columns(&based()).into_iter().map(|c| (c.name, c.unit)).collect();
+    assert_eq!(units[4], ("drive_price".to_string(), Some("EUR".to_string())));
+    let complaint = |text: &str| {
+        let first = of(text).unwrap_err().remove(0);
+        format!("{} {}", first.message, first.help)
+    };
+    let wrong = complaint(&format!("{head}[vary]\nby = 'grid'\nvalues = {{ drive = ['shart'] }}\n"));
+    assert!(wrong.contains("did you mean `short`?"), "{wrong}");
+    let unused = complaint(&format!("{head}[vary]\nby = 'grid'\nvalues = {{ 'base.P1.x' = [1] }}\n"));
+    assert!(unused.contains("the drive does not vary"), "{unused}");
+    let tableless = format!("{HEAD}[vary]\nby = 'grid'\nvalues = {{ drive = 'all' }}\n");
+    assert!(plan(&tableless).unwrap_err()[0].message.contains("names no table of drives"));
+    let twice = base().with_drives(b"name,stroke,dead_length\na,4,6\na,5,6\n");
+    assert_eq!(twice.unwrap_err(), crate::design::InvalidDriveTable::TwoDrives("a".into()));
 }
 
 #[test]
