@@ -3,6 +3,7 @@
 use nalgebra::Matrix4;
 use ndarray::{Array, Array3, ArrayView2, ArrayView3, Dimension, StrideShape};
 use num_complex::Complex64;
+use numpy::{PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
@@ -22,19 +23,25 @@ impl From<Error> for PoseFault {
     }
 }
 
-/// Calls `each` with every pose of an array of shape `(n, 4, 4)`, in order and without the interpreter.
+/// An argument that is an array of doubles, row by row, as it stands; `None`: it is for numpy to make one of it. A look from here costs less than one from Python.
+pub(super) fn as_it_stands<'py>(given: &Bound<'py, PyAny>) -> Option<PyReadonlyArrayDyn<'py, f64>> {
+    let array = given.cast::<PyArrayDyn<f64>>().ok()?.try_readonly().ok()?;
+    array.as_slice().is_ok().then_some(array)
+}
+
+/// The entries of an array of shape `(.., 4, 4)` and the axes before these; `None`: it has another shape.
+pub(super) fn pose_entries<'a>(array: &'a PyReadonlyArrayDyn<'_, f64>) -> Option<(&'a [f64], &'a [usize])> {
+    let (before, last) = array.shape().split_last_chunk::<2>()?;
+    if *last == [4, 4] { Some((array.as_slice().ok()?, before)) } else { None }
+}
+
+/// Calls `each` with every pose of the entries of 4 x 4 matrices, in order and without the interpreter.
 pub(super) fn at_poses(
     py: Python<'_>,
-    poses: &ArrayView3<'_, f64>,
+    entries: &[f64],
     mut each: impl FnMut(Pose) -> Result<(), PoseFault> + Send,
 ) -> PyResult<()> {
-    let shape = poses.shape();
-    if shape[1..] != [4, 4] {
-        return Err(refused(py, "shape", &format!("poses are (n, 4, 4), not {shape:?}")));
-    }
-    let one = shape[0] == 1;
-    let matrices = poses.as_standard_layout();
-    let entries = matrices.as_slice().unwrap_or_default();
+    let one = entries.len() == 16;
     let done = py.detach(|| {
         entries.chunks_exact(16).enumerate().try_for_each(|(k, matrix)| {
             each(Pose::try_from(Matrix4::from_row_slice(matrix)).map_err(|e| PoseFault::Pose(k, e))?)
@@ -49,8 +56,12 @@ pub(super) fn at_poses(
 
 /// All poses of an array of shape `(n, 4, 4)`.
 pub(super) fn poses_in(py: Python<'_>, poses: &ArrayView3<'_, f64>) -> PyResult<Vec<Pose>> {
+    let shape = poses.shape();
+    if shape[1..] != [4, 4] {
+        return Err(refused(py, "shape", &format!("poses are (n, 4, 4), not {shape:?}")));
+    }
     let mut out = Vec::with_capacity(poses.len() / 16);
-    at_poses(py, poses, |pose| {
+    at_poses(py, poses.as_standard_layout().as_slice().unwrap_or_default(), |pose| {
         out.push(pose);
         Ok(())
     })?;

@@ -5,11 +5,11 @@ use std::sync::{Arc, OnceLock};
 
 use nalgebra::Point3;
 use ndarray::Array2;
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray2, PyReadonlyArray3};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayDyn, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
 
 use super::answers::document;
-use super::arrays::{at_poses, lengths_in, matrices, poses_in, shaped};
+use super::arrays::{as_it_stands, at_poses, lengths_in, matrices, pose_entries, poses_in, shaped};
 use super::failure::{interrupted, raised, refused};
 use super::solutions::{NativeSolutions, SolutionArrays, SolutionColumns};
 use super::tracker::NativeTracker;
@@ -180,36 +180,40 @@ impl NativeDesign {
         self.design.save(path).map_err(|e| raised(py, e))
     }
 
-    /// Leg lengths, float64, shape (n, 6), of poses (n, 4, 4).
+    /// Leg lengths, float64, shape (.., 6), of poses (.., 4, 4); `None`: the poses are no array of doubles, row by row, of this shape.
     fn ik<'py>(
         &self,
         py: Python<'py>,
-        poses: PyReadonlyArray3<'py, f64>,
-    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let (poses, m) = (poses.as_array(), self.design.manipulator());
-        let mut lengths = Vec::with_capacity(6 * poses.shape()[0]);
-        at_poses(py, &poses, |pose| {
+        poses: &Bound<'py, PyAny>,
+    ) -> PyResult<Option<Bound<'py, PyArrayDyn<f64>>>> {
+        let Some(array) = as_it_stands(poses) else { return Ok(None) };
+        let Some((entries, before)) = pose_entries(&array) else { return Ok(None) };
+        let m = self.design.manipulator();
+        let mut lengths = Vec::with_capacity(6 * (entries.len() / 16));
+        at_poses(py, entries, |pose| {
             lengths.extend(pose.lengths(m).ok_or(Error::Overflow)?.get());
             Ok(())
         })?;
-        Ok(shaped((poses.shape()[0], 6), lengths)?.into_pyarray(py))
+        Ok(Some(shaped([before, &[6]].concat(), lengths)?.into_pyarray(py)))
     }
 
-    /// Leg speeds by velocity and angular velocity, float64, shape (n, 6, 6), at poses (n, 4, 4).
+    /// Leg speeds by velocity and angular velocity, float64, shape (.., 6, 6), at poses (.., 4, 4); `None` as for `ik`.
     fn jacobian<'py>(
         &self,
         py: Python<'py>,
-        poses: PyReadonlyArray3<'py, f64>,
+        poses: &Bound<'py, PyAny>,
         characteristic_length: f64,
-    ) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        let (poses, m) = (poses.as_array(), self.design.manipulator());
-        let mut entries = Vec::with_capacity(36 * poses.shape()[0]);
-        at_poses(py, &poses, |pose| {
+    ) -> PyResult<Option<Bound<'py, PyArrayDyn<f64>>>> {
+        let Some(array) = as_it_stands(poses) else { return Ok(None) };
+        let Some((entries, before)) = pose_entries(&array) else { return Ok(None) };
+        let m = self.design.manipulator();
+        let mut rows = Vec::with_capacity(36 * (entries.len() / 16));
+        at_poses(py, entries, |pose| {
             // row by row: the columns of the transposed
-            entries.extend_from_slice(jacobian(m, &pose, characteristic_length).transpose().as_slice());
+            rows.extend_from_slice(jacobian(m, &pose, characteristic_length).transpose().as_slice());
             Ok(())
         })?;
-        Ok(shaped((poses.shape()[0], 6, 6), entries)?.into_pyarray(py))
+        Ok(Some(shaped([before, &[6, 6]].concat(), rows)?.into_pyarray(py)))
     }
 
     /// The length that moments are divided by in conditioning numbers.

@@ -1,9 +1,9 @@
 //! One real pose followed from lengths to lengths.
 
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray2};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
-use super::arrays::{lengths_in, matrices};
+use super::arrays::{as_it_stands, lengths_in, matrices};
 use super::failure::raised;
 use crate::entrance;
 use crate::fk::NearOutcome;
@@ -29,18 +29,20 @@ impl NativeTracker {
         matrices(&[self.0.pose()]).index_axis_move(ndarray::Axis(0), 0).into_pyarray(py)
     }
 
-    /// Continues to six lengths: status, the pose reached, fraction of the way, residual, Kantorovich number, reason.
+    /// Continues to six lengths: status, the pose reached, residual, fraction of the way, reason. `None`: the lengths are no array of six doubles.
     #[allow(clippy::type_complexity)]
     fn step<'py>(
         &mut self,
         py: Python<'py>,
-        lengths: [f64; 6],
-    ) -> PyResult<(&'static str, Bound<'py, PyArray2<f64>>, f64, f64, f64, Option<String>)> {
-        let outcome = self.0.step(lengths).map_err(|e| raised(py, e))?;
+        lengths: &Bound<'py, PyAny>,
+    ) -> PyResult<Option<(&'static str, Bound<'py, PyArray2<f64>>, f64, f64, Option<String>)>> {
+        let Some(array) = as_it_stands(lengths) else { return Ok(None) };
+        let six = array.as_slice().ok().and_then(|entries| <[f64; 6]>::try_from(entries).ok());
+        let Some(six) = six.filter(|_| array.ndim() == 1) else { return Ok(None) };
+        let outcome = self.0.step(six).map_err(|e| raised(py, e))?;
         let (status, fraction, reason) = said(&outcome);
         let pose = matrices(&[*outcome.pose()]).index_axis_move(ndarray::Axis(0), 0).into_pyarray(py);
-        let evidence = outcome.evidence();
-        Ok((status, pose, fraction, evidence.residual, evidence.kantorovich, reason))
+        Ok(Some((status, pose, outcome.evidence().residual, fraction, reason)))
     }
 
     /// Continues through rows of lengths until one is not reached: the poses of those that were, and what became of the next.

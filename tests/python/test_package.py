@@ -115,6 +115,32 @@ def test_batches_are_the_single_answers_and_do_not_depend_on_threads(octahedral)
     assert len(part[3]) == 0 and len(part[4]) == 16
 
 
+def test_arrays_are_taken_as_they_stand_or_made_first(octahedral):
+    rng = np.random.default_rng(6)
+    poses = poses_about(octahedral, rng, 6)
+    lengths, rows = octahedral.ik(poses), octahedral.jacobian(poses, characteristic_length=2.0)
+    assert lengths.shape == (6, 6) and rows.shape == (6, 6, 6)
+    assert octahedral.ik(poses[0]).shape == (6,) and octahedral.jacobian(poses[0]).shape == (6, 6)
+    folded = poses.reshape(2, 3, 4, 4)
+    assert np.array_equal(octahedral.ik(folded), lengths.reshape(2, 3, 6))
+    assert np.array_equal(octahedral.jacobian(folded, characteristic_length=2.0), rows.reshape(2, 3, 6, 6))
+    wide = np.zeros((6, 4, 8))
+    wide[:, :, ::2] = poses
+    columns = np.asfortranarray(poses)
+    for other in (wide[:, :, ::2], columns, poses.tolist(), poses.astype(">f8")):
+        assert np.array_equal(octahedral.ik(other), lengths)
+        assert np.array_equal(octahedral.jacobian(other, characteristic_length=2.0), rows)
+    assert octahedral.ik(np.empty((0, 4, 4))).shape == (0, 6)
+    tracks = [octahedral.tracker(poses[0]).step(form(lengths[1])) for form in (np.array, list, tuple, lambda l: np.repeat(l, 2)[::2])]
+    assert all(np.array_equal(track.T, tracks[0].T) and track.status == tracks[0].status for track in tracks)
+    for wrong in (lengths[:2], lengths[0][:5], 3.0):
+        with pytest.raises(equipod.DesignError):
+            octahedral.tracker(poses[0]).step(wrong)
+    for wrong in (poses[0][:3], np.full((4, 4), np.nan), poses[0].astype(complex)):
+        with pytest.raises(equipod.DesignError):
+            octahedral.ik(wrong)
+
+
 def test_a_tracker_keeps_its_mode_and_stops_at_singularities(octahedral):
     rng = np.random.default_rng(5)
     ends = poses_about(octahedral, rng, 2)

@@ -6,7 +6,7 @@ import os
 import pathlib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -14,7 +14,7 @@ import numpy.typing as npt
 from . import _core
 from ._display import Figure, Page
 from ._errors import DesignError
-from ._poses import Floats, PoseLike, as_matrices
+from ._poses import Floats, PoseLike, as_matrices, given
 from ._program import Progress, Workshop, ask, pose_text, text_of
 from ._solutions import BatchSolutions, Solutions
 
@@ -197,8 +197,7 @@ class Margins:
         return pa.table({title: np.ascontiguousarray(values[:, k]) for k, title in enumerate(titles)})
 
 
-@dataclass(frozen=True)
-class Track:
+class Track(NamedTuple):
     """What became of following poses through lengths.
 
     Attributes
@@ -244,8 +243,13 @@ class Tracker:
         -------
         Track
         """
-        status, pose, fraction, residual, _, reason = self._native.step(np.asarray(lengths, dtype=np.float64).tolist())
-        return Track(status, pose, residual, fraction, reason)
+        found = self._native.step(lengths)
+        if found is None:
+            array = _lengths(lengths)
+            if array.shape != (6,):
+                raise DesignError(f"step takes six lengths, not {array.shape}: use follow for many", code="shape")
+            found = given(self._native.step(array))
+        return Track._make(found)
 
     def follow(self, lengths: npt.ArrayLike) -> Track:
         """Continues through rows of lengths until one is not reached.
@@ -391,8 +395,8 @@ class Design:
         DesignError
             Matrices that are no poses.
         """
-        array = as_matrices(poses)
-        return self._native.ik(array.reshape(-1, 4, 4)).reshape(array.shape[:-2] + (6,))
+        found = self._native.ik(poses)
+        return given(self._native.ik(as_matrices(poses))) if found is None else found
 
     def jacobian(self, poses: PoseLike, *, characteristic_length: float = 1.0) -> Floats:
         """Leg speeds by the velocity of the platform origin and the angular velocity, base frame.
@@ -408,9 +412,8 @@ class Design:
         ndarray, float64, shape (..., 6, 6)
             Row ``i`` is ``[u_i, ((R b_i) x u_i) / L]`` with the unit vector ``u_i`` of leg ``i`` (Merlet 2006, sec. 5.3).
         """
-        array = as_matrices(poses)
-        rows = self._native.jacobian(array.reshape(-1, 4, 4), characteristic_length)
-        return rows.reshape(array.shape[:-2] + (6, 6))
+        found = self._native.jacobian(poses, characteristic_length)
+        return given(self._native.jacobian(as_matrices(poses), characteristic_length)) if found is None else found
 
     def fk(self, lengths: npt.ArrayLike, *, seed: int = 1, method: str | None = None) -> Solutions:
         """Forward kinematics: all finite poses, real and complex, each with its certificate where there is one.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Protocol, Union, runtime_checkable
+from typing import Any, Protocol, TypeVar, Union, runtime_checkable
 
 import numpy as np
 import numpy.typing as npt
@@ -22,8 +22,17 @@ class HasMatrix(Protocol):
     def as_matrix(self) -> Any: ...
 
 
+Found = TypeVar("Found")
+
 #: What a pose, or many, may be given as.
 PoseLike = Union[npt.ArrayLike, HasMatrix]
+
+
+def given(found: Found | None) -> Found:
+    """What the native module computes from an array that has been made for it."""
+    if found is None:
+        raise TypeError("an array of float64, row by row, was made and not taken")
+    return found
 
 
 def as_matrices(poses: PoseLike) -> Floats:
