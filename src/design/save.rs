@@ -12,7 +12,7 @@ use crate::geom::Pose;
 use crate::manipulator::Body;
 use crate::requirements::{
     Envelope, Envelopes, ForceUnit, Grid, Hardware, Housing, JointAxes, KeepOut, KeepOutShape, KeptSymmetry,
-    LegPart, LengthLimits, ListedFrom, Load, MassUnit, Payload, Region, Reserve, Reserves, Swing, TermKind,
+    LegPart, LengthLimits, ListedFrom, Load, MassUnit, Payload, Region, Reserve, Reserves, TermKind, UniversalJoint,
 };
 use crate::rotary::Elbow;
 
@@ -709,6 +709,8 @@ pub(super) struct HardwareTable {
     #[serde(skip_serializing_if = "Option::is_none")]
     platform_axes: Option<AxesValue>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    screw_lead: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     max_leg_force: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     max_leg_speed: Option<f64>,
@@ -728,6 +730,10 @@ pub(super) struct HardwareTable {
     rod_inertia: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     reflected_mass: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    base_joint: Option<JointTable>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    platform_joint: Option<JointTable>,
 }
 
 fn housing(h: Housing) -> HousingValue {
@@ -738,8 +744,52 @@ fn housing(h: Housing) -> HousingValue {
 }
 
 /// The default is left out.
-fn axes(s: Swing) -> Option<AxesValue> {
-    match s.axes {
+/// `base_joint` and `platform_joint`.
+#[derive(Serialize)]
+struct JointTable {
+    model: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    first_axis: Option<FirstAxisValue>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    angle_deg: Option<[f64; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    offset: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    bending_stiffness: Option<f64>,
+}
+
+/// One direction for all joints, or six.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum FirstAxisValue {
+    One([f64; 3]),
+    Six([[f64; 3]; 6]),
+}
+
+/// Balls are left out.
+fn joint(universal: Option<UniversalJoint>, bending: Option<f64>) -> Option<JointTable> {
+    if let Some(joint) = universal {
+        let all = joint.first_axes.map(|a| a.into_inner().into());
+        let same = all.iter().all(|a| *a == all[0]);
+        return Some(JointTable {
+            model: "universal",
+            first_axis: Some(if same { FirstAxisValue::One(all[0]) } else { FirstAxisValue::Six(all) }),
+            angle_deg: joint.limits_deg,
+            offset: (joint.offset != 0.0).then_some(joint.offset),
+            bending_stiffness: None,
+        });
+    }
+    bending.map(|stiffness| JointTable {
+        model: "flexure",
+        first_axis: None,
+        angle_deg: None,
+        offset: None,
+        bending_stiffness: Some(stiffness),
+    })
+}
+
+fn axes(axes: JointAxes) -> Option<AxesValue> {
+    match axes {
         JointAxes::Home => None,
         JointAxes::Optimize => Some(AxesValue::Word("optimize")),
         JointAxes::Given(axes) => Some(AxesValue::Given(axes.map(|a| a.into_inner().into()))),
@@ -775,8 +825,9 @@ impl HardwareTable {
             stroke: drive.map(|d| d.1),
             base_swing_deg: h.base_swing.map(|s| s.limit_deg),
             platform_swing_deg: h.platform_swing.map(|s| s.limit_deg),
-            base_axes: h.base_swing.and_then(axes),
-            platform_axes: h.platform_swing.and_then(axes),
+            base_axes: h.axes(Body::Base).and_then(axes),
+            platform_axes: h.axes(Body::Platform).and_then(axes),
+            screw_lead: h.screw_lead,
             max_leg_force: h.max_leg_force,
             max_leg_speed: h.max_leg_speed,
             leg_stiffness: h.leg_stiffness,
@@ -787,6 +838,8 @@ impl HardwareTable {
             rod_center: rod_body.map(|p| p.center),
             rod_inertia: rod_body.map(|p| p.inertia),
             reflected_mass: h.leg_masses.map(|m| m.reflected).filter(|x| *x > 0.0),
+            base_joint: joint(h.base_universal, h.base_bending),
+            platform_joint: joint(h.platform_universal, h.platform_bending),
         })
     }
 }

@@ -9,7 +9,7 @@ use crate::manipulator::{Body, Manipulator, default_home};
 use crate::num::Rng;
 use crate::requirements::{
     Hardware, JointAxes, KeepOut, KeepOutShape, LegBody, LengthLimits, Limit, Load, PlatformSpeed,
-    Requirements, Swing, TermKind,
+    Requirements, Swing, TermKind, UniversalJoint,
 };
 
 /// Everything a pose can violate.
@@ -285,4 +285,23 @@ fn without_an_allowed_pose_there_is_none_nearest() {
     let axis = Unit::new_normalize(Vector3::x());
     let asked = Pose { rotation: Rotation3::from_axis_angle(&axis, 0.1), ..home };
     assert!(reach.nearest(&asked, &NearestPoseOptions::default()).is_none());
+}
+
+/// Ways end where an angle of a universal joint reaches its limit, and not before.
+#[test]
+fn universal_joints_end_ways_where_a_fine_search_finds_it() {
+    let m = symmetric_hexapod(2.0, 1.0);
+    let home = default_home(&m);
+    let first_axes = std::array::from_fn(|i| {
+        let (s, c) = (i as f64).sin_cos();
+        nalgebra::Unit::new_normalize(Vector3::new(c, s, 0.1))
+    });
+    let joint = |limits| UniversalJoint { first_axes, limits_deg: Some(limits), axes: JointAxes::Home, offset: 0.0 };
+    let hardware = Hardware {
+        base_universal: Some(joint([25.0, 50.0])),
+        platform_universal: Some(joint([45.0, 75.0])),
+        ..Hardware::default()
+    };
+    let kinds = ends_of_ways(&m, &Requirements { hardware, ..Requirements::default() }, &home);
+    assert!(kinds.len() >= 3, "{kinds:?}");
 }

@@ -22,6 +22,7 @@ mod standing;
 mod term;
 #[cfg(test)]
 mod tests;
+mod universal;
 mod vibration;
 
 pub use crate::geom::{ListedFrom, PoseSpace, Region};
@@ -44,6 +45,8 @@ pub use payload::{ForceUnit, GRAVITY, MassUnit, Payload};
 pub use reserve::{Reserve, Reserves};
 pub use standing::Standing;
 pub use term::{Quantity, Term, TermKind, Terms};
+pub use universal::UniversalJoint;
+pub(crate) use universal::HingeAngle;
 pub use vibration::{
     LeastStiffness, PlatformStiffness, VibratingMasses, Vibration, least_stiffness, least_stiffness_at,
     lowest_frequency, mass_matrix, stiffness_matrix, vibration,
