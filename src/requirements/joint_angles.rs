@@ -41,8 +41,14 @@ impl Terms<'_> {
     /// The angles of the joints at a pose, leg by leg: at the base, then at the platform.
     #[must_use]
     pub fn joint_angles(&self, pose: &Pose) -> [[JointAngles; 6]; 2] {
-        let [base, platform] = self.axes();
         let lines = self.manipulator.legs().map(|leg| pose.transform(&leg.platform) - leg.base);
+        self.angles_of(&lines, pose)
+    }
+
+    /// The same for legs with given lines, base frame.
+    #[must_use]
+    pub(crate) fn angles_of(&self, lines: &[Vector3<f64>; 6], pose: &Pose) -> [[JointAngles; 6]; 2] {
+        let [base, platform] = self.axes();
         let back = pose.rotation.inverse();
         [
             std::array::from_fn(|i| JointAngles::of(&lines[i], &base[i], self.hinge(0, i))),

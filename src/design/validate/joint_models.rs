@@ -17,7 +17,7 @@ pub(super) struct JointModel {
     pub(super) bending: Option<f64>,
 }
 
-const KEYS: [&str; 5] = ["model", "first_axis", "angle_deg", "offset", "bending_stiffness"];
+pub(super) const KEYS: [&str; 5] = ["model", "first_axis", "angle_deg", "offset", "bending_stiffness"];
 
 /// The keys of a model besides its name.
 fn keys_of(model: &str) -> Option<&'static [&'static str]> {

@@ -111,6 +111,8 @@ StartName = Literal["closed_form", "nominal"]
 TermKind = Literal[
     "angular_stiffness",
     "base_envelope",
+    "base_first_angle",
+    "base_second_angle",
     "base_spacing",
     "base_swing",
     "keep_out",
@@ -123,6 +125,8 @@ TermKind = Literal[
     "machine_envelope",
     "natural_frequency",
     "platform_envelope",
+    "platform_first_angle",
+    "platform_second_angle",
     "platform_spacing",
     "platform_swing",
 ]
