@@ -10,7 +10,7 @@ use crate::requirements::{JointAxes, UniversalJoint};
 
 /// A leg as it is built: base, turn about x, offset along z, turn about y, length along z, turn about z, turn about y, offset along z, turn about x.
 #[derive(Debug, Clone, Copy)]
-struct Chain {
+struct SimulatedLeg {
     base: Vector3<f64>,
     frame: Rotation3<f64>,
     offsets: [f64; 2],
@@ -18,7 +18,7 @@ struct Chain {
     at: [f64; 6],
 }
 
-impl Chain {
+impl SimulatedLeg {
     /// Where the platform joint is, and how what is fixed to it is turned.
     fn end(&self, at: &[f64; 6]) -> (Vector3<f64>, Rotation3<f64>) {
         let [q1, q2, length, twist, q3, q4] = *at;
@@ -64,7 +64,7 @@ impl Chain {
 
 /// A machine of chains at home, and what a design says of it.
 struct Built {
-    chains: [Chain; 6],
+    chains: [SimulatedLeg; 6],
     legs: CoupledLegs,
     home: Pose,
     /// What the platform has of each chain at home: the turn of its end, platform frame.
@@ -90,15 +90,15 @@ fn hardware(axes: [[Vector3<f64>; 6]; 2], offsets: [f64; 2], lead: Option<f64>) 
 fn built(rng: &mut Rng, offsets: [f64; 2], lead: f64) -> Built {
     let home = Pose {
         rotation: Rotation3::new(Vector3::from_fn(|_, _| rng.uniform(-0.2, 0.2))),
-        position: Vector3::new(rng.uniform(-0.3, 0.3), rng.uniform(-0.3, 0.3), 8.0),
+        position: Vector3::new(rng.uniform(-0.3, 0.3), rng.uniform(-0.3, 0.3), 6.0),
     };
-    let chains: [Chain; 6] = std::array::from_fn(|i| {
+    let chains: [SimulatedLeg; 6] = std::array::from_fn(|i| {
         let around = |angle: f64, r: f64| Vector3::new(r * angle.cos(), r * angle.sin(), rng.uniform(-0.1, 0.1));
         let pair = (i / 2) as f64 * std::f64::consts::TAU / 3.0;
         let side = if i % 2 == 0 { -1.0 } else { 1.0 };
         let mut around = around;
-        let base = around(pair + side * 0.3, 6.0);
-        let wanted = home.position + around(pair + side * 0.75, 4.0);
+        let base = around(pair + side * 0.2, 6.0);
+        let wanted = home.position + around(pair + side * 0.85, 4.0);
         // z of the frame towards the platform joint, x where it happens to be
         let z = (wanted - base).normalize();
         let aside = Vector3::new(rng.normal(), rng.normal(), rng.normal());
@@ -106,7 +106,7 @@ fn built(rng: &mut Rng, offsets: [f64; 2], lead: f64) -> Built {
         let frame = Rotation3::from_basis_unchecked(&[x, z.cross(&x), z]);
         let mut small = || rng.uniform(-0.3, 0.3);
         let length = (wanted - base).norm() - offsets[0] - offsets[1];
-        Chain { base, frame, offsets, at: [small(), small(), length, small(), small(), small()] }
+        SimulatedLeg { base, frame, offsets, at: [small(), small(), length, small(), small(), small()] }
     });
     let ends = chains.map(|c| c.end(&c.at));
     let back = home.rotation.inverse();
@@ -199,11 +199,12 @@ fn poses_come_back_and_their_error_is_within_the_bound_proved() {
         let b = built(&mut rng, offsets, lead);
         let size = b.legs.manipulator().size();
         for _ in 0..3 {
-            let pose = b.near(&mut rng, 0.8);
+            let pose = b.near(&mut rng, 0.6);
             let drives = b.legs.drives(&pose).unwrap();
             let mut tracker = CoupledTracker::new(b.legs.clone(), b.home);
             let found = tracker.step(&drives);
-            let (away, turned) = distance(found.pose().unwrap(), &pose);
+            let Some(reached) = found.pose() else { panic!("{offsets:?} {lead} {found:?}") };
+            let (away, turned) = distance(reached, &pose);
             assert!(away < 1e-12 * size && turned < 1e-12, "{away} {turned} {found:?}");
             let CoupledStatus::Proved(bound) = found.status else { panic!("{found:?}") };
             // the pose itself was rounded
@@ -304,6 +305,29 @@ fn motions_and_scales_change_nothing() {
         let other = of(scale, turn, shift);
         for i in 0..6 {
             assert!((other[i] - scale * drives[i]).abs() < 1e-13 * scale * 20.0, "{other:?} {drives:?}");
+        }
+    }
+}
+
+/// The correction of LinuxCNC's genhexkins for axes that meet, written after its source: the angle from the part of the base axis across the leg to the second axis at the platform, by its sine.
+#[test]
+fn corrections_of_screws_are_those_of_genhexkins_less_their_values_at_home() {
+    let mut rng = Rng::new(78);
+    let b = built(&mut rng, [0.0, 0.0], 0.9);
+    let genhexkins = |pose: &Pose, i: usize| {
+        let leg = b.legs.manipulator().legs()[i];
+        let u = (pose.transform(&leg.platform) - leg.base).normalize();
+        let nb3 = u.cross(&b.legs.axes[0][i].cross(&u)).normalize();
+        let na2 = (pose.rotation * b.legs.axes[1][i]).cross(&u).normalize();
+        // its lead has the other sign
+        -b.lead * nb3.dot(&na2).asin() / std::f64::consts::TAU
+    };
+    for _ in 0..4 {
+        let pose = b.near(&mut rng, 0.6);
+        let states = b.legs.states(&pose).unwrap();
+        for (i, state) in states.iter().enumerate() {
+            let meant = genhexkins(&pose, i) - genhexkins(&b.home, i);
+            assert!((state.correction - meant).abs() < 1e-12, "{i}: {} {meant}", state.correction);
         }
     }
 }

@@ -38,7 +38,7 @@ fn assess_proves_both_angles_of_universal_joints() {
             let row = rows.iter().find(|r| r["name"] == name).unwrap_or_else(|| panic!("{name}: {answer}"));
             let second = name.ends_with("second_angle");
             let wanted = if second && exit == 1 { "violated" } else { "met" };
-            assert_eq!(row["verdict"], wanted, "{row}");
+            assert_eq!(row["status"], wanted, "{row}");
         }
         assert_eq!(out.status.code(), Some(exit), "{answer}");
     }
