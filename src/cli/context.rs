@@ -157,8 +157,7 @@ impl Context {
             return Ok(None);
         }
         let home = crate::cli::poses::home(design);
-        let refused =
-            |why| Failure::refused("design::not_ideal", format!("{}: at home {why}", design.name));
+        let refused = |why| Failure::refused("design::not_ideal", format!("{}: at home {why}", design.name));
         CoupledLegs::new(design.manipulator(), &design.hardware, &home).map(Some).map_err(refused)
     }
 

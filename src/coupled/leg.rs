@@ -5,7 +5,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 use crate::num::interval::Interval;
 
 /// Numbers that the formulas take.
-pub(super) trait Scalar:
+pub(super) trait LegNumber:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self> + From<f64>
 {
     /// `None` where the divisor may be zero.
@@ -14,7 +14,7 @@ pub(super) trait Scalar:
     fn root(self) -> Option<Self>;
 }
 
-impl Scalar for f64 {
+impl LegNumber for f64 {
     fn over(self, divisor: Self) -> Option<Self> {
         (divisor != 0.0).then(|| self / divisor)
     }
@@ -24,7 +24,7 @@ impl Scalar for f64 {
     }
 }
 
-impl Scalar for Interval {
+impl LegNumber for Interval {
     fn over(self, divisor: Self) -> Option<Self> {
         self.checked_div(divisor)
     }
@@ -36,29 +36,29 @@ impl Scalar for Interval {
 
 pub(super) type Vec3<T> = [T; 3];
 
-pub(super) fn dot<T: Scalar>(a: &Vec3<T>, b: &Vec3<T>) -> T {
+pub(super) fn dot<T: LegNumber>(a: &Vec3<T>, b: &Vec3<T>) -> T {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-pub(super) fn cross<T: Scalar>(a: &Vec3<T>, b: &Vec3<T>) -> Vec3<T> {
+pub(super) fn cross<T: LegNumber>(a: &Vec3<T>, b: &Vec3<T>) -> Vec3<T> {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-pub(super) fn minus<T: Scalar>(a: &Vec3<T>, b: &Vec3<T>) -> Vec3<T> {
+pub(super) fn minus<T: LegNumber>(a: &Vec3<T>, b: &Vec3<T>) -> Vec3<T> {
     std::array::from_fn(|k| a[k] - b[k])
 }
 
-pub(super) fn scaled<T: Scalar>(a: &Vec3<T>, x: T) -> Vec3<T> {
+pub(super) fn scaled<T: LegNumber>(a: &Vec3<T>, x: T) -> Vec3<T> {
     a.map(|y| y * x)
 }
 
-pub(super) fn unit<T: Scalar>(a: &Vec3<T>) -> Option<Vec3<T>> {
+pub(super) fn unit<T: LegNumber>(a: &Vec3<T>) -> Option<Vec3<T>> {
     let length = dot(a, a).root()?;
     Some([a[0].over(length)?, a[1].over(length)?, a[2].over(length)?])
 }
 
 /// The direction of the part of `v` across an axis.
-pub(super) fn across<T: Scalar>(axis: &Vec3<T>, v: &Vec3<T>) -> Option<Vec3<T>> {
+pub(super) fn across<T: LegNumber>(axis: &Vec3<T>, v: &Vec3<T>) -> Option<Vec3<T>> {
     unit(&cross(axis, &cross(v, axis)))
 }
 
@@ -75,7 +75,7 @@ pub(super) struct PlacedLeg<T> {
     pub(super) offsets: [T; 2],
 }
 
-impl<T: Scalar> PlacedLeg<T> {
+impl<T: LegNumber> PlacedLeg<T> {
     /// Where the second axes are seen from the first ones when the other end is where `other` says: unit vectors across the first axes, from base to platform.
     pub(super) fn direction(&self, end: usize, other: &Vec3<T>) -> Option<Vec3<T>> {
         let reach = scaled(other, self.offsets[1 - end]);

@@ -44,7 +44,9 @@ pub enum NoDriveLength {
         body: Body,
     },
     /// The product of the offsets is not less than that of the distances across the first axes.
-    #[error("the offsets of leg {0} are too large for its length: where its second axes are is not determined")]
+    #[error(
+        "the offsets of leg {0} are too large for its length: where its second axes are is not determined"
+    )]
     OffsetsTooLarge(usize),
     /// Numbers that are not finite.
     #[error("leg {0} has no finite length at this pose")]
@@ -94,10 +96,10 @@ impl CoupledLegs {
         if lead != 0.0 && joints.iter().any(Option::is_none) {
             return Err(NoDriveLength::LeadOfBalls);
         }
-        let axes = joints.map(|j| j.map_or([Vector3::zeros(); 6], |j| j.first_axes.map(nalgebra::Unit::into_inner)));
+        let axes =
+            joints.map(|j| j.map_or([Vector3::zeros(); 6], |j| j.first_axes.map(nalgebra::Unit::into_inner)));
         let offsets = joints.map(|j| j.map_or(0.0, |j| j.offset));
-        let mut out =
-            Self { manipulator: m.clone(), axes, offsets, lead, home: *home, at_home: [0.0; 6] };
+        let mut out = Self { manipulator: m.clone(), axes, offsets, lead, home: *home, at_home: [0.0; 6] };
         if lead != 0.0 {
             let mut at_home = [0.0; 6];
             for (i, twist) in at_home.iter_mut().enumerate() {
@@ -171,7 +173,8 @@ impl CoupledLegs {
         let line = Vector3::from(placed.line);
         let moved = line - Vector3::from(s);
         // |s| - |d|, without the loss of a difference
-        let of_offsets = (moved.norm_squared() - 2.0 * line.dot(&moved)) / (Vector3::from(s).norm() + line.norm());
+        let of_offsets =
+            (moved.norm_squared() - 2.0 * line.dot(&moved)) / (Vector3::from(s).norm() + line.norm());
         let mut twist = 0.0;
         if self.lead != 0.0 {
             let [sine, cosine] = placed.twist(&ends).ok_or(failed)?;
@@ -212,6 +215,8 @@ impl CoupledLegs {
     /// Rates of the drives as rows in leg order, moments over a length.
     #[must_use]
     pub fn jacobian(states: &[DriveState; 6], characteristic_length: f64) -> Matrix6<f64> {
-        Matrix6::from_fn(|i, k| if k < 3 { states[i].rates[k] } else { states[i].rates[k] / characteristic_length })
+        Matrix6::from_fn(
+            |i, k| if k < 3 { states[i].rates[k] } else { states[i].rates[k] / characteristic_length },
+        )
     }
 }

@@ -48,9 +48,7 @@ impl Neighbourhood {
         let rotation = exact_rotation(pose);
         let wide = hull(turn);
         let rotation = std::array::from_fn(|i| {
-            std::array::from_fn(|j| {
-                (0..3).fold(rotation[i][j], |sum, k| sum + wide * rotation[k][j])
-            })
+            std::array::from_fn(|j| (0..3).fold(rotation[i][j], |sum, k| sum + wide * rotation[k][j]))
         });
         let shift = Interval::from(reach) * Interval::from(unit_of_length);
         let position = std::array::from_fn(|k| Interval::from(pose.position[k]) + hull(shift.hi()));
@@ -116,7 +114,9 @@ impl CoupledLegs {
         for i in 0..6 {
             missing[i] = self.enclosed_drive(i, pose, states[i].twist)? - Interval::from(drives[i]);
         }
-        let step = |r: usize| (0..6).fold(Interval::ZERO, |sum, k| sum + Interval::from(inverse[(r, k)]) * missing[k]);
+        let step = |r: usize| {
+            (0..6).fold(Interval::ZERO, |sum, k| sum + Interval::from(inverse[(r, k)]) * missing[k])
+        };
         let eta = (0..6).map(|r| step(r).magnitude()).fold(0.0, f64::max);
         let mut reach = eta.max(f64::MIN_POSITIVE) * 2.0;
         let mut best: Option<(f64, f64)> = None;

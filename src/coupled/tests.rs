@@ -22,7 +22,8 @@ impl SimulatedLeg {
     /// Where the platform joint is, and how what is fixed to it is turned.
     fn end(&self, at: &[f64; 6]) -> (Vector3<f64>, Rotation3<f64>) {
         let [q1, q2, length, twist, q3, q4] = *at;
-        let about = |axis: Vector3<f64>, angle: f64| Rotation3::from_axis_angle(&Unit::new_normalize(axis), angle);
+        let about =
+            |axis: Vector3<f64>, angle: f64| Rotation3::from_axis_angle(&Unit::new_normalize(axis), angle);
         let (x, y, z) = (Vector3::x(), Vector3::y(), Vector3::z());
         let mut turn = self.frame * about(x, q1);
         let mut place = self.base + turn * (z * self.offsets[0]);
@@ -93,7 +94,8 @@ fn built(rng: &mut Rng, offsets: [f64; 2], lead: f64) -> Built {
         position: Vector3::new(rng.uniform(-0.3, 0.3), rng.uniform(-0.3, 0.3), 6.0),
     };
     let chains: [SimulatedLeg; 6] = std::array::from_fn(|i| {
-        let around = |angle: f64, r: f64| Vector3::new(r * angle.cos(), r * angle.sin(), rng.uniform(-0.1, 0.1));
+        let around =
+            |angle: f64, r: f64| Vector3::new(r * angle.cos(), r * angle.sin(), rng.uniform(-0.1, 0.1));
         let pair = (i / 2) as f64 * std::f64::consts::TAU / 3.0;
         let side = if i % 2 == 0 { -1.0 } else { 1.0 };
         let mut around = around;
@@ -151,7 +153,10 @@ fn drives_are_as_long_as_those_of_simulated_chains() {
                 let ideal = pose.lengths(b.legs.manipulator()).unwrap().get();
                 let mut away: f64 = 0.0;
                 for i in 0..6 {
-                    assert!((drives[i] - simulated[i]).abs() < 1e-10, "{offsets:?} {lead} {drives:?} {simulated:?}");
+                    assert!(
+                        (drives[i] - simulated[i]).abs() < 1e-10,
+                        "{offsets:?} {lead} {drives:?} {simulated:?}"
+                    );
                     away = away.max((ideal[i] - simulated[i]).abs());
                 }
                 // the control: lengths of ideal joints are something else
@@ -208,7 +213,10 @@ fn poses_come_back_and_their_error_is_within_the_bound_proved() {
             assert!(away < 1e-12 * size && turned < 1e-12, "{away} {turned} {found:?}");
             let CoupledStatus::Proved(bound) = found.status else { panic!("{found:?}") };
             // the pose itself was rounded
-            assert!(away <= bound.position + 1e-14 * size && turned <= bound.angle + 1e-14, "{away} {turned} {bound:?}");
+            assert!(
+                away <= bound.position + 1e-14 * size && turned <= bound.angle + 1e-14,
+                "{away} {turned} {bound:?}"
+            );
             assert!(bound.position < 1e-9 * size && bound.contraction < 0.1, "{bound:?}");
             assert!(found.factor < 0.7, "{found:?}");
             assert_eq!(distance(&tracker.pose(), found.pose().unwrap()).0, 0.0);
@@ -297,7 +305,8 @@ fn motions_and_scales_change_nothing() {
         let platform = m.legs().map(|l| l.platform * scale).to_vec();
         let moved = Manipulator::try_new(base, platform, std::array::from_fn(|i| (i, i))).unwrap();
         let axes = [b.legs.axes[0].map(|a| turn * a), b.legs.axes[1]];
-        let placed = |p: &Pose| Pose { rotation: turn * p.rotation, position: turn * (p.position * scale) + shift };
+        let placed =
+            |p: &Pose| Pose { rotation: turn * p.rotation, position: turn * (p.position * scale) + shift };
         let hardware = hardware(axes, [0.5 * scale, 0.35 * scale], Some(0.7 * scale));
         CoupledLegs::new(&moved, &hardware, &placed(&b.home)).unwrap().drives(&placed(&pose)).unwrap()
     };

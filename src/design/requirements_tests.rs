@@ -304,11 +304,22 @@ platform_joint = { model = \"universal\", first_axis = [[1, 0, 0], [0, 1, 0], [1
 ";
     let text = GOOD.replacen(JOINTS, tables, 1);
     let refused = parse(&text, Format::Toml).unwrap_err();
-    assert_eq!((refused.len(), refused[0].code), (1, Code::NotIdeal), "distances of joints are no lengths of drives");
+    assert_eq!(
+        (refused.len(), refused[0].code),
+        (1, Code::NotIdeal),
+        "distances of joints are no lengths of drives"
+    );
     let design = parse_with_cranks(&text, Format::Toml).unwrap().0;
     let base = design.hardware.base_universal.unwrap();
-    assert_eq!((base.limits_deg, base.offset, design.hardware.screw_lead), (Some([120.0, 40.5]), 2.0, Some(-4.5)));
-    assert!(base.first_axes.iter().all(|a| (a.into_inner() - nalgebra::Vector3::new(0.6, 0.0, 0.8)).norm() < 1e-15));
+    assert_eq!(
+        (base.limits_deg, base.offset, design.hardware.screw_lead),
+        (Some([120.0, 40.5]), 2.0, Some(-4.5))
+    );
+    assert!(
+        base.first_axes
+            .iter()
+            .all(|a| (a.into_inner() - nalgebra::Vector3::new(0.6, 0.0, 0.8)).norm() < 1e-15)
+    );
     assert!(matches!(base.axes, JointAxes::Given(_)), "the axes that swing has");
     let platform = design.hardware.platform_universal.unwrap();
     assert_eq!((platform.limits_deg, platform.axes), (None, JointAxes::Home));
@@ -340,7 +351,10 @@ fn kinds_of_joints_that_say_too_little_or_too_much_are_refused() {
         ("base_joint = { model = \"ball\", offset = 1 }\n", Code::ConflictingKeys),
         ("base_joint = { model = \"universal\", first_axis = [0, 0, 0] }\n", Code::NotPositive),
         ("base_joint = { model = \"universal\", first_axis = [0, 0] }\n", Code::WrongType),
-        ("base_joint = { model = \"universal\", first_axis = [1, 0, 0], angle_deg = [50, 90] }\n", Code::OutOfRange),
+        (
+            "base_joint = { model = \"universal\", first_axis = [1, 0, 0], angle_deg = [50, 90] }\n",
+            Code::OutOfRange,
+        ),
         ("base_joint = { model = \"universal\", first_axis = [1, 0, 0], angle_deg = 40 }\n", Code::WrongType),
         ("base_joint = { model = \"universal\", first_axis = [1, 0, 0], offset = -1 }\n", Code::NotPositive),
         // the first two axes of the file
@@ -348,7 +362,10 @@ fn kinds_of_joints_that_say_too_little_or_too_much_are_refused() {
         ("base_joint = { model = \"flexure\" }\n", Code::MissingKey),
         ("base_joint = { model = \"flexure\", bending_stiffness = 0 }\n", Code::NotPositive),
         ("screw_lead = 5\n", Code::MissingKey),
-        ("platform_axes = \"optimize\"\nplatform_joint = { model = \"universal\", first_axis = [1, 0, 0] }\n", Code::ConflictingKeys),
+        (
+            "platform_axes = \"optimize\"\nplatform_joint = { model = \"universal\", first_axis = [1, 0, 0] }\n",
+            Code::ConflictingKeys,
+        ),
     ] {
         let violations = parse_with_cranks(&GOOD.replacen(JOINTS, line, 1), Format::Toml).unwrap_err();
         assert!(violations.iter().all(|v| v.code == code) && violations.len() < 3, "{line} {violations:?}");

@@ -12,7 +12,8 @@ use crate::geom::Pose;
 use crate::manipulator::Body;
 use crate::requirements::{
     Envelope, Envelopes, ForceUnit, Grid, Hardware, Housing, JointAxes, KeepOut, KeepOutShape, KeptSymmetry,
-    LegPart, LengthLimits, ListedFrom, Load, MassUnit, Payload, Region, Reserve, Reserves, TermKind, UniversalJoint,
+    LegPart, LengthLimits, ListedFrom, Load, MassUnit, Payload, Region, Reserve, Reserves, TermKind,
+    UniversalJoint,
 };
 use crate::rotary::Elbow;
 

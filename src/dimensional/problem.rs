@@ -182,7 +182,9 @@ pub enum InvalidProblem {
     #[error("joint axes can be chosen for swing limits below 90 degrees only, and this limit is {0} degrees")]
     SwingTooWide(f64),
     /// Axes of universal joints are not chosen.
-    #[error("the axes of universal joints are not chosen: joint_axes is for ball joints, and the {0} has universal ones")]
+    #[error(
+        "the axes of universal joints are not chosen: joint_axes is for ball joints, and the {0} has universal ones"
+    )]
     UniversalAxes(Body),
     /// A design without the symmetry that is to be kept.
     #[error("symmetry = \"three_fold\" needs a design that has it, and {why}")]

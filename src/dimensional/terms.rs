@@ -240,7 +240,8 @@ impl<'a> RequirementTerms<'a> {
         let hardware = &self.required.hardware;
         for kind in TermKind::HINGES {
             let Some((body, angle)) = kind.hinge() else { continue };
-            let (Some(limit), Some(joint)) = (hardware.angle_limit_deg(kind), hardware.universal(body)) else {
+            let (Some(limit), Some(joint)) = (hardware.angle_limit_deg(kind), hardware.universal(body))
+            else {
                 continue;
             };
             let limit = (limit - self.required.reserve(kind)).to_radians();

@@ -455,8 +455,12 @@ fn angles_of_universal_joints_are_those_of_the_margins() {
     let mut signs = [0; 2];
     for limit in [4.0, 9.0, 15.0] {
         let mut p = problem(&[VariableKind::Offsets], Objective::WorstConditioning);
-        let joint =
-            UniversalJoint { first_axes, limits_deg: Some([limit, 2.0 * limit]), axes: JointAxes::Home, offset: 0.0 };
+        let joint = UniversalJoint {
+            first_axes,
+            limits_deg: Some([limit, 2.0 * limit]),
+            axes: JointAxes::Home,
+            offset: 0.0,
+        };
         let h = &mut p.requirements.hardware;
         (h.base_universal, h.platform_universal) = (Some(joint), Some(joint));
         let model = Model::new(&p).unwrap();

@@ -158,7 +158,11 @@ impl Reach<'_> {
                     }
                     HingeAngle::First => {
                         let away = leg.length * leg.u.cross(&first).norm();
-                        let cap = if motion.speed > 0.0 { (1.0 - KEPT) * away / motion.speed } else { f64::INFINITY };
+                        let cap = if motion.speed > 0.0 {
+                            (1.0 - KEPT) * away / motion.speed
+                        } else {
+                            f64::INFINITY
+                        };
                         lasts(margin.to_radians(), motion.speed / (KEPT * away)).min(cap).min(motion.cap)
                     }
                 }

@@ -296,7 +296,8 @@ fn universal_joints_end_ways_where_a_fine_search_finds_it() {
         let (s, c) = (i as f64).sin_cos();
         nalgebra::Unit::new_normalize(Vector3::new(c, s, 0.1))
     });
-    let joint = |limits| UniversalJoint { first_axes, limits_deg: Some(limits), axes: JointAxes::Home, offset: 0.0 };
+    let joint =
+        |limits| UniversalJoint { first_axes, limits_deg: Some(limits), axes: JointAxes::Home, offset: 0.0 };
     let hardware = Hardware {
         base_universal: Some(joint([25.0, 50.0])),
         platform_universal: Some(joint([45.0, 75.0])),

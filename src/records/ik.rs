@@ -150,7 +150,13 @@ impl IkRecord {
 
     /// The same where joints are not ideal, with the legs at the pose.
     #[must_use]
-    pub(crate) fn with_drives(mut self, design: &Design, terms: &Terms<'_>, pose: &Pose, states: &[DriveState; 6]) -> Self {
+    pub(crate) fn with_drives(
+        mut self,
+        design: &Design,
+        terms: &Terms<'_>,
+        pose: &Pose,
+        states: &[DriveState; 6],
+    ) -> Self {
         let drives = DriveLengthsRecord::new(&self.lengths, states);
         if let Some((least, greatest)) = design.hardware.leg_length.map(|limits| limits.range()) {
             self.outside =

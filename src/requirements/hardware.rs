@@ -219,7 +219,9 @@ impl Hardware {
     #[must_use]
     pub fn is_coupled(&self) -> bool {
         let apart = |joint: Option<UniversalJoint>| joint.is_some_and(|j| j.offset != 0.0);
-        apart(self.base_universal) || apart(self.platform_universal) || self.screw_lead.is_some_and(|lead| lead != 0.0)
+        apart(self.base_universal)
+            || apart(self.platform_universal)
+            || self.screw_lead.is_some_and(|lead| lead != 0.0)
     }
 }
 

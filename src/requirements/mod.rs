@@ -47,8 +47,8 @@ pub use payload::{ForceUnit, GRAVITY, MassUnit, Payload};
 pub use reserve::{Reserve, Reserves};
 pub use standing::Standing;
 pub use term::{Quantity, Term, TermKind, Terms};
-pub use universal::UniversalJoint;
 pub(crate) use universal::HingeAngle;
+pub use universal::UniversalJoint;
 pub use vibration::{
     LeastStiffness, PlatformStiffness, VibratingMasses, Vibration, least_stiffness, least_stiffness_at,
     lowest_frequency, mass_matrix, stiffness_matrix, vibration,

@@ -229,11 +229,11 @@ impl<'a> Terms<'a> {
     #[must_use]
     pub fn new(manipulator: &'a Manipulator, required: &'a Requirements, home: &Pose) -> Self {
         let at_home = manipulator.legs().map(|l| (home.transform(&l.platform) - l.base).normalize());
-        let axes = |body: Body, turn: &dyn Fn(&Vector3<f64>) -> Vector3<f64>| match required.hardware.axes(body)
-        {
-            Some(JointAxes::Given(axes)) => axes.map(Unit::into_inner),
-            _ => std::array::from_fn(|i| turn(&at_home[i])),
-        };
+        let axes =
+            |body: Body, turn: &dyn Fn(&Vector3<f64>) -> Vector3<f64>| match required.hardware.axes(body) {
+                Some(JointAxes::Given(axes)) => axes.map(Unit::into_inner),
+                _ => std::array::from_fn(|i| turn(&at_home[i])),
+            };
         let base = axes(Body::Base, &|u| *u);
         let platform = axes(Body::Platform, &|u| home.rotation.inverse() * u);
         let hinges = |body: Body, axes: &[Vector3<f64>; 6]| {

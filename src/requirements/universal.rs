@@ -102,9 +102,14 @@ mod tests {
             let (first, axis, line) = (vector().normalize(), vector().normalize(), vector() * 2.0);
             let hinge = Hinge::new(first, &axis);
             let rest = hinge.rest.unwrap();
-            assert!(rest.dot(&first).abs() < 1e-14 && rest.dot(&axis) > 0.0, "across the axis, as near to k as it can be");
+            assert!(
+                rest.dot(&first).abs() < 1e-14 && rest.dot(&axis) > 0.0,
+                "across the axis, as near to k as it can be"
+            );
             let [a, b] = hinge.angles_deg(&line).map(f64::to_radians);
-            let turn = |axis: &Vector3<f64>, angle: f64| Rotation3::from_axis_angle(&Unit::new_normalize(*axis), angle);
+            let turn = |axis: &Vector3<f64>, angle: f64| {
+                Rotation3::from_axis_angle(&Unit::new_normalize(*axis), angle)
+            };
             // the second axis at rest is n x a; the first turn takes it along
             let led = turn(&first, a) * (turn(&rest.cross(&first), b) * rest);
             assert!((led - line.normalize()).norm() < 1e-13);

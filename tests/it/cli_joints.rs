@@ -19,10 +19,12 @@ fn numbers(value: &Value) -> Vec<f64> {
 }
 
 /// First axes across the legs, in the planes of base and platform.
-const TANGENT: &str = "[[0, 1, 0], [0, 1, 0], [-0.866, -0.5, 0], [-0.866, -0.5, 0], [0.866, -0.5, 0], [0.866, -0.5, 0]]";
+const TANGENT: &str =
+    "[[0, 1, 0], [0, 1, 0], [-0.866, -0.5, 0], [-0.866, -0.5, 0], [0.866, -0.5, 0], [0.866, -0.5, 0]]";
 
 fn universal(keys: &str) -> String {
-    let joint = |body: &str| format!("{body}_joint = {{ model = \"universal\", first_axis = {TANGENT}{keys} }}\n");
+    let joint =
+        |body: &str| format!("{body}_joint = {{ model = \"universal\", first_axis = {TANGENT}{keys} }}\n");
     joint("base") + &joint("platform")
 }
 
@@ -34,7 +36,8 @@ fn assess_proves_both_angles_of_universal_joints() {
         let out = equipod(&["assess", &path, "--json"]);
         let answer = document(&out);
         let rows = answer["requirements"].as_array().unwrap_or_else(|| panic!("{answer}"));
-        for name in ["base_first_angle", "base_second_angle", "platform_first_angle", "platform_second_angle"] {
+        for name in ["base_first_angle", "base_second_angle", "platform_first_angle", "platform_second_angle"]
+        {
             let row = rows.iter().find(|r| r["name"] == name).unwrap_or_else(|| panic!("{name}: {answer}"));
             let second = name.ends_with("second_angle");
             let wanted = if second && exit == 1 { "violated" } else { "met" };
@@ -116,7 +119,8 @@ fn what_takes_drives_for_distances_refuses_joints_that_are_not_ideal() {
 #[test]
 fn flexures_pull_the_platform_back_to_home() {
     let folder = tempfile::tempdir().unwrap();
-    let joint = "platform_swing_deg = 20\nplatform_joint = { model = \"flexure\", bending_stiffness = 5e4 }\n";
+    let joint =
+        "platform_swing_deg = 20\nplatform_joint = { model = \"flexure\", bending_stiffness = 5e4 }\n";
     let path = with(&folder, "flexures.toml", joint);
     let at = |pose: &str| document(&equipod(&["ik", &path, "--pose", pose, "--json"]))["flexures"].clone();
     let home = numbers(&at("home")["torque"]);

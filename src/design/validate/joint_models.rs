@@ -80,8 +80,10 @@ fn check_axes(report: &mut Findings<'_>, entry: &Entry, axes: JointAxes, joint: 
         JointAxes::Given(axes) => {
             for (i, (axis, first)) in axes.iter().zip(&joint.first_axes).enumerate() {
                 if axis.cross(first).norm() == 0.0 {
-                    let message = format!("the axis of leg {} is the first axis of its universal joint", i + 1);
-                    let help = "the axis points along the leg at rest, which is across the first axis or near it";
+                    let message =
+                        format!("the axis of leg {} is the first axis of its universal joint", i + 1);
+                    let help =
+                        "the axis points along the leg at rest, which is across the first axis or near it";
                     report.refuse(Code::OutOfRange, &element_span(&entry.node, i), message, help);
                 }
             }
@@ -101,10 +103,16 @@ fn model(report: &mut Findings<'_>, entry: &Entry, key: &str) -> Option<JointMod
     let name = text(report, word)?;
     let Some(own) = keys_of(&name) else {
         let message = format!("`model` is \"{}\"", shown(&name));
-        report.refuse(Code::WrongType, &word.node.span, message, "write \"ball\", \"universal\" or \"flexure\"");
+        report.refuse(
+            Code::WrongType,
+            &word.node.span,
+            message,
+            "write \"ball\", \"universal\" or \"flexure\"",
+        );
         return None;
     };
-    for other in entries.iter().filter(|e| KEYS[1..].contains(&e.key.as_str()) && !own.contains(&e.key.as_str()))
+    for other in
+        entries.iter().filter(|e| KEYS[1..].contains(&e.key.as_str()) && !own.contains(&e.key.as_str()))
     {
         let message = format!("`{}` is no key of joints whose model is \"{name}\"", other.key);
         report.refuse(Code::ConflictingKeys, &other.key_span, message, "remove it, or change the model");
@@ -112,7 +120,8 @@ fn model(report: &mut Findings<'_>, entry: &Entry, key: &str) -> Option<JointMod
     match name.as_str() {
         "universal" => {
             let Some(first) = find(entries, "first_axis") else {
-                let help = "add first_axis = [x, y, z], in the frame of the body, or six vectors in leg order";
+                let help =
+                    "add first_axis = [x, y, z], in the frame of the body, or six vectors in leg order";
                 let message = format!("`first_axis` of {place} is missing");
                 report.refuse(Code::MissingKey, &entry.key_span, message, help);
                 return None;
@@ -159,10 +168,9 @@ fn first_axes(report: &mut Findings<'_>, entry: &Entry) -> Option<[Unit<Vector3<
 fn limits(report: &mut Findings<'_>, entry: &Entry) -> Option<[f64; 2]> {
     let what = "angles, about the first and about the second axis";
     let limits = numbers::<2>(report, &entry.node, "`angle_deg`", Code::CoordinateCount, what)?;
-    let help = "give [first, second]: the first above 0 and at most 180, the second above 0 and below 90 degrees";
-    for (k, (x, fits)) in
-        limits.iter().zip([(limits[0] <= 180.0), (limits[1] < 90.0)]).enumerate()
-    {
+    let help =
+        "give [first, second]: the first above 0 and at most 180, the second above 0 and below 90 degrees";
+    for (k, (x, fits)) in limits.iter().zip([(limits[0] <= 180.0), (limits[1] < 90.0)]).enumerate() {
         if !(*x > 0.0 && fits) {
             let span = element_span(&entry.node, k);
             report.refuse(Code::OutOfRange, &span, format!("a greatest angle of {x} degrees"), help);

@@ -81,7 +81,8 @@ impl HingeLimit<'_> {
             HingeAngle::First => limit - degrees(arc_cosine(value)),
             HingeAngle::Second => {
                 let square = -value;
-                let positive = Interval::new(square.lo().max(0.0), square.hi().max(0.0)).unwrap_or(Interval::WHOLE);
+                let positive =
+                    Interval::new(square.lo().max(0.0), square.hi().max(0.0)).unwrap_or(Interval::WHOLE);
                 let sine = positive.sqrt().unwrap_or(Interval::WHOLE);
                 limit - Interval::from(90.0) + degrees(arc_cosine(sine))
             }
@@ -107,7 +108,8 @@ impl HingeLimit<'_> {
                 Some(Leaning { value, square, along: x.value, loose: 0.0 })
             }
             HingeAngle::Second => {
-                let along = dot(&leg.line, &self.place(&self.frame.first, frame)) * leg.square.inverse_root()?;
+                let along =
+                    dot(&leg.line, &self.place(&self.frame.first, frame)) * leg.square.inverse_root()?;
                 let value = if positive { -along } else { along };
                 Some(Leaning { value, square: Interval::from(1.0), along: value.value, loose: 0.0 })
             }

@@ -414,7 +414,8 @@ impl CellJudge<'_> {
             Function::Leg(kind, i) => {
                 let slopes = |at: &Jet| Some(std::array::from_fn(|k| at.slope(k).centre_and_radius().0));
                 if let Some(hinge) = self.hinge(kind, i).filter(|h| chart.len() > 1 && h.has_sides()) {
-                    let (Some(at), Some(over)) = (hinge.value(frames.0, sector), hinge.value(frames.1, sector))
+                    let (Some(at), Some(over)) =
+                        (hinge.value(frames.0, sector), hinge.value(frames.1, sector))
                     else {
                         return nothing;
                     };

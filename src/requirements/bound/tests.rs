@@ -9,8 +9,9 @@ use std::collections::BTreeMap;
 use crate::geom::{Pose, Region};
 use crate::num::Rng;
 use crate::requirements::{
-    HingeAngle,     Envelopes, Hardware, JointAxes, KeepOut, KeepOutShape, LegBody, LegMasses, LegPart, LengthLimits, Load,
-    MovingBodies, PlatformSpeed, PlatformStiffness, Swing, UniversalJoint, VibratingMasses,
+    Envelopes, Hardware, HingeAngle, JointAxes, KeepOut, KeepOutShape, LegBody, LegMasses, LegPart,
+    LengthLimits, Load, MovingBodies, PlatformSpeed, PlatformStiffness, Swing, UniversalJoint,
+    VibratingMasses,
 };
 
 fn random_platform(rng: &mut Rng) -> (Manipulator, Pose) {
@@ -549,7 +550,10 @@ fn no_sampled_pose_has_greater_angles_than_the_proof_allows() {
         for bound in bounds {
             let found = least[&bound.found.term.kind];
             assert!(bound.below <= found + 1e-6 && bound.found.value <= found + 0.3, "{bound:?} {found}");
-            assert!(bound.below > bound.found.value.min(0.0) - 15.0, "a bound that says something: {bound:?}");
+            assert!(
+                bound.below > bound.found.value.min(0.0) - 15.0,
+                "a bound that says something: {bound:?}"
+            );
             if bound.verdict == MarginVerdict::Violated {
                 let pose = bound.found.pose.unwrap();
                 let (body, which) = bound.found.term.kind.hinge().unwrap();

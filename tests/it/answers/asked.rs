@@ -233,7 +233,8 @@ impl Files {
                 d["lengths"][0] = json!(d["lengths"][0].as_f64().unwrap() + 1e-3);
             }),
             "universal" => self.design(name, "designs/symmetric-hexapod.toml", |d| {
-                let joint = json!({"model": "universal", "first_axis": [0.6, 0.8, 0.0], "angle_deg": [70.0, 60.0]});
+                let joint =
+                    json!({"model": "universal", "first_axis": [0.6, 0.8, 0.0], "angle_deg": [70.0, 60.0]});
                 (d["hardware"]["base_joint"], d["hardware"]["platform_joint"]) = (joint.clone(), joint);
             }),
             "coupled" => self.design(name, "designs/symmetric-hexapod.toml", |d| {

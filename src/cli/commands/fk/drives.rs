@@ -23,7 +23,8 @@ pub(super) fn refuse_without_start(design: &Design) -> Result<(), Failure> {
     if !design.hardware.is_coupled() {
         return Ok(());
     }
-    let message = "the joints are not ideal, and all poses for given lengths are found for distances of joints only";
+    let message =
+        "the joints are not ideal, and all poses for given lengths are found for distances of joints only";
     let help = "give --near POSE to follow one pose, or remove `offset` and `screw_lead` from the file for the machine with ideal joints";
     Err(Failure::refused("design::not_ideal", message.to_string()).with_help(help))
 }
@@ -111,7 +112,10 @@ fn sentence(found: &CoupledOutcome, solution: &DriveSolutionRecord) -> String {
             found.steps
         ),
         CoupledStatus::Unproved => {
-            format!("{at}: UNPROVED, the corrections settled after {} step(s) and no bound of the error is proved", found.steps)
+            format!(
+                "{at}: UNPROVED, the corrections settled after {} step(s) and no bound of the error is proved",
+                found.steps
+            )
         }
         _ => {
             let why = solution.reason.as_deref().unwrap_or_default();
