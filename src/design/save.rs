@@ -768,10 +768,11 @@ enum FirstAxisValue {
 }
 
 /// Balls are left out.
-fn joint(universal: Option<UniversalJoint>, bending: Option<f64>) -> Option<JointTable> {
+fn joint(universal: Option<&UniversalJoint>, bending: Option<f64>) -> Option<JointTable> {
     if let Some(joint) = universal {
-        let all = joint.first_axes.map(|a| a.into_inner().into());
-        let same = all.iter().all(|a| *a == all[0]);
+        let all: [[f64; 3]; 6] = joint.first_axes.map(|a| a.into_inner().into());
+        let bits = |a: &[f64; 3]| a.map(f64::to_bits);
+        let same = all.iter().all(|a| bits(a) == bits(&all[0]));
         return Some(JointTable {
             model: "universal",
             first_axis: Some(if same { FirstAxisValue::One(all[0]) } else { FirstAxisValue::Six(all) }),
@@ -839,8 +840,8 @@ impl HardwareTable {
             rod_center: rod_body.map(|p| p.center),
             rod_inertia: rod_body.map(|p| p.inertia),
             reflected_mass: h.leg_masses.map(|m| m.reflected).filter(|x| *x > 0.0),
-            base_joint: joint(h.base_universal, h.base_bending),
-            platform_joint: joint(h.platform_universal, h.platform_bending),
+            base_joint: joint(h.base_universal.as_ref(), h.base_bending),
+            platform_joint: joint(h.platform_universal.as_ref(), h.platform_bending),
         })
     }
 }
