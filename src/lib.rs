@@ -120,6 +120,8 @@ mod calibration;
 mod capi;
 #[cfg(feature = "cli")]
 pub mod cli;
+#[cfg(any(feature = "files", feature = "synthesis"))]
+mod coupled;
 #[cfg(feature = "files")]
 mod design;
 #[cfg(feature = "optimize")]
@@ -245,6 +247,11 @@ pub mod methods {
     #[cfg(feature = "optimize")]
     pub mod dimensional {
         pub use crate::dimensional::*;
+    }
+    /// Machines whose joints are not ideal: universal joints whose axes do not meet, screws that couple the turn of a leg to its length.
+    #[cfg(any(feature = "files", feature = "synthesis"))]
+    pub mod coupled {
+        pub use crate::coupled::*;
     }
     /// Poses from distances alone: Cayley-Menger determinants, trilateration, closure conditions.
     pub mod distance {

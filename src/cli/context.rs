@@ -11,6 +11,7 @@ use super::diagnostic;
 use super::failure::Failure;
 use super::files;
 use super::rows;
+use crate::coupled::CoupledLegs;
 use crate::design::{Design, Format, Violation, Warning, parse, parse_with_cranks};
 use crate::geom::Pose;
 use crate::records::{DesignSourceRecord, FileSourceRecord, ProvenanceRecord};
@@ -122,7 +123,7 @@ impl Context {
         }
     }
 
-    /// Reads and checks a design file, `-` for standard input; its warnings are shown and kept for the JSON document. Rods on cranks are refused: a command that takes them asks for
+    /// Reads and checks a design file, `-` for standard input; its warnings are shown and kept for the JSON document. Rods on cranks and joints that are not ideal are refused: a command that takes them asks for
     /// [`Self::load_with_cranks`].
     ///
     /// # Errors
@@ -131,7 +132,7 @@ impl Context {
         self.read_design(path, parse)
     }
 
-    /// As [`Self::load`], for commands that know what to do with rods on cranks.
+    /// As [`Self::load`], for commands that know what to do with rods on cranks and with joints that are not ideal.
     ///
     /// # Errors
     /// As [`Self::load`].
@@ -145,6 +146,19 @@ impl Context {
     /// Exit 2: cranks and joints that make no platform.
     pub(crate) fn cranks_of(design: &Design) -> Result<Option<RotaryPlatform>, Failure> {
         design.rotary().map_err(|why| Failure::refused("design::invalid", format!("{}: {why}", design.name)))
+    }
+
+    /// The legs of a design whose joints are not ideal.
+    ///
+    /// # Errors
+    /// Exit 2: drives that have no lengths at home, from where their turns count.
+    pub(crate) fn coupled_of(design: &Design) -> Result<Option<CoupledLegs>, Failure> {
+        if !design.hardware.is_coupled() {
+            return Ok(None);
+        }
+        let home = crate::cli::poses::home(design);
+        let refused = |why| Failure::refused("design::not_ideal", format!("{}: at home {why}", design.name));
+        CoupledLegs::new(design.manipulator(), &design.hardware, &home).map(Some).map_err(refused)
     }
 
     fn read_design(

@@ -62,22 +62,23 @@ fn has_reserve(found: &AssessAnswer) -> bool {
 pub(crate) fn table(found: &AssessAnswer) -> String {
     let mut out = String::new();
     let with_reserve = has_reserve(found);
+    let width = widest(found);
     let column = if with_reserve { format!(" {:>14}", "less reserve") } else { String::new() };
     // writing to a string cannot fail
     let _ = writeln!(
         out,
-        "{:<17} {:<9} {:>14}{column} {:>14} {:<8} {:<24} worst pose x,y,z,qw,qx,qy,qz",
+        "{:<width$} {:<9} {:>14}{column} {:>14} {:<8} {:<24} worst pose x,y,z,qw,qx,qy,qz",
         "requirement", "status", "least margin", "proved margin", "unit", "of"
     );
     for m in &found.requirements {
-        row(&mut out, m, with_reserve);
+        row(&mut out, m, with_reserve, width);
     }
     let blank = if with_reserve { format!(" {:>14}", "-") } else { String::new() };
     // rows without a margin: the sign of det J, and a number that has no limit
     let mut plain = |name: &str, mark: char, status: &str, [value, unit, of]: [&str; 3], pose: &str| {
         let _ = writeln!(
             out,
-            "{name:<17}{mark}{status:<9} {value:>14}{blank} {:>14} {unit:<8} {of:<24} {pose}",
+            "{name:<width$}{mark}{status:<9} {value:>14}{blank} {:>14} {unit:<8} {of:<24} {pose}",
             "-"
         );
     };
@@ -94,7 +95,12 @@ pub(crate) fn table(found: &AssessAnswer) -> String {
     out
 }
 
-fn row(out: &mut String, m: &MarginRecord, with_reserve: bool) {
+/// Room for the names of the rows.
+fn widest(found: &AssessAnswer) -> usize {
+    found.requirements.iter().map(|m| m.name.code().len()).fold(17, usize::max)
+}
+
+fn row(out: &mut String, m: &MarginRecord, with_reserve: bool, width: usize) {
     let pose = m.pose.as_ref().map_or_else(|| "any".to_string(), PoseQuaternionRecord::short);
     let (mark, value) = match () {
         () if m.at_limit => ('=', 0.0),
@@ -113,7 +119,7 @@ fn row(out: &mut String, m: &MarginRecord, with_reserve: bool) {
     }
     let _ = writeln!(
         out,
-        "{:<17}{mark}{:<9} {:>14}{left} {below:>14} {:<8} {:<24} {pose}",
+        "{:<width$}{mark}{:<9} {:>14}{left} {below:>14} {:<8} {:<24} {pose}",
         m.name.code(),
         m.status.name(),
         decimals(value),

@@ -111,12 +111,13 @@ impl std::str::FromStr for Format {
 ///
 /// # Errors
 /// All violations found, in the order of the text: a text with syntax errors is not examined further. A design whose legs are rods on cranks is one ([`Code::Rotary`]): what holds for legs that
-/// change their lengths does not hold for it, and [`parse_with_cranks`] reads it.
+/// change their lengths does not hold for it, and [`parse_with_cranks`] reads it; so is one whose joints are not ideal ([`Code::NotIdeal`]).
 pub fn parse(text: &str, format: Format) -> Result<(Design, Vec<Warning>), Vec<Violation>> {
     read(text, format, false)
 }
 
-/// Reads a design from text, also one whose legs are rods on cranks (`drive = "rotary"`).
+/// Reads a design from text, also one whose legs are rods on cranks (`drive = "rotary"`), or whose joints are not ideal
+/// ([`Hardware::is_coupled`](crate::requirements::Hardware::is_coupled)), so that the lengths of its drives are not the distances of its joints.
 ///
 /// The base joints of such a design are the centres of its cranks: [`Design::manipulator`] joins them to the platform and says nothing of the rods. Ask [`Design::rotary`] for cranks and rods.
 ///

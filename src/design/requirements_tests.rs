@@ -103,7 +103,7 @@ fn what_contradicts_itself_is_refused() {
         23:1 design::missing_key: `cylinder_length` without `rod_diameter` | add `rod_diameter`, or remove `cylinder_length`
         22:1 design::missing_key: `rod_diameter` without `leg_diameter` | add `leg_diameter`, or remove `rod_diameter`
         24:1 design::missing_key: `leg_clearance` without `leg_diameter` | add `leg_diameter`, or remove `leg_clearance`
-        28:1 design::missing_key: `base_axes` without `base_swing_deg` | add `base_swing_deg`, or remove `base_axes`
+        28:1 design::missing_key: `base_axes` without `base_swing_deg` | add `base_swing_deg` or universal joints, or remove `base_axes`
         28:18 design::out_of_range: `base_swing_deg` is 200 | stay within 180 degrees
         31:17 design::wrong_type: `platform_axes` is not a choice of axes | write "home", "optimize" or six vectors in leg order
         29:58 design::not_positive: an axis of `base_axes` is zero | give a direction
@@ -349,4 +349,88 @@ fn holes_on_circles_and_of_one_plate_are_read_and_written_back() {
         let violations = parse(&text(holes), Format::Toml).unwrap_err();
         assert_eq!(violations[0].code, code, "{holes}: {violations:?}");
     }
+}
+
+/// Kinds of joints, which stand in tables of `[hardware]`.
+const JOINTS: &str = "platform_axes = \"optimize\"\n";
+
+#[test]
+fn kinds_of_joints_are_read_scaled_and_written_back_to_the_bit() {
+    let tables = "screw_lead = -4.5
+base_joint = { model = \"universal\", first_axis = [3, 0, 4], angle_deg = [120, 40.5], offset = 2 }
+platform_joint = { model = \"universal\", first_axis = [[1, 0, 0], [0, 1, 0], [1, 1, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1]] }
+";
+    let text = GOOD.replacen(JOINTS, tables, 1);
+    let refused = parse(&text, Format::Toml).unwrap_err();
+    assert_eq!(
+        (refused.len(), refused[0].code),
+        (1, Code::NotIdeal),
+        "distances of joints are no lengths of drives"
+    );
+    let design = parse_with_cranks(&text, Format::Toml).unwrap().0;
+    let base = design.hardware.base_universal.unwrap();
+    assert_eq!(
+        (base.limits_deg, base.offset, design.hardware.screw_lead),
+        (Some([120.0, 40.5]), 2.0, Some(-4.5))
+    );
+    assert!(
+        base.first_axes
+            .iter()
+            .all(|a| (a.into_inner() - nalgebra::Vector3::new(0.6, 0.0, 0.8)).norm() < 1e-15)
+    );
+    assert!(matches!(base.axes, JointAxes::Given(_)), "the axes that swing has");
+    let platform = design.hardware.platform_universal.unwrap();
+    assert_eq!((platform.limits_deg, platform.axes), (None, JointAxes::Home));
+    assert!((platform.first_axes[2].x - 0.5f64.sqrt()).abs() < 1e-15);
+    for format in [Format::Toml, Format::Json] {
+        let text = match format {
+            Format::Toml => design.to_toml(),
+            Format::Json => design.to_json(),
+        };
+        assert_eq!(parse_with_cranks(&text, format).unwrap().0, design, "{text}");
+    }
+    // flexures bend within the swing and are ideal joints
+    let flexure = format!("{JOINTS}platform_joint = {{ model = \"flexure\", bending_stiffness = 7e3 }}\n");
+    let design = parse(&GOOD.replacen(JOINTS, &flexure, 1), Format::Toml).unwrap().0;
+    assert_eq!((design.hardware.platform_bending, design.hardware.base_bending), (Some(7e3), None));
+    assert_eq!(parse(&design.to_toml(), Format::Toml).unwrap().0, design);
+    let ideal = GOOD.replacen(JOINTS, "base_joint = { model = \"universal\", first_axis = [1, 0, 0] }\n", 1);
+    let ideal = parse(&ideal, Format::Toml).unwrap().0;
+    assert!(!ideal.hardware.is_coupled() && ideal.to_toml().contains("first_axis = [1.0, 0.0, 0.0]"));
+}
+
+#[test]
+fn kinds_of_joints_that_say_too_little_or_too_much_are_refused() {
+    let universal = "base_joint = { model = \"universal\", first_axis = [1, 0, 0] }\n";
+    for (line, code) in [
+        ("base_joint = { first_axis = [1, 0, 0] }\n", Code::MissingKey),
+        ("base_joint = { model = \"cardan\" }\n", Code::WrongType),
+        ("base_joint = { model = \"universal\" }\n", Code::MissingKey),
+        ("base_joint = { model = \"ball\", offset = 1 }\n", Code::ConflictingKeys),
+        ("base_joint = { model = \"universal\", first_axis = [0, 0, 0] }\n", Code::NotPositive),
+        ("base_joint = { model = \"universal\", first_axis = [0, 0] }\n", Code::WrongType),
+        (
+            "base_joint = { model = \"universal\", first_axis = [1, 0, 0], angle_deg = [50, 90] }\n",
+            Code::OutOfRange,
+        ),
+        ("base_joint = { model = \"universal\", first_axis = [1, 0, 0], angle_deg = 40 }\n", Code::WrongType),
+        ("base_joint = { model = \"universal\", first_axis = [1, 0, 0], offset = -1 }\n", Code::NotPositive),
+        // the first two axes of the file
+        ("base_joint = { model = \"universal\", first_axis = [0, 0, 1] }\n", Code::OutOfRange),
+        ("base_joint = { model = \"flexure\" }\n", Code::MissingKey),
+        ("base_joint = { model = \"flexure\", bending_stiffness = 0 }\n", Code::NotPositive),
+        ("screw_lead = 5\n", Code::MissingKey),
+        (
+            "platform_axes = \"optimize\"\nplatform_joint = { model = \"universal\", first_axis = [1, 0, 0] }\n",
+            Code::ConflictingKeys,
+        ),
+    ] {
+        let violations = parse_with_cranks(&GOOD.replacen(JOINTS, line, 1), Format::Toml).unwrap_err();
+        assert!(violations.iter().all(|v| v.code == code) && violations.len() < 3, "{line} {violations:?}");
+    }
+    let without = GOOD.replacen("platform_swing_deg = 60\n", "", 1);
+    let flexure = "platform_joint = { model = \"flexure\", bending_stiffness = 2 }\n";
+    let violations = parse(&without.replacen(JOINTS, flexure, 1), Format::Toml).unwrap_err();
+    assert_eq!(violations[0].code, Code::MissingKey, "a flexure without a greatest angle");
+    assert!(parse(&without.replacen(JOINTS, universal, 1), Format::Toml).is_ok());
 }

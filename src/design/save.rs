@@ -13,7 +13,7 @@ use crate::manipulator::Body;
 use crate::requirements::{
     Envelope, Envelopes, ForceUnit, Grid, Hardware, HolePattern, Housing, JointAxes, KeepOut, KeepOutShape,
     KeptSymmetry, LegPart, LengthLimits, ListedFrom, Load, MassUnit, Payload, Region, Reserve, Reserves,
-    Swing, TermKind,
+    TermKind, UniversalJoint,
 };
 use crate::rotary::Elbow;
 
@@ -739,6 +739,8 @@ pub(super) struct HardwareTable {
     #[serde(skip_serializing_if = "Option::is_none")]
     platform_axes: Option<AxesValue>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    screw_lead: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     max_leg_force: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     max_leg_speed: Option<f64>,
@@ -758,6 +760,10 @@ pub(super) struct HardwareTable {
     rod_inertia: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     reflected_mass: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    base_joint: Option<JointTable>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    platform_joint: Option<JointTable>,
 }
 
 fn housing(h: Housing) -> HousingValue {
@@ -768,8 +774,53 @@ fn housing(h: Housing) -> HousingValue {
 }
 
 /// The default is left out.
-fn axes(s: Swing) -> Option<AxesValue> {
-    match s.axes {
+/// `base_joint` and `platform_joint`.
+#[derive(Serialize)]
+struct JointTable {
+    model: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    first_axis: Option<FirstAxisValue>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    angle_deg: Option<[f64; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    offset: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    bending_stiffness: Option<f64>,
+}
+
+/// One direction for all joints, or six.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum FirstAxisValue {
+    One([f64; 3]),
+    Six([[f64; 3]; 6]),
+}
+
+/// Balls are left out.
+fn joint(universal: Option<&UniversalJoint>, bending: Option<f64>) -> Option<JointTable> {
+    if let Some(joint) = universal {
+        let all: [[f64; 3]; 6] = joint.first_axes.map(|a| a.into_inner().into());
+        let bits = |a: &[f64; 3]| a.map(f64::to_bits);
+        let same = all.iter().all(|a| bits(a) == bits(&all[0]));
+        return Some(JointTable {
+            model: "universal",
+            first_axis: Some(if same { FirstAxisValue::One(all[0]) } else { FirstAxisValue::Six(all) }),
+            angle_deg: joint.limits_deg,
+            offset: (joint.offset != 0.0).then_some(joint.offset),
+            bending_stiffness: None,
+        });
+    }
+    bending.map(|stiffness| JointTable {
+        model: "flexure",
+        first_axis: None,
+        angle_deg: None,
+        offset: None,
+        bending_stiffness: Some(stiffness),
+    })
+}
+
+fn axes(axes: JointAxes) -> Option<AxesValue> {
+    match axes {
         JointAxes::Home => None,
         JointAxes::Optimize => Some(AxesValue::Word("optimize")),
         JointAxes::Given(axes) => Some(AxesValue::Given(axes.map(|a| a.into_inner().into()))),
@@ -805,8 +856,9 @@ impl HardwareTable {
             stroke: drive.map(|d| d.1),
             base_swing_deg: h.base_swing.map(|s| s.limit_deg),
             platform_swing_deg: h.platform_swing.map(|s| s.limit_deg),
-            base_axes: h.base_swing.and_then(axes),
-            platform_axes: h.platform_swing.and_then(axes),
+            base_axes: h.axes(Body::Base).and_then(axes),
+            platform_axes: h.axes(Body::Platform).and_then(axes),
+            screw_lead: h.screw_lead,
             max_leg_force: h.max_leg_force,
             max_leg_speed: h.max_leg_speed,
             leg_stiffness: h.leg_stiffness,
@@ -817,6 +869,8 @@ impl HardwareTable {
             rod_center: rod_body.map(|p| p.center),
             rod_inertia: rod_body.map(|p| p.inertia),
             reflected_mass: h.leg_masses.map(|m| m.reflected).filter(|x| *x > 0.0),
+            base_joint: joint(h.base_universal.as_ref(), h.base_bending),
+            platform_joint: joint(h.platform_universal.as_ref(), h.platform_bending),
         })
     }
 }

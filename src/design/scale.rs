@@ -166,6 +166,13 @@ impl Design {
         length(&mut hardware.joint_diameter);
         length(&mut hardware.leg_clearance);
         length(&mut hardware.max_leg_speed);
+        length(&mut hardware.screw_lead);
+        // torques are force units times the unit of length
+        length(&mut hardware.base_bending);
+        length(&mut hardware.platform_bending);
+        for joint in [&mut hardware.base_universal, &mut hardware.platform_universal].into_iter().flatten() {
+            joint.offset = ratio.of(joint.offset);
+        }
         hardware.leg_stiffness = hardware.leg_stiffness.map(|k| ratio.inverse().of(k));
         if let Some(masses) = &mut hardware.leg_masses {
             for part in [&mut masses.cylinder, &mut masses.rod] {

@@ -71,6 +71,8 @@ pub enum Code {
     NoLine,
     /// Rods on cranks where legs that change their lengths are asked for.
     Rotary,
+    /// Joints that are not ideal where the length of a drive is taken for the distance of its joints.
+    NotIdeal,
     /// Expressions or constructions longer or more than any design needs.
     TooComplex,
     /// More violations than are worth listing.
@@ -113,6 +115,7 @@ impl Code {
             Self::NegativeRoot => "design::negative_root",
             Self::NoLine => "design::no_line",
             Self::Rotary => "design::rotary",
+            Self::NotIdeal => "design::not_ideal",
             Self::TooComplex => "design::too_complex",
             Self::TooMany => "design::too_many",
         }

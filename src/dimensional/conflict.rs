@@ -11,7 +11,7 @@ use crate::num::conic::{Cone, ConicAnswer, ConicProgram, ConicRow};
 use crate::num::farkas::{EnclosedRow, refuted};
 use crate::num::interval::Interval;
 use crate::num::parallel::parallel;
-use crate::requirements::TermKind;
+use crate::requirements::{HingeAngle, TermKind};
 
 fn no_objective(model: &Model<'_>, dropped: Vec<ConstraintGroup>) -> Task {
     let n = model.objectives.len();
@@ -166,15 +166,24 @@ fn amounts(model: &Model<'_>, poses: &[HeldPose], x: &[f64], task: &Task) -> BTr
         let l = LegLines::new(&ends, at);
         model.terms.visit(&l, &ends, x, &mut |item: Item<()>| {
             let (kind, leg) = (item.id.0, item.id.1);
-            let lean = |limit: f64| {
-                let cos = limit.to_radians().cos() + item.value * model.terms.size / l.length[leg];
+            let beyond = |limit: f64, length: f64| {
+                let cos = limit.to_radians().cos() + item.value * model.terms.size / length;
                 cos.clamp(-1.0, 1.0).acos().to_degrees() - limit
             };
+            let lean = |limit: f64| beyond(limit, l.length[leg]);
+            let hinge = kind.hinge().zip(h.angle_limit_deg(kind));
             let miss = match kind {
                 TermKind::BaseSwing => h.base_swing.map_or(0.0, |s| lean(s.limit_deg - reserve(kind))),
                 TermKind::PlatformSwing => {
                     h.platform_swing.map_or(0.0, |s| lean(s.limit_deg - reserve(kind)))
                 }
+                kind if kind.hinge().is_some() => match hinge {
+                    Some(((body, HingeAngle::First), limit)) => {
+                        beyond(limit - reserve(kind), model.terms.across_first_axis(&l, body, leg))
+                    }
+                    Some(((_, HingeAngle::Second), limit)) => lean(90.0 + limit - reserve(kind)),
+                    None => 0.0,
+                },
                 TermKind::LegForce => -item.value * h.max_leg_force.unwrap_or(1.0),
                 TermKind::LegSpeed => -item.value * h.max_leg_speed.unwrap_or(1.0),
                 TermKind::LinearStiffness | TermKind::AngularStiffness => -item.value * least(kind),

@@ -4,7 +4,7 @@ use nalgebra::{Point3, Vector3};
 use thiserror::Error;
 
 use crate::geom::Pose;
-use crate::manipulator::{Manipulator, NotOctahedral, Octahedral};
+use crate::manipulator::{Body, Manipulator, NotOctahedral, Octahedral};
 use crate::requirements::{JointAxes, KeptSymmetry, Objective, PoseSpace, Requirements, VariableKind};
 use crate::synthesis::components::ComponentsError;
 
@@ -181,6 +181,11 @@ pub enum InvalidProblem {
     /// Axes are chosen for swing limits below 90 degrees only.
     #[error("joint axes can be chosen for swing limits below 90 degrees only, and this limit is {0} degrees")]
     SwingTooWide(f64),
+    /// Axes of universal joints are not chosen.
+    #[error(
+        "the axes of universal joints are not chosen: joint_axes is for ball joints, and the {0} has universal ones"
+    )]
+    UniversalAxes(Body),
     /// A design without the symmetry that is to be kept.
     #[error("symmetry = \"three_fold\" needs a design that has it, and {why}")]
     NotThreeFold {
@@ -241,6 +246,11 @@ impl DimensionalProblem {
                 && swing.limit_deg >= 90.0
             {
                 return Err(InvalidProblem::SwingTooWide(swing.limit_deg));
+            }
+        }
+        for body in Body::BOTH {
+            if hardware.universal(body).is_some() && self.axes_wanted()[body.index()] {
+                return Err(InvalidProblem::UniversalAxes(body));
             }
         }
         self.validate_symmetry()?;

@@ -12,7 +12,8 @@ use crate::geom::Pose;
 use crate::manipulator::Body;
 use crate::requirements;
 use crate::requirements::{
-    Envelope, Housing, JointAxes, KeepOut, LegBody, Load, Requirements, Swing, TermKind,
+    Envelope, HingeAngle, Housing, JointAxes, KeepOut, LegBody, Load, Requirements, Swing, TermKind,
+    UniversalJoint,
 };
 
 /// A pose at which the requirements are held.
@@ -134,6 +135,7 @@ impl<'a> RequirementTerms<'a> {
     ) {
         self.lengths(l, see);
         self.swing(l, ends, x, see);
+        self.hinges(l, ends, see);
         self.clearances(l, see);
         self.forces(l, see);
         self.speeds(l, see);
@@ -230,6 +232,85 @@ impl<'a> RequirementTerms<'a> {
         };
         pull.line(i, (axis - l.direction[i] * cos) / self.size);
         Item { id: (kind, i, i, 0), value: (d.dot(&axis) - cos * l.length[i]) / self.size, pull, exact }
+    }
+
+    /// Angles of universal joints: `(d.n - cos(limit) |d'|) / size` for the first, `d'` the part of the line across the first axis, and `(sin(limit) |d| -+ d.a) / size` for both sides of the
+    /// second.
+    fn hinges<P: Gradient>(&self, l: &LegLines, ends: &JointEnds, see: &mut impl FnMut(Item<P>)) {
+        let hardware = &self.required.hardware;
+        for kind in TermKind::HINGES {
+            let Some((body, angle)) = kind.hinge() else { continue };
+            let (Some(limit), Some(joint)) = (hardware.angle_limit_deg(kind), hardware.universal(body))
+            else {
+                continue;
+            };
+            let limit = (limit - self.required.reserve(kind)).to_radians();
+            for i in 0..6 {
+                let first = joint.first_axes[i].into_inner();
+                match angle {
+                    HingeAngle::First => see(self.first_angle_of(l, ends, (body, kind, i), &joint, limit)),
+                    HingeAngle::Second => {
+                        let first = if body == Body::Base { first } else { l.rotation * first };
+                        for (part, side) in [1.0, -1.0].into_iter().enumerate() {
+                            let value = limit.sin() * l.length[i] - side * l.line[i].dot(&first);
+                            let mut pull = P::none();
+                            pull.line(i, (l.direction[i] * limit.sin() - first * side) / self.size);
+                            see(Item { id: (kind, i, i, part), value: value / self.size, pull, exact: None });
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    fn first_angle_of<P: Gradient>(
+        &self,
+        l: &LegLines,
+        ends: &JointEnds,
+        (body, kind, i): (Body, TermKind, usize),
+        joint: &UniversalJoint,
+        limit: f64,
+    ) -> Item<P> {
+        let (turn, home) = if body == Body::Base {
+            (nalgebra::Rotation3::identity(), nalgebra::Rotation3::identity())
+        } else {
+            (l.rotation, self.home.rotation)
+        };
+        // everything in the frame of the body
+        let first = joint.first_axes[i].into_inner();
+        let across = |v: &Vector3<f64>| first.cross(&v.cross(&first));
+        let d = turn.inverse() * l.line[i];
+        let aside = across(&d);
+        let at_home = self.home.rotation * ends.platform[i] + self.home.position + ends.lift - ends.base[i];
+        let axis = match joint.axes {
+            JointAxes::Given(axes) => axes[i].into_inner(),
+            JointAxes::Home | JointAxes::Optimize => home.inverse() * at_home.normalize(),
+        };
+        let spread = across(&axis);
+        let id = (kind, i, i, 0);
+        let Some(rest) = spread.try_normalize(0.0) else {
+            // no rest direction: as far from it as an angle can be
+            let value = -(1.0 + limit.cos()) * aside.norm() / self.size;
+            return Item { id, value, pull: P::none(), exact: None };
+        };
+        let mut pull = P::none();
+        if !matches!(joint.axes, JointAxes::Given(_)) {
+            let g = home * ((aside - rest * rest.dot(&aside)) / spread.norm());
+            let u = at_home.normalize();
+            pull.set_home(i, (g - u * u.dot(&g)) / (at_home.norm() * self.size));
+        }
+        let away = aside.try_normalize(0.0).unwrap_or_default();
+        pull.line(i, turn * (rest - away * limit.cos()) / self.size);
+        let value = d.dot(&rest) - limit.cos() * aside.norm();
+        Item { id, value: value / self.size, pull, exact: None }
+    }
+
+    /// The length of the part of a leg across the first axis of its universal joint.
+    pub(crate) fn across_first_axis(&self, l: &LegLines, body: Body, leg: usize) -> f64 {
+        let Some(joint) = self.required.hardware.universal(body) else { return l.length[leg] };
+        let first = joint.first_axes[leg].into_inner();
+        let first = if body == Body::Base { first } else { l.rotation * first };
+        first.cross(&l.line[leg]).norm()
     }
 
     fn clearances<P: Gradient>(&self, l: &LegLines, see: &mut impl FnMut(Item<P>)) {

@@ -17,7 +17,7 @@ use crate::num::Rng;
 use crate::requirements::{
     AssessOptions, Envelope, Envelopes, Housing, JointAxes, KeepOut, KeepOutShape, LegBody, LegMasses,
     LegPart, LengthLimits, Load, MovingBodies, Objective, PlatformSpeed, PlatformStiffness, PoseSpace,
-    Requirements, Swing, TermKind, VariableKind, VibratingMasses, assess,
+    Requirements, Swing, TermKind, Terms, UniversalJoint, VariableKind, VibratingMasses, assess,
 };
 
 fn octahedral() -> (Manipulator, Pose) {
@@ -118,8 +118,23 @@ fn tilted(p: &DimensionalProblem, follows: bool) -> HeldPose {
 #[test]
 fn gradients_are_those_of_differences() {
     let all = [VariableKind::Offsets, VariableKind::Triangles, VariableKind::HomeHeight];
-    for (axes, follows) in [(JointAxes::Home, true), (JointAxes::Optimize, false)] {
+    let tangents = std::array::from_fn(|i| Unit::new_normalize(Vector3::new(1.0, 0.3 * i as f64, 0.2)));
+    let given = std::array::from_fn(|i| Unit::new_normalize(Vector3::new(0.1, -0.2, 1.0 + i as f64)));
+    let joint = |axes, first| UniversalJoint {
+        first_axes: tangents,
+        limits_deg: Some([first, 40.0]),
+        axes,
+        offset: 0.0,
+    };
+    for (axes, follows, universal) in [
+        (JointAxes::Home, true, Some([joint(JointAxes::Home, 35.0), joint(JointAxes::Home, 100.0)])),
+        (JointAxes::Given(given), false, Some([joint(JointAxes::Given(given), 35.0); 2])),
+        (JointAxes::Optimize, false, None),
+    ] {
         let mut p = crowded(&all, axes);
+        let h = &mut p.requirements.hardware;
+        (h.base_universal, h.platform_universal) = (universal.map(|u| u[0]), universal.map(|u| u[1]));
+        let expected = if universal.is_some() { 21 } else { 17 };
         p.objectives = Objective::ALL.map(|o| (o, 1.0)).to_vec();
         let model = Model::new(&p).unwrap();
         let mut rng = Rng::new(4);
@@ -128,7 +143,7 @@ fn gradients_are_those_of_differences() {
         let at = |x: &[f64]| model.linearise(&poses, x, &task, 1.0, 100.0).unwrap();
         let here = at(&x);
         let kinds: std::collections::BTreeSet<ConstraintGroup> = here.items.iter().map(|i| i.group).collect();
-        assert_eq!(kinds.len(), 17, "every kind of requirement and the determinant: {kinds:?}");
+        assert_eq!(kinds.len(), expected, "every kind of requirement and the determinant: {kinds:?}");
         let h = 1e-6;
         for j in 0..x.len() {
             let moved = |s: f64| {
@@ -431,4 +446,42 @@ fn families_of_an_octahedral_design_are_its_offsets() {
         crate::synthesis::leg_map(&p.manipulator, &m, crate::synthesis::LegMapTolerances::default()).unwrap();
     let (own, det) = (model.shape.determinant(&x).unwrap().0, map.determinant);
     assert!((own - det).abs() < 1e-9 && det.abs() > 1e-3, "{own} {det}");
+}
+
+/// The functions of the angles of universal joints have the sign of the margins that `assess` has.
+#[test]
+fn angles_of_universal_joints_are_those_of_the_margins() {
+    let first_axes = std::array::from_fn(|i| Unit::new_normalize(Vector3::new(1.0, 0.5 * i as f64, 0.1)));
+    let mut signs = [0; 2];
+    for limit in [4.0, 9.0, 15.0] {
+        let mut p = problem(&[VariableKind::Offsets], Objective::WorstConditioning);
+        let joint = UniversalJoint {
+            first_axes,
+            limits_deg: Some([limit, 2.0 * limit]),
+            axes: JointAxes::Home,
+            offset: 0.0,
+        };
+        let h = &mut p.requirements.hardware;
+        (h.base_universal, h.platform_universal) = (Some(joint), Some(joint));
+        let model = Model::new(&p).unwrap();
+        let x = model.shape.start.clone();
+        let (at, ends) = (tilted(&p, true), model.shape.ends(&x));
+        let l = super::terms::LegLines::new(&ends, &at);
+        let margins = Terms::new(&p.manipulator, &p.requirements, &p.space.home).at(&at.pose);
+        model.terms.visit(&l, &ends, &x, &mut |item: super::terms::Item<()>| {
+            let (kind, leg) = (item.id.0, item.id.1);
+            if kind.hinge().is_none() {
+                return;
+            }
+            let margin = margins.iter().find(|(t, _)| t.kind == kind && t.first == leg).unwrap().1;
+            if item.id.3 == 0 && kind.hinge().unwrap().1 == crate::requirements::HingeAngle::First {
+                assert_eq!(item.value > 0.0, margin > 0.0, "{kind:?} {leg}");
+                signs[usize::from(margin > 0.0)] += 1;
+            } else {
+                // both sides hold where the margin is positive
+                assert!(item.value > 0.0 || margin < 0.0, "{kind:?} {leg}");
+            }
+        });
+    }
+    assert!(signs[0] > 0 && signs[1] > 0, "{signs:?}");
 }

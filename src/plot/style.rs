@@ -34,11 +34,15 @@ const HALO: &str = "halo";
 
 /// Fills of the limits that end a workspace, one for each kind, by its code: the same in every picture. Pale tones after a palette for colour-blind readers (P. Tol,
 /// 2021), dark and light by turns so that neighbours differ in grey print too.
-pub const LIMIT_FILLS: [(&str, &str); 17] = [
+pub const LIMIT_FILLS: [(&str, &str); 21] = [
     ("leg_too_short", "#4477aa"),
     ("leg_too_long", "#ee9988"),
     ("base_swing", "#228833"),
     ("platform_swing", "#e8d98a"),
+    ("base_first_angle", "#116644"),
+    ("base_second_angle", "#c6dba0"),
+    ("platform_first_angle", "#887711"),
+    ("platform_second_angle", "#f2dfb5"),
     ("leg_clearance", "#aa3377"),
     ("keep_out", "#bfe3ee"),
     ("leg_force", "#cc6611"),

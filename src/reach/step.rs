@@ -20,7 +20,7 @@ use nalgebra::Vector3;
 use super::{Reach, StraightWay};
 use crate::geom::Pose;
 use crate::manipulator::{Body, Leg};
-use crate::requirements::{Limit, Term, TermKind};
+use crate::requirements::{HingeAngle, Limit, Term, TermKind};
 
 /// The steps of a leg are so short that it keeps this share of its length.
 const KEPT: f64 = 0.75;
@@ -141,6 +141,32 @@ impl Reach<'_> {
                 let axis = pose.rotation * self.terms.axes()[1][term.first];
                 leg.swing(&leg.in_platform, &axis, s.limit_deg)
             }),
+            kind if kind.hinge().is_some() => {
+                let Some((body, angle)) = kind.hinge() else { return f64::INFINITY };
+                let (end, motion) = body.of(((0, &leg.in_base), (1, &leg.in_platform)));
+                let (Some(hinge), Some(limit)) =
+                    (self.terms.hinge(end, term.first), hardware.angle_limit_deg(kind))
+                else {
+                    return f64::INFINITY;
+                };
+                let first = if end == 0 { hinge.first } else { pose.rotation * hinge.first };
+                match angle {
+                    // the second angle is within its limit where neither end of the first axis is nearer to the leg than 90 degrees less the limit
+                    HingeAngle::Second => {
+                        let side = |axis: Vector3<f64>| leg.swing(motion, &axis, 90.0 + limit);
+                        side(first).min(side(-first))
+                    }
+                    HingeAngle::First => {
+                        let away = leg.length * leg.u.cross(&first).norm();
+                        let cap = if motion.speed > 0.0 {
+                            (1.0 - KEPT) * away / motion.speed
+                        } else {
+                            f64::INFINITY
+                        };
+                        lasts(margin.to_radians(), motion.speed / (KEPT * away)).min(cap).min(motion.cap)
+                    }
+                }
+            }
             TermKind::LegClearance => lasts(margin, base.speed + places[term.second].in_base.speed),
             TermKind::KeepOut => match self.required.keep_outs[term.second].fixed_to {
                 Body::Base => lasts(margin, base.speed),

@@ -9,7 +9,7 @@ use crate::manipulator::{Body, Manipulator, default_home};
 use crate::num::Rng;
 use crate::requirements::{
     Hardware, JointAxes, KeepOut, KeepOutShape, LegBody, LengthLimits, Limit, Load, PlatformSpeed,
-    Requirements, Swing, TermKind,
+    Requirements, Swing, TermKind, UniversalJoint,
 };
 
 /// Everything a pose can violate.
@@ -83,14 +83,14 @@ fn one_number_of_a_pose_moves_and_the_others_stay() {
     }
 }
 
-/// What ends 60 ways drawn about home, each compared with a search in small steps.
-fn ends_of_ways(m: &Manipulator, required: &Requirements, home: &Pose) -> BTreeSet<TermKind> {
+/// What ends ways drawn about home, each compared with a search in small steps.
+fn ends_of_ways(m: &Manipulator, required: &Requirements, home: &Pose, ways: usize) -> BTreeSet<TermKind> {
     let reach = Reach::new(m, required, home, 1.0);
     assert!(reach.allows(home), "{:?}", reach.violated(home));
     let mut rng = Rng::new(4);
     let mut kinds = BTreeSet::new();
     let mut judged = 0;
-    while judged < 60 {
+    while judged < ways {
         let way = drawn(home, &mut rng);
         if !reach.allows(&way.start) {
             continue;
@@ -123,17 +123,17 @@ fn the_free_part_of_a_way_is_that_of_a_fine_search() {
     let m = symmetric_hexapod(2.0, 1.0);
     let home = default_home(&m);
     let mut required = required(&m, &home);
-    let mut kinds = ends_of_ways(&m, &required, &home);
+    let mut kinds = ends_of_ways(&m, &required, &home, 60);
     // without lengths and swing the others bind
     required.hardware =
         Hardware { leg_length: None, base_swing: None, platform_swing: None, ..required.hardware };
-    kinds.extend(ends_of_ways(&m, &required, &home));
+    kinds.extend(ends_of_ways(&m, &required, &home, 60));
     required.hardware.max_leg_force = None;
-    kinds.extend(ends_of_ways(&m, &required, &home));
+    kinds.extend(ends_of_ways(&m, &required, &home, 60));
     required.hardware.max_leg_speed = None;
-    kinds.extend(ends_of_ways(&m, &required, &home));
+    kinds.extend(ends_of_ways(&m, &required, &home, 60));
     required.keep_outs.clear();
-    kinds.extend(ends_of_ways(&m, &required, &home));
+    kinds.extend(ends_of_ways(&m, &required, &home, 60));
     assert!(kinds.len() >= 6, "{kinds:?}");
 }
 
@@ -285,4 +285,24 @@ fn without_an_allowed_pose_there_is_none_nearest() {
     let axis = Unit::new_normalize(Vector3::x());
     let asked = Pose { rotation: Rotation3::from_axis_angle(&axis, 0.1), ..home };
     assert!(reach.nearest(&asked, &NearestPoseOptions::default()).is_none());
+}
+
+/// Ways end where an angle of a universal joint reaches its limit, and not before.
+#[test]
+fn universal_joints_end_ways_where_a_fine_search_finds_it() {
+    let m = symmetric_hexapod(2.0, 1.0);
+    let home = default_home(&m);
+    let first_axes = std::array::from_fn(|i| {
+        let (s, c) = (i as f64).sin_cos();
+        nalgebra::Unit::new_normalize(Vector3::new(c, s, 0.1))
+    });
+    let joint =
+        |limits| UniversalJoint { first_axes, limits_deg: Some(limits), axes: JointAxes::Home, offset: 0.0 };
+    let hardware = Hardware {
+        base_universal: Some(joint([25.0, 50.0])),
+        platform_universal: Some(joint([45.0, 75.0])),
+        ..Hardware::default()
+    };
+    let kinds = ends_of_ways(&m, &Requirements { hardware, ..Requirements::default() }, &home, 12);
+    assert!(kinds.len() >= 2, "{kinds:?}");
 }

@@ -4,7 +4,7 @@ use num_complex::Complex64;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{ComplexRecord, FailureRecord, NearRecord, Number};
+use super::{ComplexRecord, DriveSolutionRecord, FailureRecord, NearRecord, Number};
 use crate::design::Design;
 use crate::distance::SingularFactor;
 use crate::fk::{
@@ -87,6 +87,9 @@ pub struct FkOneAnswer {
     /// How the pose was followed, with `--near`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub near: Option<NearRecord>,
+    /// What the corrections of joints that are not ideal came to; the lengths are then those of drives, and no certificate is given of a root.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub drives: Option<DriveSolutionRecord>,
     /// The exact closure polynomial, with `--method trilateration`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub closure: Option<ClosureRecord>,
@@ -94,7 +97,7 @@ pub struct FkOneAnswer {
 
 impl From<SolvedRecord> for FkOneAnswer {
     fn from(solved: SolvedRecord) -> Self {
-        Self { solved, angles_deg: None, near: None, closure: None }
+        Self { solved, angles_deg: None, near: None, drives: None, closure: None }
     }
 }
 

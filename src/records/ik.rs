@@ -3,7 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Number, PoseRecord, RotaryIkRecord, RotaryIkRowsAnswer};
+use super::{DriveLengthsRecord, Number, PoseRecord, RotaryIkRecord, RotaryIkRowsAnswer};
+use crate::coupled::{CoupledLegs, DriveState};
 use crate::design::Design;
 use crate::geom::Pose;
 use crate::manipulator::{inverse_condition, jacobian};
@@ -40,8 +41,11 @@ pub struct IkRecord {
     pub time: Option<f64>,
     /// The pose.
     pub pose: PoseRecord,
-    /// The six lengths in leg order, design units.
+    /// The six distances of the joints in leg order, design units.
     pub lengths: [f64; 6],
+    /// The lengths of the drives, where joints are not ideal; `within_limits`, `outside`, `J` and the angles are then those of drives and real axes, and there are no margins.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub drives: Option<DriveLengthsRecord>,
     /// Whether all lengths are within `leg_length`, the ends included; null: the design limits none.
     pub within_limits: Option<bool>,
     /// The legs that are too short or too long, from 1.
@@ -54,6 +58,9 @@ pub struct IkRecord {
     pub jacobian: [[Number; 6]; 6],
     /// Smallest over largest singular value of the Jacobian with moments over the characteristic length of the design: 1 at best, 0 at a singular pose.
     pub inverse_condition: Number,
+    /// What the flexures do to the platform when they bend, where the design has some.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub flexures: Option<FlexureRecord>,
     /// The least margin of each kind of requirement at this pose.
     pub margins: Vec<PoseMarginRecord>,
 }
@@ -69,6 +76,15 @@ pub struct JointAnglesRecord {
     pub base_universal_deg: [[Number; 2]; 6],
     /// The same at the platform, in its frame, for the direction from base to platform.
     pub platform_universal_deg: [[Number; 2]; 6],
+}
+
+/// The wrench of the flexures on the platform about its origin, base frame.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct FlexureRecord {
+    /// Force units.
+    pub force: [Number; 3],
+    /// Force units times design units.
+    pub torque: [Number; 3],
 }
 
 /// By how much a kind of requirement is met at a pose.
@@ -118,13 +134,45 @@ impl IkRecord {
             time: None,
             pose: pose.into(),
             lengths,
+            drives: None,
             within_limits: limits.map(|_| outside.is_empty()),
             outside,
             joints: JointAnglesRecord::new(&terms.joint_angles(pose)),
             jacobian: std::array::from_fn(|i| std::array::from_fn(|j| Number(rows[(i, j)]))),
             inverse_condition: Number(inverse_condition(&scaled)),
+            flexures: terms.flexure_wrench(pose).map(|wrench| {
+                let three = |v: &nalgebra::Vector3<f64>| [v.x, v.y, v.z].map(Number);
+                FlexureRecord { force: three(&wrench.force), torque: three(&wrench.torque) }
+            }),
             margins: PoseMarginRecord::all(design, terms, pose),
         }
+    }
+
+    /// The same where joints are not ideal, with the legs at the pose.
+    #[must_use]
+    pub(crate) fn with_drives(
+        mut self,
+        design: &Design,
+        terms: &Terms<'_>,
+        pose: &Pose,
+        states: &[DriveState; 6],
+    ) -> Self {
+        let drives = DriveLengthsRecord::new(&self.lengths, states);
+        if let Some((least, greatest)) = design.hardware.leg_length.map(|limits| limits.range()) {
+            self.outside =
+                (1..=6).filter(|leg| !(least..=greatest).contains(&drives.lengths[leg - 1])).collect();
+            self.within_limits = Some(self.outside.is_empty());
+        }
+        self.joints = JointAnglesRecord::new(&terms.angles_of(&states.map(|s| s.line), pose));
+        let rows = CoupledLegs::jacobian(states, 1.0);
+        self.jacobian = std::array::from_fn(|i| std::array::from_fn(|j| Number(rows[(i, j)])));
+        let scaled = CoupledLegs::jacobian(states, design.characteristic_length());
+        self.inverse_condition = Number(inverse_condition(&scaled));
+        self.margins.clear();
+        // they bend about centres of ideal joints
+        self.flexures = None;
+        self.drives = Some(drives);
+        self
     }
 }
 

@@ -1,5 +1,7 @@
 //! Sizes and limits of joints, legs and drives.
 
+use super::term::TermKind;
+use super::universal::{HingeAngle, UniversalJoint};
 use crate::manipulator::Body;
 use nalgebra::{Unit, Vector3};
 
@@ -161,6 +163,16 @@ pub struct Hardware {
     pub base_swing: Option<Swing>,
     /// Swing of the platform joints.
     pub platform_swing: Option<Swing>,
+    /// Universal joints of the base; none where the joints turn freely in a cone.
+    pub base_universal: Option<UniversalJoint>,
+    /// Universal joints of the platform.
+    pub platform_universal: Option<UniversalJoint>,
+    /// Bending stiffness of the flexures of the base, force units times design units per radian; none where the joints turn freely.
+    pub base_bending: Option<f64>,
+    /// Bending stiffness of the flexures of the platform.
+    pub platform_bending: Option<f64>,
+    /// What a leg becomes longer by when its platform end makes a turn about it, by the right hand about the direction from base to platform, against the base end, design units.
+    pub screw_lead: Option<f64>,
     /// Greatest force along a leg, push or pull, force units.
     pub max_leg_force: Option<f64>,
     /// Greatest speed of a leg, design units per second.
@@ -177,6 +189,39 @@ impl Hardware {
     pub fn housing(&self, body: Body) -> Option<Housing> {
         let own = body.of((self.base_housing, self.platform_housing));
         own.or(self.joint_diameter.map(Housing::Sphere))
+    }
+
+    /// The universal joints of a body, where it has some.
+    #[must_use]
+    pub fn universal(&self, body: Body) -> Option<UniversalJoint> {
+        body.of((self.base_universal, self.platform_universal))
+    }
+
+    /// Where the axes of the joints of a body point, where something is measured from them.
+    #[must_use]
+    pub fn axes(&self, body: Body) -> Option<JointAxes> {
+        let swing = body.of((self.base_swing, self.platform_swing)).map(|s| s.axes);
+        swing.or(self.universal(body).map(|joint| joint.axes))
+    }
+
+    /// The limit of an angle of universal joints, degrees; `None` where there is none, and for other kinds.
+    pub(crate) fn angle_limit_deg(&self, kind: TermKind) -> Option<f64> {
+        let (body, angle) = kind.hinge()?;
+        let limits = self.universal(body)?.limits_deg?;
+        Some(match angle {
+            HingeAngle::First => limits[0],
+            HingeAngle::Second => limits[1],
+        })
+    }
+
+    /// `true` where the length of a drive is not the distance of its joints: universal joints whose axes do not meet, or screws that couple the turn of a leg about itself to its
+    /// length.
+    #[must_use]
+    pub fn is_coupled(&self) -> bool {
+        let apart = |joint: Option<UniversalJoint>| joint.is_some_and(|j| j.offset != 0.0);
+        apart(self.base_universal)
+            || apart(self.platform_universal)
+            || self.screw_lead.is_some_and(|lead| lead != 0.0)
     }
 }
 

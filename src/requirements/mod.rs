@@ -9,6 +9,7 @@ mod bodies;
 mod bound;
 mod conditioning;
 mod envelope;
+mod flexure;
 mod goal;
 mod hardware;
 mod holes;
@@ -22,6 +23,7 @@ mod standing;
 mod term;
 #[cfg(test)]
 mod tests;
+mod universal;
 mod vibration;
 
 pub use crate::geom::{ListedFrom, PoseSpace, Region};
@@ -33,6 +35,7 @@ pub use bound::{MarginBound, MarginProof, MarginVerdict, prove};
 pub use conditioning::{LeastConditioning, least_conditioning};
 pub use envelope::{Envelope, Envelopes};
 pub(crate) use envelope::{ball, room};
+pub use flexure::Wrench;
 pub use goal::{KeptSymmetry, Objective, VariableKind};
 pub use hardware::{Hardware, Housing, JointAxes, LegBody, LegMasses, LegPart, LengthLimits, Swing};
 pub use holes::{Grid, HoleCircle, HoleCircles, HolePattern};
@@ -44,6 +47,8 @@ pub use payload::{ForceUnit, GRAVITY, MassUnit, Payload};
 pub use reserve::{Reserve, Reserves};
 pub use standing::Standing;
 pub use term::{Quantity, Term, TermKind, Terms};
+pub(crate) use universal::HingeAngle;
+pub use universal::UniversalJoint;
 pub use vibration::{
     LeastStiffness, PlatformStiffness, VibratingMasses, Vibration, least_stiffness, least_stiffness_at,
     lowest_frequency, mass_matrix, stiffness_matrix, vibration,

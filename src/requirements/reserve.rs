@@ -67,6 +67,10 @@ impl Requirements {
             }),
             TermKind::BaseSwing => h.base_swing.map_or(0.0, |s| s.limit_deg),
             TermKind::PlatformSwing => h.platform_swing.map_or(0.0, |s| s.limit_deg),
+            TermKind::BaseFirstAngle
+            | TermKind::BaseSecondAngle
+            | TermKind::PlatformFirstAngle
+            | TermKind::PlatformSecondAngle => h.angle_limit_deg(kind).unwrap_or(0.0),
             TermKind::LegClearance | TermKind::KeepOut => h.leg_body.map_or(0.0, |b| b.diameter),
             TermKind::LegForce => h.max_leg_force.unwrap_or(0.0),
             TermKind::LegSpeed => h.max_leg_speed.unwrap_or(0.0),

@@ -1,6 +1,7 @@
 //! What a margin says when the rounding of its own evaluation is kept in mind.
 
 use super::term::{Quantity, TermKind, Terms};
+use super::universal::HingeAngle;
 use crate::geom::Pose;
 use crate::manipulator::{inverse_condition, jacobian};
 
@@ -44,10 +45,23 @@ impl Terms<'_> {
         }
     }
 
+    /// By how much an error of the direction of a leg is greater in an angle: more than 1 for first angles of universal joints near their first axes.
+    fn amplification(&self, kind: TermKind, pose: Option<&Pose>) -> f64 {
+        let (Some((body, HingeAngle::First)), Some(pose)) = (kind.hinge(), pose) else { return 1.0 };
+        let end = body.index();
+        let legs = self.manipulator.legs();
+        let of = |i: usize| {
+            let line = pose.transform(&legs[i].platform) - legs[i].base;
+            let line = if end == 0 { line } else { pose.rotation.inverse() * line };
+            self.hinge(end, i).map_or(1.0, |hinge| hinge.amplification(&line, &self.axes()[end][i]))
+        };
+        (0..6).map(of).fold(1.0, f64::max)
+    }
+
     /// Bound of the rounding of a margin, in its unit.
     ///
     /// Lengths: `64 eps` (1.4e-14) times `r`, the sum of the greatest distances of a joint from the origin of its body and of the distance of the
-    /// platform from the base origin. Angles: the same over the shortest leg. Speeds: `64 eps` times the greatest speed times `r` over the shortest leg.
+    /// platform from the base origin. Angles: the same over the shortest leg, and for first angles of universal joints times `1 / sin(u, a) + 1 / sin(k, a)` of leg, axis and first axis. Speeds: `64 eps` times the greatest speed times `r` over the shortest leg.
     /// Forces: `64 eps` times the greatest force over the inverse condition number of the Jacobian. Stiffness and frequency: that of angles and of forces together, times twice the least one asked for. Never more than `1e-9` radians, or `1e-9` of the greatest speed
     /// or force, or of twice the least stiffness or frequency.
     #[must_use]
@@ -66,7 +80,7 @@ impl Terms<'_> {
         let hardware = &self.required.hardware;
         match kind.quantity() {
             Quantity::Length => SHARE * reach,
-            Quantity::Angle => turn().to_degrees(),
+            Quantity::Angle => (turn() * self.amplification(kind, pose)).min(MOST).to_degrees(),
             Quantity::Speed => turn() * hardware.max_leg_speed.unwrap_or(0.0),
             Quantity::Force => (SHARE / conditioning()).min(MOST) * hardware.max_leg_force.unwrap_or(0.0),
             Quantity::LinearStiffness | Quantity::AngularStiffness | Quantity::Frequency => {

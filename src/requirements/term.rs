@@ -4,9 +4,10 @@ use nalgebra::{Point3, Unit, Vector3};
 
 use super::Requirements;
 use super::envelope::{ball, room};
-use super::hardware::{JointAxes, LegBody, Swing};
+use super::hardware::{JointAxes, LegBody};
 use super::keep_out::KeepOut;
 use super::load::leg_forces;
+use super::universal::{Hinge, HingeAngle};
 use super::vibration::{least_stiffness_at, lowest_frequency};
 use crate::geom::{Pose, segment_distance};
 use crate::manipulator::{Body, Manipulator, jacobian};
@@ -28,6 +29,14 @@ pub enum TermKind {
     BaseSwing,
     /// Swing limit minus the angle between leg and axis at the platform.
     PlatformSwing,
+    /// Limit minus the angle about the first axis of a universal joint at the base.
+    BaseFirstAngle,
+    /// Limit minus the angle about its second axis.
+    BaseSecondAngle,
+    /// Limit minus the angle about the first axis of a universal joint at the platform.
+    PlatformFirstAngle,
+    /// Limit minus the angle about its second axis.
+    PlatformSecondAngle,
     /// Gap between two legs minus the clearance required.
     LegClearance,
     /// Gap between a leg and a keep-out minus the clearance required.
@@ -75,11 +84,15 @@ pub enum Quantity {
 
 impl TermKind {
     /// Every kind.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 20] = [
         Self::LegTooShort,
         Self::LegTooLong,
         Self::BaseSwing,
         Self::PlatformSwing,
+        Self::BaseFirstAngle,
+        Self::BaseSecondAngle,
+        Self::PlatformFirstAngle,
+        Self::PlatformSecondAngle,
         Self::LegClearance,
         Self::KeepOut,
         Self::LegForce,
@@ -102,6 +115,10 @@ impl TermKind {
             Self::LegTooLong => "leg_too_long",
             Self::BaseSwing => "base_swing",
             Self::PlatformSwing => "platform_swing",
+            Self::BaseFirstAngle => "base_first_angle",
+            Self::BaseSecondAngle => "base_second_angle",
+            Self::PlatformFirstAngle => "platform_first_angle",
+            Self::PlatformSecondAngle => "platform_second_angle",
             Self::LegClearance => "leg_clearance",
             Self::KeepOut => "keep_out",
             Self::LegForce => "leg_force",
@@ -122,6 +139,7 @@ impl TermKind {
     pub fn quantity(self) -> Quantity {
         match self {
             Self::BaseSwing | Self::PlatformSwing => Quantity::Angle,
+            kind if kind.hinge().is_some() => Quantity::Angle,
             Self::LegForce => Quantity::Force,
             Self::LegSpeed => Quantity::Speed,
             Self::LinearStiffness => Quantity::LinearStiffness,
@@ -136,6 +154,21 @@ impl TermKind {
     pub fn is_of_platform(self) -> bool {
         matches!(self, Self::LinearStiffness | Self::AngularStiffness | Self::NaturalFrequency)
     }
+
+    /// For the angles of universal joints: of which body, and about which axis.
+    pub(crate) fn hinge(self) -> Option<(Body, HingeAngle)> {
+        Some(match self {
+            Self::BaseFirstAngle => (Body::Base, HingeAngle::First),
+            Self::BaseSecondAngle => (Body::Base, HingeAngle::Second),
+            Self::PlatformFirstAngle => (Body::Platform, HingeAngle::First),
+            Self::PlatformSecondAngle => (Body::Platform, HingeAngle::Second),
+            _ => return None,
+        })
+    }
+
+    /// The kinds of the angles of universal joints.
+    pub(crate) const HINGES: [Self; 4] =
+        [Self::BaseFirstAngle, Self::BaseSecondAngle, Self::PlatformFirstAngle, Self::PlatformSecondAngle];
 
     /// `true` when the pose does not matter.
     #[must_use]
@@ -165,6 +198,8 @@ pub struct Terms<'a> {
     pub(super) required: &'a Requirements,
     /// Axes at the base, base frame, and at the platform, platform frame, in leg order.
     axes: [[Vector3<f64>; 6]; 2],
+    /// Universal joints at the base and at the platform, in leg order.
+    hinges: [Option<[Hinge; 6]>; 2],
 }
 
 /// A part of a leg: a segment and its radius.
@@ -194,15 +229,24 @@ impl<'a> Terms<'a> {
     #[must_use]
     pub fn new(manipulator: &'a Manipulator, required: &'a Requirements, home: &Pose) -> Self {
         let at_home = manipulator.legs().map(|l| (home.transform(&l.platform) - l.base).normalize());
-        let axes = |swing: Option<Swing>, turn: &dyn Fn(&Vector3<f64>) -> Vector3<f64>| match swing
-            .map(|s| s.axes)
-        {
-            Some(JointAxes::Given(axes)) => axes.map(Unit::into_inner),
-            _ => std::array::from_fn(|i| turn(&at_home[i])),
+        let axes =
+            |body: Body, turn: &dyn Fn(&Vector3<f64>) -> Vector3<f64>| match required.hardware.axes(body) {
+                Some(JointAxes::Given(axes)) => axes.map(Unit::into_inner),
+                _ => std::array::from_fn(|i| turn(&at_home[i])),
+            };
+        let base = axes(Body::Base, &|u| *u);
+        let platform = axes(Body::Platform, &|u| home.rotation.inverse() * u);
+        let hinges = |body: Body, axes: &[Vector3<f64>; 6]| {
+            let joint = required.hardware.universal(body)?;
+            Some(std::array::from_fn(|i| Hinge::new(joint.first_axes[i].into_inner(), &axes[i])))
         };
-        let base = axes(required.hardware.base_swing, &|u| *u);
-        let platform = axes(required.hardware.platform_swing, &|u| home.rotation.inverse() * u);
-        Self { manipulator, required, axes: [base, platform] }
+        let hinges = [hinges(Body::Base, &base), hinges(Body::Platform, &platform)];
+        Self { manipulator, required, axes: [base, platform], hinges }
+    }
+
+    /// The universal joint at an end (0 base, 1 platform) of a leg.
+    pub(crate) fn hinge(&self, end: usize, leg: usize) -> Option<&Hinge> {
+        self.hinges[end].as_ref().map(|all| &all[leg])
     }
 
     /// The axes from which swing is measured, unit vectors in leg order that point from base to platform: at the base in the base frame, at the platform in the platform frame.
@@ -332,6 +376,15 @@ impl<'a> Terms<'a> {
             if let Some(swing) = hardware.platform_swing {
                 let angle = angle_deg(&(back * line), &self.axes[1][i]);
                 out.push((own(TermKind::PlatformSwing), swing.limit_deg - angle));
+            }
+            for kind in TermKind::HINGES {
+                let Some((body, angle)) = kind.hinge() else { continue };
+                let Some(limit) = hardware.angle_limit_deg(kind) else { continue };
+                let end = body.index();
+                let line = if body == Body::Base { line } else { back * line };
+                if let Some(hinge) = self.hinge(end, i) {
+                    out.push((own(kind), hinge.margin_deg(&line, angle, limit)));
+                }
             }
         }
     }

@@ -23,6 +23,7 @@ mod cli_frame;
 mod cli_generated;
 mod cli_guide;
 mod cli_ik;
+mod cli_joints;
 mod cli_judgements;
 mod cli_limits;
 mod cli_locus;

@@ -107,6 +107,11 @@ fn write(folder: &Path, file: &ExportedFile) -> Result<String, Failure> {
 /// Writes every format that can hold the design; exit 1 when one cannot.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load_with_cranks(&args.design)?;
+    if design.hardware.is_coupled() {
+        let message = "the joints are not ideal (`offset` of universal joints or `screw_lead`), and every format has drives as long as the distances of their joints";
+        let help = "`equipod ik` has the lengths to command; without `offset` and `screw_lead` the file has the machine with ideal joints";
+        return Err(Failure::refused("design::not_ideal", message.to_string()).with_help(help));
+    }
     if !args.to.iter().any(|t| t == "all" || t == ExportFormat::Mjcf.name()) {
         for option in ["mass", "gravity_compensation"] {
             context.no_effect(option, "only the simulator's format, mjcf, holds masses")?;

@@ -4,6 +4,7 @@ mod calibration;
 mod constructions;
 mod cranks;
 mod holes;
+mod joint_models;
 mod joints;
 mod limits;
 #[cfg(test)]
@@ -52,7 +53,7 @@ const TOP_LEVEL: [&str; 26] = [
 ];
 
 /// The design, or `None` with the reasons in the report. Later checks run on whatever earlier ones left
-/// intact, so that one run shows all violations. Rods on cranks are refused unless `takes_cranks`.
+/// intact, so that one run shows all violations. Rods on cranks, and joints that are not ideal, are refused unless `takes_cranks`.
 pub(super) fn design(root: &Node, report: &mut Findings<'_>, takes_cranks: bool) -> Option<Design> {
     let Value::Table(entries) = &root.value else {
         let help = "write { \"name\": ..., \"units\": ..., \"base\": { ... }, \"platform\": { ... }, \"legs\": [ ... ] }";
@@ -98,6 +99,7 @@ pub(super) fn design(root: &Node, report: &mut Findings<'_>, takes_cranks: bool)
     let workspace = tables::workspace(report, entries);
     let (optimize, search) = tables::optimize(report, entries);
     let hardware = tables::hardware(report, entries);
+    joint_models::refuse_coupled(report, entries, &hardware, takes_cranks);
     let speed = tables::speed(report, entries);
     let stiffness = tables::stiffness(report, entries, &hardware);
     let loads = tables::loads(report, entries);

@@ -28,6 +28,7 @@ fn the_schema_has_the_keys_of_the_reader() {
     assert_eq!(keys(""), sorted(super::TOP_LEVEL));
     assert_eq!(keys("/properties/workspace"), sorted(WORKSPACE_KEYS));
     assert_eq!(keys("/properties/hardware"), sorted(HARDWARE_KEYS));
+    assert_eq!(keys("/$defs/joint_model"), sorted(crate::design::validate::joint_models::KEYS));
     assert_eq!(keys("/properties/optimize"), sorted(SEARCH_KEYS.into_iter().chain(LIMIT_KEYS)));
     assert_eq!(keys("/$defs/pose"), sorted(POSE_KEYS));
     assert_eq!(keys("/$defs/home_pose"), sorted(POSE_KEYS));

@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, Point3, Quaternion, Rotation3, Unit, UnitQuaternion, Vector3};
 
 use super::constructions::{Places, is_constructed, three_quantities};
+use super::joint_models as joints;
 use super::search::{SEARCH_KEYS, search};
 use super::{check_keys, element_span, number, numbers, shown, table, text};
 use crate::design::construction::WrittenHome;
@@ -285,7 +286,7 @@ pub(super) fn optimize(report: &mut Findings<'_>, top: &[Entry]) -> (OptimizeTab
     (limits, search(report, entries))
 }
 
-pub(super) const HARDWARE_KEYS: [&str; 24] = [
+pub(super) const HARDWARE_KEYS: [&str; 27] = [
     "joint_diameter",
     "base_housing",
     "platform_housing",
@@ -300,6 +301,9 @@ pub(super) const HARDWARE_KEYS: [&str; 24] = [
     "platform_swing_deg",
     "base_axes",
     "platform_axes",
+    "base_joint",
+    "platform_joint",
+    "screw_lead",
     "max_leg_force",
     "max_leg_speed",
     "leg_stiffness",
@@ -371,8 +375,6 @@ pub(super) fn hardware(report: &mut Findings<'_>, top: &[Entry]) -> Hardware {
         ("leg_clearance", "leg_diameter"),
         ("dead_length", "stroke"),
         ("stroke", "dead_length"),
-        ("base_axes", "base_swing_deg"),
-        ("platform_axes", "platform_swing_deg"),
         ("cylinder_mass", "cylinder_center"),
         ("cylinder_center", "cylinder_mass"),
         ("cylinder_inertia", "cylinder_mass"),
@@ -383,6 +385,8 @@ pub(super) fn hardware(report: &mut Findings<'_>, top: &[Entry]) -> Hardware {
         needs(report, entries, key, other);
     }
     let body = positive(report, entries, "leg_diameter");
+    let [base_joint, platform_joint] = Body::BOTH.map(|body| joints::joint_model(report, entries, body));
+    let screw_lead = joints::screw_lead(report, entries, [&base_joint, &platform_joint]);
     Hardware {
         base_housing: housing(report, entries, "base_housing"),
         platform_housing: housing(report, entries, "platform_housing"),
@@ -392,6 +396,11 @@ pub(super) fn hardware(report: &mut Findings<'_>, top: &[Entry]) -> Hardware {
         leg_length: length_limits(report, entries),
         base_swing: swing(report, entries, "base_swing_deg", "base_axes"),
         platform_swing: swing(report, entries, "platform_swing_deg", "platform_axes"),
+        base_universal: base_joint.universal,
+        platform_universal: platform_joint.universal,
+        base_bending: base_joint.bending,
+        platform_bending: platform_joint.bending,
+        screw_lead,
         max_leg_force: positive(report, entries, "max_leg_force"),
         max_leg_speed: positive(report, entries, "max_leg_speed"),
         leg_stiffness: positive(report, entries, "leg_stiffness"),
@@ -471,7 +480,7 @@ fn swing(report: &mut Findings<'_>, entries: &[Entry], limit: &str, axes: &str) 
     Some(Swing { limit_deg, axes: axes.unwrap_or_default() })
 }
 
-fn joint_axes(report: &mut Findings<'_>, entry: &Entry) -> Option<JointAxes> {
+pub(super) fn joint_axes(report: &mut Findings<'_>, entry: &Entry) -> Option<JointAxes> {
     let help = "write \"home\", \"optimize\" or six vectors in leg order";
     match &entry.node.value {
         Value::Text(t) if t == "home" => Some(JointAxes::Home),
@@ -489,7 +498,7 @@ fn joint_axes(report: &mut Findings<'_>, entry: &Entry) -> Option<JointAxes> {
     }
 }
 
-fn axis(report: &mut Findings<'_>, node: &Node, key: &str) -> Option<Unit<Vector3<f64>>> {
+pub(super) fn axis(report: &mut Findings<'_>, node: &Node, key: &str) -> Option<Unit<Vector3<f64>>> {
     let what = format!("an axis of `{key}`");
     let v = numbers::<3>(report, node, &what, Code::CoordinateCount, "components").map(Vector3::from)?;
     // a vector that is a unit vector already is kept to the bit, so that a saved design reads back equal

@@ -27,7 +27,7 @@ impl Writer for Mjcf {
     }
 
     fn leaves_out(&self) -> &'static str {
-        "contacts, friction, limits of speeds and of swing at the platform"
+        "contacts, friction, limits of speeds, of swing at the platform and of the angles of universal joints"
     }
 
     fn takes_cranks(&self) -> bool {

@@ -4,6 +4,9 @@
 const REQUIREMENTS = {
   leg_too_short: "legs, above the least length", leg_too_long: "legs, below the greatest length",
   base_swing: "swing of the base joints", platform_swing: "swing of the platform joints",
+  base_first_angle: "angle about the first axes, base joints", base_second_angle: "angle about the second axes, base joints",
+  platform_first_angle: "angle about the first axes, platform joints",
+  platform_second_angle: "angle about the second axes, platform joints",
   leg_clearance: "gap between legs", keep_out: "gap to the keep-outs", leg_force: "leg force", leg_speed: "leg speed",
   base_spacing: "gap between base joints", platform_spacing: "gap between platform joints",
 };

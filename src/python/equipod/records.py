@@ -33,6 +33,7 @@ DesignObjective = Literal[
     "worst_conditioning",
 ]
 DimensionalStatus = Literal["feasible", "infeasible", "interrupted", "optimal", "undecided", "violated"]
+DriveSolutionWord = Literal["no_length", "not_contracting", "not_tracked", "proved", "unproved"]
 ErrorKind = Literal["position", "rotation"]
 EvidenceWord = Literal["modular", "proved"]
 ExactnessWord = Literal["doubles", "field", "interval", "rational"]
@@ -111,6 +112,8 @@ StartName = Literal["closed_form", "nominal"]
 TermKind = Literal[
     "angular_stiffness",
     "base_envelope",
+    "base_first_angle",
+    "base_second_angle",
     "base_spacing",
     "base_swing",
     "keep_out",
@@ -123,6 +126,8 @@ TermKind = Literal[
     "machine_envelope",
     "natural_frequency",
     "platform_envelope",
+    "platform_first_angle",
+    "platform_second_angle",
     "platform_spacing",
     "platform_swing",
 ]
@@ -915,6 +920,24 @@ class DesignHomePose(Record):
     rotation: Union[DesignRows, None]
 
 
+class DesignJointModel(Record):
+    """DesignJointModel"""
+
+    #: `ball`: turns freely in a cone; `universal`: two axes, the first fixed in the body, the second at a
+    #: right angle to it and to the leg; `flexure`: bends about its centre, within the cone of the swing
+    model: Literal["ball", "universal", "flexure"]
+    #: universal: direction of the first axis in the frame of the body, one for all joints or six in leg
+    #: order; required
+    first_axis: Union[DesignVector, tuple[DesignVector, ...], None]
+    #: universal: greatest angles about the first and about the second axis, either way, degrees; none when
+    #: absent
+    angle_deg: Union[tuple[float, float], None]
+    #: universal: distance of the two axes, which meet when it is 0
+    offset: Union[DesignNotNegative, None]
+    #: flexure: torque over angle, force units times design units per radian; required
+    bending_stiffness: Union[DesignPositive, None]
+
+
 class DesignPose(Record):
     """DesignPose"""
 
@@ -1079,6 +1102,30 @@ class DiscsRecord2(Record):
     im: tuple[Union[float, None], ...]
     #: Radii.
     radius: tuple[Union[float, None], ...]
+
+
+class DriveSolutionRecord(Record):
+    """How the pose for lengths of drives was found."""
+
+    #: What is known of it.
+    status: DriveSolutionWord
+    #: Why there is no pose.
+    reason: Union[str, None]
+    #: The lengths of the drives asked for.
+    lengths: tuple[float, ...]
+    #: The distances of the joints at the pose, to which it was followed.
+    distances: tuple[float, ...]
+    #: Steps of the fixed point.
+    steps: int
+    #: The greatest ratio of two changes of the corrections, one after the other; 0 where there were none
+    #: above rounding.
+    factor: Union[float, None]
+    #: Proved: the platform origin of the pose with exactly these lengths is no farther away, design units.
+    position_bound: Union[float, None]
+    #: Proved: its rotation is no farther away.
+    angle_bound_deg: Union[float, None]
+    #: The factor by which the Newton map contracts around the pose; null: not proved.
+    contraction: Union[float, None]
 
 
 class EnclosureRecord(Record):
@@ -1444,6 +1491,9 @@ class FkAnswer(Record):
     angles_deg: Union[tuple[float, ...], None]
     #: How the pose was followed, with `--near`.
     near: Union[NearRecord, None]
+    #: What the corrections of joints that are not ideal came to; the lengths are then those of drives, and
+    #: no certificate is given of a root.
+    drives: Union[DriveSolutionRecord, None]
     #: The exact closure polynomial, with `--method trilateration`.
     closure: Union[ClosureRecord, None]
     solution_set: Union[Literal["isolated", "empty", "positive_dimensional"], None]
@@ -1498,6 +1548,9 @@ class FkOneAnswer(Record):
     angles_deg: Union[tuple[float, ...], None]
     #: How the pose was followed, with `--near`.
     near: Union[NearRecord, None]
+    #: What the corrections of joints that are not ideal came to; the lengths are then those of drives, and
+    #: no certificate is given of a root.
+    drives: Union[DriveSolutionRecord, None]
     #: The exact closure polynomial, with `--method trilateration`.
     closure: Union[ClosureRecord, None]
     solution_set: Union[Literal["isolated", "empty", "positive_dimensional"], None]
@@ -1557,6 +1610,9 @@ class FkRowRecord(Record):
     notes: Union[tuple[str, ...], None]
     #: How the pose was followed, with `--near`.
     near: Union[NearRecord, None]
+    #: What the corrections of joints that are not ideal came to; the lengths are then those of drives, and
+    #: no certificate is given of a root.
+    drives: Union[DriveSolutionRecord, None]
     #: The exact closure polynomial, with `--method trilateration`.
     closure: Union[ClosureRecord, None]
     solution_set: Union[Literal["isolated", "empty", "positive_dimensional"], None]

@@ -101,7 +101,7 @@ impl CellJudge<'_> {
         let mut rng = Purpose::BOUNDED_POSES.rng(seed);
         for chart in 0..self.charts.len() {
             for f in 0..functions.len() {
-                for sector in Sector::all(self.cone(functions[f], &self.charts[chart]).is_some()) {
+                for sector in self.sectors(functions[f], &self.charts[chart]) {
                     let root = self.charts[chart].root;
                     self.push(&mut state, &functions, (f, chart), root, sector, f64::NEG_INFINITY);
                 }

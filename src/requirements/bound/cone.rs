@@ -45,6 +45,16 @@ impl Sector {
             .collect()
     }
 
+    /// Both sides of an angle of a universal joint: greater and smaller than 0.
+    pub(super) fn sides() -> Vec<Self> {
+        [1.0, -1.0].map(|middle| Self { middle, half: 0.0 }).to_vec()
+    }
+
+    /// Whether it is the side of the greater angles.
+    pub(super) fn is_positive(&self) -> bool {
+        self.middle > 0.0
+    }
+
     /// Two sectors that cover it.
     pub(super) fn halves(self) -> [Self; 2] {
         let half = 0.5 * self.half;
@@ -70,9 +80,9 @@ pub(super) struct SwingCone<'a> {
 pub(super) struct Leaning {
     pub(super) value: Jet,
     /// `n.n`.
-    square: Interval,
+    pub(super) square: Interval,
     /// `n.k`.
-    along: Interval,
+    pub(super) along: Interval,
     /// By how much the width of the sector lowers the value.
     pub(super) loose: f64,
 }
@@ -135,21 +145,27 @@ impl<'a> SwingCone<'a> {
 
     /// A lower bound of the margin, degrees, where the right side is at least `below` over the cell.
     pub(super) fn margin(&self, below: f64, over: &Leaning) -> f64 {
-        let limit = Interval::from(self.limit_deg);
-        let least = (limit - Interval::from(180.0)).lo();
-        // sines do not tell angles beyond a right angle
-        if !(over.along.lo() > 0.0 && over.square.lo() > 0.0 && below.is_finite()) {
-            return least;
-        }
-        let Some(length) = over.square.sqrt() else { return least };
-        let length = if below >= 0.0 { length.hi() } else { length.lo() };
-        let Some(sine) = Interval::from(below).checked_div(Interval::from(length)) else { return least };
-        if sine.lo() < -1.0 {
-            return least;
-        }
-        let right = Interval::from(90.0);
-        (right - degrees(arc_cosine(Interval::from(sine.lo().min(1.0))))).lo().max(least)
+        arc_margin(below, over, self.limit_deg)
     }
+}
+
+/// The least angle whose sine, times the root of `square`, is at least `below`: a lower bound of the limit less an angle of which this is known, never below the limit less 180
+/// degrees.
+pub(super) fn arc_margin(below: f64, over: &Leaning, limit_deg: f64) -> f64 {
+    let limit = Interval::from(limit_deg);
+    let least = (limit - Interval::from(180.0)).lo();
+    // sines do not tell angles beyond a right angle
+    if !(over.along.lo() > 0.0 && over.square.lo() > 0.0 && below.is_finite()) {
+        return least;
+    }
+    let Some(length) = over.square.sqrt() else { return least };
+    let length = if below >= 0.0 { length.hi() } else { length.lo() };
+    let Some(sine) = Interval::from(below).checked_div(Interval::from(length)) else { return least };
+    if sine.lo() < -1.0 {
+        return least;
+    }
+    let right = Interval::from(90.0);
+    (right - degrees(arc_cosine(Interval::from(sine.lo().min(1.0))))).lo().max(least)
 }
 
 #[cfg(test)]

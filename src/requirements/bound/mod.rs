@@ -11,6 +11,7 @@ mod cone;
 mod force;
 mod frame;
 mod gap;
+mod hinge;
 mod local;
 mod stiffness;
 #[cfg(test)]
@@ -20,6 +21,7 @@ use std::num::NonZeroUsize;
 
 use self::cone::{Sector, SwingCone};
 use self::frame::{CellFrame, enclosed};
+use self::hinge::{HingeFrame, HingeLimit};
 use self::local::Bounded;
 use self::stiffness::SoftestMotion;
 use super::Requirements;
@@ -192,10 +194,10 @@ type Axes = [[(IntervalVector, Interval); 6]; 2];
 fn axes(m: &Manipulator, required: &Requirements, home: &Chart) -> Axes {
     use super::hardware::JointAxes;
     let frame = CellFrame::over(home, &home.root, false);
-    let swings = [required.hardware.base_swing, required.hardware.platform_swing];
     std::array::from_fn(|body| {
+        let chosen = required.hardware.axes(Body::BOTH[body]);
         std::array::from_fn(|i| {
-            let axis: IntervalVector = if let Some(JointAxes::Given(axes)) = swings[body].map(|s| s.axes) {
+            let axis: IntervalVector = if let Some(JointAxes::Given(axes)) = chosen {
                 std::array::from_fn(|k| Interval::from(axes[i][k]))
             } else {
                 let along = frame.leg(m, i).line.map(|x| x.value);
@@ -392,7 +394,7 @@ impl CellJudge<'_> {
             let y = farthest(chart, &slope);
             let there = CellFrame::over(chart, &ChartCell::point(y), false);
             let Some(value) = self.leg_value(kind, i, &there) else { return };
-            let upper = self.margin(kind, value.value).hi();
+            let upper = self.margin((kind, i), value.value).hi();
             if !(chart.scale_of(&y) <= 1.0 && upper < out.upper) {
                 return;
             }
@@ -404,7 +406,7 @@ impl CellJudge<'_> {
     /// An upper bound of the margin at a point, for the functions of one leg.
     fn upper(&self, function: Function, at: &CellFrame<'_>) -> f64 {
         let Function::Leg(kind, i) = function else { return f64::INFINITY };
-        self.leg_value(kind, i, at).map_or(f64::INFINITY, |x| self.margin(kind, x.value).hi())
+        self.leg_value(kind, i, at).map_or(f64::INFINITY, |x| self.margin((kind, i), x.value).hi())
     }
 
     /// A lower bound over the cell, an upper one at `z`, and what is left of the cell.
@@ -421,6 +423,17 @@ impl CellJudge<'_> {
         match function {
             Function::Leg(kind, i) => {
                 let slopes = |at: &Jet| Some(std::array::from_fn(|k| at.slope(k).centre_and_radius().0));
+                if let Some(hinge) = self.hinge(kind, i).filter(|h| chart.len() > 1 && h.has_sides()) {
+                    let (Some(at), Some(over)) =
+                        (hinge.value(frames.0, sector), hinge.value(frames.1, sector))
+                    else {
+                        return nothing;
+                    };
+                    let mut bounded = local::below(chart, cell, z, &at.value, &over.value);
+                    bounded.below = hinge.side_margin(bounded.below, &over);
+                    let upper = self.upper(function, frames.0);
+                    return AtPoint { bounded, upper, slope: slopes(&at.value), ..nothing };
+                }
                 if let Some(cone) = self.cone(function, chart) {
                     let (Some(at), Some(over)) = (cone.value(frames.0, sector), cone.value(frames.1, sector))
                     else {
@@ -435,8 +448,8 @@ impl CellJudge<'_> {
                 let value = |frame: &CellFrame<'_>| self.leg_value(kind, i, frame);
                 let (Some(at), Some(over)) = (value(frames.0), value(frames.1)) else { return nothing };
                 let mut bounded = local::below(chart, cell, z, &at, &over);
-                bounded.below = self.margin(kind, Interval::from(bounded.below)).lo();
-                let (upper, rest) = (self.margin(kind, at.value).hi(), shrunk(chart, cell, &over));
+                bounded.below = self.margin((kind, i), Interval::from(bounded.below)).lo();
+                let (upper, rest) = (self.margin((kind, i), at.value).hi(), shrunk(chart, cell, &over));
                 AtPoint { bounded, upper, rest, slope: slopes(&at), ..nothing }
             }
             Function::Joint { leg, end, side } => {
@@ -511,6 +524,27 @@ impl CellJudge<'_> {
         out
     }
 
+    /// The angle of a universal joint, for the kinds that are one.
+    fn hinge(&self, kind: TermKind, leg: usize) -> Option<HingeLimit<'_>> {
+        let (body, angle) = kind.hinge()?;
+        let limit_deg = self.required.hardware.angle_limit_deg(kind)?;
+        let first = self.required.hardware.universal(body)?.first_axes[leg];
+        let (axis, _) = &self.axes[body.index()][leg];
+        let first: IntervalVector = std::array::from_fn(|k| Interval::from(first[k]));
+        let frame = HingeFrame::new(&first, axis)?;
+        Some(HingeLimit { m: self.m, leg, platform: body == Body::Platform, frame, angle, limit_deg })
+    }
+
+    /// What a function is bounded over one by one: the directions in which a leg leans, the sides of an angle.
+    fn sectors(&self, function: Function, chart: &Chart) -> Vec<Sector> {
+        if let Function::Leg(kind, leg) = function
+            && self.hinge(kind, leg).is_some_and(|h| chart.len() > 1 && h.has_sides())
+        {
+            return Sector::sides();
+        }
+        Sector::all(self.cone(function, chart).is_some())
+    }
+
     /// The cone in which a leg may lean, for limits below 90 degrees and regions; on single poses and steps the cosine is as good.
     fn cone(&self, function: Function, chart: &Chart) -> Option<SwingCone<'_>> {
         let Function::Leg(kind, leg) = function else { return None };
@@ -574,13 +608,16 @@ impl CellJudge<'_> {
                 leg.cosine(&frame.turned(axis), *length)?
             }
             TermKind::LegSpeed => -leg.lever_squared()?,
-            _ => return None,
+            kind => return self.hinge(kind, i)?.plain(frame),
         })
     }
 
     /// The margin for a value of the function of a leg, which it increases with.
-    fn margin(&self, kind: TermKind, value: Interval) -> Interval {
+    fn margin(&self, (kind, leg): (TermKind, usize), value: Interval) -> Interval {
         let hardware = &self.required.hardware;
+        if let Some(hinge) = self.hinge(kind, leg) {
+            return hinge.margin(value);
+        }
         let root = |x: Interval| {
             let positive = Interval::new(x.lo().max(0.0), x.hi().max(0.0)).unwrap_or(Interval::WHOLE);
             positive.sqrt().unwrap_or(Interval::WHOLE)

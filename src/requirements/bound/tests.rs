@@ -9,8 +9,9 @@ use std::collections::BTreeMap;
 use crate::geom::{Pose, Region};
 use crate::num::Rng;
 use crate::requirements::{
-    Envelopes, Hardware, JointAxes, KeepOut, KeepOutShape, LegBody, LegMasses, LegPart, LengthLimits, Load,
-    MovingBodies, PlatformSpeed, PlatformStiffness, Reserve, Reserves, Swing, VibratingMasses,
+    Envelopes, Hardware, HingeAngle, JointAxes, KeepOut, KeepOutShape, LegBody, LegMasses, LegPart,
+    LengthLimits, Load, MovingBodies, PlatformSpeed, PlatformStiffness, Reserve, Reserves, Swing,
+    UniversalJoint, VibratingMasses,
 };
 
 fn random_platform(rng: &mut Rng) -> (Manipulator, Pose) {
@@ -490,5 +491,110 @@ fn stiffness_and_frequency_are_bounded_and_decided() {
         assert_eq!(prove(&m, &reserved, &space, &none, 1500).all_reserved(), Some(true), "{k}");
         reserved.reserves.all = Some(30.0);
         assert_eq!(prove(&m, &reserved, &space, &none, 1500).all_reserved(), Some(false), "{k}");
+    }
+}
+
+fn universal(first_axes: [Vector3<f64>; 6], limits_deg: [f64; 2]) -> UniversalJoint {
+    let first_axes = first_axes.map(Unit::new_normalize);
+    UniversalJoint { first_axes, limits_deg: Some(limits_deg), axes: JointAxes::Home, offset: 0.0 }
+}
+
+/// The kinds of the angles, with the least margins found and proved.
+fn angles_of(m: &Manipulator, space: &PoseSpace, hardware: Hardware, cells: usize) -> Vec<MarginBound> {
+    let required = Requirements { hardware, ..Requirements::default() };
+    prove(m, &required, space, &quick(), cells).bounds
+}
+
+#[test]
+fn angles_of_upright_legs_in_universal_joints_are_those_by_hand() {
+    let ring = || -> Vec<Point3<f64>> {
+        let at = |i: usize| (i as f64 * std::f64::consts::FRAC_PI_3).sin_cos();
+        (0..6).map(|i| Point3::new(4.0 * at(i).1, 4.0 * at(i).0, 0.0)).collect()
+    };
+    let m = Manipulator::try_new(ring(), ring(), std::array::from_fn(|i| (i, i))).unwrap();
+    let home = Pose { rotation: Rotation3::identity(), position: Vector3::new(0.0, 0.0, 10.0) };
+    let space = PoseSpace { translation: Vector3::new(3.0, 4.0, 2.0), ..PoseSpace::at(home) };
+    // about y the legs lean by their shares of x and z, about the second axis by y over the rest
+    let worst = [3f64.atan2(8.0), 4f64.atan2(8.0)].map(f64::to_degrees);
+    for (share, met) in [(1.3, true), (1.0 + 1e-6, true), (1.0 - 1e-6, false)] {
+        let joint = universal([Vector3::y(); 6], worst.map(|x| x * share));
+        let hardware =
+            Hardware { base_universal: Some(joint), platform_universal: Some(joint), ..Hardware::default() };
+        let bounds = angles_of(&m, &space, hardware, 4000);
+        assert_eq!(bounds.len(), 4);
+        for bound in bounds {
+            let (_, angle) = bound.found.term.kind.hinge().unwrap();
+            let by_hand = worst[usize::from(angle == HingeAngle::Second)] * (share - 1.0);
+            assert!((bound.found.value - by_hand).abs() < 1e-9 && bound.below <= by_hand + 1e-9, "{bound:?}");
+            assert_eq!(bound.verdict.is_met(), Some(met), "{bound:?}");
+        }
+    }
+    // first axes along the legs at home: singular there, which no limit allows and which is no number that is none
+    let joint = universal([Vector3::z(); 6], [179.0, 89.0]);
+    let bounds = angles_of(&m, &space, Hardware { base_universal: Some(joint), ..Hardware::default() }, 200);
+    for bound in bounds {
+        assert!(bound.found.value < 0.0 && bound.verdict.is_met() != Some(true), "{bound:?}");
+        let second = bound.found.term.kind == TermKind::BaseSecondAngle;
+        assert!(!second || bound.verdict == MarginVerdict::Violated, "{bound:?}");
+    }
+}
+
+/// Both angles from the definitions: turns about the two axes that take the leg at rest to the leg, found without the formulas of the margins.
+#[test]
+fn no_sampled_pose_has_greater_angles_than_the_proof_allows() {
+    let mut rng = Rng::new(36);
+    for k in 0..3 {
+        let (m, home) = random_platform(&mut rng);
+        let region = if k == 1 { Region::Ellipsoid } else { Region::Box };
+        let space = random_space(home, &mut rng, region);
+        let mut across = || -> [Vector3<f64>; 6] {
+            std::array::from_fn(|_| Vector3::new(rng.normal(), rng.normal(), 0.3 * rng.normal()))
+        };
+        let axes = [across(), across()];
+        // a limit on either side of a right angle
+        let limits = if k == 2 { [100.0, 85.0] } else { [70.0, 80.0] };
+        let hardware = Hardware {
+            base_universal: Some(universal(axes[0], limits)),
+            platform_universal: Some(universal(axes[1], limits)),
+            ..Hardware::default()
+        };
+        let bounds = angles_of(&m, &space, hardware, 300);
+        let angle = |pose: &Pose, body: Body, leg: usize| {
+            let l = m.legs()[leg];
+            let line = |p: &Pose| p.transform(&l.platform) - l.base;
+            let inside = |p: &Pose| if body == Body::Base { line(p) } else { p.rotation.inverse() * line(p) };
+            let first = axes[body.index()][leg].normalize();
+            // across the first axis both lines have a direction, and between them is the first turn
+            let plane = |v: Vector3<f64>| v - first * v.dot(&first);
+            let (rest, there) = (plane(inside(&home)), plane(inside(pose)));
+            let second = inside(pose).angle(&there).to_degrees();
+            [rest.angle(&there).to_degrees(), second]
+        };
+        let mut least: BTreeMap<TermKind, f64> = BTreeMap::new();
+        for pose in poses_of(&space, 600, &mut rng) {
+            for kind in TermKind::HINGES {
+                let (body, which) = kind.hinge().unwrap();
+                let which = usize::from(which == HingeAngle::Second);
+                for leg in 0..6 {
+                    let margin = limits[which] - angle(&pose, body, leg)[which];
+                    let at = least.entry(kind).or_insert(margin);
+                    *at = at.min(margin);
+                }
+            }
+        }
+        for bound in bounds {
+            let found = least[&bound.found.term.kind];
+            assert!(bound.below <= found + 1e-6 && bound.found.value <= found + 0.3, "{bound:?} {found}");
+            assert!(
+                bound.below > bound.found.value.min(0.0) - 15.0,
+                "a bound that says something: {bound:?}"
+            );
+            if bound.verdict == MarginVerdict::Violated {
+                let pose = bound.found.pose.unwrap();
+                let (body, which) = bound.found.term.kind.hinge().unwrap();
+                let which = usize::from(which == HingeAngle::Second);
+                assert!(limits[which] < angle(&pose, body, bound.found.term.first)[which]);
+            }
+        }
     }
 }

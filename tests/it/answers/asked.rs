@@ -13,6 +13,7 @@ pub(super) type Asked = (i32, &'static str, Vec<String>);
 /// The words of a call; `{name}` stands for a file of [`Files`].
 const CALLS: &[(i32, &str, &str)] = &[
     (0, "assess", "{bench-octahedral} --points 50"),
+    (0, "assess", "{universal} --points 50"),
     (1, "assess", "{conflict} --points 50"),
     (0, "bench", "--class octahedral --count 2"),
     (0, "bench", "--class octahedral,T05 --count 1 --recheck-every 0"),
@@ -57,6 +58,7 @@ const CALLS: &[(i32, &str, &str)] = &[
     (0, "fk", "{rbt-octahedral}"),
     (0, "fk", "{rbt-octahedral} --near home"),
     (3, "fk", "{rbt-octahedral} --near home --lengths 1,1,1,1,1,1"),
+    (0, "fk", "{coupled} --near home"),
     (0, "fk", "{rbt-octahedral} --method trilateration"),
     (0, "fk", "{innocenti-6-4} --method trilateration"),
     (3, "fk", "{symmetric-hexapod} --method trilateration"),
@@ -69,6 +71,8 @@ const CALLS: &[(i32, &str, &str)] = &[
     (2, "fk", "{general-6-6} --method octic --lengths {rows}"),
     (3, "fk", "{rbt-octahedral} --near home --lengths {way}"),
     (0, "ik", "{bench-octahedral}"),
+    (0, "ik", "{coupled}"),
+    (0, "ik", "{flexures} --pose 3,5,350,0,2,9"),
     (0, "ik", "{rbt-octahedral} --pose home --pose 3,5,9,0,0,90"),
     (0, "ik", "{rbt-octahedral} {places}"),
     (0, "new", "--base-radius 500 --platform-radius 300 --base-spread 20 --platform-spread 20 --height 400"),
@@ -230,6 +234,20 @@ impl Files {
             }),
             "longer" => self.design(name, "designs/rbt-midline.toml", |d| {
                 d["lengths"][0] = json!(d["lengths"][0].as_f64().unwrap() + 1e-3);
+            }),
+            "universal" => self.design(name, "designs/symmetric-hexapod.toml", |d| {
+                let joint =
+                    json!({"model": "universal", "first_axis": [0.6, 0.8, 0.0], "angle_deg": [70.0, 60.0]});
+                (d["hardware"]["base_joint"], d["hardware"]["platform_joint"]) = (joint.clone(), joint);
+            }),
+            "coupled" => self.design(name, "designs/symmetric-hexapod.toml", |d| {
+                let joint = json!({"model": "universal", "first_axis": [0.6, 0.8, 0.0], "offset": 9.0});
+                (d["hardware"]["base_joint"], d["hardware"]["platform_joint"]) = (joint.clone(), joint);
+                d["hardware"]["screw_lead"] = json!(6.0);
+            }),
+            "flexures" => self.design(name, "designs/symmetric-hexapod.toml", |d| {
+                d["hardware"]["base_swing_deg"] = json!(20.0);
+                d["hardware"]["base_joint"] = json!({"model": "flexure", "bending_stiffness": 4e4});
             }),
             "twins" => self.design(name, octahedral, |d| d["base"]["spare"] = json!([0.0, 0.0, 1.0])),
             "apart" => self.design(name, octahedral, |d| d["optimize"] = json!({"min_joint_distance": 6.5})),

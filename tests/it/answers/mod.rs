@@ -104,6 +104,8 @@ const OPTIONAL: &[&str] = &[
     "between",
     "four_planes",
     "freedoms",
+    "drives",
+    "flexures",
 ];
 /// Keys of whole designs.
 const DESIGNS: [&str; 3] = ["design", "beside", "octahedral"];

@@ -76,6 +76,7 @@ const LINES: &[Line] = &[
     ("calibration", &["names", "num", "geom", "manipulator"], &[MATRICES, ERRORS]),
     ("topology", &["num", "manipulator"], &[]),
     ("rotary", &["num", "geom", "manipulator", "fk"], &[MATRICES, ERRORS]),
+    ("coupled", &["num", "geom", "manipulator", "requirements", "fk"], &[MATRICES, ERRORS]),
     (
         "synthesis",
         &["num", "geom", "poly", "manipulator", "topology", "names"],
@@ -124,6 +125,7 @@ const LINES: &[Line] = &[
             "solve::certify",
             "fk",
             "rotary",
+            "coupled",
             "synthesis",
             "singularity",
             "offsets",
@@ -251,6 +253,7 @@ const LINES: &[Line] = &[
             "solve::homotopy",
             "fk",
             "rotary",
+            "coupled",
             "synthesis",
             "singularity",
             "offsets",

@@ -2,6 +2,7 @@
 
 mod cranks;
 mod csv;
+mod drives;
 pub(super) mod lengths;
 mod near;
 mod render;
@@ -87,11 +88,17 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         return cranks::run(args, (&design, &platform), context);
     }
     context.no_effect("angles", "the legs change their lengths, and the design has no cranks")?;
+    if args.near.is_none() {
+        drives::refuse_without_start(&design)?;
+    }
     let given = lengths::given(args.lengths.as_deref(), design.lengths, context)?;
     let table = Table { wanted: args.csv, all: args.all, time_name: None };
     if let Some(text) = &args.near {
         context.no_effect("threads", "a pose is followed row by row, each from the last one")?;
         let start = poses::parse(text, &design, "--near", "fk::bad_pose")?;
+        if let Some(legs) = Context::coupled_of(&design)? {
+            return Ok(drives::run(&design, legs, &given, start, context.seed(), &table));
+        }
         return Ok(near::run(&design, &given, start, context.seed(), &table));
     }
     let (m, home) = (design.manipulator(), poses::home(&design));

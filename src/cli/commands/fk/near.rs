@@ -26,7 +26,7 @@ pub(super) struct Machine<'a> {
 }
 
 impl<'a> Machine<'a> {
-    fn of(design: &'a Design) -> Self {
+    pub(super) fn of(design: &'a Design) -> Self {
         Self {
             m: design.manipulator(),
             home: poses::home(design),
@@ -109,17 +109,42 @@ pub(super) fn record(
     outcome: &NearOutcome,
     seed: u64,
 ) -> FkOneAnswer {
+    record_with(machine, lengths, (start, outcome), Proof::Certificate, seed)
+}
+
+/// What is known of a pose that was tracked.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Proof {
+    /// What a certificate for these lengths says.
+    Certificate,
+    /// No certificate; `None` where the pose is not one for the lengths asked for.
+    Of(Option<Reality>),
+}
+
+/// The record of a pose followed from `start`.
+pub(super) fn record_with(
+    machine: &Machine<'_>,
+    lengths: &LegLengths,
+    (start, outcome): (&Pose, &NearOutcome),
+    proof: Proof,
+    seed: u64,
+) -> FkOneAnswer {
     let (m, s) = (machine.m, lengths.squared());
     let proved = |pose: &ComplexPose| {
+        if let Proof::Of(_) = proof {
+            return None;
+        }
         let certifier = Certifier::new(m, &s).ok()?;
         certifier.certify(pose).certificate().copied()
     };
-    let root = outcome.tracked().map(|pose| {
+    let tracked = outcome.tracked().filter(|_| !matches!(proof, Proof::Of(None)));
+    let root = tracked.map(|pose| {
         let pose = ComplexPose::from(*pose);
         let condition = 1.0 / outcome.evidence().frobenius_ratio;
         let certificate = proved(&pose);
         // only the certificate knows whether the root near the pose is real
         let reality = match certificate.map(|c| c.reality()) {
+            None if let Proof::Of(Some(known)) = proof => known,
             Some(ProvedReality::Real) => Reality::Real,
             Some(ProvedReality::NonReal) => Reality::NonReal,
             Some(ProvedReality::Undecided) | None => Reality::Undecided,
@@ -150,6 +175,7 @@ pub(super) fn record(
         solved: SolvedRecord::from(&solutions).with_real_poses(m, &machine.home),
         angles_deg: None,
         near: Some(NearRecord::new(start, outcome, conditioning(machine, outcome))),
+        drives: None,
         closure: None,
     }
 }

@@ -33,7 +33,7 @@ pub(crate) struct Args {
 
 const BAD_POSE: &str = "ik::bad_pose";
 
-/// Lengths are distances of joints: every pose has them.
+/// Lengths are distances of joints: every pose has them. Where joints are not ideal the lengths of the drives stand beside them.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load_with_cranks(&args.design)?;
     let (series, one) = match &args.poses {
@@ -46,7 +46,16 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     }
     let required = design.requirements();
     let terms = Terms::new(design.manipulator(), &required, &poses::home(&design));
-    let record = |row: &SeriesRow<Pose>| record(&design, &terms, row, from_table);
+    let coupled = Context::coupled_of(&design)?;
+    let record = |row: &SeriesRow<Pose>| {
+        let record = record(&design, &terms, row, from_table)?;
+        let Some(legs) = &coupled else { return Ok(record) };
+        let states = legs.states(&row.value).map_err(|why| {
+            let message = format!("pose {}: the drives have no lengths: {why}", row.line);
+            Failure::refused("ik::no_drive_length", message)
+        })?;
+        Ok(record.with_drives(&design, &terms, &row.value, &states))
+    };
     let mut records = series.rows.iter().map(record).collect::<Result<Vec<_>, _>>()?;
     let text = table(&design, series.time_name.as_deref(), &records, args.details);
     let answer = match records.pop() {
@@ -104,7 +113,15 @@ fn details(record: &IkRecord) -> Vec<(String, f64)> {
         list(&format!("{name}_x"), &pairs.map(|p| p[0]));
         list(&format!("{name}_y"), &pairs.map(|p| p[1]));
     }
+    if let Some(drives) = &record.drives {
+        list("twist", &drives.twists_deg.map(Number));
+    }
     out.push(("inverse_condition".into(), record.inverse_condition.0));
+    if let Some(wrench) = &record.flexures {
+        for (name, values) in [("flexure_force", &wrench.force), ("flexure_torque", &wrench.torque)] {
+            out.extend(["x", "y", "z"].iter().zip(values).map(|(axis, x)| (format!("{name}_{axis}"), x.0)));
+        }
+    }
     for m in &record.margins {
         out.push((format!("margin_{}_{}", m.name.code(), column_unit(&m.unit)), m.margin.0));
     }
@@ -116,6 +133,10 @@ fn table(design: &Design, time_name: Option<&str>, records: &[IkRecord], with_de
     let unit = column_unit(&design.units);
     let limited = design.hardware.leg_length.is_some();
     let mut header: Vec<String> = time_name.map(str::to_string).into_iter().collect();
+    // what a controller commands comes first, and is what `fk --near` reads of the table
+    if records.first().is_some_and(|r| r.drives.is_some()) {
+        header.extend((1..=6).map(|leg| format!("drive_length_{leg}_{unit}")));
+    }
     header.extend((1..=6).map(|leg| format!("leg_{leg}_{unit}")));
     header.extend(limited.then(|| "within_limits".to_string()));
     if let Some(first) = records.first().filter(|_| with_details) {
@@ -127,6 +148,7 @@ fn table(design: &Design, time_name: Option<&str>, records: &[IkRecord], with_de
         if time_name.is_some() {
             cells.push(record.time.map(number).unwrap_or_default());
         }
+        cells.extend(record.drives.iter().flat_map(|drives| drives.lengths).map(number));
         cells.extend(record.lengths.map(number));
         cells.extend(record.within_limits.map(|within| within.to_string()));
         if with_details {

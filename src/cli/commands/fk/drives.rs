@@ -1,0 +1,125 @@
+//! `equipod fk --near` where joints are not ideal: the pose for lengths of drives.
+
+use std::fmt::Write as _;
+
+use super::Table;
+use super::lengths::Given;
+use super::near::{self, Machine, Proof};
+use super::render;
+use crate::cli::exit::Exit;
+use crate::cli::failure::Failure;
+use crate::cli::output::Answer;
+use crate::coupled::{CoupledLegs, CoupledOutcome, CoupledStatus, CoupledTracker};
+use crate::design::Design;
+use crate::fk::Reality;
+use crate::geom::Pose;
+use crate::manipulator::LegLengths;
+use crate::records::{
+    DriveSolutionRecord, FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, NearWord,
+};
+
+/// Refuses what takes the lengths of drives for distances of joints.
+pub(super) fn refuse_without_start(design: &Design) -> Result<(), Failure> {
+    if !design.hardware.is_coupled() {
+        return Ok(());
+    }
+    let message =
+        "the joints are not ideal, and all poses for given lengths are found for distances of joints only";
+    let help = "give --near POSE to follow one pose, or remove `offset` and `screw_lead` from the file for the machine with ideal joints";
+    Err(Failure::refused("design::not_ideal", message.to_string()).with_help(help))
+}
+
+/// Follows one pose from `start`. A row without a pose leaves the next to start from the last one.
+pub(super) fn run(
+    design: &Design,
+    legs: CoupledLegs,
+    given: &Given,
+    start: Pose,
+    seed: u64,
+    table: &Table,
+) -> Answer {
+    let machine = Machine::of(design);
+    let mut tracker = CoupledTracker::new(legs, start);
+    match given {
+        Given::One(drives) => {
+            let (exit, record, sentence) = one(&machine, &mut tracker, drives, seed);
+            let text = format!("{sentence}\n{}", render::text(&design.name, &record.solved));
+            let record = FkAnswer::One(Box::new(record));
+            let text = table.text(design, &record).unwrap_or(text);
+            Answer::new(exit, record, text)
+        }
+        Given::Rows(series) => {
+            let mut exit = Exit::Yes;
+            let mut text = String::from("line  outcome           segments  inverse condition  position\n");
+            let mut rows = Vec::with_capacity(series.rows.len());
+            for row in &series.rows {
+                let (code, record, sentence) = one(&machine, &mut tracker, &row.value, seed);
+                exit = exit.max(code);
+                let _ = writeln!(text, "{:>4}  {sentence}", row.line);
+                rows.push(FkRowRecord {
+                    line: row.line,
+                    time: row.time,
+                    lengths: row.value.get(),
+                    angles_deg: None,
+                    outcome: FkRowOutcome::Solved(Box::new(record)),
+                });
+            }
+            let record = FkAnswer::Rows(FkRowsAnswer { rows });
+            let table = Table { time_name: series.time_name.clone(), ..*table };
+            let text = table.text(design, &record).unwrap_or(text);
+            Answer::new(exit, record, text)
+        }
+    }
+}
+
+/// One set of lengths: exit code, record, and what people are told.
+fn one(
+    machine: &Machine<'_>,
+    tracker: &mut CoupledTracker,
+    drives: &LegLengths,
+    seed: u64,
+) -> (Exit, FkOneAnswer, String) {
+    let from = tracker.pose();
+    let found = tracker.step(&drives.get());
+    let distances = LegLengths::try_new(found.distances).unwrap_or(*drives);
+    // certificates are about distances; what is proved of the lengths of drives stands in the record of the drives
+    let proof = match found.status {
+        CoupledStatus::Proved(_) => Proof::Of(Some(Reality::Real)),
+        CoupledStatus::Unproved => Proof::Of(Some(Reality::Undecided)),
+        _ => Proof::Of(None),
+    };
+    let mut record = near::record_with(machine, &distances, (&from, &found.near), proof, seed);
+    let solution = DriveSolutionRecord::new(&drives.get(), &found);
+    if let (Some(near), Some(why)) = (&mut record.near, &solution.reason)
+        && near.outcome == NearWord::Tracked
+    {
+        (near.outcome, near.reason) = (NearWord::Lost, Some(why.clone()));
+    }
+    let sentence = sentence(&found, &solution);
+    record.drives = Some(solution);
+    let exit = if matches!(found.status, CoupledStatus::Proved(_)) { Exit::Yes } else { Exit::Inconclusive };
+    (exit, record, sentence)
+}
+
+fn sentence(found: &CoupledOutcome, solution: &DriveSolutionRecord) -> String {
+    let p = found.near.pose().position;
+    let at = format!("[{:.6}, {:.6}, {:.6}]", p.x, p.y, p.z);
+    match found.status {
+        CoupledStatus::Proved(bound) => format!(
+            "{at}: proved, the pose with these lengths of drives is within {:.1e} and {:.1e} degrees; {} step(s)",
+            bound.position,
+            bound.angle.to_degrees(),
+            found.steps
+        ),
+        CoupledStatus::Unproved => {
+            format!(
+                "{at}: UNPROVED, the corrections settled after {} step(s) and no bound of the error is proved",
+                found.steps
+            )
+        }
+        _ => {
+            let why = solution.reason.as_deref().unwrap_or_default();
+            format!("NO POSE after {} step(s): {why}; factor {:.2}", found.steps, found.factor)
+        }
+    }
+}

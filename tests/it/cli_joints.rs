@@ -1,0 +1,132 @@
+//! Kinds of joints in design files: angles of universal joints in `assess`, lengths of drives in `ik` and `fk --near`, and what refuses joints that are not ideal.
+
+use serde_json::Value;
+
+use super::cli_frame::{document, equipod};
+
+const DESIGN: &str = "designs/symmetric-hexapod.toml";
+
+/// The symmetric hexapod with more lines in `[hardware]`.
+fn with(folder: &tempfile::TempDir, name: &str, lines: &str) -> String {
+    let text = std::fs::read_to_string(DESIGN).unwrap();
+    let path = folder.path().join(name);
+    std::fs::write(&path, format!("{text}{lines}")).unwrap();
+    path.display().to_string()
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().unwrap_or_else(|| panic!("{value}")).iter().map(|x| x.as_f64().unwrap()).collect()
+}
+
+/// First axes across the legs, in the planes of base and platform.
+const TANGENT: &str =
+    "[[0, 1, 0], [0, 1, 0], [-0.866, -0.5, 0], [-0.866, -0.5, 0], [0.866, -0.5, 0], [0.866, -0.5, 0]]";
+
+fn universal(keys: &str) -> String {
+    let joint =
+        |body: &str| format!("{body}_joint = {{ model = \"universal\", first_axis = {TANGENT}{keys} }}\n");
+    joint("base") + &joint("platform")
+}
+
+#[test]
+fn assess_proves_both_angles_of_universal_joints() {
+    let folder = tempfile::tempdir().unwrap();
+    for (limits, exit) in [("[60, 60]", 0), ("[60, 12]", 1)] {
+        let path = with(&folder, "universal.toml", &universal(&format!(", angle_deg = {limits}")));
+        let out = equipod(&["assess", &path, "--json"]);
+        let answer = document(&out);
+        let rows = answer["requirements"].as_array().unwrap_or_else(|| panic!("{answer}"));
+        for name in ["base_first_angle", "base_second_angle", "platform_first_angle", "platform_second_angle"]
+        {
+            let row = rows.iter().find(|r| r["name"] == name).unwrap_or_else(|| panic!("{name}: {answer}"));
+            let second = name.ends_with("second_angle");
+            let wanted = if second && exit == 1 { "violated" } else { "met" };
+            assert_eq!(row["status"], wanted, "{row}");
+        }
+        assert_eq!(out.status.code(), Some(exit), "{answer}");
+    }
+}
+
+#[test]
+fn drives_of_poses_lead_back_to_the_poses() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = with(&folder, "coupled.toml", &format!("screw_lead = 8\n{}", universal(", offset = 14")));
+    let pose = "12,-20,365,4,-3,6";
+    let one = document(&equipod(&["ik", &path, "--pose", pose, "--json"]));
+    let (drives, distances) = (numbers(&one["drives"]["lengths"]), numbers(&one["lengths"]));
+    let offsets = numbers(&one["drives"]["of_offsets"]);
+    let twists = numbers(&one["drives"]["twists_deg"]);
+    for i in 0..6 {
+        let meant = distances[i] + offsets[i] - 8.0 / 360.0 * twists[i];
+        assert!((drives[i] - meant).abs() < 1e-9 && (drives[i] - distances[i]).abs() > 1.0, "{one}");
+    }
+    assert_eq!(one["margins"], serde_json::json!([]));
+    // the table of one command is read by the other
+    let table = folder.path().join("drives.csv");
+    let out = equipod(&["ik", &path, "--pose", "home", "--pose", pose]);
+    let text = String::from_utf8(out.stdout).unwrap();
+    assert!(text.starts_with("drive_length_1_mm,"), "{text}");
+    std::fs::write(&table, text).unwrap();
+    let table = table.display().to_string();
+    let out = equipod(&["fk", &path, "--near", "home", "--lengths", &table, "--json"]);
+    let answer = document(&out);
+    assert_eq!(out.status.code(), Some(0), "{answer}");
+    let row = &answer["rows"][1];
+    assert_eq!((&row["drives"]["status"], &row["near"]["outcome"]), (&"proved".into(), &"tracked".into()));
+    let position = numbers(&row["solutions"][0]["real_pose"]["position"]);
+    for (found, meant) in position.iter().zip([12.0, -20.0, 365.0]) {
+        assert!((found - meant).abs() < 1e-9, "{row}");
+    }
+    assert_eq!(row["solutions"][0]["certified"], false, "certificates are about distances of joints");
+    assert!(row["drives"]["position_bound"].as_f64().unwrap() < 1e-9);
+    // a lead that is no lead of a machine: no pose, and it says why
+    let wild = with(&folder, "wild.toml", &format!("screw_lead = 40000\n{}", universal("")));
+    let drives = numbers(&document(&equipod(&["ik", &wild, "--pose", pose, "--json"]))["drives"]["lengths"]);
+    let lengths: Vec<String> = drives.iter().map(|x| x.abs().to_string()).collect();
+    let out = equipod(&["fk", &wild, "--near", "home", "--lengths", &lengths.join(","), "--json"]);
+    let answer = document(&out);
+    assert_eq!((out.status.code(), answer["solutions"].as_array().unwrap().len()), (Some(3), 0), "{answer}");
+    assert!(answer["drives"]["reason"].is_string() && answer["near"]["outcome"] != "tracked");
+}
+
+#[test]
+fn what_takes_drives_for_distances_refuses_joints_that_are_not_ideal() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = with(&folder, "coupled.toml", &universal(", offset = 14"));
+    let out = folder.path().join("out").display().to_string();
+    for words in [
+        &["fk", &path][..],
+        &["assess", &path],
+        &["limits", &path],
+        &["check", &path],
+        &["optimize", &path],
+        &["export", &path, "--to", "c", "-o", &out],
+        &["export", &path, "--to", "hal", "-o", &out],
+        &["view", &path, "-o", &out],
+    ] {
+        let answer = equipod(&[words, &["--json"]].concat());
+        assert_eq!(answer.status.code(), Some(2), "{words:?}");
+        let document = document(&answer);
+        let code = &document["error"]["code"];
+        let first = &document["error"]["violations"][0]["code"];
+        assert!(*code == "design::not_ideal" || *first == "design::not_ideal", "{words:?} {document}");
+    }
+    let written = folder.path().join("written.toml").display().to_string();
+    assert_eq!(equipod(&["design", "convert", &path, "-o", &written]).status.code(), Some(0));
+    assert!(std::fs::read_to_string(&written).unwrap().contains("offset = 14"));
+}
+
+#[test]
+fn flexures_pull_the_platform_back_to_home() {
+    let folder = tempfile::tempdir().unwrap();
+    let joint =
+        "platform_swing_deg = 20\nplatform_joint = { model = \"flexure\", bending_stiffness = 5e4 }\n";
+    let path = with(&folder, "flexures.toml", joint);
+    let at = |pose: &str| document(&equipod(&["ik", &path, "--pose", pose, "--json"]))["flexures"].clone();
+    let home = numbers(&at("home")["torque"]);
+    assert!(home.iter().all(|x| x.abs() < 1e-6), "{home:?}");
+    let aside = at("30,0,350,0,0,0");
+    assert!(numbers(&aside["force"])[0] < -1.0, "{aside}");
+    let turned = at("0,0,350,0,0,8");
+    assert!(numbers(&turned["torque"])[2] < -1.0, "{turned}");
+}
