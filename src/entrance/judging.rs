@@ -126,7 +126,7 @@ pub(crate) const ASSESS_CELLS: usize = 6000;
 pub(crate) const PATIENT_CELLS: usize = 60_000;
 
 /// The same in answers that are about something else than the requirements: a tenth of a second where the whole proof takes seconds.
-const BRIEF_CELLS: usize = 300;
+pub(crate) const BRIEF_CELLS: usize = 300;
 
 impl Design {
     /// Whether the design is architecturally singular, so that no pose can hold the platform: decided exactly, explained, and how far away a singular
@@ -205,18 +205,14 @@ impl Design {
     ///
     /// Proofs end where they decide: the proved margins may be smaller than those of `assess`. A search drives margins to zero, where proofs need more cells: they get them.
     pub(crate) fn assessed(&self, seed: u64) -> Option<AssessReport> {
-        let found = self.assess_cells(seed, ASSESS_CELLS)?;
-        if found.met_with_reserve().is_some() { Some(found) } else { self.assess_cells(seed, PATIENT_CELLS) }
-    }
-
-    /// The same with so many cells.
-    pub(crate) fn assess_cells(&self, seed: u64, cells: usize) -> Option<AssessReport> {
-        self.assess_with(&AssessOptions::new().seed(seed).close(false), cells).ok()
+        let with = |cells| self.assess_with(&AssessOptions::new().seed(seed).close(false), cells).ok();
+        let found = with(ASSESS_CELLS)?;
+        if found.met_with_reserve().is_some() { Some(found) } else { with(PATIENT_CELLS) }
     }
 
     /// The same with few cells, for answers that are about something else: the same poses are looked at, and less is proved between them.
     pub(crate) fn assessed_briefly(&self, seed: u64) -> Option<AssessReport> {
-        self.assess_cells(seed, BRIEF_CELLS)
+        self.assess_with(&AssessOptions::new().seed(seed).close(false), BRIEF_CELLS).ok()
     }
 
     /// The largest region without singular poses is sought in the shape of the box of the workspace, or of one of half the size and 30 degrees either way.

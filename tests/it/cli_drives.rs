@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use super::cli_frame::{document, equipod};
 
-const BENCH: &str = "designs/worked/bench-joint-free.toml";
+const BENCH: &str = "designs/presets/bench-l16.toml";
 
 fn table(folder: &Path, text: &str) -> String {
     let path = folder.join("drives.csv");

@@ -96,7 +96,7 @@ pub(super) fn design(root: &Node, report: &mut Findings<'_>, takes_cranks: bool)
     }
     let lengths = lengths(report, entries);
     let workspace = tables::workspace(report, entries);
-    let (optimize, search) = tables::optimize(report, entries);
+    let (optimize, search) = tables::optimize(report, entries, [base.as_ref(), platform.as_ref()]);
     let hardware = tables::hardware(report, entries);
     let speed = tables::speed(report, entries);
     let stiffness = tables::stiffness(report, entries, &hardware);
