@@ -139,7 +139,12 @@ impl Design {
         let mut found = MarginProof { bounds: Vec::new(), poses: 0 };
         for cells in [BRIEF_CELLS, ASSESS_CELLS, PATIENT_CELLS] {
             found = prove(m, required, &space, &options, cells);
-            if found.all_met() == Some(false) || found.all_reserved().is_some() {
+            let decided = match found.all_met() {
+                Some(false) => true,
+                Some(true) => found.all_reserved().is_some(),
+                None => false,
+            };
+            if decided {
                 break;
             }
         }

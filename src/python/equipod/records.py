@@ -1121,7 +1121,7 @@ class DriveRecord(Record):
     #: Where the numbers are from; null: the table does not say it.
     source: Union[str, None]
     #: What `assess` says of the design with the drive.
-    assessment: Union[AssessAnswer, None]
+    assessment: AssessAnswer
     #: Along the motions asked for.
     motions: tuple[MotionRunRecord, ...]
 
