@@ -167,9 +167,7 @@ const JOBS: [Job; 10] = [
         commands: &[
             entry(
                 "build drives",
-                &[
-                    "build drives designs/worked/simulator-300kg-built.toml designs/tables/drives.csv -o driven.toml",
-                ],
+                &["build drives designs/presets/bench-l16.toml designs/tables/drives.csv -o driven.toml"],
                 &["actuators", "actuator", "cylinders", "catalogue"],
             ),
             entry(

@@ -212,6 +212,17 @@ impl Design {
         self
     }
 
+    /// For each joint of a body whether no search may move it.
+    pub(crate) fn fixed_joints(&self, body: Body) -> Vec<bool> {
+        let fixed = &self.search.fixed[body.index()];
+        self.joint_names(body).iter().map(|name| fixed.contains(name)).collect()
+    }
+
+    /// Whether any joint may not be moved.
+    pub(crate) fn has_fixed_joints(&self) -> bool {
+        Body::BOTH.into_iter().any(|body| self.fixed_joints(body).contains(&true))
+    }
+
     /// The cranks and rods of a design whose drive is rotary; `None` where legs change their lengths.
     ///
     /// ```
@@ -539,6 +550,8 @@ pub struct SearchTable {
     pub stretch_bounds: Option<(f64, f64)>,
     /// Least and greatest change of the height of home, in sizes of the design.
     pub height_bounds: Option<(f64, f64)>,
+    /// Names of the joints of base and platform that no search may move.
+    pub fixed: [Vec<String>; 2],
 }
 
 /// The coordinates when all three are known exactly.

@@ -434,3 +434,31 @@ fn kinds_of_joints_that_say_too_little_or_too_much_are_refused() {
     assert_eq!(violations[0].code, Code::MissingKey, "a flexure without a greatest angle");
     assert!(parse(&without.replacen(JOINTS, universal, 1), Format::Toml).is_ok());
 }
+
+#[test]
+fn fixed_joints_are_read_by_name_or_body_and_written_back() {
+    let plain = GOOD.replacen("trajectory = \"path.csv\"\n", "", 1);
+    let (head, tail) = plain.split_once("[optimize]\n").map_or((plain.as_str(), ""), |parts| parts);
+    let text = |fixed: &str| format!("{head}[optimize]\nfixed = {fixed}\n{tail}");
+    let read = |fixed: &str| parse(&text(fixed), Format::Toml).unwrap().0;
+    let names = |list: &[&str]| list.iter().map(|n| (*n).to_owned()).collect::<Vec<_>>();
+    for (fixed, base, platform) in [
+        ("[\"P2\", \"P4\"]", names(&["P2"]), names(&["P4"])),
+        ("[\"base\", \"P5\", \"P5\"]", names(&["P1", "P2", "P3"]), names(&["P5"])),
+        ("[]", Vec::new(), Vec::new()),
+    ] {
+        let design = read(fixed);
+        assert_eq!(design.search.fixed, [base, platform], "{fixed}");
+        for (text, format) in [(design.to_toml(), Format::Toml), (design.to_json(), Format::Json)] {
+            assert_eq!(parse(&text, format).unwrap().0, design, "{text}");
+        }
+    }
+    let design = read("[\"P2\"]");
+    assert_eq!(design.fixed_joints(Body::Base), [false, true, false]);
+    assert!(design.has_fixed_joints() && !read("[]").has_fixed_joints());
+    for (fixed, code) in
+        [("[\"P9\"]", Code::UnknownName), ("[3]", Code::WrongType), ("\"P1\"", Code::WrongType)]
+    {
+        assert_eq!(parse(&text(fixed), Format::Toml).unwrap_err()[0].code, code, "{fixed}");
+    }
+}

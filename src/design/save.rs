@@ -382,7 +382,7 @@ impl Design {
         let tail = Tail {
             home: HomeTable::of(self),
             workspace: self.workspace_table(),
-            optimize: OptimizeFile::of(&self.optimize, &self.search),
+            optimize: OptimizeFile::of(&self.optimize, &self.with_known_joints()),
             hardware: HardwareTable::of(&self.hardware),
             limits: LimitsFile::of(&self.reserves),
             envelope: EnvelopesTable::of(&self.envelopes),
@@ -406,6 +406,15 @@ impl Design {
             cranks: self.constructions.cranks.as_ref().map(|c| CranksFile::of(c, self.base_names())),
             tail,
         }
+    }
+
+    /// The search with the fixed joints that the design still has.
+    fn with_known_joints(&self) -> SearchTable {
+        let mut out = self.search.clone();
+        for body in Body::BOTH {
+            out.fixed[body.index()].retain(|name| self.joint_names(body).contains(name));
+        }
+        out
     }
 
     fn joint_files(&self, body: Body) -> Vec<(&str, JointFile<'_>)> {
@@ -654,6 +663,8 @@ pub(super) struct OptimizeFile {
     #[serde(skip_serializing_if = "Option::is_none")]
     height_bounds: Option<[f64; 2]>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
+    fixed: Vec<String>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     objectives: Vec<WeightedObjective>,
 }
 
@@ -678,6 +689,7 @@ impl OptimizeFile {
             offset_bounds: pair(search.offset_bounds),
             stretch_bounds: pair(search.stretch_bounds),
             height_bounds: pair(search.height_bounds),
+            fixed: search.fixed.iter().flatten().cloned().collect(),
             objectives: search
                 .objectives
                 .iter()

@@ -38,6 +38,9 @@ pub struct Variables {
     pub symmetric: bool,
     /// The symmetry of the whole platform at home that is kept. With [`KeptSymmetry::ThreeFold`] offsets are as with `symmetric`, and triangles change in size alone.
     pub symmetry: KeptSymmetry,
+    /// Legs whose ends on the base and on the platform stay where they are: a body with such an end keeps its triangle and its size, and such legs slide on no family that moves
+    /// the end. Offsets put further joints beside those of the design, which stay.
+    pub fixed_ends: [[bool; 6]; 2],
     /// Least and greatest offset of each side, cyclic order.
     pub offset_bounds: [(f64, f64); 6],
     /// Least and greatest parameter of a family.
@@ -60,6 +63,7 @@ impl Default for Variables {
             joint_axes: [false; 2],
             symmetric: false,
             symmetry: KeptSymmetry::None,
+            fixed_ends: [[false; 6]; 2],
             offset_bounds: [(-1.0, 2.0); 6],
             stretch_bounds: (-0.5, 1.0),
             height_bounds: (-0.5, 1.0),
@@ -68,6 +72,12 @@ impl Default for Variables {
 }
 
 impl Variables {
+    /// Whether the triangle or the size of a body is kept.
+    #[must_use]
+    pub fn keeps_body(&self, body: Body) -> bool {
+        self.fixed_ends[body.index()].contains(&true)
+    }
+
     /// These kinds within the default bounds.
     #[must_use]
     pub fn of(kinds: &[VariableKind]) -> Self {

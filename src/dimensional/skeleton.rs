@@ -83,14 +83,17 @@ pub(crate) struct ScaledBodies {
     legs: [Leg; 6],
     /// Of the base, base frame, and of the platform, platform frame.
     centres: [Vector3<f64>; 2],
-    /// Variables of the two sizes.
-    sizes: [usize; 2],
+    /// Variables of the two sizes; `None` for a body that keeps its own.
+    sizes: [Option<usize>; 2],
 }
 
 impl ScaledBodies {
     /// Lays out the two sizes.
     pub(crate) fn of(m: &Manipulator, v: &Variables, layout: &mut VariableLayout) -> Self {
-        let sizes = ["base size", "platform size"].map(|name| layout.add(name.into(), v.stretch_bounds, 0.0));
+        let sizes = Body::BOTH.map(|body| {
+            let free = !v.keeps_body(body);
+            free.then(|| layout.add(format!("{body} size"), v.stretch_bounds, 0.0))
+        });
         Self { legs: m.legs(), centres: m.mean_leg_ends(), sizes }
     }
 
@@ -104,7 +107,7 @@ impl ScaledBodies {
 impl Skeleton for ScaledBodies {
     fn ends(&self, x: &[f64]) -> [[Vector3<f64>; 6]; 2] {
         [0, 1].map(|body| {
-            let factor = 1.0 + x[self.sizes[body]];
+            let factor = 1.0 + self.sizes[body].map_or(0.0, |k| x[k]);
             [0, 1, 2, 3, 4, 5].map(|leg| self.centres[body] + self.arm(body, leg) * factor)
         })
     }
@@ -112,8 +115,12 @@ impl Skeleton for ScaledBodies {
     fn rates(&self, x: &[f64]) -> Vec<Rate> {
         let mut out = vec![Rate::default(); x.len()];
         for leg in 0..6 {
-            out[self.sizes[0]].ends.push((leg, self.arm(0, leg), Vector3::zeros()));
-            out[self.sizes[1]].ends.push((leg, Vector3::zeros(), self.arm(1, leg)));
+            if let Some(k) = self.sizes[0] {
+                out[k].ends.push((leg, self.arm(0, leg), Vector3::zeros()));
+            }
+            if let Some(k) = self.sizes[1] {
+                out[k].ends.push((leg, Vector3::zeros(), self.arm(1, leg)));
+            }
         }
         out
     }
@@ -210,8 +217,9 @@ impl OctahedralSides {
             }
             at
         });
-        let mut triangle = |vertices, body: &str| {
+        let mut triangle = |vertices, body: Body| {
             let first = layout.next();
+            let chosen = if v.keeps_body(body) { Triangles::Fixed } else { chosen };
             let (diagonal, shear) = (v.stretch_bounds, 0.5 * (v.stretch_bounds.1 - v.stretch_bounds.0));
             match chosen {
                 Triangles::Fixed => return Triangle::new(vertices, chosen, None),
@@ -226,7 +234,7 @@ impl OctahedralSides {
             }
             Triangle::new(vertices, chosen, Some(first))
         };
-        let triangles = [triangle(o.base(), "base"), triangle(o.platform(), "platform")];
+        let triangles = [triangle(o.base(), Body::Base), triangle(o.platform(), Body::Platform)];
         Ok(Self { order: o.order().map(LegIndex::get), triangles, offsets })
     }
 }
@@ -415,7 +423,10 @@ impl OnFamilies {
             }),
             _ => None,
         };
-        let mut sliding: Vec<Sliding> = LegIndex::all().filter_map(slide).collect();
+        let stays = |s: &Sliding| {
+            Body::BOTH.into_iter().all(|body| !v.fixed_ends[body.index()][s.leg] || s.is_fixed(body))
+        };
+        let mut sliding: Vec<Sliding> = LegIndex::all().filter_map(slide).filter(stays).collect();
         if sliding.is_empty() {
             return Err(InvalidProblem::NoFamily);
         }

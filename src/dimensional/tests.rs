@@ -381,6 +381,28 @@ fn the_optimum_holds_densely_and_random_designs_do_not_beat_it() {
 }
 
 #[test]
+fn a_body_with_a_fixed_joint_keeps_its_triangle() {
+    let kinds = [VariableKind::SymmetricOffsets, VariableKind::TriangleSizes];
+    let ends = |p: &DimensionalProblem| {
+        let found = optimize(p, &[], &quick(), &mut |_| ControlFlow::Continue(())).unwrap();
+        let m = found.solution().unwrap().manipulator.clone();
+        let stays = |own: &[Point3<f64>], now: &[Point3<f64>]| {
+            own.iter().all(|p| now.iter().any(|q| (p - q).norm() < 1e-9 * m.size()))
+        };
+        [
+            stays(p.manipulator.base_joints(), m.base_joints()),
+            stays(p.manipulator.platform_joints(), m.platform_joints()),
+        ]
+    };
+    let mut p = problem(&kinds, Objective::WorstConditioning);
+    assert_eq!(ends(&p), [false, false], "negative control");
+    p.variables.fixed_ends[0][2] = true;
+    assert_eq!(ends(&p), [true, false]);
+    p.variables.fixed_ends = [[false; 6], [true; 6]];
+    assert_eq!(ends(&p), [false, true]);
+}
+
+#[test]
 fn units_and_frames_do_not_change_the_answer() {
     let p = problem(&[VariableKind::SymmetricOffsets], Objective::WorstConditioning);
     let value = |p: &DimensionalProblem| {

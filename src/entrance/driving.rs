@@ -2,10 +2,13 @@
 
 use std::cmp::Ordering;
 
-use super::judging::{ASSESS_CELLS, PATIENT_CELLS};
+use super::judging::{ASSESS_CELLS, BRIEF_CELLS, PATIENT_CELLS};
 use super::{AssessReport, MotionMasses, MotionReport, PlatformMotion};
 use crate::design::{Design, DesignUnits, Drive};
-use crate::requirements::{ForceUnit, MassUnit};
+use crate::requirements::{
+    AssessOptions, ForceUnit, MarginProof, MassUnit, Requirements, least_conditioning, prove,
+};
+use crate::singularity::regular_workspace;
 
 /// A drive with what it makes of a design.
 #[derive(Debug, Clone)]
@@ -14,7 +17,7 @@ pub(crate) struct DriveFit {
     /// The design with the drive.
     pub(crate) design: Design,
     /// What is proved of it.
-    pub(crate) assessed: Option<AssessReport>,
+    pub(crate) assessed: AssessReport,
     /// Along each motion, in the order asked for.
     pub(crate) motions: Vec<MotionReport>,
 }
@@ -27,7 +30,7 @@ impl DriveFit {
         if !self.motions.iter().all(along) {
             return Some(false);
         }
-        self.assessed.as_ref().map_or(Some(true), AssessReport::met)
+        self.assessed.met()
     }
 
     /// Whether the reserve on every limit is kept too.
@@ -40,7 +43,7 @@ impl DriveFit {
         if fits == Some(false) || !self.motions.iter().all(along) {
             return Some(false);
         }
-        self.assessed.as_ref().map_or(Some(true), AssessReport::met_with_reserve)
+        self.assessed.met_with_reserve()
     }
 
     /// Drives that fit first, then those that are undecided; among them the cheapest first, then the lightest, then as in the table. What has no price or mass comes last.
@@ -90,7 +93,7 @@ impl Design {
         out
     }
 
-    /// Every drive of a table, the one to take first: those that fit by price, then mass.
+    /// Every drive of a table, the one to take first: those that fit by price, then mass. What no drive changes is proved once for all of them.
     ///
     /// `metres` is the length of a design unit; without it no forces are computed along motions.
     pub(crate) fn fit_drives(
@@ -100,29 +103,51 @@ impl Design {
         metres: Option<f64>,
         seed: u64,
     ) -> Vec<DriveFit> {
+        let rest = self.assessed_without_drives(seed);
         let one = |drive: &Drive| {
             let design = self.with_drive(drive);
             let masses: Option<MotionMasses> = metres.and_then(|m| design.motion_masses(m, None));
-            // few cells decide most drives: the others have limits near to what is needed
-            let assessed = match design.assessed_briefly(seed) {
-                Some(found) if found.met().is_none() => design.assess_cells(seed, ASSESS_CELLS),
-                found => found,
-            };
             let motions = motions.iter().map(|m| design.along(m, masses.as_ref())).collect();
+            let [of_drive, _] = design.requirements().of_drives_and_rest();
+            let own = design.proved(&of_drive, seed);
+            let mut assessed = rest.clone();
+            assessed.proof.poses += own.poses;
+            assessed.proof.bounds.extend(own.bounds);
+            assessed.proof.bounds.sort_by_key(|b| b.found.term.kind);
             DriveFit { drive: drive.clone(), design, assessed, motions }
         };
         let mut all: Vec<DriveFit> = drives.iter().map(one).collect();
         all.sort_by(DriveFit::order);
-        // where none is proved to fit, the first undecided ones get what a search gets that drives margins to zero
-        for fit in &mut all {
-            if fit.fits() == Some(true) {
+        all
+    }
+
+    /// Whether the workspace is free of singular poses, and every requirement that no drive changes.
+    fn assessed_without_drives(&self, seed: u64) -> AssessReport {
+        let (m, space) = (self.manipulator(), self.workspace.space(&self.home_or_default()));
+        let [_, rest] = self.requirements().of_drives_and_rest();
+        let proof = self.proved(&rest, seed);
+        let (regularity, regularity_cells) = regular_workspace(m, &space, ASSESS_CELLS, seed);
+        let options = AssessOptions::new().seed(seed).close(false);
+        let conditioning = least_conditioning(m, &space, &options, self.characteristic_length());
+        AssessReport { proof, regularity, regularity_cells, conditioning }
+    }
+
+    /// What is proved of some requirements, with as many cells as decide them and no more than a search gets.
+    fn proved(&self, required: &Requirements, seed: u64) -> MarginProof {
+        let (m, space) = (self.manipulator(), self.workspace.space(&self.home_or_default()));
+        let options = AssessOptions::new().seed(seed).close(false);
+        let mut found = MarginProof { bounds: Vec::new(), poses: 0 };
+        for cells in [BRIEF_CELLS, ASSESS_CELLS, PATIENT_CELLS] {
+            found = prove(m, required, &space, &options, cells);
+            let decided = match found.all_met() {
+                Some(false) => true,
+                Some(true) => found.all_reserved().is_some(),
+                None => false,
+            };
+            if decided {
                 break;
             }
-            if fit.fits().is_none() {
-                fit.assessed = fit.design.assess_cells(seed, PATIENT_CELLS);
-            }
         }
-        all.sort_by(DriveFit::order);
-        all
+        found
     }
 }

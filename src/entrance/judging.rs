@@ -126,7 +126,7 @@ pub(crate) const ASSESS_CELLS: usize = 6000;
 pub(crate) const PATIENT_CELLS: usize = 60_000;
 
 /// The same in answers that are about something else than the requirements: a tenth of a second where the whole proof takes seconds.
-const BRIEF_CELLS: usize = 300;
+pub(crate) const BRIEF_CELLS: usize = 300;
 
 impl Design {
     /// Whether the design is architecturally singular, so that no pose can hold the platform: decided exactly, explained, and how far away a singular
@@ -209,14 +209,9 @@ impl Design {
         self.assess_with(&options, ASSESS_CELLS).ok()
     }
 
-    /// The same with so many cells.
-    pub(crate) fn assess_cells(&self, seed: u64, cells: usize) -> Option<AssessReport> {
-        self.assess_with(&AssessOptions::new().seed(seed).close(false), cells).ok()
-    }
-
     /// The same with few cells, for answers that are about something else: the same poses are looked at, and less is proved between them.
     pub(crate) fn assessed_briefly(&self, seed: u64) -> Option<AssessReport> {
-        self.assess_cells(seed, BRIEF_CELLS)
+        self.assess_with(&AssessOptions::new().seed(seed).close(false), BRIEF_CELLS).ok()
     }
 
     /// The largest region without singular poses is sought in the shape of the box of the workspace, or of one of half the size and 30 degrees either way.

@@ -470,6 +470,10 @@ pub(crate) fn dimensional_problem(design: &Design, extension: f64) -> Dimensiona
         if search.variables.is_empty() { std::slice::from_ref(&usual) } else { &search.variables[..] };
     let mut variables = Variables::of(kinds);
     variables.symmetry = search.symmetry.unwrap_or_default();
+    variables.fixed_ends = fixed_ends(design);
+    if Body::BOTH.into_iter().all(|body| variables.keeps_body(body)) {
+        variables.triangles = Triangles::Fixed;
+    }
     variables.offset_bounds = [search.offset_bounds.unwrap_or((-extension, 1.0 + extension)); 6];
     variables.stretch_bounds = search.stretch_bounds.unwrap_or(variables.stretch_bounds);
     variables.height_bounds = search.height_bounds.unwrap_or(variables.height_bounds);
@@ -498,6 +502,13 @@ pub(crate) fn dimensional_problem(design: &Design, extension: f64) -> Dimensiona
         objectives,
         mode,
     }
+}
+
+/// Legs whose ends are at joints that no search may move, base first.
+fn fixed_ends(design: &Design) -> [[bool; 6]; 2] {
+    let fixed = Body::BOTH.map(|body| design.fixed_joints(body));
+    let pairs = design.manipulator().pairs();
+    [pairs.map(|(base, _)| fixed[0][base]), pairs.map(|(_, platform)| fixed[1][platform])]
 }
 
 /// The platform as a design, evaluated by code that the optimiser does not use.

@@ -79,6 +79,7 @@ impl Design {
         let (home, workspace) = (self.home_or_default(), self.workspace_or_default());
         let (space, poses) = (workspace.space(&home), workspace.sample(&home));
         let required = self.requirements();
+        let fixed = Body::BOTH.map(|body| self.fixed_joints(body));
         let m = self.manipulator();
         // that of `optimize`: RMS radius of the platform triangle, of the leg ends where there is none
         let radius = equivalent_octahedral(m).as_ref().unwrap_or(m).platform_rms_radius();
@@ -86,6 +87,7 @@ impl Design {
             manipulator: m,
             grids: choices.grids,
             free: choices.free,
+            fixed: fixed.each_ref().map(Vec::as_slice),
             requirements: &required,
             space: &space,
             poses: &poses,

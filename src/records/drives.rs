@@ -61,7 +61,7 @@ pub struct DriveRecord {
     /// Where the numbers are from; null: the table does not say it.
     pub source: Option<String>,
     /// What `assess` says of the design with the drive.
-    pub assessment: Option<AssessAnswer>,
+    pub assessment: AssessAnswer,
     /// Along the motions asked for.
     pub motions: Vec<MotionRunRecord>,
 }
@@ -86,7 +86,7 @@ impl DriveRecord {
             stiffness: drive.stiffness.map(Number),
             price: drive.price.map(Number),
             source: drive.source.clone(),
-            assessment: fit.assessed.as_ref().map(|found| AssessAnswer::new(design, found)),
+            assessment: AssessAnswer::new(design, &fit.assessed),
             motions: along.map(|(name, found)| MotionRunRecord::new(design, name.clone(), found)).collect(),
         }
     }

@@ -8,6 +8,7 @@ mod facts;
 mod inputs;
 mod kind;
 mod page;
+mod parts;
 mod requirements;
 
 pub use comparison::{Comparison, comparison_page};
@@ -17,7 +18,7 @@ pub use page::html;
 /// One file of the folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ReportFile {
-    /// Name without the folder.
+    /// Name from the folder of the page on, parts separated by `/`.
     pub name: String,
     /// Contents.
     pub bytes: Vec<u8>,

@@ -6,7 +6,7 @@ use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
 use serde_json::{Map, Value};
 
 use super::kind::{ResultVerdict, heading, verdict};
-use super::{Report, ReportFile, comparison, facts, inputs, requirements};
+use super::{Report, ReportFile, comparison, facts, inputs, parts, requirements};
 use crate::design::{Design, Format, parse};
 use crate::page::policy;
 use crate::plot::escape;
@@ -19,6 +19,7 @@ enum Content {
     Design(Box<Design>, String),
     Result(Map<String, Value>),
     Picture(String),
+    Table(String),
     Other,
 }
 
@@ -37,6 +38,7 @@ fn content(file: &ReportFile) -> Content {
             _ => design(Format::Json).unwrap_or(Content::Other),
         },
         "svg" => Content::Picture(text.to_owned()),
+        "csv" => Content::Table(text.to_owned()),
         _ => Content::Other,
     }
 }
@@ -63,6 +65,15 @@ pub fn html(report: &Report) -> String {
         "Requirements",
         contents.iter().filter_map(|(file, content)| match content {
             Content::Result(fields) => requirements::section(&link(&file.name), fields),
+            _ => None,
+        }),
+    );
+    section(
+        &mut out,
+        "parts",
+        "Bill of materials",
+        contents.iter().filter_map(|(file, content)| match content {
+            Content::Table(text) => parts::section(&link(&file.name), text),
             _ => None,
         }),
     );
@@ -150,7 +161,9 @@ fn anchor(name: &str) -> String {
 
 /// A link to the file beside the page.
 fn link(name: &str) -> String {
-    format!("<a href=\"{}\">{}</a>", utf8_percent_encode(name, NON_ALPHANUMERIC), escape(name))
+    let encoded: Vec<String> =
+        name.split('/').map(|part| utf8_percent_encode(part, NON_ALPHANUMERIC).to_string()).collect();
+    format!("<a href=\"{}\">{}</a>", encoded.join("/"), escape(name))
 }
 
 /// A result folded away: its answer is among the verdicts, and whoever doubts it unfolds the numbers.

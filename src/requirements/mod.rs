@@ -88,6 +88,44 @@ pub struct Requirements {
 }
 
 impl Requirements {
+    /// What is asked of the drives (lengths, forces, speeds, stiffness), and all the rest: each kind of requirement belongs to one of both.
+    #[must_use]
+    pub fn of_drives_and_rest(&self) -> [Self; 2] {
+        let h = &self.hardware;
+        let drives = Self {
+            hardware: Hardware {
+                leg_length: h.leg_length,
+                max_leg_force: h.max_leg_force,
+                max_leg_speed: h.max_leg_speed,
+                leg_stiffness: h.leg_stiffness,
+                leg_masses: h.leg_masses,
+                ..Hardware::default()
+            },
+            loads: self.loads.clone(),
+            platform_speed: self.platform_speed,
+            platform_stiffness: self.platform_stiffness,
+            vibrating: self.vibrating,
+            reserves: self.reserves.clone(),
+            ..Self::default()
+        };
+        let hardware = Hardware {
+            leg_length: None,
+            max_leg_force: None,
+            max_leg_speed: None,
+            leg_stiffness: None,
+            ..*h
+        };
+        let rest = Self {
+            hardware,
+            keep_outs: self.keep_outs.clone(),
+            min_joint_distance: self.min_joint_distance,
+            envelopes: self.envelopes,
+            reserves: self.reserves.clone(),
+            ..Self::default()
+        };
+        [drives, rest]
+    }
+
     /// The least stiffness or natural frequency asked for, in the unit of its margin; `None` where none is, and for other kinds.
     #[must_use]
     pub fn least_stiffness_of(&self, kind: TermKind) -> Option<f64> {

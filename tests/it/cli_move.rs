@@ -206,3 +206,22 @@ fn a_platform_that_misses_a_requirement_is_not_called_fulfilled() {
     }
     assert!(doc["explanation"].as_str().unwrap().contains("violates requirements"));
 }
+
+#[test]
+fn the_last_leg_of_a_fixed_joint_is_not_moved() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("fixed.toml");
+    let text = std::fs::read_to_string("designs/rbt-octahedral.toml").unwrap();
+    assert!(!text.contains("[optimize]"), "the table is written below");
+    std::fs::write(&path, format!("{text}\n[optimize]\nfixed = [\"base\"]\n")).unwrap();
+    let path = path.to_str().unwrap();
+    let asked = |args: &[&str]| {
+        let out = equipod(&[&["equivalents", "move", path, "--json"], args].concat());
+        (out.status.code(), document(&out)["error"]["code"].as_str().map(str::to_owned))
+    };
+    // one of the two legs at P1 leaves it, then the other one
+    let (first, second) = ("1:P1-P2:P4:0.3", "6:P1-P3:P6:0.3");
+    assert_eq!(asked(&["--move", first]), (Some(0), None));
+    assert_eq!(asked(&["--move", first, "--move", second]), (Some(2), Some("move::fixed".into())));
+    assert_eq!(asked(&["--search"]), (Some(2), Some("move::fixed".into())));
+}

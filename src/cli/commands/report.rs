@@ -26,7 +26,7 @@ const MOST_BYTES: u64 = 64 << 20;
 /// Arguments of `report`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// Folder with designs (.toml, .json), results of equipod (.json) and pictures (.svg); folders in it are not read
+    /// Folder with designs (.toml, .json), results of equipod (.json) and pictures (.svg); of folders in it only the bill of materials machine/parts.csv is read
     #[arg(value_name = "DIR")]
     folder: PathBuf,
     /// Write the page to this file; report.html in the folder when absent
@@ -120,17 +120,27 @@ fn gather(folder: &Path, page: &Path) -> Result<Vec<ReportFile>, Failure> {
             paths.push(path);
         }
     }
-    read(paths)
+    let parts = folder.join(PARTS[0]).join(PARTS[1]);
+    if parts.is_file() {
+        paths.push(parts);
+    }
+    read(folder, paths)
 }
 
-/// Files for the page: those of `explore` first, the others by name.
+/// Where `explore` puts the bill of materials, in its folder.
+const PARTS: [&str; 2] = ["machine", "parts.csv"];
+
+/// Files of a folder for the page: those of `explore` first, the others by name.
 pub(in crate::cli::commands) fn read(
+    folder: &Path,
     paths: impl IntoIterator<Item = PathBuf>,
 ) -> Result<Vec<ReportFile>, Failure> {
     let mut out = Vec::new();
     for path in paths {
         let bytes = files::read_bytes(&path, MOST_BYTES)?;
-        let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+        let within = path.strip_prefix(folder).unwrap_or(&path);
+        let parts: Vec<_> = within.iter().map(|part| part.to_string_lossy().into_owned()).collect();
+        let name = parts.join("/");
         out.push(ReportFile { name, bytes });
     }
     let rank = |name: &str| FIRST.iter().position(|known| *known == name).unwrap_or(FIRST.len());

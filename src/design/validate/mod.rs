@@ -97,7 +97,7 @@ pub(super) fn design(root: &Node, report: &mut Findings<'_>, takes_cranks: bool)
     }
     let lengths = lengths(report, entries);
     let workspace = tables::workspace(report, entries);
-    let (optimize, search) = tables::optimize(report, entries);
+    let (optimize, search) = tables::optimize(report, entries, [base.as_ref(), platform.as_ref()]);
     let hardware = tables::hardware(report, entries);
     joint_models::refuse_coupled(report, entries, &hardware, takes_cranks);
     let speed = tables::speed(report, entries);

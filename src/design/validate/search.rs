@@ -1,5 +1,7 @@
 //! The keys of `[optimize]` that say what may be chosen and what is best.
 
+use super::holes::PLATE_KEYS;
+use super::joints::NamedJoints;
 use super::tables::positive;
 use super::{check_keys, nearest_help, number, numbers, shown, table};
 use crate::design::tree::{Entry, Node, Value, find};
@@ -8,7 +10,7 @@ use crate::design::{Code, Combination, SearchTable};
 use crate::requirements::{KeptSymmetry, Objective, VariableKind};
 
 /// The keys read here.
-pub(super) const SEARCH_KEYS: [&str; 10] = [
+pub(super) const SEARCH_KEYS: [&str; 11] = [
     "variables",
     "symmetry",
     "objective",
@@ -19,6 +21,7 @@ pub(super) const SEARCH_KEYS: [&str; 10] = [
     "offset_bounds",
     "stretch_bounds",
     "height_bounds",
+    "fixed",
 ];
 /// Share of the earlier levels that later ones may take.
 const SLACK: f64 = 0.01;
@@ -26,7 +29,11 @@ const SLACK: f64 = 0.01;
 const POINTS: (usize, usize) = (10, 100);
 
 /// The search part of `[optimize]`.
-pub(super) fn search(report: &mut Findings<'_>, entries: &[Entry]) -> SearchTable {
+pub(super) fn search(
+    report: &mut Findings<'_>,
+    entries: &[Entry],
+    bodies: [Option<&NamedJoints>; 2],
+) -> SearchTable {
     SearchTable {
         variables: variables(report, entries),
         symmetry: symmetry(report, entries),
@@ -35,7 +42,49 @@ pub(super) fn search(report: &mut Findings<'_>, entries: &[Entry]) -> SearchTabl
         offset_bounds: bounds(report, entries, "offset_bounds"),
         stretch_bounds: bounds(report, entries, "stretch_bounds"),
         height_bounds: bounds(report, entries, "height_bounds"),
+        fixed: fixed(report, entries, bodies),
     }
+}
+
+/// `fixed`: names of joints, or of a body for all its joints; a name that both bodies have means both joints.
+fn fixed(
+    report: &mut Findings<'_>,
+    entries: &[Entry],
+    bodies: [Option<&NamedJoints>; 2],
+) -> [Vec<String>; 2] {
+    let mut out = [Vec::new(), Vec::new()];
+    let Some(entry) = find(entries, "fixed") else { return out };
+    let names = bodies.map(|body| body.map(NamedJoints::names).unwrap_or_default());
+    for node in list(report, entry) {
+        let Value::Text(word) = &node.value else {
+            let message = format!("a name of `fixed` is {}, not a string", node.value.kind());
+            report.refuse(
+                Code::WrongType,
+                &node.span,
+                message,
+                "write names of joints, \"base\" or \"platform\"",
+            );
+            continue;
+        };
+        let mut known = false;
+        for (k, body) in PLATE_KEYS.into_iter().enumerate() {
+            let own = names[k].iter().filter(|name| word == body || *name == word);
+            let new: Vec<String> = own.cloned().collect();
+            known |= !new.is_empty();
+            out[k].extend(new);
+        }
+        if !known && bodies.iter().all(Option::is_some) {
+            let all: Vec<&str> =
+                PLATE_KEYS.into_iter().chain(names.iter().flatten().map(String::as_str)).collect();
+            let message = format!("`{}` is no joint of the design", shown(word));
+            report.refuse(Code::UnknownName, &node.span, message, nearest_help("known names", word, &all));
+        }
+    }
+    for list in &mut out {
+        list.sort();
+        list.dedup();
+    }
+    out
 }
 
 /// One of the names; a name that is not known is refused.

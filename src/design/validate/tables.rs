@@ -4,6 +4,7 @@ use nalgebra::{Matrix3, Point3, Quaternion, Rotation3, Unit, UnitQuaternion, Vec
 
 use super::constructions::{Places, is_constructed, three_quantities};
 use super::joint_models as joints;
+use super::joints::NamedJoints;
 use super::search::{SEARCH_KEYS, search};
 use super::{check_keys, element_span, number, numbers, shown, table, text};
 use crate::design::construction::WrittenHome;
@@ -275,7 +276,11 @@ fn single_poses(report: &mut Findings<'_>, node: &Node) -> Vec<Pose> {
 }
 
 /// `[optimize]`.
-pub(super) fn optimize(report: &mut Findings<'_>, top: &[Entry]) -> (OptimizeTable, SearchTable) {
+pub(super) fn optimize(
+    report: &mut Findings<'_>,
+    top: &[Entry],
+    bodies: [Option<&NamedJoints>; 2],
+) -> (OptimizeTable, SearchTable) {
     let place = "[optimize]";
     let entries = find(top, "optimize").and_then(|e| table(report, &e.node, place)).unwrap_or_default();
     let known: Vec<&str> = LIMIT_KEYS.into_iter().chain(SEARCH_KEYS).collect();
@@ -283,7 +288,7 @@ pub(super) fn optimize(report: &mut Findings<'_>, top: &[Entry]) -> (OptimizeTab
     let [min_joint_distance, min_abs_det, characteristic_length] =
         LIMIT_KEYS.map(|key| positive(report, entries, key));
     let limits = OptimizeTable { min_joint_distance, min_abs_det, characteristic_length };
-    (limits, search(report, entries))
+    (limits, search(report, entries, bodies))
 }
 
 pub(super) const HARDWARE_KEYS: [&str; 27] = [

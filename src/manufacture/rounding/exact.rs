@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::grid::{BodyGrid, GridHole, Pool, Triangle, Wanted, length, pool, three_fold_pool};
+use super::grid::{BodyGrid, GridHole, POOL, Pool, Triangle, Wanted, length, pool, three_fold_pool};
 use super::{
     Grid, Judgement, Keeping, Laying, NoRounding, PlateHoles, RoundedJoint, RoundingProblem, best_of, judge,
     objective_above, on_cells, place, plate_of, sample_plan,
@@ -146,7 +146,7 @@ impl Search<'_> {
         if self.roles.inner.is_some() && determinant_numerator(triangles) == Some(0) {
             return None;
         }
-        on_cells(self.problem.manipulator, &self.plates, &cells(self.roles, &self.list, triangles))
+        on_cells(self.problem, &self.plates, &cells(self.roles, &self.list, triangles))
     }
 
     /// The pair when its objective is above `floor` and, what it keeps of the requirements is enough.
@@ -255,6 +255,37 @@ pub(super) fn limit(w: &Wanted) -> f64 {
     (REACH_SHARE * side(0).min(side(1)).min(side(2))).min(REACH)
 }
 
+/// What a joint is on a triangle.
+#[derive(Debug, Clone, Copy)]
+enum TriangleRole {
+    Corner(usize),
+    OnSide(usize),
+}
+
+impl TriangleRole {
+    fn cell(self, t: &Triangle) -> GridHole {
+        match self {
+            Self::Corner(k) => t.corners[k],
+            Self::OnSide(k) => t.joint(k),
+        }
+    }
+}
+
+/// The joints of a body that stay, with the holes that they are on.
+fn held(
+    problem: &RoundingProblem<'_>,
+    roles: &Roles,
+    plate: &PlateHoles,
+    body: usize,
+) -> Vec<(TriangleRole, Option<GridHole>)> {
+    let corners = (0..3).map(|k| (roles.corners[body][k], TriangleRole::Corner(k)));
+    let inner = roles.inner.iter().flat_map(|i| (0..3).map(|k| (i[body][k], TriangleRole::OnSide(k))));
+    let staying = corners.chain(inner).filter(|(joint, _)| problem.holds(*joint));
+    staying
+        .map(|(joint, role)| (role, plate.hole_at(&place(problem.manipulator, joint), joint.index)))
+        .collect()
+}
+
 /// The best pair of triangles on grids that are laid, and how it was found.
 struct BestTriangles {
     laying: Laying,
@@ -279,10 +310,16 @@ fn search(
     let all = [0, 1].map(|body| wanted(m, roles, &grids[body], body));
     // a design that turns keeps that where both grids have triangles that do
     let turning = all.each_ref().map(|w| three_fold_pool(w, limit(w)).filter(|p| !p.triangles.is_empty()));
-    let (pools, three_fold) = match turning {
+    let held = [0, 1].map(|body| held(problem, roles, &laying.bodies[body], body));
+    // triangles through given holes are few
+    let wide = held.each_ref().map(|list| if list.is_empty() { count } else { POOL });
+    let (mut pools, three_fold) = match turning {
         [Some(base), Some(platform)] => ([base, platform], true),
-        _ => (all.each_ref().map(|w| pool(w, count, limit(w))), false),
+        _ => ([0, 1].map(|k| pool(&all[k], wide[k], limit(&all[k]))), false),
     };
+    for (k, pool) in pools.iter_mut().enumerate() {
+        pool.triangles.retain(|t| held[k].iter().all(|(role, hole)| Some(role.cell(t)) == *hole));
+    }
     for (body, pool) in Body::BOTH.into_iter().zip(&pools) {
         if pool.triangles.is_empty() {
             return Err(NoRounding::NoTriangleNear(body));
@@ -331,7 +368,7 @@ fn finish(
     let (m, best, plates, pools) = (problem.manipulator, &found.best, &found.laying.bodies, &found.pools);
     let list = joints(m);
     let cells = cells(roles, &list, &best.triangles);
-    let rounded = on_cells(m, plates, &cells).ok_or(NoRounding::Singular)?;
+    let rounded = on_cells(problem, plates, &cells).ok_or(NoRounding::Singular)?;
     let octahedral = match &roles.found {
         Some(found) => octahedral_of(&rounded, found).map_err(|_| NoRounding::Singular)?,
         None => rounded.clone(),

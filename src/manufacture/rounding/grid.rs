@@ -128,7 +128,7 @@ const GROWTH: f64 = 1.25;
 /// The first of them, in pitches.
 const FIRST_REACH: f64 = 0.75;
 /// Triangles kept of a body, at most: the nearest ones.
-const POOL: usize = 3000;
+pub(super) const POOL: usize = 3000;
 
 /// Where corners and joints on the sides are wanted, in pitches; side `k` runs from corner `k` to corner `k + 1`.
 #[derive(Debug, Clone, Copy)]

@@ -35,6 +35,8 @@ pub struct RoundingProblem<'a> {
     pub grids: [Option<Grid>; 2],
     /// Whether origins and angles are chosen too; the grids as they are given then take part, so that the answer is never worse than theirs.
     pub free: bool,
+    /// For each joint of base and platform whether it stays where it is; empty: none does.
+    pub fixed: [&'a [bool]; 2],
     /// What it has to satisfy.
     pub requirements: &'a Requirements,
     /// The poses it has to reach.
@@ -55,6 +57,13 @@ pub struct RoundingProblem<'a> {
     pub trials: usize,
     /// Seed.
     pub seed: u64,
+}
+
+impl RoundingProblem<'_> {
+    /// Whether a joint stays where it is.
+    fn holds(&self, joint: Joint) -> bool {
+        self.fixed[joint.body.index()].get(joint.index) == Some(&true)
+    }
 }
 
 /// Why there is no rounding.
@@ -242,10 +251,15 @@ fn place(m: &Manipulator, joint: Joint) -> Point3<f64> {
     m.joints(joint.body)[joint.index]
 }
 
-/// The design with its joints (in the order of [`joints`]) on these holes.
-fn on_cells(m: &Manipulator, plates: &[PlateHoles; 2], cells: &[GridHole]) -> Option<Manipulator> {
+/// The design with its joints (in the order of [`joints`]) on these holes; those that stay are where they were.
+fn on_cells(
+    problem: &RoundingProblem<'_>,
+    plates: &[PlateHoles; 2],
+    cells: &[GridHole],
+) -> Option<Manipulator> {
+    let m = problem.manipulator;
     let (mut base, mut platform) = (m.base_joints().to_vec(), m.platform_joints().to_vec());
-    for (joint, cell) in joints(m).into_iter().zip(cells) {
+    for (joint, cell) in joints(m).into_iter().zip(cells).filter(|(joint, _)| !problem.holds(*joint)) {
         let at = plate_of(plates, joint.body).point(*cell, &place(m, joint));
         joint.body.of((&mut base, &mut platform))[joint.index] = at;
     }

@@ -77,13 +77,27 @@ struct Orbit {
 }
 
 /// Every joint by itself; or three at a time, where turns by 120 degrees take the joints of the body to one another and the holes around them to holes.
-fn orbits(m: &Manipulator, list: &[Joint], plates: &[PlateHoles; 2], body: Body) -> (Vec<Orbit>, bool) {
+fn orbits(
+    problem: &RoundingProblem<'_>,
+    list: &[Joint],
+    plates: &[PlateHoles; 2],
+    body: Body,
+) -> (Vec<Orbit>, bool) {
+    let m = problem.manipulator;
+    let holds = |k: usize| problem.holds(list[k]);
     let own: Vec<usize> = (0..list.len()).filter(|k| list[*k].body == body).collect();
     let plate = plate_of(plates, body);
+    let staying = |k: usize| plate.hole_at(&place(m, list[k]), k).unwrap_or([i64::MIN, k as i64]);
     if let Some(symmetry) = ThreeFold::of(&places(m, body), m.size()) {
         let turned = |first: usize| -> Option<Orbit> {
             let (second, third) = (symmetry.next[first], symmetry.next[symmetry.next[first]]);
             let members = [first, second, third].map(|k| own[k]);
+            if members.iter().any(|k| holds(*k)) {
+                // they turn into one another as they are, or not at all
+                let stay: Vec<GridHole> = members.iter().map(|k| staying(*k)).collect();
+                let all = members.iter().all(|k| holds(*k));
+                return all.then(|| Orbit { members: members.to_vec(), choices: vec![stay] });
+            }
             let whole = |cell: &GridHole| -> Option<Vec<GridHole>> {
                 let at = plate.point(*cell, &place(m, list[members[0]]));
                 let next = symmetry.turned(&at);
@@ -106,6 +120,9 @@ fn orbits(m: &Manipulator, list: &[Joint], plates: &[PlateHoles; 2], body: Body)
         }
     }
     let one = |k: usize| {
+        if holds(k) {
+            return Orbit { members: vec![k], choices: vec![vec![staying(k)]] };
+        }
         let around = plate.around(&place(m, list[k]), k);
         Orbit { members: vec![k], choices: around.into_iter().map(|cell| vec![cell]).collect() }
     };
@@ -142,9 +159,12 @@ fn search(
     let list = joints(m);
     let plates = &laying.bodies;
     let [(base, base_turns), (platform, platform_turns)] =
-        Body::BOTH.map(|body| orbits(m, &list, plates, body));
+        Body::BOTH.map(|body| orbits(problem, &list, plates, body));
     let orbits: Vec<Orbit> = base.into_iter().chain(platform).collect();
     let moved = |k: usize, cell: GridHole| {
+        if problem.holds(list[k]) {
+            return Vector3::zeros();
+        }
         let wanted = place(m, list[k]);
         plate_of(plates, list[k].body).point(cell, &wanted) - wanted
     };
@@ -193,7 +213,7 @@ fn search(
     let off_nearest = |orbit: &&Orbit| {
         orbit.choices.first().is_some_and(|c| c.first() != Some(&state.cells[orbit.members[0]]))
     };
-    let rounded = on_cells(m, plates, &state.cells).ok_or(NoRounding::Singular)?;
+    let rounded = on_cells(problem, plates, &state.cells).ok_or(NoRounding::Singular)?;
     Ok(NearestHoles {
         laying: *laying,
         not_nearest: orbits.iter().filter(off_nearest).map(|orbit| orbit.members.len()).sum(),
@@ -226,7 +246,7 @@ pub(super) fn round(
     let rounded = found.rounded;
     let one = |(k, joint): (usize, &Joint)| RoundedJoint {
         joint: *joint,
-        cell: found.laying.grids[joint.body.index()].map(|_| found.cells[k]),
+        cell: found.laying.grids[joint.body.index()].map(|_| found.cells[k]).filter(|c| c[0] > i64::MIN),
         moved: found.moved[k],
         off_line: roles.and_then(|r| r.off_line(m, *joint, &place(&rounded, *joint))),
     };

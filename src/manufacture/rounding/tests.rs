@@ -35,6 +35,7 @@ fn with<R>(
         manipulator: m,
         grids: grids.map(Some),
         free: false,
+        fixed: [&[], &[]],
         requirements: required,
         space: &space,
         poses: &poses,
@@ -405,6 +406,35 @@ fn a_plate_without_a_grid_keeps_its_joints() {
         round_to_grid(&RoundingProblem { grids: [Some(GRID), None], ..*problem })
     });
     assert!(found.unwrap().nearest.is_ok());
+}
+
+#[test]
+fn joints_that_are_fixed_stay_and_the_others_are_rounded() {
+    let required = Requirements::default();
+    let with_fixed = |m: &Manipulator, grid: Grid, fixed: [&[bool]; 2]| {
+        with(m, [grid; 2], &required, |p| round_to_grid(&RoundingProblem { fixed, ..*p })).unwrap()
+    };
+    let first = [true, false, false, false, false, false];
+    // off the holes: no triangle of holes has the joint, and the nearest rounding leaves it alone
+    let found = with_fixed(&free(), GRID, [&first, &[]]);
+    assert!(matches!(found.exact, Err(NoRounding::NoTriangleNear(Body::Base))));
+    let n = found.nearest.unwrap();
+    for j in &n.joints {
+        let fixed = j.joint.body == Body::Base && j.joint.index == 0;
+        assert_eq!(j.moved.norm() <= 0.0, fixed, "{j:?}");
+        assert_eq!(j.cell.is_none(), fixed, "{j:?}");
+    }
+    assert_eq!(n.manipulator.base_joints()[0], free().base_joints()[0]);
+    // on a hole: the exact rounding goes through it, with other holes for other joints
+    let on = round(&free(), [GRID; 2]).unwrap().exact.unwrap().manipulator;
+    let (mut base, platform) = (on.base_joints().to_vec(), on.platform_joints().to_vec());
+    base[1].x += 0.03;
+    let near = Manipulator::try_new(base, platform, on.pairs()).unwrap();
+    if let Ok(e) = with_fixed(&near, GRID, [&first, &[]]).exact {
+        assert!(e.proved && (e.manipulator.base_joints()[0] - near.base_joints()[0]).norm() < 1e-12);
+    }
+    let e = with_fixed(&on, GRID, [&[true; 6], &[]]).exact.unwrap();
+    assert!(e.proved && e.manipulator.base_joints() == on.base_joints());
 }
 
 #[test]

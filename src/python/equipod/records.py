@@ -48,7 +48,7 @@ Freedom = Literal[
 ]
 FreedomWord = Literal["not_tried", "resolved", "undecided", "unresolved"]
 FrontStatus = Literal["front", "infeasible", "interrupted", "undecided"]
-HolePattern = Literal["square", "triangular"]
+HolePattern = Literal["bolt_circle", "polar", "square", "triangular"]
 Invariant = Literal[
     "base_principal_value",
     "canonical_distance",
@@ -67,6 +67,7 @@ NoRoundingWord = Literal[
     "bad_grid",
     "free_pattern",
     "joints_coincide",
+    "no_lines",
     "no_triangle_near",
     "no_triangles",
     "singular",
@@ -828,7 +829,7 @@ class Design(Record):
     calibration: Union[dict[str, Any], None]
     #: room that plates and machine may take up
     envelope: Union[dict[str, Any], None]
-    #: grids of holes that the joints have to be put on
+    #: grids of holes that the joints have to be put on, of both plates or of one
     holes: Union[dict[str, Any], None]
     #: what has to remain of each limit
     limits: Union[dict[str, Any], None]
@@ -900,9 +901,20 @@ class DesignEnvelope(Record):
 class DesignHoleGrid(Record):
     """DesignHoleGrid"""
 
-    pitch: DesignPositive
-    pattern: Union[Literal["square", "triangular"], None]
+    pattern: Union[Literal["square", "triangular", "polar", "bolt_circle"], None]
+    #: distance of neighbouring holes, or of the rings of a polar grid
+    pitch: Union[DesignPositive, None]
+    #: radius of the innermost ring of a polar grid
+    first_radius: Union[DesignPositive, None]
+    #: radii of bolt circles
+    radii: Union[DesignPositive, tuple[DesignPositive, ...], None]
+    #: angle between neighbouring holes of a ring or of each bolt circle; a whole number of them makes 360
+    step_deg: Union[DesignPositive, tuple[DesignPositive, ...], None]
+    #: number of holes of a ring or of each bolt circle, instead of step_deg
+    count: Union[int, tuple[int, ...], None]
+    #: a hole, or the centre of the circles
     origin: Union[tuple[DesignNumber, ...], None]
+    #: turn of the grid
     angle_deg: Union[DesignNumber, None]
 
 
@@ -1126,6 +1138,73 @@ class DriveSolutionRecord(Record):
     angle_bound_deg: Union[float, None]
     #: The factor by which the Newton map contracts around the pose; null: not proved.
     contraction: Union[float, None]
+
+
+class DriveRecord(Record):
+    """A drive of the table, in the units of the design."""
+
+    #: Its name.
+    name: str
+    #: Line of the table, from 1.
+    line: int
+    #: It is proved to fit, proved not to, or neither (null).
+    fits: Union[bool, None]
+    #: The reserve on every limit is kept too, likewise.
+    reserve_kept: Union[bool, None]
+    #: The travel.
+    stroke: Union[float, None]
+    #: Least and greatest length from joint centre to joint centre.
+    leg_length: tuple[Union[float, None], ...]
+    #: Greatest force; null: the table does not say it.
+    force: Union[float, None]
+    #: Greatest speed; null: the table does not say it.
+    speed: Union[float, None]
+    #: Mass; null: the table does not say it.
+    mass: Union[float, None]
+    #: Stiffness along the drive; null: the table does not say it.
+    stiffness: Union[float, None]
+    #: Price; null: the table does not say it.
+    price: Union[float, None]
+    #: Where the numbers are from; null: the table does not say it.
+    source: Union[str, None]
+    #: What `assess` says of the design with the drive.
+    assessment: AssessAnswer
+    #: Along the motions asked for.
+    motions: tuple[MotionRunRecord, ...]
+
+
+class DrivesAnswer(Record):
+    """One JSON document: an answer between what all answers have."""
+
+    #: Always 1: the version of these definitions.
+    schema_version: int
+    #: The name of the design.
+    name: str
+    #: True: a drive is proved to fit; false: every drive is proved not to; null: neither.
+    met: Union[bool, None]
+    #: The name of the drive to take: the cheapest that is proved to fit, the lightest of equally cheap
+    #: ones; null: there is none.
+    chosen: Union[str, None]
+    #: All drives: those that fit, those that are undecided, those that do not; each by price, then mass.
+    drives: tuple[DriveRecord, ...]
+    #: Of prices, as the table names it; null: it does not.
+    currency: Union[str, None]
+    #: Of lengths; speeds are in it per second.
+    length_unit: str
+    #: Of forces.
+    force_unit: str
+    #: Of masses.
+    mass_unit: str
+    #: What neither the file nor the table says and was taken instead, a sentence each.
+    assumptions: tuple[str, ...]
+    #: The design with the chosen drive; null: none fits.
+    design: Union[Design, None]
+    #: The file written.
+    output: Union[str, None]
+    #: What the answer was made from.
+    provenance: ProvenanceRecord
+    #: What was odd about the design files that were read.
+    warnings: tuple[WarningRecord, ...]
 
 
 class EnclosureRecord(Record):
@@ -1830,9 +1909,11 @@ class GridRecord(Record):
 
     #: How the holes lie.
     pattern: HolePattern
-    #: Distance of neighbouring holes.
+    #: Distance of neighbouring holes, or of the rings of a polar grid; null for bolt circles.
     pitch: Union[float, None]
-    #: A hole.
+    #: The first ring of a polar grid, or all bolt circles; empty for the other patterns.
+    circles: tuple[HoleCircleRecord, ...]
+    #: A hole, or the centre of the circles.
     origin: tuple[Union[float, None], ...]
     #: The turn of the grid.
     angle_deg: Union[float, None]
@@ -1841,10 +1922,10 @@ class GridRecord(Record):
 class GridsRecord(Record):
     """The grids of both bodies."""
 
-    #: Of the base.
-    base: GridRecord
-    #: Of the platform.
-    platform: GridRecord
+    #: Of the base; null: its joints stay where they are.
+    base: Union[GridRecord, None]
+    #: Of the platform; null: its joints stay where they are.
+    platform: Union[GridRecord, None]
 
 
 class GriffisDuffyRecord(Record):
@@ -1881,6 +1962,15 @@ class HeldPosesRecord(Record):
     held: int
     #: Of the dense evaluation.
     checked: int
+
+
+class HoleCircleRecord(Record):
+    """Holes on a circle, equally spaced."""
+
+    #: The radius.
+    radius: Union[float, None]
+    #: The number of holes.
+    holes: int
 
 
 class InstanceRecord(Record):
@@ -2426,6 +2516,8 @@ class NearestRoundingOutcome(Record):
     pose_error: Union[RoundingErrorRecord, None]
     #: Joints that are not on the nearest hole.
     not_nearest: Union[int, None]
+    #: Turns by 120 degrees take the joints of both bodies to themselves.
+    three_fold: Union[bool, None]
     #: What stands against it.
     error: Union[NoRoundingError, None]
 
@@ -2447,6 +2539,8 @@ class NearestRoundingRecord(Record):
     pose_error: RoundingErrorRecord
     #: Joints that are not on the nearest hole.
     not_nearest: int
+    #: Turns by 120 degrees take the joints of both bodies to themselves.
+    three_fold: bool
 
 
 class NearestSingularRecord(Record):
@@ -3235,8 +3329,9 @@ class RoundedJointRecord(Record):
     body: Body
     #: Its name.
     joint: str
-    #: The hole, counted along the axes of the grid.
-    cell: tuple[int, ...]
+    #: The hole: counted along the axes of the grid, or its circle and its number on it; null: the joint
+    #: stays where it was.
+    cell: Union[tuple[int, ...], None]
     #: How it moved, frame of the body.
     moved: tuple[Union[float, None], ...]
     #: How far.

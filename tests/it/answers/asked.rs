@@ -131,8 +131,8 @@ const CALLS: &[(i32, &str, &str)] = &[
     (0, "design-presets", ""),
     (0, "design-presets", "bench-l16"),
     (0, "design-presets", "bench-l16 -o {l16.toml}"),
-    (0, "build-drives", "{bench-joint-free} {drives} --sine z:1:1 -o {driven.toml}"),
-    (1, "build-drives", "{bench-joint-free} {weak-drives}"),
+    (0, "build-drives", "{small-bench} {drives} --sine z:1:1 -o {driven.toml}"),
+    (1, "build-drives", "{small-bench} {weak-drives}"),
     (0, "build-round", "{ringed} --trials 10"),
     (0, "build-round", "{rbt-octahedral} --grid 1 --trials 10"),
     (0, "build-round", "{outer} --grid 0.25 --trials 10 --free-grid -o {rounded.toml}"),
@@ -280,6 +280,10 @@ impl Files {
                 let ring = json!({"pattern": "polar", "first_radius": 0.5, "pitch": 0.25, "step_deg": 2.5});
                 d["holes"] =
                     json!({"base": ring, "pattern": "bolt_circle", "radii": [3.0, 3.5], "count": [36, 48]});
+            }),
+            "small-bench" => self.design(name, "designs/presets/bench-l16.toml", |d| {
+                (d["workspace"]["translation"], d["workspace"]["rotation_deg"]) =
+                    (json!([8.0, 8.0, 8.0]), json!([2.0, 2.0, 2.0]));
             }),
             "drives" => {
                 let path = self.beside("drives.csv");

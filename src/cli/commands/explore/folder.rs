@@ -136,9 +136,11 @@ impl Folder {
     /// # Errors
     /// Exit 2: a file cannot be read again.
     pub(super) fn results(&self) -> Result<Vec<ReportFile>, Failure> {
-        let picture = |name: &str| Path::new(name).extension().is_some_and(|end| end == "svg");
+        let picture = |name: &str| {
+            Path::new(name).extension().is_some_and(|end| end == "svg") || name.ends_with("/parts.csv")
+        };
         let shown = |name: &&String| !name.starts_with(MACHINE) || picture(name);
-        report::read(self.written.iter().filter(shown).map(|name| self.path.join(name)))
+        report::read(&self.path, self.written.iter().filter(shown).map(|name| self.path.join(name)))
     }
 
     /// What has been written, in order.

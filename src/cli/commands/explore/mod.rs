@@ -13,6 +13,7 @@ use std::path::PathBuf;
 use self::folder::Folder;
 use self::search::Search;
 use super::build::round::render::RoundReport;
+use super::equivalents::r#move as relocation;
 use super::report::page;
 use super::{export, fk as fk_command, optimize, verify as verify_command};
 use crate::cli::context::Context;
@@ -262,6 +263,11 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
                 "`equipod build round` puts the joints of this design on its holes; without [holes] it can be explored",
             ));
         }
+        relocation::refuse_fixed(
+            &design,
+            "explore::fixed",
+            "the search for equivalents of a design that is not octahedral moves legs to places of its own",
+        )?;
         return general::run(args, &design, context);
     };
     search::refuse_front(&design)?;

@@ -92,7 +92,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         return Ok(Answer::new(Exit::No, answer, "no row has a value and is kept\n".into()));
     }
     let page = args.output.join(PAGE);
-    files::write_text(&page, &report::page(report::read(paths)?, Some(table.name)))?;
+    files::write_text(&page, &report::page(report::read(&args.output, paths)?, Some(table.name)))?;
     let page = page.display().to_string();
     lines.push(format!("{page}\n"));
     let answer = SweepBestAnswer { column: args.by.clone(), rows, candidates, page: Some(page) };

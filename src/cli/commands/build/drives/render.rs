@@ -19,7 +19,7 @@ pub(super) fn text(answer: &DrivesAnswer) -> String {
             out,
             "\nwith {}: {}",
             drive.name,
-            requirements::lead(&answer.name, drive.assessment.as_ref())
+            requirements::lead(&answer.name, Some(&drive.assessment))
         );
     }
     if let Some(path) = &answer.output {
@@ -76,14 +76,14 @@ fn table(out: &mut String, answer: &DrivesAnswer) {
 fn binding(drive: &DriveRecord) -> Vec<String> {
     let with = |m: &MarginRecord| format!("{} {} {}", m.name.code(), short(m.margin.0), m.unit);
     let mut out = Vec::new();
-    for m in drive.assessment.iter().flat_map(|a| &a.requirements) {
+    for m in &drive.assessment.requirements {
         let own = matches!(m.name.code(), "leg_too_short" | "leg_too_long" | "leg_force" | "leg_speed");
         let tells = if drive.fits == Some(true) { own } else { m.met != Some(true) };
         if tells {
             out.push(with(m));
         }
     }
-    if drive.fits != Some(true) && drive.assessment.as_ref().is_some_and(|a| a.regular.met != Some(true)) {
+    if drive.fits != Some(true) && drive.assessment.regular.met != Some(true) {
         out.push("singularity".into());
     }
     for motion in &drive.motions {

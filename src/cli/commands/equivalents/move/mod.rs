@@ -14,6 +14,7 @@ use crate::cli::failure::Failure;
 use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
 use crate::design::Design;
+use crate::manipulator::Body;
 use crate::records::MoveAnswer;
 use crate::synthesis::components::{ComponentOptions, Components, ComponentsError, components};
 use crate::synthesis::relocate::{Chain, LegMove, RelocateError, Relocation, relocate};
@@ -59,6 +60,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let design = context.load(&args.design)?;
     let options = ComponentOptions { tolerance: args.tolerance, seed: context.seed() };
     if args.search {
+        refuse_fixed(&design, "move::fixed", "the search moves legs to places of its own")?;
         if design.workspace.is_empty() {
             context.no_effect("workspace", "the design has no workspace")?;
         }
@@ -87,6 +89,9 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         .map_err(|e| Failure::internal(e.to_string()))?;
     let regular = steps.iter().all(Relocation::is_regular);
     let last = done.last().and_then(|s| s.design.clone());
+    if let Some(new) = &last {
+        keeps_fixed(&design, new)?;
+    }
     let built = last.map(|d| finished(d, &design, &chain, regular, args.together));
     let mut written = None;
     if let (Some(path), Some(d), true) = (&args.output, &built, regular) {
@@ -110,6 +115,43 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     };
     Ok(Answer::new(exit, MoveAnswer::Moves(Box::new(answer)), text))
 }
+
+/// Refuses a design with joints that may not be moved.
+pub(in crate::cli::commands) fn refuse_fixed(
+    design: &Design,
+    code: &'static str,
+    reason: &str,
+) -> Result<(), Failure> {
+    if !design.has_fixed_joints() {
+        return Ok(());
+    }
+    let message = format!("[optimize] has `fixed` joints, and {reason}");
+    Err(Failure::refused(code, message)
+        .with_help("remove `fixed`, or move legs by name: --move LEG:FAMILY:T"))
+}
+
+/// A joint that may not be moved has to stay the end of a leg.
+fn keeps_fixed(given: &Design, new: &Design) -> Result<(), Failure> {
+    let size = given.manipulator().size();
+    for body in Body::BOTH {
+        let joints = given.manipulator().joints(body);
+        let ends = new.manipulator().legs().map(|leg| body.of((leg.base, leg.platform)));
+        for (k, fixed) in given.fixed_joints(body).into_iter().enumerate() {
+            let in_use = given.manipulator().pairs().iter().any(|(a, b)| body.of((*a, *b)) == k);
+            if fixed && in_use && ends.iter().all(|end| (end - joints[k]).norm() > STAYS * size) {
+                let name = &given.joint_names(body)[k];
+                let message =
+                    format!("the joint {name} is `fixed` in [optimize], and no leg would end there");
+                return Err(Failure::refused("move::fixed", message)
+                    .with_help("move another leg, or remove the joint from `fixed`"));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The end of a leg is at a joint within this share of the size of the design.
+const STAYS: f64 = 1e-9;
 
 /// The families of a design.
 fn families(design: &Design, options: ComponentOptions) -> Result<Components, Failure> {
