@@ -43,6 +43,8 @@ pub use presets::{PRESETS, Preset, PresetClass};
 #[cfg(test)]
 pub(crate) use scale::micrometres;
 pub use schema::SCHEMA;
+#[cfg(feature = "cli")]
+pub(crate) use table::InvalidPointTable;
 pub(crate) use table::{InvalidSeries, PointTable, SeriesKind, SeriesRow, TimeSeries};
 pub use violation::{Code, Violation, Warning};
 pub use workspace::{Trajectory, Workspace};
