@@ -19,6 +19,8 @@ use crate::records::{FileSourceRecord, sha256};
 
 /// Nothing this program reads is larger; a design has some kilobytes.
 const MAX_BYTES: u64 = 4 << 20;
+/// But models of CAD programs.
+const MAX_MODEL_BYTES: u64 = 64 << 20;
 
 /// The name for standard input and standard output.
 const STANDARD: &str = "-";
@@ -51,15 +53,27 @@ pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
 /// # Errors
 /// Exit 2: `file::not_readable`, `file::is_directory`, `file::too_large`, `file::read_twice`.
 pub(crate) fn read_table(path: &Path) -> Result<Vec<u8>, Failure> {
+    let help = "a design has some kilobytes, a table of leg lengths about 100 bytes a row; split the table";
+    read_limited(path, MAX_BYTES, help)
+}
+
+/// The bytes of a table of points or of a model of at most 64 MiB.
+///
+/// # Errors
+/// As [`read_table`].
+pub(crate) fn read_points(path: &Path) -> Result<Vec<u8>, Failure> {
+    read_limited(path, MAX_MODEL_BYTES, "export the machine without threads, screws and covers")
+}
+
+fn read_limited(path: &Path, most: u64, help: &str) -> Result<Vec<u8>, Failure> {
     let shown = shown(path);
     let unreadable = |error: &std::io::Error| {
         Failure::refused("file::not_readable", format!("{shown} cannot be read: {error}"))
             .with_help("check the path and its permissions")
     };
     let too_large = || {
-        Failure::refused("file::too_large", format!("{shown} is larger than 4 MiB")).with_help(
-            "a design has some kilobytes, a table of leg lengths about 100 bytes a row; split the table",
-        )
+        Failure::refused("file::too_large", format!("{shown} is larger than {} MiB", most >> 20))
+            .with_help(help)
     };
     let mut bytes = Vec::new();
     if is_standard(path) {
@@ -69,22 +83,22 @@ pub(crate) fn read_table(path: &Path) -> Result<Vec<u8>, Failure> {
                 Failure::refused("file::read_twice", message).with_help("name a file for one of them")
             );
         }
-        std::io::stdin().lock().take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(|e| unreadable(&e))?;
+        std::io::stdin().lock().take(most + 1).read_to_end(&mut bytes).map_err(|e| unreadable(&e))?;
     } else {
         let metadata = std::fs::metadata(path).map_err(|e| unreadable(&e))?;
         if metadata.is_dir() {
             let failure = Failure::refused("file::is_directory", format!("{shown} is a directory"));
             return Err(failure.with_help("name a file in it"));
         }
-        if metadata.len() > MAX_BYTES {
+        if metadata.len() > most {
             return Err(too_large());
         }
         // a pipe or device has no size to go by, and a file may grow: the read itself is limited too
         let file = File::open(path).map_err(|e| unreadable(&e))?;
         note_input(path);
-        file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(|e| unreadable(&e))?;
+        file.take(most + 1).read_to_end(&mut bytes).map_err(|e| unreadable(&e))?;
     }
-    if bytes.len() as u64 > MAX_BYTES {
+    if bytes.len() as u64 > most {
         return Err(too_large());
     }
     note_text(path, &bytes);

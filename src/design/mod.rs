@@ -42,6 +42,8 @@ pub(crate) use outline::{HexapodSizes, octahedral_toml, with_lengths};
 pub use presets::{PRESETS, Preset, PresetClass};
 pub(crate) use scale::micrometres;
 pub use schema::SCHEMA;
+#[cfg(feature = "cli")]
+pub(crate) use table::InvalidPointTable;
 pub(crate) use table::{
     DesignUnits, Drive, DriveTable, InvalidDriveTable, InvalidSeries, PointTable, SeriesKind, SeriesRow,
     TimeSeries,

@@ -21,6 +21,8 @@ mod model;
 mod outline;
 mod parts;
 mod plate;
+#[cfg(test)]
+mod round_trip;
 mod sizes;
 mod step;
 mod stl;

@@ -102,6 +102,40 @@ fn a_spreadsheet_makes_a_design_and_every_guess_is_said() {
 }
 
 #[test]
+fn exported_models_make_their_design_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_string();
+    let design = &path("inches.toml");
+    equipod(&["design", "convert", "designs/rbt-octahedral.toml", "--units", "in", "-o", design]);
+    let out = equipod(&["export", design, "--to", "mjcf,step", "-o", &path("")]);
+    assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stderr));
+    let lengths = |file: &str| document(&equipod(&["ik", file, "--json"]))["lengths"].clone();
+    for (model, code, text) in [
+        ("platform.xml", "new::bad_mjcf", "<mujoco/>"),
+        ("platform.step", "new::bad_step", "ISO-10303-21;\nDATA;\n#1=A(;"),
+    ] {
+        let made = new(&["--points", &path(model), "-o", &path("made.toml")]);
+        assert_eq!(made["units"], "in", "{model}");
+        assert!(made["guesses"].as_array().unwrap().iter().any(|g| g.as_str().unwrap().contains("Home is")));
+        let (meant, read) = (lengths(design), lengths(&path("made.toml")));
+        for leg in 0..6 {
+            let [a, b] = [&meant, &read].map(|list| list[leg].as_f64().unwrap());
+            assert!((a - b).abs() < 1e-11 * a, "{model}, leg {}: {a} {b}", leg + 1);
+        }
+        let families = equipod(&["equivalents", "family", &path("made.toml")]);
+        assert_eq!(families.status.code(), Some(0), "{model}: {}", String::from_utf8_lossy(&families.stderr));
+        let labelled = new(&["--points", &path(model), "--units", "cm"]);
+        assert!(labelled["guesses"].to_string().contains("nothing is converted"), "{labelled}");
+        std::fs::write(path("broken"), text).unwrap();
+        let (refused, said) = refusal(&["--points", &path("broken")]);
+        assert!(
+            refused == code && ["line 3", "0 slide joints"].iter().any(|w| said.contains(w)),
+            "{refused} {said}"
+        );
+    }
+}
+
+#[test]
 fn what_is_missing_is_named() {
     let (code, said) = refusal(&[]);
     assert_eq!(code, "new::nothing_given");

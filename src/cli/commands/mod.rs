@@ -53,7 +53,7 @@ const GENERAL: &str = "every design is taken by `equipod explore`, `equipod chec
 /// The commands, in the order of the guide.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Write a design from a few sizes, from corners or from a table of points
+    /// Write a design from a few sizes, from corners, from a table of points or from a model
     New(new::Args),
     /// Find all poses, real and complex, for given leg lengths
     Fk(fk::Args),

@@ -1,4 +1,4 @@
-//! Tables of numbers as people have them: exports of spreadsheets, of CAD programs and of scripts.
+//! Tables of numbers as people have them: exports of spreadsheets, of CAD programs and of scripts; and legs in models of machines, of `MuJoCo` and of CAD programs.
 //!
 //! Nothing says how such a table is written, so that its form is guessed from its text, and every guess is a sentence that the reader of the answer sees.
 //! What cannot be read is refused; no cell is passed over without a word.
@@ -6,11 +6,16 @@
 mod drives;
 mod hal;
 mod header;
+mod mjcf;
+mod placed;
 mod points;
 mod series;
 mod sheet;
+mod step;
 mod text;
 
 pub(crate) use drives::{DesignUnits, Drive, DriveTable, InvalidDriveTable};
+#[cfg(feature = "cli")]
+pub(crate) use points::InvalidPointTable;
 pub(crate) use points::PointTable;
 pub(crate) use series::{InvalidSeries, SeriesKind, SeriesRow, TimeSeries};

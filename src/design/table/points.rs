@@ -7,6 +7,7 @@ use super::hal::HexapodPins;
 use super::header::{UNITS, plain};
 use super::sheet::{InvalidSheet, Sheet, SheetRow};
 use super::text::decode;
+use super::{mjcf, step};
 use crate::design::{Design, NameCount};
 use crate::geom::Pose;
 use crate::manipulator::{Body, InvalidManipulator, Leg, Manipulator};
@@ -38,6 +39,12 @@ pub(crate) enum InvalidPointTable {
     /// Its rows or columns are not those of twelve points.
     #[error("{0}")]
     Form(String),
+    /// It is a model of `MuJoCo`, or other XML, without six legs in it.
+    #[error("{0}")]
+    Mjcf(String),
+    /// It is a STEP file without six legs in it.
+    #[error("{0}")]
+    Step(String),
     /// The points make no manipulator.
     #[error(transparent)]
     Manipulator(#[from] InvalidManipulator),
@@ -47,12 +54,19 @@ impl PointTable {
     /// Reads six rows of two points, base end first, or twelve rows of one point, in whatever notation.
     ///
     /// Columns are taken by their names where the header has names for coordinates, else by their order. Rows of one point belong to the body that a cell, a title above them
-    /// or their name says, else the first six to the base. Settings of `genhexkins` are read too.
+    /// or their name says, else the first six to the base. Settings of `genhexkins`, models of `MuJoCo` and STEP files are read too.
     ///
     /// # Errors
     /// [`InvalidPointTable`].
     pub(crate) fn read(bytes: &[u8]) -> Result<Self, InvalidPointTable> {
-        if let Some(pins) = decode(bytes).ok().and_then(|decoded| HexapodPins::read(&decoded.text)) {
+        let text = decode(bytes).map(|decoded| decoded.text).unwrap_or_default();
+        if step::is_step(&text) {
+            return step::read(&text).map_err(InvalidPointTable::Step);
+        }
+        if mjcf::is_xml(&text) {
+            return mjcf::read(&text).map_err(InvalidPointTable::Mjcf);
+        }
+        if let Some(pins) = HexapodPins::read(&text) {
             let HexapodPins { legs, home, guesses } = pins?;
             return Ok(Self { legs, names: None, units: None, home, guesses });
         }
@@ -79,6 +93,16 @@ impl PointTable {
         };
         table.part_frames();
         Ok(table)
+    }
+
+    /// With names of the base and platform ends, where they can stand in a design.
+    pub(super) fn named(mut self, given: &[[String; 6]; 2]) -> Self {
+        let ends = Body::BOTH.map(|body| {
+            let named = given[body.index()].iter().zip(&self.legs);
+            named.map(|(name, leg)| NamedPoint { at: leg.end(body), name: Some(name.clone()) }).collect()
+        });
+        self.names = names(&ends);
+        self
     }
 
     /// When one body is all above the other the table has both in one frame, as a drawing has them: the platform frame is then put at the mean height of the platform joints.
@@ -226,7 +250,7 @@ fn axis_of(name: &str) -> Option<(usize, &str)> {
 }
 
 /// The body that a plain word names without doubt.
-fn body_of_word(word: &str) -> Option<Body> {
+pub(super) fn body_of_word(word: &str) -> Option<Body> {
     const BASE: [&str; 8] = ["base", "fixed", "lower", "bottom", "ground", "fest", "unten", "basis"];
     const PLATFORM: [&str; 8] =
         ["platform", "moving", "mobile", "upper", "top", "effector", "plattform", "oben"];

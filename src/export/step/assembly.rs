@@ -4,6 +4,7 @@ use nalgebra::{Point3, Vector3};
 
 use super::builder::{Builder, Id, list, string};
 use crate::export::Export;
+use crate::export::text::reals;
 use crate::geom::Pose;
 
 /// A part: product definition, shape representation, and the frame it is given in.
@@ -40,6 +41,13 @@ impl StepAssembly {
     pub(super) fn new(export: &Export) -> Self {
         let mut lines = export.heading("mm");
         lines.push("Assembly frame: the base frame; the platform is at home".to_string());
+        // what no shape of the assembly says: the plate is where its joints are
+        let place = export.home.position.iter().map(|x| x * export.unit.millimetres);
+        lines.push(format!(
+            "Platform frame at home: {} {}",
+            reals(place, " "),
+            reals(export.home.quaternion(), " ")
+        ));
         let description: Vec<String> = lines.iter().map(|l| string(l)).collect();
         // a time would make two runs differ
         let header = format!(

@@ -104,6 +104,7 @@ const LINES: &[Line] = &[
             ("serde_json", None),
             ("toml", None),
             ("jsonc_parser", None),
+            ("roxmltree", None),
             ("strsim", None),
             ERRORS,
         ],

@@ -1,4 +1,4 @@
-//! `equipod new`: a design from a few sizes, from corners or from a table of points.
+//! `equipod new`: a design from a few sizes, from corners, from a table of points or from a model.
 
 mod ask;
 
@@ -11,7 +11,9 @@ use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::files::{self, OutputPath};
 use crate::cli::output::Answer;
-use crate::design::{Design, Format, HexapodSizes, PointTable, octahedral_toml, parse, with_lengths};
+use crate::design::{
+    Design, Format, HexapodSizes, InvalidPointTable, PointTable, octahedral_toml, parse, with_lengths,
+};
 use crate::geom::{Angles, Pose};
 use crate::records::{NewAnswer, PresetFile};
 use crate::singularity::Architecture;
@@ -45,7 +47,7 @@ pub(crate) struct Args {
         conflicts_with_all = ["base_radius", "platform_radius", "base_spread", "platform_spread", "points"]
     )]
     corners: Option<Vec<String>>,
-    /// A table of the ends of the legs (`-` for standard input): six rows of two points or twelve rows of one, in any usual notation, or the pins of `genhexkins`
+    /// A table of the ends of the legs (`-` for standard input): six rows of two points or twelve rows of one, in any usual notation, the pins of `genhexkins`, a model of `MuJoCo` or a STEP file
     #[arg(
         long,
         value_name = "FILE",
@@ -168,19 +170,40 @@ fn corners(text: &str) -> Result<[[f64; 3]; 3], Failure> {
     })
 }
 
+/// A table or a model that gives no design.
+fn bad_points(shown: &str, why: &InvalidPointTable) -> Failure {
+    let (code, help) = match why {
+        InvalidPointTable::Mjcf(_) => (
+            "new::bad_mjcf",
+            "legs are slide joints between a joint of the base and one of the platform, or spatial tendons from a site of the base to one of the platform",
+        ),
+        InvalidPointTable::Step(_) => (
+            "new::bad_step",
+            "a leg is a cylinder on the line between the centres of two balls: export the assembly with exact solids and with its ball joints, or list the centres in a table",
+        ),
+        _ => (
+            "new::bad_table",
+            "a table has six rows with x, y, z of the base end and of the platform end of a leg, or twelve rows with a point each",
+        ),
+    };
+    Failure::refused(code, format!("{shown}: {why}")).with_help(help)
+}
+
 fn from_table(args: &Args, path: &std::path::Path, context: &Context) -> Result<Made, Failure> {
     let shown = files::shown(path);
-    let refused = |why: String| {
-        Failure::refused("new::bad_table", format!("{shown}: {why}")).with_help(
-            "a table has six rows with x, y, z of the base end and of the platform end of a leg, or twelve rows with a point each",
-        )
-    };
-    let mut table = PointTable::read(&files::read_table(path)?).map_err(|why| refused(why.to_string()))?;
+    let mut table = PointTable::read(&files::read_points(path)?).map_err(|why| bad_points(&shown, &why))?;
+    if let (Some(asked), Some(said)) = (&args.units, &table.units)
+        && asked != said
+    {
+        table.guesses.push(format!(
+            "The numbers are in {asked}, as --units says, and not in {said}: nothing is converted."
+        ));
+    }
     let units = args.units.clone().or(table.units.clone()).unwrap_or_else(|| {
         table.guesses.push(format!("The lengths are in {UNIT}: give --units where they are not."));
         UNIT.into()
     });
-    let mut design = table.design(&args.name, &units).map_err(|why| refused(why.to_string()))?;
+    let mut design = table.design(&args.name, &units).map_err(|why| bad_points(&shown, &why.into()))?;
     if let Some(height) = args.height {
         design.home = Some(Pose::new([0.0, 0.0, height], Angles::default()));
     } else if design.home.is_none() {
