@@ -38,8 +38,12 @@ impl BodyCircles {
         if self.grid.circle(listed.len()).is_some() {
             // rings without end
             let first = listed.first().map_or(0.0, |c| c.radius);
-            let low = ((radius - first) / self.grid.pitch).floor();
-            return [low, low + 1.0].into_iter().filter(|k| *k >= 0.0).map(|k| k as i64).collect();
+            // inside the first ring there is no other one
+            if radius < first {
+                return vec![0];
+            }
+            let low = ((radius - first) / self.grid.pitch).floor() as i64;
+            return vec![low, low + 1];
         }
         let inside = listed.iter().enumerate().filter(|(_, c)| c.radius <= radius);
         let outside = listed.iter().enumerate().filter(|(_, c)| c.radius > radius);
@@ -214,8 +218,11 @@ mod tests {
             assert_eq!(holes.around(&(at + Vector3::new(0.01, 0.01, 0.0)), 0)[0], cell);
             assert!(holes.hole_at(&(at + Vector3::new(0.01, 0.0, 0.0)), 0).is_none());
         }
-        // inside the first ring there is no other one
-        assert!(holes.around(&Point3::new(0.6, -0.2, 1.0), 0).iter().all(|c| c[0] == 0));
+        // inside the first ring there is no other one, in its centre neither
+        for place in [Point3::new(0.6, -0.2, 1.0), Point3::new(0.5, -0.25, 1.0)] {
+            let around = holes.around(&place, 0);
+            assert!(around.len() == 2 && around.iter().all(|c| c[0] == 0), "{around:?}");
+        }
         let list = [HoleCircle { radius: 2.0, holes: 8 }, HoleCircle { radius: 1.5, holes: 3 }];
         let bolts = Grid::bolt_circles(HoleCircles::new(&list).unwrap());
         let holes = PlateHoles::new(&plane(), Some(&bolts), 5.0).unwrap();
