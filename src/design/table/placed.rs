@@ -89,7 +89,11 @@ struct Decimals(Option<usize>);
 
 impl Decimals {
     fn of(size: f64) -> Self {
-        // digits behind the point: the least number whose unit is not above what is kept times ten
+        // more than whole numbers is lost: nothing is rounded
+        if KEPT * size > 1.0 {
+            return Self(None);
+        }
+        // digits behind the point: the least number whose unit is below what is kept times ten
         Self(
             (0..300)
                 .find(|digits| 10.0_f64.powi(-digits) < 10.0 * KEPT * size)
