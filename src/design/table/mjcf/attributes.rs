@@ -14,7 +14,7 @@ const MAIN: &str = "main";
 
 /// Attributes of a class by element and name.
 #[derive(Debug, Default)]
-struct Class {
+struct DefaultClass {
     parent: Option<String>,
     attributes: BTreeMap<(String, String), String>,
 }
@@ -26,7 +26,7 @@ pub(super) struct Settings {
     angle: f64,
     /// Axes of Euler angles; lower case: of the turned frame.
     sequence: [char; 3],
-    classes: BTreeMap<String, Class>,
+    classes: BTreeMap<String, DefaultClass>,
 }
 
 /// A sentence with the line of an element.
@@ -55,7 +55,7 @@ impl Settings {
     pub(super) fn of(root: Node<'_, '_>) -> Result<Self, String> {
         let mut settings =
             Self { angle: 1.0_f64.to_radians(), sequence: ['x', 'y', 'z'], classes: BTreeMap::new() };
-        settings.classes.insert(MAIN.into(), Class::default());
+        settings.classes.insert(MAIN.into(), DefaultClass::default());
         for node in elements(root) {
             match node.tag_name().name() {
                 "compiler" => settings.compiler(node)?,
@@ -76,8 +76,8 @@ impl Settings {
         if let Some(text) = node.attribute("eulerseq") {
             let letters: Vec<char> = text.chars().filter(|c| "xyzXYZ".contains(*c)).collect();
             let sequence = <[char; 3]>::try_from(letters).ok().filter(|_| text.chars().count() == 3);
-            self.sequence =
-                sequence.ok_or_else(|| at(node, format!("eulerseq=\"{text}\" is not three axes")))?;
+            self.sequence = sequence
+                .ok_or_else(|| at(node, format!("`eulerseq` is \"{text}\", which is not three axes")))?;
         }
         match node.attribute("coordinate") {
             None | Some("local") => Ok(()),
@@ -97,7 +97,7 @@ impl Settings {
             }
             (_, None) => MAIN,
             (Some(name), Some(parent)) => {
-                let class = Class { parent: Some(parent.into()), ..Class::default() };
+                let class = DefaultClass { parent: Some(parent.into()), ..DefaultClass::default() };
                 if self.classes.insert(name.into(), class).is_some() {
                     return Err(at(node, format!("class `{name}` is defined a second time")));
                 }

@@ -5,10 +5,11 @@
 //! bodies make a universal or ball joint does not matter; nor does which of the two parts of a leg carries the slide, or its direction.
 
 use std::collections::BTreeMap;
+use std::fmt::Write as _;
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
-use super::tree::{JointKind, Model, ModelJoint, WORLD};
+use super::tree::{JointKind, ModelJoint, MujocoModel, WORLD};
 use crate::design::table::placed::{extent, order_of, trailing_number};
 
 /// Points and axes of joints that are nearer to the end of a leg than this times the size go through it.
@@ -59,10 +60,10 @@ struct Graph<'a> {
 }
 
 /// A piece of the graph as a tree: the link by which each group is nearer to the root.
-type Piece = BTreeMap<usize, Option<usize>>;
+type RootedPiece = BTreeMap<usize, Option<usize>>;
 
 impl<'a> Graph<'a> {
-    fn of(model: &'a Model) -> Self {
+    fn of(model: &'a MujocoModel) -> Self {
         let mut between: BTreeMap<[usize; 2], Vec<&ModelJoint>> = BTreeMap::new();
         for joint in model.joints.iter().filter(|j| j.kind != JointKind::Slide) {
             let [a, b] = joint.groups.map(|g| model.group(g));
@@ -89,8 +90,8 @@ impl<'a> Graph<'a> {
     ///
     /// # Errors
     /// Loops: which way leads from a leg to the root would not be said.
-    fn piece(&self, root: usize) -> Result<Piece, String> {
-        let mut piece = Piece::from([(root, None)]);
+    fn piece(&self, root: usize) -> Result<RootedPiece, String> {
+        let mut piece = RootedPiece::from([(root, None)]);
         let mut open = vec![root];
         while let Some(group) = open.pop() {
             let by = piece.get(&group).copied().flatten();
@@ -109,7 +110,7 @@ impl<'a> Graph<'a> {
     }
 
     /// The links from a group to the root of its piece.
-    fn way(&self, piece: &Piece, mut group: usize) -> Vec<&Link<'a>> {
+    fn way(&self, piece: &RootedPiece, mut group: usize) -> Vec<&Link<'a>> {
         let mut way = Vec::new();
         while let Some(Some(k)) = piece.get(&group) {
             way.push(&self.links[*k]);
@@ -153,7 +154,7 @@ fn common_point(way: &[&Link<'_>], near: f64) -> Option<(Point3<f64>, f64)> {
 }
 
 /// What a model has instead of six legs.
-fn counted(model: &Model) -> String {
+fn counted(model: &MujocoModel) -> String {
     let slides = model.joints.iter().filter(|j| j.kind == JointKind::Slide).count();
     let mut found = format!(
         "six slide joints, or six spatial tendons from one site to another, are legs; this model has {slides} slide joints, {} such tendons and {} others",
@@ -161,10 +162,11 @@ fn counted(model: &Model) -> String {
         model.other_tendons
     );
     if slides == 0 && model.driven_hinges > 0 {
-        found.push_str(&format!(
+        let _ = write!(
+            found,
             "; {} of its hinges are driven, and legs that are rods on cranks are not read from a model: write a design with `[[cranks]]`",
             model.driven_hinges
-        ));
+        );
     }
     found
 }
@@ -174,7 +176,7 @@ impl ModelLegs {
     ///
     /// # Errors
     /// A sentence that says what the model has instead.
-    pub(super) fn of(model: &Model) -> Result<Self, String> {
+    pub(super) fn of(model: &MujocoModel) -> Result<Self, String> {
         let slides: Vec<&ModelJoint> = model.joints.iter().filter(|j| j.kind == JointKind::Slide).collect();
         let (what, (platform, legs)) = match (slides.len(), model.tendons.len()) {
             (6, _) => ("slide joints", by_slides(model, &slides)?),
@@ -193,7 +195,7 @@ impl ModelLegs {
     }
 }
 
-fn by_slides(model: &Model, slides: &[&ModelJoint]) -> Result<(usize, Vec<NamedLeg>), String> {
+fn by_slides(model: &MujocoModel, slides: &[&ModelJoint]) -> Result<(usize, Vec<NamedLeg>), String> {
     let graph = Graph::of(model);
     let base = graph.piece(WORLD)?;
     let mut leg_groups = Vec::new();
@@ -272,7 +274,7 @@ fn by_slides(model: &Model, slides: &[&ModelJoint]) -> Result<(usize, Vec<NamedL
 }
 
 /// The group of a piece with the most joints; of several the one with the site `platform_frame` or a body named platform.
-fn platform_of(model: &Model, graph: &Graph<'_>, piece: &Piece) -> Result<usize, String> {
+fn platform_of(model: &MujocoModel, graph: &Graph<'_>, piece: &RootedPiece) -> Result<usize, String> {
     let most = piece.keys().map(|g| graph.links_of(*g).len()).max().unwrap_or(0);
     let candidates: Vec<usize> = piece.keys().copied().filter(|g| graph.links_of(*g).len() == most).collect();
     let named = |g: &&usize| {
@@ -290,7 +292,7 @@ fn platform_of(model: &Model, graph: &Graph<'_>, piece: &Piece) -> Result<usize,
     }
 }
 
-fn by_tendons(model: &Model) -> Result<(usize, Vec<NamedLeg>), String> {
+fn by_tendons(model: &MujocoModel) -> Result<(usize, Vec<NamedLeg>), String> {
     let mut platform = None;
     let mut legs = Vec::new();
     for tendon in &model.tendons {

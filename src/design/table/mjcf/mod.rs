@@ -9,7 +9,7 @@ mod tree;
 use roxmltree::{Document, Node};
 
 use self::legs::{ModelLegs, SAME_POINT};
-use self::tree::Model;
+use self::tree::MujocoModel;
 use super::placed::{FileUnit, PlacedLegs, number_between, unit_of_millimetres};
 use super::points::PointTable;
 
@@ -37,10 +37,11 @@ pub(super) fn read(text: &str) -> Result<PointTable, String> {
         ));
     }
     bounded(&document)?;
-    let model = Model::read(root)?;
+    let model = MujocoModel::read(root)?;
     let found = ModelLegs::of(&model)?;
     let mut guesses = vec![
-        "A model of MuJoCo, read at its reference configuration (qpos0); keyframes are not used.".to_string(),
+        "A model of MuJoCo, read at its reference configuration (qpos0); key frames are not used."
+            .to_string(),
     ];
     guesses.extend(found.guesses);
     let on_platform = model.site(PLATFORM_SITE).filter(|(group, _)| *group == found.platform);
@@ -77,7 +78,7 @@ fn bounded(document: &Document<'_>) -> Result<(), String> {
 
 /// The unit of the design of which this program wrote the model; metres else.
 fn unit(document: &Document<'_>, guesses: &mut Vec<String>) -> Result<FileUnit, String> {
-    let comments = document.descendants().filter(|n| n.is_comment()).filter_map(|n| n.text());
+    let comments = document.descendants().filter(Node::is_comment).filter_map(|n| n.text());
     let said = comments
         .flat_map(str::lines)
         .find_map(|line| number_between(line, "Lengths in m; one unit of the design is ", " m"));

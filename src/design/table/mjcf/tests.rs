@@ -158,8 +158,7 @@ fn tendons() -> String {
     let mut sites = [String::new(), String::new()];
     let mut list = String::new();
     for i in 0..6 {
-        for (body, of) in sites.iter_mut().zip([BASE, PLATFORM]) {
-            let side = if of == BASE { 'a' } else { 'b' };
+        for (body, (side, of)) in sites.iter_mut().zip([('a', BASE), ('b', PLATFORM)]) {
             let _ = write!(body, "<site name='{side}{i}' pos='{}'/>", text(&Vector3::from(of[i])));
         }
         let (first, second) = if i % 2 == 0 { ('a', 'b') } else { ('b', 'a') };

@@ -69,7 +69,7 @@ struct Placed {
 
 /// What of a model concerns legs.
 #[derive(Debug, Default)]
-pub(super) struct Model {
+pub(super) struct MujocoModel {
     groups: usize,
     /// Groups that `weld` makes one: the lowest of them.
     joined: Vec<usize>,
@@ -89,7 +89,7 @@ pub(super) struct Model {
 /// Elements that stand for others: what they stand for is in another file, or many.
 const NOT_READ: [&str; 5] = ["include", "replicate", "composite", "flexcomp", "attach"];
 
-impl Model {
+impl MujocoModel {
     /// Reads a model.
     ///
     /// # Errors
@@ -310,7 +310,7 @@ impl Model {
             "weld" => {
                 let given = settings.numbers::<7>(node, None, "relpose")?;
                 if sites || given.is_some_and(|p| p[3..].iter().any(|x| *x != 0.0)) {
-                    let message = "`weld` of sites or with relpose is not read: it may hold bodies where they are not at qpos0";
+                    let message = "`weld` of sites or with `relpose` is not read: it may hold bodies where they are not at qpos0";
                     return Err(at(node, message));
                 }
                 let [a, b] = [first.group, second.group].map(|g| self.group(g));

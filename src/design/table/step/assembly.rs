@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use nalgebra::Point3;
 
-use super::part21::{ExchangeFile, Record};
-use super::shape::{Cylinder, Shape, placement};
+use super::part21::{ExchangeFile, StepRecord};
+use super::shape::{Cylinder, PartShape, placement};
 use crate::design::table::placed::{identity, inverse, within};
 use crate::geom::Pose;
 
@@ -24,7 +24,7 @@ pub(super) struct Named<T> {
 
 /// All spheres and cylinders.
 #[derive(Debug, Default)]
-pub(super) struct Assembly {
+pub(super) struct PartAssembly {
     pub(super) spheres: Vec<Named<Point3<f64>>>,
     pub(super) cylinders: Vec<Named<Cylinder>>,
     /// Millimetres of the unit of the first representation that has one.
@@ -82,11 +82,11 @@ fn millimetres(file: &ExchangeFile, id: u64, depth: usize) -> Option<f64> {
 /// The unit of length of a context.
 fn unit(file: &ExchangeFile, context: u64) -> Option<f64> {
     let units = file.record(context, "GLOBAL_UNIT_ASSIGNED_CONTEXT")?.values.first()?.list();
-    let length = units.iter().filter_map(super::part21::Value::reference).find(|id| {
+    let length = units.iter().filter_map(super::part21::StepValue::reference).find(|id| {
         file.record(*id, "LENGTH_UNIT").is_some()
             || file
                 .record(*id, "SI_UNIT")
-                .is_some_and(|r| r.values.last().and_then(super::part21::Value::word) == Some("METRE"))
+                .is_some_and(|r| r.values.last().and_then(super::part21::StepValue::word) == Some("METRE"))
     })?;
     millimetres(file, length, 0)
 }
@@ -133,7 +133,7 @@ impl<'a> Parts<'a> {
     }
 
     /// The two representations of a relationship and what moves one to the other.
-    fn related(records: &[Record]) -> Option<(u64, u64, Option<u64>)> {
+    fn related(records: &[StepRecord]) -> Option<(u64, u64, Option<u64>)> {
         let with = records.iter().find(|r| r.name == "REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION");
         let pair =
             records.iter().find(|r| r.name.contains("REPRESENTATION_RELATIONSHIP") && r.values.len() >= 4)?;
@@ -189,7 +189,7 @@ impl<'a> Parts<'a> {
     /// Placements by relationship: the frame in the child goes to the frame in the parent.
     fn place(&mut self) -> Result<(), String> {
         // relationship: the occurrence that uses it
-        let mut used: HashMap<u64, &Record> = HashMap::new();
+        let mut used: HashMap<u64, &StepRecord> = HashMap::new();
         for (_, record) in self.file.all("CONTEXT_DEPENDENT_SHAPE_REPRESENTATION") {
             let occurrence = || {
                 let property = self.file.record(record.reference(1)?, "PRODUCT_DEFINITION_SHAPE")?;
@@ -240,7 +240,7 @@ impl<'a> Parts<'a> {
 
     /// The group of the shape of each product definition.
     fn definitions(&self) -> HashMap<u64, u64> {
-        let pair = |record: &Record| {
+        let pair = |record: &StepRecord| {
             let property = self.file.record(record.reference(0)?, "PRODUCT_DEFINITION_SHAPE")?;
             Some((property.reference(2)?, self.group_of(record.reference(1)?)?))
         };
@@ -265,7 +265,7 @@ impl<'a> Parts<'a> {
                 };
                 let inner = placement(self.file, origin, self.scale(child))?;
                 let outer = placement(self.file, target, self.scale(*parent))?;
-                let name = mapped.values.first().and_then(super::part21::Value::text).unwrap_or_default();
+                let name = mapped.values.first().and_then(super::part21::StepValue::text).unwrap_or_default();
                 let at = within(&outer, &inverse(&inner));
                 found.push((parent_group, Occurrence { child: child_group, at, name: name.to_string() }));
             }
@@ -277,11 +277,11 @@ impl<'a> Parts<'a> {
     }
 
     /// What each group has itself.
-    fn shapes(&self) -> Result<BTreeMap<u64, Shape>, String> {
-        let mut shapes: BTreeMap<u64, Shape> = BTreeMap::new();
+    fn shapes(&self) -> Result<BTreeMap<u64, PartShape>, String> {
+        let mut shapes: BTreeMap<u64, PartShape> = BTreeMap::new();
         for (id, representation) in &self.representations {
             let group = self.group_of(*id).unwrap_or(*id);
-            let found = Shape::of(self.file, &representation.items, representation.unit.unwrap_or(1.0))?;
+            let found = PartShape::of(self.file, &representation.items, representation.unit.unwrap_or(1.0))?;
             let shape = shapes.entry(group).or_default();
             shape.spheres.extend(found.spheres);
             shape.cylinders.extend(found.cylinders);
@@ -290,7 +290,7 @@ impl<'a> Parts<'a> {
     }
 }
 
-impl Assembly {
+impl PartAssembly {
     /// Places all parts.
     ///
     /// # Errors

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::SAME;
-use super::assembly::{Assembly, Named};
+use super::assembly::{Named, PartAssembly};
 use crate::design::table::header::plain;
 use crate::design::table::placed::{extent, order_of, trailing_number};
 use crate::design::table::points::body_of_word;
@@ -33,7 +33,7 @@ struct Pair<'a> {
 }
 
 /// Spheres at the same place are one centre.
-fn centres(assembly: &Assembly, near: f64) -> Vec<Centre<'_>> {
+fn centres(assembly: &PartAssembly, near: f64) -> Vec<Centre<'_>> {
     let mut found: Vec<Centre<'_>> = Vec::new();
     for sphere in &assembly.spheres {
         if found.iter().all(|c| !((c.shape - sphere.shape).norm() <= near)) {
@@ -44,7 +44,7 @@ fn centres(assembly: &Assembly, near: f64) -> Vec<Centre<'_>> {
 }
 
 /// Pairs of centres with a cylinder between them.
-fn pairs<'a>(assembly: &'a Assembly, centres: &[Centre<'a>], near: f64) -> Result<Vec<Pair<'a>>, String> {
+fn pairs<'a>(assembly: &'a PartAssembly, centres: &[Centre<'a>], near: f64) -> Result<Vec<Pair<'a>>, String> {
     let mut found: BTreeMap<[usize; 2], (usize, Pair<'a>)> = BTreeMap::new();
     for (number, cylinder) in assembly.cylinders.iter().enumerate() {
         let shape = &cylinder.shape;
@@ -135,7 +135,7 @@ impl StepLegs {
     ///
     /// # Errors
     /// Not six legs, ends on an axis that cannot be told apart, bodies that cannot be.
-    pub(super) fn of(assembly: &Assembly, home: Option<Pose>) -> Result<Self, String> {
+    pub(super) fn of(assembly: &PartAssembly, home: Option<Pose>) -> Result<Self, String> {
         let near = SAME * extent(assembly.spheres.iter().map(|s| &s.shape));
         let centres = centres(assembly, near);
         let mut pairs = pairs(assembly, &centres, near)?;

@@ -11,9 +11,9 @@ mod tests;
 
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
 
-use self::assembly::Assembly;
+use self::assembly::PartAssembly;
 use self::legs::StepLegs;
-use self::part21::{ExchangeFile, Value};
+use self::part21::{ExchangeFile, StepValue};
 use super::placed::{FileUnit, PlacedLegs, number_between, unit_of_millimetres};
 use super::points::PointTable;
 use crate::geom::Pose;
@@ -34,7 +34,7 @@ pub(super) fn read(text: &str) -> Result<PointTable, String> {
     let file = ExchangeFile::read(text)?;
     let header = header(&file);
     let own = Own::of(&header);
-    let assembly = Assembly::of(&file)?;
+    let assembly = PartAssembly::of(&file)?;
     let found = StepLegs::of(&assembly, own.home)?;
     let mut guesses = vec![
         "A STEP file: legs are cylinders whose axes pass through the centres of two spheres.".to_string(),
@@ -74,8 +74,8 @@ pub(super) fn read(text: &str) -> Result<PointTable, String> {
 /// The lines of the description in the header.
 fn header(file: &ExchangeFile) -> Vec<&str> {
     let description = file.header.iter().find(|r| r.name == "FILE_DESCRIPTION");
-    let lines = description.and_then(|r| r.values.first()).map_or(&[][..], Value::list);
-    lines.iter().filter_map(Value::text).collect()
+    let lines = description.and_then(|r| r.values.first()).map_or(&[][..], StepValue::list);
+    lines.iter().filter_map(StepValue::text).collect()
 }
 
 /// What this program's own exports say in their header.

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 /// A parameter of an entity.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Value {
+pub(super) enum StepValue {
     /// `$`, `*` and binary literals: nothing that says where something is.
     Nothing,
     Number(f64),
@@ -12,12 +12,12 @@ pub(super) enum Value {
     /// `.MILLI.` without its points.
     Word(String),
     Reference(u64),
-    List(Vec<Value>),
+    List(Vec<StepValue>),
     /// `LENGTH_MEASURE(25.4)`: what is inside; the type has no use here.
-    Typed(Vec<Value>),
+    Typed(Vec<StepValue>),
 }
 
-impl Value {
+impl StepValue {
     pub(super) fn number(&self) -> Option<f64> {
         match self {
             Self::Number(x) => Some(*x),
@@ -40,7 +40,7 @@ impl Value {
         if let Self::Word(word) = self { Some(word) } else { None }
     }
 
-    pub(super) fn list(&self) -> &[Value] {
+    pub(super) fn list(&self) -> &[StepValue] {
         if let Self::List(list) = self { list } else { &[] }
     }
 
@@ -56,12 +56,12 @@ impl Value {
 
 /// A name with its parameters; an entity is one, or several where it is complex.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Record {
+pub(super) struct StepRecord {
     pub(super) name: String,
-    pub(super) values: Vec<Value>,
+    pub(super) values: Vec<StepValue>,
 }
 
-impl Record {
+impl StepRecord {
     /// A reference among the parameters.
     pub(super) fn reference(&self, k: usize) -> Option<u64> {
         self.values.get(k)?.reference()
@@ -71,20 +71,20 @@ impl Record {
 /// A file.
 #[derive(Debug, Default)]
 pub(super) struct ExchangeFile {
-    pub(super) header: Vec<Record>,
-    pub(super) entities: HashMap<u64, Vec<Record>>,
+    pub(super) header: Vec<StepRecord>,
+    pub(super) entities: HashMap<u64, Vec<StepRecord>>,
     /// Numbers of the entities as they come.
     pub(super) order: Vec<u64>,
 }
 
 impl ExchangeFile {
     /// The record of this name of an entity.
-    pub(super) fn record(&self, id: u64, name: &str) -> Option<&Record> {
+    pub(super) fn record(&self, id: u64, name: &str) -> Option<&StepRecord> {
         self.entities.get(&id)?.iter().find(|r| r.name == name)
     }
 
     /// All records of a name, in the order of the file.
-    pub(super) fn all<'a>(&'a self, name: &'a str) -> impl Iterator<Item = (u64, &'a Record)> {
+    pub(super) fn all<'a>(&'a self, name: &'a str) -> impl Iterator<Item = (u64, &'a StepRecord)> {
         self.order.iter().filter_map(move |id| Some((*id, self.record(*id, name)?)))
     }
 
@@ -95,8 +95,7 @@ impl ExchangeFile {
     pub(super) fn read(text: &str) -> Result<Self, String> {
         let mut reader = Reader { text, at: 0 };
         reader.file().map_err(|why| {
-            let line =
-                1 + text.as_bytes()[..reader.at.min(text.len())].iter().filter(|b| **b == b'\n').count();
+            let line = 1 + text.get(..reader.at).unwrap_or(text).matches('\n').count();
             format!("line {line}: {why}")
         })
     }
@@ -185,7 +184,7 @@ impl<'a> Reader<'a> {
                         }
                         let values = self.parameters(0)?;
                         self.expect(';')?;
-                        file.header.push(Record { name, values });
+                        file.header.push(StepRecord { name, values });
                     }
                     self.expect(';')?;
                 }
@@ -200,7 +199,7 @@ impl<'a> Reader<'a> {
                     }
                     let end = self.name()?;
                     if end != "ENDSEC" {
-                        return Err(format!("an entity or ENDSEC is expected, and there is `{end}`"));
+                        return Err(format!("an entity or `ENDSEC` is expected, and there is `{end}`"));
                     }
                     self.expect(';')?;
                 }
@@ -225,11 +224,11 @@ impl<'a> Reader<'a> {
         if self.eat('(')? {
             while !self.eat(')')? {
                 let name = self.name()?;
-                records.push(Record { name, values: self.parameters(0)? });
+                records.push(StepRecord { name, values: self.parameters(0)? });
             }
         } else {
             let name = self.name()?;
-            records.push(Record { name, values: self.parameters(0)? });
+            records.push(StepRecord { name, values: self.parameters(0)? });
         }
         self.expect(';')?;
         if file.entities.insert(id, records).is_some() {
@@ -244,7 +243,7 @@ impl<'a> Reader<'a> {
         digits.parse().map_err(|_| format!("`#{digits}` is no number of an entity"))
     }
 
-    fn parameters(&mut self, depth: usize) -> Result<Vec<Value>, String> {
+    fn parameters(&mut self, depth: usize) -> Result<Vec<StepValue>, String> {
         if depth > MAX_DEPTH {
             return Err(format!("more than {MAX_DEPTH} lists are nested in each other"));
         }
@@ -262,47 +261,47 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn value(&mut self, depth: usize) -> Result<Value, String> {
+    fn value(&mut self, depth: usize) -> Result<StepValue, String> {
         let Some(first) = self.next()? else {
             return Err("a value is expected at the end of the file".into());
         };
         match first {
-            '(' => Ok(Value::List(self.parameters(depth + 1)?)),
+            '(' => Ok(StepValue::List(self.parameters(depth + 1)?)),
             '\'' => self.text(),
             '#' => {
                 self.at += 1;
-                self.id().map(Value::Reference)
+                self.id().map(StepValue::Reference)
             }
             '$' | '*' => {
                 self.at += 1;
-                Ok(Value::Nothing)
+                Ok(StepValue::Nothing)
             }
             '"' => {
                 self.at += 1;
                 self.run(|c| c != '"');
                 self.expect('"')?;
-                Ok(Value::Nothing)
+                Ok(StepValue::Nothing)
             }
             '.' => {
                 self.at += 1;
                 let word = self.run(|c| c.is_ascii_alphanumeric() || c == '_').to_ascii_uppercase();
                 self.expect('.')?;
-                Ok(Value::Word(word))
+                Ok(StepValue::Word(word))
             }
             '+' | '-' | '0'..='9' => {
                 let digits = self.run(|c| c.is_ascii_digit() || "+-.eE".contains(c));
                 let number = digits.parse().ok().filter(|x: &f64| x.is_finite());
-                number.map(Value::Number).ok_or_else(|| format!("`{digits}` is no number"))
+                number.map(StepValue::Number).ok_or_else(|| format!("`{digits}` is no number"))
             }
             _ => {
                 self.name()?;
-                Ok(Value::Typed(self.parameters(depth + 1)?))
+                Ok(StepValue::Typed(self.parameters(depth + 1)?))
             }
         }
     }
 
     /// A string: two apostrophes are one.
-    fn text(&mut self) -> Result<Value, String> {
+    fn text(&mut self) -> Result<StepValue, String> {
         self.at += 1;
         let mut raw = String::new();
         loop {
@@ -312,7 +311,7 @@ impl<'a> Reader<'a> {
                 self.at += 2;
             } else if self.rest().starts_with('\'') {
                 self.at += 1;
-                return Ok(Value::Text(decoded(&raw)));
+                return Ok(StepValue::Text(decoded(&raw)));
             } else {
                 return Err("a string has no end".into());
             }
@@ -366,7 +365,7 @@ mod tests {
         assert_eq!(read.order, vec![1, 2, 3]);
         let point = read.record(1, "POINT").unwrap();
         assert_eq!(point.values[0].text(), Some("a /* b"));
-        let numbers: Vec<f64> = point.values[1].list().iter().filter_map(Value::number).collect();
+        let numbers: Vec<f64> = point.values[1].list().iter().filter_map(StepValue::number).collect();
         assert_eq!(numbers, vec![1.0, -2.5e-3, 3.0]);
         let b = read.record(2, "B").unwrap();
         assert_eq!((b.values[2].word(), b.values[3].number()), (Some("T"), Some(25.4)));

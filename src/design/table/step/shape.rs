@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
-use super::part21::{ExchangeFile, Record};
+use super::part21::{ExchangeFile, StepRecord};
 use crate::geom::{Pose, any_across};
 
 /// A cylinder, millimetres.
@@ -18,7 +18,7 @@ pub(super) struct Cylinder {
 
 /// What a part has of both kinds, in the frame of its representation, millimetres.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Shape {
+pub(super) struct PartShape {
     pub(super) spheres: Vec<Point3<f64>>,
     pub(super) cylinders: Vec<Cylinder>,
 }
@@ -26,7 +26,7 @@ pub(super) struct Shape {
 /// Three coordinates of a point or a direction; a plane point has two.
 fn triple(file: &ExchangeFile, id: u64, name: &str) -> Option<Vector3<f64>> {
     let values = file.record(id, name)?.values.get(1)?.list();
-    let x = |k: usize| values.get(k).map_or(Some(0.0), super::part21::Value::number);
+    let x = |k: usize| values.get(k).map_or(Some(0.0), super::part21::StepValue::number);
     if values.len() < 2 { None } else { Some(Vector3::new(x(0)?, x(1)?, x(2)?)) }
 }
 
@@ -53,7 +53,7 @@ pub(super) fn placement(file: &ExchangeFile, id: u64, scale: f64) -> Result<Pose
 }
 
 /// Entities that belong to other representations or to colours.
-fn is_border(records: &[Record]) -> bool {
+fn is_border(records: &[StepRecord]) -> bool {
     records.iter().any(|r| {
         r.name.ends_with("REPRESENTATION")
             || r.name.ends_with("STYLED_ITEM")
@@ -63,7 +63,7 @@ fn is_border(records: &[Record]) -> bool {
     })
 }
 
-impl Shape {
+impl PartShape {
     /// What can be reached from the items of a representation.
     ///
     /// # Errors
@@ -104,8 +104,8 @@ impl Shape {
     fn cylinder(
         &mut self,
         file: &ExchangeFile,
-        surface: &Record,
-        bounds: Option<&super::part21::Value>,
+        surface: &StepRecord,
+        bounds: Option<&super::part21::StepValue>,
         scale: f64,
     ) -> Result<(), String> {
         let frame = placement(file, surface.reference(1).unwrap_or(0), scale)?;
@@ -120,7 +120,7 @@ impl Shape {
 }
 
 /// Points of the vertices of a face, in the unit of the file.
-fn corners(file: &ExchangeFile, bounds: &super::part21::Value) -> Vec<Vector3<f64>> {
+fn corners(file: &ExchangeFile, bounds: &super::part21::StepValue) -> Vec<Vector3<f64>> {
     let mut open = Vec::new();
     bounds.references(&mut open);
     let mut seen: HashSet<u64> = HashSet::new();
@@ -137,7 +137,7 @@ fn corners(file: &ExchangeFile, bounds: &super::part21::Value) -> Vec<Vector3<f6
                 // only what leads from a face to its vertices
                 "FACE_BOUND" | "FACE_OUTER_BOUND" | "EDGE_LOOP" | "ORIENTED_EDGE" | "EDGE_CURVE"
                 | "VERTEX_LOOP" | "SUBEDGE" | "POLY_LOOP" => {
-                    record.values.iter().for_each(|v| v.references(&mut open))
+                    record.values.iter().for_each(|v| v.references(&mut open));
                 }
                 _ => {}
             }
