@@ -48,10 +48,10 @@ pub(crate) struct RoundingChoices {
 
 impl RoundingChoices {
     /// What is usual on these grids.
-    pub(crate) fn on(grids: [Option<Grid>; 2], seed: u64) -> Self {
+    pub(crate) fn on(grids: &[Option<Grid>; 2], seed: u64) -> Self {
         let tool = Point3::origin();
         let (candidates, trials) = (CANDIDATES as usize, TRIALS as usize);
-        Self { grids, free: false, keep: KEEP, candidates, tool, trials, seed }
+        Self { grids: *grids, free: false, keep: KEEP, candidates, tool, trials, seed }
     }
 }
 
@@ -209,7 +209,7 @@ impl DesignOnHoles {
 #[cfg(feature = "optimize")]
 pub(crate) fn on_stated_holes(
     wanted: &Design,
-    grids: [Option<Grid>; 2],
+    grids: &[Option<Grid>; 2],
     first: Option<FirstSearch<'_>>,
     options: &ShapeSearchOptions,
     progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
@@ -259,7 +259,7 @@ fn widen(required: &mut Requirements, missed: &AssessReport) {
 #[cfg(feature = "optimize")]
 fn round_once(
     wanted: &Design,
-    grids: [Option<Grid>; 2],
+    grids: &[Option<Grid>; 2],
     options: &ShapeSearchOptions,
     progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<Result<DesignOnHoles, NoRounding>, Error> {
@@ -273,7 +273,7 @@ fn round_once(
     let mut best: Option<(RoundingWay, Fitted)> = None;
     // joints stay on their lines where that meets the requirements
     for (way, m) in [exact, nearest].into_iter().flatten() {
-        let fitted = fit(wanted.on_holes(way, m, &grids), options, progress)?;
+        let fitted = fit(wanted.on_holes(way, m, grids), options, progress)?;
         if best.as_ref().is_none_or(|(_, old)| rank(fitted.1.as_ref()) > rank(old.1.as_ref())) {
             best = Some((way, fitted));
         }

@@ -201,7 +201,7 @@ fn counts(
             report.refuse(Code::Grid, &node.span, message, help);
             return None;
         }
-        found.push(whole as u32);
+        found.extend(u32::try_from(whole as i64));
     }
     Some((0..circles).map(|k| found[if found.len() == 1 { 0 } else { k }]).collect())
 }

@@ -195,6 +195,9 @@ struct Laying {
     bodies: [PlateHoles; 2],
 }
 
+/// A grid with its holes in the plane of a body.
+type LaidPlate = (Option<Grid>, PlateHoles);
+
 /// The grids as given, and those of the same pitches whose holes come nearest to the joints: to triangles that keep the roles, with the best of each body, or
 /// without roles to the joints as they are, with the best ones of both in every combination.
 fn layings(problem: &RoundingProblem<'_>, given: &Laying, roles: Option<&Roles>) -> Vec<Laying> {
@@ -221,11 +224,8 @@ fn layings(problem: &RoundingProblem<'_>, given: &Laying, roles: Option<&Roles>)
         };
         laid.iter().filter_map(|l| lay(free::as_grid(l, &plain))).collect()
     });
-    let [base, platform]: [Vec<(Option<Grid>, PlateHoles)>; 2] = found;
-    let pair = |(a, b): (&(Option<Grid>, PlateHoles), &(Option<Grid>, PlateHoles))| Laying {
-        grids: [a.0, b.0],
-        bodies: [a.1, b.1],
-    };
+    let [base, platform]: [Vec<LaidPlate>; 2] = found;
+    let pair = |(a, b): (&LaidPlate, &LaidPlate)| Laying { grids: [a.0, b.0], bodies: [a.1, b.1] };
     let all = base.iter().flat_map(|a| platform.iter().map(move |b| (a, b)));
     std::iter::once(*given).chain(all.map(pair)).collect()
 }

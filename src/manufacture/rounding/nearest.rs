@@ -87,7 +87,9 @@ fn orbits(
     let holds = |k: usize| problem.holds(list[k]);
     let own: Vec<usize> = (0..list.len()).filter(|k| list[*k].body == body).collect();
     let plate = plate_of(plates, body);
-    let staying = |k: usize| plate.hole_at(&place(m, list[k]), k).unwrap_or([i64::MIN, k as i64]);
+    let staying = |k: usize| {
+        plate.hole_at(&place(m, list[k]), k).unwrap_or([i64::MIN, i64::try_from(k).unwrap_or(i64::MAX)])
+    };
     if let Some(symmetry) = ThreeFold::of(&places(m, body), m.size()) {
         let turned = |first: usize| -> Option<Orbit> {
             let (second, third) = (symmetry.next[first], symmetry.next[symmetry.next[first]]);
@@ -202,7 +204,9 @@ fn search(
             }
             if let Some((choice, changed)) = chosen {
                 members.iter().zip(choice).for_each(|(k, cell)| state.cells[*k] = *cell);
-                changed.iter().for_each(|(k, moved)| state.moved[*k] = *moved);
+                for (k, moved) in changed {
+                    state.moved[k] = moved;
+                }
                 better = true;
             }
         }

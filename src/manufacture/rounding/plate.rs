@@ -74,6 +74,7 @@ impl BodyCircles {
 
 /// Where the joints of a body may be put.
 #[derive(Debug, Clone, Copy)]
+#[allow(clippy::large_enum_variant, reason = "there are two of them, and they are copied")]
 pub(super) enum PlateHoles {
     /// On holes counted along two axes.
     Lattice(BodyGrid),
@@ -130,7 +131,7 @@ impl PlateHoles {
                 [[0, 0], [1, 0], [0, 1], [1, 1]].map(|d: [i64; 2]| [low[0] + d[0], low[1] + d[1]]).to_vec()
             }
             Self::Circles(circles) => circles.around(wanted),
-            Self::AsWanted => vec![[joint as i64, 0]],
+            Self::AsWanted => vec![[i64::try_from(joint).unwrap_or(i64::MAX), 0]],
         };
         let distance = |c: &GridHole| match self {
             Self::Lattice(grid) => {
@@ -170,7 +171,7 @@ impl ThreeFold {
     /// `None` where the joints are not of that kind within rounding of the size of the design.
     pub(super) fn of(points: &[Point3<f64>], size: f64) -> Option<Self> {
         let count = points.len();
-        if count == 0 || count % 3 != 0 {
+        if count == 0 || !count.is_multiple_of(3) {
             return None;
         }
         let axis = nalgebra::Unit::new_normalize(Plane::of(points, size)?.normal());

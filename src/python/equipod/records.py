@@ -1116,30 +1116,6 @@ class DiscsRecord2(Record):
     radius: tuple[Union[float, None], ...]
 
 
-class DriveSolutionRecord(Record):
-    """How the pose for lengths of drives was found."""
-
-    #: What is known of it.
-    status: DriveSolutionWord
-    #: Why there is no pose.
-    reason: Union[str, None]
-    #: The lengths of the drives asked for.
-    lengths: tuple[float, ...]
-    #: The distances of the joints at the pose, to which it was followed.
-    distances: tuple[float, ...]
-    #: Steps of the fixed point.
-    steps: int
-    #: The greatest ratio of two changes of the corrections, one after the other; 0 where there were none
-    #: above rounding.
-    factor: Union[float, None]
-    #: Proved: the platform origin of the pose with exactly these lengths is no farther away, design units.
-    position_bound: Union[float, None]
-    #: Proved: its rotation is no farther away.
-    angle_bound_deg: Union[float, None]
-    #: The factor by which the Newton map contracts around the pose; null: not proved.
-    contraction: Union[float, None]
-
-
 class DriveRecord(Record):
     """A drive of the table, in the units of the design."""
 
@@ -1171,6 +1147,30 @@ class DriveRecord(Record):
     assessment: AssessAnswer
     #: Along the motions asked for.
     motions: tuple[MotionRunRecord, ...]
+
+
+class DriveSolutionRecord(Record):
+    """How the pose for lengths of drives was found."""
+
+    #: What is known of it.
+    status: DriveSolutionWord
+    #: Why there is no pose.
+    reason: Union[str, None]
+    #: The lengths of the drives asked for.
+    lengths: tuple[float, ...]
+    #: The distances of the joints at the pose, to which it was followed.
+    distances: tuple[float, ...]
+    #: Steps of the fixed point.
+    steps: int
+    #: The greatest ratio of two changes of the corrections, one after the other; 0 where there were none
+    #: above rounding.
+    factor: Union[float, None]
+    #: Proved: the platform origin of the pose with exactly these lengths is no farther away, design units.
+    position_bound: Union[float, None]
+    #: Proved: its rotation is no farther away.
+    angle_bound_deg: Union[float, None]
+    #: The factor by which the Newton map contracts around the pose; null: not proved.
+    contraction: Union[float, None]
 
 
 class DrivesAnswer(Record):

@@ -138,7 +138,7 @@ impl Search {
             Self::Offsets(_) => None,
         };
         let options = options(context.seed());
-        let found = on_stated_holes(wanted, grids, first, &options, &mut |p| {
+        let found = on_stated_holes(wanted, &grids, first, &options, &mut |p| {
             part(progress, &p);
             interrupt.flow()
         });
