@@ -1,6 +1,6 @@
 """The largest numbers of real poses of docs/evidence/real-poses.md: plans, sweeps, and the designs they found.
 
-    python docs/evidence/real-poses/search.py PROGRAM WORK [--count N] [--seed S] [TOPOLOGY ..]
+    python docs/evidence/real-poses/search.py PROGRAM WORK [TOPOLOGY ..] [--count N] [--seed S]
 
 `PROGRAM` is the command that runs equipod, `WORK` a folder for plans and parts. Each topology is searched from N random platforms; the best design is written beside this
 file where it has more real poses than the one that is there. Needs pyarrow.
