@@ -159,7 +159,7 @@ fn optional_tables() {
         19:15 design::not_positive: `min_abs_det` is 0 | give a positive number
         20:1 design::unknown_key: `min_joint_distnce` is not a key of [optimize] | did you mean `min_joint_distance`?
         21:18 design::not_positive: `joint_diameter` is -0.5 | give a positive number
-        20:1 design::unknown_key: `hardware` is not a key of [optimize] | known keys: min_joint_distance, min_abs_det, characteristic_length, variables, symmetry, objective, objectives, mode, slack, points, offset_bounds, stretch_bounds, height_bounds
+        20:1 design::unknown_key: `hardware` is not a key of [optimize] | known keys: min_joint_distance, min_abs_det, characteristic_length, variables, symmetry, objective, objectives, mode, slack, points, offset_bounds, stretch_bounds, height_bounds, fixed
         18:2 design::unknown_key: `optimise` is not a key of a design | did you mean `optimize`?
     "#);
 }

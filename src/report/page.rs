@@ -159,10 +159,11 @@ fn anchor(name: &str) -> String {
     format!("file-{}", name.chars().map(plain).collect::<String>())
 }
 
-/// A link to the file beside the page.
+/// A link to the file beside the page or in a folder there. Nothing is empty between two slashes: a path that begins with two of them leads to another host.
 fn link(name: &str) -> String {
+    let parts = name.split('/').filter(|part| !part.is_empty());
     let encoded: Vec<String> =
-        name.split('/').map(|part| utf8_percent_encode(part, NON_ALPHANUMERIC).to_string()).collect();
+        parts.map(|part| utf8_percent_encode(part, NON_ALPHANUMERIC).to_string()).collect();
     format!("<a href=\"{}\">{}</a>", encoded.join("/"), escape(name))
 }
 

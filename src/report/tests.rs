@@ -177,7 +177,10 @@ fn only_its_own(html: &str) -> Result<(), String> {
             let fine = match (name, key.as_str()) {
                 ("img", "alt") | ("iframe", "title" | "sandbox" | "srcdoc") => true,
                 ("img", "src") => value.starts_with("data:image/svg+xml,%3C"),
-                ("a", "href") => value.chars().all(|c| c.is_ascii_alphanumeric() || "#-%".contains(c)),
+                ("a", "href") => {
+                    let own = |c: char| c.is_ascii_alphanumeric() || "#-%/".contains(c);
+                    value.chars().all(own) && !value.starts_with('/')
+                }
                 (_, key) => ATTRIBUTES.contains(&key),
             };
             if !fine {
@@ -247,6 +250,7 @@ fn foreign_texts_never_become_markup() {
         "<p>a</p><script>",
         "<p onclick=\"x\">",
         "<a href=\"javascript:x\">",
+        "<a href=\"//x\">",
         "<img src=\"http://x\">",
         "<p><svg onload=x>",
     ] {

@@ -1,4 +1,4 @@
-//! `equipod fk --near` where joints are not ideal: the pose for lengths of drives.
+//! `fk --near` where joints are not ideal: the pose for lengths of drives.
 
 use std::fmt::Write as _;
 
