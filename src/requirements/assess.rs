@@ -26,7 +26,7 @@ pub struct AssessOptions {
     pub seed: u64,
     /// Whether proved margins come close to the least ones found; without it a proof ends where it decides that a margin is met or violated.
     pub close: bool,
-    /// Cells for the proof of a kind of requirement that the usual number leaves undecided, where more than that; 0: it stays undecided.
+    /// Cells for the proof of a kind of requirement that the usual number leaves undecided, where more than that and where no requirement is violated; 0: it stays undecided.
     pub patient_cells: usize,
     /// Threads for the proofs; `None`: as many as the process may run at the same time. No answer depends on it.
     pub threads: Option<NonZeroUsize>,

@@ -108,13 +108,9 @@ pub struct ReserveBound {
 }
 
 impl MarginBound {
-    /// Whether nothing is left to prove of the margin and of its reserve: a violation decides both.
+    /// Whether nothing is left to prove of the margin and of its reserve.
     fn is_decided(&self) -> bool {
-        match self.verdict {
-            MarginVerdict::Violated => true,
-            MarginVerdict::Searched => false,
-            MarginVerdict::Met | MarginVerdict::AtLimit => self.keeps_reserve().is_some(),
-        }
+        self.verdict.is_met().is_some() && self.keeps_reserve().is_some()
     }
 
     /// Whether the reserve is kept; `Some(true)` where there is none.
@@ -155,7 +151,7 @@ impl MarginProof {
     }
 }
 
-/// [`assess()`], and proved bounds of the margins it finds, by at most `cells` cells for each kind, and by [`AssessOptions::patient_cells`] more where these leave it undecided.
+/// [`assess()`], and proved bounds of the margins it finds, by at most `cells` cells for each kind, and by [`AssessOptions::patient_cells`] more where these leave it undecided and nothing is violated.
 ///
 /// Deterministic for a seed. Every pose of [`PoseSpace`] is covered: its region, its single poses, and the straight motions between those of its trajectory, whatever the number of steps.
 #[must_use]
@@ -174,17 +170,23 @@ pub fn prove(
     // more cells are for what is undecided, and need not come close
     let patient = CellJudge { m, required, terms: &terms, axes, charts: charts.clone(), close: false };
     let judge = CellJudge { charts, close: o.close, ..patient };
-    let proved = |found: Margin| {
-        let bound = judge.proved(found, cells, o.seed);
-        if bound.is_decided() || found.term.kind.is_fixed() || o.patient_cells <= cells {
-            return bound;
-        }
-        let more = patient.proved(bound.found, o.patient_cells, o.seed);
-        MarginBound { below: more.below.max(bound.below), cells: bound.cells + more.cells, ..more }
-    };
     let threads =
         o.threads.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
-    let bounds = parallel(margins.len(), threads, |k| proved(margins[k]), &mut |_, _| ());
+    let proved = |k: usize| judge.proved(margins[k], cells, o.seed);
+    let mut bounds = parallel(margins.len(), threads, proved, &mut |_, _| ());
+    // of a design that misses something no more has to be known
+    let missed = |b: &MarginBound| b.verdict == MarginVerdict::Violated || b.keeps_reserve() == Some(false);
+    if o.patient_cells > cells && !bounds.iter().any(missed) {
+        let more = |k: usize| {
+            let bound: &MarginBound = &bounds[k];
+            if bound.is_decided() || bound.found.term.kind.is_fixed() {
+                return bound.clone();
+            }
+            let more = patient.proved(bound.found, o.patient_cells, o.seed);
+            MarginBound { below: more.below.max(bound.below), cells: bound.cells + more.cells, ..more }
+        };
+        bounds = parallel(bounds.len(), threads, more, &mut |_, _| ());
+    }
     MarginProof { bounds, poses }
 }
 
