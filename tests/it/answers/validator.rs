@@ -244,6 +244,10 @@ fn matches(pattern: &str, text: &str) -> bool {
             number.is_some_and(|n| (1..=34).contains(&n.parse::<u8>().unwrap()))
         }
         "^[-0+]{6}$" => text.len() == 6 && text.bytes().all(|b| matches!(b, b'-' | b'0' | b'+')),
+        "^[A-Za-z_][A-Za-z0-9_]*$" => {
+            let name = |b: u8| b.is_ascii_alphanumeric() || b == b'_';
+            text.bytes().all(name) && text.bytes().next().is_some_and(|b| !b.is_ascii_digit())
+        }
         r"\S" => text.chars().any(|c| !c.is_whitespace()),
         _ => panic!("the pattern {pattern} is not known to this validator"),
     }
