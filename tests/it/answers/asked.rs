@@ -133,7 +133,7 @@ const CALLS: &[(i32, &str, &str)] = &[
     (0, "design-presets", "bench-l16 -o {l16.toml}"),
     (0, "build-drives", "{small-bench} {drives} --sine z:1:1 -o {driven.toml}"),
     (1, "build-drives", "{small-bench} {weak-drives}"),
-    (0, "build-round", "{ringed} --trials 10"),
+    (1, "build-round", "{ringed} --trials 10"),
     (0, "build-round", "{rbt-octahedral} --grid 1 --trials 10"),
     (0, "build-round", "{outer} --grid 0.25 --trials 10 --free-grid -o {rounded.toml}"),
     (1, "build-round", "{crowded} --grid 0.25 --trials 10"),
