@@ -26,7 +26,8 @@ impl From<Error> for PoseFault {
 /// An argument that is an array of doubles, row by row, as it stands; `None`: it is for numpy to make one of it. A look from here costs less than one from Python.
 pub(super) fn as_it_stands<'py>(given: &Bound<'py, PyAny>) -> Option<PyReadonlyArrayDyn<'py, f64>> {
     let array = given.cast::<PyArrayDyn<f64>>().ok()?.try_readonly().ok()?;
-    array.as_slice().is_ok().then_some(array)
+    // a slice would be given of columns after columns too
+    array.is_c_contiguous().then_some(array)
 }
 
 /// The entries of an array of shape `(.., 4, 4)` and the axes before these; `None`: it has another shape.
