@@ -73,6 +73,7 @@ struct Built {
     lead: f64,
 }
 
+#[allow(clippy::large_types_passed_by_value, reason = "a test makes them on the spot")]
 fn hardware(axes: [[Vector3<f64>; 6]; 2], offsets: [f64; 2], lead: Option<f64>) -> Hardware {
     let joint = |k: usize| UniversalJoint {
         first_axes: axes[k].map(Unit::new_normalize),
@@ -318,7 +319,7 @@ fn motions_and_scales_change_nothing() {
     }
 }
 
-/// The correction of LinuxCNC's genhexkins for axes that meet, written after its source: the angle from the part of the base axis across the leg to the second axis at the platform, by its sine.
+/// The correction of `LinuxCNC`'s genhexkins for axes that meet, written after its source: the angle from the part of the base axis across the leg to the second axis at the platform, by its sine.
 #[test]
 fn corrections_of_screws_are_those_of_genhexkins_less_their_values_at_home() {
     let mut rng = Rng::new(78);

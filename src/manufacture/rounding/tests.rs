@@ -1,5 +1,7 @@
 //! Roundings: on the grid, on the lines, not beaten by their neighbours, told apart from those that are not exact.
 
+#![allow(clippy::large_types_passed_by_value, reason = "tests make their grids on the spot")]
+
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::exact::{proved, rank};
@@ -356,7 +358,7 @@ fn three_fold_platforms_keep_their_symmetry_on_circles_and_joints_stand_on_their
         let [circle, number] = joint.cell.unwrap();
         let (radius, step, first) = match joint.joint.body {
             Body::Base => (1.0 + 0.5 * circle as f64, 7.5, 3.0),
-            Body::Platform => (list[circle as usize].radius, 10.0, 0.0),
+            Body::Platform => (list[usize::try_from(circle).unwrap()].radius, 10.0, 0.0),
         };
         let (s, c) = (first + step * number as f64).to_radians().sin_cos();
         assert!((at.x - radius * c).hypot(at.y - radius * s) < 1e-12, "{joint:?}");

@@ -500,6 +500,7 @@ fn universal(first_axes: [Vector3<f64>; 6], limits_deg: [f64; 2]) -> UniversalJo
 }
 
 /// The kinds of the angles, with the least margins found and proved.
+#[allow(clippy::large_types_passed_by_value, reason = "tests make it on the spot")]
 fn angles_of(m: &Manipulator, space: &PoseSpace, hardware: Hardware, cells: usize) -> Vec<MarginBound> {
     let required = Requirements { hardware, ..Requirements::default() };
     prove(m, &required, space, &quick(), cells).bounds

@@ -134,8 +134,8 @@ fn legs_that_hang_on_the_platform_are_read_with_defaults_frames_and_other_angles
         let _ = write!(loops, "<connect site1='foot{i}' site2='ground{i}'/>");
     }
     let legs = legs.replace(" name='tube'", "");
-    let grounds: String =
-        (0..6).map(|i| format!("<site name='ground{i}' pos='{}'/>", text(&Vector3::from(BASE[i])))).collect();
+    let ground = |i: usize| format!("<site name='ground{i}' pos='{}'/>", text(&Vector3::from(BASE[i])));
+    let grounds = [0, 1, 2, 3, 4, 5].map(ground).concat();
     // about fixed axes, the last first: the same rotation
     let [x, y, z] = [10.0_f64, 20.0, 30.0].map(f64::to_radians);
     let model = format!(
