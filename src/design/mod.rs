@@ -40,7 +40,7 @@ pub(crate) use likeness::nearest_word;
 pub use model::{CalibrationTable, Combination, Design, NameCount, OptimizeTable, SearchTable};
 pub(crate) use outline::{HexapodSizes, octahedral_toml, with_lengths};
 pub use presets::{PRESETS, Preset, PresetClass};
-pub(crate) use scale::micrometres;
+pub(crate) use scale::{micrometres, unit_of_millimetres};
 pub use schema::SCHEMA;
 #[cfg(feature = "cli")]
 pub(crate) use table::InvalidPointTable;

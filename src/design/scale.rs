@@ -17,6 +17,12 @@ pub(crate) fn micrometres(label: &str) -> Option<u64> {
     UNITS.iter().find(|(known, _)| *known == label.trim()).map(|(_, length)| *length)
 }
 
+/// The label of the unit of so many millimetres, and its exact length in them.
+pub(crate) fn unit_of_millimetres(length: f64) -> Option<(&'static str, f64)> {
+    let known = UNITS.into_iter().map(|(label, micrometres)| (label, micrometres as f64 / 1000.0));
+    known.into_iter().find(|(_, known)| (length - known).abs() <= 1e-9 * known)
+}
+
 /// Why a design has no form in another unit.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub(crate) enum NotScaled {

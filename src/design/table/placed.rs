@@ -15,15 +15,6 @@ pub(super) struct FileUnit {
     pub(super) per: f64,
 }
 
-/// Labels of the length units that designs know, with their lengths in millimetres.
-const MILLIMETRES: [(&str, f64); 6] =
-    [("um", 1e-3), ("mm", 1.0), ("cm", 10.0), ("m", 1000.0), ("in", 25.4), ("ft", 304.8)];
-
-/// The label of a unit of so many millimetres, and its exact length.
-pub(super) fn unit_of_millimetres(length: f64) -> Option<(&'static str, f64)> {
-    MILLIMETRES.into_iter().find(|(_, known)| (length - known).abs() <= 1e-9 * known)
-}
-
 /// The number between `before` and `after` in a line that this program's exports have, such as `Lengths in mm; one unit of the design is 25.4 mm`.
 pub(super) fn number_between(line: &str, before: &str, after: &str) -> Option<f64> {
     let number = line.trim().strip_prefix(before)?.strip_suffix(after)?;

@@ -14,8 +14,9 @@ use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
 use self::assembly::PartAssembly;
 use self::legs::StepLegs;
 use self::part21::{ExchangeFile, StepValue};
-use super::placed::{FileUnit, PlacedLegs, number_between, unit_of_millimetres};
+use super::placed::{FileUnit, PlacedLegs, number_between};
 use super::points::PointTable;
+use crate::design::unit_of_millimetres;
 use crate::geom::Pose;
 
 /// Centres and axes nearer to each other than this times the size are the same: CAD programs are exact to some 1e-7.
