@@ -2,12 +2,10 @@
 
 use std::cmp::Ordering;
 
-use super::judging::{ASSESS_CELLS, BRIEF_CELLS, PATIENT_CELLS};
+use super::judging::{ASSESS_CELLS, BRIEF_CELLS, PATIENT_CELLS, deciding};
 use super::{AssessReport, MotionMasses, MotionReport, PlatformMotion};
 use crate::design::{Design, DesignUnits, Drive};
-use crate::requirements::{
-    AssessOptions, ForceUnit, MarginProof, MassUnit, Requirements, least_conditioning, prove,
-};
+use crate::requirements::{ForceUnit, MarginProof, MassUnit, Requirements, least_conditioning, prove};
 use crate::singularity::regular_workspace;
 
 /// A drive with what it makes of a design.
@@ -127,18 +125,17 @@ impl Design {
         let [_, rest] = self.requirements().of_drives_and_rest();
         let proof = self.proved(&rest, seed);
         let (regularity, regularity_cells) = regular_workspace(m, &space, ASSESS_CELLS, seed);
-        let options = AssessOptions::new().seed(seed).close(false);
-        let conditioning = least_conditioning(m, &space, &options, self.characteristic_length());
+        let conditioning = least_conditioning(m, &space, &deciding(seed), self.characteristic_length());
         AssessReport { proof, regularity, regularity_cells, conditioning }
     }
 
-    /// What is proved of some requirements, with as many cells as decide them and no more than a search gets.
+    /// What is proved of some requirements, with as many cells as decide them and no more than a search gets. A lost reserve alone does not end it, as it does where a whole design is judged: whether
+    /// the drive fits is the question.
     fn proved(&self, required: &Requirements, seed: u64) -> MarginProof {
         let (m, space) = (self.manipulator(), self.workspace.space(&self.home_or_default()));
-        let options = AssessOptions::new().seed(seed).close(false);
         let mut found = MarginProof { bounds: Vec::new(), poses: 0 };
         for cells in [BRIEF_CELLS, ASSESS_CELLS, PATIENT_CELLS] {
-            found = prove(m, required, &space, &options, cells);
+            found = prove(m, required, &space, &deciding(seed), cells);
             let decided = match found.all_met() {
                 Some(false) => true,
                 Some(true) => found.all_reserved().is_some(),

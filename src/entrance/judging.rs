@@ -120,13 +120,18 @@ impl std::fmt::Display for AssessReport {
 pub(crate) const BOX_CELLS: usize = 30_000;
 
 /// Cells of the workspace over which [`Design::assess`] bounds the margins of one kind of requirement, and `det J`, at most.
-pub(crate) const ASSESS_CELLS: usize = 6000;
+pub(super) const ASSESS_CELLS: usize = 6000;
 
 /// The same for what fewer leave undecided: a search drives margins to zero, where proofs need many.
-pub(crate) const PATIENT_CELLS: usize = 60_000;
+pub(super) const PATIENT_CELLS: usize = 60_000;
 
 /// The same in answers that are about something else than the requirements: a tenth of a second where the whole proof takes seconds.
-pub(crate) const BRIEF_CELLS: usize = 300;
+pub(super) const BRIEF_CELLS: usize = 300;
+
+/// Proofs that end where they decide.
+pub(super) fn deciding(seed: u64) -> AssessOptions {
+    AssessOptions::new().seed(seed).close(false)
+}
 
 impl Design {
     /// Whether the design is architecturally singular, so that no pose can hold the platform: decided exactly, explained, and how far away a singular
@@ -183,7 +188,22 @@ impl Design {
     /// # Errors
     /// [`Error::NothingRequired`] where the design requires nothing.
     pub fn assess(&self) -> Result<AssessReport, Error> {
-        self.assess_with(&AssessOptions::default().patient_cells(PATIENT_CELLS), ASSESS_CELLS)
+        self.assess_by(&AssessOptions::default(), None)
+    }
+
+    /// As [`assess_with`](Self::assess_with), where a number of cells is given; without one as [`assess`](Self::assess).
+    ///
+    /// # Errors
+    /// [`Error::NothingRequired`] where the design requires nothing.
+    pub(crate) fn assess_by(
+        &self,
+        options: &AssessOptions,
+        cells: Option<usize>,
+    ) -> Result<AssessReport, Error> {
+        match cells {
+            Some(cells) => self.assess_with(options, cells),
+            None => self.assess_with(&options.patient_cells(PATIENT_CELLS), ASSESS_CELLS),
+        }
     }
 
     /// As [`assess`](Self::assess), with other numbers of poses and cells looked at.
@@ -205,13 +225,12 @@ impl Design {
     ///
     /// Proofs end where they decide: the proved margins may be smaller than those of `assess`.
     pub(crate) fn assessed(&self, seed: u64) -> Option<AssessReport> {
-        let options = AssessOptions::new().seed(seed).close(false).patient_cells(PATIENT_CELLS);
-        self.assess_with(&options, ASSESS_CELLS).ok()
+        self.assess_by(&deciding(seed), None).ok()
     }
 
     /// The same with few cells, for answers that are about something else: the same poses are looked at, and less is proved between them.
     pub(crate) fn assessed_briefly(&self, seed: u64) -> Option<AssessReport> {
-        self.assess_with(&AssessOptions::new().seed(seed).close(false), BRIEF_CELLS).ok()
+        self.assess_with(&deciding(seed), BRIEF_CELLS).ok()
     }
 
     /// The largest region without singular poses is sought in the shape of the box of the workspace, or of one of half the size and 30 degrees either way.

@@ -40,8 +40,6 @@ pub use equivalence::{VerifyOptions, leg_map, verify, verify_with};
 pub use error::Error;
 #[cfg(all(feature = "files", feature = "synthesis"))]
 pub(crate) use judging::BOX_CELLS;
-#[cfg(feature = "cli")]
-pub(crate) use judging::{ASSESS_CELLS, PATIENT_CELLS};
 #[cfg(all(feature = "files", feature = "synthesis"))]
 pub use judging::{AssessReport, CheckReport};
 #[cfg(feature = "files")]

@@ -14,7 +14,7 @@ use super::failure::{interrupted, raised, refused};
 use super::solutions::{NativeSolutions, SolutionArrays, SolutionColumns};
 use super::tracker::NativeTracker;
 use crate::design::{self, Format, PRESETS, parse};
-use crate::entrance::{ASSESS_CELLS, Error, PATIENT_CELLS, Solver};
+use crate::entrance::{Error, Solver};
 use crate::fk::{FkOptions, Method, Threads};
 use crate::manipulator::{Body, Manipulator, NoSuchBody, jacobian};
 use crate::num::Cancel;
@@ -312,15 +312,8 @@ impl NativeDesign {
         cells: Option<usize>,
         seed: u64,
     ) -> PyResult<String> {
-        let patient = if cells.is_none() { PATIENT_CELLS } else { 0 };
-        let options = AssessOptions::new()
-            .points(points)
-            .steps(steps)
-            .searches(searches)
-            .seed(seed)
-            .patient_cells(patient);
-        let cells = cells.unwrap_or(ASSESS_CELLS);
-        let found = py.detach(|| self.design.assess_with(&options, cells)).map_err(|e| raised(py, e))?;
+        let options = AssessOptions::new().points(points).steps(steps).searches(searches).seed(seed);
+        let found = py.detach(|| self.design.assess_by(&options, cells)).map_err(|e| raised(py, e))?;
         document(AssessAnswer::new(&self.design, &found), &[&self.design], Some(seed))
     }
 

@@ -7,7 +7,7 @@ use crate::cli::context::Context;
 use crate::cli::failure::Failure;
 use crate::cli::output::Answer;
 use crate::cli::requirements;
-use crate::entrance::{ASSESS_CELLS, Error, PATIENT_CELLS};
+use crate::entrance::Error;
 use crate::records::{AssessAnswer, PoseQuaternionRecord, RegularityWord};
 use crate::requirements::AssessOptions;
 
@@ -40,9 +40,8 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         .points(args.points as usize)
         .steps(args.steps as usize)
         .searches(args.searches as usize)
-        .seed(context.seed())
-        .patient_cells(if args.cells.is_none() { PATIENT_CELLS } else { 0 });
-    let found = design.assess_with(&options, args.cells.map_or(ASSESS_CELLS, |n| n as usize)).map_err(|e| match e {
+        .seed(context.seed());
+    let found = design.assess_by(&options, args.cells.map(|n| n as usize)).map_err(|e| match e {
         Error::NothingRequired => {
             let help =
                 "add [hardware] with lengths, swing, diameters or greatest forces; see docs/design-files.md";
