@@ -1,11 +1,8 @@
 //! `fk --near` where joints are not ideal: the pose for lengths of drives.
 
-use std::fmt::Write as _;
-
 use super::Table;
 use super::lengths::Given;
-use super::near::{self, Machine, Proof};
-use super::render;
+use super::near::{self, Followed, Machine, Proof};
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::output::Answer;
@@ -14,9 +11,7 @@ use crate::design::Design;
 use crate::fk::Reality;
 use crate::geom::Pose;
 use crate::manipulator::LegLengths;
-use crate::records::{
-    DriveSolutionRecord, FkAnswer, FkOneAnswer, FkRowOutcome, FkRowRecord, FkRowsAnswer, NearWord,
-};
+use crate::records::{DriveSolutionRecord, NearWord};
 
 /// Refuses what takes the lengths of drives for distances of joints.
 pub(super) fn refuse_without_start(design: &Design) -> Result<(), Failure> {
@@ -40,45 +35,18 @@ pub(super) fn run(
 ) -> Answer {
     let machine = Machine::of(design);
     let mut tracker = CoupledTracker::new(legs, start);
-    match given {
-        Given::One(drives) => {
-            let (exit, record, sentence) = one(&machine, &mut tracker, drives, seed);
-            let text = format!("{sentence}\n{}", render::text(&design.name, &record.solved));
-            let record = FkAnswer::One(Box::new(record));
-            let text = table.text(design, &record).unwrap_or(text);
-            Answer::new(exit, record, text)
-        }
-        Given::Rows(series) => {
-            let mut exit = Exit::Yes;
-            let mut text = String::from("line  outcome           segments  inverse condition  position\n");
-            let mut rows = Vec::with_capacity(series.rows.len());
-            for row in &series.rows {
-                let (code, record, sentence) = one(&machine, &mut tracker, &row.value, seed);
-                exit = exit.max(code);
-                let _ = writeln!(text, "{:>4}  {sentence}", row.line);
-                rows.push(FkRowRecord {
-                    line: row.line,
-                    time: row.time,
-                    lengths: row.value.get(),
-                    angles_deg: None,
-                    outcome: FkRowOutcome::Solved(Box::new(record)),
-                });
-            }
-            let record = FkAnswer::Rows(FkRowsAnswer { rows });
-            let table = Table { time_name: series.time_name.clone(), ..*table };
-            let text = table.text(design, &record).unwrap_or(text);
-            Answer::new(exit, record, text)
-        }
-    }
+    near::followed(design, given, table, "line  position, and what is proved of it", |drives, number| {
+        one(&machine, &mut tracker, drives, number, seed)
+    })
 }
 
-/// One set of lengths: exit code, record, and what people are told.
 fn one(
     machine: &Machine<'_>,
     tracker: &mut CoupledTracker,
     drives: &LegLengths,
+    number: usize,
     seed: u64,
-) -> (Exit, FkOneAnswer, String) {
+) -> Followed {
     let from = tracker.pose();
     let found = tracker.step(&drives.get());
     let distances = LegLengths::try_new(found.distances).unwrap_or(*drives);
@@ -98,7 +66,7 @@ fn one(
     let sentence = sentence(&found, &solution);
     record.drives = Some(solution);
     let exit = if matches!(found.status, CoupledStatus::Proved(_)) { Exit::Yes } else { Exit::Inconclusive };
-    (exit, record, sentence)
+    Followed { exit, record, line: format!("{number:>4}  {sentence}"), sentence: sentence + "\n" }
 }
 
 fn sentence(found: &CoupledOutcome, solution: &DriveSolutionRecord) -> String {

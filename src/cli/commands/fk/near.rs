@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::lengths::{Given, Row};
+use super::lengths::Given;
 use super::{Table, render};
 use crate::cli::exit::Exit;
 use crate::cli::output::Answer;
@@ -35,21 +35,48 @@ impl<'a> Machine<'a> {
     }
 }
 
-/// Follows one pose. A row that is not tracked leaves the next to start from the last tracked pose.
-pub(super) fn run(design: &Design, given: &Given, start: Pose, seed: u64, table: &Table) -> Answer {
-    let (solver, machine) = (NearSolver::new(design.manipulator()), Machine::of(design));
+/// What came of one set of lengths.
+pub(super) struct Followed {
+    pub(super) exit: Exit,
+    pub(super) record: FkOneAnswer,
+    /// What people are told of it before the list of poses, with the ends of its lines.
+    pub(super) sentence: String,
+    /// The same in a table for many rows.
+    pub(super) line: String,
+}
+
+/// The answer about one set of lengths, or about each row of a table in turn; `step` is given the lengths and the number of their line.
+pub(super) fn followed(
+    design: &Design,
+    given: &Given,
+    table: &Table,
+    titles: &str,
+    mut step: impl FnMut(&LegLengths, usize) -> Followed,
+) -> Answer {
     match given {
         Given::One(l) => {
-            let outcome = solver.solve(&l.squared(), &start);
-            let record = record(&machine, l, &start, &outcome, seed);
-            let text =
-                format!("{}{}", sentence(&machine, &outcome), render::text(&design.name, &record.solved));
+            let Followed { exit, record, sentence, .. } = step(l, 0);
+            let text = format!("{sentence}{}", render::text(&design.name, &record.solved));
             let record = FkAnswer::One(Box::new(record));
             let text = table.text(design, &record).unwrap_or(text);
-            Answer::new(exit_of(&outcome), record, text)
+            Answer::new(exit, record, text)
         }
         Given::Rows(series) => {
-            let (exit, record, text) = trajectory(&machine, &solver, &series.rows, start, seed);
+            let (mut exit, mut text) = (Exit::Yes, format!("{titles}\n"));
+            let mut rows = Vec::with_capacity(series.rows.len());
+            for row in &series.rows {
+                let found = step(&row.value, row.line);
+                exit = exit.max(found.exit);
+                let _ = writeln!(text, "{}", found.line);
+                rows.push(FkRowRecord {
+                    line: row.line,
+                    time: row.time,
+                    lengths: row.value.get(),
+                    angles_deg: None,
+                    outcome: FkRowOutcome::Solved(Box::new(found.record)),
+                });
+            }
+            let record = FkAnswer::Rows(FkRowsAnswer { rows });
             let table = Table { time_name: series.time_name.clone(), ..*table };
             let text = table.text(design, &record).unwrap_or(text);
             Answer::new(exit, record, text)
@@ -57,30 +84,27 @@ pub(super) fn run(design: &Design, given: &Given, start: Pose, seed: u64, table:
     }
 }
 
-fn trajectory(
-    machine: &Machine<'_>,
-    solver: &NearSolver,
-    rows: &[Row],
-    start: Pose,
-    seed: u64,
-) -> (Exit, FkAnswer, String) {
-    let (mut exit, mut from) = (Exit::Yes, start);
-    let mut text = String::from("line  outcome           segments  inverse condition  position\n");
-    let mut records = Vec::with_capacity(rows.len());
-    for row in rows {
-        let outcome = solver.solve(&row.value.squared(), &from);
-        exit = exit.max(exit_of(&outcome));
-        records.push(FkRowRecord {
-            line: row.line,
-            time: row.time,
-            lengths: row.value.get(),
-            angles_deg: None,
-            outcome: FkRowOutcome::Solved(Box::new(record(machine, &row.value, &from, &outcome, seed))),
-        });
-        let _ = writeln!(text, "{}", line(row.line, machine, &outcome));
-        from = outcome.tracked().copied().unwrap_or(from);
-    }
-    (exit, FkAnswer::Rows(FkRowsAnswer { rows: records }), text)
+/// Follows one pose. A row that is not tracked leaves the next to start from the last tracked pose.
+pub(super) fn run(design: &Design, given: &Given, start: Pose, seed: u64, table: &Table) -> Answer {
+    let (solver, machine) = (NearSolver::new(design.manipulator()), Machine::of(design));
+    let mut from = start;
+    followed(
+        design,
+        given,
+        table,
+        "line  outcome           segments  inverse condition  position",
+        |lengths, number| {
+            let outcome = solver.solve(&lengths.squared(), &from);
+            let record = record(&machine, lengths, &from, &outcome, seed);
+            from = outcome.tracked().copied().unwrap_or(from);
+            Followed {
+                exit: exit_of(&outcome),
+                record,
+                sentence: sentence(&machine, &outcome),
+                line: line(number, &machine, &outcome),
+            }
+        },
+    )
 }
 
 /// One line of the table for many rows.
