@@ -57,47 +57,62 @@ pub(crate) struct Args {
     csv: Option<OutputPath>,
 }
 
-/// The motions that another command asks for, about home and with the usual numbers of instants.
+/// The motions that a command asks for.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::cli::commands) struct ChosenMotions<'a> {
-    pub(in crate::cli::commands) trajectory: Option<&'a Path>,
-    pub(in crate::cli::commands) sine: &'a [String],
-    pub(in crate::cli::commands) accelerate: &'a [String],
-    pub(in crate::cli::commands) unit: Option<&'a str>,
+    trajectory: Option<&'a Path>,
+    sine: &'a [String],
+    accelerate: &'a [String],
+    at_rest: bool,
+    /// The pose that manoeuvres are about, as it is written.
+    about: &'a str,
+    steps: u32,
+    samples: u32,
 }
 
-impl ChosenMotions<'_> {
-    /// Whether there is a motion.
-    pub(in crate::cli::commands) fn moves(&self) -> bool {
-        self.trajectory.is_some() || !self.sine.is_empty() || !self.accelerate.is_empty()
+impl<'a> ChosenMotions<'a> {
+    /// These, about home and with the usual numbers of instants.
+    pub(in crate::cli::commands) fn new(
+        trajectory: Option<&'a Path>,
+        sine: &'a [String],
+        accelerate: &'a [String],
+    ) -> Self {
+        Self { trajectory, sine, accelerate, at_rest: false, about: "home", steps: STEPS, samples: SAMPLES }
     }
 
-    /// The motions with their names.
+    fn of(args: &'a Args) -> Self {
+        let Args { at_rest, about, steps, samples, .. } = args;
+        let chosen = Self::new(args.trajectory.as_deref(), &args.sine, &args.accelerate);
+        Self { at_rest: *at_rest, about, steps: *steps, samples: *samples, ..chosen }
+    }
+
+    /// Whether there is none.
+    pub(in crate::cli::commands) fn is_empty(&self) -> bool {
+        self.trajectory.is_none() && self.sine.is_empty() && self.accelerate.is_empty()
+    }
+
+    /// The motions with their names, in the order of the answer.
     pub(in crate::cli::commands) fn motions(
         &self,
         design: &Design,
         context: &Context,
     ) -> Result<Vec<(String, PlatformMotion)>, Failure> {
-        let args = Args {
-            design: PathBuf::new(),
-            trajectory: self.trajectory.map(Path::to_owned),
-            sine: self.sine.to_vec(),
-            accelerate: self.accelerate.to_vec(),
-            stiffness: !self.moves(),
-            about: "home".into(),
-            load: None,
-            at_rest: false,
-            steps: STEPS,
-            samples: SAMPLES,
-            unit: None,
-            csv: None,
-        };
-        motions(&args, design, context)
-    }
-
-    /// Metres in a unit of the design; `None` for a design without a payload, of which no forces are computed along motions.
-    pub(in crate::cli::commands) fn metres(&self, design: &Design) -> Result<Option<f64>, Failure> {
-        design.payload.as_ref().map(|_| metres(self.unit, design)).transpose()
+        let mut out = Vec::new();
+        if let Some(path) = self.trajectory {
+            let ends = if self.at_rest { PathEnds::AtRest } else { PathEnds::Free };
+            let motion = PlatformMotion::Path(trajectory(path, ends, context)?, self.steps as usize);
+            out.push((files::shown(path), motion));
+        }
+        let about = about(self.about, design)?;
+        for text in self.sine {
+            let sine = Manoeuvre::sine(text).map_err(|e| no_manoeuvre("--sine", &e))?;
+            out.push((format!("sine {text}"), PlatformMotion::Manoeuvre(sine, about, self.samples as usize)));
+        }
+        for text in self.accelerate {
+            let start = Manoeuvre::acceleration(text).map_err(|e| no_manoeuvre("--accelerate", &e))?;
+            out.push((format!("accelerate {text}"), PlatformMotion::Manoeuvre(start, about, 1)));
+        }
+        Ok(out)
     }
 }
 
@@ -112,7 +127,12 @@ const BAD_TRAJECTORY: &str = "motion::bad_trajectory";
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
     refuse_without_effect(args, &design, context)?;
-    let motions = motions(args, &design, context)?;
+    let chosen = ChosenMotions::of(args);
+    let motions = chosen.motions(&design, context)?;
+    if chosen.is_empty() && !args.stiffness {
+        let help = "give a table of times and poses, --sine z:50:1 or --accelerate x:2000";
+        return Err(Failure::refused("motion::no_motion", "there is no motion to look at").with_help(help));
+    }
     let masses = masses(args, &design)?;
     let found: Vec<(String, MotionReport)> =
         motions.iter().map(|(name, motion)| (name.clone(), design.along(motion, masses.as_ref()))).collect();
@@ -146,7 +166,7 @@ fn refuse_without_effect(args: &Args, design: &Design, context: &Context) -> Res
         context.no_effect("at_rest", "there is no trajectory")?;
         context.no_effect("steps", "there is no trajectory")?;
     }
-    if args.trajectory.is_none() && args.sine.is_empty() && args.accelerate.is_empty() {
+    if ChosenMotions::of(args).is_empty() {
         context.no_effect("csv", "there is no motion")?;
         context.no_effect("load", "there is no motion")?;
     }
@@ -167,36 +187,8 @@ fn refuse_without_effect(args: &Args, design: &Design, context: &Context) -> Res
     Ok(())
 }
 
-/// The motions with their names, in the order of the answer.
-fn motions(
-    args: &Args,
-    design: &Design,
-    context: &Context,
-) -> Result<Vec<(String, PlatformMotion)>, Failure> {
-    let mut out = Vec::new();
-    if let Some(path) = &args.trajectory {
-        let ends = if args.at_rest { PathEnds::AtRest } else { PathEnds::Free };
-        let motion = PlatformMotion::Path(trajectory(path, ends, context)?, args.steps as usize);
-        out.push((files::shown(path), motion));
-    }
-    let about = about(args, design)?;
-    for text in &args.sine {
-        let sine = Manoeuvre::sine(text).map_err(|e| no_manoeuvre("--sine", &e))?;
-        out.push((format!("sine {text}"), PlatformMotion::Manoeuvre(sine, about, args.samples as usize)));
-    }
-    for text in &args.accelerate {
-        let start = Manoeuvre::acceleration(text).map_err(|e| no_manoeuvre("--accelerate", &e))?;
-        out.push((format!("accelerate {text}"), PlatformMotion::Manoeuvre(start, about, 1)));
-    }
-    if out.is_empty() && !args.stiffness {
-        let help = "give a table of times and poses, --sine z:50:1 or --accelerate x:2000";
-        return Err(Failure::refused("motion::no_motion", "there is no motion to look at").with_help(help));
-    }
-    Ok(out)
-}
-
-fn about(args: &Args, design: &Design) -> Result<Pose, Failure> {
-    poses::parse(&args.about, design, "--about", "motion::bad_pose")
+fn about(text: &str, design: &Design) -> Result<Pose, Failure> {
+    poses::parse(text, design, "--about", "motion::bad_pose")
 }
 
 /// The stiffness at the pose asked for.
@@ -208,7 +200,7 @@ fn stiffness(
     if !args.stiffness {
         return Ok(None);
     }
-    let found = design.stiffness_at(&about(args, design)?, masses).ok_or_else(|| {
+    let found = design.stiffness_at(&about(&args.about, design)?, masses).ok_or_else(|| {
         Failure::refused("motion::no_stiffness", "the design does not say how stiff its legs are")
             .with_help("add leg_stiffness to [hardware], force units per design unit")
     })?;
@@ -256,7 +248,7 @@ fn masses(args: &Args, design: &Design) -> Result<Option<MotionMasses>, Failure>
 }
 
 /// Metres in a unit of the design, or in the one of `--unit`.
-fn metres(label: Option<&str>, design: &Design) -> Result<f64, Failure> {
+pub(in crate::cli::commands) fn metres(label: Option<&str>, design: &Design) -> Result<f64, Failure> {
     let unit = match label {
         Some(label) => LengthUnit::of(label)
             .map_err(|e| Failure::refused("motion::unknown_unit", format!("--unit: {e}")))?,

@@ -42,18 +42,18 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
     let table = table(args, &design, context)?;
-    let choice = motion::ChosenMotions {
-        trajectory: args.trajectory.as_deref(),
-        sine: &args.sine,
-        accelerate: &args.accelerate,
-        unit: args.unit.as_deref(),
-    };
-    if !choice.moves() {
+    let choice = motion::ChosenMotions::new(args.trajectory.as_deref(), &args.sine, &args.accelerate);
+    if choice.is_empty() {
         context.no_effect("unit", "there is no motion")?;
     }
     let (names, motions): (Vec<String>, Vec<PlatformMotion>) =
         choice.motions(&design, context)?.into_iter().unzip();
-    let metres = if choice.moves() { choice.metres(&design)? } else { None };
+    // without a payload no forces are computed along motions
+    let metres = if choice.is_empty() || design.payload.is_none() {
+        None
+    } else {
+        Some(motion::metres(args.unit.as_deref(), &design)?)
+    };
     let found = design.fit_drives(&table.drives, &motions, metres, context.seed());
     let drives: Vec<DriveRecord> = found.iter().map(|fit| DriveRecord::new(fit, &names)).collect();
     let chosen = found.first().filter(|fit| fit.fits() == Some(true));
