@@ -25,10 +25,6 @@ const ROUNDS: usize = 12;
 /// Sizes of the neighbourhood tried, each this much wider than the last.
 const WIDER: f64 = 30.0;
 
-fn hull(x: f64) -> Interval {
-    Interval::new(-x, x).unwrap_or(Interval::WHOLE)
-}
-
 fn met(a: Interval, b: Interval) -> Interval {
     Interval::new(a.lo().max(b.lo()), a.hi().min(b.hi())).unwrap_or(a)
 }
@@ -46,12 +42,13 @@ impl Neighbourhood {
         // |w| is at most sqrt 3 times a coordinate, and exp [w]x differs from I by no more
         let turn = 1.7321 * reach;
         let rotation = exact_rotation(pose);
-        let wide = hull(turn);
+        let wide = Interval::about_zero(turn);
         let rotation = std::array::from_fn(|i| {
             std::array::from_fn(|j| (0..3).fold(rotation[i][j], |sum, k| sum + wide * rotation[k][j]))
         });
         let shift = Interval::from(reach) * Interval::from(unit_of_length);
-        let position = std::array::from_fn(|k| Interval::from(pose.position[k]) + hull(shift.hi()));
+        let position =
+            std::array::from_fn(|k| Interval::from(pose.position[k]) + Interval::about_zero(shift.hi()));
         Self { rotation, position, tilt: turn * (0.5 + turn) }
     }
 }
@@ -67,7 +64,7 @@ impl CoupledLegs {
         };
         let axes = [axis(0)?, apply(&at.rotation, &axis(1)?)];
         let placed = PlacedLeg { line, arm, axes, offsets: self.offsets.map(Interval::from) };
-        let all = if self.needs(0) || self.needs(1) { hull(1.0) } else { Interval::ZERO };
+        let all = if self.needs(0) || self.needs(1) { Interval::about_zero(1.0) } else { Interval::ZERO };
         let mut ends = [0, 1].map(|end| if self.needs(end) { [all; 3] } else { [Interval::ZERO; 3] });
         for _ in 0..ROUNDS {
             for end in (0..2).filter(|end| self.needs(*end)) {
@@ -153,7 +150,8 @@ impl CoupledLegs {
             let rates: [Interval; 6] = std::array::from_fn(|k| length[k] - lead * twist[k]);
             for k in 0..3 {
                 row[k] = rates[k] * Interval::from(unit_of_length);
-                let tilted = (3..6).fold(Interval::ZERO, |sum, j| sum + rates[j] * hull(at.tilt));
+                let tilted =
+                    (3..6).fold(Interval::ZERO, |sum, j| sum + rates[j] * Interval::about_zero(at.tilt));
                 row[k + 3] = rates[k + 3] + tilted;
             }
         }

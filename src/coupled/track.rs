@@ -150,28 +150,22 @@ impl CoupledTracker {
             let change = (0..6).map(|i| (after[i] - before[i]).abs()).fold(0.0, f64::max);
             // what rounding leaves of a change
             let settled = change <= 16.0 * f64::EPSILON * size;
-            if !settled && last.is_finite() && out.steps > 2 {
-                out.factor = out.factor.max(change / last);
-            }
-            if settled {
-                out.status = self
-                    .legs
-                    .bound(&from, &states, drives)
-                    .map_or(CoupledStatus::Unproved, CoupledStatus::Proved);
-                return out;
-            }
-            since = if change < 0.9 * least { 0 } else { since + 1 };
-            (last, least) = (change, least.min(change));
-            if since >= PATIENCE {
-                // rounding of the pose keeps corrections from settling to the last bit
-                if least <= 1e-13 * size {
-                    out.status = self
-                        .legs
-                        .bound(&from, &states, drives)
-                        .map_or(CoupledStatus::Unproved, CoupledStatus::Proved);
+            if !settled {
+                if last.is_finite() && out.steps > 2 {
+                    out.factor = out.factor.max(change / last);
                 }
-                return out;
+                since = if change < 0.9 * least { 0 } else { since + 1 };
+                (last, least) = (change, least.min(change));
+                if since < PATIENCE {
+                    continue;
+                }
             }
+            // rounding of the pose may keep corrections from settling to the last bit
+            if settled || least <= 1e-13 * size {
+                let bound = self.legs.bound(&from, &states, drives);
+                out.status = bound.map_or(CoupledStatus::Unproved, CoupledStatus::Proved);
+            }
+            return out;
         }
         out
     }

@@ -31,6 +31,12 @@ impl Interval {
         (lo <= hi && lo < f64::INFINITY && hi > f64::NEG_INFINITY).then_some(Self { lo, hi })
     }
 
+    /// `[-radius, radius]`; all reals where the radius is negative, infinite or no number.
+    #[must_use]
+    pub fn about_zero(radius: f64) -> Self {
+        Self::new(-radius, radius).unwrap_or(Self::WHOLE)
+    }
+
     /// The point `x`, or `None` when `x` is not finite.
     #[must_use]
     #[inline]

@@ -116,7 +116,7 @@ pub struct Grid {
 impl Grid {
     /// A square grid of this pitch with a hole at the origin, along the axes of the frame.
     #[must_use]
-    pub fn square(pitch: f64) -> Self {
+    pub const fn square(pitch: f64) -> Self {
         let circles = HoleCircles::NONE;
         Self { pattern: HolePattern::Square, pitch, circles, origin: [0.0; 2], angle_deg: 0.0 }
     }

@@ -349,15 +349,8 @@ pub(super) fn three_fold_pool(wanted: &Wanted, limit: f64) -> Option<Pool> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::requirements::HoleCircles;
 
-    const GRID: Grid = Grid {
-        pattern: HolePattern::Square,
-        pitch: 0.5,
-        circles: HoleCircles::NONE,
-        origin: [0.0, 0.0],
-        angle_deg: 0.0,
-    };
+    const GRID: Grid = Grid::square(0.5);
 
     #[test]
     fn cells_of_a_level_plane_are_multiples_of_the_pitch() {

@@ -13,13 +13,7 @@ use crate::manufacture::tests::{free, octahedral, space};
 use crate::requirements::{HoleCircle, HoleCircles, Reserves, TermKind};
 use crate::synthesis::joint_free;
 
-const GRID: Grid = Grid {
-    pattern: HolePattern::Square,
-    pitch: 0.25,
-    circles: HoleCircles::NONE,
-    origin: [0.0, 0.0],
-    angle_deg: 0.0,
-};
+const GRID: Grid = Grid::square(0.25);
 
 fn with<R>(
     m: &Manipulator,

@@ -106,7 +106,7 @@ impl ForceSolver {
             let sum =
                 (0..6).fold(Interval::ZERO, |s, k| s + self.defect[i][k] * Interval::from(self.weights[k]));
             let off = (sum * norm).magnitude();
-            start[i] + Interval::new(-off, off).unwrap_or(Interval::WHOLE)
+            start[i] + Interval::about_zero(off)
         }))
     }
 
