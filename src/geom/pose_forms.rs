@@ -147,6 +147,7 @@ impl Pose {
 impl TryFrom<Matrix4<f64>> for Pose {
     type Error = InvalidPose;
 
+    #[inline]
     fn try_from(m: Matrix4<f64>) -> Result<Self, InvalidPose> {
         if !m.iter().all(|x| x.is_finite()) {
             return Err(InvalidPose::NotFinite);

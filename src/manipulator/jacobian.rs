@@ -18,6 +18,7 @@ pub fn jacobian(m: &Manipulator, pose: &Pose, characteristic_length: f64) -> Mat
 }
 
 /// As [`jacobian()`], for legs that are not put together.
+#[inline]
 pub(crate) fn jacobian_of_legs(legs: &[Leg; 6], pose: &Pose, characteristic_length: f64) -> Matrix6<f64> {
     let mut j = Matrix6::zeros();
     for (i, leg) in legs.iter().enumerate() {

@@ -41,6 +41,7 @@ pub enum InvalidLengths {
     },
 }
 
+#[inline]
 fn validated(values: [f64; 6]) -> Result<[f64; 6], InvalidLengths> {
     for (leg, value) in LegIndex::all().zip(values) {
         if !value.is_finite() {
@@ -58,6 +59,7 @@ impl LegLengths {
     ///
     /// # Errors
     /// The first value that is negative or not finite.
+    #[inline]
     pub fn try_new(lengths: [f64; 6]) -> Result<Self, InvalidLengths> {
         let valid = Self(validated(lengths)?);
         validated(lengths.map(|l| l * l))?; // a length whose square overflows cannot be worked with
@@ -66,6 +68,7 @@ impl LegLengths {
 
     /// The six lengths.
     #[must_use]
+    #[inline]
     pub fn get(&self) -> [f64; 6] {
         self.0
     }

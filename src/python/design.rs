@@ -16,7 +16,7 @@ use super::tracker::NativeTracker;
 use crate::design::{self, Format, PRESETS, parse};
 use crate::entrance::{Error, Solver};
 use crate::fk::{FkOptions, Method, Threads};
-use crate::manipulator::{Body, Manipulator, NoSuchBody, jacobian};
+use crate::manipulator::{Body, Manipulator, NoSuchBody, jacobian_of_legs};
 use crate::num::Cancel;
 use crate::records::{AssessAnswer, CheckAnswer};
 use crate::requirements::{AssessOptions, Terms};
@@ -188,10 +188,10 @@ impl NativeDesign {
     ) -> PyResult<Option<Bound<'py, PyArrayDyn<f64>>>> {
         let Some(array) = as_it_stands(poses) else { return Ok(None) };
         let Some((entries, before)) = pose_entries(&array) else { return Ok(None) };
-        let m = self.design.manipulator();
+        let legs = self.design.manipulator().legs();
         let mut lengths = Vec::with_capacity(6 * (entries.len() / 16));
         at_poses(py, entries, |pose| {
-            lengths.extend(pose.lengths(m).ok_or(Error::Overflow)?.get());
+            lengths.extend_from_slice(&pose.lengths_of(&legs).ok_or(Error::Overflow)?.get());
             Ok(())
         })?;
         Ok(Some(shaped([before, &[6]].concat(), lengths)?.into_pyarray(py)))
@@ -206,11 +206,13 @@ impl NativeDesign {
     ) -> PyResult<Option<Bound<'py, PyArrayDyn<f64>>>> {
         let Some(array) = as_it_stands(poses) else { return Ok(None) };
         let Some((entries, before)) = pose_entries(&array) else { return Ok(None) };
-        let m = self.design.manipulator();
+        let legs = self.design.manipulator().legs();
         let mut rows = Vec::with_capacity(36 * (entries.len() / 16));
         at_poses(py, entries, |pose| {
             // row by row: the columns of the transposed
-            rows.extend_from_slice(jacobian(m, &pose, characteristic_length).transpose().as_slice());
+            rows.extend_from_slice(
+                jacobian_of_legs(&legs, &pose, characteristic_length).transpose().as_slice(),
+            );
             Ok(())
         })?;
         Ok(Some(shaped([before, &[6, 6]].concat(), rows)?.into_pyarray(py)))
