@@ -31,6 +31,7 @@ pub(crate) mod stream;
     allow(dead_code, reason = "without design files exact numbers are doubles")
 )]
 pub(crate) mod surd;
+pub(crate) mod vector_unit;
 
 pub(crate) use seed::Purpose;
 pub use seed::Rng;

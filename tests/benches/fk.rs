@@ -3,9 +3,11 @@
 use divan::Bencher;
 use equipod::methods::bench::{Class, LengthsFrom, Problem, problem};
 use equipod::methods::fk::{FkOptions, ForwardKinematics, Homotopy, Octic};
+use equipod::methods::geom::{Angles, Pose};
 use equipod::methods::num::Rng;
 use equipod::methods::num::dense::{eigenvalues, generalized_eigenpairs};
 use equipod::methods::solve::certify::Certifier;
+use nalgebra::Matrix4;
 
 fn main() {
     divan::main();
@@ -62,6 +64,27 @@ fn certify_40_roots(bencher: Bencher) {
         next.next().map(|(certifier, roots)| {
             roots.iter().filter(|r| certifier.certify(&r.pose).certificate().is_some()).count()
         })
+    });
+}
+
+/// What the batches of `ik` from Python are compared by: leg lengths of 1,000 matrices, each checked.
+#[divan::bench]
+fn lengths_of_1000_matrices(bencher: Bencher) {
+    let all = problems(Class::Octahedral);
+    let legs = all[0].manipulator.legs();
+    let mut rng = Rng::new(1);
+    let matrices: Vec<Matrix4<f64>> = (0..1000)
+        .map(|_| {
+            let angles = std::array::from_fn(|_| 0.2 * rng.normal());
+            Pose::new([rng.normal(), rng.normal(), 3.0 + rng.normal()], Angles::from_radians(angles)).matrix()
+        })
+        .collect();
+    bencher.bench_local(|| {
+        matrices
+            .iter()
+            .filter_map(|m| Pose::try_from(*m).ok()?.lengths_of(&legs))
+            .map(|lengths| lengths.get())
+            .collect::<Vec<_>>()
     });
 }
 

@@ -10,6 +10,7 @@ use crate::distance::plan::coordinates;
 use crate::geom::ComplexPose;
 use crate::manipulator::Manipulator;
 use crate::num::batch::{ComplexBatch, LANES};
+use crate::num::vector_unit::on_vector_unit;
 use crate::topology::{JointIndex, Sequence, Step};
 
 /// Places for six joints of the first body and three of the second.
@@ -387,7 +388,7 @@ impl<'a> ChainBranch<'a> {
             let at = |k: usize| chunk[k.min(chunk.len() - 1)];
             let u =
                 ComplexBatch { re: std::array::from_fn(|k| at(k).re), im: std::array::from_fn(|k| at(k).im) };
-            let values = pulp::Arch::new().dispatch(Product { branch: self, u, e });
+            let values = on_vector_unit(Product { branch: self, u, e });
             out.extend((0..chunk.len()).map(|k| values.lane(k)));
         }
         out

@@ -14,6 +14,7 @@ use crate::fk::{FkError, Method};
 use crate::geom::{ComplexPose, reorthogonalised};
 use crate::manipulator::{Manipulator, Octahedral, SquaredLegLengths};
 use crate::num::batch::{ComplexBatch, LANES};
+use crate::num::vector_unit::on_vector_unit;
 use crate::solve::certify::octahedral::{
     OctahedralCertificate, OctahedralCertificates, OctahedralCertifier, PairCertificate,
 };
@@ -158,7 +159,7 @@ impl OcticSolver {
     /// plane, or a residual above `1e-12`.
     #[must_use]
     pub fn solve(&self, s: &SquaredLegLengths) -> Option<OcticPoses> {
-        pulp::Arch::new().dispatch(Solve { solver: self, s })
+        on_vector_unit(Solve { solver: self, s })
     }
 
     #[inline(always)]

@@ -98,6 +98,7 @@ use crate::num::ball::UP;
 use crate::num::batch::LANES;
 use crate::num::double_double::DoubleDouble;
 use crate::num::octuple::ComplexOctuple;
+use crate::num::vector_unit::on_vector_unit;
 use coordinates::{
     PrecisePoint, deviation, enclose_pose, enclose_pose_widely, pose_in_double, pose_of, rotation_distance,
     rounded_pose, study_at, study_of,
@@ -218,7 +219,7 @@ impl Certifier {
     fn roots_near_studies(&self, points: &[Study<f64>]) -> Vec<Option<CertifiedPose>> {
         let mut found = Vec::with_capacity(points.len());
         for batch in points.chunks(LANES) {
-            pulp::Arch::new().dispatch(EightPoints { system: &self.0, points: batch, out: &mut found });
+            on_vector_unit(EightPoints { system: &self.0, points: batch, out: &mut found });
         }
         let with_digits = |(root, x): (FoundInDoubles, &Study<f64>)| match root {
             FoundInDoubles::Root(root) => Some(root),

@@ -1,11 +1,12 @@
-//! The tracker compiled for the vector units that the machine turns out to have; the binary stays portable.
+//! The tracker, for the vector unit of the machine.
 
 use num_complex::Complex64;
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Simd, WithSimd};
 
 use super::limits::TrackerLimits;
 use super::system::SectionHomotopy;
 use super::tracker::{Tracked, track_lanes};
+use crate::num::vector_unit::on_vector_unit;
 
 struct TrackAll<'a> {
     homotopy: &'a SectionHomotopy,
@@ -23,12 +24,12 @@ impl WithSimd for TrackAll<'_> {
     }
 }
 
-/// [`track_lanes`] on the widest vector unit of this machine.
+/// [`track_lanes`] on the vector unit of this machine.
 pub(crate) fn track_all(
     homotopy: &SectionHomotopy,
     starts: &[[Complex64; 8]],
     limits: &TrackerLimits,
     endgame_at: f64,
 ) -> Vec<Tracked> {
-    Arch::new().dispatch(TrackAll { homotopy, starts, limits, endgame_at })
+    on_vector_unit(TrackAll { homotopy, starts, limits, endgame_at })
 }

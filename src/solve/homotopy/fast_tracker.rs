@@ -8,7 +8,7 @@
 //! next step, and everything is checked at the end: this tracker may fail, it is not trusted.
 
 use num_complex::Complex64;
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Simd, WithSimd};
 
 use super::lanes::{Lanes, MOST_LANES, Matrix8, PerLane, Vec8, load, norm_sqr, store};
 use super::limits::{CORRECTION_RATIO, FastTrackerLimits, STEP_GROWTH, STEP_REDUCTION};
@@ -17,6 +17,7 @@ use super::paths::SETTLED;
 use super::predictor::{choose_step, predicted};
 use super::quadrics::{Forms, Quadrics};
 use super::system::{Line, ORDER, taylor, values};
+use crate::num::vector_unit::on_vector_unit;
 
 /// Most Newton corrections at the target.
 const POLISHES: usize = 4;
@@ -64,7 +65,7 @@ where
 {
     /// Runs on the widest vector unit of this machine.
     pub(super) fn run(self) -> Vec<FastPath> {
-        Arch::new().dispatch(self)
+        on_vector_unit(self)
     }
 }
 

@@ -22,6 +22,7 @@ use crate::manipulator::{Body, LegIndex, Octahedral};
 use crate::num::ball::{Disc, Real, UP};
 use crate::num::batch::{ComplexBatch, LANES};
 use crate::num::rounding::check_arithmetic;
+use crate::num::vector_unit::on_vector_unit;
 use arithmetic::{Discs, RealVector, Triangle};
 use closures::{ClosureCoefficients, RootDiscs, one_root_about};
 use poses::{Data, deviation};
@@ -204,12 +205,7 @@ impl OctahedralCertifier {
         if !(in_range(&x) && in_range(&y) && squares.iter().all(|s| s.magnitude() < LARGEST)) {
             return none;
         }
-        pulp::Arch::new().dispatch(OctahedralProof {
-            certifier: self,
-            squares: &squares,
-            pairs: [&x, &y],
-            poses,
-        })
+        on_vector_unit(OctahedralProof { certifier: self, squares: &squares, pairs: [&x, &y], poses })
     }
 
     #[inline(always)]
