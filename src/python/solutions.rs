@@ -130,6 +130,8 @@ pub(super) struct SolutionColumns {
     /// Which of the reasons each row has.
     reason: Vec<i64>,
     reasons: Vec<String>,
+    /// What was known of completeness in the row before, and its reason.
+    last: Option<(Completeness, usize)>,
 }
 
 /// Transforms, reality, certified, residual, multiplicity; offsets, completeness, reason of each row; the reasons.
@@ -148,31 +150,52 @@ pub(super) type SolutionArrays<'py> = (
 impl SolutionColumns {
     /// Takes in the answer of the next row; certificates are dropped.
     pub(super) fn push(&mut self, row: &Result<FkSolutions, Error>) {
-        let (word, reason) = match row {
+        let word = match row {
             Ok(found) => {
                 for root in &found.roots {
                     self.push_root(root);
                 }
-                (completeness(found), found.completeness.to_string())
+                completeness(found)
             }
-            Err(error) => (-1, error.to_string()),
+            Err(_) => -1,
         };
         self.ends.push(self.reality.len() as i64);
         self.completeness.push(word);
-        let known = self.reasons.iter().rposition(|r| *r == reason);
-        let place = known.unwrap_or_else(|| {
+        let place = self.place_of_reason(row);
+        self.reason.push(place as i64);
+    }
+
+    /// Which of the reasons a row has; most rows have that of the row before, whose words are not written again.
+    fn place_of_reason(&mut self, row: &Result<FkSolutions, Error>) -> usize {
+        let known = row.as_ref().ok().map(|found| &found.completeness);
+        if let (Some(known), Some((last, place))) = (known, &self.last)
+            && known == last
+        {
+            return *place;
+        }
+        let reason = match row {
+            Ok(found) => found.completeness.to_string(),
+            Err(error) => error.to_string(),
+        };
+        let place = self.reasons.iter().rposition(|r| *r == reason).unwrap_or_else(|| {
             self.reasons.push(reason);
             self.reasons.len() - 1
         });
-        self.reason.push(place as i64);
+        self.last = known.map(|known| (known.clone(), place));
+        place
     }
 
     fn push_root(&mut self, root: &FkRoot) {
         let (r, p) = (&root.pose.rotation, &root.pose.position);
+        let mut matrix = [Complex64::ZERO; 16];
         for i in 0..3 {
-            self.transforms.extend([r[(i, 0)], r[(i, 1)], r[(i, 2)], p[i]]);
+            for j in 0..3 {
+                matrix[4 * i + j] = r[(i, j)];
+            }
+            matrix[4 * i + 3] = p[i];
         }
-        self.transforms.extend([0.0, 0.0, 0.0, 1.0].map(Complex64::from));
+        matrix[15] = Complex64::ONE;
+        self.transforms.extend_from_slice(&matrix);
         self.reality.push(reality(root));
         self.certified.push(root.certified());
         self.residual.push(root.residual);

@@ -79,14 +79,40 @@ class Solutions(Sequence[Solution]):
         How often each pose counts.
     """
 
+    # the arrays are made when they are first asked for: a control loop reads one or two of them
+
     def __init__(self, native: _core.Solutions) -> None:
         self._native = native
-        self.T = native.transforms()
-        self.reality = native.reality()
-        self.real: npt.NDArray[np.bool_] = self.reality == 1
-        self.certified = native.certified()
-        self.residual = native.residual()
-        self.multiplicity = native.multiplicity()
+
+    @cached_property
+    def T(self) -> npt.NDArray[np.complex128]:
+        """The poses, complex128, shape (n, 4, 4)."""
+        return self._native.transforms()
+
+    @cached_property
+    def reality(self) -> npt.NDArray[np.int8]:
+        """1 real, 0 not real, -1 undecided; int8, shape (n,)."""
+        return self._native.reality()
+
+    @cached_property
+    def real(self) -> npt.NDArray[np.bool_]:
+        """Which poses are real; bool, shape (n,)."""
+        return self.reality == 1
+
+    @cached_property
+    def certified(self) -> npt.NDArray[np.bool_]:
+        """Which poses have a proof; bool, shape (n,)."""
+        return self._native.certified()
+
+    @cached_property
+    def residual(self) -> npt.NDArray[np.float64]:
+        """Largest errors of the leg equations over the squared size of the design; float64, shape (n,)."""
+        return self._native.residual()
+
+    @cached_property
+    def multiplicity(self) -> npt.NDArray[np.uint32]:
+        """How often each pose counts; uint32, shape (n,)."""
+        return self._native.multiplicity()
 
     @property
     def complete(self) -> bool:
@@ -153,7 +179,7 @@ class Solutions(Sequence[Solution]):
         return self.record.to_dict()
 
     def __len__(self) -> int:
-        return len(self.reality)
+        return len(self._native)
 
     @overload
     def __getitem__(self, index: int) -> Solution: ...
