@@ -220,7 +220,7 @@ impl Design {
             let Reserve::Amount(x) = reserve else { continue };
             match kind.quantity() {
                 Quantity::Length | Quantity::Speed | Quantity::AngularStiffness | Quantity::Torque => {
-                    *x = ratio.of(*x)
+                    *x = ratio.of(*x);
                 }
                 Quantity::LinearStiffness => *x = ratio.inverse().of(*x),
                 Quantity::Angle | Quantity::Force | Quantity::Frequency | Quantity::AngularSpeed => {}

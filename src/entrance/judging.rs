@@ -132,8 +132,8 @@ pub(super) const PATIENT_CELLS: usize = 60_000;
 pub(super) const BRIEF_CELLS: usize = 300;
 
 /// What is known of the lines of rods, as of those of legs.
-fn as_regularity(of_rods: RodRegularity) -> Regularity {
-    match of_rods {
+fn as_regularity(of_rods: &RodRegularity) -> Regularity {
+    match *of_rods {
         RodRegularity::Regular => Regularity::Regular,
         RodRegularity::ChangesSign(pose) => Regularity::ChangesSign(pose),
         RodRegularity::Undecided(pose) => Regularity::Undecided(pose),
@@ -232,7 +232,7 @@ impl Design {
         let length = self.characteristic_length();
         let (regularity, regularity_cells) =
             match regular_rods(m, &required, &space, cells.max(options.patient_cells), options.seed) {
-                Some((of_rods, cells)) => (as_regularity(of_rods), cells),
+                Some((of_rods, cells)) => (as_regularity(&of_rods), cells),
                 None => regular_workspace(m, &space, cells, options.seed),
             };
         let terms = Terms::new(m, &required, &space.home);

@@ -130,9 +130,9 @@ impl Requirements {
         }))
     }
 
-    /// The leg that a turn of the platform joint's swing is measured on: the rod, or the leg itself.
-    pub(super) fn pushing_legs(&self, legs: [Leg; 6], pose: &Pose) -> [Leg; 6] {
-        self.rods(&legs, pose).unwrap_or(legs)
+    /// What pushes the platform: the rods, or the legs themselves.
+    pub(super) fn pushing_legs(&self, legs: &[Leg; 6], pose: &Pose) -> [Leg; 6] {
+        self.rods(legs, pose).unwrap_or(*legs)
     }
 }
 

@@ -266,7 +266,7 @@ impl<'a> Terms<'a> {
     /// Makes the requirements ready: axes that follow the legs at home are found here.
     #[must_use]
     pub fn new(manipulator: &'a Manipulator, required: &'a Requirements, home: &Pose) -> Self {
-        let legs = required.pushing_legs(manipulator.legs(), home);
+        let legs = required.pushing_legs(&manipulator.legs(), home);
         let at_home = legs.map(|l| (home.transform(&l.platform) - l.base).normalize());
         let axes =
             |body: Body, turn: &dyn Fn(&Vector3<f64>) -> Vector3<f64>| match required.hardware.axes(body) {

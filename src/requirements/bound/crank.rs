@@ -235,7 +235,7 @@ fn signed_arc_sine(square: Interval) -> Interval {
 }
 
 /// Whether the lines of the rods are independent at all poses of a workspace.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum RodRegularity {
     /// Proved: they are.
     Regular,
@@ -261,7 +261,7 @@ impl RodsOverChart<'_> {
     fn lines(&self, cell: &ChartCell) -> Option<System> {
         let frame = CellFrame::over(self.chart, cell, false);
         let (rods, arms) = self.cranks.rods(self.m, &frame)?;
-        Some(System::of_lines(&frame, self.m, &rods, arms))
+        Some(System::of_lines(&frame, self.m, &rods, &arms))
     }
 
     /// The proved sign of the determinant at a point.

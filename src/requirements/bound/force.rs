@@ -37,14 +37,14 @@ impl System {
         frame: &CellFrame<'_>,
         m: &Manipulator,
         legs: &[LegOverCell; 6],
-        factors: [Option<Jet>; 6],
+        factors: &[Option<Jet>; 6],
     ) -> Self {
         let unit = unit_of(m);
         let moments: [JetVector; 6] = std::array::from_fn(|i| legs[i].moment());
         let rows = std::array::from_fn(|r| {
             std::array::from_fn(|i| if r < 3 { legs[i].line[r] } else { moments[i][r - 3].times(unit) })
         });
-        Self { rows, right: [frame.constant(Interval::ZERO); 6], factors }
+        Self { rows, right: [frame.constant(Interval::ZERO); 6], factors: *factors }
     }
 
     /// Legs, or rods on cranks; `None` where a rod may not close.
@@ -55,13 +55,12 @@ impl System {
         load: &Load,
     ) -> Option<Self> {
         let unit = unit_of(m);
-        let (legs, factors) = match cranks {
-            Some(cranks) => cranks.rods(m, frame)?,
-            None => {
-                let legs: [LegOverCell; 6] = std::array::from_fn(|i| frame.leg(m, i));
-                let factors = std::array::from_fn(|i| legs[i].square.root());
-                (legs, factors)
-            }
+        let (legs, factors) = if let Some(cranks) = cranks {
+            cranks.rods(m, frame)?
+        } else {
+            let legs: [LegOverCell; 6] = std::array::from_fn(|i| frame.leg(m, i));
+            let factors = std::array::from_fn(|i| legs[i].square.root());
+            (legs, factors)
         };
         let turned = |v: &nalgebra::Vector3<f64>| {
             let v: IntervalVector = std::array::from_fn(|k| Interval::from(v[k]));
@@ -78,7 +77,7 @@ impl System {
                     if r < 3 { -force[r] } else { -(torque[r - 3] + lever[r - 3]).times(unit) }
                 },
             );
-        Some(Self { right, ..Self::of_lines(frame, m, &legs, factors) })
+        Some(Self { right, ..Self::of_lines(frame, m, &legs, &factors) })
     }
 
     pub(super) fn values(&self) -> IntervalMatrix {
