@@ -441,9 +441,8 @@ fn limited() -> Design {
 fn drawn(design: &Design, count: usize, factor: f64) -> Vec<Pose> {
     let home = design.home.unwrap();
     // a lattice that no symmetry of the machine keeps
-    let share = |k: usize, j: u32| {
-        factor * (2.0 * ((k as f64 + 0.5) * 0.618_034_f64.powi(j as i32 + 1)).fract() - 1.0)
-    };
+    let share =
+        |k: usize, j: i32| factor * (2.0 * ((k as f64 + 0.5) * 0.618_034_f64.powi(j + 1)).fract() - 1.0);
     (0..count)
         .map(|k| {
             let turn = Vector3::new(share(k, 3), share(k, 4), share(k, 5)) * 2f64.to_radians();
