@@ -11,11 +11,11 @@ use crate::geom::Pose;
 use crate::manipulator::Body;
 use crate::manipulator::{InvalidManipulator, JointValues, LegLengths, Manipulator, SurdPoint};
 use crate::requirements::{
-    Envelopes, ForceUnit, Grid, Hardware, KeepOut, Load, MassUnit, MovingBodies, Payload, PlatformSpeed,
-    PlatformStiffness, Quantity, Requirements, Reserves, Term, TermKind, VibratingMasses,
+    CrankedLeg, Cranks, Envelopes, ForceUnit, Grid, Hardware, KeepOut, Load, MassUnit, MovingBodies, Payload,
+    PlatformSpeed, PlatformStiffness, Quantity, Requirements, Reserves, Term, TermKind, VibratingMasses,
 };
 use crate::requirements::{KeptSymmetry, Objective, VariableKind};
-use crate::rotary::{Crank, InvalidRotary, RotaryLeg, RotaryPlatform};
+use crate::rotary::{Crank, Elbow, InvalidRotary, RotaryLeg, RotaryPlatform};
 
 /// A manipulator with names and everything else a design file may carry.
 #[derive(Debug, Clone, PartialEq)]
@@ -436,7 +436,35 @@ impl Design {
             min_joint_distance: self.optimize.min_joint_distance,
             envelopes: self.envelopes,
             reserves: self.reserves.clone(),
+            cranks: self.limits_of_cranks().map(Box::new),
         }
+    }
+
+    /// The limits of cranks and rods; `None` without cranks, or where they make no platform.
+    fn limits_of_cranks(&self) -> Option<Cranks> {
+        let platform = self.rotary().ok()??;
+        let values = &self.constructions.cranks.as_ref()?.values;
+        let pairs = self.manipulator.pairs();
+        let drives = self.crank_limits();
+        let mut legs = Vec::with_capacity(6);
+        for (leg, (joint, _)) in platform.legs().iter().zip(pairs) {
+            legs.push(CrankedLeg {
+                axis: leg.crank.axis.into_inner(),
+                zero: leg.crank.zero,
+                length: leg.crank.length,
+                rod: leg.rod,
+                greater: leg.elbow == Elbow::Plus,
+                limits_deg: values.get(joint)?.as_ref().ok()?.limits_deg,
+            });
+        }
+        Some(Cranks {
+            legs: legs.try_into().ok()?,
+            max_torque: drives.max_torque,
+            max_speed_deg: drives.max_speed_deg,
+            least_transmission_deg: drives.least_transmission_deg.unwrap_or(0.0),
+            tip_swing_deg: drives.tip_swing_deg,
+            platform_swing_deg: drives.platform_swing_deg,
+        })
     }
 
     /// What vibrates: the payload with the legs, whose unit of length is one that is known; `None` where one of them is not said.
@@ -474,7 +502,9 @@ impl Design {
             TermKind::PlatformSpacing => joints(self.platform_names()),
             TermKind::LegClearance => vec![leg(term.first), leg(term.second)],
             TermKind::KeepOut => vec![leg(term.first), self.keep_outs[term.second].name.clone()],
-            TermKind::LegForce => vec![leg(term.first), self.all_loads()[term.second].name.clone()],
+            TermKind::LegForce | TermKind::CrankTorque => {
+                vec![leg(term.first), self.all_loads()[term.second].name.clone()]
+            }
             TermKind::BaseEnvelope => vec![self.base_names()[term.first].clone()],
             TermKind::PlatformEnvelope => vec![self.platform_names()[term.first].clone()],
             TermKind::MachineEnvelope => {
@@ -512,6 +542,8 @@ impl Design {
             Quantity::LinearStiffness => format!("{}/{}", self.unit_of(Quantity::Force), self.units),
             Quantity::AngularStiffness => format!("{} {}/rad", self.unit_of(Quantity::Force), self.units),
             Quantity::Frequency => "Hz".to_string(),
+            Quantity::Torque => format!("{} {}", self.unit_of(Quantity::Force), self.units),
+            Quantity::AngularSpeed => "deg/s".to_string(),
         }
     }
 }

@@ -98,6 +98,12 @@ struct CranksFile<'a> {
     max_torque: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     max_speed_deg: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    least_transmission_deg: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tip_swing_deg: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    platform_swing_deg: Option<f64>,
     #[serde(flatten, serialize_with = "as_map")]
     own: Vec<(&'a str, CrankFile<'a>)>,
 }
@@ -162,6 +168,9 @@ impl<'a> CranksFile<'a> {
             shared: CrankFile::of(&cranks.shared, names),
             max_torque: cranks.drives.max_torque,
             max_speed_deg: cranks.drives.max_speed_deg,
+            least_transmission_deg: cranks.drives.least_transmission_deg,
+            tip_swing_deg: cranks.drives.tip_swing_deg,
+            platform_swing_deg: cranks.drives.platform_swing_deg,
             own: own.collect(),
         }
     }

@@ -219,9 +219,11 @@ impl Design {
         for (kind, reserve) in &mut self.reserves.kinds {
             let Reserve::Amount(x) = reserve else { continue };
             match kind.quantity() {
-                Quantity::Length | Quantity::Speed | Quantity::AngularStiffness => *x = ratio.of(*x),
+                Quantity::Length | Quantity::Speed | Quantity::AngularStiffness | Quantity::Torque => {
+                    *x = ratio.of(*x);
+                }
                 Quantity::LinearStiffness => *x = ratio.inverse().of(*x),
-                Quantity::Angle | Quantity::Force | Quantity::Frequency => {}
+                Quantity::Angle | Quantity::Force | Quantity::Frequency | Quantity::AngularSpeed => {}
             }
         }
         if let Some(payload) = &mut self.payload {

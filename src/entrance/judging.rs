@@ -5,7 +5,10 @@ use crate::design::Design;
 use crate::equivalents::Equivalents;
 use crate::fk::{Theorem, pose_bound};
 use crate::geom::Region;
-use crate::requirements::{AssessOptions, LeastConditioning, MarginProof, least_conditioning, prove};
+use crate::requirements::{
+    AssessOptions, LeastConditioning, MarginProof, RodRegularity, Terms, least_conditioning,
+    least_rod_conditioning, prove, regular_rods,
+};
 use crate::singularity::{
     Architecture, Assembly, BoxOptions, Conditioning, NearestSingular, Regularity, assembly, conditioning,
     nearest_singular, regular_workspace, singular_distance_at_least,
@@ -128,6 +131,15 @@ pub(super) const PATIENT_CELLS: usize = 60_000;
 /// The same in answers that are about something else than the requirements: a tenth of a second where the whole proof takes seconds.
 pub(super) const BRIEF_CELLS: usize = 300;
 
+/// What is known of the lines of rods, as of those of legs.
+fn as_regularity(of_rods: &RodRegularity) -> Regularity {
+    match *of_rods {
+        RodRegularity::Regular => Regularity::Regular,
+        RodRegularity::ChangesSign(pose) => Regularity::ChangesSign(pose),
+        RodRegularity::Undecided(pose) => Regularity::Undecided(pose),
+    }
+}
+
 /// Proofs that end where they decide.
 pub(super) fn deciding(seed: u64) -> AssessOptions {
     AssessOptions::new().seed(seed).close(false)
@@ -212,12 +224,20 @@ impl Design {
     /// [`Error::NothingRequired`] where the design requires nothing.
     pub fn assess_with(&self, options: &AssessOptions, cells: usize) -> Result<AssessReport, Error> {
         let (m, space) = (self.manipulator(), self.workspace.space(&self.home_or_default()));
-        let proof = prove(m, &self.requirements(), &space, options, cells);
+        let required = self.requirements();
+        let proof = prove(m, &required, &space, options, cells);
         if proof.bounds.is_empty() {
             return Err(Error::NothingRequired);
         }
-        let (regularity, regularity_cells) = regular_workspace(m, &space, cells, options.seed);
-        let conditioning = least_conditioning(m, &space, options, self.characteristic_length());
+        let length = self.characteristic_length();
+        let (regularity, regularity_cells) =
+            match regular_rods(m, &required, &space, cells.max(options.patient_cells), options.seed) {
+                Some((of_rods, cells)) => (as_regularity(&of_rods), cells),
+                None => regular_workspace(m, &space, cells, options.seed),
+            };
+        let terms = Terms::new(m, &required, &space.home);
+        let conditioning = least_rod_conditioning(&terms, &space, options, length)
+            .unwrap_or_else(|| least_conditioning(m, &space, options, length));
         Ok(AssessReport { proof, regularity, regularity_cells, conditioning })
     }
 

@@ -59,6 +59,27 @@ pub(crate) fn times(y: &Matrix6<f64>, j: &IntervalMatrix) -> IntervalMatrix {
     })
 }
 
+/// Encloses the determinant: Laplace expansion by complementary minors of the first three rows.
+pub(crate) fn determinant(m: &IntervalMatrix) -> Interval {
+    let minor = |rows: [usize; 3], c: [usize; 3]| {
+        let r = rows.map(|r| c.map(|k| m[r][k]));
+        dot(&r[0], &cross(&r[1], &r[2]))
+    };
+    let mut sum = Interval::ZERO;
+    for i in 0..6 {
+        for j in i + 1..6 {
+            for k in j + 1..6 {
+                let mut others = (0..6).filter(|x| ![i, j, k].contains(x));
+                let rest: [usize; 3] = std::array::from_fn(|_| others.next().unwrap_or(0));
+                let term = minor([0, 1, 2], [i, j, k]) * minor([3, 4, 5], rest);
+                // sign of moving columns i, j, k to the front: i + j + k - (0 + 1 + 2)
+                sum = if (i + j + k) % 2 == 1 { sum + term } else { sum - term };
+            }
+        }
+    }
+    sum
+}
+
 /// A positive vector `u`, found by power iteration, and a bound of `max (W u)_i / u_i` when that is below 1: then the spectral radius of every matrix with entries of at most the
 /// modulus of those of `W` is.
 pub(crate) fn contraction(w: &IntervalMatrix) -> Option<([f64; 6], f64)> {

@@ -34,7 +34,7 @@ const HALO: &str = "halo";
 
 /// Fills of the limits that end a workspace, one for each kind, by its code: the same in every picture. Pale tones after a palette for colour-blind readers (P. Tol,
 /// 2021), dark and light by turns so that neighbours differ in grey print too.
-pub const LIMIT_FILLS: [(&str, &str); 21] = [
+pub const LIMIT_FILLS: [(&str, &str); 28] = [
     ("leg_too_short", "#4477aa"),
     ("leg_too_long", "#ee9988"),
     ("base_swing", "#228833"),
@@ -55,6 +55,13 @@ pub const LIMIT_FILLS: [(&str, &str); 21] = [
     ("linear_stiffness", "#88ccaa"),
     ("angular_stiffness", "#773322"),
     ("natural_frequency", "#ddaa55"),
+    ("rod_too_short", "#334488"),
+    ("rod_too_long", "#f4c2b0"),
+    ("crank_transmission", "#2a6b50"),
+    ("crank_angle", "#e6cf70"),
+    ("tip_swing", "#885577"),
+    ("crank_torque", "#b5d6c0"),
+    ("crank_speed", "#994411"),
     ("singular", "#777777"),
 ];
 

@@ -132,6 +132,7 @@ impl<'a> Reach<'a> {
                 Quantity::LinearStiffness | Quantity::AngularStiffness | Quantity::Frequency => {
                     self.required.least_stiffness_of(term.kind).unwrap_or(1.0)
                 }
+                Quantity::Torque | Quantity::AngularSpeed => self.required.whole(term.kind),
             },
         }
     }

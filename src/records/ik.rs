@@ -178,7 +178,7 @@ impl IkRecord {
 
 impl PoseMarginRecord {
     /// The least margin of each kind at a pose.
-    fn all(design: &Design, terms: &Terms<'_>, pose: &Pose) -> Vec<Self> {
+    pub(super) fn all(design: &Design, terms: &Terms<'_>, pose: &Pose) -> Vec<Self> {
         let at = terms.at(pose);
         let least = |kind: TermKind| {
             let own = at.iter().filter(|(term, _)| term.kind == kind);

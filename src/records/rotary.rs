@@ -3,11 +3,11 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Number, PoseRecord};
+use super::{Number, PoseMarginRecord, PoseRecord};
 use crate::design::Design;
 use crate::geom::Pose;
 use crate::manipulator::{inverse_condition, jacobian};
-use crate::requirements::Quantity;
+use crate::requirements::Terms;
 use crate::rotary::{CrankAngles, Elbow, RotaryPlatform};
 
 /// The angles of cranks at several poses.
@@ -46,8 +46,8 @@ pub struct RotaryIkRecord {
     /// The torques of the cranks that hold each load at rest, where the design has loads.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub torques: Vec<CrankTorquesRecord>,
-    /// The least margin of each limit at this pose.
-    pub margins: Vec<CrankMarginRecord>,
+    /// The least margin of each kind of requirement at this pose.
+    pub margins: Vec<PoseMarginRecord>,
 }
 
 /// A rod that does not reach from the circle of its crank to the platform joint.
@@ -106,50 +106,12 @@ pub struct CrankTorquesRecord {
     pub torques: Option<[f64; 6]>,
 }
 
-/// A limit of cranks.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum CrankLimitWord {
-    /// What remains of the limits of an angle.
-    CrankAngle,
-    /// The greatest torque less the torque that holds a load.
-    CrankTorque,
-    /// The greatest speed less the speed in the worst direction of motion.
-    CrankSpeed,
-}
-
-impl CrankLimitWord {
-    /// The word.
-    #[must_use]
-    pub fn code(self) -> &'static str {
-        match self {
-            Self::CrankAngle => "crank_angle",
-            Self::CrankTorque => "crank_torque",
-            Self::CrankSpeed => "crank_speed",
-        }
-    }
-}
-
-/// By how much a limit of the cranks is kept at a pose.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct CrankMarginRecord {
-    /// The limit.
-    pub name: CrankLimitWord,
-    /// The least at this pose; a violation below 0; null: minus infinity, at a singular pose.
-    pub margin: Number,
-    /// Of the margin.
-    pub unit: String,
-    /// The leg for which it is least, from 1; null where that is not known, at a singular pose.
-    pub leg: Option<usize>,
-    /// The load for which it is least.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub load: Option<String>,
-}
-
 impl RotaryIkRecord {
     /// What is known at a pose of a design with these cranks.
     #[must_use]
     pub fn new(design: &Design, platform: &RotaryPlatform, pose: &Pose) -> Self {
+        let required = design.requirements();
+        let terms = Terms::new(design.manipulator(), &required, &design.home_or_default());
         let mut out = Self {
             line: None,
             time: None,
@@ -162,7 +124,7 @@ impl RotaryIkRecord {
             jacobian: None,
             inverse_condition: None,
             torques: Vec::new(),
-            margins: Vec::new(),
+            margins: PoseMarginRecord::all(design, &terms, pose),
         };
         match platform.both_angles(pose) {
             Ok(both) => out.add(design, platform, pose, &both),
@@ -192,8 +154,6 @@ impl RotaryIkRecord {
         self.outside = (1..=6).filter(|leg| left[leg - 1] < 0.0).collect();
         if legs.iter().any(|leg| leg.limits.is_some()) {
             self.within_limits = Some(self.outside.is_empty());
-            let least = least(&left.map(f64::to_degrees));
-            self.margins.push(CrankMarginRecord::new(CrankLimitWord::CrankAngle, "deg".into(), least, None));
         }
         self.jacobian = platform
             .crank_jacobian(pose, &kept)
@@ -201,54 +161,9 @@ impl RotaryIkRecord {
         // tips and joints that make no platform hold no pose
         let scaled = platform.at(&kept).map(|m| jacobian(&m, pose, design.characteristic_length()));
         self.inverse_condition = Some(Number(scaled.map_or(0.0, |rows| inverse_condition(&rows))));
-        let drives = design.crank_limits();
-        let torque_unit = format!("{} {}", design.unit_of(Quantity::Force), design.units);
         for load in design.all_loads() {
             let torques = platform.torques(pose, &kept, &load.wrench(pose));
-            if let Some(most) = drives.max_torque {
-                let left = torques.map_or((None, f64::NEG_INFINITY), |t| least(&t.map(|t| most - t.abs())));
-                let name = CrankLimitWord::CrankTorque;
-                let own = CrankMarginRecord::new(name, torque_unit.clone(), left, Some(load.name.clone()));
-                self.keep_least(own);
-            }
             self.torques.push(CrankTorquesRecord { load: load.name, torques });
         }
-        if let (Some(most), Some(speed)) = (drives.max_speed_deg, design.speed) {
-            let angular = speed.angular_deg.to_radians();
-            let speeds = platform.greatest_speeds(pose, &kept, speed.linear, angular);
-            let left = speeds.map_or((None, f64::NEG_INFINITY), |s| least(&s.map(|s| most - s.to_degrees())));
-            self.margins.push(CrankMarginRecord::new(CrankLimitWord::CrankSpeed, "deg/s".into(), left, None));
-        }
-    }
-
-    /// One margin of each name.
-    fn keep_least(&mut self, new: CrankMarginRecord) {
-        match self.margins.iter_mut().find(|m| m.name == new.name) {
-            Some(known) if known.margin.0 <= new.margin.0 => {}
-            Some(known) => *known = new,
-            None => self.margins.push(new),
-        }
-    }
-}
-
-/// The leg with the least margin, from 1, and the margin.
-fn least(margins: &[f64; 6]) -> (Option<usize>, f64) {
-    let mut found = (Some(1), margins[0]);
-    for (i, margin) in margins.iter().enumerate() {
-        if *margin < found.1 {
-            found = (Some(i + 1), *margin);
-        }
-    }
-    found
-}
-
-impl CrankMarginRecord {
-    fn new(
-        name: CrankLimitWord,
-        unit: String,
-        (leg, margin): (Option<usize>, f64),
-        load: Option<String>,
-    ) -> Self {
-        Self { name, margin: Number(margin), unit, leg, load }
     }
 }

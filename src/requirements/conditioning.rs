@@ -23,11 +23,17 @@ pub fn least_conditioning(
     o: &AssessOptions,
     characteristic_length: f64,
 ) -> LeastConditioning {
+    least_over(space, o, |pose| inverse_condition(&jacobian(m, pose, characteristic_length)))
+}
+
+/// The least of a number over these poses.
+pub(super) fn least_over(
+    space: &PoseSpace,
+    o: &AssessOptions,
+    number: impl Fn(&Pose) -> f64,
+) -> LeastConditioning {
     let mut rng = Purpose::ASSESSED_POSES.rng(o.seed);
-    let at = |pose: Pose| LeastConditioning {
-        value: inverse_condition(&jacobian(m, &pose, characteristic_length)),
-        pose,
-    };
+    let at = |pose: Pose| LeastConditioning { value: number(&pose), pose };
     let points = space.cube_points(o.points, &mut rng).into_iter().map(|x| space.pose(&x));
     let all = space.listed(o.steps).into_iter().chain(points).map(at);
     all.fold(at(space.home), |least, next| if next.value < least.value { next } else { least })

@@ -67,6 +67,7 @@ impl<'a> Limits<'a> {
             Quantity::LinearStiffness | Quantity::AngularStiffness | Quantity::Frequency => {
                 self.required.least_stiffness_of(term.kind).unwrap_or(1.0)
             }
+            Quantity::Torque | Quantity::AngularSpeed => self.required.whole(term.kind),
         };
         margin / scale
     }

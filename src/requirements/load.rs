@@ -1,6 +1,6 @@
 //! Loads on the platform and the leg forces that hold them.
 
-use nalgebra::{Point3, Vector3, Vector6};
+use nalgebra::{Matrix6, Point3, Vector3, Vector6};
 
 use crate::geom::Pose;
 use crate::manipulator::{Body, Manipulator, jacobian};
@@ -42,9 +42,14 @@ impl Load {
 /// `None` at a singular pose, where no forces or many hold the load.
 #[must_use]
 pub fn leg_forces(m: &Manipulator, pose: &Pose, wrench: &Vector6<f64>, scale: f64) -> Option<Vector6<f64>> {
+    forces_along(&jacobian(m, pose, scale), wrench, scale)
+}
+
+/// As [`leg_forces`], for lines given by rows with their moments over `scale`.
+pub(super) fn forces_along(rows: &Matrix6<f64>, wrench: &Vector6<f64>, scale: f64) -> Option<Vector6<f64>> {
     let mut right = -wrench;
     right.fixed_rows_mut::<3>(3).scale_mut(1.0 / scale);
-    let forces = jacobian(m, pose, scale).transpose().lu().solve(&right)?;
+    let forces = rows.transpose().lu().solve(&right)?;
     forces.iter().all(|x| x.is_finite()).then_some(forces)
 }
 

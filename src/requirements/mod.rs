@@ -8,6 +8,7 @@ mod assess;
 mod bodies;
 mod bound;
 mod conditioning;
+mod cranks;
 mod envelope;
 mod flexure;
 mod goal;
@@ -31,8 +32,9 @@ pub use crate::geom::{ListedFrom, PoseSpace, Region};
 pub(crate) use assess::ViolationSearch;
 pub use assess::{AssessOptions, Assessment, Margin, assess};
 pub use bodies::MovingBodies;
-pub use bound::{MarginBound, MarginProof, MarginVerdict, prove};
+pub use bound::{MarginBound, MarginProof, MarginVerdict, RodRegularity, prove, regular_rods};
 pub use conditioning::{LeastConditioning, least_conditioning};
+pub use cranks::{CrankedLeg, Cranks, least_rod_conditioning};
 pub use envelope::{Envelope, Envelopes};
 pub(crate) use envelope::{ball, room};
 pub use flexure::Wrench;
@@ -85,6 +87,8 @@ pub struct Requirements {
     pub envelopes: Envelopes,
     /// What has to remain of each limit.
     pub reserves: Reserves,
+    /// Cranks with rods of constant length in place of legs that change their lengths; what is said of such legs then limits nothing.
+    pub cranks: Option<Box<Cranks>>,
 }
 
 impl Requirements {
@@ -106,6 +110,7 @@ impl Requirements {
             platform_stiffness: self.platform_stiffness,
             vibrating: self.vibrating,
             reserves: self.reserves.clone(),
+            cranks: self.cranks.clone(),
             ..Self::default()
         };
         let hardware = Hardware {

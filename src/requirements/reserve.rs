@@ -38,7 +38,7 @@ impl Requirements {
     /// The reserve on a kind of requirement, in the unit of its margin: 0 where none is asked for.
     ///
     /// A percentage is one of the travel for lengths (greatest less least), of the greatest angle, force or speed, of the least stiffness or frequency, of the leg diameter for clearances, of the housing (or the
-    /// least distance of centres, whichever is greater) for the room between joints, and of the radius or half the shortest edge for envelopes.
+    /// least distance of centres, whichever is greater) for the room between joints, and of the radius or half the shortest edge for envelopes. For cranks it is one of the shortest rod, of half the narrowest range of angles, of the least transmission angle, and of the greatest swing, torque or speed.
     #[must_use]
     pub fn reserve(&self, kind: TermKind) -> f64 {
         let own = self.reserves.kinds.get(&kind).copied();
@@ -50,7 +50,7 @@ impl Requirements {
     }
 
     /// What percentages of a kind are parts of; 0 where nothing is limited.
-    fn whole(&self, kind: TermKind) -> f64 {
+    pub(crate) fn whole(&self, kind: TermKind) -> f64 {
         let h = &self.hardware;
         let spacing = |body: Body| {
             let housing = h.housing(body).map_or(0.0, |housing| match housing {
@@ -66,7 +66,10 @@ impl Requirements {
                 greatest - least
             }),
             TermKind::BaseSwing => h.base_swing.map_or(0.0, |s| s.limit_deg),
-            TermKind::PlatformSwing => h.platform_swing.map_or(0.0, |s| s.limit_deg),
+            TermKind::PlatformSwing => {
+                let of_rods = self.cranks.as_ref().and_then(|cranks| cranks.platform_swing_deg);
+                h.platform_swing.map(|s| s.limit_deg).or(of_rods).unwrap_or(0.0)
+            }
             TermKind::BaseFirstAngle
             | TermKind::BaseSecondAngle
             | TermKind::PlatformFirstAngle
@@ -82,6 +85,7 @@ impl Requirements {
             TermKind::LinearStiffness | TermKind::AngularStiffness | TermKind::NaturalFrequency => {
                 self.least_stiffness_of(kind).unwrap_or(0.0)
             }
+            _ => self.cranks.as_ref().map_or(0.0, |cranks| cranks.whole(kind)),
         }
     }
 }

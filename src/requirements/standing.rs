@@ -62,7 +62,7 @@ impl Terms<'_> {
     ///
     /// Lengths: `64 eps` (1.4e-14) times `r`, the sum of the greatest distances of a joint from the origin of its body and of the distance of the
     /// platform from the base origin. Angles: the same over the shortest leg, and for first angles of universal joints times `1 / sin(u, a) + 1 / sin(k, a)` of leg, axis and first axis. Speeds: `64 eps` times the greatest speed times `r` over the shortest leg.
-    /// Forces: `64 eps` times the greatest force over the inverse condition number of the Jacobian. Stiffness and frequency: that of angles and of forces together, times twice the least one asked for. Never more than `1e-9` radians, or `1e-9` of the greatest speed
+    /// Forces: `64 eps` times the greatest force over the inverse condition number of the Jacobian. Cranks: angles over the shorter of crank and rod and over the sine of the transmission angle, speeds and torques accordingly. Stiffness and frequency: that of angles and of forces together, times twice the least one asked for. Never more than `1e-9` radians, or `1e-9` of the greatest speed
     /// or force, or of twice the least stiffness or frequency.
     #[must_use]
     pub fn rounding(&self, kind: TermKind, pose: Option<&Pose>) -> f64 {
@@ -72,17 +72,31 @@ impl Terms<'_> {
         let away = pose.map_or(0.0, |p| p.position.norm());
         let reach = farthest(m.base_joints()) + farthest(m.platform_joints()) + away;
         let turn = || {
+            if let (Some(cranks), Some(pose)) = (&self.required.cranks, pose) {
+                return self.crank_rounding(cranks, pose, SHARE * reach).min(MOST);
+            }
             let lengths = pose.map(|p| m.legs().map(|l| (p.transform(&l.platform) - l.base).norm()));
             (SHARE * reach / lengths.into_iter().flatten().fold(f64::INFINITY, f64::min)).min(MOST)
         };
-        let conditioning =
-            || pose.map_or(1.0, |p| inverse_condition(&jacobian(m, p, m.platform_rms_radius())));
+        let conditioning = || {
+            let Some(pose) = pose else { return 1.0 };
+            let length = m.platform_rms_radius();
+            match &self.required.cranks {
+                Some(cranks) => self.rod_conditioning(cranks, pose, length),
+                None => inverse_condition(&jacobian(m, pose, length)),
+            }
+        };
+        let most = |of: fn(&super::Cranks) -> Option<f64>| {
+            self.required.cranks.as_ref().and_then(|cranks| of(cranks)).unwrap_or(0.0)
+        };
         let hardware = &self.required.hardware;
         match kind.quantity() {
             Quantity::Length => SHARE * reach,
             Quantity::Angle => (turn() * self.amplification(kind, pose)).min(MOST).to_degrees(),
             Quantity::Speed => turn() * hardware.max_leg_speed.unwrap_or(0.0),
             Quantity::Force => (SHARE / conditioning()).min(MOST) * hardware.max_leg_force.unwrap_or(0.0),
+            Quantity::Torque => ((SHARE + turn()) / conditioning()).min(MOST) * most(|c| c.max_torque),
+            Quantity::AngularSpeed => turn() * most(|c| c.max_speed_deg),
             Quantity::LinearStiffness | Quantity::AngularStiffness | Quantity::Frequency => {
                 let least = self.required.least_stiffness_of(kind).unwrap_or(0.0);
                 ((SHARE + turn()) / conditioning()).min(MOST) * 2.0 * least

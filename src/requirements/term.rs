@@ -61,6 +61,20 @@ pub enum TermKind {
     AngularStiffness,
     /// Lowest natural frequency minus the least one.
     NaturalFrequency,
+    /// Rod length minus the distance of the platform joint from the nearest point of the circle of its crank.
+    RodTooShort,
+    /// Distance of the platform joint from the farthest point of that circle minus the rod length.
+    RodTooLong,
+    /// Transmission angle of a crank minus the least one: the angle whose sine is that part of a push along the rod which turns the crank. At 0 degrees crank and rod are in a plane with the axis.
+    CrankTransmission,
+    /// What remains of the limits of the angle of a crank.
+    CrankAngle,
+    /// Swing limit minus the angle between a rod and the plane in which its crank turns.
+    TipSwing,
+    /// Greatest torque of a crank minus the torque under a load.
+    CrankTorque,
+    /// Greatest speed of a crank minus the speed in the worst direction of motion.
+    CrankSpeed,
 }
 
 /// What a margin is measured in.
@@ -80,11 +94,15 @@ pub enum Quantity {
     AngularStiffness,
     /// Hertz.
     Frequency,
+    /// Force units times design units.
+    Torque,
+    /// Degrees per second.
+    AngularSpeed,
 }
 
 impl TermKind {
     /// Every kind.
-    pub const ALL: [Self; 20] = [
+    pub const ALL: [Self; 27] = [
         Self::LegTooShort,
         Self::LegTooLong,
         Self::BaseSwing,
@@ -105,6 +123,13 @@ impl TermKind {
         Self::LinearStiffness,
         Self::AngularStiffness,
         Self::NaturalFrequency,
+        Self::RodTooShort,
+        Self::RodTooLong,
+        Self::CrankTransmission,
+        Self::CrankAngle,
+        Self::TipSwing,
+        Self::CrankTorque,
+        Self::CrankSpeed,
     ];
 
     /// A short stable code.
@@ -131,6 +156,13 @@ impl TermKind {
             Self::LinearStiffness => "linear_stiffness",
             Self::AngularStiffness => "angular_stiffness",
             Self::NaturalFrequency => "natural_frequency",
+            Self::RodTooShort => "rod_too_short",
+            Self::RodTooLong => "rod_too_long",
+            Self::CrankTransmission => "crank_transmission",
+            Self::CrankAngle => "crank_angle",
+            Self::TipSwing => "tip_swing",
+            Self::CrankTorque => "crank_torque",
+            Self::CrankSpeed => "crank_speed",
         }
     }
 
@@ -138,7 +170,13 @@ impl TermKind {
     #[must_use]
     pub fn quantity(self) -> Quantity {
         match self {
-            Self::BaseSwing | Self::PlatformSwing => Quantity::Angle,
+            Self::BaseSwing
+            | Self::PlatformSwing
+            | Self::CrankTransmission
+            | Self::CrankAngle
+            | Self::TipSwing => Quantity::Angle,
+            Self::CrankTorque => Quantity::Torque,
+            Self::CrankSpeed => Quantity::AngularSpeed,
             kind if kind.hinge().is_some() => Quantity::Angle,
             Self::LegForce => Quantity::Force,
             Self::LegSpeed => Quantity::Speed,
@@ -228,7 +266,8 @@ impl<'a> Terms<'a> {
     /// Makes the requirements ready: axes that follow the legs at home are found here.
     #[must_use]
     pub fn new(manipulator: &'a Manipulator, required: &'a Requirements, home: &Pose) -> Self {
-        let at_home = manipulator.legs().map(|l| (home.transform(&l.platform) - l.base).normalize());
+        let legs = required.pushing_legs(&manipulator.legs(), home);
+        let at_home = legs.map(|l| (home.transform(&l.platform) - l.base).normalize());
         let axes =
             |body: Body, turn: &dyn Fn(&Vector3<f64>) -> Vector3<f64>| match required.hardware.axes(body) {
                 Some(JointAxes::Given(axes)) => axes.map(Unit::into_inner),
@@ -327,6 +366,10 @@ impl<'a> Terms<'a> {
     #[must_use]
     pub fn at(&self, pose: &Pose) -> Vec<(Term, f64)> {
         let mut out = Vec::new();
+        if let Some(cranks) = &self.required.cranks {
+            self.cranks(cranks, pose, &mut out);
+            return out;
+        }
         let ends: [(Point3<f64>, Point3<f64>); 6] =
             self.manipulator.legs().map(|l| (l.base, pose.transform(&l.platform)));
         self.lengths_and_swing(&ends, pose, &mut out);

@@ -1,8 +1,12 @@
 //! Designs whose legs are rods on cranks: the file, angles and poses from the command line, and what refuses them.
 
+use std::f64::consts::TAU;
+
 use equipod::methods::design::{Code, Design, Format, PRESETS, parse, parse_with_cranks};
+use equipod::methods::geom::Pose;
+use equipod::methods::requirements::{AssessOptions, MarginVerdict, TermKind, Terms};
 use equipod::methods::rotary::Elbow;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Rotation3, Vector3};
 use serde_json::Value;
 
 use super::cli_frame::{document, equipod};
@@ -124,6 +128,14 @@ fn every_slip_in_a_crank_is_refused_at_its_place() {
         ("axis = [1, 0, 0]", "axis = [0, 0, 0]", Code::NotPositive, "axis"),
         ("zero = [0, 1, 0]", "zero = [-2, 0, 0]", Code::OutOfRange, "along its axis"),
         ("max_torque = 1500", "max_torqe = 1500", Code::UnknownKey, "max_torqe"),
+        (
+            "max_torque = 1500",
+            "least_transmission_deg = 90",
+            Code::OutOfRange,
+            "`least_transmission_deg` is 90 degrees",
+        ),
+        ("max_torque = 1500", "tip_swing_deg = 95", Code::OutOfRange, "tip_swing_deg"),
+        ("max_torque = 1500", "platform_swing_deg = -4", Code::NotPositive, "platform_swing_deg"),
         ("[cranks.A6]", "[cranks.A7]", Code::UnknownKey, "A7"),
         (
             "mirror = \"A1\"\nplane = \"xz\"\n[cranks.A3]",
@@ -222,6 +234,7 @@ fn angles_of_a_pose_and_poses_of_angles_belong_together() {
     let most = torques.iter().fold(0.0, |most: f64, t| most.max(t.abs()));
     assert!((margin("crank_torque").unwrap() - (520.0 - most)).abs() < 1e-9);
     assert!(margin("crank_angle").unwrap() > 0.0 && margin("crank_speed").is_none(), "no speed is asked for");
+    assert!(margin("rod_too_short").unwrap() > 0.0 && margin("crank_transmission").unwrap() > 0.0);
     // and back, from home and among all poses
     let list = angles.iter().map(f64::to_string).collect::<Vec<_>>().join(",");
     for extra in [vec!["--near", "home"], vec![]] {
@@ -372,7 +385,6 @@ fn nothing_takes_cranks_for_legs_that_change_their_lengths() {
     let file = format!("{out}/o.svg");
     for args in [
         vec!["check", HEAD],
-        vec!["assess", HEAD],
         vec!["compare", HEAD, octahedral],
         vec!["explore", HEAD, "-o", out],
         vec!["limits", HEAD],
@@ -411,4 +423,157 @@ fn nothing_takes_cranks_for_legs_that_change_their_lengths() {
         assert_eq!(done.status.code(), Some(2), "{args:?}");
         assert_eq!(document(&done)["error"]["code"], code, "{args:?}");
     }
+}
+
+/// Everything that limits cranks and rods.
+const LIMITS: &str =
+    "max_torque = 1500\nleast_transmission_deg = 20\ntip_swing_deg = 40\nplatform_swing_deg = 25";
+
+fn limited() -> Design {
+    let text = SERVOS.replace("max_torque = 1500", LIMITS).replace(
+        "[speed]\nlinear = 50",
+        "[workspace]\ntranslation = [3, 3, 3]\nrotation_deg = [2, 2, 2]\n[speed]\nlinear = 50\nangular_deg = 30",
+    );
+    parse_with_cranks(&text, Format::Toml).unwrap_or_else(|v| panic!("{v:?}")).0
+}
+
+/// Poses about home, within the workspace of [`limited`] times a factor.
+fn drawn(design: &Design, count: usize, factor: f64) -> Vec<Pose> {
+    let home = design.home.unwrap();
+    // a lattice that no symmetry of the machine keeps
+    let share =
+        |k: usize, j: i32| factor * (2.0 * ((k as f64 + 0.5) * 0.618_034_f64.powi(j + 1)).fract() - 1.0);
+    (0..count)
+        .map(|k| {
+            let turn = Vector3::new(share(k, 3), share(k, 4), share(k, 5)) * 2f64.to_radians();
+            let shift = Vector3::new(share(k, 0), share(k, 1), share(k, 2)) * 3.0;
+            Pose { rotation: Rotation3::new(turn) * home.rotation, position: home.position + shift }
+        })
+        .collect()
+}
+
+/// The rows at a pose against what the kinematics of the cranks says, which is other code.
+#[test]
+fn margins_of_cranks_are_those_of_their_kinematics() {
+    let design = limited();
+    let platform = design.rotary().unwrap().unwrap();
+    let required = design.requirements();
+    let home = design.home.unwrap();
+    let terms = Terms::new(design.manipulator(), &required, &home);
+    let rods = |pose: &Pose, angles: &[f64; 6]| -> [Vector3<f64>; 6] {
+        std::array::from_fn(|i| {
+            let line = pose.transform(&platform.legs()[i].platform) - platform.tip(i, angles[i]);
+            pose.rotation.inverse() * line.normalize()
+        })
+    };
+    let at_home = rods(&home, &platform.ik(&home).unwrap());
+    for pose in drawn(&design, 40, 2.0) {
+        let angles = platform.ik(&pose).unwrap();
+        let transmissions = platform.transmissions(&pose, &angles);
+        let speeds = platform.greatest_speeds(&pose, &angles, 50.0, 30f64.to_radians()).unwrap();
+        let load = &design.all_loads()[0];
+        let torques = platform.torques(&pose, &angles, &load.wrench(&pose)).unwrap();
+        let lines = rods(&pose, &angles);
+        let left = platform.limit_margins(&angles);
+        let found = terms.at(&pose);
+        let margin = |kind: TermKind, i: usize| {
+            found.iter().find(|(t, _)| t.kind == kind && t.first == i).unwrap_or_else(|| panic!("{kind:?}")).1
+        };
+        for i in 0..6 {
+            let leg = &platform.legs()[i];
+            let out = leg.crank.axis.dot(&(pose.rotation * lines[i])).abs().asin().to_degrees();
+            let swung = lines[i].dot(&at_home[i]).clamp(-1.0, 1.0).acos().to_degrees();
+            for (kind, meant) in [
+                (TermKind::CrankTransmission, transmissions[i].abs().asin().to_degrees() - 20.0),
+                (TermKind::CrankAngle, left[i].to_degrees()),
+                (TermKind::TipSwing, 40.0 - out),
+                (TermKind::PlatformSwing, 25.0 - swung),
+                (TermKind::CrankSpeed, 300.0 - speeds[i].to_degrees()),
+                (TermKind::CrankTorque, 1500.0 - torques[i].abs()),
+            ] {
+                let own = margin(kind, i);
+                assert!((own - meant).abs() < 1e-6, "{kind:?} of {i}: {own} {meant}");
+            }
+            // the circle of the tip, point by point
+            let joint = pose.transform(&leg.platform);
+            let away = (0..7200).map(|k| (joint - platform.tip(i, f64::from(k) * TAU / 7200.0)).norm());
+            let (least, most) = away.fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));
+            assert!((margin(TermKind::RodTooShort, i) - (leg.rod - least)).abs() < 1e-4);
+            assert!((margin(TermKind::RodTooLong, i) - (most - leg.rod)).abs() < 1e-4);
+        }
+    }
+    // beyond reach the rows of reach and of the transmission are violated, and nothing breaks down
+    let far = Pose { position: home.position + Vector3::z() * 80.0, ..home };
+    let least = |kind: TermKind| {
+        let own = terms.at(&far).into_iter().filter(|t| t.0.kind == kind).map(|t| t.1);
+        own.fold(f64::INFINITY, f64::min)
+    };
+    assert!(platform.ik(&far).is_err() && least(TermKind::RodTooShort) < -30.0);
+    assert!(least(TermKind::CrankTransmission) < -20.0 && least(TermKind::CrankTorque) == f64::NEG_INFINITY);
+}
+
+/// What is proved of a workspace holds at poses that the proof did not look at, and what is violated is shown by its pose.
+#[test]
+fn proved_margins_of_cranks_hold_over_the_workspace() {
+    let design = limited();
+    let required = design.requirements();
+    let home = design.home.unwrap();
+    let terms = Terms::new(design.manipulator(), &required, &home);
+    let options = AssessOptions::new().points(50).searches(1);
+    let found = design.assess_with(&options, 250).unwrap();
+    let kinds: Vec<TermKind> = found.proof.bounds.iter().map(|b| b.found.term.kind).collect();
+    for kind in [
+        TermKind::PlatformSwing,
+        TermKind::RodTooShort,
+        TermKind::RodTooLong,
+        TermKind::CrankTransmission,
+        TermKind::CrankAngle,
+        TermKind::TipSwing,
+        TermKind::CrankTorque,
+        TermKind::CrankSpeed,
+    ] {
+        assert!(kinds.contains(&kind), "{kind:?}");
+    }
+    let all: Vec<_> = drawn(&design, 400, 1.0).iter().flat_map(|pose| terms.at(pose)).collect();
+    for bound in &found.proof.bounds {
+        let kind = bound.found.term.kind;
+        let least = all.iter().filter(|t| t.0.kind == kind).map(|t| t.1).fold(f64::INFINITY, f64::min);
+        assert!(
+            bound.below <= least && bound.below <= bound.found.value + 1e-9,
+            "{kind:?}: {bound:?} {least}"
+        );
+    }
+    let reach = found.proof.bounds.iter().find(|b| b.found.term.kind == TermKind::RodTooShort).unwrap();
+    assert_eq!(reach.verdict, MarginVerdict::Met, "{reach:?}");
+    // one limit moved beyond the least margin found is violated, and is told so
+    let wanted =
+        found.proof.bounds.iter().find(|b| b.found.term.kind == TermKind::CrankTransmission).unwrap();
+    let more = wanted.found.value + 20.0 + 0.5;
+    let text =
+        design.text().replace("least_transmission_deg = 20", &format!("least_transmission_deg = {more}"));
+    let strict = parse_with_cranks(&text, Format::Toml).unwrap().0;
+    let found = strict.assess_with(&options, 250).unwrap();
+    let row = found.proof.bounds.iter().find(|b| b.found.term.kind == TermKind::CrankTransmission).unwrap();
+    assert_eq!((row.verdict, found.met()), (MarginVerdict::Violated, Some(false)), "{row:?}");
+}
+
+#[test]
+fn the_head_is_assessed_and_keys_of_cranks_are_written() {
+    let done = equipod(&["assess", HEAD, "--json", "--cells", "250", "--points", "50", "--searches", "1"]);
+    let doc = document(&done);
+    assert!(matches!(done.status.code(), Some(0 | 3)), "{doc}");
+    let rows = doc["requirements"].as_array().unwrap();
+    let names: Vec<&str> = rows.iter().map(|row| row["name"].as_str().unwrap()).collect();
+    assert_eq!(
+        names,
+        ["rod_too_short", "rod_too_long", "crank_transmission", "crank_angle", "crank_torque"],
+        "{doc}"
+    );
+    assert_eq!((&rows[0]["status"], &rows[2]["status"]), (&"met".into(), &"met".into()), "{doc}");
+    assert!(rows[0]["proved_margin"].as_f64().unwrap() > 8.0 && rows[4]["unit"] == "force mm");
+    assert!(rows.iter().all(|row| row["margin"].as_f64().unwrap() > 0.0), "{doc}");
+    let design = limited();
+    let (again, _) = parse_with_cranks(&design.to_toml(), Format::Toml).unwrap();
+    assert_eq!((again.crank_limits(), &again), (design.crank_limits(), &design));
+    assert_eq!(design.crank_limits().tip_swing_deg, Some(40.0));
 }

@@ -32,7 +32,15 @@ pub(crate) struct Args {
 
 /// Evaluates the requirements.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
-    let design = context.load(&args.design)?;
+    let design = context.load_with_cranks(&args.design)?;
+    if design.hardware.is_coupled() {
+        let message = format!(
+            "{}: the joints are not ideal (`offset` of universal joints or `screw_lead`), and the rows take the length of a drive for the distance of its joints",
+            design.name
+        );
+        return Err(Failure::refused("design::not_ideal", message)
+            .with_help("without `offset` and `screw_lead` the file has the machine with ideal joints"));
+    }
     if design.workspace.trajectory.is_none() {
         context.no_effect("steps", "the workspace of the design has no trajectory")?;
     }

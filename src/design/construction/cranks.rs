@@ -101,13 +101,19 @@ pub(crate) struct CrankValues {
     pub(in crate::design) elbow: Elbow,
 }
 
-/// What the drives of the cranks can do.
+/// What the drives of the cranks and the joints of the rods can do.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CrankLimits {
     /// Greatest torque about the axis of a crank, force units times design units.
     pub max_torque: Option<f64>,
     /// Greatest speed of a crank, degrees per second.
     pub max_speed_deg: Option<f64>,
+    /// Least transmission angle, degrees.
+    pub least_transmission_deg: Option<f64>,
+    /// How far the joint at the tip lets a rod lean out of the plane in which its crank turns, degrees.
+    pub tip_swing_deg: Option<f64>,
+    /// How far the joint at the platform lets a rod swing from its direction at home, degrees.
+    pub platform_swing_deg: Option<f64>,
 }
 
 /// `[cranks]`, as it is written, with the numbers that follow.

@@ -17,10 +17,10 @@ pub(super) const CRANK_KEYS: [&str; 6] = ["length", "rod_length", "axis", "zero"
 /// Keys of single cranks that are copies.
 pub(super) const COPY_KEYS: [&str; 4] = ["turn", "deg", "mirror", "plane"];
 /// Keys of all cranks together.
-pub(super) const DRIVE_KEYS: [&str; 2] = ["max_torque", "max_speed_deg"];
+pub(super) const DRIVE_KEYS: [&str; 5] =
+    ["max_torque", "max_speed_deg", "least_transmission_deg", "tip_swing_deg", "platform_swing_deg"];
 /// What is about legs that change their lengths.
-const OF_LENGTHS: [&str; 7] =
-    ["lengths", "hardware", "limits", "envelope", "keep_out", "optimize", "calibration"];
+const OF_LENGTHS: [&str; 6] = ["lengths", "hardware", "envelope", "keep_out", "optimize", "calibration"];
 
 /// Where all cranks and single ones are written.
 #[derive(Debug, Default)]
@@ -70,7 +70,7 @@ pub(super) fn cranks(
     if let (Some(e), false) = (drive, takes_cranks) {
         let message =
             "the legs are rods on cranks, and what is asked for is about legs that change their lengths";
-        let help = "`equipod ik`, `fk`, `export` and `design convert` take cranks; leg maps hold between squared lengths of rods, and nothing follows from them for the angles of cranks";
+        let help = "`equipod ik`, `fk`, `assess`, `export` and `design convert` take cranks; leg maps hold between squared lengths of rods, and nothing follows from them for the angles of cranks";
         report.refuse(Code::Rotary, &e.node.span, message, help);
         return None;
     }
@@ -112,9 +112,25 @@ pub(super) fn cranks(
     let drives = CrankLimits {
         max_torque: positive(report, entries, DRIVE_KEYS[0]),
         max_speed_deg: positive(report, entries, DRIVE_KEYS[1]),
+        least_transmission_deg: angle_below(report, entries, DRIVE_KEYS[2], 90.0),
+        tip_swing_deg: angle_below(report, entries, DRIVE_KEYS[3], 90.0),
+        platform_swing_deg: angle_below(report, entries, DRIVE_KEYS[4], 180.0),
     };
     places.unread = report.count() > before;
     Some((WrittenCranks { shared, own, drives, values: Vec::new() }, places))
+}
+
+/// A positive angle of less than so many degrees.
+fn angle_below(report: &mut Findings<'_>, entries: &[Entry], key: &str, most: f64) -> Option<f64> {
+    let angle = positive(report, entries, key)?;
+    if angle < most {
+        return Some(angle);
+    }
+    if let Some(e) = find(entries, key) {
+        let message = format!("`{key}` is {angle} degrees");
+        report.refuse(Code::OutOfRange, &e.node.span, message, format!("give an angle below {most} degrees"));
+    }
+    None
 }
 
 /// A table of one crank.

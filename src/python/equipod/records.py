@@ -117,6 +117,10 @@ TermKind = Literal[
     "base_second_angle",
     "base_spacing",
     "base_swing",
+    "crank_angle",
+    "crank_speed",
+    "crank_torque",
+    "crank_transmission",
     "keep_out",
     "leg_clearance",
     "leg_force",
@@ -131,6 +135,9 @@ TermKind = Literal[
     "platform_second_angle",
     "platform_spacing",
     "platform_swing",
+    "rod_too_long",
+    "rod_too_short",
+    "tip_swing",
 ]
 VariantWord = Literal["exact", "nearest"]
 VerdictWord = Literal["equivalent", "inconclusive", "not_equivalent", "singular"]

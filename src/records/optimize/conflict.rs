@@ -99,6 +99,12 @@ fn words(design: &Design, d: Demand) -> (String, String) {
                 TermKind::LinearStiffness => "the least stiffness against forces",
                 TermKind::AngularStiffness => "the least stiffness against torques",
                 TermKind::NaturalFrequency => "the least natural frequency",
+                TermKind::RodTooShort | TermKind::RodTooLong => "the reach of the rods",
+                TermKind::CrankTransmission => "the least transmission angle of the cranks",
+                TermKind::CrankAngle => "the limits of the angles of the cranks",
+                TermKind::TipSwing => "the swing limit of the joints at the tips",
+                TermKind::CrankTorque => "the greatest torque of the cranks",
+                TermKind::CrankSpeed => "the greatest speed of the cranks",
             };
             (sentence.to_string(), design.unit_of(kind.quantity()))
         }

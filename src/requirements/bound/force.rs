@@ -6,7 +6,8 @@
 
 use nalgebra::Matrix6;
 
-use super::frame::{CellFrame, enclosed};
+use super::crank::CrankFrames;
+use super::frame::{CellFrame, LegOverCell, enclosed};
 use super::local::{self, Bounded};
 use crate::geom::enclosed::{IntervalMatrix, IntervalVector, contraction, times};
 use crate::geom::{Chart, ChartCell};
@@ -17,21 +18,50 @@ use crate::requirements::load::Load;
 
 type Column = [Jet; 6];
 
-/// `A` by rows and `-(f, t)`, moments over the size, and the leg lengths.
-struct System {
+/// `A` by rows and `-(f, t)`, moments over the size.
+pub(super) struct System {
     rows: [Column; 6],
     right: Column,
-    lengths: [Option<Jet>; 6],
+    /// The leg lengths, or for cranks what makes torques of forces over the rod lengths.
+    factors: [Option<Jet>; 6],
+}
+
+/// One over the size, which moments are in units of.
+fn unit_of(m: &Manipulator) -> Interval {
+    Interval::from(1.0).checked_div(Interval::from(m.size())).unwrap_or(Interval::WHOLE)
 }
 
 impl System {
-    fn over(frame: &CellFrame<'_>, m: &Manipulator, load: &Load) -> Self {
-        let unit = Interval::from(1.0).checked_div(Interval::from(m.size())).unwrap_or(Interval::WHOLE);
-        let legs: [_; 6] = std::array::from_fn(|i| frame.leg(m, i));
+    /// The lines of legs, without a load; `factors` make the answers of them.
+    pub(super) fn of_lines(
+        frame: &CellFrame<'_>,
+        m: &Manipulator,
+        legs: &[LegOverCell; 6],
+        factors: &[Option<Jet>; 6],
+    ) -> Self {
+        let unit = unit_of(m);
         let moments: [JetVector; 6] = std::array::from_fn(|i| legs[i].moment());
         let rows = std::array::from_fn(|r| {
             std::array::from_fn(|i| if r < 3 { legs[i].line[r] } else { moments[i][r - 3].times(unit) })
         });
+        Self { rows, right: [frame.constant(Interval::ZERO); 6], factors: *factors }
+    }
+
+    /// Legs, or rods on cranks; `None` where a rod may not close.
+    fn over(
+        frame: &CellFrame<'_>,
+        m: &Manipulator,
+        cranks: Option<&CrankFrames<'_>>,
+        load: &Load,
+    ) -> Option<Self> {
+        let unit = unit_of(m);
+        let (legs, factors) = if let Some(cranks) = cranks {
+            cranks.rods(m, frame)?
+        } else {
+            let legs: [LegOverCell; 6] = std::array::from_fn(|i| frame.leg(m, i));
+            let factors = std::array::from_fn(|i| legs[i].square.root());
+            (legs, factors)
+        };
         let turned = |v: &nalgebra::Vector3<f64>| {
             let v: IntervalVector = std::array::from_fn(|k| Interval::from(v[k]));
             match load.fixed_to {
@@ -47,20 +77,20 @@ impl System {
                     if r < 3 { -force[r] } else { -(torque[r - 3] + lever[r - 3]).times(unit) }
                 },
             );
-        Self { rows, right, lengths: std::array::from_fn(|i| legs[i].square.root()) }
+        Some(Self { right, ..Self::of_lines(frame, m, &legs, &factors) })
     }
 
-    fn values(&self) -> IntervalMatrix {
+    pub(super) fn values(&self) -> IntervalMatrix {
         self.rows.map(|row| row.map(|x| x.value))
     }
 
-    fn slopes(&self, k: usize) -> IntervalMatrix {
+    pub(super) fn slopes(&self, k: usize) -> IntervalMatrix {
         self.rows.map(|row| row.map(|x| x.slope(k)))
     }
 }
 
 /// A bound of `|I - K A|` with what solves systems by it.
-struct ForceSolver {
+pub(super) struct ForceSolver {
     inverse: Matrix6<f64>,
     defect: IntervalMatrix,
     weights: [f64; 6],
@@ -73,7 +103,13 @@ fn apply(k: &Matrix6<f64>, b: &[Interval; 6]) -> [Interval; 6] {
 
 impl ForceSolver {
     /// For `A` at `z` and all over a cell.
-    fn new(at: &System, over: &System, cell: &ChartCell, z: &[f64; 6], variables: usize) -> Option<Self> {
+    pub(super) fn new(
+        at: &System,
+        over: &System,
+        cell: &ChartCell,
+        z: &[f64; 6],
+        variables: usize,
+    ) -> Option<Self> {
         let there = at.values();
         let inverse = Matrix6::from_fn(|i, k| there[i][k].centre_and_radius().0).try_inverse()?;
         let mut defect = times(&inverse, &there);
@@ -124,25 +160,26 @@ impl ForceSolver {
         }
         let mut out = system.right;
         for (i, x) in out.iter_mut().enumerate() {
-            *x = Jet::linear(value[i], slopes[i], variables, false) * system.lengths[i]?;
+            *x = Jet::linear(value[i], slopes[i], variables, false) * system.factors[i]?;
         }
         Some(out)
     }
 }
 
-/// A lower bound of `greatest - |F_i|` over a cell for all legs, and an upper bound of the least one at `z`.
+/// A lower bound of `greatest - |F_i|` over a cell for all legs, or of the greatest torque less that of each crank, and an upper bound of the least one at `z`.
 pub(super) fn force(
     chart: &Chart,
     cell: &ChartCell,
     z: &[f64; 6],
     frames: (&CellFrame<'_>, &CellFrame<'_>),
-    m: &Manipulator,
+    (m, cranks, greatest): (&Manipulator, Option<&CrankFrames<'_>>, f64),
     load: &Load,
-    greatest: f64,
 ) -> (Bounded, f64) {
     let n = chart.len();
-    let at = System::over(frames.0, m, load);
-    let over = System::over(frames.1, m, load);
+    let Some(at) = System::over(frames.0, m, cranks, load) else {
+        return (Bounded::nothing(cell), f64::INFINITY);
+    };
+    let over = System::over(frames.1, m, cranks, load);
     let point = ChartCell::point(*z);
     let Some(here) = ForceSolver::new(&at, &at, &point, z, n).and_then(|s| s.forces(&at, n)) else {
         return (Bounded::nothing(cell), f64::INFINITY);
@@ -153,7 +190,8 @@ pub(super) fn force(
     let both = |f: &[Jet; 6]| -> Vec<Jet> { f.iter().flat_map(|f| [room(f, 1.0), room(f, -1.0)]).collect() };
     let points = both(&here);
     let upper = points.iter().map(|x| x.value.hi()).fold(f64::INFINITY, f64::min);
-    let Some(all) = ForceSolver::new(&at, &over, cell, z, n).and_then(|s| s.forces(&over, n)) else {
+    let all = over.and_then(|over| ForceSolver::new(&at, &over, cell, z, n)?.forces(&over, n));
+    let Some(all) = all else {
         return (Bounded::nothing(cell), upper);
     };
     let bounds = points.iter().zip(both(&all)).map(|(p, o)| local::below_first_order(chart, cell, z, p, &o));

@@ -8,6 +8,7 @@
 
 mod branch;
 mod cone;
+mod crank;
 mod force;
 mod frame;
 mod gap;
@@ -20,6 +21,7 @@ mod tests;
 use std::num::NonZeroUsize;
 
 use self::cone::{Sector, SwingCone};
+use self::crank::CrankFrames;
 use self::frame::{CellFrame, enclosed};
 use self::hinge::{HingeFrame, HingeLimit};
 use self::local::Bounded;
@@ -35,6 +37,8 @@ use crate::manipulator::{Body, Manipulator};
 use crate::num::interval::Interval;
 use crate::num::jet::Jet;
 use crate::num::parallel::parallel;
+
+pub use crank::{RodRegularity, regular_rods};
 
 /// What is known of the least margin of a kind of requirement over all poses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -166,9 +170,12 @@ pub fn prove(
     let terms = Terms::new(m, required, &space.home);
     let charts = Chart::all(space);
     let home = Chart::of_pose(&space.home);
-    let axes = axes(m, required, &home);
+    let cranks = CrankFrames::new(required);
+    let cranks = cranks.as_ref();
+    let axes = axes(m, required, cranks, &home);
     // more cells are for what is undecided, and need not come close
-    let patient = CellJudge { m, required, terms: &terms, axes, charts: charts.clone(), close: false };
+    let patient =
+        CellJudge { m, required, terms: &terms, cranks, axes, charts: charts.clone(), close: false };
     let judge = CellJudge { charts, close: o.close, ..patient };
     let threads =
         o.threads.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
@@ -193,7 +200,7 @@ pub fn prove(
 /// Axes from which swing is measured, at the base in the base frame and at the platform in the platform frame, and their lengths.
 type Axes = [[(IntervalVector, Interval); 6]; 2];
 
-fn axes(m: &Manipulator, required: &Requirements, home: &Chart) -> Axes {
+fn axes(m: &Manipulator, required: &Requirements, cranks: Option<&CrankFrames<'_>>, home: &Chart) -> Axes {
     use super::hardware::JointAxes;
     let frame = CellFrame::over(home, &home.root, false);
     std::array::from_fn(|body| {
@@ -202,7 +209,11 @@ fn axes(m: &Manipulator, required: &Requirements, home: &Chart) -> Axes {
             let axis: IntervalVector = if let Some(JointAxes::Given(axes)) = chosen {
                 std::array::from_fn(|k| Interval::from(axes[i][k]))
             } else {
-                let along = frame.leg(m, i).line.map(|x| x.value);
+                let line = match &required.cranks {
+                    None => Some(frame.leg(m, i).line),
+                    Some(_) => cranks.and_then(|cranks| cranks.rod_line(m, i, &frame)),
+                };
+                let along = line.map_or([Interval::WHOLE; 3], |line| line.map(|x| x.value));
                 if body == 0 {
                     along
                 } else {
@@ -254,7 +265,9 @@ impl Function {
             Self::Leg(kind, i) => term.kind == kind && term.first == i,
             Self::Pair(i, j) => term.kind == TermKind::LegClearance && (term.first, term.second) == (i, j),
             Self::Body(i, k) => term.kind == TermKind::KeepOut && (term.first, term.second) == (i, k),
-            Self::Load(k) => term.kind == TermKind::LegForce && term.second == k,
+            Self::Load(k) => {
+                matches!(term.kind, TermKind::LegForce | TermKind::CrankTorque) && term.second == k
+            }
             Self::Platform(kind) => term.kind == kind,
             Self::Joint { leg, end, .. } => {
                 term.kind == TermKind::MachineEnvelope && (term.first, term.second) == (leg, end)
@@ -267,6 +280,8 @@ struct CellJudge<'a> {
     m: &'a Manipulator,
     required: &'a Requirements,
     terms: &'a Terms<'a>,
+    /// Cranks, where they could be enclosed.
+    cranks: Option<&'a CrankFrames<'a>>,
     axes: Axes,
     charts: Vec<Chart>,
     /// Whether bounds go on when they have decided.
@@ -322,7 +337,9 @@ impl CellJudge<'_> {
             TermKind::KeepOut => (0..6)
                 .flat_map(|i| (0..self.required.keep_outs.len()).map(move |k| Function::Body(i, k)))
                 .collect(),
-            TermKind::LegForce => (0..self.required.loads.len()).map(Function::Load).collect(),
+            TermKind::LegForce | TermKind::CrankTorque => {
+                (0..self.required.loads.len()).map(Function::Load).collect()
+            }
             TermKind::MachineEnvelope => {
                 let sides: Vec<Side> = match self.required.envelopes.machine {
                     None => Vec::new(),
@@ -464,9 +481,13 @@ impl CellJudge<'_> {
                 AtPoint { bounded, upper, slope: Some(slope), ..nothing }
             }
             Function::Load(k) => {
-                let greatest = self.required.hardware.max_leg_force.unwrap_or(f64::INFINITY);
-                let load = &self.required.loads[k];
-                let (bounded, upper) = force::force(chart, cell, z, frames, self.m, load, greatest);
+                let of_cranks = self.required.cranks.as_ref().map(|cranks| cranks.max_torque);
+                if of_cranks.is_some() && self.cranks.is_none() {
+                    return nothing;
+                }
+                let greatest = of_cranks.unwrap_or(self.required.hardware.max_leg_force);
+                let drives = (self.m, self.cranks, greatest.unwrap_or(f64::INFINITY));
+                let (bounded, upper) = force::force(chart, cell, z, frames, drives, &self.required.loads[k]);
                 AtPoint { bounded, upper, ..nothing }
             }
             Function::Platform(kind) => {
@@ -597,6 +618,10 @@ impl CellJudge<'_> {
 
     /// The function of a leg whose least value gives the least margin ([`CellJudge::margin`]).
     fn leg_value(&self, kind: TermKind, i: usize, frame: &CellFrame<'_>) -> Option<Jet> {
+        if self.required.cranks.is_some() {
+            let speed = self.required.platform_speed.unwrap_or_default();
+            return self.cranks?.value((kind, i), self.m, speed, &self.axes[1][i], frame);
+        }
         let leg = frame.leg(self.m, i);
         Some(match kind {
             TermKind::LegTooShort => leg.square,
@@ -617,6 +642,9 @@ impl CellJudge<'_> {
     /// The margin for a value of the function of a leg, which it increases with.
     fn margin(&self, (kind, leg): (TermKind, usize), value: Interval) -> Interval {
         let hardware = &self.required.hardware;
+        if let Some(cranks) = self.cranks {
+            return cranks.margin((kind, leg), value);
+        }
         if let Some(hinge) = self.hinge(kind, leg) {
             return hinge.margin(value);
         }

@@ -21,7 +21,7 @@ mod tests;
 
 use nalgebra::{Matrix6, Vector3};
 
-use crate::geom::enclosed::{IntervalMatrix, IntervalVector, apply, contraction, cross, dot, times};
+use crate::geom::enclosed::{IntervalMatrix, IntervalVector, apply, contraction, cross, determinant, times};
 use crate::geom::{Chart, ChartCell, Covered, Pose, PoseSpace, Region, combination, turn, turn_slope};
 use crate::manipulator::{Manipulator, leg_determinant};
 use crate::num::Rng;
@@ -377,27 +377,6 @@ impl<'a> LegsOverChart<'a> {
         let d = determinant(&self.over(&ChartCell::point(*x)));
         if d.lo() > 0.0 { Some(1.0) } else { (d.hi() < 0.0).then_some(-1.0) }
     }
-}
-
-/// Encloses the determinant: Laplace expansion by complementary minors of the first three rows.
-fn determinant(m: &IntervalMatrix) -> Interval {
-    let minor = |rows: [usize; 3], c: [usize; 3]| {
-        let r = rows.map(|r| c.map(|k| m[r][k]));
-        dot(&r[0], &cross(&r[1], &r[2]))
-    };
-    let mut sum = Interval::ZERO;
-    for i in 0..6 {
-        for j in i + 1..6 {
-            for k in j + 1..6 {
-                let mut others = (0..6).filter(|x| ![i, j, k].contains(x));
-                let rest: [usize; 3] = std::array::from_fn(|_| others.next().unwrap_or(0));
-                let term = minor([0, 1, 2], [i, j, k]) * minor([3, 4, 5], rest);
-                // sign of moving columns i, j, k to the front: i + j + k - (0 + 1 + 2)
-                sum = if (i + j + k) % 2 == 1 { sum + term } else { sum - term };
-            }
-        }
-    }
-    sum
 }
 
 /// Rays tried at random.

@@ -48,18 +48,8 @@ fn details(design: &Design, record: &RotaryIkRecord) -> Vec<(String, Option<f64>
             out.push((format!("torque_{}_{}", i + 1, column_unit(&load.name)), torques.map(|t| t[i])));
         }
     }
-    let drives = design.crank_limits();
-    let limited =
-        design.rotary().is_ok_and(|p| p.is_some_and(|p| p.legs().iter().any(|l| l.limits.is_some())));
-    for (name, there) in [
-        ("crank_angle", limited),
-        ("crank_torque", drives.max_torque.is_some() && !design.all_loads().is_empty()),
-        ("crank_speed", drives.max_speed_deg.is_some() && design.speed.is_some()),
-    ] {
-        let margin = record.margins.iter().find(|m| m.name.code() == name);
-        if there {
-            out.push((format!("margin_{name}"), margin.map(|m| m.margin.0)));
-        }
+    for margin in &record.margins {
+        out.push((format!("margin_{}", margin.name.code()), Some(margin.margin.0)));
     }
     out
 }
