@@ -19,8 +19,8 @@ pub(super) const COPY_KEYS: [&str; 4] = ["turn", "deg", "mirror", "plane"];
 /// Keys of all cranks together.
 pub(super) const DRIVE_KEYS: [&str; 2] = ["max_torque", "max_speed_deg"];
 /// What is about legs that change their lengths.
-const OF_LENGTHS: [&str; 7] =
-    ["lengths", "hardware", "limits", "envelope", "keep_out", "optimize", "calibration"];
+const OF_LENGTHS: [&str; 8] =
+    ["lengths", "hardware", "limits", "envelope", "plates", "keep_out", "optimize", "calibration"];
 
 /// Where all cranks and single ones are written.
 #[derive(Debug, Default)]
