@@ -522,7 +522,7 @@ impl Design {
             let (mass, force) = (self.mass_units, self.force_units);
             let mut load = p.weight(mass.unwrap_or(MassUnit::Kilogram), force.unwrap_or(ForceUnit::Newton));
             if self.payload.is_none() {
-                load.name = "platform plate".to_owned();
+                "platform plate".clone_into(&mut load.name);
             }
             load
         });
@@ -543,8 +543,7 @@ impl Design {
             TermKind::LegForce => vec![leg(term.first), self.all_loads()[term.second].name.clone()],
             TermKind::BaseHoleGap if term.first != term.second => joints(self.base_names()),
             TermKind::PlatformHoleGap if term.first != term.second => joints(self.platform_names()),
-            TermKind::BaseHoleEdge | TermKind::BaseHoleGap => vec![self.base_names()[term.first].clone()],
-            TermKind::PlatformHoleEdge | TermKind::PlatformHoleGap => {
+            TermKind::PlatformEnvelope | TermKind::PlatformHoleEdge | TermKind::PlatformHoleGap => {
                 vec![self.platform_names()[term.first].clone()]
             }
             TermKind::PlateClearance => {
@@ -552,8 +551,9 @@ impl Design {
                 vec![leg(term.first), format!("{body} plate")]
             }
             TermKind::PayloadClearance => vec![leg(term.first), "payload".to_owned()],
-            TermKind::BaseEnvelope => vec![self.base_names()[term.first].clone()],
-            TermKind::PlatformEnvelope => vec![self.platform_names()[term.first].clone()],
+            TermKind::BaseEnvelope | TermKind::BaseHoleEdge | TermKind::BaseHoleGap => {
+                vec![self.base_names()[term.first].clone()]
+            }
             TermKind::MachineEnvelope => {
                 let (base, platform) = self.leg_names()[term.first];
                 vec![if term.second == 0 { base } else { platform }.to_owned()]

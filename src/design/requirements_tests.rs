@@ -609,7 +609,24 @@ fn plates_that_cannot_be_are_refused_at_their_place() {
             }
         }
     }
-    insta::assert_snapshot!(all, @"");
+    insta::assert_snapshot!(all, @r#"
+    2:9 design::missing_key: `base` of [plates] has no `thickness` | add thickness = 20
+    4:10 design::out_of_range: a `margin` of 0.2 with holes of 0.4 | a hole has to end inside the outline: give a margin of more than half of it
+    16:8 design::out_of_range: a `hole` of 0.6 under housings of 0.5 | a ball has to be wider than the hole it sits on: give a smaller hole, or the `height` of the joints
+    5:8 design::not_positive: `hole` is 0 | give a positive number
+    17:12 design::missing_key: the density of `material` "steal" is not known | add `density`, kg/m^3; did you mean `steel`?
+    8:11 design::not_positive: `density` is -1 | give a positive number
+    12:9 design::missing_key: `count` of `bolts` is missing | bolts take count, circle (its diameter) and hole, and may take first_deg and from
+    12:19 design::out_of_range: `count` is 2.5 | give a whole number from 1 to 64
+    12:31 design::wrong_type: `circle` is a string, not a number | write a number without quotes
+    12:70 design::wrong_type: `from` is "corner" | write "axis" or "centre"
+    12:47 design::unknown_key: `first` is not a key of `bolts` | did you mean `first_deg`?
+    13:9 design::unknown_key: `top` is not a key of [plates] | known keys: base, platform
+    21:9 design::wrong_type: `plate` of [payload] is "twice" | write "included" or "added"
+    18:2 design::out_of_range: the payload with the platform weighs 0.000000001 kg, and the plate of the platform alone 0.011549938371315342 | give `mass` with the plate, or write plate = "added" for a mass without it
+    22:1 design::conflicting_keys: [payload] has two shapes | keep `box` or `sphere`
+    17:2 design::missing_key: the plate is to be added to the payload, and its mass is not known | add [plates.platform] with `material` or `density`, or remove `plate`
+    "#);
     let palms = with_plates().replace("units = \"mm\"", "units = \"palm\"");
     let found = parse(&palms, Format::Toml).unwrap_err();
     assert!(found.iter().any(|v| v.message.contains("mass of a plate needs a known unit")), "{found:?}");

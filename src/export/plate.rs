@@ -84,12 +84,11 @@ impl Plate {
             let post = if raised { (seat + above - 0.5 * sizes.ball).max(0.0) } else { 0.0 };
             let same =
                 |h: &&mut PlateHole| (h.at - at).norm() <= tolerance && (h.post - post).abs() <= tolerance;
-            match holes.iter_mut().find(same) {
-                Some(hole) => hole.joints.push(joint.name.clone()),
-                None => {
-                    let bolts = bolts.map_or_else(Vec::new, |b| b.places(&at));
-                    holes.push(PlateHole { joints: vec![joint.name.clone()], at, post, bolts });
-                }
+            if let Some(hole) = holes.iter_mut().find(same) {
+                hole.joints.push(joint.name.clone());
+            } else {
+                let bolts = bolts.map_or_else(Vec::new, |b| b.places(&at));
+                holes.push(PlateHole { joints: vec![joint.name.clone()], at, post, bolts });
             }
         }
         let centres: Vec<Point2<f64>> = holes.iter().map(|h| h.at).collect();

@@ -170,7 +170,7 @@ fn bolts(report: &mut Findings<'_>, entry: &Entry) -> Option<BoltPattern> {
     });
     let count = count.filter(|c| (1.0..=MOST_BOLTS).contains(c) && c.fract() == 0.0)?;
     Some(BoltPattern {
-        count: (1..=64).find(|n| f64::from(*n) == count)?,
+        count: (1..=64).find(|n| (f64::from(*n) - count).abs() < f64::EPSILON)?,
         circle: circle?,
         hole: hole?,
         first_deg: first_deg.unwrap_or_default(),

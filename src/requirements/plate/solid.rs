@@ -103,12 +103,11 @@ impl PlateSolid {
         for (k, joint) in joints.iter().enumerate() {
             let local = axes.transpose() * joint.coords;
             let at = Point2::new(local.x, local.y);
-            match seats.iter_mut().find(|s| (s.at - at).norm() <= SAME * size) {
-                Some(seat) => seat.joints.push(k),
-                None => {
-                    let bolts = plate.bolts.map_or_else(Vec::new, |b| b.places(&at));
-                    seats.push(PlateSeat { joints: vec![k], at, bolts });
-                }
+            if let Some(seat) = seats.iter_mut().find(|s| (s.at - at).norm() <= SAME * size) {
+                seat.joints.push(k);
+            } else {
+                let bolts = plate.bolts.map_or_else(Vec::new, |b| b.places(&at));
+                seats.push(PlateSeat { joints: vec![k], at, bolts });
             }
         }
         let centres: Vec<Point2<f64>> = seats.iter().map(|s| s.at).collect();
@@ -134,10 +133,7 @@ impl PlateSolid {
         let local = self.axes.transpose() * p.coords;
         let at = self.outline.nearest(&Point2::new(local.x, local.y));
         let w = local.z.clamp(self.lower(), self.lower() + self.thickness);
-        if at.x == local.x && at.y == local.y && w == local.z {
-            return *p;
-        }
-        Point3::from(self.axes * Vector3::new(at.x, at.y, w))
+        p + self.axes * Vector3::new(at.x - local.x, at.y - local.y, w - local.z)
     }
 
     /// The share of the segment `x y` at which it is nearest to the plate, its holes filled, and the nearest point there.
