@@ -1,6 +1,6 @@
 //! The design: what a file holds once it is valid, with its requirements and what the optimiser may choose.
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Matrix3, Point3, Vector3};
 use thiserror::Error;
 
 use super::construction::resolve::{Fault, Joints};
@@ -11,8 +11,9 @@ use crate::geom::Pose;
 use crate::manipulator::Body;
 use crate::manipulator::{InvalidManipulator, JointValues, LegLengths, Manipulator, SurdPoint};
 use crate::requirements::{
-    CrankedLeg, Cranks, Envelopes, ForceUnit, Grid, Hardware, KeepOut, Load, MassUnit, MovingBodies, Payload,
-    PlatformSpeed, PlatformStiffness, Quantity, Requirements, Reserves, Term, TermKind, VibratingMasses,
+    CrankedLeg, Cranks, Envelopes, ForceUnit, GRAVITY, Grid, Hardware, KeepOut, Load, MassUnit, MovingBodies,
+    Payload, PlateBody, PlateMass, PlateSolid, Plates, PlatformSpeed, PlatformStiffness, Quantity,
+    Requirements, Reserves, Term, TermKind, VibratingMasses,
 };
 use crate::requirements::{KeptSymmetry, Objective, VariableKind};
 use crate::rotary::{Crank, Elbow, InvalidRotary, RotaryLeg, RotaryPlatform};
@@ -52,6 +53,8 @@ pub struct Design {
     pub payload: Option<Payload>,
     /// Room that plates and machine may take up.
     pub envelopes: Envelopes,
+    /// The plates that carry the joints.
+    pub plates: Plates,
     /// What has to remain of each limit.
     pub reserves: Reserves,
     /// Where the joints of base and platform can be put; `None`: anywhere. At least one plate has a grid where holes are stated.
@@ -164,6 +167,7 @@ impl Design {
             keep_outs: Vec::new(),
             payload: None,
             envelopes: Envelopes::default(),
+            plates: Plates::default(),
             reserves: Reserves::default(),
             holes: None,
             force_units: None,
@@ -209,6 +213,7 @@ impl Design {
             (other.payload, other.envelopes, other.reserves.clone());
         (self.force_units, self.mass_units) = (other.force_units, other.mass_units);
         self.holes = other.holes;
+        self.plates = other.plates.clone();
         self
     }
 
@@ -435,6 +440,8 @@ impl Design {
             vibrating: self.vibrating(),
             min_joint_distance: self.optimize.min_joint_distance,
             envelopes: self.envelopes,
+            plates: self.plates.clone(),
+            payload_shape: self.payload.and_then(|p| p.shape),
             reserves: self.reserves.clone(),
             cranks: self.limits_of_cranks().map(Box::new),
         }
@@ -475,18 +482,77 @@ impl Design {
         let metres = micrometres(&self.units)? as f64 * 1e-6;
         let (mass, force) = (self.mass_units.unwrap_or(MassUnit::Kilogram), self.force_units);
         let newtons = force.unwrap_or(ForceUnit::Newton).newtons();
-        let bodies = MovingBodies::new(&self.payload?, self.hardware.leg_masses.as_ref(), mass, metres);
+        let bodies =
+            MovingBodies::new(&self.moving_payload()?, self.hardware.leg_masses.as_ref(), mass, metres);
         Some(VibratingMasses { bodies, leg: self.hardware.leg_stiffness? * newtons / metres })
     }
 
-    /// The weight of the payload, where there is one, and the loads of the file.
+    /// The plate of a body as a solid, where the file says something of it; the legs are on the side on which they are at home.
+    #[must_use]
+    pub fn plate(&self, body: Body) -> Option<PlateSolid> {
+        let housing = self.hardware.housing(body);
+        let home = self.home_or_default();
+        self.plates.of(body).map(|plate| PlateSolid::of(plate, &self.manipulator, body, housing, &home))
+    }
+
+    /// The plate of a body as a rigid body; `None` where its density or the unit of length is not known.
+    pub(crate) fn rigid_plate(&self, body: Body) -> Option<PlateBody> {
+        let metres = micrometres(&self.units)? as f64 * 1e-6;
+        self.plate(body)?.rigid(self.plates.of(body)?, metres)
+    }
+
+    /// Mass of the plate of a body without its holes, kilograms; `None` where its density or the unit of length is not known.
+    #[must_use]
+    pub fn plate_mass(&self, body: Body) -> Option<f64> {
+        self.rigid_plate(body).map(|plate| plate.mass)
+    }
+
+    /// What moves with the platform: the payload as the file states it, with the plate of the platform where the file says that it comes on top; the plate alone where the file has no
+    /// payload and the mass of the plate is known.
+    ///
+    /// With masses `m` and `n`, centres `c` and `d`, inertias `I` and `J`: mass `m + n`, centre `(m c + n d) / (m + n)`, inertia `I + J` and `m n / (m + n) (e . e - e e^T)` with
+    /// `e = c - d`. A payload without inertia is a point mass here.
+    #[must_use]
+    pub fn moving_payload(&self) -> Option<Payload> {
+        let plate = || {
+            let plate = self.rigid_plate(Body::Platform)?;
+            let unit = self.mass_units.unwrap_or(MassUnit::Kilogram).kilograms();
+            Some((plate.mass / unit, plate.center, plate.inertia / unit))
+        };
+        let Some(own) = self.payload else {
+            let (mass, center, inertia) = plate()?;
+            let gravity = Vector3::new(0.0, 0.0, -GRAVITY);
+            let (inertia, plate) = (Some(inertia), PlateMass::Included);
+            return Some(Payload { mass, center, inertia, gravity, plate, shape: None });
+        };
+        let Some((mass, center, inertia)) = plate().filter(|_| own.plate == PlateMass::Added) else {
+            return Some(own);
+        };
+        let all = own.mass + mass;
+        let apart = own.center - center;
+        let spread = Matrix3::identity() * apart.norm_squared() - apart * apart.transpose();
+        Some(Payload {
+            mass: all,
+            center: center + apart * (own.mass / all),
+            inertia: Some(
+                own.inertia.unwrap_or_else(Matrix3::zeros) + inertia + spread * (own.mass * mass / all),
+            ),
+            ..own
+        })
+    }
+
+    /// The weight of [what moves with the platform](Self::moving_payload), where there is something, and the loads of the file.
     ///
     /// Without names of units forces are newtons and masses kilograms.
     #[must_use]
     pub fn all_loads(&self) -> Vec<Load> {
-        let weight = self.payload.map(|p| {
+        let weight = self.moving_payload().map(|p| {
             let (mass, force) = (self.mass_units, self.force_units);
-            p.weight(mass.unwrap_or(MassUnit::Kilogram), force.unwrap_or(ForceUnit::Newton))
+            let mut load = p.weight(mass.unwrap_or(MassUnit::Kilogram), force.unwrap_or(ForceUnit::Newton));
+            if self.payload.is_none() {
+                "platform plate".clone_into(&mut load.name);
+            }
+            load
         });
         weight.into_iter().chain(self.loads.iter().cloned()).collect()
     }
@@ -505,8 +571,19 @@ impl Design {
             TermKind::LegForce | TermKind::CrankTorque => {
                 vec![leg(term.first), self.all_loads()[term.second].name.clone()]
             }
-            TermKind::BaseEnvelope => vec![self.base_names()[term.first].clone()],
-            TermKind::PlatformEnvelope => vec![self.platform_names()[term.first].clone()],
+            TermKind::BaseHoleGap if term.first != term.second => joints(self.base_names()),
+            TermKind::PlatformHoleGap if term.first != term.second => joints(self.platform_names()),
+            TermKind::PlatformEnvelope | TermKind::PlatformHoleEdge | TermKind::PlatformHoleGap => {
+                vec![self.platform_names()[term.first].clone()]
+            }
+            TermKind::PlateClearance => {
+                let body = Body::BOTH[term.second.min(1)];
+                vec![leg(term.first), format!("{body} plate")]
+            }
+            TermKind::PayloadClearance => vec![leg(term.first), "payload".to_owned()],
+            TermKind::BaseEnvelope | TermKind::BaseHoleEdge | TermKind::BaseHoleGap => {
+                vec![self.base_names()[term.first].clone()]
+            }
             TermKind::MachineEnvelope => {
                 let (base, platform) = self.leg_names()[term.first];
                 vec![if term.second == 0 { base } else { platform }.to_owned()]
@@ -526,6 +603,7 @@ impl Design {
         match term.kind {
             TermKind::BaseSpacing | TermKind::BaseEnvelope => at(Body::Base),
             TermKind::PlatformSpacing | TermKind::PlatformEnvelope => at(Body::Platform),
+            kind if kind.plate().is_some() => at(kind.plate().unwrap_or(Body::Base)),
             TermKind::LegClearance => vec![term.first + 1, term.second + 1],
             kind if kind.is_of_platform() => (1..=6).collect(),
             _ => vec![term.first + 1],

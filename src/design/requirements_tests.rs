@@ -462,3 +462,172 @@ fn fixed_joints_are_read_by_name_or_body_and_written_back() {
         assert_eq!(parse(&text(fixed), Format::Toml).unwrap_err()[0].code, code, "{fixed}");
     }
 }
+
+/// Plates of both bodies, with all keys on the base.
+const PLATES: &str = r#"
+[plates.base]
+thickness = 12
+margin = 9
+hole = 0.4
+height = 2.5
+material = "EN AW-5083"
+density = 2660
+edge_distance = 3
+hole_distance = 0.2
+foot = 3
+bolts = { count = 4, circle = 2, hole = 0.25, first_deg = 30, from = "centre" }
+[plates.platform]
+thickness = 8
+margin = 5
+hole = 0.3
+material = "steel"
+[payload]
+mass = 40
+center = [1, 2, 30]
+plate = "added"
+box = { center = [0, 0, 30], size = [10, 12, 20] }
+"#;
+
+fn with_plates() -> String {
+    format!("{}{PLATES}", GOOD.replacen("trajectory = \"path.csv\"\n", "", 1))
+}
+
+#[test]
+fn plates_are_read_and_written_back_to_the_bit_and_follow_the_unit() {
+    let (design, _) = parse(&with_plates(), Format::Toml).unwrap();
+    let base = design.plates.base.as_ref().unwrap();
+    assert_eq!((base.height, base.bolts.map(|b| b.count)), (Some(2.5), Some(4)));
+    assert_eq!(base.kilograms_per_cubic_metre(), Some(2660.0));
+    let platform = design.plates.platform.as_ref().unwrap();
+    assert_eq!(platform.kilograms_per_cubic_metre(), Some(7850.0));
+    // housings of 0.5 on holes of 0.3
+    let height = platform.joint_height(design.hardware.housing(Body::Platform));
+    assert!((height - 0.2).abs() < 1e-15);
+    assert!(matches!(design.requirements().payload_shape, Some(KeepOutShape::Box { .. })));
+    for (text, format) in [(design.to_toml(), Format::Toml), (design.to_json(), Format::Json)] {
+        assert_eq!(parse(&text, format).unwrap().0, design, "{text}");
+    }
+    let metres = design.in_units("m").unwrap();
+    let base = metres.plates.base.as_ref().unwrap();
+    assert_eq!((base.thickness, base.height, base.bolts.unwrap().circle), (0.012, Some(0.0025), 0.002));
+    assert_eq!(base.density, Some(2660.0), "a density keeps its unit");
+    for body in Body::BOTH {
+        let (one, other) = (design.plate_mass(body).unwrap(), metres.plate_mass(body).unwrap());
+        assert!((one / other - 1.0).abs() < 1e-12, "{one} {other}");
+    }
+    // margins of holes are the same length in the other unit
+    let least = |d: &Design, kind: TermKind| {
+        let required = d.requirements();
+        let terms = crate::requirements::Terms::new(d.manipulator(), &required, &d.home_or_default());
+        terms.fixed().into_iter().filter(|t| t.0.kind == kind).map(|t| t.1).fold(f64::INFINITY, f64::min)
+    };
+    for kind in [TermKind::BaseHoleEdge, TermKind::BaseHoleGap, TermKind::PlatformHoleEdge] {
+        let (one, other) = (least(&design, kind), least(&metres, kind));
+        assert!((one - 1000.0 * other).abs() < 1e-11, "{kind:?}: {one} {other}");
+    }
+}
+
+#[test]
+fn the_mass_of_a_plate_is_counted_once() {
+    let design = |text: &str| parse(text, Format::Toml).unwrap().0;
+    let added = design(&with_plates());
+    let plate = added.plate_mass(Body::Platform).unwrap();
+    // by another route: area of a polygon with many corners, less the holes
+    let solid = added.plate(Body::Platform).unwrap();
+    let ring = solid.outline.polygon(20_000);
+    let twice: f64 = (0..ring.len()).map(|i| ring[i].coords.perp(&ring[(i + 1) % ring.len()].coords)).sum();
+    let area = 0.5 * twice - solid.seats.len() as f64 * std::f64::consts::PI * 0.15 * 0.15;
+    assert!((plate / (7850e-9 * 8.0 * area) - 1.0).abs() < 1e-7);
+    let moving = added.moving_payload().unwrap();
+    assert!((moving.mass - 40.0 - plate).abs() < 1e-12);
+    let rigid = added.rigid_plate(Body::Platform).unwrap();
+    let first = nalgebra::Vector3::new(1.0, 2.0, 30.0) * 40.0 + rigid.center.coords * plate;
+    assert!((moving.center.coords - first / (40.0 + plate)).norm() < 1e-12);
+    // the inertia about any point is the sum of both: here about the origin
+    let about = |mass: f64, c: nalgebra::Vector3<f64>| {
+        (nalgebra::Matrix3::identity() * c.norm_squared() - c * c.transpose()) * mass
+    };
+    let all = moving.inertia.unwrap() + about(moving.mass, moving.center.coords);
+    let parts = about(40.0, nalgebra::Vector3::new(1.0, 2.0, 30.0))
+        + rigid.inertia
+        + about(plate, rigid.center.coords);
+    assert!((all - parts).norm() < 1e-9 * parts.norm());
+    assert!((added.all_loads()[0].force.z + (40.0 + plate) * GRAVITY).abs() < 1e-9);
+    let included = design(&with_plates().replacen("plate = \"added\"\n", "", 1));
+    assert_eq!(included.moving_payload(), included.payload, "the mass has the plate in it");
+    // without a payload the plate is what moves
+    let (text, _) = PLATES.split_once("[payload]").unwrap();
+    let alone = design(&format!("{}{text}", GOOD.replacen("trajectory = \"path.csv\"\n", "", 1)));
+    assert!((alone.moving_payload().unwrap().mass - plate).abs() < 1e-12);
+    assert_eq!(alone.all_loads()[0].name, "platform plate");
+    let unknown = design(&format!("{}{text}", GOOD.replacen("trajectory = \"path.csv\"\n", "", 1)).replacen(
+        "material = \"steel\"\n",
+        "",
+        1,
+    ));
+    assert_eq!((unknown.moving_payload(), unknown.plate_mass(Body::Platform)), (None, None));
+}
+
+#[test]
+fn plates_that_cannot_be_are_refused_at_their_place() {
+    let mut all = String::new();
+    let lines = GOOD.replacen("trajectory = \"path.csv\"\n", "", 1).lines().count();
+    for (from, to) in [
+        ("thickness = 12\n", ""),
+        ("margin = 9", "margin = 0.2"),
+        ("hole = 0.3", "hole = 0.6"),
+        ("hole = 0.4", "hole = 0"),
+        ("material = \"steel\"", "material = \"steal\""),
+        ("density = 2660", "density = -1"),
+        ("count = 4, ", ""),
+        ("count = 4", "count = 2.5"),
+        ("circle = 2", "circle = \"2\""),
+        ("from = \"centre\"", "from = \"corner\""),
+        ("first_deg = 30", "first = 30"),
+        ("[plates.platform]", "[plates.top]"),
+        ("plate = \"added\"", "plate = \"twice\""),
+        ("mass = 40", "mass = 1e-9"),
+        (
+            "box = { center = [0, 0, 30]",
+            "sphere = { center = [0, 0, 1], diameter = 2 }\nbox = { center = [0, 0, 30]",
+        ),
+        ("material = \"steel\"\n", ""),
+    ] {
+        assert!(PLATES.contains(from), "{from}");
+        let mut text = with_plates().replacen(from, to, 1);
+        if to == "mass = 1e-9" {
+            text = text.replacen("plate = \"added\"\n", "", 1);
+        }
+        match parse(&text, Format::Toml) {
+            Ok(_) => panic!("accepted: {to}"),
+            Err(violations) => {
+                for v in violations {
+                    assert!(v.line > lines, "{to}: {v:?}");
+                    let line = v.line - lines;
+                    let _ = writeln!(all, "{line}:{} {}: {} | {}", v.column, v.code, v.message, v.help);
+                }
+            }
+        }
+    }
+    insta::assert_snapshot!(all, @r#"
+    2:9 design::missing_key: `base` of [plates] has no `thickness` | add thickness = 20
+    4:10 design::out_of_range: a `margin` of 0.2 with holes of 0.4 | a hole has to end inside the outline: give a margin of more than half of it
+    16:8 design::out_of_range: a `hole` of 0.6 under housings of 0.5 | a ball has to be wider than the hole it sits on: give a smaller hole, or the `height` of the joints
+    5:8 design::not_positive: `hole` is 0 | give a positive number
+    17:12 design::missing_key: the density of `material` "steal" is not known | add `density`, kg/m^3; did you mean `steel`?
+    8:11 design::not_positive: `density` is -1 | give a positive number
+    12:9 design::missing_key: `count` of `bolts` is missing | bolts take count, circle (its diameter) and hole, and may take first_deg and from
+    12:19 design::out_of_range: `count` is 2.5 | give a whole number from 1 to 64
+    12:31 design::wrong_type: `circle` is a string, not a number | write a number without quotes
+    12:70 design::wrong_type: `from` is "corner" | write "axis" or "centre"
+    12:47 design::unknown_key: `first` is not a key of `bolts` | did you mean `first_deg`?
+    13:9 design::unknown_key: `top` is not a key of [plates] | known keys: base, platform
+    21:9 design::wrong_type: `plate` of [payload] is "twice" | write "included" or "added"
+    18:2 design::out_of_range: the payload with the platform weighs 0.000000001 kg, and the plate of the platform alone 0.011549938371315342 | give `mass` with the plate, or write plate = "added" for a mass without it
+    22:1 design::conflicting_keys: [payload] has two shapes | keep `box` or `sphere`
+    17:2 design::missing_key: the plate is to be added to the payload, and its mass is not known | add [plates.platform] with `material` or `density`, or remove `plate`
+    "#);
+    let palms = with_plates().replace("units = \"mm\"", "units = \"palm\"");
+    let found = parse(&palms, Format::Toml).unwrap_err();
+    assert!(found.iter().any(|v| v.message.contains("mass of a plate needs a known unit")), "{found:?}");
+}

@@ -12,8 +12,8 @@ use crate::geom::Pose;
 use crate::manipulator::Body;
 use crate::requirements::{
     Envelope, Envelopes, ForceUnit, Grid, Hardware, HolePattern, Housing, JointAxes, KeepOut, KeepOutShape,
-    KeptSymmetry, LegPart, LengthLimits, ListedFrom, Load, MassUnit, Payload, Region, Reserve, Reserves,
-    TermKind, UniversalJoint,
+    KeptSymmetry, LegPart, LengthLimits, ListedFrom, Load, MassUnit, Payload, PlateDesign, PlateMass, Plates,
+    Region, Reserve, Reserves, TermKind, UniversalJoint,
 };
 use crate::rotary::Elbow;
 
@@ -71,6 +71,8 @@ struct Tail<'a> {
     envelope: Option<EnvelopesTable>,
     #[serde(skip_serializing_if = "Option::is_none")]
     holes: Option<HolesTable>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    plates: Option<PlatesTable<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     speed: Option<SpeedTable>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -396,6 +398,7 @@ impl Design {
             limits: LimitsFile::of(&self.reserves),
             envelope: EnvelopesTable::of(&self.envelopes),
             holes: self.holes.as_ref().map(HolesTable::from),
+            plates: PlatesTable::of(&self.plates),
             payload: self.payload.as_ref().map(PayloadTable::from),
             speed: self.speed.map(|s| SpeedTable { linear: s.linear, angular_deg: s.angular_deg }),
             stiffness: self.stiffness.map(|s| StiffnessTable {
@@ -619,6 +622,75 @@ impl From<&[Option<Grid>; 2]> for HolesTable {
     }
 }
 
+/// `[plates]`.
+#[derive(Serialize)]
+struct PlatesTable<'a> {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    base: Option<PlateTable<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    platform: Option<PlateTable<'a>>,
+}
+
+/// `[plates.base]` and `[plates.platform]`.
+#[derive(Serialize)]
+struct PlateTable<'a> {
+    thickness: f64,
+    margin: f64,
+    hole: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    height: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    material: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    density: Option<f64>,
+    edge_distance: f64,
+    hole_distance: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    foot: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    bolts: Option<BoltsTable>,
+}
+
+/// `bolts` of a plate.
+#[derive(Serialize)]
+struct BoltsTable {
+    count: u32,
+    circle: f64,
+    hole: f64,
+    first_deg: f64,
+    from: &'static str,
+}
+
+impl<'a> PlatesTable<'a> {
+    fn of(plates: &'a Plates) -> Option<Self> {
+        let [base, platform] = Body::BOTH.map(|body| plates.of(body).map(PlateTable::from));
+        (base.is_some() || platform.is_some()).then_some(Self { base, platform })
+    }
+}
+
+impl<'a> From<&'a PlateDesign> for PlateTable<'a> {
+    fn from(p: &'a PlateDesign) -> Self {
+        Self {
+            thickness: p.thickness,
+            margin: p.margin,
+            hole: p.hole,
+            height: p.height,
+            material: p.material.as_deref(),
+            density: p.density,
+            edge_distance: p.edge_distance,
+            hole_distance: p.hole_distance,
+            foot: p.foot,
+            bolts: p.bolts.map(|b| BoltsTable {
+                count: b.count,
+                circle: b.circle,
+                hole: b.hole,
+                first_deg: b.first_deg,
+                from: b.from.name(),
+            }),
+        }
+    }
+}
+
 /// `[payload]`.
 #[derive(Serialize)]
 struct PayloadTable {
@@ -627,6 +699,10 @@ struct PayloadTable {
     #[serde(skip_serializing_if = "Option::is_none")]
     inertia: Option<[[f64; 3]; 3]>,
     gravity: [f64; 3],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    plate: Option<&'static str>,
+    #[serde(flatten)]
+    shape: ShapeTable,
 }
 
 impl From<&Payload> for PayloadTable {
@@ -636,6 +712,8 @@ impl From<&Payload> for PayloadTable {
             center: p.center.coords.into(),
             inertia: p.inertia.map(|m| std::array::from_fn(|i| std::array::from_fn(|j| m[(i, j)]))),
             gravity: p.gravity.into(),
+            plate: Some(p.plate.name()).filter(|_| p.plate != PlateMass::Included),
+            shape: p.shape.as_ref().map_or_else(ShapeTable::default, ShapeTable::from),
         }
     }
 }
@@ -960,6 +1038,13 @@ struct CapsuleTable {
 pub(super) struct KeepOutTable<'a> {
     name: &'a str,
     fixed_to: &'static str,
+    #[serde(flatten)]
+    shape: ShapeTable,
+}
+
+/// At most one of the three shapes.
+#[derive(Serialize, Default)]
+struct ShapeTable {
     #[serde(rename = "box", skip_serializing_if = "Option::is_none")]
     block: Option<BoxTable>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -970,11 +1055,16 @@ pub(super) struct KeepOutTable<'a> {
 
 impl<'a> From<&'a KeepOut> for KeepOutTable<'a> {
     fn from(k: &'a KeepOut) -> Self {
+        Self { name: &k.name, fixed_to: k.fixed_to.name(), shape: ShapeTable::from(&k.shape) }
+    }
+}
+
+impl From<&KeepOutShape> for ShapeTable {
+    fn from(shape: &KeepOutShape) -> Self {
         let point = |p: Point3<f64>| -> [f64; 3] { p.coords.into() };
         let vector = |v: Vector3<f64>| -> [f64; 3] { v.into() };
-        let mut out =
-            Self { name: &k.name, fixed_to: k.fixed_to.name(), block: None, sphere: None, capsule: None };
-        match k.shape {
+        let mut out = Self::default();
+        match *shape {
             KeepOutShape::Box { center, size } => {
                 out.block = Some(BoxTable { center: point(center), size: vector(size) });
             }

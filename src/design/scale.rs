@@ -216,6 +216,22 @@ impl Design {
             (grid.pitch, grid.origin) = (ratio.of(grid.pitch), grid.origin.map(|x| ratio.of(x)));
             grid.circles = grid.circles.scaled(|x| ratio.of(x));
         }
+        for plate in [&mut self.plates.base, &mut self.plates.platform].into_iter().flatten() {
+            for x in [
+                &mut plate.thickness,
+                &mut plate.margin,
+                &mut plate.hole,
+                &mut plate.edge_distance,
+                &mut plate.hole_distance,
+            ] {
+                *x = ratio.of(*x);
+            }
+            length(&mut plate.height);
+            length(&mut plate.foot);
+            if let Some(bolts) = &mut plate.bolts {
+                (bolts.circle, bolts.hole) = (ratio.of(bolts.circle), ratio.of(bolts.hole));
+            }
+        }
         for (kind, reserve) in &mut self.reserves.kinds {
             let Reserve::Amount(x) = reserve else { continue };
             match kind.quantity() {
@@ -229,26 +245,31 @@ impl Design {
         if let Some(payload) = &mut self.payload {
             payload.center = ratio.point(payload.center);
             payload.inertia = payload.inertia.map(|m| m.map(|x| ratio.of(ratio.of(x))));
+            payload.shape = payload.shape.map(|shape| scaled_shape(&shape, ratio));
         }
         for load in &mut self.loads {
             load.torque = ratio.vector(load.torque);
             load.at = ratio.point(load.at);
         }
         for keep_out in &mut self.keep_outs {
-            keep_out.shape = match keep_out.shape {
-                KeepOutShape::Box { center, size } => {
-                    KeepOutShape::Box { center: ratio.point(center), size: ratio.vector(size) }
-                }
-                KeepOutShape::Sphere { center, diameter } => {
-                    KeepOutShape::Sphere { center: ratio.point(center), diameter: ratio.of(diameter) }
-                }
-                KeepOutShape::Capsule { from, to, diameter } => KeepOutShape::Capsule {
-                    from: ratio.point(from),
-                    to: ratio.point(to),
-                    diameter: ratio.of(diameter),
-                },
-            };
+            keep_out.shape = scaled_shape(&keep_out.shape, ratio);
         }
+    }
+}
+
+fn scaled_shape(shape: &KeepOutShape, ratio: LengthRatio) -> KeepOutShape {
+    match *shape {
+        KeepOutShape::Box { center, size } => {
+            KeepOutShape::Box { center: ratio.point(center), size: ratio.vector(size) }
+        }
+        KeepOutShape::Sphere { center, diameter } => {
+            KeepOutShape::Sphere { center: ratio.point(center), diameter: ratio.of(diameter) }
+        }
+        KeepOutShape::Capsule { from, to, diameter } => KeepOutShape::Capsule {
+            from: ratio.point(from),
+            to: ratio.point(to),
+            diameter: ratio.of(diameter),
+        },
     }
 }
 

@@ -340,6 +340,20 @@ impl<'a> RequirementTerms<'a> {
                 });
             }
         }
+        let Some(shape) = self.required.payload_shape else { return };
+        let payload = KeepOut { name: String::new(), fixed_to: Body::Platform, shape };
+        let kind = TermKind::PayloadClearance;
+        let clearance = h.leg_clearance.unwrap_or(0.0) + self.required.reserve(kind);
+        for i in 0..6 {
+            l.keep_out_gaps(&body, i, &payload, &mut |gap: Gap<P>| {
+                see(Item {
+                    id: (kind, i, i, gap.part),
+                    value: (gap.value - clearance) / self.size,
+                    pull: gap.pull.scaled(1.0 / self.size),
+                    exact: None,
+                });
+            });
+        }
     }
 
     /// Pairs of legs without a common joint.
@@ -415,7 +429,24 @@ impl<'a> RequirementTerms<'a> {
                 }
             }
         }
+        self.patterns(ends, see);
         self.plates(ends, see);
+    }
+
+    /// Holes and feet of neighbouring joints, by the distance of the joints from which on they keep apart however their patterns are turned: more than is needed where patterns
+    /// turn their gaps to each other, so that a platform is not found here that the requirement itself would allow.
+    fn patterns<P: Gradient>(&self, ends: &JointEnds, see: &mut impl FnMut(Item<P>)) {
+        for (kind, body) in [(TermKind::BaseHoleGap, Body::Base), (TermKind::PlatformHoleGap, Body::Platform)]
+        {
+            let Some(plate) = self.required.plates.of(body) else { continue };
+            let least = plate.sure_distance() + self.required.reserve(kind);
+            for (i, j) in self.separate_joints(body) {
+                let at = body.of((&ends.base, &ends.platform));
+                let (value, g) = sphere_gap(&(at[j] - at[i]), least);
+                let pull = joint_pull(body, i, j, &(g / self.size));
+                see(Item { id: (kind, i, j, 0), value: value / self.size, pull, exact: None });
+            }
+        }
     }
 
     /// Joints inside the envelope of their body.

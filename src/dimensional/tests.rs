@@ -16,8 +16,9 @@ use crate::manipulator::{Body, Manipulator};
 use crate::num::Rng;
 use crate::requirements::{
     AssessOptions, Envelope, Envelopes, Housing, JointAxes, KeepOut, KeepOutShape, LegBody, LegMasses,
-    LegPart, LengthLimits, Load, MovingBodies, Objective, PlatformSpeed, PlatformStiffness, PoseSpace,
-    Requirements, Swing, TermKind, Terms, UniversalJoint, VariableKind, VibratingMasses, assess,
+    LegPart, LengthLimits, Load, MovingBodies, Objective, PlateDesign, Plates, PlatformSpeed,
+    PlatformStiffness, PoseSpace, Requirements, Swing, TermKind, Terms, UniversalJoint, VariableKind,
+    VibratingMasses, assess,
 };
 
 fn octahedral() -> (Manipulator, Pose) {
@@ -134,7 +135,23 @@ fn gradients_are_those_of_differences() {
         let mut p = crowded(&all, axes);
         let h = &mut p.requirements.hardware;
         (h.base_universal, h.platform_universal) = (universal.map(|u| u[0]), universal.map(|u| u[1]));
-        let expected = if universal.is_some() { 21 } else { 17 };
+        let expected = if universal.is_some() { 24 } else { 20 };
+        // holes and feet of neighbours, and the payload
+        let plate = PlateDesign {
+            thickness: 10.0,
+            margin: 40.0,
+            hole: 8.0,
+            height: Some(20.0),
+            material: None,
+            density: None,
+            edge_distance: 3.0,
+            hole_distance: 2.0,
+            foot: Some(25.0),
+            bolts: None,
+        };
+        p.requirements.plates = Plates { base: Some(plate.clone()), platform: Some(plate) };
+        p.requirements.payload_shape =
+            Some(KeepOutShape::Sphere { center: Point3::new(3.0, -5.0, 60.0), diameter: 30.0 });
         p.objectives = Objective::ALL.map(|o| (o, 1.0)).to_vec();
         let model = Model::new(&p).unwrap();
         let mut rng = Rng::new(4);

@@ -6,7 +6,7 @@ use super::*;
 use crate::geom::random_rotation;
 use crate::manipulator::{Leg, Manipulator, default_home};
 use crate::num::Rng;
-use crate::requirements::{ForceUnit, LegMasses, LegPart, MassUnit, Payload, leg_forces};
+use crate::requirements::{ForceUnit, LegMasses, LegPart, MassUnit, Payload, PlateMass, leg_forces};
 use crate::requirements::{VibratingMasses, least_stiffness_at, lowest_frequency};
 
 fn hexapod(rng: &mut Rng) -> Manipulator {
@@ -32,6 +32,8 @@ fn bodies() -> MovingBodies {
             turn.matrix() * Matrix3::from_diagonal(&Vector3::new(2.0, 3.0, 4.0)) * turn.matrix().transpose(),
         ),
         gravity: Vector3::new(1.0, -2.0, -9.0),
+        plate: PlateMass::Included,
+        shape: None,
     };
     let leg = LegMasses {
         cylinder: LegPart { mass: 0.5, center: 0.4, inertia: 0.03 },
@@ -236,6 +238,8 @@ fn at_rest_the_drives_hold_the_weight_as_the_requirements_say() {
         center: Point3::new(0.1, 0.2, 0.5),
         inertia: None,
         gravity: Vector3::new(0.0, 0.0, -9.8),
+        plate: PlateMass::Included,
+        shape: None,
     };
     // a design in millimetres would have the same newtons
     let bodies = MovingBodies::new(&payload, None, MassUnit::Kilogram, 1.0);

@@ -98,11 +98,12 @@ pub(crate) struct MotionMasses {
 }
 
 impl Design {
-    /// What forces are computed from: the payload and the masses of the legs, where one design unit is so many metres. `None` without a payload.
+    /// What forces are computed from: [what moves with the platform](Self::moving_payload) and the masses of the legs, where one design unit is so many metres. `None` where nothing is known to.
     pub(crate) fn motion_masses(&self, metres: f64, load: Option<Load>) -> Option<MotionMasses> {
         let mass = self.mass_units.unwrap_or(MassUnit::Kilogram);
         let newtons = self.force_units.unwrap_or(ForceUnit::Newton).newtons();
-        let bodies = MovingBodies::new(&self.payload?, self.hardware.leg_masses.as_ref(), mass, metres);
+        let bodies =
+            MovingBodies::new(&self.moving_payload()?, self.hardware.leg_masses.as_ref(), mass, metres);
         Some(MotionMasses { bodies, newtons, load })
     }
 

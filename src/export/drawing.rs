@@ -4,11 +4,11 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Point2, Point3, Vector3};
 
-use super::outline::on_circle;
 use super::text::one_line;
 use super::{Export, ExportBody, ExportLeg, ExportedFile, Plate, Unsupported, Writer};
 use crate::geom::any_across;
 use crate::plot::{ThreeViewBody, ThreeViewFigure, three_views};
+use crate::requirements::on_circle;
 
 /// The format `svg`.
 #[derive(Debug)]
@@ -69,7 +69,7 @@ fn drawn(
     let posts = plate.holes.iter().filter(|h| h.post > 0.0);
     solids.extend(posts.map(|h| prism(&circle(&h.at, plate.post_diameter), plate.post_span(h))));
     let face = if plate.legs_above { plate.thickness } else { 0.0 };
-    let holes = plate.holes.iter().map(|h| level(&circle(&h.at, plate.hole_diameter), face)).collect();
+    let holes = plate.all_holes().map(|(at, diameter)| level(&circle(&at, diameter), face)).collect();
     let joints = body.joints.iter().map(|j| (one_line(&j.name), place(&j.at) * mm)).collect();
     Ok(ThreeViewBody { solids, holes, joints, ball: body.ball_diameter * mm })
 }

@@ -92,6 +92,12 @@ struct PlateRecord<'a> {
     margin: f64,
     hole_diameter: f64,
     volume: f64,
+    /// Null where the design does not say what it is made of.
+    material: Option<&'a str>,
+    /// Kilograms; null where the density is not known.
+    mass: Option<f64>,
+    /// 0 without bolts.
+    bolt_hole_diameter: f64,
     holes: Vec<ExportedHole<'a>>,
 }
 
@@ -100,6 +106,7 @@ struct ExportedHole<'a> {
     joints: &'a [String],
     at: [f64; 2],
     post: f64,
+    bolts: Vec<[f64; 2]>,
 }
 
 #[derive(Debug, Serialize)]
@@ -196,6 +203,7 @@ impl<'a> PlateRecord<'a> {
             joints: &h.joints,
             at: [h.at.x * mm, h.at.y * mm],
             post: h.post * mm,
+            bolts: h.bolts.iter().map(|p| [p.x * mm, p.y * mm]).collect(),
         };
         Self {
             frame: PLATE_FRAME,
@@ -206,6 +214,9 @@ impl<'a> PlateRecord<'a> {
             margin: plate.outline.margin * mm,
             hole_diameter: plate.hole_diameter * mm,
             volume: plate.volume() * mm.powi(3),
+            material: plate.material.as_deref(),
+            mass: plate.mass(mm * 1e-3),
+            bolt_hole_diameter: plate.bolt_diameter * mm,
             holes: plate.holes.iter().map(hole).collect(),
         }
     }

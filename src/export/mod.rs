@@ -18,7 +18,6 @@ mod json;
 mod matlab;
 mod mjcf;
 mod model;
-mod outline;
 mod parts;
 mod plate;
 #[cfg(test)]
@@ -37,9 +36,9 @@ use thiserror::Error;
 use crate::manipulator::Body;
 use crate::names::{UnknownName, named};
 
+pub use crate::requirements::{Outline, OutlinePart};
 pub use controller::EquivalentOctahedral;
 pub use model::{Export, ExportBody, ExportCranks, ExportLeg, ExportedJoint};
-pub use outline::{Outline, OutlinePart};
 pub use parts::{PART_COLUMNS, PartLine};
 pub use plate::{Plate, PlateHole};
 pub use sizes::{ExportOptions, NoExport, SizeChoice};
@@ -81,6 +80,18 @@ pub enum Unsupported {
         distance: f64,
         /// What they are wide, design units.
         diameter: f64,
+    },
+    /// A hole of a plate runs into another one or into the outline.
+    #[error("in the plate of the {body} {first} runs into {second} by {by} (design units)")]
+    HolesMeet {
+        /// The body.
+        body: Body,
+        /// A hole.
+        first: String,
+        /// Another hole, or the outline.
+        second: String,
+        /// How far, design units.
+        by: f64,
     },
     /// A leg has no room for a body between its joints.
     #[error(

@@ -3,14 +3,14 @@
 use nalgebra::{Matrix3, Point3, Vector3};
 
 use super::controller::EquivalentOctahedral;
-use super::plate::{self, Plate};
+use super::plate::Plate;
 use super::sizes::{ExportOptions, LegSizes, NoExport, SizeChoice, Sizes, least_distance, mass};
 use super::units::LengthUnit;
 use super::{ExportedFile, Unsupported, Writer};
 use crate::design::Design;
 use crate::geom::Pose;
 use crate::manipulator::{Body, Manipulator};
-use crate::requirements::{ForceUnit, Hardware, LegMasses, MassUnit};
+use crate::requirements::{ForceUnit, Hardware, LegMasses, MassUnit, plate_normal};
 use crate::rotary::RotaryPlatform;
 
 /// A joint of a body.
@@ -211,22 +211,26 @@ impl Export {
         let towards: Vector3<f64> = ends.iter().map(|(a, b)| b - a).sum();
         let mut choices = Vec::new();
         let mut seated = |body: Body, joints: &[ExportedJoint], towards: &Vector3<f64>| {
-            let normal = plate::normal(joints, towards, size);
+            let points: Vec<Point3<f64>> = joints.iter().map(|j| j.at).collect();
+            let normal = plate_normal(&points, towards, size);
             let distance = least_distance(joints, &normal, size);
             let ball = (0.05 * size).min(0.4 * distance).min(0.1 * shortest);
-            let sizes = Sizes::of(body, hardware, options, ball, &mut choices)?;
-            Ok::<_, NoExport>((sizes.ball, Plate::under(joints, &normal, towards, &sizes, size)))
+            let stated = design.plates.of(body);
+            let sizes = Sizes::of(body, (hardware, stated), options, ball, &mut choices)?;
+            Ok::<_, NoExport>((sizes.ball, Plate::under(joints, &normal, towards, &sizes, stated, size)))
         };
         let (base_ball, base_plate) = seated(Body::Base, &base, &towards)?;
         let (platform_ball, platform_plate) =
             seated(Body::Platform, &platform, &-(home.rotation.inverse() * towards))?;
         let sizes = LegSizes::of(hardware, base_ball.min(platform_ball), shortest, &mut choices);
         let in_kilograms = design.mass_units.unwrap_or(MassUnit::Kilogram).kilograms();
-        let payload = design.payload.map(|p| p.mass * in_kilograms);
-        let mass = mass(options.mass, payload, size * unit.metres, &mut choices)?;
+        let carried = design.moving_payload();
+        let table = if design.payload.is_some() { "[payload]" } else { "[plates.platform]" };
+        let payload = carried.map(|p| p.mass * in_kilograms);
+        let mass = mass(options.mass, payload.map(|mass| (mass, table)), size * unit.metres, &mut choices)?;
         // a body of another mass with the same shape
         let share = payload.map_or(1.0, |own| mass / own);
-        let inertia = design.payload.and_then(|p| p.inertia);
+        let inertia = carried.and_then(|p| p.inertia);
         let inertia = inertia.map(|i| i * (in_kilograms * unit.metres * unit.metres * share));
         let bodies = [
             ExportBody { body: Body::Base, joints: base, ball_diameter: base_ball, plate: base_plate },
@@ -265,10 +269,10 @@ impl Export {
             workspace,
             trajectory,
             mass,
-            payload: payload.is_some(),
-            center_of_mass: design.payload.map(|p| p.center),
+            payload: design.payload.is_some(),
+            center_of_mass: carried.map(|p| p.center),
             inertia,
-            gravity: design.payload.map_or_else(|| Vector3::new(0.0, 0.0, -9.81), |p| p.gravity),
+            gravity: carried.map_or_else(|| Vector3::new(0.0, 0.0, -9.81), |p| p.gravity),
             leg_masses: hardware.leg_masses.map(|masses| {
                 let mut masses = masses.scaled(in_kilograms);
                 for part in [&mut masses.cylinder, &mut masses.rod] {

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::text::{commented, csv_field, real};
-use super::{Export, ExportBody};
+use super::{Export, ExportBody, Plate};
 use crate::manipulator::Body;
 
 /// Legs whose lengths differ by less than this share of the size are of one kind.
@@ -86,7 +86,8 @@ impl Export {
     #[must_use]
     pub fn parts(&self) -> Vec<PartLine> {
         let mm = self.unit.millimetres;
-        let mut out: Vec<PartLine> = self.bodies.iter().map(|body| plate(body, mm)).collect();
+        let mut out: Vec<PartLine> =
+            self.bodies.iter().map(|body| plate(body, mm, self.unit.metres)).collect();
         for body in &self.bodies {
             let k = body.body.index();
             let limit = [self.hardware.base_swing, self.hardware.platform_swing][k].map(|s| s.limit_deg);
@@ -94,6 +95,7 @@ impl Export {
             let names: Vec<&str> = body.joints.iter().map(|j| j.name.as_str()).collect();
             let line = PartLine::new(JOINTS[k], names.len(), format!("{swing}{}", names.join(" ")));
             out.push(PartLine { thickness: Some(body.ball_diameter * mm), ..line });
+            out.extend(bolts(body, mm));
         }
         self.legs_by_kind(&mut out);
         let [cylinder, rod] = [self.leg_masses.map(|m| m.cylinder.mass), self.leg_masses.map(|m| m.rod.mass)];
@@ -111,8 +113,11 @@ impl Export {
             ..PartLine::new("rod", 6, "one a leg")
         });
         if self.payload {
-            let line = PartLine::new("payload with platform", 1, "carried, not bought");
-            out.push(PartLine { mass: Some(self.mass), ..line });
+            // the plate of the platform has a line and a mass of its own
+            let plate = self.bodies[1].plate().ok().and_then(|plate| plate.mass(self.unit.metres));
+            let what = if plate.is_some() { "payload" } else { "payload with platform" };
+            let mass = (self.mass - plate.unwrap_or(0.0)).max(0.0);
+            out.push(PartLine { mass: Some(mass), ..PartLine::new(what, 1, "carried, not bought") });
         }
         out
     }
@@ -162,17 +167,36 @@ impl Export {
     }
 }
 
-fn plate(body: &ExportBody, mm: f64) -> PartLine {
+/// Material and holes.
+fn plate_remark(plate: &Plate, mm: f64) -> String {
+    let mut out = plate.material.as_ref().map_or_else(String::new, |name| format!("{name}; "));
+    let _ = write!(out, "{} holes of {} mm", plate.holes.len(), rounded(plate.hole_diameter * mm));
+    if plate.bolt_count() > 0 {
+        let _ = write!(out, ", {} of {} mm", plate.bolt_count(), rounded(plate.bolt_diameter * mm));
+    }
+    out
+}
+
+/// The bolts of the joints of a body.
+fn bolts(body: &ExportBody, mm: f64) -> Option<PartLine> {
+    let plate = body.plate().ok()?;
+    let each = plate.holes.first().map_or(0, |h| h.bolts.len());
+    let line = |count| {
+        let name = format!("bolt of a {}", JOINTS[body.body.index()]);
+        let remark = format!("{each} a joint, through holes of {} mm", rounded(plate.bolt_diameter * mm));
+        PartLine { thickness: Some(plate.bolt_diameter * mm), ..PartLine::new(name, count, remark) }
+    };
+    (plate.bolt_count() > 0).then(|| line(plate.bolt_count()))
+}
+
+fn plate(body: &ExportBody, mm: f64, metres: f64) -> PartLine {
     let name = if body.body == Body::Base { "base plate" } else { "platform plate" };
     match body.plate() {
         Ok(plate) => PartLine {
             thickness: Some(plate.thickness * mm),
             volume: Some(plate.volume() * mm * mm * mm / 1e3),
-            ..PartLine::new(
-                name,
-                1,
-                format!("{} holes of {} mm", plate.holes.len(), rounded(plate.hole_diameter * mm)),
-            )
+            mass: plate.mass(metres),
+            ..PartLine::new(name, 1, plate_remark(plate, mm))
         },
         Err(why) => PartLine::new(name, 1, format!("not drawn: {why}")),
     }

@@ -4,12 +4,12 @@ use std::f64::consts::PI;
 
 use nalgebra::{Matrix3, Point2, Point3, Vector3};
 
+use super::Outline;
 use super::Unsupported;
 use super::model::ExportedJoint;
-use super::outline::Outline;
 use super::sizes::Sizes;
-use crate::geom::any_across;
 use crate::manipulator::Body;
+use crate::requirements::{BoltPattern, PlateDesign, frame_of};
 
 /// A hole of a plate under a joint.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,11 +20,13 @@ pub struct PlateHole {
     pub at: Point2<f64>,
     /// Height of a post between plate and ball, design units; 0 where the ball sits on the edge of the hole.
     pub post: f64,
+    /// The middles of the bolt holes around it, plate frame.
+    pub bolts: Vec<Point2<f64>>,
 }
 
 /// A plate with parallel faces around the joints of a body, on the far side of the joints from the legs.
 ///
-/// Each ball of diameter `D` sits on the edge of a hole of diameter `d`: its centre, exactly the joint centre, is `sqrt(D^2 - d^2)/2` above the
+/// Where the design says how high the joints stand, the face is that far from the lowest of them. Otherwise each ball of diameter `D` sits on the edge of a hole of diameter `d`: its centre, exactly the joint centre, is `sqrt(D^2 - d^2)/2` above the
 /// face. Where the joints do not lie in a plane, the plate is parallel to the largest triangle of joints and posts carry the higher ones.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plate {
@@ -42,47 +44,14 @@ pub struct Plate {
     pub post_diameter: f64,
     /// The holes.
     pub holes: Vec<PlateHole>,
+    /// Diameter of the bolt holes, design units; 0 without bolts.
+    pub bolt_diameter: f64,
+    /// What it is made of, where the design says it.
+    pub material: Option<String>,
+    /// Density, kg/m^3, where it is known.
+    pub density: Option<f64>,
     /// The outline in the plate frame.
     pub outline: Outline,
-}
-
-/// Normal of the greatest triangle of the joints, towards positive z (then y, then x); the direction across their line nearest to `along` where they
-/// lie on one.
-pub(super) fn normal(joints: &[ExportedJoint], along: &Vector3<f64>, size: f64) -> Vector3<f64> {
-    let points: Vec<Point3<f64>> = joints.iter().map(|j| j.at).collect();
-    let mut best = Vector3::zeros();
-    let mut line = Vector3::zeros();
-    for (i, p) in points.iter().enumerate() {
-        for (j, q) in points.iter().enumerate().skip(i + 1) {
-            if (q - p).norm() > line.norm() {
-                line = q - p;
-            }
-            for r in &points[j + 1..] {
-                let cross = (q - p).cross(&(r - p));
-                // equal triangles are told apart by rounding only: the first one stays
-                if cross.norm() > best.norm() * (1.0 + 1e-9) {
-                    best = cross;
-                }
-            }
-        }
-    }
-    if best.norm() <= 1e-9 * size * size {
-        let across = match line.try_normalize(1e-9 * size) {
-            Some(d) => along - d * d.dot(along),
-            None => *along,
-        };
-        best = across.try_normalize(1e-6).unwrap_or_else(|| any_across(&line));
-    }
-    let n = best.normalize();
-    let leading = [n.z, n.y, n.x].into_iter().find(|x| x.abs() > 1e-9);
-    if leading.is_some_and(|x| x < 0.0) { -n } else { n }
-}
-
-/// The axes `(u, v, n)`: `u` the body's x-axis in the plane, or its y-axis where x is along `n`.
-fn frame_of(n: &Vector3<f64>) -> Matrix3<f64> {
-    let first = if n.x.abs() < 0.9 { Vector3::x() } else { Vector3::y() };
-    let u = (first - n * n.dot(&first)).normalize();
-    Matrix3::from_columns(&[u, n.cross(&u), *n])
 }
 
 impl Plate {
@@ -92,6 +61,7 @@ impl Plate {
         normal: &Vector3<f64>,
         towards_legs: &Vector3<f64>,
         sizes: &Sizes,
+        design: Option<&PlateDesign>,
         size: f64,
     ) -> Self {
         let (n, axes) = (normal, frame_of(normal));
@@ -100,7 +70,8 @@ impl Plate {
         // heights towards the legs; the lowest joint sits on the plate itself
         let height = |p: &Point3<f64>| side * n.dot(&p.coords);
         let lowest = joints.iter().map(|j| height(&j.at)).fold(f64::INFINITY, f64::min);
-        let seat = 0.5 * (sizes.ball.powi(2) - sizes.hole.powi(2)).max(0.0).sqrt();
+        let seat = sizes.height;
+        let bolts: Option<BoltPattern> = design.and_then(|d| d.bolts);
         let face = side * (lowest - seat);
         let lower = if legs_above { face - sizes.thickness } else { face };
         let tolerance = 1e-9 * size;
@@ -108,12 +79,16 @@ impl Plate {
         for joint in joints {
             let local = axes.transpose() * joint.at.coords;
             let (at, above) = (Point2::new(local.x, local.y), height(&joint.at) - lowest);
-            let post = if above > tolerance { (seat + above - 0.5 * sizes.ball).max(0.0) } else { 0.0 };
+            // a joint that stands higher than its ball reaches down stands on a post
+            let raised = above > tolerance || seat - 0.5 * sizes.ball > tolerance;
+            let post = if raised { (seat + above - 0.5 * sizes.ball).max(0.0) } else { 0.0 };
             let same =
                 |h: &&mut PlateHole| (h.at - at).norm() <= tolerance && (h.post - post).abs() <= tolerance;
-            match holes.iter_mut().find(same) {
-                Some(hole) => hole.joints.push(joint.name.clone()),
-                None => holes.push(PlateHole { joints: vec![joint.name.clone()], at, post }),
+            if let Some(hole) = holes.iter_mut().find(same) {
+                hole.joints.push(joint.name.clone());
+            } else {
+                let bolts = bolts.map_or_else(Vec::new, |b| b.places(&at));
+                holes.push(PlateHole { joints: vec![joint.name.clone()], at, post, bolts });
             }
         }
         let centres: Vec<Point2<f64>> = holes.iter().map(|h| h.at).collect();
@@ -124,6 +99,9 @@ impl Plate {
             thickness: sizes.thickness,
             hole_diameter: sizes.hole,
             post_diameter: sizes.ball,
+            bolt_diameter: bolts.map_or(0.0, |b| b.hole),
+            material: design.and_then(|d| d.material.clone()),
+            density: design.and_then(PlateDesign::kilograms_per_cubic_metre),
             holes,
             outline: Outline::around(&centres, sizes.margin, tolerance),
         }
@@ -138,8 +116,26 @@ impl Plate {
     /// Volume, design units cubed.
     #[must_use]
     pub fn volume(&self) -> f64 {
-        let hole = 0.25 * PI * self.hole_diameter * self.hole_diameter;
-        (self.outline.area() - hole * self.holes.len() as f64) * self.thickness
+        let holes: f64 = self.all_holes().map(|(_, diameter)| 0.25 * PI * diameter * diameter).sum();
+        (self.outline.area() - holes) * self.thickness
+    }
+
+    /// Mass, kilograms, where a design unit is so many metres; `None` where the density is not known.
+    #[must_use]
+    pub fn mass(&self, metres: f64) -> Option<f64> {
+        self.density.map(|density| density * self.volume() * metres.powi(3))
+    }
+
+    /// Middles and diameters of all holes, plate frame: those under the joints, then those of the bolts.
+    pub fn all_holes(&self) -> impl Iterator<Item = (Point2<f64>, f64)> + '_ {
+        let seats = self.holes.iter().map(|h| (h.at, self.hole_diameter));
+        seats.chain(self.holes.iter().flat_map(|h| h.bolts.iter().map(|p| (*p, self.bolt_diameter))))
+    }
+
+    /// Number of bolt holes.
+    #[must_use]
+    pub fn bolt_count(&self) -> usize {
+        self.holes.iter().map(|h| h.bolts.len()).sum()
     }
 
     /// Where the post of a hole begins and ends along the normal.
@@ -148,10 +144,10 @@ impl Plate {
         if self.legs_above { (self.thickness, self.thickness + hole.post) } else { (-hole.post, 0.0) }
     }
 
-    /// `self` when its seats keep clear of each other; they keep clear of the outline because no hole is wider than twice the margin.
+    /// `self` when its seats keep clear of each other, and its bolt holes of all holes and of the outline; seats keep clear of the outline because no hole is wider than twice the margin.
     ///
     /// # Errors
-    /// [`Unsupported::SeatsOverlap`].
+    /// [`Unsupported::SeatsOverlap`], [`Unsupported::HolesMeet`].
     pub fn made(&self, body: Body) -> Result<&Self, Unsupported> {
         for (i, a) in self.holes.iter().enumerate() {
             for b in &self.holes[i + 1..] {
@@ -166,6 +162,35 @@ impl Plate {
                 }
             }
         }
+        self.bolts_keep_clear(body)?;
         Ok(self)
+    }
+
+    fn bolts_keep_clear(&self, body: Body) -> Result<(), Unsupported> {
+        let radius = 0.5 * self.bolt_diameter;
+        let name = |h: &PlateHole| h.joints.join("/");
+        let meet = |hole: &PlateHole, second: String, gap: f64| {
+            if gap > 0.0 {
+                return Ok(());
+            }
+            let first = format!("a bolt hole of {}", name(hole));
+            Err(Unsupported::HolesMeet { body, first, second, by: -gap })
+        };
+        for (i, hole) in self.holes.iter().enumerate() {
+            for (k, bolt) in hole.bolts.iter().enumerate() {
+                meet(hole, "the outline".to_string(), self.outline.depth(bolt) - radius)?;
+                for other in &self.holes {
+                    let gap = (bolt - other.at).norm() - radius - 0.5 * self.hole_diameter;
+                    meet(hole, format!("the hole of {}", name(other)), gap)?;
+                }
+                let later = self.holes.iter().skip(i + 1).flat_map(|o| o.bolts.iter().map(move |q| (o, q)));
+                let own = hole.bolts[k + 1..].iter().map(|q| (hole, q));
+                for (other, q) in own.chain(later) {
+                    let gap = (bolt - q).norm() - 2.0 * radius;
+                    meet(hole, format!("a bolt hole of {}", name(other)), gap)?;
+                }
+            }
+        }
+        Ok(())
     }
 }

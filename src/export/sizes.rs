@@ -6,7 +6,7 @@ use thiserror::Error;
 use super::model::ExportedJoint;
 use super::units::{LengthUnit, UnknownUnit};
 use crate::manipulator::Body;
-use crate::requirements::{Hardware, Housing};
+use crate::requirements::{Hardware, PlateDesign, seat_height};
 
 /// What the user may choose; lengths in design units. What is absent comes from `[hardware]` or from a rule that [`Export::choices`](super::Export::choices) states.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -92,6 +92,8 @@ pub(super) struct Sizes {
     pub(super) hole: f64,
     pub(super) thickness: f64,
     pub(super) margin: f64,
+    /// Of the lowest joint centre above the face.
+    pub(super) height: f64,
 }
 
 /// Sizes of the bodies of the legs, design units.
@@ -137,14 +139,14 @@ pub enum NoExport {
     },
 }
 
+/// Where sizes of plates are stated.
+const PLATES: &str = "[plates]";
+
 const RULE_BALL: &str = "rule: the least of 0.05 of the size, 0.4 of the least distance of seats, 0.1 of the shortest leg at home";
 
 /// Edge of the housing that a ball can have.
 fn housing_width(hardware: &Hardware, body: Body) -> Option<f64> {
-    hardware.housing(body).map(|h| match h {
-        Housing::Sphere(diameter) => diameter,
-        Housing::Box(edges) => edges.min(),
-    })
+    hardware.housing(body).map(|h| h.least_width())
 }
 
 /// Least distance of the axes of two seats, lines along `normal` through the joints, that do not coincide.
@@ -181,7 +183,7 @@ pub(super) fn positive(what: &'static str, value: f64) -> Result<(), NoExport> {
 impl Sizes {
     pub(super) fn of(
         body: Body,
-        hardware: &Hardware,
+        (hardware, plate): (&Hardware, Option<&PlateDesign>),
         options: &ExportOptions,
         rule_ball: f64,
         choices: &mut Vec<SizeChoice>,
@@ -195,19 +197,19 @@ impl Sizes {
         let hole = choose(
             choices,
             &format!("hole diameter, {body}"),
-            [(options.hole, "option")],
+            [(options.hole, "option"), (plate.map(|p| p.hole), PLATES)],
             (0.5 * ball, "rule: half a ball"),
         );
         let thickness = choose(
             choices,
             &format!("plate thickness, {body}"),
-            [(options.thickness, "option")],
+            [(options.thickness, "option"), (plate.map(|p| p.thickness), PLATES)],
             (0.5 * ball, "rule: half a ball"),
         );
         let margin = choose(
             choices,
             &format!("plate margin, {body}"),
-            [(options.margin, "option")],
+            [(options.margin, "option"), (plate.map(|p| p.margin), PLATES)],
             (ball, "rule: one ball"),
         );
         for (what, value) in
@@ -215,7 +217,8 @@ impl Sizes {
         {
             positive(what, value)?;
         }
-        if hole >= ball {
+        let stated = plate.and_then(|p| p.height);
+        if hole >= ball && stated.is_none() {
             let why = "a ball has to be wider than the hole it sits on";
             return Err(NoExport::BadSize { what: "the hole", value: hole, why });
         }
@@ -223,7 +226,16 @@ impl Sizes {
             let why = "a hole has to end inside the outline: the margin is more than half of it";
             return Err(NoExport::BadSize { what: "the margin", value: margin, why });
         }
-        Ok(Self { ball, hole, thickness, margin })
+        if let Some(height) = stated {
+            let _ = choose(
+                choices,
+                &format!("height of the joints, {body}"),
+                [(Some(height), PLATES)],
+                (height, PLATES),
+            );
+        }
+        let height = stated.unwrap_or_else(|| seat_height(ball, hole));
+        Ok(Self { ball, hole, thickness, margin, height })
     }
 }
 
@@ -257,20 +269,19 @@ impl LegSizes {
     }
 }
 
-/// Mass of the platform: as chosen, else that of `[payload]`. Without one, Froude scaling: with masses as lengths cubed and times as their square roots, platforms of all sizes move alike.
+/// Mass of the platform: as chosen, else what the design says (mass and table). Without one, Froude scaling: with masses as lengths cubed and times as their square roots, platforms of all sizes move alike.
 ///
 /// # Errors
 /// [`NoExport::BadSize`].
 pub(super) fn mass(
     given: Option<f64>,
-    payload: Option<f64>,
+    stated: Option<(f64, &'static str)>,
     metres: f64,
     choices: &mut Vec<SizeChoice>,
 ) -> Result<f64, NoExport> {
-    let value = given.or(payload).unwrap_or(20.0 * metres.powi(3));
+    let value = given.or(stated.map(|s| s.0)).unwrap_or(20.0 * metres.powi(3));
     positive("the mass", value)?;
-    let rule =
-        if payload.is_some() { "[payload]" } else { "rule: 20 kg times the cube of the size in metres" };
+    let rule = stated.map_or("rule: 20 kg times the cube of the size in metres", |s| s.1);
     choices.push(SizeChoice {
         what: "mass of the platform with payload".to_string(),
         value,

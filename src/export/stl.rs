@@ -5,10 +5,10 @@ use std::fmt::Write as _;
 
 use nalgebra::{Point2, Point3};
 
-use super::outline::on_circle;
 use super::text::{ascii, scaled};
 use super::triangulate::triangulate;
 use super::{Export, ExportBody, ExportedFile, Plate, Unsupported, Writer};
+use crate::requirements::on_circle;
 
 /// The format `stl`.
 #[derive(Debug)]
@@ -46,7 +46,7 @@ fn triangles(plate: &Plate) -> Vec<[Point3<f64>; 3]> {
         let step = turn / HOLE_CHORDS as f64;
         (0..HOLE_CHORDS).map(|k| on_circle(at, 0.5 * diameter, step * k as f64)).collect()
     };
-    let holes: Vec<_> = plate.holes.iter().map(|h| circle(&h.at, plate.hole_diameter, -TAU)).collect();
+    let holes: Vec<_> = plate.all_holes().map(|(at, diameter)| circle(&at, diameter, -TAU)).collect();
     let mut out = prism(plate, &outer, &holes, (0.0, plate.thickness));
     for hole in plate.holes.iter().filter(|h| h.post > 0.0) {
         let ring = circle(&hole.at, plate.post_diameter, TAU);

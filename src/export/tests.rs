@@ -3,7 +3,6 @@ use std::f64::consts::PI;
 
 use nalgebra::{Point2, Rotation3, Vector3};
 
-use super::outline::Outline;
 use super::text::real;
 use super::triangulate::triangulate;
 use super::*;
@@ -356,5 +355,86 @@ fn the_same_design_gives_the_same_bytes_and_every_file_says_its_unit() {
             assert!(file.text.contains("mm") || file.text.contains(" m;"), "{}", file.name);
             assert!(file.text.contains("frame"), "{}", file.name);
         }
+    }
+}
+
+/// The symmetric hexapod with bolted joints.
+const PLATES: &str = r#"
+[plates.base]
+thickness = 12
+margin = 40
+hole = 10
+height = 30
+material = "aluminium"
+bolts = { count = 4, circle = 32, hole = 5.5, first_deg = 45, from = "centre" }
+[plates.platform]
+thickness = 8
+margin = 30
+hole = 8
+material = "steel"
+[payload]
+mass = 60
+plate = "added"
+"#;
+
+#[test]
+fn stated_plates_are_what_is_drawn_weighed_and_listed() {
+    let text = format!("{}{PLATES}", include_str!("../../designs/symmetric-hexapod.toml"));
+    let design = design(&text);
+    let export = Export::of(&design, &ExportOptions::default()).unwrap();
+    let [base, platform] = &export.bodies;
+    let plate = base.plate().unwrap();
+    assert!((plate.thickness - 12.0).abs() < 1e-12 && (plate.outline.margin - 40.0).abs() < 1e-12);
+    assert_eq!((plate.bolt_count(), plate.all_holes().count()), (24, 30));
+    // what is judged is what is drawn
+    let solid = design.plate(Body::Base).unwrap();
+    assert_eq!(solid.outline, plate.outline);
+    for (hole, seat) in plate.holes.iter().zip(&solid.seats) {
+        assert_eq!((hole.at, &hole.bolts), (seat.at, &seat.bolts));
+    }
+    let face = plate.origin.coords.dot(&plate.axes.column(2)) + if plate.legs_above { 12.0 } else { 0.0 };
+    assert!((face - solid.face).abs() < 1e-12 && (face + 30.0).abs() < 1e-9, "{face}");
+    for (body, drawn) in [(Body::Base, plate), (Body::Platform, platform.plate().unwrap())] {
+        let mass = drawn.mass(1e-3).unwrap();
+        assert!((mass / design.plate_mass(body).unwrap() - 1.0).abs() < 1e-12);
+    }
+    let steel = design.plate_mass(Body::Platform).unwrap();
+    assert!((export.mass - 60.0 - steel).abs() < 1e-12, "the model weighs what moves");
+    assert!(export.inertia.is_some() && export.center_of_mass.is_some());
+    // DXF: a circle for each hole, none for the others
+    let dxf = text_of(&export, "dxf", "base-plate.dxf");
+    assert_eq!(dxf.matches("CIRCLE").count(), 30);
+    assert!(dxf.contains("24 bolt holes, diameter 5.5000") && dxf.contains("material aluminium"));
+    assert_eq!(text_of(&export, "dxf", "platform-plate.dxf").matches("CIRCLE").count(), 6);
+    // STEP: each hole is a cylinder of its own
+    let step = text_of(&export, "step", "platform.step");
+    let cylinders = step.lines().filter(|l| l.contains("CYLINDRICAL_SURFACE") && l.contains(",2.75)"));
+    assert_eq!(cylinders.count(), 24, "cylinders of bolt holes");
+    // parts
+    let parts = export.parts();
+    let find = |name: &str| parts.iter().find(|p| p.part == name).unwrap();
+    assert_eq!(find("bolt of a base joint").count, 24);
+    assert!(parts.iter().all(|p| p.part != "bolt of a platform joint"));
+    assert!((find("platform plate").mass.unwrap() - steel).abs() < 1e-12);
+    assert!((find("payload").mass.unwrap() - 60.0).abs() < 1e-9, "the plate is not counted twice");
+    let total: f64 = parts.iter().filter_map(|p| p.mass.map(|m| m * p.count as f64)).sum();
+    let aluminium = design.plate_mass(Body::Base).unwrap();
+    assert!((total - 60.0 - steel - aluminium).abs() < 1e-9);
+}
+
+#[test]
+fn bolt_holes_that_run_into_others_or_out_of_the_plate_are_no_plate() {
+    let text = format!("{}{PLATES}", include_str!("../../designs/symmetric-hexapod.toml"));
+    for (from, to, what) in [
+        ("circle = 32", "circle = 12", "the hole of"),
+        ("circle = 32", "circle = 90", "the outline"),
+        ("count = 4", "count = 64", "a bolt hole of"),
+    ] {
+        let export = Export::of(&design(&text.replacen(from, to, 1)), &ExportOptions::default()).unwrap();
+        let why = export.bodies[0].plate().unwrap_err();
+        assert!(
+            matches!(&why, Unsupported::HolesMeet { .. }) && why.to_string().contains(what),
+            "{to}: {why}"
+        );
     }
 }

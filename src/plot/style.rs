@@ -34,7 +34,7 @@ const HALO: &str = "halo";
 
 /// Fills of the limits that end a workspace, one for each kind, by its code: the same in every picture. Pale tones after a palette for colour-blind readers (P. Tol,
 /// 2021), dark and light by turns so that neighbours differ in grey print too.
-pub const LIMIT_FILLS: [(&str, &str); 28] = [
+pub const LIMIT_FILLS: [(&str, &str); 34] = [
     ("leg_too_short", "#4477aa"),
     ("leg_too_long", "#ee9988"),
     ("base_swing", "#228833"),
@@ -52,6 +52,12 @@ pub const LIMIT_FILLS: [(&str, &str); 28] = [
     ("base_envelope", "#335566"),
     ("platform_envelope", "#99bbcc"),
     ("machine_envelope", "#117755"),
+    ("base_hole_edge", "#553388"),
+    ("platform_hole_edge", "#b7a6dd"),
+    ("base_hole_gap", "#994455"),
+    ("platform_hole_gap", "#eeaabb"),
+    ("plate_clearance", "#225588"),
+    ("payload_clearance", "#aaccee"),
     ("linear_stiffness", "#88ccaa"),
     ("angular_stiffness", "#773322"),
     ("natural_frequency", "#ddaa55"),

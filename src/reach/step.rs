@@ -172,6 +172,10 @@ impl Reach<'_> {
                 Body::Base => lasts(margin, base.speed),
                 Body::Platform => lasts(margin, leg.in_platform.speed).min(leg.in_platform.cap),
             },
+            TermKind::PlateClearance if term.second == 0 => lasts(margin, base.speed),
+            TermKind::PlateClearance | TermKind::PayloadClearance => {
+                lasts(margin, leg.in_platform.speed).min(leg.in_platform.cap)
+            }
             TermKind::LegSpeed => {
                 // |(c x u)'| <= |c'| + |c| |u'|
                 let arm = leg.arm.norm();

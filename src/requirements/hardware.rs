@@ -15,6 +15,15 @@ pub enum Housing {
 }
 
 impl Housing {
+    /// Its diameter, or its shortest edge.
+    #[must_use]
+    pub fn least_width(&self) -> f64 {
+        match self {
+            Self::Sphere(diameter) => *diameter,
+            Self::Box(edges) => edges.min(),
+        }
+    }
+
     /// Gap between two equal housings whose centres differ by `d` (body frame), design units; negative when they overlap.
     ///
     /// Spheres: `|d| - diameter`. Boxes: with `g_k = |d_k| - edge_k`, the norm of the positive `g_k` when

@@ -19,6 +19,7 @@ mod keep_out;
 mod limit;
 mod load;
 mod payload;
+mod plate;
 mod reserve;
 mod standing;
 mod term;
@@ -45,7 +46,13 @@ pub use joint_angles::JointAngles;
 pub use keep_out::{KeepOut, KeepOutShape};
 pub use limit::{Limit, Limits, PoseLimit};
 pub use load::{Load, leg_forces};
-pub use payload::{ForceUnit, GRAVITY, MassUnit, Payload};
+pub use payload::{ForceUnit, GRAVITY, MassUnit, Payload, PlateMass};
+pub use plate::{
+    BoltPattern, BoltsFrom, MATERIALS, Outline, OutlinePart, PlateDesign, PlateSeat, PlateSolid, Plates,
+    seat_height,
+};
+#[cfg(feature = "files")]
+pub(crate) use plate::{PlateBody, frame_of, on_circle, plate_normal};
 pub use reserve::{Reserve, Reserves};
 pub use standing::Standing;
 pub use term::{Quantity, Term, TermKind, Terms};
@@ -85,6 +92,10 @@ pub struct Requirements {
     pub min_joint_distance: Option<f64>,
     /// Room that plates and machine may take up.
     pub envelopes: Envelopes,
+    /// The plates that carry the joints.
+    pub plates: Plates,
+    /// The room that the payload takes up, platform frame.
+    pub payload_shape: Option<KeepOutShape>,
     /// What has to remain of each limit.
     pub reserves: Reserves,
     /// Cranks with rods of constant length in place of legs that change their lengths; what is said of such legs then limits nothing.
@@ -125,6 +136,8 @@ impl Requirements {
             keep_outs: self.keep_outs.clone(),
             min_joint_distance: self.min_joint_distance,
             envelopes: self.envelopes,
+            plates: self.plates.clone(),
+            payload_shape: self.payload_shape,
             reserves: self.reserves.clone(),
             ..Self::default()
         };

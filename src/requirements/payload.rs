@@ -2,6 +2,7 @@
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
+use super::keep_out::KeepOutShape;
 use super::load::Load;
 use crate::manipulator::Body;
 
@@ -88,7 +89,31 @@ impl MassUnit {
     }
 }
 
-/// The mass on the platform, its own included.
+/// Whether the mass of the payload has that of the platform plate in it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum PlateMass {
+    /// It has.
+    #[default]
+    Included,
+    /// The plate comes on top.
+    Added,
+}
+
+impl PlateMass {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Included, Self::Added];
+
+    /// Its name in files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Included => "included",
+            Self::Added => "added",
+        }
+    }
+}
+
+/// The mass on the platform, that of the platform plate included where [`plate`](Self::plate) says so.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Payload {
     /// Mass, mass units.
@@ -99,6 +124,10 @@ pub struct Payload {
     pub inertia: Option<Matrix3<f64>>,
     /// Gravity, base frame, m/s^2.
     pub gravity: Vector3<f64>,
+    /// Whether the mass of the platform plate is part of the mass.
+    pub plate: PlateMass,
+    /// The room that it takes up, platform frame, which the legs keep clear of.
+    pub shape: Option<KeepOutShape>,
 }
 
 impl Payload {
@@ -126,6 +155,8 @@ mod tests {
             center: Point3::new(0.0, 0.0, 400.0),
             inertia: None,
             gravity: Vector3::new(0.0, 0.0, -GRAVITY),
+            plate: PlateMass::Included,
+            shape: None,
         };
         let down = |mass, force| payload.weight(mass, force).force.z;
         assert!((down(MassUnit::Kilogram, ForceUnit::Newton) + 980.665).abs() < 1e-12);

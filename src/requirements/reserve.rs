@@ -38,7 +38,7 @@ impl Requirements {
     /// The reserve on a kind of requirement, in the unit of its margin: 0 where none is asked for.
     ///
     /// A percentage is one of the travel for lengths (greatest less least), of the greatest angle, force or speed, of the least stiffness or frequency, of the leg diameter for clearances, of the housing (or the
-    /// least distance of centres, whichever is greater) for the room between joints, and of the radius or half the shortest edge for envelopes. For cranks it is one of the shortest rod, of half the narrowest range of angles, of the least transmission angle, and of the greatest swing, torque or speed.
+    /// least distance of centres, whichever is greater) for the room between joints, of the distance asked for or of the diameter of the greatest hole, whichever is greater, for the holes of plates, and of the radius or half the shortest edge for envelopes. For cranks it is one of the shortest rod, of half the narrowest range of angles, of the least transmission angle, and of the greatest swing, torque or speed.
     #[must_use]
     pub fn reserve(&self, kind: TermKind) -> f64 {
         let own = self.reserves.kinds.get(&kind).copied();
@@ -47,6 +47,11 @@ impl Requirements {
             Some(Reserve::Amount(amount)) => amount,
             Some(Reserve::Percent(percent)) => percent / 100.0 * self.whole(kind),
         }
+    }
+
+    /// The plate that a kind is about.
+    fn plate_of(&self, kind: TermKind) -> Option<&super::PlateDesign> {
+        self.plates.of(kind.plate()?)
     }
 
     /// What percentages of a kind are parts of; 0 where nothing is limited.
@@ -74,7 +79,10 @@ impl Requirements {
             | TermKind::BaseSecondAngle
             | TermKind::PlatformFirstAngle
             | TermKind::PlatformSecondAngle => h.angle_limit_deg(kind).unwrap_or(0.0),
-            TermKind::LegClearance | TermKind::KeepOut => h.leg_body.map_or(0.0, |b| b.diameter),
+            TermKind::LegClearance
+            | TermKind::KeepOut
+            | TermKind::PlateClearance
+            | TermKind::PayloadClearance => h.leg_body.map_or(0.0, |b| b.diameter),
             TermKind::LegForce => h.max_leg_force.unwrap_or(0.0),
             TermKind::LegSpeed => h.max_leg_speed.unwrap_or(0.0),
             TermKind::BaseSpacing => spacing(Body::Base),
@@ -82,6 +90,12 @@ impl Requirements {
             TermKind::BaseEnvelope => envelope(self.envelopes.base),
             TermKind::PlatformEnvelope => envelope(self.envelopes.platform),
             TermKind::MachineEnvelope => envelope(self.envelopes.machine),
+            TermKind::BaseHoleEdge | TermKind::PlatformHoleEdge => {
+                self.plate_of(kind).map_or(0.0, |p| p.edge_distance.max(p.greatest_hole()))
+            }
+            TermKind::BaseHoleGap | TermKind::PlatformHoleGap => {
+                self.plate_of(kind).map_or(0.0, |p| p.hole_distance.max(p.greatest_hole()))
+            }
             TermKind::LinearStiffness | TermKind::AngularStiffness | TermKind::NaturalFrequency => {
                 self.least_stiffness_of(kind).unwrap_or(0.0)
             }

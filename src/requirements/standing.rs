@@ -3,7 +3,7 @@
 use super::term::{Quantity, TermKind, Terms};
 use super::universal::HingeAngle;
 use crate::geom::Pose;
-use crate::manipulator::{inverse_condition, jacobian};
+use crate::manipulator::{Body, inverse_condition, jacobian};
 
 /// Rounding of a length over the sum of the lengths it is computed from: some ten operations on coordinates that are rounded themselves, each
 /// good to half of `eps`, and room to spare.
@@ -58,9 +58,26 @@ impl Terms<'_> {
         (0..6).map(of).fold(1.0, f64::max)
     }
 
+    /// The sum of lengths that a length is computed from: that of a plate is greater by what it is long and wide, and by as much again as its size is greater than the shortest edge of
+    /// its hull, whose direction is known that much worse.
+    fn plate_reach(&self, kind: TermKind, reach: f64) -> f64 {
+        let of = |body: Body| {
+            self.plate(body).map_or(0.0, |solid| {
+                let extent = solid.extent();
+                extent * (1.0 + extent / solid.outline.shortest_edge())
+            })
+        };
+        reach
+            + match kind.plate() {
+                Some(body) => of(body),
+                None if kind == TermKind::PlateClearance => of(Body::Base) + of(Body::Platform),
+                None => 0.0,
+            }
+    }
+
     /// Bound of the rounding of a margin, in its unit.
     ///
-    /// Lengths: `64 eps` (1.4e-14) times `r`, the sum of the greatest distances of a joint from the origin of its body and of the distance of the
+    /// For holes and plates `r` has the extent `e` of the plate besides, and `e` times `e` over the shortest edge of its hull. Lengths: `64 eps` (1.4e-14) times `r`, the sum of the greatest distances of a joint from the origin of its body and of the distance of the
     /// platform from the base origin. Angles: the same over the shortest leg, and for first angles of universal joints times `1 / sin(u, a) + 1 / sin(k, a)` of leg, axis and first axis. Speeds: `64 eps` times the greatest speed times `r` over the shortest leg.
     /// Forces: `64 eps` times the greatest force over the inverse condition number of the Jacobian. Cranks: angles over the shorter of crank and rod and over the sine of the transmission angle, speeds and torques accordingly. Stiffness and frequency: that of angles and of forces together, times twice the least one asked for. Never more than `1e-9` radians, or `1e-9` of the greatest speed
     /// or force, or of twice the least stiffness or frequency.
@@ -91,7 +108,7 @@ impl Terms<'_> {
         };
         let hardware = &self.required.hardware;
         match kind.quantity() {
-            Quantity::Length => SHARE * reach,
+            Quantity::Length => SHARE * self.plate_reach(kind, reach),
             Quantity::Angle => (turn() * self.amplification(kind, pose)).min(MOST).to_degrees(),
             Quantity::Speed => turn() * hardware.max_leg_speed.unwrap_or(0.0),
             Quantity::Force => (SHARE / conditioning()).min(MOST) * hardware.max_leg_force.unwrap_or(0.0),

@@ -7,6 +7,7 @@ use super::envelope::{ball, room};
 use super::hardware::{JointAxes, LegBody};
 use super::keep_out::KeepOut;
 use super::load::leg_forces;
+use super::plate::PlateSolid;
 use super::universal::{Hinge, HingeAngle};
 use super::vibration::{least_stiffness_at, lowest_frequency};
 use crate::geom::{Pose, segment_distance};
@@ -55,6 +56,18 @@ pub enum TermKind {
     PlatformEnvelope,
     /// How far a joint with its housing stays inside the envelope of the whole machine.
     MachineEnvelope,
+    /// By how much the holes under a base joint are farther from the outline of the plate than they have to be.
+    BaseHoleEdge,
+    /// The same on the platform.
+    PlatformHoleEdge,
+    /// By how much the holes and feet of two base joints, or the holes of one, are farther apart than they have to be.
+    BaseHoleGap,
+    /// The same on the platform.
+    PlatformHoleGap,
+    /// Gap between a leg and a plate minus the clearance required.
+    PlateClearance,
+    /// Gap between a leg and the payload minus the clearance required.
+    PayloadClearance,
     /// Stiffness of the platform against a force in the softest direction minus the least one.
     LinearStiffness,
     /// Stiffness of the platform against a torque about the softest axis minus the least one.
@@ -102,7 +115,7 @@ pub enum Quantity {
 
 impl TermKind {
     /// Every kind.
-    pub const ALL: [Self; 27] = [
+    pub const ALL: [Self; 33] = [
         Self::LegTooShort,
         Self::LegTooLong,
         Self::BaseSwing,
@@ -120,6 +133,12 @@ impl TermKind {
         Self::BaseEnvelope,
         Self::PlatformEnvelope,
         Self::MachineEnvelope,
+        Self::BaseHoleEdge,
+        Self::PlatformHoleEdge,
+        Self::BaseHoleGap,
+        Self::PlatformHoleGap,
+        Self::PlateClearance,
+        Self::PayloadClearance,
         Self::LinearStiffness,
         Self::AngularStiffness,
         Self::NaturalFrequency,
@@ -153,6 +172,12 @@ impl TermKind {
             Self::BaseEnvelope => "base_envelope",
             Self::PlatformEnvelope => "platform_envelope",
             Self::MachineEnvelope => "machine_envelope",
+            Self::BaseHoleEdge => "base_hole_edge",
+            Self::PlatformHoleEdge => "platform_hole_edge",
+            Self::BaseHoleGap => "base_hole_gap",
+            Self::PlatformHoleGap => "platform_hole_gap",
+            Self::PlateClearance => "plate_clearance",
+            Self::PayloadClearance => "payload_clearance",
             Self::LinearStiffness => "linear_stiffness",
             Self::AngularStiffness => "angular_stiffness",
             Self::NaturalFrequency => "natural_frequency",
@@ -214,7 +239,16 @@ impl TermKind {
         matches!(
             self,
             Self::BaseSpacing | Self::PlatformSpacing | Self::BaseEnvelope | Self::PlatformEnvelope
-        )
+        ) || self.plate().is_some()
+    }
+
+    /// For the margins of holes: of the plate of which body.
+    pub(crate) fn plate(self) -> Option<Body> {
+        Some(match self {
+            Self::BaseHoleEdge | Self::BaseHoleGap => Body::Base,
+            Self::PlatformHoleEdge | Self::PlatformHoleGap => Body::Platform,
+            _ => return None,
+        })
     }
 }
 
@@ -225,7 +259,7 @@ pub struct Term {
     pub kind: TermKind,
     /// The leg, or the joint of the body, counted from 0.
     pub first: usize,
-    /// The other leg, joint, keep-out or load, counted from 0; equal to `first` where there is no other. Both are 0 for what the platform as a whole has. For the envelope of the machine 0 for the base joint of the leg, 1 for its platform joint.
+    /// The other leg, joint, keep-out or load, counted from 0; equal to `first` where there is no other. Both are 0 for what the platform as a whole has. For the envelope of the machine 0 for the base joint of the leg, 1 for its platform joint; for plates 0 for that of the base, 1 for that of the platform.
     pub second: usize,
 }
 
@@ -238,6 +272,8 @@ pub struct Terms<'a> {
     axes: [[Vector3<f64>; 6]; 2],
     /// Universal joints at the base and at the platform, in leg order.
     hinges: [Option<[Hinge; 6]>; 2],
+    /// The plates of the base and of the platform.
+    plates: [Option<PlateSolid>; 2],
 }
 
 /// A part of a leg: a segment and its radius.
@@ -255,6 +291,30 @@ fn parts(body: &LegBody, a: Point3<f64>, b: Point3<f64>) -> Vec<Part> {
         }
         None => vec![(a, b, body.diameter / 2.0)],
     }
+}
+
+/// What of the parts of a leg is farther than `cut` from its base joint, or from its platform joint; one point where nothing is.
+fn without_end(parts: Vec<Part>, end: Body, cut: f64) -> Vec<Part> {
+    let flip = |(p, q, radius): Part| if end == Body::Base { (p, q, radius) } else { (q, p, radius) };
+    let mut rest: Vec<Part> = parts.into_iter().map(flip).collect();
+    if end == Body::Platform {
+        rest.reverse();
+    }
+    let (mut out, mut cut) = (Vec::new(), cut);
+    let last = rest.last().copied();
+    for (p, q, radius) in rest {
+        let length = (q - p).norm();
+        if cut < length {
+            out.push((p + (q - p) * (cut / length), q, radius));
+            cut = 0.0;
+        } else {
+            cut -= length;
+        }
+    }
+    if out.is_empty() {
+        out.extend(last.map(|(_, q, radius)| (q, q, radius)));
+    }
+    out
 }
 
 /// Angle between two vectors, degrees, accurate for small angles too.
@@ -280,12 +340,22 @@ impl<'a> Terms<'a> {
             Some(std::array::from_fn(|i| Hinge::new(joint.first_axes[i].into_inner(), &axes[i])))
         };
         let hinges = [hinges(Body::Base, &base), hinges(Body::Platform, &platform)];
-        Self { manipulator, required, axes: [base, platform], hinges }
+        let plates = Body::BOTH.map(|body| {
+            let housing = required.hardware.housing(body);
+            required.plates.of(body).map(|plate| PlateSolid::of(plate, manipulator, body, housing, home))
+        });
+        Self { manipulator, required, axes: [base, platform], hinges, plates }
     }
 
     /// The universal joint at an end (0 base, 1 platform) of a leg.
     pub(crate) fn hinge(&self, end: usize, leg: usize) -> Option<&Hinge> {
         self.hinges[end].as_ref().map(|all| &all[leg])
+    }
+
+    /// The plate of a body, where the design says something of it.
+    #[must_use]
+    pub fn plate(&self, body: Body) -> Option<&PlateSolid> {
+        self.plates[body.index()].as_ref()
     }
 
     /// The axes from which swing is measured, unit vectors in leg order that point from base to platform: at the base in the base frame, at the platform in the platform frame.
@@ -311,7 +381,8 @@ impl<'a> Terms<'a> {
             (TermKind::BaseSpacing, Body::Base, m.base_joints(), m.pairs().map(|p| p.0)),
             (TermKind::PlatformSpacing, Body::Platform, m.platform_joints(), m.pairs().map(|p| p.1)),
         ];
-        let mut out = self.plates();
+        let mut out = self.joints_in_envelopes();
+        self.holes(&mut out);
         for (kind, body, joints, used) in bodies {
             let housing = self.required.hardware.housing(body);
             let is_used = |i: &usize| used.contains(i);
@@ -330,7 +401,7 @@ impl<'a> Terms<'a> {
     }
 
     /// How far the joints of a body stay inside its envelope.
-    fn plates(&self) -> Vec<(Term, f64)> {
+    fn joints_in_envelopes(&self) -> Vec<(Term, f64)> {
         let envelopes = &self.required.envelopes;
         let bodies = [
             (TermKind::BaseEnvelope, Body::Base, envelopes.base),
@@ -348,6 +419,22 @@ impl<'a> Terms<'a> {
             }
         }
         out
+    }
+
+    /// How far the holes of the plates are from outlines and from each other.
+    fn holes(&self, out: &mut Vec<(Term, f64)>) {
+        for body in Body::BOTH {
+            let (Some(plate), Some(solid)) = (self.required.plates.of(body), self.plate(body)) else {
+                continue;
+            };
+            let edge = body.of((TermKind::BaseHoleEdge, TermKind::PlatformHoleEdge));
+            let gap = body.of((TermKind::BaseHoleGap, TermKind::PlatformHoleGap));
+            for (kind, margins) in [(edge, solid.edge_margins(plate)), (gap, solid.gap_margins(plate))] {
+                out.extend(margins.iter().map(|([first, second], margin)| {
+                    (Term { kind, first: *first, second: *second }, *margin)
+                }));
+            }
+        }
     }
 
     /// How far the joints of both ends of each leg stay inside the envelope of the machine.
@@ -451,6 +538,37 @@ impl<'a> Terms<'a> {
                     legs[i].iter().map(|p| keep_out_gap(keep_out, p, pose)).fold(f64::INFINITY, f64::min);
                 out.push((Term { kind: TermKind::KeepOut, first: i, second: k }, least - clearance));
             }
+            self.plate_clearances((i, &legs[i]), pose, clearance, out);
+        }
+    }
+
+    /// Gaps between a leg and the plates, and the payload.
+    ///
+    /// Each leg stands on both plates: at the plate of an end it counts from the housing of its joint on.
+    fn plate_clearances(
+        &self,
+        (i, leg): (usize, &[Part]),
+        pose: &Pose,
+        clearance: f64,
+        out: &mut Vec<(Term, f64)>,
+    ) {
+        let back = |q: &Point3<f64>| pose.rotation.inverse() * (q - pose.position);
+        for body in Body::BOTH {
+            let Some(plate) = self.plate(body) else { continue };
+            let free = without_end(leg.to_vec(), body, self.required.hardware.joint_reach(body));
+            let gap = |(p, q, radius): &Part| match body {
+                Body::Base => plate.distance(p, q) - radius,
+                Body::Platform => plate.distance(&back(p), &back(q)) - radius,
+            };
+            let least = free.iter().map(gap).fold(f64::INFINITY, f64::min);
+            let kind = TermKind::PlateClearance;
+            out.push((Term { kind, first: i, second: body.index() }, least - clearance));
+        }
+        if let Some(shape) = &self.required.payload_shape {
+            let gap = |(p, q, radius): &Part| shape.distance(&back(p), &back(q)) - radius;
+            let least = leg.iter().map(gap).fold(f64::INFINITY, f64::min);
+            let kind = TermKind::PayloadClearance;
+            out.push((Term { kind, first: i, second: i }, least - clearance));
         }
     }
 

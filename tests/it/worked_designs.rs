@@ -16,8 +16,9 @@ use super::cli_frame::{document, equipod};
 const FOLDER: &str = "designs/worked";
 
 /// Start, result, whether the result has the kinematics of the start, whether the start meets its requirements.
-const PAIRS: [(&str, &str, bool, bool); 9] = [
+const PAIRS: [(&str, &str, bool, bool); 10] = [
     ("bench-octahedral", "bench-joint-free", true, true),
+    ("bench-joint-free", "bench-plates", true, true),
     ("linuxcnc-octahedral", "linuxcnc-griffis-duffy", true, false),
     ("simulator-octahedral", "simulator-joint-free", false, false),
     ("positioner-octahedral", "positioner-joint-free", true, true),

@@ -20,7 +20,8 @@ pub(super) const COPY_KEYS: [&str; 4] = ["turn", "deg", "mirror", "plane"];
 pub(super) const DRIVE_KEYS: [&str; 5] =
     ["max_torque", "max_speed_deg", "least_transmission_deg", "tip_swing_deg", "platform_swing_deg"];
 /// What is about legs that change their lengths.
-const OF_LENGTHS: [&str; 6] = ["lengths", "hardware", "envelope", "keep_out", "optimize", "calibration"];
+const OF_LENGTHS: [&str; 7] =
+    ["lengths", "hardware", "envelope", "plates", "keep_out", "optimize", "calibration"];
 
 /// Where all cranks and single ones are written.
 #[derive(Debug, Default)]

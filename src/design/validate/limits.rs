@@ -2,18 +2,18 @@
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
-use super::tables::{not_negative, positive, vector};
+use super::tables::{not_negative, positive, shape, vector};
 use super::{check_keys, number, numbers, shown, table, text};
 use crate::design::Code;
 use crate::design::scale::micrometres;
 use crate::design::tree::{Entry, Node, Value, find};
 use crate::design::violation::Findings;
 use crate::requirements::{
-    Envelope, Envelopes, ForceUnit, GRAVITY, MassUnit, Payload, Reserve, Reserves, TermKind,
+    Envelope, Envelopes, ForceUnit, GRAVITY, MassUnit, Payload, PlateMass, Reserve, Reserves, TermKind,
 };
 
 pub(super) const ENVELOPE_KEYS: [&str; 3] = ["base", "platform", "machine"];
-pub(super) const PAYLOAD_KEYS: [&str; 4] = ["mass", "center", "inertia", "gravity"];
+pub(super) const PAYLOAD_KEYS: [&str; 7] = ["mass", "center", "inertia", "gravity", "plate", "box", "sphere"];
 const SHAPE_KEYS: [&str; 4] = ["radius", "center", "min", "max"];
 /// The reserve of every limit that has none of its own.
 const ALL: &str = "all";
@@ -59,11 +59,28 @@ pub(super) fn payload(report: &mut Findings<'_>, top: &[Entry]) -> Option<Payloa
     }
     let inertia = find(entries, "inertia").and_then(|e| inertia(report, &e.node));
     let (center, gravity) = (vector(report, entries, "center"), vector(report, entries, "gravity"));
+    let plate = find(entries, "plate").and_then(|e| {
+        let word = text(report, e)?;
+        let known = PlateMass::ALL.into_iter().find(|plate| plate.name() == word);
+        if known.is_none() {
+            let message = format!("`plate` of {place} is \"{}\"", shown(&word));
+            report.refuse(Code::WrongType, &e.node.span, message, "write \"included\" or \"added\"");
+        }
+        known
+    });
+    let shapes = ["box", "sphere"].map(|key| find(entries, key));
+    if let [Some(_), Some(second)] = shapes {
+        let message = "[payload] has two shapes";
+        report.refuse(Code::ConflictingKeys, &second.key_span, message, "keep `box` or `sphere`");
+    }
+    let shape = shapes.into_iter().flatten().next().and_then(|e| shape(report, e));
     Some(Payload {
         mass: positive(report, entries, "mass")?,
         center: Point3::from(center.unwrap_or_default()),
         inertia,
         gravity: gravity.unwrap_or_else(|| Vector3::new(0.0, 0.0, -GRAVITY)),
+        plate: plate.unwrap_or_default(),
+        shape,
     })
 }
 

@@ -7,6 +7,7 @@ mod holes;
 mod joint_models;
 mod joints;
 mod limits;
+mod plates;
 #[cfg(test)]
 mod schema_tests;
 mod search;
@@ -23,7 +24,7 @@ use crate::manipulator::{Body, InvalidManipulator, LegLengths, Manipulator};
 /// Words less similar than this are no help.
 const NEAR: f64 = 0.7;
 
-const TOP_LEVEL: [&str; 26] = [
+const TOP_LEVEL: [&str; 27] = [
     "name",
     "units",
     "force_units",
@@ -48,6 +49,7 @@ const TOP_LEVEL: [&str; 26] = [
     "payload",
     "envelope",
     "holes",
+    "plates",
     "limits",
     "calibration",
 ];
@@ -112,6 +114,7 @@ pub(super) fn design(root: &Node, report: &mut Findings<'_>, takes_cranks: bool)
         limits::vibrating(report, entries, units);
     }
     let holes = holes::holes(report, entries);
+    let plates = plates::plates(report, entries, &hardware, units.as_deref());
     let calibration = calibration::calibration(report, entries, [base.as_ref(), platform.as_ref()]);
     if !report.is_clean() {
         return None;
@@ -137,7 +140,9 @@ pub(super) fn design(root: &Node, report: &mut Findings<'_>, takes_cranks: bool)
     (design.payload, design.envelopes, design.reserves) = (payload, envelopes, reserves);
     (design.force_units, design.mass_units) = (force_units, mass_units);
     design.holes = holes;
+    design.plates = plates;
     design.calibration = calibration;
+    plates::check_masses(report, entries, &design);
     Some(design)
 }
 

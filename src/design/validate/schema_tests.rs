@@ -6,6 +6,7 @@ use super::calibration::CALIBRATION_KEYS;
 use super::cranks::{COPY_KEYS, CRANK_KEYS, DRIVE_KEYS};
 use super::holes::{GRID_KEYS, PLATE_KEYS};
 use super::limits::{ENVELOPE_KEYS, PAYLOAD_KEYS};
+use super::plates::{BOLT_KEYS, PLATE_TABLE_KEYS, PLATES_KEYS};
 use super::search::SEARCH_KEYS;
 use super::tables::{HARDWARE_KEYS, LIMIT_KEYS, POSE_KEYS, WORKSPACE_KEYS};
 use crate::design::SCHEMA;
@@ -35,6 +36,9 @@ fn the_schema_has_the_keys_of_the_reader() {
     assert_eq!(keys("/properties/envelope"), sorted(ENVELOPE_KEYS));
     assert_eq!(keys("/properties/holes"), sorted(PLATE_KEYS.into_iter().chain(GRID_KEYS)));
     assert_eq!(keys("/$defs/hole_grid"), sorted(GRID_KEYS));
+    assert_eq!(keys("/properties/plates"), sorted(PLATES_KEYS));
+    assert_eq!(keys("/$defs/plate"), sorted(PLATE_TABLE_KEYS));
+    assert_eq!(keys("/$defs/bolts"), sorted(BOLT_KEYS));
     assert_eq!(keys("/properties/payload"), sorted(PAYLOAD_KEYS));
     assert_eq!(keys("/properties/calibration"), sorted(CALIBRATION_KEYS));
     assert_eq!(keys("/$defs/crank"), sorted(CRANK_KEYS.into_iter().chain(COPY_KEYS)));

@@ -614,7 +614,7 @@ pub(super) fn keep_outs(report: &mut Findings<'_>, top: &[Entry]) -> Vec<KeepOut
     out
 }
 
-fn shape(report: &mut Findings<'_>, entry: &Entry) -> Option<KeepOutShape> {
+pub(super) fn shape(report: &mut Findings<'_>, entry: &Entry) -> Option<KeepOutShape> {
     let place = format!("`{}`", entry.key);
     let entries = table(report, &entry.node, &place)?;
     let keys: &[&str] = match entry.key.as_str() {

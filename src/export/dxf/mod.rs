@@ -7,8 +7,8 @@ use nalgebra::{Point2, Vector2};
 
 use self::dimension::dimensions;
 use self::page::Page;
-use super::outline::OutlinePart;
-use super::{Export, ExportBody, ExportedFile, Plate, PlateHole, Unsupported, Writer};
+use super::text::one_line;
+use super::{Export, ExportBody, ExportedFile, OutlinePart, Plate, PlateHole, Unsupported, Writer};
 
 /// The format `dxf`.
 #[derive(Debug)]
@@ -89,12 +89,14 @@ fn outline(page: &mut Page, plate: &Plate, mm: f64) {
 }
 
 fn holes(page: &mut Page, plate: &Plate, mm: f64) {
+    for (at, diameter) in plate.all_holes() {
+        page.entities.pairs(&[(0, "CIRCLE"), (8, "HOLES")]);
+        page.entities.point(10, at * mm);
+        page.entities.reals(&[(40, 0.5 * diameter * mm)]);
+    }
     let radius = 0.5 * plate.hole_diameter * mm;
     for hole in &plate.holes {
         let at = hole.at * mm;
-        page.entities.pairs(&[(0, "CIRCLE"), (8, "HOLES")]);
-        page.entities.point(10, at);
-        page.entities.reals(&[(40, radius)]);
         page.text(
             "NAMES",
             at + Vector2::repeat(0.8 * radius + 0.3 * page.text_height),
@@ -123,11 +125,24 @@ fn table(page: &mut Page, body: &ExportBody, plate: &Plate, extent: [Point2<f64>
         format!("corner radius {:.4}", plate.outline.margin * mm),
         "hole   x   y".to_string(),
     ];
+    if let Some(material) = &plate.material {
+        lines.insert(1, format!("material {}", one_line(material)));
+    }
+    if plate.bolt_count() > 0 {
+        let (count, diameter) = (plate.bolt_count(), plate.bolt_diameter * mm);
+        lines.insert(lines.len() - 1, format!("{count} bolt holes, diameter {diameter:.4}"));
+    }
     let row = |h: &PlateHole| {
         let post = if h.post > 0.0 { format!("   post {:.4}", h.post * mm) } else { String::new() };
         format!("{}   {:.4}   {:.4}{post}", h.joints.join("/"), h.at.x * mm + 0.0, h.at.y * mm + 0.0)
     };
     lines.extend(plate.holes.iter().map(row));
+    for hole in &plate.holes {
+        let bolt = |p: &Point2<f64>| {
+            format!("bolt of {}   {:.4}   {:.4}", hole.joints.join("/"), p.x * mm + 0.0, p.y * mm + 0.0)
+        };
+        lines.extend(hole.bolts.iter().map(bolt));
+    }
     for line in lines {
         page.text("TABLE", at, &line);
         at.y -= 1.8 * h;

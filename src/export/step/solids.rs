@@ -4,8 +4,8 @@ use nalgebra::{Point2, Point3, Vector3};
 
 use super::builder::{Builder, Id};
 use crate::export::Plate;
-use crate::export::outline::{OutlinePart, on_circle};
 use crate::export::text::step_real;
+use crate::requirements::{OutlinePart, on_circle};
 
 fn at(p: &Point2<f64>, z: f64) -> Point3<f64> {
     Point3::new(p.x, p.y, z)
@@ -84,8 +84,10 @@ pub(super) fn plate(b: &mut Builder, name: &str, plate: &Plate, mm: f64) -> Id {
         let around = b.edge_loop(&edges);
         faces.push(b.face(around, &[], surface, true));
     }
-    let radius = 0.5 * plate.hole_diameter * mm;
-    let holes: Vec<Tube> = plate.holes.iter().map(|h| Tube::new(b, &scaled(&h.at), radius, height)).collect();
+    let holes: Vec<Tube> = plate
+        .all_holes()
+        .map(|(at, diameter)| Tube::new(b, &scaled(&at), 0.5 * diameter * mm, height))
+        .collect();
     faces.extend(holes.iter().map(|h| h.face(b, true)).collect::<Vec<_>>());
     let up: Vec<(Id, bool)> = above.iter().map(|e| (*e, true)).collect();
     let down: Vec<(Id, bool)> = below.iter().rev().map(|e| (*e, false)).collect();

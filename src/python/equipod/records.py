@@ -114,6 +114,8 @@ TermKind = Literal[
     "angular_stiffness",
     "base_envelope",
     "base_first_angle",
+    "base_hole_edge",
+    "base_hole_gap",
     "base_second_angle",
     "base_spacing",
     "base_swing",
@@ -130,8 +132,12 @@ TermKind = Literal[
     "linear_stiffness",
     "machine_envelope",
     "natural_frequency",
+    "payload_clearance",
+    "plate_clearance",
     "platform_envelope",
     "platform_first_angle",
+    "platform_hole_edge",
+    "platform_hole_gap",
     "platform_second_angle",
     "platform_spacing",
     "platform_swing",
@@ -838,6 +844,8 @@ class Design(Record):
     envelope: Union[dict[str, Any], None]
     #: grids of holes that the joints have to be put on, of both plates or of one
     holes: Union[dict[str, Any], None]
+    #: the plates that carry the joints: sizes, material, holes and bolts
+    plates: Union[dict[str, Any], None]
     #: what has to remain of each limit
     limits: Union[dict[str, Any], None]
     #: what the optimiser chooses, and by what
@@ -852,6 +860,22 @@ class Design(Record):
     loads: Union[tuple[dict[str, Any], ...], None]
     #: bodies the legs must not touch, each a box, a sphere or a capsule
     keep_out: Union[tuple[Any, ...], None]
+
+
+class DesignBolts(Record):
+    """DesignBolts"""
+
+    #: bolts of a joint
+    count: int
+    #: diameter of their circle
+    circle: DesignPositive
+    #: diameter of their holes
+    hole: DesignPositive
+    #: angle of the first one, degrees
+    first_deg: Union[DesignNumber, None]
+    #: from where it counts: from the first axis of the plate, or from the direction from the origin of the
+    #: plate to the joint
+    from_: Union[Literal["axis", "centre"], None]
 
 
 class DesignBox(Record):
@@ -955,6 +979,33 @@ class DesignJointModel(Record):
     offset: Union[DesignNotNegative, None]
     #: flexure: torque over angle, force units times design units per radian; required
     bending_stiffness: Union[DesignPositive, None]
+
+
+class DesignPlate(Record):
+    """DesignPlate"""
+
+    #: thickness
+    thickness: DesignPositive
+    #: distance of the outline from the convex hull of the joints, more than half of `hole`
+    margin: DesignPositive
+    #: diameter of the hole under each joint
+    hole: DesignPositive
+    #: height of the lowest joint centre above the face of the plate; without it that of a ball as wide as
+    #: the housing on the edge of the hole
+    height: Union[DesignPositive, None]
+    #: `aluminium`, `steel`, `stainless_steel`, `cast_iron`, `titanium`, `brass`, `pom` or `plywood`, whose
+    #: densities are known, or another name beside `density`
+    material: Union[str, None]
+    #: kg/m^3; `units` is then a unit of length that is known
+    density: Union[DesignPositive, None]
+    #: least distance of the edge of a hole from the outline
+    edge_distance: Union[DesignNotNegative, None]
+    #: least distance of the edges of two holes
+    hole_distance: Union[DesignNotNegative, None]
+    #: diameter of the round foot of a joint; feet keep apart
+    foot: Union[DesignPositive, None]
+    #: the bolts of each joint, on a circle about its centre
+    bolts: Union[DesignBolts, None]
 
 
 class DesignPose(Record):

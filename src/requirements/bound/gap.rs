@@ -4,16 +4,18 @@
 //! pose: for two segments that are nearest inside both it is normal to both, for an end and the inside of a segment it leaves that segment at a right angle, for two ends it
 //! joins them. As functions of the pose these directions make the bound exact to second order; a constant one serves where they are not defined.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Point3, Vector3};
 
 use super::frame::{CellFrame, enclosed};
 use super::local::{self, Bounded};
+use crate::geom::enclosed::IntervalVector;
 use crate::geom::{Chart, ChartCell};
 use crate::manipulator::{Body, Manipulator};
 use crate::num::interval::Interval;
 use crate::num::jet::{JetVector, cross, dot, norm_squared};
 use crate::requirements::hardware::LegBody;
 use crate::requirements::keep_out::{KeepOut, KeepOutShape};
+use crate::requirements::plate::PlateSolid;
 
 /// The convex hull of some points, and a radius around it.
 #[derive(Clone)]
@@ -51,9 +53,140 @@ pub(super) fn leg_parts(frame: &CellFrame<'_>, m: &Manipulator, i: usize, body: 
     }
 }
 
+/// The parts of a leg without what is nearer than `cut` to the joint at an end, and whether that is what they are: a leg that may be shorter, or whose part at
+/// the end may be, stays whole, which is more than it.
+pub(super) fn without_end(
+    frame: &CellFrame<'_>,
+    m: &Manipulator,
+    i: usize,
+    body: &LegBody,
+    mut parts: Vec<Hull>,
+    (end, cut): (Body, f64),
+) -> (Vec<Hull>, bool) {
+    if cut == 0.0 {
+        return (parts, true);
+    }
+    let leg = frame.leg(m, i);
+    // the part at the end is longer than the cut: the cylinder by itself, the rod and a whole leg by the length of the leg
+    let (cylinder, two) = (body.rod.map_or(0.0, |r| r.0), parts.len() == 2);
+    let longer = match (end, two) {
+        (Body::Base, true) => cylinder > cut,
+        (Body::Base, false) => leg.square.value.lo() > Interval::from(cut).square().hi(),
+        (Body::Platform, _) => {
+            let least = Interval::from(cut) + Interval::from(if two { cylinder } else { 0.0 });
+            leg.square.value.lo() > least.square().hi()
+        }
+    };
+    let Some(inverse) = leg.square.inverse_root().filter(|_| longer) else { return (parts, false) };
+    let share = inverse.times(Interval::from(cut));
+    match end {
+        Body::Base => {
+            if let Some(first) = parts.first_mut() {
+                first.points[0] = std::array::from_fn(|k| leg.base[k] + leg.line[k] * share);
+            }
+        }
+        Body::Platform => {
+            if let Some(last) = parts.last_mut() {
+                last.points[1] = std::array::from_fn(|k| leg.base[k] + leg.line[k] - leg.line[k] * share);
+            }
+        }
+    }
+    (parts, true)
+}
+
+/// Rounding of a point of a plate computed in doubles, as a share of the lengths it is computed from.
+const ROUNDED: f64 = 64.0 * f64::EPSILON;
+
+/// A lower bound of the gap of a part of a leg and a plate over a cell, and an upper bound at the point `z`.
+///
+/// The lower one is `min u . x - h(u)` over the ends `x` of the part, with `u` the direction from the nearest point of the plate at `z`, which turns with the plate, and `h` the support function of
+/// the plate: `max c . u + m |u_across| + max(w u_n)` over the corners `c` of its hull, with the margin `m`, and over its faces `w`. It is no less than minus the radius of the part.
+pub(super) fn plate_gap(
+    chart: &Chart,
+    cell: &ChartCell,
+    z: &[f64; 6],
+    frames: (&CellFrame<'_>, &CellFrame<'_>),
+    (at, over): (&Hull, &Hull),
+    (plate, body): (&PlateSolid, Body),
+) -> (Bounded, f64) {
+    let ends = [0, 1].map(|k: usize| Point3::from(middle(&at.points[k])));
+    let (turn, origin) = pose_of(frames.0, body);
+    let local = ends.map(|p| Point3::from(turn.transpose() * (p - origin)));
+    let (share, near) = plate.nearest_to_segment([&local[0], &local[1]]);
+    // the pose at z, and with it the point of the plate, are known but for rounding
+    let place = |frame: &CellFrame<'_>, p: &Point3<f64>| match body {
+        Body::Base => frame.fixed(&enclosed(p)),
+        Body::Platform => frame.moved(p),
+    };
+    let weights = (vec![1.0 - share, share], vec![1.0]);
+    let there = [place(frames.0, &near)];
+    let slack = ROUNDED * (plate.extent() + near.coords.norm());
+    let apart = distance_between((&at.points, &weights.0), (&there, &weights.1));
+    let upper = (apart + Interval::from(slack) - at.radius).hi();
+    let bare = Bounded { below: (-over.radius).lo(), ..Bounded::nothing(cell) };
+    let away = local[0] + (local[1] - local[0]) * share - near;
+    let u: IntervalVector = std::array::from_fn(|k| Interval::from(away[k]));
+    let norm = (u[0].square() + u[1].square() + u[2].square()).sqrt().unwrap_or(Interval::WHOLE);
+    if !(norm.lo() > 0.0) {
+        return (bare, upper);
+    }
+    let support = support(plate, &u);
+    let along = |frame: &CellFrame<'_>, x: &JetVector| match body {
+        Body::Base => dot(&frame.fixed(&u), x),
+        Body::Platform => dot(&frame.turned(&u), &less(x, &frame.origin())),
+    };
+    let bound = |k: usize| {
+        local::below(chart, cell, z, &along(frames.0, &at.points[k]), &along(frames.1, &over.points[k]))
+    };
+    let mut least = bound(0).min(bound(1));
+    let gap = (Interval::from(least.below) - support).checked_div(norm);
+    least.below = gap.map_or(f64::NEG_INFINITY, |gap| (gap - over.radius - Interval::from(slack)).lo());
+    if !(least.below >= bare.below) {
+        least.below = bare.below;
+    }
+    (least, upper)
+}
+
+/// Rotation and position of the frame of a body at a point, in doubles.
+fn pose_of(frame: &CellFrame<'_>, body: Body) -> (Matrix3<f64>, Point3<f64>) {
+    if body == Body::Base {
+        return (Matrix3::identity(), Point3::origin());
+    }
+    let column = |k: usize| {
+        let unit: IntervalVector =
+            std::array::from_fn(|r| if r == k { Interval::from(1.0) } else { Interval::ZERO });
+        middle(&frame.turned(&unit))
+    };
+    (Matrix3::from_columns(&[column(0), column(1), column(2)]), Point3::from(middle(&frame.origin())))
+}
+
+/// The greatest `u . x` over the points of a plate, enclosed.
+fn support(plate: &PlateSolid, u: &IntervalVector) -> Interval {
+    let own: IntervalVector = std::array::from_fn(|k| {
+        (0..3).fold(Interval::ZERO, |s, r| s + Interval::from(plate.axes[(r, k)]) * u[r])
+    });
+    let greatest = |all: &mut dyn Iterator<Item = Interval>| {
+        let ends =
+            all.fold((f64::NEG_INFINITY, f64::NEG_INFINITY), |(lo, hi), x| (lo.max(x.lo()), hi.max(x.hi())));
+        Interval::new(ends.0, ends.1).unwrap_or(Interval::WHOLE)
+    };
+    let hull = &plate.outline.hull;
+    let corner =
+        greatest(&mut hull.iter().map(|c| own[0] * Interval::from(c.x) + own[1] * Interval::from(c.y)));
+    let across = (own[0].square() + own[1].square()).sqrt().unwrap_or(Interval::WHOLE);
+    let lower = Interval::from(plate.lower());
+    let faces = greatest(&mut [lower, lower + Interval::from(plate.thickness)].iter().map(|w| own[2] * *w));
+    corner + across * Interval::from(plate.outline.margin) + faces
+}
+
 /// A keep-out over a frame.
 pub(super) fn body_part(frame: &CellFrame<'_>, body: &KeepOut) -> Hull {
-    let (points, diameter) = match &body.shape {
+    shape_part(frame, &body.shape, body.fixed_to)
+}
+
+/// A shape that moves with a body over a frame.
+pub(super) fn shape_part(frame: &CellFrame<'_>, shape: &KeepOutShape, fixed_to: Body) -> Hull {
+    let (points, diameter) = match shape {
         KeepOutShape::Sphere { center, diameter } => (vec![*center], *diameter),
         KeepOutShape::Capsule { from, to, diameter } => (vec![*from, *to], *diameter),
         KeepOutShape::Box { center, size } => {
@@ -65,12 +198,12 @@ pub(super) fn body_part(frame: &CellFrame<'_>, body: &KeepOut) -> Hull {
             ((0..8).map(corner).collect(), 0.0)
         }
     };
-    let place = |p: &nalgebra::Point3<f64>| match body.fixed_to {
+    let place = |p: &Point3<f64>| match fixed_to {
         Body::Base => frame.fixed(&enclosed(p)),
         Body::Platform => frame.moved(p),
     };
     // corners of boxes are rounded by less than this
-    let rounding = match &body.shape {
+    let rounding = match shape {
         KeepOutShape::Box { center, size } => 4.0 * f64::EPSILON * (center.coords.amax() + size.amax()),
         _ => 0.0,
     };

@@ -30,6 +30,8 @@ use super::Requirements;
 use super::assess::{AssessOptions, Assessment, Margin, assess};
 use super::envelope::Envelope;
 use super::hardware::Housing;
+use super::plate::PlateSolid;
+use super::standing::Standing;
 use super::term::{Term, TermKind, Terms};
 use crate::geom::enclosed::{IntervalVector, dot};
 use crate::geom::{Chart, ChartCell, PoseSpace, arc_cosine, degrees, radians};
@@ -240,6 +242,10 @@ enum Function {
     Pair(usize, usize),
     /// A leg and a keep-out.
     Body(usize, usize),
+    /// A leg and the plate of a body.
+    Plate(usize, Body),
+    /// A leg and the payload.
+    Payload(usize),
     /// All leg forces under a load.
     Load(usize),
     /// The softest motion of the platform on its legs.
@@ -265,6 +271,10 @@ impl Function {
             Self::Leg(kind, i) => term.kind == kind && term.first == i,
             Self::Pair(i, j) => term.kind == TermKind::LegClearance && (term.first, term.second) == (i, j),
             Self::Body(i, k) => term.kind == TermKind::KeepOut && (term.first, term.second) == (i, k),
+            Self::Plate(i, body) => {
+                term.kind == TermKind::PlateClearance && (term.first, term.second) == (i, body.index())
+            }
+            Self::Payload(i) => term.kind == TermKind::PayloadClearance && term.first == i,
             Self::Load(k) => {
                 matches!(term.kind, TermKind::LegForce | TermKind::CrankTorque) && term.second == k
             }
@@ -337,6 +347,11 @@ impl CellJudge<'_> {
             TermKind::KeepOut => (0..6)
                 .flat_map(|i| (0..self.required.keep_outs.len()).map(move |k| Function::Body(i, k)))
                 .collect(),
+            TermKind::PlateClearance => {
+                let stated = Body::BOTH.into_iter().filter(|body| self.terms.plate(*body).is_some());
+                stated.flat_map(|body| (0..6).map(move |i| Function::Plate(i, body))).collect()
+            }
+            TermKind::PayloadClearance => (0..6).map(Function::Payload).collect(),
             TermKind::LegForce | TermKind::CrankTorque => {
                 (0..self.required.loads.len()).map(Function::Load).collect()
             }
@@ -507,7 +522,52 @@ impl CellJudge<'_> {
                 let theirs = (vec![gap::body_part(frames.0, body)], vec![gap::body_part(frames.1, body)]);
                 self.gaps(chart, cell, z, (&ours.0, &ours.1), (&theirs.0, &theirs.1))
             }
+            Function::Payload(i) => {
+                let Some(shape) = &self.required.payload_shape else { return nothing };
+                let ours = (self.parts(frames.0, i), self.parts(frames.1, i));
+                let payload = |frame: &CellFrame<'_>| vec![gap::shape_part(frame, shape, Body::Platform)];
+                let theirs = (payload(frames.0), payload(frames.1));
+                self.gaps(chart, cell, z, (&ours.0, &ours.1), (&theirs.0, &theirs.1))
+            }
+            Function::Plate(i, body) => {
+                let Some(plate) = self.terms.plate(body) else { return nothing };
+                self.plate_gap(chart, cell, z, frames, (i, body, plate))
+            }
         }
+    }
+
+    /// The gap of a leg and a plate, less the clearance.
+    fn plate_gap(
+        &self,
+        chart: &Chart,
+        cell: &ChartCell,
+        z: &[f64; 6],
+        frames: (&CellFrame<'_>, &CellFrame<'_>),
+        (i, body, plate): (usize, Body, &PlateSolid),
+    ) -> AtPoint {
+        let mut out = AtPoint::nothing(cell);
+        let Some(leg) = &self.required.hardware.leg_body else { return out };
+        let clearance = Interval::from(self.required.hardware.leg_clearance.unwrap_or(0.0));
+        let cut = self.required.hardware.joint_reach(body);
+        let free = |frame: &CellFrame<'_>| {
+            gap::without_end(frame, self.m, i, leg, gap::leg_parts(frame, self.m, i, leg), (body, cut))
+        };
+        let ((at, at_is_cut), (over, _)) = (free(frames.0), free(frames.1));
+        let mut least: Option<Bounded> = None;
+        for (at, over) in matched(&at, &over) {
+            let (bounded, upper) = gap::plate_gap(chart, cell, z, frames, (at, over), (plate, body));
+            least = Some(least.map_or(bounded, |l| l.min(bounded)));
+            out.upper = out.upper.min((Interval::from(upper) - clearance).hi());
+        }
+        if let Some(mut bounded) = least {
+            bounded.below = (Interval::from(bounded.below) - clearance).lo();
+            out.bounded = bounded;
+        }
+        // parts at a pose that are more than the leg say nothing by being near
+        if !at_is_cut || at.len() != over.len() {
+            out.upper = f64::INFINITY;
+        }
+        out
     }
 
     /// Cylinder and rod of a leg.
@@ -700,8 +760,19 @@ impl CellJudge<'_> {
         ReserveBound { reserve, kept }
     }
 
+    /// Holes of a plate, whose margins are known but for rounding.
+    fn holes(&self, found: Margin) -> MarginBound {
+        let rounding = self.terms.rounding(found.term.kind, None);
+        let verdict = match found.standing {
+            Standing::Met => MarginVerdict::Met,
+            Standing::AtLimit => MarginVerdict::AtLimit,
+            Standing::Violated => MarginVerdict::Violated,
+        };
+        MarginBound { found, below: found.value - rounding, verdict, cells: 0, reserve: None }
+    }
+
     /// Joints in the envelope of their body.
-    fn plate(&self, found: Margin) -> MarginBound {
+    fn joint_in_envelope(&self, found: Margin) -> MarginBound {
         let kind = found.term.kind;
         let (body, envelope) = if kind == TermKind::PlatformEnvelope {
             (Body::Platform, self.required.envelopes.platform)
@@ -724,7 +795,10 @@ impl CellJudge<'_> {
     fn fixed(&self, found: Margin) -> MarginBound {
         let kind = found.term.kind;
         if matches!(kind, TermKind::BaseEnvelope | TermKind::PlatformEnvelope) {
-            return self.plate(found);
+            return self.joint_in_envelope(found);
+        }
+        if kind.plate().is_some() {
+            return self.holes(found);
         }
         let body = if kind == TermKind::PlatformSpacing { Body::Platform } else { Body::Base };
         let joints = body.of((self.m.base_joints(), self.m.platform_joints()));

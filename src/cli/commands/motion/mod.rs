@@ -179,7 +179,7 @@ fn refuse_without_effect(args: &Args, design: &Design, context: &Context) -> Res
             "there is neither a sine nor an acceleration, and no stiffness is asked for",
         )?;
     }
-    if design.payload.is_none() {
+    if design.moving_payload().is_none() {
         for option in ["load", "unit"] {
             context.no_effect(option, "the design has no payload, so that no forces are computed")?;
         }
@@ -239,7 +239,7 @@ fn trajectory(path: &Path, ends: PathEnds, context: &Context) -> Result<PosePath
 
 /// What forces are computed from; none without a payload.
 fn masses(args: &Args, design: &Design) -> Result<Option<MotionMasses>, Failure> {
-    if design.payload.is_none() {
+    if design.moving_payload().is_none() {
         return Ok(None);
     }
     let metres = metres(args.unit.as_deref(), design)?;
@@ -276,7 +276,7 @@ fn load(design: &Design, name: &str) -> Result<Load, Failure> {
 /// What the file does not say.
 fn assumptions(design: &Design) -> Vec<String> {
     let mut out = Vec::new();
-    match &design.payload {
+    match &design.moving_payload() {
         None => out.push("The design has no [payload]: forces and powers are not computed.".to_string()),
         Some(payload) => {
             if payload.inertia.is_none() {

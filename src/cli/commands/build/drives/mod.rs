@@ -49,7 +49,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let (names, motions): (Vec<String>, Vec<PlatformMotion>) =
         choice.motions(&design, context)?.into_iter().unzip();
     // without a payload no forces are computed along motions
-    let metres = if choice.is_empty() || design.payload.is_none() {
+    let metres = if choice.is_empty() || design.moving_payload().is_none() {
         None
     } else {
         Some(motion::metres(args.unit.as_deref(), &design)?)

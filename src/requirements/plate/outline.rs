@@ -87,6 +87,60 @@ impl Outline {
         0.5 * twice + around * self.margin + PI * self.margin * self.margin
     }
 
+    /// The point of the hull nearest to `p`, which is `p` itself inside.
+    fn nearest_of_hull(&self, p: &Point2<f64>) -> Point2<f64> {
+        let n = self.hull.len();
+        if n > 2 && self.depth_in_hull(p) >= 0.0 {
+            return *p;
+        }
+        let on_edge = |i: usize| {
+            let (a, d) = (self.hull[i], self.hull[(i + 1) % n] - self.hull[i]);
+            let square = d.norm_squared();
+            let t = if square > 0.0 { ((p - a).dot(&d) / square).clamp(0.0, 1.0) } else { 0.0 };
+            a + d * t
+        };
+        let near = (0..n).map(on_edge).min_by(|x, y| (x - p).norm().total_cmp(&(y - p).norm()));
+        near.unwrap_or(*p)
+    }
+
+    /// Least distance from the lines of the edges, positive on the left of all of them; minus infinity for hulls without an inside.
+    fn depth_in_hull(&self, p: &Point2<f64>) -> f64 {
+        let n = self.hull.len();
+        if n < 3 {
+            return f64::NEG_INFINITY;
+        }
+        let from_line = |i: usize| {
+            let (a, d) = (self.hull[i], self.hull[(i + 1) % n] - self.hull[i]);
+            d.perp(&(p - a)) / d.norm()
+        };
+        (0..n).map(from_line).fold(f64::INFINITY, f64::min)
+    }
+
+    /// How far inside the outline a point is, negative outside: the margin and the depth in the hull, or the margin less the distance from the hull.
+    ///
+    /// A point at depth `d` of a convex region is `d + m` deep in all points within `m` of the region.
+    #[must_use]
+    pub fn depth(&self, p: &Point2<f64>) -> f64 {
+        let inside = self.depth_in_hull(p);
+        if inside >= 0.0 { self.margin + inside } else { self.margin - (p - self.nearest_of_hull(p)).norm() }
+    }
+
+    /// The point within the outline nearest to `p`, which is `p` itself inside.
+    #[must_use]
+    pub fn nearest(&self, p: &Point2<f64>) -> Point2<f64> {
+        let hull = self.nearest_of_hull(p);
+        let away = p - hull;
+        let distance = away.norm();
+        if distance <= self.margin { *p } else { hull + away * (self.margin / distance) }
+    }
+
+    /// Shortest edge of the hull; infinite for a single corner.
+    pub(crate) fn shortest_edge(&self) -> f64 {
+        let n = self.hull.len();
+        let edges = (0..n).filter(|_| n > 1).map(|i| (self.hull[(i + 1) % n] - self.hull[i]).norm());
+        edges.fold(f64::INFINITY, f64::min)
+    }
+
     /// The corners of a polygon on the outline, counter-clockwise, with `steps` chords in a full circle.
     #[must_use]
     pub fn polygon(&self, steps: usize) -> Vec<Point2<f64>> {
@@ -107,7 +161,7 @@ impl Outline {
 }
 
 /// A point of a circle.
-pub(super) fn on_circle(centre: &Point2<f64>, radius: f64, angle: f64) -> Point2<f64> {
+pub(crate) fn on_circle(centre: &Point2<f64>, radius: f64, angle: f64) -> Point2<f64> {
     let (s, c) = angle.sin_cos();
     Point2::new(centre.x + radius * c, centre.y + radius * s)
 }
