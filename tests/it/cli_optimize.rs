@@ -363,7 +363,7 @@ fn the_default_symmetry_is_given_up_where_only_platforms_without_it_meet_the_req
         let a = 120_f64.to_radians() * k as f64;
         [10.0 * a.cos(), 10.0 * a.sin()]
     };
-    // on the side from corner k to the next at the share t, below the plane of the base, so that only legs that end there touch it
+    // on the side from corner k to the next at the share t, so small that the legs at the corners do not touch it
     let ball = |k: usize, t: f64, share: f64| {
         let (a, b) = (corner(k % 3), corner((k + 1) % 3));
         let [x, y] = [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])];
