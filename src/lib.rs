@@ -219,7 +219,7 @@ pub mod prelude {
     #[cfg(all(feature = "files", feature = "optimize"))]
     #[doc(inline)]
     pub use crate::entrance::{
-        OptimizeEvidence, OptimizeOptions, OptimizeProgress, OptimizeReport, OptimizeStatus, StartSymmetry,
+        OptimizeEvidence, OptimizeOptions, OptimizeProgress, OptimizeReport, OptimizeStatus,
     };
 }
 

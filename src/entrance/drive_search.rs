@@ -103,8 +103,7 @@ impl DriveRange {
         let driven = design.with_drive(drive);
         let (required, hardware) = (driven.requirements(), &driven.hardware);
         let (least, greatest) = drive.lengths.range();
-        let limit =
-            |x: Option<f64>, kind: TermKind| x.map_or(f64::INFINITY, |x| x - required.reserve(kind));
+        let limit = |x: Option<f64>, kind: TermKind| x.map_or(f64::INFINITY, |x| x - required.reserve(kind));
         Self {
             legs: [
                 least + required.reserve(TermKind::LegTooShort),
@@ -284,6 +283,9 @@ mod tests {
         let names = |ranking| {
             order_of_trials(&list, ranking).iter().map(|d| d.name.as_str()).collect::<Vec<_>>().join("")
         };
-        assert_eq!((names(DriveRanking::Price), names(DriveRanking::Objective)), ("abc".into(), "cba".into()));
+        assert_eq!(
+            (names(DriveRanking::Price), names(DriveRanking::Objective)),
+            ("abc".into(), "cba".into())
+        );
     }
 }

@@ -50,8 +50,6 @@ pub use judging::{AssessReport, CheckReport};
 pub(crate) use moving::{MotionMasses, MotionReport, PlatformMotion, StiffnessReport, TimedMargin};
 #[cfg(all(feature = "files", feature = "optimize"))]
 pub use optimizing::{OptimizeEvidence, OptimizeOptions, OptimizeProgress, OptimizeReport, OptimizeStatus};
-#[cfg(all(feature = "files", feature = "optimize"))]
-pub use platform_search::StartSymmetry;
 #[cfg(all(feature = "files", feature = "synthesis"))]
 pub(crate) use reaching_space::{FreeSize, FreeTurn, RAYS, WorkspaceSize};
 pub use solving::{Batch, Solver, Tracker};

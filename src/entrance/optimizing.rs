@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::equivalence::{sample_plan, verified_exactly};
-use super::platform_search::{StartSymmetry, find_platform};
+use super::platform_search::find_platform;
 use super::{AssessReport, Error};
 use crate::design::{Combination, Design, Origin};
 use crate::dimensional::{
@@ -17,7 +17,7 @@ use crate::manipulator::{Body, Manipulator, Octahedral};
 use crate::num::Cancel;
 use crate::offsets::{self, OffsetOutcome, OffsetProblem, OffsetReport, OffsetSolution};
 use crate::requirements::{
-    AssessOptions, Assessment, JointAxes, Objective, Requirements, VariableKind, assess,
+    AssessOptions, Assessment, JointAxes, Objective, Requirements, StartSymmetry, VariableKind, assess,
 };
 use crate::synthesis::{joint_free, sliding_body};
 

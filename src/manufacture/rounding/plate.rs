@@ -274,7 +274,9 @@ mod tests {
         assert!(!holds(pattern(HolePattern::Triangular, [3.1, -1.0])));
         assert!(!holds(pattern(HolePattern::Square, [3.0, -1.0])));
         let polar = |holes, origin| Grid { origin, ..Grid::polar(HoleCircle { radius: 1.0, holes }, 0.5) };
-        assert!(holds(polar(24, [3.0, -1.0])) && !holds(polar(20, [3.0, -1.0])) && !holds(polar(24, [3.0, 0.0])));
+        assert!(
+            holds(polar(24, [3.0, -1.0])) && !holds(polar(20, [3.0, -1.0])) && !holds(polar(24, [3.0, 0.0]))
+        );
         let bolts = |list: &[HoleCircle]| Grid {
             origin: [3.0, -1.0],
             ..Grid::bolt_circles(HoleCircles::new(list).unwrap())

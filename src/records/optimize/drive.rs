@@ -140,7 +140,9 @@ fn reason(driven: &DrivenPlatform) -> Option<String> {
             format!("no start met the requirements together: {}", sentences.join("; "))
         }
         DimensionalOutcome::Undecided(_) => {
-            format!("no platform was found that meets the requirements; what comes nearest misses some{listed}")
+            format!(
+                "no platform was found that meets the requirements; what comes nearest misses some{listed}"
+            )
         }
         _ if missed.is_empty() => "not all requirements are proved for the platform found".to_owned(),
         _ => format!("the platform found misses requirements{listed}"),
@@ -214,7 +216,8 @@ impl DriveSearchRecord {
                 "the drive with the best first objective of those with which the requirements are met (not every drive has a price)"
             }
         };
-        let ended = if search.interrupted { ", as far as the search came until it was told to end" } else { "" };
+        let ended =
+            if search.interrupted { ", as far as the search came until it was told to end" } else { "" };
         let message = match chosen {
             Some(name) => format!("{name} is {how}{ended}"),
             None => format!(
@@ -223,6 +226,13 @@ impl DriveSearchRecord {
             ),
         };
         let (currency, interrupted) = (currency.map(str::to_owned), search.interrupted);
-        Self { chosen: chosen.map(str::to_owned), ranked_by: search.ranking, currency, interrupted, message, drives }
+        Self {
+            chosen: chosen.map(str::to_owned),
+            ranked_by: search.ranking,
+            currency,
+            interrupted,
+            message,
+            drives,
+        }
     }
 }

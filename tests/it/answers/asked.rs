@@ -275,7 +275,11 @@ impl Files {
             "struts" => {
                 let path = self.beside("struts.csv");
                 let head = "name,stroke,retracted_length,price_EUR";
-                fs::write(&path, format!("{head}\ntiny,0.1,14,10\ntinier,0.05,14.02,20\ngood,9,9,30\nlong,12,8,40\n")).unwrap();
+                fs::write(
+                    &path,
+                    format!("{head}\ntiny,0.1,14,10\ntinier,0.05,14.02,20\ngood,9,9,30\nlong,12,8,40\n"),
+                )
+                .unwrap();
                 path
             }
             "weak-struts" => {

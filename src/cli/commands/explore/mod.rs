@@ -39,7 +39,7 @@ use crate::manipulator::{LegLengths, Octahedral};
 use crate::manufacture::NoRounding;
 use crate::records::{
     AssessAnswer, ComparedRecord, ExploreAnswer, ExploreOctahedralAnswer, ExploreVerdict, FamilyAnswer,
-    FamilySizeRecord, FkRunRecord, FreedomWord, FramesRecord, LengthsOrigin, OnHolesRecord, PoseTotalsRecord,
+    FamilySizeRecord, FkRunRecord, FramesRecord, FreedomWord, LengthsOrigin, OnHolesRecord, PoseTotalsRecord,
     ProvenanceRecord, RoundAnswer, VariantWord, VerdictWord, VerifyAnswer,
 };
 use crate::requirements::KeptSymmetry;
@@ -159,7 +159,8 @@ impl Results {
     /// The freedoms with which the requirements were met, as the end of a sentence; empty where there are none.
     fn what_resolves_it(&self) -> String {
         let opened = self.search.freedoms(&self.design).into_iter().flatten();
-        let resolved = opened.filter(|f| f.outcome == FreedomWord::Resolved).map(|f| format!("; {}", f.message));
+        let resolved =
+            opened.filter(|f| f.outcome == FreedomWord::Resolved).map(|f| format!("; {}", f.message));
         resolved.collect()
     }
 
@@ -420,9 +421,8 @@ type OnHoles = Option<Result<DesignOnHoles, NoRounding>>;
 fn searched(asked: &Asked<'_>, progress: &mut ProgressLine) -> Result<(Search, OnHoles), Failure> {
     let found = search::search(asked, progress)?;
     let holes = found.on_holes(asked, progress)?;
-    let is_met = |holes: &OnHoles| {
-        matches!(holes, Some(Ok(on)) if on.found.is_some() && on.met() == Some(true))
-    };
+    let is_met =
+        |holes: &OnHoles| matches!(holes, Some(Ok(on)) if on.found.is_some() && on.met() == Some(true));
     let is_last = holes.is_none() || is_met(&holes) || asked.interrupt.flow().is_break();
     if is_last || !found.keeps_symmetry_of_start() {
         return Ok((found, holes));

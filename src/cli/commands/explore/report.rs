@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use super::search::Search;
 use super::{Machine, Results, Verified, folder};
-use crate::cli::commands::optimize::dimensional::{self, opened_file};
 use crate::cli::commands::optimize::Done;
+use crate::cli::commands::optimize::dimensional::{self, opened_file};
 use crate::cli::requirements as table;
 use crate::entrance::rounding::{DesignOnHoles, RoundingWay, grid_in_words};
 use crate::equivalence::SAME_POSE;
@@ -276,10 +276,7 @@ fn drives(out: &mut String, d: &DriveSearchRecord) {
 /// What other freedoms came to.
 fn freedoms(out: &mut String, r: &Results) {
     let Some(list) = r.search.freedoms(&r.design).filter(|list| !list.is_empty()) else { return };
-    let _ = writeln!(
-        out,
-        "Which freedom more would resolve it was tried:\n"
-    );
+    let _ = writeln!(out, "Which freedom more would resolve it was tried:\n");
     for f in &list {
         let file = opened_file(f.freedom);
         let link = f.output.as_ref().map_or_else(String::new, |_| format!(" ([{file}]({file}))"));

@@ -9,7 +9,7 @@ use crate::cli::output::document;
 use crate::cli::progress::ProgressLine;
 use crate::design::{Combination, Design};
 use crate::dimensional::{Progress, ShapeSearchOptions, Stage, Triangles};
-use crate::entrance::{AssessReport, StartSymmetry};
+use crate::entrance::AssessReport;
 use crate::entrance::optimizing::{Checked, asks_for_more, met_or_nothing_required};
 use crate::entrance::rounding::{DesignOnHoles, FirstSearch, on_stated_holes};
 use crate::equivalence::Verdict;
@@ -19,6 +19,7 @@ use crate::records::{
     AssessAnswer, DriveSearchRecord, FreedomRecord, OffsetsFoundRecord, OptimizedRecord, PlatformFoundRecord,
     ProvenanceRecord, SymmetryRecord,
 };
+use crate::requirements::StartSymmetry;
 
 /// What was searched, and what came out.
 #[derive(Debug)]
@@ -41,10 +42,7 @@ pub(super) fn refuse_front(design: &Design) -> Result<(), Failure> {
 }
 
 /// Searches as `optimize` does.
-pub(super) fn search(
-    asked: &Asked<'_>,
-    progress: &mut ProgressLine,
-) -> Result<Search, Failure> {
+pub(super) fn search(asked: &Asked<'_>, progress: &mut ProgressLine) -> Result<Search, Failure> {
     let Asked { design, extension, interrupt, .. } = *asked;
     let seed = asked.context.seed();
     // lengths of drives are requirements
@@ -55,16 +53,19 @@ pub(super) fn search(
         })?;
         return Ok(Search::Dimensions(Box::new(done)));
     }
-    let done = optimize::search(design, asked.octahedral.clone(), &Choices::plain(extension), seed, &mut |p| {
-        match p {
-            offsets::OffsetProgress::Ranking { done, total, .. } => progress.part("ranking", done, total),
-            offsets::OffsetProgress::Polishing { done, total, .. } => progress.part("polishing", done, total),
-            offsets::OffsetProgress::Bounding { boxes, open, .. } => {
-                progress.part("bounding", boxes, boxes + open);
+    let done =
+        optimize::search(design, asked.octahedral.clone(), &Choices::plain(extension), seed, &mut |p| {
+            match p {
+                offsets::OffsetProgress::Ranking { done, total, .. } => progress.part("ranking", done, total),
+                offsets::OffsetProgress::Polishing { done, total, .. } => {
+                    progress.part("polishing", done, total)
+                }
+                offsets::OffsetProgress::Bounding { boxes, open, .. } => {
+                    progress.part("bounding", boxes, boxes + open);
+                }
             }
-        }
-        interrupt.flow()
-    })?;
+            interrupt.flow()
+        })?;
     Ok(Search::Offsets(Box::new(done)))
 }
 

@@ -15,15 +15,16 @@ use crate::design::{Design, Drive, DriveTable};
 use crate::dimensional::{
     DimensionalProblem, DimensionalReport, DimensionalSolution, InvalidProblem, Progress, ShapeSearchOptions,
 };
+use crate::entrance::Error;
 use crate::entrance::drive_search::{DriveSearch, search_drives};
 use crate::entrance::freedoms::{ConflictFreedom, FreedomOutcome, FreedomSearch, OpenedFreedom};
 use crate::entrance::optimizing::{Checked, checked};
 use crate::entrance::platform_search::{FoundPlatform, find_platform};
-use crate::entrance::{Error, StartSymmetry};
 use crate::records::{
-    DimensionalAnswer, DimensionalStatus, DriveSearchRecord, FreedomRecord, OptimumRecord, PlatformFoundRecord,
-    SymmetryRecord,
+    DimensionalAnswer, DimensionalStatus, DriveSearchRecord, FreedomRecord, OptimumRecord,
+    PlatformFoundRecord, SymmetryRecord,
 };
+use crate::requirements::StartSymmetry;
 
 /// What was asked and what came out.
 #[derive(Debug)]
@@ -69,9 +70,8 @@ impl Done {
     /// What other freedoms came to, where they were tried.
     pub(in crate::cli::commands) fn freedoms(&self, design: &Design) -> Option<Vec<FreedomRecord>> {
         let design = self.asked(design);
-        let one = |(f, path): &(OpenedFreedom, Option<String>)| {
-            FreedomRecord::new(design, f, path.as_deref())
-        };
+        let one =
+            |(f, path): &(OpenedFreedom, Option<String>)| FreedomRecord::new(design, f, path.as_deref());
         self.freedoms.as_ref().map(|list| list.iter().map(one).collect())
     }
 
@@ -176,12 +176,13 @@ pub(in crate::cli::commands) fn search(
         let found = find_platform(design, extension, options, &mut |p| progress(None, p));
         return Ok(Done::of(found.map_err(failed)?, None));
     };
-    let search = search_drives(design, &table.drives, extension, options, &mut |drive, p| {
-        progress(Some(drive), p)
-    })
-    .map_err(failed)?;
+    let search =
+        search_drives(design, &table.drives, extension, options, &mut |drive, p| progress(Some(drive), p))
+            .map_err(failed)?;
     // a table has a drive, and the first to be tried is searched
-    let Some(answer) = search.answer().cloned() else { return Err(Failure::internal("no drive was searched")) };
+    let Some(answer) = search.answer().cloned() else {
+        return Err(Failure::internal("no drive was searched"));
+    };
     let choice = DriveChoice { search, currency: table.currency.clone(), driven: answer.design };
     Ok(Done::of(answer.found, Some(choice)))
 }

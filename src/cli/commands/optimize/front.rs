@@ -15,9 +15,7 @@ use crate::cli::requirements;
 use crate::design::Design;
 use crate::entrance::freedoms::{FreedomSearch, OpenedFreedom};
 use crate::entrance::platform_search::{FoundFront, find_front};
-use crate::records::{
-    DesignRecord, FreedomRecord, FrontAnswer, FrontStatus, OptimizeAnswer, SymmetryRecord,
-};
+use crate::records::{DesignRecord, FreedomRecord, FrontAnswer, FrontStatus, OptimizeAnswer, SymmetryRecord};
 
 /// `out.toml` as `out-1.toml`, `out-2.toml`, ...
 fn numbered(path: &Path, k: usize) -> PathBuf {
