@@ -58,7 +58,7 @@ pub(super) fn search(asked: &Asked<'_>, progress: &mut ProgressLine) -> Result<S
             match p {
                 offsets::OffsetProgress::Ranking { done, total, .. } => progress.part("ranking", done, total),
                 offsets::OffsetProgress::Polishing { done, total, .. } => {
-                    progress.part("polishing", done, total)
+                    progress.part("polishing", done, total);
                 }
                 offsets::OffsetProgress::Bounding { boxes, open, .. } => {
                     progress.part("bounding", boxes, boxes + open);

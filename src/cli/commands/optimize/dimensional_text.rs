@@ -68,16 +68,9 @@ pub(in crate::cli::commands) fn drives_text(out: &mut String, d: &DriveSearchRec
             drive.name,
             drive.outcome.as_str()
         );
-        match &drive.reason {
-            Some(why) => {
-                let _ = writeln!(out, "  {why}");
-            }
-            None => {
-                let left = |m: &MarginRecord| format!("{} {} {}", m.name.code(), short(m.margin.0), m.unit);
-                let margins: Vec<String> = drive.margins.iter().map(left).collect();
-                let _ = writeln!(out, "  {}", margins.join(", "));
-            }
-        }
+        let left = |m: &MarginRecord| format!("{} {} {}", m.name.code(), short(m.margin.0), m.unit);
+        let margins = || drive.margins.iter().map(left).collect::<Vec<String>>().join(", ");
+        let _ = writeln!(out, "  {}", drive.reason.clone().unwrap_or_else(margins));
     }
 }
 
