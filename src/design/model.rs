@@ -648,7 +648,7 @@ pub enum Combination {
 pub struct SearchTable {
     /// What may be chosen; empty: the offsets.
     pub variables: Vec<VariableKind>,
-    /// The symmetry that the platform has to keep; none when absent.
+    /// The symmetry that the platform has to keep; when absent the three-fold one of a design that has it, as long as a platform with it meets the requirements.
     pub symmetry: Option<KeptSymmetry>,
     /// Objectives with weights, or in the order of their levels; empty: the worst-case conditioning.
     pub objectives: Vec<(Objective, f64)>,

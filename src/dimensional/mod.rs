@@ -30,5 +30,5 @@ pub use outcome::{
 pub use pareto::{ParetoPoint, ParetoReport, pareto};
 pub use problem::{DimensionalProblem, InvalidProblem, Mode, Triangles, Variables};
 pub use scp::HistoryStep;
-pub(crate) use search::meet;
 pub use search::{Progress, ShapeSearchOptions, Stage, optimize};
+pub(crate) use search::{meet, optimize_without_conflict};

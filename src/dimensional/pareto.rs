@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::model::{Model, Task};
-use super::outcome::{DimensionalOutcome, DimensionalSolution, evaluate, outcome};
+use super::outcome::{DimensionalOutcome, DimensionalReport, DimensionalSolution, evaluate, outcome};
 use super::problem::{DimensionalProblem, InvalidProblem};
 use super::search::{Progress, RefinedRun, ShapeSearchOptions, Stage, Watch, better, refine, search_task};
 use crate::num::parallel::parallel;
@@ -33,8 +33,8 @@ pub struct ParetoReport {
     pub dominated: usize,
     /// Bounds that no run met.
     pub unmet: usize,
-    /// What the search for the first objective alone says where there is no front: infeasible or undecided.
-    pub failure: Option<DimensionalOutcome>,
+    /// The search under the same requirements where there is no front because it found nothing: infeasible or undecided.
+    pub failure: Option<Box<DimensionalReport>>,
     /// Whether the search was told to end; the front then consists of what was found until then, possibly nothing.
     pub interrupted: bool,
 }
@@ -73,7 +73,7 @@ pub fn pareto(
             None if model.is_stopped() => break,
             None => {
                 let one = super::search::optimize(problem, &[], options, progress)?;
-                let (failure, interrupted) = (Some(one.outcome), one.interrupted);
+                let (interrupted, failure) = (one.interrupted, Some(Box::new(one)));
                 return Ok(ParetoReport { front: Vec::new(), dominated: 0, unmet: 0, failure, interrupted });
             }
         }

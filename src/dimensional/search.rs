@@ -449,13 +449,38 @@ pub fn optimize(
     options: &ShapeSearchOptions,
     progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<DimensionalReport, InvalidProblem> {
+    searched(problem, given, options, true, progress)
+}
+
+/// As [`optimize`], for a question that is asked again in another way where nothing is found: where no run meets the requirements no conflict is looked for, and the outcome is
+/// undecided.
+///
+/// # Errors
+/// As [`optimize`].
+pub(crate) fn optimize_without_conflict(
+    problem: &DimensionalProblem,
+    options: &ShapeSearchOptions,
+    progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+) -> Result<DimensionalReport, InvalidProblem> {
+    searched(problem, &[], options, false, progress)
+}
+
+/// See [`optimize`]; `explains`: a conflict is looked for where no run meets the requirements.
+fn searched(
+    problem: &DimensionalProblem,
+    given: &[Vec<f64>],
+    options: &ShapeSearchOptions,
+    explains: bool,
+    progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+) -> Result<DimensionalReport, InvalidProblem> {
     let model = Model::new(problem)?;
     let task = first_task(problem);
     let mut watch = Watch::new(&model, progress);
     let SearchedShape { refined, starts, feasible } = search_task(&model, &task, given, options, &mut watch);
     let polished =
         refined.iter().map(|r| r.run.is_feasible(&model).then(|| r.run.judged.gain(&task))).collect();
-    let Conclusion { outcome, nearest, others } = concluded(&model, task, refined, options, &mut watch);
+    let Conclusion { outcome, nearest, others } =
+        concluded(&model, task, refined, (options, explains), &mut watch);
     let (seed, interrupted) = (options.seed, model.is_stopped());
     Ok(DimensionalReport { outcome, starts, feasible, nearest, others, polished, seed, interrupted })
 }
@@ -511,7 +536,7 @@ fn concluded(
     model: &Model<'_>,
     task: Task,
     mut refined: Vec<RefinedRun>,
-    options: &ShapeSearchOptions,
+    (options, explains): (&ShapeSearchOptions, bool),
     watch: &mut Watch<'_, '_, '_>,
 ) -> Conclusion {
     let is_met = |refined: &[RefinedRun]| refined.first().is_some_and(|r| r.run.is_feasible(model));
@@ -523,7 +548,7 @@ fn concluded(
         return unmet(DimensionalOutcome::Undecided(None), &refined);
     }
     if !is_met(&refined)
-        && let Some(conflict) = met_or_conflict(model, &task, &mut refined, options)
+        && let Some(conflict) = met_or_conflict(model, &task, &mut refined, options, explains)
     {
         return unmet(DimensionalOutcome::Infeasible(conflict), &refined);
     }
@@ -555,16 +580,21 @@ fn other_optima<'r>(model: &Model<'_>, task: &Task, refined: &'r [RefinedRun]) -
     kept.split_off(kept.len().min(1))
 }
 
-/// Where no run meets the requirements: runs without an objective that do are climbed from again, or the conflict is returned. Runs that only lessen the violation
-/// take their places among the others.
+/// Where no run meets the requirements: runs without an objective that do are climbed from again, or the conflict is returned where one `explains`. Runs that only lessen
+/// the violation take their places among the others.
 fn met_or_conflict(
     model: &Model<'_>,
     task: &Task,
     refined: &mut Vec<RefinedRun>,
     options: &ShapeSearchOptions,
+    explains: bool,
 ) -> Option<ConstraintConflict> {
     let settled = elastic(model, refined, options.threads);
     let mut met = settled.iter().find(|r| r.run.is_feasible(model)).cloned();
+    if met.is_none() && !explains {
+        among(model, task, refined, settled);
+        return None;
+    }
     if met.is_none() {
         match conflict(model, &settled, options) {
             Clash::Conflict(conflict) => {

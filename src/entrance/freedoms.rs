@@ -37,6 +37,17 @@ pub enum ConflictFreedom {
 }
 
 impl ConflictFreedom {
+    /// Every freedom.
+    pub const ALL: [Self; 7] = [
+        Self::HomeHeight,
+        Self::TriangleSizes,
+        Self::Triangles,
+        Self::Stroke,
+        Self::BaseEnvelope,
+        Self::PlatformEnvelope,
+        Self::MachineEnvelope,
+    ];
+
     /// The word for it.
     #[must_use]
     pub fn name(self) -> &'static str {

@@ -6,6 +6,8 @@
 pub(crate) mod calibrating;
 #[cfg(all(feature = "files", feature = "synthesis"))]
 mod comparing;
+#[cfg(all(feature = "files", feature = "optimize"))]
+pub(crate) mod drive_search;
 #[cfg(all(feature = "files", feature = "synthesis"))]
 pub(crate) mod driving;
 #[cfg(all(feature = "files", feature = "synthesis"))]
@@ -23,6 +25,8 @@ mod judging;
 mod moving;
 #[cfg(all(feature = "files", feature = "optimize"))]
 pub(crate) mod optimizing;
+#[cfg(all(feature = "files", feature = "optimize"))]
+pub(crate) mod platform_search;
 #[cfg(feature = "files")]
 mod reaching;
 #[cfg(all(feature = "files", feature = "synthesis"))]

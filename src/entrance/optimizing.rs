@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::equivalence::{sample_plan, verified_exactly};
+use super::platform_search::find_platform;
 use super::{AssessReport, Error};
 use crate::design::{Combination, Design, Origin};
 use crate::dimensional::{
@@ -16,7 +17,7 @@ use crate::manipulator::{Body, Manipulator, Octahedral};
 use crate::num::Cancel;
 use crate::offsets::{self, OffsetOutcome, OffsetProblem, OffsetReport, OffsetSolution};
 use crate::requirements::{
-    AssessOptions, Assessment, JointAxes, Objective, Requirements, VariableKind, assess,
+    AssessOptions, Assessment, JointAxes, Objective, Requirements, StartSymmetry, VariableKind, assess,
 };
 use crate::synthesis::{joint_free, sliding_body};
 
@@ -215,6 +216,8 @@ pub struct OptimizeReport {
     pub nearest: Option<Box<Checked>>,
     /// Where they were asked for: other local optima that meet the requirements at the poses that the search held, best first.
     pub candidates: Vec<Checked>,
+    /// What became of the three-fold symmetry of a design that names no symmetry; `None` where it has none, names one, or the search could not break it.
+    pub symmetry: Option<StartSymmetry>,
     /// What was found on the way.
     pub evidence: OptimizeEvidence,
 }
@@ -277,24 +280,22 @@ impl Design {
             if let Some(Combination::Pareto { .. }) = self.search.mode {
                 return Err(Error::ParetoFront);
             }
-            let problem = dimensional_problem(self, options.extension);
             let search = ShapeSearchOptions { seed, threads, ..ShapeSearchOptions::default() };
-            let report = dimensional::optimize(&problem, &[], &search, &mut |p| {
+            let found = find_platform(self, options.extension, &search, &mut |p| {
                 options.flow(OptimizeProgress::Dimensions(p))
             })?;
-            let of = |s: &DimensionalSolution| checked(self, &problem, s, seed);
-            let checked = report.solution().map(of).transpose()?;
-            let nearest = report.nearest.as_deref().map(of).transpose()?;
-            let others = if options.candidates { &report.others[..] } else { &[] };
+            let of = |s: &DimensionalSolution| checked(self, &found.problem, s, seed);
+            let others = if options.candidates { &found.report.others[..] } else { &[] };
             let candidates = others.iter().map(of).collect::<Result<Vec<Checked>, VerifyError>>()?;
             return Ok(OptimizeReport {
-                status: dimensional_status(&report, checked.as_ref()),
-                design: checked.as_ref().map(|c| c.design.clone()),
-                nearest: nearest.map(Box::new),
+                status: found.status(),
+                design: found.checked.as_ref().map(|c| c.design.clone()),
+                nearest: found.nearest.map(Box::new),
                 candidates,
+                symmetry: found.symmetry,
                 evidence: OptimizeEvidence::Dimensions {
-                    report: Box::new(report),
-                    checked: checked.map(Box::new),
+                    report: Box::new(found.report),
+                    checked: found.checked.map(Box::new),
                 },
             });
         }
@@ -317,6 +318,7 @@ impl Design {
             design,
             nearest: None,
             candidates: Vec::new(),
+            symmetry: None,
             evidence: OptimizeEvidence::Offsets(Box::new(report)),
         })
     }

@@ -4,8 +4,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    AssessAnswer, DimensionalStatus, NearestRecord, NoRoundingError, NoRoundingRecord, Number, SearchWord,
-    SolvedRecord, VariableRecord, VariantWord, VerdictWord,
+    AssessAnswer, DimensionalStatus, DriveSearchRecord, FreedomRecord, NearestRecord, NoRoundingError,
+    NoRoundingRecord, Number, SearchWord, SolvedRecord, SymmetryRecord, VariableRecord, VariantWord,
+    VerdictWord,
 };
 use crate::dimensional::{DimensionalReport, DimensionalSolution};
 use crate::entrance::optimizing::{Checked, dimensional_status};
@@ -182,6 +183,15 @@ pub struct ExploreOctahedralAnswer {
     pub verify: Option<ComparedRecord>,
     /// The platform with its joints on holes; null: the design states no holes, or no platform was found. The assessment is then that of this platform.
     pub holes: Option<OnHolesRecord>,
+    /// What became of the three-fold symmetry of the design; absent where it has none, names one, or the search could not break it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub symmetry: Option<SymmetryRecord>,
+    /// The drives of a table, with what the search came to with each; absent where no table was given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub drive_search: Option<DriveSearchRecord>,
+    /// Where nothing that meets the requirements was found: the freedoms that the design does not have, each with what came of a search that had it; absent where none was looked at.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub freedoms: Option<Vec<FreedomRecord>>,
     /// The poses of the design.
     pub fk: PoseTotalsRecord,
 }

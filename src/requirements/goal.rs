@@ -49,6 +49,31 @@ impl VariableKind {
     }
 }
 
+/// What became of the three-fold symmetry of a design that names no symmetry.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum StartSymmetry {
+    /// The answer has it.
+    Kept,
+    /// With it no platform was found that is proved to meet the requirements: the answer is of a search without it.
+    GivenUp,
+}
+
+impl StartSymmetry {
+    /// One sentence: what was done, and how it is turned off.
+    #[must_use]
+    pub fn message(self) -> &'static str {
+        match self {
+            Self::Kept => {
+                "three-fold symmetry was kept, because the design has it at home and names none: symmetry = \"none\" in [optimize] searches without it"
+            }
+            Self::GivenUp => {
+                "no platform with the three-fold symmetry of the design was found that is proved to meet the requirements: the search went on without it, as symmetry = \"none\" in [optimize] does at once"
+            }
+        }
+    }
+}
+
 /// The symmetry that a search keeps, by its name in design files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]

@@ -39,7 +39,7 @@ pub use cranks::{CrankedLeg, Cranks, least_rod_conditioning};
 pub use envelope::{Envelope, Envelopes};
 pub(crate) use envelope::{ball, room};
 pub use flexure::Wrench;
-pub use goal::{KeptSymmetry, Objective, VariableKind};
+pub use goal::{KeptSymmetry, Objective, StartSymmetry, VariableKind};
 pub use hardware::{Hardware, Housing, JointAxes, LegBody, LegMasses, LegPart, LengthLimits, Swing};
 pub use holes::{Grid, HoleCircle, HoleCircles, HolePattern};
 pub use joint_angles::JointAngles;

@@ -348,12 +348,47 @@ fn the_platform_is_searched_under_the_requirements_and_judged_as_assess_does() {
     let (code, d, folder) = run(&LIMITED.replace("[9.0, 18.0]", "[9.0, 9.1]"), "unmet");
     assert_eq!((code, d["verdict"].as_str()), (Some(1), Some("infeasible")), "{d}");
     assert!(d["assessment"].is_null() && !folder.join("optimised.toml").exists());
+    // which freedom resolves it was tried, and the platform found with it is in the folder
+    let freedoms = d["freedoms"].as_array().unwrap();
+    let stroke = freedoms.iter().find(|f| f["freedom"] == "stroke").unwrap();
+    assert_eq!(stroke["outcome"], "resolved", "{stroke}");
+    assert!(folder.join("with-stroke.toml").is_file());
+    assert!(d["explanation"].as_str().unwrap().contains("with a stroke longer by"), "{}", d["explanation"]);
+    assert!(d["paths"].as_array().unwrap().iter().any(|p| p.as_str().unwrap().ends_with("with-stroke.toml")));
+    let optimum: Value = serde_json::from_str(&read(&folder, "optimize.json")).unwrap();
+    assert_eq!(optimum["freedoms"].as_array().unwrap().len(), freedoms.len());
+    assert!(read(&folder, "report.md").contains("Which freedom more would resolve it was tried"));
+    // an earlier run leaves none of them behind
+    let (_, d, folder) = run(LIMITED, "unmet");
+    assert!(d.get("freedoms").is_none() && !folder.join("with-stroke.toml").exists());
     let front = LIMITED.replace(
         "[optimize]",
         "[optimize]\nobjectives = [\"stroke\", \"worst_conditioning\"]\nmode = \"pareto\"",
     );
     let (code, d, _) = run(&front, "front");
     assert_eq!((code, d["error"]["code"].as_str()), (Some(2), Some("explore::front")));
+}
+
+#[test]
+#[ignore = "slow evidence"]
+fn the_platform_is_searched_with_the_drives_of_a_table() {
+    let temp = tempfile::tempdir().unwrap();
+    let (design, table) = (temp.path().join("limited.toml"), temp.path().join("struts.csv"));
+    std::fs::write(&design, LIMITED.replace("[hardware]\nleg_length = [9.0, 18.0]\n", "")).unwrap();
+    std::fs::write(&table, "name,stroke,retracted_length,price\ntiny,0.1,14,1\ngood,9,9,2\n").unwrap();
+    let folder = temp.path().join("out");
+    let drives = ["--json", "--drives", table.to_str().unwrap()];
+    let out = command(design.to_str().unwrap(), &folder, &drives).output().unwrap();
+    let d: Value = serde_json::from_slice(&out.stdout).unwrap();
+    assert_eq!((out.status.code(), &d["verdict"]), (Some(0), &"equivalent".into()), "{d}");
+    assert_eq!((&d["drive_search"]["chosen"], &d["assessment"]["met"]), (&"good".into(), &true.into()));
+    assert!(read(&folder, "optimised.toml").contains("leg_length = [9.0, 18.0]"));
+    assert!(!read(&folder, "original.toml").contains("leg_length"), "the input stays as it was");
+    assert!(read(&folder, "report.md").contains("| tiny | infeasible |"));
+    // a design that is not octahedral is searched for no platform under requirements
+    let out = explore(&shipped("general-6-6"), &folder, &drives);
+    let d: Value = serde_json::from_slice(&out.stdout).unwrap();
+    assert_eq!((out.status.code(), &d["error"]["code"]), (Some(2), &"usage::no_effect".into()));
 }
 
 /// A shipped design with tables added.

@@ -248,10 +248,7 @@ fn a_request_to_terminate_ends_a_search_with_what_it_has() {
 }
 
 /// Both triangles equilateral, one above the other.
-#[test]
-#[ignore = "slow evidence"]
-fn three_fold_symmetry_is_kept_or_refused() {
-    let equilateral = r#"
+const EQUILATERAL: &str = r#"
 name = "equilateral"
 units = "mm"
 legs = [["P1","P4"], ["P2","P4"], ["P2","P5"], ["P3","P5"], ["P3","P6"], ["P1","P6"]]
@@ -273,6 +270,11 @@ leg_length = [4.0, 30.0]
 [optimize]
 variables = ["offsets", "triangles"]
 "#;
+
+#[test]
+#[ignore = "slow evidence"]
+fn three_fold_symmetry_is_kept_or_refused() {
+    let equilateral = EQUILATERAL;
     let (out, _folder) = optimize(&format!("{equilateral}symmetry = \"three_fold\"\n"), &[]);
     assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stdout));
     let d = document(&out);
@@ -282,6 +284,8 @@ variables = ["offsets", "triangles"]
         d["variables"].as_array().unwrap().iter().map(|v| v["name"].as_str().unwrap()).collect();
     assert!(names.contains(&"base size") && names.contains(&"platform size"), "{names:?}");
 
+    // what the key asks for is no default, and needs no word
+    assert!(d.get("symmetry").is_none());
     let refused = |text: &str, words: &str| {
         let (out, _folder) = optimize(text, &[]);
         assert_eq!(out.status.code(), Some(2), "{words}");
@@ -293,6 +297,202 @@ variables = ["offsets", "triangles"]
     refused(&format!("{aside}symmetry = \"three_fold\"\n"), "no common axis");
     let uneven = equilateral.replace("radius = 6, angle_deg = 60", "radius = 5, angle_deg = 60");
     refused(&format!("{uneven}symmetry = \"three_fold\"\n"), "not equilateral");
+}
+
+/// Offsets in cyclic order.
+fn offsets_of(d: &Value) -> Vec<f64> {
+    (0..6).map(|k| d["offsets"][k].as_f64().unwrap()).collect()
+}
+
+/// What the offsets of both bodies differ by among the three of each.
+fn unevenness(t: &[f64]) -> f64 {
+    (0..4).map(|k| (t[k] - t[k + 2]).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn three_fold_symmetry_is_the_default_of_a_design_that_has_it_at_home() {
+    let design = EQUILATERAL.replace(r#"["offsets", "triangles"]"#, r#"["offsets"]"#);
+    let (out, folder) = optimize(&design, &["-o", "out.toml"]);
+    assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stdout));
+    let d = document(&out);
+    assert_eq!((&d["status"], &d["symmetry"]["three_fold"]), (&"optimal".into(), &"kept".into()));
+    assert!(d["symmetry"]["message"].as_str().unwrap().contains("symmetry = \"none\" in [optimize]"));
+    assert_eq!(d["variables"].as_array().unwrap().len(), 2, "{}", d["variables"]);
+    assert!(unevenness(&offsets_of(&d)) < 1e-15);
+    // the answer of a person says it too
+    let text = Command::new(env!("CARGO_BIN_EXE_equipod"))
+        .current_dir(folder.path())
+        .args(["optimize", "in.toml", "--time-limit", "0.2"])
+        .output()
+        .unwrap();
+    let text = String::from_utf8_lossy(&text.stdout).into_owned();
+    assert!(text.contains("three-fold symmetry was kept, because the design has it"), "{text}");
+    // the default is no key of the design that is written
+    assert!(!std::fs::read_to_string(folder.path().join("out.toml")).unwrap().contains("symmetry"));
+}
+
+/// The default is left where the design is not symmetric, names a symmetry, or states holes that do not turn.
+#[test]
+#[ignore = "slow evidence"]
+fn three_fold_symmetry_is_no_default_where_the_search_cannot_hold_it() {
+    let design = EQUILATERAL.replace(r#"["offsets", "triangles"]"#, r#"["offsets"]"#);
+    let silent = |text: &str, variables: usize| {
+        let (out, _folder) = optimize(text, &[]);
+        let d = document(&out);
+        assert!(d.get("symmetry").is_none(), "{}", d["symmetry"]);
+        assert_eq!(d["variables"].as_array().unwrap().len(), variables);
+    };
+    silent(&format!("{design}symmetry = \"none\"\n"), 6);
+    silent(&design.replace("position = [0.0, 0.0, 9.0]", "position = [0.5, 0.0, 9.0]"), 6);
+    silent(&design.replace("radius = 6, angle_deg = 60", "radius = 5, angle_deg = 60"), 6);
+    silent(&format!("{design}[holes]\npitch = 0.5\n"), 6);
+    silent(
+        &format!("{design}[holes.base]\npattern = \"polar\"\nfirst_radius = 1\npitch = 1\ncount = 20\n"),
+        6,
+    );
+    // offsets that are equal on each body anyway
+    silent(&design.replace(r#"["offsets"]"#, r#"["symmetric_offsets"]"#), 2);
+    let turning = format!("{design}[holes]\npattern = \"triangular\"\npitch = 0.5\n");
+    let (out, _folder) = optimize(&turning, &[]);
+    assert_eq!(document(&out)["symmetry"]["three_fold"], "kept");
+}
+
+/// Balls on two sides of the base that leave their joints disjoint ranges: platforms with one offset for both do not exist, others do.
+#[test]
+#[ignore = "slow evidence"]
+fn the_default_symmetry_is_given_up_where_only_platforms_without_it_meet_the_requirements() {
+    let side = 10.0 * 3_f64.sqrt();
+    let corner = |k: usize| {
+        let a = 120_f64.to_radians() * k as f64;
+        [10.0 * a.cos(), 10.0 * a.sin()]
+    };
+    // on the side from corner k to the next at the share t, so small that the legs at the corners do not touch it
+    let ball = |k: usize, t: f64, share: f64| {
+        let (a, b) = (corner(k % 3), corner((k + 1) % 3));
+        let [x, y] = [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])];
+        format!("[[keep_out]]\nsphere = {{ center = [{x}, {y}, 0.0], diameter = {} }}\n", 2.0 * share * side)
+    };
+    let design = EQUILATERAL
+        .replace(r#"["offsets", "triangles"]"#, "[\"offsets\"]\noffset_bounds = [0.1, 0.4]")
+        .replace("leg_length = [4.0, 30.0]", "leg_length = [4.0, 30.0]\nleg_diameter = 0.2");
+    // joints of the first side stay above 0.28, those of the second below 0.22
+    let design = format!("{design}{}{}", ball(0, 0.18, 0.1), ball(1, 0.32, 0.1));
+    let (out, _folder) = optimize(&design, &[]);
+    assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stdout));
+    let d = document(&out);
+    assert_eq!((&d["status"], &d["symmetry"]["three_fold"]), (&"optimal".into(), &"given_up".into()));
+    let t = offsets_of(&d);
+    assert!(unevenness(&t) > 0.05, "{t:?}");
+    let (out, _folder) =
+        optimize(&design.replace("[optimize]", "[optimize]\nsymmetry = \"three_fold\""), &[]);
+    assert_eq!(out.status.code(), Some(1), "the key is obeyed");
+    assert_eq!(document(&out)["status"], "infeasible");
+}
+
+const STRUTS: &str = "name,stroke,retracted_length,price_EUR
+long,12,8,40
+tiny,0.1,14,10
+tinier,0.05,14.02,20
+good,9,9,30
+";
+
+fn drive<'d>(d: &'d Value, name: &str) -> &'d Value {
+    let list = d["drive_search"]["drives"].as_array().unwrap();
+    list.iter().find(|drive| drive["name"] == name).unwrap()
+}
+
+#[test]
+fn the_platform_is_sought_with_the_cheapest_drive_that_meets_the_requirements() {
+    let more = "[optimize]\nvariables = [\"symmetric_offsets\", \"home_height\"]\n";
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("in.toml"), required(more)).unwrap();
+    std::fs::write(folder.path().join("struts.csv"), STRUTS).unwrap();
+    let run = |args: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_equipod"));
+        command.current_dir(folder.path()).args(args).output().unwrap()
+    };
+    let out = run(&["optimize", "in.toml", "--drives", "struts.csv", "--json", "-o", "out.toml"]);
+    assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stdout));
+    let d = document(&out);
+    let search = &d["drive_search"];
+    assert_eq!((&search["chosen"], &search["ranked_by"]), (&"good".into(), &"price".into()));
+    assert_eq!((&search["currency"], &search["interrupted"]), (&"EUR".into(), &false.into()));
+    let came = |name: &str| drive(&d, name)["outcome"].as_str().unwrap().to_owned();
+    assert_eq!(
+        ["good", "tiny", "tinier", "long"].map(came),
+        ["met", "infeasible", "weaker", "dearer"],
+        "{search}"
+    );
+    assert_eq!(search["drives"][0]["name"], "good");
+    assert_eq!((&d["status"], &d["requirements_met"]), (&"optimal".into(), &true.into()));
+    assert_eq!(drive(&d, "good")["objective"], d["objective"]);
+    let why = |name: &str| drive(&d, name)["reason"].as_str().unwrap().to_owned();
+    assert!(why("tiny").contains("would have to give"), "{}", why("tiny"));
+    assert!(why("tinier").contains("nothing that tiny cannot") && why("long").contains("more than good"));
+    assert!(drive(&d, "good")["reason"].is_null());
+    // the design written has the drive, and assess accepts it
+    let written = std::fs::read_to_string(folder.path().join("out.toml")).unwrap();
+    assert!(written.contains("leg_length = [9.0, 18.0]"), "{written}");
+    assert_eq!(run(&["assess", "out.toml"]).status.code(), Some(0));
+    let ended = run(&["optimize", "in.toml", "--drives", "struts.csv", "--time-limit", "0.2"]);
+    let text = String::from_utf8(ended.stdout).unwrap();
+    assert_eq!(ended.status.code(), Some(3), "{text}");
+    assert!(text.contains("as far as the search came") && text.contains("not_tried"), "{text}");
+    // a front is many platforms
+    let front =
+        required("[optimize]\nobjectives = [\"stroke\", \"worst_conditioning\"]\nmode = \"pareto\"\n");
+    std::fs::write(folder.path().join("front.toml"), front).unwrap();
+    let out = run(&["optimize", "front.toml", "--drives", "struts.csv", "--json"]);
+    assert_eq!((out.status.code(), &document(&out)["error"]["code"]), (Some(2), &"usage::no_effect".into()));
+}
+
+#[test]
+#[ignore = "slow evidence"]
+fn without_prices_the_objective_decides_between_drives_and_a_limit_of_time_keeps_the_best_so_far() {
+    let more = "[optimize]\nvariables = [\"symmetric_offsets\", \"home_height\"]\n";
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("in.toml"), required(more)).unwrap();
+    let table = "name,stroke,retracted_length\nshort,4,11\ngood,9,9\nlong,12,8\n";
+    std::fs::write(folder.path().join("struts.csv"), table).unwrap();
+    let run = |more: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_equipod"));
+        command.current_dir(folder.path()).args(["optimize", "in.toml", "--drives", "struts.csv", "--json"]);
+        command.args(more).output().unwrap()
+    };
+    let out = run(&[]);
+    let d = document(&out);
+    assert_eq!(d["drive_search"]["ranked_by"], "objective");
+    let values: Vec<f64> =
+        ["long", "good", "short"].iter().filter_map(|n| drive(&d, n)["objective"].as_f64()).collect();
+    assert!(values.len() >= 2 && values.iter().all(|v| *v <= d["objective"].as_f64().unwrap()), "{values:?}");
+    // what a longer drive allows is no less
+    assert!(values[0] >= values[1] - 1e-6, "{values:?}");
+    let out = run(&["--time-limit", "0.05"]);
+    let d = document(&out);
+    assert_eq!((out.status.code(), &d["status"]), (Some(3), &"interrupted".into()));
+    assert_eq!(d["drive_search"]["interrupted"], true);
+    assert_eq!(drive(&d, "short")["outcome"], "not_tried");
+}
+
+/// Where there is no front because nothing meets the requirements, the freedoms are tried as for a single platform.
+#[test]
+#[ignore = "slow evidence"]
+fn a_front_that_does_not_exist_names_the_freedom_that_resolves_it() {
+    let more = "[hardware]
+leg_length = [14.0, 14.1]
+[optimize]
+variables = [\"symmetric_offsets\", \"home_height\"]
+objectives = [\"worst_conditioning\", \"joint_spacing\"]
+mode = \"pareto\"
+points = 2
+";
+    let (out, _folder) = optimize(&required(more), &[]);
+    assert_eq!(out.status.code(), Some(1), "{}", String::from_utf8_lossy(&out.stdout));
+    let d = document(&out);
+    assert_eq!(d["status"], "infeasible");
+    let freedoms = d["freedoms"].as_array().unwrap();
+    let stroke = freedoms.iter().find(|f| f["freedom"] == "stroke").unwrap();
+    assert_eq!((&stroke["outcome"], &stroke["assessment"]["met"]), (&"resolved".into(), &true.into()));
 }
 
 #[test]

@@ -18,6 +18,7 @@ use self::exact::Roles;
 use self::grid::GridHole;
 pub use self::nearest::NearestRounding;
 use self::plate::PlateHoles;
+pub(crate) use self::plate::holes_turn;
 use super::joint::{Joint, joints};
 use crate::geom::{Pose, SamplePlan};
 use crate::manipulator::{Body, Manipulator, inverse_condition, jacobian};

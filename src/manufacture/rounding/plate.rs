@@ -3,7 +3,7 @@
 use nalgebra::{Point3, Vector3};
 
 use super::grid::{BodyGrid, GridHole, Plane, length};
-use crate::requirements::Grid;
+use crate::requirements::{Grid, HolePattern};
 
 /// Circles farther out than this are not counted.
 const LAST_CIRCLE: f64 = 1e6;
@@ -159,6 +159,31 @@ impl PlateHoles {
     }
 }
 
+/// Whether holes can hold a platform that turns by 120 degrees about the middle of joints take to itself: on a triangular grid where the turn takes holes to holes, on circles about
+/// that middle of which one has holes that come in threes; `true` without a grid, and `false` where the joints themselves do not turn.
+pub(crate) fn holes_turn(points: &[Point3<f64>], grid: Option<&Grid>, size: f64) -> bool {
+    let Some(grid) = grid else { return true };
+    let (Some(symmetry), Some(plate)) =
+        (ThreeFold::of(points, size), PlateHoles::new(points, Some(grid), size))
+    else {
+        return false;
+    };
+    let stays = |p: &Point3<f64>, spacing: f64| (symmetry.turned(p) - p).norm() <= ON_HOLE * spacing;
+    match &plate {
+        PlateHoles::Lattice(lattice) => {
+            // the turn keeps the directions of a triangular grid: one hole speaks for all
+            HolePattern::Triangular.skew() == Some(lattice.skew())
+                && plate.hole_at(&symmetry.turned(&lattice.point([0, 0])), 0).is_some()
+        }
+        PlateHoles::Circles(circles) => {
+            let centre = circles.plane.point([0.0; 2], circles.grid.origin);
+            let list = circles.grid.circles.as_slice();
+            list.iter().any(|c| c.holes.is_multiple_of(3) && stays(&centre, c.radius))
+        }
+        PlateHoles::AsWanted => true,
+    }
+}
+
 /// Joints of a body that turns by 120 degrees take to one another: `next[k]` is where joint `k` goes.
 #[derive(Debug, Clone)]
 pub(super) struct ThreeFold {
@@ -230,6 +255,37 @@ mod tests {
         assert_eq!(holes.around(&Point3::new(1.6, 0.0, 1.0), 0)[0], [1, 0]);
         assert_eq!(holes.around(&Point3::new(1.6, 0.0, 1.0), 0).len(), 4);
         assert!(holes.around(&Point3::new(9.0, 0.0, 1.0), 0).iter().all(|c| c[0] == 0));
+    }
+
+    #[test]
+    fn grids_that_turn_about_the_middle_of_a_triangle_are_told_from_others() {
+        let turned = |deg: f64| {
+            let (s, c) = deg.to_radians().sin_cos();
+            Point3::new(3.0 + 4.0 * c, -1.0 + 4.0 * s, 0.5)
+        };
+        let triangle = [20.0, 140.0, 260.0].map(turned);
+        let holds = |grid: Grid| holes_turn(&triangle, Some(&grid), 4.0);
+        let pattern = |pattern, origin| Grid { pattern, origin, angle_deg: 7.0, ..Grid::square(0.7) };
+        // a hole in the middle; the middle of a triangle of holes, `pitch / sqrt(3)` from one at 30 degrees from the axis; neither
+        assert!(holds(pattern(HolePattern::Triangular, [3.0, -1.0])));
+        let (s, c) = 37f64.to_radians().sin_cos();
+        let away = 0.7 / 3f64.sqrt();
+        assert!(holds(pattern(HolePattern::Triangular, [3.0 - away * c, -1.0 - away * s])));
+        assert!(!holds(pattern(HolePattern::Triangular, [3.1, -1.0])));
+        assert!(!holds(pattern(HolePattern::Square, [3.0, -1.0])));
+        let polar = |holes, origin| Grid { origin, ..Grid::polar(HoleCircle { radius: 1.0, holes }, 0.5) };
+        assert!(
+            holds(polar(24, [3.0, -1.0])) && !holds(polar(20, [3.0, -1.0])) && !holds(polar(24, [3.0, 0.0]))
+        );
+        let bolts = |list: &[HoleCircle]| Grid {
+            origin: [3.0, -1.0],
+            ..Grid::bolt_circles(HoleCircles::new(list).unwrap())
+        };
+        let circle = |holes| HoleCircle { radius: 4.0, holes };
+        assert!(holds(bolts(&[circle(8), circle(9)])) && !holds(bolts(&[circle(8), circle(10)])));
+        // no grid, and joints that do not turn
+        assert!(holes_turn(&plane(), None, 5.0));
+        assert!(!holes_turn(&plane(), Some(&pattern(HolePattern::Triangular, [0.0; 2])), 5.0));
     }
 
     #[test]

@@ -33,6 +33,17 @@ DesignObjective = Literal[
     "worst_conditioning",
 ]
 DimensionalStatus = Literal["feasible", "infeasible", "interrupted", "optimal", "undecided", "violated"]
+DriveRanking = Literal["objective", "price"]
+DriveSearchWord = Literal[
+    "dearer",
+    "infeasible",
+    "interrupted",
+    "met",
+    "not_tried",
+    "undecided",
+    "violated",
+    "weaker",
+]
 DriveSolutionWord = Literal["no_length", "not_contracting", "not_tracked", "proved", "unproved"]
 ErrorKind = Literal["position", "rotation"]
 EvidenceWord = Literal["modular", "proved"]
@@ -110,6 +121,7 @@ SourceWord = Literal["default", "design"]
 SpecialDemand = Literal["abs_det", "reach"]
 StageWord = Literal["assess", "components", "fk", "moves", "nearest", "verify"]
 StartName = Literal["closed_form", "nominal"]
+SymmetryWord = Literal["given_up", "kept"]
 TermKind = Literal[
     "angular_stiffness",
     "base_envelope",
@@ -1075,6 +1087,12 @@ class DimensionalAnswer(Record):
     #: Where nothing that meets the requirements was found: the freedoms that the design does not have,
     #: each with what came of a search that had it; absent where none was looked at.
     freedoms: Union[tuple[FreedomRecord, ...], None]
+    #: What became of the three-fold symmetry of the design; absent where it has none, names one, or the
+    #: search could not break it.
+    symmetry: Union[SymmetryRecord, None]
+    #: The drives of a table, with what the search came to with each; absent where no table was given. The
+    #: rest of the answer is about the drive chosen; where none is, about that with which most was reached.
+    drive_search: Union[DriveSearchRecord, None]
     #: Other local optima that meet the requirements at the poses that were held, best first; absent where
     #: they were not asked for.
     candidates: Union[tuple[OptimumRecord, ...], None]
@@ -1205,6 +1223,24 @@ class DriveRecord(Record):
     assessment: AssessAnswer
     #: Along the motions asked for.
     motions: tuple[MotionRunRecord, ...]
+
+
+class DriveSearchRecord(Record):
+    """The search over the drives of a table."""
+
+    #: The name of the drive of the answer; null: with no drive was a platform found that is proved to meet
+    #: the requirements.
+    chosen: Union[str, None]
+    #: What decides between drives with which the requirements are met.
+    ranked_by: DriveRanking
+    #: Of prices, as the table names it; null: it does not.
+    currency: Union[str, None]
+    #: The search was told to end before every drive was tried that could win.
+    interrupted: bool
+    #: One sentence.
+    message: str
+    #: All drives, the best first.
+    drives: tuple[SearchedDriveRecord, ...]
 
 
 class DriveSolutionRecord(Record):
@@ -1365,6 +1401,14 @@ class ExploreAnswer(Record):
     #: The platform with its joints on holes; null: the design states no holes, or no platform was found.
     #: The assessment is then that of this platform.
     holes: Union[OnHolesRecord, None]
+    #: What became of the three-fold symmetry of the design; absent where it has none, names one, or the
+    #: search could not break it.
+    symmetry: Union[SymmetryRecord, None]
+    #: The drives of a table, with what the search came to with each; absent where no table was given.
+    drive_search: Union[DriveSearchRecord, None]
+    #: Where nothing that meets the requirements was found: the freedoms that the design does not have,
+    #: each with what came of a search that had it; absent where none was looked at.
+    freedoms: Union[tuple[FreedomRecord, ...], None]
     #: The poses of the design.
     fk: Union[PoseTotalsRecord, None]
     #: What was done, in order.
@@ -1433,6 +1477,14 @@ class ExploreOctahedralAnswer(Record):
     holes: Union[OnHolesRecord, None]
     #: The poses of the design.
     fk: PoseTotalsRecord
+    #: What became of the three-fold symmetry of the design; absent where it has none, names one, or the
+    #: search could not break it.
+    symmetry: Union[SymmetryRecord, None]
+    #: The drives of a table, with what the search came to with each; absent where no table was given.
+    drive_search: Union[DriveSearchRecord, None]
+    #: Where nothing that meets the requirements was found: the freedoms that the design does not have,
+    #: each with what came of a search that had it; absent where none was looked at.
+    freedoms: Union[tuple[FreedomRecord, ...], None]
 
 
 class ExtremeRecord(Record):
@@ -1869,6 +1921,12 @@ class FrontAnswer(Record):
     unmet: int
     #: When infeasible.
     conflict: Union[ConflictRecord, None]
+    #: Where there is no front because nothing meets the requirements: the freedoms that the design does
+    #: not have, each with what came of a search that had it; absent where none was looked at.
+    freedoms: Union[tuple[FreedomRecord, ...], None]
+    #: What became of the three-fold symmetry of the design; absent where it has none, names one, or the
+    #: search could not break it.
+    symmetry: Union[SymmetryRecord, None]
 
 
 class FrontMemberRecord(Record):
@@ -2900,6 +2958,12 @@ class OptimizeAnswer(Record):
     unmet: Union[int, None]
     #: When infeasible.
     conflict: Union[ConflictRecord, None]
+    #: Where there is no front because nothing meets the requirements: the freedoms that the design does
+    #: not have, each with what came of a search that had it; absent where none was looked at.
+    freedoms: Union[tuple[FreedomRecord, ...], None]
+    #: What became of the three-fold symmetry of the design; absent where it has none, names one, or the
+    #: search could not break it.
+    symmetry: Union[SymmetryRecord, None]
     #: What was required.
     requirements: Union[OffsetLimitsRecord, None]
     #: The poses the worst case is taken over.
@@ -2951,9 +3015,9 @@ class OptimizeAnswer(Record):
     #: Where none that meets the requirements was found: the one with the least violation, which misses
     #: some of them.
     nearest: Union[NearestPlatformRecord, None]
-    #: Where nothing that meets the requirements was found: the freedoms that the design does not have,
-    #: each with what came of a search that had it; absent where none was looked at.
-    freedoms: Union[tuple[FreedomRecord, ...], None]
+    #: The drives of a table, with what the search came to with each; absent where no table was given. The
+    #: rest of the answer is about the drive chosen; where none is, about that with which most was reached.
+    drive_search: Union[DriveSearchRecord, None]
     #: Other local optima that meet the requirements at the poses that were held, best first; absent where
     #: they were not asked for.
     candidates: Union[tuple[OptimumRecord, ...], None]
@@ -3491,6 +3555,36 @@ class SearchRecord(Record):
     polished: tuple[Union[float, None], ...]
 
 
+class SearchedDriveRecord(Record):
+    """A drive of the table, in the units of the design, with what the search came to."""
+
+    #: Its name.
+    name: str
+    #: Line of the table, from 1.
+    line: int
+    #: Price; null: the table does not say it.
+    price: Union[float, None]
+    #: Mass; null: the table does not say it.
+    mass: Union[float, None]
+    #: Least and greatest length from joint centre to joint centre.
+    leg_length: tuple[Union[float, None], ...]
+    #: Greatest force; null: the table does not say it.
+    force: Union[float, None]
+    #: Greatest speed; null: the table does not say it.
+    speed: Union[float, None]
+    #: What came of it.
+    outcome: DriveSearchWord
+    #: Value of the first objective of the platform found; null: none was.
+    objective: Union[float, None]
+    #: What the platform found, or the one that misses the requirements least, leaves of the lengths, the
+    #: force and the speed of the drive; empty where the drive was not searched.
+    margins: tuple[MarginRecord, ...]
+    #: What became of the three-fold symmetry of the design; null as in an answer without a table.
+    symmetry: Union[SymmetryRecord, None]
+    #: Why it is not the answer, a sentence; null: it is.
+    reason: Union[str, None]
+
+
 class SharedJointRecord(Record):
     """A joint that holds more than one leg."""
 
@@ -3729,6 +3823,15 @@ class StraightWayRecord(Record):
     pose: PoseQuaternionRecord
     #: What is violated beyond; null: nothing.
     binds: Union[LimitRecord, None]
+
+
+class SymmetryRecord(Record):
+    """What became of the three-fold symmetry that a design has at home and does not ask for."""
+
+    #: What became of it.
+    three_fold: SymmetryWord
+    #: One sentence: why, and how it is turned off.
+    message: str
 
 
 class TimedMarginRecord(Record):

@@ -4,7 +4,7 @@ use nalgebra::{Unit, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{ConflictRecord, FreedomRecord};
+use super::{ConflictRecord, DriveSearchRecord, FreedomRecord, SymmetryRecord};
 use crate::design::Design;
 use crate::dimensional::{DimensionalOutcome, DimensionalReport, DimensionalSolution, HistoryStep};
 use crate::entrance::OptimizeStatus;
@@ -32,6 +32,12 @@ pub struct DimensionalAnswer {
     /// Where nothing that meets the requirements was found: the freedoms that the design does not have, each with what came of a search that had it; absent where none was looked at.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub freedoms: Option<Vec<FreedomRecord>>,
+    /// What became of the three-fold symmetry of the design; absent where it has none, names one, or the search could not break it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub symmetry: Option<SymmetryRecord>,
+    /// The drives of a table, with what the search came to with each; absent where no table was given. The rest of the answer is about the drive chosen; where none is, about that with which most was reached.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub drive_search: Option<DriveSearchRecord>,
     /// Other local optima that meet the requirements at the poses that were held, best first; absent where they were not asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub candidates: Option<Vec<OptimumRecord>>,
@@ -120,6 +126,8 @@ impl DimensionalAnswer {
                 _ => None,
             },
             freedoms: None,
+            symmetry: None,
+            drive_search: None,
             candidates: None,
             search: SearchRecord {
                 starts: report.starts,

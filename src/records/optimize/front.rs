@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{ConflictRecord, DimensionalSolutionRecord};
+use super::{ConflictRecord, DimensionalSolutionRecord, FreedomRecord, SymmetryRecord};
 use crate::design::Design;
 use crate::dimensional::{DimensionalOutcome, ParetoReport};
 use crate::entrance::optimizing::Checked;
@@ -23,6 +23,12 @@ pub struct FrontAnswer {
     /// When infeasible.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub conflict: Option<ConflictRecord>,
+    /// Where there is no front because nothing meets the requirements: the freedoms that the design does not have, each with what came of a search that had it; absent where none was looked at.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub freedoms: Option<Vec<FreedomRecord>>,
+    /// What became of the three-fold symmetry of the design; absent where it has none, names one, or the search could not break it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub symmetry: Option<SymmetryRecord>,
 }
 
 impl FrontAnswer {
@@ -51,10 +57,12 @@ impl FrontAnswer {
             front: report.front.iter().zip(members).zip(written).map(member).collect(),
             dominated: report.dominated,
             unmet: report.unmet,
-            conflict: match &report.failure {
+            conflict: match report.failure.as_deref().map(|r| &r.outcome) {
                 Some(DimensionalOutcome::Infeasible(c)) => Some(ConflictRecord::new(design, c)),
                 _ => None,
             },
+            freedoms: None,
+            symmetry: None,
         }
     }
 }
@@ -91,7 +99,7 @@ impl FrontStatus {
     /// The status of a search; `met`: all members meet their requirements.
     #[must_use]
     pub fn of(report: &ParetoReport, met: bool) -> Self {
-        match &report.failure {
+        match report.failure.as_deref().map(|r| &r.outcome) {
             _ if report.interrupted => Self::Interrupted,
             Some(DimensionalOutcome::Infeasible(_)) => Self::Infeasible,
             None if met => Self::Front,

@@ -2,9 +2,11 @@
 
 mod conflict;
 mod dimensional;
+mod drive;
 mod freedom;
 mod front;
 mod offsets;
+mod symmetry;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -15,6 +17,7 @@ pub use self::dimensional::{
     JointAxesRecord, NearestPlatformRecord, ObjectiveRecord, OptimumRecord, SearchRecord, StationarityRecord,
     VariableRecord, VerifiedRecord,
 };
+pub use self::drive::{DriveSearchRecord, DriveSearchWord, SearchedDriveRecord};
 pub use self::freedom::{FreedomRecord, FreedomWord};
 pub use self::front::{FrontAnswer, FrontMemberRecord, FrontStatus};
 pub use self::offsets::{
@@ -22,6 +25,7 @@ pub use self::offsets::{
     LocalOptimalityRecord, OffsetLimitsRecord, OffsetMarginsRecord, OffsetSolutionRecord, OffsetStepRecord,
     OffsetsAnswer, OffsetsFound, OffsetsStatus, PoseSetRecord, WorstPoseRecord,
 };
+pub use self::symmetry::{SymmetryRecord, SymmetryWord};
 
 /// The answer of `optimize`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -123,6 +123,10 @@ const CALLS: &[(i32, &str, &str)] = &[
     (1, "optimize", "{apart}"),
     (0, "optimize", "{lifted}"),
     (1, "optimize", "{conflict}"),
+    (0, "optimize", "{turning}"),
+    (1, "optimize", "{turning-conflict}"),
+    (0, "optimize", "{lifted} --drives {struts}"),
+    (1, "explore", "{conflict} --drives {weak-struts} --samples 1 -o {driven}"),
     (0, "optimize", "{swinging}"),
     (0, "optimize", "{front} -o {front.toml}"),
     (1, "optimize", "{no-front}"),
@@ -259,6 +263,30 @@ impl Files {
                 let hardware = json!({"leg_length": [14.0, 14.1]});
                 self.design(name, octahedral, |d| require(d, json!({"variables": home}), hardware))
             }
+            "turning" => {
+                let hardware = json!({"leg_length": [9.0, 18.0]});
+                self.design(name, octahedral, |d| turning(d, json!({"variables": ["offsets"]}), hardware))
+            }
+            "turning-conflict" => {
+                let hardware = json!({"leg_length": [14.0, 14.1]});
+                let search = json!({"variables": ["offsets"], "offset_bounds": [0.1, 0.3]});
+                self.design(name, octahedral, |d| turning(d, search, hardware))
+            }
+            "struts" => {
+                let path = self.beside("struts.csv");
+                let head = "name,stroke,retracted_length,price_EUR";
+                fs::write(
+                    &path,
+                    format!("{head}\ntiny,0.1,14,10\ntinier,0.05,14.02,20\ngood,9,9,30\nlong,12,8,40\n"),
+                )
+                .unwrap();
+                path
+            }
+            "weak-struts" => {
+                let path = self.beside("weak-struts.csv");
+                fs::write(&path, "name,stroke,retracted_length\ntiny,0.1,14\n").unwrap();
+                path
+            }
             "swinging" => self.design(name, octahedral, |d| {
                 let hardware =
                     json!({"leg_length": [9.0, 18.0], "base_swing_deg": 60.0, "base_axes": "optimize"});
@@ -369,6 +397,12 @@ fn require(design: &mut Value, search: Value, hardware: Value) {
         design["hardware"] = hardware;
     }
     design["optimize"] = search;
+}
+
+/// With the triangles one above the other at home.
+fn turning(design: &mut Value, search: Value, hardware: Value) {
+    require(design, search, hardware);
+    design["home"]["position"] = json!([3.0, 3.0 * 3_f64.sqrt(), 12.0]);
 }
 
 fn front(variables: &[&str]) -> Value {

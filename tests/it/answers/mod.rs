@@ -105,6 +105,8 @@ const OPTIONAL: &[&str] = &[
     "four_planes",
     "freedoms",
     "drives",
+    "drive_search",
+    "symmetry",
     "flexures",
 ];
 /// Keys of whole designs.

@@ -1,6 +1,6 @@
 //! `equipod build`: from the design on paper to the workshop.
 
-mod drives;
+pub(super) mod drives;
 pub(super) mod round;
 pub(super) mod tolerances;
 

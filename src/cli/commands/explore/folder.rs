@@ -2,9 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::cli::commands::optimize::dimensional;
 use crate::cli::commands::report;
 use crate::cli::failure::Failure;
 use crate::cli::files;
+use crate::entrance::freedoms::ConflictFreedom;
 use crate::export::ExportedFile;
 use crate::report::ReportFile;
 
@@ -102,7 +104,9 @@ impl Folder {
         let left = entries.filter_map(|entry| Some(entry.ok()?.path()));
         let left = left.filter(|file| {
             let name = file.file_name().unwrap_or_default();
-            ALL.iter().any(|own| name == *own || files::is_part(name, own))
+            let opened = ConflictFreedom::ALL.map(dimensional::opened_file);
+            let own = ALL.iter().copied().chain(opened.iter().map(String::as_str));
+            own.into_iter().any(|own| name == own || files::is_part(name, own))
         });
         let left: Vec<PathBuf> = left.collect();
         left.iter().try_for_each(|file| files::check_input(file))?; // before anything is removed
@@ -120,6 +124,16 @@ impl Folder {
         files::write_text(&self.path.join(name), text)?;
         self.written.push(name.to_owned());
         Ok(())
+    }
+
+    /// The folder.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Counts a file as written that somebody else has written into the folder.
+    pub(super) fn note(&mut self, name: String) {
+        self.written.push(name);
     }
 
     /// Writes files for other programs into a folder of their own.

@@ -12,6 +12,7 @@ use std::path::PathBuf;
 
 use self::folder::Folder;
 use self::search::Search;
+use super::build::drives;
 use super::build::round::render::RoundReport;
 use super::equivalents::r#move as relocation;
 use super::report::page;
@@ -22,9 +23,9 @@ use crate::cli::failure::Failure;
 use crate::cli::files::OutputPath;
 use crate::cli::output::{Answer, document};
 use crate::cli::poses;
-use crate::cli::progress::ProgressLine;
+use crate::cli::progress::{Interrupt, ProgressLine};
 use crate::cli::requirements;
-use crate::design::Design;
+use crate::design::{Design, DriveTable};
 use crate::entrance::exporting::octahedral_of_controllers;
 use crate::entrance::optimizing::EXTENSION;
 use crate::entrance::rounding::DesignOnHoles;
@@ -38,9 +39,10 @@ use crate::manipulator::{LegLengths, Octahedral};
 use crate::manufacture::NoRounding;
 use crate::records::{
     AssessAnswer, ComparedRecord, ExploreAnswer, ExploreOctahedralAnswer, ExploreVerdict, FamilyAnswer,
-    FamilySizeRecord, FkRunRecord, FramesRecord, LengthsOrigin, OnHolesRecord, PoseTotalsRecord,
+    FamilySizeRecord, FkRunRecord, FramesRecord, FreedomWord, LengthsOrigin, OnHolesRecord, PoseTotalsRecord,
     ProvenanceRecord, RoundAnswer, VariantWord, VerdictWord, VerifyAnswer,
 };
+use crate::requirements::KeptSymmetry;
 use crate::synthesis::{Family, FamilyMember};
 
 /// Arguments of `explore`.
@@ -57,6 +59,9 @@ pub(crate) struct Args {
     /// How far a joint may lie outside its edge, on its extension, in edge lengths
     #[arg(long, value_name = "X", default_value_t = EXTENSION)]
     extension: f64,
+    /// Table of drives (.csv), as `equipod build drives` reads it: the platform is searched with each drive that could win, as `equipod optimize --drives` does. Of octahedral designs
+    #[arg(long, value_name = "TABLE")]
+    drives: Option<PathBuf>,
 }
 
 /// The verification with its plan.
@@ -151,6 +156,14 @@ impl Results {
         }
     }
 
+    /// The freedoms with which the requirements were met, as the end of a sentence; empty where there are none.
+    fn what_resolves_it(&self) -> String {
+        let opened = self.search.freedoms(&self.design).into_iter().flatten();
+        let resolved =
+            opened.filter(|f| f.outcome == FreedomWord::Resolved).map(|f| format!("; {}", f.message));
+        resolved.collect()
+    }
+
     /// One sentence with what decided.
     fn explanation(&self) -> String {
         let judged = |design: &Design| {
@@ -165,13 +178,19 @@ impl Results {
                 "every branch of offsets is proved to violate the limits".into()
             }
             (Judged::Infeasible, Search::Dimensions(_)) => {
-                "no start met the requirements together; the conflict stands in optimize.json".into()
+                format!(
+                    "no start met the requirements together; the conflict stands in optimize.json{}",
+                    self.what_resolves_it()
+                )
             }
             (Judged::NotFound, Search::Offsets(_)) => {
                 "no offsets were found that keep the limits, but some branches are not proved empty".into()
             }
             (Judged::NotFound, Search::Dimensions(_)) => {
-                "no platform that meets the requirements was found, and no conflict".into()
+                format!(
+                    "no platform that meets the requirements was found, and no conflict{}",
+                    self.what_resolves_it()
+                )
             }
             (Judged::Violated(design) | Judged::Unproved(design), _) => judged(design),
             (Judged::OnHoles, _) => match (self.built(), &self.assessment) {
@@ -256,6 +275,8 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     optimize::check_extension(args.extension)?;
     let design = context.load(&args.design)?;
     let Ok(octahedral) = Octahedral::recognise(design.manipulator()) else {
+        let why = "no platform is searched under the requirements of a design that is not octahedral";
+        context.no_effect("drives", why)?;
         if design.holes.is_some() {
             let message =
                 "the design states [holes], and joints are put on them for octahedral designs alone";
@@ -274,6 +295,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     if design.holes.is_some() {
         export::plain(&design)?; // units that are no lengths: now, and not after the search
     }
+    let table = args.drives.as_deref().map(|path| drives::table(path, &design, context)).transpose()?;
     let mut folder = Folder::prepare(&args.output)?;
     let mut progress = ProgressLine::new(context.quiet());
     let seed = context.seed();
@@ -299,8 +321,18 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     )?;
 
     progress.stage(2, "the best platform");
-    let found = search::search(&design, octahedral.clone(), args.extension, context, &mut progress)?;
-    let found = found.with_lengths_of(&design);
+    let interrupt = Interrupt::watch();
+    let asked = Asked {
+        design: &design,
+        octahedral: &octahedral,
+        drives: table.as_ref(),
+        extension: args.extension,
+        context,
+        interrupt: &interrupt,
+    };
+    let (found, holes) = searched(&asked, &mut progress)?;
+    let mut found = found.with_lengths_of(&design);
+    found.open_freedoms(&asked, &mut progress, &mut folder)?;
     found.write(&design, provenance.clone(), &mut folder)?;
     if let Some(new) = found.optimised() {
         folder.write(folder::OPTIMISED, &new.to_toml())?;
@@ -324,29 +356,24 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     folder.write(folder::FK, &document(fk_record(&poses), provenance, &[])?)?;
     folder.write(folder::MODES, &figures::modes(&design, &poses))?;
 
-    let mut holes = None;
     let mut assessment = found.assessment();
     let mut built = None;
-    if design.holes.is_some() {
-        progress.stage(5, "joints on holes");
-        holes = found.on_holes(&design, context, &mut progress)?;
-        if let Some(Ok(on)) = &holes {
-            let new = on.found.as_ref().map(|(_, design)| design);
-            assessment = new.zip(on.assessed.as_ref()).map(|(d, a)| AssessAnswer::new(d, a));
-            let answer = round_record(on, assessment.clone());
-            folder.write(folder::ROUND, &document(answer, context.provenance(), &[])?)?;
-            if let Some(new) = new {
-                folder.write(folder::ROUNDED, &new.to_toml())?;
-                if let Some(found) = &assessment {
-                    let text = document(found.clone(), context.provenance(), &[])?;
-                    folder.write(folder::ROUNDED_ASSESS, &text)?;
-                }
-                built = Some(machine(new, &mut folder)?);
+    if let Some(Ok(on)) = &holes {
+        let new = on.found.as_ref().map(|(_, design)| design);
+        assessment = new.zip(on.assessed.as_ref()).map(|(d, a)| AssessAnswer::new(d, a));
+        let answer = round_record(on, assessment.clone());
+        folder.write(folder::ROUND, &document(answer, context.provenance(), &[])?)?;
+        if let Some(new) = new {
+            folder.write(folder::ROUNDED, &new.to_toml())?;
+            if let Some(found) = &assessment {
+                let text = document(found.clone(), context.provenance(), &[])?;
+                folder.write(folder::ROUNDED_ASSESS, &text)?;
             }
+            built = Some(machine(new, &mut folder)?);
         }
     }
 
-    progress.stage(if design.holes.is_some() { 6 } else { 5 }, "report");
+    progress.stage(5, "report");
     let extension = args.extension;
     let results = Results {
         design,
@@ -367,8 +394,60 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     let record = record(&results, &folder);
     let lead = results.built().zip(record.assessment.as_ref());
     let lead = lead.map(|(design, a)| requirements::lead(&design.name, Some(a)));
+    let notes = notes(&record);
+    let lead = lead.map_or_else(|| notes.clone(), |lead| format!("{notes}{lead}"));
+    let lead = (!lead.is_empty()).then_some(lead);
     let text = text(&record.name, record.verdict, &record.explanation, &record.paths, lead.as_deref());
     Ok(Answer::new(results.exit(), ExploreAnswer::Octahedral(Box::new(record)), text))
+}
+
+/// What is searched for, and how.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Asked<'a> {
+    design: &'a Design,
+    octahedral: &'a Octahedral,
+    /// The drives to choose from, where a table was given.
+    drives: Option<&'a DriveTable>,
+    extension: f64,
+    context: &'a Context,
+    interrupt: &'a Interrupt,
+}
+
+/// A platform with its joints on the holes that the design states; `None` where it states none, or no platform was found.
+type OnHoles = Option<Result<DesignOnHoles, NoRounding>>;
+
+/// The best platform, and the same on the holes that the design states. Where a symmetry that nobody asked for leads to a platform on the holes that is not proved to meet its
+/// requirements, the search without it is the answer if it leads to one that is.
+fn searched(asked: &Asked<'_>, progress: &mut ProgressLine) -> Result<(Search, OnHoles), Failure> {
+    let found = search::search(asked, progress)?;
+    let holes = found.on_holes(asked, progress)?;
+    let is_met =
+        |holes: &OnHoles| matches!(holes, Some(Ok(on)) if on.found.is_some() && on.met() == Some(true));
+    let is_last = holes.is_none() || is_met(&holes) || asked.interrupt.flow().is_break();
+    if is_last || !found.keeps_symmetry_of_start() {
+        return Ok((found, holes));
+    }
+    let mut free = asked.design.clone();
+    free.search.symmetry = Some(KeptSymmetry::None);
+    let free = Asked { design: &free, ..*asked };
+    let other = search::search(&free, progress)?;
+    let on_holes = other.on_holes(&free, progress)?;
+    Ok(if is_met(&on_holes) { (other.without_symmetry_of_start(), on_holes) } else { (found, holes) })
+}
+
+/// What the answer says besides its verdict: symmetry, drives, freedoms.
+fn notes(a: &ExploreOctahedralAnswer) -> String {
+    let mut out = String::new();
+    if let Some(s) = &a.symmetry {
+        let _ = writeln!(out, "{}", s.message);
+    }
+    if let Some(d) = &a.drive_search {
+        optimize::drives_text(&mut out, d);
+    }
+    for f in a.freedoms.iter().flatten() {
+        let _ = writeln!(out, "{}", f.message);
+    }
+    out
 }
 
 /// The design as it was read, with a word on where the copy comes from.
@@ -437,6 +516,9 @@ fn record(r: &Results, folder: &Folder) -> ExploreOctahedralAnswer {
         optimize: r.search.key_figures(),
         verify: r.verified.as_ref().map(|v| ComparedRecord::from(&v.found)),
         holes: r.holes.as_ref().map(OnHolesRecord::from),
+        symmetry: r.search.symmetry(),
+        drive_search: r.search.drive_search(),
+        freedoms: r.search.freedoms(&r.design),
         fk: PoseTotalsRecord::new(r.poses.from, &r.poses.solutions),
     }
 }

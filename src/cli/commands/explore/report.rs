@@ -4,7 +4,8 @@ use std::fmt::Write as _;
 
 use super::search::Search;
 use super::{Machine, Results, Verified, folder};
-use crate::cli::commands::optimize::{Done, dimensional};
+use crate::cli::commands::optimize::Done;
+use crate::cli::commands::optimize::dimensional::{self, opened_file};
 use crate::cli::requirements as table;
 use crate::entrance::rounding::{DesignOnHoles, RoundingWay, grid_in_words};
 use crate::equivalence::SAME_POSE;
@@ -12,7 +13,7 @@ use crate::export::PART_COLUMNS;
 use crate::fk::{Completeness, FkSolutions};
 use crate::manipulator::LegIndex;
 use crate::offsets::OffsetSolution;
-use crate::records::{AssessAnswer, LengthsOrigin, SourceWord};
+use crate::records::{AssessAnswer, DriveSearchRecord, LengthsOrigin, Number, SourceWord};
 use crate::synthesis::AffineLegMap;
 
 /// The whole report. Writing to a string cannot fail, so the results of `write!` are dropped.
@@ -213,6 +214,13 @@ fn holes(out: &mut String, on: &DesignOnHoles, units: &str) {
 /// What was chosen under the requirements.
 fn platform(out: &mut String, r: &Results, done: &dimensional::Done) {
     let _ = writeln!(out, "## The best platform under the requirements\n");
+    if let Some(s) = r.search.symmetry() {
+        let _ = writeln!(out, "{}.\n", sentence(&s.message));
+    }
+    if let Some(d) = r.search.drive_search() {
+        drives(out, &d);
+    }
+    freedoms(out, r);
     let Some((s, c)) = done.report.solution().zip(done.checked.as_ref()) else {
         let _ = writeln!(out, "No platform was found. Details: [{0}]({0}).\n", folder::OPTIMIZE);
         return;
@@ -234,6 +242,47 @@ fn platform(out: &mut String, r: &Results, done: &dimensional::Done) {
     if r.search.keeps_class() && r.search.offsets().is_some() {
         let _ = writeln!(out, "![det A over the two offsets]({})\n", folder::DETERMINANT);
     }
+}
+
+/// The first letter large, as a sentence of its own.
+fn sentence(text: &str) -> String {
+    let mut rest = text.chars();
+    rest.next().map_or_else(String::new, |first| plain(&format!("{}{}", first.to_uppercase(), rest.as_str())))
+}
+
+/// The drives of the table.
+fn drives(out: &mut String, d: &DriveSearchRecord) {
+    let price = d.currency.as_ref().map_or("price".to_owned(), |c| format!("price {}", plain(c)));
+    let _ = writeln!(
+        out,
+        "{}.\n\n| drive | outcome | {price} | objective | why not |\n|---|---|---|---|---|",
+        sentence(&d.message)
+    );
+    for drive in &d.drives {
+        let number = |x: Option<Number>| x.map_or_else(String::new, |x| format!("{:.6}", x.0));
+        let _ = writeln!(
+            out,
+            "| {} | {} | {} | {} | {} |",
+            plain(&drive.name),
+            plain(drive.outcome.as_str()),
+            drive.price.map_or_else(String::new, |x| format!("{}", x.0)),
+            number(drive.objective),
+            plain(drive.reason.as_deref().unwrap_or_default())
+        );
+    }
+    out.push('\n');
+}
+
+/// What other freedoms came to.
+fn freedoms(out: &mut String, r: &Results) {
+    let Some(list) = r.search.freedoms(&r.design).filter(|list| !list.is_empty()) else { return };
+    let _ = writeln!(out, "Which freedom more would resolve it was tried:\n");
+    for f in &list {
+        let file = opened_file(f.freedom);
+        let link = f.output.as_ref().map_or_else(String::new, |_| format!(" ([{file}]({file}))"));
+        let _ = writeln!(out, "- {}{link}", plain(&f.message));
+    }
+    out.push('\n');
 }
 
 fn offsets(out: &mut String, r: &Results, done: &Done) {

@@ -1,24 +1,25 @@
 //! The best platform for the design, under whatever it requires: one of two searches, and what the other stages need of either.
 
+use super::Asked;
 use super::folder::Folder;
 use crate::cli::commands::optimize::{self, Choices, Done, dimensional};
-use crate::cli::context::Context;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::output::document;
-use crate::cli::progress::{Interrupt, ProgressLine};
+use crate::cli::progress::ProgressLine;
 use crate::design::{Combination, Design};
 use crate::dimensional::{Progress, ShapeSearchOptions, Stage, Triangles};
 use crate::entrance::AssessReport;
 use crate::entrance::optimizing::{Checked, asks_for_more, met_or_nothing_required};
 use crate::entrance::rounding::{DesignOnHoles, FirstSearch, on_stated_holes};
 use crate::equivalence::Verdict;
-use crate::manipulator::Octahedral;
 use crate::manufacture::NoRounding;
 use crate::offsets;
 use crate::records::{
-    AssessAnswer, OffsetsFoundRecord, OptimizedRecord, PlatformFoundRecord, ProvenanceRecord,
+    AssessAnswer, DriveSearchRecord, FreedomRecord, OffsetsFoundRecord, OptimizedRecord, PlatformFoundRecord,
+    ProvenanceRecord, SymmetryRecord,
 };
+use crate::requirements::StartSymmetry;
 
 /// What was searched, and what came out.
 #[derive(Debug)]
@@ -41,31 +42,30 @@ pub(super) fn refuse_front(design: &Design) -> Result<(), Failure> {
 }
 
 /// Searches as `optimize` does.
-pub(super) fn search(
-    design: &Design,
-    octahedral: Octahedral,
-    extension: f64,
-    context: &Context,
-    progress: &mut ProgressLine,
-) -> Result<Search, Failure> {
-    let (interrupt, seed) = (Interrupt::watch(), context.seed());
-    if asks_for_more(design) {
-        let done = dimensional::search(design, extension, &options(seed), &mut |p| {
+pub(super) fn search(asked: &Asked<'_>, progress: &mut ProgressLine) -> Result<Search, Failure> {
+    let Asked { design, extension, interrupt, .. } = *asked;
+    let seed = asked.context.seed();
+    // lengths of drives are requirements
+    if asks_for_more(design) || asked.drives.is_some() {
+        let done = dimensional::search(design, asked.drives, extension, &options(seed), &mut |_, p| {
             part(progress, &p);
             interrupt.flow()
         })?;
         return Ok(Search::Dimensions(Box::new(done)));
     }
-    let done = optimize::search(design, octahedral, &Choices::plain(extension), seed, &mut |p| {
-        match p {
-            offsets::OffsetProgress::Ranking { done, total, .. } => progress.part("ranking", done, total),
-            offsets::OffsetProgress::Polishing { done, total, .. } => progress.part("polishing", done, total),
-            offsets::OffsetProgress::Bounding { boxes, open, .. } => {
-                progress.part("bounding", boxes, boxes + open);
+    let done =
+        optimize::search(design, asked.octahedral.clone(), &Choices::plain(extension), seed, &mut |p| {
+            match p {
+                offsets::OffsetProgress::Ranking { done, total, .. } => progress.part("ranking", done, total),
+                offsets::OffsetProgress::Polishing { done, total, .. } => {
+                    progress.part("polishing", done, total);
+                }
+                offsets::OffsetProgress::Bounding { boxes, open, .. } => {
+                    progress.part("bounding", boxes, boxes + open);
+                }
             }
-        }
-        interrupt.flow()
-    })?;
+            interrupt.flow()
+        })?;
     Ok(Search::Offsets(Box::new(done)))
 }
 
@@ -83,6 +83,63 @@ fn part(progress: &mut ProgressLine, p: &Progress) {
 }
 
 impl Search {
+    /// Where nothing was found: the searches with one more freedom each, their platforms written into the folder.
+    pub(super) fn open_freedoms(
+        &mut self,
+        asked: &Asked<'_>,
+        progress: &mut ProgressLine,
+        folder: &mut Folder,
+    ) -> Result<(), Failure> {
+        let Self::Dimensions(done) = self else { return Ok(()) };
+        let Asked { design, extension, interrupt, .. } = *asked;
+        let options = options(asked.context.seed());
+        let path = folder.path().to_path_buf();
+        dimensional::open_freedoms(done, design, extension, options, Some(&path), &mut |_, p| {
+            part(progress, &p);
+            interrupt.flow()
+        })?;
+        let opened = done.freedoms(design).into_iter().flatten();
+        opened.filter(|f| f.output.is_some()).for_each(|f| folder.note(dimensional::opened_file(f.freedom)));
+        Ok(())
+    }
+
+    /// Whether the answer has a symmetry that the design has and does not ask for.
+    pub(super) fn keeps_symmetry_of_start(&self) -> bool {
+        matches!(self, Self::Dimensions(done) if done.symmetry == Some(StartSymmetry::Kept))
+    }
+
+    /// This search, which was made because the symmetry of the design led to no platform.
+    pub(super) fn without_symmetry_of_start(mut self) -> Self {
+        if let Self::Dimensions(done) = &mut self {
+            done.symmetry = Some(StartSymmetry::GivenUp);
+        }
+        self
+    }
+
+    /// What other freedoms came to, where they were tried.
+    pub(super) fn freedoms(&self, design: &Design) -> Option<Vec<FreedomRecord>> {
+        match self {
+            Self::Offsets(_) => None,
+            Self::Dimensions(done) => done.freedoms(design),
+        }
+    }
+
+    /// What became of the symmetry of a design that names none.
+    pub(super) fn symmetry(&self) -> Option<SymmetryRecord> {
+        match self {
+            Self::Offsets(_) => None,
+            Self::Dimensions(done) => done.symmetry.map(SymmetryRecord::from),
+        }
+    }
+
+    /// The drives of the table, where there is one.
+    pub(super) fn drive_search(&self) -> Option<DriveSearchRecord> {
+        match self {
+            Self::Offsets(_) => None,
+            Self::Dimensions(done) => done.drive_search(),
+        }
+    }
+
     /// The platform found, with the leg lengths of the pose at which the design has its own.
     pub(super) fn with_lengths_of(mut self, design: &Design) -> Self {
         let lengths = design.lengths.map(|l| l.squared());
@@ -123,21 +180,20 @@ impl Search {
     /// The closest platform with its joints on the holes that the design states; `None` without such a platform or holes.
     pub(super) fn on_holes(
         &self,
-        design: &Design,
-        context: &Context,
+        asked: &Asked<'_>,
         progress: &mut ProgressLine,
     ) -> Result<Option<Result<DesignOnHoles, NoRounding>>, Failure> {
+        let Asked { design, interrupt, .. } = *asked;
         let Some((grids, wanted)) = design.holes.zip(self.closest()) else { return Ok(None) };
-        let interrupt = Interrupt::watch();
         let first = match self {
             Self::Dimensions(done) => done
                 .report
                 .solution()
                 .or(done.report.nearest.as_deref())
-                .map(|s| FirstSearch { design, problem: &done.problem, point: &s.point }),
+                .map(|s| FirstSearch { design: done.asked(design), problem: &done.problem, point: &s.point }),
             Self::Offsets(_) => None,
         };
-        let options = options(context.seed());
+        let options = options(asked.context.seed());
         let found = on_stated_holes(wanted, &grids, first, &options, &mut |p| {
             part(progress, &p);
             interrupt.flow()
@@ -177,9 +233,7 @@ impl Search {
     pub(super) fn exit(&self) -> Exit {
         match self {
             Self::Offsets(done) => done.exit(),
-            Self::Dimensions(done) => {
-                dimensional::exit_of(PlatformFoundRecord::status_of(&done.report, done.checked.as_ref()))
-            }
+            Self::Dimensions(done) => dimensional::exit_of(done.status()),
         }
     }
 

@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 use std::path::Path;
 
+use crate::cli::commands::build::drives;
 use crate::cli::commands::verify::failure_of;
 use crate::cli::commands::{GENERAL, NEAREST};
 use crate::cli::context::Context;
@@ -10,14 +11,20 @@ use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::files;
 use crate::cli::progress::{Interrupt, ProgressLine};
-use crate::design::Design;
+use crate::design::{Design, Drive, DriveTable};
 use crate::dimensional::{
     DimensionalProblem, DimensionalReport, DimensionalSolution, InvalidProblem, Progress, ShapeSearchOptions,
-    optimize,
 };
-use crate::entrance::freedoms::{FreedomOutcome, FreedomSearch, OpenedFreedom};
-use crate::entrance::optimizing::{Checked, checked, dimensional_problem};
-use crate::records::{DimensionalAnswer, DimensionalStatus, FreedomRecord, OptimumRecord};
+use crate::entrance::Error;
+use crate::entrance::drive_search::{DriveSearch, search_drives};
+use crate::entrance::freedoms::{ConflictFreedom, FreedomOutcome, FreedomSearch, OpenedFreedom};
+use crate::entrance::optimizing::{Checked, checked};
+use crate::entrance::platform_search::{FoundPlatform, find_platform};
+use crate::records::{
+    DimensionalAnswer, DimensionalStatus, DriveSearchRecord, FreedomRecord, OptimumRecord,
+    PlatformFoundRecord, SymmetryRecord,
+};
+use crate::requirements::StartSymmetry;
 
 /// What was asked and what came out.
 #[derive(Debug)]
@@ -27,6 +34,10 @@ pub(in crate::cli::commands) struct Done {
     pub(in crate::cli::commands) checked: Option<Checked>,
     /// The platform that misses the requirements least, where none that meets them was found.
     pub(in crate::cli::commands) nearest: Option<Checked>,
+    /// What became of the symmetry of a design that names none.
+    pub(in crate::cli::commands) symmetry: Option<StartSymmetry>,
+    /// Where a table of drives was given.
+    pub(in crate::cli::commands) drives: Option<DriveChoice>,
     /// The other local optima, where they were asked for.
     candidates: Option<Vec<Checked>>,
     /// Their files.
@@ -35,13 +46,55 @@ pub(in crate::cli::commands) struct Done {
     freedoms: Option<Vec<(OpenedFreedom, Option<String>)>>,
 }
 
+/// The search over a table of drives.
+#[derive(Debug)]
+pub(in crate::cli::commands) struct DriveChoice {
+    search: DriveSearch,
+    currency: Option<String>,
+    /// The design with the drive that the answer is about.
+    driven: Design,
+}
+
 impl Done {
+    fn of(found: FoundPlatform, drives: Option<DriveChoice>) -> Self {
+        let FoundPlatform { problem, report, checked, nearest, symmetry } = found;
+        let (candidates, candidate_paths, freedoms) = (None, Vec::new(), None);
+        Self { problem, report, checked, nearest, symmetry, drives, candidates, candidate_paths, freedoms }
+    }
+
+    /// The design of the answer: that which was asked about, or the same with the drive of the answer.
+    pub(in crate::cli::commands) fn asked<'d>(&'d self, design: &'d Design) -> &'d Design {
+        self.drives.as_ref().map_or(design, |d| &d.driven)
+    }
+
+    /// What other freedoms came to, where they were tried.
+    pub(in crate::cli::commands) fn freedoms(&self, design: &Design) -> Option<Vec<FreedomRecord>> {
+        let design = self.asked(design);
+        let one =
+            |(f, path): &(OpenedFreedom, Option<String>)| FreedomRecord::new(design, f, path.as_deref());
+        self.freedoms.as_ref().map(|list| list.iter().map(one).collect())
+    }
+
+    /// The drives of the table, where there is one.
+    pub(in crate::cli::commands) fn drive_search(&self) -> Option<DriveSearchRecord> {
+        self.drives.as_ref().map(|d| DriveSearchRecord::new(&d.search, d.currency.as_deref()))
+    }
+
+    /// What became of the search, over all drives where there are some.
+    pub(in crate::cli::commands) fn status(&self) -> DimensionalStatus {
+        if self.drives.as_ref().is_some_and(|d| d.search.interrupted) {
+            return DimensionalStatus::Interrupted;
+        }
+        PlatformFoundRecord::status_of(&self.report, self.checked.as_ref())
+    }
+
     /// The answer about it.
     pub(in crate::cli::commands) fn record(
         &self,
         design: &Design,
         written: Option<&str>,
     ) -> DimensionalAnswer {
+        let design = self.asked(design);
         let found = self.checked.as_ref().or(self.nearest.as_ref());
         let of = |((s, c), path): ((&DimensionalSolution, &Checked), &String)| {
             OptimumRecord::new(design, s, c, Some(path))
@@ -50,12 +103,11 @@ impl Done {
             self.report.others.iter().zip(list).zip(&self.candidate_paths).map(of).collect()
         };
         let candidates = self.candidates.as_ref().map(all);
-        let opened = |list: &Vec<(OpenedFreedom, Option<String>)>| {
-            list.iter().map(|(f, path)| FreedomRecord::new(design, f, path.as_deref())).collect()
-        };
-        let freedoms = self.freedoms.as_ref().map(opened);
         DimensionalAnswer {
-            freedoms,
+            status: self.status(),
+            freedoms: self.freedoms(design),
+            symmetry: self.symmetry.map(SymmetryRecord::from),
+            drive_search: self.drive_search(),
             candidates,
             ..DimensionalAnswer::new(design, &self.report, found, written)
         }
@@ -103,20 +155,55 @@ pub(super) fn options(args: &super::Args, context: &Context) -> ShapeSearchOptio
     }
 }
 
-/// Optimises and checks; `progress` is told how far the search is.
+/// Why a search could not be asked or its answer not be judged.
+pub(super) fn failed(why: Error) -> Failure {
+    match why {
+        Error::DimensionalProblem(why) => refusal(&why),
+        Error::Verify(why) => failure_of(&why),
+        other => Failure::internal(other.to_string()),
+    }
+}
+
+/// Optimises and checks, with the drives of a table where there is one; `progress` is told how far the search is.
 pub(in crate::cli::commands) fn search(
     design: &Design,
+    table: Option<&DriveTable>,
     extension: f64,
     options: &ShapeSearchOptions,
-    progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+    progress: &mut dyn FnMut(Option<&Drive>, Progress) -> ControlFlow<()>,
 ) -> Result<Done, Failure> {
-    let problem = dimensional_problem(design, extension);
-    let report = optimize(&problem, &[], options, progress).map_err(|why| refusal(&why))?;
-    let of = |s: &DimensionalSolution| checked(design, &problem, s, options.seed).map_err(|e| failure_of(&e));
-    let found = report.solution().map(of).transpose()?;
-    let nearest = report.nearest.as_deref().map(of).transpose()?;
-    let (candidates, candidate_paths, freedoms) = (None, Vec::new(), None);
-    Ok(Done { checked: found, nearest, problem, report, candidates, candidate_paths, freedoms })
+    let Some(table) = table else {
+        let found = find_platform(design, extension, options, &mut |p| progress(None, p));
+        return Ok(Done::of(found.map_err(failed)?, None));
+    };
+    let search =
+        search_drives(design, &table.drives, extension, options, &mut |drive, p| progress(Some(drive), p))
+            .map_err(failed)?;
+    // a table has a drive, and the first to be tried is searched
+    let Some(answer) = search.answer().cloned() else {
+        return Err(Failure::internal("no drive was searched"));
+    };
+    let choice = DriveChoice { search, currency: table.currency.clone(), driven: answer.design };
+    Ok(Done::of(answer.found, Some(choice)))
+}
+
+/// Where nothing was found: the searches with one more freedom each, their platforms written into a folder where one is given.
+pub(in crate::cli::commands) fn open_freedoms(
+    done: &mut Done,
+    design: &Design,
+    extension: f64,
+    options: ShapeSearchOptions,
+    folder: Option<&Path>,
+    progress: &mut dyn FnMut(ConflictFreedom, Progress) -> ControlFlow<()>,
+) -> Result<(), Failure> {
+    if done.checked.is_some() || done.status() == DimensionalStatus::Interrupted {
+        return Ok(());
+    }
+    let design = done.asked(design);
+    let search = FreedomSearch { design, extension, report: &done.report, options, progress };
+    let opened = search.run().map_err(|e| failure_of(&e))?;
+    done.freedoms = Some(write_opened(opened, folder)?);
+    Ok(())
 }
 
 /// Judges the other local optima as the answer was judged, and writes all of them, the answer first, into a folder; the paths of the others.
@@ -126,6 +213,7 @@ fn write_candidates(
     seed: u64,
     folder: &Path,
 ) -> Result<Vec<String>, Failure> {
+    let design = done.asked(design);
     let of = |s: &DimensionalSolution| checked(design, &done.problem, s, seed).map_err(|e| failure_of(&e));
     let mut others = done.report.others.iter().map(of).collect::<Result<Vec<Checked>, Failure>>()?;
     files::make_folder(folder)?;
@@ -143,6 +231,11 @@ fn write_candidates(
     Ok(paths)
 }
 
+/// The file of the platform that a freedom led to.
+pub(in crate::cli::commands) fn opened_file(freedom: ConflictFreedom) -> String {
+    format!("with-{}.toml", freedom.name())
+}
+
 /// Writes the platforms that other freedoms led to into a folder, where one is given; each with its path.
 fn write_opened(
     opened: Vec<OpenedFreedom>,
@@ -155,7 +248,7 @@ fn write_opened(
         };
         let (Some(folder), Some(design)) = (folder, found) else { return Ok((f, None)) };
         files::make_folder(folder)?;
-        let path = folder.join(format!("with-{}.toml", f.freedom.name()));
+        let path = folder.join(opened_file(f.freedom));
         files::write_design(&path, design)?;
         let shown = path.display().to_string();
         Ok((f, Some(shown)))
@@ -167,25 +260,18 @@ fn write_opened(
 pub(super) fn run(design: &Design, args: &super::Args, context: &Context) -> Result<Done, Failure> {
     let (mut progress, interrupt) =
         (ProgressLine::new(context.quiet()), Interrupt::watch_for(args.time_limit));
-    let mut done = search(design, args.extension, &options(args, context), &mut |p| {
-        progress.note(&p.to_string());
+    let table = args.drives.as_deref().map(|path| drives::table(path, design, context)).transpose()?;
+    let options = options(args, context);
+    let mut done = search(design, table.as_ref(), args.extension, &options, &mut |drive, p| {
+        let with = drive.map_or_else(String::new, |d| format!("{}: ", d.name));
+        progress.note(&format!("{with}{p}"));
         interrupt.flow()
     })?;
-    // nothing was found, and what there is of it misses requirements
-    if done.checked.is_none() && !done.report.interrupted {
-        let search = FreedomSearch {
-            design,
-            extension: args.extension,
-            report: &done.report,
-            options: options(args, context),
-            progress: &mut |freedom, p| {
-                progress.note(&format!("with {} open: {p}", freedom.name()));
-                interrupt.flow()
-            },
-        };
-        let opened = search.run().map_err(|e| failure_of(&e))?;
-        done.freedoms = Some(write_opened(opened, args.candidates.as_deref())?);
-    }
+    let folder = args.candidates.as_deref();
+    open_freedoms(&mut done, design, args.extension, options, folder, &mut |freedom, p| {
+        progress.note(&format!("with {} open: {p}", freedom.name()));
+        interrupt.flow()
+    })?;
     if let Some(folder) = &args.candidates {
         progress.note("other local optima are judged");
         done.candidate_paths = write_candidates(&mut done, design, context.seed(), folder)?;

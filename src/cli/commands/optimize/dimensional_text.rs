@@ -2,11 +2,12 @@
 
 use std::fmt::Write as _;
 
+use crate::cli::numbers::significant as short;
 use crate::cli::requirements;
 use crate::dimensional::DimensionalOutcome;
 use crate::records::{
     ConflictRecord, DesignRecord, DimensionalAnswer, DimensionalSolutionRecord, DimensionalStatus,
-    MarginRecord, NearestPlatformRecord, OptimumRecord, VariableRecord,
+    DriveSearchRecord, MarginRecord, NearestPlatformRecord, Number, OptimumRecord, VariableRecord,
 };
 
 /// For people.
@@ -15,6 +16,12 @@ pub(super) fn text(name: &str, a: &DimensionalAnswer, outcome: &DimensionalOutco
     let r = &a.search;
     // writing to a string cannot fail
     let _ = writeln!(out, "{} starts, {} of them feasible in the first pass", r.starts, r.feasible);
+    if let Some(s) = &a.symmetry {
+        let _ = writeln!(out, "{}", s.message);
+    }
+    if let Some(d) = &a.drive_search {
+        drives_text(&mut out, d);
+    }
     if let Some(s) = a.solution.as_option() {
         let found = a.design.as_ref().map_or(name, DesignRecord::name);
         let _ = writeln!(out, "\n{}", requirements::lead(found, s.assessment.as_ref()));
@@ -44,6 +51,27 @@ pub(super) fn text(name: &str, a: &DimensionalAnswer, outcome: &DimensionalOutco
         let _ = writeln!(out, "wrote {path}");
     }
     out
+}
+
+/// A line for each drive of the table.
+pub(in crate::cli::commands) fn drives_text(out: &mut String, d: &DriveSearchRecord) {
+    let _ = writeln!(out, "\n{}:", d.message);
+    let width = d.drives.iter().map(|d| d.name.chars().count()).fold(5, usize::max);
+    let price = d.currency.as_ref().map_or("price".to_owned(), |c| format!("price {c}"));
+    let _ = writeln!(out, "  {:<width$} {:<11} {price:>12} {:>14}", "drive", "outcome", "objective");
+    for drive in &d.drives {
+        let number = |x: Option<Number>| x.map_or_else(|| "-".to_owned(), |x| short(x.0));
+        let (price, objective) = (number(drive.price), number(drive.objective));
+        let _ = write!(
+            out,
+            "  {:<width$} {:<11} {price:>12} {objective:>14}",
+            drive.name,
+            drive.outcome.as_str()
+        );
+        let left = |m: &MarginRecord| format!("{} {} {}", m.name.code(), short(m.margin.0), m.unit);
+        let margins = || drive.margins.iter().map(left).collect::<Vec<String>>().join(", ");
+        let _ = writeln!(out, "  {}", drive.reason.clone().unwrap_or_else(margins));
+    }
 }
 
 /// What comes nearest misses something: the table of its requirements says what.

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use super::dimensional::{options, refusal};
+use super::dimensional::{failed, options};
 use super::dimensional_text::conflict_text;
 use crate::cli::commands::verify::failure_of;
 use crate::cli::context::Context;
@@ -13,9 +13,9 @@ use crate::cli::output::Answer;
 use crate::cli::progress::{Interrupt, ProgressLine};
 use crate::cli::requirements;
 use crate::design::Design;
-use crate::dimensional::pareto;
-use crate::entrance::optimizing::{checked, dimensional_problem};
-use crate::records::{DesignRecord, FrontAnswer, FrontStatus, OptimizeAnswer};
+use crate::entrance::freedoms::{FreedomSearch, OpenedFreedom};
+use crate::entrance::platform_search::{FoundFront, find_front};
+use crate::records::{DesignRecord, FreedomRecord, FrontAnswer, FrontStatus, OptimizeAnswer, SymmetryRecord};
 
 /// `out.toml` as `out-1.toml`, `out-2.toml`, ...
 fn numbered(path: &Path, k: usize) -> PathBuf {
@@ -34,26 +34,43 @@ pub(super) fn run(
     args: &super::Args,
     context: &Context,
 ) -> Result<Answer, Failure> {
-    let problem = dimensional_problem(design, args.extension);
     let options = options(args, context);
     let (mut progress, interrupt) =
         (ProgressLine::new(context.quiet()), Interrupt::watch_for(args.time_limit));
-    let report = pareto(&problem, points, &options, &mut |p| {
+    let found = find_front(design, points, args.extension, &options, &mut |p| {
         progress.note(&p.to_string());
         interrupt.flow()
     })
-    .map_err(|why| refusal(&why))?;
+    .map_err(failed)?;
+    let FoundFront { report, members, symmetry } = found;
+    // nothing was found: which freedom resolves it is tried, as for a single platform
+    let none = report.failure.as_deref().filter(|_| !report.interrupted);
+    let opened = none.map(|report| {
+        let search = FreedomSearch {
+            design,
+            extension: args.extension,
+            report,
+            options,
+            progress: &mut |freedom, p| {
+                progress.note(&format!("with {} open: {p}", freedom.name()));
+                interrupt.flow()
+            },
+        };
+        search.run().map_err(|e| failure_of(&e))
+    });
+    let opened = opened.transpose()?;
     progress.end();
-    let mut members = Vec::new();
     let mut written = Vec::new();
-    for (k, point) in report.front.iter().enumerate() {
-        let member =
-            checked(design, &problem, &point.solution, context.seed()).map_err(|e| failure_of(&e))?;
+    for (k, member) in members.iter().enumerate() {
         let path = args.output.as_deref().map(|p| numbered(p, k));
         written.push(super::write(path.as_deref(), Some(&member.design))?);
-        members.push(member);
     }
-    let record = FrontAnswer::new(design, &report, &members, &written);
+    let of_freedom = |f: &OpenedFreedom| FreedomRecord::new(design, f, None);
+    let record = FrontAnswer {
+        freedoms: opened.map(|list| list.iter().map(of_freedom).collect()),
+        symmetry: symmetry.map(SymmetryRecord::from),
+        ..FrontAnswer::new(design, &report, &members, &written)
+    };
     let text = text(&design.name, &record);
     Ok(Answer::new(exit_of(record.status), OptimizeAnswer::Front(record), text))
 }
@@ -73,6 +90,9 @@ fn text(name: &str, a: &FrontAnswer) -> String {
         out.push_str("the front as far as it was found; runs that were not finished may be improved\n");
     }
     // writing to a string cannot fail
+    if let Some(s) = &a.symmetry {
+        let _ = writeln!(out, "{}", s.message);
+    }
     let _ = writeln!(
         out,
         "{} platforms of which none is better in every objective; {} dominated or equal ones left out, {} bounds not met",
@@ -98,6 +118,9 @@ fn text(name: &str, a: &FrontAnswer) -> String {
     }
     if let Some(c) = &a.conflict {
         conflict_text(&mut out, c);
+    }
+    for f in a.freedoms.iter().flatten() {
+        let _ = writeln!(out, "{}", f.message);
     }
     out
 }

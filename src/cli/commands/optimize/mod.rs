@@ -6,6 +6,8 @@ mod front;
 mod history;
 mod render;
 
+pub(super) use self::dimensional_text::drives_text;
+
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
@@ -51,6 +53,9 @@ pub(crate) struct Args {
     /// Write the answer and the other local optima that meet the requirements, which look different, into this folder: `equipod compare` sets them side by side. Where there is no answer, the platforms that other freedoms lead to
     #[arg(long, value_name = "DIR")]
     candidates: Option<OutputPath>,
+    /// Table of drives (.csv), as `equipod build drives` reads it: the search is made with each drive that could win, and the answer is the best platform with its drive, the cheapest with which the requirements are met where every drive has a price
+    #[arg(long, value_name = "TABLE")]
+    drives: Option<PathBuf>,
     /// Worker threads, one for each processor when absent; the answer does not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
@@ -104,7 +109,8 @@ fn pose_set(design: &Design) -> WorstCasePoses {
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     check_extension(args.extension)?;
     let design = context.load(&args.design)?;
-    if asks_for_more(&design) {
+    // lengths of drives are requirements
+    if asks_for_more(&design) || args.drives.is_some() {
         let why = "no bound over all offsets is proved for a design that asks for more than the best offsets";
         context.no_effect("gap", why)?;
         context.no_effect(
@@ -117,6 +123,7 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
         if let Some(Combination::Pareto { points }) = design.search.mode {
             context.no_effect("history", "a front is the result of many runs")?;
             context.no_effect("candidates", "a front is a list of platforms already")?;
+            context.no_effect("drives", "a front is many platforms, and a drive is chosen for one")?;
             return front::run(&design, points, args, context);
         }
         let done = dimensional::run(&design, args, context)?;

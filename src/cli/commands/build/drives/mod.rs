@@ -2,7 +2,7 @@
 
 mod render;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::cli::commands::motion;
 use crate::cli::context::Context;
@@ -41,7 +41,7 @@ pub(crate) struct Args {
 /// Exit 0 where a drive is proved to fit, 1 where all are proved not to, 3 otherwise.
 pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure> {
     let design = context.load(&args.design)?;
-    let table = table(args, &design, context)?;
+    let table = table(&args.table, &design, context)?;
     let choice = motion::ChosenMotions::new(args.trajectory.as_deref(), &args.sine, &args.accelerate);
     if choice.is_empty() {
         context.no_effect("unit", "there is no motion")?;
@@ -85,9 +85,14 @@ pub(crate) fn run(args: &Args, context: &mut Context) -> Result<Answer, Failure>
     Ok(Answer::new(requirements::exit_of(met), answer, text))
 }
 
-fn table(args: &Args, design: &Design, context: &Context) -> Result<DriveTable, Failure> {
-    let shown = files::shown(&args.table);
-    let found = DriveTable::read(&files::read_table(&args.table)?, &design.drive_units());
+/// Reads a table of drives in the units of a design.
+pub(in crate::cli::commands) fn table(
+    path: &Path,
+    design: &Design,
+    context: &Context,
+) -> Result<DriveTable, Failure> {
+    let shown = files::shown(path);
+    let found = DriveTable::read(&files::read_table(path)?, &design.drive_units());
     let table = found.map_err(|why| {
         Failure::refused("drives::bad_table", format!("{shown}: {why}")).with_help(
             "name the columns in the first line, `name,stroke_mm,dead_length_mm,force_N,speed_mm/s,mass_kg,stiffness_N/mm,price_EUR,source`, of which stroke and dead_length (or retracted_length) are needed",
