@@ -50,7 +50,7 @@ fn crooked() -> (Manipulator, Pose) {
     let joints = |r: f64, rng: &mut Rng| -> Vec<Point3<f64>> {
         (0..6)
             .map(|i| {
-                let angle = TAU * i as f64 / 6.0 + rng.uniform(-0.3, 0.3);
+                let angle = TAU * f64::from(i) / 6.0 + rng.uniform(-0.3, 0.3);
                 let r = r * rng.uniform(0.8, 1.2);
                 Point3::new(r * angle.cos(), r * angle.sin(), rng.uniform(-0.1, 0.1))
             })

@@ -30,6 +30,7 @@ const LINES: &[Line] = &[
             ("num_integer", None),
             ("num_rational", Some("exact.rs")),
             ("num_traits", None),
+            ("pulp", Some("vector_unit.rs")),
             MATRICES,
             COMPLEX,
             ERRORS,
