@@ -97,7 +97,8 @@ class Solutions(Sequence[Solution]):
     @cached_property
     def real(self) -> npt.NDArray[np.bool_]:
         """Which poses are real; bool, shape (n,)."""
-        return self.reality == 1
+        real: npt.NDArray[np.bool_] = self.reality == 1
+        return real
 
     @cached_property
     def certified(self) -> npt.NDArray[np.bool_]:
