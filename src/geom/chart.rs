@@ -106,7 +106,48 @@ fn between(from: &Pose, to: &Pose) -> Vector3<f64> {
     (to.rotation * from.rotation.inverse()).scaled_axis()
 }
 
+/// What cutting a chart into cells has shown.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Bisection {
+    /// Every cell is settled.
+    Settled,
+    /// This point refutes what was to be shown.
+    Refuted([f64; 6]),
+    /// Cells ran out, or got too narrow, near this point.
+    Open([f64; 6]),
+}
+
 impl Chart {
+    /// Cuts the chart in two until each cell is settled, on at most `cells` cells, and counts those looked at.
+    ///
+    /// `settled` says of a cell that it is, or across which axis to cut it; `refutes` is asked about a point of each cell that is not.
+    pub(crate) fn bisected(
+        &self,
+        cells: usize,
+        settled: impl Fn(&ChartCell) -> Result<(), usize>,
+        refutes: impl Fn(&[f64; 6]) -> bool,
+    ) -> (Bisection, usize) {
+        let mut waiting = vec![self.root];
+        let mut looked_at = 0;
+        while let Some(cell) = waiting.pop() {
+            if self.covers(&cell, 1.0) == Covered::Outside {
+                continue;
+            }
+            let inside = self.pulled_inside(cell.centre());
+            if looked_at == cells {
+                return (Bisection::Open(inside), looked_at);
+            }
+            looked_at += 1;
+            let Err(axis) = settled(&cell) else { continue };
+            if refutes(&inside) {
+                return (Bisection::Refuted(inside), looked_at);
+            }
+            let Some(parts) = cell.halves(axis) else { return (Bisection::Open(inside), looked_at) };
+            waiting.extend(parts);
+        }
+        (Bisection::Settled, looked_at)
+    }
+
     /// `R_0` of the pose for every reading of it: its matrix as it is, and the rotation of its quaternion.
     fn home_rotation(home: &Pose) -> Rotation {
         let exact = exact_rotation(home);

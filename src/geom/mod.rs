@@ -14,7 +14,7 @@ mod trilateration;
 mod turn;
 
 pub(crate) use across::any_across;
-pub(crate) use chart::{Chart, ChartCell, Covered, combination};
+pub(crate) use chart::{Bisection, Chart, ChartCell, Covered, combination};
 pub(crate) use draw::{CentredPoses, any_pose};
 pub use draw::{SamplePlan, random_rotation};
 pub(crate) use hull::convex_hull;

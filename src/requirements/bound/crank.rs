@@ -5,7 +5,7 @@
 use super::force::{ForceSolver, System};
 use super::frame::{CellFrame, LegOverCell};
 use crate::geom::enclosed::{IntervalVector, cross as crossed, determinant};
-use crate::geom::{Chart, ChartCell, Covered, Pose, PoseSpace, arc_cosine, cosine, degrees, radians, sine};
+use crate::geom::{Bisection, Chart, ChartCell, Pose, PoseSpace, arc_cosine, cosine, degrees, radians, sine};
 use crate::manipulator::Manipulator;
 use crate::num::Purpose;
 use crate::num::interval::Interval;
@@ -343,29 +343,13 @@ pub fn regular_rods(
                 return Some((RodRegularity::ChangesSign(chart.pose(&x)), tested));
             }
         }
-        let mut waiting = vec![chart.root];
-        let mut left = cells;
-        while let Some(cell) = waiting.pop() {
-            if chart.covers(&cell, 1.0) == Covered::Outside {
-                continue;
-            }
-            let inside = chart.pulled_inside(cell.centre());
-            if left == 0 {
-                doubt = doubt.or(Some(chart.pose(&inside)));
-                break;
-            }
-            left -= 1;
-            let Err(axis) = lines.is_regular(&cell) else { continue };
-            if changes(&inside) {
-                return Some((RodRegularity::ChangesSign(chart.pose(&inside)), tested + cells - left));
-            }
-            let Some(parts) = cell.halves(axis) else {
-                doubt = doubt.or(Some(chart.pose(&inside)));
-                break;
-            };
-            waiting.extend(parts);
+        let (found, looked_at) = chart.bisected(cells, |cell| lines.is_regular(cell), changes);
+        tested += looked_at;
+        match found {
+            Bisection::Settled => {}
+            Bisection::Refuted(x) => return Some((RodRegularity::ChangesSign(chart.pose(&x)), tested)),
+            Bisection::Open(x) => doubt = doubt.or(Some(chart.pose(&x))),
         }
-        tested += cells - left;
     }
     Some((doubt.map_or(RodRegularity::Regular, RodRegularity::Undecided), tested))
 }

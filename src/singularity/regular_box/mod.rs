@@ -22,7 +22,9 @@ mod tests;
 use nalgebra::{Matrix6, Vector3};
 
 use crate::geom::enclosed::{IntervalMatrix, IntervalVector, apply, contraction, cross, determinant, times};
-use crate::geom::{Chart, ChartCell, Covered, Pose, PoseSpace, Region, combination, turn, turn_slope};
+use crate::geom::{
+    Bisection, Chart, ChartCell, Covered, Pose, PoseSpace, Region, combination, turn, turn_slope,
+};
 use crate::manipulator::{Manipulator, leg_determinant};
 use crate::num::Rng;
 use crate::num::interval::Interval;
@@ -145,29 +147,17 @@ pub fn regular_workspace(m: &Manipulator, space: &PoseSpace, cells: usize, seed:
         if let Some((_, x)) = refuted {
             return (Regularity::ChangesSign(chart.pose(&x)), tested);
         }
-        let mut waiting = vec![chart.root];
-        let mut left = cells;
-        while let Some(cell) = waiting.pop() {
-            if chart.covers(&cell, 1.0) == Covered::Outside {
-                continue;
-            }
-            let inside = chart.pulled_inside(cell.centre());
-            if left == 0 {
-                doubt = doubt.or(Some(chart.pose(&inside)));
-                break;
-            }
-            left -= 1;
-            let Err(axis) = lines.is_regular(&cell) else { continue };
-            if lines.sign_at(&inside).is_some_and(|s| s * sign < 0.0) {
-                return (Regularity::ChangesSign(chart.pose(&inside)), tested + cells - left);
-            }
-            let Some(parts) = cell.halves(axis) else {
-                doubt = doubt.or(Some(chart.pose(&inside)));
-                break;
-            };
-            waiting.extend(parts);
+        let (found, looked_at) = chart.bisected(
+            cells,
+            |cell| lines.is_regular(cell),
+            |x| lines.sign_at(x).is_some_and(|s| s * sign < 0.0),
+        );
+        tested += looked_at;
+        match found {
+            Bisection::Settled => {}
+            Bisection::Refuted(x) => return (Regularity::ChangesSign(chart.pose(&x)), tested),
+            Bisection::Open(x) => doubt = doubt.or(Some(chart.pose(&x))),
         }
-        tested += cells - left;
     }
     (doubt.map_or(Regularity::Regular, Regularity::Undecided), tested)
 }
