@@ -59,6 +59,11 @@ impl ComplexBatch {
 
     /// `1 / z`; not a number where `z = 0`.
     #[inline(always)]
+    pub(crate) fn times_i(self) -> Self {
+        Self { re: self.im.map(|x| -x), im: self.re }
+    }
+
+    #[inline(always)]
     pub(crate) fn reciprocal(self) -> Self {
         self.map(|re, im| {
             let n = 1.0 / (re * re + im * im);

@@ -539,22 +539,21 @@ pub enum CertificateRecord {
         /// What holds both poses.
         enclosure: Box<EnclosureRecord>,
     },
-    /// In the squared distances (s15, s34); distances are `max(|x| / weights[0], |y| / weights[1])`.
+    /// In three angles: legs 14 24, 25 35, 36 16 put P4, P5, P6 on circles about P1 P2, P2 P3, P3 P1, h^2 + z^2 = rho, h across the side in the plane of the base (towards the
+    /// left on the way from the first joint to the second, seen against n = (P2 - P1) x (P3 - P1)) and z along n. With u = h + i z the distance is the largest of the three |log(u / centre)|.
     Octahedral {
         /// Legs 14 24 25 35 36 16, from 0.
         order: [usize; 6],
-        /// Design units squared.
-        weights: [Number; 2],
-        /// s15, s34, design units squared.
-        centre: ComplexRecord<[Number; 2]>,
-        /// One pair lies within this distance of the centre.
+        /// u of P4, P5, P6, design units; rho / u is h - i z.
+        centre: ComplexRecord<[Number; 3]>,
+        /// The root is the mirror image, in the plane of the base, of the pose near the centre.
+        mirrored: bool,
+        /// One pose lies within this angle of the centre.
         radius: Number,
-        /// No other pair lies within this distance.
+        /// No other pose lies within this angle.
         uniqueness_radius: Number,
         /// Contraction of the simplified Newton map on the ball of the radius, below 1.
         contraction: Number,
-        /// Near the distance of P4 from the base plane along (P2 - P1) x (P3 - P1), design units: which pose of the pair it is.
-        height: ComplexRecord<[Number; 1]>,
         /// Precision of the centre.
         precision: CentrePrecision,
         /// Proved for all squared lengths that the data can mean.
@@ -612,12 +611,11 @@ impl From<&OctahedralCertificate> for CertificateRecord {
         let pair = c.pair();
         Self::Octahedral {
             order: c.order(),
-            weights: pair.weights.map(Number),
-            centre: pair.squared_distances.map(|d| d.centre).into(),
+            centre: pair.centre.into(),
+            mirrored: c.is_mirrored(),
             radius: Number(pair.radius),
             uniqueness_radius: Number(pair.uniqueness_radius),
             contraction: Number(pair.contraction),
-            height: [c.height()].into(),
             precision: CentrePrecision::Double,
             reality: pair.reality,
             enclosure: Box::new(c.enclosure().into()),

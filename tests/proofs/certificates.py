@@ -5,12 +5,12 @@ The statement of a record of kind `study`: with the joints as the doubles they a
     |g + e b_i - a_i e|^2 = s_i e.e (i = 1..6),   e.g = 0,   e_patch = 1,        g in `unit`,
 
 has a root within `radius` of `centre + centre_low` (largest modulus of a coordinate), no other within `uniqueness_radius`, its R and p lie in `enclosure`, and it is
-real or not as `reality` says. Of kind `octahedral`: the Cayley-Menger determinants of P1 P2 P3 P4 P5 and P1 P3 P4 P5 P6 vanish at one pair (s15, s34) within `radius` times the
-`weights`, at no other within `uniqueness_radius` times these, and the pose with the height of P4 near `height` is the root. In both kinds R and p of the solution are the
+real or not as `reality` says. Of kind `octahedral`: P4, P5, P6 are on circles about P1 P2, P2 P3, P3 P1, and with the angles on these counted from the direction of the centre there is a
+pose within `radius` (largest modulus of an angle) and no other within `uniqueness_radius`. In both kinds R and p of the solution are the
 certified ones to 2^-26; far out, where the enclosure is wider (2^-10 at most), the pose is its middle.
 
 How it is checked. Newton's method from the centre, then Krawczyk's test in balls about its end, proves a root and says where it is. Uniqueness: F(x) - F(y) = J((x + y) / 2) (x - y) for
-quadrics, and for the closures the second derivatives over the ball bound what J(c) leaves; with Y the inverse of J at the centre, |1 - Y J| < 1 is checked.
+quadrics, and for the angles the second derivatives over the ball bound what J(c) leaves; with Y the inverse of J at the centre, |1 - Y J| < 1 is checked.
 
 Of kind `double`: exactly two roots, counted with multiplicity, lie within `radius` of the centre, and R and p of both in `enclosure`. How it is checked: bordered equations of this file's own, a
 Newton map that contracts for all t in a disc, the smallest that does, and Rouche's theorem for the quadratic term on its circle.
@@ -319,80 +319,78 @@ def check_double(legs, lengths, solution, record):
 # --- kind `octahedral` -------------------------------------------------------------------------------------------------------------------------------
 
 
-def cayley_menger(d, x_at, y_at):
-    """The determinant of five points as exact coefficients c[i][j] x^i y^j; d holds fractions, x and y stand at the places given."""
-
-    def at(x, y):
-        d[x_at[0]][x_at[1]] = d[x_at[1]][x_at[0]] = fmpq(x)
-        d[y_at[0]][y_at[1]] = d[y_at[1]][y_at[0]] = fmpq(y)
-        rows = [[fmpq(0)] + [fmpq(1)] * 5] + [[fmpq(1)] + d[i] for i in range(5)]
-        return fmpq_mat(rows).det()
-
-    # of degree two in each: by differences at 0, 1, 2
-    def parabola(v):
-        c2 = (v[2] - 2 * v[1] + v[0]) / 2
-        return [v[0], v[1] - v[0] - c2, c2]
-
-    by_y = [parabola([at(x, y) for y in range(3)]) for x in range(3)]
-    columns = [parabola([by_y[x][j] for x in range(3)]) for j in range(3)]
-    return [[columns[j][i] for j in range(3)] for i in range(3)]
-
-
 def square(p, q):
     return sum(((u - v) ** 2 for u, v in zip(p, q)), fmpq(0))
 
 
-class Closures:
+class Corners:
+    """Six equations in (h, z) of P4, P5, P6: each on its circle about a side of the base, and three sides of the platform."""
+
     def __init__(self, legs, lengths, order):
         a, b = [[[rational(x) for x in legs[i][k]] for i in order] for k in range(2)]
         need(a[1] == a[2] and a[3] == a[4] and a[0] == a[5], "base joints are not shared as they should be")
         need(b[0] == b[1] and b[2] == b[3] and b[4] == b[5], "platform joints are not shared as they should be")
+        self.points = p1, p2, p3, p4, p5, p6 = a[0], a[1], a[3], b[0], b[2], b[4]
         s14, s24, s25, s35, s36, s16 = [rational(lengths[i]) ** 2 for i in order]
-        p1, p2, p3, p4, p5, p6 = a[0], a[1], a[3], b[0], b[2], b[4]
-        zero = fmpq(0)
-        # P1 P2 P3 P4 P5
-        first = [
-            [zero, square(p1, p2), square(p1, p3), s14, zero],
-            [square(p1, p2), zero, square(p2, p3), s24, s25],
-            [square(p1, p3), square(p2, p3), zero, zero, s35],
-            [s14, s24, zero, zero, square(p4, p5)],
-            [zero, s25, s35, square(p4, p5), zero],
-        ]
-        # P1 P3 P4 P5 P6
-        second = [
-            [zero, square(p1, p3), s14, zero, s16],
-            [square(p1, p3), zero, zero, s35, s36],
-            [s14, zero, zero, square(p4, p5), square(p4, p6)],
-            [zero, s35, square(p4, p5), zero, square(p5, p6)],
-            [s16, s36, square(p4, p6), square(p5, p6), zero],
-        ]
-        self.c = [cayley_menger(first, (0, 4), (2, 3)), cayley_menger(second, (0, 3), (1, 2))]
-        self.points = (p1, p2, p3, p4, p5, p6)
-        self.squares = (s14, s24, s25, s35, s36, s16)
+        lift = lambda p: [acb(arb(x)) for x in p]
+        long = lambda v: dot(v, v).real.sqrt()
+        normal = cross(minus(lift(p2), lift(p1)), minus(lift(p3), lift(p1)))
+        need(bool(long(normal) > 0), "a flat triangle")
+        self.normal = [x / long(normal) for x in normal]
+        self.middles, self.across, self.radii = [], [], []
+        for first, second, one, other in ((p1, p2, s14, s24), (p2, p3, s25, s35), (p3, p1, s36, s16)):
+            # the foot on the side: as many times the side as the difference of the squares says, exactly
+            side = square(first, second)
+            part = (one + side - other) / (2 * side)
+            way = [v - u for u, v in zip(first, second)]
+            self.middles.append(lift([u + part * w for u, w in zip(first, way)]))
+            self.radii.append(acb(arb(one - part * part * side)))
+            along = [x / arb(side).sqrt() for x in lift(way)]
+            self.across.append(cross(self.normal, along))
+        self.sides = [acb(arb(square(*pair))) for pair in ((p4, p5), (p5, p6), (p6, p4))]
 
-    def derivative(self, k, i, j, x, y):
-        """The derivative of closure k, i times by x and j times by y."""
-        falling = lambda n, m: 1 if m == 0 else n * falling(n - 1, m - 1)
-        total = acb(0)
-        for a in range(i, 3):
-            for b in range(j, 3):
-                total = total + acb(arb(self.c[k][a][b])) * falling(a, i) * falling(b, j) * x ** (a - i) * y ** (b - j)
-        return total
+    def corner(self, k, h, z):
+        return [m + h * a + z * n for m, a, n in zip(self.middles[k], self.across[k], self.normal)]
 
-    def values(self, z):
-        return [self.derivative(k, 0, 0, *z) for k in range(2)]
+    def values(self, x):
+        places = [self.corner(k, x[2 * k], x[2 * k + 1]) for k in range(3)]
+        circles = [x[2 * k] ** 2 + x[2 * k + 1] ** 2 - self.radii[k] for k in range(3)]
+        between = [minus(places[k], places[(k + 1) % 3]) for k in range(3)]
+        return circles + [dot(d, d) - self.sides[k] for k, d in enumerate(between)]
 
-    def jacobian(self, z):
-        return acb_mat([[self.derivative(k, 1, 0, *z), self.derivative(k, 0, 1, *z)] for k in range(2)])
+    def jacobian(self, x):
+        places = [self.corner(k, x[2 * k], x[2 * k + 1]) for k in range(3)]
+        rows = [[acb(0)] * 6 for _ in range(6)]
+        for k in range(3):
+            l = (k + 1) % 3
+            rows[k][2 * k], rows[k][2 * k + 1] = 2 * x[2 * k], 2 * x[2 * k + 1]
+            d = minus(places[k], places[l])
+            rows[3 + k][2 * k], rows[3 + k][2 * k + 1] = 2 * dot(d, self.across[k]), 2 * dot(d, self.normal)
+            rows[3 + k][2 * l], rows[3 + k][2 * l + 1] = -2 * dot(d, self.across[l]), -2 * dot(d, self.normal)
+        return acb_mat(rows)
 
-    def curvature(self, k, i, j, x, y):
-        """A bound of the second derivative over |.| <= x, y."""
-        falling = lambda n, m: 1 if m == 0 else n * falling(n - 1, m - 1)
-        total = arb(0)
-        for a in range(i, 3):
-            for b in range(j, 3):
-                total = total + abs(arb(self.c[k][a][b])) * falling(a, i) * falling(b, j) * x ** (a - i) * y ** (b - j)
-        return total
+    def by_angles(self, x):
+        """Derivatives of the three sides by log(h + i z) of each corner: (h, z) moves along (i z, -i h)."""
+        j = self.jacobian(x)
+        i = acb(0, 1)
+        return acb_mat([[i * (j[3 + n, 2 * k] * x[2 * k + 1] - j[3 + n, 2 * k + 1] * x[2 * k]) for k in range(3)] for n in range(3)])
+
+    def bend(self, n, u, reach):
+        """Half a bound of the second derivatives of side n by these, within `reach` of u = h + i z.
+
+        The corner is m + u f + v g with isotropic f = (a - i n) / 2, g = (a + i n) / 2 and v = rho / u, and u and v grow by exp(reach) at most.
+        """
+        k, l = n, (n + 1) % 3
+        grow = reach.exp()
+        vectors = []
+        for m in (k, l):
+            f = [(a - acb(0, 1) * b) / 2 for a, b in zip(self.across[m], self.normal)]
+            g = [(a + acb(0, 1) * b) / 2 for a, b in zip(self.across[m], self.normal)]
+            vectors.append([(f, upper(u[m]) * grow), (g, upper(self.radii[m] / u[m]) * grow)])
+        way = minus(self.middles[k], self.middles[l])
+        straight = sum((2 * upper(dot(way, f)) * size for pair in vectors for f, size in pair), arb(0))
+        mixed = sum((2 * upper(dot(f, g)) * x * y for f, x in vectors[0] for g, y in vectors[1]), arb(0))
+        return (straight + 4 * mixed) / 2
 
 
 def dot(u, v):
@@ -408,84 +406,233 @@ def minus(u, v):
 
 
 def check_octahedral(legs, lengths, solution, record):
-    system = Closures(legs, lengths, record["order"])
-    weights = [exact(w) for w in record["weights"]]
-    need(all(bool(w > 0) for w in weights), "weights")
-    centre = [complex_of(record["centre"], k) for k in range(2)]
+    system = Corners(legs, lengths, record["order"])
+    i = acb(0, 1)
+    u = [complex_of(record["centre"], k) for k in range(3)]
+    need(not any(x.contains(0) for x in u), "a centre of zero")
+    sign = -1 if record["mirrored"] else 1
+    centre = []
+    for x, rho in zip(u, system.radii):
+        v = rho / x
+        centre += [(x + v) / 2, sign * (x - v) / (2 * i)]
+    radius, alone = exact(record["radius"]), exact(record["uniqueness_radius"])
+    need(bool(radius >= 0) and bool(alone > radius) and bool(alone <= 1), "radii")
+    z = newton(system.values, system.jacobian, centre)
+    box = proved_box(system.values, system.jacobian, z, largest(z) * arb(2) ** -300)
+    ratios = [(box[2 * k] + sign * i * box[2 * k + 1]) / u[k] for k in range(3)]
+    need(all(bool(abs(r - 1) < arb(1) / 2) for r in ratios), "the root is not near the centre")
+    away = largest([r.log() for r in ratios])
+    need(bool(away <= radius), f"the pose is {away.str(5)} from the centre, not {radius.str(5)}")
+    y = middle_inverse(system.by_angles(centre))
+    bends = [system.bend(n, u, alone) for n in range(3)]
+    bound = largest([sum((upper(y[k, n]) * bends[n] for n in range(3)), arb(0)) for k in range(3)]) * (alone + away)
+    need(below(bound, arb(1)), f"not alone within {alone.str(5)}: {bound.str(8)}")
+    need_reality(is_real(system.values, system.jacobian, x), record, solution)
+    rotation, position = pose_of(system.whole(box), unit)
+    size = max(abs(x) for leg in legs for joint in leg for x in joint)
+    check_pose(rotation, position, power_of_two(max(size, *lengths)), solution, record)
+    return (patch, unit, system.whole(box))
+
+
+# --- kind `double` -----------------------------------------------------------------------------------------------------------------------------------
+
+
+def flat_directions(matrix):
+    """The column that the image of a 7 x 7 matrix lacks and the row that its kernel needs, to the digits of doubles."""
+    import numpy
+
+    values = numpy.array([[complex(matrix[i, j]) for j in range(7)] for i in range(7)])
+    u, _, v = numpy.linalg.svd(values)
+    return [acb(z.real, z.imag) for z in u[:, 6]], [acb(z.real, z.imag) for z in v[6, :]]
+
+
+def check_double(legs, lengths, solution, record):
+    unit, patch = exact(record["unit"]), record["patch"]
+    need(0 <= patch < 4 and bool(unit > 0), "no patch or unit")
+    system = Study(legs, lengths, patch, unit)
+    centre = [complex_of(record["centre"], k) + complex_of(record["centre_low"], k) for k in range(8)]
+    need(bool(abs(centre[patch] - 1) == 0), "the patch is not 1 at the centre")
+    centre = [centre[k] for k in system.free]
+    radius = exact(record["radius"])
+    j = system.jacobian(centre)
+    w, l = flat_directions(j)
+    bordered = acb_mat([[j[i, k] for k in range(7)] + [-w[i]] for i in range(7)] + [l + [acb(0)]])
+    y = middle_inverse(bordered)
+    defect = y * bordered
+    rows = [sum((upper(defect[i, k] - (1 if i == k else 0)) for k in range(8)), arb(0)) for i in range(8)]
+    kappa = largest(rows)
+    f = system.values(centre)
+    steps = [upper(sum((y[i, k] * f[k] for k in range(7)), acb(0))) for i in range(8)]
+    curved = []
+    for i in range(8):
+        combined = None
+        for k, m in enumerate(system.matrices):
+            part = m * y[i, k]
+            combined = part if combined is None else combined + part
+        curved.append(sum((upper(combined[p, q]) for p in system.free for q in system.free), arb(0)))
+    eta, beta = largest(steps), largest(curved)
+    direction = [y[i, 7] for i in range(7)]
+    v, z = largest(direction), largest(direction + [y[7, 7]])
+    column = acb_mat([[x] for x in direction[:patch] + [acb(0)] + direction[patch:]])
+    bend = acb(0)
+    for k, m in enumerate(system.matrices):
+        image = m * column
+        bend = bend + y[7, k] * sum((column[i, 0] * image[i, 0] for i in range(8)), acb(0))
+    bend = abs(bend).lower()
+    for exponent in range(-140, -3):
+        rho = arb(2) ** exponent
+        rest = 3 * (eta + kappa * rho * z + beta * (rho * v) ** 2)
+        away = rho * v + rest
+        inside = below(kappa * (rest + rho * z) + eta + beta * away**2, rest)
+        contracts = below(kappa + 2 * beta * away, arb(1))
+        other = rho * upper(y[7, 7]) + rows[7] * (rest + rho * z) + steps[7] + curved[7] * (2 * rho * v * rest + rest**2)
+        if inside and contracts and below(other, bend * rho**2):
+            break
+    else:
+        raise Refuted("no disc in which there are two roots")
+    need(bool(away <= radius), f"the roots are within {away.str(5)} of the centre, not {radius.str(5)}")
+    box = [ball(x, away) for x in centre]
+    stated = record["reality"]
+    need(stated in ("undecided", "non_real"), f"two roots are said to be {stated}")
+    need(stated == "undecided" or any(not x.imag.contains(0) for x in box), "said to be not real without proof")
+    need(solution["real"] is {"undecided": None, "non_real": False}[stated], "`real` is not what is proved")
+    need(solution["multiplicity"] == 2, "two roots that do not count twice")
+    rotation, position = pose_of(system.whole(box), unit)
+    e = record["enclosure"]
+    for i in range(3):
+        for k in range(3):
+            disc = ball(acb(exact(e["R"]["re"][i][k]), exact(e["R"]["im"][i][k])), exact(e["R"]["radius"][i][k]))
+            need(disc.contains(rotation[i][k]), f"R[{i}][{k}] is not in its disc")
+            given = acb(exact(solution["R"]["re"][i][k]), exact(solution["R"]["im"][i][k]))
+            need(disc.contains(given), f"R[{i}][{k}] of the pose is not in its disc")
+        disc = ball(acb(exact(e["p"]["re"][i]), exact(e["p"]["im"][i])), exact(e["p"]["radius"][i]))
+        need(disc.contains(position[i]), f"p[{i}] is not in its disc")
+    return (patch, unit, system.whole(box))
+
+
+# --- kind `octahedral` -------------------------------------------------------------------------------------------------------------------------------
+
+
+def square(p, q):
+    return sum(((u - v) ** 2 for u, v in zip(p, q)), fmpq(0))
+
+
+class Corners:
+    """Six equations in (h, z) of P4, P5, P6: each on its circle about a side of the base, and three sides of the platform."""
+
+    def __init__(self, legs, lengths, order):
+        a, b = [[[rational(x) for x in legs[i][k]] for i in order] for k in range(2)]
+        need(a[1] == a[2] and a[3] == a[4] and a[0] == a[5], "base joints are not shared as they should be")
+        need(b[0] == b[1] and b[2] == b[3] and b[4] == b[5], "platform joints are not shared as they should be")
+        self.points = p1, p2, p3, p4, p5, p6 = a[0], a[1], a[3], b[0], b[2], b[4]
+        s14, s24, s25, s35, s36, s16 = [rational(lengths[i]) ** 2 for i in order]
+        lift = lambda p: [acb(arb(x)) for x in p]
+        long = lambda v: dot(v, v).real.sqrt()
+        normal = cross(minus(lift(p2), lift(p1)), minus(lift(p3), lift(p1)))
+        need(bool(long(normal) > 0), "a flat triangle")
+        self.normal = [x / long(normal) for x in normal]
+        self.middles, self.across, self.radii = [], [], []
+        for first, second, one, other in ((p1, p2, s14, s24), (p2, p3, s25, s35), (p3, p1, s36, s16)):
+            # the foot on the side: as many times the side as the difference of the squares says, exactly
+            side = square(first, second)
+            part = (one + side - other) / (2 * side)
+            way = [v - u for u, v in zip(first, second)]
+            self.middles.append(lift([u + part * w for u, w in zip(first, way)]))
+            self.radii.append(acb(arb(one - part * part * side)))
+            along = [x / arb(side).sqrt() for x in lift(way)]
+            self.across.append(cross(self.normal, along))
+        self.sides = [acb(arb(square(*pair))) for pair in ((p4, p5), (p5, p6), (p6, p4))]
+
+    def corner(self, k, h, z):
+        return [m + h * a + z * n for m, a, n in zip(self.middles[k], self.across[k], self.normal)]
+
+    def values(self, x):
+        places = [self.corner(k, x[2 * k], x[2 * k + 1]) for k in range(3)]
+        circles = [x[2 * k] ** 2 + x[2 * k + 1] ** 2 - self.radii[k] for k in range(3)]
+        between = [minus(places[k], places[(k + 1) % 3]) for k in range(3)]
+        return circles + [dot(d, d) - self.sides[k] for k, d in enumerate(between)]
+
+    def jacobian(self, x):
+        places = [self.corner(k, x[2 * k], x[2 * k + 1]) for k in range(3)]
+        rows = [[acb(0)] * 6 for _ in range(6)]
+        for k in range(3):
+            l = (k + 1) % 3
+            rows[k][2 * k], rows[k][2 * k + 1] = 2 * x[2 * k], 2 * x[2 * k + 1]
+            d = minus(places[k], places[l])
+            rows[3 + k][2 * k], rows[3 + k][2 * k + 1] = 2 * dot(d, self.across[k]), 2 * dot(d, self.normal)
+            rows[3 + k][2 * l], rows[3 + k][2 * l + 1] = -2 * dot(d, self.across[l]), -2 * dot(d, self.normal)
+        return acb_mat(rows)
+
+    def by_angles(self, x):
+        """Derivatives of the three sides by log(h + i z) of each corner: (h, z) moves along (i z, -i h)."""
+        j = self.jacobian(x)
+        i = acb(0, 1)
+        return acb_mat([[i * (j[3 + n, 2 * k] * x[2 * k + 1] - j[3 + n, 2 * k + 1] * x[2 * k]) for k in range(3)] for n in range(3)])
+
+    def bend(self, n, u, reach):
+        """Half a bound of the second derivatives of side n by these, within `reach` of u = h + i z.
+
+        The corner is m + u f + v g with isotropic f = (a - i n) / 2, g = (a + i n) / 2 and v = rho / u, and u and v grow by exp(reach) at most.
+        """
+        k, l = n, (n + 1) % 3
+        grow = reach.exp()
+        vectors = []
+        for m in (k, l):
+            f = [(a - acb(0, 1) * b) / 2 for a, b in zip(self.across[m], self.normal)]
+            g = [(a + acb(0, 1) * b) / 2 for a, b in zip(self.across[m], self.normal)]
+            vectors.append([(f, upper(u[m]) * grow), (g, upper(self.radii[m] / u[m]) * grow)])
+        way = minus(self.middles[k], self.middles[l])
+        straight = sum((2 * upper(dot(way, f)) * size for pair in vectors for f, size in pair), arb(0))
+        mixed = sum((2 * upper(dot(f, g)) * x * y for f, x in vectors[0] for g, y in vectors[1]), arb(0))
+        return (straight + 4 * mixed) / 2
+
+
+def dot(u, v):
+    return sum((a * b for a, b in zip(u, v)), acb(0))
+
+
+def cross(u, v):
+    return [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+
+
+def minus(u, v):
+    return [a - b for a, b in zip(u, v)]
+
+
+def check_octahedral(legs, lengths, solution, record):
+    system = Corners(legs, lengths, record["order"])
+    given = [complex_of(record["centre"], k) for k in range(6)]
     radius, alone = exact(record["radius"]), exact(record["uniqueness_radius"])
     need(bool(radius >= 0) and bool(alone > radius), "radii")
-    z = newton(system.values, system.jacobian, centre)
-    scale = largest(weights)
+    z = newton(system.values, system.jacobian, given)
+    scale = largest(given)
     box = proved_box(system.values, system.jacobian, z, scale * arb(2) ** -300)
-    away = largest([(v - c) / w for v, c, w in zip(box, centre, weights)])
-    need(bool(away <= radius), f"the pair is {away.str(5)} from the centre, not {radius.str(5)}")
-    reach = [abs(c).upper() + w * alone for c, w in zip(centre, weights)]
-    y = middle_inverse(system.jacobian(centre))
-    rest = []
-    for k in range(2):
-        xx, xy, yy = [system.curvature(k, i, j, *reach) for i, j in ((2, 0), (1, 1), (0, 2))]
-        wx, wy = weights
-        rest.append((xx * wx * wx + 2 * xy * wx * wy + yy * wy * wy) / 2)
-    bound = largest([sum((upper(y[k, i]) * rest[i] for i in range(2)), arb(0)) / weights[k] for k in range(2)]) * (alone + away)
+    centre, angles = [], []
+    for k in range(3):
+        h, w = given[2 * k : 2 * k + 2]
+        # to the circle: the root near 1
+        factor = system.radii[k] / (h * h + w * w)
+        need(bool(abs(factor - 1) < arb(1) / 4), "the centre is not near the circle")
+        h, w = h * factor.sqrt(), w * factor.sqrt()
+        centre += [h, w]
+        cosine = (box[2 * k] * h + box[2 * k + 1] * w) / system.radii[k]
+        need(bool(abs(cosine - 1) < arb(1) / 4), "the root is not near the centre")
+        angles.append(((box[2 * k] * w - box[2 * k + 1] * h) / system.radii[k]).asin())
+    away = largest(angles)
+    need(bool(away <= radius), f"the pose is {away.str(5)} from the centre, not {radius.str(5)}")
+    y = middle_inverse(system.by_angles(centre))
+    bends = [system.bend(i, centre, alone) for i in range(3)]
+    bound = largest([sum((upper(y[k, i]) * bends[i] for i in range(3)), arb(0)) for k in range(3)]) * (alone + away)
     need(below(bound, arb(1)), f"not alone within {alone.str(5)}: {bound.str(8)}")
-    real_pair = is_real(system.values, system.jacobian, z)
-    rotation, position, squared_height, size = place(system, box, record)
-    real = real_pair and squared_height_sign(squared_height)
-    need_reality(real, record, solution)
-    check_pose(rotation, position, size, solution, record)
+    need_reality(is_real(system.values, system.jacobian, z), record, solution)
+    check_pose(*place(system, box), solution, record)
     return None
 
 
-def squared_height_sign(h):
-    if bool(h.real > 0):
-        return True
-    need(bool(h.real < 0), "the height may vanish")
-    return False
-
-
-def place(system, box, record):
-    """R and p of the pose with the height near the one given, by trilateration in balls."""
-    lift = lambda p: [acb(arb(x)) for x in p]
-    p1, p2, p3, p4, p5, p6 = map(lift, system.points)
-    s14, s24, s25, s35, s36, s16 = [acb(arb(s)) for s in system.squares]
-    s15, s34 = box
-    b, c = minus(p2, p1), minus(p3, p1)
-    normal = cross(b, c)
-    area = dot(normal, normal)
-    bb, bc, cc = dot(b, b), dot(b, c), dot(c, c)
-
-    def over(s1, s2, s3):
-        """The foot of a point with these squared distances, from P1, and the squared height times the area."""
-        along, across = (s1 + bb - s2) / 2, (s1 + cc - s3) / 2
-        u, v = (along * cc - across * bc) / area, (across * bb - along * bc) / area
-        foot = [u * x + v * y for x, y in zip(b, c)]
-        return foot, s1 - dot(foot, foot)
-
-    foot4, height4 = over(s14, s24, s34)
-    need(not height4.contains(0), "P4 may lie in the base plane")
-    long = area.real.sqrt()
-    h4 = height4.sqrt() if not (height4.imag.contains(0) and bool(height4.real < 0)) else acb(0, 1) * (-height4).sqrt()
-    given = complex_of(record["height"], 0)
-    if bool(abs(h4 + given) < abs(h4 - given)):
-        h4 = -h4
-    need(bool(abs(h4 - given).upper() < abs(h4 + given).lower()), "the height does not tell the two poses apart")
-    foot5, height5 = over(s15, s25, s35)
-    # P5's height from the product of both, by |P4 - P5|^2
-    side = dot(minus(p4, p5), minus(p4, p5))
-    flat = minus(foot4, foot5)
-    product = (height4 + height5 + dot(flat, flat) - side) / 2
-    h5 = product / h4
-    q4 = [f + h4 * n / long for f, n in zip(foot4, normal)]
-    q5 = [f + h5 * n / long for f, n in zip(foot5, normal)]
-    # P6 from its products with P3, P4, P5
-    s46, s56 = dot(minus(p4, p6), minus(p4, p6)), dot(minus(p5, p6), minus(p5, p6))
-    rows = acb_mat([c, q4, q5])
-    right = [(s16 + cc - s36) / 2, (s16 + s14 - s46) / 2, (s16 + s15 - s56) / 2]
-    try:
-        solved = rows.solve(acb_mat([[v] for v in right]))
-    except ZeroDivisionError:
-        raise Refuted("P1 P3 P4 P5 may be flat")
-    q6 = [solved[k, 0] for k in range(3)]
+def place(system, box):
+    """R and p of the pose with these corners, and the unit."""
+    p4, p5, p6 = [[acb(arb(x)) for x in p] for p in system.points[3:]]
+    q4, q5, q6 = [system.corner(k, box[2 * k], box[2 * k + 1]) for k in range(3)]
 
     def frame(o, u, v):
         u, v = minus(u, o), minus(v, o)
@@ -494,9 +641,10 @@ def place(system, box, record):
 
     r = frame(q4, q5, q6) * frame(p4, p5, p6).inv()
     rotation = [[r[i, j] for j in range(3)] for i in range(3)]
-    position = [p1[i] + q4[i] - sum((r[i, j] * p4[j] for j in range(3)), acb(0)) for i in range(3)]
-    sides = [math.sqrt(square(x, y)) for x, y in (system.points[:2], system.points[:3:2], system.points[3:5], system.points[3::2])]
-    return rotation, position, height4, power_of_two(max(sides))
+    position = [q4[i] - sum((r[i, j] * p4[j] for j in range(3)), acb(0)) for i in range(3)]
+    points = system.points
+    sides = [math.sqrt(square(x, y)) for x, y in (points[:2], points[:3:2], points[3:5], points[3::2])]
+    return rotation, position, power_of_two(max(sides))
 
 
 def power_of_two(x):

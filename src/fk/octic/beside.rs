@@ -1,9 +1,10 @@
-//! Poses at lengths at which two pairs `(s15, s34)` coincide, from the poses at lengths beside these.
+//! The three angles of the corners: poses known roughly made exact, and poses at lengths at which two pairs `(s15, s34)` coincide, from those at lengths beside these.
+//!
+//! With two leg lengths each corner of the platform is on a circle about a side of the base, and the corners have three distances: three equations in three angles, of low degree, which keep the digits that
+//! the closures in two distances lose by cancellation.
 //!
 //! Where `P4 P5` is parallel to `P1 P3`, as at home and at every pure translation from there when the platform triangle has its sides parallel to those of the base, the
-//! four points lie in a plane, so that a pair of distances belongs to two places of `P6`: a double root of the octic, though the poses are regular. They are
-//! simple zeros of three equations in three angles: with two leg lengths each corner of the platform is on a circle about a side of the base, and the corners
-//! have three distances.
+//! four points lie in a plane, so that a pair of distances belongs to two places of `P6`: a double root of the octic, though the poses are regular, and simple zeros of the three equations.
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
@@ -15,7 +16,7 @@ use crate::num::batch::{ComplexBatch, LANES};
 const BESIDE: [f64; 8] = [1e-2, -1e-2, 3e-2, 3e-3, -3e-2, -3e-3, 1e-1, 1e-3];
 /// A direction without symmetry.
 const ASKEW: [f64; 6] = [0.71, -0.43, 1.0, 0.29, -0.87, 0.53];
-/// Newton steps of the continuation, and for the pairs it starts from, which may still be close to each other.
+/// Newton steps of the angles at most, and for the pairs that the continuation starts from, which may still be close to each other.
 const STEPS: usize = 8;
 
 /// The circle of a corner of the platform about a side of the base, in the frame of the base triangle.
@@ -46,23 +47,29 @@ impl Circle {
     }
 }
 
-/// A corner on its circle: across the side in the plane, and above the plane.
+/// A corner on its circle: `h + i z` and `h - i z`, with `h` across the side in the plane and `z` above the plane. Their product is the squared radius, and each has all its digits.
 type OnCircle = [ComplexBatch; 2];
 
-/// `|P - Q|^2 - d` for corners on two circles, and its derivatives by the two angles.
+/// `|P - Q|^2 - d` for corners on two circles, and its derivatives by the logarithms of both `h + i z`.
 #[inline(always)]
-fn gap(p: &Circle, [h, z]: &OnCircle, q: &Circle, [k, w]: &OnCircle, d: f64) -> [ComplexBatch; 3] {
+fn gap(p: &Circle, [u, v]: &OnCircle, q: &Circle, [k, l]: &OnCircle, d: f64) -> [ComplexBatch; 3] {
     let between = [p.centre[0] - q.centre[0], p.centre[1] - q.centre[1]];
     let dot = |a: &[f64; 2], b: &[f64; 2]| a[0] * b[0] + a[1] * b[1];
     let constant = dot(&between, &between) + p.squared_radius + q.squared_radius - d;
-    let (a, b) = (2.0 * dot(&between, &p.across), -2.0 * dot(&between, &q.across));
-    let n = 2.0 * dot(&p.across, &q.across);
-    let by_h = k.times(-n).plus(a);
-    let by_k = h.times(-n).plus(b);
-    let value = (*h * by_h + k.times(b) - (*z * *w).times(2.0)).plus(constant);
-    let by_first = ComplexBatch::ZERO - *z * by_h - (*h * *w).times(2.0);
-    let by_second = ComplexBatch::ZERO - *w * by_k - (*z * *k).times(2.0);
-    [value, by_first, by_second]
+    let (a, b) = (dot(&between, &p.across), -dot(&between, &q.across));
+    let cosine = dot(&p.across, &q.across);
+    let (same, other) = (0.5 - 0.5 * cosine, 0.5 + 0.5 * cosine);
+    let (uk, vl, ul, vk) = (*u * *k, *v * *l, *u * *l, *v * *k);
+    let (along, crosswise) = ((uk - vl).times(same), (ul - vk).times(other));
+    let value = (*u + *v).times(a) + (*k + *l).times(b) + (uk + vl).times(same) - (ul + vk).times(other);
+    let (first, second) = ((*u - *v).times(a) + along - crosswise, (*k - *l).times(b) + along + crosswise);
+    [value.plus(constant), first, second]
+}
+
+/// By the distances across the sides, which are those of the mirror image too.
+#[inline(always)]
+fn are_separate(places: &[OnCircle; 3]) -> bool {
+    separate(&places.map(|[u, v]| u + v))
 }
 
 impl OcticSolver {
@@ -97,30 +104,61 @@ impl OcticSolver {
         ]
     }
 
+    /// Newton's method in the three angles, from corners known roughly. `None` unless it settles, on eight separate poses.
     #[inline(always)]
-    fn continued(&self, corners: &[Points; 3], from: &[f64; 6], to: &[f64; 6]) -> Option<Corners> {
-        let (before, circles) = (self.circles(from), self.circles(to));
+    pub(super) fn settled(&self, corners: &[Points; 3], s: &[f64; 6]) -> Option<Corners> {
+        let circles = self.circles(s);
+        let places = self.turned(&circles, self.on_circles(&circles, corners))?;
+        are_separate(&places).then(|| self.off_circles(&circles, &places))
+    }
+
+    /// From the larger of `h + i z` and `h - i z`.
+    #[inline(always)]
+    fn on_circles(&self, circles: &[Circle; 3], corners: &[Points; 3]) -> [OnCircle; 3] {
+        let mut places = [[ComplexBatch::ZERO; 2]; 3];
+        for k in 0..3 {
+            let Circle { centre, across, squared_radius } = circles[k];
+            let [x, y, z] = corners[k];
+            let h = x.plus(-centre[0]).times(across[0]) + y.plus(-centre[1]).times(across[1]);
+            let iz = z.times_i();
+            let (u, v) = (h + iz, h - iz);
+            let (nu, nv) = (u.norm_sqr(), v.norm_sqr());
+            let mut first = [false; LANES];
+            for l in 0..LANES {
+                first[l] = nu[l] >= nv[l];
+            }
+            let other = u.select(v, first).reciprocal().times(squared_radius);
+            places[k] = [u.select(other, first), other.select(v, first)];
+        }
+        places
+    }
+
+    /// With `(s15, s34)`.
+    #[inline(always)]
+    fn off_circles(&self, circles: &[Circle; 3], places: &[OnCircle; 3]) -> Corners {
+        let mut out = [[ComplexBatch::ZERO; 3]; 3];
+        for k in 0..3 {
+            let (Circle { centre, across, .. }, [u, v]) = (circles[k], places[k]);
+            let (h, z) = ((u + v).times(0.5), (v - u).times_i().times(0.5));
+            out[k] = [h.times(across[0]).plus(centre[0]), h.times(across[1]).plus(centre[1]), z];
+        }
+        let Triangle { u, v, .. } = self.base;
+        let [p4, p5, _] = out;
+        let from_p3 = [p4[0].plus(-u), p4[1].plus(-v), p4[2]];
+        (out, dot(&p5, &p5), dot(&from_p3, &from_p3))
+    }
+
+    #[inline(always)]
+    fn turned(&self, circles: &[Circle; 3], mut places: [OnCircle; 3]) -> Option<[OnCircle; 3]> {
         let t = &self.platform;
         let (d45, d46) = (t.b * t.b, t.u * t.u + t.v * t.v);
         let d56 = (t.u - t.b) * (t.u - t.b) + t.v * t.v;
-        let mut places = [[ComplexBatch::ZERO; 2]; 3];
-        for k in 0..3 {
-            let Circle { centre, across, squared_radius } = before[k];
-            let ratio = circles[k].squared_radius / squared_radius;
-            if !(ratio > 0.0) {
-                return None;
-            }
-            let [x, y, z] = corners[k];
-            let h = x.plus(-centre[0]).times(across[0]) + y.plus(-centre[1]).times(across[1]);
-            places[k] = [h.times(ratio.sqrt()), z.times(ratio.sqrt())];
-        }
-        let mut moved = [0.0; LANES];
         for _ in 0..STEPS {
             let [p, q, r] = places;
             let [e1, a4, a5] = gap(&circles[0], &p, &circles[1], &q, d45);
             let [e2, b5, b6] = gap(&circles[1], &q, &circles[2], &r, d56);
             let [e3, c6, c4] = gap(&circles[2], &r, &circles[0], &p, d46);
-            // Cramer's rule; the angles decrease by these
+            // Cramer's rule; the logarithms decrease by these
             let inverse = (a4 * b5 * c6 + a5 * b6 * c4).reciprocal();
             let inner = e2 * c6 - b6 * e3;
             let turns = [
@@ -128,33 +166,38 @@ impl OcticSolver {
                 (a4 * inner + e1 * b6 * c4) * inverse,
                 (a4 * b5 * e3 + a5 * e2 * c4 - e1 * b5 * c4) * inverse,
             ];
-            moved = [0.0; LANES];
+            let mut moved = [0.0; LANES];
             for k in 0..3 {
-                let ([h, z], turn) = (places[k], turns[k]);
-                // back to the circle
-                let norm = (turn * turn).plus(1.0).sqrt().reciprocal();
-                places[k] = [(h + turn * z) * norm, (z - turn * h) * norm];
+                let turn = turns[k];
+                // near exp(-turn), and its modulus 1 where that of exp(-turn) is
+                let half = turn.times(0.5);
+                let factor = (half.times(-1.0).plus(1.0)) * half.plus(1.0).reciprocal();
+                let u = places[k][0] * factor;
+                places[k] = [u, u.reciprocal().times(circles[k].squared_radius)];
                 let size = turn.norm_sqr();
                 for l in 0..LANES {
                     moved[l] += size[l];
                 }
             }
+            if moved.iter().all(|m| *m <= 1e-20) {
+                return Some(places);
+            }
         }
-        let mut settled = true;
-        for m in moved {
-            settled &= m <= 1e-20;
-        }
-        if !(settled && separate(&[places[0][0], places[1][0], places[2][0]])) {
-            return None;
-        }
-        let mut out = [[ComplexBatch::ZERO; 3]; 3];
+        None
+    }
+
+    #[inline(always)]
+    fn continued(&self, corners: &[Points; 3], from: &[f64; 6], to: &[f64; 6]) -> Option<Corners> {
+        let (before, circles) = (self.circles(from), self.circles(to));
+        let mut places = self.on_circles(&before, corners);
         for k in 0..3 {
-            let (Circle { centre, across, .. }, [h, z]) = (circles[k], places[k]);
-            out[k] = [h.times(across[0]).plus(centre[0]), h.times(across[1]).plus(centre[1]), z];
+            let ratio = circles[k].squared_radius / before[k].squared_radius;
+            if !(ratio > 0.0) {
+                return None;
+            }
+            places[k] = places[k].map(|u| u.times(ratio.sqrt()));
         }
-        let Triangle { u, v, .. } = self.base;
-        let [p4, p5, _] = out;
-        let from_p3 = [p4[0].plus(-u), p4[1].plus(-v), p4[2]];
-        Some((out, dot(&p5, &p5), dot(&from_p3, &from_p3)))
+        let places = self.turned(&circles, places)?;
+        are_separate(&places).then(|| self.off_circles(&circles, &places))
     }
 }

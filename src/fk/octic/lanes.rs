@@ -13,8 +13,8 @@ use crate::poly::octic_roots;
 
 /// Relative accuracy asked of the octic's roots before both closures take over.
 const COARSE: f64 = 1e-6;
-/// Newton steps on both closures; from `COARSE` two reach rounding.
-pub(super) const POLISHES: usize = 3;
+/// Newton steps on both closures, which tell pairs near each other apart; from `COARSE` they come near rounding, and the angles get there.
+pub(super) const POLISHES: usize = 2;
 /// Pairs closer than this, relative to their size, are left to the general treatment.
 pub(super) const SEPARATE: f64 = 1e-5;
 
@@ -41,7 +41,7 @@ fn horner(c: &[f64; 5], x: ComplexBatch) -> ComplexBatch {
     out
 }
 
-/// The eight pairs `(s15, s34)`, and whether these are eight well separated ones, known to rounding.
+/// The eight pairs `(s15, s34)`, and whether these are eight well separated ones.
 #[inline(always)]
 pub(super) fn pairs(
     first: &Factors,
@@ -53,24 +53,14 @@ pub(super) fn pairs(
     // the common root of both quadratics in y: y = -(a2 b0 - a0 b2) / (a2 b1 - a1 b2)
     let denominator = horner(&minor(&a, &b, 2, 1), x);
     let mut y = (horner(&minor(&a, &b, 2, 0), x) * denominator.reciprocal()).times(-1.0);
-    let mut moved = [0.0; LANES];
     for _ in 0..polishes {
         let (f, g) = (first.values(x, y), second.values(x, y));
         let inverse = (f[1] * g[2] - f[2] * g[1]).reciprocal();
         let dx = (f[0] * g[2] - f[2] * g[0]) * inverse;
         let dy = (f[1] * g[0] - f[0] * g[1]) * inverse;
         (x, y) = (x - dx, y - dy);
-        let (mx, my) = (dx.norm_sqr(), dy.norm_sqr());
-        for k in 0..LANES {
-            moved[k] = mx[k] + my[k];
-        }
     }
-    let (nx, ny) = (x.norm_sqr(), y.norm_sqr());
-    let mut settled = true;
-    for k in 0..LANES {
-        settled &= moved[k] <= 1e-20 * (nx[k] + ny[k]);
-    }
-    Some((x, y, settled && separate(&[x, y])))
+    Some((x, y, separate(&[x, y])))
 }
 
 /// Whether every two lanes are apart, relative to their size.

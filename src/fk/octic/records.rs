@@ -19,28 +19,45 @@ pub(super) fn proved(
     certificates: &OctahedralCertificates,
     seed: u64,
 ) -> FkSolutions {
-    let pairs = certificates.pairs.iter().enumerate();
-    let roots = pairs.filter_map(|(k, pair)| Some(of_pair(solver, found, k, pair.as_ref()?))).flatten();
-    answer(solver, roots.collect(), seed)
+    // records are large: sorted by their keys they are written once, where they stay
+    let size = solver.manipulator().size();
+    let known = certificates.pairs.iter().enumerate().filter_map(|(k, pair)| Some((k, pair.as_ref()?)));
+    let mut order: Vec<_> = known
+        .flat_map(|(k, pair)| [0, 1].map(|image| (k, pair, image)))
+        .map(|(k, pair, image)| {
+            let key = sort_key(proved_reality(pair.reality), &found.poses[2 * k + image], size);
+            (key, k, pair, image)
+        })
+        .collect();
+    order.sort_by(|a, b| a.0.cmp(&b.0));
+    let mut roots = Vec::with_capacity(order.len());
+    for (_, k, pair, image) in order {
+        roots.push(of_pair(solver, found, k, pair, image));
+    }
+    answer(roots, seed)
 }
 
-/// Both roots of pair `k`.
-fn of_pair(solver: &OcticSolver, found: &OcticPoses, k: usize, pair: &PairCertificate) -> [FkRoot; 2] {
-    [0, 1].map(|image| {
-        let pose = found.poses[2 * k + image];
-        FkRoot {
-            pose,
-            reality: proved_reality(pair.reality),
-            certificate: solver.certificate(pair, &pose, image == 1).map(RootCertificate::Octahedral),
-            multiplicity: 1,
-            residual: found.residuals[2 * k + image],
-            condition: pair.condition,
-            dual_quaternion: None,
-        }
-    })
+/// A root of pair `k`.
+fn of_pair(
+    solver: &OcticSolver,
+    found: &OcticPoses,
+    k: usize,
+    pair: &PairCertificate,
+    image: usize,
+) -> FkRoot {
+    let pose = found.poses[2 * k + image];
+    FkRoot {
+        pose,
+        reality: proved_reality(pair.reality),
+        certificate: solver.certificate(pair, &pose, image == 1).map(RootCertificate::Octahedral),
+        multiplicity: 1,
+        residual: found.residuals[2 * k + image],
+        condition: pair.condition,
+        dual_quaternion: None,
+    }
 }
 
-/// The same where two poses share `(s15, s34)`, so that no pair of distances proves them: these get certificates of their own. `None` unless all sixteen are certified
+/// The same where some pairs have no certificate as pairs: their poses get certificates of their own. `None` unless all sixteen are certified
 /// and distinct.
 pub(super) fn proved_one_by_one(
     solver: &OcticSolver,
@@ -58,7 +75,7 @@ pub(super) fn proved_one_by_one(
     for (k, pair) in certificates.pairs.iter().enumerate() {
         if let Some(pair) = pair {
             pairs.push(pair);
-            roots.extend(of_pair(solver, found, k, pair));
+            roots.extend([0, 1].map(|image| of_pair(solver, found, k, pair, image)));
         } else {
             unpaired.extend_from_slice(&found.poses[2 * k..2 * k + 2]);
         }
@@ -79,11 +96,8 @@ pub(super) fn proved_one_by_one(
             });
         }
     }
-    // two poses of a pair are distinct by the theorem of pairs, those of different pairs by their distances
-    let different = |p: &PairCertificate, q: &PairCertificate| {
-        p.squared_distances.iter().zip(&q.squared_distances).any(|(x, y)| x.is_disjoint(y))
-    };
-    let pairs_apart = pairs.iter().enumerate().all(|(i, p)| pairs[..i].iter().all(|q| different(p, q)));
+    // two poses of a pair are distinct by the theorem of pairs, those of different pairs by their corners
+    let pairs_apart = pairs.iter().enumerate().all(|(i, p)| pairs[..i].iter().all(|q| p.is_distinct_from(q)));
     let enclosure = |r: &FkRoot| r.certificate.map(|c| *c.enclosure());
     let by_pair = |r: &&FkRoot| matches!(r.certificate, Some(RootCertificate::Octahedral(_)));
     let apart = |c: &Certificate| {
@@ -93,12 +107,15 @@ pub(super) fn proved_one_by_one(
         && pairs_apart
         && distinct(&single) == Distinctness::AllDistinct
         && single.iter().all(apart);
-    whole.then(|| answer(solver, roots, seed))
+    whole.then(|| {
+        let size = m.size();
+        roots.sort_by_cached_key(|root| sort_key(root.reality, &root.pose, size));
+        answer(roots, seed)
+    })
 }
 
-fn answer(solver: &OcticSolver, mut roots: Vec<FkRoot>, seed: u64) -> FkSolutions {
-    let size = solver.manipulator().size();
-    roots.sort_by_cached_key(|root| sort_key(root.reality, &root.pose, size));
+/// Roots in their order.
+fn answer(roots: Vec<FkRoot>, seed: u64) -> FkSolutions {
     FkSolutions {
         method: Method::Octic,
         roots,

@@ -140,7 +140,7 @@ impl OcticSolver {
     pub fn certify(&self, s: &SquaredLegLengths, found: &OcticPoses) -> OctahedralCertificates {
         let none = OctahedralCertificates { pairs: [None; LANES], complete: false };
         let Some(certifier) = &self.certifier else { return none };
-        certifier.certify(s, &found.pairs, &found.poses)
+        certifier.certify(s, &found.poses)
     }
 
     /// The certificate of pose `2k` (or `2k + 1`, the mirror image) of pair `k` of those that [`certify`](Self::certify) proved.
@@ -168,7 +168,8 @@ impl OcticSolver {
         let given = s.get();
         let scaled = self.order.map(|i| given[i] * scale);
         if let Some((x, y, true)) = self.pairs(&scaled, POLISHES) {
-            let found = self.placed(s, &scaled, &(self.corners(&scaled, x, y), x, y));
+            let settled = self.settled(&self.corners(&scaled, x, y), &scaled);
+            let found = settled.and_then(|corners| self.placed(s, &scaled, &corners));
             if found.is_some() {
                 return found;
             }

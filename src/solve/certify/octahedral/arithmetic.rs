@@ -122,16 +122,6 @@ pub(in crate::solve::certify) struct Discs {
 impl Discs {
     pub(in crate::solve::certify) const ZERO: Self = Self { c: ComplexBatch::ZERO, r: Reals::ZERO };
 
-    #[inline(always)]
-    pub(in crate::solve::certify) fn point(c: ComplexBatch) -> Self {
-        Self { c, r: Reals::ZERO }
-    }
-
-    #[inline(always)]
-    pub(in crate::solve::certify) fn real(x: Real) -> Self {
-        Self { c: ComplexBatch::real(x.centre), r: Reals::all(x.radius) }
-    }
-
     /// Upper bounds of the moduli.
     #[inline(always)]
     pub(in crate::solve::certify) fn magnitude(&self) -> Reals {
@@ -153,10 +143,9 @@ impl Discs {
         Self { c: self.c.times(x.centre), r: r.up() }
     }
 
-    /// Product with a power of two, exact barring underflow.
     #[inline(always)]
-    pub(in crate::solve::certify) fn halved(self) -> Self {
-        Self { c: self.c.times(0.5), r: self.r.times(0.5) }
+    pub(in crate::solve::certify) fn widen(&mut self, by: Reals) {
+        self.r = (self.r + by).up();
     }
 
     /// Encloses `1 / z`; infinite or NaN radius where the disc may hold zero. See `Disc::reciprocal`.
@@ -174,49 +163,6 @@ impl Discs {
             r.0[k] = if low > TINY && square > TINY { radius } else { f64::INFINITY };
         }
         Self { c, r }
-    }
-
-    /// Encloses one square root of every number of the disc, continuously; infinite or NaN radius where the disc may hold zero.
-    ///
-    /// Of the roots `t` of `z` take the one with `Re(t conj q) >= 0`, `q` the computed root of the centre: then
-    /// `|t + q| >= |q|`, so that `|t - q| = |z - q^2| / |t + q| <= (r + |c - q^2|) / |q|`.
-    #[inline(always)]
-    pub(in crate::solve::certify) fn sqrt(self) -> Self {
-        let q = self.c.sqrt();
-        let error = (Self::point(self.c) - Self::point(q) * Self::point(q)).magnitude();
-        let mut r = Reals::ZERO;
-        for k in 0..LANES {
-            let square = q.re[k] * q.re[k] + q.im[k] * q.im[k];
-            let modulus = square.sqrt() * (2.0 - UP);
-            let radius = ((self.r.0[k] + error.0[k]) / modulus + TINY) * UP;
-            // the disc excludes zero when |q|^2 > r + |c - q^2|
-            let low = modulus * modulus * (2.0 - UP) - (self.r.0[k] + error.0[k]) * UP;
-            r.0[k] = if low > TINY && square > TINY { radius } else { f64::INFINITY };
-        }
-        Self { c: q, r }
-    }
-
-    /// `self` or its negative, whichever times `other` can be `product`; infinite radius where both can or neither.
-    #[inline(always)]
-    pub(in crate::solve::certify) fn with_product(self, other: Self, product: Self) -> Self {
-        let both = self * other;
-        let (same, opposite) = (product - both, product + both);
-        let (near, far) = (parts(&same.c), parts(&opposite.c));
-        let mut out = self;
-        for k in 0..LANES {
-            let (near, far) = (near.0[k], far.0[k]);
-            let sign = if near <= far { 1.0 } else { -1.0 };
-            (out.c.re[k], out.c.im[k]) = (sign * self.c.re[k], sign * self.c.im[k]);
-            let (modulus, radius) = if sign > 0.0 { (far, opposite.r.0[k]) } else { (near, same.r.0[k]) };
-            // the largest part of the centre is a lower bound of its modulus
-            out.r.0[k] = if modulus > radius * UP + TINY { self.r.0[k] } else { f64::INFINITY };
-        }
-        out
-    }
-
-    #[inline(always)]
-    pub(in crate::solve::certify) fn widen(&mut self, by: Reals) {
-        self.r = (self.r + by).up();
     }
 }
 
@@ -271,12 +217,9 @@ fn cross(a: &RealVector, b: &RealVector) -> RealVector {
 #[derive(Debug, Clone)]
 pub(in crate::solve::certify) struct Triangle {
     pub(in crate::solve::certify) bb: Real,
-    pub(in crate::solve::certify) bc: Real,
     pub(in crate::solve::certify) cc: Real,
     /// `|b - c|^2`.
     pub(in crate::solve::certify) opposite: Real,
-    /// `bb cc - bc^2 = |b x c|^2`.
-    pub(in crate::solve::certify) area: Real,
     pub(in crate::solve::certify) len: Real,
     pub(in crate::solve::certify) u: Real,
     pub(in crate::solve::certify) v: Real,
@@ -290,14 +233,14 @@ impl Triangle {
         let side = |i: usize, j: usize| -> RealVector { [0, 1, 2].map(|k| p[i][k] - p[j][k]) };
         let (b, c, a) = (side(1, 0), side(2, 0), side(2, 1));
         let normal = cross(&b, &c);
-        let (bb, bc, area) = (dot(&b, &b), dot(&b, &c), dot(&normal, &normal));
-        let (len, height) = (root(bb), root(area));
+        let bb = dot(&b, &b);
+        let (len, height) = (root(bb), root(dot(&normal, &normal)));
         let (inverse, across) = (reciprocal(len), reciprocal(height));
         let x = b.map(|z| z * inverse);
         let z = normal.map(|z| z * across);
         let axes = [x, cross(&z, &x), z];
-        let (u, v) = (bc * inverse, height * inverse);
-        Self { bb, bc, cc: dot(&c, &c), opposite: dot(&a, &a), area, len, u, v, axes }
+        let (u, v) = (dot(&b, &c) * inverse, height * inverse);
+        Self { bb, cc: dot(&c, &c), opposite: dot(&a, &a), len, u, v, axes }
     }
 
     /// Largest radius of an entry of the frame.

@@ -1,16 +1,15 @@
 //! Certificates for octahedral platforms, all sixteen poses at once.
 //!
-//! With base triangle `P1 P2 P3`, platform triangle `P4 P5 P6` and legs `14 24 25 35 36 16`, a pose gives two unknown squared distances
-//! `x = s15`, `y = s34` that satisfy two closures (`closures.rs`): Cayley-Menger determinants of the points 1 2 3 4 5 and 1 3 4 5 6. A regular zero
-//! of both at which `P4` (or `P5`) is off the base plane and 1 3 4 5 is not a flat tetrahedron belongs to exactly two poses, regular and mirror
-//! images in the base plane; theorem and proof: `docs/theory/certificates.md`. So a test in two unknowns certifies two poses, and their
+//! With base triangle `P1 P2 P3`, platform triangle `P4 P5 P6` and legs `14 24 25 35 36 16`, each corner of the platform is on a circle about a side of the base, and
+//! three angles are left, for which the three sides of the platform have to have their lengths (`circles.rs`). A regular zero of these three equations belongs to exactly one pose,
+//! regular too; its mirror image in the base plane has the opposite heights above that plane; theorem and proof: `docs/theory/certificates.md`. So a test in three unknowns certifies two poses, and their
 //! places follow by disc arithmetic (`poses.rs`). Coefficients are enclosed from the joints, each coordinate within its radius of a double, and from squared
 //! lengths as intervals. Nothing is shared with the solver but the order of the legs.
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
 pub(super) mod arithmetic;
-mod closures;
+mod circles;
 mod poses;
 
 use num_complex::Complex64;
@@ -20,12 +19,12 @@ use super::system::{SquareData, exact_product, power_of_two_below, scale_point, 
 use crate::geom::ComplexPose;
 use crate::manipulator::{Body, LegIndex, Octahedral};
 use crate::num::ball::{Disc, Real, UP};
-use crate::num::batch::{ComplexBatch, LANES};
+use crate::num::batch::LANES;
 use crate::num::rounding::check_arithmetic;
 use crate::num::vector_unit::on_vector_unit;
-use arithmetic::{Discs, RealVector, Triangle};
-use closures::{ClosureCoefficients, RootDiscs, one_root_about};
-use poses::{Data, deviation};
+use arithmetic::{RealVector, Triangle, parts};
+use circles::{Sides, Zeros, one_zero_about};
+use poses::{Given, corners_of, deviation, place};
 
 /// Pairs of poses of an octahedral platform.
 pub const PAIRS: usize = LANES;
@@ -37,22 +36,28 @@ pub struct OctahedralCertifier {
     order: [usize; 6],
     base: Triangle,
     platform: Triangle,
-    /// The platform triangle as `P5 P6 P4`.
-    turned: Triangle,
+    sides: Sides,
+    /// `P4`, `P5`, `P6` in the platform frame, over the unit.
+    corners: [RealVector; 3],
     /// `P1` in the base frame and `P4` in the platform frame, over the unit.
     origins: [RealVector; 2],
 }
 
-/// Proof that exactly one pair `(s15, s34)` lies near a point, and that two given poses approximate its two poses.
+/// Proof that exactly two poses, mirror images of each other in the base plane, have their corners near given ones, and that two given poses approximate them.
+///
+/// About its side of the base each corner `k` is on a circle `h^2 + z^2 = rho`, `h` across the side in the plane of the base and `z` along `(P2 - P1) x (P3 - P1)`; with `u = h + i z`,
+/// `v = h - i z` that is `u v = rho`. Distance of two points of a circle: `|log|` of the ratio of their `u`, an angle; of two poses: the largest of the three.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PairCertificate {
-    /// Discs that hold `s15` and `s34`, design units squared.
-    pub squared_distances: [Disc; 2],
-    /// Weights `sigma` of the norm `max(|h_x| / sigma_x, |h_y| / sigma_y)` of the proof, design units squared.
-    pub weights: [f64; 2],
-    /// The pair is at most this far from the centres of the discs, in that norm.
+    /// `u` of `P4`, `P5`, `P6` of the centre, design units: for pose `2k`. The other pose has `u` and `v` exchanged.
+    pub centre: [Complex64; 3],
+    /// `h` of `P4`, `P5`, `P6` near the certified pose, design units: the same for both.
+    pub across: [Complex64; 3],
+    /// `h` of the certified poses is at most this far from `across`, design units.
+    pub blur: [f64; 3],
+    /// The pose is at most this far from the centre, an angle.
     pub radius: f64,
-    /// There is no other pair at most this far from them.
+    /// There is no other at most this far from it, an angle.
     pub uniqueness_radius: f64,
     /// What is proved about the two poses: both are real, or neither is.
     pub reality: ProvedReality,
@@ -61,25 +66,30 @@ pub struct PairCertificate {
     pub deviation: f64,
     /// The same distances as they are, of the entries of `R` and of `p` (design units).
     pub distances: [f64; 2],
-    /// `P4` of pose `2k` is near this far from the base plane, on the side of `(P2 - P1) x (P3 - P1)`; of pose `2k + 1` near the negative. Design units; an
-    /// approximation that tells the two poses apart.
-    pub height: Complex64,
-    /// Contraction constant of the simplified Newton map on the disc of the pair.
+    /// Contraction constant of the simplified Newton map on the ball of the radius.
     pub contraction: f64,
-    /// `|J| |J^-1|` of the closures with rows scaled to one: an estimate, not a bound.
+    /// `|J| |J^-1|` of the three equations with rows scaled to one: an estimate, not a bound.
     pub condition: f64,
 }
 
+impl PairCertificate {
+    /// Proved: the poses of both certificates are different ones. Mirror images have the same distances across the sides.
+    #[must_use]
+    pub fn is_distinct_from(&self, other: &Self) -> bool {
+        (0..3).any(|k| {
+            let gap = self.across[k] - other.across[k];
+            let sum = (self.blur[k] + other.blur[k]) * UP;
+            gap.re.abs() > sum || gap.im.abs() > sum
+        })
+    }
+}
+
 /// Proof that exactly one root lies near a pose of an octahedral platform: the certificate of its pair, and which of its two poses it is.
-///
-/// With the legs [`order`](Self::order) from `P1 P2 P2 P3 P3 P1` to `P4 P4 P5 P5 P6 P6` there is exactly one zero `(s15, s34)` of the two closures within
-/// `uniqueness_radius` times the weights of the pair (see [`pair`](Self::pair)), coordinate by coordinate; it lies within `radius` times the weights. Of its two poses the root is
-/// the one with the distance of `P4` from the base plane near [`height`](Self::height).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OctahedralCertificate {
     pub(super) order: [usize; 6],
     pub(super) pair: PairCertificate,
-    pub(super) height: Complex64,
+    pub(super) mirrored: bool,
     pub(super) enclosure: PoseEnclosure,
 }
 
@@ -96,10 +106,10 @@ impl OctahedralCertificate {
         &self.pair
     }
 
-    /// Approximate signed distance of `P4` from the base plane, along `(P2 - P1) x (P3 - P1)`, design units.
+    /// Whether the root is the mirror image, in the plane of the base triangle, of the pose that the numbers of the pair are for.
     #[must_use]
-    pub fn height(&self) -> Complex64 {
-        self.height
+    pub fn is_mirrored(&self) -> bool {
+        self.mirrored
     }
 
     /// Where `R` and `p` of the root are.
@@ -150,7 +160,8 @@ impl OctahedralCertifier {
             order: design.order().map(LegIndex::get),
             base: Triangle::of(p),
             platform: Triangle::of(q),
-            turned: Triangle::of([q[1], q[2], q[0]]),
+            sides: Sides::of(&Triangle::of(p)),
+            corners: q,
             origins: [p[0], q[0]],
         })
     }
@@ -170,20 +181,18 @@ impl OctahedralCertifier {
         OctahedralCertificate {
             order: self.order,
             pair: *pair,
-            height: if mirrored { -pair.height } else { pair.height },
+            mirrored,
             enclosure: PoseEnclosure { rotation, position },
         }
     }
 
-    /// Tries to prove that near each of the `pairs` (approximations of `s15`, `s34`, design units squared) there is exactly one, and that poses
-    /// `2k`, `2k + 1` approximate the two poses of pair `k`, `2k + 1` being the mirror image of `2k`.
+    /// Tries to prove that near each pose `2k` there is exactly one pose of the platform, and that pose `2k + 1` approximates its mirror image.
     ///
     /// `s` are the squared leg lengths in the design's order.
     #[must_use]
     pub fn certify(
         &self,
         s: impl Into<SquareData>,
-        pairs: &[[Complex64; 2]; PAIRS],
         poses: &[ComplexPose; 2 * PAIRS],
     ) -> OctahedralCertificates {
         let none = OctahedralCertificates { pairs: [None; PAIRS], complete: false };
@@ -196,60 +205,47 @@ impl OctahedralCertifier {
             let blur = (s.middle[i].lo().abs() + s.radius[i]) * UP * scale;
             *square = Real { centre: c, radius: if blur <= 0.0 { 0.0 } else { blur.next_up() } };
         }
-        let (mut x, mut y) = (ComplexBatch::ZERO, ComplexBatch::ZERO);
-        for (k, pair) in pairs.iter().enumerate() {
-            (x.re[k], x.im[k]) = (pair[0].re * scale, pair[0].im * scale);
-            (y.re[k], y.im[k]) = (pair[1].re * scale, pair[1].im * scale);
-        }
-        let in_range = |z: &ComplexBatch| z.re.iter().chain(&z.im).all(|v| v.abs() < LARGEST);
-        if !(in_range(&x) && in_range(&y) && squares.iter().all(|s| s.magnitude() < LARGEST)) {
+        if !squares.iter().all(|s| s.magnitude() < LARGEST) {
             return none;
         }
-        on_vector_unit(OctahedralProof { certifier: self, squares: &squares, pairs: [&x, &y], poses })
+        on_vector_unit(OctahedralProof { certifier: self, squares: &squares, poses })
     }
 
     #[inline(always)]
-    fn prove(
-        &self,
-        s: &[Real; 6],
-        x: &ComplexBatch,
-        y: &ComplexBatch,
-        poses: &[ComplexPose; 2 * PAIRS],
-    ) -> OctahedralCertificates {
-        let closures = [
-            ClosureCoefficients::new(&self.base, [s[2], s[3]], [s[0], s[1]], self.platform.bb),
-            ClosureCoefficients::new(&self.turned, [s[5], s[0]], [s[3], s[4]], self.base.cc),
-        ];
-        let found = one_root_about(&closures, x, y);
-        let radii = found.weights.map(|w| (w * found.radius).up());
-        let discs = [Discs { c: *x, r: radii[0] }, Discs { c: *y, r: radii[1] }];
-        let data = Data { base: &self.base, platform: &self.platform, s };
-        let placed = data.place(discs[0], discs[1]);
-        let deviation = deviation(self, &placed, poses);
+    fn prove(&self, s: &[Real; 6], poses: &[ComplexPose; 2 * PAIRS]) -> OctahedralCertificates {
+        let circles = self.sides.circles(s);
+        let t = &self.platform;
+        let gaps = self.sides.gaps(&circles, [t.bb, t.opposite, t.cc]);
+        let given = Given::of(poses, self.unit);
+        let found = one_zero_about(&circles, &gaps, &corners_of(self, &circles, &given));
+        let deviation = deviation(self, &place(self, &circles, &found), &given);
         let relative = deviation.relative;
-        let positive = placed.squared_height.c.re;
-        let unit = self.unit * self.unit;
+        // the poses of a pair are distinct where a corner is proved off the base plane
+        let heights = [0, 1, 2].map(|k| parts(&found.places[k][1].c));
         let mut out = OctahedralCertificates { pairs: [None; PAIRS], complete: false };
         for k in 0..PAIRS {
-            if !(found.step.0[k] <= super::NEAR && relative.0[k] <= super::NEAR) {
+            let raised = (0..3).any(|i| heights[i].0[k] > found.places[i][1].r.0[k] * UP);
+            let in_range = found.places.iter().flatten().all(|z| {
+                let z = z.c.lane(k);
+                z.re.abs() < LARGEST && z.im.abs() < LARGEST
+            });
+            if !(in_range && raised && found.step.0[k] <= super::NEAR && relative.0[k] <= super::NEAR) {
                 continue;
             }
-            let disc = |d: &Discs| Disc { centre: d.c.lane(k) * unit, radius: d.r.0[k] * unit };
             out.pairs[k] = Some(PairCertificate {
-                squared_distances: [disc(&discs[0]), disc(&discs[1])],
-                weights: found.weights.map(|w| w.0[k] * unit),
+                centre: found.centres.map(|u| u.lane(k) * self.unit),
+                across: [0, 1, 2].map(|i| found.places[i][0].c.lane(k) * self.unit),
+                blur: [0, 1, 2].map(|i| found.places[i][0].r.0[k] * self.unit),
                 radius: found.radius.0[k],
                 uniqueness_radius: found.uniqueness.0[k],
-                reality: reality(&found, x, y, positive[k], k),
+                reality: reality(&found, k),
                 deviation: relative.0[k],
                 distances: [deviation.rotation.0[k], deviation.position.0[k] * self.unit],
-                height: placed.p4[2].c.lane(k) * (deviation.first.0[k] * self.unit),
                 contraction: found.lipschitz.0[k],
                 condition: found.condition.0[k],
             });
         }
-        let certified = out.pairs.iter().all(Option::is_some);
-        out.complete = certified && are_disjoint(&discs);
+        out.complete = out.pairs.iter().all(Option::is_some) && are_distinct(&found);
         out
     }
 }
@@ -258,7 +254,6 @@ impl OctahedralCertifier {
 struct OctahedralProof<'a> {
     certifier: &'a OctahedralCertifier,
     squares: &'a [Real; 6],
-    pairs: [&'a ComplexBatch; 2],
     poses: &'a [ComplexPose; 2 * PAIRS],
 }
 
@@ -267,41 +262,40 @@ impl pulp::WithSimd for OctahedralProof<'_> {
 
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, _: S) -> OctahedralCertificates {
-        self.certifier.prove(self.squares, self.pairs[0], self.pairs[1], self.poses)
+        self.certifier.prove(self.squares, self.poses)
     }
 }
 
 /// Coordinates and squared distances in units of the design stay below this, and products of eight of them in range.
 const LARGEST: f64 = (1u64 << 50) as f64;
 
-/// The system is real, so that the conjugate of a pair is one; within the uniqueness ball it is the pair itself. The poses of a real pair
-/// are real when the squared height, which is real and not zero, is positive, and neither is when it is negative.
+/// The equations are real, so that the conjugate of a zero is one; within the uniqueness ball it is the zero itself, and the pose is real. A corner that cannot be real proves the opposite.
 #[inline(always)]
-fn reality(found: &RootDiscs, x: &ComplexBatch, y: &ComplexBatch, height: f64, k: usize) -> ProvedReality {
-    let imaginary = (x.im[k].abs() / found.weights[0].0[k]).max(y.im[k].abs() / found.weights[1].0[k]);
-    let (radius, alone) = (found.radius.0[k], found.uniqueness.0[k]);
-    if (radius + 2.0 * imaginary) * UP <= alone {
-        if height > 0.0 { ProvedReality::Real } else { ProvedReality::NonReal }
-    } else if imaginary > radius * UP {
+fn reality(found: &Zeros, k: usize) -> ProvedReality {
+    let [above, below] = found.conjugates;
+    if (found.radius.0[k] + above.0[k]) * UP <= found.uniqueness.0[k] {
+        ProvedReality::Real
+    } else if below.0[k] > 2.0 * found.radius.0[k] * UP {
         ProvedReality::NonReal
     } else {
         ProvedReality::Undecided
     }
 }
 
-/// Every two lanes have disjoint discs in one of the unknowns.
+/// Every two lanes have disjoint discs for the distance of a corner across its side.
 #[inline(always)]
-fn are_disjoint(discs: &[Discs; 2]) -> bool {
+fn are_distinct(found: &Zeros) -> bool {
     let mut all = true;
     for shift in 1..=LANES / 2 {
         for k in 0..LANES {
             let l = (k + shift) % LANES;
-            let apart = |d: &Discs| {
+            let apart = |i: usize| {
+                let d = &found.places[i][0];
                 let (re, im) = ((d.c.re[k] - d.c.re[l]).abs(), (d.c.im[k] - d.c.im[l]).abs());
                 let sum: f64 = (d.r.0[k] + d.r.0[l]) * UP;
                 re > sum || im > sum
             };
-            all &= apart(&discs[0]) | apart(&discs[1]);
+            all &= apart(0) | apart(1) | apart(2);
         }
     }
     all
@@ -309,6 +303,3 @@ fn are_disjoint(discs: &[Discs; 2]) -> bool {
 
 /// Unit roundoff.
 const U: f64 = f64::EPSILON / 2.0;
-
-#[cfg(test)]
-mod tests;

@@ -1,7 +1,4 @@
-//! From enclosed `(x, y)` to the poses, and how far given poses are from these.
-//!
-//! **Corners.** The platform triangle in the frame of the base triangle, and its axes. Every step is a formula for the root itself, evaluated on discs, so that the results hold the pose of the root. They stay finite only
-//! where `P4` and `P5` are proved to lie off the base plane and `P1 P3 P4 P5` to be no flat tetrahedron, which the theorem asks for.
+//! From enclosed corners to the poses, and how far given poses are from these.
 //!
 //! **Poses.** `R = E^T F G`: rows of `E`, `G` are the frames of base and platform triangle, `F` is enclosed. Mirrored in the base plane the third
 //! coordinates of the corners change sign; the third axis is a cross product, so that `F` becomes `D F D`, `D = diag(1, 1, -1)`. With
@@ -17,7 +14,8 @@
 
 #![allow(clippy::inline_always, reason = "lanes fill vector units only in one piece of code")]
 
-use super::arithmetic::{Discs, Reals, Triangle, parts, reciprocal, sizes};
+use super::arithmetic::{Discs, Reals, parts, reciprocal, sizes};
+use super::circles::{Circle, OnCircle, Zeros};
 use super::{OctahedralCertifier, PAIRS, U};
 use crate::geom::ComplexPose;
 use crate::num::ball::Real;
@@ -31,8 +29,6 @@ pub(super) struct Placed {
     pub(super) p4: Points,
     /// Columns: axes of the platform triangle's frame in that of the base triangle.
     pub(super) frame: [Points; 3],
-    /// Squared height of `P4`; excludes zero where the radii are finite.
-    pub(super) squared_height: Discs,
 }
 
 #[inline(always)]
@@ -40,103 +36,97 @@ fn cross(a: &Points, b: &Points) -> Points {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
+/// The pose of the zero: that of the corners at the centre, with derivatives by the three `t` times the radius, and a bound of the rest.
+///
+/// The axes of the platform triangle are `x = (P5 - P4) / L`, `y = (P6 - P4 - U x) / H` and `x cross y`. Far out the corners are nearly isotropic vectors, nearly parallel to each other: cross products are much smaller than
+/// their factors, and a disc for each factor would say little about them. With `|exp(t) - 1 - t| <= |t|^2` for `|t| <= 1` a coordinate of a corner is within
+/// `(|u| + |v|) r^2` of its linear part; `x = x0 + dx + ex` and `y` likewise give for the product, coordinate by coordinate,
+/// `x0 cross y0 + (dx cross y0 + x0 cross dy)` up to twice `(|dx| + |ex|) (|dy| + |ey|) + |x0| |ey| + |ex| |y0|`.
 #[inline(always)]
-fn dot(a: &Points, b: &Points) -> Discs {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-/// Design and lengths, in cyclic order `s14 s24 s25 s35 s36 s16`; the platform triangle is `P4 P5 P6`.
-pub(super) struct Data<'a> {
-    pub(super) base: &'a Triangle,
-    pub(super) platform: &'a Triangle,
-    pub(super) s: &'a [Real; 6],
-}
-
-/// Corners as functions of `x` and `y` over discs: `P4` of `y` and `P5` of `x` alone, by square roots, `P6` of both.
-struct Corners {
-    p4: Points,
-    p5: Points,
-    p6: Points,
-    squared_height: Discs,
-    /// `P5 x P3`, `P3 x P4`, and one over `det(P3, P4, P5)`.
-    from5: Points,
-    from4: Points,
-    inverse: Discs,
-}
-
-impl Data<'_> {
-    /// The signs of both heights are those for which their product is `w`, proved where the radii stay finite.
-    #[inline(always)]
-    fn corners(&self, x: Discs, y: Discs) -> Corners {
-        let (base, platform, s) = (self.base, self.platform, self.s);
-        let half = |z: Real| z.scaled(0.5);
-        let (along, up) = (reciprocal(base.len), reciprocal(base.v));
-        let p4x = half(s[0] + base.bb - s[1]) * along;
-        let p4y = (-y).halved().plus(half(s[0] + base.cc) - base.u * p4x).times(up);
-        let p5x = x.plus(base.bb - s[2]).halved().times(along);
-        let p5y = (x.plus(base.cc - s[3]).halved() - p5x.times(base.u)).times(up);
-        let squared_height = Discs::real(s[0] - p4x * p4x) - p4y * p4y;
-        let z4 = squared_height.sqrt();
-        let z5 = (x - p5x * p5x - p5y * p5y).sqrt();
-        let product = x.plus(s[0] - platform.bb).halved() - p5x.times(p4x) - p4y * p5y;
-        let z5 = z5.with_product(z4, product);
-        let p4 = [Discs::real(p4x), p4y, z4];
-        let p5 = [p5x, p5y, z5];
-        // P6 from its products with P3, P4, P5 (origin P1): three linear equations
-        let k3 = half(s[5] + base.cc - s[4]);
-        let k4 = half(s[5] + s[0] - platform.cc);
-        let k5 = x.plus(s[5] - platform.opposite).halved();
-        let normal = cross(&p4, &p5);
-        let (u, v) = (base.u, base.v);
-        // P3 = (u, v, 0)
-        let from5 = [-p5[2].times(v), p5[2].times(u), p5[0].times(v) - p5[1].times(u)];
-        let from4 = [p4[2].times(v), -p4[2].times(u), p4[1].times(u) - p4[0].times(v)];
-        let inverse = (normal[0].times(u) + normal[1].times(v)).reciprocal();
-        let mut p6 = [Discs::ZERO; 3];
-        for k in 0..3 {
-            p6[k] = (normal[k].times(k3) + from5[k].times(k4) + from4[k] * k5) * inverse;
-        }
-        Corners { p4, p5, p6, squared_height, from5, from4, inverse }
+pub(super) fn place(design: &OctahedralCertifier, circles: &[Circle; 3], zeros: &Zeros) -> Placed {
+    let t = &design.platform;
+    let (mut corners, mut moves) = ([[Discs::ZERO; 3]; 3], [[ComplexBatch::ZERO; 3]; 3]);
+    for k in 0..3 {
+        let ([h, z], [dh, dz]) = (zeros.corners[k], zeros.directions[k]);
+        let (m, a) = (&circles[k].middle, &design.sides.across[k]);
+        corners[k] = [h.times(a[0]).plus(m[0]), h.times(a[1]).plus(m[1]), z];
+        moves[k] = [dh.times(a[0].centre), dh.times(a[1].centre), dz];
     }
-
-    /// The pose over the discs, by the mean value theorem: corners at the centres, and derivatives over the discs times their radii.
-    ///
-    /// With `'` for the derivative by the one variable, `P4' = (0, -1/(2 v), p4y / (2 v z4))`, `P5' = (1/(2 len), (1 - u/len) / (2 v), ..)` with
-    /// `2 z5 z5' = 1 - 2 p5x p5x' - 2 p5y p5y'`, and from `P6.P3 = k3`, `P6.P4 = k4`, `P6.P5 = k5`, `|P6|^2` not being used,
-    /// `P6_x = (P3 x P4) (1/2 - P5'.P6) / det`, `P6_y = -(P5 x P3) (P4'.P6) / det`.
-    #[inline(always)]
-    pub(super) fn place(&self, x: Discs, y: Discs) -> Placed {
-        let (base, t) = (self.base, self.platform);
-        let wide = self.corners(x, y);
-        let mut tight = self.corners(Discs::point(x.c), Discs::point(y.c));
-        let (along, up) = (reciprocal(base.len), reciprocal(base.v));
-        let half = Real::point(0.5);
-        let by_y = Discs::real(-(half * up));
-        let d4 = [by_y, -(wide.p4[1] * by_y) * wide.p4[2].reciprocal()];
-        let (ax, ay) = (half * along, half * (Real::point(1.0) - base.u * along) * up);
-        let rise = (-(wide.p5[0].times(ax) + wide.p5[1].times(ay))).plus(half);
-        let d5 = [Discs::real(ax), Discs::real(ay), rise * wide.p5[2].reciprocal()];
-        let along6 = (-dot(&d5, &wide.p6)).plus(half) * wide.inverse;
-        let across6 = (d4[0] * wide.p6[1] + d4[1] * wide.p6[2]) * wide.inverse;
-        let (rx, ry) = (x.r, y.r);
-        for k in 0..2 {
-            tight.p4[k + 1].widen(d4[k].magnitude() * ry);
-        }
-        for k in 0..3 {
-            tight.p5[k].widen(d5[k].magnitude() * rx);
-            let (sx, sy) = (wide.from4[k] * along6, wide.from5[k] * across6);
-            tight.p6[k].widen(sx.magnitude() * rx + sy.magnitude() * ry);
-        }
-        let Corners { p4, p5, p6, .. } = tight;
-        let (side, height) = (reciprocal(t.len), reciprocal(t.v));
-        let (mut ax, mut ay) = ([Discs::ZERO; 3], [Discs::ZERO; 3]);
-        for k in 0..3 {
-            ax[k] = (p5[k] - p4[k]).times(side);
-            ay[k] = (p6[k] - p4[k] - ax[k].times(t.u)).times(height);
-        }
-        let az = cross(&ax, &ay);
-        Placed { p4, frame: [ax, ay, az], squared_height: wide.squared_height }
+    let [mut p4, p5, p6] = corners;
+    let (side, height) = (reciprocal(t.len), reciprocal(t.v));
+    let (mut ax, mut ay) = ([Discs::ZERO; 3], [Discs::ZERO; 3]);
+    for k in 0..3 {
+        ax[k] = (p5[k] - p4[k]).times(side);
+        ay[k] = (p6[k] - p4[k] - ax[k].times(t.u)).times(height);
     }
+    let mut az = cross(&ax, &ay);
+    // derivatives of x and y by the t of each corner are these times its own
+    let (l, h, part) = (side.centre, height.centre, t.u.centre * side.centre);
+    let by_x = [-l, l, 0.0];
+    let by_y = [(part - 1.0) * h, -part * h, h];
+    let r = zeros.radius;
+    let (mut dx, mut dy, mut dz) = ([Reals::ZERO; 3], [Reals::ZERO; 3], [Reals::ZERO; 3]);
+    let (mut rest_x, mut rest_y) = (Reals::ZERO, Reals::ZERO);
+    for k in 0..3 {
+        // d (x cross y) = m cross (by_x y - by_y x) for a move m of the corner
+        let other = [0, 1, 2].map(|i| ay[i].c.times(by_x[k]) - ax[i].c.times(by_y[k]));
+        let m = &moves[k];
+        for i in 0..3 {
+            let (j, l) = ((i + 1) % 3, (i + 2) % 3);
+            let size = sizes(&m[i]);
+            dx[i] = dx[i] + size.times(by_x[k].abs());
+            dy[i] = dy[i] + size.times(by_y[k].abs());
+            dz[i] = dz[i] + sizes(&(m[j] * other[l] - m[l] * other[j]));
+        }
+        let square = zeros.sizes[k] * r * r;
+        rest_x = rest_x + square.times(by_x[k].abs());
+        rest_y = rest_y + square.times(by_y[k].abs());
+    }
+    let largest = |d: &[Reals; 3]| (d[0].largest(d[1]).largest(d[2]) * r).up();
+    let (move_x, move_y) = (largest(&dx), largest(&dy));
+    let ((blur_x, size_x), (blur_y, size_y)) = (extremes(&[ax]), extremes(&[ay]));
+    // of the derivatives: rounding, and what is not known of the coefficients
+    let loose = |x: Real| x.radius / x.centre.abs();
+    let across = design.sides.across.iter().flatten().fold(0.0, |m: f64, x| m.max(x.radius));
+    let unknown = 64.0 * U + 4.0 * (loose(side) + loose(height) + t.u.radius * side.centre + across);
+    let first = (move_x * size_y + size_x * move_y).times(4.0 * unknown);
+    let second = ((move_x + rest_x) * (move_y + rest_y) + size_x * rest_y + rest_x * size_y)
+        .times(2.0 * (1.0 + unknown));
+    let mixed = (move_x * blur_y + blur_x * move_y).times(2.0);
+    let rest_z = (first + second + mixed).up();
+    let grow = |r: Reals| (r + r.times(4.0 * unknown)).up();
+    for k in 0..3 {
+        ax[k].widen(grow(dx[k] * r + rest_x) + move_x.times(4.0 * unknown));
+        ay[k].widen(grow(dy[k] * r + rest_y) + move_y.times(4.0 * unknown));
+        az[k].widen(grow(dz[k] * r) + rest_z);
+        p4[k].widen(grow(sizes(&moves[0][k]) * r + zeros.sizes[0] * r * r) + (zeros.sizes[0] * r).times(unknown));
+    }
+    Placed { p4, frame: [ax, ay, az] }
+}
+
+/// `(h, z)` of the corners of poses `2k`.
+#[inline(always)]
+pub(super) fn corners_of(
+    design: &OctahedralCertifier,
+    circles: &[Circle; 3],
+    given: &Given,
+) -> [OnCircle; 3] {
+    let axes = &design.base.axes;
+    let r = &given.rotation[0];
+    let p = [0, 1, 2].map(|i| given.position[0][i].plus(-design.origins[0][i].centre));
+    [0, 1, 2].map(|k| {
+        let b = &design.corners[k];
+        let d = [0, 1, 2].map(|i| {
+            p[i] + r[i][0].times(b[0].centre) + r[i][1].times(b[1].centre) + r[i][2].times(b[2].centre)
+        });
+        let along = |j: usize| {
+            let e = &axes[j];
+            d[0].times(e[0].centre) + d[1].times(e[1].centre) + d[2].times(e[2].centre)
+        };
+        let (m, a) = (&circles[k].middle, &design.sides.across[k]);
+        let (x, y) = (along(0).plus(-m[0].centre), along(1).plus(-m[1].centre));
+        [x.times(a[0].centre) + y.times(a[1].centre), along(2)]
+    })
 }
 
 /// The larger of both radii and moduli over some discs.
@@ -161,8 +151,6 @@ pub(super) struct Deviation {
     pub(super) position: Reals,
     /// The larger of both, each relative to the larger of 1 and the largest entry of its own kind.
     pub(super) relative: Reals,
-    /// 1 where pose `2k` is the image with `P4` on the side where it was placed, -1 where it is the other.
-    pub(super) first: Reals,
 }
 
 /// How far the poses are from the certified ones.
@@ -170,7 +158,7 @@ pub(super) struct Deviation {
 pub(super) fn deviation(
     design: &OctahedralCertifier,
     placed: &Placed,
-    poses: &[ComplexPose; 2 * PAIRS],
+    given: &Given,
 ) -> Deviation {
     let (re, rg) = (design.base.axes_radius(), design.platform.axes_radius());
     let (rho, m) = extremes(&placed.frame);
@@ -181,24 +169,19 @@ pub(super) fn deviation(
     let far = a1.iter().fold(0.0_f64, |m, a| m.max(a.centre.abs()));
     let loose = [a1, b4].map(|corner| corner.iter().fold(0.0_f64, |m, x| m.max(x.radius)));
     let nominal = Nominal::of(design, placed);
-    let first = first_image(design, placed, poses);
     let (mut worst, mut scale) = ([Reals::ZERO; 2], [Reals::all(1.0); 2]);
     let mut largest_entry = Reals::ZERO;
-    for mirrored in [false, true] {
-        let sign = first.times(if mirrored { -1.0 } else { 1.0 });
+    for (image, sign) in [1.0, -1.0].into_iter().enumerate() {
         for i in 0..3 {
-            let mut p = nominal.corner[0][i] + signed(&nominal.corner[1][i], sign);
+            let mut p = nominal.corner[0][i] + nominal.corner[1][i].times(sign);
             for j in 0..3 {
-                let r = nominal.even[i][j] + signed(&nominal.odd[i][j], sign);
-                let given = gather(poses, mirrored, |pose| pose.rotation[(i, j)]);
-                worst[0] = worst[0].largest(sizes(&(given - r)));
+                let r = nominal.even[i][j] + nominal.odd[i][j].times(sign);
+                worst[0] = worst[0].largest(sizes(&(given.rotation[image][i][j] - r)));
                 (scale[0], largest_entry) = (scale[0].largest(parts(&r)), largest_entry.largest(sizes(&r)));
                 p = p - r.times(b4[j].centre);
             }
             p = p.plus(a1[i].centre);
-            let unit = design.unit.recip();
-            let given = gather(poses, mirrored, |pose| pose.position[i] * unit);
-            worst[1] = worst[1].largest(sizes(&(given - p)));
+            worst[1] = worst[1].largest(sizes(&(given.position[image][i] - p)));
             scale[1] = scale[1].largest(parts(&p));
         }
     }
@@ -209,48 +192,39 @@ pub(super) fn deviation(
     let rotation = (worst[0] + turn).up().times(usable);
     let position = (worst[1] + shift + rounding + corners).up().times(usable);
     let relative = rotation.zip(scale[0], |b, s| b / s).largest(position.zip(scale[1], |b, s| b / s)).up();
-    Deviation { rotation, position, relative, first }
+    Deviation { rotation, position, relative }
 }
 
-/// [`Deviation::first`].
-#[inline(always)]
-fn first_image(design: &OctahedralCertifier, placed: &Placed, poses: &[ComplexPose; 2 * PAIRS]) -> Reals {
-    let ([a1, b4], normal) = (design.origins, design.base.axes[2]);
-    let mut height = ComplexBatch::ZERO;
-    let unit = design.unit.recip();
-    for i in 0..3 {
-        let mut corner = gather(poses, false, |pose| pose.position[i] * unit).plus(-a1[i].centre);
-        for j in 0..3 {
-            corner = corner + gather(poses, false, |pose| pose.rotation[(i, j)]).times(b4[j].centre);
+/// Given poses side by side, `2k` and `2k + 1`.
+pub(super) struct Given {
+    rotation: [[[ComplexBatch; 3]; 3]; 2],
+    /// Over the unit.
+    position: [[ComplexBatch; 3]; 2],
+}
+
+impl Given {
+    #[inline(always)]
+    pub(super) fn of(poses: &[ComplexPose; 2 * PAIRS], unit: f64) -> Self {
+        let mut out = Self {
+            rotation: [[[ComplexBatch::ZERO; 3]; 3]; 2],
+            position: [[ComplexBatch::ZERO; 3]; 2],
+        };
+        let over = unit.recip();
+        for k in 0..LANES {
+            for image in 0..2 {
+                let pose = &poses[2 * k + image];
+                for i in 0..3 {
+                    for j in 0..3 {
+                        let (z, to) = (pose.rotation[(i, j)], &mut out.rotation[image][i][j]);
+                        (to.re[k], to.im[k]) = (z.re, z.im);
+                    }
+                    let (z, to) = (pose.position[i], &mut out.position[image][i]);
+                    (to.re[k], to.im[k]) = (z.re * over, z.im * over);
+                }
+            }
         }
-        height = height + corner.times(normal[i].centre);
+        out
     }
-    let z = &placed.p4[2].c;
-    let (near, far) = ((height - *z).norm_sqr(), (height + *z).norm_sqr());
-    Reals(near).zip(Reals(far), |n, f| if n <= f { 1.0 } else { -1.0 })
-}
-
-#[inline(always)]
-fn signed(z: &ComplexBatch, sign: Reals) -> ComplexBatch {
-    let mut out = *z;
-    for k in 0..LANES {
-        (out.re[k], out.im[k]) = (sign.0[k] * z.re[k], sign.0[k] * z.im[k]);
-    }
-    out
-}
-
-#[inline(always)]
-fn gather(
-    poses: &[ComplexPose; 2 * PAIRS],
-    mirrored: bool,
-    entry: impl Fn(&ComplexPose) -> num_complex::Complex64,
-) -> ComplexBatch {
-    let mut out = ComplexBatch::ZERO;
-    for k in 0..LANES {
-        let z = entry(&poses[2 * k + usize::from(mirrored)]);
-        (out.re[k], out.im[k]) = (z.re, z.im);
-    }
-    out
 }
 
 /// Midpoints of `E^T F_e G`, `E^T F_o G` and of both parts of `E^T c4`.
