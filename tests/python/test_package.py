@@ -322,6 +322,22 @@ def test_long_work_answers_reports_and_can_be_interrupted(octahedral):
         octahedral.optimize(extension=-1.0)
 
 
+def test_the_drive_is_chosen_with_the_platform(tmp_path, octahedral):
+    table = tmp_path / "drives.csv"
+    # the first is cheaper and far too long
+    table.write_text("name,stroke,dead_length,price_EUR\ncheap,1,400,10\nlong,30,1,50\n")
+    best, answer = octahedral.optimize(drives=table)
+    assert best is not None and answer.drive_search.chosen == "long"
+    assert {drive.name for drive in answer.drive_search.drives} == {"cheap", "long"}
+    lengths = np.array([best.ik(best.home)])
+    assert np.all((15.0 <= lengths) & (lengths <= 24.0))
+    explored = octahedral.explore(tmp_path / "explored", drives=table)
+    assert explored.drive_search.chosen == "long" and explored.paths
+    assert (tmp_path / "explored").is_dir()
+    with pytest.raises(equipod.DesignError):
+        octahedral.optimize(drives=tmp_path / "missing.csv")
+
+
 def test_a_machine_is_calibrated_from_poses_and_lengths():
     design = equipod.Design.load("designs/symmetric-hexapod.toml")
     rng = np.random.default_rng(4)
