@@ -84,7 +84,7 @@ fn columns_from(text: &str) -> Option<Vec<SweepColumn>> {
 /// The cells of a column that wait to be written.
 #[derive(Debug)]
 struct WaitingColumn {
-    /// Of each row 1, or 0 where its cell is empty.
+    /// Of each row 1, or 0 where its cell is empty; none until there is an empty cell.
     levels: Vec<i16>,
     /// The cells that are not empty.
     values: WaitingValues,
@@ -109,26 +109,33 @@ impl WaitingColumn {
         Self { levels: Vec::new(), values }
     }
 
-    /// Takes a cell; `false` for one of another kind.
-    fn push(&mut self, cell: SweepCell) -> bool {
+    /// Takes the cell of row number `row` of the group; `false` for one of another kind.
+    fn push(&mut self, cell: &mut SweepCell, row: usize) -> bool {
         match (&mut self.values, cell) {
+            (WaitingValues::Numbers(to), SweepCell::Number(x)) => to.push(*x),
+            (WaitingValues::Integers(to), SweepCell::Integer(n)) => to.push(*n),
+            (WaitingValues::Truths(to), SweepCell::Truth(b)) => to.push(*b),
+            (WaitingValues::Texts(to), SweepCell::Text(text)) => {
+                to.push(std::mem::take(text).into_bytes().into());
+            }
             (_, SweepCell::Empty) => {
+                if self.levels.is_empty() {
+                    self.levels.resize(row, 1);
+                }
                 self.levels.push(0);
                 return true;
             }
-            (WaitingValues::Numbers(to), SweepCell::Number(x)) => to.push(x),
-            (WaitingValues::Integers(to), SweepCell::Integer(n)) => to.push(n),
-            (WaitingValues::Truths(to), SweepCell::Truth(b)) => to.push(b),
-            (WaitingValues::Texts(to), SweepCell::Text(text)) => to.push(text.into_bytes().into()),
             _ => return false,
         }
-        self.levels.push(1);
+        if !self.levels.is_empty() {
+            self.levels.push(1);
+        }
         true
     }
 
-    /// Writes the cells and forgets them; the room for the next ones stays. `false` for a column of another type.
-    fn write(&mut self, to: &mut ColumnWriter<'_>) -> Result<bool, ParquetError> {
-        let levels = Some(&self.levels[..]);
+    /// Writes the cells and forgets them; the room for the next ones stays. `full` are the levels of a column without empty cells. `false` for a column of another type.
+    fn write(&mut self, to: &mut ColumnWriter<'_>, full: &[i16]) -> Result<bool, ParquetError> {
+        let levels = Some(if self.levels.is_empty() { full } else { &self.levels });
         match (&mut self.values, to) {
             (WaitingValues::Numbers(from), ColumnWriter::DoubleColumnWriter(to)) => {
                 to.write_batch(from, levels, None)?;
@@ -199,13 +206,13 @@ impl<W: Write + Send> PartWriter<W> {
     ///
     /// # Errors
     /// Those of the file; a row that the columns do not fit.
-    pub(crate) fn push(&mut self, row: SweepRow) -> Result<(), PartError> {
+    pub(crate) fn push(&mut self, mut row: SweepRow) -> Result<(), PartError> {
         if row.len() != self.columns.len() {
             let message = format!("a row has {} cells for {} columns", row.len(), self.columns.len());
             return Err(PartError::Foreign(message));
         }
-        for (k, cell) in row.into_iter().enumerate() {
-            if !self.waiting[k].push(cell) {
+        for (k, (waiting, cell)) in self.waiting.iter_mut().zip(&mut row).enumerate() {
+            if !waiting.push(cell, self.rows) {
                 return Err(other_type(&self.columns[k]));
             }
         }
@@ -218,9 +225,10 @@ impl<W: Write + Send> PartWriter<W> {
             return Ok(());
         }
         let mut group = self.writer.next_row_group()?;
+        let full = vec![1; self.rows];
         let mut k = 0;
         while let Some(mut column) = group.next_column()? {
-            if !self.waiting[k].write(column.untyped())? {
+            if !self.waiting[k].write(column.untyped(), &full)? {
                 return Err(other_type(&self.columns[k]));
             }
             column.close()?;

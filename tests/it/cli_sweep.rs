@@ -254,7 +254,7 @@ fn the_table_of_poses_of_a_workspace_belongs_to_the_sweep() {
     std::fs::create_dir(place.path("data")).unwrap();
     std::fs::write(
         place.path("base.toml"),
-        format!("{text}\n[workspace]\ntrajectory = 'data/path.csv'\nrelative_to = 'home'\n"),
+        text.replace("[workspace]\n", "[workspace]\ntrajectory = 'data/path.csv'\nrelative_to = 'home'\n"),
     )
     .unwrap();
     let table = |rows: &str| std::fs::write(place.path("data/path.csv"), rows).unwrap();

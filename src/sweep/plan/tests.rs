@@ -116,7 +116,7 @@ fn drives_of_a_table_vary_by_their_names() {
 
 #[test]
 fn the_table_of_poses_is_the_same_for_all_candidates() {
-    let design = format!("{DESIGN}\n[workspace]\ntrajectory = 'path.csv'\n");
+    let design = DESIGN.replace("[workspace]\n", "[workspace]\ntrajectory = 'path.csv'\n");
     let base = BasePlan::new(PlanText { text: &design, format: Format::Toml }).unwrap();
     let base = base.with_poses(b"0,0,16,0,0,0\n").unwrap();
     let text =
