@@ -1,7 +1,7 @@
 //! What a command is given besides its own arguments.
 
 use std::cell::Cell;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use clap::ArgMatches;
 use clap::parser::ValueSource;
@@ -13,7 +13,6 @@ use super::files;
 use super::rows;
 use crate::coupled::CoupledLegs;
 use crate::design::{Design, Format, Violation, Warning, parse, parse_with_cranks};
-use crate::geom::Pose;
 use crate::records::{DesignSourceRecord, FileSourceRecord, ProvenanceRecord};
 use crate::rotary::RotaryPlatform;
 
@@ -129,6 +128,14 @@ impl Context {
     /// # Errors
     /// Exit 2 with all violations, or because the file cannot be read.
     pub(crate) fn load(&mut self, path: &Path) -> Result<Design, Failure> {
+        self.read_design(path, parse).map(|read| read.design)
+    }
+
+    /// As [`Self::load`], with the texts that the design was read from, for commands that keep them.
+    ///
+    /// # Errors
+    /// As [`Self::load`].
+    pub(crate) fn load_with_texts(&mut self, path: &Path) -> Result<ReadDesign, Failure> {
         self.read_design(path, parse)
     }
 
@@ -137,7 +144,7 @@ impl Context {
     /// # Errors
     /// As [`Self::load`].
     pub(crate) fn load_with_cranks(&mut self, path: &Path) -> Result<Design, Failure> {
-        self.read_design(path, parse_with_cranks)
+        self.read_design(path, parse_with_cranks).map(|read| read.design)
     }
 
     /// The cranks of a design that has some.
@@ -165,7 +172,7 @@ impl Context {
         &mut self,
         path: &Path,
         read: fn(&str, Format) -> DesignOrViolations,
-    ) -> Result<Design, Failure> {
+    ) -> Result<ReadDesign, Failure> {
         let text = files::read_text(path)?;
         let shown = files::shown(path);
         match read(&text, format_of(path, &text)) {
@@ -176,22 +183,30 @@ impl Context {
                     }
                     self.warnings.push(FileWarning { path: path.display().to_string(), warning });
                 }
+                let mut poses = None;
                 if let Some(trajectory) = &mut design.workspace.trajectory {
-                    trajectory.poses = self.poses_beside(path, &trajectory.file)?;
+                    // the name is relative to the folder of the design
+                    let table = path.parent().unwrap_or(Path::new("")).join(&trajectory.file);
+                    let bytes = files::read_table(&table)?;
+                    let read = rows::poses_of(&bytes, &table, "design::bad_trajectory", self)?;
+                    trajectory.poses = read.rows.into_iter().map(|row| row.value).collect();
+                    poses = Some((table, bytes));
                 }
                 self.designs.push((design.name.clone(), path.display().to_string()));
-                Ok(design)
+                Ok(ReadDesign { design, text, poses })
             }
             Err(violations) => Err(Failure::bad_design(shown, text, violations)),
         }
     }
+}
 
-    /// The poses of a table whose name is relative to the folder of the design.
-    fn poses_beside(&self, design: &Path, file: &str) -> Result<Vec<Pose>, Failure> {
-        let path = design.parent().unwrap_or(Path::new("")).join(file);
-        let table = rows::poses(&path, "design::bad_trajectory", self)?;
-        Ok(table.rows.into_iter().map(|row| row.value).collect())
-    }
+/// A design with the texts that it was read from.
+#[derive(Debug)]
+pub(crate) struct ReadDesign {
+    pub(crate) design: Design,
+    pub(crate) text: String,
+    /// The table of poses that its workspace names: its file, its bytes.
+    pub(crate) poses: Option<(PathBuf, Vec<u8>)>,
 }
 
 /// The notation of a design: by the name of the file or, on standard input, by its first character.

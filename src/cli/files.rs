@@ -40,7 +40,15 @@ pub(crate) fn shown(path: &Path) -> String {
 /// # Errors
 /// Exit 2: `file::not_readable`, `file::is_directory`, `file::too_large`, `file::not_utf8`, `file::read_twice`.
 pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
-    String::from_utf8(read_table(path)?).map_err(|error| {
+    utf8(path, read_table(path)?)
+}
+
+/// The text of the bytes of a file.
+///
+/// # Errors
+/// Exit 2: `file::not_utf8`.
+pub(crate) fn utf8(path: &Path, bytes: Vec<u8>) -> Result<String, Failure> {
+    String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
         let line = error.as_bytes()[..valid].split(|b| *b == b'\n').count();
         let message = format!("{} is not UTF-8 text: line {line} has other bytes", shown(path));

@@ -29,8 +29,18 @@ pub(crate) fn read<T>(
     context: &Context,
     record: impl Fn(&str) -> Result<T, String>,
 ) -> Result<TimeSeries<T>, Failure> {
+    read_bytes(kind, table, &files::read_table(table.path)?, context, record)
+}
+
+fn read_bytes<T>(
+    kind: SeriesKind,
+    table: TableName<'_>,
+    bytes: &[u8],
+    context: &Context,
+    record: impl Fn(&str) -> Result<T, String>,
+) -> Result<TimeSeries<T>, Failure> {
     let shown = files::shown(table.path);
-    let series = kind.read(&files::read_table(table.path)?, record).map_err(|why| {
+    let series = kind.read(bytes, record).map_err(|why| {
         let message = match why {
             InvalidSeries::Empty => format!("{shown} has no line of numbers"),
             why => format!("{shown}: {why}"),
@@ -46,8 +56,21 @@ pub(crate) fn read<T>(
 /// # Errors
 /// As [`read`].
 pub(crate) fn poses(path: &Path, code: &'static str, context: &Context) -> Result<TimeSeries<Pose>, Failure> {
+    poses_of(&files::read_table(path)?, path, code, context)
+}
+
+/// The poses of a table whose bytes were read before.
+///
+/// # Errors
+/// As [`read`].
+pub(crate) fn poses_of(
+    bytes: &[u8],
+    path: &Path,
+    code: &'static str,
+    context: &Context,
+) -> Result<TimeSeries<Pose>, Failure> {
     let form = "a pose a line: x,y,z,roll_deg,pitch_deg,yaw_deg or x,y,z,qw,qx,qy,qz";
-    read(SeriesKind::Poses, TableName { path, code, form }, context, |line| {
+    read_bytes(SeriesKind::Poses, TableName { path, code, form }, bytes, context, |line| {
         line.parse().map_err(|e: InvalidPose| e.to_string())
     })
 }

@@ -141,6 +141,7 @@ impl SweepFolder {
             plan: texts.plan.clone(),
             design: texts.design.clone(),
             drives: texts.drives.clone(),
+            poses: texts.poses.clone(),
         };
         if let Some(there) = there {
             return there.goes_on(&record);
@@ -184,8 +185,8 @@ impl SweepFolder {
 
     /// The texts that it was begun with.
     pub(crate) fn texts(&self) -> SweepTexts {
-        let SweepFolderRecord { plan, design, drives, .. } = self.record.clone();
-        SweepTexts { plan, design, drives }
+        let SweepFolderRecord { plan, design, drives, poses, .. } = self.record.clone();
+        SweepTexts { plan, design, drives, poses }
     }
 
     /// The sweep, ready to compute rows again as they were.
@@ -236,6 +237,26 @@ impl SweepFolder {
         notes.extend(description.map(|text| ("equipod.description".into(), text.to_owned())));
         notes.extend(shard.map(|s| ("equipod.shard".into(), format!("{s}/{}", r.shards))));
         notes
+    }
+
+    /// Writes the table of poses that the candidates of a sweep name into the folder of their design files.
+    ///
+    /// # Errors
+    /// Exit 2: another file has its name.
+    pub(crate) fn write_poses(&self, sweep: &Sweep, folder: &Path) -> Result<(), Failure> {
+        let (Some(text), Some(named)) = (&self.record.poses, &sweep.base.design.workspace.trajectory) else {
+            return Ok(());
+        };
+        let path = folder.join(&named.file);
+        match fs::read(&path) {
+            Ok(there) if there == text.as_bytes() => Ok(()),
+            Ok(_) => {
+                let message = format!("{} is not the table of poses of the sweep", path.display());
+                Err(Failure::refused("sweep::other_poses", message)
+                    .with_help("candidates name it: write them into another folder"))
+            }
+            Err(_) => files::write_text(&path, text),
+        }
     }
 
     /// What is known of a shard.
@@ -451,6 +472,8 @@ pub(crate) struct SweepTexts {
     plan: SweepTextRecord,
     design: SweepTextRecord,
     drives: Option<String>,
+    /// The table of poses of the workspace.
+    poses: Option<String>,
 }
 
 impl SweepTexts {
@@ -463,28 +486,27 @@ impl SweepTexts {
             .map_err(|violations| bad_plan(&shown, &text, violations))?;
         let beside = |name: String| path.parent().unwrap_or(Path::new("")).join(name);
         let drives = drives.map(|name| files::read_text(&beside(name))).transpose()?;
-        let design = match base {
-            BaseName::Preset(_, text) => SweepTextRecord { text: text.into(), format: Format::Toml },
+        let (design, poses) = match base {
+            BaseName::Preset(_, text) => (SweepTextRecord { text: text.into(), format: Format::Toml }, None),
             BaseName::File(name) => {
                 let file = beside(name);
                 // warnings are shown, and provenance knows the design
-                let read = context.load(&file)?;
-                if read.workspace.trajectory.is_some() {
-                    let message = format!("{}: the workspace names a table of poses", file.display());
-                    let help = "a sweep is computed from plan and design alone: list the poses in the design, as `[workspace] poses`, or in the plan";
-                    return Err(Failure::refused("sweep::trajectory", message).with_help(help));
-                }
-                SweepTextRecord { text: files::read_text(&file)?, format: Format::of_path(&file) }
+                let read = context.load_with_texts(&file)?;
+                let poses = read.poses.map(|(table, bytes)| files::utf8(&table, bytes)).transpose()?;
+                (SweepTextRecord { text: read.text, format: Format::of_path(&file) }, poses)
             }
         };
-        Ok(Self { plan: SweepTextRecord { text, format }, design, drives })
+        Ok(Self { plan: SweepTextRecord { text, format }, design, drives, poses })
     }
 
     /// SHA-256 over all of them.
     pub(crate) fn sha256(&self) -> String {
         let part = |t: &SweepTextRecord| format!("{} {}\n{}", t.format, t.text.len(), t.text);
-        let drives = self.drives.as_ref().map_or_else(String::new, |t| format!("drives {}\n{t}", t.len()));
-        sha256((part(&self.plan) + &part(&self.design) + &drives).as_bytes())
+        let table = |name: &str, text: &Option<String>| {
+            text.as_ref().map_or_else(String::new, |t| format!("{name} {}\n{t}", t.len()))
+        };
+        let tables = table("drives", &self.drives) + &table("poses", &self.poses);
+        sha256((part(&self.plan) + &part(&self.design) + &tables).as_bytes())
     }
 
     /// The sweep that they describe; `shown` is where the plan is from.
@@ -497,6 +519,13 @@ impl SweepTexts {
             Some(table) => base.with_drives(table.as_bytes()).map_err(|why| {
                 Failure::refused("drives::bad_table", format!("the table of drives of {shown}: {why}"))
                     .with_help("docs/guides/choosing-drives.md has the columns; drives of a plan have different names")
+            })?,
+        };
+        let base = match &self.poses {
+            None => base,
+            Some(table) => base.with_poses(table.as_bytes()).map_err(|why| {
+                let message = format!("the table of poses of the base design of {shown}: {why}");
+                Failure::refused("design::bad_trajectory", message)
             })?,
         };
         let text = PlanText { text: &self.plan.text, format: self.plan.format };

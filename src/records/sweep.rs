@@ -30,7 +30,7 @@ pub struct SweepFolderRecord {
     pub candidates: u64,
     /// Shards that they are divided into.
     pub shards: u64,
-    /// SHA-256 over plan, base design and table of drives, hexadecimal.
+    /// SHA-256 over plan, base design, table of drives and table of poses, hexadecimal.
     #[schemars(regex(pattern = "^[0-9a-f]{64}$"))]
     pub plan_sha256: String,
     /// The plan.
@@ -40,6 +40,9 @@ pub struct SweepFolderRecord {
     /// Its table of drives; absent where it names none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub drives: Option<String>,
+    /// The table of poses that the workspace of the base design names; absent where it names none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub poses: Option<String>,
 }
 
 /// What the manifest beside a part says.

@@ -7,7 +7,7 @@ use std::num::NonZeroUsize;
 use super::column::SweepCell;
 use super::evaluate::Sweep;
 use super::plan::{FreeQuantity, PoseChoice};
-use crate::design::{Design, Drive, parse};
+use crate::design::{Design, Drive};
 use crate::entrance::{AssessReport, CheckReport};
 use crate::equivalents::Original;
 use crate::fk::FkSolutions;
@@ -238,10 +238,8 @@ fn changed(sweep: &Sweep, values: &[SweepCell]) -> Result<Design, String> {
             _ => None,
         })
         .collect();
-    match parse(&base.with_values(&written), base.format) {
-        Ok((design, _)) => Ok(design),
-        Err(violations) => Err(violations.first().map(ToString::to_string).unwrap_or_default()),
-    }
+    let read = base.candidate(&base.with_values(&written));
+    read.map_err(|violations| violations.first().map(ToString::to_string).unwrap_or_default())
 }
 
 /// A value as both notations of design files have it.

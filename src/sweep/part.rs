@@ -22,6 +22,10 @@ use super::rows::SweepRow;
 /// Rows that are held before they are written.
 const ROWS: usize = 1 << 14;
 
+/// Bytes of the dictionary of a column in a group of rows, at most: 1024 numbers. A column with more different values is written plainly from there on, since a table of
+/// values that hardly repeat makes the file larger and takes most of the time of writing.
+const DICTIONARY: usize = 1 << 13;
+
 /// The key under which the columns are described.
 const COLUMNS_KEY: &str = "equipod.columns";
 
@@ -77,11 +81,91 @@ fn columns_from(text: &str) -> Option<Vec<SweepColumn>> {
     all.into_iter().map(column).collect()
 }
 
+/// The cells of a column that wait to be written.
+#[derive(Debug)]
+struct WaitingColumn {
+    /// Of each row 1, or 0 where its cell is empty; none until there is an empty cell.
+    levels: Vec<i16>,
+    /// The cells that are not empty.
+    values: WaitingValues,
+}
+
+#[derive(Debug)]
+enum WaitingValues {
+    Numbers(Vec<f64>),
+    Integers(Vec<i64>),
+    Truths(Vec<bool>),
+    Texts(Vec<ByteArray>),
+}
+
+impl WaitingColumn {
+    fn new(kind: ColumnKind) -> Self {
+        let values = match kind {
+            ColumnKind::Number => WaitingValues::Numbers(Vec::new()),
+            ColumnKind::Integer => WaitingValues::Integers(Vec::new()),
+            ColumnKind::Truth => WaitingValues::Truths(Vec::new()),
+            ColumnKind::Text => WaitingValues::Texts(Vec::new()),
+        };
+        Self { levels: Vec::new(), values }
+    }
+
+    /// Takes the cell of row number `row` of the group; `false` for one of another kind.
+    fn push(&mut self, cell: &mut SweepCell, row: usize) -> bool {
+        match (&mut self.values, cell) {
+            (WaitingValues::Numbers(to), SweepCell::Number(x)) => to.push(*x),
+            (WaitingValues::Integers(to), SweepCell::Integer(n)) => to.push(*n),
+            (WaitingValues::Truths(to), SweepCell::Truth(b)) => to.push(*b),
+            (WaitingValues::Texts(to), SweepCell::Text(text)) => {
+                to.push(std::mem::take(text).into_bytes().into());
+            }
+            (_, SweepCell::Empty) => {
+                if self.levels.is_empty() {
+                    self.levels.resize(row, 1);
+                }
+                self.levels.push(0);
+                return true;
+            }
+            _ => return false,
+        }
+        if !self.levels.is_empty() {
+            self.levels.push(1);
+        }
+        true
+    }
+
+    /// Writes the cells and forgets them; the room for the next ones stays. `full` are the levels of a column without empty cells. `false` for a column of another type.
+    fn write(&mut self, to: &mut ColumnWriter<'_>, full: &[i16]) -> Result<bool, ParquetError> {
+        let levels = Some(if self.levels.is_empty() { full } else { &self.levels });
+        match (&mut self.values, to) {
+            (WaitingValues::Numbers(from), ColumnWriter::DoubleColumnWriter(to)) => {
+                to.write_batch(from, levels, None)?;
+                from.clear();
+            }
+            (WaitingValues::Integers(from), ColumnWriter::Int64ColumnWriter(to)) => {
+                to.write_batch(from, levels, None)?;
+                from.clear();
+            }
+            (WaitingValues::Truths(from), ColumnWriter::BoolColumnWriter(to)) => {
+                to.write_batch(from, levels, None)?;
+                from.clear();
+            }
+            (WaitingValues::Texts(from), ColumnWriter::ByteArrayColumnWriter(to)) => {
+                to.write_batch(from, levels, None)?;
+                from.clear();
+            }
+            _ => return Ok(false),
+        }
+        self.levels.clear();
+        Ok(true)
+    }
+}
+
 /// Writes rows; what it writes depends on columns, notes and rows alone.
 pub(crate) struct PartWriter<W: Write + Send> {
     writer: SerializedFileWriter<W>,
     columns: Vec<SweepColumn>,
-    waiting: Vec<SweepRow>,
+    waiting: Vec<WaitingColumn>,
+    rows: usize,
 }
 
 impl<W: Write + Send> PartWriter<W> {
@@ -109,55 +193,49 @@ impl<W: Write + Send> PartWriter<W> {
         let notes = notes.iter().chain([&own]).map(|(k, v)| KeyValue::new(k.clone(), v.clone())).collect();
         let properties = WriterProperties::builder()
             .set_compression(Compression::SNAPPY)
+            .set_dictionary_page_size_limit(DICTIONARY)
             .set_created_by(format!("equipod {}", env!("CARGO_PKG_VERSION")))
             .set_key_value_metadata(Some(notes))
             .build();
         let writer = SerializedFileWriter::new(to, schema, Arc::new(properties))?;
-        Ok(Self { writer, columns: columns.to_vec(), waiting: Vec::with_capacity(ROWS) })
+        let waiting = columns.iter().map(|c| WaitingColumn::new(c.kind)).collect();
+        Ok(Self { writer, columns: columns.to_vec(), waiting, rows: 0 })
     }
 
     /// Adds a row.
     ///
     /// # Errors
-    /// Those of the file.
-    pub(crate) fn push(&mut self, row: SweepRow) -> Result<(), PartError> {
-        self.waiting.push(row);
-        if self.waiting.len() == ROWS { self.write_group() } else { Ok(()) }
+    /// Those of the file; a row that the columns do not fit.
+    pub(crate) fn push(&mut self, mut row: SweepRow) -> Result<(), PartError> {
+        if row.len() != self.columns.len() {
+            let message = format!("a row has {} cells for {} columns", row.len(), self.columns.len());
+            return Err(PartError::Foreign(message));
+        }
+        for (k, (waiting, cell)) in self.waiting.iter_mut().zip(&mut row).enumerate() {
+            if !waiting.push(cell, self.rows) {
+                return Err(other_type(&self.columns[k]));
+            }
+        }
+        self.rows += 1;
+        if self.rows == ROWS { self.write_group() } else { Ok(()) }
     }
 
     fn write_group(&mut self) -> Result<(), PartError> {
-        if self.waiting.is_empty() {
+        if self.rows == 0 {
             return Ok(());
         }
         let mut group = self.writer.next_row_group()?;
+        let full = vec![1; self.rows];
         let mut k = 0;
         while let Some(mut column) = group.next_column()? {
-            let cells = || self.waiting.iter().map(|row| &row[k]);
-            let levels: Vec<i16> = cells().map(|c| i16::from(*c != SweepCell::Empty)).collect();
-            match column.untyped() {
-                ColumnWriter::DoubleColumnWriter(to) => {
-                    let values: Vec<f64> = cells().filter_map(SweepCell::as_number).collect();
-                    to.write_batch(&values, Some(&levels), None)?;
-                }
-                ColumnWriter::Int64ColumnWriter(to) => {
-                    let values: Vec<i64> = cells().filter_map(integer).collect();
-                    to.write_batch(&values, Some(&levels), None)?;
-                }
-                ColumnWriter::BoolColumnWriter(to) => {
-                    let values: Vec<bool> = cells().filter_map(truth).collect();
-                    to.write_batch(&values, Some(&levels), None)?;
-                }
-                ColumnWriter::ByteArrayColumnWriter(to) => {
-                    let values: Vec<ByteArray> = cells().filter_map(words).collect();
-                    to.write_batch(&values, Some(&levels), None)?;
-                }
-                _ => return Err(PartError::Foreign(format!("{} has another type", self.columns[k].name))),
+            if !self.waiting[k].write(column.untyped(), &full)? {
+                return Err(other_type(&self.columns[k]));
             }
             column.close()?;
             k += 1;
         }
         group.close()?;
-        self.waiting.clear();
+        self.rows = 0;
         Ok(())
     }
 
@@ -171,16 +249,8 @@ impl<W: Write + Send> PartWriter<W> {
     }
 }
 
-fn integer(cell: &SweepCell) -> Option<i64> {
-    if let SweepCell::Integer(n) = cell { Some(*n) } else { None }
-}
-
-fn truth(cell: &SweepCell) -> Option<bool> {
-    if let SweepCell::Truth(b) = cell { Some(*b) } else { None }
-}
-
-fn words(cell: &SweepCell) -> Option<ByteArray> {
-    if let SweepCell::Text(text) = cell { Some(text.as_str().into()) } else { None }
+fn other_type(column: &SweepColumn) -> PartError {
+    PartError::Foreign(format!("{} has another type", column.name))
 }
 
 /// A part that is read, one group of rows after the other.
@@ -334,6 +404,36 @@ mod tests {
             [rows(n)[n as usize - 1][3].clone(), SweepCell::Integer(n - 1)]
         );
         assert_eq!(opened(&written(0)).unwrap().groups(), 0);
+    }
+
+    #[test]
+    fn columns_of_many_different_numbers_are_written_without_a_table_of_them() {
+        let column = [SweepColumn::number("x", None, "")];
+        let bytes = |different: i64| {
+            let mut writer = PartWriter::new(Vec::new(), &column, &[]).unwrap();
+            for k in 0..ROWS as i64 {
+                // digits that do not compress
+                writer.push(vec![SweepCell::Number(1.0 / (1.5 + (k % different) as f64))]).unwrap();
+            }
+            writer.finish().unwrap()
+        };
+        let (few, many) = (bytes(100), bytes(ROWS as i64));
+        assert!(few.len() < 2 * ROWS, "numbers that repeat take less than two bytes each: {}", few.len());
+        assert!(many.len() < 8 * ROWS + 8 * 1024, "others their eight: {}", many.len());
+        for (bytes, different) in [(few, 100), (many, ROWS)] {
+            let back = opened(&bytes).unwrap().group(0, &[0]).unwrap();
+            let value = |k: usize| SweepCell::Number(1.0 / (1.5 + (k % different) as f64));
+            assert!(back.iter().enumerate().all(|(k, row)| row[0].is_same(&value(k))));
+        }
+    }
+
+    #[test]
+    fn rows_that_the_columns_do_not_fit_are_refused() {
+        let mut writer = PartWriter::new(Vec::new(), &columns(), &[]).unwrap();
+        assert!(writer.push(vec![SweepCell::Empty]).is_err(), "too few cells");
+        let mut row = rows(2).remove(1);
+        row[1] = SweepCell::Truth(true);
+        assert!(writer.push(row).is_err(), "a truth value among numbers");
     }
 
     #[test]

@@ -90,6 +90,55 @@ fn a_candidate_with_a_drive_is_judged_by_its_limits() {
 }
 
 #[test]
+fn the_poses_of_a_table_belong_to_the_workspace_of_every_candidate() {
+    let table = "x,y,z,roll_deg,pitch_deg,yaw_deg\n0,0,1,0,0,0\n1,-1,0.5,10,0,5\n";
+    let region = "translation = [2.0, 2.0, 2.0]\nrotation_deg = [10.0, 10.0, 10.0]\ngrid = 2\n";
+    assert!(OCTAHEDRAL.contains(region));
+    let text =
+        OCTAHEDRAL.replace(region, "trajectory = \"data/path.csv\"\nrelative_to = \"home\"\n");
+    let base = BasePlan::new(PlanText { text: &text, format: Format::Toml }).unwrap();
+    assert!(base.clone().with_poses(b"1,2\n").is_err(), "no pose has two numbers");
+    let base = base.with_poses(table.as_bytes()).unwrap();
+    let sweep = |vary: &str| {
+        let plan = format!("name = 'p'\ndesign = 'd.toml'\ncompute = ['conditioning', 'length_range']\n{vary}");
+        let plan = read(PlanText { text: &plan, format: Format::Toml }, &base).unwrap_or_else(|v| panic!("{v:#?}"));
+        Sweep::new(plan, base.clone(), 1).unwrap()
+    };
+    // numbers in the text, offsets of an equivalent platform
+    for vary in [
+        "[vary]\nby = 'grid'\nvalues = { 'home.position.3' = [14, 17] }\n",
+        "[vary]\nby = 'uniform'\ncount = 2\nvalues = { offsets = { from = 0.2, to = 0.4 } }\n",
+    ] {
+        let sweep = sweep(vary);
+        for k in 0..2 {
+            let row = sweep.row(k).unwrap();
+            assert_eq!(row[row.len() - 1], SweepCell::Empty);
+            let written = sweep.design_text(k).unwrap();
+            // the file of a candidate has the table beside it
+            assert!(written.contains("\"path.csv\""), "{written}");
+            let (design, _) = parse(&written, Format::Toml).unwrap();
+            let home = design.home_or_default();
+            let moved = |x: [f64; 3], angles: [f64; 3]| {
+                let listed = crate::geom::Pose::new(x, crate::geom::Angles::from_degrees(angles));
+                crate::geom::ListedFrom::Home.in_base_frame(&listed, &home)
+            };
+            let poses = [home, moved([0.0, 0.0, 1.0], [0.0; 3]), moved([1.0, -1.0, 0.5], [10.0, 0.0, 5.0])];
+            let lengths: Vec<f64> =
+                poses.iter().flat_map(|p| p.lengths(design.manipulator()).unwrap().get()).collect();
+            let longest = lengths.iter().copied().fold(0.0, f64::max);
+            let said = cell(&sweep, &row, "greatest_length").as_number().unwrap();
+            assert!((said - longest).abs() < 1e-9 * longest, "{said} {longest}");
+            let length = design.characteristic_length();
+            let least = poses
+                .iter()
+                .map(|p| inverse_condition(&jacobian(design.manipulator(), p, length)))
+                .fold(f64::INFINITY, f64::min);
+            assert!((cell(&sweep, &row, "conditioning").as_number().unwrap() - least).abs() < 1e-9);
+        }
+    }
+}
+
+#[test]
 fn rows_do_not_depend_on_threads_nor_on_the_range() {
     let sweep = Arc::new(sweep_of(
         OCTAHEDRAL,

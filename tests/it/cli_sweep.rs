@@ -248,6 +248,66 @@ fn candidates_are_designs_and_failures_are_rows() {
 }
 
 #[test]
+fn the_table_of_poses_of_a_workspace_belongs_to_the_sweep() {
+    let place = Place::new();
+    let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(BASE)).unwrap();
+    std::fs::create_dir(place.path("data")).unwrap();
+    std::fs::write(
+        place.path("base.toml"),
+        text.replace("[workspace]\n", "[workspace]\ntrajectory = 'data/path.csv'\nrelative_to = 'home'\n"),
+    )
+    .unwrap();
+    let table = |rows: &str| std::fs::write(place.path("data/path.csv"), rows).unwrap();
+    let plan = place.path("plan.toml");
+    let vary = "[vary]\nby = 'grid'\nvalues = { 'home.position.3' = [13, 14, 15, 16] }\n";
+    std::fs::write(
+        &plan,
+        format!("name = 'test'\ndesign = 'base.toml'\ncompute = ['length_range']\n{vary}"),
+    )
+    .unwrap();
+    let (one, two, best) = (place.path("one"), place.path("two"), place.path("best"));
+    table("0,0,1,0,0,0\n0,0,2,0,0,0\n");
+    let (code, doc) = asked(&[&plan, "--shard", "0/2", "-o", &one]);
+    assert_eq!((code, numbers(&doc["done"])), (Some(0), vec![0]), "{doc}");
+    // other poses make another sweep
+    table("0,0,1,0,0,0\n0,0,3,0,0,0\n");
+    assert_eq!(asked(&[&plan, "-o", &one]).1["error"]["code"], "sweep::other_sweep");
+    let (code, other) = asked(&[&plan, "--shards", "2", "-o", &two]);
+    assert!(code == Some(0) && other["plan_sha256"] != doc["plan_sha256"], "{other}");
+    assert_ne!(parts(&one)[0].1, parts(&two)[0].1);
+    table("0,0,1,0,0,0\n0,0,2,0,0,0\n");
+    assert_eq!(asked(&[&plan, "-o", &one]).0, Some(0));
+    // the folder alone is enough from here on
+    std::fs::remove_dir_all(place.path("data")).unwrap();
+    let (code, doc) = asked(&["verify", &one, "--sample", "4"]);
+    assert_eq!((code, numbers(&doc["sampled"]).len()), (Some(0), 4), "{doc}");
+    let (code, doc) = asked(&["best", &one, "--by", "greatest_length", "--count", "2", "-o", &best]);
+    assert_eq!(code, Some(0), "{doc}");
+    let candidate = doc["candidates"][0]["output"].as_str().unwrap();
+    assert_eq!(std::fs::read_to_string(place.path("best/path.csv")).unwrap(), "0,0,1,0,0,0\n0,0,2,0,0,0\n");
+    assert_eq!(equipod(&["check", candidate]).status.code(), Some(0));
+    // another file is not written over
+    std::fs::write(place.path("path.csv"), "0,0,0,0,0,0\n").unwrap();
+    let design = place.path("candidate.toml");
+    let (code, doc) = asked(&["design", &one, "--candidate", "2", "-o", &design]);
+    assert_eq!((code, doc["error"]["code"].as_str()), (Some(2), Some("sweep::other_poses")));
+    assert!(!Path::new(&design).exists());
+    std::fs::remove_file(place.path("path.csv")).unwrap();
+    assert_eq!(asked(&["design", &one, "--candidate", "2", "-o", &design]).0, Some(0));
+    assert_eq!(equipod(&["check", &design]).status.code(), Some(0));
+    table_is_named(&plan, &place);
+}
+
+/// A table that is not there, or that is none, is refused by its name.
+fn table_is_named(plan: &str, place: &Place) {
+    let refused = || asked(&[plan, "-o", &place.path("new")]).1["error"]["code"].clone();
+    assert_eq!(refused(), "file::not_readable");
+    std::fs::create_dir(place.path("data")).unwrap();
+    std::fs::write(place.path("data/path.csv"), "0,0\n").unwrap();
+    assert_eq!(refused(), "design::bad_trajectory");
+}
+
+#[test]
 fn what_is_refused_says_why() {
     let place = Place::new();
     let plan = place.plan("plan.toml", OFFSETS);

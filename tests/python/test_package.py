@@ -322,6 +322,42 @@ def test_long_work_answers_reports_and_can_be_interrupted(octahedral):
         octahedral.optimize(extension=-1.0)
 
 
+def test_the_drive_is_chosen_with_the_platform(tmp_path):
+    table = tmp_path / "drives.csv"
+    table.write_text("name,stroke,retracted_length,price_EUR\ntiny,0.1,14,10\ngood,9,9,30\n")
+    legs = '[["P1","P4"],["P2","P4"],["P2","P5"],["P3","P5"],["P3","P6"],["P1","P6"]]'
+    design = equipod.Design.loads(
+        f"""name = "limited"
+units = "mm"
+legs = {legs}
+[base]
+P1 = [0.0, 0.0, 0.0]
+P2 = [6, "6*sqrt(3)", 0]
+P3 = [12.0, 0.0, 0.0]
+[platform]
+P4 = [0.0, 0.0, 0.0]
+P5 = [6.0, 0.0, 0.0]
+P6 = [3, "-3*sqrt(3)", 0]
+[home]
+position = [3.0, 1.7320508075688772, 12.0]
+rpy_deg = [0.0, 0.0, 0.0]
+[workspace]
+translation = [0.5, 0.5, 0.5]
+[optimize]
+variables = ["symmetric_offsets", "home_height"]
+"""
+    )
+    best, answer = design.optimize(drives=table)
+    assert best is not None and answer.drive_search.chosen == "good"
+    assert {drive.name: drive.outcome for drive in answer.drive_search.drives} == {"good": "met", "tiny": "infeasible"}
+    assert "leg_length = [9.0, 18.0]" in best.dumps() and best.assess().met is True
+    explored = design.explore(tmp_path / "explored", drives=table, options=["--samples", "1"])
+    assert explored.drive_search.chosen == "good" and explored.assessment.met is True
+    assert all(pathlib.Path(path).exists() for path in explored.paths)
+    with pytest.raises(equipod.DesignError):
+        design.optimize(drives=tmp_path / "missing.csv")
+
+
 def test_a_machine_is_calibrated_from_poses_and_lengths():
     design = equipod.Design.load("designs/symmetric-hexapod.toml")
     rng = np.random.default_rng(4)

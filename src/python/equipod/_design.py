@@ -27,6 +27,7 @@ if TYPE_CHECKING:
         CheckAnswer,
         CompareAnswer,
         DrivesAnswer,
+        ExploreAnswer,
         FamilyAnswer,
         LimitsAnswer,
         MapAnswer,
@@ -565,6 +566,7 @@ class Design:
         seed: int = 1,
         threads: int | None = None,
         extension: float | None = None,
+        drives: str | os.PathLike[str] | None = None,
         time_limit: float | None = None,
         progress: Progress | bool | None = None,
     ) -> tuple[Design | None, OptimizeAnswer]:
@@ -576,6 +578,8 @@ class Design:
         threads : int, optional
         extension : float, optional
             How far a joint may lie out on the extension of its edge, in edge lengths.
+        drives : path, optional
+            A table of drives, as for :meth:`drives`: the platform is searched with each drive that could win, and the design has the chosen one, the cheapest with which the requirements are met where every drive has a price. ``answer.drive_search`` says what came of each.
         time_limit : float, optional
             Seconds after which the search ends with the best so far.
         progress : callable or bool, optional
@@ -595,10 +599,53 @@ class Design:
             options += ["--threads", str(threads)]
         if extension is not None:
             options += ["--extension", repr(float(extension))]
+        if drives is not None:
+            options += ["--drives", os.fspath(drives)]
         if time_limit is not None:
             options += ["--time-limit", repr(float(time_limit))]
         design, document = self._made("optimize", options, progress)
         return design, OptimizeAnswer(document)
+
+    def explore(
+        self,
+        output: str | os.PathLike[str],
+        *,
+        seed: int = 1,
+        extension: float | None = None,
+        drives: str | os.PathLike[str] | None = None,
+        options: Sequence[str] = (),
+        progress: Progress | bool | None = None,
+    ) -> ExploreAnswer:
+        """All that the program finds out about the design, as files of a folder: the platforms with its kinematics, the best one without shared joints, the comparison with it, drawings and exports.
+
+        Parameters
+        ----------
+        output : path
+            The folder. It is made where it does not exist; the files of an earlier run are replaced.
+        seed : int
+        extension : float, optional
+            How far a joint may lie out on the extension of its edge, in edge lengths.
+        drives : path, optional
+            A table of drives, as for :meth:`optimize`. For octahedral designs; another design with a table is refused.
+        options : sequence of str
+            Further options of ``equipod explore``.
+        progress : callable or bool, optional
+
+        Returns
+        -------
+        ExploreAnswer
+            ``verdict`` and ``explanation`` say what was found, ``paths`` are the files.
+        """
+        from .records import ExploreAnswer
+
+        arguments = ["--seed", str(seed), *options]
+        if extension is not None:
+            arguments += ["--extension", repr(float(extension))]
+        if drives is not None:
+            arguments += ["--drives", os.fspath(drives)]
+        with Workshop() as shop:
+            file = shop.file("design.toml", self._native)
+            return ExploreAnswer(ask(["explore", file, "-o", os.fspath(output), *arguments], progress))
 
     def round(
         self, grid: float, *, options: Sequence[str] = (), progress: Progress | bool | None = None

@@ -5,8 +5,14 @@ use std::ops::Range;
 
 use super::PlanText;
 use crate::design::spanned::{Findings, Node, Value, find, nearest_help, read, shown};
-use crate::design::{Design, Drive, DriveTable, Format, InvalidDriveTable, Violation, parse};
+use crate::design::{
+    Design, Drive, DriveTable, Format, InvalidDriveTable, InvalidSeries, SeriesKind, Violation, parse,
+};
+use crate::geom::{InvalidPose, Pose};
 use crate::requirements::{TermKind, Terms};
+
+/// Where a design names its table of poses.
+pub(super) const TRAJECTORY: &str = "workspace.trajectory";
 
 /// A base design and the text it is read from, into which candidates write their numbers.
 #[derive(Debug, Clone)]
@@ -44,6 +50,46 @@ impl BasePlan {
         }
         self.drives = Some(table);
         Ok(self)
+    }
+
+    /// The same with the table of poses that the workspace of the design names. Its name then is that of a file beside the design, since the files of candidates stand
+    /// elsewhere.
+    ///
+    /// # Errors
+    /// A text that is no table of poses.
+    pub(crate) fn with_poses(mut self, table: &[u8]) -> Result<Self, InvalidSeries> {
+        let read = SeriesKind::Poses
+            .read(table, |line| line.parse::<Pose>().map_err(|e: InvalidPose| e.to_string()))?;
+        if let Some(own) = &self.design.workspace.trajectory
+            && let Ok(place) = self.place(TRAJECTORY)
+        {
+            let name = own.file.rsplit(['/', '\\']).next().unwrap_or_default().to_owned();
+            if name != own.file {
+                let text = self.with_values(&[(place, serde_json::Value::from(name).to_string())]);
+                let drives = self.drives.take();
+                if let Ok(moved) = Self::new(PlanText { text: &text, format: self.format }) {
+                    self = Self { drives, ..moved };
+                }
+            }
+        }
+        if let Some(trajectory) = &mut self.design.workspace.trajectory {
+            trajectory.poses = read.rows.into_iter().map(|row| row.value).collect();
+        }
+        Ok(self)
+    }
+
+    /// A design of the sweep read from a text, which has the poses of the table.
+    ///
+    /// # Errors
+    /// All violations of the text.
+    pub(crate) fn candidate(&self, text: &str) -> Result<Design, Vec<Violation>> {
+        let (mut design, _) = parse(text, self.format)?;
+        if let (Some(own), Some(read)) =
+            (&self.design.workspace.trajectory, &mut design.workspace.trajectory)
+        {
+            read.poses.clone_from(&own.poses);
+        }
+        Ok(design)
     }
 
     /// The drive with a name.

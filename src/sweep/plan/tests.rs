@@ -115,6 +115,17 @@ fn drives_of_a_table_vary_by_their_names() {
 }
 
 #[test]
+fn the_table_of_poses_is_the_same_for_all_candidates() {
+    let design = DESIGN.replace("[workspace]\n", "[workspace]\ntrajectory = 'path.csv'\n");
+    let base = BasePlan::new(PlanText { text: &design, format: Format::Toml }).unwrap();
+    let base = base.with_poses(b"0,0,16,0,0,0\n").unwrap();
+    let text =
+        format!("{HEAD}[vary]\nby = 'grid'\nvalues = {{ 'workspace.trajectory' = ['a.csv', 'b.csv'] }}\n");
+    let refused = read(PlanText { text: &text, format: Format::Toml }, &base).unwrap_err();
+    assert!(refused[0].message.contains("read once for all candidates"), "{refused:#?}");
+}
+
+#[test]
 fn slips_are_named_with_their_line_and_what_was_meant() {
     let vary = "[vary]\nby = 'grid'\n[vary.values]\n";
     let cases = [

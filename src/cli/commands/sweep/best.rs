@@ -43,7 +43,8 @@ pub(crate) struct Args {
 
 /// Ranks the rows, makes the designs again from plan and seed, and compares them.
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
-    let sweep = SweepFolder::open(&args.folder)?.sweep()?;
+    let folder = SweepFolder::open(&args.folder)?;
+    let sweep = folder.sweep()?;
     let table = SweptTable::open(&args.folder, &args.keep)?;
     let by = table.column(&args.by)?;
     let mut ranked: Vec<(f64, u64)> = Vec::new();
@@ -74,6 +75,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let (mut candidates, mut paths, mut lines) = (Vec::new(), Vec::new(), Vec::new());
     if !ranked.is_empty() {
         files::make_folder(&args.output)?;
+        folder.write_poses(&sweep, &args.output)?;
     }
     for (place, (value, k)) in (1..).zip(ranked) {
         let text = sweep.design_text(k).map_err(|why| {

@@ -1,6 +1,6 @@
 //! `equipod sweep design`: a candidate as a design file.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
@@ -24,7 +24,8 @@ pub(crate) struct Args {
 
 /// Makes the design again from plan and seed.
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
-    let sweep = SweepFolder::open(&args.folder)?.sweep()?;
+    let folder = SweepFolder::open(&args.folder)?;
+    let sweep = folder.sweep()?;
     let k = args.candidate;
     if k >= sweep.count() {
         let message = format!("there is no candidate {k}: the sweep has {}, counted from 0", sweep.count());
@@ -35,6 +36,9 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     })?;
     let (file, said) = match &args.output {
         Some(path) => {
+            if !files::is_standard(path) {
+                folder.write_poses(&sweep, path.parent().unwrap_or(Path::new("")))?;
+            }
             files::write_text(path, &text)?;
             let output = path.display().to_string();
             let said = format!("wrote {output}\n");
