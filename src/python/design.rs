@@ -47,7 +47,10 @@ impl NativeDesign {
 
     /// The cranks of a design that has some.
     fn cranks(&self, py: Python<'_>) -> PyResult<Option<&RotaryPlatform>> {
-        self.cranks.as_ref().map(Option::as_ref).map_err(|why| refused(py, "design::invalid", &why.to_string()))
+        self.cranks
+            .as_ref()
+            .map(Option::as_ref)
+            .map_err(|why| refused(py, "design::invalid", &why.to_string()))
     }
 
     /// Refuses rods on cranks where what is asked for is about legs that change their lengths, and names what is asked instead.
@@ -63,7 +66,8 @@ impl NativeDesign {
 /// What to ask of cranks in place of whether a design is architecturally singular.
 const OF_SINGULARITY: &str = "ask assess, which proves that no pose of the workspace is singular";
 /// Why there is nothing to ask of cranks in place of leg maps.
-pub(super) const OF_LEG_MAPS: &str = "leg maps hold between squared lengths of legs, and nothing follows from them for the angles of cranks";
+pub(super) const OF_LEG_MAPS: &str =
+    "leg maps hold between squared lengths of legs, and nothing follows from them for the angles of cranks";
 
 /// Rows of a batch between two looks for a signal, milliseconds where rows take longest.
 const SIGNALS: usize = 64;
@@ -244,7 +248,8 @@ impl NativeDesign {
         };
         let Some(array) = as_it_stands(poses) else { return Ok(None) };
         let Some((entries, before)) = pose_entries(&array) else { return Ok(None) };
-        let mut columns: [Vec<f64>; 4] = std::array::from_fn(|_| Vec::with_capacity(6 * (entries.len() / 16)));
+        let mut columns: [Vec<f64>; 4] =
+            std::array::from_fn(|_| Vec::with_capacity(6 * (entries.len() / 16)));
         at_poses(py, entries, |pose| {
             let rows = match platform.both_angles(&pose) {
                 Err(_) => [[f64::NAN; 6]; 4],
@@ -278,7 +283,8 @@ impl NativeDesign {
         let mut rows = Vec::with_capacity(36 * (entries.len() / 16));
         if let Some(platform) = self.cranks(py)? {
             at_poses(py, entries, |pose| {
-                let found = platform.ik(&pose).ok().and_then(|angles| platform.crank_jacobian(&pose, &angles));
+                let found =
+                    platform.ik(&pose).ok().and_then(|angles| platform.crank_jacobian(&pose, &angles));
                 let over = |(i, j): (usize, usize)| {
                     let scale = if j < 3 { 1.0 } else { characteristic_length };
                     found.map_or(f64::NAN, |found| found[(i, j)] / scale)
@@ -360,7 +366,11 @@ impl NativeDesign {
         let first = start.first().ok_or_else(|| refused(py, "shape", "a tracker starts at one pose"))?;
         if let Some(platform) = self.cranks(py)? {
             let angles = platform.ik(first).map_err(|why| {
-                refused(py, "pose", &format!("the cranks do not hold the pose where the tracker starts: {why}"))
+                refused(
+                    py,
+                    "pose",
+                    &format!("the cranks do not hold the pose where the tracker starts: {why}"),
+                )
             })?;
             return Ok(NativeTracker(Followed::Cranks(RotaryTracker::new(platform.clone(), *first, angles))));
         }

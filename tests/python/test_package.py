@@ -399,10 +399,17 @@ def test_limits_and_motions_of_cranks():
     limits = head.limits()
     up = next(axis for axis in limits.axes if axis.axis == "z").forth
     assert limits.allowed and up.binds is not None and up.value > head.home[2, 3] + 10
-    answer = head.motion(sine=["z:8:1"])
-    assert answer.angles_unit if False else len(answer.motions[0].cranks) == 6
-    beside = equipop_compare(head)
-    assert beside.designs[0].name == head.name
+    run = head.motion(sine=["z:8:1"]).motions[0]
+    assert run.met and not run.legs and run.unreached_at_s is None
+    times = np.linspace(0, 1, 361)
+    poses = np.tile(head.home, (361, 1, 1))
+    poses[:, 2, 3] += 8 * np.sin(2 * np.pi * times)
+    angles = np.degrees(head.ik(poses))
+    assert np.allclose([c.least_deg.value for c in run.cranks], angles.min(axis=0), atol=1e-9)
+    assert np.allclose([c.greatest_deg.value for c in run.cranks], angles.max(axis=0), atol=1e-9)
+    assert all(abs(c.torque.value) >= c.rms_torque > 0 for c in run.cranks)
+    servos = equipod.compare([head], options=["--points", "20"]).designs[0]
+    assert servos.name == head.name and servos.stroke is None and servos.cranks.least_deg < servos.cranks.greatest_deg
 
 
 def test_long_work_answers_reports_and_can_be_interrupted(octahedral):
