@@ -18,13 +18,14 @@ pub const CORE: &[u8] = include_bytes!("core.wasm.gz");
 const TEMPLATE: &str = include_str!("web/page.html");
 const STYLE: [&str; 2] = [include_str!("web/layout.css"), include_str!("web/parts.css")];
 /// In the order in which they need each other.
-const SCRIPTS: [&str; 17] = [
+const SCRIPTS: [&str; 18] = [
     include_str!("web/core.js"),
     include_str!("web/task.js"),
     include_str!("web/words.js"),
     include_str!("web/camera.js"),
     include_str!("web/surface.js"),
     include_str!("web/view3d.js"),
+    include_str!("web/cranks.js"),
     include_str!("web/hexagon.js"),
     include_str!("web/plane.js"),
     include_str!("web/sliders.js"),
