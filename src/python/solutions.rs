@@ -119,7 +119,9 @@ impl NativeSolutions {
                 let tips = platform.at(angles).map_err(|e| raised(py, e.into()))?;
                 let solved = solved.with_real_poses(&tips, &design.home_or_default());
                 let solved = solved.with_elbows(platform, angles);
-                (design, FkOneAnswer { angles_deg: Some(angles.map(f64::to_degrees)), ..solved.into() })
+                let symmetric_finite = platform.symmetric_pose_count(angles);
+                let angles_deg = Some(angles.map(f64::to_degrees));
+                (design, FkOneAnswer { angles_deg, symmetric_finite, ..solved.into() })
             }
         };
         document(answer, &[design], Some(self.found.seed))

@@ -11,6 +11,7 @@
 //!
 //! `docs/theory/rotary.md` has the derivations.
 
+mod symmetric;
 #[cfg(test)]
 mod tests;
 mod tracker;

@@ -583,6 +583,51 @@ fn a_motion_of_cranks_has_speeds_torques_and_powers() {
     assert_eq!((code, &doc["error"]["code"]), (Some(2), &"motion::no_stiffness".into()));
 }
 
+/// All poses of the symmetric head by the quadratics of the theorem, against those that forward kinematics finds.
+#[test]
+fn the_symmetric_head_has_the_28_poses_of_the_theorem() {
+    let (design, _) = parse_with_cranks(&std::fs::read_to_string(HEAD).unwrap(), Format::Toml).unwrap();
+    let platform = design.rotary().unwrap().unwrap();
+    let home = design.home.unwrap();
+    let angles = platform.ik(&home).unwrap();
+    assert_eq!(platform.symmetric_pose_count(&angles), Some(28));
+    let tips = platform.at(&angles).unwrap();
+    let place = |p: nalgebra::Point3<f64>| num_complex::Complex64::new(p.x, p.y);
+    let legs = tips.legs();
+    let ([a1, a2], [b1, b2]) =
+        ([0, 1].map(|i: usize| place(legs[i].base)), [0, 1].map(|i: usize| place(legs[i].platform)));
+    let (a, b, alpha, beta) =
+        (a1.norm(), b1.norm(), 0.5 * (a1.arg() - a2.arg()), 0.5 * (b1.arg() - b2.arg()));
+    let sine = (alpha - beta).sin();
+    let k1 = b * (alpha + 2.0 * beta).sin() / (2.0 * sine);
+    let k2 = a * (2.0 * alpha + beta).sin() / (2.0 * sine);
+    let (c, k) = (a * b * (alpha - beta).cos(), a * a + b * b - 85.0 * 85.0);
+    // squares of the height over the tips, each with how many poses it is of
+    let mut squares = vec![(2.0 * c - k, 2), (-2.0 * c - k, 2)];
+    for (sign, s) in [(1.0, k1 + k2), (-1.0, k2 - k1)] {
+        let (x, y, z) =
+            (sign * (2.0 * c - 4.0 * k1 * k2), -k - 4.0 * k1 * k1 + sign * 4.0 * k1 * s + s * s, -s * s);
+        let root = (y * y - 4.0 * x * z).sqrt();
+        for e in [(-y + root) / (2.0 * x), (-y - root) / (2.0 * x)] {
+            squares.push((sign * 2.0 * c * e - k - 4.0 * k1 * k1 * (1.0 - e).powi(2), 6));
+        }
+    }
+    let found = platform.fk(&angles, &equipod::methods::fk::FkOptions::new()).unwrap();
+    assert_eq!((found.roots.len(), found.is_complete()), (28, false), "the doubles have more, far out");
+    let heights: Vec<_> = found.roots.iter().map(|r| (r.pose.position.z - legs[0].base.z).powi(2)).collect();
+    for (square, count) in squares {
+        let near = heights.iter().filter(|h| (*h - square).norm() < 1e-8 * square.abs()).count();
+        assert_eq!(near, count, "{square}: {heights:?}");
+    }
+    // the answer says so, and does not where there is no symmetry
+    let text = angles.map(|x| format!("{:?}", x.to_degrees())).join(",");
+    let (code, doc) = asked(&["fk", HEAD, "--angles", &text]);
+    assert_eq!((code, &doc["symmetric_finite"], &doc["finite_count"]), (Some(3), &28.into(), &28.into()));
+    let mut other = angles;
+    other[3] += 1e-6;
+    assert_eq!(platform.symmetric_pose_count(&other), None);
+}
+
 #[test]
 fn cranks_and_legs_stand_side_by_side() {
     let folder = tempfile::tempdir().unwrap();
