@@ -82,13 +82,13 @@ const Tables = {
       // what rounding leaves of a zero is one
       const p = mode.pose.p.map((x) => show(Math.abs(x) < 1e-9 * open.size ? 0 : x, 3)).join(", ");
       const cells = [[radio("mode", k, k === shown, "show"), `${k + 1}`], [radio("ghost", k, k === compared, "compare with")],
-        { 1: "+", 0: "0", "-1": "−" }[mode.sign], ...(turns ? [mode.elbows_kept ? "kept" : "changed"] : []), show(mode.inverse_condition, 3), `${fixed(mode.turn_deg, 0)}°`, `(${p})`];
+        { 1: "+", 0: "0", "-1": "−" }[mode.sign], ...(turns ? [mode.elbows_kept ? "yes" : "no"] : []), show(mode.inverse_condition, 3), `${fixed(mode.turn_deg, 0)}°`, `(${p})`];
       return row(cells, { class: k === shown ? "on" : null });
     });
     const none = radio("ghost", -1, compared < 0, "compare with no");
     none.setAttribute("aria-label", "compare with none");
     const last = row(["", [none, " none"], "", "", "", "", ...(turns ? [""] : [])]);
-    $("modes").replaceChildren(heading(["show", "ghost", "det\u00a0J", ...(turns ? ["elbows"] : []), "σ₆/σ₁", "turned", `position p${inUnits(open.units)}`]), el("tbody", {}, ...rows, last));
+    $("modes").replaceChildren(heading(["show", "ghost", "det\u00a0J", ...(turns ? ["elbows kept"] : []), "σ₆/σ₁", "turned", `position p${inUnits(open.units)}`]), el("tbody", {}, ...rows, last));
   },
 
   /** The live numbers. */
