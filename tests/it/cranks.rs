@@ -661,10 +661,11 @@ fn reserves_of_cranks_are_taken_off_their_margins() {
     let path = folder.path().join("r.toml");
     let text = SERVOS.replace("max_torque = 1500", LIMITS).replace(
         "[speed]\nlinear = 50",
-        "[workspace]\ntranslation = [3, 3, 3]\nrotation_deg = [2, 2, 2]\n[limits.reserve]\nrod_too_short = 0.5\ncrank_transmission = \"10%\"\ncrank_angle = 4\ncrank_torque = \"50%\"\ntip_swing = \"25%\"\ncrank_speed = 2000\n[speed]\nlinear = 50\nangular_deg = 30",
+        "[workspace]\ntranslation = [3, 3, 3]\nrotation_deg = [2, 2, 2]\n[limits.reserve]\nrod_too_short = 0.5\ncrank_transmission = \"10%\"\ncrank_angle = 4\ncrank_torque = \"50%\"\ntip_swing = \"25%\"\ncrank_speed = 400\n[speed]\nlinear = 50\nangular_deg = 30",
     );
     // angles about those at home, which are 150 degrees
     let text = text.replace("angle_deg = [-80, \"60 + half\"]", "angle_deg = [100, 190]");
+    let text = text.replace("max_speed_deg = 300", "max_speed_deg = 500");
     std::fs::write(&path, text).unwrap();
     let args = ["assess", path.to_str().unwrap(), "--cells", "250", "--points", "50", "--searches", "1"];
     let (code, doc) = asked(&args);
@@ -679,7 +680,7 @@ fn reserves_of_cranks_are_taken_off_their_margins() {
         ("crank_angle", 4.0),
         ("crank_torque", 750.0),
         ("tip_swing", 10.0),
-        ("crank_speed", 2000.0),
+        ("crank_speed", 400.0),
         ("rod_too_long", 0.0),
     ] {
         let row = row(name);
