@@ -486,7 +486,9 @@ fn ways_of_cranks_keep_every_limit_between_their_steps() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("servos.toml");
     // angles about those at home, which are 150 degrees
-    let text = limited().to_toml().replace("angle_deg = [-80, \"60 + half\"]", "angle_deg = [100, 190]");
+    let text = limited().text().replace("angle_deg = [-80, \"60 + half\"]", "angle_deg = [100, 190]");
+    // a speed that binds late, so that what binds has steps of its own
+    let text = text.replace("max_speed_deg = 300", "max_speed_deg = 3000");
     let (design, _) = parse_with_cranks(&text, Format::Toml).unwrap_or_else(|v| panic!("{v:?}"));
     std::fs::write(&path, &text).unwrap();
     let (required, home) = (design.requirements(), design.home.unwrap());
