@@ -119,7 +119,6 @@ def rods(chromium, program, folder, pictures):
         access.names(shown)
         access.contrast(shown)
         picture(shown, pictures, "rods")
-        fresh.same_answers(shown)
         shown.quiet()
     for width, dark in ((360, False), (390, True), (1360, True)):
         with Opened(chromium, path, width=width, height=780, dark=dark, touch=width < 1000) as shown:
