@@ -38,7 +38,10 @@ class PoseFields {
     values[k] = value;
     const pose = this.place(values);
     // what was typed stays as it is: two triples of angles can be one rotation
-    if (pose) this.own = { pose, values };
+    if (!pose) return;
+    this.own = { pose, values };
+    // the next number may be typed before the page is drawn again
+    this.values = values;
   }
 
   update(pose, state) {
